@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# Builds everything into build/ (or the folder given). Programs end up in build/bin/.
+#   scripts/build.sh [FOLDER] [cmake options...]
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+folder=${1:-$root/build}
+[ $# -gt 0 ] && shift
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! cmake -S "$root" -B "$folder" -G Ninja "$@" >"$log" 2>&1; then
+  cat "$log" >&2
+  exit 1
+fi
+# Two compilers at once need about 2 GiB; more cores are used only where there is memory for them.
+jobs=$(nproc)
+memory_gib=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
+[ "$memory_gib" -lt "$jobs" ] && jobs=$((memory_gib > 1 ? memory_gib : 1))
+cmake --build "$folder" --parallel "$jobs"

@@ -1,0 +1,142 @@
+// The runtime every module shares, in a real process: stdio, sockets, clocks, the end.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/process.h"
+
+namespace {
+
+using support::Process;
+using support::SocketClient;
+using Strings = std::vector<std::string>;
+
+const std::string kModule = GALATEA_BIN_DIR "/test_module";
+
+TEST(ModuleProcessTest, ABatchPipedInIsDoneAndEndsWithZero) {
+  Process module({kModule});
+  module.Write("set X = 5\nset#1 Work = 10000\n");
+  module.CloseInput();
+  EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep X = 5", "tell worked until 10000", "rep#1 Work = done"}));
+  EXPECT_EQ(module.Wait(), 0) << "ten seconds of work on the virtual clock are no time at all";
+}
+
+TEST(ModuleProcessTest, ARegularFileAsInputIsABatchToo) {
+  Process module({"/bin/sh", "-c", "printf 'set X = 5\\n' > batch.$$; exec 3<batch.$$; rm batch.$$; exec '" +
+                                       kModule + "' <&3"},
+                 Process::Options{.cwd = testing::TempDir(), .env = {}});
+  EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep X = 5"}));
+  EXPECT_EQ(module.Wait(), 0);
+}
+
+TEST(ModuleProcessTest, WaitHoldsTheLinesThatFollowOnTheVirtualClockExactly) {
+  Process module({kModule, "--clock", "virtual"});
+  module.Write("set Work = 300\nset Wait = 100\ninq Clock\nset Wait = IDLE\ninq Clock\n");
+  module.CloseInput();
+  EXPECT_EQ(module.ReadAll(),
+            (Strings{"rep Run = LIVE", "rep Clock = 100", "tell worked until 300", "rep Clock = 300"}));
+  EXPECT_EQ(module.Wait(), 0);
+}
+
+TEST(ModuleProcessTest, UnderTheHubsClockTimeMovesOnlyBySettingIt) {
+  Process module({kModule, "--clock", "virtual"});
+  module.Write("set#a Clock.mode = HUB\nset Work = 40\nset#b Clock = 25\nset#c Clock = 60\n");
+  module.CloseInput();
+  EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep#a Clock.mode = HUB", "rep#b Clock = 25 40",
+                                       "tell worked until 40", "rep#c Clock = 60 -"}));
+  EXPECT_EQ(module.Wait(), 0);
+}
+
+TEST(ModuleProcessTest, StrictMakesErrorsCount) {
+  for (const bool strict : {false, true}) {
+    Process module(strict ? Strings{kModule, "--strict"} : Strings{kModule});
+    module.Write("set X = nan\n");
+    module.CloseInput();
+    EXPECT_EQ(module.Wait(), strict ? 1 : 0);
+    EXPECT_NE(module.ErrorText().find("test_module: error: BAD_VALUE column 1: found 'nan', expected <number>"),
+              std::string::npos)
+        << module.ErrorText();
+  }
+}
+
+TEST(ModuleProcessTest, AMegabyteWithoutNewlineAndGarbageAreReportedOnceAndTheRestGoesOn) {
+  Process module({kModule});
+  module.Write(std::string(1 << 20, 'x') + "\n\xff\xfe\nset X = 3\n");
+  module.CloseInput();
+  EXPECT_TRUE(module.Expect("rep X = 3"));
+  EXPECT_EQ(module.Wait(), 0);
+  const std::string errors = module.ErrorText();
+  EXPECT_EQ(errors.find("TOO_LONG"), errors.rfind("TOO_LONG"));
+  EXPECT_NE(errors.find("BAD_UTF8"), std::string::npos);
+}
+
+TEST(ModuleProcessTest, RunExitReportsAndEnds) {
+  Process module({kModule});
+  module.WriteLine("set Run = EXIT");
+  EXPECT_TRUE(module.Expect("rep Run = EXIT"));
+  EXPECT_EQ(module.Wait(), 0);
+}
+
+TEST(ModuleProcessTest, TerminationEndsItInOrder) {
+  Process module({kModule});
+  EXPECT_TRUE(module.Expect("rep Run = LIVE"));
+  module.Terminate();
+  EXPECT_EQ(module.Wait(), 0);
+}
+
+TEST(ModuleProcessTest, ManyClientsListenOverASocketAndAnswersGoToWhoAsked) {
+  const support::TempDir folder;
+  const std::string path = folder / "s";
+  Process module({kModule, "--listen", "unix:" + path});
+  const auto a = SocketClient::Unix(path);
+  const auto b = SocketClient::Unix(path);
+  EXPECT_TRUE(a->Expect("rep Run = LIVE"));
+  EXPECT_TRUE(b->Expect("rep Run = LIVE"));
+  a->WriteLine("inq#1 X");
+  EXPECT_EQ(a->ReadLine(), "rep#1 X = 0");
+  a->WriteLine("set X = 9");
+  EXPECT_EQ(b->ReadLine(), "rep X = 9") << "changes go to all, the answer before went to one";
+}
+
+TEST(ModuleProcessTest, TheOriginalsSocketModeEndsMessagesInDotSlashAndTakesOneClient) {
+  Process module({kModule, "-p", "0"});  // ports up to 1024 mean the default, as in the original
+  ASSERT_TRUE(module.ExpectError("listening on tcp:127.0.0.1:10600")) << module.ErrorText();
+  const auto client = SocketClient::Tcp(10600);
+  EXPECT_EQ(client->ReadLine(), "rep Run = LIVE./");
+  client->Write("set X =\n4./\n");
+  EXPECT_EQ(client->ReadLine(), "rep X = 4./");
+  const auto second = SocketClient::Tcp(10600);
+  EXPECT_EQ(second->ReadLine(), std::nullopt);
+  EXPECT_TRUE(second->AtEnd());
+  client->Write("set Run = CLOSE./\n");
+  EXPECT_EQ(client->ReadLine(), std::nullopt);
+  const auto third = SocketClient::Tcp(10600);
+  EXPECT_EQ(third->ReadLine(), "rep Run = LIVE./");
+}
+
+TEST(ModuleProcessTest, SpeaksTheOriginalsEncodings) {
+  Process module({kModule, "--encoding", "euc-jp"});
+  module.Write("def Text = \xa4\xa2\ninq Text\n");
+  module.CloseInput();
+  EXPECT_TRUE(module.Expect("rep Text = \xa4\xa2"));
+  EXPECT_EQ(module.Wait(), 0);
+}
+
+TEST(ModuleProcessTest, AWorldThatRefusesIsOneSentenceAndANonzeroEnd) {
+  Process module({kModule, "--connect", "unix:/nonexistent/hub"});
+  EXPECT_EQ(module.Wait(), 1);
+  EXPECT_NE(module.ErrorText().find("test_module: cannot connect to unix:/nonexistent/hub"), std::string::npos)
+      << module.ErrorText();
+}
+
+TEST(ModuleProcessTest, HelpAndVersionAreThere) {
+  Process help({kModule, "--help"});
+  EXPECT_TRUE(help.Expect("--listen"));
+  EXPECT_EQ(help.Wait(), 0);
+  Process version({kModule, "--version"});
+  EXPECT_EQ(version.ReadLine(), "test_module (Galatea) " GALATEA_VERSION);
+}
+
+}  // namespace

@@ -1,0 +1,80 @@
+#include "vm_protocol/core/value_grammar.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace vm {
+namespace {
+
+std::string Items(std::string_view grammar, std::string_view value) {
+  const auto items = ValueGrammar(grammar).Match(value);
+  if (!items) return "! " + std::to_string(items.error().column) + " " + items.error().text;
+  std::string text;
+  for (const auto& item : *items) text += "[" + item.text + "]";
+  return text;
+}
+
+TEST(ValueGrammarTest, WordsMatchInAnyCaseAndAreGivenAsDeclared) {
+  EXPECT_EQ(Items("NOW | STOP", "stop"), "[STOP]");
+  EXPECT_EQ(Items("NOW | STOP", " NOW "), "[NOW]");
+  EXPECT_EQ(Items("NOW | STOP", "NOWX"), "! 1 found 'NOWX', expected NOW | STOP");
+}
+
+TEST(ValueGrammarTest, NumbersKeepTheirBounds) {
+  EXPECT_EQ(Items("<number 0..200>", "12.5"), "[12.5]");
+  EXPECT_EQ(Items("<number 0..>", "1e3"), "[1e3]");
+  for (const auto* bad : {"-1", "201", "nan", "inf", "1e999", "0x10", "1,5", "", "--1"}) {
+    EXPECT_EQ(Items("<number 0..200>", bad)[0], '!') << bad;
+  }
+  EXPECT_EQ(Items("<int 1..5>", "3"), "[3]");
+  EXPECT_EQ(Items("<int 1..5>", "3.5")[0], '!');
+}
+
+TEST(ValueGrammarTest, SequencesNameTheWordThatDoesNotFit) {
+  const auto* grammar = "(HAPPY | SAD) <int 1..5> <number 0..200> <ms> | NEUTRAL";
+  EXPECT_EQ(Items(grammar, "HAPPY 1 100 0"), "[HAPPY][1][100][0]");
+  EXPECT_EQ(Items(grammar, "NEUTRAL"), "[NEUTRAL]");
+  EXPECT_EQ(Items(grammar, "HAPPY 1 1e9 0"), "! 9 found '1e9', expected " + std::string(grammar));
+  EXPECT_EQ(Items(grammar, "HAPPY 1 100"), "! 12 found the end of the value, expected " + std::string(grammar));
+  EXPECT_EQ(Items(grammar, "NEUTRAL 5"), "! 9 found '5', expected " + std::string(grammar));
+}
+
+TEST(ValueGrammarTest, OptionsAndRepeatsMayBeLeftOutOrGoOn) {
+  EXPECT_EQ(Items("<word> [ <number> ]", "a"), "[a]");
+  EXPECT_EQ(Items("<word> [ <number> ]", "a 5"), "[a][5]");
+  EXPECT_EQ(Items("( <word> <number 0..2> )...", "12L 0.7 4 1"), "[12L][0.7][4][1]");
+  EXPECT_EQ(Items("( <word> <number 0..2> )...", "12L 0.7 4")[0], '!');
+  EXPECT_EQ(Items("( <word> <number 0..2> )... [ <ms> ]", "1 1 2 2 300"), "[1][1][2][2][300]");
+  std::string many;
+  for (int i = 0; i < 20000; ++i) many += "a ";
+  EXPECT_EQ(Items("<word>...", many).size(), 60000u) << "a long list is neither slow nor deep";
+}
+
+TEST(ValueGrammarTest, TimesAreOneItemInEverySpelling) {
+  EXPECT_EQ(Items("STOP | <time>", "+ 500"), "[+500]");
+  EXPECT_EQ(Items("STOP | <time>", "+500"), "[+500]");
+  EXPECT_EQ(Items("STOP | <time>", "Now"), "[NOW]");
+  EXPECT_EQ(Items("STOP | <time>", "@12.5"), "[@12.5]");
+  EXPECT_EQ(Items("STOP | <time>", "Stop"), "[STOP]");
+  EXPECT_EQ(Items("STOP | <time>", "sometime")[0], '!');
+}
+
+TEST(ValueGrammarTest, QuotedWordsHoldBlanksAndJsonEscapes) {
+  EXPECT_EQ(Items("<word> <word>", "\"a b\" c"), "[a b][c]");
+  EXPECT_EQ(Items("<word>", R"("\u3042\ud83d\ude00\n\"")"), "[あ😀\n\"]");
+  EXPECT_EQ(Items("<word>", "\"open")[0], '!');
+  EXPECT_EQ(Items("<word>", R"("\ud800")")[0], '!');
+  EXPECT_EQ(Items("<file>", "my picture.png "), "[my picture.png]");
+  EXPECT_EQ(Items("<file>", "\"my picture.png\""), "[my picture.png]");
+  EXPECT_EQ(Items("<file>", "")[0], '!');
+}
+
+TEST(ValueGrammarTest, TextIsTheRestOfTheLineAsItIs) {
+  EXPECT_EQ(Items("<text>", "  a  b "), "[a  b ]");
+  EXPECT_EQ(Items("<text>", ""), "[]");
+  EXPECT_EQ(Items("HAPPY <text>", "happy a b"), "[HAPPY][a b]");
+}
+
+}  // namespace
+}  // namespace vm

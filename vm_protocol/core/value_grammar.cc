@@ -1,0 +1,427 @@
+#include "vm_protocol/core/value_grammar.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "vm_protocol/core/start_time.h"
+#include "vm_protocol/core/utf8.h"
+
+namespace vm {
+
+/// One element of a grammar. A tree; small, made once at start.
+struct ValueGrammar::Node {
+  enum class Kind { kSequence, kAlternatives, kOptional, kRepeat, kLiteral, kNumber, kInt, kMs, kTime,
+                    kWord, kText, kFile };
+  Kind kind = Kind::kSequence;
+  std::string literal;
+  double low = -1e12;
+  double high = 1e12;
+  std::vector<std::unique_ptr<Node>> children;
+};
+
+namespace {
+
+bool IsBlank(char c) { return c == ' ' || c == '\t'; }
+
+std::size_t SkipBlanks(std::string_view text, std::size_t at) {
+  while (at < text.size() && IsBlank(text[at])) ++at;
+  return at;
+}
+
+std::size_t WordEnd(std::string_view text, std::size_t at) {
+  while (at < text.size() && !IsBlank(text[at])) ++at;
+  return at;
+}
+
+bool SameWord(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+    if (lower(a[i]) != lower(b[i])) return false;
+  }
+  return true;
+}
+
+std::optional<double> ReadNumber(std::string_view word) {
+  if (word.empty() || word.find_first_not_of("0123456789.eE+-") != std::string_view::npos) {
+    return std::nullopt;
+  }
+  const std::string copy(word);
+  char* end = nullptr;
+  const double value = std::strtod(copy.c_str(), &end);
+  if (end != copy.c_str() + copy.size() || !std::isfinite(value) || std::fabs(value) > 1e12) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+void AppendUtf8(std::string& out, unsigned code) {
+  const auto put = [&out](unsigned byte) { out += static_cast<char>(byte); };
+  if (code < 0x80) {
+    put(code);
+  } else if (code < 0x800) {
+    put(0xC0 | (code >> 6));
+    put(0x80 | (code & 0x3F));
+  } else if (code < 0x10000) {
+    put(0xE0 | (code >> 12));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  } else {
+    put(0xF0 | (code >> 18));
+    put(0x80 | ((code >> 12) & 0x3F));
+    put(0x80 | ((code >> 6) & 0x3F));
+    put(0x80 | (code & 0x3F));
+  }
+}
+
+std::optional<unsigned> ReadHex4(std::string_view text, std::size_t at) {
+  if (at + 4 > text.size()) return std::nullopt;
+  unsigned value = 0;
+  for (std::size_t i = at; i < at + 4; ++i) {
+    const char c = text[i];
+    unsigned digit = 0;
+    if (c >= '0' && c <= '9') {
+      digit = static_cast<unsigned>(c - '0');
+    } else if (c >= 'a' && c <= 'f') {
+      digit = static_cast<unsigned>(c - 'a' + 10);
+    } else if (c >= 'A' && c <= 'F') {
+      digit = static_cast<unsigned>(c - 'A' + 10);
+    } else {
+      return std::nullopt;
+    }
+    value = value * 16 + digit;
+  }
+  return value;
+}
+
+/// Reads a "quoted string" with JSON escapes at `at`; gives its content and the place behind it.
+std::optional<std::pair<std::string, std::size_t>> ReadQuoted(std::string_view text, std::size_t at) {
+  std::string content;
+  std::size_t i = at + 1;
+  while (i < text.size()) {
+    const char c = text[i];
+    if (c == '"') return std::pair(std::move(content), i + 1);
+    if (c != '\\') {
+      content += c;
+      ++i;
+      continue;
+    }
+    if (i + 1 >= text.size()) return std::nullopt;
+    const char escape = text[i + 1];
+    constexpr std::string_view kFrom = "\"\\/bfnrt";
+    constexpr std::string_view kTo = "\"\\/\b\f\n\r\t";
+    if (const auto which = kFrom.find(escape); which != std::string_view::npos) {
+      content += kTo[which];
+      i += 2;
+      continue;
+    }
+    if (escape != 'u') return std::nullopt;
+    auto code = ReadHex4(text, i + 2);
+    if (!code) return std::nullopt;
+    i += 6;
+    if (*code >= 0xD800 && *code <= 0xDBFF) {  // the first half of a surrogate pair
+      if (i + 1 >= text.size() || text[i] != '\\' || text[i + 1] != 'u') return std::nullopt;
+      const auto second = ReadHex4(text, i + 2);
+      if (!second || *second < 0xDC00 || *second > 0xDFFF) return std::nullopt;
+      code = 0x10000 + ((*code - 0xD800) << 10) + (*second - 0xDC00);
+      i += 6;
+    } else if (*code >= 0xDC00 && *code <= 0xDFFF) {
+      return std::nullopt;
+    }
+    AppendUtf8(content, *code);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+namespace {
+
+/// Reads the grammar text itself. Grammars are part of the program, so faults are asserted.
+template <typename Node>
+class GrammarReader {
+ public:
+  explicit GrammarReader(std::string_view text) : text_(text) {}
+
+  std::unique_ptr<Node> Read() {
+    auto root = Alternatives();
+    assert(at_ == text_.size() && "value grammar: unexpected text at the end");
+    return root;
+  }
+
+ private:
+  using NodeKind = typename Node::Kind;
+  using NodePtr = std::unique_ptr<Node>;
+
+  static NodePtr Make(NodeKind kind) {
+    auto node = std::make_unique<Node>();
+    node->kind = kind;
+    return node;
+  }
+  void Skip() { at_ = SkipBlanks(text_, at_); }
+  char Peek() {
+    Skip();
+    return at_ < text_.size() ? text_[at_] : '\0';
+  }
+  void Expect([[maybe_unused]] char c) {
+    assert(Peek() == c && "value grammar: unbalanced bracket");
+    ++at_;
+  }
+
+  NodePtr Alternatives() {
+    auto node = Make(NodeKind::kAlternatives);
+    node->children.push_back(Sequence());
+    while (Peek() == '|') {
+      ++at_;
+      node->children.push_back(Sequence());
+    }
+    return node->children.size() == 1 ? std::move(node->children.front()) : std::move(node);
+  }
+
+  NodePtr Sequence() {
+    auto node = Make(NodeKind::kSequence);
+    for (char c = Peek(); c != '\0' && c != '|' && c != ')' && c != ']'; c = Peek()) {
+      NodePtr term = Term();
+      if (text_.substr(at_).starts_with("...")) {
+        at_ += 3;
+        auto repeat = Make(NodeKind::kRepeat);
+        repeat->children.push_back(std::move(term));
+        term = std::move(repeat);
+      }
+      node->children.push_back(std::move(term));
+    }
+    return node;
+  }
+
+  NodePtr Term() {
+    const char c = Peek();
+    if (c == '[' || c == '(') {
+      ++at_;
+      NodePtr inner = Alternatives();
+      Expect(c == '[' ? ']' : ')');
+      if (c == '(') return inner;
+      auto optional = Make(NodeKind::kOptional);
+      optional->children.push_back(std::move(inner));
+      return optional;
+    }
+    if (c == '<') return Placeholder();
+    auto literal = Make(NodeKind::kLiteral);
+    const std::size_t end = std::min(text_.find_first_of(" \t|()[]<", at_), text_.size());
+    std::string_view word = text_.substr(at_, end - at_);
+    if (word.size() > 3 && word.ends_with("...")) word.remove_suffix(3);
+    assert(!word.empty());
+    literal->literal = word;
+    at_ += word.size();
+    return literal;
+  }
+
+  NodePtr Placeholder() {
+    const std::size_t end = text_.find('>', at_);
+    assert(end != std::string_view::npos && "value grammar: '<' without '>'");
+    const std::string_view inside = text_.substr(at_ + 1, end - at_ - 1);
+    at_ = end + 1;
+    const std::size_t blank = inside.find(' ');
+    const std::string_view name = inside.substr(0, blank);
+    static constexpr std::pair<std::string_view, NodeKind> kKinds[] = {
+        {"number", NodeKind::kNumber}, {"int", NodeKind::kInt},   {"ms", NodeKind::kMs},
+        {"time", NodeKind::kTime},     {"word", NodeKind::kWord}, {"text", NodeKind::kText},
+        {"file", NodeKind::kFile}};
+    for (const auto& [word, kind] : kKinds) {
+      if (word != name) continue;
+      auto node = Make(kind);
+      if (kind == NodeKind::kMs) {
+        node->low = 0;
+        node->high = 86'400'000;
+      }
+      if (blank != std::string_view::npos) ReadRange(inside.substr(blank + 1), *node);
+      return node;
+    }
+    assert(false && "value grammar: unknown placeholder");
+    return Make(NodeKind::kText);
+  }
+
+  static void ReadRange(std::string_view range, Node& node) {
+    const std::size_t dots = range.find("..");
+    assert(dots != std::string_view::npos && "value grammar: a range is LOW..HIGH");
+    if (dots > 0) node.low = *ReadNumber(range.substr(0, dots));
+    if (dots + 2 < range.size()) node.high = *ReadNumber(range.substr(dots + 2));
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+/// Matches by continuation: an element calls `next` with the place behind it, and tries its next
+/// possibility if that fails. Remembers the farthest place reached, for the error.
+template <typename Node>
+class Matcher {
+ public:
+  using Items = ValueGrammar::Items;
+  using Next = std::function<bool(std::size_t)>;
+
+  explicit Matcher(std::string_view text) : text_(text) {}
+
+  bool Match(const Node& node, std::size_t at, const Next& next) {
+    if (++steps_ > kMaxSteps) return false;
+    at = SkipBlanks(text_, at);
+    switch (node.kind) {
+      case Node::Kind::kSequence:
+        return MatchSequence(node, 0, at, next);
+      case Node::Kind::kAlternatives:
+        for (const auto& child : node.children) {
+          if (Attempt([&] { return Match(*child, at, next); })) return true;
+        }
+        return false;
+      case Node::Kind::kOptional:
+        if (Attempt([&] { return Match(*node.children.front(), at, next); })) return true;
+        return next(at);
+      case Node::Kind::kRepeat:
+        return MatchRepeat(*node.children.front(), at, next);
+      case Node::Kind::kText:
+        return Take(std::string(text_.substr(at)), 0, text_.size(), next);
+      case Node::Kind::kFile:
+        return MatchFile(at, next);
+      case Node::Kind::kTime:
+        return MatchTime(at, next);
+      default:
+        return MatchWord(node, at, next);
+    }
+  }
+
+  Items TakeItems() { return std::move(items_); }
+  std::size_t farthest() const { return farthest_; }
+  void Reached(std::size_t at) { farthest_ = std::max(farthest_, at); }
+
+ private:
+  /// Bounds the work of a hostile value against an ambiguous grammar.
+  static constexpr int kMaxSteps = 200'000;
+
+  template <typename F>
+  bool Attempt(const F& attempt) {
+    const std::size_t kept = items_.size();
+    if (attempt()) return true;
+    items_.resize(kept);
+    return false;
+  }
+
+  bool Take(std::string text, double number, std::size_t end, const Next& next) {
+    items_.push_back({std::move(text), number});
+    Reached(SkipBlanks(text_, end));
+    if (next(end)) return true;
+    items_.pop_back();
+    return false;
+  }
+
+  bool MatchSequence(const Node& node, std::size_t index, std::size_t at, const Next& next) {
+    if (index == node.children.size()) return next(at);
+    return Match(*node.children[index], at,
+                 [&, index](std::size_t end) { return MatchSequence(node, index + 1, end, next); });
+  }
+
+  /// Greedy and without backtracking into earlier rounds, so that a long list takes neither deep
+  /// recursion nor exponential time; what follows a repeat in our grammars never needs more.
+  bool MatchRepeat(const Node& node, std::size_t at, const Next& next) {
+    const std::size_t kept = items_.size();
+    bool any = false;
+    while (true) {
+      std::size_t end = at;
+      const std::size_t before = items_.size();
+      // The items of one round are kept although the continuation "fails" on purpose of returning:
+      // it always accepts, so Match leaves them in place.
+      if (!Match(node, at, [&end](std::size_t e) { return end = e, true; }) || end == at) {
+        items_.resize(before);
+        break;
+      }
+      any = true;
+      at = end;
+      steps_ = 0;
+    }
+    if (any && next(at)) return true;
+    items_.resize(kept);
+    return false;
+  }
+
+  bool MatchFile(std::size_t at, const Next& next) {
+    if (at >= text_.size()) return false;
+    if (text_[at] == '"') {
+      if (auto quoted = ReadQuoted(text_, at); quoted && !quoted->first.empty()) {
+        if (SkipBlanks(text_, quoted->second) == text_.size()) {
+          return Take(std::move(quoted->first), 0, text_.size(), next);
+        }
+      }
+      return false;
+    }
+    std::size_t end = text_.size();
+    while (end > at && IsBlank(text_[end - 1])) --end;
+    return Take(std::string(text_.substr(at, end - at)), 0, text_.size(), next);
+  }
+
+  bool MatchTime(std::size_t at, const Next& next) {
+    // "+ 500" is one time in two words: try the longer reading first.
+    const std::size_t one = WordEnd(text_, at);
+    const std::size_t two = WordEnd(text_, SkipBlanks(text_, one));
+    for (const std::size_t end : {two, one}) {
+      const auto start = ParseStartTime(text_.substr(at, end - at));
+      if (start && Attempt([&] { return Take(FormatStartTime(*start), 0, end, next); })) return true;
+    }
+    return false;
+  }
+
+  bool MatchWord(const Node& node, std::size_t at, const Next& next) {
+    if (at >= text_.size()) return false;
+    if (node.kind == Node::Kind::kWord && text_[at] == '"') {
+      auto quoted = ReadQuoted(text_, at);
+      return quoted && Take(std::move(quoted->first), 0, quoted->second, next);
+    }
+    const std::size_t end = WordEnd(text_, at);
+    const std::string_view word = text_.substr(at, end - at);
+    if (node.kind == Node::Kind::kWord) return Take(std::string(word), 0, end, next);
+    if (node.kind == Node::Kind::kLiteral) {
+      return SameWord(word, node.literal) && Take(node.literal, 0, end, next);
+    }
+    const auto number = ReadNumber(word);
+    if (!number || *number < node.low || *number > node.high) return false;
+    if (node.kind == Node::Kind::kInt && *number != std::floor(*number)) return false;
+    return Take(std::string(word), *number, end, next);
+  }
+
+  std::string_view text_;
+  Items items_;
+  std::size_t farthest_ = 0;
+  int steps_ = 0;
+};
+
+}  // namespace
+
+ValueGrammar::ValueGrammar(std::string_view text)
+    : text_(text), root_(GrammarReader<Node>(text_).Read()) {}
+ValueGrammar::~ValueGrammar() = default;
+ValueGrammar::ValueGrammar(ValueGrammar&&) noexcept = default;
+ValueGrammar& ValueGrammar::operator=(ValueGrammar&&) noexcept = default;
+
+Result<ValueGrammar::Items> ValueGrammar::Match(std::string_view value) const {
+  Matcher<Node> matcher(value);
+  const bool fits = matcher.Match(*root_, 0, [&](std::size_t end) {
+    end = SkipBlanks(value, end);
+    matcher.Reached(end);
+    return end == value.size();
+  });
+  if (fits) return matcher.TakeItems();
+  const std::size_t at = SkipBlanks(value, matcher.farthest());
+  std::string found = "the end of the value";
+  if (at < value.size()) {
+    std::size_t end = WordEnd(value, at);
+    if (end - at > 40) {
+      end = at + 40;
+      while (end > at && (static_cast<unsigned char>(value[end]) & 0xC0) == 0x80) --end;
+    }
+    found = "'" + std::string(value.substr(at, end - at)) + "'";
+  }
+  return Fail(Errc::kBadValue, "found " + found + ", expected " + text_, at + 1);
+}
+
+}  // namespace vm

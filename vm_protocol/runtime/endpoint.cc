@@ -1,0 +1,169 @@
+#include "vm_protocol/runtime/endpoint.h"
+
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <charconv>
+#include <stdexcept>
+#include <utility>
+
+namespace vm {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using asio::local::stream_protocol;
+using boost::system::error_code;
+
+std::unexpected<Error> BadEndpoint(std::string_view text) {
+  return Fail(Errc::kBadValue, "found '" + std::string(text) + "', expected unix:PATH or tcp:HOST:PORT");
+}
+
+void NoDelay(int fd) {
+  const int on = 1;
+  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+}
+
+tcp::endpoint ResolveTcp(asio::io_context& io, const Endpoint& endpoint, error_code& error) {
+  tcp::resolver resolver(io);
+  const auto found = resolver.resolve(endpoint.host, std::to_string(endpoint.port), error);
+  return error || found.empty() ? tcp::endpoint() : found.begin()->endpoint();
+}
+
+template <typename Protocol>
+class ListenerImpl final : public Listener {
+ public:
+  ListenerImpl(asio::io_context& io, const typename Protocol::endpoint& where, Endpoint endpoint,
+               OnAccept on_accept)
+      : acceptor_(io), endpoint_(std::move(endpoint)), on_accept_(std::move(on_accept)) {
+    acceptor_.open(where.protocol());
+    if constexpr (std::is_same_v<Protocol, tcp>) acceptor_.set_option(tcp::acceptor::reuse_address(true));
+    // The socket's file is born private: nobody can slip in between bind and chmod.
+    const mode_t old_mask = umask(0177);
+    error_code error;
+    acceptor_.bind(where, error);
+    umask(old_mask);
+    if (error) throw boost::system::system_error(error);
+    acceptor_.listen();
+    fcntl(acceptor_.native_handle(), F_SETFD, FD_CLOEXEC);
+    if constexpr (std::is_same_v<Protocol, tcp>) endpoint_.port = acceptor_.local_endpoint().port();
+    AcceptNext();
+  }
+  ~ListenerImpl() override {
+    if (endpoint_.kind == Endpoint::Kind::kUnix) unlink(endpoint_.host.c_str());
+  }
+  Endpoint endpoint() const override { return endpoint_; }
+
+ private:
+  void AcceptNext() {
+    acceptor_.async_accept([this](const error_code& error, typename Protocol::socket socket) {
+      if (error == asio::error::operation_aborted) return;
+      if (!error) {
+        if constexpr (std::is_same_v<Protocol, tcp>) NoDelay(socket.native_handle());
+        fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
+        on_accept_(socket.release(), FormatEndpoint(endpoint_));
+      }
+      AcceptNext();
+    });
+  }
+
+  typename Protocol::acceptor acceptor_;
+  Endpoint endpoint_;
+  OnAccept on_accept_;
+};
+
+/// Removes the file of a Unix socket nobody listens on any more.
+void RemoveStale(asio::io_context& io, const std::string& path) {
+  struct stat info{};
+  if (lstat(path.c_str(), &info) != 0) return;
+  if (!S_ISSOCK(info.st_mode)) throw std::runtime_error("'" + path + "' exists and is not a socket");
+  stream_protocol::socket probe(io);
+  error_code error;
+  probe.connect(stream_protocol::endpoint(path), error);
+  if (!error) throw std::runtime_error("somebody is already listening on '" + path + "'");
+  unlink(path.c_str());
+}
+
+template <typename Protocol>
+void Connect(asio::io_context& io, const typename Protocol::endpoint& where, const Endpoint& endpoint,
+             std::function<void(Result<int>)> done) {
+  auto socket = std::make_shared<typename Protocol::socket>(io);
+  socket->async_connect(where, [socket, endpoint, done = std::move(done)](const error_code& error) {
+    if (error) {
+      done(Fail(Errc::kUnavailable, "cannot connect to " + FormatEndpoint(endpoint) + ": " + error.message()));
+      return;
+    }
+    if constexpr (std::is_same_v<Protocol, tcp>) NoDelay(socket->native_handle());
+    fcntl(socket->native_handle(), F_SETFD, FD_CLOEXEC);
+    done(socket->release());
+  });
+}
+
+constexpr std::size_t kMaxUnixPath = sizeof(sockaddr_un::sun_path) - 1;
+
+}  // namespace
+
+Result<Endpoint> ParseEndpoint(std::string_view text) {
+  if (text.starts_with("unix:")) {
+    const std::string_view path = text.substr(5);
+    if (path.empty() || path.size() > kMaxUnixPath) return BadEndpoint(text);
+    return Endpoint{Endpoint::Kind::kUnix, std::string(path), 0};
+  }
+  if (!text.starts_with("tcp:")) return BadEndpoint(text);
+  std::string_view rest = text.substr(4);
+  const std::size_t colon = rest.rfind(':');
+  if (colon == std::string_view::npos || colon == 0) return BadEndpoint(text);
+  const std::string_view port_text = rest.substr(colon + 1);
+  std::string_view host = rest.substr(0, colon);
+  if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+  unsigned port = 0;
+  const auto [end, error] = std::from_chars(port_text.data(), port_text.data() + port_text.size(), port);
+  if (error != std::errc() || end != port_text.data() + port_text.size() || port > 65535) {
+    return BadEndpoint(text);
+  }
+  return Endpoint{Endpoint::Kind::kTcp, std::string(host), static_cast<unsigned short>(port)};
+}
+
+std::string FormatEndpoint(const Endpoint& endpoint) {
+  if (endpoint.kind == Endpoint::Kind::kUnix) return "unix:" + endpoint.host;
+  const bool v6 = endpoint.host.find(':') != std::string::npos;
+  return "tcp:" + (v6 ? "[" + endpoint.host + "]" : endpoint.host) + ":" + std::to_string(endpoint.port);
+}
+
+std::unique_ptr<Listener> Listener::Open(asio::io_context& io, const Endpoint& endpoint, OnAccept on_accept) {
+  try {
+    if (endpoint.kind == Endpoint::Kind::kUnix) {
+      RemoveStale(io, endpoint.host);
+      return std::make_unique<ListenerImpl<stream_protocol>>(io, stream_protocol::endpoint(endpoint.host),
+                                                             endpoint, std::move(on_accept));
+    }
+    error_code error;
+    const auto where = ResolveTcp(io, endpoint, error);
+    if (error) throw boost::system::system_error(error);
+    return std::make_unique<ListenerImpl<tcp>>(io, where, endpoint, std::move(on_accept));
+  } catch (const boost::system::system_error& error) {
+    throw std::runtime_error("cannot listen on " + FormatEndpoint(endpoint) + ": " + error.code().message());
+  }
+}
+
+void ConnectTo(asio::io_context& io, const Endpoint& endpoint, std::function<void(Result<int> fd)> done) {
+  if (endpoint.kind == Endpoint::Kind::kUnix) {
+    return Connect<stream_protocol>(io, stream_protocol::endpoint(endpoint.host), endpoint, std::move(done));
+  }
+  error_code error;
+  const auto where = ResolveTcp(io, endpoint, error);
+  if (error) {
+    done(Fail(Errc::kUnavailable, "cannot find " + endpoint.host + ": " + error.message()));
+    return;
+  }
+  Connect<tcp>(io, where, endpoint, std::move(done));
+}
+
+}  // namespace vm

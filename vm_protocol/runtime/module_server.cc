@@ -1,0 +1,246 @@
+#include "vm_protocol/runtime/module_server.h"
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <utility>
+
+#include "vm_protocol/core/limits.h"
+
+namespace vm {
+namespace {
+
+constexpr auto kFlushLimit = std::chrono::seconds(3);  // for a reader that does not read at the end
+constexpr std::size_t kMaxFileBytes = 4u << 20;        // read by `<` and `do FILE`
+
+Result<std::string> ReadTextFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
+  std::string text;
+  char buffer[4096];
+  while (file.read(buffer, sizeof(buffer)) || file.gcount() > 0) {
+    text.append(buffer, static_cast<std::size_t>(file.gcount()));
+    if (text.size() > kMaxFileBytes) {
+      return Fail(Errc::kTooLong, "file '" + path + "' is over " + std::to_string(kMaxFileBytes) + " bytes");
+    }
+  }
+  if (file.bad()) return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
+  return text;
+}
+
+Result<void> AppendTextFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::app);
+  if (!file || !(file << text) || !file.flush()) {
+    return Fail(Errc::kUnavailable, "cannot write '" + path + "': " + std::strerror(errno));
+  }
+  return {};
+}
+
+}  // namespace
+
+ModuleServer::ModuleServer(boost::asio::io_context& io, ClockScheduler& clock, Module& module, Options options)
+    : io_(io), clock_(clock), module_(module), options_(std::move(options)) {
+  SlotMachine& slots = module_.slots();
+  slots.set_output([this](PeerId id, const Message& message) { Emit(id, message); });
+  slots.set_read_file(ReadTextFile);
+  slots.set_append_file(AppendTextFile);
+  slots.set_on_error([this](PeerId, const std::string& line, const Error& error) {
+    ++errors_;
+    Complain("error: " + FormatError(error) + (line.empty() ? "" : " (in: " + line + ")"));
+  });
+  DeclareSlots();
+}
+
+ModuleServer::~ModuleServer() {
+  for (auto& [id, peer] : peers_) peer.stream->Close();
+}
+
+void ModuleServer::Complain(std::string_view text) const {
+  std::cerr << options_.program_name << ": " << text << std::endl;
+}
+
+void ModuleServer::DeclareSlots() {
+  SlotMachine& slots = module_.slots();
+  slots.Declare({.name = "Clock",
+                 .grammar = "<number 0..>",
+                 .initial = "0",
+                 .help = "This process's clock, in ms since its start. Setting it moves the clock on where "
+                         "Clock.mode is HUB: everything due until then is done first; the answer is the time "
+                         "reached and the time of the next thing to do, or - for nothing.",
+                 .on_set = [this](const SetValue& value) { return SetClock(value); },
+                 .on_inq = [this] { return FormatMs(clock_.Now()); },
+                 .saved = false});
+  slots.Declare({.name = "Clock.mode",
+                 .grammar = "REAL | VIRTUAL | HUB",
+                 .help = "REAL: the machine's clock. VIRTUAL: time stands while nothing goes on and jumps from "
+                         "event to event otherwise. HUB: time moves only by set Clock.",
+                 .on_set = [this](const SetValue& value) -> Result<std::string> {
+                   hub_clock_ = value.word(0) == "HUB";
+                   if (value.word(0) == "REAL") {
+                     clock_.UseReal();
+                   } else {
+                     clock_.UseVirtual();
+                   }
+                   return value.word(0);
+                 },
+                 .on_inq = [this] { return clock_.real() ? "REAL" : hub_clock_ ? "HUB" : "VIRTUAL"; },
+                 .saved = false});
+  slots.Declare({.name = "Wait",
+                 .grammar = "IDLE | <ms>",
+                 .access = Access::kWriteOnly,
+                 .help = "Holds the lines that follow from the same peer for so many ms, or until nothing is "
+                         "going on (IDLE).",
+                 .on_set_later = [this](const SetValue& value, const Reply& reply) { SetWait(value, reply); }});
+}
+
+std::string ModuleServer::ClockText() const {
+  const auto next = clock_.Next();
+  return FormatMs(clock_.Now()) + " " + (next ? FormatMs(*next) : "-");
+}
+
+Result<std::string> ModuleServer::SetClock(const SetValue& value) {
+  if (!hub_clock_ || clock_.real()) {
+    return Fail(Errc::kAccess, "the clock can be set only where Clock.mode is HUB");
+  }
+  const auto until = ParseMs(value.word(0));
+  if (!until) return std::unexpected(until.error());
+  clock_.Advance(*until);
+  return ClockText();
+}
+
+void ModuleServer::SetWait(const SetValue& value, const Reply& reply) {
+  const auto found = peers_.find(value.peer);
+  if (found == peers_.end()) return reply.Ok(value.text);
+  Peer& peer = found->second;
+  peer.waiting = true;
+  peer.stream->PauseReading();
+  if (value.word(0) == "IDLE") {
+    peer.on_idle = reply;  // Settle ends it
+    return;
+  }
+  const Time delay(static_cast<Time::rep>(value.number(0) * 1000.0));
+  clock_.After(delay, [this, id = value.peer, reply] { EndWait(id, reply); });
+}
+
+void ModuleServer::EndWait(PeerId id, const Reply& reply) {
+  reply.Ok("0");
+  const auto found = peers_.find(id);
+  if (found == peers_.end()) return;
+  found->second.waiting = false;
+  found->second.on_idle.reset();
+  found->second.stream->ResumeReading();
+}
+
+bool ModuleServer::HasRoom() const {
+  return options_.one_client ? peers_.empty() : peers_.size() < kMaxConnections;
+}
+
+void ModuleServer::AddPeer(std::shared_ptr<StreamPeer> stream, PeerOptions options) {
+  const PeerId id = ++last_peer_;
+  Peer& peer = peers_[id];
+  peer.stream = std::move(stream);
+  peer.ends_module = options.ends_module;
+  if (!options.already_read.empty()) peer.stream->Prefeed(std::move(options.already_read));
+  for (const std::string& line : options.first_lines) peer.stream->Send(line);
+  for (const Message& message : module_.Greeting()) Emit(id, message);
+  if (options.wants_errors) module_.slots().HandleLine("prop Error = AutoOutput", id);
+  peer.stream->Start([this, id](Result<std::string_view> line) { OnLine(id, std::move(line)); },
+                     [this, id](const std::string& reason) { OnEnd(id, reason); });
+}
+
+void ModuleServer::OnLine(PeerId id, Result<std::string_view> line) {
+  if (!line) {
+    ++errors_;
+    Complain("error: " + FormatError(line.error()));
+    Message rep = Rep("Error", FormatError(line.error()));
+    if (module_.slots().AutoOutput("Error")) Emit(id, rep);
+    return;
+  }
+  if (options_.original_socket_words) {
+    if (*line == "CloseSocket") return RequestStop();
+    if (*line == "set Run = CLOSE") return OnEnd(id, "closed on request");
+  }
+  module_.slots().HandleLine(*line, id);
+}
+
+void ModuleServer::OnEnd(PeerId id, const std::string& reason) {
+  const auto found = peers_.find(id);
+  if (found == peers_.end()) return;
+  if (reason != "end of input") Complain("peer " + std::to_string(id) + ": " + reason);
+  if (found->second.ends_module) {
+    module_ending_ = true;
+    found->second.ended = true;  // kept: what is still said goes there
+    return;
+  }
+  found->second.stream->Close();
+  peers_.erase(found);
+  module_.slots().PeerGone(id);
+}
+
+void ModuleServer::Emit(PeerId id, const Message& message) {
+  const std::string line = FormatMessage(message);
+  if (id == kEveryone) {
+    for (auto& [peer_id, peer] : peers_) peer.stream->Send(line);
+    return;
+  }
+  if (const auto found = peers_.find(id); found != peers_.end()) found->second.stream->Send(line);
+}
+
+bool ModuleServer::TimeIsWanted() const {
+  if (module_.Busy()) return true;
+  for (const auto& [id, peer] : peers_) {
+    if (peer.waiting) return true;
+  }
+  return false;
+}
+
+bool ModuleServer::Settle() {
+  if (stop_ || module_.ExitRequested()) return true;
+  bool waiting = false;
+  for (auto& [id, peer] : peers_) {
+    if (peer.on_idle && !module_.Busy()) {
+      const Reply reply = *peer.on_idle;
+      EndWait(id, reply);
+      return false;  // its next lines come first
+    }
+    waiting = waiting || peer.waiting;
+  }
+  return module_ending_ && !waiting && !module_.Busy();
+}
+
+void ModuleServer::Step() {
+  if (clock_.real() || hub_clock_) {
+    io_.run_one();
+    return;
+  }
+  // Alone on the virtual clock: input first, then time, then wait for input.
+  if (io_.poll() > 0) return;
+  if (TimeIsWanted() && clock_.AdvanceToNext()) return;
+  io_.run_one();
+}
+
+int ModuleServer::Run() {
+  const auto work = boost::asio::make_work_guard(io_);
+  while (!Settle()) Step();
+  Finish();
+  return errors_;
+}
+
+void ModuleServer::Finish() {
+  module_.Shutdown();
+  boost::asio::steady_timer limit(io_, kFlushLimit);
+  bool timed_out = false;
+  limit.async_wait([&timed_out](const auto& error) { timed_out = !error; });
+  std::size_t unflushed = peers_.size();
+  for (auto& [id, peer] : peers_) peer.stream->Flush([&unflushed] { --unflushed; });
+  while (unflushed > 0 && !timed_out) io_.run_one();
+  for (auto& [id, peer] : peers_) peer.stream->Close();
+  limit.cancel();
+  io_.poll();
+}
+
+}  // namespace vm
