@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Builds and runs all tests under the sanitizers:  scripts/sanitize.sh [asan|tsan|all]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+which=${1:-all}
+# Mesa and ffmpeg keep memory to the end by design; only our own leaks count.
+export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan.supp:print_suppressions=0"
+export TSAN_OPTIONS="suppressions=$PWD/cmake/tsan.supp"
+for preset in asan tsan; do
+  [ "$which" = all ] || [ "$which" = "$preset" ] || continue
+  cmake --preset "$preset" >/dev/null
+  cmake --build "build-$preset"
+  ctest --test-dir "build-$preset" --output-on-failure --parallel "$(nproc)"
+done
