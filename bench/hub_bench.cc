@@ -4,8 +4,8 @@
 //   hub_bench galatea PORT      hub listening on 127.0.0.1:PORT
 //   hub_bench mqtt PORT         MQTT 3.1.1 broker, OASIS standard of 29 October 2014
 //
-// Prints one line of JSON. Latency: messages of 65 bytes, one every 250 us, time from just before the
-// write to just after the read in another thread of this process. Throughput: at most kWindow
+// Prints one line of JSON. Latency: messages of 65 bytes, one every 250 us, time from just before
+// the write to just after the read in another thread of this process. Throughput: at most kWindow
 // messages on their way, so that no broker has to drop any.
 
 #include <arpa/inet.h>
@@ -46,7 +46,8 @@ int Dial(int port) {
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof(address)) != 0) {
-    throw std::runtime_error("cannot connect to 127.0.0.1:" + std::to_string(port) + ": " + std::strerror(errno));
+    throw std::runtime_error("cannot connect to 127.0.0.1:" + std::to_string(port) + ": " +
+                             std::strerror(errno));
   }
   const int on = 1;
   setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
@@ -143,7 +144,8 @@ int GalateaConnect(int port, const std::string& name) {
   while (line.find("rep#n Name = ") == std::string::npos || c != '\n') {
     if (read(fd, &c, 1) != 1) throw std::runtime_error("the hub closed the connection");
     line += c;
-    if (line.find(".error") != std::string::npos) throw std::runtime_error("the hub refused the name: " + line);
+    if (line.find(".error") != std::string::npos)
+      throw std::runtime_error("the hub refused the name: " + line);
   }
   return fd;
 }
@@ -157,7 +159,9 @@ struct Pair {
 Pair Connect(bool mqtt, int port) {
   if (mqtt) {
     const int receiver = MqttConnect(port, "bench-b");
-    WriteAll(receiver, MqttPacket(static_cast<char>(0x82), std::string("\x00\x01", 2) + MqttString("B/Load") + std::string(1, 0)));
+    WriteAll(receiver,
+             MqttPacket(static_cast<char>(0x82),
+                        std::string("\x00\x01", 2) + MqttString("B/Load") + std::string(1, 0)));
     Receiver(receiver, true).TakeRaw(5);
     std::string body = MqttString("B/Load");
     body.resize(kMessageBytes - 2, 'x');
@@ -186,7 +190,9 @@ std::vector<double> Latencies(const Pair& pair, bool mqtt) {
       published.load(std::memory_order_acquire);
       for (int i = 0; i < more; ++i, ++got) {
         if (got < kWarmUp) continue;
-        microseconds.push_back(std::chrono::duration<double, std::micro>(now - sent[static_cast<std::size_t>(got)]).count());
+        microseconds.push_back(
+            std::chrono::duration<double, std::micro>(now - sent[static_cast<std::size_t>(got)])
+                .count());
       }
     }
   });
@@ -215,7 +221,8 @@ double Throughput(const Pair& pair, bool mqtt) {
   std::string batch;
   for (int i = 0; i < kBatch; ++i) batch += pair.message;
   for (int sent = 0; sent < kThroughputMessages; sent += kBatch) {
-    for (int got = received.load(); sent + kBatch - got > kWindow; got = received.load()) received.wait(got);
+    for (int got = received.load(); sent + kBatch - got > kWindow; got = received.load())
+      received.wait(got);
     WriteAll(pair.sender, batch);
   }
   reader.join();
@@ -225,7 +232,8 @@ double Throughput(const Pair& pair, bool mqtt) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3 || (std::string_view(argv[1]) != "galatea" && std::string_view(argv[1]) != "mqtt")) {
+  if (argc != 3 ||
+      (std::string_view(argv[1]) != "galatea" && std::string_view(argv[1]) != "mqtt")) {
     std::fprintf(stderr, "usage: hub_bench galatea|mqtt PORT\n");
     return 2;
   }
@@ -234,8 +242,8 @@ int main(int argc, char** argv) {
     const Pair pair = Connect(mqtt, std::atoi(argv[2]));
     const auto latencies = Latencies(pair, mqtt);
     const double per_second = Throughput(pair, mqtt);
-    std::printf("{\"hub\": \"%s\", \"p50_us\": %.1f, \"p99_us\": %.1f, \"messages_per_s\": %.0f}\n", argv[1],
-                Percentile(latencies, 0.5), Percentile(latencies, 0.99), per_second);
+    std::printf("{\"hub\": \"%s\", \"p50_us\": %.1f, \"p99_us\": %.1f, \"messages_per_s\": %.0f}\n",
+                argv[1], Percentile(latencies, 0.5), Percentile(latencies, 0.99), per_second);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "hub_bench: %s\n", error.what());

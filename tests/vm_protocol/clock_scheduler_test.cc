@@ -1,8 +1,8 @@
-#include "vm_protocol/runtime/asio_scheduler.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "vm_protocol/runtime/asio_scheduler.h"
 
 namespace vm {
 namespace {

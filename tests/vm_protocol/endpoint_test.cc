@@ -17,7 +17,8 @@ TEST(EndpointTest, ReadsAndWritesBothKinds) {
     ASSERT_TRUE(endpoint) << text;
     EXPECT_EQ(FormatEndpoint(*endpoint), text);
   }
-  for (const auto* text : {"", "unix:", "tcp:host", "tcp::5", "tcp:h:70000", "tcp:h:5x", "udp:h:5", "h:5"}) {
+  for (const auto* text :
+       {"", "unix:", "tcp:host", "tcp::5", "tcp:h:70000", "tcp:h:5x", "udp:h:5", "h:5"}) {
     EXPECT_FALSE(ParseEndpoint(text)) << text;
   }
   EXPECT_FALSE(ParseEndpoint("unix:/" + std::string(200, 'x')));
@@ -31,7 +32,8 @@ class ListenerTest : public testing::TestWithParam<const char*> {
   }
   ~ListenerTest() override { rmdir(folder_.c_str()); }
   Endpoint Where() const {
-    return *ParseEndpoint(std::string(GetParam()) == "unix" ? "unix:" + folder_ + "/s" : "tcp:127.0.0.1:0");
+    return *ParseEndpoint(std::string(GetParam()) == "unix" ? "unix:" + folder_ + "/s"
+                                                            : "tcp:127.0.0.1:0");
   }
   std::string folder_;
   boost::asio::io_context io_;
@@ -42,8 +44,9 @@ TEST_P(ListenerTest, LinesGoBothWays) {
   std::vector<std::string> heard;
   const auto listener = Listener::Open(io_, Where(), [&](int fd, const std::string&) {
     server_side = StreamPeer::Make(io_, fd, fd, Framing::kLf);
-    server_side->Start([&](Result<std::string_view> line) { server_side->Send("echo " + std::string(*line)); },
-                       [&](const std::string& reason) { heard.push_back("server: " + reason); });
+    server_side->Start(
+        [&](Result<std::string_view> line) { server_side->Send("echo " + std::string(*line)); },
+        [&](const std::string& reason) { heard.push_back("server: " + reason); });
   });
   std::shared_ptr<StreamPeer> client_side;
   ConnectTo(io_, listener->endpoint(), [&](Result<int> fd) {
@@ -72,7 +75,7 @@ TEST(UnixListenerTest, TheSocketIsPrivateTakenOnceAndRemovedAtTheEnd) {
   boost::asio::io_context io;
   {
     const auto listener = Listener::Open(io, where, [](int fd, const std::string&) { close(fd); });
-    struct stat info{};
+    struct stat info {};
     ASSERT_EQ(stat(where.host.c_str(), &info), 0);
     EXPECT_EQ(info.st_mode & 0777, 0600u);
     EXPECT_THROW(Listener::Open(io, where, [](int, const std::string&) {}), std::runtime_error);

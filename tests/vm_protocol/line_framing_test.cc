@@ -9,7 +9,8 @@ namespace vm {
 namespace {
 
 /// Feeds `bytes` in pieces of `step` and lists what came out; errors as "!CODE".
-std::vector<std::string> Lines(std::string_view bytes, std::size_t step, Framing framing = Framing::kLf) {
+std::vector<std::string> Lines(std::string_view bytes, std::size_t step,
+                               Framing framing = Framing::kLf) {
   LineReader reader(framing);
   std::vector<std::string> lines;
   const auto take = [&lines](Result<std::string_view> line) {
@@ -51,8 +52,10 @@ TEST(LineReaderTest, AnOverlongLineIsReportedOnceAndAsSoonAsTheLimitIsPassed) {
 }
 
 TEST(LineReaderTest, AutoTakesTheFramingOfTheFirstLine) {
-  EXPECT_EQ(Lines("set A = 1./\nset B =\n2./\n", 5, Framing::kAuto), (Strings{"set A = 1", "set B = 2"}));
-  EXPECT_EQ(Lines("set A = 1\nset B = ./\n", 5, Framing::kAuto), (Strings{"set A = 1", "set B = ./"}));
+  EXPECT_EQ(Lines("set A = 1./\nset B =\n2./\n", 5, Framing::kAuto),
+            (Strings{"set A = 1", "set B = 2"}));
+  EXPECT_EQ(Lines("set A = 1\nset B = ./\n", 5, Framing::kAuto),
+            (Strings{"set A = 1", "set B = ./"}));
 }
 
 TEST(LineReaderTest, AMessageJoinedFromManyLinesHasTheSameLimit) {

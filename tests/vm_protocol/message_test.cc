@@ -25,7 +25,8 @@ Error Refused(std::string_view line) {
 TEST(MessageTest, ReadsTheLinesOfTheOriginalsPrograms) {
   EXPECT_EQ(Parsed("set Speak = NOW"), Set("Speak", "NOW"));
   EXPECT_EQ(Parsed("inq Speak.stat"), Inq("Speak.stat"));
-  EXPECT_EQ(Parsed("to @FSM set FaceExp = HAPPY 1 100 0"), To("FSM", Set("FaceExp", "HAPPY 1 100 0")));
+  EXPECT_EQ(Parsed("to @FSM set FaceExp = HAPPY 1 100 0"),
+            To("FSM", Set("FaceExp", "HAPPY 1 100 0")));
   const Message rep = Parsed("From @SSM rep Speak.stat = IDLE");
   EXPECT_EQ(rep.from, "SSM");
   EXPECT_EQ(rep.command, Command::kRep);
@@ -196,8 +197,9 @@ class MessageMaker {
     return slot;
   }
   std::string Text() {
-    static constexpr std::string_view kPieces[] = {" ", "=", "<", "<<", "#", "@", "a", "to @X", "あ", "\t",
-                                                   "\"", "\\", "set", "1.5", "é", "😀", "./", "from"};
+    static constexpr std::string_view kPieces[] = {" ",   "=",     "<",  "<<", "#",  "@",
+                                                   "a",   "to @X", "あ", "\t", "\"", "\\",
+                                                   "set", "1.5",   "é",  "😀",  "./", "from"};
     std::string text;
     for (auto n = Below(12); n > 0; --n) text += kPieces[Below(std::size(kPieces))];
     return text;

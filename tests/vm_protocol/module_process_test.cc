@@ -19,13 +19,15 @@ TEST(ModuleProcessTest, ABatchPipedInIsDoneAndEndsWithZero) {
   Process module({kModule});
   module.Write("set X = 5\nset#1 Work = 10000\n");
   module.CloseInput();
-  EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep X = 5", "tell worked until 10000", "rep#1 Work = done"}));
+  EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep X = 5", "tell worked until 10000",
+                                       "rep#1 Work = done"}));
   EXPECT_EQ(module.Wait(), 0) << "ten seconds of work on the virtual clock are no time at all";
 }
 
 TEST(ModuleProcessTest, ARegularFileAsInputIsABatchToo) {
-  Process module({"/bin/sh", "-c", "printf 'set X = 5\\n' > batch.$$; exec 3<batch.$$; rm batch.$$; exec '" +
-                                       kModule + "' <&3"},
+  Process module({"/bin/sh", "-c",
+                  "printf 'set X = 5\\n' > batch.$$; exec 3<batch.$$; rm batch.$$; exec '" +
+                      kModule + "' <&3"},
                  Process::Options{.cwd = testing::TempDir(), .env = {}});
   EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep X = 5"}));
   EXPECT_EQ(module.Wait(), 0);
@@ -35,8 +37,8 @@ TEST(ModuleProcessTest, WaitHoldsTheLinesThatFollowOnTheVirtualClockExactly) {
   Process module({kModule, "--clock", "virtual"});
   module.Write("set Work = 300\nset Wait = 100\ninq Clock\nset Wait = IDLE\ninq Clock\n");
   module.CloseInput();
-  EXPECT_EQ(module.ReadAll(),
-            (Strings{"rep Run = LIVE", "rep Clock = 100", "tell worked until 300", "rep Clock = 300"}));
+  EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep Clock = 100", "tell worked until 300",
+                                       "rep Clock = 300"}));
   EXPECT_EQ(module.Wait(), 0);
 }
 
@@ -44,8 +46,9 @@ TEST(ModuleProcessTest, UnderTheHubsClockTimeMovesOnlyBySettingIt) {
   Process module({kModule, "--clock", "virtual"});
   module.Write("set#a Clock.mode = HUB\nset Work = 40\nset#b Clock = 25\nset#c Clock = 60\n");
   module.CloseInput();
-  EXPECT_EQ(module.ReadAll(), (Strings{"rep Run = LIVE", "rep#a Clock.mode = HUB", "rep#b Clock = 25 40",
-                                       "tell worked until 40", "rep#c Clock = 60 -"}));
+  EXPECT_EQ(module.ReadAll(),
+            (Strings{"rep Run = LIVE", "rep#a Clock.mode = HUB", "rep#b Clock = 25 40",
+                     "tell worked until 40", "rep#c Clock = 60 -"}));
   EXPECT_EQ(module.Wait(), 0);
 }
 
@@ -55,7 +58,8 @@ TEST(ModuleProcessTest, StrictMakesErrorsCount) {
     module.Write("set X = nan\n");
     module.CloseInput();
     EXPECT_EQ(module.Wait(), strict ? 1 : 0);
-    EXPECT_NE(module.ErrorText().find("test_module: error: BAD_VALUE column 1: found 'nan', expected <number>"),
+    EXPECT_NE(module.ErrorText().find(
+                  "test_module: error: BAD_VALUE column 1: found 'nan', expected <number>"),
               std::string::npos)
         << module.ErrorText();
   }
@@ -127,7 +131,8 @@ TEST(ModuleProcessTest, SpeaksTheOriginalsEncodings) {
 TEST(ModuleProcessTest, AWorldThatRefusesIsOneSentenceAndANonzeroEnd) {
   Process module({kModule, "--connect", "unix:/nonexistent/hub"});
   EXPECT_EQ(module.Wait(), 1);
-  EXPECT_NE(module.ErrorText().find("test_module: cannot connect to unix:/nonexistent/hub"), std::string::npos)
+  EXPECT_NE(module.ErrorText().find("test_module: cannot connect to unix:/nonexistent/hub"),
+            std::string::npos)
       << module.ErrorText();
 }
 

@@ -7,11 +7,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-PhonemeList List() { return {{"sil", milliseconds(10)}, {"k", milliseconds(60)}, {"o", milliseconds(75)}}; }
+PhonemeList List() {
+  return {{"sil", milliseconds(10)}, {"k", milliseconds(60)}, {"o", milliseconds(75)}};
+}
 
 TEST(PhonemesTest, ReadsEverySpellingInUse) {
-  for (const auto* text : {"sil[10] k[60] o[75]", "sil [10] k [60] o [75] ", "sil 10 k 60 o 75",
-                           " sil[ 10 ]\tk [60]  o 75", "sil[10] k[60] o[75] phoneme_end", "sil[10]k[60]o[75]"}) {
+  for (const auto* text :
+       {"sil[10] k[60] o[75]", "sil [10] k [60] o [75] ", "sil 10 k 60 o 75",
+        " sil[ 10 ]\tk [60]  o 75", "sil[10] k[60] o[75] phoneme_end", "sil[10]k[60]o[75]"}) {
     const auto list = ParsePhonemes(text);
     ASSERT_TRUE(list) << text << ": " << list.error().text;
     EXPECT_EQ(*list, List()) << text;
@@ -26,10 +29,9 @@ TEST(PhonemesTest, WritesEachModulesSpelling) {
 }
 
 TEST(PhonemesTest, RefusesBadListsWithTheirPlace) {
-  const std::pair<const char*, std::size_t> kBad[] = {{"a", 2},         {"a x", 3},       {"a -5", 3},
-                                                      {"a nan", 3},     {"a 1e9", 3},     {"a[5", 4},
-                                                      {"a 70000", 3},   {"a 10 b", 7},    {"[5] a 5", 1},
-                                                      {"a 10 b] 4", 6}, {"a[5 6] b 5", 5}};
+  const std::pair<const char*, std::size_t> kBad[] = {
+      {"a", 2},       {"a x", 3},    {"a -5", 3},    {"a nan", 3},     {"a 1e9", 3},     {"a[5", 4},
+      {"a 70000", 3}, {"a 10 b", 7}, {"[5] a 5", 1}, {"a 10 b] 4", 6}, {"a[5 6] b 5", 5}};
   for (const auto& [text, column] : kBad) {
     const auto list = ParsePhonemes(text);
     ASSERT_FALSE(list) << text;

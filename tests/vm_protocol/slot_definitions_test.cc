@@ -16,17 +16,20 @@ using Strings = std::vector<std::string>;
 class DefinitionsTest : public testing::Test {
  protected:
   DefinitionsTest() : slots_("M") {
-    slots_.set_output([this](PeerId, const Message& message) { said_.push_back(FormatMessage(message)); });
-    slots_.set_on_error([this](PeerId, const std::string&, const Error& error) { errors_.push_back(error); });
+    slots_.set_output(
+        [this](PeerId, const Message& message) { said_.push_back(FormatMessage(message)); });
+    slots_.set_on_error(
+        [this](PeerId, const std::string&, const Error& error) { errors_.push_back(error); });
     slots_.set_read_file([this](const std::string& path) -> Result<std::string> {
       const auto found = files_.find(path);
       if (found == files_.end()) return Fail(Errc::kUnavailable, "cannot read '" + path + "'");
       return found->second;
     });
-    slots_.set_append_file([this](const std::string& path, const std::string& text) -> Result<void> {
-      files_[path] += text;
-      return {};
-    });
+    slots_.set_append_file(
+        [this](const std::string& path, const std::string& text) -> Result<void> {
+          files_[path] += text;
+          return {};
+        });
     slots_.Declare({.name = "A", .grammar = "<number>", .initial = "1"});
     slots_.Declare({.name = "B", .grammar = "<text>", .initial = "x"});
     slots_.Declare({.name = "Act", .grammar = "GO", .access = Access::kWriteOnly});
@@ -110,7 +113,8 @@ TEST_F(DefinitionsTest, AMacroMayComeFromAFile) {
   files_["bad.txt"] = "set A = 3\nset\n";
   Say("def n < bad.txt");
   ASSERT_FALSE(errors_.empty());
-  EXPECT_NE(errors_.back().text.find("line 2 of macro 'n'"), std::string::npos) << errors_.back().text;
+  EXPECT_NE(errors_.back().text.find("line 2 of macro 'n'"), std::string::npos)
+      << errors_.back().text;
 }
 
 TEST_F(DefinitionsTest, AMacroThatCallsItselfEnds) {

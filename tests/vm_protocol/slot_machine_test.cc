@@ -20,11 +20,21 @@ class SlotMachineTest : public testing::Test {
     slots_.set_output([this](PeerId peer, const Message& message) {
       said_.push_back(std::to_string(peer) + ":" + FormatMessage(message));
     });
-    slots_.set_on_error([this](PeerId, const std::string&, const Error& error) { errors_.push_back(error); });
-    slots_.Declare({.name = "Volume", .grammar = "<number 0..200>", .initial = "100", .help = "Loudness in %."});
-    slots_.Declare({.name = "State", .grammar = "<text>", .access = Access::kReadOnly, .initial = "IDLE",
-                    .auto_output = true, .help = "What it does."});
-    slots_.Declare({.name = "Play", .grammar = "NOW | STOP", .access = Access::kWriteOnly,
+    slots_.set_on_error(
+        [this](PeerId, const std::string&, const Error& error) { errors_.push_back(error); });
+    slots_.Declare({.name = "Volume",
+                    .grammar = "<number 0..200>",
+                    .initial = "100",
+                    .help = "Loudness in %."});
+    slots_.Declare({.name = "State",
+                    .grammar = "<text>",
+                    .access = Access::kReadOnly,
+                    .initial = "IDLE",
+                    .auto_output = true,
+                    .help = "What it does."});
+    slots_.Declare({.name = "Play",
+                    .grammar = "NOW | STOP",
+                    .access = Access::kWriteOnly,
                     .help = "Starts and stops.",
                     .on_set = [this](const SetValue& value) -> Result<std::string> {
                       if (value.word(0) == "NOW" && slots_.Value("State") != "IDLE") {
@@ -33,9 +43,18 @@ class SlotMachineTest : public testing::Test {
                       slots_.Report("State", value.word(0) == "NOW" ? "PLAYING" : "IDLE");
                       return value.word(0);
                     }});
-    slots_.Declare({.name = "Mask", .grammar = "<word>", .initial = "anna", .help = "The face.", .quoted = true});
-    slots_.Declare({.name = "Later", .grammar = "<text>", .access = Access::kWriteOnly, .help = "Answers later.",
-                    .on_set_later = [this](const SetValue&, const Reply& reply) { replies_.push_back(reply); }});
+    slots_.Declare({.name = "Mask",
+                    .grammar = "<word>",
+                    .initial = "anna",
+                    .help = "The face.",
+                    .quoted = true});
+    slots_.Declare({.name = "Later",
+                    .grammar = "<text>",
+                    .access = Access::kWriteOnly,
+                    .help = "Answers later.",
+                    .on_set_later = [this](const SetValue&, const Reply& reply) {
+                      replies_.push_back(reply);
+                    }});
   }
 
   Strings Say(std::string_view line, PeerId peer = 1) {
@@ -68,10 +87,11 @@ TEST_F(SlotMachineTest, EveryTaggedRequestIsAnsweredOnceWithItsTag) {
   EXPECT_EQ(Say("set#7 Volume = 50"), Strings{"1:rep#7 Volume = 50"});
   EXPECT_EQ(Say("inq#8 Volume"), Strings{"1:rep#8 Volume = 50"});
   EXPECT_EQ(Say("prop#9 Volume = AutoOutput"), Strings{"1:rep#9 Volume = AutoOutput"});
-  EXPECT_EQ(Say("set#a Volume = 999"),
-            Strings{"1:rep#a Volume.error = BAD_VALUE column 1: found '999', expected <number 0..200>"});
-  EXPECT_EQ(Say("inq#b Nose"),
-            Strings{"1:rep#b Nose.error = UNKNOWN_SLOT module FSM has no slot 'Nose' (inq Slots lists them)"});
+  EXPECT_EQ(
+      Say("set#a Volume = 999"),
+      Strings{"1:rep#a Volume.error = BAD_VALUE column 1: found '999', expected <number 0..200>"});
+  EXPECT_EQ(Say("inq#b Nose"), Strings{"1:rep#b Nose.error = UNKNOWN_SLOT module FSM has no slot "
+                                       "'Nose' (inq Slots lists them)"});
 }
 
 TEST_F(SlotMachineTest, ARefusalWithoutTagIsReportedOnlyToThoseWhoAskedForErrors) {
@@ -81,23 +101,27 @@ TEST_F(SlotMachineTest, ARefusalWithoutTagIsReportedOnlyToThoseWhoAskedForErrors
   Say("prop Error = AutoOutput", 2);
   EXPECT_EQ(Say("set Volume = x", 1), Strings{}) << "not the asker's business of peer 2";
   EXPECT_EQ(Say("set Volume = x", 2).size(), 1u);
-  EXPECT_EQ(Say("nonsense", 2),
-            Strings{"2:rep Error = UNKNOWN_COMMAND column 1: found 'nonsense', expected one of set inq prop "
-                    "save rest del def do rep tell"});
+  EXPECT_EQ(
+      Say("nonsense", 2),
+      Strings{
+          "2:rep Error = UNKNOWN_COMMAND column 1: found 'nonsense', expected one of set inq prop "
+          "save rest del def do rep tell"});
   slots_.PeerGone(2);
   EXPECT_EQ(Say("set Volume = x", 2), Strings{});
 }
 
 TEST_F(SlotMachineTest, AccessIsKept) {
-  EXPECT_EQ(Say("set#1 State = X"), Strings{"1:rep#1 State.error = ACCESS slot 'State' can only be asked (inq)"});
+  EXPECT_EQ(Say("set#1 State = X"),
+            Strings{"1:rep#1 State.error = ACCESS slot 'State' can only be asked (inq)"});
   EXPECT_EQ(Say("inq#2 Play"), Strings{"1:rep#2 Play.error = ACCESS slot 'Play' can only be set"});
-  EXPECT_EQ(Say("prop#3 State = Loud"),
-            Strings{"1:rep#3 State.error = BAD_VALUE column 1: found 'Loud', expected AutoOutput or NoAutoOutput"});
+  EXPECT_EQ(Say("prop#3 State = Loud"), Strings{"1:rep#3 State.error = BAD_VALUE column 1: found "
+                                                "'Loud', expected AutoOutput or NoAutoOutput"});
 }
 
 TEST_F(SlotMachineTest, ARefusedActionChangesNothing) {
   Say("set Play = NOW");
-  EXPECT_EQ(Say("set#1 Play = NOW"), Strings{"1:rep#1 Play.error = BUSY already playing, expected STOP first"});
+  EXPECT_EQ(Say("set#1 Play = NOW"),
+            Strings{"1:rep#1 Play.error = BUSY already playing, expected STOP first"});
   EXPECT_EQ(slots_.Value("State"), "PLAYING");
 }
 
@@ -114,7 +138,9 @@ TEST(ReplyTest, AReplyMayOutliveItsMachine) {
   std::optional<Reply> kept;
   {
     SlotMachine slots("X");
-    slots.Declare({.name = "Later", .grammar = "<text>", .access = Access::kWriteOnly,
+    slots.Declare({.name = "Later",
+                   .grammar = "<text>",
+                   .access = Access::kWriteOnly,
                    .on_set_later = [&](const SetValue&, const Reply& reply) { kept = reply; }});
     slots.HandleLine("set#1 Later = x");
   }
@@ -124,16 +150,23 @@ TEST(ReplyTest, AReplyMayOutliveItsMachine) {
 
 TEST_F(SlotMachineTest, ListsAndExplainsItself) {
   EXPECT_EQ(Say("inq Slots"), Strings{"1:rep Slots = Slots Error Volume State Play Mask Later"});
-  EXPECT_EQ(Say("inq Volume.help"), Strings{"1:rep Volume.help = Loudness in %. Value: <number 0..200>"});
-  EXPECT_EQ(Say("inq Volume.prop"), Strings{"1:rep Volume.prop = NoAutoOutput ReadWrite default 100"});
-  EXPECT_NE(slots_.DocsMarkdown().find("| `Play` | `NOW \\| STOP` | WriteOnly | off |"), std::string::npos);
+  EXPECT_EQ(Say("inq Volume.help"),
+            Strings{"1:rep Volume.help = Loudness in %. Value: <number 0..200>"});
+  EXPECT_EQ(Say("inq Volume.prop"),
+            Strings{"1:rep Volume.prop = NoAutoOutput ReadWrite default 100"});
+  EXPECT_NE(slots_.DocsMarkdown().find("| `Play` | `NOW \\| STOP` | WriteOnly | off |"),
+            std::string::npos);
 }
 
 TEST_F(SlotMachineTest, AGroupListsItsMembersAndIsReachedByProp) {
-  slots_.Declare({.name = "All", .grammar = "<text>", .access = Access::kWriteOnly, .help = "Both.",
+  slots_.Declare({.name = "All",
+                  .grammar = "<text>",
+                  .access = Access::kWriteOnly,
+                  .help = "Both.",
                   .group = {"Volume", "Mask"}});
   EXPECT_EQ(Say("inq All"), (Strings{"1:rep Volume = 100", "1:rep Mask = \"anna\""}));
-  EXPECT_EQ(Say("inq#4 All"), (Strings{"1:rep#4 Volume = 100", "1:rep#4 Mask = \"anna\"", "1:rep#4 All = "}));
+  EXPECT_EQ(Say("inq#4 All"),
+            (Strings{"1:rep#4 Volume = 100", "1:rep#4 Mask = \"anna\"", "1:rep#4 All = "}));
   Say("prop All = AutoOutput");
   EXPECT_EQ(Say("set Mask = bob"), Strings{"0:rep Mask = \"bob\""});
 }
@@ -157,8 +190,11 @@ TEST_F(SlotMachineTest, ReportsOfOthersAreNotForIt) {
 
 TEST_F(SlotMachineTest, EveryModuleHasTheCommonSlots) {
   bool ended = false;
-  DeclareCommonSlots(slots_, {.module_version = "V 1", .protocol_version = "P 2", .quoted_versions = true,
-                              .auto_output = true, .on_exit = [&] { ended = true; }});
+  DeclareCommonSlots(slots_, {.module_version = "V 1",
+                              .protocol_version = "P 2",
+                              .quoted_versions = true,
+                              .auto_output = true,
+                              .on_exit = [&] { ended = true; }});
   EXPECT_EQ(Say("inq ModuleVersion"), Strings{"1:rep ModuleVersion = \"V 1\""});
   EXPECT_EQ(Say("inq Run"), Strings{"1:rep Run = LIVE"});
   EXPECT_EQ(Say("set#1 Run = EXIT"), (Strings{"0:rep Run = EXIT", "1:rep#1 Run = EXIT"}));

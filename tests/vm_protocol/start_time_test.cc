@@ -18,12 +18,13 @@ TEST(StartTimeTest, ReadsEveryForm) {
   EXPECT_EQ(ParseStartTime("+ 500"), (StartTime{Kind::kAfter, milliseconds(500)}));
   EXPECT_EQ(ParseStartTime("+00:00:01.250"), (StartTime{Kind::kAfter, milliseconds(1250)}));
   EXPECT_EQ(ParseStartTime("@1234.5"), (StartTime{Kind::kAt, Time(1234500)}));
-  EXPECT_EQ(ParseStartTime("23:59:59.5"), (StartTime{Kind::kWallClock, hours(24) - milliseconds(500)}));
+  EXPECT_EQ(ParseStartTime("23:59:59.5"),
+            (StartTime{Kind::kWallClock, hours(24) - milliseconds(500)}));
 }
 
 TEST(StartTimeTest, RefusesEverythingElse) {
-  for (const auto* text : {"", "NOWW", "500", "-500", "+-5", "@", "+nan", "24:00:00", "12:60:00", "1:00:00",
-                           "12:00:00.", "12:00:00.1234567", "+86400001", "@inf"}) {
+  for (const auto* text : {"", "NOWW", "500", "-500", "+-5", "@", "+nan", "24:00:00", "12:60:00",
+                           "1:00:00", "12:00:00.", "12:00:00.1234567", "+86400001", "@inf"}) {
     EXPECT_FALSE(ParseStartTime(text)) << text;
   }
 }
@@ -45,7 +46,8 @@ TEST(StartTimeTest, ResolvesOnTheGivenClock) {
 TEST(StartTimeTest, AWallTimeJustPastIsNowAndOneLongPastIsTomorrow) {
   const Time now = seconds(100);
   EXPECT_EQ(Resolve(*ParseStartTime("12:00:00"), now, hours(12) + seconds(30)), now);
-  EXPECT_EQ(Resolve(*ParseStartTime("12:00:00"), now, hours(12) + minutes(2)), now + hours(24) - minutes(2));
+  EXPECT_EQ(Resolve(*ParseStartTime("12:00:00"), now, hours(12) + minutes(2)),
+            now + hours(24) - minutes(2));
   EXPECT_EQ(Resolve(*ParseStartTime("00:00:01"), now, hours(24) - seconds(1)), now + seconds(2));
 }
 

@@ -7,7 +7,9 @@ namespace {
 class TestModule final : public vm::Module {
  public:
   explicit TestModule(vm::Scheduler& clock) : slots_("TEST"), clock_(clock) {
-    vm::DeclareCommonSlots(slots_, {.module_version = "1", .protocol_version = "2", .auto_output = true,
+    vm::DeclareCommonSlots(slots_, {.module_version = "1",
+                                    .protocol_version = "2",
+                                    .auto_output = true,
                                     .on_exit = [this] { exit_ = true; }});
     slots_.Declare({.name = "X", .grammar = "<number>", .initial = "0", .auto_output = true});
     slots_.Declare({.name = "Work",
@@ -15,11 +17,12 @@ class TestModule final : public vm::Module {
                     .access = vm::Access::kWriteOnly,
                     .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
                       ++working_;
-                      clock_.After(vm::Time(static_cast<vm::Time::rep>(value.number(0) * 1000)), [this, reply] {
-                        --working_;
-                        slots_.TellAll("worked until " + vm::FormatMs(clock_.Now()));
-                        reply.Ok("done");
-                      });
+                      clock_.After(vm::Time(static_cast<vm::Time::rep>(value.number(0) * 1000)),
+                                   [this, reply] {
+                                     --working_;
+                                     slots_.TellAll("worked until " + vm::FormatMs(clock_.Now()));
+                                     reply.Ok("done");
+                                   });
                     }});
   }
   vm::SlotMachine& slots() override { return slots_; }
@@ -36,8 +39,12 @@ class TestModule final : public vm::Module {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return vm::RunModule(argc, argv,
-                       {.name = "test_module", .description = "A module for tests", .module_name = "TEST",
-                        .original_port = 10600, .virtual_by_default = true,
-                        .make = [](vm::Scheduler& clock, auto&) { return std::make_unique<TestModule>(clock); }});
+  return vm::RunModule(
+      argc, argv,
+      {.name = "test_module",
+       .description = "A module for tests",
+       .module_name = "TEST",
+       .original_port = 10600,
+       .virtual_by_default = true,
+       .make = [](vm::Scheduler& clock, auto&) { return std::make_unique<TestModule>(clock); }});
 }

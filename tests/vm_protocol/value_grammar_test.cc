@@ -36,7 +36,8 @@ TEST(ValueGrammarTest, SequencesNameTheWordThatDoesNotFit) {
   EXPECT_EQ(Items(grammar, "HAPPY 1 100 0"), "[HAPPY][1][100][0]");
   EXPECT_EQ(Items(grammar, "NEUTRAL"), "[NEUTRAL]");
   EXPECT_EQ(Items(grammar, "HAPPY 1 1e9 0"), "! 9 found '1e9', expected " + std::string(grammar));
-  EXPECT_EQ(Items(grammar, "HAPPY 1 100"), "! 12 found the end of the value, expected " + std::string(grammar));
+  EXPECT_EQ(Items(grammar, "HAPPY 1 100"),
+            "! 12 found the end of the value, expected " + std::string(grammar));
   EXPECT_EQ(Items(grammar, "NEUTRAL 5"), "! 9 found '5', expected " + std::string(grammar));
 }
 

@@ -8,8 +8,9 @@ Client::Client(SendLine send) : send_(std::move(send)) {}
 
 std::string Client::Request(Message message, OnAnswer on_answer) {
   message.tag = "c" + std::to_string(++last_tag_);
-  pending_[message.tag] = {message.slot.empty() ? std::string(CommandName(message.command)) : message.slot,
-                           std::move(on_answer)};
+  pending_[message.tag] = {
+      message.slot.empty() ? std::string(CommandName(message.command)) : message.slot,
+      std::move(on_answer)};
   send_(FormatMessage(message));
   return message.tag;
 }
@@ -26,7 +27,8 @@ void Client::HandleLine(std::string_view line) {
   if (message->command == Command::kRep && !message->tag.empty()) {
     const auto found = pending_.find(message->tag);
     if (found == pending_.end()) return;
-    const bool refused = message->slot == found->second.first + ".error" || message->slot == "Error";
+    const bool refused =
+        message->slot == found->second.first + ".error" || message->slot == "Error";
     // Members of a group come before the answer itself; they are passed on as plain reports.
     if (refused || message->slot == found->second.first) {
       const OnAnswer on_answer = std::move(found->second.second);
@@ -40,7 +42,8 @@ void Client::HandleLine(std::string_view line) {
     }
   }
   auto listeners = listeners_.find(message->slot);
-  if (listeners == listeners_.end() || message->command != Command::kRep) listeners = listeners_.find("");
+  if (listeners == listeners_.end() || message->command != Command::kRep)
+    listeners = listeners_.find("");
   if (listeners == listeners_.end()) return;
   const auto callbacks = listeners->second;  // a copy: a callback may add listeners
   for (const OnMessage& on_message : callbacks) on_message(*message);

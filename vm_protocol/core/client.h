@@ -11,9 +11,9 @@
 
 namespace vm {
 
-/// The other end of the protocol: asks, and pairs the answers with the questions. Pure: whoever owns
-/// it carries the lines. Thread: none of its own; one instance, one thread.
-/// There is no time limit inside: Abandon() ends requests nobody will answer any more.
+/// The other end of the protocol: asks, and pairs the answers with the questions. Pure: whoever
+/// owns it carries the lines. Thread: none of its own; one instance, one thread. There is no time
+/// limit inside: Abandon() ends requests nobody will answer any more.
 class Client {
  public:
   using SendLine = std::function<void(std::string_view line)>;
@@ -27,8 +27,8 @@ class Client {
   std::string Request(Message message, OnAnswer on_answer);
   /// Sends without asking for an answer.
   void Send(const Message& message);
-  /// Calls `on_message` for every `rep SLOT` without a tag of ours, from any module; "" = everything
-  /// else that comes in (`tell`, and reps nobody listens to).
+  /// Calls `on_message` for every `rep SLOT` without a tag of ours, from any module; "" =
+  /// everything else that comes in (`tell`, and reps nobody listens to).
   void On(std::string slot, OnMessage on_message);
 
   /// Feed every line that arrives. Lines that are no messages are ignored.

@@ -4,8 +4,10 @@ namespace vm {
 namespace {
 
 Error TooLong() {
-  return {Errc::kTooLong,
-          "line of more than " + std::to_string(kMaxLineBytes) + " bytes, the rest of it is skipped", 0};
+  return {
+      Errc::kTooLong,
+      "line of more than " + std::to_string(kMaxLineBytes) + " bytes, the rest of it is skipped",
+      0};
 }
 
 }  // namespace

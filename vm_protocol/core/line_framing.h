@@ -13,7 +13,8 @@ namespace vm {
 /// How lines are told apart on a stream.
 enum class Framing {
   kLf,    ///< LF, or CR LF
-  kMmi,   ///< "./" LF, the original's socket mode; lines without "./" are joined to the next by a blank
+  kMmi,   ///< "./" LF, the original's socket mode; lines without "./" are joined to the next by a
+          ///< blank
   kAuto,  ///< kLf, becoming kMmi for good if the first line ends in "./"
 };
 

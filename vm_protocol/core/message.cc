@@ -165,18 +165,18 @@ class LineParser {
     const bool clean_end = end == line_.size() || IsBlank(line_[end]) || line_[end] == '#';
     if (found == kCommandNames.end() || !clean_end) {
       if (AtEnd()) return Syntax(start, "found the end of the line, expected a command");
-      return Fail(Errc::kUnknownCommand,
-                  "found " + Found(start) +
-                      ", expected one of set inq prop save rest del def do rep tell",
-                  start + 1);
+      return Fail(
+          Errc::kUnknownCommand,
+          "found " + Found(start) + ", expected one of set inq prop save rest del def do rep tell",
+          start + 1);
     }
     message_.command = static_cast<Command>(found - kCommandNames.begin());
     at_ = end;
     if (!AtEnd() && line_[at_] == '#') {
       const std::string_view tag_word = PeekWord().substr(1);
       if (!IsTag(tag_word)) {
-        return Syntax(at_, "found tag " + Quoted(tag_word) +
-                               ", expected 1 to " + std::to_string(kMaxTagBytes) +
+        return Syntax(at_, "found tag " + Quoted(tag_word) + ", expected 1 to " +
+                               std::to_string(kMaxTagBytes) +
                                " letters, digits, '_' or '-' after '#'");
       }
       message_.tag = tag_word;
@@ -200,7 +200,8 @@ class LineParser {
     // `do` runs files too: there the word may be a path.
     if (message_.command == Command::kDo && !IsSlotName(PeekWord())) {
       const std::string_view path = line_.substr(start);
-      if (path.empty()) return Syntax(start, "found the end of the line, expected a macro or a file");
+      if (path.empty())
+        return Syntax(start, "found the end of the line, expected a macro or a file");
       message_.value = path;
       at_ = line_.size();
       return {};
@@ -224,14 +225,14 @@ class LineParser {
     if (!AtEnd() && !sign) {
       const bool glued = at_ == after_slot;
       return Syntax(at_, "found " + Found(at_) + ", expected " +
-                             (glued ? "the slot's name to end there"
-                                    : rule == ValueRule::kForbidden ? "the end of the line"
-                                                                    : "'=', '<' or '<<'"));
+                             (glued                           ? "the slot's name to end there"
+                              : rule == ValueRule::kForbidden ? "the end of the line"
+                                                              : "'=', '<' or '<<'"));
     }
     if (AtEnd()) {
       if (rule == ValueRule::kRequired) {
-        return Syntax(at_, "found the end of the line, expected '= VALUE' after " +
-                               Quoted(message_.slot));
+        return Syntax(
+            at_, "found the end of the line, expected '= VALUE' after " + Quoted(message_.slot));
       }
       return {};
     }
@@ -314,8 +315,8 @@ Result<Message> ParseMessage(std::string_view line) {
   if (line.ends_with('\n')) line.remove_suffix(1);
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (line.size() > kMaxLineBytes) {
-    return Fail(Errc::kTooLong, "line of " + std::to_string(line.size()) + " bytes, expected at most " +
-                                    std::to_string(kMaxLineBytes));
+    return Fail(Errc::kTooLong, "line of " + std::to_string(line.size()) +
+                                    " bytes, expected at most " + std::to_string(kMaxLineBytes));
   }
   if (const auto bad = FirstBadUtf8(line)) {
     return Fail(Errc::kBadUtf8, "found a byte that is not UTF-8, expected UTF-8 text", *bad + 1);

@@ -29,8 +29,8 @@ struct Message {
   std::vector<std::string> to;  ///< receivers without '@'; empty = whoever the stream belongs to
   std::string from;             ///< sender without '@'; written by the hub only
   Command command = Command::kTell;
-  std::string tag;    ///< request tag without '#', letters digits '-' '_'; empty = none
-  std::string slot;   ///< dotted path, e.g. "Speak.stat"; empty for `tell`
+  std::string tag;   ///< request tag without '#', letters digits '-' '_'; empty = none
+  std::string slot;  ///< dotted path, e.g. "Speak.stat"; empty for `tell`
   Relation relation = Relation::kNone;
   std::string value;  ///< the rest of the line; no leading blank, no CR or LF
 

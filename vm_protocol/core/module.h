@@ -36,11 +36,11 @@ class Module {
 /// Declares what every module has beside its own slots: Run (LIVE, EXIT), ModuleVersion,
 /// ProtocolVersion.
 struct CommonSlots {
-  std::string module_version{};    ///< the value of ModuleVersion
-  std::string protocol_version{};  ///< the value of ProtocolVersion
-  bool quoted_versions = false;  ///< the original voice module quotes them, its face does not
-  bool auto_output = false;      ///< default for Run
-  bool report_exit = true;       ///< `rep Run = EXIT` is sent (the original face sends nothing)
+  std::string module_version{};     ///< the value of ModuleVersion
+  std::string protocol_version{};   ///< the value of ProtocolVersion
+  bool quoted_versions = false;     ///< the original voice module quotes them, its face does not
+  bool auto_output = false;         ///< default for Run
+  bool report_exit = true;          ///< `rep Run = EXIT` is sent (the original face sends nothing)
   std::function<void()> on_init{};  ///< for `set Run = INIT`; empty = INIT is not accepted
   std::function<void()> on_exit{};  ///< for `set Run = EXIT`, after the report
 };

@@ -43,7 +43,8 @@ class PhonemeParser {
         ++at_;
       }
       if (list.size() == kMaxPhonemes) {
-        return Fail(Errc::kLimit, "more than " + std::to_string(kMaxPhonemes) + " phonemes", name_at + 1);
+        return Fail(Errc::kLimit, "more than " + std::to_string(kMaxPhonemes) + " phonemes",
+                    name_at + 1);
       }
       list.push_back({std::string(name), std::chrono::milliseconds(std::lround(ms))});
     }

@@ -23,7 +23,8 @@ Result<Time> ParseMs(std::string_view text) {
   constexpr double kLimit = 1e12;
   // strtod also takes hexadecimal, "nan" and "inf": only plain decimals are numbers here.
   if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string_view::npos) {
-    return Fail(Errc::kBadValue, "found '" + std::string(text) + "', expected a number of milliseconds");
+    return Fail(Errc::kBadValue,
+                "found '" + std::string(text) + "', expected a number of milliseconds");
   }
   const std::string copy(text);
   char* end = nullptr;

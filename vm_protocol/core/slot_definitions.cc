@@ -40,7 +40,8 @@ void SlotMachine::HandleSave(const Message& message, PeerId peer) {
     names = Words(message.value);
   } else {
     for (const auto& slot : slots_) {
-      if (slot->spec.access == Access::kReadWrite && slot->spec.saved) names.push_back(slot->spec.name);
+      if (slot->spec.access == Access::kReadWrite && slot->spec.saved)
+        names.push_back(slot->spec.name);
     }
   }
   std::vector<std::pair<std::string, std::string>> values;
@@ -48,19 +49,22 @@ void SlotMachine::HandleSave(const Message& message, PeerId peer) {
     const Slot* slot = Find(name);
     if (slot == nullptr) return Refuse(message, peer, UnknownSlot(name));
     if (slot->spec.access != Access::kReadWrite) {
-      return Refuse(message, peer, {Errc::kAccess, "slot '" + name + "' cannot be both asked and set", 0});
+      return Refuse(message, peer,
+                    {Errc::kAccess, "slot '" + name + "' cannot be both asked and set", 0});
     }
     values.emplace_back(name, Value(name));
   }
   if (message.relation == Relation::kAppend) {  // save NAME << FILE: as lines which `do FILE` runs
-    if (!append_file_) return Refuse(message, peer, {Errc::kUnavailable, "files cannot be written here", 0});
+    if (!append_file_)
+      return Refuse(message, peer, {Errc::kUnavailable, "files cannot be written here", 0});
     std::string text = "# saved set " + message.slot + "\n";
     for (const auto& [name, value] : values) text += FormatMessage(Set(name, value)) + "\n";
     if (const auto written = append_file_(message.value, text); !written) {
       return Refuse(message, peer, written.error());
     }
   } else if (!saved_.contains(message.slot) && saved_.size() >= kMaxSavedSets) {
-    return Refuse(message, peer, {Errc::kLimit, "more than " + std::to_string(kMaxSavedSets) + " saved sets", 0});
+    return Refuse(message, peer,
+                  {Errc::kLimit, "more than " + std::to_string(kMaxSavedSets) + " saved sets", 0});
   }
   Answer(message, peer, std::to_string(values.size()) + " slots");
   saved_[message.slot] = std::move(values);
@@ -69,7 +73,8 @@ void SlotMachine::HandleSave(const Message& message, PeerId peer) {
 void SlotMachine::HandleRest(const Message& message, PeerId peer) {
   const auto found = saved_.find(message.slot);
   if (found == saved_.end()) {
-    return Refuse(message, peer, {Errc::kUnknownSlot, "nothing was saved as '" + message.slot + "'", 0});
+    return Refuse(message, peer,
+                  {Errc::kUnknownSlot, "nothing was saved as '" + message.slot + "'", 0});
   }
   const auto values = found->second;  // a copy: setting may run anything
   for (const auto& [name, value] : values) {
@@ -90,8 +95,10 @@ Result<void> SlotMachine::DefineMacroLines(const Message& message) {
   for (std::size_t i = 0; i < more.size(); ++i) {
     const auto parsed = ParseMessage(more[i]);
     if (!parsed && parsed.error().code != Errc::kEmpty) {
-      return Fail(parsed.error().code, "line " + std::to_string(i + 1) + " of macro '" + message.slot +
-                                           "': " + parsed.error().text, parsed.error().column);
+      return Fail(parsed.error().code,
+                  "line " + std::to_string(i + 1) + " of macro '" + message.slot +
+                      "': " + parsed.error().text,
+                  parsed.error().column);
     }
   }
   if (lines.size() + more.size() > kMaxMacroLines) {
@@ -106,7 +113,8 @@ Result<void> SlotMachine::DefineMacroLines(const Message& message) {
 Result<void> SlotMachine::DefineUserSlot(const Message& message) {
   if (Slot* slot = Find(message.slot)) {
     if (!slot->user_made) {
-      return Fail(Errc::kAccess, "slot '" + message.slot + "' belongs to the module, it cannot be defined anew");
+      return Fail(Errc::kAccess,
+                  "slot '" + message.slot + "' belongs to the module, it cannot be defined anew");
     }
     slot->value = message.value;
     return {};
@@ -114,7 +122,10 @@ Result<void> SlotMachine::DefineUserSlot(const Message& message) {
   if (user_slots_ >= kMaxUserSlots) {
     return Fail(Errc::kLimit, "more than " + std::to_string(kMaxUserSlots) + " user slots");
   }
-  Declare({.name = message.slot, .grammar = "<text>", .initial = message.value, .help = "Made by def."});
+  Declare({.name = message.slot,
+           .grammar = "<text>",
+           .initial = message.value,
+           .help = "Made by def."});
   Find(message.slot)->user_made = true;
   ++user_slots_;
   return {};
@@ -126,10 +137,12 @@ void SlotMachine::HandleDef(const Message& message, PeerId peer) {
   if (message.relation == Relation::kAssign) {
     done = DefineUserSlot(message);
   } else if (message.relation == Relation::kNone) {
-    done = Fail(Errc::kBadValue, "expected `def NAME = VALUE` (a slot) or `def NAME << LINE` (a macro)");
+    done = Fail(Errc::kBadValue,
+                "expected `def NAME = VALUE` (a slot) or `def NAME << LINE` (a macro)");
   } else {
     done = DefineMacroLines(message);
-    if (const auto made = macros_.find(message.slot); !done && made->second.empty()) macros_.erase(made);
+    if (const auto made = macros_.find(message.slot); !done && made->second.empty())
+      macros_.erase(made);
   }
   if (!done) return Refuse(message, peer, done.error());
   Answer(message, peer, message.value);
@@ -141,7 +154,9 @@ void SlotMachine::HandleDel(const Message& message, PeerId peer) {
   removed |= saved_.erase(message.slot) > 0;
   if (Slot* slot = Find(message.slot)) {
     if (!slot->user_made) {
-      return Refuse(message, peer, {Errc::kAccess, "slot '" + message.slot + "' belongs to the module, it cannot be deleted", 0});
+      return Refuse(message, peer,
+                    {Errc::kAccess,
+                     "slot '" + message.slot + "' belongs to the module, it cannot be deleted", 0});
     }
     by_name_.erase(message.slot);
     std::erase_if(slots_, [slot](const auto& owned) { return owned.get() == slot; });
@@ -149,7 +164,8 @@ void SlotMachine::HandleDel(const Message& message, PeerId peer) {
     removed = true;
   }
   if (!removed) {
-    return Refuse(message, peer, {Errc::kUnknownSlot, "nothing defined or saved as '" + message.slot + "'", 0});
+    return Refuse(message, peer,
+                  {Errc::kUnknownSlot, "nothing defined or saved as '" + message.slot + "'", 0});
   }
   Answer(message, peer, "deleted");
 }
@@ -157,22 +173,31 @@ void SlotMachine::HandleDel(const Message& message, PeerId peer) {
 void SlotMachine::HandleDo(const Message& message, PeerId peer) {
   if (definition_hook_ && definition_hook_(message, peer, MakeReply(message, peer))) return;
   std::vector<std::string> lines;
-  if (const auto macro = macros_.find(message.slot); !message.slot.empty() && macro != macros_.end()) {
+  if (const auto macro = macros_.find(message.slot);
+      !message.slot.empty() && macro != macros_.end()) {
     lines = macro->second;
   } else {
     const std::string path = message.slot.empty() ? message.value : message.slot;
-    if (!read_file_) return Refuse(message, peer, {Errc::kUnavailable, "files cannot be read here", 0});
+    if (!read_file_)
+      return Refuse(message, peer, {Errc::kUnavailable, "files cannot be read here", 0});
     const auto text = read_file_(path);
     if (!text) {
-      return Refuse(message, peer, {text.error().code, "no macro '" + path + "', and as a file: " + text.error().text, 0});
+      return Refuse(
+          message, peer,
+          {text.error().code, "no macro '" + path + "', and as a file: " + text.error().text, 0});
     }
     lines = Lines(*text);
     if (lines.size() > kMaxMacroLines) {
-      return Refuse(message, peer, {Errc::kLimit, "file '" + path + "' has more than " + std::to_string(kMaxMacroLines) + " lines", 0});
+      return Refuse(
+          message, peer,
+          {Errc::kLimit,
+           "file '" + path + "' has more than " + std::to_string(kMaxMacroLines) + " lines", 0});
     }
   }
   if (depth_ >= kMaxMacroDepth) {
-    return Refuse(message, peer, {Errc::kLimit, "`do` within `do` more than " + std::to_string(kMaxMacroDepth) + " deep", 0});
+    return Refuse(message, peer,
+                  {Errc::kLimit,
+                   "`do` within `do` more than " + std::to_string(kMaxMacroDepth) + " deep", 0});
   }
   if (depth_ == 0) lines_run_ = 0;
   ++depth_;
@@ -183,7 +208,8 @@ void SlotMachine::HandleDo(const Message& message, PeerId peer) {
   }
   --depth_;
   if (done < lines.size()) {
-    return Refuse(message, peer, {Errc::kLimit, "stopped after " + std::to_string(kMaxDoLines) + " lines", 0});
+    return Refuse(message, peer,
+                  {Errc::kLimit, "stopped after " + std::to_string(kMaxDoLines) + " lines", 0});
   }
   Answer(message, peer, std::to_string(lines.size()) + " lines");
 }

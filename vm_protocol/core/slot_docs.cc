@@ -18,7 +18,7 @@ std::string_view AccessName(Access access) {
   return "";
 }
 
-std::string InTable(std::string text) {
+std::string InTable(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
     if (c == '|') escaped += '\\';
@@ -30,7 +30,8 @@ std::string InTable(std::string text) {
 }  // namespace
 
 std::string SlotMachine::Slot::Help() const {
-  return spec.help + (spec.access == Access::kReadOnly ? " (read only)" : " Value: " + spec.grammar);
+  return spec.help +
+         (spec.access == Access::kReadOnly ? " (read only)" : " Value: " + spec.grammar);
 }
 
 std::string SlotMachine::Slot::Attributes() const {
@@ -42,14 +43,15 @@ std::string SlotMachine::Slot::Attributes() const {
 }
 
 std::string SlotMachine::DocsMarkdown() const {
-  std::string text = "| slot | value | access | AutoOutput | at start | meaning |\n"
-                     "| --- | --- | --- | --- | --- | --- |\n";
+  std::string text =
+      "| slot | value | access | AutoOutput | at start | meaning |\n"
+      "| --- | --- | --- | --- | --- | --- |\n";
   for (const auto& slot : slots_) {
     const SlotSpec& spec = slot->spec;
     const auto code = [](const std::string& s) { return s.empty() ? s : "`" + InTable(s) + "`"; };
     text += "| `" + spec.name + "` | " + code(spec.grammar) + " | " +
-            std::string(AccessName(spec.access)) + " | " + (spec.auto_output ? "on" : "off") + " | " +
-            code(spec.initial) + " | " + InTable(spec.help) + " |\n";
+            std::string(AccessName(spec.access)) + " | " + (spec.auto_output ? "on" : "off") +
+            " | " + code(spec.initial) + " | " + InTable(spec.help) + " |\n";
   }
   return text;
 }

@@ -66,8 +66,9 @@ void SlotMachine::DeclareOwnSlots() {
   Declare({.name = std::string(kErrorSlot),
            .grammar = "<text>",
            .access = Access::kReadOnly,
-           .help = "The last error, as CODE and text. `prop Error = AutoOutput` has every refusal "
-                   "reported to you as `rep SLOT.error = CODE text`, also for lines without a tag."});
+           .help =
+               "The last error, as CODE and text. `prop Error = AutoOutput` has every refusal "
+               "reported to you as `rep SLOT.error = CODE text`, also for lines without a tag."});
 }
 
 void SlotMachine::set_output(Output output) { output_ = std::move(output); }
@@ -132,15 +133,16 @@ void SlotMachine::Handle(const Message& message, PeerId peer) {
 }
 
 Reply SlotMachine::MakeReply(const Message& message, PeerId peer) {
-  return Reply([this, message, peer, alive = std::weak_ptr<bool>(alive_)](Result<std::string> result) {
-    const auto still = alive.lock();
-    if (!still || !*still) return;
-    if (result) {
-      Answer(message, peer, std::move(*result));
-    } else {
-      Refuse(message, peer, result.error());
-    }
-  });
+  return Reply(
+      [this, message, peer, alive = std::weak_ptr<bool>(alive_)](Result<std::string> result) {
+        const auto still = alive.lock();
+        if (!still || !*still) return;
+        if (result) {
+          Answer(message, peer, std::move(*result));
+        } else {
+          Refuse(message, peer, result.error());
+        }
+      });
 }
 
 void SlotMachine::Answer(const Message& message, PeerId peer, std::string value) {
@@ -158,12 +160,14 @@ Result<std::string> SlotMachine::ResolveValue(const Message& message, const std:
     if (!text) return std::unexpected(text.error());
     std::string joined = JoinLines(*text);
     if (joined.size() > kMaxLineBytes) {
-      return Fail(Errc::kTooLong, "file '" + message.value + "' holds " + std::to_string(joined.size()) +
-                                      " bytes, expected at most " + std::to_string(kMaxLineBytes));
+      return Fail(Errc::kTooLong, "file '" + message.value + "' holds " +
+                                      std::to_string(joined.size()) + " bytes, expected at most " +
+                                      std::to_string(kMaxLineBytes));
     }
     return joined;
   }
-  if (message.relation == Relation::kAppend && !present.empty()) return present + " " + message.value;
+  if (message.relation == Relation::kAppend && !present.empty())
+    return present + " " + message.value;
   return message.value;
 }
 
@@ -171,7 +175,8 @@ void SlotMachine::HandleSet(const Message& message, PeerId peer) {
   Slot* slot = Find(message.slot);
   if (slot == nullptr) return Refuse(message, peer, UnknownSlot(message.slot));
   if (slot->spec.access == Access::kReadOnly) {
-    return Refuse(message, peer, {Errc::kAccess, "slot '" + message.slot + "' can only be asked (inq)", 0});
+    return Refuse(message, peer,
+                  {Errc::kAccess, "slot '" + message.slot + "' can only be asked (inq)", 0});
   }
   auto text = ResolveValue(message, slot->value);
   if (!text) return Refuse(message, peer, text.error());
@@ -199,13 +204,15 @@ void SlotMachine::HandleInq(const Message& message, PeerId peer) {
   const std::string_view name = message.slot;
   if (const Slot* slot = Find(name)) {
     if (slot->spec.access == Access::kWriteOnly && slot->spec.group.empty()) {
-      return Refuse(message, peer, {Errc::kAccess, "slot '" + message.slot + "' can only be set", 0});
+      return Refuse(message, peer,
+                    {Errc::kAccess, "slot '" + message.slot + "' can only be set", 0});
     }
     for (const std::string& member : slot->spec.group) {
       answer(member, Value(member), Find(member)->spec.quoted);
     }
     // A group that has no value of its own says it only to a tagged question, which needs an end.
-    if (slot->spec.group.empty() || slot->spec.access != Access::kWriteOnly || !message.tag.empty()) {
+    if (slot->spec.group.empty() || slot->spec.access != Access::kWriteOnly ||
+        !message.tag.empty()) {
       answer(name, Value(name), slot->spec.quoted);
     }
     return;
@@ -224,8 +231,9 @@ void SlotMachine::HandleInq(const Message& message, PeerId peer) {
 void SlotMachine::HandleProp(const Message& message, PeerId peer) {
   const bool on = message.value == "AutoOutput";
   if (!on && message.value != "NoAutoOutput") {
-    return Refuse(message, peer,
-                  {Errc::kBadValue, "found '" + message.value + "', expected AutoOutput or NoAutoOutput", 1});
+    return Refuse(
+        message, peer,
+        {Errc::kBadValue, "found '" + message.value + "', expected AutoOutput or NoAutoOutput", 1});
   }
   Slot* slot = Find(message.slot);
   if (slot == nullptr) return Refuse(message, peer, UnknownSlot(message.slot));
@@ -243,7 +251,8 @@ void SlotMachine::Report(std::string_view slot_name, std::string value) {
   assert(slot != nullptr);
   slot->value = std::move(value);
   if (!slot->auto_output) return;
-  Emit(kEveryone, Rep(slot->spec.name, slot->spec.quoted ? "\"" + slot->value + "\"" : slot->value));
+  Emit(kEveryone,
+       Rep(slot->spec.name, slot->spec.quoted ? "\"" + slot->value + "\"" : slot->value));
 }
 
 void SlotMachine::Store(std::string_view slot_name, std::string value) {

@@ -56,12 +56,12 @@ struct SetValue {
 
 /// One slot, declared. Everything the outside can learn or do about it is here.
 struct SlotSpec {
-  std::string name{};           ///< "Speak.stat"
-  std::string grammar{};        ///< see ValueGrammar; shown to people
+  std::string name{};     ///< "Speak.stat"
+  std::string grammar{};  ///< see ValueGrammar; shown to people
   Access access = Access::kReadWrite;
-  std::string initial{};        ///< the value at start (not run through on_set)
-  bool auto_output = false;   ///< whether changes are reported from the start
-  std::string help{};           ///< one or two sentences; unit and range
+  std::string initial{};     ///< the value at start (not run through on_set)
+  bool auto_output = false;  ///< whether changes are reported from the start
+  std::string help{};        ///< one or two sentences; unit and range
 
   /// Called with a value that fits. Empty = just store it. Returns the value to store (and report),
   /// or an error; the slot then keeps its value.
@@ -71,8 +71,8 @@ struct SlotSpec {
   /// Computes the value for `inq`. Empty = what is stored.
   std::function<std::string()> on_inq{};
 
-  bool quoted = false;        ///< answers carry "..." around the value, as some of the original's do
-  bool saved = true;          ///< part of `save NAME` without a list (read-write slots only)
+  bool quoted = false;  ///< answers carry "..." around the value, as some of the original's do
+  bool saved = true;    ///< part of `save NAME` without a list (read-write slots only)
   /// Names of slots which `inq` of this one also lists, before itself, and which `prop` reaches.
   std::vector<std::string> group{};
 };

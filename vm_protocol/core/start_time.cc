@@ -125,8 +125,8 @@ Time WallSinceMidnight() {
   const std::time_t seconds_now = std::chrono::system_clock::to_time_t(now);
   std::tm local{};
   localtime_r(&seconds_now, &local);
-  const auto fraction = std::chrono::duration_cast<Time>(
-      now - std::chrono::system_clock::from_time_t(seconds_now));
+  const auto fraction =
+      std::chrono::duration_cast<Time>(now - std::chrono::system_clock::from_time_t(seconds_now));
   return hours(local.tm_hour) + minutes(local.tm_min) + seconds(local.tm_sec) + fraction;
 }
 

@@ -14,8 +14,20 @@ namespace vm {
 
 /// One element of a grammar. A tree; small, made once at start.
 struct ValueGrammar::Node {
-  enum class Kind { kSequence, kAlternatives, kOptional, kRepeat, kLiteral, kNumber, kInt, kMs, kTime,
-                    kWord, kText, kFile };
+  enum class Kind {
+    kSequence,
+    kAlternatives,
+    kOptional,
+    kRepeat,
+    kLiteral,
+    kNumber,
+    kInt,
+    kMs,
+    kTime,
+    kWord,
+    kText,
+    kFile
+  };
   Kind kind = Kind::kSequence;
   std::string literal;
   double low = -1e12;
@@ -99,7 +111,8 @@ std::optional<unsigned> ReadHex4(std::string_view text, std::size_t at) {
 }
 
 /// Reads a "quoted string" with JSON escapes at `at`; gives its content and the place behind it.
-std::optional<std::pair<std::string, std::size_t>> ReadQuoted(std::string_view text, std::size_t at) {
+std::optional<std::pair<std::string, std::size_t>> ReadQuoted(std::string_view text,
+                                                              std::size_t at) {
   std::string content;
   std::size_t i = at + 1;
   while (i < text.size()) {
@@ -247,8 +260,8 @@ class GrammarReader {
   static void ReadRange(std::string_view range, Node& node) {
     const std::size_t dots = range.find("..");
     assert(dots != std::string_view::npos && "value grammar: a range is LOW..HIGH");
-    if (dots > 0) node.low = *ReadNumber(range.substr(0, dots));
-    if (dots + 2 < range.size()) node.high = *ReadNumber(range.substr(dots + 2));
+    if (dots > 0) node.low = ReadNumber(range.substr(0, dots)).value();
+    if (dots + 2 < range.size()) node.high = ReadNumber(range.substr(dots + 2)).value();
   }
 
   std::string_view text_;
@@ -366,7 +379,8 @@ class Matcher {
     const std::size_t two = WordEnd(text_, SkipBlanks(text_, one));
     for (const std::size_t end : {two, one}) {
       const auto start = ParseStartTime(text_.substr(at, end - at));
-      if (start && Attempt([&] { return Take(FormatStartTime(*start), 0, end, next); })) return true;
+      if (start && Attempt([&] { return Take(FormatStartTime(*start), 0, end, next); }))
+        return true;
     }
     return false;
   }

@@ -12,14 +12,13 @@ namespace vm {
 /// What a slot accepts, written beside the slot and shown by `inq Slot.help` and docs/slots.md:
 ///
 ///     NOW | STOP                        words, matched without regard to case
-///     <number>  <number 0..200>         decimal number, optionally bounded (either end may be left out)
-///     <int 1..5>                        whole number
-///     <ms>                              number of milliseconds, 0..86400000
-///     <time>                            a start time (vm_protocol/core/start_time.h)
-///     <word>                            one word, or a "quoted string" with JSON escapes
-///     <text>                            the rest of the line, may be empty
-///     <file>                            the rest of the line, or one "quoted string"; not empty
-///     A B   [ A ]   ( A | B )   A...    sequence, optional, group, one or more
+///     <number>  <number 0..200>         decimal number, optionally bounded (either end may be left
+///     out) <int 1..5>                        whole number <ms>                              number
+///     of milliseconds, 0..86400000 <time>                            a start time
+///     (vm_protocol/core/start_time.h) <word>                            one word, or a "quoted
+///     string" with JSON escapes <text>                            the rest of the line, may be
+///     empty <file>                            the rest of the line, or one "quoted string"; not
+///     empty A B   [ A ]   ( A | B )   A...    sequence, optional, group, one or more
 ///
 /// NaN, infinities and numbers beyond 1e12 are refused. Matching takes the first alternative that
 /// fits the whole value (backtracking; value size is bounded by the line limit).

@@ -85,12 +85,14 @@ Result<std::string> ToUtf8(std::string_view text, Encoding encoding) {
   }
   std::string out;
   std::size_t bad_at = 0;
-  const bool good = Converter(Encoding::kUtf8, encoding).Convert(text, out, [&](std::string_view rest) {
-    bad_at = text.size() - rest.size() + 1;
-    return std::size_t{0};
-  });
+  const bool good =
+      Converter(Encoding::kUtf8, encoding).Convert(text, out, [&](std::string_view rest) {
+        bad_at = text.size() - rest.size() + 1;
+        return std::size_t{0};
+      });
   if (!good) {
-    return Fail(Errc::kBadUtf8, std::string("found a byte that is not ") + IconvName(encoding), bad_at);
+    return Fail(Errc::kBadUtf8, std::string("found a byte that is not ") + IconvName(encoding),
+                bad_at);
   }
   return out;
 }

@@ -23,7 +23,8 @@ using asio::local::stream_protocol;
 using boost::system::error_code;
 
 std::unexpected<Error> BadEndpoint(std::string_view text) {
-  return Fail(Errc::kBadValue, "found '" + std::string(text) + "', expected unix:PATH or tcp:HOST:PORT");
+  return Fail(Errc::kBadValue,
+              "found '" + std::string(text) + "', expected unix:PATH or tcp:HOST:PORT");
 }
 
 void NoDelay(int fd) {
@@ -44,7 +45,8 @@ class ListenerImpl final : public Listener {
                OnAccept on_accept)
       : acceptor_(io), endpoint_(std::move(endpoint)), on_accept_(std::move(on_accept)) {
     acceptor_.open(where.protocol());
-    if constexpr (std::is_same_v<Protocol, tcp>) acceptor_.set_option(tcp::acceptor::reuse_address(true));
+    if constexpr (std::is_same_v<Protocol, tcp>)
+      acceptor_.set_option(tcp::acceptor::reuse_address(true));
     // The socket's file is born private: nobody can slip in between bind and chmod.
     const mode_t old_mask = umask(0177);
     error_code error;
@@ -81,9 +83,10 @@ class ListenerImpl final : public Listener {
 
 /// Removes the file of a Unix socket nobody listens on any more.
 void RemoveStale(asio::io_context& io, const std::string& path) {
-  struct stat info{};
+  struct stat info {};
   if (lstat(path.c_str(), &info) != 0) return;
-  if (!S_ISSOCK(info.st_mode)) throw std::runtime_error("'" + path + "' exists and is not a socket");
+  if (!S_ISSOCK(info.st_mode))
+    throw std::runtime_error("'" + path + "' exists and is not a socket");
   stream_protocol::socket probe(io);
   error_code error;
   probe.connect(stream_protocol::endpoint(path), error);
@@ -92,12 +95,13 @@ void RemoveStale(asio::io_context& io, const std::string& path) {
 }
 
 template <typename Protocol>
-void Connect(asio::io_context& io, const typename Protocol::endpoint& where, const Endpoint& endpoint,
-             std::function<void(Result<int>)> done) {
+void Connect(asio::io_context& io, const typename Protocol::endpoint& where,
+             const Endpoint& endpoint, std::function<void(Result<int>)> done) {
   auto socket = std::make_shared<typename Protocol::socket>(io);
   socket->async_connect(where, [socket, endpoint, done = std::move(done)](const error_code& error) {
     if (error) {
-      done(Fail(Errc::kUnavailable, "cannot connect to " + FormatEndpoint(endpoint) + ": " + error.message()));
+      done(Fail(Errc::kUnavailable,
+                "cannot connect to " + FormatEndpoint(endpoint) + ": " + error.message()));
       return;
     }
     if constexpr (std::is_same_v<Protocol, tcp>) NoDelay(socket->native_handle());
@@ -124,7 +128,8 @@ Result<Endpoint> ParseEndpoint(std::string_view text) {
   std::string_view host = rest.substr(0, colon);
   if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
   unsigned port = 0;
-  const auto [end, error] = std::from_chars(port_text.data(), port_text.data() + port_text.size(), port);
+  const auto [end, error] =
+      std::from_chars(port_text.data(), port_text.data() + port_text.size(), port);
   if (error != std::errc() || end != port_text.data() + port_text.size() || port > 65535) {
     return BadEndpoint(text);
   }
@@ -134,28 +139,33 @@ Result<Endpoint> ParseEndpoint(std::string_view text) {
 std::string FormatEndpoint(const Endpoint& endpoint) {
   if (endpoint.kind == Endpoint::Kind::kUnix) return "unix:" + endpoint.host;
   const bool v6 = endpoint.host.find(':') != std::string::npos;
-  return "tcp:" + (v6 ? "[" + endpoint.host + "]" : endpoint.host) + ":" + std::to_string(endpoint.port);
+  return "tcp:" + (v6 ? "[" + endpoint.host + "]" : endpoint.host) + ":" +
+         std::to_string(endpoint.port);
 }
 
-std::unique_ptr<Listener> Listener::Open(asio::io_context& io, const Endpoint& endpoint, OnAccept on_accept) {
+std::unique_ptr<Listener> Listener::Open(asio::io_context& io, const Endpoint& endpoint,
+                                         OnAccept on_accept) {
   try {
     if (endpoint.kind == Endpoint::Kind::kUnix) {
       RemoveStale(io, endpoint.host);
-      return std::make_unique<ListenerImpl<stream_protocol>>(io, stream_protocol::endpoint(endpoint.host),
-                                                             endpoint, std::move(on_accept));
+      return std::make_unique<ListenerImpl<stream_protocol>>(
+          io, stream_protocol::endpoint(endpoint.host), endpoint, std::move(on_accept));
     }
     error_code error;
     const auto where = ResolveTcp(io, endpoint, error);
     if (error) throw boost::system::system_error(error);
     return std::make_unique<ListenerImpl<tcp>>(io, where, endpoint, std::move(on_accept));
   } catch (const boost::system::system_error& error) {
-    throw std::runtime_error("cannot listen on " + FormatEndpoint(endpoint) + ": " + error.code().message());
+    throw std::runtime_error("cannot listen on " + FormatEndpoint(endpoint) + ": " +
+                             error.code().message());
   }
 }
 
-void ConnectTo(asio::io_context& io, const Endpoint& endpoint, std::function<void(Result<int> fd)> done) {
+void ConnectTo(asio::io_context& io, const Endpoint& endpoint,
+               std::function<void(Result<int> fd)> done) {
   if (endpoint.kind == Endpoint::Kind::kUnix) {
-    return Connect<stream_protocol>(io, stream_protocol::endpoint(endpoint.host), endpoint, std::move(done));
+    return Connect<stream_protocol>(io, stream_protocol::endpoint(endpoint.host), endpoint,
+                                    std::move(done));
   }
   error_code error;
   const auto where = ResolveTcp(io, endpoint, error);

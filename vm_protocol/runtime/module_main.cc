@@ -70,22 +70,26 @@ Lookahead ReadAhead() {
 }
 
 void AddCommonOptions(CLI::App& app, Options& options, const ProgramInfo& info) {
-  app.add_option("--listen", options.listen, "Wait for clients on unix:PATH or tcp:HOST:PORT (may be repeated)");
+  app.add_option("--listen", options.listen,
+                 "Wait for clients on unix:PATH or tcp:HOST:PORT (may be repeated)");
   app.add_option("--connect", options.connect, "Go to a hub on unix:PATH or tcp:HOST:PORT");
-  app.add_option("--name", options.name, "The name to have at the hub (default " + info.module_name + ")");
+  app.add_option("--name", options.name,
+                 "The name to have at the hub (default " + info.module_name + ")");
   if (info.original_port != 0) {
-    app.add_option("-p", options.original_port,
-                   "The original's socket mode: one client on this port, messages end in ./ (default " +
-                       std::to_string(info.original_port) + ")")
+    app.add_option(
+           "-p", options.original_port,
+           "The original's socket mode: one client on this port, messages end in ./ (default " +
+               std::to_string(info.original_port) + ")")
         ->expected(0, 1)
         ->each([&options](const std::string&) { options.original_socket = true; });
   }
   app.add_option("--framing", options.framing, "How lines end on sockets: auto, lf, mmi (./ LF)")
       ->check(CLI::IsMember({"auto", "lf", "mmi"}));
   app.add_option("--encoding", options.encoding, "utf-8, euc-jp or shift_jis");
-  app.add_option("--clock", options.clock,
-                 std::string("real, virtual, or auto") +
-                     (info.virtual_by_default ? ": virtual for a batch piped in, else real" : ": real"))
+  app.add_option(
+         "--clock", options.clock,
+         std::string("real, virtual, or auto") +
+             (info.virtual_by_default ? ": virtual for a batch piped in, else real" : ": real"))
       ->check(CLI::IsMember({"auto", "real", "virtual"}));
   app.add_flag("--strict", options.strict, "End with exit code 1 if any error was seen");
   app.add_flag("--slots-markdown", options.slots_markdown, "Print the table of slots and end");
@@ -100,7 +104,8 @@ class Program {
   int Run() {
     const Framing framing = FramingOf(options_.framing);
     const Encoding encoding = Need(ParseEncoding(options_.encoding));
-    const bool on_stdio = options_.listen.empty() && options_.connect.empty() && !options_.original_socket;
+    const bool on_stdio =
+        options_.listen.empty() && options_.connect.empty() && !options_.original_socket;
     const bool may_be_batch = options_.clock == "auto" && info_.virtual_by_default && on_stdio &&
                               isatty(STDIN_FILENO) == 0 &&
                               !(info_.needs_real_clock && info_.needs_real_clock());
@@ -108,7 +113,8 @@ class Program {
     if (may_be_batch) ahead = ReadAhead();
 
     boost::asio::io_context io;
-    ClockScheduler clock(io, options_.clock == "real" || (options_.clock == "auto" && !ahead.ended));
+    ClockScheduler clock(io,
+                         options_.clock == "real" || (options_.clock == "auto" && !ahead.ended));
     const auto module = info_.make(clock, io);
     ModuleServer server(io, clock, *module,
                         {info_.name, options_.original_socket, options_.original_socket});
@@ -130,7 +136,8 @@ class Program {
         }
         server.AddPeer(StreamPeer::Make(io, fd, fd, how, encoding), {});
       }));
-      std::cerr << info_.name << ": listening on " << FormatEndpoint(listeners.back()->endpoint()) << std::endl;
+      std::cerr << info_.name << ": listening on " << FormatEndpoint(listeners.back()->endpoint())
+                << std::endl;
     };
     for (const std::string& text : options_.listen) listen(Need(ParseEndpoint(text)), framing);
     if (options_.original_socket) {
@@ -138,7 +145,8 @@ class Program {
       const auto port = options_.original_port > 1024 && options_.original_port < 65536
                             ? static_cast<unsigned short>(options_.original_port)
                             : info_.original_port;
-      listen({Endpoint::Kind::kTcp, "127.0.0.1", port}, options_.framing == "lf" ? Framing::kLf : Framing::kMmi);
+      listen({Endpoint::Kind::kTcp, "127.0.0.1", port},
+             options_.framing == "lf" ? Framing::kLf : Framing::kMmi);
     }
     if (!options_.connect.empty()) Connect(io, server, encoding);
     if (on_stdio) {

@@ -18,9 +18,11 @@ namespace vm {
 struct ProgramInfo {
   std::string name{};         ///< "ssm"
   std::string description{};  ///< first line of --help
-  std::string module_name{};  ///< "SSM": what it is called in the protocol when nothing else is said
-  unsigned short original_port = 0;  ///< what `-p` listens on by default in the original's socket mode
-  bool virtual_by_default = false;   ///< --clock auto may choose the virtual clock for a piped batch
+  std::string
+      module_name{};  ///< "SSM": what it is called in the protocol when nothing else is said
+  unsigned short original_port =
+      0;  ///< what `-p` listens on by default in the original's socket mode
+  bool virtual_by_default = false;  ///< --clock auto may choose the virtual clock for a piped batch
   /// Adds the program's own options.
   std::function<void(CLI::App&)> add_options{};
   /// Called after the options are read; may return -1 to go on, else the process exits with it

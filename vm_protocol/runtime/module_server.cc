@@ -25,10 +25,12 @@ Result<std::string> ReadTextFile(const std::string& path) {
   while (file.read(buffer, sizeof(buffer)) || file.gcount() > 0) {
     text.append(buffer, static_cast<std::size_t>(file.gcount()));
     if (text.size() > kMaxFileBytes) {
-      return Fail(Errc::kTooLong, "file '" + path + "' is over " + std::to_string(kMaxFileBytes) + " bytes");
+      return Fail(Errc::kTooLong,
+                  "file '" + path + "' is over " + std::to_string(kMaxFileBytes) + " bytes");
     }
   }
-  if (file.bad()) return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
+  if (file.bad())
+    return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
   return text;
 }
 
@@ -42,7 +44,8 @@ Result<void> AppendTextFile(const std::string& path, const std::string& text) {
 
 }  // namespace
 
-ModuleServer::ModuleServer(boost::asio::io_context& io, ClockScheduler& clock, Module& module, Options options)
+ModuleServer::ModuleServer(boost::asio::io_context& io, ClockScheduler& clock, Module& module,
+                           Options options)
     : io_(io), clock_(clock), module_(module), options_(std::move(options)) {
   SlotMachine& slots = module_.slots();
   slots.set_output([this](PeerId id, const Message& message) { Emit(id, message); });
@@ -65,36 +68,44 @@ void ModuleServer::Complain(std::string_view text) const {
 
 void ModuleServer::DeclareSlots() {
   SlotMachine& slots = module_.slots();
-  slots.Declare({.name = "Clock",
-                 .grammar = "<number 0..>",
-                 .initial = "0",
-                 .help = "This process's clock, in ms since its start. Setting it moves the clock on where "
-                         "Clock.mode is HUB: everything due until then is done first; the answer is the time "
-                         "reached and the time of the next thing to do, or - for nothing.",
-                 .on_set = [this](const SetValue& value) { return SetClock(value); },
-                 .on_inq = [this] { return FormatMs(clock_.Now()); },
-                 .saved = false});
-  slots.Declare({.name = "Clock.mode",
-                 .grammar = "REAL | VIRTUAL | HUB",
-                 .help = "REAL: the machine's clock. VIRTUAL: time stands while nothing goes on and jumps from "
-                         "event to event otherwise. HUB: time moves only by set Clock.",
-                 .on_set = [this](const SetValue& value) -> Result<std::string> {
-                   hub_clock_ = value.word(0) == "HUB";
-                   if (value.word(0) == "REAL") {
-                     clock_.UseReal();
-                   } else {
-                     clock_.UseVirtual();
-                   }
-                   return value.word(0);
-                 },
-                 .on_inq = [this] { return clock_.real() ? "REAL" : hub_clock_ ? "HUB" : "VIRTUAL"; },
-                 .saved = false});
-  slots.Declare({.name = "Wait",
-                 .grammar = "IDLE | <ms>",
-                 .access = Access::kWriteOnly,
-                 .help = "Holds the lines that follow from the same peer for so many ms, or until nothing is "
-                         "going on (IDLE).",
-                 .on_set_later = [this](const SetValue& value, const Reply& reply) { SetWait(value, reply); }});
+  slots.Declare(
+      {.name = "Clock",
+       .grammar = "<number 0..>",
+       .initial = "0",
+       .help = "This process's clock, in ms since its start. Setting it moves the clock on where "
+               "Clock.mode is HUB: everything due until then is done first; the answer is the time "
+               "reached and the time of the next thing to do, or - for nothing.",
+       .on_set = [this](const SetValue& value) { return SetClock(value); },
+       .on_inq = [this] { return FormatMs(clock_.Now()); },
+       .saved = false});
+  slots.Declare(
+      {.name = "Clock.mode",
+       .grammar = "REAL | VIRTUAL | HUB",
+       .help =
+           "REAL: the machine's clock. VIRTUAL: time stands while nothing goes on and jumps from "
+           "event to event otherwise. HUB: time moves only by set Clock.",
+       .on_set = [this](const SetValue& value) -> Result<std::string> {
+         hub_clock_ = value.word(0) == "HUB";
+         if (value.word(0) == "REAL") {
+           clock_.UseReal();
+         } else {
+           clock_.UseVirtual();
+         }
+         return value.word(0);
+       },
+       .on_inq = [this] { return clock_.real() ? "REAL"
+                                 : hub_clock_  ? "HUB"
+                                               : "VIRTUAL"; },
+       .saved = false});
+  slots.Declare(
+      {.name = "Wait",
+       .grammar = "IDLE | <ms>",
+       .access = Access::kWriteOnly,
+       .help = "Holds the lines that follow from the same peer for so many ms, or until nothing is "
+               "going on (IDLE).",
+       .on_set_later = [this](const SetValue& value, const Reply& reply) {
+         SetWait(value, reply);
+       }});
 }
 
 std::string ModuleServer::ClockText() const {

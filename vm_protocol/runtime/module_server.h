@@ -23,7 +23,7 @@ class ModuleServer {
  public:
   struct Options {
     std::string program_name{};  ///< in front of every line on stderr
-    bool one_client = false;   ///< the original's socket mode: a second client is closed at once
+    bool one_client = false;     ///< the original's socket mode: a second client is closed at once
     bool original_socket_words = false;  ///< `set Run = CLOSE` and `CloseSocket` end a connection
   };
   ModuleServer(boost::asio::io_context& io, ClockScheduler& clock, Module& module, Options options);
@@ -34,7 +34,7 @@ class ModuleServer {
     std::vector<std::string> first_lines{};  ///< sent before the greeting
     bool ends_module = false;    ///< its end of input ends the module, once nothing is pending
     bool wants_errors = false;   ///< as if it had said `prop Error = AutoOutput`
-    std::string already_read{};    ///< bytes of its input read before it came here
+    std::string already_read{};  ///< bytes of its input read before it came here
   };
   void AddPeer(std::shared_ptr<StreamPeer> stream, PeerOptions options);
   /// True if another client may come in now.

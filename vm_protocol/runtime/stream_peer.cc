@@ -21,7 +21,7 @@ namespace {
 namespace asio = boost::asio;
 using boost::system::error_code;
 
-constexpr std::size_t kReadBytes = 64 * 1024;
+constexpr std::size_t kReadBytes = 64u * 1024;
 
 /// Regular files and /dev/null are always ready and cannot be waited for.
 bool CanWaitFor(int fd) {
@@ -45,7 +45,8 @@ struct StandardStream {
 
 class StreamPeerImpl final : public StreamPeer {
  public:
-  StreamPeerImpl(asio::io_context& io, int read_fd, int write_fd, Framing framing, Encoding encoding)
+  StreamPeerImpl(asio::io_context& io, int read_fd, int write_fd, Framing framing,
+                 Encoding encoding)
       : io_(io),
         read_fd_(read_fd),
         write_fd_(write_fd),
@@ -85,7 +86,8 @@ class StreamPeerImpl final : public StreamPeer {
     }
     outgoing_ += reader_.framing() == Framing::kMmi ? "./\n" : "\n";
     if (outgoing_.size() + writing_.size() > kMaxBacklogBytes) {
-      EndOutput("backlog over " + std::to_string(kMaxBacklogBytes) + " bytes: the reader is too slow");
+      EndOutput("backlog over " + std::to_string(kMaxBacklogBytes) +
+                " bytes: the reader is too slow");
       return;
     }
     ScheduleWrite();
@@ -151,9 +153,10 @@ class StreamPeerImpl final : public StreamPeer {
     reading_ = true;
     auto self = shared_from_this();
     if (input_) {
-      input_->async_read_some(asio::buffer(buffer_), [self, this](const error_code& error, std::size_t n) {
-        OnRead(n, error && error != asio::error::eof ? error.message() : std::string());
-      });
+      input_->async_read_some(
+          asio::buffer(buffer_), [self, this](const error_code& error, std::size_t n) {
+            OnRead(n, error && error != asio::error::eof ? error.message() : std::string());
+          });
       return;
     }
     asio::post(io_, [self, this] {
@@ -184,7 +187,8 @@ class StreamPeerImpl final : public StreamPeer {
   void OnRawLine(Result<std::string_view> line) {
     if (closed_) return;
     if (paused_ || !held_.empty()) {
-      held_.push_back(line ? Result<std::string>(std::string(*line)) : std::unexpected(line.error()));
+      held_.push_back(line ? Result<std::string>(std::string(*line))
+                           : std::unexpected(line.error()));
       return;
     }
     Deliver(line);
@@ -193,7 +197,8 @@ class StreamPeerImpl final : public StreamPeer {
   void Deliver(const Result<std::string_view>& line) {
     if (line && encoding_ != Encoding::kUtf8) {
       const auto converted = ToUtf8(*line, encoding_);
-      on_line_(converted ? Result<std::string_view>(*converted) : std::unexpected(converted.error()));
+      on_line_(converted ? Result<std::string_view>(*converted)
+                         : std::unexpected(converted.error()));
     } else {
       on_line_(line);
     }
@@ -239,10 +244,11 @@ class StreamPeerImpl final : public StreamPeer {
     }
     const auto rest = std::string_view(writing_).substr(written_);
     if (auto* output = Output()) {
-      output->async_write_some(asio::buffer(rest.data(), rest.size()),
-                               [self = shared_from_this(), this](const error_code& error, std::size_t n) {
-                                 OnWritten(n, error ? error.message() : std::string());
-                               });
+      output->async_write_some(
+          asio::buffer(rest.data(), rest.size()),
+          [self = shared_from_this(), this](const error_code& error, std::size_t n) {
+            OnWritten(n, error ? error.message() : std::string());
+          });
       return;
     }
     const ssize_t n = write(write_fd_, rest.data(), rest.size());

@@ -21,8 +21,8 @@ namespace vm {
 class StreamPeer : public std::enable_shared_from_this<StreamPeer> {
  public:
   using OnLine = std::function<void(Result<std::string_view> line)>;
-  /// `reason` is "end of input" for an orderly end, else a sentence for people. After "end of input"
-  /// Send still works until Close (the other direction may be open).
+  /// `reason` is "end of input" for an orderly end, else a sentence for people. After "end of
+  /// input" Send still works until Close (the other direction may be open).
   using OnClose = std::function<void(const std::string& reason)>;
 
   /// `read_fd` and `write_fd` may be the same (a socket). Takes both over; regular files are read
