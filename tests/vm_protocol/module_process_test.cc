@@ -47,8 +47,8 @@ TEST(ModuleProcessTest, UnderTheHubsClockTimeMovesOnlyBySettingIt) {
   module.Write("set#a Clock.mode = HUB\nset Work = 40\nset#b Clock = 25\nset#c Clock = 60\n");
   module.CloseInput();
   EXPECT_EQ(module.ReadAll(),
-            (Strings{"rep Run = LIVE", "rep#a Clock.mode = HUB", "rep#b Clock = 25 40",
-                     "tell worked until 40", "rep#c Clock = 60 -"}));
+            (Strings{"rep Run = LIVE", "rep#a Clock.mode = HUB", "rep#b Clock = 25 40 BUSY",
+                     "tell worked until 40", "rep#c Clock = 60 - IDLE"}));
   EXPECT_EQ(module.Wait(), 0);
 }
 

@@ -74,7 +74,7 @@ void ModuleServer::DeclareSlots() {
        .initial = "0",
        .help = "This process's clock, in ms since its start. Setting it moves the clock on where "
                "Clock.mode is HUB: everything due until then is done first; the answer is the time "
-               "reached and the time of the next thing to do, or - for nothing.",
+               "reached and the time of the next thing to do, or - for nothing, and BUSY or IDLE.",
        .on_set = [this](const SetValue& value) { return SetClock(value); },
        .on_inq = [this] { return FormatMs(clock_.Now()); },
        .saved = false});
@@ -110,7 +110,8 @@ void ModuleServer::DeclareSlots() {
 
 std::string ModuleServer::ClockText() const {
   const auto next = clock_.Next();
-  return FormatMs(clock_.Now()) + " " + (next ? FormatMs(*next) : "-");
+  return FormatMs(clock_.Now()) + " " + (next ? FormatMs(*next) : "-") +
+         (module_.Busy() ? " BUSY" : " IDLE");
 }
 
 Result<std::string> ModuleServer::SetClock(const SetValue& value) {

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agent_manager/config.h"
+#include "agent_manager/session_log.h"
+#include "vm_protocol/core/message.h"
+#include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/core/slot_machine.h"
+
+namespace am {
+
+/// What carries lines to one peer. The hub owns it while the peer is attached.
+class Link {
+ public:
+  virtual ~Link() = default;
+  virtual void Send(std::string_view line) = 0;
+  virtual void Close() = 0;
+};
+
+/// Identifies a peer for its lifetime; never used again. 0 is the hub itself.
+using PeerKey = vm::PeerId;
+
+enum class PeerKind {
+  kConsole,  ///< the hub's own terminal or input
+  kModule,   ///< from the configuration: probed, its clock measured
+  kClient,   ///< came by a socket; becomes a module-like name by `to @AM set Name = X`
+};
+
+/// The direct layer (DCL): who is there, and who gets what. Pure: lines come in by OnLine and go
+/// out by links; time comes from the scheduler. Ownership: owns the links. Thread: the scheduler's.
+/// Limits: kMaxPeers peers, kMaxPending unanswered requests per module, kMaxWaitingLines held for a
+/// module that has not answered its probe.
+/// Errors: whatever cannot be delivered is answered to its sender (docs/protocol.md "Errors").
+class Hub {
+ public:
+  static constexpr std::size_t kMaxPeers = 256;
+  static constexpr std::size_t kMaxPending = 4096;
+  static constexpr std::size_t kMaxWaitingLines = 4096;
+
+  Hub(vm::Scheduler& clock, SessionLog& log);
+  ~Hub();
+  Hub(const Hub&) = delete;
+
+  /// Fails if the name is taken or the hub is full; the link is then closed.
+  vm::Result<PeerKey> Attach(std::unique_ptr<Link> link, PeerKind kind, const std::string& name,
+                             Dialect dialect);
+  void OnLine(PeerKey peer, vm::Result<std::string_view> line);
+  /// The peer is gone: pending requests to it are answered with UNAVAILABLE and `reason`.
+  void Detach(PeerKey peer, const std::string& reason);
+
+  /// A machine inside the hub that is addressed like a module. Borrowed; outlives the hub's use.
+  void AddInternal(vm::SlotMachine& machine, std::vector<std::string> aliases = {});
+  /// Sends as the internal machine `sender`; `done` gets the answer (for commands).
+  using OnAnswer = std::function<void(vm::Result<std::string>)>;
+  void Ask(const std::string& sender, vm::Message message, OnAnswer done);
+
+  bool IsPresent(std::string_view name) const;
+  /// True once a module has said what it is (or was declared original) and can be spoken to.
+  bool IsReady(std::string_view name) const;
+  std::vector<std::string> Names() const;
+  std::string NameOf(PeerKey peer) const;
+  vm::Result<void> Rename(PeerKey peer, const std::string& name);
+  void Subscribe(PeerKey peer, const std::set<std::string>& modules);  ///< "*" = all
+
+  /// Reports (`rep`, `tell`) without receiver also go to peers of these names.
+  void set_broadcast(std::set<std::string> names) { broadcast_ = std::move(names); }
+  /// Told of every report a module makes, and of comings and goings.
+  using OnReport = std::function<void(const std::string& from, const vm::Message& message)>;
+  void set_on_report(OnReport on_report) { on_report_ = std::move(on_report); }
+  using OnPresence =
+      std::function<void(const std::string& name, bool present, const std::string& reason)>;
+  void set_on_presence(OnPresence on_presence) { on_presence_ = std::move(on_presence); }
+  /// Diagnostics for people.
+  using OnNotice = std::function<void(const std::string& text)>;
+  void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
+
+  // Clocks.
+  struct ClockState {
+    bool known = false;
+    vm::Time offset{0};  ///< the peer's clock minus ours
+    vm::Time delay{0};   ///< there and back, of the best exchange
+  };
+  ClockState ClockOf(std::string_view name) const;
+  /// Asks every modern module for its clock again (real clock only).
+  void MeasureClocks();
+  /// Modules on the virtual clock follow ours exactly; nothing is measured.
+  void set_lockstep(bool lockstep) { lockstep_ = lockstep; }
+  /// Modules that have not answered their probe by now count as original.
+  void EndProbes();
+  bool Probing() const;
+
+  /// For the lockstep driver: modern modules, and a raw exchange with one.
+  std::vector<PeerKey> ModernModules() const;
+  void AskClock(PeerKey module, vm::Time grant, OnAnswer done);
+  /// Modules something was sent to since their last clock answer.
+  std::set<PeerKey>& dirty() { return dirty_; }
+  bool HasHeld() const { return held_ > 0; }
+
+ private:
+  struct Peer;
+  struct Pending;
+  void Route(Peer& sender, vm::Message message);
+  void Deliver(const std::string& sender_name, PeerKey asker, const std::string& receiver,
+               const vm::Message& message, OnAnswer done);
+  void Forward(Peer& module, vm::Message message, PeerKey asker, OnAnswer done);
+  void SendBare(Peer& module, vm::Message message, const std::string& tag);
+  bool HoldStart(Peer& module, vm::Message& message);
+  void ForwardOriginal(Peer& module, vm::Message message, PeerKey asker, const OnAnswer& done);
+  void Report(Peer& sender, vm::Message message);
+  bool ResolvePending(Peer& sender, const vm::Message& message);
+  void AnswerTo(PeerKey asker, const std::string& from, const vm::Message& request,
+                const vm::Result<std::string>& result, const OnAnswer& done);
+  void Send(Peer& peer, const vm::Message& message);
+  void Probe(Peer& peer);
+  void MeasureClock(Peer& peer, int exchanges);
+  void BecomeModern(Peer& peer, vm::Time asked_at, const std::string& value);
+  void SampleClock(Peer& peer, vm::Time asked_at, const std::string& value);
+  void FlushWaiting(Peer& peer);
+  Peer* Find(std::string_view name);
+  const Peer* Find(std::string_view name) const;
+  Peer* ByKey(PeerKey key);
+  void Notice(const std::string& text) const;
+  void Complain(Peer& sender, const vm::Error& error);
+
+  vm::Scheduler& clock_;
+  SessionLog& log_;
+  std::map<PeerKey, std::unique_ptr<Peer>> peers_;
+  std::map<std::string, PeerKey, std::less<>> names_;
+  std::map<std::string, vm::SlotMachine*, std::less<>> internal_;
+  std::map<std::string, std::pair<PeerKey, OnAnswer>>
+      internal_pending_;  // our tag towards an internal machine
+  std::set<std::string> broadcast_;
+  std::set<PeerKey> dirty_;
+  OnReport on_report_;
+  OnPresence on_presence_;
+  OnNotice on_notice_;
+  PeerKey last_key_ = 0;
+  unsigned long last_tag_ = 0;
+  int held_ = 0;
+  bool lockstep_ = false;
+};
+
+}  // namespace am

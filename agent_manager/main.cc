@@ -1,0 +1,72 @@
+// agent_manager: the hub. Reads a configuration, starts the modules, routes what they say.
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "agent_manager/session.h"
+
+namespace {
+
+std::string ReadText(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf())) throw std::runtime_error("cannot read '" + path + "'");
+  return text.str();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Galatea agent manager: starts the modules and carries what they say to each other",
+               "agent_manager");
+  std::string config_path, log, clock, replay, do_file;
+  bool no_console = false;
+  am::Session::Options options;
+  app.add_option("--config,-C", config_path, "Configuration (JSON, docs/configuration.md)");
+  app.add_option("--log", log, "Write every message to this file");
+  app.add_option("--clock", clock, "real or virtual (overrides the configuration)")
+      ->check(CLI::IsMember({"real", "virtual"}));
+  app.add_option("--do", do_file, "Lines the console says first");
+  app.add_option("--replay", replay, "Say again what clients said in this session log");
+  app.add_option("--speed", options.replay_speed, "How many times faster to replay")
+      ->check(CLI::Range(0.01, 1000.0));
+  app.add_flag("--no-console", no_console, "Do not read stdin; run until told to exit");
+  app.add_flag("--serve", options.serve, "Go on after the end of stdin");
+  app.add_flag("--strict", options.strict, "End with exit code 1 if any error was seen");
+  bool slots_markdown = false;
+  app.add_flag("--slots-markdown", slots_markdown, "Print the tables of slots and end");
+  app.set_version_flag("--version", "agent_manager (Galatea) " GALATEA_VERSION);
+  CLI11_PARSE(app, argc, argv);
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    am::Config config;
+    if (!config_path.empty()) {
+      const std::string folder = std::filesystem::path(config_path).parent_path().string();
+      auto parsed =
+          am::ParseConfig(ReadText(config_path), config_path, folder.empty() ? "." : folder);
+      if (!parsed) throw std::runtime_error(parsed.error().text);
+      config = std::move(*parsed);
+    }
+    if (!log.empty()) config.log = log;
+    if (!clock.empty()) config.virtual_clock = clock == "virtual";
+    options.console = !no_console;
+    if (!replay.empty()) options.replay = replay;
+    if (!do_file.empty()) {
+      std::istringstream lines(ReadText(do_file));
+      for (std::string line; std::getline(lines, line);) options.first_lines.push_back(line);
+    }
+    am::Session session(config, options);
+    if (slots_markdown) {
+      std::cout << session.SlotsMarkdown();
+      return 0;
+    }
+    return session.Run();
+  } catch (const std::exception& error) {
+    std::cerr << "agent_manager: " << error.what() << std::endl;
+    return 1;
+  }
+}

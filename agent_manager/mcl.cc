@@ -1,0 +1,509 @@
+#include "agent_manager/mcl.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "vm_protocol/core/phonemes.h"
+
+namespace am {
+
+using std::chrono::milliseconds;
+using vm::Errc;
+using vm::Error;
+using vm::Message;
+using vm::Reply;
+using vm::Result;
+
+namespace {
+
+constexpr vm::Time kStartMargin = milliseconds(25);  // for a machine that is busy at that moment
+constexpr vm::Time kLockstepMargin = milliseconds(10);
+
+/// Takes `<emotion type="HAPPY" value="80">text</emotion>` apart, where a text starts with it.
+void TakeEmotion(Variables& variables) {
+  const std::string text = variables["text"];
+  if (!text.starts_with("<emotion ")) return;
+  const std::size_t open_end = text.find('>');
+  const std::size_t close = text.find("</emotion>");
+  if (open_end == std::string::npos || close == std::string::npos || close < open_end) return;
+  const auto attribute = [&](const std::string& name) -> std::string {
+    const std::size_t at = text.find(name + "=\"");
+    if (at == std::string::npos || at > open_end) return "";
+    const std::size_t from = at + name.size() + 2;
+    return text.substr(from, text.find('"', from) - from);
+  };
+  variables["emotion"] = attribute("type");
+  variables["strength"] = attribute("value");
+  variables["text"] = text.substr(open_end + 1, close - open_end - 1) + text.substr(close + 10);
+}
+
+}  // namespace
+
+/// One macro being carried out.
+struct Mcl::Run {
+  enum class Phase { kSteps, kStopping, kFinally };
+  unsigned long id = 0;
+  std::shared_ptr<const Macro> macro;
+  Variables variables;
+  Phase phase = Phase::kSteps;
+  std::size_t next = 0;
+  std::vector<Heard> heard;  // since the start or the last mark
+  std::vector<const MacroStep*> followers;
+  const MacroStep* waiting = nullptr;  // a kWait under way
+  std::optional<unsigned> asking;      // a kRequest under way, by its number
+  unsigned asked = 0;
+  vm::TimerId timer = 0;
+  std::set<std::string> involved;  // modules spoken to: their death ends the run
+  std::optional<Error> error;
+  Reply reply;
+  std::vector<Reply> stop_replies;
+  std::optional<std::pair<Variables, Reply>> successor;  // begins when this one has ended
+
+  const std::vector<MacroStep>& list() const {
+    return phase == Phase::kSteps      ? macro->steps
+           : phase == Phase::kStopping ? macro->on_stop
+                                       : macro->finally;
+  }
+};
+
+Mcl::Mcl(vm::Scheduler& clock, Hub& hub, RemoveFile remove_file)
+    : clock_(clock), hub_(hub), remove_file_(std::move(remove_file)), slots_("AM-MCL") {
+  DeclareStatusSlots();
+  slots_.set_definition_hook([this](const Message& message, vm::PeerId, const Reply& reply) {
+    return OnDefinition(message, reply);
+  });
+}
+Mcl::~Mcl() = default;
+
+void Mcl::DeclareStatusSlots() {
+  slots_.Declare({.name = "Speak.stat",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = "IDLE",
+                  .auto_output = true,
+                  .help = "IDLE, PREPARING, READY or SPEAKING."});
+  slots_.Declare({.name = "Speak.len",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = "0",
+                  .auto_output = true,
+                  .help = "How much of the last utterance was spoken, in ms."});
+  slots_.Declare({.name = "Speak.utt",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .auto_output = true,
+                  .help = "The phonemes of the last utterance that were spoken."});
+  slots_.Declare(
+      {.name = "AutoEmotionSpeak",
+       .grammar = "<int 0..1>",
+       .initial = "0",
+       .help = "1: the emotion shall also change the voice, where the voice can do it."});
+  slots_.Declare({.name = "HeadMoveRatio",
+                  .grammar = "<number> <number>",
+                  .initial = "1.0 1.0",
+                  .help = "Kept for dialogues of the original; the face scales its own movement."});
+  slots_.Declare({.name = "Macros",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .help = "The names of all macros.",
+                  .on_inq = [this] {
+                    std::string names;
+                    for (const auto& [name, macro] : macros_)
+                      names += (names.empty() ? "" : " ") + name;
+                    return names;
+                  }});
+}
+
+Result<void> Mcl::Define(Macro macro) {
+  const std::string name = macro.name;
+  if (!vm::IsSlotName(name))
+    return vm::Fail(Errc::kBadValue, "'" + name + "' cannot be a macro's name");
+  if (RunOf(name) != nullptr) return vm::Fail(Errc::kBusy, "macro '" + name + "' is running");
+  if (!macros_.contains(name)) {
+    if (slots_.Has(name))
+      return vm::Fail(Errc::kAccess, "'" + name + "' is a slot of @AM-MCL and no macro");
+    slots_.Declare({.name = name,
+                    .grammar = macro.grammar,
+                    .access = vm::Access::kWriteOnly,
+                    .help = macro.help,
+                    .on_set_later = [this, name](const vm::SetValue& value, const Reply& reply) {
+                      Start(name, value, reply);
+                    }});
+  }
+  macros_[name] = std::make_shared<const Macro>(std::move(macro));
+  for (const std::string& module : hub_.Names()) WatchSlots(module);
+  return {};
+}
+
+void Mcl::WatchSlots(const std::string& module) {
+  std::set<std::string> slots;
+  for (const auto& [name, macro] : macros_) {
+    for (const auto* list : {&macro->steps, &macro->on_stop, &macro->finally}) {
+      for (const MacroStep& step : *list) {
+        if (step.kind == MacroStep::Kind::kWait && step.from == module) slots.insert(step.slot);
+      }
+    }
+  }
+  // The original's face reports nothing unasked: whatever a macro waits for is switched on.
+  for (const std::string& slot : slots) {
+    hub_.Ask(
+        "AM-MCL",
+        vm::To(module, {{}, "", vm::Command::kProp, "", slot, vm::Relation::kAssign, "AutoOutput"}),
+        [](const Result<std::string>&) {});
+  }
+}
+
+bool Mcl::OnDefinition(const Message& message, const Reply& reply) {
+  const auto found = macros_.find(message.slot);
+  if (message.command == vm::Command::kDo) {
+    if (message.slot.empty() || found == macros_.end()) return false;
+    Variables variables{{"value", message.value}, {"text", message.value}};
+    Begin(message.slot, std::move(variables), reply);
+    return true;
+  }
+  if (message.command == vm::Command::kDel) {
+    if (found == macros_.end()) return false;
+    reply.Fail(
+        {Errc::kAccess, "macro '" + message.slot + "' can be defined anew but not deleted", 0});
+    return true;
+  }
+  if (message.relation == vm::Relation::kAppend) {  // def NAME << LINE
+    const auto line = vm::ParseMessage(message.value);
+    if (!line || line->to.empty()) {
+      reply.Fail({Errc::kSyntax,
+                  "found '" + message.value + "', expected a line with a receiver, to @NAME ...",
+                  0});
+      return true;
+    }
+    Macro macro = found == macros_.end() ? Macro{} : *found->second;
+    macro.name = message.slot;
+    AppendLine(macro, message.value);
+    const auto defined = Define(std::move(macro));
+    defined ? reply.Ok(message.value) : reply.Fail(defined.error());
+    return true;
+  }
+  if (!message.value.starts_with('[') && !message.value.starts_with('{'))
+    return false;  // a plain user slot
+  auto macro = ParseMacro(message.slot, message.value);
+  if (macro) macro->name = message.slot;
+  const auto defined =
+      macro ? Define(std::move(*macro)) : Result<void>(std::unexpected(macro.error()));
+  defined ? reply.Ok("defined") : reply.Fail(defined.error());
+  return true;
+}
+
+Mcl::Run* Mcl::Find(unsigned long id) {
+  const auto found = runs_.find(id);
+  return found == runs_.end() ? nullptr : found->second.get();
+}
+Mcl::Run* Mcl::RunOf(const std::string& macro) {
+  for (auto& [id, run] : runs_) {
+    if (run->macro->name == macro) return run.get();
+  }
+  return nullptr;
+}
+
+void Mcl::Start(const std::string& name, const vm::SetValue& value, const Reply& reply) {
+  const Macro& macro = *macros_.at(name);
+  Run* running = RunOf(name);
+  if (!macro.stops_on.empty() && value.word(0) == macro.stops_on) {
+    if (running == nullptr) {  // modules may have been started past us: stop them all the same
+      for (const MacroStep& step : macro.on_stop) {
+        if (step.kind == MacroStep::Kind::kSend &&
+            hub_.IsPresent(vm::ParseMessage(step.line)->to.front())) {
+          hub_.Ask("AM-MCL", *vm::ParseMessage(step.line), [](const Result<std::string>&) {});
+        }
+      }
+      return reply.Ok(macro.stops_on);
+    }
+    running->stop_replies.push_back(reply);
+    return Stop(*running, "stopped on request");
+  }
+  Variables variables{{"value", value.text}, {"text", value.text}};
+  for (std::size_t i = 0; i < value.size(); ++i) variables[std::to_string(i + 1)] = value.word(i);
+  TakeEmotion(variables);
+  Begin(name, std::move(variables), reply);
+}
+
+void Mcl::Begin(const std::string& name, Variables variables, const Reply& reply) {
+  if (Run* running = RunOf(name)) {
+    if (running->successor)
+      running->successor->second.Fail(
+          {Errc::kStopped, "a newer " + name + " took its place before it began", 0});
+    running->successor.emplace(std::move(variables), reply);
+    return Stop(*running, "a new " + name + " took its place");
+  }
+  if (macros_.at(name)->status == "Speak.stat") {
+    slots_.Store("Speak.len", "0");
+    slots_.Store("Speak.utt", "");
+  }
+  const unsigned long id = ++last_run_;
+  for (const auto& [key, value] : kept_) variables.try_emplace(key, value);
+  runs_[id].reset(new Run{.id = id,
+                          .macro = macros_.at(name),
+                          .variables = std::move(variables),
+                          .heard = {},
+                          .followers = {},
+                          .asking = {},
+                          .involved = {},
+                          .error = {},
+                          .reply = reply,
+                          .stop_replies = {},
+                          .successor = {}});
+  Advance(*runs_[id]);
+}
+
+bool Mcl::Holds(const Run& run, const MacroStep& step) const {
+  const auto value = [&](const std::string& name) {
+    const auto found = run.variables.find(name);
+    return found == run.variables.end() ? std::string() : found->second;
+  };
+  if (!step.if_present.empty() && !hub_.IsPresent(step.if_present)) return false;
+  if (!step.when.empty() && value(step.when).empty()) return false;
+  for (const auto& [name, wanted] : step.when_is) {
+    if (value(name) != wanted) return false;
+  }
+  for (const auto& [name, unwanted] : step.unless_is) {
+    if (value(name) == unwanted) return false;
+  }
+  return true;
+}
+
+void Mcl::Advance(Run& run) {
+  const unsigned long id = run.id;
+  while (true) {
+    Run* current = Find(id);  // a step may have ended the run
+    if (current == nullptr || current->waiting != nullptr || current->asking || current->timer != 0)
+      return;
+    if (current->next >= current->list().size()) {
+      current->next = 0;
+      if (current->phase == Run::Phase::kFinally) return Finish(*current);
+      current->phase = Run::Phase::kFinally;
+      continue;
+    }
+    const MacroStep& step = current->list()[current->next++];
+    if (Holds(*current, step)) Do(*current, step);
+  }
+}
+
+bool Mcl::Do(Run& run, const MacroStep& step) {
+  using Kind = MacroStep::Kind;
+  const auto expanded = [&](const std::string& text) -> std::string {
+    auto result = Expand(text, run.variables);
+    if (!result) Fail(run, result.error());
+    return result.value_or("");
+  };
+  switch (step.kind) {
+    case Kind::kSend:
+    case Kind::kRequest:
+      return Send(run, step);
+    case Kind::kWait:
+      return Wait(run, step);
+    case Kind::kPause:
+      run.timer = clock_.After(step.limit, [this, id = run.id] {
+        Run* waiting = Find(id);
+        if (waiting == nullptr) return;
+        waiting->timer = 0;
+        Advance(*waiting);
+      });
+      return false;
+    case Kind::kLet: {
+      const std::string value = expanded(step.value);
+      run.variables[step.name] = value;
+      if (step.keep) kept_[step.name] = value;
+      return true;
+    }
+    case Kind::kStart:
+      run.variables[step.name] = vm::FormatMs(clock_.Now() + StartLead(step.of));
+      return true;
+    case Kind::kFollow:
+      run.followers.push_back(&step);
+      return true;
+    case Kind::kReport:
+      if (slots_.Has(step.slot)) slots_.Report(step.slot, expanded(step.value));
+      return true;
+    case Kind::kMark:
+      run.heard.clear();
+      return true;
+    case Kind::kNeed:
+      if (!hub_.IsPresent(step.line))
+        Fail(run, {Errc::kUnavailable, step.name + " @" + step.line + " is not there", 0});
+      return true;
+    case Kind::kRemove:
+      remove_file_(expanded(step.line));
+      return true;
+  }
+  return true;
+}
+
+bool Mcl::Send(Run& run, const MacroStep& step) {
+  const auto line = Expand(step.line, run.variables);
+  if (!line) return Fail(run, line.error()), true;
+  const auto message = vm::ParseMessage(*line);
+  if (!message) return Fail(run, message.error()), true;
+  for (const std::string& name : message->to) run.involved.insert(name);
+  if (step.kind == MacroStep::Kind::kSend) {
+    hub_.Ask("AM-MCL", *message, [](const Result<std::string>&) {});
+    return true;
+  }
+  const unsigned number = ++run.asked;
+  run.asking = number;
+  const std::string where = "@" + message->to.front() + " " + message->slot;
+  const auto answered = [this, id = run.id, number, where](const Result<std::string>& result) {
+    Run* asking = Find(id);
+    if (asking == nullptr || asking->asking != number) return;
+    asking->asking.reset();
+    clock_.Cancel(std::exchange(asking->timer, 0));
+    if (!result) return Fail(*asking, {result.error().code, where + ": " + result.error().text, 0});
+    Advance(*asking);
+  };
+  run.timer = clock_.After(step.limit, [answered, limit = step.limit] {
+    answered(vm::Fail(Errc::kTimeout, "no answer within " + std::to_string(limit.count()) + " ms"));
+  });
+  hub_.Ask("AM-MCL", *message, answered);
+  return false;
+}
+
+bool Mcl::Wait(Run& run, const MacroStep& step) {
+  if (step.last) {
+    const auto last = last_.find({step.from, step.slot});
+    if (last != last_.end() && last->second == step.value) return true;
+  }
+  for (const Heard& heard : run.heard) {
+    if (heard.from != step.from || heard.slot != step.slot) continue;
+    if (!step.fails_on.empty() && heard.value == step.fails_on) {
+      return Fail(run, {Errc::kUnavailable,
+                        "@" + step.from + " reports " + step.slot + " = " + heard.value, 0}),
+             true;
+    }
+    if (!step.value.empty() && heard.value != step.value) continue;
+    if (!step.into.empty()) run.variables[step.into] = heard.value;
+    return true;
+  }
+  run.waiting = &step;
+  vm::Time limit = step.limit;
+  if (!step.limit_from.empty()) {
+    if (const auto phonemes = vm::ParsePhonemes(run.variables[step.limit_from]))
+      limit += vm::TotalDuration(*phonemes);
+  }
+  run.timer = clock_.After(limit, [this, id = run.id, &step, limit] {
+    Run* waiting = Find(id);
+    if (waiting == nullptr || waiting->waiting != &step) return;
+    waiting->waiting = nullptr;
+    waiting->timer = 0;
+    if (waiting->phase != Run::Phase::kSteps)
+      return Advance(*waiting);  // stopping goes on regardless
+    Fail(*waiting, {Errc::kTimeout,
+                    "@" + step.from + " did not report " + step.slot +
+                        (step.value.empty() ? "" : " = " + step.value) + " within " +
+                        vm::FormatMs(limit) + " ms",
+                    0});
+  });
+  return false;
+}
+
+vm::Time Mcl::StartLead(const std::vector<std::string>& modules) const {
+  if (lockstep_) return kLockstepMargin;
+  vm::Time slowest{0};
+  for (const std::string& name : modules) slowest = std::max(slowest, hub_.ClockOf(name).delay);
+  return slowest + kStartMargin;
+}
+
+void Mcl::OnReport(const std::string& from, const Message& message) {
+  std::string slot = message.slot;
+  std::string value = message.value;
+  if (message.command == vm::Command::kTell) {  // "Speak.sync = 1000"
+    const std::size_t equals = value.find(" = ");
+    if (equals == std::string::npos) return;
+    slot = value.substr(0, equals);
+    value = value.substr(equals + 3);
+  } else {
+    last_[{from, slot}] = value;
+  }
+  std::vector<unsigned long> ids;
+  for (const auto& [id, run] : runs_) ids.push_back(id);
+  for (const unsigned long id : ids) {
+    Run* run = Find(id);
+    if (run == nullptr) continue;
+    if (run->macro->status == "Speak.stat" && from == "SSM" &&
+        (slot == "Speak.len" || slot == "Speak.utt"))
+      slots_.Report(slot, value);
+    if (run->phase == Run::Phase::kSteps) {
+      for (const MacroStep* follower : run->followers) {
+        if (follower->from != from || follower->slot != slot) continue;
+        Variables variables = run->variables;
+        variables["told"] = value;
+        if (const auto line = Expand(follower->line, variables)) {
+          if (const auto sent = vm::ParseMessage(*line); sent && hub_.IsPresent(sent->to.front()))
+            hub_.Ask("AM-MCL", *sent, [](const Result<std::string>&) {});
+        }
+      }
+    }
+    if (message.command == vm::Command::kRep) run->heard.push_back({from, slot, value});
+    if (run->waiting == nullptr || run->waiting->from != from || run->waiting->slot != slot)
+      continue;
+    const MacroStep& step = *run->waiting;
+    const bool failed = !step.fails_on.empty() && value == step.fails_on;
+    if (!failed && !step.value.empty() && value != step.value)
+      continue;  // it waits on, its limit unchanged
+    run->waiting = nullptr;
+    clock_.Cancel(std::exchange(run->timer, 0));
+    if (failed) {
+      Fail(*run, {Errc::kUnavailable, "@" + from + " reports " + slot + " = " + value, 0});
+      continue;
+    }
+    if (!step.into.empty()) run->variables[step.into] = value;
+    Advance(*run);
+  }
+}
+
+void Mcl::OnPresence(const std::string& name, bool present, const std::string& reason) {
+  if (present) return WatchSlots(name);
+  std::erase_if(last_, [&](const auto& entry) { return entry.first.first == name; });
+  std::vector<unsigned long> ids;
+  for (const auto& [id, run] : runs_) ids.push_back(id);
+  for (const unsigned long id : ids) {
+    Run* run = Find(id);
+    if (run == nullptr || !run->involved.contains(name)) continue;
+    Fail(*run,
+         {Errc::kUnavailable, "@" + name + " has gone in the middle of it (" + reason + ")", 0});
+  }
+}
+
+void Mcl::Stop(Run& run, const std::string& why) { Fail(run, {Errc::kStopped, why, 0}); }
+
+void Mcl::Fail(Run& run, Error error) {
+  if (run.phase != Run::Phase::kSteps) return;  // already ending
+  run.error = std::move(error);
+  run.phase = Run::Phase::kStopping;
+  run.next = 0;
+  run.waiting = nullptr;
+  run.asking.reset();
+  clock_.Cancel(std::exchange(run.timer, 0));
+  // From the loop, not from here: callers may be in the middle of this run.
+  run.timer = clock_.Post([this, id = run.id] {
+    Run* ending = Find(id);
+    if (ending == nullptr) return;
+    ending->timer = 0;
+    Advance(*ending);
+  });
+}
+
+void Mcl::Finish(Run& run) {
+  const std::unique_ptr<Run> ended = std::move(runs_.at(run.id));
+  runs_.erase(ended->id);
+  for (const Reply& reply : ended->stop_replies) reply.Ok(ended->macro->stops_on);
+  if (!ended->error) {
+    ended->reply.Ok(ended->variables["value"]);
+  } else {
+    Error error = *ended->error;
+    if (error.code == Errc::kStopped && ended->macro->status == "Speak.stat") {
+      error.text += " after " + slots_.Value("Speak.len") + " ms: " + slots_.Value("Speak.utt");
+    }
+    ended->reply.Fail(error);
+  }
+  if (ended->successor)
+    Begin(ended->macro->name, std::move(ended->successor->first), ended->successor->second);
+}
+
+}  // namespace am

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <deque>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "agent_manager/config.h"
+#include "agent_manager/hub.h"
+#include "agent_manager/mcl.h"
+#include "agent_manager/session_log.h"
+#include "agent_manager/supervisor.h"
+#include "vm_protocol/core/slot_machine.h"
+#include "vm_protocol/runtime/asio_scheduler.h"
+#include "vm_protocol/runtime/endpoint.h"
+
+namespace am {
+
+/// The hub at work: configuration, clock, modules, sockets, console, and the end of it all.
+/// Owns everything. Thread: the one that calls Run.
+class Session {
+ public:
+  struct Options {
+    bool console = true;  ///< stdin and stdout are the peer @CONSOLE
+    bool serve = false;   ///< go on after the console's input has ended
+    bool strict = false;
+    std::vector<std::string> first_lines;  ///< said by @CONSOLE before its own input
+    std::optional<std::string> replay;     ///< a session log whose clients' lines are said again
+    double replay_speed = 1;
+  };
+  /// Throws std::runtime_error with a sentence.
+  Session(const Config& config, Options options);
+  ~Session();
+  /// Returns the exit code.
+  int Run();
+  /// The slots of @AM and @AM-MCL for docs/slots.md.
+  std::string SlotsMarkdown() const;
+
+ private:
+  void DeclareSlots();
+  void StartConsole();
+  void OnConsoleLine(vm::Result<std::string_view> line);
+  /// Lines of the console that are waiting are said until one asks to wait.
+  void FeedConsole();
+  void AskWait(const vm::SetValue& value, const vm::Reply& reply);
+  void LoadReplay(const std::string& path);
+  void ScheduleReplay();
+  bool Started() const;
+  bool SomethingGoesOn() const;
+  void CheckIdleWait();
+  bool Over() const;
+  // Lockstep: see docs/architecture.md "Time".
+  void StepVirtual();
+  void GrantAll(vm::Time time);
+  void OnClockAnswer(PeerKey module, const vm::Result<std::string>& answer);
+  void Shutdown();
+
+  struct NextEvent {
+    std::optional<vm::Time> at;
+    bool busy = false;
+  };
+
+  const Config& config_;
+  Options options_;
+  boost::asio::io_context io_;
+  vm::ClockScheduler clock_;
+  std::ofstream log_file_;
+  SessionLog log_;
+  Hub hub_;
+  vm::SlotMachine slots_;
+  Mcl mcl_;
+  Supervisor supervisor_;
+  std::vector<std::unique_ptr<vm::Listener>> listeners_;
+  std::shared_ptr<vm::StreamPeer> console_stream_;
+  PeerKey console_ = 0;
+  std::deque<std::string> console_lines_;
+  bool console_ended_ = false;
+  std::optional<vm::Reply> idle_wait_;
+  bool timed_wait_ = false;
+  int replay_pending_ = 0;
+  boost::asio::steady_timer probe_timer_;
+  std::map<PeerKey, NextEvent> next_;
+  std::size_t grants_open_ = 0;
+  vm::Time granted_{-1};
+  bool started_once_ = false;
+  bool stop_ = false;
+  int errors_ = 0;
+};
+
+}  // namespace am

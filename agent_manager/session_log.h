@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vm_protocol/core/result.h"
+#include "vm_protocol/core/scheduler.h"
+
+namespace am {
+
+/// One line of a session log: what was said, when, by whom, to whom. Fields are separated by tabs:
+///   TIME_MS <tab> SENDER <tab> RECEIVER[,RECEIVER...] or - <tab> LINE
+/// Lines starting with '#' are comments; the first names the format.
+struct LogEntry {
+  vm::Time time{0};
+  std::string sender;
+  std::string receivers;  ///< "-": nobody heard it
+  std::string line;       ///< as it came in, `to` included
+  bool operator==(const LogEntry&) const = default;
+};
+
+std::string FormatLogEntry(const LogEntry& entry);
+/// Errors: kEmpty (comment), kSyntax.
+vm::Result<LogEntry> ParseLogEntry(std::string_view line);
+
+/// Where the hub writes what passes. A log without a sink costs nothing.
+class SessionLog {
+ public:
+  using Sink = std::function<void(std::string_view line)>;
+  SessionLog() = default;
+  explicit SessionLog(Sink sink) : sink_(std::move(sink)) {
+    sink_("# galatea session log 1: ms, sender, receivers, line");
+  }
+  bool enabled() const { return sink_ != nullptr; }
+  void Write(vm::Time time, std::string_view sender, std::string_view receivers,
+             std::string_view line) const {
+    if (sink_)
+      sink_(FormatLogEntry({time, std::string(sender), std::string(receivers), std::string(line)}));
+  }
+
+ private:
+  Sink sink_;
+};
+
+}  // namespace am

@@ -1,0 +1,21 @@
+# galatea_embed(TARGET NAME FILE): makes the bytes of FILE part of TARGET. The code then says
+#   #include "embedded/NAME.h"     and gets     std::string_view embedded::NAME();
+# The file is read when building, so editing it rebuilds only the generated source. A generated
+# array is used rather than #embed or an assembler include because both of our compilers take it.
+set(GALATEA_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/EmbedScript.cmake)
+
+function(galatea_embed target name file)
+  get_filename_component(input ${file} ABSOLUTE)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/embed_${target})
+  set(header ${folder}/embedded/${name}.h)
+  set(source ${folder}/embedded/${name}.cc)
+  add_custom_command(
+    OUTPUT ${header} ${source}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${input} -DNAME=${name} -DHEADER=${header} -DSOURCE=${source}
+            -P ${GALATEA_EMBED_SCRIPT}
+    DEPENDS ${input} ${GALATEA_EMBED_SCRIPT}
+    COMMENT "Embedding ${name}"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${source} ${header})
+  target_include_directories(${target} PRIVATE ${folder})
+endfunction()
