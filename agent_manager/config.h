@@ -34,8 +34,9 @@ struct Config {
   std::vector<std::string> broadcast;  ///< names that hear what modules say to nobody in particular
   bool virtual_clock = false;
   std::string log;
-  std::map<std::string, std::string> macros;     ///< name -> steps, as JSON text
-  std::chrono::milliseconds start_limit{10000};  ///< for a module to say it lives
+  std::map<std::string, std::string> macros;  ///< name -> steps, as JSON text
+  std::chrono::milliseconds start_limit{
+      3000};  ///< for a module to answer to Clock, before it counts as original
 };
 
 /// Reads the JSON text. `origin` names it in errors: "am.json line 7: modules[0].restart: found

@@ -35,6 +35,7 @@ struct Hub::Pending {
   PeerKey asker = kHub;
   Message request;
   OnAnswer done;
+  bool members_seen = false;  // a group's members have come
 };
 
 struct Hub::Peer {
@@ -49,6 +50,7 @@ struct Hub::Peer {
   std::map<std::string, std::vector<Pending>> asked;  // original dialect: inq, by slot
   std::map<std::string, vm::TimerId> held;            // original dialect: starts held back, by slot
   ClockState clock;
+  vm::Time granted{0};  // lockstep: where its clock stands
   std::set<std::string> subscriptions;
   vm::Time complaints_since{0};
   int complaints = 0;
@@ -244,6 +246,9 @@ void Hub::Forward(Peer& module, Message message, PeerKey asker, OnAnswer done) {
   const bool modern = module.dialect == Dialect::kModern;
   if (!modern && message.tag.empty() && !done && message.command != Command::kInq)
     return SendBare(module, std::move(message), "");
+  if (modern && !module.clock.known && HoldStart(module, message)) {
+    return AnswerTo(asker, module.name, message, message.value, done);
+  }
   if (modern && message.command == Command::kSet && message.value.starts_with('@')) {
     if (const auto start = vm::ParseStartTime(message.value);
         start && start->kind == vm::StartTime::Kind::kAt) {
@@ -266,7 +271,11 @@ void Hub::Forward(Peer& module, Message message, PeerKey asker, OnAnswer done) {
 
 void Hub::SendBare(Peer& module, Message message, const std::string& tag) {
   message.tag = tag;
-  if (module.dialect == Dialect::kModern) dirty_.insert(module.key);
+  if (lockstep_ && module.clock.known && module.granted < clock_.Now()) {
+    // Nothing may reach a module before its clock stands where ours does.
+    AskClock(module.key, clock_.Now(), [](const Result<std::string>&) {});
+  }
+  if (module.clock.known) dirty_.insert(module.key);
   module.link->Send(vm::FormatMessage(message));
 }
 
@@ -322,10 +331,12 @@ bool Hub::ResolvePending(Peer& sender, const Message& message) {
   if (found == sender.pending.end()) return true;  // late, or not ours: nobody waits for it
   const std::string slot = SlotOf(found->second.request);
   const bool refused = message.slot == slot + ".error" || message.slot == "Error";
-  if (!refused && message.slot != slot) {  // a member of a group, before the answer itself
+  if (!refused && message.slot != slot) {
+    found->second.members_seen = true;  // a member of a group, before the answer itself
     if (Peer* asker = ByKey(found->second.asker)) {
       Message member = message;
       member.tag = found->second.request.tag;
+      member.from = sender.name;
       Send(*asker, member);
     }
     return true;
@@ -333,10 +344,8 @@ bool Hub::ResolvePending(Peer& sender, const Message& message) {
   const Pending pending = std::move(found->second);
   sender.pending.erase(found);
   if (!refused) {
-    // A group without a value of its own answers an untagged question with its members only.
-    if (pending.request.tag.empty() && !pending.done && message.value.empty() &&
-        pending.request.command == Command::kInq)
-      return true;
+    // A group has no value of its own; its tagged end is only for those who asked with a tag.
+    if (pending.members_seen && pending.request.tag.empty() && !pending.done) return true;
     AnswerTo(pending.asker, sender.name, pending.request, message.value, pending.done);
     return true;
   }
@@ -410,26 +419,29 @@ void Hub::Probe(Peer& peer) {
       [this, key = peer.key, asked_at = clock_.Now()](const Result<std::string>& value) {
         Peer* answering = ByKey(key);
         if (answering == nullptr || !answering->probing) return;
-        if (value) return BecomeModern(*answering, asked_at, *value);
-        answering->dialect = Dialect::kOriginal;
-        answering->probing = false;
-        FlushWaiting(*answering);
-        if (on_presence_) on_presence_(answering->name, true, "");
+        BecomeModern(*answering, asked_at, value);
       }};
   question.tag = tag;
   peer.link->Send(vm::FormatMessage(question));
 }
 
-void Hub::BecomeModern(Peer& peer, vm::Time asked_at, const std::string& value) {
+void Hub::BecomeModern(Peer& peer, vm::Time asked_at, const Result<std::string>& clock) {
+  // A refusal with our tag is an answer too: such a module knows tags, but has no clock.
   peer.dialect = Dialect::kModern;
   peer.probing = false;
-  SampleClock(peer, asked_at, value);
+  if (clock) SampleClock(peer, asked_at, *clock);
   SendBare(peer,
            vm::Message{{}, "", Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"},
            "");
-  Forward(peer, vm::Set("Clock.mode", lockstep_ ? "HUB" : "REAL"), kHub,
-          [](const Result<std::string>&) {});
-  if (!lockstep_) MeasureClock(peer, kClockExchanges);
+  if (peer.clock.known) {
+    const auto ignore = [](const Result<std::string>&) {};
+    Forward(peer, vm::Set("Clock.mode", lockstep_ ? "HUB" : "REAL"), kHub, ignore);
+    if (lockstep_) {
+      AskClock(peer.key, clock_.Now(), ignore);  // from here on its clock is ours
+    } else {
+      MeasureClock(peer, kClockExchanges);
+    }
+  }
   FlushWaiting(peer);
   if (on_presence_) on_presence_(peer.name, true, "");
 }
@@ -475,9 +487,9 @@ Hub::ClockState Hub::ClockOf(std::string_view name) const {
   return peer == nullptr ? ClockState{} : peer->clock;
 }
 
-void Hub::EndProbes() {
-  for (const auto& name : Names()) {
-    Peer* peer = Find(name);
+void Hub::EndProbes(const std::set<PeerKey>& modules) {
+  for (const PeerKey key : modules) {
+    Peer* peer = ByKey(key);
     if (peer == nullptr || !peer->probing) continue;
     Notice("@" + peer->name +
            " does not answer to Clock: it is spoken to as a module of the original");
@@ -485,18 +497,22 @@ void Hub::EndProbes() {
     peer->dialect = Dialect::kOriginal;
     peer->pending.clear();
     FlushWaiting(*peer);
-    if (on_presence_) on_presence_(name, true, "");
+    if (on_presence_) on_presence_(peer->name, true, "");
   }
 }
 
-bool Hub::Probing() const {
-  return std::ranges::any_of(peers_, [](const auto& entry) { return entry.second->probing; });
+std::set<PeerKey> Hub::Probing() const {
+  std::set<PeerKey> keys;
+  for (const auto& [key, peer] : peers_) {
+    if (peer->probing) keys.insert(key);
+  }
+  return keys;
 }
 
 std::vector<PeerKey> Hub::ModernModules() const {
   std::vector<PeerKey> keys;
   for (const auto& [key, peer] : peers_) {
-    if (peer->kind == PeerKind::kModule && peer->dialect == Dialect::kModern && !peer->probing)
+    if (peer->kind == PeerKind::kModule && peer->dialect == Dialect::kModern && peer->clock.known)
       keys.push_back(key);
   }
   return keys;
@@ -510,6 +526,7 @@ void Hub::AskClock(PeerKey key, vm::Time grant, OnAnswer done) {
   peer->pending[tag] = {kHub, request, std::move(done)};
   request.tag = tag;
   dirty_.erase(key);
+  peer->granted = grant;
   peer->link->Send(vm::FormatMessage(request));
 }
 

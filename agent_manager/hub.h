@@ -94,11 +94,12 @@ class Hub {
   void MeasureClocks();
   /// Modules on the virtual clock follow ours exactly; nothing is measured.
   void set_lockstep(bool lockstep) { lockstep_ = lockstep; }
-  /// Modules that have not answered their probe by now count as original.
-  void EndProbes();
-  bool Probing() const;
+  /// Modules that are still being asked what they are.
+  std::set<PeerKey> Probing() const;
+  /// Those among `modules` that have not answered by now count as original.
+  void EndProbes(const std::set<PeerKey>& modules);
 
-  /// For the lockstep driver: modern modules, and a raw exchange with one.
+  /// For the lockstep driver: modules with a clock, and a raw exchange with one.
   std::vector<PeerKey> ModernModules() const;
   void AskClock(PeerKey module, vm::Time grant, OnAnswer done);
   /// Modules something was sent to since their last clock answer.
@@ -122,7 +123,7 @@ class Hub {
   void Send(Peer& peer, const vm::Message& message);
   void Probe(Peer& peer);
   void MeasureClock(Peer& peer, int exchanges);
-  void BecomeModern(Peer& peer, vm::Time asked_at, const std::string& value);
+  void BecomeModern(Peer& peer, vm::Time asked_at, const vm::Result<std::string>& clock);
   void SampleClock(Peer& peer, vm::Time asked_at, const std::string& value);
   void FlushWaiting(Peer& peer);
   Peer* Find(std::string_view name);

@@ -26,8 +26,6 @@ using vm::SetValue;
 
 namespace {
 
-constexpr milliseconds kProbePatience{
-    3000};  // for a module to answer to Clock before it counts as original
 constexpr milliseconds kMeasureEvery{10000};
 constexpr vm::Time kVirtualStart =
     milliseconds(10000);  // past every module's own clock at its start
@@ -269,7 +267,7 @@ void Session::LoadReplay(const std::string& path) {
 }
 
 bool Session::Started() const {
-  if (hub_.Probing()) return false;
+  if (!hub_.Probing().empty()) return false;
   return std::ranges::all_of(config_.modules, [this](const ModuleConfig& module) {
     return !module.connect.empty() || hub_.IsReady(module.name) || started_once_;
   });
@@ -345,6 +343,14 @@ void Session::StepVirtual() {
   if (!Over()) io_.run_one();
 }
 
+void Session::EndProbesInTime(const std::set<PeerKey>& asked_before) {
+  hub_.EndProbes(asked_before);
+  probe_timer_.expires_after(config_.start_limit);
+  probe_timer_.async_wait([this, probing = hub_.Probing()](const auto& error) {
+    if (!error) EndProbesInTime(probing);
+  });
+}
+
 std::string Session::SlotsMarkdown() const {
   return "### @AM\n\n" + slots_.DocsMarkdown() + "\n### @AM-MCL, @FS-MCL\n\n" +
          const_cast<Mcl&>(mcl_).slots().DocsMarkdown();
@@ -372,10 +378,7 @@ int Session::Run() {
               << std::endl;
   }
   supervisor_.StartAll(config_.modules);
-  probe_timer_.expires_after(kProbePatience);
-  probe_timer_.async_wait([this](const auto& error) {
-    if (!error) hub_.EndProbes();
-  });
+  EndProbesInTime({});
   if (options_.console) StartConsole();
   boost::asio::steady_timer measure(io_);
   std::function<void()> measure_again = [&] {

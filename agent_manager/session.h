@@ -59,6 +59,8 @@ class Session {
   void GrantAll(vm::Time time);
   void OnClockAnswer(PeerKey module, const vm::Result<std::string>& answer);
   void Shutdown();
+  /// A module that has been asked for a whole start_limit without an answer is one of the original.
+  void EndProbesInTime(const std::set<PeerKey>& asked_before);
 
   struct NextEvent {
     std::optional<vm::Time> at;

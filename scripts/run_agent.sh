@@ -1,0 +1,126 @@
+#!/usr/bin/env bash
+# Sets up and builds if needed, and runs an agent with voice and face.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: scripts/run_agent.sh [options]
+
+  --say TEXT         speak TEXT and end: in a window where there is a display, else into agent.mp4
+  --emotion TYPE     look HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL while speaking;
+                     a strength in % may follow: --emotion "HAPPY 60"
+  --out FILE.mp4     make a film with sound instead of opening a window
+  --stub             use the voice without sound and engine (ssm_stub)
+  --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
+  --help             this text
+
+Without --say and --out a short dialogue is typed at the terminal.
+TEXT
+}
+
+root=$(cd "$(dirname "$0")/.." && pwd)
+say="" emotion="" out="" config="" voice=ssm
+fail() {
+  echo "run_agent: $1" >&2
+  exit 2
+}
+absolute() { case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
+while [ $# -gt 0 ]; do
+  case $1 in
+    --say | --emotion | --out | --config)
+      [ $# -ge 2 ] || fail "$1 needs a value"
+      case $1 in
+        --say) say=$2 ;;
+        --emotion) emotion=$2 ;;
+        --out) out=$(absolute "$2") ;;
+        --config) config=$(absolute "$2") ;;
+      esac
+      shift 2
+      ;;
+    --stub) voice=ssm_stub; shift ;;
+    --help | -h) usage; exit 0 ;;
+    *) usage >&2; fail "unknown option '$1'" ;;
+  esac
+done
+case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
+case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in .mp4" ;; esac
+[ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
+[ -z "$config" ] || [ -r "$config" ] || fail "--config: cannot read '$config'"
+case ${emotion%% *} in
+  "" | HAPPY | ANGRY | DISGUSTED | SAD | SURPRISED | FEARED | NEUTRAL) ;;
+  *) fail "--emotion '$emotion': expected HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL" ;;
+esac
+
+cd "$root"
+"$root/scripts/setup.sh"
+"$root/scripts/build.sh" >/tmp/galatea-build.$$ 2>&1 || { cat /tmp/galatea-build.$$ >&2; rm -f /tmp/galatea-build.$$; fail "the build failed"; }
+rm -f /tmp/galatea-build.$$
+
+# A display counts only if a window can really be opened on it.
+has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$root/build/bin/fsm" --check-window >/dev/null 2>&1; }
+if [ -n "$out" ]; then
+  film=1
+elif has_display; then
+  film=""
+elif [ -n "$say" ]; then
+  film=1
+  out="$root/agent.mp4"
+else
+  film=""
+fi
+
+work=$(mktemp -d)
+hub=""
+cleanup() {
+  if [ -n "$hub" ]; then kill "$hub" 2>/dev/null || true; wait "$hub" 2>/dev/null || true; fi
+  rm -rf "$work"
+}
+trap cleanup EXIT
+
+if [ -z "$config" ]; then
+  config=$work/agent.json
+  source=examples/agents/agent.json
+  [ -z "$film" ] || source=examples/agents/film.json
+  sed -e "s#\"../macros/#\"$root/examples/macros/#" "$source" >"$config"
+  if [ "$voice" = ssm_stub ]; then
+    sed -i -e 's#\["build/bin/ssm"[^]]*\]#["build/bin/ssm_stub"]#' "$config"
+  fi
+  if [ -z "$film" ] && ! has_display; then
+    sed -i -e 's#\["build/bin/fsm"\]#["build/bin/fsm", "--headless"]#' "$config"
+  fi
+fi
+hub_program=$root/build/bin/agent_manager
+
+if [ -z "$say" ] && [ -n "$film" ]; then
+  say="Hello, my name is Galatea."
+fi
+if [ -n "$say" ]; then
+  # One script for both ways: the film is made on the virtual clock, the window lives on the real one.
+  {
+    [ -z "$film" ] || echo "to @AM-MCL set Record = $out"
+    echo "to @FSM set Autonomous = BLINK 1"
+    [ -z "$film" ] && echo "set Wait = 600" || echo "set Wait = 300"
+    [ -z "$emotion" ] || echo "to @AM-MCL set Emotion = $emotion"
+    [ -z "$emotion" ] || echo "set Wait = 300"
+    echo "to @AM-MCL set#said Speak = $say"
+    echo "set Wait = IDLE"
+    echo "set Wait = 700"
+    [ -z "$film" ] || echo "to @AM-MCL set#film Record = STOP"
+    echo "set Wait = IDLE"
+  } >"$work/script"
+  "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+  if error=$(grep -E 'rep#(said|film) [A-Za-z.]+\.error' "$work/said"); then
+    fail "${error#*error = }"
+  fi
+  [ -z "$film" ] || echo "run_agent: wrote $out"
+  exit 0
+fi
+
+# The dialogue typed at the terminal: the hub in the background, the dialogue as one of its clients.
+printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [\"unix:$work/hub\"],#" "$config")" >"$work/dialogue.json"
+"$hub_program" --config "$work/dialogue.json" --no-console 2>"$work/hub.log" &
+hub=$!
+for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
+[ -S "$work/hub" ] || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
+has_display || echo "run_agent: no display, so no window; --out FILE.mp4 makes films" >&2
+python3 examples/demo_dialogue.py "$work/hub" || { cat "$work/hub.log" >&2; exit 1; }

@@ -1,0 +1,70 @@
+#include "agent_manager/config.h"
+
+#include <gtest/gtest.h>
+
+namespace am {
+namespace {
+
+vm::Result<Config> Parse(std::string_view text) { return ParseConfig(text, "am.json", "."); }
+
+TEST(ConfigTest, ReadsEveryKey) {
+  const auto config = Parse(R"({
+    // comments are allowed
+    "clock": "virtual", "log": "s.log", "listen": ["unix:/tmp/x"], "broadcast": ["DM"], "start_limit_ms": 500,
+    "modules": [
+      {"name": "SSM", "command": ["ssm", "--sink", "null"], "cwd": "/", "env": {"A": "1"}, "restart": "always",
+       "dialect": "original", "framing": "mmi", "encoding": "euc-jp"},
+      {"name": "FSM", "command": "./fsm -C x"},
+      {"name": "FAR", "connect": "tcp:h:1"}],
+    "macros": {"Wave": [{"send": "to @FSM set FaceMot = NOD 1"}]}
+  })");
+  ASSERT_TRUE(config) << config.error().text;
+  EXPECT_TRUE(config->virtual_clock);
+  ASSERT_EQ(config->modules.size(), 3u);
+  EXPECT_EQ(config->modules[0].command, (std::vector<std::string>{"ssm", "--sink", "null"}));
+  EXPECT_EQ(config->modules[0].env, (std::vector<std::string>{"A=1"}));
+  EXPECT_EQ(config->modules[0].restart, Restart::kAlways);
+  EXPECT_EQ(config->modules[0].dialect, Dialect::kOriginal);
+  EXPECT_EQ(config->modules[1].command.back(), "exec ./fsm -C x");
+  EXPECT_EQ(config->modules[2].connect, "tcp:h:1");
+  EXPECT_TRUE(config->macros.contains("Wave"));
+}
+
+struct BadConfig {
+  const char* text;
+  const char* part;
+};
+class BadConfigTest : public testing::TestWithParam<BadConfig> {};
+
+TEST_P(BadConfigTest, IsRefusedWithItsLineAndKey) {
+  const auto config = Parse(GetParam().text);
+  ASSERT_FALSE(config);
+  EXPECT_NE(config.error().text.find(GetParam().part), std::string::npos) << config.error().text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Texts, BadConfigTest,
+    testing::Values(
+        BadConfig{"{\n\"modules\": [\n}", "am.json line 3: not JSON"},
+        BadConfig{"[]", "line 1: (top): found [], expected an object"},
+        BadConfig{"{\n\"clok\": 1}",
+                  "am.json line 2: clok: unknown key, expected one of broadcast, clock"},
+        BadConfig{"{\n\n\"clock\": \"fast\"}",
+                  "am.json line 3: clock: found \"fast\", expected one of real, virtual"},
+        BadConfig{"{\"listen\": [1]}", "listen[0]: found 1, expected a string"},
+        BadConfig{"{\"modules\": [{\"name\": \"A\"}]}",
+                  "modules[0]: expected either command or connect"},
+        BadConfig{"{\"modules\": [{\"command\": \"x\"}]}", "modules[0].name: missing"},
+        BadConfig{"{\"modules\": [{\"name\": \"a b\", \"command\": \"x\"}]}",
+                  "modules[0].name: found \"a b\""},
+        BadConfig{"{\"modules\": [\n{\"name\": \"A\", \"command\": \"x\"},\n{\"name\": "
+                  "\"B\",\n\"command\": \"x\", \"restart\": 5}]}",
+                  "am.json line 4: modules[1].restart: found 5, expected one of never, on-failure, "
+                  "always"},
+        BadConfig{"{\"modules\": [{\"name\": \"A\", \"command\": \"x\"}, {\"name\": \"A\", "
+                  "\"command\": \"x\"}]}",
+                  "modules[1].name: the name is taken twice"},
+        BadConfig{"{\"macros\": {\"M\": \"/nonexistent.json\"}}", "macros.M: cannot read"}));
+
+}  // namespace
+}  // namespace am

@@ -1,0 +1,166 @@
+// The hub as a process, with small modules: started, spoken to, killed, replayed.
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/process.h"
+
+namespace {
+
+using support::Process;
+using support::SocketClient;
+
+const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
+const std::string kModule = GALATEA_BIN_DIR "/test_module";
+
+std::string WriteConfig(const support::TempDir& folder, const std::string& text) {
+  const std::string path = folder / "config.json";
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string ModuleJson(const std::string& more = "") {
+  return "{\"name\": \"TEST\", \"command\": [\"" + kModule + "\"]" + more + "}";
+}
+
+TEST(HubProcessTest, StartsAModuleSpeaksToItAndEndsInOrder) {
+  const support::TempDir folder;
+  Process hub({kHub, "--config", WriteConfig(folder, "{\"modules\": [" + ModuleJson() + "]}")});
+  hub.WriteLine("to @TEST set#1 X = 5");
+  EXPECT_TRUE(hub.Expect("From @TEST rep#1 X = 5")) << hub.Seen() << hub.ErrorText();
+  hub.WriteLine("to @NOBODY set#2 X = 5");
+  EXPECT_TRUE(hub.Expect("rep#2 X.error = UNKNOWN_MODULE"));
+  hub.CloseInput();
+  EXPECT_TRUE(hub.Expect("From @TEST rep Run = EXIT")) << hub.Seen();
+  EXPECT_EQ(hub.Wait(), 0);
+}
+
+TEST(HubProcessTest, StartsAModuleWrittenInPython) {
+  const support::TempDir folder;
+  Process hub(
+      {kHub, "--config",
+       WriteConfig(
+           folder,
+           "{\"modules\": [{\"name\": \"LAMP\", \"command\": [\"python3\", \"" GALATEA_SOURCE_DIR
+           "/examples/lamp_module.py\"]}]}")});
+  hub.WriteLine("to @LAMP set#1 Lamp = ON");
+  EXPECT_TRUE(hub.Expect("From @LAMP rep#1 Lamp = ON")) << hub.Seen() << hub.ErrorText();
+  hub.WriteLine("to @LAMP set#2 Lamp = PURPLE");
+  EXPECT_TRUE(hub.Expect("rep#2 Lamp.error = BAD_VALUE")) << hub.Seen();
+  hub.CloseInput();
+  EXPECT_EQ(hub.Wait(), 0);
+}
+
+TEST(HubProcessTest, OnTheVirtualClockTenSecondsOfWorkTakeNoTimeAndAreExact) {
+  const support::TempDir folder;
+  Process hub(
+      {kHub, "--config",
+       WriteConfig(folder, "{\"clock\": \"virtual\", \"modules\": [" + ModuleJson() + "]}")});
+  hub.Write(
+      "to @TEST set#1 Work = 10000\nset Wait = 500\nto @TEST inq#2 Clock\nset Wait = IDLE\nto "
+      "@TEST inq#3 Clock\n");
+  hub.CloseInput();
+  EXPECT_TRUE(hub.Expect("rep#2 Clock = 10500")) << hub.Seen() << hub.ErrorText();
+  EXPECT_TRUE(hub.Expect("From @TEST tell worked until 20000")) << hub.Seen();
+  EXPECT_TRUE(hub.Expect("rep#3 Clock = 20000")) << hub.Seen();
+  EXPECT_EQ(hub.Wait(), 0);
+}
+
+TEST(HubProcessTest, AKilledModuleIsReportedAndStartedAgain) {
+  const support::TempDir folder;
+  Process hub(
+      {kHub, "--config",
+       WriteConfig(folder, "{\"modules\": [" + ModuleJson(", \"restart\": \"always\"") + "]}")});
+  hub.WriteLine("inq#1 Processes");
+  const auto processes = hub.Expect("rep#1 Processes = TEST RUNNING ");
+  ASSERT_TRUE(processes) << hub.Seen();
+  const int pid = std::stoi(processes->substr(processes->rfind(' ') + 1));
+  hub.WriteLine("to @TEST set#2 Work = 60000");
+  hub.WriteLine("to @TEST inq#3 X");
+  ASSERT_TRUE(hub.Expect("rep#3 X = 0"));
+  kill(pid, SIGKILL);
+  EXPECT_TRUE(hub.Expect("rep#2 Work.error = UNAVAILABLE @TEST has gone (killed by signal 9"))
+      << hub.Seen();
+  EXPECT_TRUE(hub.Expect("From @TEST rep Run = LIVE")) << hub.Seen() << hub.ErrorText();
+  hub.WriteLine("to @TEST set#4 X = 7");
+  EXPECT_TRUE(hub.Expect("rep#4 X = 7"));
+  hub.CloseInput();
+  EXPECT_EQ(hub.Wait(), 0);
+}
+
+TEST(HubProcessTest, ClientsAndModulesComeOverASocket) {
+  const support::TempDir folder;
+  const std::string socket = folder / "hub.sock";
+  Process hub({kHub, "--no-console", "--config",
+               WriteConfig(folder, "{\"listen\": [\"unix:" + socket + "\"], \"modules\": []}")});
+  const auto client = SocketClient::Unix(socket);
+  Process module({kModule, "--connect", "unix:" + socket, "--name", "FAR"});
+  client->WriteLine("to @AM set#0 Subscribe = *");
+  ASSERT_TRUE(client->Expect("rep#0 Subscribe"));
+  std::optional<std::string> answer;
+  for (int i = 0; i < 1000 && !answer; ++i) {  // until the module has found its way in
+    client->WriteLine("to @FAR set#1 X = 3");
+    answer = client->ReadLine();
+    if (answer && answer->find("UNKNOWN_MODULE") != std::string::npos) answer.reset();
+  }
+  ASSERT_TRUE(answer);
+  client->WriteLine("to @FAR inq#2 X");
+  EXPECT_TRUE(client->Expect("From @FAR rep#2 X = 3")) << client->Seen();
+  client->WriteLine("to @AM set Run = EXIT");
+  EXPECT_EQ(hub.Wait(), 0) << hub.ErrorText();
+}
+
+TEST(HubProcessTest, ASessionLogIsPlayedAgain) {
+  const support::TempDir folder;
+  const std::string config =
+      WriteConfig(folder, "{\"clock\": \"virtual\", \"modules\": [" + ModuleJson() + "]}");
+  std::string logs[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::string log = folder / ("session" + std::to_string(i) + ".log");
+    std::vector<std::string> command{kHub, "--config", config, "--log", log};
+    if (i == 1) command.insert(command.end(), {"--replay", folder / "session0.log"});
+    Process hub(command);
+    if (i == 0) hub.Write("to @TEST set X = 5\nset Wait = 1500\nto @TEST set X = 6\n");
+    hub.CloseInput();
+    hub.ReadAll();
+    EXPECT_EQ(hub.Wait(), 0) << hub.ErrorText();
+    std::ifstream file(log);
+    for (std::string line; std::getline(file, line);) {
+      if (line.find("\tCONSOLE\tTEST\t") != std::string::npos) logs[i] += line + "\n";
+    }
+  }
+  EXPECT_NE(logs[0].find("11500\tCONSOLE\tTEST\tto @TEST set X = 6"), std::string::npos) << logs[0];
+  EXPECT_EQ(logs[0], logs[1]) << "the same lines at the same times";
+}
+
+TEST(HubProcessTest, AWorldThatRefusesIsOneSentence) {
+  const support::TempDir folder;
+  Process missing(
+      {kHub, "--config",
+       WriteConfig(folder,
+                   "{\"modules\": [{\"name\": \"X\", \"command\": [\"/nonexistent/program\"]}]}")});
+  EXPECT_EQ(missing.Wait(), 1);
+  EXPECT_NE(missing.ErrorText().find(
+                "agent_manager: @X: cannot start '/nonexistent/program': No such file"),
+            std::string::npos)
+      << missing.ErrorText();
+  Process bad({kHub, "--config", WriteConfig(folder, "{\n \"modules\": 5}")});
+  EXPECT_EQ(bad.Wait(), 1);
+  EXPECT_NE(bad.ErrorText().find("line 2: modules: found 5, expected a list of modules"),
+            std::string::npos)
+      << bad.ErrorText();
+}
+
+TEST(HubProcessTest, TerminationStopsTheModulesInOrder) {
+  const support::TempDir folder;
+  Process hub({kHub, "--config", WriteConfig(folder, "{\"modules\": [" + ModuleJson() + "]}")});
+  ASSERT_TRUE(hub.Expect("From @TEST rep Run = LIVE")) << hub.ErrorText();
+  hub.Terminate();
+  EXPECT_TRUE(hub.Expect("From @TEST rep Run = EXIT"));
+  EXPECT_EQ(hub.Wait(), 0);
+}
+
+}  // namespace

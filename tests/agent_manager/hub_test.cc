@@ -1,0 +1,191 @@
+#include "agent_manager/hub.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/agent_manager/world.h"
+
+namespace am {
+namespace {
+
+using std::chrono::milliseconds;
+using Strings = std::vector<std::string>;
+
+TEST(HubTest, CommandsArriveBareAndReportsWithTheirSender) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto b = world.Join(PeerKind::kClient, "B");
+  world.Say(*a, "to @B set X = 1");
+  EXPECT_EQ(b->heard, Strings{"set X = 1"});
+  world.Say(*b, "to @A rep X = 1");
+  EXPECT_EQ(a->heard, Strings{"From @B rep X = 1"});
+  world.Say(*b, "From @FORGED to @A tell hello");
+  EXPECT_EQ(a->heard.back(), "From @B tell hello") << "a sender cannot be forged";
+}
+
+TEST(HubTest, SeveralReceiversEachGetIt) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto b = world.Join(PeerKind::kClient, "B");
+  const auto c = world.Join(PeerKind::kClient, "C");
+  world.Say(*a, "to @B,@C set Speak = STOP");
+  EXPECT_EQ(b->heard, Strings{"set Speak = STOP"});
+  EXPECT_EQ(c->heard, Strings{"set Speak = STOP"});
+}
+
+TEST(HubTest, AnUnknownReceiverIsAnsweredWithAnError) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @NOBODY set#7 X = 1");
+  world.Say(*a, "to @NOBODY set X = 1");
+  EXPECT_EQ(
+      a->heard,
+      (Strings{
+          "From @AM rep#7 X.error = UNKNOWN_MODULE there is no @NOBODY (inq Modules lists them)",
+          "From @AM rep X.error = UNKNOWN_MODULE there is no @NOBODY (inq Modules lists them)"}));
+}
+
+TEST(HubTest, ReportsWithoutReceiverGoToThoseWhoSubscribedAndToTheBroadcastList) {
+  World world;
+  const auto m = world.JoinModern("SSM");
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto dm = world.Join(PeerKind::kClient, "DM");
+  const auto other = world.Join(PeerKind::kClient, "OTHER");
+  world.hub.set_broadcast({"DM"});
+  world.hub.Subscribe(a->key, {"SSM"});
+  world.Say(*m, "rep Speak.stat = IDLE");
+  EXPECT_EQ(a->heard, Strings{"From @SSM rep Speak.stat = IDLE"});
+  EXPECT_EQ(dm->heard, Strings{"From @SSM rep Speak.stat = IDLE"});
+  EXPECT_EQ(other->heard, Strings{});
+}
+
+TEST(HubTest, ATagComesBackToTheAskerOnlyAndAnUntaggedQuestionToo) {
+  World world;
+  const auto m = world.JoinModern("SSM", vm::Time(0));
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto b = world.Join(PeerKind::kConsole, "CONSOLE");
+  world.Say(*a, "to @SSM set#x1 Volume = 5");
+  world.Say(*a, "to @SSM inq Speaker");
+  world.clock.RunReady();
+  EXPECT_EQ(a->heard, (Strings{"From @SSM rep#x1 Volume = 5", "From @SSM rep Speaker = "}));
+  EXPECT_EQ(b->heard, Strings{});
+  EXPECT_EQ(world.hub.ModernModules().size(), 1u);
+}
+
+TEST(HubTest, RefusalsKeepTheirCodeWithAndWithoutATag) {
+  World world;
+  world.answers = false;
+  const auto refusing = [&](World::Peer& self, const vm::Message& message) {
+    if (message.slot == "Clock") return world.Say(self, "rep#" + message.tag + " Clock = 5");
+    world.Say(self, "rep#" + message.tag + " " + message.slot + ".error = BUSY not now");
+  };
+  world.JoinModern("SSM", vm::Time(0), refusing);
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @SSM set#1 Text = x");
+  world.Say(*a, "to @SSM set Text = x");
+  world.clock.RunReady();
+  EXPECT_EQ(a->heard, (Strings{"From @SSM rep#1 Text.error = BUSY not now",
+                               "From @SSM rep Text.error = BUSY not now"}));
+}
+
+TEST(HubTest, NamesCannotBeTakenTwice) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  EXPECT_EQ(world.Join(PeerKind::kClient, "A")->key, 0u);
+  const auto b = world.Join(PeerKind::kClient, "B");
+  EXPECT_FALSE(world.hub.Rename(b->key, "A"));
+  EXPECT_TRUE(world.hub.Rename(b->key, "C"));
+  world.Say(*a, "to @C set X = 1");
+  EXPECT_EQ(b->heard, Strings{"set X = 1"});
+  world.hub.Detach(a->key, "gone");
+  EXPECT_TRUE(world.hub.Rename(b->key, "A")) << "a name is free when its holder has gone";
+}
+
+TEST(HubTest, TheDeathOfAModuleAnswersWhatWasAskedOfIt) {
+  World world;
+  const auto m = world.JoinModern("SSM");
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.answers = false;
+  world.Say(*a, "to @SSM set#1 Text = x");
+  world.Say(*a, "to @SSM inq Speaker");
+  world.clock.RunReady();
+  world.hub.Detach(m->key, "killed by signal 9");
+  EXPECT_EQ(
+      a->heard,
+      (Strings{"From @SSM rep#1 Text.error = UNAVAILABLE @SSM has gone (killed by signal 9)",
+               "From @SSM rep Speaker.error = UNAVAILABLE @SSM has gone (killed by signal 9)"}));
+}
+
+TEST(HubTest, ClockOffsetsAreMeasuredAndStartTimesTranslated) {
+  World world;
+  world.clock.RunUntil(milliseconds(1000));
+  const auto m = world.JoinModern("SSM", milliseconds(250));
+  const auto a = world.Join(PeerKind::kClient, "A");
+  EXPECT_EQ(world.hub.ClockOf("SSM").offset, milliseconds(250));
+  EXPECT_EQ(world.hub.ClockOf("SSM").delay, vm::Time(0));
+  world.Say(*a, "to @SSM set Speak = @5000");
+  ASSERT_FALSE(m->heard.empty());
+  EXPECT_NE(m->heard.back().find("Speak = @5250"), std::string::npos) << m->heard.back();
+}
+
+TEST(HubTest, AModuleOfTheOriginalGetsBareLinesAndItsStartHeldBack) {
+  World world;
+  const auto m = world.Join(PeerKind::kModule, "SSM", Dialect::kOriginal);
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @SSM set#1 Text = x");
+  EXPECT_EQ(a->heard, Strings{"From @SSM rep#1 Text = x"});
+  world.Say(*a, "to @SSM set Speak = @300");
+  EXPECT_EQ(m->heard, Strings{"set Text = x"});
+  world.clock.RunUntil(milliseconds(300));
+  EXPECT_EQ(m->heard, (Strings{"set Text = x", "set Speak = NOW"}));
+  world.Say(*a, "to @SSM set Speak = @500");
+  world.Say(*a, "to @SSM set Speak = STOP");
+  world.clock.RunUntil(milliseconds(1000));
+  EXPECT_EQ(m->heard.back(), "set Speak = STOP") << "a stop takes back the start that was held";
+  world.Say(*a, "to @SSM inq#2 Speaker");
+  world.Say(*m, "rep Speaker = male01");
+  EXPECT_EQ(a->heard.back(), "From @SSM rep#2 Speaker = male01");
+}
+
+TEST(HubTest, WhatIsSaidToAModuleThatIsStillStartingWaitsInOrder) {
+  World world;
+  const auto m = world.Join(PeerKind::kModule, "SSM");
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @SSM set Text = one");
+  world.Say(*a, "to @SSM set Speak = NOW");
+  EXPECT_EQ(m->heard.size(), 1u) << "only the probe";
+  world.hub.EndProbes(world.hub.Probing());
+  EXPECT_EQ(m->heard[1], "set Text = one");
+  EXPECT_EQ(m->heard[2], "set Speak = NOW");
+}
+
+TEST(HubTest, AFloodOfBadLinesIsNotAFloodOfReports) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  int notices = 0;
+  world.hub.set_on_notice([&](const std::string&) { ++notices; });
+  for (int i = 0; i < 10000; ++i) world.Say(*a, "nonsense");
+  EXPECT_LE(notices, 10);
+  EXPECT_LE(a->heard.size(), 10u);
+}
+
+TEST(HubTest, AModuleThatAnswersNothingIsBounded) {
+  World world;
+  world.JoinModern("SSM");
+  world.answers = false;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  for (std::size_t i = 0; i < Hub::kMaxPending + 100; ++i) world.Say(*a, "to @SSM set#t X = 1");
+  EXPECT_GE(a->heard.size(), 100u);
+  EXPECT_NE(a->heard.front().find("TIMEOUT"), std::string::npos);
+}
+
+TEST(HubTest, TheHubIsFullAtItsLimit) {
+  World world;
+  for (std::size_t i = 0; i < Hub::kMaxPeers; ++i)
+    EXPECT_NE(world.Join(PeerKind::kClient, "")->key, 0u);
+  const auto late = world.Join(PeerKind::kClient, "");
+  EXPECT_EQ(late->key, 0u);
+  EXPECT_TRUE(late->closed);
+}
+
+}  // namespace
+}  // namespace am
