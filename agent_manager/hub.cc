@@ -429,6 +429,7 @@ void Hub::BecomeModern(Peer& peer, vm::Time asked_at, const Result<std::string>&
   // A refusal with our tag is an answer too: such a module knows tags, but has no clock.
   peer.dialect = Dialect::kModern;
   peer.probing = false;
+  peer.granted = clock_.Now();
   if (clock) SampleClock(peer, asked_at, *clock);
   SendBare(peer,
            vm::Message{{}, "", Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"},

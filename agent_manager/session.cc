@@ -85,6 +85,7 @@ Session::Session(const Config& config, Options options)
   hub_.AddInternal(mcl_.slots(), {"FS-MCL"});
   for (auto* machine : {&slots_, &mcl_.slots()}) {
     machine->set_on_error([this](vm::PeerId, const std::string& line, const vm::Error& error) {
+      if (error.code == Errc::kStopped) return;  // somebody's wish, not a fault
       ++errors_;
       std::cerr << "agent_manager: error: " << vm::FormatError(error)
                 << (line.empty() ? "" : " (in: " + line + ")") << std::endl;

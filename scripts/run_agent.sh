@@ -57,7 +57,7 @@ cd "$root"
 rm -f /tmp/galatea-build.$$
 
 # A display counts only if a window can really be opened on it.
-has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$root/build/bin/fsm" --check-window >/dev/null 2>&1; }
+has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$root/build/bin/fsm" --window --slots-markdown >/dev/null 2>&1; }
 if [ -n "$out" ]; then
   film=1
 elif has_display; then

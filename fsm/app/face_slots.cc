@@ -1,0 +1,193 @@
+#include "fsm/app/face_slots.h"
+
+#include <chrono>
+
+namespace fsm {
+namespace {
+
+vm::Time Ms(double ms) { return FromMs(ms); }
+
+Angles AnglesOf(const vm::SetValue& value) {
+  return {static_cast<float>(value.number(0)), static_cast<float>(value.number(1)),
+          static_cast<float>(value.number(2))};
+}
+
+// Face.12 -> 12.
+int NumberOf(const std::string& slot) { return std::stoi(slot.substr(slot.find('.') + 1)); }
+
+void DeclareUnits(FsmCore& core) {
+  const UnitList& list = core.motion->tables().units;
+  for (std::size_t i = 0; i < list.units.size(); ++i) {
+    const std::string what = list.units[i] > 0 ? "action unit " + std::to_string(list.units[i])
+                                               : "expression " + list.emotions[i];
+    core.Declare({"Face." + std::to_string(i + 1), "<number 0..200>",
+                  "Strength of " + what + " in per cent.",
+                  [&core](const vm::SetValue& value) {
+                    return core.motion->SetFace(core.Now(), NumberOf(value.slot),
+                                                value.number(0) / 100);
+                  },
+                  "0"});
+  }
+  for (std::size_t i = 1; i <= kMouthParameters; ++i) {
+    core.Declare({"Mouth." + std::to_string(i), "<number 0..200>",
+                  "Strength of mouth parameter " + std::to_string(i) + " in per cent.",
+                  [&core](const vm::SetValue& value) {
+                    return core.motion->SetMouth(core.Now(), NumberOf(value.slot),
+                                                 value.number(0) / 100);
+                  },
+                  "0"});
+  }
+  core.Declare({"AU", "<word> <number 0..2> [ <ms> ]",
+                "Moves one action unit: its FACS number with L or R for one side, its strength "
+                "(1 = full), and the ms it takes (60).",
+                [&core](const vm::SetValue& value) {
+                  return core.motion->SetUnit(core.Now(), value.word(0), value.number(1),
+                                              Ms(value.size() > 2 ? value.number(2) : 60));
+                },
+                "", false});
+  core.Declare({"ARKit", "<word> <number 0..1> [ <ms> ]",
+                "Moves one blend shape of ARKit's names: name, weight, and the ms it takes (60).",
+                [&core](const vm::SetValue& value) {
+                  return core.motion->SetBlendShape(core.Now(), value.word(0), value.number(1),
+                                                    Ms(value.size() > 2 ? value.number(2) : 60));
+                },
+                "", false});
+}
+
+void DeclareExpressions(FsmCore& core) {
+  core.Declare({"FaceExp", "NEUTRAL | <word> <int 1..> <number 0..200> <ms>",
+                "An expression: HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED or USERDEF, its pattern "
+                "(1 to 5), its strength in per cent and its duration in ms (0 = until the next); "
+                "or NEUTRAL.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  if (value.size() == 1) {
+                    core.motion->Neutral(core.Now());
+                    return {};
+                  }
+                  return core.motion->Express(core.Now(), value.word(0),
+                                              static_cast<int>(value.number(1)),
+                                              value.number(2) / 100, Ms(value.number(3)));
+                },
+                "NEUTRAL"});
+  core.Declare({"FaceExp.onset", "NATURAL | <ms>",
+                "How long an expression takes to come and to go, in ms; NATURAL = as measured on "
+                "people, each emotion by itself.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  MotionSettings settings = core.motion->settings();
+                  settings.natural_expressions = value.word(0) == "NATURAL";
+                  if (!settings.natural_expressions) settings.expression = Ms(value.number(0));
+                  core.motion->Apply(core.Now(), settings);
+                  return {};
+                },
+                vm::FormatMs(core.motion->settings().expression)});
+}
+
+void DeclareHead(FsmCore& core) {
+  const std::string axes = "x y z in degrees: x+ = down, y+ = to the viewer's right, z+ = tilt there.";
+  core.Declare({"HeadRotAbs.1", "<number -90..90> <number -90..90> <number -90..90>",
+                "Turns the head to " + axes,
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->TurnHead(core.Now(), AnglesOf(value));
+                  return {};
+                },
+                "0 0 0"});
+  core.Declare({"HeadRotRel.1", "<number -90..90> <number -90..90> <number -90..90>",
+                "Turns the head further by " + axes,
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->TurnHeadBy(core.Now(), AnglesOf(value));
+                  return {};
+                },
+                "", false});
+  core.Declare({"FaceMot", "NOMOVE | ( NOD | REFUSE | LISTEN | BLINK | USERDEF ) <int 1..>",
+                "One movement and its pattern, or NOMOVE to end what is moving.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  if (value.size() == 1) {
+                    core.motion->StopMoves(core.Now());
+                    return {};
+                  }
+                  return core.motion->Move(core.Now(), value.word(0),
+                                           static_cast<int>(value.number(1)));
+                },
+                "", false});
+  core.Declare({"Autonomous", "( BLINK | MOVE | USERDEF | GAZE ) <int 0..>",
+                "What the face does by itself, and its pattern; 0 stops it.",
+                [&core](const vm::SetValue& value) {
+                  return core.motion->Autonomous(core.Now(), value.word(0),
+                                                 static_cast<int>(value.number(1)));
+                },
+                "", false});
+}
+
+void DeclareEyes(FsmCore& core) {
+  const auto eyes = [&core](const std::string& name, bool left, bool right, const char* which) {
+    core.Declare({name, "<number -90..90> <number -90..90> <ms>",
+                  std::string("Turns ") + which +
+                      " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
+                      "0 = until the next.",
+                  [&core, left, right](const vm::SetValue& value) -> vm::Result<void> {
+                    core.motion->TurnEyes(core.Now(), left, right, value.number(0), value.number(1),
+                                          Ms(value.number(2)));
+                    return {};
+                  },
+                  "", false});
+  };
+  eyes("EyeRot", true, true, "both eyes");
+  eyes("EyeRotRight", false, true, "the agent's right eye");
+  eyes("EyeRotLeft", true, false, "the agent's left eye");
+  core.Declare({"Gaze", "<number -60..60> <number -60..60> [ <ms> ]",
+                "Looks x y degrees away (x+ = down, y+ = to the viewer's right) with the eyes, and "
+                "with the head where that is far, for so many ms; without them until the next.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->Gaze(core.Now(), value.number(0), value.number(1),
+                                    Ms(value.size() > 2 ? value.number(2) : 0));
+                  return {};
+                },
+                "0 0"});
+}
+
+}  // namespace
+
+void DeclareFaceSlots(FsmCore& core) {
+  DeclareUnits(core);
+  DeclareExpressions(core);
+  DeclareHead(core);
+  DeclareEyes(core);
+}
+
+void DeclareFigureSlots(FsmCore& core) {
+  core.Declare({"AgentEnable", "ENABLE | DISABLE", "Whether the agent is drawn.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->figure().agent_enabled = value.word(0) == "ENABLE";
+                  return {};
+                },
+                "ENABLE"});
+  core.Declare({"AgentAlpha", "<number 0..1>", "Opacity of the agent, 0 = not to be seen.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->figure().agent_alpha = static_cast<float>(value.number(0));
+                  return {};
+                },
+                "1.0"});
+  core.Declare({"AgentRot", "<number -360..360> <number -360..360> <number -360..360>",
+                "Turns the whole figure: x y z in degrees, x+ = down, y+ = right.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->figure().agent_rotation = AnglesOf(value);
+                  return {};
+                },
+                "0 0 0"});
+  core.Declare({"AgentTrans", "<number -10000..10000> <number -10000..10000>",
+                "Moves the whole figure: x to the right and y up, in mm at the face.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->figure().agent_translation = {static_cast<float>(value.number(0)),
+                                                             static_cast<float>(value.number(1))};
+                  return {};
+                },
+                "0 0"});
+  core.Declare({"AgentScale", "<number 0.01..100>", "Size of the whole figure, 1.0 = normal.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->figure().agent_scale = static_cast<float>(value.number(0));
+                  return {};
+                },
+                "1.0"});
+}
+
+}  // namespace fsm

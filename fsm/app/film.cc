@@ -1,0 +1,75 @@
+#include "fsm/app/film.h"
+
+namespace fsm {
+
+Film::Film(vm::Scheduler& clock, Studio& studio, Draw draw, OnFailure on_failure)
+    : clock_(clock),
+      studio_(studio),
+      draw_(std::move(draw)),
+      on_failure_(std::move(on_failure)) {}
+
+Film::~Film() {
+  if (timer_ != 0) clock_.Cancel(timer_);
+}
+
+vm::Result<void> Film::Start(const std::string& path, int frames_per_second) {
+  if (recording()) {
+    return vm::Fail(vm::Errc::kBusy, "recording " + path_ + "; set Record = STOP first");
+  }
+  auto writer = studio_.OpenFilm(path, studio_.width(), studio_.height(), frames_per_second);
+  if (!writer) return std::unexpected(writer.error());
+  writer_ = std::move(*writer);
+  path_ = path;
+  series_ = {clock_.Now(), static_cast<double>(frames_per_second)};
+  next_ = 0;
+  repeated_ = 0;
+  last_ = {};
+  Arm();
+  return {};
+}
+
+void Film::Arm() {
+  timer_ = clock_.At(series_.TimeOf(next_), [this] { Tick(); });
+}
+
+void Film::Tick() {
+  timer_ = 0;
+  if (auto added = AddUpTo(clock_.Now()); !added) {
+    writer_.reset();
+    on_failure_(added.error());
+    return;
+  }
+  Arm();
+}
+
+vm::Result<void> Film::AddUpTo(vm::Time now) {
+  // Those whose successor is due as well are too late to be drawn.
+  while (next_ > 0 && series_.TimeOf(next_ + 1) <= now) {
+    if (auto added = writer_->Add(last_); !added) return added;
+    ++next_;
+    ++repeated_;
+  }
+  if (auto drawn = draw_(next_, series_.TimeOf(next_)); !drawn) return drawn;
+  last_ = studio_.Read();
+  ++next_;
+  return writer_->Add(last_);
+}
+
+vm::Result<Film::Report> Film::Stop(const std::string& sound) {
+  if (!recording()) return vm::Fail(vm::Errc::kBadValue, "no film is being recorded");
+  if (timer_ != 0) clock_.Cancel(timer_);
+  timer_ = 0;
+  // Frames that were due before now belong to the film; the one due right now does not, but a film
+  // has at least one.
+  vm::Result<void> added;
+  while (added && (next_ == 0 || series_.TimeOf(next_) < clock_.Now())) {
+    added = AddUpTo(clock_.Now() - vm::Time(1));
+  }
+  Report report{path_, next_, repeated_};
+  const auto writer = std::move(writer_);
+  if (!added) return std::unexpected(added.error());
+  if (auto finished = writer->Finish(sound); !finished) return std::unexpected(finished.error());
+  return report;
+}
+
+}  // namespace fsm

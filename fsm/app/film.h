@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "fsm/app/frame_series.h"
+#include "fsm/app/studio.h"
+#include "vm_protocol/core/scheduler.h"
+
+namespace fsm {
+
+/// Records a film of the face: frame k is the face at start + k / rate exactly. When drawing falls
+/// behind the clock, the frame before is repeated so that the film keeps step with time; on the
+/// virtual clock that never happens. Thread: the scheduler's; a timer is pending while recording.
+class Film {
+ public:
+  /// Draws frame `number` as the face is at `at`; the picture is then read from the studio.
+  using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
+  /// Told when recording ended by itself because of an error.
+  using OnFailure = std::function<void(const vm::Error&)>;
+  Film(vm::Scheduler& clock, Studio& studio, Draw draw, OnFailure on_failure);
+  ~Film();
+
+  /// Errors: kBusy while recording; kUnavailable if the film cannot be opened.
+  vm::Result<void> Start(const std::string& path, int frames_per_second);
+  struct Report {
+    std::string path;
+    long frames = 0;
+    long repeated = 0;
+  };
+  /// Ends the film with the frames up to now and adds the sound (may be ""). Errors: kBadValue when
+  /// none is being recorded; kUnavailable as MovieWriter::Finish.
+  vm::Result<Report> Stop(const std::string& sound);
+
+  bool recording() const { return writer_ != nullptr; }
+  const std::string& path() const { return path_; }
+
+ private:
+  void Arm();
+  void Tick();
+  vm::Result<void> AddUpTo(vm::Time now);
+
+  vm::Scheduler& clock_;
+  Studio& studio_;
+  Draw draw_;
+  OnFailure on_failure_;
+  std::unique_ptr<MovieWriter> writer_;
+  std::string path_;
+  FrameSeries series_;
+  long next_ = 0;
+  long repeated_ = 0;
+  Image last_;
+  vm::TimerId timer_ = 0;
+};
+
+}  // namespace fsm

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fsm/app/studio.h"
+#include "fsm/motion/face_motion.h"
+#include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/core/slot_machine.h"
+
+namespace fsm {
+
+/// What the parts of the face module share. Lifetime: owned by FsmModule, outlives the parts.
+struct FsmCore {
+  vm::Scheduler& clock;
+  Studio& studio;
+  vm::SlotMachine slots{"FSM"};
+  std::unique_ptr<FaceMotion> motion{};
+  Scene scene{};
+  /// To be called after every command: something may move now, or look different.
+  std::function<void()> changed{};
+  /// Every slot declared with Declare, with its value at start, for `Run = INIT`.
+  std::vector<std::pair<std::string, std::string>> initial_values{};
+
+  vm::Time Now() const { return clock.Now(); }
+
+  /// Draws the face as it is at `t`.
+  vm::Result<void> DrawAt(vm::Time t) { return studio.Draw(motion->StateAt(t), scene); }
+
+  using Action = std::function<vm::Result<void>(const vm::SetValue&)>;
+  struct Declaration {
+    std::string name;
+    std::string grammar;
+    std::string help;
+    Action action;
+    std::string initial = "";
+    bool readable = true;  ///< false: the slot is an action and has no value to ask for
+    bool quoted = false;
+  };
+  /// A slot whose value is stored as it came if the action accepts it.
+  void Declare(Declaration slot) {
+    if (slot.readable) initial_values.emplace_back(slot.name, slot.initial);
+    slots.Declare({.name = slot.name,
+                   .grammar = slot.grammar,
+                   .access = slot.readable ? vm::Access::kReadWrite : vm::Access::kWriteOnly,
+                   .initial = slot.initial,
+                   .help = slot.help,
+                   .on_set = [this, action = std::move(slot.action)](
+                                 const vm::SetValue& value) -> vm::Result<std::string> {
+                     if (auto done = action(value); !done) return std::unexpected(done.error());
+                     changed();
+                     return value.text;
+                   },
+                   .quoted = slot.quoted});
+  }
+};
+
+}  // namespace fsm

@@ -1,0 +1,280 @@
+#include "fsm/app/fsm_module.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "fsm/app/face_slots.h"
+
+namespace fsm {
+namespace {
+
+constexpr vm::Time kWindowEvents = std::chrono::milliseconds(200);
+constexpr const char* kModuleVersion = "Galatea FSM " GALATEA_VERSION;
+constexpr const char* kProtocolVersion = "2.06";  // the original's last, which this one contains
+
+template <typename T>
+T OrThrow(vm::Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().text);
+  return std::move(*result);
+}
+
+}  // namespace
+
+FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
+    : options_(std::move(options)), core_{.clock = clock, .studio = studio} {
+  const OriginalConfig& config = options_.config;
+  tables_ = OrThrow(MotionTables::Load(options_.tables));
+  if (auto applied = config.ApplyTo(tables_); !applied) {
+    throw std::runtime_error(applied.error().text);
+  }
+  if (config.expression_ms) start_settings_.expression = FromMs(*config.expression_ms);
+  if (config.eye_move_ms) start_settings_.eye_move = FromMs(*config.eye_move_ms);
+  if (config.language) start_settings_.language = *config.language;
+  if (config.max_frame_rate) frame_rate_ = *config.max_frame_rate;
+  if (!config.faces.empty()) {
+    std::cerr << "fsm: notice: " << config.path
+              << " names faces of people (MaskFile); they are not drawn, the mask is galatea\n";
+  }
+  core_.changed = [this] { Changed(); };
+  MakeMotion();
+
+  vm::DeclareCommonSlots(core_.slots, {.module_version = kModuleVersion,
+                                       .protocol_version = kProtocolVersion,
+                                       .report_exit = false,
+                                       .on_init = [this] { Initialise(); },
+                                       .on_exit = [this] { exit_requested_ = true; }});
+  DeclareFaceSlots(core_);
+  speech_ = std::make_unique<SpeechSlots>(
+      core_, SpeechSlots::Listener{.begun = [this] { capture_->Begin(); },
+                                   .ended = [this] {
+                                     if (capture_->End()) core_.slots.Report("Capture", "DISABLE");
+                                   }});
+  DeclareFigureSlots(core_);
+  scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);
+  film_ = std::make_unique<Film>(
+      clock, studio, [this](long number, vm::Time at) { return DrawFrame(number, at); },
+      [this](const vm::Error& error) {
+        core_.slots.Report("Record", "STOP");
+        core_.slots.ReportError("Record", error);
+      });
+  scene_->set_size_locked([this] { return film_->recording(); });
+  capture_ = std::make_unique<Capture>(
+      clock, studio, [this](long number, vm::Time at) { return DrawFrame(number, at); },
+      [this](const vm::Error& error) {
+        core_.slots.Report("Capture", "DISABLE");
+        core_.slots.ReportError("Capture", error);
+      });
+  DeclareRecording();
+  DeclareCapture();
+  DeclareFrame();
+  Changed();
+}
+
+FsmModule::~FsmModule() {
+  if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
+  if (end_timer_ != 0) core_.clock.Cancel(end_timer_);
+}
+
+void FsmModule::MakeMotion() {
+  core_.motion = std::make_unique<FaceMotion>(tables_, options_.seed);
+  core_.motion->Apply(core_.Now(), start_settings_);
+}
+
+void FsmModule::Initialise() {
+  capture_->Cancel();
+  core_.slots.Store("Capture", "DISABLE");
+  MakeMotion();
+  speech_->Reset();
+  for (const auto& [name, value] : core_.initial_values) core_.slots.Store(name, value);
+  scene_->Reset();
+  Changed();
+}
+
+std::vector<vm::Message> FsmModule::Greeting() {
+  std::vector<vm::Message> lines = {vm::Rep("Run", "LIVE")};
+  if (options_.announce_config) {
+    lines.push_back(vm::Tell("detected: -C flag: " + options_.config.path));
+  }
+  return lines;
+}
+
+// ---- films, captures, frames
+
+void FsmModule::DeclareRecording() {
+  core_.Declare({"Record.sound", "<text>",
+                 "A WAV file that becomes the film's sound when it is stopped; empty = silent.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   film_sound_ = value.text;
+                   return {};
+                 }});
+  core_.Declare({"Record.fps", "<int 1..120>", "Frames a second of films and of Frame reports.",
+                 [](const vm::SetValue&) -> vm::Result<void> { return {}; }, "30"});
+  core_.slots.Declare(
+      {.name = "Record",
+       .grammar = "STOP | <file>",
+       .initial = "STOP",
+       .help = "Records a film (.mp4) from now on; STOP ends it, and answers when it is there.",
+       .on_set =
+           [this](const vm::SetValue& value) -> vm::Result<std::string> {
+             if (value.word(0) == "STOP") return StopFilm();
+             const int rate = std::stoi(core_.slots.Value("Record.fps"));
+             if (auto started = film_->Start(value.word(0), rate); !started) {
+               return std::unexpected(started.error());
+             }
+             Changed();
+             return value.word(0);
+           },
+       .saved = false});
+}
+
+vm::Result<std::string> FsmModule::StopFilm() {
+  const auto report = film_->Stop(film_sound_);
+  core_.slots.Store("Record", "STOP");
+  Changed();
+  if (!report) return std::unexpected(report.error());
+  std::cerr << fmt::format("fsm: {}: {} frames, {} of them repeated because drawing was late\n",
+                           report->path, report->frames, report->repeated);
+  return "STOP";
+}
+
+void FsmModule::DeclareCapture() {
+  core_.slots.Declare(
+      {.name = "Capture",
+       .grammar = "STOP | <word> <word> <number 0.1..120> [ BMP | PNG ]",
+       .initial = "DISABLE",
+       .help = "Numbered pictures of the next utterance, from Speak = NOW to its end: folder, "
+               "prefix, pictures a second. Its value is ENABLE until they are made, else DISABLE.",
+       .on_set =
+           [this](const vm::SetValue& value) -> vm::Result<std::string> {
+             if (value.word(0) == "STOP" && value.size() == 1) {
+               capture_->Cancel();
+               return "DISABLE";
+             }
+             if (capture_->running()) {
+               return vm::Fail(vm::Errc::kBusy, "pictures are being captured; wait for IDLE");
+             }
+             std::error_code code;
+             std::filesystem::create_directories(value.word(0), code);
+             if (!std::filesystem::is_directory(value.word(0), code)) {
+               return vm::Fail(vm::Errc::kUnavailable,
+                               "'" + value.word(0) + "' is not a folder and cannot be made one");
+             }
+             const bool png = value.size() > 3 && value.word(3) == "PNG";
+             capture_->Arm({value.word(0), value.word(1), value.number(2), png ? ".png" : ".bmp"});
+             return "ENABLE";
+           },
+       .saved = false});
+}
+
+void FsmModule::DeclareFrame() {
+  core_.slots.Declare({.name = "Frame",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .help = "The frame drawn last: NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM. "
+                               "With AutoOutput every frame is reported; the number counts from 0 in "
+                               "a film."});
+}
+
+void FsmModule::ReportFrame(long number, vm::Time at) {
+  if (!core_.slots.AutoOutput("Frame")) return;
+  const FaceState state = core_.motion->StateAt(at);
+  const MouthMeasure mouth = core_.studio.Measure(state);
+  const std::string& phoneme = core_.motion->PhonemeAt(at);
+  core_.slots.Report("Frame", fmt::format("{} {} {} {:.2f} {:.2f} {:.2f}", number, vm::FormatMs(at),
+                                          phoneme.empty() ? "-" : phoneme, mouth.jaw_degrees,
+                                          mouth.gap_mm, mouth.width_mm));
+}
+
+vm::Result<void> FsmModule::DrawFrame(long number, vm::Time at) {
+  auto drawn = core_.DrawAt(at);
+  if (drawn) ReportFrame(number, at);
+  return drawn;
+}
+
+// ---- time
+
+void FsmModule::Changed() {
+  ArmFrames();
+  ArmEnd();
+}
+
+vm::Time FsmModule::FrameAfter(vm::Time t) const {
+  // Frames without a film stand on a grid of the clock, so the same input gives the same reports.
+  const double rate = core_.studio.has_window() ? frame_rate_
+                                                : std::stod(core_.slots.Value("Record.fps"));
+  const FrameSeries grid{vm::Time(0), rate};
+  auto k = static_cast<long>(std::floor(static_cast<double>(t.count()) * rate / 1e6));
+  while (grid.TimeOf(k) <= t) ++k;
+  return grid.TimeOf(k);
+}
+
+void FsmModule::ArmFrames() {
+  const bool window = core_.studio.has_window();
+  const bool wanted =
+      window || (core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") && !film_->recording());
+  const vm::Time now = core_.Now();
+  std::optional<vm::Time> due;
+  if (wanted) {
+    // What has just been said is shown at the next frame, even if it moves nothing by itself.
+    const auto active = core_.motion->NextActivity(now);
+    if (active) due = FrameAfter(std::max(now, *active));
+    if (window) due = std::min(due.value_or(now + kWindowEvents), now + kWindowEvents);
+  }
+  if (frame_timer_ != 0 && due && *due == frame_due_) return;
+  if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
+  frame_timer_ = 0;
+  if (!due) return;
+  frame_due_ = *due;
+  frame_timer_ = core_.clock.At(*due, [this] { OnFrame(); });
+}
+
+void FsmModule::OnFrame() {
+  frame_timer_ = 0;
+  const vm::Time now = core_.Now();
+  if (core_.studio.has_window()) {
+    if (auto drawn = core_.DrawAt(now); !drawn) {
+      core_.slots.ReportError("", drawn.error());
+      exit_requested_ = true;
+      return;
+    }
+    core_.studio.Show();
+    if (core_.studio.close_requested()) exit_requested_ = true;
+  }
+  if (!film_->recording()) ReportFrame(frames_shown_++, now);
+  ArmFrames();
+}
+
+vm::Time FsmModule::BusyUntil() const {
+  const vm::Time now = core_.Now();
+  return std::max(core_.motion->FiniteEnd(now), core_.motion->OnsetsSettled(now));
+}
+
+void FsmModule::ArmEnd() {
+  // Whoever waits for the end of what moves is woken then; on the virtual clock time needs it to go
+  // there at all.
+  const vm::Time end = BusyUntil();
+  if (end_timer_ != 0 && end == end_due_) return;
+  if (end_timer_ != 0) core_.clock.Cancel(end_timer_);
+  end_timer_ = 0;
+  if (end <= core_.Now()) return;
+  end_due_ = end;
+  end_timer_ = core_.clock.At(end, [this] {
+    end_timer_ = 0;
+    ArmEnd();
+  });
+}
+
+bool FsmModule::Busy() const {
+  return speech_->Busy() || capture_->running() || BusyUntil() > core_.Now();
+}
+
+void FsmModule::Shutdown() {
+  if (!film_->recording()) return;
+  if (auto stopped = StopFilm(); !stopped) core_.slots.ReportError("Record", stopped.error());
+}
+
+}  // namespace fsm

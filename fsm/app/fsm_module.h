@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fsm/app/capture.h"
+#include "fsm/app/film.h"
+#include "fsm/app/fsm_core.h"
+#include "fsm/app/original_config.h"
+#include "fsm/app/scene_slots.h"
+#include "fsm/app/speech_slots.h"
+#include "vm_protocol/core/module.h"
+
+namespace fsm {
+
+struct FsmOptions {
+  std::uint64_t seed = 1;       ///< of everything the face does by itself
+  std::string tables;           ///< folder of tables that replace the built-in ones
+  OriginalConfig config;        ///< path "" = none
+  bool announce_config = false; ///< greet as the original does: tell detected: -C flag: FILE
+};
+
+/// The face synthesis module: all its slots over FaceMotion and a Studio.
+/// Drawing: with a window, whenever something moves (at most at the frame rate) and a few times a
+/// second otherwise; without one, only for pictures, films and Frame reports. No timer is pending
+/// while nothing moves and nothing is recorded (but for the window's events).
+/// Lifetime: scheduler and studio outlive it. Thread: the scheduler's.
+class FsmModule final : public vm::Module {
+ public:
+  /// Throws std::runtime_error with a sentence if tables or configuration are damaged.
+  FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options);
+  ~FsmModule() override;
+
+  vm::SlotMachine& slots() override { return core_.slots; }
+  std::vector<vm::Message> Greeting() override;
+  bool Busy() const override;
+  bool ExitRequested() const override { return exit_requested_; }
+  void Shutdown() override;
+  const FaceMotion& motion() const { return *core_.motion; }
+
+ private:
+  void MakeMotion();
+  void Initialise();  // Run = INIT
+  void DeclareRecording();
+  void DeclareCapture();
+  void DeclareFrame();
+  void Changed();
+  void ArmFrames();
+  void ArmEnd();
+  void OnFrame();
+  vm::Time FrameAfter(vm::Time t) const;
+  vm::Time BusyUntil() const;
+  void ReportFrame(long number, vm::Time at);
+  vm::Result<void> DrawFrame(long number, vm::Time at);
+  vm::Result<std::string> StopFilm();
+
+  FsmOptions options_;
+  MotionTables tables_;
+  MotionSettings start_settings_;
+  FsmCore core_;
+  std::unique_ptr<SceneSlots> scene_;
+  std::unique_ptr<SpeechSlots> speech_;
+  std::unique_ptr<Film> film_;
+  std::unique_ptr<Capture> capture_;
+  std::string film_sound_;
+  double frame_rate_ = 60;
+  long frames_shown_ = 0;
+  vm::TimerId frame_timer_ = 0;
+  vm::Time frame_due_{0};
+  vm::TimerId end_timer_ = 0;
+  vm::Time end_due_{0};
+  bool exit_requested_ = false;
+};
+
+}  // namespace fsm

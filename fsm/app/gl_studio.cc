@@ -1,0 +1,87 @@
+#include "fsm/app/gl_studio.h"
+
+#include <iostream>
+#include <stdexcept>
+
+namespace fsm {
+
+GlStudio::GlStudio(const Options& options) : options_(options) {
+  if (options_.where == Options::Where::kHeadless) return;
+  try {
+    context_ = RenderContext::MakeWindow(options_.width, options_.height, options_.title);
+  } catch (const std::exception& error) {
+    if (options_.where == Options::Where::kWindow) throw;
+    std::cerr << "fsm: notice: no window (" << error.what() << "), drawing headless\n";
+    options_.where = Options::Where::kHeadless;
+  }
+}
+
+GlStudio::~GlStudio() {
+  if (context_) context_->MakeCurrent();
+}
+
+const Head& GlStudio::head() {
+  if (!head_) head_ = Head::MakeGeneric();
+  return *head_;
+}
+
+void GlStudio::MakeRenderer() {
+  if (!context_) context_ = RenderContext::MakeHeadless(options_.width, options_.height);
+  context_->MakeCurrent();
+  if (!renderer_) renderer_ = Renderer::Make(*context_);
+}
+
+vm::Result<void> GlStudio::Draw(const FaceState& state, const Scene& scene) {
+  try {
+    MakeRenderer();
+    head().Evaluate(state, vertices_);
+    renderer_->Draw(head(), vertices_, state, scene);
+    return {};
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, std::string("cannot draw: ") + error.what());
+  }
+}
+
+const Image& GlStudio::Read() {
+  renderer_->Read(image_);
+  return image_;
+}
+
+MouthMeasure GlStudio::Measure(const FaceState& state) { return head().MeasureMouth(state); }
+
+int GlStudio::width() const { return has_window() ? context_->width() : options_.width; }
+int GlStudio::height() const { return has_window() ? context_->height() : options_.height; }
+
+vm::Result<void> GlStudio::Resize(int width, int height) {
+  const bool window = has_window();
+  options_.width = width;
+  options_.height = height;
+  if (!context_) return {};
+  // GL objects first: they live in the context.
+  context_->MakeCurrent();
+  renderer_.reset();
+  context_.reset();
+  try {
+    if (window) context_ = RenderContext::MakeWindow(width, height, options_.title);
+    return {};
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, error.what());
+  }
+}
+
+bool GlStudio::has_window() const { return context_ && context_->is_window(); }
+void GlStudio::Show() { context_->Present(); }
+bool GlStudio::close_requested() const { return context_ && context_->close_requested(); }
+
+vm::Result<void> GlStudio::WritePicture(const Image& image, const std::string& path) {
+  return WriteImage(image, path);
+}
+
+vm::Result<Image> GlStudio::ReadPicture(const std::string& path) { return ReadImage(path); }
+
+vm::Result<std::unique_ptr<MovieWriter>> GlStudio::OpenFilm(const std::string& path, int width,
+                                                            int height, int frames_per_second) {
+  return MovieWriter::Open(path, width, height, frames_per_second);
+}
+
+}  // namespace fsm

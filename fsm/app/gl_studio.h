@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fsm/app/studio.h"
+#include "fsm/head/head.h"
+
+namespace fsm {
+
+/// Draws our head with OpenGL: in a window, or headless with a context made at the first need.
+class GlStudio final : public Studio {
+ public:
+  struct Options {
+    int width = 640;
+    int height = 480;
+    enum class Where { kHeadless, kWindow, kWindowIfPossible } where = Where::kHeadless;
+    std::string title = "Galatea";
+  };
+  /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had.
+  explicit GlStudio(const Options& options);
+  ~GlStudio() override;
+
+  vm::Result<void> Draw(const FaceState& state, const Scene& scene) override;
+  const Image& Read() override;
+  MouthMeasure Measure(const FaceState& state) override;
+  int width() const override;
+  int height() const override;
+  vm::Result<void> Resize(int width, int height) override;
+  bool has_window() const override;
+  void Show() override;
+  bool close_requested() const override;
+  vm::Result<void> WritePicture(const Image& image, const std::string& path) override;
+  vm::Result<Image> ReadPicture(const std::string& path) override;
+  vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int width, int height,
+                                                    int frames_per_second) override;
+
+ private:
+  const Head& head();
+  void MakeRenderer();
+
+  Options options_;
+  std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
+  std::unique_ptr<RenderContext> context_;
+  std::unique_ptr<Renderer> renderer_;  // lives in the context
+  HeadVertices vertices_;
+  Image image_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,113 @@
+// The face synthesis module: lines on stdin or a socket in, a moving face out.
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fsm/app/fsm_module.h"
+#include "fsm/app/gl_studio.h"
+#include "vm_protocol/runtime/module_main.h"
+
+namespace {
+
+struct Options {
+  bool headless = false;
+  bool window = false;
+  std::string size;
+  std::vector<int> size_pair;
+  std::vector<int> position;
+  std::string config;
+  fsm::FsmOptions module;
+};
+
+/// A module that owns its studio, which has to outlive it.
+class Fsm final : public vm::Module {
+ public:
+  Fsm(vm::Scheduler& clock, const fsm::GlStudio::Options& studio, fsm::FsmOptions options)
+      : studio_(studio), module_(clock, studio_, std::move(options)) {}
+  vm::SlotMachine& slots() override { return module_.slots(); }
+  std::vector<vm::Message> Greeting() override { return module_.Greeting(); }
+  bool Busy() const override { return module_.Busy(); }
+  bool ExitRequested() const override { return module_.ExitRequested(); }
+  void Shutdown() override { module_.Shutdown(); }
+
+ private:
+  fsm::GlStudio studio_;
+  fsm::FsmModule module_;
+};
+
+bool DisplayNamed() {
+  const char* x11 = std::getenv("DISPLAY");
+  const char* wayland = std::getenv("WAYLAND_DISPLAY");
+  return (x11 != nullptr && *x11 != '\0') || (wayland != nullptr && *wayland != '\0');
+}
+
+bool WindowWanted(const Options& options) {
+  return options.window || (!options.headless && DisplayNamed());
+}
+
+void AddOptions(CLI::App& app, Options& options) {
+  app.add_flag("--headless", options.headless, "Draw without a window, only what is asked for");
+  app.add_flag("--window", options.window, "Draw in a window (the default where there is a display)");
+  app.add_option("--size", options.size, "Size of the view, WxH (default 640x480)");
+  app.add_option("-s", options.size_pair, "The same, as the original: -s W H")->expected(2);
+  app.add_option("--position", options.position, "Place of the window, X Y")->expected(2);
+  app.add_option("-C", options.config, "A configuration file of the original (config.txt)");
+  app.add_option("--tables", options.module.tables,
+                 "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
+  app.add_option("--seed", options.module.seed, "Of what the face does by itself (default 1)");
+}
+
+fsm::GlStudio::Options StudioOptions(const Options& options) {
+  fsm::GlStudio::Options studio;
+  studio.width = options.module.config.width.value_or(studio.width);
+  studio.height = options.module.config.height.value_or(studio.height);
+  if (!options.size_pair.empty()) {
+    studio.width = options.size_pair[0];
+    studio.height = options.size_pair[1];
+  }
+  if (!options.size.empty()) {
+    char end = '\0';
+    if (std::sscanf(options.size.c_str(), "%dx%d%c", &studio.width, &studio.height, &end) != 2) {
+      throw std::runtime_error("--size " + options.size + " is not WIDTHxHEIGHT, as 640x480");
+    }
+  }
+  const auto fits = [](int side) { return side >= 16 && side <= fsm::kMaxImageSide; };
+  if (!fits(studio.width) || !fits(studio.height)) {
+    throw std::runtime_error("the view must be 16 to " + std::to_string(fsm::kMaxImageSide) +
+                             " pixels wide and high");
+  }
+  using Where = fsm::GlStudio::Options::Where;
+  studio.where = options.window          ? Where::kWindow
+                 : WindowWanted(options) ? Where::kWindowIfPossible
+                                         : Where::kHeadless;
+  return studio;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return vm::RunModule(
+      argc, argv,
+      {.name = "fsm",
+       .description = "Galatea's face: a talking head told what to do in lines of text",
+       .module_name = "FSM",
+       .original_port = 10700,
+       .virtual_by_default = true,
+       .add_options = [&options](CLI::App& app) { AddOptions(app, options); },
+       .needs_real_clock = [&options] { return WindowWanted(options); },
+       .make = [&options](vm::Scheduler& clock,
+                          boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
+         if (!options.config.empty()) {
+           auto config = fsm::OriginalConfig::Read(options.config);
+           if (!config) throw std::runtime_error(config.error().text);
+           options.module.config = std::move(*config);
+           options.module.announce_config = true;
+         }
+         return std::make_unique<Fsm>(clock, StudioOptions(options), options.module);
+       }});
+}

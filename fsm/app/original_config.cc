@@ -1,0 +1,142 @@
+#include "fsm/app/original_config.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "fsm/motion/table_text.h"
+
+namespace fsm {
+namespace {
+
+vm::Result<std::string> ReadAll(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  if (!in || !(bytes << in.rdbuf())) return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
+  return bytes.str();
+}
+
+}  // namespace
+
+vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
+  const auto text = ReadAll(path);
+  if (!text) return std::unexpected(text.error());
+  const TableText table(path, *text);
+  OriginalConfig config;
+  config.path = path;
+
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const auto find_file = [&folder](const std::string& name) {
+    std::error_code code;
+    if (std::filesystem::exists(name, code)) return name;
+    return (folder / name).string();
+  };
+  for (const TableLine& line : table.lines()) {
+    const std::string& key = line.words[0];
+    const auto word = [&line](std::size_t i) {
+      return i < line.words.size() ? line.words[i] : std::string();
+    };
+    const auto number = [&](std::size_t i, double lowest, double highest) {
+      return table.Number(line, i, "a value of " + key, lowest, highest);
+    };
+    vm::Result<double> value = 0.0;
+    if (key == "DEF_WINDOW_WIDTH" || key == "DEF_WINDOW_HEIGHT") {
+      value = number(1, 16, 8192);
+      if (value) (key.ends_with("WIDTH") ? config.width : config.height) = static_cast<int>(*value);
+    } else if (key == "DEF_WINDOW_POS_X" || key == "DEF_WINDOW_POS_Y") {
+      value = number(1, -100000, 100000);
+      if (value) (key.ends_with("X") ? config.x : config.y) = static_cast<int>(*value);
+    } else if (key == "EXPRESSION_DURATION") {
+      value = number(1, 0, 60000);
+      if (value) config.expression_ms = *value;
+    } else if (key == "EYEMOVE_DURATION") {
+      value = number(1, 0, 60000);
+      if (value) config.eye_move_ms = *value;
+    } else if (key == "MaxFrameRate") {
+      value = number(1, 1, 240);
+      if (value) config.max_frame_rate = *value;
+    } else if (key == "SetViseme") {
+      if (word(1) != "JP" && word(1) != "EN") return table.Wrong(line.number, "JP or EN expected");
+      config.language = word(1) == "JP" ? Language::kJapanese : Language::kEnglish;
+    } else if (key == "BackgroundFile") {
+      if (line.words.size() < 3) return table.Wrong(line.number, "a name and a file expected");
+      config.backgrounds.emplace_back(word(1), find_file(word(2)));
+    } else if (key == "MaskFile") {
+      config.faces.push_back(word(1));
+    } else if (key == "FaceMotNod" || key == "FaceMotRefuse" || key == "FaceMotListen" ||
+               key == "FaceMotUserDef") {
+      std::string kind = key.substr(std::string("FaceMot").size());
+      for (char& c : kind) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+      config.motions[kind].push_back(find_file(word(1)));
+    } else if (key == "FaceMotBlink") {
+      value = number(1, 1, 60000);
+      if (value) config.blinks_ms.push_back(*value);
+    } else if (key == "AutonomousBlink") {
+      value = number(1, 0.01, 100);
+      const auto pattern = number(2, 1, 1000);
+      if (!pattern) return std::unexpected(pattern.error());
+      if (value) config.auto_blinks.emplace_back(*value, static_cast<int>(*pattern));
+    } else if (key == "AutonomousMove") {
+      config.auto_moves.push_back(find_file(word(1)));
+    } else if (key == "AutonomousUserdef") {
+      config.auto_userdefs.push_back(find_file(word(1)));
+    }
+    if (!value) return std::unexpected(value.error());
+  }
+  return config;
+}
+
+namespace {
+
+vm::Result<std::vector<HeadCurve>> ReadCurves(const std::vector<std::string>& files) {
+  std::vector<HeadCurve> curves;
+  for (const std::string& file : files) {
+    const auto text = ReadAll(file);
+    if (!text) return std::unexpected(text.error());
+    auto curve = ReadMotionFile(file, *text);
+    if (!curve) return std::unexpected(curve.error());
+    curves.push_back(std::move(*curve));
+  }
+  return curves;
+}
+
+}  // namespace
+
+vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
+  MotionTable& table = tables.motions;
+  for (const auto& [kind, files] : motions) {
+    auto curves = ReadCurves(files);
+    if (!curves) return std::unexpected(curves.error());
+    table.head[kind] = std::move(*curves);
+  }
+  for (const auto& [files, out] : {std::pair{&auto_moves, &table.auto_move_files},
+                                   std::pair{&auto_userdefs, &table.auto_userdef}}) {
+    if (files->empty()) continue;
+    auto curves = ReadCurves(*files);
+    if (!curves) return std::unexpected(curves.error());
+    *out = std::move(*curves);
+  }
+  if (!blinks_ms.empty()) table.blinks.clear();
+  for (const double ms : blinks_ms) {
+    // Two fifths closing, as lids close faster than they open.
+    table.blinks.push_back({0.4 * ms, 0.05 * ms, 0.55 * ms});
+  }
+  if (!auto_blinks.empty()) table.auto_blinks.clear();
+  for (const auto& [percent, pattern] : auto_blinks) {
+    if (static_cast<std::size_t>(pattern) > table.blinks.size()) {
+      return vm::Fail(vm::Errc::kBadValue, path + ": AutonomousBlink names blink pattern " +
+                                               std::to_string(pattern) + ", which there is not");
+    }
+    // The original draws lots for every frame, 30 a second.
+    constexpr double kFrameMs = 1000.0 / 30;
+    table.auto_blinks.push_back(
+        {std::max(500.0, kFrameMs * 100 / percent), static_cast<std::size_t>(pattern) - 1, false});
+  }
+  // Built-in autonomous blinks may now point past the patterns the file gave.
+  for (AutoBlink& blink : table.auto_blinks) {
+    blink.blink = std::min(blink.blink, table.blinks.size() - 1);
+  }
+  return {};
+}
+
+}  // namespace fsm

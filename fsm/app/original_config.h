@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fsm/motion/face_motion.h"
+
+namespace fsm {
+
+/// What the original's config.txt says, as far as it means something here.
+struct OriginalConfig {
+  std::string path;
+  std::optional<int> width, height, x, y;
+  std::optional<double> expression_ms, eye_move_ms, max_frame_rate;
+  std::optional<Language> language;
+  std::vector<std::pair<std::string, std::string>> backgrounds;  ///< name, file, in order
+  std::map<std::string, std::vector<std::string>> motions;       ///< NOD.. -> files, by pattern
+  std::vector<double> blinks_ms;
+  std::vector<std::pair<double, int>> auto_blinks;  ///< per cent a frame, blink pattern
+  std::vector<std::string> auto_moves, auto_userdefs;
+  std::vector<std::string> faces;  ///< names of MaskFile lines: faces of people, not drawn yet
+
+  /// Reads the file: `KEY args`, `#` comments; keys it does not know mean nothing, as in the original.
+  /// File names are looked for from the working directory, then from the file's own folder.
+  /// Errors: kUnavailable if it cannot be read; kBadValue with file and line for a damaged one.
+  static vm::Result<OriginalConfig> Read(const std::string& path);
+
+  /// Replaces the patterns the file names. Errors: as above, for the files it refers to.
+  vm::Result<void> ApplyTo(MotionTables& tables) const;
+};
+
+}  // namespace fsm

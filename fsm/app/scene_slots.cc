@@ -1,0 +1,179 @@
+#include "fsm/app/scene_slots.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kMask = "galatea";
+constexpr const char* kPlain = "plain";       // the background without a picture
+constexpr vm::Time kLongestSettling = 2000ms;  // what a picture waits for movements, on their clock
+
+std::optional<glm::vec3> ParseColour(std::string_view text) {
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  unsigned rgb = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, rgb, 16);
+  if (error != std::errc{} || end != text.data() + 7) return std::nullopt;
+  return glm::vec3(static_cast<float>(rgb >> 16 & 255u), static_cast<float>(rgb >> 8 & 255u),
+                   static_cast<float>(rgb & 255u)) /
+         255.0f;
+}
+
+bool IsPictureName(const std::string& name) {
+  return name.ends_with(".png") || name.ends_with(".bmp") || name.ends_with(".rgb");
+}
+
+}  // namespace
+
+SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds)
+    : core_(core), backgrounds_(std::move(backgrounds)) {
+  DeclareMasks();
+  DeclareBackgrounds();
+  DeclareView();
+  DeclareSaveImage();
+  if (!backgrounds_.empty()) {
+    if (auto set = SetBackground(backgrounds_.front().first); !set) {
+      throw std::runtime_error(set.error().text);
+    }
+    core_.slots.Store("NowBackground", backgrounds_.front().first);
+  }
+}
+
+void SceneSlots::DeclareMasks() {
+  core_.slots.Declare({.name = "MaskSet",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = kMask,
+                       .help = "The faces there are, with commas between them.",
+                       .quoted = true});
+  core_.slots.Declare({.name = "NowMask",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = kMask,
+                       .help = "The face worn now.",
+                       .quoted = true});
+  core_.Declare({"Mask", "<text>", "Wears one of the faces of MaskSet.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   if (value.text != kMask) {
+                     return vm::Fail(vm::Errc::kBadValue, "there is no face '" + value.text +
+                                                              "'; there is " + kMask);
+                   }
+                   core_.slots.Report("NowMask", value.text);
+                   return {};
+                 },
+                 kMask});
+}
+
+void SceneSlots::DeclareBackgrounds() {
+  std::string names = kPlain;
+  for (const auto& [name, file] : backgrounds_) names += "," + name;
+  core_.slots.Declare({.name = "BackgroundSet",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = names,
+                       .help = "The backgrounds that have names, with commas between them.",
+                       .quoted = true});
+  core_.slots.Declare({.name = "NowBackground",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = kPlain,
+                       .help = "The background shown now.",
+                       .quoted = true});
+  core_.Declare({"Background", "<file>",
+                 "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb) or a "
+                 "colour, #rrggbb.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   if (auto set = SetBackground(value.word(0)); !set) return set;
+                   core_.slots.Report("NowBackground", value.word(0));
+                   return {};
+                 },
+                 backgrounds_.empty() ? kPlain : backgrounds_.front().first});
+}
+
+vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
+  if (name == kPlain) {
+    core_.scene.background = Scene{}.background;
+    core_.scene.background_image = nullptr;
+    return {};
+  }
+  if (const auto colour = ParseColour(name)) {
+    core_.scene.background = *colour;
+    core_.scene.background_image = nullptr;
+    return {};
+  }
+  const auto named = std::ranges::find(backgrounds_, name, &std::pair<std::string, std::string>::first);
+  if (named == backgrounds_.end() && !IsPictureName(name)) {
+    return vm::Fail(vm::Errc::kBadValue, "there is no background '" + name + "'; " +
+                                             core_.slots.Value("BackgroundSet") +
+                                             ", a .png, .bmp or .rgb file or #rrggbb expected");
+  }
+  auto picture = core_.studio.ReadPicture(named == backgrounds_.end() ? name : named->second);
+  if (!picture) return std::unexpected(picture.error());
+  picture_ = std::move(*picture);
+  core_.scene.background_image = &picture_;
+  return {};
+}
+
+void SceneSlots::DeclareView() {
+  core_.Declare({"ViewMode", "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME", "How the face is drawn.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   core_.scene.view_mode =
+                       value.word(0) == "TEXTURE"     ? ViewMode::kTexture
+                       : value.word(0) == "WIREFRAME" ? ViewMode::kWireframe
+                                                      : ViewMode::kTextureWithWireframe;
+                   return {};
+                 },
+                 "TEXTURE"});
+  core_.Declare({"ViewBackground", "ENABLE | DISABLE",
+                 "Whether the background is drawn; without it pictures are transparent there.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   core_.scene.show_background = value.word(0) == "ENABLE";
+                   return {};
+                 },
+                 "ENABLE"});
+  core_.Declare({"Window", "<int 16..8192> <int 16..8192>", "Width and height of the view in pixels.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   if (size_locked_ && size_locked_()) {
+                     return vm::Fail(vm::Errc::kBusy,
+                                     "a film of this size is recorded; set Record = STOP first");
+                   }
+                   return core_.studio.Resize(static_cast<int>(value.number(0)),
+                                              static_cast<int>(value.number(1)));
+                 },
+                 std::to_string(core_.studio.width()) + " " + std::to_string(core_.studio.height())});
+}
+
+void SceneSlots::DeclareSaveImage() {
+  core_.slots.Declare(
+      {.name = "SaveImage",
+       .grammar = "<file>",
+       .access = vm::Access::kWriteOnly,
+       .help = "Writes a picture of the face, .png, .bmp or .rgb by the name: as it will be when the "
+               "changes begun before this command have settled, at most 2 s ahead.",
+       .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
+         // The state is a function of time, so the settled face can be drawn at once, and commands
+         // which follow cannot spoil it.
+         const vm::Time now = core_.Now();
+         const vm::Time at = std::min(core_.motion->OnsetsSettled(now), now + kLongestSettling);
+         auto done = core_.DrawAt(at);
+         if (done) done = core_.studio.WritePicture(core_.studio.Read(), value.word(0));
+         core_.changed();
+         if (!done) return reply.Fail(done.error());
+         reply.Ok(value.word(0));
+       }});
+}
+
+void SceneSlots::Reset() {
+  core_.scene = Scene{};
+  const std::string first = backgrounds_.empty() ? kPlain : backgrounds_.front().first;
+  if (auto set = SetBackground(first); !set) core_.slots.ReportError("Background", set.error());
+  core_.slots.Store("NowBackground", first);
+}
+
+}  // namespace fsm

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fsm/app/fsm_core.h"
+
+namespace fsm {
+
+/// What is around the face: masks, backgrounds, the way it is drawn, the size of the view, and
+/// single pictures of it (SaveImage).
+class SceneSlots {
+ public:
+  /// `backgrounds`: names and files of the configuration; the first is shown at the start.
+  /// Throws std::runtime_error if that one cannot be read. `core` outlives this.
+  SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds);
+  void Reset();  ///< for `Run = INIT`
+  /// The size cannot be changed while this says so (a film is recorded).
+  void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
+
+ private:
+  void DeclareMasks();
+  void DeclareBackgrounds();
+  void DeclareView();
+  void DeclareSaveImage();
+  vm::Result<void> SetBackground(const std::string& name);
+
+  FsmCore& core_;
+  std::vector<std::pair<std::string, std::string>> backgrounds_;
+  Image picture_;
+  std::function<bool()> size_locked_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,270 @@
+#include "fsm/app/speech_slots.h"
+
+#include "vm_protocol/core/start_time.h"
+
+namespace fsm {
+namespace {
+
+std::string NamesOf(const vm::PhonemeList& list) {
+  std::string names;
+  for (const vm::Phoneme& phoneme : list) names += (names.empty() ? "" : " ") + phoneme.name;
+  return names;
+}
+
+std::string LengthOf(const vm::PhonemeList& list) {
+  return std::to_string(vm::TotalDuration(list).count());
+}
+
+}  // namespace
+
+SpeechSlots::SpeechSlots(FsmCore& core, Listener listener)
+    : core_(core), listener_(std::move(listener)) {
+  DeclareListSlots();
+  DeclareSpeakSlots();
+  DeclareSettings();
+}
+
+void SpeechSlots::DeclareListSlots() {
+  core_.slots.Declare({.name = "LipSync.pho",
+                       .grammar = "<text>",
+                       .help = "The phonemes to speak and their ms: `h 80 a 100`, `h[80] a[100]`. "
+                               "Refused while SPEAKING.",
+                       .on_set = [this](const vm::SetValue& value) { return Prepare(value.text); },
+                       .saved = false});
+  core_.slots.Declare({.name = "LipSync.dur",
+                       .grammar = "<ms>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = "0",
+                       .help = "The duration of LipSync.pho in ms."});
+  core_.slots.Declare({.name = "LipSync",
+                       .grammar = "<text>",
+                       .access = vm::Access::kWriteOnly,
+                       .help = "Another name to set LipSync.pho by; `inq` lists its parts.",
+                       .on_set_later =
+                           [this](const vm::SetValue& value, const vm::Reply& reply) {
+                             auto stored = Prepare(value.text);
+                             if (!stored) return reply.Fail(stored.error());
+                             core_.slots.Report("LipSync.pho", *stored);
+                             reply.Ok(*stored);
+                           },
+                       .group = {"LipSync.pho", "LipSync.dur"}});
+}
+
+void SpeechSlots::DeclareSpeakSlots() {
+  const auto read_only = [this](const char* name, const char* initial, const char* help) {
+    core_.slots.Declare({.name = name,
+                         .grammar = "<text>",
+                         .access = vm::Access::kReadOnly,
+                         .initial = initial,
+                         .help = help});
+  };
+  read_only("Speak.text", "", "The names of the phonemes to speak.");
+  read_only("Speak.pho", "", "The phonemes to speak with their ms.");
+  read_only("Speak.dur", "0", "Their duration in ms.");
+  read_only("Speak.utt", "", "The phonemes spoken before, as far as they were spoken.");
+  read_only("Speak.len", "0", "How many ms of them were spoken.");
+  read_only("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
+  core_.slots.Declare({.name = "Speak",
+                       .grammar = "NOW | STOP | <time>",
+                       .access = vm::Access::kWriteOnly,
+                       .help = "Starts the mouth: NOW, + ms, @T (ms on the module's clock) or a wall "
+                               "time; given before the list it is remembered. STOP closes the mouth.",
+                       .on_set_later =
+                           [this](const vm::SetValue& value, const vm::Reply& reply) {
+                             if (auto done = Speak(value); !done) return reply.Fail(done.error());
+                             reply.Ok(value.text);
+                           },
+                       .group = {"Speak.text", "Speak.pho", "Speak.dur", "Speak.utt", "Speak.len",
+                                 "Speak.stat"}});
+  core_.slots.Declare({.name = "Speak.sync",
+                       .grammar = "<number 0..86400000>",
+                       .access = vm::Access::kWriteOnly,
+                       .help = "The voice has played so many ms; the mouth follows without a jump. "
+                               "0 is ignored.",
+                       .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
+                         if (value.number(0) > 0) {
+                           core_.motion->Sync(core_.Now(), value.number(0));
+                           if (stat_ == Stat::kSpeaking) WaitForEnd();
+                           core_.changed();
+                         }
+                         reply.Ok(value.text);
+                       }});
+}
+
+void SpeechSlots::DeclareSettings() {
+  const auto setting = [this](const char* name, const char* grammar, const char* help,
+                              const std::string& initial, auto apply) {
+    core_.Declare({name, grammar, help,
+                   [this, apply](const vm::SetValue& value) -> vm::Result<void> {
+                     MotionSettings settings = core_.motion->settings();
+                     apply(settings, value);
+                     core_.motion->Apply(core_.Now(), settings);
+                     if (stat_ == Stat::kSpeaking) WaitForEnd();
+                     return {};
+                   },
+                   initial});
+  };
+  setting("Speak.syncoffset", "<number -10000..10000>",
+          "ms added to what the voice reports in Speak.sync.", "0",
+          [](MotionSettings& s, const vm::SetValue& v) { s.sync_offset_ms = v.number(0); });
+  setting("Speak.syncrate", "<number 1..90>",
+          "How quickly a difference to the voice is worked off: at most so many per cent faster or "
+          "slower than time.",
+          "25", [](MotionSettings& s, const vm::SetValue& v) { s.sync_rate = v.number(0) / 100; });
+  setting("Offset", "<number -10000..10000>", "Delays the mouth by so many ms.", "0",
+          [](MotionSettings& s, const vm::SetValue& v) { s.offset_ms = v.number(0); });
+  setting("LipSync.lead", "<number -1000..1000>", "The mouth is ahead of the voice by so many ms.",
+          "40", [](MotionSettings& s, const vm::SetValue& v) { s.lead_ms = v.number(0); });
+  setting("LipSync.language", "AUTO | JP | EN",
+          "Whose mouth shapes phonemes have; AUTO looks at each list.",
+          core_.motion->settings().language == Language::kAuto      ? "AUTO"
+          : core_.motion->settings().language == Language::kEnglish ? "EN"
+                                                                    : "JP",
+          [](MotionSettings& s, const vm::SetValue& v) {
+            s.language = v.word(0) == "JP"   ? Language::kJapanese
+                         : v.word(0) == "EN" ? Language::kEnglish
+                                             : Language::kAuto;
+          });
+  setting("MouthScale", "<number 0..200>",
+          "Size of the mouth's movements in the original's per cent: 30 is natural speech, 40 full "
+          "articulation.",
+          "30", [](MotionSettings& s, const vm::SetValue& v) { s.mouth_scale = v.number(0); });
+}
+
+vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
+  if (stat_ == Stat::kSpeaking) {
+    return vm::Fail(vm::Errc::kBusy,
+                    "speaking; wait for Speak.stat = IDLE or set Speak = STOP first");
+  }
+  auto list = vm::ParsePhonemes(text);
+  if (!list) return std::unexpected(list.error());
+  CancelTimer();
+  if (core_.motion->speaking()) core_.motion->StopSpeaking(core_.Now());  // its start was to come
+  list_ = std::move(*list);
+  const std::string written = vm::FormatPhonemesFace(list_);
+  core_.slots.Store("LipSync.dur", LengthOf(list_));
+  SetStat(Stat::kProcessing);
+  core_.slots.Report("Speak.text", NamesOf(list_));
+  core_.slots.Report("Speak.pho", written);
+  core_.slots.Report("Speak.dur", LengthOf(list_));
+  core_.slots.Report("Speak.utt", vm::FormatPhonemesFace(spoken_));
+  core_.slots.Report("Speak.len", LengthOf(spoken_));
+  SetStat(Stat::kReady);
+  if (start_) Begin();
+  core_.changed();
+  return written;
+}
+
+vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
+  if (value.word(0) == "STOP") {
+    Stop();
+    core_.changed();
+    return {};
+  }
+  if (stat_ == Stat::kSpeaking) {
+    return vm::Fail(vm::Errc::kBusy, "speaking already; set Speak = STOP first");
+  }
+  const auto start = vm::ParseStartTime(value.text);
+  if (!start) return std::unexpected(start.error());
+  const bool by_wall = start->kind == vm::StartTime::Kind::kWallClock;
+  start_ = vm::Resolve(*start, core_.Now(), by_wall ? vm::WallSinceMidnight() : vm::Time(0));
+  // NOW means as soon as the list is there, however late that is.
+  if (start->kind == vm::StartTime::Kind::kNow && stat_ != Stat::kReady) start_ = vm::Time::max();
+  if (stat_ == Stat::kReady) Begin();
+  core_.changed();
+  return {};
+}
+
+void SpeechSlots::Begin() {
+  const vm::Time now = core_.Now();
+  const vm::Time start = *start_ == vm::Time::max() ? now : *start_;
+  start_ = start;
+  CancelTimer();
+  core_.motion->Speak(now, list_, start);
+  if (start > now) {
+    timer_ = core_.clock.At(start, [this] {
+      timer_ = 0;
+      Speaking();
+    });
+  } else {
+    Speaking();
+  }
+}
+
+void SpeechSlots::Speaking() {
+  SetStat(Stat::kSpeaking);
+  if (listener_.begun) listener_.begun();
+  WaitForEnd();
+  core_.changed();
+}
+
+void SpeechSlots::WaitForEnd() {
+  CancelTimer();
+  const vm::Time end = core_.motion->SpeechEnd().value_or(core_.Now());
+  timer_ = core_.clock.At(end, [this] {
+    timer_ = 0;
+    // Settings may have moved the end meanwhile.
+    if (core_.motion->SpeechEnd().value_or(vm::Time(0)) > core_.Now()) return WaitForEnd();
+    End(list_);
+    core_.changed();
+  });
+}
+
+void SpeechSlots::Stop() {
+  CancelTimer();
+  const vm::Time now = core_.Now();
+  vm::PhonemeList spoken;
+  if (stat_ == Stat::kSpeaking) {
+    const auto heard = static_cast<std::int64_t>(core_.motion->VoicePosition(now));
+    spoken = vm::SpokenPart(list_, std::chrono::milliseconds(heard));
+  }
+  core_.motion->StopSpeaking(now);
+  if (stat_ == Stat::kIdle) {
+    start_.reset();
+    SetStat(Stat::kIdle);
+    return;
+  }
+  End(std::move(spoken));
+}
+
+void SpeechSlots::End(vm::PhonemeList spoken) {
+  spoken_ = std::move(spoken);
+  list_.clear();
+  start_.reset();
+  core_.slots.Report("Speak.len", LengthOf(spoken_));
+  core_.slots.Report("Speak.utt", vm::FormatPhonemesFace(spoken_));
+  SetStat(Stat::kIdle);
+  if (listener_.ended) listener_.ended();
+}
+
+void SpeechSlots::Reset() {
+  CancelTimer();
+  const bool was_busy = stat_ == Stat::kSpeaking;
+  stat_ = Stat::kIdle;
+  list_.clear();
+  spoken_.clear();
+  start_.reset();
+  for (const char* name : {"Speak.text", "Speak.pho", "Speak.utt", "LipSync.pho"}) {
+    core_.slots.Store(name, "");
+  }
+  for (const char* name : {"Speak.dur", "Speak.len", "LipSync.dur"}) core_.slots.Store(name, "0");
+  if (was_busy) {
+    core_.slots.Report("Speak.stat", "IDLE");
+    if (listener_.ended) listener_.ended();
+  } else {
+    core_.slots.Store("Speak.stat", "IDLE");
+  }
+}
+
+void SpeechSlots::SetStat(Stat stat) {
+  static constexpr const char* kNames[] = {"IDLE", "PROCESSING", "READY", "SPEAKING"};
+  stat_ = stat;
+  core_.slots.Report("Speak.stat", kNames[static_cast<int>(stat)]);
+}
+
+void SpeechSlots::CancelTimer() {
+  if (timer_ != 0) core_.clock.Cancel(timer_);
+  timer_ = 0;
+}
+
+}  // namespace fsm

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "fsm/app/fsm_core.h"
+#include "vm_protocol/core/phonemes.h"
+
+namespace fsm {
+
+/// The speaking of the face as its slots tell it:
+///
+///     IDLE --LipSync.pho--> PROCESSING --> READY --Speak--> SPEAKING --end or STOP--> IDLE
+///
+/// `Speak` before the list is remembered and carried out as soon as the list is there. LipSync.pho
+/// while SPEAKING is refused. The end and STOP always report len, utt and IDLE.
+class SpeechSlots {
+ public:
+  struct Listener {
+    std::function<void()> begun;  ///< SPEAKING was reached
+    std::function<void()> ended;  ///< IDLE was reached
+  };
+  /// Declares the slots. `core` outlives this.
+  SpeechSlots(FsmCore& core, Listener listener);
+
+  /// Speaking, or about to at a time that is known.
+  bool Busy() const { return stat_ == Stat::kSpeaking || (stat_ == Stat::kReady && start_); }
+  /// Back to IDLE without a word, for `Run = INIT`; the motion is new.
+  void Reset();
+
+ private:
+  enum class Stat { kIdle, kProcessing, kReady, kSpeaking };
+
+  void DeclareListSlots();
+  void DeclareSpeakSlots();
+  void DeclareSettings();
+  vm::Result<std::string> Prepare(const std::string& text);
+  vm::Result<void> Speak(const vm::SetValue& value);
+  void Begin();
+  void Speaking();
+  void WaitForEnd();
+  void Stop();
+  void End(vm::PhonemeList spoken);
+  void SetStat(Stat stat);
+  void CancelTimer();
+
+  FsmCore& core_;
+  Listener listener_;
+  Stat stat_ = Stat::kIdle;
+  vm::PhonemeList list_;
+  std::optional<vm::Time> start_;  // the start asked for
+  vm::PhonemeList spoken_;         // of the utterance before
+  vm::TimerId timer_ = 0;          // the start or the end
+};
+
+}  // namespace fsm

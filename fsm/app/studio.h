@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fsm/head/face_state.h"
+#include "fsm/render/renderer.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// Where states of the face become pictures, and where pictures and films are kept: everything the
+/// module needs of graphics and files, behind one interface so that it is tested without either.
+/// Thread: the module's.
+class Studio {
+ public:
+  virtual ~Studio() = default;
+
+  /// Draws a state; the picture can then be read or shown. Error: kUnavailable if there is no way
+  /// to draw (the first call makes the graphics context of a headless studio).
+  virtual vm::Result<void> Draw(const FaceState& state, const Scene& scene) = 0;
+  /// The frame drawn last; valid until the next call. REQUIRES: one was drawn.
+  virtual const Image& Read() = 0;
+  /// What the mouth of a state measures. Needs no drawing.
+  virtual MouthMeasure Measure(const FaceState& state) = 0;
+
+  virtual int width() const = 0;
+  virtual int height() const = 0;
+  virtual vm::Result<void> Resize(int width, int height) = 0;
+
+  virtual bool has_window() const = 0;
+  /// Shows the frame drawn last and takes the window's events. REQUIRES: has_window().
+  virtual void Show() = 0;
+  virtual bool close_requested() const = 0;
+
+  virtual vm::Result<void> WritePicture(const Image& image, const std::string& path) = 0;
+  virtual vm::Result<Image> ReadPicture(const std::string& path) = 0;
+  virtual vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int width,
+                                                            int height, int frames_per_second) = 0;
+};
+
+}  // namespace fsm

@@ -1,0 +1,173 @@
+#include "fsm/head/action_units.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "fsm/head/spline.h"
+
+namespace fsm {
+namespace {
+
+std::size_t At(int unit) { return static_cast<std::size_t>(unit); }
+
+int ReadUnit(const TableRow& row, std::size_t index) {
+  const int unit = row.Integer(index);
+  if (unit < 1 || unit >= static_cast<int>(kActionUnits) || unit == 3 || unit == 40) {
+    row.Fail("'" + row.Word(index) + "' is no action unit (1, 2, 4-39, 41-46)");
+  }
+  return unit;
+}
+
+ActionUnits::Field ReadField(const TableRow& row) {
+  ActionUnits::Field field{};
+  field.unit = ReadUnit(row, 1);
+  field.at = {row.Number(2), row.Number(3)};
+  field.radius = {row.Number(4), row.Number(5)};
+  if (field.radius.x <= 0 || field.radius.y <= 0) row.Fail("a radius must be positive");
+  const std::string& part = row.Word(6);
+  using Part = ActionUnits::Field::Part;
+  if (part == "above") {
+    field.part = Part::kAbove;
+  } else if (part == "below") {
+    field.part = Part::kBelow;
+  } else if (part == "both") {
+    field.part = Part::kBoth;
+  } else {
+    row.Fail("'" + part + "' found where above, below or both was expected");
+  }
+  field.by = row.Vector(7);
+  return field;
+}
+
+float Acting(float strength) {
+  if (!(strength > 0)) return 0;
+  strength = std::min(strength, 2.0f);
+  return strength <= 1 ? strength : 1 + 0.5f * (strength - 1);
+}
+
+}  // namespace
+
+ActionUnits::ActionUnits(const Table& table) {
+  using enum Effect::Kind;
+  for (const TableRow& row : table.rows()) {
+    const std::string& key = row.key();
+    const auto effect = [&](Effect::Kind kind, bool two) {
+      effects_.push_back({kind, ReadUnit(row, 1), row.Number(2), two ? row.Number(3) : 0});
+    };
+    const auto rule = [&](Rule::Kind kind, bool part) {
+      rules_.push_back({kind, ReadUnit(row, 1), ReadUnit(row, 2), part ? row.Number(3) : 0});
+    };
+    if (key == "field") {
+      fields_.push_back(ReadField(row));
+    } else if (key == "lid") {
+      effect(kLid, true);
+    } else if (key == "close") {
+      effect(kClose, false);
+    } else if (key == "jaw") {
+      effect(kJaw, true);
+    } else if (key == "sway") {
+      effect(kSway, false);
+    } else if (key == "seal") {
+      effect(kSeal, false);
+    } else if (key == "tongue") {
+      effect(kTongue, true);
+    } else if (key == "damp") {
+      rule(Rule::Kind::kDamp, true);
+    } else if (key == "oppose") {
+      rule(Rule::Kind::kOppose, false);
+    } else if (key == "strongest") {
+      rule(Rule::Kind::kStrongest, false);
+    } else {
+      row.Fail("unknown word '" + key + "'");
+    }
+  }
+}
+
+SidedUnits ActionUnits::Combine(const FaceState& state) const {
+  SidedUnits units{};
+  for (std::size_t i = 1; i < kActionUnits; ++i) {
+    units[0][i] = Acting(state.au_right[i]);
+    units[1][i] = Acting(state.au_left[i]);
+  }
+  for (auto& side : units) {
+    const auto before = side;  // rules look at what was asked, so their order does not matter
+    for (const Rule& rule : rules_) {
+      const float a = before[At(rule.a)];
+      const float b = before[At(rule.b)];
+      if (rule.kind == Rule::Kind::kDamp) {
+        side[At(rule.a)] *= 1 - rule.part * std::min(b, 1.0f);
+      } else if (rule.kind == Rule::Kind::kOppose) {
+        if (a > 0 && b > 0 && a + b > 1) {
+          side[At(rule.a)] /= a + b;
+          side[At(rule.b)] /= a + b;
+        }
+      } else {
+        side[At(a < b ? rule.a : rule.b)] = 0;
+      }
+    }
+  }
+  return units;
+}
+
+UnitEffects ActionUnits::Effects(const SidedUnits& units) const {
+  UnitEffects sum;
+  for (const Effect& effect : effects_) {
+    const float right = units[0][At(effect.unit)];
+    const float left = units[1][At(effect.unit)];
+    const float either = std::max(left, right);
+    switch (effect.kind) {
+      case Effect::Kind::kLid:
+        for (std::size_t s = 0; s < 2; ++s) {
+          sum.lids[s].upper_mm += effect.first * units[s][At(effect.unit)];
+          sum.lids[s].lower_mm += effect.second * units[s][At(effect.unit)];
+        }
+        break;
+      case Effect::Kind::kClose:
+        for (std::size_t s = 0; s < 2; ++s) {
+          sum.lids[s].close = std::max(sum.lids[s].close, effect.first * units[s][At(effect.unit)]);
+        }
+        break;
+      case Effect::Kind::kJaw:
+        sum.jaw_degrees += effect.first * either;
+        sum.jaw_slide_mm += effect.second * either;
+        break;
+      case Effect::Kind::kSway:
+        sum.jaw_sway_mm += effect.first * (left - right);
+        break;
+      case Effect::Kind::kSeal:
+        sum.seal = std::max(sum.seal, effect.first * either);
+        break;
+      case Effect::Kind::kTongue:
+        sum.tongue_raise += effect.first * either;
+        sum.tongue_out_mm += effect.second * either;
+        break;
+    }
+  }
+  return sum;
+}
+
+glm::vec3 ActionUnits::Motion(const Field& field, const Flesh& flesh, bool mirror) {
+  const float x = mirror ? -flesh.domain.x : flesh.domain.x;
+  // Both sides act at the median, half each, so that left and right together make the whole.
+  const float own_side = SmoothStep(-7, 7, x);
+  if (own_side <= 0) return glm::vec3(0);
+  float weight = 0;
+  // A field that reaches over the median meets its mirror image there: the stronger counts.
+  for (const float side : {1.0f, -1.0f}) {
+    const float dx = (x - side * field.at.x) / field.radius.x;
+    const float dy = (flesh.domain.y - field.at.y) / field.radius.y;
+    const float d2 = dx * dx + dy * dy;
+    if (d2 < 1) weight = std::max(weight, (1 - d2) * (1 - d2));
+  }
+  using Part = Field::Part;
+  if (field.part == Part::kAbove) weight *= flesh.above_mouth;
+  if (field.part == Part::kBelow) weight *= 1 - flesh.above_mouth;
+  weight *= own_side * flesh.free;
+  glm::vec3 by = field.by;
+  // The sideways part turns over smoothly at the median instead of tearing it.
+  by.x *= std::clamp(x / 4, -1.0f, 1.0f) * (mirror ? -1.0f : 1.0f);
+  return weight * by;
+}
+
+}  // namespace fsm

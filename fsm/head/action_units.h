@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "fsm/head/face_state.h"
+#include "fsm/head/rig.h"
+#include "fsm/head/table_reader.h"
+
+namespace fsm {
+
+/// Action units by side: [0] the agent's right, [1] its left; FACS number as index.
+using SidedUnits = std::array<std::array<float, kActionUnits>, 2>;
+
+/// What units do beside moving skin, summed over all that act.
+struct UnitEffects {
+  struct Lids {
+    float upper_mm = 0, lower_mm = 0, close = 0;
+  };
+  std::array<Lids, 2> lids;  ///< right, left
+  float jaw_degrees = 0, jaw_slide_mm = 0, jaw_sway_mm = 0;
+  float seal = 0;
+  float tongue_raise = 0, tongue_out_mm = 0;
+};
+
+/// The table of action units: knowledge only, no vertices. Immutable.
+class ActionUnits {
+ public:
+  struct Field {
+    int unit;
+    glm::vec2 at, radius;
+    enum class Part { kAbove, kBelow, kBoth } part;
+    glm::vec3 by;
+  };
+
+  /// Throws std::runtime_error naming file and line if the table is damaged.
+  explicit ActionUnits(const Table& table);
+
+  const std::vector<Field>& fields() const { return fields_; }
+  /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops stretching),
+  /// and corrected for units that act together. Not-a-number counts as 0.
+  SidedUnits Combine(const FaceState& state) const;
+  UnitEffects Effects(const SidedUnits& units) const;
+  /// Motion of one left-side field at a flesh vertex of either half; `mirror` for the right side.
+  static glm::vec3 Motion(const Field& field, const Flesh& flesh, bool mirror);
+
+ private:
+  struct Rule {
+    enum class Kind { kDamp, kOppose, kStrongest } kind;
+    int a, b;
+    float part;
+  };
+  struct Effect {
+    enum class Kind { kLid, kClose, kJaw, kSway, kSeal, kTongue } kind;
+    int unit;
+    float first, second;
+  };
+  std::vector<Field> fields_;
+  std::vector<Rule> rules_;
+  std::vector<Effect> effects_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,90 @@
+#include "fsm/head/anatomy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace fsm {
+
+Curve ReadCurve(const Table& table, std::string_view x_key, std::string_view y_key) {
+  const TableRow& x = table.Only(x_key);
+  const TableRow& y = table.Only(y_key);
+  std::vector<float> xs = x.Numbers(1);
+  std::vector<float> ys = y.Numbers(1);
+  if (xs.size() < 2) x.Fail("a curve needs two points");
+  if (xs.size() != ys.size()) {
+    y.Fail("has " + std::to_string(ys.size()) + " values, '" + x.key() + "' has " +
+           std::to_string(xs.size()));
+  }
+  if (std::ranges::adjacent_find(xs, std::greater_equal<float>()) != xs.end()) {
+    x.Fail("must ascend");
+  }
+  return {std::move(xs), std::move(ys)};
+}
+
+EyeAnatomy::EyeAnatomy(const Table& table)
+    : lid_radius_(ReadCurve(table, "lid_radius", "lid_value")),
+      upper_(ReadCurve(table, "upper_lid_x", "upper_lid_y")),
+      lower_(ReadCurve(table, "lower_lid_x", "lower_lid_y")) {
+  const TableRow& ball = table.Only("ball");
+  centre_ = ball.Vector(1);
+  radius_ = ball.Number(4);
+  if (radius_ <= 0) ball.Fail("the radius must be positive");
+  iris_ = table.Only("iris").Number(1);
+  pupil_ = table.Only("iris").Number(2);
+  shear_ = table.Only("lid_shear").Number(1);
+  meet_ = table.Only("meet").Number(1);
+}
+
+float EyeAnatomy::AngleOf(float x, float y) const {
+  return std::asin(std::clamp((y - centre_.y) / LidRadius(x), -0.99f, 0.99f));
+}
+
+float EyeAnatomy::InnerRadius(float x) const {
+  const float dx = x - centre_.x;
+  const float ball = std::sqrt(std::max(0.0f, radius_ * radius_ - dx * dx));
+  // The axis of the lids recedes outward, the ball's does not.
+  return std::min(LidRadius(x) - 0.6f, std::max(ball + 0.25f - shear_ * dx, LidRadius(x) - 2.6f));
+}
+
+float EyeAnatomy::MeetAngle(float x) const {
+  return UpperAngle(x) + meet_ * (LowerAngle(x) - UpperAngle(x));
+}
+
+glm::vec3 EyeAnatomy::OnLid(float x, float angle, float radius) const {
+  return {x, centre_.y + radius * std::sin(angle), LidAxisZ(x) + radius * std::cos(angle)};
+}
+
+MouthAnatomy::MouthAnatomy(const Table& table)
+    : line_y_(ReadCurve(table, "line_x", "line_y")),
+      line_z_(ReadCurve(table, "line_x", "line_z")),
+      upper_(ReadCurve(table, "upper_x", "upper_y")),
+      lower_(ReadCurve(table, "lower_x", "lower_y")) {
+  corner_ = table.Only("corner").Vector(1);
+  const auto full = [&](std::string_view key) {
+    const TableRow& row = table.Only(key);
+    std::vector<float> y = row.Numbers(1);
+    if (y.size() < 2) row.Fail("needs at least two values");
+    std::vector<float> x;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      x.push_back(static_cast<float>(i) / static_cast<float>(y.size() - 1));
+    }
+    return Curve(x, y);
+  };
+  upper_full_ = full("upper_full");
+  lower_full_ = full("lower_full");
+  border_z_upper_ = table.Only("border_z").Number(1);
+  border_z_lower_ = table.Only("border_z").Number(2);
+}
+
+glm::vec3 MouthAnatomy::Red(int side, float x, float part) const {
+  const float height = BorderY(side, x);
+  const float thickness = std::abs(height);
+  const float fade = thickness / std::abs(BorderY(side, 0));
+  const float border_z = (side > 0 ? border_z_upper_ : border_z_lower_) * std::min(1.0f, fade);
+  const float full = (side > 0 ? upper_full_ : lower_full_)(part) * thickness;
+  return {x, LineY(x) + height * part + 0.12f * full * static_cast<float>(side) * (1 - part),
+          LineZ(x) + border_z * part + full};
+}
+
+}  // namespace fsm

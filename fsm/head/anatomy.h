@@ -1,0 +1,66 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "fsm/head/spline.h"
+#include "fsm/head/table_reader.h"
+
+namespace fsm {
+
+/// The agent's left eye and its lids (tables/eye.txt); the right one is its mirror image.
+/// Angles in radians about the ball's horizontal axis, up from straight ahead.
+class EyeAnatomy {
+ public:
+  explicit EyeAnatomy(const Table& table);
+
+  glm::vec3 centre() const { return centre_; }
+  float radius() const { return radius_; }
+  float iris_radius() const { return iris_; }
+  float pupil_radius() const { return pupil_; }
+  float inner_x() const { return upper_.begin_x(); }
+  float outer_x() const { return upper_.end_x(); }
+
+  /// Radius of the lids' surface of revolution, and the z of its axis, over x.
+  float LidRadius(float x) const { return lid_radius_(x - centre_.x); }
+  float LidAxisZ(float x) const { return centre_.z + shear_ * (x - centre_.x); }
+  /// Radius just outside the ball (the wet inner edge of the lids), at most LidRadius - 0.6.
+  float InnerRadius(float x) const;
+  float UpperY(float x) const { return upper_(x); }
+  float LowerY(float x) const { return lower_(x); }
+  float UpperAngle(float x) const { return AngleOf(x, upper_(x)); }
+  float LowerAngle(float x) const { return AngleOf(x, lower_(x)); }
+  /// Where the closed lids meet.
+  float MeetAngle(float x) const;
+  glm::vec3 OnLid(float x, float angle, float radius) const;
+
+ private:
+  float AngleOf(float x, float y) const;
+  glm::vec3 centre_{};
+  float radius_ = 0, iris_ = 0, pupil_ = 0, shear_ = 0, meet_ = 0;
+  Curve lid_radius_, upper_, lower_;
+};
+
+/// The closed mouth (tables/mouth.txt), left half over x = 0..corner.
+class MouthAnatomy {
+ public:
+  explicit MouthAnatomy(const Table& table);
+
+  glm::vec3 corner() const { return corner_; }
+  float LineY(float x) const { return line_y_(x); }
+  float LineZ(float x) const { return line_z_(x); }
+  /// Height of the red above (side +1) or below (side -1, negative) the line; 0 from the corner on.
+  float BorderY(int side, float x) const { return side > 0 ? upper_(x) : lower_(x); }
+  /// A point of the red: part 0 = seam, 1 = border.
+  glm::vec3 Red(int side, float x, float part) const;
+
+ private:
+  glm::vec3 corner_{};
+  Curve line_y_, line_z_, upper_, lower_, upper_full_, lower_full_;
+  float border_z_upper_ = 0, border_z_lower_ = 0;
+};
+
+/// A curve from two rows of a table, `x_key` and `y_key`; throws naming the line if they do not match.
+Curve ReadCurve(const Table& table, std::string_view x_key, std::string_view y_key);
+
+}  // namespace fsm

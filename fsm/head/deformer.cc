@@ -1,0 +1,156 @@
+#include "fsm/head/deformer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsm {
+
+Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
+                   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
+                   const ActionUnits& units, const EyeAnatomy& eye, const MouthAnatomy& mouth)
+    : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::array<std::vector<glm::vec3>, kActionUnits> sums;
+    for (const ActionUnits::Field& field : units.fields()) {
+      auto& sum = sums[static_cast<std::size_t>(field.unit)];
+      sum.resize(rest_.size(), glm::vec3(0));
+      for (std::size_t i = 0; i < rest_.size(); ++i) {
+        sum[i] += ActionUnits::Motion(field, flesh_[i], side == 0);
+      }
+    }
+    for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
+      for (std::size_t i = 0; i < sums[unit].size(); ++i) {
+        const glm::vec3 d = sums[unit][i];
+        if (d.x * d.x + d.y * d.y + d.z * d.z > 1e-6f) {
+          unit_fields_[side][unit].push_back({static_cast<std::uint32_t>(i), d});
+        }
+      }
+    }
+  }
+  AddMouthFields(mouth);
+  AddLids(eye);
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    if (flesh_[i].jaw > 0.001f) jawed_.push_back(static_cast<std::uint32_t>(i));
+    if (flesh_[i].lip_column >= 0 && flesh_[i].lip_weight != 0) {
+      lipped_.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+}
+
+void Deformer::AddMouthFields(const MouthAnatomy& mouth) {
+  const float corner_x = mouth.corner().x;
+  const auto add = [&](std::size_t parameter, std::size_t i, glm::vec3 by) {
+    if (std::abs(by.x) + std::abs(by.y) + std::abs(by.z) < 1e-3f) return;
+    mouth_fields_[parameter].push_back({static_cast<std::uint32_t>(i), by});
+  };
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    const Flesh& f = flesh_[i];
+    const float a = std::abs(f.domain.x);
+    const float line = mouth.LineY(std::min(a, corner_x));
+    if (f.free <= 0 || a > 56 || f.domain.y > -14 || f.domain.y < -84) continue;
+    const float side_x = f.domain.x < 0 ? -1.0f : 1.0f;
+
+    // The corner's field: linear along the lips, fading into the cheek.
+    const float height = std::abs(f.domain.y - line);
+    const float corner = (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
+                         SmoothStep(24, 0, height) * f.free;
+    add(8, i, {side_x * corner, 0, 0});
+    add(9, i, {0, corner, 0});
+    add(10, i, {0, 0, corner});
+
+    // The lips' four rings: full in the middle, nothing at the corner.
+    if (a >= corner_x || f.lip_weight == 0) continue;
+    const bool upper = f.lip_weight > 0;
+    const float along = 1 - (a / corner_x) * (a / corner_x);
+    const float quarter = 4 * (a / corner_x) * (1 - a / corner_x);
+    const float border = std::abs(mouth.BorderY(upper ? 1 : -1, a));
+    const float part = std::min(1.0f, height / std::max(border, 0.5f));
+    const float hold = std::abs(f.lip_weight);
+    const float outer = part * hold;
+    const float inner = (1 - part) * hold;
+    const std::size_t outer_y = upper ? 0 : 6;
+    const std::size_t inner_y = upper ? 2 : 4;
+    add(outer_y, i, {0, outer * along, 0});
+    add(outer_y + 1, i, {0, 0, outer * along});
+    add(inner_y, i, {0, inner * along, 0});
+    add(inner_y + 1, i, {0, 0, inner * along});
+    add(upper ? 13 : 15, i, {0, outer * quarter, 0});
+    add(upper ? 14 : 16, i, {0, inner * quarter, 0});
+  }
+}
+
+void Deformer::AddLids(const EyeAnatomy& eye) {
+  float widest = 0;
+  for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {
+    widest = std::max(widest, eye.UpperAngle(x) - eye.LowerAngle(x));
+  }
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    const Flesh& f = flesh_[i];
+    if (f.eye == 0) continue;
+    const float x = std::clamp(std::abs(f.domain.x), eye.inner_x(), eye.outer_x());
+    const float upper = eye.UpperAngle(x);
+    const float lower = eye.LowerAngle(x);
+    lids_.push_back({static_cast<std::uint32_t>(i), f.eye > 0 ? 1 : 0, f.lid_upper, f.lid_lower,
+                     upper, lower, eye.MeetAngle(x), (upper - lower) / widest, eye.centre().y,
+                     eye.LidAxisZ(x)});
+  }
+}
+
+void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
+  constexpr float kRadius = 13.35f;  // turns millimetres at the lid's edge into an angle
+  for (const LidVertex& lid : lids_) {
+    const UnitEffects::Lids& ask = pose.lids[static_cast<std::size_t>(lid.side)];
+    float upper = lid.upper_angle + lid.opening * ask.upper_mm / kRadius;
+    float lower = lid.lower_angle + lid.opening * ask.lower_mm / kRadius;
+    if (upper < lower) upper = lower = 0.5f * (upper + lower);
+    upper += ask.close * (lid.meet_angle - upper);
+    lower += ask.close * (lid.meet_angle - lower);
+    const float turn = lid.upper * (upper - lid.upper_angle) + lid.lower * (lower - lid.lower_angle);
+    if (turn == 0) continue;
+    const float c = std::cos(turn);
+    const float s = std::sin(turn);
+    const glm::vec3 rest = rest_[lid.vertex];
+    const float y = rest.y - lid.axis_y;
+    const float z = rest.z - lid.axis_z;
+    out[lid.vertex] += glm::vec3(0, y * c + z * s - y, z * c - y * s - z);
+  }
+}
+
+void Deformer::CloseLips(const Pose& pose, glm::vec3* out) const {
+  // Upper and lower lip share the way to each other 0.4 : 0.6. Lips that would cross are pushed back
+  // to touch; a seal takes away the rest of the gap in all directions.
+  constexpr float kUpperShare = 0.4f;
+  std::array<glm::vec3, 64> correction{};
+  for (std::size_t k = 0; k < seam_.size(); ++k) {
+    const glm::vec3 apart = out[seam_[k].first] - out[seam_[k].second];
+    correction[k] = pose.seal * apart;
+    correction[k].y += (1 - pose.seal) * std::min(apart.y, 0.0f);
+  }
+  for (const std::uint32_t i : lipped_) {
+    const Flesh& f = flesh_[i];
+    const glm::vec3 by = correction[static_cast<std::size_t>(f.lip_column)];
+    out[i] -= (f.lip_weight > 0 ? kUpperShare : 1 - kUpperShare) * f.lip_weight * by;
+  }
+}
+
+void Deformer::Deform(const Pose& pose, glm::vec3* out) const {
+  std::copy(rest_.begin(), rest_.end(), out);
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
+      const float weight = pose.units[side][unit];
+      if (weight == 0) continue;
+      for (const Delta& d : unit_fields_[side][unit]) out[d.vertex] += weight * d.by;
+    }
+  }
+  for (std::size_t p = 0; p < kMouthParameters; ++p) {
+    if (pose.mouth[p] == 0) continue;
+    for (const Delta& d : mouth_fields_[p]) out[d.vertex] += pose.mouth[p] * d.by;
+  }
+  MoveLids(pose, out);
+  if (pose.jaw_rad != 0 || pose.jaw_slide_mm != 0 || pose.jaw_sway_mm != 0) {
+    for (const std::uint32_t i : jawed_) out[i] = TurnJaw(out[i], pose, flesh_[i].jaw);
+  }
+  CloseLips(pose, out);
+}
+
+}  // namespace fsm

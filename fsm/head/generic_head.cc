@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "embedded/action_units.h"
+#include "embedded/cage.h"
+#include "embedded/eye.h"
+#include "embedded/features.h"
+#include "embedded/mouth.h"
+#include "fsm/head/deformer.h"
+#include "fsm/head/head.h"
+#include "fsm/head/parts.h"
+#include "fsm/head/skin_mesh.h"
+
+namespace fsm {
+namespace {
+
+/// Head::MakeGeneric: tables to mesh at construction, state to vertices in Evaluate. Vertices are in
+/// one run of flesh, which is deformed and given new normals in every state, then the rigid parts.
+class GenericHead : public Head {
+ public:
+  GenericHead()
+      : units_(Table("tables/action_units.txt", embedded::action_units())),
+        eye_(Table("tables/eye.txt", embedded::eye())),
+        mouth_(Table("tables/mouth.txt", embedded::mouth())) {
+    const FaceSurface surface(Table("tables/cage.txt", embedded::cage()),
+                              Table("tables/features.txt", embedded::features()));
+    HeadMesh mesh;
+    const SkinMap skin = BuildSkin(surface, eye_, mouth_, mesh);
+    BuildBrows(surface, mouth_, mesh);
+    BuildLashes(eye_, mesh);
+    flesh_count_ = mesh.position.size();
+    BuildEyes(eye_, mesh);
+    BuildTeeth(mouth_, mesh);
+    BuildTongue(mouth_, mesh);
+    BuildEars(mesh);
+    BuildHair(mesh);
+    Finish(std::move(mesh), skin);
+  }
+
+  const HeadTopology& topology() const override { return topology_; }
+
+  void Evaluate(const FaceState& state, HeadVertices& out) const override {
+    const Pose pose = MakePose(state, units_);
+    out.position.resize(rest_.size());
+    out.normal.resize(rest_.size());
+    face_->Deform(pose, out.position.data());
+    for (std::size_t i = 0; i < flesh_count_; ++i) {
+      out.position[i] = TurnHead(out.position[i], pose, face_->neck(i));
+    }
+    FleshNormals(out);
+    for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, out);
+  }
+
+  MouthMeasure MeasureMouth(const FaceState& state) const override {
+    const Pose pose = MakePose(state, units_);
+    std::array<glm::vec3, 4> p;  // seam upper, seam lower, corner left, corner right
+    assert(probe_->size() == p.size());
+    probe_->Deform(pose, p.data());
+    return {.gap_mm = std::max(0.0f, p[0].y - p[1].y),
+            .width_mm = glm::length(p[2] - p[3]),
+            .jaw_degrees = glm::degrees(pose.jaw_rad)};
+  }
+
+ private:
+  void Finish(HeadMesh mesh, const SkinMap& skin) {
+    for (const HeadMesh::Batch& batch : mesh.batches) {
+      topology_.parts.push_back({batch.material, static_cast<std::uint32_t>(topology_.indices.size()),
+                                 static_cast<std::uint32_t>(batch.indices.size())});
+      topology_.indices.insert(topology_.indices.end(), batch.indices.begin(), batch.indices.end());
+    }
+    for (std::size_t i = 0; i < topology_.indices.size(); i += 3) {
+      if (topology_.indices[i] >= flesh_count_) continue;
+      flesh_triangles_.insert(flesh_triangles_.end(), &topology_.indices[i], &topology_.indices[i] + 3);
+    }
+    rest_ = mesh.position;
+    rest_normal_ = Normals(topology_.indices, rest_, rest_.size());
+    bone_ = std::move(mesh.bone);
+    for (const Flesh& flesh : mesh.flesh) bend_.push_back(flesh.free);
+
+    const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
+    face_.emplace(std::vector<glm::vec3>(rest_.begin(), rest_.begin() + flesh_end),
+                  std::vector<Flesh>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end), skin.seam,
+                  units_, eye_, mouth_);
+    const auto [upper, lower] = skin.seam[skin.mid_column];
+    std::vector<glm::vec3> rest;
+    std::vector<Flesh> flesh;
+    for (const std::uint32_t i : {upper, lower, skin.corner_left, skin.corner_right}) {
+      rest.push_back(rest_[i]);
+      flesh.push_back(mesh.flesh[i]);
+      if (flesh.back().lip_column >= 0) flesh.back().lip_column = 0;
+    }
+    probe_.emplace(std::move(rest), std::move(flesh),
+                   std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_, mouth_);
+    topology_.albedo = std::move(mesh.albedo);
+    topology_.occlusion = std::move(mesh.occlusion);
+    for (glm::vec3& colour : topology_.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
+  }
+
+  static std::vector<glm::vec3> Normals(std::span<const std::uint32_t> triangles,
+                                        std::span<const glm::vec3> position, std::size_t count) {
+    std::vector<glm::vec3> normal(count, glm::vec3(0));
+    Accumulate(triangles, position, normal);
+    return normal;
+  }
+
+  static void Accumulate(std::span<const std::uint32_t> triangles,
+                         std::span<const glm::vec3> position, std::span<glm::vec3> normal) {
+    for (std::size_t i = 0; i < triangles.size(); i += 3) {
+      const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
+      const glm::vec3 n = glm::cross(position[b] - position[a], position[c] - position[a]);
+      normal[a] += n;
+      normal[b] += n;
+      normal[c] += n;
+    }
+    for (glm::vec3& n : normal) {
+      const float squared = glm::dot(n, n);
+      n = squared > 1e-12f ? n / std::sqrt(squared) : glm::vec3(0, 0, 1);
+    }
+  }
+
+  void FleshNormals(HeadVertices& out) const {
+    std::fill_n(out.normal.begin(), flesh_count_, glm::vec3(0));
+    Accumulate(flesh_triangles_, out.position, std::span(out.normal.data(), flesh_count_));
+  }
+
+  void MoveRigid(std::size_t i, const Pose& pose, HeadVertices& out) const {
+    glm::vec3 p = rest_[i];
+    glm::vec3 n = rest_normal_[i];
+    switch (bone_[i]) {
+      case Bone::kEyeLeft:
+      case Bone::kEyeRight: {
+        const std::size_t side = bone_[i] == Bone::kEyeLeft ? 1 : 0;
+        glm::vec3 centre = eye_.centre();
+        if (side == 0) centre.x = -centre.x;
+        p = centre + pose.eye[side] * (p - centre);
+        n = pose.eye[side] * n;
+        break;
+      }
+      case Bone::kTongue: {
+        const float tip = bend_[i];
+        p.z += pose.tongue_out_mm * tip;
+        p.y += pose.tongue_raise * 11 * tip * tip;
+        p = TurnJaw(p, pose, 1 - 0.25f * pose.tongue_raise * tip);
+        n = glm::normalize(TurnJaw(rest_[i] + n, pose, 1) - TurnJaw(rest_[i], pose, 1));
+        break;
+      }
+      case Bone::kJaw:
+        p = TurnJaw(p, pose, 1);
+        n = glm::normalize(TurnJaw(rest_[i] + n, pose, 1) - p);
+        break;
+      case Bone::kSkull:
+      case Bone::kFlesh:
+        break;
+    }
+    out.position[i] = TurnHead(p, pose, 1);
+    out.normal[i] = pose.head * n;
+  }
+
+  ActionUnits units_;
+  EyeAnatomy eye_;
+  MouthAnatomy mouth_;
+  HeadTopology topology_;
+  std::size_t flesh_count_ = 0;
+  std::vector<std::uint32_t> flesh_triangles_;
+  std::vector<glm::vec3> rest_, rest_normal_;
+  std::vector<Bone> bone_;
+  std::vector<float> bend_;
+  std::optional<Deformer> face_, probe_;
+};
+
+}  // namespace
+
+std::unique_ptr<Head> Head::MakeGeneric() { return std::make_unique<GenericHead>(); }
+
+}  // namespace fsm

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "fsm/head/paint.h"
+#include "fsm/head/parts.h"
+
+namespace fsm {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Widths of the teeth from the median outward, upper and lower, and heights of the crowns.
+constexpr std::array kUpperWidth = {8.4f, 6.6f, 7.5f, 6.8f, 6.6f, 9.6f, 9.0f};
+constexpr std::array kUpperHeight = {10.2f, 9.2f, 9.9f, 8.6f, 8.0f, 7.4f, 7.0f};
+constexpr std::array kLowerWidth = {5.3f, 5.8f, 6.8f, 7.0f, 7.2f, 10.4f, 10.0f};
+constexpr std::array kLowerHeight = {8.8f, 9.0f, 9.6f, 8.4f, 8.0f, 7.4f, 7.0f};
+
+// The dental arch: a parabola opening backwards, as a point and a direction at an arc length.
+struct Arch {
+  float front_z, depth, half_width;
+  glm::vec3 At(float arc, float y) const {
+    // Arc length along z = front - depth (x / half_width)^2, followed in small steps.
+    float x = 0;
+    float length = 0;
+    const float side = arc < 0 ? -1.0f : 1.0f;
+    while (length < std::abs(arc)) {
+      const float slope = 2 * depth * x / (half_width * half_width);
+      const float step = 0.25f / std::sqrt(1 + slope * slope);
+      x += step;
+      length += 0.25f;
+    }
+    return {side * x, y, front_z - depth * (x / half_width) * (x / half_width)};
+  }
+};
+
+struct Jaw {
+  Arch arch;
+  float edge_y;    // of the middle incisors
+  float upward;    // +1: crowns grow upwards from the edge (upper jaw)
+  Bone bone;
+};
+
+void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const float> heights,
+             HeadMesh& mesh) {
+  constexpr int kPerTooth = 3;
+  const int count = static_cast<int>(widths.size());
+  const int columns = 2 * count * kPerTooth + 1;
+  // Rows from behind the chewing edge over the front of the crown to the gum, and a lip of gum above.
+  constexpr std::array kRows = {-0.5f, -0.12f, 0.0f, 0.12f, 0.45f, 0.8f, 1.0f};
+  const auto first = static_cast<std::uint32_t>(mesh.position.size());
+  std::vector<float> arc_at, bump_at, height_at;
+  for (int c = 0; c < columns; ++c) {
+    const int signed_c = c - count * kPerTooth;
+    const int step = std::abs(signed_c);
+    const int tooth = std::min(step / kPerTooth, count - 1);
+    float arc = 0;
+    for (int t = 0; t < tooth; ++t) arc += widths[static_cast<std::size_t>(t)];
+    const float within = static_cast<float>(step - tooth * kPerTooth) / kPerTooth;
+    arc += within * widths[static_cast<std::size_t>(tooth)];
+    arc_at.push_back(signed_c < 0 ? -arc : arc);
+    bump_at.push_back(std::sqrt(std::max(0.0f, std::sin(kPi * within))));
+    height_at.push_back(heights[static_cast<std::size_t>(tooth)]);
+  }
+  for (const float row : kRows) {
+    for (int c = 0; c < columns; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      const float back = std::abs(arc_at[i]);
+      const float short_edge = 0.7f * (1 - bump_at[i]) + (row <= 0.12f ? 0.012f * back : 0.0f);
+      const float up = row < -0.3f ? 0.6f * height_at[i] : row < 0 ? 0.2f : row * height_at[i] + (row < 0.5f ? short_edge : 0.0f);
+      glm::vec3 p = jaw.arch.At(arc_at[i], jaw.edge_y + jaw.upward * (up + 0.02f * back));
+      const float thin = row < -0.3f ? 4.6f : row < 0 ? 2.4f : row == 0 ? 0.9f : 0.0f;
+      const float curve = 0.9f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
+      p.z += curve - thin - 0.75f * (1 - bump_at[i]);
+      p.x *= 1 - 0.012f * thin;
+      const float crevice = 0.62f + 0.38f * bump_at[i];
+      const glm::vec3 colour = palette::kTooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
+      const float dark = glm::mix(0.78f, 0.25f, SmoothStep(6, 34, back));
+      mesh.Add(p, colour, crevice * dark * (row < 0 ? 0.4f : 1.0f), jaw.bone);
+    }
+  }
+  const bool flip = jaw.upward > 0;
+  mesh.Grid(Material::kTeeth, first, static_cast<int>(kRows.size()), columns, flip);
+
+  constexpr std::array kGumRows = {0.96f, 1.08f, 1.35f, 1.7f};
+  const auto gum = static_cast<std::uint32_t>(mesh.position.size());
+  for (const float row : kGumRows) {
+    for (int c = 0; c < columns; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      const float back = std::abs(arc_at[i]);
+      const float scallop = row < 1 ? 1.1f * (1 - bump_at[i]) : 0.0f;
+      glm::vec3 p = jaw.arch.At(
+          arc_at[i], jaw.edge_y + jaw.upward * (row * height_at[i] - scallop + 0.02f * back));
+      p.z += row < 1 ? 0.2f : row < 1.2f ? 0.9f : 0.0f;
+      mesh.Add(p, palette::kGum, glm::mix(0.6f, 0.2f, SmoothStep(6, 34, back)), jaw.bone);
+    }
+  }
+  mesh.Grid(Material::kGum, gum, static_cast<int>(kGumRows.size()), columns, flip);
+}
+
+}  // namespace
+
+void BuildTeeth(const MouthAnatomy& mouth, HeadMesh& mesh) {
+  const float line_y = mouth.LineY(0);
+  const float front = mouth.LineZ(0) - 7.0f;
+  // The upper incisors end 2 mm below the line of the lips and overlap the lower ones by as much.
+  AddArch({{front, 40, 27}, line_y - 2.0f, 1, Bone::kSkull}, kUpperWidth, kUpperHeight, mesh);
+  AddArch({{front - 2.6f, 40, 26}, line_y - 0.6f, -1, Bone::kJaw}, kLowerWidth, kLowerHeight, mesh);
+}
+
+void BuildTongue(const MouthAnatomy& mouth, HeadMesh& mesh) {
+  // A flattened half ellipsoid along the floor of the mouth; its row number is its way to the tip.
+  constexpr int kAlong = 13;
+  constexpr int kAround = 12;
+  const float tip_z = mouth.LineZ(0) - 12.5f;
+  const float base_y = mouth.LineY(0) - 12.5f;
+  const auto first = static_cast<std::uint32_t>(mesh.position.size());
+  for (int i = 0; i < kAlong; ++i) {
+    const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
+    const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 3.2f)));
+    const float half_width = 17 * taper * (0.8f + 0.2f * part) + 0.2f;
+    const float height = 7.0f * taper + 0.1f;
+    const float z = glm::mix(tip_z - 46, tip_z, std::sin(part * kPi / 2));
+    const float rise = 4.0f * (1 - part);
+    for (int k = 0; k <= kAround; ++k) {
+      const float around = 2 * kPi * static_cast<float>(k) / kAround;
+      const float groove = 1.4f * taper * std::pow(std::max(0.0f, std::sin(around)), 8.0f);
+      const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * std::sin(around) - groove, z);
+      const float open = 0.12f + 0.55f * SmoothStep(0.2f, 1, part);
+      Flesh flesh;
+      flesh.free = part;  // the tip bends, the root stays
+      mesh.Add(p, palette::kTongue, open, Bone::kTongue, flesh);
+    }
+  }
+  mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);
+}
+
+}  // namespace fsm

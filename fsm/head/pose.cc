@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fsm/head/deformer.h"
+
+namespace fsm {
+namespace {
+
+constexpr float kRadians = std::numbers::pi_v<float> / 180;
+
+float Bound(float value, float low, float high) {
+  return std::isfinite(value) ? std::clamp(value, low, high) : 0.0f;
+}
+
+glm::mat3 TurnX(float angle) {
+  const float c = std::cos(angle);
+  const float s = std::sin(angle);
+  return {1, 0, 0, 0, c, s, 0, -s, c};  // column-major
+}
+glm::mat3 TurnY(float angle) {
+  const float c = std::cos(angle);
+  const float s = std::sin(angle);
+  return {c, 0, -s, 0, 1, 0, s, 0, c};
+}
+glm::mat3 TurnZ(float angle) {
+  const float c = std::cos(angle);
+  const float s = std::sin(angle);
+  return {c, s, 0, -s, c, 0, 0, 0, 1};
+}
+
+// Lids follow the gaze: looking 25 degrees down lowers the upper lid 6.3 mm and the lower 1.7,
+// looking up raises them 3.3 and 1.3.
+void FollowGaze(float up_degrees, UnitEffects::Lids& lids) {
+  const float part = up_degrees / 25;
+  lids.upper_mm += part * (part < 0 ? 6.3f : 3.3f);
+  lids.lower_mm += part * (part < 0 ? 1.7f : 1.3f);
+}
+
+}  // namespace
+
+Pose MakePose(const FaceState& state, const ActionUnits& table) {
+  Pose pose{};
+  pose.units = table.Combine(state);
+  const UnitEffects effects = table.Effects(pose.units);
+  // Limits of the 17 mouth parameters: what lips can do, in millimetres; jaw apart.
+  for (std::size_t p = 0; p < kMouthParameters; ++p) pose.mouth[p] = Bound(state.mouth[p], -14, 14);
+  pose.mouth[11] = pose.mouth[12] = 0;
+  // A mandible opens 25-30 degrees and slides about a millimetre forward for every three of them.
+  const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[11], -30, 30), 0, 28);
+  pose.jaw_rad = degrees * kRadians;
+  pose.jaw_slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[12], -6, 10), -4, 12);
+  pose.jaw_sway_mm = Bound(effects.jaw_sway_mm, -10, 10);
+  pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
+  pose.tongue_raise = Bound(effects.tongue_raise + Bound(state.tongue, 0, 1), 0, 1);
+  pose.tongue_out_mm = Bound(effects.tongue_out_mm, 0, 30);
+
+  const std::array<FaceState::Eye, 2> gaze = {state.eye_right, state.eye_left};
+  const std::array<float, 2> blink = {state.blink_right, state.blink_left};
+  for (std::size_t s = 0; s < 2; ++s) {
+    const float up = Bound(gaze[s].x, -35, 35);
+    const float right = Bound(gaze[s].y, -45, 45);
+    pose.eye[s] = TurnY(right * kRadians) * TurnX(-up * kRadians);
+    pose.lids[s] = effects.lids[s];
+    FollowGaze(up, pose.lids[s]);
+    pose.lids[s].upper_mm = std::clamp(pose.lids[s].upper_mm, -11.0f, 4.0f);
+    pose.lids[s].lower_mm = std::clamp(pose.lids[s].lower_mm, -3.0f, 4.0f);
+    const float open = (1 - Bound(blink[s], 0, 1)) * (1 - std::min(1.0f, effects.lids[s].close));
+    pose.lids[s].close = 1 - open;
+  }
+  pose.head = TurnY(Bound(state.head_rotation[1], -80, 80) * kRadians) *
+              TurnX(Bound(state.head_rotation[0], -60, 60) * kRadians) *
+              TurnZ(-Bound(state.head_rotation[2], -50, 50) * kRadians);
+  return pose;
+}
+
+glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight) {
+  const float angle = pose.jaw_rad * weight;
+  const float c = std::cos(angle);
+  const float s = std::sin(angle);
+  const float y = p.y - kHingeY;
+  const float z = p.z - kHingeZ;
+  return {p.x + weight * pose.jaw_sway_mm, kHingeY + y * c - z * s,
+          kHingeZ + z * c + y * s + weight * pose.jaw_slide_mm};
+}
+
+glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight) {
+  const glm::vec3 turned = kNeckPivot + pose.head * (p - kNeckPivot);
+  return p + weight * (turned - p);
+}
+
+}  // namespace fsm

@@ -1,0 +1,81 @@
+#include "fsm/head/rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsm/head/spline.h"
+
+namespace fsm {
+
+std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b, const Flesh& f) {
+  position.push_back(p);
+  albedo.push_back(colour);
+  occlusion.push_back(open);
+  bone.push_back(b);
+  flesh.push_back(f);
+  return static_cast<std::uint32_t>(position.size() - 1);
+}
+
+void HeadMesh::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  if (a == b || b == c || c == a) return;
+  for (Batch& batch : batches) {
+    if (batch.material == material) {
+      batch.indices.insert(batch.indices.end(), {a, b, c});
+      return;
+    }
+  }
+  batches.push_back({material, {a, b, c}});
+}
+
+void HeadMesh::Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                    std::uint32_t d) {
+  Triangle(material, a, b, c);
+  Triangle(material, a, c, d);
+}
+
+void HeadMesh::Grid(Material material, std::uint32_t first, int rows, int columns, bool flip) {
+  const auto at = [&](int r, int c) { return first + static_cast<std::uint32_t>(r * columns + c); };
+  for (int r = 0; r + 1 < rows; ++r) {
+    for (int c = 0; c + 1 < columns; ++c) {
+      if (flip) {
+        Quad(material, at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c));
+      } else {
+        Quad(material, at(r, c), at(r + 1, c), at(r + 1, c + 1), at(r, c + 1));
+      }
+    }
+  }
+}
+
+Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y) {
+  Flesh f;
+  f.domain = domain;
+  const float a = std::abs(domain.x);
+  const float below = mouth_line_y - domain.y;  // millimetres below the line of the mouth
+  const float beyond = std::max(0.0f, a - 25.0f);
+
+  // Along the slit the lower lip is all jaw in the middle and half at the corner, where the upper
+  // lip comes to meet it; away from it both go over into chin and cheek.
+  const float middle = SmoothStep(25, 4, a);
+  const float reach_down = 16 + 0.5f * beyond;
+  const float reach_up = 18 + 0.5f * beyond;
+  const bool lower = side < 0 || (side == 0 && below > 0);
+  if (lower) {
+    const float seam = 0.5f + 0.5f * middle;
+    f.jaw = seam + (1 - seam) * SmoothStep(0, reach_down, below);
+    f.above_mouth = side < 0 ? 0.5f * (1 - SmoothStep(25, 19, a)) * (1 - SmoothStep(0, 12, below))
+                             : 0.5f * (1 - SmoothStep(0, 8 + 0.3f * beyond, below));
+  } else {
+    const float seam = 0.5f - 0.44f * middle;
+    f.jaw = seam * (1 - SmoothStep(0, reach_up, -below));
+    const float half = 0.5f * (side > 0 ? (1 - SmoothStep(25, 19, a)) : 1.0f);
+    f.above_mouth = 1 - half * (1 - SmoothStep(0, 8 + 0.3f * beyond, -below));
+  }
+  // The jaw's skin ends at the throat and before the ear.
+  f.jaw *= SmoothStep(-122, -88, domain.y) * SmoothStep(112, 62, a);
+
+  // The neck twists: all of the turn at the jaw, none at the shoulders.
+  f.neck = SmoothStep(-168, -96, domain.y);
+  return f;
+}
+
+}  // namespace fsm

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "vm_protocol/core/scheduler.h"
+
+/// The curves by which things move. All go from 0 at u = 0 to 1 at u = 1 and stay there outside;
+/// all begin and end with zero speed, because nothing in a face starts or stops at once.
+namespace fsm {
+
+inline double Clamp01(double u) { return std::clamp(u, 0.0, 1.0); }
+
+/// 3u^2 - 2u^3.
+inline double SmoothStep(double u) {
+  u = Clamp01(u);
+  return u * u * (3 - 2 * u);
+}
+
+/// 6u^5 - 15u^4 + 10u^3, the minimum-jerk curve: also without acceleration at both ends.
+inline double SmootherStep(double u) {
+  u = Clamp01(u);
+  return u * u * u * (u * (6 * u - 15) + 10);
+}
+
+/// The share of the second key shape in the original's interpolation between key shapes,
+/// M(t) = W (V0 - V1) + (V0 + V1) / 2 with W = cos(pi u) / 2 (DESIGN.md section 7).
+inline double Sinusoid(double u) { return (1 - std::cos(std::numbers::pi * Clamp01(u))) / 2; }
+
+/// Milliseconds of a time, with their fraction.
+inline double InMs(vm::Time time) { return std::chrono::duration<double, std::milli>(time).count(); }
+
+/// The nearest microsecond.
+inline vm::Time FromMs(double ms) { return vm::Time(std::llround(ms * 1000)); }
+
+/// How far `t` is on the way from `start` to `start + duration`, 0..1; a duration of zero is a step.
+inline double Progress(vm::Time t, vm::Time start, vm::Time duration) {
+  if (t >= start + duration) return 1;
+  if (t <= start) return 0;
+  return static_cast<double>((t - start).count()) / static_cast<double>(duration.count());
+}
+
+}  // namespace fsm

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/head/face_state.h"
+#include "fsm/motion/autonomy.h"
+#include "fsm/motion/expression_motion.h"
+#include "fsm/motion/eye_motion.h"
+#include "fsm/motion/head_motion.h"
+#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/speech_motion.h"
+#include "vm_protocol/core/phonemes.h"
+#include "vm_protocol/core/result.h"
+#include "vm_protocol/core/scheduler.h"
+
+namespace fsm {
+
+/// Times of movements which the original keeps in its configuration, and settings of speech.
+struct MotionSettings {
+  vm::Time expression = std::chrono::milliseconds(100);  ///< EXPRESSION_DURATION
+  bool natural_expressions = false;  ///< onsets as measured on people instead
+  vm::Time eye_move = std::chrono::milliseconds(70);  ///< EYEMOVE_DURATION
+  double lead_ms = 40;         ///< the mouth is ahead of the voice
+  double offset_ms = 0;        ///< delays the mouth
+  double sync_offset_ms = 0;   ///< added to what the voice reports
+  double sync_rate = 0.25;     ///< how fast a difference is worked off, ms a ms
+  /// The original's unit for the size of mouth movements; kFullMouthScale gives the full
+  /// articulation of the shape table, the default 30 the three quarters of natural speech.
+  double mouth_scale = 30;
+  Language language = Language::kAuto;
+};
+inline constexpr double kFullMouthScale = 40;
+
+/// The face in time: takes commands with the instant they are given, and yields the state of the
+/// face at any instant from the last command on. Pure in time: the same commands with the same
+/// times give the same states, on any clock, however often and in whatever order it is asked.
+/// Speech owns the mouth, so the emotions' mouth units count 0.4 while it speaks; brows and lids
+/// stay whole. Head directions, movements and autonomous movement add up.
+/// Errors: kBadValue with what there is, for names and patterns the tables do not have.
+/// Thread: none of its own.
+class FaceMotion {
+ public:
+  FaceMotion(MotionTables tables, std::uint64_t seed);
+  FaceMotion(const FaceMotion&) = delete;  // parts refer to the tables
+
+  // Expressions. Strength 1 is full, up to 2. A duration of zero holds until the next.
+  vm::Result<void> Express(vm::Time now, std::string_view name, int pattern, double strength,
+                           vm::Time duration);
+  void Neutral(vm::Time now);
+  vm::Result<void> SetFace(vm::Time now, int position, double strength);   ///< Face.N
+  vm::Result<void> SetMouth(vm::Time now, int parameter, double strength); ///< Mouth.N, from 1
+  vm::Result<void> SetUnit(vm::Time now, std::string_view unit, double strength, vm::Time move);
+  vm::Result<void> SetBlendShape(vm::Time now, std::string_view name, double weight, vm::Time move);
+
+  // Eyes and head. Degrees; x+ = down, y+ = to the viewer's right, z+ = tilt to the viewer's right.
+  void TurnEyes(vm::Time now, bool left, bool right, double x, double y, vm::Time duration);
+  void Gaze(vm::Time now, double x, double y, vm::Time duration);
+  void TurnHead(vm::Time now, const Angles& angles);
+  void TurnHeadBy(vm::Time now, const Angles& angles);
+  Angles HeadTarget(vm::Time now) const { return head_.TargetAt(now); }
+  vm::Result<void> Move(vm::Time now, std::string_view kind, int pattern);  ///< FaceMot
+  void StopMoves(vm::Time now);                                            ///< FaceMot = NOMOVE
+  vm::Result<void> Autonomous(vm::Time now, std::string_view kind, int pattern);
+
+  // Speech.
+  void Speak(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start);
+  void StopSpeaking(vm::Time now);
+  void Sync(vm::Time now, double voice_ms);
+  bool speaking() const { return speech_.active(); }
+  std::optional<vm::Time> SpeechEnd() const { return speech_.End(); }
+  double VoicePosition(vm::Time t) const { return speech_.VoicePositionAt(t); }
+  const std::string& PhonemeAt(vm::Time t) const { return speech_.PhonemeAt(t); }
+
+  // Settings. Those of speech act at once, without a jump.
+  const MotionSettings& settings() const { return settings_; }
+  void Apply(vm::Time now, const MotionSettings& settings);
+
+  // The whole figure, moved at once. (The state's other fields are ignored.)
+  FaceState& figure() { return figure_; }
+
+  FaceState StateAt(vm::Time t) const;
+
+  /// `t` while anything moves, else when something will begin by itself; none = all is still.
+  std::optional<vm::Time> NextActivity(vm::Time t) const;
+  /// When the onsets begun by `t` (expressions, units, eyes, head) will have settled.
+  vm::Time OnsetsSettled(vm::Time t) const;
+  /// When everything with an end (timed expressions, movements, blinks, turns) will be over.
+  vm::Time FiniteEnd(vm::Time t) const;
+
+  const MotionTables& tables() const { return tables_; }
+
+ private:
+  static constexpr float kEmotionWhileSpeaking = 0.4f;
+  using Tracks = std::array<Track<float>, kActionUnits>;
+
+  const MotionTables tables_;
+  MotionSettings settings_;
+  FaceState figure_;
+  ExpressionMotion expression_;
+  HeadMotion head_;
+  EyeMotion eyes_;
+  Autonomy autonomy_;
+  SpeechMotion speech_;
+  Track<float> mouth_scale_{30.0f};
+  Tracks units_left_, units_right_;
+  std::array<Track<float>, kMouthParameters> mouth_;
+  std::vector<Track<float>> emotions_;                            // Face.31 and on, by position
+  std::map<std::string, Track<float>, std::less<>> blend_shapes_;  // those ever set
+};
+
+}  // namespace fsm

@@ -1,0 +1,59 @@
+#include "fsm/motion/head_motion.h"
+
+#include <algorithm>
+
+namespace fsm {
+namespace {
+constexpr vm::Time kFade = std::chrono::milliseconds(80);
+}
+
+void HeadMotion::TurnTo(vm::Time now, const Angles& angles, vm::Time duration) {
+  turn_.MoveTo(now, angles, duration);
+}
+
+void HeadMotion::TurnBy(vm::Time now, const Angles& angles, vm::Time duration) {
+  Angles target = turn_.TargetAt(now);
+  for (std::size_t i = 0; i < 3; ++i) target[i] = std::clamp(target[i] + angles[i], -90.0f, 90.0f);
+  TurnTo(now, target, duration);
+}
+
+vm::Time HeadMotion::EndOf(const Move& move) {
+  const vm::Time end = move.start + FromMs(move.curve->length_ms());
+  return move.stopped ? std::min(end, *move.stopped + kFade) : end;
+}
+
+void HeadMotion::Play(vm::Time now, const HeadCurve& curve) {
+  StopMoves(now);
+  moves_.push_back({&curve, now, std::nullopt});
+}
+
+void HeadMotion::StopMoves(vm::Time now) {
+  std::erase_if(moves_, [&](const Move& move) { return EndOf(move) <= now; });
+  for (Move& move : moves_) {
+    if (!move.stopped) move.stopped = now;
+  }
+}
+
+Angles HeadMotion::At(vm::Time t) const {
+  Angles angles = turn_.At(t);
+  for (const Move& move : moves_) {
+    if (t >= EndOf(move)) continue;
+    const Angles more = move.curve->At(InMs(t - move.start));
+    const double weight = move.stopped ? 1 - SmoothStep(Progress(t, *move.stopped, kFade)) : 1;
+    for (std::size_t i = 0; i < 3; ++i) angles[i] += static_cast<float>(weight * more[i]);
+  }
+  return angles;
+}
+
+std::optional<vm::Time> HeadMotion::NextActivity(vm::Time t) const {
+  if (MovesEnd(t) > t) return t;
+  return turn_.NextActivity(t);
+}
+
+vm::Time HeadMotion::MovesEnd(vm::Time t) const {
+  vm::Time end = t;
+  for (const Move& move : moves_) end = std::max(end, EndOf(move));
+  return end;
+}
+
+}  // namespace fsm

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+using Angles = std::array<float, 3>;  ///< degrees about x, y, z; signs as FaceState::head_rotation
+
+/// A movement of the head through key frames, from 0 0 0 at 0 ms. Between keys it follows a cubic
+/// that never overshoots and stands still at turning points (Fritsch and Carlson, SIAM J. Numer.
+/// Anal. 17, 1980, with harmonic means for the slopes).
+class HeadCurve {
+ public:
+  struct Key {
+    double ms = 0;
+    Angles angles{};
+  };
+  /// REQUIRES: times rise strictly from above 0.
+  explicit HeadCurve(std::vector<Key> keys);
+  Angles At(double ms) const;  ///< the last key's angles after the end
+  double length_ms() const { return keys_.back().ms; }
+
+ private:
+  std::vector<Key> keys_;       // the first is 0 0 0 at 0
+  std::vector<Angles> slopes_;  // degrees a millisecond
+};
+
+/// Reads the original's motion file: `//` comments, the number of keys, then `ms x y z` a line.
+vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view text);
+
+struct BlinkPattern {
+  double closing_ms = 90;
+  double shut_ms = 20;
+  double opening_ms = 140;
+};
+struct AutoBlink {
+  double interval_ms = 4000;
+  std::size_t blink = 0;  ///< index of the blink pattern
+  bool varied = true;     ///< half of them incomplete, as people's are
+};
+struct AutoMove {
+  Angles amplitude{};
+  double period_ms = 2500;
+};
+struct AutoGaze {
+  double amplitude = 1;
+  double interval_ms = 1200;
+};
+
+/// Everything the face does by pattern number; pattern n is element n - 1.
+struct MotionTable {
+  std::map<std::string, std::vector<HeadCurve>, std::less<>> head;  ///< NOD REFUSE LISTEN USERDEF
+  std::vector<BlinkPattern> blinks;
+  std::vector<AutoBlink> auto_blinks;
+  std::vector<AutoMove> auto_moves;
+  std::vector<AutoGaze> auto_gazes;
+  std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
+  std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop
+};
+vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text);
+
+}  // namespace fsm

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/emotion_table.h"
+#include "fsm/motion/motion_table.h"
+#include "fsm/motion/mouth_tables.h"
+
+namespace fsm {
+
+/// Everything that is known about moving, read from the tables. A plain value.
+struct MotionTables {
+  MouthShapes shapes;
+  PhonemeTable phonemes_ja;
+  PhonemeTable phonemes_en;
+  EmotionTable emotions;
+  MotionTable motions;
+  UnitList units;
+  BlendShapes blend_shapes;
+
+  /// The tables the program carries; with a `folder`, each file found there replaces its own.
+  /// Errors: kBadValue with file and line; kUnavailable if the folder or a file cannot be read.
+  static vm::Result<MotionTables> Load(const std::string& folder = "");
+};
+
+}  // namespace fsm

@@ -1,0 +1,38 @@
+#include "fsm/motion/speech_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsm/motion/easing.h"
+
+namespace fsm {
+
+double SpeechClock::CorrectionAt(vm::Time t) const {
+  const double way = to_ms_ - from_ms_;
+  const double done = std::min(std::abs(way), rate_ * std::max(0.0, InMs(t - since_)));
+  return from_ms_ + std::copysign(done, way);
+}
+
+double SpeechClock::PositionAt(vm::Time t) const { return InMs(t - start_) + CorrectionAt(t); }
+
+double SpeechClock::ErrorAt(vm::Time t) const { return to_ms_ - CorrectionAt(t); }
+
+void SpeechClock::Correct(vm::Time now, double voice_ms, double max_rate) {
+  from_ms_ = CorrectionAt(now);
+  to_ms_ = voice_ms - InMs(now - start_);
+  since_ = now;
+  rate_ = std::clamp(max_rate, 0.01, 0.9);
+}
+
+vm::Time SpeechClock::WhenAt(double position_ms) const {
+  const double at_since = PositionAt(since_);
+  if (position_ms <= at_since) return start_ + FromMs(position_ms - from_ms_);
+  const double way = to_ms_ - from_ms_;
+  const double speed = 1 + std::copysign(rate_, way);
+  const double slewing_ms = std::abs(way) / rate_;
+  const double within = (position_ms - at_since) / speed;
+  if (within < slewing_ms) return since_ + FromMs(within);
+  return start_ + FromMs(position_ms - to_ms_);
+}
+
+}  // namespace fsm

@@ -1,0 +1,57 @@
+#include "fsm/motion/table_text.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace fsm {
+
+TableText::TableText(std::string name, std::string_view text) : name_(std::move(name)) {
+  int number = 0;
+  while (!text.empty()) {
+    ++number;
+    const std::size_t newline = text.find('\n');
+    std::string_view line = text.substr(0, newline);
+    text.remove_prefix(newline == std::string_view::npos ? text.size() : newline + 1);
+    TableLine out{number, {}};
+    while (true) {
+      const std::size_t begin = line.find_first_not_of(" \t\r");
+      if (begin == std::string_view::npos || line[begin] == '#') break;
+      const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+      out.words.emplace_back(line.substr(begin, end - begin));
+      line.remove_prefix(end);
+    }
+    if (!out.words.empty()) lines_.push_back(std::move(out));
+  }
+}
+
+std::unexpected<vm::Error> TableText::Wrong(int line, const std::string& text) const {
+  if (line == 0) return vm::Fail(vm::Errc::kBadValue, fmt::format("{}: {}", name_, text));
+  return vm::Fail(vm::Errc::kBadValue, fmt::format("{}:{}: {}", name_, line, text));
+}
+
+vm::Result<double> TableText::Number(const TableLine& line, std::size_t word,
+                                     const std::string& what, double lowest, double highest) const {
+  if (word >= line.words.size()) {
+    return Wrong(line.number, fmt::format("the line ends where {} is expected", what));
+  }
+  const auto number = ParseNumber(line.words[word]);
+  if (!number || *number < lowest || *number > highest) {
+    return Wrong(line.number, fmt::format("'{}' found, {} expected, a number from {:g} to {:g}",
+                                          line.words[word], what, lowest, highest));
+  }
+  return *number;
+}
+
+vm::Result<double> ParseNumber(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
+    return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is not a number", word));
+  }
+  return value;
+}
+
+}  // namespace fsm

@@ -1,0 +1,59 @@
+#include "fsm/render/backdrop.h"
+
+#include <cassert>
+
+#include "embedded/backdrop_fragment.h"
+#include "embedded/backdrop_vertex.h"
+#include "fsm/render/head_buffers.h"
+
+namespace fsm {
+
+Backdrop::Backdrop(const GlFunctions& gl)
+    : gl_(gl),
+      program_(gl, "backdrop", embedded::backdrop_vertex(), embedded::backdrop_fragment()) {
+  gl_.GenVertexArrays(1, &array_);
+  gl_.GenTextures(1, &texture_);
+}
+
+Backdrop::~Backdrop() {
+  gl_.DeleteTextures(1, &texture_);
+  gl_.DeleteVertexArrays(1, &array_);
+}
+
+void Backdrop::Draw(const Scene& scene) {
+  if (!scene.show_background) {
+    gl_.ClearColor(0, 0, 0, 0);
+    gl_.Clear(GL_COLOR_BUFFER_BIT);
+    return;
+  }
+  if (!scene.background_image || scene.background_image->rgba.empty()) {
+    gl_.ClearColor(scene.background.r, scene.background.g, scene.background.b, 1);
+    gl_.Clear(GL_COLOR_BUFFER_BIT);
+    return;
+  }
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, texture_);
+  Upload(*scene.background_image);
+  gl_.UseProgram(program_.id());
+  gl_.Uniform1i(program_.Uniform("picture"), 0);
+  gl_.BindVertexArray(array_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Backdrop::Upload(const Image& image) {
+  assert(image.rgba.size() ==
+         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
+  const auto checksum =
+      Checksum(image.rgba.data(), image.rgba.size(), static_cast<std::uint64_t>(image.width));
+  if (checksum == checksum_) return;
+  checksum_ = checksum;
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, image.rgba.data());
+  gl_.GenerateMipmap(GL_TEXTURE_2D);
+}
+
+}  // namespace fsm

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "fsm/render/gl_objects.h"
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+
+/// What stands behind the figure: nothing, a colour or a picture. Destroy while its context is
+/// current.
+class Backdrop {
+ public:
+  explicit Backdrop(const GlFunctions& gl);
+  ~Backdrop();
+  Backdrop(const Backdrop&) = delete;
+  Backdrop& operator=(const Backdrop&) = delete;
+
+  /// Covers the target bound at present. The picture is uploaded again only when its content
+  /// changes.
+  void Draw(const Scene& scene);
+
+ private:
+  void Upload(const Image& image);
+
+  const GlFunctions& gl_;
+  GlProgram program_;
+  GLuint array_ = 0;
+  GLuint texture_ = 0;
+  std::optional<std::uint64_t> checksum_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,46 @@
+#include "fsm/render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace fsm {
+namespace {
+
+constexpr float kFieldOfViewDegrees = 25.0F;
+/// What the picture shows at the depth of the face: from below the collar to above the hair.
+constexpr float kFramedBottom = -172.0F;
+constexpr float kFramedTop = 158.0F;
+/// The least width kept in view: the head with its hair.
+constexpr float kFramedWidth = 250.0F;
+constexpr float kFaceDepth = 50.0F;
+/// The figure turns and grows about the root of the neck, so that it does so on the spot.
+constexpr glm::vec3 kPivot{0.0F, -60.0F, 0.0F};
+
+}  // namespace
+
+View FramePortrait(const FaceState& state, int width, int height) {
+  const float aspect = static_cast<float>(width) / static_cast<float>(height);
+  const float framed_height = std::max(kFramedTop - kFramedBottom, kFramedWidth / aspect);
+  const float half_angle = glm::radians(kFieldOfViewDegrees / 2);
+  const float distance = framed_height / 2 / std::tan(half_angle);
+  const float middle = (kFramedTop + kFramedBottom) / 2;
+
+  View view;
+  view.eye = {0.0F, middle, kFaceDepth + distance};
+  view.world_to_clip = glm::perspective(2 * half_angle, aspect, distance * 0.2F, distance * 5.0F) *
+                       glm::lookAt(view.eye, {0.0F, middle, 0.0F}, {0.0F, 1.0F, 0.0F});
+
+  glm::mat4 figure(1.0F);
+  figure = glm::translate(
+      figure, kPivot + glm::vec3(state.agent_translation[0], state.agent_translation[1], 0.0F));
+  figure = glm::rotate(figure, glm::radians(-state.agent_rotation[2]), {0.0F, 0.0F, 1.0F});
+  figure = glm::rotate(figure, glm::radians(state.agent_rotation[1]), {0.0F, 1.0F, 0.0F});
+  figure = glm::rotate(figure, glm::radians(state.agent_rotation[0]), {1.0F, 0.0F, 0.0F});
+  figure = glm::scale(figure, glm::vec3(std::clamp(state.agent_scale, 0.01F, 100.0F)));
+  view.figure_to_world = glm::translate(figure, -kPivot);
+  return view;
+}
+
+}  // namespace fsm

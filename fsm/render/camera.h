@@ -1,0 +1,23 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "fsm/head/face_state.h"
+
+namespace fsm {
+
+/// Where the viewer stands and where the figure stands before him. Millimetres.
+struct View {
+  glm::mat4 figure_to_world;  ///< from the head's frame; rotation, translation and uniform scale
+  glm::mat4 world_to_clip;
+  glm::vec3 eye;  ///< the viewer, in world coordinates
+};
+
+/// Frames head and shoulders as a portrait would: a 25 degree lens at the height of the mouth, the
+/// whole width of the shoulders' inner half kept in view in narrow pictures.
+/// `state` gives agent_rotation (x, then y, then z about the neck's root), agent_translation
+/// (millimetres right and up) and agent_scale (clamped to 0.01..100).
+View FramePortrait(const FaceState& state, int width, int height);
+
+}  // namespace fsm

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+
+/// Keeps the kinds of contexts apart. All of Mesa's front ends in a process (OSMesa, GLX, EGL)
+/// share one per-thread record of the current context, but each also trusts its own memory of it;
+/// going from one to another without letting go of the first leaves one drawing with the other's
+/// state, and crashes. So: one current at most, and it is released by its own kind before the next
+/// is taken.
+class SwitchedContext : public RenderContext {
+ public:
+  void MakeCurrent() final {
+    if (current_ == this) return;
+    if (current_) current_->Release();
+    current_ = nullptr;
+    Bind();
+    current_ = this;
+  }
+
+ protected:
+  /// For destructors, around the end of the GL side: leaves the thread without any current context,
+  /// because the driver makes a dying context current for a moment by its own means. Returns the
+  /// other context that was current, if any, for `Resume`.
+  SwitchedContext* Leave() {
+    SwitchedContext* other = current_ == this ? nullptr : current_;
+    if (current_) current_->Release();
+    current_ = nullptr;
+    return other;
+  }
+  static void Resume(SwitchedContext* other) {
+    if (other) other->MakeCurrent();
+  }
+
+ private:
+  virtual void Bind() = 0;
+  virtual void Release() = 0;
+
+  static inline thread_local SwitchedContext* current_ = nullptr;
+};
+
+}  // namespace fsm

@@ -1,0 +1,111 @@
+#include "fsm/render/eye_frame.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <span>
+
+namespace fsm {
+namespace {
+
+/// Skin this near to the ball's surface, in millimetres, may be a lid.
+constexpr float kLidReach = 4.0F;
+/// Only rims straight above and below the pupil matter, within this distance to its sides.
+constexpr float kRimHalfWidth = 4.5F;
+
+std::vector<std::uint32_t> VerticesOf(const HeadTopology& topology, Material material) {
+  std::vector<std::uint32_t> found;
+  for (const auto& part : topology.parts) {
+    if (part.material != material) continue;
+    const auto first = topology.indices.begin() + part.first_index;
+    found.insert(found.end(), first, first + part.index_count);
+  }
+  std::ranges::sort(found);
+  const auto rest = std::ranges::unique(found);
+  found.erase(rest.begin(), rest.end());
+  return found;
+}
+
+glm::vec3 Centroid(std::span<const std::uint32_t> points, const HeadVertices& vertices) {
+  glm::vec3 sum(0.0F);
+  for (const auto i : points) sum += vertices.position[i];
+  return points.empty() ? sum : sum / static_cast<float>(points.size());
+}
+
+/// The sphere through points, by least squares: |p|^2 = 2 c.p + (r^2 - |c|^2) is linear in the
+/// centre c and in the bracket. Positions are taken from their centroid to keep the numbers small.
+void FitSphere(std::span<const std::uint32_t> points, const HeadVertices& vertices, EyeFrame& out) {
+  const glm::dvec3 origin = Centroid(points, vertices);
+  glm::dmat4 normal(0.0);
+  glm::dvec4 right(0.0);
+  for (const auto i : points) {
+    const glm::dvec3 p = glm::dvec3(vertices.position[i]) - origin;
+    const glm::dvec4 row(2.0 * p, 1.0);
+    normal += glm::outerProduct(row, row);
+    right += row * glm::dot(p, p);
+  }
+  if (std::abs(glm::determinant(normal)) < 1e-6) {
+    out.centre = glm::vec3(origin);
+    return;
+  }
+  const glm::dvec4 solution = glm::inverse(normal) * right;
+  const glm::dvec3 centre(solution);
+  out.centre = glm::vec3(origin + centre);
+  out.radius = static_cast<float>(std::sqrt(std::max(solution.w + glm::dot(centre, centre), 1.0)));
+}
+
+float Extreme(std::span<const std::uint32_t> points, const HeadVertices& vertices, bool lowest,
+              float otherwise) {
+  float found = otherwise;
+  bool first = true;
+  for (const auto i : points) {
+    const float y = vertices.position[i].y;
+    if (first || (lowest ? y < found : y > found)) found = y;
+    first = false;
+  }
+  return found;
+}
+
+}  // namespace
+
+EyeFinder::EyeFinder(const HeadTopology& topology, const HeadVertices& rest) {
+  const auto side_of = [&rest](std::uint32_t i) { return rest.position[i].x < 0 ? 0U : 1U; };
+  for (const auto i : VerticesOf(topology, Material::kSclera)) white_[side_of(i)].push_back(i);
+  for (const auto i : VerticesOf(topology, Material::kIris)) iris_[side_of(i)].push_back(i);
+  if (!found()) return;
+  const auto eyes = Measure(rest);
+  for (const auto i : VerticesOf(topology, Material::kSkin)) {
+    const auto side = side_of(i);
+    const auto& eye = eyes[side];
+    const glm::vec3 p = rest.position[i] - eye.centre;
+    if (p.z <= 0 || std::abs(p.x) > kRimHalfWidth) continue;
+    if (std::abs(glm::length(p) - eye.radius) > kLidReach) continue;
+    (p.y > 0 ? upper_rim_ : lower_rim_)[side].push_back(i);
+  }
+}
+
+std::array<EyeFrame, 2> EyeFinder::Measure(const HeadVertices& vertices) const {
+  std::array<EyeFrame, 2> eyes;
+  for (std::size_t side = 0; side < 2; ++side) {
+    auto& eye = eyes[side];
+    FitSphere(white_[side], vertices, eye);
+    if (!iris_[side].empty()) {
+      const glm::vec3 pupil = Centroid(iris_[side], vertices);
+      const glm::vec3 outward = pupil - eye.centre;
+      if (glm::length(outward) > 1e-3F) eye.gaze = glm::normalize(outward);
+      eye.iris_radius = 0;
+      for (const auto i : iris_[side]) {
+        const glm::vec3 p = vertices.position[i] - pupil;
+        const float across = glm::length(p - eye.gaze * glm::dot(p, eye.gaze));
+        eye.iris_radius = std::max(eye.iris_radius, across);
+      }
+      eye.iris_radius = std::max(eye.iris_radius, 1.0F);
+    }
+    eye.upper_lid_y = Extreme(upper_rim_[side], vertices, true, eye.centre.y + eye.radius * 0.45F);
+    eye.lower_lid_y = Extreme(lower_rim_[side], vertices, false, eye.centre.y - eye.radius * 0.45F);
+  }
+  return eyes;
+}
+
+}  // namespace fsm

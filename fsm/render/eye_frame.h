@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "fsm/head/head.h"
+
+namespace fsm {
+
+/// What the eye shader must know of one eyeball, in the frame of the vertices measured.
+struct EyeFrame {
+  glm::vec3 centre{0.0F};
+  float radius = 12.0F;
+  glm::vec3 gaze{0.0F, 0.0F, 1.0F};  ///< unit, from the centre through the pupil
+  float iris_radius = 5.8F;
+  float upper_lid_y = 0;  ///< height of the rims above and below the pupil
+  float lower_lid_y = 0;
+};
+
+/// Finds eyeballs and lid rims in a head's mesh, whoever made it: balls are fitted to the white's
+/// vertices, rims are the skin nearest to them. Made once per head, used every frame.
+class EyeFinder {
+ public:
+  EyeFinder() = default;
+  /// `rest` belongs to `topology`. A head without a kSclera part has no eyes.
+  EyeFinder(const HeadTopology& topology, const HeadVertices& rest);
+  bool found() const { return !white_[0].empty() && !white_[1].empty(); }
+  /// Of the eye at the viewer's left [0] and right [1]. REQUIRES: found().
+  std::array<EyeFrame, 2> Measure(const HeadVertices& vertices) const;
+
+ private:
+  std::array<std::vector<std::uint32_t>, 2> white_;
+  std::array<std::vector<std::uint32_t>, 2> iris_;
+  std::array<std::vector<std::uint32_t>, 2> upper_rim_;
+  std::array<std::vector<std::uint32_t>, 2> lower_rim_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,202 @@
+#include "fsm/render/ffmpeg_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+extern "C" char** environ;
+
+namespace fsm {
+namespace {
+
+void CloseFd(int& fd) {
+  if (fd >= 0) close(std::exchange(fd, -1));
+}
+
+std::unexpected<vm::Error> CannotStart(int error) {
+  std::string text = "cannot start ffmpeg: " + std::generic_category().message(error);
+  if (error == ENOENT) text += " (ffmpeg must be installed and found along PATH)";
+  return vm::Fail(vm::Errc::kUnavailable, std::move(text));
+}
+
+/// The child's side of posix_spawn, freed with its scope.
+class SpawnSettings {
+ public:
+  SpawnSettings(int input, int errors) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions_, errors, STDERR_FILENO);
+    // A fresh group, so that Ctrl-C at the terminal reaches us alone and we can end the film
+    // properly; signals as a new program expects them, whatever ours are set to.
+    posix_spawnattr_init(&attributes_);
+    sigset_t none;
+    sigset_t all;
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes_, &none);
+    posix_spawnattr_setsigdefault(&attributes_, &all);
+    posix_spawnattr_setpgroup(&attributes_, 0);
+    posix_spawnattr_setflags(
+        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+  ~SpawnSettings() {
+    posix_spawn_file_actions_destroy(&actions_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  int Spawn(pid_t& pid, std::vector<char*>& argv) {
+    return posix_spawnp(&pid, argv[0], &actions_, &attributes_, argv.data(), environ);
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+}  // namespace
+
+vm::Result<std::unique_ptr<FfmpegProcess>> FfmpegProcess::Start(
+    const std::vector<std::string>& arguments) {
+  // A socket and not a pipe for its input: only with a socket can a write to a process that died
+  // be told not to raise SIGPIPE.
+  int input[2];
+  int errors[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0) return CannotStart(errno);
+  if (pipe2(errors, O_CLOEXEC) != 0) {
+    const int error = errno;
+    close(input[0]);
+    close(input[1]);
+    return CannotStart(error);
+  }
+  std::string name = "ffmpeg";
+  std::vector<std::string> words = arguments;
+  std::vector<char*> argv{name.data()};
+  for (auto& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  pid_t pid = 0;
+  const int error = SpawnSettings(input[1], errors[1]).Spawn(pid, argv);
+  close(input[1]);
+  close(errors[1]);
+  if (error != 0) {
+    close(input[0]);
+    close(errors[0]);
+    return CannotStart(error);
+  }
+  fcntl(input[0], F_SETFL, O_NONBLOCK);
+  fcntl(errors[0], F_SETFL, O_NONBLOCK);
+  return std::unique_ptr<FfmpegProcess>(new FfmpegProcess(pid, input[0], errors[0]));
+}
+
+FfmpegProcess::~FfmpegProcess() {
+  CloseFd(input_);
+  if (pid_ > 0) {
+    kill(pid_, SIGKILL);
+    Reap();
+  }
+  CloseFd(errors_);
+}
+
+vm::Result<void> FfmpegProcess::Write(std::span<const std::uint8_t> bytes) {
+  auto deadline = std::chrono::steady_clock::now() + kStallLimit;
+  while (!bytes.empty()) {
+    if (input_ < 0) return Over("ended before the film did");
+    const auto sent = send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (sent > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(sent));
+      deadline = std::chrono::steady_clock::now() + kStallLimit;
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      if (!Wait(true, deadline)) return Over("stopped taking pictures");
+    } else if (errno != EINTR) {
+      return Over("ended before the film did");
+    }
+  }
+  return {};
+}
+
+vm::Result<void> FfmpegProcess::Finish() {
+  CloseFd(input_);
+  const auto deadline = std::chrono::steady_clock::now() + kStallLimit;
+  while (errors_ >= 0) {
+    if (!Wait(false, deadline)) return Over("did not come to an end");
+  }
+  const int status = Reap();
+  if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  return Over("failed");
+}
+
+bool FfmpegProcess::Wait(bool for_writing, Deadline deadline) {
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+      deadline - std::chrono::steady_clock::now());
+  if (left.count() <= 0) return false;
+  pollfd wanted[2] = {{errors_, POLLIN, 0}, {for_writing ? input_ : -1, POLLOUT, 0}};
+  // Negative descriptors are passed over by poll, so the end of either is no special case.
+  if (poll(wanted, 2, static_cast<int>(left.count())) == 0) return false;
+  if (wanted[0].revents != 0) ReadErrors();
+  return true;
+}
+
+void FfmpegProcess::ReadErrors() {
+  char block[512];
+  for (;;) {
+    const auto got = read(errors_, block, sizeof block);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return;
+    if (got <= 0) break;
+    for (const char c : std::span(block, static_cast<std::size_t>(got))) {
+      if (c != '\n' && c != '\r') {
+        if (line_.size() >= kMaxLineBytes) line_.erase(0, kMaxLineBytes / 2);
+        line_ += c;
+      } else if (!line_.empty()) {
+        last_line_ = std::exchange(line_, {});
+      }
+    }
+  }
+  if (!line_.empty()) last_line_ = std::exchange(line_, {});
+  CloseFd(errors_);
+}
+
+std::unexpected<vm::Error> FfmpegProcess::Over(const std::string& what) {
+  CloseFd(input_);
+  int status = -1;
+  if (pid_ > 0) {
+    // A process that closed its input is given a moment to say why before it is ended.
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    while (errors_ >= 0 && Wait(false, deadline)) {
+    }
+    kill(pid_, SIGKILL);
+    status = Reap();
+  }
+  std::string text = "ffmpeg " + what;
+  if (!last_line_.empty()) {
+    text += ": " + last_line_;
+  } else if (status != -1 && WIFSIGNALED(status)) {
+    text += " (signal " + std::to_string(WTERMSIG(status)) + ")";
+  }
+  return vm::Fail(vm::Errc::kUnavailable, std::move(text));
+}
+
+int FfmpegProcess::Reap() {
+  int status = -1;
+  while (waitpid(pid_, &status, 0) < 0) {
+    if (errno == EINTR) continue;
+    status = -1;
+    break;
+  }
+  pid_ = 0;
+  return status;
+}
+
+}  // namespace fsm

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// One ffmpeg process: bytes go to its standard input, its last words come back. No shell is
+/// involved, and a process that dies is an error to the caller, never a signal.
+/// Lifetime: the destructor kills and reaps a process that has not ended. Thread: one.
+/// Limits:   kStallLimit without taking a byte, or between the last byte and the end; of its
+///           standard error the last kMaxLineBytes of the last line are kept.
+class FfmpegProcess {
+ public:
+  static constexpr std::chrono::minutes kStallLimit{5};
+  static constexpr std::size_t kMaxLineBytes = 500;
+
+  /// `arguments` without the program's name. Error: kUnavailable if it cannot be started.
+  static vm::Result<std::unique_ptr<FfmpegProcess>> Start(
+      const std::vector<std::string>& arguments);
+  ~FfmpegProcess();
+  FfmpegProcess(const FfmpegProcess&) = delete;
+  FfmpegProcess& operator=(const FfmpegProcess&) = delete;
+
+  /// Hands all bytes over. Error: kUnavailable if the process ended or stalls; it is then over.
+  vm::Result<void> Write(std::span<const std::uint8_t> bytes);
+  /// Closes its input and waits for its end. Error: kUnavailable if it reports failure.
+  vm::Result<void> Finish();
+
+ private:
+  using Deadline = std::chrono::steady_clock::time_point;
+
+  FfmpegProcess(pid_t pid, int input, int errors) : pid_(pid), input_(input), errors_(errors) {}
+  /// Waits until there is something to read, or `for_writing` room to write. False at the deadline.
+  bool Wait(bool for_writing, Deadline deadline);
+  void ReadErrors();
+  void CloseInput();
+  std::unexpected<vm::Error> Over(const std::string& what);
+  /// The wait status, or -1 if somebody else reaped it.
+  int Reap();
+
+  pid_t pid_;              // 0 once reaped
+  int input_;              // our end of a socket, -1 once closed
+  int errors_;             // our end of a pipe, -1 at its end
+  std::string line_;       // of standard error, being read
+  std::string last_line_;  // the last one that was not empty
+};
+
+}  // namespace fsm

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <GL/glcorearb.h>
+
+namespace fsm {
+
+class RenderContext;
+
+/// The OpenGL 3.3 core functions the renderer calls, fetched from one context. Nothing of ours
+/// calls a `gl...` symbol by name: libOSMesa and the system's libGL both define them, and a program
+/// that holds a headless context and a window at once must reach the right one of the two.
+#define FSM_GL_FUNCTIONS(X)                                                  \
+  X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                   \
+  X(PFNGLATTACHSHADERPROC, AttachShader)                                     \
+  X(PFNGLBINDBUFFERPROC, BindBuffer)                                         \
+  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                               \
+  X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                             \
+  X(PFNGLBINDTEXTUREPROC, BindTexture)                                       \
+  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                               \
+  X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                           \
+  X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                               \
+  X(PFNGLBUFFERDATAPROC, BufferData)                                         \
+  X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                 \
+  X(PFNGLCLEARPROC, Clear)                                                   \
+  X(PFNGLCLEARCOLORPROC, ClearColor)                                         \
+  X(PFNGLCOLORMASKPROC, ColorMask)                                           \
+  X(PFNGLCOMPILESHADERPROC, CompileShader)                                   \
+  X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                   \
+  X(PFNGLCREATESHADERPROC, CreateShader)                                     \
+  X(PFNGLCULLFACEPROC, CullFace)                                             \
+  X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                   \
+  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)                         \
+  X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                                   \
+  X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                       \
+  X(PFNGLDELETESHADERPROC, DeleteShader)                                     \
+  X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                 \
+  X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                         \
+  X(PFNGLDEPTHFUNCPROC, DepthFunc)                                           \
+  X(PFNGLDEPTHMASKPROC, DepthMask)                                           \
+  X(PFNGLDISABLEPROC, Disable)                                               \
+  X(PFNGLDRAWARRAYSPROC, DrawArrays)                                         \
+  X(PFNGLDRAWELEMENTSPROC, DrawElements)                                     \
+  X(PFNGLENABLEPROC, Enable)                                                 \
+  X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)               \
+  X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)               \
+  X(PFNGLGENBUFFERSPROC, GenBuffers)                                         \
+  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                                 \
+  X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                               \
+  X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                             \
+  X(PFNGLGENTEXTURESPROC, GenTextures)                                       \
+  X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                               \
+  X(PFNGLGETERRORPROC, GetError)                                             \
+  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)                           \
+  X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                                     \
+  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                             \
+  X(PFNGLGETSHADERIVPROC, GetShaderiv)                                       \
+  X(PFNGLGETSTRINGPROC, GetString)                                           \
+  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)                         \
+  X(PFNGLLINKPROGRAMPROC, LinkProgram)                                       \
+  X(PFNGLPIXELSTOREIPROC, PixelStorei)                                       \
+  X(PFNGLPOLYGONMODEPROC, PolygonMode)                                       \
+  X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                                   \
+  X(PFNGLREADPIXELSPROC, ReadPixels)                                         \
+  X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                       \
+  X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
+  X(PFNGLSHADERSOURCEPROC, ShaderSource)                                     \
+  X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                         \
+  X(PFNGLTEXIMAGE3DPROC, TexImage3D)                                         \
+  X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                   \
+  X(PFNGLUNIFORM1FPROC, Uniform1f)                                           \
+  X(PFNGLUNIFORM1IPROC, Uniform1i)                                           \
+  X(PFNGLUNIFORM3FPROC, Uniform3f)                                           \
+  X(PFNGLUNIFORM4FPROC, Uniform4f)                                           \
+  X(PFNGLUNIFORM3FVPROC, Uniform3fv)                                         \
+  X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                         \
+  X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)                             \
+  X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                             \
+  X(PFNGLUSEPROGRAMPROC, UseProgram)                                         \
+  X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                       \
+  X(PFNGLVIEWPORTPROC, Viewport)
+
+struct GlFunctions {
+#define FSM_GL_MEMBER(type, name) type name = nullptr;
+  FSM_GL_FUNCTIONS(FSM_GL_MEMBER)
+#undef FSM_GL_MEMBER
+
+  /// REQUIRES: `context` is current. Throws std::runtime_error naming the function that is missing.
+  static GlFunctions Load(RenderContext& context);
+};
+
+}  // namespace fsm

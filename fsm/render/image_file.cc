@@ -1,0 +1,153 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "fsm/render/image_codec.h"
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+namespace {
+
+/// More than an uncompressed picture of the largest size needs.
+constexpr std::size_t kMaxFileBytes = 300U << 20;
+
+struct Format {
+  const char* ending;
+  std::vector<std::uint8_t> (*encode)(const Image&);
+  std::optional<Image> (*decode)(std::span<const std::uint8_t>, std::string&);
+};
+
+constexpr Format kFormats[] = {
+    {".png", EncodePng, DecodePng}, {".bmp", EncodeBmp, DecodeBmp}, {".rgb", EncodeSgi, DecodeSgi}};
+
+const Format* FormatOf(const std::string& path) {
+  for (const auto& format : kFormats) {
+    const std::size_t length = std::strlen(format.ending);
+    if (path.size() < length) continue;
+    const auto same = [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == b;
+    };
+    if (std::equal(path.end() - static_cast<std::ptrdiff_t>(length), path.end(), format.ending,
+                   format.ending + length, same)) {
+      return &format;
+    }
+  }
+  return nullptr;
+}
+
+std::unexpected<vm::Error> BadEnding(const std::string& path) {
+  return vm::Fail(vm::Errc::kBadValue,
+                  "'" + path + "' is no picture's name: it must end in .png, .bmp or .rgb");
+}
+
+std::unexpected<vm::Error> Refused(const char* verb, const std::string& path) {
+  return vm::Fail(vm::Errc::kUnavailable, std::string("cannot ") + verb + " '" + path +
+                                              "': " + std::generic_category().message(errno));
+}
+
+class File {
+ public:
+  explicit File(int fd) : fd_(fd) {}
+  ~File() {
+    if (fd_ >= 0) close(fd_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  bool open() const { return fd_ >= 0; }
+  int get() const { return fd_; }
+  /// False if the system reports, only now, that a write failed.
+  bool Close() { return close(std::exchange(fd_, -1)) == 0; }
+
+ private:
+  int fd_;
+};
+
+bool WriteAll(int fd, std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const auto written = write(fd, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+bool ReadAll(int fd, std::vector<std::uint8_t>& bytes) {
+  std::size_t used = 0;
+  for (;;) {
+    bytes.resize(used + (1U << 16));
+    const auto got = read(fd, bytes.data() + used, bytes.size() - used);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return false;
+    used += static_cast<std::size_t>(got);
+    if (got == 0 || used > kMaxFileBytes) {
+      bytes.resize(used);
+      return true;
+    }
+  }
+}
+
+}  // namespace
+
+bool SizeAllowed(std::int64_t width, std::int64_t height, std::string& why) {
+  if (width >= 1 && height >= 1 && width <= kMaxImageSide && height <= kMaxImageSide) return true;
+  why = "its size " + std::to_string(width) + " x " + std::to_string(height) +
+        " is not within 1 to " + std::to_string(kMaxImageSide);
+  return false;
+}
+
+Image MakeBlack(int width, int height) {
+  Image image{width, height, {}};
+  image.rgba.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4, 0);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
+  return image;
+}
+
+vm::Result<void> WriteImage(const Image& image, const std::string& path) {
+  assert(image.rgba.size() ==
+         static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
+  const Format* format = FormatOf(path);
+  if (!format) return BadEnding(path);
+  const auto bytes = format->encode(image);
+  // Written beside its place and then moved there, so that nobody ever reads half a picture.
+  const std::string beside = path + ".part" + std::to_string(getpid());
+  File file(open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (!file.open()) return Refused("write", path);
+  if (!WriteAll(file.get(), bytes) || !file.Close() || rename(beside.c_str(), path.c_str()) != 0) {
+    const auto refused = Refused("write", path);
+    unlink(beside.c_str());
+    return refused;
+  }
+  return {};
+}
+
+vm::Result<Image> ReadImage(const std::string& path) {
+  const Format* format = FormatOf(path);
+  if (!format) return BadEnding(path);
+  // Without waiting: a named pipe in the place of a picture must not stop the program.
+  File file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat status{};
+  if (!file.open() || fstat(file.get(), &status) != 0) return Refused("read", path);
+  if (!S_ISREG(status.st_mode)) {
+    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': not a plain file");
+  }
+  std::vector<std::uint8_t> bytes;
+  if (!ReadAll(file.get(), bytes)) return Refused("read", path);
+  std::string why;
+  if (bytes.size() > kMaxFileBytes) {
+    why = "the file is too large";
+  } else if (auto image = format->decode(bytes, why)) {
+    return *std::move(image);
+  }
+  return vm::Fail(vm::Errc::kBadValue, "cannot use the picture '" + path + "': " + why);
+}
+
+}  // namespace fsm

@@ -1,0 +1,171 @@
+#include "fsm/render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat4x4.hpp>
+#include <optional>
+
+#include "fsm/render/backdrop.h"
+#include "fsm/render/camera.h"
+#include "fsm/render/gl_functions.h"
+#include "fsm/render/gl_objects.h"
+#include "fsm/render/head_buffers.h"
+#include "fsm/render/materials.h"
+
+namespace fsm {
+namespace {
+
+constexpr glm::vec4 kLineColor{0.10F, 0.55F, 0.42F, 1.0F};
+constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 1.0F};
+
+bool IsSheet(Material material) {
+  return material == Material::kHair || material == Material::kBrow ||
+         material == Material::kLash || material == Material::kMouthInside;
+}
+
+class GlRenderer : public Renderer {
+ public:
+  explicit GlRenderer(RenderContext& context)
+      : context_(context),
+        gl_(GlFunctions::Load(context)),
+        materials_(gl_),
+        head_(gl_),
+        backdrop_(gl_) {}
+
+  void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
+            const Scene& scene) override {
+    const int width = context_.width();
+    const int height = context_.height();
+    if (!target_ || target_->width() != width || target_->height() != height) {
+      target_.reset();
+      target_.emplace(gl_, width, height);
+    }
+    target_->Bind();
+    transparent_ = !scene.show_background;
+    backdrop_.Draw(scene);
+    const float alpha = std::clamp(state.agent_alpha, 0.0F, 1.0F);
+    if (state.agent_enabled && alpha > 0) DrawFigure(head, vertices, state, scene, alpha);
+    target_->Resolve();
+    if (context_.is_window()) {
+      gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_->resolved());
+      gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+      gl_.BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
+    }
+  }
+
+  void Read(Image& out) override {
+    assert(target_ && "Read before the first Draw");
+    out.width = target_->width();
+    out.height = target_->height();
+    const auto stride = static_cast<std::size_t>(out.width) * 4;
+    out.rgba.resize(stride * static_cast<std::size_t>(out.height));
+    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_->resolved());
+    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl_.ReadPixels(0, 0, out.width, out.height, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
+    // GL's first row is the lowest.
+    auto* top = out.rgba.data();
+    auto* bottom = top + out.rgba.size() - stride;
+    for (; top < bottom; top += stride, bottom -= stride) {
+      std::swap_ranges(top, top + stride, bottom);
+    }
+    if (transparent_) Unmultiply(out);
+  }
+
+ private:
+  void DrawFigure(const Head& head, const HeadVertices& vertices, const FaceState& state,
+                  const Scene& scene, float alpha) {
+    const View view = FramePortrait(state, context_.width(), context_.height());
+    head_.Upload(head, vertices);
+    gl_.Enable(GL_DEPTH_TEST);
+    gl_.Clear(GL_DEPTH_BUFFER_BIT);
+    materials_.BeginFrame(view, head_, vertices, alpha);
+    const auto& parts = head.topology().parts;
+    if (scene.view_mode != ViewMode::kWireframe) {
+      if (scene.view_mode == ViewMode::kTextureWithWireframe) {
+        gl_.Enable(GL_POLYGON_OFFSET_FILL);
+        gl_.PolygonOffset(1.5F, 2.0F);
+      }
+      if (alpha < 1) {
+        // What is nearest is found first, so that the figure fades as a whole and its inside,
+        // back and hidden layers never shine through.
+        gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+        materials_.UseLine(glm::vec4(0.0F));
+        for (const auto& part : parts) DrawPart(part);
+        gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        gl_.DepthFunc(GL_EQUAL);
+        BeginBlending();
+      }
+      gl_.CullFace(GL_BACK);
+      for (const auto& part : parts) {
+        // Sheets of hair have two sides; everything else is the skin of something closed.
+        (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        materials_.Use(part.material);
+        DrawPart(part);
+      }
+      gl_.Disable(GL_CULL_FACE);
+      gl_.Disable(GL_POLYGON_OFFSET_FILL);
+      gl_.DepthFunc(GL_LESS);
+    }
+    if (scene.view_mode != ViewMode::kTexture) DrawLines(parts, scene.view_mode, alpha);
+    gl_.Disable(GL_BLEND);
+    gl_.Disable(GL_DEPTH_TEST);
+  }
+
+  void DrawLines(const std::vector<HeadTopology::Part>& parts, ViewMode mode, float alpha) {
+    glm::vec4 color = mode == ViewMode::kWireframe ? kLineColor : kLineOverTexture;
+    color.a = mode == ViewMode::kWireframe ? alpha : 0.35F * alpha;
+    BeginBlending();
+    gl_.DepthFunc(GL_LEQUAL);
+    gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    gl_.Enable(GL_CULL_FACE);
+    gl_.CullFace(GL_BACK);
+    materials_.UseLine(color);
+    for (const auto& part : parts) DrawPart(part);
+    gl_.Disable(GL_CULL_FACE);
+    gl_.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    gl_.DepthFunc(GL_LESS);
+  }
+
+  void BeginBlending() {
+    gl_.Enable(GL_BLEND);
+    gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  }
+
+  void DrawPart(const HeadTopology::Part& part) {
+    const auto offset = static_cast<std::uintptr_t>(part.first_index) * sizeof(std::uint32_t);
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(part.index_count), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(offset));
+  }
+
+  /// Blending and averaging over transparent black leave colours already multiplied by their
+  /// opacity; picture files want them whole.
+  static void Unmultiply(Image& image) {
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+      const unsigned a = image.rgba[i + 3];
+      if (a == 0 || a == 255) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const unsigned whole = (image.rgba[i + c] * 255U + a / 2) / a;
+        image.rgba[i + c] = static_cast<std::uint8_t>(std::min(whole, 255U));
+      }
+    }
+  }
+
+  RenderContext& context_;
+  GlFunctions gl_;
+  Materials materials_;
+  HeadBuffers head_;
+  Backdrop backdrop_;
+  std::optional<GlTarget> target_;
+  bool transparent_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Renderer> Renderer::Make(RenderContext& context) {
+  return std::make_unique<GlRenderer>(context);
+}
+
+}  // namespace fsm

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fsm/head/face_state.h"
+#include "fsm/head/head.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// 8-bit RGBA, row 0 at the top, no padding.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgba;  ///< width * height * 4
+};
+
+/// The longest side of a picture read, written or drawn.
+inline constexpr int kMaxImageSide = 8192;
+
+enum class ViewMode { kTexture, kTextureWithWireframe, kWireframe };
+
+struct Scene {
+  glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, when there is no picture
+  const Image* background_image = nullptr;    ///< stretched over the view; borrowed
+  bool show_background = true;                ///< off: transparent black
+  ViewMode view_mode = ViewMode::kTexture;
+};
+
+/// A GL context and where its frames go. Thread: one, the one that made it; at most one is current,
+/// and a context is current when made. Destroying one leaves another current that was so.
+class RenderContext {
+ public:
+  virtual ~RenderContext() = default;
+  /// Off screen, software; throws std::runtime_error with a sentence if it cannot be had.
+  static std::unique_ptr<RenderContext> MakeHeadless(int width, int height);
+  /// A window; throws if there is no display.
+  static std::unique_ptr<RenderContext> MakeWindow(int width, int height, const std::string& title);
+  virtual void MakeCurrent() = 0;
+  virtual void* GetProcAddress(const char* name) = 0;
+  virtual int width() const = 0;  ///< of the drawable now (a window may be resized)
+  virtual int height() const = 0;
+  virtual bool is_window() const = 0;
+  /// Shows the frame drawn (window), and takes the window's events.
+  virtual void Present() = 0;
+  virtual bool close_requested() const = 0;
+};
+
+/// Draws heads. Owns its GL objects; the context outlives it and is current in every call.
+/// 4x antialiased. The same head, state, scene and size give the same picture.
+class Renderer {
+ public:
+  static std::unique_ptr<Renderer> Make(RenderContext& context);
+  virtual ~Renderer() = default;
+  /// `vertices` belong to `head` (Evaluate of `state`).
+  virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
+                    const Scene& scene) = 0;
+  /// The frame drawn last.
+  virtual void Read(Image& out) = 0;
+};
+
+/// Writes by the name's ending: .png, .bmp (24 bit), .rgb (SGI, uncompressed RGB).
+/// Errors: kBadValue for another ending, kUnavailable if the file cannot be written.
+vm::Result<void> WriteImage(const Image& image, const std::string& path);
+/// Reads .png, .bmp (24/32 bit uncompressed) and .rgb (SGI). Errors: kUnavailable, kBadValue. At
+/// most kMaxImageSide on each side.
+vm::Result<Image> ReadImage(const std::string& path);
+
+/// Writes a film through an ffmpeg process fed with raw frames on a pipe.
+/// Lifetime: Finish() or the destructor ends the process; without Finish the file is removed.
+/// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
+class MovieWriter {
+ public:
+  /// .mp4 (H.264, yuv420p). Error: kUnavailable if ffmpeg is missing or refuses, with its last
+  /// line.
+  static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
+                                                       int height, int frames_per_second);
+  virtual ~MovieWriter() = default;
+  /// The size must be that given at Open. Blocks only while ffmpeg cannot take more.
+  virtual vm::Result<void> Add(const Image& frame) = 0;
+  /// Ends the film; `sound_wav` (may be empty) is added as its sound from the start. The result is
+  /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault
+  /// the silent film is at the path and the text says so. Takes as long as the encoder needs.
+  virtual vm::Result<void> Finish(const std::string& sound_wav) = 0;
+  virtual int frames() const = 0;
+};
+
+}  // namespace fsm

@@ -1,0 +1,61 @@
+#version 330 core
+// The head of every shader that lights something: lamps, shadows, and the way to the screen. World
+// coordinates in millimetres.
+uniform vec3 eye;
+
+// Two ellipsoids that stand in for shadows the head throws on itself: the head, on neck and
+// shoulders, and the nose, on a cheek. Each matrix takes the world to where its ellipsoid is the
+// unit sphere, each vector is the direction of the key light there.
+uniform mat4 occluders[2];
+uniform vec3 occluder_lights[2];
+// Towards the key light, in world coordinates.
+uniform vec3 key_direction;
+
+// A portrait studio: a large warm lamp above left, a weak cool one at the right, one behind for the
+// edge of hair and shoulder. The room itself is brighter above than below.
+const vec3 kKeyColor = vec3(2.90, 2.64, 2.46);
+const vec3 kFillDirection = vec3(0.7986, 0.0998, 0.5936);
+const vec3 kFillColor = vec3(0.34, 0.36, 0.40);
+const vec3 kRimDirection = vec3(0.5883, 0.4576, -0.6667);
+const vec3 kRimColor = vec3(1.30, 1.36, 1.45);
+const vec3 kSkyColor = vec3(0.32, 0.34, 0.37);
+const vec3 kGroundColor = vec3(0.20, 0.155, 0.13);
+const float kShadowDepth[2] = float[2](0.92, 0.62);
+const float kExposure = 0.44;
+
+// How much of the key light comes past the ellipsoids: the nearer the ray to one, the less, with
+// the broad edge of a large lamp's shadow.
+float KeyShadow(vec3 world) {
+  float lit = 1.0;
+  for (int i = 0; i < 2; ++i) {
+    vec3 p = (occluders[i] * vec4(world, 1.0)).xyz;
+    float ahead = -dot(p, occluder_lights[i]);
+    float nearest = sqrt(max(dot(p, p) - ahead * ahead, 0.0));
+    lit *= 1.0 - kShadowDepth[i] * smoothstep(0.05, 0.5, ahead) *
+                     (1.0 - smoothstep(0.6, 1.25, nearest));
+  }
+  return lit;
+}
+
+vec3 Ambient(vec3 n) { return mix(kGroundColor, kSkyColor, 0.5 + 0.5 * n.y); }
+
+// Light that has gone round under the surface, further for red than for blue; `wrap` says how far.
+// Divided by the sum, so that softer does not mean brighter.
+vec3 Wrapped(float n_dot_l, vec3 wrap) {
+  return max((n_dot_l + wrap) / ((1.0 + wrap) * (1.0 + wrap)), 0.0);
+}
+
+// What a surface of refractive index about 1.4 mirrors, by the cosine of the angle (Schlick 1994).
+float Fresnel(float cosine) {
+  float c = 1.0 - clamp(cosine, 0.0, 1.0);
+  float c2 = c * c;
+  return 0.028 + 0.972 * c2 * c2 * c;
+}
+
+// Linear light to the screen. A filmic curve (Narkowicz's fit of ACES) followed by sRGB's, fitted
+// together by one ratio over the square root of light; within 0.006 of the two, at a fifth of the cost.
+vec3 ToScreen(vec3 light) {
+  vec3 x = light * kExposure;
+  vec3 s = sqrt(x);
+  return (5.547 * x - 0.0477 * s) / (1.0 - 0.6045 * s + 5.653 * x);
+}

@@ -1,0 +1,21 @@
+// The head's vertices, and their place: shared by all vertex shaders, because depth is compared for
+// equality between passes and every program must place a vertex alike.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 rest_position;
+layout(location = 3) in vec4 albedo_occlusion;
+
+uniform mat4 figure_to_world;
+uniform mat4 world_to_clip;
+
+invariant gl_Position;
+
+// Sets gl_Position and returns the place in the world.
+vec3 Place() {
+  vec4 world = figure_to_world * vec4(position, 1.0);
+  gl_Position = world_to_clip * world;
+  return world.xyz;
+}
+
+// The figure is only turned, moved and scaled evenly, so normals need no matrix of their own.
+vec3 WorldNormal() { return normalize(mat3(figure_to_world) * normal); }

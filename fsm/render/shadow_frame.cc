@@ -1,0 +1,77 @@
+#include "fsm/render/shadow_frame.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/matrix.hpp>
+#include <span>
+
+namespace fsm {
+namespace {
+
+// In the rest frame, millimetres. What faces the light has an ellipsoid behind it, never before it,
+// so these need not lie inside the surface to leave it unshaded.
+constexpr glm::vec3 kSkullCentre{0.0F, -10.0F, 18.0F};
+constexpr glm::vec3 kSkullRadii{66.0F, 108.0F, 80.0F};
+constexpr glm::vec3 kNoseInset{0.0F, 3.0F, -13.0F};  // of its centre from the tip
+constexpr glm::vec3 kNoseRadii{9.0F, 11.0F, 13.0F};
+/// Anchors at the sides are looked for between these heights.
+constexpr float kLowestSide = 0.0F;
+constexpr float kHighestSide = 60.0F;
+
+glm::mat4 ToUnitSphere(const glm::vec3& centre, const glm::vec3& radii) {
+  return glm::translate(glm::scale(glm::mat4(1.0F), 1.0F / radii), -centre);
+}
+
+}  // namespace
+
+ShadowFinder::ShadowFinder(const HeadTopology& topology, const HeadVertices& rest) {
+  Anchors found;
+  bool any = false;
+  for (const auto& part : topology.parts) {
+    if (part.material != Material::kSkin || part.index_count == 0) continue;
+    if (!any) {
+      const auto first = topology.indices[part.first_index];
+      found = {first, first, first};
+      any = true;
+    }
+    for (const auto i : std::span(topology.indices).subspan(part.first_index, part.index_count)) {
+      const auto& p = rest.position[i];
+      if (p.z > rest.position[found.nose].z) found.nose = i;
+      if (p.y < kLowestSide || p.y > kHighestSide) continue;
+      if (p.x < rest.position[found.left].x) found.left = i;
+      if (p.x > rest.position[found.right].x) found.right = i;
+    }
+  }
+  if (!any) return;
+  anchors_ = found;
+  rest_to_frame_ = glm::inverse(Frame(rest));
+}
+
+glm::mat4 ShadowFinder::Frame(const HeadVertices& vertices) const {
+  const glm::vec3 left = vertices.position[anchors_->left];
+  const glm::vec3 right = vertices.position[anchors_->right];
+  const glm::vec3 middle = (left + right) / 2.0F;
+  glm::vec3 x = right - left;
+  glm::vec3 z = vertices.position[anchors_->nose] - middle;
+  // A degenerate head keeps the axes it was given in.
+  x = glm::length(x) > 1 ? glm::normalize(x) : glm::vec3(1.0F, 0.0F, 0.0F);
+  z -= x * glm::dot(x, z);
+  z = glm::length(z) > 1 ? glm::normalize(z) : glm::vec3(0.0F, 0.0F, 1.0F);
+  const glm::vec3 y = glm::cross(z, x);
+  return {glm::vec4(x, 0.0F), glm::vec4(y, 0.0F), glm::vec4(z, 0.0F), glm::vec4(middle, 1.0F)};
+}
+
+ShadowFinder::Occluders ShadowFinder::Measure(const HeadVertices& vertices) const {
+  constexpr glm::vec3 kNowhere{0.0F, 0.0F, -1e6F};
+  if (!anchors_) {
+    const glm::mat4 nothing = ToUnitSphere(kNowhere, glm::vec3(1.0F));
+    return {nothing, nothing, glm::mat3(1.0F)};
+  }
+  const glm::mat4 frame = Frame(vertices);
+  const glm::mat4 to_rest = glm::inverse(frame * rest_to_frame_);
+  const glm::vec3 nose(to_rest * glm::vec4(vertices.position[anchors_->nose], 1.0F));
+  return {ToUnitSphere(kSkullCentre, kSkullRadii) * to_rest,
+          ToUnitSphere(nose + kNoseInset, kNoseRadii) * to_rest, glm::mat3(frame * rest_to_frame_)};
+}
+
+}  // namespace fsm

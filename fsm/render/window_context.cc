@@ -1,0 +1,99 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "fsm/render/context_switch.h"
+
+namespace fsm {
+namespace {
+
+std::string LastGlfwError() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : "no reason given";
+}
+
+/// GLFW is one library-wide state; the last window out closes it. Windows belong to the main
+/// thread.
+int open_windows = 0;
+
+void OpenLibrary() {
+  if (open_windows == 0 && !glfwInit()) {
+    throw std::runtime_error("cannot open a window: " + LastGlfwError());
+  }
+  ++open_windows;
+}
+
+void CloseLibrary() {
+  if (--open_windows == 0) glfwTerminate();
+}
+
+class WindowContext : public SwitchedContext {
+ public:
+  WindowContext(int width, int height, const std::string& title) {
+    OpenLibrary();
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    // The renderer has a depth buffer and samples of its own.
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    glfwWindowHint(GLFW_SAMPLES, 0);
+    window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    if (!window_) {
+      const std::string reason = LastGlfwError();
+      CloseLibrary();
+      throw std::runtime_error("cannot open a window with OpenGL 3.3: " + reason);
+    }
+    MakeCurrent();
+    // The caller's frame clock sets the pace; waiting here for the screen would stall its input.
+    glfwSwapInterval(0);
+  }
+  ~WindowContext() override {
+    auto* other = Leave();
+    glfwDestroyWindow(window_);
+    CloseLibrary();
+    Resume(other);
+  }
+  WindowContext(const WindowContext&) = delete;
+  WindowContext& operator=(const WindowContext&) = delete;
+
+  void* GetProcAddress(const char* name) override {
+    return reinterpret_cast<void*>(glfwGetProcAddress(name));
+  }
+  int width() const override { return Size().first; }
+  int height() const override { return Size().second; }
+  bool is_window() const override { return true; }
+  void Present() override {
+    glfwSwapBuffers(window_);
+    glfwPollEvents();
+  }
+  bool close_requested() const override { return glfwWindowShouldClose(window_) != 0; }
+
+ private:
+  void Bind() override { glfwMakeContextCurrent(window_); }
+  void Release() override { glfwMakeContextCurrent(nullptr); }
+
+  /// At least 1 x 1: a minimised window has no pixels, and drawing must go on.
+  std::pair<int, int> Size() const {
+    int width = 0;
+    int height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    return {width > 0 ? width : 1, height > 0 ? height : 1};
+  }
+
+  GLFWwindow* window_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<RenderContext> RenderContext::MakeWindow(int width, int height,
+                                                         const std::string& title) {
+  return std::make_unique<WindowContext>(width, height, title);
+}
+
+}  // namespace fsm

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "srm_stub/input_script.h"
+#include "srm_stub/word_grammar.h"
+#include "vm_protocol/core/module.h"
+
+namespace srm_stub {
+
+using Millis = std::chrono::milliseconds;
+
+inline constexpr std::size_t kMaxGrammars = 256;
+inline constexpr std::size_t kMaxQueuedInputs = 64;
+
+/// The speech recognition module (SRM) with typed text for a microphone: what is "said" comes by
+/// `Input.text` or from a script, takes time word by word if wished, and is matched against the
+/// active grammars.
+///
+///   OFF --Run = START--> LISTENING --first word--> SPEECH --last word--> LISTENING
+///                                        Result.partial ...   Result or NoMatch
+///
+/// Thread: the scheduler's. Exact on a virtual clock.
+class RecognizerModule final : public vm::Module {
+ public:
+  using ReadFile = std::function<vm::Result<std::string>(const std::string& path)>;
+  struct Options {
+    std::string module_version{};
+    ReadFile read_file{};
+  };
+
+  RecognizerModule(vm::Scheduler& scheduler, Options options);
+  ~RecognizerModule() override;
+
+  vm::SlotMachine& slots() override { return slots_; }
+  bool Busy() const override;
+  bool ExitRequested() const override { return exit_requested_; }
+  void Shutdown() override;
+
+ private:
+  struct Input {
+    std::string text;
+    vm::Reply reply;
+  };
+
+  void DeclareRun();
+  void DeclareGrammar();
+  void DeclareInput();
+  void DeclareResult();
+
+  vm::Result<std::string> LoadGrammar(const std::string& name, const std::string& text);
+  vm::Result<std::string> ActivateGrammars(const vm::SetValue& value);
+  void StartListening();
+  void StopListening();
+  void Take(const std::string& text, const vm::Reply& reply);
+  void Hear(Input input);
+  void HearWord(std::size_t count);
+  void Finish();
+  void Recognize(const std::string& text);
+  void ArmNoInput();
+  void SetStat(const std::string& stat);
+  vm::Result<std::string> StartScript(const std::string& path);
+  void NextScriptLine();
+
+  vm::Scheduler& scheduler_;
+  const Options options_;
+  vm::SlotMachine slots_;
+
+  std::map<std::string, WordGrammar, std::less<>> grammars_;
+  std::vector<std::string> active_;  // names, in order of preference
+
+  bool listening_ = false;
+  Millis word_time_{0};
+  Millis timeout_{0};
+  std::deque<Input> inputs_;          // the first one is being heard
+  std::vector<std::string> written_;  // its words as written
+  vm::Time heard_since_{0};
+  vm::TimerId word_timer_ = 0;
+  vm::TimerId no_input_timer_ = 0;
+
+  std::deque<ScriptLine> script_;
+  vm::Time script_start_{0};
+  vm::TimerId script_timer_ = 0;
+  bool exit_requested_ = false;
+};
+
+}  // namespace srm_stub

@@ -1,0 +1,138 @@
+// The speech synthesis module: options, the flite engine, a sink, and the voice module over them.
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+
+#include "ssm/app/original_config.h"
+#include "ssm/app/real_time_sink.h"
+#include "ssm/app/thread_worker.h"
+#include "ssm/flite/flite_engine.h"
+#include "ssm/sinks/portaudio_sink.h"
+#include "ssm/sinks/sink_choice.h"
+#include "ssm/voice/voice_module.h"
+#include "vm_protocol/runtime/module_main.h"
+
+namespace {
+
+constexpr const char* kModuleVersion = "Galatea SSM " GALATEA_VERSION;
+
+struct Options {
+  std::string sink_text = "auto";
+  std::string config_path;
+  std::string speaker;
+  bool print_version = false;
+  ssm::SinkChoice sink;
+  ssm::OriginalConfig config;
+};
+
+void Notice(const std::string& text) { std::cerr << "ssm: " << text << std::endl; }
+
+void ReadConfig(Options& options) {
+  std::ifstream file(options.config_path);
+  if (!file) {
+    throw std::runtime_error("cannot read '" + options.config_path + "': " + std::strerror(errno));
+  }
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  auto config = ssm::ParseOriginalConfig(text);
+  if (!config) throw std::runtime_error(options.config_path + ": " + config.error().text);
+  options.config = std::move(*config);
+  if (!options.config.notice.empty()) Notice(options.config_path + ": " + options.config.notice);
+}
+
+/// stderr to the end of a file, or back to where it went at the start for CONSOLE.
+vm::Result<void> RedirectErrors(const std::string& where) {
+  static const int console = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  const int target = where == "CONSOLE"
+                         ? console
+                         : open(where.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (target < 0 || dup2(target, STDERR_FILENO) < 0) {
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "cannot write '" + where + "': " + std::strerror(errno));
+  }
+  if (target != console) close(target);
+  return {};
+}
+
+bool WantsRealClock(const Options& options) {
+  using Kind = ssm::SinkChoice::Kind;
+  return options.sink.kind == Kind::kPortAudio ||
+         (options.sink.kind == Kind::kAuto && ssm::HasSoundDevice());
+}
+
+std::unique_ptr<vm::Module> MakeModule(const Options& options, vm::Scheduler& scheduler,
+                                       boost::asio::io_context& io) {
+  auto& clock = dynamic_cast<vm::ClockScheduler&>(scheduler);
+  ssm::SinkChoice choice = options.sink;
+  if (!clock.real()) {
+    if (choice.kind == ssm::SinkChoice::Kind::kPortAudio) {
+      throw std::runtime_error("--sink portaudio needs the real clock (--clock real)");
+    }
+    if (choice.kind == ssm::SinkChoice::Kind::kAuto) choice.kind = ssm::SinkChoice::Kind::kNull;
+  }
+  ssm::OpenedSink opened = ssm::OpenSink(choice, scheduler);
+  if (!opened.notice.empty()) Notice(opened.notice);
+  if (opened.sink->name().starts_with("portaudio:")) {
+    opened.sink = std::make_unique<ssm::RealTimeSink>(clock, std::move(opened.sink));
+  }
+  ssm::VoiceModule::Options voice{.module_version = kModuleVersion,
+                                  .speaker = options.speaker,
+                                  .auto_play = options.config.auto_play,
+                                  .auto_play_delay = options.config.auto_play_delay,
+                                  .redirect_errors = RedirectErrors};
+  if (!options.config.speakers.empty()) {
+    voice.aliases = options.config.speakers;
+    if (voice.speaker.empty()) voice.speaker = voice.aliases.front().name;
+  }
+  return std::make_unique<ssm::VoiceModule>(
+      scheduler,
+      ssm::VoiceModule::Parts{ssm::MakeFliteEngine(), std::move(opened.sink),
+                              std::make_unique<ssm::ThreadWorker>(io, clock)},
+      std::move(voice));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  return vm::RunModule(
+      argc, argv,
+      {.name = "ssm",
+       .description = "Speech synthesis module: text to speech with phonemes and their times",
+       .module_name = "SSM",
+       .original_port = 10600,
+       .virtual_by_default = true,
+       .add_options =
+           [&options](CLI::App& app) {
+             app.add_option("--sink", options.sink_text,
+                            "Where sound goes: auto (a loudspeaker if there is one), null, "
+                            "portaudio[:NAME], file:PATH.wav");
+             app.add_option("--speaker", options.speaker, "Who speaks at first (see SpeakerSet)");
+             app.add_option("-C", options.config_path, "The original's ssm.conf");
+             app.add_flag("-v", options.print_version, "Print the versions and end");
+           },
+       .before_start =
+           [&options] {
+             if (options.print_version) {
+               std::cout << kModuleVersion << "\nProtocol Ver. 1.0" << std::endl;
+               return 0;
+             }
+             auto choice = ssm::ParseSinkChoice(options.sink_text);
+             if (!choice) throw std::runtime_error("--sink: " + choice.error().text);
+             options.sink = std::move(*choice);
+             if (!options.config_path.empty()) ReadConfig(options);
+             return -1;
+           },
+       .needs_real_clock = [&options] { return WantsRealClock(options); },
+       .make = [&options](
+                   vm::Scheduler& scheduler,
+                   boost::asio::io_context& io) { return MakeModule(options, scheduler, io); }});
+}

@@ -1,0 +1,312 @@
+#include "ssm/sinks/portaudio_sink.h"
+
+#include <fcntl.h>
+#include <portaudio.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+namespace ssm {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using Micros = std::chrono::microseconds;
+
+constexpr std::size_t kFadeFrames = 80;  // 5 ms, so that a stop does not click
+// A device that has taken this much more sound than time has passed has no clock of its own.
+// (Honest ones take a buffer or two ahead.)
+constexpr Micros kRunaway{2'000'000};
+constexpr unsigned kTrialUs = 30'000;  // a device without a clock shows itself within this
+// Callbacks further apart than this mean that the device has stopped.
+constexpr Micros kDeadAfter{2'000'000};
+
+/// PortAudio's back ends write dozens of lines to stderr while they look for devices.
+class QuietStderr {
+ public:
+  QuietStderr() {
+    std::fflush(stderr);
+    saved_ = dup(STDERR_FILENO);
+    const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (null >= 0) {
+      dup2(null, STDERR_FILENO);
+      close(null);
+    }
+  }
+  ~QuietStderr() {
+    std::fflush(stderr);
+    if (saved_ < 0) return;
+    dup2(saved_, STDERR_FILENO);
+    close(saved_);
+  }
+  QuietStderr(const QuietStderr&) = delete;
+
+ private:
+  int saved_ = -1;
+};
+
+/// Whether the library can be started at all. Where ALSA has no configuration, PortAudio ends the
+/// whole process by an assertion; so a child tries first.
+bool CanInitialize() {
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    _exit(Pa_Initialize() == paNoError ? 0 : 1);
+  }
+  int status = 0;
+  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+         WEXITSTATUS(status) == 0;
+}
+
+/// The library, from first to last use.
+class Library {
+ public:
+  Library() : error_(CanInitialize() ? Pa_Initialize() : paNotInitialized) {}
+  ~Library() {
+    if (error_ == paNoError) Pa_Terminate();
+  }
+  Library(const Library&) = delete;
+  PaError error() const { return error_; }
+
+ private:
+  const PaError error_;
+};
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+vm::Error Unavailable(std::string text) { return {vm::Errc::kUnavailable, std::move(text), 0}; }
+
+bool SwallowsSound(std::string_view name) {
+  const std::string lower = LowerCase(name);
+  return lower == "null" || lower.find("discard all samples") != std::string::npos;
+}
+
+/// The device wanted, or why there is none.
+vm::Result<PaDeviceIndex> ChooseDevice(const std::string& wanted) {
+  std::string names;
+  PaDeviceIndex chosen = wanted.empty() ? Pa_GetDefaultOutputDevice() : paNoDevice;
+  for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
+    const PaDeviceInfo* info = Pa_GetDeviceInfo(i);
+    if (info->maxOutputChannels < 1) continue;
+    names += (names.empty() ? "" : ", ") + std::string(info->name);
+    const bool fits = LowerCase(info->name).find(LowerCase(wanted)) != std::string::npos;
+    if (chosen == paNoDevice && !wanted.empty() && fits) chosen = i;
+  }
+  if (chosen == paNoDevice) {
+    return std::unexpected(
+        Unavailable(names.empty() ? "there is no sound device"
+                                  : "no sound device '" + wanted + "', expected one of: " + names));
+  }
+  if (SwallowsSound(Pa_GetDeviceInfo(chosen)->name)) {
+    return std::unexpected(Unavailable("sound device '" +
+                                       std::string(Pa_GetDeviceInfo(chosen)->name) +
+                                       "' throws sound away at any speed"));
+  }
+  return chosen;
+}
+
+class PortAudioSink final : public AudioSink {
+ public:
+  PortAudioSink(vm::Scheduler& scheduler, std::unique_ptr<Library> library)
+      : scheduler_(scheduler), library_(std::move(library)) {}
+  ~PortAudioSink() override {
+    if (stream_ == nullptr) return;
+    const QuietStderr quiet;
+    Pa_AbortStream(stream_);
+    Pa_CloseStream(stream_);
+  }
+
+  vm::Result<void> Open(PaDeviceIndex device) {
+    const PaDeviceInfo* info = Pa_GetDeviceInfo(device);
+    name_ = info->name;
+    PaStreamParameters output{};
+    output.device = device;
+    output.channelCount = 1;
+    output.sampleFormat = paInt16;
+    output.suggestedLatency = info->defaultLowOutputLatency;
+    PaError error = Pa_OpenStream(&stream_, nullptr, &output, static_cast<double>(kSampleRateHz),
+                                  paFramesPerBufferUnspecified, paNoFlag, &OnBuffer, this);
+    if (error != paNoError) stream_ = nullptr;
+    opened_ = SteadyClock::now();
+    last_buffer_us_ = Now();
+    if (error == paNoError) error = Pa_StartStream(stream_);
+    if (error == paNoError) {
+      usleep(kTrialUs);
+      if (!runaway_) return {};
+      return std::unexpected(
+          Unavailable("sound device '" + name_ + "' throws sound away at any speed"));
+    }
+    return std::unexpected(
+        Unavailable("sound device '" + name_ + "' cannot be opened: " + Pa_GetErrorText(error)));
+  }
+
+  vm::Result<void> Play(std::shared_ptr<const SampleBuffer> samples, vm::Time start) override {
+    assert(!samples_);
+    if (Failed()) return std::unexpected(Unavailable("sound device '" + name_ + "' failed"));
+    WaitForCallback();
+    samples_ = std::move(samples);
+    start_ = std::max(start, scheduler_.Now());
+    // Instants are handed over on the steady clock, counted from when the stream was opened.
+    start_us_ = Now() + (start_ - scheduler_.Now()).count();
+    next_frame_ = 0;
+    first_heard_us_ = kNever;
+    current_ = samples_.get();
+    return {};
+  }
+
+  Position Where() const override {
+    assert(samples_);
+    const std::int64_t first = first_heard_us_;
+    if (first == kNever) return {0, start_, Failed()};
+    const vm::Time since(Now() - first);
+    // Never more than what was handed over: on an underrun the clock runs on, the sound does not.
+    const std::size_t frames = std::min({FramesIn(since), next_frame_.load(), samples_->size()});
+    return {frames, scheduler_.Now() - since, Failed()};
+  }
+
+  Position Stop() override {
+    const Position before = Where();
+    current_ = nullptr;
+    WaitForCallback();
+    Position position = before;
+    // What the device holds already is heard as well.
+    if (!Failed()) position.frames = std::min(next_frame_.load(), samples_->size());
+    samples_.reset();
+    return position;
+  }
+
+  std::string name() const override { return "portaudio:" + name_; }
+
+ private:
+  static constexpr std::int64_t kNever = INT64_MIN;
+
+  std::int64_t Now() const {
+    return std::chrono::duration_cast<Micros>(SteadyClock::now() - opened_).count();
+  }
+  bool Failed() const { return runaway_ || Now() - last_buffer_us_ > kDeadAfter.count(); }
+
+  /// Until the callback that may be running has ended: afterwards none uses the old samples.
+  void WaitForCallback() const {
+    while (in_callback_) usleep(100);
+  }
+
+  static int OnBuffer(const void*, void* output, unsigned long frames,
+                      const PaStreamCallbackTimeInfo* time, PaStreamCallbackFlags, void* self) {
+    return static_cast<PortAudioSink*>(self)->Fill(
+        {static_cast<std::int16_t*>(output), static_cast<std::size_t>(frames)}, *time);
+  }
+
+  int Fill(std::span<std::int16_t> out, const PaStreamCallbackTimeInfo& time) {
+    in_callback_ = true;
+    std::fill(out.begin(), out.end(), std::int16_t{0});
+    const std::int64_t now = Now();
+    last_buffer_us_ = now;
+    delivered_ += out.size();
+    if (ToTime(delivered_).count() > now + kRunaway.count()) {
+      runaway_ = true;
+      in_callback_ = false;
+      return paAbort;
+    }
+    const double delay_s = std::clamp(time.outputBufferDacTime - time.currentTime, 0.0, 1.0);
+    FillSpeech(out, now + std::llround(delay_s * 1e6));
+    in_callback_ = false;
+    return paContinue;
+  }
+
+  /// `heard_us`: when the first frame of `out` will be heard.
+  void FillSpeech(std::span<std::int16_t> out, std::int64_t heard_us) {
+    const SampleBuffer* samples = current_;
+    if (samples == nullptr) {
+      for (std::size_t i = 0; i < out.size() && fade_left_ > 0; ++i) {
+        --fade_left_;
+        out[i] = static_cast<std::int16_t>(last_sample_ * static_cast<int>(fade_left_) /
+                                           static_cast<int>(kFadeFrames));
+      }
+      return;
+    }
+    std::size_t at = next_frame_;
+    std::size_t silence = 0;
+    if (at == 0) {
+      silence = FramesIn(vm::Time(start_us_ - heard_us));
+      if (silence >= out.size()) return;
+      first_heard_us_ = heard_us + ToTime(silence).count();
+    }
+    const auto ready = samples->Ready();
+    const std::size_t count = std::min(out.size() - silence, ready.size() - at);
+    std::copy_n(ready.begin() + static_cast<std::ptrdiff_t>(at), count,
+                out.begin() + static_cast<std::ptrdiff_t>(silence));
+    if (count > 0) last_sample_ = out[silence + count - 1];
+    fade_left_ = kFadeFrames;
+    at += count;
+    next_frame_ = at;
+    if (count < out.size() - silence && at < samples->size()) {
+      // The engine lags: what comes later is heard later.
+      const auto late = static_cast<std::size_t>(out.size() - silence - count);
+      first_heard_us_ += ToTime(late).count();
+    }
+  }
+
+  vm::Scheduler& scheduler_;
+  const std::unique_ptr<Library> library_;
+  PaStream* stream_ = nullptr;
+  std::string name_;
+  SteadyClock::time_point opened_;
+
+  // The scheduler's thread only.
+  std::shared_ptr<const SampleBuffer> samples_;
+  vm::Time start_{0};
+
+  // Written by the scheduler's thread while no samples are set, read by the callback.
+  std::atomic<const SampleBuffer*> current_{nullptr};
+  std::atomic<std::int64_t> start_us_{0};
+
+  // Written by the callback.
+  std::atomic<std::size_t> next_frame_{0};
+  std::atomic<std::int64_t> first_heard_us_{kNever};
+  std::atomic<std::int64_t> last_buffer_us_{0};
+  std::atomic<bool> runaway_{false};
+  std::atomic<bool> in_callback_{false};
+
+  // The callback only.
+  std::size_t delivered_ = 0;
+  std::size_t fade_left_ = 0;
+  int last_sample_ = 0;
+};
+
+}  // namespace
+
+vm::Result<std::unique_ptr<AudioSink>> OpenPortAudio(vm::Scheduler& scheduler,
+                                                     const std::string& device) {
+  const QuietStderr quiet;
+  auto library = std::make_unique<Library>();
+  if (library->error() != paNoError) {
+    return std::unexpected(Unavailable("the sound system cannot be used, or has no configuration"));
+  }
+  const auto chosen = ChooseDevice(device);
+  if (!chosen) return std::unexpected(chosen.error());
+  auto sink = std::make_unique<PortAudioSink>(scheduler, std::move(library));
+  if (auto opened = sink->Open(*chosen); !opened) return std::unexpected(opened.error());
+  return sink;
+}
+
+bool HasSoundDevice() {
+  const QuietStderr quiet;
+  const Library library;
+  return library.error() == paNoError && ChooseDevice({}).has_value();
+}
+
+}  // namespace ssm

@@ -1,0 +1,45 @@
+#include "ssm/voice/speakers.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace ssm {
+
+std::vector<SpeakerAlias> OriginalSpeakers() {
+  return {{"male01", false}, {"female01", true}, {"male02", false}};
+}
+
+SpeakerTable::SpeakerTable(const std::vector<VoiceInfo>& voices,
+                           const std::vector<SpeakerAlias>& aliases) {
+  assert(!voices.empty());
+  for (const VoiceInfo& voice : voices) entries_.push_back({voice.name, voice});
+  std::vector<std::string> taken;
+  for (const SpeakerAlias& alias : aliases) {
+    if (Find(alias.name) != nullptr) continue;
+    const VoiceInfo* chosen = nullptr;
+    for (const VoiceInfo& voice : voices) {
+      if (voice.female != alias.female) continue;
+      const bool is_taken = std::find(taken.begin(), taken.end(), voice.name) != taken.end();
+      if (chosen == nullptr || !is_taken) chosen = &voice;
+      if (!is_taken) break;
+    }
+    if (chosen == nullptr) chosen = &voices.front();
+    taken.push_back(chosen->name);
+    entries_.push_back({alias.name, *chosen});
+  }
+}
+
+const VoiceInfo* SpeakerTable::Find(std::string_view name) const {
+  for (const Entry& entry : entries_) {
+    if (entry.name == name) return &entry.voice;
+  }
+  return nullptr;
+}
+
+std::string SpeakerTable::Names() const {
+  std::string names;
+  for (const Entry& entry : entries_) names += (names.empty() ? "" : " ") + entry.name;
+  return names;
+}
+
+}  // namespace ssm

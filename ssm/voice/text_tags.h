@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ssm/voice/speech_engine.h"
+
+namespace ssm {
+
+/// A text with its tags taken out and turned into manners of speaking.
+struct TaggedText {
+  std::string plain;              ///< the text to be spoken
+  std::vector<SpeechSpan> spans;  ///< voice "" = the current speaker; numbers are factors
+};
+
+/// Reads the tags of JEIDA-62-2000 as the original voice module knew them. Upper case, attributes
+/// in double quotes. Honoured:
+///   <SILENCE MSEC="500"/>             0 to 60000; also without the slash
+///   <RATE SPEED="1.2">...</RATE>      relative duration, 0.2 to 5
+///   <VOLUME LEVEL="0.5">...</VOLUME>  0.01 to 4
+///   <PITCH LEVEL="1.1">...</PITCH>    0.5 to 2
+///   <VOICE OPTIONAL="name">...</VOICE>
+///   <BOOKMARK MARK="name"/>           reported by Speak.mark
+/// Numbers beyond the range are taken to its end. The others (EMPH SPELL PRON SPEECH CONTEXT APB
+/// LANG PARTOFSP RESET REGWORD W1) are taken out and what they enclose is spoken as it is. A lone
+/// closing tag is dropped; what is no tag of the list, "1 < 2" or "<b>", is text. "&lt; &gt; &amp;
+/// &quot;" stand for their signs. Pure; never fails.
+TaggedText ParseTaggedText(std::string_view text);
+
+}  // namespace ssm

@@ -1,0 +1,79 @@
+#include "ssm/voice/utterance.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "ssm/voice/wav_file.h"
+
+namespace ssm {
+namespace {
+
+constexpr Millis kMaxMismatch{50};
+
+vm::Error InfoError(vm::Errc code, const std::string& path, const std::string& why) {
+  return {code, "'" + path + ".info': " + why, 0};
+}
+
+}  // namespace
+
+std::string Utterance::SpokenWords(Millis spoken) const {
+  std::string words;
+  for (const WordTime& word : plan.words) {
+    if (word.start < spoken) words += (words.empty() ? "" : " ") + word.text;
+  }
+  return words;
+}
+
+vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& path,
+                               SoundFormat format) {
+  const auto samples = utterance.samples->Ready();
+  auto saved = format == SoundFormat::kWav ? WriteWav(path, samples) : WriteRaw(path, samples);
+  if (!saved) return saved;
+  std::ofstream info(path + ".info", std::ios::trunc);
+  info << "text: " << utterance.text
+       << "\nphonemes: " << vm::FormatPhonemesVoice(utterance.plan.phonemes)
+       << "\nduration: " << utterance.duration().count() << "\n";
+  info.close();
+  if (!info) {
+    return std::unexpected(InfoError(vm::Errc::kUnavailable, path, std::strerror(errno)));
+  }
+  return {};
+}
+
+vm::Result<std::shared_ptr<Utterance>> LoadUtterance(const std::string& path, SoundFormat format) {
+  auto samples = format == SoundFormat::kWav ? ReadWav(path) : ReadRaw(path);
+  if (!samples) return std::unexpected(samples.error());
+  std::ifstream info(path + ".info");
+  if (!info) {
+    return std::unexpected(
+        InfoError(vm::Errc::kUnavailable, path,
+                  std::string(std::strerror(errno)) + "; it must hold 'phonemes: NAME[MS] ...'"));
+  }
+  auto loaded = std::make_shared<Utterance>();
+  for (std::string line; std::getline(info, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.starts_with("text: ")) loaded->text = loaded->spoken_text = line.substr(6);
+    if (!line.starts_with("phonemes: ")) continue;
+    auto phonemes = vm::ParsePhonemes(std::string_view(line).substr(10));
+    if (!phonemes) {
+      return std::unexpected(InfoError(phonemes.error().code, path, phonemes.error().text));
+    }
+    loaded->plan.phonemes = std::move(*phonemes);
+  }
+  const Millis said = loaded->duration();
+  const Millis heard = ToMs(samples->size());
+  if (loaded->plan.phonemes.empty() || abs(said - heard) > kMaxMismatch) {
+    return std::unexpected(InfoError(vm::Errc::kBadValue, path,
+                                     "the phonemes last " + std::to_string(said.count()) +
+                                         " ms and the sound " + std::to_string(heard.count()) +
+                                         " ms, expected the same within 50 ms"));
+  }
+  loaded->samples = std::make_shared<SampleBuffer>(ToFrames(said));
+  loaded->samples->Append(*samples);
+  loaded->samples->Finish();
+  return loaded;
+}
+
+}  // namespace ssm

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "ssm/voice/samples.h"
+#include "ssm/voice/speech_engine.h"
+
+namespace ssm {
+
+/// A text that is ready to be spoken. Constant once it is ready, but for the samples coming in.
+struct Utterance {
+  std::string text{};         ///< as given, with tags
+  std::string spoken_text{};  ///< without tags
+  SpeechPlan plan{};
+  std::shared_ptr<SampleBuffer> samples{};  ///< size = the plan's duration
+
+  Millis duration() const { return vm::TotalDuration(plan.phonemes); }
+  /// The words begun by `spoken`, separated by blanks.
+  std::string SpokenWords(Millis spoken) const;
+};
+
+enum class SoundFormat { kWav, kRaw };
+
+/// Writes the samples to `path` and the text and phonemes to `path`.info, one "key: value" a line:
+///     text: Hello.
+///     phonemes: pau[210] hh[60] ...
+///     duration: 1016
+/// Errors: kUnavailable. REQUIRES: the samples are complete.
+vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& path,
+                               SoundFormat format);
+/// The reverse. The phonemes are needed; sound and phonemes may differ in length by 50 ms (the
+/// sound is cut or filled with silence), else kBadValue.
+vm::Result<std::shared_ptr<Utterance>> LoadUtterance(const std::string& path, SoundFormat format);
+
+}  // namespace ssm

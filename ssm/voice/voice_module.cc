@@ -1,0 +1,385 @@
+#include "ssm/voice/voice_module.h"
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <utility>
+
+#include "vm_protocol/core/limits.h"
+
+namespace ssm {
+namespace {
+
+// Room for "rep#TAG Speak.pho = " and the hub's "From @SSM " within one line.
+constexpr std::size_t kMaxPhonemeText = vm::kMaxLineBytes - 1024;
+
+vm::Result<void> CheckSize(const SpeechPlan& plan) {
+  if (plan.phonemes.size() <= vm::kMaxPhonemes &&
+      vm::FormatPhonemesVoice(plan.phonemes).size() <= kMaxPhonemeText) {
+    return {};
+  }
+  return vm::Fail(vm::Errc::kLimit, "the text makes " + std::to_string(plan.phonemes.size()) +
+                                        " phonemes, more than one line can tell; divide it");
+}
+
+}  // namespace
+
+VoiceModule::VoiceModule(vm::Scheduler& scheduler, Parts parts, Options options)
+    : scheduler_(scheduler),
+      options_(std::move(options)),
+      slots_("SSM"),
+      engine_(std::move(parts.engine)),
+      sink_(std::move(parts.sink)),
+      worker_(std::move(parts.worker)),
+      player_(scheduler, *sink_,
+              {.started = [this] { SetState(State::kSpeaking); },
+               .sync =
+                   [this](std::size_t frames) {
+                     slots_.TellAll("Speak.sync = " + std::to_string(ToMs(frames).count()));
+                   },
+               .ended = [this](AudioSink::Position end, bool failed) { OnEnded(end, failed); }}),
+      speakers_(engine_->voices(), options_.aliases),
+      voice_(engine_->voices().front()),
+      auto_play_(options_.auto_play) {
+  if (const VoiceInfo* wanted = speakers_.Find(options_.speaker)) voice_ = *wanted;
+  vm::DeclareCommonSlots(slots_, {.module_version = options_.module_version,
+                                  .protocol_version = "Protocol Ver. 1.0",
+                                  .quoted_versions = true,
+                                  .auto_output = true,
+                                  .on_exit = [this] { exit_requested_ = true; }});
+  DeclareManner();
+  DeclareTextSlots();
+  DeclareSpeakSlots();
+  DeclareFileSlots();
+  DeclareLogSlots();
+  slots_.AddShortcut("o", "set Speak = NOW");
+  player_.set_sync_interval(ToFrames(Millis(1000)));
+}
+
+VoiceModule::~VoiceModule() {
+  *alive_ = false;
+  if (preparation_) *preparation_->cancelled = true;
+  if (utterance_) utterance_->samples->Cancel();
+  worker_.reset();
+}
+
+bool VoiceModule::Busy() const {
+  return state_ == State::kProcessing || player_.active() || !waiting_.empty() ||
+         !waiting_for_sound_.empty();
+}
+
+void VoiceModule::Shutdown() {
+  if (player_.active()) {
+    const auto samples = utterance_->samples;
+    AddToTape(*samples, player_.Stop());
+  }
+  if (tape_) {
+    if (auto closed = tape_->Close(scheduler_.Now()); !closed) Fault("Record", closed.error());
+    tape_.reset();
+  }
+}
+
+// --- preparing a text
+
+void VoiceModule::SetText(const std::string& text, const vm::Reply& reply) {
+  if (text.size() > kMaxTextBytes) {
+    return reply.Fail({vm::Errc::kTooLong,
+                       "the text has " + std::to_string(text.size()) + " bytes, expected at most " +
+                           std::to_string(kMaxTextBytes),
+                       0});
+  }
+  if (player_.active()) {
+    return reply.Fail({vm::Errc::kBusy,
+                       std::string(player_.started() ? "speaking" : "about to speak") +
+                           "; wait for Speak.stat = IDLE or set Speak = STOP",
+                       0});
+  }
+  // A sound still wanted by a SaveWAV is made to the end first.
+  if (MustWait() || !waiting_for_sound_.empty()) {
+    return WaitTurn([this, text, reply] { SetText(text, reply); }, reply);
+  }
+  Prepare(text, reply);
+}
+
+void VoiceModule::Prepare(const std::string& text, const vm::Reply& reply) {
+  if (utterance_) utterance_->samples->Cancel();
+  utterance_.reset();
+  SetState(State::kProcessing);
+  TaggedText tagged = ParseTaggedText(text);
+  slots_.Store("Text", text);
+  slots_.Report("Text.text", text);
+  slots_.Report("Speak.text", tagged.plain);
+  log_.Write("text", text);
+  log_.Write("arrangedText", tagged.plain);
+
+  auto utterance =
+      std::make_shared<Utterance>(Utterance{.text = text, .spoken_text = std::move(tagged.plain)});
+  auto preparation = std::make_shared<Preparation>(
+      Preparation{.utterance = std::move(utterance),
+                  .spans = Manners(std::move(tagged.spans)),
+                  .cancelled = std::make_shared<std::atomic<bool>>(false),
+                  .reply = reply});
+  preparation_ = preparation;
+
+  auto job = [this, preparation] {
+    preparation->plan = engine_->Plan(preparation->spans, *preparation->cancelled);
+  };
+  if (worker_->immediate() || text.size() <= kPromptTextBytes) {
+    job();
+    return OnPlanned(preparation);
+  }
+  worker_->Run(std::move(job), [this, preparation, alive = std::weak_ptr<bool>(alive_)] {
+    if (!alive.expired()) OnPlanned(preparation);
+  });
+}
+
+std::vector<SpeechSpan> VoiceModule::Manners(std::vector<SpeechSpan> spans) {
+  for (SpeechSpan& span : spans) {
+    const VoiceInfo* voice = span.voice.empty() ? &voice_ : speakers_.Find(span.voice);
+    if (voice == nullptr) {
+      Fault("Text",
+            {vm::Errc::kBadValue,
+             "unknown speaker '" + span.voice + "' in a VOICE tag, the present one goes on", 0});
+      voice = &voice_;
+    }
+    span.voice = voice->name;
+    span.stretch = std::clamp(span.stretch / rate_, 0.1, 10.0);
+    span.pitch = std::clamp(span.pitch * pitch_, 0.25, 4.0);
+    span.volume *= volume_;
+  }
+  return spans;
+}
+
+void VoiceModule::OnPlanned(const std::shared_ptr<Preparation>& preparation) {
+  if (preparation != preparation_) return;  // stopped meanwhile; the reply has been given
+  const vm::Reply reply = preparation->reply;
+  const auto utterance = preparation->utterance;
+  vm::Result<void> outcome;
+  if (!preparation->plan) {
+    outcome = std::unexpected(preparation->plan.error());
+  } else {
+    outcome = CheckSize(*preparation->plan);
+  }
+  if (!outcome) {
+    preparation_.reset();
+    SetState(State::kError);
+    reply.Fail(outcome.error());
+    return TakeTurns();
+  }
+  utterance->plan = std::move(*preparation->plan);
+  utterance->samples = std::make_shared<SampleBuffer>(ToFrames(utterance->duration()));
+  utterance_ = utterance;
+  ReportPhonemes();
+  if (!utterance->plan.unspoken.empty()) {
+    Fault("Text", {vm::Errc::kUnavailable, utterance->plan.unspoken, 0});
+  }
+
+  auto result = std::make_shared<vm::Result<void>>();
+  worker_->Run([this, utterance,
+                result] { *result = engine_->Render(utterance->plan, *utterance->samples); },
+               [this, utterance, result, alive = std::weak_ptr<bool>(alive_)] {
+                 if (!alive.expired()) OnRendered(utterance, *result);
+               });
+  if (utterance_ != utterance) {  // the sound could not be made, and that is known already
+    preparation_.reset();
+    reply.Fail(result->error());
+    return TakeTurns();
+  }
+  MakeReady(reply, utterance->text);
+}
+
+void VoiceModule::ReportPhonemes() {
+  const std::string phonemes = vm::FormatPhonemesVoice(utterance_->plan.phonemes);
+  const std::string duration = std::to_string(utterance_->duration().count());
+  log_.Write("phoneme", phonemes);
+  slots_.Report("Text.pho", phonemes);
+  slots_.Report("Speak.pho", phonemes);
+  slots_.Report("Text.dur", duration);
+  slots_.Report("Speak.dur", duration);
+}
+
+void VoiceModule::MakeReady(const vm::Reply& reply, std::string answer) {
+  preparation_.reset();
+  if (auto_play_) {
+    // As the original: SPEAKING is said first, READY after it, though it is speaking.
+    const auto delay = std::stol(slots_.Value("AutoPlayDelay"));
+    SetState(State::kSpeaking);
+    slots_.Report("Speak.stat", "READY");
+    slots_.Store("Speak.stat", "SPEAKING");
+    if (auto playing = StartPlaying(scheduler_.Now() + Millis(delay)); !playing) {
+      SetState(State::kError);
+      Tail(0);
+      reply.Fail(playing.error());
+      return TakeTurns();
+    }
+  } else {
+    SetState(State::kReady);
+  }
+  reply.Ok(std::move(answer));
+  TakeTurns();
+}
+
+void VoiceModule::OnRendered(const std::shared_ptr<Utterance>& utterance,
+                             const vm::Result<void>& result) {
+  if (utterance != utterance_) return;  // given up for another text
+  if (result) {
+    log_.Write("sentence", utterance->spoken_text);
+    for (auto queue = std::exchange(waiting_for_sound_, {}); !queue.empty(); queue.pop_front()) {
+      queue.front().action();
+    }
+    return TakeTurns();
+  }
+  Abandon(waiting_for_sound_, "the sound could not be made");
+  utterance_.reset();
+  if (player_.active()) {
+    spoken_ = utterance;
+    const AudioSink::Position end = player_.Stop();
+    AddToTape(*utterance->samples, end);
+    SetState(State::kError);
+    Tail(end.frames);
+  } else {
+    SetState(State::kError);
+  }
+  // While the text is still being prepared, the answer to its request says it.
+  if (!preparation_) Fault("Text", result.error());
+}
+
+// --- speaking
+
+void VoiceModule::SetSpeak(const std::string& text, const vm::Reply& reply) {
+  auto start = vm::ParseStartTime(text);
+  if (!start) return reply.Fail(start.error());
+  // A delay counts from the request, also when the text is not ready yet.
+  const vm::Time at = vm::Resolve(*start, scheduler_.Now(), options_.wall_clock());
+  if (MustWait()) {
+    return WaitTurn([this, at, text, reply] { Speak(at, text, reply); }, reply);
+  }
+  Speak(at, text, reply);
+}
+
+void VoiceModule::Speak(vm::Time at, const std::string& text, const vm::Reply& reply) {
+  if (player_.active() && player_.started()) {
+    return reply.Fail({vm::Errc::kBusy, "already speaking; wait for Speak.stat = IDLE", 0});
+  }
+  if (!utterance_) {
+    return reply.Fail({vm::Errc::kBusy, "there is nothing to speak; set Text first", 0});
+  }
+  if (player_.active()) player_.Stop();  // still waiting for its instant: the new one counts
+  if (auto playing = StartPlaying(at); !playing) {
+    SetState(State::kError);
+    Tail(0);
+    return reply.Fail(playing.error());
+  }
+  reply.Ok(text);
+}
+
+vm::Result<void> VoiceModule::StartPlaying(vm::Time at) {
+  std::vector<Player::Cue> words, marks, cues;
+  const auto& plan = utterance_->plan;
+  for (const WordTime& word : plan.words) {
+    words.push_back(
+        {ToFrames(word.start),
+         [this, text = std::to_string(words.size() + 1) + " " + std::to_string(word.start.count()) +
+                       " " + word.text] { slots_.Report("Speak.word", text); }});
+  }
+  for (const MarkTime& mark : plan.marks) {
+    marks.push_back(
+        {ToFrames(mark.at), [this, text = mark.name + " " + std::to_string(mark.at.count())] {
+           slots_.Report("Speak.mark", text);
+         }});
+  }
+  // Each in order already; at the same frame the mark comes first, as in the text.
+  std::merge(marks.begin(), marks.end(), words.begin(), words.end(), std::back_inserter(cues),
+             [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  spoken_ = utterance_;
+  spoken_frames_ = 0;
+  return player_.Start(utterance_->samples, at, std::move(cues));
+}
+
+void VoiceModule::Stop() {
+  Abandon(waiting_, "set Speak = STOP came first");
+  if (state_ == State::kProcessing) {
+    *preparation_->cancelled = true;
+    preparation_->reply.Fail({vm::Errc::kStopped, "set Speak = STOP came first", 0});
+    preparation_.reset();
+    spoken_.reset();
+    return Tail(0);
+  }
+  if (player_.active()) {
+    const AudioSink::Position end = player_.Stop();
+    AddToTape(*spoken_->samples, end);
+    return Tail(end.frames);
+  }
+  if (state_ == State::kReady) {
+    spoken_ = utterance_;
+    return Tail(0);
+  }
+  // Nothing was going on. Whoever waits for IDLE gets it; what was said last stays known.
+  SetState(State::kIdle);
+}
+
+void VoiceModule::OnEnded(AudioSink::Position end, bool failed) {
+  AddToTape(*spoken_->samples, end);
+  if (failed) {
+    SetState(State::kError);
+    Fault("Speak", {vm::Errc::kUnavailable, "the sound device '" + sink_->name() + "' failed", 0});
+  }
+  Tail(end.frames);
+  TakeTurns();
+}
+
+void VoiceModule::Tail(std::size_t frames) {
+  spoken_frames_ = frames;
+  slots_.Report("Speak.len", slots_.Value("Speak.len"));
+  slots_.Report("Speak.utt", slots_.Value("Speak.utt"));
+  SetState(State::kIdle);
+}
+
+Millis VoiceModule::Spoken() const {
+  return ToMs(player_.active() ? player_.Where().frames : spoken_frames_);
+}
+
+// --- common
+
+void VoiceModule::SetState(State state) {
+  static constexpr const char* kNames[] = {"IDLE", "PROCESSING", "READY", "SPEAKING", "ERROR"};
+  // AutoPlay has said SPEAKING already when the first sound is due.
+  const bool said = state == State::kSpeaking && state_ == State::kSpeaking;
+  state_ = state;
+  if (!said) slots_.Report("Speak.stat", kNames[static_cast<std::size_t>(state)]);
+}
+
+void VoiceModule::Fault(std::string_view slot, const vm::Error& error) {
+  slots_.ReportError(slot, error);
+}
+
+void VoiceModule::WaitTurn(std::function<void()> action, const vm::Reply& reply) {
+  if (waiting_.size() >= kMaxWaiting) {
+    return reply.Fail({vm::Errc::kLimit,
+                       "more than " + std::to_string(kMaxWaiting) + " requests wait for the text",
+                       0});
+  }
+  waiting_.push_back({std::move(action), reply});
+}
+
+void VoiceModule::TakeTurns() {
+  if (state_ == State::kProcessing || !waiting_for_sound_.empty()) return;
+  // Each may put the next ones off again; those that stay keep their order.
+  auto queue = std::exchange(waiting_, {});
+  while (!queue.empty()) {
+    const Waiting next = std::move(queue.front());
+    queue.pop_front();
+    next.action();
+    if (MustWait() || !waiting_for_sound_.empty()) break;
+  }
+  // What was put off by the last action goes before the rest.
+  for (Waiting& left : queue) waiting_.push_back(std::move(left));
+}
+
+void VoiceModule::Abandon(std::deque<Waiting>& queue, const char* why) {
+  for (auto given_up = std::exchange(queue, {}); !given_up.empty(); given_up.pop_front()) {
+    given_up.front().reply.Fail({vm::Errc::kStopped, why, 0});
+  }
+}
+
+}  // namespace ssm

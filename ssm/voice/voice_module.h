@@ -1,0 +1,144 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ssm/voice/audio_sink.h"
+#include "ssm/voice/player.h"
+#include "ssm/voice/speakers.h"
+#include "ssm/voice/speech_engine.h"
+#include "ssm/voice/tape.h"
+#include "ssm/voice/text_tags.h"
+#include "ssm/voice/utterance.h"
+#include "ssm/voice/voice_log.h"
+#include "ssm/voice/worker.h"
+#include "vm_protocol/core/module.h"
+#include "vm_protocol/core/start_time.h"
+
+namespace ssm {
+
+inline constexpr std::size_t kMaxTextBytes = 8192;  ///< as the original
+inline constexpr std::size_t kMaxWaiting = 64;      ///< requests kept while a text is prepared
+/// Texts up to this size are analysed on the spot (some tens of ms), longer ones by the worker.
+inline constexpr std::size_t kPromptTextBytes = 256;
+
+/// The voice module (SSM): every slot of the original with its order of reports, and ours.
+///
+///   IDLE --Text--> PROCESSING --phonemes known--> READY --Speak--> SPEAKING --end, STOP--> IDLE
+///
+/// READY means that playing may begin; the sound is still being made behind it, much faster than
+/// it is played. Requests that need the text (Speak, SaveWAV, another Text) and come while it is
+/// prepared wait their turn, as they did in the original, which did one thing after another.
+/// Thread: the scheduler's.
+class VoiceModule final : public vm::Module {
+ public:
+  struct Parts {
+    std::unique_ptr<SpeechEngine> engine;
+    std::unique_ptr<AudioSink> sink;
+    std::unique_ptr<Worker> worker;
+  };
+  struct Options {
+    std::string module_version{};
+    std::vector<SpeakerAlias> aliases = OriginalSpeakers();
+    std::string speaker{};  ///< the one at start; empty or unknown = the engine's first
+    bool auto_play = false;
+    Millis auto_play_delay{0};
+    /// Wall time since midnight, for `Speak = HH:MM:SS.mmm`.
+    std::function<vm::Time()> wall_clock = vm::WallSinceMidnight;
+    /// Sends error texts to a file, or back to the console for "CONSOLE". Empty = not possible.
+    std::function<vm::Result<void>(const std::string&)> redirect_errors{};
+  };
+
+  /// The scheduler outlives the module.
+  VoiceModule(vm::Scheduler& scheduler, Parts parts, Options options);
+  ~VoiceModule() override;
+
+  vm::SlotMachine& slots() override { return slots_; }
+  bool Busy() const override;
+  bool ExitRequested() const override { return exit_requested_; }
+  void Shutdown() override;
+
+ private:
+  enum class State { kIdle, kProcessing, kReady, kSpeaking, kError };
+  struct Preparation {
+    std::shared_ptr<Utterance> utterance;
+    std::vector<SpeechSpan> spans;
+    vm::Result<SpeechPlan> plan = vm::Fail(vm::Errc::kStopped, "not planned");
+    std::shared_ptr<std::atomic<bool>> cancelled;
+    vm::Reply reply;
+  };
+  /// A request that waits for the text before it, or for its sound.
+  struct Waiting {
+    std::function<void()> action;
+    vm::Reply reply;
+  };
+
+  // voice_slots.cc: what there is to set and to ask.
+  void DeclareTextSlots();
+  void DeclareSpeakSlots();
+  void DeclareManner();
+  void DeclareFileSlots();
+  void DeclareLogSlots();
+  void DeclareRefused(const std::string& name, const std::string& why, bool readable);
+
+  // voice_module.cc: the life of an utterance.
+  void SetText(const std::string& text, const vm::Reply& reply);
+  void Prepare(const std::string& text, const vm::Reply& reply);
+  std::vector<SpeechSpan> Manners(std::vector<SpeechSpan> spans);
+  void OnPlanned(const std::shared_ptr<Preparation>& preparation);
+  void OnRendered(const std::shared_ptr<Utterance>& utterance, const vm::Result<void>& result);
+  void ReportPhonemes();
+  void MakeReady(const vm::Reply& reply, std::string answer);
+  void SetSpeak(const std::string& text, const vm::Reply& reply);
+  void Speak(vm::Time at, const std::string& text, const vm::Reply& reply);
+  vm::Result<void> StartPlaying(vm::Time at);
+  void Stop();
+  void OnEnded(AudioSink::Position end, bool failed);
+  void Tail(std::size_t frames);
+  void SetState(State state);
+  void Fault(std::string_view slot, const vm::Error& error);
+  bool MustWait() const { return state_ == State::kProcessing || !waiting_.empty(); }
+  void WaitTurn(std::function<void()> action, const vm::Reply& reply);
+  void TakeTurns();
+  static void Abandon(std::deque<Waiting>& queue, const char* why);
+  Millis Spoken() const;
+
+  // voice_files.cc: what goes to files and comes from them.
+  void Save(const std::string& path, SoundFormat format, const vm::Reply& reply);
+  void Load(const std::string& path, SoundFormat format, const vm::Reply& reply);
+  vm::Result<std::string> SetRecord(const std::string& path);
+  void AddToTape(const SampleBuffer& samples, const AudioSink::Position& heard);
+
+  vm::Scheduler& scheduler_;
+  const Options options_;
+  vm::SlotMachine slots_;
+  const std::unique_ptr<SpeechEngine> engine_;
+  const std::unique_ptr<AudioSink> sink_;
+  std::unique_ptr<Worker> worker_;  // destroyed first: its thread uses the engine
+  Player player_;
+  const SpeakerTable speakers_;
+
+  VoiceInfo voice_;
+  double rate_ = 1;
+  double pitch_ = 1;
+  double volume_ = 1;
+  bool auto_play_ = false;
+  VoiceLog log_;
+
+  State state_ = State::kIdle;
+  std::shared_ptr<Preparation> preparation_;    // while kProcessing
+  std::shared_ptr<const Utterance> utterance_;  // what Speak speaks; null = nothing
+  std::deque<Waiting> waiting_;                 // for the text being prepared
+  std::deque<Waiting> waiting_for_sound_;       // for the utterance's samples
+  std::size_t spoken_frames_ = 0;               // of the last utterance spoken
+  std::shared_ptr<const Utterance> spoken_;     // the one they belong to
+  std::unique_ptr<Tape> tape_;
+  bool exit_requested_ = false;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+};
+
+}  // namespace ssm

@@ -1,0 +1,311 @@
+// What the voice module can be told and asked: every slot of the original, then ours. The order of
+// declaration is the order of `inq Slots` and of the table in docs/slots.md.
+
+#include <charconv>
+
+#include "ssm/voice/voice_module.h"
+
+namespace ssm {
+namespace {
+
+/// A factor as written back: 1, 1.5, 0.85.
+std::string FormatFactor(double factor) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, factor).ptr;
+  return {buffer, end};
+}
+
+vm::Result<std::string> YesOrNo(const vm::SetValue& value) { return value.word(0); }
+
+}  // namespace
+
+void VoiceModule::DeclareManner() {
+  slots_.Declare({.name = "SpeakerSet",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = speakers_.Names(),
+                  .help = "The names Speaker takes: the engine's voices, then the names of the "
+                          "original, which stand for voices of the same sex."});
+  slots_.Declare({.name = "Speaker",
+                  .grammar = "<word>",
+                  .initial = speakers_.Find(options_.speaker) ? options_.speaker : voice_.name,
+                  .auto_output = true,
+                  .help = "Who speaks from the next Text on; one of SpeakerSet.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    const VoiceInfo* wanted = speakers_.Find(value.word(0));
+                    if (wanted == nullptr) {
+                      return vm::Fail(vm::Errc::kBadValue,
+                                      "unknown speaker '" + value.word(0) +
+                                          "', expected one of: " + speakers_.Names());
+                    }
+                    voice_ = *wanted;
+                    if (!voice_.pitch_adjustable && pitch_ != 1) {
+                      pitch_ = 1;
+                      slots_.Report("Pitch", "1");
+                    }
+                    return value.word(0);
+                  }});
+  DeclareRefused("Alpha", "this engine has no frequency warping to set", false);
+  DeclareRefused("Postfilter", "this engine has no postfilter to set", false);
+
+  const auto factor = [this](std::string name, std::string grammar, std::string help,
+                             double& number) {
+    slots_.Declare(
+        {.name = std::move(name),
+         .grammar = std::move(grammar),
+         .initial = "1",
+         .auto_output = true,
+         .help = std::move(help),
+         .on_set = [this, &number](const vm::SetValue& value) -> vm::Result<std::string> {
+           if (&number == &pitch_ && value.number(0) != 1 && !voice_.pitch_adjustable) {
+             return vm::Fail(vm::Errc::kUnavailable,
+                             "the pitch of voice '" + voice_.name + "' cannot be changed");
+           }
+           number = value.number(0);
+           return FormatFactor(number);
+         }});
+  };
+  factor("Rate", "<number 0.25..4>", "Speed of speech from the next Text on; 2 is twice as fast.",
+         rate_);
+  factor("Pitch", "<number 0.5..2>",
+         "Pitch of the voice from the next Text on; 2 is an octave higher. 1 is the speaker's own.",
+         pitch_);
+  factor("Volume", "<number 0..4>",
+         "Loudness from the next Text on, as a factor of the amplitude; samples beyond 16 bit are "
+         "cut.",
+         volume_);
+}
+
+void VoiceModule::DeclareTextSlots() {
+  slots_.Declare({.name = "Text",
+                  .grammar = "<text>",
+                  .access = vm::Access::kWriteOnly,
+                  .help =
+                      "Prepares a text, at most 8192 bytes, for speaking: Text.pho is reported "
+                      "before there is sound, then Speak.stat = READY. Tags of JEIDA-62-2000 are "
+                      "taken out; SILENCE RATE VOLUME PITCH VOICE BOOKMARK are obeyed. An empty "
+                      "text is a pause of 10 ms. Refused while speaking.",
+                  .on_set_later = [this](const vm::SetValue& value,
+                                         vm::Reply reply) { SetText(value.text, reply); },
+                  .saved = false});
+  const auto told = [this](std::string name, std::string help, std::string initial = "") {
+    slots_.Declare({.name = std::move(name),
+                    .grammar = "<text>",
+                    .access = vm::Access::kReadOnly,
+                    .initial = std::move(initial),
+                    .auto_output = true,
+                    .help = std::move(help)});
+  };
+  told("Text.text", "The text as given, with its tags.");
+  told("Text.pho", "Its phonemes, NAME[MS] with blanks between.");
+  told("Text.dur", "Its duration in ms.", "0");
+}
+
+void VoiceModule::DeclareSpeakSlots() {
+  slots_.Declare({.name = "Speak",
+                  .grammar = "STOP | <time>",
+                  .access = vm::Access::kWriteOnly,
+                  .help =
+                      "NOW, +MS, +HH:MM:SS.mmm, HH:MM:SS.mmm (local time) or @MS (this process's "
+                      "clock): speaks the text prepared, then or when it is ready. May be "
+                      "repeated after the end. STOP: silence within 50 ms. The end, like STOP, "
+                      "is reported by Speak.len, Speak.utt and Speak.stat = IDLE.",
+                  .on_set_later =
+                      [this](const vm::SetValue& value, vm::Reply reply) {
+                        if (value.size() == 1 && value.word(0) == "STOP") {
+                          Stop();
+                          reply.Ok("STOP");
+                        } else {
+                          SetSpeak(value.text, reply);
+                        }
+                      },
+                  .saved = false});
+  const auto told = [this](std::string name, std::string help, std::string initial = "",
+                           std::function<std::string()> on_inq = {}, bool auto_output = true) {
+    slots_.Declare({.name = std::move(name),
+                    .grammar = "<text>",
+                    .access = vm::Access::kReadOnly,
+                    .initial = std::move(initial),
+                    .auto_output = auto_output,
+                    .help = std::move(help),
+                    .on_inq = std::move(on_inq)});
+  };
+  told("Speak.text", "The text really spoken: without tags.");
+  told("Speak.pho", "The same as Text.pho.");
+  told("Speak.dur", "The same as Text.dur.", "0");
+  told("Speak.utt", "The phonemes spoken so far; after STOP only the part that was heard.", "",
+       [this] {
+         return spoken_ ? vm::FormatPhonemesVoice(vm::SpokenPart(spoken_->plan.phonemes, Spoken()))
+                        : "";
+       });
+  told("Speak.len", "How many ms have been spoken so far.", "0",
+       [this] { return std::to_string(Spoken().count()); });
+  told("Speak.stat", "IDLE, PROCESSING (a text is being prepared), READY, SPEAKING or ERROR.",
+       "IDLE");
+  slots_.Declare({.name = "Speak.syncinterval",
+                  .grammar = "<ms>",
+                  .initial = "1000",
+                  .auto_output = true,
+                  .help = "Every so many ms of sound really heard, `tell Speak.sync = MS` says the "
+                          "position; 0 = never.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    const auto interval = Millis(static_cast<long>(value.number(0)));
+                    player_.set_sync_interval(ToFrames(interval));
+                    return std::to_string(interval.count());
+                  }});
+  told("Speak.word",
+       "NUMBER MS WORD: the word whose first sound was just heard, counted from 1, and "
+       "its position.",
+       "", {}, false);
+  told("Speak.mark", "NAME MS: the BOOKMARK just passed, and its position.", "", {}, false);
+  told(
+      "Speak.spoken", "The words heard so far; after STOP tells what the listener knows.", "",
+      [this] { return spoken_ ? spoken_->SpokenWords(Spoken()) : ""; }, false);
+}
+
+void VoiceModule::DeclareFileSlots() {
+  const auto action =
+      [this](std::string name, std::string help,
+             void (VoiceModule::*act)(const std::string&, SoundFormat, const vm::Reply&),
+             SoundFormat format) {
+        slots_.Declare(
+            {.name = std::move(name),
+             .grammar = "<file>",
+             .access = vm::Access::kWriteOnly,
+             .help = std::move(help),
+             .on_set_later =
+                 [this, act, format](const vm::SetValue& value, vm::Reply reply) {
+                   const std::string path = value.word(0);
+                   if (!MustWait()) return (this->*act)(path, format, reply);
+                   WaitTurn([this, act, path, format, reply] { (this->*act)(path, format, reply); },
+                            reply);
+                 },
+             .saved = false});
+      };
+  const std::string info = " FILE.info gets the text and the phonemes.";
+  action("SaveRAW", "Writes the prepared text's sound, 16 kHz 16 bit mono, big endian." + info,
+         &VoiceModule::Save, SoundFormat::kRaw);
+  action("Save", "The same as SaveRAW.", &VoiceModule::Save, SoundFormat::kRaw);
+  action("SaveWAV", "Writes the prepared text's sound as a WAV file." + info, &VoiceModule::Save,
+         SoundFormat::kWav);
+  action("LoadRAW", "Loads what SaveRAW wrote, with its FILE.info, ready to Speak.",
+         &VoiceModule::Load, SoundFormat::kRaw);
+  action("LoadWAV", "Loads a WAV file, 16 kHz mono, with its FILE.info, ready to Speak.",
+         &VoiceModule::Load, SoundFormat::kWav);
+  slots_.Declare({.name = "SpeechFile",
+                  .grammar = "<file>",
+                  .auto_output = true,
+                  .help = "The file loaded last; to set it is the same as LoadRAW.",
+                  .on_set_later =
+                      [this](const vm::SetValue& value, vm::Reply reply) {
+                        const std::string path = value.word(0);
+                        if (!MustWait()) return Load(path, SoundFormat::kRaw, reply);
+                        WaitTurn([this, path, reply] { Load(path, SoundFormat::kRaw, reply); },
+                                 reply);
+                      },
+                  .saved = false});
+  DeclareRefused("SavePros", "this engine does not tell its intonation", false);
+  DeclareRefused("LoadPros", "this engine does not take intonation from outside", false);
+  DeclareRefused("ProsFile", "this engine does not take intonation from outside", true);
+  DeclareRefused("ParsedText", "this engine does not take an analysis made by hand", false);
+  slots_.Declare({.name = "AutoPlay",
+                  .grammar = "YES | NO",
+                  .initial = auto_play_ ? "YES" : "NO",
+                  .help = "YES: every text is spoken as soon as it is prepared.",
+                  .on_set = [this](const vm::SetValue& value) {
+                    auto_play_ = value.word(0) == "YES";
+                    return YesOrNo(value);
+                  }});
+  slots_.Declare({.name = "AutoPlayDelay",
+                  .grammar = "<ms>",
+                  .initial = std::to_string(options_.auto_play_delay.count()),
+                  .help = "With AutoPlay, ms from the phonemes to the first sound.",
+                  .on_set = [](const vm::SetValue& value) -> vm::Result<std::string> {
+                    return std::to_string(static_cast<long>(value.number(0)));
+                  },
+                  .quoted = true});
+  slots_.Declare(
+      {.name = "Record",
+       .grammar = "STOP | <file>",
+       .initial = "STOP",
+       .help = "FILE.wav: from this instant on keeps what is heard, with the silence "
+               "between, until STOP; at most 24 hours. On a virtual clock exact to the sample.",
+       .on_set = [this](const vm::SetValue& value) { return SetRecord(value.word(0)); },
+       .saved = false});
+  slots_.Declare({.name = "Sink",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = sink_->name(),
+                  .help = "Where the sound goes: null, portaudio:DEVICE or file:PATH (--sink)."});
+}
+
+void VoiceModule::DeclareLogSlots() {
+  slots_.Declare({.name = "Log",
+                  .grammar = "NO | CONSOLE | <file>",
+                  .initial = "NO",
+                  .help = "Where the entries chosen by Log.* go: a file, CONSOLE (stderr) or NO.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    if (auto opened = log_.Open(value.word(0)); !opened) {
+                      return std::unexpected(opened.error());
+                    }
+                    return value.word(0);
+                  }});
+  const struct {
+    const char* kind;
+    const char* what;
+    bool known;
+  } kinds[] = {{"conf", "the configuration", false},
+               {"text", "the text as given", true},
+               {"arrangedText", "the text without tags", true},
+               {"chasen", "the morphological analyser's output", false},
+               {"tag", "the tags", false},
+               {"phoneme", "the phonemes", true},
+               {"mora", "the morae", false},
+               {"morph", "the morphemes", false},
+               {"aphrase", "the accent phrases", false},
+               {"breath", "the breath groups", false},
+               {"sentence", "each sentence made into sound", true}};
+  for (const auto& kind : kinds) {
+    slots_.Declare({.name = std::string("Log.") + kind.kind,
+                    .grammar = "YES | NO",
+                    .initial = "NO",
+                    .help = std::string("YES: the log has ") + kind.what +
+                            (kind.known ? "." : "; not with this engine."),
+                    .on_set = [this, kind](const vm::SetValue& value) -> vm::Result<std::string> {
+                      const bool wanted = value.word(0) == "YES";
+                      if (wanted && !kind.known) {
+                        return vm::Fail(vm::Errc::kUnavailable,
+                                        std::string("this engine cannot log ") + kind.what);
+                      }
+                      log_.Choose(kind.kind, wanted);
+                      return YesOrNo(value);
+                    }});
+  }
+  slots_.Declare({.name = "Err",
+                  .grammar = "CONSOLE | <file>",
+                  .initial = "CONSOLE",
+                  .help = "Where error texts go: appended to a file, or CONSOLE (stderr).",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    if (!options_.redirect_errors) {
+                      return vm::Fail(vm::Errc::kUnavailable,
+                                      "errors cannot be sent elsewhere here");
+                    }
+                    if (auto moved = options_.redirect_errors(value.word(0)); !moved) {
+                      return std::unexpected(moved.error());
+                    }
+                    return value.word(0);
+                  }});
+}
+
+void VoiceModule::DeclareRefused(const std::string& name, const std::string& why, bool readable) {
+  slots_.Declare({.name = name,
+                  .grammar = "<text>",
+                  .access = readable ? vm::Access::kReadWrite : vm::Access::kWriteOnly,
+                  .help = "Of the original; refused: " + why + ".",
+                  .on_set = [why](const vm::SetValue&) -> vm::Result<std::string> {
+                    return vm::Fail(vm::Errc::kUnavailable, why);
+                  },
+                  .saved = false});
+}
+
+}  // namespace ssm

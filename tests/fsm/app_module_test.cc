@@ -1,0 +1,261 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/fsm/app_support.h"
+
+namespace fsm {
+namespace {
+
+TEST(FsmModuleTest, AnswersAsTheOriginal) {
+  FsmStage fsm;
+  EXPECT_EQ(vm::FormatMessage(fsm.module.Greeting().at(0)), "rep Run = LIVE");
+  EXPECT_EQ(fsm.Say("inq Run"), "rep Run = LIVE");
+  EXPECT_EQ(fsm.Say("inq ProtocolVersion"), "rep ProtocolVersion = 2.06");
+  EXPECT_EQ(fsm.Say("inq ModuleVersion"), "rep ModuleVersion = Galatea FSM " GALATEA_VERSION);
+  EXPECT_EQ(fsm.Say("inq MaskSet"), "rep MaskSet = \"galatea\"");
+  EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
+  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain\"");
+  EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
+  EXPECT_EQ(fsm.Say("inq MouthScale"), "rep MouthScale = 30");
+  EXPECT_EQ(fsm.Say("inq Offset"), "rep Offset = 0");
+  EXPECT_EQ(fsm.Say("inq ViewMode"), "rep ViewMode = TEXTURE");
+  EXPECT_EQ(fsm.Say("inq ViewBackground"), "rep ViewBackground = ENABLE");
+  EXPECT_EQ(fsm.Say("inq Capture"), "rep Capture = DISABLE");
+}
+
+TEST(FsmModuleTest, NoSlotReportsByItselfAtFirst) {
+  FsmStage fsm;
+  for (const char* line :
+       {"set Face.1 = 100", "set Mouth.17 = 200", "set HeadRotAbs.1 = 1 2 3",
+        "set HeadRotRel.1 = 1 2 3", "set FaceMot = NOD 1", "set FaceMot = NOMOVE",
+        "set FaceExp = HAPPY 1 100 500", "set FaceExp = NEUTRAL", "set EyeRot = 1 2 100",
+        "set EyeRotLeft = 1 2 0", "set EyeRotRight = 1 2 0", "set Autonomous = BLINK 1",
+        "set Autonomous = MOVE 1", "set Autonomous = USERDEF 0", "set Offset = 10.5",
+        "set Speak.syncoffset = 5", "set MouthScale = 50", "set Mask = galatea",
+        "set Background = #102030", "set ViewMode = WIREFRAME", "set ViewBackground = DISABLE",
+        "set AgentEnable = DISABLE", "set AgentRot = 1 2 3", "set AgentTrans = 1 2",
+        "set AgentScale = 1.5", "set AgentAlpha = 0.5", "set SaveImage = a.bmp"}) {
+    EXPECT_EQ(fsm.Say(line), "") << line;
+  }
+  EXPECT_TRUE(fsm.errors.empty()) << fsm.errors.at(0);
+  EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"#102030\"");
+  EXPECT_EQ(fsm.Say("inq Offset"), "rep Offset = 10.5");
+}
+
+TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
+  FsmStage fsm;
+  const auto refused = [&fsm](const std::string& line, const std::string& text) {
+    const std::string answer = fsm.Say("set#1 " + line);
+    EXPECT_NE(answer.find(".error = "), std::string::npos) << answer;
+    EXPECT_NE(answer.find(text), std::string::npos) << answer;
+  };
+  refused("Face.1 = 201", "BAD_VALUE");
+  refused("Face.37 = 1", "UNKNOWN_SLOT");
+  refused("HeadRotAbs.2 = 1 2 3", "UNKNOWN_SLOT");
+  refused("HeadRotAbs.1 = 1 2", "BAD_VALUE");
+  refused("FaceExp = HAPPY 1 100", "BAD_VALUE");
+  refused("FaceExp = BORED 1 100 0", "'BORED' is no expression");
+  refused("FaceExp = HAPPY 6 100 0", "HAPPY has no pattern 6; 1 to 5 expected");
+  refused("FaceMot = NOD 9", "NOD has no pattern 9; 1 to 3 expected");
+  refused("FaceMot = JUMP 1", "BAD_VALUE");
+  refused("Autonomous = MOVE 7", "MOVE has no pattern 7");
+  refused("Mask = man01", "there is no face 'man01'; there is galatea");
+  refused("Background = bg9", "there is no background 'bg9'");
+  refused("Background = missing.png", "UNAVAILABLE cannot read missing.png");
+  refused("ViewMode = SOLID", "BAD_VALUE");
+  refused("AgentAlpha = 1.5", "BAD_VALUE");
+  refused("SaveImage = face.gif", "BAD_VALUE");
+  refused("AU = 40 1", "'40' is not an action unit");
+  refused("ARKit = smile 1", "'smile' is no blend shape");
+  refused("Record = STOP", "no film is being recorded");
+  refused("NowMask = x", "ACCESS");
+}
+
+TEST(FsmModuleTest, ASavedImageShowsTheSettledExpressionWhateverComesNext) {
+  FsmStage fsm;
+  fsm.Say("set FaceExp = HAPPY 1 100 0");
+  EXPECT_EQ(fsm.Say("set#5 SaveImage = happy.png"), "rep#5 SaveImage = happy.png");
+  fsm.Say("set FaceExp = SAD 1 100 0");
+  fsm.Say("set SaveImage = sad.png");
+  EXPECT_FLOAT_EQ(fsm.studio.pictures["happy.png"].au_left[12], 0.8f);
+  EXPECT_FLOAT_EQ(fsm.studio.pictures["sad.png"].au_left[12], 0);
+  EXPECT_FLOAT_EQ(fsm.studio.pictures["sad.png"].au_left[15], 0.7f);
+}
+
+TEST(FsmModuleTest, BusyLastsAsLongAsSomethingWithAnEndMoves) {
+  FsmStage fsm;
+  EXPECT_FALSE(fsm.module.Busy());
+  EXPECT_FALSE(fsm.clock.Next().has_value());
+  fsm.Say("set FaceExp = HAPPY 1 100 1000");
+  EXPECT_TRUE(fsm.module.Busy());
+  EXPECT_EQ(fsm.clock.Next(), vm::Time(std::chrono::milliseconds(1000)));
+  fsm.Until(1000);
+  EXPECT_FALSE(fsm.module.Busy());
+  EXPECT_FALSE(fsm.clock.Next().has_value());
+  fsm.Say("set FaceMot = NOD 2");
+  EXPECT_TRUE(fsm.module.Busy());
+  fsm.Until(1400);
+  EXPECT_FALSE(fsm.module.Busy());
+  fsm.Say("set Autonomous = BLINK 1");  // has no end
+  EXPECT_FALSE(fsm.module.Busy());
+  EXPECT_EQ(fsm.studio.draws, 0);
+}
+
+TEST(FsmModuleTest, AFilmHasAFrameForEveryInstant) {
+  FsmStage fsm;
+  fsm.Until(17);
+  fsm.Say("set Record.sound = voice.wav");
+  EXPECT_EQ(fsm.Say("set#1 Record = a.mp4"), "rep#1 Record = a.mp4");
+  EXPECT_EQ(fsm.Say("inq Record"), "rep Record = a.mp4");
+  EXPECT_TRUE(fsm.Say("set#2 Record = b.mp4").starts_with("rep#2 Record.error = BUSY"));
+  EXPECT_TRUE(fsm.Say("set#2 Window = 100 100").starts_with("rep#2 Window.error = BUSY"));
+  fsm.Say("set LipSync.pho = pau 100 a 200 pau 200");
+  fsm.Say("set Speak = NOW");
+  fsm.Until(1017);
+  EXPECT_EQ(fsm.Say("set#3 Record = STOP"), "rep#3 Record = STOP");
+  const auto& film = fsm.studio.films["a.mp4"];
+  EXPECT_EQ(film.jaws.size(), 31u);  // both ends
+  EXPECT_EQ(film.sound, "voice.wav");
+  EXPECT_FLOAT_EQ(film.jaws[0], 0);
+  EXPECT_GT(film.jaws[3], 5);
+  EXPECT_FLOAT_EQ(film.jaws[29], 0);
+  EXPECT_FALSE(fsm.clock.Next().has_value());
+}
+
+TEST(FsmModuleTest, AnUnfinishedFilmIsFinishedAtTheEnd) {
+  FsmStage fsm;
+  fsm.Say("set Record = a.mp4");
+  fsm.Until(500);
+  fsm.module.Shutdown();
+  EXPECT_TRUE(fsm.studio.films["a.mp4"].finished);
+  EXPECT_EQ(fsm.studio.films["a.mp4"].jaws.size(), 16u);
+}
+
+TEST(FsmModuleTest, TheSameInputGivesTheSameFrames) {
+  const auto run = [] {
+    FsmStage fsm;
+    fsm.Say("set Autonomous = BLINK 1");
+    fsm.Say("set Autonomous = MOVE 1");
+    fsm.Say("prop Frame = AutoOutput");
+    fsm.Say("set LipSync.pho = pau 100 a 200 m 100 i 200 pau 200");
+    fsm.Say("set Speak = + 200");
+    return fsm.Until(3000);
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST(FsmModuleTest, FramesWithoutAFilmAreReportedWhileSomethingMoves) {
+  FsmStage fsm;
+  fsm.Say("prop Frame = AutoOutput");
+  fsm.Say("set FaceMot = NOD 1");
+  fsm.Until(1000);
+  fsm.Say("set FaceMot = NOD 1");
+  const std::string said = fsm.Until(3000);
+  EXPECT_TRUE(said.starts_with("rep Frame = 6 1033.333 - 0.00 0.00 50.00")) << said;
+  EXPECT_FALSE(fsm.clock.Next().has_value());
+  EXPECT_EQ(fsm.studio.draws, 0);
+}
+
+TEST(FsmModuleTest, CaptureWritesNumberedPicturesOfOneUtterance) {
+  char name[] = "/tmp/galatea_capture_XXXXXX";
+  ASSERT_NE(mkdtemp(name), nullptr);
+  const std::string folder = std::string(name) + "/new";
+  FsmStage fsm;
+  fsm.Say("prop Capture = AutoOutput");
+  EXPECT_EQ(fsm.Say("set Capture = " + folder + " frame 10"), "rep Capture = ENABLE");
+  EXPECT_EQ(fsm.Say("inq Capture"), "rep Capture = ENABLE");
+  fsm.Until(100);
+  EXPECT_TRUE(fsm.studio.pictures.empty());
+  fsm.Say("set LipSync.pho = a 300 pau 200");
+  fsm.Say("set Speak = NOW");
+  EXPECT_EQ(fsm.Until(600), "rep Capture = DISABLE");
+  EXPECT_EQ(fsm.studio.pictures.size(), 6u);  // 0 100 .. 500
+  EXPECT_TRUE(fsm.studio.pictures.contains(folder + "/frame00001.bmp"));
+  EXPECT_TRUE(fsm.studio.pictures.contains(folder + "/frame00006.bmp"));
+  fsm.Say("set Capture = " + folder + " f 10 PNG");
+  fsm.Say("set LipSync.pho = a 50");
+  fsm.Say("set Speak = NOW");
+  fsm.Until(1000);
+  EXPECT_TRUE(fsm.studio.pictures.contains(folder + "/f00001.png"));
+  std::filesystem::remove_all(name);
+}
+
+TEST(FsmModuleTest, InitResetsEverythingWithoutAWord) {
+  FsmStage fsm;
+  fsm.Say("set FaceExp = HAPPY 1 100 0");
+  fsm.Say("set MouthScale = 80");
+  fsm.Say("set Background = #ff0000");
+  fsm.Say("set AgentAlpha = 0.2");
+  fsm.Say("set LipSync.pho = a 1000");
+  fsm.Say("set Speak = NOW");
+  fsm.Until(500);
+  EXPECT_EQ(fsm.Say("set Run = INIT"), "");
+  EXPECT_EQ(fsm.Say("inq Speak.stat"), "rep Speak.stat = IDLE");
+  EXPECT_EQ(fsm.Say("inq MouthScale"), "rep MouthScale = 30");
+  EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
+  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 0);
+  EXPECT_FLOAT_EQ(fsm.Now().agent_alpha, 1);
+  EXPECT_FALSE(fsm.module.Busy());
+  EXPECT_EQ(fsm.Say("set Run = EXIT"), "");
+  EXPECT_TRUE(fsm.module.ExitRequested());
+}
+
+TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
+  FsmStage fsm({}, true);
+  fsm.Until(1000);
+  const int still = fsm.studio.shown;
+  EXPECT_LE(still, 6);
+  fsm.Say("set FaceMot = NOD 3");
+  fsm.Until(1800);
+  EXPECT_GE(fsm.studio.shown - still, 46);
+  EXPECT_LE(fsm.studio.shown - still, 50);
+  fsm.studio.closed = true;
+  fsm.Until(2100);
+  EXPECT_TRUE(fsm.module.ExitRequested());
+}
+
+TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
+  char name[] = "/tmp/galatea_config_XXXXXX";
+  ASSERT_NE(mkdtemp(name), nullptr);
+  const std::filesystem::path folder = name;
+  std::ofstream(folder / "nod.dat") << "// a\n1\n// b\n// c\n300 20 0 0\n";
+  std::ofstream(folder / "config.txt")
+      << "# faces\nMaskFile man01 a.rgb a.pnt\nMaskEye man01 a b\nBackgroundFile bg1 x.png\n"
+         "BackgroundFile bg2 y.png\nFaceMotNod nod.dat\nFaceMotBlink 100\nFaceMotBlink 200\n"
+         "AutonomousBlink 1 2\nMaxFrameRate 30\nSetViseme EN\nDEF_WINDOW_WIDTH 512\n"
+         "EXPRESSION_DURATION 200\nSOMETHING_ELSE 1\n";
+  auto config = OriginalConfig::Read((folder / "config.txt").string());
+  ASSERT_TRUE(config) << config.error().text;
+  EXPECT_EQ(config->width, 512);
+  FsmOptions options;
+  options.config = *config;
+  options.announce_config = true;
+  FsmStage fsm(options);
+  EXPECT_EQ(vm::FormatMessage(fsm.module.Greeting().at(1)),
+            "tell detected: -C flag: " + (folder / "config.txt").string());
+  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain,bg1,bg2\"");
+  EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"bg1\"");
+  EXPECT_EQ(fsm.Say("inq LipSync.language"), "rep LipSync.language = EN");
+  EXPECT_TRUE(fsm.Say("set#1 FaceMot = NOD 2").find("NOD has no pattern 2") != std::string::npos);
+  fsm.Say("set FaceMot = NOD 1");
+  fsm.Until(299);
+  EXPECT_NEAR(fsm.Now().head_rotation[0], 20, 0.1);
+  fsm.Say("set FaceExp = HAPPY 1 100 0");
+  fsm.Until(498);
+  EXPECT_LT(fsm.Now().au_left[12], 0.8f);
+  fsm.Until(499);
+  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 0.8f);
+
+  std::ofstream(folder / "bad.txt") << "EXPRESSION_DURATION soon\n";
+  const auto bad = OriginalConfig::Read((folder / "bad.txt").string());
+  ASSERT_FALSE(bad);
+  EXPECT_NE(bad.error().text.find("bad.txt:1: 'soon' found"), std::string::npos);
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(OriginalConfig::Read((folder / "config.txt").string()));
+}
+
+}  // namespace
+}  // namespace fsm

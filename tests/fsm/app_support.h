@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fsm/app/fsm_module.h"
+#include "vm_protocol/core/scheduler.h"
+
+namespace fsm {
+
+/// A studio in memory: pictures are one pixel that says how far the jaw is open.
+class FakeStudio final : public Studio {
+ public:
+  struct FakeFilm {
+    std::vector<float> jaws;
+    std::string sound;
+    bool finished = false;
+  };
+
+  vm::Result<void> Draw(const FaceState& state, const Scene&) override {
+    ++draws;
+    last_state = state;
+    image_.width = image_.height = 1;
+    image_.rgba = {static_cast<std::uint8_t>(std::lround(state.mouth[11] * 10)), 0, 0, 255};
+    return {};
+  }
+  const Image& Read() override { return image_; }
+  MouthMeasure Measure(const FaceState& state) override {
+    return {state.mouth[2] - state.mouth[4], 50 + 2 * state.mouth[8], state.mouth[11]};
+  }
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  vm::Result<void> Resize(int width, int height) override {
+    width_ = width;
+    height_ = height;
+    return {};
+  }
+  bool has_window() const override { return window; }
+  void Show() override { ++shown; }
+  bool close_requested() const override { return closed; }
+  vm::Result<void> WritePicture(const Image& image, const std::string& path) override {
+    if (!path.ends_with(".png") && !path.ends_with(".bmp") && !path.ends_with(".rgb")) {
+      return vm::Fail(vm::Errc::kBadValue, path + " ends in none of .png .bmp .rgb");
+    }
+    pictures[path] = last_state;
+    (void)image;
+    return {};
+  }
+  vm::Result<Image> ReadPicture(const std::string& path) override {
+    if (path == "missing.png") return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
+    return Image{1, 1, {1, 2, 3, 255}};
+  }
+  vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int, int, int) override;
+
+  std::map<std::string, FaceState> pictures;
+  std::map<std::string, FakeFilm> films;
+  FaceState last_state;
+  int draws = 0;
+  int shown = 0;
+  bool window = false;
+  bool closed = false;
+
+ private:
+  Image image_;
+  int width_ = 640;
+  int height_ = 480;
+};
+
+class FakeMovieWriter final : public MovieWriter {
+ public:
+  explicit FakeMovieWriter(FakeStudio::FakeFilm& film) : film_(film) {}
+  vm::Result<void> Add(const Image& frame) override {
+    film_.jaws.push_back(static_cast<float>(frame.rgba[0]) / 10);
+    return {};
+  }
+  vm::Result<void> Finish(const std::string& sound) override {
+    film_.sound = sound;
+    film_.finished = true;
+    return {};
+  }
+  int frames() const override { return static_cast<int>(film_.jaws.size()); }
+
+ private:
+  FakeStudio::FakeFilm& film_;
+};
+
+inline vm::Result<std::unique_ptr<MovieWriter>> FakeStudio::OpenFilm(const std::string& path, int,
+                                                                    int, int) {
+  if (!path.ends_with(".mp4")) return vm::Fail(vm::Errc::kBadValue, path + " is not .mp4");
+  return std::make_unique<FakeMovieWriter>(films[path]);
+}
+
+/// The module on a virtual clock, and what it said.
+struct FsmStage {
+  explicit FsmStage(FsmOptions options = {}, bool window = false)
+      : module((studio.window = window, clock), studio, std::move(options)) {
+    module.slots().set_output([this](vm::PeerId, const vm::Message& message) {
+      said.push_back(vm::FormatMessage(message));
+    });
+    module.slots().set_on_error([this](vm::PeerId, const std::string&, const vm::Error& error) {
+      errors.push_back(vm::FormatError(error));
+    });
+  }
+  /// Says a line and gives what the module answered to it at once, joined by '|'.
+  std::string Say(const std::string& line) {
+    Take();
+    module.slots().HandleLine(line, 1);
+    return Take();
+  }
+  /// Lets time pass until `ms`; gives what was said meanwhile.
+  std::string Until(double ms) {
+    Take();
+    clock.RunUntil(FromMs(ms));
+    return Take();
+  }
+  std::string Take() {
+    std::string all;
+    for (const std::string& line : said) all += (all.empty() ? "" : "|") + line;
+    said.clear();
+    return all;
+  }
+  FaceState Now() { return module.motion().StateAt(clock.Now()); }
+
+  vm::VirtualScheduler clock;
+  FakeStudio studio;
+  FsmModule module;
+  std::vector<std::string> said;
+  std::vector<std::string> errors;
+};
+
+}  // namespace fsm

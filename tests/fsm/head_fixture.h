@@ -1,0 +1,71 @@
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <limits>
+#include <random>
+
+#include "fsm/head/head.h"
+
+namespace fsm::testing {
+
+/// Making the head takes some 50 ms, so all tests of a program share one.
+inline const Head& GenericHead() {
+  static const std::unique_ptr<Head> head = Head::MakeGeneric();
+  return *head;
+}
+
+inline HeadVertices Vertices(const FaceState& state) {
+  HeadVertices out;
+  GenericHead().Evaluate(state, out);
+  return out;
+}
+
+inline FaceState WithUnit(std::size_t unit, float strength) {
+  FaceState state;
+  state.au_left[unit] = state.au_right[unit] = strength;
+  return state;
+}
+
+/// The vertex of the skin or lips at the front of the face nearest to (x, y) at rest.
+inline std::size_t SkinAt(float x, float y) {
+  const HeadTopology& topology = GenericHead().topology();
+  static const HeadVertices rest = Vertices({});
+  std::size_t best = 0;
+  float least = std::numeric_limits<float>::max();
+  for (const HeadTopology::Part& part : topology.parts) {
+    if (part.material != Material::kSkin && part.material != Material::kLip) continue;
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      const std::size_t i = topology.indices[part.first_index + k];
+      const glm::vec3 p = rest.position[i];
+      if (p.z < 40 || rest.normal[i].z < 0.2f) continue;
+      const float d = (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
+      if (d < least) {
+        least = d;
+        best = i;
+      }
+    }
+  }
+  return best;
+}
+
+/// How far the skin at (x, y) moves from rest in `state`.
+inline glm::vec3 MotionAt(float x, float y, const FaceState& state) {
+  static const HeadVertices rest = Vertices({});
+  const std::size_t i = SkinAt(x, y);
+  return Vertices(state).position[i] - rest.position[i];
+}
+
+inline FaceState RandomState(std::mt19937& random, float strength) {
+  std::uniform_real_distribution<float> unit(0, strength);
+  std::uniform_real_distribution<float> offset(-5, 5);
+  std::uniform_int_distribution<int> chance(0, 5);
+  FaceState state;
+  for (std::size_t i = 1; i < kActionUnits; ++i) {
+    if (chance(random) == 0) state.au_left[i] = unit(random);
+    if (chance(random) == 0) state.au_right[i] = unit(random);
+  }
+  for (float& m : state.mouth) m = chance(random) < 3 ? offset(random) : 0;
+  return state;
+}
+
+}  // namespace fsm::testing

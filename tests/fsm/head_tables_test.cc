@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fsm/head/action_units.h"
+#include "fsm/head/anatomy.h"
+#include "fsm/head/face_surface.h"
+#include "fsm/head/table_reader.h"
+
+namespace fsm {
+namespace {
+
+template <typename F>
+std::string Complaint(F&& action) {
+  try {
+    action();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(HeadTablesTest, CommentsAndBlankLinesAreSkipped) {
+  const Table table("t.txt", "# all comment\n\n  key 1 +2.5 -3 # rest\r\nkey\n");
+  ASSERT_EQ(table.rows().size(), 2u);
+  EXPECT_EQ(table.rows()[0].Vector(1), glm::vec3(1, 2.5f, -3));
+  EXPECT_EQ(table.rows()[1].size(), 1u);
+}
+
+TEST(HeadTablesTest, ErrorsNameFileAndLine) {
+  const Table table("t.txt", "\nkey 1 x\n");
+  EXPECT_EQ(Complaint([&] { table.rows()[0].Number(2); }),
+            "t.txt:2: 'x' found where a number was expected");
+  EXPECT_EQ(Complaint([&] { table.rows()[0].Number(3); }),
+            "t.txt:2: 'key' needs at least 3 values after it, found 2");
+  EXPECT_EQ(Complaint([&] { table.Only("other"); }), "t.txt: no line 'other'");
+  EXPECT_EQ(Complaint([] { Table("t.txt", "a\na\n").Only("a"); }), "t.txt:2: 'a' given a second time");
+  EXPECT_NE(Complaint([] { Table("t.txt", "a inf\n").rows()[0].Number(1); }), "no complaint");
+}
+
+TEST(HeadTablesTest, ActionUnitTableRefusesNonsense) {
+  const auto complain = [](std::string_view text) {
+    return Complaint([&] { ActionUnits(Table("au.txt", text)); });
+  };
+  EXPECT_EQ(complain("field 3 1 1 1 1 both 0 0 0\n"),
+            "au.txt:1: '3' is no action unit (1, 2, 4-39, 41-46)");
+  EXPECT_EQ(complain("field 1 1 1 0 1 both 0 0 0\n"), "au.txt:1: a radius must be positive");
+  EXPECT_EQ(complain("field 1 1 1 1 1 left 0 0 0\n"),
+            "au.txt:1: 'left' found where above, below or both was expected");
+  EXPECT_EQ(complain("\nfeld 1\n"), "au.txt:2: unknown word 'feld'");
+  EXPECT_EQ(complain("jaw 26\n"), "au.txt:1: 'jaw' needs at least 2 values after it, found 1");
+}
+
+TEST(HeadTablesTest, UnitsThatActTogetherAreCorrected) {
+  const ActionUnits units(Table("au.txt", "damp 4 1 0.5\noppose 12 18\nstrongest 43 45\n"));
+  FaceState state;
+  state.au_left[1] = state.au_left[4] = state.au_left[12] = state.au_left[18] = 1;
+  state.au_left[43] = 0.4f;
+  state.au_left[45] = 0.6f;
+  state.au_right[4] = 2;
+  const SidedUnits acting = units.Combine(state);
+  EXPECT_FLOAT_EQ(acting[1][4], 0.5f);
+  EXPECT_FLOAT_EQ(acting[1][12] + acting[1][18], 1);
+  EXPECT_FLOAT_EQ(acting[1][43], 0);
+  EXPECT_FLOAT_EQ(acting[1][45], 0.6f);
+  EXPECT_FLOAT_EQ(acting[0][4], 1.5f) << "above 1 at half rate";
+}
+
+TEST(HeadTablesTest, CageAndCurvesAreChecked) {
+  const Table empty("features.txt", "");
+  EXPECT_EQ(Complaint([&] {
+              FaceSurface(Table("cage.txt", "columns 0 20 10 30 40\n"), empty);
+            }),
+            "cage.txt:1: columns must ascend from 0");
+  EXPECT_EQ(Complaint([&] {
+              ReadCurve(Table("c.txt", "x 0 1 2\ny 0 1\n"), "x", "y");
+            }),
+            "c.txt:2: has 2 values, 'x' has 3");
+  EXPECT_EQ(Complaint([&] { ReadCurve(Table("c.txt", "x 0 2 1\ny 0 1 2\n"), "x", "y"); }),
+            "c.txt:1: must ascend");
+}
+
+TEST(HeadTablesTest, SplineGoesThroughItsPoints) {
+  const Curve curve({0, 1, 3, 4}, {2, -1, 5, 0});
+  EXPECT_NEAR(curve(0), 2, 1e-4);
+  EXPECT_NEAR(curve(1), -1, 1e-4);
+  EXPECT_NEAR(curve(3), 5, 1e-4);
+  EXPECT_NEAR(curve(9), 0, 1e-4);
+  const Curve line({0, 1, 2}, {0, 2, 4});
+  EXPECT_NEAR(line(1.3f), 2.6f, 1e-4);
+}
+
+}  // namespace
+}  // namespace fsm

@@ -1,0 +1,246 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsm/motion/face_motion.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct FaceMotionTest : testing::Test {
+  FaceMotion motion{MotionTables::Load().value(), 7};
+};
+
+TEST_F(FaceMotionTest, AnExpressionIsWholeAfterItsOnsetAndHolds) {
+  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
+  EXPECT_FLOAT_EQ(motion.StateAt(0ms).au_left[12], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(100ms).au_left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1h).au_right[12], 0.8f);
+  EXPECT_EQ(motion.OnsetsSettled(0ms), vm::Time(100ms));
+  EXPECT_FALSE(motion.NextActivity(100ms).has_value());
+}
+
+TEST_F(FaceMotionTest, ATimedExpressionGoesAwayByItself) {
+  ASSERT_TRUE(motion.Express(0ms, "ANGRY", 1, 2, 1000ms));
+  EXPECT_FLOAT_EQ(motion.StateAt(500ms).au_left[4], 2);
+  EXPECT_FLOAT_EQ(motion.StateAt(900ms).au_left[4], 2);
+  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).au_left[4], 0);
+  EXPECT_EQ(motion.FiniteEnd(10ms), vm::Time(1000ms));
+  EXPECT_EQ(motion.NextActivity(500ms), vm::Time(900ms));
+}
+
+TEST_F(FaceMotionTest, AShortExpressionTakesHalfItsTimeForEachFade) {
+  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 120ms));
+  EXPECT_FLOAT_EQ(motion.StateAt(60ms).au_left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(120ms).au_left[12], 0);
+}
+
+TEST_F(FaceMotionTest, ExpressionsCrossfadeWithoutJumps) {
+  FaceState before = motion.StateAt(0ms);
+  for (vm::Time t = 0ms; t < 1500ms; t += 5ms) {
+    if (t == 100ms) {
+      ASSERT_TRUE(motion.Express(t, "HAPPY", 1, 1, 0ms));
+    }
+    if (t == 150ms) {
+      ASSERT_TRUE(motion.Express(t, "SURPRISED", 1, 2, 300ms));
+    }
+    if (t == 200ms) {
+      ASSERT_TRUE(motion.Express(t, "SAD", 1, 1, 0ms));
+    }
+    if (t == 220ms) motion.Neutral(t);
+    const FaceState now = motion.StateAt(t);
+    for (std::size_t i = 0; i < kActionUnits; ++i) {
+      ASSERT_LT(std::abs(now.au_left[i] - before.au_left[i]), 0.25f) << i << " at " << t.count();
+    }
+    before = now;
+  }
+  for (const float unit : before.au_left) EXPECT_FLOAT_EQ(unit, 0);
+}
+
+TEST_F(FaceMotionTest, NaturalExpressionsTakeTheMeasuredTimesAndLags) {
+  auto settings = motion.settings();
+  settings.natural_expressions = true;
+  motion.Apply(0ms, settings);
+  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 5, 1, 0ms));
+  EXPECT_LT(motion.StateAt(555ms).au_left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(556ms).au_left[12], 0.8f);
+  // Eyes first, then the brow, then the mouth.
+  EXPECT_GT(motion.StateAt(8ms).au_left[6], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(8ms).au_left[1], 0);
+  EXPECT_GT(motion.StateAt(18ms).au_left[1], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(18ms).au_left[12], 0);
+}
+
+TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
+  const auto unknown = motion.Express(0ms, "BORED", 1, 1, 0ms);
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().text,
+            "'BORED' is no expression; ANGRY DISGUSTED FEARED HAPPY SAD SURPRISED USERDEF or "
+            "NEUTRAL expected");
+  EXPECT_EQ(motion.Express(0ms, "HAPPY", 9, 1, 0ms).error().text,
+            "HAPPY has no pattern 9; 1 to 5 expected");
+  EXPECT_EQ(motion.Move(0ms, "NOD", 4).error().text, "NOD has no pattern 4; 1 to 3 expected");
+  EXPECT_FALSE(motion.Autonomous(0ms, "USERDEF", 1));
+  EXPECT_TRUE(motion.Autonomous(0ms, "USERDEF", 0));
+  EXPECT_FALSE(motion.SetFace(0ms, 37, 1));
+  EXPECT_FALSE(motion.SetMouth(0ms, 18, 1));
+  EXPECT_FALSE(motion.SetUnit(0ms, "3", 1, 0ms));
+  EXPECT_FALSE(motion.SetBlendShape(0ms, "jawSideways", 1, 0ms));
+}
+
+TEST_F(FaceMotionTest, UnitsCanBeMovedOnOneSide) {
+  ASSERT_TRUE(motion.SetUnit(0ms, "12L", 0.7, 200ms));
+  EXPECT_NEAR(motion.StateAt(100ms).au_left[12], 0.35f, 1e-5);
+  EXPECT_FLOAT_EQ(motion.StateAt(200ms).au_left[12], 0.7f);
+  EXPECT_FLOAT_EQ(motion.StateAt(200ms).au_right[12], 0);
+}
+
+TEST_F(FaceMotionTest, FacePositionsAreUnitsAndEmotions) {
+  ASSERT_TRUE(motion.SetFace(0ms, 30, 1));
+  ASSERT_TRUE(motion.SetFace(0ms, 31, 0.5));
+  const FaceState state = motion.StateAt(1s);
+  EXPECT_FLOAT_EQ(state.au_left[43], 1);
+  EXPECT_FLOAT_EQ(state.au_left[12], 0.4f);
+}
+
+TEST_F(FaceMotionTest, BlendShapesBecomeUnitsAndGaze) {
+  ASSERT_TRUE(motion.SetBlendShape(0ms, "mouthSmileLeft", 0.5, 0ms));
+  ASSERT_TRUE(motion.SetBlendShape(0ms, "eyeLookUpLeft", 1, 0ms));
+  const FaceState state = motion.StateAt(1ms);
+  EXPECT_FLOAT_EQ(state.au_left[12], 0.5f);
+  EXPECT_FLOAT_EQ(state.au_right[12], 0);
+  EXPECT_FLOAT_EQ(state.eye_left.x, 25);
+  EXPECT_FLOAT_EQ(state.eye_right.x, 0);
+}
+
+TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
+  motion.TurnEyes(0ms, true, true, 10, 20, 1000ms);
+  EXPECT_FLOAT_EQ(motion.StateAt(70ms).eye_left.x, -10);  // x+ on the wire is down
+  EXPECT_FLOAT_EQ(motion.StateAt(70ms).eye_right.y, 20);
+  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).eye_right.y, 0);
+  motion.TurnEyes(2000ms, true, false, 0, 15, 0ms);
+  EXPECT_FLOAT_EQ(motion.StateAt(9s).eye_left.y, 15);
+  EXPECT_FLOAT_EQ(motion.StateAt(9s).eye_right.y, 0);
+}
+
+TEST_F(FaceMotionTest, ALargeGazeIsSharedByTheHead) {
+  motion.Gaze(0ms, 0, 30, 0ms);
+  const FaceState early = motion.StateAt(70ms);
+  EXPECT_NEAR(early.eye_left.y + early.head_rotation[1], 30, 1e-3);
+  const FaceState late = motion.StateAt(1s);
+  EXPECT_NEAR(late.head_rotation[1], (30 - 12) * 0.6, 1e-3);
+  EXPECT_NEAR(late.eye_left.y + late.head_rotation[1], 30, 1e-3);
+}
+
+TEST_F(FaceMotionTest, NodOneGoesTenDegreesDownAndBackIn200Ms) {
+  ASSERT_TRUE(motion.Move(0ms, "NOD", 1));
+  EXPECT_FLOAT_EQ(motion.StateAt(100ms).head_rotation[0], 10);
+  EXPECT_FLOAT_EQ(motion.StateAt(200ms).head_rotation[0], 0);
+  EXPECT_EQ(motion.FiniteEnd(50ms), vm::Time(200ms));
+}
+
+TEST_F(FaceMotionTest, DirectionsAndMovementsAddUp) {
+  motion.TurnHead(0ms, {5, 6, 7});
+  motion.TurnHeadBy(0ms, {1, 1, 1});
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[0], 6);
+  ASSERT_TRUE(motion.Move(1s, "NOD", 1));
+  EXPECT_FLOAT_EQ(motion.StateAt(1100ms).head_rotation[0], 16);
+  EXPECT_FLOAT_EQ(motion.StateAt(1100ms).head_rotation[2], 8);
+  motion.StopMoves(1100ms);
+  EXPECT_FLOAT_EQ(motion.StateAt(1180ms).head_rotation[0], 6);
+}
+
+TEST_F(FaceMotionTest, ABlinkShutsTheLidsAndOpensThem) {
+  ASSERT_TRUE(motion.Move(0ms, "BLINK", 1));
+  EXPECT_FLOAT_EQ(motion.StateAt(90ms).blink_left, 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(220ms).blink_left, 0);
+  EXPECT_FALSE(motion.NextActivity(220ms).has_value());
+}
+
+TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
+  ASSERT_TRUE(motion.Autonomous(0ms, "BLINK", 1));
+  std::optional<vm::Time> last;
+  int blinks = 0;
+  bool shut = false;
+  for (vm::Time t = 0ms; t < 300s; t += 10ms) {
+    const bool now = motion.StateAt(t).blink_left > 0.3f;
+    if (now && !shut) {
+      if (last) {
+        EXPECT_GE(t - *last, 1950ms);
+        EXPECT_LE(t - *last, 6050ms);
+      }
+      last = t;
+      ++blinks;
+    }
+    shut = now;
+  }
+  EXPECT_GE(blinks, 70);
+  EXPECT_LE(blinks, 80);
+  // Between blinks nothing moves, and the next one is announced.
+  const auto next = motion.NextActivity(300s);
+  ASSERT_TRUE(next);
+  ASSERT_TRUE(motion.Autonomous(300s, "BLINK", 0));
+  EXPECT_FALSE(motion.NextActivity(301s).has_value());
+}
+
+TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {
+  EXPECT_FLOAT_EQ(motion.StateAt(5s).head_rotation[1], 0);
+  ASSERT_TRUE(motion.Autonomous(0ms, "MOVE", 1));
+  ASSERT_TRUE(motion.Autonomous(0ms, "GAZE", 1));
+  float most = 0;
+  float before = 0;
+  for (vm::Time t = 0ms; t < 60s; t += 20ms) {
+    const FaceState state = motion.StateAt(t);
+    most = std::max(most, std::abs(state.head_rotation[1]));
+    EXPECT_LT(std::abs(state.head_rotation[1] - before), 0.08f);
+    EXPECT_LE(std::abs(state.eye_left.y), 1.41f);
+    before = state.head_rotation[1];
+  }
+  EXPECT_GT(most, 0.5f);
+  EXPECT_LE(most, 1.6f);
+  ASSERT_TRUE(motion.Autonomous(60s, "MOVE", 0));
+  EXPECT_FLOAT_EQ(motion.StateAt(61s).head_rotation[1], 0);
+}
+
+TEST_F(FaceMotionTest, TheSameSeedGivesTheSameLife) {
+  FaceMotion same(MotionTables::Load().value(), 7);
+  FaceMotion other(MotionTables::Load().value(), 8);
+  for (FaceMotion* face : {&motion, &same, &other}) ASSERT_TRUE(face->Autonomous(0ms, "MOVE", 1));
+  EXPECT_EQ(motion.StateAt(7s).head_rotation, same.StateAt(7s).head_rotation);
+  EXPECT_NE(motion.StateAt(7s).head_rotation, other.StateAt(7s).head_rotation);
+}
+
+TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
+  std::uint64_t x = 42;
+  const auto random = [&x](int n) {
+    x = x * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<int>((x >> 33) % static_cast<std::uint64_t>(n));
+  };
+  const char* names[] = {"HAPPY", "SAD", "ANGRY", "FEARED"};
+  vm::Time t = 0ms;
+  for (int i = 0; i < 5000; ++i) {
+    t += std::chrono::milliseconds(random(50));
+    switch (random(8)) {
+      case 0: (void)motion.Express(t, names[random(4)], 1 + random(5), random(200) / 100.0,
+                                   std::chrono::milliseconds(random(300))); break;
+      case 1: (void)motion.SetFace(t, 1 + random(36), random(200) / 100.0); break;
+      case 2: motion.TurnEyes(t, true, random(2) == 0, random(30), random(30),
+                              std::chrono::milliseconds(random(200))); break;
+      case 3: motion.TurnHeadBy(t, {1, -2, 3}); break;
+      case 4: (void)motion.Move(t, "REFUSE", 1 + random(3)); break;
+      case 5: motion.Speak(t, vm::ParsePhonemes("a 80 m 60 i 300").value(), t + 20ms); break;
+      case 6: motion.Sync(t, random(500)); break;
+      default: motion.StopSpeaking(t); break;
+    }
+    const FaceState state = motion.StateAt(t + std::chrono::milliseconds(random(100)));
+    for (const float v : state.au_left) ASSERT_TRUE(v >= 0 && v <= 2);
+    for (const float v : state.mouth) ASSERT_LT(std::abs(v), 30);
+    for (const float v : state.head_rotation) ASSERT_LT(std::abs(v), 150);
+    ASSERT_TRUE(state.lip_seal >= 0 && state.lip_seal <= 1.0001f);
+  }
+}
+
+}  // namespace
+}  // namespace fsm

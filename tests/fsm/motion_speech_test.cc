@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "fsm/motion/face_motion.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+MotionTables BuiltIn() { return MotionTables::Load().value(); }
+
+vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
+
+constexpr std::size_t kJaw = 11;
+
+TEST(LipTrackTest, TheKeyShapeStandsAtThePhonemesStart) {
+  const auto tables = BuiltIn();
+  const LipTrack track(List("pau 100 a 100 i 100 pau 100"), tables, Language::kJapanese);
+  EXPECT_NEAR(track.At(100).mouth[kJaw], tables.shapes[9].pose.mouth[kJaw], 1e-5);
+  EXPECT_NEAR(track.At(200).mouth[kJaw], tables.shapes[10].pose.mouth[kJaw], 1e-5);
+  EXPECT_NEAR(track.At(300).mouth[kJaw], 0, 1e-5);
+}
+
+TEST(LipTrackTest, BetweenKeysItIsTheOriginalsSinusoid) {
+  const auto tables = BuiltIn();
+  const LipTrack track(List("a 100 i 100"), tables, Language::kJapanese);
+  const double v0 = tables.shapes[9].pose.mouth[kJaw];
+  const double v1 = tables.shapes[10].pose.mouth[kJaw];
+  for (double u : {0.1, 0.25, 0.5, 0.8}) {
+    const double w = std::cos(std::numbers::pi * u) / 2;
+    EXPECT_NEAR(track.At(100 * u).mouth[kJaw], w * (v0 - v1) + (v0 + v1) / 2, 1e-4);
+  }
+}
+
+TEST(LipTrackTest, ALongPhonemeHoldsAndThenMovesFor92Ms) {
+  const auto tables = BuiltIn();
+  const LipTrack track(List("a 200 i 100"), tables, Language::kJapanese);
+  const float full = tables.shapes[9].pose.mouth[kJaw];
+  EXPECT_FLOAT_EQ(track.At(107).mouth[kJaw], full);
+  EXPECT_LT(track.At(120).mouth[kJaw], full);
+  const LipTrack shorter(List("a 199 i 100"), tables, Language::kJapanese);
+  EXPECT_LT(shorter.At(60).mouth[kJaw], full);
+}
+
+TEST(LipTrackTest, LipClosuresSealForAFrameEvenInFastSpeech) {
+  const auto tables = BuiltIn();
+  for (const char* name : {"p", "b", "m"}) {
+    for (int ms : {40, 60, 90, 150, 250}) {
+      const vm::PhonemeList list = {{"a", 80ms}, {name, std::chrono::milliseconds(ms)}, {"a", 80ms}};
+      const LipTrack track(list, tables, Language::kJapanese);
+      for (double t = 80; t <= 80 + 34 * 0.99; t += 1) {
+        EXPECT_FLOAT_EQ(track.At(t).seal, 1) << name << " of " << ms << " at " << t;
+      }
+      EXPECT_FLOAT_EQ(track.At(80 + ms).seal, 0);
+    }
+  }
+}
+
+TEST(LipTrackTest, PausesAndUnknownPhonemesClose) {
+  const auto tables = BuiltIn();
+  const LipTrack track(List("a 100 pau 300 a 100 xyz 300 a 100"), tables, Language::kAuto);
+  EXPECT_FLOAT_EQ(track.At(150).seal, 1);
+  EXPECT_FLOAT_EQ(track.At(250).mouth[kJaw], 0);
+  EXPECT_FLOAT_EQ(track.At(600).seal, 1);
+}
+
+TEST(LipTrackTest, DiphthongsGoToTheirSecondShapeAfterThirtyPerCent) {
+  const auto tables = BuiltIn();
+  const LipTrack track(List("pau 100 ay 150 pau 100"), tables, Language::kAuto);
+  EXPECT_TRUE(track.english());
+  EXPECT_NEAR(track.At(100).mouth[kJaw], tables.shapes[9].pose.mouth[kJaw], 1e-5);
+  EXPECT_NEAR(track.At(145).mouth[kJaw], 0.8 * tables.shapes[10].pose.mouth[kJaw], 1e-5);
+}
+
+TEST(LipTrackTest, HTakesTheNextVowel) {
+  const auto tables = BuiltIn();
+  const LipTrack track(List("h 80 a 100"), tables, Language::kJapanese);
+  EXPECT_NEAR(track.At(0).mouth[kJaw], 0.7 * tables.shapes[9].pose.mouth[kJaw], 1e-5);
+  EXPECT_FLOAT_EQ(track.At(0).seal, 0);
+}
+
+TEST(LipTrackTest, EmptyListsAndZeroDurationsAreHarmless) {
+  const auto tables = BuiltIn();
+  const LipTrack nothing({}, tables, Language::kAuto);
+  EXPECT_FLOAT_EQ(nothing.At(0).mouth[kJaw], 0);
+  const LipTrack zero({{"a", 0ms}, {"h", 0ms}}, tables, Language::kAuto);
+  for (double t = -100; t < 10; t += 1) EXPECT_TRUE(std::isfinite(zero.At(t).mouth[kJaw]));
+}
+
+TEST(SpeechClockTest, FollowsTimeExactlyWhenTheVoiceAgrees) {
+  SpeechClock clock(500ms);
+  clock.Correct(1500ms, 1000, 0.25);
+  EXPECT_DOUBLE_EQ(clock.PositionAt(2000ms), 1500);
+  EXPECT_EQ(clock.WhenAt(1500), vm::Time(2000ms));
+}
+
+TEST(SpeechClockTest, WorksADifferenceOffWithoutJumpOrGoingBack) {
+  for (const double voice : {880.0, 1120.0, 400.0}) {
+    SpeechClock clock(0ms);
+    clock.Correct(1000ms, voice, 0.25);
+    double before = clock.PositionAt(1000ms);
+    EXPECT_DOUBLE_EQ(before, 1000);
+    for (vm::Time t = 1001ms; t < 5000ms; t += 1ms) {
+      const double step = clock.PositionAt(t) - before;
+      EXPECT_GE(step, 0.7499);
+      EXPECT_LE(step, 1.2501);
+      before = clock.PositionAt(t);
+    }
+    EXPECT_NEAR(clock.PositionAt(5000ms), voice + 4000, 1e-6);
+    for (const double position : {0.0, 500.0, 990.0, 1005.0, 1400.0, 3000.0, 6000.0}) {
+      EXPECT_NEAR(clock.PositionAt(clock.WhenAt(position)), position, 0.01);
+    }
+  }
+}
+
+TEST(SpeechTest, TheMouthLeadsTheVoiceByExactlyTheLead) {
+  FaceMotion motion(BuiltIn(), 1);
+  motion.Speak(0ms, List("pau 200 a 150 pau 200"), 1000ms);
+  EXPECT_EQ(motion.PhonemeAt(1000ms + 159ms), "pau");
+  EXPECT_EQ(motion.PhonemeAt(1000ms + 160ms), "a");
+  const auto settings = motion.settings();
+  EXPECT_DOUBLE_EQ(settings.lead_ms, 40);
+  EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJaw],
+              BuiltIn().shapes[9].pose.mouth[kJaw] * settings.mouth_scale / kFullMouthScale, 1e-4);
+  EXPECT_EQ(motion.SpeechEnd(), vm::Time(1550ms));
+}
+
+TEST(SpeechTest, OffsetDelaysTheMouth) {
+  FaceMotion motion(BuiltIn(), 1);
+  auto settings = motion.settings();
+  settings.offset_ms = 100;
+  motion.Apply(0ms, settings);
+  motion.Speak(0ms, List("pau 200 a 150 pau 200"), 1000ms);
+  EXPECT_EQ(motion.PhonemeAt(1259ms), "pau");
+  EXPECT_EQ(motion.PhonemeAt(1260ms), "a");
+  EXPECT_EQ(motion.SpeechEnd(), vm::Time(1610ms));  // the mouth ends 60 ms after the voice
+}
+
+TEST(SpeechTest, StopClosesTheLipsWithin120MsAndSmoothly) {
+  for (int at = 0; at < 900; at += 37) {
+    FaceMotion motion(BuiltIn(), 1);
+    ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
+    motion.Speak(0ms, List("pau 100 a 300 o 250 a 400 pau 100"), 0ms);
+    const vm::Time stop = std::chrono::milliseconds(at);
+    motion.StopSpeaking(stop);
+    EXPECT_FALSE(motion.speaking());
+    const FaceState state = motion.StateAt(stop + 120ms);
+    if (at > 60) {
+      EXPECT_GT(state.lip_seal, 0.999) << at;
+    }
+    EXPECT_NEAR(state.mouth[kJaw], 0, 1e-3);
+    float before = motion.StateAt(stop).mouth[kJaw];
+    for (vm::Time t = stop; t < stop + 600ms; t += 5ms) {
+      const float now = motion.StateAt(t).mouth[kJaw];
+      EXPECT_LT(std::abs(now - before), 1.6f);
+      before = now;
+    }
+  }
+}
+
+TEST(SpeechTest, NothingJumpsFromUtteranceToUtterance) {
+  FaceMotion motion(BuiltIn(), 1);
+  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 3, 1, 0ms));
+  FaceState before = motion.StateAt(0ms);
+  for (vm::Time t = 0ms; t < 3000ms; t += 5ms) {
+    if (t == 100ms) motion.Speak(t, List("a 300 o 250 a 400"), t);
+    if (t == 500ms) motion.Speak(t, List("o 300 a 250"), t);  // interrupts
+    if (t == 700ms) motion.Sync(t, 320);
+    if (t == 900ms) motion.StopSpeaking(t);
+    const FaceState now = motion.StateAt(t);
+    for (std::size_t i = 0; i < kMouthParameters; ++i) {
+      ASSERT_LT(std::abs(now.mouth[i] - before.mouth[i]), 1.2f) << i << " at " << t.count();
+    }
+    ASSERT_LT(std::abs(now.au_left[12] - before.au_left[12]), 0.12f) << t.count();
+    before = now;
+  }
+}
+
+TEST(SpeechTest, EmotionTintsTheMouthAndKeepsTheBrows) {
+  FaceMotion motion(BuiltIn(), 1);
+  ASSERT_TRUE(motion.Express(0ms, "SURPRISED", 1, 1, 0ms));
+  motion.Speak(500ms, List("pau 1000"), 500ms);
+  const FaceState state = motion.StateAt(1000ms);
+  EXPECT_FLOAT_EQ(state.au_left[1], 1);
+  EXPECT_FLOAT_EQ(state.au_left[5], 0.5f);
+  EXPECT_NEAR(state.au_left[26], 0.6 * 0.4, 1e-5);
+  EXPECT_FLOAT_EQ(motion.StateAt(2500ms).au_left[26], 0.6f);
+}
+
+TEST(SpeechTest, MouthScaleMultipliesButClosuresStay) {
+  FaceMotion motion(BuiltIn(), 1);
+  auto settings = motion.settings();
+  settings.mouth_scale = 15;
+  motion.Apply(0ms, settings);
+  motion.Speak(0ms, List("pau 200 a 150 m 100 a 150"), 1000ms);
+  EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJaw], 9 * 15.0 / 40, 1e-4);
+  EXPECT_FLOAT_EQ(motion.StateAt(1310ms).lip_seal, 1);
+}
+
+TEST(SpeechTest, AtRestTheLipsAreFree) {
+  FaceMotion motion(BuiltIn(), 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(0ms).lip_seal, 0);
+  motion.Speak(0ms, List("a 100"), 0ms);
+  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).lip_seal, 0);
+  EXPECT_FALSE(motion.NextActivity(1000ms).has_value());
+}
+
+}  // namespace
+}  // namespace fsm

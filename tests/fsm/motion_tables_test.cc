@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "fsm/motion/motion_tables.h"
+#include "fsm/motion/table_text.h"
+
+namespace fsm {
+namespace {
+
+MotionTables BuiltIn() {
+  auto tables = MotionTables::Load();
+  EXPECT_TRUE(tables) << tables.error().text;
+  return std::move(*tables);
+}
+
+TEST(MotionTablesTest, TheFourteenShapesStandInTheirOrder) {
+  const MotionTables tables = BuiltIn();
+  std::string names;
+  for (const MouthShape& shape : tables.shapes) names += shape.name + " ";
+  EXPECT_EQ(names, "rest r m t n k f s w a i u e o ");
+}
+
+TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
+  const auto shapes = BuiltIn().shapes;
+  const auto jaw = [&](std::size_t i) { return shapes[i].pose.mouth[11]; };
+  EXPECT_GT(jaw(9), jaw(12));   // a > e
+  EXPECT_GT(jaw(12), jaw(13));  // e > o
+  EXPECT_GT(jaw(13), jaw(10));  // o > i
+  EXPECT_GT(jaw(10), jaw(11));  // i > u
+}
+
+TEST(MotionTablesTest, OnlyRestAndTheLipClosuresSeal) {
+  for (const MouthShape& shape : BuiltIn().shapes) {
+    EXPECT_EQ(shape.pose.seal, shape.name == "rest" || shape.name == "m" ? 1 : 0) << shape.name;
+  }
+}
+
+TEST(MotionTablesTest, EveryPhonemeOfTheOriginalVoiceIsKnown) {
+  const auto tables = BuiltIn();
+  for (const char* name : {"a", "i", "u", "e", "o", "k", "s", "sh", "t", "ch", "ts", "n", "h", "f",
+                           "m", "y", "r", "w", "g", "z", "j", "d", "b", "p", "ky", "ny", "hy", "my",
+                           "ry", "gy", "by", "py", "dy", "cl", "N", "pau", "sil", "A", "I", "U",
+                           "E", "O"}) {
+    EXPECT_TRUE(tables.phonemes_ja.contains(name)) << name;
+  }
+}
+
+TEST(MotionTablesTest, EveryPhonemeOfFliteIsKnown) {
+  const auto tables = BuiltIn();
+  for (const char* name : {"aa", "ae", "ah", "ao", "aw", "ax", "ay", "b", "ch", "d", "dh", "eh", "er",
+                           "ey", "f", "g", "hh", "ih", "iy", "jh", "k", "l", "m", "n", "ng", "ow",
+                           "oy", "p", "pau", "r", "s", "sh", "t", "th", "uh", "uw", "v", "w", "y",
+                           "z", "zh"}) {
+    EXPECT_TRUE(tables.phonemes_en.contains(name)) << name;
+  }
+}
+
+TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
+  const auto tables = BuiltIn();
+  for (const char* name : {"HAPPY", "ANGRY", "DISGUSTED", "SAD", "SURPRISED", "FEARED", "USERDEF"}) {
+    ASSERT_TRUE(tables.emotions.contains(name)) << name;
+    EXPECT_EQ(tables.emotions.at(name).patterns.size(), 5u) << name;
+  }
+  EXPECT_FLOAT_EQ(tables.emotions.at("HAPPY").patterns[0].left[12], 0.8f);
+  EXPECT_DOUBLE_EQ(tables.emotions.at("HAPPY").onset_ms, 556);
+}
+
+TEST(MotionTablesTest, FaceThirtyClosesTheEyes) {
+  const auto tables = BuiltIn();
+  EXPECT_EQ(tables.units.units.at(29), 43);
+  EXPECT_EQ(tables.units.units.at(0), 1);
+  EXPECT_EQ(tables.units.emotions.at(35), "FEARED");
+}
+
+TEST(MotionTablesTest, AWrongShapeIsReportedWithFileAndLine) {
+  const auto shapes = ReadMouthShapes("my.txt", "# shapes\nrest 0 0 x\n");
+  ASSERT_FALSE(shapes);
+  EXPECT_TRUE(shapes.error().text.starts_with("my.txt:2: 4 words found")) << shapes.error().text;
+}
+
+TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
+  const auto shapes = BuiltIn().shapes;
+  const auto expect = [](const auto& result, const std::string& text) {
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().text.find(text), std::string::npos) << result.error().text;
+  };
+  expect(ReadPhonemeTable("p.txt", "a a 1\nb q 1\n", shapes), "p.txt:2: 'q' is neither a mouth shape");
+  expect(ReadPhonemeTable("p.txt", "a a 1\na o 1\n", shapes), "p.txt:2: the phoneme 'a' is here twice");
+  expect(ReadPhonemeTable("p.txt", "", shapes), "no phoneme found");
+  expect(ReadPhonemeTable("p.txt", "a a nan\n", shapes), "p.txt:1: 'nan' found, a strength expected");
+  expect(ReadEmotions("e.txt", "HAPPY 1 12:0.5 99:1\n"), "e.txt:1: '99' is not an action unit");
+  expect(ReadEmotions("e.txt", "HAPPY 2 12:0.5\n"), "e.txt:1: pattern 2 found, 1 expected");
+  expect(ReadEmotions("e.txt", "timing HAPPY 1 2 3 4\n"), "'HAPPY' has no pattern 1");
+  expect(ReadMotions("m.txt", "NOD 1\nNOD 2\n"), "m.txt:1: key frames");
+  expect(ReadMotions("m.txt", "NOD 1\n 100 1 2 3\n 100 0 0 0\n"), "m.txt:3: 100 ms is not after");
+  expect(ReadMotions("m.txt", "JUMP 1\n"), "m.txt:1: 'JUMP' found");
+  expect(ReadUnitList("a.txt", "face 0 1\n"), "a.txt:1: '0' found, a position expected");
+}
+
+TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
+  char name[] = "/tmp/galatea_tables_XXXXXX";
+  ASSERT_NE(mkdtemp(name), nullptr);
+  const std::filesystem::path folder = name;
+  std::ofstream(folder / "emotions.txt") << "BORED 1 43:0.4\n";
+  const auto tables = MotionTables::Load(folder.string());
+  ASSERT_TRUE(tables) << tables.error().text;
+  EXPECT_EQ(tables->emotions.size(), 1u);
+  EXPECT_EQ(tables->shapes.size(), kMouthShapes);
+  std::ofstream(folder / "emotions.txt") << "\nBORED\n";
+  const auto wrong = MotionTables::Load(folder.string());
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().text, (folder / "emotions.txt").string() +
+                                    ":2: the line ends where a pattern number is expected");
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(MotionTables::Load(folder.string()));
+}
+
+TEST(MotionTablesTest, MotionFilesOfTheOriginalAreRead) {
+  const auto curve = ReadMotionFile("nod.dat",
+                                    "// number of keys below\r\n2\r\n// from line 5\r\n"
+                                    "// ms x y z\r\n100 10.00 0.00 0.00\r\n200 0.00 0.00 0.00\r\n");
+  ASSERT_TRUE(curve) << curve.error().text;
+  EXPECT_FLOAT_EQ(curve->At(100)[0], 10);
+  EXPECT_FLOAT_EQ(curve->At(50)[0], 5);
+  EXPECT_FLOAT_EQ(curve->At(200)[0], 0);
+}
+
+TEST(HeadCurveTest, GoesThroughItsKeysWithoutOvershooting) {
+  const HeadCurve curve({{100, {0, 10, 0}}, {200, {0, 0, 0}}, {300, {0, -10, 0}}, {400, {0, 0, 0}}});
+  for (double ms = 0; ms <= 400; ms += 1) {
+    EXPECT_LE(std::abs(curve.At(ms)[1]), 10.001);
+  }
+  EXPECT_FLOAT_EQ(curve.At(100)[1], 10);
+  EXPECT_FLOAT_EQ(curve.At(300)[1], -10);
+  // It does not stop on its way through the middle.
+  EXPECT_LT(curve.At(210)[1] - curve.At(190)[1], -1.5);
+}
+
+}  // namespace
+}  // namespace fsm

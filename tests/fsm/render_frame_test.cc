@@ -1,0 +1,342 @@
+#include <array>
+#include <cstdlib>
+
+#include "fsm/render/camera.h"
+#include "tests/fsm/ball_head.h"
+#include "tests/fsm/render_support.h"
+
+namespace fsm {
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+
+using Pixel = std::array<int, 4>;
+
+Pixel At(const Image& image, int x, int y) {
+  const auto i = static_cast<std::size_t>(y * image.width + x) * 4;
+  return {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3]};
+}
+
+/// Pixels in which two pictures differ.
+int Differing(const Image& a, const Image& b) {
+  int count = 0;
+  for (int y = 0; y < a.height; ++y) {
+    for (int x = 0; x < a.width; ++x) count += At(a, x, y) != At(b, x, y);
+  }
+  return count;
+}
+
+/// Two rows of colour, the upper one and the lower one.
+Image MakePicture(std::array<int, 3> upper, std::array<int, 3> lower) {
+  Image image{2, 2, {}};
+  for (const auto& row : {upper, lower}) {
+    for (int x = 0; x < 2; ++x) {
+      for (const int value : row) image.rgba.push_back(static_cast<std::uint8_t>(value));
+      image.rgba.push_back(255);
+    }
+  }
+  return image;
+}
+
+class FrameTest : public ::testing::Test {
+ protected:
+  FrameTest()
+      : context_(RenderContext::MakeHeadless(kWidth, kHeight)),
+        renderer_(Renderer::Make(*context_)) {
+    head_.Evaluate(state_, vertices_);
+    scene_.background = {0.2F, 0.4F, 0.6F};
+  }
+
+  Image Draw() {
+    Image image;
+    renderer_->Draw(head_, vertices_, state_, scene_);
+    renderer_->Read(image);
+    return image;
+  }
+
+  static constexpr Pixel kBackground{51, 102, 153, 255};
+  std::unique_ptr<RenderContext> context_;
+  std::unique_ptr<Renderer> renderer_;
+  BallHead head_;
+  HeadVertices vertices_;
+  FaceState state_;
+  Scene scene_;
+};
+
+TEST_F(FrameTest, HeadStandsInTheMiddleOfTheExactBackground) {
+  const Image image = Draw();
+  ASSERT_EQ(image.width, kWidth);
+  ASSERT_EQ(image.height, kHeight);
+  for (const int x : {0, kWidth - 1}) EXPECT_EQ(At(image, x, 0), kBackground);
+  const Pixel skin = At(image, kWidth / 2, kHeight / 2);
+  EXPECT_GT(skin[0], skin[2] + 10) << "skin is redder than blue";
+  EXPECT_EQ(skin[3], 255);
+  EXPECT_NE(At(image, kWidth / 2, kHeight - 1), kBackground) << "shoulders are at the bottom";
+}
+
+TEST_F(FrameTest, SameInputGivesTheSameBytes) {
+  const Image first = Draw();
+  state_.agent_rotation[1] = 20;
+  EXPECT_GT(Differing(first, Draw()), 100);
+  state_.agent_rotation[1] = 0;
+  EXPECT_EQ(Draw().rgba, first.rgba);
+  renderer_.reset();
+  context_ = RenderContext::MakeHeadless(kWidth, kHeight);
+  renderer_ = Renderer::Make(*context_);
+  EXPECT_EQ(Draw().rgba, first.rgba) << "another context";
+}
+
+TEST_F(FrameTest, DisabledFigureLeavesTheBackground) {
+  state_.agent_enabled = false;
+  const Image image = Draw();
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) ASSERT_EQ(At(image, x, y), kBackground);
+  }
+  state_.agent_enabled = true;
+  state_.agent_alpha = 0;
+  EXPECT_EQ(Draw().rgba, image.rgba);
+}
+
+TEST_F(FrameTest, AlphaLiesBetweenFigureAndBackground) {
+  const Image whole = Draw();
+  state_.agent_alpha = 0.5F;
+  const Image half = Draw();
+  for (const int y : {40, 60, 110}) {
+    const Pixel a = At(whole, kWidth / 2, y);
+    const Pixel b = At(half, kWidth / 2, y);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(b[c], (a[c] + kBackground[c]) / 2, 2) << y;
+    EXPECT_EQ(b[3], 255);
+  }
+}
+
+TEST_F(FrameTest, WithoutBackgroundTheFigureAloneIsOpaque) {
+  scene_.show_background = false;
+  const Image image = Draw();
+  EXPECT_EQ(At(image, 0, 0), (Pixel{0, 0, 0, 0}));
+  EXPECT_EQ(At(image, kWidth / 2, kHeight / 2)[3], 255);
+  scene_.show_background = true;
+  const Image before = Draw();
+  EXPECT_EQ(At(before, kWidth / 2, kHeight / 2), At(image, kWidth / 2, kHeight / 2));
+}
+
+TEST_F(FrameTest, FadedFigureWithoutBackgroundKeepsItsColours) {
+  scene_.show_background = false;
+  const Image whole = Draw();
+  state_.agent_alpha = 0.25F;
+  const Pixel faded = At(Draw(), kWidth / 2, kHeight / 2);
+  const Pixel solid = At(whole, kWidth / 2, kHeight / 2);
+  EXPECT_NEAR(faded[3], 64, 1);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(faded[c], solid[c], 6);
+}
+
+TEST_F(FrameTest, PictureOfTheSameSizeIsShownPixelByPixel) {
+  const Image picture = Pattern(kWidth, kHeight);
+  scene_.background_image = &picture;
+  state_.agent_enabled = false;
+  EXPECT_EQ(Draw().rgba, picture.rgba);
+}
+
+TEST_F(FrameTest, PictureIsStretchedAndUpright) {
+  Image picture = MakePicture({255, 0, 0}, {0, 0, 255});
+  scene_.background_image = &picture;
+  state_.agent_enabled = false;
+  const Image image = Draw();
+  EXPECT_EQ(At(image, kWidth / 2, 5), (Pixel{255, 0, 0, 255}));
+  EXPECT_EQ(At(image, kWidth / 2, kHeight - 5), (Pixel{0, 0, 255, 255}));
+  picture = MakePicture({0, 255, 0}, {0, 0, 255});
+  EXPECT_EQ(At(Draw(), kWidth / 2, 5), (Pixel{0, 255, 0, 255})) << "new content, same address";
+}
+
+TEST_F(FrameTest, ViewModesDiffer) {
+  const Image texture = Draw();
+  scene_.view_mode = ViewMode::kWireframe;
+  const Image wireframe = Draw();
+  scene_.view_mode = ViewMode::kTextureWithWireframe;
+  const Image both = Draw();
+  EXPECT_GT(Differing(texture, wireframe), 1000);
+  EXPECT_GT(Differing(texture, both), 500);
+  EXPECT_GT(Differing(wireframe, both), 1000);
+  for (const Image* image : {&wireframe, &both}) EXPECT_EQ(At(*image, 0, 0), kBackground);
+  scene_.view_mode = ViewMode::kTexture;
+  EXPECT_EQ(Draw().rgba, texture.rgba);
+}
+
+TEST_F(FrameTest, FigureIsPlacedAsAsked) {
+  scene_.show_background = false;
+  const auto middle = [this] {
+    const Image image = Draw();
+    double x_sum = 0;
+    double y_sum = 0;
+    double count = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        if (At(image, x, y)[3] == 0) continue;
+        x_sum += x;
+        y_sum += y;
+        count += 1;
+      }
+    }
+    return std::array<double, 3>{x_sum / count, y_sum / count, count};
+  };
+  state_.agent_scale = 0.4F;
+  const auto before = middle();
+  state_.agent_translation = {60, 40};
+  const auto moved = middle();
+  EXPECT_GT(moved[0], before[0] + 10);
+  EXPECT_LT(moved[1], before[1] - 7);
+  EXPECT_NEAR(moved[2], before[2], before[2] * 0.05);
+  state_.agent_translation = {};
+  state_.agent_scale = 0.8F;
+  EXPECT_GT(middle()[2], before[2] * 2.5);
+}
+
+TEST_F(FrameTest, AnotherHeadIsNoticedAndTheFirstOneToo) {
+  const Image ball = Draw();
+  auto other = std::make_unique<BallHead>(glm::vec3(0.05F, 0.5F, 0.1F));
+  HeadVertices vertices;
+  other->Evaluate(state_, vertices);
+  renderer_->Draw(*other, vertices, state_, scene_);
+  Image green;
+  renderer_->Read(green);
+  const Pixel pixel = At(green, kWidth / 2, kHeight / 2);
+  EXPECT_GT(pixel[1], pixel[0]);
+  EXPECT_EQ(Draw().rgba, ball.rgba);
+}
+
+TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
+  BallHead bare;
+  bare.KeepParts(1);
+  renderer_->Draw(bare, vertices_, state_, scene_);
+  bare.KeepParts(0);
+  renderer_->Draw(bare, vertices_, state_, scene_);
+  Image image;
+  renderer_->Read(image);
+  EXPECT_EQ(At(image, kWidth / 2, kHeight / 2), kBackground);
+}
+
+TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
+  for (const auto& [width, height] :
+       {std::pair{640, 480}, {480, 640}, {1920, 1080}, {256, 256}, {200, 600}}) {
+    const View view = FramePortrait(FaceState{}, width, height);
+    for (const glm::vec3 point : {glm::vec3(0, 145, 0), {0, -160, 30}, {-95, 20, 0}, {95, 20, 0}}) {
+      const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(point, 1.0F);
+      EXPECT_LT(std::abs(clip.x), clip.w) << width << " x " << height;
+      EXPECT_LT(std::abs(clip.y), clip.w) << width << " x " << height;
+    }
+  }
+}
+
+TEST(PortraitTest, RotationHasTheOriginalsSigns) {
+  FaceState state;
+  const glm::vec4 nose(0, 0, 120, 1);
+  const auto moved = [&](std::size_t axis, const glm::vec4& point) {
+    state.agent_rotation = {};
+    state.agent_rotation[axis] = 20;
+    return FramePortrait(state, 640, 480).figure_to_world * point - point;
+  };
+  EXPECT_LT(moved(0, nose).y, -10) << "x+ looks down";
+  EXPECT_GT(moved(1, nose).x, 10) << "y+ looks to the viewer's right";
+  EXPECT_GT(moved(2, {0, 120, 0, 1}).x, 10) << "z+ leans to the viewer's right";
+}
+
+/// A drawable whose size changes, as a window's does.
+class ResizingContext : public RenderContext {
+ public:
+  void MakeCurrent() override { inner_->MakeCurrent(); }
+  void* GetProcAddress(const char* name) override { return inner_->GetProcAddress(name); }
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  bool is_window() const override { return false; }
+  void Present() override {}
+  bool close_requested() const override { return false; }
+  void Resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+  }
+
+ private:
+  std::unique_ptr<RenderContext> inner_ = MakeHeadless(64, 64);
+  int width_ = 64;
+  int height_ = 64;
+};
+
+TEST(ContextTest, PictureFollowsTheSizeOfTheWindow) {
+  ResizingContext context;
+  auto renderer = Renderer::Make(context);
+  BallHead head;
+  HeadVertices vertices;
+  head.Evaluate({}, vertices);
+  Image image;
+  for (const auto& [width, height] : {std::pair{64, 64}, {200, 100}, {1, 1}, {200, 100}}) {
+    context.Resize(width, height);
+    renderer->Draw(head, vertices, {}, {});
+    renderer->Read(image);
+    EXPECT_EQ(image.width, width);
+    EXPECT_EQ(image.height, height);
+  }
+  const Pixel skin = At(image, 100, 50);
+  EXPECT_GT(skin[0], skin[2]);
+}
+
+TEST(ContextTest, ImpossibleSizesAreRefusedWithASentence) {
+  for (const auto& [width, height] : {std::pair{0, 10}, {10, -1}, {100000, 10}}) {
+    EXPECT_THROW(RenderContext::MakeHeadless(width, height), std::runtime_error);
+  }
+}
+
+TEST(ContextTest, WindowWithoutADisplayIsRefusedWithASentence) {
+  const char* display = std::getenv("DISPLAY");
+  const std::string kept = display ? display : "";
+  unsetenv("DISPLAY");
+  unsetenv("WAYLAND_DISPLAY");
+  try {
+    RenderContext::MakeWindow(64, 64, "test");
+    ADD_FAILURE() << "a window without a display";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("window"), std::string::npos);
+  }
+  if (!kept.empty()) setenv("DISPLAY", kept.c_str(), 1);
+}
+
+TEST(ContextTest, SizesFromOnePixelUpAreDrawn) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 7}, {641, 479}}) {
+    auto context = RenderContext::MakeHeadless(width, height);
+    auto renderer = Renderer::Make(*context);
+    BallHead head;
+    HeadVertices vertices;
+    head.Evaluate({}, vertices);
+    renderer->Draw(head, vertices, {}, {});
+    Image image;
+    renderer->Read(image);
+    EXPECT_EQ(image.rgba.size(), static_cast<std::size_t>(width * height * 4));
+  }
+}
+
+TEST(ContextTest, TwoContextsTakeTurns) {
+  auto first = RenderContext::MakeHeadless(kWidth, kHeight);
+  auto first_renderer = Renderer::Make(*first);
+  auto second = RenderContext::MakeHeadless(kHeight, kWidth);
+  auto second_renderer = Renderer::Make(*second);
+  BallHead head;
+  HeadVertices vertices;
+  head.Evaluate({}, vertices);
+  Image image;
+  first->MakeCurrent();
+  first_renderer->Draw(head, vertices, {}, {});
+  first_renderer->Read(image);
+  const Image before = image;
+  second->MakeCurrent();
+  second_renderer->Draw(head, vertices, {}, {});
+  second_renderer->Read(image);
+  EXPECT_EQ(image.width, kHeight);
+  second_renderer.reset();
+  second.reset();
+  first->MakeCurrent();
+  first_renderer->Draw(head, vertices, {}, {});
+  first_renderer->Read(image);
+  EXPECT_EQ(image.rgba, before.rgba);
+}
+
+}  // namespace
+}  // namespace fsm

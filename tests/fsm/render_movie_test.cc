@@ -1,0 +1,240 @@
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+
+#include "fsm/render/byte_order.h"
+#include "fsm/render/renderer.h"
+#include "tests/fsm/render_support.h"
+
+namespace fsm {
+namespace {
+
+constexpr int kFps = 25;
+
+std::string OutputOf(const std::string& command) {
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string text;
+  std::array<char, 4096> block;
+  for (std::size_t got = 0; (got = fread(block.data(), 1, block.size(), pipe)) > 0;) {
+    text.append(block.data(), got);
+  }
+  pclose(pipe);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+std::string Probe(const std::string& path, const std::string& stream, const std::string& entry) {
+  return OutputOf("ffprobe -v error -count_packets -select_streams " + stream +
+                  " -show_entries stream=" + entry + " -of csv=p=0 '" + path + "'");
+}
+
+/// Runs a film of `frames` pictures through to its end.
+vm::Result<void> MakeFilm(const std::string& path, int width, int height, int frames,
+                          const std::string& sound = "") {
+  auto movie = MovieWriter::Open(path, width, height, kFps);
+  if (!movie) return std::unexpected(movie.error());
+  for (int i = 0; i < frames; ++i) {
+    if (auto added = (*movie)->Add(Pattern(width, height, i * 5)); !added) return added;
+  }
+  EXPECT_EQ((*movie)->frames(), frames);
+  return (*movie)->Finish(sound);
+}
+
+/// 16 kHz, one channel, 16 bit: silence, with a tone from `from` to `to` seconds.
+void WriteWav(const std::string& path, double seconds, double from, double to) {
+  constexpr std::uint32_t kRate = 16000;
+  const auto samples = static_cast<std::uint32_t>(seconds * kRate);
+  std::vector<std::uint8_t> bytes;
+  const auto word = [&bytes](const char* text) { bytes.insert(bytes.end(), text, text + 4); };
+  word("RIFF");
+  AppendLittleEndian(bytes, 36 + samples * 2, 4);
+  word("WAVE");
+  word("fmt ");
+  AppendLittleEndian(bytes, 16, 4);
+  AppendLittleEndian(bytes, 1, 2);
+  AppendLittleEndian(bytes, 1, 2);
+  AppendLittleEndian(bytes, kRate, 4);
+  AppendLittleEndian(bytes, kRate * 2, 4);
+  AppendLittleEndian(bytes, 2, 2);
+  AppendLittleEndian(bytes, 16, 2);
+  word("data");
+  AppendLittleEndian(bytes, samples * 2, 4);
+  for (std::uint32_t i = 0; i < samples; ++i) {
+    const double t = static_cast<double>(i) / kRate;
+    const double value = t >= from && t < to ? std::sin(t * 440 * 2 * std::numbers::pi) : 0;
+    AppendLittleEndian(bytes, static_cast<std::uint32_t>(std::lround(value * 20000)) & 0xffff, 2);
+  }
+  WriteBytes(path, bytes);
+}
+
+/// Replaces ffmpeg by a shell script for the length of a test.
+class FakeFfmpeg {
+ public:
+  explicit FakeFfmpeg(const std::string& script) {
+    const std::string path = folder_ / "ffmpeg";
+    WriteBytes(path, std::vector<std::uint8_t>(script.begin(), script.end()));
+    chmod(path.c_str(), 0755);
+    const char* old = std::getenv("PATH");
+    kept_ = old ? old : "";
+    setenv("PATH", ((folder_ / "") + ":" + kept_).c_str(), 1);
+  }
+  ~FakeFfmpeg() { setenv("PATH", kept_.c_str(), 1); }
+
+ private:
+  TemporaryFolder folder_;
+  std::string kept_;
+};
+
+class MovieTest : public ::testing::Test {
+ protected:
+  TemporaryFolder folder_;
+  std::string film_ = folder_ / "film.mp4";
+};
+
+TEST_F(MovieTest, TenPicturesMakeTenFrames) {
+  ASSERT_TRUE(MakeFilm(film_, 64, 48, 10));
+  EXPECT_EQ(Probe(film_, "v", "codec_name,width,height,pix_fmt,r_frame_rate,nb_read_packets"),
+            "h264,64,48,yuv420p,25/1,10");
+  EXPECT_EQ(Probe(film_, "a", "codec_name"), "");
+  EXPECT_EQ(folder_.files(), 1U) << "drafts are left behind";
+}
+
+TEST_F(MovieTest, SamePicturesMakeTheSameBytes) {
+  const std::string sound = folder_ / "sound.wav";
+  WriteWav(sound, 0.5, 0.1, 0.3);
+  ASSERT_TRUE(MakeFilm(film_, 64, 48, 12, sound));
+  ASSERT_TRUE(MakeFilm(folder_ / "again.mp4", 64, 48, 12, sound));
+  EXPECT_EQ(FileBytes(film_), FileBytes(folder_ / "again.mp4"));
+}
+
+TEST_F(MovieTest, OddSizesAreMadeEvenByRepeatingTheEdge) {
+  ASSERT_TRUE(MakeFilm(film_, 63, 47, 2));
+  EXPECT_EQ(Probe(film_, "v", "width,height,nb_read_packets"), "64,48,2");
+}
+
+TEST_F(MovieTest, ColoursSurvive) {
+  auto movie = MovieWriter::Open(film_, 32, 32, kFps);
+  ASSERT_TRUE(movie);
+  Image skin{32, 32, {}};
+  for (int i = 0; i < 32 * 32; ++i) skin.rgba.insert(skin.rgba.end(), {224, 172, 140, 255});
+  ASSERT_TRUE((*movie)->Add(skin));
+  ASSERT_TRUE((*movie)->Finish(""));
+  const std::string pixels =
+      OutputOf("ffmpeg -v error -i '" + film_ + "' -f rawvideo -pix_fmt rgb24 -");
+  ASSERT_EQ(pixels.size(), 32U * 32 * 3);
+  const std::array<int, 3> wanted{224, 172, 140};
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(static_cast<unsigned char>(pixels[c]), wanted[c], 4);
+  }
+}
+
+TEST_F(MovieTest, SoundStartsWithTheFirstPicture) {
+  const std::string sound = folder_ / "sound.wav";
+  WriteWav(sound, 1.0, 0.4, 0.6);
+  ASSERT_TRUE(MakeFilm(film_, 64, 48, 25, sound));
+  EXPECT_EQ(Probe(film_, "a", "codec_name,start_time"), "aac,0.000000");
+  EXPECT_EQ(Probe(film_, "v", "start_time,nb_read_packets"), "0.000000,25");
+  const std::string samples =
+      OutputOf("ffmpeg -v error -i '" + film_ + "' -ar 16000 -ac 1 -f s16le -");
+  std::size_t onset = 0;
+  for (std::size_t i = 0; i + 1 < samples.size() && onset == 0; i += 2) {
+    const auto value = static_cast<std::int16_t>(static_cast<unsigned char>(samples[i]) |
+                                                 static_cast<unsigned char>(samples[i + 1]) << 8);
+    if (std::abs(value) > 5000) onset = i / 2;
+  }
+  EXPECT_NEAR(static_cast<double>(onset) / 16000, 0.4, 0.004);
+}
+
+TEST_F(MovieTest, WithoutItsSoundTheSilentFilmIsKept) {
+  const auto finished = MakeFilm(film_, 64, 48, 3, folder_ / "missing.wav");
+  ASSERT_FALSE(finished);
+  EXPECT_EQ(finished.error().code, vm::Errc::kUnavailable);
+  EXPECT_NE(finished.error().text.find("missing.wav"), std::string::npos) << finished.error().text;
+  EXPECT_EQ(Probe(film_, "v", "nb_read_packets"), "3");
+  EXPECT_EQ(folder_.files(), 1U);
+}
+
+TEST_F(MovieTest, UnfinishedFilmLeavesNoFile) {
+  {
+    auto movie = MovieWriter::Open(film_, 64, 48, kFps);
+    ASSERT_TRUE(movie);
+    ASSERT_TRUE((*movie)->Add(Pattern(64, 48)));
+  }
+  EXPECT_EQ(folder_.files(), 0U);
+}
+
+TEST_F(MovieTest, EmptyFilmIsAnError) {
+  EXPECT_FALSE(MakeFilm(film_, 64, 48, 0));
+  EXPECT_EQ(folder_.files(), 0U);
+}
+
+TEST_F(MovieTest, UnusableRequestsAreRefusedAtOnce) {
+  EXPECT_EQ(MovieWriter::Open(folder_ / "a.avi", 64, 48, kFps).error().code, vm::Errc::kBadValue);
+  EXPECT_EQ(MovieWriter::Open(film_, 0, 48, kFps).error().code, vm::Errc::kBadValue);
+  EXPECT_EQ(MovieWriter::Open(film_, 64, 48, 0).error().code, vm::Errc::kBadValue);
+  EXPECT_EQ(MovieWriter::Open(folder_ / "no/such/a.mp4", 64, 48, kFps).error().code,
+            vm::Errc::kUnavailable);
+  EXPECT_EQ(folder_.files(), 0U);
+}
+
+TEST_F(MovieTest, NamesThatLookLikeOptionsOrShellAreOnlyNames) {
+  const std::string name = folder_ / "-y $(touch x) 'a' %d;.mp4";
+  ASSERT_TRUE(MakeFilm(name, 64, 48, 2));
+  EXPECT_EQ(folder_.files(), 1U);
+}
+
+TEST_F(MovieTest, MissingFfmpegIsSaidClearly) {
+  const std::string kept = std::getenv("PATH");
+  setenv("PATH", (folder_ / "").c_str(), 1);
+  const auto movie = MovieWriter::Open(film_, 64, 48, kFps);
+  setenv("PATH", kept.c_str(), 1);
+  ASSERT_FALSE(movie);
+  EXPECT_EQ(movie.error().code, vm::Errc::kUnavailable);
+  EXPECT_NE(movie.error().text.find("ffmpeg must be installed"), std::string::npos)
+      << movie.error().text;
+  EXPECT_EQ(folder_.files(), 0U);
+}
+
+TEST_F(MovieTest, ProcessKilledHalfWayIsAnErrorAndNoSignal) {
+  const FakeFfmpeg fake("#!/bin/sh\nhead -c 100000 > /dev/null\nkill -KILL $$\n");
+  const auto finished = MakeFilm(film_, 640, 480, 10);
+  ASSERT_FALSE(finished);
+  EXPECT_EQ(finished.error().code, vm::Errc::kUnavailable);
+  EXPECT_NE(finished.error().text.find("signal 9"), std::string::npos) << finished.error().text;
+  EXPECT_EQ(folder_.files(), 0U);
+}
+
+TEST_F(MovieTest, AfterAFaultEveryCallIsAnError) {
+  const FakeFfmpeg fake("#!/bin/sh\nexit 1\n");
+  auto movie = MovieWriter::Open(film_, 640, 480, kFps);
+  ASSERT_TRUE(movie);
+  while ((*movie)->Add(Pattern(640, 480))) {
+  }
+  EXPECT_FALSE((*movie)->Add(Pattern(640, 480)));
+  EXPECT_FALSE((*movie)->Finish(""));
+}
+
+TEST_F(MovieTest, LastWordsOfTheProcessAreReported) {
+  const FakeFfmpeg fake(
+      "#!/bin/sh\necho first >&2\necho 'Unknown encoder libx264' >&2\necho >&2\nexit 1\n");
+  const auto finished = MakeFilm(film_, 640, 480, 10);
+  ASSERT_FALSE(finished);
+  EXPECT_NE(finished.error().text.find("Unknown encoder libx264"), std::string::npos)
+      << finished.error().text;
+}
+
+TEST_F(MovieTest, FloodOfMessagesNeitherBlocksNorGrows) {
+  const FakeFfmpeg fake(
+      "#!/bin/sh\nhead -c 3000000 /dev/zero | tr '\\0' 'x' >&2\ncat > /dev/null\nexit 3\n");
+  const auto finished = MakeFilm(film_, 640, 480, 10);
+  ASSERT_FALSE(finished);
+  EXPECT_LT(finished.error().text.size(), 1000U);
+}
+
+}  // namespace
+}  // namespace fsm
