@@ -83,9 +83,8 @@ ModuleConfig ReadModule(const json& object, const std::string& key) {
         }},
        {"command",
         [&](const json& v, const std::string& k) {
-          module.command = v.is_string()
-                               ? std::vector<std::string>{"/bin/sh", "-c", "exec " + Text(v, k)}
-                               : Texts(v, k);
+          module.command =
+              v.is_string() ? std::vector<std::string>{"/bin/sh", "-c", Text(v, k)} : Texts(v, k);
           if (module.command.empty()) Wrong(k, v, "a program and its arguments");
         }},
        {"connect", [&](const json& v, const std::string& k) { module.connect = Text(v, k); }},
@@ -135,33 +134,117 @@ std::size_t LineAt(std::string_view text, std::size_t at) {
   return 1 + static_cast<std::size_t>(std::ranges::count(text.substr(0, at), '\n'));
 }
 
-/// The line of the deepest part of `key` that can be found in the text, going from part to part.
-std::size_t LineOf(std::string_view text, const std::string& key) {
-  std::size_t at = 0;
-  std::string part;
-  const auto advance = [&] {
-    if (part.empty()) return;
-    if (std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; })) {
-      for (int skip = std::stoi(part); skip > 0; --skip) {
-        const std::size_t close = text.find('}', at);
-        if (close != std::string_view::npos) at = close + 1;
-      }
-    } else if (const std::size_t found = text.find("\"" + part + "\"", at);
-               found != std::string_view::npos) {
-      at = found;
+/// Walks JSON text that has been parsed already, to say where a key like "modules[1].env.A" stands.
+class KeyLocator {
+ public:
+  explicit KeyLocator(std::string_view text) : text_(text) {}
+
+  /// The line of the deepest part of the path that exists.
+  std::size_t LineOf(std::string_view path) {
+    Skip();
+    std::size_t found = at_;
+    while (!path.empty()) {
+      const bool index = path.front() == '[';
+      const std::size_t end = std::min(path.find_first_of(index ? "]" : ".["), path.size());
+      const std::string part(path.substr(index ? 1 : 0, end - (index ? 1 : 0)));
+      path.remove_prefix(index ? std::min(end + 1, path.size()) : end);
+      if (path.starts_with('.')) path.remove_prefix(1);
+      if (!(index ? EnterElement(std::stoul(part)) : EnterMember(part, found))) break;
+      if (index) found = at_;
     }
-    part.clear();
-  };
-  for (const char c : key) {
-    if (c == '.' || c == '[' || c == ']') {
-      advance();
-    } else {
-      part += c;
+    return LineAt(text_, found);
+  }
+
+ private:
+  void Skip() {  // blanks and comments
+    while (at_ < text_.size()) {
+      if (text_.substr(at_).starts_with("//")) {
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      } else if (text_.substr(at_).starts_with("/*")) {
+        at_ = std::min(text_.find("*/", at_), text_.size() - 2) + 2;
+      } else if (std::string_view(" \t\r\n,:").find(text_[at_]) != std::string_view::npos) {
+        ++at_;
+      } else {
+        return;
+      }
     }
   }
-  advance();
-  return LineAt(text, at);
-}
+  std::string_view String() {
+    const std::size_t start = ++at_;
+    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
+    const std::size_t end = std::min(at_, text_.size());
+    at_ = std::min(at_ + 1, text_.size());
+    return text_.substr(start, end - start);
+  }
+  void SkipValue() {
+    int depth = 0;
+    do {
+      Skip();
+      if (at_ >= text_.size()) return;
+      const char c = text_[at_];
+      if (c == '"') {
+        String();
+      } else if (c == '{' || c == '[') {
+        ++depth;
+        ++at_;
+      } else if (c == '}' || c == ']') {
+        --depth;
+        ++at_;
+      } else {
+        at_ = std::min(text_.find_first_of(" \t\r\n,]}", at_), text_.size());
+      }
+    } while (depth > 0);
+  }
+  bool Open(char bracket) {
+    Skip();
+    if (at_ >= text_.size() || text_[at_] != bracket) return false;
+    ++at_;
+    return true;
+  }
+  /// Leaves `at_` before the member's value and `key_at` at its key.
+  bool EnterMember(const std::string& name, std::size_t& key_at) {
+    if (!Open('{')) return false;
+    for (Skip(); at_ < text_.size() && text_[at_] == '"'; Skip()) {
+      const std::size_t here = at_;
+      if (String() == name) {
+        key_at = here;
+        Skip();
+        return true;
+      }
+      SkipValue();
+    }
+    return false;
+  }
+  bool EnterElement(std::size_t index) {
+    if (!Open('[')) return false;
+    for (; index > 0; --index) SkipValue();
+    Skip();
+    return at_ < text_.size() && text_[at_] != ']';
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+/// Refuses a key written twice in one object, which nlohmann-json would take without a word.
+class DuplicateKeys {
+ public:
+  bool operator()(int depth, json::parse_event_t event, json& parsed) {
+    const auto level = static_cast<std::size_t>(depth);
+    if (event == json::parse_event_t::object_start) {
+      seen_.resize(level + 1);
+      seen_[level].clear();
+    } else if (event == json::parse_event_t::key) {
+      if (!seen_[level - 1].insert(parsed.get<std::string>()).second) {
+        throw ConfigFault{parsed.get<std::string>(), "this key is written twice"};
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::vector<std::set<std::string>> seen_;
+};
 
 }  // namespace
 
@@ -169,7 +252,9 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
                            const std::string& folder) {
   json root;
   try {
-    root = json::parse(text, nullptr, true, true);
+    root = json::parse(text, DuplicateKeys(), true, true);
+  } catch (const ConfigFault& fault) {
+    return Fail(Errc::kBadValue, origin + ": " + fault.key + ": " + fault.text);
   } catch (const json::parse_error& error) {
     const std::string what = error.what();
     const std::size_t colon = what.find(": ");
@@ -218,8 +303,9 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
           }}});
     return config;
   } catch (const ConfigFault& fault) {
-    return Fail(Errc::kBadValue, origin + " line " + std::to_string(LineOf(text, fault.key)) +
-                                     ": " + fault.key + ": " + fault.text);
+    return Fail(Errc::kBadValue, origin + " line " +
+                                     std::to_string(KeyLocator(text).LineOf(fault.key)) + ": " +
+                                     fault.key + ": " + fault.text);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "agent_manager/hub.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "vm_protocol/core/start_time.h"
@@ -17,11 +18,21 @@ using vm::Result;
 namespace {
 
 constexpr PeerKey kHub = 0;
+constexpr vm::Time kAnswerLimit =
+    std::chrono::minutes(2);        // for a module to answer a peer's request
 constexpr int kClockExchanges = 5;  // when a module comes; the quickest one counts
 constexpr int kComplaintsPerSecond = 10;
 
 bool IsReport(const Message& message) {
   return message.command == Command::kRep || message.command == Command::kTell;
+}
+
+/// The hub's own tags: "h" and a number.
+std::string Tag(unsigned long number) { return "h" + std::to_string(number); }
+unsigned long NumberOf(std::string_view tag) {
+  unsigned long number = 0;
+  if (tag.starts_with('h')) std::from_chars(tag.data() + 1, tag.data() + tag.size(), number);
+  return number;
 }
 
 std::string SlotOf(const Message& request) {
@@ -35,6 +46,7 @@ struct Hub::Pending {
   PeerKey asker = kHub;
   Message request;
   OnAnswer done;
+  vm::TimerId limit = 0;
   bool members_seen = false;  // a group's members have come
 };
 
@@ -46,7 +58,7 @@ struct Hub::Peer {
   std::unique_ptr<Link> link;
   bool probing = false;
   std::deque<Pending> waiting;                        // said before it was known how to say it
-  std::map<std::string, Pending> pending;             // by our tag
+  std::map<unsigned long, Pending> pending;           // by the number in our tag
   std::map<std::string, std::vector<Pending>> asked;  // original dialect: inq, by slot
   std::map<std::string, vm::TimerId> held;            // original dialect: starts held back, by slot
   ClockState clock;
@@ -122,6 +134,7 @@ void Hub::Detach(PeerKey key, const std::string& reason) {
   peer->link->Close();
   const Error gone{Errc::kUnavailable, "@" + peer->name + " has gone (" + reason + ")", 0};
   const auto fail = [&](const Pending& pending) {
+    clock_.Cancel(pending.limit);
     AnswerTo(pending.asker, peer->name, pending.request, std::unexpected(gone), pending.done);
   };
   for (const auto& [tag, pending] : peer->pending) fail(pending);
@@ -136,8 +149,10 @@ void Hub::AddInternal(vm::SlotMachine& machine, std::vector<std::string> aliases
   for (std::string& alias : aliases) internal_[std::move(alias)] = &machine;
   machine.set_output([this, name = machine.module_name()](PeerKey to, const Message& said) {
     Message message = said;
+    // Only our own questions are asked in nobody's name, so a peer's tag can never be taken for
+    // one.
     if (const auto pending = internal_pending_.find(message.tag);
-        !message.tag.empty() && pending != internal_pending_.end()) {
+        to == vm::kEveryone && pending != internal_pending_.end()) {
       const OnAnswer done = std::move(pending->second.second);
       internal_pending_.erase(pending);
       const bool refused = message.slot.ends_with(".error");
@@ -260,13 +275,32 @@ void Hub::Forward(Peer& module, Message message, PeerKey asker, OnAnswer done) {
     const auto oldest = module.pending.begin();
     const Pending dropped = std::move(oldest->second);
     module.pending.erase(oldest);
+    clock_.Cancel(dropped.limit);
     AnswerTo(dropped.asker, module.name, dropped.request,
              Fail(Errc::kTimeout, "@" + module.name + " leaves too many requests unanswered"),
              dropped.done);
   }
-  const std::string tag = "h" + std::to_string(++last_tag_);
-  module.pending[tag] = {asker, message, std::move(done)};
-  SendBare(module, std::move(message), tag);
+  const unsigned long number = ++last_tag_;
+  const bool limited = !done;  // macros and the clock have their own limits
+  module.pending[number] = {asker, message, std::move(done)};
+  if (limited) {
+    module.pending[number].limit =
+        clock_.After(kAnswerLimit, [this, key = module.key, number] { GiveUp(key, number); });
+  }
+  SendBare(module, std::move(message), Tag(number));
+}
+
+void Hub::GiveUp(PeerKey key, unsigned long number) {
+  Peer* module = ByKey(key);
+  if (module == nullptr) return;
+  const auto found = module->pending.find(number);
+  if (found == module->pending.end()) return;
+  const Pending pending = std::move(found->second);
+  module->pending.erase(found);
+  AnswerTo(pending.asker, module->name, pending.request,
+           Fail(Errc::kTimeout,
+                "@" + module->name + " has not answered for " + vm::FormatMs(kAnswerLimit) + " ms"),
+           pending.done);
 }
 
 void Hub::SendBare(Peer& module, Message message, const std::string& tag) {
@@ -327,7 +361,7 @@ void Hub::AnswerTo(PeerKey asker, const std::string& from, const Message& reques
 
 bool Hub::ResolvePending(Peer& sender, const Message& message) {
   if (message.tag.empty()) return false;
-  const auto found = sender.pending.find(message.tag);
+  const auto found = sender.pending.find(NumberOf(message.tag));
   if (found == sender.pending.end()) return true;  // late, or not ours: nobody waits for it
   const std::string slot = SlotOf(found->second.request);
   const bool refused = message.slot == slot + ".error" || message.slot == "Error";
@@ -343,6 +377,7 @@ bool Hub::ResolvePending(Peer& sender, const Message& message) {
   }
   const Pending pending = std::move(found->second);
   sender.pending.erase(found);
+  clock_.Cancel(pending.limit);
   if (!refused) {
     // A group has no value of its own; its tagged end is only for those who asked with a tag.
     if (pending.members_seen && pending.request.tag.empty() && !pending.done) return true;
@@ -412,16 +447,16 @@ void Hub::Report(Peer& sender, Message message) {
 
 void Hub::Probe(Peer& peer) {
   peer.probing = true;
-  const std::string tag = "h" + std::to_string(++last_tag_);
+  const unsigned long number = ++last_tag_;
   Message question = vm::Inq("Clock");
-  peer.pending[tag] = {
+  peer.pending[number] = {
       kHub, question,
       [this, key = peer.key, asked_at = clock_.Now()](const Result<std::string>& value) {
         Peer* answering = ByKey(key);
         if (answering == nullptr || !answering->probing) return;
         BecomeModern(*answering, asked_at, value);
       }};
-  question.tag = tag;
+  question.tag = Tag(number);
   peer.link->Send(vm::FormatMessage(question));
 }
 
@@ -522,10 +557,10 @@ std::vector<PeerKey> Hub::ModernModules() const {
 void Hub::AskClock(PeerKey key, vm::Time grant, OnAnswer done) {
   Peer* peer = ByKey(key);
   if (peer == nullptr) return;
-  const std::string tag = "h" + std::to_string(++last_tag_);
+  const unsigned long number = ++last_tag_;
   Message request = vm::Set("Clock", vm::FormatMs(grant));
-  peer->pending[tag] = {kHub, request, std::move(done)};
-  request.tag = tag;
+  peer->pending[number] = {kHub, request, std::move(done)};
+  request.tag = Tag(number);
   dirty_.erase(key);
   peer->granted = grant;
   peer->link->Send(vm::FormatMessage(request));
@@ -557,7 +592,7 @@ Result<void> Hub::Rename(PeerKey key, const std::string& name) {
   if (!vm::IsModuleName(name))
     return Fail(Errc::kBadValue, "found '" + name + "', expected letters, digits, '_' or '-'");
   if (name == peer->name) return {};
-  if (names_.contains(name) || internal_.contains(name))
+  if (names_.contains(name) || internal_.contains(name) || reserved_.contains(name))
     return Fail(Errc::kBusy, "the name @" + name + " is taken");
   names_.erase(peer->name);
   names_[name] = key;

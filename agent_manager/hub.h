@@ -69,6 +69,8 @@ class Hub {
   std::vector<std::string> Names() const;
   std::string NameOf(PeerKey peer) const;
   vm::Result<void> Rename(PeerKey peer, const std::string& name);
+  /// Names of the configuration: kept for their modules, also while those are away.
+  void Reserve(std::set<std::string> names) { reserved_ = std::move(names); }
   void Subscribe(PeerKey peer, const std::set<std::string>& modules);  ///< "*" = all
 
   /// Reports (`rep`, `tell`) without receiver also go to peers of these names.
@@ -113,6 +115,7 @@ class Hub {
   void Deliver(const std::string& sender_name, PeerKey asker, const std::string& receiver,
                const vm::Message& message, OnAnswer done);
   void Forward(Peer& module, vm::Message message, PeerKey asker, OnAnswer done);
+  void GiveUp(PeerKey module, unsigned long number);
   void SendBare(Peer& module, vm::Message message, const std::string& tag);
   bool HoldStart(Peer& module, vm::Message& message);
   void ForwardOriginal(Peer& module, vm::Message message, PeerKey asker, const OnAnswer& done);
@@ -140,6 +143,7 @@ class Hub {
   std::map<std::string, std::pair<PeerKey, OnAnswer>>
       internal_pending_;  // our tag towards an internal machine
   std::set<std::string> broadcast_;
+  std::set<std::string> reserved_;
   std::set<PeerKey> dirty_;
   OnReport on_report_;
   OnPresence on_presence_;

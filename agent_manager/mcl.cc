@@ -16,8 +16,9 @@ using vm::Result;
 
 namespace {
 
-constexpr vm::Time kStartMargin = milliseconds(25);  // for a machine that is busy at that moment
-constexpr vm::Time kLockstepMargin = milliseconds(10);
+constexpr vm::Time kStartMargin =
+    milliseconds(60);  // room for the mouth to lead, and for a busy machine
+constexpr vm::Time kLockstepMargin = milliseconds(60);
 
 /// Takes `<emotion type="HAPPY" value="80">text</emotion>` apart, where a text starts with it.
 void TakeEmotion(Variables& variables) {
@@ -66,8 +67,12 @@ struct Mcl::Run {
   }
 };
 
-Mcl::Mcl(vm::Scheduler& clock, Hub& hub, RemoveFile remove_file)
-    : clock_(clock), hub_(hub), remove_file_(std::move(remove_file)), slots_("AM-MCL") {
+Mcl::Mcl(vm::Scheduler& clock, Hub& hub, ReadFile read_file, RemoveFile remove_file)
+    : clock_(clock),
+      hub_(hub),
+      read_file_(std::move(read_file)),
+      remove_file_(std::move(remove_file)),
+      slots_("AM-MCL") {
   DeclareStatusSlots();
   slots_.set_definition_hook([this](const Message& message, vm::PeerId, const Reply& reply) {
     return OnDefinition(message, reply);
@@ -182,9 +187,18 @@ bool Mcl::OnDefinition(const Message& message, const Reply& reply) {
     defined ? reply.Ok(message.value) : reply.Fail(defined.error());
     return true;
   }
-  if (!message.value.starts_with('[') && !message.value.starts_with('{'))
+  std::string text = message.value;
+  if (message.relation == vm::Relation::kFromFile) {
+    auto read = read_file_(message.value);
+    if (!read) {
+      reply.Fail(read.error());
+      return true;
+    }
+    text = std::move(*read);
+  } else if (!text.starts_with('[') && !text.starts_with('{')) {
     return false;  // a plain user slot
-  auto macro = ParseMacro(message.slot, message.value);
+  }
+  auto macro = ParseMacro(message.slot, text);
   if (macro) macro->name = message.slot;
   const auto defined =
       macro ? Define(std::move(*macro)) : Result<void>(std::unexpected(macro.error()));
@@ -209,7 +223,7 @@ void Mcl::Start(const std::string& name, const vm::SetValue& value, const Reply&
   if (!macro.stops_on.empty() && value.word(0) == macro.stops_on) {
     if (running == nullptr) {  // modules may have been started past us: stop them all the same
       for (const MacroStep& step : macro.on_stop) {
-        if (step.kind == MacroStep::Kind::kSend &&
+        if ((step.kind == MacroStep::Kind::kSend || step.kind == MacroStep::Kind::kRequest) &&
             hub_.IsPresent(vm::ParseMessage(step.line)->to.front())) {
           hub_.Ask("AM-MCL", *vm::ParseMessage(step.line), [](const Result<std::string>&) {});
         }
@@ -354,7 +368,9 @@ bool Mcl::Send(Run& run, const MacroStep& step) {
     if (asking == nullptr || asking->asking != number) return;
     asking->asking.reset();
     clock_.Cancel(std::exchange(asking->timer, 0));
-    if (!result) return Fail(*asking, {result.error().code, where + ": " + result.error().text, 0});
+    if (!result && asking->phase == Run::Phase::kSteps) {  // stopping goes on regardless
+      return Fail(*asking, {result.error().code, where + ": " + result.error().text, 0});
+    }
     Advance(*asking);
   };
   run.timer = clock_.After(step.limit, [answered, limit = step.limit] {

@@ -23,7 +23,9 @@ namespace am {
 class Mcl {
  public:
   using RemoveFile = std::function<void(const std::string& path)>;
-  Mcl(vm::Scheduler& clock, Hub& hub, RemoveFile remove_file);
+  /// Reads the file of `def NAME < FILE`.
+  using ReadFile = std::function<vm::Result<std::string>(const std::string& path)>;
+  Mcl(vm::Scheduler& clock, Hub& hub, ReadFile read_file, RemoveFile remove_file);
   ~Mcl();
   Mcl(const Mcl&) = delete;
 
@@ -62,6 +64,7 @@ class Mcl {
 
   vm::Scheduler& clock_;
   Hub& hub_;
+  ReadFile read_file_;
   RemoveFile remove_file_;
   vm::SlotMachine slots_;
   std::map<std::string, std::shared_ptr<const Macro>> macros_;

@@ -30,6 +30,8 @@ constexpr milliseconds kMeasureEvery{10000};
 constexpr vm::Time kVirtualStart =
     milliseconds(10000);  // past every module's own clock at its start
 constexpr milliseconds kFlushPatience{2000};
+constexpr milliseconds kGrantPatience{60000};  // lockstep: for a module to do what is due
+constexpr vm::Time kQuietAgain = milliseconds(30);
 
 std::string ReadWhole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -38,6 +40,14 @@ std::string ReadWhole(const std::string& path) {
     throw std::runtime_error("cannot read '" + path + "'");
   }
   return text.str();
+}
+
+Result<std::string> ReadFileResult(const std::string& path) {
+  try {
+    return ReadWhole(path);
+  } catch (const std::runtime_error& error) {
+    return vm::Fail(Errc::kUnavailable, error.what());
+  }
 }
 
 }  // namespace
@@ -51,13 +61,15 @@ Session::Session(const Config& config, Options options)
       })),
       hub_(clock_, log_),
       slots_("AM"),
-      mcl_(clock_, hub_, [](const std::string& path) { std::remove(path.c_str()); }),
+      mcl_(clock_, hub_, ReadFileResult,
+           [](const std::string& path) { std::remove(path.c_str()); }),
       supervisor_(io_, hub_,
                   [this](const std::string& text) {
                     std::cerr << "agent_manager: " << text << std::endl;
                     static_cast<void>(this);
                   }),
-      probe_timer_(io_) {
+      probe_timer_(io_),
+      grant_timer_(io_) {
   if (!config.log.empty()) {
     log_file_.open(config.log, std::ios::trunc);
     if (!log_file_) throw std::runtime_error("cannot write the session log '" + config.log + "'");
@@ -79,6 +91,9 @@ Session::Session(const Config& config, Options options)
     if (!present) return;
     next_.clear();
   });
+  std::set<std::string> names;
+  for (const ModuleConfig& module : config.modules) names.insert(module.name);
+  hub_.Reserve(std::move(names));
   hub_.set_broadcast({config.broadcast.begin(), config.broadcast.end()});
   DeclareSlots();
   hub_.AddInternal(slots_);
@@ -90,13 +105,7 @@ Session::Session(const Config& config, Options options)
       std::cerr << "agent_manager: error: " << vm::FormatError(error)
                 << (line.empty() ? "" : " (in: " + line + ")") << std::endl;
     });
-    machine->set_read_file([](const std::string& path) -> Result<std::string> {
-      try {
-        return ReadWhole(path);
-      } catch (const std::runtime_error& error) {
-        return vm::Fail(Errc::kUnavailable, error.what());
-      }
-    });
+    machine->set_read_file(ReadFileResult);
   }
   auto built_in = ParseMacros(embedded::built_in_macros());
   if (!built_in) throw std::runtime_error("built-in macros: " + built_in.error().text);
@@ -223,6 +232,7 @@ void Session::FeedConsole() {
   while (!console_lines_.empty() && !timed_wait_ && !idle_wait_ && Started()) {
     const std::string line = std::move(console_lines_.front());
     console_lines_.pop_front();
+    quiet_ = false;
     hub_.OnLine(console_, std::string_view(line));
   }
   // Back-pressure: a script of any length may be piped in.
@@ -237,7 +247,6 @@ void Session::FeedConsole() {
 
 void Session::LoadReplay(const std::string& path) {
   std::istringstream text(ReadWhole(path));
-  std::vector<LogEntry> entries;
   std::set<std::string> modules{"AM", "AM-MCL", "FS-MCL"};
   for (const ModuleConfig& module : config_.modules) modules.insert(module.name);
   std::size_t number = 0;
@@ -250,33 +259,72 @@ void Session::LoadReplay(const std::string& path) {
                                entry.error().text);
     const auto message = vm::ParseMessage(entry->line);
     // What people and clients said is said again; what modules answered then, they answer now.
+    const bool about_the_client = message && (message->slot == "Wait" || message->slot == "Name" ||
+                                              message->slot == "Subscribe");
     if (message && !modules.contains(entry->sender) && message->command != vm::Command::kRep &&
-        message->slot != "Wait")
-      entries.push_back(*entry);
+        !about_the_client) {
+      replay_.push_back(*entry);
+    }
   }
-  if (entries.empty()) return;
-  const vm::Time first = entries.front().time;
-  for (const LogEntry& entry : entries) {
-    ++replay_pending_;
+  replay_pending_ = replay_.size();
+}
+
+void Session::StartReplay() {
+  if (replay_.empty()) return;
+  class Nowhere final : public Link {  // what is answered is in the session's log
+    void Send(std::string_view) override {}
+    void Close() override {}
+  };
+  const auto key =
+      hub_.Attach(std::make_unique<Nowhere>(), PeerKind::kClient, "REPLAY", Dialect::kAuto);
+  if (!key) throw std::runtime_error("replay: " + key.error().text);
+  const vm::Time first = replay_.front().time;
+  for (const LogEntry& entry : replay_) {
     const auto offset =
         std::chrono::duration_cast<vm::Time>((entry.time - first) / options_.replay_speed);
-    clock_.After(offset, [this, line = entry.line] {
+    clock_.After(offset, [this, peer = *key, line = entry.line] {
       --replay_pending_;
-      hub_.OnLine(console_, std::string_view(line));
+      quiet_ = false;
+      hub_.OnLine(peer, std::string_view(line));
     });
   }
 }
 
 bool Session::Started() const {
-  if (!hub_.Probing().empty()) return false;
-  return std::ranges::all_of(config_.modules, [this](const ModuleConfig& module) {
-    return !module.connect.empty() || hub_.IsReady(module.name) || started_once_;
-  });
+  if (started_once_) return hub_.Probing().empty();
+  return hub_.Probing().empty() &&
+         std::ranges::all_of(config_.modules, [this](const ModuleConfig& module) {
+           return hub_.IsReady(module.name) || !supervisor_.IsExpected(module.name);
+         });
 }
 
 bool Session::SomethingGoesOn() const {
   if (mcl_.Busy() || hub_.HasHeld() || replay_pending_ > 0) return true;
+  if (clock_.real()) return !quiet_;
   return std::ranges::any_of(next_, [](const auto& entry) { return entry.second.busy; });
+}
+
+void Session::AskQuiet() {
+  // Only asked when somebody waits for it. Each module answers after all that was said to it
+  // before.
+  const bool wanted = idle_wait_ || console_ended_ || (options_.replay && replay_pending_ == 0);
+  if (quiet_ || asking_quiet_ || !wanted) return;
+  asking_quiet_ = true;
+  const auto modules = hub_.ModernModules();
+  auto round = std::make_shared<QuietRound>(QuietRound{modules.size() + 1, false});
+  const auto answered = [this, round](const Result<std::string>& answer) {
+    round->busy = round->busy || (answer && *answer == "BUSY");
+    if (--round->open > 0) return;
+    clock_.After(round->busy ? kQuietAgain : vm::Time(0), [this, round] {
+      asking_quiet_ = false;
+      quiet_ = !round->busy && !mcl_.Busy();
+      AskQuiet();
+    });
+  };
+  for (const PeerKey module : modules) {
+    hub_.Ask("AM", vm::To(hub_.NameOf(module), vm::Inq("Clock.busy")), answered);
+  }
+  answered("IDLE");
 }
 
 void Session::CheckIdleWait() {
@@ -288,6 +336,9 @@ void Session::CheckIdleWait() {
 
 bool Session::Over() const {
   if (stop_) return true;
+  if (options_.replay && !options_.console) {
+    return started_once_ && replay_pending_ == 0 && !SomethingGoesOn();
+  }
   if (options_.serve || !options_.console) return false;
   return console_ended_ && console_lines_.empty() && !timed_wait_ && !idle_wait_ &&
          !SomethingGoesOn();
@@ -295,16 +346,30 @@ bool Session::Over() const {
 
 void Session::GrantAll(vm::Time time) {
   for (const PeerKey module : hub_.ModernModules()) {
-    ++grants_open_;
+    open_grants_.insert(module);
     hub_.AskClock(module, time, [this, module](const Result<std::string>& answer) {
       OnClockAnswer(module, answer);
     });
   }
   granted_ = time;
+  // Real time: the session's own clock stands until all have answered.
+  grant_timer_.expires_after(kGrantPatience);
+  grant_timer_.async_wait([this](const auto& error) {
+    if (error) return;
+    const auto late = open_grants_;
+    for (const PeerKey module : late) {
+      const std::string name = hub_.NameOf(module);
+      ++errors_;
+      std::cerr << "agent_manager: @" << name << " has not followed the clock for "
+                << kGrantPatience.count() << " ms, it is ended" << std::endl;
+      if (!supervisor_.Kill(name)) hub_.Detach(module, "does not follow the clock");
+    }
+  });
 }
 
 void Session::OnClockAnswer(PeerKey module, const Result<std::string>& answer) {
-  --grants_open_;
+  open_grants_.erase(module);
+  if (open_grants_.empty()) grant_timer_.cancel();
   if (!answer) {
     next_.erase(module);
     return;
@@ -320,7 +385,7 @@ void Session::OnClockAnswer(PeerKey module, const Result<std::string>& answer) {
 
 void Session::StepVirtual() {
   // Only when nothing is on its way: all grants answered, nothing due here, nobody newly spoken to.
-  if (grants_open_ > 0 || !Started()) {
+  if (!open_grants_.empty() || !Started()) {
     io_.run_one();
     return;
   }
@@ -395,9 +460,11 @@ int Session::Run() {
   while (!Over()) {
     if (!started_once_ && Started()) {
       started_once_ = true;
+      StartReplay();
       FeedConsole();
     }
     if (clock_.real()) {
+      AskQuiet();
       CheckIdleWait();
       if (!Over()) io_.run_one();
     } else {

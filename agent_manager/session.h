@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,10 +50,12 @@ class Session {
   void FeedConsole();
   void AskWait(const vm::SetValue& value, const vm::Reply& reply);
   void LoadReplay(const std::string& path);
-  void ScheduleReplay();
+  void StartReplay();
   bool Started() const;
   bool SomethingGoesOn() const;
   void CheckIdleWait();
+  /// Real clock: finds out whether the modules are idle, while somebody wants to know.
+  void AskQuiet();
   bool Over() const;
   // Lockstep: see docs/architecture.md "Time".
   void StepVirtual();
@@ -62,6 +65,10 @@ class Session {
   /// A module that has been asked for a whole start_limit without an answer is one of the original.
   void EndProbesInTime(const std::set<PeerKey>& asked_before);
 
+  struct QuietRound {
+    std::size_t open;
+    bool busy;
+  };
   struct NextEvent {
     std::optional<vm::Time> at;
     bool busy = false;
@@ -84,12 +91,15 @@ class Session {
   bool console_ended_ = false;
   std::optional<vm::Reply> idle_wait_;
   bool timed_wait_ = false;
-  int replay_pending_ = 0;
-  boost::asio::steady_timer probe_timer_;
+  std::vector<LogEntry> replay_;
+  std::size_t replay_pending_ = 0;
+  boost::asio::steady_timer probe_timer_, grant_timer_;
   std::map<PeerKey, NextEvent> next_;
-  std::size_t grants_open_ = 0;
+  std::set<PeerKey> open_grants_;
   vm::Time granted_{-1};
   bool started_once_ = false;
+  bool quiet_ = false;  // real clock: all modules said IDLE after the last line that was said
+  bool asking_quiet_ = false;
   bool stop_ = false;
   int errors_ = 0;
 };

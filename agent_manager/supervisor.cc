@@ -1,6 +1,7 @@
 #include "agent_manager/supervisor.h"
 
 #include <fcntl.h>
+#include <linux/close_range.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -130,6 +131,7 @@ void Supervisor::Spawn(Child& child) {
     dup2(input.read_end, STDIN_FILENO);
     dup2(output.write_end, STDOUT_FILENO);
     dup2(errors.write_end, STDERR_FILENO);
+    close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
     signal(SIGPIPE, SIG_DFL);
     sigset_t none;
     sigemptyset(&none);
@@ -253,6 +255,19 @@ void Supervisor::MaybeRestart(Child& child, bool failed) {
 
 bool Supervisor::Restarting() const {
   return std::ranges::any_of(children_, [](const auto& child) { return child->restarting; });
+}
+
+bool Supervisor::IsExpected(const std::string& name) const {
+  return std::ranges::any_of(children_, [&](const auto& child) {
+    return child->config.name == name && (child->pid > 0 || child->restarting);
+  });
+}
+
+bool Supervisor::Kill(const std::string& name) {
+  for (const auto& child : children_) {
+    if (child->config.name == name && child->pid > 0) return kill(child->pid, SIGKILL) == 0;
+  }
+  return false;
 }
 
 std::string Supervisor::Summary() const {

@@ -43,6 +43,10 @@ class Supervisor {
   void StopAll(std::function<void()> done);
   /// Modules that are being restarted now, or have not been probed.
   bool Restarting() const;
+  /// False for a module that has ended and will not come back by itself, or that is connected to.
+  bool IsExpected(const std::string& name) const;
+  /// Ends a module by force, as if it had crashed. False if it is no process of ours.
+  bool Kill(const std::string& name);
   /// "SSM RUNNING 1234, FSM RESTARTING" for people.
   std::string Summary() const;
 

@@ -9,6 +9,7 @@ packages=(
   libgtest-dev libbenchmark-dev
   libosmesa6-dev libglfw3-dev libgl-dev libpng-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev
+  xvfb
 )
 
 missing=()

@@ -323,7 +323,7 @@ void RecognizerModule::Take(const std::string& text, const vm::Reply& reply) {
   if (inputs_.size() == 1) Hear(inputs_.front());
 }
 
-void RecognizerModule::Hear(Input input) {
+void RecognizerModule::Hear(const Input& input) {
   if (no_input_timer_ != 0) scheduler_.Cancel(std::exchange(no_input_timer_, 0));
   written_ = Pieces(input.text);
   heard_since_ = scheduler_.Now();

@@ -58,7 +58,7 @@ class RecognizerModule final : public vm::Module {
   void StartListening();
   void StopListening();
   void Take(const std::string& text, const vm::Reply& reply);
-  void Hear(Input input);
+  void Hear(const Input& input);
   void HearWord(std::size_t count);
   void Finish();
   void Recognize(const std::string& text);

@@ -21,7 +21,7 @@ std::vector<std::string> WordsOf(std::string_view text);
 /// Limits: kMaxBytes, kMaxDepth; matching takes time in proportion to grammar times input.
 class WordGrammar {
  public:
-  static constexpr std::size_t kMaxBytes = 16 * 1024;
+  static constexpr std::size_t kMaxBytes = std::size_t{16} * 1024;
   static constexpr int kMaxDepth = 32;
 
   /// Errors: kSyntax with the column, kTooLong, kLimit (nesting).

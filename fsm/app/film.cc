@@ -1,6 +1,11 @@
 #include "fsm/app/film.h"
 
+#include <limits>
+
 namespace fsm {
+namespace {
+constexpr long kMostRepeatsAtOnce = 4;
+}
 
 Film::Film(vm::Scheduler& clock, Studio& studio, Draw draw, OnFailure on_failure)
     : clock_(clock),
@@ -34,7 +39,8 @@ void Film::Arm() {
 
 void Film::Tick() {
   timer_ = 0;
-  if (auto added = AddUpTo(clock_.Now()); !added) {
+  // A slow encoder must not keep the module from its input: the rest comes right after that.
+  if (auto added = AddUpTo(clock_.Now(), kMostRepeatsAtOnce); !added) {
     writer_.reset();
     on_failure_(added.error());
     return;
@@ -42,9 +48,11 @@ void Film::Tick() {
   Arm();
 }
 
-vm::Result<void> Film::AddUpTo(vm::Time now) {
+vm::Result<void> Film::AddUpTo(vm::Time now, long most_repeats) {
   // Those whose successor is due as well are too late to be drawn.
+  const long first = next_;
   while (next_ > 0 && series_.TimeOf(next_ + 1) <= now) {
+    if (next_ - first == most_repeats) return {};
     if (auto added = writer_->Add(last_); !added) return added;
     ++next_;
     ++repeated_;
@@ -61,9 +69,10 @@ vm::Result<Film::Report> Film::Stop(const std::string& sound) {
   timer_ = 0;
   // Frames that were due before now belong to the film; the one due right now does not, but a film
   // has at least one.
+  const vm::Time stop = clock_.Now();
   vm::Result<void> added;
-  while (added && (next_ == 0 || series_.TimeOf(next_) < clock_.Now())) {
-    added = AddUpTo(clock_.Now() - vm::Time(1));
+  while (added && (next_ == 0 || series_.TimeOf(next_) < stop)) {
+    added = AddUpTo(stop - vm::Time(1), std::numeric_limits<long>::max());
   }
   Report report{path_, next_, repeated_};
   const auto writer = std::move(writer_);

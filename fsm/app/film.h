@@ -39,7 +39,7 @@ class Film {
  private:
   void Arm();
   void Tick();
-  vm::Result<void> AddUpTo(vm::Time now);
+  vm::Result<void> AddUpTo(vm::Time now, long most_repeats);
 
   vm::Scheduler& clock_;
   Studio& studio_;

@@ -1,7 +1,9 @@
 // The face synthesis module: lines on stdin or a socket in, a moving face out.
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -107,6 +109,9 @@ int main(int argc, char** argv) {
            if (!config) throw std::runtime_error(config.error().text);
            options.module.config = std::move(*config);
            options.module.announce_config = true;
+         }
+         if (!options.position.empty() && WindowWanted(options)) {
+           std::cerr << "fsm: notice: --position is left to the window manager\n";
          }
          return std::make_unique<Fsm>(clock, StudioOptions(options), options.module);
        }});

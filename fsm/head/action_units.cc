@@ -149,6 +149,7 @@ UnitEffects ActionUnits::Effects(const SidedUnits& units) const {
 
 glm::vec3 ActionUnits::Motion(const Field& field, const Flesh& flesh, bool mirror) {
   const float x = mirror ? -flesh.domain.x : flesh.domain.x;
+  if (std::abs(flesh.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right together make the whole.
   const float own_side = SmoothStep(-7, 7, x);
   if (own_side <= 0) return glm::vec3(0);

@@ -38,8 +38,8 @@ class ActionUnits {
   explicit ActionUnits(const Table& table);
 
   const std::vector<Field>& fields() const { return fields_; }
-  /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops stretching),
-  /// and corrected for units that act together. Not-a-number counts as 0.
+  /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
+  /// stretching), and corrected for units that act together. Not-a-number counts as 0.
   SidedUnits Combine(const FaceState& state) const;
   UnitEffects Effects(const SidedUnits& units) const;
   /// Motion of one left-side field at a flesh vertex of either half; `mirror` for the right side.

@@ -82,7 +82,7 @@ glm::vec3 MouthAnatomy::Red(int side, float x, float part) const {
   const float thickness = std::abs(height);
   const float fade = thickness / std::abs(BorderY(side, 0));
   const float border_z = (side > 0 ? border_z_upper_ : border_z_lower_) * std::min(1.0f, fade);
-  const float full = (side > 0 ? upper_full_ : lower_full_)(part) * thickness;
+  const float full = (side > 0 ? upper_full_ : lower_full_)(part)*thickness;
   return {x, LineY(x) + height * part + 0.12f * full * static_cast<float>(side) * (1 - part),
           LineZ(x) + border_z * part + full};
 }

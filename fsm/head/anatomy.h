@@ -60,7 +60,8 @@ class MouthAnatomy {
   float border_z_upper_ = 0, border_z_lower_ = 0;
 };
 
-/// A curve from two rows of a table, `x_key` and `y_key`; throws naming the line if they do not match.
+/// A curve from two rows of a table, `x_key` and `y_key`; throws naming the line if they do not
+/// match.
 Curve ReadCurve(const Table& table, std::string_view x_key, std::string_view y_key);
 
 }  // namespace fsm

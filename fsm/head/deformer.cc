@@ -52,8 +52,9 @@ void Deformer::AddMouthFields(const MouthAnatomy& mouth) {
 
     // The corner's field: linear along the lips, fading into the cheek.
     const float height = std::abs(f.domain.y - line);
-    const float corner = (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
-                         SmoothStep(24, 0, height) * f.free;
+    const float corner =
+        (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
+        SmoothStep(24, 0, height) * f.free;
     add(8, i, {side_x * corner, 0, 0});
     add(9, i, {0, corner, 0});
     add(10, i, {0, 0, corner});
@@ -105,7 +106,8 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
     if (upper < lower) upper = lower = 0.5f * (upper + lower);
     upper += ask.close * (lid.meet_angle - upper);
     lower += ask.close * (lid.meet_angle - lower);
-    const float turn = lid.upper * (upper - lid.upper_angle) + lid.lower * (lower - lid.lower_angle);
+    const float turn =
+        lid.upper * (upper - lid.upper_angle) + lid.lower * (lower - lid.lower_angle);
     if (turn == 0) continue;
     const float c = std::cos(turn);
     const float s = std::sin(turn);
@@ -117,8 +119,8 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
 }
 
 void Deformer::CloseLips(const Pose& pose, glm::vec3* out) const {
-  // Upper and lower lip share the way to each other 0.4 : 0.6. Lips that would cross are pushed back
-  // to touch; a seal takes away the rest of the gap in all directions.
+  // Upper and lower lip share the way to each other 0.4 : 0.6. Lips that would cross are pushed
+  // back to touch; a seal takes away the rest of the gap in all directions.
   constexpr float kUpperShare = 0.4f;
   std::array<glm::vec3, 64> correction{};
   for (std::size_t k = 0; k < seam_.size(); ++k) {

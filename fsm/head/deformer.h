@@ -58,8 +58,8 @@ class Deformer {
   };
   struct LidVertex {
     std::uint32_t vertex;
-    int side;  // 0 right, 1 left
-    float upper, lower;          // part in each lid's turn
+    int side;            // 0 right, 1 left
+    float upper, lower;  // part in each lid's turn
     float upper_angle, lower_angle, meet_angle, opening;
     float axis_y, axis_z;
   };

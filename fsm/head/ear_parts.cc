@@ -14,16 +14,15 @@ void BuildEars(HeadMesh& mesh) {
   // over its top and back down to the lobe. Across, the height over the skull makes helix, groove,
   // antihelix and concha.
   constexpr float kPi = std::numbers::pi_v<float>;
-  constexpr int kAround = 26;
+  constexpr int kAround = 20;
   struct Ring {
     float part, lift, open;  // of the outline's radius; off the skull in mm
   };
-  constexpr std::array kRings = {Ring{0.05f, -3.5f, 0.2f}, Ring{0.22f, -3.0f, 0.35f},
-                                 Ring{0.40f, -0.5f, 0.55f}, Ring{0.55f, 4.5f, 0.95f},
-                                 Ring{0.68f, 5.4f, 0.9f},  Ring{0.80f, 5.0f, 0.65f},
-                                 Ring{0.90f, 8.2f, 0.95f}, Ring{1.0f, 8.6f, 1.0f},
-                                 Ring{1.03f, 6.4f, 0.9f},  Ring{0.92f, 2.0f, 0.5f},
-                                 Ring{0.55f, -3.0f, 0.3f}};
+  constexpr std::array kRings = {
+      Ring{0.05f, -3.5f, 0.2f}, Ring{0.22f, -3.0f, 0.35f}, Ring{0.40f, -0.5f, 0.55f},
+      Ring{0.55f, 4.5f, 0.95f}, Ring{0.68f, 5.4f, 0.9f},   Ring{0.80f, 5.0f, 0.65f},
+      Ring{0.90f, 8.2f, 0.95f}, Ring{1.0f, 8.6f, 1.0f},    Ring{1.03f, 6.4f, 0.9f},
+      Ring{0.92f, 2.0f, 0.5f},  Ring{0.55f, -3.0f, 0.3f}};
   // Outline: angle from straight forward, counter-clockwise seen from the agent's left, and radius.
   const Curve outline({0, 40, 80, 115, 150, 185, 220, 250, 275, 300, 330, 360},
                       {10, 21, 34, 37, 34, 29, 27, 29, 29, 22, 12, 10});

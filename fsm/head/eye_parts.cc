@@ -73,7 +73,8 @@ void BuildEyes(const EyeAnatomy& eye, HeadMesh& mesh) {
         glm::vec3 colour = rings[k].colour;
         // Fibres of the iris: light and dark rays.
         if (k >= 3 && k <= 6) colour *= 1 + 0.28f * Grain(s * side, static_cast<int>(k / 2));
-        now[static_cast<std::size_t>(s)] = mesh.Add(point(rings[k].angle, around), colour, 0.95f, bone);
+        now[static_cast<std::size_t>(s)] =
+            mesh.Add(point(rings[k].angle, around), colour, 0.95f, bone);
       }
       for (std::size_t s = 0; s < kSegments; ++s) {
         const std::size_t next = (s + 1) % kSegments;
@@ -96,8 +97,9 @@ void BuildLashes(const EyeAnatomy& eye, HeadMesh& mesh) {
         const float x = glm::mix(from, eye.outer_x() - 0.2f, part);
         const float angle = upper ? eye.UpperAngle(x) : eye.LowerAngle(x);
         const float ends = std::sin(kPi * std::min(1.0f, 0.08f + 0.92f * part));
-        const float length = upper ? 0.35f + 2.3f * part * (0.3f + 0.7f * SmoothStep(1.06f, 0.75f, part))
-                                   : 0.25f * ends;
+        const float length =
+            upper ? 0.35f + 2.3f * part * (0.3f + 0.7f * SmoothStep(1.06f, 0.75f, part))
+                  : 0.25f * ends;
         const float root = eye.LidRadius(x) + 0.12f;
         const float lift = upper ? 0.30f : -0.2f;
         Flesh flesh = FleshAt({x * static_cast<float>(side), eye.centre().y}, 0, -43);
@@ -126,7 +128,8 @@ void BuildLashes(const EyeAnatomy& eye, HeadMesh& mesh) {
 void BuildBrows(const FaceSurface& surface, const MouthAnatomy& mouth, HeadMesh& mesh) {
   // The brow's middle line and half height over x: a thin strip, dense along its middle and fading
   // to skin at its edges. Hairs are streaks of colour that lean outward.
-  const Curve middle({9, 16, 26, 36, 43, 50, 56}, {39.4f, 41.0f, 43.4f, 45.2f, 45.0f, 42.6f, 39.6f});
+  const Curve middle({9, 16, 26, 36, 43, 50, 56},
+                     {39.4f, 41.0f, 43.4f, 45.2f, 45.0f, 42.6f, 39.6f});
   const Curve half({9, 13, 20, 32, 42, 50, 56}, {2.4f, 3.1f, 3.2f, 2.8f, 2.1f, 1.3f, 0.5f});
   constexpr int kSteps = 46;
   constexpr std::array kAcross = {1.0f, 0.62f, 0.2f, -0.25f, -0.65f, -1.0f};
@@ -142,7 +145,8 @@ void BuildBrows(const FaceSurface& surface, const MouthAnatomy& mouth, HeadMesh&
         glm::vec3 p = surface.PointAt(at, domain);
         p += (0.22f + 0.4f * kDense[k]) * surface.Normal(domain);
         const float ends = SmoothStep(8.5f, 17, x) * SmoothStep(57, 48, x);
-        const float dense = kDense[k] * (0.35f + 0.65f * ends) * (0.93f + 0.07f * Grain(i, static_cast<int>(k)));
+        const float dense =
+            kDense[k] * (0.35f + 0.65f * ends) * (0.93f + 0.07f * Grain(i, static_cast<int>(k)));
         const glm::vec3 colour = glm::mix(palette::kSkin * 0.93f, palette::kBrow, dense);
         p.x *= static_cast<float>(side);
         mesh.Add(p, colour, 1, Bone::kFlesh,

@@ -18,13 +18,14 @@ struct FaceState {
   std::array<float, kActionUnits> au_left{};
   std::array<float, kActionUnits> au_right{};
 
-  /// Speech, in the 17 mouth parameters of the original editor (DESIGN.md section 7), 1-based there,
-  /// 0-based here; 1 = the parameter's unit displacement (see the mouth shape table), may be
+  /// Speech, in the 17 mouth parameters of the original editor (DESIGN.md section 7), 1-based
+  /// there, 0-based here; 1 = the parameter's unit displacement (see the mouth shape table), may be
   /// negative. 0-3 upper lip outer Y, outer Z, inner Y, inner Z; 4-7 lower lip inner Y, inner Z,
   /// outer Y, outer Z; 8-10 corner X, Y, Z; 11-12 jaw Y, Z; 13-16 outer and inner adjust of the
   /// upper and of the lower lip. Units: millimetres on a 50 mm mouth, jaw Y in degrees of opening.
   std::array<float, kMouthParameters> mouth{};
-  /// 0 = lips follow the parameters, 1 = lips are sealed whatever else acts on them (p, b, m, rest).
+  /// 0 = lips follow the parameters, 1 = lips are sealed whatever else acts on them (p, b, m,
+  /// rest).
   float lip_seal = 0;
   /// Tongue tip height, 0 = low, 1 = on the ridge behind the upper teeth.
   float tongue = 0;

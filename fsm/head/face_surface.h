@@ -10,8 +10,8 @@
 namespace fsm {
 
 /// The skin as a smooth surface over a plane domain, before lids and lips are let into it.
-/// Domain: `a` sideways from the median (the sign chooses the side), `b` down from the crown; on the
-/// front of the face (a, b) is nearly (x, y) in millimetres. Immutable after construction.
+/// Domain: `a` sideways from the median (the sign chooses the side), `b` down from the crown; on
+/// the front of the face (a, b) is nearly (x, y) in millimetres. Immutable after construction.
 class FaceSurface {
  public:
   /// Throws std::runtime_error naming file and line if a table is damaged.

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
 #include <stdexcept>
@@ -20,8 +20,9 @@
 namespace fsm {
 namespace {
 
-/// Head::MakeGeneric: tables to mesh at construction, state to vertices in Evaluate. Vertices are in
-/// one run of flesh, which is deformed and given new normals in every state, then the rigid parts.
+/// Head::MakeGeneric: tables to mesh at construction, state to vertices in Evaluate. Vertices are
+/// in one run of flesh, which is deformed and given new normals in every state, then the rigid
+/// parts.
 class GenericHead : public Head {
  public:
   GenericHead()
@@ -70,13 +71,15 @@ class GenericHead : public Head {
  private:
   void Finish(HeadMesh mesh, const SkinMap& skin) {
     for (const HeadMesh::Batch& batch : mesh.batches) {
-      topology_.parts.push_back({batch.material, static_cast<std::uint32_t>(topology_.indices.size()),
+      topology_.parts.push_back({batch.material,
+                                 static_cast<std::uint32_t>(topology_.indices.size()),
                                  static_cast<std::uint32_t>(batch.indices.size())});
       topology_.indices.insert(topology_.indices.end(), batch.indices.begin(), batch.indices.end());
     }
     for (std::size_t i = 0; i < topology_.indices.size(); i += 3) {
       if (topology_.indices[i] >= flesh_count_) continue;
-      flesh_triangles_.insert(flesh_triangles_.end(), &topology_.indices[i], &topology_.indices[i] + 3);
+      flesh_triangles_.insert(flesh_triangles_.end(), &topology_.indices[i],
+                              &topology_.indices[i] + 3);
     }
     rest_ = mesh.position;
     rest_normal_ = Normals(topology_.indices, rest_, rest_.size());
@@ -96,7 +99,8 @@ class GenericHead : public Head {
       if (flesh.back().lip_column >= 0) flesh.back().lip_column = 0;
     }
     probe_.emplace(std::move(rest), std::move(flesh),
-                   std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_, mouth_);
+                   std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_,
+                   mouth_);
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
     for (glm::vec3& colour : topology_.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);

@@ -18,7 +18,8 @@ constexpr float kRadians = std::numbers::pi_v<float> / 180;
 constexpr glm::vec3 kCentre{0, 44, -9};
 constexpr glm::vec3 kVolume{81, 102, 103};  // half axes of the hair over the skull
 constexpr float kPartX = 0.16f;             // sideways place of the parting, as part of the volume
-constexpr int kStrands = 40;                // per side
+constexpr int kStrands = 34;                // per side
+constexpr int kInnerFirst = 2;              // the inner layer stays behind the face's edge
 constexpr int kCapRows = 11;
 constexpr int kHangRows = 9;
 constexpr int kRows = kCapRows + kHangRows;
@@ -35,9 +36,9 @@ glm::vec3 OnVolume(glm::vec3 direction, float scale) {
 
 struct Strand {
   glm::vec3 start, bend, end;  // directions from the centre
-  float scale;           // of the volume
-  float end_y;           // where it ends
-  float tuck;            // how far the end curls inwards
+  float scale;                 // of the volume
+  float end_y;                 // where it ends
+  float tuck;                  // how far the end curls inwards
 };
 
 // `i` runs from the face's edge (0) to the middle of the back (1).
@@ -58,10 +59,11 @@ Strand StrandAt(float i, float side) {
 
 glm::vec3 StrandPoint(const Strand& s, float row, float front) {
   const float cap = std::min(1.0f, row / (kCapRows - 1));
-  // A curve from the parting sideways, then down: its last part heads straight for the ground, so that
-  // it goes over into the hanging part without a corner.
+  // A curve from the parting sideways, then down: its last part heads straight for the ground, so
+  // that it goes over into the hanging part without a corner.
   const float t = cap;
-  const glm::vec3 d = glm::normalize((1 - t) * (1 - t) * s.start + 2 * t * (1 - t) * s.bend + t * t * s.end);
+  const glm::vec3 d =
+      glm::normalize((1 - t) * (1 - t) * s.start + 2 * t * (1 - t) * s.bend + t * t * s.end);
   const float rise = s.scale * (0.965f + 0.035f * SmoothStep(0, 0.25f, cap));
   glm::vec3 p = OnVolume(d, rise);
   if (row > kCapRows - 1) {
@@ -109,7 +111,8 @@ glm::vec3 Streak(int strand, int row, int side) {
   const float broad = Grain((strand + side) / 4, 11);
   const float along = 0.05f * Grain(strand, row + 40);
   const float light = 1 + 0.26f * fine + 0.16f * broad + along;
-  return palette::kHair * light * glm::mix(glm::vec3(1), glm::vec3(1.12f, 1.0f, 0.85f), 0.5f + 0.5f * fine);
+  return palette::kHair * light *
+         glm::mix(glm::vec3(1), glm::vec3(1.12f, 1.0f, 0.85f), 0.5f + 0.5f * fine);
 }
 
 }  // namespace
@@ -121,18 +124,20 @@ void BuildHair(HeadMesh& mesh) {
     const auto add_layer = [&](bool outer, int first_row) {
       const auto first = static_cast<std::uint32_t>(mesh.position.size());
       // Column -1 rolls the face's edge inwards, so that it has thickness.
-      for (int k = -1; k <= kStrands; ++k) {
+      for (int k = outer ? -1 : kInnerFirst; k <= kStrands; ++k) {
         const float i = std::max(0.0f, static_cast<float>(k)) / kStrands;
         Strand strand = StrandAt(i, sign);
         const float front = 1 - SmoothStep(0, 0.3f, i);
         glm::vec3 pushed(0);
         for (int row = first_row; row <= kRows; ++row) {
           glm::vec3 p = StrandPoint(strand, static_cast<float>(row), front);
-          const glm::vec3 out = glm::normalize(glm::vec3(p.x, 0.4f * (p.y - kCentre.y), p.z - kCentre.z));
+          const glm::vec3 out =
+              glm::normalize(glm::vec3(p.x, 0.4f * (p.y - kCentre.y), p.z - kCentre.z));
           if (row < kCapRows) {
             const glm::vec3 from = p - kCentre;
             const float length = glm::length(from);
-            const float least = skull.Distance(from / length) + 4.5f + 2.5f * SmoothStep(0, 0.15f, i);
+            const float least =
+                skull.Distance(from / length) + 4.5f + 2.5f * SmoothStep(0, 0.15f, i);
             pushed = std::max(0.0f, least - length) * (from / length);
           }
           // What the skull asked for at the end of the cap fades down the hanging part.
@@ -143,7 +148,11 @@ void BuildHair(HeadMesh& mesh) {
           float ridge = 1.1f * std::sin(phase) + 0.7f * std::sin(2.3f * phase + 1) +
                         0.5f * Grain(k, side + 5);
           ridge *= SmoothStep(0, 0.2f, down) * (0.6f + 0.8f * down);
-          p += out * (outer ? ridge : -5.0f);
+          // The inner layer begins inside the skull, so that its upper edge never shows.
+          const float inset =
+              5 + 14 * SmoothStep(static_cast<float>(first_row) + 4, static_cast<float>(first_row),
+                                  static_cast<float>(row));
+          p += out * (outer ? ridge : -inset);
           if (k < 0) p += -out * 7.0f + glm::vec3(sign * 2.0f, 0, -5.0f);
           if (outer && row == kRows) p.y += 1.2f * Grain(k / 3, side + 9);
           const float edge = k < 0 ? 0.45f : 1.0f;
@@ -152,7 +161,8 @@ void BuildHair(HeadMesh& mesh) {
           mesh.Add(p, Streak(k, row, side), open, Bone::kSkull);
         }
       }
-      mesh.Grid(Material::kHair, first, kStrands + 2, kRows - first_row + 1, outer == (side < 0));
+      mesh.Grid(Material::kHair, first, kStrands + (outer ? 2 : 1 - kInnerFirst),
+                kRows - first_row + 1, outer == (side < 0));
     };
     add_layer(true, 0);
     add_layer(false, kCapRows - 2);

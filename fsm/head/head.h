@@ -12,8 +12,21 @@
 namespace fsm {
 
 /// What a part of the mesh is made of; the renderer chooses its shading by it.
-enum class Material { kSkin, kLip, kSclera, kIris, kPupil, kTeeth, kGum, kTongue, kMouthInside,
-                      kBrow, kLash, kHair, kCloth };
+enum class Material {
+  kSkin,
+  kLip,
+  kSclera,
+  kIris,
+  kPupil,
+  kTeeth,
+  kGum,
+  kTongue,
+  kMouthInside,
+  kBrow,
+  kLash,
+  kHair,
+  kCloth
+};
 
 /// The part of a head that never changes while it moves.
 struct HeadTopology {
@@ -24,15 +37,16 @@ struct HeadTopology {
   };
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
   std::vector<Part> parts;
-  std::vector<glm::vec3> albedo;       ///< per vertex, linear RGB 0..1
-  std::vector<float> occlusion;        ///< per vertex, 0 = fully shut off from light, 1 = open
+  std::vector<glm::vec3> albedo;  ///< per vertex, linear RGB 0..1
+  std::vector<float> occlusion;   ///< per vertex, 0 = fully shut off from light, 1 = open
 };
 
 /// Vertex positions and normals of one state. Reused from frame to frame by the caller.
 struct HeadVertices {
-  std::vector<glm::vec3> position;  ///< N x 3 float, millimetres; x to the viewer's right, y up, z to the
-                                    ///< viewer; origin midway between the two ear canals (tragi)
-  std::vector<glm::vec3> normal;    ///< N x 3 float, unit length
+  std::vector<glm::vec3>
+      position;  ///< N x 3 float, millimetres; x to the viewer's right, y up, z to the
+                 ///< viewer; origin midway between the two ear canals (tragi)
+  std::vector<glm::vec3> normal;  ///< N x 3 float, unit length
 };
 
 /// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,

@@ -40,8 +40,8 @@ struct Arch {
 
 struct Jaw {
   Arch arch;
-  float edge_y;    // of the middle incisors
-  float upward;    // +1: crowns grow upwards from the edge (upper jaw)
+  float edge_y;  // of the middle incisors
+  float upward;  // +1: crowns grow upwards from the edge (upper jaw)
   Bone bone;
 };
 
@@ -50,7 +50,8 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
   constexpr int kPerTooth = 3;
   const int count = static_cast<int>(widths.size());
   const int columns = 2 * count * kPerTooth + 1;
-  // Rows from behind the chewing edge over the front of the crown to the gum, and a lip of gum above.
+  // Rows from behind the chewing edge over the front of the crown to the gum, and a lip of gum
+  // above.
   constexpr std::array kRows = {-0.5f, -0.12f, 0.0f, 0.12f, 0.45f, 0.8f, 1.0f};
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   std::vector<float> arc_at, bump_at, height_at;
@@ -71,14 +72,18 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
       const auto i = static_cast<std::size_t>(c);
       const float back = std::abs(arc_at[i]);
       const float short_edge = 0.7f * (1 - bump_at[i]) + (row <= 0.12f ? 0.012f * back : 0.0f);
-      const float up = row < -0.3f ? 0.6f * height_at[i] : row < 0 ? 0.2f : row * height_at[i] + (row < 0.5f ? short_edge : 0.0f);
+      const float up = row < -0.3f ? 0.6f * height_at[i]
+                       : row < 0   ? 0.2f
+                                   : row * height_at[i] + (row < 0.5f ? short_edge : 0.0f);
       glm::vec3 p = jaw.arch.At(arc_at[i], jaw.edge_y + jaw.upward * (up + 0.02f * back));
       const float thin = row < -0.3f ? 4.6f : row < 0 ? 2.4f : row == 0 ? 0.9f : 0.0f;
-      const float curve = 0.9f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
+      const float curve =
+          0.9f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
       p.z += curve - thin - 0.75f * (1 - bump_at[i]);
       p.x *= 1 - 0.012f * thin;
       const float crevice = 0.62f + 0.38f * bump_at[i];
-      const glm::vec3 colour = palette::kTooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
+      const glm::vec3 colour =
+          palette::kTooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
       const float dark = glm::mix(0.78f, 0.25f, SmoothStep(6, 34, back));
       mesh.Add(p, colour, crevice * dark * (row < 0 ? 0.4f : 1.0f), jaw.bone);
     }
@@ -86,7 +91,7 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
   const bool flip = jaw.upward > 0;
   mesh.Grid(Material::kTeeth, first, static_cast<int>(kRows.size()), columns, flip);
 
-  constexpr std::array kGumRows = {0.96f, 1.08f, 1.35f, 1.7f};
+  constexpr std::array kGumRows = {0.96f, 1.1f, 1.6f};
   const auto gum = static_cast<std::uint32_t>(mesh.position.size());
   for (const float row : kGumRows) {
     for (int c = 0; c < columns; ++c) {
@@ -129,7 +134,8 @@ void BuildTongue(const MouthAnatomy& mouth, HeadMesh& mesh) {
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
       const float groove = 1.4f * taper * std::pow(std::max(0.0f, std::sin(around)), 8.0f);
-      const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * std::sin(around) - groove, z);
+      const glm::vec3 p(half_width * std::cos(around),
+                        base_y + rise + height * std::sin(around) - groove, z);
       const float open = 0.12f + 0.55f * SmoothStep(0.2f, 1, part);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays

@@ -24,8 +24,8 @@ constexpr float kBesideBall = 10.2f;
 
 enum class RowKind { kPlain, kUpperLid, kLowerLid, kNose, kUpperLip, kLowerLip, kChin, kCloth };
 
-/// One row; `value` is b (plain), the distance from the lid's edge, the part of the way (nose, chin),
-/// or the place on the lip: 0 seam, 1 border, above 1 millimetres beyond the border + 1.
+/// One row; `value` is b (plain), the distance from the lid's edge, the part of the way (nose,
+/// chin), or the place on the lip: 0 seam, 1 border, above 1 millimetres beyond the border + 1.
 struct Row {
   RowKind kind;
   float value;
@@ -37,13 +37,15 @@ std::vector<Row> MakeRows() {
     for (const float v : values) rows.push_back({kind, v});
   };
   add(RowKind::kPlain, {136, 128, 118, 107, 97, 87, 78, 70, 63});
-  add(RowKind::kUpperLid, {26, 21.5f, 17.5f, 14.3f, 11.6f, 9.3f, 7.4f, 6, 4.8f, 3.8f, 2.6f, 1.3f, 0});
+  add(RowKind::kUpperLid,
+      {26, 21.5f, 17.5f, 14.3f, 11.6f, 9.3f, 7.4f, 6, 4.8f, 3.8f, 2.6f, 1.3f, 0});
   add(RowKind::kLowerLid, {0, 1.2f, 2.6f, 4.2f, 6.2f, 8.6f, 11.4f});
   add(RowKind::kNose, {.10f, .20f, .30f, .39f, .48f, .56f, .63f, .70f, .76f, .82f, .88f, .94f});
   add(RowKind::kUpperLip, {8, 5.5f, 3.5f, 2.1f, 1, .78f, .56f, .34f, .15f, 0});
   add(RowKind::kLowerLip, {0, .14f, .32f, .52f, .74f, 1, 2.3f, 4, 6.5f});
   add(RowKind::kChin, {.17f, .34f, .5f, .66f, .83f});
-  add(RowKind::kPlain, {-80, -84, -87.5f, -91, -95, -101, -108, -116, -125, -137, -150, -161, -172, -182});
+  add(RowKind::kPlain,
+      {-80, -84, -87.5f, -91, -95, -101, -108, -116, -125, -137, -150, -161, -172, -182});
   add(RowKind::kCloth, {-171, -176, -184, -194, -206, -220, -240, -265, -290});
   return rows;
 }
@@ -78,8 +80,7 @@ class SkinBuilder {
     return static_cast<int>(std::ranges::find(kColumns, 25.0f) - kColumns.begin());
   }
   std::size_t FirstOf(RowKind kind) const {
-    return static_cast<std::size_t>(
-        std::ranges::find(rows_, kind, &Row::kind) - rows_.begin());
+    return static_cast<std::size_t>(std::ranges::find(rows_, kind, &Row::kind) - rows_.begin());
   }
   std::size_t SeamRow() const { return FirstOf(RowKind::kLowerLip); }
   std::size_t LidRow() const { return FirstOf(RowKind::kLowerLid); }
@@ -208,7 +209,8 @@ class SkinBuilder {
     if (std::abs(dy) < radius) {
       const float lid_z = eye_.LidAxisZ(a) + std::sqrt(radius * radius - dy * dy);
       const float corner = std::max(0.0f, std::max(eye_.inner_x() - a, a - eye_.outer_x()));
-      const float near = SmoothStep(upper ? 7.5f : 6.5f, 2.5f, row.value) * SmoothStep(6, 0, corner);
+      const float near =
+          SmoothStep(upper ? 7.5f : 6.5f, 2.5f, row.value) * SmoothStep(6, 0, corner);
       p.z = glm::mix(p.z, lid_z, near);
     }
     if (!slit) {
@@ -224,8 +226,8 @@ class SkinBuilder {
       const float ends = SmoothStep(eye_.inner_x(), eye_.inner_x() + 6, a) *
                          SmoothStep(eye_.outer_x() + 1, eye_.outer_x() - 4, a);
       const float d = row.value - 3.8f;
-      p.z += ends * (-1.0f * std::exp(-d * d / 0.8f) +
-                     0.8f * std::exp(-(d - 2.0f) * (d - 2.0f) / 2.5f));
+      p.z += ends *
+             (-1.0f * std::exp(-d * d / 0.8f) + 0.8f * std::exp(-(d - 2.0f) * (d - 2.0f) / 2.5f));
       // Skin that a closing lid draws over the ball must clear it, cornea included.
       const float depth = p.z - eye_.LidAxisZ(a);
       const float clear = eye_.InnerRadius(a) + 0.75f;
@@ -234,7 +236,8 @@ class SkinBuilder {
     }
   }
 
-  // Lip vertices, and in lesser part the skin around, follow what their column's seam is corrected by.
+  // Lip vertices, and in lesser part the skin around, follow what their column's seam is corrected
+  // by.
   void TieToSeam(const Row& row, int side, float a, float y, int c, Flesh& flesh) const {
     if (a >= mouth_.corner().x) return;
     float weight = 1;
@@ -269,11 +272,12 @@ class SkinBuilder {
       if (r + 1 == LidRow() && a > eye_.inner_x() + 0.1f && inner < eye_.outer_x() - 0.1f) continue;
       const auto& top = ids_[r];
       const auto& low = ids_[r + 1];
-      // The scalp behind the ears never shows under the hair.
-      if (inner >= 105 && mesh_.position[low[Index(c)]].y > -20) continue;
+      // The scalp never shows under the hair.
+      const float height = mesh_.position[low[Index(c)]].y;
+      if (height > 108 || (inner >= 92 && height > -20)) continue;
       const bool red = (kind == RowKind::kUpperLip && rows_[r].value <= 1) ||
                        (kind == RowKind::kLowerLip && rows_[r + 1].value <= 1);
-      const Material material = kind == RowKind::kCloth ? Material::kCloth
+      const Material material = kind == RowKind::kCloth         ? Material::kCloth
                                 : red && a <= mouth_.corner().x ? Material::kLip
                                                                 : Material::kSkin;
       mesh_.Quad(material, top[Index(c)], low[Index(c)], low[Index(c + 1)], top[Index(c + 1)]);
@@ -304,7 +308,8 @@ class SkinBuilder {
           for (std::size_t k = 0; k < points.size(); ++k) {
             glm::vec3 p = points[k];
             p.x *= static_cast<float>(side);
-            line.push_back(mesh_.Add(p, palette::kRim, k == 0 ? 0.72f : 0.35f, Bone::kFlesh, flesh));
+            line.push_back(
+                mesh_.Add(p, palette::kRim, k == 0 ? 0.72f : 0.35f, Bone::kFlesh, flesh));
           }
           if (upper) {
             wet_edge.emplace_back(a, line[1]);
@@ -370,10 +375,10 @@ class SkinBuilder {
           flesh.lip_weight *= k < 2 ? 1.0f : std::max(0.0f, 1 - 3 * deep);
           flesh.free *= std::max(0.0f, 1 - (2.5f - 1.6f * (1 - open)) * deep);
           flesh.jaw = glm::mix(flesh.jaw, side > 0 ? 0.0f : 0.9f, deep * open);
-          const glm::vec3 colour = glm::mix(palette::kLipInside, palette::kMouth,
-                                            SmoothStep(0.05f, 0.4f, deep));
-          line.push_back(mesh_.Add(p, colour, 0.6f * (1 - deep) * (1 - deep) + 0.06f, Bone::kFlesh,
-                                   flesh));
+          const glm::vec3 colour =
+              glm::mix(palette::kLipInside, palette::kMouth, SmoothStep(0.05f, 0.4f, deep));
+          line.push_back(
+              mesh_.Add(p, colour, 0.6f * (1 - deep) * (1 - deep) + 0.06f, Bone::kFlesh, flesh));
         }
         for (std::size_t k = 0; !previous.empty() && k + 1 < line.size(); ++k) {
           const Material material = k < 2 ? Material::kLip : Material::kMouthInside;

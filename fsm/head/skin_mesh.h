@@ -20,8 +20,8 @@ struct SkinMap {
   std::uint32_t vertex_count = 0;
 };
 
-/// Skin from crown to chest with slits for eyes and mouth, red of the lips, inner lid rims, mouth bag
-/// and the garment: one grid of columns (crown to chest) and rows (round the head).
+/// Skin from crown to chest with slits for eyes and mouth, red of the lips, inner lid rims, mouth
+/// bag and the garment: one grid of columns (crown to chest) and rows (round the head).
 SkinMap BuildSkin(const FaceSurface& surface, const EyeAnatomy& eye, const MouthAnatomy& mouth,
                   HeadMesh& mesh);
 

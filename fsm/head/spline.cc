@@ -17,8 +17,8 @@ SplineBasis::SplineBasis(std::vector<float> knots) : knots_(std::move(knots)) {
     const float pivot = 2 * (h0 + h1) - h0 * ratio[i - 1];
     ratio[i] = h1 / pivot;
     for (std::size_t j = 0; j < n; ++j) {
-      const float slope = (j == i + 1 ? 6 / h1 : 0) + (j == i - 1 ? 6 / h0 : 0) -
-                          (j == i ? 6 / h0 + 6 / h1 : 0);
+      const float slope =
+          (j == i + 1 ? 6 / h1 : 0) + (j == i - 1 ? 6 / h0 : 0) - (j == i ? 6 / h0 + 6 / h1 : 0);
       second_[i * n + j] = (slope - h0 * second_[(i - 1) * n + j]) / pivot;
     }
   }

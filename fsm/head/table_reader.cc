@@ -32,7 +32,8 @@ float TableRow::Number(std::size_t index) const {
 
 int TableRow::Integer(std::size_t index) const {
   const float value = Number(index);
-  if (value != std::floor(value)) Fail("'" + Word(index) + "' found where a whole number was expected");
+  if (value != std::floor(value))
+    Fail("'" + Word(index) + "' found where a whole number was expected");
   return static_cast<int>(value);
 }
 

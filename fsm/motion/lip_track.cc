@@ -30,6 +30,7 @@ struct Demand {
   double length_ms;
   int shape;
   double strength;
+  bool holds;  ///< of a phoneme of 200 ms or more: stands, and moves in the last 92 ms
 };
 
 MouthPose Scaled(const MouthShape& shape, double strength) {
@@ -59,10 +60,13 @@ LipTrack::LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, 
       return closed;
     }();
     const double split = look.parts.size() == 2 ? length * kFirstPartShare : length;
-    demands.push_back({length_ms_, split, look.parts[0].shape, look.parts[0].strength});
-    if (look.parts.size() == 2) {
+    const bool diphthong = look.parts.size() == 2;
+    const bool holds = length >= kLongMs;
+    demands.push_back(
+        {length_ms_, split, look.parts[0].shape, look.parts[0].strength, holds && !diphthong});
+    if (diphthong) {
       demands.push_back(
-          {length_ms_ + split, length - split, look.parts[1].shape, look.parts[1].strength});
+          {length_ms_ + split, length - split, look.parts[1].shape, look.parts[1].strength, holds});
     }
     length_ms_ += length;
   }
@@ -85,7 +89,7 @@ LipTrack::LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, 
     const MouthPose pose = Scaled(shape, demand.strength);
     keys_.push_back({demand.start_ms, pose});
     double hold = 0;
-    if (demand.length_ms >= kLongMs) {
+    if (demand.holds) {
       hold = demand.length_ms - kApproachMs;
     } else if (shape.hold > 0) {
       hold = shape.hold * demand.length_ms;

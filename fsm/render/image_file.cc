@@ -134,7 +134,7 @@ vm::Result<Image> ReadImage(const std::string& path) {
   if (!format) return BadEnding(path);
   // Without waiting: a named pipe in the place of a picture must not stop the program.
   File file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat status{};
+  struct stat status {};
   if (!file.open() || fstat(file.get(), &status) != 0) return Refused("read", path);
   if (!S_ISREG(status.st_mode)) {
     return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': not a plain file");

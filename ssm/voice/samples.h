@@ -16,20 +16,20 @@ namespace ssm {
 inline constexpr std::int64_t kSampleRateHz = 16000;
 inline constexpr std::size_t kFramesPerMs = kSampleRateHz / 1000;
 
-inline constexpr std::size_t ToFrames(std::chrono::milliseconds length) {
+constexpr std::size_t ToFrames(std::chrono::milliseconds length) {
   return static_cast<std::size_t>(length.count()) * kFramesPerMs;
 }
 /// Whole milliseconds, rounded down.
-inline constexpr std::chrono::milliseconds ToMs(std::size_t frames) {
+constexpr std::chrono::milliseconds ToMs(std::size_t frames) {
   return std::chrono::milliseconds(frames / kFramesPerMs);
 }
 /// The shortest time after which `frames` have certainly passed.
-inline constexpr vm::Time ToTime(std::size_t frames) {
+constexpr vm::Time ToTime(std::size_t frames) {
   const auto us = static_cast<std::int64_t>(frames) * 1'000'000;
   return vm::Time((us + kSampleRateHz - 1) / kSampleRateHz);
 }
 /// Frames that have passed after `time`, rounded down; 0 for a negative time.
-inline constexpr std::size_t FramesIn(vm::Time time) {
+constexpr std::size_t FramesIn(vm::Time time) {
   return time.count() <= 0 ? 0 : static_cast<std::size_t>(time.count() * kSampleRateHz / 1'000'000);
 }
 

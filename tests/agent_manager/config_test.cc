@@ -25,7 +25,7 @@ TEST(ConfigTest, ReadsEveryKey) {
   EXPECT_EQ(config->modules[0].env, (std::vector<std::string>{"A=1"}));
   EXPECT_EQ(config->modules[0].restart, Restart::kAlways);
   EXPECT_EQ(config->modules[0].dialect, Dialect::kOriginal);
-  EXPECT_EQ(config->modules[1].command.back(), "exec ./fsm -C x");
+  EXPECT_EQ(config->modules[1].command.back(), "./fsm -C x");
   EXPECT_EQ(config->modules[2].connect, "tcp:h:1");
   EXPECT_TRUE(config->macros.contains("Wave"));
 }
@@ -64,6 +64,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"{\"modules\": [{\"name\": \"A\", \"command\": \"x\"}, {\"name\": \"A\", "
                   "\"command\": \"x\"}]}",
                   "modules[1].name: the name is taken twice"},
+        BadConfig{"{\"clock\": \"real\", \"clock\": \"real\"}", "clock: this key is written twice"},
+        BadConfig{"{\"modules\": [{\"name\": \"A\", \"command\": [\"x}\"], \"env\": {\"E\": "
+                  "\"}\"}},\n// }\n"
+                  "{\"name\": \"B\", \"command\": \"x\",\n\"cwd\": 5}]}",
+                  "am.json line 4: modules[1].cwd: found 5"},
         BadConfig{"{\"macros\": {\"M\": \"/nonexistent.json\"}}", "macros.M: cannot read"}));
 
 }  // namespace

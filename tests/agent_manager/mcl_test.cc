@@ -17,8 +17,13 @@ using Strings = std::vector<std::string>;
 class MclTest : public testing::Test {
  protected:
   MclTest()
-      : mcl_(world_.clock, world_.hub,
-             [this](const std::string& path) { removed_.push_back(path); }) {
+      : mcl_(
+            world_.clock, world_.hub,
+            [this](const std::string& path) -> vm::Result<std::string> {
+              if (files_.contains(path)) return files_[path];
+              return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
+            },
+            [this](const std::string& path) { removed_.push_back(path); }) {
     world_.hub.AddInternal(mcl_.slots(), {"FS-MCL"});
     world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
       mcl_.OnReport(from, message);
@@ -90,6 +95,7 @@ class MclTest : public testing::Test {
 
   World world_;
   Strings removed_;
+  std::map<std::string, std::string> files_;
   Mcl mcl_;
   std::shared_ptr<World::Peer> client_, voice_, face_;
   std::string started_, face_started_;

@@ -30,8 +30,8 @@ TEST(HeadMotionTest, EveryUnitAtDoubleStrengthStaysFiniteAndNear) {
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
     if (unit == 3 || unit == 40) continue;
     FaceState state = WithUnit(unit, 2);
-    if (unit == 30) state.au_right[unit] = 0;   // both sides of the sideways jaw cancel out
-    if (unit == 8) state.mouth[11] = 5;         // lips can only meet when they are apart
+    if (unit == 30) state.au_right[unit] = 0;  // both sides of the sideways jaw cancel out
+    if (unit == 8) state.mouth[11] = 5;        // lips can only meet when they are apart
     const HeadVertices moved = Vertices(state);
     ASSERT_TRUE(AllFinite(moved)) << "AU " << unit;
     float most = 0;
@@ -60,7 +60,8 @@ TEST(HeadMotionTest, LeftAndRightUnitsAreMirrorImages) {
   for (const std::size_t unit : {1u, 2u, 4u, 6u, 9u, 10u, 12u, 15u, 20u, 43u}) {
     FaceState left, right;
     left.au_left[unit] = right.au_right[unit] = 1;
-    for (const auto& [x, y] : {std::pair{25.0f, -43.0f}, {34.0f, 46.0f}, {31.0f, 28.0f}, {12.0f, -35.0f}}) {
+    for (const auto& [x, y] :
+         {std::pair{25.0f, -43.0f}, {34.0f, 46.0f}, {31.0f, 28.0f}, {12.0f, -35.0f}}) {
       const glm::vec3 l = MotionAt(x, y, left);
       const glm::vec3 r = MotionAt(-x, y, right);
       EXPECT_NEAR(l.x, -r.x, 0.02) << "AU " << unit << " at " << x;
@@ -96,20 +97,19 @@ TEST_P(UnitDirection, MovesItsLandmarkTheRightWay) {
 
 INSTANTIATE_TEST_SUITE_P(
     HeadMotionTest, UnitDirection,
-    ::testing::Values(Direction{1, 13, 46, {0, 4, 0}},        // inner brow up
-                      Direction{2, 42, 47, {0.5f, 5, -1.5f}},  // outer brow up and back
+    ::testing::Values(Direction{1, 13, 46, {0, 4, 0}},             // inner brow up
+                      Direction{2, 42, 47, {0.5f, 5, -1.5f}},      // outer brow up and back
                       Direction{4, 13, 43, {-1.2f, -1.8f, 0.8f}},  // brows down and together
-                      Direction{6, 34, -2, {0, 3, 1}},        // cheek up
-                      Direction{9, 11, 6, {0, 3, 0}},         // nose side up
-                      Direction{10, 12, -35, {0, 3, 0}},      // upper lip up
+                      Direction{6, 34, -2, {0, 3, 1}},             // cheek up
+                      Direction{9, 11, 6, {0, 3, 0}},              // nose side up
+                      Direction{10, 12, -35, {0, 3, 0}},           // upper lip up
                       Direction{11, 28, -22, {1, 1.5f, 0}},
-                      Direction{12, 25, -43, {4, 4, -3}},     // corner out, up and back
+                      Direction{12, 25, -43, {4, 4, -3}},  // corner out, up and back
                       Direction{14, 26, -43, {0, 1, -3}},
                       Direction{15, 25, -43, {0.8f, -4, -1}},  // corner down
                       Direction{16, 10, -50, {0, -2.5f, 0}},
                       Direction{17, 8, -70, {0, 3.5f, 1.5f}},  // chin up and forward
-                      Direction{20, 25, -43, {4.5f, -1.5f, -3}},
-                      Direction{26, 0, -72, {0, -12, 0}},
+                      Direction{20, 25, -43, {4.5f, -1.5f, -3}}, Direction{26, 0, -72, {0, -12, 0}},
                       Direction{27, 0, -72, {0, -25, 0}}),
     [](const auto& test) { return "Unit" + std::to_string(test.param.unit); });
 
@@ -141,7 +141,8 @@ std::vector<glm::vec3> PointsOf(Material material, const HeadVertices& v) {
 }
 
 TEST(HeadMotionTest, ClosedLidsCoverTheEye) {
-  for (const auto& [gaze_up, gaze_right] : {std::pair{0.0f, 0.0f}, {20.0f, 0.0f}, {-20.0f, 20.0f}}) {
+  for (const auto& [gaze_up, gaze_right] :
+       {std::pair{0.0f, 0.0f}, {20.0f, 0.0f}, {-20.0f, 20.0f}}) {
     FaceState blink;
     blink.blink_left = blink.blink_right = 1;
     blink.eye_left = blink.eye_right = {gaze_up, gaze_right};

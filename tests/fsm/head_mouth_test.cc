@@ -83,11 +83,15 @@ TEST(HeadMouthTest, SealedLipsTouchWhateverElseActs) {
     ASSERT_LE(glm::length(v.position[upper] - v.position[lower]), 0.05f) << i;
     ASSERT_LE(GenericHead().MeasureMouth(state).gap_mm, 0.05f) << i;
   }
-  EXPECT_LE(GenericHead().MeasureMouth([] {
-    FaceState state = WithUnit(8, 1);
-    state.mouth[11] = 8;
-    return state;
-  }()).gap_mm, 0.05f) << "AU 8 brings the lips together over an open jaw";
+  EXPECT_LE(GenericHead()
+                .MeasureMouth([] {
+                  FaceState state = WithUnit(8, 1);
+                  state.mouth[11] = 8;
+                  return state;
+                }())
+                .gap_mm,
+            0.05f)
+      << "AU 8 brings the lips together over an open jaw";
 }
 
 TEST(HeadMouthTest, LipsNeverCross) {
@@ -109,7 +113,8 @@ TEST(HeadMouthTest, LipsNeverCross) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (const std::size_t a : lips) {
     for (const std::size_t b : lips) {
-      if (rest.position[a] == rest.position[b] && opened.position[a].y > opened.position[b].y + 0.5f) {
+      if (rest.position[a] == rest.position[b] &&
+          opened.position[a].y > opened.position[b].y + 0.5f) {
         pairs.emplace_back(a, b);
       }
     }

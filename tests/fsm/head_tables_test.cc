@@ -34,7 +34,8 @@ TEST(HeadTablesTest, ErrorsNameFileAndLine) {
   EXPECT_EQ(Complaint([&] { table.rows()[0].Number(3); }),
             "t.txt:2: 'key' needs at least 3 values after it, found 2");
   EXPECT_EQ(Complaint([&] { table.Only("other"); }), "t.txt: no line 'other'");
-  EXPECT_EQ(Complaint([] { Table("t.txt", "a\na\n").Only("a"); }), "t.txt:2: 'a' given a second time");
+  EXPECT_EQ(Complaint([] { Table("t.txt", "a\na\n").Only("a"); }),
+            "t.txt:2: 'a' given a second time");
   EXPECT_NE(Complaint([] { Table("t.txt", "a inf\n").rows()[0].Number(1); }), "no complaint");
 }
 
@@ -68,13 +69,9 @@ TEST(HeadTablesTest, UnitsThatActTogetherAreCorrected) {
 
 TEST(HeadTablesTest, CageAndCurvesAreChecked) {
   const Table empty("features.txt", "");
-  EXPECT_EQ(Complaint([&] {
-              FaceSurface(Table("cage.txt", "columns 0 20 10 30 40\n"), empty);
-            }),
+  EXPECT_EQ(Complaint([&] { FaceSurface(Table("cage.txt", "columns 0 20 10 30 40\n"), empty); }),
             "cage.txt:1: columns must ascend from 0");
-  EXPECT_EQ(Complaint([&] {
-              ReadCurve(Table("c.txt", "x 0 1 2\ny 0 1\n"), "x", "y");
-            }),
+  EXPECT_EQ(Complaint([&] { ReadCurve(Table("c.txt", "x 0 1 2\ny 0 1\n"), "x", "y"); }),
             "c.txt:2: has 2 values, 'x' has 3");
   EXPECT_EQ(Complaint([&] { ReadCurve(Table("c.txt", "x 0 2 1\ny 0 1 2\n"), "x", "y"); }),
             "c.txt:1: must ascend");

@@ -57,7 +57,8 @@ TEST(HeadTopologyTest, NormalsAreUnitAndTheFaceLooksAtTheViewer) {
     ASSERT_TRUE(Finite(rest.position[i])) << i;
     ASSERT_NEAR(glm::length(rest.normal[i]), 1, 1e-3) << i;
   }
-  for (const auto& [x, y] : {std::pair{0.0f, 60.0f}, {30.0f, -10.0f}, {-30.0f, -10.0f}, {0.0f, -72.0f}}) {
+  for (const auto& [x, y] :
+       {std::pair{0.0f, 60.0f}, {30.0f, -10.0f}, {-30.0f, -10.0f}, {0.0f, -72.0f}}) {
     EXPECT_GT(rest.normal[testing::SkinAt(x, y)].z, 0.5f) << x << " " << y;
   }
 }
@@ -105,7 +106,8 @@ TEST(HeadTopologyTest, FaceIsMirrorSymmetric) {
   std::set<std::uint32_t> face;
   for (const HeadTopology::Part& part : topology.parts) {
     if (part.material == Material::kHair) continue;
-    face.insert(&topology.indices[part.first_index], &topology.indices[part.first_index] + part.index_count);
+    face.insert(&topology.indices[part.first_index],
+                &topology.indices[part.first_index] + part.index_count);
   }
   std::map<std::array<int, 3>, int> seen;
   const auto key = [](glm::vec3 p) {
@@ -123,7 +125,8 @@ TEST(HeadTopologyTest, FaceIsMirrorSymmetric) {
 }
 
 TEST(HeadTopologyTest, ProportionsAreThoseOfAWoman) {
-  // Farkas' norms for women, millimetres: mouth 50.2, eye slit 30.7, between the inner corners 31.8.
+  // Farkas' norms for women, millimetres: mouth 50.2, eye slit 30.7, between the inner
+  // corners 31.8.
   const HeadVertices rest = Vertices({});
   const MouthMeasure mouth = GenericHead().MeasureMouth({});
   EXPECT_NEAR(mouth.width_mm, 50.2, 2);
@@ -132,8 +135,8 @@ TEST(HeadTopologyTest, ProportionsAreThoseOfAWoman) {
     if (std::abs(p.x) < 2) tip = std::max(tip, p.z);
     crown = std::max(crown, p.y);
   }
-  EXPECT_NEAR(tip, 106, 4);       // nose tip before the ears: 103.8
-  EXPECT_NEAR(crown, 140, 12);    // hair included
+  EXPECT_NEAR(tip, 106, 4);     // nose tip before the ears: 103.8
+  EXPECT_NEAR(crown, 140, 12);  // hair included
 }
 
 TEST(HeadTopologyTest, TwoHeadsAreTheSame) {

@@ -97,6 +97,11 @@ void ModuleServer::DeclareSlots() {
                                  : hub_clock_  ? "HUB"
                                                : "VIRTUAL"; },
        .saved = false});
+  slots.Declare({.name = "Clock.busy",
+                 .grammar = "<text>",
+                 .access = Access::kReadOnly,
+                 .help = "BUSY while something with an end is going on, else IDLE.",
+                 .on_inq = [this] { return module_.Busy() ? "BUSY" : "IDLE"; }});
   slots.Declare(
       {.name = "Wait",
        .grammar = "IDLE | <ms>",

@@ -20,7 +20,7 @@ const vec3 kRimDirection = vec3(0.5883, 0.4576, -0.6667);
 const vec3 kRimColor = vec3(1.30, 1.36, 1.45);
 const vec3 kSkyColor = vec3(0.32, 0.34, 0.37);
 const vec3 kGroundColor = vec3(0.20, 0.155, 0.13);
-const float kShadowDepth[2] = float[2](0.92, 0.62);
+const float kShadowDepth[2] = float[2](0.92, 0.45);
 const float kExposure = 0.44;
 
 // How much of the key light comes past the ellipsoids: the nearer the ray to one, the less, with

@@ -38,8 +38,8 @@ void main() {
 
   world_normal = n;
   rest = rest_position;
-  soft_light = albedo * open * soft + mirrored * (occlusion * sheen);
+  soft_light = albedo * open * soft + mirrored * (occlusion * occlusion * sheen);
   key_light = albedo * kKeyColor * shadow * mix(open, vec3(1.0), key_through);
-  gloss = Fresnel(dot(half_way, v)) * occlusion * shadow.g *
+  gloss = Fresnel(dot(half_way, v)) * occlusion * occlusion * shadow.g *
           clamp(dot(n, key_direction) * 4.0 + 0.2, 0.0, 1.0);
 }

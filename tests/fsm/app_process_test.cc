@@ -1,0 +1,122 @@
+// The real program, spoken to through pipes.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace fsm {
+namespace {
+
+std::string ReadAll(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << in.rdbuf();
+  return bytes.str();
+}
+
+/// A folder of its own to run the program in.
+struct FsmProcessTest : testing::Test {
+  FsmProcessTest() {
+    char name[] = "/tmp/galatea_fsm_XXXXXX";
+    EXPECT_NE(mkdtemp(name), nullptr);
+    folder = name;
+  }
+  ~FsmProcessTest() override { std::filesystem::remove_all(folder); }
+
+  /// Gives the program the input and waits for its end.
+  int Run(const std::string& options, const std::string& input) {
+    std::ofstream(folder / "in.txt", std::ios::binary) << input;
+    const std::string command = "cd " + folder.string() + " && unset DISPLAY WAYLAND_DISPLAY && " +
+                                GALATEA_BIN_DIR "/fsm " + options +
+                                " < in.txt > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    out = ReadAll(folder / "out.txt");
+    err = ReadAll(folder / "err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  std::filesystem::path folder;
+  std::string out, err;
+};
+
+/// The lines that are to be compared.
+std::string Lines(const std::string& text) {
+  std::string lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line.starts_with('#')) continue;
+    if (const auto at = line.find("@VERSION@"); at != std::string::npos) {
+      line.replace(at, 9, GALATEA_VERSION);
+    }
+    lines += line + '\n';
+  }
+  return lines;
+}
+
+TEST_F(FsmProcessTest, AnswersEveryCommandOfTheOriginal) {
+  const std::filesystem::path data = GALATEA_SOURCE_DIR "/tests/fsm/data";
+  EXPECT_EQ(Run("--headless --size 160x120", ReadAll(data / "every_command.txt")), 0) << err;
+  EXPECT_EQ(Lines(out), Lines(ReadAll(data / "every_command.expected"))) << err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "face.bmp"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "face.rgb"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "pictures/shot00003.bmp"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "pictures/shot00004.bmp"));
+}
+
+TEST_F(FsmProcessTest, APipedBatchLeavesAHappyFace) {
+  EXPECT_EQ(Run("--headless", "set FaceExp = HAPPY 1 100 0\nset SaveImage = happy.png\n"), 0);
+  EXPECT_EQ(out, "rep Run = LIVE\n");
+  EXPECT_EQ(Run("--headless", "set SaveImage = neutral.png\n"), 0);
+  const std::string happy = ReadAll(folder / "happy.png");
+  EXPECT_GT(happy.size(), 10000u);
+  EXPECT_NE(happy, ReadAll(folder / "neutral.png"));
+}
+
+TEST_F(FsmProcessTest, TheSameInputGivesTheSameFilmAndTheSameWords) {
+  const std::string input =
+      "prop Frame = AutoOutput\nset Autonomous = BLINK 1\nset Record = film.mp4\n"
+      "set LipSync.pho = pau 100 hh 60 ax 70 l 60 ow 160 pau 100\nset Speak = + 100\n"
+      "set Wait = IDLE\nset#1 Record = STOP\n";
+  ASSERT_EQ(Run("--headless --size 160x120", input), 0) << err;
+  const std::string words = out;
+  const std::string film = ReadAll(folder / "film.mp4");
+  EXPECT_GT(film.size(), 1000u);
+  ASSERT_EQ(Run("--headless --size 160x120", input), 0) << err;
+  EXPECT_EQ(out, words);
+  EXPECT_TRUE(ReadAll(folder / "film.mp4") == film);
+  EXPECT_NE(words.find("rep#1 Record = STOP\n"), std::string::npos);
+}
+
+TEST_F(FsmProcessTest, AFilmThatWasNotStoppedIsFinishedAtTheEndOfInput) {
+  EXPECT_EQ(Run("--headless --size 160x120",
+                "set Record = film.mp4\nset FaceExp = HAPPY 1 100 600\n"), 0);
+  EXPECT_GT(ReadAll(folder / "film.mp4").size(), 1000u) << err;
+}
+
+TEST_F(FsmProcessTest, BadOptionsAndTablesEndInOneSentence) {
+  EXPECT_EQ(Run("--headless --size big", ""), 1);
+  EXPECT_EQ(err, "fsm: --size big is not WIDTHxHEIGHT, as 640x480\n");
+  std::ofstream(folder / "emotions.txt") << "HAPPY 1 99:1\n";
+  EXPECT_EQ(Run("--headless --tables .", ""), 1);
+  EXPECT_TRUE(err.starts_with("fsm: ./emotions.txt:1: '99' is not an action unit")) << err;
+  EXPECT_EQ(Run("--headless -C nowhere.txt", ""), 1);
+  EXPECT_EQ(err, "fsm: cannot read nowhere.txt\n");
+}
+
+TEST_F(FsmProcessTest, StrictTurnsRefusalsIntoTheExitCode) {
+  EXPECT_EQ(Run("--headless", "set FaceExp = BORED 1 100 0\n"), 0);
+  EXPECT_NE(err.find("'BORED' is no expression"), std::string::npos);
+  EXPECT_EQ(Run("--headless --strict", "set FaceExp = BORED 1 100 0\n"), 1);
+}
+
+TEST_F(FsmProcessTest, SizeAndPositionAreTakenAsOptions) {
+  EXPECT_EQ(Run("--headless -s 200 100 --position 0 0", "inq Window\n"), 0) << err;
+  EXPECT_EQ(out, "rep Run = LIVE\nrep Window = 200 100\n");
+}
+
+}  // namespace
+}  // namespace fsm
