@@ -21,6 +21,7 @@ constexpr PeerKey kHub = 0;
 constexpr vm::Time kAnswerLimit =
     std::chrono::minutes(2);        // for a module to answer a peer's request
 constexpr int kClockExchanges = 5;  // when a module comes; the quickest one counts
+constexpr int kSilentRounds = 4;    // of EndProbes, for a module that has said nothing yet
 constexpr int kComplaintsPerSecond = 10;
 
 bool IsReport(const Message& message) {
@@ -57,6 +58,8 @@ struct Hub::Peer {
   Dialect dialect = Dialect::kAuto;
   std::unique_ptr<Link> link;
   bool probing = false;
+  bool spoken = false;                                // anything at all
+  int silent_rounds = 0;                              // EndProbes passed over it
   std::deque<Pending> waiting;                        // said before it was known how to say it
   std::map<unsigned long, Pending> pending;           // by the number in our tag
   std::map<std::string, std::vector<Pending>> asked;  // original dialect: inq, by slot
@@ -199,6 +202,7 @@ void Hub::Complain(Peer& sender, const Error& error) {
 void Hub::OnLine(PeerKey key, Result<std::string_view> line) {
   Peer* sender = ByKey(key);
   if (sender == nullptr) return;
+  sender->spoken = true;
   if (!line) return Complain(*sender, line.error());
   auto message = vm::ParseMessage(*line);
   if (!message) {
@@ -527,6 +531,8 @@ void Hub::EndProbes(const std::set<PeerKey>& modules) {
   for (const PeerKey key : modules) {
     Peer* peer = ByKey(key);
     if (peer == nullptr || !peer->probing) continue;
+    // One that has said nothing at all yet may still be starting, on a busy machine.
+    if (!peer->spoken && ++peer->silent_rounds < kSilentRounds) continue;
     Notice("@" + peer->name +
            " does not answer to Clock: it is spoken to as a module of the original");
     peer->probing = false;

@@ -62,6 +62,9 @@ def main():
     hub.send("to @AM set Name = DIALOGUE")
     hub.send("to @AM set Subscribe = SRM AM-MCL")
     hub.send("to @SRM set Run = START")
+    for life in ("BLINK 1", "MOVE 1", "GAZE 1"):
+        hub.send("to @FSM set Autonomous = " + life)
+    hub.send("to @FSM set FaceExp.onset = NATURAL")
     leaving = False
     print("Type to the agent, one line at a time; 'bye' or end of input leaves.", flush=True)
     feel(hub, "HAPPY 90")

@@ -98,7 +98,8 @@ if [ -n "$say" ]; then
   # One script for both ways: the film is made on the virtual clock, the window lives on the real one.
   {
     [ -z "$film" ] || echo "to @AM-MCL set Record = $out"
-    echo "to @FSM set Autonomous = BLINK 1"
+    for life in "BLINK 1" "MOVE 1" "GAZE 1"; do echo "to @FSM set Autonomous = $life"; done
+    echo "to @FSM set FaceExp.onset = NATURAL"
     [ -z "$film" ] && echo "set Wait = 600" || echo "set Wait = 300"
     [ -z "$emotion" ] || echo "to @AM-MCL set Emotion = $emotion"
     [ -z "$emotion" ] || echo "set Wait = 300"

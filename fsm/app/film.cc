@@ -8,10 +8,7 @@ constexpr long kMostRepeatsAtOnce = 4;
 }
 
 Film::Film(vm::Scheduler& clock, Studio& studio, Draw draw, OnFailure on_failure)
-    : clock_(clock),
-      studio_(studio),
-      draw_(std::move(draw)),
-      on_failure_(std::move(on_failure)) {}
+    : clock_(clock), studio_(studio), draw_(std::move(draw)), on_failure_(std::move(on_failure)) {}
 
 Film::~Film() {
   if (timer_ != 0) clock_.Cancel(timer_);
@@ -52,7 +49,7 @@ vm::Result<void> Film::AddUpTo(vm::Time now, long most_repeats) {
   // Those whose successor is due as well are too late to be drawn.
   const long first = next_;
   while (next_ > 0 && series_.TimeOf(next_ + 1) <= now) {
-    if (next_ - first == most_repeats) return {};
+    if (next_ - first == most_repeats) break;
     if (auto added = writer_->Add(last_); !added) return added;
     ++next_;
     ++repeated_;

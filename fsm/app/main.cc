@@ -53,13 +53,15 @@ bool WindowWanted(const Options& options) {
 
 void AddOptions(CLI::App& app, Options& options) {
   app.add_flag("--headless", options.headless, "Draw without a window, only what is asked for");
-  app.add_flag("--window", options.window, "Draw in a window (the default where there is a display)");
+  app.add_flag("--window", options.window,
+               "Draw in a window (the default where there is a display)");
   app.add_option("--size", options.size, "Size of the view, WxH (default 640x480)");
   app.add_option("-s", options.size_pair, "The same, as the original: -s W H")->expected(2);
   app.add_option("--position", options.position, "Place of the window, X Y")->expected(2);
   app.add_option("-C", options.config, "A configuration file of the original (config.txt)");
-  app.add_option("--tables", options.module.tables,
-                 "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
+  app.add_option(
+      "--tables", options.module.tables,
+      "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
   app.add_option("--seed", options.module.seed, "Of what the face does by itself (default 1)");
 }
 

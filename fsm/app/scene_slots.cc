@@ -12,7 +12,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr const char* kMask = "galatea";
-constexpr const char* kPlain = "plain";       // the background without a picture
+constexpr const char* kPlain = "plain";        // the background without a picture
 constexpr vm::Time kLongestSettling = 2000ms;  // what a picture waits for movements, on their clock
 
 std::optional<glm::vec3> ParseColour(std::string_view text) {
@@ -61,8 +61,8 @@ void SceneSlots::DeclareMasks() {
   core_.Declare({"Mask", "<text>", "Wears one of the faces of MaskSet.",
                  [this](const vm::SetValue& value) -> vm::Result<void> {
                    if (value.text != kMask) {
-                     return vm::Fail(vm::Errc::kBadValue, "there is no face '" + value.text +
-                                                              "'; there is " + kMask);
+                     return vm::Fail(vm::Errc::kBadValue,
+                                     "there is no face '" + value.text + "'; there is " + kMask);
                    }
                    core_.slots.Report("NowMask", value.text);
                    return {};
@@ -85,15 +85,16 @@ void SceneSlots::DeclareBackgrounds() {
                        .initial = kPlain,
                        .help = "The background shown now.",
                        .quoted = true});
-  core_.Declare({"Background", "<file>",
-                 "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb) or a "
-                 "colour, #rrggbb.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
-                   if (auto set = SetBackground(value.word(0)); !set) return set;
-                   core_.slots.Report("NowBackground", value.word(0));
-                   return {};
-                 },
-                 backgrounds_.empty() ? kPlain : backgrounds_.front().first});
+  core_.Declare(
+      {"Background", "<file>",
+       "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb) or a "
+       "colour, #rrggbb.",
+       [this](const vm::SetValue& value) -> vm::Result<void> {
+         if (auto set = SetBackground(value.word(0)); !set) return set;
+         core_.slots.Report("NowBackground", value.word(0));
+         return {};
+       },
+       backgrounds_.empty() ? kPlain : backgrounds_.front().first});
 }
 
 vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
@@ -107,7 +108,8 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
     core_.scene.background_image = nullptr;
     return {};
   }
-  const auto named = std::ranges::find(backgrounds_, name, &std::pair<std::string, std::string>::first);
+  const auto named =
+      std::ranges::find(backgrounds_, name, &std::pair<std::string, std::string>::first);
   if (named == backgrounds_.end() && !IsPictureName(name)) {
     return vm::Fail(vm::Errc::kBadValue, "there is no background '" + name + "'; " +
                                              core_.slots.Value("BackgroundSet") +
@@ -121,15 +123,15 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
 }
 
 void SceneSlots::DeclareView() {
-  core_.Declare({"ViewMode", "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME", "How the face is drawn.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
-                   core_.scene.view_mode =
-                       value.word(0) == "TEXTURE"     ? ViewMode::kTexture
-                       : value.word(0) == "WIREFRAME" ? ViewMode::kWireframe
-                                                      : ViewMode::kTextureWithWireframe;
-                   return {};
-                 },
-                 "TEXTURE"});
+  core_.Declare(
+      {"ViewMode", "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME", "How the face is drawn.",
+       [this](const vm::SetValue& value) -> vm::Result<void> {
+         core_.scene.view_mode = value.word(0) == "TEXTURE"     ? ViewMode::kTexture
+                                 : value.word(0) == "WIREFRAME" ? ViewMode::kWireframe
+                                                                : ViewMode::kTextureWithWireframe;
+         return {};
+       },
+       "TEXTURE"});
   core_.Declare({"ViewBackground", "ENABLE | DISABLE",
                  "Whether the background is drawn; without it pictures are transparent there.",
                  [this](const vm::SetValue& value) -> vm::Result<void> {
@@ -137,16 +139,17 @@ void SceneSlots::DeclareView() {
                    return {};
                  },
                  "ENABLE"});
-  core_.Declare({"Window", "<int 16..8192> <int 16..8192>", "Width and height of the view in pixels.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
-                   if (size_locked_ && size_locked_()) {
-                     return vm::Fail(vm::Errc::kBusy,
-                                     "a film of this size is recorded; set Record = STOP first");
-                   }
-                   return core_.studio.Resize(static_cast<int>(value.number(0)),
-                                              static_cast<int>(value.number(1)));
-                 },
-                 std::to_string(core_.studio.width()) + " " + std::to_string(core_.studio.height())});
+  core_.Declare(
+      {"Window", "<int 16..8192> <int 16..8192>", "Width and height of the view in pixels.",
+       [this](const vm::SetValue& value) -> vm::Result<void> {
+         if (size_locked_ && size_locked_()) {
+           return vm::Fail(vm::Errc::kBusy,
+                           "a film of this size is recorded; set Record = STOP first");
+         }
+         return core_.studio.Resize(static_cast<int>(value.number(0)),
+                                    static_cast<int>(value.number(1)));
+       },
+       std::to_string(core_.studio.width()) + " " + std::to_string(core_.studio.height())});
 }
 
 void SceneSlots::DeclareSaveImage() {
@@ -154,8 +157,9 @@ void SceneSlots::DeclareSaveImage() {
       {.name = "SaveImage",
        .grammar = "<file>",
        .access = vm::Access::kWriteOnly,
-       .help = "Writes a picture of the face, .png, .bmp or .rgb by the name: as it will be when the "
-               "changes begun before this command have settled, at most 2 s ahead.",
+       .help =
+           "Writes a picture of the face, .png, .bmp or .rgb by the name: as it will be when the "
+           "changes begun before this command have settled, at most 2 s ahead.",
        .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
          // The state is a function of time, so the settled face can be drawn at once, and commands
          // which follow cannot spoil it.

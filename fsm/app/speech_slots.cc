@@ -64,18 +64,18 @@ void SpeechSlots::DeclareSpeakSlots() {
   read_only("Speak.utt", "", "The phonemes spoken before, as far as they were spoken.");
   read_only("Speak.len", "0", "How many ms of them were spoken.");
   read_only("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
-  core_.slots.Declare({.name = "Speak",
-                       .grammar = "NOW | STOP | <time>",
-                       .access = vm::Access::kWriteOnly,
-                       .help = "Starts the mouth: NOW, + ms, @T (ms on the module's clock) or a wall "
-                               "time; given before the list it is remembered. STOP closes the mouth.",
-                       .on_set_later =
-                           [this](const vm::SetValue& value, const vm::Reply& reply) {
-                             if (auto done = Speak(value); !done) return reply.Fail(done.error());
-                             reply.Ok(value.text);
-                           },
-                       .group = {"Speak.text", "Speak.pho", "Speak.dur", "Speak.utt", "Speak.len",
-                                 "Speak.stat"}});
+  core_.slots.Declare(
+      {.name = "Speak",
+       .grammar = "NOW | STOP | <time>",
+       .access = vm::Access::kWriteOnly,
+       .help = "Starts the mouth: NOW, + ms, @T (ms on the module's clock) or a wall "
+               "time; given before the list it is remembered. STOP closes the mouth.",
+       .on_set_later =
+           [this](const vm::SetValue& value, const vm::Reply& reply) {
+             if (auto done = Speak(value); !done) return reply.Fail(done.error());
+             reply.Ok(value.text);
+           },
+       .group = {"Speak.text", "Speak.pho", "Speak.dur", "Speak.utt", "Speak.len", "Speak.stat"}});
   core_.slots.Declare({.name = "Speak.sync",
                        .grammar = "<number 0..86400000>",
                        .access = vm::Access::kWriteOnly,

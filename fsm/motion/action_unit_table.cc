@@ -37,10 +37,11 @@ vm::Result<UnitName> ParseUnitName(std::string_view word) {
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), unit.number);
   if (error != std::errc{} || end != digits.data() + digits.size() || !IsActionUnit(unit.number)) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    fmt::format("'{}' is not an action unit; 1 to 46 without 3 and 40 expected, with "
-                                "L or R for one side",
-                                word));
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("'{}' is not an action unit; 1 to 46 without 3 and 40 expected, with "
+                    "L or R for one side",
+                    word));
   }
   return unit;
 }
@@ -61,7 +62,8 @@ vm::Result<std::array<float, 2>> ReadAngles(std::string_view word) {
 
 }  // namespace
 
-vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line, std::size_t first) {
+vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line,
+                                  std::size_t first) {
   ActionUnits units;
   for (std::size_t i = first; i < line.words.size(); ++i) {
     const std::string_view word = line.words[i];
@@ -73,8 +75,8 @@ vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line,
     if (key.starts_with("gaze")) {
       const auto angles = ReadAngles(word.substr(colon + 1));
       if (!angles || (key != "gaze" && key != "gazeL" && key != "gazeR")) {
-        return table.Wrong(line.number,
-                           fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
+        return table.Wrong(
+            line.number, fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
       }
       if (key != "gazeR") units.gaze_left = *angles;
       if (key != "gazeL") units.gaze_right = *angles;

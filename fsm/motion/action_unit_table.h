@@ -14,8 +14,8 @@ namespace fsm {
 class TableText;
 struct TableLine;
 
-/// Weights of all action units, left and right, and where the eyes go with them (degrees, x+ = down,
-/// y+ = to the viewer's right, each eye).
+/// Weights of all action units, left and right, and where the eyes go with them (degrees, x+ =
+/// down, y+ = to the viewer's right, each eye).
 struct ActionUnits {
   std::array<float, kActionUnits> left{};
   std::array<float, kActionUnits> right{};

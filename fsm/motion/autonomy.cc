@@ -70,8 +70,8 @@ Angles Autonomy::HeadAt(vm::Time t) const {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         // Two speeds together: one alone looks like a pendulum.
         const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
-        const double way = 0.75 * Wander(kHead + 2 * axis, slow) +
-                           0.25 * Wander(kHead + 2 * axis + 1, slow * 2.3);
+        const double way =
+            0.75 * Wander(kHead + 2 * axis, slow) + 0.25 * Wander(kHead + 2 * axis + 1, slow * 2.3);
         out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
       }
     }
@@ -120,8 +120,7 @@ double Autonomy::LidsShutAt(vm::Time t) const {
   double shut = 0;
   for (std::int64_t k = middle - 1; k <= middle; ++k) {
     if (BlinkStart(k) < blink_.since) continue;
-    const double depth =
-        blinks.varied ? std::min(1.0, 0.85 + 0.25 * Random(kBlinkDepth, k)) : 1;
+    const double depth = blinks.varied ? std::min(1.0, 0.85 + 0.25 * Random(kBlinkDepth, k)) : 1;
     shut = std::max(shut, depth * LidsAt(table_.blinks[blinks.blink], t - BlinkStart(k)));
   }
   return weight * shut;

@@ -30,12 +30,15 @@ inline double SmootherStep(double u) {
 inline double Sinusoid(double u) { return (1 - std::cos(std::numbers::pi * Clamp01(u))) / 2; }
 
 /// Milliseconds of a time, with their fraction.
-inline double InMs(vm::Time time) { return std::chrono::duration<double, std::milli>(time).count(); }
+inline double InMs(vm::Time time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
 
 /// The nearest microsecond.
 inline vm::Time FromMs(double ms) { return vm::Time(std::llround(ms * 1000)); }
 
-/// How far `t` is on the way from `start` to `start + duration`, 0..1; a duration of zero is a step.
+/// How far `t` is on the way from `start` to `start + duration`, 0..1; a duration of zero is a
+/// step.
 inline double Progress(vm::Time t, vm::Time start, vm::Time duration) {
   if (t >= start + duration) return 1;
   if (t <= start) return 0;

@@ -69,13 +69,14 @@ EyeAngles EyeMotion::RightAt(vm::Time t) const {
 
 double EyeMotion::LidsShutAt(vm::Time t) const {
   double shut = 0;
-  for (const Blinking& blink : blinks_) shut = std::max(shut, LidsAt(blink.pattern, t - blink.start));
+  for (const Blinking& blink : blinks_)
+    shut = std::max(shut, LidsAt(blink.pattern, t - blink.start));
   return shut;
 }
 
 vm::Time EyeMotion::SettledAt(vm::Time t) const {
-  return std::max({left_.SettledAt(t), right_.SettledAt(t), gaze_.SettledAt(t),
-                   head_share_.SettledAt(t)});
+  return std::max(
+      {left_.SettledAt(t), right_.SettledAt(t), gaze_.SettledAt(t), head_share_.SettledAt(t)});
 }
 
 vm::Time EyeMotion::BlinksEnd(vm::Time t) const {

@@ -15,7 +15,7 @@ constexpr vm::Time kHeadTurn = 120ms;  // quick, but not at once
 constexpr vm::Time kScaleMove = 100ms;
 
 // What one unit of Mouth.N at 100 % means, mm or (jaw Y) degrees.
-constexpr std::array<float, kMouthParameters> kMouthUnit = {4, 4, 4, 4,  -6, 4, -6, 4, 5,
+constexpr std::array<float, kMouthParameters> kMouthUnit = {4, 4, 4,  4, -6, 4, -6, 4, 5,
                                                             5, 5, 15, 4, 1,  1, 1,  1};
 
 template <typename Map>
@@ -45,8 +45,9 @@ vm::Result<void> FaceMotion::Express(vm::Time now, std::string_view name, int pa
                                      double strength, vm::Time duration) {
   const auto found = tables_.emotions.find(name);
   if (found == tables_.emotions.end()) {
-    return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is no expression; {} or NEUTRAL expected",
-                                                     name, KeysOf(tables_.emotions)));
+    return vm::Fail(vm::Errc::kBadValue,
+                    fmt::format("'{}' is no expression; {} or NEUTRAL expected", name,
+                                KeysOf(tables_.emotions)));
   }
   const Emotion& emotion = found->second;
   if (auto fits = CheckPattern(name, pattern, 1, emotion.patterns.size()); !fits) return fits;
@@ -76,7 +77,8 @@ vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength
       return {};
     }
   }
-  return vm::Fail(vm::Errc::kBadValue, fmt::format("the list of units has no position {}", position));
+  return vm::Fail(vm::Errc::kBadValue,
+                  fmt::format("the list of units has no position {}", position));
 }
 
 vm::Result<void> FaceMotion::SetMouth(vm::Time now, int parameter, double strength) {
@@ -211,8 +213,8 @@ FaceState FaceMotion::StateAt(vm::Time t) const {
 
   const double scale = mouth_scale_.At(t) / kFullMouthScale;
   for (std::size_t i = 0; i < kMouthParameters; ++i) {
-    state.mouth[i] = Mix(mouth_[i].At(t), static_cast<float>(scale * speech.pose.mouth[i]),
-                         speech.share);
+    state.mouth[i] =
+        Mix(mouth_[i].At(t), static_cast<float>(scale * speech.pose.mouth[i]), speech.share);
   }
   state.lip_seal = static_cast<float>(speech.share * speech.pose.seal);
   state.tongue = static_cast<float>(speech.share * speech.pose.tongue);

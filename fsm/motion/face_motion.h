@@ -24,12 +24,12 @@ namespace fsm {
 /// Times of movements which the original keeps in its configuration, and settings of speech.
 struct MotionSettings {
   vm::Time expression = std::chrono::milliseconds(100);  ///< EXPRESSION_DURATION
-  bool natural_expressions = false;  ///< onsets as measured on people instead
-  vm::Time eye_move = std::chrono::milliseconds(70);  ///< EYEMOVE_DURATION
-  double lead_ms = 40;         ///< the mouth is ahead of the voice
-  double offset_ms = 0;        ///< delays the mouth
-  double sync_offset_ms = 0;   ///< added to what the voice reports
-  double sync_rate = 0.25;     ///< how fast a difference is worked off, ms a ms
+  bool natural_expressions = false;                      ///< onsets as measured on people instead
+  vm::Time eye_move = std::chrono::milliseconds(70);     ///< EYEMOVE_DURATION
+  double lead_ms = 40;                                   ///< the mouth is ahead of the voice
+  double offset_ms = 0;                                  ///< delays the mouth
+  double sync_offset_ms = 0;                             ///< added to what the voice reports
+  double sync_rate = 0.25;  ///< how fast a difference is worked off, ms a ms
   /// The original's unit for the size of mouth movements; kFullMouthScale gives the full
   /// articulation of the shape table, the default 30 the three quarters of natural speech.
   double mouth_scale = 30;
@@ -53,8 +53,8 @@ class FaceMotion {
   vm::Result<void> Express(vm::Time now, std::string_view name, int pattern, double strength,
                            vm::Time duration);
   void Neutral(vm::Time now);
-  vm::Result<void> SetFace(vm::Time now, int position, double strength);   ///< Face.N
-  vm::Result<void> SetMouth(vm::Time now, int parameter, double strength); ///< Mouth.N, from 1
+  vm::Result<void> SetFace(vm::Time now, int position, double strength);    ///< Face.N
+  vm::Result<void> SetMouth(vm::Time now, int parameter, double strength);  ///< Mouth.N, from 1
   vm::Result<void> SetUnit(vm::Time now, std::string_view unit, double strength, vm::Time move);
   vm::Result<void> SetBlendShape(vm::Time now, std::string_view name, double weight, vm::Time move);
 
@@ -65,7 +65,7 @@ class FaceMotion {
   void TurnHeadBy(vm::Time now, const Angles& angles);
   Angles HeadTarget(vm::Time now) const { return head_.TargetAt(now); }
   vm::Result<void> Move(vm::Time now, std::string_view kind, int pattern);  ///< FaceMot
-  void StopMoves(vm::Time now);                                            ///< FaceMot = NOMOVE
+  void StopMoves(vm::Time now);                                             ///< FaceMot = NOMOVE
   vm::Result<void> Autonomous(vm::Time now, std::string_view kind, int pattern);
 
   // Speech.
@@ -110,7 +110,7 @@ class FaceMotion {
   Track<float> mouth_scale_{30.0f};
   Tracks units_left_, units_right_;
   std::array<Track<float>, kMouthParameters> mouth_;
-  std::vector<Track<float>> emotions_;                            // Face.31 and on, by position
+  std::vector<Track<float>> emotions_;                             // Face.31 and on, by position
   std::map<std::string, Track<float>, std::less<>> blend_shapes_;  // those ever set
 };
 

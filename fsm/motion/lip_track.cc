@@ -9,14 +9,13 @@
 namespace fsm {
 namespace {
 
-constexpr double kLongMs = 200;         // from here on a phoneme holds and then moves
+constexpr double kLongMs = 200;          // from here on a phoneme holds and then moves
 constexpr double kFirstPartShare = 0.3;  // of a diphthong
-constexpr double kSeenMs = 34;          // just over one frame at 30 a second
+constexpr double kSeenMs = 34;           // just over one frame at 30 a second
 
 // Vowels only English lists have; hh is flite's h.
-constexpr std::array<std::string_view, 16> kEnglishOnly = {"aa", "ae", "ah", "ao", "aw", "ax",
-                                                           "ay", "eh", "er", "ey", "hh", "ih",
-                                                           "iy", "ow", "uh", "uw"};
+constexpr std::array<std::string_view, 16> kEnglishOnly = {
+    "aa", "ae", "ah", "ao", "aw", "ax", "ay", "eh", "er", "ey", "hh", "ih", "iy", "ow", "uh", "uw"};
 
 bool LooksEnglish(const vm::PhonemeList& phonemes) {
   return std::ranges::any_of(phonemes, [](const vm::Phoneme& phoneme) {
@@ -43,8 +42,8 @@ MouthPose Scaled(const MouthShape& shape, double strength) {
 }  // namespace
 
 LipTrack::LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, Language language) {
-  english_ = language == Language::kEnglish ||
-             (language == Language::kAuto && LooksEnglish(phonemes));
+  english_ =
+      language == Language::kEnglish || (language == Language::kAuto && LooksEnglish(phonemes));
   // The other language's table helps out, so a mixed list still moves the lips.
   const PhonemeTable& first = english_ ? tables.phonemes_en : tables.phonemes_ja;
   const PhonemeTable& second = english_ ? tables.phonemes_ja : tables.phonemes_en;
@@ -71,7 +70,8 @@ LipTrack::LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, 
     length_ms_ += length;
   }
 
-  // "next" takes over what follows; at the end, or before a closure of the lips, there is only rest.
+  // "next" takes over what follows; at the end, or before a closure of the lips, there is only
+  // rest.
   for (std::size_t i = demands.size(); i-- > 0;) {
     if (demands[i].shape != PhonemeLook::kNext) continue;
     const bool follows = i + 1 < demands.size();

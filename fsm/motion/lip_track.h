@@ -9,7 +9,7 @@
 namespace fsm {
 
 enum class Language {
-  kAuto,      ///< English if the list has an English vowel in it, else Japanese
+  kAuto,  ///< English if the list has an English vowel in it, else Japanese
   kJapanese,
   kEnglish,
 };
@@ -19,9 +19,10 @@ enum class Language {
 ///
 ///     M(t) = W (V0 - V1) + (V0 + V1)/2,  W = cos(pi (t - t0)/(t1 - t0)) / 2
 ///
-/// A phoneme of 200 ms or more is split into (d - 92) + 92, so it holds and then moves; a shape with
-/// a hold (closed lips) stands for that share of a shorter one; p, b and m at least for about one
-/// frame at 30 a second, so that the closure is seen. Phonemes the table does not know close the mouth.
+/// A phoneme of 200 ms or more is split into (d - 92) + 92, so it holds and then moves; a shape
+/// with a hold (closed lips) stands for that share of a shorter one; p, b and m at least for about
+/// one frame at 30 a second, so that the closure is seen. Phonemes the table does not know close
+/// the mouth.
 class LipTrack {
  public:
   LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, Language language);

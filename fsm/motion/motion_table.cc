@@ -42,8 +42,8 @@ Angles HeadCurve::At(double ms) const {
     const double m0 = slopes_[i][axis] * span;
     const double m1 = slopes_[i + 1][axis] * span;
     // The cubic Hermite polynomial.
-    out[axis] = static_cast<float>(p0 + u * (m0 + u * (3 * (p1 - p0) - 2 * m0 - m1 +
-                                                       u * (2 * (p0 - p1) + m0 + m1))));
+    out[axis] = static_cast<float>(
+        p0 + u * (m0 + u * (3 * (p1 - p0) - 2 * m0 - m1 + u * (2 * (p0 - p1) + m0 + m1))));
   }
   return out;
 }
@@ -116,13 +116,13 @@ vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view te
       const auto pattern = table.Number(line, 1, "a pattern number", 1, 10000);
       if (!pattern) return std::unexpected(pattern.error());
       if (*pattern != static_cast<double>(have + 1)) {
-        return table.Wrong(line.number, fmt::format("pattern {:g} found, {} expected next", *pattern,
-                                                    have + 1));
+        return table.Wrong(line.number,
+                           fmt::format("pattern {:g} found, {} expected next", *pattern, have + 1));
       }
       return {};
     };
-    const auto read = [&](std::size_t have, std::size_t count, const std::string& expected)
-        -> vm::Result<std::vector<double>> {
+    const auto read = [&](std::size_t have, std::size_t count,
+                          const std::string& expected) -> vm::Result<std::vector<double>> {
       if (auto fits = check_pattern(have); !fits) return std::unexpected(fits.error());
       return Numbers(table, line, count, expected);
     };
@@ -146,16 +146,17 @@ vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view te
       const auto v = read(out.auto_blinks.size(), 3, "AUTOBLINK PATTERN INTERVAL BLINK");
       if (!v) return std::unexpected(v.error());
       if ((*v)[1] < 500 || (*v)[2] < 1 || (*v)[2] > static_cast<double>(out.blinks.size())) {
-        return table.Wrong(line.number, "an interval of at least 500 ms and a blink above expected");
+        return table.Wrong(line.number,
+                           "an interval of at least 500 ms and a blink above expected");
       }
       out.auto_blinks.push_back({(*v)[1], static_cast<std::size_t>((*v)[2]) - 1, true});
     } else if (kind == "AUTOMOVE") {
       const auto v = read(out.auto_moves.size(), 5, "AUTOMOVE PATTERN X Y Z PERIOD");
       if (!v) return std::unexpected(v.error());
       if ((*v)[4] < 100) return table.Wrong(line.number, "a period of at least 100 ms expected");
-      out.auto_moves.push_back({{static_cast<float>((*v)[1]), static_cast<float>((*v)[2]),
-                                 static_cast<float>((*v)[3])},
-                                (*v)[4]});
+      out.auto_moves.push_back(
+          {{static_cast<float>((*v)[1]), static_cast<float>((*v)[2]), static_cast<float>((*v)[3])},
+           (*v)[4]});
     } else if (kind == "AUTOGAZE") {
       const auto v = read(out.auto_gazes.size(), 3, "AUTOGAZE PATTERN ANGLE INTERVAL");
       if (!v) return std::unexpected(v.error());

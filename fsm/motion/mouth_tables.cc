@@ -26,7 +26,8 @@ vm::Result<MouthShapes> ReadMouthShapes(const std::string& name, std::string_vie
     MouthShape shape;
     shape.name = line.words[0];
     for (std::size_t i = 0; i < kMouthParameters; ++i) {
-      const auto value = table.Number(line, 1 + i, fmt::format("mouth parameter {}", i + 1), -60, 60);
+      const auto value =
+          table.Number(line, 1 + i, fmt::format("mouth parameter {}", i + 1), -60, 60);
       if (!value) return std::unexpected(value.error());
       shape.pose.mouth[i] = static_cast<float>(*value);
     }
@@ -58,7 +59,8 @@ vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_v
   PhonemeTable phonemes;
   for (const TableLine& line : table.lines()) {
     if (line.words.size() != 3 && line.words.size() != 5) {
-      return table.Wrong(line.number, "a phoneme, then one or two pairs of shape and strength expected");
+      return table.Wrong(line.number,
+                         "a phoneme, then one or two pairs of shape and strength expected");
     }
     PhonemeLook look;
     for (std::size_t i = 1; i < line.words.size(); i += 2) {

@@ -7,10 +7,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr vm::Time kTakeOver = 60ms;      // the mouth comes under speech
+constexpr vm::Time kTakeOver = 60ms;  // the mouth comes under speech
 constexpr vm::Time kEmotionYields = 150ms;
-constexpr vm::Time kClose = 110ms;        // after STOP; the promise is 120
-constexpr vm::Time kClosedFor = 120ms;    // before emotion may part the lips again
+constexpr vm::Time kClose = 110ms;      // after STOP; the promise is 120
+constexpr vm::Time kClosedFor = 120ms;  // before emotion may part the lips again
 constexpr vm::Time kRelease = 300ms;
 
 }  // namespace

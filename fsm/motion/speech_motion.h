@@ -15,7 +15,8 @@ namespace fsm {
 /// fades under the next one. Commands come in order of time; queries are for now or later.
 class SpeechMotion {
  public:
-  /// The voice starts at `start`; the mouth begins up to 92 ms before that, and is ahead by the lead.
+  /// The voice starts at `start`; the mouth begins up to 92 ms before that, and is ahead by the
+  /// lead.
   void Start(vm::Time now, LipTrack track, vm::Time start);
   /// The lips are closed 110 ms later.
   void Stop(vm::Time now);
@@ -26,8 +27,8 @@ class SpeechMotion {
 
   /// How much of the mouth speech owns, 0..1, and what it asks (full articulation).
   struct Mouth {
-    double share = 0;          ///< of the mouth parameters
-    double over_emotion = 0;   ///< how far emotion gives way; slower than `share` to be soft
+    double share = 0;         ///< of the mouth parameters
+    double over_emotion = 0;  ///< how far emotion gives way; slower than `share` to be soft
     MouthPose pose;
   };
   Mouth At(vm::Time t) const;
@@ -35,8 +36,8 @@ class SpeechMotion {
   bool active() const { return !layers_.empty() && !layers_.back().stopped; }
   /// When the utterance in hand will be over, for voice and mouth; none if there is none.
   std::optional<vm::Time> End() const;
-  double VoicePositionAt(vm::Time t) const;          ///< 0 if nothing is spoken
-  const std::string& PhonemeAt(vm::Time t) const;    ///< on the mouth; "" = none
+  double VoicePositionAt(vm::Time t) const;        ///< 0 if nothing is spoken
+  const std::string& PhonemeAt(vm::Time t) const;  ///< on the mouth; "" = none
   std::optional<vm::Time> NextActivity(vm::Time t) const;
 
  private:

@@ -1,9 +1,9 @@
 #include "fsm/motion/table_text.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
-
-#include <fmt/format.h>
 
 namespace fsm {
 

@@ -35,7 +35,8 @@ class Track {
   /// later are forgotten. After this call, `At` is good for times from `now` on.
   void Plan(vm::Time now, T target, vm::Time start, vm::Time duration) {
     Prune(now);
-    std::erase_if(moves_, [&](const Move& move) { return move.start >= start && move.start > now; });
+    std::erase_if(moves_,
+                  [&](const Move& move) { return move.start >= start && move.start > now; });
     moves_.push_back({start, duration, std::move(target)});
   }
   void MoveTo(vm::Time now, T target, vm::Time duration) {

@@ -43,8 +43,9 @@ vm::Result<OriginalConfig> ParseOriginalConfig(std::string_view text) {
     const std::string key(Trim(line.substr(0, colon)));
     const std::string value(Trim(line.substr(colon + 1)));
     const auto bad = [&](const char* expected) {
-      return std::unexpected(
-          At(number, vm::Errc::kBadValue, key + " is '" + value + "', expected " + expected));
+      std::string what = key;
+      what.append(" is '").append(value).append("', expected ").append(expected);
+      return std::unexpected(At(number, vm::Errc::kBadValue, what));
     };
     if (key == "SPEAKER-ID") {
       if (value.empty() || value.find_first_of(" \t") != std::string::npos) return bad("one word");

@@ -154,6 +154,9 @@ TEST(HubTest, WhatIsSaidToAModuleThatIsStillStartingWaitsInOrder) {
   world.Say(*a, "to @SSM set Speak = NOW");
   EXPECT_EQ(m->heard.size(), 1u) << "only the probe";
   world.hub.EndProbes(world.hub.Probing());
+  EXPECT_EQ(m->heard.size(), 1u) << "it has not said a word: it may still be starting";
+  world.Say(*m, "rep Run = LIVE");
+  world.hub.EndProbes(world.hub.Probing());
   EXPECT_EQ(m->heard[1], "set Text = one");
   EXPECT_EQ(m->heard[2], "set Speak = NOW");
 }

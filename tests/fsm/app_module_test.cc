@@ -28,16 +28,33 @@ TEST(FsmModuleTest, AnswersAsTheOriginal) {
 
 TEST(FsmModuleTest, NoSlotReportsByItselfAtFirst) {
   FsmStage fsm;
-  for (const char* line :
-       {"set Face.1 = 100", "set Mouth.17 = 200", "set HeadRotAbs.1 = 1 2 3",
-        "set HeadRotRel.1 = 1 2 3", "set FaceMot = NOD 1", "set FaceMot = NOMOVE",
-        "set FaceExp = HAPPY 1 100 500", "set FaceExp = NEUTRAL", "set EyeRot = 1 2 100",
-        "set EyeRotLeft = 1 2 0", "set EyeRotRight = 1 2 0", "set Autonomous = BLINK 1",
-        "set Autonomous = MOVE 1", "set Autonomous = USERDEF 0", "set Offset = 10.5",
-        "set Speak.syncoffset = 5", "set MouthScale = 50", "set Mask = galatea",
-        "set Background = #102030", "set ViewMode = WIREFRAME", "set ViewBackground = DISABLE",
-        "set AgentEnable = DISABLE", "set AgentRot = 1 2 3", "set AgentTrans = 1 2",
-        "set AgentScale = 1.5", "set AgentAlpha = 0.5", "set SaveImage = a.bmp"}) {
+  for (const char* line : {"set Face.1 = 100",
+                           "set Mouth.17 = 200",
+                           "set HeadRotAbs.1 = 1 2 3",
+                           "set HeadRotRel.1 = 1 2 3",
+                           "set FaceMot = NOD 1",
+                           "set FaceMot = NOMOVE",
+                           "set FaceExp = HAPPY 1 100 500",
+                           "set FaceExp = NEUTRAL",
+                           "set EyeRot = 1 2 100",
+                           "set EyeRotLeft = 1 2 0",
+                           "set EyeRotRight = 1 2 0",
+                           "set Autonomous = BLINK 1",
+                           "set Autonomous = MOVE 1",
+                           "set Autonomous = USERDEF 0",
+                           "set Offset = 10.5",
+                           "set Speak.syncoffset = 5",
+                           "set MouthScale = 50",
+                           "set Mask = galatea",
+                           "set Background = #102030",
+                           "set ViewMode = WIREFRAME",
+                           "set ViewBackground = DISABLE",
+                           "set AgentEnable = DISABLE",
+                           "set AgentRot = 1 2 3",
+                           "set AgentTrans = 1 2",
+                           "set AgentScale = 1.5",
+                           "set AgentAlpha = 0.5",
+                           "set SaveImage = a.bmp"}) {
     EXPECT_EQ(fsm.Say(line), "") << line;
   }
   EXPECT_TRUE(fsm.errors.empty()) << fsm.errors.at(0);

@@ -92,8 +92,9 @@ TEST_F(FsmProcessTest, TheSameInputGivesTheSameFilmAndTheSameWords) {
 }
 
 TEST_F(FsmProcessTest, AFilmThatWasNotStoppedIsFinishedAtTheEndOfInput) {
-  EXPECT_EQ(Run("--headless --size 160x120",
-                "set Record = film.mp4\nset FaceExp = HAPPY 1 100 600\n"), 0);
+  EXPECT_EQ(
+      Run("--headless --size 160x120", "set Record = film.mp4\nset FaceExp = HAPPY 1 100 600\n"),
+      0);
   EXPECT_GT(ReadAll(folder / "film.mp4").size(), 1000u) << err;
 }
 

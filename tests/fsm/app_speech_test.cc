@@ -63,7 +63,8 @@ TEST(FsmSpeechTest, NowBeforeTheListIsRemembered) {
             "rep Speak.stat = PROCESSING|rep Speak.stat = READY|rep Speak.stat = SPEAKING");
   EXPECT_EQ(fsm.Until(400), "rep Speak.stat = IDLE");
   // It was for that list only.
-  EXPECT_EQ(fsm.Say("set LipSync.pho = a 100"), "rep Speak.stat = PROCESSING|rep Speak.stat = READY");
+  EXPECT_EQ(fsm.Say("set LipSync.pho = a 100"),
+            "rep Speak.stat = PROCESSING|rep Speak.stat = READY");
 }
 
 TEST(FsmSpeechTest, EveryFormOfAStartTimeIsTaken) {
@@ -115,7 +116,8 @@ TEST(FsmSpeechTest, StopEndsAWaitAndForgetsARememberedNow) {
   EXPECT_EQ(fsm.Until(1000), "");
   fsm.Say("set Speak = NOW");
   EXPECT_EQ(fsm.Say("set Speak = STOP"), "rep Speak.stat = IDLE");
-  EXPECT_EQ(fsm.Say("set LipSync.pho = a 100"), "rep Speak.stat = PROCESSING|rep Speak.stat = READY");
+  EXPECT_EQ(fsm.Say("set LipSync.pho = a 100"),
+            "rep Speak.stat = PROCESSING|rep Speak.stat = READY");
 }
 
 TEST(FsmSpeechTest, SyncMovesTheEndAndZeroIsIgnored) {
@@ -143,7 +145,8 @@ TEST(FsmSpeechTest, SyncOffsetIsAddedToWhatTheVoiceSays) {
 
 TEST(FsmSpeechTest, BadListsSayWhere) {
   FsmStage fsm;
-  EXPECT_TRUE(fsm.Say("set#1 LipSync.pho = a x b 50").starts_with("rep#1 LipSync.pho.error = BAD_VALUE"))
+  EXPECT_TRUE(
+      fsm.Say("set#1 LipSync.pho = a x b 50").starts_with("rep#1 LipSync.pho.error = BAD_VALUE"))
       << fsm.Say("set#1 LipSync.pho = a x b 50");
   EXPECT_EQ(fsm.Say("inq Speak.stat"), "rep Speak.stat = IDLE");
 }

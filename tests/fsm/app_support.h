@@ -53,7 +53,8 @@ class FakeStudio final : public Studio {
     if (path == "missing.png") return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
     return Image{1, 1, {1, 2, 3, 255}};
   }
-  vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int, int, int) override;
+  vm::Result<std::unique_ptr<MovieWriter>> OpenFilm(const std::string& path, int, int,
+                                                    int) override;
 
   std::map<std::string, FaceState> pictures;
   std::map<std::string, FakeFilm> films;
@@ -88,7 +89,7 @@ class FakeMovieWriter final : public MovieWriter {
 };
 
 inline vm::Result<std::unique_ptr<MovieWriter>> FakeStudio::OpenFilm(const std::string& path, int,
-                                                                    int, int) {
+                                                                     int, int) {
   if (!path.ends_with(".mp4")) return vm::Fail(vm::Errc::kBadValue, path + " is not .mp4");
   return std::make_unique<FakeMovieWriter>(films[path]);
 }

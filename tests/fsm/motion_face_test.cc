@@ -223,16 +223,32 @@ TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
   for (int i = 0; i < 5000; ++i) {
     t += std::chrono::milliseconds(random(50));
     switch (random(8)) {
-      case 0: (void)motion.Express(t, names[random(4)], 1 + random(5), random(200) / 100.0,
-                                   std::chrono::milliseconds(random(300))); break;
-      case 1: (void)motion.SetFace(t, 1 + random(36), random(200) / 100.0); break;
-      case 2: motion.TurnEyes(t, true, random(2) == 0, random(30), random(30),
-                              std::chrono::milliseconds(random(200))); break;
-      case 3: motion.TurnHeadBy(t, {1, -2, 3}); break;
-      case 4: (void)motion.Move(t, "REFUSE", 1 + random(3)); break;
-      case 5: motion.Speak(t, vm::ParsePhonemes("a 80 m 60 i 300").value(), t + 20ms); break;
-      case 6: motion.Sync(t, random(500)); break;
-      default: motion.StopSpeaking(t); break;
+      case 0:
+        (void)motion.Express(t, names[random(4)], 1 + random(5), random(200) / 100.0,
+                             std::chrono::milliseconds(random(300)));
+        break;
+      case 1:
+        (void)motion.SetFace(t, 1 + random(36), random(200) / 100.0);
+        break;
+      case 2:
+        motion.TurnEyes(t, true, random(2) == 0, random(30), random(30),
+                        std::chrono::milliseconds(random(200)));
+        break;
+      case 3:
+        motion.TurnHeadBy(t, {1, -2, 3});
+        break;
+      case 4:
+        (void)motion.Move(t, "REFUSE", 1 + random(3));
+        break;
+      case 5:
+        motion.Speak(t, vm::ParsePhonemes("a 80 m 60 i 300").value(), t + 20ms);
+        break;
+      case 6:
+        motion.Sync(t, random(500));
+        break;
+      default:
+        motion.StopSpeaking(t);
+        break;
     }
     const FaceState state = motion.StateAt(t + std::chrono::milliseconds(random(100)));
     for (const float v : state.au_left) ASSERT_TRUE(v >= 0 && v <= 2);

@@ -49,7 +49,8 @@ TEST(LipTrackTest, LipClosuresSealForAFrameEvenInFastSpeech) {
   const auto tables = BuiltIn();
   for (const char* name : {"p", "b", "m"}) {
     for (int ms : {40, 60, 90, 150, 250}) {
-      const vm::PhonemeList list = {{"a", 80ms}, {name, std::chrono::milliseconds(ms)}, {"a", 80ms}};
+      const vm::PhonemeList list = {
+          {"a", 80ms}, {name, std::chrono::milliseconds(ms)}, {"a", 80ms}};
       const LipTrack track(list, tables, Language::kJapanese);
       for (double t = 80; t <= 80 + 34 * 0.99; t += 1) {
         EXPECT_FLOAT_EQ(track.At(t).seal, 1) << name << " of " << ms << " at " << t;

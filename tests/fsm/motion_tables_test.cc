@@ -1,10 +1,11 @@
+#include "fsm/motion/motion_tables.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
-#include "fsm/motion/motion_tables.h"
 #include "fsm/motion/table_text.h"
 
 namespace fsm {
@@ -40,27 +41,28 @@ TEST(MotionTablesTest, OnlyRestAndTheLipClosuresSeal) {
 
 TEST(MotionTablesTest, EveryPhonemeOfTheOriginalVoiceIsKnown) {
   const auto tables = BuiltIn();
-  for (const char* name : {"a", "i", "u", "e", "o", "k", "s", "sh", "t", "ch", "ts", "n", "h", "f",
-                           "m", "y", "r", "w", "g", "z", "j", "d", "b", "p", "ky", "ny", "hy", "my",
-                           "ry", "gy", "by", "py", "dy", "cl", "N", "pau", "sil", "A", "I", "U",
-                           "E", "O"}) {
+  for (const char* name :
+       {"a",  "i",  "u",  "e",  "o",  "k",  "s", "sh",  "t",   "ch", "ts", "n",  "h",  "f",
+        "m",  "y",  "r",  "w",  "g",  "z",  "j", "d",   "b",   "p",  "ky", "ny", "hy", "my",
+        "ry", "gy", "by", "py", "dy", "cl", "N", "pau", "sil", "A",  "I",  "U",  "E",  "O"}) {
     EXPECT_TRUE(tables.phonemes_ja.contains(name)) << name;
   }
 }
 
 TEST(MotionTablesTest, EveryPhonemeOfFliteIsKnown) {
   const auto tables = BuiltIn();
-  for (const char* name : {"aa", "ae", "ah", "ao", "aw", "ax", "ay", "b", "ch", "d", "dh", "eh", "er",
-                           "ey", "f", "g", "hh", "ih", "iy", "jh", "k", "l", "m", "n", "ng", "ow",
-                           "oy", "p", "pau", "r", "s", "sh", "t", "th", "uh", "uw", "v", "w", "y",
-                           "z", "zh"}) {
+  for (const char* name :
+       {"aa",  "ae", "ah", "ao", "aw", "ax", "ay", "b",  "ch", "d", "dh", "eh", "er", "ey",
+        "f",   "g",  "hh", "ih", "iy", "jh", "k",  "l",  "m",  "n", "ng", "ow", "oy", "p",
+        "pau", "r",  "s",  "sh", "t",  "th", "uh", "uw", "v",  "w", "y",  "z",  "zh"}) {
     EXPECT_TRUE(tables.phonemes_en.contains(name)) << name;
   }
 }
 
 TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
   const auto tables = BuiltIn();
-  for (const char* name : {"HAPPY", "ANGRY", "DISGUSTED", "SAD", "SURPRISED", "FEARED", "USERDEF"}) {
+  for (const char* name :
+       {"HAPPY", "ANGRY", "DISGUSTED", "SAD", "SURPRISED", "FEARED", "USERDEF"}) {
     ASSERT_TRUE(tables.emotions.contains(name)) << name;
     EXPECT_EQ(tables.emotions.at(name).patterns.size(), 5u) << name;
   }
@@ -87,10 +89,13 @@ TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().text.find(text), std::string::npos) << result.error().text;
   };
-  expect(ReadPhonemeTable("p.txt", "a a 1\nb q 1\n", shapes), "p.txt:2: 'q' is neither a mouth shape");
-  expect(ReadPhonemeTable("p.txt", "a a 1\na o 1\n", shapes), "p.txt:2: the phoneme 'a' is here twice");
+  expect(ReadPhonemeTable("p.txt", "a a 1\nb q 1\n", shapes),
+         "p.txt:2: 'q' is neither a mouth shape");
+  expect(ReadPhonemeTable("p.txt", "a a 1\na o 1\n", shapes),
+         "p.txt:2: the phoneme 'a' is here twice");
   expect(ReadPhonemeTable("p.txt", "", shapes), "no phoneme found");
-  expect(ReadPhonemeTable("p.txt", "a a nan\n", shapes), "p.txt:1: 'nan' found, a strength expected");
+  expect(ReadPhonemeTable("p.txt", "a a nan\n", shapes),
+         "p.txt:1: 'nan' found, a strength expected");
   expect(ReadEmotions("e.txt", "HAPPY 1 12:0.5 99:1\n"), "e.txt:1: '99' is not an action unit");
   expect(ReadEmotions("e.txt", "HAPPY 2 12:0.5\n"), "e.txt:1: pattern 2 found, 1 expected");
   expect(ReadEmotions("e.txt", "timing HAPPY 1 2 3 4\n"), "'HAPPY' has no pattern 1");
@@ -129,7 +134,8 @@ TEST(MotionTablesTest, MotionFilesOfTheOriginalAreRead) {
 }
 
 TEST(HeadCurveTest, GoesThroughItsKeysWithoutOvershooting) {
-  const HeadCurve curve({{100, {0, 10, 0}}, {200, {0, 0, 0}}, {300, {0, -10, 0}}, {400, {0, 0, 0}}});
+  const HeadCurve curve(
+      {{100, {0, 10, 0}}, {200, {0, 0, 0}}, {300, {0, -10, 0}}, {400, {0, 0, 0}}});
   for (double ms = 0; ms <= 400; ms += 1) {
     EXPECT_LE(std::abs(curve.At(ms)[1]), 10.001);
   }

@@ -1,4 +1,5 @@
-// Interrupting a ten-second utterance at every half second, on the virtual clock with all processes.
+// Interrupting a ten-second utterance at every half second, on the virtual clock with all
+// processes.
 
 #include <gtest/gtest.h>
 
@@ -65,7 +66,8 @@ TEST_P(BargeInTest, SoundAndLipsStopInTimeAndTheNextUtteranceIsInStep) {
   for (const std::string& line : lines) {
     const auto message = vm::ParseMessage(line);
     if (!message) continue;
-    if (message->from == "SSM" && message->slot == "Speak.len" && first_len < 0) first_len = std::stod(message->value);
+    if (message->from == "SSM" && message->slot == "Speak.len" && first_len < 0)
+      first_len = std::stod(message->value);
     if (message->tag == "mark") mark = std::stod(message->value);
     if (message->tag == "first") first_error = message->slot + " " + message->value;
     if (message->tag == "second") second = message->slot;
@@ -74,7 +76,8 @@ TEST_P(BargeInTest, SoundAndLipsStopInTimeAndTheNextUtteranceIsInStep) {
       << "the interrupted utterance is answered as stopped: " << first_error;
   EXPECT_EQ(second, "Speak") << "the next utterance succeeds";
   ASSERT_GE(mark, 0) << testing::PrintToString(lines);
-  // Preparing takes some of the time before the stop, so less than that was spoken, and not nothing.
+  // Preparing takes some of the time before the stop, so less than that was spoken, and not
+  // nothing.
   EXPECT_LE(first_len, stop_after_ms);
   EXPECT_GE(first_len, stop_after_ms - 500);
   EXPECT_FALSE(spoken.empty());

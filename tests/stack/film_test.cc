@@ -1,4 +1,5 @@
-// A recorded film taken apart: where the mouth stood in its frames, where the sound is in its sound.
+// A recorded film taken apart: where the mouth stood in its frames, where the sound is in its
+// sound.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ namespace {
 
 using stack::Stack;
 
-constexpr double kLeadMs = 40;   // LipSync.lead at start
+constexpr double kLeadMs = 40;  // LipSync.lead at start
 constexpr double kFrameMs = 1000.0 / 30;
 
 struct Frame {
@@ -60,10 +61,15 @@ Film Make(Stack& stack, const std::string& text) {
   for (const std::string& line : stack.Finish()) {
     const auto message = vm::ParseMessage(line);
     if (!message) continue;
-    if (message->slot == "Text.pho") film.phonemes = vm::ParsePhonemes(message->value).value_or(vm::PhonemeList{});
+    if (message->slot == "Text.pho")
+      film.phonemes = vm::ParsePhonemes(message->value).value_or(vm::PhonemeList{});
     if (message->tag == "start") film.record_started_ms = std::stod(message->value);
-    if (message->tag == "said") EXPECT_EQ(message->slot, "Speak") << line;
-    if (message->tag == "done") EXPECT_EQ(message->slot, "Record") << line;
+    if (message->tag == "said") {
+      EXPECT_EQ(message->slot, "Speak") << line;
+    }
+    if (message->tag == "done") {
+      EXPECT_EQ(message->slot, "Record") << line;
+    }
     if (message->slot == "Frame") {
       std::istringstream words(message->value);
       long number = 0;
@@ -98,7 +104,9 @@ TEST(FilmTest, TheMouthLeadsTheSoundByTheChosenLeadExactlyToTheFrame) {
     const double start = at;
     at += static_cast<double>(phoneme.duration.count());
     // A phoneme shorter than a frame may fall between two.
-    while (frame < film.frames.size() && film.frames[frame].time_ms - film.record_started_ms < start - kLeadMs) ++frame;
+    while (frame < film.frames.size() &&
+           film.frames[frame].time_ms - film.record_started_ms < start - kLeadMs)
+      ++frame;
     if (frame >= film.frames.size()) break;
     if (film.frames[frame].time_ms - film.record_started_ms >= at - kLeadMs) continue;
     const double offset = film.frames[frame].time_ms - film.record_started_ms - start;
@@ -125,11 +133,14 @@ TEST(FilmTest, TheMouthIsClosedInPausesAndOnMAndOpenOnVowels) {
     for (const Frame& frame : film.frames) {
       if (frame.time_ms < start - kLeadMs || frame.time_ms > at - kLeadMs) continue;
       least = std::min(least, frame.gap_mm);
-      if (phoneme.name == "aa" || phoneme.name == "ae" || phoneme.name == "ah") open_vowel = std::max(open_vowel, frame.gap_mm);
+      if (phoneme.name == "aa" || phoneme.name == "ae" || phoneme.name == "ah")
+        open_vowel = std::max(open_vowel, frame.gap_mm);
     }
     if (least > 1e8) continue;
     const bool closing = phoneme.name == "m" || phoneme.name == "p" || phoneme.name == "b";
-    if (closing) EXPECT_LT(least, 1.0) << phoneme.name << " at " << start;
+    if (closing) {
+      EXPECT_LT(least, 1.0) << phoneme.name << " at " << start;
+    }
   }
   EXPECT_GT(open_vowel, 4.0);
   ASSERT_FALSE(film.frames.empty());

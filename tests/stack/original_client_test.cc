@@ -39,12 +39,14 @@ class OriginalClientTest : public testing::TestWithParam<const char*> {
     return lines;
   }
 
-  static void ExpectLines(const std::vector<std::string>& said, const std::vector<std::string>& wanted) {
+  static void ExpectLines(const std::vector<std::string>& said,
+                          const std::vector<std::string>& wanted) {
     ASSERT_EQ(said.size(), wanted.size()) << testing::PrintToString(said);
     for (std::size_t i = 0; i < said.size(); ++i) {
       std::string pattern = std::regex_replace(wanted[i], std::regex("[.\\[\\]]"), "\\$&");
       pattern = std::regex_replace(pattern, std::regex("VALUE"), ".+");
-      EXPECT_TRUE(std::regex_match(said[i], std::regex(pattern))) << said[i] << " against " << pattern;
+      EXPECT_TRUE(std::regex_match(said[i], std::regex(pattern)))
+          << said[i] << " against " << pattern;
     }
   }
 

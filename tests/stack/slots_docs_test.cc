@@ -16,7 +16,8 @@ std::string Text(const std::string& path) {
 
 TEST(SlotsDocsTest, TheDocumentedSlotsAreThoseOfThePrograms) {
   const support::TempDir folder;
-  support::Process script({GALATEA_SOURCE_DIR "/scripts/slots_docs.sh", GALATEA_BIN_DIR, folder / "slots.md"});
+  support::Process script(
+      {GALATEA_SOURCE_DIR "/scripts/slots_docs.sh", GALATEA_BIN_DIR, folder / "slots.md"});
   script.CloseInput();
   ASSERT_EQ(script.Wait(), 0) << script.ErrorText();
   EXPECT_EQ(Text(folder / "slots.md"), Text(GALATEA_SOURCE_DIR "/docs/slots.md"))

@@ -13,8 +13,8 @@
 
 namespace stack {
 
-/// The hub with its modules, started from a configuration made for one test, typed at by its console.
-/// Everything it says is kept in order for the checks.
+/// The hub with its modules, started from a configuration made for one test, typed at by its
+/// console. Everything it says is kept in order for the checks.
 class Stack {
  public:
   struct Module {
@@ -67,7 +67,8 @@ class Stack {
   std::unique_ptr<support::Process> hub_;
 };
 
-inline Stack::Module Voice(const std::string& program = "ssm_stub", std::vector<std::string> options = {}) {
+inline Stack::Module Voice(const std::string& program = "ssm_stub",
+                           std::vector<std::string> options = {}) {
   std::vector<std::string> command{GALATEA_BIN_DIR "/" + program};
   command.insert(command.end(), options.begin(), options.end());
   return {"SSM", command, ""};
@@ -76,7 +77,8 @@ inline Stack::Module Face() {
   return {"FSM", {GALATEA_BIN_DIR "/fsm", "--headless", "--size", "64x48"}, ""};
 }
 
-/// The value of the last `rep SLOT = VALUE` (with any tag, from anybody) among the lines; "" if none.
+/// The value of the last `rep SLOT = VALUE` (with any tag, from anybody) among the lines; "" if
+/// none.
 inline std::string Last(const std::vector<std::string>& lines, const std::string& from,
                         const std::string& slot) {
   std::string value;
