@@ -98,8 +98,8 @@ class Hub {
   void set_lockstep(bool lockstep) { lockstep_ = lockstep; }
   /// Modules that are still being asked what they are.
   std::set<PeerKey> Probing() const;
-  /// Those among `modules` that have not answered by now count as original; one that has said nothing
-  /// at all is given four times as long.
+  /// Those among `modules` that have not answered by now count as original; one that has said
+  /// nothing at all is given four times as long.
   void EndProbes(const std::set<PeerKey>& modules);
 
   /// For the lockstep driver: modules with a clock, and a raw exchange with one.

@@ -223,6 +223,7 @@ void Supervisor::OnEnd(Child& child, const std::string& reason) {
 
 void Supervisor::Reap(Child& child, int status) {
   child.pid = -1;
+  child.stop_timer.cancel();  // it was for this process, not for the next one
   const std::string ending = Ending(status);
   const bool failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
   if (!stopping_ || failed) on_notice_("@" + child.config.name + " " + ending);

@@ -30,7 +30,8 @@ class Capture {
 
   void Arm(Order order);
   void Begin();  ///< the utterance begins; nothing if not armed
-  /// The utterance is over: what is due is written, and it is armed no more. True if it was running.
+  /// The utterance is over: what is due is written, and it is armed no more. True if it was
+  /// running.
   bool End();
   void Cancel();
   bool armed() const { return armed_; }

@@ -83,7 +83,8 @@ void DeclareExpressions(FsmCore& core) {
 }
 
 void DeclareHead(FsmCore& core) {
-  const std::string axes = "x y z in degrees: x+ = down, y+ = to the viewer's right, z+ = tilt there.";
+  const std::string axes =
+      "x y z in degrees: x+ = down, y+ = to the viewer's right, z+ = tilt there.";
   core.Declare({"HeadRotAbs.1", "<number -90..90> <number -90..90> <number -90..90>",
                 "Turns the head to " + axes,
                 [&core](const vm::SetValue& value) -> vm::Result<void> {

@@ -11,8 +11,8 @@ struct FrameSeries {
   double per_second = 30;
 
   vm::Time TimeOf(long frame) const {
-    return start + vm::Time(static_cast<vm::Time::rep>(static_cast<double>(frame) * 1e6 / per_second +
-                                                       0.5));
+    return start + vm::Time(static_cast<vm::Time::rep>(
+                       static_cast<double>(frame) * 1e6 / per_second + 0.5));
   }
 };
 

@@ -50,9 +50,11 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   DeclareFaceSlots(core_);
   speech_ = std::make_unique<SpeechSlots>(
       core_, SpeechSlots::Listener{.begun = [this] { capture_->Begin(); },
-                                   .ended = [this] {
-                                     if (capture_->End()) core_.slots.Report("Capture", "DISABLE");
-                                   }});
+                                   .ended =
+                                       [this] {
+                                         if (capture_->End())
+                                           core_.slots.Report("Capture", "DISABLE");
+                                       }});
   DeclareFigureSlots(core_);
   scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);
   film_ = std::make_unique<Film>(
@@ -118,16 +120,15 @@ void FsmModule::DeclareRecording() {
        .grammar = "STOP | <file>",
        .initial = "STOP",
        .help = "Records a film (.mp4) from now on; STOP ends it, and answers when it is there.",
-       .on_set =
-           [this](const vm::SetValue& value) -> vm::Result<std::string> {
-             if (value.word(0) == "STOP") return StopFilm();
-             const int rate = std::stoi(core_.slots.Value("Record.fps"));
-             if (auto started = film_->Start(value.word(0), rate); !started) {
-               return std::unexpected(started.error());
-             }
-             Changed();
-             return value.word(0);
-           },
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         if (value.word(0) == "STOP") return StopFilm();
+         const int rate = std::stoi(core_.slots.Value("Record.fps"));
+         if (auto started = film_->Start(value.word(0), rate); !started) {
+           return std::unexpected(started.error());
+         }
+         Changed();
+         return value.word(0);
+       },
        .saved = false});
 }
 
@@ -148,25 +149,24 @@ void FsmModule::DeclareCapture() {
        .initial = "DISABLE",
        .help = "Numbered pictures of the next utterance, from Speak = NOW to its end: folder, "
                "prefix, pictures a second. Its value is ENABLE until they are made, else DISABLE.",
-       .on_set =
-           [this](const vm::SetValue& value) -> vm::Result<std::string> {
-             if (value.word(0) == "STOP" && value.size() == 1) {
-               capture_->Cancel();
-               return "DISABLE";
-             }
-             if (capture_->running()) {
-               return vm::Fail(vm::Errc::kBusy, "pictures are being captured; wait for IDLE");
-             }
-             std::error_code code;
-             std::filesystem::create_directories(value.word(0), code);
-             if (!std::filesystem::is_directory(value.word(0), code)) {
-               return vm::Fail(vm::Errc::kUnavailable,
-                               "'" + value.word(0) + "' is not a folder and cannot be made one");
-             }
-             const bool png = value.size() > 3 && value.word(3) == "PNG";
-             capture_->Arm({value.word(0), value.word(1), value.number(2), png ? ".png" : ".bmp"});
-             return "ENABLE";
-           },
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         if (value.word(0) == "STOP" && value.size() == 1) {
+           capture_->Cancel();
+           return "DISABLE";
+         }
+         if (capture_->running()) {
+           return vm::Fail(vm::Errc::kBusy, "pictures are being captured; wait for IDLE");
+         }
+         std::error_code code;
+         std::filesystem::create_directories(value.word(0), code);
+         if (!std::filesystem::is_directory(value.word(0), code)) {
+           return vm::Fail(vm::Errc::kUnavailable,
+                           "'" + value.word(0) + "' is not a folder and cannot be made one");
+         }
+         const bool png = value.size() > 3 && value.word(3) == "PNG";
+         capture_->Arm({value.word(0), value.word(1), value.number(2), png ? ".png" : ".bmp"});
+         return "ENABLE";
+       },
        .saved = false});
 }
 
@@ -174,9 +174,10 @@ void FsmModule::DeclareFrame() {
   core_.slots.Declare({.name = "Frame",
                        .grammar = "<text>",
                        .access = vm::Access::kReadOnly,
-                       .help = "The frame drawn last: NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM. "
-                               "With AutoOutput every frame is reported; the number counts from 0 in "
-                               "a film."});
+                       .help =
+                           "The frame drawn last: NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM. "
+                           "With AutoOutput every frame is reported; the number counts from 0 in "
+                           "a film."});
 }
 
 void FsmModule::ReportFrame(long number, vm::Time at) {
@@ -204,8 +205,8 @@ void FsmModule::Changed() {
 
 vm::Time FsmModule::FrameAfter(vm::Time t) const {
   // Frames without a film stand on a grid of the clock, so the same input gives the same reports.
-  const double rate = core_.studio.has_window() ? frame_rate_
-                                                : std::stod(core_.slots.Value("Record.fps"));
+  const double rate =
+      core_.studio.has_window() ? frame_rate_ : std::stod(core_.slots.Value("Record.fps"));
   const FrameSeries grid{vm::Time(0), rate};
   auto k = static_cast<long>(std::floor(static_cast<double>(t.count()) * rate / 1e6));
   while (grid.TimeOf(k) <= t) ++k;
@@ -214,8 +215,8 @@ vm::Time FsmModule::FrameAfter(vm::Time t) const {
 
 void FsmModule::ArmFrames() {
   const bool window = core_.studio.has_window();
-  const bool wanted =
-      window || (core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") && !film_->recording());
+  const bool wanted = window || (core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") &&
+                                 !film_->recording());
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {

@@ -17,10 +17,10 @@
 namespace fsm {
 
 struct FsmOptions {
-  std::uint64_t seed = 1;       ///< of everything the face does by itself
-  std::string tables;           ///< folder of tables that replace the built-in ones
-  OriginalConfig config;        ///< path "" = none
-  bool announce_config = false; ///< greet as the original does: tell detected: -C flag: FILE
+  std::uint64_t seed = 1;        ///< of everything the face does by itself
+  std::string tables;            ///< folder of tables that replace the built-in ones
+  OriginalConfig config;         ///< path "" = none
+  bool announce_config = false;  ///< greet as the original does: tell detected: -C flag: FILE
 };
 
 /// The face synthesis module: all its slots over FaceMotion and a Studio.

@@ -22,9 +22,10 @@ struct OriginalConfig {
   std::vector<std::string> auto_moves, auto_userdefs;
   std::vector<std::string> faces;  ///< names of MaskFile lines: faces of people, not drawn yet
 
-  /// Reads the file: `KEY args`, `#` comments; keys it does not know mean nothing, as in the original.
-  /// File names are looked for from the working directory, then from the file's own folder.
-  /// Errors: kUnavailable if it cannot be read; kBadValue with file and line for a damaged one.
+  /// Reads the file: `KEY args`, `#` comments; keys it does not know mean nothing, as in the
+  /// original. File names are looked for from the working directory, then from the file's own
+  /// folder. Errors: kUnavailable if it cannot be read; kBadValue with file and line for a damaged
+  /// one.
   static vm::Result<OriginalConfig> Read(const std::string& path);
 
   /// Replaces the patterns the file names. Errors: as above, for the files it refers to.

@@ -59,8 +59,8 @@ void ClockScheduler::Arm() {
 }
 
 void ClockScheduler::Drive() {
-  // One instant at a time: a module that has fallen behind (frames to draw, say) must still hear what
-  // is said to it between two of them.
+  // One instant at a time: a module that has fallen behind (frames to draw, say) must still hear
+  // what is said to it between two of them.
   driving_ = true;
   if (const auto next = timers_.Next(); next && *next <= Now()) timers_.RunUntil(*next);
   driving_ = false;
