@@ -1,6 +1,7 @@
 #include "agent_manager/config.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -296,9 +297,12 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
             if (!v.is_object()) Wrong(k, v, "an object: name to steps, or to a file's name");
             for (const auto& [name, steps] : v.items()) {
               const std::string key = k + "." + name;
-              config.macros[name] = steps.is_string()
-                                        ? ReadFile(folder + "/" + steps.get<std::string>(), key)
-                                        : steps.dump();
+              config.macros[name] =
+                  steps.is_string()
+                      ? ReadFile(
+                            (std::filesystem::path(folder) / steps.get<std::string>()).string(),
+                            key)
+                      : steps.dump();
             }
           }}});
     return config;

@@ -30,6 +30,17 @@ TEST(ConfigTest, ReadsEveryKey) {
   EXPECT_TRUE(config->macros.contains("Wave"));
 }
 
+TEST(ConfigTest, MacroFilesAreRelativeToTheConfigurationOrAbsolute) {
+  const std::string folder = GALATEA_SOURCE_DIR "/examples/agents";
+  for (const std::string& file : {std::string("../macros/greet.json"),
+                                  std::string(GALATEA_SOURCE_DIR "/examples/macros/greet.json")}) {
+    const auto config =
+        ParseConfig("{\"macros\": {\"Greet\": \"" + file + "\"}}", "am.json", folder);
+    ASSERT_TRUE(config) << config.error().text;
+    EXPECT_NE(config->macros.at("Greet").find("\"steps\""), std::string::npos);
+  }
+}
+
 struct BadConfig {
   const char* text;
   const char* part;
