@@ -304,7 +304,7 @@ void Supervisor::StopNext() {
     }
     if (child.stream) child.stream->Send("set Run = EXIT");
     child.stop_timer.expires_after(kExitPatience);
-    child.stop_timer.async_wait([this, &child](const auto& error) {
+    child.stop_timer.async_wait([&child](const auto& error) {
       if (error || child.pid <= 0) return;
       kill(child.pid, SIGTERM);
       child.stop_timer.expires_after(kTerminatePatience);
