@@ -4,6 +4,7 @@
 #include <charconv>
 #include <utility>
 
+#include "vm_protocol/core/client.h"
 #include "vm_protocol/core/start_time.h"
 
 namespace am {
@@ -388,15 +389,8 @@ bool Hub::ResolvePending(Peer& sender, const Message& message) {
     AnswerTo(pending.asker, sender.name, pending.request, message.value, pending.done);
     return true;
   }
-  // The text already has its code: take the two apart again for the answer.
-  const std::size_t blank = message.value.find(' ');
-  Error error{Errc::kInternal,
-              blank == std::string::npos ? message.value : message.value.substr(blank + 1), 0};
-  for (int code = 0; code <= static_cast<int>(Errc::kInternal); ++code) {
-    if (vm::ErrcName(static_cast<Errc>(code)) == message.value.substr(0, blank))
-      error.code = static_cast<Errc>(code);
-  }
-  AnswerTo(pending.asker, sender.name, pending.request, std::unexpected(error), pending.done);
+  AnswerTo(pending.asker, sender.name, pending.request,
+           std::unexpected(vm::ParseError(message.value)), pending.done);
   return true;
 }
 

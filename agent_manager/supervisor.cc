@@ -254,10 +254,6 @@ void Supervisor::MaybeRestart(Child& child, bool failed) {
   });
 }
 
-bool Supervisor::Restarting() const {
-  return std::ranges::any_of(children_, [](const auto& child) { return child->restarting; });
-}
-
 bool Supervisor::IsExpected(const std::string& name) const {
   return std::ranges::any_of(children_, [&](const auto& child) {
     return child->config.name == name && (child->pid > 0 || child->restarting);

@@ -41,8 +41,6 @@ class Supervisor {
   /// Asks each module to exit, last started first, waits, then uses force; `done` when all are
   /// gone.
   void StopAll(std::function<void()> done);
-  /// Modules that are being restarted now, or have not been probed.
-  bool Restarting() const;
   /// False for a module that has ended and will not come back by itself, or that is connected to.
   bool IsExpected(const std::string& name) const;
   /// Ends a module by force, as if it had crashed. False if it is no process of ours.
