@@ -461,8 +461,9 @@ int Session::Run() {
     if (!started_once_ && Started()) {
       started_once_ = true;
       StartReplay();
-      FeedConsole();
     }
+    // Also the lines held back while a module that was started again is being asked what it knows.
+    if (!console_lines_.empty()) FeedConsole();
     if (clock_.real()) {
       AskQuiet();
       CheckIdleWait();

@@ -1,6 +1,7 @@
 // The hub as a process, with small modules: started, spoken to, killed, replayed.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
 #include <fstream>
@@ -87,6 +88,36 @@ TEST(HubProcessTest, AKilledModuleIsReportedAndStartedAgain) {
   EXPECT_TRUE(hub.Expect("From @TEST rep Run = LIVE")) << hub.Seen() << hub.ErrorText();
   hub.WriteLine("to @TEST set#4 X = 7");
   EXPECT_TRUE(hub.Expect("rep#4 X = 7"));
+  hub.CloseInput();
+  EXPECT_EQ(hub.Wait(), 0);
+}
+
+TEST(HubProcessTest, WhatIsTypedWhileAModuleStartsAgainReachesItOnceItHasAnswered) {
+  const support::TempDir folder;
+  const std::string marker = folder / "second", gate = folder / "gate",
+                    script = folder / "module.sh";
+  ASSERT_EQ(mkfifo(gate.c_str(), 0600), 0);
+  // Started a second time it says LIVE, and answers the hub's question only when the gate opens.
+  std::ofstream(script)
+      << "answer() { echo \"rep$(echo \"$1\" | sed 's/^[a-z]*\\(#[^ ]*\\) "
+         "\\([^ ]*\\).*/\\1 \\2/') = 0\"; }\n"
+      << "echo 'rep Run = LIVE'\nread question\n"
+      << "if [ -e " << marker << " ]; then echo tell ASKED; read go <" << gate << "; fi\ntouch "
+      << marker << "\nanswer \"$question\"\n"
+      << "while read -r line; do case $line in\n*Die*) exit 1;;\n*EXIT*) exit 0;;\n"
+      << "*#*) answer \"$line\";;\nesac; done\n";
+  Process hub({kHub, "--config",
+               WriteConfig(folder,
+                           "{\"modules\": [{\"name\": \"TEST\", \"restart\": \"always\", "
+                           "\"command\": [\"/bin/sh\", \"" +
+                               script + "\"]}]}")});
+  hub.WriteLine("to @TEST set#1 X = 1");
+  ASSERT_TRUE(hub.Expect("rep#1 X = 0")) << hub.Seen() << hub.ErrorText();
+  hub.WriteLine("to @TEST set#2 Die = 1");
+  ASSERT_TRUE(hub.Expect("tell ASKED")) << hub.Seen() << hub.ErrorText();
+  hub.WriteLine("to @TEST set#3 X = 7");
+  std::ofstream(gate) << "go\n";
+  EXPECT_TRUE(hub.Expect("rep#3 X = 0")) << hub.Seen() << hub.ErrorText();
   hub.CloseInput();
   EXPECT_EQ(hub.Wait(), 0);
 }
