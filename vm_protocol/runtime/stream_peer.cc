@@ -43,6 +43,26 @@ struct StandardStream {
   }
 };
 
+/// Peers that were given something to say while one peer's input is being handled. They write when
+/// that is done: one write for all that was said, and without another trip through the loop.
+class Turn {
+ public:
+  /// The turn being taken on this thread, or none.
+  static Turn*& Current() {
+    thread_local Turn* current = nullptr;
+    return current;
+  }
+  Turn() : outer_(std::exchange(Current(), this)) {}
+  ~Turn();
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+  void Add(std::shared_ptr<class StreamPeerImpl> peer) { peers_.push_back(std::move(peer)); }
+
+ private:
+  Turn* outer_;
+  std::vector<std::shared_ptr<class StreamPeerImpl>> peers_;
+};
+
 class StreamPeerImpl final : public StreamPeer {
  public:
   StreamPeerImpl(asio::io_context& io, int read_fd, int write_fd, Framing framing,
@@ -61,6 +81,7 @@ class StreamPeerImpl final : public StreamPeer {
     }
     if (CanWaitFor(read_fd_)) input_.emplace(io, read_fd_);
     if (write_fd_ != read_fd_ && CanWaitFor(write_fd_)) own_output_.emplace(io, write_fd_);
+    if (auto* output = Output()) output->non_blocking(true);
   }
 
   ~StreamPeerImpl() override { CloseDescriptors(); }
@@ -126,6 +147,28 @@ class StreamPeerImpl final : public StreamPeer {
 
   std::size_t backlog_bytes() const override { return outgoing_.size() + writing_.size(); }
 
+  /// Writes as much as the system takes at once; the rest follows when it takes more.
+  void WriteMore() {
+    if (closed_ || output_dead_) return;
+    while (PrepareWriting()) {
+      const auto rest = std::string_view(writing_).substr(written_);
+      error_code error;
+      std::size_t n = 0;
+      if (auto* output = Output()) {
+        n = output->write_some(asio::buffer(rest.data(), rest.size()), error);
+        if (error == asio::error::would_block) return WriteWhenTaken(*output);
+      } else {
+        const ssize_t count = write(write_fd_, rest.data(), rest.size());
+        if (count < 0) error.assign(errno, boost::system::system_category());
+        n = count > 0 ? static_cast<std::size_t>(count) : 0;
+      }
+      if (error) return EndOutput("cannot write: " + error.message());
+      written_ += n;
+    }
+    write_scheduled_ = false;
+    FinishFlushes();
+  }
+
  private:
   asio::posix::stream_descriptor* Output() {
     if (own_output_) return &*own_output_;
@@ -168,15 +211,22 @@ class StreamPeerImpl final : public StreamPeer {
   void OnRead(std::size_t n, const std::string& error) {
     reading_ = false;
     if (closed_) return;
-    if (n > 0) {
-      Take(std::string_view(buffer_.data(), n));
-    } else {
-      input_ended_ = true;
-      end_reason_ = error.empty() ? "end of input" : "cannot read: " + error;
-      reader_.End([this](Result<std::string_view> line) { OnRawLine(std::move(line)); });
-      DeliverHeld();
+    {
+      const Turn turn;
+      HandleRead(n, error);
     }
     ReadMore();
+  }
+
+  void HandleRead(std::size_t n, const std::string& error) {
+    if (n > 0) {
+      Take(std::string_view(buffer_.data(), n));
+      return;
+    }
+    input_ended_ = true;
+    end_reason_ = error.empty() ? "end of input" : "cannot read: " + error;
+    reader_.End([this](Result<std::string_view> line) { OnRawLine(std::move(line)); });
+    DeliverHeld();
   }
 
   void Take(std::string_view bytes) {
@@ -226,40 +276,30 @@ class StreamPeerImpl final : public StreamPeer {
   void ScheduleWrite() {
     if (write_scheduled_) return;
     write_scheduled_ = true;
-    // Posted, not done at once: everything said within one turn of the loop goes out in one write.
-    asio::post(io_, [self = shared_from_this(), this] { WriteMore(); });
+    // Later, not at once: everything said within one turn goes out in one write.
+    auto self = std::static_pointer_cast<StreamPeerImpl>(shared_from_this());
+    if (Turn::Current() != nullptr) {
+      Turn::Current()->Add(std::move(self));
+    } else {
+      asio::post(io_, [self = std::move(self)] { self->WriteMore(); });
+    }
   }
 
-  void WriteMore() {
-    if (closed_ || output_dead_) return;
+  /// Puts what was said since into writing_ once that is written; false if there is nothing.
+  bool PrepareWriting() {
     if (written_ == writing_.size()) {
       writing_.clear();
       written_ = 0;
       writing_.swap(outgoing_);
     }
-    if (writing_.empty()) {
-      write_scheduled_ = false;
-      FinishFlushes();
-      return;
-    }
-    const auto rest = std::string_view(writing_).substr(written_);
-    if (auto* output = Output()) {
-      output->async_write_some(
-          asio::buffer(rest.data(), rest.size()),
-          [self = shared_from_this(), this](const error_code& error, std::size_t n) {
-            OnWritten(n, error ? error.message() : std::string());
-          });
-      return;
-    }
-    const ssize_t n = write(write_fd_, rest.data(), rest.size());
-    OnWritten(n > 0 ? static_cast<std::size_t>(n) : 0, n < 0 ? std::strerror(errno) : "");
+    return !writing_.empty();
   }
 
-  void OnWritten(std::size_t n, const std::string& error) {
-    if (closed_) return;
-    if (!error.empty()) return EndOutput("cannot write: " + error);
-    written_ += n;
-    WriteMore();
+  void WriteWhenTaken(asio::posix::stream_descriptor& output) {
+    output.async_wait(asio::posix::stream_descriptor::wait_write,
+                      [self = shared_from_this(), this](const error_code& error) {
+                        if (!error) WriteMore();
+                      });
   }
 
   void EndOutput(const std::string& reason) {
@@ -306,6 +346,11 @@ class StreamPeerImpl final : public StreamPeer {
   bool closed_ = false;
   std::vector<std::function<void()>> flushes_;
 };
+
+Turn::~Turn() {
+  Current() = outer_;
+  for (const auto& peer : peers_) peer->WriteMore();
+}
 
 }  // namespace
 
