@@ -4,8 +4,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "embedded/action_units.h"
 #include "embedded/cage.h"
@@ -14,6 +17,7 @@
 #include "embedded/mouth.h"
 #include "fsm/head/deformer.h"
 #include "fsm/head/head.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/parts.h"
 #include "fsm/head/skin_mesh.h"
 
@@ -56,6 +60,13 @@ class GenericHead : public Head {
     }
     FleshNormals(out);
     for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, out);
+    out.wrinkles = Wrinkles(pose.units);
+  }
+
+  glm::vec3 Landmark(std::string_view name) const override {
+    const auto found = landmarks_.find(name);
+    if (found == landmarks_.end()) return Head::Landmark(name);
+    return found->second;
   }
 
   MouthMeasure MeasureMouth(const FaceState& state) const override {
@@ -104,6 +115,79 @@ class GenericHead : public Head {
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
     for (glm::vec3& colour : topology_.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
+    for (const glm::vec3 p : rest_) topology_.uv.push_back(Unroll(p));
+    for (std::size_t side = 0; side < 2; ++side) {
+      glm::vec3 centre = eye_.centre();
+      if (side == 0) centre.x = -centre.x;
+      topology_.eyes[side] = {.centre = centre,
+                              .ball_radius = eye_.radius(),
+                              .iris_radius = eye_.iris_radius(),
+                              .pupil_radius = eye_.pupil_radius(),
+                              .iris_colour = {0.20f, 0.105f, 0.045f}};
+    }
+    NameLandmarks();
+  }
+
+  void NameLandmarks() {
+    const auto place = [this](const std::string& name, glm::vec3 p) {
+      landmarks_[name + "_left"] = p;
+      landmarks_[name + "_right"] = {-p.x, p.y, p.z};
+    };
+    const auto on_lid = [this](float x, float y) {
+      return glm::vec3(x, y, eye_.LidAxisZ(x) + eye_.LidRadius(x));
+    };
+    place("endocanthion", on_lid(eye_.inner_x(), eye_.UpperY(eye_.inner_x())));
+    place("exocanthion", on_lid(eye_.outer_x(), eye_.UpperY(eye_.outer_x())));
+    place("cheilion", mouth_.corner());
+    place("pupil", eye_.centre() + glm::vec3(0, 0, eye_.radius()));
+    place("tragion", {65.7f, 0, 0});
+    place("zygion", FrontAt(62, 4));
+    place("gonion", FrontAt(46, -58));
+    place("alare", FrontAt(15.7f, -14));
+    landmarks_["nasion"] = FrontAt(0, 24);
+    landmarks_["pronasale"] = FrontAt(0, -9);
+    landmarks_["subnasale"] = FrontAt(0, -23);
+    landmarks_["stomion"] = {0, mouth_.LineY(0), mouth_.LineZ(0)};
+    landmarks_["gnathion"] = FrontAt(0, -85);
+    landmarks_["trichion"] = FrontAt(0, 92);
+  }
+
+  /// The flesh vertex nearest to the viewer of those nearest to (x, y).
+  glm::vec3 FrontAt(float x, float y) const {
+    glm::vec3 best(0);
+    float least = 1e9f;
+    for (std::size_t i = 0; i < flesh_count_; ++i) {
+      const glm::vec3 p = rest_[i];
+      const float d = std::hypot(p.x - x, p.y - y) - 0.01f * p.z;
+      if (d < least) {
+        least = d;
+        best = p;
+      }
+    }
+    return best;
+  }
+
+  static glm::vec2 Unroll(glm::vec3 p) {
+    constexpr float kPi = std::numbers::pi_v<float>;
+    const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 to the front
+    const float part = std::abs(turn);
+    constexpr float kFront = 1.0f / 3;
+    const float wide = part < kFront ? 0.6f * part / kFront : 0.6f + 0.6f * (part - kFront);
+    return {0.5f + std::copysign(0.5f * wide, turn), std::clamp((p.y + 200) / 340, 0.0f, 1.0f)};
+  }
+
+  static std::array<std::array<float, 2>, 4> Wrinkles(const SidedUnits& units) {
+    std::array<std::array<float, 2>, 4> creases{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto& u = units[side];
+      const std::array<float, 4> depth = {0.6f * (u[1] + u[2]), 0.7f * (u[4] + u[9]),
+                                          0.6f * (u[6] + 0.7f * u[12]),
+                                          0.4f * (u[10] + u[11]) + 0.6f * u[12]};
+      for (std::size_t k = 0; k < depth.size(); ++k) {
+        creases[k][side] = std::clamp(depth[k], 0.0f, 1.0f);
+      }
+    }
+    return creases;
   }
 
   static std::vector<glm::vec3> Normals(std::span<const std::uint32_t> triangles,
@@ -175,11 +259,21 @@ class GenericHead : public Head {
   std::vector<glm::vec3> rest_, rest_normal_;
   std::vector<Bone> bone_;
   std::vector<float> bend_;
+  std::map<std::string, glm::vec3, std::less<>> landmarks_;
   std::optional<Deformer> face_, probe_;
 };
 
 }  // namespace
 
-std::unique_ptr<Head> Head::MakeGeneric() { return std::make_unique<GenericHead>(); }
+glm::vec3 Head::Landmark(std::string_view name) const {
+  throw std::out_of_range("there is no landmark '" + std::string(name) + "'");
+}
+
+std::unique_ptr<Head> Head::Make(std::string_view identity) {
+  IdentityIndex(identity);
+  return std::make_unique<GenericHead>();
+}
+
+std::unique_ptr<Head> Head::MakeGeneric() { return Make(Identities().front().name); }
 
 }  // namespace fsm

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fsm/head/face_state.h"
@@ -28,6 +31,16 @@ enum class Material {
   kCloth
 };
 
+/// One eye at rest. The cap of the ball in Material::kIris is the cornea's outer surface, which
+/// bulges; iris and pupil lie behind it and are drawn by parallax.
+struct EyePlace {
+  glm::vec3 centre{};  ///< of the ball, millimetres
+  float ball_radius = 12;
+  float iris_radius = 6;
+  float pupil_radius = 2;
+  glm::vec3 iris_colour{};  ///< linear RGB
+};
+
 /// The part of a head that never changes while it moves.
 struct HeadTopology {
   struct Part {
@@ -39,7 +52,14 @@ struct HeadTopology {
   std::vector<Part> parts;
   std::vector<glm::vec3> albedo;  ///< per vertex, linear RGB 0..1
   std::vector<float> occlusion;   ///< per vertex, 0 = fully shut off from light, 1 = open
+  /// Per vertex, 0..1, v up: the base identity's rest form unrolled about a vertical axis, with the
+  /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows.
+  std::vector<glm::vec2> uv;
+  std::array<EyePlace, 2> eyes;  ///< the agent's right, left
 };
+
+/// Where skin creases with expression; indexes HeadVertices::wrinkles.
+enum class Wrinkle { kForehead, kGlabella, kCrowsFeet, kNasolabial };
 
 /// Vertex positions and normals of one state. Reused from frame to frame by the caller.
 struct HeadVertices {
@@ -47,6 +67,14 @@ struct HeadVertices {
       position;  ///< N x 3 float, millimetres; x to the viewer's right, y up, z to the
                  ///< viewer; origin midway between the two ear canals (tragi)
   std::vector<glm::vec3> normal;  ///< N x 3 float, unit length
+  /// Depth of the creases, 0..1: [Wrinkle][0 = the agent's right (-x), 1 = left].
+  std::array<std::array<float, 2>, 4> wrinkles{};
+};
+
+/// A face to choose: a row of tables/identities.txt.
+struct IdentityInfo {
+  std::string_view name;
+  std::string_view description;  ///< one line
 };
 
 /// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,
@@ -54,7 +82,12 @@ struct HeadVertices {
 class Head {
  public:
   virtual ~Head() = default;
-  /// The first, generic head. Deterministic. Throws std::runtime_error if a table is damaged.
+  /// The head called `identity`. Deterministic. Throws std::invalid_argument listing the names if
+  /// there is none of that name, std::runtime_error if a table is damaged.
+  static std::unique_ptr<Head> Make(std::string_view identity);
+  /// All heads there are, the default one first. Valid as long as the program runs.
+  static std::span<const IdentityInfo> Identities();
+  /// The first of Identities().
   static std::unique_ptr<Head> MakeGeneric();
 
   virtual const HeadTopology& topology() const = 0;
@@ -62,6 +95,10 @@ class Head {
   virtual void Evaluate(const FaceState& state, HeadVertices& out) const = 0;
   /// The mouth of a state, measured on the vertices Evaluate would give.
   virtual MouthMeasure MeasureMouth(const FaceState& state) const = 0;
+  /// Where a named landmark lies at rest, after Farkas: "nasion", "pronasale", "subnasale",
+  /// "stomion", "gnathion", "trichion"; with _left or _right: "cheilion", "endocanthion",
+  /// "exocanthion", "pupil", "alare", "zygion", "gonion", "tragion". Throws std::out_of_range.
+  virtual glm::vec3 Landmark(std::string_view name) const;
 };
 
 }  // namespace fsm
