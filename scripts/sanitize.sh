@@ -3,6 +3,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 which=${1:-all}
+case $which in
+  asan | tsan | all) ;;
+  *) echo "sanitize: '$which' is not asan, tsan or all" >&2; exit 2 ;;
+esac
 # Mesa and ffmpeg keep memory to the end by design; only our own leaks count.
 export LSAN_OPTIONS="suppressions=$PWD/cmake/lsan.supp:print_suppressions=0"
 export TSAN_OPTIONS="suppressions=$PWD/cmake/tsan.supp"
