@@ -1,0 +1,52 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agent_manager/hub.h"
+
+/// The hub's own view of a peer, shared by the files that make up the hub. Not for others.
+namespace am {
+
+/// The asker of what the hub asks itself.
+inline constexpr PeerKey kHub = 0;
+
+/// The hub's own tags: "h" and a number; the number is 0 if it is no tag of ours.
+std::string HubTag(unsigned long number);
+unsigned long HubTagNumber(std::string_view tag);
+
+/// A request that waits for its answer.
+struct Hub::Pending {
+  PeerKey asker = kHub;
+  vm::Message request;
+  OnAnswer done;
+  vm::TimerId limit = 0;
+  bool members_seen = false;  // a group's members have come
+};
+
+struct Hub::Peer {
+  PeerKey key = 0;
+  std::string name;
+  PeerKind kind = PeerKind::kClient;
+  Dialect dialect = Dialect::kAuto;
+  std::unique_ptr<Link> link;
+  bool probing = false;
+  bool spoken = false;                                // anything at all
+  int silent_rounds = 0;                              // EndProbes passed over it
+  std::deque<Pending> waiting;                        // said before it was known how to say it
+  std::map<unsigned long, Pending> pending;           // by the number in our tag
+  std::map<std::string, std::vector<Pending>> asked;  // original dialect: inq, by slot
+  std::map<std::string, vm::TimerId> held;            // original dialect: starts held back, by slot
+  ClockState clock;
+  vm::Time granted{0};  // lockstep: where its clock stands
+  std::set<std::string> subscriptions;
+  vm::Time complaints_since{0};
+  int complaints = 0;
+};
+
+}  // namespace am

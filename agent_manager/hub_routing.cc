@@ -1,0 +1,121 @@
+// Who gets what: lines in, lines out.
+
+#include <utility>
+
+#include "agent_manager/hub.h"
+#include "agent_manager/hub_peer.h"
+
+namespace am {
+
+using vm::Command;
+using vm::Errc;
+using vm::Fail;
+using vm::Message;
+using vm::Result;
+
+namespace {
+
+bool IsReport(const Message& message) {
+  return message.command == Command::kRep || message.command == Command::kTell;
+}
+
+}  // namespace
+
+void Hub::OnLine(PeerKey key, Result<std::string_view> line) {
+  Peer* sender = ByKey(key);
+  if (sender == nullptr) return;
+  sender->spoken = true;
+  if (!line) return Complain(*sender, line.error());
+  auto message = vm::ParseMessage(*line);
+  if (!message) {
+    if (message.error().code != Errc::kEmpty) Complain(*sender, message.error());
+    return;
+  }
+  message->from = sender->name;
+  if (IsReport(*message)) return Report(*sender, std::move(*message));
+  Route(*sender, std::move(*message));
+}
+
+void Hub::Route(Peer& sender, Message message) {
+  const std::vector<std::string> receivers =
+      message.to.empty() ? std::vector<std::string>{"AM"} : std::exchange(message.to, {});
+  const std::string from = std::exchange(message.from, {});
+  const PeerKey asker = sender.key;
+  for (const std::string& receiver : receivers) Deliver(from, asker, receiver, message, nullptr);
+}
+
+void Hub::Ask(const std::string& sender, Message message, OnAnswer done) {
+  const std::vector<std::string> receivers = std::exchange(message.to, {});
+  for (const std::string& receiver : receivers) Deliver(sender, kHub, receiver, message, done);
+}
+
+void Hub::Deliver(const std::string& sender_name, PeerKey asker, const std::string& receiver,
+                  const Message& message, OnAnswer done) {
+  if (Peer* peer = Find(receiver)) {
+    if (log_.enabled())
+      log_.Write(clock_.Now(), sender_name, receiver, vm::FormatMessage(vm::To(receiver, message)));
+    return Forward(*peer, message, asker, std::move(done));
+  }
+  const auto machine = internal_.find(receiver);
+  if (machine == internal_.end()) {
+    return AnswerTo(
+        asker, "AM", message,
+        Fail(Errc::kUnknownModule, "there is no @" + receiver + " (inq Modules lists them)"), done);
+  }
+  if (log_.enabled())
+    log_.Write(clock_.Now(), sender_name, receiver, vm::FormatMessage(vm::To(receiver, message)));
+  if (!done) return machine->second->Handle(message, asker);
+  Message tagged = message;
+  tagged.tag = "i" + std::to_string(++last_tag_);
+  internal_pending_[tagged.tag] = {asker, std::move(done)};
+  machine->second->Handle(tagged, asker);
+}
+
+void Hub::Report(Peer& sender, Message message) {
+  if (message.command == Command::kRep && ResolvePending(sender, message)) return;
+  if (sender.kind == PeerKind::kClient && message.slot == "Run" && message.value == "LIVE") {
+    sender.kind = PeerKind::kModule;  // a module that came by a socket
+    Probe(sender);
+  }
+  std::set<PeerKey> receivers;
+  for (const std::string& name : std::exchange(message.to, {})) {
+    if (Peer* peer = Find(name)) {
+      receivers.insert(peer->key);
+    } else if (!internal_.contains(name)) {
+      Complain(sender, {Errc::kUnknownModule, "there is no @" + name, 0});
+    }
+  }
+  if (receivers.empty()) {
+    for (const auto& [key, peer] : peers_) {
+      if (key != sender.key &&
+          (broadcast_.contains(peer->name) || peer->subscriptions.contains("*") ||
+           peer->subscriptions.contains(sender.name))) {
+        receivers.insert(key);
+      }
+    }
+  }
+  std::vector<Pending> answered;
+  if (const auto asked = sender.asked.find(message.slot); asked != sender.asked.end()) {
+    answered = std::move(asked->second);
+    sender.asked.erase(asked);
+  }
+  for (const Pending& pending : answered) {
+    if (pending.request.tag.empty() && !pending.done) {
+      receivers.insert(pending.asker);
+    } else {
+      AnswerTo(pending.asker, sender.name, pending.request, message.value, pending.done);
+    }
+  }
+  const std::string line = vm::FormatMessage(message);
+  std::string names;
+  for (const PeerKey key : receivers) {
+    if (Peer* peer = ByKey(key)) {
+      peer->link->Send(line);
+      if (log_.enabled()) names += (names.empty() ? "" : ",") + peer->name;
+    }
+  }
+  if (log_.enabled()) log_.Write(clock_.Now(), sender.name, names, line);
+  if (on_report_) on_report_(sender.name, message);
+}
+
+}  // namespace am
