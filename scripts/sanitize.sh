@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Builds and runs all tests under the sanitizers:  scripts/sanitize.sh [asan|tsan|all]
+# Needs the packages clang-19 and libclang-rt-19-dev.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 which=${1:-all}
