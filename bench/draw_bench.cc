@@ -1,0 +1,234 @@
+// What a frame of the face costs, with software OpenGL off screen. Prints one line for each figure:
+//
+//   draw_bench [--frames N] [--runs R] [--size WxH]
+//
+// Every figure is the best of R runs (default 5) of N frames (default 120), because other work on
+// the machine only ever adds to it. "moving" frames change expression, mouth, lids, gaze and head
+// turn from frame to frame; wall time runs from the state to the pixels read. "still" frames draw
+// the same vertices again: the bare cost of the triangles.
+
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fsm/head/head.h"
+#include "fsm/render/renderer.h"
+
+extern "C" char** environ;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+  int frames = 120;
+  int runs = 5;
+  int width = 640;
+  int height = 480;
+};
+
+struct Cost {
+  double wall_ms = 1e9;
+  double cpu_ms = 1e9;
+};
+
+double CpuMs() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto ms = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) / 1e3;
+  };
+  return ms(usage.ru_utime) + ms(usage.ru_stime);
+}
+
+/// Wall and CPU milliseconds of one call, the least of all runs.
+Cost Measure(const Options& options, const std::function<void(int)>& frame) {
+  Cost best;
+  for (int run = 0; run < options.runs; ++run) {
+    const auto start = Clock::now();
+    const double cpu = CpuMs();
+    for (int i = 0; i < options.frames; ++i) frame(i);
+    const std::chrono::duration<double, std::milli> wall = Clock::now() - start;
+    best.wall_ms = std::min(best.wall_ms, wall.count() / options.frames);
+    best.cpu_ms = std::min(best.cpu_ms, (CpuMs() - cpu) / options.frames);
+  }
+  return best;
+}
+
+/// A face that does everything at once: talks, smiles, blinks, looks about and turns.
+fsm::FaceState Moving(int frame) {
+  fsm::FaceState state;
+  const auto wave = [frame](float period, float phase) {
+    return 0.5F + 0.5F * std::sin(static_cast<float>(frame) * 6.2832F / period + phase);
+  };
+  for (auto* side : {&state.au_left, &state.au_right}) {
+    for (const std::size_t unit : {1U, 2U, 4U, 6U, 9U, 12U, 15U, 26U}) {
+      (*side)[unit] = 0.5F * wave(60, static_cast<float>(unit));
+    }
+  }
+  for (std::size_t i = 0; i < fsm::kMouthParameters; ++i) {
+    state.mouth[i] = wave(17, static_cast<float>(i)) - 0.3F;
+  }
+  state.mouth[11] = 7 * wave(11, 0);
+  state.blink_left = state.blink_right = wave(90, 0) > 0.95F ? 1.0F : 0.0F;
+  state.eye_left = state.eye_right = {5 * wave(45, 1), 16 * wave(70, 2) - 8};
+  state.head_rotation = {6 * wave(50, 0) - 3, 16 * wave(80, 1) - 8, 4 * wave(66, 2) - 2};
+  return state;
+}
+
+void Print(const char* name, const Cost& cost) {
+  std::printf("%-34s %8.2f ms wall %8.2f ms CPU %8.1f a second\n", name, cost.wall_ms, cost.cpu_ms,
+              1e3 / cost.wall_ms);
+  std::fflush(stdout);
+}
+
+/// Process start to pixels, in a process of its own: this program with --first-frame.
+double FirstFrameMs(char** argv, const Options& options) {
+  double best = 1e9;
+  std::string size = std::to_string(options.width) + "x" + std::to_string(options.height);
+  char flag[] = "--first-frame";
+  char size_flag[] = "--size";
+  char* child_argv[] = {argv[0], flag, size_flag, size.data(), nullptr};
+  for (int run = 0; run < options.runs; ++run) {
+    const auto start = Clock::now();
+    pid_t child = 0;
+    int status = 0;
+    if (posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, child_argv, environ) != 0) return 0;
+    waitpid(child, &status, 0);
+    if (status != 0) return 0;
+    const std::chrono::duration<double, std::milli> wall = Clock::now() - start;
+    best = std::min(best, wall.count());
+  }
+  return best;
+}
+
+void PrintMemory() {
+  std::ifstream file("/proc/self/status");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("VmHWM") || line.starts_with("VmRSS")) std::printf("%s\n", line.c_str());
+  }
+}
+
+bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const char* value = i + 1 < argc ? argv[i + 1] : nullptr;
+    if (word == "--first-frame") {
+      first_frame = true;
+      continue;
+    }
+    if (!value) return false;
+    ++i;
+    char end = '\0';
+    if (word == "--frames") {
+      options.frames = std::atoi(value);
+    } else if (word == "--runs") {
+      options.runs = std::atoi(value);
+    } else if (word != "--size" ||
+               std::sscanf(value, "%dx%d%c", &options.width, &options.height, &end) != 2) {
+      return false;
+    }
+  }
+  return options.frames > 0 && options.runs > 0;
+}
+
+void MeasureAll(char** argv, const Options& options) {
+  auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
+  auto renderer = fsm::Renderer::Make(*context);
+  const auto head = fsm::Head::MakeGeneric();
+  fsm::HeadVertices vertices;
+  fsm::Image image;
+  const fsm::Scene scene;
+  std::printf("%d x %d, 4 samples; head: %zu triangles, %zu vertices\n", options.width,
+              options.height, head->topology().indices.size() / 3, head->topology().albedo.size());
+
+  Print("moving face, state to pixels", Measure(options, [&](int i) {
+          const fsm::FaceState state = Moving(i);
+          head->Evaluate(state, vertices);
+          renderer->Draw(*head, vertices, state, scene);
+          renderer->Read(image);
+        }));
+  const fsm::FaceState rest;
+  head->Evaluate(rest, vertices);
+  Print("still face, vertices to pixels", Measure(options, [&](int) {
+          renderer->Draw(*head, vertices, rest, scene);
+          renderer->Read(image);
+        }));
+  fsm::FaceState absent;
+  absent.agent_enabled = false;
+  Print("empty picture", Measure(options, [&](int) {
+          renderer->Draw(*head, vertices, absent, scene);
+          renderer->Read(image);
+        }));
+  Print("state to vertices", Measure(options, [&](int i) { head->Evaluate(Moving(i), vertices); }));
+  PrintMemory();
+
+  // Four people at once, each in a picture of its own as four windows would be.
+  std::vector<std::unique_ptr<fsm::RenderContext>> contexts;
+  std::vector<std::unique_ptr<fsm::Renderer>> renderers;
+  for (int i = 0; i < 4; ++i) {
+    contexts.push_back(fsm::RenderContext::MakeHeadless(options.width / 2, options.height / 2));
+    renderers.push_back(fsm::Renderer::Make(*contexts.back()));
+  }
+  Print("four moving faces of half the size", Measure(options, [&](int i) {
+          for (std::size_t k = 0; k < 4; ++k) {
+            const fsm::FaceState state = Moving(i + 31 * static_cast<int>(k));
+            contexts[k]->MakeCurrent();
+            head->Evaluate(state, vertices);
+            renderers[k]->Draw(*head, vertices, state, scene);
+            renderers[k]->Read(image);
+          }
+        }));
+  while (!contexts.empty()) {
+    contexts.back()->MakeCurrent();
+    renderers.pop_back();
+    contexts.pop_back();
+  }
+  context->MakeCurrent();
+  std::printf("%-34s %8.0f ms wall\n", "process start to first pixels",
+              FirstFrameMs(argv, options));
+}
+
+void DrawFirstFrame(const Options& options) {
+  auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
+  auto renderer = fsm::Renderer::Make(*context);
+  const auto head = fsm::Head::MakeGeneric();
+  fsm::HeadVertices vertices;
+  fsm::Image image;
+  head->Evaluate({}, vertices);
+  renderer->Draw(*head, vertices, {}, {});
+  renderer->Read(image);
+  // The first frame is there; how the process ends is no part of it.
+  std::_Exit(image.rgba.empty() ? 1 : 0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  bool first_frame = false;
+  if (!ReadOptions(argc, argv, options, first_frame)) {
+    std::fprintf(stderr, "usage: draw_bench [--frames N] [--runs R] [--size WxH]\n");
+    return 2;
+  }
+  try {
+    first_frame ? DrawFirstFrame(options) : MeasureAll(argv, options);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "draw_bench: %s\n", error.what());
+    return 1;
+  }
+}
