@@ -20,7 +20,7 @@ Backdrop::~Backdrop() {
   gl_.DeleteVertexArrays(1, &array_);
 }
 
-void Backdrop::Draw(const Scene& scene) {
+void Backdrop::Draw(const Scene& scene, int width, int height) {
   if (!scene.show_background) {
     gl_.ClearColor(0, 0, 0, 0);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
@@ -33,7 +33,13 @@ void Backdrop::Draw(const Scene& scene) {
   }
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_2D, texture_);
-  Upload(*scene.background_image);
+  const Image& image = *scene.background_image;
+  Upload(image);
+  // A picture of the view's own size is shown pixel by pixel.
+  const bool same = image.width == width && image.height == height;
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                    same ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, same ? GL_NEAREST : GL_LINEAR);
   gl_.UseProgram(program_.id());
   gl_.Uniform1i(program_.Uniform("picture"), 0);
   gl_.BindVertexArray(array_);
@@ -49,8 +55,6 @@ void Backdrop::Upload(const Image& image) {
   checksum_ = checksum;
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA,
                  GL_UNSIGNED_BYTE, image.rgba.data());
   gl_.GenerateMipmap(GL_TEXTURE_2D);

@@ -17,9 +17,9 @@ class Backdrop {
   Backdrop(const Backdrop&) = delete;
   Backdrop& operator=(const Backdrop&) = delete;
 
-  /// Covers the target bound at present. The picture is uploaded again only when its content
-  /// changes.
-  void Draw(const Scene& scene);
+  /// Covers the target bound at present, which becomes a picture of `width` x `height`. The
+  /// background's picture is uploaded again only when its content changes.
+  void Draw(const Scene& scene, int width, int height);
 
  private:
   void Upload(const Image& image);

@@ -5,7 +5,8 @@
 namespace fsm {
 namespace {
 
-constexpr GLsizei kSamples = 4;
+/// Samples along each side of a pixel.
+constexpr int kSide = 2;
 
 /// The message log of a shader or a program, through its two differently named pairs of getters.
 template <typename GetNumber, typename GetText>
@@ -63,43 +64,59 @@ GlProgram::GlProgram(const GlFunctions& gl, const char* name, std::string_view v
 
 GlTarget::GlTarget(const GlFunctions& gl, int width, int height)
     : gl_(gl), width_(width), height_(height) {
-  gl.GenFramebuffers(2, frames_);
-  gl.GenRenderbuffers(3, buffers_);
-  const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT24, GL_RGBA8};
-  const GLenum points[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
-  for (int i = 0; i < 3; ++i) {
+  gl.GenFramebuffers(1, &frame_);
+  gl.GenRenderbuffers(2, buffers_);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, frame_);
+  // Depth as a number with a point: the rasterizer computes it so and need not convert.
+  const GLenum formats[] = {GL_RGBA8, GL_DEPTH_COMPONENT32F};
+  const GLenum points[] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+  for (int i = 0; i < 2; ++i) {
     gl.BindRenderbuffer(GL_RENDERBUFFER, buffers_[i]);
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, i < 2 ? kSamples : 0, formats[i], width,
-                                      height);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, frames_[i < 2 ? 0 : 1]);
+    gl.RenderbufferStorage(GL_RENDERBUFFER, formats[i], width * kSide, height * kSide);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, points[i], GL_RENDERBUFFER, buffers_[i]);
   }
-  for (const GLuint frame : frames_) {
-    gl.BindFramebuffer(GL_FRAMEBUFFER, frame);
-    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      gl.DeleteFramebuffers(2, frames_);
-      gl.DeleteRenderbuffers(3, buffers_);
-      throw std::runtime_error("OpenGL cannot make a picture of " + std::to_string(width) + " x " +
-                               std::to_string(height) + " with 4 samples");
-    }
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    gl.DeleteFramebuffers(1, &frame_);
+    gl.DeleteRenderbuffers(2, buffers_);
+    throw std::runtime_error("OpenGL cannot make a picture of " + std::to_string(width) + " x " +
+                             std::to_string(height) + " with 4 samples");
   }
 }
 
 GlTarget::~GlTarget() {
-  gl_.DeleteFramebuffers(2, frames_);
-  gl_.DeleteRenderbuffers(3, buffers_);
+  gl_.DeleteFramebuffers(1, &frame_);
+  gl_.DeleteRenderbuffers(2, buffers_);
 }
 
 void GlTarget::Bind() const {
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, frames_[0]);
-  gl_.Viewport(0, 0, width_, height_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, frame_);
+  gl_.Viewport(0, 0, width_ * kSide, height_ * kSide);
 }
 
-void GlTarget::Resolve() const {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frames_[0]);
-  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, frames_[1]);
-  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+void GlTarget::Read(std::uint8_t* rgba) {
+  const auto row = static_cast<std::size_t>(width_) * kSide * 4;
+  samples_.resize(row * static_cast<std::size_t>(height_) * kSide);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl_.ReadPixels(0, 0, width_ * kSide, height_ * kSide, GL_RGBA, GL_UNSIGNED_BYTE, samples_.data());
+  // GL's first row is the lowest.
+  const std::uint8_t* lower = samples_.data() + samples_.size() - 2 * row;
+  for (int y = 0; y < height_; ++y, lower -= 2 * row) {
+    const std::uint8_t* upper = lower + row;
+    for (std::size_t x = 0; x < row; x += 8) {
+      for (std::size_t c = x; c < x + 4; ++c) {
+        *rgba++ = static_cast<std::uint8_t>(
+            (lower[c] + lower[c + 4] + upper[c] + upper[c + 4] + 2U) / 4U);
+      }
+    }
+  }
+}
+
+void GlTarget::Show() const {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
+  // Halving with a linear filter takes the average of exactly four.
+  gl_.BlitFramebuffer(0, 0, width_ * kSide, height_ * kSide, 0, 0, width_, height_,
+                      GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 
 }  // namespace fsm

@@ -44,15 +44,12 @@ class GlRenderer : public Renderer {
     }
     target_->Bind();
     transparent_ = !scene.show_background;
-    backdrop_.Draw(scene);
+    backdrop_.Draw(scene, width, height);
     const float alpha = std::clamp(state.agent_alpha, 0.0F, 1.0F);
     if (state.agent_enabled && alpha > 0) DrawFigure(head, vertices, state, scene, alpha);
-    target_->Resolve();
     if (context_.is_window()) {
-      gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_->resolved());
       gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-      gl_.BlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                          GL_NEAREST);
+      target_->Show();
     }
   }
 
@@ -60,17 +57,8 @@ class GlRenderer : public Renderer {
     assert(target_ && "Read before the first Draw");
     out.width = target_->width();
     out.height = target_->height();
-    const auto stride = static_cast<std::size_t>(out.width) * 4;
-    out.rgba.resize(stride * static_cast<std::size_t>(out.height));
-    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_->resolved());
-    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl_.ReadPixels(0, 0, out.width, out.height, GL_RGBA, GL_UNSIGNED_BYTE, out.rgba.data());
-    // GL's first row is the lowest.
-    auto* top = out.rgba.data();
-    auto* bottom = top + out.rgba.size() - stride;
-    for (; top < bottom; top += stride, bottom -= stride) {
-      std::swap_ranges(top, top + stride, bottom);
-    }
+    out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
+    target_->Read(out.rgba.data());
     if (transparent_) Unmultiply(out);
   }
 
