@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fsm/app/face_slots.h"
+#include "fsm/app/lip_slots.h"
 
 namespace fsm {
 namespace {
@@ -33,7 +34,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   }
   if (config.expression_ms) start_settings_.expression = FromMs(*config.expression_ms);
   if (config.eye_move_ms) start_settings_.eye_move = FromMs(*config.eye_move_ms);
-  if (config.language) start_settings_.language = *config.language;
+  if (config.language) start_settings_.lips.language = *config.language;
   if (config.max_frame_rate) frame_rate_ = *config.max_frame_rate;
   if (!config.faces.empty()) {
     std::cerr << "fsm: notice: " << config.path
@@ -55,6 +56,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
                                          if (capture_->End())
                                            core_.slots.Report("Capture", "DISABLE");
                                        }});
+  DeclareLipSlots(core_);
   DeclareFigureSlots(core_);
   scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);
   film_ = std::make_unique<Film>(

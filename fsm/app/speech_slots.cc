@@ -117,13 +117,13 @@ void SpeechSlots::DeclareSettings() {
           "40", [](MotionSettings& s, const vm::SetValue& v) { s.lead_ms = v.number(0); });
   setting("LipSync.language", "AUTO | JP | EN",
           "Whose mouth shapes phonemes have; AUTO looks at each list.",
-          core_.motion->settings().language == Language::kAuto      ? "AUTO"
-          : core_.motion->settings().language == Language::kEnglish ? "EN"
-                                                                    : "JP",
+          core_.motion->settings().lips.language == Language::kAuto      ? "AUTO"
+          : core_.motion->settings().lips.language == Language::kEnglish ? "EN"
+                                                                         : "JP",
           [](MotionSettings& s, const vm::SetValue& v) {
-            s.language = v.word(0) == "JP"   ? Language::kJapanese
-                         : v.word(0) == "EN" ? Language::kEnglish
-                                             : Language::kAuto;
+            s.lips.language = v.word(0) == "JP"   ? Language::kJapanese
+                              : v.word(0) == "EN" ? Language::kEnglish
+                                                  : Language::kAuto;
           });
   setting("MouthScale", "<number 0..200>",
           "Size of the mouth's movements in the original's per cent: 30 is natural speech, 40 full "
@@ -150,6 +150,14 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   core_.slots.Report("Speak.utt", vm::FormatPhonemesFace(spoken_));
   core_.slots.Report("Speak.len", LengthOf(spoken_));
   SetStat(Stat::kReady);
+  // As the original, a list with unknown phonemes is spoken all the same; but it is said.
+  for (const std::string& name : core_.motion->UnknownPhonemes(list_)) {
+    core_.slots.ReportError("LipSync.pho", {vm::Errc::kBadValue,
+                                            "the phoneme '" + name +
+                                                "' is in no table (LipSync.names); the mouth "
+                                                "closes on it",
+                                            0});
+  }
   if (start_) Begin();
   core_.changed();
   return written;

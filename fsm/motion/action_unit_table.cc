@@ -133,8 +133,15 @@ vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text
                                                               : part == "brow" ? Region::kBrow
                                                                                : Region::kMouth;
       }
+    } else if (kind == "opens") {
+      for (std::size_t i = 1; i < line.words.size(); ++i) {
+        const auto unit = ParseUnitName(line.words[i]);
+        if (!unit) return table.Wrong(line.number, unit.error().text);
+        list.opens[static_cast<std::size_t>(unit->number)] = true;
+      }
     } else {
-      return table.Wrong(line.number, "'" + kind + "' found; face, emotion or region expected");
+      return table.Wrong(line.number,
+                         "'" + kind + "' found; face, emotion, region or opens expected");
     }
   }
   return list;

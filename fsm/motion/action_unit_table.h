@@ -48,6 +48,7 @@ struct UnitList {
   std::vector<int> units;             ///< Face.1 is units[0]; 0 = not an action unit
   std::vector<std::string> emotions;  ///< by position as well; "" = not an emotion
   std::array<Region, kActionUnits> region{};
+  std::array<bool, kActionUnits> opens{};  ///< parts the lips: gives way to contacts of speech
 };
 vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text);
 

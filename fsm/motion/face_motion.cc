@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace fsm {
 namespace {
@@ -167,7 +168,22 @@ vm::Result<void> FaceMotion::Autonomous(vm::Time now, std::string_view kind, int
 }
 
 void FaceMotion::Speak(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start) {
-  speech_.Start(now, LipTrack(phonemes, tables_, settings_.language), start);
+  speech_.Start(now, LipTrack(phonemes, tables_, settings_.lips), start);
+}
+
+std::vector<std::string> FaceMotion::UnknownPhonemes(const vm::PhonemeList& phonemes) const {
+  return MakeDemands(phonemes, tables_, settings_.lips).unknown;
+}
+
+void FaceMotion::SetShapes(bool bilingual, MouthShapes shapes) {
+  MouthShapes& own = (bilingual ? tables_.set28 : tables_.set14).shapes;
+  assert(shapes.size() == own.size());
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const float contact = own[i].pose.contact;
+    own[i].pose = shapes[i].pose;
+    own[i].pose.contact = contact;
+    own[i].hold = shapes[i].hold;
+  }
 }
 
 void FaceMotion::StopSpeaking(vm::Time now) { speech_.Stop(now); }
@@ -211,7 +227,15 @@ FaceState FaceMotion::StateAt(vm::Time t) const {
     state.au_right[unit] = std::clamp(units.right[unit] + units_right_[unit].At(t), 0.0f, 2.0f);
   }
 
-  const double scale = mouth_scale_.At(t) / kFullMouthScale;
+  const float contact = static_cast<float>(speech.share * speech.pose.contact);
+  for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
+    if (!tables_.units.opens[unit]) continue;
+    state.au_left[unit] *= 1 - contact;
+    state.au_right[unit] *= 1 - contact;
+  }
+
+  double scale = mouth_scale_.At(t) / kFullMouthScale;
+  if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is no larger than it is
   for (std::size_t i = 0; i < kMouthParameters; ++i) {
     state.mouth[i] =
         Mix(mouth_[i].At(t), static_cast<float>(scale * speech.pose.mouth[i]), speech.share);

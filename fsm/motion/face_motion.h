@@ -33,7 +33,7 @@ struct MotionSettings {
   /// The original's unit for the size of mouth movements; kFullMouthScale gives the full
   /// articulation of the shape table, the default 30 the three quarters of natural speech.
   double mouth_scale = 30;
-  Language language = Language::kAuto;
+  LipStyle lips;
 };
 inline constexpr double kFullMouthScale = 40;
 
@@ -77,6 +77,16 @@ class FaceMotion {
   double VoicePosition(vm::Time t) const { return speech_.VoicePositionAt(t); }
   const std::string& PhonemeAt(vm::Time t) const { return speech_.PhonemeAt(t); }
 
+  /// Phonemes no table has, once each: the mouth closes on them.
+  std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const;
+
+  // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.
+  const MouthShapes& shapes(bool bilingual) const {
+    return bilingual ? tables_.set28.shapes : tables_.set14.shapes;
+  }
+  /// REQUIRES: the same names in the same order. How they dominate each other is kept.
+  void SetShapes(bool bilingual, MouthShapes shapes);
+
   // Settings. Those of speech act at once, without a jump.
   const MotionSettings& settings() const { return settings_; }
   void Apply(vm::Time now, const MotionSettings& settings);
@@ -99,7 +109,7 @@ class FaceMotion {
   static constexpr float kEmotionWhileSpeaking = 0.4f;
   using Tracks = std::array<Track<float>, kActionUnits>;
 
-  const MotionTables tables_;
+  MotionTables tables_;
   MotionSettings settings_;
   FaceState figure_;
   ExpressionMotion expression_;

@@ -1,17 +1,21 @@
 #include "fsm/motion/motion_tables.h"
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 #include "embedded/action_unit_list.h"
 #include "embedded/arkit.h"
+#include "embedded/dominance.h"
 #include "embedded/emotions.h"
 #include "embedded/motions.h"
 #include "embedded/mouth_shapes.h"
+#include "embedded/mouth_shapes_28.h"
+#include "embedded/phoneme_names.h"
+#include "embedded/phonemes28_en.h"
+#include "embedded/phonemes28_ja.h"
 #include "embedded/phonemes_en.h"
 #include "embedded/phonemes_ja.h"
+#include "fsm/motion/table_text.h"
 
 namespace fsm {
 namespace {
@@ -32,15 +36,14 @@ class Loader {
     if (error_) return;
     const std::string path = folder_.empty() ? file : folder_ + "/" + file;
     std::string text(built_in);
-    if (!folder_.empty() && std::filesystem::exists(path)) {
-      std::ifstream in(path, std::ios::binary);
-      std::ostringstream bytes;
-      bytes << in.rdbuf();
-      if (!in) {
-        error_ = vm::Error{vm::Errc::kUnavailable, "cannot read " + path};
+    std::error_code code;
+    if (!folder_.empty() && std::filesystem::exists(path, code)) {
+      auto own = ReadTableFile(path);
+      if (!own) {
+        error_ = own.error();
         return;
       }
-      text = bytes.str();
+      text = std::move(*own);
     }
     auto table = read(path, text);
     if (table) {
@@ -56,17 +59,47 @@ class Loader {
   std::optional<vm::Error> error_;
 };
 
+void LoadMouth(Loader& loader, MotionTables& out) {
+  const auto shapes28 = [](const std::string& name, std::string_view text) {
+    return ReadMouthShapes(name, text, kBilingualShapes);
+  };
+  const auto phonemes_of = [](const MouthSet& set) {
+    return [&set](const std::string& name, std::string_view text) {
+      return ReadPhonemeTable(name, text, set.shapes);
+    };
+  };
+  const auto shapes14 = [](const std::string& name, std::string_view text) {
+    return ReadMouthShapes(name, text);
+  };
+  loader.Get(out.set14.shapes, "mouth_shapes.txt", embedded::mouth_shapes(), shapes14);
+  loader.Get(out.set28.shapes, "mouth_shapes_28.txt", embedded::mouth_shapes_28(), shapes28);
+  loader.Get(out.reach, "dominance.txt", embedded::dominance(),
+             [&out](const std::string& name, std::string_view text) {
+               return ReadDominance(name, text, out.set14.shapes, out.set28.shapes);
+             });
+  const auto of14 = phonemes_of(out.set14);
+  const auto of28 = phonemes_of(out.set28);
+  loader.Get(out.set14.japanese, "phonemes_ja.txt", embedded::phonemes_ja(), of14);
+  loader.Get(out.set14.english, "phonemes_en.txt", embedded::phonemes_en(), of14);
+  loader.Get(out.set28.japanese, "phonemes28_ja.txt", embedded::phonemes28_ja(), of28);
+  loader.Get(out.set28.english, "phonemes28_en.txt", embedded::phonemes28_en(), of28);
+  for (MouthSet* set : {&out.set14, &out.set28}) {
+    for (std::size_t i = 0; i < set->shapes.size(); ++i) {
+      if (set->shapes[i].name == "rest") set->rest = i;
+    }
+  }
+  loader.Get(out.engines, "phoneme_names.txt", embedded::phoneme_names(),
+             [&out](const std::string& name, std::string_view text) {
+               return ReadPhonemeNames(name, text, out.set28);
+             });
+}
+
 }  // namespace
 
 vm::Result<MotionTables> MotionTables::Load(const std::string& folder) {
   MotionTables out;
   Loader loader(folder);
-  const auto phonemes = [&out](const std::string& name, std::string_view text) {
-    return ReadPhonemeTable(name, text, out.shapes);
-  };
-  loader.Get(out.shapes, "mouth_shapes.txt", embedded::mouth_shapes(), ReadMouthShapes);
-  loader.Get(out.phonemes_ja, "phonemes_ja.txt", embedded::phonemes_ja(), phonemes);
-  loader.Get(out.phonemes_en, "phonemes_en.txt", embedded::phonemes_en(), phonemes);
+  LoadMouth(loader, out);
   loader.Get(out.emotions, "emotions.txt", embedded::emotions(), ReadEmotions);
   loader.Get(out.motions, "motions.txt", embedded::motions(), ReadMotions);
   loader.Get(out.units, "action_unit_list.txt", embedded::action_unit_list(), ReadUnitList);

@@ -1,19 +1,22 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fsm/motion/action_unit_table.h"
 #include "fsm/motion/emotion_table.h"
 #include "fsm/motion/motion_table.h"
 #include "fsm/motion/mouth_tables.h"
+#include "fsm/motion/phoneme_names.h"
 
 namespace fsm {
 
 /// Everything that is known about moving, read from the tables. A plain value.
 struct MotionTables {
-  MouthShapes shapes;
-  PhonemeTable phonemes_ja;
-  PhonemeTable phonemes_en;
+  MouthSet set14;  ///< the original's shapes
+  MouthSet set28;  ///< those of the English and Japanese translation system
+  std::vector<EngineNames> engines;
+  Reach reach;
   EmotionTable emotions;
   MotionTable motions;
   UnitList units;

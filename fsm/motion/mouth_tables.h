@@ -16,20 +16,44 @@ struct MouthPose {
   std::array<float, kMouthParameters> mouth{};
   float seal = 0;
   float tongue = 0;
+  /// How much the sound needs the lips at each other or at the teeth, 0..1: whatever else opens the
+  /// mouth has to give way by so much.
+  float contact = 0;
 };
 MouthPose Mix(const MouthPose& a, const MouthPose& b, double share_of_b);
+
+/// How strongly a shape insists on its targets while sounds overlap; see tables/dominance.txt.
+struct Dominance {
+  double jaw = 1;
+  double lips = 1;
+  double round = 1;
+  double tongue = 1;
+  double early_ms = 40;  ///< anticipation of the rounding
+  bool vowel = false;
+};
 
 /// One key shape of the mouth, at full articulation.
 struct MouthShape {
   std::string name;
   MouthPose pose;
   double hold = 0;  ///< share of a phoneme for which the shape stands before it moves on
+  Dominance dominance;
 };
 
-/// The 14 shapes by their numbers; 0 is the mouth at rest.
+/// Shapes by their numbers. Each set has one named `rest`: the mouth of pauses.
 using MouthShapes = std::vector<MouthShape>;
 inline constexpr std::size_t kMouthShapes = 14;
-vm::Result<MouthShapes> ReadMouthShapes(const std::string& name, std::string_view text);
+inline constexpr std::size_t kBilingualShapes = 28;
+/// The 17 parameters, then seal, tongue and hold, which may be left out at the end (they then stay
+/// as `shape` has them). Values: finite; parameters within +-60, seal and tongue 0..1, hold 0..0.9.
+vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::size_t first,
+                                 MouthShape& shape);
+/// As a row of the table has them, 20 numbers.
+std::string FormatShapeValues(const MouthShape& shape);
+vm::Result<MouthShapes> ReadMouthShapes(const std::string& name, std::string_view text,
+                                        std::size_t count = kMouthShapes);
+/// nullptr if there is none of that name.
+const MouthShape* FindShape(const MouthShapes& shapes, std::string_view name);
 
 /// What a phoneme looks like: one shape, or two for a diphthong.
 struct PhonemeLook {
@@ -44,5 +68,22 @@ struct PhonemeLook {
 using PhonemeTable = std::map<std::string, PhonemeLook, std::less<>>;
 vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_view text,
                                           const MouthShapes& shapes);
+
+/// A set of mouth shapes and what the phonemes of each language look like in it.
+struct MouthSet {
+  MouthShapes shapes;
+  PhonemeTable japanese;
+  PhonemeTable english;
+  std::size_t rest = 0;  ///< index of the shape of pauses
+};
+
+/// Dominances of the shapes of both sets, which are written into them. `reach_ms`: before and after
+/// a sound's own time, see tables/dominance.txt. Every shape must have its row.
+struct Reach {
+  double before_ms = 40;
+  double after_ms = 45;
+};
+vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, MouthShapes& set14,
+                                MouthShapes& set28);
 
 }  // namespace fsm

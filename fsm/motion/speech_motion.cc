@@ -32,7 +32,7 @@ vm::Time SpeechMotion::GoneAt(const Layer& layer) const {
 void SpeechMotion::Start(vm::Time now, LipTrack track, vm::Time start) {
   Stop(now);
   std::erase_if(layers_, [&](const Layer& layer) { return GoneAt(layer) <= now; });
-  const vm::Time ahead = FromMs(lead_ms_.At(now) + LipTrack::kApproachMs);
+  const vm::Time ahead = FromMs(lead_ms_.At(now) + kApproachMs);
   layers_.push_back({std::make_shared<const LipTrack>(std::move(track)), SpeechClock(start),
                      std::max(now, start - ahead), std::nullopt});
 }
@@ -64,6 +64,7 @@ SpeechMotion::Mouth SpeechMotion::At(vm::Time t) const {
     if (layer.stopped) {
       MouthPose closed;
       closed.seal = 1;
+      closed.contact = 1;
       pose = Mix(pose, closed, SmoothStep(Progress(t, *layer.stopped, kClose)));
     }
     mouth.pose = Mix(mouth.pose, pose, share);

@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 namespace fsm {
 
@@ -27,8 +29,15 @@ TableText::TableText(std::string name, std::string_view text) : name_(std::move(
 }
 
 std::unexpected<vm::Error> TableText::Wrong(int line, const std::string& text) const {
-  if (line == 0) return vm::Fail(vm::Errc::kBadValue, fmt::format("{}: {}", name_, text));
-  return vm::Fail(vm::Errc::kBadValue, fmt::format("{}:{}: {}", name_, line, text));
+  // What stands in a damaged file is shown, but not all of a very long word and no control bytes.
+  constexpr std::size_t kShown = 400;
+  std::string shown = text.size() <= kShown ? text : text.substr(0, kShown / 2) + "..." +
+                                                         text.substr(text.size() - kShown / 2);
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  if (line == 0) return vm::Fail(vm::Errc::kBadValue, fmt::format("{}: {}", name_, shown));
+  return vm::Fail(vm::Errc::kBadValue, fmt::format("{}:{}: {}", name_, line, shown));
 }
 
 vm::Result<double> TableText::Number(const TableLine& line, std::size_t word,
@@ -42,6 +51,23 @@ vm::Result<double> TableText::Number(const TableLine& line, std::size_t word,
                                           line.words[word], what, lowest, highest));
   }
   return *number;
+}
+
+vm::Result<std::string> ReadTableFile(const std::string& path) {
+  std::error_code code;
+  std::ifstream in;
+  // Devices and pipes are left alone: they may never end.
+  if (std::filesystem::is_regular_file(path, code)) in.open(path, std::ios::binary);
+  if (!in.is_open()) return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
+  std::string text(kMaxTableBytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kMaxTableBytes) {
+    return vm::Fail(vm::Errc::kLimit,
+                    fmt::format("{} is longer than {} bytes, no table", path, kMaxTableBytes));
+  }
+  return text;
 }
 
 vm::Result<double> ParseNumber(std::string_view word) {

@@ -20,12 +20,12 @@ MotionTables BuiltIn() {
 TEST(MotionTablesTest, TheFourteenShapesStandInTheirOrder) {
   const MotionTables tables = BuiltIn();
   std::string names;
-  for (const MouthShape& shape : tables.shapes) names += shape.name + " ";
+  for (const MouthShape& shape : tables.set14.shapes) names += shape.name + " ";
   EXPECT_EQ(names, "rest r m t n k f s w a i u e o ");
 }
 
 TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
-  const auto shapes = BuiltIn().shapes;
+  const auto shapes = BuiltIn().set14.shapes;
   const auto jaw = [&](std::size_t i) { return shapes[i].pose.mouth[11]; };
   EXPECT_GT(jaw(9), jaw(12));   // a > e
   EXPECT_GT(jaw(12), jaw(13));  // e > o
@@ -34,7 +34,7 @@ TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
 }
 
 TEST(MotionTablesTest, OnlyRestAndTheLipClosuresSeal) {
-  for (const MouthShape& shape : BuiltIn().shapes) {
+  for (const MouthShape& shape : BuiltIn().set14.shapes) {
     EXPECT_EQ(shape.pose.seal, shape.name == "rest" || shape.name == "m" ? 1 : 0) << shape.name;
   }
 }
@@ -45,7 +45,7 @@ TEST(MotionTablesTest, EveryPhonemeOfTheOriginalVoiceIsKnown) {
        {"a",  "i",  "u",  "e",  "o",  "k",  "s", "sh",  "t",   "ch", "ts", "n",  "h",  "f",
         "m",  "y",  "r",  "w",  "g",  "z",  "j", "d",   "b",   "p",  "ky", "ny", "hy", "my",
         "ry", "gy", "by", "py", "dy", "cl", "N", "pau", "sil", "A",  "I",  "U",  "E",  "O"}) {
-    EXPECT_TRUE(tables.phonemes_ja.contains(name)) << name;
+    EXPECT_TRUE(tables.set14.japanese.contains(name)) << name;
   }
 }
 
@@ -55,7 +55,7 @@ TEST(MotionTablesTest, EveryPhonemeOfFliteIsKnown) {
        {"aa",  "ae", "ah", "ao", "aw", "ax", "ay", "b",  "ch", "d", "dh", "eh", "er", "ey",
         "f",   "g",  "hh", "ih", "iy", "jh", "k",  "l",  "m",  "n", "ng", "ow", "oy", "p",
         "pau", "r",  "s",  "sh", "t",  "th", "uh", "uw", "v",  "w", "y",  "z",  "zh"}) {
-    EXPECT_TRUE(tables.phonemes_en.contains(name)) << name;
+    EXPECT_TRUE(tables.set14.english.contains(name)) << name;
   }
 }
 
@@ -84,7 +84,7 @@ TEST(MotionTablesTest, AWrongShapeIsReportedWithFileAndLine) {
 }
 
 TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
-  const auto shapes = BuiltIn().shapes;
+  const auto shapes = BuiltIn().set14.shapes;
   const auto expect = [](const auto& result, const std::string& text) {
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().text.find(text), std::string::npos) << result.error().text;
@@ -113,7 +113,7 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   const auto tables = MotionTables::Load(folder.string());
   ASSERT_TRUE(tables) << tables.error().text;
   EXPECT_EQ(tables->emotions.size(), 1u);
-  EXPECT_EQ(tables->shapes.size(), kMouthShapes);
+  EXPECT_EQ(tables->set14.shapes.size(), kMouthShapes);
   std::ofstream(folder / "emotions.txt") << "\nBORED\n";
   const auto wrong = MotionTables::Load(folder.string());
   ASSERT_FALSE(wrong);

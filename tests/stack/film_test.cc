@@ -126,8 +126,11 @@ TEST(FilmTest, TheMouthIsClosedInPausesAndOnMAndOpenOnVowels) {
   const double sound_start = SpeechStartMs(film);
   double open_vowel = 0;
   double at = film.record_started_ms + sound_start;
+  std::string before = "pau";
   for (const vm::Phoneme& phoneme : film.phonemes) {
     const double start = at;
+    const bool after_vowel = std::string("aa ae ah ax").find(before) != std::string::npos;
+    before = phoneme.name;
     at += static_cast<double>(phoneme.duration.count());
     double least = 1e9;
     for (const Frame& frame : film.frames) {
@@ -138,8 +141,20 @@ TEST(FilmTest, TheMouthIsClosedInPausesAndOnMAndOpenOnVowels) {
     }
     if (least > 1e8) continue;
     const bool closing = phoneme.name == "m" || phoneme.name == "p" || phoneme.name == "b";
-    if (closing) {
-      EXPECT_LT(least, 1.0) << phoneme.name << " at " << start;
+    if (!closing) continue;
+    EXPECT_LT(least, 1.0) << phoneme.name << " at " << start;
+    // The key instant of a closure is its phoneme's start: shut from the lead before it on for
+    // about a frame (34 ms, or 85 % of a shorter one), and not yet shut two frames earlier.
+    const double key = start - kLeadMs;
+    const double shut = std::min(34.0, 0.85 * static_cast<double>(phoneme.duration.count()));
+    for (const Frame& frame : film.frames) {
+      if (frame.time_ms < key || frame.time_ms > key + shut) continue;
+      EXPECT_LT(frame.gap_mm, 0.05) << phoneme.name << " at " << frame.time_ms;
+    }
+    if (start == film.record_started_ms + sound_start || !after_vowel) continue;
+    for (const Frame& frame : film.frames) {
+      if (frame.time_ms < key - 2 * kFrameMs || frame.time_ms > key - kFrameMs) continue;
+      EXPECT_GT(frame.gap_mm, 0.2) << "before " << phoneme.name << " at " << frame.time_ms;
     }
   }
   EXPECT_GT(open_vowel, 4.0);

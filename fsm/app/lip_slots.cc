@@ -1,0 +1,172 @@
+#include "fsm/app/lip_slots.h"
+
+#include <array>
+#include <fstream>
+#include <string_view>
+
+#include "fsm/motion/table_text.h"
+
+namespace fsm {
+namespace {
+
+/// Ways to speak: size of the jaw's and of the lips' movements in per cent. Ours, by eye.
+struct SpeakingStyle {
+  std::string_view name;
+  double jaw, lips;
+};
+constexpr std::array<SpeakingStyle, 5> kStyles = {{{"MUMBLED", 35, 45},
+                                                   {"SOFT", 70, 80},
+                                                   {"NORMAL", 100, 100},
+                                                   {"CLEAR", 125, 120},
+                                                   {"SHOUTED", 180, 135}}};
+
+constexpr std::array kSets = {false, true};
+std::string SlotOf(bool bilingual, const std::string& shape) {
+  return (bilingual ? "MouthShape28." : "MouthShape.") + shape;
+}
+
+template <typename Change>
+FsmCore::Action Setting(FsmCore& core, Change change) {
+  return [&core, change](const vm::SetValue& value) -> vm::Result<void> {
+    MotionSettings settings = core.motion->settings();
+    change(settings.lips, value);
+    core.motion->Apply(core.Now(), settings);
+    return {};
+  };
+}
+
+void DeclareStyle(FsmCore& core) {
+  core.Declare({"LipSync.mode", "DOMINANCE | SINUSOID | LINEAR",
+                "How lips go from sound to sound: by overlapping dominance curves with "
+                "anticipation, by the original's sinusoids, or by straight lines.",
+                Setting(core,
+                        [](LipStyle& lips, const vm::SetValue& value) {
+                          lips.mode = value.word(0) == "SINUSOID" ? LipMode::kSinusoid
+                                      : value.word(0) == "LINEAR" ? LipMode::kLinear
+                                                                  : LipMode::kDominance;
+                        }),
+                "DOMINANCE"});
+  core.Declare({"LipSync.shapes", "<int 14..28>",
+                "Which mouth shapes: 28 of English and Japanese, or the original's 14.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  if (value.number(0) != 14 && value.number(0) != 28) {
+                    return vm::Fail(
+                        vm::Errc::kBadValue,
+                        "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
+                  }
+                  MotionSettings settings = core.motion->settings();
+                  settings.lips.bilingual = value.number(0) == 28;
+                  core.motion->Apply(core.Now(), settings);
+                  return {};
+                },
+                "28"});
+  core.Declare(
+      {"LipSync.names", "<word>",
+       "Whose names the phonemes have: AUTO (whichever knows most of the list) or one of " +
+           EngineList(core.motion->tables().engines) + ".",
+       [&core](const vm::SetValue& value) -> vm::Result<void> {
+         const std::string known = "AUTO " + EngineList(core.motion->tables().engines);
+         if ((" " + known + " ").find(" " + value.word(0) + " ") == std::string::npos) {
+           return vm::Fail(
+               vm::Errc::kBadValue,
+               "'" + value.word(0) + "' is no list of phoneme names; " + known + " expected");
+         }
+         MotionSettings settings = core.motion->settings();
+         settings.lips.engine = value.word(0);
+         core.motion->Apply(core.Now(), settings);
+         return {};
+       },
+       "AUTO"});
+  core.Declare({"LipSync.scale",
+                "MUMBLED | SOFT | NORMAL | CLEAR | SHOUTED | <number 0..300> [ <number 0..300> ]",
+                "How large the next utterances are articulated: a way of speaking, or per cent for "
+                "the jaw and for the lips. Closures stay closed.",
+                Setting(core,
+                        [](LipStyle& lips, const vm::SetValue& value) {
+                          lips.jaw = value.number(0) / 100;
+                          lips.lips = value.number(value.size() > 1 ? 1 : 0) / 100;
+                          for (const SpeakingStyle& style : kStyles) {
+                            if (value.word(0) != style.name) continue;
+                            lips.jaw = style.jaw / 100;
+                            lips.lips = style.lips / 100;
+                          }
+                        }),
+                "NORMAL"});
+}
+
+void DeclareShapes(FsmCore& core, bool bilingual) {
+  for (const MouthShape& shape : core.motion->shapes(bilingual)) {
+    core.Declare(
+        {SlotOf(bilingual, shape.name), "<number>...",
+         "Mouth shape '" + shape.name + "' of the " + (bilingual ? "28" : "14") +
+             ": 17 mouth parameters [seal [tongue [hold]]], see face.md.",
+         [&core, bilingual, name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
+           std::vector<std::string> words;
+           for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
+           MouthShapes shapes = core.motion->shapes(bilingual);
+           for (MouthShape& edited : shapes) {
+             if (edited.name != name) continue;
+             if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
+           }
+           core.motion->SetShapes(bilingual, std::move(shapes));
+           return {};
+         },
+         FormatShapeValues(shape)});
+  }
+}
+
+// A table of 14 or of 28 rows, told apart by their count.
+vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
+  const auto text = ReadTableFile(path);
+  if (!text) return std::unexpected(text.error());
+  const bool bilingual = TableText(path, *text).lines().size() == kBilingualShapes;
+  auto shapes = ReadMouthShapes(path, *text, bilingual ? kBilingualShapes : kMouthShapes);
+  if (!shapes) return std::unexpected(shapes.error());
+  const MouthShapes& now = core.motion->shapes(bilingual);
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if ((*shapes)[i].name != now[i].name) {
+      return vm::Fail(vm::Errc::kBadValue, path + ": shape " + std::to_string(i + 1) + " is '" +
+                                               (*shapes)[i].name + "', '" + now[i].name +
+                                               "' expected");
+    }
+  }
+  core.motion->SetShapes(bilingual, std::move(*shapes));
+  for (const MouthShape& shape : core.motion->shapes(bilingual)) {
+    core.slots.Report(SlotOf(bilingual, shape.name), FormatShapeValues(shape));
+  }
+  return {};
+}
+
+vm::Result<void> SaveShapes(FsmCore& core, bool bilingual, const std::string& path) {
+  std::ofstream out(path, std::ios::binary);
+  out << "# Mouth shapes: name, the 17 mouth parameters, seal, tongue, hold (docs/face.md).\n";
+  for (const MouthShape& shape : core.motion->shapes(bilingual)) {
+    out << shape.name << " " << FormatShapeValues(shape) << "\n";
+  }
+  out.close();
+  if (!out) return vm::Fail(vm::Errc::kUnavailable, "cannot write " + path);
+  return {};
+}
+
+void DeclareShapeFiles(FsmCore& core) {
+  core.Declare({"MouthShapes", "<file>",
+                "Loads a table of mouth shapes, all 14 or all 28; rows as in mouth_shapes.txt.",
+                [&core](const vm::SetValue& value) { return LoadShapes(core, value.word(0)); }, "",
+                false});
+  core.Declare({"SaveMouthShapes", "<int 14..28> <word>",
+                "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
+                [&core](const vm::SetValue& value) {
+                  return SaveShapes(core, value.number(0) == 28, value.word(1));
+                },
+                "", false});
+}
+
+}  // namespace
+
+void DeclareLipSlots(FsmCore& core) {
+  DeclareStyle(core);
+  for (const bool bilingual : kSets) DeclareShapes(core, bilingual);
+  DeclareShapeFiles(core);
+}
+
+}  // namespace fsm

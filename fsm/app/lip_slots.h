@@ -1,0 +1,13 @@
+#pragma once
+
+#include "fsm/app/fsm_core.h"
+
+namespace fsm {
+
+/// Declares how lips are moved: LipSync.mode, LipSync.shapes, LipSync.names, LipSync.scale, and the
+/// mouth shapes themselves (MouthShape.NAME of the 14, MouthShape28.NAME of the 28), which can be
+/// set, asked, saved and loaded. All act from the next utterance on. Lifetime: `core` outlives the
+/// slots.
+void DeclareLipSlots(FsmCore& core);
+
+}  // namespace fsm

@@ -1,0 +1,140 @@
+#include "fsm/motion/dominance_curves.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fsm/motion/easing.h"
+#include "fsm/motion/track.h"
+
+namespace fsm {
+namespace {
+
+constexpr double kForever = 1e9;
+constexpr double kRise = 55;           // of a contact
+constexpr double kPauseEase = 60;      // lips meet in a pause, and part before its end
+constexpr double kShortestPause = 120;  // in which they do
+constexpr double kJawGives = 0.75;     // of the jaw's way, where the lips close over it
+
+// Which dominance rules each of the 17 parameters (face_state.h): the jaw, the lips' opening, or
+// their rounding.
+enum Group : std::size_t { kJaw, kLips, kRound, kTongue, kGroups };
+constexpr std::array<Group, kMouthParameters> kGroupOf = {
+    kLips,  kRound, kLips,  kRound, kLips, kRound, kLips, kRound, kRound,
+    kRound, kRound, kJaw,   kJaw,   kLips, kLips,  kLips, kLips};
+
+double Bell(double distance_ms, double reach_ms) {
+  const double d = distance_ms / reach_ms;
+  return std::exp(-3 * d * d);
+}
+
+}  // namespace
+
+double DominanceCurves::Contact::At(double position_ms) const {
+  const auto part = [](double from, double to, double at) {
+    return to <= from ? (at >= to ? 1.0 : 0.0) : SmoothStep((at - from) / (to - from));
+  };
+  return std::min(part(rise, from, position_ms), 1 - part(to, fall, position_ms));
+}
+
+DominanceCurves::DominanceCurves(const LipDemands& demands, const Reach& reach) : reach_(reach) {
+  LipDemand rest;
+  rest.target = demands.rest;
+  rest.dominance = {.jaw = 0.8, .lips = 0.8, .round = 0.5, .tongue = 0.5};
+  rest.pause = true;
+  rest.length_ms = kForever;
+  rest.start_ms = -kForever;
+  sounds_.push_back({rest, 0, {}});
+  longest_reach_ms_ = std::max(reach.before_ms, reach.after_ms);
+  for (const LipDemand& demand : demands.demands) {
+    sounds_.push_back({demand, demand.start_ms + demand.length_ms, {}});
+    longest_reach_ms_ = std::max(longest_reach_ms_, demand.dominance.early_ms);
+  }
+  rest.start_ms = demands.length_ms;
+  sounds_.push_back({rest, demands.length_ms + kForever, {}});
+  PlaceContacts();
+}
+
+void DominanceCurves::PlaceContacts() {
+  const auto closes = [this](std::size_t i) {
+    const LipDemand& demand = sounds_[i].demand;
+    return demand.target.seal > 0 && !(demand.pause && demand.length_ms < kShortestPause);
+  };
+  for (std::size_t i = 0; i < sounds_.size(); ++i) {
+    Sound& sound = sounds_[i];
+    const LipDemand& demand = sound.demand;
+    if (demand.target.contact <= 0) continue;
+    if (demand.pause && demand.length_ms < kShortestPause) continue;
+    const bool closed_before = i == 0 || (closes(i) && closes(i - 1));
+    const bool closed_after = i + 1 == sounds_.size() || (closes(i) && closes(i + 1));
+    const double start = demand.start_ms;
+    Contact contact{};
+    if (demand.pause) {
+      // The lips come together after the sound before has ended, and part in time for the next.
+      contact = {start, start + kPauseEase, sound.end_ms - kPauseEase, sound.end_ms};
+    } else {
+      const double before = i == 0 ? kRise : sounds_[i - 1].demand.length_ms;
+      const double to = start + std::min(demand.hold_ms, demand.length_ms);
+      contact = {start - std::clamp(0.7 * before, 12.0, kRise), start, to,
+                 std::max(sound.end_ms, to + 20)};
+    }
+    // From closure to closure the lips stay together.
+    if (closed_before) contact.rise = contact.from = start;
+    if (closed_after) contact.to = contact.fall = sound.end_ms;
+    sound.contact = contact;
+  }
+}
+
+MouthPose DominanceCurves::At(double position_ms) const {
+  std::array<double, kGroups> weight{};
+  std::array<double, kMouthParameters> mouth{};
+  double tongue = 0;
+  // The first sound that can still be felt.
+  const auto first = std::ranges::partition_point(
+      sounds_, [&](const Sound& s) { return s.end_ms + longest_reach_ms_ * 3 < position_ms; });
+  std::array<double, kGroups> dominance{};
+  MouthPose held;  // the targets of contacts, summed by how far each is made
+  double contacts = 0;
+  double jaw_gives = 0;
+  MouthPose pose;
+  for (auto s = first; s != sounds_.end(); ++s) {
+    if (s->demand.start_ms - longest_reach_ms_ * 3 > position_ms) break;
+    const Dominance& d = s->demand.dominance;
+    const bool early = position_ms < s->demand.start_ms;
+    const double distance =
+        std::max({s->demand.start_ms - position_ms, position_ms - s->end_ms, 0.0});
+    const double near = Bell(distance, early ? reach_.before_ms : reach_.after_ms);
+    dominance = {d.jaw * near, d.lips * near,
+                 d.round * Bell(distance, early ? d.early_ms : reach_.after_ms), d.tongue * near};
+    for (std::size_t g = 0; g < kGroups; ++g) weight[g] += dominance[g];
+    for (std::size_t p = 0; p < kMouthParameters; ++p) {
+      mouth[p] += dominance[kGroupOf[p]] * s->demand.target.mouth[p];
+    }
+    tongue += dominance[kTongue] * s->demand.target.tongue;
+    if (!s->contact) continue;
+    const MouthPose& target = s->demand.target;
+    const double made = s->contact->At(position_ms);
+    const double contact = made * target.contact;
+    pose.seal = std::max(pose.seal, static_cast<float>(made * target.seal));
+    pose.contact = std::max(pose.contact, static_cast<float>(contact));
+    contacts += contact;
+    jaw_gives += contact * (target.seal > 0 ? kJawGives : 1);
+    for (std::size_t p = 0; p < kMouthParameters; ++p) {
+      held.mouth[p] += static_cast<float>(contact * target.mouth[p]);
+    }
+  }
+
+  constexpr double kLeast = 1e-6;  // where nobody cares the mouth is at rest
+  for (std::size_t p = 0; p < kMouthParameters; ++p) {
+    double value = mouth[p] / (weight[kGroupOf[p]] + kLeast);
+    if (contacts > 0) {
+      const double share = pose.contact * (kGroupOf[p] == kJaw ? jaw_gives / contacts : 1);
+      value += share * (held.mouth[p] / contacts - value);
+    }
+    pose.mouth[p] = static_cast<float>(value);
+  }
+  pose.tongue = static_cast<float>(tongue / (weight[kTongue] + kLeast));
+  return pose;
+}
+
+}  // namespace fsm

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsm/motion/motion_tables.h"
+#include "vm_protocol/core/phonemes.h"
+
+namespace fsm {
+
+/// How lips go from sound to sound.
+enum class LipMode {
+  kDominance,  ///< overlapping dominance curves with anticipation
+  kSinusoid,   ///< the original's: key shapes joined by half a cosine
+  kLinear,     ///< key shapes joined by straight lines, for comparison
+};
+
+/// How an utterance is to be articulated; taken when it begins.
+struct LipStyle {
+  LipMode mode = LipMode::kDominance;
+  bool bilingual = true;  ///< the set of 28 shapes, else of 14
+  Language language = Language::kAuto;
+  std::string engine = "AUTO";  ///< whose phoneme names, see PhonemeReader
+  double jaw = 1;               ///< size of the jaw's opening, 0 (mumbled) .. 3
+  double lips = 1;              ///< size of the lips' movements, the same
+};
+
+/// A mouth shape with its strength, in time: what one phoneme, or one half of a diphthong, asks.
+struct LipDemand {
+  double start_ms = 0;
+  double length_ms = 0;
+  MouthPose target;    ///< strength and style applied
+  double hold_ms = 0;  ///< how long a key shape stands
+  Dominance dominance;
+  bool pause = false;
+  bool holds = false;  ///< belongs to a phoneme of 200 ms or more
+};
+
+/// Names of phonemes no table has, in order and once each: the lips close on them.
+struct LipDemands {
+  std::vector<LipDemand> demands;  ///< in time, without those of no length
+  MouthPose rest;
+  double length_ms = 0;
+  bool english = false;
+  std::vector<std::string> unknown;
+};
+LipDemands MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
+                       const LipStyle& style);
+
+inline constexpr double kApproachMs = 92;  ///< the original's time of transition
+inline constexpr double kSeenMs = 34;      ///< just over one frame at 30 a second
+
+}  // namespace fsm

@@ -1,0 +1,100 @@
+#include "fsm/motion/phoneme_names.h"
+
+#include <algorithm>
+
+#include "fsm/motion/table_text.h"
+
+namespace fsm {
+
+std::string_view EngineNames::Ours(std::string_view name) const {
+  if (const auto found = ours.find(name); found != ours.end()) return found->second;
+  for (bool shorter = true; shorter;) {
+    shorter = false;
+    for (const std::string& ending : endings) {
+      if (!name.ends_with(ending) || name.size() == ending.size()) continue;
+      name.remove_suffix(ending.size());
+      if (const auto found = ours.find(name); found != ours.end()) return found->second;
+      shorter = true;
+    }
+  }
+  return {};
+}
+
+vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
+                                                      std::string_view text, const MouthSet& set) {
+  const TableText table(name, text);
+  std::vector<EngineNames> engines;
+  for (const TableLine& line : table.lines()) {
+    if (line.words[0] == "engine") {
+      if (line.words.size() != 3 || (line.words[2] != "EN" && line.words[2] != "JP")) {
+        return table.Wrong(line.number, "engine NAME EN|JP expected");
+      }
+      engines.push_back({line.words[1], line.words[2] == "EN", {}, {}});
+      continue;
+    }
+    if (engines.empty()) return table.Wrong(line.number, "engine NAME EN|JP expected first");
+    EngineNames& names = engines.back();
+    if (line.words[0] == "strip") {
+      names.endings.assign(line.words.begin() + 1, line.words.end());
+      continue;
+    }
+    if (line.words.size() % 2 != 0) {
+      return table.Wrong(line.number, "pairs of an engine's name and ours expected");
+    }
+    for (std::size_t i = 0; i < line.words.size(); i += 2) {
+      const std::string& ours = line.words[i + 1];
+      if (!(names.english ? set.english : set.japanese).contains(ours)) {
+        return table.Wrong(line.number, "'" + ours + "' is no phoneme of ours");
+      }
+      if (!names.ours.emplace(line.words[i], ours).second) {
+        return table.Wrong(line.number, "the name '" + line.words[i] + "' is here twice");
+      }
+    }
+  }
+  return engines;
+}
+
+std::string EngineList(const std::vector<EngineNames>& engines) {
+  std::string list = "FLITE OPEN_JTALK";
+  for (const EngineNames& names : engines) {
+    if (list.find(names.engine) == std::string::npos) list += " " + names.engine;
+  }
+  return list;
+}
+
+PhonemeReader::PhonemeReader(const vm::PhonemeList& phonemes, const MouthSet& set,
+                             const std::vector<EngineNames>& engines, Language language,
+                             std::string_view engine)
+    : set_(set), english_(language == Language::kEnglish) {
+  std::ptrdiff_t most = -1;
+  const auto consider = [&](const EngineNames* names, bool english, std::string_view called) {
+    if (language != Language::kAuto && english != (language == Language::kEnglish)) return;
+    if (!engine.empty() && engine != "AUTO" && engine != called) return;
+    const auto known = std::ranges::count_if(phonemes, [&](const vm::Phoneme& phoneme) {
+      return LookIn(names, english, phoneme.name) != nullptr;
+    });
+    if (known <= most) return;
+    most = known;
+    names_ = names;
+    english_ = english;
+  };
+  consider(nullptr, false, "OPEN_JTALK");
+  consider(nullptr, true, "FLITE");
+  for (const EngineNames& names : engines) consider(&names, names.english, names.engine);
+}
+
+const PhonemeLook* PhonemeReader::LookIn(const EngineNames* names, bool english,
+                                         std::string_view name) const {
+  const std::string_view ours = names == nullptr ? name : names->Ours(name);
+  const PhonemeTable& table = english ? set_.english : set_.japanese;
+  const auto found = table.find(ours);
+  return found == table.end() ? nullptr : &found->second;
+}
+
+const PhonemeLook* PhonemeReader::Look(std::string_view name) const {
+  if (const PhonemeLook* look = LookIn(names_, english_, name)) return look;
+  if (const PhonemeLook* look = LookIn(nullptr, english_, name)) return look;
+  return LookIn(nullptr, !english_, name);
+}
+
+}  // namespace fsm
