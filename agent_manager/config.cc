@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -227,6 +228,27 @@ class KeyLocator {
   std::size_t at_ = 0;
 };
 
+/// Text for the JSON parser that tells the line it has come to. An input iterator.
+class LineCounter {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+  LineCounter(const char* at, std::size_t* line) : at_(at), line_(line) {}
+  reference operator*() const { return *at_; }
+  LineCounter& operator++() {
+    if (*at_++ == '\n') ++*line_;
+    return *this;
+  }
+  bool operator==(const LineCounter& other) const { return at_ == other.at_; }
+
+ private:
+  const char* at_;
+  std::size_t* line_;
+};
+
 /// Refuses a key written twice in one object, which nlohmann-json would take without a word.
 class DuplicateKeys {
  public:
@@ -252,10 +274,14 @@ class DuplicateKeys {
 Result<Config> ParseConfig(std::string_view text, const std::string& origin,
                            const std::string& folder) {
   json root;
+  std::size_t line = 1;
   try {
-    root = json::parse(text, DuplicateKeys(), true, true);
+    const char* const end = text.data() + text.size();
+    root = json::parse(LineCounter(text.data(), &line), LineCounter(end, &line), DuplicateKeys(),
+                       true, true);
   } catch (const ConfigFault& fault) {
-    return Fail(Errc::kBadValue, origin + ": " + fault.key + ": " + fault.text);
+    return Fail(Errc::kBadValue,
+                origin + " line " + std::to_string(line) + ": " + fault.key + ": " + fault.text);
   } catch (const json::parse_error& error) {
     const std::string what = error.what();
     const std::size_t colon = what.find(": ");

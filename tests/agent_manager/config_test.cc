@@ -75,7 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{"{\"modules\": [{\"name\": \"A\", \"command\": \"x\"}, {\"name\": \"A\", "
                   "\"command\": \"x\"}]}",
                   "modules[1].name: the name is taken twice"},
-        BadConfig{"{\"clock\": \"real\", \"clock\": \"real\"}", "clock: this key is written twice"},
+        BadConfig{"{\"clock\": \"real\",\n \"log\": \"a\",\n \"clock\": \"real\"}",
+                  "line 3: clock: this key is written twice"},
         BadConfig{"{\"modules\": [{\"name\": \"A\", \"command\": [\"x}\"], \"env\": {\"E\": "
                   "\"}\"}},\n// }\n"
                   "{\"name\": \"B\", \"command\": \"x\",\n\"cwd\": 5}]}",
