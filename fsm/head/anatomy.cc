@@ -40,6 +40,12 @@ float EyeAnatomy::AngleOf(float x, float y) const {
   return std::asin(std::clamp((y - centre_.y) / LidRadius(x), -0.99f, 0.99f));
 }
 
+float EyeAnatomy::CorneaCentre() const {
+  const float edge = 1.06f * iris_;
+  return std::sqrt(radius_ * radius_ - edge * edge) -
+         std::sqrt(kCorneaRadius * kCorneaRadius - edge * edge);
+}
+
 float EyeAnatomy::InnerRadius(float x) const {
   const float dx = x - centre_.x;
   const float ball = std::sqrt(std::max(0.0f, radius_ * radius_ - dx * dx));

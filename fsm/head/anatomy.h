@@ -8,6 +8,9 @@
 
 namespace fsm {
 
+/// The outer radius of the cornea, millimetres.
+inline constexpr float kCorneaRadius = 8.0f;
+
 /// The agent's left eye and its lids (tables/eye.txt); the right one is its mirror image.
 /// Angles in radians about the ball's horizontal axis, up from straight ahead.
 class EyeAnatomy {
@@ -18,6 +21,8 @@ class EyeAnatomy {
   float radius() const { return radius_; }
   float iris_radius() const { return iris_; }
   float pupil_radius() const { return pupil_; }
+  /// How far the cornea's centre lies before the ball's, so that they meet at the iris's edge.
+  float CorneaCentre() const;
   float inner_x() const { return upper_.begin_x(); }
   float outer_x() const { return upper_.end_x(); }
 

@@ -11,11 +11,12 @@
 #include <string>
 
 #include "embedded/action_units.h"
-#include "embedded/cage.h"
+#include "embedded/curves.h"
 #include "embedded/eye.h"
-#include "embedded/features.h"
 #include "embedded/mouth.h"
+#include "embedded/patches.h"
 #include "fsm/head/deformer.h"
+#include "fsm/head/hair_parts.h"
 #include "fsm/head/head.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/parts.h"
@@ -33,18 +34,23 @@ class GenericHead : public Head {
       : units_(Table("tables/action_units.txt", embedded::action_units())),
         eye_(Table("tables/eye.txt", embedded::eye())),
         mouth_(Table("tables/mouth.txt", embedded::mouth())) {
-    const FaceSurface surface(Table("tables/cage.txt", embedded::cage()),
-                              Table("tables/features.txt", embedded::features()));
+    const FineSkin fine =
+        Subdivide(ReadCage(Table("tables/curves.txt", embedded::curves()),
+                           Table("tables/patches.txt", embedded::patches()), eye_, mouth_));
+    const Palette palette;
     HeadMesh mesh;
-    const SkinMap skin = BuildSkin(surface, eye_, mouth_, mesh);
-    BuildBrows(surface, mouth_, mesh);
-    BuildLashes(eye_, mesh);
+    const SkinMap skin = BuildSkin(fine, eye_, mouth_, palette, mesh);
+    const SkinFront front(fine);
+    BuildCloth(palette, mesh);
+    BuildBrows(front, palette, mesh);
+    BuildLashes(eye_, palette, mesh);
     flesh_count_ = mesh.position.size();
-    BuildEyes(eye_, mesh);
-    BuildTeeth(mouth_, mesh);
-    BuildTongue(mouth_, mesh);
-    BuildEars(mesh);
-    BuildHair(mesh);
+    BuildEyes(eye_, palette, mesh);
+    BuildTeeth(mouth_, palette, mesh);
+    BuildTongue(mouth_, palette, mesh);
+    BuildEars(palette, mesh);
+
+    BuildLongHair(palette, mesh);
     Finish(std::move(mesh), skin);
   }
 

@@ -46,7 +46,7 @@ struct Jaw {
 };
 
 void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const float> heights,
-             HeadMesh& mesh) {
+             const Palette& palette, HeadMesh& mesh) {
   constexpr int kPerTooth = 3;
   const int count = static_cast<int>(widths.size());
   const int columns = 2 * count * kPerTooth + 1;
@@ -83,7 +83,7 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
       p.x *= 1 - 0.012f * thin;
       const float crevice = 0.62f + 0.38f * bump_at[i];
       const glm::vec3 colour =
-          palette::kTooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
+          palette.tooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
       const float dark = glm::mix(0.78f, 0.25f, SmoothStep(6, 34, back));
       mesh.Add(p, colour, crevice * dark * (row < 0 ? 0.4f : 1.0f), jaw.bone);
     }
@@ -101,7 +101,7 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
       glm::vec3 p = jaw.arch.At(
           arc_at[i], jaw.edge_y + jaw.upward * (row * height_at[i] - scallop + 0.02f * back));
       p.z += row < 1 ? 0.2f : row < 1.2f ? 0.9f : 0.0f;
-      mesh.Add(p, palette::kGum, glm::mix(0.6f, 0.2f, SmoothStep(6, 34, back)), jaw.bone);
+      mesh.Add(p, palette.gum, glm::mix(0.6f, 0.2f, SmoothStep(6, 34, back)), jaw.bone);
     }
   }
   mesh.Grid(Material::kGum, gum, static_cast<int>(kGumRows.size()), columns, flip);
@@ -109,15 +109,17 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
 
 }  // namespace
 
-void BuildTeeth(const MouthAnatomy& mouth, HeadMesh& mesh) {
+void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
   const float line_y = mouth.LineY(0);
   const float front = mouth.LineZ(0) - 7.0f;
   // The upper incisors end 2 mm below the line of the lips and overlap the lower ones by as much.
-  AddArch({{front, 40, 27}, line_y - 2.0f, 1, Bone::kSkull}, kUpperWidth, kUpperHeight, mesh);
-  AddArch({{front - 2.6f, 40, 26}, line_y - 0.6f, -1, Bone::kJaw}, kLowerWidth, kLowerHeight, mesh);
+  AddArch({{front, 40, 27}, line_y - 2.0f, 1, Bone::kSkull}, kUpperWidth, kUpperHeight, palette,
+          mesh);
+  AddArch({{front - 2.6f, 40, 26}, line_y - 0.6f, -1, Bone::kJaw}, kLowerWidth, kLowerHeight,
+          palette, mesh);
 }
 
-void BuildTongue(const MouthAnatomy& mouth, HeadMesh& mesh) {
+void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
   // A flattened half ellipsoid along the floor of the mouth; its row number is its way to the tip.
   constexpr int kAlong = 13;
   constexpr int kAround = 12;
@@ -139,7 +141,7 @@ void BuildTongue(const MouthAnatomy& mouth, HeadMesh& mesh) {
       const float open = 0.12f + 0.55f * SmoothStep(0.2f, 1, part);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
-      mesh.Add(p, palette::kTongue, open, Bone::kTongue, flesh);
+      mesh.Add(p, palette.tongue, open, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

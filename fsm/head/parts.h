@@ -1,20 +1,21 @@
 #pragma once
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/face_surface.h"
+#include "fsm/head/paint.h"
 #include "fsm/head/rig.h"
+#include "fsm/head/skin_mesh.h"
 
 namespace fsm {
 
-/// The parts beside the skin. Each adds its vertices for both sides. Brows and lashes are flesh and
-/// must be added before the rigid parts, so that flesh stays one run of vertices.
-void BuildBrows(const FaceSurface& surface, const MouthAnatomy& mouth, HeadMesh& mesh);
-void BuildLashes(const EyeAnatomy& eye, HeadMesh& mesh);
+/// The parts beside the skin. Each adds its vertices for both sides. Cloth, brows and lashes are
+/// flesh and must be added before the rigid parts, so that flesh stays one run of vertices.
+void BuildCloth(const Palette& palette, HeadMesh& mesh);
+void BuildBrows(const SkinFront& front, const Palette& palette, HeadMesh& mesh);
+void BuildLashes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);
 
-void BuildEyes(const EyeAnatomy& eye, HeadMesh& mesh);
-void BuildTeeth(const MouthAnatomy& mouth, HeadMesh& mesh);
-void BuildTongue(const MouthAnatomy& mouth, HeadMesh& mesh);
-void BuildEars(HeadMesh& mesh);
-void BuildHair(HeadMesh& mesh);
+void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);
+void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh);
+void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh);
+void BuildEars(const Palette& palette, HeadMesh& mesh);
 
 }  // namespace fsm

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/face_surface.h"
+#include "fsm/head/paint.h"
 #include "fsm/head/rig.h"
+#include "fsm/head/subdivide.h"
 
 namespace fsm {
 
@@ -17,12 +18,24 @@ struct SkinMap {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
   std::uint32_t corner_left = 0, corner_right = 0;  ///< the agent's
   std::uint32_t mid_column = 0;                     ///< index into `seam` of the median
-  std::uint32_t vertex_count = 0;
 };
 
-/// Skin from crown to chest with slits for eyes and mouth, red of the lips, inner lid rims, mouth
-/// bag and the garment: one grid of columns (crown to chest) and rows (round the head).
-SkinMap BuildSkin(const FaceSurface& surface, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                  HeadMesh& mesh);
+/// Adds the subdivided skin to an empty mesh with paint and rig; vertex i of the skin becomes
+/// vertex i of the mesh.
+SkinMap BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+                  const Palette& palette, HeadMesh& mesh);
+
+/// The skin's front as seen from the viewer, for what is laid on it.
+class SkinFront {
+ public:
+  explicit SkinFront(const FineSkin& skin);
+  /// The foremost point at (x, y) and the unit normal there; the nearest vertex where there is no
+  /// skin.
+  glm::vec3 PointAt(glm::vec2 xy, glm::vec3& normal) const;
+
+ private:
+  const FineSkin& skin_;
+  std::vector<std::uint32_t> front_;  ///< triangles that face the viewer
+};
 
 }  // namespace fsm

@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Direction{16, 10, -50, {0, -2.5f, 0}},
                       Direction{17, 8, -70, {0, 3.5f, 1.5f}},  // chin up and forward
                       Direction{20, 25, -43, {4.5f, -1.5f, -3}}, Direction{26, 0, -72, {0, -12, 0}},
-                      Direction{27, 0, -72, {0, -25, 0}}),
+                      Direction{27, 0, -76, {0, -24, 0}}),
     [](const auto& test) { return "Unit" + std::to_string(test.param.unit); });
 
 TEST(HeadMotionTest, JawTurnsAboutItsHinge) {
@@ -187,9 +187,9 @@ TEST(HeadMotionTest, LidsFollowTheGaze) {
   FaceState down, up;
   down.eye_left.x = down.eye_right.x = -20;
   up.eye_left.x = up.eye_right.x = 20;
-  EXPECT_LT(MotionAt(31, 27.5f, down).y, -3);
-  EXPECT_GT(MotionAt(31, 27.5f, up).y, 1);
-  EXPECT_GT(MotionAt(31, 27.5f, WithUnit(5, 1)).y, 1.5);
+  EXPECT_LT(MotionAt(31, 28.6f, down).y, -3);
+  EXPECT_GT(MotionAt(31, 28.6f, up).y, 1);
+  EXPECT_GT(MotionAt(31, 28.6f, WithUnit(5, 1)).y, 1.5);
 }
 
 TEST(HeadMotionTest, EyesLookWhereTheyAreTold) {

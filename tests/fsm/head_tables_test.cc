@@ -4,7 +4,7 @@
 
 #include "fsm/head/action_units.h"
 #include "fsm/head/anatomy.h"
-#include "fsm/head/face_surface.h"
+#include "fsm/head/cage.h"
 #include "fsm/head/table_reader.h"
 
 namespace fsm {
@@ -68,9 +68,6 @@ TEST(HeadTablesTest, UnitsThatActTogetherAreCorrected) {
 }
 
 TEST(HeadTablesTest, CageAndCurvesAreChecked) {
-  const Table empty("features.txt", "");
-  EXPECT_EQ(Complaint([&] { FaceSurface(Table("cage.txt", "columns 0 20 10 30 40\n"), empty); }),
-            "cage.txt:1: columns must ascend from 0");
   EXPECT_EQ(Complaint([&] { ReadCurve(Table("c.txt", "x 0 1 2\ny 0 1\n"), "x", "y"); }),
             "c.txt:2: has 2 values, 'x' has 3");
   EXPECT_EQ(Complaint([&] { ReadCurve(Table("c.txt", "x 0 2 1\ny 0 1 2\n"), "x", "y"); }),

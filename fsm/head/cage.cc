@@ -1,0 +1,299 @@
+#include "fsm/head/cage.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "fsm/head/spline.h"
+
+namespace fsm {
+namespace {
+
+std::string Quoted(std::string_view word) {
+  std::string quoted(1, '\'');
+  quoted += word;
+  quoted += '\'';
+  return quoted;
+}
+
+std::uint32_t AddPoint(Cage& cage, glm::vec3 p, const CageTag& tag = {}) {
+  cage.position.push_back(p);
+  cage.tag.push_back(tag);
+  return static_cast<std::uint32_t>(cage.position.size() - 1);
+}
+
+float ParseNumber(const TableRow& row, std::string_view word) {
+  float value = 0;
+  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || rest != word.data() + word.size() || !std::isfinite(value)) {
+    row.Fail(Quoted(word) + " found where a number was expected");
+  }
+  return value;
+}
+
+const std::vector<std::uint32_t>& FindCurve(const Cage& cage, const TableRow& row,
+                                            std::string_view name) {
+  const auto found = cage.curves.find(name);
+  if (found == cage.curves.end()) row.Fail("there is no curve " + Quoted(name));
+  return found->second;
+}
+
+std::uint32_t FindPoint(const Cage& cage, const TableRow& row, std::string_view word) {
+  const std::size_t dot = word.find('.');
+  if (dot == std::string_view::npos) {
+    row.Fail(Quoted(word) + " found where x,y,z, CURVE.i or ~ was expected");
+  }
+  const auto& curve = FindCurve(cage, row, word.substr(0, dot));
+  const float index = ParseNumber(row, word.substr(dot + 1));
+  if (index < 0 || index >= static_cast<float>(curve.size()) || index != std::floor(index)) {
+    row.Fail("there is no point " + Quoted(word));
+  }
+  return curve[static_cast<std::size_t>(index)];
+}
+
+glm::vec3 ParsePlace(const TableRow& row, std::string_view word) {
+  glm::vec3 p(0);
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t comma = word.find(',');
+    if ((comma == std::string_view::npos) != (k == 2)) row.Fail("a place is x,y,z");
+    p[k] = ParseNumber(row, word.substr(0, comma));
+    word.remove_prefix(comma == std::string_view::npos ? word.size() : comma + 1);
+  }
+  return p;
+}
+
+/// A spline through points, one parameter value each.
+glm::vec3 SplineAt(const std::vector<float>& at, const std::vector<glm::vec3>& p, float t) {
+  const SplineBasis basis(at);
+  std::vector<float> weights(at.size());
+  basis.Weights(t, weights);
+  glm::vec3 sum(0);
+  for (std::size_t i = 0; i < p.size(); ++i) sum += weights[i] * p[i];
+  return sum;
+}
+
+void ReadCurveRow(const TableRow& row, Cage& cage) {
+  const std::string& name = row.Word(1);
+  std::vector<std::uint32_t> points;
+  std::vector<std::size_t> open;
+  std::vector<float> given_at;
+  std::vector<glm::vec3> given;
+  for (std::size_t i = 2; i < row.size(); ++i) {
+    const std::string& word = row.Word(i);
+    if (word == "~") {
+      open.push_back(points.size());
+      points.push_back(AddPoint(cage, {}));
+      continue;
+    }
+    points.push_back(word.find(',') != std::string::npos ? AddPoint(cage, ParsePlace(row, word))
+                                                         : FindPoint(cage, row, word));
+    given_at.push_back(static_cast<float>(i));
+    given.push_back(cage.position[points.back()]);
+  }
+  if (points.empty()) row.Fail("a curve needs points");
+  if (!open.empty() && (given.size() < 2 || open.front() == 0 || open.back() + 1 == points.size()))
+    row.Fail("~ must lie between given points");
+  for (const std::size_t i : open) {
+    cage.position[points[i]] = SplineAt(given_at, given, static_cast<float>(i + 2));
+  }
+  auto& curve = cage.curves[name];
+  curve.insert(curve.end(), points.begin(), points.end());
+}
+
+SkinKind ReadKind(const TableRow& row) {
+  const std::string& word = row.Word(1);
+  if (word == "skin") return SkinKind::kSkin;
+  if (word == "rim") return SkinKind::kRim;
+  if (word == "lip") return SkinKind::kLip;
+  if (word == "inside") return SkinKind::kInside;
+  row.Fail(Quoted(word) + " found where skin, rim, lip or inside was expected");
+}
+
+bool ReadFine(const TableRow& row) {
+  const std::string& word = row.Word(2);
+  if (word != "fine" && word != "plain")
+    row.Fail(Quoted(word) + " found where fine or plain was expected");
+  return word == "fine";
+}
+
+void AddFace(Cage& cage, std::vector<std::uint32_t> corner, SkinKind kind, bool fine) {
+  std::vector<std::uint32_t> kept;
+  for (const std::uint32_t v : corner) {
+    if (std::ranges::find(kept, v) == kept.end()) kept.push_back(v);
+  }
+  if (kept.size() >= 3) cage.faces.push_back({std::move(kept), kind, fine});
+}
+
+/// The rows of a strip: its curves with the bands between them filled in.
+std::vector<std::vector<std::uint32_t>> StripRows(const TableRow& row, Cage& cage) {
+  std::vector<const std::vector<std::uint32_t>*> curves;
+  std::vector<int> bands;
+  for (std::size_t i = 3; i < row.size(); ++i) {
+    if (i % 2 == 1) {
+      curves.push_back(&FindCurve(cage, row, row.Word(i)));
+      if (curves.back()->size() != curves.front()->size()) {
+        row.Fail(row.Word(i) + " has " + std::to_string(curves.back()->size()) + " points, " +
+                 row.Word(3) + " has " + std::to_string(curves.front()->size()));
+      }
+    } else {
+      bands.push_back(row.Integer(i));
+      if (bands.back() < 0 || bands.back() > 32) row.Fail("0 to 32 bands");
+    }
+  }
+  if (curves.size() < 2 || bands.size() + 1 != curves.size()) row.Fail("CURVE n CURVE expected");
+  const std::size_t count = curves.front()->size();
+  // Lengths along each column are the parameter, so that uneven rows make no waves.
+  std::vector<std::vector<float>> at(count, {0.0f});
+  std::vector<std::vector<glm::vec3>> through(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+      const glm::vec3 p = cage.position[(*curves[k])[c]];
+      if (k > 0) at[c].push_back(at[c].back() + 1e-3f + glm::length(p - through[c].back()));
+      through[c].push_back(p);
+    }
+  }
+  std::vector<std::vector<std::uint32_t>> rows;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    // 0 bands: the curve only shapes what follows.
+    if (k + 1 < curves.size() && bands[k] == 0) continue;
+    rows.push_back(*curves[k]);
+    if (k + 1 == curves.size()) break;
+    for (int b = 1; b < bands[k]; ++b) {
+      std::vector<std::uint32_t> between;
+      const float part = static_cast<float>(b) / static_cast<float>(bands[k]);
+      for (std::size_t c = 0; c < count; ++c) {
+        const float t = at[c][k] + part * (at[c][k + 1] - at[c][k]);
+        glm::vec3 p = SplineAt(at[c], through[c], t);
+        if (through[c][k].x == 0 && through[c][k + 1].x == 0) p.x = 0;
+        between.push_back(AddPoint(cage, p));
+      }
+      rows.push_back(std::move(between));
+    }
+  }
+  return rows;
+}
+
+void ReadPatchRow(const TableRow& row, Cage& cage) {
+  const std::string& key = row.key();
+  const SkinKind kind = ReadKind(row);
+  const bool fine = ReadFine(row);
+  if (key == "strip" || key == "ring") {
+    const auto rows = StripRows(row, cage);
+    const std::size_t count = rows.front().size();
+    for (std::size_t r = 0; r + 1 < rows.size(); ++r) {
+      for (std::size_t c = 0; c < count; ++c) {
+        if (key == "strip" && c + 1 == count) break;
+        const std::size_t next = (c + 1) % count;
+        AddFace(cage, {rows[r][c], rows[r][next], rows[r + 1][next], rows[r + 1][c]}, kind, fine);
+      }
+    }
+  } else if (key == "quad") {
+    std::vector<std::uint32_t> corner;
+    for (std::size_t i = 3; i < 7; ++i) corner.push_back(FindPoint(cage, row, row.Word(i)));
+    AddFace(cage, std::move(corner), kind, fine);
+  } else if (key == "cap") {
+    AddFace(cage, FindCurve(cage, row, row.Word(3)), kind, fine);
+  } else {
+    row.Fail("unknown word " + Quoted(key));
+  }
+}
+
+/// Turns all faces the same way round as their neighbours; the first forehead face decides which.
+void Orient(Cage& cage, const Table& patches) {
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::map<Edge, std::vector<std::size_t>> by_edge;
+  const auto edges = [&](std::size_t f, auto&& visit) {
+    const auto& corner = cage.faces[f].corner;
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+      visit(corner[i], corner[(i + 1) % corner.size()]);
+    }
+  };
+  for (std::size_t f = 0; f < cage.faces.size(); ++f) {
+    edges(f, [&](std::uint32_t a, std::uint32_t b) { by_edge[std::minmax(a, b)].push_back(f); });
+  }
+  for (const auto& [edge, faces] : by_edge) {
+    if (faces.size() > 2) {
+      throw std::runtime_error(patches.name() + ": three patches share an edge at point " +
+                               std::to_string(edge.first));
+    }
+  }
+  std::vector<bool> seen(cage.faces.size());
+  std::vector<std::size_t> todo = {0};
+  seen[0] = true;
+  while (!todo.empty()) {
+    const std::size_t f = todo.back();
+    todo.pop_back();
+    edges(f, [&](std::uint32_t a, std::uint32_t b) {
+      for (const std::size_t g : by_edge[std::minmax(a, b)]) {
+        if (seen[g]) continue;
+        seen[g] = true;
+        bool same = false;
+        edges(g, [&](std::uint32_t c, std::uint32_t d) { same |= c == a && d == b; });
+        if (same) std::ranges::reverse(cage.faces[g].corner);
+        todo.push_back(g);
+      }
+    });
+  }
+  if (std::ranges::find(seen, false) != seen.end()) {
+    throw std::runtime_error(patches.name() + ": the skin is not in one piece");
+  }
+  float outward = 0;
+  for (const Cage::Face& face : cage.faces) {
+    const glm::vec3 a = cage.position[face.corner[0]];
+    const glm::vec3 n =
+        glm::cross(cage.position[face.corner[1]] - a, cage.position[face.corner[2]] - a);
+    outward += glm::dot(n, a - glm::vec3(0, -20, 0));
+  }
+  if (outward < 0) {
+    for (Cage::Face& face : cage.faces) std::ranges::reverse(face.corner);
+  }
+}
+
+/// The skin round the mouth takes a falling part in what closes the lips.
+void TieSkinToLips(Cage& cage, const Table& table) {
+  for (const auto& [name, hold] : {std::pair{"lip_a", 0.8f}, {"lip_b", 0.45f}, {"lip_c", 0.12f}}) {
+    const auto found = cage.curves.find(name);
+    if (found == cage.curves.end() || found->second.size() != 2 * kLipColumns + 1) {
+      throw std::runtime_error(table.name() + ": curve '" + name + "' must have 13 points");
+    }
+    for (int k = 0; k <= 2 * kLipColumns; ++k) {
+      CageTag& tag = cage.tag[found->second[static_cast<std::size_t>(k)]];
+      tag.lip_hold = hold;
+      tag.lip_side = k == kLipColumns ? 0.0f : k < kLipColumns ? 1.0f : -1.0f;
+      tag.lip_column = static_cast<float>(k < kLipColumns ? k : 2 * kLipColumns - k);
+    }
+  }
+}
+
+}  // namespace
+
+Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
+              const MouthAnatomy& mouth) {
+  Cage cage;
+  AddMouthCurves(mouth, cage);
+  bool lids = false;
+  for (const TableRow& row : curves.rows()) {
+    if (row.key() != "curve") row.Fail("unknown word " + Quoted(row.key()));
+    // The outer rings of the lids lean on the orbit, so they are made once it is known.
+    if (!lids && row.Word(1) != "orbit") {
+      AddLidCurves(eye, cage);
+      lids = true;
+    }
+    ReadCurveRow(row, cage);
+  }
+  TieSkinToLips(cage, curves);
+  for (const auto& [name, depth] :
+       {std::pair{"nostril", 0.15f}, {"nostril_in", 0.9f}, {"nostril_end", 1.0f}}) {
+    const auto found = cage.curves.find(name);
+    if (found == cage.curves.end()) continue;
+    for (const std::uint32_t v : found->second) cage.tag[v].hole = depth;
+  }
+  for (const TableRow& row : patches.rows()) ReadPatchRow(row, cage);
+  Orient(cage, patches);
+  return cage;
+}
+
+}  // namespace fsm

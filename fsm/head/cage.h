@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fsm/head/anatomy.h"
+#include "fsm/head/table_reader.h"
+
+namespace fsm {
+
+/// What a part of the skin is, where that decides its paint or material.
+enum class SkinKind : std::uint8_t { kSkin, kRim, kLip, kInside };
+
+/// What a point of the cage knows of the moving openings it belongs to; interpolated when the cage
+/// is subdivided.
+struct CageTag {
+  float eye = 0;        ///< 1 on the lids, 0 from the edge of the socket on
+  float lid_upper = 0;  ///< part it takes in the turn of each lid
+  float lid_lower = 0;
+  float margin = -1;     ///< distance from the lid's margin in mm at least; < 0: no lid
+  float lip_hold = 0;    ///< part it takes in closing the lips
+  float lip_side = 0;    ///< +1 upper lip, -1 lower lip, 0 corner
+  float lip_column = 0;  ///< 0 at the median .. kLipColumns at the corner
+  float red = -1;        ///< 0 at the seam .. 1 at the border; < 0: not on the red
+  float deep = 0;        ///< how far into the bag of the mouth, 0..1
+  float hole = 0;        ///< how deep in a nostril
+  float seam = 0;        ///< 1 on the line where the lips meet
+};
+inline constexpr int kLipColumns = 6;
+inline constexpr int kLidPoints = 18;
+
+/// A polygon mesh of the left half of the skin.
+struct Cage {
+  struct Face {
+    std::vector<std::uint32_t> corner;
+    SkinKind kind;
+    bool fine;
+  };
+  std::vector<glm::vec3> position;
+  std::vector<CageTag> tag;
+  std::vector<Face> faces;
+  std::map<std::string, std::vector<std::uint32_t>, std::less<>> curves;
+};
+
+/// Reads curves.txt and patches.txt; curves of lids and mouth are made from their anatomies. Faces
+/// are turned so that they are seen from outside. Throws std::runtime_error naming file and line.
+Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
+              const MouthAnatomy& mouth);
+
+/// Adds the curves eye0..eye5 and mouth0..mouth9.
+void AddLidCurves(const EyeAnatomy& eye, Cage& cage);
+void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage);
+
+/// The number of rings of mouth curves, and which of them is the seam.
+inline constexpr int kMouthRings = 10;
+inline constexpr int kSeamRing = 6;
+
+}  // namespace fsm

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "fsm/head/paint.h"
+#include "fsm/head/parts.h"
+
+namespace fsm {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+struct LashRow {
+  bool upper;
+  int hairs;
+  float from, to;  // along the lid, 0 inner corner .. 1 outer
+};
+constexpr std::array kLashRows = {LashRow{true, 38, 0.10f, 0.99f},
+                                  LashRow{false, 18, 0.30f, 0.97f}};
+
+class LashBuilder {
+ public:
+  LashBuilder(const EyeAnatomy& eye, const Palette& palette, int side, HeadMesh& mesh)
+      : eye_(eye), palette_(palette), side_(static_cast<float>(side)), mesh_(mesh) {
+    flesh_.eye = static_cast<std::int8_t>(side);
+    flesh_.free = 0;
+  }
+
+  void Row(const LashRow& row) {
+    upper_ = row.upper;
+    flesh_.lid_upper = row.upper ? 1.0f : 0.0f;
+    flesh_.lid_lower = 1 - flesh_.lid_upper;
+    if (row.upper) Line();
+    for (int i = 0; i < row.hairs; ++i) {
+      const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(row.hairs);
+      Hair(glm::mix(row.from, row.to, part) + 0.008f * Grain(i, 71), i);
+    }
+  }
+
+ private:
+  float X(float along) const { return glm::mix(eye_.inner_x(), eye_.outer_x(), along); }
+  float Angle(float x) const { return upper_ ? eye_.UpperAngle(x) : eye_.LowerAngle(x); }
+
+  std::uint32_t Add(glm::vec3 p, float at_x, float dark) {
+    flesh_.domain = {at_x * side_, eye_.centre().y};
+    p.x *= side_;
+    return mesh_.Add(p, glm::mix(palette_.skin, palette_.lash, dark), 1, Bone::kFlesh, flesh_);
+  }
+  void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (side_ > 0) {
+      mesh_.Triangle(Material::kLash, a, b, c);
+    } else {
+      mesh_.Triangle(Material::kLash, a, c, b);
+    }
+  }
+
+  // The roots together: a thin dark line on the upper rim, thickening outward.
+  void Line() {
+    constexpr int kSteps = 14;
+    std::array<std::uint32_t, 2> before{};
+    for (int i = 0; i <= kSteps; ++i) {
+      const float part = static_cast<float>(i) / kSteps;
+      const float x = X(glm::mix(0.06f, 0.99f, part));
+      const float thick = 0.30f + 0.50f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part));
+      const float radius = eye_.LidRadius(x);
+      const float ends = SmoothStep(0, 0.2f, part);
+      const std::uint32_t low =
+          Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x, 0.6f + 0.4f * ends);
+      const std::uint32_t high =
+          Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x, 0.2f + 0.65f * ends);
+      if (i > 0) {
+        Face(before[0], low, high);
+        Face(before[0], high, before[1]);
+      }
+      before = {low, high};
+    }
+  }
+
+  void Hair(float along, int i) {
+    const float x = X(along);
+    const float angle = Angle(x);
+    const float up = upper_ ? 1.0f : -1.0f;
+    const float radius = eye_.LidRadius(x) + 0.05f;
+    const float fan = 1.5f * (along - 0.42f) + 0.10f * Grain(i, 5);
+    const float length =
+        upper_ ? (2.6f + 3.4f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
+                     (1 + 0.12f * Grain(i, 9))
+               : 2.2f * (1 + 0.2f * Grain(i, 9));
+    const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
+    const float width = upper_ ? 0.17f : 0.11f;
+    const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
+    // Out and then up (the lower ones down): a curved card of two segments.
+    const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
+    const glm::vec3 tip =
+        root + length * (0.72f * out + glm::vec3(0, (upper_ ? 0.44f : -0.40f), 0));
+    const std::uint32_t a = Add(root - glm::vec3(width, 0, 0), x, 0.9f);
+    const std::uint32_t b = Add(root + glm::vec3(width, 0, 0), x, 0.9f);
+    const std::uint32_t c = Add(middle - glm::vec3(0.6f * width, 0, 0), x, 1);
+    const std::uint32_t d = Add(middle + glm::vec3(0.6f * width, 0, 0), x, 1);
+    const std::uint32_t e = Add(tip, x, 1);
+    Face(a, b, d);
+    Face(a, d, c);
+    Face(c, d, e);
+  }
+
+  const EyeAnatomy& eye_;
+  const Palette& palette_;
+  float side_;
+  HeadMesh& mesh_;
+  Flesh flesh_;
+  bool upper_ = true;
+};
+
+}  // namespace
+
+void BuildLashes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh) {
+  for (const int side : {-1, 1}) {
+    LashBuilder builder(eye, palette, side, mesh);
+    for (const LashRow& row : kLashRows) builder.Row(row);
+  }
+}
+
+void BuildBrows(const SkinFront& front, const Palette& palette, HeadMesh& mesh) {
+  // Middle line, half height, and which way the hairs grow (degrees from outward to up), over x.
+  const Curve middle({9, 16, 26, 36, 43, 50, 56},
+                     {39.6f, 41.2f, 43.4f, 45.0f, 44.6f, 42.0f, 38.6f});
+  const Curve half({9, 13, 20, 32, 42, 50, 56}, {2.2f, 3.0f, 3.1f, 2.6f, 1.9f, 1.2f, 0.6f});
+  const Curve grow({9, 14, 22, 36, 48, 56}, {80, 58, 34, 14, -14, -34});
+  constexpr int kColumns = 30;
+  constexpr int kRows = 4;
+  for (const int side : {-1, 1}) {
+    const auto mirror = [side](glm::vec3 p) { return p * glm::vec3(side, 1, 1); };
+    for (int i = 0; i < kColumns * kRows; ++i) {
+      const int column = i / kRows;
+      const int row = i % kRows;
+      const float x = 8.8f + (46.0f * (static_cast<float>(column) +
+                                       0.25f * static_cast<float>(row) + 0.35f * Grain(i, 21))) /
+                                 kColumns;
+      const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.4f * Grain(i, 22)) / kRows;
+      const glm::vec2 at(x, middle(x) + half(x) * level - 0.8f);
+      // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
+      const float angle = (grow(x) - 24 * level + 9 * Grain(i, 23)) * kPi / 180;
+      const glm::vec2 along(std::cos(angle), std::sin(angle));
+      const float ends = SmoothStep(8, 15, x) * SmoothStep(58, 50, x);
+      const float length = (4.6f + 1.6f * Grain(i, 24)) * (0.65f + 0.35f * ends);
+      const float width = 0.42f * (0.55f + 0.45f * ends);
+      glm::vec3 normal;
+      const glm::vec2 across(-along.y, along.x);
+      glm::vec3 a = front.PointAt(at + width * across, normal) + 0.15f * normal;
+      glm::vec3 b = front.PointAt(at - width * across, normal) + 0.15f * normal;
+      glm::vec3 c = front.PointAt(at + length * along, normal) + 0.55f * normal;
+      std::array<std::uint32_t, 3> id{};
+      int k = 0;
+      const glm::vec3 colour = palette.brow * (1 + 0.25f * Grain(i, 25));
+      for (const glm::vec3 p : {a, b, c}) {
+        const glm::vec3 q = mirror(p);
+        const glm::vec3 soft = glm::mix(palette.skin, colour, k < 2 ? 0.35f + 0.45f * ends : 0.55f);
+        id[static_cast<std::size_t>(k++)] =
+            mesh.Add(q, soft, 1, Bone::kFlesh, FleshAt({q.x, q.y}, 0, -43));
+      }
+      if (side > 0) {
+        mesh.Triangle(Material::kBrow, id[0], id[1], id[2]);
+      } else {
+        mesh.Triangle(Material::kBrow, id[0], id[2], id[1]);
+      }
+    }
+  }
+}
+
+}  // namespace fsm

@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+#include "fsm/head/hair_parts.h"
+#include "fsm/head/spline.h"
+
+namespace fsm {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+class CroppedHair {
+ public:
+  CroppedHair(const CropStyle& style, const Palette& palette, HeadMesh& mesh)
+      : style_(style), palette_(palette), scalp_(mesh), mesh_(mesh) {}
+
+  void Build() {
+    Shell();
+    for (int k = 0; k < style_.locks; ++k) Lock(k);
+  }
+
+ private:
+  // Azimuth -180..180; `up` 0 at the hairline .. 1 at the crown, which lies behind the top.
+  glm::vec3 Direction(float azimuth, float up) const {
+    const float recede = style_.recede * SmoothStep(14, 30, std::abs(azimuth)) *
+                         SmoothStep(62, 44, std::abs(azimuth));
+    const float line = HairlineElevation(azimuth) + recede;
+    const glm::vec3 low = HairDirection(azimuth, line);
+    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
+    // Along the great circle from the hairline to the crown.
+    const float angle = std::acos(std::clamp(glm::dot(low, crown), -1.0f, 1.0f));
+    return (std::sin((1 - up) * angle) * low + std::sin(up * angle) * crown) /
+           std::max(std::sin(angle), 1e-3f);
+  }
+
+  float Depth(glm::vec3 d, float up) const {
+    const float top = SmoothStep(0.2f, 0.85f, d.y);
+    const float body = glm::mix(style_.side_mm, style_.top_mm, top);
+    return 0.6f + body * SmoothStep(-0.02f, 0.34f, up);
+  }
+
+  void Shell() {
+    constexpr int kAround = 40;
+    constexpr std::array kUp = {0.0f, 0.06f, 0.14f, 0.25f, 0.40f, 0.58f, 0.78f, 1.0f};
+    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+    for (std::size_t r = 0; r < kUp.size(); ++r) {
+      for (int k = 0; k <= kAround; ++k) {
+        const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
+        // An uneven edge: hair does not end on a drawn line.
+        const float ragged = r == 0 ? 0.035f * Grain(k % kAround, 61) : 0.0f;
+        const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
+        const float uneven = 1 + 0.16f * Grain(k % kAround, static_cast<int>(r) + 62);
+        const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
+        const glm::vec3 colour = StrandColour(palette_, 3 * (k % kAround), static_cast<int>(r));
+        const float thin = r == 0 ? 0.55f : 1.0f;
+        mesh_.Add(p, glm::mix(palette_.skin * 0.85f, colour, thin), r < 2 ? 0.8f : 0.92f,
+                  Bone::kSkull);
+      }
+    }
+    mesh_.Grid(Material::kHair, first, static_cast<int>(kUp.size()), kAround + 1, true);
+  }
+
+  void Lock(int k) {
+    // Spread evenly over the scalp by the golden ratio.
+    const float turn =
+        360 * (0.618034f * static_cast<float>(k) - std::floor(0.618034f * static_cast<float>(k)));
+    const float azimuth = turn - 180;
+    const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(style_.locks);
+    const float up = 0.015f + 0.85f * share * share;
+    const glm::vec3 root = Direction(azimuth, up);
+    // Hair lies away from the crown: forward on top, down at the sides and behind; over the
+    // forehead it is combed up and to one side.
+    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
+    glm::vec3 away = root - crown;
+    away -= root * glm::dot(away, root);
+    const float forehead = SmoothStep(70, 30, std::abs(azimuth)) * SmoothStep(0.8f, 0.1f, up);
+    const glm::vec3 combed = glm::vec3(-0.75f, 0.35f, -0.25f);
+    glm::vec3 along = glm::normalize(away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
+                                     forehead * combed +
+                                     glm::vec3(0.25f * Grain(k, 31), 0, 0.25f * Grain(k, 32)));
+    along -= root * glm::dot(along, root);
+    const float length = style_.lock_mm * (1 + 0.3f * Grain(k, 33)) *
+                         (0.55f + 0.45f * SmoothStep(-0.3f, 0.5f, root.y));
+    const float lift = style_.lift_mm * (1 + 0.5f * Grain(k, 34)) + forehead * style_.front_up * 7;
+    const float depth = Depth(root, up);
+    std::vector<glm::vec3> path;
+    constexpr int kSteps = 4;
+    const glm::vec3 side = glm::cross(root, along);
+    for (int s = 0; s <= kSteps; ++s) {
+      const float v = static_cast<float>(s) / kSteps;
+      const float swing = style_.wave_mm * std::sin(2.2f * kPi * v + static_cast<float>(k));
+      const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
+      const float over = forehead > 0.3f ? glm::mix(0.4f, depth, SmoothStep(0, 0.4f, v))
+                                         : depth * (0.75f + 0.25f * v);
+      path.push_back(scalp_.Over(d, over + lift * v * (1 - 0.35f * v) + 0.4f));
+    }
+    AddLock(path, 8.5f + 2.5f * Grain(k, 35), 0.45f, palette_, k, 0.95f, mesh_);
+  }
+
+  const CropStyle& style_;
+  const Palette& palette_;
+  Scalp scalp_;
+  HeadMesh& mesh_;
+};
+
+}  // namespace
+
+void BuildCroppedHair(const CropStyle& style, const Palette& palette, HeadMesh& mesh) {
+  CroppedHair(style, palette, mesh).Build();
+}
+
+}  // namespace fsm

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "fsm/head/paint.h"
+#include "fsm/head/rig.h"
+
+namespace fsm {
+
+/// Hair is thought of as lying about this point of the skull; directions are from here.
+inline constexpr glm::vec3 kHairCentre{0, 44, -9};
+
+/// The skin under the hair, as distance from kHairCentre by direction.
+class Scalp {
+ public:
+  explicit Scalp(const HeadMesh& mesh);
+  float Distance(glm::vec3 direction) const;
+  /// The point `lift` millimetres over the skin in that direction.
+  glm::vec3 Over(glm::vec3 direction, float lift) const;
+
+ private:
+  std::vector<std::pair<glm::vec3, float>> points_;
+};
+
+/// Angles about the hair's centre in degrees: azimuth from straight ahead towards +x.
+glm::vec3 HairDirection(float azimuth, float elevation);
+/// Where the hair begins on the skin: elevation by azimuth 0..180.
+float HairlineElevation(float azimuth);
+
+/// The colour of one strand: lighter and darker streaks.
+glm::vec3 StrandColour(const Palette& palette, int strand, int row);
+
+/// A lock as a card along `path`, tapering to nothing at its end and narrow at its root.
+void AddLock(std::span<const glm::vec3> path, float width, float root_part, const Palette& palette,
+             int strand, float open, HeadMesh& mesh);
+
+struct CropStyle {
+  float side_mm, top_mm;  ///< of the shell over the skin
+  int locks;
+  float lock_mm;   ///< length of a lock
+  float lift_mm;   ///< of its tip over the shell
+  float wave_mm;   ///< sideways swing of a lock
+  float front_up;  ///< how far locks over the forehead stand up, 0..1
+  float recede;    ///< degrees the hairline is drawn back at the temples
+};
+/// Parted on one side and hanging to below the jaw.
+void BuildLongHair(const Palette& palette, HeadMesh& mesh);
+/// Short hair all round.
+void BuildCroppedHair(const CropStyle& style, const Palette& palette, HeadMesh& mesh);
+
+}  // namespace fsm

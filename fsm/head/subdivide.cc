@@ -1,0 +1,221 @@
+#include "fsm/head/subdivide.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <map>
+
+namespace fsm {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+struct Edge {
+  std::uint32_t a, b;
+  std::array<std::uint32_t, 2> face{kNone, kNone};
+  bool sharp = false;
+};
+
+struct Mesh {
+  std::vector<glm::vec3> position;
+  std::vector<CageTag> tag;
+  std::vector<std::uint32_t> mirror;
+  std::vector<Cage::Face> faces;
+  std::vector<Edge> edges;
+  std::vector<std::vector<std::uint32_t>> face_edges;    // edge k joins corners k and k + 1
+  std::vector<std::vector<std::uint32_t>> vertex_edges;  // by vertex
+  std::vector<std::vector<std::uint32_t>> vertex_faces;
+};
+
+Mesh Mirrored(const Cage& half) {
+  Mesh mesh;
+  mesh.position = half.position;
+  mesh.tag = half.tag;
+  mesh.faces = half.faces;
+  mesh.mirror.resize(half.position.size());
+  for (std::uint32_t i = 0; i < half.position.size(); ++i) {
+    if (half.position[i].x == 0) {
+      mesh.mirror[i] = i;
+      continue;
+    }
+    const auto image = static_cast<std::uint32_t>(mesh.position.size());
+    mesh.mirror[i] = image;
+    mesh.position.push_back(half.position[i] * glm::vec3(-1, 1, 1));
+    mesh.tag.push_back(half.tag[i]);
+    mesh.mirror.push_back(i);
+  }
+  for (const Cage::Face& face : half.faces) {
+    Cage::Face image = face;
+    for (std::uint32_t& v : image.corner) v = mesh.mirror[v];
+    std::ranges::reverse(image.corner);
+    mesh.faces.push_back(std::move(image));
+  }
+  return mesh;
+}
+
+void FindEdges(Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+  mesh.vertex_edges.resize(mesh.position.size());
+  mesh.vertex_faces.resize(mesh.position.size());
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto& corner = mesh.faces[f].corner;
+    auto& own = mesh.face_edges.emplace_back();
+    for (std::size_t k = 0; k < corner.size(); ++k) {
+      const std::uint32_t a = corner[k];
+      const std::uint32_t b = corner[(k + 1) % corner.size()];
+      const auto [entry, fresh] =
+          known.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.edges.size()));
+      if (fresh) {
+        const bool seam = mesh.tag[a].seam == 1 && mesh.tag[b].seam == 1;
+        mesh.edges.push_back({a, b, {f, kNone}, seam});
+        mesh.vertex_edges[a].push_back(entry->second);
+        mesh.vertex_edges[b].push_back(entry->second);
+      } else {
+        mesh.edges[entry->second].face[1] = f;
+      }
+      own.push_back(entry->second);
+      mesh.vertex_faces[a].push_back(f);
+    }
+  }
+  for (Edge& edge : mesh.edges) edge.sharp |= edge.face[1] == kNone;
+}
+
+glm::vec3 FacePoint(const Mesh& mesh, const std::vector<glm::vec3>& p, std::uint32_t f) {
+  glm::vec3 sum(0);
+  for (const std::uint32_t v : mesh.faces[f].corner) sum += p[v];
+  return sum / static_cast<float>(mesh.faces[f].corner.size());
+}
+
+glm::vec3 VertexPoint(const Mesh& mesh, const std::vector<glm::vec3>& p, std::uint32_t v) {
+  glm::vec3 sharp_ends(0);
+  glm::vec3 middles(0);
+  int sharp = 0;
+  for (const std::uint32_t e : mesh.vertex_edges[v]) {
+    const Edge& edge = mesh.edges[e];
+    const std::uint32_t other = edge.a == v ? edge.b : edge.a;
+    middles += 0.5f * (p[v] + p[other]);
+    if (edge.sharp) {
+      sharp_ends += p[other];
+      ++sharp;
+    }
+  }
+  if (sharp > 2) return p[v];
+  if (sharp == 2) return 0.75f * p[v] + 0.125f * sharp_ends;
+  const auto n = static_cast<float>(mesh.vertex_edges[v].size());
+  glm::vec3 centres(0);
+  for (const std::uint32_t f : mesh.vertex_faces[v]) centres += FacePoint(mesh, p, f);
+  return (centres / n + 2.0f * middles / n + (n - 3) * p[v]) / n;
+}
+
+/// Moves the cage so that its vertex points come to lie where the cage was.
+std::vector<glm::vec3> Corrected(const Mesh& mesh) {
+  std::vector<glm::vec3> p = mesh.position;
+  for (int round = 0; round < 6; ++round) {
+    std::vector<glm::vec3> next = p;
+    for (std::uint32_t v = 0; v < p.size(); ++v) {
+      if (mesh.vertex_edges[v].empty()) continue;
+      next[v] += 0.7f * (mesh.position[v] - VertexPoint(mesh, p, v));
+    }
+    p = std::move(next);
+  }
+  return p;
+}
+
+CageTag Mean(const std::vector<CageTag>& tags, const std::vector<std::uint32_t>& of) {
+  CageTag mean;
+  mean.margin = mean.red = 0;
+  const float part = 1.0f / static_cast<float>(of.size());
+  bool no_margin = false;
+  bool no_red = false;
+  for (const std::uint32_t v : of) {
+    const CageTag& t = tags[v];
+    mean.eye += part * t.eye;
+    mean.lid_upper += part * t.lid_upper;
+    mean.lid_lower += part * t.lid_lower;
+    mean.margin += part * t.margin;
+    mean.lip_hold += part * t.lip_hold;
+    mean.lip_side += part * t.lip_side;
+    mean.lip_column += part * t.lip_column;
+    mean.red += part * t.red;
+    mean.deep += part * t.deep;
+    mean.hole += part * t.hole;
+    mean.seam += part * t.seam;
+    no_margin |= t.margin < 0;
+    no_red |= t.red < 0;
+  }
+  if (no_margin) mean.margin = -1;
+  if (no_red) mean.red = -1;
+  return mean;
+}
+
+}  // namespace
+
+FineSkin Subdivide(const Cage& half) {
+  Mesh mesh = Mirrored(half);
+  FindEdges(mesh);
+  const std::vector<glm::vec3> p = Corrected(mesh);
+
+  FineSkin out;
+  const auto add = [&](glm::vec3 at, const CageTag& tag) {
+    out.position.push_back(at);
+    out.tag.push_back(tag);
+    return static_cast<std::uint32_t>(out.position.size() - 1);
+  };
+  std::vector<std::uint32_t> vertex_id(p.size(), kNone);
+  std::vector<std::uint32_t> edge_id(mesh.edges.size(), kNone);
+  for (std::uint32_t v = 0; v < p.size(); ++v) {
+    if (!mesh.vertex_edges[v].empty()) vertex_id[v] = add(VertexPoint(mesh, p, v), mesh.tag[v]);
+  }
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const Edge& edge = mesh.edges[e];
+    const auto fine = [&](std::uint32_t f) { return f != kNone && mesh.faces[f].fine; };
+    if (!fine(edge.face[0]) && !fine(edge.face[1])) continue;
+    glm::vec3 at = 0.5f * (p[edge.a] + p[edge.b]);
+    if (!edge.sharp) {
+      at =
+          0.5f * at + 0.25f * (FacePoint(mesh, p, edge.face[0]) + FacePoint(mesh, p, edge.face[1]));
+    }
+    edge_id[e] = add(at, Mean(mesh.tag, {edge.a, edge.b}));
+  }
+  const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, SkinKind kind) {
+    out.triangles.push_back({{a, b, c}, kind});
+  };
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const Cage::Face& face = mesh.faces[f];
+    const std::size_t n = face.corner.size();
+    if (!face.fine) {
+      std::vector<std::uint32_t> outline;
+      for (std::size_t k = 0; k < n; ++k) {
+        outline.push_back(vertex_id[face.corner[k]]);
+        if (edge_id[mesh.face_edges[f][k]] != kNone)
+          outline.push_back(edge_id[mesh.face_edges[f][k]]);
+      }
+      if (n == 4 && outline.size() == 4) {
+        triangle(outline[0], outline[1], outline[2], face.kind);
+        triangle(outline[0], outline[2], outline[3], face.kind);
+        continue;
+      }
+      glm::vec3 middle(0);
+      for (const std::uint32_t v : outline) middle += out.position[v];
+      const std::uint32_t centre =
+          add(middle / static_cast<float>(outline.size()), Mean(mesh.tag, face.corner));
+      for (std::size_t k = 0; k < outline.size(); ++k) {
+        triangle(centre, outline[k], outline[(k + 1) % outline.size()], face.kind);
+      }
+      continue;
+    }
+    const std::uint32_t centre = add(FacePoint(mesh, p, f), Mean(mesh.tag, face.corner));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::uint32_t before = edge_id[mesh.face_edges[f][(k + n - 1) % n]];
+      const std::uint32_t after = edge_id[mesh.face_edges[f][k]];
+      const std::uint32_t corner = vertex_id[face.corner[k]];
+      triangle(centre, before, corner, face.kind);
+      triangle(centre, corner, after, face.kind);
+    }
+  }
+  out.of_cage.assign(vertex_id.begin(),
+                     vertex_id.begin() + static_cast<std::ptrdiff_t>(half.position.size()));
+  return out;
+}
+
+}  // namespace fsm
