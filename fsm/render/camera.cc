@@ -40,6 +40,8 @@ View FramePortrait(const FaceState& state, int width, int height) {
   figure = glm::rotate(figure, glm::radians(state.agent_rotation[0]), {1.0F, 0.0F, 0.0F});
   figure = glm::scale(figure, glm::vec3(std::clamp(state.agent_scale, 0.01F, 100.0F)));
   view.figure_to_world = glm::translate(figure, -kPivot);
+  view.samples_per_mm =
+      2 * static_cast<float>(height) / framed_height * std::clamp(state.agent_scale, 0.01F, 100.0F);
   return view;
 }
 

@@ -11,7 +11,8 @@ namespace fsm {
 struct View {
   glm::mat4 figure_to_world;  ///< from the head's frame; rotation, translation and uniform scale
   glm::mat4 world_to_clip;
-  glm::vec3 eye;  ///< the viewer, in world coordinates
+  glm::vec3 eye;             ///< the viewer, in world coordinates
+  float samples_per_mm = 1;  ///< of the target along one side, at the depth of the face
 };
 
 /// Frames head and shoulders as a portrait would: a 25 degree lens at the height of the mouth, the

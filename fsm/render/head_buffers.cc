@@ -1,12 +1,12 @@
 #include "fsm/render/head_buffers.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
+#include <functional>
 #include <glm/vec4.hpp>
 #include <span>
-
-#include "fsm/render/noise_volume.h"
 
 namespace fsm {
 namespace {
@@ -41,22 +41,6 @@ glm::vec3 FindCrown(const HeadTopology& topology, const HeadVertices& rest) {
   return crown;
 }
 
-/// Skin is never of one colour: patches of 4 and 12 millimetres, redder and paler, on the vertices
-/// of skin. Here and not per pixel because it changes slowly and a fetch per pixel is dear.
-void Mottle(const HeadTopology& topology, const HeadVertices& rest, std::vector<glm::vec4>& paint) {
-  std::vector<bool> done(paint.size());
-  for (const auto& part : topology.parts) {
-    if (part.material != Material::kSkin) continue;
-    for (const auto i : std::span(topology.indices).subspan(part.first_index, part.index_count)) {
-      if (done[i]) continue;
-      done[i] = true;
-      const glm::vec3 p = rest.position[i];
-      const float patch = 0.6F * NoiseAt(p / 4.0F) + 0.8F * NoiseAt(p / 12.0F + 7.5F);
-      paint[i] *= 1.0F + patch * glm::vec4(0.09F, 0.17F, 0.17F, 0.0F);
-    }
-  }
-}
-
 }  // namespace
 
 std::uint64_t Checksum(const void* data, std::size_t bytes, std::uint64_t start) {
@@ -75,20 +59,20 @@ std::uint64_t Checksum(const void* data, std::size_t bytes, std::uint64_t start)
 
 HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
-  gl_.GenBuffers(5, buffers_);
+  gl_.GenBuffers(kAttributes + 1, buffers_);
   gl_.BindVertexArray(array_);
-  const GLint sizes[] = {3, 3, 3, 4};
-  for (GLuint i = 0; i < 4; ++i) {
+  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4};
+  for (GLuint i = 0; i < kAttributes; ++i) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[i]);
     gl_.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, 0, nullptr);
     gl_.EnableVertexAttribArray(i);
   }
-  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[4]);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[kAttributes]);
 }
 
 HeadBuffers::~HeadBuffers() {
   gl_.DeleteVertexArrays(1, &array_);
-  gl_.DeleteBuffers(5, buffers_);
+  gl_.DeleteBuffers(kAttributes + 1, buffers_);
 }
 
 void HeadBuffers::Upload(const Head& head, const HeadVertices& vertices) {
@@ -118,19 +102,76 @@ void HeadBuffers::UploadTopology(const Head& head) {
   for (std::size_t i = 0; i < paint.size(); ++i) {
     paint[i] = glm::vec4(topology.albedo[i], topology.occlusion[i]);
   }
-  Mottle(topology, rest, paint);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[2]);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rest.position.size() * sizeof(glm::vec3)),
-                 rest.position.data(), GL_STATIC_DRAW);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[3]);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(paint.size() * sizeof(glm::vec4)),
-                 paint.data(), GL_STATIC_DRAW);
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(topology.indices.size() * sizeof(std::uint32_t)),
-                 topology.indices.data(), GL_STATIC_DRAW);
+  std::vector<glm::vec2> unrolled = topology.uv;
+  unrolled.resize(paint.size());
+  const auto marks = FaceMarks::Of(head);
+  CreaseWeights creases;
+  skin_.reset();
+  if (marks && topology.uv.size() == paint.size()) {
+    creases = WeighCreases(rest, *marks);
+    skin_ = PaintSkin(head, rest, *marks);
+  }
+  creases.right.resize(paint.size());
+  creases.left.resize(paint.size());
+  const auto upload = [this](GLuint attribute, const auto& items) {
+    gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[attribute]);
+    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])),
+                   items.data(), GL_STATIC_DRAW);
+  };
+  upload(2, rest.position);
+  upload(3, paint);
+  upload(4, unrolled);
+  upload(5, creases.right);
+  upload(6, creases.left);
+  Order(topology, rest);
   eyes_ = EyeFinder(topology, rest);
   shadows_ = ShadowFinder(topology, rest);
   crown_ = FindCrown(topology, rest);
+  eye_place_ = topology.eyes[0];
+  ++generation_;
+}
+
+// Pixels found to be hidden cost nearly nothing, so the hair before the ears comes first, then the
+// face, then the hair behind it, each from the front to the back of a head that looks at the
+// viewer. Which is right most of the time, and where it is not only time is lost.
+void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) {
+  constexpr float kBehind = 0.0F;  // the plane of the ears
+  using Triangle = std::array<std::uint32_t, 3>;
+  std::vector<Triangle> hair;
+  std::vector<std::uint32_t> indices;
+  parts_.clear();
+  const auto depth = [&rest](const Triangle& t) {
+    return rest.position[t[0]].z + rest.position[t[1]].z + rest.position[t[2]].z;
+  };
+  const auto add = [&](Material material, std::span<const std::uint32_t> corners) {
+    if (corners.empty()) return;
+    parts_.push_back({material, static_cast<std::uint32_t>(indices.size()),
+                      static_cast<std::uint32_t>(corners.size())});
+    indices.insert(indices.end(), corners.begin(), corners.end());
+  };
+  const auto flat = [](std::span<const Triangle> triangles) {
+    std::vector<std::uint32_t> corners;
+    for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    return corners;
+  };
+  for (const auto& part : topology.parts) {
+    if (part.material != Material::kHair) continue;
+    for (std::uint32_t k = 0; k < part.index_count; k += 3) {
+      const auto* corner = &topology.indices[part.first_index + k];
+      hair.push_back({corner[0], corner[1], corner[2]});
+    }
+  }
+  std::ranges::stable_sort(hair, std::greater{}, depth);
+  const auto behind = std::ranges::find_if(hair, [&](const auto& t) { return depth(t) < kBehind; });
+  add(Material::kHair, flat({hair.begin(), behind}));
+  for (const auto& part : topology.parts) {
+    if (part.material == Material::kHair) continue;
+    add(part.material, std::span(topology.indices).subspan(part.first_index, part.index_count));
+  }
+  add(Material::kHair, flat({behind, hair.end()}));
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+                 GL_STATIC_DRAW);
 }
 
 }  // namespace fsm

@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
 
 #include "fsm/head/head.h"
 #include "fsm/render/eye_frame.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/shadow_frame.h"
+#include "fsm/render/skin_texture.h"
 
 namespace fsm {
 
@@ -22,22 +25,38 @@ class HeadBuffers {
   /// Binds the head's vertex array with these vertices in it. Heads are told apart by address and
   /// by a checksum of their topology, so that one made where another died is noticed.
   void Upload(const Head& head, const HeadVertices& vertices);
+  /// The head's parts in the order to draw them, what hides most first; indices as uploaded here.
+  const std::vector<HeadTopology::Part>& parts() const { return parts_; }
   const EyeFinder& eyes() const { return eyes_; }
   const ShadowFinder& shadows() const { return shadows_; }
+  /// The detail of this head's skin; nothing if it does not say where its features are.
+  const SkinTexture* skin() const { return skin_ ? &*skin_ : nullptr; }
+  /// What is the same of both eyes: sizes and colour.
+  const EyePlace& eye_place() const { return eye_place_; }
+  /// Counts the heads uploaded so far, so that what depends on the head is noticed to be old.
+  int generation() const { return generation_; }
   /// Highest point of the hair (of the whole head if it has none), at rest: where strands begin.
   glm::vec3 crown() const { return crown_; }
 
  private:
   void UploadTopology(const Head& head);
+  void Order(const HeadTopology& topology, const HeadVertices& rest);
 
   const GlFunctions& gl_;
   GLuint array_ = 0;
-  GLuint buffers_[5] = {};  // position, normal, rest position, colour and occlusion, indices
+  // Position, normal, rest position, colour and occlusion, unrolled place, creases of the right and
+  // of the left side; indices.
+  static constexpr GLuint kAttributes = 7;
+  GLuint buffers_[kAttributes + 1] = {};
   const Head* head_ = nullptr;
   std::uint64_t checksum_ = 0;
+  std::vector<HeadTopology::Part> parts_;
   EyeFinder eyes_;
   ShadowFinder shadows_;
   glm::vec3 crown_{0.0F};
+  EyePlace eye_place_;
+  std::optional<SkinTexture> skin_;
+  int generation_ = 0;
 };
 
 /// FNV-1a over 8 bytes at a time; to notice a change, not to resist one made on purpose.

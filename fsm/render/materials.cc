@@ -1,6 +1,8 @@
 #include "fsm/render/materials.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
@@ -17,13 +19,11 @@
 #include "embedded/surface_fragment.h"
 #include "embedded/surface_vertex.h"
 #include "embedded/transform.h"
-#include "fsm/render/noise_volume.h"
+#include "fsm/render/noise_tile.h"
+#include "fsm/render/skin_texture.h"
 
 namespace fsm {
 namespace {
-
-/// From the face towards the key light: above the viewer's left shoulder.
-constexpr glm::vec3 kKeyDirection{-1.0F, 0.88F, 0.95F};
 
 /// How a surface takes light; the names are those of the uniforms in surface_*.glsl.
 struct Surface {
@@ -34,28 +34,22 @@ struct Surface {
   float sheen;
   float saturation;
   float bump;
-  float grain;
+  float planar;  // repeats of the detail per millimetre, 0 for the skin's own
 };
 
 // Skin scatters red farthest and is dull; wet things mirror in a small spot; enamel scatters
 // evenly; cloth only scatters.
 constexpr Surface kSurfaces[] = {
-    // material               wrap                   lobes            through sheen satur. bump
-    // grain
-    {Material::kSkin, {0.45F, 0.22F, 0.12F}, {1.5F, 1.8F, 0.0F}, 0.35F, 1.0F, 1.12F, 0.15F, 0.10F},
-    {Material::kLip, {0.40F, 0.20F, 0.12F}, {1.2F, 1.0F, 4.5F}, 0.35F, 1.0F, 1.10F, 0.20F, 0.10F},
-    {Material::kTeeth, {0.30F, 0.26F, 0.22F}, {0.0F, 3.0F, 3.0F}, 0.0F, 0.2F, 1.0F, 0.03F, 0.03F},
-    {Material::kGum, {0.40F, 0.20F, 0.15F}, {0.0F, 3.5F, 2.0F}, 0.0F, 0.2F, 1.0F, 0.10F, 0.10F},
-    {Material::kTongue, {0.40F, 0.20F, 0.15F}, {1.0F, 2.0F, 0.0F}, 0.0F, 0.2F, 1.0F, 0.30F, 0.20F},
-    {Material::kMouthInside,
-     {0.40F, 0.20F, 0.15F},
-     {0.5F, 0.5F, 0.0F},
-     0.0F,
-     0.0F,
-     1.0F,
-     0.05F,
-     0.05F},
-    {Material::kCloth, {0.25F, 0.25F, 0.25F}, {0.1F, 0.0F, 0.0F}, 0.0F, 0.6F, 1.0F, 0.25F, 0.25F},
+    // clang-format off
+    // material             wrap                   lobes               through sheen saturation bump planar
+    {Material::kSkin,        {0.45F, 0.22F, 0.12F}, {1.5F, 1.9F, 0.0F}, 0.35F, 1.0F, 1.12F, 1.0F, 0.0F},
+    {Material::kLip,         {0.40F, 0.20F, 0.12F}, {1.2F, 1.4F, 3.0F}, 0.35F, 1.0F, 1.10F, 1.0F, 0.0F},
+    {Material::kTeeth,       {0.30F, 0.26F, 0.22F}, {0.0F, 3.0F, 3.0F}, 0.0F,  0.2F, 1.0F,  0.0F, 0.02F},
+    {Material::kGum,         {0.40F, 0.20F, 0.15F}, {0.0F, 3.5F, 2.0F}, 0.0F,  0.2F, 1.0F,  0.1F, 0.01F},
+    {Material::kTongue,      {0.40F, 0.20F, 0.15F}, {1.0F, 2.0F, 0.0F}, 0.0F,  0.2F, 1.0F,  0.4F, 0.01F},
+    {Material::kMouthInside, {0.40F, 0.20F, 0.15F}, {0.5F, 0.5F, 0.0F}, 0.0F,  0.0F, 1.0F,  0.0F, 0.01F},
+    {Material::kCloth,       {0.25F, 0.25F, 0.25F}, {0.1F, 0.0F, 0.0F}, 0.0F,  0.6F, 1.0F,  0.5F, 0.012F},
+    // clang-format on
 };
 
 /// A shader is made of texts, shared ones first.
@@ -80,34 +74,82 @@ Materials::Materials(const GlFunctions& gl)
       eye_(gl, "eye", Vertex(embedded::eye_vertex()), Fragment(embedded::eye_fragment())),
       hair_(gl, "hair", Vertex(embedded::hair_vertex()), Fragment(embedded::hair_fragment())),
       line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()) {
-  gl_.GenTextures(1, &noise_);
-  gl_.BindTexture(GL_TEXTURE_3D, noise_);
-  for (const int axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
-    gl_.TexParameteri(GL_TEXTURE_3D, static_cast<GLenum>(axis), GL_REPEAT);
-  }
-  // From the nearest of the halved volumes only: mixing two costs as much again and shows nothing.
-  gl_.TexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
-  gl_.TexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  const auto volume = MakeNoiseVolume();
+  gl_.GenTextures(kTextures, textures_);
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  gl_.TexImage3D(GL_TEXTURE_3D, 0, GL_RGBA8, kNoiseCells, kNoiseCells, kNoiseCells, 0, GL_RGBA,
-                 GL_UNSIGNED_BYTE, volume.data());
-  gl_.GenerateMipmap(GL_TEXTURE_3D);
+  const auto noise = MakeNoiseTile();
+  const auto strands = MakeStrandTile();
+  const std::uint8_t plain[] = {128, 128, 128, 128};
+  Fill(kNoise, kNoiseCells, kNoiseCells, noise.data());
+  Fill(kWeave, kNoiseCells, kNoiseCells, noise.data());
+  Fill(kStrands, kStrandsAcross, kStrandsAlong, strands.data());
+  Fill(kPlain, 1, 1, plain);
 }
 
-Materials::~Materials() { gl_.DeleteTextures(1, &noise_); }
+Materials::~Materials() { gl_.DeleteTextures(kTextures, textures_); }
+
+void Materials::Fill(Texture texture, int width, int height, const std::uint8_t* rgba) {
+  gl_.BindTexture(GL_TEXTURE_2D, textures_[texture]);
+  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+    gl_.TexParameteri(GL_TEXTURE_2D, axis, GL_REPEAT);
+  }
+  // The nearest texel, of a level chosen for the whole figure: with four samples to a pixel that is
+  // smooth, and in software a filtered fetch costs as much as everything else of a pixel.
+  const GLint filter = texture == kNoise ? GL_LINEAR : GL_NEAREST;
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+}
+
+void Materials::UploadSkin(const HeadBuffers& head) {
+  if (generation_ == head.generation()) return;
+  generation_ = head.generation();
+  has_skin_ = head.skin() != nullptr;
+  if (!has_skin_) return;
+  Fill(kSkinTint, SkinTexture::kSide, SkinTexture::kSide, head.skin()->tint.data());
+  gl_.GenerateMipmap(GL_TEXTURE_2D);
+  Fill(kSkinRelief, SkinTexture::kSide, SkinTexture::kSide, head.skin()->relief.data());
+  gl_.GenerateMipmap(GL_TEXTURE_2D);
+}
+
+void Materials::SetSkinDetail(float samples_per_mm) {
+  if (!has_skin_) return;
+  // Levels are halved until a texel is about a sample; a face so near that texels show is filtered.
+  const float texels_per_sample = SkinTexture::kTexelsPerMm / std::max(samples_per_mm, 1e-3F);
+  const int level = std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 4);
+  const GLint filter = texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST;
+  for (const Texture texture : {kSkinTint, kSkinRelief}) {
+    gl_.BindTexture(GL_TEXTURE_2D, textures_[texture]);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  }
+}
+
+void Materials::Bind(Texture texture, GLenum unit) {
+  gl_.ActiveTexture(unit);
+  gl_.BindTexture(GL_TEXTURE_2D, textures_[texture]);
+}
 
 void Materials::BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
-                           float alpha) {
-  const glm::vec3 key_direction = glm::normalize(kKeyDirection);
+                           const Scene& scene, float alpha) {
+  UploadSkin(head);
+  const Lamp* lamps[] = {&scene.key, &scene.fill, &scene.rim};
+  glm::vec3 directions[3];
+  glm::vec3 colors[3];
+  for (int i = 0; i < 3; ++i) {
+    directions[i] = glm::normalize(lamps[i]->direction);
+    colors[i] = lamps[i]->color * lamps[i]->strength;
+  }
   const glm::mat4 world_to_figure = glm::inverse(view.figure_to_world);
   const auto shadows = head.shadows().Measure(vertices);
   const glm::mat4 occluders[] = {shadows.skull * world_to_figure, shadows.nose * world_to_figure};
   glm::vec3 lights[2];
-  for (int i = 0; i < 2; ++i) lights[i] = glm::normalize(glm::mat3(occluders[i]) * key_direction);
+  for (int i = 0; i < 2; ++i) lights[i] = glm::normalize(glm::mat3(occluders[i]) * directions[0]);
 
   gl_.ActiveTexture(GL_TEXTURE0);
-  gl_.BindTexture(GL_TEXTURE_3D, noise_);
+  SetSkinDetail(view.samples_per_mm);
+  Bind(kNoise, GL_TEXTURE0);
+  Bind(kStrands, GL_TEXTURE3);
   for (const GlProgram* program : {&surface_, &eye_, &hair_, &line_}) {
     gl_.UseProgram(program->id());
     gl_.UniformMatrix4fv(program->Uniform("figure_to_world"), 1, GL_FALSE,
@@ -117,10 +159,25 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
     gl_.Uniform3fv(program->Uniform("eye"), 1, glm::value_ptr(view.eye));
     gl_.Uniform1f(program->Uniform("alpha"), alpha);
     gl_.Uniform1i(program->Uniform("noise"), 0);
-    gl_.Uniform3fv(program->Uniform("key_direction"), 1, glm::value_ptr(key_direction));
+    gl_.Uniform1i(program->Uniform("strands"), 3);
+    gl_.Uniform3fv(program->Uniform("lamp_directions"), 3, glm::value_ptr(directions[0]));
+    gl_.Uniform3fv(program->Uniform("lamp_colors"), 3, glm::value_ptr(colors[0]));
     gl_.UniformMatrix4fv(program->Uniform("occluders"), 2, GL_FALSE, glm::value_ptr(occluders[0]));
     gl_.Uniform3fv(program->Uniform("occluder_lights"), 2, glm::value_ptr(lights[0]));
   }
+  gl_.UseProgram(surface_.id());
+  gl_.Uniform1i(surface_.Uniform("tint"), 1);
+  gl_.Uniform1i(surface_.Uniform("relief"), 2);
+  const glm::vec3 head_up = glm::normalize(glm::mat3(view.figure_to_world) * shadows.turn[1]);
+  gl_.Uniform3fv(surface_.Uniform("head_up"), 1, glm::value_ptr(head_up));
+  glm::vec4 depths[2];
+  for (int side = 0; side < 2; ++side) {
+    for (int k = 0; k < 4; ++k) {
+      depths[side][k] =
+          vertices.wrinkles[static_cast<std::size_t>(k)][static_cast<std::size_t>(side)];
+    }
+  }
+  gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
   gl_.UseProgram(hair_.id());
   gl_.Uniform3fv(hair_.Uniform("crown"), 1, glm::value_ptr(head.crown()));
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
@@ -150,7 +207,13 @@ void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVer
   gl_.Uniform4fv(eye_.Uniform("ball"), 2, glm::value_ptr(balls[0]));
   gl_.Uniform3fv(eye_.Uniform("gaze"), 2, glm::value_ptr(gazes[0]));
   gl_.Uniform4fv(eye_.Uniform("lids"), 2, glm::value_ptr(lids[0]));
-  gl_.Uniform1f(eye_.Uniform("iris_radius"), eyes[0].iris_radius * scale);
+  const EyePlace& place = head.eye_place();
+  const float plane = std::sqrt(
+      std::max(eyes[0].radius * eyes[0].radius - eyes[0].iris_radius * eyes[0].iris_radius, 1.0F));
+  const glm::vec4 iris(eyes[0].iris_radius * scale, place.pupil_radius / place.iris_radius,
+                       plane * scale, 0.0F);
+  gl_.Uniform4fv(eye_.Uniform("iris"), 1, glm::value_ptr(iris));
+  gl_.Uniform3fv(eye_.Uniform("iris_color"), 1, glm::value_ptr(place.iris_colour));
   gl_.Uniform1f(eye_.Uniform("figure_scale"), scale);
 }
 
@@ -175,12 +238,16 @@ void Materials::Use(Material material) {
     if (surface.material != material) continue;
     gl_.UseProgram(surface_.id());
     gl_.Uniform3fv(surface_.Uniform("wrap"), 1, glm::value_ptr(surface.wrap));
-    gl_.Uniform3fv(surface_.Uniform("lobes"), 1, glm::value_ptr(surface.lobes));
+    const glm::vec3 lobes = 2.0F * surface.lobes;  // of a texture in which one half stands for 1
+    gl_.Uniform3fv(surface_.Uniform("lobes"), 1, glm::value_ptr(lobes));
     gl_.Uniform1f(surface_.Uniform("key_through"), surface.key_through);
     gl_.Uniform1f(surface_.Uniform("sheen"), surface.sheen);
     gl_.Uniform1f(surface_.Uniform("saturation"), surface.saturation);
     gl_.Uniform1f(surface_.Uniform("bump"), surface.bump);
-    gl_.Uniform1f(surface_.Uniform("grain"), surface.grain);
+    gl_.Uniform1f(surface_.Uniform("planar"), surface.planar);
+    const bool skin = surface.planar == 0 && has_skin_;
+    Bind(skin ? kSkinTint : kPlain, GL_TEXTURE1);
+    Bind(skin ? kSkinRelief : surface.planar > 0 ? kWeave : kPlain, GL_TEXTURE2);
   }
 }
 

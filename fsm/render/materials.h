@@ -6,6 +6,7 @@
 #include "fsm/render/camera.h"
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/head_buffers.h"
+#include "fsm/render/renderer.h"
 
 namespace fsm {
 
@@ -20,13 +21,19 @@ class Materials {
 
   /// Hands camera, eyes and the like to every program. `vertices` are in the head's own frame.
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
-                  float alpha);
+                  const Scene& scene, float alpha);
   void Use(Material material);
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
 
  private:
+  enum Texture { kNoise, kWeave, kStrands, kPlain, kSkinTint, kSkinRelief, kTextures };
+
+  void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
+  void SetSkinDetail(float samples_per_mm);
+  void Bind(Texture texture, GLenum unit);
   void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices);
+  void UploadSkin(const HeadBuffers& head);
   void UseEye(float layer);
   void UseHair(float streaks, float shine);
 
@@ -35,7 +42,9 @@ class Materials {
   GlProgram eye_;
   GlProgram hair_;
   GlProgram line_;
-  GLuint noise_ = 0;
+  GLuint textures_[kTextures] = {};
+  int generation_ = 0;  // of the head whose skin is in the textures
+  bool has_skin_ = false;
 };
 
 }  // namespace fsm

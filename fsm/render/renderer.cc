@@ -69,8 +69,8 @@ class GlRenderer : public Renderer {
     head_.Upload(head, vertices);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    materials_.BeginFrame(view, head_, vertices, alpha);
-    const auto& parts = head.topology().parts;
+    materials_.BeginFrame(view, head_, vertices, scene, alpha);
+    const auto& parts = head_.parts();
     if (scene.view_mode != ViewMode::kWireframe) {
       if (scene.view_mode == ViewMode::kTextureWithWireframe) {
         gl_.Enable(GL_POLYGON_OFFSET_FILL);

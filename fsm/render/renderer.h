@@ -24,11 +24,23 @@ inline constexpr int kMaxImageSide = 8192;
 
 enum class ViewMode { kTexture, kTextureWithWireframe, kWireframe };
 
+/// One lamp of the studio, far away.
+struct Lamp {
+  glm::vec3 direction;  ///< towards the lamp: x to the viewer's right, y up, z to the viewer
+  glm::vec3 color;      ///< linear RGB at strength 1
+  float strength = 1;
+};
+
 struct Scene {
   glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, when there is no picture
   const Image* background_image = nullptr;    ///< stretched over the view; borrowed
   bool show_background = true;                ///< off: transparent black
   ViewMode view_mode = ViewMode::kTexture;
+  // A portrait studio: a large warm lamp above left, a weak cool one at the right, one behind for
+  // the edge of hair and shoulder.
+  Lamp key{{-1.0f, 0.88f, 0.95f}, {2.90f, 2.64f, 2.46f}};
+  Lamp fill{{0.80f, 0.10f, 0.59f}, {0.34f, 0.36f, 0.40f}};
+  Lamp rim{{0.59f, 0.46f, -0.67f}, {1.30f, 1.36f, 1.45f}};
 };
 
 /// A GL context and where its frames go. Thread: one, the one that made it; at most one is current,

@@ -1,19 +1,36 @@
-// Eyeballs: `layer` 0 = white, 1 = iris, 2 = pupil. Everything is seen through a wet cornea whose
-// highlight is drawn here, from a sphere of its own, so that it is round whatever the mesh.
+// Eyeballs: `layer` 0 = white, 1 = cornea with the iris behind it, 2 = pupil. Everything is seen
+// through a wet surface whose highlight is drawn here, from a sphere of its own, so that it is round
+// whatever the mesh.
 in vec3 world_position;
 in vec3 albedo;
 in float occlusion;
 
 uniform float alpha;
-uniform sampler3D noise;
+uniform sampler2D noise;
 uniform float layer;
 uniform vec4 ball[2];    // centre in world coordinates, radius; left of the picture, right
 uniform vec3 gaze[2];    // unit, from the ball's centre through the pupil
-uniform vec4 lids[2];    // world y of the upper and the lower rim at the pupil, lid width, unused
-uniform float iris_radius;
+uniform vec4 lids[2];    // world y of the upper and the lower rim at the pupil, unused
+uniform vec4 iris;       // radius, pupil's part of it, how far its plane lies before the centre, 0
+uniform vec3 iris_color;
 uniform float figure_scale;
 
 out vec4 color;
+
+// The iris at a place of its plane, in units of its radius: fibres run from the pupil to the rim,
+// which is dark (the limbal ring).
+vec3 Iris(vec2 p, float r, float toward_light) {
+  float turn = atan(p.y, p.x) / 6.2831853;
+  float fibre = textureLod(noise, vec2(turn * 0.25, r * 0.010), 0.0).b * 0.6 +
+                textureLod(noise, vec2(turn * 0.75, r * 0.024 + 0.4), 0.0).a * 0.5;
+  vec3 base = iris_color * (0.45 + 1.15 * fibre);
+  float collar = smoothstep(0.66, 0.40, r + 0.12 * (fibre - 0.5));
+  base = mix(base, base * vec3(1.55, 1.15, 0.70) + 0.012, collar * 0.65);
+  // Light falls in through the cornea and gathers on the far side.
+  base *= 0.85 + 0.75 * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
+  base *= mix(1.0, 0.16, smoothstep(0.78, 1.0, r));
+  return mix(vec3(0.003), base, smoothstep(iris.y - 0.05, iris.y + 0.04, r + 0.03 * (fibre - 0.5)));
+}
 
 void main() {
   int side = distance(world_position, ball[0].xyz) < distance(world_position, ball[1].xyz) ? 0 : 1;
@@ -24,28 +41,34 @@ void main() {
   vec3 v = normalize(eye - world_position);
   vec3 n = normalize(from_centre);
 
-  vec3 across = from_centre - axis * dot(from_centre, axis);
-  float r = length(across) / iris_radius;
+  // The cornea: a smaller sphere standing out of the ball; the white keeps the ball's own normal.
+  float r_surface = length(from_centre - axis * dot(from_centre, axis)) / iris.x;
+  vec3 cornea = normalize(world_position - (centre + axis * radius * 0.46));
+  vec3 wet = normalize(mix(cornea, n, smoothstep(0.95, 1.25, r_surface)));
 
+  vec3 across_right = normalize(cross(vec3(0.0, 1.0, 0.0), axis) + vec3(1e-5, 0.0, 0.0));
+  vec3 across_up = cross(axis, across_right);
   vec3 base = albedo;
+  float r = r_surface;
   if (layer > 0.5) {
-    // Fibres run from the pupil to the rim, which is dark; light falls in from above and comes out
-    // below, brightening the far half of the iris.
-    vec3 spoke = normalize(across + vec3(1e-4));
-    float fibre = texture(noise, vec3(spoke.xy * 0.55, r * 0.04)).a +
-                  0.6 * texture(noise, vec3(spoke.xy * 1.3, r * 0.05 + 0.5)).a;
-    float inner = smoothstep(0.62, 0.3, r);
-    base = albedo * (0.45 + 0.75 * fibre);
-    base = mix(base, base * vec3(1.45, 1.15, 0.75), inner * 0.6);
-    base *= 1.0 + 0.5 * dot(spoke, -key_direction) * smoothstep(0.3, 0.8, r);
-    base *= mix(1.0, 0.22, smoothstep(0.80, 1.0, r));
-    base *= mix(1.0, 0.02, smoothstep(0.40, 0.36, r));
-    if (layer > 1.5) base = vec3(0.004);
+    // The line of sight bends at the cornea and meets the plane of the iris behind it.
+    vec3 ray = refract(-v, wet, 1.0 / 1.336);
+    float depth = dot(from_centre, axis) - iris.z;
+    vec3 hit = from_centre + ray * (max(depth, 0.0) / max(-dot(ray, axis), 0.2));
+    vec2 p = vec2(dot(hit, across_right), dot(hit, across_up)) / iris.x;
+    r = length(p);
+    vec3 l = lamp_directions[0];
+    base = Iris(p, r, dot(p / max(r, 1e-3), vec2(dot(l, across_right), dot(l, across_up))));
+    if (layer > 1.5) base = vec3(0.003);
+    // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
+    base = mix(base, albedo.r > 0.4 ? albedo * 0.3 : vec3(0.10, 0.09, 0.085), smoothstep(1.0, 1.12, r));
   } else {
-    // Reddish towards the corners, shaded at the edge of the iris.
+    // Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
     float corner = smoothstep(0.25, 0.95, abs(n.x - axis.x));
     base *= mix(vec3(1.0), vec3(0.92, 0.70, 0.64), corner);
-    base *= mix(0.35, 1.0, smoothstep(0.96, 1.18, r));
+    base *= mix(0.30, 1.0, smoothstep(0.94, 1.20, r));
+    float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
+    base *= 1.0 - vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r);
   }
 
   // The upper lid and its lashes shade the ball below them.
@@ -55,19 +78,15 @@ void main() {
                 mix(0.62, 1.0, smoothstep(-0.5, 1.6, above_lower));
 
   vec3 light = Ambient(n) * 0.9;
-  light += kKeyColor * Wrapped(dot(n, key_direction), vec3(0.35)) * 0.8;
-  light += kFillColor * Wrapped(dot(n, kFillDirection), vec3(0.35));
+  light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;
+  light += lamp_colors[1] * Wrapped(dot(n, lamp_directions[1]), vec3(0.35));
   vec3 result = base * light * shade * mix(occlusion, 1.0, 0.3);
 
-  // The cornea: a smaller sphere standing out of the ball; the white keeps the ball's own normal.
-  vec3 cornea_centre = centre + axis * radius * 0.46;
-  vec3 cornea = normalize(world_position - cornea_centre);
-  vec3 wet = normalize(mix(cornea, n, smoothstep(0.95, 1.25, r)));
   vec3 mirrored = reflect(-v, wet);
   float window = smoothstep(0.945, 0.972, dot(mirrored, normalize(vec3(-0.42, 0.52, 0.74))));
-  float soft_box = pow(max(dot(mirrored, kFillDirection), 0.0), 24.0);
-  result += vec3(2.6) * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r)) * sqrt(shade);
-  result += kFillColor * 0.16 * soft_box * shade;
+  float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
+  result += 0.9 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
+  result += lamp_colors[1] * 0.16 * soft_box * shade;
   result += Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * 0.6;
   color = vec4(ToScreen(max(result, 0.0)), alpha);
 }

@@ -1,37 +1,27 @@
-in vec3 world_normal;
-in vec3 half_way;
-in vec3 strand;
-in vec3 streak_place;
-in vec3 soft_light;
-in vec3 key_light;
-in vec3 tint;
+noperspective in vec2 streak_place;
+noperspective in vec3 light;
+noperspective in vec3 key_light;
+noperspective in vec3 tilt;
 
 uniform float alpha;
-uniform float streaks;     // how strongly strands differ, 0 for lashes
+uniform float streaks;   // how strongly strands differ, 0 for lashes
 uniform float shine;
-uniform sampler3D noise;
+uniform sampler2D strands;  // locks in b, hairs in a
 
 out vec4 color;
 
 void main() {
-  vec4 thick = texture(noise, streak_place) - 0.5;
-  float streak = (thick.a + 1.2 * thick.r) * streaks;
+  vec4 fine = texture(strands, streak_place) - 0.5;
+  float streak = (0.8 * fine.a + 1.1 * fine.b) * streaks;
   // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
   // surface towards the root, light that went through and took its colour towards the tip.
-  vec3 n = world_normal;
-  vec3 h = normalize(half_way);
-  float t_dot_h = dot(normalize(strand), h);
-  float n_dot_h = dot(n, h) / max(length(n), 1e-3);
-  float a = t_dot_h + n_dot_h * (0.12 + 0.25 * streak);
-  float b = t_dot_h - n_dot_h * (0.18 - 0.25 * streak);
-  float a4 = max(1.0 - a * a, 0.0);
-  float b4 = max(1.0 - b * b, 0.0);
-  a4 *= a4;
-  a4 *= a4;
-  b4 *= b4;
-  b4 *= b4;
-  float a16 = a4 * a4 * a4 * a4;
-  vec3 light = (soft_light + key_light) * (1.0 + 0.9 * streak);
-  light += shine * (key_light * 0.9 * (b4 * b4 * b4 * b4) + tint * (0.035 * a16 * a16 * a16));
-  color = vec4(ToScreen(max(light, 0.0)), alpha);
+  float a = tilt.x + tilt.y * (0.12 + 0.25 * streak);
+  float b = tilt.x - tilt.y * (0.18 - 0.25 * streak);
+  vec2 lobe = max(1.0 - vec2(a * a * 6.0, b * b * 2.2), 0.0);
+  lobe *= lobe;
+  lobe *= lobe;
+  lobe.x *= lobe.x;
+  vec3 seen = light * (1.0 + 0.9 * streak) +
+              shine * (key_light * (0.9 * lobe.y) + lamp_colors[0] * (tilt.z * lobe.x));
+  color = vec4(ToScreen(max(seen, 0.0)), alpha);
 }

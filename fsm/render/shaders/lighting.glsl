@@ -1,6 +1,6 @@
 #version 330 core
 // The head of every shader that lights something: lamps, shadows, and the way to the screen. World
-// coordinates in millimetres.
+// coordinates in millimetres, linear light.
 uniform vec3 eye;
 
 // Two ellipsoids that stand in for shadows the head throws on itself: the head, on neck and
@@ -8,16 +8,12 @@ uniform vec3 eye;
 // unit sphere, each vector is the direction of the key light there.
 uniform mat4 occluders[2];
 uniform vec3 occluder_lights[2];
-// Towards the key light, in world coordinates.
-uniform vec3 key_direction;
 
-// A portrait studio: a large warm lamp above left, a weak cool one at the right, one behind for the
-// edge of hair and shoulder. The room itself is brighter above than below.
-const vec3 kKeyColor = vec3(2.90, 2.64, 2.46);
-const vec3 kFillDirection = vec3(0.7986, 0.0998, 0.5936);
-const vec3 kFillColor = vec3(0.34, 0.36, 0.40);
-const vec3 kRimDirection = vec3(0.5883, 0.4576, -0.6667);
-const vec3 kRimColor = vec3(1.30, 1.36, 1.45);
+// Towards the lamps, unit, and their light: key, fill, rim.
+uniform vec3 lamp_directions[3];
+uniform vec3 lamp_colors[3];
+
+// The room itself is brighter above than below.
 const vec3 kSkyColor = vec3(0.32, 0.34, 0.37);
 const vec3 kGroundColor = vec3(0.20, 0.155, 0.13);
 const float kShadowDepth[2] = float[2](0.92, 0.45);

@@ -1,31 +1,28 @@
-in vec3 world_normal;
-in vec3 half_way;
-in vec3 rest;
-in vec3 soft_light;
-in vec3 key_light;
-in float gloss;
+noperspective in vec2 place;
+noperspective in vec3 light;
+noperspective in vec4 slopes;
+noperspective in vec3 shine;
 
 uniform float alpha;
-uniform vec3 wrap;
-uniform float bump;   // of pores or threads, on the normal
-uniform float grain;  // and on the colour
-uniform vec3 lobes;   // strengths of a broad, a middle and a tight highlight
-// Tileable noise of 32 cells: gradient in rgb, value in a, both about 0.5.
-uniform sampler3D noise;
+uniform float bump;       // of pores or threads
+uniform vec3 lobes;       // strengths of a broad, a middle and a tight highlight
+uniform sampler2D tint;   // on the colour in rgb, on highlights in a; both about half
+uniform sampler2D relief; // slopes to the right and up of fine detail in rg, of creases in ba
 
 out vec4 color;
 
 void main() {
-  vec3 n = normalize(world_normal);
-  // In the head's own coordinates, so that it moves with the skin.
-  vec4 fine = texture(noise, rest * 0.045) - 0.5;
-  vec3 rough = normalize(n - (fine.rgb - n * dot(fine.rgb, n)) * bump);
-  vec3 light = soft_light + key_light * Wrapped(dot((n + rough) * 0.5, key_direction), wrap);
-  // Powers 20, 64 and 144 as products: in software the pow function costs as much as a lamp.
-  float h = max(dot(rough, normalize(half_way)), 0.0);
-  float h4 = h * h * h * h;
-  float h16 = h4 * h4 * h4 * h4;
-  float h64 = h16 * h16 * h16 * h16;
-  float highlight = gloss * dot(lobes, vec3(h16 * h4, h64, h64 * h64 * h16));
-  color = vec4(ToScreen(light * (1.0 + grain * fine.a) + kKeyColor * highlight), alpha);
+  vec4 t = texture(tint, place);
+  vec4 r = texture(relief, place) - 0.5;
+  vec2 slope = r.xy * bump + r.zw * shine.y;
+  // Highlights fall with the distance of the half vector from the normal, both as slopes; the lobes are
+  // powers 20, 64 and 144 of its cosine, as products (pow costs as much as a lamp in software).
+  vec2 h = slopes.zw + slope;
+  float d = dot(h, h);
+  vec3 lobe = max(1.0 - d * vec3(2.5, 8.0, 18.0), 0.0);
+  lobe *= lobe;
+  lobe *= lobe;
+  float highlight = shine.x * t.a * dot(lobe, lobes) + shine.z;
+  color = vec4(ToScreen(t.rgb * (light * (2.0 + 2.0 * dot(slope, slopes.xy))) +
+                        lamp_colors[0] * highlight), alpha);
 }

@@ -1,17 +1,22 @@
-// Skin, lips, teeth, gums, tongue, the inside of the mouth, cloth. Light that changes slowly is worked
-// out here and not per pixel: the mesh is so fine that a software rasterizer shades several pixels
-// beside every triangle for each one in it.
+// Skin, lips, teeth, gums, tongue, the inside of the mouth, cloth. Light is worked out here and only
+// bent per pixel: the mesh is so fine that a software rasterizer shades several pixels beside every
+// triangle for each one in it.
+layout(location = 4) in vec2 unrolled;
+layout(location = 5) in vec4 creases_right;  // how much each crease of that side shows here
+layout(location = 6) in vec4 creases_left;
+
 uniform vec3 wrap;           // how far light goes round, per channel
 uniform float key_through;   // how much of the key light reaches occluded places all the same
 uniform float sheen;         // down that catches light at the edges
 uniform float saturation;
+uniform float planar;        // 0: detail by the unrolled place; else repeats per millimetre
+uniform vec3 head_up;        // unit, the direction of growing v on the skin
+uniform vec4 crease_depths[2];  // right, left: forehead, glabella, crow's feet, nasolabial
 
-out vec3 world_normal;
-out vec3 half_way;    // between the key light and the viewer
-out vec3 rest;
-out vec3 soft_light;  // everything but the key light, with the surface's colour
-out vec3 key_light;   // the key light before its angle, with the surface's colour
-out float gloss;
+noperspective out vec2 place;   // in the detail textures
+noperspective out vec3 light;   // all that is scattered, with the surface's colour
+noperspective out vec4 slopes;  // what a slope to the right and up adds to light; the half vector's slopes
+noperspective out vec3 shine;   // strength of highlights, depth of creases, light at the edge
 
 void main() {
   vec3 world = Place();
@@ -21,25 +26,40 @@ void main() {
   vec3 albedo = albedo_occlusion.rgb;
   albedo = max(mix(vec3(dot(albedo, vec3(0.3, 0.6, 0.1))), albedo, saturation), 0.0);
 
+  float crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
+
   // Corners shut off from light glow red, because what light there is came through skin.
   float root = sqrt(occlusion);
   vec3 open = vec3(1.0, sqrt(root), root) * occlusion;
   vec3 shadow = vec3(KeyShadow(world));
   shadow.gb *= shadow.gb * 0.3 + 0.7;
 
-  vec3 soft = Ambient(n) + kFillColor * Wrapped(dot(n, kFillDirection), wrap) +
-              kRimColor * 0.5 * Wrapped(dot(n, kRimDirection), wrap * 0.6);
-  float g = max(dot(n, normalize(kFillDirection + v)), 0.0);
+  // The edge of the shadow is warm: there most of what is seen went some way under the skin.
+  float n_dot_l = dot(n, lamp_directions[0]);
+  vec3 key_open = lamp_colors[0] * shadow * mix(open, vec3(1.0), key_through);
+  vec3 key = key_open * Wrapped(n_dot_l, wrap);
+  vec3 soft = Ambient(n) + lamp_colors[1] * Wrapped(dot(n, lamp_directions[1]), wrap) +
+              lamp_colors[2] * 0.5 * Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
+  vec3 total = soft * open + key;
+
+  vec3 right = normalize(cross(head_up, n) + vec3(1e-5, 0.0, 0.0));
+  vec3 up = cross(n, right);
+  float power = key_open.g * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
+  slopes.xy = -power * vec2(dot(right, lamp_directions[0]), dot(up, lamp_directions[0]) + 0.12);
+
+  vec3 h = normalize(lamp_directions[0] + v);
+  slopes.zw = vec2(dot(right, h), dot(up, h));
+  shine.x = Fresnel(dot(h, v)) * occlusion * occlusion * shadow.g *
+            clamp(n_dot_l * 4.0 + 0.2, 0.0, 1.0) * smoothstep(0.0, 0.3, dot(n, h));
+  shine.y = crease;
+
+  float g = max(dot(n, normalize(lamp_directions[1] + v)), 0.0);
   float g4 = g * g * g * g;
   float away = 1.0 - max(dot(n, v), 0.0);
-  vec3 mirrored = kFillColor * (0.03 * g4 * g4 * g4 * g4) +
-                  (kRimColor * 0.10 + Ambient(n) * 0.12) * (away * away * away);
-  half_way = normalize(key_direction + v);
+  shine.z = (lamp_colors[1].g * 0.03 * g4 * g4 * g4 * g4 +
+             (lamp_colors[2].g * 0.10 + Ambient(n).g * 0.12) * away * away * away) *
+            occlusion * occlusion * sheen;
 
-  world_normal = n;
-  rest = rest_position;
-  soft_light = albedo * open * soft + mirrored * (occlusion * occlusion * sheen);
-  key_light = albedo * kKeyColor * shadow * mix(open, vec3(1.0), key_through);
-  gloss = Fresnel(dot(half_way, v)) * occlusion * occlusion * shadow.g *
-          clamp(dot(n, key_direction) * 4.0 + 0.2, 0.0, 1.0);
+  light = albedo * total * (1.0 - 0.12 * crease);
+  place = planar > 0.0 ? rest_position.xy * planar : unrolled;
 }

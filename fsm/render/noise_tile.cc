@@ -1,0 +1,76 @@
+#include "fsm/render/noise_tile.h"
+
+#include <algorithm>
+
+namespace fsm {
+namespace {
+
+constexpr int kMask = kNoiseCells - 1;
+
+std::size_t Cell(int x, int y) {
+  return static_cast<std::size_t>((y & kMask) * kNoiseCells + (x & kMask));
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> MakeNoiseTile() {
+  const std::size_t count = static_cast<std::size_t>(kNoiseCells) * kNoiseCells;
+  std::vector<int> own(count);
+  for (std::size_t i = 0; i < count; ++i) own[i] = static_cast<int>(Mix(i) >> 56);
+  std::vector<int> smooth(count);
+  for (int y = 0; y < kNoiseCells; ++y) {
+    for (int x = 0; x < kNoiseCells; ++x) {
+      int sum = 0;
+      for (int k = 0; k < 9; ++k) sum += own[Cell(x + k % 3 - 1, y + k / 3 - 1)];
+      // The mean of nine spreads a third as far as each.
+      smooth[Cell(x, y)] = std::clamp(128 + (sum - 9 * 128) / 4, 0, 255);
+    }
+  }
+  std::vector<std::uint8_t> tile;
+  tile.reserve(count * 4);
+  for (int y = 0; y < kNoiseCells; ++y) {
+    for (int x = 0; x < kNoiseCells; ++x) {
+      const int right = (smooth[Cell(x + 1, y)] - smooth[Cell(x - 1, y)]) / 2;
+      const int up = (smooth[Cell(x, y + 1)] - smooth[Cell(x, y - 1)]) / 2;
+      for (const int value : {128 + right, 128 + up, smooth[Cell(x, y)], own[Cell(x, y)]}) {
+        tile.push_back(static_cast<std::uint8_t>(value));
+      }
+    }
+  }
+  return tile;
+}
+
+std::vector<std::uint8_t> MakeStrandTile() {
+  constexpr int kKnots = 16;  // along a strand, with straight lines between them
+  constexpr int kApart = kStrandsAlong / kKnots;
+  constexpr std::uint64_t kHair = 41;
+  constexpr std::uint64_t kLock = 42;
+  std::vector<std::uint8_t> tile;
+  tile.reserve(static_cast<std::size_t>(kStrandsAcross) * kStrandsAlong * 4);
+  const auto value = [](std::uint64_t series, int strand, int y) {
+    const auto knot = [&](int k) {
+      return Chance(series, static_cast<std::uint64_t>(strand * kKnots + k % kKnots));
+    };
+    const float t = static_cast<float>(y % kApart) / kApart;
+    const float along = knot(y / kApart) * (1 - t) + knot(y / kApart + 1) * t;
+    // Half of it is the strand's own from root to tip.
+    return 0.5F * along + 0.5F * Chance(series + 2, static_cast<std::uint64_t>(strand));
+  };
+  constexpr int kHairs = 6;
+  constexpr int kLocks = (kStrandsAcross + kHairs - 1) / kHairs;
+  for (int y = 0; y < kStrandsAlong; ++y) {
+    for (int x = 0; x < kStrandsAcross; ++x) {
+      const float t = static_cast<float>(x % kHairs) / kHairs;
+      const int lock = x / kHairs;
+      const float locks =
+          value(kLock, lock, y) * (1 - t) + value(kLock, (lock + 1) % kLocks, y) * t;
+      tile.push_back(128);
+      tile.push_back(128);
+      tile.push_back(static_cast<std::uint8_t>(255 * locks));
+      tile.push_back(static_cast<std::uint8_t>(255 * value(kHair, x, y)));
+    }
+  }
+  return tile;
+}
+
+}  // namespace fsm

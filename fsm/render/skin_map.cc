@@ -1,0 +1,68 @@
+#include "fsm/render/skin_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "fsm/render/skin_texture.h"
+
+namespace fsm {
+
+std::size_t SkinMap::Index(int x, int y) {
+  return static_cast<std::size_t>(y) * SkinTexture::kSide + static_cast<std::size_t>(x);
+}
+
+SkinMap::SkinMap(const HeadTopology& topology, const HeadVertices& rest, int side) {
+  const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  kind.assign(count, kNone);
+  place.resize(count);
+  outward_.assign(count, -1.0F);
+  for (const auto& part : topology.parts) {
+    if (part.material != Material::kSkin && part.material != Material::kLip) continue;
+    const Kind what = part.material == Material::kSkin ? kSkin : kLip;
+    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
+      Fill(topology, rest, &topology.indices[part.first_index + k], what, side);
+    }
+  }
+}
+
+void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
+                   const std::uint32_t* corners, Kind what, int side) {
+  std::array<glm::vec2, 3> uv;
+  std::array<glm::vec3, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    uv[k] = topology.uv[corners[k]] * static_cast<float>(side) - 0.5F;
+    p[k] = rest.position[corners[k]];
+  }
+  const glm::vec2 e1 = uv[1] - uv[0];
+  const glm::vec2 e2 = uv[2] - uv[0];
+  const float area = e1.x * e2.y - e1.y * e2.x;
+  const auto [left, right] = std::minmax({uv[0].x, uv[1].x, uv[2].x});
+  const auto [low, high] = std::minmax({uv[0].y, uv[1].y, uv[2].y});
+  // A triangle over the seam at the back would smear over the whole map.
+  if (std::abs(area) < 1e-6F || right - left > static_cast<float>(side) / 2) return;
+  const int x0 = std::max(static_cast<int>(std::ceil(left)), 0);
+  const int x1 = std::min(static_cast<int>(std::floor(right)), side - 1);
+  const int y0 = std::max(static_cast<int>(std::ceil(low)), 0);
+  const int y1 = std::min(static_cast<int>(std::floor(high)), side - 1);
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      const glm::vec2 d = glm::vec2(static_cast<float>(x), static_cast<float>(y)) - uv[0];
+      const float b = (d.x * e2.y - d.y * e2.x) / area;
+      const float c = (e1.x * d.y - e1.y * d.x) / area;
+      // A little beyond the edges, so that no texel between two triangles is left out.
+      if (b < -0.02F || c < -0.02F || b + c > 1.02F) continue;
+      const glm::vec3 at = p[0] + b * (p[1] - p[0]) + c * (p[2] - p[0]);
+      const float outward = std::hypot(at.x, at.z);
+      const auto i = Index(x, y);
+      if (outward <= outward_[i]) continue;
+      outward_[i] = outward;
+      kind[i] = what;
+      place[i] = at;
+    }
+  }
+}
+
+}  // namespace fsm

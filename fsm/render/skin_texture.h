@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+#include "fsm/head/head.h"
+
+namespace fsm {
+
+/// Where things are on a face, from the head's landmarks; millimetres at rest. `right` and `left`
+/// are the agent's; arrays are {right, left}.
+struct FaceMarks {
+  glm::vec3 nasion, pronasale, subnasale, stomion, gnathion, trichion;
+  std::array<glm::vec3, 2> cheilion, endocanthion, exocanthion, pupil, alare, zygion;
+
+  /// Nothing for a head that does not name all of them.
+  static std::optional<FaceMarks> Of(const Head& head);
+};
+
+/// What skin looks like closer than a vertex: both pictures kSide x kSide RGBA bytes, the first row
+/// at v = 0, over HeadTopology::uv.
+struct SkinTexture {
+  static constexpr int kSide = 1024;
+  static constexpr float kTexelsPerMm = 3.3F;  ///< about, on the front of the face
+  /// Factors on the surface's colour (rgb) and on its highlights (a), 128 = 1.
+  std::vector<std::uint8_t> tint;
+  /// Slopes to growing u and growing v about 128: of pores and lines (rg, 127 = 0.5), of the
+  /// creases of expression (ba, 127 = 1).
+  std::vector<std::uint8_t> relief;
+};
+
+/// Paints the skin of a head: blotches, pores, freckles, vessels, shadows of the lids, lines of the
+/// lips, creases. The same head gives the same bytes. `rest` are the vertices of the neutral state.
+/// Takes a few tens of milliseconds, of two threads: the caller's and one that ends before it
+/// returns.
+SkinTexture PaintSkin(const Head& head, const HeadVertices& rest, const FaceMarks& marks);
+
+/// How much each crease shows at a vertex: forehead, glabella, crow's feet, nasolabial of the
+/// agent's right and left side.
+struct CreaseWeights {
+  std::vector<glm::vec4> right, left;
+};
+CreaseWeights WeighCreases(const HeadVertices& rest, const FaceMarks& marks);
+
+}  // namespace fsm
