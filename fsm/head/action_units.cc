@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "fsm/head/paint.h"
 #include "fsm/head/spline.h"
 
 namespace fsm {
@@ -49,6 +50,7 @@ float Acting(float strength) {
 }  // namespace
 
 ActionUnits::ActionUnits(const Table& table) {
+  for (auto& side : gain_) side.fill(1);
   using enum Effect::Kind;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();
@@ -84,11 +86,21 @@ ActionUnits::ActionUnits(const Table& table) {
   }
 }
 
+void ActionUnits::MakeAsymmetric(int seed) {
+  constexpr float kPart = 0.035f;
+  for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
+    if (unit >= 41 || unit == 26 || unit == 27) continue;
+    const float lean = kPart * Grain(static_cast<int>(unit), 90 + seed);
+    gain_[0][unit] = 1 + lean;
+    gain_[1][unit] = 1 - lean;
+  }
+}
+
 SidedUnits ActionUnits::Combine(const FaceState& state) const {
   SidedUnits units{};
   for (std::size_t i = 1; i < kActionUnits; ++i) {
-    units[0][i] = Acting(state.au_right[i]);
-    units[1][i] = Acting(state.au_left[i]);
+    units[0][i] = gain_[0][i] * Acting(state.au_right[i]);
+    units[1][i] = gain_[1][i] * Acting(state.au_left[i]);
   }
   for (auto& side : units) {
     const auto before = side;  // rules look at what was asked, so their order does not matter

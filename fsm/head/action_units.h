@@ -37,6 +37,10 @@ class ActionUnits {
   /// Throws std::runtime_error naming file and line if the table is damaged.
   explicit ActionUnits(const Table& table);
 
+  /// Gives every unit but those of the lids a slightly different strength on either side, the same
+  /// for the same `seed`.
+  void MakeAsymmetric(int seed);
+
   const std::vector<Field>& fields() const { return fields_; }
   /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
   /// stretching), and corrected for units that act together. Not-a-number counts as 0.
@@ -56,6 +60,7 @@ class ActionUnits {
     int unit;
     float first, second;
   };
+  SidedUnits gain_;
   std::vector<Field> fields_;
   std::vector<Rule> rules_;
   std::vector<Effect> effects_;

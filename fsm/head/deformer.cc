@@ -7,7 +7,7 @@ namespace fsm {
 
 Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
-                   const ActionUnits& units, const EyeAnatomy& eye, const MouthAnatomy& mouth)
+                   const ActionUnits& units, const EyeAnatomy& eye, glm::vec3 eye_shift, const MouthAnatomy& mouth)
     : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)) {
   for (std::size_t side = 0; side < 2; ++side) {
     std::array<std::vector<glm::vec3>, kActionUnits> sums;
@@ -28,7 +28,7 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
     }
   }
   AddMouthFields(mouth);
-  AddLids(eye);
+  AddLids(eye, eye_shift);
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     if (flesh_[i].jaw > 0.001f) jawed_.push_back(static_cast<std::uint32_t>(i));
     if (flesh_[i].lip_column >= 0 && flesh_[i].lip_weight != 0) {
@@ -80,7 +80,7 @@ void Deformer::AddMouthFields(const MouthAnatomy& mouth) {
   }
 }
 
-void Deformer::AddLids(const EyeAnatomy& eye) {
+void Deformer::AddLids(const EyeAnatomy& eye, glm::vec3 shift) {
   float widest = 0;
   for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {
     widest = std::max(widest, eye.UpperAngle(x) - eye.LowerAngle(x));
@@ -92,8 +92,8 @@ void Deformer::AddLids(const EyeAnatomy& eye) {
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
     lids_.push_back({static_cast<std::uint32_t>(i), f.eye > 0 ? 1 : 0, f.lid_upper, f.lid_lower,
-                     upper, lower, eye.MeetAngle(x), (upper - lower) / widest, eye.centre().y,
-                     eye.LidAxisZ(x)});
+                     upper, lower, eye.MeetAngle(x), (upper - lower) / widest, eye.centre().y + shift.y,
+                     eye.LidAxisZ(x) + shift.z});
   }
 }
 

@@ -29,8 +29,8 @@ struct Pose {
 Pose MakePose(const FaceState& state, const ActionUnits& units);
 
 /// The hinge of the jaw: an axis along x.
-inline constexpr float kHingeY = 2.0f;
-inline constexpr float kHingeZ = 8.0f;
+inline constexpr float kHingeY = -4.0f;
+inline constexpr float kHingeZ = -3.0f;
 /// The point the head turns about, in the upper neck.
 inline constexpr glm::vec3 kNeckPivot{0, -85, -28};
 
@@ -41,10 +41,10 @@ glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 /// measured, so that both give the same numbers. Immutable; thread: any.
 class Deformer {
  public:
-  /// `seam` pairs index the arrays given. Flesh::lip_column indexes `seam`.
+  /// `seam` pairs index the arrays given. `eye_shift`: of the left eye from where `eye` has it. Flesh::lip_column indexes `seam`.
   Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
            std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const ActionUnits& units,
-           const EyeAnatomy& eye, const MouthAnatomy& mouth);
+           const EyeAnatomy& eye, glm::vec3 eye_shift, const MouthAnatomy& mouth);
 
   std::size_t size() const { return rest_.size(); }
   /// Writes size() positions, the head's turn not yet applied.
@@ -64,7 +64,7 @@ class Deformer {
     float axis_y, axis_z;
   };
   void AddMouthFields(const MouthAnatomy& mouth);
-  void AddLids(const EyeAnatomy& eye);
+  void AddLids(const EyeAnatomy& eye, glm::vec3 shift);
   void MoveLids(const Pose& pose, glm::vec3* out) const;
   void CloseLips(const Pose& pose, glm::vec3* out) const;
 

@@ -23,8 +23,8 @@ constexpr std::array kLashRows = {LashRow{true, 38, 0.10f, 0.99f},
 
 class LashBuilder {
  public:
-  LashBuilder(const EyeAnatomy& eye, const Palette& palette, int side, HeadMesh& mesh)
-      : eye_(eye), palette_(palette), side_(static_cast<float>(side)), mesh_(mesh) {
+  LashBuilder(const EyeAnatomy& eye, const Identity& identity, int side, HeadMesh& mesh)
+      : eye_(eye), palette_(identity.palette), size_(identity.lashes), side_(static_cast<float>(side)), mesh_(mesh) {
     flesh_.eye = static_cast<std::int8_t>(side);
     flesh_.free = 0;
   }
@@ -64,7 +64,7 @@ class LashBuilder {
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
       const float x = X(glm::mix(0.06f, 0.99f, part));
-      const float thick = 0.30f + 0.50f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part));
+      const float thick = (0.4f + 0.6f * size_) * (0.30f + 0.50f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
       const std::uint32_t low =
@@ -85,10 +85,10 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     const float fan = 1.5f * (along - 0.42f) + 0.10f * Grain(i, 5);
-    const float length =
-        upper_ ? (2.6f + 3.4f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
+    const float length = size_ *
+        (upper_ ? (2.6f + 3.4f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
                      (1 + 0.12f * Grain(i, 9))
-               : 2.2f * (1 + 0.2f * Grain(i, 9));
+               : 2.2f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = upper_ ? 0.17f : 0.11f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
@@ -108,6 +108,7 @@ class LashBuilder {
 
   const EyeAnatomy& eye_;
   const Palette& palette_;
+  float size_;
   float side_;
   HeadMesh& mesh_;
   Flesh flesh_;
@@ -116,14 +117,15 @@ class LashBuilder {
 
 }  // namespace
 
-void BuildLashes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh) {
+void BuildLashes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) {
   for (const int side : {-1, 1}) {
-    LashBuilder builder(eye, palette, side, mesh);
+    LashBuilder builder(eye, identity, side, mesh);
     for (const LashRow& row : kLashRows) builder.Row(row);
   }
 }
 
-void BuildBrows(const SkinFront& front, const Palette& palette, HeadMesh& mesh) {
+void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
+  const Palette& palette = identity.palette;
   // Middle line, half height, and which way the hairs grow (degrees from outward to up), over x.
   const Curve middle({9, 16, 26, 36, 43, 50, 56},
                      {39.6f, 41.2f, 43.4f, 45.0f, 44.6f, 42.0f, 38.6f});
@@ -140,7 +142,7 @@ void BuildBrows(const SkinFront& front, const Palette& palette, HeadMesh& mesh) 
                                        0.25f * static_cast<float>(row) + 0.35f * Grain(i, 21))) /
                                  kColumns;
       const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.4f * Grain(i, 22)) / kRows;
-      const glm::vec2 at(x, middle(x) + half(x) * level - 0.8f);
+      const glm::vec2 at(x, middle(x) + identity.brow_thickness * half(x) * level - 0.8f + identity.brow_height);
       // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
       const float angle = (grow(x) - 24 * level + 9 * Grain(i, 23)) * kPi / 180;
       const glm::vec2 along(std::cos(angle), std::sin(angle));
@@ -157,7 +159,7 @@ void BuildBrows(const SkinFront& front, const Palette& palette, HeadMesh& mesh) 
       const glm::vec3 colour = palette.brow * (1 + 0.25f * Grain(i, 25));
       for (const glm::vec3 p : {a, b, c}) {
         const glm::vec3 q = mirror(p);
-        const glm::vec3 soft = glm::mix(palette.skin, colour, k < 2 ? 0.35f + 0.45f * ends : 0.55f);
+        const glm::vec3 soft = glm::mix(palette.skin, colour, k < 2 ? 0.5f + 0.42f * ends : 0.7f);
         id[static_cast<std::size_t>(k++)] =
             mesh.Add(q, soft, 1, Bone::kFlesh, FleshAt({q.x, q.y}, 0, -43));
       }

@@ -13,8 +13,10 @@
 #include "embedded/action_units.h"
 #include "embedded/curves.h"
 #include "embedded/eye.h"
+#include "embedded/identities.h"
 #include "embedded/mouth.h"
 #include "embedded/patches.h"
+#include "embedded/sliders.h"
 #include "fsm/head/deformer.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/head.h"
@@ -30,27 +32,37 @@ namespace {
 /// parts.
 class GenericHead : public Head {
  public:
-  GenericHead()
-      : units_(Table("tables/action_units.txt", embedded::action_units())),
+  GenericHead(std::string_view name, bool asymmetric)
+      : identity_(
+            ReadIdentity(Table("tables/identities.txt", embedded::identities()), name)),
+        units_(Table("tables/action_units.txt", embedded::action_units())),
         eye_(Table("tables/eye.txt", embedded::eye())),
         mouth_(Table("tables/mouth.txt", embedded::mouth())) {
-    const FineSkin fine =
-        Subdivide(ReadCage(Table("tables/curves.txt", embedded::curves()),
-                           Table("tables/patches.txt", embedded::patches()), eye_, mouth_));
-    const Palette palette;
+    if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
+    const Shaper shaper(Table("tables/sliders.txt", embedded::sliders()), identity_.sliders);
+    const FineSkin fine = Subdivide(ReadCage(Table("tables/curves.txt", embedded::curves()),
+                                             Table("tables/patches.txt", embedded::patches()),
+                                             eye_, mouth_));
+    const Palette& palette = identity_.palette;
     HeadMesh mesh;
     const SkinMap skin = BuildSkin(fine, eye_, mouth_, palette, mesh);
-    const SkinFront front(fine);
     BuildCloth(palette, mesh);
-    BuildBrows(front, palette, mesh);
-    BuildLashes(eye_, palette, mesh);
+    BuildBrows(SkinFront(fine), identity_, mesh);
+    BuildLashes(eye_, identity_, mesh);
     flesh_count_ = mesh.position.size();
     BuildEyes(eye_, palette, mesh);
     BuildTeeth(mouth_, palette, mesh);
     BuildTongue(mouth_, palette, mesh);
     BuildEars(palette, mesh);
-
-    BuildLongHair(palette, mesh);
+    base_ = mesh.position;
+    Shape(shaper, mesh);
+    if (identity_.crop) {
+      BuildCroppedHair(*identity_.crop, palette, mesh);
+    } else {
+      BuildLongHair(palette, mesh);
+    }
+    base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
+                 mesh.position.end());
     Finish(std::move(mesh), skin);
   }
 
@@ -86,6 +98,46 @@ class GenericHead : public Head {
   }
 
  private:
+  /// Moves the base head to the identity's form. Eyes and what touches them, and teeth with tongue,
+  /// move as wholes.
+  void Shape(const Shaper& shaper, HeadMesh& mesh) {
+    eye_shift_ = shaper.Motion(eye_.centre());
+    const glm::vec3 teeth = shaper.Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) *
+                            glm::vec3(0, 0.5f, 0.5f);
+    for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+      glm::vec3& p = mesh.position[i];
+      switch (mesh.bone[i]) {
+        case Bone::kEyeLeft:
+        case Bone::kEyeRight:
+          p += EyeShift(mesh.bone[i] == Bone::kEyeLeft ? 1 : 0);
+          break;
+        case Bone::kJaw:
+        case Bone::kTongue:
+          p += teeth;
+          break;
+        case Bone::kSkull: {
+          const bool tooth = p.z > 30 && std::abs(p.x) < 40;
+          p += tooth ? teeth : shaper.Motion(p);
+          break;
+        }
+        case Bone::kFlesh: {
+          const Flesh& flesh = mesh.flesh[i];
+          glm::vec3 by = shaper.Motion(p);
+          if (flesh.eye != 0) {
+            const float hold = SmoothStep(0, 0.8f, flesh.lid_upper + flesh.lid_lower);
+            by = glm::mix(by, EyeShift(flesh.eye > 0 ? 1 : 0), hold);
+          }
+          p += by;
+          break;
+        }
+      }
+    }
+  }
+
+  glm::vec3 EyeShift(std::size_t side) const {
+    return side == 1 ? eye_shift_ : eye_shift_ * glm::vec3(-1, 1, 1);
+  }
+
   void Finish(HeadMesh mesh, const SkinMap& skin) {
     for (const HeadMesh::Batch& batch : mesh.batches) {
       topology_.parts.push_back({batch.material,
@@ -106,7 +158,7 @@ class GenericHead : public Head {
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
     face_.emplace(std::vector<glm::vec3>(rest_.begin(), rest_.begin() + flesh_end),
                   std::vector<Flesh>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end), skin.seam,
-                  units_, eye_, mouth_);
+                  units_, eye_, eye_shift_, mouth_);
     const auto [upper, lower] = skin.seam[skin.mid_column];
     std::vector<glm::vec3> rest;
     std::vector<Flesh> flesh;
@@ -117,19 +169,20 @@ class GenericHead : public Head {
     }
     probe_.emplace(std::move(rest), std::move(flesh),
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_,
-                   mouth_);
+                   eye_shift_, mouth_);
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
     for (glm::vec3& colour : topology_.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
-    for (const glm::vec3 p : rest_) topology_.uv.push_back(Unroll(p));
+    for (const glm::vec3 p : base_) topology_.uv.push_back(Unroll(p));
     for (std::size_t side = 0; side < 2; ++side) {
       glm::vec3 centre = eye_.centre();
       if (side == 0) centre.x = -centre.x;
+      centre += EyeShift(side);
       topology_.eyes[side] = {.centre = centre,
                               .ball_radius = eye_.radius(),
                               .iris_radius = eye_.iris_radius(),
                               .pupil_radius = eye_.pupil_radius(),
-                              .iris_colour = {0.20f, 0.105f, 0.045f}};
+                              .iris_colour = identity_.palette.iris};
     }
     NameLandmarks();
   }
@@ -182,7 +235,7 @@ class GenericHead : public Head {
     return {0.5f + std::copysign(0.5f * wide, turn), std::clamp((p.y + 200) / 340, 0.0f, 1.0f)};
   }
 
-  static std::array<std::array<float, 2>, 4> Wrinkles(const SidedUnits& units) {
+  std::array<std::array<float, 2>, 4> Wrinkles(const SidedUnits& units) const {
     std::array<std::array<float, 2>, 4> creases{};
     for (std::size_t side = 0; side < 2; ++side) {
       const auto& u = units[side];
@@ -190,7 +243,7 @@ class GenericHead : public Head {
                                           0.6f * (u[6] + 0.7f * u[12]),
                                           0.4f * (u[10] + u[11]) + 0.6f * u[12]};
       for (std::size_t k = 0; k < depth.size(); ++k) {
-        creases[k][side] = std::clamp(depth[k], 0.0f, 1.0f);
+        creases[k][side] = std::clamp(identity_.creases[k] + depth[k], 0.0f, 1.0f);
       }
     }
     return creases;
@@ -232,6 +285,7 @@ class GenericHead : public Head {
         const std::size_t side = bone_[i] == Bone::kEyeLeft ? 1 : 0;
         glm::vec3 centre = eye_.centre();
         if (side == 0) centre.x = -centre.x;
+        centre += EyeShift(side);
         p = centre + pose.eye[side] * (p - centre);
         n = pose.eye[side] * n;
         break;
@@ -256,9 +310,12 @@ class GenericHead : public Head {
     out.normal[i] = pose.head * n;
   }
 
+  Identity identity_;
   ActionUnits units_;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
+  glm::vec3 eye_shift_{};          // of the left eye from the base head's
+  std::vector<glm::vec3> base_;    // the base head's rest form, for texture coordinates
   HeadTopology topology_;
   std::size_t flesh_count_ = 0;
   std::vector<std::uint32_t> flesh_triangles_;
@@ -275,9 +332,8 @@ glm::vec3 Head::Landmark(std::string_view name) const {
   throw std::out_of_range("there is no landmark '" + std::string(name) + "'");
 }
 
-std::unique_ptr<Head> Head::Make(std::string_view identity) {
-  IdentityIndex(identity);
-  return std::make_unique<GenericHead>();
+std::unique_ptr<Head> Head::Make(std::string_view identity, bool asymmetric) {
+  return std::make_unique<GenericHead>(identity, asymmetric);
 }
 
 std::unique_ptr<Head> Head::MakeGeneric() { return Make(Identities().front().name); }

@@ -29,6 +29,7 @@ class LongHair {
       Shell(side);
       Lining(side);
       Locks(side);
+      Roots(side);
     }
   }
 
@@ -101,7 +102,10 @@ class LongHair {
         const glm::vec3 p = Point(i, side, t, Ridge(i, t));
         const float open = glm::mix(0.6f, 1.0f, SmoothStep(0, 0.12f, t)) *
                            glm::mix(0.7f, 1.0f, SmoothStep(0, 0.1f, i));
-        mesh_.Add(p, StrandColour(palette_, k * 3, row), open, Bone::kSkull);
+        // The first strand is sparse: skin shows between its hairs.
+        const float dense = k > 0 || t > kCap ? 1.0f : 0.72f + 0.28f * SmoothStep(0.35f, kCap, t);
+        mesh_.Add(p, glm::mix(palette_.skin, StrandColour(palette_, k * 3, row), dense), open,
+                  Bone::kSkull);
       }
     }
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side < 0);
@@ -147,6 +151,31 @@ class LongHair {
       }
       AddLock(path, edge ? 7.0f : 11.0f + 3 * Grain(seed, 6), edge ? 0.15f : 0.4f, palette_, seed,
               1.0f, mesh_);
+    }
+  }
+
+  // Single small locks that leave the skin before the edge and run slantwise into it, so that the
+  // hairline is no drawn line.
+  void Roots(float side) {
+    constexpr int kRoots = 30;
+    for (int k = 0; k < kRoots; ++k) {
+      const int seed = k + (side > 0 ? 900 : 700);
+      const float t = 0.01f + 0.42f * (static_cast<float>(k) + 0.4f * Grain(seed, 1)) / kRoots;
+      const glm::vec3 on_edge = Point(0, side, t, 0);
+      glm::vec3 down = Point(0, side, t + 0.03f, 0) - on_edge;
+      down = glm::normalize(down);
+      const glm::vec3 outward = glm::normalize(on_edge - kHairCentre);
+      const glm::vec3 face = glm::cross(outward, down) * side;  // away from the hair
+      const float reach = 1.1f + 0.9f * Grain(seed, 2);
+      std::vector<glm::vec3> path;
+      constexpr int kSteps = 3;
+      for (int s = 0; s <= kSteps; ++s) {
+        const float v = static_cast<float>(s) / kSteps;
+        const float i = 0.10f * v * v;
+        const glm::vec3 p = Point(i, side, t + 0.085f * v * (1 + 0.3f * Grain(seed, 3)), 0.7f + 0.8f * v);
+        path.push_back(p + face * (reach * (1 - v) * (1 - v)) - outward * (0.6f * (1 - v)));
+      }
+      AddLock(path, 3.0f + Grain(seed, 4), 0.2f, palette_, seed, 0.95f, mesh_);
     }
   }
 

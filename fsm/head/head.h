@@ -82,9 +82,10 @@ struct IdentityInfo {
 class Head {
  public:
   virtual ~Head() = default;
-  /// The head called `identity`. Deterministic. Throws std::invalid_argument listing the names if
+  /// The head called `identity`. Nobody's two sides move quite alike: a few percent, fixed for each
+  /// identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument listing the names if
   /// there is none of that name, std::runtime_error if a table is damaged.
-  static std::unique_ptr<Head> Make(std::string_view identity);
+  static std::unique_ptr<Head> Make(std::string_view identity, bool asymmetric = true);
   /// All heads there are, the default one first. Valid as long as the program runs.
   static std::span<const IdentityInfo> Identities();
   /// The first of Identities().

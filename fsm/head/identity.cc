@@ -1,9 +1,9 @@
 #include "fsm/head/identity.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <stdexcept>
-#include <string>
 
 #include "fsm/head/head.h"
 
@@ -13,8 +13,51 @@ namespace {
 constexpr std::array kIdentities = {
     IdentityInfo{"galatea", "a woman in her twenties, chestnut hair to the shoulders, brown eyes"},
     IdentityInfo{"pygmalion", "a man in his thirties, short dark hair, grey-blue eyes"},
-    IdentityInfo{"baucis", "a woman of seventy, grey hair, green eyes"},
+    IdentityInfo{"baucis", "a woman of seventy, short grey hair, green eyes"},
 };
+
+struct NamedColour {
+  std::string_view name;
+  glm::vec3 Palette::*colour;
+};
+constexpr std::array<NamedColour, 10> kColours = {{{"skin", &Palette::skin},
+                                                   {"blush", &Palette::blush},
+                                                   {"lip", &Palette::lip},
+                                                   {"hair", &Palette::hair},
+                                                   {"brow", &Palette::brow},
+                                                   {"lash", &Palette::lash},
+                                                   {"iris", &Palette::iris},
+                                                   {"cloth", &Palette::cloth},
+                                                   {"tooth", &Palette::tooth},
+                                                   {"sclera", &Palette::sclera}}};
+
+void ReadLine(const TableRow& row, Identity& identity) {
+  const std::string& key = row.key();
+  if (key == "colour") {
+    const auto found = std::ranges::find(kColours, row.Word(1), &NamedColour::name);
+    if (found == kColours.end()) row.Fail("no part of a face is called " + row.Word(1));
+    identity.palette.*found->colour = row.Vector(2);
+  } else if (key == "slider") {
+    identity.sliders.emplace_back(row.Word(1), row.Number(2));
+  } else if (key == "hair") {
+    if (row.Word(1) == "crop") {
+      identity.crop = CropStyle{row.Number(2), row.Number(3), row.Integer(4), row.Number(5),
+                                row.Number(6), row.Number(7), row.Number(8),  row.Number(9)};
+      if (identity.crop->locks < 0 || identity.crop->locks > 500) row.Fail("0 to 500 locks");
+    } else if (row.Word(1) != "long") {
+      row.Fail("long or crop expected");
+    }
+  } else if (key == "lashes") {
+    identity.lashes = row.Number(1);
+  } else if (key == "brows") {
+    identity.brow_thickness = row.Number(1);
+    identity.brow_height = row.Number(2);
+  } else if (key == "creases") {
+    for (std::size_t i = 0; i < 4; ++i) identity.creases[i] = row.Number(i + 1);
+  } else {
+    row.Fail("unknown word '" + key + "'");
+  }
+}
 
 }  // namespace
 
@@ -28,6 +71,55 @@ std::size_t IdentityIndex(std::string_view name) {
     names += (names.empty() ? "" : ", ") + std::string(identity.name);
   }
   throw std::invalid_argument("there is no face '" + std::string(name) + "'; there is " + names);
+}
+
+Identity ReadIdentity(const Table& table, std::string_view name) {
+  Identity identity;
+  identity.index = IdentityIndex(name);
+  bool mine = false;
+  bool found = false;
+  for (const TableRow& row : table.rows()) {
+    if (row.key() == "face") {
+      mine = row.Word(1) == name;
+      found |= mine;
+    } else if (mine) {
+      ReadLine(row, identity);
+    }
+  }
+  if (!found) throw std::runtime_error(table.name() + ": no face '" + std::string(name) + "'");
+  return identity;
+}
+
+Shaper::Shaper(const Table& table, const std::vector<std::pair<std::string, float>>& values) {
+  for (const TableRow& row : table.rows()) {
+    if (row.key() != "slider") row.Fail("unknown word '" + row.key() + "'");
+    const Field field{row.Vector(2), row.Vector(5), row.Vector(8)};
+    if (field.radius.x <= 0 || field.radius.y <= 0 || field.radius.z <= 0) {
+      row.Fail("a radius must be positive");
+    }
+    for (const auto& [name, value] : values) {
+      if (name == row.Word(1)) fields_.push_back({field.at, field.radius, value * field.by});
+    }
+  }
+  for (const auto& [name, value] : values) {
+    const bool known = std::ranges::any_of(
+        table.rows(), [&](const TableRow& row) { return row.Word(1) == name; });
+    if (!known) throw std::runtime_error(table.name() + ": no slider '" + name + "'");
+  }
+}
+
+glm::vec3 Shaper::Motion(glm::vec3 p) const {
+  glm::vec3 sum(0);
+  for (const Field& field : fields_) {
+    for (const float side : {1.0f, -1.0f}) {
+      if (side < 0 && field.at.x == 0) continue;
+      const glm::vec3 d = (glm::vec3(side * p.x, p.y, p.z) - field.at) / field.radius;
+      const float weight = std::exp(-0.5f * glm::dot(d, d));
+      sum += weight * glm::vec3(side * field.by.x, field.by.y, field.by.z);
+    }
+  }
+  // Fields of the median with a sideways part turn over there.
+  return sum;
 }
 
 }  // namespace fsm

@@ -1,11 +1,48 @@
 #pragma once
 
-#include <cstddef>
+#include <array>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fsm/head/hair_parts.h"
+#include "fsm/head/paint.h"
+#include "fsm/head/table_reader.h"
 
 namespace fsm {
 
+/// What makes one face differ from the base head; a block of tables/identities.txt.
+struct Identity {
+  std::size_t index = 0;  ///< in Head::Identities()
+  Palette palette;
+  std::vector<std::pair<std::string, float>> sliders;
+  std::optional<CropStyle> crop;  ///< long hair if empty
+  float lashes = 1;
+  float brow_thickness = 1, brow_height = 0;
+  std::array<float, 4> creases{};  ///< by Wrinkle
+};
+
 /// The place of a name in Head::Identities(); throws std::invalid_argument listing the names.
 std::size_t IdentityIndex(std::string_view name);
+
+/// Throws std::invalid_argument for an unknown name, std::runtime_error naming file and line for a
+/// damaged table.
+Identity ReadIdentity(const Table& table, std::string_view name);
+
+/// The sliders as a displacement of space.
+class Shaper {
+ public:
+  /// Throws std::runtime_error if a slider asked for is not in the table or a line is damaged.
+  Shaper(const Table& table, const std::vector<std::pair<std::string, float>>& values);
+  glm::vec3 Motion(glm::vec3 p) const;
+
+ private:
+  struct Field {
+    glm::vec3 at, radius, by;
+  };
+  std::vector<Field> fields_;
+};
 
 }  // namespace fsm

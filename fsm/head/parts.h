@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fsm/head/anatomy.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/rig.h"
 #include "fsm/head/skin_mesh.h"
@@ -10,8 +11,8 @@ namespace fsm {
 /// The parts beside the skin. Each adds its vertices for both sides. Cloth, brows and lashes are
 /// flesh and must be added before the rigid parts, so that flesh stays one run of vertices.
 void BuildCloth(const Palette& palette, HeadMesh& mesh);
-void BuildBrows(const SkinFront& front, const Palette& palette, HeadMesh& mesh);
-void BuildLashes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);
+void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
+void BuildLashes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh);
 
 void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);
 void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh);

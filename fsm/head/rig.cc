@@ -55,7 +55,7 @@ Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y) {
 
   // Along the slit the lower lip is all jaw in the middle and half at the corner, where the upper
   // lip comes to meet it; away from it both go over into chin and cheek.
-  const float middle = SmoothStep(25, 4, a);
+  const float middle = std::pow(std::max(0.0f, 1 - a * a / 625), 0.6f);
   const float reach_down = 16 + 0.5f * beyond;
   const float reach_up = 18 + 0.5f * beyond;
   const bool lower = side < 0 || (side == 0 && below > 0);

@@ -10,7 +10,7 @@ namespace fsm::testing {
 
 /// Making the head takes some 50 ms, so all tests of a program share one.
 inline const Head& GenericHead() {
-  static const std::unique_ptr<Head> head = Head::MakeGeneric();
+  static const std::unique_ptr<Head> head = Head::Make("galatea", false);
   return *head;
 }
 
