@@ -15,6 +15,21 @@ Angles AnglesOf(const vm::SetValue& value) {
 // Face.12 -> 12.
 int NumberOf(const std::string& slot) { return std::stoi(slot.substr(slot.find('.') + 1)); }
 
+vm::Result<void> SetBlendShapes(FsmCore& core, const vm::SetValue& value) {
+  const vm::Time now = core.Now();
+  const bool timed = value.size() % 2 == 1;
+  const vm::Time move = Ms(timed ? value.number(value.size() - 1) : 60);
+  // All names are looked at before anything moves.
+  for (std::size_t i = 0; i + 1 < value.size(); i += 2) {
+    if (auto known = core.motion->CheckBlendShape(value.word(i)); !known) return known;
+  }
+  for (std::size_t i = 0; i + 1 < value.size(); i += 2) {
+    auto set = core.motion->SetBlendShape(now, value.word(i), value.number(i + 1), move);
+    if (!set) return set;
+  }
+  return {};
+}
+
 void DeclareUnits(FsmCore& core) {
   const UnitList& list = core.motion->tables().units;
   for (std::size_t i = 0; i < list.units.size(); ++i) {
@@ -37,21 +52,18 @@ void DeclareUnits(FsmCore& core) {
                   },
                   "0"});
   }
-  core.Declare({"AU", "<word> <number 0..2> [ <ms> ]",
-                "Moves one action unit: its FACS number with L or R for one side, its strength "
-                "(1 = full), and the ms it takes (60).",
-                [&core](const vm::SetValue& value) {
-                  return core.motion->SetUnit(core.Now(), value.word(0), value.number(1),
-                                              Ms(value.size() > 2 ? value.number(2) : 60));
-                },
-                "", false});
-  core.Declare({"ARKit", "<word> <number 0..1> [ <ms> ]",
-                "Moves one blend shape of ARKit's names: name, weight, and the ms it takes (60).",
-                [&core](const vm::SetValue& value) {
-                  return core.motion->SetBlendShape(core.Now(), value.word(0), value.number(1),
-                                                    Ms(value.size() > 2 ? value.number(2) : 60));
-                },
-                "", false});
+  core.Declare(
+      {"AU", "<text>",
+       "Moves action units: number (or name) with L or R for one side, then the strength "
+       "(0 to 2, 1 = full, or a letter A to E), as many as wanted; at the end the ms it "
+       "takes (60). 51-58 turn the head, 61-66 the eyes. `12L 0.7 6 C 200`",
+       [&core](const vm::SetValue& value) { return core.motion->SetUnits(core.Now(), value.text); },
+       "", false});
+  core.Declare({"ARKit", "( <word> <number 0..1> )... [ <ms> ]",
+                "Moves blend shapes of ARKit's names: name and weight, as many as wanted, and the "
+                "ms it takes (60).",
+                [&core](const vm::SetValue& value) { return SetBlendShapes(core, value); }, "",
+                false});
 }
 
 void DeclareExpressions(FsmCore& core) {
@@ -69,17 +81,21 @@ void DeclareExpressions(FsmCore& core) {
                                               value.number(2) / 100, Ms(value.number(3)));
                 },
                 "NEUTRAL"});
-  core.Declare({"FaceExp.onset", "NATURAL | <ms>",
-                "How long an expression takes to come and to go, in ms; NATURAL = as measured on "
-                "people, each emotion by itself.",
+  const MotionSettings& settings = core.motion->settings();
+  core.Declare({"FaceExp.onset", "POSED | ELICITED | NATURAL | <ms>",
+                "How long an expression takes to come: as measured on people who show (POSED, or "
+                "NATURAL) or feel (ELICITED) it, each emotion by itself; or so many ms.",
                 [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  MotionSettings settings = core.motion->settings();
-                  settings.natural_expressions = value.word(0) == "NATURAL";
-                  if (!settings.natural_expressions) settings.expression = Ms(value.number(0));
-                  core.motion->Apply(core.Now(), settings);
+                  MotionSettings changed = core.motion->settings();
+                  changed.onset = value.word(0) == "POSED" || value.word(0) == "NATURAL"
+                                      ? Onset::kPosed
+                                  : value.word(0) == "ELICITED" ? Onset::kElicited
+                                                                : Onset::kFixed;
+                  if (changed.onset == Onset::kFixed) changed.expression = Ms(value.number(0));
+                  core.motion->Apply(core.Now(), changed);
                   return {};
                 },
-                vm::FormatMs(core.motion->settings().expression)});
+                settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression) : "POSED"});
 }
 
 void DeclareHead(FsmCore& core) {
@@ -99,22 +115,20 @@ void DeclareHead(FsmCore& core) {
                   return {};
                 },
                 "", false});
-  core.Declare({"FaceMot", "NOMOVE | ( NOD | REFUSE | LISTEN | BLINK | USERDEF ) <int 1..>",
-                "One movement and its pattern, or NOMOVE to end what is moving.",
+  core.Declare({"FaceMot",
+                "NOMOVE | ( NOD | REFUSE | SHAKE | LISTEN | TILT | BLINK | USERDEF ) <int 1..> "
+                "[ <number 0..300> [ <int 1..20> ] ]",
+                "One movement and its pattern, its strength in per cent (100) and how many times "
+                "(1), or NOMOVE to end what is moving. SHAKE is REFUSE, TILT is LISTEN.",
                 [&core](const vm::SetValue& value) -> vm::Result<void> {
                   if (value.size() == 1) {
                     core.motion->StopMoves(core.Now());
                     return {};
                   }
-                  return core.motion->Move(core.Now(), value.word(0),
-                                           static_cast<int>(value.number(1)));
-                },
-                "", false});
-  core.Declare({"Autonomous", "( BLINK | MOVE | USERDEF | GAZE ) <int 0..>",
-                "What the face does by itself, and its pattern; 0 stops it.",
-                [&core](const vm::SetValue& value) {
-                  return core.motion->Autonomous(core.Now(), value.word(0),
-                                                 static_cast<int>(value.number(1)));
+                  return core.motion->Move(
+                      core.Now(), value.word(0), static_cast<int>(value.number(1)),
+                      value.size() > 2 ? value.number(2) / 100 : 1,
+                      value.size() > 3 ? static_cast<int>(value.number(3)) : 1);
                 },
                 "", false});
 }
@@ -135,15 +149,6 @@ void DeclareEyes(FsmCore& core) {
   eyes("EyeRot", true, true, "both eyes");
   eyes("EyeRotRight", false, true, "the agent's right eye");
   eyes("EyeRotLeft", true, false, "the agent's left eye");
-  core.Declare({"Gaze", "<number -60..60> <number -60..60> [ <ms> ]",
-                "Looks x y degrees away (x+ = down, y+ = to the viewer's right) with the eyes, and "
-                "with the head where that is far, for so many ms; without them until the next.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->Gaze(core.Now(), value.number(0), value.number(1),
-                                    Ms(value.size() > 2 ? value.number(2) : 0));
-                  return {};
-                },
-                "0 0"});
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct FsmCore {
   std::function<void()> changed{};
   /// Every slot declared with Declare, with its value at start, for `Run = INIT`.
   std::vector<std::pair<std::string, std::string>> initial_values{};
+  std::size_t declared_at_start = 0;  ///< how many of them the module itself has
 
   vm::Time Now() const { return clock.Now(); }
 

@@ -7,7 +7,9 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "fsm/app/expression_slots.h"
 #include "fsm/app/face_slots.h"
+#include "fsm/app/life_slots.h"
 #include "fsm/app/lip_slots.h"
 
 namespace fsm {
@@ -32,7 +34,10 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   if (auto applied = config.ApplyTo(tables_); !applied) {
     throw std::runtime_error(applied.error().text);
   }
-  if (config.expression_ms) start_settings_.expression = FromMs(*config.expression_ms);
+  if (config.expression_ms) {
+    start_settings_.onset = Onset::kFixed;
+    start_settings_.expression = FromMs(*config.expression_ms);
+  }
   if (config.eye_move_ms) start_settings_.eye_move = FromMs(*config.eye_move_ms);
   if (config.language) start_settings_.lips.language = *config.language;
   if (config.max_frame_rate) frame_rate_ = *config.max_frame_rate;
@@ -49,6 +54,8 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
                                        .on_init = [this] { Initialise(); },
                                        .on_exit = [this] { exit_requested_ = true; }});
   DeclareFaceSlots(core_);
+  DeclareExpressionSlots(core_);
+  DeclareLifeSlots(core_);
   speech_ = std::make_unique<SpeechSlots>(
       core_, SpeechSlots::Listener{.begun = [this] { capture_->Begin(); },
                                    .ended =
@@ -75,6 +82,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   DeclareRecording();
   DeclareCapture();
   DeclareFrame();
+  core_.declared_at_start = core_.initial_values.size();
   Changed();
 }
 

@@ -1,43 +1,67 @@
 #include "fsm/motion/autonomy.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "fsm/motion/random.h"
 
 namespace fsm {
 namespace {
 
 using namespace std::chrono_literals;
 constexpr vm::Time kFade = 400ms;
+constexpr vm::Time kQuickFade = 60ms;
 
 // Streams of random numbers, one for each thing that varies.
-enum Stream : std::uint64_t { kBlinkTime, kBlinkDepth, kGazeTime, kGazeX, kGazeY, kHead };
-
-// The finalizer of SplitMix64 (Steele, Lea, Flood 2014): every bit of the input matters.
-std::uint64_t Scramble(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+enum Stream : std::uint64_t {
+  kBlinkTime,
+  kBlinkDepth,
+  kGazeTime,
+  kGazeX,
+  kGazeY,
+  kNodTime,
+  kNodSize,
+  kThinkTime,
+  kThinkSide,
+  kThinkHeight,
+  kHead
+};
 
 Angles Looped(const HeadCurve& curve, double ms) {
   return curve.At(std::fmod(std::max(0.0, ms), curve.length_ms()));
 }
 
+void Add(Angles& out, const Angles& more, double weight) {
+  for (std::size_t i = 0; i < 3; ++i) out[i] += static_cast<float>(weight * more[i]);
+}
+
+// From 0 at u = 0 to 1 in the middle and back to 0 at u = 1.
+double Swing(double u) { return u <= 0 || u >= 1 ? 0 : (1 - std::cos(u * 2 * std::numbers::pi)) / 2; }
+
 }  // namespace
 
-void Autonomy::Switch::Set(vm::Time now, std::size_t wanted, vm::Time fade) {
-  if (wanted > 0) {
-    pattern = wanted;
-    since = now;
+Autonomy::Autonomy(const MotionTable& table, std::uint64_t seed) : table_(table), seed_(seed) {
+  switches_[static_cast<std::size_t>(Life::kAsymmetry)] = {1, true, vm::Time(0), Track(1.0f)};
+}
+
+void Autonomy::Set(vm::Time now, Life kind, std::size_t pattern) {
+  Switch& own = switches_[static_cast<std::size_t>(kind)];
+  if (pattern > 0) {
+    own.pattern = pattern;
+    own.since = now;
   }
-  on = wanted > 0;
-  weight.MoveTo(now, on ? 1.0f : 0.0f, fade);
+  own.on = pattern > 0;
+  const bool quick = kind == Life::kBlink || kind == Life::kGaze;
+  const bool at_once =
+      kind == Life::kAsymmetry || kind == Life::kGazeBlink || kind == Life::kEndBlink;
+  const vm::Time fade = at_once ? vm::Time(0) : quick ? kQuickFade : kFade;
+  own.weight.MoveTo(now, own.on ? 1.0f : 0.0f, fade);
+  if (kind == Life::kBlink && own.on) blink_starts_.clear();
 }
 
 double Autonomy::Random(std::uint64_t stream, std::int64_t index) const {
-  const std::uint64_t bits =
-      Scramble(Scramble(seed_ * 64 + stream) ^ static_cast<std::uint64_t>(index));
-  return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
+  return RandomAt(seed_, stream, index);
 }
 
 double Autonomy::Wander(std::uint64_t stream, double periods) const {
@@ -47,97 +71,152 @@ double Autonomy::Wander(std::uint64_t stream, double periods) const {
   return Random(stream, index) * (1 - u) + Random(stream, index + 1) * u;
 }
 
-void Autonomy::Blink(vm::Time now, std::size_t pattern) { blink_.Set(now, pattern, 60ms); }
-void Autonomy::Move(vm::Time now, std::size_t pattern) { move_.Set(now, pattern, kFade); }
-void Autonomy::Gaze(vm::Time now, std::size_t pattern) { gaze_.Set(now, pattern, 60ms); }
-void Autonomy::Userdef(vm::Time now, std::size_t pattern) { userdef_.Set(now, pattern, kFade); }
-
-std::size_t Autonomy::MovePatterns(const MotionTable& table) {
-  return table.auto_move_files.empty() ? table.auto_moves.size() : table.auto_move_files.size();
+void Autonomy::AddMove(vm::Time t, Angles& out) const {
+  const Switch& own = Of(Life::kMove);
+  if (own.pattern == 0) return;
+  const double weight = own.weight.At(t);
+  if (!table_.auto_move_files.empty()) {
+    Add(out, Looped(table_.auto_move_files[own.pattern - 1], InMs(t - own.since)), weight);
+    return;
+  }
+  const AutoMove& move = table_.auto_moves[own.pattern - 1];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Two speeds together: one alone looks like a pendulum.
+    const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
+    const double way =
+        0.75 * Wander(kHead + 2 * axis, slow) + 0.25 * Wander(kHead + 2 * axis + 1, slow * 2.3);
+    out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
+  }
 }
 
-Angles Autonomy::HeadAt(vm::Time t) const {
+void Autonomy::AddNods(vm::Time t, double weight, Angles& out) const {
+  const Switch& own = Of(Life::kNods);
+  if (own.pattern == 0 || weight <= 0) return;
+  const AutoNods& nods = table_.auto_nods[own.pattern - 1];
+  const double ms = InMs(t - own.since);
+  const auto k = static_cast<std::int64_t>(std::floor(ms / nods.interval_ms));
+  if (ms < 0) return;
+  const double start =
+      nods.interval_ms * (static_cast<double>(k) + 0.35 + 0.25 * Random(kNodTime, k));
+  const double size = nods.angle * (0.75 + 0.25 * Random(kNodSize, k));
+  // A double nod, the second one smaller.
+  const double down = Swing((ms - start) / 480) + 0.55 * Swing((ms - start - 420) / 460);
+  out[0] += static_cast<float>(weight * size * down);
+}
+
+Angles Autonomy::HeadAt(vm::Time t, double quiet) const {
   Angles out{};
-  const auto add = [&out](const Angles& more, double weight) {
-    for (std::size_t i = 0; i < 3; ++i) out[i] += static_cast<float>(weight * more[i]);
-  };
-  if (move_.pattern > 0) {
-    const double weight = move_.weight.At(t);
-    if (!table_.auto_move_files.empty()) {
-      add(Looped(table_.auto_move_files[move_.pattern - 1], InMs(t - move_.since)), weight);
-    } else {
-      const AutoMove& move = table_.auto_moves[move_.pattern - 1];
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        // Two speeds together: one alone looks like a pendulum.
-        const double slow = InMs(t) / move.period_ms + 0.37 * static_cast<double>(axis);
-        const double way =
-            0.75 * Wander(kHead + 2 * axis, slow) + 0.25 * Wander(kHead + 2 * axis + 1, slow * 2.3);
-        out[axis] += static_cast<float>(weight * way * move.amplitude[axis]);
-      }
-    }
+  AddMove(t, out);
+  AddNods(t, Weight(Life::kNods, t) * (1 - quiet), out);
+  if (const Switch& own = Of(Life::kUserdef); own.pattern > 0) {
+    Add(out, Looped(table_.auto_userdef[own.pattern - 1], InMs(t - own.since)), own.weight.At(t));
   }
-  if (userdef_.pattern > 0) {
-    add(Looped(table_.auto_userdef[userdef_.pattern - 1], InMs(t - userdef_.since)),
-        userdef_.weight.At(t));
+  if (const Switch& own = Of(Life::kBreath); own.pattern > 0) {
+    out[0] -= static_cast<float>(table_.auto_breaths[own.pattern - 1].pitch * BreathAt(t));
   }
   return out;
 }
 
+double Autonomy::BreathAt(vm::Time t) const {
+  const Switch& own = Of(Life::kBreath);
+  if (own.pattern == 0) return 0;
+  const double ms = std::max(0.0, InMs(t - own.since));
+  const double u = std::fmod(ms / table_.auto_breaths[own.pattern - 1].period_ms, 1.0);
+  // In for two fifths of the time, out for the rest with a pause at its end.
+  const double in = u < 0.4 ? SmoothStep(u / 0.4) : 1 - SmoothStep((u - 0.4) / 0.5);
+  return own.weight.At(t) * in;
+}
+
 EyeAngles Autonomy::EyesAt(vm::Time t) const {
-  if (gaze_.pattern == 0) return {};
-  const AutoGaze& gaze = table_.auto_gazes[gaze_.pattern - 1];
-  const double weight = gaze_.weight.At(t);
+  const Switch& own = Of(Life::kGaze);
+  if (own.pattern == 0) return {};
+  const AutoGaze& gaze = table_.auto_gazes[own.pattern - 1];
+  const double weight = own.weight.At(t);
   if (weight <= 0) return {};
-  // One jump in each interval, somewhere in its middle half.
+  // One jump in each interval: fixations of very different lengths.
   const auto jump_ms = [&](std::int64_t k) {
-    return gaze.interval_ms * (static_cast<double>(k) + 0.5 + 0.25 * Random(kGazeTime, k));
+    return gaze.interval_ms * (static_cast<double>(k) + 0.5 + 0.45 * Random(kGazeTime, k));
   };
   const double now_ms = InMs(t);
   auto k = static_cast<std::int64_t>(std::floor(now_ms / gaze.interval_ms));
   if (now_ms < jump_ms(k)) --k;
-  // A jump of two degrees takes about 26 ms (21 ms + 2.2 ms a degree, the usual main sequence).
-  const double u = SmootherStep((now_ms - jump_ms(k)) / 30);
-  const auto place = [&](std::uint64_t stream, double share) {
-    return static_cast<float>(weight * share * gaze.amplitude *
-                              (Random(stream, k - 1) * (1 - u) + Random(stream, k) * u));
+  const auto place = [&](std::uint64_t stream, double share, std::int64_t index) {
+    return share * gaze.amplitude * Random(stream, index);
   };
-  return {place(kGazeY, 0.6), place(kGazeX, 1)};
+  const double x0 = place(kGazeX, 1, k - 1), x1 = place(kGazeX, 1, k);
+  const double y0 = place(kGazeY, 0.6, k - 1), y1 = place(kGazeY, 0.6, k);
+  // The main sequence of saccades: 21 ms and 2.2 ms a degree.
+  const double u = SmootherStep((now_ms - jump_ms(k)) / (21 + 2.2 * std::hypot(x1 - x0, y1 - y0)));
+  return {static_cast<float>(weight * (y0 + u * (y1 - y0))),
+          static_cast<float>(weight * (x0 + u * (x1 - x0)))};
 }
 
-vm::Time Autonomy::BlinkStart(std::int64_t index) const {
-  // One blink in each interval, a quarter of it to either side of the middle: two are between half
-  // and one and a half intervals apart.
-  const double interval = table_.auto_blinks[blink_.pattern - 1].interval_ms;
-  return FromMs(interval * (static_cast<double>(index) + 0.5 + 0.25 * Random(kBlinkTime, index)));
+EyeAngles Autonomy::ThinkingAt(vm::Time t, vm::Time since) const {
+  constexpr double kStay = 1500;  // ms
+  const auto jump_ms = [&](std::int64_t k) {
+    return k == 0 ? 0 : kStay * (static_cast<double>(k) + 0.35 * Random(kThinkTime, k));
+  };
+  const double ms = std::max(0.0, InMs(t - since));
+  auto k = static_cast<std::int64_t>(std::floor(ms / kStay));
+  if (ms < jump_ms(k)) --k;
+  if (ms >= jump_ms(k + 1)) ++k;
+  // Mostly up and to one side; which side is the person's own and changes now and then.
+  const double habit = Random(kThinkSide, 0);
+  const auto place = [&](std::int64_t index) -> std::array<double, 2> {
+    if (index < 0) return {0, 0};
+    const double side = std::copysign(1, habit + 0.8 * Random(kThinkSide, index + 1));
+    return {-5 + 7 * Random(kThinkHeight, index), side * (11 + 4 * Random(kThinkHeight, index + 50))};
+  };
+  const auto from = place(k - 1), to = place(k);
+  const double u = SmootherStep((ms - jump_ms(k)) / 55);
+  return {static_cast<float>(from[0] + u * (to[0] - from[0])),
+          static_cast<float>(from[1] + u * (to[1] - from[1]))};
+}
+
+vm::Time Autonomy::BlinkStart(std::size_t index) const {
+  // Intervals between blinks are skewed: many short, some long. exp of a sum of three even numbers
+  // (nearly normal) is nearly log-normal; bounded to half and one and a half of the mean.
+  const Switch& own = Of(Life::kBlink);
+  const double mean = table_.auto_blinks[own.pattern - 1].interval_ms;
+  while (blink_starts_.size() <= index) {
+    const auto n = static_cast<std::int64_t>(3 * blink_starts_.size());
+    const double normal = Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
+    const double interval = mean * std::clamp(0.93 * std::exp(0.4 * normal), 0.5, 1.5);
+    const vm::Time before = blink_starts_.empty() ? own.since : blink_starts_.back();
+    blink_starts_.push_back(before + FromMs(blink_starts_.empty() ? 0.6 * interval : interval));
+  }
+  return blink_starts_[index];
 }
 
 double Autonomy::LidsShutAt(vm::Time t) const {
-  if (blink_.pattern == 0) return 0;
-  const AutoBlink& blinks = table_.auto_blinks[blink_.pattern - 1];
-  const double weight = blink_.weight.At(t);
+  const Switch& own = Of(Life::kBlink);
+  if (own.pattern == 0) return 0;
+  const AutoBlink& blinks = table_.auto_blinks[own.pattern - 1];
+  const double weight = own.weight.At(t);
   if (weight <= 0) return 0;
-  const auto middle = static_cast<std::int64_t>(std::floor(InMs(t) / blinks.interval_ms));
-  double shut = 0;
-  for (std::int64_t k = middle - 1; k <= middle; ++k) {
-    if (BlinkStart(k) < blink_.since) continue;
-    const double depth = blinks.varied ? std::min(1.0, 0.85 + 0.25 * Random(kBlinkDepth, k)) : 1;
-    shut = std::max(shut, depth * LidsAt(table_.blinks[blinks.blink], t - BlinkStart(k)));
-  }
-  return weight * shut;
+  while (blink_starts_.empty() || blink_starts_.back() <= t) (void)BlinkStart(blink_starts_.size());
+  const auto next = std::ranges::upper_bound(blink_starts_, t);
+  if (next == blink_starts_.begin()) return 0;
+  const auto k = next - blink_starts_.begin() - 1;
+  // Half of people's blinks do not shut the eye quite.
+  const double depth = blinks.varied ? std::min(1.0, 0.9 + 0.2 * Random(kBlinkDepth, k)) : 1;
+  return weight * depth * LidsAt(table_.blinks[blinks.blink], t - *std::prev(next));
 }
 
 std::optional<vm::Time> Autonomy::NextActivity(vm::Time t) const {
-  const auto fading = [t](const Switch& s) { return s.weight.NextActivity(t).has_value(); };
-  if (move_.on || userdef_.on || gaze_.on || fading(move_) || fading(userdef_) || fading(gaze_)) {
-    return t;
+  for (const Life kind : {Life::kMove, Life::kUserdef, Life::kGaze, Life::kBreath, Life::kNods}) {
+    if (On(kind)) return t;
   }
-  if (!blink_.on) return fading(blink_) ? std::optional(t) : std::nullopt;
-  const AutoBlink& blinks = table_.auto_blinks[blink_.pattern - 1];
+  std::optional<vm::Time> next;
+  for (const Switch& own : switches_) next = Earlier(next, own.weight.NextActivity(t));
+  if (next && *next <= t) return t;
+  if (!On(Life::kBlink)) return next;
+  const AutoBlink& blinks = table_.auto_blinks[Of(Life::kBlink).pattern - 1];
   const vm::Time length = LengthOf(table_.blinks[blinks.blink]);
-  for (auto k = static_cast<std::int64_t>(std::floor(InMs(t) / blinks.interval_ms)) - 1;; ++k) {
-    const vm::Time start = BlinkStart(k);
-    if (start >= blink_.since && t < start + length) return std::max(t, start);
-  }
+  while (blink_starts_.empty() || blink_starts_.back() <= t) (void)BlinkStart(blink_starts_.size());
+  const auto first = std::ranges::find_if(
+      blink_starts_, [&](const vm::Time start) { return t < start + length; });
+  return Earlier(next, std::max(t, *first));
 }
 
 }  // namespace fsm

@@ -1,48 +1,63 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/motion_table.h"
+#include "fsm/motion/track.h"
 
 namespace fsm {
 
-/// What a face does by itself: blinks, small movements of head and eyes. Everything is a function
-/// of the seed and the time, with no state but what is switched on, so any instant can be asked for
-/// in any order. The table outlives it.
+/// What a face does by itself: blinks, small movements of head and eyes, breath, nods of a listener.
+/// Everything is a function of the seed and the time, with no state but what is switched on, so any
+/// instant can be asked for in any order. The kinds that belong to commands or to speech are only
+/// switched here and used by FaceMotion. The table outlives it. Thread: none of its own; not even
+/// const calls may run at once.
 class Autonomy {
  public:
-  Autonomy(const MotionTable& table, std::uint64_t seed) : table_(table), seed_(seed) {}
+  /// ASYMMETRY is on, everything else is off.
+  Autonomy(const MotionTable& table, std::uint64_t seed);
 
   /// Pattern 0 switches off. REQUIRES: pattern at most the count the table has.
-  void Blink(vm::Time now, std::size_t pattern);
-  void Move(vm::Time now, std::size_t pattern);
-  void Gaze(vm::Time now, std::size_t pattern);
-  void Userdef(vm::Time now, std::size_t pattern);
-  /// Patterns of MOVE: the files', if the configuration named any, else our own.
-  static std::size_t MovePatterns(const MotionTable& table);
+  void Set(vm::Time now, Life kind, std::size_t pattern);
+  bool On(Life kind) const { return Of(kind).on; }
+  /// The pattern in force or switched off last, from 1; 0 = never on.
+  std::size_t Pattern(Life kind) const { return Of(kind).pattern; }
+  /// 0..1 while it is switched.
+  double Weight(Life kind, vm::Time t) const { return Of(kind).weight.At(t); }
 
-  Angles HeadAt(vm::Time t) const;
+  /// `quiet` 0..1: how far the listener's nods are held back (while speaking).
+  Angles HeadAt(vm::Time t, double quiet) const;
   EyeAngles EyesAt(vm::Time t) const;
   double LidsShutAt(vm::Time t) const;
+  double BreathAt(vm::Time t) const;  ///< 0 = out, 1 = in; times the switch's weight
+  /// Where the eyes wander of one who thinks: up or aside, for a second or two each. `since` is
+  /// when the thinking began.
+  EyeAngles ThinkingAt(vm::Time t, vm::Time since) const;
   std::optional<vm::Time> NextActivity(vm::Time t) const;
 
  private:
   struct Switch {
-    std::size_t pattern = 0;  // the last one that was on
+    std::size_t pattern = 0;
     bool on = false;
     vm::Time since{0};
     Track<float> weight;
-    void Set(vm::Time now, std::size_t wanted, vm::Time fade);
   };
+  const Switch& Of(Life kind) const { return switches_[static_cast<std::size_t>(kind)]; }
   double Random(std::uint64_t stream, std::int64_t index) const;  // -1..1
   double Wander(std::uint64_t stream, double periods) const;      // smooth, -1..1
-  vm::Time BlinkStart(std::int64_t index) const;
+  void AddMove(vm::Time t, Angles& out) const;
+  void AddNods(vm::Time t, double weight, Angles& out) const;
+  /// When blink `index` since the switch begins; intervals are drawn one after the other.
+  vm::Time BlinkStart(std::size_t index) const;
 
   const MotionTable& table_;
   std::uint64_t seed_;
-  Switch blink_, move_, gaze_, userdef_;
+  std::array<Switch, kLifeNames.size()> switches_;
+  mutable std::vector<vm::Time> blink_starts_;  // since the switch; grown as far as asked for
 };
 
 }  // namespace fsm

@@ -10,11 +10,12 @@ vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view 
   const TableText table(name, text);
   EmotionTable emotions;
   for (const TableLine& line : table.lines()) {
-    if (line.words[0] == "timing") {
+    if (line.words[0] == "posed" || line.words[0] == "elicited") {
       if (line.words.size() != 6) {
-        return table.Wrong(line.number, "timing NAME ONSET EYE BROW MOUTH expected");
+        return table.Wrong(line.number, line.words[0] + " NAME ONSET EYE BROW MOUTH expected");
       }
-      Emotion& emotion = emotions[line.words[1]];
+      Emotion& whole = emotions[line.words[1]];
+      Emotion::Timing& emotion = line.words[0] == "posed" ? whole.posed : whole.elicited;
       const auto onset = table.Number(line, 2, "an onset in ms", 0, 10000);
       if (!onset) return std::unexpected(onset.error());
       emotion.onset_ms = *onset;

@@ -13,8 +13,14 @@ namespace fsm {
 /// An emotion: its looks by pattern number, and how it comes about.
 struct Emotion {
   std::vector<ActionUnits> patterns;      ///< pattern 1 is patterns[0]
-  double onset_ms = 400;                  ///< from neutral to the peak
-  std::array<double, kRegions> lag_ms{};  ///< by how much each part of the face begins later
+  /// How it comes about: ms from neutral to the peak, and by how much each part of the face begins
+  /// later than the first.
+  struct Timing {
+    double onset_ms = 450;
+    std::array<double, kRegions> lag_ms{0, 8, 14};
+  };
+  Timing posed;     ///< shown on purpose
+  Timing elicited;  ///< felt
 };
 using EmotionTable = std::map<std::string, Emotion, std::less<>>;
 

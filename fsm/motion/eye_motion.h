@@ -30,6 +30,8 @@ class EyeMotion {
 
   EyeAngles LeftAt(vm::Time t) const;
   EyeAngles RightAt(vm::Time t) const;
+  /// Where the gaze leads that was told last.
+  EyeAngles GazeTarget(vm::Time t) const { return gaze_.TargetAt(t); }
   EyeAngles HeadShareAt(vm::Time t) const { return head_share_.At(t); }
   double LidsShutAt(vm::Time t) const;
   vm::Time SettledAt(vm::Time t) const;

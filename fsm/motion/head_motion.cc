@@ -1,10 +1,12 @@
 #include "fsm/motion/head_motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fsm {
 namespace {
 constexpr vm::Time kFade = std::chrono::milliseconds(80);
+constexpr double kSmaller = 0.85;  // a movement repeated, against the one before
 }
 
 void HeadMotion::TurnTo(vm::Time now, const Angles& angles, vm::Time duration) {
@@ -18,13 +20,13 @@ void HeadMotion::TurnBy(vm::Time now, const Angles& angles, vm::Time duration) {
 }
 
 vm::Time HeadMotion::EndOf(const Move& move) {
-  const vm::Time end = move.start + FromMs(move.curve->length_ms());
+  const vm::Time end = move.start + FromMs(move.curve->length_ms() * move.count);
   return move.stopped ? std::min(end, *move.stopped + kFade) : end;
 }
 
-void HeadMotion::Play(vm::Time now, const HeadCurve& curve) {
+void HeadMotion::Play(vm::Time now, const HeadCurve& curve, double strength, int count) {
   StopMoves(now);
-  moves_.push_back({&curve, now, std::nullopt});
+  moves_.push_back({&curve, strength, count, now, std::nullopt});
 }
 
 void HeadMotion::StopMoves(vm::Time now) {
@@ -38,8 +40,11 @@ Angles HeadMotion::At(vm::Time t) const {
   Angles angles = turn_.At(t);
   for (const Move& move : moves_) {
     if (t >= EndOf(move)) continue;
-    const Angles more = move.curve->At(InMs(t - move.start));
-    const double weight = move.stopped ? 1 - SmoothStep(Progress(t, *move.stopped, kFade)) : 1;
+    const double ms = std::max(0.0, InMs(t - move.start));
+    const double times = std::floor(ms / move.curve->length_ms());
+    const Angles more = move.curve->At(ms - times * move.curve->length_ms());
+    const double stays = move.stopped ? 1 - SmoothStep(Progress(t, *move.stopped, kFade)) : 1;
+    const double weight = stays * move.strength * std::pow(kSmaller, times);
     for (std::size_t i = 0; i < 3; ++i) angles[i] += static_cast<float>(weight * more[i]);
   }
   return angles;

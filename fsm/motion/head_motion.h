@@ -17,7 +17,8 @@ class HeadMotion {
   Angles TargetAt(vm::Time t) const { return turn_.TargetAt(t); }
   /// A movement once. It takes the place of the one in hand, which fades within 80 ms. The curve
   /// outlives the motion.
-  void Play(vm::Time now, const HeadCurve& curve);
+  /// `strength` multiplies its angles (1 = as it is); played `count` times, each time 15 % smaller.
+  void Play(vm::Time now, const HeadCurve& curve, double strength = 1, int count = 1);
   void StopMoves(vm::Time now);
 
   Angles At(vm::Time t) const;
@@ -29,6 +30,8 @@ class HeadMotion {
  private:
   struct Move {
     const HeadCurve* curve;
+    double strength;
+    int count;
     vm::Time start;
     std::optional<vm::Time> stopped;
   };

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fsm/motion/action_unit_table.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {
@@ -52,6 +54,46 @@ struct AutoGaze {
   double amplitude = 1;
   double interval_ms = 1200;
 };
+struct AutoBreath {
+  double pitch = 0.4;
+  double period_ms = 4000;
+};
+struct AutoNods {
+  double angle = 3;
+  double interval_ms = 5000;
+};
+struct AutoSpeech {
+  double nod = 2.5;
+  double turn = 2;
+  double tilt = 1.5;
+  double brow = 0.35;  ///< strength of AU 1 and 2
+};
+struct AutoAvert {
+  double angle = 10;
+  double shortest_ms = 1800;  ///< of an utterance in which it happens
+};
+
+/// What the face does by itself; each is switched by name.
+enum class Life : std::size_t {
+  kBlink,
+  kMove,
+  kUserdef,
+  kGaze,
+  kBreath,
+  kNods,
+  kSpeech,
+  kAvert,
+  kFace,
+  kGazeBlink,
+  kEndBlink,
+  kAsymmetry
+};
+inline constexpr std::array<std::string_view, 12> kLifeNames = {
+    "BLINK",  "MOVE",  "USERDEF", "GAZE",      "BREATH",   "NODS",
+    "SPEECH", "AVERT", "FACE",    "GAZEBLINK", "ENDBLINK", "ASYMMETRY"};
+std::optional<Life> LifeNamed(std::string_view name);
+/// Patterns by kind.
+using LifeProfile = std::array<std::size_t, kLifeNames.size()>;
 
 /// Everything the face does by pattern number; pattern n is element n - 1.
 struct MotionTable {
@@ -60,8 +102,16 @@ struct MotionTable {
   std::vector<AutoBlink> auto_blinks;
   std::vector<AutoMove> auto_moves;
   std::vector<AutoGaze> auto_gazes;
+  std::vector<AutoBreath> auto_breaths;
+  std::vector<AutoNods> auto_nods;
+  std::vector<AutoSpeech> auto_speeches;
+  std::vector<AutoAvert> auto_averts;
+  std::vector<ActionUnits> auto_faces;
+  std::map<std::string, LifeProfile, std::less<>> profiles;
   std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
   std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop
+
+  std::size_t Patterns(Life kind) const;  ///< how many there are
 };
 vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text);
 

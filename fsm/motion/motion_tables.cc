@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "embedded/action_unit_list.h"
+#include "embedded/action_unit_names.h"
 #include "embedded/arkit.h"
 #include "embedded/dominance.h"
 #include "embedded/emotions.h"
@@ -103,6 +104,7 @@ vm::Result<MotionTables> MotionTables::Load(const std::string& folder) {
   loader.Get(out.emotions, "emotions.txt", embedded::emotions(), ReadEmotions);
   loader.Get(out.motions, "motions.txt", embedded::motions(), ReadMotions);
   loader.Get(out.units, "action_unit_list.txt", embedded::action_unit_list(), ReadUnitList);
+  loader.Get(out.unit_names, "action_unit_names.txt", embedded::action_unit_names(), ReadUnitNames);
   loader.Get(out.blend_shapes, "arkit.txt", embedded::arkit(), ReadBlendShapes);
   if (loader.error()) return std::unexpected(*loader.error());
   return out;

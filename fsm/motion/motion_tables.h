@@ -8,6 +8,7 @@
 #include "fsm/motion/motion_table.h"
 #include "fsm/motion/mouth_tables.h"
 #include "fsm/motion/phoneme_names.h"
+#include "fsm/motion/unit_names.h"
 
 namespace fsm {
 
@@ -20,6 +21,7 @@ struct MotionTables {
   EmotionTable emotions;
   MotionTable motions;
   UnitList units;
+  UnitNames unit_names;
   BlendShapes blend_shapes;
 
   /// The tables the program carries; with a `folder`, each file found there replaces its own.

@@ -12,6 +12,7 @@ constexpr vm::Time kEmotionYields = 150ms;
 constexpr vm::Time kClose = 110ms;      // after STOP; the promise is 120
 constexpr vm::Time kClosedFor = 120ms;  // before emotion may part the lips again
 constexpr vm::Time kRelease = 300ms;
+constexpr vm::Time kHeadStops = 400ms;  // movement with the speech, after STOP
 
 }  // namespace
 
@@ -26,15 +27,17 @@ vm::Time SpeechMotion::EndOf(const Layer& layer) const {
 }
 
 vm::Time SpeechMotion::GoneAt(const Layer& layer) const {
-  return (layer.stopped ? *layer.stopped + kClosedFor : EndOf(layer)) + kRelease;
+  return (layer.stopped ? *layer.stopped + kClosedFor : EndOf(layer)) +
+         std::max(kRelease, FromMs(SpeechGestures::kFadeMs));
 }
 
-void SpeechMotion::Start(vm::Time now, LipTrack track, vm::Time start) {
+void SpeechMotion::Start(vm::Time now, LipTrack track, vm::Time start, std::uint64_t seed) {
   Stop(now);
   std::erase_if(layers_, [&](const Layer& layer) { return GoneAt(layer) <= now; });
   const vm::Time ahead = FromMs(lead_ms_.At(now) + kApproachMs);
-  layers_.push_back({std::make_shared<const LipTrack>(std::move(track)), SpeechClock(start),
-                     std::max(now, start - ahead), std::nullopt});
+  SpeechGestures gestures(track.demands(), seed);
+  layers_.push_back({std::make_shared<const LipTrack>(std::move(track)), std::move(gestures),
+                     SpeechClock(start), std::max(now, start - ahead), std::nullopt});
 }
 
 void SpeechMotion::Stop(vm::Time now) {
@@ -73,6 +76,36 @@ SpeechMotion::Mouth SpeechMotion::At(vm::Time t) const {
     mouth.over_emotion = 1 - (1 - mouth.over_emotion) * (1 - yields);
   }
   return mouth;
+}
+
+SpeechMotion::Gesture SpeechMotion::GestureAt(vm::Time t, double shortest_avert_ms) const {
+  Gesture out;
+  for (const Layer& layer : layers_) {
+    if (t < layer.begin || t >= GoneAt(layer)) continue;
+    const double position = MouthPosition(layer, t);
+    const double stays = layer.stopped ? 1 - SmoothStep(Progress(t, *layer.stopped, kHeadStops)) : 1;
+    const SpeechGestures::At head = layer.gestures.HeadAt(position);
+    const auto avert = layer.gestures.AvertAt(position, shortest_avert_ms);
+    out.head.nod += stays * head.nod;
+    out.head.turn += stays * head.turn;
+    out.head.tilt += stays * head.tilt;
+    out.head.brow = std::max(out.head.brow, stays * head.brow);
+    for (std::size_t i = 0; i < 2; ++i) out.avert[i] += stays * avert[i];
+  }
+  return out;
+}
+
+std::optional<SpeechMotion::Moments> SpeechMotion::LastMoments(double shortest_avert_ms) const {
+  if (layers_.empty()) return std::nullopt;
+  const Layer& layer = layers_.back();
+  Moments moments{{}, {}, layer.stopped.value_or(EndOf(layer))};
+  const auto [away, back] = layer.gestures.AvertTimes(shortest_avert_ms);
+  if (back > away) {
+    const double lead = lead_ms_.At(layer.begin);
+    moments.away = layer.clock.WhenAt(away - lead);
+    moments.back = layer.clock.WhenAt(back - lead);
+  }
+  return moments;
 }
 
 std::optional<vm::Time> SpeechMotion::End() const {

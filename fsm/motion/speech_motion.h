@@ -7,6 +7,7 @@
 
 #include "fsm/motion/lip_track.h"
 #include "fsm/motion/speech_clock.h"
+#include "fsm/motion/speech_gestures.h"
 #include "fsm/motion/track.h"
 
 namespace fsm {
@@ -16,8 +17,8 @@ namespace fsm {
 class SpeechMotion {
  public:
   /// The voice starts at `start`; the mouth begins up to 92 ms before that, and is ahead by the
-  /// lead.
-  void Start(vm::Time now, LipTrack track, vm::Time start);
+  /// lead. `seed` is of what the head does with it.
+  void Start(vm::Time now, LipTrack track, vm::Time start, std::uint64_t seed);
   /// The lips are closed 110 ms later.
   void Stop(vm::Time now);
   /// The voice is at `voice_ms` now. Ignored when nothing is spoken.
@@ -33,6 +34,21 @@ class SpeechMotion {
   };
   Mouth At(vm::Time t) const;
 
+  /// What head, brows and eyes do with the utterance, see SpeechGestures. `head` in parts of the
+  /// greatest angles; `avert` in parts of the angle of aversion, down and right.
+  struct Gesture {
+    SpeechGestures::At head;
+    std::array<double, 2> avert{};
+  };
+  Gesture GestureAt(vm::Time t, double shortest_avert_ms) const;
+  /// When the eyes jump away and back in the last utterance, and when it ends or ended; none if
+  /// there was none.
+  struct Moments {
+    std::optional<vm::Time> away, back;
+    vm::Time end;
+  };
+  std::optional<Moments> LastMoments(double shortest_avert_ms) const;
+
   bool active() const { return !layers_.empty() && !layers_.back().stopped; }
   /// When the utterance in hand will be over, for voice and mouth; none if there is none.
   std::optional<vm::Time> End() const;
@@ -43,6 +59,7 @@ class SpeechMotion {
  private:
   struct Layer {
     std::shared_ptr<const LipTrack> track;
+    SpeechGestures gestures;
     SpeechClock clock;
     vm::Time begin;
     std::optional<vm::Time> stopped;

@@ -76,7 +76,7 @@ TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
   refused("FaceExp = HAPPY 1 100", "BAD_VALUE");
   refused("FaceExp = BORED 1 100 0", "'BORED' is no expression");
   refused("FaceExp = HAPPY 6 100 0", "HAPPY has no pattern 6; 1 to 5 expected");
-  refused("FaceMot = NOD 9", "NOD has no pattern 9; 1 to 3 expected");
+  refused("FaceMot = NOD 9", "NOD has no pattern 9; 1 to 5 expected");
   refused("FaceMot = JUMP 1", "BAD_VALUE");
   refused("Autonomous = MOVE 7", "MOVE has no pattern 7");
   refused("Mask = man01", "there is no face 'man01'; there is galatea");
@@ -85,7 +85,7 @@ TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
   refused("ViewMode = SOLID", "BAD_VALUE");
   refused("AgentAlpha = 1.5", "BAD_VALUE");
   refused("SaveImage = face.gif", "BAD_VALUE");
-  refused("AU = 40 1", "'40' is not an action unit");
+  refused("AU = 40 1", "'40' at column 1 is not an action unit");
   refused("ARKit = smile 1", "'smile' is no blend shape");
   refused("Record = STOP", "no film is being recorded");
   refused("NowMask = x", "ACCESS");
@@ -93,6 +93,7 @@ TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
 
 TEST(FsmModuleTest, ASavedImageShowsTheSettledExpressionWhateverComesNext) {
   FsmStage fsm;
+  fsm.Say("set Autonomous = ASYMMETRY 0");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
   EXPECT_EQ(fsm.Say("set#5 SaveImage = happy.png"), "rep#5 SaveImage = happy.png");
   fsm.Say("set FaceExp = SAD 1 100 0");
@@ -260,6 +261,7 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   fsm.Say("set FaceMot = NOD 1");
   fsm.Until(299);
   EXPECT_NEAR(fsm.Now().head_rotation[0], 20, 0.1);
+  fsm.Say("set Autonomous = ASYMMETRY 0");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
   fsm.Until(498);
   EXPECT_LT(fsm.Now().au_left[12], 0.8f);

@@ -10,6 +10,13 @@ namespace {
 using namespace std::chrono_literals;
 
 struct FaceMotionTest : testing::Test {
+  FaceMotionTest() {
+    // The original's fixed time, and both sides alike: so numbers can be told exactly.
+    auto settings = motion.settings();
+    settings.onset = Onset::kFixed;
+    motion.Apply(0ms, settings);
+    EXPECT_TRUE(motion.Autonomous(0ms, "ASYMMETRY", 0));
+  }
   FaceMotion motion{MotionTables::Load().value(), 7};
 };
 
@@ -61,7 +68,7 @@ TEST_F(FaceMotionTest, ExpressionsCrossfadeWithoutJumps) {
 
 TEST_F(FaceMotionTest, NaturalExpressionsTakeTheMeasuredTimesAndLags) {
   auto settings = motion.settings();
-  settings.natural_expressions = true;
+  settings.onset = Onset::kPosed;
   motion.Apply(0ms, settings);
   ASSERT_TRUE(motion.Express(0ms, "HAPPY", 5, 1, 0ms));
   EXPECT_LT(motion.StateAt(555ms).au_left[12], 0.8f);
@@ -81,7 +88,7 @@ TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
             "NEUTRAL expected");
   EXPECT_EQ(motion.Express(0ms, "HAPPY", 9, 1, 0ms).error().text,
             "HAPPY has no pattern 9; 1 to 5 expected");
-  EXPECT_EQ(motion.Move(0ms, "NOD", 4).error().text, "NOD has no pattern 4; 1 to 3 expected");
+  EXPECT_EQ(motion.Move(0ms, "NOD", 6).error().text, "NOD has no pattern 6; 1 to 5 expected");
   EXPECT_FALSE(motion.Autonomous(0ms, "USERDEF", 1));
   EXPECT_TRUE(motion.Autonomous(0ms, "USERDEF", 0));
   EXPECT_FALSE(motion.SetFace(0ms, 37, 1));
@@ -128,10 +135,10 @@ TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
 TEST_F(FaceMotionTest, ALargeGazeIsSharedByTheHead) {
   motion.Gaze(0ms, 0, 30, 0ms);
   const FaceState early = motion.StateAt(70ms);
-  EXPECT_NEAR(early.eye_left.y + early.head_rotation[1], 30, 1e-3);
+  EXPECT_NEAR((early.eye_left.y + early.eye_right.y) / 2 + early.head_rotation[1], 30, 1e-3);
   const FaceState late = motion.StateAt(1s);
   EXPECT_NEAR(late.head_rotation[1], (30 - 12) * 0.6, 1e-3);
-  EXPECT_NEAR(late.eye_left.y + late.head_rotation[1], 30, 1e-3);
+  EXPECT_NEAR((late.eye_left.y + late.eye_right.y) / 2 + late.head_rotation[1], 30, 1e-3);
 }
 
 TEST_F(FaceMotionTest, NodOneGoesTenDegreesDownAndBackIn200Ms) {
@@ -176,8 +183,8 @@ TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
     }
     shut = now;
   }
-  EXPECT_GE(blinks, 70);
-  EXPECT_LE(blinks, 80);
+  EXPECT_GE(blinks, 65);
+  EXPECT_LE(blinks, 85);
   // Between blinks nothing moves, and the next one is announced.
   const auto next = motion.NextActivity(300s);
   ASSERT_TRUE(next);
@@ -195,7 +202,8 @@ TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {
     const FaceState state = motion.StateAt(t);
     most = std::max(most, std::abs(state.head_rotation[1]));
     EXPECT_LT(std::abs(state.head_rotation[1] - before), 0.08f);
-    EXPECT_LE(std::abs(state.eye_left.y), 1.41f);
+    // The eyes make small jumps and else keep to their place while the head drifts.
+    EXPECT_LE(std::abs(state.eye_left.y + state.head_rotation[1]), 1.41f);
     before = state.head_rotation[1];
   }
   EXPECT_GT(most, 0.5f);

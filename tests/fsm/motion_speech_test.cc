@@ -201,6 +201,7 @@ TEST(SpeechTest, NothingJumpsFromUtteranceToUtterance) {
 
 TEST(SpeechTest, EmotionTintsTheMouthAndKeepsTheBrows) {
   FaceMotion motion(BuiltIn(), 1);
+  ASSERT_TRUE(motion.Autonomous(0ms, "ASYMMETRY", 0));
   ASSERT_TRUE(motion.Express(0ms, "SURPRISED", 1, 1, 0ms));
   motion.Speak(500ms, List("aa 1000"), 500ms);
   const FaceState state = motion.StateAt(1000ms);

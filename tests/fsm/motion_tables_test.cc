@@ -67,7 +67,7 @@ TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
     EXPECT_EQ(tables.emotions.at(name).patterns.size(), 5u) << name;
   }
   EXPECT_FLOAT_EQ(tables.emotions.at("HAPPY").patterns[0].left[12], 0.8f);
-  EXPECT_DOUBLE_EQ(tables.emotions.at("HAPPY").onset_ms, 556);
+  EXPECT_DOUBLE_EQ(tables.emotions.at("HAPPY").posed.onset_ms, 556);
 }
 
 TEST(MotionTablesTest, FaceThirtyClosesTheEyes) {
@@ -98,7 +98,7 @@ TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
          "p.txt:1: 'nan' found, a strength expected");
   expect(ReadEmotions("e.txt", "HAPPY 1 12:0.5 99:1\n"), "e.txt:1: '99' is not an action unit");
   expect(ReadEmotions("e.txt", "HAPPY 2 12:0.5\n"), "e.txt:1: pattern 2 found, 1 expected");
-  expect(ReadEmotions("e.txt", "timing HAPPY 1 2 3 4\n"), "'HAPPY' has no pattern 1");
+  expect(ReadEmotions("e.txt", "posed HAPPY 1 2 3 4\n"), "'HAPPY' has no pattern 1");
   expect(ReadMotions("m.txt", "NOD 1\nNOD 2\n"), "m.txt:1: key frames");
   expect(ReadMotions("m.txt", "NOD 1\n 100 1 2 3\n 100 0 0 0\n"), "m.txt:3: 100 ms is not after");
   expect(ReadMotions("m.txt", "JUMP 1\n"), "m.txt:1: 'JUMP' found");

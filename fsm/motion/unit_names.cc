@@ -1,0 +1,242 @@
+#include "fsm/motion/unit_names.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "fsm/motion/table_text.h"
+
+namespace fsm {
+
+vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text) {
+  const TableText table(name, text);
+  UnitNames out;
+  for (const TableLine& line : table.lines()) {
+    const bool code = line.words[0] == "code";
+    if ((!code && line.words[0] != "unit") || line.words.size() != (code ? 11u : 3u)) {
+      return table.Wrong(line.number, "unit NUMBER NAME, or code NUMBER NAME and 8 numbers expected");
+    }
+    const auto number = table.Number(line, 1, "a number of FACS", 1, 99);
+    if (!number) return std::unexpected(number.error());
+    const int unit = static_cast<int>(*number);
+    if (IsActionUnit(unit) == code) {
+      return table.Wrong(line.number, fmt::format("{} is {}an action unit", unit, code ? "" : "not "));
+    }
+    if (!out.by_name.emplace(line.words[2], unit).second || out.names.contains(unit)) {
+      return table.Wrong(line.number, "'" + line.words[2] + "' or its number is here twice");
+    }
+    out.names[unit] = line.words[2];
+    if (!code) continue;
+    std::array<float, 8> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto value = table.Number(line, 3 + i, "an angle or a part", -60, 60);
+      if (!value) return std::unexpected(value.error());
+      values[i] = static_cast<float>(*value);
+    }
+    out.codes[unit] = {{values[0], values[1], values[2]},
+                       {values[3], values[4]},
+                       {values[5], values[6]},
+                       values[7]};
+  }
+  return out;
+}
+
+namespace {
+
+struct Word {
+  std::string_view text;
+  std::size_t column;  // from 1
+};
+
+// Words between blanks; "12:0.7" is two of them, "gaze:6,0" one.
+std::vector<Word> WordsOf(std::string_view text) {
+  std::vector<Word> words;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(" \t", at)) != std::string_view::npos) {
+    std::size_t end = std::min(text.find_first_of(" \t", at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    if (const auto colon = word.find(':'); colon != word.npos && !word.starts_with("gaze")) {
+      end = at + colon;
+      if (colon > 0) words.push_back({text.substr(at, colon), at + 1});
+      at = end + 1;
+      continue;
+    }
+    words.push_back({word, at + 1});
+    at = end;
+  }
+  return words;
+}
+
+std::unexpected<vm::Error> Wrong(const Word& word, std::string_view what) {
+  auto failure = vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' at column {} is {}",
+                                                           word.text.substr(0, 60), word.column, what));
+  return failure;
+}
+
+std::optional<double> LetterOf(std::string_view word) {
+  if (word.size() != 1 || word[0] < 'A' || word[0] > 'E') return std::nullopt;
+  return kIntensity[static_cast<std::size_t>(word[0] - 'A')];
+}
+
+/// A unit with its side, and its strength if that is written on it (12C).
+struct Named {
+  UnitSetting unit;
+  bool strength_given = false;
+};
+
+std::optional<Named> ByName(std::string_view word, const UnitNames& names) {
+  Named out;
+  std::string_view name = word;
+  if (word.ends_with(".L") || word.ends_with(".R")) {
+    out.unit.left = word.ends_with('L');
+    out.unit.right = !out.unit.left;
+    name.remove_suffix(2);
+  }
+  const auto found = names.by_name.find(name);
+  if (found == names.by_name.end()) return std::nullopt;
+  out.unit.number = found->second;
+  return out;
+}
+
+std::optional<Named> ByNumber(std::string_view word) {
+  Named out;
+  std::optional<char> side;
+  const auto take_side = [&](char c) {
+    if (c == 'l' || c == 'r') c = static_cast<char>(c - 'a' + 'A');
+    if (side || (c != 'L' && c != 'R')) return false;
+    side = c;
+    return true;
+  };
+  if (!word.empty() && take_side(word.front())) word.remove_prefix(1);
+  const auto [end, error] =
+      std::from_chars(word.data(), word.data() + word.size(), out.unit.number);
+  if (error != std::errc{} || word.starts_with('-')) return std::nullopt;
+  word.remove_prefix(static_cast<std::size_t>(end - word.data()));
+  if (!word.empty() && take_side(word.front())) word.remove_prefix(1);
+  if (const auto letter = LetterOf(word)) {
+    out.unit.strength = *letter;
+    out.strength_given = true;
+    word = {};
+  }
+  if (!word.empty()) return std::nullopt;
+  if (side) {
+    out.unit.left = *side == 'L';
+    out.unit.right = !out.unit.left;
+  }
+  return out;
+}
+
+vm::Result<Named> ParseUnit(const Word& word, const UnitNames& names) {
+  auto unit = ByName(word.text, names);
+  if (!unit) unit = ByNumber(word.text);
+  const bool code = unit && names.codes.contains(unit->unit.number);
+  if (!unit || (!code && !IsActionUnit(unit->unit.number))) {
+    return Wrong(word,
+                 "not an action unit; a number (1 to 46 without 3 and 40; 51-58 head, 61-66 eyes) "
+                 "with L or R for one side, or a name such as LipCornerPuller, expected");
+  }
+  if (code && !(unit->unit.left && unit->unit.right)) {
+    return Wrong(word, "a code of head or eyes, which has no sides");
+  }
+  return *unit;
+}
+
+vm::Result<double> ParseStrength(const Word& word) {
+  if (const auto letter = LetterOf(word.text)) return *letter;
+  const auto number = ParseNumber(word.text);
+  if (!number || *number < 0 || *number > 2) {
+    return Wrong(word, "no strength; a number from 0 to 2 (1 = full) or a letter A to E expected");
+  }
+  return *number;
+}
+
+}  // namespace
+
+vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
+                                         bool with_ms) {
+  const std::vector<Word> words = WordsOf(text);
+  UnitCommand out;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    // A number that stands alone at the end, after at least one unit, is a time.
+    if (with_ms && i > 0 && i + 1 == words.size()) {
+      if (const auto ms = ParseNumber(words[i].text)) {
+        if (*ms < 0 || *ms > 86400000) {
+          return Wrong(words[i], "no time; 0 to 86400000 ms expected");
+        }
+        out.ms = *ms;
+        break;
+      }
+    }
+    auto unit = ParseUnit(words[i], names);
+    if (!unit) return std::unexpected(unit.error());
+    if (!unit->strength_given) {
+      if (i + 1 == words.size()) return Wrong(words[i], "without a strength after it");
+      const auto strength = ParseStrength(words[++i]);
+      if (!strength) return std::unexpected(strength.error());
+      unit->unit.strength = *strength;
+    }
+    out.units.push_back(unit->unit);
+  }
+  if (out.units.empty()) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "nothing found where units and strengths are expected, as '12L 0.7 6 C'");
+  }
+  return out;
+}
+
+std::string FormatLook(const ActionUnits& look) {
+  std::string text;
+  const auto add = [&text](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
+  for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
+    const float left = look.left[unit], right = look.right[unit];
+    if (left == right && left != 0) {
+      add(fmt::format("{}:{:g}", unit, left));
+      continue;
+    }
+    if (left != 0) add(fmt::format("{}L:{:g}", unit, left));
+    if (right != 0) add(fmt::format("{}R:{:g}", unit, right));
+  }
+  const auto gaze = [&](const char* side, const std::array<float, 2>& angles) {
+    if (angles != std::array<float, 2>{}) {
+      add(fmt::format("gaze{}:{:g},{:g}", side, angles[0], angles[1]));
+    }
+  };
+  const bool both = look.gaze_left == look.gaze_right;
+  gaze(both ? "" : "L", look.gaze_left);
+  if (!both) gaze("R", look.gaze_right);
+  return text;
+}
+
+vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names) {
+  ActionUnits look;
+  std::string units;
+  for (const Word& word : WordsOf(text)) {
+    if (word.text.starts_with("gaze")) {
+      const TableText line("gaze", word.text);
+      const auto gaze = ReadUnits(line, line.lines().front(), 0);
+      if (!gaze) return Wrong(word, "no direction; gaze:DOWN,RIGHT in degrees expected");
+      AddTo(look, *gaze, 1);
+      continue;
+    }
+    // Columns stay what they were.
+    units.resize(std::max(units.size(), word.column - 1), ' ');
+    units += word.text;
+  }
+  if (units.empty() && !text.empty()) return look;
+  const auto command = ParseUnitCommand(units, names, false);
+  if (!command) return std::unexpected(command.error());
+  for (const UnitSetting& unit : command->units) {
+    if (!IsActionUnit(unit.number)) {
+      return vm::Fail(vm::Errc::kBadValue,
+                      fmt::format("{} is a code of head or eyes, which an expression cannot hold; "
+                                  "action units and gaze:DOWN,RIGHT expected",
+                                  unit.number));
+    }
+    const auto index = static_cast<std::size_t>(unit.number);
+    if (unit.left) look.left[index] = static_cast<float>(unit.strength);
+    if (unit.right) look.right[index] = static_cast<float>(unit.strength);
+  }
+  return look;
+}
+
+}  // namespace fsm

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/motion/action_unit_table.h"
+
+namespace fsm {
+
+/// What one code of head or eyes (51-58, 61-66) does at full strength; see
+/// tables/action_unit_names.txt. Degrees, x+ = down, y+ and z+ = to the viewer's right.
+struct UnitCode {
+  std::array<float, 3> head{};
+  std::array<float, 2> left_eye{}, right_eye{};
+  float nearer = 0;
+};
+
+/// Action units and codes as people name them.
+struct UnitNames {
+  std::map<std::string, int, std::less<>> by_name;
+  std::map<int, std::string> names;
+  std::map<int, UnitCode> codes;
+};
+vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text);
+
+/// One unit or code to be set. Codes have no sides.
+struct UnitSetting {
+  int number = 0;
+  bool left = true;
+  bool right = true;
+  double strength = 1;  ///< 0..2
+};
+/// How strong the letters of FACS are: A trace .. E maximum (research notes on the face, 3.1).
+inline constexpr std::array<double, 5> kIntensity = {0.1, 0.3, 0.5, 0.75, 1.0};
+
+struct UnitCommand {
+  std::vector<UnitSetting> units;
+  std::optional<double> ms;  ///< a number that stands alone at the end
+};
+/// Reads `12L 0.7`, `12L C`, `12C`, `R12C`, `LipCornerPuller 0.7`, `LipCornerPuller.L 0.7`,
+/// `12L:0.7`, any number of them, and if `with_ms` a number of ms at the end.
+/// Error: kBadValue with the word at fault, its place and what was expected.
+vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
+                                         bool with_ms);
+/// The same as one look (an expression): action units only, and `gaze:DOWN,RIGHT` in degrees.
+vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names);
+/// As ParseLook reads it: `6:0.7 12L:0.8 gaze:6,0`.
+std::string FormatLook(const ActionUnits& look);
+
+}  // namespace fsm

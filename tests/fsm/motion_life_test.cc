@@ -1,0 +1,307 @@
+// What a face does without being told to: onsets, asymmetry, blinks, gaze, gestures of speech.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsm/motion/face_motion.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kSentence =
+    "pau 200 hh 60 ax 50 l 60 ow 180 pau 180 m 70 ay 140 n 60 ey 170 m 80 ih 60 z 90 g 70 ae 160 "
+    "l 60 ax 50 t 60 iy 110 ah 60 pau 200 hh 60 aw 190 aa 60 r 60 y 50 uw 180 pau 200";
+
+vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
+
+struct LifeTest : testing::Test {
+  FaceMotion motion{MotionTables::Load().value(), 7};
+  void On(const char* kind, int pattern = 1) {
+    ASSERT_TRUE(motion.Autonomous(0ms, kind, pattern)) << kind;
+  }
+  float Nod(vm::Time t) { return motion.StateAt(t).head_rotation[0]; }
+};
+
+TEST_F(LifeTest, NothingMovesUntilItIsSwitchedOn) {
+  EXPECT_FALSE(motion.NextActivity(0ms).has_value());
+  motion.Speak(0ms, List(kSentence), 1s);
+  for (vm::Time t = 0ms; t < 6s; t += 40ms) {
+    const FaceState state = motion.StateAt(t);
+    ASSERT_EQ(state.head_rotation, (std::array<float, 3>{}));
+    ASSERT_EQ(state.blink_left, 0);
+    ASSERT_EQ(state.au_left[1], 0);
+    ASSERT_EQ(state.eye_left.x, 0);
+  }
+}
+
+TEST_F(LifeTest, OnsetsAreSlowFastSlow) {
+  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
+  const auto smile = [&](double part) {
+    return motion.StateAt(FromMs(556 * part)).au_right[12] / motion.StateAt(2s).au_right[12];
+  };
+  EXPECT_LT(smile(0.2), 0.1);
+  EXPECT_NEAR(smile(0.53), 0.5, 0.12);
+  EXPECT_GT(smile(0.85), 0.9);
+}
+
+TEST_F(LifeTest, FeltExpressionsTakeTheElicitedTimes) {
+  auto settings = motion.settings();
+  settings.onset = Onset::kElicited;
+  motion.Apply(0ms, settings);
+  ASSERT_TRUE(motion.Express(0ms, "SURPRISED", 1, 1, 0ms));
+  EXPECT_EQ(motion.OnsetsSettled(0ms), vm::Time(228ms));
+  ASSERT_TRUE(motion.Express(1s, "HAPPY", 1, 1, 0ms));
+  EXPECT_EQ(motion.OnsetsSettled(1s), vm::Time(1724ms));
+}
+
+TEST_F(LifeTest, OneSideIsALittleWeakerAndLaterAlwaysTheSame) {
+  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
+  const FaceState state = motion.StateAt(2s);
+  const float low = std::min(state.au_left[12], state.au_right[12]);
+  const float high = std::max(state.au_left[12], state.au_right[12]);
+  EXPECT_FLOAT_EQ(high, 0.8f);
+  EXPECT_GE(low, 0.8f * 0.919f);
+  EXPECT_LE(low, 0.8f * 0.971f);
+  const FaceState early = motion.StateAt(40ms);
+  EXPECT_NE(early.au_left[12], early.au_right[12]);
+
+  FaceMotion same(MotionTables::Load().value(), 7);
+  ASSERT_TRUE(same.Express(0ms, "HAPPY", 1, 1, 0ms));
+  EXPECT_EQ(same.StateAt(2s).au_left, state.au_left);
+  bool differs = false;
+  for (std::uint64_t person = 1; person < 9; ++person) {
+    same.SetPerson(person);
+    differs = differs || same.StateAt(2s).au_left != state.au_left;
+  }
+  EXPECT_TRUE(differs);
+}
+
+TEST_F(LifeTest, LidsCloseFasterThanTheyOpen) {
+  for (const BlinkPattern& blink : motion.tables().motions.blinks) {
+    EXPECT_LT(blink.closing_ms, 0.75 * blink.opening_ms);
+  }
+}
+
+TEST_F(LifeTest, BlinkIntervalsAreSkewedAndSeeded) {
+  On("BLINK");
+  std::vector<double> intervals;
+  double last = -1;
+  bool shut = false;
+  for (vm::Time t = 0ms; t < 600s; t += 20ms) {
+    const bool now = motion.StateAt(t).blink_left > 0.3f;
+    if (now && !shut && last >= 0) intervals.push_back(InMs(t) - last);
+    if (now && !shut) last = InMs(t);
+    shut = now;
+  }
+  std::ranges::sort(intervals);
+  ASSERT_GT(intervals.size(), 120u);
+  EXPECT_GE(intervals.front(), 1950);
+  EXPECT_LE(intervals.back(), 6050);
+  double mean = 0;
+  for (const double ms : intervals) mean += ms / static_cast<double>(intervals.size());
+  EXPECT_NEAR(mean, 4000, 500);
+  EXPECT_LT(intervals[intervals.size() / 2], mean) << "the median is below the mean";
+}
+
+TEST_F(LifeTest, LargeShiftsOfTheGazeComeWithABlinkWhichCanBeSwitchedOff) {
+  motion.Gaze(0ms, 0, 30, 0ms);
+  EXPECT_EQ(motion.StateAt(90ms).blink_left, 0);
+  On("GAZEBLINK");
+  int blinks = 0;
+  for (int i = 1; i <= 20; ++i) {
+    const vm::Time at = i * 2s;
+    motion.Gaze(at, 0, i % 2 == 0 ? 20 : -20, 0ms);
+    if (motion.StateAt(at + 90ms).blink_left > 0.5f) ++blinks;
+  }
+  EXPECT_GE(blinks, 16);
+}
+
+TEST_F(LifeTest, MostUtterancesEndWithABlink) {
+  On("ENDBLINK");
+  int blinks = 0;
+  for (int i = 0; i < 20; ++i) {
+    const vm::Time at = i * 10s;
+    motion.Speak(at, List("pau 100 aa 300 pau 100"), at);
+    EXPECT_EQ(motion.StateAt(at + 250ms).blink_left, 0);
+    float shut = 0;
+    for (vm::Time t = at + 400ms; t < at + 900ms; t += 10ms) {
+      shut = std::max(shut, motion.StateAt(t).blink_left);
+    }
+    if (shut > 0.9f) ++blinks;
+  }
+  EXPECT_GE(blinks, 12);
+  EXPECT_LE(blinks, 19);
+}
+
+TEST_F(LifeTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
+  motion.LookAtUser(0ms);
+  motion.TurnHead(100ms, {5, 20, 0});
+  const FaceState state = motion.StateAt(2s);
+  EXPECT_FLOAT_EQ(state.head_rotation[1], 20);
+  EXPECT_NEAR((state.eye_left.y + state.eye_right.y) / 2, -20, 1e-3);
+  EXPECT_NEAR(state.eye_left.x, 5, 1e-3);  // up, as the head went down
+}
+
+TEST_F(LifeTest, TheEyesConvergeOnWhatIsNear) {
+  motion.LookAtUser(0ms);
+  const FaceState state = motion.StateAt(1s);
+  // The agent's left eye is on the viewer's right: converging, it turns to the viewer's left.
+  EXPECT_NEAR(state.eye_left.y, -2.54, 0.02);
+  EXPECT_NEAR(state.eye_right.y, 2.54, 0.02);
+  auto settings = motion.settings();
+  settings.gaze_distance_mm = 0;
+  motion.Apply(1s, settings);
+  motion.LookAtUser(1s);
+  EXPECT_NEAR(motion.StateAt(2s).eye_left.y, 0, 1e-3);
+}
+
+TEST_F(LifeTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
+  motion.LookAtUser(0ms);
+  motion.Think(1s);
+  float least = 90;
+  std::vector<float> seen;
+  for (vm::Time t = 1200ms; t < 12s; t += 100ms) {
+    const FaceState state = motion.StateAt(t);
+    least = std::min(least, std::hypot(state.eye_left.x, state.eye_left.y));
+    if (seen.empty() || std::abs(seen.back() - state.eye_left.x) > 0.5f) {
+      seen.push_back(state.eye_left.x);
+    }
+  }
+  EXPECT_GT(least, 5);
+  EXPECT_GE(seen.size(), 4u);
+  motion.LookAtUser(12s);
+  EXPECT_NEAR(motion.StateAt(13s).eye_left.x, 0, 0.01);
+  EXPECT_FALSE(motion.NextActivity(13s).has_value());
+}
+
+TEST_F(LifeTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
+  On("SPEECH");
+  motion.Speak(0ms, List(kSentence), 1s);
+  float most = 0, least = 0, brow = 0, before = 0;
+  int nods = 0;
+  bool down = false;
+  for (vm::Time t = 0ms; t < 8s; t += 10ms) {
+    const FaceState state = motion.StateAt(t);
+    const float nod = state.head_rotation[0];
+    EXPECT_LT(std::abs(nod - before), 0.45f) << "no jumps, " << t.count();
+    before = nod;
+    most = std::max(most, nod);
+    least = std::min(least, nod);
+    brow = std::max(brow, state.au_left[1]);
+    if (nod > 0.6f && !down) ++nods;
+    down = nod > (down ? -0.1f : 0.6f);
+  }
+  EXPECT_GT(most, 1.5f);
+  EXPECT_LT(most, 5);
+  EXPECT_LT(least, -0.2f);
+  EXPECT_GE(nods, 3);
+  EXPECT_LE(nods, 9);
+  EXPECT_GT(brow, 0.1f);
+  EXPECT_FLOAT_EQ(Nod(8s), 0);
+  EXPECT_FALSE(motion.NextActivity(8s).has_value());
+}
+
+TEST_F(LifeTest, NodsFallOnStressedVowels) {
+  On("SPEECH");
+  motion.Speak(0ms, List("pau 200 t 60 ax 40 t 60 ax 40 t 60 aa 220 t 60 ax 40 t 60 ax 40 pau 200"),
+               1s);
+  vm::Time peak{0};
+  for (vm::Time t = 1s; t < 2s; t += 5ms) {
+    if (Nod(t) > Nod(peak)) peak = t;
+  }
+  // The vowel is at 460 to 680 ms of the mouth, which leads by 40.
+  EXPECT_NEAR(InMs(peak) - 960, 548, 60);
+}
+
+TEST_F(LifeTest, SpeakersLookAwayAtTheBeginningAndBackBeforeTheEnd) {
+  On("AVERT");
+  motion.Speak(0ms, List(kSentence), 1s);
+  float away = 0;
+  for (vm::Time t = 1s; t < 2s; t += 20ms) {
+    away = std::max(away, std::abs(motion.StateAt(t).eye_left.y));
+  }
+  EXPECT_GT(away, 5);
+  for (vm::Time t = 3s; t < 5s; t += 20ms) EXPECT_NEAR(motion.StateAt(t).eye_left.y, 0, 0.01);
+  motion.Speak(10s, List("pau 100 y 60 eh 120 s 150"), 10s);  // too short for that
+  for (vm::Time t = 10s; t < 11s; t += 20ms) EXPECT_NEAR(motion.StateAt(t).eye_left.y, 0, 0.01);
+}
+
+TEST_F(LifeTest, BreathMovesTheHeadALittleAboutFifteenTimesAMinute) {
+  On("BREATH");
+  int breaths = 0;
+  bool in = false;
+  for (vm::Time t = 1s; t < 61s; t += 50ms) {
+    EXPECT_LE(std::abs(Nod(t)), 0.46f);
+    const bool now = Nod(t) < -0.25f;
+    if (now && !in) ++breaths;
+    in = now;
+  }
+  EXPECT_NEAR(breaths, 15, 1);
+}
+
+TEST_F(LifeTest, AListenerNodsButNotWhileSpeaking) {
+  On("NODS");
+  float most = 0;
+  for (vm::Time t = 0ms; t < 30s; t += 20ms) most = std::max(most, Nod(t));
+  EXPECT_GT(most, 2);
+  motion.Speak(30s, List("pau 20000"), 30s);
+  for (vm::Time t = 31s; t < 49s; t += 20ms) EXPECT_LT(Nod(t), 0.01f);
+}
+
+TEST_F(LifeTest, GesturesHaveStrengthAndCount) {
+  ASSERT_TRUE(motion.Move(0ms, "NOD", 1, 0.5, 3));
+  EXPECT_NEAR(Nod(100ms), 5, 1e-3);
+  EXPECT_NEAR(Nod(300ms), 5 * 0.85, 1e-3);
+  EXPECT_NEAR(Nod(500ms), 5 * 0.85 * 0.85, 1e-3);
+  EXPECT_FLOAT_EQ(Nod(600ms), 0);
+  EXPECT_EQ(motion.FiniteEnd(0ms), vm::Time(600ms));
+  ASSERT_TRUE(motion.Move(1s, "SHAKE", 4));
+  EXPECT_GT(motion.StateAt(1180ms).head_rotation[1], 7);
+  ASSERT_TRUE(motion.Move(5s, "TILT", 4));
+  EXPECT_GT(motion.StateAt(6s).head_rotation[2], 8);
+  EXPECT_FALSE(motion.Move(5s, "NOD", 1, std::nan(""), 1));
+  EXPECT_FALSE(motion.Move(5s, "NOD", 1, 1, 1000));
+}
+
+TEST_F(LifeTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable) {
+  for (const char* profile : {"CALM", "LIVELY", "LISTENING", "STILL"}) {
+    ASSERT_TRUE(motion.SetLife(0ms, profile)) << profile;
+    EXPECT_TRUE(motion.NextActivity(10s).has_value());
+  }
+  ASSERT_TRUE(motion.SetLife(0ms, "LISTENING"));
+  EXPECT_GT(motion.StateAt(2s).au_left[12], 0.05f) << "friendly";
+  for (const std::string_view kind : kLifeNames) {
+    ASSERT_TRUE(motion.Autonomous(3s, kind, 0)) << kind;
+  }
+  EXPECT_FALSE(motion.NextActivity(10s).has_value());
+  const FaceState state = motion.StateAt(10s);
+  EXPECT_EQ(state.head_rotation, (std::array<float, 3>{}));
+  EXPECT_EQ(state.au_left[12], 0);
+  EXPECT_FALSE(motion.SetLife(10s, "PARTY"));
+}
+
+TEST_F(LifeTest, TheSameSeedLivesTheSameLife) {
+  FaceMotion same(MotionTables::Load().value(), 7);
+  FaceMotion other(MotionTables::Load().value(), 8);
+  for (FaceMotion* face : {&motion, &same, &other}) {
+    ASSERT_TRUE(face->SetLife(0ms, "LIVELY"));
+    face->LookAtUser(0ms);
+    face->Speak(1s, List(kSentence), 2s);
+  }
+  bool differs = false;
+  for (vm::Time t = 0ms; t < 20s; t += 100ms) {
+    const FaceState a = motion.StateAt(t), b = same.StateAt(t), c = other.StateAt(t);
+    ASSERT_EQ(a.head_rotation, b.head_rotation);
+    ASSERT_EQ(a.blink_left, b.blink_left);
+    ASSERT_EQ(a.eye_left.y, b.eye_left.y);
+    differs = differs || a.head_rotation != c.head_rotation;
+  }
+  EXPECT_TRUE(differs);
+}
+
+}  // namespace
+}  // namespace fsm

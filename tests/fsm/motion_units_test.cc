@@ -1,0 +1,208 @@
+// Units, codes and expressions as people name them, and bad ones.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+
+#include "fsm/motion/face_motion.h"
+#include "fsm/motion/table_text.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct UnitsTest : testing::Test {
+  UnitsTest() { EXPECT_TRUE(motion.Autonomous(0ms, "ASYMMETRY", 0)); }
+  FaceMotion motion{MotionTables::Load().value(), 1};
+  FaceState After(const char* text) {
+    const auto set = motion.SetUnits(0ms, text);
+    EXPECT_TRUE(set) << text << ": " << (set ? "" : set.error().text);
+    return motion.StateAt(1s);
+  }
+  std::string Refusal(const char* text) {
+    const auto set = motion.SetUnits(0ms, text);
+    return set ? "taken" : set.error().text;
+  }
+};
+
+TEST_F(UnitsTest, All44UnitsGoByNumberAndByName) {
+  const UnitNames& names = motion.tables().unit_names;
+  int units = 0;
+  for (int number = 1; number <= 46; ++number) {
+    if (!IsActionUnit(number)) continue;
+    ++units;
+    ASSERT_TRUE(names.names.contains(number)) << number;
+    const auto index = static_cast<std::size_t>(number);
+    EXPECT_FLOAT_EQ(After((std::to_string(number) + "R 0.25").c_str()).au_right[index], 0.25f);
+    EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[index], 0);
+    const FaceState state = After((names.names.at(number) + " 0.75").c_str());
+    EXPECT_FLOAT_EQ(state.au_left[index], 0.75f);
+    EXPECT_FLOAT_EQ(state.au_right[index], 0.75f);
+  }
+  EXPECT_EQ(units, 44);
+}
+
+TEST_F(UnitsTest, SidesLettersAndSeveralAtOnce) {
+  const FaceState state = After("12L 0.7 R6C 1 E LipPucker.L:0.3 25A 300");
+  EXPECT_FLOAT_EQ(state.au_left[12], 0.7f);
+  EXPECT_FLOAT_EQ(state.au_right[12], 0);
+  EXPECT_FLOAT_EQ(state.au_right[6], 0.5f);
+  EXPECT_FLOAT_EQ(state.au_left[1], 1);
+  EXPECT_FLOAT_EQ(state.au_left[18], 0.3f);
+  EXPECT_FLOAT_EQ(state.au_left[25], 0.1f);
+  EXPECT_LT(motion.StateAt(150ms).au_left[1], 0.6f) << "300 ms were asked for";
+}
+
+TEST_F(UnitsTest, CodesTurnHeadAndEyes) {
+  EXPECT_FLOAT_EQ(After("51 0.5").head_rotation[1], 15);  // the agent's left is the viewer's right
+  EXPECT_FLOAT_EQ(After("51 0 52 1").head_rotation[1], -30);
+  EXPECT_FLOAT_EQ(After("52 0 53 1").head_rotation[0], -20);
+  EXPECT_FLOAT_EQ(After("53 0 55 1").head_rotation[2], 15);
+  EXPECT_FLOAT_EQ(After("55 0 EyesUp 1").eye_left.x, 25);
+  EXPECT_FLOAT_EQ(After("63 0 CrossEye 1").eye_left.y, -12);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).eye_right.y, 12);
+  EXPECT_GT(After("57 1").agent_scale, 1.05f);
+}
+
+TEST_F(UnitsTest, RefusalsNameTheWordItsPlaceAndWhatWasExpected) {
+  EXPECT_TRUE(Refusal("12 0.5 99 1").starts_with("'99' at column 8 is not an action unit"));
+  EXPECT_TRUE(Refusal("12 1e9").starts_with("'1e9' at column 4 is no strength; a number from 0"));
+  EXPECT_TRUE(Refusal("12 nan").starts_with("'nan' at column 4 is no strength"));
+  EXPECT_TRUE(Refusal("12 -1").starts_with("'-1' at column 4 is no strength"));
+  EXPECT_TRUE(Refusal("12").starts_with("'12' at column 1 is without a strength"));
+  EXPECT_TRUE(Refusal("Smiler 1").starts_with("'Smiler' at column 1 is not an action unit"));
+  EXPECT_TRUE(Refusal("51L 1").starts_with("'51L' at column 1 is a code of head or eyes"));
+  EXPECT_TRUE(Refusal("12 0.5 -20").starts_with("'-20' at column 8 is no time"));
+  EXPECT_TRUE(Refusal("").starts_with("nothing found"));
+  EXPECT_TRUE(Refusal("12F 1").starts_with("'12F' at column 1 is not"));
+  const FaceState state = motion.StateAt(1s);
+  for (const float v : state.au_left) EXPECT_EQ(v, 0) << "a refused line moves nothing";
+}
+
+TEST_F(UnitsTest, StrengthsThatAreNoneAreRefusedEverywhere) {
+  for (const double bad : {std::nan(""), 1e9, -0.1, std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(motion.Express(0ms, "HAPPY", 1, bad, 0ms)) << bad;
+    EXPECT_FALSE(motion.SetFace(0ms, 1, bad)) << bad;
+    EXPECT_FALSE(motion.SetMouth(0ms, 1, bad)) << bad;
+    EXPECT_FALSE(motion.SetUnit(0ms, "12", bad, 0ms)) << bad;
+    EXPECT_FALSE(motion.SetBlendShape(0ms, "jawOpen", bad, 0ms)) << bad;
+  }
+}
+
+TEST_F(UnitsTest, All52BlendShapesAreThere) { EXPECT_EQ(motion.tables().blend_shapes.size(), 52u); }
+
+TEST_F(UnitsTest, ExpressionsAreDefinedChangedAndForgotten) {
+  ASSERT_TRUE(motion.DefineExpression("SMIRK", 1, "12L 0.7 14R 0.2"));
+  ASSERT_TRUE(motion.DefineExpression("SMIRK", 2, "12L:1 gaze:0,10"));
+  ASSERT_TRUE(motion.Express(0ms, "SMIRK", 1, 2, 0ms));
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[12], 1.4f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_right[14], 0.4f);
+  ASSERT_TRUE(motion.Express(1s, "SMIRK", 2, 1, 0ms));
+  EXPECT_FLOAT_EQ(motion.StateAt(2s).eye_left.y, 10);
+  ASSERT_TRUE(motion.DefineExpression("HAPPY", 1, "12 1"));
+  ASSERT_TRUE(motion.Express(2s, "HAPPY", 1, 1, 0ms));
+  EXPECT_FLOAT_EQ(motion.StateAt(3s).au_left[12], 1);
+  motion.ForgetExpression("HAPPY");
+  motion.ForgetExpression("SMIRK");
+  ASSERT_TRUE(motion.Express(3s, "HAPPY", 1, 1, 0ms));
+  EXPECT_FLOAT_EQ(motion.StateAt(4s).au_left[12], 0.8f);
+  EXPECT_FALSE(motion.Express(4s, "SMIRK", 1, 1, 0ms));
+}
+
+TEST_F(UnitsTest, BadDefinitionsAreRefused) {
+  const auto refusal = [&](const char* name, int pattern, const char* look) {
+    const auto made = motion.DefineExpression(name, pattern, look);
+    return made ? "taken" : made.error().text;
+  };
+  EXPECT_TRUE(refusal("SMIRK", 1, "12L 0.7 140 0.2").starts_with("'140' at column 9"));
+  EXPECT_TRUE(refusal("SMIRK", 2, "12 1").starts_with("SMIRK has 0 patterns; pattern 1 to 1"));
+  EXPECT_TRUE(refusal("NEUTRAL", 1, "12 1").starts_with("'NEUTRAL' cannot be the name"));
+  EXPECT_TRUE(refusal("A B", 1, "12 1").starts_with("'A B' cannot be"));
+  EXPECT_TRUE(refusal("X", 1, "51 1").starts_with("51 is a code of head or eyes"));
+  EXPECT_TRUE(refusal("X", 1, "12 1 gaze:a,b").starts_with("'gaze:a,b' at column 6"));
+  EXPECT_TRUE(refusal("X", 1, "12 nan").starts_with("'nan' at column 4"));
+}
+
+TEST_F(UnitsTest, ThereIsAnEndToExpressions) {
+  int made = 0;
+  while (motion.DefineExpression("E" + std::to_string(made), 1, "12 1")) {
+    ASSERT_LT(++made, 1000);
+  }
+  EXPECT_TRUE(motion.DefineExpression("E0", 2, "12 0.5"));
+}
+
+TEST_F(UnitsTest, LooksAreWrittenAsTheyAreRead) {
+  for (const auto& [name, emotion] : motion.tables().emotions) {
+    for (const ActionUnits& look : emotion.patterns) {
+      const auto again = ParseLook(FormatLook(look), motion.tables().unit_names);
+      ASSERT_TRUE(again) << FormatLook(look);
+      EXPECT_EQ(again->left, look.left);
+      EXPECT_EQ(again->right, look.right);
+      EXPECT_EQ(again->gaze_left, look.gaze_left);
+    }
+  }
+}
+
+// ---- damaged and hostile tables
+
+TEST(HostileTablesTest, EveryTableSurvivesDamageAtAnyPlace) {
+  const std::filesystem::path source = GALATEA_SOURCE_DIR "/fsm/motion/tables";
+  char name[] = "/tmp/galatea_tables_XXXXXX";
+  ASSERT_NE(mkdtemp(name), nullptr);
+  const std::filesystem::path folder = name;
+  std::mt19937 random(3);
+  int refused = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source)) {
+    const std::string whole = ReadTableFile(entry.path().string()).value();
+    for (int run = 0; run < 12; ++run) {
+      std::string text = whole;
+      for (int hit = 0; hit < 1 + run; ++hit) {
+        const std::size_t at = random() % text.size();
+        if (run % 3 == 0) text.resize(at + 1);
+        if (run % 3 == 1) text[at] = static_cast<char>(random() % 256);
+        if (run % 3 == 2)
+          text.insert(at, std::array{"nan", "1e999", "\n", "-9", "L"}[random() % 5]);
+      }
+      const std::filesystem::path file = folder / entry.path().filename();
+      std::ofstream(file, std::ios::binary) << text;
+      const auto tables = MotionTables::Load(folder.string());
+      if (!tables) {
+        ++refused;
+        // The file itself, or another that refers to what is gone.
+        EXPECT_TRUE(tables.error().text.starts_with(folder.string() + "/") ||
+                    tables.error().text.find(".txt:") != std::string::npos)
+            << tables.error().text;
+        EXPECT_LT(tables.error().text.size(), 700u);
+      }
+      std::filesystem::remove(file);
+    }
+  }
+  EXPECT_GT(refused, 40);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(HostileTablesTest, HugeFilesDevicesAndBinariesAreRefused) {
+  char name[] = "/tmp/galatea_tables_XXXXXX";
+  ASSERT_NE(mkdtemp(name), nullptr);
+  const std::filesystem::path folder = name;
+  const auto refusal = [&] {
+    const auto tables = MotionTables::Load(folder.string());
+    return tables ? "taken" : tables.error().text;
+  };
+  std::ofstream(folder / "emotions.txt") << std::string(kMaxTableBytes + 10, 'x');
+  EXPECT_NE(refusal().find("is longer than"), std::string::npos);
+  std::ofstream(folder / "emotions.txt") << std::string(100000, 'x');
+  EXPECT_LT(refusal().size(), 700u);
+  std::filesystem::remove(folder / "emotions.txt");
+  std::filesystem::create_symlink("/dev/zero", folder / "emotions.txt");
+  EXPECT_NE(refusal().find("cannot read"), std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace fsm
