@@ -6,6 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config ccache git python3
   libboost1.81-dev libcli11-dev nlohmann-json3-dev libfmt-dev libglm-dev
+  duktape-dev libexpat1-dev libcurl4-openssl-dev
   libgtest-dev libbenchmark-dev
   libosmesa6-dev libglfw3-dev libgl-dev libpng-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev

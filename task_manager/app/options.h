@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "task_manager/interpreter/session.h"
+
+namespace vxml {
+
+/// What the command line says.
+struct Options {
+  std::string document;
+  std::string platform = "text";
+  std::vector<std::string> scripts;
+  std::string transcript = "auto";  ///< json, text, none
+  std::string transcript_file;
+  std::string trace;  ///< file, "-" = stderr, "" = none
+  std::string connect;
+  std::string name = "DM";
+  bool check = false;
+  bool graph = false;
+  bool strict = false;
+  int sessions = 1;
+  std::vector<std::string> allow;
+  std::vector<std::string> properties;  ///< NAME=VALUE
+  std::vector<std::string> variables;   ///< session variables, NAME=VALUE
+  int fetch_timeout_ms = 10'000;
+};
+
+/// Exit codes of the program (docs/dialogs.md).
+enum ExitCode {
+  kEnded = 0,       ///< exit, end or hang-up
+  kFailed = 1,      ///< an error event ended it
+  kNotStarted = 2,  ///< the document could not be loaded, or --check found errors
+  kUsage = 3,
+  kRanOut = 4,  ///< the script had no more input for the dialogue
+};
+
+SessionOptions MakeSessionOptions(const Options& options);
+int RunText(const Options& options);
+int RunAgent(const Options& options);
+int RunCheck(const Options& options);
+int RunGraph(const Options& options);
+
+}  // namespace vxml

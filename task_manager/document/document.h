@@ -1,0 +1,50 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "task_manager/xml/node.h"
+#include "vm_protocol/core/result.h"
+
+namespace vxml {
+
+/// Something to say about a document. Errors make it unfit to run (error.badfetch).
+struct Finding {
+  enum class Severity { kError, kWarning };
+  Severity severity = Severity::kError;
+  std::size_t line = 0;
+  std::size_t column = 0;
+  std::string text;    ///< what is wrong
+  std::string advice;  ///< what to do about it, "" if that is plain
+};
+/// "URI:LINE:COLUMN: error: text (advice)"
+std::string FormatFinding(const std::string& uri, const Finding& finding);
+
+/// A loaded VoiceXML document. Immutable; shared by the sessions' contexts that run it.
+struct Document {
+  std::string uri;          ///< absolute, without fragment
+  std::string base;         ///< what relative references are resolved against (xml:base or uri)
+  std::string application;  ///< absolute URI of the application root, "" if it is its own root
+  std::string language;
+  std::string version;
+  std::unique_ptr<xml::Node> root;
+  std::vector<const xml::Node*> dialogs;  ///< forms and menus in document order
+
+  /// The form or menu of that id, or null.
+  const xml::Node* FindDialog(const std::string& id) const;
+};
+
+/// Reads and checks a document. Errors: kSyntax, kLimit, kTooLong, kBadUtf8; the text is the first
+/// finding of severity error.
+vm::Result<std::shared_ptr<Document>> LoadDocument(std::string_view bytes, const std::string& uri,
+                                                   const std::string& charset = "");
+
+/// Everything there is to say about a document's structure (VoiceXML 2.1 with our extensions).
+std::vector<Finding> CheckDocument(const Document& document);
+
+/// A VoiceXML element, of its namespace or of none (the original wrote none).
+bool IsVoiceXml(const xml::Node& node);
+
+}  // namespace vxml

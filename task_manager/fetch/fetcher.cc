@@ -1,0 +1,252 @@
+#include "task_manager/fetch/fetcher.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "task_manager/fetch/cache.h"
+#include "task_manager/fetch/http.h"
+#include "task_manager/fetch/uri.h"
+
+namespace vxml::fetch {
+namespace {
+
+constexpr int kMaxRedirections = 10;
+
+std::unexpected<Failure> Refuse(vm::Errc code, std::string text, int status = 0) {
+  Failure failure;
+  failure.code = code;
+  failure.text = std::move(text);
+  failure.http_status = status;
+  return std::unexpected(std::move(failure));
+}
+
+std::string Lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  return text;
+}
+
+/// "text/xml; charset=UTF-8" -> type and charset.
+void SplitType(const std::string& header, Response& response) {
+  const std::size_t semicolon = header.find(';');
+  std::string type = Lower(header.substr(0, semicolon));
+  type.erase(type.find_last_not_of(" \t") + 1);
+  response.content_type = type;
+  const std::string lower = Lower(header);
+  const std::size_t at = lower.find("charset=");
+  if (at == std::string::npos) return;
+  std::string charset = lower.substr(at + 8);
+  charset = charset.substr(0, charset.find(';'));
+  std::erase(charset, '"');
+  charset.erase(charset.find_last_not_of(" \t") + 1);
+  response.charset = charset;
+}
+
+std::string TypeOfName(const std::string& path) {
+  static const std::map<std::string, std::string> kTypes = {{".vxml", "application/voicexml+xml"},
+                                                            {".grxml", "application/srgs+xml"},
+                                                            {".gram", "application/srgs"},
+                                                            {".abnf", "application/srgs"},
+                                                            {".xml", "application/xml"},
+                                                            {".js", "text/javascript"},
+                                                            {".es", "text/javascript"},
+                                                            {".wav", "audio/x-wav"},
+                                                            {".au", "audio/basic"},
+                                                            {".ulaw", "audio/basic"}};
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return "";
+  const auto found = kTypes.find(Lower(path.substr(dot)));
+  return found == kTypes.end() ? "" : found->second;
+}
+
+std::string DecodeBase64(std::string_view text) {
+  std::string out;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    int value = -1;
+    if (c >= 'A' && c <= 'Z') value = c - 'A';
+    if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
+    if (c >= '0' && c <= '9') value = c - '0' + 52;
+    if (c == '+' || c == '-') value = 62;
+    if (c == '/' || c == '_') value = 63;
+    if (value < 0) continue;
+    bits = (bits << 6U) | static_cast<unsigned>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      out += static_cast<char>((bits >> static_cast<unsigned>(count)) & 0xFFU);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+struct Fetcher::Cache : HttpCache {
+  using HttpCache::HttpCache;
+};
+
+std::string FormEncode(const std::vector<Field>& fields) {
+  std::string text;
+  for (const Field& field : fields) {
+    if (!text.empty()) text += '&';
+    text += PercentEncode(field.name) + "=" + PercentEncode(field.value);
+  }
+  return text;
+}
+
+Fetcher::Fetcher(Options options)
+    : options_(std::move(options)), cache_(std::make_unique<Cache>(options_.cache_bytes)) {
+  if (!options_.now) {
+    options_.now = [] {
+      return std::chrono::duration_cast<std::chrono::seconds>(
+                 std::chrono::system_clock::now().time_since_epoch())
+          .count();
+    };
+  }
+}
+Fetcher::~Fetcher() = default;
+
+vm::Result<Response> Fetcher::Get(const std::string& uri) {
+  Request request;
+  request.uri = uri;
+  auto got = Fetch(request);
+  if (!got) return std::unexpected(static_cast<vm::Error>(got.error()));
+  return std::move(*got);
+}
+
+bool Fetcher::Allowed(const std::string& uri) const {
+  if (options_.allowed_roots.empty() || uri.starts_with("data:")) return true;
+  const std::string plain = PercentDecode(uri);
+  for (const std::string& root : options_.allowed_roots) {
+    if (plain.starts_with(root) && plain.find("/../") == std::string::npos) return true;
+  }
+  return false;
+}
+
+std::expected<Response, Failure> Fetcher::Fetch(const Request& original) {
+  Request request = original;
+  request.uri = WithoutFragment(request.uri);
+  if (!request.post && !request.fields.empty()) {
+    request.uri += (request.uri.find('?') == std::string::npos ? "?" : "&");
+    request.uri += FormEncode(request.fields);
+    request.fields.clear();
+  }
+  const std::string scheme = ParseUri(request.uri).scheme;
+  if (!Allowed(request.uri)) {
+    return Refuse(vm::Errc::kAccess,
+                  request.uri + ": outside of the places fetching is allowed from");
+  }
+  if (scheme == "file") return FetchFile(request);
+  if (scheme == "data") return FetchData(request);
+  if (scheme == "http" || scheme == "https") return FetchHttp(request);
+  return Refuse(vm::Errc::kBadValue, request.uri + ": expected a file, http, https or data URI");
+}
+
+std::expected<Response, Failure> Fetcher::FetchFile(const Request& request) {
+  const Uri uri = ParseUri(request.uri);
+  const std::string path = PercentDecode(uri.path);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || !std::filesystem::is_regular_file(path, error)) {
+    return Refuse(vm::Errc::kUnavailable, request.uri + ": no such file");
+  }
+  if (size > options_.max_bytes) {
+    return Refuse(vm::Errc::kTooLong,
+                  request.uri + ": over " + std::to_string(options_.max_bytes) + " bytes");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return Refuse(vm::Errc::kUnavailable, request.uri + ": cannot be read");
+  Response response;
+  response.body.resize(size);
+  file.read(response.body.data(), static_cast<std::streamsize>(size));
+  response.body.resize(static_cast<std::size_t>(file.gcount()));
+  response.uri = request.uri;
+  response.content_type = TypeOfName(path);
+  return response;
+}
+
+std::expected<Response, Failure> Fetcher::FetchData(const Request& request) {
+  const std::size_t comma = request.uri.find(',');
+  if (comma == std::string::npos) {
+    return Refuse(vm::Errc::kBadValue, "data URI without ','");
+  }
+  Response response;
+  std::string header = request.uri.substr(5, comma - 5);
+  const bool base64 = header.ends_with(";base64");
+  if (base64) header.erase(header.size() - 7);
+  SplitType(header, response);
+  const std::string body = PercentDecode(std::string_view(request.uri).substr(comma + 1));
+  response.body = base64 ? DecodeBase64(body) : body;
+  response.uri = request.uri;
+  return response;
+}
+
+std::expected<Response, Failure> Fetcher::FetchHttp(const Request& request) {
+  const auto deadline =
+      std::chrono::steady_clock::now() + request.timeout.value_or(options_.default_timeout);
+  std::string uri = request.uri;
+  bool post = request.post;
+  for (int turn = 0; turn <= kMaxRedirections; ++turn) {
+    if (!Allowed(uri)) {
+      return Refuse(vm::Errc::kAccess, uri + ": outside of the places fetching is allowed from");
+    }
+    HttpRequest http;
+    http.uri = uri;
+    http.post = post;
+    http.multipart = request.multipart;
+    if (post) http.fields = request.fields;
+    http.max_bytes = options_.max_bytes;
+    http.user_agent = options_.user_agent;
+    http.timeout = std::chrono::duration_cast<std::chrono::milliseconds>(
+        deadline - std::chrono::steady_clock::now());
+    if (http.timeout.count() <= 0) return Refuse(vm::Errc::kTimeout, uri + ": timed out");
+    const CacheEntry* stored = post ? nullptr : cache_->Find(uri);
+    const auto answer = [&](const HttpResponse& from, bool cached) {
+      Response response;
+      response.body = from.body;
+      response.uri = uri;
+      response.from_cache = cached;
+      const auto type = from.headers.find("content-type");
+      if (type != from.headers.end()) SplitType(type->second, response);
+      return response;
+    };
+    if (stored && Usable(*stored, options_.now(), request.max_age, request.max_stale)) {
+      return answer(stored->response, true);
+    }
+    if (stored) {
+      const auto& headers = stored->response.headers;
+      if (const auto tag = headers.find("etag"); tag != headers.end()) {
+        http.headers.push_back("If-None-Match: " + tag->second);
+      }
+      if (const auto date = headers.find("last-modified"); date != headers.end()) {
+        http.headers.push_back("If-Modified-Since: " + date->second);
+      }
+    }
+    auto got = Exchange(http);
+    if (!got) return std::unexpected(got.error());
+    if (got->status == 304 && stored) {
+      return answer(cache_->Refresh(uri, *got, options_.now())->response, true);
+    }
+    const auto location = got->headers.find("location");
+    if (got->status >= 300 && got->status < 400 && location != got->headers.end()) {
+      uri = WithoutFragment(Resolve(uri, location->second));
+      const std::string scheme = ParseUri(uri).scheme;
+      if (scheme != "http" && scheme != "https") {
+        return Refuse(vm::Errc::kAccess, uri + ": a redirection out of http");
+      }
+      if (got->status != 307 && got->status != 308) post = false;
+      continue;
+    }
+    if (got->status < 200 || got->status >= 300) {
+      return Refuse(vm::Errc::kUnavailable, uri + ": HTTP status " + std::to_string(got->status),
+                    got->status);
+    }
+    if (!post) cache_->Store(uri, *got, options_.now());
+    return answer(*got, false);
+  }
+  return Refuse(vm::Errc::kUnavailable, request.uri + ": too many redirections");
+}
+
+}  // namespace vxml::fetch

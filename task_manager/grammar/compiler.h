@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "task_manager/grammar/model.h"
+#include "task_manager/xml/node.h"
+#include "vm_protocol/core/result.h"
+
+namespace vxml::srgs {
+
+/// Limits of one grammar; over them it is refused.
+inline constexpr std::size_t kMaxGrammarBytes = std::size_t{4} << 20;
+inline constexpr std::size_t kMaxGrammarDepth = 250;
+inline constexpr int kMaxRepeat = 100'000;
+
+/// What surrounds a grammar: its place, and what it inherits where it does not say itself.
+struct GrammarContext {
+  std::string uri;   ///< of the grammar or the document it stands in; for messages
+  std::string base;  ///< relative references are resolved against it
+  std::string language;
+  Mode mode = Mode::kVoice;
+};
+
+/// The XML form (SRGS 1.0), from a <grammar> element. Also taken: the Galatea shortcuts (<token>
+/// and text directly in <grammar> become the rule "#main" when there is no rule; root="#name";
+/// token attributes phoneme and sym).
+/// Errors "URI:LINE:COLUMN: ..." with kSyntax, kBadValue, kLimit.
+vm::Result<std::unique_ptr<Grammar>> CompileXml(const xml::Node& grammar,
+                                                const GrammarContext& context);
+/// The ABNF form; the header "#ABNF 1.0 CHARSET;" may be missing in inline grammars.
+vm::Result<std::unique_ptr<Grammar>> CompileAbnf(std::string_view text,
+                                                 const GrammarContext& context);
+/// Either form, told apart by the first character; XML in any encoding.
+vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
+                                                  const GrammarContext& context,
+                                                  const std::string& charset = "");
+
+/// "2", "0-1", "3-" -> min, max. False if it is none of these.
+bool ParseRepeat(std::string_view text, int& min, int& max);
+std::unique_ptr<Expansion> MakeToken(std::string_view text);
+/// "grammar.xml#rule" -> the reference's uri and rule.
+void SplitReference(const std::string& reference, Expansion& into);
+
+}  // namespace vxml::srgs

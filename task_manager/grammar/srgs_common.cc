@@ -1,0 +1,91 @@
+#include <charconv>
+
+#include "task_manager/grammar/compiler.h"
+#include "task_manager/grammar/text.h"
+#include "task_manager/xml/parser.h"
+
+namespace vxml::srgs {
+namespace {
+
+bool ReadCount(std::string_view text, int& value) {
+  text = xml::Trim(text);
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  return read.ec == std::errc() && read.ptr == text.data() + text.size() && value >= 0 &&
+         value <= kMaxRepeat;
+}
+
+}  // namespace
+
+bool ParseRepeat(std::string_view text, int& min, int& max) {
+  const std::size_t dash = text.find('-');
+  if (dash == std::string_view::npos) {
+    if (!ReadCount(text, min)) return false;
+    max = min;
+    return true;
+  }
+  if (!ReadCount(text.substr(0, dash), min)) return false;
+  if (xml::IsBlank(text.substr(dash + 1))) {
+    max = Expansion::kUnbounded;
+    return true;
+  }
+  return ReadCount(text.substr(dash + 1), max) && max >= min;
+}
+
+std::unique_ptr<Expansion> MakeToken(std::string_view text) {
+  auto token = std::make_unique<Expansion>();
+  token->kind = Expansion::Kind::kToken;
+  token->text = xml::Collapse(text);
+  token->folded = Fold(token->text);
+  return token;
+}
+
+void SplitReference(const std::string& reference, Expansion& into) {
+  const std::size_t hash = reference.find('#');
+  into.text = reference;
+  into.uri = reference.substr(0, hash);
+  into.rule = hash == std::string::npos ? "" : reference.substr(hash + 1);
+}
+
+vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
+                                                  const GrammarContext& context,
+                                                  const std::string& charset) {
+  if (bytes.size() > kMaxGrammarBytes) {
+    return vm::Fail(vm::Errc::kTooLong,
+                    context.uri + ": over " + std::to_string(kMaxGrammarBytes) + " bytes");
+  }
+  std::string_view start = bytes;
+  if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);
+  start = xml::Trim(start);
+  const bool utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
+  if (!start.starts_with("<") && !utf16) {
+    std::string text(start);
+    std::string encoding = charset;
+    if (start.starts_with("#ABNF")) {  // #ABNF 1.0 ISO-8859-1;
+      const std::string header = xml::Collapse(start.substr(0, start.find(';')));
+      const std::size_t blank = header.find(' ', 6);
+      if (blank != std::string::npos) encoding = header.substr(blank + 1);
+    }
+    if (!encoding.empty()) {
+      for (char& c : encoding) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+      if (encoding != "utf-8") {
+        auto utf8 = xml::ToUtf8(start, encoding);
+        if (!utf8) return vm::Fail(utf8.error().code, context.uri + ":1:1: " + utf8.error().text);
+        text = std::move(*utf8);
+      }
+    }
+    return CompileAbnf(text, context);
+  }
+  xml::Limits limits;
+  limits.document_bytes = kMaxGrammarBytes;
+  limits.depth = kMaxGrammarDepth;
+  auto document = xml::Parse(bytes, context.uri, charset, limits);
+  if (!document) return std::unexpected(document.error());
+  if (!document->root->IsElement("grammar")) {
+    return vm::Fail(vm::Errc::kSyntax, context.uri + ":" + std::to_string(document->root->line) +
+                                           ":1: found <" + document->root->name +
+                                           ">, expected <grammar>");
+  }
+  return CompileXml(*document->root, context);
+}
+
+}  // namespace vxml::srgs

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "task_manager/grammar/compiler.h"
+#include "task_manager/grammar/model.h"
+
+namespace vxml::srgs {
+
+/// Owns compiled grammars and links their references, fetching other grammars on the way (each URI
+/// once, so grammars may refer to each other in circles).
+/// Limits: kMaxGrammars fetched for one store. Thread: one.
+class GrammarStore {
+ public:
+  static constexpr std::size_t kMaxGrammars = 200;
+  /// Gets the bytes of an absolute URI. Resolve joins a base and a reference.
+  using Fetch = std::function<vm::Result<std::string>(const std::string& uri)>;
+  using Resolve = std::function<std::string(const std::string& base, const std::string& uri)>;
+
+  GrammarStore(Fetch fetch, Resolve resolve);
+
+  /// Links a grammar compiled by the caller and keeps it. Errors: as CompileBytes, kUnavailable
+  /// (not fetched), kBadValue (no such rule, or a private one of another grammar).
+  vm::Result<const Grammar*> Add(std::unique_ptr<Grammar> grammar);
+  /// The grammar at `uri` (with #rule or without), linked; `rule` gets the rule to start at.
+  vm::Result<const Grammar*> Load(const std::string& uri, const GrammarContext& context,
+                                  const Rule** rule);
+
+ private:
+  vm::Result<Grammar*> Fetched(const std::string& uri, const GrammarContext& context);
+  vm::Result<void> Link(Grammar& grammar);
+  vm::Result<void> LinkExpansion(Grammar& grammar, Expansion& node);
+  vm::Result<void> LinkReference(Grammar& grammar, Expansion& node);
+
+  Fetch fetch_;
+  Resolve resolve_;
+  std::map<std::string, std::unique_ptr<Grammar>> by_uri_;
+  std::vector<std::unique_ptr<Grammar>> others_;
+};
+
+}  // namespace vxml::srgs

@@ -1,0 +1,110 @@
+#include "task_manager/grammar/text.h"
+
+#include <vector>
+
+namespace vxml::srgs {
+namespace {
+
+char32_t Lower(char32_t c) {
+  if (c >= U'A' && c <= U'Z') return c + 32;
+  if ((c >= 0xC0 && c <= 0xDE && c != 0xD7) || (c >= 0x391 && c <= 0x3A9)) return c + 32;
+  if (c >= 0x410 && c <= 0x42F) return c + 32;
+  if (c >= 0x400 && c <= 0x40F) return c + 80;
+  if (c >= 0xFF21 && c <= 0xFF3A) return c - 0xFF21 + U'a';  // full-width letters
+  if (c >= 0xFF41 && c <= 0xFF5A) return c - 0xFF41 + U'a';
+  if (c >= 0xFF10 && c <= 0xFF19) return c - 0xFF10 + U'0';  // full-width digits
+  if (c == 0x3000 || c == 0xA0) return U' ';
+  if (c == 0x2019) return U'\'';
+  if (c >= 0x100 && c <= 0x17F && (c % 2) == 0) return c + 1;
+  return c;
+}
+
+bool IsPunctuation(char32_t c) {
+  static const std::u32string_view kMarks = U".,!?;:\"()\u3001\u3002\uFF01\uFF1F\uFF0C\uFF0E";
+  return kMarks.find(c) != std::u32string_view::npos;
+}
+
+}  // namespace
+
+bool IsUnspaced(char32_t c) {
+  return (c >= 0x2E80 && c <= 0xD7FF) || (c >= 0xF900 && c <= 0xFAFF) ||
+         (c >= 0xFF00 && c <= 0xFFEF) || (c >= 0x20000 && c <= 0x3FFFF);
+}
+
+char32_t DecodeAt(std::string_view text, std::size_t at, std::size_t& size) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned first = byte(at);
+  size = 1;
+  if (first < 0xC0) return first;
+  const std::size_t more = first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
+  char32_t c = first & (0x3FU >> more);
+  for (std::size_t i = 1; i <= more; ++i) {
+    const unsigned next = byte(at + i);
+    if ((next & 0xC0U) != 0x80U) return first;
+    c = (c << 6U) | (next & 0x3FU);
+  }
+  size = more + 1;
+  return c;
+}
+
+char32_t DecodeBefore(std::string_view text, std::size_t end) {
+  if (end == 0) return 0;
+  std::size_t start = end - 1;
+  while (start > 0 && end - start < 4 &&
+         (static_cast<unsigned char>(text[start]) & 0xC0U) == 0x80U) {
+    --start;
+  }
+  std::size_t size = 0;
+  return DecodeAt(text, start, size);
+}
+
+void AppendUtf8(std::string& out, char32_t c) {
+  if (c < 0x80) {
+    out += static_cast<char>(c);
+  } else if (c < 0x800) {
+    out += static_cast<char>(0xC0U | (c >> 6U));
+    out += static_cast<char>(0x80U | (c & 0x3FU));
+  } else if (c < 0x10000) {
+    out += static_cast<char>(0xE0U | (c >> 12U));
+    out += static_cast<char>(0x80U | ((c >> 6U) & 0x3FU));
+    out += static_cast<char>(0x80U | (c & 0x3FU));
+  } else {
+    out += static_cast<char>(0xF0U | (c >> 18U));
+    out += static_cast<char>(0x80U | ((c >> 12U) & 0x3FU));
+    out += static_cast<char>(0x80U | ((c >> 6U) & 0x3FU));
+    out += static_cast<char>(0x80U | (c & 0x3FU));
+  }
+}
+
+std::string Fold(std::string_view text) {
+  std::vector<std::u32string> words(1);
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t size = 0;
+    const char32_t c = Lower(DecodeAt(text, at, size));
+    at += size;
+    if (c == U' ' || (c >= U'\t' && c <= U'\r')) {
+      if (!words.back().empty()) words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  std::string folded;
+  for (std::u32string& word : words) {
+    std::size_t begin = 0;
+    std::size_t end = word.size();
+    while (end > begin && IsPunctuation(word[end - 1])) --end;
+    while (begin < end && IsPunctuation(word[begin])) ++begin;
+    if (begin == end) {  // nothing but punctuation: it stands for itself if it is all there is
+      if (words.size() > 1 || word.empty()) continue;
+      begin = 0;
+      end = word.size();
+    }
+    if (!folded.empty()) folded += ' ';
+    for (std::size_t i = begin; i < end; ++i) AppendUtf8(folded, word[i]);
+  }
+  return folded;
+}
+
+}  // namespace vxml::srgs

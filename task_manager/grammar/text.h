@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace vxml::srgs {
+
+/// What tokens and input are compared by: blanks collapsed to one, letters without case (ASCII,
+/// Latin-1, Greek, Cyrillic, full-width), punctuation at the ends of words dropped.
+std::string Fold(std::string_view text);
+
+/// Writing without blanks between words: kana, kanji, hangul, full-width forms.
+bool IsUnspaced(char32_t c);
+/// The code point that starts at `at`; `size` gets its bytes (1 for a bad byte).
+char32_t DecodeAt(std::string_view text, std::size_t at, std::size_t& size);
+/// The code point that ends before `end`; 0 at the start.
+char32_t DecodeBefore(std::string_view text, std::size_t end);
+void AppendUtf8(std::string& out, char32_t c);
+
+}  // namespace vxml::srgs

@@ -1,0 +1,245 @@
+#include "task_manager/document/schema.h"
+#include "task_manager/fetch/uri.h"
+#include "task_manager/interpreter/scope_guard.h"
+#include "task_manager/interpreter/session.h"
+#include "task_manager/script/rewriter.h"
+#include "task_manager/xml/parser.h"
+
+namespace vxml {
+
+using script::Value;
+
+namespace {
+
+/// Prompt markup that stands in executable content without its <prompt>.
+bool IsSpeech(const xml::Node& node) {
+  static const ElementRule* const kPrompt = FindElementRule("prompt");
+  return node.IsElement() && node.name != "foreach" && node.name != "native" &&
+         Allows(*kPrompt, node.name);
+}
+
+}  // namespace
+
+void Session::RunContent(const xml::Node& parent) {
+  std::vector<const xml::Node*> speech;
+  const auto end_speech = [&] {
+    bool something = false;
+    for (const xml::Node* node : speech) {
+      something = something || node->IsElement() || !xml::IsBlank(node->text);
+    }
+    if (something) QueueImplicit(speech);
+    speech.clear();
+  };
+  for (const auto& child : parent.children) {
+    if (child->IsText() || IsSpeech(*child)) {
+      speech.push_back(child.get());
+    } else if (child->IsElement()) {
+      end_speech();
+      RunElement(*child);
+    }
+  }
+  end_speech();
+}
+
+void Session::RunElement(const xml::Node& node) {
+  using Action = void (Session::*)(const xml::Node&);
+  static const std::map<std::string_view, Action> kTable = {
+      {"assign", &Session::RunAssign}, {"clear", &Session::RunClear},
+      {"data", &Session::RunData},     {"disconnect", &Session::RunDisconnect},
+      {"exit", &Session::RunExit},     {"foreach", &Session::RunForeach},
+      {"goto", &Session::RunGoto},     {"if", &Session::RunIf},
+      {"log", &Session::RunLog},       {"native", &Session::RunNative},
+      {"return", &Session::RunReturn}, {"script", &Session::RunScript},
+      {"submit", &Session::RunSubmit}, {"throw", &Session::RunThrow},
+      {"var", &Session::RunVar},
+  };
+  Step();
+  const xml::Node* before = std::exchange(active_node_, &node);
+  if (node.name == "prompt") {
+    if (Condition(node)) QueuePrompt(node);
+  } else if (node.name == "reprompt") {
+    if (in_handler_) reprompt_ = true;
+  } else if (const auto found = kTable.find(node.name); found != kTable.end()) {
+    (this->*found->second)(node);
+  }
+  active_node_ = before;
+}
+
+void Session::RunIf(const xml::Node& node) {
+  bool done = false;
+  bool active = Condition(node);
+  done = active;
+  std::vector<const xml::Node*> speech;
+  const auto end_speech = [&] {
+    bool something = false;
+    for (const xml::Node* part : speech) {
+      something = something || part->IsElement() || !xml::IsBlank(part->text);
+    }
+    if (something) QueueImplicit(speech);
+    speech.clear();
+  };
+  for (const auto& child : node.children) {
+    if (child->IsElement("elseif") || child->IsElement("else")) {
+      end_speech();
+      active = !done && (child->name == "else" || Condition(*child));
+      done = done || active;
+    } else if (!active) {
+      continue;
+    } else if (child->IsText() || IsSpeech(*child)) {
+      speech.push_back(child.get());
+    } else if (child->IsElement()) {
+      end_speech();
+      RunElement(*child);
+    }
+  }
+  end_speech();
+}
+
+void Session::RunForeach(const xml::Node& node) {
+  const Value array = Evaluate(node, node.Get("array"));
+  if (!engine_.IsArray(array)) {
+    ThrowSemantic(*context_->document, node, "'" + node.Get("array") + "' is not an array");
+  }
+  const Value copy = engine_.Copy(array);  // changes inside do not change the turns
+  const std::size_t length = engine_.Length(copy);
+  const std::string item = node.Get("item");
+  for (std::size_t i = 0; i < length; ++i) {
+    Step();
+    const Value element = engine_.Get(copy, std::to_string(i));
+    if (!item.empty()) {
+      if (!IsDeclared(item)) Declare(node, item, element);
+      if (!engine_.Assign(CurrentChain(), item, element)) {
+        ThrowSemantic(*context_->document, node, "'" + item + "' cannot be assigned to");
+      }
+    }
+    RunContent(node);
+  }
+}
+
+void Session::RunVar(const xml::Node& node) {
+  const std::string* expression = node.Find("expr");
+  // Declared again in the same scope without a value it keeps the one it has (section 5.3.1).
+  if (!expression && engine_.Has(CurrentChain().back(), node.Get("name"))) return;
+  Declare(node, node.Get("name"), expression ? Evaluate(node, *expression) : engine_.Undefined());
+}
+
+void Session::RunAssign(const xml::Node& node) {
+  const std::string name(xml::Trim(node.Get("name")));
+  const std::string* expression = node.Find("expr");
+  const Value value = expression ? Evaluate(node, *expression) : engine_.Undefined();
+  if (!IsDeclared(name)) {
+    ThrowSemantic(*context_->document, node, "'" + name + "' was never declared");
+  }
+  if (name.starts_with("session.") ||
+      (engine_.Has(session_scope_, name.substr(0, name.find_first_of(".["))) &&
+       !IsDeclaredBeforeSession(name.substr(0, name.find_first_of(".["))))) {
+    ThrowSemantic(*context_->document, node, "'" + name + "' of the session is read-only");
+  }
+  auto assigned = engine_.Assign(CurrentChain(), name, value);
+  if (!assigned) {
+    ThrowSemantic(*context_->document, node, "'" + name + "': " + assigned.error().text);
+  }
+}
+
+bool Session::IsDeclaredBeforeSession(const std::string& base) {
+  const script::Chain chain = CurrentChain();
+  for (std::size_t i = chain.size(); i-- > 2;) {
+    if (engine_.Has(chain[i], base)) return true;
+  }
+  return false;
+}
+
+void Session::RunClear(const xml::Node& node) {
+  const std::string namelist = node.Get("namelist");
+  std::vector<std::string> names;
+  for (const std::string_view word : SplitWords(namelist)) names.emplace_back(word);
+  if (names.empty()) {
+    for (const Item& item : dialog_->items) names.push_back(item.name);
+  }
+  for (const std::string& name : names) {
+    if (name.empty()) continue;
+    if (!IsDeclared(name)) {
+      ThrowSemantic(*context_->document, node, "'" + name + "' was never declared");
+    }
+    static_cast<void>(engine_.Assign(CurrentChain(), name, engine_.Undefined()));
+    for (Item& item : dialog_->items) {
+      if (item.name != name && "dialog." + item.name != name) continue;
+      item.prompt_count = 1;
+      item.events.clear();
+    }
+  }
+}
+
+void Session::RunScript(const xml::Node& node) {
+  std::string source = node.Get("src");
+  if (const std::string* expression = node.Find("srcexpr")) source = TextOf(node, *expression);
+  std::string text = node.Text();
+  if (!source.empty()) {
+    fetch::Request request = FetchOptions(node, "script");
+    request.uri = fetch::Resolve(BaseOf(node), source);
+    const fetch::Response got = FetchFor(node, request, "script");
+    text = got.body;
+    std::string charset = got.charset.empty() ? node.Get("charset") : got.charset;
+    for (char& c : charset) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+    if (!charset.empty() && charset != "utf-8") {
+      auto utf8 = xml::ToUtf8(text, charset);
+      if (!utf8) ThrowEvent("error.badfetch", request.uri + ": " + utf8.error().text);
+      text = *utf8;
+    }
+  }
+  auto ran = engine_.Run(CurrentChain(), text);
+  if (!ran) ThrowSemantic(*context_->document, node, "script: " + ran.error().text);
+}
+
+void Session::RunLog(const xml::Node& node) {
+  std::string text;
+  for (const auto& child : node.children) {
+    if (child->IsText()) text += child->text;
+    if (child->IsElement("value")) text += TextOf(*child, child->Get("expr"));
+  }
+  text = xml::Collapse(text);
+  if (const std::string* expression = node.Find("expr")) {
+    const std::string value = TextOf(node, *expression);
+    text += (text.empty() || value.empty() ? "" : " ") + value;
+  }
+  JsonLine line;
+  line.Text("label", node.Get("label")).Text("text", text);
+  platform_.Report("log", line);
+}
+
+void Session::RunThrow(const xml::Node& node) {
+  EventThrown event;
+  event.name = node.Get("event");
+  if (const std::string* expression = node.Find("eventexpr"))
+    event.name = TextOf(node, *expression);
+  if (const std::string* message = node.Find("message")) {
+    event.message = *message;
+    event.has_message = true;
+  }
+  if (const std::string* expression = node.Find("messageexpr")) {
+    event.message = TextOf(node, *expression);
+    event.has_message = true;
+  }
+  throw event;
+}
+
+/// <native>: a line of the module protocol, in its place among the words.
+void Session::RunNative(const xml::Node& node) {
+  std::string line;
+  if (const std::string* expression = node.Find("expr")) {
+    line = TextOf(node, *expression);
+  } else {
+    for (const auto& child : node.children) {
+      if (child->IsText()) line += child->text;
+      if (child->IsElement("value")) line += TextOf(*child, child->Get("expr"));
+    }
+  }
+  Prompt prompt;
+  prompt.segments.push_back(
+      {Segment::Kind::kCommand, xml::Collapse(line), Millis(0), "", false, ""});
+  prompt.language = LanguageAt(node);
+  prompt.ssml = "<speak version=\"1.0\"/>";
+  queue_.push_back(std::move(prompt));
+}
+
+}  // namespace vxml

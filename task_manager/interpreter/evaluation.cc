@@ -1,0 +1,146 @@
+#include <charconv>
+
+#include "task_manager/document/schema.h"
+#include "task_manager/interpreter/properties.h"
+#include "task_manager/interpreter/session.h"
+#include "task_manager/script/rewriter.h"
+
+namespace vxml {
+
+using script::Value;
+
+std::optional<Millis> ParseTime(std::string_view text) {
+  text = xml::Trim(text);
+  if (text.starts_with("+")) text.remove_prefix(1);
+  double number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc() || number < 0 || number > 1e9) return {};
+  const std::string_view unit(read.ptr,
+                              static_cast<std::size_t>(text.data() + text.size() - read.ptr));
+  if (unit == "s") return Millis(static_cast<long long>(number * 1000 + 0.5));
+  if (unit == "ms") return Millis(static_cast<long long>(number + 0.5));
+  return {};
+}
+
+void ThrowSemantic(const Document& document, const xml::Node& node, const std::string& what) {
+  ThrowEvent("error.semantic", document.uri + ":" + std::to_string(node.line) + ":" +
+                                   std::to_string(node.column) + ": " + what);
+}
+
+script::Chain Session::CurrentChain() const {
+  script::Chain chain{context_->names, session_scope_, context_->application, context_->variables};
+  if (dialog_) chain.push_back(dialog_->scope);
+  chain.insert(chain.end(), anonymous_.begin(), anonymous_.end());
+  return chain;
+}
+
+Value Session::Evaluate(const xml::Node& node, const std::string& expression) {
+  auto value = engine_.Evaluate(CurrentChain(), expression);
+  if (!value) {
+    ThrowSemantic(*context_->document, node, "'" + expression + "': " + value.error().text);
+  }
+  return *value;
+}
+
+bool Session::Condition(const xml::Node& node, const std::string& attribute) {
+  const std::string* expression = node.Find(attribute);
+  return !expression || engine_.ToBoolean(Evaluate(node, *expression));
+}
+
+std::string Session::TextOf(const xml::Node& node, const std::string& expression) {
+  return engine_.ToString(Evaluate(node, expression));
+}
+
+/// Into the innermost scope, or the one named in front of a dot, which is not allowed.
+void Session::Declare(const xml::Node& node, const std::string& name, const Value& value) {
+  if (!script::IsIdentifier(name)) {
+    ThrowSemantic(*context_->document, node, "'" + name + "' cannot be declared");
+  }
+  const script::Chain chain = CurrentChain();
+  engine_.Set(chain.back(), name, value);
+}
+
+void Session::Store(const std::string& name, const Value& value) {
+  engine_.Set(dialog_->scope, name, value);
+}
+Value Session::Variable(const std::string& name) { return engine_.Get(dialog_->scope, name); }
+
+/// Whether a plain or scope-prefixed variable exists; of longer paths the base is what counts.
+bool Session::IsDeclared(const std::string& name) {
+  const std::size_t dot = name.find_first_of(".[ ");
+  const std::string base = name.substr(0, dot);
+  const script::Chain chain = CurrentChain();
+  for (std::size_t i = chain.size(); i-- > 1;) {
+    if (engine_.Has(chain[i], base)) return true;
+  }
+  if (!engine_.Has(chain[0], base)) return false;
+  if (dot == std::string::npos) return true;
+  const std::string rest = name.substr(dot + 1);
+  return engine_.Has(engine_.Get(chain[0], base), rest.substr(0, rest.find_first_of(".[ ")));
+}
+
+const xml::Node& Session::Here() const {
+  if (active_node_) return *active_node_;
+  if (dialog_) return *dialog_->node;
+  return *context_->document->root;
+}
+
+namespace {
+
+const std::string* FindProperty(const xml::Node& scope, const std::string& name) {
+  const std::string* value = nullptr;  // the last one wins
+  for (const auto& child : scope.children) {
+    if (child->IsElement("property") && child->Get("name") == name) value = child->Find("value");
+  }
+  return value;
+}
+
+}  // namespace
+
+std::string Session::Property(const std::string& name, const xml::Node* from) {
+  const xml::Node* node = from ? from : &Here();
+  for (; node; node = node->parent) {
+    if (const std::string* value = FindProperty(*node, name)) return *value;
+  }
+  if (context_ && context_->root) {
+    if (const std::string* value = FindProperty(*context_->root->root, name)) return *value;
+  }
+  const auto given = options_.properties.find(name);
+  return given != options_.properties.end() ? given->second : DefaultProperty(name);
+}
+
+Millis Session::TimeProperty(const std::string& name, Millis otherwise) {
+  const std::string text = Property(name);
+  if (text.empty()) return otherwise;
+  const auto time = ParseTime(text);
+  if (!time) {
+    ThrowSemantic(*context_->document, Here(),
+                  "property " + name + " '" + text + "', expected a time as 5s or 300ms");
+  }
+  return *time;
+}
+
+std::string Session::LanguageAt(const xml::Node& node) const {
+  const std::string language = node.Inherited("xml:lang");
+  if (!language.empty()) return language;
+  if (context_->root) return context_->root->language;
+  return "";
+}
+
+void Session::Step() {
+  if (++steps_ <= options_.max_steps_between_inputs) return;
+  if (steps_ > options_.max_steps_between_inputs + 2000) {
+    throw ExitSession{"error.noresource"};  // its handlers run on and on as well
+  }
+  if (steps_ == options_.max_steps_between_inputs + 1) {
+    ThrowEvent("error.noresource", "more than " +
+                                       std::to_string(options_.max_steps_between_inputs) +
+                                       " elements executed without waiting for input");
+  }
+}
+
+void Session::Trace(std::string_view kind, const JsonLine& fields) {
+  if (options_.trace) options_.trace(kind, fields);
+}
+
+}  // namespace vxml

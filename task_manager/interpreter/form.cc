@@ -1,0 +1,375 @@
+#include "task_manager/document/schema.h"
+#include "task_manager/interpreter/scope_guard.h"
+#include "task_manager/interpreter/session.h"
+
+namespace vxml {
+
+using script::Value;
+
+namespace {
+
+std::optional<ItemKind> KindOf(const xml::Node& node) {
+  static const std::map<std::string, ItemKind> kKinds = {
+      {"block", ItemKind::kBlock},       {"initial", ItemKind::kInitial},
+      {"field", ItemKind::kField},       {"record", ItemKind::kRecord},
+      {"transfer", ItemKind::kTransfer}, {"subdialog", ItemKind::kSubdialog},
+      {"object", ItemKind::kObject}};
+  const auto found = kKinds.find(node.name);
+  if (!node.IsElement() || found == kKinds.end()) return {};
+  return found->second;
+}
+
+}  // namespace
+
+void Session::RunDialog(const xml::Node& node, std::shared_ptr<Match> carried) {
+  Dialog dialog;
+  dialog.node = &node;
+  dialog.scope = engine_.NewScope();
+  dialog_ = &dialog;
+  scope_item_ = nullptr;
+  engine_.Set(context_->names, "dialog", dialog.scope);
+  bool play_prompts = true;
+  const auto guarded = [&](auto&& action) {
+    try {
+      action();
+      return true;
+    } catch (const EventThrown& event) {
+      play_prompts = HandleEvent(event, scope_item_);
+    } catch (const GoToItem& to) {
+      dialog.next_item = to.name;
+    }
+    return false;
+  };
+  guarded([&] { InitForm(dialog); });
+  if (carried) guarded([&] { TakeMatch(*carried, nullptr); });
+  while (true) {
+    Item* item = nullptr;
+    anonymous_.clear();
+    active_node_ = nullptr;
+    scope_item_ = nullptr;
+    const bool selected = guarded([&] {
+      Step();
+      item = Select();
+    });
+    if (!selected) continue;
+    if (!item) return;
+    guarded([&] {
+      scope_item_ = item;
+      active_node_ = item->node;
+      JsonLine line;
+      line.Text("item", item->name).Text("element", item->node->name);
+      line.Number("line", static_cast<double>(item->node->line));
+      Trace("select", line);
+      if (play_prompts) QueuePrompts(*item);
+      play_prompts = true;
+      Visit(*item);
+    });
+  }
+}
+
+void Session::InitForm(Dialog& dialog) {
+  if (dialog.node->name == "menu") {
+    Item item;
+    item.node = dialog.node;
+    item.kind = ItemKind::kMenu;
+    dialog.items.push_back(item);
+    return;
+  }
+  // Parameters of a subdialog win over the initial values of the form's variables.
+  std::map<std::string, Value> parameters;
+  for (auto& [name, value] : context_->parameters) parameters[name] = value;
+  context_->parameters.clear();
+  const std::size_t given = parameters.size();
+  std::size_t taken = 0;
+  for (const auto& child : dialog.node->children) {
+    if (!child->IsElement()) continue;
+    active_node_ = child.get();
+    if (child->name == "var" && parameters.contains(child->Get("name"))) {
+      Store(child->Get("name"), parameters[child->Get("name")]);
+      ++taken;
+    } else if (child->name == "var" || child->name == "script" || child->name == "data") {
+      RunElement(*child);
+    } else if (KindOf(*child)) {
+      InitItem(dialog, *child);
+    }
+  }
+  active_node_ = nullptr;
+  if (taken < given) {
+    ThrowSemantic(*context_->document, *dialog.node,
+                  "a <param> has no <var> of its name in the subdialog's form");
+  }
+}
+
+void Session::InitItem(Dialog& dialog, const xml::Node& node) {
+  Item item;
+  item.node = &node;
+  item.kind = *KindOf(node);
+  item.name = node.Get("name");
+  if (item.name.empty()) {
+    item.name = "__item" + std::to_string(++generated_names_);
+  }
+  const std::string* expression = node.Find("expr");
+  const Value value = expression ? Evaluate(node, *expression) : engine_.Undefined();
+  Declare(node, item.name, value);
+  dialog.items.push_back(std::move(item));
+}
+
+bool Session::ItemReady(const Item& item) {
+  if (item.kind == ItemKind::kMenu) return true;
+  if (!engine_.IsUndefined(Variable(item.name))) return false;
+  return Condition(*item.node);
+}
+
+Item* Session::Select() {
+  if (!dialog_->next_item.empty()) {
+    const std::string wanted = std::exchange(dialog_->next_item, "");
+    for (Item& item : dialog_->items) {
+      if (item.name == wanted) return &item;
+    }
+    ThrowEvent("error.badfetch", "the form has no item '" + wanted + "'");
+  }
+  for (Item& item : dialog_->items) {
+    if (ItemReady(item)) return &item;
+  }
+  return nullptr;
+}
+
+/// The prompts of the highest count not above the item's counter (VoiceXML 2.0 section 4.1.6).
+void Session::QueuePrompts(Item& item) {
+  if (item.kind == ItemKind::kBlock) return;
+  struct Candidate {
+    std::vector<const xml::Node*> nodes;
+    int count;
+  };
+  std::vector<Candidate> candidates;
+  int best = 0;
+  const auto consider = [&](std::vector<const xml::Node*> nodes, int count) {
+    if (nodes.empty() || count > item.prompt_count) return;
+    best = std::max(best, count);
+    candidates.push_back({std::move(nodes), count});
+  };
+  std::vector<const xml::Node*> loose;
+  const auto end_loose = [&] {
+    bool something = false;
+    for (const xml::Node* node : loose)
+      something = something || node->IsElement() || !xml::IsBlank(node->text);
+    if (something) consider(loose, 1);
+    loose.clear();
+  };
+  const ElementRule* speech = FindElementRule("prompt");
+  for (const auto& child : item.node->children) {
+    if (child->IsElement("prompt")) {
+      end_loose();
+      if (!Condition(*child)) continue;
+      consider({child.get()}, std::max(1, std::atoi(child->Get("count", "1").c_str())));
+    } else if (child->IsText() || (child->IsElement() && Allows(*speech, child->name))) {
+      loose.push_back(child.get());
+    } else if (child->IsElement()) {
+      end_loose();
+    }
+  }
+  end_loose();
+  for (const Candidate& candidate : candidates) {
+    if (candidate.count != best) continue;
+    if (candidate.nodes.size() == 1 && candidate.nodes[0]->IsElement("prompt")) {
+      QueuePrompt(*candidate.nodes[0]);
+    } else {
+      QueueImplicit(candidate.nodes);
+    }
+  }
+  ++item.prompt_count;
+}
+
+void Session::Visit(Item& item) {
+  switch (item.kind) {
+    case ItemKind::kBlock: {
+      Store(item.name, engine_.Boolean(true));
+      const ScopeGuard guard(*this);
+      return RunContent(*item.node);
+    }
+    case ItemKind::kInitial:
+    case ItemKind::kField:
+    case ItemKind::kMenu:
+      return VisitInput(item);
+    case ItemKind::kRecord:
+      return VisitRecord(item);
+    case ItemKind::kTransfer:
+      return VisitTransfer(item);
+    case ItemKind::kSubdialog:
+      return VisitSubdialog(item);
+    case ItemKind::kObject:
+      return VisitObject(item);
+  }
+}
+
+void Session::VisitInput(Item& item) {
+  const bool modal = item.kind == ItemKind::kField && item.node->Get("modal", "false") == "true";
+  const std::vector<ActiveGrammar> active = ActiveGrammars(item, modal);
+  if (active.empty()) {
+    ThrowSemantic(*context_->document, *item.node, "input is expected, but no grammar is active");
+  }
+  if (hung_up_ || disconnected_) throw ExitSession{"hangup"};
+  const Listen listen = MakeListen(item, active);
+  std::vector<Prompt> queue = std::exchange(queue_, {});
+  const Input input = platform_.Collect(queue, listen);
+  steps_ = 0;
+  TakeMatch(HandleInput(input, active), &item);
+}
+
+/// Process phase: what an input in any scope leads to.
+void Session::TakeMatch(const Match& match, Item* current) {
+  switch (match.owner) {
+    case Match::Owner::kUniversal:
+      ThrowEvent(match.utterance);
+    case Match::Owner::kLink:
+    case Match::Owner::kChoice:
+      return FollowTarget(*match.node, *match.document);
+    case Match::Owner::kForm:
+      if (match.node != dialog_->node) TransitTo(match);
+      break;
+    case Match::Owner::kItem:
+      break;
+  }
+  std::set<std::string> filled;
+  Fill(match, current, filled);
+  RunFilled(filled);
+}
+
+void Session::TransitTo(const Match& match) {
+  Transition to;
+  to.root = context_->root;
+  to.document = match.document == context_->document.get() ? context_->document : context_->root;
+  to.same_document = to.document == context_->document;
+  to.dialog = match.node;
+  to.carried = std::make_shared<Match>(match);
+  throw to;
+}
+
+/// A link or choice that was chosen: on to its document, or its event.
+void Session::FollowTarget(const xml::Node& node, const Document& document) {
+  std::string event = node.Get("event");
+  if (const std::string* expression = node.Find("eventexpr")) event = TextOf(node, *expression);
+  if (!event.empty()) {
+    EventThrown thrown{event, "", false};
+    if (const std::string* message = node.Find("message")) {
+      thrown.message = *message;
+      thrown.has_message = true;
+    } else if (const std::string* expression = node.Find("messageexpr")) {
+      thrown.message = TextOf(node, *expression);
+      thrown.has_message = true;
+    }
+    throw thrown;
+  }
+  std::string next = node.Get("next");
+  if (const std::string* expression = node.Find("expr")) next = TextOf(node, *expression);
+  // A fragment alone means the document the link stands in.
+  if (next.starts_with("#") && &document != context_->document.get()) next = document.uri + next;
+  throw Locate(node, next, "document");
+}
+
+namespace {
+
+/// "a.b" looked up part by part.
+Value Dig(script::Engine& engine, Value value, const std::string& path) {
+  for (std::size_t at = 0; at <= path.size() && engine.IsObject(value);) {
+    const std::size_t end = std::min(path.find('.', at), path.size());
+    value = engine.Get(value, path.substr(at, end - at));
+    at = end + 1;
+    if (at > path.size()) return value;
+  }
+  return {};
+}
+
+}  // namespace
+
+/// Results to variables (VoiceXML 2.0 section 3.1.6).
+void Session::Fill(const Match& match, Item* current, std::set<std::string>& filled) {
+  if (match.owner == Match::Owner::kItem && current) {
+    const std::string slot = current->node->Get("slot", current->name);
+    Value value = match.value;
+    if (engine_.IsObject(value) && !engine_.IsArray(value)) {
+      const Value part = Dig(engine_, value, slot);
+      if (part.valid() && !engine_.IsUndefined(part)) value = part;
+    }
+    Store(current->name, value);
+    SetShadow(current->name, match);
+    filled.insert(current->name);
+    return;
+  }
+  for (Item& item : dialog_->items) {
+    if (item.kind != ItemKind::kField) continue;
+    const Value value = Dig(engine_, match.value, item.node->Get("slot", item.name));
+    if (!value.valid() || engine_.IsUndefined(value)) continue;
+    Store(item.name, value);
+    SetShadow(item.name, match);
+    filled.insert(item.name);
+  }
+  if (filled.empty()) return;
+  for (Item& item : dialog_->items) {
+    if (item.kind == ItemKind::kInitial) Store(item.name, engine_.Boolean(true));
+  }
+}
+
+void Session::SetShadow(const std::string& name, const Match& match) {
+  const Value shadow = engine_.Object();
+  engine_.Set(shadow, "utterance", engine_.String(match.utterance));
+  engine_.Set(shadow, "confidence", engine_.Number(match.confidence));
+  engine_.Set(shadow, "inputmode", engine_.String(match.dtmf ? "dtmf" : "voice"));
+  engine_.Set(shadow, "interpretation", match.value);
+  const Value last = engine_.Get(context_->application, "lastresult$");
+  for (const char* mark :
+       {"markname", "marktime", "recording", "recordingsize", "recordingduration"}) {
+    if (engine_.Has(last, mark)) engine_.Set(shadow, mark, engine_.Get(last, mark));
+  }
+  Store(name + "$", shadow);
+  JsonLine line;
+  line.Text("item", name).Raw("value", engine_.ToJson(Variable(name)));
+  platform_.Report("filled", line);
+}
+
+void Session::RunFilled(const std::set<std::string>& filled) {
+  if (filled.empty()) return;
+  for (const auto& child : dialog_->node->children) {
+    if (!child->IsElement()) continue;
+    if (child->name == "filled") {
+      if (!FormFilledApplies(*child, filled)) continue;
+      scope_item_ = nullptr;
+      active_node_ = child.get();
+      const ScopeGuard guard(*this);
+      RunContent(*child);
+      continue;
+    }
+    Item* item = nullptr;
+    for (Item& candidate : dialog_->items) {
+      if (candidate.node == child.get()) item = &candidate;
+    }
+    if (!item || !filled.contains(item->name)) continue;
+    for (const auto& inner : child->children) {
+      if (!inner->IsElement("filled")) continue;
+      scope_item_ = item;
+      active_node_ = inner.get();
+      const ScopeGuard guard(*this);
+      RunContent(*inner);
+    }
+  }
+}
+
+bool Session::FormFilledApplies(const xml::Node& node, const std::set<std::string>& filled) {
+  std::vector<std::string> names;
+  const std::string namelist = node.Get("namelist");
+  for (const std::string_view word : SplitWords(namelist)) names.emplace_back(word);
+  if (names.empty()) {
+    for (const Item& item : dialog_->items) {
+      if (item.IsInput()) names.push_back(item.name);
+    }
+  }
+  bool any_new = false;
+  bool all = true;
+  for (const std::string& name : names) {
+    any_new = any_new || filled.contains(name);
+    all = all && !engine_.IsUndefined(Variable(name));
+  }
+  return any_new && (all || node.Get("mode", "all") == "any");
+}
+
+}  // namespace vxml

@@ -1,0 +1,208 @@
+#include "task_manager/document/schema.h"
+#include "task_manager/fetch/uri.h"
+#include "task_manager/interpreter/session.h"
+#include "task_manager/xml/parser.h"
+
+namespace vxml {
+
+using script::Value;
+
+void Session::RunGoto(const xml::Node& node) {
+  if (const std::string* item = node.Find("nextitem")) throw GoToItem{*item};
+  if (const std::string* expression = node.Find("expritem")) {
+    const std::string item = TextOf(node, *expression);
+    bool known = false;
+    if (dialog_) {
+      for (const Item& candidate : dialog_->items) known = known || candidate.name == item;
+    }
+    if (!known) ThrowEvent("error.badfetch", "the form has no item '" + item + "'");
+    throw GoToItem{item};
+  }
+  std::string next = node.Get("next");
+  if (const std::string* expression = node.Find("expr")) next = TextOf(node, *expression);
+  throw Locate(node, next, "document");
+}
+
+void Session::RunSubmit(const xml::Node& node) {
+  std::string next = node.Get("next");
+  if (const std::string* expression = node.Find("expr")) next = TextOf(node, *expression);
+  std::string namelist = node.Get("namelist");
+  if (!node.Has("namelist") && dialog_) {  // all input items the document names
+    for (const Item& item : dialog_->items) {
+      if (item.IsInput() && item.node->Has("name")) namelist += " " + item.name;
+    }
+  }
+  const std::string enctype = node.Get("enctype", "application/x-www-form-urlencoded");
+  if (enctype != "application/x-www-form-urlencoded" && enctype != "multipart/form-data") {
+    ThrowEvent("error.badfetch", "enctype '" + enctype + "' is not known");
+  }
+  const bool post = node.Get("method", "get") == "post";
+  throw Locate(node, next, "document", SubmitFields(node, namelist), post,
+               enctype == "multipart/form-data", true);
+}
+
+std::vector<fetch::Field> Session::SubmitFields(const xml::Node& node,
+                                                const std::string& namelist) {
+  std::vector<fetch::Field> fields;
+  for (const std::string_view word : SplitWords(namelist)) {
+    const std::string name(word);
+    Flatten(name, Evaluate(node, name), fields, 0);
+  }
+  return fields;
+}
+
+/// Objects are sent property by property, as a.b=value.
+void Session::Flatten(const std::string& name, const Value& value,
+                      std::vector<fetch::Field>& fields, int depth) {
+  if (depth > 8 || fields.size() > 10'000) return;
+  if (engine_.IsObject(value)) {
+    for (const std::string& key : engine_.Keys(value)) {
+      Flatten(name + "." + key, engine_.Get(value, key), fields, depth + 1);
+    }
+    return;
+  }
+  if (engine_.IsUndefined(value) && depth > 0) return;
+  fields.push_back({name, engine_.IsUndefined(value) ? "" : engine_.ToString(value), "", ""});
+}
+
+void Session::RunExit(const xml::Node& node) {
+  std::string json = "undefined";
+  if (const std::string* expression = node.Find("expr")) {
+    json = engine_.ToJson(Evaluate(node, *expression));
+  } else if (const std::string* namelist = node.Find("namelist")) {
+    const Value values = engine_.Object();
+    for (const std::string_view word : SplitWords(*namelist)) {
+      engine_.Set(values, std::string(word), Evaluate(node, std::string(word)));
+    }
+    json = engine_.ToJson(values);
+  }
+  throw ExitSession{"exit", json};
+}
+
+void Session::RunReturn(const xml::Node& node) {
+  if (!context_->is_subdialog) {
+    ThrowSemantic(*context_->document, node, "<return> outside of a subdialog");
+  }
+  ReturnToCaller back;
+  std::string event = node.Get("event");
+  if (const std::string* expression = node.Find("eventexpr")) event = TextOf(node, *expression);
+  if (!event.empty()) {
+    back.is_event = true;
+    back.event.name = event;
+    if (const std::string* message = node.Find("message")) {
+      back.event.message = *message;
+      back.event.has_message = true;
+    } else if (const std::string* expression = node.Find("messageexpr")) {
+      back.event.message = TextOf(node, *expression);
+      back.event.has_message = true;
+    }
+    throw back;
+  }
+  const std::string namelist = node.Get("namelist");
+  for (const std::string_view word : SplitWords(namelist)) {
+    const std::string name(word);
+    back.values.emplace_back(name, Evaluate(node, name));
+  }
+  throw back;
+}
+
+void Session::RunDisconnect(const xml::Node& node) {
+  std::string json = "undefined";
+  if (const std::string* namelist = node.Find("namelist")) {
+    const Value values = engine_.Object();
+    for (const std::string_view word : SplitWords(*namelist)) {
+      engine_.Set(values, std::string(word), Evaluate(node, std::string(word)));
+    }
+    json = engine_.ToJson(values);
+  }
+  if (!hung_up_ && !disconnected_) Flush();
+  disconnected_ = true;
+  JsonLine line;
+  line.Raw("value", json);
+  platform_.Report("disconnect", line);
+  platform_.Disconnect();
+  ThrowEvent("connection.disconnect.hangup");
+}
+
+namespace {
+
+void WriteSpec(const xml::Node& node, std::string& out) {
+  using Kind = xml::Node::Kind;
+  const auto name = [&] { return node.prefix.empty() ? node.name : node.prefix + ":" + node.name; };
+  switch (node.kind) {
+    case Kind::kText:
+      out += std::string("[") + (node.cdata ? "4,\"#cdata-section\"," : "3,\"#text\",") +
+             JsonQuote(node.text) + ",null,[],[]]";
+      return;
+    case Kind::kComment:
+      out += "[8,\"#comment\"," + JsonQuote(node.text) + ",null,[],[]]";
+      return;
+    case Kind::kInstruction:
+      out += "[7," + JsonQuote(node.name) + "," + JsonQuote(node.text) + ",null,[],[]]";
+      return;
+    case Kind::kElement:
+      break;
+  }
+  out += "[1," + JsonQuote(name()) + ",null," +
+         (node.space.empty() ? "null" : JsonQuote(node.space)) + ",[";
+  bool first = true;
+  for (const xml::Attribute& attribute : node.attributes) {
+    if (!std::exchange(first, false)) out += ",";
+    out += "[" + JsonQuote(attribute.name) + "," +
+           (attribute.space.empty() ? "null" : JsonQuote(attribute.space)) + "," +
+           JsonQuote(attribute.value) + "]";
+  }
+  out += "],[";
+  first = true;
+  for (const auto& child : node.children) {
+    if (!std::exchange(first, false)) out += ",";
+    WriteSpec(*child, out);
+  }
+  out += "]]";
+}
+
+/// <?access-control allow="HOST ..."?> (VoiceXML 2.1 section 5, appendix E).
+bool MayRead(const xml::Document& data, const std::string& host) {
+  for (const auto& instruction : data.prolog) {
+    if (instruction->name != "access-control") continue;
+    const std::string& text = instruction->text;
+    const std::size_t at = text.find("allow");
+    if (at == std::string::npos) return false;
+    const std::size_t open = text.find_first_of("\"'", at);
+    if (open == std::string::npos) return false;
+    const std::string list = text.substr(open + 1, text.find(text[open], open + 1) - open - 1);
+    for (const std::string_view word : SplitWords(list)) {
+      if (word == "*" || word == host) return true;
+      if (word.starts_with("*.") && host.ends_with(word.substr(1))) return true;
+    }
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void Session::RunData(const xml::Node& node) {
+  std::string source = node.Get("src");
+  if (const std::string* expression = node.Find("srcexpr")) source = TextOf(node, *expression);
+  fetch::Request request = FetchOptions(node, "data");
+  request.uri = fetch::Resolve(BaseOf(node), source);
+  request.fields = SubmitFields(node, node.Get("namelist"));
+  request.post = node.Get("method", "get") == "post";
+  request.multipart = node.Get("enctype") == "multipart/form-data";
+  const fetch::Response got = FetchFor(node, request, "data");
+  if (!node.Has("name")) return;
+  auto data = xml::Parse(got.body, got.uri, got.charset);
+  if (!data) ThrowEvent("error.badfetch", data.error().text);
+  const std::string host = fetch::ParseUri(context_->document->uri).authority;
+  if (!MayRead(*data, host.substr(0, host.find(':')))) {
+    ThrowEvent("error.noauthorization", got.uri + ": access-control does not allow " + host);
+  }
+  std::string spec;
+  WriteSpec(*data->root, spec);
+  auto dom = engine_.Dom(spec);
+  if (!dom) ThrowSemantic(*context_->document, node, dom.error().text);
+  Declare(node, node.Get("name"), *dom);
+}
+
+}  // namespace vxml

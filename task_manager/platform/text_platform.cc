@@ -1,0 +1,380 @@
+#include "task_manager/platform/text_platform.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "task_manager/grammar/text.h"
+
+namespace vxml {
+
+Millis DurationOf(const Segment& segment) {
+  switch (segment.kind) {
+    case Segment::Kind::kText: {
+      long long ms = 0;
+      for (std::size_t at = 0; at < segment.text.size();) {
+        std::size_t size = 0;
+        const char32_t c = srgs::DecodeAt(segment.text, at, size);
+        ms += srgs::IsUnspaced(c) ? TextPlatform::kMsPerCharacter : TextPlatform::kMsPerLetter;
+        at += size;
+      }
+      return Millis(ms);
+    }
+    case Segment::Kind::kAudio:
+      return Millis(TextPlatform::kMsPerAudio);
+    case Segment::Kind::kPause:
+      return segment.pause;
+    case Segment::Kind::kMark:
+    case Segment::Kind::kCommand:
+      return Millis(0);
+  }
+  return Millis(0);
+}
+
+Millis DurationOf(const Prompt& prompt) {
+  Millis total(0);
+  for (const Segment& segment : prompt.segments) total += DurationOf(segment);
+  return total;
+}
+
+namespace {
+
+Millis Total(const std::vector<Prompt>& prompts) {
+  Millis total(0);
+  for (const Prompt& prompt : prompts) total += DurationOf(prompt);
+  return total;
+}
+
+std::string AudioList(const Prompt& prompt) {
+  std::string list = "[";
+  for (const Segment& segment : prompt.segments) {
+    if (segment.kind != Segment::Kind::kAudio) continue;
+    if (list.size() > 1) list += ",";
+    list += JsonQuote(segment.text);
+  }
+  return list + "]";
+}
+
+}  // namespace
+
+TextPlatform::TextPlatform(CommandSource commands, std::function<void(const std::string&)> write)
+    : commands_(std::move(commands)), write_(std::move(write)) {}
+
+void TextPlatform::Report(std::string_view type, const JsonLine& fields) {
+  JsonLine head;
+  head.Number("t", static_cast<double>(now_.count())).Text("type", type);
+  const std::string a = head.str();
+  const std::string b = fields.str();
+  write_(b == "{}" ? a : a.substr(0, a.size() - 1) + "," + b.substr(1));
+}
+
+std::optional<Command> TextPlatform::Next() {
+  if (pushed_back_) return std::exchange(pushed_back_, std::nullopt);
+  auto command = commands_();
+  if (!command && !std::exchange(ran_out_, true)) Report("script_end", {});
+  return command;
+}
+
+const Prompt* TextPlatform::PromptAt(const std::vector<Prompt>& prompts, Millis time) {
+  for (const Prompt& prompt : prompts) {
+    const Millis length = DurationOf(prompt);
+    if (time < length) return &prompt;
+    time -= length;
+  }
+  return nullptr;
+}
+
+void TextPlatform::PlayUntil(const std::vector<Prompt>& prompts, Millis until) {
+  const Millis start = now_;
+  const Millis end = start + until;
+  for (const Prompt& prompt : prompts) {
+    if (now_ > end) break;
+    const Millis length = DurationOf(prompt);
+    const bool cut = now_ + length > end;
+    JsonLine line;
+    line.Text("text", prompt.text).Bool("bargein", prompt.bargein);
+    line.Number("ms", static_cast<double>(length.count()));
+    if (cut) line.Number("heard_ms", static_cast<double>((end - now_).count()));
+    if (!prompt.language.empty()) line.Text("lang", prompt.language);
+    if (const std::string audio = AudioList(prompt); audio != "[]") line.Raw("audio", audio);
+    line.Text("ssml", prompt.ssml);
+    if (!prompt.text.empty() || length.count() > 0) Report("prompt", line);
+    const Millis prompt_start = now_;
+    Millis parallel(0);
+    for (const Segment& segment : prompt.segments) {
+      const Millis after = now_ + DurationOf(segment);
+      if (segment.kind == Segment::Kind::kCommand) {
+        parallel += segment.pause;
+        JsonLine command;
+        command.Text("line", segment.text);
+        if (segment.parallel) command.Number("after_ms", static_cast<double>(parallel.count()));
+        Report("command", command);
+      } else if (segment.kind == Segment::Kind::kMark) {
+        mark_ = segment.text;
+        mark_at_ = now_;
+        JsonLine mark;
+        mark.Text("name", segment.text);
+        Report("mark", mark);
+      }
+      if (after > end) {
+        now_ = end;
+        return;
+      }
+      now_ = after;
+    }
+    now_ = prompt_start + length;
+  }
+}
+
+bool TextPlatform::Play(const std::vector<Prompt>& prompts) {
+  PlayUntil(prompts, Total(prompts));
+  return true;
+}
+
+bool TextPlatform::Heard(const std::vector<Prompt>& prompts, const Command& command,
+                         const Listen& listen) {
+  const char* why = nullptr;
+  const bool speech =
+      command.kind == Command::Kind::kSay || command.kind == Command::Kind::kNoMatch;
+  if (speech && !listen.voice) why = "inputmodes";
+  if (command.kind == Command::Kind::kDtmf && !listen.dtmf) why = "inputmodes";
+  if (command.at && *command.at < Total(prompts) && command.kind != Command::Kind::kHangup) {
+    const Prompt* playing = PromptAt(prompts, *command.at);
+    if (playing && !playing->bargein) why = "bargein";
+    if (playing && playing->bargein && playing->hotword && speech &&
+        (command.hypotheses.empty() || !listen.accepts ||
+         !listen.accepts(command.hypotheses.front().text))) {
+      why = "hotword";
+    }
+  }
+  if (!why) return true;
+  JsonLine line;
+  line.Text("input", command.hypotheses.empty() ? "" : command.hypotheses.front().text);
+  line.Text("why", why);
+  Report("ignored", line);
+  return false;
+}
+
+Input TextPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& listen) {
+  const Millis total = Total(prompts);
+  std::optional<Command> command = Next();
+  while (command && !Heard(prompts, *command, listen)) command = Next();
+  mark_.clear();
+  Input input;
+  if (!command) {
+    PlayUntil(prompts, total);
+    input.kind = Input::Kind::kHangup;
+    return input;
+  }
+  const bool waits = command->kind == Command::Kind::kSilence;
+  const Millis at = waits ? total + listen.timeout : command->at.value_or(total + kReaction);
+  const Millis start = now_;
+  PlayUntil(prompts, std::min(at, total));
+  if (!waits && command->at && at > total + listen.timeout) {  // it comes too late for this turn
+    pushed_back_ = command;
+    pushed_back_->at = at - total - listen.timeout;
+    command->kind = Command::Kind::kSilence;
+    now_ = start + total + listen.timeout;
+  } else {
+    now_ = std::max(now_, start + at);
+  }
+  if (!mark_.empty()) {
+    input.mark = mark_;
+    input.mark_time = now_ - mark_at_;
+  }
+  switch (command->kind) {
+    case Command::Kind::kSilence:
+      input.kind = Input::Kind::kSilence;
+      break;
+    case Command::Kind::kHangup:
+      input.kind = Input::Kind::kHangup;
+      break;
+    case Command::Kind::kTooLong:
+      input.kind = Input::Kind::kTooLong;
+      now_ += listen.max_speech;
+      break;
+    case Command::Kind::kNoMatch:
+      input.kind = Input::Kind::kSpeech;
+      input.hypotheses = {{"\x1anomatch", 1.0}};  // no grammar has this word
+      break;
+    case Command::Kind::kDtmf: {
+      const Input keys = TakeKeys(*command, listen);
+      input.kind = keys.kind;
+      input.hypotheses = keys.hypotheses;
+      input.termchar = keys.termchar;
+      break;
+    }
+    case Command::Kind::kSay:
+    case Command::Kind::kRecord:
+    case Command::Kind::kTransfer:
+      input.kind = Input::Kind::kSpeech;
+      input.hypotheses = command->hypotheses;
+      break;
+  }
+  return input;
+}
+
+/// Keys one by one (VoiceXML 2.0 appendix D): until nothing can follow, the termchar, or a pause.
+Input TextPlatform::TakeKeys(const Command& command, const Listen& listen) {
+  Input input;
+  input.kind = Input::Kind::kDtmf;
+  const std::string all = command.hypotheses.front().text;
+  std::string keys;
+  std::size_t i = 0;
+  bool ended = false;
+  for (; i < all.size() && !ended; ++i) {
+    if (i > 0) {
+      if (command.gap > listen.interdigit_timeout) break;
+      now_ += command.gap;
+    }
+    const std::string key(1, all[i]);
+    const KeysState before = keys.empty() ? KeysState{} : listen.keys(keys);
+    const KeysState after = listen.keys(keys + key);
+    if (key == listen.termchar && !keys.empty() &&
+        (before.complete || (!after.complete && !after.can_continue))) {
+      input.termchar = key;
+      ended = true;
+      continue;
+    }
+    keys += key;
+    if (after.can_continue) continue;
+    ended = true;  // nothing can follow: a match or none
+    if (after.complete && listen.term_timeout.count() > 0) {
+      const bool term_follows = i + 1 < all.size() &&
+                                std::string(1, all[i + 1]) == listen.termchar &&
+                                command.gap <= listen.term_timeout;
+      now_ += term_follows ? command.gap : listen.term_timeout;
+      if (term_follows) {
+        input.termchar = listen.termchar;
+        ++i;
+      }
+    }
+  }
+  if (!ended) now_ += listen.interdigit_timeout;
+  if (i < all.size()) {  // typed ahead
+    pushed_back_ = command;
+    pushed_back_->at = Millis(0);
+    pushed_back_->hypotheses = {{all.substr(i), 1.0}};
+  }
+  input.hypotheses = {{keys, 1.0}};
+  return input;
+}
+
+RecordResult TextPlatform::Record(const std::vector<Prompt>& prompts,
+                                  const RecordRequest& request) {
+  RecordResult result;
+  PlayUntil(prompts, Total(prompts));
+  const std::optional<Command> command = Next();
+  if (!command || command->kind == Command::Kind::kHangup) {
+    result.kind = RecordResult::Kind::kHangup;
+    return result;
+  }
+  Millis length(0);
+  switch (command->kind) {
+    case Command::Kind::kRecord:
+      length = command->duration;
+      result.termchar = command->word;
+      break;
+    case Command::Kind::kDtmf:
+      length = Millis(1000);
+      result.termchar = command->hypotheses.front().text.substr(0, 1);
+      break;
+    case Command::Kind::kSay: {
+      Segment words;
+      words.text = command->hypotheses.front().text;
+      length = DurationOf(words);
+      if (request.listen.accepts && request.listen.accepts(words.text)) {
+        result.kind = RecordResult::Kind::kInput;
+        result.input.kind = Input::Kind::kSpeech;
+        result.input.hypotheses = command->hypotheses;
+      }
+      break;
+    }
+    default:
+      break;
+  }
+  if (length.count() == 0) {
+    now_ += request.listen.timeout;
+    result.kind = RecordResult::Kind::kSilence;
+    return result;
+  }
+  if (!result.termchar.empty()) {
+    const KeysState state = request.listen.keys(result.termchar);
+    if (state.complete) {
+      result.kind = RecordResult::Kind::kInput;
+      result.input.kind = Input::Kind::kDtmf;
+      result.input.hypotheses = {{result.termchar, 1.0}};
+    } else if (!request.dtmf_term) {
+      result.termchar.clear();
+    }
+  }
+  result.reached_max = length >= request.max_time;
+  result.duration = std::min(length, request.max_time);
+  if (result.reached_max) result.termchar.clear();
+  now_ += result.duration;
+  result.bytes = static_cast<std::size_t>(result.duration.count()) * 8;  // 8 kHz, 8 bit
+  JsonLine line;
+  line.Number("ms", static_cast<double>(result.duration.count())).Text("termchar", result.termchar);
+  Report("recorded", line);
+  return result;
+}
+
+TransferResult TextPlatform::Transfer(const std::vector<Prompt>& prompts,
+                                      const TransferRequest& request) {
+  PlayUntil(prompts, Total(prompts));
+  TransferResult result;
+  std::optional<Command> command = Next();
+  JsonLine line;
+  line.Text("dest", request.destination).Text("kind", request.type);
+  Report("transfer", line);
+  if (!command) {
+    result.outcome =
+        request.type == "blind" ? "connection.disconnect.transfer" : "far_end_disconnect";
+    return result;
+  }
+  result.duration = command->duration;
+  switch (command->kind) {
+    case Command::Kind::kTransfer:
+      result.outcome = command->word;
+      break;
+    case Command::Kind::kHangup:
+      result.outcome = "connection.disconnect.hangup";
+      break;
+    case Command::Kind::kSay:
+    case Command::Kind::kDtmf: {
+      const bool keys = command->kind == Command::Kind::kDtmf;
+      const std::string text = command->hypotheses.front().text;
+      const bool match = keys ? request.listen.keys(text).complete : request.listen.accepts(text);
+      result.outcome = "far_end_disconnect";
+      if (match) {
+        result.ended_by_input = true;
+        result.input.kind = keys ? Input::Kind::kDtmf : Input::Kind::kSpeech;
+        result.input.hypotheses = command->hypotheses;
+      }
+      break;
+    }
+    default:
+      result.outcome = "noanswer";
+  }
+  if (request.max_time.count() > 0 && result.duration >= request.max_time &&
+      result.outcome == "far_end_disconnect") {
+    result.duration = request.max_time;
+    result.outcome = "maxtime_disconnect";
+  }
+  now_ += result.duration;
+  return result;
+}
+
+void TextPlatform::Native(const std::string& line) {
+  JsonLine command;
+  command.Text("line", line);
+  Report("command", command);
+}
+
+void TextPlatform::Fetching(const std::string& uri, bool begins) {
+  if (uri.empty()) return;
+  JsonLine line;
+  line.Text("audio", uri).Bool("begins", begins);
+  Report("fetchaudio", line);
+}
+
+}  // namespace vxml
