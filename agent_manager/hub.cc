@@ -127,11 +127,25 @@ void Hub::AddInternal(vm::SlotMachine& machine, std::vector<std::string> aliases
       if (Peer* peer = ByKey(to)) Send(*peer, message);
       return;
     }
-    for (auto& [key, peer] : peers_) {
+    std::set<PeerKey> receivers;
+    for (const auto& [key, peer] : peers_) {
       if (peer->subscriptions.contains("*") || peer->subscriptions.contains(name))
-        Send(*peer, message);
+        receivers.insert(key);
     }
+    SendAll(receivers, message);
   });
+}
+
+void Hub::SendAll(const std::set<PeerKey>& receivers, const Message& message) {
+  const std::string line = vm::FormatMessage(message);
+  std::string names;
+  for (const PeerKey key : receivers) {
+    Peer* peer = ByKey(key);
+    if (peer == nullptr) continue;
+    peer->link->Send(line);
+    if (log_.enabled()) names += (names.empty() ? "" : ",") + peer->name;
+  }
+  if (log_.enabled()) log_.Write(clock_.Now(), message.from, names, line);
 }
 
 void Hub::Send(Peer& peer, const Message& message) {

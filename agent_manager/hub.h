@@ -125,6 +125,8 @@ class Hub {
   void AnswerTo(PeerKey asker, const std::string& from, const vm::Message& request,
                 const vm::Result<std::string>& result, const OnAnswer& done);
   void Send(Peer& peer, const vm::Message& message);
+  /// One line in the log, however many receive it.
+  void SendAll(const std::set<PeerKey>& receivers, const vm::Message& message);
   void Probe(Peer& peer);
   void MeasureClock(Peer& peer, int exchanges);
   void BecomeModern(Peer& peer, vm::Time asked_at, const vm::Result<std::string>& clock);

@@ -106,15 +106,7 @@ void Hub::Report(Peer& sender, Message message) {
       AnswerTo(pending.asker, sender.name, pending.request, message.value, pending.done);
     }
   }
-  const std::string line = vm::FormatMessage(message);
-  std::string names;
-  for (const PeerKey key : receivers) {
-    if (Peer* peer = ByKey(key)) {
-      peer->link->Send(line);
-      if (log_.enabled()) names += (names.empty() ? "" : ",") + peer->name;
-    }
-  }
-  if (log_.enabled()) log_.Write(clock_.Now(), sender.name, names, line);
+  SendAll(receivers, message);
   if (on_report_) on_report_(sender.name, message);
 }
 

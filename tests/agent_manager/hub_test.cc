@@ -32,6 +32,29 @@ TEST(HubTest, SeveralReceiversEachGetIt) {
   EXPECT_EQ(c->heard, Strings{"set Speak = STOP"});
 }
 
+TEST(HubTest, WhatManyHearStandsOnceInTheLog) {
+  std::vector<std::string> lines;
+  vm::VirtualScheduler clock;
+  SessionLog log([&](std::string_view line) { lines.emplace_back(line); });
+  Hub hub(clock, log);
+  vm::SlotMachine machine("AM");
+  hub.AddInternal(machine);
+  struct Nowhere final : Link {
+    void Send(std::string_view) override {}
+    void Close() override {}
+  };
+  for (const char* name : {"A", "B"}) {
+    const auto key =
+        hub.Attach(std::make_unique<Nowhere>(), PeerKind::kClient, name, Dialect::kAuto);
+    ASSERT_TRUE(key);
+    hub.Subscribe(*key, {"*"});
+  }
+  machine.TellAll("hello");
+  EXPECT_EQ(std::ranges::count_if(lines, [](const auto& l) { return l.ends_with("tell hello"); }),
+            1);
+  EXPECT_TRUE(lines.back().ends_with("AM\tA,B\tFrom @AM tell hello")) << lines.back();
+}
+
 TEST(HubTest, AnUnknownReceiverIsAnsweredWithAnError) {
   World world;
   const auto a = world.Join(PeerKind::kClient, "A");
