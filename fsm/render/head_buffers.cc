@@ -107,9 +107,12 @@ void HeadBuffers::UploadTopology(const Head& head) {
   const auto marks = FaceMarks::Of(head);
   CreaseWeights creases;
   skin_.reset();
+  painting_ = {};
   if (marks && topology.uv.size() == paint.size()) {
     creases = WeighCreases(rest, *marks);
-    skin_ = PaintSkin(head, rest, *marks);
+    painting_ = std::async(std::launch::async, [topology, rest, marks = *marks] {
+      return PaintSkin(topology, rest, marks);
+    });
   }
   creases.right.resize(paint.size());
   creases.left.resize(paint.size());
@@ -129,6 +132,11 @@ void HeadBuffers::UploadTopology(const Head& head) {
   crown_ = FindCrown(topology, rest);
   eye_place_ = topology.eyes[0];
   ++generation_;
+}
+
+const SkinTexture* HeadBuffers::skin() {
+  if (painting_.valid()) skin_ = painting_.get();
+  return skin_ ? &*skin_ : nullptr;
 }
 
 // Pixels found to be hidden cost nearly nothing, so the hair before the ears comes first, then the

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
@@ -29,8 +30,11 @@ class HeadBuffers {
   const std::vector<HeadTopology::Part>& parts() const { return parts_; }
   const EyeFinder& eyes() const { return eyes_; }
   const ShadowFinder& shadows() const { return shadows_; }
-  /// The detail of this head's skin; nothing if it does not say where its features are.
-  const SkinTexture* skin() const { return skin_ ? &*skin_ : nullptr; }
+  /// True until skin() has been asked for since the head came: it is being painted meanwhile.
+  bool painting() const { return painting_.valid(); }
+  /// The detail of this head's skin; nothing if it does not say where its features are. Waits until
+  /// it is painted.
+  const SkinTexture* skin();
   /// What is the same of both eyes: sizes and colour.
   const EyePlace& eye_place() const { return eye_place_; }
   /// Counts the heads uploaded so far, so that what depends on the head is noticed to be old.
@@ -56,6 +60,7 @@ class HeadBuffers {
   glm::vec3 crown_{0.0F};
   EyePlace eye_place_;
   std::optional<SkinTexture> skin_;
+  std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
   int generation_ = 0;
 };
 

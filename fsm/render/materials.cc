@@ -9,6 +9,8 @@
 #include <glm/matrix.hpp>
 #include <initializer_list>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "embedded/eye_fragment.h"
 #include "embedded/eye_vertex.h"
@@ -42,8 +44,8 @@ struct Surface {
 constexpr Surface kSurfaces[] = {
     // clang-format off
     // material             wrap                   lobes               through sheen saturation bump planar
-    {Material::kSkin,        {0.45F, 0.22F, 0.12F}, {1.5F, 1.9F, 0.0F}, 0.35F, 1.0F, 1.12F, 1.0F, 0.0F},
-    {Material::kLip,         {0.40F, 0.20F, 0.12F}, {1.2F, 1.4F, 3.0F}, 0.35F, 1.0F, 1.10F, 1.0F, 0.0F},
+    {Material::kSkin,        {0.42F, 0.27F, 0.20F}, {1.5F, 1.9F, 0.0F}, 0.35F, 1.0F, 1.12F, 1.0F, 0.0F},
+    {Material::kLip,         {0.40F, 0.24F, 0.18F}, {1.2F, 1.4F, 3.0F}, 0.35F, 1.0F, 1.10F, 1.0F, 0.0F},
     {Material::kTeeth,       {0.30F, 0.26F, 0.22F}, {0.0F, 3.0F, 3.0F}, 0.0F,  0.2F, 1.0F,  0.0F, 0.02F},
     {Material::kGum,         {0.40F, 0.20F, 0.15F}, {0.0F, 3.5F, 2.0F}, 0.0F,  0.2F, 1.0F,  0.1F, 0.01F},
     {Material::kTongue,      {0.40F, 0.20F, 0.15F}, {1.0F, 2.0F, 0.0F}, 0.0F,  0.2F, 1.0F,  0.4F, 0.01F},
@@ -51,6 +53,23 @@ constexpr Surface kSurfaces[] = {
     {Material::kCloth,       {0.25F, 0.25F, 0.25F}, {0.1F, 0.0F, 0.0F}, 0.0F,  0.6F, 1.0F,  0.5F, 0.012F},
     // clang-format on
 };
+
+/// A square RGBA picture at half its size.
+std::vector<std::uint8_t> Halve(const std::uint8_t* rgba, int side) {
+  const auto row = static_cast<std::size_t>(side) * 4;
+  std::vector<std::uint8_t> half;
+  half.reserve(row * static_cast<std::size_t>(side) / 4);
+  for (std::size_t y = 0; y + 1 < static_cast<std::size_t>(side); y += 2) {
+    const std::uint8_t* a = rgba + y * row;
+    for (std::size_t x = 0; x + 7 < row; x += 8) {
+      for (std::size_t c = x; c < x + 4; ++c) {
+        half.push_back(
+            static_cast<std::uint8_t>((a[c] + a[c + 4] + a[c + row] + a[c + row + 4] + 2U) / 4U));
+      }
+    }
+  }
+  return half;
+}
 
 /// A shader is made of texts, shared ones first.
 std::string Join(std::initializer_list<std::string_view> texts) {
@@ -100,26 +119,30 @@ void Materials::Fill(Texture texture, int width, int height, const std::uint8_t*
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
 }
 
-void Materials::UploadSkin(const HeadBuffers& head) {
-  if (generation_ == head.generation()) return;
+void Materials::WearSkin(HeadBuffers& head, float samples_per_mm) {
+  const bool fresh = generation_ != head.generation();
   generation_ = head.generation();
-  has_skin_ = head.skin() != nullptr;
-  if (!has_skin_) return;
-  Fill(kSkinTint, SkinTexture::kSide, SkinTexture::kSide, head.skin()->tint.data());
-  gl_.GenerateMipmap(GL_TEXTURE_2D);
-  Fill(kSkinRelief, SkinTexture::kSide, SkinTexture::kSide, head.skin()->relief.data());
-  gl_.GenerateMipmap(GL_TEXTURE_2D);
-}
-
-void Materials::SetSkinDetail(float samples_per_mm) {
-  if (!has_skin_) return;
-  // Levels are halved until a texel is about a sample; a face so near that texels show is filtered.
+  const SkinTexture* skin = head.skin();
+  has_skin_ = skin != nullptr;
+  if (!skin) return;
+  // Halved until a texel is about a sample; a face so near that texels show is filtered.
   const float texels_per_sample = SkinTexture::kTexelsPerMm / std::max(samples_per_mm, 1e-3F);
-  const int level = std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 4);
+  const int level = std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5);
   const GLint filter = texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST;
-  for (const Texture texture : {kSkinTint, kSkinRelief}) {
-    gl_.BindTexture(GL_TEXTURE_2D, textures_[texture]);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level);
+  if (!fresh && level == skin_level_ && filter == skin_filter_) return;
+  skin_level_ = level;
+  skin_filter_ = filter;
+  for (const auto& [texture, picture] :
+       {std::pair(kSkinTint, &skin->tint), std::pair(kSkinRelief, &skin->relief)}) {
+    int side = SkinTexture::kSide;
+    std::vector<std::uint8_t> halved;
+    const std::uint8_t* rgba = picture->data();
+    for (int k = 0; k < level; ++k) {
+      halved = Halve(rgba, side);
+      side /= 2;
+      rgba = halved.data();
+    }
+    Fill(texture, side, side, rgba);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   }
@@ -132,7 +155,6 @@ void Materials::Bind(Texture texture, GLenum unit) {
 
 void Materials::BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                            const Scene& scene, float alpha) {
-  UploadSkin(head);
   const Lamp* lamps[] = {&scene.key, &scene.fill, &scene.rim};
   glm::vec3 directions[3];
   glm::vec3 colors[3];
@@ -146,8 +168,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   glm::vec3 lights[2];
   for (int i = 0; i < 2; ++i) lights[i] = glm::normalize(glm::mat3(occluders[i]) * directions[0]);
 
-  gl_.ActiveTexture(GL_TEXTURE0);
-  SetSkinDetail(view.samples_per_mm);
+  if (generation_ != head.generation()) has_skin_ = false;
   Bind(kNoise, GL_TEXTURE0);
   Bind(kStrands, GL_TEXTURE3);
   for (const GlProgram* program : {&surface_, &eye_, &hair_, &line_}) {

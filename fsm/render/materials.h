@@ -23,6 +23,9 @@ class Materials {
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                   const Scene& scene, float alpha);
   void Use(Material material);
+  /// Gives the head of the last BeginFrame its skin, which is plain until then, in the detail that
+  /// the picture can show. Waits until it is painted.
+  void WearSkin(HeadBuffers& head, float samples_per_mm);
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
 
@@ -30,10 +33,8 @@ class Materials {
   enum Texture { kNoise, kWeave, kStrands, kPlain, kSkinTint, kSkinRelief, kTextures };
 
   void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
-  void SetSkinDetail(float samples_per_mm);
   void Bind(Texture texture, GLenum unit);
   void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices);
-  void UploadSkin(const HeadBuffers& head);
   void UseEye(float layer);
   void UseHair(float streaks, float shine);
 
@@ -45,6 +46,8 @@ class Materials {
   GLuint textures_[kTextures] = {};
   int generation_ = 0;  // of the head whose skin is in the textures
   bool has_skin_ = false;
+  int skin_level_ = 0;
+  GLint skin_filter_ = 0;
 };
 
 }  // namespace fsm

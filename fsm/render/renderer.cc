@@ -70,6 +70,8 @@ class GlRenderer : public Renderer {
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     materials_.BeginFrame(view, head_, vertices, scene, alpha);
+    if (head_.painting()) WarmUp();
+    materials_.WearSkin(head_, view.samples_per_mm);
     const auto& parts = head_.parts();
     if (scene.view_mode != ViewMode::kWireframe) {
       if (scene.view_mode == ViewMode::kTextureWithWireframe) {
@@ -100,6 +102,22 @@ class GlRenderer : public Renderer {
     if (scene.view_mode != ViewMode::kTexture) DrawLines(parts, scene.view_mode, alpha);
     gl_.Disable(GL_BLEND);
     gl_.Disable(GL_DEPTH_TEST);
+  }
+
+  /// A software driver compiles a shader when it first draws with it, which takes far longer than a
+  /// frame. So that is done while the skin is being painted: one triangle of each part, unseen.
+  void WarmUp() {
+    gl_.Viewport(0, 0, 0, 0);
+    gl_.CullFace(GL_BACK);
+    for (auto part : head_.parts()) {
+      part.index_count = 3;
+      (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+      materials_.Use(part.material);
+      DrawPart(part);
+    }
+    gl_.Disable(GL_CULL_FACE);
+    target_->Bind();
+    gl_.Clear(GL_DEPTH_BUFFER_BIT);
   }
 
   void DrawLines(const std::vector<HeadTopology::Part>& parts, ViewMode mode, float alpha) {

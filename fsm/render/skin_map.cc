@@ -6,16 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "fsm/render/skin_texture.h"
-
 namespace fsm {
 
-std::size_t SkinMap::Index(int x, int y) {
-  return static_cast<std::size_t>(y) * SkinTexture::kSide + static_cast<std::size_t>(x);
-}
-
-SkinMap::SkinMap(const HeadTopology& topology, const HeadVertices& rest, int side) {
-  const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+SkinMap::SkinMap(const HeadTopology& topology, const HeadVertices& rest) {
+  constexpr auto count = static_cast<std::size_t>(kCells) * kCells;
   kind.assign(count, kNone);
   place.resize(count);
   outward_.assign(count, -1.0F);
@@ -23,17 +17,17 @@ SkinMap::SkinMap(const HeadTopology& topology, const HeadVertices& rest, int sid
     if (part.material != Material::kSkin && part.material != Material::kLip) continue;
     const Kind what = part.material == Material::kSkin ? kSkin : kLip;
     for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
-      Fill(topology, rest, &topology.indices[part.first_index + k], what, side);
+      Fill(topology, rest, &topology.indices[part.first_index + k], what);
     }
   }
 }
 
 void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
-                   const std::uint32_t* corners, Kind what, int side) {
+                   const std::uint32_t* corners, Kind what) {
   std::array<glm::vec2, 3> uv;
   std::array<glm::vec3, 3> p;
   for (std::size_t k = 0; k < 3; ++k) {
-    uv[k] = topology.uv[corners[k]] * static_cast<float>(side) - 0.5F;
+    uv[k] = topology.uv[corners[k]] * static_cast<float>(kCells) - 0.5F;
     p[k] = rest.position[corners[k]];
   }
   const glm::vec2 e1 = uv[1] - uv[0];
@@ -42,11 +36,11 @@ void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
   const auto [left, right] = std::minmax({uv[0].x, uv[1].x, uv[2].x});
   const auto [low, high] = std::minmax({uv[0].y, uv[1].y, uv[2].y});
   // A triangle over the seam at the back would smear over the whole map.
-  if (std::abs(area) < 1e-6F || right - left > static_cast<float>(side) / 2) return;
+  if (std::abs(area) < 1e-6F || right - left > static_cast<float>(kCells) / 2) return;
   const int x0 = std::max(static_cast<int>(std::ceil(left)), 0);
-  const int x1 = std::min(static_cast<int>(std::floor(right)), side - 1);
+  const int x1 = std::min(static_cast<int>(std::floor(right)), kCells - 1);
   const int y0 = std::max(static_cast<int>(std::ceil(low)), 0);
-  const int y1 = std::min(static_cast<int>(std::floor(high)), side - 1);
+  const int y1 = std::min(static_cast<int>(std::floor(high)), kCells - 1);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const glm::vec2 d = glm::vec2(static_cast<float>(x), static_cast<float>(y)) - uv[0];
@@ -63,6 +57,30 @@ void SkinMap::Fill(const HeadTopology& topology, const HeadVertices& rest,
       place[i] = at;
     }
   }
+}
+
+SkinMap::Kind SkinMap::KindAt(float u, float v) const {
+  const int x = static_cast<int>(std::floor(u * kCells));
+  const int y = static_cast<int>(std::floor(v * kCells));
+  if (x < 0 || y < 0 || x >= kCells || y >= kCells) return kNone;
+  return kind[Index(x, y)];
+}
+
+glm::vec3 SkinMap::PlaceAt(float u, float v) const {
+  const float x = std::clamp(u * kCells - 0.5F, 0.0F, kCells - 1.001F);
+  const float y = std::clamp(v * kCells - 0.5F, 0.0F, kCells - 1.001F);
+  const int cx = static_cast<int>(x);
+  const int cy = static_cast<int>(y);
+  const float s = x - static_cast<float>(cx);
+  const float t = y - static_cast<float>(cy);
+  const auto i = Index(cx, cy);
+  // Beside a hole the nearest cell counts alone.
+  if (kind[i] == kNone || kind[i + 1] == kNone || kind[i + kCells] == kNone ||
+      kind[i + kCells + 1] == kNone) {
+    return place[Index(static_cast<int>(x + 0.5F), static_cast<int>(y + 0.5F))];
+  }
+  return (place[i] * (1 - s) + place[i + 1] * s) * (1 - t) +
+         (place[i + kCells] * (1 - s) + place[i + kCells + 1] * s) * t;
 }
 
 }  // namespace fsm

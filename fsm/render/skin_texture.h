@@ -37,7 +37,8 @@ struct SkinTexture {
 /// lips, creases. The same head gives the same bytes. `rest` are the vertices of the neutral state.
 /// Takes a few tens of milliseconds, of two threads: the caller's and one that ends before it
 /// returns.
-SkinTexture PaintSkin(const Head& head, const HeadVertices& rest, const FaceMarks& marks);
+SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
+                      const FaceMarks& marks);
 
 /// How much each crease shows at a vertex: forehead, glabella, crow's feet, nasolabial of the
 /// agent's right and left side.
