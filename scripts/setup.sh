@@ -8,7 +8,7 @@ packages=(
   libboost1.81-dev libcli11-dev nlohmann-json3-dev libfmt-dev libglm-dev
   duktape-dev libexpat1-dev libcurl4-openssl-dev
   libgtest-dev libbenchmark-dev
-  libosmesa6-dev libglfw3-dev libgl-dev libpng-dev ffmpeg
+  libosmesa6-dev libegl-dev libglfw3-dev libgl-dev libpng-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev
   xvfb
 )

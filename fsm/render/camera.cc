@@ -8,7 +8,6 @@
 namespace fsm {
 namespace {
 
-constexpr float kFieldOfViewDegrees = 25.0F;
 /// What the picture shows at the depth of the face: from below the collar to above the hair.
 constexpr float kFramedBottom = -172.0F;
 constexpr float kFramedTop = 158.0F;
@@ -20,17 +19,22 @@ constexpr glm::vec3 kPivot{0.0F, -60.0F, 0.0F};
 
 }  // namespace
 
-View FramePortrait(const FaceState& state, int width, int height) {
+View FramePortrait(const FaceState& state, const Camera& camera, int width, int height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   const float framed_height = std::max(kFramedTop - kFramedBottom, kFramedWidth / aspect);
-  const float half_angle = glm::radians(kFieldOfViewDegrees / 2);
-  const float distance = framed_height / 2 / std::tan(half_angle);
-  const float middle = (kFramedTop + kFramedBottom) / 2;
+  const float half_angle = glm::radians(std::clamp(camera.field_degrees, 5.0F, 90.0F) / 2);
+  const float portrait = framed_height / 2 / std::tan(half_angle);
+  const float distance = portrait * std::clamp(camera.distance, 0.2F, 10.0F);
+  const float middle = (kFramedTop + kFramedBottom) / 2 + camera.height_mm;
+  const float angle = glm::radians(camera.angle_degrees);
 
+  // Seen from the side it is the head's own axis that stays in the middle.
   View view;
-  view.eye = {0.0F, middle, kFaceDepth + distance};
-  view.world_to_clip = glm::perspective(2 * half_angle, aspect, distance * 0.2F, distance * 5.0F) *
-                       glm::lookAt(view.eye, {0.0F, middle, 0.0F}, {0.0F, 1.0F, 0.0F});
+  const glm::vec3 outward(std::sin(angle), 0.0F, std::cos(angle));
+  view.eye = glm::vec3(0.0F, middle, 0.0F) + outward * (kFaceDepth + distance);
+  view.world_to_clip =
+      glm::perspective(2 * half_angle, aspect, distance * 0.2F, distance * 5.0F + 500.0F) *
+      glm::lookAt(view.eye, {0.0F, middle, 0.0F}, {0.0F, 1.0F, 0.0F});
 
   glm::mat4 figure(1.0F);
   figure = glm::translate(

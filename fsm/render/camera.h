@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include "fsm/head/face_state.h"
+#include "fsm/render/renderer.h"
 
 namespace fsm {
 
@@ -15,10 +16,11 @@ struct View {
   float samples_per_mm = 1;  ///< of the target along one side, at the depth of the face
 };
 
-/// Frames head and shoulders as a portrait would: a 25 degree lens at the height of the mouth, the
-/// whole width of the shoulders' inner half kept in view in narrow pictures.
-/// `state` gives agent_rotation (x, then y, then z about the neck's root), agent_translation
-/// (millimetres right and up) and agent_scale (clamped to 0.01..100).
-View FramePortrait(const FaceState& state, int width, int height);
+/// Frames head and shoulders as a portrait would: by default a 25 degree lens at the height of the
+/// mouth, the whole width of the shoulders' inner half kept in view in narrow pictures. Of
+/// `camera`, distance counts from 0.2 to 10 and the field from 5 to 90 degrees. `state` gives
+/// agent_rotation (x, then y, then z about the neck's root), agent_translation (millimetres right
+/// and up) and agent_scale (clamped to 0.01..100).
+View FramePortrait(const FaceState& state, const Camera& camera, int width, int height);
 
 }  // namespace fsm

@@ -68,10 +68,21 @@ class HeadlessContext : public SwitchedContext {
 
 }  // namespace
 
-std::unique_ptr<RenderContext> RenderContext::MakeHeadless(int width, int height) {
+#ifdef FSM_WITH_EGL
+std::unique_ptr<RenderContext> MakeEglContext(int width, int height);  // in egl_context.cc
+#endif
+
+std::unique_ptr<RenderContext> RenderContext::MakeHeadless(int width, int height, OffScreen how) {
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
     throw std::runtime_error("a picture must have 1 to " + std::to_string(kMaxImageSide) +
                              " pixels on each side");
+  }
+  if (how == OffScreen::kEgl) {
+#ifdef FSM_WITH_EGL
+    return MakeEglContext(width, height);
+#else
+    throw std::runtime_error("this program was built without EGL (Debian's libegl-dev)");
+#endif
   }
   auto context = std::make_unique<HeadlessContext>(width, height);
   context->MakeCurrent();

@@ -65,7 +65,7 @@ class GlRenderer : public Renderer {
  private:
   void DrawFigure(const Head& head, const HeadVertices& vertices, const FaceState& state,
                   const Scene& scene, float alpha) {
-    const View view = FramePortrait(state, context_.width(), context_.height());
+    const View view = FramePortrait(state, scene.camera, context_.width(), context_.height());
     head_.Upload(head, vertices);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);

@@ -31,11 +31,20 @@ struct Lamp {
   float strength = 1;
 };
 
+/// Where the viewer stands.
+struct Camera {
+  float distance = 1;        ///< as part of that from which head and shoulders fill the view
+  float height_mm = 0;       ///< above the middle of the portrait, of viewer and aim
+  float field_degrees = 25;  ///< seen from below to above; the head stays as large
+  float angle_degrees = 0;   ///< round the head, positive = to the viewer's right
+};
+
 struct Scene {
   glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, when there is no picture
   const Image* background_image = nullptr;    ///< stretched over the view; borrowed
   bool show_background = true;                ///< off: transparent black
   ViewMode view_mode = ViewMode::kTexture;
+  Camera camera;
   // A portrait studio: a large warm lamp above left, a weak cool one at the right, one behind for
   // the edge of hair and shoulder.
   Lamp key{{-1.0f, 0.88f, 0.95f}, {2.90f, 2.64f, 2.46f}};
@@ -43,15 +52,25 @@ struct Scene {
   Lamp rim{{0.59f, 0.46f, -0.67f}, {1.30f, 1.36f, 1.45f}};
 };
 
+/// Ways to draw off screen: OSMesa is always software; EGL without a surface takes what there is.
+enum class OffScreen { kOsMesa, kEgl };
+
 /// A GL context and where its frames go. Thread: one, the one that made it; at most one is current,
 /// and a context is current when made. Destroying one leaves another current that was so.
 class RenderContext {
  public:
   virtual ~RenderContext() = default;
-  /// Off screen, software; throws std::runtime_error with a sentence if it cannot be had.
-  static std::unique_ptr<RenderContext> MakeHeadless(int width, int height);
+  /// Off screen; throws std::runtime_error with a sentence if it cannot be had.
+  static std::unique_ptr<RenderContext> MakeHeadless(int width, int height,
+                                                     OffScreen how = OffScreen::kOsMesa);
   /// A window; throws if there is no display.
   static std::unique_ptr<RenderContext> MakeWindow(int width, int height, const std::string& title);
+  /// Window: fills the screen it is on, or goes back to its size and place. Else nothing.
+  virtual void SetFullScreen(bool /*full*/) {}
+  /// Window: moves its upper left corner, where the window system lets it. Else nothing.
+  virtual void Move(int /*x*/, int /*y*/) {}
+  /// Window: asks for another size of its inside, which follows when the window system grants it.
+  virtual void Resize(int /*width*/, int /*height*/) {}
   virtual void MakeCurrent() = 0;
   virtual void* GetProcAddress(const char* name) = 0;
   virtual int width() const = 0;  ///< of the drawable now (a window may be resized)

@@ -72,6 +72,26 @@ class WindowContext : public SwitchedContext {
     glfwSwapBuffers(window_);
     glfwPollEvents();
   }
+  void SetFullScreen(bool full) override {
+    if (full == (glfwGetWindowMonitor(window_) != nullptr)) return;
+    if (!full) {
+      glfwSetWindowMonitor(window_, nullptr, windowed_[0], windowed_[1], windowed_[2], windowed_[3],
+                           GLFW_DONT_CARE);
+      return;
+    }
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (!mode) return;
+    glfwGetWindowPos(window_, &windowed_[0], &windowed_[1]);
+    glfwGetWindowSize(window_, &windowed_[2], &windowed_[3]);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
+  void Move(int x, int y) override { glfwSetWindowPos(window_, x, y); }
+  void Resize(int width, int height) override {
+    SetFullScreen(false);
+    glfwSetWindowSize(window_, width, height);
+    glfwPollEvents();
+  }
   bool close_requested() const override { return glfwWindowShouldClose(window_) != 0; }
 
  private:
@@ -87,6 +107,7 @@ class WindowContext : public SwitchedContext {
   }
 
   GLFWwindow* window_ = nullptr;
+  int windowed_[4] = {};  // place and size before it filled the screen
 };
 
 }  // namespace
