@@ -42,8 +42,9 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   if (config.language) start_settings_.lips.language = *config.language;
   if (config.max_frame_rate) frame_rate_ = *config.max_frame_rate;
   if (!config.faces.empty()) {
-    std::cerr << "fsm: notice: " << config.path
-              << " names faces of people (MaskFile); they are not drawn, the mask is galatea\n";
+    std::cerr
+        << "fsm: notice: " << config.path
+        << " names faces of people (MaskFile); they are not drawn; Mask takes those of MaskSet\n";
   }
   core_.changed = [this] { Changed(); };
   MakeMotion();
@@ -65,6 +66,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
                                        }});
   DeclareLipSlots(core_);
   DeclareFigureSlots(core_);
+  mask_ = std::make_unique<MaskSlots>(core_, options_.mask);
   scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);
   film_ = std::make_unique<Film>(
       clock, studio, [this](long number, vm::Time at) { return DrawFrame(number, at); },
@@ -82,6 +84,12 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   DeclareRecording();
   DeclareCapture();
   DeclareFrame();
+  if (!options_.life.empty()) {
+    if (auto set = core_.motion->SetLife(core_.Now(), options_.life); !set) {
+      throw std::runtime_error(set.error().text);
+    }
+    core_.slots.Store("Life", options_.life);
+  }
   core_.declared_at_start = core_.initial_values.size();
   Changed();
 }
@@ -102,6 +110,7 @@ void FsmModule::Initialise() {
   MakeMotion();
   speech_->Reset();
   for (const auto& [name, value] : core_.initial_values) core_.slots.Store(name, value);
+  mask_->Reset();
   scene_->Reset();
   Changed();
 }

@@ -9,6 +9,7 @@
 #include "fsm/app/capture.h"
 #include "fsm/app/film.h"
 #include "fsm/app/fsm_core.h"
+#include "fsm/app/mask_slots.h"
 #include "fsm/app/original_config.h"
 #include "fsm/app/scene_slots.h"
 #include "fsm/app/speech_slots.h"
@@ -19,6 +20,8 @@ namespace fsm {
 struct FsmOptions {
   std::uint64_t seed = 1;        ///< of everything the face does by itself
   std::string tables;            ///< folder of tables that replace the built-in ones
+  std::string mask;              ///< face worn at the start, "" = the studio's first
+  std::string life;              ///< profile of Life at the start, "" = OFF
   OriginalConfig config;         ///< path "" = none
   bool announce_config = false;  ///< greet as the original does: tell detected: -C flag: FILE
 };
@@ -61,6 +64,7 @@ class FsmModule final : public vm::Module {
   MotionTables tables_;
   MotionSettings start_settings_;
   FsmCore core_;
+  std::unique_ptr<MaskSlots> mask_;
   std::unique_ptr<SceneSlots> scene_;
   std::unique_ptr<SpeechSlots> speech_;
   std::unique_ptr<Film> film_;

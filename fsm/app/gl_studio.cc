@@ -1,5 +1,6 @@
 #include "fsm/app/gl_studio.h"
 
+#include <algorithm>
 #include <iostream>
 #include <stdexcept>
 
@@ -21,7 +22,7 @@ GlStudio::~GlStudio() {
 }
 
 const Head& GlStudio::head() {
-  if (!head_) head_ = Head::MakeGeneric();
+  if (!head_) head_ = face_.empty() ? Head::MakeGeneric() : Head::Make(face_);
   return *head_;
 }
 
@@ -48,6 +49,35 @@ const Image& GlStudio::Read() {
 }
 
 MouthMeasure GlStudio::Measure(const FaceState& state) { return head().MeasureMouth(state); }
+
+std::vector<std::string> GlStudio::Faces() const {
+  std::vector<std::string> names;
+  for (const IdentityInfo& face : Head::Identities()) names.emplace_back(face.name);
+  return names;
+}
+
+vm::Result<void> GlStudio::Wear(const std::string& face) {
+  const std::vector<std::string> names = Faces();
+  if (std::ranges::find(names, face) == names.end()) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : " ") + name;
+    return vm::Fail(vm::Errc::kBadValue, "there is no face '" + face + "'; " + list + " expected");
+  }
+  if (face == (face_.empty() ? names.front() : face_)) return {};
+  try {
+    auto head = Head::Make(face);
+    // What the renderer keeps belongs to the head it drew last.
+    if (renderer_) {
+      context_->MakeCurrent();
+      renderer_.reset();
+    }
+    head_ = std::move(head);
+    face_ = face;
+    return {};
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, error.what());
+  }
+}
 
 int GlStudio::width() const { return has_window() ? context_->width() : options_.width; }
 int GlStudio::height() const { return has_window() ? context_->height() : options_.height; }

@@ -24,6 +24,8 @@ class GlStudio final : public Studio {
   vm::Result<void> Draw(const FaceState& state, const Scene& scene) override;
   const Image& Read() override;
   MouthMeasure Measure(const FaceState& state) override;
+  std::vector<std::string> Faces() const override;
+  vm::Result<void> Wear(const std::string& face) override;
   int width() const override;
   int height() const override;
   vm::Result<void> Resize(int width, int height) override;
@@ -40,6 +42,7 @@ class GlStudio final : public Studio {
   void MakeRenderer();
 
   Options options_;
+  std::string face_;            // worn; "" = the first
   std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
   std::unique_ptr<RenderContext> context_;
   std::unique_ptr<Renderer> renderer_;  // lives in the context

@@ -62,6 +62,9 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option(
       "--tables", options.module.tables,
       "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
+  app.add_option("--mask", options.module.mask, "The face worn at the start (default galatea)");
+  app.add_option("--life", options.module.life,
+                 "What the face does by itself from the start: OFF (default), CALM, LIVELY, ...");
   app.add_option("--seed", options.module.seed, "Of what the face does by itself (default 1)");
 }
 

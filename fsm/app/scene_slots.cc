@@ -11,7 +11,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kMask = "galatea";
 constexpr const char* kPlain = "plain";        // the background without a picture
 constexpr vm::Time kLongestSettling = 2000ms;  // what a picture waits for movements, on their clock
 
@@ -33,7 +32,6 @@ bool IsPictureName(const std::string& name) {
 
 SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds)
     : core_(core), backgrounds_(std::move(backgrounds)) {
-  DeclareMasks();
   DeclareBackgrounds();
   DeclareView();
   DeclareSaveImage();
@@ -43,31 +41,6 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
     }
     core_.slots.Store("NowBackground", backgrounds_.front().first);
   }
-}
-
-void SceneSlots::DeclareMasks() {
-  core_.slots.Declare({.name = "MaskSet",
-                       .grammar = "<text>",
-                       .access = vm::Access::kReadOnly,
-                       .initial = kMask,
-                       .help = "The faces there are, with commas between them.",
-                       .quoted = true});
-  core_.slots.Declare({.name = "NowMask",
-                       .grammar = "<text>",
-                       .access = vm::Access::kReadOnly,
-                       .initial = kMask,
-                       .help = "The face worn now.",
-                       .quoted = true});
-  core_.Declare({"Mask", "<text>", "Wears one of the faces of MaskSet.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
-                   if (value.text != kMask) {
-                     return vm::Fail(vm::Errc::kBadValue,
-                                     "there is no face '" + value.text + "'; there is " + kMask);
-                   }
-                   core_.slots.Report("NowMask", value.text);
-                   return {};
-                 },
-                 kMask});
 }
 
 void SceneSlots::DeclareBackgrounds() {

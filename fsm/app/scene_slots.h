@@ -8,7 +8,7 @@
 
 namespace fsm {
 
-/// What is around the face: masks, backgrounds, the way it is drawn, the size of the view, and
+/// What is around the face: backgrounds, the way it is drawn, the size of the view, and
 /// single pictures of it (SaveImage).
 class SceneSlots {
  public:
@@ -20,7 +20,6 @@ class SceneSlots {
   void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
 
  private:
-  void DeclareMasks();
   void DeclareBackgrounds();
   void DeclareView();
   void DeclareSaveImage();

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fsm/head/face_state.h"
 #include "fsm/render/renderer.h"
@@ -23,6 +24,12 @@ class Studio {
   virtual const Image& Read() = 0;
   /// What the mouth of a state measures. Needs no drawing.
   virtual MouthMeasure Measure(const FaceState& state) = 0;
+
+  /// The faces there are, the one worn at the start first; at least one.
+  virtual std::vector<std::string> Faces() const = 0;
+  /// Wears one of them from the next Draw or Measure on. Errors: kBadValue listing the names,
+  /// kUnavailable if it cannot be made; the face worn stays on.
+  virtual vm::Result<void> Wear(const std::string& face) = 0;
 
   virtual int width() const = 0;
   virtual int height() const = 0;

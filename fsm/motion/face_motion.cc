@@ -56,7 +56,7 @@ FaceMotion::FaceMotion(MotionTables tables, std::uint64_t seed)
     : tables_(std::move(tables)),
       table_emotions_(tables_.emotions),
       seed_(seed),
-      asymmetry_(AsymmetryOf(seed, tables_.units)),
+      side_lags_(SideLagsOf(seed)),
       autonomy_(tables_.motions, seed),
       emotions_(tables_.units.emotions.size()) {}
 
@@ -90,7 +90,7 @@ vm::Result<void> FaceMotion::Express(vm::Time now, std::string_view name, int pa
   const Emotion::Timing& timing =
       settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed;
   ExpressionMotion::Sides lags{};
-  if (autonomy_.On(Life::kAsymmetry)) lags = asymmetry_.lag_ms;
+  if (autonomy_.On(Life::kAsymmetry)) lags = side_lags_;
   expression_.Show(now, look, timing.lag_ms, lags, OnsetOf(emotion), duration);
   return {};
 }
@@ -105,10 +105,11 @@ vm::Result<void> FaceMotion::DefineExpression(std::string_view name, int pattern
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   });
   if (!plain || name == "NEUTRAL") {
-    return vm::Fail(vm::Errc::kBadValue,
-                    fmt::format("'{}' cannot be the name of an expression; up to 40 letters, digits "
-                                "and _ expected, and not NEUTRAL",
-                                name.substr(0, 60)));
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("'{}' cannot be the name of an expression; up to 40 letters, digits "
+                    "and _ expected, and not NEUTRAL",
+                    name.substr(0, 60)));
   }
   auto units = ParseLook(look, tables_.unit_names);
   if (!units) return std::unexpected(units.error());
@@ -253,8 +254,7 @@ void FaceMotion::Gaze(vm::Time now, double x, double y, vm::Time duration) {
 }
 
 void FaceMotion::LookAtUser(vm::Time now) {
-  const EyeAngles from =
-      thinking_.TargetAt(now) > 0 ? EyeAngles{-5, 11} : eyes_.GazeTarget(now);
+  const EyeAngles from = thinking_.TargetAt(now) > 0 ? EyeAngles{-5, 11} : eyes_.GazeTarget(now);
   BlinkAtShift(now, from, {0, 0});
   LookSomewhere(now, true, false);
   eyes_.Gaze(now, {0, 0}, settings_.eye_move, vm::Time(0));
@@ -279,9 +279,10 @@ vm::Result<void> FaceMotion::Move(vm::Time now, std::string_view kind, int patte
   if (kind == "SHAKE") kind = "REFUSE";
   if (kind == "TILT") kind = "LISTEN";
   if (!(strength >= 0 && strength <= 3) || count < 1 || count > 20) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    fmt::format("{:g} times the size and {} times found; 0 to 3 and 1 to 20 expected",
-                                strength, count));
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("{:g} times the size and {} times found; 0 to 3 and 1 to 20 expected", strength,
+                    count));
   }
   if (kind == "BLINK") {
     const auto& blinks = tables_.motions.blinks;
@@ -324,9 +325,8 @@ vm::Result<void> FaceMotion::SetLife(vm::Time now, std::string_view profile) {
   } else {
     const auto found = tables_.motions.profiles.find(profile);
     if (found == tables_.motions.profiles.end()) {
-      return vm::Fail(vm::Errc::kBadValue,
-                      fmt::format("'{}' is no way to live; {} or OFF expected", profile,
-                                  KeysOf(tables_.motions.profiles)));
+      return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is no way to live; {} or OFF expected",
+                                                       profile, KeysOf(tables_.motions.profiles)));
     }
     wanted = found->second;
   }
@@ -339,7 +339,7 @@ vm::Result<void> FaceMotion::SetLife(vm::Time now, std::string_view profile) {
 }
 
 void FaceMotion::SetPerson(std::uint64_t person) {
-  asymmetry_ = AsymmetryOf(Scramble(seed_ ^ person), tables_.units);
+  side_lags_ = SideLagsOf(Scramble(seed_ ^ person));
 }
 
 // ---- speech

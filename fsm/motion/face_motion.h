@@ -89,7 +89,7 @@ class FaceMotion {
   vm::Result<void> Autonomous(vm::Time now, std::string_view kind, int pattern);
   /// A profile of the table, or OFF: everything as it is at the start.
   vm::Result<void> SetLife(vm::Time now, std::string_view profile);
-  /// Whose face it is: the seed of its asymmetry.
+  /// Whose face it is: which side of it is first.
   void SetPerson(std::uint64_t person);
 
   // Speech.
@@ -155,7 +155,7 @@ class FaceMotion {
   MotionSettings settings_;
   FaceState figure_;
   std::uint64_t seed_;
-  Asymmetry asymmetry_;
+  ExpressionMotion::Sides side_lags_;
   ExpressionMotion expression_;
   HeadMotion head_;
   EyeMotion eyes_;

@@ -24,11 +24,6 @@ ActionUnits FaceMotion::UnitsAt(vm::Time t, const SpeechMotion::Mouth& speech,
                                 const SpeechMotion::Gesture& gesture) const {
   const double mouth_share = 1 - (1 - kEmotionWhileSpeaking) * speech.over_emotion;
   ActionUnits units = expression_.At(t, tables_.units, mouth_share);
-  const auto asymmetry = static_cast<float>(autonomy_.Weight(Life::kAsymmetry, t));
-  for (std::size_t i = 0; i < kActionUnits; ++i) {
-    units.left[i] *= 1 - asymmetry * (1 - asymmetry_.left[i]);
-    units.right[i] *= 1 - asymmetry * (1 - asymmetry_.right[i]);
-  }
 
   const auto add_look = [&](const ActionUnits& pattern, double weight) {
     ActionUnits look;
@@ -122,15 +117,13 @@ void FaceMotion::PlaceHeadAndEyes(vm::Time t, const SpeechMotion::Mouth& speech,
   EyeAngles away{};
   const EyeAngles idle = autonomy_.EyesAt(t);
   const float thinking = thinking_.At(t);
-  const EyeAngles thought =
-      thinking > 0 ? autonomy_.ThinkingAt(t, thinking_since_) : EyeAngles{};
+  const EyeAngles thought = thinking > 0 ? autonomy_.ThinkingAt(t, thinking_since_) : EyeAngles{};
   const AutoAvert* avert = Avert();
-  const double averted =
-      avert == nullptr ? 0 : avert->angle * autonomy_.Weight(Life::kAvert, t);
+  const double averted = avert == nullptr ? 0 : avert->angle * autonomy_.Weight(Life::kAvert, t);
   for (std::size_t i = 0; i < 2; ++i) {
     const float steady = own[i] + on_user * std::clamp(told[i], -35.0f, 35.0f);
-    away[i] = idle[i] + thinking * thought[i] +
-              static_cast<float>(averted * gesture.avert[i]) - steady;
+    away[i] =
+        idle[i] + thinking * thought[i] + static_cast<float>(averted * gesture.avert[i]) - steady;
   }
 
   // On the wire, and so in all the parts, x+ is down; the state's eyes count up as positive.
@@ -202,8 +195,7 @@ std::optional<vm::Time> FaceMotion::NextActivity(vm::Time t) const {
 
 vm::Time FaceMotion::OnsetsSettled(vm::Time t) const {
   vm::Time settled = std::max({expression_.SettledAt(t), head_.SettledAt(t), eyes_.SettledAt(t)});
-  ForEachTrack(
-      [&](const Track<float>& track) { settled = std::max(settled, track.SettledAt(t)); });
+  ForEachTrack([&](const Track<float>& track) { settled = std::max(settled, track.SettledAt(t)); });
   return settled;
 }
 

@@ -1,20 +1,14 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "fsm/motion/expression_motion.h"
 
 namespace fsm {
 
-/// How one person's face differs from its mirror image while it moves: one side of each part is a
-/// little weaker and begins later, always the same. 3 to 8 % and 20 to 40 ms (research notes on the
-/// face, 4.4).
-struct Asymmetry {
-  std::array<float, kActionUnits> left, right;  ///< factors, one of each pair is 1
-  ExpressionMotion::Sides lag_ms{};
-};
-/// The same for the same seed.
-Asymmetry AsymmetryOf(std::uint64_t seed, const UnitList& list);
+/// By how much one side of a person's face begins an expression later than the other, always the
+/// same: 20 to 40 ms (research notes on the face, 4.4). How much weaker one side is belongs to the
+/// head. The same for the same seed.
+ExpressionMotion::Sides SideLagsOf(std::uint64_t seed);
 
 }  // namespace fsm

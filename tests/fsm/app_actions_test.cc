@@ -104,5 +104,29 @@ TEST_F(ActionsTest, LifeAndGazeAreSetByName) {
   EXPECT_TRUE(fsm.errors.empty());
 }
 
+TEST_F(ActionsTest, MasksAreWornAndTakenOffByInit) {
+  EXPECT_EQ(fsm.studio.face, "galatea");
+  fsm.Say("prop NowMask = AutoOutput");
+  EXPECT_EQ(fsm.Say("set Mask = pygmalion"), "rep NowMask = \"pygmalion\"");
+  EXPECT_EQ(fsm.studio.face, "pygmalion");
+  EXPECT_NE(Refusal("set#1 Mask = man01").find("there is no face 'man01'"), std::string::npos);
+  EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"pygmalion\"");
+  fsm.Say("set Run = INIT");
+  EXPECT_EQ(fsm.studio.face, "galatea");
+  EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
+}
+
+TEST(StartTest, AMaskAndALifeCanBeGivenAtTheStart) {
+  FsmOptions options;
+  options.mask = "pygmalion";
+  options.life = "CALM";
+  FsmStage fsm(options);
+  EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"pygmalion\"");
+  EXPECT_EQ(fsm.Say("inq Life"), "rep Life = CALM");
+  EXPECT_TRUE(fsm.module.motion().NextActivity(FromMs(5000)).has_value());
+  options.mask = "nobody";
+  EXPECT_THROW(FsmStage{options}, std::runtime_error);
+}
+
 }  // namespace
 }  // namespace fsm

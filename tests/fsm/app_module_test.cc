@@ -15,7 +15,7 @@ TEST(FsmModuleTest, AnswersAsTheOriginal) {
   EXPECT_EQ(fsm.Say("inq Run"), "rep Run = LIVE");
   EXPECT_EQ(fsm.Say("inq ProtocolVersion"), "rep ProtocolVersion = 2.06");
   EXPECT_EQ(fsm.Say("inq ModuleVersion"), "rep ModuleVersion = Galatea FSM " GALATEA_VERSION);
-  EXPECT_EQ(fsm.Say("inq MaskSet"), "rep MaskSet = \"galatea\"");
+  EXPECT_EQ(fsm.Say("inq MaskSet"), "rep MaskSet = \"galatea,pygmalion\"");
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
   EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain\"");
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
@@ -79,7 +79,7 @@ TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
   refused("FaceMot = NOD 9", "NOD has no pattern 9; 1 to 5 expected");
   refused("FaceMot = JUMP 1", "BAD_VALUE");
   refused("Autonomous = MOVE 7", "MOVE has no pattern 7");
-  refused("Mask = man01", "there is no face 'man01'; there is galatea");
+  refused("Mask = man01", "there is no face 'man01'; galatea pygmalion expected");
   refused("Background = bg9", "there is no background 'bg9'");
   refused("Background = missing.png", "UNAVAILABLE cannot read missing.png");
   refused("ViewMode = SOLID", "BAD_VALUE");

@@ -31,6 +31,15 @@ class FakeStudio final : public Studio {
   MouthMeasure Measure(const FaceState& state) override {
     return {state.mouth[2] - state.mouth[4], 50 + 2 * state.mouth[8], state.mouth[11]};
   }
+  std::vector<std::string> Faces() const override { return {"galatea", "pygmalion"}; }
+  vm::Result<void> Wear(const std::string& name) override {
+    if (name != "galatea" && name != "pygmalion") {
+      return vm::Fail(vm::Errc::kBadValue,
+                      "there is no face '" + name + "'; galatea pygmalion expected");
+    }
+    face = name;
+    return {};
+  }
   int width() const override { return width_; }
   int height() const override { return height_; }
   vm::Result<void> Resize(int width, int height) override {
@@ -59,6 +68,7 @@ class FakeStudio final : public Studio {
   std::map<std::string, FaceState> pictures;
   std::map<std::string, FakeFilm> films;
   FaceState last_state;
+  std::string face;
   int draws = 0;
   int shown = 0;
   bool window = false;

@@ -1,0 +1,56 @@
+#include "fsm/app/mask_slots.h"
+
+#include <stdexcept>
+
+namespace fsm {
+namespace {
+
+// FNV-1a: the same for the same name everywhere, which std::hash does not promise.
+std::uint64_t PersonOf(const std::string& name) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+}  // namespace
+
+MaskSlots::MaskSlots(FsmCore& core, std::string first) : core_(core), first_(std::move(first)) {
+  std::string names;
+  for (const std::string& name : core_.studio.Faces()) {
+    if (first_.empty()) first_ = name;
+    names += (names.empty() ? "" : ",") + name;
+  }
+  core_.slots.Declare({.name = "MaskSet",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = names,
+                       .help = "The faces there are, with commas between them.",
+                       .quoted = true});
+  core_.slots.Declare({.name = "NowMask",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .initial = first_,
+                       .help = "The face worn now.",
+                       .quoted = true});
+  core_.Declare({"Mask", "<text>", "Wears one of the faces of MaskSet.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   if (auto worn = Wear(value.text); !worn) return worn;
+                   core_.slots.Report("NowMask", value.text);
+                   return {};
+                 },
+                 first_});
+  if (auto worn = Wear(first_); !worn) throw std::runtime_error(worn.error().text);
+}
+
+vm::Result<void> MaskSlots::Wear(const std::string& face) {
+  if (auto worn = core_.studio.Wear(face); !worn) return worn;
+  core_.motion->SetPerson(PersonOf(face));
+  return {};
+}
+
+void MaskSlots::Reset() {
+  if (auto worn = Wear(first_); !worn) core_.slots.ReportError("Mask", worn.error());
+  core_.slots.Store("NowMask", first_);
+}
+
+}  // namespace fsm
