@@ -83,6 +83,17 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   border_z_lower_ = table.Only("border_z").Number(2);
 }
 
+// The upper incisors end 2 mm below the line of the lips and overlap the lower ones by as much.
+ToothArch MouthAnatomy::UpperTeeth() const {
+  const float y = LineY(0) - 2.0f;
+  return {LineZ(0) - 7.0f, 40, 27, y, y + 17};
+}
+
+ToothArch MouthAnatomy::LowerTeeth() const {
+  const float y = LineY(0) - 0.6f;
+  return {LineZ(0) - 9.6f, 40, 26, y, y - 15};
+}
+
 glm::vec3 MouthAnatomy::Red(int side, float x, float part) const {
   const float height = BorderY(side, x);
   const float thickness = std::abs(height);

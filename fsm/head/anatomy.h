@@ -46,6 +46,14 @@ class EyeAnatomy {
   Curve lid_radius_, upper_, lower_;
 };
 
+/// One row of teeth: the outer faces lie on a parabola z = front - depth (x / half_width)^2.
+struct ToothArch {
+  float front_z, depth, half_width;
+  float edge_y;  ///< of the middle incisors
+  float root_y;  ///< where the gum ends
+  float At(float x) const { return front_z - depth * (x / half_width) * (x / half_width); }
+};
+
 /// The closed mouth (tables/mouth.txt), left half over x = 0..corner.
 class MouthAnatomy {
  public:
@@ -56,6 +64,8 @@ class MouthAnatomy {
   float LineZ(float x) const { return line_z_(x); }
   /// Height of the red above (side +1) or below (side -1, negative) the line; 0 from the corner on.
   float BorderY(int side, float x) const { return side > 0 ? upper_(x) : lower_(x); }
+  ToothArch UpperTeeth() const;
+  ToothArch LowerTeeth() const;
   /// A point of the red: part 0 = seam, 1 = border.
   glm::vec3 Red(int side, float x, float part) const;
 

@@ -41,19 +41,6 @@ const std::vector<std::uint32_t>& FindCurve(const Cage& cage, const TableRow& ro
   return found->second;
 }
 
-std::uint32_t FindPoint(const Cage& cage, const TableRow& row, std::string_view word) {
-  const std::size_t dot = word.find('.');
-  if (dot == std::string_view::npos) {
-    row.Fail(Quoted(word) + " found where x,y,z, CURVE.i or ~ was expected");
-  }
-  const auto& curve = FindCurve(cage, row, word.substr(0, dot));
-  const float index = ParseNumber(row, word.substr(dot + 1));
-  if (index < 0 || index >= static_cast<float>(curve.size()) || index != std::floor(index)) {
-    row.Fail("there is no point " + Quoted(word));
-  }
-  return curve[static_cast<std::size_t>(index)];
-}
-
 glm::vec3 ParsePlace(const TableRow& row, std::string_view word) {
   glm::vec3 p(0);
   for (int k = 0; k < 3; ++k) {
@@ -89,7 +76,7 @@ void ReadCurveRow(const TableRow& row, Cage& cage) {
       continue;
     }
     points.push_back(word.find(',') != std::string::npos ? AddPoint(cage, ParsePlace(row, word))
-                                                         : FindPoint(cage, row, word));
+                                                         : CagePoint(cage, row, word));
     given_at.push_back(static_cast<float>(i));
     given.push_back(cage.position[points.back()]);
   }
@@ -192,7 +179,7 @@ void ReadPatchRow(const TableRow& row, Cage& cage) {
     }
   } else if (key == "quad") {
     std::vector<std::uint32_t> corner;
-    for (std::size_t i = 3; i < 7; ++i) corner.push_back(FindPoint(cage, row, row.Word(i)));
+    for (std::size_t i = 3; i < 7; ++i) corner.push_back(CagePoint(cage, row, row.Word(i)));
     AddFace(cage, std::move(corner), kind, fine);
   } else if (key == "cap") {
     AddFace(cage, FindCurve(cage, row, row.Word(3)), kind, fine);
@@ -269,6 +256,19 @@ void TieSkinToLips(Cage& cage, const Table& table) {
 }
 
 }  // namespace
+
+std::uint32_t CagePoint(const Cage& cage, const TableRow& row, std::string_view word) {
+  const std::size_t dot = word.find('.');
+  if (dot == std::string_view::npos) {
+    row.Fail(Quoted(word) + " found where x,y,z, CURVE.i or ~ was expected");
+  }
+  const auto& curve = FindCurve(cage, row, word.substr(0, dot));
+  const float index = ParseNumber(row, word.substr(dot + 1));
+  if (index < 0 || index >= static_cast<float>(curve.size()) || index != std::floor(index)) {
+    row.Fail("there is no point " + Quoted(word));
+  }
+  return curve[static_cast<std::size_t>(index)];
+}
 
 Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
               const MouthAnatomy& mouth) {

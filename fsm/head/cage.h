@@ -51,6 +51,9 @@ struct Cage {
 Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
               const MouthAnatomy& mouth);
 
+/// The point a table means by "CURVE.i"; throws naming the line of `row` if there is none.
+std::uint32_t CagePoint(const Cage& cage, const TableRow& row, std::string_view word);
+
 /// Adds the curves eye0..eye5 and mouth0..mouth9.
 void AddLidCurves(const EyeAnatomy& eye, Cage& cage);
 void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage);

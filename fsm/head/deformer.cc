@@ -7,7 +7,8 @@ namespace fsm {
 
 Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
-                   const ActionUnits& units, const EyeAnatomy& eye, glm::vec3 eye_shift, const MouthAnatomy& mouth)
+                   const ActionUnits& units, const EyeAnatomy& eye, glm::vec3 eye_shift,
+                   const MouthAnatomy& mouth)
     : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)) {
   for (std::size_t side = 0; side < 2; ++side) {
     std::array<std::vector<glm::vec3>, kActionUnits> sums;
@@ -28,6 +29,16 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
     }
   }
   AddMouthFields(mouth);
+  upper_teeth_ = mouth.UpperTeeth();
+  lower_teeth_ = mouth.LowerTeeth();
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    if (!flesh_[i].by_teeth) continue;
+    const glm::vec3 p = rest_[i];
+    constexpr float kLeast = 1.3f;  // the crowns bulge out of the parabola by about 0.9
+    touching_.push_back({static_cast<std::uint32_t>(i),
+                         std::min(kLeast, p.z - upper_teeth_.At(p.x)),
+                         std::min(kLeast, p.z - lower_teeth_.At(p.x))});
+  }
   AddLids(eye, eye_shift);
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     if (flesh_[i].jaw > 0.001f) jawed_.push_back(static_cast<std::uint32_t>(i));
@@ -83,7 +94,7 @@ void Deformer::AddMouthFields(const MouthAnatomy& mouth) {
 void Deformer::AddLids(const EyeAnatomy& eye, glm::vec3 shift) {
   float widest = 0;
   for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {
-    widest = std::max(widest, eye.UpperAngle(x) - eye.LowerAngle(x));
+    widest = std::max(widest, eye.UpperY(x) - eye.LowerY(x));
   }
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     const Flesh& f = flesh_[i];
@@ -92,8 +103,8 @@ void Deformer::AddLids(const EyeAnatomy& eye, glm::vec3 shift) {
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
     lids_.push_back({static_cast<std::uint32_t>(i), f.eye > 0 ? 1 : 0, f.lid_upper, f.lid_lower,
-                     upper, lower, eye.MeetAngle(x), (upper - lower) / widest, eye.centre().y + shift.y,
-                     eye.LidAxisZ(x) + shift.z});
+                     upper, lower, eye.MeetAngle(x), (eye.UpperY(x) - eye.LowerY(x)) / widest,
+                     eye.centre().y + shift.y, eye.LidAxisZ(x) + shift.z});
   }
 }
 
@@ -115,6 +126,25 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
     const float y = rest.y - lid.axis_y;
     const float z = rest.z - lid.axis_z;
     out[lid.vertex] += glm::vec3(0, y * c + z * s - y, z * c - y * s - z);
+  }
+}
+
+void Deformer::KeepOffTeeth(const Pose& pose, glm::vec3* out) const {
+  // How much of a push counts, by height: all beside the crowns, fading past the edge.
+  const auto beside = [](const ToothArch& arch, float y) {
+    const float down = arch.root_y > arch.edge_y ? 1.0f : -1.0f;
+    return SmoothStep(-2.2f, 0.2f, down * (y - arch.edge_y));
+  };
+  for (const Touching& touch : touching_) {
+    glm::vec3& p = out[touch.vertex];
+    const float upper = upper_teeth_.At(p.x) + touch.upper_gap - p.z;
+    if (upper > 0) p.z += upper * beside(upper_teeth_, p.y);
+    glm::vec3 q = IntoJaw(p, pose);
+    const float lower = lower_teeth_.At(q.x) + touch.lower_gap - q.z;
+    if (lower > 0) {
+      q.z += lower * beside(lower_teeth_, q.y);
+      p = TurnJaw(q, pose, 1);
+    }
   }
 }
 
@@ -152,7 +182,9 @@ void Deformer::Deform(const Pose& pose, glm::vec3* out) const {
   if (pose.jaw_rad != 0 || pose.jaw_slide_mm != 0 || pose.jaw_sway_mm != 0) {
     for (const std::uint32_t i : jawed_) out[i] = TurnJaw(out[i], pose, flesh_[i].jaw);
   }
+  KeepOffTeeth(pose, out);
   CloseLips(pose, out);
+  KeepOffTeeth(pose, out);  // where closing drew them in again
 }
 
 }  // namespace fsm

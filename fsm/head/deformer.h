@@ -35,13 +35,16 @@ inline constexpr float kHingeZ = -3.0f;
 inline constexpr glm::vec3 kNeckPivot{0, -85, -28};
 
 glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight);
+/// Where a point would lie in the jaw at rest.
+glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose);
 glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 
 /// Moves flesh. Made once for the whole face and once for the few vertices by which the mouth is
 /// measured, so that both give the same numbers. Immutable; thread: any.
 class Deformer {
  public:
-  /// `seam` pairs index the arrays given. `eye_shift`: of the left eye from where `eye` has it. Flesh::lip_column indexes `seam`.
+  /// `seam` pairs index the arrays given. `eye_shift`: of the left eye from where `eye` has it.
+  /// Flesh::lip_column indexes `seam`.
   Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
            std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const ActionUnits& units,
            const EyeAnatomy& eye, glm::vec3 eye_shift, const MouthAnatomy& mouth);
@@ -66,6 +69,7 @@ class Deformer {
   void AddMouthFields(const MouthAnatomy& mouth);
   void AddLids(const EyeAnatomy& eye, glm::vec3 shift);
   void MoveLids(const Pose& pose, glm::vec3* out) const;
+  void KeepOffTeeth(const Pose& pose, glm::vec3* out) const;
   void CloseLips(const Pose& pose, glm::vec3* out) const;
 
   std::vector<glm::vec3> rest_;
@@ -75,6 +79,12 @@ class Deformer {
   std::array<std::vector<Delta>, kMouthParameters> mouth_fields_;
   std::vector<LidVertex> lids_;
   std::vector<std::uint32_t> jawed_, lipped_;
+  struct Touching {
+    std::uint32_t vertex;
+    float upper_gap, lower_gap;  // least distances from either arch, by the distance at rest
+  };
+  ToothArch upper_teeth_{}, lower_teeth_{};
+  std::vector<Touching> touching_;
 };
 
 }  // namespace fsm

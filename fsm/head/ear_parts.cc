@@ -81,10 +81,18 @@ Relief ReliefAt(glm::vec2 p) {
 
 glm::vec3 Place(glm::vec2 p, float height) {
   // Leans back at the top; the front lies in the skin of the cheek.
-  return {64.9f + height, p.y + 0.06f * p.x, 2.0f - p.x - 0.17f * p.y};
+  return {64.9f + height, 0.95f * p.y + 0.05f * p.x, 2.0f - p.x - 0.16f * p.y};
 }
 
 }  // namespace
+
+std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks() {
+  const auto at = [](glm::vec2 p) { return Place(p, 0); };
+  return {{{"superaurale", at({16, 30.5f})},
+           {"subaurale", at({8, -28.5f})},
+           {"preaurale", at({0, 8})},
+           {"postaurale", at({32.6f, 11})}}};
+}
 
 void BuildEars(const Palette& palette, HeadMesh& mesh) {
   constexpr int kAround = 26;

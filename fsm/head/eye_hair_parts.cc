@@ -24,7 +24,11 @@ constexpr std::array kLashRows = {LashRow{true, 38, 0.10f, 0.99f},
 class LashBuilder {
  public:
   LashBuilder(const EyeAnatomy& eye, const Identity& identity, int side, HeadMesh& mesh)
-      : eye_(eye), palette_(identity.palette), size_(identity.lashes), side_(static_cast<float>(side)), mesh_(mesh) {
+      : eye_(eye),
+        palette_(identity.palette),
+        size_(identity.lashes),
+        side_(static_cast<float>(side)),
+        mesh_(mesh) {
     flesh_.eye = static_cast<std::int8_t>(side);
     flesh_.free = 0;
   }
@@ -64,7 +68,8 @@ class LashBuilder {
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
       const float x = X(glm::mix(0.06f, 0.99f, part));
-      const float thick = (0.4f + 0.6f * size_) * (0.30f + 0.50f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
+      const float thick = (0.4f + 0.6f * size_) *
+                          (0.30f + 0.50f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
       const std::uint32_t low =
@@ -85,10 +90,10 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     const float fan = 1.5f * (along - 0.42f) + 0.10f * Grain(i, 5);
-    const float length = size_ *
-        (upper_ ? (2.6f + 3.4f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
-                     (1 + 0.12f * Grain(i, 9))
-               : 2.2f * (1 + 0.2f * Grain(i, 9)));
+    const float length =
+        size_ * (upper_ ? (2.6f + 3.4f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
+                              (1 + 0.12f * Grain(i, 9))
+                        : 2.2f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = upper_ ? 0.17f : 0.11f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
@@ -142,18 +147,23 @@ void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh
                                        0.25f * static_cast<float>(row) + 0.35f * Grain(i, 21))) /
                                  kColumns;
       const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.4f * Grain(i, 22)) / kRows;
-      const glm::vec2 at(x, middle(x) + identity.brow_thickness * half(x) * level - 0.8f + identity.brow_height);
+      const glm::vec2 at(
+          x, middle(x) + identity.brow_thickness * half(x) * level - 0.8f + identity.brow_height);
       // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
       const float angle = (grow(x) - 24 * level + 9 * Grain(i, 23)) * kPi / 180;
       const glm::vec2 along(std::cos(angle), std::sin(angle));
       const float ends = SmoothStep(8, 15, x) * SmoothStep(58, 50, x);
       const float length = (4.6f + 1.6f * Grain(i, 24)) * (0.65f + 0.35f * ends);
       const float width = 0.42f * (0.55f + 0.45f * ends);
-      glm::vec3 normal;
       const glm::vec2 across(-along.y, along.x);
-      glm::vec3 a = front.PointAt(at + width * across, normal) + 0.15f * normal;
-      glm::vec3 b = front.PointAt(at - width * across, normal) + 0.15f * normal;
-      glm::vec3 c = front.PointAt(at + length * along, normal) + 0.55f * normal;
+      const auto over = [&front](glm::vec2 xy, float lift) {
+        glm::vec3 normal;
+        const glm::vec3 p = front.PointAt(xy, normal);
+        return p + lift * normal;
+      };
+      const glm::vec3 a = over(at + width * across, 0.15f);
+      const glm::vec3 b = over(at - width * across, 0.15f);
+      const glm::vec3 c = over(at + length * along, 0.55f);
       std::array<std::uint32_t, 3> id{};
       int k = 0;
       const glm::vec3 colour = palette.brow * (1 + 0.25f * Grain(i, 25));

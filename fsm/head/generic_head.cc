@@ -14,6 +14,7 @@
 #include "embedded/curves.h"
 #include "embedded/eye.h"
 #include "embedded/identities.h"
+#include "embedded/landmarks.h"
 #include "embedded/mouth.h"
 #include "embedded/patches.h"
 #include "embedded/sliders.h"
@@ -33,16 +34,15 @@ namespace {
 class GenericHead : public Head {
  public:
   GenericHead(std::string_view name, bool asymmetric)
-      : identity_(
-            ReadIdentity(Table("tables/identities.txt", embedded::identities()), name)),
+      : identity_(ReadIdentity(Table("tables/identities.txt", embedded::identities()), name)),
         units_(Table("tables/action_units.txt", embedded::action_units())),
         eye_(Table("tables/eye.txt", embedded::eye())),
         mouth_(Table("tables/mouth.txt", embedded::mouth())) {
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
     const Shaper shaper(Table("tables/sliders.txt", embedded::sliders()), identity_.sliders);
-    const FineSkin fine = Subdivide(ReadCage(Table("tables/curves.txt", embedded::curves()),
-                                             Table("tables/patches.txt", embedded::patches()),
-                                             eye_, mouth_));
+    const Cage cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
+                               Table("tables/patches.txt", embedded::patches()), eye_, mouth_);
+    const FineSkin fine = Subdivide(cage);
     const Palette& palette = identity_.palette;
     HeadMesh mesh;
     const SkinMap skin = BuildSkin(fine, eye_, mouth_, palette, mesh);
@@ -64,6 +64,7 @@ class GenericHead : public Head {
     base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
                  mesh.position.end());
     Finish(std::move(mesh), skin);
+    NameLandmarks(cage, fine);
   }
 
   const HeadTopology& topology() const override { return topology_; }
@@ -102,8 +103,8 @@ class GenericHead : public Head {
   /// move as wholes.
   void Shape(const Shaper& shaper, HeadMesh& mesh) {
     eye_shift_ = shaper.Motion(eye_.centre());
-    const glm::vec3 teeth = shaper.Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) *
-                            glm::vec3(0, 0.5f, 0.5f);
+    const glm::vec3 teeth =
+        shaper.Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) * glm::vec3(0, 0.5f, 0.5f);
     for (std::size_t i = 0; i < mesh.position.size(); ++i) {
       glm::vec3& p = mesh.position[i];
       switch (mesh.bone[i]) {
@@ -184,46 +185,35 @@ class GenericHead : public Head {
                               .pupil_radius = eye_.pupil_radius(),
                               .iris_colour = identity_.palette.iris};
     }
-    NameLandmarks();
   }
 
-  void NameLandmarks() {
-    const auto place = [this](const std::string& name, glm::vec3 p) {
+  void NameLandmarks(const Cage& cage, const FineSkin& fine) {
+    const auto pair = [this](const std::string& name, glm::vec3 p) {
       landmarks_[name + "_left"] = p;
       landmarks_[name + "_right"] = {-p.x, p.y, p.z};
     };
-    const auto on_lid = [this](float x, float y) {
-      return glm::vec3(x, y, eye_.LidAxisZ(x) + eye_.LidRadius(x));
-    };
-    place("endocanthion", on_lid(eye_.inner_x(), eye_.UpperY(eye_.inner_x())));
-    place("exocanthion", on_lid(eye_.outer_x(), eye_.UpperY(eye_.outer_x())));
-    place("cheilion", mouth_.corner());
-    place("pupil", eye_.centre() + glm::vec3(0, 0, eye_.radius()));
-    place("tragion", {65.7f, 0, 0});
-    place("zygion", FrontAt(62, 4));
-    place("gonion", FrontAt(46, -58));
-    place("alare", FrontAt(15.7f, -14));
-    landmarks_["nasion"] = FrontAt(0, 24);
-    landmarks_["pronasale"] = FrontAt(0, -9);
-    landmarks_["subnasale"] = FrontAt(0, -23);
-    landmarks_["stomion"] = {0, mouth_.LineY(0), mouth_.LineZ(0)};
-    landmarks_["gnathion"] = FrontAt(0, -85);
-    landmarks_["trichion"] = FrontAt(0, 92);
-  }
-
-  /// The flesh vertex nearest to the viewer of those nearest to (x, y).
-  glm::vec3 FrontAt(float x, float y) const {
-    glm::vec3 best(0);
-    float least = 1e9f;
-    for (std::size_t i = 0; i < flesh_count_; ++i) {
-      const glm::vec3 p = rest_[i];
-      const float d = std::hypot(p.x - x, p.y - y) - 0.01f * p.z;
-      if (d < least) {
-        least = d;
-        best = p;
+    const Table table("tables/landmarks.txt", embedded::landmarks());
+    for (const TableRow& row : table.rows()) {
+      const glm::vec3 p = rest_[fine.of_cage[CagePoint(cage, row, row.Word(2))]];
+      if (row.key() == "middle") {
+        landmarks_[row.Word(1)] = p;
+      } else if (row.key() == "side") {
+        pair(row.Word(1), p);
+      } else {
+        row.Fail("middle or side expected");
       }
     }
-    return best;
+    const auto on_lid = [this](float x, float y) {
+      return glm::vec3(x, y, eye_.LidAxisZ(x) + eye_.LidRadius(x)) + eye_shift_;
+    };
+    const float middle = eye_.centre().x;
+    pair("endocanthion", on_lid(eye_.inner_x(), eye_.UpperY(eye_.inner_x())));
+    pair("exocanthion", on_lid(eye_.outer_x(), eye_.UpperY(eye_.outer_x())));
+    pair("palpebrale_superius", on_lid(middle, eye_.UpperY(middle)));
+    pair("palpebrale_inferius", on_lid(middle, eye_.LowerY(middle)));
+    pair("pupil", eye_.centre() + eye_shift_ + glm::vec3(0, 0, eye_.radius()));
+    pair("tragion", {65.7f, 0, 0});
+    for (const auto& [name, place] : EarLandmarks()) pair(name, place);
   }
 
   static glm::vec2 Unroll(glm::vec3 p) {
@@ -314,8 +304,8 @@ class GenericHead : public Head {
   ActionUnits units_;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
-  glm::vec3 eye_shift_{};          // of the left eye from the base head's
-  std::vector<glm::vec3> base_;    // the base head's rest form, for texture coordinates
+  glm::vec3 eye_shift_{};        // of the left eye from the base head's
+  std::vector<glm::vec3> base_;  // the base head's rest form, for texture coordinates
   HeadTopology topology_;
   std::size_t flesh_count_ = 0;
   std::vector<std::uint32_t> flesh_triangles_;

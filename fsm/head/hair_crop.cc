@@ -85,7 +85,8 @@ class CroppedHair {
                                      glm::vec3(0.25f * Grain(k, 31), 0, 0.25f * Grain(k, 32)));
     along -= root * glm::dot(along, root);
     const float length = style_.lock_mm * (1 + 0.3f * Grain(k, 33)) *
-                         (0.5f + 0.5f * SmoothStep(-0.3f, 0.5f, root.y)) * (0.55f + 0.45f * SmoothStep(0, 0.2f, up));
+                         (0.5f + 0.5f * SmoothStep(-0.3f, 0.5f, root.y)) *
+                         (0.55f + 0.45f * SmoothStep(0, 0.2f, up));
     const float lift = style_.lift_mm * (1 + 0.5f * Grain(k, 34)) + forehead * style_.front_up * 7;
     const float depth = Depth(root, up);
     std::vector<glm::vec3> path;

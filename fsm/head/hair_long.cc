@@ -172,7 +172,8 @@ class LongHair {
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         const float i = 0.10f * v * v;
-        const glm::vec3 p = Point(i, side, t + 0.085f * v * (1 + 0.3f * Grain(seed, 3)), 0.7f + 0.8f * v);
+        const glm::vec3 p =
+            Point(i, side, t + 0.085f * v * (1 + 0.3f * Grain(seed, 3)), 0.7f + 0.8f * v);
         path.push_back(p + face * (reach * (1 - v) * (1 - v)) - outward * (0.6f * (1 - v)));
       }
       AddLock(path, 3.0f + Grain(seed, 4), 0.2f, palette_, seed, 0.95f, mesh_);

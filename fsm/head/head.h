@@ -83,8 +83,8 @@ class Head {
  public:
   virtual ~Head() = default;
   /// The head called `identity`. Nobody's two sides move quite alike: a few percent, fixed for each
-  /// identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument listing the names if
-  /// there is none of that name, std::runtime_error if a table is damaged.
+  /// identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument listing
+  /// the names if there is none of that name, std::runtime_error if a table is damaged.
   static std::unique_ptr<Head> Make(std::string_view identity, bool asymmetric = true);
   /// All heads there are, the default one first. Valid as long as the program runs.
   static std::span<const IdentityInfo> Identities();

@@ -102,8 +102,8 @@ Shaper::Shaper(const Table& table, const std::vector<std::pair<std::string, floa
     }
   }
   for (const auto& [name, value] : values) {
-    const bool known = std::ranges::any_of(
-        table.rows(), [&](const TableRow& row) { return row.Word(1) == name; });
+    const bool known =
+        std::ranges::any_of(table.rows(), [&](const TableRow& row) { return row.Word(1) == name; });
     if (!known) throw std::runtime_error(table.name() + ": no slider '" + name + "'");
   }
 }

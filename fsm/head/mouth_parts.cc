@@ -110,13 +110,12 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
 }  // namespace
 
 void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
-  const float line_y = mouth.LineY(0);
-  const float front = mouth.LineZ(0) - 7.0f;
-  // The upper incisors end 2 mm below the line of the lips and overlap the lower ones by as much.
-  AddArch({{front, 40, 27}, line_y - 2.0f, 1, Bone::kSkull}, kUpperWidth, kUpperHeight, palette,
-          mesh);
-  AddArch({{front - 2.6f, 40, 26}, line_y - 0.6f, -1, Bone::kJaw}, kLowerWidth, kLowerHeight,
-          palette, mesh);
+  const ToothArch upper = mouth.UpperTeeth();
+  const ToothArch lower = mouth.LowerTeeth();
+  AddArch({{upper.front_z, upper.depth, upper.half_width}, upper.edge_y, 1, Bone::kSkull},
+          kUpperWidth, kUpperHeight, palette, mesh);
+  AddArch({{lower.front_z, lower.depth, lower.half_width}, lower.edge_y, -1, Bone::kJaw},
+          kLowerWidth, kLowerHeight, palette, mesh);
 }
 
 void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "fsm/head/anatomy.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/paint.h"
@@ -18,5 +21,7 @@ void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);
 void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh);
 void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh);
 void BuildEars(const Palette& palette, HeadMesh& mesh);
+/// Highest, lowest, foremost and hindmost point of the base head's left ear in its own plane.
+std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks();
 
 }  // namespace fsm

@@ -84,6 +84,14 @@ glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight) {
           kHingeZ + z * c + y * s + weight * pose.jaw_slide_mm};
 }
 
+glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose) {
+  const float c = std::cos(pose.jaw_rad);
+  const float s = std::sin(pose.jaw_rad);
+  const float y = p.y - kHingeY;
+  const float z = p.z - kHingeZ - pose.jaw_slide_mm;
+  return {p.x - pose.jaw_sway_mm, kHingeY + y * c + z * s, kHingeZ + z * c - y * s};
+}
+
 glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight) {
   const glm::vec3 turned = kNeckPivot + pose.head * (p - kNeckPivot);
   return p + weight * (turned - p);

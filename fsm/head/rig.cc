@@ -60,18 +60,18 @@ Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y) {
   const float reach_up = 18 + 0.5f * beyond;
   const bool lower = side < 0 || (side == 0 && below > 0);
   if (lower) {
-    const float seam = 0.5f + 0.5f * middle;
+    const float seam = 0.4f + 0.6f * middle;
     f.jaw = seam + (1 - seam) * SmoothStep(0, reach_down, below);
     f.above_mouth = side < 0 ? 0.5f * (1 - SmoothStep(25, 19, a)) * (1 - SmoothStep(0, 12, below))
                              : 0.5f * (1 - SmoothStep(0, 8 + 0.3f * beyond, below));
   } else {
-    const float seam = 0.5f - 0.44f * middle;
+    const float seam = 0.4f - 0.34f * middle;
     f.jaw = seam * (1 - SmoothStep(0, reach_up, -below));
     const float half = 0.5f * (side > 0 ? (1 - SmoothStep(25, 19, a)) : 1.0f);
     f.above_mouth = 1 - half * (1 - SmoothStep(0, 8 + 0.3f * beyond, -below));
   }
   // The jaw's skin ends at the throat and before the ear.
-  f.jaw *= SmoothStep(-122, -88, domain.y) * SmoothStep(112, 62, a);
+  f.jaw *= SmoothStep(-138, -84, domain.y) * SmoothStep(112, 62, a);
 
   // The neck twists: all of the turn at the jaw, none at the shoulders.
   f.neck = SmoothStep(-168, -96, domain.y);

@@ -24,6 +24,7 @@ struct Flesh {
   float lid_upper = 0;
   float lid_lower = 0;
   std::int16_t lip_column = -1;  ///< index of the pair of seam vertices that corrects it
+  bool by_teeth = false;         ///< may touch the teeth: held off them
   float lip_weight = 0;          ///< > 0 upper lip, < 0 lower lip
 };
 

@@ -42,6 +42,7 @@ Flesh MakeFlesh(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth) {
     flesh.lip_column = static_cast<std::int16_t>(column + kLastColumn);
     flesh.lip_weight = tag.lip_hold * Sign(tag.lip_side);
   }
+  flesh.by_teeth = (tag.red >= 0 || tag.lip_hold >= 0.6f) && tag.deep < 0.4f;
   if (tag.deep > 0) {
     const float open = std::sqrt(std::max(0.0f, 1 - a * a / (corner_x * corner_x)));
     flesh.free *= std::max(0.0f, 1 - (2.2f - 1.4f * (1 - open)) * tag.deep);
