@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -15,6 +16,9 @@
 #include "ssm/app/original_config.h"
 #include "ssm/app/real_time_sink.h"
 #include "ssm/app/thread_worker.h"
+#include "ssm/app/voices_config.h"
+#include "ssm/engines/engine_set.h"
+#include "ssm/engines/espeak_engine.h"
 #include "ssm/flite/flite_engine.h"
 #include "ssm/sinks/portaudio_sink.h"
 #include "ssm/sinks/sink_choice.h"
@@ -30,19 +34,64 @@ struct Options {
   std::string config_path;
   std::string speaker;
   bool print_version = false;
+  std::string voices_path;
+  std::string dictionary;
   ssm::SinkChoice sink;
   ssm::OriginalConfig config;
 };
 
 void Notice(const std::string& text) { std::cerr << "ssm: " << text << std::endl; }
 
-void ReadConfig(Options& options) {
-  std::ifstream file(options.config_path);
+vm::Result<std::string> ReadFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw std::runtime_error("cannot read '" + options.config_path + "': " + std::strerror(errno));
+    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
   }
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  auto config = ssm::ParseOriginalConfig(text);
+  return std::string{std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string ReadFileOrThrow(const std::string& path) {
+  auto text = ReadFile(path);
+  if (!text) throw std::runtime_error(text.error().text);
+  return std::move(*text);
+}
+
+/// A program that is built beside this one.
+std::string Neighbour(const char* name) {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::string(name) : (self.parent_path() / name).string();
+}
+
+/// flite, the voices of the configuration, and espeak-ng for all other languages if it is there.
+std::unique_ptr<ssm::SpeechEngine> MakeEngines(const Options& options) {
+  std::vector<std::unique_ptr<ssm::SpeechEngine>> engines;
+  engines.push_back(ssm::MakeFliteEngine());
+  ssm::VoicesConfig config;
+  if (!options.voices_path.empty()) {
+    const auto folder = std::filesystem::path(options.voices_path).parent_path().string();
+    auto parsed = ssm::ParseVoicesConfig(ReadFileOrThrow(options.voices_path),
+                                         {.folder = folder.empty() ? "." : folder,
+                                          .aligner = Neighbour("align"),
+                                          .read_file = ReadFile});
+    if (!parsed) throw std::runtime_error(options.voices_path + ": " + parsed.error().text);
+    config = std::move(*parsed);
+  }
+  for (auto& engine : config.engines) engines.push_back(std::move(engine));
+  if (const std::string helper = Neighbour("ssm_espeak"); access(helper.c_str(), X_OK) == 0) {
+    engines.push_back(ssm::MakeEspeakEngine({.helper = helper, .dictionary = options.dictionary}));
+  }
+  auto set = std::make_unique<ssm::EngineSet>(std::move(engines));
+  for (const auto& [language, voice] : config.languages) {
+    if (auto chosen = set->ChooseVoice(language, voice); !chosen) {
+      throw std::runtime_error(options.voices_path + ": " + chosen.error().text);
+    }
+  }
+  return set;
+}
+
+void ReadConfig(Options& options) {
+  auto config = ssm::ParseOriginalConfig(ReadFileOrThrow(options.config_path));
   if (!config) throw std::runtime_error(options.config_path + ": " + config.error().text);
   options.config = std::move(*config);
   if (!options.config.notice.empty()) Notice(options.config_path + ": " + options.config.notice);
@@ -94,7 +143,7 @@ std::unique_ptr<vm::Module> MakeModule(const Options& options, vm::Scheduler& sc
   }
   return std::make_unique<ssm::VoiceModule>(
       scheduler,
-      ssm::VoiceModule::Parts{ssm::MakeFliteEngine(), std::move(opened.sink),
+      ssm::VoiceModule::Parts{MakeEngines(options), std::move(opened.sink),
                               std::make_unique<ssm::ThreadWorker>(io, clock)},
       std::move(voice));
 }
@@ -116,6 +165,10 @@ int main(int argc, char** argv) {
                             "Where sound goes: auto (a loudspeaker if there is one), null, "
                             "portaudio[:NAME], file:PATH.wav");
              app.add_option("--speaker", options.speaker, "Who speaks at first (see SpeakerSet)");
+             app.add_option("--voices", options.voices_path,
+                            "Voices beside flite's, a JSON file (docs/speech.md)");
+             app.add_option("--mecab-dictionary", options.dictionary,
+                            "Folder of the dictionary that reads Japanese");
              app.add_option("-C", options.config_path, "The original's ssm.conf");
              app.add_flag("-v", options.print_version, "Print the versions and end");
            },

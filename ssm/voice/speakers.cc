@@ -18,7 +18,7 @@ SpeakerTable::SpeakerTable(const std::vector<VoiceInfo>& voices,
     if (Find(alias.name) != nullptr) continue;
     const VoiceInfo* chosen = nullptr;
     for (const VoiceInfo& voice : voices) {
-      if (voice.female != alias.female) continue;
+      if (voice.female != alias.female || !voice.listed) continue;
       const bool is_taken = std::find(taken.begin(), taken.end(), voice.name) != taken.end();
       if (chosen == nullptr || !is_taken) chosen = &voice;
       if (!is_taken) break;
@@ -37,6 +37,14 @@ const VoiceInfo* SpeakerTable::Find(std::string_view name) const {
 }
 
 std::string SpeakerTable::Names() const {
+  std::string names;
+  for (const Entry& entry : entries_) {
+    if (entry.voice.listed) names += (names.empty() ? "" : " ") + entry.name;
+  }
+  return names;
+}
+
+std::string SpeakerTable::AllNames() const {
   std::string names;
   for (const Entry& entry : entries_) names += (names.empty() ? "" : " ") + entry.name;
   return names;

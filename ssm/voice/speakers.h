@@ -24,8 +24,10 @@ class SpeakerTable {
   SpeakerTable(const std::vector<VoiceInfo>& voices, const std::vector<SpeakerAlias>& aliases);
   /// The voice meant by a name of the table; null for any other.
   const VoiceInfo* Find(std::string_view name) const;
-  /// All names, separated by blanks: the value of SpeakerSet.
+  /// The names of listed voices and the aliases, separated by blanks: the value of SpeakerSet.
   std::string Names() const;
+  /// With those voices that are not listed.
+  std::string AllNames() const;
 
  private:
   struct Entry {

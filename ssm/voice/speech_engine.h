@@ -24,6 +24,7 @@ struct SpeechSpan {
   double stretch = 1;   ///< relative duration: 2 = twice as slow
   double pitch = 1;     ///< relative pitch
   double volume = 1;    ///< relative loudness of the samples
+  std::string audio{};  ///< a sound file played instead of `text` where an engine can; else empty
 };
 
 struct WordTime {
@@ -60,6 +61,7 @@ struct VoiceInfo {
   std::string language{};  ///< "en", "ja", ...
   bool female = false;
   bool pitch_adjustable = true;
+  bool listed = true;  ///< part of SpeakerSet; the others are known by name all the same
 };
 
 /// Turns text into phonemes with times, and those into sound. Two steps, since a face needs the
@@ -77,6 +79,11 @@ class SpeechEngine {
   /// Fills `samples`, whose size is exactly the plan's duration, from front to end; leaves it
   /// complete unless an error is returned.
   virtual vm::Result<void> Render(const SpeechPlan& plan, SampleBuffer& samples) = 0;
+  /// Which voice takes runs in another language. Errors: kBadValue (no such voice), kUnavailable.
+  virtual vm::Result<void> ChooseVoice(const std::string& language, const std::string& voice) {
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "this engine has no voices to choose from (" + language + ", " + voice + ")");
+  }
 };
 
 }  // namespace ssm

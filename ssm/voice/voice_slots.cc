@@ -45,6 +45,26 @@ void VoiceModule::DeclareManner() {
                     }
                     return value.word(0);
                   }});
+  slots_.Declare({.name = "Speaker.all",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .help = "Every name Speaker takes, with the voices of other languages, which "
+                          "SpeakerSet leaves out.",
+                  .on_inq = [this] { return speakers_.AllNames(); }});
+  slots_.Declare({.name = "Speaker.language",
+                  .grammar = "<word> <word>",
+                  .access = vm::Access::kWriteOnly,
+                  .help = "LANGUAGE SPEAKER: who speaks the parts of a text that are in another "
+                          "language than the speaker's, as in: ja espeak-ja.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    const VoiceInfo* wanted = speakers_.Find(value.word(1));
+                    const std::string name = wanted ? wanted->name : value.word(1);
+                    if (auto chosen = engine_->ChooseVoice(value.word(0), name); !chosen) {
+                      return std::unexpected(chosen.error());
+                    }
+                    return value.text;
+                  },
+                  .saved = false});
   DeclareRefused("Alpha", "this engine has no frequency warping to set", false);
   DeclareRefused("Postfilter", "this engine has no postfilter to set", false);
 

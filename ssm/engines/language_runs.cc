@@ -1,0 +1,138 @@
+#include "ssm/engines/language_runs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+
+namespace ssm {
+namespace {
+
+enum class Script { kNone, kLatin, kKana, kHan, kHangul, kCyrillic, kGreek, kArabic, kDevanagari };
+
+struct Range {
+  std::uint32_t first, last;
+  Script script;
+};
+constexpr std::array<Range, 14> kRanges = {{{'A', 'Z', Script::kLatin},
+                                            {'a', 'z', Script::kLatin},
+                                            {0xC0, 0x24F, Script::kLatin},
+                                            {0x370, 0x3FF, Script::kGreek},
+                                            {0x400, 0x52F, Script::kCyrillic},
+                                            {0x600, 0x6FF, Script::kArabic},
+                                            {0x900, 0x97F, Script::kDevanagari},
+                                            {0x1100, 0x11FF, Script::kHangul},
+                                            {0x1E00, 0x1EFF, Script::kLatin},
+                                            {0x3005, 0x3007, Script::kHan},
+                                            {0x3041, 0x30FE, Script::kKana},
+                                            {0x3400, 0x9FFF, Script::kHan},
+                                            {0xAC00, 0xD7A3, Script::kHangul},
+                                            {0xF900, 0xFAFF, Script::kHan}}};
+
+Script ScriptOf(std::uint32_t code) {
+  if (code == 0xD7 || code == 0xF7 || code == 0x30FB) return Script::kNone;
+  for (const Range& range : kRanges) {
+    if (code >= range.first && code <= range.last) return range.script;
+  }
+  return Script::kNone;
+}
+
+bool IsOneOf(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+Script ScriptOfLanguage(std::string_view language) {
+  if (language == "ja") return Script::kKana;
+  if (IsOneOf(language, {"zh", "yue"})) return Script::kHan;
+  if (language == "ko") return Script::kHangul;
+  if (IsOneOf(language, {"ru", "uk", "bg", "sr"})) return Script::kCyrillic;
+  if (language == "el") return Script::kGreek;
+  if (IsOneOf(language, {"ar", "fa"})) return Script::kArabic;
+  if (language == "hi") return Script::kDevanagari;
+  if (IsOneOf(language, {"ta", "bn", "ka", "hy"})) return Script::kNone;
+  return Script::kLatin;
+}
+
+std::string LanguageOf(Script script, std::string_view base) {
+  const Script own = ScriptOfLanguage(base);
+  if (script == own) return std::string(base);
+  switch (script) {
+    case Script::kKana:
+      return "ja";
+    case Script::kHan:
+      return "ja";
+    case Script::kHangul:
+      return "ko";
+    case Script::kCyrillic:
+      return "ru";
+    case Script::kGreek:
+      return "el";
+    case Script::kArabic:
+      return "ar";
+    case Script::kDevanagari:
+      return "hi";
+    case Script::kLatin:
+      return "en";
+    case Script::kNone:
+      break;
+  }
+  return std::string(base);
+}
+
+struct Character {
+  std::uint32_t code;
+  std::size_t bytes;
+};
+
+Character Front(std::string_view text) {
+  const auto byte = [&](std::size_t i) -> std::uint32_t {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const std::uint32_t first = byte(0);
+  const std::size_t bytes = first < 0xC0 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (bytes == 1 || bytes > text.size()) return {first, 1};
+  std::uint32_t code = first & (0xFFu >> (bytes + 1));
+  for (std::size_t i = 1; i < bytes; ++i) code = code << 6 | (byte(i) & 0x3F);
+  return {code, bytes};
+}
+
+/// The Latin letters at the front, if they are an acronym that Japanese speakers spell out.
+bool IsAcronym(std::string_view text) {
+  std::size_t size = 0;
+  while (size < text.size() && text[size] >= 'A' && text[size] <= 'Z') ++size;
+  const Character next = Front(text.substr(std::min(size, text.size())));
+  return size >= 1 && size <= 3 && ScriptOf(next.code) != Script::kLatin;
+}
+
+}  // namespace
+
+std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view base) {
+  std::vector<LanguageRun> runs;
+  std::string leading;  // signs before the first letter go with it
+  bool in_acronym = false;
+  for (std::string_view rest = text; !rest.empty();) {
+    const Character c = Front(rest);
+    const std::string_view written = rest.substr(0, c.bytes);
+    const Script script = ScriptOf(c.code);
+    const bool word_begins =
+        script == Script::kLatin &&
+        (written.data() == text.data() ||
+         ScriptOf(static_cast<unsigned char>(written.data()[-1])) != Script::kLatin);
+    if (word_begins) in_acronym = base == "ja" && IsAcronym(rest);
+    rest.remove_prefix(c.bytes);
+    if (script == Script::kNone) {
+      (runs.empty() ? leading : runs.back().text) += written;
+      continue;
+    }
+    const std::string language =
+        script == Script::kLatin && in_acronym ? "ja" : LanguageOf(script, base);
+    if (runs.empty() || runs.back().language != language) {
+      runs.push_back({language, std::exchange(leading, {})});
+    }
+    runs.back().text += written;
+  }
+  if (runs.empty() && !leading.empty()) runs.push_back({std::string(base), leading});
+  return runs;
+}
+
+}  // namespace ssm

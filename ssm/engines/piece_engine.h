@@ -1,0 +1,42 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ssm/voice/speech_engine.h"
+
+namespace ssm {
+
+/// A sentence made into sound, with everything known of it. 16 kHz mono.
+struct Piece {
+  vm::PhonemeList phonemes{};
+  std::vector<WordTime> words{};
+  std::vector<std::int16_t> samples{};
+  std::string unspoken{};
+};
+
+/// An engine that gives phonemes and sound together, sentence by sentence (another program, a
+/// recording). Planning makes the sound; rendering hands it over. What derives from it says only
+/// how one sentence is spoken.
+class PieceEngine : public SpeechEngine {
+ public:
+  vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
+                              const std::atomic<bool>& cancelled) final;
+  vm::Result<void> Render(const SpeechPlan& plan, SampleBuffer& samples) final;
+
+ protected:
+  /// `span.text` is one sentence, not blank; volume is seen to by the caller. Phonemes and sound
+  /// need not have the very same length: the phonemes count.
+  virtual vm::Result<Piece> Speak(const SpeechSpan& span, const std::atomic<bool>& cancelled) = 0;
+  /// The sentences of a text. Made for all scripts; see SplitUtf8Sentences.
+  virtual std::vector<std::string> Sentences(const std::string& text) const;
+};
+
+/// Cuts after . ! ? and a blank, after their wide forms, and at line ends; pieces of over
+/// kMaxSentenceBytes are cut at a comma or blank, else at a character. Pieces without a letter or
+/// digit are left out. Control characters become blanks, what is no UTF-8 is dropped.
+std::vector<std::string> SplitUtf8Sentences(std::string_view text);
+
+}  // namespace ssm

@@ -1,0 +1,3 @@
+#!/bin/sh
+# Takes everything and answers nothing.
+exec sleep 1000
