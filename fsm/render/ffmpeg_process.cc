@@ -138,14 +138,17 @@ vm::Result<void> FfmpegProcess::Finish() {
 }
 
 bool FfmpegProcess::Wait(bool for_writing, Deadline deadline) {
-  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-      deadline - std::chrono::steady_clock::now());
-  if (left.count() <= 0) return false;
-  pollfd wanted[2] = {{errors_, POLLIN, 0}, {for_writing ? input_ : -1, POLLOUT, 0}};
-  // Negative descriptors are passed over by poll, so the end of either is no special case.
-  if (poll(wanted, 2, static_cast<int>(left.count())) == 0) return false;
-  if (wanted[0].revents != 0) ReadErrors();
-  return true;
+  constexpr std::chrono::milliseconds kLook{100};  // how often for abandonment
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        deadline - std::chrono::steady_clock::now());
+    if (left.count() <= 0 || abandoned_) return false;
+    pollfd wanted[2] = {{errors_, POLLIN, 0}, {for_writing ? input_ : -1, POLLOUT, 0}};
+    // Negative descriptors are passed over by poll, so the end of either is no special case.
+    if (poll(wanted, 2, static_cast<int>(std::min(left, kLook).count())) == 0) continue;
+    if (wanted[0].revents != 0) ReadErrors();
+    return true;
+  }
 }
 
 void FfmpegProcess::ReadErrors() {

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -32,6 +33,8 @@ class FfmpegProcess {
 
   /// Hands all bytes over. Error: kUnavailable if the process ended or stalls; it is then over.
   vm::Result<void> Write(std::span<const std::uint8_t> bytes);
+  /// Makes a Write in another thread fail soon. Thread: any.
+  void Abandon() { abandoned_ = true; }
   /// Closes its input and waits for its end. Error: kUnavailable if it reports failure.
   vm::Result<void> Finish();
 
@@ -39,14 +42,15 @@ class FfmpegProcess {
   using Deadline = std::chrono::steady_clock::time_point;
 
   FfmpegProcess(pid_t pid, int input, int errors) : pid_(pid), input_(input), errors_(errors) {}
-  /// Waits until there is something to read, or `for_writing` room to write. False at the deadline.
+  /// Waits until there is something to read, or `for_writing` room to write. False at the deadline
+  /// and when abandoned.
   bool Wait(bool for_writing, Deadline deadline);
   void ReadErrors();
-  void CloseInput();
   std::unexpected<vm::Error> Over(const std::string& what);
   /// The wait status, or -1 if somebody else reaped it.
   int Reap();
 
+  std::atomic<bool> abandoned_ = false;
   pid_t pid_;              // 0 once reaped
   int input_;              // our end of a socket, -1 once closed
   int errors_;             // our end of a pipe, -1 at its end

@@ -6,10 +6,13 @@
 #include <cassert>
 #include <cerrno>
 #include <cstdio>
+#include <optional>
 #include <system_error>
 
 #include "fsm/render/ffmpeg_process.h"
+#include "fsm/render/frame_feeder.h"
 #include "fsm/render/renderer.h"
+#include "fsm/render/yuv_planes.h"
 
 namespace fsm {
 namespace {
@@ -37,19 +40,17 @@ void AppendOutput(Words& words, const std::string& path) {
 
 Words EncodeWords(int width, int height, int frames_per_second, const std::string& path) {
   Words words = Opening();
-  Append(words, {"-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
-                 std::to_string(width) + "x" + std::to_string(height), "-framerate",
-                 std::to_string(frames_per_second), "-i", "pipe:0"});
-  // The numbers of the HD standard are named both to the conversion and in the file; players guess
-  // differently where they are left out, and skin turns orange or green.
-  Append(words, {"-an", "-vf",
-                 "scale=out_color_matrix=bt709:out_range=tv:"
-                 "flags=bicubic+accurate_rnd+full_chroma_int+bitexact",
-                 "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
+  // Sides made even, as YuvPlanes packs them.
+  Append(words, {"-f", "rawvideo", "-pixel_format", "yuv420p", "-video_size",
+                 std::to_string(width + width % 2) + "x" + std::to_string(height + height % 2),
+                 "-framerate", std::to_string(frames_per_second), "-i", "pipe:0"});
+  // The numbers of the HD standard are named in the file; players guess differently where they are
+  // left out, and skin turns orange or green.
+  Append(words, {"-an", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
                  "-color_range", "tv"});
-  Append(words, {"-c:v", "libx264", "-preset", "veryfast", "-crf", "18", "-pix_fmt", "yuv420p",
-                 "-g", std::to_string(frames_per_second * 2), "-threads", "1", "-filter_threads",
-                 "1", "-flags:v", "+bitexact"});
+  Append(words,
+         {"-c:v", "libx264", "-preset", "superfast", "-crf", "18", "-pix_fmt", "yuv420p", "-g",
+          std::to_string(frames_per_second * 2), "-threads", "1", "-flags:v", "+bitexact"});
   AppendOutput(words, path);
   return words;
 }
@@ -71,9 +72,12 @@ class FfmpegMovieWriter : public MovieWriter {
         draft_(std::move(draft)),
         width_(width),
         height_(height),
-        ffmpeg_(std::move(ffmpeg)) {}
+        ffmpeg_(std::move(ffmpeg)) {
+    feeder_.emplace(*ffmpeg_);
+  }
 
   ~FfmpegMovieWriter() override {
+    feeder_.reset();
     ffmpeg_.reset();
     if (!draft_.empty()) unlink(draft_.c_str());
   }
@@ -83,8 +87,11 @@ class FfmpegMovieWriter : public MovieWriter {
     assert(frame.rgba.size() ==
            static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
     if (!ffmpeg_) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
-    Pack(frame);
-    if (auto written = ffmpeg_->Write(packed_); !written) return Fault(std::move(written.error()));
+    auto planes = feeder_->TakeSpare();
+    YuvPlanes(frame, planes);
+    if (auto added = feeder_->Add(std::move(planes)); !added) {
+      return Fault(std::move(added.error()));
+    }
     ++frames_;
     return {};
   }
@@ -94,7 +101,9 @@ class FfmpegMovieWriter : public MovieWriter {
     if (frames_ == 0) {
       return Fault({vm::Errc::kUnavailable, "there is no picture in it"});
     }
+    if (auto closed = feeder_->Close(); !closed) return Fault(std::move(closed.error()));
     if (auto ended = ffmpeg_->Finish(); !ended) return Fault(std::move(ended.error()));
+    feeder_.reset();
     ffmpeg_.reset();
     vm::Result<void> sounded;
     if (!sound_wav.empty()) sounded = AddSound(sound_wav);
@@ -108,32 +117,6 @@ class FfmpegMovieWriter : public MovieWriter {
   int frames() const override { return frames_; }
 
  private:
-  /// Opaque RGB on black, with sides made even by repeating the last column and row: the encoder's
-  /// colour planes have half as many columns and rows as the picture.
-  void Pack(const Image& frame) {
-    const auto width = static_cast<std::size_t>(width_);
-    const auto height = static_cast<std::size_t>(height_);
-    packed_.clear();
-    packed_.reserve((width + 1) * (height + 1) * 3);
-    for (std::size_t y = 0; y < height; ++y) {
-      const std::uint8_t* pixel = &frame.rgba[y * width * 4];
-      for (std::size_t x = 0; x < width; ++x, pixel += 4) {
-        const unsigned a = pixel[3];
-        for (std::size_t c = 0; c < 3; ++c) {
-          packed_.push_back(a == 255 ? pixel[c]
-                                     : static_cast<std::uint8_t>((pixel[c] * a + 127) / 255));
-        }
-      }
-      if (width % 2 != 0) RepeatLast(3);
-    }
-    if (height % 2 != 0) RepeatLast((width + width % 2) * 3);
-  }
-
-  void RepeatLast(std::size_t bytes) {
-    const std::size_t from = packed_.size() - bytes;
-    for (std::size_t i = 0; i < bytes; ++i) packed_.push_back(packed_[from + i]);
-  }
-
   /// Replaces the draft by one with sound; on failure the silent one stays.
   vm::Result<void> AddSound(const std::string& sound) {
     const std::string with_sound = draft_ + ".sound";
@@ -152,6 +135,7 @@ class FfmpegMovieWriter : public MovieWriter {
   }
 
   std::unexpected<vm::Error> Fault(vm::Error error) {
+    feeder_.reset();
     ffmpeg_.reset();
     error.text = "cannot make the film '" + path_ + "': " + error.text;
     return std::unexpected(std::move(error));
@@ -163,7 +147,7 @@ class FfmpegMovieWriter : public MovieWriter {
   int height_;
   int frames_ = 0;
   std::unique_ptr<FfmpegProcess> ffmpeg_;  // null once ended
-  std::vector<std::uint8_t> packed_;
+  std::optional<FrameFeeder> feeder_;      // while there is a process
 };
 
 /// An empty file beside the film's place, under a name nobody else has; made before the first

@@ -111,7 +111,8 @@ class MovieWriter {
   static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
                                                        int height, int frames_per_second);
   virtual ~MovieWriter() = default;
-  /// The size must be that given at Open. Blocks only while ffmpeg cannot take more.
+  /// The size must be that given at Open. Handed on by another thread; blocks only while several
+  /// frames wait. An error may belong to a frame before.
   virtual vm::Result<void> Add(const Image& frame) = 0;
   /// Ends the film; `sound_wav` (may be empty) is added as its sound from the start. The result is
   /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault

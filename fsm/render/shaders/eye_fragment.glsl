@@ -23,9 +23,9 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   float turn = atan(p.y, p.x) / 6.2831853;
   float fibre = textureLod(noise, vec2(turn * 0.25, r * 0.010), 0.0).b * 0.6 +
                 textureLod(noise, vec2(turn * 0.75, r * 0.024 + 0.4), 0.0).a * 0.5;
-  vec3 base = iris_color * (0.45 + 1.15 * fibre);
+  vec3 base = iris_color * (0.30 + 0.90 * fibre);
   float collar = smoothstep(0.66, 0.40, r + 0.12 * (fibre - 0.5));
-  base = mix(base, base * vec3(1.55, 1.15, 0.70) + 0.012, collar * 0.65);
+  base = mix(base, base * vec3(1.40, 1.10, 0.75) + 0.008, collar * 0.6);
   // Light falls in through the cornea and gathers on the far side.
   base *= 0.85 + 0.75 * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
   base *= mix(1.0, 0.16, smoothstep(0.78, 1.0, r));

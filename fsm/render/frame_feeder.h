@@ -1,0 +1,52 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "fsm/render/ffmpeg_process.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// Hands frames to an ffmpeg process from a thread of its own, so that drawing goes on while the
+/// encoder works. Frames arrive whole and in order.
+/// Lifetime: `ffmpeg` outlives this and is not to be touched until Close() or the destructor, which
+///           end the thread. Thread: one caller.
+/// Limits:   kMostWaiting frames wait; Add blocks while there are so many.
+class FrameFeeder {
+ public:
+  static constexpr std::size_t kMostWaiting = 8;
+
+  explicit FrameFeeder(FfmpegProcess& ffmpeg) : ffmpeg_(ffmpeg), thread_([this] { Run(); }) {}
+  /// Drops what still waits.
+  ~FrameFeeder();
+  FrameFeeder(const FrameFeeder&) = delete;
+  FrameFeeder& operator=(const FrameFeeder&) = delete;
+
+  /// An empty frame whose memory was used before.
+  std::vector<std::uint8_t> TakeSpare();
+  /// Error: that of a frame before, kUnavailable.
+  vm::Result<void> Add(std::vector<std::uint8_t> frame);
+  /// Waits until all frames are handed over. Error as Add.
+  vm::Result<void> Close();
+
+ private:
+  void Run();
+
+  FfmpegProcess& ffmpeg_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  // Guarded by mutex_.
+  std::deque<std::vector<std::uint8_t>> waiting_;
+  std::vector<std::vector<std::uint8_t>> spare_;
+  vm::Result<void> state_;
+  bool closed_ = false;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace fsm
