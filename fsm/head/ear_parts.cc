@@ -95,8 +95,8 @@ std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks() {
 }
 
 void BuildEars(const Palette& palette, HeadMesh& mesh) {
-  constexpr int kAround = 26;
-  constexpr std::array kRings = {0.14f, 0.30f, 0.45f, 0.58f, 0.70f, 0.80f, 0.89f, 0.96f, 1.0f};
+  constexpr int kAround = 24;
+  constexpr std::array kRings = {0.16f, 0.34f, 0.50f, 0.64f, 0.76f, 0.86f, 0.94f, 1.0f};
   std::vector<float> at;
   for (std::size_t i = 0; i < kOutline.size() + 6; ++i) at.push_back(static_cast<float>(i));
   const SplineBasis basis(at);

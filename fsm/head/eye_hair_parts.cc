@@ -154,7 +154,7 @@ void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh
       const glm::vec2 along(std::cos(angle), std::sin(angle));
       const float ends = SmoothStep(8, 15, x) * SmoothStep(58, 50, x);
       const float length = (4.6f + 1.6f * Grain(i, 24)) * (0.65f + 0.35f * ends);
-      const float width = 0.42f * (0.55f + 0.45f * ends);
+      const float width = 0.55f * (0.55f + 0.45f * ends);
       const glm::vec2 across(-along.y, along.x);
       const auto over = [&front](glm::vec2 xy, float lift) {
         glm::vec3 normal;

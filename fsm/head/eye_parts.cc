@@ -20,7 +20,7 @@ struct Ring {
   Material band;
 };
 
-std::array<Ring, 12> Rings(const EyeAnatomy& eye, const Palette& palette) {
+std::array<Ring, 11> Rings(const EyeAnatomy& eye, const Palette& palette) {
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
   const glm::vec3 black(0.006f, 0.005f, 0.005f);
@@ -37,14 +37,13 @@ std::array<Ring, 12> Rings(const EyeAnatomy& eye, const Palette& palette) {
           Ring{iris * 1.2f, palette.sclera, Material::kSclera},
           Ring{0.85f, palette.sclera, Material::kSclera},
           Ring{1.15f, pink, Material::kSclera},
-          Ring{1.5f, pink, Material::kSclera},
-          Ring{1.9f, pink, Material::kSclera}};
+          Ring{1.55f, pink, Material::kSclera}};
 }
 
 }  // namespace
 
 void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh) {
-  constexpr int kSegments = 24;
+  constexpr int kSegments = 22;
   const auto rings = Rings(eye, palette);
   for (const int side : {-1, 1}) {
     const Bone bone = side < 0 ? Bone::kEyeRight : Bone::kEyeLeft;

@@ -13,7 +13,7 @@ namespace fsm {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr glm::vec3 kVolume{80, 100, 102};  // half axes of the hair over the skull
+constexpr glm::vec3 kVolume{81, 104, 103};  // half axes of the hair over the skull
 constexpr float kPartX = 0.17f;             // sideways place of the parting, as part of the volume
 constexpr float kEnd = 1.0f;
 
@@ -41,7 +41,7 @@ class LongHair {
   glm::vec3 Direction(float i, float side, float t) const {
     const float along = glm::mix(30.0f, 158.0f, std::pow(i, 0.9f)) * kPi / 180;
     const glm::vec3 start = glm::normalize(glm::vec3(kPartX, std::sin(along), std::cos(along)));
-    const float azimuth = glm::mix(73.0f, 180.0f, std::pow(i, 0.85f));
+    const float azimuth = glm::mix(69.0f, 180.0f, std::pow(i, 0.85f));
     const float edge = SmoothStep(0.25f, 0, i);
     // The side away from the parting has the longer way round the forehead.
     const float away = side < 0 ? 1.0f : 0.0f;
@@ -63,8 +63,8 @@ class LongHair {
     const glm::vec3 scaled = d / kVolume;
     const float volume = 1 / std::sqrt(glm::dot(scaled, scaled));
     const float skin = scalp_.Distance(d);
-    const float part = SmoothStep(0, 0.24f, i) * (0.8f + 0.2f * SmoothStep(0, 0.3f, cap));
-    const float least = skin + glm::mix(0.9f, 5.0f, SmoothStep(0, 0.15f, i));
+    const float part = SmoothStep(0, 0.17f, i) * (0.8f + 0.2f * SmoothStep(0, 0.3f, cap));
+    const float least = skin + glm::mix(0.9f, 7.5f, SmoothStep(0, 0.12f, i));
     float radius =
         std::max(least, glm::mix(skin + 0.9f + 4.5f * SmoothStep(0.3f, 1, cap), volume, part));
     // The parting is a furrow in the hair.
@@ -90,8 +90,8 @@ class LongHair {
   }
 
   void Shell(float side) {
-    constexpr int kStrands = 24;
-    constexpr int kRows = 15;
+    constexpr int kStrands = 22;
+    constexpr int kRows = 14;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Closer together at the face, where the edge is seen.

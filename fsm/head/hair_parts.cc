@@ -62,7 +62,9 @@ glm::vec3 StrandColour(const Palette& palette, int strand, int row) {
   const float fine = Grain(strand * 7, 3);
   const float broad = Grain(strand / 4, 11);
   const float along = 0.05f * Grain(strand, row + 40);
-  const float light = 1 + 0.28f * fine + 0.16f * broad + along;
+  // Dark hair shows its streaks, light hair is more even.
+  const float strength = 1 - 0.6f * SmoothStep(0.1f, 0.3f, palette.hair.g);
+  const float light = 1 + strength * (0.28f * fine + 0.16f * broad + along);
   return palette.hair * light *
          glm::mix(glm::vec3(1), glm::vec3(1.12f, 1.0f, 0.86f), 0.5f + 0.5f * fine);
 }

@@ -47,12 +47,12 @@ struct Jaw {
 
 void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const float> heights,
              const Palette& palette, HeadMesh& mesh) {
-  constexpr int kPerTooth = 3;
+  constexpr int kPerTooth = 2;
   const int count = static_cast<int>(widths.size());
   const int columns = 2 * count * kPerTooth + 1;
   // Rows from behind the chewing edge over the front of the crown to the gum, and a lip of gum
   // above.
-  constexpr std::array kRows = {-0.5f, -0.12f, 0.0f, 0.12f, 0.45f, 0.8f, 1.0f};
+  constexpr std::array kRows = {-0.5f, -0.1f, 0.0f, 0.3f, 0.7f, 1.0f};
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   std::vector<float> arc_at, bump_at, height_at;
   for (int c = 0; c < columns; ++c) {

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "fsm/head/hair_parts.h"
 #include "fsm/head/paint.h"
 
 namespace fsm {
@@ -81,6 +82,14 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const EyeAnatomy
   return paint;
 }
 
+/// Scalp that no head of hair lets be seen.
+bool HairCovers(glm::vec3 p) {
+  const glm::vec3 d = p - kHairCentre;
+  const float azimuth = std::atan2(std::abs(d.x), d.z) * 57.29578f;
+  const float elevation = std::asin(d.y / glm::length(d)) * 57.29578f;
+  return elevation > HairlineElevation(azimuth) + 16;
+}
+
 }  // namespace
 
 SkinMap BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
@@ -107,6 +116,10 @@ SkinMap BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatom
     }
   }
   for (const FineSkin::Triangle& t : skin.triangles) {
+    if (std::ranges::all_of(t.corner,
+                            [&](std::uint32_t v) { return HairCovers(skin.position[v]); })) {
+      continue;
+    }
     const Material material = t.kind == SkinKind::kLip      ? Material::kLip
                               : t.kind == SkinKind::kInside ? Material::kMouthInside
                                                             : Material::kSkin;

@@ -191,8 +191,11 @@ FineSkin Subdivide(const Cage& half) {
           outline.push_back(edge_id[mesh.face_edges[f][k]]);
       }
       if (n == 4 && outline.size() == 4) {
-        triangle(outline[0], outline[1], outline[2], face.kind);
-        triangle(outline[0], outline[2], outline[3], face.kind);
+        // The mirrored half runs the other way round: its diagonal is the image of the first
+        // half's.
+        const std::size_t from = f < half.faces.size() ? 0 : 1;
+        triangle(outline[from], outline[from + 1], outline[from + 2], face.kind);
+        triangle(outline[from], outline[from + 2], outline[(from + 3) % 4], face.kind);
         continue;
       }
       glm::vec3 middle(0);
