@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fsm/app/sheet.h"
 #include "tests/fsm/app_support.h"
 
 namespace fsm {
@@ -126,6 +127,25 @@ TEST(StartTest, AMaskAndALifeCanBeGivenAtTheStart) {
   EXPECT_TRUE(fsm.module.motion().NextActivity(FromMs(5000)).has_value());
   options.mask = "nobody";
   EXPECT_THROW(FsmStage{options}, std::runtime_error);
+}
+
+TEST(SheetTest, EverySheetHasItsCells) {
+  const MotionTables tables = MotionTables::Load().value();
+  const auto count = [&](const char* kind) {
+    return MakeSheet(kind, tables, {"galatea", "pygmalion"}, "").value().cells.size();
+  };
+  EXPECT_EQ(count("aus"), 1u + 44 + 14);
+  EXPECT_EQ(count("emotions"), 7u);
+  EXPECT_EQ(count("visemes"), 42u);
+  EXPECT_EQ(count("identities"), 8u);
+  EXPECT_FALSE(MakeSheet("hats", tables, {"galatea"}, ""));
+  FakeStudio studio;
+  const auto picture =
+      DrawSheet(studio, MakeSheet("emotions", tables, {"galatea"}, "").value(), true);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->rgba.size(), 4u * static_cast<std::size_t>(picture->width) *
+                                      static_cast<std::size_t>(picture->height));
+  EXPECT_EQ(studio.draws, 7);
 }
 
 }  // namespace

@@ -1,0 +1,160 @@
+#include "fsm/app/sheet.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "fsm/app/sheet_font.h"
+#include "fsm/motion/face_motion.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int kLabelHeight = 22;
+constexpr int kGap = 2;
+constexpr std::uint8_t kPaper = 235;
+
+/// How a figure fills its cell: size, and how far up it is moved (mm at the face).
+struct Framing {
+  float scale, up;
+};
+constexpr Framing kWholeFace{1.25f, 0}, kMouth{2.9f, 62}, kBust{1, 0};
+
+FaceState Framed(FaceState state, const Framing& framing) {
+  state.agent_scale *= framing.scale;
+  state.agent_translation = {0, framing.up};
+  return state;
+}
+
+/// The settled state after one command to a face at rest.
+template <typename Command>
+FaceState After(const MotionTables& tables, const Command& command) {
+  FaceMotion motion(tables, 1);
+  command(motion);
+  return motion.StateAt(5s);
+}
+
+// What must go along for a unit to be seen at all.
+std::string Companions(int unit) {
+  if (unit == 19 || unit == 37) return " 25 0.6 26 0.5";
+  if (unit == 36) return "";
+  if (unit == 8) return " 26 0.5";
+  return "";
+}
+
+Sheet Units(const MotionTables& tables, const std::string& face) {
+  Sheet sheet{{}, 10};
+  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
+  for (const auto& [number, name] : tables.unit_names.names) {
+    const std::string side = number == 46 ? "L" : "";
+    const std::string text = std::to_string(number) + side + " 1" + Companions(number);
+    const FaceState state = After(tables, [&](FaceMotion& motion) {
+      if (auto set = motion.SetUnits(0ms, text); !set) return;
+    });
+    sheet.cells.push_back({std::to_string(number) + " " + name, Framed(state, kWholeFace), face});
+  }
+  return sheet;
+}
+
+Sheet Emotions(const MotionTables& tables, const std::string& face) {
+  Sheet sheet{{}, 4};
+  sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
+  for (const char* name : {"HAPPY", "SAD", "SURPRISED", "FEARED", "ANGRY", "DISGUSTED"}) {
+    if (!tables.emotions.contains(name)) continue;
+    const FaceState state = After(tables, [&](FaceMotion& motion) {
+      if (auto set = motion.Express(0ms, name, 1, 1, 0ms); !set) return;
+    });
+    sheet.cells.push_back({name, Framed(state, kWholeFace), face});
+  }
+  return sheet;
+}
+
+Sheet Visemes(const MotionTables& tables, const std::string& face) {
+  Sheet sheet{{}, 7};
+  for (const MouthSet* set : {&tables.set28, &tables.set14}) {
+    const std::string prefix = set == &tables.set28 ? "28 " : "14 ";
+    for (const MouthShape& shape : set->shapes) {
+      FaceState state;
+      state.mouth = shape.pose.mouth;
+      state.lip_seal = shape.pose.seal;
+      state.tongue = shape.pose.tongue;
+      sheet.cells.push_back({prefix + shape.name, Framed(state, kMouth), face});
+    }
+  }
+  return sheet;
+}
+
+Sheet Identities(const MotionTables& tables, const std::vector<std::string>& faces) {
+  Sheet sheet{{}, 4};
+  const FaceState smile = After(tables, [](FaceMotion& motion) {
+    if (auto set = motion.Express(0ms, "HAPPY", 1, 1, 0ms); !set) return;
+  });
+  for (const std::string& face : faces) {
+    for (const float turn : {0.0f, 35.0f, 85.0f}) {
+      FaceState state;
+      state.agent_rotation = {0, turn, 0};
+      sheet.cells.push_back(
+          {face + " " + std::to_string(static_cast<int>(turn)), Framed(state, kBust), face});
+    }
+    sheet.cells.push_back({face + " HAPPY", Framed(smile, kBust), face});
+  }
+  return sheet;
+}
+
+void Paste(const Image& from, Image& to, int x, int y) {
+  for (int row = 0; row < from.height; ++row) {
+    const auto* begin = from.rgba.data() + static_cast<std::ptrdiff_t>(4) * row * from.width;
+    auto* out = to.rgba.data() + static_cast<std::ptrdiff_t>(4) * ((y + row) * to.width + x);
+    std::copy(begin, begin + static_cast<std::ptrdiff_t>(4) * from.width, out);
+  }
+}
+
+}  // namespace
+
+vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
+                            const std::vector<std::string>& faces, const std::string& face) {
+  if (kind == "aus") return Units(tables, face);
+  if (kind == "emotions") return Emotions(tables, face);
+  if (kind == "visemes") return Visemes(tables, face);
+  if (kind == "identities") return Identities(tables, faces);
+  return vm::Fail(vm::Errc::kBadValue, "there is no sheet '" + kind +
+                                           "'; aus, emotions, visemes or identities expected");
+}
+
+vm::Result<Image> DrawSheet(Studio& studio, const Sheet& sheet, bool labels) {
+  if (auto sized = studio.Resize(kCellWidth, kCellHeight); !sized) {
+    return std::unexpected(sized.error());
+  }
+  const int count = static_cast<int>(sheet.cells.size());
+  const int rows = (count + sheet.columns - 1) / sheet.columns;
+  const int cell_height = kCellHeight + kGap + (labels ? kLabelHeight : 0);
+  Image picture;
+  picture.width = sheet.columns * (kCellWidth + kGap) + kGap;
+  picture.height = rows * cell_height + kGap;
+  picture.rgba.assign(
+      4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height),
+      kPaper);
+  for (std::size_t at = 3; at < picture.rgba.size(); at += 4) picture.rgba[at] = 255;
+
+  for (int i = 0; i < count; ++i) {
+    const SheetCell& cell = sheet.cells[static_cast<std::size_t>(i)];
+    if (!cell.face.empty()) {
+      if (auto worn = studio.Wear(cell.face); !worn) return std::unexpected(worn.error());
+    }
+    if (auto drawn = studio.Draw(cell.state, Scene{}); !drawn) {
+      return std::unexpected(drawn.error());
+    }
+    const int x = kGap + (i % sheet.columns) * (kCellWidth + kGap);
+    const int y = kGap + (i / sheet.columns) * cell_height;
+    const Image& image = studio.Read();
+    if (image.width == kCellWidth && image.height == kCellHeight) Paste(image, picture, x, y);
+    if (!labels) continue;
+    const int scale = TextWidth(2, cell.label) <= kCellWidth ? 2 : 1;
+    DrawText(picture, x + (kCellWidth - TextWidth(scale, cell.label)) / 2,
+             y + kCellHeight + (kLabelHeight - 7 * scale) / 2, scale, cell.label);
+  }
+  return picture;
+}
+
+}  // namespace fsm

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsm/app/studio.h"
+#include "fsm/motion/motion_tables.h"
+
+namespace fsm {
+
+/// Contact sheets: many faces in one picture, to look at and to show people.
+struct SheetCell {
+  std::string label;
+  FaceState state;
+  std::string face;  ///< "" = the studio's first
+};
+struct Sheet {
+  std::vector<SheetCell> cells;
+  int columns = 1;
+};
+
+/// `kind`: aus (every unit and code at full strength), emotions (neutral and the six, pattern 1),
+/// visemes (the 28 mouth shapes, then the 14), identities (every face: front, three-quarter,
+/// profile, smiling). Error: kBadValue listing the kinds.
+vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
+                            const std::vector<std::string>& faces, const std::string& face);
+
+inline constexpr int kCellWidth = 220, kCellHeight = 260;
+/// Draws it; the studio gets the size of a cell. Errors: as the studio's.
+vm::Result<Image> DrawSheet(Studio& studio, const Sheet& sheet, bool labels);
+
+}  // namespace fsm

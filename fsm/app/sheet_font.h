@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+
+/// Writes a line of text into a picture with our own letters, 5 x 7 points each, `scale` pixels a
+/// point, 6 points apart; its left upper corner at x, y. Capitals, digits and . , - + % / _ : ( );
+/// small letters are written as capitals, anything else as a box. What does not fit is cut off.
+void DrawText(Image& image, int x, int y, int scale, std::string_view text);
+/// Width in pixels.
+int TextWidth(int scale, std::string_view text);
+
+}  // namespace fsm
