@@ -19,7 +19,7 @@ constexpr std::uint8_t kPaper = 235;
 struct Framing {
   float scale, up;
 };
-constexpr Framing kWholeFace{1.25f, 0}, kMouth{2.9f, 62}, kBust{1, 0};
+constexpr Framing kWholeFace{1.18f, -8}, kMouth{2.9f, 50}, kBust{1, 0};
 
 FaceState Framed(FaceState state, const Framing& framing) {
   state.agent_scale *= framing.scale;
