@@ -72,16 +72,16 @@ Relief ReliefAt(glm::vec2 p) {
   const float bowl = Bump(p, {10.5f, -3.5f}, {6.2f, 7.0f}) + 0.35f * Bump(p, {10, 7.5f}, {6, 2.6f});
   const float tragus = Bump(p, {1.5f, -1.5f}, {2.6f, 3.6f});
   const float notch = Bump(p, {6.0f, -11.5f}, {2.2f, 2.6f});
-  const float flare = 0.5f + 0.40f * std::max(p.x, 0.0f) - 0.004f * p.x * p.x;
-  const float height = flare + 3.6f * helix + 2.8f * anti + 1.6f * fork - 8.0f * bowl +
+  const float flare = 0.7f + 0.40f * std::max(p.x, 0.0f) - 0.004f * p.x * p.x;
+  const float height = flare + 3.6f * helix + 2.8f * anti + 1.6f * fork - 4.8f * bowl +
                        4.6f * tragus - 2.2f * notch + 1.6f * lobe;
   const float groove = (1 - helix) * (1 - anti) * (1 - fork) * (1 - lobe);
-  return {height, 1 - 0.75f * std::min(1.0f, bowl) - 0.32f * groove * (1 - tragus)};
+  return {height, 1 - 0.8f * std::min(1.0f, bowl) - 0.32f * groove * (1 - tragus)};
 }
 
 glm::vec3 Place(glm::vec2 p, float height) {
   // Leans back at the top; the front lies in the skin of the cheek.
-  return {64.9f + height, 0.95f * p.y + 0.05f * p.x, 2.0f - p.x - 0.16f * p.y};
+  return {66.2f + height, 0.95f * p.y + 0.05f * p.x, 2.0f - p.x - 0.16f * p.y};
 }
 
 }  // namespace

@@ -72,6 +72,8 @@ class CroppedHair {
     const float azimuth = turn - 180;
     const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(style_.locks);
     const float up = 0.015f + 0.85f * share * share;
+    const bool by_ear = std::abs(azimuth) > 45 && std::abs(azimuth) < 150;
+    if (by_ear && up < 0.12f) return;
     const glm::vec3 root = Direction(azimuth, up);
     // Hair lies away from the crown: forward on top, down at the sides and behind; over the
     // forehead it is combed up and to one side.
@@ -100,7 +102,7 @@ class CroppedHair {
                                          : depth * (0.75f + 0.25f * v);
       path.push_back(scalp_.Over(d, over + lift * v * (1 - 0.35f * v) + 0.4f));
     }
-    const float width = glm::mix(3.6f, 8.5f, SmoothStep(0, 0.28f, up));
+    const float width = glm::mix(2.6f, 8.0f, SmoothStep(0, 0.28f, up));
     AddLock(path, width * (1 + 0.3f * Grain(k, 35)), 0.45f, palette_, k, 0.95f, mesh_);
   }
 

@@ -22,7 +22,6 @@ const std::array kSpots = {
     Spot{{0, -76}, {12, 8}, &Palette::blush, 0.12f, 0},            // chin
     Spot{{17.2f, -15}, {2.2f, 6}, &Palette::blush, 0.25f, 0.14f},  // groove beside the wing
     Spot{{0, -24.5f}, {10, 2.2f}, &Palette::skin, 0, 0.16f},       // under the nose
-    Spot{{14.5f, 24}, {3.5f, 6}, &Palette::blush, 0.1f, 0.08f},    // inner corner of the socket
     Spot{{27, 9}, {11, 4}, &Palette::blush, 0.16f, 0.05f},         // under the eye
     Spot{{0, -55.5f}, {11, 2.6f}, &Palette::skin, 0, 0.14f},       // under the lower lip
     Spot{{26, -43}, {2.6f, 2.6f}, &Palette::blush, 0.3f, 0.2f},    // corners of the mouth
