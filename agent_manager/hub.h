@@ -61,7 +61,7 @@ class Hub {
   void AddInternal(vm::SlotMachine& machine, std::vector<std::string> aliases = {});
   /// Sends as the internal machine `sender`; `done` gets the answer (for commands).
   using OnAnswer = std::function<void(vm::Result<std::string>)>;
-  void Ask(const std::string& sender, vm::Message message, OnAnswer done);
+  void Ask(const std::string& sender, vm::Message message, const OnAnswer& done);
 
   bool IsPresent(std::string_view name) const;
   /// True once a module has said what it is (or was declared original) and can be spoken to.

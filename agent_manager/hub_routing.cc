@@ -44,7 +44,7 @@ void Hub::Route(Peer& sender, Message message) {
   for (const std::string& receiver : receivers) Deliver(from, asker, receiver, message, nullptr);
 }
 
-void Hub::Ask(const std::string& sender, Message message, OnAnswer done) {
+void Hub::Ask(const std::string& sender, Message message, const OnAnswer& done) {
   const std::vector<std::string> receivers = std::exchange(message.to, {});
   for (const std::string& receiver : receivers) Deliver(sender, kHub, receiver, message, done);
 }
