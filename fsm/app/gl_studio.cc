@@ -1,6 +1,7 @@
 #include "fsm/app/gl_studio.h"
 
 #include <algorithm>
+#include <future>
 #include <iostream>
 #include <stdexcept>
 
@@ -10,6 +11,7 @@ GlStudio::GlStudio(const Options& options) : options_(options) {
   if (options_.where == Options::Where::kHeadless) return;
   try {
     context_ = RenderContext::MakeWindow(options_.width, options_.height, options_.title);
+    if (options_.position) context_->Move(options_.position->first, options_.position->second);
   } catch (const std::exception& error) {
     if (options_.where == Options::Where::kWindow) throw;
     std::cerr << "fsm: notice: no window (" << error.what() << "), drawing headless\n";
@@ -27,14 +29,24 @@ const Head& GlStudio::head() {
 }
 
 void GlStudio::MakeRenderer() {
-  if (!context_) context_ = RenderContext::MakeHeadless(options_.width, options_.height);
+  if (!context_) {
+    context_ = RenderContext::MakeHeadless(options_.width, options_.height, options_.off_screen);
+  }
   context_->MakeCurrent();
   if (!renderer_) renderer_ = Renderer::Make(*context_);
 }
 
 vm::Result<void> GlStudio::Draw(const FaceState& state, const Scene& scene) {
   try {
+    // The head is made while the driver starts; both take a good part of the first frame.
+    std::future<std::unique_ptr<Head>> made;
+    if (!head_ && !renderer_) {
+      made = std::async(std::launch::async, [face = face_] {
+        return face.empty() ? Head::MakeGeneric() : Head::Make(face);
+      });
+    }
     MakeRenderer();
+    if (made.valid()) head_ = made.get();
     head().Evaluate(state, vertices_);
     renderer_->Draw(head(), vertices_, state, scene);
     return {};
@@ -83,20 +95,24 @@ int GlStudio::width() const { return has_window() ? context_->width() : options_
 int GlStudio::height() const { return has_window() ? context_->height() : options_.height; }
 
 vm::Result<void> GlStudio::Resize(int width, int height) {
-  const bool window = has_window();
   options_.width = width;
   options_.height = height;
   if (!context_) return {};
-  // GL objects first: they live in the context.
+  if (has_window()) {
+    context_->Resize(width, height);
+    return {};
+  }
+  // GL objects first: they live in the context. The next frame makes another.
   context_->MakeCurrent();
   renderer_.reset();
   context_.reset();
-  try {
-    if (window) context_ = RenderContext::MakeWindow(width, height, options_.title);
-    return {};
-  } catch (const std::exception& error) {
-    return vm::Fail(vm::Errc::kUnavailable, error.what());
-  }
+  return {};
+}
+
+vm::Result<void> GlStudio::FillScreen(bool fill) {
+  if (!has_window()) return Studio::FillScreen(fill);
+  context_->SetFullScreen(fill);
+  return {};
 }
 
 bool GlStudio::has_window() const { return context_ && context_->is_window(); }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "fsm/app/studio.h"
 #include "fsm/head/head.h"
@@ -16,6 +18,8 @@ class GlStudio final : public Studio {
     int height = 480;
     enum class Where { kHeadless, kWindow, kWindowIfPossible } where = Where::kHeadless;
     std::string title = "Galatea";
+    OffScreen off_screen = OffScreen::kOsMesa;         ///< of the context without a window
+    std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
   };
   /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had.
   explicit GlStudio(const Options& options);
@@ -30,6 +34,7 @@ class GlStudio final : public Studio {
   int height() const override;
   vm::Result<void> Resize(int width, int height) override;
   bool has_window() const override;
+  vm::Result<void> FillScreen(bool fill) override;
   void Show() override;
   bool close_requested() const override;
   vm::Result<void> WritePicture(const Image& image, const std::string& path) override;

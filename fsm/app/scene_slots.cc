@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace fsm {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* kPlain = "plain";        // the background without a picture
+constexpr const char* kPlain = "plain";              // the background without a picture
+constexpr const char* kTransparent = "transparent";  // no background
 constexpr vm::Time kLongestSettling = 2000ms;  // what a picture waits for movements, on their clock
 
 std::optional<glm::vec3> ParseColour(std::string_view text) {
@@ -24,6 +27,15 @@ std::optional<glm::vec3> ParseColour(std::string_view text) {
          255.0f;
 }
 
+/// sRGB to linear light (IEC 61966-2-1).
+glm::vec3 Linear(const glm::vec3& srgb) {
+  glm::vec3 out;
+  for (int c = 0; c < 3; ++c) {
+    out[c] = srgb[c] <= 0.04045f ? srgb[c] / 12.92f : std::pow((srgb[c] + 0.055f) / 1.055f, 2.4f);
+  }
+  return out;
+}
+
 bool IsPictureName(const std::string& name) {
   return name.ends_with(".png") || name.ends_with(".bmp") || name.ends_with(".rgb");
 }
@@ -34,6 +46,10 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
     : core_(core), backgrounds_(std::move(backgrounds)) {
   DeclareBackgrounds();
   DeclareView();
+  DeclareCamera();
+  DeclareLight("Light.key", "The large lamp", &Scene::key);
+  DeclareLight("Light.fill", "The lamp that brightens shadows", &Scene::fill);
+  DeclareLight("Light.rim", "The lamp behind, for the edge of hair and shoulder", &Scene::rim);
   DeclareSaveImage();
   if (!backgrounds_.empty()) {
     if (auto set = SetBackground(backgrounds_.front().first); !set) {
@@ -58,25 +74,33 @@ void SceneSlots::DeclareBackgrounds() {
                        .initial = kPlain,
                        .help = "The background shown now.",
                        .quoted = true});
-  core_.Declare(
-      {"Background", "<file>",
-       "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb) or a "
-       "colour, #rrggbb.",
-       [this](const vm::SetValue& value) -> vm::Result<void> {
-         if (auto set = SetBackground(value.word(0)); !set) return set;
-         core_.slots.Report("NowBackground", value.word(0));
-         return {};
-       },
-       backgrounds_.empty() ? kPlain : backgrounds_.front().first});
+  core_.Declare({"Background", "<file>",
+                 "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb), a "
+                 "colour, #rrggbb, or transparent: pictures then have an alpha channel, 0 there.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   if (auto set = SetBackground(value.word(0)); !set) return set;
+                   core_.slots.Report("NowBackground", value.word(0));
+                   return {};
+                 },
+                 backgrounds_.empty() ? kPlain : backgrounds_.front().first});
 }
 
 vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
+  if (name == kTransparent) {
+    transparent_ = true;
+    ShowBackground();
+    return {};
+  }
   if (name == kPlain) {
+    transparent_ = false;
+    ShowBackground();
     core_.scene.background = Scene{}.background;
     core_.scene.background_image = nullptr;
     return {};
   }
   if (const auto colour = ParseColour(name)) {
+    transparent_ = false;
+    ShowBackground();
     core_.scene.background = *colour;
     core_.scene.background_image = nullptr;
     return {};
@@ -84,15 +108,21 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
   const auto named =
       std::ranges::find(backgrounds_, name, &std::pair<std::string, std::string>::first);
   if (named == backgrounds_.end() && !IsPictureName(name)) {
-    return vm::Fail(vm::Errc::kBadValue, "there is no background '" + name + "'; " +
-                                             core_.slots.Value("BackgroundSet") +
-                                             ", a .png, .bmp or .rgb file or #rrggbb expected");
+    return vm::Fail(vm::Errc::kBadValue,
+                    "there is no background '" + name + "'; " + core_.slots.Value("BackgroundSet") +
+                        ", transparent, a .png, .bmp or .rgb file or #rrggbb expected");
   }
   auto picture = core_.studio.ReadPicture(named == backgrounds_.end() ? name : named->second);
   if (!picture) return std::unexpected(picture.error());
   picture_ = std::move(*picture);
   core_.scene.background_image = &picture_;
+  transparent_ = false;
+  ShowBackground();
   return {};
+}
+
+void SceneSlots::ShowBackground() {
+  core_.scene.show_background = background_enabled_ && !transparent_;
 }
 
 void SceneSlots::DeclareView() {
@@ -108,21 +138,75 @@ void SceneSlots::DeclareView() {
   core_.Declare({"ViewBackground", "ENABLE | DISABLE",
                  "Whether the background is drawn; without it pictures are transparent there.",
                  [this](const vm::SetValue& value) -> vm::Result<void> {
-                   core_.scene.show_background = value.word(0) == "ENABLE";
+                   background_enabled_ = value.word(0) == "ENABLE";
+                   ShowBackground();
                    return {};
                  },
                  "ENABLE"});
   core_.Declare(
-      {"Window", "<int 16..8192> <int 16..8192>", "Width and height of the view in pixels.",
+      {"Window", "FULLSCREEN | WINDOWED | <int 16..8192> <int 16..8192>",
+       "Width and height of the view in pixels; or the window fills the screen, or no more.",
        [this](const vm::SetValue& value) -> vm::Result<void> {
          if (size_locked_ && size_locked_()) {
            return vm::Fail(vm::Errc::kBusy,
                            "a film of this size is recorded; set Record = STOP first");
          }
+         if (value.size() == 1) return core_.studio.FillScreen(value.word(0) == "FULLSCREEN");
          return core_.studio.Resize(static_cast<int>(value.number(0)),
                                     static_cast<int>(value.number(1)));
        },
        std::to_string(core_.studio.width()) + " " + std::to_string(core_.studio.height())});
+}
+
+void SceneSlots::DeclareCamera() {
+  core_.Declare(
+      {"Camera",
+       "<number 0.2..10> [ <number -500..500> ] [ <number 5..90> ] [ <number -180..180> ]",
+       "Where the viewer stands: distance (1 = head and shoulders fill the view), mm above the "
+       "middle of the portrait (0), field of view in degrees (25; the head stays as large), "
+       "degrees "
+       "round the head to the viewer's right (0).",
+       [this](const vm::SetValue& value) -> vm::Result<void> {
+         Camera camera;
+         float* const fields[] = {&camera.distance, &camera.height_mm, &camera.field_degrees,
+                                  &camera.angle_degrees};
+         for (std::size_t i = 0; i < value.size(); ++i) {
+           *fields[i] = static_cast<float>(value.number(i));
+         }
+         core_.scene.camera = camera;
+         return {};
+       },
+       "1 0 25 0"});
+}
+
+void SceneSlots::DeclareLight(const std::string& name, const std::string& what, Lamp Scene::*lamp) {
+  core_.Declare(
+      {name, "<number 0..10> [ <number -180..180> <number -90..90> ] [ <word> ]",
+       what + ": its strength (1 = as usual), where it stands (degrees to the viewer's right, "
+              "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
+       [this, lamp](const vm::SetValue& value) -> vm::Result<void> {
+         constexpr float kRadians = 3.14159265f / 180;
+         Lamp set = Scene{}.*lamp;
+         set.strength = static_cast<float>(value.number(0));
+         if (value.size() >= 3) {
+           const float side = static_cast<float>(value.number(1)) * kRadians;
+           const float up = static_cast<float>(value.number(2)) * kRadians;
+           set.direction = {std::sin(side) * std::cos(up), std::sin(up),
+                            std::cos(side) * std::cos(up)};
+         }
+         if (value.size() == 2 || value.size() == 4) {
+           const std::string& text = value.word(value.size() - 1);
+           const auto colour = ParseColour(text);
+           if (!colour) {
+             return vm::Fail(vm::Errc::kBadValue, "'" + text + "' is no colour; #rrggbb expected");
+           }
+           // White is as bright as the lamp is without a colour.
+           set.color = Linear(*colour) * (set.color.r + set.color.g + set.color.b) / 3.0f;
+         }
+         core_.scene.*lamp = set;
+         return {};
+       },
+       "1"});
 }
 
 void SceneSlots::DeclareSaveImage() {
@@ -148,6 +232,8 @@ void SceneSlots::DeclareSaveImage() {
 
 void SceneSlots::Reset() {
   core_.scene = Scene{};
+  transparent_ = false;
+  background_enabled_ = true;
   const std::string first = backgrounds_.empty() ? kPlain : backgrounds_.front().first;
   if (auto set = SetBackground(first); !set) core_.slots.ReportError("Background", set.error());
   core_.slots.Store("NowBackground", first);

@@ -8,8 +8,8 @@
 
 namespace fsm {
 
-/// What is around the face: backgrounds, the way it is drawn, the size of the view, and
-/// single pictures of it (SaveImage).
+/// What is around the face: backgrounds, the way it is drawn, camera and lamps, the size of the
+/// view, and single pictures of it (SaveImage).
 class SceneSlots {
  public:
   /// `backgrounds`: names and files of the configuration; the first is shown at the start.
@@ -22,12 +22,18 @@ class SceneSlots {
  private:
   void DeclareBackgrounds();
   void DeclareView();
+  void DeclareCamera();
+  void DeclareLight(const std::string& name, const std::string& what, Lamp Scene::*lamp);
   void DeclareSaveImage();
   vm::Result<void> SetBackground(const std::string& name);
 
   FsmCore& core_;
   std::vector<std::pair<std::string, std::string>> backgrounds_;
+  void ShowBackground();
+
   Image picture_;
+  bool transparent_ = false;
+  bool background_enabled_ = true;
   std::function<bool()> size_locked_;
 };
 

@@ -36,6 +36,10 @@ class Studio {
   virtual vm::Result<void> Resize(int width, int height) = 0;
 
   virtual bool has_window() const = 0;
+  /// The window fills its screen, or no longer. Error: kUnavailable if there is no window.
+  virtual vm::Result<void> FillScreen(bool /*fill*/) {
+    return vm::Fail(vm::Errc::kUnavailable, "there is no window to fill the screen with");
+  }
   /// Shows the frame drawn last and takes the window's events. REQUIRES: has_window().
   virtual void Show() = 0;
   virtual bool close_requested() const = 0;
