@@ -46,12 +46,20 @@ class EyeAnatomy {
   Curve lid_radius_, upper_, lower_;
 };
 
-/// One row of teeth: the outer faces lie on a parabola z = front - depth (x / half_width)^2.
+/// One row of teeth: the outer faces lie on a parabola, flattened in front by a part of fourth
+/// order (dental arches are nearer to a U than to a V).
 struct ToothArch {
   float front_z, depth, half_width;
   float edge_y;  ///< of the middle incisors
   float root_y;  ///< where the gum ends
-  float At(float x) const { return front_z - depth * (x / half_width) * (x / half_width); }
+  float At(float x) const {
+    const float t = (x / half_width) * (x / half_width);
+    return front_z - depth * t * (0.45f + 0.55f * t);
+  }
+  float Slope(float x) const {
+    const float t = (x / half_width) * (x / half_width);
+    return depth * (0.9f + 2.2f * t) * x / (half_width * half_width);
+  }
 };
 
 /// The closed mouth (tables/mouth.txt), left half over x = 0..corner.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace fsm {
 
@@ -92,6 +93,9 @@ void Deformer::AddMouthFields(const MouthAnatomy& mouth) {
 }
 
 void Deformer::AddLids(const EyeAnatomy& eye, glm::vec3 shift) {
+  ball_[1] = eye.centre() + shift;
+  ball_[0] = ball_[1] * glm::vec3(-1, 1, 1);
+  cornea_ = eye.CorneaCentre();
   float widest = 0;
   for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {
     widest = std::max(widest, eye.UpperY(x) - eye.LowerY(x));
@@ -119,13 +123,25 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
     lower += ask.close * (lid.meet_angle - lower);
     const float turn =
         lid.upper * (upper - lid.upper_angle) + lid.lower * (lower - lid.lower_angle);
-    if (turn == 0) continue;
-    const float c = std::cos(turn);
-    const float s = std::sin(turn);
-    const glm::vec3 rest = rest_[lid.vertex];
-    const float y = rest.y - lid.axis_y;
-    const float z = rest.z - lid.axis_z;
-    out[lid.vertex] += glm::vec3(0, y * c + z * s - y, z * c - y * s - z);
+    if (turn != 0) {
+      const float c = std::cos(turn);
+      const float s = std::sin(turn);
+      const glm::vec3 rest = rest_[lid.vertex];
+      const float y = rest.y - lid.axis_y;
+      const float z = rest.z - lid.axis_z;
+      out[lid.vertex] += glm::vec3(0, y * c + z * s - y, z * c - y * s - z);
+    }
+    // The cornea bulges the lid it rolls under.
+    constexpr float kThickness = 0.35f;
+    constexpr float kOnBall = 12.05f;  // nearer than that lies the fold behind the lids
+    const auto side = static_cast<std::size_t>(lid.side);
+    const glm::vec3 middle = ball_[side] + cornea_ * pose.eye[side][2];
+    const glm::vec3 off = out[lid.vertex] - middle;
+    const float distance = glm::length(off);
+    const bool lid_proper = glm::length(rest_[lid.vertex] - ball_[side]) > kOnBall;
+    if (lid_proper && distance < kCorneaRadius + kThickness && distance > 1) {
+      out[lid.vertex] = middle + off * ((kCorneaRadius + kThickness) / distance);
+    }
   }
 }
 

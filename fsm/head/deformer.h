@@ -77,6 +77,8 @@ class Deformer {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam_;
   std::array<std::array<std::vector<Delta>, kActionUnits>, 2> unit_fields_;
   std::array<std::vector<Delta>, kMouthParameters> mouth_fields_;
+  std::array<glm::vec3, 2> ball_{};  ///< centres, right and left
+  float cornea_ = 0;                 ///< how far its centre lies before the ball's
   std::vector<LidVertex> lids_;
   std::vector<std::uint32_t> jawed_, lipped_;
   struct Touching {

@@ -15,39 +15,33 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 
 // Widths of the teeth from the median outward, upper and lower, and heights of the crowns.
-constexpr std::array kUpperWidth = {8.4f, 6.6f, 7.5f, 6.8f, 6.6f, 9.6f, 9.0f};
-constexpr std::array kUpperHeight = {10.2f, 9.2f, 9.9f, 8.6f, 8.0f, 7.4f, 7.0f};
-constexpr std::array kLowerWidth = {5.3f, 5.8f, 6.8f, 7.0f, 7.2f, 10.4f, 10.0f};
-constexpr std::array kLowerHeight = {8.8f, 9.0f, 9.6f, 8.4f, 8.0f, 7.4f, 7.0f};
+constexpr std::array kUpperWidth = {8.4f, 6.6f, 7.5f, 6.8f, 6.6f, 9.6f};
+constexpr std::array kUpperHeight = {10.2f, 9.2f, 9.9f, 8.6f, 8.0f, 7.4f};
+constexpr std::array kLowerWidth = {5.3f, 5.8f, 6.8f, 7.0f, 7.2f, 10.4f};
+constexpr std::array kLowerHeight = {8.8f, 9.0f, 9.6f, 8.4f, 8.0f, 7.4f};
 
-// The dental arch: a parabola opening backwards, as a point and a direction at an arc length.
-struct Arch {
-  float front_z, depth, half_width;
-  glm::vec3 At(float arc, float y) const {
-    // Arc length along z = front - depth (x / half_width)^2, followed in small steps.
-    float x = 0;
-    float length = 0;
-    const float side = arc < 0 ? -1.0f : 1.0f;
-    while (length < std::abs(arc)) {
-      const float slope = 2 * depth * x / (half_width * half_width);
-      const float step = 0.25f / std::sqrt(1 + slope * slope);
-      x += step;
-      length += 0.25f;
-    }
-    return {side * x, y, front_z - depth * (x / half_width) * (x / half_width)};
+/// The point of an arch at an arc length from the median, followed in small steps.
+glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
+  float x = 0;
+  float length = 0;
+  const float side = arc < 0 ? -1.0f : 1.0f;
+  while (length < std::abs(arc)) {
+    const float slope = arch.Slope(x);
+    x += 0.25f / std::sqrt(1 + slope * slope);
+    length += 0.25f;
   }
-};
+  return {side * x, y, arch.At(x)};
+}
 
 struct Jaw {
-  Arch arch;
-  float edge_y;  // of the middle incisors
+  ToothArch arch;
   float upward;  // +1: crowns grow upwards from the edge (upper jaw)
   Bone bone;
 };
 
 void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const float> heights,
              const Palette& palette, HeadMesh& mesh) {
-  constexpr int kPerTooth = 2;
+  constexpr int kPerTooth = 3;
   const int count = static_cast<int>(widths.size());
   const int columns = 2 * count * kPerTooth + 1;
   // Rows from behind the chewing edge over the front of the crown to the gum, and a lip of gum
@@ -75,7 +69,8 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
       const float up = row < -0.3f ? 0.6f * height_at[i]
                        : row < 0   ? 0.2f
                                    : row * height_at[i] + (row < 0.5f ? short_edge : 0.0f);
-      glm::vec3 p = jaw.arch.At(arc_at[i], jaw.edge_y + jaw.upward * (up + 0.02f * back));
+      glm::vec3 p =
+          AlongArch(jaw.arch, arc_at[i], jaw.arch.edge_y + jaw.upward * (up + 0.02f * back));
       const float thin = row < -0.3f ? 4.6f : row < 0 ? 2.4f : row == 0 ? 0.9f : 0.0f;
       const float curve =
           0.9f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
@@ -98,8 +93,9 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
       const auto i = static_cast<std::size_t>(c);
       const float back = std::abs(arc_at[i]);
       const float scallop = row < 1 ? 1.1f * (1 - bump_at[i]) : 0.0f;
-      glm::vec3 p = jaw.arch.At(
-          arc_at[i], jaw.edge_y + jaw.upward * (row * height_at[i] - scallop + 0.02f * back));
+      glm::vec3 p =
+          AlongArch(jaw.arch, arc_at[i],
+                    jaw.arch.edge_y + jaw.upward * (row * height_at[i] - scallop + 0.02f * back));
       p.z += row < 1 ? 0.2f : row < 1.2f ? 0.9f : 0.0f;
       mesh.Add(p, palette.gum, glm::mix(0.6f, 0.2f, SmoothStep(6, 34, back)), jaw.bone);
     }
@@ -110,12 +106,8 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
 }  // namespace
 
 void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
-  const ToothArch upper = mouth.UpperTeeth();
-  const ToothArch lower = mouth.LowerTeeth();
-  AddArch({{upper.front_z, upper.depth, upper.half_width}, upper.edge_y, 1, Bone::kSkull},
-          kUpperWidth, kUpperHeight, palette, mesh);
-  AddArch({{lower.front_z, lower.depth, lower.half_width}, lower.edge_y, -1, Bone::kJaw},
-          kLowerWidth, kLowerHeight, palette, mesh);
+  AddArch({mouth.UpperTeeth(), 1, Bone::kSkull}, kUpperWidth, kUpperHeight, palette, mesh);
+  AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, kLowerWidth, kLowerHeight, palette, mesh);
 }
 
 void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {

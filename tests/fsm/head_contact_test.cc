@@ -119,6 +119,45 @@ TEST(HeadContactTest, TeethStayBehindTheLips) {
   EXPECT_EQ(through, 0);
 }
 
+TEST(HeadContactTest, LidsStayOutsideTheEyeball) {
+  // Lid vertices are those of the skin within 5 mm of the ball's front at rest. Neither ball nor
+  // cornea comes more than 0.3 mm through them, wherever the eye looks and however far they close.
+  const HeadTopology& topology = GenericHead().topology();
+  const HeadVertices rest = Vertices({});
+  const EyePlace eye = topology.eyes[1];
+  std::vector<std::uint32_t> lids;
+  for (const HeadTopology::Part& part : topology.parts) {
+    if (part.material != Material::kSkin) continue;
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      const std::uint32_t i = topology.indices[part.first_index + k];
+      const glm::vec3 d = rest.position[i] - eye.centre;
+      if (d.z > 5 && glm::length(d) < eye.ball_radius + 5 &&
+          glm::length(d) > eye.ball_radius + 0.05f) {
+        lids.push_back(i);
+      }
+    }
+  }
+  ASSERT_GT(lids.size(), 100u);
+  std::mt19937 random(31);
+  std::uniform_real_distribution<float> turn(-30, 30);
+  std::uniform_real_distribution<float> part(0, 1);
+  for (int n = 0; n < 1000; ++n) {
+    FaceState state = RandomState(random, 1);
+    state.eye_left = {turn(random), turn(random)};
+    state.blink_left = part(random);
+    const HeadVertices v = Vertices(state);
+    const float up = state.eye_left.x * 0.0174533f;
+    const float right = state.eye_left.y * 0.0174533f;
+    const glm::vec3 gaze(std::cos(up) * std::sin(right), std::sin(up),
+                         std::cos(up) * std::cos(right));
+    const glm::vec3 cornea = eye.centre + 4.99f * gaze;
+    for (const std::uint32_t i : lids) {
+      ASSERT_GE(glm::length(v.position[i] - eye.centre), eye.ball_radius - 0.3f) << "state " << n;
+      ASSERT_GE(glm::length(v.position[i] - cornea), 8 - 0.3f) << "state " << n;
+    }
+  }
+}
+
 TEST(HeadContactTest, NoTriangleOfTheFaceTurnsOver) {
   // Against its direction at rest, judged by the angle of its normal; folds of the lids may turn on
   // the ball, the inside of the mouth may not be seen.
