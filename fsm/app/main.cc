@@ -11,6 +11,7 @@
 
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_studio.h"
+#include "fsm/app/sheet.h"
 #include "vm_protocol/runtime/module_main.h"
 
 namespace {
@@ -23,6 +24,9 @@ struct Options {
   std::vector<int> size_pair;
   std::vector<int> position;
   std::string config;
+  std::string sheet;
+  std::string out;
+  bool no_labels = false;
   fsm::FsmOptions module;
 };
 
@@ -70,6 +74,10 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--mask", options.module.mask, "The face worn at the start (default galatea)");
   app.add_option("--life", options.module.life,
                  "What the face does by itself from the start: OFF (default), CALM, LIVELY, ...");
+  app.add_option("--sheet", options.sheet,
+                 "Draws a contact sheet (aus, emotions, visemes or identities) to --out and ends");
+  app.add_option("--out", options.out, "The sheet's file, .png or .bmp");
+  app.add_flag("--no-labels", options.no_labels, "Draws the sheet without names");
   app.add_option("--seed", options.module.seed, "Of what the face does by itself (default 1)");
 }
 
@@ -102,6 +110,28 @@ fsm::GlStudio::Options StudioOptions(const Options& options) {
   return studio;
 }
 
+/// Exit code of a run that only draws a sheet; -1 if none is asked for.
+int DrawSheetIfAsked(const Options& options) {
+  if (options.sheet.empty()) return -1;
+  const auto fail = [](const std::string& text) {
+    std::cerr << "fsm: " << text << "\n";
+    return 1;
+  };
+  if (options.out.empty()) return fail("--sheet needs --out FILE.png");
+  const auto tables = fsm::MotionTables::Load(options.module.tables);
+  if (!tables) return fail(tables.error().text);
+  fsm::GlStudio studio({.width = fsm::kCellWidth, .height = fsm::kCellHeight});
+  if (!options.module.mask.empty()) {
+    if (auto worn = studio.Wear(options.module.mask); !worn) return fail(worn.error().text);
+  }
+  const auto sheet = fsm::MakeSheet(options.sheet, *tables, studio.Faces(), options.module.mask);
+  if (!sheet) return fail(sheet.error().text);
+  const auto picture = fsm::DrawSheet(studio, *sheet, !options.no_labels);
+  if (!picture) return fail(picture.error().text);
+  if (auto done = studio.WritePicture(*picture, options.out); !done) return fail(done.error().text);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -114,6 +144,7 @@ int main(int argc, char** argv) {
        .original_port = 10700,
        .virtual_by_default = true,
        .add_options = [&options](CLI::App& app) { AddOptions(app, options); },
+       .before_start = [&options] { return DrawSheetIfAsked(options); },
        .needs_real_clock = [&options] { return WindowWanted(options); },
        .make = [&options](vm::Scheduler& clock,
                           boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
