@@ -82,6 +82,7 @@ void Session::VisitRecord(Item& item) {
   const RecordResult result = platform_.Record(queue, request);
   steps_ = 0;
   if (result.kind == RecordResult::Kind::kSilence) ThrowEvent("noinput");
+  if (result.kind == RecordResult::Kind::kUnsupported) ThrowEvent("error.unsupported.record");
   const auto keep = [&](const std::string& termchar) {
     const Value recording = engine_.Object();
     engine_.Set(recording, "uri", engine_.String(result.uri));

@@ -80,7 +80,7 @@ struct RecordRequest {
   std::string type;
 };
 struct RecordResult {
-  enum class Kind { kRecorded, kSilence, kHangup, kInput };
+  enum class Kind { kRecorded, kSilence, kHangup, kInput, kUnsupported };
   Kind kind = Kind::kRecorded;
   Millis duration{0};
   std::size_t bytes = 0;

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "task_manager/platform/hub_link.h"
+#include "task_manager/platform/input_script.h"
+#include "task_manager/platform/platform.h"
+
+namespace vxml {
+
+/// Dialogues with voice, ear and face through the hub: prompts by @AM-MCL's Speak, input from
+/// @SRM, expressions to @FSM. What stands between the words starts where the voice passes its
+/// BOOKMARK. Input is what the ear hears; typed lines (keyboard) and scripts are put into it.
+/// While listening the agent looks at the user and nods to what it hears; on long fetches it looks
+/// aside. There is no recording and no telephone: error.unsupported.record, .transfer.
+/// Time is the hub's where a script drives the dialogue (films), else the machine's.
+/// Thread: the session's.
+class AgentPlatform final : public Platform {
+ public:
+  struct Options {
+    CommandSource script{};  ///< empty: ear or keyboard
+    std::string voice = "SSM";
+    std::string ear = "SRM";
+    std::string face = "FSM";
+    std::function<void(const std::string& line)> write{};
+  };
+  AgentPlatform(HubLink& hub, Options options);
+
+  Input Collect(const std::vector<Prompt>& prompts, const Listen& listen) override;
+  bool Play(const std::vector<Prompt>& prompts) override;
+  RecordResult Record(const std::vector<Prompt>& prompts, const RecordRequest& request) override;
+  TransferResult Transfer(const std::vector<Prompt>& prompts,
+                          const TransferRequest& request) override;
+  void Disconnect() override {}
+  void Native(const std::string& line) override;
+  void Fetching(const std::string& uri, bool begins) override;
+  Millis Now() const override;
+  void Report(std::string_view type, const JsonLine& fields) override;
+  bool ran_out() const { return ran_out_; }
+
+ private:
+  void Say(const Prompt& prompt, bool may_be_stopped);
+  std::string Tagged(const Prompt& prompt);
+  void Act(std::size_t index);
+  void StartParallel(const Prompt& prompt);
+  void OnTyped(const std::string& line);
+  std::optional<Input> FromScript(const Listen& listen);
+  std::optional<Input> Taken();
+  bool Speaks(const std::vector<Prompt>& prompts, bool listening);
+
+  HubLink& hub_;
+  Options options_;
+  std::vector<std::string> actions_;  ///< of the prompt being spoken, by bookmark; "mark NAME"
+  std::size_t acted_ = 0;
+  std::deque<Input> heard_;
+  bool hearing_ = false;  ///< somebody speaks
+  bool ran_out_ = false;
+  std::string mark_;
+  std::chrono::steady_clock::time_point mark_at_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_nod_ = start_;
+};
+
+}  // namespace vxml
