@@ -222,6 +222,28 @@ TEST_F(MclTest, AnEmotionAroundTheTextLastsAsLongAsTheSpeech) {
   EXPECT_TRUE(Contains(voice_->heard, "Text = pa"));
 }
 
+TEST_F(MclTest, AfterAnEmotionAroundTheTextTheOneSetBeforeComesBack) {
+  JoinVoice();
+  JoinFace();
+  world_.Say(*client_, "to @AM-MCL set Emotion = HAPPY 60");
+  Run();
+  world_.Say(*client_, "to @AM-MCL set#1 Speak = <emotion type=\"SAD\" value=\"40\">pa</emotion>");
+  Run();
+  const auto last = [this] {
+    std::string found;
+    for (const std::string& line : face_->heard) {
+      if (line.find("FaceExp = ") != std::string::npos) found = line;
+    }
+    return found.substr(found.find("FaceExp = "));
+  };
+  EXPECT_EQ(last(), "FaceExp = HAPPY 1 60 0");
+  world_.Say(*client_, "to @AM-MCL set Emotion = NEUTRAL");
+  Run();
+  world_.Say(*client_, "to @AM-MCL set#2 Speak = <emotion type=\"SAD\" value=\"40\">pa</emotion>");
+  Run();
+  EXPECT_EQ(last(), "FaceExp = NEUTRAL");
+}
+
 TEST_F(MclTest, UsersDefineTheirOwnMacros) {
   JoinFace();
   world_.Say(
