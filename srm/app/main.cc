@@ -1,0 +1,72 @@
+// The speech recognition module: options, the engine, sources of sound, and the module over them.
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "srm/app/sources.h"
+#include "srm/core/recognizer_module.h"
+#include "vm_protocol/runtime/asio_scheduler.h"
+#include "vm_protocol/runtime/module_main.h"
+
+namespace {
+
+constexpr std::size_t kMaxFileBytes = srm::Grammar::kMaxBytes;
+
+vm::Result<std::string> ReadTextFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kMaxFileBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file.eof() && file.fail()) {
+    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
+  }
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMaxFileBytes) {
+    return vm::Fail(vm::Errc::kTooLong,
+                    "'" + path + "' is over " + std::to_string(kMaxFileBytes) + " bytes");
+  }
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  srm::PocketsphinxOptions engine;
+  bool accept_all = false, real = false;
+  return vm::RunModule(
+      argc, argv,
+      {.name = "srm",
+       .description = "Speech recognition module: speech to text by grammars or dictation",
+       .module_name = "SRM",
+       .virtual_by_default = true,
+       .add_options =
+           [&](CLI::App& app) {
+             app.add_option("--model", engine.model, "Folder of the recognition model");
+             app.add_flag("--no-rejection", accept_all,
+                          "Take whatever fits a grammar best, however badly");
+             app.add_flag("--live", real, "Sound comes from a microphone or pipe: the real clock");
+           },
+       .before_start =
+           [&] {
+             engine.rejection = !accept_all;
+             return -1;
+           },
+       .needs_real_clock = [&] { return real; },
+       .make =
+           [&](vm::Scheduler& scheduler, boost::asio::io_context& io) {
+             auto& clock = dynamic_cast<vm::ClockScheduler&>(scheduler);
+             return std::make_unique<srm::RecognizerModule>(
+                 scheduler, srm::RecognizerModule::Options{
+                                .module_version = "Galatea SRM " GALATEA_VERSION,
+                                .read_file = ReadTextFile,
+                                .open_decoder = [&engine] { return srm::OpenPocketsphinx(engine); },
+                                .open_spotter = [&engine] { return srm::OpenSpotter(engine); },
+                                .open_source =
+                                    [&clock, &io](const std::string& name) {
+                                      return srm::OpenSource(name, clock, io, clock.real());
+                                    }});
+           }});
+}

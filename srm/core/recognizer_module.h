@@ -1,0 +1,96 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "srm/core/audio_source.h"
+#include "srm/core/ear.h"
+#include "vm_protocol/core/module.h"
+
+namespace srm {
+
+inline constexpr std::size_t kMaxGrammars = 256;
+
+/// The speech recognition module (SRM). Its slots and reports are those of srm_stub, and more.
+///
+///   OFF --Run = START--> LISTENING --speech begins--> SPEECH --silence--> LISTENING
+///                                      Result.partial ...       Result or NoMatch
+///
+/// Thread: the scheduler's.
+class RecognizerModule final : public vm::Module {
+ public:
+  struct Options {
+    std::string module_version{};
+    std::function<vm::Result<std::string>(const std::string& path)> read_file{};
+    /// The engines, made when first needed.
+    std::function<vm::Result<std::unique_ptr<SpeechDecoder>>()> open_decoder{};
+    std::function<vm::Result<std::unique_ptr<KeywordSpotter>>()> open_spotter{};
+    /// A source by name: wav:PATH, raw:PATH, portaudio[:DEVICE].
+    std::function<vm::Result<std::unique_ptr<AudioSource>>(const std::string&)> open_source{};
+  };
+
+  RecognizerModule(vm::Scheduler& scheduler, Options options);
+  ~RecognizerModule() override;
+
+  vm::SlotMachine& slots() override { return slots_; }
+  bool Busy() const override;
+  bool ExitRequested() const override { return exit_requested_; }
+  void Shutdown() override;
+
+ private:
+  // recognizer_slots.cc
+  void DeclareRun();
+  void DeclareListen();
+  void DeclareGrammar();
+  void DeclareInput();
+  void DeclareResult();
+
+  // recognizer_module.cc
+  vm::Result<Ear*> NeedEar();
+  vm::Result<void> UseGrammars();
+  vm::Result<std::string> LoadGrammar(const std::string& name, const std::string& text);
+  vm::Result<std::string> DropGrammar(const std::string& name);
+  vm::Result<std::string> ActivateGrammars(const vm::SetValue& value);
+  vm::Result<std::string> SetInput(const std::string& source);
+  vm::Result<std::string> SetSpot(const std::string& phrases);
+  vm::Result<void> StartSource();
+  void StartListening();
+  void StopListening();
+  void OnBegan();
+  void OnEnded(const Ear::Heard& heard);
+  void OnSourceOver();
+  /// What was said, as text; `heard` is null for typed text.
+  void Recognize(const std::string& text, const Ear::Heard* heard);
+  void ArmNoInput();
+  void SetAgentSpeaking(bool speaking);
+  std::string ActiveNames() const;
+
+  vm::Scheduler& scheduler_;
+  const Options options_;
+  vm::SlotMachine slots_;
+
+  std::unique_ptr<Ear> ear_;  // null until needed
+  bool grammars_used_ = false;
+  std::unique_ptr<AudioSource> source_;
+  std::string source_name_ = "NONE";
+  vm::Time source_start_{0};
+
+  std::map<std::string, Grammar, std::less<>> grammars_;
+  std::vector<std::string> active_;  // names, in order of preference
+  std::vector<std::pair<std::string, std::string>> pronunciations_;
+
+  bool listening_ = false;
+  bool agent_speaking_ = false;
+  bool half_duplex_ = true;
+  double threshold_ = 0.5;
+  Endpointer::Settings endpoints_;
+  Millis timeout_{0};
+  vm::TimerId no_input_timer_ = 0;
+  vm::TimerId over_timer_ = 0;
+  bool exit_requested_ = false;
+};
+
+}  // namespace srm

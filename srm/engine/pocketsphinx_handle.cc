@@ -1,0 +1,49 @@
+#include "srm/engine/pocketsphinx_handle.h"
+
+#include <sphinxbase/err.h>
+
+#include <algorithm>
+
+namespace srm {
+
+vm::Result<DecoderPtr> OpenDecoder(
+    const std::string& model, const std::vector<std::pair<std::string, std::string>>& settings) {
+  err_set_logfp(nullptr);
+  std::vector<std::pair<std::string, std::string>> all = {
+      {"-hmm", model + "/en-us"}, {"-logfn", "/dev/null"}, {"-remove_silence", "no"},
+      {"-remove_noise", "no"},    {"-bestpath", "no"},     {"-fwdflat", "no"}};
+  all.insert(all.end(), settings.begin(), settings.end());
+  std::vector<char*> words = {const_cast<char*>("srm")};
+  for (auto& [name, value] : all) {
+    words.push_back(name.data());
+    words.push_back(value.data());
+  }
+  cmd_ln_t* config =
+      cmd_ln_parse_r(nullptr, ps_args(), static_cast<int>(words.size()), words.data(), FALSE);
+  ps_decoder_t* decoder = config == nullptr ? nullptr : ps_init(config);
+  if (config != nullptr) cmd_ln_free_r(config);
+  err_set_logfp(nullptr);
+  if (decoder == nullptr) {
+    return vm::Fail(vm::Errc::kUnavailable, "there is no recognition model in '" + model +
+                                                "' (Debian: pocketsphinx-en-us)");
+  }
+  return DecoderPtr(decoder);
+}
+
+void AddPhonemeWords(ps_decoder_t* decoder) {
+  for (const std::string& name : ModelPhonemes()) {
+    ps_add_word(decoder, (std::string(kPhonemeWord) + name).c_str(), name.c_str(), TRUE);
+  }
+}
+
+std::vector<std::int16_t> Dither::Add(std::span<const std::int16_t> samples) {
+  std::vector<std::int16_t> noisy(samples.begin(), samples.end());
+  for (std::int16_t& sample : noisy) {
+    state_ = state_ * 1664525u + 1013904223u;
+    const int noise = static_cast<int>(state_ >> 24) % 7 - 3;
+    sample = static_cast<std::int16_t>(std::clamp(sample + noise, -32768, 32767));
+  }
+  return noisy;
+}
+
+}  // namespace srm

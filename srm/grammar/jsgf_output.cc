@@ -1,0 +1,115 @@
+#include "srm/grammar/jsgf_output.h"
+
+#include <fmt/format.h>
+
+namespace srm {
+namespace {
+
+using Kind = Node::Kind;
+
+class Writer {
+ public:
+  Writer(std::size_t index, const Grammar& grammar) : index_(index), grammar_(grammar) {}
+
+  std::string Rules() {
+    std::string text;
+    for (const auto& [name, node] : grammar_.rules()) {
+      text += "<" + Name(name) + "> = " + Text(node) + " ;\n";
+    }
+    return text;
+  }
+  std::string RootName() { return Name(grammar_.root()); }
+
+ private:
+  /// Rules of several grammars must not meet, and may have any name.
+  std::string Name(std::string_view name) const {
+    std::size_t number = 0;
+    for (const auto& [rule, node] : grammar_.rules()) {
+      if (rule == name) break;
+      ++number;
+    }
+    return fmt::format("g{}_{}", index_, number);
+  }
+
+  std::string Text(const Node& node) {
+    switch (node.kind) {
+      case Kind::kWord:
+        return node.text;
+      case Kind::kAny:
+        return "<any>";
+      case Kind::kRule:
+        return "<" + Name(node.text) + ">";
+      case Kind::kTag:
+        return "<NULL>";
+      case Kind::kVoid:
+        return "<VOID>";
+      case Kind::kSequence: {
+        std::string text;
+        for (const Node& part : node.parts) {
+          // The engine loses its way at an empty step inside a phrase, so tags leave nothing.
+          const std::string one = Text(part);
+          if (one != "<NULL>") text += (text.empty() ? "" : " ") + one;
+        }
+        return text.empty() ? "<NULL>" : "( " + text + " )";
+      }
+      case Kind::kChoice: {
+        std::string text;
+        for (std::size_t i = 0; i < node.parts.size(); ++i) {
+          text += fmt::format("{}/{}/ {}", i == 0 ? "" : " | ",
+                              i < node.weights.size() ? node.weights[i] : 1.0, Text(node.parts[i]));
+        }
+        return "( " + text + " )";
+      }
+      case Kind::kRepeat:
+        return Repeat(node);
+    }
+    return "<NULL>";
+  }
+
+  std::string Repeat(const Node& node) {
+    const std::string once = Text(node.parts[0]);
+    std::string text;
+    for (int i = 0; i < node.least; ++i) text += once + " ";
+    if (node.most == kUnlimited) return "( " + text + "( " + once + " )* )";
+    std::string rest;
+    for (int i = node.least; i < node.most; ++i) {
+      rest = rest.empty() ? "[ " + once + " ]" : "[ " + once + " " + rest + " ]";
+    }
+    return "( " + (text + rest).append(text.empty() && rest.empty() ? "<NULL>" : "") + " )";
+  }
+
+  const std::size_t index_;
+  const Grammar& grammar_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& ModelPhonemes() {
+  static const std::vector<std::string> names = {
+      "AA", "AE", "AH", "AO", "AW", "AY", "B",  "CH", "D", "DH", "EH", "ER", "EY",
+      "F",  "G",  "HH", "IH", "IY", "JH", "K",  "L",  "M", "N",  "NG", "OW", "OY",
+      "P",  "R",  "S",  "SH", "T",  "TH", "UH", "UW", "V", "W",  "Y",  "Z",  "ZH"};
+  return names;
+}
+
+std::string ToJsgf(const std::vector<const Grammar*>& grammars) {
+  std::string rules, roots;
+  bool any = false;
+  for (std::size_t i = 0; i < grammars.size(); ++i) {
+    Writer writer(i, *grammars[i]);
+    rules += writer.Rules();
+    roots += (roots.empty() ? "<" : " | <") + writer.RootName() + ">";
+    any = any || grammars[i]->HasAny();
+  }
+  if (any) {
+    // A word of any kind is two to twelve phonemes; the weight keeps it from words that are known.
+    std::string one;
+    for (const std::string& name : ModelPhonemes()) {
+      one += (one.empty() ? "" : " | ") + std::string(kPhonemeWord) + name;
+    }
+    rules += "<phone> = " + one + " ;\n<any> = <phone> <phone> ( <phone> )* ;\n";
+  }
+  return "#JSGF V1.0;\ngrammar all;\npublic <all> = " + roots + " ;\n" + rules;
+}
+
+}  // namespace srm

@@ -1,0 +1,275 @@
+// The module with a decoder that hears what it is told, on a virtual clock; and the end-pointer.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "srm/core/recognizer_module.h"
+#include "vm_protocol/core/scheduler.h"
+
+namespace {
+
+using srm::Millis;
+
+std::vector<std::int16_t> Sound(int ms, double level) {
+  std::vector<std::int16_t> samples(static_cast<std::size_t>(ms) * srm::kFramesPerMs);
+  std::uint32_t state = 7;
+  for (std::int16_t& sample : samples) {
+    state = state * 1664525u + 1013904223u;
+    sample = static_cast<std::int16_t>((static_cast<double>(state >> 16) / 32768 - 1) * level);
+  }
+  return samples;
+}
+void Add(std::vector<std::int16_t>& to, const std::vector<std::int16_t>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+struct Log {
+  std::string events;
+  srm::Endpointer::Events Events() {
+    return {.begin = [this] { events += "begin "; },
+            .sound = [this](std::span<const std::int16_t> s) { length += s.size(); },
+            .end = [this] { events += "end "; }};
+  }
+  std::size_t length = 0;
+};
+
+TEST(EndpointerTest, SpeechBetweenSilencesIsOneUtteranceWithItsLead) {
+  Log log;
+  srm::Endpointer endpointer({}, log.Events());
+  auto sound = Sound(800, 20);
+  Add(sound, Sound(700, 3000));
+  Add(sound, Sound(900, 20));
+  for (std::size_t at = 0; at < sound.size(); at += 37) {  // odd pieces
+    endpointer.Feed(std::span(sound).subspan(at, std::min<std::size_t>(37, sound.size() - at)));
+  }
+  EXPECT_EQ(log.events, "begin end ");
+  EXPECT_NEAR(static_cast<double>(log.length) / 16, 300 + 700 + 500, 25);
+}
+
+TEST(EndpointerTest, ClicksAndNoiseAreNoSpeech) {
+  Log log;
+  srm::Endpointer endpointer({}, log.Events());
+  auto sound = Sound(500, 20);
+  Add(sound, Sound(30, 8000));
+  Add(sound, Sound(500, 20));
+  Add(sound, Sound(20'000, 25));
+  endpointer.Feed(sound);
+  EXPECT_EQ(log.events, "");
+}
+
+TEST(EndpointerTest, APauseShorterThanTheSilenceIsPartOfTheUtterance) {
+  Log log;
+  srm::Endpointer endpointer({.silence = Millis(800)}, log.Events());
+  auto sound = Sound(300, 20);
+  Add(sound, Sound(500, 3000));
+  Add(sound, Sound(700, 20));
+  Add(sound, Sound(500, 3000));
+  endpointer.Feed(sound);
+  EXPECT_EQ(log.events, "begin ");
+  endpointer.Finish();
+  EXPECT_EQ(log.events, "begin end ");
+}
+
+TEST(EndpointerTest, AnEndlessSoundIsCut) {
+  Log log;
+  srm::Endpointer endpointer({.longest = Millis(2000)}, log.Events());
+  endpointer.Feed(Sound(300, 20));
+  endpointer.Feed(Sound(2500, 3000));
+  EXPECT_TRUE(log.events.starts_with("begin end ")) << log.events;
+}
+
+/// Hears the same text in everything; notes the grammars it is given.
+class ToldDecoder final : public srm::SpeechDecoder {
+ public:
+  explicit ToldDecoder(std::string& text, double& fit, std::vector<std::string>& calls)
+      : text_(text), fit_(fit), calls_(calls) {}
+  vm::Result<void> Use(const std::vector<const srm::Grammar*>& grammars) override {
+    calls_.push_back("use " + std::to_string(grammars.size()));
+    return {};
+  }
+  vm::Result<void> Pronounce(const std::string& word, const std::string& spoken) override {
+    if (spoken == "bad") return vm::Fail(vm::Errc::kBadValue, "no");
+    calls_.push_back(word + "=" + spoken);
+    return {};
+  }
+  void Begin() override {
+    calls_.push_back("begin");
+    fed_ = 0;
+  }
+  void Feed(std::span<const std::int16_t> samples) override { fed_ += samples.size(); }
+  std::string Partial() override { return text_.substr(0, text_.find(' ')); }
+  srm::Hypothesis End() override {
+    calls_.push_back("end " + std::to_string(fed_ / 1600));
+    return {.text = text_,
+            .words = {{text_, Millis(300), Millis(800)}},
+            .fit = fit_,
+            .confidence = srm::ConfidenceOf(fit_)};
+  }
+
+ private:
+  std::string& text_;
+  double& fit_;
+  std::vector<std::string>& calls_;
+  std::size_t fed_ = 0;
+};
+
+class RecognizerTest : public testing::Test {
+ protected:
+  RecognizerTest() {
+    sound_ = Sound(800, 20);
+    Add(sound_, Sound(700, 3000));
+    Add(sound_, Sound(300, 20));
+    module_ = std::make_unique<srm::RecognizerModule>(
+        clock_,
+        srm::RecognizerModule::Options{
+            .module_version = "test",
+            .read_file = [](const std::string& path) -> vm::Result<std::string> {
+              if (path == "g.jsgf") return "#JSGF V1.0;\ngrammar g;\npublic <a> = yes {Y};";
+              return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
+            },
+            .open_decoder = [this]() -> vm::Result<std::unique_ptr<srm::SpeechDecoder>> {
+              return std::make_unique<ToldDecoder>(text_, fit_, calls_);
+            },
+            .open_spotter = []() -> vm::Result<std::unique_ptr<srm::KeywordSpotter>> {
+              return vm::Fail(vm::Errc::kUnavailable, "none");
+            },
+            .open_source =
+                [this](const std::string& name) -> vm::Result<std::unique_ptr<srm::AudioSource>> {
+              if (name != "wav:a") return vm::Fail(vm::Errc::kBadValue, "no source " + name);
+              return std::make_unique<srm::RecordedSource>(clock_, sound_);
+            }});
+    module_->slots().set_output([this](vm::PeerId, const vm::Message& message) {
+      said_.push_back(vm::FormatMessage(message));
+    });
+    module_->slots().set_on_error([this](vm::PeerId, const std::string&, const vm::Error& error) {
+      errors_.push_back(vm::FormatError(error));
+    });
+  }
+  void Tell(const std::string& line) { module_->slots().HandleLine(line, 1); }
+  void UntilIdle() { clock_.RunUntilIdle(clock_.Now() + std::chrono::hours(1)); }
+  using Lines = std::vector<std::string>;
+  Lines Said() { return std::exchange(said_, {}); }
+
+  vm::VirtualScheduler clock_;
+  std::vector<std::int16_t> sound_;
+  std::string text_ = "yes please";
+  double fit_ = 0;
+  Lines calls_, said_, errors_;
+  std::unique_ptr<srm::RecognizerModule> module_;
+};
+
+TEST_F(RecognizerTest, SpeechBecomesPartialAndFinalResultsWithTheirMeaning) {
+  Tell("set Grammar.load = answer yes [please] {YES} | no {NO}");
+  Tell("set Grammar = answer");
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  UntilIdle();
+  EXPECT_EQ(Said(), (Lines{"rep Grammar = answer", "rep Input = wav:a", "rep Run = START",
+                           "rep Listen.stat = LISTENING", "rep Listen.stat = SPEECH",
+                           "rep Result.partial = yes", "rep Result.grammar = answer",
+                           "rep Result.tag = YES", "rep Result = yes please",
+                           "rep Listen.stat = LISTENING", "rep Input = NONE"}));
+  EXPECT_EQ(errors_, Lines{});
+  EXPECT_EQ(module_->slots().Value("Result.words").substr(0, 11), "yes please[");
+  EXPECT_FALSE(module_->Busy());
+}
+
+TEST_F(RecognizerTest, WhatFitsBadlyOrNotAtAllIsNoMatch) {
+  Tell("set Grammar.load = answer yes please");
+  Tell("set Grammar = answer");
+  fit_ = -20;
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  UntilIdle();
+  EXPECT_EQ(Said()[6], "rep NoMatch = yes please");
+  fit_ = 0;
+  text_ = "something else";
+  Tell("set Input = wav:a");
+  UntilIdle();
+  EXPECT_EQ(Said()[3], "rep NoMatch = something else");
+}
+
+TEST_F(RecognizerTest, AGrammarSwitchedInTheMiddleHearsTheUtteranceFromItsBeginning) {
+  Tell("set Grammar.load = a yes");
+  Tell("set Grammar.load = b yes please {B}");
+  Tell("set Grammar = a");
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  clock_.RunUntil(vm::Time(1'300'000));
+  Tell("set Grammar = a b");
+  UntilIdle();
+  EXPECT_EQ(module_->slots().Value("Result"), "yes please");
+  EXPECT_EQ(module_->slots().Value("Result.grammar"), "b");
+  EXPECT_EQ(calls_[0], "use 1");
+  EXPECT_EQ(calls_[3], "use 2");
+  // The second pass had everything: lead, speech and silence.
+  EXPECT_EQ(calls_.back(), "end 15");
+}
+
+TEST_F(RecognizerTest, SilenceIsNoInput) {
+  sound_ = Sound(3000, 20);
+  Tell("set Listen.timeout = 2000");
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  UntilIdle();
+  EXPECT_EQ(Said(), (Lines{"rep Input = wav:a", "rep Run = START", "rep Listen.stat = LISTENING",
+                           "rep NoInput = 2000", "rep Input = NONE"}));
+}
+
+TEST_F(RecognizerTest, WhileTheAgentSpeaksItsVoiceIsNoInputUnlessTheEchoIsSeenTo) {
+  Tell("set Agent = SPEAKING");
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  Tell("set Agent = SPEAKING");
+  UntilIdle();
+  for (const std::string& line : Said()) EXPECT_EQ(line.find("Result"), std::string::npos) << line;
+  Tell("set Agent.echo = OPEN");
+  Tell("set Input = wav:a");
+  UntilIdle();
+  const Lines said = Said();
+  EXPECT_NE(
+      std::find_if(said.begin(), said.end(),
+                   [](const std::string& line) { return line.starts_with("rep BargeIn = 8"); }),
+      said.end());
+}
+
+TEST_F(RecognizerTest, TypedTextIsRecognizedLikeTheStubs) {
+  Tell("set Grammar.file = g g.jsgf");
+  Tell("set Grammar = g");
+  Tell("set#1 Input.text = yes");
+  Tell("set Run = START");
+  Said();
+  Tell("set#2 Input.text = Yes!");
+  EXPECT_EQ(Said(),
+            (Lines{"rep Listen.stat = SPEECH", "rep Result.grammar = g", "rep Result.tag = Y",
+                   "rep Result = Yes!", "rep#2 Input.text = Yes!", "rep Listen.stat = LISTENING"}));
+  EXPECT_EQ(errors_, (Lines{"BUSY not listening; set Run = START first"}));
+}
+
+TEST_F(RecognizerTest, BadRequestsAreRefusedAndChangeNothing) {
+  for (const char* line :
+       {"set Grammar = nothing", "set Grammar.load = x (", "set Grammar.load = NONE a",
+        "set Grammar.file = x missing", "set Grammar.drop = x", "set Input = wav:b",
+        "set Listen.threshold = 2", "set Grammar.word = x bad", "set Spot = stop"}) {
+    errors_.clear();
+    Tell(line);
+    EXPECT_EQ(errors_.size(), 1u) << line;
+  }
+  EXPECT_EQ(module_->slots().Value("Grammar"), "NONE");
+  EXPECT_EQ(module_->slots().Value("Input"), "NONE");
+}
+
+TEST_F(RecognizerTest, StopDropsWhatIsBeingHeard) {
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  clock_.RunUntil(vm::Time(1'300'000));
+  Tell("set Run = STOP");
+  Said();
+  UntilIdle();
+  EXPECT_EQ(Said(), Lines{});
+  EXPECT_EQ(module_->slots().Value("Listen.stat"), "OFF");
+}
+
+}  // namespace
