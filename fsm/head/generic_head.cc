@@ -4,7 +4,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -14,7 +13,6 @@
 #include "embedded/curves.h"
 #include "embedded/eye.h"
 #include "embedded/identities.h"
-#include "embedded/landmarks.h"
 #include "embedded/mouth.h"
 #include "embedded/patches.h"
 #include "embedded/sliders.h"
@@ -22,6 +20,7 @@
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/head.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/landmarks.h"
 #include "fsm/head/parts.h"
 #include "fsm/head/skin_mesh.h"
 
@@ -56,6 +55,7 @@ class GenericHead : public Head {
     BuildEars(palette, mesh);
     base_ = mesh.position;
     Shape(shaper, mesh);
+    hair_first_ = mesh.position.size();
     if (identity_.crop) {
       BuildCroppedHair(*identity_.crop, palette, mesh);
     } else {
@@ -64,7 +64,7 @@ class GenericHead : public Head {
     base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
                  mesh.position.end());
     Finish(std::move(mesh), skin);
-    NameLandmarks(cage, fine);
+    landmarks_ = NameLandmarks(cage, fine, rest_, eye_, eye_shift_);
   }
 
   const HeadTopology& topology() const override { return topology_; }
@@ -153,6 +153,7 @@ class GenericHead : public Head {
     }
     rest_ = mesh.position;
     rest_normal_ = Normals(topology_.indices, rest_, rest_.size());
+    SmoothHair();
     bone_ = std::move(mesh.bone);
     for (const Flesh& flesh : mesh.flesh) bend_.push_back(flesh.free);
 
@@ -187,42 +188,16 @@ class GenericHead : public Head {
     }
   }
 
-  void NameLandmarks(const Cage& cage, const FineSkin& fine) {
-    const auto pair = [this](const std::string& name, glm::vec3 p) {
-      landmarks_[name + "_left"] = p;
-      landmarks_[name + "_right"] = {-p.x, p.y, p.z};
-    };
-    const Table table("tables/landmarks.txt", embedded::landmarks());
-    for (const TableRow& row : table.rows()) {
-      const glm::vec3 p = rest_[fine.of_cage[CagePoint(cage, row, row.Word(2))]];
-      if (row.key() == "middle") {
-        landmarks_[row.Word(1)] = p;
-      } else if (row.key() == "side") {
-        pair(row.Word(1), p);
-      } else {
-        row.Fail("middle or side expected");
-      }
+  /// Locks are flat cards, but take light as the head of hair they lie on: their own normals only
+  /// ruffle its.
+  void SmoothHair() {
+    for (std::size_t i = hair_first_; i < rest_.size(); ++i) {
+      const glm::vec3 from = rest_[i] - kHairCentre;
+      const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : 0.25f, 1));
+      glm::vec3& n = rest_normal_[i];
+      if (glm::dot(n, outward) < 0) continue;  // the lining
+      n = glm::normalize(glm::mix(n, outward, 0.7f));
     }
-    const auto on_lid = [this](float x, float y) {
-      return glm::vec3(x, y, eye_.LidAxisZ(x) + eye_.LidRadius(x)) + eye_shift_;
-    };
-    const float middle = eye_.centre().x;
-    pair("endocanthion", on_lid(eye_.inner_x(), eye_.UpperY(eye_.inner_x())));
-    pair("exocanthion", on_lid(eye_.outer_x(), eye_.UpperY(eye_.outer_x())));
-    pair("palpebrale_superius", on_lid(middle, eye_.UpperY(middle)));
-    pair("palpebrale_inferius", on_lid(middle, eye_.LowerY(middle)));
-    pair("pupil", eye_.centre() + eye_shift_ + glm::vec3(0, 0, eye_.radius()));
-    pair("tragion", {65.7f, 0, 0});
-    for (const auto& [name, place] : EarLandmarks()) pair(name, place);
-  }
-
-  static glm::vec2 Unroll(glm::vec3 p) {
-    constexpr float kPi = std::numbers::pi_v<float>;
-    const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 to the front
-    const float part = std::abs(turn);
-    constexpr float kFront = 1.0f / 3;
-    const float wide = part < kFront ? 0.6f * part / kFront : 0.6f + 0.6f * (part - kFront);
-    return {0.5f + std::copysign(0.5f * wide, turn), std::clamp((p.y + 200) / 340, 0.0f, 1.0f)};
   }
 
   std::array<std::array<float, 2>, 4> Wrinkles(const SidedUnits& units) const {
@@ -308,11 +283,12 @@ class GenericHead : public Head {
   std::vector<glm::vec3> base_;  // the base head's rest form, for texture coordinates
   HeadTopology topology_;
   std::size_t flesh_count_ = 0;
+  std::size_t hair_first_ = 0;
   std::vector<std::uint32_t> flesh_triangles_;
   std::vector<glm::vec3> rest_, rest_normal_;
   std::vector<Bone> bone_;
   std::vector<float> bend_;
-  std::map<std::string, glm::vec3, std::less<>> landmarks_;
+  Landmarks landmarks_;
   std::optional<Deformer> face_, probe_;
 };
 

@@ -102,7 +102,7 @@ class CroppedHair {
                                          : depth * (0.75f + 0.25f * v);
       path.push_back(scalp_.Over(d, over + lift * v * (1 - 0.35f * v) + 0.4f));
     }
-    const float width = glm::mix(2.6f, 8.0f, SmoothStep(0, 0.28f, up));
+    const float width = glm::mix(2.4f, 2.0f + 0.11f * style_.lock_mm, SmoothStep(0, 0.28f, up));
     AddLock(path, width * (1 + 0.3f * Grain(k, 35)), 0.45f, palette_, k, 0.95f, mesh_);
   }
 

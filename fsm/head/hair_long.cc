@@ -13,8 +13,8 @@ namespace fsm {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr glm::vec3 kVolume{81, 104, 103};  // half axes of the hair over the skull
-constexpr float kPartX = 0.17f;             // sideways place of the parting, as part of the volume
+constexpr glm::vec3 kVolume{83.5f, 107.5f, 105};  // half axes of the hair over the skull
+constexpr float kPartX = 0.17f;  // sideways place of the parting, as part of the volume
 constexpr float kEnd = 1.0f;
 
 // Strands start along the parting, sweep over the skull and hang. Those at the face's edge run
@@ -149,7 +149,7 @@ class LongHair {
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, t,
                              lift * std::sin(kPi * (0.12f + 0.8f * v))));
       }
-      AddLock(path, edge ? 7.0f : 11.0f + 3 * Grain(seed, 6), edge ? 0.15f : 0.4f, palette_, seed,
+      AddLock(path, edge ? 7.0f : 11.0f + 3 * Grain(seed, 6), edge ? 0.15f : 0.06f, palette_, seed,
               1.0f, mesh_);
     }
   }
@@ -157,7 +157,7 @@ class LongHair {
   // Single small locks that leave the skin before the edge and run slantwise into it, so that the
   // hairline is no drawn line.
   void Roots(float side) {
-    constexpr int kRoots = 30;
+    constexpr int kRoots = 26;
     for (int k = 0; k < kRoots; ++k) {
       const int seed = k + (side > 0 ? 900 : 700);
       const float t = 0.01f + 0.42f * (static_cast<float>(k) + 0.4f * Grain(seed, 1)) / kRoots;
@@ -171,9 +171,9 @@ class LongHair {
       constexpr int kSteps = 3;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
-        const float i = 0.10f * v * v;
+        const float i = 0.075f * v * v;
         const glm::vec3 p =
-            Point(i, side, t + 0.085f * v * (1 + 0.3f * Grain(seed, 3)), 0.7f + 0.8f * v);
+            Point(i, side, t + 0.17f * v * (1 + 0.3f * Grain(seed, 3)), 0.7f + 0.8f * v);
         path.push_back(p + face * (reach * (1 - v) * (1 - v)) - outward * (0.6f * (1 - v)));
       }
       AddLock(path, 3.0f + Grain(seed, 4), 0.2f, palette_, seed, 0.95f, mesh_);

@@ -1,0 +1,53 @@
+#include "fsm/head/landmarks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "embedded/landmarks.h"
+#include "fsm/head/parts.h"
+
+namespace fsm {
+
+Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
+                        const EyeAnatomy& eye, glm::vec3 eye_shift) {
+  Landmarks landmarks;
+  const auto pair = [&](const std::string& name, glm::vec3 p) {
+    landmarks[name + "_left"] = p;
+    landmarks[name + "_right"] = {-p.x, p.y, p.z};
+  };
+  const Table table("tables/landmarks.txt", embedded::landmarks());
+  for (const TableRow& row : table.rows()) {
+    const glm::vec3 p = rest[fine.of_cage[CagePoint(cage, row, row.Word(2))]];
+    if (row.key() == "middle") {
+      landmarks[row.Word(1)] = p;
+    } else if (row.key() == "side") {
+      pair(row.Word(1), p);
+    } else {
+      row.Fail("middle or side expected");
+    }
+  }
+  const auto on_lid = [&](float x, float y) {
+    return glm::vec3(x, y, eye.LidAxisZ(x) + eye.LidRadius(x)) + eye_shift;
+  };
+  const float middle = eye.centre().x;
+  pair("endocanthion", on_lid(eye.inner_x(), eye.UpperY(eye.inner_x())));
+  pair("exocanthion", on_lid(eye.outer_x(), eye.UpperY(eye.outer_x())));
+  pair("palpebrale_superius", on_lid(middle, eye.UpperY(middle)));
+  pair("palpebrale_inferius", on_lid(middle, eye.LowerY(middle)));
+  pair("pupil", eye.centre() + eye_shift + glm::vec3(0, 0, eye.radius()));
+  pair("tragion", {65.7f, 0, 0});
+  for (const auto& [name, place] : EarLandmarks()) pair(name, place);
+  return landmarks;
+}
+
+glm::vec2 Unroll(glm::vec3 p) {
+  constexpr float kPi = std::numbers::pi_v<float>;
+  const float turn = std::atan2(p.x, p.z) / kPi;  // -1..1, 0 to the front
+  const float part = std::abs(turn);
+  constexpr float kFront = 1.0f / 3;
+  const float wide = part < kFront ? 0.6f * part / kFront : 0.6f + 0.6f * (part - kFront);
+  return {0.5f + std::copysign(0.5f * wide, turn), std::clamp((p.y + 200) / 340, 0.0f, 1.0f)};
+}
+
+}  // namespace fsm

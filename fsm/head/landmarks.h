@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <span>
+#include <string>
+
+#include "fsm/head/anatomy.h"
+#include "fsm/head/cage.h"
+#include "fsm/head/subdivide.h"
+
+namespace fsm {
+
+using Landmarks = std::map<std::string, glm::vec3, std::less<>>;
+
+/// The points of tables/landmarks.txt and those of eyes and ears at rest; `rest` begins with the
+/// vertices of `fine`. Throws std::runtime_error naming file and line if the table is damaged.
+Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
+                        const EyeAnatomy& eye, glm::vec3 eye_shift);
+
+/// Texture coordinates of a place of the base head, see HeadTopology::uv.
+glm::vec2 Unroll(glm::vec3 p);
+
+}  // namespace fsm
