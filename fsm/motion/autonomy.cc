@@ -37,7 +37,9 @@ void Add(Angles& out, const Angles& more, double weight) {
 }
 
 // From 0 at u = 0 to 1 in the middle and back to 0 at u = 1.
-double Swing(double u) { return u <= 0 || u >= 1 ? 0 : (1 - std::cos(u * 2 * std::numbers::pi)) / 2; }
+double Swing(double u) {
+  return u <= 0 || u >= 1 ? 0 : (1 - std::cos(u * 2 * std::numbers::pi)) / 2;
+}
 
 }  // namespace
 
@@ -165,7 +167,8 @@ EyeAngles Autonomy::ThinkingAt(vm::Time t, vm::Time since) const {
   const auto place = [&](std::int64_t index) -> std::array<double, 2> {
     if (index < 0) return {0, 0};
     const double side = std::copysign(1, habit + 0.8 * Random(kThinkSide, index + 1));
-    return {-5 + 7 * Random(kThinkHeight, index), side * (11 + 4 * Random(kThinkHeight, index + 50))};
+    return {-5 + 7 * Random(kThinkHeight, index),
+            side * (11 + 4 * Random(kThinkHeight, index + 50))};
   };
   const auto from = place(k - 1), to = place(k);
   const double u = SmootherStep((ms - jump_ms(k)) / 55);
@@ -180,7 +183,8 @@ vm::Time Autonomy::BlinkStart(std::size_t index) const {
   const double mean = table_.auto_blinks[own.pattern - 1].interval_ms;
   while (blink_starts_.size() <= index) {
     const auto n = static_cast<std::int64_t>(3 * blink_starts_.size());
-    const double normal = Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
+    const double normal =
+        Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
     const double interval = mean * std::clamp(0.93 * std::exp(0.4 * normal), 0.5, 1.5);
     const vm::Time before = blink_starts_.empty() ? own.since : blink_starts_.back();
     blink_starts_.push_back(before + FromMs(blink_starts_.empty() ? 0.6 * interval : interval));
@@ -214,8 +218,8 @@ std::optional<vm::Time> Autonomy::NextActivity(vm::Time t) const {
   const AutoBlink& blinks = table_.auto_blinks[Of(Life::kBlink).pattern - 1];
   const vm::Time length = LengthOf(table_.blinks[blinks.blink]);
   while (blink_starts_.empty() || blink_starts_.back() <= t) (void)BlinkStart(blink_starts_.size());
-  const auto first = std::ranges::find_if(
-      blink_starts_, [&](const vm::Time start) { return t < start + length; });
+  const auto first =
+      std::ranges::find_if(blink_starts_, [&](const vm::Time start) { return t < start + length; });
   return Earlier(next, std::max(t, *first));
 }
 

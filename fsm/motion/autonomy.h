@@ -11,11 +11,11 @@
 
 namespace fsm {
 
-/// What a face does by itself: blinks, small movements of head and eyes, breath, nods of a listener.
-/// Everything is a function of the seed and the time, with no state but what is switched on, so any
-/// instant can be asked for in any order. The kinds that belong to commands or to speech are only
-/// switched here and used by FaceMotion. The table outlives it. Thread: none of its own; not even
-/// const calls may run at once.
+/// What a face does by itself: blinks, small movements of head and eyes, breath, nods of a
+/// listener. Everything is a function of the seed and the time, with no state but what is switched
+/// on, so any instant can be asked for in any order. The kinds that belong to commands or to speech
+/// are only switched here and used by FaceMotion. The table outlives it. Thread: none of its own;
+/// not even const calls may run at once.
 class Autonomy {
  public:
   /// ASYMMETRY is on, everything else is off.

@@ -11,17 +11,17 @@ namespace fsm {
 namespace {
 
 constexpr double kForever = 1e9;
-constexpr double kRise = 55;           // of a contact
-constexpr double kPauseEase = 60;      // lips meet in a pause, and part before its end
+constexpr double kRise = 55;            // of a contact
+constexpr double kPauseEase = 60;       // lips meet in a pause, and part before its end
 constexpr double kShortestPause = 120;  // in which they do
-constexpr double kJawGives = 0.75;     // of the jaw's way, where the lips close over it
+constexpr double kJawGives = 0.75;      // of the jaw's way, where the lips close over it
 
 // Which dominance rules each of the 17 parameters (face_state.h): the jaw, the lips' opening, or
 // their rounding.
 enum Group : std::size_t { kJaw, kLips, kRound, kTongue, kGroups };
 constexpr std::array<Group, kMouthParameters> kGroupOf = {
-    kLips,  kRound, kLips,  kRound, kLips, kRound, kLips, kRound, kRound,
-    kRound, kRound, kJaw,   kJaw,   kLips, kLips,  kLips, kLips};
+    kLips,  kRound, kLips, kRound, kLips, kRound, kLips, kRound, kRound,
+    kRound, kRound, kJaw,  kJaw,   kLips, kLips,  kLips, kLips};
 
 double Bell(double distance_ms, double reach_ms) {
   const double d = distance_ms / reach_ms;

@@ -12,7 +12,7 @@ namespace fsm {
 
 /// An emotion: its looks by pattern number, and how it comes about.
 struct Emotion {
-  std::vector<ActionUnits> patterns;      ///< pattern 1 is patterns[0]
+  std::vector<ActionUnits> patterns;  ///< pattern 1 is patterns[0]
   /// How it comes about: ms from neutral to the peak, and by how much each part of the face begins
   /// later than the first.
   struct Timing {

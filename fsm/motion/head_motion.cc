@@ -7,7 +7,7 @@ namespace fsm {
 namespace {
 constexpr vm::Time kFade = std::chrono::milliseconds(80);
 constexpr double kSmaller = 0.85;  // a movement repeated, against the one before
-}
+}  // namespace
 
 void HeadMotion::TurnTo(vm::Time now, const Angles& angles, vm::Time duration) {
   turn_.MoveTo(now, angles, duration);

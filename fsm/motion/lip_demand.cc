@@ -79,8 +79,9 @@ LipDemands MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tabl
     const auto index = static_cast<std::size_t>(part.look.shape);
     const MouthShape& shape = set.shapes[index];
     const bool pause = index == set.rest;
-    LipDemand demand{part.start_ms,   part.length_ms, Scaled(shape, part.look.strength, style), 0,
-                     shape.dominance, pause,          part.holds};
+    LipDemand demand{
+        part.start_ms, part.length_ms, Scaled(shape, part.look.strength, style), 0, shape.dominance,
+        pause,         part.holds};
     if (part.holds) {
       demand.hold_ms = part.length_ms - kApproachMs;
     } else if (shape.hold > 0) {

@@ -162,12 +162,14 @@ vm::Result<void> MotionReader::ReadLine(const TableLine& line) {
     return ReadCurve(line);
   }
   if (kind == "BLINK") {
-    return numbers(out_.blinks, 3, "BLINK PATTERN CLOSING SHUT OPENING, ms,", 1, [](const Numbers& v) {
-      return BlinkPattern{v[0], v[1], v[2]};
-    });
+    return numbers(out_.blinks, 3, "BLINK PATTERN CLOSING SHUT OPENING, ms,", 1,
+                   [](const Numbers& v) {
+                     return BlinkPattern{v[0], v[1], v[2]};
+                   });
   }
   if (kind == "AUTOBLINK") {
-    const auto v = ReadNumbers(line, out_.auto_blinks.size(), 2, "AUTOBLINK PATTERN INTERVAL BLINK");
+    const auto v =
+        ReadNumbers(line, out_.auto_blinks.size(), 2, "AUTOBLINK PATTERN INTERVAL BLINK");
     if (!v) return std::unexpected(v.error());
     if ((*v)[0] < 500 || (*v)[1] < 1 || (*v)[1] > static_cast<double>(out_.blinks.size())) {
       return table_.Wrong(line.number, "an interval of at least 500 ms and a blink above expected");
@@ -176,32 +178,42 @@ vm::Result<void> MotionReader::ReadLine(const TableLine& line) {
     return {};
   }
   if (kind == "AUTOMOVE") {
-    return numbers(out_.auto_moves, 4, "AUTOMOVE PATTERN X Y Z PERIOD, at least 100 ms,", 100,
-                   [](const Numbers& v) {
-                     return AutoMove{{static_cast<float>(v[0]), static_cast<float>(v[1]),
-                                      static_cast<float>(v[2])},
-                                     v[3]};
-                   });
+    return numbers(
+        out_.auto_moves, 4, "AUTOMOVE PATTERN X Y Z PERIOD, at least 100 ms,", 100,
+        [](const Numbers& v) {
+          return AutoMove{
+              {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}, v[3]};
+        });
   }
   if (kind == "AUTOGAZE") {
     return numbers(out_.auto_gazes, 2, "AUTOGAZE PATTERN ANGLE INTERVAL, at least 200 ms,", 200,
-                   [](const Numbers& v) { return AutoGaze{v[0], v[1]}; });
+                   [](const Numbers& v) {
+                     return AutoGaze{v[0], v[1]};
+                   });
   }
   if (kind == "AUTOBREATH") {
     return numbers(out_.auto_breaths, 2, "AUTOBREATH PATTERN PITCH PERIOD, at least 500 ms,", 500,
-                   [](const Numbers& v) { return AutoBreath{v[0], v[1]}; });
+                   [](const Numbers& v) {
+                     return AutoBreath{v[0], v[1]};
+                   });
   }
   if (kind == "AUTONODS") {
     return numbers(out_.auto_nods, 2, "AUTONODS PATTERN ANGLE INTERVAL, at least 2000 ms,", 2000,
-                   [](const Numbers& v) { return AutoNods{v[0], v[1]}; });
+                   [](const Numbers& v) {
+                     return AutoNods{v[0], v[1]};
+                   });
   }
   if (kind == "AUTOSPEECH") {
     return numbers(out_.auto_speeches, 4, "AUTOSPEECH PATTERN NOD TURN TILT BROW", 0,
-                   [](const Numbers& v) { return AutoSpeech{v[0], v[1], v[2], v[3]}; });
+                   [](const Numbers& v) {
+                     return AutoSpeech{v[0], v[1], v[2], v[3]};
+                   });
   }
   if (kind == "AUTOAVERT") {
     return numbers(out_.auto_averts, 2, "AUTOAVERT PATTERN ANGLE SHORTEST", 0,
-                   [](const Numbers& v) { return AutoAvert{v[0], v[1]}; });
+                   [](const Numbers& v) {
+                     return AutoAvert{v[0], v[1]};
+                   });
   }
   if (kind == "AUTOFACE") return ReadFace(line);
   if (kind == "LIFE") return ReadProfile(line);

@@ -126,7 +126,8 @@ vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_v
 
 namespace {
 
-vm::Result<void> ReadDominanceRow(const TableText& table, const TableLine& line, MouthShape& shape) {
+vm::Result<void> ReadDominanceRow(const TableText& table, const TableLine& line,
+                                  MouthShape& shape) {
   const std::string& kind = line.words[3];
   if (kind != "vowel" && kind != "consonant" && kind != "pause") {
     return table.Wrong(line.number, "'" + kind + "' found; vowel, consonant or pause expected");
@@ -136,9 +137,11 @@ vm::Result<void> ReadDominanceRow(const TableText& table, const TableLine& line,
   std::array<double, 6> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const bool early = i == 4;
-    const auto value = table.Number(
-        line, 4 + i, early ? "ms of anticipation" : i == 5 ? "a contact" : "a dominance", 0,
-        early ? 500 : 1);
+    const auto value = table.Number(line, 4 + i,
+                                    early    ? "ms of anticipation"
+                                    : i == 5 ? "a contact"
+                                             : "a dominance",
+                                    0, early ? 500 : 1);
     if (!value) return std::unexpected(value.error());
     values[i] = *value;
   }
@@ -178,8 +181,8 @@ vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, 
     MouthShapes& set = line.words[1] == "14" ? set14 : set28;
     const auto shape = std::ranges::find(set, line.words[2], &MouthShape::name);
     if (shape == set.end()) {
-      return table.Wrong(line.number, "there is no mouth shape '" + line.words[2] + "' in set " +
-                                          line.words[1]);
+      return table.Wrong(line.number,
+                         "there is no mouth shape '" + line.words[2] + "' in set " + line.words[1]);
     }
     if (auto read = ReadDominanceRow(table, line, *shape); !read) {
       return std::unexpected(read.error());

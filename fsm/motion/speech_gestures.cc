@@ -111,7 +111,8 @@ std::array<double, 2> SpeechGestures::AvertAt(double position_ms, double shortes
   const auto [away, back] = AvertTimes(shortest_ms);
   if (back <= away) return {};
   // The jumps of the eyes take about 45 ms at ten degrees (main sequence).
-  const double u = SmootherStep((position_ms - away) / 45) - SmootherStep((position_ms - back) / 45);
+  const double u =
+      SmootherStep((position_ms - away) / 45) - SmootherStep((position_ms - back) / 45);
   const double side = RandomAt(seed_, kAvertSide, 0);
   return {u * (side > 0.2 ? -0.5 : 0.45), u * std::copysign(0.8, side)};
 }

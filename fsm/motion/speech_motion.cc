@@ -83,7 +83,8 @@ SpeechMotion::Gesture SpeechMotion::GestureAt(vm::Time t, double shortest_avert_
   for (const Layer& layer : layers_) {
     if (t < layer.begin || t >= GoneAt(layer)) continue;
     const double position = MouthPosition(layer, t);
-    const double stays = layer.stopped ? 1 - SmoothStep(Progress(t, *layer.stopped, kHeadStops)) : 1;
+    const double stays =
+        layer.stopped ? 1 - SmoothStep(Progress(t, *layer.stopped, kHeadStops)) : 1;
     const SpeechGestures::At head = layer.gestures.HeadAt(position);
     const auto avert = layer.gestures.AvertAt(position, shortest_avert_ms);
     out.head.nod += stays * head.nod;

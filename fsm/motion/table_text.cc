@@ -31,8 +31,9 @@ TableText::TableText(std::string name, std::string_view text) : name_(std::move(
 std::unexpected<vm::Error> TableText::Wrong(int line, const std::string& text) const {
   // What stands in a damaged file is shown, but not all of a very long word and no control bytes.
   constexpr std::size_t kShown = 400;
-  std::string shown = text.size() <= kShown ? text : text.substr(0, kShown / 2) + "..." +
-                                                         text.substr(text.size() - kShown / 2);
+  std::string shown = text.size() <= kShown ? text
+                                            : text.substr(0, kShown / 2) + "..." +
+                                                  text.substr(text.size() - kShown / 2);
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }

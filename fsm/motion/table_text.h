@@ -33,8 +33,8 @@ class TableText {
   std::vector<TableLine> lines_;
 };
 
-/// The bytes of a table's file. Errors: kUnavailable if it cannot be read or is no plain file, kLimit
-/// if it is longer than kMaxTableBytes (a table is something people write).
+/// The bytes of a table's file. Errors: kUnavailable if it cannot be read or is no plain file,
+/// kLimit if it is longer than kMaxTableBytes (a table is something people write).
 vm::Result<std::string> ReadTableFile(const std::string& path);
 inline constexpr std::size_t kMaxTableBytes = 4 * 1024 * 1024;
 

@@ -14,13 +14,15 @@ vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view te
   for (const TableLine& line : table.lines()) {
     const bool code = line.words[0] == "code";
     if ((!code && line.words[0] != "unit") || line.words.size() != (code ? 11u : 3u)) {
-      return table.Wrong(line.number, "unit NUMBER NAME, or code NUMBER NAME and 8 numbers expected");
+      return table.Wrong(line.number,
+                         "unit NUMBER NAME, or code NUMBER NAME and 8 numbers expected");
     }
     const auto number = table.Number(line, 1, "a number of FACS", 1, 99);
     if (!number) return std::unexpected(number.error());
     const int unit = static_cast<int>(*number);
     if (IsActionUnit(unit) == code) {
-      return table.Wrong(line.number, fmt::format("{} is {}an action unit", unit, code ? "" : "not "));
+      return table.Wrong(line.number,
+                         fmt::format("{} is {}an action unit", unit, code ? "" : "not "));
     }
     if (!out.by_name.emplace(line.words[2], unit).second || out.names.contains(unit)) {
       return table.Wrong(line.number, "'" + line.words[2] + "' or its number is here twice");
@@ -68,8 +70,9 @@ std::vector<Word> WordsOf(std::string_view text) {
 }
 
 std::unexpected<vm::Error> Wrong(const Word& word, std::string_view what) {
-  auto failure = vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' at column {} is {}",
-                                                           word.text.substr(0, 60), word.column, what));
+  auto failure =
+      vm::Fail(vm::Errc::kBadValue,
+               fmt::format("'{}' at column {} is {}", word.text.substr(0, 60), word.column, what));
   return failure;
 }
 
