@@ -9,7 +9,7 @@ namespace fsm {
 Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
                    const ActionUnits& units, const EyeAnatomy& eye, glm::vec3 eye_shift,
-                   const MouthAnatomy& mouth)
+                   const MouthAnatomy& mouth, glm::vec3 teeth_shift)
     : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)) {
   for (std::size_t side = 0; side < 2; ++side) {
     std::array<std::vector<glm::vec3>, kActionUnits> sums;
@@ -32,6 +32,11 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
   AddMouthFields(mouth);
   upper_teeth_ = mouth.UpperTeeth();
   lower_teeth_ = mouth.LowerTeeth();
+  for (ToothArch* arch : {&upper_teeth_, &lower_teeth_}) {
+    arch->front_z += teeth_shift.z;
+    arch->edge_y += teeth_shift.y;
+    arch->root_y += teeth_shift.y;
+  }
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     if (!flesh_[i].by_teeth) continue;
     const glm::vec3 p = rest_[i];

@@ -43,11 +43,12 @@ glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 /// measured, so that both give the same numbers. Immutable; thread: any.
 class Deformer {
  public:
-  /// `seam` pairs index the arrays given. `eye_shift`: of the left eye from where `eye` has it.
-  /// Flesh::lip_column indexes `seam`.
+  /// `seam` pairs index the arrays given. `eye_shift`: of the left eye from where `eye` has it;
+  /// `teeth_shift` likewise. Flesh::lip_column indexes `seam`.
   Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
            std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const ActionUnits& units,
-           const EyeAnatomy& eye, glm::vec3 eye_shift, const MouthAnatomy& mouth);
+           const EyeAnatomy& eye, glm::vec3 eye_shift, const MouthAnatomy& mouth,
+           glm::vec3 teeth_shift);
 
   std::size_t size() const { return rest_.size(); }
   /// Writes size() positions, the head's turn not yet applied.

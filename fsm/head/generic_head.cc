@@ -103,8 +103,7 @@ class GenericHead : public Head {
   /// move as wholes.
   void Shape(const Shaper& shaper, HeadMesh& mesh) {
     eye_shift_ = shaper.Motion(eye_.centre());
-    const glm::vec3 teeth =
-        shaper.Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) * glm::vec3(0, 0.5f, 0.5f);
+    teeth_shift_ = shaper.Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) * glm::vec3(0, 0.5f, 0.5f);
     for (std::size_t i = 0; i < mesh.position.size(); ++i) {
       glm::vec3& p = mesh.position[i];
       switch (mesh.bone[i]) {
@@ -114,11 +113,11 @@ class GenericHead : public Head {
           break;
         case Bone::kJaw:
         case Bone::kTongue:
-          p += teeth;
+          p += teeth_shift_;
           break;
         case Bone::kSkull: {
           const bool tooth = p.z > 30 && std::abs(p.x) < 40;
-          p += tooth ? teeth : shaper.Motion(p);
+          p += tooth ? teeth_shift_ : shaper.Motion(p);
           break;
         }
         case Bone::kFlesh: {
@@ -160,7 +159,7 @@ class GenericHead : public Head {
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
     face_.emplace(std::vector<glm::vec3>(rest_.begin(), rest_.begin() + flesh_end),
                   std::vector<Flesh>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end), skin.seam,
-                  units_, eye_, eye_shift_, mouth_);
+                  units_, eye_, eye_shift_, mouth_, teeth_shift_);
     const auto [upper, lower] = skin.seam[skin.mid_column];
     std::vector<glm::vec3> rest;
     std::vector<Flesh> flesh;
@@ -171,7 +170,7 @@ class GenericHead : public Head {
     }
     probe_.emplace(std::move(rest), std::move(flesh),
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_,
-                   eye_shift_, mouth_);
+                   eye_shift_, mouth_, teeth_shift_);
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
     for (glm::vec3& colour : topology_.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
@@ -279,6 +278,7 @@ class GenericHead : public Head {
   ActionUnits units_;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
+  glm::vec3 teeth_shift_{};      // from the base head's
   glm::vec3 eye_shift_{};        // of the left eye from the base head's
   std::vector<glm::vec3> base_;  // the base head's rest form, for texture coordinates
   HeadTopology topology_;

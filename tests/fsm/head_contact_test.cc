@@ -103,6 +103,38 @@ TEST(HeadContactTest, LipsDoNotCrossInTenThousandRandomStates) {
   }
 }
 
+TEST(HeadContactTest, EveryIdentityClosesItsEyes) {
+  for (const IdentityInfo& identity : Head::Identities()) {
+    const auto head = Head::Make(identity.name);
+    FaceState blink;
+    blink.blink_left = blink.blink_right = 1;
+    HeadVertices v;
+    head->Evaluate(blink, v);
+    const HeadTopology& topology = head->topology();
+    const glm::vec3 pupil = topology.eyes[1].centre + glm::vec3(0, 0, 13.2f);
+    for (const glm::vec2 off : {glm::vec2(0, 0), {6, 0}, {-6, 1}, {0, 4}, {0, -4}, {3, 3}}) {
+      const glm::vec2 p(pupil.x + off.x, pupil.y + off.y);
+      bool covered = false;
+      for (const HeadTopology::Part& part : topology.parts) {
+        if (part.material != Material::kSkin) continue;
+        for (std::uint32_t k = 0; k < part.index_count && !covered; k += 3) {
+          const std::uint32_t* i = &topology.indices[part.first_index + k];
+          const glm::vec3 a = v.position[i[0]], b = v.position[i[1]], c = v.position[i[2]];
+          const float area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+          if (area <= 1e-6f) continue;
+          const float wa = ((b.x - p.x) * (c.y - p.y) - (b.y - p.y) * (c.x - p.x)) / area;
+          const float wb = ((c.x - p.x) * (a.y - p.y) - (c.y - p.y) * (a.x - p.x)) / area;
+          if (wa < -1e-3f || wb < -1e-3f || wa + wb > 1.001f) continue;
+          const float reach = glm::length(off) / 12;
+          covered = wa * a.z + wb * b.z + (1 - wa - wb) * c.z >
+                    pupil.z - 13.2f + 12 * std::sqrt(1 - reach * reach);
+        }
+      }
+      EXPECT_TRUE(covered) << identity.name << " " << off.x << " " << off.y;
+    }
+  }
+}
+
 TEST(HeadContactTest, TeethStayBehindTheLips) {
   for (std::size_t a = 1; a < kActionUnits; ++a) {
     for (const std::size_t b : {a, std::size_t{12}, std::size_t{26}, std::size_t{25}}) {

@@ -5,6 +5,7 @@
 #include "fsm/head/action_units.h"
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/table_reader.h"
 
 namespace fsm {
@@ -72,6 +73,69 @@ TEST(HeadTablesTest, CageAndCurvesAreChecked) {
             "c.txt:2: has 2 values, 'x' has 3");
   EXPECT_EQ(Complaint([&] { ReadCurve(Table("c.txt", "x 0 2 1\ny 0 1 2\n"), "x", "y"); }),
             "c.txt:1: must ascend");
+}
+
+EyeAnatomy SomeEye() {
+  return EyeAnatomy(Table("eye.txt",
+                          "ball 30 22 63 12\niris 6 2\nlid_radius -18 0 18\nlid_value 2 13.7 2\n"
+                          "lid_shear 0\nupper_lid_x 16 30 44\nupper_lid_y 20 27 22\n"
+                          "lower_lid_x 16 30 44\nlower_lid_y 20 17 22\nmeet 0.8\n"));
+}
+
+MouthAnatomy SomeMouth() {
+  return MouthAnatomy(
+      Table("mouth.txt",
+            "corner 25 -42 78\nline_x 0 25\nline_y -43 -42\nline_z 88 78\nupper_x 0 25\n"
+            "upper_y 8 0\nlower_x 0 25\nlower_y -9 0\nupper_full 0 .3 0\nlower_full 0 .3 0\n"
+            "border_z 3 1\n"));
+}
+
+std::string CageComplaint(std::string_view curves, std::string_view patches) {
+  // An orbit must come first and the lips' rings exist for anything to be built.
+  std::string text = "curve orbit";
+  for (int i = 0; i < 18; ++i) text += " " + std::to_string(20 + i) + ",22,60";
+  text += '\n';
+  for (const char* name : {"lip_a", "lip_b", "lip_c"}) {
+    text += std::string("curve ") + name;
+    for (int i = 0; i < 13; ++i) text += " " + std::to_string(i) + ",-40,80";
+    text += '\n';
+  }
+  text += curves;
+  return Complaint([&] {
+    ReadCage(Table("curves.txt", text), Table("patches.txt", patches), SomeEye(), SomeMouth());
+  });
+}
+
+TEST(HeadTablesTest, CageTablesNameFileLineAndFault) {
+  EXPECT_EQ(CageComplaint("curve a 1,2\n", ""), "curves.txt:5: a place is x,y,z");
+  EXPECT_EQ(CageComplaint("curve a 1,2,x\n", ""),
+            "curves.txt:5: 'x' found where a number was expected");
+  EXPECT_EQ(CageComplaint("curve a orbit.18\n", ""), "curves.txt:5: there is no point 'orbit.18'");
+  EXPECT_EQ(CageComplaint("curve a b.0\n", ""), "curves.txt:5: there is no curve 'b'");
+  EXPECT_EQ(CageComplaint("curve a ~ 1,2,3\n", ""),
+            "curves.txt:5: ~ must lie between given points");
+  EXPECT_EQ(CageComplaint("line a\n", ""), "curves.txt:5: unknown word 'line'");
+  EXPECT_EQ(CageComplaint("", "strip wood fine orbit 1 orbit\n"),
+            "patches.txt:1: 'wood' found where skin, rim, lip or inside was expected");
+  EXPECT_EQ(CageComplaint("", "strip skin fine orbit 1 lip_a\n"),
+            "patches.txt:1: lip_a has 13 points, orbit has 18");
+  EXPECT_EQ(CageComplaint("", "strip skin fine orbit\n"), "patches.txt:1: CURVE n CURVE expected");
+  EXPECT_EQ(CageComplaint("", "blob skin fine orbit\n"), "patches.txt:1: unknown word 'blob'");
+}
+
+TEST(HeadTablesTest, IdentitiesAndSlidersAreChecked) {
+  EXPECT_EQ(Complaint([] {
+              ReadIdentity(Table("i.txt", "face galatea\ncolour tail 1 1 1\n"), "galatea");
+            }),
+            "i.txt:2: no part of a face is called tail");
+  EXPECT_EQ(Complaint([] { ReadIdentity(Table("i.txt", "face other\n"), "galatea"); }),
+            "i.txt: no face 'galatea'");
+  EXPECT_EQ(Complaint([] { Shaper(Table("s.txt", "slider a 0 0 0 1 0 1 1 1 1\n"), {}); }),
+            "s.txt:1: a radius must be positive");
+  EXPECT_EQ(Complaint([] {
+              Shaper(Table("s.txt", "slider a 0 0 0 1 1 1 1 1 1\n"), {{"b", 1.0f}});
+            }),
+            "s.txt: no slider 'b'");
 }
 
 TEST(HeadTablesTest, SplineGoesThroughItsPoints) {
