@@ -26,6 +26,25 @@ TEST(FsmModuleTest, AnswersAsTheOriginal) {
   EXPECT_EQ(fsm.Say("inq Capture"), "rep Capture = DISABLE");
 }
 
+TEST(FsmModuleTest, CameraLampsAndBackgroundAreChecked) {
+  FsmStage fsm;
+  for (const char* line : {"set Camera = 0.5", "set Camera = 0.5 20 40 -30", "set Light.key = 2",
+                           "set Light.fill = 0 90 -10", "set Light.rim = 1 -150 30 #ff8000",
+                           "set Light.key = 1 #ffffff", "set Background = transparent",
+                           "set Background = #102030", "set Window = 320 240"}) {
+    EXPECT_EQ(fsm.Say(line).find("Error"), std::string::npos) << line;
+  }
+  for (const char* line :
+       {"set Camera = nan", "set Camera = 0", "set Camera = 1 1e9", "set Light.key = -1",
+        "set Light.key = 1 90", "set Light.key = 1 #12345", "set Light.rim = 1 0 0 red",
+        "set Window = FULLSCREEN", "set Background = #12345g"}) {
+    const std::string slot = std::string(line).substr(4, std::string(line).find(' ', 4) - 4);
+    const std::string before = fsm.Say("inq " + slot);
+    fsm.Say(line);
+    EXPECT_EQ(fsm.Say("inq " + slot), before) << line;
+  }
+}
+
 TEST(FsmModuleTest, NoSlotReportsByItselfAtFirst) {
   FsmStage fsm;
   for (const char* line : {"set Face.1 = 100",
