@@ -20,6 +20,7 @@ struct Pose {
   std::array<float, kMouthParameters> mouth;
   std::array<UnitEffects::Lids, 2> lids;  ///< right, left; gaze and blink included
   float jaw_rad = 0, jaw_slide_mm = 0, jaw_sway_mm = 0;
+  float jaw_cos = 1, jaw_sin = 0;  // of jaw_rad
   float seal = 0;
   float tongue_raise = 0, tongue_out_mm = 0;
   std::array<glm::mat3, 2> eye;  ///< right, left

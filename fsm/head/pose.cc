@@ -49,6 +49,8 @@ Pose MakePose(const FaceState& state, const ActionUnits& table) {
   // A mandible opens 25-30 degrees and slides about a millimetre forward for every three of them.
   const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[11], -30, 30), 0, 28);
   pose.jaw_rad = degrees * kRadians;
+  pose.jaw_cos = std::cos(pose.jaw_rad);
+  pose.jaw_sin = std::sin(pose.jaw_rad);
   pose.jaw_slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[12], -6, 10), -4, 12);
   pose.jaw_sway_mm = Bound(effects.jaw_sway_mm, -10, 10);
   pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
@@ -76,8 +78,8 @@ Pose MakePose(const FaceState& state, const ActionUnits& table) {
 
 glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight) {
   const float angle = pose.jaw_rad * weight;
-  const float c = std::cos(angle);
-  const float s = std::sin(angle);
+  const float c = weight == 1 ? pose.jaw_cos : std::cos(angle);
+  const float s = weight == 1 ? pose.jaw_sin : std::sin(angle);
   const float y = p.y - kHingeY;
   const float z = p.z - kHingeZ;
   return {p.x + weight * pose.jaw_sway_mm, kHingeY + y * c - z * s,
@@ -85,8 +87,8 @@ glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight) {
 }
 
 glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose) {
-  const float c = std::cos(pose.jaw_rad);
-  const float s = std::sin(pose.jaw_rad);
+  const float c = pose.jaw_cos;
+  const float s = pose.jaw_sin;
   const float y = p.y - kHingeY;
   const float z = p.z - kHingeZ - pose.jaw_slide_mm;
   return {p.x - pose.jaw_sway_mm, kHingeY + y * c + z * s, kHingeZ + z * c - y * s};
