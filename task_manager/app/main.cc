@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
       ->default_str("-");
   app.add_option("--connect", options.connect, "the hub: unix:PATH or tcp:HOST:PORT");
   app.add_option("--name", options.name, "this module's name at the hub");
+  app.add_option("--out", options.out, "with a hub: a film of the whole dialogue, FILE.mp4");
   app.add_option("--sessions", options.sessions, "independent sessions of the same document")
       ->check(CLI::Range(1, 1000));
   app.add_option("--allow", options.allow, "only fetch from URIs or folders that begin so");

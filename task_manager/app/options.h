@@ -17,6 +17,7 @@ struct Options {
   std::string trace;  ///< file, "-" = stderr, "" = none
   std::string connect;
   std::string name = "DM";
+  std::string out;  ///< film of the dialogue, .mp4
   bool check = false;
   bool graph = false;
   bool strict = false;

@@ -38,8 +38,8 @@ int RunOne(const Options& options, int number, std::mutex& out) {
     platform_options.script =
         ReadScript(options.scripts[static_cast<std::size_t>(number) % options.scripts.size()]);
   }
-  const bool json = options.transcript == "json" ||
-                    (options.transcript == "auto" && !options.scripts.empty());
+  const bool json =
+      options.transcript == "json" || (options.transcript == "auto" && !options.scripts.empty());
   platform_options.write = [&](const std::string& line) {
     if (options.transcript == "none") return;
     const std::string text = json ? line : Readable(line);
@@ -47,6 +47,10 @@ int RunOne(const Options& options, int number, std::mutex& out) {
     if (!text.empty()) std::cout << text << std::endl;
   };
   AgentPlatform platform(hub, std::move(platform_options));
+  if (!options.out.empty()) {
+    auto begun = hub.Ask("to @AM-MCL set Record = " + options.out, Millis(10'000));
+    if (!begun) throw std::runtime_error("--out " + options.out + ": " + begun.error().text);
+  }
   SessionOptions session_options = MakeSessionOptions(options);
   if (!options.trace.empty() && options.sessions == 1) {
     session_options.trace = [](std::string_view kind, const JsonLine& fields) {
@@ -55,6 +59,11 @@ int RunOne(const Options& options, int number, std::mutex& out) {
   }
   Session session(std::move(session_options), platform);
   const SessionResult result = session.Run();
+  if (!options.out.empty()) {
+    platform.Pause(Millis(700));
+    auto made = hub.Ask("to @AM-MCL set Record = STOP", Millis(180'000));
+    if (!made) throw std::runtime_error("--out " + options.out + ": " + made.error().text);
+  }
   if (result.failed) return session.started() ? kFailed : kNotStarted;
   return platform.ran_out() ? kRanOut : kEnded;
 }

@@ -100,6 +100,10 @@ void Session::RunForeach(const xml::Node& node) {
   if (!engine_.IsArray(array)) {
     ThrowSemantic(*context_->document, node, "'" + node.Get("array") + "' is not an array");
   }
+  if (engine_.Length(array) > options_.max_steps_between_inputs) {
+    ThrowEvent("error.noresource",
+               "<foreach> over " + std::to_string(engine_.Length(array)) + " elements");
+  }
   const Value copy = engine_.Copy(array);  // changes inside do not change the turns
   const std::size_t length = engine_.Length(copy);
   const std::string item = node.Get("item");

@@ -171,6 +171,9 @@ class PromptBuilder {
     if (!s_.engine_.IsArray(array)) {
       ThrowSemantic(*s_.context_->document, node, "'" + node.Get("array") + "' is not an array");
     }
+    if (s_.engine_.Length(array) > s_.options_.max_steps_between_inputs) {
+      ThrowEvent("error.noresource", "<foreach> over too many elements");
+    }
     const Value copy = s_.engine_.Copy(array);
     const std::string item = node.Get("item");
     const std::size_t length = s_.engine_.Length(copy);

@@ -42,10 +42,12 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
     : hub_(hub), options_(std::move(options)) {
   const std::string& ear = options_.ear;
   hub_.client().On("Result", [this](const vm::Message& m) {
-    if (m.from == options_.ear) heard_.push_back({Input::Kind::kSpeech, {{m.value, 1.0}}, "", {}, ""});
+    if (m.from == options_.ear)
+      heard_.push_back({Input::Kind::kSpeech, {{m.value, 1.0}}, "", {}, ""});
   });
   hub_.client().On("NoMatch", [this](const vm::Message& m) {
-    if (m.from == options_.ear) heard_.push_back({Input::Kind::kSpeech, {{m.value, 1.0}}, "", {}, ""});
+    if (m.from == options_.ear)
+      heard_.push_back({Input::Kind::kSpeech, {{m.value, 1.0}}, "", {}, ""});
   });
   hub_.client().On("Listen.stat", [this](const vm::Message& m) {
     if (m.from == options_.ear) hearing_ = m.value == "SPEECH";
@@ -64,7 +66,8 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
     while (acted_ <= index && acted_ < actions_.size()) Act(acted_++);
   });
   hub_.on_typed = [this](const std::string& line) { OnTyped(line); };
-  static_cast<void>(hub_.Ask("to @AM set Subscribe = " + ear + " " + options_.voice + " AM-MCL", kAnswer));
+  static_cast<void>(
+      hub_.Ask("to @AM set Subscribe = " + ear + " " + options_.voice + " AM-MCL", kAnswer));
   hub_.Send("to @" + options_.voice + " prop Speak.mark = AutoOutput");
   hub_.Send("to @" + ear + " set Grammar = NONE");
   static_cast<void>(hub_.Ask("to @" + ear + " set Run = START", kAnswer));
@@ -162,8 +165,10 @@ void AgentPlatform::StartParallel(const Prompt& prompt) {
   }
   if (steps.empty()) return;
   hub_.Send(
-      "to @AM-MCL def DialogueBeside = [{\"wait\": {\"from\": \"AM-MCL\", \"slot\": \"Speak.stat\", "
-      "\"value\": \"SPEAKING\"}, \"limit_ms\": 20000}" + steps + "]");
+      "to @AM-MCL def DialogueBeside = [{\"wait\": {\"from\": \"AM-MCL\", \"slot\": "
+      "\"Speak.stat\", "
+      "\"value\": \"SPEAKING\"}, \"limit_ms\": 20000}" +
+      steps + "]");
   hub_.Send("to @AM-MCL do DialogueBeside");
 }
 
@@ -207,6 +212,13 @@ bool AgentPlatform::Speaks(const std::vector<Prompt>& prompts, bool listening) {
 
 bool AgentPlatform::Play(const std::vector<Prompt>& prompts) { return Speaks(prompts, false); }
 
+/// Time of the hub passes: a film's clock is virtual, so the machine's says nothing.
+void AgentPlatform::Pause(Millis time) {
+  const std::string steps = "[{\"pause_ms\": " + std::to_string(time.count()) + "}]";
+  auto defined = hub_.Ask("to @AM-MCL def DialoguePause = " + steps, kAnswer);
+  if (defined) static_cast<void>(hub_.Ask("to @AM-MCL set DialoguePause = NOW", time + kAnswer));
+}
+
 std::optional<Input> AgentPlatform::FromScript(const Listen& listen) {
   auto command = options_.script();
   Input input;
@@ -217,7 +229,7 @@ std::optional<Input> AgentPlatform::FromScript(const Listen& listen) {
   }
   const bool silent = command->kind == Command::Kind::kSilence;
   const Millis wait = silent ? listen.timeout : kReaction;
-  static_cast<void>(hub_.Ask("to @AM set Wait = " + std::to_string(wait.count()), Millis(120'000)));
+  Pause(wait);
   if (silent) return input;
   if (command->kind == Command::Kind::kDtmf) {
     input.kind = Input::Kind::kDtmf;
@@ -236,7 +248,8 @@ std::optional<Input> AgentPlatform::Taken() {
   heard_.pop_front();
   if (!mark_.empty()) {
     input.mark = mark_;
-    input.mark_time = std::chrono::duration_cast<Millis>(std::chrono::steady_clock::now() - mark_at_);
+    input.mark_time =
+        std::chrono::duration_cast<Millis>(std::chrono::steady_clock::now() - mark_at_);
   }
   return input;
 }

@@ -40,6 +40,8 @@ class AgentPlatform final : public Platform {
   Millis Now() const override;
   void Report(std::string_view type, const JsonLine& fields) override;
   bool ran_out() const { return ran_out_; }
+  /// Lets so much of the hub's time pass.
+  void Pause(Millis time);
 
  private:
   void Say(const Prompt& prompt, bool may_be_stopped);

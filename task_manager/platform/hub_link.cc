@@ -38,9 +38,11 @@ std::optional<std::string> TakeLine(std::string& buffer) {
 
 HubLink::HubLink(const std::string& endpoint, const std::string& name, bool keyboard)
     : fd_(Connect(endpoint)), keyboard_(keyboard) {
-  client_ = std::make_unique<vm::Client>([this](std::string_view line) { Send(std::string(line)); });
+  client_ =
+      std::make_unique<vm::Client>([this](std::string_view line) { Send(std::string(line)); });
   auto named = Ask("to @AM set Name = " + name, Millis(5000));
-  if (!named) throw std::runtime_error("the hub refuses the name " + name + ": " + named.error().text);
+  if (!named)
+    throw std::runtime_error("the hub refuses the name " + name + ": " + named.error().text);
 }
 
 HubLink::~HubLink() {

@@ -55,7 +55,7 @@ struct Engine::Impl {
       Release(self, old);
       return nullptr;
     }
-    if (size > had && impl.used + (size - had) > impl.limits.heap_bytes) {
+    if (size > had && impl.used + (size - had) > impl.limits.heap_bytes + impl.allowance) {
       impl.starved = true;
       return nullptr;
     }
@@ -130,6 +130,9 @@ struct Engine::Impl {
       const std::string why = out_of_time ? "the script runs too long"
                                           : "the script needs more than " +
                                                 std::to_string(limits.heap_bytes >> 20) + " MiB";
+      // Variables may hold the whole heap: handlers get a little more, a few times, to let go of
+      // them.
+      if (starved && allowance < limits.heap_bytes / 4) allowance += std::size_t{256} << 10;
       duk_gc(context, 0);
       return {vm::Errc::kLimit, why, 0};
     }
@@ -168,6 +171,7 @@ struct Engine::Impl {
   Engine* owner = nullptr;
   const Chain* current = nullptr;
   std::size_t used = 0;
+  std::size_t allowance = 0;
   std::uint64_t steps_left = 0;
   std::chrono::steady_clock::time_point deadline;
   bool starved = false;

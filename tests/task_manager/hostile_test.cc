@@ -1,0 +1,216 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "task_manager/grammar/compiler.h"
+#include "task_manager/grammar/matcher.h"
+#include "task_manager/grammar/store.h"
+#include "task_manager/script/engine.h"
+#include "task_manager/xml/parser.h"
+#include "tests/task_manager/case_file.h"
+
+namespace vxml_test {
+namespace {
+
+std::string Times(const std::string& text, std::size_t count) {
+  std::string all;
+  all.reserve(text.size() * count);
+  for (std::size_t i = 0; i < count; ++i) all += text;
+  return all;
+}
+
+Outcome RunDoc(const std::string& body, const std::vector<std::string>& expected,
+               const std::string& script = "",
+               const std::map<std::string, std::string>& more = {}) {
+  Case made;
+  made.name = "hostile";
+  made.files = more;
+  made.files["main.vxml"] = body;
+  made.expected = expected;
+  made.script = script;
+  return RunCase(made);
+}
+
+const std::vector<std::string> kRefused{"reason: error.badfetch"};
+
+TEST(HostileXmlTest, AnEntityBombIsRefused) {
+  std::string dtd = "<?xml version=\"1.0\"?><!DOCTYPE vxml [<!ENTITY a \"lol\">";
+  for (char c = 'b'; c <= 'k'; ++c) {
+    dtd += std::string("<!ENTITY ") + c + " \"" + Times(std::string("&") + char(c - 1) + ";", 10) +
+           "\">";
+  }
+  const auto outcome =
+      RunDoc(dtd + "]><vxml version=\"2.1\"><form><block>&k;</block></form></vxml>", kRefused);
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileXmlTest, AnExternalEntityIsNotRead) {
+  const auto outcome = RunDoc(
+      "<?xml version=\"1.0\"?><!DOCTYPE vxml [<!ENTITY e SYSTEM \"file:///etc/passwd\">]>"
+      "<vxml version=\"2.1\"><form><block>[&e;]</block></form></vxml>",
+      {"prompts: []"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileXmlTest, AnAttributeOverAMegabyteIsRefused) {
+  const auto outcome =
+      RunDoc("<form id=\"" + std::string((1 << 20) + 1, 'x') + "\"><block/></form>", kRefused);
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileXmlTest, AHundredThousandLevelsAreRefused) {
+  const auto outcome =
+      RunDoc("<form><block>" + Times("<if cond=\"true\">", 100'000) + "</block></form>", kRefused);
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileXmlTest, AVeryLargeDocumentIsRefused) {
+  const auto outcome = RunDoc("<form><block>" + Times("x ", 5 << 20) + "</block></form>", kRefused);
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileXmlTest, BadEncodingsAreRefusedWithAPlace) {
+  auto parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"euc-jp\"?><a>\xff\xff</a>", "d");
+  ASSERT_FALSE(parsed);
+  EXPECT_NE(parsed.error().text.find("euc-jp"), std::string::npos);
+  parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"klingon\"?><a/>", "d");
+  ASSERT_FALSE(parsed);
+  EXPECT_NE(parsed.error().text.find("klingon"), std::string::npos);
+}
+
+TEST(HostileXmlTest, EucJpAndShiftJisAreRead) {
+  auto parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"euc-jp\"?><a>\xa4\xa2</a>", "d");
+  ASSERT_TRUE(parsed) << parsed.error().text;
+  EXPECT_EQ(parsed->root->Text(), "\u3042");
+  parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?><a>\x82\xa0</a>", "d");
+  ASSERT_TRUE(parsed) << parsed.error().text;
+  EXPECT_EQ(parsed->root->Text(), "\u3042");
+}
+
+struct EndlessScript {
+  const char* name;
+  const char* text;
+};
+class HostileScript : public ::testing::TestWithParam<EndlessScript> {};
+
+TEST_P(HostileScript, EndsInAnErrorAndTheEngineGoesOn) {
+  vxml::script::Limits limits;
+  limits.steps = 500'000;
+  limits.heap_bytes = std::size_t{8} << 20;
+  vxml::script::Engine engine(limits);
+  const vxml::script::Chain chain{engine.NewScope()};
+  EXPECT_FALSE(engine.Run(chain, GetParam().text)) << GetParam().text;
+  auto after = engine.Evaluate(chain, "6 * 7");
+  ASSERT_TRUE(after) << after.error().text;
+  EXPECT_EQ(engine.ToString(*after), "42");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Endless, HostileScript,
+    ::testing::Values(EndlessScript{"While", "while(true){}"},
+                      EndlessScript{"WhileEmpty", "while(1);"}, EndlessScript{"For", "for(;;){}"},
+                      EndlessScript{"ForTest", "for(var i=0;i>=0;i++);"},
+                      EndlessScript{"DoWhile", "do{}while(1)"},
+                      EndlessScript{"Recursion", "function f(){return f()+1} f()"},
+                      EndlessScript{"Doubling", "function f(n){if(n>0){f(n-1);f(n-1)}} f(60)"},
+                      EndlessScript{"Caught", "while(true){try{while(true){}}catch(e){}}"},
+                      EndlessScript{"Eval", "eval('while(true){}')"},
+                      EndlessScript{"FunctionOfText",
+                                    "(function(){}).constructor('while(true){}')()"},
+                      EndlessScript{"Memory", "var s='x'; while(true) s+=s;"},
+                      EndlessScript{"Array", "var a=[]; while(true) a.push([1,2,3,4,5,6,7,8]);"},
+                      EndlessScript{"LabelledLoop", "a: while(true){ continue a; }"},
+                      EndlessScript{"Brackets", "((((("}, EndlessScript{"OpenString", "var a='"},
+                      EndlessScript{"Escape", "}});while(1){}({"}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(HostileDialogTest, AnEndlessScriptIsErrorSemantic) {
+  const auto outcome = RunDoc(
+      "<form><catch event=\"error.semantic\"><pass/></catch><block><script>while(true){}"
+      "</script></block></form>",
+      {"exit: pass"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, AnEndlessGotoIsErrorNoresource) {
+  const auto outcome = RunDoc("<form id=\"a\"><block><goto next=\"#a\"/></block></form>",
+                              {"reason: error.noresource"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, AnEndlessClearIsErrorNoresource) {
+  const auto outcome = RunDoc("<form><block name=\"b\"><clear namelist=\"b\"/></block></form>",
+                              {"reason: error.noresource"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, AHandlerCanEndAnEndlessLoop) {
+  const auto outcome = RunDoc(
+      "<catch event=\"error.noresource\"><pass/></catch><form id=\"a\"><block><goto next=\"#a\"/>"
+      "</block></form>",
+      {"exit: pass"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, RecursiveSubdialogsEnd) {
+  const auto outcome = RunDoc("<form id=\"a\"><subdialog name=\"s\" src=\"#a\"/></form>",
+                              {"reason: error.noresource"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, AHugeForeachEnds) {
+  const auto outcome = RunDoc(
+      "<form><block><foreach item=\"i\" array=\"new "
+      "Array(10000000)\"><log>x</log></foreach></block></form>",
+      {"reason: error.noresource"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+const vxml::srgs::Grammar* Link(vxml::srgs::GrammarStore& store, const std::string& text) {
+  auto made = vxml::srgs::CompileAbnf(text, {});
+  EXPECT_TRUE(made) << made.error().text;
+  auto added = store.Add(std::move(*made));
+  EXPECT_TRUE(added);
+  return *added;
+}
+
+vxml::srgs::GrammarStore NoFetch() {
+  return {[](const std::string&) -> vm::Result<std::string> {
+            return vm::Fail(vm::Errc::kUnavailable, "no");
+          },
+          [](const std::string&, const std::string& uri) { return uri; }};
+}
+
+TEST(HostileGrammarTest, ARuleOfOnlyItselfMatchesNothing) {
+  auto store = NoFetch();
+  const auto* grammar = Link(store, "root $a; $a = $a;");
+  EXPECT_FALSE(vxml::srgs::Match(*grammar->RootRule(), "x").parse);
+}
+
+TEST(HostileGrammarTest, RepeatsOfNothingEnd) {
+  auto store = NoFetch();
+  const auto* grammar = Link(store, "root $a; $a = (([x]<0->)<0->)<0-> y;");
+  EXPECT_TRUE(vxml::srgs::Match(*grammar->RootRule(), "x x y").parse);
+}
+
+TEST(HostileGrammarTest, ExponentialGrammarsEndInTheirLimits) {
+  auto store = NoFetch();
+  const auto* grammar = Link(store, "root $a; $a = $a $a $a | [x] | x [$a] | $a<0-100000>;");
+  const auto result = vxml::srgs::Match(*grammar->RootRule(), Times("x ", 300));
+  EXPECT_TRUE(result.parse || result.over_limit);
+}
+
+TEST(HostileGrammarTest, DeepNestingIsRefused) {
+  EXPECT_FALSE(vxml::srgs::CompileAbnf(
+      "root $a; $a = " + Times("(", 100'000) + "x" + Times(")", 100'000) + ";", {}));
+}
+
+TEST(HostileGrammarTest, DeepRecursionEndsInItsLimit) {
+  auto store = NoFetch();
+  const auto* grammar = Link(store, "root $a; $a = x [$a];");
+  const auto result = vxml::srgs::Match(*grammar->RootRule(), Times("x ", 2000));
+  EXPECT_TRUE(result.parse || result.over_limit);
+}
+
+}  // namespace
+}  // namespace vxml_test
