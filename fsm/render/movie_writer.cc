@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -7,7 +8,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <system_error>
+#include <utility>
 
 #include "fsm/render/ffmpeg_process.h"
 #include "fsm/render/frame_feeder.h"
@@ -150,6 +153,65 @@ class FfmpegMovieWriter : public MovieWriter {
   std::optional<FrameFeeder> feeder_;      // while there is a process
 };
 
+/// Raw frames, as they come, into a file or a pipe.
+class RawMovieWriter : public MovieWriter {
+ public:
+  RawMovieWriter(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
+  ~RawMovieWriter() override { Close(); }
+
+  vm::Result<void> Add(const Image& frame) override {
+    for (std::span<const std::uint8_t> left(frame.rgba); fd_ >= 0 && !left.empty();) {
+      const auto written = write(fd_, left.data(), left.size());
+      if (written > 0) {
+        left = left.subspan(static_cast<std::size_t>(written));
+      } else if (errno == EAGAIN) {
+        pollfd room{fd_, POLLOUT, 0};
+        if (poll(&room, 1, kReaderLimitMs) == 0) return Fault("nobody takes the frames");
+      } else if (errno != EINTR) {
+        return Fault(std::generic_category().message(errno));
+      }
+    }
+    if (fd_ < 0) return vm::Fail(vm::Errc::kUnavailable, "the film '" + path_ + "' has ended");
+    ++frames_;
+    return {};
+  }
+
+  vm::Result<void> Finish(const std::string& sound_wav) override {
+    Close();
+    if (sound_wav.empty()) return {};
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "raw frames carry no sound; '" + path_ + "' is without '" + sound_wav + "'");
+  }
+  int frames() const override { return frames_; }
+
+ private:
+  static constexpr int kReaderLimitMs = 5000;
+
+  void Close() {
+    if (fd_ >= 0) close(std::exchange(fd_, -1));
+  }
+  std::unexpected<vm::Error> Fault(const std::string& why) {
+    Close();
+    return vm::Fail(vm::Errc::kUnavailable, "cannot write frames to '" + path_ + "': " + why);
+  }
+
+  std::string path_;
+  int fd_;
+  int frames_ = 0;
+};
+
+vm::Result<std::unique_ptr<MovieWriter>> OpenRaw(const std::string& path) {
+  // Without waiting: a pipe that nobody reads is an error at once.
+  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
+  if (fd < 0) {
+    return vm::Fail(
+        vm::Errc::kUnavailable,
+        "cannot write frames to '" + path + "': " +
+            (errno == ENXIO ? "nobody reads that pipe" : std::generic_category().message(errno)));
+  }
+  return std::make_unique<RawMovieWriter>(path, fd);
+}
+
 /// An empty file beside the film's place, under a name nobody else has; made before the first
 /// picture, so that a place that cannot be written is known at once.
 vm::Result<std::string> MakeDraft(const std::string& path) {
@@ -166,17 +228,18 @@ vm::Result<std::string> MakeDraft(const std::string& path) {
   }
 }
 
-bool EndsInMp4(const std::string& path) {
-  constexpr std::string_view kEnding = ".mp4";
-  return path.size() > kEnding.size() && path.ends_with(kEnding);
+bool EndsIn(const std::string& path, std::string_view ending) {
+  return path.size() > ending.size() && path.ends_with(ending);
 }
 
 }  // namespace
 
 vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& path, int width,
                                                            int height, int frames_per_second) {
-  if (!EndsInMp4(path)) {
-    return vm::Fail(vm::Errc::kBadValue, "'" + path + "' is no film's name: it must end in .mp4");
+  const bool raw = EndsIn(path, ".rgba");
+  if (!raw && !EndsIn(path, ".mp4")) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "'" + path + "' is no film's name: it must end in .mp4 (or .rgba, raw frames)");
   }
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide ||
       frames_per_second < 1 || frames_per_second > kMaxFramesPerSecond) {
@@ -184,6 +247,7 @@ vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& pa
                                              std::to_string(height) + " at " +
                                              std::to_string(frames_per_second) + " per second");
   }
+  if (raw) return OpenRaw(path);
   auto draft = MakeDraft(path);
   if (!draft) return std::unexpected(std::move(draft.error()));
   auto ffmpeg = FfmpegProcess::Start(

@@ -159,6 +159,26 @@ TEST_F(MovieTest, WithoutItsSoundTheSilentFilmIsKept) {
   EXPECT_EQ(folder_.files(), 1U);
 }
 
+TEST_F(MovieTest, RawFramesFollowEachOther) {
+  const TemporaryFolder folder;
+  auto writer = MovieWriter::Open(folder / "film.rgba", 5, 3, 30);
+  ASSERT_TRUE(writer) << writer.error().text;
+  const Image frames[] = {Pattern(5, 3), Pattern(5, 3, 40)};
+  for (const Image& frame : frames) ASSERT_TRUE((*writer)->Add(frame));
+  ASSERT_TRUE((*writer)->Finish(""));
+  auto expected = frames[0].rgba;
+  expected.insert(expected.end(), frames[1].rgba.begin(), frames[1].rgba.end());
+  EXPECT_EQ(FileBytes(folder / "film.rgba"), expected);
+}
+
+TEST_F(MovieTest, PipeWithoutAReaderIsRefused) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe.rgba").c_str(), 0600), 0);
+  const auto writer = MovieWriter::Open(folder / "pipe.rgba", 4, 4, 30);
+  ASSERT_FALSE(writer);
+  EXPECT_NE(writer.error().text.find("nobody reads"), std::string::npos) << writer.error().text;
+}
+
 TEST_F(MovieTest, UnfinishedFilmLeavesNoFile) {
   {
     auto movie = MovieWriter::Open(film_, 64, 48, kFps);
