@@ -163,7 +163,7 @@ int main(int argc, char** argv) {
            [&options](CLI::App& app) {
              app.add_option("--sink", options.sink_text,
                             "Where sound goes: auto (a loudspeaker if there is one), null, "
-                            "portaudio[:NAME], file:PATH.wav");
+                            "portaudio[:NAME], file:PATH.wav, raw:PATH");
              app.add_option("--speaker", options.speaker, "Who speaks at first (see SpeakerSet)");
              app.add_option("--voices", options.voices_path,
                             "Voices beside flite's, a JSON file (docs/speech.md)");

@@ -169,6 +169,13 @@ std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans
   return runs;
 }
 
+bool EngineSet::Prompt(const std::vector<SpeechSpan>& spans) const {
+  const std::vector<Run> runs = Runs(spans);
+  return std::all_of(runs.begin(), runs.end(), [this](const Run& run) {
+    return run.spans.front().audio.empty() && engines_[run.engine]->Prompt(run.spans);
+  });
+}
+
 vm::Result<SpeechPlan> EngineSet::Plan(const std::vector<SpeechSpan>& spans,
                                        const std::atomic<bool>& cancelled) {
   auto detail = std::make_shared<SetDetail>();

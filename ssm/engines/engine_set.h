@@ -27,6 +27,7 @@ class EngineSet final : public SpeechEngine {
   vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
                               const std::atomic<bool>& cancelled) override;
   vm::Result<void> Render(const SpeechPlan& plan, SampleBuffer& samples) override;
+  bool Prompt(const std::vector<SpeechSpan>& spans) const override;
   vm::Result<void> ChooseVoice(const std::string& language, const std::string& voice) override;
 
  private:

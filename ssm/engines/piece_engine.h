@@ -25,6 +25,7 @@ class PieceEngine : public SpeechEngine {
   vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
                               const std::atomic<bool>& cancelled) final;
   vm::Result<void> Render(const SpeechPlan& plan, SampleBuffer& samples) final;
+  bool Prompt(const std::vector<SpeechSpan>&) const final { return false; }
 
  protected:
   /// `span.text` is one sentence, not blank; volume is seen to by the caller. Phonemes and sound

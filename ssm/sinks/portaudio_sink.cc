@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <semaphore>
 #include <string_view>
 #include <utility>
 
@@ -26,7 +27,7 @@ constexpr std::size_t kFadeFrames = 80;  // 5 ms, so that a stop does not click
 // A device that has taken this much more sound than time has passed has no clock of its own.
 // (Honest ones take a buffer or two ahead.)
 constexpr Micros kRunaway{2'000'000};
-constexpr unsigned kTrialUs = 30'000;  // a device without a clock shows itself within this
+constexpr Micros kTrial{30'000};  // a device without a clock shows itself within this
 // Callbacks further apart than this mean that the device has stopped.
 constexpr Micros kDeadAfter{2'000'000};
 
@@ -145,8 +146,7 @@ class PortAudioSink final : public AudioSink {
     last_buffer_us_ = Now();
     if (error == paNoError) error = Pa_StartStream(stream_);
     if (error == paNoError) {
-      usleep(kTrialUs);
-      if (!runaway_) return {};
+      if (!ran_away_.try_acquire_for(kTrial)) return {};
       return std::unexpected(
           Unavailable("sound device '" + name_ + "' throws sound away at any speed"));
     }
@@ -200,9 +200,7 @@ class PortAudioSink final : public AudioSink {
   bool Failed() const { return runaway_ || Now() - last_buffer_us_ > kDeadAfter.count(); }
 
   /// Until the callback that may be running has ended: afterwards none uses the old samples.
-  void WaitForCallback() const {
-    while (in_callback_) usleep(100);
-  }
+  void WaitForCallback() const { in_callback_.wait(true); }
 
   static int OnBuffer(const void*, void* output, unsigned long frames,
                       const PaStreamCallbackTimeInfo* time, PaStreamCallbackFlags, void* self) {
@@ -217,14 +215,19 @@ class PortAudioSink final : public AudioSink {
     last_buffer_us_ = now;
     delivered_ += out.size();
     if (ToTime(delivered_).count() > now + kRunaway.count()) {
-      runaway_ = true;
-      in_callback_ = false;
+      if (!runaway_.exchange(true)) ran_away_.release();
+      LeaveCallback();
       return paAbort;
     }
     const double delay_s = std::clamp(time.outputBufferDacTime - time.currentTime, 0.0, 1.0);
     FillSpeech(out, now + std::llround(delay_s * 1e6));
-    in_callback_ = false;
+    LeaveCallback();
     return paContinue;
+  }
+
+  void LeaveCallback() {
+    in_callback_ = false;
+    in_callback_.notify_one();
   }
 
   /// `heard_us`: when the first frame of `out` will be heard.
@@ -279,6 +282,7 @@ class PortAudioSink final : public AudioSink {
   std::atomic<std::int64_t> first_heard_us_{kNever};
   std::atomic<std::int64_t> last_buffer_us_{0};
   std::atomic<bool> runaway_{false};
+  std::binary_semaphore ran_away_{0};
   std::atomic<bool> in_callback_{false};
 
   // The callback only.

@@ -8,13 +8,13 @@
 
 namespace ssm {
 
-/// What `--sink` says: auto | null | portaudio[:NAME] | file:PATH
+/// What `--sink` says: auto | null | portaudio[:NAME] | file:PATH | raw:PATH
 struct SinkChoice {
-  enum class Kind { kAuto, kNull, kPortAudio, kFile };
+  enum class Kind { kAuto, kNull, kPortAudio, kFile, kRaw };
   Kind kind = Kind::kAuto;
   std::string argument;  ///< the device's name or the file's path
 };
-/// Error: kBadValue naming the four.
+/// Error: kBadValue naming the five.
 vm::Result<SinkChoice> ParseSinkChoice(const std::string& text);
 
 struct OpenedSink {

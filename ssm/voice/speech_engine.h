@@ -79,6 +79,9 @@ class SpeechEngine {
   /// Fills `samples`, whose size is exactly the plan's duration, from front to end; leaves it
   /// complete unless an error is returned.
   virtual vm::Result<void> Render(const SpeechPlan& plan, SampleBuffer& samples) = 0;
+  /// True if Plan takes some tens of ms at most for a short text, whatever happens; else it is not
+  /// called on the loop's thread while time is real.
+  virtual bool Prompt(const std::vector<SpeechSpan>&) const { return true; }
   /// Which voice takes runs in another language. Errors: kBadValue (no such voice), kUnavailable.
   virtual vm::Result<void> ChooseVoice(const std::string& language, const std::string& voice) {
     return vm::Fail(vm::Errc::kUnavailable,

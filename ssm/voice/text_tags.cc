@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "ssm/voice/span_builder.h"
+
 namespace ssm {
 namespace {
 
@@ -90,19 +92,14 @@ class Parser {
     for (std::size_t at = 0; at < text.size();) {
       if (text[at] == '<') {
         if (const auto tag = ReadTag(text.substr(at))) {
-          Apply(*tag);
           at += tag->length;
+          if (!Replace(*tag, text, at)) Apply(*tag);
           continue;
         }
       }
       at += Character(text.substr(at));
     }
-    Cut();
-    if (pause_.count() > 0 || !mark_.empty()) {  // at the very end: they need a span to stand in
-      Begin();
-      result_.spans.push_back(std::move(span_));
-    }
-    return std::move(result_);
+    return builder_.Finish();
   }
 
  private:
@@ -115,88 +112,88 @@ class Parser {
     if (rest[0] == '&') {
       for (const auto& [entity, sign] : kEntities) {
         if (rest.starts_with(entity)) {
-          span_.text += sign;
-          result_.plain += sign;
+          builder_.Text(std::string_view(&sign, 1));
           return entity.size();
         }
       }
     }
-    span_.text += rest[0];
-    result_.plain += rest[0];
+    builder_.Text(rest.substr(0, 1));
     return 1;
+  }
+
+  /// Tags whose text is spoken in another way: SPELL, PRON, CONTEXT. `at` is behind the tag, and
+  /// moves behind its end. What they hold must be plain text, else they change nothing.
+  bool Replace(const Tag& tag, std::string_view text, std::size_t& at) {
+    if (tag.closing || tag.alone) return false;
+    if (tag.name != "SPELL" && tag.name != "PRON" && tag.name != "CONTEXT") return false;
+    const std::string close = "</" + tag.name + ">";
+    const std::size_t end = text.find(close, at);
+    if (end == std::string_view::npos) return false;
+    const std::string_view inside = text.substr(at, end - at);
+    if (inside.contains('<') || inside.contains('&')) return false;
+    const std::string spoken = Spoken(tag, inside);
+    if (spoken.empty()) return false;
+    builder_.Text(inside, spoken);
+    at = end + close.size();
+    return true;
+  }
+
+  static std::string Spoken(const Tag& tag, std::string_view inside) {
+    if (tag.name == "SPELL") return SpellOut(inside);
+    if (tag.name == "PRON") {
+      const std::string reading = tag.Attribute("SYM").value_or("");
+      return IsKanaReading(reading) ? WithoutAccent(reading) : std::string();
+    }
+    const std::string type = tag.Attribute("TYPE").value_or("");
+    return type == "DIGITS" || type == "PHONE" ? SpacedDigits(inside) : std::string();
   }
 
   void Apply(const Tag& tag) {
     if (tag.closing) return Close(tag.name);
     if (tag.name == "SILENCE") {
-      Cut();
-      if (const auto ms = tag.Number("MSEC", 0, 60000)) {
-        pause_ = std::min(pause_ + Millis(std::lround(*ms)), Millis{60000});
-      }
-      return;
+      const auto ms = tag.Number("MSEC", 0, 60000);
+      return builder_.Pause(Millis(ms ? std::lround(*ms) : 0));
     }
     if (tag.name == "BOOKMARK") {
-      Cut();
-      // Two marks with nothing between them need a span each.
-      if (!mark_.empty()) {
-        Begin();
-        result_.spans.push_back(std::exchange(span_, Manner()));
-      }
-      if (auto name = tag.Attribute("MARK")) mark_ = std::move(*name);
+      if (auto name = tag.Attribute("MARK")) builder_.Mark(*name);
       return;
     }
-    if (tag.name != "RATE" && tag.name != "VOLUME" && tag.name != "PITCH" && tag.name != "VOICE")
+    if (tag.name == "RESET") {
+      if (!open_.empty()) builder_.SetManner(open_.front().before);
+      return open_.clear();
+    }
+    if (tag.name != "RATE" && tag.name != "VOLUME" && tag.name != "PITCH" && tag.name != "VOICE" &&
+        tag.name != "EMPH") {
       return;
-    Cut();
-    if (!tag.alone) open_.push_back({tag.name, Manner()});
+    }
+    SpeechSpan manner = builder_.manner();
+    if (!tag.alone) open_.push_back({tag.name, manner});
+    if (tag.name == "EMPH" && !tag.alone) Emphasize(manner, 1);
     if (const auto speed = tag.Number("SPEED", 0.2, 5); speed && tag.name == "RATE") {
-      span_.stretch *= *speed;
+      manner.stretch *= *speed;
     }
     if (const auto level = tag.Number("LEVEL", 0.01, 4); level && tag.name == "VOLUME") {
-      span_.volume *= *level;
+      manner.volume *= *level;
     }
     if (const auto level = tag.Number("LEVEL", 0.5, 2); level && tag.name == "PITCH") {
-      span_.pitch *= *level;
+      manner.pitch *= *level;
     }
     if (auto voice = tag.Attribute("OPTIONAL"); voice && tag.name == "VOICE") {
-      span_.voice = std::move(*voice);
+      manner.voice = std::move(*voice);
     }
+    builder_.SetManner(std::move(manner));
   }
 
   void Close(const std::string& name) {
     for (auto open = open_.rbegin(); open != open_.rend(); ++open) {
       if (open->name != name) continue;
-      Cut();
-      span_ = open->before;
+      builder_.SetManner(open->before);
       open_.erase(std::next(open).base(), open_.end());
       return;
     }
   }
 
-  /// The manner now in force, without text.
-  SpeechSpan Manner() const {
-    SpeechSpan manner = span_;
-    manner.text.clear();
-    manner.pause_before = Millis{0};
-    manner.mark.clear();
-    return manner;
-  }
-  void Begin() {
-    span_.pause_before = std::exchange(pause_, Millis{0});
-    span_.mark = std::exchange(mark_, {});
-  }
-  /// Ends the present span if it has text.
-  void Cut() {
-    if (span_.text.empty()) return;
-    const SpeechSpan manner = Manner();
-    Begin();
-    result_.spans.push_back(std::exchange(span_, manner));
-  }
-
-  TaggedText result_;
-  SpeechSpan span_;
-  Millis pause_{0};
-  std::string mark_;
+  SpanBuilder builder_;
   std::vector<Open> open_;
 };
 

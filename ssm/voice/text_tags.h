@@ -22,10 +22,17 @@ struct TaggedText {
 ///   <PITCH LEVEL="1.1">...</PITCH>    0.5 to 2
 ///   <VOICE OPTIONAL="name">...</VOICE>
 ///   <BOOKMARK MARK="name"/>           reported by Speak.mark
-/// Numbers beyond the range are taken to its end. The others (EMPH SPELL PRON SPEECH CONTEXT APB
-/// LANG PARTOFSP RESET REGWORD W1) are taken out and what they enclose is spoken as it is. A lone
-/// closing tag is dropped; what is no tag of the list, "1 < 2" or "<b>", is text. "&lt; &gt; &amp;
-/// &quot;" stand for their signs. Pure; never fails.
+///   <EMPH>...</EMPH>                  a little slower, higher and louder
+///   <SPELL>...</SPELL>                letter by letter
+///   <PRON SYM="kana">...</PRON>       in that reading (kana only; the accent mark is left out)
+///   <CONTEXT TYPE="DIGITS">           also PHONE: digit by digit. NUMBER, DATE and TIME are read
+///   as
+///                                     the voice reads them anyway
+///   <RESET/>                          ends every manner that is open
+/// Numbers beyond the range are taken to its end. The others (SPEECH APB LANG PARTOFSP REGWORD W1)
+/// are taken out and what they enclose is spoken as it is: the engines find accent phrases and
+/// languages themselves. A lone closing tag is dropped; what is no tag of the list, "1 < 2" or
+/// "<b>", is text. "&lt; &gt; &amp; &quot;" stand for their signs. Pure; never fails.
 TaggedText ParseTaggedText(std::string_view text);
 
 }  // namespace ssm

@@ -42,6 +42,20 @@ vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& pa
   return {};
 }
 
+vm::Result<void> SaveLabels(const Utterance& utterance, const std::string& path) {
+  constexpr std::int64_t kPerMs = 10'000;
+  std::ofstream file(path, std::ios::trunc);
+  Millis at{0};
+  for (const vm::Phoneme& phoneme : utterance.plan.phonemes) {
+    const Millis end = at + phoneme.duration;
+    file << at.count() * kPerMs << " " << end.count() * kPerMs << " " << phoneme.name << "\n";
+    at = end;
+  }
+  file.close();
+  if (file) return {};
+  return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + path + "': " + std::strerror(errno));
+}
+
 vm::Result<std::shared_ptr<Utterance>> LoadUtterance(const std::string& path, SoundFormat format) {
   auto samples = format == SoundFormat::kWav ? ReadWav(path) : ReadRaw(path);
   if (!samples) return std::unexpected(samples.error());

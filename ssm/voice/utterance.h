@@ -29,8 +29,10 @@ enum class SoundFormat { kWav, kRaw };
 /// Errors: kUnavailable. REQUIRES: the samples are complete.
 vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& path,
                                SoundFormat format);
-/// The reverse. The phonemes are needed; sound and phonemes may differ in length by 50 ms (the
-/// sound is cut or filled with silence), else kBadValue.
+/// The phonemes as a label file of HTK: START END NAME, in units of 100 ns, one a line.
+vm::Result<void> SaveLabels(const Utterance& utterance, const std::string& path);
+/// The reverse of SaveUtterance. The phonemes are needed; sound and phonemes may differ in length
+/// by 50 ms (the sound is cut or filled with silence), else kBadValue.
 vm::Result<std::shared_ptr<Utterance>> LoadUtterance(const std::string& path, SoundFormat format);
 
 }  // namespace ssm

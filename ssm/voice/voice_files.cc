@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ssm/voice/ssml.h"
 #include "ssm/voice/voice_module.h"
 
 namespace ssm {
@@ -12,9 +13,11 @@ void VoiceModule::Save(const std::string& path, SoundFormat format, const vm::Re
     return reply.Fail({vm::Errc::kBusy, "there is nothing to save; set Text first", 0});
   }
   auto save = [path, format, reply, utterance = utterance_] {
-    if (auto saved = SaveUtterance(*utterance, path, format); !saved) {
-      return reply.Fail(saved.error());
-    }
+    // `Save = FILE.wav` is a WAV file whatever the slot, with a label file for other programs.
+    const bool wav = format == SoundFormat::kWav || path.ends_with(".wav");
+    auto saved = SaveUtterance(*utterance, path, wav ? SoundFormat::kWav : format);
+    if (saved && wav) saved = SaveLabels(*utterance, path + ".lab");
+    if (!saved) return reply.Fail(saved.error());
     reply.Ok(path);
   };
   if (utterance_->samples->complete()) return save();
@@ -37,9 +40,63 @@ void VoiceModule::Load(const std::string& path, SoundFormat format, const vm::Re
   MakeReady(reply, path);
 }
 
+// --- a text made ready while another is spoken
+
+void VoiceModule::SetNext(const std::string& text, const vm::Reply& reply) {
+  if (!player_.active() && state_ != State::kPaused) return SetText(text, reply);
+  if (text.size() > kMaxTextBytes) {
+    return reply.Fail({vm::Errc::kTooLong,
+                       "the text has " + std::to_string(text.size()) + " bytes, expected at most " +
+                           std::to_string(kMaxTextBytes),
+                       0});
+  }
+  auto read = ReadMarkup(text);
+  if (!read) return reply.Fail(read.error());
+  DropNext("another Text.next came");
+  auto next = std::make_shared<Preparation>(
+      Preparation{.utterance = std::make_shared<Utterance>(
+                      Utterance{.text = text, .spoken_text = std::move(read->plain)}),
+                  .spans = Manners(std::move(read->spans)),
+                  .cancelled = std::make_shared<std::atomic<bool>>(false),
+                  .reply = reply});
+  next_ = next;
+  worker_->Run([this, next] { next->plan = engine_->Plan(next->spans, *next->cancelled); },
+               [this, next, alive = std::weak_ptr<bool>(alive_)] {
+                 if (alive.expired() || next_ != next) return;
+                 next->planned = true;
+                 if (next->plan) {
+                   next->reply.Ok(next->utterance->text);
+                   return TakeNext();
+                 }
+                 next->reply.Fail(next->plan.error());
+                 next_.reset();
+               });
+}
+
+void VoiceModule::DropNext(const char* why) {
+  if (!next_) return;
+  *next_->cancelled = true;
+  next_->reply.Fail({vm::Errc::kStopped, why, 0});
+  next_.reset();
+}
+
+/// The text made ready becomes the present one, with the usual reports.
+void VoiceModule::TakeNext() {
+  if (!next_ || !next_->planned || state_ != State::kIdle || player_.active()) return;
+  const auto next = std::exchange(next_, nullptr);
+  if (utterance_) utterance_->samples->Cancel();
+  utterance_.reset();
+  SetState(State::kProcessing);
+  slots_.Store("Text", next->utterance->text);
+  slots_.Report("Text.text", next->utterance->text);
+  slots_.Report("Speak.text", next->utterance->spoken_text);
+  preparation_ = next;
+  OnPlanned(next);
+}
+
 vm::Result<std::string> VoiceModule::SetRecord(const std::string& path) {
   if (tape_) {
-    if (player_.active()) AddToTape(*spoken_->samples, player_.Where());
+    if (player_.active()) AddToTape(player_.Where());
     // (A failing file has been reported and dropped by now.)
     if (tape_) {
       auto closed = tape_->Close(scheduler_.Now());
@@ -57,9 +114,9 @@ vm::Result<std::string> VoiceModule::SetRecord(const std::string& path) {
   return path;
 }
 
-void VoiceModule::AddToTape(const SampleBuffer& samples, const AudioSink::Position& heard) {
+void VoiceModule::AddToTape(const AudioSink::Position& heard) {
   if (!tape_) return;
-  const auto ready = samples.Ready();
+  const auto ready = playing_->Ready();
   auto added = tape_->Add(heard.first_frame, ready.first(std::min(heard.frames, ready.size())));
   if (added) return;
   tape_.reset();

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "ssm/voice/ssml.h"
 #include "vm_protocol/core/limits.h"
 
 namespace ssm {
@@ -35,7 +36,8 @@ VoiceModule::VoiceModule(vm::Scheduler& scheduler, Parts parts, Options options)
               {.started = [this] { SetState(State::kSpeaking); },
                .sync =
                    [this](std::size_t frames) {
-                     slots_.TellAll("Speak.sync = " + std::to_string(ToMs(frames).count()));
+                     slots_.TellAll("Speak.sync = " +
+                                    std::to_string(ToMs(played_before_ + frames).count()));
                    },
                .ended = [this](AudioSink::Position end, bool failed) { OnEnded(end, failed); }}),
       speakers_(engine_->voices(), options_.aliases),
@@ -48,6 +50,7 @@ VoiceModule::VoiceModule(vm::Scheduler& scheduler, Parts parts, Options options)
                                   .auto_output = true,
                                   .on_exit = [this] { exit_requested_ = true; }});
   DeclareManner();
+  DeclareEmotion();
   DeclareTextSlots();
   DeclareSpeakSlots();
   DeclareFileSlots();
@@ -59,6 +62,7 @@ VoiceModule::VoiceModule(vm::Scheduler& scheduler, Parts parts, Options options)
 VoiceModule::~VoiceModule() {
   *alive_ = false;
   if (preparation_) *preparation_->cancelled = true;
+  if (next_) *next_->cancelled = true;
   if (utterance_) utterance_->samples->Cancel();
   worker_.reset();
 }
@@ -70,8 +74,7 @@ bool VoiceModule::Busy() const {
 
 void VoiceModule::Shutdown() {
   if (player_.active()) {
-    const auto samples = utterance_->samples;
-    AddToTape(*samples, player_.Stop());
+    StopPlayer();
   }
   if (tape_) {
     if (auto closed = tape_->Close(scheduler_.Now()); !closed) Fault("Record", closed.error());
@@ -88,6 +91,9 @@ void VoiceModule::SetText(const std::string& text, const vm::Reply& reply) {
                            std::to_string(kMaxTextBytes),
                        0});
   }
+  if (state_ == State::kPaused) {
+    return reply.Fail({vm::Errc::kBusy, "paused; set Speak = RESUME or STOP first", 0});
+  }
   if (player_.active()) {
     return reply.Fail({vm::Errc::kBusy,
                        std::string(player_.started() ? "speaking" : "about to speak") +
@@ -102,10 +108,17 @@ void VoiceModule::SetText(const std::string& text, const vm::Reply& reply) {
 }
 
 void VoiceModule::Prepare(const std::string& text, const vm::Reply& reply) {
+  DropNext("another Text came first");
   if (utterance_) utterance_->samples->Cancel();
   utterance_.reset();
   SetState(State::kProcessing);
-  TaggedText tagged = ParseTaggedText(text);
+  auto read = ReadMarkup(text);
+  if (!read) {
+    SetState(State::kError);
+    reply.Fail(read.error());
+    return TakeTurns();
+  }
+  TaggedText tagged = std::move(*read);
   slots_.Store("Text", text);
   slots_.Report("Text.text", text);
   slots_.Report("Speak.text", tagged.plain);
@@ -124,7 +137,8 @@ void VoiceModule::Prepare(const std::string& text, const vm::Reply& reply) {
   auto job = [this, preparation] {
     preparation->plan = engine_->Plan(preparation->spans, *preparation->cancelled);
   };
-  if (worker_->immediate() || text.size() <= kPromptTextBytes) {
+  const bool prompt = text.size() <= kPromptTextBytes && engine_->Prompt(preparation->spans);
+  if (worker_->immediate() || prompt) {
     job();
     return OnPlanned(preparation);
   }
@@ -143,9 +157,10 @@ std::vector<SpeechSpan> VoiceModule::Manners(std::vector<SpeechSpan> spans) {
       voice = &voice_;
     }
     span.voice = voice->name;
-    span.stretch = std::clamp(span.stretch / rate_, 0.1, 10.0);
-    span.pitch = std::clamp(span.pitch * pitch_, 0.25, 4.0);
-    span.volume *= volume_;
+    const double pitch = voice->pitch_adjustable ? emotion_.pitch : 1;
+    span.stretch = std::clamp(span.stretch / (rate_ * emotion_.rate), 0.1, 10.0);
+    span.pitch = std::clamp(span.pitch * pitch_ * pitch, 0.25, 4.0);
+    span.volume *= volume_ * emotion_.volume;
   }
   return spans;
 }
@@ -233,8 +248,7 @@ void VoiceModule::OnRendered(const std::shared_ptr<Utterance>& utterance,
   utterance_.reset();
   if (player_.active()) {
     spoken_ = utterance;
-    const AudioSink::Position end = player_.Stop();
-    AddToTape(*utterance->samples, end);
+    const AudioSink::Position end = StopPlayer();
     SetState(State::kError);
     Tail(end.frames);
   } else {
@@ -273,31 +287,77 @@ void VoiceModule::Speak(vm::Time at, const std::string& text, const vm::Reply& r
   reply.Ok(text);
 }
 
-vm::Result<void> VoiceModule::StartPlaying(vm::Time at) {
+vm::Result<void> VoiceModule::StartPlaying(vm::Time at, std::size_t from) {
   std::vector<Player::Cue> words, marks, cues;
   const auto& plan = utterance_->plan;
+  std::size_t number = 0;
   for (const WordTime& word : plan.words) {
+    ++number;
+    if (ToFrames(word.start) < from) continue;
     words.push_back(
-        {ToFrames(word.start),
-         [this, text = std::to_string(words.size() + 1) + " " + std::to_string(word.start.count()) +
-                       " " + word.text] { slots_.Report("Speak.word", text); }});
+        {ToFrames(word.start) - from,
+         [this, text = std::to_string(number) + " " + std::to_string(word.start.count()) + " " +
+                       word.text] { slots_.Report("Speak.word", text); }});
   }
   for (const MarkTime& mark : plan.marks) {
-    marks.push_back(
-        {ToFrames(mark.at), [this, text = mark.name + " " + std::to_string(mark.at.count())] {
-           slots_.Report("Speak.mark", text);
-         }});
+    if (ToFrames(mark.at) < from) continue;
+    marks.push_back({ToFrames(mark.at) - from,
+                     [this, text = mark.name + " " + std::to_string(mark.at.count())] {
+                       slots_.Report("Speak.mark", text);
+                     }});
   }
   // Each in order already; at the same frame the mark comes first, as in the text.
   std::merge(marks.begin(), marks.end(), words.begin(), words.end(), std::back_inserter(cues),
              [](const auto& a, const auto& b) { return a.frame < b.frame; });
   spoken_ = utterance_;
-  spoken_frames_ = 0;
-  return player_.Start(utterance_->samples, at, std::move(cues));
+  spoken_frames_ = played_before_ = from;
+  playing_ = utterance_->samples;
+  if (from > 0) {
+    const auto rest = utterance_->samples->Ready().subspan(from);
+    auto buffer = std::make_shared<SampleBuffer>(rest.size());
+    buffer->Append(rest);
+    playing_ = std::move(buffer);
+  }
+  return player_.Start(playing_, at, std::move(cues));
+}
+
+/// What was heard, counted from the beginning of the utterance; on the tape already.
+AudioSink::Position VoiceModule::StopPlayer() {
+  AudioSink::Position end = player_.Stop();
+  AddToTape(end);
+  end.frames += played_before_;
+  return end;
+}
+
+void VoiceModule::Pause(const vm::Reply& reply) {
+  if (!player_.active() || !player_.started()) {
+    return reply.Fail({vm::Errc::kBusy, "not speaking, there is nothing to pause", 0});
+  }
+  spoken_frames_ = StopPlayer().frames;
+  SetState(State::kPaused);
+  reply.Ok("PAUSE");
+}
+
+void VoiceModule::Resume(const vm::Reply& reply) {
+  if (state_ != State::kPaused) {
+    return reply.Fail({vm::Errc::kBusy, "not paused; set Speak = PAUSE comes first", 0});
+  }
+  // What is left is copied, so all of it must be there. (It is made many times faster than heard.)
+  if (!utterance_->samples->complete()) {
+    waiting_for_sound_.push_back({[this, reply] { Resume(reply); }, reply});
+    return;
+  }
+  if (auto playing = StartPlaying(scheduler_.Now(), spoken_frames_); !playing) {
+    SetState(State::kError);
+    Tail(spoken_frames_);
+    return reply.Fail(playing.error());
+  }
+  reply.Ok("RESUME");
 }
 
 void VoiceModule::Stop() {
   Abandon(waiting_, "set Speak = STOP came first");
+  DropNext("set Speak = STOP came first");
   if (state_ == State::kProcessing) {
     *preparation_->cancelled = true;
     preparation_->reply.Fail({vm::Errc::kStopped, "set Speak = STOP came first", 0});
@@ -306,10 +366,9 @@ void VoiceModule::Stop() {
     return Tail(0);
   }
   if (player_.active()) {
-    const AudioSink::Position end = player_.Stop();
-    AddToTape(*spoken_->samples, end);
-    return Tail(end.frames);
+    return Tail(StopPlayer().frames);
   }
+  if (state_ == State::kPaused) return Tail(spoken_frames_);
   if (state_ == State::kReady) {
     spoken_ = utterance_;
     return Tail(0);
@@ -319,13 +378,15 @@ void VoiceModule::Stop() {
 }
 
 void VoiceModule::OnEnded(AudioSink::Position end, bool failed) {
-  AddToTape(*spoken_->samples, end);
+  AddToTape(end);
+  end.frames += played_before_;
   if (failed) {
     SetState(State::kError);
     Fault("Speak", {vm::Errc::kUnavailable, "the sound device '" + sink_->name() + "' failed", 0});
   }
   Tail(end.frames);
   TakeTurns();
+  TakeNext();
 }
 
 void VoiceModule::Tail(std::size_t frames) {
@@ -336,13 +397,14 @@ void VoiceModule::Tail(std::size_t frames) {
 }
 
 Millis VoiceModule::Spoken() const {
-  return ToMs(player_.active() ? player_.Where().frames : spoken_frames_);
+  return ToMs(player_.active() ? played_before_ + player_.Where().frames : spoken_frames_);
 }
 
 // --- common
 
 void VoiceModule::SetState(State state) {
-  static constexpr const char* kNames[] = {"IDLE", "PROCESSING", "READY", "SPEAKING", "ERROR"};
+  static constexpr const char* kNames[] = {"IDLE",     "PROCESSING", "READY",
+                                           "SPEAKING", "ERROR",      "PAUSED"};
   // AutoPlay has said SPEAKING already when the first sound is due.
   const bool said = state == State::kSpeaking && state_ == State::kSpeaking;
   state_ = state;

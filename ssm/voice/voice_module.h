@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ssm/voice/audio_sink.h"
+#include "ssm/voice/emotion.h"
 #include "ssm/voice/player.h"
 #include "ssm/voice/speakers.h"
 #include "ssm/voice/speech_engine.h"
@@ -29,6 +30,8 @@ inline constexpr std::size_t kPromptTextBytes = 256;
 /// The voice module (SSM): every slot of the original with its order of reports, and ours.
 ///
 ///   IDLE --Text--> PROCESSING --phonemes known--> READY --Speak--> SPEAKING --end, STOP--> IDLE
+///                                                        SPEAKING --PAUSE--> PAUSED --RESUME-->
+///                                                        SPEAKING
 ///
 /// READY means that playing may begin; the sound is still being made behind it, much faster than
 /// it is played. Requests that need the text (Speak, SaveWAV, another Text) and come while it is
@@ -63,13 +66,14 @@ class VoiceModule final : public vm::Module {
   void Shutdown() override;
 
  private:
-  enum class State { kIdle, kProcessing, kReady, kSpeaking, kError };
+  enum class State { kIdle, kProcessing, kReady, kSpeaking, kError, kPaused };
   struct Preparation {
     std::shared_ptr<Utterance> utterance;
     std::vector<SpeechSpan> spans;
     vm::Result<SpeechPlan> plan = vm::Fail(vm::Errc::kStopped, "not planned");
     std::shared_ptr<std::atomic<bool>> cancelled;
     vm::Reply reply;
+    bool planned = false;  ///< a next text's plan may be read
   };
   /// A request that waits for the text before it, or for its sound.
   struct Waiting {
@@ -81,6 +85,7 @@ class VoiceModule final : public vm::Module {
   void DeclareTextSlots();
   void DeclareSpeakSlots();
   void DeclareManner();
+  void DeclareEmotion();
   void DeclareFileSlots();
   void DeclareLogSlots();
   void DeclareRefused(const std::string& name, const std::string& why, bool readable);
@@ -95,9 +100,12 @@ class VoiceModule final : public vm::Module {
   void MakeReady(const vm::Reply& reply, std::string answer);
   void SetSpeak(const std::string& text, const vm::Reply& reply);
   void Speak(vm::Time at, const std::string& text, const vm::Reply& reply);
-  vm::Result<void> StartPlaying(vm::Time at);
+  vm::Result<void> StartPlaying(vm::Time at, std::size_t from = 0);
   void Stop();
+  void Pause(const vm::Reply& reply);
+  void Resume(const vm::Reply& reply);
   void OnEnded(AudioSink::Position end, bool failed);
+  AudioSink::Position StopPlayer();
   void Tail(std::size_t frames);
   void SetState(State state);
   void Fault(std::string_view slot, const vm::Error& error);
@@ -111,7 +119,10 @@ class VoiceModule final : public vm::Module {
   void Save(const std::string& path, SoundFormat format, const vm::Reply& reply);
   void Load(const std::string& path, SoundFormat format, const vm::Reply& reply);
   vm::Result<std::string> SetRecord(const std::string& path);
-  void AddToTape(const SampleBuffer& samples, const AudioSink::Position& heard);
+  void AddToTape(const AudioSink::Position& heard);
+  void SetNext(const std::string& text, const vm::Reply& reply);
+  void TakeNext();
+  void DropNext(const char* why);
 
   vm::Scheduler& scheduler_;
   const Options options_;
@@ -126,17 +137,21 @@ class VoiceModule final : public vm::Module {
   double rate_ = 1;
   double pitch_ = 1;
   double volume_ = 1;
+  Manner emotion_;
   bool auto_play_ = false;
   VoiceLog log_;
 
   State state_ = State::kIdle;
-  std::shared_ptr<Preparation> preparation_;    // while kProcessing
-  std::shared_ptr<const Utterance> utterance_;  // what Speak speaks; null = nothing
-  std::deque<Waiting> waiting_;                 // for the text being prepared
-  std::deque<Waiting> waiting_for_sound_;       // for the utterance's samples
-  std::size_t spoken_frames_ = 0;               // of the last utterance spoken
-  std::shared_ptr<const Utterance> spoken_;     // the one they belong to
+  std::shared_ptr<Preparation> preparation_;     // while kProcessing
+  std::shared_ptr<const Utterance> utterance_;   // what Speak speaks; null = nothing
+  std::deque<Waiting> waiting_;                  // for the text being prepared
+  std::deque<Waiting> waiting_for_sound_;        // for the utterance's samples
+  std::size_t spoken_frames_ = 0;                // of the last utterance spoken
+  std::shared_ptr<const SampleBuffer> playing_;  // what the player plays of it: all, or the rest
+  std::size_t played_before_ = 0;                // frames of it before `playing_`
+  std::shared_ptr<const Utterance> spoken_;      // the one they belong to
   std::unique_ptr<Tape> tape_;
+  std::shared_ptr<Preparation> next_;  // made while another is spoken; its samples begun
   bool exit_requested_ = false;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };

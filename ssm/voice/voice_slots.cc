@@ -96,6 +96,22 @@ void VoiceModule::DeclareManner() {
          volume_);
 }
 
+void VoiceModule::DeclareEmotion() {
+  slots_.Declare(
+      {.name = "Emotion",
+       .grammar =
+           "(NEUTRAL | HAPPY | ANGRY | DISGUSTED | SAD | SURPRISED | FEARED) [<number 0..100>]",
+       .initial = "NEUTRAL",
+       .auto_output = true,
+       .help = "How the speaker feels, with a strength in % (100 without one): speed, pitch and "
+               "loudness from the next Text on, beside Rate, Pitch and Volume.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         const double strength = value.size() > 1 ? value.number(1) : 100;
+         emotion_ = MannerOf(value.word(0), strength).value_or(Manner{});
+         return value.size() > 1 ? value.word(0) + " " + FormatFactor(strength) : value.word(0);
+       }});
+}
+
 void VoiceModule::DeclareTextSlots() {
   slots_.Declare({.name = "Text",
                   .grammar = "<text>",
@@ -103,10 +119,18 @@ void VoiceModule::DeclareTextSlots() {
                   .help =
                       "Prepares a text, at most 8192 bytes, for speaking: Text.pho is reported "
                       "before there is sound, then Speak.stat = READY. Tags of JEIDA-62-2000 are "
-                      "taken out; SILENCE RATE VOLUME PITCH VOICE BOOKMARK are obeyed. An empty "
-                      "text is a pause of 10 ms. Refused while speaking.",
+                      "obeyed, and so is SSML, if the text is a <speak> element. An empty text is "
+                      "a pause of 10 ms. Refused while speaking.",
                   .on_set_later = [this](const vm::SetValue& value,
                                          vm::Reply reply) { SetText(value.text, reply); },
+                  .saved = false});
+  slots_.Declare({.name = "Text.next",
+                  .grammar = "<text>",
+                  .access = vm::Access::kWriteOnly,
+                  .help = "A Text made ready while another is spoken; it becomes the present one, "
+                          "with the usual reports, right after IDLE. Without speech it is Text.",
+                  .on_set_later = [this](const vm::SetValue& value,
+                                         vm::Reply reply) { SetNext(value.text, reply); },
                   .saved = false});
   const auto told = [this](std::string name, std::string help, std::string initial = "") {
     slots_.Declare({.name = std::move(name),
@@ -122,24 +146,29 @@ void VoiceModule::DeclareTextSlots() {
 }
 
 void VoiceModule::DeclareSpeakSlots() {
-  slots_.Declare({.name = "Speak",
-                  .grammar = "STOP | <time>",
-                  .access = vm::Access::kWriteOnly,
-                  .help =
-                      "NOW, +MS, +HH:MM:SS.mmm, HH:MM:SS.mmm (local time) or @MS (this process's "
-                      "clock): speaks the text prepared, then or when it is ready. May be "
-                      "repeated after the end. STOP: silence within 50 ms. The end, like STOP, "
-                      "is reported by Speak.len, Speak.utt and Speak.stat = IDLE.",
-                  .on_set_later =
-                      [this](const vm::SetValue& value, vm::Reply reply) {
-                        if (value.size() == 1 && value.word(0) == "STOP") {
-                          Stop();
-                          reply.Ok("STOP");
-                        } else {
-                          SetSpeak(value.text, reply);
-                        }
-                      },
-                  .saved = false});
+  slots_.Declare(
+      {.name = "Speak",
+       .grammar = "STOP | PAUSE | RESUME | <time>",
+       .access = vm::Access::kWriteOnly,
+       .help = "NOW, +MS, +HH:MM:SS.mmm, HH:MM:SS.mmm (local time) or @MS (this process's "
+               "clock): speaks the text prepared, then or when it is ready. May be "
+               "repeated after the end. PAUSE and STOP: silence within 50 ms; RESUME goes on "
+               "where PAUSE came. The end, like STOP, "
+               "is reported by Speak.len, Speak.utt and Speak.stat = IDLE.",
+       .on_set_later =
+           [this](const vm::SetValue& value, vm::Reply reply) {
+             if (value.size() == 1 && value.word(0) == "STOP") {
+               Stop();
+               reply.Ok("STOP");
+             } else if (value.size() == 1 && value.word(0) == "PAUSE") {
+               Pause(reply);
+             } else if (value.size() == 1 && value.word(0) == "RESUME") {
+               Resume(reply);
+             } else {
+               SetSpeak(value.text, reply);
+             }
+           },
+       .saved = false});
   const auto told = [this](std::string name, std::string help, std::string initial = "",
                            std::function<std::string()> on_inq = {}, bool auto_output = true) {
     slots_.Declare({.name = std::move(name),
@@ -160,8 +189,8 @@ void VoiceModule::DeclareSpeakSlots() {
        });
   told("Speak.len", "How many ms have been spoken so far.", "0",
        [this] { return std::to_string(Spoken().count()); });
-  told("Speak.stat", "IDLE, PROCESSING (a text is being prepared), READY, SPEAKING or ERROR.",
-       "IDLE");
+  told("Speak.stat",
+       "IDLE, PROCESSING (a text is being prepared), READY, SPEAKING, PAUSED or ERROR.", "IDLE");
   slots_.Declare({.name = "Speak.syncinterval",
                   .grammar = "<ms>",
                   .initial = "1000",
@@ -205,7 +234,8 @@ void VoiceModule::DeclareFileSlots() {
   const std::string info = " FILE.info gets the text and the phonemes.";
   action("SaveRAW", "Writes the prepared text's sound, 16 kHz 16 bit mono, big endian." + info,
          &VoiceModule::Save, SoundFormat::kRaw);
-  action("Save", "The same as SaveRAW.", &VoiceModule::Save, SoundFormat::kRaw);
+  action("Save", "The same as SaveRAW; FILE.wav is a WAV file with its phonemes in FILE.wav.lab.",
+         &VoiceModule::Save, SoundFormat::kRaw);
   action("SaveWAV", "Writes the prepared text's sound as a WAV file." + info, &VoiceModule::Save,
          SoundFormat::kWav);
   action("LoadRAW", "Loads what SaveRAW wrote, with its FILE.info, ready to Speak.",
