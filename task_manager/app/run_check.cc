@@ -2,6 +2,7 @@
 #include <set>
 
 #include "task_manager/app/options.h"
+#include "task_manager/document/emotionml.h"
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/grammar/builtin.h"
@@ -154,7 +155,8 @@ vm::Result<Loose> ReadLoosely(const std::string& uri, fetch::Fetcher& fetcher) {
       loose.document.dialogs.push_back(child.get());
     }
   }
-  loose.findings = CheckDocument(loose.document);
+  const xml::Node& root = *loose.document.root;
+  loose.findings = IsEmotionMl(root) ? CheckEmotionMl(root) : CheckDocument(loose.document);
   return loose;
 }
 

@@ -1,4 +1,5 @@
 #include "task_manager/document/schema.h"
+#include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/scope_guard.h"
 #include "task_manager/interpreter/session.h"
 
@@ -262,8 +263,10 @@ void Session::FollowTarget(const xml::Node& node, const Document& document) {
   }
   std::string next = node.Get("next");
   if (const std::string* expression = node.Find("expr")) next = TextOf(node, *expression);
-  // A fragment alone means the document the link stands in.
-  if (next.starts_with("#") && &document != context_->document.get()) next = document.uri + next;
+  // References are relative to the document the link stands in, which may be the root.
+  if (&document != context_->document.get()) {
+    next = next.starts_with("#") ? document.uri + next : fetch::Resolve(document.base, next);
+  }
   throw Locate(node, next, "document");
 }
 

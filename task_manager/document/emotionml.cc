@@ -1,0 +1,348 @@
+#include "task_manager/document/emotionml.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "task_manager/document/schema.h"
+
+namespace vxml {
+namespace {
+
+constexpr std::string_view kVocabularies = "http://www.w3.org/TR/emotion-voc/xml";
+
+struct Vocabulary {
+  std::string_view id;
+  std::string_view type;
+  std::string_view names;  ///< "" = not checked by name
+};
+
+// "Vocabularies for EmotionML" (W3C note).
+constexpr Vocabulary kKnown[] = {
+    {"big6", "category", "anger disgust fear happiness sadness surprise"},
+    {"everyday-categories", "category",
+     "affectionate afraid amused angry bored confident content disappointed excited happy "
+     "interested loving pleased relaxed sad satisfied worried"},
+    {"occ-categories", "category",
+     "admiration anger disappointment distress fear fears-confirmed gloating gratification "
+     "gratitude happy-for hate hope joy love pity pride relief remorse reproach resentment "
+     "satisfaction shame"},
+    {"fsre-categories", "category",
+     "anger anxiety being-hurt compassion contempt contentment despair disappointment disgust fear "
+     "guilt happiness hate interest irritation jealousy joy love pleasure pride sadness shame "
+     "stress surprise"},
+    {"frijda-categories", "category",
+     "anger arrogance desire disgust enjoyment fear humility indifference interest resignation "
+     "shock surprise"},
+    {"pad-dimensions", "dimension", "pleasure arousal dominance"},
+    {"fsre-dimensions", "dimension", "valence potency arousal unpredictability"},
+    {"intensity-dimension", "dimension", "intensity"},
+    {"occ-appraisals", "appraisal", ""},
+    {"scherer-appraisals", "appraisal", ""},
+    {"ema-appraisals", "appraisal", ""},
+    {"frijda-action-tendencies", "action-tendency",
+     "approach avoidance being-with attending rejecting nonattending agonistic interrupting "
+     "dominating submitting"},
+};
+
+constexpr std::string_view kSets = "category-set dimension-set appraisal-set action-tendency-set";
+constexpr std::string_view kTypes = "category dimension appraisal action-tendency";
+
+bool Contains(std::string_view list, std::string_view word) {
+  const auto words = SplitWords(list);
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::optional<double> Number(std::string_view text) {
+  text = xml::Trim(text);
+  double value = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc() || read.ptr != text.data() + text.size() || !std::isfinite(value)) {
+    return {};
+  }
+  return value;
+}
+
+bool IsWhole(std::string_view text, bool may_be_negative) {
+  text = xml::Trim(text);
+  if (may_be_negative && text.starts_with("-")) text.remove_prefix(1);
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+class Checker {
+ public:
+  explicit Checker(const xml::Node& root) : root_(root) {}
+
+  std::vector<Finding> Run() {
+    if (root_.name == "emotion") {
+      Emotion(root_);
+    } else {
+      Root();
+    }
+    return std::move(findings_);
+  }
+
+ private:
+  void Say(const xml::Node& at, std::string text, std::string advice = "",
+           Finding::Severity severity = Finding::Severity::kError) {
+    findings_.push_back({severity, at.line, at.column, std::move(text), std::move(advice)});
+  }
+
+  void Attributes(const xml::Node& node, std::string_view known, std::string_view required) {
+    for (const xml::Attribute& attribute : node.attributes) {
+      if (attribute.name.starts_with("xml") || !attribute.space.empty()) continue;
+      if (attribute.name.find(':') == std::string::npos && !Contains(known, attribute.name)) {
+        Say(node, "<" + node.name + "> has no attribute '" + attribute.name + "'");
+      }
+    }
+    for (const std::string_view name : SplitWords(required)) {
+      if (!node.Has(name)) Say(node, "<" + node.name + "> without " + std::string(name));
+    }
+    if (const std::string* id = node.Find("id"); id && !ids_.insert(*id).second) {
+      Say(node, "the id '" + *id + "' is given twice");
+    }
+  }
+
+  void Root() {
+    if (root_.space != kEmotionMlSpace) {
+      Say(root_, "<emotionml> outside of its namespace",
+          "xmlns=\"" + std::string(kEmotionMlSpace) + "\"");
+    }
+    Attributes(root_, std::string("version ") + std::string(kSets), "version");
+    Version(root_);
+    int infos = 0;
+    for (const auto& child : root_.children) {
+      if (child->IsElement("vocabulary")) Declare(*child);
+      if (child->IsElement("info") && ++infos > 1) Say(*child, "a second <info>");
+    }
+    for (const auto& child : root_.children) {
+      if (child->IsText() && !xml::IsBlank(child->text)) Say(*child, "text in <emotionml>");
+      if (!child->IsElement() || child->name == "vocabulary" || child->name == "info") continue;
+      if (child->name == "emotion" && child->space == kEmotionMlSpace) {
+        Emotion(*child);
+      } else {
+        Say(*child, "<" + child->name + "> may not stand in <emotionml>");
+      }
+    }
+    Sets(root_);
+  }
+
+  void Version(const xml::Node& node) {
+    const std::string* version = node.Find("version");
+    if (version && *version != "1.0") Say(node, "version '" + *version + "', expected 1.0");
+  }
+
+  void Declare(const xml::Node& node) {
+    Attributes(node, "type id", "type id");
+    if (!Contains(kTypes, node.Get("type", "category"))) {
+      Say(node, "vocabulary type '" + node.Get("type") + "'",
+          "expected one of " + std::string(kTypes));
+    }
+    std::set<std::string> names;
+    for (const auto& child : node.children) {
+      if (!child->IsElement() || child->name == "info") continue;
+      if (child->name != "item") {
+        Say(*child, "<" + child->name + "> may not stand in <vocabulary>");
+        continue;
+      }
+      Attributes(*child, "name", "name");
+      if (!names.insert(child->Get("name")).second) {
+        Say(*child, "the vocabulary has '" + child->Get("name") + "' twice");
+      }
+    }
+    if (names.empty()) Say(node, "a <vocabulary> without <item>");
+    own_[node.Get("id")] = {node.Get("type"), names};
+  }
+
+  void Emotion(const xml::Node& node) {
+    Attributes(node,
+               std::string("version id start end duration time-ref-uri time-ref-anchor-point "
+                           "offset-to-start expressed-through ") +
+                   std::string(kSets),
+               "");
+    Version(node);
+    Times(node);
+    Sets(node);
+    int described = 0;
+    int infos = 0;
+    std::map<std::string, std::set<std::string>> names;
+    for (const auto& child : node.children) {
+      if (!child->IsElement()) continue;
+      if (Contains(kTypes, child->name)) {
+        ++described;
+        Describe(node, *child);
+        if (!names[child->name].insert(child->Get("name")).second) {
+          Say(*child, "two <" + child->name + "> of the name '" + child->Get("name") + "'");
+        }
+      } else if (child->name == "reference") {
+        Reference(*child);
+      } else if (child->name == "info") {
+        if (++infos > 1) Say(*child, "a second <info>");
+      } else {
+        Say(*child, "<" + child->name + "> may not stand in <emotion>");
+      }
+    }
+    if (described == 0)
+      Say(node, "an <emotion> that describes nothing", "one of " + std::string(kTypes));
+  }
+
+  void Times(const xml::Node& node) {
+    for (const char* name : {"start", "end", "duration"}) {
+      const std::string* value = node.Find(name);
+      if (value && !IsWhole(*value, false)) {
+        Say(node, std::string(name) + " '" + *value + "'", "expected milliseconds, 0 or more");
+      }
+    }
+    const std::string* offset = node.Find("offset-to-start");
+    if (offset && !IsWhole(*offset, true))
+      Say(node, "offset-to-start '" + *offset + "'", "expected milliseconds");
+    const std::string anchor = node.Get("time-ref-anchor-point", "start");
+    if (anchor != "start" && anchor != "end") {
+      Say(node, "time-ref-anchor-point '" + anchor + "'", "expected start or end");
+    }
+    const auto start = Number(node.Get("start"));
+    const auto end = Number(node.Get("end"));
+    if (start && end && *end < *start) Say(node, "the end is before the start");
+  }
+
+  /// The declared set of a type: on the emotion, or on the root.
+  std::string SetOf(const xml::Node& emotion, const std::string& type) const {
+    const std::string name = type + "-set";
+    return emotion.Get(name, root_.Get(name));
+  }
+
+  void Sets(const xml::Node& node) {
+    for (const std::string_view type : SplitWords(kTypes)) {
+      const std::string* uri = node.Find(std::string(type) + "-set");
+      if (!uri) continue;
+      const std::size_t hash = uri->find('#');
+      if (hash == std::string::npos) {
+        Say(node, std::string(type) + "-set '" + *uri + "' names no vocabulary", "URI#id");
+        continue;
+      }
+      const std::string id = uri->substr(hash + 1);
+      std::string found;
+      if (hash == 0) {
+        const auto own = own_.find(id);
+        if (own == own_.end()) {
+          Say(node, "there is no vocabulary '" + id + "' in this document");
+          continue;
+        }
+        found = own->second.first;
+      } else if (uri->starts_with(kVocabularies)) {
+        const Vocabulary* known = Find(id);
+        if (!known) {
+          Say(node, "there is no vocabulary '" + id + "' in " + std::string(kVocabularies));
+          continue;
+        }
+        found = known->type;
+      } else {
+        Say(node, "'" + *uri + "' is not looked into", "", Finding::Severity::kWarning);
+        continue;
+      }
+      if (found != type) {
+        Say(node, std::string(type) + "-set names '" + id + "', a vocabulary of type " + found);
+      }
+    }
+  }
+
+  static const Vocabulary* Find(const std::string& id) {
+    for (const Vocabulary& vocabulary : kKnown) {
+      if (vocabulary.id == id) return &vocabulary;
+    }
+    return nullptr;
+  }
+
+  void Describe(const xml::Node& emotion, const xml::Node& node) {
+    Attributes(node, "name value confidence", "name");
+    const std::string set = SetOf(emotion, node.name);
+    if (set.empty()) {
+      Say(node, "<" + node.name + "> without a " + node.name + "-set",
+          "declare it on <emotion> or <emotionml>");
+    } else {
+      Name(node, set);
+    }
+    for (const char* name : {"value", "confidence"}) {
+      if (const std::string* value = node.Find(name)) Range(node, name, *value);
+    }
+    int traces = 0;
+    for (const auto& child : node.children) {
+      if (child->IsText() && !xml::IsBlank(child->text)) Say(*child, "text in <" + node.name + ">");
+      if (!child->IsElement()) continue;
+      if (child->name != "trace") {
+        Say(*child, "<" + child->name + "> may not stand in <" + node.name + ">");
+        continue;
+      }
+      if (++traces > 1) Say(*child, "a second <trace>");
+      Trace(*child);
+    }
+    if (traces > 0 && node.Has("value")) Say(node, "value and <trace> together", "give one");
+    if (node.name == "dimension" && traces == 0 && !node.Has("value")) {
+      Say(node, "<dimension> without value or <trace>");
+    }
+  }
+
+  void Name(const xml::Node& node, const std::string& set) {
+    const std::size_t hash = set.find('#');
+    if (hash == std::string::npos) return;
+    const std::string id = set.substr(hash + 1);
+    const std::string name = node.Get("name");
+    bool known = true;
+    if (hash == 0) {
+      const auto own = own_.find(id);
+      known = own == own_.end() || own->second.second.contains(name);
+    } else if (set.starts_with(kVocabularies)) {
+      const Vocabulary* vocabulary = Find(id);
+      known = !vocabulary || vocabulary->names.empty() || Contains(vocabulary->names, name);
+    }
+    if (!known) Say(node, "'" + name + "' is not in the vocabulary " + set);
+  }
+
+  void Range(const xml::Node& node, const std::string& what, std::string_view text) {
+    const auto value = Number(text);
+    if (!value || *value < 0 || *value > 1) {
+      Say(node, what + " '" + std::string(text) + "'", "expected 0.0 to 1.0");
+    }
+  }
+
+  void Trace(const xml::Node& node) {
+    Attributes(node, "freq samples", "freq samples");
+    const std::string frequency = node.Get("freq");
+    const std::string number(xml::Trim(frequency.substr(0, frequency.find("Hz"))));
+    const auto value = Number(number);
+    if (node.Has("freq") && (!value || *value <= 0 || !xml::Trim(frequency).ends_with("Hz"))) {
+      Say(node, "freq '" + frequency + "'", "expected a number above 0 and Hz, as 10Hz");
+    }
+    const std::string samples = node.Get("samples");
+    const auto words = SplitWords(samples);
+    if (node.Has("samples") && words.empty()) Say(node, "a <trace> without samples");
+    for (const std::string_view word : words) Range(node, "sample", word);
+  }
+
+  void Reference(const xml::Node& node) {
+    Attributes(node, "uri role media-type", "uri");
+    const std::string role = node.Get("role", "expressedBy");
+    if (!Contains("expressedBy experiencedBy triggeredBy targetedAt", role)) {
+      Say(node, "role '" + role + "'",
+          "expected expressedBy, experiencedBy, triggeredBy or targetedAt");
+    }
+  }
+
+  const xml::Node& root_;
+  std::vector<Finding> findings_;
+  std::set<std::string> ids_;
+  std::map<std::string, std::pair<std::string, std::set<std::string>>> own_;
+};
+
+}  // namespace
+
+bool IsEmotionMl(const xml::Node& root) {
+  return root.IsElement("emotionml") ||
+         (root.IsElement("emotion") && root.space == kEmotionMlSpace);
+}
+
+std::vector<Finding> CheckEmotionMl(const xml::Node& root) { return Checker(root).Run(); }
+
+}  // namespace vxml
