@@ -36,7 +36,7 @@ class LongHair {
  private:
   // `i` runs from the face's edge (0) to the middle of the back (1), `t` from the parting (0) over
   // the end of the skull (kCap) to the ends (1).
-  static constexpr float kCap = 0.5f;
+  static constexpr float kCap = 0.58f;
 
   glm::vec3 Direction(float i, float side, float t) const {
     const float along = glm::mix(30.0f, 158.0f, std::pow(i, 0.9f)) * kPi / 180;
@@ -68,7 +68,7 @@ class LongHair {
     float radius =
         std::max(least, glm::mix(skin + 0.9f + 4.5f * SmoothStep(0.3f, 1, cap), volume, part));
     // The parting is a furrow in the hair.
-    radius = glm::mix(skin + 1.6f, radius, SmoothStep(-0.12f, 0.3f, cap));
+    radius = glm::mix(skin + 0.55f * (radius - skin), radius, SmoothStep(-0.1f, 0.28f, cap));
     glm::vec3 p = kHairCentre + d * (radius + out_mm);
     if (t > kCap) {
       const float hang = (t - kCap) / (kEnd - kCap);
