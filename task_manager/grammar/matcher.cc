@@ -341,12 +341,13 @@ std::string Quote(const std::string& text) {
 
 std::string Parse::Text() const {
   std::string text;
+  const bool dtmf = rule && rule->grammar && rule->grammar->mode == Mode::kDtmf;
   for (const ParseItem& item : items) {
     const std::string part = item.kind == ParseItem::Kind::kRule  ? item.rule->Text()
                              : item.kind == ParseItem::Kind::kTag ? ""
                                                                   : item.text;
     if (part.empty()) continue;
-    const bool joined = !text.empty() && [&] {
+    const bool joined = !dtmf && !text.empty() && [&] {
       std::size_t size = 0;
       return !IsUnspaced(DecodeBefore(text, text.size())) || !IsUnspaced(DecodeAt(part, 0, size));
     }();

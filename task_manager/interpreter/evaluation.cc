@@ -98,7 +98,9 @@ const std::string* FindProperty(const xml::Node& scope, const std::string& name)
 }  // namespace
 
 std::string Session::Property(const std::string& name, const xml::Node* from) {
-  const xml::Node* node = from ? from : &Here();
+  // Handlers act as if copied into the active item: its properties count, not those around them.
+  const xml::Node* node = scope_item_ ? scope_item_->node : dialog_ ? dialog_->node : nullptr;
+  if (!node) node = from ? from : &Here();
   for (; node; node = node->parent) {
     if (const std::string* value = FindProperty(*node, name)) return *value;
   }

@@ -258,8 +258,8 @@ const srgs::Rule* Session::CompileExternal(const xml::Node& node, const Document
   context.language = LanguageAt(node);
   context.mode = node.Get("mode") == "dtmf" ? Mode::kDtmf : Mode::kVoice;
   const std::string base = node.Inherited("xml:base");
-  const std::string uri = fetch::Resolve(
-      base.empty() ? document.base : fetch::Resolve(document.base, base), reference);
+  const std::string uri =
+      fetch::Resolve(base.empty() ? document.base : fetch::Resolve(document.base, base), reference);
   const srgs::Rule* rule = nullptr;
   auto loaded = grammars_->Load(uri, context, &rule);
   if (!loaded) {

@@ -86,6 +86,7 @@ void Session::VisitRecord(Item& item) {
   const auto keep = [&](const std::string& termchar) {
     const Value recording = engine_.Object();
     engine_.Set(recording, "uri", engine_.String(result.uri));
+    engine_.Set(recording, "type", engine_.String(plain));
     engine_.Set(recording, "duration",
                 engine_.Number(static_cast<double>(result.duration.count())));
     const Value shadow = engine_.Object();
