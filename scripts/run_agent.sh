@@ -9,17 +9,20 @@ usage: scripts/run_agent.sh [options]
   --say TEXT         speak TEXT and end: in a window where there is a display, else into agent.mp4
   --emotion TYPE     look HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL while speaking;
                      a strength in % may follow: --emotion "HAPPY 60"
+  --dialog DOC.vxml  run a VoiceXML dialogue (docs/dialogs.md); what you type is what you say
+  --script FILE      with --dialog: take the user's part from FILE instead of the keyboard; by default
+                     DOC.txt beside DOC.vxml where a film is made
   --out FILE.mp4     make a film with sound instead of opening a window
   --stub             use the voice without sound and engine (ssm_stub)
   --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
   --help             this text
 
-Without --say and --out a short dialogue is typed at the terminal.
+Without --say, --dialog and --out a short dialogue is typed at the terminal.
 TEXT
 }
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-say="" emotion="" out="" config="" voice=ssm
+say="" emotion="" out="" config="" voice=ssm dialog="" script=""
 fail() {
   echo "run_agent: $1" >&2
   exit 2
@@ -27,13 +30,15 @@ fail() {
 absolute() { case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
 while [ $# -gt 0 ]; do
   case $1 in
-    --say | --emotion | --out | --config)
+    --say | --emotion | --out | --config | --dialog | --script)
       [ $# -ge 2 ] || fail "$1 needs a value"
       case $1 in
         --say) say=$2 ;;
         --emotion) emotion=$2 ;;
         --out) out=$(absolute "$2") ;;
         --config) config=$(absolute "$2") ;;
+        --dialog) dialog=$(absolute "$2") ;;
+        --script) script=$(absolute "$2") ;;
       esac
       shift 2
       ;;
@@ -46,6 +51,14 @@ case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
 case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in .mp4" ;; esac
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
 [ -z "$config" ] || [ -r "$config" ] || fail "--config: cannot read '$config'"
+[ -z "$dialog" ] || [ -r "$dialog" ] || fail "--dialog: cannot read '$dialog'"
+[ -z "$script" ] || [ -r "$script" ] || fail "--script: cannot read '$script'"
+[ -z "$dialog" ] || [ -z "$say" ] || fail "--dialog and --say exclude each other"
+[ -z "$script" ] || [ -n "$dialog" ] || fail "--script needs --dialog"
+if [ -n "$dialog" ] && [ -n "$out" ] && [ -z "$script" ]; then
+  script=${dialog%.*}.txt
+  [ -r "$script" ] || fail "--out with --dialog needs the user's part: --script FILE (there is no '$script')"
+fi
 case ${emotion%% *} in
   "" | HAPPY | ANGRY | DISGUSTED | SAD | SURPRISED | FEARED | NEUTRAL) ;;
   *) fail "--emotion '$emotion': expected HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL" ;;
@@ -91,7 +104,7 @@ if [ -z "$config" ]; then
 fi
 hub_program=$root/build/bin/agent_manager
 
-if [ -z "$say" ] && [ -n "$film" ]; then
+if [ -z "$say$dialog" ] && [ -n "$film" ]; then
   say="Hello, my name is Galatea."
 fi
 if [ -n "$say" ]; then
@@ -117,11 +130,19 @@ if [ -n "$say" ]; then
   exit 0
 fi
 
-# The dialogue typed at the terminal: the hub in the background, the dialogue as one of its clients.
+# A dialogue: the hub in the background, the dialogue as one of its clients.
 printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [\"unix:$work/hub\"],#" "$config")" >"$work/dialogue.json"
 "$hub_program" --config "$work/dialogue.json" --no-console 2>"$work/hub.log" &
 hub=$!
 for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
 [ -S "$work/hub" ] || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
-has_display || echo "run_agent: no display, so no window; --out FILE.mp4 makes films" >&2
+[ -n "$out" ] || has_display || echo "run_agent: no display, so no window; --out FILE.mp4 makes films" >&2
+if [ -n "$dialog" ]; then
+  options=()
+  [ -z "$script" ] || options+=(--script "$script" --transcript text)
+  [ -z "$out" ] || options+=(--out "$out")
+  "$root/build/bin/task_manager" "$dialog" --connect "unix:$work/hub" "${options[@]}" || { cat "$work/hub.log" >&2; exit 1; }
+  [ -z "$out" ] || echo "run_agent: wrote $out"
+  exit 0
+fi
 python3 examples/demo_dialogue.py "$work/hub" || { cat "$work/hub.log" >&2; exit 1; }
