@@ -27,7 +27,7 @@ struct Hypothesis {
   std::string text{};  ///< words with blanks between; empty = nothing fits
   std::vector<HeardWord> words{};
   /// How much worse than free phonemes the grammar fits, per 10 ms frame, in the engine's units;
-  /// about 0 where it is right, below -12 where something else was said.
+  /// about 0 where it is right, below -18 where something else was said.
   double fit = 0;
   double confidence = 0;  ///< 0 to 1, from `fit`; 0.5 at the threshold
 };
@@ -50,7 +50,7 @@ class SpeechDecoder {
   virtual Hypothesis End() = 0;
 };
 
-inline constexpr double kFitThreshold = -12;
+inline constexpr double kFitThreshold = -17;
 double ConfidenceOf(double fit);
 
 /// Hears single phrases in all that is said ("stop"), for interruptions.

@@ -57,9 +57,21 @@ int OnSound(short* samples, int count, espeak_EVENT* events) {
   return g_sound->samples.size() > kMaxFrames ? 1 : 0;
 }
 
+/// By name, else by language: some languages ("en-gb") are the name of no voice.
+bool ChooseVoice(const std::string& voice) {
+  if (espeak_SetVoiceByName(voice.c_str()) == EE_OK) return true;
+  espeak_VOICE wanted{};
+  wanted.languages = voice.c_str();
+  if (espeak_SetVoiceByProperties(&wanted) != EE_OK) return false;
+  // Where nothing fits, the library takes any voice and says it went well.
+  const espeak_VOICE* chosen = espeak_GetCurrentVoice();
+  return chosen != nullptr && chosen->languages != nullptr &&
+         voice.compare(0, 2, chosen->languages + 1, 2) == 0;
+}
+
 std::string Say(const std::string& voice, int wpm, int pitch, const std::string& text,
                 Sound& sound) {
-  if (espeak_SetVoiceByName(voice.c_str()) != EE_OK) return "there is no voice '" + voice + "'";
+  if (!ChooseVoice(voice)) return "there is no voice '" + voice + "'";
   espeak_SetParameter(espeakRATE, wpm, 0);
   espeak_SetParameter(espeakPITCH, pitch, 0);
   g_sound = &sound;
