@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <utility>
 
 #include "task_manager/xml/node.h"
 
@@ -155,7 +156,7 @@ void AgentPlatform::Act(std::size_t index) {
 
 /// Commands beside the words: a macro of the hub that starts with the voice (the original's PAR).
 void AgentPlatform::StartParallel(const Prompt& prompt) {
-  std::string steps;
+  std::string steps = std::exchange(beside_, "");
   for (const Segment& segment : prompt.segments) {
     if (segment.kind != Segment::Kind::kCommand || !segment.parallel) continue;
     if (segment.pause.count() > 0) {
@@ -291,8 +292,23 @@ void AgentPlatform::Native(const std::string& line) {
   JsonLine report;
   report.Text("line", line);
   Report("command", report);
-  // Lines of the original's PAR and to modules that are not there are the hub's to judge.
-  if (vm::ParseMessage(line)) hub_.Send(line);
+  auto message = vm::ParseMessage(line);
+  if (!message) return;
+  // The original's module PAR: a list of commands and sleeps that starts with the next speech.
+  if (message->to.size() == 1 && message->to[0] == "PAR") {
+    double seconds = 0;
+    const std::string& value = message->value;
+    if (message->slot == "Init") {
+      beside_.clear();
+    } else if (value.starts_with("sleep ")) {
+      std::from_chars(value.data() + 6, value.data() + value.size(), seconds);
+      beside_ += ", {\"pause_ms\": " + std::to_string(static_cast<int>(seconds * 1000)) + "}";
+    } else {
+      beside_ += ", {\"send\": " + JsonQuote(value) + "}";
+    }
+    return;
+  }
+  hub_.Send(line);
 }
 
 void AgentPlatform::Fetching(const std::string& uri, bool begins) {

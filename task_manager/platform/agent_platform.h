@@ -57,6 +57,7 @@ class AgentPlatform final : public Platform {
   Options options_;
   std::vector<std::string> actions_;  ///< of the prompt being spoken, by bookmark; "mark NAME"
   std::size_t acted_ = 0;
+  std::string beside_;  ///< steps of PAR for the next speech
   std::deque<Input> heard_;
   bool hearing_ = false;  ///< somebody speaks
   bool ran_out_ = false;
