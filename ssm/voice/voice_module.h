@@ -81,11 +81,13 @@ class VoiceModule final : public vm::Module {
     vm::Reply reply;
   };
 
+  // voice_manner_slots.cc
+  void DeclareManner();
+  void DeclareEmotion();
+
   // voice_slots.cc: what there is to set and to ask.
   void DeclareTextSlots();
   void DeclareSpeakSlots();
-  void DeclareManner();
-  void DeclareEmotion();
   void DeclareFileSlots();
   void DeclareLogSlots();
   void DeclareRefused(const std::string& name, const std::string& why, bool readable);
@@ -98,6 +100,8 @@ class VoiceModule final : public vm::Module {
   void OnRendered(const std::shared_ptr<Utterance>& utterance, const vm::Result<void>& result);
   void ReportPhonemes();
   void MakeReady(const vm::Reply& reply, std::string answer);
+
+  // voice_speaking.cc
   void SetSpeak(const std::string& text, const vm::Reply& reply);
   void Speak(vm::Time at, const std::string& text, const vm::Reply& reply);
   vm::Result<void> StartPlaying(vm::Time at, std::size_t from = 0);
@@ -106,15 +110,16 @@ class VoiceModule final : public vm::Module {
   void Resume(const vm::Reply& reply);
   void OnEnded(AudioSink::Position end, bool failed);
   AudioSink::Position StopPlayer();
+  Millis Spoken() const;
   void Tail(std::size_t frames);
+
+  // voice_module.cc
   void SetState(State state);
   void Fault(std::string_view slot, const vm::Error& error);
   bool MustWait() const { return state_ == State::kProcessing || !waiting_.empty(); }
   void WaitTurn(std::function<void()> action, const vm::Reply& reply);
   void TakeTurns();
   static void Abandon(std::deque<Waiting>& queue, const char* why);
-  Millis Spoken() const;
-
   // voice_files.cc: what goes to files and comes from them.
   void Save(const std::string& path, SoundFormat format, const vm::Reply& reply);
   void Load(const std::string& path, SoundFormat format, const vm::Reply& reply);
