@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -141,8 +142,9 @@ class Helper {
 
   /// From where phonemes begin to how long they last. The events of one buffer are not in order.
   static vm::PhonemeList Durations(std::vector<std::pair<Millis, std::string>> starts, Millis end) {
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    // (Of those at one instant the order stays; std::stable_sort is deprecated inside for clang.)
+    const std::multimap<Millis, std::string> in_order(starts.begin(), starts.end());
+    starts.assign(in_order.begin(), in_order.end());
     vm::PhonemeList list;
     if (starts.empty() || starts.front().first.count() > 0) {
       list.push_back({"", starts.empty() ? end : std::min(starts.front().first, end)});
