@@ -18,8 +18,8 @@ struct LashRow {
   int hairs;
   float from, to;  // along the lid, 0 inner corner .. 1 outer
 };
-constexpr std::array kLashRows = {LashRow{true, 38, 0.10f, 0.99f},
-                                  LashRow{false, 18, 0.30f, 0.97f}};
+constexpr std::array kLashRows = {LashRow{true, 30, 0.10f, 0.99f},
+                                  LashRow{false, 12, 0.35f, 0.97f}};
 
 class LashBuilder {
  public:
@@ -68,8 +68,8 @@ class LashBuilder {
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
       const float x = X(glm::mix(0.06f, 0.99f, part));
-      const float thick = (0.4f + 0.6f * size_) *
-                          (0.30f + 0.50f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
+      const float thick = (0.35f + 0.65f * size_) *
+                          (0.40f + 0.70f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
       const std::uint32_t low =
@@ -91,21 +91,23 @@ class LashBuilder {
     const float radius = eye_.LidRadius(x) + 0.05f;
     const float fan = 1.5f * (along - 0.42f) + 0.10f * Grain(i, 5);
     const float length =
-        size_ * (upper_ ? (2.6f + 3.4f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
+        size_ * (upper_ ? (1.6f + 2.8f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
                               (1 + 0.12f * Grain(i, 9))
-                        : 2.2f * (1 + 0.2f * Grain(i, 9)));
+                        : 1.3f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
-    const float width = upper_ ? 0.17f : 0.11f;
+    const float width = upper_ ? 0.24f : 0.12f;
+    // Lower hairs are thin: much of the skin shows between them.
+    const float dark = upper_ ? 0.9f : 0.35f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
     const glm::vec3 tip =
         root + length * (0.72f * out + glm::vec3(0, (upper_ ? 0.44f : -0.40f), 0));
-    const std::uint32_t a = Add(root - glm::vec3(width, 0, 0), x, 0.9f);
-    const std::uint32_t b = Add(root + glm::vec3(width, 0, 0), x, 0.9f);
-    const std::uint32_t c = Add(middle - glm::vec3(0.6f * width, 0, 0), x, 1);
-    const std::uint32_t d = Add(middle + glm::vec3(0.6f * width, 0, 0), x, 1);
-    const std::uint32_t e = Add(tip, x, 1);
+    const std::uint32_t a = Add(root - glm::vec3(width, 0, 0), x, dark);
+    const std::uint32_t b = Add(root + glm::vec3(width, 0, 0), x, dark);
+    const std::uint32_t c = Add(middle - glm::vec3(0.6f * width, 0, 0), x, dark);
+    const std::uint32_t d = Add(middle + glm::vec3(0.6f * width, 0, 0), x, dark);
+    const std::uint32_t e = Add(tip, x, 0.75f * dark);
     Face(a, b, d);
     Face(a, d, c);
     Face(c, d, e);
@@ -129,32 +131,64 @@ void BuildLashes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh
   }
 }
 
+namespace {
+
+// Where brows lie: middle line and half height over x, on the base identity's face.
+class BrowPlace {
+ public:
+  explicit BrowPlace(const Identity& identity)
+      : thickness_(identity.brow_thickness), height_(identity.brow_height) {}
+
+  // `level` -1 at the lower edge .. 1 at the upper.
+  float Y(float x, float level) const {
+    return middle_(x) + thickness_ * half_(x) * level - 0.8f + height_;
+  }
+  // How densely the skin is covered, 0..1.
+  float Cover(glm::vec2 at) const {
+    const float x = std::abs(at.x);
+    if (x < 6 || x > 60) return 0;
+    const float high = thickness_ * std::max(half_(std::clamp(x, 9.0f, 56.0f)), 1.0f) + 0.8f;
+    const float off = (at.y - Y(std::clamp(x, 9.0f, 56.0f), 0)) / high;
+    return std::exp(-off * off) * SmoothStep(8, 17, x) * SmoothStep(60, 48, x);
+  }
+
+ private:
+  float thickness_, height_;
+  Curve middle_{{9, 16, 26, 36, 43, 50, 56}, {39.6f, 41.2f, 43.4f, 45.0f, 44.6f, 42.0f, 38.6f}};
+  Curve half_{{9, 13, 20, 32, 42, 50, 56}, {2.0f, 2.9f, 3.1f, 2.6f, 1.9f, 1.2f, 0.6f}};
+};
+
+}  // namespace
+
 void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
   const Palette& palette = identity.palette;
-  // Middle line, half height, and which way the hairs grow (degrees from outward to up), over x.
-  const Curve middle({9, 16, 26, 36, 43, 50, 56},
-                     {39.6f, 41.2f, 43.4f, 45.0f, 44.6f, 42.0f, 38.6f});
-  const Curve half({9, 13, 20, 32, 42, 50, 56}, {2.2f, 3.0f, 3.1f, 2.6f, 1.9f, 1.2f, 0.6f});
+  const BrowPlace place(identity);
+  // Most of a brow's tone is on the skin; the hairs only break it up.
+  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+    const glm::vec3 p = mesh.position[i];
+    if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
+    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette.brow, 0.84f * place.Cover({p.x, p.y}));
+  }
+  // Which way the hairs grow, degrees from outward to up, over x.
   const Curve grow({9, 14, 22, 36, 48, 56}, {80, 58, 34, 14, -14, -34});
-  constexpr int kColumns = 30;
+  constexpr int kColumns = 24;
   constexpr int kRows = 4;
   for (const int side : {-1, 1}) {
     const auto mirror = [side](glm::vec3 p) { return p * glm::vec3(side, 1, 1); };
     for (int i = 0; i < kColumns * kRows; ++i) {
       const int column = i / kRows;
       const int row = i % kRows;
-      const float x = 8.8f + (46.0f * (static_cast<float>(column) +
-                                       0.25f * static_cast<float>(row) + 0.35f * Grain(i, 21))) /
-                                 kColumns;
+      const float x = 10.5f + (44.5f * (static_cast<float>(column) +
+                                        0.25f * static_cast<float>(row) + 0.35f * Grain(i, 21))) /
+                                  kColumns;
       const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.4f * Grain(i, 22)) / kRows;
-      const glm::vec2 at(
-          x, middle(x) + identity.brow_thickness * half(x) * level - 0.8f + identity.brow_height);
+      const glm::vec2 at(x, place.Y(x, level));
       // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
       const float angle = (grow(x) - 24 * level + 9 * Grain(i, 23)) * kPi / 180;
       const glm::vec2 along(std::cos(angle), std::sin(angle));
-      const float ends = SmoothStep(8, 15, x) * SmoothStep(58, 50, x);
+      const float ends = SmoothStep(8, 19, x) * SmoothStep(58, 50, x);
       const float length = (4.6f + 1.6f * Grain(i, 24)) * (0.65f + 0.35f * ends);
-      const float width = 0.55f * (0.55f + 0.45f * ends);
+      const float width = 0.42f * (0.55f + 0.45f * ends);
       const glm::vec2 across(-along.y, along.x);
       const auto over = [&front](glm::vec2 xy, float lift) {
         glm::vec3 normal;
@@ -166,10 +200,10 @@ void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh
       const glm::vec3 c = over(at + length * along, 0.55f);
       std::array<std::uint32_t, 3> id{};
       int k = 0;
-      const glm::vec3 colour = palette.brow * (1 + 0.25f * Grain(i, 25));
+      const glm::vec3 colour = palette.brow * (1 + 0.15f * Grain(i, 25));
       for (const glm::vec3 p : {a, b, c}) {
         const glm::vec3 q = mirror(p);
-        const glm::vec3 soft = glm::mix(palette.skin, colour, k < 2 ? 0.5f + 0.42f * ends : 0.7f);
+        const glm::vec3 soft = glm::mix(palette.skin, colour, k < 2 ? 0.45f + 0.3f * ends : 0.5f);
         id[static_cast<std::size_t>(k++)] =
             mesh.Add(q, soft, 1, Bone::kFlesh, FleshAt({q.x, q.y}, 0, -43));
       }

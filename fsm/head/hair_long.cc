@@ -17,9 +17,8 @@ constexpr glm::vec3 kVolume{83.5f, 107.5f, 105};  // half axes of the hair over 
 constexpr float kPartX = 0.17f;  // sideways place of the parting, as part of the volume
 constexpr float kEnd = 1.0f;
 
-// Strands start along the parting, sweep over the skull and hang. Those at the face's edge run
-// along the hairline close to the skin, those behind them ever higher: hair grows out of the head,
-// it is not put on.
+// Strands start along the parting, sweep over the skull and hang. Those at the face's edge are the
+// fringe: they come down over the forehead slantwise, a little off the skin, towards the temples.
 class LongHair {
  public:
   LongHair(const Palette& palette, HeadMesh& mesh) : palette_(palette), scalp_(mesh), mesh_(mesh) {}
@@ -29,7 +28,8 @@ class LongHair {
       Shell(side);
       Lining(side);
       Locks(side);
-      Roots(side);
+      Wisps(side);
+      Fringe(side);
     }
   }
 
@@ -39,22 +39,22 @@ class LongHair {
   static constexpr float kCap = 0.58f;
 
   glm::vec3 Direction(float i, float side, float t) const {
-    const float along = glm::mix(30.0f, 158.0f, std::pow(i, 0.9f)) * kPi / 180;
+    const float along = glm::mix(31.0f, 158.0f, std::pow(i, 0.9f)) * kPi / 180;
     const glm::vec3 start = glm::normalize(glm::vec3(kPartX, std::sin(along), std::cos(along)));
-    const float azimuth = glm::mix(69.0f, 180.0f, std::pow(i, 0.85f));
+    const float azimuth = glm::mix(66.0f, 180.0f, std::pow(i, 0.85f));
     const float edge = SmoothStep(0.25f, 0, i);
     // The side away from the parting has the longer way round the forehead.
     const float away = side < 0 ? 1.0f : 0.0f;
     const glm::vec3 bend =
-        HairDirection(side * azimuth * glm::mix(1.0f, 0.72f - 0.06f * away, edge),
-                      glm::mix(38.0f, 22.5f + 2.5f * away, edge));
-    const glm::vec3 end = HairDirection(side * azimuth, glm::mix(-8.0f, -11.0f, edge));
+        HairDirection(side * azimuth * glm::mix(1.0f, 0.66f - 0.02f * away, edge),
+                      glm::mix(38.0f, 14.0f - 2.0f * away, edge));
+    const glm::vec3 end = HairDirection(side * azimuth, glm::mix(-8.0f, -14.0f, edge));
     return glm::normalize((1 - t) * (1 - t) * start + 2 * t * (1 - t) * bend + t * t * end);
   }
 
   float EndY(float i, float side) const {
-    return glm::mix(-94.0f, -116.0f, SmoothStep(0, 0.6f, i)) + 4.0f * std::sin(17 * i + side) +
-           3.0f * std::sin(41 * i + 2 * side);
+    return glm::mix(-84.0f, -112.0f, std::sqrt(SmoothStep(0, 0.8f, i))) +
+           2.0f * std::sin(17 * i + side);
   }
 
   glm::vec3 Point(float i, float side, float t, float out_mm) const {
@@ -64,9 +64,10 @@ class LongHair {
     const float volume = 1 / std::sqrt(glm::dot(scaled, scaled));
     const float skin = scalp_.Distance(d);
     const float part = SmoothStep(0, 0.17f, i) * (0.8f + 0.2f * SmoothStep(0, 0.3f, cap));
-    const float least = skin + glm::mix(0.9f, 7.5f, SmoothStep(0, 0.12f, i));
+    const float fringe = 1.2f + 4.0f * std::sin(kPi * SmoothStep(0, 1, cap));
+    const float least = skin + glm::mix(fringe, 7.5f, SmoothStep(0, 0.12f, i));
     float radius =
-        std::max(least, glm::mix(skin + 0.9f + 4.5f * SmoothStep(0.3f, 1, cap), volume, part));
+        std::max(least, glm::mix(skin + 1.2f + 4.5f * SmoothStep(0.3f, 1, cap), volume, part));
     // The parting is a furrow in the hair.
     radius = glm::mix(skin + 0.55f * (radius - skin), radius, SmoothStep(-0.1f, 0.28f, cap));
     glm::vec3 p = kHairCentre + d * (radius + out_mm);
@@ -77,7 +78,7 @@ class LongHair {
       p.y = glm::mix(p.y, EndY(i, side), hang);
       const float full = 5.0f * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
       const float wave = 2.2f * std::sin(7 * hang + 9 * i + side) * SmoothStep(0.1f, 0.6f, hang);
-      p += out * (full + wave - glm::mix(15.0f, 30.0f, i) * hang * hang * hang);
+      p += out * (full + wave - glm::mix(11.0f, 30.0f, i) * hang * hang * hang);
       p.z += front * 8 * hang * (1 - 0.4f * hang);
     }
     return p;
@@ -91,19 +92,23 @@ class LongHair {
 
   void Shell(float side) {
     constexpr int kStrands = 22;
-    constexpr int kRows = 14;
+    constexpr int kCapRows = 9;  // the skull is round, what hangs nearly straight
+    constexpr int kRows = 13;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Closer together at the face, where the edge is seen.
       const float u = static_cast<float>(k) / kStrands;
       const float i = glm::mix(u * u, u, 0.45f);
       for (int row = 0; row <= kRows; ++row) {
-        const float t = static_cast<float>(row) / kRows;
+        const float t =
+            row <= kCapRows
+                ? kCap * static_cast<float>(row) / kCapRows
+                : glm::mix(kCap, kEnd, static_cast<float>(row - kCapRows) / (kRows - kCapRows));
         const glm::vec3 p = Point(i, side, t, Ridge(i, t));
         const float open = glm::mix(0.6f, 1.0f, SmoothStep(0, 0.12f, t)) *
                            glm::mix(0.7f, 1.0f, SmoothStep(0, 0.1f, i));
         // The first strand is sparse: skin shows between its hairs.
-        const float dense = k > 0 || t > kCap ? 1.0f : 0.72f + 0.28f * SmoothStep(0.35f, kCap, t);
+        const float dense = k > 0 || t > kCap ? 1.0f : 0.9f + 0.1f * SmoothStep(0, 0.2f, t);
         mesh_.Add(p, glm::mix(palette_.skin, StrandColour(palette_, k * 3, row), dense), open,
                   Bone::kSkull);
       }
@@ -113,8 +118,8 @@ class LongHair {
 
   // The dark inside of the hanging hair, seen beside the neck.
   void Lining(float side) {
-    constexpr int kStrands = 12;
-    constexpr int kRows = 5;
+    constexpr int kStrands = 10;
+    constexpr int kRows = 3;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       const float i = glm::mix(0.03f, 1.0f, static_cast<float>(k) / kStrands);
@@ -128,19 +133,21 @@ class LongHair {
   }
 
   void Locks(float side) {
-    constexpr int kLocks = 30;
+    constexpr int kEdge = 9;
+    constexpr int kLocks = 34;
     for (int k = 0; k < kLocks; ++k) {
       const int seed = k + (side > 0 ? 500 : 0);
-      const float u = (static_cast<float>(k) + 0.5f + 0.4f * Grain(seed, 1)) / kLocks;
-      const bool edge = k < 9;
+      const float u =
+          (static_cast<float>(k - kEdge) + 0.5f + 0.4f * Grain(seed, 1)) / (kLocks - kEdge);
+      const bool edge = k < kEdge;
       const float i = edge ? 0.005f * static_cast<float>(k) : u;
       const float from =
           edge ? 0.02f + 0.028f * static_cast<float>(k) : 0.18f + 0.14f * (Grain(seed, 2) + 1);
       const float to =
-          edge ? 0.52f + 0.03f * static_cast<float>(k % 5) : 1.0f + 0.035f * Grain(seed, 3);
-      const float lift = edge ? 0.8f : 1.4f + 0.9f * Grain(seed, 4);
+          edge ? 0.52f + 0.03f * static_cast<float>(k % 5) : 1.01f + 0.03f * Grain(seed, 3);
+      const float lift = edge ? 0.8f : 2.2f + 0.9f * Grain(seed, 4);
       std::vector<glm::vec3> path;
-      constexpr int kSteps = 7;
+      constexpr int kSteps = 6;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         const float t = glm::mix(from, to, v);
@@ -154,29 +161,63 @@ class LongHair {
     }
   }
 
-  // Single small locks that leave the skin before the edge and run slantwise into it, so that the
-  // hairline is no drawn line.
-  void Roots(float side) {
-    constexpr int kRoots = 26;
-    for (int k = 0; k < kRoots; ++k) {
+  // Thin locks that leave the edge of the hair towards the face and end there, so that the edge is
+  // no drawn line.
+  void Wisps(float side) {
+    constexpr int kWisps = 24;
+    for (int k = 0; k < kWisps; ++k) {
       const int seed = k + (side > 0 ? 900 : 700);
-      const float t = 0.01f + 0.42f * (static_cast<float>(k) + 0.4f * Grain(seed, 1)) / kRoots;
-      const glm::vec3 on_edge = Point(0, side, t, 0);
-      glm::vec3 down = Point(0, side, t + 0.03f, 0) - on_edge;
-      down = glm::normalize(down);
-      const glm::vec3 outward = glm::normalize(on_edge - kHairCentre);
-      const glm::vec3 face = glm::cross(outward, down) * side;  // away from the hair
-      const float reach = 1.1f + 0.9f * Grain(seed, 2);
+      const float from = 0.06f + 0.74f * (static_cast<float>(k) + 0.4f * Grain(seed, 1)) / kWisps;
+      const float long_part = 0.17f * (1 + 0.45f * Grain(seed, 3));
+      const float reach =
+          (2.2f + 1.5f * Grain(seed, 2)) * (1 + 1.8f * SmoothStep(0.45f, 0.25f, from));
       std::vector<glm::vec3> path;
       constexpr int kSteps = 3;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
-        const float i = 0.075f * v * v;
-        const glm::vec3 p =
-            Point(i, side, t + 0.17f * v * (1 + 0.3f * Grain(seed, 3)), 0.7f + 0.8f * v);
-        path.push_back(p + face * (reach * (1 - v) * (1 - v)) - outward * (0.6f * (1 - v)));
+        const float t = from + long_part * v;
+        const float i = 0.05f * (1 - v);
+        const glm::vec3 p = Point(i, side, t, 1.2f - 1.2f * v);
+        const glm::vec3 down = glm::normalize(Point(i, side, t + 0.02f, 0) - p);
+        const glm::vec3 outward = glm::normalize(p - kHairCentre);
+        const glm::vec3 face = glm::cross(down, outward) * side;  // away from the hair
+        path.push_back(p + face * (reach * v * v) - outward * (1.0f * v * v));
       }
-      AddLock(path, 3.0f + Grain(seed, 4), 0.2f, palette_, seed, 0.95f, mesh_);
+      AddLock(path, 5.5f + 2 * Grain(seed, 4), 0.3f, palette_, seed, 0.95f, mesh_);
+    }
+  }
+
+  // Locks from the parting over the upper forehead to the temple. The foremost end first, those
+  // from farther back reach lower.
+  void Fringe(float side) {
+    const int locks = side < 0 ? 16 : 11;
+    for (int k = 0; k < locks; ++k) {
+      const int seed = k + (side > 0 ? 1300 : 1100);
+      const float u =
+          (static_cast<float>(k) + 0.5f + 0.5f * Grain(seed, 1)) / static_cast<float>(locks);
+      // Some are thin strands that come further down.
+      const float strand = k % 3 == 1 && u < 0.7f ? 1.0f : 0.0f;
+      const float along = glm::mix(32.0f, 64.0f, u) * kPi / 180;
+      const glm::vec3 start = glm::normalize(glm::vec3(kPartX, std::sin(along), std::cos(along)));
+      const glm::vec3 bend =
+          HairDirection(side * (glm::mix(16.0f, 38.0f, u) + 5 * Grain(seed, 2)),
+                        glm::mix(side < 0 ? 19.0f : 22.0f, 33.0f, u) - 3.5f * strand);
+      const glm::vec3 end =
+          HairDirection(side * (glm::mix(34.0f, 63.0f, u) + 4 * Grain(seed, 3)),
+                        glm::mix(9.0f, -9.0f, u) + 5.0f * Grain(seed, 4) - 3.0f * strand);
+      std::vector<glm::vec3> path;
+      constexpr int kSteps = 7;
+      for (int s = 0; s <= kSteps; ++s) {
+        const float v = static_cast<float>(s) / kSteps;
+        const glm::vec3 d =
+            glm::normalize((1 - v) * (1 - v) * start + 2 * v * (1 - v) * bend + v * v * end);
+        const glm::vec3 scaled = d / kVolume;
+        const float skin = scalp_.Distance(d);
+        const float full = 0.5f * (1 / std::sqrt(glm::dot(scaled, scaled)) - skin);
+        const float lift = glm::mix(full + 2.2f, 8.0f + Grain(seed, 5), SmoothStep(0, 0.55f, v));
+        path.push_back(kHairCentre + d * (skin + lift - 4.5f * v * v));
+      }
+      AddLock(path, 12.0f + 3 * Grain(seed, 6) - 8 * strand, 0.12f, palette_, seed, 1.0f, mesh_);
     }
   }
 

@@ -83,8 +83,9 @@ void AddLock(std::span<const glm::vec3> path, float width, float root_part, cons
     across = length > 1e-4f ? across / length : glm::vec3(1, 0, 0);
     const float taper =
         glm::mix(root_part, 1.0f, SmoothStep(0, 0.3f, t)) * SmoothStep(1.02f, 0.55f, t);
-    const glm::vec3 colour = StrandColour(palette, strand, k);
-    const float shade = open * glm::mix(0.75f, 1.0f, SmoothStep(0, 0.25f, t));
+    // Less streaked than the hair below, or locks would look like leaves lying on it.
+    const glm::vec3 colour = glm::mix(palette.hair, StrandColour(palette, strand, k), 0.5f);
+    const float shade = open * glm::mix(0.9f, 1.0f, SmoothStep(0, 0.25f, t));
     const auto add = [&](glm::vec3 p) { return mesh.Add(p, colour, shade, Bone::kSkull); };
     if (k == last) {
       mesh.Triangle(Material::kHair, before[0], before[1], add(path[i]));

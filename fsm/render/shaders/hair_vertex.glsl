@@ -31,7 +31,9 @@ void main() {
               (Ambient(n) + lamp_colors[1] * max((dot(n, lamp_directions[1]) + 0.35) / 1.82, 0.0));
   float rim = clamp(dot(n, lamp_directions[2]) * 0.8 + 0.3, 0.0, 1.0);
   float away = 1.0 - max(dot(n, v), 0.0);
-  soft += lamp_colors[2] * occlusion * rim * (albedo * 0.7 + 0.10 * away * away);
+  // Dark hairs (lashes) must not glitter where seen edgewise.
+  vec3 sheen = min(vec3(0.10), albedo) * away * away;
+  soft += lamp_colors[2] * occlusion * rim * (albedo * 0.7 + sheen);
   float n_dot_l = dot(n, lamp_directions[0]);
   key_light = lamp_colors[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
   light = soft + key_light;
