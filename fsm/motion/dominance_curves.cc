@@ -31,8 +31,8 @@ double Bell(double distance_ms, double reach_ms) {
 }  // namespace
 
 double DominanceCurves::Contact::At(double position_ms) const {
-  const auto part = [](double from, double to, double at) {
-    return to <= from ? (at >= to ? 1.0 : 0.0) : SmoothStep((at - from) / (to - from));
+  const auto part = [](double begin, double end, double at) {
+    return end <= begin ? (at >= end ? 1.0 : 0.0) : SmoothStep((at - begin) / (end - begin));
   };
   return std::min(part(rise, from, position_ms), 1 - part(to, fall, position_ms));
 }
