@@ -20,6 +20,11 @@ class CroppedHair {
       : style_(style), palette_(palette), scalp_(mesh), mesh_(mesh) {}
 
   void Build() {
+    std::vector<glm::vec3> edge;
+    for (int k = -22; k <= 22; ++k) {
+      edge.push_back(scalp_.Over(Direction(3 * static_cast<float>(k), 0.03f), 0));
+    }
+    ShadeByHair(edge, 6.5f, palette_, mesh_);
     Shell();
     for (int k = 0; k < style_.locks; ++k) Lock(k);
   }

@@ -24,6 +24,7 @@ class LongHair {
   LongHair(const Palette& palette, HeadMesh& mesh) : palette_(palette), scalp_(mesh), mesh_(mesh) {}
 
   void Build() {
+    Shade();
     for (const float side : {-1.0f, 1.0f}) {
       Shell(side);
       Lining(side);
@@ -88,6 +89,15 @@ class LongHair {
     const float phase = 52 * i + 2.0f * std::sin(3 * t + 9 * i);
     return (1.0f * std::sin(phase) + 0.6f * std::sin(2.3f * phase + 1)) *
            SmoothStep(0.02f, 0.3f, t) * (0.6f + 0.7f * t) * SmoothStep(0, 0.08f, i);
+  }
+
+  void Shade() {
+    std::vector<glm::vec3> edge;
+    for (const float side : {-1.0f, 1.0f}) {
+      for (int k = 0; k <= 32; ++k)
+        edge.push_back(Point(0, side, 0.02f * static_cast<float>(k), 0));
+    }
+    ShadeByHair(edge, 17, palette_, mesh_);
   }
 
   void Shell(float side) {
@@ -200,10 +210,10 @@ class LongHair {
       const float along = glm::mix(32.0f, 64.0f, u) * kPi / 180;
       const glm::vec3 start = glm::normalize(glm::vec3(kPartX, std::sin(along), std::cos(along)));
       const glm::vec3 bend =
-          HairDirection(side * (glm::mix(16.0f, 38.0f, u) + 5 * Grain(seed, 2)),
+          HairDirection(side * (glm::mix(16.0f, 44.0f, u) + 5 * Grain(seed, 2)),
                         glm::mix(side < 0 ? 19.0f : 22.0f, 33.0f, u) - 3.5f * strand);
       const glm::vec3 end =
-          HairDirection(side * (glm::mix(34.0f, 63.0f, u) + 4 * Grain(seed, 3)),
+          HairDirection(side * (glm::mix(33.0f, 74.0f, u) + 4 * Grain(seed, 3)),
                         glm::mix(9.0f, -9.0f, u) + 5.0f * Grain(seed, 4) - 3.0f * strand);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 7;

@@ -69,6 +69,19 @@ glm::vec3 StrandColour(const Palette& palette, int strand, int row) {
          glm::mix(glm::vec3(1), glm::vec3(1.12f, 1.0f, 0.86f), 0.5f + 0.5f * fine);
 }
 
+void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette& palette,
+                 HeadMesh& mesh) {
+  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+    const glm::vec3 p = mesh.position[i];
+    if (mesh.bone[i] != Bone::kFlesh || p.y < 10) continue;
+    float nearest = 1e9f;
+    for (const glm::vec3 q : edge) nearest = std::min(nearest, glm::dot(p - q, p - q));
+    const float near = std::exp(-nearest / (reach_mm * reach_mm));
+    mesh.occlusion[i] *= 1 - 0.42f * near;
+    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette.hair, 0.20f * near);
+  }
+}
+
 void AddLock(std::span<const glm::vec3> path, float width, float root_part, const Palette& palette,
              int strand, float open, HeadMesh& mesh) {
   std::array<std::uint32_t, 2> before{};

@@ -37,6 +37,10 @@ glm::vec3 StrandColour(const Palette& palette, int strand, int row);
 void AddLock(std::span<const glm::vec3> path, float width, float root_part, const Palette& palette,
              int strand, float open, HeadMesh& mesh);
 
+/// Darkens the skin under and beside the hair's edge, which runs through `edge`.
+void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette& palette,
+                 HeadMesh& mesh);
+
 struct CropStyle {
   float side_mm, top_mm;  ///< of the shell over the skin
   int locks;
