@@ -105,5 +105,18 @@ TEST_P(GoldenTest, LooksAsKept) {
 INSTANTIATE_TEST_SUITE_P(All, GoldenTest, ::testing::ValuesIn(kGoldens),
                          [](const auto& test) { return std::string(test.param.name); });
 
+/// The lower corners show the shirt, on triangles the picture's edge cuts through.
+TEST(ClippedTest, ClothThatLeavesThePictureKeepsItsColour) {
+  for (const auto& identity : Head::Identities()) {
+    const Image image = Draw(
+        {"", std::string(identity.name).c_str(), {}, 0, {.distance = 0.55F, .height_mm = -40}});
+    for (const int x : {1, 20, image.width - 21, image.width - 2}) {
+      const auto i = static_cast<std::size_t>((image.height - 2) * image.width + x) * 4;
+      const int light = image.rgba[i] + image.rgba[i + 1] + image.rgba[i + 2];
+      EXPECT_GT(light, 90) << identity.name << " at x " << x;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsm

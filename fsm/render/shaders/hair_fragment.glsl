@@ -1,7 +1,7 @@
-noperspective in vec2 streak_place;
-noperspective in vec3 light;
-noperspective in vec3 key_light;
-noperspective in vec3 tilt;
+in vec2 streak_place;
+in vec3 light;
+in vec3 key_light;
+in vec3 tilt;
 
 uniform float alpha;
 uniform float streaks;   // how strongly strands differ, 0 for lashes

@@ -2,10 +2,10 @@
 uniform vec3 crown;          // at rest
 uniform mat3 rest_to_world;  // how the head is turned
 
-noperspective out vec2 streak_place;
-noperspective out vec3 light;     // scattered, with the hair's colour
-noperspective out vec3 key_light; // of the key lamp alone, with the hair's colour
-noperspective out vec3 tilt;      // of the half vector along the strand and along the normal; light gone through
+out vec2 streak_place;
+out vec3 light;     // scattered, with the hair's colour
+out vec3 key_light; // of the key lamp alone, with the hair's colour
+out vec3 tilt;      // of the half vector along the strand and along the normal; light gone through
 
 void main() {
   vec3 world = Place();

@@ -1,7 +1,7 @@
-noperspective in vec2 place;
-noperspective in vec3 light;
-noperspective in vec4 slopes;
-noperspective in vec3 shine;
+in vec2 place;
+in vec3 light;
+in vec4 slopes;
+in vec3 shine;
 
 uniform float alpha;
 uniform float bump;       // of pores or threads

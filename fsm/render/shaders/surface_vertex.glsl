@@ -13,10 +13,10 @@ uniform float planar;        // 0: detail by the unrolled place; else repeats pe
 uniform vec3 head_up;        // unit, the direction of growing v on the skin
 uniform vec4 crease_depths[2];  // right, left: forehead, glabella, crow's feet, nasolabial
 
-noperspective out vec2 place;   // in the detail textures
-noperspective out vec3 light;   // all that is scattered, with the surface's colour
-noperspective out vec4 slopes;  // what a slope to the right and up adds to light; the half vector's slopes
-noperspective out vec3 shine;   // strength of highlights, depth of creases, light at the edge
+out vec2 place;   // in the detail textures
+out vec3 light;   // all that is scattered, with the surface's colour
+out vec4 slopes;  // what a slope to the right and up adds to light; the half vector's slopes
+out vec3 shine;   // strength of highlights, depth of creases, light at the edge
 
 void main() {
   vec3 world = Place();
