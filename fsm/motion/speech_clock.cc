@@ -6,6 +6,12 @@
 #include "fsm/motion/easing.h"
 
 namespace fsm {
+namespace {
+
+constexpr double kLateReportMs = 25;  // a report may wait so long for a frame to be drawn
+constexpr int kLateReports = 3;
+
+}  // namespace
 
 double SpeechClock::CorrectionAt(vm::Time t) const {
   const double way = to_ms_ - from_ms_;
@@ -17,9 +23,21 @@ double SpeechClock::PositionAt(vm::Time t) const { return InMs(t - start_) + Cor
 
 double SpeechClock::ErrorAt(vm::Time t) const { return to_ms_ - CorrectionAt(t); }
 
+bool SpeechClock::IsJustLate(double difference_ms) {
+  // Two in a row may have come late; a third says that the voice is behind, by the least of them.
+  const double behind = to_ms_ - difference_ms;
+  late_ = behind > 0 && behind < kLateReportMs ? late_ + 1 : 0;
+  return late_ > 0 && late_ < kLateReports;
+}
+
 void SpeechClock::Correct(vm::Time now, double voice_ms, double max_rate) {
+  const double difference_ms = voice_ms - InMs(now - start_);
+  const bool just_late = IsJustLate(difference_ms);
+  nearest_ms_ = late_ <= 1 ? difference_ms : std::max(nearest_ms_, difference_ms);
+  if (just_late) return;
   from_ms_ = CorrectionAt(now);
-  to_ms_ = voice_ms - InMs(now - start_);
+  to_ms_ = nearest_ms_;
+  late_ = 0;
   since_ = now;
   rate_ = std::clamp(max_rate, 0.01, 0.9);
 }

@@ -104,6 +104,24 @@ TEST(SpeechClockTest, FollowsTimeExactlyWhenTheVoiceAgrees) {
   EXPECT_EQ(clock.WhenAt(1500), vm::Time(2000ms));
 }
 
+TEST(SpeechClockTest, AReportThatCameLateDoesNotHoldTheMouthBack) {
+  SpeechClock clock(0ms);
+  clock.Correct(1015ms, 1000, 0.25);
+  clock.Correct(2012ms, 2000, 0.25);
+  clock.Correct(3000ms, 3000, 0.25);  // on time: the two before were only late
+  clock.Correct(4015ms, 4000, 0.25);
+  EXPECT_DOUBLE_EQ(clock.PositionAt(4500ms), 4500);
+}
+
+TEST(SpeechClockTest, ThreeReportsThatAreALittleBehindAreBelievedByTheLeast) {
+  SpeechClock clock(0ms);
+  clock.Correct(1020ms, 1000, 0.25);
+  clock.Correct(2012ms, 2000, 0.25);
+  EXPECT_DOUBLE_EQ(clock.PositionAt(2900ms), 2900);
+  clock.Correct(3018ms, 3000, 0.25);
+  EXPECT_NEAR(clock.PositionAt(4000ms), 3988, 1e-9);
+}
+
 TEST(SpeechClockTest, WorksADifferenceOffWithoutJumpOrGoingBack) {
   for (const double voice : {880.0, 1120.0, 400.0}) {
     SpeechClock clock(0ms);
