@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/vec4.hpp>
 #include <span>
+#include <utility>
 
 namespace fsm {
 namespace {
@@ -169,7 +170,10 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
       hair.push_back({corner[0], corner[1], corner[2]});
     }
   }
-  std::ranges::stable_sort(hair, std::greater{}, depth);
+  // Equal ones by their corners, so that the order is the same everywhere.
+  std::ranges::sort(hair, [&](const Triangle& a, const Triangle& b) {
+    return std::pair(-depth(a), a) < std::pair(-depth(b), b);
+  });
   const auto behind = std::ranges::find_if(hair, [&](const auto& t) { return depth(t) < kBehind; });
   add(Material::kHair, flat({hair.begin(), behind}));
   for (const auto& part : topology.parts) {

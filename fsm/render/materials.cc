@@ -108,8 +108,8 @@ Materials::~Materials() { gl_.DeleteTextures(kTextures, textures_); }
 
 void Materials::Fill(Texture texture, int width, int height, const std::uint8_t* rgba) {
   gl_.BindTexture(GL_TEXTURE_2D, textures_[texture]);
-  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
-    gl_.TexParameteri(GL_TEXTURE_2D, axis, GL_REPEAT);
+  for (const int axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+    gl_.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(axis), GL_REPEAT);
   }
   // The nearest texel, of a level chosen for the whole figure: with four samples to a pixel that is
   // smooth, and in software a filtered fetch costs as much as everything else of a pixel.

@@ -265,7 +265,7 @@ class ResizingContext : public RenderContext {
   bool is_window() const override { return false; }
   void Present() override {}
   bool close_requested() const override { return false; }
-  void Resize(int width, int height) {
+  void Resize(int width, int height) override {
     width_ = width;
     height_ = height;
   }
