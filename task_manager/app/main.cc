@@ -14,6 +14,7 @@ SessionOptions MakeSessionOptions(const Options& options) {
   }
   session.fetch.default_timeout = Millis(options.fetch_timeout_ms);
   session.strict_markup = options.strict;
+  session.languages = options.languages;
   const auto put = [](const std::vector<std::string>& pairs, auto& into) {
     for (const std::string& pair : pairs) {
       const std::size_t equals = pair.find('=');
@@ -56,6 +57,10 @@ int main(int argc, char** argv) {
   app.add_option("--allow", options.allow, "only fetch from URIs or folders that begin so");
   app.add_option("--property", options.properties, "platform property, NAME=VALUE");
   app.add_option("--session-variable", options.variables, "e.g. connection.remote.uri=tel:123");
+  app.add_option("--languages", options.languages,
+                 "what can be spoken and heard, as en,ja (default: everything); others are "
+                 "error.unsupported.language")
+      ->delimiter(',');
   app.add_option("--fetch-timeout", options.fetch_timeout_ms, "ms, where no fetchtimeout says")
       ->check(CLI::Range(1, 600'000));
   app.add_flag("--strict", options.strict, "unknown emotions are error.unsupported.emotion");

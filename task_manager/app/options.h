@@ -23,6 +23,7 @@ struct Options {
   bool strict = false;
   int sessions = 1;
   std::vector<std::string> allow;
+  std::vector<std::string> languages;   ///< empty = every one
   std::vector<std::string> properties;  ///< NAME=VALUE
   std::vector<std::string> variables;   ///< session variables, NAME=VALUE
   int fetch_timeout_ms = 10'000;

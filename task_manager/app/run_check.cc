@@ -58,13 +58,6 @@ class DeepChecker {
       if (const std::string* source = node.Find("src")) Target(node, *source);
     }
     if (node.name == "field") Field(node);
-    for (const char* name :
-         {"timeout", "fetchtimeout", "maxtime", "finalsilence", "connecttimeout"}) {
-      const std::string* time = node.Find(name);
-      if (time && !ParseTime(*time)) {
-        Say(node, std::string(name) + " '" + *time + "' is no time", "write it as 5s or 300ms");
-      }
-    }
     for (const auto& child : node.children) Visit(*child);
   }
 

@@ -1,6 +1,7 @@
 #include "task_manager/document/document.h"
 
 #include "task_manager/document/schema.h"
+#include "task_manager/document/values.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/xml/parser.h"
 
@@ -97,6 +98,9 @@ class Checker {
       if (!KnowsAttribute(rule, attribute.name)) {
         Warn(node, "<" + node.name + "> has no attribute '" + attribute.name + "'",
              "it is ignored");
+      } else if (const std::string wrong = WrongValue(node.name, attribute.name, attribute.value);
+                 !wrong.empty()) {
+        Say(node, attribute.name + "=\"" + attribute.value + "\" in <" + node.name + ">", wrong);
       }
     }
     for (const AttributeChoice& choice : AttributeChoices()) {
@@ -135,8 +139,9 @@ class Checker {
   void Script(const xml::Node& node) {
     const int sources = (node.Has("src") ? 1 : 0) + (node.Has("srcexpr") ? 1 : 0) +
                         (xml::IsBlank(node.Text()) ? 0 : 1);
-    if (sources > 1) Say(node, "<script> with more than one of src, srcexpr and own text", "");
-    if (sources == 0) Warn(node, "an empty <script>", "");
+    if (sources == 1) return;
+    Say(node, "<script> with " + std::to_string(sources) + " of src, srcexpr and own text",
+        "give exactly one");
   }
 
   void Audio(const xml::Node& node) {

@@ -16,7 +16,7 @@ constexpr std::string_view kVocabularies = "http://www.w3.org/TR/emotion-voc/xml
 struct Vocabulary {
   std::string_view id;
   std::string_view type;
-  std::string_view names;  ///< "" = not checked by name
+  std::string_view names;
 };
 
 // "Vocabularies for EmotionML" (W3C note).
@@ -39,9 +39,17 @@ constexpr Vocabulary kKnown[] = {
     {"pad-dimensions", "dimension", "pleasure arousal dominance"},
     {"fsre-dimensions", "dimension", "valence potency arousal unpredictability"},
     {"intensity-dimension", "dimension", "intensity"},
-    {"occ-appraisals", "appraisal", ""},
-    {"scherer-appraisals", "appraisal", ""},
-    {"ema-appraisals", "appraisal", ""},
+    {"occ-appraisals", "appraisal",
+     "desirability praiseworthiness appealingness desirability-for-other deservingness liking "
+     "likelihood effort strength-of-identification expectation-of-deviation familiarity"},
+    {"scherer-appraisals", "appraisal",
+     "suddenness familiarity predictability intrinsic-pleasantness relevance-person "
+     "relevance-relationship relevance-social-order outcome-probability "
+     "consonant-with-expectation goal-conduciveness urgency agent-self agent-other agent-nature "
+     "cause-intentional control power adjustment-possible norm-compatibility self-compatibility"},
+    {"ema-appraisals", "appraisal",
+     "relevance desirability agency blame likelihood unexpectedness urgency ego-involvement "
+     "controllability changeability power adaptability"},
     {"frijda-action-tendencies", "action-tendency",
      "approach avoidance being-with attending rejecting nonattending agonistic interrupting "
      "dominating submitting"},
@@ -69,6 +77,17 @@ bool IsWhole(std::string_view text, bool may_be_negative) {
   text = xml::Trim(text);
   if (may_be_negative && text.starts_with("-")) text.remove_prefix(1);
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// An XML name without colons; what is beyond ASCII is taken for letters.
+bool IsId(std::string_view text) {
+  const auto letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (c & 0x80) != 0;
+  };
+  if (text.empty() || !letter(text[0])) return false;
+  return std::all_of(text.begin(), text.end(), [&](char c) {
+    return letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.';
+  });
 }
 
 class Checker {
@@ -100,9 +119,10 @@ class Checker {
     for (const std::string_view name : SplitWords(required)) {
       if (!node.Has(name)) Say(node, "<" + node.name + "> without " + std::string(name));
     }
-    if (const std::string* id = node.Find("id"); id && !ids_.insert(*id).second) {
-      Say(node, "the id '" + *id + "' is given twice");
-    }
+    const std::string* id = node.Find("id");
+    if (!id) return;
+    if (!IsId(*id)) Say(node, "the id '" + *id + "'", "expected a name without blanks or colons");
+    if (!ids_.insert(*id).second) Say(node, "the id '" + *id + "' is given twice");
   }
 
   void Root() {
@@ -115,7 +135,9 @@ class Checker {
     int infos = 0;
     for (const auto& child : root_.children) {
       if (child->IsElement("vocabulary")) Declare(*child);
-      if (child->IsElement("info") && ++infos > 1) Say(*child, "a second <info>");
+      if (!child->IsElement("info")) continue;
+      Attributes(*child, "id", "");
+      if (++infos > 1) Say(*child, "a second <info>");
     }
     for (const auto& child : root_.children) {
       if (child->IsText() && !xml::IsBlank(child->text)) Say(*child, "text in <emotionml>");
@@ -179,6 +201,7 @@ class Checker {
       } else if (child->name == "reference") {
         Reference(*child);
       } else if (child->name == "info") {
+        Attributes(*child, "id", "");
         if (++infos > 1) Say(*child, "a second <info>");
       } else {
         Say(*child, "<" + child->name + "> may not stand in <emotion>");
@@ -295,7 +318,7 @@ class Checker {
       known = own == own_.end() || own->second.second.contains(name);
     } else if (set.starts_with(kVocabularies)) {
       const Vocabulary* vocabulary = Find(id);
-      known = !vocabulary || vocabulary->names.empty() || Contains(vocabulary->names, name);
+      known = !vocabulary || Contains(vocabulary->names, name);
     }
     if (!known) Say(node, "'" + name + "' is not in the vocabulary " + set);
   }

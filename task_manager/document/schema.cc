@@ -67,7 +67,7 @@ constexpr ElementRule kRules[] = {
     {"param", "", "!name expr value valuetype type"},
     {"link", "grammar", "next expr event eventexpr message messageexpr dtmf"},
     {"var", "", "name expr"},
-    {"assign", "", "!name expr"},
+    {"assign", "", "!name !expr"},
     {"clear", "", "namelist"},
     {"data", "", "name src srcexpr namelist method enctype"},
     {"disconnect", "", "namelist"},

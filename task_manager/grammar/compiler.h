@@ -37,6 +37,14 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
                                                   const GrammarContext& context,
                                                   const std::string& charset = "");
 
+/// A number as weights and probabilities are written: "1", "2.", ".5", "1.0".
+bool ParseWeight(std::string_view text, double& value);
+/// An XML name without '.', ':' and '-' (SRGS 1.0 section 3.1).
+bool IsRuleName(std::string_view name);
+/// In a dtmf grammar every token is made of keys (SRGS 1.0 appendix E); "star" and "pound" are
+/// made '*' and '#'.
+vm::Result<void> CheckTokens(Grammar& grammar);
+
 /// "2", "0-1", "3-" -> min, max. False if it is none of these.
 bool ParseRepeat(std::string_view text, int& min, int& max);
 std::unique_ptr<Expansion> MakeToken(std::string_view text);

@@ -1,4 +1,4 @@
-#include <charconv>
+#include <set>
 
 #include "task_manager/grammar/compiler.h"
 
@@ -28,7 +28,8 @@ class AbnfCompiler {
       if (end == std::string_view::npos) return Bad("';' expected after the header");
       const std::string header = "" + std::string(text_.substr(5, end - 5));
       const std::size_t version = header.find_first_not_of(" \t");
-      if (version == std::string::npos || header.compare(version, 3, "1.0") != 0) {
+      if (version == std::string::npos || header.compare(version, 3, "1.0") != 0 ||
+          (version + 3 < header.size() && kBlanks.find(header[version + 3]) == std::string::npos)) {
         return Bad("expected '#ABNF 1.0'");
       }
       at_ = end + 1;
@@ -37,6 +38,7 @@ class AbnfCompiler {
       if (auto done = Statement(); !done) return std::unexpected(done.error());
     }
     if (failed_) return Bad("a comment without end");
+    if (auto done = CheckTokens(*grammar_); !done) return Bad(done.error().text);
     if (!grammar_->root.empty() && !grammar_->Find(grammar_->root)) {
       return Bad("root rule '$" + grammar_->root + "' is not defined");
     }
@@ -107,8 +109,14 @@ class AbnfCompiler {
     if (Peek() == '$') return RuleDefinition(false);
     const std::string word = Word();
     if (word == "public" || word == "private") return RuleDefinition(word == "public");
+    if (!grammar_->rules.empty()) return Bad("'" + word + "' after a rule");
+    static const std::set<std::string> kOnce = {"language", "mode", "root", "tag-format", "base"};
+    if (kOnce.contains(word) && !declared_.insert(word).second) {
+      return Bad("a second declaration of " + word);
+    }
     if (word == "language") {
       grammar_->language = Word();
+      if (grammar_->language.empty()) return Bad("a language expected");
     } else if (word == "mode") {
       const std::string mode = Word();
       if (mode != "voice" && mode != "dtmf") return Bad("mode '" + mode + "'");
@@ -171,7 +179,7 @@ class AbnfCompiler {
     rule->name = Word();
     rule->is_public = is_public;
     rule->grammar = grammar_.get();
-    if (rule->name.empty()) return Bad("a rule's name expected");
+    if (!IsRuleName(rule->name)) return Bad("'" + rule->name + "' is no name of a rule");
     if (rule->name == "NULL" || rule->name == "VOID" || rule->name == "GARBAGE") {
       return Bad("'$" + rule->name + "' is a special rule and cannot be defined");
     }
@@ -216,8 +224,7 @@ class AbnfCompiler {
     if (end == std::string_view::npos) return Bad("'/' expected after the number");
     const std::string_view number = xml::Trim(text_.substr(at_ + 1, end - at_ - 1));
     double value = 0;
-    const auto read = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (read.ec != std::errc() || read.ptr != number.data() + number.size()) {
+    if (!ParseWeight(number, value)) {
       return Bad("'" + std::string(number) + "' is not a number");
     }
     at_ = end + 1;
@@ -308,7 +315,7 @@ class AbnfCompiler {
       return reference;
     }
     const std::string name = Word();
-    if (name.empty()) return Bad("a rule's name expected");
+    if (!IsRuleName(name)) return Bad("'$" + name + "' is no reference to a rule");
     if (name == "NULL") reference->kind = Kind::kNull;
     if (name == "VOID") reference->kind = Kind::kVoid;
     if (name == "GARBAGE") reference->kind = Kind::kGarbage;
@@ -329,6 +336,12 @@ class AbnfCompiler {
       if (end == std::string_view::npos) return Bad("'>' expected");
       std::string_view inside = text_.substr(at_ + 1, end - at_ - 1);
       if (const std::size_t slash = inside.find('/'); slash != std::string_view::npos) {
+        std::string_view chance = xml::Trim(inside.substr(slash + 1));
+        double value = 0;
+        if (!chance.ends_with('/')) return Bad("'/' expected after the probability");
+        chance.remove_suffix(1);
+        if (!ParseWeight(chance, value) || value > 1)
+          return Bad("a probability of 0 to 1 expected");
         inside = inside.substr(0, slash);
       }
       auto repeat = std::make_unique<Expansion>();
@@ -346,6 +359,7 @@ class AbnfCompiler {
   std::string_view text_;
   const GrammarContext& context_;
   std::unique_ptr<Grammar> grammar_;
+  std::set<std::string> declared_;
   std::size_t at_ = 0;
   bool failed_ = false;
 };

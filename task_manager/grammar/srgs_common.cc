@@ -16,6 +16,55 @@ bool ReadCount(std::string_view text, int& value) {
 
 }  // namespace
 
+bool ParseWeight(std::string_view text, double& value) {
+  text = xml::Trim(text);
+  if (text.empty() || text.find_first_not_of("0123456789.") != std::string_view::npos) return false;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc()) return false;
+  return read.ptr == text.data() + text.size();
+}
+
+bool IsRuleName(std::string_view name) {
+  if (name.empty() || (name[0] >= '0' && name[0] <= '9')) return false;
+  for (const char c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+                        (c >= '0' && c <= '9') || (c & 0x80) != 0;
+    if (!letter) return false;
+  }
+  return true;
+}
+
+namespace {
+
+bool CheckKeys(Expansion& node, std::string& wrong) {
+  if (node.kind == Expansion::Kind::kToken) {
+    if (node.folded == "star") node.folded = "*";
+    if (node.folded == "pound") node.folded = "#";
+    std::erase(node.folded, ' ');
+    if (node.folded.find_first_not_of("0123456789*#abcd") != std::string::npos) {
+      wrong = node.text;
+      return false;
+    }
+  }
+  for (auto& child : node.children) {
+    if (!CheckKeys(*child, wrong)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+vm::Result<void> CheckTokens(Grammar& grammar) {
+  if (grammar.mode != Mode::kDtmf) return {};
+  for (auto& [name, rule] : grammar.rules) {
+    std::string wrong;
+    if (rule->expansion && !CheckKeys(*rule->expansion, wrong)) {
+      return vm::Fail(vm::Errc::kSyntax, "'" + wrong + "' is no key (0-9 * # A-D)");
+    }
+  }
+  return {};
+}
+
 bool ParseRepeat(std::string_view text, int& min, int& max) {
   const std::size_t dash = text.find('-');
   if (dash == std::string_view::npos) {
@@ -58,13 +107,14 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
   start = xml::Trim(start);
   const bool utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
   if (!start.starts_with("<") && !utf16) {
+    if (!start.starts_with("#ABNF")) {
+      return vm::Fail(vm::Errc::kSyntax, context.uri + ":1:1: neither XML nor '#ABNF 1.0'");
+    }
     std::string text(start);
     std::string encoding = charset;
-    if (start.starts_with("#ABNF")) {  // #ABNF 1.0 ISO-8859-1;
-      const std::string header = xml::Collapse(start.substr(0, start.find(';')));
-      const std::size_t blank = header.find(' ', 6);
-      if (blank != std::string::npos) encoding = header.substr(blank + 1);
-    }
+    const std::string header = xml::Collapse(start.substr(0, start.find(';')));
+    const std::size_t blank = header.find(' ', 6);  // #ABNF 1.0 ISO-8859-1;
+    if (blank != std::string::npos) encoding = header.substr(blank + 1);
     if (!encoding.empty()) {
       for (char& c : encoding) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
       if (encoding != "utf-8") {

@@ -1,5 +1,3 @@
-#include <charconv>
-
 #include "task_manager/grammar/compiler.h"
 #include "task_manager/grammar/text.h"
 
@@ -25,6 +23,7 @@ class XmlCompiler {
     for (const auto& child : root.children) {
       if (auto done = TopLevel(*child, *loose); !done) return std::unexpected(done.error());
     }
+    if (auto done = CheckTokens(*grammar_); !done) return Bad(root, done.error().text);
     if (auto done = Close(root, std::move(loose)); !done) return std::unexpected(done.error());
     return std::move(grammar_);
   }
@@ -59,12 +58,12 @@ class XmlCompiler {
   vm::Result<void> TopLevel(const Node& child, Expansion& loose) {
     if (child.IsText()) {
       if (xml::IsBlank(child.text)) return {};
-      AddTokens(child.text, loose);
+      if (!AddTokens(child.text, loose)) return Bad(child, "a quotation mark without end");
       return {};
     }
     if (!child.IsElement()) return {};
     const std::string& name = child.name;
-    if (name == "meta" || name == "metadata" || name == "lexicon") return {};
+    if (name == "meta" || name == "metadata" || name == "lexicon") return HeaderElement(child);
     if (name == "rule") return AddRule(child);
     if (name == "tag") {
       grammar_->header_tags.push_back(child.Text());
@@ -76,6 +75,19 @@ class XmlCompiler {
     return {};
   }
 
+  /// meta, metadata, lexicon: nothing of them is used, but they have to be right.
+  vm::Result<void> HeaderElement(const Node& node) {
+    if (!grammar_->rules.empty()) return Bad(node, "<" + node.name + "> after a <rule>");
+    if (node.name == "lexicon" && !node.Has("uri")) return Bad(node, "<lexicon> without uri");
+    if (node.name == "meta") {
+      if (node.Has("name") == node.Has("http-equiv")) {
+        return Bad(node, "<meta> needs either name or http-equiv");
+      }
+      if (!node.Has("content")) return Bad(node, "<meta> without content");
+    }
+    return {};
+  }
+
   vm::Result<void> AddRule(const Node& node) {
     auto rule = std::make_unique<Rule>();
     rule->name = node.Get("id");
@@ -84,6 +96,9 @@ class XmlCompiler {
     rule->grammar = grammar_.get();
     if (rule->name.starts_with("#")) rule->name.erase(0, 1);
     if (rule->name.empty()) return Bad(node, "<rule> without id");
+    if (!IsRuleName(rule->name)) {
+      return Bad(node, "'" + rule->name + "' is no name of a rule");
+    }
     if (IsSpecial(rule->name)) {
       return Bad(node, "'" + rule->name + "' is a special rule and cannot be defined");
     }
@@ -133,10 +148,11 @@ class XmlCompiler {
     sequence->kind = Kind::kSequence;
     for (const auto& child : node.children) {
       if (child->IsText()) {
-        AddTokens(child->text, *sequence);
+        if (!AddTokens(child->text, *sequence)) return Bad(*child, "a quotation mark without end");
         continue;
       }
       if (!child->IsElement()) continue;
+      if (child->name == "example" && node.name == "rule") continue;
       auto part = Expand(*child, depth + 1);
       if (!part) return part;
       if (*part) sequence->children.push_back(std::move(*part));
@@ -144,21 +160,24 @@ class XmlCompiler {
     return sequence;
   }
 
-  /// Text: tokens between blanks; "several words" in quotes are one token.
-  void AddTokens(std::string_view text, Expansion& into) {
+  /// Text: tokens between blanks; "several words" in quotes are one token. False: a quotation mark
+  /// has no partner.
+  bool AddTokens(std::string_view text, Expansion& into) const {
     while (!xml::IsBlank(text)) {
       text.remove_prefix(text.find_first_not_of(" \t\r\n"));
       std::size_t end = 0;
-      if (text[0] == '"' && (end = text.find('"', 1)) != std::string_view::npos) {
+      if (text[0] == '"') {
+        end = text.find('"', 1);
+        if (end == std::string_view::npos) return false;
         into.children.push_back(MakeToken(text.substr(1, end - 1)));
         text.remove_prefix(end + 1);
         continue;
       }
       end = std::min(text.find_first_of(" \t\r\n\""), text.size());
-      if (end == 0) end = 1;
       into.children.push_back(MakeToken(text.substr(0, end)));
       text.remove_prefix(end);
     }
+    return true;
   }
 
   Made Expand(const Node& node, std::size_t depth) {
@@ -176,9 +195,6 @@ class XmlCompiler {
       tag->text = node.Text();
       tag->line = node.line;
       return tag;
-    }
-    if (name == "example" || name == "meta" || name == "metadata" || name == "lexicon") {
-      return nullptr;
     }
     return Bad(node, "<" + name + "> is not part of a grammar here");
   }
@@ -227,7 +243,7 @@ class XmlCompiler {
     const std::string* repeat = node.Find("repeat");
     if (const std::string* probability = node.Find("repeat-prob")) {
       double value = 0;
-      if (!ReadNumber(*probability, value) || value > 1) {
+      if (!ParseWeight(*probability, value) || value > 1) {
         return Bad(node, "repeat-prob '" + *probability + "', expected 0.0 to 1.0");
       }
     }
@@ -239,12 +255,6 @@ class XmlCompiler {
     }
     outer->children.push_back(std::move(*inner));
     return outer;
-  }
-
-  static bool ReadNumber(std::string_view text, double& value) {
-    text = xml::Trim(text);
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    return read.ec == std::errc() && read.ptr == text.data() + text.size() && value >= 0;
   }
 
   Made OneOf(const Node& node, std::size_t depth) {
@@ -260,7 +270,7 @@ class XmlCompiler {
       }
       double weight = 1;
       if (const std::string* given = child->Find("weight")) {
-        if (!ReadNumber(*given, weight) || weight <= 0) {
+        if (!ParseWeight(*given, weight) || weight <= 0) {
           return Bad(*child, "weight '" + *given + "', expected a number above 0");
         }
       }

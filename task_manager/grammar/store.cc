@@ -85,7 +85,11 @@ vm::Result<void> GrammarStore::LinkReference(Grammar& grammar, Expansion& node) 
   GrammarContext context;
   context.language = grammar.language;
   context.mode = grammar.mode;
-  const std::string uri = resolve_(grammar.base.empty() ? grammar.uri : grammar.base, node.text);
+  // A base may itself be relative: to the place of the grammar.
+  const std::string base = grammar.base.empty() || grammar.uri.starts_with("platform:")
+                               ? grammar.uri
+                               : resolve_(grammar.uri, grammar.base);
+  const std::string uri = resolve_(base, node.text);
   const Rule* rule = nullptr;
   auto loaded = Load(uri, context, &rule);
   if (!loaded) return vm::Fail(loaded.error().code, place + ": " + loaded.error().text);

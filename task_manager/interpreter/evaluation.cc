@@ -1,6 +1,7 @@
 #include <charconv>
 
 #include "task_manager/document/schema.h"
+#include "task_manager/interpreter/languages.h"
 #include "task_manager/interpreter/properties.h"
 #include "task_manager/interpreter/session.h"
 #include "task_manager/script/rewriter.h"
@@ -73,7 +74,7 @@ bool Session::IsDeclared(const std::string& name) {
   for (std::size_t i = chain.size(); i-- > 1;) {
     if (engine_.Has(chain[i], base)) return true;
   }
-  if (!engine_.Has(chain[0], base)) return false;
+  if (!engine_.Has(chain[0], base)) return engine_.HasOwnGlobal(base);
   if (dot == std::string::npos) return true;
   const std::string rest = name.substr(dot + 1);
   return engine_.Has(engine_.Get(chain[0], base), rest.substr(0, rest.find_first_of(".[ ")));
@@ -127,6 +128,11 @@ std::string Session::LanguageAt(const xml::Node& node) const {
   if (!language.empty()) return language;
   if (context_->root) return context_->root->language;
   return "";
+}
+
+void Session::RequireLanguage(const std::string& language) {
+  if (language.empty() || IsSupported(language, options_.languages)) return;
+  ThrowEvent("error.unsupported.language", "the language '" + language + "'");
 }
 
 void Session::Step() {

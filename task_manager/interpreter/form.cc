@@ -222,11 +222,15 @@ void Session::TakeMatch(const Match& match, Item* current) {
   switch (match.owner) {
     case Match::Owner::kUniversal:
       ThrowEvent(match.utterance);
-    case Match::Owner::kLink:
     case Match::Owner::kChoice:
+      // A menu with document scope is entered first: what its choice throws is the menu's to
+      // handle.
+      if (match.node->parent != dialog_->node) return TransitTo(match, match.node->parent);
+      return FollowTarget(*match.node, *match.document);
+    case Match::Owner::kLink:
       return FollowTarget(*match.node, *match.document);
     case Match::Owner::kForm:
-      if (match.node != dialog_->node) TransitTo(match);
+      if (match.node != dialog_->node) TransitTo(match, match.node);
       break;
     case Match::Owner::kItem:
       break;
@@ -236,12 +240,12 @@ void Session::TakeMatch(const Match& match, Item* current) {
   RunFilled(filled);
 }
 
-void Session::TransitTo(const Match& match) {
+void Session::TransitTo(const Match& match, const xml::Node* dialog) {
   Transition to;
   to.root = context_->root;
   to.document = match.document == context_->document.get() ? context_->document : context_->root;
   to.same_document = to.document == context_->document;
-  to.dialog = match.node;
+  to.dialog = dialog;
   to.carried = std::make_shared<Match>(match);
   throw to;
 }

@@ -230,6 +230,7 @@ const srgs::Rule* Session::CompileGrammar(const xml::Node& node, const Document&
          (text.find('$') != std::string::npos && text.find(';') != std::string::npos));
     auto made = abnf ? srgs::CompileAbnf(text, context) : srgs::CompileXml(node, context);
     if (!made) ThrowEvent("error.badfetch", made.error().text);
+    if ((*made)->mode == Mode::kVoice) RequireLanguage((*made)->language);
     auto added = grammars_->Add(std::move(*made));
     if (!added) ThrowEvent("error.badfetch", added.error().text);
     rule = (*added)->RootRule();
@@ -266,6 +267,10 @@ const srgs::Rule* Session::CompileExternal(const xml::Node& node, const Document
     const bool denied = loaded.error().code == vm::Errc::kAccess;
     ThrowEvent(denied ? "error.noauthorization" : "error.badfetch", loaded.error().text);
   }
+  if (node.Has("mode") && rule->grammar->mode != context.mode) {
+    ThrowEvent("error.badfetch", uri + ": the grammar is not of mode " + node.Get("mode"));
+  }
+  RequireLanguage(rule->grammar->language);
   return rule;
 }
 

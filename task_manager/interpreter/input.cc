@@ -29,8 +29,11 @@ Listen Session::MakeListen(const Item& item, const std::vector<ActiveGrammar>& a
   listen.voice = modes.find("voice") != std::string::npos;
   listen.dtmf = modes.find("dtmf") != std::string::npos;
   listen.timeout = TimeProperty("timeout", Millis(5000));
-  for (const Prompt& prompt : queue_) {
-    if (prompt.timeout) listen.timeout = *prompt.timeout;  // the last one that says so
+  listen.hotword = Property("bargeintype") == "hotword";
+  for (const Prompt& prompt : queue_) {  // the last one counts, with or without its own timeout
+    if (prompt.text.empty() && !prompt.Plays()) continue;
+    listen.timeout = prompt.timeout.value_or(TimeProperty("timeout", Millis(5000)));
+    listen.hotword = prompt.hotword;
   }
   listen.interdigit_timeout = TimeProperty("interdigittimeout", Millis(3000));
   listen.term_timeout = TimeProperty("termtimeout", Millis(0));

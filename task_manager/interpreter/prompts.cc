@@ -40,6 +40,7 @@ class PromptBuilder {
         name == "category" || name == "dimension" || name == "intensity" || name == "lookup") {
       return;
     }
+    if (const std::string* language = node.Find("xml:lang")) s_.RequireLanguage(*language);
     Speech(node);
   }
 
@@ -284,6 +285,7 @@ void Session::QueuePrompt(const xml::Node& node) {
   if (hung_up_ || disconnected_) return;
   Prompt prompt;
   prompt.language = LanguageAt(node);
+  RequireLanguage(prompt.language);
   prompt.bargein = node.Get("bargein", Property("bargein", &node)) != "false";
   prompt.hotword = node.Get("bargeintype", Property("bargeintype", &node)) == "hotword";
   if (const std::string* timeout = node.Find("timeout")) {
@@ -302,6 +304,7 @@ void Session::QueueImplicit(const std::vector<const xml::Node*>& nodes) {
   if (hung_up_ || disconnected_) return;
   Prompt prompt;
   prompt.language = LanguageAt(*nodes.front()->parent);
+  RequireLanguage(prompt.language);
   prompt.bargein = Property("bargein") != "false";
   prompt.hotword = Property("bargeintype") == "hotword";
   PromptBuilder builder(*this, prompt);

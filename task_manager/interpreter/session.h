@@ -26,6 +26,8 @@ struct SessionOptions {
   std::size_t max_steps_between_inputs = 100'000;          ///< elements executed
   std::size_t max_subdialogs = 40;                         ///< one inside the other
   bool strict_markup = false;  ///< unknown emotions are error.unsupported.emotion
+  /// Languages (en, ja-JP, ...) there is a voice and an ear for; empty = every language there is.
+  std::vector<std::string> languages{};
   /// Explains what the interpreter does; null = nobody wants to know.
   std::function<void(std::string_view kind, const JsonLine& fields)> trace{};
 };
@@ -127,7 +129,7 @@ class Session {
   bool FormFilledApplies(const xml::Node& node, const std::set<std::string>& filled);
   void TakeMatch(const Match& match, Item* current);
   void FollowTarget(const xml::Node& node, const Document& document);
-  void TransitTo(const Match& match);
+  void TransitTo(const Match& match, const xml::Node* dialog);
 
   // items.cc
   void VisitSubdialog(Item& item);
@@ -220,6 +222,7 @@ class Session {
   std::string Property(const std::string& name, const xml::Node* from = nullptr);
   Millis TimeProperty(const std::string& name, Millis otherwise);
   std::string LanguageAt(const xml::Node& node) const;
+  void RequireLanguage(const std::string& language);
   const xml::Node& Here() const;
   void Step();
   void Trace(std::string_view kind, const JsonLine& fields);

@@ -8,9 +8,9 @@ namespace vxml {
 using script::Value;
 
 void Session::RunGoto(const xml::Node& node) {
-  if (const std::string* item = node.Find("nextitem")) throw GoToItem{*item};
-  if (const std::string* expression = node.Find("expritem")) {
-    const std::string item = TextOf(node, *expression);
+  if (node.Has("nextitem") || node.Has("expritem")) {
+    const std::string* expression = node.Find("expritem");
+    const std::string item = expression ? TextOf(node, *expression) : node.Get("nextitem");
     bool known = false;
     if (dialog_) {
       for (const Item& candidate : dialog_->items) known = known || candidate.name == item;

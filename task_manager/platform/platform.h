@@ -33,6 +33,15 @@ struct Prompt {
   bool bargein = true;
   bool hotword = false;
   std::optional<Millis> timeout;
+  /// True if there is more in it than commands and marks.
+  bool Plays() const {
+    for (const Segment& segment : segments) {
+      if (segment.kind != Segment::Kind::kCommand && segment.kind != Segment::Kind::kMark) {
+        return true;
+      }
+    }
+    return false;
+  }
 };
 
 struct Hypothesis {
@@ -59,6 +68,7 @@ struct KeysState {
 struct Listen {
   bool voice = true;
   bool dtmf = true;
+  bool hotword = false;  ///< after the prompts too, what matches nothing is not heard
   Millis timeout{5000};
   Millis interdigit_timeout{3000};
   Millis term_timeout{0};

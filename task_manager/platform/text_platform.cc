@@ -130,9 +130,27 @@ bool TextPlatform::Play(const std::vector<Prompt>& prompts) {
   return true;
 }
 
+namespace {
+
+/// What is no input at all (silence, a hang-up) counts as a match.
+bool Matches(const Command& command, const Listen& listen) {
+  if (command.kind == Command::Kind::kNoMatch) return false;
+  if (command.hypotheses.empty()) return true;
+  const std::string& text = command.hypotheses.front().text;
+  if (command.kind == Command::Kind::kSay) return listen.accepts && listen.accepts(text);
+  if (command.kind != Command::Kind::kDtmf || !listen.keys) return true;
+  for (std::size_t size = 1; size <= text.size(); ++size) {
+    if (listen.keys(text.substr(0, size)).complete) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool TextPlatform::Heard(const std::vector<Prompt>& prompts, const Command& command,
                          const Listen& listen) {
   const char* why = nullptr;
+  bool hotword = listen.hotword;
   const bool speech =
       command.kind == Command::Kind::kSay || command.kind == Command::Kind::kNoMatch;
   if (speech && !listen.voice) why = "inputmodes";
@@ -140,12 +158,10 @@ bool TextPlatform::Heard(const std::vector<Prompt>& prompts, const Command& comm
   if (command.at && *command.at < Total(prompts) && command.kind != Command::Kind::kHangup) {
     const Prompt* playing = PromptAt(prompts, *command.at);
     if (playing && !playing->bargein) why = "bargein";
-    if (playing && playing->bargein && playing->hotword && speech &&
-        (command.hypotheses.empty() || !listen.accepts ||
-         !listen.accepts(command.hypotheses.front().text))) {
-      why = "hotword";
-    }
+    hotword = playing ? playing->bargein && playing->hotword : hotword;
   }
+  // VoiceXML 2.0 section 4.1.5.1: with hotword there is no nomatch, in the timeout period neither.
+  if (!why && hotword && !Matches(command, listen)) why = "hotword";
   if (!why) return true;
   JsonLine line;
   line.Text("input", command.hypotheses.empty() ? "" : command.hypotheses.front().text);

@@ -390,6 +390,18 @@ bool Engine::Has(const Value& object, const std::string& name) {
   });
   return has;
 }
+bool Engine::HasOwnGlobal(const std::string& name) {
+  bool has = false;
+  impl_->Protect([&](duk_context* c) {
+    duk_push_global_object(c);
+    duk_push_lstring(c, name.data(), name.size());
+    duk_get_prop_desc(c, -2, 0);
+    // What the engine brings along is not enumerable.
+    has = duk_is_object(c, -1) && duk_get_prop_string(c, -1, "enumerable") != 0 &&
+          duk_to_boolean(c, -1) != 0;
+  });
+  return has;
+}
 Value Engine::Get(const Value& object, const std::string& name) {
   auto got = impl_->Make([&](duk_context* c) {
     impl_->Push(c, object);

@@ -65,6 +65,8 @@ class Engine {
   Value Array() { return Json("[]").value_or(Value()); }
 
   bool Has(const Value& object, const std::string& name);
+  /// A name some script assigned to without declaring it (ECMA-262 makes it global).
+  bool HasOwnGlobal(const std::string& name);
   Value Get(const Value& object, const std::string& name);
   void Set(const Value& object, const std::string& name, const Value& value);
   void Remove(const Value& object, const std::string& name);

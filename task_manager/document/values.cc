@@ -1,0 +1,76 @@
+#include "task_manager/document/values.h"
+
+#include <algorithm>
+
+#include "task_manager/document/schema.h"
+#include "task_manager/xml/node.h"
+
+namespace vxml {
+namespace {
+
+struct ValueRule {
+  std::string_view attribute;
+  std::string_view elements;  ///< "" = wherever the attribute stands
+  std::string_view values;    ///< one of these; @time, @count
+};
+
+constexpr ValueRule kRules[] = {
+    {"scope", "form menu", "dialog document"},
+    {"modal", "", "true false"},
+    {"beep", "", "true false"},
+    {"dtmfterm", "", "true false"},
+    {"bridge", "", "true false"},
+    {"dtmf", "menu", "true false"},
+    {"bargein", "", "true false"},
+    {"bargeintype", "", "speech hotword"},
+    {"accept", "", "exact approximate"},
+    {"mode", "filled", "any all"},
+    {"method", "", "get post"},
+    {"fetchhint", "", "prefetch safe"},
+    {"valuetype", "", "data ref"},
+    {"count", "", "@count"},
+    {"timeout", "", "@time"},
+    {"fetchtimeout", "", "@time"},
+    {"maxtime", "", "@time"},
+    {"finalsilence", "", "@time"},
+    {"connecttimeout", "", "@time"},
+};
+
+bool Contains(std::string_view list, std::string_view word) {
+  const auto words = SplitWords(list);
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool IsCount(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos &&
+         text.find_first_not_of('0') != std::string_view::npos;
+}
+
+}  // namespace
+
+bool IsTimeDesignation(std::string_view text) {
+  if (text.starts_with("+")) text.remove_prefix(1);
+  const std::size_t unit = text.find_first_not_of("0123456789.");
+  if (unit == std::string_view::npos || unit == 0) return false;
+  const std::string_view number = text.substr(0, unit);
+  if (number == "." || std::count(number.begin(), number.end(), '.') > 1) return false;
+  return text.substr(unit) == "s" || text.substr(unit) == "ms";
+}
+
+std::string WrongValue(std::string_view element, std::string_view attribute,
+                       std::string_view value) {
+  value = xml::Trim(value);
+  for (const ValueRule& rule : kRules) {
+    if (rule.attribute != attribute) continue;
+    if (!rule.elements.empty() && !Contains(rule.elements, element)) continue;
+    if (rule.values == "@time") {
+      return IsTimeDesignation(value) ? "" : "expected a time as 5s or 300ms";
+    }
+    if (rule.values == "@count") return IsCount(value) ? "" : "expected 1 or more";
+    if (Contains(rule.values, value)) return "";
+    return "expected one of " + std::string(rule.values);
+  }
+  return "";
+}
+
+}  // namespace vxml
