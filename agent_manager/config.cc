@@ -2,293 +2,54 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
-#include "vm_protocol/core/message.h"
+#include "agent_manager/config_json.h"
 
 namespace am {
-namespace {
 
-using nlohmann::json;
 using vm::Errc;
 using vm::Fail;
 using vm::Result;
 
-/// A fault at a key; turned into a vm::Error at the edge of this file.
-struct ConfigFault {
-  std::string key;
-  std::string text;
-};
+namespace {
 
-std::string Shown(const json& value) {
-  std::string text = value.dump();
-  return text.size() > 60 ? text.substr(0, 57) + "..." : text;
-}
-
-[[noreturn]] void Wrong(const std::string& key, const json& value, const std::string& expected) {
-  throw ConfigFault{key, "found " + Shown(value) + ", expected " + expected};
-}
-
-std::string Text(const json& value, const std::string& key) {
-  if (!value.is_string()) Wrong(key, value, "a string");
-  return value.get<std::string>();
-}
-
-std::vector<std::string> Texts(const json& value, const std::string& key) {
-  if (!value.is_array()) Wrong(key, value, "a list of strings");
-  std::vector<std::string> texts;
-  for (std::size_t i = 0; i < value.size(); ++i)
-    texts.push_back(Text(value[i], key + "[" + std::to_string(i) + "]"));
-  return texts;
-}
-
-template <typename T>
-T OneOf(const json& value, const std::string& key,
-        const std::vector<std::pair<std::string, T>>& words) {
-  std::string expected;
-  for (const auto& [word, meaning] : words) {
-    if (value.is_string() && value.get<std::string>() == word) return meaning;
-    expected += (expected.empty() ? "" : ", ") + word;
-  }
-  Wrong(key, value, "one of " + expected);
-}
-
-/// Calls the reader of each member; a member without a reader is a fault.
-using Readers = std::map<std::string, std::function<void(const json&, const std::string& key)>>;
-void ReadObject(const json& object, const std::string& key, const Readers& readers) {
-  if (!object.is_object()) Wrong(key.empty() ? "(top)" : key, object, "an object");
-  for (const auto& [name, value] : object.items()) {
-    const std::string path = key.empty() ? name : key + "." + name;
-    const auto reader = readers.find(name);
-    if (reader == readers.end()) {
-      std::string known;
-      for (const auto& [word, unused] : readers) known += (known.empty() ? "" : ", ") + word;
-      throw ConfigFault{path, "unknown key, expected one of " + known};
-    }
-    reader->second(value, path);
-  }
-}
-
-ModuleConfig ReadModule(const json& object, const std::string& key) {
-  ModuleConfig module;
-  ReadObject(
-      object, key,
-      {{"name",
-        [&](const json& v, const std::string& k) {
-          module.name = Text(v, k);
-          if (!vm::IsModuleName(module.name)) Wrong(k, v, "letters, digits, '_' or '-'");
-        }},
-       {"command",
-        [&](const json& v, const std::string& k) {
-          module.command =
-              v.is_string() ? std::vector<std::string>{"/bin/sh", "-c", Text(v, k)} : Texts(v, k);
-          if (module.command.empty()) Wrong(k, v, "a program and its arguments");
-        }},
-       {"connect", [&](const json& v, const std::string& k) { module.connect = Text(v, k); }},
-       {"cwd", [&](const json& v, const std::string& k) { module.cwd = Text(v, k); }},
-       {"env",
-        [&](const json& v, const std::string& k) {
-          if (!v.is_object()) Wrong(k, v, "an object of strings");
-          for (const auto& [name, value] : v.items())
-            module.env.push_back(name + "=" + Text(value, k + "." + name));
-        }},
-       {"restart",
-        [&](const json& v, const std::string& k) {
-          module.restart = OneOf<Restart>(v, k,
-                                          {{"never", Restart::kNever},
-                                           {"on-failure", Restart::kOnFailure},
-                                           {"always", Restart::kAlways}});
-        }},
-       {"dialect",
-        [&](const json& v, const std::string& k) {
-          module.dialect = OneOf<Dialect>(v, k,
-                                          {{"auto", Dialect::kAuto},
-                                           {"modern", Dialect::kModern},
-                                           {"original", Dialect::kOriginal}});
-        }},
-       {"framing",
-        [&](const json& v, const std::string& k) {
-          module.framing = OneOf<std::string>(v, k, {{"lf", "lf"}, {"mmi", "mmi"}});
-        }},
-       {"encoding", [&](const json& v, const std::string& k) {
-          module.encoding = OneOf<std::string>(
-              v, k, {{"utf-8", "utf-8"}, {"euc-jp", "euc-jp"}, {"shift_jis", "shift_jis"}});
-        }}});
-  if (module.name.empty()) throw ConfigFault{key + ".name", "missing, expected the module's name"};
-  if (module.command.empty() == module.connect.empty())
-    throw ConfigFault{key, "expected either command or connect"};
-  return module;
-}
-
-std::string ReadFile(const std::string& path, const std::string& key) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf())) throw ConfigFault{key, "cannot read '" + path + "'"};
-  return text.str();
-}
-
-std::size_t LineAt(std::string_view text, std::size_t at) {
-  return 1 + static_cast<std::size_t>(std::ranges::count(text.substr(0, at), '\n'));
-}
-
-/// Walks JSON text that has been parsed already, to say where a key like "modules[1].env.A" stands.
-class KeyLocator {
- public:
-  explicit KeyLocator(std::string_view text) : text_(text) {}
-
-  /// The line of the deepest part of the path that exists.
-  std::size_t LineOf(std::string_view path) {
-    Skip();
-    std::size_t found = at_;
-    while (!path.empty()) {
-      const bool index = path.front() == '[';
-      const std::size_t end = std::min(path.find_first_of(index ? "]" : ".["), path.size());
-      const std::string part(path.substr(index ? 1 : 0, end - (index ? 1 : 0)));
-      path.remove_prefix(index ? std::min(end + 1, path.size()) : end);
-      if (path.starts_with('.')) path.remove_prefix(1);
-      if (!(index ? EnterElement(std::stoul(part)) : EnterMember(part, found))) break;
-      if (index) found = at_;
-    }
-    return LineAt(text_, found);
-  }
-
- private:
-  void Skip() {  // blanks and comments
-    while (at_ < text_.size()) {
-      if (text_.substr(at_).starts_with("//")) {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (text_.substr(at_).starts_with("/*")) {
-        at_ = std::min(text_.find("*/", at_), text_.size() - 2) + 2;
-      } else if (std::string_view(" \t\r\n,:").find(text_[at_]) != std::string_view::npos) {
-        ++at_;
-      } else {
-        return;
-      }
+/// Every module comes after modules that exist, and nowhere in a circle.
+void CheckOrder(const std::vector<ModuleConfig>& modules, const std::string& key) {
+  std::set<std::string> placed;
+  for (bool more = true; more;) {
+    more = false;
+    for (const ModuleConfig& module : modules) {
+      if (placed.contains(module.name) ||
+          !std::ranges::all_of(module.after,
+                               [&](const std::string& name) { return placed.contains(name); }))
+        continue;
+      placed.insert(module.name);
+      more = true;
     }
   }
-  std::string_view String() {
-    const std::size_t start = ++at_;
-    while (at_ < text_.size() && text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
-    const std::size_t end = std::min(at_, text_.size());
-    at_ = std::min(at_ + 1, text_.size());
-    return text_.substr(start, end - start);
-  }
-  void SkipValue() {
-    int depth = 0;
-    do {
-      Skip();
-      if (at_ >= text_.size()) return;
-      const char c = text_[at_];
-      if (c == '"') {
-        String();
-      } else if (c == '{' || c == '[') {
-        ++depth;
-        ++at_;
-      } else if (c == '}' || c == ']') {
-        --depth;
-        ++at_;
-      } else {
-        at_ = std::min(text_.find_first_of(" \t\r\n,]}", at_), text_.size());
-      }
-    } while (depth > 0);
-  }
-  bool Open(char bracket) {
-    Skip();
-    if (at_ >= text_.size() || text_[at_] != bracket) return false;
-    ++at_;
-    return true;
-  }
-  /// Leaves `at_` before the member's value and `key_at` at its key.
-  bool EnterMember(const std::string& name, std::size_t& key_at) {
-    if (!Open('{')) return false;
-    for (Skip(); at_ < text_.size() && text_[at_] == '"'; Skip()) {
-      const std::size_t here = at_;
-      if (String() == name) {
-        key_at = here;
-        Skip();
-        return true;
-      }
-      SkipValue();
+  for (std::size_t i = 0; i < modules.size(); ++i) {
+    if (placed.contains(modules[i].name)) continue;
+    const std::string at = key + "[" + std::to_string(i) + "].after";
+    for (const std::string& name : modules[i].after) {
+      if (std::ranges::find(modules, name, &ModuleConfig::name) == modules.end())
+        throw ConfigFault{at, "there is no module " + name};
     }
-    return false;
+    throw ConfigFault{at, "these modules wait for each other in a circle"};
   }
-  bool EnterElement(std::size_t index) {
-    if (!Open('[')) return false;
-    for (; index > 0; --index) SkipValue();
-    Skip();
-    return at_ < text_.size() && text_[at_] != ']';
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
-
-/// Text for the JSON parser that tells the line it has come to. An input iterator.
-class LineCounter {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-  LineCounter(const char* at, std::size_t* line) : at_(at), line_(line) {}
-  reference operator*() const { return *at_; }
-  LineCounter& operator++() {
-    if (*at_++ == '\n') ++*line_;
-    return *this;
-  }
-  bool operator==(const LineCounter& other) const { return at_ == other.at_; }
-
- private:
-  const char* at_;
-  std::size_t* line_;
-};
-
-/// Refuses a key written twice in one object, which nlohmann-json would take without a word.
-class DuplicateKeys {
- public:
-  bool operator()(int depth, json::parse_event_t event, json& parsed) {
-    const auto level = static_cast<std::size_t>(depth);
-    if (event == json::parse_event_t::object_start) {
-      seen_.resize(level + 1);
-      seen_[level].clear();
-    } else if (event == json::parse_event_t::key) {
-      if (!seen_[level - 1].insert(parsed.get<std::string>()).second) {
-        throw ConfigFault{parsed.get<std::string>(), "this key is written twice"};
-      }
-    }
-    return true;
-  }
-
- private:
-  std::vector<std::set<std::string>> seen_;
-};
+}
 
 }  // namespace
 
 Result<Config> ParseConfig(std::string_view text, const std::string& origin,
                            const std::string& folder) {
   json root;
-  std::size_t line = 1;
   try {
-    const char* const end = text.data() + text.size();
-    root = json::parse(LineCounter(text.data(), &line), LineCounter(end, &line), DuplicateKeys(),
-                       true, true);
+    root = ParseJson(text, origin);
   } catch (const ConfigFault& fault) {
-    return Fail(Errc::kBadValue,
-                origin + " line " + std::to_string(line) + ": " + fault.key + ": " + fault.text);
-  } catch (const json::parse_error& error) {
-    const std::string what = error.what();
-    const std::size_t colon = what.find(": ");
-    return Fail(Errc::kSyntax,
-                origin + " line " +
-                    std::to_string(LineAt(text, error.byte > 0 ? error.byte - 1 : 0)) +
-                    ": not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2)));
+    return Fail(
+        fault.text.find(": not JSON: ") != std::string::npos ? Errc::kSyntax : Errc::kBadValue,
+        fault.text);
   }
   try {
     Config config;
@@ -296,16 +57,26 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
         root, "",
         {{"modules",
           [&](const json& v, const std::string& k) {
-            if (!v.is_array()) Wrong(k, v, "a list of modules");
             std::set<std::string> names;
-            for (std::size_t i = 0; i < v.size(); ++i) {
-              const std::string key = k + "[" + std::to_string(i) + "]";
-              config.modules.push_back(ReadModule(v[i], key));
+            ReadList(v, k, "a list of modules", [&](const json& module, const std::string& key) {
+              config.modules.push_back(ReadModule(module, key));
               if (!names.insert(config.modules.back().name).second)
                 throw ConfigFault{key + ".name", "the name is taken twice"};
-            }
+            });
+            CheckOrder(config.modules, k);
           }},
          {"listen", [&](const json& v, const std::string& k) { config.listen = Texts(v, k); }},
+         {"limits",
+          [&](const json& v, const std::string& k) {
+            Readers readers;
+            for (const LimitName& limit : LimitNames()) {
+              readers[limit.name] = [&config, &limit](const json& n, const std::string& at) {
+                config.limits.*limit.member = static_cast<std::uint64_t>(
+                    Whole(n, at, static_cast<long>(limit.least), static_cast<long>(limit.most)));
+              };
+            }
+            ReadObject(v, k, readers);
+          }},
          {"broadcast",
           [&](const json& v, const std::string& k) { config.broadcast = Texts(v, k); }},
          {"clock",
@@ -313,11 +84,17 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
             config.virtual_clock = OneOf<bool>(v, k, {{"real", false}, {"virtual", true}});
           }},
          {"log", [&](const json& v, const std::string& k) { config.log = Text(v, k); }},
+         {"rules",
+          [&](const json& v, const std::string& k) {
+            ReadList(v, k, "a list of rules", [&](const json& rule, const std::string& key) {
+              config.rules.push_back(ReadRule(rule, key, config.rules.size() + 1));
+              if (config.rules.size() > Rules::kMaxRules)
+                throw ConfigFault{key, "more than " + std::to_string(Rules::kMaxRules) + " rules"};
+            });
+          }},
          {"start_limit_ms",
           [&](const json& v, const std::string& k) {
-            if (!v.is_number_integer() || v.get<long>() < 100 || v.get<long>() > 600000)
-              Wrong(k, v, "a whole number, 100 to 600000");
-            config.start_limit = std::chrono::milliseconds(v.get<long>());
+            config.start_limit = Millis(v, k, 100, 600000);
           }},
          {"macros", [&](const json& v, const std::string& k) {
             if (!v.is_object()) Wrong(k, v, "an object: name to steps, or to a file's name");
@@ -325,7 +102,7 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
               const std::string key = k + "." + name;
               config.macros[name] =
                   steps.is_string()
-                      ? ReadFile(
+                      ? ReadTextFile(
                             (std::filesystem::path(folder) / steps.get<std::string>()).string(),
                             key)
                       : steps.dump();
@@ -333,9 +110,8 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
           }}});
     return config;
   } catch (const ConfigFault& fault) {
-    return Fail(Errc::kBadValue, origin + " line " +
-                                     std::to_string(KeyLocator(text).LineOf(fault.key)) + ": " +
-                                     fault.key + ": " + fault.text);
+    return Fail(Errc::kBadValue, origin + " line " + std::to_string(LineOfKey(text, fault.key)) +
+                                     ": " + fault.key + ": " + fault.text);
   }
 }
 

@@ -6,6 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "agent_manager/limits.h"
+#include "agent_manager/restart_policy.h"
+#include "agent_manager/rules.h"
 #include "vm_protocol/core/result.h"
 
 namespace am {
@@ -13,7 +16,25 @@ namespace am {
 /// Whether a module knows tags, @T and the Clock slot. kAuto: the hub finds out by asking for
 /// Clock.
 enum class Dialect { kAuto, kModern, kOriginal };
-enum class Restart { kNever, kOnFailure, kAlways };
+
+/// What one process may use; 0 = as the hub itself. setrlimit(2) has the exact meanings.
+struct ResourceLimits {
+  unsigned long cpu_s = 0;      ///< processor time of one life of the process
+  unsigned long memory_mb = 0;  ///< address space, MiB
+  unsigned long files = 0;      ///< open descriptors
+  unsigned long file_mb = 0;    ///< size of a file it writes, MiB
+  int nice = 0;                 ///< added to the hub's own
+  bool operator==(const ResourceLimits&) const = default;
+};
+
+/// A module that leaves `inq Run` unanswered for `within`, `misses` times in a row, is ended by
+/// force; the restart policy has the rest. Real clock only.
+struct HealthCheck {
+  std::chrono::milliseconds every{0};  ///< 0 = no checks
+  std::chrono::milliseconds within{2000};
+  unsigned misses = 3;
+  bool operator==(const HealthCheck&) const = default;
+};
 
 struct ModuleConfig {
   std::string name;                  ///< "SSM"
@@ -21,16 +42,27 @@ struct ModuleConfig {
   std::string connect;               ///< endpoint to connect to instead of a command
   std::string cwd;                   ///< empty = the hub's
   std::vector<std::string> env;      ///< "NAME=VALUE"
-  Restart restart = Restart::kOnFailure;
+  RestartPolicy restart;
+  std::vector<std::string> after;  ///< modules that must be ready before this one is started
+  std::string ready_slot;          ///< ready when this slot has ready_value; empty = once it speaks
+  std::string ready_value;
+  std::chrono::milliseconds ready_within{60000};  ///< else it is ended by force
+  HealthCheck health;
+  ResourceLimits limits;
+  std::chrono::milliseconds stop_within{4000};  ///< after `set Run = EXIT`, before SIGTERM
   Dialect dialect = Dialect::kAuto;
   std::string framing = "lf";  ///< lf or mmi
   std::string encoding = "utf-8";
+
+  bool operator==(const ModuleConfig&) const = default;
 };
 
 /// What an `agent_manager --config FILE` says. The schema is described in docs/configuration.md.
 struct Config {
   std::vector<ModuleConfig> modules;
   std::vector<std::string> listen;
+  Limits limits;
+  std::vector<Rule> rules;             ///< in the order in which they are applied
   std::vector<std::string> broadcast;  ///< names that hear what modules say to nobody in particular
   bool virtual_clock = false;
   std::string log;

@@ -51,9 +51,9 @@ Result<PeerKey> Hub::Attach(std::unique_ptr<Link> link, PeerKind kind, const std
                             Dialect dialect) {
   const PeerKey key = ++last_key_;
   const std::string full_name = name.empty() ? "CLIENT" + std::to_string(key) : name;
-  if (peers_.size() >= kMaxPeers) {
+  if (peers_.size() >= limits_.peers) {
     link->Close();
-    return Fail(Errc::kLimit, "more than " + std::to_string(kMaxPeers) + " peers");
+    return Fail(Errc::kLimit, "more than " + std::to_string(limits_.peers) + " peers");
   }
   if (names_.contains(full_name) || internal_.contains(full_name)) {
     link->Close();
@@ -86,6 +86,8 @@ void Hub::Detach(PeerKey key, const std::string& reason) {
   peers_.erase(found);
   names_.erase(peer->name);
   dirty_.erase(key);
+  clock_.Cancel(peer->backlog_timer);
+  ReleaseHeld(*peer);
   for (const auto& [slot, timer] : peer->held) {
     clock_.Cancel(timer);
     --held_;
@@ -142,7 +144,7 @@ void Hub::SendAll(const std::set<PeerKey>& receivers, const Message& message) {
   for (const PeerKey key : receivers) {
     Peer* peer = ByKey(key);
     if (peer == nullptr) continue;
-    peer->link->Send(line);
+    Write(*peer, line);
     if (log_.enabled()) names += (names.empty() ? "" : ",") + peer->name;
   }
   if (log_.enabled()) log_.Write(clock_.Now(), message.from, names, line);
@@ -152,10 +154,11 @@ void Hub::Send(Peer& peer, const Message& message) {
   const std::string line = vm::FormatMessage(message);
   if (log_.enabled())
     log_.Write(clock_.Now(), message.from.empty() ? "AM" : message.from, peer.name, line);
-  peer.link->Send(line);
+  Write(peer, line);
 }
 
 void Hub::Complain(Peer& sender, const Error& error) {
+  ++sender.traffic.refused;
   // A flood of bad lines must not become a flood of reports.
   if (clock_.Now() - sender.complaints_since > std::chrono::seconds(1)) {
     sender.complaints_since = clock_.Now();

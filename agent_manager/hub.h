@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "agent_manager/config.h"
+#include "agent_manager/limits.h"
+#include "agent_manager/rules.h"
 #include "agent_manager/session_log.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/scheduler.h"
@@ -24,6 +26,11 @@ class Link {
   virtual ~Link() = default;
   virtual void Send(std::string_view line) = 0;
   virtual void Close() = 0;
+  /// Stops and resumes the lines that come from it.
+  virtual void PauseReading() {}
+  virtual void ResumeReading() {}
+  /// What was sent and has not been taken yet.
+  virtual std::size_t backlog_bytes() const { return 0; }
 };
 
 /// Identifies a peer for its lifetime; never used again. 0 is the hub itself.
@@ -35,17 +42,23 @@ enum class PeerKind {
   kClient,   ///< came by a socket; becomes a module-like name by `to @AM set Name = X`
 };
 
+/// What there is to know about a peer that is there.
+struct PeerStatus {
+  std::string name;
+  PeerKind kind = PeerKind::kClient;
+  Traffic traffic;
+  std::size_t backlog_bytes = 0;
+  std::size_t pending = 0;  ///< requests it has not answered
+  std::size_t defined = 0;  ///< slots and macros it has made at the hub
+  bool held = false;        ///< it is not read from at the moment
+};
+
 /// The direct layer (DCL): who is there, and who gets what. Pure: lines come in by OnLine and go
 /// out by links; time comes from the scheduler. Ownership: owns the links. Thread: the scheduler's.
-/// Limits: kMaxPeers peers, kMaxPending unanswered requests per module, kMaxWaitingLines held for a
-/// module that has not answered its probe.
+/// Limits: struct Limits; they can change at any time.
 /// Errors: whatever cannot be delivered is answered to its sender (docs/protocol.md "Errors").
 class Hub {
  public:
-  static constexpr std::size_t kMaxPeers = 256;
-  static constexpr std::size_t kMaxPending = 4096;
-  static constexpr std::size_t kMaxWaitingLines = 4096;
-
   Hub(vm::Scheduler& clock, SessionLog& log);
   ~Hub();
   Hub(const Hub&) = delete;
@@ -85,6 +98,16 @@ class Hub {
   using OnNotice = std::function<void(const std::string& text)>;
   void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
 
+  /// What happens to messages on their way (hub_rules.cc).
+  Rules& rules() { return rules_; }
+
+  // Limits (hub_limits.cc).
+  Limits& limits() { return limits_; }
+  std::vector<PeerStatus> Status() const;
+  /// Told of a peer the hub cuts off, before it is detached.
+  using OnCutOff = std::function<void(PeerKey peer, const std::string& why)>;
+  void set_on_cut_off(OnCutOff on_cut_off) { on_cut_off_ = std::move(on_cut_off); }
+
   // Clocks.
   struct ClockState {
     bool known = false;
@@ -115,6 +138,14 @@ class Hub {
   void Route(Peer& sender, vm::Message message);
   void Deliver(const std::string& sender_name, PeerKey asker, const std::string& receiver,
                const vm::Message& message, OnAnswer done);
+  /// After the rules.
+  void DeliverNow(const std::string& sender_name, PeerKey asker, const std::string& receiver,
+                  const vm::Message& message, OnAnswer done);
+  void DeliverByRule(const std::string& sender_name, PeerKey asker, const std::string& receiver,
+                     const vm::Message& message, OnAnswer done);
+  void ReportByRule(Peer& sender, vm::Message message);
+  void ReportNow(Peer& sender, vm::Message message);
+  void CarryOut(const std::string& from, const Rules::Outcome& outcome);
   void Forward(Peer& module, vm::Message message, PeerKey asker, OnAnswer done);
   void GiveUp(PeerKey module, unsigned long number);
   void SendBare(Peer& module, vm::Message message, const std::string& tag);
@@ -127,6 +158,13 @@ class Hub {
   void Send(Peer& peer, const vm::Message& message);
   /// One line in the log, however many receive it.
   void SendAll(const std::set<PeerKey>& receivers, const vm::Message& message);
+  void Write(Peer& peer, std::string_view line);
+  void OnBacklog(Peer& peer, std::size_t backlog);
+  void WatchBacklog(Peer& peer);
+  void ReleaseHeld(Peer& peer);
+  void CutOff(Peer& peer, const std::string& why);
+  void Throttle(Peer& peer, std::size_t bytes);
+  vm::Result<void> CountDefinition(PeerKey peer, const vm::Message& message);
   void Probe(Peer& peer);
   void MeasureClock(Peer& peer, int exchanges);
   void BecomeModern(Peer& peer, vm::Time asked_at, const vm::Result<std::string>& clock);
@@ -148,6 +186,11 @@ class Hub {
   std::set<std::string> broadcast_;
   std::set<std::string> reserved_;
   std::set<PeerKey> dirty_;
+  Limits limits_;
+  Rules rules_;
+  PeerKey speaking_ = 0;     // whose line is being dealt with
+  bool commanding_ = false;  // and it is a command
+  OnCutOff on_cut_off_;
   OnReport on_report_;
   OnPresence on_presence_;
   OnNotice on_notice_;

@@ -32,7 +32,7 @@ void Hub::Probe(Peer& peer) {
         BecomeModern(*answering, asked_at, value);
       }};
   question.tag = HubTag(number);
-  peer.link->Send(vm::FormatMessage(question));
+  Write(peer, vm::FormatMessage(question));
 }
 
 void Hub::BecomeModern(Peer& peer, vm::Time asked_at, const Result<std::string>& clock) {
@@ -140,7 +140,7 @@ void Hub::AskClock(PeerKey key, vm::Time grant, OnAnswer done) {
   request.tag = HubTag(number);
   dirty_.erase(key);
   peer->granted = grant;
-  peer->link->Send(vm::FormatMessage(request));
+  Write(*peer, vm::FormatMessage(request));
 }
 
 }  // namespace am

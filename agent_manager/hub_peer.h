@@ -45,6 +45,16 @@ struct Hub::Peer {
   ClockState clock;
   vm::Time granted{0};  // lockstep: where its clock stands
   std::set<std::string> subscriptions;
+  Traffic traffic;
+  RateMeter messages, bytes;
+  bool throttled = false;
+  int held_by = 0;          // reasons why it is not read from
+  std::set<PeerKey> holds;  // senders that wait until it has read what they said
+  vm::TimerId backlog_timer = 0;
+  vm::Time full_since{0};
+  std::size_t least_backlog = 0;
+  bool cut_off = false;
+  std::set<std::string> defined;  // its slots and macros at the hub
   vm::Time complaints_since{0};
   int complaints = 0;
 };

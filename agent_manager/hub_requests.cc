@@ -29,7 +29,7 @@ std::string SlotOf(const Message& request) {
 
 void Hub::Forward(Peer& module, Message message, PeerKey asker, OnAnswer done) {
   if (module.probing) {
-    if (module.waiting.size() >= kMaxWaitingLines) {
+    if (module.waiting.size() >= limits_.waiting) {
       return AnswerTo(
           asker, module.name, message,
           Fail(Errc::kLimit, "@" + module.name + " is still starting, too much waits for it"),
@@ -53,7 +53,7 @@ void Hub::Forward(Peer& module, Message message, PeerKey asker, OnAnswer done) {
           "@" + vm::FormatMs(start->time + (lockstep_ ? vm::Time(0) : module.clock.offset));
     }
   }
-  if (module.pending.size() >= kMaxPending) {
+  if (module.pending.size() >= limits_.pending) {
     const auto oldest = module.pending.begin();
     const Pending dropped = std::move(oldest->second);
     module.pending.erase(oldest);
@@ -92,7 +92,7 @@ void Hub::SendBare(Peer& module, Message message, const std::string& tag) {
     AskClock(module.key, clock_.Now(), [](const Result<std::string>&) {});
   }
   if (module.clock.known) dirty_.insert(module.key);
-  module.link->Send(vm::FormatMessage(message));
+  Write(module, vm::FormatMessage(message));
 }
 
 void Hub::ForwardOriginal(Peer& module, Message message, PeerKey asker, const OnAnswer& done) {

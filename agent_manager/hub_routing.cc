@@ -25,6 +25,10 @@ void Hub::OnLine(PeerKey key, Result<std::string_view> line) {
   Peer* sender = ByKey(key);
   if (sender == nullptr) return;
   sender->spoken = true;
+  ++sender->traffic.messages_in;
+  const std::size_t bytes = line ? line->size() + 1 : 0;
+  sender->traffic.bytes_in += bytes;
+  Throttle(*sender, bytes);
   if (!line) return Complain(*sender, line.error());
   auto message = vm::ParseMessage(*line);
   if (!message) {
@@ -32,8 +36,16 @@ void Hub::OnLine(PeerKey key, Result<std::string_view> line) {
     return;
   }
   message->from = sender->name;
-  if (IsReport(*message)) return Report(*sender, std::move(*message));
-  Route(*sender, std::move(*message));
+  const PeerKey before = std::exchange(speaking_, key);
+  const bool report = IsReport(*message);
+  const bool commanded = std::exchange(commanding_, !report);
+  if (report) {
+    Report(*sender, std::move(*message));
+  } else {
+    Route(*sender, std::move(*message));
+  }
+  speaking_ = before;
+  commanding_ = commanded;
 }
 
 void Hub::Route(Peer& sender, Message message) {
@@ -51,6 +63,12 @@ void Hub::Ask(const std::string& sender, Message message, const OnAnswer& done) 
 
 void Hub::Deliver(const std::string& sender_name, PeerKey asker, const std::string& receiver,
                   const Message& message, OnAnswer done) {
+  if (rules_.empty()) return DeliverNow(sender_name, asker, receiver, message, std::move(done));
+  DeliverByRule(sender_name, asker, receiver, message, std::move(done));
+}
+
+void Hub::DeliverNow(const std::string& sender_name, PeerKey asker, const std::string& receiver,
+                     const Message& message, OnAnswer done) {
   if (Peer* peer = Find(receiver)) {
     if (log_.enabled())
       log_.Write(clock_.Now(), sender_name, receiver, vm::FormatMessage(vm::To(receiver, message)));
@@ -64,6 +82,8 @@ void Hub::Deliver(const std::string& sender_name, PeerKey asker, const std::stri
   }
   if (log_.enabled())
     log_.Write(clock_.Now(), sender_name, receiver, vm::FormatMessage(vm::To(receiver, message)));
+  if (const auto counted = CountDefinition(asker, message); !counted)
+    return AnswerTo(asker, receiver, message, std::unexpected(counted.error()), done);
   if (!done) return machine->second->Handle(message, asker);
   Message tagged = message;
   tagged.tag = "i" + std::to_string(++last_tag_);
@@ -77,6 +97,11 @@ void Hub::Report(Peer& sender, Message message) {
     sender.kind = PeerKind::kModule;  // a module that came by a socket
     Probe(sender);
   }
+  if (rules_.empty()) return ReportNow(sender, std::move(message));
+  ReportByRule(sender, std::move(message));
+}
+
+void Hub::ReportNow(Peer& sender, Message message) {
   std::set<PeerKey> receivers;
   for (const std::string& name : std::exchange(message.to, {})) {
     if (Peer* peer = Find(name)) {

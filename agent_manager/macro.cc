@@ -50,8 +50,12 @@ std::string Line(const json& value, const std::string& where) {
   return line;
 }
 
+constexpr int kMaxDepth = 16;  // of branches within branches
+
+std::vector<MacroStep> ReadSteps(const json& list, const std::string& where, int depth);
+
 /// Every member a step may have and how it is read; "kind" members choose what the step does.
-MacroStep ReadStep(const json& object, const std::string& where) {
+MacroStep ReadStep(const json& object, const std::string& where, int depth) {
   using Kind = MacroStep::Kind;
   if (!object.is_object()) throw MacroFault{where + ": expected an object"};
   MacroStep step;
@@ -123,6 +127,17 @@ MacroStep ReadStep(const json& object, const std::string& where) {
     } else if (key == "remove") {
       kind(Kind::kRemove);
       step.line = Text(value, at);
+    } else if (key == "parallel") {
+      kind(Kind::kBranches);
+      if (!value.is_array() || value.empty())
+        throw MacroFault{at + ": expected a list of lists of steps"};
+      for (std::size_t i = 0; i < value.size(); ++i)
+        step.branches.push_back(ReadSteps(value[i], at + "[" + std::to_string(i) + "]", depth + 1));
+    } else if (key == "steps") {
+      kind(Kind::kBranches);
+      step.branches.push_back(ReadSteps(value, at, depth + 1));
+    } else if (key == "else") {
+      step.otherwise = ReadSteps(value, at, depth + 1);
     } else if (key == "mark") {
       kind(Kind::kMark);
     } else if (key == "of") {
@@ -149,18 +164,20 @@ MacroStep ReadStep(const json& object, const std::string& where) {
   if (kinds != 1) {
     throw MacroFault{where +
                      ": expected exactly one of send, request, wait, pause_ms, let, start, follow, "
-                     "report, need, remove, mark"};
+                     "report, need, remove, mark, steps, parallel"};
   }
   return step;
 }
 
-std::vector<MacroStep> ReadSteps(const json& list, const std::string& where) {
+std::vector<MacroStep> ReadSteps(const json& list, const std::string& where, int depth) {
+  if (depth > kMaxDepth)
+    throw MacroFault{where + ": more than " + std::to_string(kMaxDepth) + " lists in each other"};
   if (!list.is_array()) throw MacroFault{where + ": expected a list of steps"};
   if (list.size() > vm::kMaxMacroLines)
     throw MacroFault{where + ": more than " + std::to_string(vm::kMaxMacroLines) + " steps"};
   std::vector<MacroStep> steps;
   for (std::size_t i = 0; i < list.size(); ++i)
-    steps.push_back(ReadStep(list[i], where + "[" + std::to_string(i) + "]"));
+    steps.push_back(ReadStep(list[i], where + "[" + std::to_string(i) + "]", depth));
   return steps;
 }
 
@@ -168,7 +185,7 @@ Macro ReadMacro(const std::string& name, const json& object) {
   Macro macro;
   macro.name = name;
   if (object.is_array()) {
-    macro.steps = ReadSteps(object, name);
+    macro.steps = ReadSteps(object, name, 0);
     return macro;
   }
   if (!object.is_object())
@@ -186,11 +203,11 @@ Macro ReadMacro(const std::string& name, const json& object) {
     else if (key == "stops_on")
       macro.stops_on = Text(value, at);
     else if (key == "steps")
-      macro.steps = ReadSteps(value, at);
+      macro.steps = ReadSteps(value, at, 0);
     else if (key == "on_stop")
-      macro.on_stop = ReadSteps(value, at);
+      macro.on_stop = ReadSteps(value, at, 0);
     else if (key == "finally")
-      macro.finally = ReadSteps(value, at);
+      macro.finally = ReadSteps(value, at, 0);
     else
       throw MacroFault{
           at +

@@ -24,7 +24,8 @@ struct MacroStep {
     kReport,
     kMark,
     kNeed,
-    kRemove
+    kRemove,
+    kBranches
   };
   Kind kind = Kind::kSend;
   std::string line;  ///< kSend, kRequest: the message; kRemove: the file; kNeed: the module
@@ -37,6 +38,9 @@ struct MacroStep {
   std::chrono::milliseconds limit{5000};  ///< kRequest, kWait, kPause (the length)
   std::string limit_from;  ///< kWait: a variable with phonemes whose length is added to the limit
   bool keep = false;       ///< kLet: the variable outlives the run
+
+  std::vector<std::vector<MacroStep>> branches;  ///< kBranches: they go on side by side
+  std::vector<MacroStep> otherwise;              ///< instead, where the conditions do not hold
 
   // Conditions; a step whose conditions do not hold is passed over.
   std::string if_present;  ///< a module that must be there

@@ -11,10 +11,11 @@
 
 namespace {
 
-std::string ReadText(const std::string& path) {
+vm::Result<std::string> ReadText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::stringstream text;
-  if (!file || !(text << file.rdbuf())) throw std::runtime_error("cannot read '" + path + "'");
+  if (!file || !(text << file.rdbuf()))
+    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
   return text.str();
 }
 
@@ -43,23 +44,32 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
   try {
-    am::Config config;
-    if (!config_path.empty()) {
-      const std::string folder = std::filesystem::path(config_path).parent_path().string();
-      auto parsed =
-          am::ParseConfig(ReadText(config_path), config_path, folder.empty() ? "." : folder);
-      if (!parsed) throw std::runtime_error(parsed.error().text);
-      config = std::move(*parsed);
-    }
-    if (!log.empty()) config.log = log;
-    if (!clock.empty()) config.virtual_clock = clock == "virtual";
+    const auto read_config = [&]() -> vm::Result<am::Config> {
+      am::Config config;
+      if (!config_path.empty()) {
+        const std::string folder = std::filesystem::path(config_path).parent_path().string();
+        const auto text = ReadText(config_path);
+        if (!text) return std::unexpected(text.error());
+        auto parsed = am::ParseConfig(*text, config_path, folder.empty() ? "." : folder);
+        if (!parsed) return parsed;
+        config = std::move(*parsed);
+      }
+      if (!log.empty()) config.log = log;
+      if (!clock.empty()) config.virtual_clock = clock == "virtual";
+      return config;
+    };
+    auto config = read_config();
+    if (!config) throw std::runtime_error(config.error().text);
+    if (!config_path.empty()) options.read_config = read_config;
     options.console = !no_console;
     if (!replay.empty()) options.replay = replay;
     if (!do_file.empty()) {
-      std::istringstream lines(ReadText(do_file));
+      const auto text = ReadText(do_file);
+      if (!text) throw std::runtime_error(text.error().text);
+      std::istringstream lines(*text);
       for (std::string line; std::getline(lines, line);) options.first_lines.push_back(line);
     }
-    am::Session session(config, options);
+    am::Session session(std::move(*config), options);
     if (slots_markdown) {
       std::cout << session.SlotsMarkdown();
       return 0;

@@ -56,6 +56,11 @@ class Mcl {
   bool Send(Run& run, const MacroStep& step);
   bool Wait(Run& run, const MacroStep& step);
   void Finish(Run& run);
+  // mcl_branches.cc
+  void StartBranches(Run& run, const std::vector<const std::vector<MacroStep>*>& branches);
+  void FinishBranch(Run& branch);
+  void FailBranch(Run& branch, vm::Error error);
+  void EndBranches(Run& run);
   bool Holds(const Run& run, const MacroStep& step) const;
   vm::Time StartLead(const std::vector<std::string>& modules) const;
   void WatchSlots(const std::string& module);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <deque>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -22,6 +24,9 @@
 
 namespace am {
 
+/// The content of a file. Throws std::runtime_error with a sentence.
+std::string ReadWhole(const std::string& path);
+
 /// The hub at work: configuration, clock, modules, sockets, console, and the end of it all.
 /// Owns everything. Thread: the one that calls Run.
 class Session {
@@ -33,9 +38,11 @@ class Session {
     std::vector<std::string> first_lines;  ///< said by @CONSOLE before its own input
     std::optional<std::string> replay;     ///< a session log whose clients' lines are said again
     double replay_speed = 1;
+    /// Reads the configuration again (SIGHUP, `set Reload = NOW`); empty = there is none to read.
+    std::function<vm::Result<Config>()> read_config;
   };
   /// Throws std::runtime_error with a sentence.
-  Session(const Config& config, Options options);
+  Session(Config config, Options options);
   ~Session();
   /// Returns the exit code.
   int Run();
@@ -43,7 +50,19 @@ class Session {
   std::string SlotsMarkdown() const;
 
  private:
+  // session_slots.cc
   void DeclareSlots();
+  void DeclareModuleSlots();
+  void DeclareLimitSlots();  // session_peers.cc
+  /// Module.NAME.state and so on, for modules that have none yet.
+  void DeclareSlotsOf(const std::string& module);
+  // session_config.cc: what the configuration says, at the start and when it is read again.
+  void ApplyConfig();
+  void Listen();
+  void OnAccept(int fd);
+  void ReloadOnSignal();
+  vm::Result<std::string> Reload();
+  // session_console.cc
   void StartConsole();
   void OnConsoleLine(vm::Result<std::string_view> line);
   /// Lines of the console that are waiting are said until one asks to wait.
@@ -62,6 +81,7 @@ class Session {
   void GrantAll(vm::Time time);
   void OnClockAnswer(PeerKey module, const vm::Result<std::string>& answer);
   void Shutdown();
+  void FeedWatchdog();
   /// A module that has been asked for a whole start_limit without an answer is one of the original.
   void EndProbesInTime(const std::set<PeerKey>& asked_before);
 
@@ -74,7 +94,7 @@ class Session {
     bool busy = false;
   };
 
-  const Config& config_;
+  Config config_;
   Options options_;
   boost::asio::io_context io_;
   vm::ClockScheduler clock_;
@@ -84,7 +104,7 @@ class Session {
   vm::SlotMachine slots_;
   Mcl mcl_;
   Supervisor supervisor_;
-  std::vector<std::unique_ptr<vm::Listener>> listeners_;
+  std::map<std::string, std::unique_ptr<vm::Listener>> listeners_;  // by what was configured
   std::shared_ptr<vm::StreamPeer> console_stream_;
   PeerKey console_ = 0;
   std::deque<std::string> console_lines_;
@@ -93,7 +113,8 @@ class Session {
   bool timed_wait_ = false;
   std::vector<LogEntry> replay_;
   std::size_t replay_pending_ = 0;
-  boost::asio::steady_timer probe_timer_, grant_timer_;
+  boost::asio::steady_timer probe_timer_, grant_timer_, watchdog_timer_;
+  boost::asio::signal_set reload_signal_;
   std::map<PeerKey, NextEvent> next_;
   std::set<PeerKey> open_grants_;
   vm::Time granted_{-1};

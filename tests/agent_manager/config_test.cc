@@ -23,7 +23,7 @@ TEST(ConfigTest, ReadsEveryKey) {
   ASSERT_EQ(config->modules.size(), 3u);
   EXPECT_EQ(config->modules[0].command, (std::vector<std::string>{"ssm", "--sink", "null"}));
   EXPECT_EQ(config->modules[0].env, (std::vector<std::string>{"A=1"}));
-  EXPECT_EQ(config->modules[0].restart, Restart::kAlways);
+  EXPECT_EQ(config->modules[0].restart.when, Restart::kAlways);
   EXPECT_EQ(config->modules[0].dialect, Dialect::kOriginal);
   EXPECT_EQ(config->modules[1].command.back(), "./fsm -C x");
   EXPECT_EQ(config->modules[2].connect, "tcp:h:1");

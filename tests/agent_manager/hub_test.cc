@@ -199,14 +199,15 @@ TEST(HubTest, AModuleThatAnswersNothingIsBounded) {
   world.JoinModern("SSM");
   world.answers = false;
   const auto a = world.Join(PeerKind::kClient, "A");
-  for (std::size_t i = 0; i < Hub::kMaxPending + 100; ++i) world.Say(*a, "to @SSM set#t X = 1");
+  for (std::size_t i = 0; i < world.hub.limits().pending + 100; ++i)
+    world.Say(*a, "to @SSM set#t X = 1");
   EXPECT_GE(a->heard.size(), 100u);
   EXPECT_NE(a->heard.front().find("TIMEOUT"), std::string::npos);
 }
 
 TEST(HubTest, TheHubIsFullAtItsLimit) {
   World world;
-  for (std::size_t i = 0; i < Hub::kMaxPeers; ++i)
+  for (std::size_t i = 0; i < world.hub.limits().peers; ++i)
     EXPECT_NE(world.Join(PeerKind::kClient, "")->key, 0u);
   const auto late = world.Join(PeerKind::kClient, "");
   EXPECT_EQ(late->key, 0u);

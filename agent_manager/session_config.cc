@@ -1,0 +1,95 @@
+// What the configuration says, at the start and when it is read again.
+
+#include <csignal>
+#include <iostream>
+#include <stdexcept>
+
+#include "agent_manager/service_notify.h"
+#include "agent_manager/session.h"
+
+namespace am {
+
+using vm::Errc;
+using vm::Result;
+
+void Session::ApplyConfig() {
+  std::set<std::string> names;
+  for (const ModuleConfig& module : config_.modules) {
+    names.insert(module.name);
+    DeclareSlotsOf(module.name);
+  }
+  hub_.Reserve(std::move(names));
+  hub_.limits() = config_.limits;
+  hub_.rules().set_rules(config_.rules);
+  hub_.set_broadcast({config_.broadcast.begin(), config_.broadcast.end()});
+  for (const auto& [name, text] : config_.macros) {
+    auto macro = ParseMacro(name, text);
+    if (macro) macro->name = name;
+    const auto defined =
+        macro ? mcl_.Define(std::move(*macro)) : Result<void>(std::unexpected(macro.error()));
+    if (!defined) throw std::runtime_error("macro " + name + ": " + defined.error().text);
+  }
+  Listen();
+  supervisor_.Apply(config_.modules);
+}
+
+void Session::Listen() {
+  std::erase_if(listeners_, [this](const auto& listener) {
+    return std::ranges::find(config_.listen, listener.first) == config_.listen.end();
+  });
+  for (const std::string& text : config_.listen) {
+    if (listeners_.contains(text)) continue;
+    const auto endpoint = vm::ParseEndpoint(text);
+    if (!endpoint) throw std::runtime_error("listen: " + endpoint.error().text);
+    auto listener =
+        vm::Listener::Open(io_, *endpoint, [this](int fd, const std::string&) { OnAccept(fd); });
+    std::cerr << "agent_manager: listening on " << vm::FormatEndpoint(listener->endpoint())
+              << std::endl;
+    listeners_.emplace(text, std::move(listener));
+  }
+}
+
+void Session::OnAccept(int fd) {
+  const auto stream = vm::StreamPeer::Make(io_, fd, fd, vm::Framing::kAuto);
+  const auto key =
+      hub_.Attach(std::make_unique<StreamLink>(stream), PeerKind::kClient, "", Dialect::kAuto);
+  if (!key) return;
+  stream->Start(
+      [this, peer = *key](Result<std::string_view> line) { hub_.OnLine(peer, std::move(line)); },
+      [this, peer = *key](const std::string& reason) { hub_.Detach(peer, reason); });
+}
+
+void Session::ReloadOnSignal() {
+  reload_signal_.add(SIGHUP);
+  reload_signal_.async_wait([this](const auto& error, int) {
+    if (error) return;
+    if (const auto reloaded = Reload(); !reloaded)
+      std::cerr << "agent_manager: " << reloaded.error().text << std::endl;
+    ReloadOnSignal();
+  });
+}
+
+Result<std::string> Session::Reload() {
+  if (!options_.read_config)
+    return vm::Fail(Errc::kUnavailable, "the hub was started without a configuration file");
+  auto read = options_.read_config();
+  if (!read) return std::unexpected(read.error());
+  if (read->virtual_clock != config_.virtual_clock || read->log != config_.log)
+    return vm::Fail(Errc::kBadValue,
+                    "clock and log cannot change while the hub runs; nothing was changed");
+  NotifyService("RELOADING=1");
+  const Config before = std::exchange(config_, std::move(*read));
+  try {
+    ApplyConfig();
+  } catch (const std::runtime_error& error) {
+    // Back to what worked: half a configuration helps nobody.
+    config_ = before;
+    ApplyConfig();
+    return vm::Fail(Errc::kBadValue, std::string(error.what()) + "; nothing was changed");
+  }
+  NotifyService("READY=1");
+  std::cerr << "agent_manager: the configuration was read again" << std::endl;
+  return "NOW";
+}
+
+}  // namespace am

@@ -1,0 +1,170 @@
+// Modules as processes: their order, health, limits, output, and changes of the configuration.
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "tests/support/process.h"
+
+namespace {
+
+using support::Process;
+
+const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
+const std::string kModule = GALATEA_BIN_DIR "/test_module";
+
+class SupervisionTest : public testing::Test {
+ protected:
+  void Configure(const std::string& modules) {
+    std::ofstream(path_) << "{\"modules\": [" << modules << "]}";
+  }
+  static std::string Module(const std::string& name, const std::string& more = "") {
+    return "{\"name\": \"" + name + "\", \"command\": [\"" + kModule + "\"]" + more + "}";
+  }
+  static std::string Shell(const std::string& name, const std::string& script,
+                           const std::string& more = "") {
+    return "{\"name\": \"" + name + "\", \"dialect\": \"original\", \"command\": \"" + script +
+           "\"" + more + "}";
+  }
+  std::string Ask(Process& hub, const std::string& slot) {
+    const std::string tag = "q" + std::to_string(++asked_);
+    hub.WriteLine("inq#" + tag + " " + slot);
+    const auto answer = hub.Expect("rep#" + tag + " ");
+    return answer ? answer->substr(answer->find(" = ") + 3) : "";
+  }
+
+  support::TempDir folder_;
+  std::string path_ = folder_ / "config.json";
+  int asked_ = 0;
+};
+
+TEST_F(SupervisionTest, AModuleIsStartedOnceThoseBeforeItAreReady) {
+  // LATER notes what FIRST had said by the time it was started.
+  const std::string said = folder_ / "said";
+  Configure(Shell("LATER", "cat " + said + " >&2; cat >/dev/null", ", \"after\": [\"FIRST\"]") +
+            "," +
+            Shell("FIRST", "read q; echo up >" + said + "; echo rep Run = LIVE; cat >/dev/null",
+                  ", \"ready\": \"Run = LIVE\""));
+  Process hub({kHub, "--config", path_});
+  EXPECT_TRUE(hub.ExpectError("LATER INFO: up")) << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Module.LATER.state"), "READY");
+  EXPECT_EQ(Ask(hub, "Module.LATER.output"), "INFO up");
+}
+
+TEST_F(SupervisionTest, AModuleThatDoesNotBecomeReadyIsEndedByForce) {
+  Configure(Shell("SLOW", "cat >/dev/null",
+                  ", \"ready\": \"Run = LIVE\", \"ready_within_ms\": 150, \"restart\": \"never\""));
+  Process hub({kHub, "--config", path_});
+  EXPECT_TRUE(hub.ExpectError("@SLOW killed by signal 9, Killed (not ready within 150 ms)"))
+      << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Module.SLOW.state"), "ENDED");
+}
+
+TEST_F(SupervisionTest, AModuleThatStopsAnsweringIsEndedAndStartedAgain) {
+  Configure(Module("TEST",
+                   ", \"health\": {\"every_ms\": 100, \"within_ms\": 1000, \"misses\": 2}, "
+                   "\"restart\": {\"when\": \"always\", \"first_ms\": 0}"));
+  Process hub({kHub, "--config", path_});
+  hub.WriteLine("to @TEST set#1 X = 1");
+  ASSERT_TRUE(hub.Expect("rep#1 X = 1")) << hub.ErrorText();
+  kill(std::stoi(Ask(hub, "Module.TEST.pid")), SIGSTOP);
+  EXPECT_TRUE(hub.ExpectError("(did not answer inq Run 2 times in a row)")) << hub.ErrorText();
+  hub.WriteLine("to @TEST set#2 X = 2");
+  EXPECT_TRUE(hub.Expect("rep#2 X = 2")) << hub.Seen() << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Module.TEST.starts"), "2");
+  EXPECT_NE(Ask(hub, "Module.TEST.ending").find("did not answer"), std::string::npos);
+}
+
+TEST_F(SupervisionTest, AModuleThatAlwaysDiesIsGivenUp) {
+  Configure(Shell("DIES", "echo 'dies: error: no luck' >&2; exit 3",
+                  ", \"restart\": {\"when\": \"always\", \"first_ms\": 1, \"tries\": 3}"));
+  Process hub({kHub, "--config", path_});
+  EXPECT_TRUE(hub.ExpectError("@DIES ended 4 times within 60000 ms, it is not started again"))
+      << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Module.DIES.state"), "FAILED");
+  EXPECT_EQ(Ask(hub, "Module.DIES.ending"), "ended with code 3");
+  EXPECT_NE(Ask(hub, "Module.DIES.log").find("ERROR dies: error: no luck"), std::string::npos);
+}
+
+TEST_F(SupervisionTest, LimitsHoldInTheProcess) {
+  Configure(Shell("LIMITED", "ulimit -n >&2; ulimit -t >&2; nice >&2; cat >/dev/null",
+                  ", \"limits\": {\"files\": 77, \"cpu_s\": 55, \"nice\": 3}"));
+  Process hub({kHub, "--config", path_});
+  EXPECT_TRUE(hub.ExpectError("LIMITED INFO: 77")) << hub.ErrorText();
+  EXPECT_TRUE(hub.ExpectError("LIMITED INFO: 55")) << hub.ErrorText();
+}
+
+TEST_F(SupervisionTest, StopStartAndRestartByHand) {
+  Configure(Module("TEST"));
+  Process hub({kHub, "--config", path_});
+  hub.WriteLine("set#1 Stop = TEST");
+  EXPECT_TRUE(hub.Expect("rep#1 Stop = STOPPED")) << hub.ErrorText();
+  hub.WriteLine("to @TEST set#2 X = 1");
+  EXPECT_TRUE(hub.Expect("rep#2 X.error = UNKNOWN_MODULE"));
+  hub.WriteLine("set#3 Start = TEST");
+  EXPECT_TRUE(hub.Expect("rep#3 Start = READY"));
+  hub.WriteLine("to @TEST set#4 X = 4");
+  EXPECT_TRUE(hub.Expect("rep#4 X = 4"));
+  hub.WriteLine("set#5 Restart = TEST");
+  EXPECT_TRUE(hub.Expect("rep#5 Restart = READY"));
+  hub.WriteLine("to @TEST inq#6 X");
+  EXPECT_TRUE(hub.Expect("rep#6 X = 0")) << "a new process";
+  hub.WriteLine("set#7 Stop = NOBODY");
+  EXPECT_TRUE(hub.Expect("rep#7 Stop.error = UNKNOWN_MODULE @NOBODY is not configured"));
+}
+
+TEST_F(SupervisionTest, ReloadingTouchesOnlyWhatChanged) {
+  Configure(Module("SAME") + "," + Module("CHANGED") + "," + Module("GONE"));
+  Process hub({kHub, "--config", path_});
+  const std::string same = Ask(hub, "Module.SAME.pid"), changed = Ask(hub, "Module.CHANGED.pid");
+  Configure(Module("SAME") + "," + Module("CHANGED", ", \"env\": {\"A\": \"1\"}") + "," +
+            Module("NEW"));
+  hub.Signal(SIGHUP);
+  ASSERT_TRUE(hub.ExpectError("the configuration was read again")) << hub.ErrorText();
+  hub.WriteLine("set#1 Start = NEW");
+  EXPECT_TRUE(hub.Expect("rep#1 Start = READY")) << hub.ErrorText();
+  hub.WriteLine("to @NEW set#2 X = 2");
+  EXPECT_TRUE(hub.Expect("rep#2 X = 2"));
+  EXPECT_EQ(Ask(hub, "Module.SAME.pid"), same);
+  EXPECT_EQ(Ask(hub, "Module.SAME.starts"), "1");
+  std::ofstream(path_) << "{ nonsense";
+  hub.WriteLine("set#3 Reload = NOW");
+  EXPECT_TRUE(hub.Expect("rep#3 Reload.error = SYNTAX")) << hub.Seen();
+  hub.WriteLine("to @SAME set#4 X = 4");
+  EXPECT_TRUE(hub.Expect("rep#4 X = 4")) << "what ran goes on";
+  for (std::string now = changed; now == changed || now == "-1";)  // until it has been replaced
+    now = Ask(hub, "Module.CHANGED.pid");
+  EXPECT_EQ(Ask(hub, "Module.CHANGED.starts"), "2");
+}
+
+TEST_F(SupervisionTest, TheServiceManagerIsTold) {
+  const std::string socket_path = folder_ / "notify";
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  socket_path.copy(address.sun_path, sizeof(address.sun_path) - 1);
+  const int fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const timeval patience{20, 0};
+  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  ASSERT_EQ(bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+  const auto hear = [fd] {
+    char text[200];
+    const ssize_t n = recv(fd, text, sizeof(text), 0);
+    return n > 0 ? std::string(text, static_cast<std::size_t>(n)) : std::string();
+  };
+  Configure(Module("TEST"));
+  Process hub({kHub, "--config", path_}, {.cwd = "", .env = {"NOTIFY_SOCKET=" + socket_path}});
+  EXPECT_EQ(hear(), "READY=1");
+  hub.WriteLine("set Reload = NOW");
+  EXPECT_EQ(hear(), "RELOADING=1");
+  EXPECT_EQ(hear(), "READY=1");
+  hub.Terminate();
+  EXPECT_EQ(hear(), "STOPPING=1");
+  EXPECT_EQ(hub.Wait(), 0);
+  close(fd);
+}
+
+}  // namespace
