@@ -3,31 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "ear/result_report.h"
+
 namespace srm_stub {
 namespace {
-
-std::string EscapeXml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
 
 /// The pieces between blanks, as written.
 std::vector<std::string> Pieces(std::string_view text) {
@@ -49,156 +28,92 @@ std::string Join(const std::vector<std::string>& words, std::size_t count) {
 
 const vm::Error kNotListening{vm::Errc::kBusy, "not listening; set Run = START first", 0};
 
+
+/// A file has a phrase on each line.
+std::string PhrasesOfLines(std::string_view text) {
+  std::string phrases;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find_first_not_of(" \t") == std::string_view::npos || line[0] == '#') continue;
+    phrases += (phrases.empty() ? "" : " | ") + std::string(line);
+  }
+  return phrases;
+}
+
 }  // namespace
 
 RecognizerModule::RecognizerModule(vm::Scheduler& scheduler, Options options)
-    : scheduler_(scheduler), options_(std::move(options)), slots_("SRM") {
-  DeclareRun();
+    : scheduler_(scheduler),
+      options_(std::move(options)),
+      slots_("SRM"),
+      listening_(scheduler, slots_,
+                 {.stopped =
+                      [this] {
+                        if (word_timer_ != 0) scheduler_.Cancel(std::exchange(word_timer_, 0));
+                        DropInputs({vm::Errc::kStopped, "listening was stopped", 0});
+                      },
+                  .exit = [this] { exit_requested_ = true; },
+                  .hearing = [this] { return !inputs_.empty(); }}) {
+  listening_.Declare(options_.module_version);
   DeclareGrammar();
   DeclareInput();
-  DeclareResult();
+  ear::DeclareResultSlots(slots_);
 }
 
 RecognizerModule::~RecognizerModule() { Shutdown(); }
 
 bool RecognizerModule::Busy() const {
-  return !inputs_.empty() || !script_.empty() || no_input_timer_ != 0;
+  return !inputs_.empty() || !script_.empty() || listening_.armed();
 }
 
 void RecognizerModule::Shutdown() {
-  for (vm::TimerId* timer : {&word_timer_, &no_input_timer_, &script_timer_}) {
+  for (vm::TimerId* timer : {&word_timer_, &script_timer_}) {
     if (*timer != 0) scheduler_.Cancel(std::exchange(*timer, 0));
   }
+  listening_.Disarm();
   script_.clear();
+  DropInputs({vm::Errc::kStopped, "the module ends", 0});
+}
+
+void RecognizerModule::DropInputs(const vm::Error& why) {
   for (auto given_up = std::exchange(inputs_, {}); !given_up.empty(); given_up.pop_front()) {
-    given_up.front().reply.Fail({vm::Errc::kStopped, "the module ends", 0});
+    given_up.front().reply.Fail(why);
   }
 }
 
 // --- what there is to set and to ask
 
-void RecognizerModule::DeclareRun() {
-  slots_.Declare({.name = "Run",
-                  .grammar = "START | STOP | LIVE | EXIT",
-                  .initial = "LIVE",
-                  .auto_output = true,
-                  .help = "START: listen from now on. STOP: no longer. EXIT ends the module.",
-                  .on_set_later =
-                      [this](const vm::SetValue& value, const vm::Reply& reply) {
-                        const std::string& word = value.word(0);
-                        slots_.Report("Run", word);
-                        if (word == "START") StartListening();
-                        if (word == "STOP") StopListening();
-                        reply.Ok(word);
-                        if (word == "EXIT") exit_requested_ = true;
-                      },
-                  .saved = false});
-  slots_.Declare({.name = "ModuleVersion",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = options_.module_version,
-                  .help = "The version of this program.",
-                  .quoted = true});
-  slots_.Declare({.name = "ProtocolVersion",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = "Protocol Ver. 1.0",
-                  .help = "The version of the protocol it speaks.",
-                  .quoted = true});
-  slots_.Declare({.name = "Listen",
-                  .grammar = "START | STOP",
-                  .initial = "STOP",
-                  .help = "The same as Run = START and Run = STOP. What is being heard at STOP is "
-                          "dropped.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    value.word(0) == "START" ? StartListening() : StopListening();
-                    return value.word(0);
-                  },
-                  .on_inq = [this] { return listening_ ? "START" : "STOP"; },
-                  .saved = false});
-  slots_.Declare({.name = "Listen.stat",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = "OFF",
-                  .auto_output = true,
-                  .help = "OFF, LISTENING (nothing heard yet) or SPEECH (somebody is speaking)."});
-  slots_.Declare({.name = "Listen.timeout",
-                  .grammar = "<ms>",
-                  .initial = "0",
-                  .help = "If nobody speaks for so many ms after listening began or after the last "
-                          "result, NoInput is reported once; 0 = never.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    timeout_ = Millis(static_cast<long>(value.number(0)));
-                    if (listening_ && inputs_.empty()) ArmNoInput();
-                    return std::to_string(timeout_.count());
-                  }});
-}
-
 void RecognizerModule::DeclareGrammar() {
-  slots_.Declare({.name = "Grammar",
-                  .grammar = "NONE | <word>...",
-                  .initial = "NONE",
-                  .auto_output = true,
-                  .help =
-                      "The active grammars, by name; a match is sought in this order. With NONE "
-                      "everything is taken as it is heard.",
-                  .on_set = [this](const vm::SetValue& value) { return ActivateGrammars(value); },
-                  .saved = false});
-  slots_.Declare(
-      {.name = "Grammar.load",
-       .grammar = "<word> <text>",
-       .access = vm::Access::kWriteOnly,
-       .help = "NAME PHRASE | PHRASE ...: loads or replaces a grammar. A phrase has words, "
-               "* for any word, [optional words], (one | other), and may end in {meaning}. "
-               "Case and punctuation do not count.",
-       .on_set =
-           [this](const vm::SetValue& value) { return LoadGrammar(value.word(0), value.word(1)); },
-       .saved = false});
-  slots_.Declare({.name = "Grammar.file",
-                  .grammar = "<word> <file>",
-                  .access = vm::Access::kWriteOnly,
-                  .help = "NAME FILE: the same from a file with a phrase on each line.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    auto text = options_.read_file(value.word(1));
-                    if (!text) return std::unexpected(text.error());
-                    std::string phrases;
-                    for (std::size_t at = 0; at < text->size();) {
-                      const std::size_t end = std::min(text->find('\n', at), text->size());
-                      std::string line = text->substr(at, end - at);
-                      at = end + 1;
-                      if (line.ends_with('\r')) line.pop_back();
-                      if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#')
-                        continue;
-                      phrases += (phrases.empty() ? "" : " | ") + line;
-                    }
-                    return LoadGrammar(value.word(0), phrases);
-                  },
-                  .saved = false});
-  slots_.Declare(
-      {.name = "Grammar.drop",
-       .grammar = "<word>",
-       .access = vm::Access::kWriteOnly,
-       .help = "Forgets a grammar; it is no longer active then.",
-       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-         if (grammars_.erase(value.word(0)) == 0) {
-           return vm::Fail(vm::Errc::kBadValue, "no grammar '" + value.word(0) + "' is loaded");
-         }
-         if (std::erase(active_, value.word(0)) > 0) {
-           slots_.Report("Grammar", active_.empty() ? "NONE" : Join(active_, active_.size()));
-         }
-         return value.word(0);
+  const auto load = [this](const std::string& name, const std::string& text) {
+    return grammars_.Put(name, WordGrammar::Parse(text));
+  };
+  ear::DeclareGrammarSlots(
+      slots_,
+      {.none_help = "With NONE everything is taken as it is heard.",
+       .load_help = "NAME PHRASE | PHRASE ...: loads or replaces a grammar. A phrase has words, "
+                    "* for any word, [optional words], (one | other), and may end in {meaning}. "
+                    "Case and punctuation do not count.",
+       .file_help = "NAME FILE: the same from a file with a phrase on each line.",
+       .activate = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         auto chosen = grammars_.Chosen(value);
+         if (!chosen) return std::unexpected(chosen.error());
+         grammars_.Activate(std::move(*chosen));
+         return grammars_.ActiveNames();
        },
-       .saved = false});
-  slots_.Declare({.name = "Grammar.set",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .help = "The names of the grammars loaded.",
-                  .on_inq = [this] {
-                    std::string names;
-                    for (const auto& [name, grammar] : grammars_)
-                      names += (names.empty() ? "" : " ") + name;
-                    return names;
-                  }});
+       .load = load,
+       .load_file = [load](const std::string& name,
+                           const std::string& text) { return load(name, PhrasesOfLines(text)); },
+       .read_file = options_.read_file,
+       .drop = [this](const std::string& name) -> vm::Result<std::string> {
+         const auto was_active = grammars_.Drop(name);
+         if (!was_active) return std::unexpected(was_active.error());
+         if (*was_active) slots_.Report("Grammar", grammars_.ActiveNames());
+         return name;
+       },
+       .names = [this] { return grammars_.Names(); }});
 }
 
 void RecognizerModule::DeclareInput() {
@@ -231,90 +146,10 @@ void RecognizerModule::DeclareInput() {
        .saved = false});
 }
 
-void RecognizerModule::DeclareResult() {
-  const auto told = [this](std::string name, std::string help, bool auto_output) {
-    slots_.Declare({.name = std::move(name),
-                    .grammar = "<text>",
-                    .access = vm::Access::kReadOnly,
-                    .auto_output = auto_output,
-                    .help = std::move(help)});
-  };
-  told("Result.partial", "The words heard so far; may still change.", true);
-  told("Result.grammar", "The grammar that matched, reported before Result; empty without one.",
-       true);
-  told("Result.tag", "The {meaning} of the phrase that matched, reported before Result.", true);
-  told("Result.xml",
-       "The same in XML on one line, reported before Result: <result start=MS end=MS><candidate "
-       "rank=1 confidence=1 grammar=NAME tag=MEANING>TEXT</candidate></result>; no candidate where "
-       "nothing matched.",
-       false);
-  told("Result", "What was said, as written, if it matched.", true);
-  told("NoMatch", "What was said but matched no active grammar.", true);
-  told("NoInput", "Nobody spoke for so many ms (Listen.timeout).", true);
-}
-
-// --- grammars
-
-vm::Result<std::string> RecognizerModule::LoadGrammar(const std::string& name,
-                                                      const std::string& text) {
-  if (name == "NONE" || !vm::IsSlotName(name)) {
-    return vm::Fail(vm::Errc::kBadValue, "'" + name + "' cannot be a grammar's name");
-  }
-  auto grammar = WordGrammar::Parse(text);
-  if (!grammar) return std::unexpected(grammar.error());
-  if (!grammars_.contains(name) && grammars_.size() >= kMaxGrammars) {
-    return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMaxGrammars) + " grammars");
-  }
-  grammars_.insert_or_assign(name, std::move(*grammar));
-  return name;
-}
-
-vm::Result<std::string> RecognizerModule::ActivateGrammars(const vm::SetValue& value) {
-  std::vector<std::string> wanted;
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    const std::string& name = value.word(i);
-    if (name == "NONE" && value.size() == 1) break;
-    if (!grammars_.contains(name)) {
-      return vm::Fail(vm::Errc::kBadValue, "no grammar '" + name + "' is loaded");
-    }
-    if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) wanted.push_back(name);
-  }
-  active_ = std::move(wanted);
-  return active_.empty() ? "NONE" : Join(active_, active_.size());
-}
-
-// --- listening
-
-void RecognizerModule::StartListening() {
-  if (listening_) return;
-  listening_ = true;
-  SetStat("LISTENING");
-  ArmNoInput();
-}
-
-void RecognizerModule::StopListening() {
-  if (!listening_) return;
-  listening_ = false;
-  for (vm::TimerId* timer : {&word_timer_, &no_input_timer_}) {
-    if (*timer != 0) scheduler_.Cancel(std::exchange(*timer, 0));
-  }
-  for (auto given_up = std::exchange(inputs_, {}); !given_up.empty(); given_up.pop_front()) {
-    given_up.front().reply.Fail({vm::Errc::kStopped, "listening was stopped", 0});
-  }
-  SetStat("OFF");
-}
-
-void RecognizerModule::ArmNoInput() {
-  if (no_input_timer_ != 0) scheduler_.Cancel(std::exchange(no_input_timer_, 0));
-  if (timeout_.count() == 0) return;
-  no_input_timer_ = scheduler_.After(timeout_, [this] {
-    no_input_timer_ = 0;
-    slots_.Report("NoInput", std::to_string(timeout_.count()));
-  });
-}
+// --- hearing
 
 void RecognizerModule::Take(const std::string& text, const vm::Reply& reply) {
-  if (!listening_) return reply.Fail(kNotListening);
+  if (!listening_.on()) return reply.Fail(kNotListening);
   if (inputs_.size() >= kMaxQueuedInputs) {
     return reply.Fail(
         {vm::Errc::kLimit, "more than " + std::to_string(kMaxQueuedInputs) + " texts wait", 0});
@@ -324,10 +159,9 @@ void RecognizerModule::Take(const std::string& text, const vm::Reply& reply) {
 }
 
 void RecognizerModule::Hear(const Input& input) {
-  if (no_input_timer_ != 0) scheduler_.Cancel(std::exchange(no_input_timer_, 0));
   written_ = Pieces(input.text);
   heard_since_ = scheduler_.Now();
-  SetStat("SPEECH");
+  listening_.Hear();
   if (word_time_.count() == 0 || written_.empty()) return Finish();
   word_timer_ = scheduler_.After(word_time_, [this] { HearWord(1); });
 }
@@ -345,8 +179,8 @@ void RecognizerModule::Finish() {
   Recognize(text);
   reply.Ok(text);
   inputs_.pop_front();
-  SetStat("LISTENING");
-  if (inputs_.empty()) return ArmNoInput();
+  listening_.Wait(!inputs_.empty());
+  if (inputs_.empty()) return;
   // The next one begins after what is due now; a chain of calls would grow with the queue.
   word_timer_ = scheduler_.Post([this] {
     word_timer_ = 0;
@@ -356,33 +190,16 @@ void RecognizerModule::Finish() {
 
 void RecognizerModule::Recognize(const std::string& text) {
   const std::vector<std::string> words = WordsOf(text);
-  bool matched = active_.empty() && !words.empty();
-  std::string grammar, tag;
-  for (const std::string& name : active_) {
-    if (words.empty()) break;
+  ear::ResultReport report{.start = heard_since_, .end = scheduler_.Now()};
+  if (grammars_.active().empty() && !words.empty()) report.candidates.push_back({.text = text});
+  for (const std::string& name : grammars_.active()) {
+    if (words.empty() || !report.candidates.empty()) break;
     if (auto meaning = grammars_.at(name).Match(words)) {
-      matched = true;
-      grammar = name;
-      tag = std::move(*meaning);
-      break;
+      report.candidates.push_back({.text = text, .grammar = name, .tag = std::move(*meaning)});
     }
   }
-  std::string xml = "<result start=\"" + vm::FormatMs(heard_since_) + "\" end=\"" +
-                    vm::FormatMs(scheduler_.Now()) + "\">";
-  if (matched) {
-    xml += "<candidate rank=\"1\" confidence=\"1\" grammar=\"" + EscapeXml(grammar) + "\" tag=\"" +
-           EscapeXml(tag) + "\">" + EscapeXml(text) + "</candidate>";
-  }
-  xml += "</result>";
-  if (matched) {
-    slots_.Report("Result.grammar", grammar);
-    slots_.Report("Result.tag", tag);
-  }
-  slots_.Report("Result.xml", xml);
-  slots_.Report(matched ? "Result" : "NoMatch", text);
+  ear::TellResult(slots_, report, text);
 }
-
-void RecognizerModule::SetStat(const std::string& stat) { slots_.Report("Listen.stat", stat); }
 
 // --- scripts
 

@@ -3,10 +3,11 @@
 #include <chrono>
 #include <deque>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "ear/grammar_shelf.h"
+#include "ear/listening.h"
 #include "srm_stub/input_script.h"
 #include "srm_stub/word_grammar.h"
 #include "vm_protocol/core/module.h"
@@ -15,7 +16,6 @@ namespace srm_stub {
 
 using Millis = std::chrono::milliseconds;
 
-inline constexpr std::size_t kMaxGrammars = 256;
 inline constexpr std::size_t kMaxQueuedInputs = 64;
 
 /// The speech recognition module (SRM) with typed text for a microphone: what is "said" comes by
@@ -48,22 +48,15 @@ class RecognizerModule final : public vm::Module {
     vm::Reply reply;
   };
 
-  void DeclareRun();
   void DeclareGrammar();
   void DeclareInput();
-  void DeclareResult();
 
-  vm::Result<std::string> LoadGrammar(const std::string& name, const std::string& text);
-  vm::Result<std::string> ActivateGrammars(const vm::SetValue& value);
-  void StartListening();
-  void StopListening();
+  void DropInputs(const vm::Error& why);
   void Take(const std::string& text, const vm::Reply& reply);
   void Hear(const Input& input);
   void HearWord(std::size_t count);
   void Finish();
   void Recognize(const std::string& text);
-  void ArmNoInput();
-  void SetStat(const std::string& stat);
   vm::Result<std::string> StartScript(const std::string& path);
   void NextScriptLine();
 
@@ -71,17 +64,13 @@ class RecognizerModule final : public vm::Module {
   const Options options_;
   vm::SlotMachine slots_;
 
-  std::map<std::string, WordGrammar, std::less<>> grammars_;
-  std::vector<std::string> active_;  // names, in order of preference
-
-  bool listening_ = false;
+  ear::GrammarShelf<WordGrammar> grammars_;
+  ear::Listening listening_;
   Millis word_time_{0};
-  Millis timeout_{0};
   std::deque<Input> inputs_;          // the first one is being heard
   std::vector<std::string> written_;  // its words as written
   vm::Time heard_since_{0};
   vm::TimerId word_timer_ = 0;
-  vm::TimerId no_input_timer_ = 0;
 
   std::deque<ScriptLine> script_;
   vm::Time script_start_{0};

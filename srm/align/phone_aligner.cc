@@ -3,6 +3,7 @@
 #include <cctype>
 #include <utility>
 
+#include "srm/align/pause_edges.h"
 #include "srm/engine/pocketsphinx_handle.h"
 #include "srm/engine/pronunciation.h"
 
@@ -178,6 +179,7 @@ vm::Result<Alignment> PhoneAligner::Align(const std::vector<std::int16_t>& sampl
   }
   if (alignment.words.back().end.count() == 0) alignment.words.back().end = collector.end();
   alignment.phonemes = collector.Finish();
+  PlacePauses(alignment, samples);
   return alignment;
 }
 
@@ -200,7 +202,9 @@ vm::Result<Alignment> PhoneAligner::Guess(const std::vector<std::int16_t>& sampl
     const std::string_view word = ps_seg_word(seg);
     collector.Add(IsFiller(word) ? "pau" : FliteName(word), first);
   }
-  return Alignment{.phonemes = collector.Finish()};
+  Alignment guess{.phonemes = collector.Finish()};
+  PlacePauses(guess, samples);
+  return guess;
 }
 
 }  // namespace srm

@@ -42,6 +42,7 @@ class Ear {
   vm::Result<void> Pronounce(const std::string& word, const std::string& spoken) {
     return decoder_->Pronounce(word, spoken);
   }
+  void set_most(std::size_t most) { decoder_->set_most(most); }
   vm::Result<void> Spot(const std::vector<std::string>& phrases);
   /// False: sound is only searched for phrases to spot (the agent is speaking itself).
   void set_recognizing(bool recognizing);

@@ -1,18 +1,19 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "ear/grammar_shelf.h"
+#include "ear/listening.h"
+#include "ear/result_report.h"
 #include "srm/core/audio_source.h"
 #include "srm/core/ear.h"
 #include "vm_protocol/core/module.h"
 
 namespace srm {
-
-inline constexpr std::size_t kMaxGrammars = 256;
 
 /// The speech recognition module (SRM). Its slots and reports are those of srm_stub, and more.
 ///
@@ -42,8 +43,8 @@ class RecognizerModule final : public vm::Module {
 
  private:
   // recognizer_slots.cc
-  void DeclareRun();
   void DeclareListen();
+  void DeclareAgent();
   void DeclareGrammar();
   void DeclareInput();
   void DeclareResult();
@@ -54,19 +55,18 @@ class RecognizerModule final : public vm::Module {
   vm::Result<std::string> LoadGrammar(const std::string& name, const std::string& text);
   vm::Result<std::string> DropGrammar(const std::string& name);
   vm::Result<std::string> ActivateGrammars(const vm::SetValue& value);
+  // recognizer_listening.cc
   vm::Result<std::string> SetInput(const std::string& source);
   vm::Result<std::string> SetSpot(const std::string& phrases);
   vm::Result<void> StartSource();
-  void StartListening();
   void StopListening();
   void OnBegan();
   void OnEnded(const Ear::Heard& heard);
   void OnSourceOver();
   /// What was said, as text; `heard` is null for typed text.
   void Recognize(const std::string& text, const Ear::Heard* heard);
-  void ArmNoInput();
+  std::optional<ear::Candidate> Understand(const std::string& text, double confidence) const;
   void SetAgentSpeaking(bool speaking);
-  std::string ActiveNames() const;
 
   vm::Scheduler& scheduler_;
   const Options options_;
@@ -78,17 +78,15 @@ class RecognizerModule final : public vm::Module {
   std::string source_name_ = "NONE";
   vm::Time source_start_{0};
 
-  std::map<std::string, Grammar, std::less<>> grammars_;
-  std::vector<std::string> active_;  // names, in order of preference
+  ear::GrammarShelf<Grammar> grammars_;
   std::vector<std::pair<std::string, std::string>> pronunciations_;
 
-  bool listening_ = false;
+  ear::Listening listening_;
   bool agent_speaking_ = false;
   bool half_duplex_ = true;
   double threshold_ = 0.5;
+  std::size_t most_ = 1;
   Endpointer::Settings endpoints_;
-  Millis timeout_{0};
-  vm::TimerId no_input_timer_ = 0;
   vm::TimerId over_timer_ = 0;
   bool exit_requested_ = false;
 };

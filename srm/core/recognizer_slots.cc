@@ -6,52 +6,7 @@
 
 namespace srm {
 
-void RecognizerModule::DeclareRun() {
-  slots_.Declare({.name = "Run",
-                  .grammar = "START | STOP | LIVE | EXIT",
-                  .initial = "LIVE",
-                  .auto_output = true,
-                  .help = "START: listen from now on. STOP: no longer. EXIT ends the module.",
-                  .on_set_later =
-                      [this](const vm::SetValue& value, const vm::Reply& reply) {
-                        const std::string& word = value.word(0);
-                        slots_.Report("Run", word);
-                        if (word == "START") StartListening();
-                        if (word == "STOP") StopListening();
-                        reply.Ok(word);
-                        if (word == "EXIT") exit_requested_ = true;
-                      },
-                  .saved = false});
-  const auto told = [this](std::string name, std::string value, std::string help) {
-    slots_.Declare({.name = std::move(name),
-                    .grammar = "<text>",
-                    .access = vm::Access::kReadOnly,
-                    .initial = std::move(value),
-                    .help = std::move(help),
-                    .quoted = true});
-  };
-  told("ModuleVersion", options_.module_version, "The version of this program.");
-  told("ProtocolVersion", "Protocol Ver. 1.0", "The version of the protocol it speaks.");
-}
-
 void RecognizerModule::DeclareListen() {
-  slots_.Declare({.name = "Listen",
-                  .grammar = "START | STOP",
-                  .initial = "STOP",
-                  .help = "The same as Run = START and Run = STOP. What is being heard at STOP is "
-                          "dropped.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    value.word(0) == "START" ? StartListening() : StopListening();
-                    return value.word(0);
-                  },
-                  .on_inq = [this] { return listening_ ? "START" : "STOP"; },
-                  .saved = false});
-  slots_.Declare({.name = "Listen.stat",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .initial = "OFF",
-                  .auto_output = true,
-                  .help = "OFF, LISTENING (nothing heard yet) or SPEECH (somebody is speaking)."});
   const auto milliseconds = [this](std::string name, Millis initial, std::string help,
                                    std::function<void(Millis)> act) {
     slots_.Declare(
@@ -65,13 +20,6 @@ void RecognizerModule::DeclareListen() {
            return std::to_string(ms.count());
          }});
   };
-  milliseconds("Listen.timeout", timeout_,
-               "If nobody speaks for so many ms after listening began or after the last result, "
-               "NoInput is reported once; 0 = never.",
-               [this](Millis ms) {
-                 timeout_ = ms;
-                 if (!ear_ || !ear_->in_speech()) ArmNoInput();
-               });
   milliseconds("Listen.silence", endpoints_.silence,
                "After so many ms of silence an utterance is over.", [this](Millis ms) {
                  endpoints_.silence = std::max(ms, Millis{50});
@@ -94,6 +42,18 @@ void RecognizerModule::DeclareListen() {
                     threshold_ = value.number(0);
                     return value.text;
                   }});
+  slots_.Declare({.name = "Listen.nbest",
+                  .grammar = "<number 1..10>",
+                  .initial = "1",
+                  .help = "How many candidates a result has at most; more than one takes some ms.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    most_ = static_cast<std::size_t>(value.number(0));
+                    if (ear_) ear_->set_most(most_);
+                    return std::to_string(most_);
+                  }});
+}
+
+void RecognizerModule::DeclareAgent() {
   slots_.Declare({.name = "Agent",
                   .grammar = "SPEAKING | SILENT",
                   .initial = "SILENT",
@@ -125,58 +85,25 @@ void RecognizerModule::DeclareListen() {
 }
 
 void RecognizerModule::DeclareGrammar() {
-  slots_.Declare({.name = "Grammar",
-                  .grammar = "NONE | <word>...",
-                  .initial = "NONE",
-                  .auto_output = true,
-                  .help = "The active grammars, by name; a match is sought in this order. May be "
-                          "changed while somebody speaks: nothing said is lost. With NONE typed "
-                          "text is taken as it is, and sound by the language model (dictation).",
-                  .on_set = [this](const vm::SetValue& value) { return ActivateGrammars(value); },
-                  .saved = false});
-  slots_.Declare(
-      {.name = "Grammar.load",
-       .grammar = "<word> <text>",
-       .access = vm::Access::kWriteOnly,
-       .help = "NAME PHRASE | PHRASE ...: loads or replaces a grammar. A phrase has words, * for "
-               "any word, [optional words], (one | other), x+, x<2-4>, /WEIGHT/ and {meaning}. "
-               "Case and punctuation do not count. docs/speech.md has the whole form.",
-       .on_set =
-           [this](const vm::SetValue& value) { return LoadGrammar(value.word(0), value.word(1)); },
-       .saved = false});
-  slots_.Declare({.name = "Grammar.file",
-                  .grammar = "<word> <file>",
-                  .access = vm::Access::kWriteOnly,
-                  .help = "NAME FILE: the same from a file: a phrase on each line and rules "
-                          "$name = ..., or JSGF, or SRGS in XML; told by its first characters.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    auto text = options_.read_file(value.word(1));
-                    if (!text) return std::unexpected(text.error());
-                    auto loaded = LoadGrammar(value.word(0), *text);
-                    if (!loaded) {
-                      return vm::Fail(loaded.error().code,
-                                      value.word(1) + ": " + loaded.error().text);
-                    }
-                    return loaded;
-                  },
-                  .saved = false});
-  slots_.Declare(
-      {.name = "Grammar.drop",
-       .grammar = "<word>",
-       .access = vm::Access::kWriteOnly,
-       .help = "Forgets a grammar; it is no longer active then.",
-       .on_set = [this](const vm::SetValue& value) { return DropGrammar(value.word(0)); },
-       .saved = false});
-  slots_.Declare({.name = "Grammar.set",
-                  .grammar = "<text>",
-                  .access = vm::Access::kReadOnly,
-                  .help = "The names of the grammars loaded.",
-                  .on_inq = [this] {
-                    std::string names;
-                    for (const auto& [name, grammar] : grammars_)
-                      names += (names.empty() ? "" : " ") + name;
-                    return names;
-                  }});
+  const auto load = [this](const std::string& name, const std::string& text) {
+    return LoadGrammar(name, text);
+  };
+  ear::DeclareGrammarSlots(
+      slots_,
+      {.none_help = "May be changed while somebody speaks: nothing said is lost. With NONE typed "
+                    "text is taken as it is, and sound by the language model (dictation).",
+       .load_help =
+           "NAME PHRASE | PHRASE ...: loads or replaces a grammar. A phrase has words, * for "
+           "any word, [optional words], (one | other), x+, x<2-4>, /WEIGHT/ and {meaning}. "
+           "Case and punctuation do not count. docs/speech.md has the whole form.",
+       .file_help = "NAME FILE: the same from a file: a phrase on each line and rules "
+                    "$name = ..., or JSGF, or SRGS in XML; told by its first characters.",
+       .activate = [this](const vm::SetValue& value) { return ActivateGrammars(value); },
+       .load = load,
+       .load_file = load,
+       .read_file = options_.read_file,
+       .drop = [this](const std::string& name) { return DropGrammar(name); },
+       .names = [this] { return grammars_.Names(); }});
   slots_.Declare({.name = "Grammar.word",
                   .grammar = "<word> <text>",
                   .access = vm::Access::kWriteOnly,
@@ -213,14 +140,13 @@ void RecognizerModule::DeclareInput() {
        .help = "What somebody says, typed. Refused while not listening.",
        .on_set_later =
            [this](const vm::SetValue& value, const vm::Reply& reply) {
-             if (!listening_) {
+             if (!listening_.on()) {
                return reply.Fail({vm::Errc::kBusy, "not listening; set Run = START first", 0});
              }
-             slots_.Report("Listen.stat", "SPEECH");
+             listening_.Hear();
              Recognize(value.text, nullptr);
              reply.Ok(value.text);
-             slots_.Report("Listen.stat", "LISTENING");
-             ArmNoInput();
+             listening_.Wait();
            },
        .saved = false});
 }
@@ -233,22 +159,16 @@ void RecognizerModule::DeclareResult() {
                     .auto_output = auto_output,
                     .help = std::move(help)});
   };
-  told("Result.partial", "The words heard so far; may still change.", true);
   told("Result.confidence", "0 to 1, reported before Result and NoMatch; 1 for typed text.", false);
   told("Result.words",
        "WORD[START-END] ..., ms from the start of the source, reported before Result.", false);
-  told("Result.grammar", "The grammar that matched, reported before Result; empty without one.",
-       true);
-  told("Result.tag",
-       "The {meaning} of what matched, several with ; between, reported before Result.", true);
-  told("Result.xml",
-       "The same in XML on one line, reported before Result: <result start=MS end=MS><candidate "
-       "rank=1 confidence=C grammar=NAME tag=MEANING>TEXT</candidate></result>; no candidate where "
-       "nothing matched.",
+  told("Result.wordconfidence",
+       "WORD CONFIDENCE ..., 0 to 1 by each word's own sound, reported before Result.", false);
+  told("Result.nbest",
+       "CONFIDENCE TEXT | CONFIDENCE TEXT ..., what fits a grammar, best first, at most "
+       "Listen.nbest; reported before Result.",
        false);
-  told("Result", "What was said, if it matched.", true);
-  told("NoMatch", "What was heard but fits no active grammar, or not well enough.", true);
-  told("NoInput", "Nobody spoke for so many ms (Listen.timeout).", true);
+  ear::DeclareResultSlots(slots_);
   told("BargeIn",
        "Somebody began to speak while the agent speaks; ms from the start of the source.", true);
   told("Spot.heard", "A phrase of Spot was heard.", true);

@@ -20,6 +20,13 @@ struct HeardWord {
   std::string text{};
   Millis start{0};
   Millis end{0};
+  double confidence = 1;  ///< 0 to 1, of its own sound
+};
+
+/// What else an utterance may be.
+struct Alternative {
+  std::string text{};
+  double confidence = 0;
 };
 
 /// What an utterance is taken to be.
@@ -27,9 +34,10 @@ struct Hypothesis {
   std::string text{};  ///< words with blanks between; empty = nothing fits
   std::vector<HeardWord> words{};
   /// How much worse than free phonemes the grammar fits, per 10 ms frame, in the engine's units;
-  /// about 0 where it is right, below -18 where something else was said.
+  /// above -20 where it is right, below -22 where something else was said.
   double fit = 0;
-  double confidence = 0;  ///< 0 to 1, from `fit`; 0.5 at the threshold
+  double confidence = 0;              ///< 0 to 1, from `fit`; 0.5 at the threshold
+  std::vector<Alternative> others{};  ///< next best first; only if they were asked for
 };
 
 /// Turns sound into words, one utterance after the other. 16 kHz, 16 bit, mono.
@@ -48,9 +56,13 @@ class SpeechDecoder {
   /// The words so far; may change.
   virtual std::string Partial() = 0;
   virtual Hypothesis End() = 0;
+  /// How many hypotheses End looks for; 1 = the best alone (the others take some ms). At most
+  /// kMostAlternatives.
+  virtual void set_most(std::size_t most) = 0;
 };
+inline constexpr std::size_t kMostAlternatives = 10;
 
-inline constexpr double kFitThreshold = -17;
+inline constexpr double kFitThreshold = -21.5;
 double ConfidenceOf(double fit);
 
 /// Hears single phrases in all that is said ("stop"), for interruptions.

@@ -99,19 +99,23 @@ class ToldDecoder final : public srm::SpeechDecoder {
     fed_ = 0;
   }
   void Feed(std::span<const std::int16_t> samples) override { fed_ += samples.size(); }
+  void set_most(std::size_t most) override { most_ = most; }
   std::string Partial() override { return text_.substr(0, text_.find(' ')); }
   srm::Hypothesis End() override {
     calls_.push_back("end " + std::to_string(fed_ / 1600));
     return {.text = text_,
             .words = {{text_, Millis(300), Millis(800)}},
             .fit = fit_,
-            .confidence = srm::ConfidenceOf(fit_)};
+            .confidence = srm::ConfidenceOf(fit_),
+            .others = most_ > 1 ? others_ : std::vector<srm::Alternative>()};
   }
 
  private:
   std::string& text_;
   double& fit_;
   std::vector<std::string>& calls_;
+  const std::vector<srm::Alternative> others_ = {{"yes", 0.4}, {"what nobody asked for", 0.3}};
+  std::size_t most_ = 1;
   std::size_t fed_ = 0;
 };
 
@@ -179,7 +183,7 @@ TEST_F(RecognizerTest, SpeechBecomesPartialAndFinalResultsWithTheirMeaning) {
 TEST_F(RecognizerTest, WhatFitsBadlyOrNotAtAllIsNoMatch) {
   Tell("set Grammar.load = answer yes please");
   Tell("set Grammar = answer");
-  fit_ = -20;
+  fit_ = -30;
   Tell("set Input = wav:a");
   Tell("set Run = START");
   UntilIdle();
@@ -189,6 +193,24 @@ TEST_F(RecognizerTest, WhatFitsBadlyOrNotAtAllIsNoMatch) {
   Tell("set Input = wav:a");
   UntilIdle();
   EXPECT_EQ(Said()[3], "rep NoMatch = something else");
+}
+
+TEST_F(RecognizerTest, OtherHypothesesThatFitAGrammarAreCandidatesBehindTheBest) {
+  Tell("set Grammar.load = g yes please {Y} | yes {MAYBE}");
+  Tell("set Grammar = g");
+  Tell("set Listen.nbest = 3");
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  UntilIdle();
+  EXPECT_EQ(module_->slots().Value("Result"), "yes please");
+  const std::string best = std::string(module_->slots().Value("Result.nbest"));
+  EXPECT_TRUE(best.ends_with(" yes please | 0.40 yes")) << best;
+  EXPECT_NE(module_->slots()
+                .Value("Result.xml")
+                .find("<candidate rank=\"2\" confidence=\"0.4\" "
+                      "grammar=\"g\" tag=\"MAYBE\">yes<"),
+            std::string::npos);
+  EXPECT_EQ(module_->slots().Value("Result.wordconfidence"), "yes please 1.00");
 }
 
 TEST_F(RecognizerTest, AGrammarSwitchedInTheMiddleHearsTheUtteranceFromItsBeginning) {

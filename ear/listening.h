@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/core/slot_machine.h"
+
+namespace ear {
+
+using Millis = std::chrono::milliseconds;
+
+/// Whether an ear listens, and its patience: the slots Run, Listen, Listen.stat, Listen.timeout and
+/// the versions.
+///
+///   OFF --Start--> LISTENING --Hear--> SPEECH --Wait--> LISTENING     Stop from anywhere -> OFF
+///
+/// Thread: the scheduler's. The scheduler and the slots outlive it.
+class Listening {
+ public:
+  struct Hooks {
+    std::function<void()> started{};  ///< after LISTENING is reported
+    std::function<void()> stopped{};  ///< before OFF is reported
+    std::function<void()> exit{};     ///< Run = EXIT
+    std::function<bool()> hearing{};  ///< somebody is speaking just now
+  };
+  Listening(vm::Scheduler& scheduler, vm::SlotMachine& slots, Hooks hooks);
+  ~Listening() { Disarm(); }
+  Listening(const Listening&) = delete;
+
+  void Declare(const std::string& module_version);
+  bool on() const { return on_; }
+  /// NoInput will come if nobody speaks.
+  bool armed() const { return timer_ != 0; }
+  void Start();
+  void Stop();
+  /// Somebody speaks.
+  void Hear();
+  /// Nobody speaks any more; `more` follows at once, so no patience is needed.
+  void Wait(bool more = false);
+  void Disarm();
+
+ private:
+  void Arm();
+  vm::Scheduler& scheduler_;
+  vm::SlotMachine& slots_;
+  const Hooks hooks_;
+  bool on_ = false;
+  Millis timeout_{0};
+  vm::TimerId timer_ = 0;
+};
+
+}  // namespace ear

@@ -1,0 +1,177 @@
+// The module while it listens: sound, interruptions, what was said.
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "ear/result_report.h"
+#include "srm/core/recognizer_module.h"
+
+namespace srm {
+namespace {
+
+/// "yes[310-620] please[620-1000]": ms from the beginning of the source.
+std::string WordTimes(const Ear::Heard& heard) {
+  std::string text;
+  for (const HeardWord& word : heard.hypothesis.words) {
+    text += fmt::format("{}{}[{}-{}]", text.empty() ? "" : " ", word.text,
+                        (heard.start + word.start).count(), (heard.start + word.end).count());
+  }
+  return text;
+}
+
+/// "yes 0.93 please 0.71".
+std::string WordConfidences(const Ear::Heard& heard) {
+  std::string text;
+  for (const HeardWord& word : heard.hypothesis.words) {
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : " ", word.text, word.confidence);
+  }
+  return text;
+}
+
+/// "0.93 yes please | 0.41 yes": what fits, best first.
+std::string NBest(const ear::ResultReport& report) {
+  std::string text;
+  for (const ear::Candidate& candidate : report.candidates) {
+    text +=
+        fmt::format("{}{:.2f} {}", text.empty() ? "" : " | ", candidate.confidence, candidate.text);
+  }
+  return text;
+}
+
+}  // namespace
+
+// --- sound
+
+vm::Result<std::string> RecognizerModule::SetInput(const std::string& name) {
+  source_.reset();
+  if (ear_) ear_->Reset();
+  source_name_ = "NONE";
+  if (name == "NONE") return name;
+  auto source = options_.open_source(name);
+  if (!source) return std::unexpected(source.error());
+  source_ = std::move(*source);
+  source_name_ = name;
+  if (listening_.on()) {
+    if (auto started = StartSource(); !started) {
+      source_.reset();
+      source_name_ = "NONE";
+      return std::unexpected(started.error());
+    }
+  }
+  return name;
+}
+
+vm::Result<void> RecognizerModule::StartSource() {
+  if (!grammars_used_) {
+    if (auto used = UseGrammars(); !used) return used;
+  }
+  source_start_ = scheduler_.Now();
+  return source_->Start(
+      {.sound = [this](std::span<const std::int16_t> samples) { ear_->Feed(samples); },
+       .ended = [this] { OnSourceOver(); },
+       .failed =
+           [this](const vm::Error& error) {
+             slots_.ReportError("Input", error);
+             OnSourceOver();
+           }});
+}
+
+/// The source may be in the middle of a call, so it goes a little later.
+void RecognizerModule::OnSourceOver() {
+  over_timer_ = scheduler_.Post([this] {
+    over_timer_ = 0;
+    ear_->Finish();
+    source_.reset();
+    source_name_ = "NONE";
+    slots_.Report("Input", "NONE");
+  });
+}
+
+vm::Result<std::string> RecognizerModule::SetSpot(const std::string& text) {
+  auto ear = NeedEar();
+  if (!ear) return std::unexpected(ear.error());
+  std::vector<std::string> phrases;
+  for (std::size_t at = 0; at <= text.size() && text != "NONE";) {
+    const std::size_t end = std::min(text.find('|', at), text.size());
+    std::string phrase;
+    for (const std::string& word : WordsOf(text.substr(at, end - at))) {
+      phrase += (phrase.empty() ? "" : " ") + word;
+    }
+    if (!phrase.empty()) phrases.push_back(std::move(phrase));
+    at = end + 1;
+  }
+  if (auto used = (*ear)->Spot(phrases); !used) return std::unexpected(used.error());
+  return phrases.empty() ? "NONE" : text;
+}
+
+// --- listening
+
+void RecognizerModule::StopListening() {
+  if (over_timer_ != 0) scheduler_.Cancel(std::exchange(over_timer_, 0));
+  source_.reset();
+  if (source_name_ != "NONE" && !source_name_.starts_with("wav:")) {
+    // A live source is opened again at the next START; a recording is over.
+    if (auto again = options_.open_source(source_name_)) source_ = std::move(*again);
+  }
+  if (!source_) source_name_ = "NONE";
+  if (ear_) ear_->Reset();
+}
+
+void RecognizerModule::SetAgentSpeaking(bool speaking) {
+  agent_speaking_ = speaking;
+  if (ear_) ear_->set_recognizing(!(agent_speaking_ && half_duplex_));
+}
+
+void RecognizerModule::OnBegan() {
+  listening_.Hear();
+  if (agent_speaking_) {
+    slots_.Report("BargeIn", vm::FormatMs(scheduler_.Now() - source_start_));
+  }
+}
+
+void RecognizerModule::OnEnded(const Ear::Heard& heard) {
+  Recognize(heard.hypothesis.text, &heard);
+  listening_.Wait();
+}
+
+void RecognizerModule::Recognize(const std::string& text, const Ear::Heard* heard) {
+  const vm::Time now = scheduler_.Now();
+  const double confidence = heard == nullptr ? 1 : heard->hypothesis.confidence;
+  ear::ResultReport report{.start = heard == nullptr ? now : source_start_ + heard->start,
+                           .end = now};
+  if (auto best = Understand(text, confidence)) {
+    report.candidates.push_back(std::move(*best));
+    // Another hypothesis counts where it fits, whatever its confidence.
+    for (const Alternative& other :
+         heard == nullptr ? std::vector<Alternative>() : heard->hypothesis.others) {
+      if (auto next = Understand(other.text, other.confidence)) {
+        report.candidates.push_back(std::move(*next));
+      }
+    }
+    if (heard != nullptr && confidence < threshold_) report.candidates.clear();
+  }
+  slots_.Report("Result.confidence", fmt::format("{:.3g}", confidence));
+  slots_.Report("Result.words", heard == nullptr ? "" : WordTimes(*heard));
+  slots_.Report("Result.wordconfidence", heard == nullptr ? "" : WordConfidences(*heard));
+  slots_.Report("Result.nbest", NBest(report));
+  ear::TellResult(slots_, report, text);
+}
+
+/// What a text means to the first active grammar it fits; without grammars it stands as it is.
+std::optional<ear::Candidate> RecognizerModule::Understand(const std::string& text,
+                                                           double confidence) const {
+  if (WordsOf(text).empty()) return std::nullopt;
+  ear::Candidate candidate{.text = text, .confidence = confidence};
+  if (grammars_.active().empty()) return candidate;
+  for (const std::string& name : grammars_.active()) {
+    if (auto meaning = grammars_.at(name).Match(text)) {
+      candidate.grammar = name;
+      candidate.tag = meaning->Joined();
+      return candidate;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace srm
