@@ -65,7 +65,12 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
             });
             CheckOrder(config.modules, k);
           }},
-         {"listen", [&](const json& v, const std::string& k) { config.listen = Texts(v, k); }},
+         {"listen",
+          [&](const json& v, const std::string& k) {
+            ReadList(v, k, "a list of endpoints", [&](const json& item, const std::string& key) {
+              config.listen.push_back(ReadListen(item, key));
+            });
+          }},
          {"limits",
           [&](const json& v, const std::string& k) {
             Readers readers;

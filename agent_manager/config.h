@@ -10,6 +10,7 @@
 #include "agent_manager/restart_policy.h"
 #include "agent_manager/rules.h"
 #include "vm_protocol/core/result.h"
+#include "vm_protocol/runtime/credentials.h"
 
 namespace am {
 
@@ -36,10 +37,18 @@ struct HealthCheck {
   bool operator==(const HealthCheck&) const = default;
 };
 
+/// A place where clients and modules come in.
+struct ListenConfig {
+  std::string at;  ///< endpoint
+  vm::Credentials credentials;
+  bool operator==(const ListenConfig&) const = default;
+};
+
 struct ModuleConfig {
   std::string name;                  ///< "SSM"
   std::vector<std::string> command;  ///< argv; empty for a module that is connected to
   std::string connect;               ///< endpoint to connect to instead of a command
+  vm::Credentials credentials;       ///< for connect
   std::string cwd;                   ///< empty = the hub's
   std::vector<std::string> env;      ///< "NAME=VALUE"
   RestartPolicy restart;
@@ -60,7 +69,7 @@ struct ModuleConfig {
 /// What an `agent_manager --config FILE` says. The schema is described in docs/configuration.md.
 struct Config {
   std::vector<ModuleConfig> modules;
-  std::vector<std::string> listen;
+  std::vector<ListenConfig> listen;
   Limits limits;
   std::vector<Rule> rules;             ///< in the order in which they are applied
   std::vector<std::string> broadcast;  ///< names that hear what modules say to nobody in particular

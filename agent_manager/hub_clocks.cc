@@ -66,15 +66,8 @@ void Hub::FlushWaiting(Peer& peer) {
 void Hub::SampleClock(Peer& peer, vm::Time asked_at, const std::string& value) {
   const auto theirs = vm::ParseMs(value.substr(0, value.find(' ')));
   if (!theirs) return;
-  const vm::Time now = clock_.Now();
-  const vm::Time delay = now - asked_at;
-  // The quickest exchange tells most; an old one counts for less, since clocks drift apart.
-  const vm::Time aged = peer.clock.delay + peer.clock.delay / 8;
-  if (peer.clock.known && delay > aged) {
-    peer.clock.delay = aged;
-    return;
-  }
-  peer.clock = {true, *theirs - (asked_at + delay / 2), delay};
+  peer.estimate.Add(asked_at, clock_.Now(), *theirs);
+  peer.clock = {true, peer.estimate.offset(), peer.estimate.delay()};
 }
 
 void Hub::MeasureClock(Peer& peer, int exchanges) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "agent_manager/clock_estimate.h"
 #include "agent_manager/hub.h"
 
 /// The hub's own view of a peer, shared by the files that make up the hub. Not for others.
@@ -43,6 +44,7 @@ struct Hub::Peer {
   std::map<std::string, std::vector<Pending>> asked;  // original dialect: inq, by slot
   std::map<std::string, vm::TimerId> held;            // original dialect: starts held back, by slot
   ClockState clock;
+  ClockEstimate estimate;
   vm::Time granted{0};  // lockstep: where its clock stands
   std::set<std::string> subscriptions;
   Traffic traffic;

@@ -27,7 +27,7 @@ using vm::SetValue;
 
 namespace {
 
-constexpr milliseconds kMeasureEvery{10000};
+constexpr milliseconds kMeasureEvery{2000};
 constexpr vm::Time kVirtualStart =
     milliseconds(10000);  // past every module's own clock at its start
 constexpr milliseconds kFlushPatience{2000};
@@ -187,7 +187,7 @@ void Session::FeedWatchdog() {
 
 void Session::Shutdown() {
   NotifyService("STOPPING=1");
-  listeners_.clear();
+  doors_.clear();
   bool done = false;
   supervisor_.StopAll([&done] { done = true; });
   while (!done) io_.run_one();

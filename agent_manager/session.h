@@ -20,7 +20,7 @@
 #include "agent_manager/supervisor.h"
 #include "vm_protocol/core/slot_machine.h"
 #include "vm_protocol/runtime/asio_scheduler.h"
-#include "vm_protocol/runtime/endpoint.h"
+#include "vm_protocol/runtime/doorkeeper.h"
 
 namespace am {
 
@@ -59,7 +59,8 @@ class Session {
   // session_config.cc: what the configuration says, at the start and when it is read again.
   void ApplyConfig();
   void Listen();
-  void OnAccept(int fd);
+  void OnGuest(const vm::Doorkeeper::Guest& guest);
+  void Refused(const std::string& text);
   void ReloadOnSignal();
   vm::Result<std::string> Reload();
   // session_console.cc
@@ -104,7 +105,7 @@ class Session {
   vm::SlotMachine slots_;
   Mcl mcl_;
   Supervisor supervisor_;
-  std::map<std::string, std::unique_ptr<vm::Listener>> listeners_;  // by what was configured
+  std::vector<std::pair<ListenConfig, std::unique_ptr<vm::Doorkeeper>>> doors_;
   std::shared_ptr<vm::StreamPeer> console_stream_;
   PeerKey console_ = 0;
   std::deque<std::string> console_lines_;
@@ -123,6 +124,7 @@ class Session {
   bool asking_quiet_ = false;
   bool stop_ = false;
   int errors_ = 0;
+  unsigned long refused_ = 0;
 };
 
 }  // namespace am

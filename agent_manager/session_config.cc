@@ -1,5 +1,6 @@
 // What the configuration says, at the start and when it is read again.
 
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 #include <stdexcept>
@@ -34,29 +35,40 @@ void Session::ApplyConfig() {
 }
 
 void Session::Listen() {
-  std::erase_if(listeners_, [this](const auto& listener) {
-    return std::ranges::find(config_.listen, listener.first) == config_.listen.end();
+  std::erase_if(doors_, [this](const auto& door) {
+    return std::ranges::find(config_.listen, door.first) == config_.listen.end();
   });
-  for (const std::string& text : config_.listen) {
-    if (listeners_.contains(text)) continue;
-    const auto endpoint = vm::ParseEndpoint(text);
+  for (const ListenConfig& listen : config_.listen) {
+    if (std::ranges::any_of(doors_, [&](const auto& door) { return door.first == listen; }))
+      continue;
+    const auto endpoint = vm::ParseEndpoint(listen.at);
     if (!endpoint) throw std::runtime_error("listen: " + endpoint.error().text);
-    auto listener =
-        vm::Listener::Open(io_, *endpoint, [this](int fd, const std::string&) { OnAccept(fd); });
-    std::cerr << "agent_manager: listening on " << vm::FormatEndpoint(listener->endpoint())
+    auto door = vm::Doorkeeper::Open(
+        io_, *endpoint, listen.credentials, vm::Framing::kAuto, vm::Encoding::kUtf8,
+        [this](const vm::Doorkeeper::Guest& guest) { OnGuest(guest); },
+        [this](const std::string& text) { Refused(text); });
+    std::cerr << "agent_manager: listening on " << vm::FormatEndpoint(door->endpoint())
               << std::endl;
-    listeners_.emplace(text, std::move(listener));
+    doors_.emplace_back(listen, std::move(door));
   }
 }
 
-void Session::OnAccept(int fd) {
-  const auto stream = vm::StreamPeer::Make(io_, fd, fd, vm::Framing::kAuto);
+void Session::Refused(const std::string& text) {
+  // Counted apart from errors: what strangers try is no fault of ours.
+  ++refused_;
+  std::cerr << "agent_manager: " << text << std::endl;
+  slots_.Report("Refused", std::to_string(refused_) + " " + text);
+}
+
+void Session::OnGuest(const vm::Doorkeeper::Guest& guest) {
+  const auto& stream = guest.stream;
   const auto key =
       hub_.Attach(std::make_unique<StreamLink>(stream), PeerKind::kClient, "", Dialect::kAuto);
-  if (!key) return;
+  if (!key) return Refused(guest.from + ": " + key.error().text);
   stream->Start(
       [this, peer = *key](Result<std::string_view> line) { hub_.OnLine(peer, std::move(line)); },
       [this, peer = *key](const std::string& reason) { hub_.Detach(peer, reason); });
+  stream->ResumeReading();
 }
 
 void Session::ReloadOnSignal() {

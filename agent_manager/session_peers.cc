@@ -29,6 +29,11 @@ void Session::DeclareLimitSlots() {
          .on_inq = [this,
                     member = limit.member] { return std::to_string(hub_.limits().*member); }});
   }
+  slots_.Declare({.name = "Refused",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = "0",
+                  .help = "How many were turned away at a door so far, and who the last one was."});
   slots_.Declare({.name = "Traffic",
                   .grammar = "<text>",
                   .access = vm::Access::kReadOnly,

@@ -12,7 +12,7 @@
 
 #include "agent_manager/process.h"
 #include "agent_manager/supervisor_child.h"
-#include "vm_protocol/runtime/endpoint.h"
+#include "vm_protocol/runtime/doorkeeper.h"
 
 namespace am {
 
@@ -23,6 +23,13 @@ namespace {
 
 constexpr milliseconds kClosedPatience{500};  // after it closed its output
 constexpr std::size_t kLevelWithin = 80;      // bytes of a line in which its level is looked for
+
+vm::Framing FramingOf(const ModuleConfig& module) {
+  return module.framing == "mmi" ? vm::Framing::kMmi : vm::Framing::kLf;
+}
+vm::Encoding EncodingOf(const ModuleConfig& module) {
+  return vm::ParseEncoding(module.encoding).value_or(vm::Encoding::kUtf8);
+}
 
 }  // namespace
 
@@ -109,27 +116,25 @@ void Supervisor::Spawn(const ChildPtr& child) {
   }
   child->pid = spawned->pid;
   ReadErrors(child, spawned->from_errors);
-  Join(child, spawned->from_output, spawned->to_input);
+  Join(child, vm::StreamPeer::Make(io_, spawned->from_output, spawned->to_input,
+                                   FramingOf(child->config), EncodingOf(child->config)));
 }
 
 void Supervisor::Dial(const ChildPtr& child) {
   const auto endpoint = vm::ParseEndpoint(child->config.connect);
   if (!endpoint) throw std::runtime_error("@" + child->config.name + ": " + endpoint.error().text);
-  vm::ConnectTo(io_, *endpoint, [this, child](vm::Result<int> fd) {
-    if (fd && child->state == State::kStarting) return Join(child, *fd, *fd);
-    if (fd) {
-      close(*fd);  // stopped meanwhile
-      return;
-    }
-    on_notice_("@" + child->config.name + ": " + fd.error().text);
-    Ended(child, fd.error().text, true);
-  });
+  vm::Call(io_, *endpoint, child->config.credentials, FramingOf(child->config),
+           EncodingOf(child->config),
+           [this, child](const vm::Result<std::shared_ptr<vm::StreamPeer>>& stream) {
+             if (stream && child->state == State::kStarting) return Join(child, *stream);
+             if (stream) return (*stream)->Close();  // stopped meanwhile
+             on_notice_("@" + child->config.name + ": " + stream.error().text);
+             Ended(child, stream.error().text, true);
+           });
 }
 
-void Supervisor::Join(const ChildPtr& child, int read_fd, int write_fd) {
-  child->stream = vm::StreamPeer::Make(
-      io_, read_fd, write_fd, child->config.framing == "mmi" ? vm::Framing::kMmi : vm::Framing::kLf,
-      vm::ParseEncoding(child->config.encoding).value_or(vm::Encoding::kUtf8));
+void Supervisor::Join(const ChildPtr& child, std::shared_ptr<vm::StreamPeer> stream) {
+  child->stream = std::move(stream);
   const auto key = hub_.Attach(std::make_unique<StreamLink>(child->stream), PeerKind::kModule,
                                child->config.name, child->config.dialect);
   if (!key) return KillChild(child, key.error().text);
@@ -142,6 +147,7 @@ void Supervisor::Join(const ChildPtr& child, int read_fd, int write_fd) {
       [this, child, peer = *key](const std::string& reason) {
         if (child->peer == peer) OnEnd(child, reason);
       });
+  child->stream->ResumeReading();
 }
 
 void Supervisor::ReadErrors(const ChildPtr& child, int fd) {

@@ -97,7 +97,7 @@ class Supervisor {
   void Start(const ChildPtr& child);
   void Spawn(const ChildPtr& child);
   void Dial(const ChildPtr& child);
-  void Join(const ChildPtr& child, int read_fd, int write_fd);
+  void Join(const ChildPtr& child, std::shared_ptr<vm::StreamPeer> stream);
   void ReadErrors(const ChildPtr& child, int fd);
   void OnEnd(const ChildPtr& child, const std::string& reason);
   void OnSignal();

@@ -12,7 +12,7 @@ namespace vm {
 namespace {
 
 TEST(EndpointTest, ReadsAndWritesBothKinds) {
-  for (const auto* text : {"unix:/tmp/a b.sock", "tcp:localhost:10600", "tcp:[::1]:5"}) {
+  for (const auto* text : {"unix:/tmp/a b.sock", "tcp:localhost:10600", "tcp:[::1]:5", "tls:h:5"}) {
     const auto endpoint = ParseEndpoint(text);
     ASSERT_TRUE(endpoint) << text;
     EXPECT_EQ(FormatEndpoint(*endpoint), text);

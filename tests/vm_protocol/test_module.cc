@@ -1,5 +1,7 @@
 // A module with one number and one thing that takes time, for tests of the runtime.
 
+#include <chrono>
+
 #include "vm_protocol/runtime/module_main.h"
 
 namespace {
@@ -12,6 +14,15 @@ class TestModule final : public vm::Module {
                                     .auto_output = true,
                                     .on_exit = [this] { exit_ = true; }});
     slots_.Declare({.name = "X", .grammar = "<number>", .initial = "0", .auto_output = true});
+    // When this process's clock stood at 0, in ms of the machine's: for tests of clock offsets.
+    slots_.Declare({.name = "Epoch",
+                    .grammar = "<number>",
+                    .access = vm::Access::kReadOnly,
+                    .on_inq = [this] {
+                      const auto now = std::chrono::system_clock::now().time_since_epoch();
+                      return vm::FormatMs(std::chrono::duration_cast<vm::Time>(now) -
+                                          clock_.Now());
+                    }});
     slots_.Declare({.name = "Work",
                     .grammar = "<ms>",
                     .access = vm::Access::kWriteOnly,

@@ -23,8 +23,8 @@ using asio::local::stream_protocol;
 using boost::system::error_code;
 
 std::unexpected<Error> BadEndpoint(std::string_view text) {
-  return Fail(Errc::kBadValue,
-              "found '" + std::string(text) + "', expected unix:PATH or tcp:HOST:PORT");
+  return Fail(Errc::kBadValue, "found '" + std::string(text) +
+                                   "', expected unix:PATH, tcp:HOST:PORT or tls:HOST:PORT");
 }
 
 void NoDelay(int fd) {
@@ -120,7 +120,8 @@ Result<Endpoint> ParseEndpoint(std::string_view text) {
     if (path.empty() || path.size() > kMaxUnixPath) return BadEndpoint(text);
     return Endpoint{Endpoint::Kind::kUnix, std::string(path), 0};
   }
-  if (!text.starts_with("tcp:")) return BadEndpoint(text);
+  const bool tls = text.starts_with("tls:");
+  if (!tls && !text.starts_with("tcp:")) return BadEndpoint(text);
   std::string_view rest = text.substr(4);
   const std::size_t colon = rest.rfind(':');
   if (colon == std::string_view::npos || colon == 0) return BadEndpoint(text);
@@ -133,14 +134,15 @@ Result<Endpoint> ParseEndpoint(std::string_view text) {
   if (error != std::errc() || end != port_text.data() + port_text.size() || port > 65535) {
     return BadEndpoint(text);
   }
-  return Endpoint{Endpoint::Kind::kTcp, std::string(host), static_cast<unsigned short>(port)};
+  return Endpoint{tls ? Endpoint::Kind::kTls : Endpoint::Kind::kTcp, std::string(host),
+                  static_cast<unsigned short>(port)};
 }
 
 std::string FormatEndpoint(const Endpoint& endpoint) {
   if (endpoint.kind == Endpoint::Kind::kUnix) return "unix:" + endpoint.host;
   const bool v6 = endpoint.host.find(':') != std::string::npos;
-  return "tcp:" + (v6 ? "[" + endpoint.host + "]" : endpoint.host) + ":" +
-         std::to_string(endpoint.port);
+  return (endpoint.kind == Endpoint::Kind::kTls ? "tls:" : "tcp:") +
+         (v6 ? "[" + endpoint.host + "]" : endpoint.host) + ":" + std::to_string(endpoint.port);
 }
 
 std::unique_ptr<Listener> Listener::Open(asio::io_context& io, const Endpoint& endpoint,

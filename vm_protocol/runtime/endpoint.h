@@ -11,9 +11,10 @@
 
 namespace vm {
 
-/// unix:PATH | tcp:HOST:PORT (HOST a name, an IPv4 address, or [IPv6])
+/// unix:PATH | tcp:HOST:PORT | tls:HOST:PORT (HOST a name, an IPv4 address, or [IPv6]). What tls:
+/// means beyond TCP is the business of Doorkeeper and Call.
 struct Endpoint {
-  enum class Kind { kUnix, kTcp };
+  enum class Kind { kUnix, kTcp, kTls };
   Kind kind = Kind::kUnix;
   std::string host;  ///< or the path
   unsigned short port = 0;

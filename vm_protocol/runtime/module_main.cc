@@ -11,6 +11,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "vm_protocol/runtime/doorkeeper.h"
 #include "vm_protocol/runtime/module_server.h"
 
 namespace vm {
@@ -24,6 +25,7 @@ struct Options {
   std::vector<std::string> listen;
   std::string connect;
   std::string name;
+  Credentials credentials;
   int original_port = 0;
   bool original_socket = false;
   std::string framing = "auto";
@@ -71,10 +73,16 @@ Lookahead ReadAhead() {
 
 void AddCommonOptions(CLI::App& app, Options& options, const ProgramInfo& info) {
   app.add_option("--listen", options.listen,
-                 "Wait for clients on unix:PATH or tcp:HOST:PORT (may be repeated)");
-  app.add_option("--connect", options.connect, "Go to a hub on unix:PATH or tcp:HOST:PORT");
+                 "Wait for clients on unix:PATH, tcp:HOST:PORT or tls:HOST:PORT (may be repeated)");
+  app.add_option("--connect", options.connect,
+                 "Go to a hub on unix:PATH, tcp:HOST:PORT or tls:HOST:PORT");
   app.add_option("--name", options.name,
                  "The name to have at the hub (default " + info.module_name + ")");
+  Credentials& shown = options.credentials;
+  app.add_option("--token-file", shown.token_file, "The token both sides know (mode 600)");
+  app.add_option("--certificate", shown.certificate, "tls: what we show (PEM)");
+  app.add_option("--key", shown.key, "tls: its key (PEM)");
+  app.add_option("--authority", shown.authority, "tls: who signs for the others (PEM)");
   if (info.original_port != 0) {
     app.add_option(
            "-p", options.original_port,
@@ -127,16 +135,19 @@ class Program {
       if (!error) server.RequestStop();
     });
 
-    std::vector<std::unique_ptr<Listener>> listeners;
+    std::vector<std::unique_ptr<Doorkeeper>> doors;
     const auto listen = [&](const Endpoint& endpoint, Framing how) {
-      listeners.push_back(Listener::Open(io, endpoint, [&, how](int fd, const std::string&) {
-        if (!server.HasRoom()) {
-          close(fd);
-          return;
-        }
-        server.AddPeer(StreamPeer::Make(io, fd, fd, how, encoding), {});
-      }));
-      std::cerr << info_.name << ": listening on " << FormatEndpoint(listeners.back()->endpoint())
+      doors.push_back(Doorkeeper::Open(
+          io, endpoint, options_.credentials, how, encoding,
+          [&](const Doorkeeper::Guest& guest) {
+            if (!server.HasRoom()) return guest.stream->Close();
+            server.AddPeer(guest.stream, {});
+            guest.stream->ResumeReading();
+          },
+          [this](const std::string& text) {
+            std::cerr << info_.name << ": " << text << std::endl;
+          }));
+      std::cerr << info_.name << ": listening on " << FormatEndpoint(doors.back()->endpoint())
                 << std::endl;
     };
     for (const std::string& text : options_.listen) listen(Need(ParseEndpoint(text)), framing);
@@ -164,14 +175,17 @@ class Program {
  private:
   void Connect(boost::asio::io_context& io, ModuleServer& server, Encoding encoding) {
     const Endpoint endpoint = Need(ParseEndpoint(options_.connect));
-    std::optional<Result<int>> connected;
-    ConnectTo(io, endpoint, [&connected](Result<int> fd) { connected = std::move(fd); });
-    while (!connected) io.run_one();
     const std::string name = options_.name.empty() ? info_.module_name : options_.name;
     if (!IsModuleName(name)) throw std::runtime_error("'" + name + "' is not a module's name");
-    const int fd = Need(std::move(*connected));
-    server.AddPeer(StreamPeer::Make(io, fd, fd, Framing::kLf, encoding),
-                   {.first_lines = {"to @AM set Name = " + name}, .ends_module = true});
+    std::optional<Result<std::shared_ptr<StreamPeer>>> connected;
+    Call(io, endpoint, options_.credentials, Framing::kLf, encoding,
+         [&connected](Result<std::shared_ptr<StreamPeer>> stream) {
+           connected = std::move(stream);
+         });
+    while (!connected) io.run_one();
+    const auto stream = Need(std::move(*connected));
+    server.AddPeer(stream, {.first_lines = {"to @AM set Name = " + name}, .ends_module = true});
+    stream->ResumeReading();
   }
 
   const Options& options_;

@@ -36,8 +36,9 @@ struct ProgramInfo {
 
 /// The whole life of a module program: options, streams, clock, end. Gives every module
 ///   (no options)                 lines on stdin and stdout
-///   --listen unix:PATH|tcp:H:P   clients come to it (several; answers go to who asked)
-///   --connect unix:PATH|tcp:H:P [--name NAME]   it goes to a hub
+///   --listen unix:PATH|tcp:H:P|tls:H:P   clients come to it (several; answers go to who asked)
+///   --connect unix:PATH|tcp:H:P|tls:H:P [--name NAME]   it goes to a hub
+///   --token-file FILE, --certificate, --key, --authority   what is shown and asked for there
 ///   -p PORT                      the original's socket mode ("./" framing, one client)
 ///   --framing lf|mmi|auto, --encoding utf-8|euc-jp|shift_jis
 ///   --clock auto|real|virtual    auto: virtual for a batch piped into a module that allows it

@@ -1,0 +1,22 @@
+#include "agent_manager/clock_estimate.h"
+
+namespace am {
+
+vm::Time ClockEstimate::Uncertainty(const Sample& sample) const {
+  const auto age = static_cast<double>((samples_.back().heard - sample.heard).count());
+  return sample.delay / 2 + vm::Time(static_cast<vm::Time::rep>(age * kDrift));
+}
+
+vm::Time ClockEstimate::uncertainty() const { return known() ? Uncertainty(best_) : vm::Time(0); }
+
+void ClockEstimate::Add(vm::Time asked, vm::Time heard, vm::Time theirs) {
+  const vm::Time delay = heard - asked;
+  samples_.push_back({heard, theirs - (asked + delay / 2), delay});
+  if (samples_.size() > kMaxSamples) samples_.pop_front();
+  best_ = samples_.back();
+  for (const Sample& sample : samples_) {
+    if (Uncertainty(sample) < Uncertainty(best_)) best_ = sample;
+  }
+}
+
+}  // namespace am

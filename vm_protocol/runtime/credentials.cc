@@ -1,0 +1,91 @@
+#include "vm_protocol/runtime/credentials.h"
+
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+#include <openssl/hmac.h>
+#include <openssl/rand.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "vm_protocol/runtime/endpoint.h"
+
+namespace vm {
+namespace {
+
+std::string Hex(const unsigned char* bytes, std::size_t count) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) {
+    text += kDigits[bytes[i] >> 4];
+    text += kDigits[bytes[i] & 15];
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<std::string> ReadToken(const Credentials& credentials) {
+  const std::string& path = credentials.token_file;
+  if (path.empty()) return "";
+  struct stat info {};
+  std::ifstream file(path);
+  if (!file || stat(path.c_str(), &info) != 0)
+    return Fail(Errc::kUnavailable,
+                "cannot read the token file '" + path + "': " + std::strerror(errno));
+  if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    return Fail(Errc::kUnavailable,
+                "the token file '" + path + "' is open to others, expected mode 600");
+  std::string token;
+  std::getline(file, token);
+  while (!token.empty() && (token.back() == '\r' || token.back() == ' ')) token.pop_back();
+  if (token.size() < kMinTokenBytes)
+    return Fail(Errc::kUnavailable, "the token in '" + path + "' is shorter than " +
+                                        std::to_string(kMinTokenBytes) + " bytes");
+  return token;
+}
+
+bool IsLoopback(const Endpoint& endpoint) {
+  return endpoint.kind == Endpoint::Kind::kUnix || endpoint.host == "localhost" ||
+         endpoint.host == "::1" || endpoint.host.starts_with("127.");
+}
+
+Result<void> CheckListening(const Endpoint& endpoint, const Credentials& credentials) {
+  if (endpoint.kind == Endpoint::Kind::kTls &&
+      (credentials.certificate.empty() || credentials.key.empty()))
+    return Fail(Errc::kAccess,
+                FormatEndpoint(endpoint) + " needs a certificate and its key to show");
+  const bool asks_certificates =
+      endpoint.kind == Endpoint::Kind::kTls && !credentials.authority.empty();
+  if (IsLoopback(endpoint) || asks_certificates || !credentials.token_file.empty()) return {};
+  return Fail(Errc::kAccess, FormatEndpoint(endpoint) +
+                                 " is open to other machines: it needs a token file, or tls: with "
+                                 "an authority for certificates of those who come");
+}
+
+std::string MakeNonce() {
+  std::array<unsigned char, 32> bytes{};
+  if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1)
+    throw std::runtime_error("the system has no random numbers");
+  return Hex(bytes.data(), bytes.size());
+}
+
+std::string TokenProof(const std::string& token, const std::string& role,
+                       const std::string& listener_nonce, const std::string& caller_nonce) {
+  const std::string text = "galatea 1 " + role + " " + listener_nonce + " " + caller_nonce;
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  HMAC(EVP_sha256(), token.data(), static_cast<int>(token.size()),
+       reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data(), &size);
+  return Hex(digest.data(), size);
+}
+
+bool SameProof(const std::string& a, const std::string& b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+}  // namespace vm

@@ -1,0 +1,192 @@
+#include "vm_protocol/runtime/tls.h"
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/generic/stream_protocol.hpp>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+namespace vm {
+namespace {
+
+namespace asio = boost::asio;
+namespace ssl = boost::asio::ssl;
+using boost::system::error_code;
+
+constexpr auto kTlsHandshakeLimit = std::chrono::seconds(10);
+constexpr std::size_t kChunk = 16u * 1024;  // one TLS record
+
+/// A TLS stream on one side, one end of a local pair of sockets on the other, and bytes between
+/// them. Kept alive by its operations; both ends close together. Reads only what has been passed
+/// on, so a slow reader is felt at the far end as on a plain socket.
+class Tunnel : public std::enable_shared_from_this<Tunnel> {
+ public:
+  using Socket = asio::generic::stream_protocol::socket;
+  Tunnel(asio::io_context& io, std::shared_ptr<ssl::context> context, Socket socket)
+      : context_(std::move(context)),
+        remote_(std::move(socket), *context_),
+        local_(io),
+        limit_(io) {}
+
+  void Start(bool listener, const std::string& host, Tls::Done done) {
+    done_ = std::move(done);
+    if (!listener) {
+      SSL_set_tlsext_host_name(remote_.native_handle(), host.c_str());
+      remote_.set_verify_callback(ssl::host_name_verification(host));
+    }
+    limit_.expires_after(kTlsHandshakeLimit);
+    limit_.async_wait([self = shared_from_this()](const error_code& error) {
+      if (!error) self->CloseRemote();
+    });
+    remote_.async_handshake(listener ? ssl::stream_base::server : ssl::stream_base::client,
+                            [self = shared_from_this()](const error_code& error) {
+                              self->limit_.cancel();
+                              self->OnHandshake(error);
+                            });
+  }
+
+ private:
+  void OnHandshake(const error_code& error) {
+    const Tls::Done done = std::exchange(done_, nullptr);
+    std::array<int, 2> ends{-1, -1};
+    if (error) {
+      CloseRemote();
+      return done(Fail(Errc::kAccess, "no TLS agreement: " + error.message()));
+    }
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+      CloseRemote();
+      return done(Fail(Errc::kUnavailable, "cannot make a pair of sockets"));
+    }
+    local_.assign(asio::local::stream_protocol(), ends[0]);
+    FromRemote();
+    FromLocal();
+    done(Tls::Plain{ends[1], NameOfOther()});
+  }
+
+  std::string NameOfOther() {
+    X509* const certificate = SSL_get1_peer_certificate(remote_.native_handle());
+    if (certificate == nullptr) return "";
+    std::array<char, 256> name{};
+    X509_NAME_get_text_by_NID(X509_get_subject_name(certificate), NID_commonName, name.data(),
+                              static_cast<int>(name.size()));
+    X509_free(certificate);
+    return name.data();
+  }
+
+  void FromRemote() {
+    remote_.async_read_some(asio::buffer(inward_),
+                            [self = shared_from_this()](const error_code& error, std::size_t n) {
+                              if (error) return self->EndLocal();
+                              asio::async_write(self->local_, asio::buffer(self->inward_, n),
+                                                [self](const error_code& failed, std::size_t) {
+                                                  failed ? self->CloseRemote() : self->FromRemote();
+                                                });
+                            });
+  }
+  void FromLocal() {
+    local_.async_read_some(asio::buffer(outward_),
+                           [self = shared_from_this()](const error_code& error, std::size_t n) {
+                             if (error) return self->EndRemote();
+                             asio::async_write(self->remote_, asio::buffer(self->outward_, n),
+                                               [self](const error_code& failed, std::size_t) {
+                                                 failed ? self->EndLocal() : self->FromLocal();
+                                               });
+                           });
+  }
+  /// The far side has ended: our side hears the end once it has read what came before.
+  void EndLocal() {
+    error_code ignored;
+    local_.shutdown(asio::socket_base::shutdown_send, ignored);
+    CloseRemote();
+  }
+  /// Our side has closed: the far side is told so.
+  void EndRemote() {
+    limit_.expires_after(kTlsHandshakeLimit);
+    limit_.async_wait([self = shared_from_this()](const error_code& error) {
+      if (!error) self->CloseRemote();
+    });
+    remote_.async_shutdown([self = shared_from_this()](const error_code&) {
+      self->limit_.cancel();
+      self->CloseRemote();
+    });
+  }
+  void CloseRemote() {
+    error_code ignored;
+    remote_.lowest_layer().close(ignored);
+  }
+
+  std::shared_ptr<ssl::context> context_;
+  ssl::stream<Socket> remote_;
+  asio::local::stream_protocol::socket local_;
+  asio::steady_timer limit_;
+  Tls::Done done_;
+  std::array<char, kChunk> inward_{}, outward_{};
+};
+
+class TlsImpl final : public Tls {
+ public:
+  TlsImpl(const Credentials& credentials, bool listener)
+      : context_(std::make_shared<ssl::context>(listener ? ssl::context::tls_server
+                                                         : ssl::context::tls_client)),
+        listener_(listener) {
+    SSL_CTX_set_min_proto_version(context_->native_handle(), TLS1_2_VERSION);
+    try {
+      what_ = "the certificate '" + credentials.certificate + "'";
+      if (!credentials.certificate.empty())
+        context_->use_certificate_chain_file(credentials.certificate);
+      what_ = "the key '" + credentials.key + "'";
+      if (!credentials.key.empty())
+        context_->use_private_key_file(credentials.key, ssl::context::pem);
+      what_ = "the authority '" + credentials.authority + "'";
+      if (!credentials.authority.empty()) {
+        context_->load_verify_file(credentials.authority);
+      } else if (!listener) {
+        context_->set_default_verify_paths();
+      }
+    } catch (const boost::system::system_error& error) {
+      throw std::runtime_error("cannot use " + what_ + ": " + error.code().message());
+    }
+    const bool verifies = !listener || !credentials.authority.empty();
+    context_->set_verify_mode(verifies ? ssl::verify_peer | ssl::verify_fail_if_no_peer_cert
+                                       : ssl::verify_none);
+  }
+
+  void Wrap(asio::io_context& io, int fd, const std::string& host, Done done) override {
+    sockaddr_storage address{};
+    socklen_t size = sizeof(address);
+    getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+    Tunnel::Socket socket(io);
+    error_code error;
+    socket.assign(asio::generic::stream_protocol(address.ss_family, 0), fd, error);
+    if (error) {
+      close(fd);
+      return done(Fail(Errc::kUnavailable, error.message()));
+    }
+    std::make_shared<Tunnel>(io, context_, std::move(socket))->Start(listener_, host, done);
+  }
+
+ private:
+  std::shared_ptr<ssl::context> context_;
+  bool listener_;
+  std::string what_;
+};
+
+}  // namespace
+
+std::shared_ptr<Tls> Tls::ForListener(const Credentials& credentials) {
+  return std::make_shared<TlsImpl>(credentials, true);
+}
+std::shared_ptr<Tls> Tls::ForCaller(const Credentials& credentials) {
+  return std::make_shared<TlsImpl>(credentials, false);
+}
+
+}  // namespace vm
