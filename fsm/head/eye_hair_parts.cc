@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"
 
@@ -18,7 +19,7 @@ struct LashRow {
   int hairs;
   float from, to;  // along the lid, 0 inner corner .. 1 outer
 };
-constexpr std::array kLashRows = {LashRow{true, 30, 0.10f, 0.99f},
+constexpr std::array kLashRows = {LashRow{true, 34, 0.10f, 0.99f},
                                   LashRow{false, 12, 0.35f, 0.97f}};
 
 class LashBuilder {
@@ -89,10 +90,12 @@ class LashBuilder {
     const float angle = Angle(x);
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
-    const float fan = 1.5f * (along - 0.42f) + 0.10f * Grain(i, 5);
+    // Neighbours lean together in threes.
+    const float clump = 0.09f * (static_cast<float>(1 - i % 3)) + 0.05f * Grain(i, 5);
+    const float fan = 1.5f * (along - 0.42f) + clump;
     const float length =
         size_ * (upper_ ? (1.6f + 2.8f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
-                              (1 + 0.12f * Grain(i, 9))
+                              (1 + 0.22f * Grain(i, 9))
                         : 1.3f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = upper_ ? 0.24f : 0.12f;
@@ -160,60 +163,55 @@ class BrowPlace {
 
 }  // namespace
 
-void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
+std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
   const Palette& palette = identity.palette;
   const BrowPlace place(identity);
-  // Most of a brow's tone is on the skin; the hairs only break it up.
+  // The soft tone between the hairs.
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
-    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette.brow, 0.84f * place.Cover({p.x, p.y}));
+    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette.brow, 0.30f * place.Cover({p.x, p.y}));
   }
   // Which way the hairs grow, degrees from outward to up, over x.
-  const Curve grow({9, 14, 22, 36, 48, 56}, {80, 58, 34, 14, -14, -34});
-  constexpr int kColumns = 24;
-  constexpr int kRows = 4;
+  const Curve grow({9, 14, 22, 36, 48, 56}, {86, 62, 36, 16, -12, -32});
+  constexpr int kColumns = 54;
+  constexpr int kRows = 6;
+  std::vector<SkinHair> hairs;
+  hairs.reserve(2 * kColumns * kRows);
   for (const int side : {-1, 1}) {
-    const auto mirror = [side](glm::vec3 p) { return p * glm::vec3(side, 1, 1); };
     for (int i = 0; i < kColumns * kRows; ++i) {
-      const int column = i / kRows;
       const int row = i % kRows;
-      const float x = 10.5f + (44.5f * (static_cast<float>(column) +
-                                        0.25f * static_cast<float>(row) + 0.35f * Grain(i, 21))) /
-                                  kColumns;
-      const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.4f * Grain(i, 22)) / kRows;
-      const glm::vec2 at(x, place.Y(x, level));
+      const int seed = 2 * i + (side > 0 ? 1 : 0);
+      const float column = static_cast<float>(i / kRows) + 0.5f + 0.9f * Grain(seed, 21);
+      const float x = 9.0f + 46.0f * column / kColumns;
+      const float level =
+          -1 + 2 * (static_cast<float>(row) + 0.5f + 0.7f * Grain(seed, 22)) / kRows;
+      const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
+      // Sparse where it begins.
+      if (0.5f + 0.5f * Grain(seed, 26) > 0.35f + 0.65f * ends) continue;
+      const glm::vec2 root(x, place.Y(x, 0.9f * level - 0.1f));
       // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
-      const float angle = (grow(x) - 24 * level + 9 * Grain(i, 23)) * kPi / 180;
-      const glm::vec2 along(std::cos(angle), std::sin(angle));
-      const float ends = SmoothStep(8, 19, x) * SmoothStep(58, 50, x);
-      const float length = (4.6f + 1.6f * Grain(i, 24)) * (0.65f + 0.35f * ends);
-      const float width = 0.42f * (0.55f + 0.45f * ends);
-      const glm::vec2 across(-along.y, along.x);
-      const auto over = [&front](glm::vec2 xy, float lift) {
+      const float angle = (grow(x) - 20 * level + 9 * Grain(seed, 23)) * kPi / 180;
+      const float bend = (-14 - 8 * level) * kPi / 180;
+      const float length = (5.6f + 1.6f * Grain(seed, 24)) * (0.6f + 0.4f * ends);
+      const auto on_skin = [&](glm::vec2 at) {
         glm::vec3 normal;
-        const glm::vec3 p = front.PointAt(xy, normal);
-        return p + lift * normal;
+        glm::vec3 p = front.PointAt(at, normal);
+        p.x *= static_cast<float>(side);
+        return Unroll(p);
       };
-      const glm::vec3 a = over(at + width * across, 0.15f);
-      const glm::vec3 b = over(at - width * across, 0.15f);
-      const glm::vec3 c = over(at + length * along, 0.55f);
-      std::array<std::uint32_t, 3> id{};
-      int k = 0;
-      const glm::vec3 colour = palette.brow * (1 + 0.15f * Grain(i, 25));
-      for (const glm::vec3 p : {a, b, c}) {
-        const glm::vec3 q = mirror(p);
-        const glm::vec3 soft = glm::mix(palette.skin, colour, k < 2 ? 0.45f + 0.3f * ends : 0.5f);
-        id[static_cast<std::size_t>(k++)] =
-            mesh.Add(q, soft, 1, Bone::kFlesh, FleshAt({q.x, q.y}, 0, -43));
-      }
-      if (side > 0) {
-        mesh.Triangle(Material::kBrow, id[0], id[1], id[2]);
-      } else {
-        mesh.Triangle(Material::kBrow, id[0], id[2], id[1]);
-      }
+      const auto step = [&](float a) {
+        return 0.5f * length * glm::vec2(std::cos(a), std::sin(a));
+      };
+      const glm::vec2 middle = root + step(angle);
+      hairs.push_back({.root = on_skin(root),
+                       .middle = on_skin(middle),
+                       .tip = on_skin(middle + step(angle + bend)),
+                       .width_mm = (0.44f + 0.10f * Grain(seed, 27)) * (0.7f + 0.3f * ends),
+                       .tint = 1.5f * palette.brow / palette.skin * (1 + 0.35f * Grain(seed, 25))});
     }
   }
+  return hairs;
 }
 
 }  // namespace fsm

@@ -46,7 +46,7 @@ class GenericHead : public Head {
     HeadMesh mesh;
     const SkinMap skin = BuildSkin(fine, eye_, mouth_, palette, mesh);
     BuildCloth(palette, mesh);
-    BuildBrows(SkinFront(fine), identity_, mesh);
+    topology_.skin_hairs = BuildBrows(SkinFront(fine), identity_, mesh);
     BuildLashes(eye_, identity_, mesh);
     flesh_count_ = mesh.position.size();
     BuildEyes(eye_, palette, mesh);
@@ -173,6 +173,7 @@ class GenericHead : public Head {
                    eye_shift_, mouth_, teeth_shift_);
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
+    topology_.strands = std::move(mesh.strands);
     for (glm::vec3& colour : topology_.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
     for (const glm::vec3 p : base_) topology_.uv.push_back(Unroll(p));
     for (std::size_t side = 0; side < 2; ++side) {
@@ -183,7 +184,8 @@ class GenericHead : public Head {
                               .ball_radius = eye_.radius(),
                               .iris_radius = eye_.iris_radius(),
                               .pupil_radius = eye_.pupil_radius(),
-                              .iris_colour = identity_.palette.iris};
+                              .iris_colour = identity_.palette.iris,
+                              .white_colour = identity_.palette.sclera};
     }
   }
 
@@ -205,7 +207,7 @@ class GenericHead : public Head {
       const auto& u = units[side];
       const std::array<float, 4> depth = {0.6f * (u[1] + u[2]), 0.7f * (u[4] + u[9]),
                                           0.6f * (u[6] + 0.7f * u[12]),
-                                          0.4f * (u[10] + u[11]) + 0.6f * u[12]};
+                                          0.4f * (u[10] + u[11]) + 0.75f * u[12]};
       for (std::size_t k = 0; k < depth.size(); ++k) {
         creases[k][side] = std::clamp(identity_.creases[k] + depth[k], 0.0f, 1.0f);
       }

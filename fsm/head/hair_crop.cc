@@ -65,6 +65,12 @@ class CroppedHair {
         const float thin = r == 0 ? 0.55f : 1.0f;
         mesh_.Add(p, glm::mix(palette_.skin * 0.85f, colour, thin), r < 2 ? 0.8f : 0.92f,
                   Bone::kSkull);
+        const glm::vec3 lower = scalp_.Over(Direction(azimuth, kUp[r] - 0.03f), Depth(d, kUp[r]));
+        mesh_.strands.back() = {.along = glm::normalize(lower - p),
+                                .cover = r == 0   ? 0.1f
+                                         : r == 1 ? 0.75f
+                                                  : 1.0f,
+                                .place = {1.49f * azimuth, -140 * kUp[r]}};
       }
     }
     mesh_.Grid(Material::kHair, first, static_cast<int>(kUp.size()), kAround + 1, true);
@@ -89,7 +95,7 @@ class CroppedHair {
     const glm::vec3 combed = glm::vec3(-0.75f, 0.35f, -0.25f);
     glm::vec3 along = glm::normalize(away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
                                      forehead * combed +
-                                     glm::vec3(0.25f * Grain(k, 31), 0, 0.25f * Grain(k, 32)));
+                                     glm::vec3(0.14f * Grain(k, 31), 0, 0.14f * Grain(k, 32)));
     along -= root * glm::dot(along, root);
     const float length = style_.lock_mm * (1 + 0.3f * Grain(k, 33)) *
                          (0.5f + 0.5f * SmoothStep(-0.3f, 0.5f, root.y)) *
@@ -103,12 +109,17 @@ class CroppedHair {
       const float v = static_cast<float>(s) / kSteps;
       const float swing = style_.wave_mm * std::sin(2.2f * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
-      const float over = forehead > 0.3f ? glm::mix(0.4f, depth, SmoothStep(0, 0.4f, v))
-                                         : depth * (0.75f + 0.25f * v);
-      path.push_back(scalp_.Over(d, over + lift * v * (1 - 0.35f * v) + 0.4f));
+      // Over the shell all the way, but for the roots that show at the forehead.
+      const float over = forehead > 0.3f ? glm::mix(0.6f, depth, SmoothStep(0, 0.4f, v)) : depth;
+      path.push_back(scalp_.Over(d, 1.08f * over + lift * v * (1 - 0.6f * v) + 0.5f));
     }
     const float width = glm::mix(2.4f, 2.0f + 0.11f * style_.lock_mm, SmoothStep(0, 0.28f, up));
-    AddLock(path, width * (1 + 0.3f * Grain(k, 35)), 0.45f, palette_, k, 0.95f, mesh_);
+    AddLock(path,
+            {.width_mm = 1.6f * width * (1 + 0.3f * Grain(k, 35)),
+             .root_part = 0.6f,
+             .fray_from = 0.35f,
+             .open = 0.95f},
+            palette_, k, mesh_);
   }
 
   const CropStyle& style_;

@@ -13,7 +13,7 @@ namespace fsm {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr glm::vec3 kVolume{83.5f, 107.5f, 105};  // half axes of the hair over the skull
+constexpr glm::vec3 kVolume{81.5f, 103.0f, 103};  // half axes of the hair over the skull
 constexpr float kPartX = 0.17f;  // sideways place of the parting, as part of the volume
 constexpr float kEnd = 1.0f;
 
@@ -42,12 +42,12 @@ class LongHair {
   glm::vec3 Direction(float i, float side, float t) const {
     const float along = glm::mix(31.0f, 158.0f, std::pow(i, 0.9f)) * kPi / 180;
     const glm::vec3 start = glm::normalize(glm::vec3(kPartX, std::sin(along), std::cos(along)));
-    const float azimuth = glm::mix(66.0f, 180.0f, std::pow(i, 0.85f));
+    const float azimuth = glm::mix(56.0f, 180.0f, std::pow(i, 0.85f));
     const float edge = SmoothStep(0.25f, 0, i);
     // The side away from the parting has the longer way round the forehead.
     const float away = side < 0 ? 1.0f : 0.0f;
     const glm::vec3 bend =
-        HairDirection(side * azimuth * glm::mix(1.0f, 0.66f - 0.02f * away, edge),
+        HairDirection(side * azimuth * glm::mix(1.0f, 0.78f - 0.02f * away, edge),
                       glm::mix(38.0f, 14.0f - 2.0f * away, edge));
     const glm::vec3 end = HairDirection(side * azimuth, glm::mix(-8.0f, -14.0f, edge));
     return glm::normalize((1 - t) * (1 - t) * start + 2 * t * (1 - t) * bend + t * t * end);
@@ -77,12 +77,18 @@ class LongHair {
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
       const float front = SmoothStep(0.35f, 0, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
-      const float full = 5.0f * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
+      const float full = glm::mix(5.0f, 1.0f, front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
       const float wave = 2.2f * std::sin(7 * hang + 9 * i + side) * SmoothStep(0.1f, 0.6f, hang);
-      p += out * (full + wave - glm::mix(11.0f, 30.0f, i) * hang * hang * hang);
+      p +=
+          out * (full + wave - glm::mix(17.0f, 30.0f, SmoothStep(0, 0.6f, i)) * hang * hang * hang);
       p.z += front * 8 * hang * (1 - 0.4f * hang);
     }
     return p;
+  }
+
+  glm::vec3 Along(float i, float side, float t) const {
+    return glm::normalize(Point(i, side, t + 0.02f, 0) - Point(i, side, t - 0.02f, 0) +
+                          glm::vec3(0, -1e-3f, 0));
   }
 
   static float Ridge(float i, float t) {
@@ -101,7 +107,7 @@ class LongHair {
   }
 
   void Shell(float side) {
-    constexpr int kStrands = 22;
+    constexpr int kStrands = 20;
     constexpr int kCapRows = 9;  // the skull is round, what hangs nearly straight
     constexpr int kRows = 13;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
@@ -117,13 +123,15 @@ class LongHair {
         const glm::vec3 p = Point(i, side, t, Ridge(i, t));
         const float open = glm::mix(0.6f, 1.0f, SmoothStep(0, 0.12f, t)) *
                            glm::mix(0.7f, 1.0f, SmoothStep(0, 0.1f, i));
-        // The first strand is sparse: skin shows between its hairs.
-        const float dense = k > 0 || t > kCap ? 1.0f : 0.9f + 0.1f * SmoothStep(0, 0.2f, t);
-        mesh_.Add(p, glm::mix(palette_.skin, StrandColour(palette_, k * 3, row), dense), open,
+        mesh_.Add(p, StrandColour(palette_, k * 3, row) * glm::mix(0.85f, 1.1f, t), open,
                   Bone::kSkull);
+        const float edge = k == 0 ? 0.1f : k == 1 ? 0.8f : 1.0f;
+        mesh_.strands.back() = {.along = Along(i, side, t),
+                                .cover = edge * SmoothStep(1.04f, 0.86f, t),
+                                .place = {side * 215 * i, 260 * t}};
       }
     }
-    mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side < 0);
+    mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side > 0);
   }
 
   // The dark inside of the hanging hair, seen beside the neck.
@@ -134,12 +142,15 @@ class LongHair {
     for (int k = 0; k <= kStrands; ++k) {
       const float i = glm::mix(0.03f, 1.0f, static_cast<float>(k) / kStrands);
       for (int row = 0; row <= kRows; ++row) {
-        const float t = glm::mix(kCap * 0.86f, 0.985f, static_cast<float>(row) / kRows);
+        const float t = glm::mix(kCap * 0.86f, 0.99f, static_cast<float>(row) / kRows);
         const float inset = row == 0 ? -16.0f : -7.0f;
         mesh_.Add(Point(i, side, t, inset), palette_.hair * 0.7f, 0.25f, Bone::kSkull);
+        mesh_.strands.back() = {.along = Along(i, side, t),
+                                .cover = SmoothStep(1.0f, 0.8f, t),
+                                .place = {215 * i, 260 * t}};
       }
     }
-    mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side > 0);
+    mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side < 0);
   }
 
   void Locks(float side) {
@@ -166,8 +177,12 @@ class LongHair {
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, t,
                              lift * std::sin(kPi * (0.12f + 0.8f * v))));
       }
-      AddLock(path, edge ? 7.0f : 11.0f + 3 * Grain(seed, 6), edge ? 0.15f : 0.06f, palette_, seed,
-              1.0f, mesh_);
+      AddLock(path,
+              {.width_mm = edge ? 9.0f : 15.0f + 4 * Grain(seed, 6),
+               .root_part = edge ? 0.4f : 0.5f,
+               .tip_part = 0.6f,
+               .fray_from = 0.66f},
+              palette_, seed, mesh_);
     }
   }
 
@@ -193,7 +208,12 @@ class LongHair {
         const glm::vec3 face = glm::cross(down, outward) * side;  // away from the hair
         path.push_back(p + face * (reach * v * v) - outward * (1.0f * v * v));
       }
-      AddLock(path, 5.5f + 2 * Grain(seed, 4), 0.3f, palette_, seed, 0.95f, mesh_);
+      AddLock(path,
+              {.width_mm = 6.5f + 2 * Grain(seed, 4),
+               .root_part = 0.6f,
+               .fray_from = 0.3f,
+               .open = 0.95f},
+              palette_, seed, mesh_);
     }
   }
 
@@ -227,7 +247,12 @@ class LongHair {
         const float lift = glm::mix(full + 2.2f, 8.0f + Grain(seed, 5), SmoothStep(0, 0.55f, v));
         path.push_back(kHairCentre + d * (skin + lift - 4.5f * v * v));
       }
-      AddLock(path, 12.0f + 3 * Grain(seed, 6) - 8 * strand, 0.12f, palette_, seed, 1.0f, mesh_);
+      AddLock(path,
+              {.width_mm = 15.0f + 3 * Grain(seed, 6) - 9 * strand,
+               .root_part = 0.4f,
+               .fray_from = 0.5f,
+               .root_cover = 0.3f},
+              palette_, seed, mesh_);
     }
   }
 

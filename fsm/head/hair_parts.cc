@@ -82,30 +82,39 @@ void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette&
   }
 }
 
-void AddLock(std::span<const glm::vec3> path, float width, float root_part, const Palette& palette,
-             int strand, float open, HeadMesh& mesh) {
+void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Palette& palette,
+             int seed, HeadMesh& mesh) {
   std::array<std::uint32_t, 2> before{};
   const int last = static_cast<int>(path.size()) - 1;
+  float along_mm = 90 * (1 + Grain(seed, 71));
+  const float across_mm = 130 * (1 + Grain(seed, 72));
   for (int k = 0; k <= last; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const float t = static_cast<float>(k) / static_cast<float>(last);
-    const glm::vec3 along = path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0];
+    const glm::vec3 step = path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0];
     const glm::vec3 outward = path[i] - kHairCentre;
-    glm::vec3 across = glm::cross(along, outward);
+    glm::vec3 across = glm::cross(step, outward);
     const float length = glm::length(across);
     across = length > 1e-4f ? across / length : glm::vec3(1, 0, 0);
-    const float taper =
-        glm::mix(root_part, 1.0f, SmoothStep(0, 0.3f, t)) * SmoothStep(1.02f, 0.55f, t);
+    if (k > 0) along_mm += glm::length(path[i] - path[i - 1]);
+    const float taper = glm::mix(style.root_part, 1.0f, SmoothStep(0, 0.3f, t)) *
+                        glm::mix(1.0f, style.tip_part, SmoothStep(0.5f, 1, t));
     // Less streaked than the hair below, or locks would look like leaves lying on it.
-    const glm::vec3 colour = glm::mix(palette.hair, StrandColour(palette, strand, k), 0.5f);
-    const float shade = open * glm::mix(0.9f, 1.0f, SmoothStep(0, 0.25f, t));
-    const auto add = [&](glm::vec3 p) { return mesh.Add(p, colour, shade, Bone::kSkull); };
-    if (k == last) {
-      mesh.Triangle(Material::kHair, before[0], before[1], add(path[i]));
-      break;
+    const glm::vec3 colour = glm::mix(palette.hair, StrandColour(palette, seed, k), 0.5f) *
+                             glm::mix(1.0f, style.tip_light, t);
+    const float shade = style.open * glm::mix(0.85f, 1.0f, SmoothStep(0, 0.25f, t));
+    const float cover = glm::mix(style.root_cover, 1.0f, SmoothStep(0, 0.16f, t)) *
+                        SmoothStep(1.0f, style.fray_from, t);
+    std::array<std::uint32_t, 2> now{};
+    for (std::size_t edge = 0; edge < 2; ++edge) {
+      const float side = edge == 0 ? -1.0f : 1.0f;
+      const float half = 0.5f * style.width_mm * taper;
+      now[edge] = mesh.Add(path[i] + side * half * across, colour, shade, Bone::kSkull);
+      mesh.strands.back() = {.along = glm::normalize(step + glm::vec3(0, -1e-4f, 0)),
+                             .cover = cover,
+                             .across = side,
+                             .place = {across_mm + side * half, along_mm}};
     }
-    const std::array<std::uint32_t, 2> now = {add(path[i] - across * (0.5f * width * taper)),
-                                              add(path[i] + across * (0.5f * width * taper))};
     if (k > 0) mesh.Quad(Material::kHair, before[0], before[1], now[1], now[0]);
     before = now;
   }

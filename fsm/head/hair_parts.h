@@ -33,9 +33,18 @@ float HairlineElevation(float azimuth);
 /// The colour of one strand: lighter and darker streaks.
 glm::vec3 StrandColour(const Palette& palette, int strand, int row);
 
-/// A lock as a card along `path`, tapering to nothing at its end and narrow at its root.
-void AddLock(std::span<const glm::vec3> path, float width, float root_part, const Palette& palette,
-             int strand, float open, HeadMesh& mesh);
+struct LockStyle {
+  float width_mm;
+  float root_part = 1;     ///< width at the root, as part of the whole
+  float tip_part = 0.5f;   ///< width at the tip
+  float fray_from = 0.6f;  ///< part of the way from which hairs end
+  float root_cover = 0;    ///< how dense the hairs are at the root, 0..1
+  float open = 1;          ///< to the light, 0..1
+  float tip_light = 1.1f;  ///< colour at the tip over that at the root
+};
+/// A lock as a card along `path` that frays at its sides and towards its tip.
+void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Palette& palette,
+             int seed, HeadMesh& mesh);
 
 /// Darkens the skin under and beside the hair's edge, which runs through `edge`.
 void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette& palette,

@@ -25,11 +25,14 @@ enum class Material {
   kGum,
   kTongue,
   kMouthInside,
-  kBrow,
   kLash,
   kHair,
   kCloth
 };
+
+constexpr bool IsHair(Material material) {
+  return material == Material::kHair || material == Material::kLash;
+}
 
 /// One eye at rest. The cap of the ball in Material::kIris is the cornea's outer surface, which
 /// bulges; iris and pupil lie behind it and are drawn by parallax.
@@ -38,7 +41,24 @@ struct EyePlace {
   float ball_radius = 12;
   float iris_radius = 6;
   float pupil_radius = 2;
-  glm::vec3 iris_colour{};  ///< linear RGB
+  glm::vec3 iris_colour{};                      ///< linear RGB
+  glm::vec3 white_colour{0.66f, 0.64f, 0.62f};  ///< of the sclera
+};
+
+/// How hairs run at a vertex of hair, brows or lashes.
+struct Strand {
+  glm::vec3 along{0, -1, 0};  ///< from root to tip at rest, unit
+  float cover = 1;            ///< 1 = dense, 0 = none: hairs thin out where a lock ends
+  float across = 0;           ///< -1..1 over the width of a lock whose sides fray, 0 elsewhere
+  glm::vec2 place{};  ///< millimetres across and along the hairs: which of them are seen here
+};
+
+/// A fine hair that lies on the skin and is painted into its texture: of the brows. Places are
+/// those of HeadTopology::uv.
+struct SkinHair {
+  glm::vec2 root, middle, tip;
+  float width_mm;  ///< at the root; it ends in a point
+  glm::vec3 tint;  ///< factor on the skin's colour
 };
 
 /// The part of a head that never changes while it moves.
@@ -55,6 +75,8 @@ struct HeadTopology {
   /// Per vertex, 0..1, v up: the base identity's rest form unrolled about a vertical axis, with the
   /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows.
   std::vector<glm::vec2> uv;
+  std::vector<SkinHair> skin_hairs;
+  std::vector<Strand> strands;   ///< per vertex, meaningful where there is hair; may be empty
   std::array<EyePlace, 2> eyes;  ///< the agent's right, left
 };
 

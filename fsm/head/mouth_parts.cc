@@ -79,7 +79,7 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
       const float crevice = 0.62f + 0.38f * bump_at[i];
       const glm::vec3 colour =
           palette.tooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
-      const float dark = glm::mix(0.78f, 0.25f, SmoothStep(6, 34, back));
+      const float dark = glm::mix(0.95f, 0.28f, SmoothStep(8, 34, back));
       mesh.Add(p, colour, crevice * dark * (row < 0 ? 0.4f : 1.0f), jaw.bone);
     }
   }

@@ -23,7 +23,7 @@ struct Palette {
   glm::vec3 mouth{0.22f, 0.055f, 0.05f};
   glm::vec3 tongue{0.56f, 0.25f, 0.23f};
   glm::vec3 gum{0.46f, 0.18f, 0.17f};
-  glm::vec3 sclera{0.66f, 0.64f, 0.62f};
+  glm::vec3 sclera{0.74f, 0.725f, 0.71f};
 };
 
 struct Paint {

@@ -11,10 +11,11 @@
 
 namespace fsm {
 
-/// The parts beside the skin. Each adds its vertices for both sides. Cloth, brows and lashes are
+/// The parts beside the skin. Each adds its vertices for both sides. Cloth and lashes are
 /// flesh and must be added before the rigid parts, so that flesh stays one run of vertices.
 void BuildCloth(const Palette& palette, HeadMesh& mesh);
-void BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
+/// Tones the skin under the brows and returns their hairs, which are painted on it.
+std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh);
 
 void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);

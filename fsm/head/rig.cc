@@ -13,6 +13,7 @@ std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b, c
   occlusion.push_back(open);
   bone.push_back(b);
   flesh.push_back(f);
+  strands.push_back({});
   return static_cast<std::uint32_t>(position.size() - 1);
 }
 

@@ -34,7 +34,8 @@ struct HeadMesh {
   std::vector<glm::vec3> albedo;
   std::vector<float> occlusion;
   std::vector<Bone> bone;
-  std::vector<Flesh> flesh;  ///< meaningful where bone is kFlesh
+  std::vector<Flesh> flesh;     ///< meaningful where bone is kFlesh
+  std::vector<Strand> strands;  ///< meaningful where there is hair
 
   struct Batch {
     Material material;

@@ -28,20 +28,6 @@ std::uint64_t ChecksumOf(const HeadTopology& topology) {
   return sum;
 }
 
-glm::vec3 FindCrown(const HeadTopology& topology, const HeadVertices& rest) {
-  const bool hairy = std::ranges::any_of(
-      topology.parts, [](const auto& part) { return part.material == Material::kHair; });
-  glm::vec3 crown(0.0F, -1e9F, 0.0F);
-  for (const auto& part : topology.parts) {
-    if (hairy && part.material != Material::kHair) continue;
-    for (const auto i : std::span(topology.indices).subspan(part.first_index, part.index_count)) {
-      if (rest.position[i].y > crown.y) crown = rest.position[i];
-    }
-  }
-  crown.x = 0;
-  return crown;
-}
-
 }  // namespace
 
 std::uint64_t Checksum(const void* data, std::size_t bytes, std::uint64_t start) {
@@ -117,6 +103,17 @@ void HeadBuffers::UploadTopology(const Head& head) {
   }
   creases.right.resize(paint.size());
   creases.left.resize(paint.size());
+  // Hair has strands where skin has its place and creases.
+  for (const auto& part : topology.parts) {
+    if (!IsHair(part.material)) continue;
+    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+      const auto i = topology.indices[k];
+      const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
+      unrolled[i] = strand.place;
+      creases.right[i] = glm::vec4(strand.along, strand.cover);
+      creases.left[i] = glm::vec4(strand.across, 0, 0, 0);
+    }
+  }
   const auto upload = [this](GLuint attribute, const auto& items) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[attribute]);
     gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(items.size() * sizeof(items[0])),
@@ -130,7 +127,6 @@ void HeadBuffers::UploadTopology(const Head& head) {
   Order(topology, rest);
   eyes_ = EyeFinder(topology, rest);
   shadows_ = ShadowFinder(topology, rest);
-  crown_ = FindCrown(topology, rest);
   eye_place_ = topology.eyes[0];
   ++generation_;
 }

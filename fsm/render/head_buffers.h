@@ -39,8 +39,6 @@ class HeadBuffers {
   const EyePlace& eye_place() const { return eye_place_; }
   /// Counts the heads uploaded so far, so that what depends on the head is noticed to be old.
   int generation() const { return generation_; }
-  /// Highest point of the hair (of the whole head if it has none), at rest: where strands begin.
-  glm::vec3 crown() const { return crown_; }
 
  private:
   void UploadTopology(const Head& head);
@@ -48,8 +46,9 @@ class HeadBuffers {
 
   const GlFunctions& gl_;
   GLuint array_ = 0;
-  // Position, normal, rest position, colour and occlusion, unrolled place, creases of the right and
-  // of the left side; indices.
+  // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
+  // the right and of the left side; of hair its place among hairs, direction and cover, place
+  // across its lock; indices.
   static constexpr GLuint kAttributes = 7;
   GLuint buffers_[kAttributes + 1] = {};
   const Head* head_ = nullptr;
@@ -57,7 +56,6 @@ class HeadBuffers {
   std::vector<HeadTopology::Part> parts_;
   EyeFinder eyes_;
   ShadowFinder shadows_;
-  glm::vec3 crown_{0.0F};
   EyePlace eye_place_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins

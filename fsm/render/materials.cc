@@ -200,7 +200,6 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   }
   gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
   gl_.UseProgram(hair_.id());
-  gl_.Uniform3fv(hair_.Uniform("crown"), 1, glm::value_ptr(head.crown()));
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
   if (head.eyes().found()) SetEyes(view, head, vertices);
@@ -235,21 +234,18 @@ void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVer
                        plane * scale, 0.0F);
   gl_.Uniform4fv(eye_.Uniform("iris"), 1, glm::value_ptr(iris));
   gl_.Uniform3fv(eye_.Uniform("iris_color"), 1, glm::value_ptr(place.iris_colour));
+  gl_.Uniform3fv(eye_.Uniform("white_color"), 1, glm::value_ptr(place.white_colour));
   gl_.Uniform1f(eye_.Uniform("figure_scale"), scale);
 }
 
 void Materials::Use(Material material) {
   switch (material) {
     case Material::kSclera:
-      return UseEye(0.0F);
     case Material::kIris:
-      return UseEye(1.0F);
     case Material::kPupil:
-      return UseEye(2.0F);
+      return gl_.UseProgram(eye_.id());
     case Material::kHair:
       return UseHair(1.0F, 1.0F);
-    case Material::kBrow:
-      return UseHair(0.6F, 0.25F);
     case Material::kLash:
       return UseHair(0.0F, 0.0F);
     default:
@@ -270,11 +266,6 @@ void Materials::Use(Material material) {
     Bind(skin ? kSkinTint : kPlain, GL_TEXTURE1);
     Bind(skin ? kSkinRelief : surface.planar > 0 ? kWeave : kPlain, GL_TEXTURE2);
   }
-}
-
-void Materials::UseEye(float layer) {
-  gl_.UseProgram(eye_.id());
-  gl_.Uniform1f(eye_.Uniform("layer"), layer);
 }
 
 void Materials::UseHair(float streaks, float shine) {

@@ -35,7 +35,6 @@ class Materials {
   void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
   void Bind(Texture texture, GLenum unit);
   void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices);
-  void UseEye(float layer);
   void UseHair(float streaks, float shine);
 
   const GlFunctions& gl_;

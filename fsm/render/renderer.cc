@@ -20,10 +20,7 @@ namespace {
 constexpr glm::vec4 kLineColor{0.10F, 0.55F, 0.42F, 1.0F};
 constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 1.0F};
 
-bool IsSheet(Material material) {
-  return material == Material::kHair || material == Material::kBrow ||
-         material == Material::kLash || material == Material::kMouthInside;
-}
+bool IsSheet(Material material) { return IsHair(material) || material == Material::kMouthInside; }
 
 class GlRenderer : public Renderer {
  public:
@@ -82,8 +79,14 @@ class GlRenderer : public Renderer {
         // What is nearest is found first, so that the figure fades as a whole and its inside,
         // back and hidden layers never shine through.
         gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        materials_.UseLine(glm::vec4(0.0F));
-        for (const auto& part : parts) DrawPart(part);
+        for (const auto& part : parts) {
+          if (IsHair(part.material)) {
+            materials_.Use(part.material);  // hair has holes
+          } else {
+            materials_.UseLine(glm::vec4(0.0F));
+          }
+          DrawPart(part);
+        }
         gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         gl_.DepthFunc(GL_EQUAL);
         BeginBlending();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "fsm/render/skin_map.h"
@@ -34,5 +35,8 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceMarks& marks)
 float CreaseHeight(const glm::vec3& place, const FaceMarks& marks);
 /// False where no crease is within a few millimetres.
 bool MayCrease(const glm::vec3& place, const FaceMarks& marks);
+
+/// Draws hairs into the tint, each a bent line that ends in a point.
+void PaintHairs(std::span<const SkinHair> hairs, SkinTexture& out);
 
 }  // namespace fsm

@@ -101,7 +101,7 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceMarks& m) {
       const float corner = Bell(side - m.endocanthion[1].x + 1, 5) * Bell(p.y - eye_y + 1, 7);
       t *= 1.0F - below * glm::vec4(0.10F, 0.135F, 0.08F, 0.3F) -
            lid * glm::vec4(0.05F, 0.13F, 0.11F, -0.2F) -
-           corner * glm::vec4(0.09F, 0.19F, 0.16F, 0.2F);
+           corner * glm::vec4(0.04F, 0.09F, 0.08F, 0.2F);
       const float forehead = Bell(side, 34) * Smooth(m.nasion.y + 8, m.nasion.y + 22, p.y);
       const float bridge = Bell(side, 7) * Smooth(m.subnasale.y, m.nasion.y, p.y) *
                            Smooth(m.nasion.y + 6, m.nasion.y - 4, p.y);

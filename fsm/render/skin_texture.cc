@@ -270,6 +270,7 @@ SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
   upper.join();
   PaintFreckles(map, marks, out);
   PaintVessels(map, marks, out);
+  PaintHairs(topology.skin_hairs, out);
   return out;
 }
 

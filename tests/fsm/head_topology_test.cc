@@ -36,9 +36,43 @@ TEST(HeadTopologyTest, EveryPartOfAFaceIsThereWithinTheBudget) {
   const HeadTopology& topology = GenericHead().topology();
   std::set<Material> found;
   for (const HeadTopology::Part& part : topology.parts) found.insert(part.material);
-  EXPECT_EQ(found.size(), 13u);
+  EXPECT_EQ(found.size(), 12u);
   EXPECT_GT(topology.indices.size() / 3, 8000u);
-  EXPECT_LT(topology.indices.size() / 3, 24000u);
+  EXPECT_LT(topology.indices.size() / 3, 18000u);
+}
+
+TEST(HeadTopologyTest, BrowsAreHairsAboveBothEyes) {
+  const HeadTopology& topology = GenericHead().topology();
+  std::array<int, 2> hairs{};
+  for (const SkinHair& hair : topology.skin_hairs) {
+    for (const glm::vec2 p : {hair.root, hair.middle, hair.tip}) {
+      ASSERT_TRUE(p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1) << p.x << ' ' << p.y;
+      ASSERT_GT(p.y, (22.3f + 200) / 340) << "below the pupils";
+    }
+    ASSERT_GT(hair.width_mm, 0);
+    ++hairs[hair.root.x < 0.5f ? 0 : 1];
+  }
+  EXPECT_GT(hairs[0], 100);
+  EXPECT_GT(hairs[1], 100);
+}
+
+TEST(HeadTopologyTest, HairThinsOutOnlyWhereLocksEnd) {
+  const HeadTopology& topology = GenericHead().topology();
+  ASSERT_EQ(topology.strands.size(), topology.albedo.size());
+  std::size_t dense = 0, gone = 0, all = 0;
+  for (const HeadTopology::Part& part : topology.parts) {
+    if (part.material != Material::kHair) continue;
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      const Strand& strand = topology.strands[topology.indices[part.first_index + k]];
+      ASSERT_NEAR(glm::length(strand.along), 1, 1e-3);
+      ASSERT_TRUE(strand.cover >= 0 && strand.cover <= 1) << strand.cover;
+      ++all;
+      dense += strand.cover > 0.95f ? 1 : 0;
+      gone += strand.cover < 0.2f ? 1 : 0;
+    }
+  }
+  EXPECT_GT(dense, all / 2);
+  EXPECT_GT(gone, all / 50);
 }
 
 TEST(HeadTopologyTest, PaintAndOcclusionAreInRange) {
@@ -72,7 +106,7 @@ TEST(HeadTopologyTest, TrianglesFaceOutward) {
   int all = 0;
   for (const HeadTopology::Part& part : topology.parts) {
     if (part.material != Material::kSkin && part.material != Material::kSclera &&
-        part.material != Material::kIris && part.material != Material::kBrow) {
+        part.material != Material::kIris) {
       continue;
     }
     for (std::uint32_t k = 0; k < part.index_count; k += 3) {

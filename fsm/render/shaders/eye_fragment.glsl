@@ -1,18 +1,16 @@
-// Eyeballs: `layer` 0 = white, 1 = cornea with the iris behind it, 2 = pupil. Everything is seen
-// through a wet surface whose highlight is drawn here, from a sphere of its own, so that it is round
-// whatever the mesh.
+// Eyeballs: white, iris and pupil are all found per pixel, so that they are round whatever the mesh.
+// Everything is seen through a wet surface whose highlight comes from a sphere of its own.
 in vec3 world_position;
-in vec3 albedo;
 in float occlusion;
 
 uniform float alpha;
 uniform sampler2D noise;
-uniform float layer;
 uniform vec4 ball[2];    // centre in world coordinates, radius; left of the picture, right
 uniform vec3 gaze[2];    // unit, from the ball's centre through the pupil
 uniform vec4 lids[2];    // world y of the upper and the lower rim at the pupil, unused
 uniform vec4 iris;       // radius, pupil's part of it, how far its plane lies before the centre, 0
 uniform vec3 iris_color;
+uniform vec3 white_color;
 uniform float figure_scale;
 
 out vec4 color;
@@ -48,34 +46,32 @@ void main() {
 
   vec3 across_right = normalize(cross(vec3(0.0, 1.0, 0.0), axis) + vec3(1e-5, 0.0, 0.0));
   vec3 across_up = cross(axis, across_right);
-  vec3 base = albedo;
-  float r = r_surface;
-  if (layer > 0.5) {
+  // Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
+  float corner = smoothstep(0.30, 1.0, abs(n.x - axis.x));
+  vec3 base = white_color * mix(vec3(1.0), vec3(0.95, 0.76, 0.70), corner);
+  base *= mix(0.60, 1.0, smoothstep(1.0, 1.18, r_surface));
+  float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
+  base *= 1.0 - vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
+  float edge = smoothstep(1.06, 0.98, r_surface);
+  if (edge > 0.0) {
     // The line of sight bends at the cornea and meets the plane of the iris behind it.
     vec3 ray = refract(-v, wet, 1.0 / 1.336);
     float depth = dot(from_centre, axis) - iris.z;
     vec3 hit = from_centre + ray * (max(depth, 0.0) / max(-dot(ray, axis), 0.2));
     vec2 p = vec2(dot(hit, across_right), dot(hit, across_up)) / iris.x;
-    r = length(p);
+    float r = length(p);
     vec3 l = lamp_directions[0];
-    base = Iris(p, r, dot(p / max(r, 1e-3), vec2(dot(l, across_right), dot(l, across_up))));
-    if (layer > 1.5) base = vec3(0.003);
+    vec3 inner = Iris(p, r, dot(p / max(r, 1e-3), vec2(dot(l, across_right), dot(l, across_up))));
     // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
-    base = mix(base, albedo.r > 0.4 ? albedo * 0.3 : vec3(0.10, 0.09, 0.085), smoothstep(1.0, 1.12, r));
-  } else {
-    // Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
-    float corner = smoothstep(0.25, 0.95, abs(n.x - axis.x));
-    base *= mix(vec3(1.0), vec3(0.92, 0.70, 0.64), corner);
-    base *= mix(0.30, 1.0, smoothstep(0.94, 1.20, r));
-    float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
-    base *= 1.0 - vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r);
+    inner = mix(inner, white_color * 0.3, smoothstep(1.0, 1.12, r));
+    base = mix(base, inner, edge);
   }
 
   // The upper lid and its lashes shade the ball below them.
   float below_lid = (lids[side].x - world_position.y) / figure_scale;
   float above_lower = (world_position.y - lids[side].y) / figure_scale;
-  float shade = mix(0.30, 1.0, smoothstep(-0.5, 3.4, below_lid)) *
-                mix(0.62, 1.0, smoothstep(-0.5, 1.6, above_lower));
+  float shade = mix(0.42, 1.0, smoothstep(-0.5, 3.0, below_lid)) *
+                mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
   vec3 light = Ambient(n) * 0.9;
   light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;

@@ -1,4 +1,5 @@
 in vec2 streak_place;
+in vec2 fray;
 in vec3 light;
 in vec3 key_light;
 in vec3 tilt;
@@ -12,6 +13,9 @@ out vec4 color;
 
 void main() {
   vec4 fine = texture(strands, streak_place) - 0.5;
+  // Where hair thins out some hairs are gone and some are left.
+  float cover = fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
+  if (cover < 0.5 - fine.a) discard;
   float streak = (0.8 * fine.a + 1.1 * fine.b) * streaks;
   // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
   // surface towards the root, light that went through and took its colour towards the tip.

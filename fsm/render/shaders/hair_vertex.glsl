@@ -1,8 +1,12 @@
-// Hair, brows and lashes. Strands fall in planes through a vertical axis under the crown.
-uniform vec3 crown;          // at rest
+// Hair, brows and lashes.
+layout(location = 4) in vec2 among_hairs;       // millimetres across and along
+layout(location = 5) in vec4 along_and_cover;   // direction at rest, 1 = dense .. 0 = none
+layout(location = 6) in float across_lock;      // -1..1
+
 uniform mat3 rest_to_world;  // how the head is turned
 
 out vec2 streak_place;
+out vec2 fray;      // cover, place across the lock
 out vec3 light;     // scattered, with the hair's colour
 out vec3 key_light; // of the key lamp alone, with the hair's colour
 out vec3 tilt;      // of the half vector along the strand and along the normal; light gone through
@@ -11,17 +15,15 @@ void main() {
   vec3 world = Place();
   vec3 n = WorldNormal();
   vec3 v = normalize(eye - world);
-  // Sheets are seen from both sides.
-  if (dot(n, v) < 0.0) n = -n;
+  // Sheets are seen from both sides; at the outline they keep the side they face.
+  n -= 2.0 * min(dot(n, v), 0.0) * v;
   vec3 albedo = albedo_occlusion.rgb;
   float occlusion = albedo_occlusion.a;
 
-  vec3 from_crown = rest_position - crown;
-  vec2 around = from_crown.xz / (length(from_crown.xz) + 1e-3);
-  vec3 side = rest_to_world * vec3(-around.y, 0.0, around.x);
-  vec3 strand = normalize(cross(n, side) + n * 1e-4);
-  // Once round the head is a whole number of tiles, so that both ends meet, over the forehead.
-  streak_place = vec2(atan(around.x, -around.y) * (2.0 / 6.2831853), length(from_crown) * 0.0039);
+  vec3 strand = rest_to_world * along_and_cover.xyz;
+  strand = normalize(strand - n * dot(strand, n) + n * 1e-4);
+  streak_place = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
+  fray = vec2(along_and_cover.w, across_lock);
 
   // Light falls on a strand by the sine of its angle to it (Kajiya and Kay 1989).
   float shadow = mix(occlusion, 1.0, 0.25) * mix(KeyShadow(world), 1.0, 0.3);

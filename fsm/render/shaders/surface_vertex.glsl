@@ -57,7 +57,7 @@ void main() {
   float g4 = g * g * g * g;
   float away = 1.0 - max(dot(n, v), 0.0);
   shine.z = (lamp_colors[1].g * 0.03 * g4 * g4 * g4 * g4 +
-             (lamp_colors[2].g * 0.10 + Ambient(n).g * 0.12) * away * away * away) *
+             (lamp_colors[2].g * 0.05 + Ambient(n).g * 0.09) * away * away * away) *
             occlusion * occlusion * sheen;
 
   light = albedo * total * (1.0 - 0.12 * crease);
