@@ -82,6 +82,8 @@ class LongHair {
       p +=
           out * (full + wave - glm::mix(17.0f, 30.0f, SmoothStep(0, 0.6f, i)) * hang * hang * hang);
       p.z += front * 8 * hang * (1 - 0.4f * hang);
+      // At the face it follows the cheek.
+      p.x -= side * front * 5.0f * std::sin(std::min(1.0f, 1.5f * hang) * kPi * 0.5f);
     }
     return p;
   }
@@ -108,8 +110,8 @@ class LongHair {
 
   void Shell(float side) {
     constexpr int kStrands = 20;
-    constexpr int kCapRows = 9;  // the skull is round, what hangs nearly straight
-    constexpr int kRows = 13;
+    constexpr int kCapRows = 10;  // the skull is round, what hangs nearly straight
+    constexpr int kRows = 14;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Closer together at the face, where the edge is seen.

@@ -119,7 +119,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (int i = 0; i < kAlong; ++i) {
     const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
-    const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 3.2f)));
+    const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 2.2f)));
     const float half_width = 17 * taper * (0.8f + 0.2f * part) + 0.2f;
     const float height = 7.0f * taper + 0.1f;
     const float z = glm::mix(tip_z - 46, tip_z, std::sin(part * kPi / 2));
@@ -129,7 +129,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       const float groove = 1.4f * taper * std::pow(std::max(0.0f, std::sin(around)), 8.0f);
       const glm::vec3 p(half_width * std::cos(around),
                         base_y + rise + height * std::sin(around) - groove, z);
-      const float open = 0.12f + 0.55f * SmoothStep(0.2f, 1, part);
+      const float open = 0.14f + 0.72f * SmoothStep(0.2f, 1, part);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
       mesh.Add(p, palette.tongue, open, Bone::kTongue, flesh);

@@ -36,7 +36,7 @@ float CreaseHeight(const glm::vec3& p, const FaceMarks& m) {
   // Glabella: two upright lines between the brows, one across the root of the nose.
   const float between = Bell(p.y - (m.nasion.y + 10), 9);
   height += 0.9F * Crease(side - 6.5F - 0.10F * (p.y - m.nasion.y), 1.1F) * between;
-  height += 0.6F * Crease(p.y - m.nasion.y + 1.5F, 1.1F) * Bell(side, 8);
+  height += 0.3F * Crease(p.y - m.nasion.y + 1.5F - 0.035F * side * side, 1.7F) * Bell(side, 5);
   // Crow's feet: three lines fanning out from the outer corner of the eye.
   const glm::vec2 out(side - m.exocanthion[1].x - 2, p.y - m.exocanthion[1].y + 0.5F);
   if (out.x > -2) {

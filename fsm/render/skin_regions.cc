@@ -99,7 +99,7 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceMarks& m) {
       const float below = Bell(p.y - (eye_y - 10), 5.5F) * Bell(from_pupil, 1);
       const float lid = Bell(p.y - (eye_y + 6.5F), 5) * Bell(from_pupil, 1.1F);
       const float corner = Bell(side - m.endocanthion[1].x + 1, 5) * Bell(p.y - eye_y + 1, 7);
-      t *= 1.0F - below * glm::vec4(0.10F, 0.135F, 0.08F, 0.3F) -
+      t *= 1.0F - below * glm::vec4(0.04F, 0.055F, 0.03F, 0.3F) -
            lid * glm::vec4(0.05F, 0.13F, 0.11F, -0.2F) -
            corner * glm::vec4(0.04F, 0.09F, 0.08F, 0.2F);
       const float forehead = Bell(side, 34) * Smooth(m.nasion.y + 8, m.nasion.y + 22, p.y);

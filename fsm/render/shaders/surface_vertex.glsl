@@ -32,7 +32,7 @@ void main() {
   float root = sqrt(occlusion);
   vec3 open = vec3(1.0, sqrt(root), root) * occlusion;
   vec3 shadow = vec3(KeyShadow(world));
-  shadow.gb *= shadow.gb * 0.15 + 0.85;
+  shadow.gb *= shadow.gb * 0.08 + 0.92;
 
   // The edge of the shadow is warm: there most of what is seen went some way under the skin.
   float n_dot_l = dot(n, lamp_directions[0]);
