@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "ssm/voice/pronounced_text.h"
 #include "ssm_stub/english_rules.h"
 #include "ssm_stub/japanese_rules.h"
 #include "ssm_stub/phoneme_table.h"
@@ -196,7 +197,7 @@ class RuleEngine final : public ssm::SpeechEngine {
     std::vector<std::vector<Token>> tokens;
     std::vector<Token> all;
     for (const ssm::SpeechSpan& span : spans) {
-      tokens.push_back(Tokens(Decode(span.text)));
+      tokens.push_back(Tokens(Decode(ssm::AsWritten(span.text))));
       all.insert(all.end(), tokens.back().begin(), tokens.back().end());
     }
     Speller speller(IsJapanese(all));

@@ -16,6 +16,7 @@
 #include "ssm/engines/piece_engine.h"
 #include "ssm/process/child_process.h"
 #include "ssm/voice/phoneme_map.h"
+#include "ssm/voice/pronounced_text.h"
 #include "ssm/voice/resample.h"
 #ifdef SSM_HAS_MECAB
 #include "ssm/japanese/reader.h"
@@ -32,6 +33,11 @@ struct Script {
   std::string text;
   std::vector<std::string> words;  // empty: as in `text`
   std::string unspoken;
+  struct Pronounced {
+    std::size_t first, last;  // characters of `text`
+    std::string written;
+  };
+  std::vector<Pronounced> pronounced{};
 };
 
 struct Answer {
@@ -59,6 +65,12 @@ std::size_t ByteOf(std::string_view text, std::size_t character) {
     if (begins && character-- == 0) break;
   }
   return at;
+}
+
+std::size_t Characters(std::string_view text) {
+  std::size_t count = 0;
+  for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0) != 0x80 ? 1 : 0;
+  return count;
 }
 
 vm::Error BadAnswer(const std::string& what) {
@@ -185,11 +197,12 @@ class EspeakEngine final : public PieceEngine {
   const std::vector<VoiceInfo>& voices() const override { return voices_; }
 
  protected:
+  bool TakesPronunciations() const override { return true; }
   vm::Result<Piece> Speak(const SpeechSpan& span, const std::atomic<bool>& cancelled) override {
     const std::lock_guard lock(mutex_);
     const auto index = IndexOf(span.voice);
     const bool japanese = voices_[index].language == "ja";
-    auto script = japanese ? ReadJapanese(span.text) : Script{span.text, {}, {}};
+    auto script = japanese ? ReadJapanese(AsWritten(span.text)) : WithMnemonics(span.text);
     if (!script) return std::unexpected(script.error());
     if (script->text.empty()) return Piece{.unspoken = script->unspoken};
     const int wpm = static_cast<int>(std::clamp(kWordsPerMinute / span.stretch, 80.0, 450.0));
@@ -231,6 +244,26 @@ class EspeakEngine final : public PieceEngine {
 #endif
   }
 
+  /// Pronunciations in brackets, as espeak-ng reads them: [[h@l'oU]]. Brackets of the text's own
+  /// are parted.
+  static vm::Result<Script> WithMnemonics(const std::string& text) {
+    Script script;
+    for (const TextPiece& piece : CutPronounced(text)) {
+      const auto mnemonics = IpaForEspeak(piece.ipa);
+      if (!piece.ipa.empty() && mnemonics) {
+        const std::size_t begin = Characters(script.text);
+        script.text += "[[" + *mnemonics + "]]";
+        script.pronounced.push_back({begin, Characters(script.text), piece.text});
+        continue;
+      }
+      for (const char c : piece.text) {
+        if (c == '[' && script.text.ends_with('[')) script.text += ' ';
+        script.text += c;
+      }
+    }
+    return script;
+  }
+
   Piece MakePiece(const Answer& answer, const Script& script, const PhonemeMap& map) const {
     Piece piece{.phonemes = map.Map(answer.phonemes), .unspoken = script.unspoken};
     piece.samples = Resample(answer.samples, answer.rate, kSampleRateHz);
@@ -243,6 +276,9 @@ class EspeakEngine final : public PieceEngine {
           i < script.words.size()
               ? script.words[i]
               : script.text.substr(begin, ByteOf(script.text, word.character + word.count) - begin);
+      for (const auto& [first, last, written] : script.pronounced) {
+        if (word.character >= first && word.character < last) text = written;
+      }
       piece.words.push_back({std::move(text), std::min(word.at, end), std::min(next, end)});
     }
     return piece;

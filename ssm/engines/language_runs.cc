@@ -29,6 +29,10 @@ constexpr std::array<Range, 14> kRanges = {{{'A', 'Z', Script::kLatin},
                                             {0xAC00, 0xD7A3, Script::kHangul},
                                             {0xF900, 0xFAFF, Script::kHan}}};
 
+// See ssm/voice/pronounced_text.h.
+constexpr std::uint32_t kPronouncedBegin = 0xE000;
+constexpr std::string_view kPronouncedEnd = "\xEE\x80\x82";
+
 Script ScriptOf(std::uint32_t code) {
   if (code == 0xD7 || code == 0xF7 || code == 0x30FB) return Script::kNone;
   for (const Range& range : kRanges) {
@@ -113,6 +117,13 @@ std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view 
   for (std::string_view rest = text; !rest.empty();) {
     const Character c = Front(rest);
     const std::string_view written = rest.substr(0, c.bytes);
+    if (c.code == kPronouncedBegin) {  // such a word goes with what is before it
+      const std::size_t end = rest.find(kPronouncedEnd);
+      const std::size_t bytes = end == rest.npos ? c.bytes : end + kPronouncedEnd.size();
+      (runs.empty() ? leading : runs.back().text) += rest.substr(0, bytes);
+      rest.remove_prefix(bytes);
+      continue;
+    }
     const Script script = ScriptOf(c.code);
     const bool word_begins =
         script == Script::kLatin &&

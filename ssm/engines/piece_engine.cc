@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "ssm/flite/ascii_text.h"
+#include "ssm/voice/pronounced_text.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace ssm {
@@ -116,7 +117,8 @@ vm::Result<SpeechPlan> PieceEngine::Plan(const std::vector<SpeechSpan>& spans,
     joiner.Pause(span.pause_before);
     joiner.Mark(span.mark);
     SpeechSpan sentence = span;
-    for (std::string& text : Sentences(span.text)) {
+    const std::string said = TakesPronunciations() ? span.text : AsWritten(span.text);
+    for (std::string& text : Sentences(said)) {
       if (cancelled) return vm::Fail(vm::Errc::kStopped, "stopped while the text was prepared");
       sentence.text = std::move(text);
       auto piece = Speak(sentence, cancelled);

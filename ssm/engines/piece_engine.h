@@ -28,6 +28,9 @@ class PieceEngine : public SpeechEngine {
   bool Prompt(const std::vector<SpeechSpan>&) const final { return false; }
 
  protected:
+  /// True if Speak understands words with a pronunciation of their own (pronounced_text.h); else it
+  /// gets them as they are written.
+  virtual bool TakesPronunciations() const { return false; }
   /// `span.text` is one sentence, not blank; volume is seen to by the caller. Phonemes and sound
   /// need not have the very same length: the phonemes count.
   virtual vm::Result<Piece> Speak(const SpeechSpan& span, const std::atomic<bool>& cancelled) = 0;

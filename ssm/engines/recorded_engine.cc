@@ -7,6 +7,7 @@
 
 #include "ssm/engines/command_engine.h"
 #include "ssm/engines/wav_piece.h"
+#include "ssm/voice/utterance.h"
 
 namespace ssm {
 namespace {
@@ -66,24 +67,17 @@ class RecordedEngine final : public PieceEngine {
   vm::Result<Piece> Prepare(const Recording& recording, const std::atomic<bool>& cancelled) {
     auto samples = ReadSoundFile(recording.wav);
     if (!samples) return std::unexpected(samples.error());
-    auto piece = ReadInfo(recording.wav + ".info");
-    if (!piece) piece = aligner_.Align(recording.wav, recording.text, cancelled);
+    const auto info = ReadInfo(recording.wav);
+    vm::Result<Piece> piece = Piece{};
+    if (info && !info->phonemes.empty())
+      piece->phonemes = info->phonemes;
+    else
+      piece = aligner_.Align(recording.wav, recording.text, cancelled);
     if (!piece) return piece;
     piece->samples = std::move(*samples);
     FitToSound(piece->phonemes, piece->samples);
     if (piece->words.empty()) piece->words = GuessWords(recording.text, piece->phonemes);
     return piece;
-  }
-
-  static vm::Result<Piece> ReadInfo(const std::string& path) {
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-      if (!line.starts_with("phonemes: ")) continue;
-      auto list = vm::ParsePhonemes(std::string_view(line).substr(10));
-      if (!list) return std::unexpected(list.error());
-      return Piece{.phonemes = std::move(*list)};
-    }
-    return vm::Fail(vm::Errc::kUnavailable, "no phonemes in '" + path + "'");
   }
 
   const RecordedOptions options_;

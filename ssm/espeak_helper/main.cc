@@ -75,8 +75,9 @@ std::string Say(const std::string& voice, int wpm, int pitch, const std::string&
   espeak_SetParameter(espeakRATE, wpm, 0);
   espeak_SetParameter(espeakPITCH, pitch, 0);
   g_sound = &sound;
-  const auto said = espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0,
-                                 espeakCHARS_UTF8 | espeakENDPAUSE, nullptr, nullptr);
+  const auto said =
+      espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0,
+                   espeakCHARS_UTF8 | espeakENDPAUSE | espeakPHONEMES, nullptr, nullptr);
   return said == EE_OK ? "" : "espeak-ng could not speak the text";
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "ssm/voice/pronounced_text.h"
 #include "ssm/voice/span_builder.h"
 
 namespace ssm {
@@ -139,9 +140,7 @@ class Reader {
     if (name == "p" || name == "s") return Paragraph(element, name == "p" ? 400 : 200, depth);
     if (name == "audio" && element.Attribute("src"))
       return builder_.Audio(Attribute(element, "src"));
-    if (name == "phoneme" && IsKanaReading(Attribute(element, "ph"))) {
-      return Text(Attribute(element, "ph"));
-    }
+    if (name == "phoneme" && Phoneme(element)) return;
     if (name == "say-as") return SayAs(element, depth);
     const SpeechSpan before = builder_.manner();
     SpeechSpan manner = before;
@@ -151,6 +150,23 @@ class Reader {
     builder_.SetManner(manner);
     Children(element, depth);
     builder_.SetManner(before);
+  }
+
+  /// False if its pronunciation cannot be read: then what it holds is spoken.
+  bool Phoneme(const XMLElement& element) {
+    const std::string ph = Attribute(element, "ph"), alphabet = Attribute(element, "alphabet");
+    const char* text = element.GetText();
+    if (IsKanaReading(ph)) {
+      Text(ph);
+      return true;
+    }
+    vm::Result<std::string> ipa = ph;
+    if (alphabet == "x-sampa") ipa = IpaOfSampa(ph);
+    if (alphabet == "x-arpabet" || alphabet == "x-cmu") ipa = IpaOfArpabet(ph);
+    if (!ipa || !IpaForFlite(*ipa) || text == nullptr) return false;
+    builder_.Text(text, Pronounced(*ipa, text));
+    blank_ = false;
+    return true;
   }
 
   void Break(const XMLElement& element) {
@@ -224,7 +240,8 @@ vm::Result<TaggedText> ParseSsml(std::string_view text) {
   return Reader().Read(*document.RootElement());
 }
 
-vm::Result<TaggedText> ReadMarkup(std::string_view text) {
+vm::Result<TaggedText> ReadMarkup(std::string_view raw) {
+  const std::string text = WithoutPronunciationMarks(raw);
   if (IsSsml(text)) return ParseSsml(text);
   return ParseTaggedText(text);
 }

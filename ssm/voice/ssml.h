@@ -18,7 +18,9 @@ bool IsSsml(std::string_view text);
 ///   say-as interpret-as: characters, spell-out, digits, telephone; others are read as they are
 ///   audio src    the file is played; what it holds is spoken if there is no src
 ///   voice name   a speaker; voice and lang xml:lang are obeyed by script only
-///   phoneme ph with alphabet="kana" or kana in ph: that reading; else what it holds
+///   phoneme ph in IPA (alphabet ipa or none), x-sampa, x-arpabet, or kana: that pronunciation
+///                where the engine can (flite, espeak-ng; kana: Japanese); what cannot be read is
+///                spoken as it is written
 /// Unknown elements are left out, what they hold is spoken; metadata is not. Numbers beyond the
 /// ranges of TaggedText are taken to their end.
 /// Errors: kSyntax with line and reason for broken XML, entities declared, depth over 64.

@@ -32,9 +32,12 @@ vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& pa
   auto saved = format == SoundFormat::kWav ? WriteWav(path, samples) : WriteRaw(path, samples);
   if (!saved) return saved;
   std::ofstream info(path + ".info", std::ios::trunc);
-  info << "text: " << utterance.text
-       << "\nphonemes: " << vm::FormatPhonemesVoice(utterance.plan.phonemes)
-       << "\nduration: " << utterance.duration().count() << "\n";
+  info << "input_text: " << utterance.text << "\nspoken_text: " << utterance.spoken_text
+       << "\n-----\n";
+  for (const vm::Phoneme& phoneme : utterance.plan.phonemes) {
+    info << phoneme.name << " [" << phoneme.duration.count() << "]\n";
+  }
+  info << "-----\n";
   info.close();
   if (!info) {
     return std::unexpected(InfoError(vm::Errc::kUnavailable, path, std::strerror(errno)));
@@ -56,26 +59,47 @@ vm::Result<void> SaveLabels(const Utterance& utterance, const std::string& path)
   return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + path + "': " + std::strerror(errno));
 }
 
-vm::Result<std::shared_ptr<Utterance>> LoadUtterance(const std::string& path, SoundFormat format) {
-  auto samples = format == SoundFormat::kWav ? ReadWav(path) : ReadRaw(path);
-  if (!samples) return std::unexpected(samples.error());
+vm::Result<InfoFile> ReadInfo(const std::string& path) {
   std::ifstream info(path + ".info");
   if (!info) {
     return std::unexpected(
         InfoError(vm::Errc::kUnavailable, path,
-                  std::string(std::strerror(errno)) + "; it must hold 'phonemes: NAME[MS] ...'"));
+                  std::string(std::strerror(errno)) + "; it must hold the phonemes, NAME [MS]"));
   }
-  auto loaded = std::make_shared<Utterance>();
-  for (std::string line; std::getline(info, line);) {
+  InfoFile read;
+  std::string list;
+  int rules = 0;
+  for (std::string line; std::getline(info, line) && rules < 2;) {
     if (line.ends_with('\r')) line.pop_back();
-    if (line.starts_with("text: ")) loaded->text = loaded->spoken_text = line.substr(6);
-    if (!line.starts_with("phonemes: ")) continue;
-    auto phonemes = vm::ParsePhonemes(std::string_view(line).substr(10));
-    if (!phonemes) {
-      return std::unexpected(InfoError(phonemes.error().code, path, phonemes.error().text));
+    if (line.starts_with('-')) {
+      ++rules;
+    } else if (line.starts_with("phonemes: ")) {  // on one line, as we wrote them once
+      list = line.substr(10);
+    } else if (rules == 1) {
+      list += line + " ";
+    } else if (line.starts_with("input_text: ")) {
+      read.text = read.spoken_text = line.substr(12);
+    } else if (line.starts_with("spoken_text: ")) {
+      read.spoken_text = line.substr(13);
     }
-    loaded->plan.phonemes = std::move(*phonemes);
   }
+  auto phonemes = vm::ParsePhonemes(list);
+  if (!phonemes) {
+    return std::unexpected(InfoError(phonemes.error().code, path, phonemes.error().text));
+  }
+  read.phonemes = std::move(*phonemes);
+  return read;
+}
+
+vm::Result<std::shared_ptr<Utterance>> LoadUtterance(const std::string& path, SoundFormat format) {
+  auto samples = format == SoundFormat::kWav ? ReadWav(path) : ReadRaw(path);
+  if (!samples) return std::unexpected(samples.error());
+  auto info = ReadInfo(path);
+  if (!info) return std::unexpected(info.error());
+  auto loaded = std::make_shared<Utterance>();
+  loaded->text = std::move(info->text);
+  loaded->spoken_text = std::move(info->spoken_text);
+  loaded->plan.phonemes = std::move(info->phonemes);
   const Millis said = loaded->duration();
   const Millis heard = ToMs(samples->size());
   if (loaded->plan.phonemes.empty() || abs(said - heard) > kMaxMismatch) {

@@ -1,8 +1,13 @@
 // What the voice module writes to files and reads from them.
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 #include <utility>
 
+#include "ssm/voice/parsed_text.h"
+#include "ssm/voice/prosody.h"
 #include "ssm/voice/ssml.h"
 #include "ssm/voice/voice_module.h"
 
@@ -38,6 +43,49 @@ void VoiceModule::Load(const std::string& path, SoundFormat format, const vm::Re
   slots_.Store("Speak.text", utterance_->spoken_text);
   ReportPhonemes();
   MakeReady(reply, path);
+}
+
+// --- the original's files of intonation and of analyses made by hand
+
+void VoiceModule::SavePros(const std::string& path, SoundFormat, const vm::Reply& reply) {
+  if (!utterance_) {
+    return reply.Fail({vm::Errc::kBusy, "there is nothing to save; set Text first", 0});
+  }
+  auto save = [path, reply, utterance = utterance_] {
+    if (auto saved = WriteProsody(ProsodyOf(*utterance), path); !saved) {
+      return reply.Fail(saved.error());
+    }
+    reply.Ok(path);
+  };
+  if (utterance_->samples->complete()) return save();
+  waiting_for_sound_.push_back({std::move(save), reply});
+}
+
+void VoiceModule::LoadPros(const std::string& path, SoundFormat, const vm::Reply& reply) {
+  if (player_.active() || state_ == State::kPaused) {
+    return reply.Fail({vm::Errc::kBusy, "speaking; wait for Speak.stat = IDLE", 0});
+  }
+  auto prosody = ReadProsody(path);
+  if (!prosody) return reply.Fail(prosody.error());
+  const std::string text = prosody->text;
+  slots_.Report("ProsFile", path);
+  Prepare(text, reply, std::make_shared<const Prosody>(std::move(*prosody)));
+}
+
+void VoiceModule::LoadParsed(const std::string& path, SoundFormat, const vm::Reply& reply) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return reply.Fail(
+        {vm::Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno), 0});
+  }
+  std::string xml(kMaxTextBytes * 16, '\0');
+  file.read(xml.data(), static_cast<std::streamsize>(xml.size()));
+  xml.resize(static_cast<std::size_t>(file.gcount()));
+  auto text = TextOfParsed(xml);
+  if (!text) {
+    return reply.Fail({text.error().code, "'" + path + "': " + text.error().text, 0});
+  }
+  SetText(*text, reply);
 }
 
 // --- a text made ready while another is spoken

@@ -22,6 +22,8 @@
 
 namespace ssm {
 
+struct Prosody;
+
 inline constexpr std::size_t kMaxTextBytes = 8192;  ///< as the original
 inline constexpr std::size_t kMaxWaiting = 64;      ///< requests kept while a text is prepared
 /// Texts up to this size are analysed on the spot (some tens of ms), longer ones by the worker.
@@ -73,7 +75,9 @@ class VoiceModule final : public vm::Module {
     vm::Result<SpeechPlan> plan = vm::Fail(vm::Errc::kStopped, "not planned");
     std::shared_ptr<std::atomic<bool>> cancelled;
     vm::Reply reply;
-    bool planned = false;  ///< a next text's plan may be read
+    bool planned = false;                      ///< a next text's plan may be read
+    std::shared_ptr<const Prosody> prosody{};  ///< from a file; null = the engine's own
+    SpeechPlan engine_plan{};                  ///< before the prosody changed it
   };
   /// A request that waits for the text before it, or for its sound.
   struct Waiting {
@@ -92,9 +96,11 @@ class VoiceModule final : public vm::Module {
   void DeclareLogSlots();
   void DeclareRefused(const std::string& name, const std::string& why, bool readable);
 
-  // voice_module.cc: the life of an utterance.
+  // voice_preparing.cc
   void SetText(const std::string& text, const vm::Reply& reply);
-  void Prepare(const std::string& text, const vm::Reply& reply);
+  void Prepare(const std::string& text, const vm::Reply& reply,
+               std::shared_ptr<const Prosody> prosody = nullptr);
+  vm::Result<void> Render(const Preparation& preparation);
   std::vector<SpeechSpan> Manners(std::vector<SpeechSpan> spans);
   void OnPlanned(const std::shared_ptr<Preparation>& preparation);
   void OnRendered(const std::shared_ptr<Utterance>& utterance, const vm::Result<void>& result);
@@ -124,6 +130,9 @@ class VoiceModule final : public vm::Module {
   void Save(const std::string& path, SoundFormat format, const vm::Reply& reply);
   void Load(const std::string& path, SoundFormat format, const vm::Reply& reply);
   vm::Result<std::string> SetRecord(const std::string& path);
+  void SavePros(const std::string& path, SoundFormat, const vm::Reply& reply);
+  void LoadPros(const std::string& path, SoundFormat, const vm::Reply& reply);
+  void LoadParsed(const std::string& path, SoundFormat, const vm::Reply& reply);
   void AddToTape(const AudioSink::Position& heard);
   void SetNext(const std::string& text, const vm::Reply& reply);
   void TakeNext();

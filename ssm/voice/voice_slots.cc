@@ -152,10 +152,30 @@ void VoiceModule::DeclareFileSlots() {
                                  reply);
                       },
                   .saved = false});
-  DeclareRefused("SavePros", "this engine does not tell its intonation", false);
-  DeclareRefused("LoadPros", "this engine does not take intonation from outside", false);
-  DeclareRefused("ProsFile", "this engine does not take intonation from outside", true);
-  DeclareRefused("ParsedText", "this engine does not take an analysis made by hand", false);
+  action("SavePros",
+         "Writes how the prepared text is said: its phonemes with durations, and every 5 ms the "
+         "pitch (logarithm of Hz) and the loudness.",
+         &VoiceModule::SavePros, SoundFormat::kRaw);
+  action("LoadPros",
+         "Prepares the text of a file that SavePros wrote, said as the file says: durations, pitch "
+         "and loudness may have been changed, the phonemes must be those of the text.",
+         &VoiceModule::LoadPros, SoundFormat::kRaw);
+  slots_.Declare({.name = "ProsFile",
+                  .grammar = "<file>",
+                  .auto_output = true,
+                  .help = "The prosody file loaded last; to set it is the same as LoadPros.",
+                  .on_set_later =
+                      [this](const vm::SetValue& value, vm::Reply reply) {
+                        const std::string path = value.word(0);
+                        if (!MustWait()) return LoadPros(path, SoundFormat::kRaw, reply);
+                        WaitTurn([this, path, reply] { LoadPros(path, SoundFormat::kRaw, reply); },
+                                 reply);
+                      },
+                  .saved = false});
+  action("ParsedText",
+         "Prepares an analysis made by hand: a file of <W2 orth=WORD pron=KANA/> in S and AP, with "
+         "the tags of JEIDA-62-2000 between.",
+         &VoiceModule::LoadParsed, SoundFormat::kRaw);
   slots_.Declare({.name = "AutoPlay",
                   .grammar = "YES | NO",
                   .initial = auto_play_ ? "YES" : "NO",

@@ -30,7 +30,7 @@ TEST_P(VoiceValuesTest, BadValuesAreRefusedAndChangeNothing) {
                {"set#1 Alpha = 0.5", "UNAVAILABLE"},
                {"set#1 Postfilter = 0.3", "UNAVAILABLE"},
                {"set#1 ProsFile = x", "UNAVAILABLE"},
-               {"set#1 SavePros = x", "UNAVAILABLE"},
+               {"set#1 SavePros = /nowhere/x", "UNAVAILABLE"},
                {"set#1 ParsedText = x", "UNAVAILABLE"},
                {"set#1 Log.chasen = YES", "UNAVAILABLE"},
                {"set#1 Err = /tmp/x", "UNAVAILABLE"},
