@@ -100,7 +100,7 @@ class LashBuilder {
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = upper_ ? 0.24f : 0.12f;
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark = upper_ ? 0.9f : 0.35f;
+    const float dark = upper_ ? 0.9f : 0.2f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));

@@ -43,6 +43,32 @@ class CroppedHair {
            std::max(std::sin(angle), 1e-3f);
   }
 
+  /// `up` of a direction.
+  float Up(glm::vec3 d) const {
+    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
+    const glm::vec3 low = Direction(std::atan2(d.x, d.z) * 180 / kPi, 0);
+    const auto angle = [&crown](glm::vec3 v) {
+      return std::acos(std::clamp(glm::dot(v, crown), -1.0f, 1.0f));
+    };
+    return std::clamp(1 - angle(d) / std::max(angle(low), 1e-3f), 0.0f, 1.0f);
+  }
+
+  static float Forehead(float azimuth, float up) {
+    return SmoothStep(70, 30, std::abs(azimuth)) * SmoothStep(0.8f, 0.1f, up);
+  }
+
+  /// Which way hair lies: away from the crown, forward on top, down at the sides and behind; over
+  /// the forehead it is combed up and to one side.
+  static glm::vec3 Flow(glm::vec3 root, float forehead) {
+    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
+    glm::vec3 away = root - crown;
+    away -= root * glm::dot(away, root);
+    glm::vec3 along = away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
+                      forehead * glm::vec3(-0.75f, 0.35f, -0.25f);
+    along -= root * glm::dot(along, root);
+    return glm::normalize(along + glm::vec3(0, -1e-3f, 0));
+  }
+
   float Depth(glm::vec3 d, float up) const {
     const float top = SmoothStep(0.2f, 0.85f, d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
@@ -59,14 +85,14 @@ class CroppedHair {
         // An uneven edge: hair does not end on a drawn line.
         const float ragged = r == 0 ? 0.035f * Grain(k % kAround, 61) : 0.0f;
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
-        const float uneven = 1 + 0.16f * Grain(k % kAround, static_cast<int>(r) + 62);
+        const float uneven = 1 + 0.05f * Grain(k % kAround, static_cast<int>(r) + 62);
         const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
-        const glm::vec3 colour = StrandColour(palette_, 3 * (k % kAround), static_cast<int>(r));
-        const float thin = r == 0 ? 0.55f : 1.0f;
+        const glm::vec3 colour = glm::mix(
+            palette_.hair, StrandColour(palette_, 3 * (k % kAround), static_cast<int>(r)), 0.4f);
+        const float thin = r == 0 ? 0.8f : 1.0f;
         mesh_.Add(p, glm::mix(palette_.skin * 0.85f, colour, thin), r < 2 ? 0.8f : 0.92f,
                   Bone::kSkull);
-        const glm::vec3 lower = scalp_.Over(Direction(azimuth, kUp[r] - 0.03f), Depth(d, kUp[r]));
-        mesh_.strands.back() = {.along = glm::normalize(lower - p),
+        mesh_.strands.back() = {.along = Flow(d, Forehead(azimuth, kUp[r])),
                                 .cover = r == 0   ? 0.1f
                                          : r == 1 ? 0.75f
                                                   : 1.0f,
@@ -86,22 +112,14 @@ class CroppedHair {
     const bool by_ear = std::abs(azimuth) > 45 && std::abs(azimuth) < 150;
     if (by_ear && up < 0.12f) return;
     const glm::vec3 root = Direction(azimuth, up);
-    // Hair lies away from the crown: forward on top, down at the sides and behind; over the
-    // forehead it is combed up and to one side.
-    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
-    glm::vec3 away = root - crown;
-    away -= root * glm::dot(away, root);
-    const float forehead = SmoothStep(70, 30, std::abs(azimuth)) * SmoothStep(0.8f, 0.1f, up);
-    const glm::vec3 combed = glm::vec3(-0.75f, 0.35f, -0.25f);
-    glm::vec3 along = glm::normalize(away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
-                                     forehead * combed +
-                                     glm::vec3(0.14f * Grain(k, 31), 0, 0.14f * Grain(k, 32)));
-    along -= root * glm::dot(along, root);
+    const float forehead = Forehead(azimuth, up);
+    glm::vec3 along =
+        Flow(root, forehead) + glm::vec3(0.12f * Grain(k, 31), 0, 0.12f * Grain(k, 32));
+    along = glm::normalize(along - root * glm::dot(along, root));
     const float length = style_.lock_mm * (1 + 0.3f * Grain(k, 33)) *
                          (0.5f + 0.5f * SmoothStep(-0.3f, 0.5f, root.y)) *
                          (0.55f + 0.45f * SmoothStep(0, 0.2f, up));
     const float lift = style_.lift_mm * (1 + 0.5f * Grain(k, 34)) + forehead * style_.front_up * 7;
-    const float depth = Depth(root, up);
     std::vector<glm::vec3> path;
     constexpr int kSteps = 4;
     const glm::vec3 side = glm::cross(root, along);
@@ -109,15 +127,14 @@ class CroppedHair {
       const float v = static_cast<float>(s) / kSteps;
       const float swing = style_.wave_mm * std::sin(2.2f * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
-      // Over the shell all the way, but for the roots that show at the forehead.
-      const float over = forehead > 0.3f ? glm::mix(0.6f, depth, SmoothStep(0, 0.4f, v)) : depth;
-      path.push_back(scalp_.Over(d, 1.08f * over + lift * v * (1 - 0.6f * v) + 0.5f));
+      const float over = Depth(d, Up(d));  // along the shell
+      path.push_back(scalp_.Over(d, 1.05f * over + lift * v * (1 - 0.75f * v) + 0.5f));
     }
     const float width = glm::mix(2.4f, 2.0f + 0.11f * style_.lock_mm, SmoothStep(0, 0.28f, up));
     AddLock(path,
             {.width_mm = 1.6f * width * (1 + 0.3f * Grain(k, 35)),
              .root_part = 0.6f,
-             .fray_from = 0.35f,
+             .fray_from = 0.45f,
              .open = 0.95f},
             palette_, k, mesh_);
   }

@@ -83,7 +83,7 @@ class LongHair {
           out * (full + wave - glm::mix(17.0f, 30.0f, SmoothStep(0, 0.6f, i)) * hang * hang * hang);
       p.z += front * 8 * hang * (1 - 0.4f * hang);
       // At the face it follows the cheek.
-      p.x -= side * front * 5.0f * std::sin(std::min(1.0f, 1.5f * hang) * kPi * 0.5f);
+      p.x -= side * front * 6.5f * std::sin(std::min(1.0f, 1.5f * hang) * kPi * 0.5f);
     }
     return p;
   }
@@ -146,7 +146,7 @@ class LongHair {
       for (int row = 0; row <= kRows; ++row) {
         const float t = glm::mix(kCap * 0.86f, 0.99f, static_cast<float>(row) / kRows);
         const float inset = row == 0 ? -16.0f : -7.0f;
-        mesh_.Add(Point(i, side, t, inset), palette_.hair * 0.7f, 0.25f, Bone::kSkull);
+        mesh_.Add(Point(i, side, t, inset), palette_.hair, 0.5f, Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .cover = SmoothStep(1.0f, 0.8f, t),
                                 .place = {215 * i, 260 * t}};

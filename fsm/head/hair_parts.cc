@@ -76,7 +76,7 @@ void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette&
     if (mesh.bone[i] != Bone::kFlesh || p.y < 10) continue;
     float nearest = 1e9f;
     for (const glm::vec3 q : edge) nearest = std::min(nearest, glm::dot(p - q, p - q));
-    const float near = std::exp(-nearest / (reach_mm * reach_mm));
+    const float near = std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(10, 40, p.y);
     mesh.occlusion[i] *= 1 - 0.42f * near;
     mesh.albedo[i] = glm::mix(mesh.albedo[i], palette.hair, 0.20f * near);
   }

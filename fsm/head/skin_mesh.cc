@@ -64,7 +64,7 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const EyeAnatomy
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
-    const float strength = 0.95f * SmoothStep(1.06f, 0.8f, tag.red);
+    const float strength = 0.95f * SmoothStep(1.1f, 0.66f, tag.red);
     paint.albedo = glm::mix(paint.albedo, palette.lip, strength);
     // The edge of the red is soft, the middle of the lips wet.
     const float wet = SmoothStep(0.35f, 0, tag.red);
@@ -72,8 +72,8 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const EyeAnatomy
     paint.open *= 1 - 0.35f * wet;
   }
   if (tag.hole > 0) {
-    paint.albedo = glm::mix(paint.albedo, glm::vec3(0.13f, 0.035f, 0.03f), 0.85f * tag.hole);
-    paint.open *= 1 - 0.88f * tag.hole;
+    paint.albedo = glm::mix(paint.albedo, glm::vec3(0.06f, 0.015f, 0.012f), 0.95f * tag.hole);
+    paint.open *= 1 - 0.93f * tag.hole;
   }
   if (tag.margin >= 0 && tag.margin < 0.2f) {
     paint.albedo = glm::mix(paint.albedo, palette.rim, 0.75f);

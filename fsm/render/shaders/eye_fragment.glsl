@@ -50,6 +50,9 @@ void main() {
   float corner = smoothstep(0.30, 1.0, abs(n.x - axis.x));
   vec3 base = white_color * mix(vec3(1.0), vec3(0.95, 0.76, 0.70), corner);
   base *= mix(0.60, 1.0, smoothstep(1.0, 1.18, r_surface));
+  // The flesh of the tear corner.
+  float inward = side == 0 ? n.x - axis.x : axis.x - n.x;
+  base = mix(base, white_color * vec3(0.92, 0.50, 0.46), 0.85 * smoothstep(0.66, 0.80, inward));
   float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
   base *= 1.0 - vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
   float edge = smoothstep(1.06, 0.98, r_surface);
@@ -79,9 +82,15 @@ void main() {
   vec3 result = base * light * shade * mix(occlusion, 1.0, 0.3);
 
   vec3 mirrored = reflect(-v, wet);
-  float window = smoothstep(0.945, 0.972, dot(mirrored, normalize(vec3(-0.42, 0.52, 0.74))));
+  // A window of two panes, above left.
+  const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
+  const vec3 kAcross = vec3(0.8697, 0.0, 0.4936);
+  vec2 pane = vec2(dot(mirrored, kAcross), dot(mirrored, cross(kWindow, kAcross)));
+  vec2 inside = smoothstep(vec2(0.235, 0.275), vec2(0.165, 0.205), abs(pane));
+  float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
+                 mix(0.45, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
-  result += 0.9 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
+  result += 0.62 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
   result += lamp_colors[1] * 0.16 * soft_box * shade;
   result += Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * 0.6;
   color = vec4(ToScreen(max(result, 0.0)), alpha);

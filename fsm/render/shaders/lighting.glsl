@@ -16,7 +16,7 @@ uniform vec3 lamp_colors[3];
 // The room itself is brighter above than below.
 const vec3 kSkyColor = vec3(0.32, 0.34, 0.37);
 const vec3 kGroundColor = vec3(0.20, 0.155, 0.13);
-const float kShadowDepth[2] = float[2](0.92, 0.45);
+const float kShadowDepth[2] = float[2](0.92, 0.32);
 const float kExposure = 0.44;
 
 // How much of the key light comes past the ellipsoids: the nearer the ray to one, the less, with

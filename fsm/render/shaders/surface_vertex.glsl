@@ -38,8 +38,11 @@ void main() {
   float n_dot_l = dot(n, lamp_directions[0]);
   vec3 key_open = lamp_colors[0] * shadow * mix(open, vec3(1.0), key_through);
   vec3 key = key_open * Wrapped(n_dot_l, wrap);
+  // The lamp behind only reaches the outline: folds that face it are shut off by the head.
+  float away = 1.0 - max(dot(n, v), 0.0);
   vec3 soft = Ambient(n) + lamp_colors[1] * Wrapped(dot(n, lamp_directions[1]), wrap) +
-              lamp_colors[2] * 0.5 * Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
+              lamp_colors[2] * mix(0.14, 0.42, smoothstep(0.25, 0.85, away)) *
+                  Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
   vec3 total = soft * open + key;
 
   vec3 right = normalize(cross(head_up, n) + vec3(1e-5, 0.0, 0.0));
@@ -55,7 +58,6 @@ void main() {
 
   float g = max(dot(n, normalize(lamp_directions[1] + v)), 0.0);
   float g4 = g * g * g * g;
-  float away = 1.0 - max(dot(n, v), 0.0);
   shine.z = (lamp_colors[1].g * 0.03 * g4 * g4 * g4 * g4 +
              (lamp_colors[2].g * 0.05 + Ambient(n).g * 0.09) * away * away * away) *
             occlusion * occlusion * sheen;
