@@ -47,6 +47,8 @@ void ReadLine(const TableRow& row, Identity& identity) {
     } else if (row.Word(1) != "long") {
       row.Fail("long or crop expected");
     }
+  } else if (key == "beard") {
+    identity.palette.beard = row.Number(1);
   } else if (key == "lashes") {
     identity.lashes = row.Number(1);
   } else if (key == "brows") {

@@ -49,6 +49,18 @@ Paint SkinPaint(glm::vec3 place, const EyeAnatomy& eye, const Palette& palette) 
       paint.open *= 1 - spot.shade * weight;
     }
   }
+  if (palette.beard > 0) {
+    // A shaved beard: upper lip, chin, jaw up to before the ear, and some of the throat.
+    const float jaw_line = glm::mix(-26.0f, -8.0f, SmoothStep(30, 62, half.x));
+    const float low =
+        SmoothStep(jaw_line + 6, jaw_line - 22, half.y) * SmoothStep(-128, -100, half.y);
+    const float front = SmoothStep(-12, 8, place.z);
+    const float under_nose = SmoothStep(-23, -27, half.y);
+    const float cheek = 1 - 0.75f * std::exp(-0.5f * (std::pow((half.x - 36) / 9, 2.0f) +
+                                                      std::pow((half.y + 34) / 10, 2.0f)));
+    const float shown = palette.beard * low * front * under_nose * cheek;
+    paint.albedo *= glm::mix(glm::vec3(1), glm::vec3(0.66f, 0.70f, 0.76f), shown);
+  }
   // Under the jaw, down to the throat.
   const float under = SmoothStep(-80, -92, place.y) * SmoothStep(-150, -108, place.y) *
                       SmoothStep(64, 52, place.z + 0.4f * (place.y + 88));

@@ -24,6 +24,7 @@ struct Palette {
   glm::vec3 tongue{0.56f, 0.25f, 0.23f};
   glm::vec3 gum{0.46f, 0.18f, 0.17f};
   glm::vec3 sclera{0.74f, 0.725f, 0.71f};
+  float beard = 0;  ///< how far a shaved beard shows, 0..1
 };
 
 struct Paint {
