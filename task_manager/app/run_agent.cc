@@ -34,6 +34,7 @@ int RunOne(const Options& options, int number, std::mutex& out) {
   const bool keyboard = options.scripts.empty() && options.sessions == 1;
   HubLink hub(options.connect, name, keyboard);
   AgentPlatform::Options platform_options;
+  platform_options.name = name;
   if (!options.scripts.empty()) {
     platform_options.script =
         ReadScript(options.scripts[static_cast<std::size_t>(number) % options.scripts.size()]);

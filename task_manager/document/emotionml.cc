@@ -6,54 +6,13 @@
 #include <optional>
 #include <set>
 
+#include "task_manager/document/emotion_vocabularies.h"
 #include "task_manager/document/schema.h"
 
 namespace vxml {
 namespace {
 
 constexpr std::string_view kVocabularies = "http://www.w3.org/TR/emotion-voc/xml";
-
-struct Vocabulary {
-  std::string_view id;
-  std::string_view type;
-  std::string_view names;
-};
-
-// "Vocabularies for EmotionML" (W3C note).
-constexpr Vocabulary kKnown[] = {
-    {"big6", "category", "anger disgust fear happiness sadness surprise"},
-    {"everyday-categories", "category",
-     "affectionate afraid amused angry bored confident content disappointed excited happy "
-     "interested loving pleased relaxed sad satisfied worried"},
-    {"occ-categories", "category",
-     "admiration anger disappointment distress fear fears-confirmed gloating gratification "
-     "gratitude happy-for hate hope joy love pity pride relief remorse reproach resentment "
-     "satisfaction shame"},
-    {"fsre-categories", "category",
-     "anger anxiety being-hurt compassion contempt contentment despair disappointment disgust fear "
-     "guilt happiness hate interest irritation jealousy joy love pleasure pride sadness shame "
-     "stress surprise"},
-    {"frijda-categories", "category",
-     "anger arrogance desire disgust enjoyment fear humility indifference interest resignation "
-     "shock surprise"},
-    {"pad-dimensions", "dimension", "pleasure arousal dominance"},
-    {"fsre-dimensions", "dimension", "valence potency arousal unpredictability"},
-    {"intensity-dimension", "dimension", "intensity"},
-    {"occ-appraisals", "appraisal",
-     "desirability praiseworthiness appealingness desirability-for-other deservingness liking "
-     "likelihood effort strength-of-identification expectation-of-deviation familiarity"},
-    {"scherer-appraisals", "appraisal",
-     "suddenness familiarity predictability intrinsic-pleasantness relevance-person "
-     "relevance-relationship relevance-social-order outcome-probability "
-     "consonant-with-expectation goal-conduciveness urgency agent-self agent-other agent-nature "
-     "cause-intentional control power adjustment-possible norm-compatibility self-compatibility"},
-    {"ema-appraisals", "appraisal",
-     "relevance desirability agency blame likelihood unexpectedness urgency ego-involvement "
-     "controllability changeability power adaptability"},
-    {"frijda-action-tendencies", "action-tendency",
-     "approach avoidance being-with attending rejecting nonattending agonistic interrupting "
-     "dominating submitting"},
-};
 
 constexpr std::string_view kSets = "category-set dimension-set appraisal-set action-tendency-set";
 constexpr std::string_view kTypes = "category dimension appraisal action-tendency";
@@ -255,7 +214,7 @@ class Checker {
         }
         found = own->second.first;
       } else if (uri->starts_with(kVocabularies)) {
-        const Vocabulary* known = Find(id);
+        const EmotionVocabulary* known = FindEmotionVocabulary(id);
         if (!known) {
           Say(node, "there is no vocabulary '" + id + "' in " + std::string(kVocabularies));
           continue;
@@ -269,13 +228,6 @@ class Checker {
         Say(node, std::string(type) + "-set names '" + id + "', a vocabulary of type " + found);
       }
     }
-  }
-
-  static const Vocabulary* Find(const std::string& id) {
-    for (const Vocabulary& vocabulary : kKnown) {
-      if (vocabulary.id == id) return &vocabulary;
-    }
-    return nullptr;
   }
 
   void Describe(const xml::Node& emotion, const xml::Node& node) {
@@ -317,7 +269,7 @@ class Checker {
       const auto own = own_.find(id);
       known = own == own_.end() || own->second.second.contains(name);
     } else if (set.starts_with(kVocabularies)) {
-      const Vocabulary* vocabulary = Find(id);
+      const EmotionVocabulary* vocabulary = FindEmotionVocabulary(id);
       known = !vocabulary || Contains(vocabulary->names, name);
     }
     if (!known) Say(node, "'" + name + "' is not in the vocabulary " + set);

@@ -208,6 +208,7 @@ class XmlCompiler {
     token->phoneme = node.Get("phoneme");
     token->sym = node.Get("sym");
     if (token->text.empty()) token->text = token->sym;
+    if (token->text.empty()) return Bad(node, "<token> without content");
     if (token->folded.empty()) token->folded = Fold(token->text);
     return token;
   }

@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "task_manager/grammar/matcher.h"
+#include "task_manager/grammar/phrases.h"
 #include "task_manager/grammar/semantics.h"
 #include "task_manager/interpreter/session.h"
 
@@ -50,6 +51,17 @@ Listen Session::MakeListen(const Item& item, const std::vector<ActiveGrammar>& a
       state.can_continue = state.can_continue || match.can_continue;
     }
     return state;
+  };
+  listen.attention = Property("attention") != "false";
+  listen.phrases = [&active](std::size_t most_bytes) {
+    std::string all;
+    for (const ActiveGrammar& grammar : active) {
+      if (IsDtmf(grammar)) continue;
+      const auto text = srgs::ToPhrases(*grammar.rule, most_bytes);
+      if (!text || all.size() + text->size() + 3 > most_bytes) return std::string();
+      all += (all.empty() ? "" : " | ") + *text;
+    }
+    return all;
   };
   listen.accepts = [&active](const std::string& words) {
     for (const ActiveGrammar& grammar : active) {
@@ -125,13 +137,11 @@ void Session::SetLastResult(const std::vector<Match>& matches, const Input& inpu
     engine_.Set(last, "markname", engine_.String(input.mark));
     engine_.Set(last, "marktime", engine_.Number(static_cast<double>(input.mark_time.count())));
   }
-  if (Property("recordutterance") == "true" && input.kind == Input::Kind::kSpeech) {
-    const Value recording = engine_.Object();
-    const double size =
-        static_cast<double>(matches.empty() ? 0 : matches[0].utterance.size()) * 800;
-    engine_.Set(last, "recording", recording);
-    engine_.Set(last, "recordingsize", engine_.Number(size));
-    engine_.Set(last, "recordingduration", engine_.Number(size / 8));
+  if (Property("recordutterance") == "true" && input.recorded.count() > 0) {
+    const auto duration = static_cast<double>(input.recorded.count());
+    engine_.Set(last, "recording", engine_.Object());
+    engine_.Set(last, "recordingsize", engine_.Number(duration * 8));  // 8 kHz, 8 bit
+    engine_.Set(last, "recordingduration", engine_.Number(duration));
   }
   engine_.Set(context_->application, "lastresult$", last);
 }

@@ -49,7 +49,7 @@ fetch::Response Session::FetchFor(const xml::Node& node, fetch::Request request,
   if (audio.empty()) audio = Property("fetchaudio", &node);
   const bool waits = !audio.empty() && context_ && !hung_up_;
   if (waits) Flush();  // fetchaudio: what is queued is heard while fetching
-  const bool slow = request.uri.starts_with("http");
+  const bool slow = request.uri.starts_with("http") && Property("attention", &node) != "false";
   if (slow || waits) platform_.Fetching(waits ? fetch::Resolve(BaseOf(node), audio) : "", true);
   auto got = fetcher_.Fetch(request);
   if (slow || waits) platform_.Fetching("", false);

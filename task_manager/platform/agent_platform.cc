@@ -11,7 +11,7 @@ namespace {
 
 constexpr Millis kAnswer{5000};
 constexpr Millis kLongestSpeech{300'000};
-constexpr Millis kReaction{500};
+constexpr Millis kSoundModule{500};     // the hub refuses at once what it does not know
 constexpr std::size_t kMaxText = 7000;  // the voice takes 8192 bytes
 constexpr std::chrono::seconds kNodPause{2};
 
@@ -43,19 +43,17 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
     : hub_(hub), options_(std::move(options)) {
   const std::string& ear = options_.ear;
   hub_.client().On("Result", [this](const vm::Message& m) {
-    if (m.from == options_.ear)
-      heard_.push_back({Input::Kind::kSpeech, {{m.value, 1.0}}, "", {}, ""});
+    if (m.from == options_.ear) Hear(Input::Kind::kSpeech, {{m.value, 1.0}});
   });
   hub_.client().On("NoMatch", [this](const vm::Message& m) {
-    if (m.from == options_.ear)
-      heard_.push_back({Input::Kind::kSpeech, {{m.value, 1.0}}, "", {}, ""});
+    if (m.from == options_.ear) Hear(Input::Kind::kSpeech, {{m.value, 1.0}});
   });
   hub_.client().On("Listen.stat", [this](const vm::Message& m) {
     if (m.from == options_.ear) hearing_ = m.value == "SPEECH";
   });
   hub_.client().On("Result.partial", [this](const vm::Message& m) {
     const auto now = std::chrono::steady_clock::now();
-    if (m.from != options_.ear || now - last_nod_ < kNodPause) return;
+    if (m.from != options_.ear || !attends_ || now - last_nod_ < kNodPause) return;
     last_nod_ = now;
     hub_.Send("to @" + options_.face + " set FaceMot = NOD 1");
   });
@@ -72,6 +70,7 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
   hub_.Send("to @" + options_.voice + " prop Speak.mark = AutoOutput");
   hub_.Send("to @" + ear + " set Grammar = NONE");
   static_cast<void>(hub_.Ask("to @" + ear + " set Run = START", kAnswer));
+  has_sound_module_ = hub_.Ask("to @SND inq Slots", kSoundModule).has_value();
 }
 
 Millis AgentPlatform::Now() const {
@@ -87,27 +86,13 @@ void AgentPlatform::Report(std::string_view type, const JsonLine& fields) {
   options_.write(b == "{}" ? a : a.substr(0, a.size() - 1) + "," + b.substr(1));
 }
 
-void AgentPlatform::OnTyped(const std::string& line) {
-  if (xml::IsBlank(line)) return;
-  if (line[0] != '/') return hub_.Send("to @" + options_.ear + " set Input.text = " + line);
-  auto command = ParseCommand(std::string_view(line).substr(1));
-  if (!command) return;
-  if (command->kind == Command::Kind::kDtmf) {
-    heard_.push_back({Input::Kind::kDtmf, command->hypotheses, "", {}, ""});
-  } else if (command->kind == Command::Kind::kHangup) {
-    heard_.push_back({Input::Kind::kHangup, {}, "", {}, ""});
-  } else if (command->kind == Command::Kind::kSilence) {
-    heard_.push_back({Input::Kind::kSilence, {}, "", {}, ""});
-  }
-}
-
 /// The prompt as one utterance: bookmarks where something else has to happen.
-std::string AgentPlatform::Tagged(const Prompt& prompt) {
+std::string AgentPlatform::Tagged(const std::vector<Segment>& segments) {
   std::string text;
   actions_.clear();
   acted_ = 0;
   bool words = false;
-  for (const Segment& segment : prompt.segments) {
+  for (const Segment& segment : segments) {
     switch (segment.kind) {
       case Segment::Kind::kText: {
         const Tone* tone = nullptr;
@@ -128,14 +113,16 @@ std::string AgentPlatform::Tagged(const Prompt& prompt) {
       case Segment::Kind::kCommand:
         if (segment.parallel) break;
         actions_.push_back((segment.kind == Segment::Kind::kMark ? "mark " : "") + segment.text);
+        if (segment.pause.count() > 0) {
+          actions_.back() = "after " + std::to_string(segment.pause.count()) + " " + segment.text;
+        }
         if (words) {
           text += "<BOOKMARK MARK=\"d" + std::to_string(actions_.size() - 1) + "\"/>";
         } else {
           Act(acted_++);  // before the first word: at once
         }
         break;
-      case Segment::Kind::kAudio:
-        actions_.push_back("to @SND set Play = " + segment.text);
+      case Segment::Kind::kAudio:  // spoken apart
         break;
     }
   }
@@ -151,6 +138,13 @@ void AgentPlatform::Act(std::size_t index) {
     line.Text("name", mark_);
     return Report("mark", line);
   }
+  if (action.starts_with("after ")) {  // so much later than the bookmark, by the hub's clock
+    const std::size_t blank = action.find(' ', 6);
+    hub_.Send("to @AM-MCL def DialogueLater" + std::to_string(index) +
+              " = [{\"pause_ms\": " + action.substr(6, blank - 6) +
+              "}, {\"send\": " + JsonQuote(action.substr(blank + 1)) + "}]");
+    return hub_.Send("to @AM-MCL do DialogueLater" + std::to_string(index));
+  }
   Native(action);
 }
 
@@ -165,39 +159,74 @@ void AgentPlatform::StartParallel(const Prompt& prompt) {
     steps += ", {\"send\": " + JsonQuote(segment.text) + "}";
   }
   if (steps.empty()) return;
-  hub_.Send(
-      "to @AM-MCL def DialogueBeside = [{\"wait\": {\"from\": \"AM-MCL\", \"slot\": "
-      "\"Speak.stat\", "
-      "\"value\": \"SPEAKING\"}, \"limit_ms\": 20000}" +
-      steps + "]");
+  hub_.Send("to @AM-MCL def DialogueBeside = [{\"wait\": {\"from\": \"" + options_.voice +
+            "\", \"slot\": \"Speak.stat\", \"value\": \"SPEAKING\"}, \"limit_ms\": 20000}" + steps +
+            "]");
+  hub_.Hold();
   hub_.Send("to @AM-MCL do DialogueBeside");
 }
 
+/// One utterance, to its end or until somebody speaks. False: it was stopped, or failed.
+bool AgentPlatform::Utter(const std::string& text, bool may_be_stopped) {
+  auto message = vm::ParseMessage("to @AM-MCL set Speak = " + text);
+  if (!message) return false;
+  bool done = false;
+  bool failed = false;
+  hub_.client().Request(*message, [&](const vm::Result<std::string>& answer) {
+    done = true;
+    failed = !answer;
+  });
+  const auto heard = [&] { return may_be_stopped && (hearing_ || !heard_.empty()); };
+  hub_.WaitFor([&] { return done || heard(); }, kLongestSpeech);
+  const bool finished = done;
+  if (!done) {
+    static_cast<void>(hub_.Ask("to @AM-MCL set Speak = STOP", kAnswer));
+    hub_.WaitFor([&] { return done; }, kAnswer);
+    if (!done) hub_.client().Abandon("", {vm::Errc::kTimeout, "no end of speech", 0});
+  }
+  return finished && !failed;
+}
+
+/// A sound file, by the voice: it plays what the listener is to hear, also in films.
+void AgentPlatform::PlayFile(const std::string& file, bool may_be_stopped) {
+  const std::string path = file.starts_with("file://") ? file.substr(7) : file;
+  if (!path.starts_with("/")) return;  // what was fetched over http is on no disk
+  hub_.Send("tell start " + path);
+  Utter("<speak><audio src=\"" + xml::Escape(path) + "\"/></speak>", may_be_stopped);
+  hub_.Send("tell end " + path);
+}
+
+/// Words in one utterance as far as no sound file stands between them.
 void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
   JsonLine line;
   line.Text("text", prompt.text).Bool("bargein", prompt.bargein);
   if (!prompt.text.empty()) Report("prompt", line);
-  const std::string text = Tagged(prompt);
-  if (!text.empty()) {
-    StartParallel(prompt);
-    auto message = vm::ParseMessage("to @AM-MCL set Speak = " + text);
-    bool done = false;
-    bool failed = false;
-    if (message) {
-      hub_.client().Request(*message, [&](const vm::Result<std::string>& answer) {
-        done = true;
-        failed = !answer;
-      });
-      const auto stop = [&] { return done || (may_be_stopped && (hearing_ || !heard_.empty())); };
-      hub_.WaitFor(stop, kLongestSpeech);
-      if (!done) {
-        static_cast<void>(hub_.Ask("to @AM-MCL set Speak = STOP", kAnswer));
-        hub_.WaitFor([&] { return done; }, kAnswer);
-        if (!done) hub_.client().Abandon("", {vm::Errc::kTimeout, "no end of speech", 0});
-      }
+  StartParallel(prompt);
+  bool cut = false;
+  const auto stopped = [&] { return cut || (may_be_stopped && (hearing_ || !heard_.empty())); };
+  std::vector<Segment> piece;
+  const auto end_piece = [&] {
+    const std::string text = Tagged(std::exchange(piece, {}));
+    if (!text.empty() && !stopped()) cut = !Utter(text, may_be_stopped);
+    for (; acted_ < actions_.size(); ++acted_) {
+      // Of what was not spoken any more the face still comes to rest, but no mark was reached.
+      if (!stopped() || actions_[acted_].starts_with("to ")) Act(acted_);
     }
+    while (!sounds_.empty() && !stopped()) {
+      const std::string file = std::move(sounds_.front());
+      sounds_.pop_front();
+      PlayFile(file, may_be_stopped);
+    }
+  };
+  for (const Segment& segment : prompt.segments) {
+    if (segment.kind != Segment::Kind::kAudio) {
+      piece.push_back(segment);
+      continue;
+    }
+    end_piece();
+    if (!stopped()) PlayFile(segment.text, may_be_stopped);
   }
-  while (acted_ < actions_.size()) Act(acted_++);
+  end_piece();
 }
 
 bool AgentPlatform::Speaks(const std::vector<Prompt>& prompts, bool listening) {
@@ -212,66 +241,6 @@ bool AgentPlatform::Speaks(const std::vector<Prompt>& prompts, bool listening) {
 }
 
 bool AgentPlatform::Play(const std::vector<Prompt>& prompts) { return Speaks(prompts, false); }
-
-/// Time of the hub passes: a film's clock is virtual, so the machine's says nothing.
-void AgentPlatform::Pause(Millis time) {
-  const std::string steps = "[{\"pause_ms\": " + std::to_string(time.count()) + "}]";
-  auto defined = hub_.Ask("to @AM-MCL def DialoguePause = " + steps, kAnswer);
-  if (defined) static_cast<void>(hub_.Ask("to @AM-MCL set DialoguePause = NOW", time + kAnswer));
-}
-
-std::optional<Input> AgentPlatform::FromScript(const Listen& listen) {
-  auto command = options_.script();
-  Input input;
-  if (!command || command->kind == Command::Kind::kHangup) {
-    ran_out_ = ran_out_ || !command;
-    input.kind = Input::Kind::kHangup;
-    return input;
-  }
-  const bool silent = command->kind == Command::Kind::kSilence;
-  const Millis wait = silent ? listen.timeout : kReaction;
-  Pause(wait);
-  if (silent) return input;
-  if (command->kind == Command::Kind::kDtmf) {
-    input.kind = Input::Kind::kDtmf;
-    input.hypotheses = command->hypotheses;
-    return input;
-  }
-  const std::string words = command->hypotheses.empty() ? "?" : command->hypotheses.front().text;
-  auto said = hub_.Ask("to @" + options_.ear + " set Input.text = " + words, Millis(60'000));
-  if (!said) heard_.push_back({Input::Kind::kSpeech, {{words, 1.0}}, "", {}, ""});
-  return {};
-}
-
-std::optional<Input> AgentPlatform::Taken() {
-  if (heard_.empty()) return {};
-  Input input = std::move(heard_.front());
-  heard_.pop_front();
-  if (!mark_.empty()) {
-    input.mark = mark_;
-    input.mark_time =
-        std::chrono::duration_cast<Millis>(std::chrono::steady_clock::now() - mark_at_);
-  }
-  return input;
-}
-
-Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& listen) {
-  mark_.clear();
-  if (!Speaks(prompts, true)) return {Input::Kind::kHangup, {}, "", {}, ""};
-  hub_.Send("to @" + options_.face + " set Gaze = 0 0");  // attends to the user
-  if (options_.script && heard_.empty()) {
-    if (auto input = FromScript(listen)) return *input;
-  }
-  const auto ready = [&] { return !heard_.empty() || hub_.typed_end(); };
-  while (!ready() && !hub_.gone()) {
-    if (!hub_.WaitFor([&] { return ready() || hearing_; }, listen.timeout)) break;
-    if (!ready()) hub_.WaitFor(ready, listen.max_speech);
-  }
-  if (auto input = Taken()) return *input;
-  Input input;
-  input.kind = hub_.gone() || hub_.typed_end() ? Input::Kind::kHangup : Input::Kind::kSilence;
-  return input;
-}
 
 RecordResult AgentPlatform::Record(const std::vector<Prompt>& prompts, const RecordRequest&) {
   Play(prompts);
@@ -294,6 +263,11 @@ void AgentPlatform::Native(const std::string& line) {
   Report("command", report);
   auto message = vm::ParseMessage(line);
   if (!message) return;
+  // The original's module SND was a part of its dialogue manager, and so it is here.
+  if (message->to.size() == 1 && message->to[0] == "SND" && !has_sound_module_) {
+    if (message->slot == "Play") sounds_.push_back(message->value);
+    return;
+  }
   // The original's module PAR: a list of commands and sleeps that starts with the next speech.
   if (message->to.size() == 1 && message->to[0] == "PAR") {
     double seconds = 0;

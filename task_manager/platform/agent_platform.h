@@ -15,9 +15,9 @@ namespace vxml {
 /// @SRM, expressions to @FSM. What stands between the words starts where the voice passes its
 /// BOOKMARK. Input is what the ear hears; typed lines (keyboard) and scripts are put into it.
 /// While listening the agent looks at the user and nods to what it hears; on long fetches it looks
-/// aside. There is no recording and no telephone: error.unsupported.record, .transfer.
-/// Time is the hub's where a script drives the dialogue (films), else the machine's.
-/// Thread: the session's.
+/// aside (property attention). Sound files are played by the voice. There is no recording and no
+/// telephone: error.unsupported.record, .transfer. Time is the hub's where a script drives the
+/// dialogue (films), else the machine's. Thread: the session's.
 class AgentPlatform final : public Platform {
  public:
   struct Options {
@@ -25,6 +25,7 @@ class AgentPlatform final : public Platform {
     std::string voice = "SSM";
     std::string ear = "SRM";
     std::string face = "FSM";
+    std::string name = "DM";  ///< of this dialogue at the hub: its grammar in the ear is named so
     std::function<void(const std::string& line)> write{};
   };
   AgentPlatform(HubLink& hub, Options options);
@@ -45,11 +46,17 @@ class AgentPlatform final : public Platform {
 
  private:
   void Say(const Prompt& prompt, bool may_be_stopped);
-  std::string Tagged(const Prompt& prompt);
+  bool Utter(const std::string& text, bool may_be_stopped);
+  void PlayFile(const std::string& file, bool may_be_stopped);
+  std::string Tagged(const std::vector<Segment>& segments);
   void Act(std::size_t index);
   void StartParallel(const Prompt& prompt);
   void OnTyped(const std::string& line);
-  std::optional<Input> FromScript(const Listen& listen);
+  void UseGrammars(const Listen& listen);
+  void Interrupt(const Command& command, const std::vector<Prompt>& prompts, const Listen& listen);
+  std::optional<Command> Next();
+  void Hear(Input::Kind kind, std::vector<Hypothesis> hypotheses);
+  std::optional<Input> FromScript(const std::optional<Command>& command, const Listen& listen);
   std::optional<Input> Taken();
   bool Speaks(const std::vector<Prompt>& prompts, bool listening);
 
@@ -57,6 +64,12 @@ class AgentPlatform final : public Platform {
   Options options_;
   std::vector<std::string> actions_;  ///< of the prompt being spoken, by bookmark; "mark NAME"
   std::size_t acted_ = 0;
+  std::deque<std::string> sounds_;  ///< files @SND was told to play
+  bool has_sound_module_ = false;
+  std::string in_ear_;           ///< phrases of the grammar loaded last, "" = none
+  bool interrupting_ = false;    ///< a scripted interruption is on its way
+  std::optional<Command> next_;  ///< of the script, taken but not used
+  bool attends_ = true;
   std::string beside_;  ///< steps of PAR for the next speech
   std::deque<Input> heard_;
   bool hearing_ = false;  ///< somebody speaks

@@ -7,6 +7,7 @@
 #include <array>
 #include <boost/asio/io_context.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "vm_protocol/runtime/endpoint.h"
 
@@ -50,9 +51,14 @@ HubLink::~HubLink() {
 }
 
 void HubLink::Send(const std::string& line) {
-  std::string_view left = line;
-  const std::string whole = line + "\n";
-  left = whole;
+  held_ += line + "\n";
+  if (!holding_) Release();
+}
+
+void HubLink::Release() {
+  holding_ = false;
+  const std::string whole = std::exchange(held_, "");
+  std::string_view left = whole;
   while (!left.empty() && !gone_) {
     const ssize_t n = ::send(fd_, left.data(), left.size(), MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
@@ -98,6 +104,7 @@ bool HubLink::WaitFor(const std::function<bool()>& done, std::optional<Millis> l
 }
 
 bool HubLink::Pump(int timeout_ms) {
+  Release();
   std::array<pollfd, 2> wait{{{fd_, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
   const nfds_t count = keyboard_ && !typed_end_ ? 2 : 1;
   if (::poll(wait.data(), count, timeout_ms) <= 0) return false;

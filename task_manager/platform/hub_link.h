@@ -23,6 +23,9 @@ class HubLink {
 
   vm::Client& client() { return *client_; }
   void Send(const std::string& line);
+  /// Keeps what is sent back until the next wait, so that it arrives together: between two lines of
+  /// one packet a virtual clock does not move.
+  void Hold() { holding_ = true; }
   /// Asks and waits for the answer. Errors: the refusal, kTimeout, kUnavailable (the hub is gone).
   vm::Result<std::string> Ask(const std::string& line, Millis limit);
   /// Handles what comes until `done` says so or the time is up. False at the time limit.
@@ -34,10 +37,13 @@ class HubLink {
 
  private:
   bool Pump(int timeout_ms);
+  void Release();
   int fd_ = -1;
   bool keyboard_;
   bool typed_end_ = false;
   bool gone_ = false;
+  bool holding_ = false;
+  std::string held_;
   std::string input_;
   std::string typed_;
   std::unique_ptr<vm::Client> client_;

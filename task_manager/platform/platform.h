@@ -57,6 +57,7 @@ struct Input {
   std::string mark;                    ///< last mark played before the input, "" for none
   Millis mark_time{0};                 ///< since that mark
   std::string termchar;                ///< the key that ended dtmf input, "" if none did
+  Millis recorded{0};                  ///< length of the utterance's recording, 0 if there is none
 };
 
 struct KeysState {
@@ -78,7 +79,10 @@ struct Listen {
   std::string item;  ///< name of the form item, for people
   std::function<KeysState(const std::string& keys)> keys;
   std::function<bool(const std::string& words)> accepts;
-  std::vector<std::string> phrases;  ///< for recognisers: the active grammars (ABNF-like text)
+  /// The active voice grammars as phrases for the ear (slot Grammar.load); "" = they cannot be
+  /// written so, and the ear takes everything.
+  std::function<std::string(std::size_t most_bytes)> phrases;
+  bool attention = true;  ///< the agent looks at the user and nods (property attention)
 };
 
 struct RecordRequest {

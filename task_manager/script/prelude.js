@@ -17,6 +17,36 @@
   Object.defineProperty(global, 'Function', { value: NoFunction });
   delete global.Duktape;
 
+  // The loops of the engine's own functions cannot be counted one by one: what they are going to
+  // cost is charged beforehand, in steps. Called through `apply`, so scripts cannot get at them.
+  var apply = Function.prototype.call.bind(Function.prototype.apply);
+  function lengthOf(value) {
+    return value === undefined || value === null ? 0 : value.length >>> 0;
+  }
+  function charge(owner, names, cost) {
+    names.split(' ').forEach(function (name) {
+      var inner = owner[name];
+      if (typeof inner !== 'function') return;
+      Object.defineProperty(owner, name, { writable: true, configurable: true, value: function () {
+        tick(cost(this, arguments));
+        return apply(inner, this, arguments);
+      } });
+    });
+  }
+  charge(Array.prototype, 'join reverse shift slice splice unshift indexOf lastIndexOf every some ' +
+    'forEach map filter reduce reduceRight toString toLocaleString', lengthOf);
+  charge(Array.prototype, 'sort', function (array) { return lengthOf(array) * 20; });
+  charge(Array.prototype, 'concat', function (array, others) {
+    var sum = lengthOf(array);
+    for (var i = 0; i < others.length; ++i) sum += typeof others[i] === 'object' ? lengthOf(others[i]) : 1;
+    return sum;
+  });
+  charge(String.prototype, 'indexOf lastIndexOf split replace', function (text, args) {
+    return lengthOf(text) * (1 + (typeof args[0] === 'string' ? args[0].length / 16 : 0));
+  });
+  charge(String.prototype, 'match search', lengthOf);
+  charge(RegExp.prototype, 'exec test', function (pattern, args) { return lengthOf(args[0]); });
+
   hide('__keys', function (o) { return (o && typeof o === 'object') ? Object.keys(o).join('\n') : ''; });
   hide('__json', function (v) {
     var seen = [];

@@ -37,7 +37,10 @@ class AgentTest : public ::testing::Test {
     return lines;
   }
 
+  /// The hub ends first: only then is its log sure to be whole.
   std::string Log() {
+    hub_->Terminate();
+    hub_->Wait();
     std::ifstream file(folder_ / "log");
     return {std::istreambuf_iterator<char>(file), {}};
   }
@@ -64,6 +67,81 @@ TEST_F(AgentTest, SpeaksHearsAndMovesTheFaceThroughTheHub) {
   }
   EXPECT_TRUE(smiled);
   EXPECT_NE(log.find("Thank you."), std::string::npos);
+}
+
+TEST_F(AgentTest, TheActiveGrammarsAreLoadedIntoTheEar) {
+  const auto lines = Talk(
+      "<vxml version=\"2.1\"><form><field name=\"f\"><grammar root=\"r\"><rule id=\"r\"><item "
+      "repeat=\"0-1\">some</item><one-of><item>green tea</item><item>coffee</item></one-of>"
+      "</rule></grammar><filled><exit expr=\"f\"/></filled></field></form></vxml>",
+      "say some green tea\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("some green tea"), std::string::npos) << lines.back();
+  EXPECT_NE(Log().find("Grammar.load = dialog_DM [some] (green tea | coffee)"), std::string::npos);
+}
+
+TEST_F(AgentTest, AnInterruptionStopsThePromptAndItsLaterMarksAreNotReached) {
+  const auto lines = Talk(
+      "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt>Well <mark "
+      "name=\"early\"/> this is a very long question with a great many words in it that nobody "
+      "wants to hear to its very end, so we say yes <mark name=\"late\"/> now</prompt><filled>"
+      "<exit expr=\"f &amp;&amp; f$.markname=='early'\"/></filled></field></form></vxml>",
+      "say at=2s yes\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("\"value\":true"), std::string::npos) << lines.back();
+  EXPECT_NE(Log().find("Speak = STOP"), std::string::npos);
+}
+
+TEST_F(AgentTest, SoundFilesArePlayedByTheVoiceAlsoThoseForSnd) {
+  const std::string header(
+      "RIFF\x24\x7d\0\0WAVEfmt \x10\0\0\0\1\0\1\0\x80\x3e\0\0\0\x7d\0\0\2\0\x10\0data\0\x7d\0\0",
+      44);
+  std::ofstream(folder_ / "bell.wav", std::ios::binary) << header << std::string(32000, '\0');
+  Talk(
+      "<vxml version=\"2.1\"><form><block><prompt>before <audio src=\"bell.wav\"/> after</prompt>"
+      "<native>to @SND set Play = " +
+          (folder_ / "bell.wav") + "</native></block></form></vxml>",
+      "silence\n");
+  const std::string log = Log();
+  const std::string play = "<speak><audio src=\"" + (folder_ / "bell.wav");
+  const std::size_t first = log.find(play);
+  EXPECT_LT(log.find("Speak = before"), first);
+  EXPECT_LT(first, log.find("Speak = after"));
+  EXPECT_NE(log.find(play, log.find("Speak = after")), std::string::npos);
+  EXPECT_NE(log.find("tell end " + (folder_ / "bell.wav")), std::string::npos);
+}
+
+TEST_F(AgentTest, CommandsBesideTheWordsStartWithTheVoice) {
+  Talk(
+      "<vxml version=\"2.0\"><form><block><prompt><all-of><media type=\"face\"><native>sleep 0.1"
+      "</native><native>to @AM-MCL set Emotion = SAD</native></media><media type=\"voice\">hello "
+      "over there</media></all-of></prompt></block></form></vxml>",
+      "silence\n");
+  const std::string log = Log();
+  const std::size_t speaking = log.find("From @SSM rep Speak.stat = SPEAKING");
+  const std::size_t sent = log.find("AM-MCL\tAM-MCL\tto @AM-MCL set Emotion = SAD");
+  EXPECT_NE(sent, std::string::npos);
+  EXPECT_LT(speaking, sent);
+}
+
+TEST_F(AgentTest, WithoutAttentionTheFaceIsLeftAlone) {
+  Talk(
+      "<vxml version=\"2.1\"><property name=\"attention\" value=\"false\"/><form><field "
+      "name=\"f\" type=\"boolean\"><filled><exit/></filled></field></form></vxml>",
+      "say yes\n");
+  EXPECT_EQ(Log().find("Gaze"), std::string::npos);
+}
+
+TEST_F(AgentTest, TransfersAndObjectsAreRefusedWithTheirEvents) {
+  const auto lines = Talk(
+      "<vxml version=\"2.1\"><form><var name=\"n\" expr=\"0\"/><transfer name=\"t\" "
+      "dest=\"tel:1\" bridge=\"true\"><catch event=\"error.unsupported.transfer.bridge\"><assign "
+      "name=\"t\" expr=\"1\"/><assign name=\"n\" expr=\"n+1\"/></catch></transfer><object "
+      "name=\"o\" classid=\"x\"><catch event=\"error.unsupported.objectname\"><exit "
+      "expr=\"n+1\"/></catch></object></form></vxml>",
+      "silence\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("\"value\":2"), std::string::npos) << lines.back();
 }
 
 TEST_F(AgentTest, RecordingIsRefusedWithItsEvent) {

@@ -1,0 +1,135 @@
+// What the face does in prompts: feelings, BML's behaviours, raw commands.
+#include <algorithm>
+#include <charconv>
+
+#include "task_manager/interpreter/prompt_builder.h"
+#include "task_manager/interpreter/session.h"
+
+namespace vxml {
+
+/// A feeling for the time of the words inside; afterwards the one around it.
+void PromptBuilder::Emotion(const xml::Node& node) {
+  std::optional<Feeling> feeling = ReadFeeling(node);
+  if (!feeling) {
+    if (s_.options_.strict_markup) {
+      ThrowEvent("error.unsupported.emotion", "emotion '" + node.Get("type") + "' is not known");
+    }
+    JsonLine line;
+    line.Text("text", "unknown emotion, NEUTRAL is shown")
+        .Number("line", static_cast<double>(node.line));
+    s_.Trace("warning", line);
+    feeling = Feeling{};
+  }
+  Command(FaceCommand(*feeling), Millis(0), false);
+  feelings_.push_back(*feeling);
+  AddChildren(node);
+  EndWords();
+  feelings_.pop_back();
+  Command(FaceCommand(feelings_.empty() ? Feeling{} : feelings_.back()), Millis(0), false);
+}
+
+std::string PromptBuilder::LineOf(const xml::Node& node) {
+  if (const std::string* expression = node.Find("expr")) return s_.TextOf(node, *expression);
+  std::string line;
+  for (const auto& child : node.children) {
+    if (child->IsText()) line += child->text;
+    if (child->IsElement("value")) line += s_.TextOf(*child, child->Get("expr"));
+  }
+  return xml::Collapse(line);
+}
+
+/// <media type="face">: commands and sleeps beside the words (the original's PAR).
+void PromptBuilder::Media(const xml::Node& node) {
+  if (node.Get("type") != "face") return AddChildren(node);
+  Millis wait(0);
+  for (const auto& child : node.children) {
+    if (!child->IsElement()) continue;
+    std::vector<std::string> lines;
+    if (child->name == "native") {
+      const std::string line = LineOf(*child);
+      if (line.starts_with("sleep ")) {
+        double seconds = 0;
+        std::from_chars(line.data() + 6, line.data() + line.size(), seconds);
+        wait += Millis(static_cast<long long>(seconds * 1000));
+        continue;
+      }
+      lines.push_back(line);
+    } else if (child->name == "emotion") {
+      lines.push_back(FaceCommand(ReadFeeling(*child).value_or(Feeling{})));
+    } else {
+      lines = BehaviourCommands(*child);
+    }
+    for (const std::string& line : lines) {
+      EndWords();
+      // Parallel commands come before the words they run beside.
+      prompt_.segments.push_back(
+          {Segment::Kind::kCommand, line, std::exchange(wait, Millis(0)), "", true, ""});
+    }
+  }
+}
+
+/// A behaviour runs where it stands, or where its start="ID:POINT+SECONDS" says (BML 1.0).
+void PromptBuilder::Behaviour(const xml::Node& node) {
+  const std::string start(xml::Trim(node.Get("start")));
+  for (const std::string& line : BehaviourCommands(node)) {
+    if (start.empty()) {
+      Command(line, Millis(0), false);
+    } else {
+      EndWords();
+      deferred_.push_back({start, line, prompt_.segments.size(), node.line});
+    }
+  }
+  if (node.name != "faceShift") AddChildren(node);
+}
+
+void PromptBuilder::Anchor(const std::string& name) {
+  EndWords();
+  anchors_.emplace(name, prompt_.segments.size());
+}
+
+/// Puts the behaviours that refer to a point behind it. A reference to nothing is warned of, and
+/// the behaviour runs where it stands.
+void PromptBuilder::PlaceDeferred() {
+  struct Placed {
+    std::size_t at;
+    Segment segment;
+  };
+  std::vector<Placed> placed;
+  for (const Deferred& each : deferred_) {
+    const std::size_t sign = each.start.find_first_of("+-", 1);
+    const std::string point = each.start.substr(0, sign);
+    double seconds = 0;
+    const auto number = [&](std::string_view text) {
+      return std::from_chars(text.data(), text.data() + text.size(), seconds).ec == std::errc();
+    };
+    std::size_t at = each.at;
+    if (const auto found = anchors_.find(point); found != anchors_.end()) {
+      at = found->second;
+      // Before a point nothing can be sent that is not known yet: minus means at the point.
+      if (sign != std::string::npos && each.start[sign] == '+') {
+        number(std::string_view(each.start).substr(sign + 1));
+      }
+    } else if (number(each.start)) {
+      at = 0;  // seconds from the beginning of the prompt
+    } else {
+      JsonLine line;
+      line.Text("text", "start '" + each.start + "' refers to nothing in the prompt");
+      line.Number("line", static_cast<double>(each.line));
+      s_.Trace("warning", line);
+    }
+    const Millis wait(static_cast<long long>(std::clamp(seconds, 0.0, 600.0) * 1000));
+    placed.push_back({at, {Segment::Kind::kCommand, each.command, wait, "", false, ""}});
+  }
+  // From the last place to the first, so that the earlier ones stay what they are.
+  while (!placed.empty()) {
+    auto last = placed.begin();
+    for (auto each = placed.begin(); each != placed.end(); ++each) {
+      if (each->at >= last->at) last = each;
+    }
+    prompt_.segments.insert(prompt_.segments.begin() + static_cast<std::ptrdiff_t>(last->at),
+                            last->segment);
+    placed.erase(last);
+  }
+}
+
+}  // namespace vxml

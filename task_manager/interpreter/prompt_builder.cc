@@ -1,0 +1,213 @@
+#include "task_manager/interpreter/prompt_builder.h"
+
+#include <utility>
+
+#include "task_manager/fetch/uri.h"
+#include "task_manager/interpreter/choice_keys.h"
+#include "task_manager/interpreter/scope_guard.h"
+#include "task_manager/interpreter/session.h"
+
+namespace vxml {
+
+using script::Value;
+
+void PromptBuilder::Add(const xml::Node& node) {
+  if (node.IsText()) return Words(node.text);
+  if (!node.IsElement()) return;
+  s_.Step();
+  const std::string& name = node.name;
+  if (name == "prompt") return AddChildren(node);
+  if (name == "value") return Words(s_.TextOf(node, node.Get("expr")));
+  if (name == "audio") return Audio(node);
+  if (name == "enumerate") return Enumerate(node);
+  if (name == "foreach") return Foreach(node);
+  if (name == "break") return Pause(node);
+  if (name == "mark" || name == "sync") return Mark(node);
+  if (name == "emotion") return Emotion(node);
+  if (name == "native") return Command(LineOf(node), Millis(0), false);
+  if (name == "media") return Media(node);
+  if (IsBehaviour(name)) return Behaviour(node);
+  if (name == "desc" || name == "meta" || name == "metadata" || name == "lexicon" ||
+      name == "category" || name == "dimension" || name == "intensity" || name == "lookup") {
+    return;
+  }
+  if (const std::string* language = node.Find("xml:lang")) s_.RequireLanguage(*language);
+  Speech(node);
+}
+
+void PromptBuilder::Finish() {
+  EndWords();
+  PlaceDeferred();
+  prompt_.text = xml::Collapse(prompt_.text);
+  std::string head = "<speak version=\"1.0\" xmlns=\"http://www.w3.org/2001/10/synthesis\"";
+  if (!prompt_.language.empty()) head += " xml:lang=\"" + xml::Escape(prompt_.language) + "\"";
+  prompt_.ssml = head + ">" + ssml_ + "</speak>";
+}
+
+void PromptBuilder::AddChildren(const xml::Node& node) {
+  for (const auto& child : node.children) Add(*child);
+}
+
+void PromptBuilder::Words(const std::string& text) {
+  if (text.empty()) return;
+  words_ += text;
+  prompt_.text += text;
+  ssml_ += xml::Escape(text);
+}
+
+void PromptBuilder::EndWords() {
+  const std::string text = xml::Collapse(words_);
+  words_.clear();
+  if (text.empty()) return;
+  Segment segment;
+  segment.text = text;
+  segment.language = prompt_.language;
+  if (!feelings_.empty() && s_.Property("emotionspeak") == "true") {
+    segment.emotion = feelings_.back().type;
+  }
+  prompt_.segments.push_back(std::move(segment));
+}
+
+void PromptBuilder::Command(const std::string& line, Millis wait, bool parallel) {
+  EndWords();
+  prompt_.segments.push_back({Segment::Kind::kCommand, line, wait, "", parallel, ""});
+}
+
+/// SSML passes through; of <sub> the words are its alias.
+void PromptBuilder::Speech(const xml::Node& node) {
+  std::string open = "<" + node.name;
+  for (const xml::Attribute& attribute : node.attributes) {
+    open += " " + attribute.name + "=\"" + xml::Escape(attribute.value) + "\"";
+  }
+  ssml_ += open + ">";
+  const std::string id = node.Get("id");
+  if (!id.empty()) Anchor(id + ":start");
+  const bool block =
+      node.name == "p" || node.name == "s" || node.name == "sentence" || node.name == "paragraph";
+  if (block) prompt_.text += " ";
+  if (node.name == "sub" && node.Has("alias")) {
+    const std::string before = ssml_;
+    Words(node.Get("alias"));
+    ssml_ = before + xml::Escape(node.Text());
+  } else {
+    const std::string outer = std::exchange(speech_, id.empty() ? speech_ : id);
+    AddChildren(node);
+    speech_ = outer;
+  }
+  if (block) {
+    EndWords();
+    prompt_.text += " ";
+  }
+  ssml_ += "</" + node.name + ">";
+  if (!id.empty()) Anchor(id + ":end");
+}
+
+void PromptBuilder::Audio(const xml::Node& node) {
+  std::string source = node.Get("src");
+  if (const std::string* expression = node.Find("expr")) {
+    const Value value = s_.Evaluate(node, *expression);
+    if (s_.engine_.IsUndefined(value)) return;  // section 4.1.3: nothing at all
+    source = s_.engine_.IsObject(value) ? s_.engine_.ToString(s_.engine_.Get(value, "uri"))
+                                        : s_.engine_.ToString(value);
+    if (s_.engine_.IsObject(value) && source.empty()) source = "recording:";
+  }
+  if (source.empty()) return AddChildren(node);
+  const std::string uri = source == "recording:" ? source : fetch::Resolve(s_.BaseOf(node), source);
+  if (!Exists(node, uri)) return AddChildren(node);
+  EndWords();
+  prompt_.segments.push_back({Segment::Kind::kAudio, uri, Millis(0), "", false, ""});
+  ssml_ += "<audio src=\"" + xml::Escape(uri) + "\"/>";
+}
+
+bool PromptBuilder::Exists(const xml::Node& node, const std::string& uri) {
+  if (uri.starts_with("recording:") || uri.starts_with("builtin:")) return true;
+  fetch::Request request = s_.FetchOptions(node, "audio");
+  request.uri = uri;
+  const auto got = s_.fetcher_.Fetch(request);
+  JsonLine line;
+  line.Text("uri", uri).Text("kind", "audio").Bool("ok", got.has_value());
+  if (!got) line.Text("error", got.error().text);
+  s_.Trace("fetch", line);
+  return got.has_value();
+}
+
+/// The choices of the menu or the options of the field, with their keys.
+void PromptBuilder::Enumerate(const xml::Node& node) {
+  const xml::Node* owner = s_.scope_item_ ? s_.scope_item_->node : nullptr;
+  const bool menu = owner && owner->name == "menu";
+  const bool field = owner && owner->name == "field" && owner->FirstElement("option");
+  if (!menu && !field) {
+    ThrowSemantic(*s_.context_->document, node, "<enumerate> without choices or options");
+  }
+  const auto keys = menu ? ChoiceKeys(*owner) : std::map<const xml::Node*, std::string>{};
+  bool own_template = false;
+  for (const auto& child : node.children) {
+    own_template = own_template || child->IsElement() || !xml::IsBlank(child->text);
+  }
+  for (const auto& child : owner->children) {
+    if (!child->IsElement(menu ? "choice" : "option")) continue;
+    std::string phrase;
+    for (const auto& part : child->children) {
+      if (!part->IsElement("grammar")) phrase += part->IsText() ? part->text : part->Text();
+    }
+    phrase = xml::Collapse(phrase);
+    const auto key = keys.find(child.get());
+    const std::string dtmf = menu ? (key == keys.end() ? "" : key->second) : child->Get("dtmf");
+    if (!own_template) {
+      Words(" " + phrase + (dtmf.empty() ? "" : ", " + dtmf) + ";");
+      continue;
+    }
+    Session::ScopeGuard guard(s_);
+    s_.engine_.Set(guard.scope(), "_prompt", s_.engine_.String(phrase));
+    s_.engine_.Set(guard.scope(), "_dtmf", s_.engine_.String(dtmf));
+    AddChildren(node);
+  }
+}
+
+void PromptBuilder::Foreach(const xml::Node& node) {
+  const Value array = s_.Evaluate(node, node.Get("array"));
+  if (!s_.engine_.IsArray(array)) {
+    ThrowSemantic(*s_.context_->document, node, "'" + node.Get("array") + "' is not an array");
+  }
+  if (s_.engine_.Length(array) > s_.options_.max_steps_between_inputs) {
+    ThrowEvent("error.noresource", "<foreach> over too many elements");
+  }
+  const Value copy = s_.engine_.Copy(array);
+  const std::string item = node.Get("item");
+  const std::size_t length = s_.engine_.Length(copy);
+  Session::ScopeGuard guard(s_);
+  for (std::size_t i = 0; i < length; ++i) {
+    s_.Step();
+    if (!item.empty()) {
+      s_.Declare(node, item, s_.engine_.Get(copy, std::to_string(i)));
+    }
+    AddChildren(node);
+  }
+}
+
+void PromptBuilder::Pause(const xml::Node& node) {
+  static const std::map<std::string, int> kStrengths = {
+      {"none", 0},     {"x-weak", 100},    {"weak", 200},  {"medium", 400},
+      {"strong", 700}, {"x-strong", 1000}, {"small", 200}, {"large", 1000}};
+  Millis time(500);
+  const std::string strength = node.Get("strength", node.Get("size"));
+  if (const auto found = kStrengths.find(strength); found != kStrengths.end()) {
+    time = Millis(found->second);
+  }
+  if (const auto given = ParseTime(node.Get("time"))) time = *given;
+  EndWords();
+  prompt_.segments.push_back({Segment::Kind::kPause, "", time, "", false, ""});
+  prompt_.text += " ";
+  ssml_ += "<break time=\"" + std::to_string(time.count()) + "ms\"/>";
+}
+
+void PromptBuilder::Mark(const xml::Node& node) {
+  std::string name = node.Get("name", node.Get("id"));
+  if (const std::string* expression = node.Find("nameexpr")) name = s_.TextOf(node, *expression);
+  Anchor(name);
+  if (!speech_.empty()) Anchor(speech_ + ":" + name);
+  prompt_.segments.push_back({Segment::Kind::kMark, name, Millis(0), "", false, ""});
+  ssml_ += "<mark name=\"" + xml::Escape(name) + "\"/>";
+}
+
+}  // namespace vxml

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "task_manager/interpreter/markup.h"
+#include "task_manager/platform/platform.h"
+
+namespace vxml {
+
+class Session;
+
+/// Turns prompt markup into segments, words and SSML, evaluating what has to be evaluated. One for
+/// each prompt; errors are thrown as events.
+class PromptBuilder {
+ public:
+  PromptBuilder(Session& session, Prompt& prompt) : s_(session), prompt_(prompt) {}
+
+  void Add(const xml::Node& node);
+  void Finish();
+
+ private:
+  void AddChildren(const xml::Node& node);
+  void Words(const std::string& text);
+  void EndWords();
+  void Command(const std::string& line, Millis wait, bool parallel);
+  void Speech(const xml::Node& node);
+  void Audio(const xml::Node& node);
+  bool Exists(const xml::Node& node, const std::string& uri);
+  void Enumerate(const xml::Node& node);
+  void Foreach(const xml::Node& node);
+  void Pause(const xml::Node& node);
+  void Mark(const xml::Node& node);
+
+  void Emotion(const xml::Node& node);
+  std::string LineOf(const xml::Node& node);
+  void Media(const xml::Node& node);
+  void Behaviour(const xml::Node& node);
+  void Anchor(const std::string& name);
+  void PlaceDeferred();
+
+  /// A behaviour that starts at a point of the speech.
+  struct Deferred {
+    std::string start;
+    std::string command;
+    std::size_t at;  ///< the segment it stands before
+    std::size_t line;
+  };
+
+  Session& s_;
+  Prompt& prompt_;
+  std::string words_;
+  std::string ssml_;
+  std::string speech_;  ///< id of the element around the words, "" = none
+  std::vector<Feeling> feelings_;
+  std::map<std::string, std::size_t> anchors_;  ///< point -> the segment behind it
+  std::vector<Deferred> deferred_;
+};
+
+}  // namespace vxml

@@ -1,0 +1,172 @@
+// The listening side: grammars to the ear, what is heard, typed or scripted.
+#include <utility>
+
+#include "task_manager/platform/agent_platform.h"
+#include "task_manager/xml/node.h"
+
+namespace vxml {
+namespace {
+
+constexpr Millis kAnswer{5000};
+constexpr Millis kReaction{500};
+constexpr std::size_t kMostGrammar = 12'000;  // the ear takes 16 KiB
+
+}  // namespace
+
+void AgentPlatform::OnTyped(const std::string& line) {
+  if (xml::IsBlank(line)) return;
+  if (line[0] != '/') return hub_.Send("to @" + options_.ear + " set Input.text = " + line);
+  auto command = ParseCommand(std::string_view(line).substr(1));
+  if (!command) return;
+  if (command->kind == Command::Kind::kDtmf) {
+    Hear(Input::Kind::kDtmf, command->hypotheses);
+  } else if (command->kind == Command::Kind::kHangup) {
+    Hear(Input::Kind::kHangup, {});
+  } else if (command->kind == Command::Kind::kSilence) {
+    Hear(Input::Kind::kSilence, {});
+  }
+}
+
+/// The active grammars, as far as the ear can hold them. What it cannot is heard freely and
+/// matched here.
+void AgentPlatform::UseGrammars(const Listen& listen) {
+  const std::string text = listen.phrases ? listen.phrases(kMostGrammar) : "";
+  if (text == in_ear_) return;
+  const std::string to_ear = "to @" + options_.ear;
+  bool loaded = false;
+  if (!text.empty()) {
+    const std::string name = "dialog_" + options_.name;
+    loaded = hub_.Ask(to_ear + " set Grammar.load = " + name + " " + text, kAnswer).has_value() &&
+             hub_.Ask(to_ear + " set Grammar = " + name, kAnswer).has_value();
+  }
+  if (!loaded) static_cast<void>(hub_.Ask(to_ear + " set Grammar = NONE", kAnswer));
+  in_ear_ = text;
+}
+
+/// What somebody says while the agent speaks: `at` so much of the hub's time after it began to.
+/// The hub itself stops the speech then: a film's clock does not wait for this program.
+void AgentPlatform::Interrupt(const Command& command, const std::vector<Prompt>& prompts,
+                              const Listen& listen) {
+  const std::string words = command.hypotheses.empty() ? "?" : command.hypotheses.front().text;
+  const bool keys = command.kind == Command::Kind::kDtmf;
+  const bool spoken = !keys && command.kind != Command::Kind::kHangup;
+  bool speaks = false;
+  bool stops = true;
+  for (const Prompt& prompt : prompts) {
+    speaks = speaks || !prompt.text.empty();
+    stops = stops && prompt.bargein &&
+            (!prompt.hotword || !spoken || (listen.accepts && listen.accepts(words)));
+  }
+  std::string steps = "[";
+  if (speaks) {
+    steps += "{\"wait\": {\"from\": \"" + options_.voice +
+             "\", \"slot\": \"Speak.stat\", \"value\": \"SPEAKING\"}, \"limit_ms\": 20000}, ";
+  }
+  steps += "{\"pause_ms\": " + std::to_string(command.at->count()) + "}";
+  if (spoken) {
+    const std::string line = "to @" + options_.ear + " set Input.text = " + words;
+    steps += ", {\"request\": " + JsonQuote(line) + ", \"limit_ms\": 20000}";
+  }
+  if (speaks && stops) steps += ", {\"send\": \"to @AM-MCL set Speak = STOP\"}";
+  if (!hub_.Ask("to @AM-MCL def DialogueInterrupt = " + steps + "]", kAnswer)) return;
+  auto message = vm::ParseMessage("to @AM-MCL set DialogueInterrupt = NOW");
+  if (!message) return;
+  interrupting_ = true;
+  hub_.Hold();
+  hub_.client().Request(*message, [this, command, keys](const vm::Result<std::string>&) {
+    interrupting_ = false;
+    if (keys) Hear(Input::Kind::kDtmf, command.hypotheses);
+    if (command.kind == Command::Kind::kHangup) Hear(Input::Kind::kHangup, {});
+  });
+}
+
+/// Time of the hub passes: a film's clock is virtual, so the machine's says nothing.
+void AgentPlatform::Pause(Millis time) {
+  const std::string steps = "[{\"pause_ms\": " + std::to_string(time.count()) + "}]";
+  auto defined = hub_.Ask("to @AM-MCL def DialoguePause = " + steps, kAnswer);
+  if (defined) static_cast<void>(hub_.Ask("to @AM-MCL set DialoguePause = NOW", time + kAnswer));
+}
+
+std::optional<Command> AgentPlatform::Next() {
+  if (next_) return std::exchange(next_, std::nullopt);
+  auto command = options_.script();
+  ran_out_ = ran_out_ || !command;
+  return command;
+}
+
+void AgentPlatform::Hear(Input::Kind kind, std::vector<Hypothesis> hypotheses) {
+  Input input;
+  input.kind = kind;
+  input.hypotheses = std::move(hypotheses);
+  heard_.push_back(std::move(input));
+}
+
+std::optional<Input> AgentPlatform::FromScript(const std::optional<Command>& command,
+                                               const Listen& listen) {
+  Input input;
+  if (!command || command->kind == Command::Kind::kHangup) {
+    input.kind = Input::Kind::kHangup;
+    return input;
+  }
+  const bool silent = command->kind == Command::Kind::kSilence;
+  const Millis wait = silent ? listen.timeout : kReaction;
+  Pause(wait);
+  if (silent) return input;
+  if (command->kind == Command::Kind::kDtmf) {
+    input.kind = Input::Kind::kDtmf;
+    input.hypotheses = command->hypotheses;
+    return input;
+  }
+  const std::string words = command->hypotheses.empty() ? "?" : command->hypotheses.front().text;
+  auto said = hub_.Ask("to @" + options_.ear + " set Input.text = " + words, Millis(60'000));
+  if (!said) Hear(Input::Kind::kSpeech, {{words, 1.0}});
+  return {};
+}
+
+std::optional<Input> AgentPlatform::Taken() {
+  if (heard_.empty()) return {};
+  Input input = std::move(heard_.front());
+  heard_.pop_front();
+  if (!mark_.empty()) {
+    input.mark = mark_;
+    input.mark_time =
+        std::chrono::duration_cast<Millis>(std::chrono::steady_clock::now() - mark_at_);
+  }
+  return input;
+}
+
+Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& listen) {
+  mark_.clear();
+  UseGrammars(listen);
+  attends_ = listen.attention;
+  std::optional<Command> command = options_.script ? Next() : std::nullopt;
+  const bool interrupts = command && command->at;
+  if (interrupts) Interrupt(*command, prompts, listen);
+  Input input;
+  input.kind = Input::Kind::kHangup;
+  if (!Speaks(prompts, true)) return input;
+  if (attends_) hub_.Send("to @" + options_.face + " set Gaze = 0 0");  // at the user
+  if (interrupts && !interrupting_ && heard_.empty() && !hearing_) {    // a prompt without bargein
+    JsonLine line;
+    line.Text("input", command->hypotheses.empty() ? "" : command->hypotheses.front().text);
+    line.Text("why", "bargein");
+    Report("ignored", line);
+    command = Next();
+  }
+  const bool on_its_way = interrupts && (interrupting_ || hearing_);
+  if (options_.script && heard_.empty() && !on_its_way) {
+    if (auto scripted = FromScript(command, listen)) return *scripted;
+  } else if (options_.script && !interrupts) {
+    next_ = command;  // somebody else spoke first
+  }
+  const auto ready = [&] { return !heard_.empty() || hub_.typed_end(); };
+  while (!ready() && !hub_.gone()) {
+    if (!hub_.WaitFor([&] { return ready() || hearing_; }, listen.timeout)) break;
+    if (!ready()) hub_.WaitFor(ready, listen.max_speech);
+  }
+  if (auto taken = Taken()) return *taken;
+  input.kind = hub_.gone() || hub_.typed_end() ? Input::Kind::kHangup : Input::Kind::kSilence;
+  return input;
+}
+
+}  // namespace vxml
