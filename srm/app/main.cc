@@ -1,11 +1,13 @@
 // The speech recognition module: options, the engine, sources of sound, and the module over them.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "srm/app/sources.h"
 #include "srm/core/recognizer_module.h"
@@ -36,6 +38,9 @@ vm::Result<std::string> ReadTextFile(const std::string& path) {
 int main(int argc, char** argv) {
   srm::PocketsphinxOptions engine;
   bool accept_all = false, real = false;
+  const bool stdin_free = std::any_of(argv + 1, argv + argc, [](std::string_view word) {
+    return word.starts_with("--listen") || word.starts_with("--connect") || word == "-p";
+  });
   return vm::RunModule(
       argc, argv,
       {.name = "srm",
@@ -64,9 +69,14 @@ int main(int argc, char** argv) {
                                 .read_file = ReadTextFile,
                                 .open_decoder = [&engine] { return srm::OpenPocketsphinx(engine); },
                                 .open_spotter = [&engine] { return srm::OpenSpotter(engine); },
-                                .open_source =
-                                    [&clock, &io](const std::string& name) {
-                                      return srm::OpenSource(name, clock, io, clock.real());
-                                    }});
+                                .open_source = [&](const std::string& name)
+                                    -> vm::Result<std::unique_ptr<srm::AudioSource>> {
+                                  if (name.ends_with(":-") && !stdin_free) {
+                                    return vm::Fail(vm::Errc::kUnavailable,
+                                                    "standard input brings the commands; "
+                                                    "run with --listen or --connect");
+                                  }
+                                  return srm::OpenSource(name, clock, io, clock.real());
+                                }});
            }});
 }

@@ -67,14 +67,59 @@ vm::Result<void> RecognizerModule::StartSource() {
     if (auto used = UseGrammars(); !used) return used;
   }
   source_start_ = scheduler_.Now();
-  return source_->Start(
-      {.sound = [this](std::span<const std::int16_t> samples) { ear_->Feed(samples); },
-       .ended = [this] { OnSourceOver(); },
-       .failed =
-           [this](const vm::Error& error) {
-             slots_.ReportError("Input", error);
-             OnSourceOver();
-           }});
+  // The voice first: what it plays is known before the microphone hears it.
+  if (auto started = StartVoice(); !started) slots_.ReportError("Agent.voice", started.error());
+  return source_->Start({.sound = [this](std::span<const std::int16_t> samples) { Hear(samples); },
+                         .ended = [this] { OnSourceOver(); },
+                         .failed =
+                             [this](const vm::Error& error) {
+                               slots_.ReportError("Input", error);
+                               OnSourceOver();
+                             }});
+}
+
+void RecognizerModule::Hear(std::span<const std::int16_t> samples) {
+  if (!canceller_) return ear_->Feed(samples);
+  const std::vector<std::int16_t> clean = canceller_->Clean(samples);
+  if (!clean.empty()) ear_->Feed(clean);
+}
+
+vm::Result<std::string> RecognizerModule::SetVoice(const std::string& name) {
+  voice_.reset();
+  voice_name_ = "NONE";
+  if (name == "NONE") return name;
+  auto source = options_.open_source(name);
+  if (!source) return std::unexpected(source.error());
+  voice_ = std::move(*source);
+  voice_name_ = name;
+  if (source_ && listening_.on()) {
+    if (auto started = StartVoice(); !started) return std::unexpected(started.error());
+  }
+  return name;
+}
+
+vm::Result<void> RecognizerModule::StartVoice() {
+  if (!voice_) return {};
+  const auto over = [this] { voice_name_ = "NONE"; };
+  return voice_->Start({.sound =
+                            [this](std::span<const std::int16_t> samples) {
+                              if (canceller_) canceller_->Play(samples);
+                            },
+                        .ended = over,
+                        .failed =
+                            [this, over](const vm::Error& error) {
+                              slots_.ReportError("Agent.voice", error);
+                              over();
+                            }});
+}
+
+void RecognizerModule::SetEcho(Echo echo) {
+  echo_ = echo;
+  if (echo != Echo::kCancel)
+    canceller_.reset();
+  else if (!canceller_)
+    canceller_ = std::make_unique<EchoCanceller>();
+  SetAgentSpeaking(agent_speaking_);
 }
 
 /// The source may be in the middle of a call, so it goes a little later.
@@ -110,6 +155,11 @@ vm::Result<std::string> RecognizerModule::SetSpot(const std::string& text) {
 void RecognizerModule::StopListening() {
   if (over_timer_ != 0) scheduler_.Cancel(std::exchange(over_timer_, 0));
   source_.reset();
+  voice_.reset();
+  if (voice_name_ != "NONE" && !voice_name_.starts_with("wav:")) {
+    if (auto again = options_.open_source(voice_name_)) voice_ = std::move(*again);
+  }
+  if (!voice_) voice_name_ = "NONE";
   if (source_name_ != "NONE" && !source_name_.starts_with("wav:")) {
     // A live source is opened again at the next START; a recording is over.
     if (auto again = options_.open_source(source_name_)) source_ = std::move(*again);
@@ -120,7 +170,7 @@ void RecognizerModule::StopListening() {
 
 void RecognizerModule::SetAgentSpeaking(bool speaking) {
   agent_speaking_ = speaking;
-  if (ear_) ear_->set_recognizing(!(agent_speaking_ && half_duplex_));
+  if (ear_) ear_->set_recognizing(!(agent_speaking_ && echo_ == Echo::kHalf));
 }
 
 void RecognizerModule::OnBegan() {

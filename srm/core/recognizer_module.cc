@@ -38,6 +38,7 @@ void RecognizerModule::Shutdown() {
   listening_.Disarm();
   if (over_timer_ != 0) scheduler_.Cancel(std::exchange(over_timer_, 0));
   source_.reset();
+  voice_.reset();
 }
 
 // --- engines

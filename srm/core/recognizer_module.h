@@ -11,6 +11,7 @@
 #include "ear/result_report.h"
 #include "srm/core/audio_source.h"
 #include "srm/core/ear.h"
+#include "srm/engine/echo_canceller.h"
 #include "vm_protocol/core/module.h"
 
 namespace srm {
@@ -42,6 +43,7 @@ class RecognizerModule final : public vm::Module {
   void Shutdown() override;
 
  private:
+  enum class Echo { kHalf, kOpen, kCancel };
   // recognizer_slots.cc
   void DeclareListen();
   void DeclareAgent();
@@ -59,6 +61,10 @@ class RecognizerModule final : public vm::Module {
   vm::Result<std::string> SetInput(const std::string& source);
   vm::Result<std::string> SetSpot(const std::string& phrases);
   vm::Result<void> StartSource();
+  vm::Result<std::string> SetVoice(const std::string& source);
+  vm::Result<void> StartVoice();
+  void SetEcho(Echo echo);
+  void Hear(std::span<const std::int16_t> samples);
   void StopListening();
   void OnBegan();
   void OnEnded(const Ear::Heard& heard);
@@ -83,7 +89,10 @@ class RecognizerModule final : public vm::Module {
 
   ear::Listening listening_;
   bool agent_speaking_ = false;
-  bool half_duplex_ = true;
+  Echo echo_ = Echo::kHalf;
+  std::unique_ptr<EchoCanceller> canceller_;  // while echo_ is kCancel
+  std::unique_ptr<AudioSource> voice_;        // the agent's own, for it
+  std::string voice_name_ = "NONE";
   double threshold_ = 0.5;
   std::size_t most_ = 1;
   Endpointer::Settings endpoints_;

@@ -63,18 +63,28 @@ void RecognizerModule::DeclareAgent() {
                     return value.word(0);
                   },
                   .saved = false});
-  slots_.Declare({.name = "Agent.echo",
-                  .grammar = "HALF | OPEN",
-                  .initial = "HALF",
+  slots_.Declare(
+      {.name = "Agent.echo",
+       .grammar = "HALF | OPEN | CANCEL",
+       .initial = "HALF",
+       .help = "HALF: while the agent speaks, only the phrases of Spot are listened for, "
+               "so its own voice is no input. OPEN: everything is heard (there are "
+               "headphones); BargeIn says when. CANCEL: the sound of Agent.voice is taken "
+               "out of what is heard, then as OPEN.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         const std::string& word = value.word(0);
+         SetEcho(word == "HALF" ? Echo::kHalf : word == "OPEN" ? Echo::kOpen : Echo::kCancel);
+         return word;
+       }});
+  slots_.Declare({.name = "Agent.voice",
+                  .grammar = "NONE | <text>",
+                  .initial = "NONE",
                   .help =
-                      "HALF: while the agent speaks, only the phrases of Spot are listened for, "
-                      "so its own voice is no input. OPEN: everything is heard (the echo is "
-                      "cancelled elsewhere, or there are headphones); BargeIn says when.",
-                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    half_duplex_ = value.word(0) == "HALF";
-                    SetAgentSpeaking(agent_speaking_);
-                    return value.word(0);
-                  }});
+                      "Where the agent's own voice can be had as it is played, for Agent.echo = "
+                      "CANCEL: a source as for Input, as raw:PATH beside ssm --sink raw:PATH.",
+                  .on_set = [this](const vm::SetValue& value) { return SetVoice(value.text); },
+                  .on_inq = [this] { return voice_name_; },
+                  .saved = false});
   slots_.Declare({.name = "Spot",
                   .grammar = "NONE | <text>",
                   .initial = "NONE",
@@ -128,7 +138,9 @@ void RecognizerModule::DeclareInput() {
                   .auto_output = true,
                   .help =
                       "Where sound comes from: NONE, wav:PATH (once, at the pace of the clock), "
-                      "raw:PATH (16 kHz 16 bit mono from a pipe), portaudio[:DEVICE]. It is "
+                      "raw[@RATE]:PATH (16 bit mono from a pipe, - is standard input), "
+                      "tcp[@RATE]:PORT or unix[@RATE]:PATH (the same from whoever connects), "
+                      "portaudio[:DEVICE]. RATE is in Hz, 16000 without. It is "
                       "heard while listening.",
                   .on_set = [this](const vm::SetValue& value) { return SetInput(value.text); },
                   .on_inq = [this] { return source_name_; },

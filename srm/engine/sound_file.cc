@@ -35,6 +35,30 @@ std::vector<std::int16_t> Resampled(const std::vector<std::int16_t>& samples, un
 
 }  // namespace
 
+struct StreamResampler::State {
+  SpeexResamplerState* speex = nullptr;
+  ~State() { speex_resampler_destroy(speex); }
+};
+
+StreamResampler::StreamResampler(unsigned rate_hz) : rate_hz_(rate_hz) {
+  if (rate_hz == kRateHz) return;
+  int error = 0;
+  state_ = std::make_unique<State>();
+  state_->speex = speex_resampler_init(1, rate_hz, kRateHz, 5, &error);
+  speex_resampler_skip_zeros(state_->speex);
+}
+StreamResampler::~StreamResampler() = default;
+
+std::vector<std::int16_t> StreamResampler::Add(const std::vector<std::int16_t>& samples) {
+  if (!state_) return samples;
+  std::vector<std::int16_t> result(samples.size() * kRateHz / rate_hz_ + 64);
+  auto in = static_cast<spx_uint32_t>(samples.size());
+  auto out = static_cast<spx_uint32_t>(result.size());
+  speex_resampler_process_int(state_->speex, 0, samples.data(), &in, result.data(), &out);
+  result.resize(out);
+  return result;
+}
+
 vm::Result<std::vector<std::int16_t>> ReadSound(const std::string& path) {
   SF_INFO info{};
   if (path.ends_with(".raw")) {

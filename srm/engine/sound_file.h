@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,19 @@ namespace srm {
 /// most two hours. Errors: kUnavailable (cannot be read), kBadValue (no sound, a rate out of
 /// range), kTooLong.
 vm::Result<std::vector<std::int16_t>> ReadSound(const std::string& path);
+
+/// The same for sound that comes bit by bit.
+class StreamResampler {
+ public:
+  /// REQUIRES: 1000 to 400000.
+  explicit StreamResampler(unsigned rate_hz);
+  ~StreamResampler();
+  std::vector<std::int16_t> Add(const std::vector<std::int16_t>& samples);
+
+ private:
+  struct State;
+  const unsigned rate_hz_;
+  std::unique_ptr<State> state_;  // null at our own rate
+};
 
 }  // namespace srm

@@ -257,6 +257,39 @@ TEST_F(RecognizerTest, WhileTheAgentSpeaksItsVoiceIsNoInputUnlessTheEchoIsSeenTo
       said.end());
 }
 
+TEST(EchoCancellerTest, TheAgentsVoiceGoesAndSomebodyElsesStays) {
+  // The room: the voice 30 ms later, softer, with a second path.
+  const auto voice = Sound(12'000, 6000);
+  std::vector<std::int16_t> echo(voice.size());
+  for (std::size_t i = 1200; i < echo.size(); ++i) {
+    echo[i] = static_cast<std::int16_t>(0.4 * voice[i - 480] - 0.2 * voice[i - 1200]);
+  }
+  const auto other = Sound(1000, 2500);
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    auto& heard = echo[10'000 * srm::kFramesPerMs + i];
+    heard = static_cast<std::int16_t>(heard + other[other.size() - 1 - i]);
+  }
+  srm::EchoCanceller canceller;
+  std::vector<std::int16_t> clean;
+  for (std::size_t at = 0; at < echo.size(); at += 320) {
+    canceller.Play(std::span(voice).subspan(at, 320));
+    Add(clean, canceller.Clean(std::span(echo).subspan(at, 320)));
+  }
+  const auto level = [](std::span<const std::int16_t> samples) {
+    double power = 0;
+    for (const auto s : samples) power += static_cast<double>(s) * s;
+    return 10 * std::log10(power / static_cast<double>(samples.size()) + 1);
+  };
+  const auto part = [&](std::span<const std::int16_t> samples, std::size_t ms) {
+    return level(samples.subspan(ms * srm::kFramesPerMs, 900 * srm::kFramesPerMs));
+  };
+  ASSERT_GT(clean.size(), echo.size() - 512);
+  const double gone = part(echo, 8000) - part(clean, 8000);
+  std::printf("echo: %.0f dB less\n", gone);
+  EXPECT_GT(gone, 25);
+  EXPECT_GT(part(clean, 10'050), part(clean, 8000) + 15);
+}
+
 TEST_F(RecognizerTest, TypedTextIsRecognizedLikeTheStubs) {
   Tell("set Grammar.file = g g.jsgf");
   Tell("set Grammar = g");
