@@ -42,6 +42,7 @@ class RenderContext;
   X(PFNGLDRAWELEMENTSPROC, DrawElements)                       \
   X(PFNGLENABLEPROC, Enable)                                   \
   X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
+  X(PFNGLFLUSHPROC, Flush)                                     \
   X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
   X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
   X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap)                   \

@@ -1,5 +1,7 @@
 #include "fsm/render/gl_objects.h"
 
+#include <algorithm>
+#include <cstring>
 #include <stdexcept>
 
 namespace fsm {
@@ -7,6 +9,25 @@ namespace {
 
 /// Samples along each side of a pixel.
 constexpr int kSide = 2;
+
+/// The average of every 2 x 2 of two rows of samples that follow each other, rounded to the
+/// nearest. Bytes 0 and 2 of a sample are added in one word, 1 and 3 in another, with room for the
+/// carry.
+void AverageRow(const std::uint32_t* samples, std::size_t row, std::uint8_t* rgba) {
+  constexpr std::uint32_t kEven = 0x00ff00ff;
+  constexpr std::uint32_t kHalf = 0x00020002;
+  for (std::size_t x = 0; x < row; x += 2) {
+    const std::uint32_t four[] = {samples[x], samples[x + 1], samples[row + x],
+                                  samples[row + x + 1]};
+    std::uint32_t even = kHalf, odd = kHalf;
+    for (const std::uint32_t sample : four) {
+      even += sample & kEven;
+      odd += (sample >> 8) & kEven;
+    }
+    const std::uint32_t average = ((even >> 2) & kEven) | (((odd >> 2) & kEven) << 8);
+    std::memcpy(rgba + 2 * x, &average, sizeof(average));
+  }
+}
 
 /// The message log of a shader or a program, through its two differently named pairs of getters.
 template <typename GetNumber, typename GetText>
@@ -94,20 +115,20 @@ void GlTarget::Bind() const {
 }
 
 void GlTarget::Read(std::uint8_t* rgba) {
-  const auto row = static_cast<std::size_t>(width_) * kSide * 4;
-  samples_.resize(row * static_cast<std::size_t>(height_) * kSide);
+  // Few rows at a time, so that what is read stays in the cache until it is averaged.
+  constexpr int kRowsAtOnce = 16;
+  const auto row = static_cast<std::size_t>(width_) * kSide;
+  samples_.resize(row * kRowsAtOnce * kSide);
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
   gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_.ReadPixels(0, 0, width_ * kSide, height_ * kSide, GL_RGBA, GL_UNSIGNED_BYTE, samples_.data());
-  // GL's first row is the lowest.
-  const std::uint8_t* lower = samples_.data() + samples_.size() - 2 * row;
-  for (int y = 0; y < height_; ++y, lower -= 2 * row) {
-    const std::uint8_t* upper = lower + row;
-    for (std::size_t x = 0; x < row; x += 8) {
-      for (std::size_t c = x; c < x + 4; ++c) {
-        *rgba++ = static_cast<std::uint8_t>(
-            (lower[c] + lower[c + 4] + upper[c] + upper[c + 4] + 2U) / 4U);
-      }
+  for (int y = 0; y < height_; y += kRowsAtOnce) {
+    const int rows = std::min(kRowsAtOnce, height_ - y);
+    // GL's first row is the lowest.
+    gl_.ReadPixels(0, (height_ - y - rows) * kSide, width_ * kSide, rows * kSide, GL_RGBA,
+                   GL_UNSIGNED_BYTE, samples_.data());
+    for (int k = rows - 1; k >= 0; --k) {
+      AverageRow(&samples_[2 * row * static_cast<std::size_t>(k)], row, rgba);
+      rgba += row * 2;
     }
   }
 }

@@ -54,8 +54,8 @@ class GlTarget {
   int width_;
   int height_;
   GLuint frame_ = 0;
-  GLuint buffers_[2] = {};  // colour, depth
-  std::vector<std::uint8_t> samples_;
+  GLuint buffers_[2] = {};              // colour, depth
+  std::vector<std::uint32_t> samples_;  // some rows of RGBA8, as they are read
 };
 
 }  // namespace fsm

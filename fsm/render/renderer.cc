@@ -97,6 +97,8 @@ class GlRenderer : public Renderer {
         (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part.material);
         DrawPart(part);
+        // A software driver draws on threads of its own, but begins when told to.
+        if (&part == &parts.front()) gl_.Flush();
       }
       gl_.Disable(GL_CULL_FACE);
       gl_.Disable(GL_POLYGON_OFFSET_FILL);
