@@ -56,7 +56,8 @@ void DeclareUnits(FsmCore& core) {
       {"AU", "<text>",
        "Moves action units: number (or name) with L or R for one side, then the strength "
        "(0 to 2, 1 = full, or a letter A to E), as many as wanted; at the end the ms it "
-       "takes (60). 51-58 turn the head, 61-66 the eyes. `12L 0.7 6 C 200`",
+       "takes (60). 30 and 46 (a wink) are of one side, the agent's left if none is named. 51-58 "
+       "move the head, 61-66 the eyes. `12L 0.7 6 C 200`",
        [&core](const vm::SetValue& value) { return core.motion->SetUnits(core.Now(), value.text); },
        "", false});
   core.Declare({"ARKit", "( <word> <number 0..1> )... [ <ms> ]",
@@ -167,6 +168,15 @@ void DeclareFigureSlots(FsmCore& core) {
                   return {};
                 },
                 "ENABLE"});
+  core.Declare({"Asymmetry", "<number 0..300>",
+                "How unlike the two sides of the face move, in per cent of what this face has by "
+                "itself (a few per cent of each unit); 0 = both alike. Which side is first in time "
+                "is Autonomous' ASYMMETRY.",
+                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                  core.motion->figure().asymmetry = static_cast<float>(value.number(0) / 100);
+                  return {};
+                },
+                "100"});
   core.Declare({"AgentAlpha", "<number 0..1>", "Opacity of the agent, 0 = not to be seen.",
                 [&core](const vm::SetValue& value) -> vm::Result<void> {
                   core.motion->figure().agent_alpha = static_cast<float>(value.number(0));

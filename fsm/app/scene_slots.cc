@@ -4,8 +4,8 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <iostream>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace fsm {
@@ -52,10 +52,14 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
   DeclareLight("Light.rim", "The lamp behind, for the edge of hair and shoulder", &Scene::rim);
   DeclareSaveImage();
   if (!backgrounds_.empty()) {
+    // A picture that is gone is no reason to have no face.
     if (auto set = SetBackground(backgrounds_.front().first); !set) {
-      throw std::runtime_error(set.error().text);
+      std::cerr << "fsm: notice: background " << backgrounds_.front().first << ": "
+                << set.error().text << "; the plain one is shown\n";
+      core_.slots.Store("Background", kPlain);
+    } else {
+      core_.slots.Store("NowBackground", backgrounds_.front().first);
     }
-    core_.slots.Store("NowBackground", backgrounds_.front().first);
   }
 }
 
@@ -235,7 +239,11 @@ void SceneSlots::Reset() {
   transparent_ = false;
   background_enabled_ = true;
   const std::string first = backgrounds_.empty() ? kPlain : backgrounds_.front().first;
-  if (auto set = SetBackground(first); !set) core_.slots.ReportError("Background", set.error());
+  if (auto set = SetBackground(first); !set) {
+    core_.slots.ReportError("Background", set.error());
+    core_.slots.Store("NowBackground", kPlain);
+    return;
+  }
   core_.slots.Store("NowBackground", first);
 }
 

@@ -47,9 +47,7 @@ Sheet Units(const MotionTables& tables, const std::string& face) {
   Sheet sheet{{}, 10};
   sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
   for (const auto& [number, name] : tables.unit_names.names) {
-    const bool one_side = number == 30 || number == 46;  // both at once would cancel, or be a blink
-    const std::string side = one_side ? "L" : "";
-    const std::string text = std::to_string(number) + side + " 1" + Companions(number);
+    const std::string text = std::to_string(number) + " 1" + Companions(number);
     const FaceState state = After(tables, [&](FaceMotion& motion) {
       if (auto set = motion.SetUnits(0ms, text); !set) return;
     });

@@ -98,9 +98,10 @@ void ActionUnits::MakeAsymmetric(int seed) {
 
 SidedUnits ActionUnits::Combine(const FaceState& state) const {
   SidedUnits units{};
+  const float shown = std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, 5.0f) : 0;
   for (std::size_t i = 1; i < kActionUnits; ++i) {
-    units[0][i] = gain_[0][i] * Acting(state.au_right[i]);
-    units[1][i] = gain_[1][i] * Acting(state.au_left[i]);
+    units[0][i] = (1 + shown * (gain_[0][i] - 1)) * Acting(state.au_right[i]);
+    units[1][i] = (1 + shown * (gain_[1][i] - 1)) * Acting(state.au_left[i]);
   }
   for (auto& side : units) {
     const auto before = side;  // rules look at what was asked, so their order does not matter

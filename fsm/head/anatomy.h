@@ -56,6 +56,13 @@ struct ToothArch {
     const float t = (x / half_width) * (x / half_width);
     return front_z - depth * t * (0.45f + 0.55f * t);
   }
+  ToothArch Moved(glm::vec3 by) const {
+    ToothArch moved = *this;
+    moved.front_z += by.z;
+    moved.edge_y += by.y;
+    moved.root_y += by.y;
+    return moved;
+  }
   float Slope(float x) const {
     const float t = (x / half_width) * (x / half_width);
     return depth * (0.9f + 2.2f * t) * x / (half_width * half_width);

@@ -30,13 +30,8 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
     }
   }
   AddMouthFields(mouth);
-  upper_teeth_ = mouth.UpperTeeth();
-  lower_teeth_ = mouth.LowerTeeth();
-  for (ToothArch* arch : {&upper_teeth_, &lower_teeth_}) {
-    arch->front_z += teeth_shift.z;
-    arch->edge_y += teeth_shift.y;
-    arch->root_y += teeth_shift.y;
-  }
+  upper_teeth_ = mouth.UpperTeeth().Moved(teeth_shift);
+  lower_teeth_ = mouth.LowerTeeth().Moved(teeth_shift);
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     if (!flesh_[i].by_teeth) continue;
     const glm::vec3 p = rest_[i];

@@ -25,6 +25,7 @@ struct Pose {
   float tongue_raise = 0, tongue_out_mm = 0;
   std::array<glm::mat3, 2> eye;  ///< right, left
   glm::mat3 head;
+  float head_forward_mm = 0;
 };
 /// Clamps `state` to what anatomy allows; anything not a number counts as 0.
 Pose MakePose(const FaceState& state, const ActionUnits& units);

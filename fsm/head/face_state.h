@@ -43,6 +43,11 @@ struct FaceState {
   /// Head turn in degrees about the neck. x+ = down (nod), y+ = to the viewer's right, z+ = tilt
   /// towards the viewer's right. The original's axes and signs.
   std::array<float, 3> head_rotation{};
+  /// How far the neck carries the head forward (+, chin first) or back, in millimetres.
+  float head_forward = 0;
+  /// How much of what makes the two sides of this head unlike is shown: 0 = both move alike, 1 = as
+  /// the head is (Head::Make).
+  float asymmetry = 1;
   /// The whole figure.
   std::array<float, 3> agent_rotation{};
   std::array<float, 2> agent_translation{};

@@ -23,6 +23,7 @@
 #include "fsm/head/landmarks.h"
 #include "fsm/head/parts.h"
 #include "fsm/head/skin_mesh.h"
+#include "fsm/head/tongue_way.h"
 
 namespace fsm {
 namespace {
@@ -74,11 +75,12 @@ class GenericHead : public Head {
     out.position.resize(rest_.size());
     out.normal.resize(rest_.size());
     face_->Deform(pose, out.position.data());
+    const TongueWay tongue(pose, upper_teeth_, lower_teeth_, seam_, out.position.data());
     for (std::size_t i = 0; i < flesh_count_; ++i) {
       out.position[i] = TurnHead(out.position[i], pose, face_->neck(i));
     }
     FleshNormals(out);
-    for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, out);
+    for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, tongue, out);
     out.wrinkles = Wrinkles(pose.units);
   }
 
@@ -156,6 +158,9 @@ class GenericHead : public Head {
     bone_ = std::move(mesh.bone);
     for (const Flesh& flesh : mesh.flesh) bend_.push_back(flesh.free);
 
+    seam_ = skin.seam;
+    upper_teeth_ = mouth_.UpperTeeth().Moved(teeth_shift_);
+    lower_teeth_ = mouth_.LowerTeeth().Moved(teeth_shift_);
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
     face_.emplace(std::vector<glm::vec3>(rest_.begin(), rest_.begin() + flesh_end),
                   std::vector<Flesh>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end), skin.seam,
@@ -242,7 +247,8 @@ class GenericHead : public Head {
     Accumulate(flesh_triangles_, out.position, std::span(out.normal.data(), flesh_count_));
   }
 
-  void MoveRigid(std::size_t i, const Pose& pose, HeadVertices& out) const {
+  void MoveRigid(std::size_t i, const Pose& pose, const TongueWay& tongue,
+                 HeadVertices& out) const {
     glm::vec3 p = rest_[i];
     glm::vec3 n = rest_normal_[i];
     switch (bone_[i]) {
@@ -258,9 +264,9 @@ class GenericHead : public Head {
       }
       case Bone::kTongue: {
         const float tip = bend_[i];
-        p.z += pose.tongue_out_mm * tip;
+        p.z += tongue.Part() * pose.tongue_out_mm * tip;
         p.y += pose.tongue_raise * 11 * tip * tip;
-        p = TurnJaw(p, pose, 1 - 0.25f * pose.tongue_raise * tip);
+        p = tongue.Fit(TurnJaw(p, pose, 1 - 0.25f * pose.tongue_raise * tip));
         n = glm::normalize(TurnJaw(rest_[i] + n, pose, 1) - TurnJaw(rest_[i], pose, 1));
         break;
       }
@@ -291,6 +297,8 @@ class GenericHead : public Head {
   std::vector<Bone> bone_;
   std::vector<float> bend_;
   Landmarks landmarks_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam_;  // of the lips, from -x to +x
+  ToothArch upper_teeth_{}, lower_teeth_{};
   std::optional<Deformer> face_, probe_;
 };
 

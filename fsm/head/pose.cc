@@ -73,6 +73,7 @@ Pose MakePose(const FaceState& state, const ActionUnits& table) {
   pose.head = TurnY(Bound(state.head_rotation[1], -80, 80) * kRadians) *
               TurnX(Bound(state.head_rotation[0], -60, 60) * kRadians) *
               TurnZ(-Bound(state.head_rotation[2], -50, 50) * kRadians);
+  pose.head_forward_mm = Bound(state.head_forward, -30, 45);
   return pose;
 }
 
@@ -95,7 +96,8 @@ glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose) {
 }
 
 glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight) {
-  const glm::vec3 turned = kNeckPivot + pose.head * (p - kNeckPivot);
+  glm::vec3 turned = kNeckPivot + pose.head * (p - kNeckPivot);
+  turned.z += pose.head_forward_mm;
   return p + weight * (turned - p);
 }
 

@@ -28,6 +28,8 @@ bool IsActionUnit(int number) {
   return number >= 1 && number < static_cast<int>(kActionUnits) && number != 3 && number != 40;
 }
 
+bool IsOneSided(int number) { return number == 30 || number == 46; }
+
 vm::Result<UnitName> ParseUnitName(std::string_view word) {
   UnitName unit;
   std::string_view digits = word;
@@ -91,7 +93,8 @@ vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line,
     }
     const auto index = static_cast<std::size_t>(unit->number);
     if (unit->left) units.left[index] = static_cast<float>(*weight);
-    if (unit->right) units.right[index] = static_cast<float>(*weight);
+    const bool only_left = unit->left && IsOneSided(unit->number);
+    if (unit->right && !only_left) units.right[index] = static_cast<float>(*weight);
   }
   return units;
 }

@@ -29,6 +29,10 @@ void AddTo(ActionUnits& a, const ActionUnits& b, double weight);
 /// True for the 44 numbers of FACS that FaceState has room for.
 bool IsActionUnit(int number);
 
+/// Units that are of one side by what they are: the jaw sideways (30), a wink (46). Asked for
+/// without a side they are of the agent's left; taken back without one they go on both.
+bool IsOneSided(int number);
+
 /// "12", "12L" or "12R".
 struct UnitName {
   int number = 0;

@@ -104,8 +104,9 @@ vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength
   const auto value = static_cast<float>(strength);
   if (position >= 1 && index < tables_.units.units.size()) {
     if (const int unit = tables_.units.units[index]; unit > 0) {
-      units_left_[static_cast<std::size_t>(unit)].MoveTo(now, value, kUnitMove);
-      units_right_[static_cast<std::size_t>(unit)].MoveTo(now, value, kUnitMove);
+      SetOne(now,
+             {.number = unit, .right = !IsOneSided(unit) || strength == 0, .strength = strength},
+             kUnitMove);
       return {};
     }
     if (const auto found = tables_.emotions.find(tables_.units.emotions[index]);

@@ -146,7 +146,7 @@ void FaceMotion::PlaceHeadAndEyes(vm::Time t, const SpeechMotion::Mouth& speech,
       left[i] += weight * code.left_eye[i];
       right[i] += weight * code.right_eye[i];
     }
-    state.agent_scale *= 1 + weight * code.nearer;
+    state.head_forward += weight * code.forward_mm;
   }
   state.eye_left = {-left[0], left[1]};
   state.eye_right = {-right[0], right[1]};

@@ -178,6 +178,8 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
       if (!strength) return std::unexpected(strength.error());
       unit->unit.strength = *strength;
     }
+    UnitSetting& set = unit->unit;
+    if (set.left && IsOneSided(set.number) && set.strength > 0) set.right = false;
     out.units.push_back(unit->unit);
   }
   if (out.units.empty()) {

@@ -16,7 +16,7 @@ namespace fsm {
 struct UnitCode {
   std::array<float, 3> head{};
   std::array<float, 2> left_eye{}, right_eye{};
-  float nearer = 0;
+  float forward_mm = 0;  ///< of the head on the neck
 };
 
 /// Action units and codes as people name them.

@@ -295,5 +295,25 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   EXPECT_FALSE(OriginalConfig::Read((folder / "config.txt").string()));
 }
 
+TEST(FsmModuleTest, AConfiguredBackgroundThatIsGoneLeavesThePlainOne) {
+  FsmOptions options;
+  options.config.backgrounds = {{"bg1", "missing.png"}, {"bg2", "there.png"}};
+  ::testing::internal::CaptureStderr();
+  FsmStage fsm(options);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+            "fsm: notice: background bg1: cannot read missing.png; the plain one is shown\n");
+  EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
+  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain,bg1,bg2\"");
+}
+
+TEST(FsmModuleTest, AsymmetryIsANumberOfTheFigure) {
+  FsmStage fsm;
+  EXPECT_FLOAT_EQ(fsm.Now().asymmetry, 1);
+  fsm.Say("set Asymmetry = 0");
+  EXPECT_FLOAT_EQ(fsm.Now().asymmetry, 0);
+  fsm.Say("set Run = INIT");
+  EXPECT_FLOAT_EQ(fsm.Now().asymmetry, 1);
+}
+
 }  // namespace
 }  // namespace fsm

@@ -222,5 +222,38 @@ TEST(HeadMotionTest, HeadTurnsAndTheShouldersStay) {
   }
 }
 
+TEST(HeadMotionTest, TheNeckCarriesTheHeadForwardAndTheShouldersStay) {
+  FaceState forward, back;
+  forward.head_forward = 30;
+  back.head_forward = -20;
+  EXPECT_NEAR(MotionAt(0, -9, forward).z, 30, 0.5F);
+  EXPECT_NEAR(MotionAt(0, -9, back).z, -20, 0.5F);
+  EXPECT_NEAR(MotionAt(0, -9, forward).y, 0, 0.1F);
+  const HeadVertices rest = Vertices({});
+  const HeadVertices moved = Vertices(forward);
+  for (std::size_t i = 0; i < rest.position.size(); ++i) {
+    if (rest.position[i].y > -190) continue;
+    ASSERT_LT(glm::length(moved.position[i] - rest.position[i]), 0.01f);
+  }
+}
+
+TEST(HeadMotionTest, AsymmetryIsShownAsMuchAsTheStateAsks) {
+  const auto head = Head::Make("galatea");
+  HeadVertices v;
+  const auto unlike = [&](float asymmetry) {
+    FaceState smile = WithUnit(12, 1);
+    smile.asymmetry = asymmetry;
+    return std::abs(head->MeasureMouth(smile).width_mm - head->MeasureMouth({}).width_mm) +
+           (head->Evaluate(smile, v), v.wrinkles[3][0] - v.wrinkles[3][1]);
+  };
+  const float none = unlike(0);
+  EXPECT_NE(unlike(1), none);
+  EXPECT_NEAR(unlike(2) - none, 2 * (unlike(1) - none), 0.05F);
+  FaceState alike = WithUnit(12, 0.8F);
+  alike.asymmetry = 0;
+  head->Evaluate(alike, v);
+  EXPECT_FLOAT_EQ(v.wrinkles[3][0], v.wrinkles[3][1]);
+}
+
 }  // namespace
 }  // namespace fsm

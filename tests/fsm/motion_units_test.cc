@@ -42,7 +42,7 @@ TEST_F(UnitsTest, All44UnitsGoByNumberAndByName) {
     EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[index], 0);
     const FaceState state = After((names.names.at(number) + " 0.75").c_str());
     EXPECT_FLOAT_EQ(state.au_left[index], 0.75f);
-    EXPECT_FLOAT_EQ(state.au_right[index], 0.75f);
+    EXPECT_FLOAT_EQ(state.au_right[index], IsOneSided(number) ? 0.25f : 0.75f);
   }
   EXPECT_EQ(units, 44);
 }
@@ -66,7 +66,22 @@ TEST_F(UnitsTest, CodesTurnHeadAndEyes) {
   EXPECT_FLOAT_EQ(After("55 0 EyesUp 1").eye_left.x, 25);
   EXPECT_FLOAT_EQ(After("63 0 CrossEye 1").eye_left.y, -12);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).eye_right.y, 12);
-  EXPECT_GT(After("57 1").agent_scale, 1.05f);
+  EXPECT_FLOAT_EQ(After("57 1").head_forward, 35);
+  EXPECT_FLOAT_EQ(After("57 0 58 0.5").head_forward, -11);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).agent_scale, 1);
+}
+
+TEST_F(UnitsTest, AWinkWithoutASideIsOfTheAgentsLeftAndIsTakenBackOnBoth) {
+  EXPECT_FLOAT_EQ(After("46 1").au_left[46], 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_right[46], 0);
+  EXPECT_FLOAT_EQ(After("46R 1").au_right[46], 1);
+  EXPECT_FLOAT_EQ(After("46 0").au_right[46], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[46], 0);
+  EXPECT_FLOAT_EQ(After("Wink D").au_left[46], 0.75f);
+  const auto look = ParseLook("46:1 45:1", motion.tables().unit_names);
+  ASSERT_TRUE(look);
+  EXPECT_FLOAT_EQ(look->right[46], 0);
+  EXPECT_FLOAT_EQ(look->right[45], 1);
 }
 
 TEST_F(UnitsTest, RefusalsNameTheWordItsPlaceAndWhatWasExpected) {

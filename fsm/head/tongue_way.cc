@@ -1,0 +1,80 @@
+#include "fsm/head/tongue_way.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "fsm/head/spline.h"
+
+namespace fsm {
+namespace {
+
+constexpr float kNoRoom = 2.5f, kRoom = 5.5f;  // between teeth and lips, millimetres
+constexpr float kSkin = 0.6f;                  // kept between the tongue and what it touches
+constexpr float kEdges = 0.9f;                 // teeth are not all of one height
+constexpr float kBehindTeeth = 3.5f;           // of the arch, which is their outer face
+constexpr float kWidest = 17;                  // half the tongue's width at rest
+constexpr float kInArch = 11;                  // and what goes through between the canines
+
+}  // namespace
+
+TongueWay::TongueWay(const Pose& pose, const ToothArch& upper, const ToothArch& lower,
+                     std::span<const std::pair<std::uint32_t, std::uint32_t>> seam,
+                     const glm::vec3* skin)
+    : pose_(pose), upper_(upper), lower_(lower) {
+  const glm::vec3 edge = TurnJaw({0, lower.edge_y, lower.front_z}, pose, 1);
+  teeth_low_ = edge.y;
+  teeth_high_ = upper.edge_y;
+  front_z_ = std::max(upper.front_z, edge.z);
+  float lips = 0;
+  for (const auto& [above, below] : seam) {
+    lips_.push_back({skin[above], skin[below]});
+    const float gap = skin[above].y - skin[below].y;
+    lips = std::max(
+        lips, std::min(gap, std::min(skin[above].y - teeth_low_, teeth_high_ - skin[below].y)));
+    if (gap <= kNoRoom) continue;
+    open_from_ = std::min(open_from_, skin[above].x);
+    open_to_ = std::max(open_to_, skin[above].x);
+  }
+  part_ = SmoothStep(kNoRoom, kRoom, std::min(lips, teeth_high_ - teeth_low_));
+}
+
+TongueWay::Gap TongueWay::LipsAt(float x) const {
+  const auto right = std::ranges::lower_bound(lips_, x, {}, [](const Gap& g) { return g.high.x; });
+  if (right == lips_.begin()) return lips_.front();
+  if (right == lips_.end()) return lips_.back();
+  const Gap& b = *right;
+  const Gap& a = *(right - 1);
+  const float t = (x - a.high.x) / std::max(b.high.x - a.high.x, 1e-3f);
+  return {glm::mix(a.high, b.high, t), glm::mix(a.low, b.low, t)};
+}
+
+glm::vec3 TongueWay::Fit(glm::vec3 p) const {
+  if (lips_.empty()) return p;
+  const float jaw_x = p.x - pose_.jaw_sway_mm;
+  const float lower_z = TurnJaw({jaw_x, lower_.edge_y, lower_.At(jaw_x)}, pose_, 1).z;
+  if (part_ <= 0) {
+    p.z = std::min(p.z, std::min(lower_z, upper_.At(p.x)) - kBehindTeeth);
+    return p;
+  }
+  const float middle_x = 0.5f * (open_from_ + open_to_);
+  const float width = std::min(kInArch, 0.35f * (open_to_ - open_from_)) / kWidest;
+  const float squeezed = SmoothStep(front_z_ - 16, front_z_ - 5, p.z);
+  p.x += squeezed * (middle_x + std::min(1.0f, width) * p.x - p.x);
+  const Gap lips = LipsAt(p.x);
+  // Over the lower teeth and lip, under the upper ones, and no less so a little before and behind
+  // them, as its surface is made of triangles. Lips come last: they are seen.
+  const auto held = [&p](float z) {
+    return SmoothStep(z - 15, z - 9, p.z) * SmoothStep(z + 15, z + 9, p.z);
+  };
+  const auto above = [&](float z, float y) { p.y += held(z) * std::max(0.0f, y - p.y); };
+  const auto below = [&](float z, float y) { p.y += held(z) * std::min(0.0f, y - p.y); };
+  above(lower_z, teeth_low_ + kEdges);
+  below(upper_.At(p.x), teeth_high_ - kEdges);
+  const float middle_y = 0.5f * (lips.low.y + lips.high.y);
+  above(lips.low.z, std::min(lips.low.y + kSkin, middle_y));
+  below(lips.high.z, std::max(lips.high.y - kSkin, middle_y));
+  return p;
+}
+
+}  // namespace fsm

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "tests/fsm/head_fixture.h"
+
+namespace fsm::testing {
+
+/// How deep parts of a face lie in each other, in millimetres; 0 = not at all.
+struct Contacts {
+  float lips = 0;             ///< the lower lip above the upper at the seam
+  float lids = 0;             ///< the lower lid's rim above the upper's
+  float ball_in_lids = 0;     ///< eyeball or cornea before a lid's skin
+  float teeth_in_lips = 0;    ///< a tooth's front before a lip that is seen
+  float tongue_in_lips = 0;   ///< the tongue above the upper or below the lower lip, in the seam
+  float tongue_in_teeth = 0;  ///< likewise at the edges of the incisors
+};
+
+/// Measures contacts of the generic head. Vertices that belong together are found once, by what
+/// they do in plain states, so no knowledge of how the mesh is made is needed.
+class ContactProbe {
+ public:
+  ContactProbe();
+  /// `v` belongs to `state`.
+  Contacts Measure(const FaceState& state, const HeadVertices& v) const;
+  /// How far the eye comes before the skin that should cover it, seen from the front; 0 = covered.
+  float Uncovered(const FaceState& state, const HeadVertices& v) const;
+
+  std::size_t seam_pairs() const { return seam_.size(); }
+  std::size_t rim_pairs() const { return rims_[0].size() + rims_[1].size(); }
+
+ private:
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // upper, lower
+  float TeethInLips(const HeadVertices& v) const;
+  /// How far the tongue comes beyond a line, by x, upwards (up 1) or downwards (up -1).
+  float TongueAcross(const std::vector<glm::vec3>& line, float up, const HeadVertices& v) const;
+
+  Pairs seam_;                 // by x
+  std::array<Pairs, 2> rims_;  // right, left
+  std::array<std::vector<std::uint32_t>, 2> lids_;
+  std::array<std::vector<std::uint32_t>, 2> lid_triangles_;
+  std::vector<std::uint32_t> lips_, teeth_, tongue_;
+  std::vector<std::uint32_t> upper_edge_, lower_edge_;  // of the incisors, by x
+};
+
+}  // namespace fsm::testing
