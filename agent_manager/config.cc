@@ -88,7 +88,8 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
           [&](const json& v, const std::string& k) {
             config.virtual_clock = OneOf<bool>(v, k, {{"real", false}, {"virtual", true}});
           }},
-         {"log", [&](const json& v, const std::string& k) { config.log = Text(v, k); }},
+         {"log", [&](const json& v, const std::string& k) { config.log = ReadLogConfig(v, k); }},
+         {"web", [&](const json& v, const std::string& k) { config.web = ReadWeb(v, k); }},
          {"rules",
           [&](const json& v, const std::string& k) {
             ReadList(v, k, "a list of rules", [&](const json& rule, const std::string& key) {

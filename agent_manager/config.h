@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
@@ -44,6 +45,21 @@ struct ListenConfig {
   bool operator==(const ListenConfig&) const = default;
 };
 
+/// The hub's page. Only for this machine: others come by a tunnel.
+struct WebConfig {
+  std::string at;          ///< tcp:127.0.0.1:PORT; empty: no page
+  std::string token_file;  ///< empty: a new token at each start, told on stderr
+  bool operator==(const WebConfig&) const = default;
+};
+
+/// Where the session log is kept and how much of it.
+struct LogConfig {
+  std::string file;             ///< empty: none
+  std::uint64_t rotate_mb = 0;  ///< a new file beyond so many MiB; 0 = never
+  unsigned keep = 10;           ///< older files: FILE.1.gz (newest) to FILE.<keep>.gz
+  bool operator==(const LogConfig&) const = default;
+};
+
 struct ModuleConfig {
   std::string name;                  ///< "SSM"
   std::vector<std::string> command;  ///< argv; empty for a module that is connected to
@@ -74,7 +90,8 @@ struct Config {
   std::vector<Rule> rules;             ///< in the order in which they are applied
   std::vector<std::string> broadcast;  ///< names that hear what modules say to nobody in particular
   bool virtual_clock = false;
-  std::string log;
+  LogConfig log;
+  WebConfig web;
   std::map<std::string, std::string> macros;  ///< name -> steps, as JSON text
   std::chrono::milliseconds start_limit{
       3000};  ///< for a module to answer to Clock, before it counts as original

@@ -53,6 +53,8 @@ std::string ReadTextFile(const std::string& path, const std::string& key);
 /// Readers of token_file, certificate, key and authority; files relative to where the hub runs.
 void AddCredentialReaders(Readers& readers, vm::Credentials& credentials);
 ListenConfig ReadListen(const json& value, const std::string& key);
+WebConfig ReadWeb(const json& value, const std::string& key);
+LogConfig ReadLogConfig(const json& value, const std::string& key);
 ModuleConfig ReadModule(const json& object, const std::string& key);
 /// `number` names a rule without a name.
 Rule ReadRule(const json& object, const std::string& key, std::size_t number);

@@ -98,6 +98,9 @@ class Hub {
   using OnNotice = std::function<void(const std::string& text)>;
   void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
 
+  /// For what is no message of the session and stands in no log; false if the peer is gone.
+  bool SendUnlogged(PeerKey peer, std::string_view line);
+
   /// What happens to messages on their way (hub_rules.cc).
   Rules& rules() { return rules_; }
 

@@ -1,6 +1,7 @@
 // What each peer may do to the others: floods are read slower, slow readers stand alone.
 
 #include <algorithm>
+#include <utility>
 
 #include "agent_manager/hub.h"
 #include "agent_manager/hub_peer.h"
@@ -21,6 +22,15 @@ void Hub::Write(Peer& peer, std::string_view line) {
   peer.link->Send(line);
   const std::size_t backlog = peer.link->backlog_bytes();
   if (backlog > limits_.backlog_bytes / 2) OnBacklog(peer, backlog);
+}
+
+bool Hub::SendUnlogged(PeerKey key, std::string_view line) {
+  Peer* peer = ByKey(key);
+  if (peer == nullptr || peer->cut_off) return false;
+  const bool commanded = std::exchange(commanding_, false);  // an onlooker holds nobody
+  Write(*peer, line);
+  commanding_ = commanded;
+  return true;
 }
 
 void Hub::OnBacklog(Peer& peer, std::size_t backlog) {

@@ -25,12 +25,15 @@ int main(int argc, char** argv) {
   CLI::App app("Galatea agent manager: starts the modules and carries what they say to each other",
                "agent_manager");
   std::string config_path, log, clock, replay, do_file;
+  std::string web;
   bool no_console = false;
   am::Session::Options options;
   app.add_option("--config,-C", config_path, "Configuration (JSON, docs/configuration.md)");
   app.add_option("--log", log, "Write every message to this file");
   app.add_option("--clock", clock, "real or virtual (overrides the configuration)")
       ->check(CLI::IsMember({"real", "virtual"}));
+  app.add_option("--web", web, "Serve the page on this port of this machine (0: any free one)")
+      ->check(CLI::Range(0, 65535));
   app.add_option("--do", do_file, "Lines the console says first");
   app.add_option("--replay", replay, "Say again what clients said in this session log");
   app.add_option("--speed", options.replay_speed, "How many times faster to replay")
@@ -54,7 +57,8 @@ int main(int argc, char** argv) {
         if (!parsed) return parsed;
         config = std::move(*parsed);
       }
-      if (!log.empty()) config.log = log;
+      if (!log.empty()) config.log.file = log;
+      if (!web.empty()) config.web.at = "tcp:127.0.0.1:" + web;
       if (!clock.empty()) config.virtual_clock = clock == "virtual";
       return config;
     };

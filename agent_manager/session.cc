@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "agent_manager/service_notify.h"
+#include "agent_manager/web/web_server.h"
 #include "embedded/built_in_macros.h"
 #include "vm_protocol/core/module.h"
 
@@ -30,6 +31,7 @@ namespace {
 constexpr milliseconds kMeasureEvery{2000};
 constexpr vm::Time kVirtualStart =
     milliseconds(10000);  // past every module's own clock at its start
+constexpr milliseconds kFlushLogEvery{500};
 constexpr milliseconds kFlushPatience{2000};
 
 Result<std::string> ReadFileResult(const std::string& path) {
@@ -55,9 +57,17 @@ Session::Session(Config config, Options options)
     : config_(std::move(config)),
       options_(std::move(options)),
       clock_(io_, !config_.virtual_clock),
-      log_(config_.log.empty() ? SessionLog() : SessionLog([this](std::string_view line) {
-        log_file_ << line << '\n';
-      })),
+      log_writer_(config_.log.file.empty()
+                      ? nullptr
+                      : std::make_unique<LogWriter>(config_.log,
+                                                    [](const std::string& text) {
+                                                      std::cerr << "agent_manager: " << text
+                                                                << std::endl;
+                                                    })),
+      log_([this](std::string_view line) {
+        if (log_writer_) log_writer_->Write(line);
+        if (!onlookers_.empty()) ShowOnlookers(line);
+      }),
       hub_(clock_, log_),
       slots_("AM"),
       mcl_(clock_, hub_, ReadFileResult,
@@ -73,11 +83,9 @@ Session::Session(Config config, Options options)
       probe_timer_(io_),
       grant_timer_(io_),
       watchdog_timer_(io_),
+      log_timer_(io_),
       reload_signal_(io_) {
-  if (!config_.log.empty()) {
-    log_file_.open(config_.log, std::ios::trunc);
-    if (!log_file_) throw std::runtime_error("cannot write the session log '" + config_.log + "'");
-  }
+  log_.set_enabled(log_writer_ != nullptr);
   if (config_.virtual_clock) {
     supervisor_.set_watch_health(false);
     clock_.Advance(kVirtualStart);
@@ -141,6 +149,8 @@ int Session::Run() {
   });
   ApplyConfig();
   ReloadOnSignal();
+  StartWeb();
+  if (clock_.real()) FlushLog();
   EndProbesInTime({});
   if (options_.console) StartConsole();
   boost::asio::steady_timer measure(io_);
@@ -175,6 +185,30 @@ int Session::Run() {
   return options_.strict && errors_ > 0 ? 1 : 0;
 }
 
+void Session::ShowOnlookers(std::string_view line) {
+  std::string comment = "# flow ";  // a comment: whoever does not know it passes over it
+  comment += line;
+  std::erase_if(onlookers_, [&](PeerKey peer) { return !hub_.SendUnlogged(peer, comment); });
+  log_.set_enabled(log_writer_ != nullptr || !onlookers_.empty());
+}
+
+void Session::FlushLog() {
+  if (!log_writer_) return;
+  log_writer_->Flush();
+  log_timer_.expires_after(kFlushLogEvery);
+  log_timer_.async_wait([this](const auto& error) {
+    if (!error) FlushLog();
+  });
+}
+
+void Session::StartWeb() {
+  if (config_.web.at.empty()) return;
+  web_ = std::make_unique<WebServer>(
+      io_, config_.web, hub_, [this] { return Metrics(); },
+      [this](const std::string& text) { Refused(text); });
+  std::cerr << "agent_manager: the page is at " << web_->Address() << std::endl;
+}
+
 void Session::FeedWatchdog() {
   const auto period = WatchdogPeriod();
   if (!period) return;
@@ -187,6 +221,7 @@ void Session::FeedWatchdog() {
 
 void Session::Shutdown() {
   NotifyService("STOPPING=1");
+  web_.reset();
   doors_.clear();
   bool done = false;
   supervisor_.StopAll([&done] { done = true; });

@@ -4,7 +4,6 @@
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <deque>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 
 #include "agent_manager/config.h"
 #include "agent_manager/hub.h"
+#include "agent_manager/log_writer.h"
 #include "agent_manager/mcl.h"
 #include "agent_manager/session_log.h"
 #include "agent_manager/supervisor.h"
@@ -23,6 +23,8 @@
 #include "vm_protocol/runtime/doorkeeper.h"
 
 namespace am {
+
+class WebServer;
 
 /// The content of a file. Throws std::runtime_error with a sentence.
 std::string ReadWhole(const std::string& path);
@@ -83,6 +85,10 @@ class Session {
   void OnClockAnswer(PeerKey module, const vm::Result<std::string>& answer);
   void Shutdown();
   void FeedWatchdog();
+  void ShowOnlookers(std::string_view line);
+  void FlushLog();
+  void StartWeb();
+  std::string Metrics() const;  // session_peers.cc
   /// A module that has been asked for a whole start_limit without an answer is one of the original.
   void EndProbesInTime(const std::set<PeerKey>& asked_before);
 
@@ -99,7 +105,8 @@ class Session {
   Options options_;
   boost::asio::io_context io_;
   vm::ClockScheduler clock_;
-  std::ofstream log_file_;
+  std::unique_ptr<LogWriter> log_writer_;
+  std::set<PeerKey> onlookers_;  // to whom every message is shown
   SessionLog log_;
   Hub hub_;
   vm::SlotMachine slots_;
@@ -114,7 +121,8 @@ class Session {
   bool timed_wait_ = false;
   std::vector<LogEntry> replay_;
   std::size_t replay_pending_ = 0;
-  boost::asio::steady_timer probe_timer_, grant_timer_, watchdog_timer_;
+  boost::asio::steady_timer probe_timer_, grant_timer_, watchdog_timer_, log_timer_;
+  std::unique_ptr<WebServer> web_;
   boost::asio::signal_set reload_signal_;
   std::map<PeerKey, NextEvent> next_;
   std::set<PeerKey> open_grants_;

@@ -86,9 +86,10 @@ Result<std::string> Session::Reload() {
     return vm::Fail(Errc::kUnavailable, "the hub was started without a configuration file");
   auto read = options_.read_config();
   if (!read) return std::unexpected(read.error());
-  if (read->virtual_clock != config_.virtual_clock || read->log != config_.log)
+  if (read->virtual_clock != config_.virtual_clock || read->log != config_.log ||
+      read->web != config_.web)
     return vm::Fail(Errc::kBadValue,
-                    "clock and log cannot change while the hub runs; nothing was changed");
+                    "clock, log and web cannot change while the hub runs; nothing was changed");
   NotifyService("RELOADING=1");
   const Config before = std::exchange(config_, std::move(*read));
   try {

@@ -73,7 +73,7 @@ void Session::FeedConsole() {
 }
 
 void Session::LoadReplay(const std::string& path) {
-  std::istringstream text(ReadWhole(path));
+  std::istringstream text(ReadLog(path));
   std::set<std::string> modules{"AM", "AM-MCL", "FS-MCL"};
   for (const ModuleConfig& module : config_.modules) modules.insert(module.name);
   std::size_t number = 0;
@@ -131,7 +131,7 @@ bool Session::SomethingGoesOn() const {
 void Session::AskQuiet() {
   // Only asked when somebody waits for it. Each module answers after all that was said to it
   // before.
-  const bool wanted = idle_wait_ || console_ended_ || (options_.replay && replay_pending_ == 0);
+  const bool wanted = idle_wait_ || (console_ended_ && !options_.serve) || (options_.replay && replay_pending_ == 0);
   if (quiet_ || asking_quiet_ || !wanted) return;
   asking_quiet_ = true;
   const auto modules = hub_.ModernModules();

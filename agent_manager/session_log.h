@@ -34,15 +34,18 @@ class SessionLog {
   explicit SessionLog(Sink sink) : sink_(std::move(sink)) {
     sink_("# galatea session log 1: ms, sender, receivers, line");
   }
-  bool enabled() const { return sink_ != nullptr; }
+  bool enabled() const { return on_ && sink_ != nullptr; }
+  /// A log nobody reads at the moment costs nothing either.
+  void set_enabled(bool on) { on_ = on; }
   void Write(vm::Time time, std::string_view sender, std::string_view receivers,
              std::string_view line) const {
-    if (sink_)
+    if (enabled())
       sink_(FormatLogEntry({time, std::string(sender), std::string(receivers), std::string(line)}));
   }
 
  private:
   Sink sink_;
+  bool on_ = true;
 };
 
 }  // namespace am

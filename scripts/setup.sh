@@ -9,7 +9,7 @@ packages=(
   libssl-dev openssl zlib1g-dev
   duktape-dev libexpat1-dev libcurl4-openssl-dev
   libgtest-dev libbenchmark-dev
-  libosmesa6-dev libegl-dev libglfw3-dev libgl-dev libpng-dev ffmpeg
+  libosmesa6-dev libegl-dev libglfw3-dev libgl-dev libpng-dev libjpeg-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev
   libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic
   libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev libtinyxml2-dev

@@ -1,0 +1,183 @@
+#include "agent_manager/web/face_video.h"
+
+#include <cstddef>
+#include <cstdio>
+// After <cstdio>, which it needs and does not include.
+#include <fcntl.h>
+#include <jpeglib.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/asio/post.hpp>
+#include <cstdlib>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace am {
+namespace {
+
+constexpr int kQuality = 80;
+constexpr const char* kFace = "FSM";
+
+/// `rgba`: width x height x 4, top row first.
+std::string Compress(const std::vector<unsigned char>& rgba, int width, int height) {
+  jpeg_compress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  jpeg.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&jpeg);
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&jpeg, &bytes, &size);
+  jpeg.image_width = static_cast<JDIMENSION>(width);
+  jpeg.image_height = static_cast<JDIMENSION>(height);
+  jpeg.input_components = 4;
+  jpeg.in_color_space = JCS_EXT_RGBX;
+  jpeg_set_defaults(&jpeg);
+  jpeg_set_quality(&jpeg, kQuality, TRUE);
+  jpeg_start_compress(&jpeg, TRUE);
+  const std::size_t stride = static_cast<std::size_t>(width) * 4;
+  while (jpeg.next_scanline < jpeg.image_height) {
+    JSAMPROW row = const_cast<JSAMPROW>(rgba.data() + jpeg.next_scanline * stride);
+    jpeg_write_scanlines(&jpeg, &row, 1);
+  }
+  jpeg_finish_compress(&jpeg);
+  std::string picture(reinterpret_cast<const char*>(bytes), size);
+  jpeg_destroy_compress(&jpeg);
+  std::free(bytes);
+  return picture;
+}
+
+}  // namespace
+
+FaceVideo::FaceVideo(boost::asio::io_context& io, Hub& hub) : io_(io), hub_(hub) {}
+FaceVideo::~FaceVideo() {
+  *alive_ = false;
+  viewers_.clear();
+  End();
+}
+
+unsigned FaceVideo::Watch(OnPicture on_picture) {
+  viewers_[++last_viewer_] = std::move(on_picture);
+  if (!beginning_ && !thread_.joinable()) Begin();
+  return last_viewer_;
+}
+
+void FaceVideo::Leave(unsigned viewer) {
+  viewers_.erase(viewer);
+  if (viewers_.empty() && !beginning_) End();
+}
+
+void FaceVideo::Ask(const std::string& slot, const std::string& value,
+                    std::function<void(const vm::Result<std::string>&)> next) {
+  const vm::Message message = value.empty() ? vm::Inq(slot) : vm::Set(slot, value);
+  hub_.Ask("AM", vm::To(kFace, message),
+           [alive = alive_, next = std::move(next)](const vm::Result<std::string>& answer) {
+             if (*alive) next(answer);
+           });
+}
+
+void FaceVideo::Begin() {
+  beginning_ = true;
+  Ask("Window", "", [this](const vm::Result<std::string>& size) {
+    int width = 0, height = 0;
+    if (size) std::istringstream(*size) >> width >> height;
+    if (width <= 0 || height <= 0 || viewers_.empty()) {
+      beginning_ = false;
+      return Deliver(std::make_shared<std::string>());
+    }
+    Ask("Record.fps", "", [this, width, height](const vm::Result<std::string>& fps) {
+      old_fps_ = fps.value_or("");
+      Ask("Record", "", [this, width, height](const vm::Result<std::string>& record) {
+        // Setting Record would end a film that somebody is making.
+        if (record && *record == "STOP") return Open(width, height);
+        beginning_ = false;
+        Deliver(std::make_shared<std::string>());
+      });
+    });
+  });
+}
+
+void FaceVideo::Open(int width, int height) {
+  const auto give_up = [this] {
+    beginning_ = false;
+    End();
+    Deliver(std::make_shared<std::string>());
+  };
+  std::string folder = "/tmp/galatea-face-XXXXXX";  // mkdtemp makes it ours alone
+  if (mkdtemp(folder.data()) == nullptr) return give_up();
+  folder_ = folder;
+  pipe_ = folder_ + "/face.rgba";
+  if (mkfifo(pipe_.c_str(), 0600) != 0) return give_up();
+  frames_fd_ = open(pipe_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  stop_fd_ = eventfd(0, EFD_CLOEXEC);
+  if (frames_fd_ < 0 || stop_fd_ < 0) return give_up();
+  Ask("Record.fps", std::to_string(kFramesPerSecond),
+      [this, width, height, give_up](const vm::Result<std::string>&) {
+        Ask("Record", pipe_, [this, width, height, give_up](const vm::Result<std::string>& begun) {
+          if (!begun) return give_up();
+          recording_ = true;
+          beginning_ = false;
+          thread_ = std::thread([this, width, height] { ReadFrames(width, height); });
+          if (viewers_.empty()) End();
+        });
+      });
+}
+
+void FaceVideo::ReadFrames(int width, int height) {
+  std::vector<unsigned char> frame(static_cast<std::size_t>(width) *
+                                   static_cast<std::size_t>(height) * 4);
+  const auto post = [this](std::string picture) {
+    boost::asio::post(io_, [this, alive = alive_,
+                            done = std::make_shared<const std::string>(std::move(picture))] {
+      if (*alive) Deliver(done);
+    });
+  };
+  std::size_t filled = 0;
+  while (true) {
+    std::array<pollfd, 2> waits{{{frames_fd_, POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
+    poll(waits.data(), waits.size(), -1);
+    if (waits[1].revents != 0) return;
+    const ssize_t n = read(frames_fd_, frame.data() + filled, frame.size() - filled);
+    if (n < 0) continue;          // nothing there after all
+    if (n == 0) return post("");  // the face has stopped writing, or has gone
+    filled += static_cast<std::size_t>(n);
+    if (filled < frame.size()) continue;
+    filled = 0;
+    post(Compress(frame, width, height));
+  }
+}
+
+void FaceVideo::Deliver(const Picture& picture) {
+  if (picture->empty()) {
+    recording_ = false;
+    if (!beginning_) End();
+  }
+  const auto viewers = viewers_;  // one may leave while it is told
+  for (const auto& [number, on_picture] : viewers) on_picture(picture);
+}
+
+void FaceVideo::End() {
+  if (thread_.joinable()) {
+    const std::uint64_t one = 1;
+    static_cast<void>(!write(stop_fd_, &one, sizeof(one)));
+    thread_.join();
+  }
+  if (std::exchange(recording_, false) && hub_.IsPresent(kFace)) {
+    const auto ignore = [](const vm::Result<std::string>&) {};
+    hub_.Ask("AM", vm::To(kFace, vm::Set("Record", "STOP")), ignore);
+    if (!old_fps_.empty()) hub_.Ask("AM", vm::To(kFace, vm::Set("Record.fps", old_fps_)), ignore);
+  }
+  for (int* fd : {&frames_fd_, &stop_fd_}) {
+    if (*fd >= 0) close(std::exchange(*fd, -1));
+  }
+  if (!pipe_.empty()) unlink(pipe_.c_str());
+  if (!folder_.empty()) rmdir(folder_.c_str());
+  pipe_.clear();
+  folder_.clear();
+}
+
+}  // namespace am

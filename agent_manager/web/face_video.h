@@ -1,0 +1,53 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "agent_manager/hub.h"
+
+namespace am {
+
+/// The live face as JPEG pictures, while somebody looks. The face writes raw frames into a pipe
+/// (`set Record = PIPE.rgba`), as for any film; a film somebody else is making comes first.
+/// Thread: the context's, and one of its own that reads and compresses while there are viewers; it
+/// posts finished pictures back and is joined when the last viewer leaves.
+class FaceVideo {
+ public:
+  static constexpr int kFramesPerSecond = 15;
+  using Picture = std::shared_ptr<const std::string>;
+  /// An empty picture: the video has ended.
+  using OnPicture = std::function<void(const Picture& picture)>;
+  FaceVideo(boost::asio::io_context& io, Hub& hub);
+  ~FaceVideo();
+  FaceVideo(const FaceVideo&) = delete;
+
+  /// Pictures come until Leave, or until an empty one. Returns the viewer's number.
+  unsigned Watch(OnPicture on_picture);
+  void Leave(unsigned viewer);
+
+ private:
+  void Begin();
+  void Ask(const std::string& slot, const std::string& value,
+           std::function<void(const vm::Result<std::string>&)> next);
+  void Open(int width, int height);
+  void ReadFrames(int width, int height);  // the thread
+  void Deliver(const Picture& picture);
+  void End();
+
+  boost::asio::io_context& io_;
+  Hub& hub_;
+  std::map<unsigned, OnPicture> viewers_;
+  unsigned last_viewer_ = 0;
+  std::string folder_, pipe_, old_fps_;
+  bool beginning_ = false, recording_ = false;
+  std::thread thread_;
+  int frames_fd_ = -1;  // read end of the pipe
+  int stop_fd_ = -1;    // an event that ends the thread
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+};
+
+}  // namespace am

@@ -1,0 +1,253 @@
+#include "agent_manager/web/web_server.h"
+
+#include <fcntl.h>
+
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "agent_manager/web/web_impl.h"
+#include "embedded/page_app_js.h"
+#include "embedded/page_galatea_js.h"
+#include "embedded/page_index_html.h"
+#include "embedded/page_module_html.h"
+#include "embedded/page_module_js.h"
+#include "embedded/page_style_css.h"
+#include "vm_protocol/runtime/credentials.h"
+#include "vm_protocol/runtime/endpoint.h"
+
+namespace am {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using boost::system::error_code;
+using std::string_view;
+
+constexpr auto kRequestLimit = std::chrono::seconds(10);
+constexpr std::size_t kMaxHeaderBytes = 8192;
+constexpr std::size_t kMaxConnections = 64;
+constexpr string_view kCookie = "galatea_token=";
+
+struct File {
+  string_view path, type;
+  string_view (*content)();
+};
+/// All there is: nothing is read from the disk, so no path leads out of here.
+const std::array<File, 7>& Files() {
+  static const std::array<File, 7> files{{
+      {"/", "text/html; charset=utf-8", embedded::page_index_html},
+      {"/index.html", "text/html; charset=utf-8", embedded::page_index_html},
+      {"/module.html", "text/html; charset=utf-8", embedded::page_module_html},
+      {"/module.js", "text/javascript; charset=utf-8", embedded::page_module_js},
+      {"/galatea.js", "text/javascript; charset=utf-8", embedded::page_galatea_js},
+      {"/app.js", "text/javascript; charset=utf-8", embedded::page_app_js},
+      {"/style.css", "text/css; charset=utf-8", embedded::page_style_css},
+  }};
+  return files;
+}
+
+string_view View(beast::string_view text) { return {text.data(), text.size()}; }
+
+/// One request after another on one connection.
+class HttpSession : public std::enable_shared_from_this<HttpSession> {
+ public:
+  HttpSession(std::shared_ptr<WebServer::Impl> server, asio::ip::tcp::socket socket)
+      : server_(std::move(server)), stream_(std::move(socket)) {
+    ++server_->connections;
+  }
+  ~HttpSession() { --server_->connections; }
+
+  void Read() {
+    parser_.emplace();
+    parser_->header_limit(kMaxHeaderBytes);
+    parser_->body_limit(0);
+    stream_.expires_after(kRequestLimit);
+    http::async_read(
+        stream_, buffer_, *parser_,
+        [self = shared_from_this()](const error_code& error, std::size_t) { self->OnRead(error); });
+  }
+
+ private:
+  void OnRead(const error_code& error) {
+    if (server_->closed) return;
+    if (error == http::error::header_limit || error == http::error::body_limit)
+      return Refuse(http::status::payload_too_large, "a request that is too large");
+    if (error == http::error::end_of_stream || error == beast::error::timeout) return;
+    if (error) return Refuse(http::status::bad_request, "what is no request: " + error.message());
+    request_ = parser_->release();
+    Answer();
+  }
+
+  void Answer() {
+    const string_view target = View(request_.target());
+    const std::size_t mark = target.find('?');
+    const std::string path(target.substr(0, mark));
+    // A site that gives its own name our address must not get in.
+    if (View(request_[http::field::host]) != server_->host &&
+        View(request_[http::field::host]) != LocalName())
+      return Refuse(http::status::misdirected_request, "a request for another host");
+    if (request_.method() != http::verb::get)
+      return Refuse(http::status::method_not_allowed, "a method that is not GET");
+    const bool by_address =
+        HasToken(mark == string_view::npos ? "" : target.substr(mark + 1), '&', "token=");
+    if (!by_address && !HasToken(View(request_[http::field::cookie]), ';', kCookie) &&
+        !HasToken(View(request_[http::field::authorization]), ';', "Bearer "))
+      return Refuse(http::status::unauthorized, "a request without the token");
+    if (path == "/ws") return Upgrade();
+    if (path == "/face.mjpg") return web::ServeVideo(server_, std::move(stream_));
+    if (path == "/metrics")
+      return Reply(http::status::ok, "text/plain; version=0.0.4", server_->metrics());
+    for (const File& file : Files()) {
+      if (file.path != path) continue;
+      if (by_address) return ToWithoutToken(path);
+      return Reply(http::status::ok, file.type, std::string(file.content()));
+    }
+    Refuse(http::status::not_found, "a request for '" + path.substr(0, 100) + "'");
+  }
+
+  /// The token goes into a cookie and out of the address, where others might read it.
+  void ToWithoutToken(const std::string& path) {
+    auto response = Make(http::status::see_other, "text/plain", "");
+    response.set(http::field::location, path);
+    response.set(http::field::set_cookie,
+                 std::string(kCookie) + server_->token + "; Path=/; HttpOnly; SameSite=Strict");
+    Write(std::move(response));
+  }
+
+  void Upgrade() {
+    const std::string origin(View(request_[http::field::origin]));
+    if (!origin.empty() && origin != "http://" + server_->host && origin != "http://" + LocalName())
+      return Refuse(http::status::forbidden, "a WebSocket from the site " + origin.substr(0, 100));
+    stream_.expires_never();
+    web::ServeSocket(server_, std::move(stream_), request_);
+  }
+
+  std::string LocalName() const {
+    return "localhost" + server_->host.substr(server_->host.rfind(':'));
+  }
+
+  /// True if one of the parts is `name` followed by the token.
+  bool HasToken(string_view text, char between, string_view name) const {
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find(between), text.size());
+      string_view part = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      while (part.starts_with(' ')) part.remove_prefix(1);
+      if (part.starts_with(name) &&
+          vm::SameProof(std::string(part.substr(name.size())), server_->token))
+        return true;
+    }
+    return false;
+  }
+
+  http::response<http::string_body> Make(http::status status, string_view type, std::string body) {
+    http::response<http::string_body> response(status,
+                                               request_.version() == 0 ? 11 : request_.version());
+    response.set(http::field::server, "Galatea");
+    response.set(http::field::content_type, std::string(type));
+    response.set(http::field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("X-Frame-Options", "DENY");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("Content-Security-Policy", "default-src 'self'");
+    response.body() = std::move(body);
+    response.prepare_payload();
+    return response;
+  }
+
+  void Reply(http::status status, string_view type, std::string body) {
+    auto response = Make(status, type, std::move(body));
+    response.keep_alive(request_.keep_alive());
+    Write(std::move(response));
+  }
+
+  void Refuse(http::status status, const std::string& what) {
+    error_code ignored;
+    const auto from = stream_.socket().remote_endpoint(ignored);
+    server_->on_refusal("web page: refused " + what + " from " + from.address().to_string());
+    Write(Make(status, "text/plain; charset=utf-8",
+               std::string(View(http::obsolete_reason(status))) + "\n"));
+  }
+
+  void Write(http::response<http::string_body> response) {
+    const bool again = response.keep_alive() && response.result() == http::status::ok;
+    if (!again) response.keep_alive(false);
+    response_ = std::move(response);
+    http::async_write(stream_, response_,
+                      [self = shared_from_this(), again](const error_code& error, std::size_t) {
+                        if (error || self->server_->closed) return;
+                        if (again) return self->Read();
+                        error_code ignored;
+                        self->stream_.socket().shutdown(asio::socket_base::shutdown_send, ignored);
+                      });
+  }
+
+  std::shared_ptr<WebServer::Impl> server_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_{kMaxHeaderBytes * 2};
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  web::Request request_;
+  http::response<http::string_body> response_;
+};
+
+void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
+  server->acceptor.async_accept([server](const error_code& error, asio::ip::tcp::socket socket) {
+    if (server->closed || error == asio::error::operation_aborted) return;
+    if (!error && server->connections < kMaxConnections) {
+      fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
+      std::make_shared<HttpSession>(server, std::move(socket))->Read();
+    }
+    AcceptNext(server);
+  });
+}
+
+}  // namespace
+
+WebServer::WebServer(asio::io_context& io, const WebConfig& config, Hub& hub,
+                     std::function<std::string()> metrics, OnRefusal on_refusal)
+    : impl_(std::make_shared<Impl>(io, hub)) {
+  vm::Credentials credentials;
+  credentials.token_file = config.token_file;
+  const auto token = vm::ReadToken(credentials);
+  if (!token) throw std::runtime_error(token.error().text);
+  impl_->token = token->empty() ? vm::MakeNonce() : *token;
+  impl_->metrics = std::move(metrics);
+  impl_->on_refusal = std::move(on_refusal);
+  impl_->video = std::make_unique<FaceVideo>(io, hub);
+  const auto endpoint = vm::ParseEndpoint(config.at);
+  if (!endpoint) throw std::runtime_error(endpoint.error().text);
+  try {
+    const asio::ip::tcp::endpoint at(
+        asio::ip::make_address(endpoint->host == "localhost" ? "127.0.0.1" : endpoint->host),
+        endpoint->port);
+    impl_->acceptor.open(at.protocol());
+    impl_->acceptor.set_option(asio::ip::tcp::acceptor::reuse_address(true));
+    impl_->acceptor.bind(at);
+    impl_->acceptor.listen();
+    fcntl(impl_->acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
+  } catch (const boost::system::system_error& error) {
+    throw std::runtime_error("cannot serve the page at " + config.at + ": " +
+                             error.code().message());
+  }
+  const auto local = impl_->acceptor.local_endpoint();
+  impl_->host = (local.address().is_v6() ? "[" + local.address().to_string() + "]"
+                                         : local.address().to_string()) +
+                ":" + std::to_string(local.port());
+  AcceptNext(impl_);
+}
+
+WebServer::~WebServer() {
+  impl_->closed = true;
+  error_code ignored;
+  impl_->acceptor.close(ignored);
+  impl_->video.reset();
+}
+
+std::string WebServer::Address() const {
+  return "http://" + impl_->host + "/?token=" + impl_->token;
+}
+
+}  // namespace am

@@ -1,0 +1,87 @@
+// Pictures of the face to a browser: one JPEG after another in one answer that does not end.
+
+#include <boost/asio/write.hpp>
+#include <chrono>
+#include <utility>
+
+#include "agent_manager/web/web_impl.h"
+
+namespace am::web {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using boost::system::error_code;
+
+constexpr auto kPictureLimit = std::chrono::seconds(10);  // for a browser to take one
+
+class VideoSession : public std::enable_shared_from_this<VideoSession> {
+ public:
+  VideoSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
+      : server_(std::move(server)), stream_(std::move(stream)) {
+    ++server_->connections;
+  }
+  ~VideoSession() { --server_->connections; }
+
+  void Start() {
+    viewer_ = server_->video->Watch([self = shared_from_this()](const FaceVideo::Picture& picture) {
+      self->OnPicture(picture);
+    });
+  }
+
+ private:
+  void OnPicture(const FaceVideo::Picture& picture) {
+    if (picture->empty()) {
+      // Before the first picture there is still an answer to be given.
+      if (!began_) {
+        text_ =
+            "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+        ended_ = true;
+        return Write();
+      }
+      return Leave();
+    }
+    if (writing_) return;  // a browser that is slow sees fewer pictures, not older ones
+    text_.clear();
+    if (!std::exchange(began_, true))
+      text_ =
+          "HTTP/1.1 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=picture\r\n"
+          "Cache-Control: no-store\r\nConnection: close\r\n\r\n";
+    text_ += "--picture\r\nContent-Type: image/jpeg\r\nContent-Length: " +
+             std::to_string(picture->size()) + "\r\n\r\n" + *picture + "\r\n";
+    Write();
+  }
+
+  void Write() {
+    writing_ = true;
+    stream_.expires_after(kPictureLimit);
+    asio::async_write(stream_, asio::buffer(text_),
+                      [self = shared_from_this()](const error_code& error, std::size_t) {
+                        self->writing_ = false;
+                        if (error || self->ended_) self->Leave();
+                      });
+  }
+
+  void Leave() {
+    ended_ = true;
+    error_code ignored;
+    stream_.socket().close(ignored);
+    if (const unsigned viewer = std::exchange(viewer_, 0);
+        viewer != 0 && !server_->closed && server_->video)
+      server_->video->Leave(viewer);
+  }
+
+  std::shared_ptr<WebServer::Impl> server_;
+  beast::tcp_stream stream_;
+  std::string text_;
+  unsigned viewer_ = 0;
+  bool began_ = false, writing_ = false, ended_ = false;
+};
+
+}  // namespace
+
+void ServeVideo(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream) {
+  std::make_shared<VideoSession>(std::move(server), std::move(stream))->Start();
+}
+
+}  // namespace am::web

@@ -1,0 +1,199 @@
+// The hub's page: what it shows to those who may see it, and what others get.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/support/process.h"
+
+namespace {
+
+using support::Process;
+using support::SocketClient;
+
+const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
+const std::string kToken = "sixteen-bytes-or-more";
+
+class WebTest : public testing::Test {
+ protected:
+  WebTest() {
+    const std::string token = folder_ / "token", config = folder_ / "config.json";
+    std::ofstream(token) << kToken << "\n";
+    chmod(token.c_str(), 0600);
+    std::ofstream(config) << "{\"web\": {\"at\": \"tcp:127.0.0.1:0\", \"token_file\": \"" << token
+                          << "\"}, \"modules\": [{\"name\": \"FSM\", \"command\": [\"python3\", \""
+                          << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_face.py\"]}]}";
+    hub_ = std::make_unique<Process>(std::vector<std::string>{kHub, "--config", config});
+    EXPECT_TRUE(hub_->ExpectError("/?token=")) << hub_->ErrorText();
+    const std::string text = hub_->ErrorText();
+    host_ = text.substr(text.find("http://") + 7);
+    host_ = host_.substr(0, host_.find('/'));
+    port_ = static_cast<unsigned short>(std::atoi(host_.c_str() + host_.find(':') + 1));
+  }
+  /// Says a request with these header lines and returns the open connection.
+  std::unique_ptr<SocketClient> Open(const std::string& target, const std::string& headers) {
+    auto client = SocketClient::Tcp(port_);
+    client->Write("GET " + target + " HTTP/1.1\r\n" + headers + "\r\n");
+    return client;
+  }
+  std::string Host() const { return "Host: " + host_ + "\r\n"; }
+  static std::string Cookie() { return "Cookie: other=1; galatea_token=" + kToken + "\r\n"; }
+  std::string StatusOf(const std::string& target, const std::string& headers) {
+    const auto line = Open(target, headers)->ReadLine();
+    return line && line->size() > 12 ? line->substr(9, 3) : "nothing";
+  }
+  static std::string Socket(const std::string& origin) {
+    return "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+           "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n" +
+           (origin.empty() ? "" : "Origin: " + origin + "\r\n");
+  }
+  /// A text frame; the mask is zero, which leaves the text as it is.
+  static std::string Frame(const std::string& text) {
+    std::string frame = "\x81";
+    if (text.size() < 126) {
+      frame += static_cast<char>(0x80 | text.size());
+    } else {
+      frame += static_cast<char>(0x80 | 127);
+      for (int i = 7; i >= 0; --i) frame += static_cast<char>(text.size() >> (8 * i) & 0xff);
+    }
+    return frame + std::string(4, '\0') + text;
+  }
+
+  support::TempDir folder_;
+  std::unique_ptr<Process> hub_;
+  std::string host_;
+  unsigned short port_ = 0;
+};
+
+TEST_F(WebTest, OnlyTheTokenOpensThePage) {
+  EXPECT_EQ(StatusOf("/", Host()), "401");
+  EXPECT_EQ(StatusOf("/?token=wrong", Host()), "401");
+  EXPECT_EQ(StatusOf("/", Host() + "Cookie: galatea_token=\r\n"), "401");
+  EXPECT_EQ(StatusOf("/ws", Host() + Socket("http://" + host_)), "401");
+  EXPECT_TRUE(hub_->ExpectError("web page: refused a request without the token from 127.0.0.1"));
+  const auto first = Open("/?token=" + kToken, Host());
+  EXPECT_TRUE(first->Expect("303 See Other"));
+  EXPECT_TRUE(first->Expect("Location: /"));
+  EXPECT_TRUE(first->Expect("HttpOnly; SameSite=Strict"));
+  const auto page = Open("/", Host() + Cookie());
+  EXPECT_TRUE(page->Expect("200 OK"));
+  EXPECT_TRUE(page->Expect("Content-Security-Policy: default-src 'self'"));
+  EXPECT_TRUE(page->Expect("<title>Galatea</title>"));
+}
+
+TEST_F(WebTest, NoPathLeadsOutOfThePage) {
+  for (const char* path :
+       {"/../../../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "//etc/passwd", "/..\\etc\\passwd",
+        "/app.js/../../etc/passwd", "/page/app.js", "/token"}) {
+    EXPECT_EQ(StatusOf(path, Host() + Cookie()), "404") << path;
+  }
+  EXPECT_EQ(StatusOf("/app.js", Host() + Cookie()), "200");
+}
+
+TEST_F(WebTest, OtherSitesAndHostsAreRefused) {
+  EXPECT_EQ(StatusOf("/", "Host: evil.example\r\n" + Cookie()), "421");
+  EXPECT_EQ(StatusOf("/ws", Host() + Cookie() + Socket("http://evil.example")), "403");
+  EXPECT_TRUE(hub_->ExpectError("a WebSocket from the site http://evil.example"));
+  EXPECT_EQ(StatusOf("/ws", Host() + Cookie() + Socket("http://" + host_)), "101");
+}
+
+TEST_F(WebTest, OversizedRequestsAndMessagesAreRefused) {
+  EXPECT_EQ(StatusOf("/", Host() + Cookie() + "X-Long: " + std::string(20000, 'x') + "\r\n"),
+            "413");
+  const auto socket = Open("/ws", Host() + Cookie() + Socket(""));
+  ASSERT_TRUE(socket->Expect("101 Switching"));
+  socket->Write(Frame("to @AM set#1 Name = LOUD"));
+  socket->Write(Frame(std::string(70000, 'x')));
+  EXPECT_TRUE(hub_->ExpectError("web page: refused a message over 65536 bytes"));
+  // A length no memory has.
+  const auto other = Open("/ws", Host() + Cookie() + Socket(""));
+  ASSERT_TRUE(other->Expect("101 Switching"));
+  other->Write(std::string("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14));
+  other->ReadAll();
+  EXPECT_TRUE(other->AtEnd());
+  hub_->WriteLine("inq#1 Modules");
+  EXPECT_TRUE(hub_->Expect("rep#1 Modules = "));
+}
+
+TEST_F(WebTest, AWebSocketIsAPeerThatCanBeAModule) {
+  const auto socket = Open("/ws", Host() + Cookie() + Socket("http://" + host_));
+  ASSERT_TRUE(socket->Expect("101 Switching"));
+  socket->Write(Frame("to @AM set Name = PAGE"));
+  socket->Write(Frame("from @FSM to @CONSOLE tell hello\nto @CONSOLE tell again"));
+  EXPECT_TRUE(hub_->Expect("From @PAGE tell hello")) << hub_->Seen();
+  EXPECT_TRUE(hub_->Expect("From @PAGE tell again"));
+  // As a module it is asked for its clock: the hub's first tag for it.
+  socket->Write(Frame("rep Run = LIVE"));
+  EXPECT_TRUE(hub_->Expect("From @PAGE rep Run = LIVE"));
+  socket->Write(Frame("\x01\x02 nonsense"));
+  socket->CloseInput();
+  hub_->WriteLine("to @FSM inq#1 Run");
+  EXPECT_TRUE(hub_->Expect("From @FSM rep#1 Run = LIVE"));
+}
+
+TEST_F(WebTest, TheFaceComesAsPicturesWhileSomebodyLooks) {
+  {
+    const auto video = Open("/face.mjpg", Host() + Cookie());
+    ASSERT_TRUE(video->Expect("200 OK")) << hub_->ErrorText();
+    EXPECT_TRUE(video->Expect("multipart/x-mixed-replace; boundary=picture"));
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(video->Expect("Content-Type: image/jpeg")) << i;
+  }
+  EXPECT_TRUE(hub_->Expect("From @FSM tell recording stopped")) << "nobody looks any more";
+  hub_->WriteLine("to @FSM inq#1 Record.fps");
+  EXPECT_TRUE(hub_->Expect("rep#1 Record.fps = 30")) << "as it was before";
+}
+
+TEST_F(WebTest, AFilmSomebodyMakesIsNotDisturbed) {
+  hub_->WriteLine("to @FSM set Record = /dev/null");
+  hub_->WriteLine("to @FSM inq#1 Record");
+  ASSERT_TRUE(hub_->Expect("rep#1 Record = /dev/null"));
+  EXPECT_EQ(StatusOf("/face.mjpg", Host() + Cookie()), "503");
+  hub_->WriteLine("to @FSM inq#2 Record");
+  EXPECT_TRUE(hub_->Expect("rep#2 Record = /dev/null"));
+}
+
+TEST_F(WebTest, MetricsAreInTheFormOfPrometheus) {
+  hub_->WriteLine("set#1 Start = FSM");
+  ASSERT_TRUE(hub_->Expect("rep#1 Start = READY"));
+  const auto metrics = Open("/metrics", Host() + "Authorization: Bearer " + kToken + "\r\n");
+  EXPECT_TRUE(metrics->Expect("200 OK"));
+  EXPECT_TRUE(metrics->Expect("# TYPE galatea_messages_in_total counter"));
+  EXPECT_TRUE(metrics->Expect("galatea_messages_in_total{peer=\"FSM\"} "));
+  EXPECT_TRUE(metrics->Expect("galatea_module_ready{module=\"FSM\"} 1"));
+}
+
+/// A whole browser, where there is one, does what a new user would.
+TEST_F(WebTest, ABrowserShowsThePageAndWorksIt) {
+  const char* browser = nullptr;
+  for (const char* name : {"chromium", "chromium-headless-shell"}) {
+    if (std::system(("command -v " + std::string(name) + " >/dev/null").c_str()) == 0)
+      browser = name;
+  }
+  if (browser == nullptr) GTEST_SKIP() << "no chromium-headless-shell and no chromium here";
+  const std::string address = "http://" + host_ + "/";
+  Process page({"python3", GALATEA_SOURCE_DIR "/tests/support/browse.py", browser,
+                folder_ / "profile", address + "?token=" + kToken,
+                "wait:document.querySelector('#link.on')",
+                "wait:document.querySelector('#modules td.READY')",
+                "wait:document.querySelector('#face').naturalWidth === 16",
+                "wait:[...document.querySelectorAll('#whose option')].some(o => o.value == 'FSM')",
+                "do:document.querySelector('#text').value = 'to @CONSOLE set Seen = 5'; "
+                "document.querySelector('#speak button').click()",
+                "wait:document.querySelector('#flow').textContent.includes('set#u')",
+                "do:[...document.querySelectorAll('#modules button')][2].click()",
+                "wait:document.querySelector('#answer').textContent == 'READY'",
+                "wait:document.querySelector('#modules .why').textContent.includes('ended with')",
+                "print:location.href", "picture:" + (folder_ / "page.png"),
+                "do:location.href = 'module.html'",
+                "wait:document.querySelector('#flow').textContent.includes('inq Clock')",
+                "print:document.title"});
+  EXPECT_EQ(page.Wait(support::Millis(120000)), 0) << page.ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page.ReadLine(), address) << "the token has left the address";
+  EXPECT_EQ(page.ReadLine(), "A page as a module of Galatea");
+  EXPECT_TRUE(hub_->Expect("Seen = 5")) << "what was typed arrived";
+  EXPECT_TRUE(hub_->Expect("From @PAGE rep Run = LIVE")) << "the other page is a module";
+}
+
+}  // namespace

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Drives a headless Chromium: browse.py BROWSER PROFILE URL STEP...
+
+A step is  wait:EXPRESSION  (until it is true in the page, at most 30 s),  do:EXPRESSION,
+print:EXPRESSION,  or  picture:FILE.png.  Ends with 1 and a sentence if a wait runs out.
+Speaks the DevTools protocol over the browser's pipe: JSON texts ended by a zero byte.
+"""
+import base64
+import json
+import os
+import subprocess
+import sys
+import time
+
+LIMIT_S = 30
+
+
+class Browser:
+    def __init__(self, program, profile):
+        to_read, self.out = os.pipe()
+        self.inp, to_write = os.pipe()
+        # The browser reads descriptor 3 and writes descriptor 4, whatever ours are called.
+        script = f'exec 3<&{to_read} 4>&{to_write}; exec "$0" "$@"'
+        self.process = subprocess.Popen(
+            ["bash", "-c", script, program, "--headless", "--no-sandbox", "--disable-gpu",
+             "--remote-debugging-pipe", "--window-size=1280,1100", f"--user-data-dir={profile}"],
+            pass_fds=(to_read, to_write), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        os.close(to_read)
+        os.close(to_write)
+        self.buffer, self.last, self.session = b"", 0, None
+
+    def call(self, method, **params):
+        self.last += 1
+        message = {"id": self.last, "method": method, "params": params}
+        if self.session:
+            message["sessionId"] = self.session
+        os.write(self.out, json.dumps(message).encode() + b"\0")
+        while True:
+            while b"\0" not in self.buffer:
+                more = os.read(self.inp, 1 << 16)
+                if not more:
+                    sys.exit("browse: the browser has gone")
+                self.buffer += more
+            text, self.buffer = self.buffer.split(b"\0", 1)
+            answer = json.loads(text)
+            if answer.get("id") == self.last:
+                if "error" in answer:
+                    sys.exit(f"browse: {method}: {answer['error']['message']}")
+                return answer["result"]
+
+    def evaluate(self, expression):
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
+                           awaitPromise=True)
+        if "exceptionDetails" in result:
+            return None
+        return result["result"].get("value")
+
+
+def main():
+    program, profile, url, *steps = sys.argv[1:]
+    browser = Browser(program, profile)
+    try:
+        target = browser.call("Target.createTarget", url="about:blank")["targetId"]
+        browser.session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        browser.call("Page.enable")
+        browser.call("Page.navigate", url=url)
+        for step in steps:
+            kind, _, text = step.partition(":")
+            if kind == "wait":
+                limit = time.monotonic() + LIMIT_S
+                while not browser.evaluate(f"Boolean({text})"):
+                    if time.monotonic() > limit:
+                        sys.exit(f"browse: never true: {text}\n" +
+                                 str(browser.evaluate("document.body && document.body.innerText"))[:3000])
+                    time.sleep(0.05)
+            elif kind == "do":
+                browser.evaluate(text)
+            elif kind == "print":
+                print(browser.evaluate(text))
+            elif kind == "picture":
+                shot = browser.call("Page.captureScreenshot", format="png")
+                with open(text, "wb") as file:
+                    file.write(base64.b64decode(shot["data"]))
+    finally:
+        browser.process.kill()
+        browser.process.wait()
+
+
+main()
