@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -13,8 +11,8 @@
 #include "embedded/espeak_ipa.h"
 #include "embedded/espeak_ja.h"
 #include "embedded/espeak_voices.h"
+#include "ssm/engines/espeak_link.h"
 #include "ssm/engines/piece_engine.h"
-#include "ssm/process/child_process.h"
 #include "ssm/voice/phoneme_map.h"
 #include "ssm/voice/pronounced_text.h"
 #include "ssm/voice/resample.h"
@@ -40,17 +38,6 @@ struct Script {
   std::vector<Pronounced> pronounced{};
 };
 
-struct Answer {
-  std::int64_t rate = 0;
-  std::vector<std::int16_t> samples;
-  vm::PhonemeList phonemes;  // by espeak-ng's names
-  struct Word {
-    Millis at{0};
-    std::size_t character = 0, count = 0;
-  };
-  std::vector<Word> words;
-};
-
 PhonemeMap LoadMap(std::string_view table, const std::string& file) {
   auto map = PhonemeMap::Parse(table, file);
   if (!map) throw std::runtime_error(map.error().text);
@@ -73,114 +60,11 @@ std::size_t Characters(std::string_view text) {
   return count;
 }
 
-vm::Error BadAnswer(const std::string& what) {
-  return {vm::Errc::kUnavailable, "the helper for espeak-ng answered '" + what + "'", 0};
-}
-
-/// The conversation with the helper program. Started when first needed.
-class Helper {
- public:
-  explicit Helper(const EspeakOptions& options) : options_(options) {}
-
-  vm::Result<Answer> Say(const std::string& request, const std::atomic<bool>& cancelled) {
-    for (int attempt = 0;; ++attempt) {
-      auto answer = TrySay(request, cancelled);
-      if (answer) return answer;
-      // What it says itself is no reason to end it.
-      if (std::exchange(spoke_, false)) return answer;
-      process_.reset();
-      // It may have died long ago; a new one gets the same sentence once.
-      if (attempt > 0 || answer.error().code != vm::Errc::kUnavailable) return answer;
-    }
-  }
-
- private:
-  vm::Result<Answer> TrySay(const std::string& request, const std::atomic<bool>& cancelled) {
-    if (!process_) {
-      auto started = ChildProcess::Start({options_.helper}, true);
-      if (!started) return std::unexpected(started.error());
-      process_ = std::move(*started);
-    }
-    const ChildProcess::Wait wait{ChildProcess::Clock::now() + options_.limit, &cancelled};
-    if (auto sent = process_->Write(request, wait); !sent) return std::unexpected(sent.error());
-    auto head = process_->ReadLine(wait);
-    if (!head) return std::unexpected(head.error());
-    if (head->starts_with("error ")) {
-      spoke_ = true;
-      return vm::Fail(vm::Errc::kUnavailable, "espeak-ng: " + head->substr(6));
-    }
-    return ReadSound(*head, wait);
-  }
-
-  vm::Result<Answer> ReadSound(const std::string& head, const ChildProcess::Wait& wait) {
-    std::istringstream words(head);
-    std::string verb;
-    std::size_t frames = 0, lines = 0;
-    Answer answer;
-    if (!(words >> verb >> answer.rate >> frames >> lines) || verb != "sound" ||
-        answer.rate < 1000 || answer.rate > 200'000 || frames > kMaxFrames || lines > kMaxLines) {
-      return std::unexpected(BadAnswer(head.substr(0, 60)));
-    }
-    std::vector<std::pair<Millis, std::string>> starts;
-    for (; lines > 0; --lines) {
-      auto line = process_->ReadLine(wait);
-      if (!line) return std::unexpected(line.error());
-      if (!TakeLine(*line, starts, answer)) return std::unexpected(BadAnswer(*line));
-    }
-    auto bytes = process_->ReadBytes(frames * 2, wait);
-    if (!bytes) return std::unexpected(bytes.error());
-    answer.samples.resize(frames);
-    std::memcpy(answer.samples.data(), bytes->data(), bytes->size());
-    const Millis end(static_cast<std::int64_t>(frames) * 1000 / answer.rate);
-    answer.phonemes = Durations(std::move(starts), end);
-    return answer;
-  }
-
-  static bool TakeLine(const std::string& line, std::vector<std::pair<Millis, std::string>>& starts,
-                       Answer& answer) {
-    std::istringstream words(line);
-    std::string kind, name;
-    std::int64_t ms = 0;
-    if (!(words >> kind >> ms) || ms < 0) return false;
-    if (kind == "p" && words >> name) {
-      starts.emplace_back(Millis(ms), name == "-" ? "" : name);
-      return true;
-    }
-    Answer::Word word{Millis(ms), 0, 0};
-    if (kind != "w" || !(words >> word.character >> word.count)) return false;
-    answer.words.push_back(word);
-    return true;
-  }
-
-  /// From where phonemes begin to how long they last. The events of one buffer are not in order.
-  static vm::PhonemeList Durations(std::vector<std::pair<Millis, std::string>> starts, Millis end) {
-    // (Of those at one instant the order stays; std::stable_sort is deprecated inside for clang.)
-    const std::multimap<Millis, std::string> in_order(starts.begin(), starts.end());
-    starts.assign(in_order.begin(), in_order.end());
-    vm::PhonemeList list;
-    if (starts.empty() || starts.front().first.count() > 0) {
-      list.push_back({"", starts.empty() ? end : std::min(starts.front().first, end)});
-    }
-    for (std::size_t i = 0; i < starts.size(); ++i) {
-      const Millis next = i + 1 < starts.size() ? std::min(starts[i + 1].first, end) : end;
-      if (next > starts[i].first) list.push_back({starts[i].second, next - starts[i].first});
-    }
-    return list;
-  }
-
-  static constexpr std::size_t kMaxFrames = 3600u * 48'000u;
-  static constexpr std::size_t kMaxLines = 100'000;
-
-  const EspeakOptions options_;
-  std::unique_ptr<ChildProcess> process_;
-  bool spoke_ = false;  // the last failure was the helper's own word
-};
-
 class EspeakEngine final : public PieceEngine {
  public:
   explicit EspeakEngine(EspeakOptions options)
       : options_(std::move(options)),
-        helper_(options_),
+        link_(options_),
         ipa_(LoadMap(embedded::espeak_ipa(), "espeak_ipa.txt")),
         japanese_(LoadMap(embedded::espeak_ja(), "espeak_ja.txt")) {
     std::istringstream table{std::string(embedded::espeak_voices())};
@@ -210,7 +94,7 @@ class EspeakEngine final : public PieceEngine {
     const std::string request = "say " + names_[index] + " " + std::to_string(wpm) + " " +
                                 std::to_string(pitch) + " " + std::to_string(script->text.size()) +
                                 "\n" + script->text;
-    auto answer = helper_.Say(request, cancelled);
+    auto answer = link_.Say(request, cancelled);
     if (!answer) return std::unexpected(answer.error());
     return MakePiece(*answer, *script, japanese ? japanese_ : ipa_);
   }
@@ -264,7 +148,8 @@ class EspeakEngine final : public PieceEngine {
     return script;
   }
 
-  Piece MakePiece(const Answer& answer, const Script& script, const PhonemeMap& map) const {
+  Piece MakePiece(const EspeakLink::Answer& answer, const Script& script,
+                  const PhonemeMap& map) const {
     Piece piece{.phonemes = map.Map(answer.phonemes), .unspoken = script.unspoken};
     piece.samples = Resample(answer.samples, answer.rate, kSampleRateHz);
     const Millis end = vm::TotalDuration(piece.phonemes);
@@ -286,7 +171,7 @@ class EspeakEngine final : public PieceEngine {
 
   const EspeakOptions options_;
   std::mutex mutex_;  // guards the helper and the reader
-  Helper helper_;
+  EspeakLink link_;
   const PhonemeMap ipa_;
   const PhonemeMap japanese_;
   std::vector<VoiceInfo> voices_;
