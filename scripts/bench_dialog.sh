@@ -41,8 +41,13 @@ begin=$(now)
 took=$((($(now) - begin) / 1000000))
 echo "turns per second, $sessions sessions: $((sessions * 50 * 1000 / took))"
 
-peak() { /usr/bin/env python3 -c "
-import resource, subprocess, sys
-subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL)
-print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)" "$@"; }
-echo "memory of one session's process: $(peak "$bin/task_manager" "$work/turns.vxml" --script "$work/few.txt" --transcript none) KiB"
+# One session, two seconds after its first answer: what its process has used at the most.
+mkfifo "$work/typed"
+"$bin/task_manager" "$work/turns.vxml" <"$work/typed" >"$work/said" &
+process=$!
+exec 3>"$work/typed"
+echo "to kyoto" >&3
+read -r -t 2 <> <(:) || true
+echo "memory of a process with one session: $(awk '/VmHWM/ {print $2}' "/proc/$process/status") KiB"
+exec 3>&-
+wait "$process" || true

@@ -87,6 +87,7 @@ int CodeOf(const SessionResult& result, bool ran_out) {
 int RunOne(const Options& options, const std::string& script, Output& output, std::ostream* trace) {
   TextPlatform platform(script.empty() ? CommandSource(FromTerminal) : FromScript(script),
                         [&](const std::string& line) { output.Write(line); });
+  if (script.empty()) platform.SetInteractive();
   SessionOptions session_options = MakeSessionOptions(options);
   if (trace) {
     session_options.trace = [&](std::string_view kind, const JsonLine& fields) {

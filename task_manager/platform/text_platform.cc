@@ -174,10 +174,14 @@ bool TextPlatform::Heard(const std::vector<Prompt>& prompts, const Command& comm
 }
 
 Input TextPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& listen) {
+  if (interactive_ && !prompts.empty()) {  // who types has to see the question first
+    Play(prompts);
+    return Collect({}, listen);
+  }
   const Millis total = Total(prompts);
   std::optional<Command> command = Next();
   while (command && !Heard(prompts, *command, listen)) command = Next();
-  mark_.clear();
+  if (!interactive_) mark_.clear();
   Input input;
   if (!command) {
     PlayUntil(prompts, total);

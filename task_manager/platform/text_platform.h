@@ -34,6 +34,8 @@ class TextPlatform final : public Platform {
   void Report(std::string_view type, const JsonLine& fields) override;
 
   /// True once input was wanted and there was none.
+  /// Input comes from somebody at a terminal: prompts are shown before it is asked for.
+  void SetInteractive() { interactive_ = true; }
   bool ran_out() const { return ran_out_; }
 
  private:
@@ -52,6 +54,7 @@ class TextPlatform final : public Platform {
   Millis now_{0};
   std::string mark_;
   Millis mark_at_{0};
+  bool interactive_ = false;
   bool ran_out_ = false;
 };
 
