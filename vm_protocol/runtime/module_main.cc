@@ -177,13 +177,15 @@ class Program {
     const Endpoint endpoint = Need(ParseEndpoint(options_.connect));
     const std::string name = options_.name.empty() ? info_.module_name : options_.name;
     if (!IsModuleName(name)) throw std::runtime_error("'" + name + "' is not a module's name");
-    std::optional<Result<std::shared_ptr<StreamPeer>>> connected;
+    Result<std::shared_ptr<StreamPeer>> connected = nullptr;
+    bool answered = false;
     Call(io, endpoint, options_.credentials, Framing::kLf, encoding,
-         [&connected](Result<std::shared_ptr<StreamPeer>> stream) {
+         [&](Result<std::shared_ptr<StreamPeer>> stream) {
            connected = std::move(stream);
+           answered = true;
          });
-    while (!connected) io.run_one();
-    const auto stream = Need(std::move(*connected));
+    while (!answered) io.run_one();
+    const auto stream = Need(std::move(connected));
     server.AddPeer(stream, {.first_lines = {"to @AM set Name = " + name}, .ends_module = true});
     stream->ResumeReading();
   }
