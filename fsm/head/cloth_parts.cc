@@ -17,6 +17,17 @@ struct Ring {
   std::array<glm::vec3, kPoints> p;
 };
 const std::array kRings = {
+    // Inside the neck: what is seen between it and the collar is cloth.
+    Ring{-1,
+         0.1f,
+         {{{0, -182, 9.5f},
+           {11.5f, -181, 8.5f},
+           {23, -177, 3},
+           {33, -171, -8},
+           {40, -164, -26},
+           {38, -156, -44.5f},
+           {24.5f, -148, -59},
+           {0, -143, -63}}}},
     Ring{0,
          0.25f,
          {{{0, -170, 21},
@@ -93,7 +104,8 @@ const std::array kRings = {
 
 void BuildCloth(const Palette& palette, HeadMesh& mesh) {
   constexpr int kHalf = 13;  // columns of a half
-  constexpr std::array kRows = {0.0f, 0.75f, 1.0f, 1.5f, 2.0f, 2.5f, 3.0f, 3.6f, 4.3f, 5.0f, 6.0f};
+  constexpr std::array kRows = {-1.0f, 0.0f, 0.75f, 1.0f, 1.5f, 2.0f,
+                                2.5f,  3.0f, 3.6f,  4.3f, 5.0f, 6.0f};
   std::vector<float> around_at, down_at;
   // Mirrored neighbours at both ends keep the surface smooth over the medians.
   for (int i = -1; i <= kPoints; ++i) around_at.push_back(static_cast<float>(i));

@@ -20,7 +20,7 @@ struct LashRow {
   float from, to;  // along the lid, 0 inner corner .. 1 outer
 };
 constexpr std::array kLashRows = {LashRow{true, 34, 0.10f, 0.99f},
-                                  LashRow{false, 12, 0.35f, 0.97f}};
+                                  LashRow{false, 14, 0.45f, 0.97f}};
 
 class LashBuilder {
  public:
@@ -98,9 +98,9 @@ class LashBuilder {
                               (1 + 0.22f * Grain(i, 9))
                         : 1.3f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
-    const float width = upper_ ? 0.24f : 0.12f;
+    const float width = upper_ ? 0.24f : 0.09f;
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark = upper_ ? 0.9f : 0.2f;
+    const float dark = upper_ ? 0.9f : 0.12f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));

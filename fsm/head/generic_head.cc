@@ -53,7 +53,7 @@ class GenericHead : public Head {
     BuildEyes(eye_, palette, mesh);
     BuildTeeth(mouth_, palette, mesh);
     BuildTongue(mouth_, palette, mesh);
-    BuildEars(palette, mesh);
+    if (identity_.crop) BuildEars(palette, mesh);  // long hair covers them
     base_ = mesh.position;
     Shape(shaper, mesh);
     hair_first_ = mesh.position.size();

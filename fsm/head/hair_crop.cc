@@ -58,13 +58,13 @@ class CroppedHair {
   }
 
   /// Which way hair lies: away from the crown, forward on top, down at the sides and behind; over
-  /// the forehead it is combed up and to one side.
+  /// the forehead it is combed back.
   static glm::vec3 Flow(glm::vec3 root, float forehead) {
     const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
     glm::vec3 away = root - crown;
     away -= root * glm::dot(away, root);
     glm::vec3 along = away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
-                      forehead * glm::vec3(-0.75f, 0.35f, -0.25f);
+                      forehead * glm::vec3(-0.3f, 0.5f, -0.8f);
     along -= root * glm::dot(along, root);
     return glm::normalize(along + glm::vec3(0, -1e-3f, 0));
   }
@@ -77,7 +77,7 @@ class CroppedHair {
 
   void Shell() {
     constexpr int kAround = 40;
-    constexpr std::array kUp = {0.0f, 0.06f, 0.14f, 0.25f, 0.40f, 0.58f, 0.78f, 1.0f};
+    constexpr std::array kUp = {0.0f, 0.022f, 0.06f, 0.14f, 0.25f, 0.40f, 0.58f, 0.78f, 1.0f};
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (std::size_t r = 0; r < kUp.size(); ++r) {
       for (int k = 0; k <= kAround; ++k) {
@@ -90,7 +90,7 @@ class CroppedHair {
         const glm::vec3 colour = glm::mix(
             palette_.hair, StrandColour(palette_, 3 * (k % kAround), static_cast<int>(r)), 0.4f);
         const float thin = r == 0 ? 0.8f : 1.0f;
-        mesh_.Add(p, glm::mix(palette_.skin * 0.85f, colour, thin), r < 2 ? 0.8f : 0.92f,
+        mesh_.Add(p, glm::mix(palette_.skin * 0.85f, colour, thin), r < 3 ? 0.8f : 0.92f,
                   Bone::kSkull);
         mesh_.strands.back() = {.along = Flow(d, Forehead(azimuth, kUp[r])),
                                 .cover = r == 0   ? 0.1f

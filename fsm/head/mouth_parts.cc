@@ -76,7 +76,7 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
           0.9f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
       p.z += curve - thin - 0.75f * (1 - bump_at[i]);
       p.x *= 1 - 0.012f * thin;
-      const float crevice = 0.3f + 0.7f * std::sqrt(bump_at[i]);
+      const float crevice = 0.58f + 0.42f * std::sqrt(bump_at[i]);
       const glm::vec3 colour =
           palette.tooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
       const float dark = glm::mix(0.95f, 0.28f, SmoothStep(8, 34, back));

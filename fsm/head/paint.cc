@@ -17,7 +17,7 @@ struct Spot {
 
 // Where blood and shadow sit; places on the base identity's face, millimetres.
 const std::array kSpots = {
-    Spot{{34, -9}, {15, 10}, &Palette::blush, 0.36f, 0},           // cheeks
+    Spot{{34, -9}, {15, 10}, &Palette::blush, 0.22f, 0},           // cheeks
     Spot{{0, -11}, {8, 7}, &Palette::blush, 0.20f, 0},             // tip of the nose
     Spot{{0, -76}, {12, 8}, &Palette::blush, 0.12f, 0},            // chin
     Spot{{17.2f, -15}, {2.2f, 6}, &Palette::blush, 0.25f, 0.14f},  // groove beside the wing

@@ -73,7 +73,7 @@ void main() {
   // The upper lid and its lashes shade the ball below them.
   float below_lid = (lids[side].x - world_position.y) / figure_scale;
   float above_lower = (world_position.y - lids[side].y) / figure_scale;
-  float shade = mix(0.42, 1.0, smoothstep(-0.5, 3.0, below_lid)) *
+  float shade = mix(0.36, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
                 mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
   vec3 light = Ambient(n) * 0.9;
@@ -90,7 +90,7 @@ void main() {
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
                  mix(0.45, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
-  result += 0.62 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
+  result += 0.5 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
   result += lamp_colors[1] * 0.16 * soft_box * shade;
   result += Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * 0.6;
   color = vec4(ToScreen(max(result, 0.0)), alpha);

@@ -41,7 +41,7 @@ void main() {
   // The lamp behind only reaches the outline: folds that face it are shut off by the head.
   float away = 1.0 - max(dot(n, v), 0.0);
   vec3 soft = Ambient(n) + lamp_colors[1] * Wrapped(dot(n, lamp_directions[1]), wrap) +
-              lamp_colors[2] * mix(0.14, 0.42, smoothstep(0.25, 0.85, away)) *
+              lamp_colors[2] * vec3(1.0, 0.9, 0.82) * mix(0.10, 0.34, smoothstep(0.25, 0.85, away)) *
                   Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
   vec3 total = soft * open + key;
 
