@@ -1,0 +1,23 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "face_fit/picture/photo.h"
+
+namespace facefit {
+
+/// A square of a picture, turned: what a network is shown.
+struct Crop {
+  glm::vec2 centre;
+  float side = 0;
+  float angle = 0;  ///< radians; of the square's x axis in the picture, whose y runs down
+
+  /// From the square, 0..1 on both axes, to the picture and back.
+  glm::vec2 ToPicture(glm::vec2 p) const;
+  glm::vec2 FromPicture(glm::vec2 p) const;
+  /// `pixels` x `pixels` RGB, each in low..high; outside the picture `low`.
+  std::vector<float> Sample(const fsm::Image& image, int pixels, float low, float high) const;
+};
+
+}  // namespace facefit

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "face_fit/find/crop.h"
+#include "face_fit/find/face_networks.h"
+
+namespace facefit {
+
+/// A face the detector sees.
+struct FaceBox {
+  glm::vec2 centre;
+  glm::vec2 size;
+  float score = 0;
+  std::array<glm::vec2, 2> eyes;  ///< the person's right and left
+};
+
+inline constexpr std::size_t kNetworkPoints = 468;
+
+/// A face with its points: x and y in pixels of the picture, y down, z in the same unit towards
+/// the viewer, 0 about the middle of the head.
+struct FoundFace {
+  std::vector<glm::vec3> points;  ///< kNetworkPoints
+  float certainty = 0;            ///< 0..1 that there is a face
+  Crop crop;                      ///< what the network saw last
+};
+
+/// All faces, largest first. Looks at the whole picture, and if nothing is found at its parts.
+std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image);
+
+/// The points of one face.
+FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box);
+
+/// How much each pixel belongs to a person, 0..1, as large as the picture; blurred to the network's
+/// 256 x 256.
+std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image);
+
+}  // namespace facefit

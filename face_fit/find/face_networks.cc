@@ -1,0 +1,95 @@
+#include "face_fit/find/face_networks.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+namespace facefit {
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 64U << 20;
+
+std::optional<std::vector<std::uint8_t>> ReadAll(const std::string& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  if (error || size > kMostBytes) return std::nullopt;
+  std::vector<std::uint8_t> bytes(size);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    return std::nullopt;
+  }
+  return bytes;
+}
+
+/// The package keeps its files one after the other in one; its loader lists where each begins.
+Bytes Packed(const std::vector<std::uint8_t>& loader, const std::vector<std::uint8_t>& data,
+             const std::string& name) {
+  const std::string script(loader.begin(), loader.end());
+  const std::string key = "\"files\": [";
+  const auto begin = script.find(key);
+  const auto end = begin == std::string::npos ? begin : script.find(']', begin);
+  if (end == std::string::npos) throw BadModel("the package's loader lists no files");
+  const auto list =
+      nlohmann::json::parse(script.substr(begin + key.size() - 1, end - begin - key.size() + 2));
+  for (const auto& entry : list) {
+    const std::string file = entry.at("filename");
+    if (!file.ends_with("/" + name)) continue;
+    const std::size_t first = entry.at("start"), last = entry.at("end");
+    if (first > last || last > data.size()) break;
+    return Bytes(data).subspan(first, last - first);
+  }
+  throw BadModel("the package holds no " + name);
+}
+
+Network Expect(Network network, std::size_t input, std::initializer_list<std::size_t> outputs) {
+  bool fits = network.input_shape().count() == input && network.outputs() == outputs.size();
+  std::size_t i = 0;
+  for (const std::size_t n : outputs) fits = fits && network.output(i++).size() == n;
+  if (!fits) throw BadModel("a network of another kind");
+  return network;
+}
+
+}  // namespace
+
+std::string NetworksFolder() {
+  const auto named = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value ? value : "");
+  };
+  if (const auto own = named("GALATEA_NETWORKS"); !own.empty()) return own;
+  if (const auto cache = named("XDG_CACHE_HOME"); !cache.empty()) {
+    return cache + "/galatea/networks";
+  }
+  return named("HOME") + "/.cache/galatea/networks";
+}
+
+vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
+  const std::string where = folder.empty() ? NetworksFolder() : folder;
+  const auto loader = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets_loader.js");
+  const auto data = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets.data");
+  const auto figure = ReadAll(where + "/selfie_segmentation/selfie_segmentation.tflite");
+  if (!loader || !data || !figure) {
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "the networks that find faces are not in '" + where +
+                        "'; scripts/face_networks.sh puts them there (npm packages "
+                        "@mediapipe/face_mesh and @mediapipe/selfie_segmentation)");
+  }
+  try {
+    const auto packed = [&](const char* name) {
+      return Network(Model::Read(Packed(*loader, *data, name)));
+    };
+    return FaceNetworks{
+        .detector =
+            Expect(packed("face_detection_short_range.tflite"), 128 * 128 * 3, {896 * 16, 896}),
+        .landmarks = Expect(packed("face_landmark.tflite"), 192 * 192 * 3, {1404, 1}),
+        .figure = Expect(Network(Model::Read(*figure)), 256 * 256 * 3, {256 * 256})};
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "the networks in '" + where + "' cannot be used: " + error.what());
+  }
+}
+
+}  // namespace facefit

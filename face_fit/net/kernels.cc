@@ -1,0 +1,212 @@
+#include "face_fit/net/kernels.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace facefit {
+namespace {
+
+std::size_t At(const Shape& s, int row, int column) {
+  return (static_cast<std::size_t>(row) * static_cast<std::size_t>(s.columns()) +
+          static_cast<std::size_t>(column)) *
+         static_cast<std::size_t>(s.channels());
+}
+
+/// sums[o] += sum over i of in[i] * weights[o][i], for `pixels` pixels that lie side by side.
+void Multiply(const float* in, std::size_t pixels, std::size_t channels, const float* turned,
+              std::size_t outs, float* sums) {
+  // Outputs innermost and side by side, so that the compiler makes vectors of them.
+  for (std::size_t p = 0; p < pixels; ++p) {
+    float* to = sums + p * outs;
+    const float* from = in + p * channels;
+    for (std::size_t i = 0; i < channels; ++i) {
+      const float x = from[i];
+      const float* w = turned + i * outs;
+      for (std::size_t o = 0; o < outs; ++o) to[o] += x * w[o];
+    }
+  }
+}
+
+}  // namespace
+
+Padding PaddingOf(const Step& step, const Shape& in, const Shape& out, int filter_rows,
+                  int filter_columns) {
+  if (!step.same_padding) return {};
+  const auto before = [](int size_in, int size_out, int stride, int filter) {
+    return std::max((size_out - 1) * stride + filter - size_in, 0) / 2;
+  };
+  return {before(in.rows(), out.rows(), step.stride_rows, filter_rows),
+          before(in.columns(), out.columns(), step.stride_columns, filter_columns)};
+}
+
+void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
+              Tensor& out) {
+  const auto outs = static_cast<std::size_t>(out.shape.channels());
+  const auto channels = static_cast<std::size_t>(in.shape.channels());
+  const int rows = filter.shape.rows();
+  const int columns = filter.shape.columns();
+  const auto taps = static_cast<std::size_t>(rows * columns);
+  // Weights come output by output; here they are wanted tap by tap, input by input.
+  std::vector<float> turned(filter.values.size());
+  for (std::size_t o = 0; o < outs; ++o) {
+    for (std::size_t k = 0; k < taps * channels; ++k) {
+      turned[k * outs + o] = filter.values[o * taps * channels + k];
+    }
+  }
+  for (std::size_t i = 0; i < out.values.size(); i += outs) {
+    for (std::size_t o = 0; o < outs; ++o) out.values[i + o] = bias ? bias[o] : 0;
+  }
+  const Padding pad = PaddingOf(step, in.shape, out.shape, rows, columns);
+  if (rows == 1 && columns == 1 && step.stride_rows == 1 && step.stride_columns == 1) {
+    Multiply(in.values.data(), in.values.size() / channels, channels, turned.data(), outs,
+             out.values.data());
+    return;
+  }
+  for (int y = 0; y < out.shape.rows(); ++y) {
+    for (int x = 0; x < out.shape.columns(); ++x) {
+      float* to = &out.values[At(out.shape, y, x)];
+      for (int r = 0; r < rows; ++r) {
+        const int in_y = y * step.stride_rows + r - pad.rows;
+        if (in_y < 0 || in_y >= in.shape.rows()) continue;
+        for (int c = 0; c < columns; ++c) {
+          const int in_x = x * step.stride_columns + c - pad.columns;
+          if (in_x < 0 || in_x >= in.shape.columns()) continue;
+          Multiply(&in.values[At(in.shape, in_y, in_x)], 1, channels,
+                   &turned[static_cast<std::size_t>(r * columns + c) * channels * outs], outs, to);
+        }
+      }
+    }
+  }
+}
+
+void ConvolveByChannel(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
+                       Tensor& out) {
+  const auto channels = static_cast<std::size_t>(in.shape.channels());
+  const int rows = filter.shape.rows();
+  const int columns = filter.shape.columns();
+  const Padding pad = PaddingOf(step, in.shape, out.shape, rows, columns);
+  for (int y = 0; y < out.shape.rows(); ++y) {
+    for (int x = 0; x < out.shape.columns(); ++x) {
+      float* to = &out.values[At(out.shape, y, x)];
+      for (std::size_t k = 0; k < channels; ++k) to[k] = bias ? bias[k] : 0;
+      for (int r = 0; r < rows; ++r) {
+        const int in_y = y * step.stride_rows + r - pad.rows;
+        if (in_y < 0 || in_y >= in.shape.rows()) continue;
+        for (int c = 0; c < columns; ++c) {
+          const int in_x = x * step.stride_columns + c - pad.columns;
+          if (in_x < 0 || in_x >= in.shape.columns()) continue;
+          const float* from = &in.values[At(in.shape, in_y, in_x)];
+          const float* w = &filter.values[At(filter.shape, r, c)];
+          for (std::size_t k = 0; k < channels; ++k) to[k] += from[k] * w[k];
+        }
+      }
+    }
+  }
+}
+
+void Unfold(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out) {
+  const auto channels = static_cast<std::size_t>(in.shape.channels());
+  const int rows = filter.shape.rows();
+  const int columns = filter.shape.columns();
+  const int outs = out.shape.channels();
+  const std::size_t block = filter.values.size() / static_cast<std::size_t>(outs);
+  for (int y = 0; y < out.shape.rows(); ++y) {
+    for (int x = 0; x < out.shape.columns(); ++x) {
+      const float* from = &in.values[At(in.shape, y / rows, x / columns)];
+      float* to = &out.values[At(out.shape, y, x)];
+      for (int o = 0; o < outs; ++o) {
+        const float* w =
+            &filter.values[static_cast<std::size_t>(o) * block +
+                           static_cast<std::size_t>(y % rows * columns + x % columns) * channels];
+        float sum = bias ? bias[o] : 0;
+        for (std::size_t k = 0; k < channels; ++k) sum += from[k] * w[k];
+        to[o] = sum;
+      }
+    }
+  }
+}
+
+void Pool(const Step& step, const Tensor& in, Tensor& out) {
+  const auto channels = static_cast<std::size_t>(in.shape.channels());
+  const bool greatest = step.op == Op::kMaxPool;
+  const Padding pad = PaddingOf(step, in.shape, out.shape, step.filter_rows, step.filter_columns);
+  for (int y = 0; y < out.shape.rows(); ++y) {
+    for (int x = 0; x < out.shape.columns(); ++x) {
+      float* to = &out.values[At(out.shape, y, x)];
+      std::fill_n(to, channels, greatest ? -INFINITY : 0.0F);
+      int seen = 0;
+      const int top = y * step.stride_rows - pad.rows;
+      const int left = x * step.stride_columns - pad.columns;
+      for (int r = std::max(top, 0); r < std::min(top + step.filter_rows, in.shape.rows()); ++r) {
+        for (int c = std::max(left, 0);
+             c < std::min(left + step.filter_columns, in.shape.columns()); ++c) {
+          const float* from = &in.values[At(in.shape, r, c)];
+          ++seen;
+          for (std::size_t k = 0; k < channels; ++k) {
+            to[k] = greatest ? std::max(to[k], from[k]) : to[k] + from[k];
+          }
+        }
+      }
+      if (greatest) continue;
+      for (std::size_t k = 0; k < channels; ++k) to[k] /= static_cast<float>(std::max(seen, 1));
+    }
+  }
+}
+
+void ResizeBilinear(const Step& step, const Tensor& in, Tensor& out) {
+  const auto channels = static_cast<std::size_t>(in.shape.channels());
+  struct Between {
+    int first, second;
+    float part;
+  };
+  const auto place = [&step](int i, int size_in, int size_out) {
+    float at = 0;
+    if (step.align_corners && size_out > 1) {
+      at = static_cast<float>(i) * static_cast<float>(size_in - 1) /
+           static_cast<float>(size_out - 1);
+    } else {
+      const float scale = static_cast<float>(size_in) / static_cast<float>(size_out);
+      at = step.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
+                                   : static_cast<float>(i) * scale;
+    }
+    at = std::clamp(at, 0.0F, static_cast<float>(size_in - 1));
+    const int first = static_cast<int>(at);
+    return Between{first, std::min(first + 1, size_in - 1), at - static_cast<float>(first)};
+  };
+  for (int y = 0; y < out.shape.rows(); ++y) {
+    const Between v = place(y, in.shape.rows(), out.shape.rows());
+    for (int x = 0; x < out.shape.columns(); ++x) {
+      const Between u = place(x, in.shape.columns(), out.shape.columns());
+      const float* a = &in.values[At(in.shape, v.first, u.first)];
+      const float* b = &in.values[At(in.shape, v.first, u.second)];
+      const float* c = &in.values[At(in.shape, v.second, u.first)];
+      const float* d = &in.values[At(in.shape, v.second, u.second)];
+      float* to = &out.values[At(out.shape, y, x)];
+      for (std::size_t k = 0; k < channels; ++k) {
+        const float top = a[k] + (b[k] - a[k]) * u.part;
+        const float bottom = c[k] + (d[k] - c[k]) * u.part;
+        to[k] = top + (bottom - top) * v.part;
+      }
+    }
+  }
+}
+
+void Pad(const Tensor& in, const std::vector<std::int32_t>& by, Tensor& out) {
+  std::ranges::fill(out.values, 0.0F);
+  const auto channels = static_cast<std::size_t>(in.shape.channels());
+  for (int y = 0; y < in.shape.rows(); ++y) {
+    for (int x = 0; x < in.shape.columns(); ++x) {
+      std::copy_n(
+          &in.values[At(in.shape, y, x)], channels,
+          &out.values[At(out.shape, y + by[2], x + by[4]) + static_cast<std::size_t>(by[6])]);
+    }
+  }
+}
+
+void Activate(Activation activation, std::vector<float>& values) {
+  if (activation == Activation::kNone) return;
+  const float most = activation == Activation::kRelu6 ? 6.0F : INFINITY;
+  for (float& v : values) v = std::clamp(v, 0.0F, most);
+}
+
+}  // namespace facefit

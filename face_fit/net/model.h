@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "face_fit/net/flat_buffer.h"
+
+namespace facefit {
+
+/// Batch, rows, columns, channels; shorter shapes are filled with 1 from the left.
+struct Shape {
+  std::array<int, 4> size{1, 1, 1, 1};
+  int rows() const { return size[1]; }
+  int columns() const { return size[2]; }
+  int channels() const { return size[3]; }
+  std::size_t count() const {
+    std::size_t n = 1;
+    for (const int s : size) n *= static_cast<std::size_t>(s);
+    return n;
+  }
+  bool operator==(const Shape&) const = default;
+};
+
+enum class Op {
+  kAdd,
+  kAveragePool,
+  kConcatenation,
+  kConv,
+  kDepthwiseConv,
+  kDequantize,
+  kHardSwish,
+  kLogistic,
+  kMaxPool,
+  kMul,
+  kPad,
+  kPrelu,
+  kRelu,
+  kReshape,
+  kResizeBilinear,
+  kTransposeConv
+};
+
+enum class Activation { kNone, kRelu, kRelu6 };
+
+struct Step {
+  Op op;
+  std::vector<int> inputs;  ///< tensors; -1 = left out
+  int output;
+  bool same_padding = false;
+  int stride_rows = 1, stride_columns = 1;
+  int filter_rows = 1, filter_columns = 1;
+  int axis = 0;
+  bool align_corners = false, half_pixel_centres = false;
+  Activation activation = Activation::kNone;
+};
+
+struct Tensor {
+  Shape shape;
+  bool constant = false;
+  std::vector<float> values;         ///< of a constant
+  std::vector<std::int32_t> counts;  ///< of a constant of whole numbers
+};
+
+/// A network read from a TensorFlow Lite file: of its operators those that the face networks of
+/// MediaPipe and its segmentation of persons use, in floating point with weights of 16 or 32 bits.
+struct Model {
+  std::vector<Tensor> tensors;
+  std::vector<Step> steps;
+  std::vector<int> inputs, outputs;
+
+  /// Throws BadModel with a sentence. Memory is bounded by a small multiple of the file's size and
+  /// by kMaxTensor floats per tensor.
+  static Model Read(Bytes file);
+  static constexpr std::size_t kMaxTensor = 1U << 23;
+};
+
+}  // namespace facefit

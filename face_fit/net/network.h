@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "face_fit/net/model.h"
+
+namespace facefit {
+
+/// Runs a model. Immutable but for the tensors it works in; one thread at a time.
+class Network {
+ public:
+  /// Throws BadModel if sizes do not match, or if an operator is used in a way not known here: a
+  /// network that was made can be run.
+  explicit Network(Model model);
+
+  const Shape& input_shape() const { return Of(model_.inputs[0]).shape; }
+  std::size_t outputs() const { return model_.outputs.size(); }
+  /// `input` holds input_shape().count() numbers.
+  void Run(std::span<const float> input);
+  /// Of the last run.
+  std::span<const float> output(std::size_t i) const { return Of(model_.outputs[i]).values; }
+
+ private:
+  const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
+  Tensor& Of(int i) { return model_.tensors[static_cast<std::size_t>(i)]; }
+  void Check(const Step& step) const;
+  void Do(const Step& step);
+
+  Model model_;
+};
+
+}  // namespace facefit

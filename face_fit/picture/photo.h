@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fsm/render/renderer.h"
+#include "vm_protocol/core/result.h"
+
+namespace facefit {
+
+/// The most pixels a photo may have, and the longest side it is worked on with.
+inline constexpr std::int64_t kMaxPixels = 50'000'000;
+inline constexpr int kWorkingSide = 1600;
+
+/// Reads a photo, JPEG or PNG told apart by content, upright after its EXIF orientation, scaled
+/// down to kWorkingSide. 16-bit and grey pictures become 8-bit RGB, CMYK is converted plainly.
+/// Errors: kUnavailable (cannot be read), kBadValue (what is wrong with it, and what is expected).
+vm::Result<fsm::Image> ReadPhoto(const std::string& path);
+vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes);
+
+/// The orientation 1..8 in an EXIF block ("Exif\0\0" and a TIFF file); 1 if it says nothing or is
+/// damaged.
+int ExifOrientation(std::span<const std::uint8_t> block);
+fsm::Image Turned(const fsm::Image& image, int exif_orientation);
+/// Each pixel the mean of those it covers. At most as large as `image`.
+fsm::Image ScaledDown(const fsm::Image& image, int width, int height);
+
+/// Colour at a place (pixel centres at .5), between the pixels; the edge goes on outside. 0..255.
+glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at);
+
+}  // namespace facefit
