@@ -67,7 +67,11 @@ void Session::OnGuest(const vm::Doorkeeper::Guest& guest) {
   if (!key) return Refused(guest.from + ": " + key.error().text);
   stream->Start(
       [this, peer = *key](Result<std::string_view> line) { hub_.OnLine(peer, std::move(line)); },
-      [this, peer = *key](const std::string& reason) { hub_.Detach(peer, reason); });
+      [this, peer = *key](const std::string& reason) {
+        if (reason != "end of input")
+          std::cerr << "agent_manager: @" << hub_.NameOf(peer) << ": " << reason << std::endl;
+        hub_.Detach(peer, reason);
+      });
   stream->ResumeReading();
 }
 

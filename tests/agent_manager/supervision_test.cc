@@ -73,6 +73,7 @@ TEST_F(SupervisionTest, AModuleThatStopsAnsweringIsEndedAndStartedAgain) {
   ASSERT_TRUE(hub.Expect("rep#1 X = 1")) << hub.ErrorText();
   kill(std::stoi(Ask(hub, "Module.TEST.pid")), SIGSTOP);
   EXPECT_TRUE(hub.ExpectError("(did not answer inq Run 2 times in a row)")) << hub.ErrorText();
+  ASSERT_TRUE(hub.Expect("From @TEST rep Run = LIVE")) << hub.ErrorText();
   hub.WriteLine("to @TEST set#2 X = 2");
   EXPECT_TRUE(hub.Expect("rep#2 X = 2")) << hub.Seen() << hub.ErrorText();
   EXPECT_EQ(Ask(hub, "Module.TEST.starts"), "2");
