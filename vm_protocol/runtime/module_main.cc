@@ -177,15 +177,19 @@ class Program {
     const Endpoint endpoint = Need(ParseEndpoint(options_.connect));
     const std::string name = options_.name.empty() ? info_.module_name : options_.name;
     if (!IsModuleName(name)) throw std::runtime_error("'" + name + "' is not a module's name");
-    Result<std::shared_ptr<StreamPeer>> connected = nullptr;
-    bool answered = false;
+    // Taken apart here: g++ 12 takes a Result that is moved out of a callback for uninitialised.
+    std::shared_ptr<StreamPeer> stream;
+    std::string refusal;
     Call(io, endpoint, options_.credentials, Framing::kLf, encoding,
-         [&](Result<std::shared_ptr<StreamPeer>> stream) {
-           connected = std::move(stream);
-           answered = true;
+         [&](const Result<std::shared_ptr<StreamPeer>>& called) {
+           if (called) {
+             stream = *called;
+           } else {
+             refusal = called.error().text;
+           }
          });
-    while (!answered) io.run_one();
-    const auto stream = Need(std::move(connected));
+    while (stream == nullptr && refusal.empty()) io.run_one();
+    if (stream == nullptr) throw std::runtime_error(refusal);
     server.AddPeer(stream, {.first_lines = {"to @AM set Name = " + name}, .ends_module = true});
     stream->ResumeReading();
   }
