@@ -1,5 +1,7 @@
 // A WebSocket as a peer of the hub.
 
+#include <algorithm>
+#include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/websocket.hpp>
 #include <deque>
 #include <utility>
