@@ -17,6 +17,11 @@ namespace {
 int Connect(const std::string& text) {
   auto endpoint = vm::ParseEndpoint(text);
   if (!endpoint) throw std::runtime_error("--connect: " + endpoint.error().text);
+  if (endpoint->kind == vm::Endpoint::Kind::kTls) {
+    throw std::runtime_error("--connect " + text +
+                             ": unix:PATH or tcp:HOST:PORT expected; over TLS, join a hub here that "
+                             "calls the other");
+  }
   boost::asio::io_context io;
   vm::Result<int> connected = vm::Fail(vm::Errc::kUnavailable, "no answer");
   vm::ConnectTo(io, *endpoint, [&](vm::Result<int> fd) { connected = std::move(fd); });
