@@ -128,30 +128,36 @@ SkinMap BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatom
   return map;
 }
 
-SkinFront::SkinFront(const FineSkin& skin) : skin_(skin) {
+std::size_t SkinFront::Cell(float mm) {
+  return static_cast<std::size_t>(std::clamp(mm / kCellMm + kCells / 2, 0.0f, kCells - 1.0f));
+}
+
+SkinFront::SkinFront(const FineSkin& skin)
+    : skin_(skin), cells_(static_cast<std::size_t>(kCells) * kCells) {
+  constexpr float kBeyond = 0.1f;  // edges belong to both neighbours
   for (std::uint32_t i = 0; i < skin.triangles.size(); ++i) {
     const auto& t = skin.triangles[i];
-    const glm::vec3 a = skin.position[t.corner[0]];
-    const glm::vec3 n = glm::cross(skin.position[t.corner[1]] - a, skin.position[t.corner[2]] - a);
-    if (n.z > 0 && a.z > 20 && t.kind != SkinKind::kInside) front_.push_back(i);
+    const glm::vec3 a = skin.position[t.corner[0]], b = skin.position[t.corner[1]],
+                    c = skin.position[t.corner[2]];
+    const glm::vec3 n = glm::cross(b - a, c - a);
+    if (n.z <= 0 || a.z <= 20 || t.kind == SkinKind::kInside) continue;
+    front_.push_back(i);
+    const auto [left, right] = std::minmax({a.x, b.x, c.x});
+    const auto [low, high] = std::minmax({a.y, b.y, c.y});
+    for (std::size_t y = Cell(low - kBeyond); y <= Cell(high + kBeyond); ++y) {
+      for (std::size_t x = Cell(left - kBeyond); x <= Cell(right + kBeyond); ++x) {
+        cells_[y * kCells + x].push_back(i);
+      }
+    }
   }
 }
 
 glm::vec3 SkinFront::PointAt(glm::vec2 xy, glm::vec3& normal) const {
   glm::vec3 best(xy.x, xy.y, -1e9f);
-  glm::vec3 nearest(0);
-  float least = 1e9f;
-  for (const std::uint32_t i : front_) {
+  for (const std::uint32_t i : cells_[Cell(xy.y) * kCells + Cell(xy.x)]) {
     const auto& t = skin_.triangles[i].corner;
     const glm::vec3 a = skin_.position[t[0]], b = skin_.position[t[1]], c = skin_.position[t[2]];
     const glm::vec3 n = glm::cross(b - a, c - a);
-    const float d2 = (a.x - xy.x) * (a.x - xy.x) + (a.y - xy.y) * (a.y - xy.y);
-    if (d2 > 900) continue;
-    if (d2 < least && best.z < -1e8f) {
-      least = d2;
-      nearest = a;
-      normal = glm::normalize(n);
-    }
     const float wb = ((xy.x - a.x) * (c.y - a.y) - (c.x - a.x) * (xy.y - a.y)) / n.z;
     const float wc = ((b.x - a.x) * (xy.y - a.y) - (xy.x - a.x) * (b.y - a.y)) / n.z;
     if (wb < -1e-4f || wc < -1e-4f || wb + wc > 1.0001f) continue;
@@ -160,7 +166,20 @@ glm::vec3 SkinFront::PointAt(glm::vec2 xy, glm::vec3& normal) const {
     best.z = z;
     normal = glm::normalize(n);
   }
-  return best.z < -1e8f ? nearest : best;
+  if (best.z > -1e8f) return best;
+
+  glm::vec3 nearest(0);
+  float least = 900;  // within 30 mm
+  for (const std::uint32_t i : front_) {
+    const auto& t = skin_.triangles[i].corner;
+    const glm::vec3 a = skin_.position[t[0]];
+    const float d2 = (a.x - xy.x) * (a.x - xy.x) + (a.y - xy.y) * (a.y - xy.y);
+    if (d2 >= least) continue;
+    least = d2;
+    nearest = a;
+    normal = glm::normalize(glm::cross(skin_.position[t[1]] - a, skin_.position[t[2]] - a));
+  }
+  return nearest;
 }
 
 }  // namespace fsm

@@ -34,8 +34,13 @@ class SkinFront {
   glm::vec3 PointAt(glm::vec2 xy, glm::vec3& normal) const;
 
  private:
+  static constexpr int kCells = 64;  // along each side of a square about the origin
+  static constexpr float kCellMm = 6.0f;
+  static std::size_t Cell(float mm);
+
   const FineSkin& skin_;
-  std::vector<std::uint32_t> front_;  ///< triangles that face the viewer
+  std::vector<std::uint32_t> front_;               ///< triangles that face the viewer
+  std::vector<std::vector<std::uint32_t>> cells_;  ///< those that touch a cell, row after row
 };
 
 }  // namespace fsm

@@ -27,11 +27,17 @@ class ContactProbe {
   /// How far the eye comes before the skin that should cover it, seen from the front; 0 = covered.
   float Uncovered(const FaceState& state, const HeadVertices& v) const;
 
+  /// Upper and lower vertices that meet, ordered by x.
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  const Pairs& seam() const { return seam_; }
+  const Pairs& rims(std::size_t side) const { return rims_[side]; }  ///< 0 = the agent's right
+  /// Edges of the incisors, from -x to +x.
+  const std::vector<std::uint32_t>& upper_edge() const { return upper_edge_; }
+
   std::size_t seam_pairs() const { return seam_.size(); }
   std::size_t rim_pairs() const { return rims_[0].size() + rims_[1].size(); }
 
  private:
-  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // upper, lower
   float TeethInLips(const HeadVertices& v) const;
   /// How far the tongue comes beyond a line, by x, upwards (up 1) or downwards (up -1).
   float TongueAcross(const std::vector<glm::vec3>& line, float up, const HeadVertices& v) const;
