@@ -262,6 +262,25 @@ TEST(LipsOnTheHeadTest, ClosuresCloseAndLipsReachTheTeethInAnyEmotionAtAnySpeed)
   }
 }
 
+TEST(LipsOnTheHeadTest, EveryContactIsMadeAtDoubleSpeedInEachEmotionAtFullStrength) {
+  for (const char* emotion : {"HAPPY", "ANGRY", "DISGUSTED", "SAD", "SURPRISED", "FEARED"}) {
+    for (const char* vowel : {"aa", "ae", "iy", "uw", "ow"}) {
+      FaceMotion motion(Tables(), 1);
+      ASSERT_TRUE(motion.Express(0ms, emotion, 1, 1.0, 0ms));
+      // Half of 120 ms for a vowel and of 70 for a consonant.
+      Utterance said;
+      for (const char* contact : {"p", "f", "b", "v", "m"}) {
+        said.list.push_back({vowel, 60ms});
+        said.list.push_back({contact, 35ms});
+      }
+      said.list.push_back({vowel, 60ms});
+      said.text = vm::FormatPhonemesPlain(said.list);
+      ExpectContacts(motion, said, emotion);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 TEST(LipsOnTheHeadTest, OpenVowelsAreOpenAndRoundOnesNarrow) {
   FaceMotion motion(Tables(), 1);
   motion.Speak(0ms, List("pau 200 aa 200 b 100 uw 200 b 100 iy 200 pau 200"), 1s);
