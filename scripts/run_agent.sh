@@ -13,6 +13,7 @@ usage: scripts/run_agent.sh [options]
   --script FILE      with --dialog: take the user's part from FILE instead of the keyboard; by default
                      DOC.txt beside DOC.vxml where a film is made
   --out FILE.mp4     make a film with sound instead of opening a window
+  --photo PHOTO      wear the face of the person in PHOTO (docs/photo.md)
   --stub             use the voice without sound and engine (ssm_stub)
   --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
   --help             this text
@@ -22,7 +23,7 @@ TEXT
 }
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-say="" emotion="" out="" config="" voice=ssm dialog="" script=""
+photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script=""
 fail() {
   echo "run_agent: $1" >&2
   exit 2
@@ -30,9 +31,10 @@ fail() {
 absolute() { case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
 while [ $# -gt 0 ]; do
   case $1 in
-    --say | --emotion | --out | --config | --dialog | --script)
+    --photo | --say | --emotion | --out | --config | --dialog | --script)
       [ $# -ge 2 ] || fail "$1 needs a value"
       case $1 in
+        --photo) photo=$(absolute "$2") ;;
         --say) say=$2 ;;
         --emotion) emotion=$2 ;;
         --out) out=$(absolute "$2") ;;
@@ -50,6 +52,8 @@ done
 case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
 case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in .mp4" ;; esac
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
+[ -z "$photo" ] || [ -r "$photo" ] || fail "--photo: cannot read '$photo'"
+[ -z "$photo" ] || [ -z "$config" ] || fail "--photo and --config exclude each other: put --mask into the configuration"
 [ -z "$config" ] || [ -r "$config" ] || fail "--config: cannot read '$config'"
 [ -z "$dialog" ] || [ -r "$dialog" ] || fail "--dialog: cannot read '$dialog'"
 [ -z "$script" ] || [ -r "$script" ] || fail "--script: cannot read '$script'"
@@ -90,6 +94,11 @@ cleanup() {
 }
 trap cleanup EXIT
 
+if [ -n "$photo" ]; then
+  "$root/scripts/face_networks.sh"
+  export GALATEA_FACES=$work/faces
+  "$root/build/bin/face_fit" "$photo" --name photo >&2 || fail "no face could be made from the photo"
+fi
 if [ -z "$config" ]; then
   config=$work/agent.json
   source=examples/agents/agent.json
@@ -101,6 +110,7 @@ if [ -z "$config" ]; then
   if [ -z "$film" ] && ! has_display; then
     sed -i -e 's#\["build/bin/fsm"\]#["build/bin/fsm", "--headless"]#' "$config"
   fi
+  [ -z "$photo" ] || sed -i -e 's#\["build/bin/fsm"#["build/bin/fsm", "--mask", "photo"#' "$config"
 fi
 hub_program=$root/build/bin/agent_manager
 

@@ -1,9 +1,13 @@
 #include "fsm/app/gl_studio.h"
 
 #include <algorithm>
+#include <fstream>
 #include <future>
 #include <iostream>
 #include <stdexcept>
+
+#include "fsm/head/face_folder.h"
+#include "fsm/head/face_set.h"
 
 namespace fsm {
 
@@ -24,8 +28,27 @@ GlStudio::~GlStudio() {
 }
 
 const Head& GlStudio::head() {
-  if (!head_) head_ = face_.empty() ? Head::MakeGeneric() : Head::Make(face_);
+  if (!head_) head_ = MakeHead(face_);
   return *head_;
+}
+
+/// A built-in head, or one from a photo out of its folder; "" = the first.
+std::unique_ptr<Head> GlStudio::MakeHead(const std::string& face) {
+  if (face.empty()) return Head::MakeGeneric();
+  if (std::ranges::find(Head::Identities(), face, &IdentityInfo::name) !=
+      Head::Identities().end()) {
+    return Head::Make(face);
+  }
+  const std::string folder = FacesFolder() + "/" + face;
+  std::ifstream file(folder + "/face.txt");
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file) throw std::runtime_error("cannot read " + folder + "/face.txt");
+  FaceSet set = ReadFaceSet(folder + "/face.txt", text);
+  auto image = ReadImage(folder + "/photo.png");
+  if (!image) throw std::runtime_error(image.error().text);
+  set.photo =
+      std::make_shared<WornPhoto>(WornPhoto{image->width, image->height, std::move(image->rgba)});
+  return Head::Make(set);
 }
 
 void GlStudio::MakeRenderer() {
@@ -41,9 +64,7 @@ vm::Result<void> GlStudio::Draw(const FaceState& state, const Scene& scene) {
     // The head is made while the driver starts; both take a good part of the first frame.
     std::future<std::unique_ptr<Head>> made;
     if (!head_ && !renderer_) {
-      made = std::async(std::launch::async, [face = face_] {
-        return face.empty() ? Head::MakeGeneric() : Head::Make(face);
-      });
+      made = std::async(std::launch::async, [face = face_] { return MakeHead(face); });
     }
     MakeRenderer();
     if (made.valid()) head_ = made.get();
@@ -65,6 +86,9 @@ MouthMeasure GlStudio::Measure(const FaceState& state) { return head().MeasureMo
 std::vector<std::string> GlStudio::Faces() const {
   std::vector<std::string> names;
   for (const IdentityInfo& face : Head::Identities()) names.emplace_back(face.name);
+  for (const std::string& name : FacesIn(FacesFolder())) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
   return names;
 }
 
@@ -77,7 +101,7 @@ vm::Result<void> GlStudio::Wear(const std::string& face) {
   }
   if (face == (face_.empty() ? names.front() : face_)) return {};
   try {
-    auto head = Head::Make(face);
+    auto head = MakeHead(face);
     // What the renderer keeps belongs to the head it drew last.
     if (renderer_) {
       context_->MakeCurrent();

@@ -44,6 +44,7 @@ class GlStudio final : public Studio {
 
  private:
   const Head& head();
+  static std::unique_ptr<Head> MakeHead(const std::string& face);
   void MakeRenderer();
 
   Options options_;

@@ -17,6 +17,7 @@
 #include "embedded/patches.h"
 #include "embedded/sliders.h"
 #include "fsm/head/deformer.h"
+#include "fsm/head/face_set.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/head.h"
 #include "fsm/head/identity.h"
@@ -33,11 +34,16 @@ namespace {
 /// parts.
 class GenericHead : public Head {
  public:
-  GenericHead(std::string_view name, bool asymmetric)
+  GenericHead(std::string_view name, bool asymmetric, const FaceSet* set = nullptr)
       : identity_(ReadIdentity(Table("tables/identities.txt", embedded::identities()), name)),
         units_(Table("tables/action_units.txt", embedded::action_units())),
         eye_(Table("tables/eye.txt", embedded::eye())),
         mouth_(Table("tables/mouth.txt", embedded::mouth())) {
+    if (set) {
+      warp_.emplace(set->points, set->smooth);
+      identity_.palette.iris = set->iris_colour;
+      identity_.palette.sclera = set->white_colour;
+    }
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
     const Shaper shaper(Table("tables/sliders.txt", embedded::sliders()), identity_.sliders);
     const Cage cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
@@ -46,18 +52,26 @@ class GenericHead : public Head {
     const Palette& palette = identity_.palette;
     HeadMesh mesh;
     const SkinMap skin = BuildSkin(fine, eye_, mouth_, palette, mesh);
-    BuildCloth(palette, mesh);
+    const std::size_t skin_count = mesh.position.size();
+    if (set) {
+      AddSheet(*set, mesh);
+    } else {
+      BuildCloth(palette, mesh);
+    }
+    const std::size_t sheet_end = mesh.position.size();
     topology_.skin_hairs = BuildBrows(SkinFront(fine), identity_, mesh);
     BuildLashes(eye_, identity_, mesh);
     flesh_count_ = mesh.position.size();
     BuildEyes(eye_, palette, mesh);
     BuildTeeth(mouth_, palette, mesh);
     BuildTongue(mouth_, palette, mesh);
-    if (identity_.crop) BuildEars(palette, mesh);  // long hair covers them
+    if (identity_.crop && !set) BuildEars(palette, mesh);  // long hair covers them
     base_ = mesh.position;
-    Shape(shaper, mesh);
+    Shape(shaper, mesh, skin_count, set ? sheet_end : skin_count);
     hair_first_ = mesh.position.size();
-    if (identity_.crop) {
+    if (set) {
+      LeaveOutUnseen(*set, mesh);
+    } else if (identity_.crop) {
       BuildCroppedHair(*identity_.crop, palette, mesh);
     } else {
       BuildLongHair(palette, mesh);
@@ -65,6 +79,7 @@ class GenericHead : public Head {
     base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
                  mesh.position.end());
     Finish(std::move(mesh), skin);
+    if (set) WearPhoto(*set, skin_count);
     landmarks_ = NameLandmarks(cage, fine, rest_, eye_, eye_shift_);
   }
 
@@ -103,10 +118,17 @@ class GenericHead : public Head {
  private:
   /// Moves the base head to the identity's form. Eyes and what touches them, and teeth with tongue,
   /// move as wholes.
-  void Shape(const Shaper& shaper, HeadMesh& mesh) {
-    eye_shift_ = shaper.Motion(eye_.centre());
-    teeth_shift_ = shaper.Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) * glm::vec3(0, 0.5f, 0.5f);
+  void Shape(const Shaper& shaper, HeadMesh& mesh, std::size_t fixed_first, std::size_t fixed_end) {
+    const auto motion = [&](glm::vec3 p) {
+      const glm::vec3 by = shaper.Motion(p);
+      return warp_ ? by + warp_->Motion(p + by) : by;
+    };
+    constexpr glm::vec3 kMirror(-1, 1, 1);
+    eye_shift_ = 0.5f * (motion(eye_.centre()) + kMirror * motion(eye_.centre() * kMirror));
+    teeth_shift_ = motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) *
+                   (warp_ ? glm::vec3(0, 1, 1) : glm::vec3(0, 0.5f, 0.5f));
     for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+      if (i >= fixed_first && i < fixed_end) continue;
       glm::vec3& p = mesh.position[i];
       switch (mesh.bone[i]) {
         case Bone::kEyeLeft:
@@ -119,12 +141,12 @@ class GenericHead : public Head {
           break;
         case Bone::kSkull: {
           const bool tooth = p.z > 30 && std::abs(p.x) < 40;
-          p += tooth ? teeth_shift_ : shaper.Motion(p);
+          p += tooth ? teeth_shift_ : motion(p);
           break;
         }
         case Bone::kFlesh: {
           const Flesh& flesh = mesh.flesh[i];
-          glm::vec3 by = shaper.Motion(p);
+          glm::vec3 by = motion(p);
           if (flesh.eye != 0) {
             const float hold = SmoothStep(0, 0.8f, flesh.lid_upper + flesh.lid_lower);
             by = glm::mix(by, EyeShift(flesh.eye > 0 ? 1 : 0), hold);
@@ -132,6 +154,63 @@ class GenericHead : public Head {
           p += by;
           break;
         }
+      }
+    }
+  }
+
+  /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
+  static void AddSheet(const FaceSet& set, HeadMesh& mesh) {
+    const auto first = static_cast<std::uint32_t>(mesh.position.size());
+    for (const auto& vertex : set.sheet) {
+      Flesh flesh;
+      flesh.free = 0;
+      flesh.domain = vertex.position;
+      flesh.neck = SmoothStep(-166, -98, vertex.position.y);
+      mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kFlesh, flesh);
+    }
+    const auto& t = set.sheet_triangles;
+    for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
+      mesh.Triangle(Material::kPhoto, first + t[i], first + t[i + 1], first + t[i + 2]);
+    }
+  }
+
+  /// Skin the photo does not show: behind the outline and below the jaw, where the sheet is.
+  static void LeaveOutUnseen(const FaceSet& set, HeadMesh& mesh) {
+    for (auto& batch : mesh.batches) {
+      if (batch.material != Material::kSkin) continue;
+      const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
+      std::vector<std::uint32_t> kept;
+      for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
+        const std::uint32_t* corner = &batch.indices[i];
+        const bool seen = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+          return mesh.position[v].y > set.skin_bottom_y && mesh.position[v].z > -2 &&
+                 glm::dot(normal[v], set.seen_from) > 0.08f;
+        });
+        // Within the face all stays: lids and nostrils turn every way.
+        const bool within = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+          return mesh.position[v].z > 45 && mesh.position[v].y > set.skin_bottom_y + 14;
+        });
+        if (seen || within) kept.insert(kept.end(), corner, corner + 3);
+      }
+      batch.indices = std::move(kept);
+    }
+  }
+
+  void WearPhoto(const FaceSet& set, std::size_t skin_count) {
+    topology_.photo = set.photo;
+    topology_.photo_place.resize(topology_.uv.size(), glm::vec3(0));
+    for (std::size_t i = 0; i < skin_count; ++i) {
+      const glm::vec2 at = glm::mix(set.skin_low, set.skin_high, topology_.uv[i]);
+      topology_.photo_place[i] = glm::vec3(at, 1);
+    }
+    for (std::size_t i = 0; i < set.sheet.size(); ++i) {
+      topology_.photo_place[skin_count + i] = glm::vec3(set.sheet[i].place, 1);
+    }
+    // The photo ends at the lips: what lies within the mouth is painted.
+    for (const auto& part : topology_.parts) {
+      if (part.material != Material::kMouthInside) continue;
+      for (std::uint32_t k = 0; k < part.index_count; ++k) {
+        topology_.photo_place[topology_.indices[part.first_index + k]].z = 0;
       }
     }
   }
@@ -283,6 +362,7 @@ class GenericHead : public Head {
   }
 
   Identity identity_;
+  std::optional<Warp> warp_;  // of a face from a photo
   ActionUnits units_;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
@@ -310,6 +390,11 @@ glm::vec3 Head::Landmark(std::string_view name) const {
 
 std::unique_ptr<Head> Head::Make(std::string_view identity, bool asymmetric) {
   return std::make_unique<GenericHead>(identity, asymmetric);
+}
+
+std::unique_ptr<Head> Head::Make(const FaceSet& set) {
+  if (!set.photo) throw std::runtime_error("a face set without its photo");
+  return std::make_unique<GenericHead>(set.base, true, &set);
 }
 
 std::unique_ptr<Head> Head::MakeGeneric() { return Make(Identities().front().name); }

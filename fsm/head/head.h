@@ -27,7 +27,8 @@ enum class Material {
   kMouthInside,
   kLash,
   kHair,
-  kCloth
+  kCloth,
+  kPhoto  ///< a sheet that shows the photo worn and nothing else
 };
 
 constexpr bool IsHair(Material material) {
@@ -61,6 +62,12 @@ struct SkinHair {
   glm::vec3 tint;  ///< factor on the skin's colour
 };
 
+/// A photo worn in place of painted skin. Its own light is in it.
+struct WornPhoto {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;  ///< screen colours and opacity, row 0 at the top
+};
+
 /// The part of a head that never changes while it moves.
 struct HeadTopology {
   struct Part {
@@ -77,6 +84,10 @@ struct HeadTopology {
   std::vector<glm::vec2> uv;
   std::vector<SkinHair> skin_hairs;
   std::vector<Strand> strands;   ///< per vertex, meaningful where there is hair; may be empty
+  std::shared_ptr<const WornPhoto> photo;  ///< nothing: skin is painted and lit
+  /// Per vertex where there is a photo: its place there (0..1, v down) and the photo's part in the
+  /// colour, 0..1.
+  std::vector<glm::vec3> photo_place;
   std::array<EyePlace, 2> eyes;  ///< the agent's right, left
 };
 
@@ -99,6 +110,8 @@ struct IdentityInfo {
   std::string_view description;  ///< one line
 };
 
+struct FaceSet;
+
 /// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,
 /// figure placement (agent_*) and camera not. Immutable after construction; safe to share.
 class Head {
@@ -108,6 +121,9 @@ class Head {
   /// identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument listing
   /// the names if there is none of that name, std::runtime_error if a table is damaged.
   static std::unique_ptr<Head> Make(std::string_view identity, bool asymmetric = true);
+  /// A head made from a photo: its base face, warped and wearing the photo. Throws as Make, and
+  /// std::runtime_error if the set does not fit together.
+  static std::unique_ptr<Head> Make(const FaceSet& set);
   /// All heads there are, the default one first. Valid as long as the program runs.
   static std::span<const IdentityInfo> Identities();
   /// The first of Identities().

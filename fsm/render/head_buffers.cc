@@ -20,6 +20,7 @@ std::uint64_t ChecksumOf(const HeadTopology& topology) {
   add(topology.indices);
   add(topology.albedo);
   add(topology.occlusion);
+  add(topology.photo_place);
   for (const auto& part : topology.parts) {
     const std::uint64_t words[] = {static_cast<std::uint64_t>(part.material), part.first_index,
                                    part.index_count};
@@ -48,7 +49,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(kAttributes + 1, buffers_);
   gl_.BindVertexArray(array_);
-  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4};
+  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3};
   for (GLuint i = 0; i < kAttributes; ++i) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[i]);
     gl_.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -124,6 +125,10 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(4, unrolled);
   upload(5, creases.right);
   upload(6, creases.left);
+  photo_ = topology.photo;
+  std::vector<glm::vec3> photo_place = topology.photo_place;
+  photo_place.resize(paint.size());
+  upload(7, photo_place);
   Order(topology, rest);
   eyes_ = EyeFinder(topology, rest);
   shadows_ = ShadowFinder(topology, rest);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <future>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,8 @@ class HeadBuffers {
   const EyePlace& eye_place() const { return eye_place_; }
   /// Counts the heads uploaded so far, so that what depends on the head is noticed to be old.
   int generation() const { return generation_; }
+  /// What is worn in place of painted skin, if anything.
+  const WornPhoto* photo() const { return photo_.get(); }
 
  private:
   void UploadTopology(const Head& head);
@@ -49,7 +52,7 @@ class HeadBuffers {
   // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
   // the right and of the left side; of hair its place among hairs, direction and cover, place
   // across its lock; indices.
-  static constexpr GLuint kAttributes = 7;
+  static constexpr GLuint kAttributes = 8;  // the last: place in a photo
   GLuint buffers_[kAttributes + 1] = {};
   const Head* head_ = nullptr;
   std::uint64_t checksum_ = 0;
@@ -59,6 +62,7 @@ class HeadBuffers {
   EyePlace eye_place_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
+  std::shared_ptr<const WornPhoto> photo_;
   int generation_ = 0;
 };
 

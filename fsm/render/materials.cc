@@ -18,6 +18,8 @@
 #include "embedded/hair_vertex.h"
 #include "embedded/lighting.h"
 #include "embedded/line_fragment.h"
+#include "embedded/photo_fragment.h"
+#include "embedded/photo_vertex.h"
 #include "embedded/surface_fragment.h"
 #include "embedded/surface_vertex.h"
 #include "embedded/transform.h"
@@ -92,7 +94,8 @@ Materials::Materials(const GlFunctions& gl)
                Fragment(embedded::surface_fragment())),
       eye_(gl, "eye", Vertex(embedded::eye_vertex()), Fragment(embedded::eye_fragment())),
       hair_(gl, "hair", Vertex(embedded::hair_vertex()), Fragment(embedded::hair_fragment())),
-      line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()) {
+      line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()),
+      photo_(gl, "photo", Vertex(embedded::photo_vertex()), Fragment(embedded::photo_fragment())) {
   gl_.GenTextures(kTextures, textures_);
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const auto noise = MakeNoiseTile();
@@ -121,6 +124,13 @@ void Materials::Fill(Texture texture, int width, int height, const std::uint8_t*
 
 void Materials::WearSkin(HeadBuffers& head, float samples_per_mm) {
   const bool fresh = generation_ != head.generation();
+  has_photo_ = head.photo() != nullptr;
+  if (has_photo_ && fresh) {
+    Fill(kPhoto, head.photo()->width, head.photo()->height, head.photo()->rgba.data());
+    for (const int filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
+      gl_.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(filter), GL_LINEAR);
+    }
+  }
   generation_ = head.generation();
   const SkinTexture* skin = head.skin();
   has_skin_ = skin != nullptr;
@@ -171,7 +181,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   if (generation_ != head.generation()) has_skin_ = false;
   Bind(kNoise, GL_TEXTURE0);
   Bind(kStrands, GL_TEXTURE3);
-  for (const GlProgram* program : {&surface_, &eye_, &hair_, &line_}) {
+  for (const GlProgram* program : {&surface_, &eye_, &hair_, &line_, &photo_}) {
     gl_.UseProgram(program->id());
     gl_.UniformMatrix4fv(program->Uniform("figure_to_world"), 1, GL_FALSE,
                          glm::value_ptr(view.figure_to_world));
@@ -199,6 +209,16 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
     }
   }
   gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
+  gl_.UseProgram(photo_.id());
+  gl_.Uniform4fv(photo_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
+  gl_.Uniform1i(photo_.Uniform("photo"), 1);
+  gl_.Uniform1i(photo_.Uniform("relief"), 2);
+  // The photo's light stands for the lamps as they are by default.
+  const Scene studio;
+  const auto light = [](const Scene& s) {
+    return s.key.strength * s.key.color.g + s.fill.strength * s.fill.color.g + 0.8F;
+  };
+  gl_.Uniform1f(photo_.Uniform("brightness"), std::sqrt(light(scene) / light(studio)));
   gl_.UseProgram(hair_.id());
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
@@ -251,6 +271,10 @@ void Materials::Use(Material material) {
     default:
       break;
   }
+  if (material == Material::kPhoto || (has_photo_ && (material == Material::kSkin ||
+                                                      material == Material::kLip))) {
+    return UsePhoto(material == Material::kPhoto);
+  }
   for (const auto& surface : kSurfaces) {
     if (surface.material != material) continue;
     gl_.UseProgram(surface_.id());
@@ -266,6 +290,13 @@ void Materials::Use(Material material) {
     Bind(skin ? kSkinTint : kPlain, GL_TEXTURE1);
     Bind(skin ? kSkinRelief : surface.planar > 0 ? kWeave : kPlain, GL_TEXTURE2);
   }
+}
+
+void Materials::UsePhoto(bool ragged) {
+  gl_.UseProgram(photo_.id());
+  gl_.Uniform1f(photo_.Uniform("ragged"), ragged ? 1.0F : 0.0F);
+  Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
+  Bind(has_skin_ ? kSkinRelief : kPlain, GL_TEXTURE2);
 }
 
 void Materials::UseHair(float streaks, float shine) {

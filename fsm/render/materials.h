@@ -30,11 +30,12 @@ class Materials {
   void UseLine(const glm::vec4& color);
 
  private:
-  enum Texture { kNoise, kWeave, kStrands, kPlain, kSkinTint, kSkinRelief, kTextures };
+  enum Texture { kNoise, kWeave, kStrands, kPlain, kSkinTint, kSkinRelief, kPhoto, kTextures };
 
   void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
   void Bind(Texture texture, GLenum unit);
   void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices);
+  void UsePhoto(bool ragged);
   void UseHair(float streaks, float shine);
 
   const GlFunctions& gl_;
@@ -42,9 +43,11 @@ class Materials {
   GlProgram eye_;
   GlProgram hair_;
   GlProgram line_;
+  GlProgram photo_;
   GLuint textures_[kTextures] = {};
   int generation_ = 0;  // of the head whose skin is in the textures
   bool has_skin_ = false;
+  bool has_photo_ = false;
   int skin_level_ = 0;
   GLint skin_filter_ = 0;
 };

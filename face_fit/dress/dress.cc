@@ -1,0 +1,185 @@
+#include "face_fit/dress/dress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/dress/sheet.h"
+
+namespace facefit {
+namespace {
+
+std::size_t MapIndex(int x, int y) {
+  return static_cast<std::size_t>(y) * kMapSide + static_cast<std::size_t>(x);
+}
+
+/// For each texel of the skin's map: where it lies in the photo, and how squarely it was seen.
+struct SkinPlaces {
+  std::vector<glm::vec2> pixel;
+  std::vector<float> facing, outward;
+  SkinPlaces()
+      : pixel(static_cast<std::size_t>(kMapSide) * kMapSide),
+        facing(pixel.size(), -1),
+        outward(pixel.size(), -1e9F) {}
+};
+
+SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit) {
+  const auto& topology = base.head->topology();
+  SkinPlaces out;
+  std::vector<glm::vec3> camera;
+  for (const glm::vec3& p : fit.worn) camera.push_back(fit.pose.ToCamera(p));
+  std::vector<glm::vec3> normal(camera.size(), glm::vec3(0));
+  const auto each = [&](auto&& f) {
+    for (const auto& part : topology.parts) {
+      if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
+      for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
+        f(&topology.indices[part.first_index + k]);
+      }
+    }
+  };
+  each([&](const std::uint32_t* t) {
+    const glm::vec3 n = glm::cross(camera[t[1]] - camera[t[0]], camera[t[2]] - camera[t[0]]);
+    for (int c = 0; c < 3; ++c) normal[t[c]] += n;
+  });
+  constexpr glm::vec3 kEye(0, 0, 794);
+  each([&](const std::uint32_t* t) {
+    glm::vec2 uv[3];
+    for (int c = 0; c < 3; ++c) {
+      const glm::vec2 place = topology.uv[t[c]];
+      uv[c] = glm::vec2(place.x, 1 - place.y) * static_cast<float>(kMapSide) - 0.5F;
+    }
+    // Where the map is sewn together triangles would run right across it.
+    const float wide =
+        std::max({uv[0].x, uv[1].x, uv[2].x}) - std::min({uv[0].x, uv[1].x, uv[2].x});
+    if (wide > kMapSide / 4.0F) return;
+    const float area =
+        (uv[1].x - uv[0].x) * (uv[2].y - uv[0].y) - (uv[2].x - uv[0].x) * (uv[1].y - uv[0].y);
+    if (std::abs(area) < 1e-6F) return;
+    const auto low = [&](int axis) {
+      return std::max(
+          static_cast<int>(std::floor(std::min({uv[0][axis], uv[1][axis], uv[2][axis]}))), 0);
+    };
+    const auto high = [&](int axis) {
+      return std::min(
+          static_cast<int>(std::ceil(std::max({uv[0][axis], uv[1][axis], uv[2][axis]}))),
+          kMapSide - 1);
+    };
+    for (int y = low(1); y <= high(1); ++y) {
+      for (int x = low(0); x <= high(0); ++x) {
+        const glm::vec2 p(x, y);
+        const float b =
+            ((p.x - uv[0].x) * (uv[2].y - uv[0].y) - (uv[2].x - uv[0].x) * (p.y - uv[0].y)) / area;
+        const float c =
+            ((uv[1].x - uv[0].x) * (p.y - uv[0].y) - (p.x - uv[0].x) * (uv[1].y - uv[0].y)) / area;
+        if (b < -0.02F || c < -0.02F || b + c > 1.02F) continue;
+        const auto between = [&](const auto& v) {
+          return v[t[0]] * (1 - b - c) + v[t[1]] * b + v[t[2]] * c;
+        };
+        const glm::vec3 rest = between(base.rest.position);
+        const float outward = rest.x * rest.x + rest.z * rest.z;
+        const std::size_t i = MapIndex(x, y);
+        if (outward <= out.outward[i]) continue;
+        const glm::vec3 q = between(camera);
+        const glm::vec3 n = between(normal);
+        out.outward[i] = outward;
+        out.pixel[i] = fit.pose.Project(q);
+        out.facing[i] =
+            glm::dot(glm::normalize(n + glm::vec3(0, 0, 1e-9F)), glm::normalize(kEye - q));
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace
+
+Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
+  Field mask(photo.width, photo.height);
+  mask.at = person;
+  Figure figure{photo, Sharpened(mask, photo, std::max(photo.width, photo.height) / 100 + 2)};
+  Field sure(photo.width, photo.height);
+  // Near the outline the photo's pixels hold some of the background.
+  const Field soft = Blurred(figure.opacity, std::max(photo.width, photo.height) / 400 + 1);
+  for (std::size_t i = 0; i < sure.at.size(); ++i) sure.at[i] = soft.at[i] > 0.97F ? 1.0F : 0.0F;
+  FillIn(figure.colours, sure);
+  return figure;
+}
+
+Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
+                const fsm::Image& photo, const Figure& figure, fsm::FaceSet& set) {
+  Dress dress;
+  dress.picture.width = 2 * kMapSide;
+  dress.picture.height = kMapSide;
+  dress.picture.rgba.assign(static_cast<std::size_t>(8 * kMapSide) * kMapSide, 255);
+
+  const SkinPlaces places = PlaceSkin(base, fit);
+  fsm::Image map;
+  map.width = map.height = kMapSide;
+  map.rgba.assign(static_cast<std::size_t>(4 * kMapSide) * kMapSide, 255);
+  Field seen(kMapSide, kMapSide);
+  std::vector<int> mouth(UpperInnerLip().begin(), UpperInnerLip().end());
+  mouth.insert(mouth.end(), LowerInnerLip().rbegin(), LowerInnerLip().rend());
+  const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
+  float face_texels = 0, face_seen = 0;
+  for (std::size_t i = 0; i < places.facing.size(); ++i) {
+    const glm::vec2 p = places.pixel[i];
+    const bool inside = p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(photo.width) &&
+                        p.y < static_cast<float>(photo.height);
+    const bool front =
+        places.outward[i] > 0 && i / kMapSide > kMapSide / 5 && i / kMapSide < kMapSide * 3 / 4;
+    face_texels += front ? 1.0F : 0.0F;
+    if (!inside || places.facing[i] < 0.03F) continue;
+    float weight = glm::smoothstep(0.03F, 0.2F, places.facing[i]);
+    // What is seen between lids and lips is not skin.
+    if (Within(face, EyeOutline(0), 0.96F, p) || Within(face, EyeOutline(1), 0.96F, p)) weight = 0;
+    if (open && Within(face, mouth, 0.95F, p)) weight = 0;
+    const glm::vec3 colour = ColourAt(figure.colours, p);
+    for (int c = 0; c < 3; ++c)
+      map.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c] + 0.5F);
+    seen.at[i] = weight;
+    face_seen += front ? weight : 0.0F;
+  }
+  dress.coverage = face_seen / std::max(face_texels, 1.0F);
+  // A side that was not seen takes what the other side shows, if that shows it.
+  const fsm::Image one_side = map;
+  const Field seen_once = seen;
+  for (int y = 0; y < kMapSide; ++y) {
+    for (int x = 0; x < kMapSide; ++x) {
+      const std::size_t i = MapIndex(x, y), j = MapIndex(kMapSide - 1 - x, y);
+      const float part = std::max(seen_once.at[j] - seen_once.at[i], 0.0F) * 0.5F;
+      if (part <= 0) continue;
+      const float sum = seen_once.at[i] + part;
+      for (std::size_t c = 0; c < 3; ++c) {
+        map.rgba[4 * i + c] = static_cast<std::uint8_t>(
+            (one_side.rgba[4 * i + c] * seen_once.at[i] + one_side.rgba[4 * j + c] * part) / sum);
+      }
+      seen.at[i] = sum;
+    }
+  }
+  FillIn(map, seen);
+
+  const fsm::Image back = BehindFace(base, fit, figure);
+  for (int y = 0; y < kMapSide; ++y) {
+    for (int x = 0; x < kMapSide; ++x) {
+      std::uint8_t* left = &dress.picture.rgba[4 * (static_cast<std::size_t>(y) * 2 * kMapSide +
+                                                    static_cast<std::size_t>(x))];
+      std::copy_n(&map.rgba[4 * MapIndex(x, y)], 4, left);
+      const glm::vec2 p = (glm::vec2(x, y) + 0.5F) / static_cast<float>(kMapSide) *
+                          glm::vec2(photo.width, photo.height);
+      const glm::vec3 colour = ColourAt(back, p);
+      std::uint8_t* right = left + 4 * kMapSide;
+      for (int c = 0; c < 3; ++c) right[c] = static_cast<std::uint8_t>(colour[c] + 0.5F);
+      right[3] = static_cast<std::uint8_t>(255 * figure.opacity.Near(p.x, p.y) + 0.5F);
+    }
+  }
+  // Half a texel within, so that the halves do not run into each other.
+  constexpr float kHalf = 0.25F / kMapSide;
+  set.skin_low = {kHalf, 1};
+  set.skin_high = {0.5F - kHalf, 0};
+  MakeSheet(base, fit, figure, set);
+  SampleEyes(face, photo, set);
+  return dress;
+}
+
+}  // namespace facefit

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "face_fit/dress/field.h"
+#include "face_fit/find/face_finder.h"
+#include "face_fit/fit/fit.h"
+#include "fsm/head/face_set.h"
+
+namespace facefit {
+
+/// The photo as it is worn: on the skin's map in the left half of one picture, and as the figure
+/// with hair, neck and clothes in the right half.
+struct Dress {
+  fsm::Image picture;
+  float coverage = 0;  ///< part of the face's map that the photo shows
+};
+
+inline constexpr int kMapSide = 1024;  ///< of each half
+
+/// The colours of the figure spread over its outline, and its opacity.
+struct Figure {
+  fsm::Image colours;
+  Field opacity;
+};
+Figure CutOut(const fsm::Image& photo, const std::vector<float>& person);
+
+/// Paints both halves and fills the set's map, sheet and eye colours.
+Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
+                const fsm::Image& photo, const Figure& figure, fsm::FaceSet& set);
+
+/// Colours of iris and white, from the photo.
+void SampleEyes(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set);
+
+/// Whether a pixel lies within a closed line through points of the face, shrunk about its middle.
+bool Within(const FoundFace& face, std::span<const int> outline, float shrunk, glm::vec2 pixel);
+
+}  // namespace facefit

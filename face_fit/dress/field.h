@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "face_fit/picture/photo.h"
+
+namespace facefit {
+
+/// A number for each pixel of a picture.
+struct Field {
+  int width = 0, height = 0;
+  std::vector<float> at;
+  Field(int w, int h, float value = 0)
+      : width(w), height(h), at(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+  /// The nearest pixel's; the edge goes on outside.
+  float Near(float x, float y) const;
+};
+
+/// The mean over squares of side 2 * reach + 1.
+Field Blurred(const Field& field, int reach);
+/// A mask made to follow the edges of the picture it belongs to (He, Sun and Tang, Guided Image
+/// Filtering, 2010), and made steeper.
+Field Sharpened(const Field& mask, const fsm::Image& image, int reach);
+/// Fills what has no weight from around it, farther away from ever wider around (a pyramid of
+/// halved pictures); full weight stays as it is.
+void FillIn(fsm::Image& image, const Field& weight);
+
+}  // namespace facefit

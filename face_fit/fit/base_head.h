@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "face_fit/find/face_finder.h"
+#include "fsm/head/head.h"
+
+namespace facefit {
+
+/// A place on a mesh: between the corners of a triangle.
+struct MeshPlace {
+  std::array<std::uint32_t, 3> corner{};
+  glm::vec3 part{1, 0, 0};  ///< of each corner, sum 1
+  glm::vec3 On(std::span<const glm::vec3> vertices) const {
+    return vertices[corner[0]] * part.x + vertices[corner[1]] * part.y +
+           vertices[corner[2]] * part.z;
+  }
+};
+
+/// A built-in head as the landmark network sees it: it is drawn, the network looks at the picture,
+/// and the points it finds are followed back onto the mesh. So what the network is used to get
+/// wrong, it gets wrong alike on this head and on a photo.
+struct BaseHead {
+  std::string name;
+  std::unique_ptr<fsm::Head> head;
+  fsm::HeadVertices rest;
+  std::vector<MeshPlace> places;  ///< of the kNetworkPoints
+  std::vector<float> seen_z;      ///< the depth the network gave each, millimetres
+
+  /// Throws std::runtime_error if it cannot be drawn or no face is seen.
+  static BaseHead See(FaceNetworks& networks, const std::string& name);
+};
+
+/// Points of the network by what they lie on; numbers of MediaPipe's face mesh.
+std::span<const int> FitPoints();           ///< those the fit uses
+std::span<const int> UpperInnerLip();       ///< from the person's right to left, corners included
+std::span<const int> LowerInnerLip();       ///< likewise, without corners
+std::span<const int> EyeOutline(int side);  ///< closed; side 0 = the person's right
+
+}  // namespace facefit

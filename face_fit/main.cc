@@ -1,0 +1,130 @@
+// Makes a face that fsm can wear from a photo of a person.
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "face_fit/dress/dress.h"
+#include "face_fit/report.h"
+#include "fsm/head/face_folder.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Tells on stderr what is being done and how long each step took.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : quiet_(quiet) {}
+  void Say(const char* what) {
+    const auto now = Clock::now();
+    if (!quiet_) {
+      std::fprintf(stderr, "face_fit: %5.2f s  %s\n",
+                   std::chrono::duration<double>(now - start_).count(), what);
+    }
+  }
+
+ private:
+  bool quiet_;
+  Clock::time_point start_ = Clock::now();
+};
+
+struct Options {
+  std::string photo, name, out, base = "galatea", networks;
+  int face = 1;
+  bool quiet = false;
+};
+
+template <typename T>
+T Get(vm::Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().text);
+  return std::move(*result);
+}
+
+void Run(const Options& options) {
+  using namespace facefit;
+  if (!fsm::IsFaceName(options.name)) {
+    throw std::runtime_error("--name '" + options.name +
+                             "': letters, digits, - and _ expected, as anna");
+  }
+  Progress progress(options.quiet);
+  const fsm::Image photo = Get(ReadPhoto(options.photo));
+  FaceNetworks networks = Get(FaceNetworks::Load(options.networks));
+  progress.Say("photo and networks read");
+  const auto faces = FindFaces(networks, photo);
+  if (faces.empty()) {
+    throw std::runtime_error(
+        "no face found in '" + options.photo +
+        "': it should look into the camera, be lit and fill a tenth of the picture or more");
+  }
+  if (options.face < 1 || static_cast<std::size_t>(options.face) > faces.size()) {
+    throw std::runtime_error("--face " + std::to_string(options.face) + ": there are " +
+                             std::to_string(faces.size()) + ", counted from the largest");
+  }
+  const FoundFace face =
+      FindPoints(networks, photo, faces[static_cast<std::size_t>(options.face - 1)]);
+  if (face.certainty < 0.5F) {
+    throw std::runtime_error("what looked like a face in '" + options.photo +
+                             "' has no eyes, nose and mouth that can be told apart");
+  }
+  progress.Say("face and its points found");
+  const BaseHead base = BaseHead::See(networks, options.base);
+  progress.Say("head looked at");
+  const Fit fit = FitFace(base, face);
+  progress.Say("head fitted");
+  const Figure figure = CutOut(photo, FindFigure(networks, photo));
+  progress.Say("figure cut out");
+  fsm::FaceSet set;
+  set.base = options.base;
+  set.points = fit.points;
+  set.smooth = fit.smooth;
+  const Dress dress = MakeDress(base, face, fit, photo, figure, set);
+  progress.Say("photo put on");
+
+  const std::string folder =
+      (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
+  std::filesystem::create_directories(folder);
+  const std::string report =
+      Report(face, fit, photo, dress.coverage, static_cast<int>(faces.size()));
+  const auto write = [&folder](const char* name, const std::string& text) {
+    std::ofstream file(folder + "/" + name);
+    if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + "/" + name);
+  };
+  if (auto written = fsm::WriteImage(dress.picture, folder + "/photo.png"); !written) {
+    throw std::runtime_error(written.error().text);
+  }
+  write("report.txt", report);
+  write("face.txt", fsm::WriteFaceSet(set));
+  progress.Say("written");
+  std::cout << report << "face_fit: wrote " << folder << "\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Makes a face from a photo: fsm --mask NAME wears it");
+  app.add_option("photo", options.photo, "The photo, JPEG or PNG")->required();
+  app.add_option("--name", options.name, "What the face is called")->required();
+  app.add_option("--out", options.out,
+                 "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
+  app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
+  app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
+  app.add_option("--networks", options.networks,
+                 "Where the networks are (default: where scripts/face_networks.sh puts them)");
+  app.add_flag("--quiet", options.quiet, "Does not tell what is being done");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Run(options);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "face_fit: " << error.what() << "\n";
+    return 1;
+  }
+}

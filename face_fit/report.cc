@@ -1,0 +1,77 @@
+#include "face_fit/report.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace facefit {
+namespace {
+
+float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
+
+/// Mean difference of neighbouring pixels over the face, as part of its brightness: sharpness.
+float Sharpness(const FoundFace& face, const fsm::Image& photo) {
+  float sum = 0, light = 0;
+  const float step = std::max(face.crop.side / 150, 1.0F);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      const glm::vec2 p = face.crop.ToPicture(0.25F + glm::vec2(x, y) / 120.0F);
+      const float here = Brightness(ColourAt(photo, p));
+      sum += std::abs(here - Brightness(ColourAt(photo, p + glm::vec2(step, 0))));
+      light += here;
+    }
+  }
+  return sum / std::max(light, 1.0F);
+}
+
+/// Brightness of the person's left cheek as part of the right one's.
+float SideLight(const FoundFace& face, const fsm::Image& photo) {
+  constexpr std::array kCheeks = {std::pair(50, 280), std::pair(205, 425), std::pair(187, 411)};
+  float right = 1, left = 1;
+  for (const auto& [r, l] : kCheeks) {
+    right += Brightness(ColourAt(photo, face.points[static_cast<std::size_t>(r)]));
+    left += Brightness(ColourAt(photo, face.points[static_cast<std::size_t>(l)]));
+  }
+  return left / right;
+}
+
+}  // namespace
+
+std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
+                   int faces) {
+  std::string out;
+  std::array<char, 200> line;
+  const auto put = [&](const char* format, auto... values) {
+    std::snprintf(line.data(), line.size(), format, values...);
+    out += line.data();
+  };
+  const glm::vec3 turn = glm::degrees(fit.pose.turn);
+  const float eyes = glm::distance(glm::vec2(face.points[33]), glm::vec2(face.points[263]));
+  const float side = SideLight(face, photo);
+  const float sharp = Sharpness(face, photo);
+  const auto d = [](float v) { return static_cast<double>(v); };
+  put("photo       %d x %d pixels, eyes %.0f pixels apart at their outer corners\n", photo.width,
+      photo.height, d(eyes));
+  put("faces       %d\n", faces);
+  put("certainty   %.3f\n", d(face.certainty));
+  put("pose        nod %.1f, turn %.1f, tilt %.1f degrees\n", d(turn.x), d(turn.y), d(turn.z));
+  put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(fit.expression.smile),
+      d(fit.expression.jaw), d(fit.expression.parted));
+  put("residual    %.2f mm\n", d(fit.residual_mm));
+  put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
+  if (eyes < 80) put("warning: the face is small; details will be soft\n");
+  if (std::abs(turn.y) > 15)
+    put("warning: the head is turned; one side is completed from the other\n");
+  if (std::abs(turn.x) > 15) put("warning: the head is bent; a level photo fits better\n");
+  if (sharp < 0.012F) put("warning: the photo is blurred\n");
+  if (side > 1.45F || side < 0.69F) put("warning: strong light from one side stays in the skin\n");
+  if (fit.expression.smile > 0.4F || fit.expression.jaw + fit.expression.parted > 0.4F) {
+    put("warning: not a neutral face; folds of the expression stay in the skin\n");
+  }
+  if (faces > 1) put("warning: several faces; --face N takes another\n");
+  return out;
+}
+
+}  // namespace facefit

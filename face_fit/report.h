@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "face_fit/find/face_finder.h"
+#include "face_fit/fit/fit.h"
+
+namespace facefit {
+
+/// What was measured, a line each, and warnings of what will look worse than it could.
+std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
+                   int faces);
+
+}  // namespace facefit

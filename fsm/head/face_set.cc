@@ -1,0 +1,107 @@
+#include "fsm/head/face_set.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "fsm/head/table_reader.h"
+
+namespace fsm {
+namespace {
+
+constexpr std::size_t kMostPoints = 600;
+constexpr std::size_t kMostVertices = 20000;
+
+glm::vec2 Pair(const TableRow& row, std::size_t index) {
+  return {row.Number(index), row.Number(index + 1)};
+}
+
+void Finite(const TableRow& row) {
+  for (const float v : row.Numbers(1)) {
+    if (!(std::abs(v) < 1e5f)) row.Fail("a number out of bounds");
+  }
+}
+
+}  // namespace
+
+FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
+  FaceSet set;
+  const Table table(name, text);
+  for (const TableRow& row : table.rows()) {
+    const std::string& key = row.key();
+    if (key == "base") {
+      set.base = row.Word(1);
+      continue;
+    }
+    Finite(row);
+    if (key == "smooth") {
+      set.smooth = std::max(row.Number(1), 0.0f);
+    } else if (key == "iris") {
+      set.iris_colour = row.Vector(1);
+    } else if (key == "white") {
+      set.white_colour = row.Vector(1);
+    } else if (key == "skin") {
+      set.skin_low = Pair(row, 1);
+      set.skin_high = Pair(row, 3);
+      set.skin_bottom_y = row.Number(5);
+    } else if (key == "seen_from") {
+      set.seen_from = row.Vector(1);
+    } else if (key == "point") {
+      if (set.points.size() == kMostPoints) row.Fail("more points than are read");
+      set.points.push_back({row.Vector(1), row.Vector(4)});
+    } else if (key == "vertex") {
+      if (set.sheet.size() == kMostVertices) row.Fail("more vertices than are read");
+      set.sheet.push_back({row.Vector(1), Pair(row, 4)});
+    } else if (key == "quad") {
+      std::array<std::uint32_t, 4> corner{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const int i = row.Integer(k + 1);
+        if (i < 0 || static_cast<std::size_t>(i) >= set.sheet.size()) {
+          row.Fail("a corner that is no vertex before it");
+        }
+        corner[k] = static_cast<std::uint32_t>(i);
+      }
+      if (set.sheet_triangles.size() > 6 * kMostVertices) row.Fail("more quads than are read");
+      for (const std::size_t k : {0, 1, 2, 0, 2, 3}) set.sheet_triangles.push_back(corner[k]);
+    } else {
+      row.Fail("unknown word '" + key + "'");
+    }
+  }
+  return set;
+}
+
+std::string WriteFaceSet(const FaceSet& set) {
+  std::string out =
+      "# A face from a photo; docs/photo.md says what each line means.\nbase " + set.base + "\n";
+  std::array<char, 256> line;
+  const auto put = [&](const char* format, auto... values) {
+    std::snprintf(line.data(), line.size(), format, values...);
+    out += line.data();
+  };
+  const auto d = [](float v) { return static_cast<double>(v); };
+  put("smooth %.3f\n", d(set.smooth));
+  put("iris %.4f %.4f %.4f\n", d(set.iris_colour.x), d(set.iris_colour.y), d(set.iris_colour.z));
+  put("white %.4f %.4f %.4f\n", d(set.white_colour.x), d(set.white_colour.y),
+      d(set.white_colour.z));
+  put("skin %.5f %.5f %.5f %.5f %.2f\n", d(set.skin_low.x), d(set.skin_low.y), d(set.skin_high.x),
+      d(set.skin_high.y), d(set.skin_bottom_y));
+  put("seen_from %.4f %.4f %.4f\n", d(set.seen_from.x), d(set.seen_from.y), d(set.seen_from.z));
+  out += "# point: of the base face at rest, and how it moves, millimetres\n";
+  for (const WarpPoint& p : set.points) {
+    put("point %.3f %.3f %.3f  %.3f %.3f %.3f\n", d(p.at.x), d(p.at.y), d(p.at.z), d(p.by.x),
+        d(p.by.y), d(p.by.z));
+  }
+  out += "# the sheet of hair, neck and clothes: place in millimetres, place in photo.png\n";
+  for (const auto& v : set.sheet) {
+    put("vertex %.2f %.2f %.2f  %.5f %.5f\n", d(v.position.x), d(v.position.y), d(v.position.z),
+        d(v.place.x), d(v.place.y));
+  }
+  for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
+    put("quad %u %u %u %u\n", set.sheet_triangles[i], set.sheet_triangles[i + 1],
+        set.sheet_triangles[i + 2], set.sheet_triangles[i + 5]);
+  }
+  return out;
+}
+
+}  // namespace fsm

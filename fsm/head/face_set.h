@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/head/head.h"
+#include "fsm/head/warp.h"
+
+namespace fsm {
+
+/// The face of a person from a photo: what a folder made by face_fit holds (docs/photo.md).
+struct FaceSet {
+  std::string base = "galatea";                     ///< the built-in face that is warped
+  std::vector<WarpPoint> points;                    ///< of the base face at rest, millimetres
+  float smooth = 0;                                 ///< see Warp
+  glm::vec3 iris_colour{0.1f}, white_colour{0.6f};  ///< linear RGB
+  /// The skin's map in the photo: HeadTopology::uv (0, 0) and (1, 1), as u right, v down in 0..1.
+  glm::vec2 skin_low{0, 1}, skin_high{0.5f, 0};
+  glm::vec3 seen_from{0, 0, 1};  ///< unit, from the head to the camera
+  float skin_bottom_y = -110;    ///< below it the figure shows neck and clothes
+
+  /// Hair, neck and clothes: a sheet with gentle depth.
+  struct SheetVertex {
+    glm::vec3 position;
+    glm::vec2 place;  ///< in the photo, 0..1, v down
+  };
+  std::vector<SheetVertex> sheet;
+  std::vector<std::uint32_t> sheet_triangles;
+
+  std::shared_ptr<const WornPhoto> photo;  ///< read by the caller: photo.png
+};
+
+/// Reads face.txt; `name` is for messages. Throws std::runtime_error naming file and line.
+FaceSet ReadFaceSet(const std::string& name, std::string_view text);
+std::string WriteFaceSet(const FaceSet& set);
+
+}  // namespace fsm

@@ -1,0 +1,24 @@
+// The photo brought its own light: it is shown as it is, but for creases that the face makes now.
+in vec2 place;
+in vec3 worn;
+in vec3 paint;
+in float crease;
+
+uniform float alpha;
+uniform float brightness;
+uniform float ragged;     // 1: what is transparent in the photo is left out
+uniform sampler2D photo;
+uniform sampler2D relief;
+
+out vec4 color;
+
+void main() {
+  vec4 p = texture(photo, worn.xy);
+  // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
+  ivec2 s = ivec2(gl_FragCoord.xy) & 1;
+  float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
+  if (ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
+  vec2 slope = texture(relief, place).zw - 0.5;
+  float shade = 1.0 - clamp(crease, 0.0, 1.0) * (0.05 + 0.9 * dot(slope, vec2(-0.5, 0.85)));
+  color = vec4(mix(paint, p.rgb, worn.z) * clamp(shade, 0.6, 1.25) * brightness, alpha);
+}
