@@ -83,7 +83,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   const float cell = std::max(4.5F * mm, std::sqrt(extent.x * extent.y / 9000));
   const int columns = static_cast<int>(extent.x / cell) + 2,
             rows = static_cast<int>(extent.y / cell) + 2;
-  Field depth(columns, rows), fixed(columns, rows);
+  Field depth(columns, rows), fixed(columns, rows), covered(columns, rows);
   const float chin = ChinY(base, fit);
   const auto pixel = [&](int x, int y) { return origin + glm::vec2(x, y) * cell; };
   const auto opacity = [&](int x, int y) {
@@ -103,6 +103,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
       if (depth.at[i] > kNone) {
         // Behind the lower face lies the neck.
         const float neck = glm::smoothstep(chin + 45, chin + 12, height);
+        covered.at[i] = 1;
         depth.at[i] = glm::mix(depth.at[i] - 5, std::min(depth.at[i] - 5, 22.0F), neck);
         fixed.at[i] = 1;
       } else if (opacity(x, y) < 0.05F) {
@@ -128,6 +129,11 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
       }
     }
   }
+  // Nothing behind the middle of the face: there are the mouth and the eyes.
+  constexpr float kRim = 13;  // millimetres of sheet behind the skin's edge
+  const Field within =
+      Blurred(covered, std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1));
+  const auto hidden = [&](int x, int y) { return within.at[depth.Index(x, y)] > 0.999F; };
   set.sheet.clear();
   set.sheet_triangles.clear();
   for (int y = 0; y < rows; ++y) {
@@ -145,6 +151,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
                     opacity(std::max(x - 1, 0), y), opacity(x, std::max(y - 1, 0))}) <= 0) {
         continue;
       }
+      if (hidden(x, y) && hidden(x + 1, y) && hidden(x, y + 1) && hidden(x + 1, y + 1)) continue;
       const auto at = [&](int dx, int dy) {
         return static_cast<std::uint32_t>(depth.Index(x + dx, y + dy));
       };

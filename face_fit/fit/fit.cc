@@ -32,6 +32,7 @@ struct Sight {
   const BaseHead& base;
   const FoundFace& face;
   std::vector<float> depth_bias;  ///< true minus seen, of the base head, mean removed
+  bool lips_apart;
 };
 
 std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) {
@@ -53,8 +54,10 @@ std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) 
   }
   mean /= static_cast<float>(depth.size());
   for (const float d : depth) out.push_back(0.4 * static_cast<double>(d - mean));
-  // People mostly hold still for a photo: what is not clearly seen is not assumed.
-  for (std::size_t i = 6; i < kParameters; ++i) out.push_back(6 * parameters[i]);
+  // People mostly hold still for a photo: what is not clearly seen is not assumed. Without teeth to
+  // see a mouth's form is taken for the person's own rather than for a smile.
+  out.push_back((sight.lips_apart ? 6 : 40) * parameters[6]);
+  for (const std::size_t i : {7, 8}) out.push_back((sight.lips_apart ? 6 : 1e4) * parameters[i]);
   return out;
 }
 
@@ -142,7 +145,12 @@ fsm::FaceState Expression::State() const {
 }
 
 Fit FitFace(const BaseHead& base, const FoundFace& face) {
-  Sight sight{base, face, {}};
+  const auto apart = [&face](std::size_t a, std::size_t b) {
+    return glm::distance(glm::vec2(face.points[a]), glm::vec2(face.points[b]));
+  };
+  // Between the middles of the inner lips, by the width of the mouth.
+  constexpr float kLeastGap = 0.06F;
+  Sight sight{base, face, {}, apart(13, 14) > kLeastGap * apart(61, 291)};
   float mean = 0;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     sight.depth_bias.push_back(base.places[i].On(base.rest.position).z - base.seen_z[i]);

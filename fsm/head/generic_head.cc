@@ -175,7 +175,8 @@ class GenericHead : public Head {
   }
 
   /// Skin the photo does not show: behind the outline and below the jaw, where the sheet is.
-  static void LeaveOutUnseen(const FaceSet& set, HeadMesh& mesh) {
+  void LeaveOutUnseen(const FaceSet& set, HeadMesh& mesh) const {
+    DarkenNostrils(mesh);
     for (auto& batch : mesh.batches) {
       if (batch.material != Material::kSkin) continue;
       const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
@@ -193,6 +194,25 @@ class GenericHead : public Head {
         if (seen || within) kept.insert(kept.end(), corner, corner + 3);
       }
       batch.indices = std::move(kept);
+    }
+  }
+
+  /// The photo shows how dark nostrils are, so they wear it like the skin around them.
+  void DarkenNostrils(HeadMesh& mesh) const {
+    const float below_nose = mouth_.LineY(0) + teeth_shift_.y + 12;
+    std::vector<std::uint32_t> nostrils;
+    for (auto& batch : mesh.batches) {
+      if (batch.material != Material::kMouthInside) continue;
+      std::vector<std::uint32_t> kept;
+      for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
+        const std::uint32_t* corner = &batch.indices[i];
+        const bool nose = mesh.position[*corner].y > below_nose;
+        (nose ? nostrils : kept).insert((nose ? nostrils : kept).end(), corner, corner + 3);
+      }
+      batch.indices = std::move(kept);
+    }
+    for (std::size_t i = 0; i + 2 < nostrils.size(); i += 3) {
+      mesh.Triangle(Material::kSkin, nostrils[i], nostrils[i + 1], nostrils[i + 2]);
     }
   }
 

@@ -1,0 +1,71 @@
+#include "fsm/head/warp.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "fsm/head/face_set.h"
+
+namespace fsm {
+namespace {
+
+const std::vector<WarpPoint> kPoints = {{{0, 0, 0}, {1, 0, 0}},   {{50, 0, 0}, {0, 2, 0}},
+                                        {{0, 50, 0}, {0, 0, 3}},  {{0, 0, 50}, {-1, 1, 0}},
+                                        {{50, 50, 0}, {2, 0, 0}}, {{20, 30, 40}, {0, 0, -2}}};
+
+TEST(WarpTest, GoesThroughItsPointsUnlessItSmooths) {
+  const Warp exact(kPoints, 0);
+  const Warp smooth(kPoints, 30);
+  float off = 0;
+  for (const auto& point : kPoints) {
+    EXPECT_LT(glm::distance(exact.Motion(point.at), point.by), 1e-3F);
+    off += glm::distance(smooth.Motion(point.at), point.by);
+  }
+  EXPECT_GT(off, 0.1F);
+}
+
+TEST(WarpTest, KeepsAnAffineMotionWhole) {
+  std::vector<WarpPoint> points = kPoints;
+  for (auto& p : points) p.by = glm::vec3(1 + 0.1F * p.at.x, 0.2F * p.at.y, -0.1F * p.at.z);
+  const Warp warp(points, 2);
+  EXPECT_LT(glm::distance(warp.Motion({100, -40, 10}), glm::vec3(11, -8, -1)), 1e-2F);
+}
+
+TEST(WarpTest, RefusesPointsOfOnePlane) {
+  std::vector<WarpPoint> flat = kPoints;
+  for (auto& p : flat) p.at.z = 0;
+  EXPECT_THROW(Warp(flat, 0), std::runtime_error);
+  EXPECT_THROW(Warp({}, 0), std::runtime_error);
+}
+
+TEST(FaceSetTest, ComesBackAsItWasWritten) {
+  FaceSet set;
+  set.points = kPoints;
+  set.smooth = 1.5F;
+  for (int i = 0; i < 4; ++i)
+    set.sheet.push_back({glm::vec3(static_cast<float>(i)), glm::vec2(0.25F * static_cast<float>(i))});
+  set.sheet_triangles = {0, 1, 2, 0, 2, 3};
+  const FaceSet back = ReadFaceSet("face.txt", WriteFaceSet(set));
+  ASSERT_EQ(back.points.size(), set.points.size());
+  EXPECT_EQ(back.points[5].by, set.points[5].by);
+  EXPECT_EQ(back.smooth, set.smooth);
+  EXPECT_EQ(back.sheet[3].place, set.sheet[3].place);
+  EXPECT_EQ(back.sheet_triangles, set.sheet_triangles);
+}
+
+TEST(FaceSetTest, DamageIsReportedWithItsLine) {
+  for (const char* text : {"smooth 1\nnose 3", "base galatea\nquad 0 1 2 3", "smooth 1\npoint 1 2",
+                           "smooth 1\niris nan 0 0", "smooth 1\nvertex 1e9 0 0 0 0"}) {
+    try {
+      ReadFaceSet("face.txt", text);
+      ADD_FAILURE() << text;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find("face.txt:2"), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fsm
