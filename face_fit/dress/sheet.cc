@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
 
 namespace facefit {
 namespace {
@@ -55,6 +57,36 @@ void CoverSkin(const BaseHead& base, const Fit& fit, glm::vec2 origin, float cel
   }
 }
 
+/// Sets what cannot be reached from the edge: eyes and an open mouth lie within the face.
+void FillHoles(Field& covered) {
+  Field outside(covered.width, covered.height);
+  std::vector<std::pair<int, int>> open;
+  const auto reach = [&](int x, int y) {
+    if (x < 0 || y < 0 || x >= covered.width || y >= covered.height) return;
+    const std::size_t i = covered.Index(x, y);
+    if (covered.at[i] > 0 || outside.at[i] > 0) return;
+    outside.at[i] = 1;
+    open.emplace_back(x, y);
+  };
+  for (int x = 0; x < covered.width; ++x) {
+    reach(x, 0);
+    reach(x, covered.height - 1);
+  }
+  for (int y = 0; y < covered.height; ++y) {
+    reach(0, y);
+    reach(covered.width - 1, y);
+  }
+  while (!open.empty()) {
+    const auto [x, y] = open.back();
+    open.pop_back();
+    reach(x + 1, y);
+    reach(x - 1, y);
+    reach(x, y + 1);
+    reach(x, y - 1);
+  }
+  for (std::size_t i = 0; i < covered.at.size(); ++i) covered.at[i] = 1 - outside.at[i];
+}
+
 }  // namespace
 
 fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure) {
@@ -62,6 +94,7 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   Field face(width, height);
   CoverSkin(base, fit, glm::vec2(0.5F), 1, width, height,
             [&](int x, int y, float) { face.at[face.Index(x, y)] = 1; });
+  FillHoles(face);
   // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
   // temples are mostly hair already, so the hole begins at the brows.
   const float mm = fit.pose.PixelsPerMm();
@@ -129,6 +162,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
       }
     }
   }
+  FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   constexpr float kRim = 13;  // millimetres of sheet behind the skin's edge
   const Field within =

@@ -187,16 +187,22 @@ Fit FitFace(const BaseHead& base, const FoundFace& face) {
               static_cast<float>(FitPoints().size());
   }
   constexpr float kTrustDepth = 0.3F;
+  std::vector<fsm::WarpPoint> all;
   for (const int i : FitPoints()) {
     const auto k = static_cast<std::size_t>(i);
     const glm::vec3 q = fit.pose.ToCamera(base.places[k].On(now.position));
     const float seen = face.points[k].z * mm + sight.depth_bias[k] + offset;
     const float z = q.z + kTrustDepth * std::clamp(seen - q.z, -15.0F, 15.0F);
     const glm::vec3 to = fit.pose.FromCamera(fit.pose.Unproject(glm::vec2(face.points[k]), z));
-    fit.points.push_back(
-        {base.places[k].On(base.rest.position), to - base.places[k].On(now.position)});
+    const fsm::WarpPoint point{base.places[k].On(base.rest.position),
+                               to - base.places[k].On(now.position)};
+    all.push_back(point);
+    // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
+    const bool inner = std::ranges::find(UpperInnerLip(), i) != UpperInnerLip().end() ||
+                       std::ranges::find(LowerInnerLip(), i) != LowerInnerLip().end();
+    if (!inner || !sight.lips_apart) fit.points.push_back(point);
   }
-  fit.warp = fsm::Warp(fit.points, fit.smooth);
+  fit.warp = fsm::Warp(all, fit.smooth);
   for (std::size_t i = 0; i < now.position.size(); ++i) {
     fit.worn.push_back(now.position[i] + fit.warp.Motion(base.rest.position[i]));
   }

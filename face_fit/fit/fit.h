@@ -40,7 +40,7 @@ struct Fit {
   Expression expression;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
   float smooth = 1;
-  fsm::Warp warp;
+  fsm::Warp warp;               ///< base face with the expression -> person in the photo
   std::vector<glm::vec3> worn;  ///< every vertex of the base as it lies in the photo, head's frame
   float residual_mm = 0;        ///< mean distance of the network's points from those of the fit
 };
