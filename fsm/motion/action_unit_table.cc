@@ -154,6 +154,9 @@ vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_vie
   const TableText table(name, text);
   BlendShapes shapes;
   for (const TableLine& line : table.lines()) {
+    if (auto named = table.Name(line, 0, "a shape's name"); !named) {
+      return std::unexpected(named.error());
+    }
     auto units = ReadUnits(table, line, 1);
     if (!units) return std::unexpected(units.error());
     if (!shapes.emplace(line.words[0], *units).second) {

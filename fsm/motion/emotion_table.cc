@@ -14,6 +14,9 @@ vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view 
       if (line.words.size() != 6) {
         return table.Wrong(line.number, line.words[0] + " NAME ONSET EYE BROW MOUTH expected");
       }
+      if (auto named = table.Name(line, 1, "an emotion's name"); !named) {
+        return std::unexpected(named.error());
+      }
       Emotion& whole = emotions[line.words[1]];
       Emotion::Timing& emotion = line.words[0] == "posed" ? whole.posed : whole.elicited;
       const auto onset = table.Number(line, 2, "an onset in ms", 0, 10000);
@@ -28,6 +31,9 @@ vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view 
     }
     const auto pattern = table.Number(line, 1, "a pattern number", 1, 100);
     if (!pattern) return std::unexpected(pattern.error());
+    if (auto named = table.Name(line, 0, "an emotion's name"); !named) {
+      return std::unexpected(named.error());
+    }
     Emotion& emotion = emotions[line.words[0]];
     if (*pattern != static_cast<double>(emotion.patterns.size() + 1)) {
       return table.Wrong(line.number, fmt::format("pattern {:g} found, {} expected next", *pattern,

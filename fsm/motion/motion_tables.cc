@@ -44,6 +44,10 @@ class Loader {
         error_ = own.error();
         return;
       }
+      if (auto encoded = CheckTableEncoding(path, *own); !encoded) {
+        error_ = encoded.error();
+        return;
+      }
       text = std::move(*own);
     }
     auto table = read(path, text);

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+
+#include "vm_protocol/core/utf8.h"
 
 namespace fsm {
 
@@ -37,6 +40,8 @@ std::unexpected<vm::Error> TableText::Wrong(int line, const std::string& text) c
   for (char& c : shown) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   }
+  // Shortening may cut a character of several bytes.
+  while (const auto bad = vm::FirstBadUtf8(shown)) shown[*bad] = '?';
   if (line == 0) return vm::Fail(vm::Errc::kBadValue, fmt::format("{}: {}", name_, shown));
   return vm::Fail(vm::Errc::kBadValue, fmt::format("{}:{}: {}", name_, line, shown));
 }
@@ -54,6 +59,21 @@ vm::Result<double> TableText::Number(const TableLine& line, std::size_t word,
   return *number;
 }
 
+vm::Result<void> TableText::Name(const TableLine& line, std::size_t word,
+                                 const std::string& what) const {
+  constexpr std::size_t kLongest = 40;
+  const std::string& name = line.words[word];
+  const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  const bool good =
+      name.size() <= kLongest && letter(name[0]) && std::ranges::all_of(name, [&](char c) {
+        return letter(c) || (c >= '0' && c <= '9') || c == '_';
+      });
+  if (good) return {};
+  return Wrong(line.number, fmt::format("'{}' found, {} expected: a letter, then letters, digits "
+                                        "and _, at most {}",
+                                        name.substr(0, kLongest), what, kLongest));
+}
+
 vm::Result<std::string> ReadTableFile(const std::string& path) {
   std::error_code code;
   std::ifstream in;
@@ -69,6 +89,14 @@ vm::Result<std::string> ReadTableFile(const std::string& path) {
                     fmt::format("{} is longer than {} bytes, no table", path, kMaxTableBytes));
   }
   return text;
+}
+
+vm::Result<void> CheckTableEncoding(const std::string& name, std::string_view text) {
+  const auto bad = vm::FirstBadUtf8(text);
+  if (!bad) return {};
+  const auto line = 1 + std::ranges::count(text.substr(0, *bad), '\n');
+  return vm::Fail(vm::Errc::kBadUtf8,
+                  fmt::format("{}:{}: a byte that is not UTF-8 found, text expected", name, line));
 }
 
 vm::Result<double> ParseNumber(std::string_view word) {

@@ -27,6 +27,9 @@ class TableText {
   /// A finite number in lowest..highest, or an error that says what was found where.
   vm::Result<double> Number(const TableLine& line, std::size_t word, const std::string& what,
                             double lowest, double highest) const;
+  /// Nothing if the word is a name (a letter, then letters, digits and _; at most 40), which may
+  /// become part of a slot's name; else an error like the above.
+  vm::Result<void> Name(const TableLine& line, std::size_t word, const std::string& what) const;
 
  private:
   std::string name_;
@@ -37,6 +40,10 @@ class TableText {
 /// kLimit if it is longer than kMaxTableBytes (a table is something people write).
 vm::Result<std::string> ReadTableFile(const std::string& path);
 inline constexpr std::size_t kMaxTableBytes = 4 * 1024 * 1024;
+
+/// Nothing, or kBadUtf8 "NAME:LINE: ..." for the first byte that is not UTF-8: what stands in a
+/// table is shown again in lists and messages.
+vm::Result<void> CheckTableEncoding(const std::string& name, std::string_view text);
 
 /// A finite decimal number that fills the whole word.
 vm::Result<double> ParseNumber(std::string_view word);
