@@ -61,16 +61,17 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
       d(fit.expression.jaw), d(fit.expression.parted));
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
-  if (eyes < 80) put("warning: the face is small; details will be soft\n");
+  if (eyes < 80) out += "warning: the face is small; details will be soft\n";
   if (std::abs(turn.y) > 15)
-    put("warning: the head is turned; one side is completed from the other\n");
-  if (std::abs(turn.x) > 15) put("warning: the head is bent; a level photo fits better\n");
-  if (sharp < 0.012F) put("warning: the photo is blurred\n");
-  if (side > 1.45F || side < 0.69F) put("warning: strong light from one side stays in the skin\n");
+    out += "warning: the head is turned; one side is completed from the other\n";
+  if (std::abs(turn.x) > 15) out += "warning: the head is bent; a level photo fits better\n";
+  if (sharp < 0.012F) out += "warning: the photo is blurred\n";
+  if (side > 1.45F || side < 0.69F)
+    out += "warning: strong light from one side stays in the skin\n";
   if (fit.expression.smile > 0.4F || fit.expression.jaw + fit.expression.parted > 0.4F) {
-    put("warning: not a neutral face; folds of the expression stay in the skin\n");
+    out += "warning: not a neutral face; folds of the expression stay in the skin\n";
   }
-  if (faces > 1) put("warning: several faces; --face N takes another\n");
+  if (faces > 1) out += "warning: several faces; --face N takes another\n";
   return out;
 }
 

@@ -57,7 +57,7 @@ std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) 
   // People mostly hold still for a photo: what is not clearly seen is not assumed. Without teeth to
   // see a mouth's form is taken for the person's own rather than for a smile.
   out.push_back((sight.lips_apart ? 6 : 40) * parameters[6]);
-  for (const std::size_t i : {7, 8}) out.push_back((sight.lips_apart ? 6 : 1e4) * parameters[i]);
+  for (const std::size_t i : {7U, 8U}) out.push_back((sight.lips_apart ? 6 : 1e4) * parameters[i]);
   return out;
 }
 

@@ -63,7 +63,7 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
         corner[k] = static_cast<std::uint32_t>(i);
       }
       if (set.sheet_triangles.size() > 6 * kMostVertices) row.Fail("more quads than are read");
-      for (const std::size_t k : {0, 1, 2, 0, 2, 3}) set.sheet_triangles.push_back(corner[k]);
+      for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) set.sheet_triangles.push_back(corner[k]);
     } else {
       row.Fail("unknown word '" + key + "'");
     }
