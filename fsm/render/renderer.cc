@@ -20,7 +20,9 @@ namespace {
 constexpr glm::vec4 kLineColor{0.10F, 0.55F, 0.42F, 1.0F};
 constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 1.0F};
 
-bool IsSheet(Material material) { return IsHair(material) || material == Material::kMouthInside; }
+bool IsSheet(Material material) {
+  return material == Material::kLash || material == Material::kMouthInside;
+}
 
 class GlRenderer : public Renderer {
  public:
@@ -93,8 +95,10 @@ class GlRenderer : public Renderer {
       }
       gl_.CullFace(GL_BACK);
       for (const auto& part : parts) {
-        // Sheets of hair have two sides; everything else is the skin of something closed.
-        (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        // Lashes have two sides, and so has the hair behind the face; everything else is the skin of
+        // something closed, or hides its inside.
+        const bool behind = part.material == Material::kHair && &part != &parts.front();
+        (IsSheet(part.material) || behind ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part.material);
         DrawPart(part);
         // A software driver draws on threads of its own, but begins when told to.
