@@ -19,7 +19,7 @@ struct LashRow {
   int hairs;
   float from, to;  // along the lid, 0 inner corner .. 1 outer
 };
-constexpr std::array kLashRows = {LashRow{true, 34, 0.10f, 0.99f},
+constexpr std::array kLashRows = {LashRow{true, 40, 0.10f, 0.99f},
                                   LashRow{false, 14, 0.45f, 0.97f}};
 
 class LashBuilder {
@@ -91,14 +91,14 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     // Neighbours lean together in threes.
-    const float clump = 0.09f * (static_cast<float>(1 - i % 3)) + 0.05f * Grain(i, 5);
-    const float fan = 1.5f * (along - 0.42f) + clump;
+    const float clump = 0.16f * (static_cast<float>(1 - i % 3)) + 0.10f * Grain(i, 5);
+    const float fan = 1.9f * (along - 0.40f) + clump;
     const float length =
         size_ * (upper_ ? (1.6f + 2.8f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
-                              (1 + 0.22f * Grain(i, 9))
+                              (0.94f + 0.34f * Grain(i, 9))
                         : 1.3f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
-    const float width = upper_ ? 0.24f : 0.09f;
+    const float width = upper_ ? 0.19f : 0.09f;
     // Lower hairs are thin: much of the skin shows between them.
     const float dark = upper_ ? 0.9f : 0.12f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
@@ -162,6 +162,42 @@ class BrowPlace {
 };
 
 }  // namespace
+
+std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye) {
+  struct Stroke {
+    float width_mm, tint;
+  };
+  // From soft to sharp.
+  constexpr std::array kStrokes = {Stroke{2.6f, 0.88f}, Stroke{1.5f, 0.72f}, Stroke{0.7f, 0.52f}};
+  constexpr int kSteps = 26;
+  // Height over the lid's margin, over the way from the inner to the outer corner.
+  const Curve height({0, 0.15f, 0.5f, 0.8f, 1}, {2.6f, 4.6f, 6.6f, 6.3f, 4.6f});
+  std::vector<SkinHair> folds;
+  folds.reserve(2 * kStrokes.size() * kSteps);
+  for (const float side : {-1.0f, 1.0f}) {
+    const auto at = [&](float part) {
+      const float along = std::clamp(part, 0.0f, 1.0f);
+      const float x = glm::mix(eye.inner_x() + 0.5f, eye.outer_x() + 1.0f, along);
+      glm::vec3 normal;
+      glm::vec3 p = front.PointAt({x, eye.UpperY(x) + height(along)}, normal);
+      p.x *= side;
+      return Unroll(p);
+    };
+    for (const Stroke& stroke : kStrokes) {
+      for (int k = 0; k < kSteps; ++k) {
+        const float part = static_cast<float>(k) / kSteps;
+        const float ends = SmoothStep(0, 0.25f, part) * SmoothStep(1, 0.85f, part);
+        folds.push_back({.root = at(part),
+                         .middle = at(part + 0.5f / kSteps),
+                         .tip = at(part + 1.0f / kSteps),
+                         .width_mm = stroke.width_mm * (0.35f + 0.65f * ends),
+                         .tint = glm::mix(glm::vec3(1), glm::vec3(1, 0.9f, 0.86f) * stroke.tint,
+                                          0.25f + 0.75f * ends)});
+      }
+    }
+  }
+  return folds;
+}
 
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
   const Palette& palette = identity.palette;

@@ -59,7 +59,10 @@ class GenericHead : public Head {
       BuildCloth(palette, mesh);
     }
     const std::size_t sheet_end = mesh.position.size();
-    topology_.skin_hairs = BuildBrows(SkinFront(fine), identity_, mesh);
+    const SkinFront front(fine);
+    topology_.skin_hairs = BuildBrows(front, identity_, mesh);
+    const auto folds = BuildLidFolds(front, eye_);
+    topology_.skin_hairs.insert(topology_.skin_hairs.end(), folds.begin(), folds.end());
     BuildLashes(eye_, identity_, mesh);
     flesh_count_ = mesh.position.size();
     BuildEyes(eye_, palette, mesh);

@@ -109,9 +109,9 @@ class LongHair {
   }
 
   void Shell(float side) {
-    constexpr int kStrands = 20;
+    constexpr int kStrands = 23;
     constexpr int kCapRows = 10;  // the skull is round, what hangs nearly straight
-    constexpr int kRows = 14;
+    constexpr int kRows = 16;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Closer together at the face, where the edge is seen.
@@ -138,17 +138,18 @@ class LongHair {
 
   // The dark inside of the hanging hair, seen beside the neck.
   void Lining(float side) {
-    constexpr int kStrands = 10;
-    constexpr int kRows = 3;
+    constexpr int kStrands = 12;
+    constexpr int kRows = 4;
+    constexpr std::array kInset{-14.0f, -8.0f, -5.0f, -2.5f, -0.5f};
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
-      const float i = glm::mix(0.03f, 1.0f, static_cast<float>(k) / kStrands);
+      const float i = glm::mix(0.01f, 1.0f, static_cast<float>(k) / kStrands);
       for (int row = 0; row <= kRows; ++row) {
-        const float t = glm::mix(kCap * 0.86f, 0.99f, static_cast<float>(row) / kRows);
-        const float inset = row == 0 ? -16.0f : -7.0f;
+        const float t = glm::mix(kCap * 0.6f, kEnd, static_cast<float>(row) / kRows);
+        const float inset = kInset[static_cast<std::size_t>(row)];
         mesh_.Add(Point(i, side, t, inset), palette_.hair, 0.5f, Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .cover = SmoothStep(1.0f, 0.8f, t),
+                                .cover = SmoothStep(1.04f, 0.86f, t),
                                 .place = {215 * i, 260 * t}};
       }
     }

@@ -17,14 +17,14 @@ struct Spot {
 
 // Where blood and shadow sit; places on the base identity's face, millimetres.
 const std::array kSpots = {
-    Spot{{34, -9}, {15, 10}, &Palette::blush, 0.22f, 0},           // cheeks
-    Spot{{0, -11}, {8, 7}, &Palette::blush, 0.20f, 0},             // tip of the nose
-    Spot{{0, -76}, {12, 8}, &Palette::blush, 0.12f, 0},            // chin
-    Spot{{17.2f, -15}, {2.2f, 6}, &Palette::blush, 0.25f, 0.14f},  // groove beside the wing
-    Spot{{0, -24.5f}, {10, 2.2f}, &Palette::skin, 0, 0.16f},       // under the nose
-    Spot{{27, 9}, {11, 4}, &Palette::blush, 0.16f, 0.05f},         // under the eye
-    Spot{{0, -55.5f}, {11, 2.6f}, &Palette::skin, 0, 0.14f},       // under the lower lip
-    Spot{{26, -43}, {2.6f, 2.6f}, &Palette::blush, 0.3f, 0.2f},    // corners of the mouth
+    Spot{{34, -9}, {15, 10}, &Palette::blush, 0.22f, 0},             // cheeks
+    Spot{{0, -11}, {8, 7}, &Palette::blush, 0.20f, 0},               // tip of the nose
+    Spot{{0, -76}, {12, 8}, &Palette::blush, 0.12f, 0},              // chin
+    Spot{{17.2f, -15}, {2.2f, 6}, &Palette::blush, 0.25f, 0.14f},    // groove beside the wing
+    Spot{{0, -24.5f}, {10, 2.2f}, &Palette::skin, 0, 0.16f},         // under the nose
+    Spot{{27, 9}, {11, 4}, &Palette::blush, 0.16f, 0.05f},           // under the eye
+    Spot{{0, -55.5f}, {11, 2.6f}, &Palette::skin, 0, 0.14f},         // under the lower lip
+    Spot{{26.5f, -42}, {2.8f, 2.8f}, &Palette::blush, 0.3f, 0.34f},  // corners of the mouth
 };
 
 }  // namespace
@@ -73,7 +73,7 @@ Paint SkinPaint(glm::vec3 place, const EyeAnatomy& eye, const Palette& palette) 
     const float fold = std::exp(-0.5f * (above - 5.0f) * (above - 5.0f) / 1.2f) * ends;
     const float lid = ends * SmoothStep(10, 2, above) * SmoothStep(-1, 0, above);
     paint.albedo =
-        glm::mix(paint.albedo, palette.skin * glm::vec3(0.62f, 0.50f, 0.48f), 0.22f * lid);
+        glm::mix(paint.albedo, palette.skin * glm::vec3(0.62f, 0.50f, 0.46f), 0.34f * lid);
     paint.open *= 1 - 0.18f * fold;
   }
   return paint;

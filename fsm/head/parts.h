@@ -16,6 +16,8 @@ namespace fsm {
 void BuildCloth(const Palette& palette, HeadMesh& mesh);
 /// Tones the skin under the brows and returns their hairs, which are painted on it.
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
+/// The furrow over each upper lid, as strokes painted on the skin.
+std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye);
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh);
 
 void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);

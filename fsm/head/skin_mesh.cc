@@ -64,7 +64,9 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const EyeAnatomy
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
-    const float strength = 0.95f * SmoothStep(1.1f, 0.66f, tag.red);
+    // It pales towards the corners.
+    const float strength =
+        0.88f * SmoothStep(1.1f, 0.6f, tag.red) * (1 - 0.6f * SmoothStep(16, 26, std::abs(p.x)));
     paint.albedo = glm::mix(paint.albedo, palette.lip, strength);
     // The edge of the red is soft, the middle of the lips wet.
     const float wet = SmoothStep(0.35f, 0, tag.red);

@@ -95,10 +95,9 @@ class GlRenderer : public Renderer {
       }
       gl_.CullFace(GL_BACK);
       for (const auto& part : parts) {
-        // Lashes have two sides, and so has the hair behind the face; everything else is the skin of
-        // something closed, or hides its inside.
-        const bool behind = part.material == Material::kHair && &part != &parts.front();
-        (IsSheet(part.material) || behind ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        // Lashes have two sides; everything else is the skin of something closed, or of hair, which
+        // has an inside of its own where it hangs.
+        (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part.material);
         DrawPart(part);
         // A software driver draws on threads of its own, but begins when told to.

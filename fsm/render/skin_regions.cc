@@ -93,15 +93,15 @@ std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceMarks& m) {
                         Smooth(m.subnasale.z, m.pronasale.z, p.z);
       const float chin = Bell(side, 15) * Bell(p.y - 0.8F * m.gnathion.y - 0.2F * m.stomion.y, 11);
       const float flush = 0.55F * cheek + 0.6F * tip + 0.3F * chin;
-      t *= 1.0F - flush * (0.75F + 0.5F * d[c]) * glm::vec4(0.02F, 0.16F, 0.13F, 0);
+      t *= 1.0F - flush * (0.75F + 0.5F * d[c]) * glm::vec4(0.02F, 0.15F, 0.15F, 0);
       // Thin skin below the eyes is bluish and darker; the lids are warmer.
       const float from_pupil = (side - m.pupil[1].x) / 17;
       const float below = Bell(p.y - (eye_y - 10), 5.5F) * Bell(from_pupil, 1);
       const float lid = Bell(p.y - (eye_y + 6.5F), 5) * Bell(from_pupil, 1.1F);
       const float corner = Bell(side - m.endocanthion[1].x + 1, 5) * Bell(p.y - eye_y + 1, 7);
-      t *= 1.0F - below * glm::vec4(0.04F, 0.055F, 0.03F, 0.3F) -
-           lid * glm::vec4(0.05F, 0.13F, 0.11F, -0.2F) -
-           corner * glm::vec4(0.04F, 0.09F, 0.08F, 0.2F);
+      t *= 1.0F - below * glm::vec4(0.05F, 0.06F, 0.05F, 0.3F) -
+           lid * glm::vec4(0.05F, 0.11F, 0.13F, -0.2F) -
+           corner * glm::vec4(0.04F, 0.06F, 0.08F, 0.2F);
       const float forehead = Bell(side, 34) * Smooth(m.nasion.y + 8, m.nasion.y + 22, p.y);
       const float bridge = Bell(side, 7) * Smooth(m.subnasale.y, m.nasion.y, p.y) *
                            Smooth(m.nasion.y + 6, m.nasion.y - 4, p.y);

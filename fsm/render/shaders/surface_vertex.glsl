@@ -30,7 +30,7 @@ void main() {
 
   // Corners shut off from light glow red, because what light there is came through skin.
   float root = sqrt(occlusion);
-  vec3 open = vec3(1.0, sqrt(root), root) * occlusion;
+  vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), 0.6) * occlusion;
   vec3 shadow = vec3(KeyShadow(world));
   shadow.gb *= shadow.gb * 0.08 + 0.92;
 
