@@ -41,11 +41,6 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   if (config.eye_move_ms) start_settings_.eye_move = FromMs(*config.eye_move_ms);
   if (config.language) start_settings_.lips.language = *config.language;
   if (config.max_frame_rate) frame_rate_ = *config.max_frame_rate;
-  if (!config.faces.empty()) {
-    std::cerr
-        << "fsm: notice: " << config.path
-        << " names faces of people (MaskFile); they are not drawn; Mask takes those of MaskSet\n";
-  }
   core_.changed = [this] { Changed(); };
   MakeMotion();
 

@@ -32,8 +32,12 @@ const Head& GlStudio::head() {
   return *head_;
 }
 
-/// A built-in head, or one from a photo out of its folder; "" = the first.
-std::unique_ptr<Head> GlStudio::MakeHead(const std::string& face) {
+/// One of Options::more_faces, a built-in head, or one from a photo out of its folder; "" = the
+/// first.
+std::unique_ptr<Head> GlStudio::MakeHead(const std::string& face) const {
+  for (const auto& more : options_.more_faces) {
+    if (face.empty() || more.name == face) return more.make();
+  }
   if (face.empty()) return Head::MakeGeneric();
   if (std::ranges::find(Head::Identities(), face, &IdentityInfo::name) !=
       Head::Identities().end()) {
@@ -64,7 +68,7 @@ vm::Result<void> GlStudio::Draw(const FaceState& state, const Scene& scene) {
     // The head is made while the driver starts; both take a good part of the first frame.
     std::future<std::unique_ptr<Head>> made;
     if (!head_ && !renderer_) {
-      made = std::async(std::launch::async, [face = face_] { return MakeHead(face); });
+      made = std::async(std::launch::async, [this] { return MakeHead(face_); });
     }
     MakeRenderer();
     if (made.valid()) head_ = made.get();
@@ -85,7 +89,10 @@ MouthMeasure GlStudio::Measure(const FaceState& state) { return head().MeasureMo
 
 std::vector<std::string> GlStudio::Faces() const {
   std::vector<std::string> names;
-  for (const IdentityInfo& face : Head::Identities()) names.emplace_back(face.name);
+  for (const auto& more : options_.more_faces) names.push_back(more.name);
+  for (const IdentityInfo& face : Head::Identities()) {
+    if (std::ranges::find(names, face.name) == names.end()) names.emplace_back(face.name);
+  }
   for (const std::string& name : FacesIn(FacesFolder())) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }

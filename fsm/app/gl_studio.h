@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "fsm/app/studio.h"
 #include "fsm/head/head.h"
@@ -20,6 +22,13 @@ class GlStudio final : public Studio {
     std::string title = "Galatea";
     OffScreen off_screen = OffScreen::kOsMesa;         ///< of the context without a window
     std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
+    /// Faces beside the built-in ones and those of the faces folder, listed before them. `make`
+    /// throws std::runtime_error with a sentence; it may be called on another thread.
+    struct MoreFace {
+      std::string name;
+      std::function<std::unique_ptr<Head>()> make;
+    };
+    std::vector<MoreFace> more_faces = {};
   };
   /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had.
   explicit GlStudio(const Options& options);
@@ -44,7 +53,7 @@ class GlStudio final : public Studio {
 
  private:
   const Head& head();
-  static std::unique_ptr<Head> MakeHead(const std::string& face);
+  std::unique_ptr<Head> MakeHead(const std::string& face) const;
   void MakeRenderer();
 
   Options options_;

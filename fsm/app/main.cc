@@ -11,6 +11,7 @@
 
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_studio.h"
+#include "fsm/app/more_faces.h"
 #include "fsm/app/sheet.h"
 #include "vm_protocol/runtime/module_main.h"
 
@@ -102,6 +103,7 @@ fsm::GlStudio::Options StudioOptions(const Options& options) {
   }
   if (options.context == "egl") studio.off_screen = fsm::OffScreen::kEgl;
   if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};
+  studio.more_faces = fsm::FacesOf(options.module.config, options.module.tables);
   using Where = fsm::GlStudio::Options::Where;
   const bool must = options.window || options.context == "window";
   studio.where = must && WindowWanted(options) ? Where::kWindow
@@ -120,7 +122,15 @@ int DrawSheetIfAsked(const Options& options) {
   if (options.out.empty()) return fail("--sheet needs --out FILE.png");
   const auto tables = fsm::MotionTables::Load(options.module.tables);
   if (!tables) return fail(tables.error().text);
-  fsm::GlStudio studio({.width = fsm::kCellWidth, .height = fsm::kCellHeight});
+  fsm::OriginalConfig config;
+  if (!options.config.empty()) {
+    auto read = fsm::OriginalConfig::Read(options.config);
+    if (!read) return fail(read.error().text);
+    config = std::move(*read);
+  }
+  fsm::GlStudio studio({.width = fsm::kCellWidth,
+                        .height = fsm::kCellHeight,
+                        .more_faces = fsm::FacesOf(config, options.module.tables)});
   if (!options.module.mask.empty()) {
     if (auto worn = studio.Wear(options.module.mask); !worn) return fail(worn.error().text);
   }

@@ -1,5 +1,6 @@
 #include "fsm/app/original_config.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -14,6 +15,24 @@ vm::Result<std::string> ReadAll(const std::string& path) {
   std::ostringstream bytes;
   if (!in || !(bytes << in.rdbuf())) return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
   return bytes.str();
+}
+
+/// Files of all faces, by their key.
+const std::map<std::string, std::string OriginalConfig::*, std::less<>> kSharedFiles = {
+    {"DEF_WFM_PNT", &OriginalConfig::standard_wireframe},
+    {"DEF_WFM_LNK", &OriginalConfig::link},
+    {"U_TEETH_OBJ_NAME", &OriginalConfig::upper_teeth},
+    {"L_TEETH_OBJ_NAME", &OriginalConfig::lower_teeth},
+    {"EYE_OBJ_NAME", &OriginalConfig::eye_object},
+    {"M_WALL_TEXTURE", &OriginalConfig::mouth_picture}};
+
+/// The mask of that name, made if need be; nullptr if there are too many.
+OriginalConfig::Mask* MaskOf(OriginalConfig& config, const std::string& name) {
+  const auto found = std::ranges::find(config.masks, name, &OriginalConfig::Mask::name);
+  if (found != config.masks.end()) return &*found;
+  if (config.masks.size() >= OriginalConfig::kMaxMasks) return nullptr;
+  config.masks.push_back({name, "", "", "", "", ""});
+  return &config.masks.back();
 }
 
 }  // namespace
@@ -61,8 +80,28 @@ vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
     } else if (key == "BackgroundFile") {
       if (line.words.size() < 3) return table.Wrong(line.number, "a name and a file expected");
       config.backgrounds.emplace_back(word(1), find_file(word(2)));
-    } else if (key == "MaskFile") {
-      config.faces.push_back(word(1));
+    } else if (key == "MaskFile" || key == "MaskEye" || key == "MaskTeeth") {
+      const std::size_t files = key == "MaskTeeth" ? 1 : 2;
+      if (line.words.size() < files + 2) {
+        return table.Wrong(line.number, files == 1 ? "a name and a file expected"
+                                                   : "a name and two files expected");
+      }
+      OriginalConfig::Mask* mask = MaskOf(config, word(1));
+      if (!mask) {
+        return table.Wrong(line.number, "at most " + std::to_string(kMaxMasks) + " faces are read");
+      }
+      if (key == "MaskFile") {
+        mask->picture = find_file(word(2));
+        mask->wireframe = find_file(word(3));
+      } else if (key == "MaskEye") {
+        mask->eye_picture = find_file(word(2));
+        mask->eye_def = find_file(word(3));
+      } else {
+        mask->teeth_def = find_file(word(2));
+      }
+    } else if (const auto shared = kSharedFiles.find(key); shared != kSharedFiles.end()) {
+      if (line.words.size() < 2) return table.Wrong(line.number, "a file expected");
+      config.*shared->second = find_file(word(1));
     } else if (key == "FaceMotNod" || key == "FaceMotRefuse" || key == "FaceMotListen" ||
                key == "FaceMotUserDef") {
       std::string kind = key.substr(std::string("FaceMot").size());
@@ -83,6 +122,7 @@ vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
     }
     if (!value) return std::unexpected(value.error());
   }
+  std::erase_if(config.masks, [](const Mask& mask) { return mask.wireframe.empty(); });
   return config;
 }
 

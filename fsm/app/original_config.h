@@ -20,7 +20,15 @@ struct OriginalConfig {
   std::vector<double> blinks_ms;
   std::vector<std::pair<double, int>> auto_blinks;  ///< per cent a frame, blink pattern
   std::vector<std::string> auto_moves, auto_userdefs;
-  std::vector<std::string> faces;  ///< names of MaskFile lines: faces of people, not drawn yet
+
+  /// A face of a person: MaskFile, with MaskEye and MaskTeeth of the same name; files, "" = none.
+  struct Mask {
+    std::string name, picture, wireframe, eye_picture, eye_def, teeth_def;
+  };
+  std::vector<Mask> masks;  ///< in order, at most kMaxMasks
+  static constexpr std::size_t kMaxMasks = 100;
+  /// Of all masks: DEF_WFM_PNT, DEF_WFM_LNK, U_TEETH_OBJ_NAME, ...; "" = not named.
+  std::string standard_wireframe, link, upper_teeth, lower_teeth, eye_object, mouth_picture;
 
   /// Reads the file: `KEY args`, `#` comments; keys it does not know mean nothing, as in the
   /// original. File names are looked for from the working directory, then from the file's own

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsm/app/gl_studio.h"
+#include "fsm/app/original_config.h"
+
+namespace fsm {
+
+/// The faces of a configuration of the original. A face whose files are not there is left out with
+/// a notice on stderr. `tables`: folder of tables that replace the built-in ones.
+std::vector<GlStudio::Options::MoreFace> FacesOf(const OriginalConfig& config,
+                                                 const std::string& tables);
+
+}  // namespace fsm

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "fsm/head/action_units.h"
+
+namespace fsm {
+
+/// The units of tables/action_units.txt, both sides alike. Made at the first call; thread: any.
+const ActionUnits& BuiltInUnits();
+
+}  // namespace fsm

@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "fsm/head/built_in_units.h"
+#include "fsm/head/deformer.h"
+#include "fsm/mesh/mesh_model.h"
+
+namespace fsm {
+namespace {
+
+class MeshHead : public Head {
+ public:
+  MeshHead(MeshModel model, std::unique_ptr<MeshMotion> motion)
+      : model_(std::move(model)), motion_(std::move(motion)) {
+    for (const auto& batch : model_.batches) {
+      topology_.parts.push_back({batch.material,
+                                 static_cast<std::uint32_t>(topology_.indices.size()),
+                                 static_cast<std::uint32_t>(batch.indices.size())});
+      topology_.indices.insert(topology_.indices.end(), batch.indices.begin(), batch.indices.end());
+    }
+    if (topology_.indices.empty()) throw std::runtime_error("the head has no triangles");
+    topology_.albedo = model_.albedo;
+    topology_.occlusion.assign(model_.position.size(), 1);
+    for (const glm::vec3& p : model_.position) topology_.uv.push_back(Unroll(p));
+    topology_.photo = model_.photo;
+    topology_.photo_place = model_.photo_place;
+    topology_.eyes = model_.eyes;
+    if (model_.has_eyes) FindLids();
+  }
+
+  const HeadTopology& topology() const override { return topology_; }
+
+  void Evaluate(const FaceState& state, HeadVertices& out) const override {
+    const Pose pose = MakePose(state, BuiltInUnits());
+    out.position = model_.position;
+    const JawMove jaw = motion_->Move(state, pose, out.position);
+    for (const Lid& lid : lids_) {
+      glm::vec3& p = out.position[lid.vertex];
+      const glm::vec3 off = p - model_.eyes[lid.side].centre;
+      const float far = glm::length(off);
+      if (far < lid.least && far > 1) p += off * (lid.least / far - 1);
+    }
+    for (std::size_t i = 0; i < out.position.size(); ++i) {
+      glm::vec3& p = out.position[i];
+      switch (model_.bone[i]) {
+        case Bone::kEyeRight:
+        case Bone::kEyeLeft: {
+          const std::size_t side = model_.bone[i] == Bone::kEyeRight ? 0 : 1;
+          const glm::vec3 centre = model_.eyes[side].centre;
+          p = centre + pose.eye[side] * (p - centre);
+          break;
+        }
+        case Bone::kJaw:
+        case Bone::kTongue:
+          p = TurnWithJaw(p, jaw);
+          break;
+        default:
+          break;
+      }
+      p = TurnHead(p, pose, model_.neck[i]);
+    }
+    Normals(out);
+    out.wrinkles = {};
+  }
+
+  MouthMeasure MeasureMouth(const FaceState& state) const override {
+    if (model_.seam.empty()) return {};
+    const Pose pose = MakePose(state, BuiltInUnits());
+    std::vector<glm::vec3> position = model_.position;
+    const JawMove jaw = motion_->Move(state, pose, position);
+    const auto [upper, lower] = model_.seam[model_.seam.size() / 2];
+    return {.gap_mm = std::max(0.0F, position[upper].y - position[lower].y),
+            .width_mm = glm::distance(position[model_.seam.front().first],
+                                      position[model_.seam.back().first]),
+            .jaw_degrees = glm::degrees(jaw.open_rad)};
+  }
+
+  glm::vec3 Landmark(std::string_view name) const override {
+    const auto found = model_.landmarks.find(name);
+    return found == model_.landmarks.end() ? Head::Landmark(name) : found->second;
+  }
+
+ private:
+  struct Lid {
+    std::uint32_t vertex;
+    std::uint8_t side;
+    float least;  // distance from the ball's centre
+  };
+
+  /// Flesh outside a ball at rest stays outside, whatever moves it.
+  void FindLids() {
+    constexpr float kReach = 8, kThickness = 0.6F;
+    for (std::uint32_t i = 0; i < model_.position.size(); ++i) {
+      if (model_.bone[i] != Bone::kFlesh) continue;
+      for (std::uint8_t side = 0; side < 2; ++side) {
+        const EyePlace& eye = model_.eyes[side];
+        const float far = glm::distance(model_.position[i], eye.centre);
+        if (far < eye.ball_radius - 0.5F || far > eye.ball_radius + kReach) continue;
+        if (model_.position[i].z < eye.centre.z) continue;
+        lids_.push_back({i, side, std::min(far, eye.ball_radius + kThickness)});
+      }
+    }
+  }
+
+  glm::vec3 TurnWithJaw(glm::vec3 p, const JawMove& jaw) const {
+    const float c = std::cos(jaw.open_rad), s = std::sin(jaw.open_rad);
+    const float y = p.y - model_.hinge.y, z = p.z - model_.hinge.z;
+    return {p.x + jaw.sway_mm, model_.hinge.y + y * c - z * s,
+            model_.hinge.z + z * c + y * s + jaw.slide_mm};
+  }
+
+  void Normals(HeadVertices& out) const {
+    out.normal.assign(out.position.size(), glm::vec3(0));
+    for (std::size_t i = 0; i + 2 < topology_.indices.size(); i += 3) {
+      const std::uint32_t* t = &topology_.indices[i];
+      const glm::vec3 a = out.position[t[0]];
+      const glm::vec3 n = glm::cross(out.position[t[1]] - a, out.position[t[2]] - a);
+      for (int k = 0; k < 3; ++k) out.normal[t[k]] += n;
+    }
+    for (glm::vec3& n : out.normal) {
+      const float squared = glm::dot(n, n);
+      n = squared > 1e-12F ? n / std::sqrt(squared) : glm::vec3(0, 0, 1);
+    }
+  }
+
+  MeshModel model_;
+  std::unique_ptr<MeshMotion> motion_;
+  HeadTopology topology_;
+  std::vector<Lid> lids_;
+};
+
+}  // namespace
+
+std::unique_ptr<Head> MakeMeshHead(MeshModel model, std::unique_ptr<MeshMotion> motion) {
+  return std::make_unique<MeshHead>(std::move(model), std::move(motion));
+}
+
+}  // namespace fsm

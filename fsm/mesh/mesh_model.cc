@@ -1,0 +1,71 @@
+#include "fsm/mesh/mesh_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fsm/head/paint.h"
+
+namespace fsm {
+
+std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, glm::vec3 place, float turn) {
+  position.push_back(p);
+  bone.push_back(b);
+  albedo.push_back(colour);
+  photo_place.push_back(place);
+  neck.push_back(turn);
+  return static_cast<std::uint32_t>(position.size() - 1);
+}
+
+void MeshModel::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  auto found = std::ranges::find(batches, material, &HeadMesh::Batch::material);
+  if (found == batches.end()) found = batches.insert(batches.end(), {material, {}});
+  found->indices.insert(found->indices.end(), {a, b, c});
+}
+
+std::vector<std::uint32_t> MeshModel::FleshTriangles() const {
+  std::vector<std::uint32_t> flesh;
+  for (const auto& batch : batches) {
+    for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
+      const std::uint32_t* t = &batch.indices[i];
+      if (std::all_of(t, t + 3, [this](std::uint32_t v) { return bone[v] == Bone::kFlesh; })) {
+        flesh.insert(flesh.end(), t, t + 3);
+      }
+    }
+  }
+  return flesh;
+}
+
+void MeshModel::AddBall(std::size_t side) {
+  // Rings about the line of sight, one of them the edge of the iris.
+  constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
+  constexpr float kPi = std::numbers::pi_v<float>;
+  const EyePlace& eye = eyes[side];
+  const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9F));
+  const Bone carrier = side == 0 ? Bone::kEyeRight : Bone::kEyeLeft;
+  const auto first = static_cast<std::uint32_t>(position.size());
+  for (int ring = 0; ring <= kRings; ++ring) {
+    const float angle = ring <= kIrisRings
+                            ? edge * static_cast<float>(ring) / kIrisRings
+                            : edge + (0.7F * kPi - edge) * static_cast<float>(ring - kIrisRings) /
+                                         (kRings - kIrisRings);
+    for (int k = 0; k < kSegments; ++k) {
+      const float turn = 2 * kPi * static_cast<float>(k) / kSegments;
+      const glm::vec3 out(std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
+                          std::cos(angle));
+      Add(eye.centre + eye.ball_radius * out, carrier, Palette().sclera);
+    }
+  }
+  for (int ring = 0; ring < kRings; ++ring) {
+    const Material material = ring < kIrisRings ? Material::kIris : Material::kSclera;
+    for (std::uint32_t k = 0; k < kSegments; ++k) {
+      const auto at = [&](int r, std::uint32_t s) {
+        return first + static_cast<std::uint32_t>(r) * kSegments + s % kSegments;
+      };
+      Triangle(material, at(ring, k), at(ring + 1, k), at(ring + 1, k + 1));
+      Triangle(material, at(ring, k), at(ring + 1, k + 1), at(ring, k + 1));
+    }
+  }
+}
+
+}  // namespace fsm

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fsm/head/head.h"
+#include "fsm/head/landmarks.h"
+#include "fsm/head/rig.h"
+
+namespace fsm {
+
+struct Pose;
+
+/// Where the eyes of every head from elsewhere are put: those of the built-in head
+/// (head/tables/eye.txt).
+inline constexpr glm::vec3 kEyePlace{30.5f, 22.3f, 63.6f};
+
+/// Somebody else's head at rest, in our frame and millimetres: what MeshHead shows.
+struct MeshModel {
+  std::vector<glm::vec3> position;
+  std::vector<Bone> bone;              ///< kFlesh moves as MeshMotion says
+  std::vector<float> neck;             ///< part of the head's turn each vertex makes
+  std::vector<glm::vec3> albedo;       ///< linear RGB
+  std::vector<glm::vec3> photo_place;  ///< see HeadTopology
+  std::shared_ptr<const WornPhoto> photo;
+  std::vector<HeadMesh::Batch> batches;
+  std::array<EyePlace, 2> eyes{};  ///< right, left; meaningful where has_eyes
+  bool has_eyes = false;
+  glm::vec3 hinge{0, -4, -3};  ///< the jaw's axis goes through it, as ours does
+  Landmarks landmarks;
+  /// Vertices of the upper and the lower lip that meet when the mouth is closed, from the agent's
+  /// right to left.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
+
+  std::uint32_t Add(glm::vec3 p, Bone b, glm::vec3 colour, glm::vec3 place = {}, float turn = 1);
+  void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  /// Every triangle of flesh, three corners each.
+  std::vector<std::uint32_t> FleshTriangles() const;
+  /// An eyeball with an iris about eyes[side], in our own colours.
+  void AddBall(std::size_t side);
+};
+
+/// What the lower jaw does: about the hinge, forward and to the viewer's right.
+struct JawMove {
+  float open_rad = 0, slide_mm = 0, sway_mm = 0;
+};
+
+/// How the flesh of a MeshModel follows a state. Immutable; thread: any.
+class MeshMotion {
+ public:
+  virtual ~MeshMotion() = default;
+  /// `position`: of all vertices, at rest on entry; those of flesh are moved, the head's turn
+  /// apart.
+  virtual JawMove Move(const FaceState& state, const Pose& pose,
+                       std::span<glm::vec3> position) const = 0;
+};
+
+/// A head that shows `model`, moved by `motion`. Throws std::runtime_error if the model has no
+/// triangles.
+std::unique_ptr<Head> MakeMeshHead(MeshModel model, std::unique_ptr<MeshMotion> motion);
+
+}  // namespace fsm

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/head/face_state.h"
+#include "fsm/mesh/mesh_model.h"
+#include "fsm/mesh/obj_file.h"
+#include "fsm/mesh/pnt_file.h"
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+
+/// The files of one face of the original (MaskFile, MaskEye, MaskTeeth); "" = not named.
+struct OriginalFaceFiles {
+  std::string name, picture, wireframe, eye_picture, eye_def, teeth_def;
+};
+
+/// What all faces of a configuration share.
+struct OriginalSharedFiles {
+  std::string standard, link;  ///< DEF_WFM_PNT, DEF_WFM_LNK
+  std::string upper_teeth, lower_teeth, eye, mouth_picture;
+  std::string offsets;  ///< the folder of _AU_Datas, _MU_Datas and _VM_Datas
+};
+
+/// Where eyeballs sit, a .def_e file: 29 little-endian doubles, for the right and the left eye
+/// place, turn and scale, the same again within the ball, and the scale of the picture on it.
+struct EyeDef {
+  struct Eye {
+    glm::vec3 place{0}, turn_degrees{0};
+    float scale = 1;
+  };
+  std::array<Eye, 2> eye, within;
+  float picture_scale = 1;
+};
+vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes);
+/// The colour of the teeth, a .def_t file: three numbers 0..1.
+vm::Result<glm::vec3> ParseTeethDef(const std::string& name, std::string_view text);
+
+inline constexpr std::size_t kOriginalUnits = 30;
+inline constexpr std::size_t kOriginalVisemes = 27;
+
+/// A face of the original, read.
+struct OriginalFace {
+  std::string name;
+  PntFile wireframe, standard;
+  LnkFile link;
+  Image picture;
+  std::optional<Image> eye_picture;
+  std::optional<EyeDef> eye_def;
+  glm::vec3 teeth{0.8f};
+  glm::vec3 mouth{0.25f, 0.07f, 0.06f};
+  std::optional<ObjFile> upper_teeth, lower_teeth, eye;
+  /// Offsets at full strength in the wireframe's units, by its vertices.
+  std::vector<std::vector<glm::vec3>> units, mouth_units, visemes;
+};
+/// Errors: kUnavailable, kBadValue and kLimit naming the file, and the line or byte where there is
+/// one. A file "" is left out; wireframe, picture, standard, link and offsets must be there.
+vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
+                                          const OriginalSharedFiles& shared);
+
+/// The mouth of each viseme 1..27 at full articulation, in FaceState's parameters.
+using VisemeMouths = std::vector<std::array<float, kMouthParameters>>;
+
+/// The face as a mesh of our frame; vertex i of the wireframe is vertex i of the model.
+MeshModel ModelOf(const OriginalFace& face);
+/// Moves it by its own units: action units by their FACS number, mouths taken apart into visemes,
+/// and what those leave into the 17 mouth units.
+std::unique_ptr<MeshMotion> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
+                                        const VisemeMouths& mouths);
+
+}  // namespace fsm

@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "fsm/head/spline.h"
+#include "fsm/mesh/original_face.h"
+#include "fsm/mesh/original_points.h"
+#include "fsm/mesh/picture_sheet.h"
+
+namespace fsm {
+namespace {
+
+/// Builds the model part by part; `mm` takes wireframe units to our frame.
+class OriginalBuilder {
+ public:
+  explicit OriginalBuilder(const OriginalFace& face) : face_(face), frame_(face.wireframe) {}
+
+  MeshModel Build() {
+    const std::size_t picture = sheet_.Add(face_.picture);
+    std::size_t eye_picture = 0;
+    if (face_.eye_picture) eye_picture = sheet_.Add(*face_.eye_picture);
+    model_.photo = sheet_.Make();
+    AddFace(picture);
+    AddMouth();
+    AddEyes(eye_picture);
+    AddSockets();
+    if (face_.upper_teeth) AddTeeth(*face_.upper_teeth, Bone::kSkull);
+    if (face_.lower_teeth) AddTeeth(*face_.lower_teeth, Bone::kJaw);
+    NamePlaces();
+    return std::move(model_);
+  }
+
+ private:
+  std::uint32_t Vertex(PointName name) const {
+    return static_cast<std::uint32_t>(face_.wireframe.index.at(name));
+  }
+  glm::vec3 Place(PointName name) const { return model_.position[Vertex(name)]; }
+
+  void AddFace(std::size_t picture) {
+    // The picture covers -1..1 of the wireframe at rest in both directions.
+    const float chin = frame_.Place(face_.wireframe, kChin).y;
+    for (const glm::vec3& p : face_.wireframe.at) {
+      const glm::vec2 place =
+          sheet_.place(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
+      const glm::vec3 at = frame_.ToMm(p);
+      model_.Add(at, Bone::kFlesh, face_.mouth, {place, 1}, SmoothStep(chin - 42, chin - 4, at.y));
+    }
+    for (const auto& triangle : face_.link.triangles) {
+      if (!IsDrawn(triangle.group)) continue;
+      model_.Triangle(Material::kSkin, Vertex(triangle.corner[0]), Vertex(triangle.corner[1]),
+                      Vertex(triangle.corner[2]));
+    }
+    for (const auto& [upper, lower] : kLipPairs) {
+      model_.seam.emplace_back(Vertex(upper), Vertex(lower));
+    }
+  }
+
+  /// A bag behind the lips' rim, its upper half of the skull, its lower half of the jaw.
+  void AddMouth() {
+    std::vector<std::uint32_t> rim;
+    for (const PointName& name : kLipRim) rim.push_back(Vertex(name));
+    const glm::vec3 middle = 0.5F * (Place(kLipCorners[0]) + Place(kLipCorners[1]));
+    struct Ring {
+      float back, high, wide;
+    };
+    constexpr Ring kRings[] = {{5, 9, 0.97F}, {25, 16, 0.95F}, {48, 12, 0.7F}};
+    std::vector<std::uint32_t> outer = rim;
+    for (const Ring& ring : kRings) {
+      std::vector<std::uint32_t> inner;
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const glm::vec3 p = model_.position[rim[i]];
+        // Of the rim's 20 points 0 and 10 are the corners, 1 to 9 the upper lip.
+        const float round = std::sin(3.14159265F * static_cast<float>(i % 10) / 10);
+        const float up = i < 10 ? round : -round;
+        const glm::vec3 at(middle.x + (p.x - middle.x) * ring.wide, p.y + up * ring.high,
+                           p.z - ring.back);
+        inner.push_back(model_.Add(at, i <= 10 ? Bone::kSkull : Bone::kJaw,
+                                   face_.mouth * (1 - 0.012F * ring.back)));
+      }
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const std::size_t j = (i + 1) % rim.size();
+        model_.Triangle(Material::kMouthInside, outer[i], outer[j], inner[j]);
+        model_.Triangle(Material::kMouthInside, outer[i], inner[j], inner[i]);
+      }
+      outer = std::move(inner);
+    }
+    const std::uint32_t end =
+        model_.Add(middle - glm::vec3(0, 0, 55), Bone::kSkull, face_.mouth * 0.3F);
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      model_.Triangle(Material::kMouthInside, outer[i], outer[(i + 1) % outer.size()], end);
+    }
+  }
+
+  void AddEyes(std::size_t picture) {
+    model_.has_eyes = true;
+    for (std::size_t side = 0; side < 2; ++side) {
+      EyePlace& eye = model_.eyes[side];
+      eye.iris_colour = {0.10F, 0.055F, 0.03F};
+      if (face_.eye_def && face_.eye) {
+        AddOwnEye(side, picture);
+        continue;
+      }
+      eye.centre = frame_.EyeOpening(face_.wireframe, side) - glm::vec3(0, 0, 12.6F);
+      eye.ball_radius = 12.4F;
+      model_.AddBall(side);
+    }
+  }
+
+  /// The eyeball of the configuration. Its picture is laid on it from the front.
+  void AddOwnEye(std::size_t side, std::size_t picture) {
+    const EyeDef& def = *face_.eye_def;
+    // Right and left are told apart by where they lie, not by what the file calls them.
+    const std::size_t of = (def.eye[0].place.x < def.eye[1].place.x) == (side == 0) ? 0 : 1;
+    const EyeDef::Eye& eye = def.eye[of];
+    const glm::vec3 turn = glm::radians(def.within[of].turn_degrees);
+    glm::mat4 turned(1.0F);
+    turned = glm::rotate(turned, turn.x, {1, 0, 0});
+    turned = glm::rotate(turned, turn.y, {0, 1, 0});
+    turned = glm::rotate(turned, turn.z, {0, 0, 1});
+    glm::vec3 low(1e9F), high(-1e9F);
+    for (const glm::vec3& p : face_.eye->positions) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    const glm::vec3 size = glm::max(high - low, 1e-6F), middle = 0.5F * (low + high);
+    model_.eyes[side].centre = frame_.ToMm(eye.place);
+    model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * frame_.mm();
+    model_.eyes[side].iris_radius = 0.48F * model_.eyes[side].ball_radius;
+    const Bone carrier = side == 0 ? Bone::kEyeRight : Bone::kEyeLeft;
+    const auto first = static_cast<std::uint32_t>(model_.position.size());
+    for (const glm::vec3& p : face_.eye->positions) {
+      const glm::vec2 flat = 0.5F + def.picture_scale * glm::vec2(p - middle) / glm::vec2(size);
+      const glm::vec2 place =
+          sheet_.place(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
+      const glm::vec3 at = eye.place + eye.scale * glm::vec3(turned * glm::vec4(p, 1));
+      model_.Add(frame_.ToMm(at), carrier, glm::vec3(0.5F), {place, 1});
+    }
+    for (const auto& group : face_.eye->groups) {
+      for (const auto& t : group.triangles) {
+        model_.Triangle(Material::kPhoto, first + t[0].position, first + t[1].position,
+                        first + t[2].position);
+      }
+    }
+  }
+
+  /// Behind each rim of lids, so that nothing is seen past the ball.
+  void AddSockets() {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const glm::vec3 centre = model_.eyes[side].centre;
+      std::vector<std::uint32_t> rim, back;
+      for (const PointName& name : LidRim(side)) {
+        rim.push_back(Vertex(name));
+        const glm::vec3 p = Place(name);
+        back.push_back(model_.Add(
+            {p.x + 0.15F * (p.x - centre.x), p.y + 0.3F * (p.y - centre.y), centre.z - 4},
+            Bone::kSkull, {0.20F, 0.07F, 0.05F}));
+      }
+      for (std::size_t i = 0; i < rim.size(); ++i) {
+        const std::size_t j = (i + 1) % rim.size();
+        model_.Triangle(Material::kMouthInside, rim[i], rim[j], back[j]);
+        model_.Triangle(Material::kMouthInside, rim[i], back[j], back[i]);
+      }
+    }
+  }
+
+  /// Teeth come in the place they have in the standard wireframe's mouth.
+  void AddTeeth(const ObjFile& teeth, Bone bone) {
+    const auto mouth = [](const PntFile& file, glm::vec3& middle) {
+      const glm::vec3 a = file.at[file.index.at(kLipCorners[0])];
+      const glm::vec3 b = file.at[file.index.at(kLipCorners[1])];
+      const glm::vec3 front = file.at[file.index.at(kLipMiddle)];
+      middle = {0.5F * (a.x + b.x), front.y, front.z};
+      return glm::distance(a, b);
+    };
+    glm::vec3 here, there;
+    const float scale =
+        mouth(face_.wireframe, here) / std::max(mouth(face_.standard, there), 1e-6F);
+    const auto first = static_cast<std::uint32_t>(model_.position.size());
+    for (const glm::vec3& p : teeth.positions) {
+      // A little smaller and farther back, so that lips which are pressed or drawn stay before
+      // them.
+      constexpr float kSmaller = 0.93F, kBackMm = 3.5F;
+      const glm::vec3 at = frame_.ToMm(here + kSmaller * scale * (p - there));
+      model_.Add(at - glm::vec3(0, 0, kBackMm), bone, 0.85F * face_.teeth * face_.teeth);
+    }
+    for (const auto& group : teeth.groups) {
+      for (const auto& t : group.triangles) {
+        model_.Triangle(Material::kTeeth, first + t[0].position, first + t[1].position,
+                        first + t[2].position);
+      }
+    }
+  }
+
+  void NamePlaces() {
+    for (const auto& [name, point] : kNamedPoints) model_.landmarks[name] = Place(point);
+    model_.landmarks["stomion"] = 0.5F * (Place(kLipMiddle) + Place({1, 37}));
+  }
+
+  const OriginalFace& face_;
+  OriginalFrame frame_;
+  PictureSheet sheet_;
+  MeshModel model_;
+};
+
+}  // namespace
+
+MeshModel ModelOf(const OriginalFace& face) { return OriginalBuilder(face).Build(); }
+
+}  // namespace fsm

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <vector>
+
+#include "fsm/head/head.h"
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+
+/// Puts several pictures into one, because a head wears one photo.
+class PictureSheet {
+ public:
+  /// Where a picture lies on the sheet: its corners, 0..1, v down.
+  struct Place {
+    glm::vec2 low{0}, high{1};
+    glm::vec2 At(glm::vec2 uv) const { return low + uv * (high - low); }
+  };
+  /// The number of the picture, for place(). Pictures beyond kMaxSide are halved until they fit.
+  std::size_t Add(Image picture);
+  /// Lays all out. Nothing if there are none.
+  std::shared_ptr<const WornPhoto> Make();
+  /// Valid after Make.
+  const Place& place(std::size_t picture) const { return places_[picture]; }
+
+ private:
+  static constexpr int kMaxSide = 2048;   ///< of one picture
+  static constexpr int kMaxSheet = 8192;  ///< of the sheet
+  std::vector<Image> pictures_;
+  std::vector<Place> places_;
+};
+
+}  // namespace fsm

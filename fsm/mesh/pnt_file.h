@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// A vertex of the original's wireframe is named by its group (a part of the face) and its number
+/// in the group.
+using PointName = std::pair<int, int>;
+
+/// The original's wireframe, or offsets over one: places by name, in the order of the file.
+struct PntFile {
+  std::vector<PointName> names;
+  std::vector<glm::vec3> at;
+  std::map<PointName, std::size_t> index;  ///< of a name in both
+};
+
+/// The wireframe's triangles, each in a group of its own.
+struct LnkFile {
+  struct Triangle {
+    int group;
+    std::array<PointName, 3> corner;
+  };
+  std::vector<Triangle> triangles;
+};
+
+inline constexpr std::size_t kMaxWireframe = 20000;  ///< points, and triangles
+
+/// A .pnt file: `#N`, then N - 1 lines `INDEX GROUP NUMBER X Y Z`. Errors: kBadValue "NAME:LINE:
+/// what was expected", kLimit.
+vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text);
+/// A .lnk file: `#N`, then N - 1 lines `INDEX GROUP NUMBER` and three times `GROUP NUMBER`.
+vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text);
+
+/// Both from a file. Errors: also kUnavailable.
+vm::Result<PntFile> ReadPnt(const std::string& path);
+vm::Result<LnkFile> ReadLnk(const std::string& path);
+
+/// All bytes of a plain file of at most `limit`. Errors: kUnavailable, kLimit.
+vm::Result<std::string> ReadWhole(const std::string& path, std::size_t limit);
+
+}  // namespace fsm

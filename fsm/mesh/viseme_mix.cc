@@ -1,0 +1,65 @@
+#include "fsm/mesh/viseme_mix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fsm {
+namespace {
+
+float Product(const VisemeMix::Mouth& a, const VisemeMix::Mouth& b) {
+  float sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+VisemeMix::VisemeMix(std::vector<Mouth> keys) : keys_(std::move(keys)) {
+  for (const Mouth& a : keys_) {
+    std::vector<float> row;
+    for (const Mouth& b : keys_) row.push_back(Product(a, b));
+    products_.push_back(std::move(row));
+  }
+}
+
+VisemeMix::Parts VisemeMix::TakeApart(const Mouth& mouth) const {
+  // One key after another takes its best part; a small price on every part prefers few keys.
+  constexpr int kRounds = 60;
+  constexpr float kPrice = 0.05F, kMost = 1.5F, kLeast = 1e-3F;
+  Parts parts;
+  parts.rest = mouth;
+  for (float& v : parts.rest) {
+    if (!std::isfinite(v)) v = 0;
+  }
+  parts.visemes.assign(keys_.size(), 0);
+  std::vector<float> slope;  // of the fit, by key
+  float size = 0;
+  for (const Mouth& key : keys_) {
+    slope.push_back(Product(key, parts.rest));
+    size = std::max(size, std::abs(slope.back()));
+  }
+  if (size < kLeast) return parts;
+  for (int round = 0; round < kRounds; ++round) {
+    float moved = 0;
+    for (std::size_t k = 0; k < keys_.size(); ++k) {
+      const float own = products_[k][k];
+      if (own < kLeast) continue;
+      const float wanted = std::clamp(parts.visemes[k] + (slope[k] - kPrice) / own, 0.0F, kMost);
+      const float by = wanted - parts.visemes[k];
+      if (by == 0) continue;
+      parts.visemes[k] = wanted;
+      moved = std::max(moved, std::abs(by));
+      for (std::size_t j = 0; j < keys_.size(); ++j) slope[j] -= by * products_[k][j];
+    }
+    if (moved < kLeast) break;
+  }
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    for (std::size_t i = 0; i < mouth.size(); ++i) {
+      parts.rest[i] -= parts.visemes[k] * keys_[k][i];
+    }
+  }
+  return parts;
+}
+
+}  // namespace fsm

@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "fsm/mesh/original_face.h"
+#include "fsm/mesh/original_points.h"
+#include "fsm/mesh/viseme_mix.h"
+
+namespace fsm {
+namespace {
+
+/// The original's own data are not part of the repository (docs/heads.md).
+std::string Data() {
+  const char* named = std::getenv("GALATEA_ORIGINAL");
+  return (named ? std::string(named)
+                : std::string(GALATEA_SOURCE_DIR) + "/../shared/data/galatea_fsm") +
+         "/data";
+}
+
+Image Grey() { return {.width = 8, .height = 8, .rgba = std::vector<std::uint8_t>(256, 128)}; }
+
+/// A wireframe that has just the points the reader knows, on a rough face, and a few triangles.
+OriginalFace SmallFace() {
+  OriginalFace face;
+  face.name = "small";
+  PntFile& file = face.wireframe;
+  const auto add = [&file](PointName name, glm::vec3 at) {
+    if (!file.index.emplace(name, file.at.size()).second) return;
+    file.names.push_back(name);
+    file.at.push_back(at);
+  };
+  for (std::size_t i = 0; i < kLipRim.size(); ++i) {
+    const float x = 0.02F * (i <= 10 ? static_cast<float>(i) - 5 : 15 - static_cast<float>(i));
+    add(kLipRim[i], {x, i % 10 == 0 ? -0.2F : (i < 10 ? -0.199F : -0.201F), 0.8F});
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto rim = LidRim(side);
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      const float along = static_cast<float>(i <= 6 ? i : 12 - i) / 6;
+      const float high = i > 0 && i < 6 ? 0.05F : (i > 6 ? -0.05F : 0);
+      add(rim[i], {(side == 0 ? -1.0F : 1.0F) * (0.15F + 0.2F * along), 0.35F + high, 0.65F});
+    }
+  }
+  for (const auto& [name, point] : kNamedPoints) add(point, {0, 0, 0.9F});
+  file.at[file.index.at(kChin)] = {0, -0.6F, 0.7F};
+  face.standard = face.wireframe;
+  face.link.triangles.push_back({1, {PointName{1, 36}, {1, 11}, {3, 25}}});
+  face.link.triangles.push_back({1, {PointName{1, 37}, kChin, {1, 15}}});
+  face.link.triangles.push_back({25, {PointName{1, 37}, kChin, {1, 15}}});  // not drawn
+  face.picture = Grey();
+  face.units.assign(kOriginalUnits, std::vector<glm::vec3>(file.at.size(), glm::vec3(0)));
+  face.mouth_units.assign(kMouthParameters, face.units[0]);
+  face.visemes.assign(kOriginalVisemes, face.units[0]);
+  return face;
+}
+
+std::unique_ptr<Head> HeadOf(const OriginalFace& face, const VisemeMouths& mouths = {}) {
+  MeshModel model = ModelOf(face);
+  auto motion = OwnMotionOf(face, model, mouths);
+  return MakeMeshHead(std::move(model), std::move(motion));
+}
+
+TEST(SmallOriginalFaceTest, EyesComeToWhereOursAre) {
+  const OriginalFace face = SmallFace();
+  const OriginalFrame frame(face.wireframe);
+  EXPECT_LT(glm::distance(frame.EyeOpening(face.wireframe, 1), {29.9F, 21.5F, 74}), 0.1F);
+}
+
+TEST(SmallOriginalFaceTest, OnlyTheGroupsTheOriginalDrawsAreShown) {
+  const auto head = HeadOf(SmallFace());
+  std::size_t skin = 0;
+  for (const auto& part : head->topology().parts) {
+    if (part.material == Material::kSkin) skin += part.index_count / 3;
+  }
+  EXPECT_EQ(skin, 2U);
+}
+
+TEST(SmallOriginalFaceTest, AUnitOfOneSideMovesThatSide) {
+  OriginalFace face = SmallFace();
+  constexpr std::size_t kCornerPuller = 9;  // AU 12 is the tenth of the list
+  const auto right = face.wireframe.index.at(kLipCorners[0]);
+  const auto left = face.wireframe.index.at(kLipCorners[1]);
+  face.units[kCornerPuller][right] = face.units[kCornerPuller][left] = {0, 0.05F, 0};
+  const auto head = HeadOf(face);
+  HeadVertices rest, moved;
+  head->Evaluate({}, rest);
+  FaceState state;
+  state.au_left[12] = 1;
+  head->Evaluate(state, moved);
+  EXPECT_NEAR(moved.position[left].y - rest.position[left].y,
+              0.05F * OriginalFrame(face.wireframe).mm(), 0.05F);
+  EXPECT_NEAR(moved.position[right].y, rest.position[right].y, 0.05F);
+}
+
+TEST(SmallOriginalFaceTest, AKeyMouthIsShownByItsViseme) {
+  OriginalFace face = SmallFace();
+  const auto lower = face.wireframe.index.at({1, 37});
+  face.visemes[2][lower] = {0, -0.1F, 0};
+  VisemeMouths mouths(kOriginalVisemes);
+  mouths[2][11] = 9;    // jaw
+  mouths[5][9] = 3.5F;  // corners
+  const auto head = HeadOf(face, mouths);
+  HeadVertices rest, moved;
+  head->Evaluate({}, rest);
+  FaceState state;
+  state.mouth = mouths[2];
+  head->Evaluate(state, moved);
+  const float fall = rest.position[lower].y - moved.position[lower].y;
+  EXPECT_NEAR(fall, 0.4F * 0.1F * OriginalFrame(face.wireframe).mm(), 0.1F);
+}
+
+TEST(VisemeMixTest, MixturesComeApartAgain) {
+  std::vector<VisemeMix::Mouth> keys(3);
+  keys[0] = {0.5F, 0, 0.5F, 0, -0.9F, 0, -0.7F, 0, 0, 0, 0, 9};
+  keys[1] = {0.6F, -1, 0.8F, -0.9F, -1.4F, -0.9F, -1.1F, -1, 3.5F, 0.5F, -1.2F, 2};
+  keys[2] = {0.3F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.5F, 5, -5, 0, 2.2F, 5};
+  VisemeMix::Mouth mixed{};
+  for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] = 0.6F * keys[0][i] + 0.4F * keys[2][i];
+  const auto parts = VisemeMix(keys).TakeApart(mixed);
+  EXPECT_NEAR(parts.visemes[0], 0.6F, 0.03F);
+  EXPECT_NEAR(parts.visemes[1], 0.0F, 0.03F);
+  EXPECT_NEAR(parts.visemes[2], 0.4F, 0.03F);
+  EXPECT_NEAR(parts.rest[11], 0, 0.2F);
+}
+
+TEST(VisemeMixTest, WhatNoKeyExplainsIsGivenBack) {
+  std::vector<VisemeMix::Mouth> keys(1);
+  keys[0][11] = 9;
+  VisemeMix::Mouth mouth{};
+  mouth[9] = 2;
+  const auto parts = VisemeMix(keys).TakeApart(mouth);
+  EXPECT_EQ(parts.visemes[0], 0);
+  EXPECT_EQ(parts.rest[9], 2);
+}
+
+class StandardFaceTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(Data() + "/fheadv2.pnt")) GTEST_SKIP() << "no data in " << Data();
+    const std::string picture = testing::TempDir() + "/mesh_original_test.png";
+    ASSERT_TRUE(WriteImage(Grey(), picture));
+    auto face = ReadOriginalFace(
+        {"standard", picture, Data() + "/fheadv2.pnt", "", "", ""},
+        {Data() + "/fheadv2.pnt", Data() + "/fheadv2.lnk", Data() + "/teethUpper.obj",
+         Data() + "/teethLower.obj", Data() + "/eye.obj", Data() + "/mouthwall.bmp", Data()});
+    ASSERT_TRUE(face) << face.error().text;
+    face_ = std::move(*face);
+    head_ = HeadOf(face_);
+    head_->Evaluate({}, rest_);
+  }
+  glm::vec3 By(const FaceState& state, PointName name) {
+    HeadVertices moved;
+    head_->Evaluate(state, moved);
+    const auto i = face_.wireframe.index.at(name);
+    return moved.position[i] - rest_.position[i];
+  }
+  OriginalFace face_;
+  std::unique_ptr<Head> head_;
+  HeadVertices rest_;
+};
+
+TEST_F(StandardFaceTest, ItsOwnUnitsMoveWhatTheyShould) {
+  FaceState state;
+  state.au_left[12] = state.au_right[12] = 1;
+  EXPECT_GT(By(state, kLipCorners[1]).y, 2);
+  EXPECT_NEAR(By(state, {6, 22}).y, 0, 0.5F);
+  state = {};
+  state.au_left[1] = state.au_right[1] = 1;
+  EXPECT_GT(By(state, {6, 1}).y, 1.5F);
+  state = {};
+  state.au_left[27] = state.au_right[27] = 1;
+  EXPECT_LT(By(state, kChin).y, -4);
+  EXPECT_GT(head_->MeasureMouth(state).gap_mm, 8);
+  EXPECT_GT(head_->MeasureMouth(state).jaw_degrees, 1.5F);
+}
+
+TEST_F(StandardFaceTest, ABlinkBringsTheUpperLidToTheLower) {
+  FaceState state;
+  state.blink_left = 1;
+  EXPECT_LT(By(state, {5, 20}).y, -4);
+  EXPECT_NEAR(By(state, {4, 20}).y, 0, 0.2F);
+}
+
+TEST_F(StandardFaceTest, ASealClosesAnOpenMouth) {
+  FaceState state;
+  state.au_left[26] = state.au_right[26] = 1;
+  ASSERT_GT(head_->MeasureMouth(state).gap_mm, 4);
+  state.lip_seal = 1;
+  EXPECT_LT(head_->MeasureMouth(state).gap_mm, 1.2F);
+}
+
+TEST_F(StandardFaceTest, MissingPointsAreNamed) {
+  const std::string path = testing::TempDir() + "/short.pnt";
+  FILE* file = std::fopen(path.c_str(), "w");
+  std::fputs("#2\n1 1 33 0 0 0\n", file);
+  std::fclose(file);
+  const auto face = ReadOriginalFace(
+      {"standard", testing::TempDir() + "/mesh_original_test.png", path, "", "", ""},
+      {Data() + "/fheadv2.pnt", Data() + "/fheadv2.lnk", "", "", "", "", Data()});
+  ASSERT_FALSE(face);
+  EXPECT_NE(face.error().text.find("short.pnt: point 14 of group 1"), std::string::npos)
+      << face.error().text;
+}
+
+}  // namespace
+}  // namespace fsm
