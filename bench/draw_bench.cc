@@ -145,6 +145,28 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
   return options.frames > 0 && options.runs > 0;
 }
 
+/// Four people in one picture, each in a quarter of it, as a window would show them.
+void PrintFour(const Options& options, fsm::RenderContext& context, const fsm::Head& head) {
+  std::vector<std::unique_ptr<fsm::Renderer>> renderers;
+  const int width = options.width / 2, height = options.height / 2;
+  for (int i = 0; i < 4; ++i) {
+    renderers.push_back(fsm::Renderer::Make(context));
+    renderers.back()->Place({i % 2 * width, i / 2 * height, width, height});
+  }
+  fsm::HeadVertices vertices;
+  fsm::Image image;
+  const fsm::Scene scene;
+  Print("four moving faces in one picture", Measure(options, [&](int i) {
+          for (std::size_t k = 0; k < 4; ++k) {
+            const fsm::FaceState state = Moving(i + 31 * static_cast<int>(k));
+            head.Evaluate(state, vertices);
+            renderers[k]->Draw(head, vertices, state, scene);
+            renderers[k]->Read(image);
+          }
+        }));
+  PrintMemory();
+}
+
 void MeasureAll(char** argv, const Options& options) {
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
   auto renderer = fsm::Renderer::Make(*context);
@@ -175,29 +197,7 @@ void MeasureAll(char** argv, const Options& options) {
         }));
   Print("state to vertices", Measure(options, [&](int i) { head->Evaluate(Moving(i), vertices); }));
   PrintMemory();
-
-  // Four people at once, each in a picture of its own as four windows would be.
-  std::vector<std::unique_ptr<fsm::RenderContext>> contexts;
-  std::vector<std::unique_ptr<fsm::Renderer>> renderers;
-  for (int i = 0; i < 4; ++i) {
-    contexts.push_back(fsm::RenderContext::MakeHeadless(options.width / 2, options.height / 2));
-    renderers.push_back(fsm::Renderer::Make(*contexts.back()));
-  }
-  Print("four moving faces of half the size", Measure(options, [&](int i) {
-          for (std::size_t k = 0; k < 4; ++k) {
-            const fsm::FaceState state = Moving(i + 31 * static_cast<int>(k));
-            contexts[k]->MakeCurrent();
-            head->Evaluate(state, vertices);
-            renderers[k]->Draw(*head, vertices, state, scene);
-            renderers[k]->Read(image);
-          }
-        }));
-  while (!contexts.empty()) {
-    contexts.back()->MakeCurrent();
-    renderers.pop_back();
-    contexts.pop_back();
-  }
-  context->MakeCurrent();
+  PrintFour(options, *context, *head);
   std::printf("%-34s %8.0f ms wall\n", "process start to first pixels",
               FirstFrameMs(argv, options));
 }

@@ -133,10 +133,10 @@ void GlTarget::Read(std::uint8_t* rgba) {
   }
 }
 
-void GlTarget::Show() const {
+void GlTarget::Show(int x, int y) const {
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
   // Halving with a linear filter takes the average of exactly four.
-  gl_.BlitFramebuffer(0, 0, width_ * kSide, height_ * kSide, 0, 0, width_, height_,
+  gl_.BlitFramebuffer(0, 0, width_ * kSide, height_ * kSide, x, y, x + width_, y + height_,
                       GL_COLOR_BUFFER_BIT, GL_LINEAR);
 }
 

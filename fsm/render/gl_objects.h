@@ -46,8 +46,8 @@ class GlTarget {
   void Bind() const;
   /// The averaged picture, `rgba` width * height * 4 bytes, row 0 at the top.
   void Read(std::uint8_t* rgba);
-  /// Averages into the framebuffer bound as GL_DRAW_FRAMEBUFFER, of the same size as the picture.
-  void Show() const;
+  /// Averages into the framebuffer bound as GL_DRAW_FRAMEBUFFER, its lower left corner at (x, y).
+  void Show(int x, int y) const;
 
  private:
   const GlFunctions& gl_;

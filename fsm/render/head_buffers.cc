@@ -7,7 +7,7 @@
 #include <functional>
 #include <glm/vec4.hpp>
 #include <span>
-#include <utility>
+#include <tuple>
 
 namespace fsm {
 namespace {
@@ -171,10 +171,17 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
       hair.push_back({corner[0], corner[1], corner[2]});
     }
   }
-  // Equal ones by their corners, so that the order is the same everywhere.
-  std::ranges::sort(hair, [&](const Triangle& a, const Triangle& b) {
-    return std::pair(-depth(a), a) < std::pair(-depth(b), b);
-  });
+  // Locks lie on the shell of the hair and come before it. Equal ones by their corners, so that the
+  // order is the same everywhere.
+  const auto is_shell = [&topology](const Triangle& t) {
+    return std::ranges::all_of(t, [&topology](std::uint32_t i) {
+      return i >= topology.strands.size() || topology.strands[i].across == 0;
+    });
+  };
+  const auto key = [&](const Triangle& t) {
+    return std::tuple(depth(t) < kBehind, is_shell(t), -depth(t), t);
+  };
+  std::ranges::sort(hair, {}, key);
   const auto behind = std::ranges::find_if(hair, [&](const auto& t) { return depth(t) < kBehind; });
   add(Material::kHair, flat({hair.begin(), behind}));
   for (const auto& part : topology.parts) {

@@ -33,10 +33,12 @@ class GlRenderer : public Renderer {
         head_(gl_),
         backdrop_(gl_) {}
 
+  void Place(const Pane& pane) override { pane_ = pane; }
+
   void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
             const Scene& scene) override {
-    const int width = context_.width();
-    const int height = context_.height();
+    const int width = pane_.width > 0 ? pane_.width : context_.width();
+    const int height = pane_.width > 0 ? pane_.height : context_.height();
     if (!target_ || target_->width() != width || target_->height() != height) {
       target_.reset();
       target_.emplace(gl_, width, height);
@@ -48,7 +50,7 @@ class GlRenderer : public Renderer {
     if (state.agent_enabled && alpha > 0) DrawFigure(head, vertices, state, scene, alpha);
     if (context_.is_window()) {
       gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-      target_->Show();
+      target_->Show(pane_.x, pane_.width > 0 ? context_.height() - pane_.y - height : 0);
     }
   }
 
@@ -64,7 +66,7 @@ class GlRenderer : public Renderer {
  private:
   void DrawFigure(const Head& head, const HeadVertices& vertices, const FaceState& state,
                   const Scene& scene, float alpha) {
-    const View view = FramePortrait(state, scene.camera, context_.width(), context_.height());
+    const View view = FramePortrait(state, scene.camera, target_->width(), target_->height());
     head_.Upload(head, vertices);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
@@ -168,6 +170,7 @@ class GlRenderer : public Renderer {
   }
 
   RenderContext& context_;
+  Pane pane_;
   GlFunctions gl_;
   Materials materials_;
   HeadBuffers head_;

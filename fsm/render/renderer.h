@@ -81,16 +81,25 @@ class RenderContext {
   virtual bool close_requested() const = 0;
 };
 
+/// Part of what a context draws into, in pixels from its upper left corner; width 0: all of it.
+struct Pane {
+  int x = 0, y = 0;
+  int width = 0, height = 0;
+};
+
 /// Draws heads. Owns its GL objects; the context outlives it and is current in every call.
-/// 4x antialiased. The same head, state, scene and size give the same picture.
+/// 4x antialiased. The same head, state, scene and size give the same picture. Several may share a
+/// context, each in a pane of its own: so one window shows several faces.
 class Renderer {
  public:
   static std::unique_ptr<Renderer> Make(RenderContext& context);
   virtual ~Renderer() = default;
+  /// Where the next frames go; at first everywhere.
+  virtual void Place(const Pane& pane) = 0;
   /// `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
                     const Scene& scene) = 0;
-  /// The frame drawn last.
+  /// The frame drawn last, of the pane's size.
   virtual void Read(Image& out) = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "fsm/render/camera.h"
+#include "fsm/render/gl_functions.h"
 #include "tests/fsm/ball_head.h"
 #include "tests/fsm/render_support.h"
 
@@ -292,6 +293,56 @@ TEST(ContextTest, PictureFollowsTheSizeOfTheWindow) {
   }
   const Pixel skin = At(image, 100, 50);
   EXPECT_GT(skin[0], skin[2]);
+}
+
+/// Shows its frames in itself, as a window does.
+class ShowingContext : public ResizingContext {
+ public:
+  bool is_window() const override { return true; }
+};
+
+TEST(ContextTest, SeveralFacesShareAWindow) {
+  ShowingContext context;
+  BallHead head;
+  HeadVertices vertices;
+  head.Evaluate({}, vertices);
+  Scene left_scene, right_scene;
+  left_scene.background = {1, 0, 0};
+  right_scene.background = {0, 0, 1};
+  auto left = Renderer::Make(context);
+  auto right = Renderer::Make(context);
+  left->Place({0, 0, 32, 40});
+  right->Place({32, 24, 32, 40});
+  FaceState turned;
+  turned.head_rotation = {0, 30, 0};
+  Image shared;
+  for (int i = 0; i < 2; ++i) {
+    left->Draw(head, vertices, {}, left_scene);
+    right->Draw(head, vertices, turned, right_scene);
+  }
+  right->Read(shared);
+
+  Image window{64, 64, std::vector<std::uint8_t>(64 * 64 * 4)};
+  const auto gl = GlFunctions::Load(context);
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  gl.ReadPixels(0, 0, 64, 64, GL_RGBA, GL_UNSIGNED_BYTE, window.rgba.data());
+  // GL's first row is the lowest.
+  const auto shown = [&window](int x, int y) { return At(window, x, 63 - y); };
+  EXPECT_EQ(shown(1, 1), (Pixel{255, 0, 0, 255}));
+  EXPECT_EQ(shown(30, 1), (Pixel{255, 0, 0, 255}));
+  EXPECT_EQ(shown(33, 25), (Pixel{0, 0, 255, 255}));
+  EXPECT_EQ(shown(62, 25), (Pixel{0, 0, 255, 255}));
+  EXPECT_NE(shown(33, 22), (Pixel{0, 0, 255, 255}));  // above the right pane
+  EXPECT_NE(shown(16, 20), (Pixel{255, 0, 0, 255}));  // the left face
+
+  auto alone_context = RenderContext::MakeHeadless(32, 40);
+  auto alone = Renderer::Make(*alone_context);
+  Image image;
+  alone->Draw(head, vertices, turned, right_scene);
+  alone->Read(image);
+  EXPECT_EQ(Differing(shared, image), 0);
+  alone.reset();
+  alone_context.reset();
 }
 
 TEST(ContextTest, ImpossibleSizesAreRefusedWithASentence) {
