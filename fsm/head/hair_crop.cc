@@ -34,7 +34,9 @@ class CroppedHair {
   glm::vec3 Direction(float azimuth, float up) const {
     const float recede = style_.recede * SmoothStep(14, 30, std::abs(azimuth)) *
                          SmoothStep(62, 44, std::abs(azimuth));
-    const float line = HairlineElevation(azimuth) + recede;
+    const float wander =
+        0.9f * std::sin(0.23f * azimuth + 1) + 0.6f * std::sin(0.61f * azimuth);  // degrees
+    const float line = HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
     const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
     // Along the great circle from the hairline to the crown.
@@ -83,7 +85,7 @@ class CroppedHair {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
         // An uneven edge: hair does not end on a drawn line.
-        const float ragged = r == 0 ? 0.035f * Grain(k % kAround, 61) : 0.0f;
+        const float ragged = r == 0 ? 0.05f * Grain(k % kAround, 61) : 0.0f;
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
         const float uneven = 1 + 0.05f * Grain(k % kAround, static_cast<int>(r) + 62);
         const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));

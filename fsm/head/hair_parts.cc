@@ -54,7 +54,7 @@ float HairlineElevation(float azimuth) {
   // Over the forehead, round the temple, the whisker before the ear, over and behind the ear, nape.
   static const Curve kLine(
       {0, 14, 27, 38, 47, 56, 64, 71, 77, 84, 95, 108, 120, 135, 155, 180},
-      {27.5f, 27.2f, 25.2f, 21.5f, 16.5f, 8, -2, -14, -27, -22, -13, -24, -42, -52, -57, -58});
+      {26.4f, 28.0f, 26.6f, 22.2f, 16.5f, 8, -2, -14, -27, -22, -13, -24, -42, -52, -57, -58});
   return kLine(std::abs(azimuth));
 }
 
