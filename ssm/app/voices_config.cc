@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ssm/engines/command_engine.h"
+#include "ssm/engines/hts_engine.h"
 #include "ssm/engines/open_jtalk_engine.h"
 
 namespace ssm {
@@ -76,7 +77,7 @@ std::string At(const VoicesSetting& setting, const std::string& path) {
   return path.empty() || path.starts_with('/') ? path : setting.folder + "/" + path;
 }
 
-vm::Result<Engine> OpenJtalk(Entry& entry, const VoicesSetting& setting) {
+OpenJtalkOptions OpenJtalkKeys(Entry& entry, const VoicesSetting& setting) {
   OpenJtalkOptions options;
   options.name = entry.Text("name");
   options.female = entry.Flag("female", true);
@@ -84,8 +85,36 @@ vm::Result<Engine> OpenJtalk(Entry& entry, const VoicesSetting& setting) {
   options.voice_file = At(setting, entry.Text("voice"));
   options.dictionary = At(setting, entry.Text("dictionary", options.dictionary.c_str()));
   options.limit = entry.Limit(options.limit);
+  return options;
+}
+
+vm::Result<Engine> OpenJtalk(Entry& entry, const VoicesSetting& setting) {
+  OpenJtalkOptions options = OpenJtalkKeys(entry, setting);
   if (auto good = entry.Check(); !good) return std::unexpected(good.error());
   return MakeOpenJtalkEngine(std::move(options));
+}
+
+vm::Result<Engine> Hts(Entry& entry, const VoicesSetting& setting) {
+  HtsOptions options{.analysis = OpenJtalkKeys(entry, setting)};
+  if (const Json* emotions = entry.Find("emotions")) {
+    const std::string expected =
+        "{EMOTION: FILE, ...} with HAPPY, ANGRY, DISGUSTED, SAD, "
+        "SURPRISED or FEARED";
+    if (!emotions->is_object()) entry.Bad("emotions", expected);
+    for (const auto& [emotion, file] : emotions->items()) {
+      if (emotion == "NEUTRAL" || !MannerOf(emotion, 100) || !file.is_string()) {
+        entry.Bad("emotions", expected + "; found \"" + emotion + "\"");
+        break;
+      }
+      options.emotions[emotion] = At(setting, file.get<std::string>());
+    }
+  }
+  if (auto good = entry.Check(); !good) return std::unexpected(good.error());
+#ifdef SSM_HAS_HTS
+  return MakeHtsEngine(std::move(options));
+#else
+  return vm::Fail(vm::Errc::kUnavailable, "this program was built without hts_engine");
+#endif
 }
 
 vm::Result<Engine> Command(Entry& entry, const VoicesSetting& setting) {
@@ -142,9 +171,10 @@ vm::Result<Engine> MakeVoice(const Json& json, std::size_t index, const VoicesSe
   Entry entry(json, where);
   const std::string kind = entry.Text("engine");
   vm::Result<Engine> engine =
-      vm::Fail(vm::Errc::kBadValue,
-               where + ": \"engine\" is '" + kind + "', expected open_jtalk, command or recorded");
+      vm::Fail(vm::Errc::kBadValue, where + ": \"engine\" is '" + kind +
+                                        "', expected open_jtalk, hts, command or recorded");
   if (kind == "open_jtalk") engine = OpenJtalk(entry, setting);
+  if (kind == "hts") engine = Hts(entry, setting);
   if (kind == "command") engine = Command(entry, setting);
   if (kind == "recorded") engine = Recorded(entry, setting);
   if (!engine && !engine.error().text.starts_with(where)) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <utility>
 
 #include "ssm/engines/language_runs.h"
@@ -77,12 +76,7 @@ vm::Result<Part> PlayedFile(const SpeechSpan& span) {
   auto samples = ReadSoundFile(span.audio);
   if (!samples) return std::unexpected(samples.error());
   Part part;
-  if (span.volume != 1) {
-    for (std::int16_t& sample : *samples) {
-      const double loud = std::clamp(sample * span.volume, -32768.0, 32767.0);
-      sample = static_cast<std::int16_t>(std::lround(loud));
-    }
-  }
+  ScaleSamples(*samples, span.volume);
   const Millis sound = ToMs(samples->size());
   samples->insert(samples->begin(), ToFrames(span.pause_before), 0);
   if (!span.mark.empty()) part.plan.marks.push_back({span.mark, span.pause_before});

@@ -1,10 +1,10 @@
 #include "ssm/engines/piece_engine.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "ssm/engines/wav_piece.h"
 #include "ssm/flite/ascii_text.h"
 #include "ssm/voice/pronounced_text.h"
 #include "vm_protocol/core/utf8.h"
@@ -12,8 +12,15 @@
 namespace ssm {
 namespace {
 
+/// A sentence's sound, or a pause.
+struct Part {
+  std::size_t frames = 0;
+  double volume = 1;
+  Piece sound{};  ///< its samples and `later` only
+};
+
 struct PieceDetail : SpeechPlan::Detail {
-  std::vector<std::int16_t> samples;
+  std::vector<Part> parts;
 };
 
 void AddPause(vm::PhonemeList& phonemes, Millis length) {
@@ -25,30 +32,24 @@ void AddPause(vm::PhonemeList& phonemes, Millis length) {
   }
 }
 
-std::int16_t Scaled(std::int16_t sample, double volume) {
-  return static_cast<std::int16_t>(std::lround(std::clamp(sample * volume, -32768.0, 32767.0)));
-}
-
 /// Joins pieces into one plan and one sound.
 class Joiner {
  public:
   void Pause(Millis length) {
     AddPause(plan_.phonemes, length);
-    detail_->samples.resize(detail_->samples.size() + ToFrames(length));
+    AddPart({.frames = ToFrames(length)});
   }
   void Mark(const std::string& name) {
-    if (!name.empty()) plan_.marks.push_back({name, Now()});
+    if (!name.empty()) plan_.marks.push_back({name, ToMs(frames_)});
   }
   void Add(Piece piece, double volume) {
-    const Millis start = Now();
+    const Millis start = ToMs(frames_);
     for (WordTime& word : piece.words) {
       plan_.words.push_back({std::move(word.text), word.start + start, word.end + start});
     }
-    const std::size_t frames = ToFrames(vm::TotalDuration(piece.phonemes));
-    piece.samples.resize(frames);
-    for (const std::int16_t sample : piece.samples) {
-      detail_->samples.push_back(Scaled(sample, volume));
-    }
+    AddPart({.frames = ToFrames(vm::TotalDuration(piece.phonemes)),
+             .volume = volume,
+             .sound = {.samples = std::move(piece.samples), .later = std::move(piece.later)}});
     for (vm::Phoneme& phoneme : piece.phonemes) {
       if (phoneme.name == "pau") {
         AddPause(plan_.phonemes, phoneme.duration);
@@ -65,8 +66,12 @@ class Joiner {
   }
 
  private:
-  Millis Now() const { return ToMs(detail_->samples.size()); }
+  void AddPart(Part part) {
+    frames_ += part.frames;
+    detail_->parts.push_back(std::move(part));
+  }
   SpeechPlan plan_;
+  std::size_t frames_ = 0;
   std::shared_ptr<PieceDetail> detail_ = std::make_shared<PieceDetail>();
 };
 
@@ -117,13 +122,18 @@ vm::Result<SpeechPlan> PieceEngine::Plan(const std::vector<SpeechSpan>& spans,
     joiner.Pause(span.pause_before);
     joiner.Mark(span.mark);
     SpeechSpan sentence = span;
+    if (Expresses(span.feeling.name)) {
+      sentence.stretch *= span.feeling.manner.rate;
+      sentence.pitch /= span.feeling.manner.pitch;
+      sentence.volume /= span.feeling.manner.volume;
+    }
     const std::string said = TakesPronunciations() ? span.text : AsWritten(span.text);
     for (std::string& text : Sentences(said)) {
       if (cancelled) return vm::Fail(vm::Errc::kStopped, "stopped while the text was prepared");
       sentence.text = std::move(text);
       auto piece = Speak(sentence, cancelled);
       if (!piece) return std::unexpected(piece.error());
-      joiner.Add(std::move(*piece), span.volume);
+      joiner.Add(std::move(*piece), sentence.volume);
     }
   }
   return joiner.Finish();
@@ -132,7 +142,15 @@ vm::Result<SpeechPlan> PieceEngine::Plan(const std::vector<SpeechSpan>& spans,
 vm::Result<void> PieceEngine::Render(const SpeechPlan& plan, SampleBuffer& samples) {
   const auto* detail = dynamic_cast<const PieceDetail*>(plan.detail.get());
   if (detail == nullptr) return vm::Fail(vm::Errc::kInternal, "not a plan of this engine");
-  samples.Append(detail->samples);
+  for (const Part& part : detail->parts) {
+    if (samples.cancelled()) return vm::Fail(vm::Errc::kStopped, "stopped while sound was made");
+    vm::Result<std::vector<std::int16_t>> sound = part.sound.samples;
+    if (part.sound.later) sound = part.sound.later();
+    if (!sound) return std::unexpected(sound.error());
+    sound->resize(part.frames);
+    ScaleSamples(*sound, part.volume);
+    samples.Append(*sound);
+  }
   samples.Finish();
   return {};
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,16 @@ struct Piece {
   vm::PhonemeList phonemes{};
   std::vector<WordTime> words{};
   std::vector<std::int16_t> samples{};
+  /// Makes the samples when they are wanted, instead of `samples`; may be empty. Called once or not
+  /// at all, from any thread, while the engine lives.
+  std::function<vm::Result<std::vector<std::int16_t>>()> later{};
   std::string unspoken{};
 };
 
-/// An engine that gives phonemes and sound together, sentence by sentence (another program, a
-/// recording). Planning makes the sound; rendering hands it over. What derives from it says only
-/// how one sentence is spoken.
+/// An engine that speaks sentence by sentence. One that gives phonemes and sound together (another
+/// program, a recording) makes the sound while planning, and rendering hands it over; one that has
+/// the phonemes sooner makes it sentence by sentence while rendering. What derives from it says
+/// only how one sentence is spoken.
 class PieceEngine : public SpeechEngine {
  public:
   vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
@@ -31,6 +36,8 @@ class PieceEngine : public SpeechEngine {
   /// True if Speak understands words with a pronunciation of their own (pronounced_text.h); else it
   /// gets them as they are written.
   virtual bool TakesPronunciations() const { return false; }
+  /// True for an emotion the engine has a voice for; its manner is then taken out of the span.
+  virtual bool Expresses(const std::string&) const { return false; }
   /// `span.text` is one sentence, not blank; volume is seen to by the caller. Phonemes and sound
   /// need not have the very same length: the phonemes count.
   virtual vm::Result<Piece> Speak(const SpeechSpan& span, const std::atomic<bool>& cancelled) = 0;

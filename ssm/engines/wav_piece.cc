@@ -3,6 +3,7 @@
 #include <sndfile.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -60,6 +61,14 @@ TemporaryFolder::TemporaryFolder() {
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+}
+
+void ScaleSamples(std::vector<std::int16_t>& samples, double volume) {
+  if (volume == 1) return;
+  for (std::int16_t& sample : samples) {
+    const double loud = std::clamp(sample * volume, -32768.0, 32767.0);
+    sample = static_cast<std::int16_t>(std::lround(loud));
+  }
 }
 
 void FitToSound(vm::PhonemeList& phonemes, const std::vector<std::int16_t>& samples) {

@@ -25,6 +25,9 @@ class TemporaryFolder {
   std::string path_;
 };
 
+/// Louder by a factor; what is beyond 16 bit is cut.
+void ScaleSamples(std::vector<std::int16_t>& samples, double volume);
+
 /// Makes phonemes and sound agree: the phonemes are lengthened by a pause, or their last ones cut,
 /// until they last as long as the sound.
 void FitToSound(vm::PhonemeList& phonemes, const std::vector<std::int16_t>& samples);

@@ -1,21 +1,16 @@
 #include "ssm/sinks/portaudio_sink.h"
 
-#include <fcntl.h>
 #include <portaudio.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <cctype>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <semaphore>
-#include <string_view>
 #include <utility>
+
+#include "ssm/sinks/portaudio_library.h"
 
 namespace ssm {
 namespace {
@@ -31,98 +26,11 @@ constexpr Micros kTrial{30'000};  // a device without a clock shows itself withi
 // Callbacks further apart than this mean that the device has stopped.
 constexpr Micros kDeadAfter{2'000'000};
 
-/// PortAudio's back ends write dozens of lines to stderr while they look for devices.
-class QuietStderr {
- public:
-  QuietStderr() {
-    std::fflush(stderr);
-    saved_ = dup(STDERR_FILENO);
-    const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (null >= 0) {
-      dup2(null, STDERR_FILENO);
-      close(null);
-    }
-  }
-  ~QuietStderr() {
-    std::fflush(stderr);
-    if (saved_ < 0) return;
-    dup2(saved_, STDERR_FILENO);
-    close(saved_);
-  }
-  QuietStderr(const QuietStderr&) = delete;
-
- private:
-  int saved_ = -1;
-};
-
-/// Whether the library can be started at all. Where ALSA has no configuration, PortAudio ends the
-/// whole process by an assertion; so a child tries first.
-bool CanInitialize() {
-  const pid_t child = fork();
-  if (child == 0) {
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    _exit(Pa_Initialize() == paNoError ? 0 : 1);
-  }
-  int status = 0;
-  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
-         WEXITSTATUS(status) == 0;
-}
-
-/// The library, from first to last use.
-class Library {
- public:
-  Library() : error_(CanInitialize() ? Pa_Initialize() : paNotInitialized) {}
-  ~Library() {
-    if (error_ == paNoError) Pa_Terminate();
-  }
-  Library(const Library&) = delete;
-  PaError error() const { return error_; }
-
- private:
-  const PaError error_;
-};
-
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
-
 vm::Error Unavailable(std::string text) { return {vm::Errc::kUnavailable, std::move(text), 0}; }
-
-bool SwallowsSound(std::string_view name) {
-  const std::string lower = LowerCase(name);
-  return lower == "null" || lower.find("discard all samples") != std::string::npos;
-}
-
-/// The device wanted, or why there is none.
-vm::Result<PaDeviceIndex> ChooseDevice(const std::string& wanted) {
-  std::string names;
-  PaDeviceIndex chosen = wanted.empty() ? Pa_GetDefaultOutputDevice() : paNoDevice;
-  for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
-    const PaDeviceInfo* info = Pa_GetDeviceInfo(i);
-    if (info->maxOutputChannels < 1) continue;
-    names += (names.empty() ? "" : ", ") + std::string(info->name);
-    const bool fits = LowerCase(info->name).find(LowerCase(wanted)) != std::string::npos;
-    if (chosen == paNoDevice && !wanted.empty() && fits) chosen = i;
-  }
-  if (chosen == paNoDevice) {
-    return std::unexpected(
-        Unavailable(names.empty() ? "there is no sound device"
-                                  : "no sound device '" + wanted + "', expected one of: " + names));
-  }
-  if (SwallowsSound(Pa_GetDeviceInfo(chosen)->name)) {
-    return std::unexpected(Unavailable("sound device '" +
-                                       std::string(Pa_GetDeviceInfo(chosen)->name) +
-                                       "' throws sound away at any speed"));
-  }
-  return chosen;
-}
 
 class PortAudioSink final : public AudioSink {
  public:
-  PortAudioSink(vm::Scheduler& scheduler, std::unique_ptr<Library> library)
+  PortAudioSink(vm::Scheduler& scheduler, std::unique_ptr<PortAudioLibrary> library)
       : scheduler_(scheduler), library_(std::move(library)) {}
   ~PortAudioSink() override {
     if (stream_ == nullptr) return;
@@ -264,7 +172,7 @@ class PortAudioSink final : public AudioSink {
   }
 
   vm::Scheduler& scheduler_;
-  const std::unique_ptr<Library> library_;
+  const std::unique_ptr<PortAudioLibrary> library_;
   PaStream* stream_ = nullptr;
   std::string name_;
   SteadyClock::time_point opened_;
@@ -296,11 +204,11 @@ class PortAudioSink final : public AudioSink {
 vm::Result<std::unique_ptr<AudioSink>> OpenPortAudio(vm::Scheduler& scheduler,
                                                      const std::string& device) {
   const QuietStderr quiet;
-  auto library = std::make_unique<Library>();
+  auto library = std::make_unique<PortAudioLibrary>();
   if (library->error() != paNoError) {
     return std::unexpected(Unavailable("the sound system cannot be used, or has no configuration"));
   }
-  const auto chosen = ChooseDevice(device);
+  const auto chosen = ChooseOutputDevice(device);
   if (!chosen) return std::unexpected(chosen.error());
   auto sink = std::make_unique<PortAudioSink>(scheduler, std::move(library));
   if (auto opened = sink->Open(*chosen); !opened) return std::unexpected(opened.error());
@@ -309,8 +217,8 @@ vm::Result<std::unique_ptr<AudioSink>> OpenPortAudio(vm::Scheduler& scheduler,
 
 bool HasSoundDevice() {
   const QuietStderr quiet;
-  const Library library;
-  return library.error() == paNoError && ChooseDevice({}).has_value();
+  const PortAudioLibrary library;
+  return library.error() == paNoError && ChooseOutputDevice({}).has_value();
 }
 
 }  // namespace ssm

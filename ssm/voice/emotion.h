@@ -13,6 +13,14 @@ struct Manner {
   double volume = 1;  ///< of amplitude
 };
 
+/// The emotion something is said with. What it does by its manner is part of a span's stretch,
+/// pitch and volume already; a voice that has the emotion itself takes `manner` out of them again.
+struct Feeling {
+  std::string name{};     ///< empty or NEUTRAL: none
+  double strength01 = 0;  ///< 1 = full
+  Manner manner{};
+};
+
 /// The manner of an emotion by its name in the protocol (NEUTRAL HAPPY ANGRY DISGUSTED SAD
 /// SURPRISED FEARED), `strength` from 0 to 100 %; none for another name. Between, factors are the
 /// full ones to the power of strength/100, so that half twice is the whole.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ssm/voice/emotion.h"
 #include "ssm/voice/samples.h"
 #include "vm_protocol/core/phonemes.h"
 #include "vm_protocol/core/result.h"
@@ -25,6 +26,7 @@ struct SpeechSpan {
   double pitch = 1;     ///< relative pitch
   double volume = 1;    ///< relative loudness of the samples
   std::string audio{};  ///< a sound file played instead of `text` where an engine can; else empty
+  Feeling feeling{};
 };
 
 struct WordTime {

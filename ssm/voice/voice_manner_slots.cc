@@ -100,11 +100,13 @@ void VoiceModule::DeclareEmotion() {
            "(NEUTRAL | HAPPY | ANGRY | DISGUSTED | SAD | SURPRISED | FEARED) [<number 0..100>]",
        .initial = "NEUTRAL",
        .auto_output = true,
-       .help = "How the speaker feels, with a strength in % (100 without one): speed, pitch and "
-               "loudness from the next Text on, beside Rate, Pitch and Volume.",
+       .help = "How the speaker feels, with a strength in % (100 without one), from the next Text "
+               "on: a voice that has voice files for emotions is mixed with the emotion's; others "
+               "change speed, pitch and loudness, beside Rate, Pitch and Volume.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
          const double strength = value.size() > 1 ? value.number(1) : 100;
-         emotion_ = MannerOf(value.word(0), strength).value_or(Manner{});
+         feeling_ = {value.word(0), strength / 100,
+                     MannerOf(value.word(0), strength).value_or(Manner{})};
          return value.size() > 1 ? value.word(0) + " " + FormatFactor(strength) : value.word(0);
        }});
 }

@@ -151,7 +151,7 @@ class VoiceModule final : public vm::Module {
   double rate_ = 1;
   double pitch_ = 1;
   double volume_ = 1;
-  Manner emotion_;
+  Feeling feeling_;
   bool auto_play_ = false;
   VoiceLog log_;
 

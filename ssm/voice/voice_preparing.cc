@@ -23,6 +23,14 @@ vm::Result<void> CheckSize(const SpeechPlan& plan) {
                                         " phonemes, more than one line can tell; divide it");
 }
 
+/// Whether there is anything to say, to mark or to wait for.
+bool IsBlank(const std::vector<SpeechSpan>& spans) {
+  return std::all_of(spans.begin(), spans.end(), [](const SpeechSpan& span) {
+    return span.text.find_first_not_of(" \t\r\n") == std::string::npos && span.mark.empty() &&
+           span.audio.empty() && span.pause_before.count() == 0;
+  });
+}
+
 }  // namespace
 
 void VoiceModule::SetText(const std::string& text, const vm::Reply& reply) {
@@ -100,10 +108,12 @@ std::vector<SpeechSpan> VoiceModule::Manners(std::vector<SpeechSpan> spans) {
       voice = &voice_;
     }
     span.voice = voice->name;
-    const double pitch = voice->pitch_adjustable ? emotion_.pitch : 1;
-    span.stretch = std::clamp(span.stretch / (rate_ * emotion_.rate), 0.1, 10.0);
-    span.pitch = std::clamp(span.pitch * pitch_ * pitch, 0.25, 4.0);
-    span.volume *= volume_ * emotion_.volume;
+    span.feeling = feeling_;
+    Manner& manner = span.feeling.manner;
+    if (!voice->pitch_adjustable) manner.pitch = 1;
+    span.stretch = std::clamp(span.stretch / (rate_ * manner.rate), 0.1, 10.0);
+    span.pitch = std::clamp(span.pitch * pitch_ * manner.pitch, 0.25, 4.0);
+    span.volume *= volume_ * manner.volume;
   }
   return spans;
 }
@@ -133,6 +143,9 @@ void VoiceModule::OnPlanned(const std::shared_ptr<Preparation>& preparation) {
   utterance->samples = std::make_shared<SampleBuffer>(ToFrames(utterance->duration()));
   utterance_ = utterance;
   ReportPhonemes();
+  if (utterance->plan.unspoken.empty() && IsBlank(preparation->spans)) {
+    utterance->plan.unspoken = "the text is empty, there is nothing to say";
+  }
   if (!utterance->plan.unspoken.empty()) {
     Fault("Text", {vm::Errc::kUnavailable, utterance->plan.unspoken, 0});
   }

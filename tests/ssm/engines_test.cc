@@ -14,36 +14,18 @@
 #include "ssm/engines/wav_piece.h"
 #include "ssm/voice/resample.h"
 #include "ssm/voice/wav_file.h"
+#include "tests/ssm/spoken.h"
 
 namespace {
 
 using ssm::Millis;
 using ssm::SpeechSpan;
-
-const std::atomic<bool> kNever{false};
+using ssm_test::kNever;
+using ssm_test::Rms;
+using ssm_test::Speak;
 
 ssm::SpeechSpan Span(const std::string& text, const std::string& voice = "") {
   return {.text = text, .voice = voice};
-}
-
-/// The plan and its sound; checks that they have one length.
-ssm::SpeechPlan PlanAndRender(ssm::SpeechEngine& engine, const std::vector<SpeechSpan>& spans,
-                              std::vector<std::int16_t>* sound = nullptr) {
-  auto plan = engine.Plan(spans, kNever);
-  EXPECT_TRUE(plan) << (plan ? "" : plan.error().text);
-  if (!plan) return {};
-  ssm::SampleBuffer samples(ssm::ToFrames(vm::TotalDuration(plan->phonemes)));
-  auto rendered = engine.Render(*plan, samples);
-  EXPECT_TRUE(rendered) << (rendered ? "" : rendered.error().text);
-  EXPECT_TRUE(samples.complete());
-  if (sound != nullptr) sound->assign(samples.Ready().begin(), samples.Ready().end());
-  return std::move(*plan);
-}
-
-double Rms(const std::vector<std::int16_t>& samples) {
-  double sum = 0;
-  for (const std::int16_t sample : samples) sum += static_cast<double>(sample) * sample;
-  return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
 std::vector<std::int16_t> Tone(double hz, std::size_t rate, std::size_t frames) {
@@ -116,8 +98,7 @@ TEST_F(CommandEngineTest, SoundAndPhonemesOfAnyProgramArePlayed) {
   auto engine = ssm::MakeCommandEngine(
       Shell("cp " + folder_.File("tone.wav") + " {wav}; read x; echo 'h[20] e[30]'; echo 'o[50]'"));
   ASSERT_TRUE(engine);
-  std::vector<std::int16_t> sound;
-  const auto plan = PlanAndRender(**engine, {Span("Hello there.")}, &sound);
+  const auto [plan, sound] = Speak(**engine, {Span("Hello there.")});
   EXPECT_EQ(vm::FormatPhonemesVoice(plan.phonemes), "h[20] e[30] o[50]");
   ASSERT_EQ(plan.words.size(), 2u);
   EXPECT_EQ(plan.words[1].text, "there.");
@@ -168,7 +149,7 @@ TEST(RecordedEngineTest, ARecordingWithItsPhonemesBesideItIsPlayed) {
   ASSERT_EQ(std::system(("echo 'phonemes: hh[40] ow[60]' > " + wav + ".info").c_str()), 0);
   auto engine = ssm::MakeRecordedEngine(
       {.name = "tape", .recordings = {{.text = "Hello, you!", .wav = wav}}});
-  const auto plan = PlanAndRender(*engine, {Span("hello you")});
+  const auto plan = Speak(*engine, {Span("hello you")}).plan;
   EXPECT_EQ(vm::FormatPhonemesVoice(plan.phonemes), "hh[40] ow[60]");
   auto other = engine->Plan({Span("Good bye.")}, kNever);
   ASSERT_FALSE(other);
@@ -176,15 +157,17 @@ TEST(RecordedEngineTest, ARecordingWithItsPhonemesBesideItIsPlayed) {
 }
 
 TEST(OpenJtalkTest, ItsTraceGivesPhonemesAndWords) {
-  auto piece = ssm::ParseOpenJtalkTrace(
+  auto trace = ssm::ParseOpenJtalkTrace(
       "[Text analysis result]\n今日,名詞,*,*,*,*,*,今日,キョウ,キョー,1/2,C3,-1\n"
       "は,助詞,*,*,*,*,*,は,ハ,ワ,0/1,x,1\n\n[Output label]\n"
       "0 2700000 x^x-sil+ky=o/A:\n2700000 3650000 x^x-ky+o=o/A:\n3650000 4250000 x^x-o+o=w/A:\n"
       "4250000 5250000 x^x-o+w=a/A:\n5250000 5754000 x^x-w+a=s/A:\n5754000 6550000 x^x-a+x=x/A:\n");
-  ASSERT_TRUE(piece) << piece.error().text;
-  EXPECT_EQ(vm::FormatPhonemesVoice(piece->phonemes), "sil[270] ky[95] o[60] o[100] w[50] a[80]");
-  ASSERT_EQ(piece->words.size(), 2u);
-  EXPECT_EQ(piece->words[1], (ssm::WordTime{"は", Millis(525), Millis(655)}));
+  ASSERT_TRUE(trace) << trace.error().text;
+  const vm::PhonemeList phonemes = ssm::PhonemesOf(*trace, trace->ends);
+  EXPECT_EQ(vm::FormatPhonemesVoice(phonemes), "sil[270] ky[95] o[60] o[100] w[50] a[80]");
+  const auto words = ssm::WordsOf(*trace, phonemes);
+  ASSERT_EQ(words.size(), 2u);
+  EXPECT_EQ(words[1], (ssm::WordTime{"は", Millis(525), Millis(655)}));
   auto bad = ssm::ParseOpenJtalkTrace("[Output label]\n0 10 nonsense\n");
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().text,
@@ -208,8 +191,7 @@ class EspeakTest : public testing::Test {
 };
 
 TEST_F(EspeakTest, SpeaksOtherLanguagesWithFlitesPhonemes) {
-  std::vector<std::int16_t> sound;
-  const auto plan = PlanAndRender(*engine_, {Span("Guten Tag.", "espeak-de")}, &sound);
+  const auto [plan, sound] = Speak(*engine_, {Span("Guten Tag.", "espeak-de")});
   std::string names;
   for (const vm::Phoneme& phoneme : plan.phonemes) names += phoneme.name + " ";
   EXPECT_EQ(names, "pau g uw t ax n t aa k pau ");
@@ -223,8 +205,8 @@ TEST_F(EspeakTest, RateStretchesTheTimes) {
   auto slow = fast;
   fast.stretch = 0.6;
   slow.stretch = 1.5;
-  const auto quick = vm::TotalDuration(PlanAndRender(*engine_, {fast}).phonemes);
-  const auto long_one = vm::TotalDuration(PlanAndRender(*engine_, {slow}).phonemes);
+  const auto quick = vm::TotalDuration(Speak(*engine_, {fast}).plan.phonemes);
+  const auto long_one = vm::TotalDuration(Speak(*engine_, {slow}).plan.phonemes);
   EXPECT_GT(long_one.count(), 1.7 * static_cast<double>(quick.count()));
 }
 
@@ -258,10 +240,9 @@ TEST_F(EspeakTest, ASetOfEnginesSplitsATextByLanguage) {
   ssm::EngineSet set(std::move(engines));
   ASSERT_TRUE(set.ChooseVoice("ru", "espeak-uk"));
   ASSERT_FALSE(set.ChooseVoice("ru", "nobody"));
-  std::vector<std::int16_t> sound;
   SpeechSpan marked = Span("мир is peace.", "espeak-en");
   marked.mark = "m";
-  const auto plan = PlanAndRender(set, {marked, Span(" Yes.", "espeak-de")}, &sound);
+  const auto plan = Speak(set, {marked, Span(" Yes.", "espeak-de")}).plan;
   ASSERT_EQ(plan.words.size(), 4u);
   EXPECT_EQ(plan.words[0].text, "мир");
   EXPECT_EQ(plan.words[3].text, "Yes");

@@ -4,37 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <utility>
 
 #include "ssm/flite/ascii_text.h"
+#include "tests/ssm/spoken.h"
 
 namespace ssm {
 namespace {
 
+using ssm_test::Rms;
+using ssm_test::Speak;
+using ssm_test::Spoken;
+
 SpeechSpan Span(std::string text, std::string voice = "slt") {
   return {.text = std::move(text), .voice = std::move(voice)};
-}
-
-struct Spoken {
-  SpeechPlan plan;
-  std::vector<std::int16_t> samples;
-};
-
-Spoken Speak(SpeechEngine& engine, const std::vector<SpeechSpan>& spans) {
-  const std::atomic<bool> cancelled{false};
-  auto plan = engine.Plan(spans, cancelled);
-  EXPECT_TRUE(plan);
-  SampleBuffer samples(ToFrames(vm::TotalDuration(plan->phonemes)));
-  EXPECT_TRUE(engine.Render(*plan, samples));
-  EXPECT_TRUE(samples.complete());
-  const auto ready = samples.Ready();
-  return {std::move(*plan), {ready.begin(), ready.end()}};
-}
-
-double Rms(std::span<const std::int16_t> samples) {
-  double sum = 0;
-  for (const auto sample : samples) sum += static_cast<double>(sample) * sample;
-  return samples.empty() ? 0 : std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
 class FliteTest : public testing::Test {
@@ -48,41 +33,58 @@ class FliteVoiceTest : public testing::TestWithParam<const char*> {
 };
 INSTANTIATE_TEST_SUITE_P(Voices, FliteVoiceTest, testing::Values("slt", "rms", "awb", "kal16"));
 
-// The times of the phonemes are those of the sound: where speech begins and ends (energy over a
-// twentieth of the upper quartile, in 5 ms steps) lies near where the phonemes say. Sentences
-// begin and end with voiced sounds, which have no silent part of their own.
+/// Where sound begins and ends (energy over a twentieth of the upper quartile, in 5 ms steps), by
+/// how much later than the phonemes say.
+std::pair<double, double> EdgesOff(const Spoken& spoken) {
+  constexpr std::size_t kStep = 80;  // 5 ms
+  std::vector<double> energy;
+  for (std::size_t at = 0; at + kStep <= spoken.samples.size(); at += kStep) {
+    energy.push_back(Rms(std::span(spoken.samples).subspan(at, kStep)));
+  }
+  std::vector<double> sorted = energy;
+  std::sort(sorted.begin(), sorted.end());
+  const double threshold = sorted[sorted.size() * 3 / 4] / 20;
+  const auto loud = [&](double e) { return e > threshold; };
+  const auto first = std::find_if(energy.begin(), energy.end(), loud) - energy.begin();
+  const auto last = energy.rend() - std::find_if(energy.rbegin(), energy.rend(), loud);
+  const auto& phonemes = spoken.plan.phonemes;
+  EXPECT_EQ(phonemes.front().name, "pau");
+  EXPECT_EQ(phonemes.back().name, "pau");
+  const auto said_first = static_cast<double>(phonemes.front().duration.count());
+  const auto said_last =
+      static_cast<double>((vm::TotalDuration(phonemes) - phonemes.back().duration).count());
+  return {static_cast<double>(first) * 5 - said_first, static_cast<double>(last) * 5 - said_last};
+}
+
+double Median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+// The times of the phonemes are those of the sound. Sentences begin and end with voiced sounds,
+// which have no silent part of their own. The statistical voices are excited by noise from rand():
+// where a fading end falls below a level differs by up to 70 ms from one seed to another (23 seeds
+// tried; 1 in 20 is off by more than 30 ms), so each edge is the median of five seeds.
 TEST_P(FliteVoiceTest, SoundBeginsAndEndsWhereThePhonemesSay) {
-  // The noise in the voice is different each time, and with it where the level passes a threshold.
   std::vector<double> offsets_ms;
   for (const char* text : {"Anna ran away.", "Only we may go.", "All along.",
                            "Everyone knows a yellow llama.", "I owe you a melon."}) {
-    const Spoken spoken = Speak(*engine_, {Span(text, GetParam())});
-    constexpr std::size_t kStep = 80;  // 5 ms
-    std::vector<double> energy;
-    for (std::size_t at = 0; at + kStep <= spoken.samples.size(); at += kStep) {
-      energy.push_back(Rms(std::span(spoken.samples).subspan(at, kStep)));
+    std::vector<double> begins, ends;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      std::srand(seed);
+      const auto [begin, end] = EdgesOff(Speak(*engine_, {Span(text, GetParam())}));
+      begins.push_back(begin);
+      ends.push_back(end);
     }
-    std::vector<double> sorted = energy;
-    std::sort(sorted.begin(), sorted.end());
-    const double threshold = sorted[sorted.size() * 3 / 4] / 20;
-    const auto loud = [&](double e) { return e > threshold; };
-    const auto first = std::find_if(energy.begin(), energy.end(), loud) - energy.begin();
-    const auto last = energy.rend() - std::find_if(energy.rbegin(), energy.rend(), loud);
-    const auto& phonemes = spoken.plan.phonemes;
-    ASSERT_EQ(phonemes.front().name, "pau");
-    ASSERT_EQ(phonemes.back().name, "pau");
-    const auto said_first = static_cast<double>(phonemes.front().duration.count());
-    const auto said_last =
-        static_cast<double>((vm::TotalDuration(phonemes) - phonemes.back().duration).count());
-    offsets_ms.push_back(static_cast<double>(first) * 5 - said_first);
-    offsets_ms.push_back(static_cast<double>(last) * 5 - said_last);
+    offsets_ms.push_back(Median(begins));
+    offsets_ms.push_back(Median(ends));
   }
   double sum = 0;
   for (const double offset : offsets_ms) {
-    EXPECT_LE(std::abs(offset), 45) << testing::PrintToString(offsets_ms);
+    EXPECT_LE(std::abs(offset), 30) << testing::PrintToString(offsets_ms);
     sum += std::abs(offset);
   }
-  EXPECT_LE(sum / static_cast<double>(offsets_ms.size()), 15) << testing::PrintToString(offsets_ms);
+  EXPECT_LE(sum / static_cast<double>(offsets_ms.size()), 12) << testing::PrintToString(offsets_ms);
   RecordProperty("offsets_ms", testing::PrintToString(offsets_ms));
 }
 

@@ -70,6 +70,20 @@ TEST_P(VoiceValuesTest, ATextWithNothingToSayIsAShortPause) {
   }
 }
 
+TEST_P(VoiceValuesTest, AnEmptyTextIsSaidToBeOneAndASilentOneIsNot) {
+  const auto told = [this](const std::string& text) {
+    world_.errors.clear();
+    world_.Tell("set Text = " + text);
+    return world_.errors;
+  };
+  const std::vector<std::string> empty = {"UNAVAILABLE the text is empty, there is nothing to say"};
+  EXPECT_EQ(told(""), empty);
+  EXPECT_EQ(told("   "), empty);
+  EXPECT_EQ(told("<speak> </speak>"), empty);
+  EXPECT_EQ(told("<SILENCE MSEC=\"50\"/>"), std::vector<std::string>{});
+  EXPECT_EQ(told("yes"), std::vector<std::string>{});
+}
+
 TEST_P(VoiceValuesTest, ATextOverTheLimitIsTooLong) {
   world_.Tell("set#1 Text = " + std::string(ssm::kMaxTextBytes + 1, 'a'));
   EXPECT_TRUE(world_.Lines().at(0).starts_with("rep#1 Text.error = TOO_LONG "));

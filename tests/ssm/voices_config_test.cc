@@ -39,7 +39,7 @@ TEST(VoicesConfigTest, MistakesNameTheVoiceAndTheKey) {
             "found \"voice\", expected \"voices\": [...] or \"languages\": {...}");
   EXPECT_EQ(ErrorOf(R"({"voices": [3]})"), "voice 1: expected an object");
   EXPECT_EQ(ErrorOf(R"({"voices": [{"name": "x", "engine": "magic"}]})"),
-            "voice 1 'x': \"engine\" is 'magic', expected open_jtalk, command or recorded");
+            "voice 1 'x': \"engine\" is 'magic', expected open_jtalk, hts, command or recorded");
   EXPECT_EQ(ErrorOf(R"({"voices": [{"name": "x", "engine": "command"}]})"),
             "voice 1 'x': \"argv\" must be a list");
   EXPECT_EQ(
@@ -53,6 +53,13 @@ TEST(VoicesConfigTest, MistakesNameTheVoiceAndTheKey) {
             "voice 1 'x': /dir/bad.txt:2: 'b' is not in the set");
   EXPECT_TRUE(ErrorOf(R"({"voices": [{"name": "x", "engine": "open_jtalk", "voice": "v"}]})")
                   .starts_with("voice 1 'x': cannot read voice file '/dir/v'"));
+  EXPECT_EQ(ErrorOf(R"({"voices": [{"name": "x", "engine": "hts", "voice": "v",
+                                    "emotions": {"BORED": "b"}}]})"),
+            "voice 1 'x': \"emotions\" must be {EMOTION: FILE, ...} with HAPPY, ANGRY, DISGUSTED, "
+            "SAD, SURPRISED or FEARED; found \"BORED\"");
+  EXPECT_TRUE(ErrorOf(R"({"voices": [{"name": "x", "engine": "hts", "voice": "v",
+                                      "emotions": ["SAD"]}]})")
+                  .starts_with("voice 1 'x': \"emotions\" must be {EMOTION: FILE"));
 }
 
 }  // namespace

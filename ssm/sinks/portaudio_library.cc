@@ -1,0 +1,90 @@
+#include "ssm/sinks/portaudio_library.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+namespace ssm {
+namespace {
+
+bool CanInitialize() {
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    _exit(Pa_Initialize() == paNoError ? 0 : 1);
+  }
+  int status = 0;
+  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+         WEXITSTATUS(status) == 0;
+}
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+vm::Error Unavailable(std::string text) { return {vm::Errc::kUnavailable, std::move(text), 0}; }
+
+bool SwallowsSound(std::string_view name) {
+  const std::string lower = LowerCase(name);
+  return lower == "null" || lower.find("discard all samples") != std::string::npos;
+}
+
+}  // namespace
+
+QuietStderr::QuietStderr() {
+  std::fflush(stderr);
+  saved_ = dup(STDERR_FILENO);
+  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (null >= 0) {
+    dup2(null, STDERR_FILENO);
+    close(null);
+  }
+}
+
+QuietStderr::~QuietStderr() {
+  std::fflush(stderr);
+  if (saved_ < 0) return;
+  dup2(saved_, STDERR_FILENO);
+  close(saved_);
+}
+
+PortAudioLibrary::PortAudioLibrary()
+    : error_(CanInitialize() ? Pa_Initialize() : paNotInitialized) {}
+
+PortAudioLibrary::~PortAudioLibrary() {
+  if (error_ == paNoError) Pa_Terminate();
+}
+
+vm::Result<PaDeviceIndex> ChooseOutputDevice(const std::string& wanted) {
+  std::string names;
+  PaDeviceIndex chosen = wanted.empty() ? Pa_GetDefaultOutputDevice() : paNoDevice;
+  for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
+    const PaDeviceInfo* info = Pa_GetDeviceInfo(i);
+    if (info->maxOutputChannels < 1) continue;
+    names += (names.empty() ? "" : ", ") + std::string(info->name);
+    const bool fits = LowerCase(info->name).find(LowerCase(wanted)) != std::string::npos;
+    if (chosen == paNoDevice && !wanted.empty() && fits) chosen = i;
+  }
+  if (chosen == paNoDevice) {
+    return std::unexpected(
+        Unavailable(names.empty() ? "there is no sound device"
+                                  : "no sound device '" + wanted + "', expected one of: " + names));
+  }
+  if (SwallowsSound(Pa_GetDeviceInfo(chosen)->name)) {
+    return std::unexpected(Unavailable("sound device '" +
+                                       std::string(Pa_GetDeviceInfo(chosen)->name) +
+                                       "' throws sound away at any speed"));
+  }
+  return chosen;
+}
+
+}  // namespace ssm
