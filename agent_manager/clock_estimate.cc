@@ -11,7 +11,14 @@ vm::Time ClockEstimate::uncertainty() const { return known() ? Uncertainty(best_
 
 void ClockEstimate::Add(vm::Time asked, vm::Time heard, vm::Time theirs) {
   const vm::Time delay = heard - asked;
-  samples_.push_back({heard, theirs - (asked + delay / 2), delay});
+  const Sample newest{heard, theirs - (asked + delay / 2), delay};
+  std::erase_if(samples_, [&](const Sample& old) {
+    const auto age = static_cast<double>((heard - old.heard).count());
+    const vm::Time allowed =
+        delay / 2 + old.delay / 2 + vm::Time(2 + static_cast<vm::Time::rep>(age * kDrift));
+    return std::chrono::abs(newest.offset - old.offset) > allowed;
+  });
+  samples_.push_back(newest);
   if (samples_.size() > kMaxSamples) samples_.pop_front();
   best_ = samples_.back();
   for (const Sample& sample : samples_) {

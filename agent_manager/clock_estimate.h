@@ -9,7 +9,8 @@ namespace am {
 /// Where another process's clock stands, from questions and answers over a link whose delay
 /// changes. An answer was given somewhere between asking and hearing it, so half of that span is
 /// what one exchange leaves open; and clocks drift apart, so old exchanges leave open more.
-/// The exchange that leaves open least counts. Pure.
+/// The exchange that leaves open least counts. Exchanges that cannot both be true mean that the
+/// clock has jumped (its machine slept, say): then only those that agree with the newest count. Pure.
 class ClockEstimate {
  public:
   static constexpr std::size_t kMaxSamples = 32;

@@ -4,8 +4,8 @@
     scripts/fault_rounds.py [--rounds 1000] [--seed 1] [--bin build/bin]
 
 Each round does something bad: kills or stops a module, sends garbage, floods, reads slowly, cuts a
-connection in the middle of a line, asks for more than there is, reads the configuration again. Then
-numbered messages must still arrive at another client, none lost, doubled or out of order; every
+connection in the middle of a line, delays one, lets a clock jump or the hub itself stand still, asks
+for more than there is, reads the configuration again. Then numbered messages must still arrive at another client, none lost, doubled or out of order; every
 module must answer again; and what the hub says about the round must explain it. At the end the
 hub's memory must be what it was after the first tenth of the rounds, within a tenth and 4 MiB.
 The session log is on a full disk (/dev/full) all the time. Needs the test_module of the tests.
@@ -57,6 +57,64 @@ class Client:
 
     def close(self):
         self.socket.close()
+
+
+class Jumper:
+    """A module whose clock jumps when it is told to."""
+
+    def __init__(self, path):
+        self.client = Client(path, "JUMPS")
+        self.jump_ms = 0.0
+        self.client.say("rep Run = LIVE")
+        threading.Thread(target=self.answer, daemon=True).start()
+
+    def answer(self):
+        try:
+            while True:
+                line = self.client.line()
+                asked = re.match(r"(?:inq|set)(#\S+) (\S+)", line)
+                if asked:
+                    value = f"{time.monotonic() * 1000 + self.jump_ms:.3f}" if asked[2] == "Clock" else "0"
+                    self.client.say(f"rep{asked[1]} {asked[2]} = {value}")
+        except (OSError, EOFError):
+            pass
+
+
+class DelayedLine:
+    """Between a client and the hub: bytes pass late, in odd pieces, and in their order."""
+
+    def __init__(self, folder, path):
+        self.path = os.path.join(folder, f"late{random.getrandbits(40)}")
+        self.listener = socket.socket(socket.AF_UNIX)
+        self.listener.bind(self.path)
+        self.listener.listen(1)
+        threading.Thread(target=self.serve, args=(path,), daemon=True).start()
+
+    def serve(self, path):
+        near, _ = self.listener.accept()
+        far = socket.socket(socket.AF_UNIX)
+        far.connect(path)
+        self.ends = (near, far)
+        for read, write in ((near, far), (far, near)):
+            threading.Thread(target=self.pump, args=(read, write), daemon=True).start()
+
+    @staticmethod
+    def pump(read, write):
+        try:
+            while True:
+                piece = read.recv(random.choice((1, 7, 64, 4096)))
+                if not piece:
+                    return write.shutdown(socket.SHUT_WR)
+                time.sleep(random.uniform(0, 0.003))
+                write.sendall(piece)
+        except OSError:
+            pass
+
+    def close(self):
+        self.listener.close()
+        for end in self.ends:
+            end.close()
+        os.unlink(self.path)
 
 
 class Flow:
@@ -185,6 +243,35 @@ class Round:
         client.socket.sendall(b"to @M2 set X = 1\nto @M2 set#x X ="[:random.randint(1, 34)])
         client.close()
 
+    def delayed(self):
+        line = DelayedLine(self.hub.folder, self.hub.path)
+        name = f"LATE{random.getrandbits(40)}"
+        client = Client(line.path, name)
+        for i in range(50):
+            client.say(f"to @{name} set N = {i}")
+        for i in range(50):
+            heard = client.line()
+            if heard != f"set N = {i}":
+                raise AssertionError(f"over a delayed line: heard '{heard}', expected number {i}")
+        client.socket.sendall(b"to @M0 set#x X ="[:random.randint(1, 16)])
+        line.close()
+        client.close()
+
+    def clock_jump(self):
+        jump_ms = random.choice((-1, 1)) * random.uniform(100, 3_600_000)
+        before = self.hub.clock_offset("JUMPS")
+        self.hub.jumper.jump_ms += jump_ms
+        limit = time.monotonic() + PATIENCE_S
+        while abs(self.hub.clock_offset("JUMPS") - before - jump_ms) > 20:
+            if time.monotonic() > limit:
+                raise AssertionError(f"the hub has not followed a clock that has jumped by {jump_ms} ms")
+            time.sleep(0.05)
+
+    def hub_stands_still(self):
+        self.hub.process.send_signal(signal.SIGSTOP)
+        time.sleep(random.uniform(0.1, 1))
+        self.hub.process.send_signal(signal.SIGCONT)
+
     def oversized(self):
         client = Client(self.hub.path)
         client.socket.sendall(b"x" * 100000 + b"\n")
@@ -204,6 +291,7 @@ class Round:
 
 class Hub:
     def __init__(self, folder, programs):
+        self.folder = folder
         self.path = os.path.join(folder, "hub")
         module = os.path.abspath(os.path.join(programs, "test_module"))
         config = os.path.join(folder, "hub.json")
@@ -229,6 +317,19 @@ class Hub:
                     sys.exit(f"the hub did not start: {error}")
                 time.sleep(0.02)
         self.read_to = 0
+        self.jumper = Jumper(self.path)
+        self.clock_offset("JUMPS")
+
+    def clock_offset(self, name):
+        limit = time.monotonic() + PATIENCE_S
+        while True:
+            self.admin.say("inq#c Clocks")
+            found = re.search(rf"\b{name} (-?[\d.]+) ", self.admin.expect("rep#c Clocks"))
+            if found:
+                return float(found[1])
+            if time.monotonic() > limit:
+                raise AssertionError(f"the hub does not know the clock of @{name}")
+            time.sleep(0.02)
 
     def said(self):
         """What it has said since the round began."""
@@ -299,7 +400,9 @@ def main():
         code = hub.process.wait(PATIENCE_S)
         early, late = max(memory[:max(1, len(memory) // 10)]), memory[-1]
         print(f"{options.rounds} rounds in {time.monotonic() - start:.0f} s, {flow.heard} messages in order, "
-              f"memory {early:.1f} -> {late:.1f} MiB, exit code {code}; " +
+              f"memory {early:.1f} -> {late:.1f} MiB (by tenths " +
+              " ".join(f"{mib:.1f}" for mib in memory[len(memory) // 20::max(1, len(memory) // 10)]) +
+              f"), exit code {code}; " +
               ", ".join(f"{name} {count}" for name, count in sorted(counts.items())))
         if code != 0 or late > early * 1.1 + 4:
             sys.exit("memory has grown, or the hub ended badly")

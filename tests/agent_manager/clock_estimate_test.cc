@@ -31,6 +31,21 @@ TEST(ClockEstimateTest, TheQuickestExchangeCountsUntilItIsTooOld) {
   EXPECT_EQ(estimate.delay(), milliseconds(30));
 }
 
+TEST(ClockEstimateTest, AClockThatHasJumpedIsFollowedAtOnce) {
+  ClockEstimate estimate;
+  estimate.Add(seconds(0), milliseconds(2), seconds(100));  // a quick exchange
+  estimate.Add(seconds(2), seconds(2) + milliseconds(40), seconds(702) + milliseconds(20));
+  EXPECT_EQ(estimate.offset(), seconds(700)) << "however slow the exchange that tells of it";
+  EXPECT_EQ(estimate.delay(), milliseconds(40));
+}
+
+TEST(ClockEstimateTest, AnExchangeThatIsOnlySlowDoesNotMoveIt) {
+  ClockEstimate estimate;
+  estimate.Add(seconds(0), milliseconds(2), seconds(100) + milliseconds(1));
+  estimate.Add(seconds(2), seconds(2) + milliseconds(200), seconds(102) + milliseconds(190));
+  EXPECT_EQ(estimate.offset(), seconds(100));
+}
+
 /// A link with delay and jitter, and a clock that runs fast; asked every two seconds, twice.
 struct Link {
   milliseconds delay, jitter;
