@@ -40,4 +40,22 @@ class SwitchedContext : public RenderContext {
   static inline thread_local SwitchedContext* current_ = nullptr;
 };
 
+/// One that shows nothing and keeps its size. Not copied.
+class OffScreenContext : public SwitchedContext {
+ public:
+  OffScreenContext(int width, int height) : width_(width), height_(height) {}
+  OffScreenContext(const OffScreenContext&) = delete;
+  OffScreenContext& operator=(const OffScreenContext&) = delete;
+
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  bool is_window() const override { return false; }
+  void Present() override {}
+  bool close_requested() const override { return false; }
+
+ private:
+  int width_;
+  int height_;
+};
+
 }  // namespace fsm

@@ -40,9 +40,9 @@ class Display {
 
 /// OpenGL without any surface: the renderer brings its own framebuffer. Software or hardware, as
 /// the machine has it.
-class EglContext : public SwitchedContext {
+class EglContext : public OffScreenContext {
  public:
-  EglContext(int width, int height) : width_(width), height_(height) {
+  EglContext(int width, int height) : OffScreenContext(width, height) {
     if (!eglBindAPI(EGL_OPENGL_API)) Refuse("it has no desktop OpenGL");
     const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
@@ -65,17 +65,10 @@ class EglContext : public SwitchedContext {
     eglDestroyContext(display_.get(), context_);
     Resume(other);
   }
-  EglContext(const EglContext&) = delete;
-  EglContext& operator=(const EglContext&) = delete;
 
   void* GetProcAddress(const char* name) override {
     return reinterpret_cast<void*>(eglGetProcAddress(name));
   }
-  int width() const override { return width_; }
-  int height() const override { return height_; }
-  bool is_window() const override { return false; }
-  void Present() override {}
-  bool close_requested() const override { return false; }
 
  private:
   void Bind() override {
@@ -88,8 +81,6 @@ class EglContext : public SwitchedContext {
   }
 
   Display display_;
-  int width_;
-  int height_;
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 

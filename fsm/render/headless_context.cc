@@ -12,9 +12,9 @@ namespace {
 
 /// Software OpenGL into memory. The renderer draws into framebuffer objects of its own, so the
 /// memory OSMesa insists on is only ever bound, never looked at.
-class HeadlessContext : public SwitchedContext {
+class HeadlessContext : public OffScreenContext {
  public:
-  HeadlessContext(int width, int height) : width_(width), height_(height) {
+  HeadlessContext(int width, int height) : OffScreenContext(width, height) {
     const int attributes[] = {OSMESA_FORMAT,
                               OSMESA_RGBA,
                               OSMESA_DEPTH_BITS,
@@ -39,29 +39,20 @@ class HeadlessContext : public SwitchedContext {
     OSMesaDestroyContext(context_);
     Resume(other);
   }
-  HeadlessContext(const HeadlessContext&) = delete;
-  HeadlessContext& operator=(const HeadlessContext&) = delete;
 
   void* GetProcAddress(const char* name) override {
     return reinterpret_cast<void*>(OSMesaGetProcAddress(name));
   }
-  int width() const override { return width_; }
-  int height() const override { return height_; }
-  bool is_window() const override { return false; }
-  void Present() override {}
-  bool close_requested() const override { return false; }
 
  private:
   void Bind() override {
-    if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_)) {
-      throw std::runtime_error("OSMesa refused a picture of " + std::to_string(width_) + " x " +
-                               std::to_string(height_));
+    if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width(), height())) {
+      throw std::runtime_error("OSMesa refused a picture of " + std::to_string(width()) + " x " +
+                               std::to_string(height()));
     }
   }
   void Release() override { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
 
-  int width_;
-  int height_;
   OSMesaContext context_ = nullptr;
   std::vector<std::uint8_t> pixels_;
 };

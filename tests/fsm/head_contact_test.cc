@@ -15,35 +15,9 @@ namespace {
 
 using testing::GenericHead;
 using testing::RandomState;
+using testing::SeamPairs;
 using testing::Vertices;
 using testing::WithUnit;
-
-/// Pairs of lip vertices that share a place at rest: above and below the seam.
-std::vector<std::pair<std::size_t, std::size_t>> SeamPairs() {
-  const HeadTopology& topology = GenericHead().topology();
-  const HeadVertices rest = Vertices({});
-  FaceState open;
-  open.mouth[11] = 12;
-  const HeadVertices opened = Vertices(open);
-  std::vector<std::size_t> lips;
-  for (const HeadTopology::Part& part : topology.parts) {
-    if (part.material != Material::kLip) continue;
-    lips.insert(lips.end(), &topology.indices[part.first_index],
-                &topology.indices[part.first_index] + part.index_count);
-  }
-  std::ranges::sort(lips);
-  lips.erase(std::ranges::unique(lips).begin(), lips.end());
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const std::size_t a : lips) {
-    for (const std::size_t b : lips) {
-      if (a != b && glm::length(rest.position[a] - rest.position[b]) < 1e-3f &&
-          opened.position[a].y > opened.position[b].y + 0.3f) {
-        pairs.emplace_back(a, b);
-      }
-    }
-  }
-  return pairs;
-}
 
 /// The deepest crossing of the lips in millimetres.
 float LipCrossing(const HeadVertices& v,

@@ -11,6 +11,7 @@ namespace {
 
 using testing::GenericHead;
 using testing::RandomState;
+using testing::SeamPairs;
 using testing::Vertices;
 using testing::WithUnit;
 
@@ -97,28 +98,7 @@ TEST(HeadMouthTest, SealedLipsTouchWhateverElseActs) {
 TEST(HeadMouthTest, LipsNeverCross) {
   // Every pair of lip vertices that share a place at rest, in any state: the one that opens upwards
   // stays above the other.
-  const HeadTopology& topology = GenericHead().topology();
-  const HeadVertices rest = Vertices({});
-  FaceState open;
-  open.mouth[11] = 12;
-  const HeadVertices opened = Vertices(open);
-  std::vector<std::size_t> lips;
-  for (const HeadTopology::Part& part : topology.parts) {
-    if (part.material != Material::kLip) continue;
-    lips.insert(lips.end(), &topology.indices[part.first_index],
-                &topology.indices[part.first_index] + part.index_count);
-  }
-  std::ranges::sort(lips);
-  lips.erase(std::ranges::unique(lips).begin(), lips.end());
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (const std::size_t a : lips) {
-    for (const std::size_t b : lips) {
-      if (rest.position[a] == rest.position[b] &&
-          opened.position[a].y > opened.position[b].y + 0.5f) {
-        pairs.emplace_back(a, b);
-      }
-    }
-  }
+  const auto pairs = SeamPairs();
   EXPECT_GE(pairs.size(), 15u);
   std::mt19937 random(5);
   for (int i = 0; i < 200; ++i) {
