@@ -1,15 +1,18 @@
 // How near `align` comes to the times the synthesiser itself gives, and beside Rhubarb Lip Sync on
-// the same files where its program is on the path. Prints a table:  alignment_bench [VOICE...]
+// the same files where its program `rhubarb` is on the path. Prints a table for each voice:
+//   alignment_bench [VOICE...]
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <sstream>
 
+#include "bench/closures.h"
+#include "bench/rhubarb_peer.h"
 #include "bench/speech_material.h"
 #include "srm/align/phone_aligner.h"
 #include "ssm/engines/wav_piece.h"
@@ -18,12 +21,9 @@
 
 namespace {
 
+using speech_bench::Closures;
+using speech_bench::Interval;
 using speech_bench::Speech;
-
-struct Interval {
-  double start = 0, end = 0;  // ms
-  std::string name{};
-};
 
 std::vector<Interval> Intervals(const vm::PhonemeList& phonemes) {
   std::vector<Interval> list;
@@ -35,8 +35,6 @@ std::vector<Interval> Intervals(const vm::PhonemeList& phonemes) {
   }
   return list;
 }
-
-bool IsClosure(const std::string& name) { return name == "p" || name == "b" || name == "m"; }
 
 /// Which of `ours` stands for which of `theirs`, by least edits; -1 = none.
 std::vector<int> Partners(const std::vector<Interval>& theirs, const std::vector<Interval>& ours) {
@@ -68,27 +66,6 @@ std::vector<int> Partners(const std::vector<Interval>& theirs, const std::vector
   return partner;
 }
 
-struct Closures {
-  int hit = 0, all = 0;
-  double error_sum = 0;  // ms, of the beginning of the nearest closed mouth
-  /// A closure is hit if the mouth is closed in the middle of it.
-  void Add(const std::vector<Interval>& theirs, const std::vector<Interval>& closed) {
-    for (const Interval& truth : theirs) {
-      if (!IsClosure(truth.name)) continue;
-      ++all;
-      const double middle = (truth.start + truth.end) / 2;
-      double nearest = 1000;
-      bool hit_it = false;
-      for (const Interval& one : closed) {
-        hit_it = hit_it || (one.start <= middle && middle < one.end);
-        nearest = std::min(nearest, std::abs(one.start - truth.start));
-      }
-      hit += hit_it;
-      error_sum += nearest;
-    }
-  }
-};
-
 struct Figures {
   std::vector<double> errors;  // of boundaries whose phonemes on both sides agree
   double bias = 0, sound_s = 0, work_s = 0;
@@ -109,48 +86,47 @@ struct Figures {
     }
     std::vector<Interval> closed;
     for (const Interval& one : ours) {
-      if (IsClosure(one.name)) closed.push_back(one);
+      if (speech_bench::IsClosure(one.name)) closed.push_back(one);
     }
     closures.Add(theirs, closed);
   }
 };
 
-void Print(const char* who, const std::string& voice, Figures& figures) {
+/// One line of a voice's table; "n/a" where somebody has no such figure.
+void Line(const char* what, const std::string& ours, const std::string& theirs, const char* goal) {
+  std::printf("  %-34s %12s %12s %8s\n", what, ours.c_str(), theirs.c_str(), goal);
+}
+
+/// `theirs`: null where the peer is not on the path.
+void Print(const std::string& voice, Figures& figures, const Closures* theirs, double peer_s) {
   std::sort(figures.errors.begin(), figures.errors.end());
   const auto n = static_cast<double>(figures.errors.size());
   double sum = 0;
   for (const double error : figures.errors) sum += error;
   const auto within =
       std::upper_bound(figures.errors.begin(), figures.errors.end(), 50.0) - figures.errors.begin();
-  std::printf("%-8s %-6s %5zu/%-5zu %6.1f %6.1f %6.1f %7.1f%% %4d/%-4d %6.1f %7.3f\n", who,
-              voice.c_str(), figures.errors.size(), figures.boundaries,
-              figures.errors[figures.errors.size() / 2], sum / n, figures.bias / n,
-              100.0 * static_cast<double>(within) / n, figures.closures.hit, figures.closures.all,
-              figures.closures.error_sum / figures.closures.all, figures.work_s / figures.sound_s);
+  const std::string none = "n/a";
+  const auto hits = [](const Closures& closures) {
+    return fmt::format("{} of {}", closures.hit, closures.all);
+  };
+  std::printf("%-36s %12s %12s %8s\n", voice.c_str(), "align", "rhubarb", "goal");
+  Line("boundaries whose phonemes agree",
+       fmt::format("{}/{}", figures.errors.size(), figures.boundaries), none, "");
+  Line("median error, ms", fmt::format("{:.1f}", figures.errors[figures.errors.size() / 2]), none,
+       "12");
+  Line("mean error, ms", fmt::format("{:.1f}", sum / n), none, "25");
+  Line("late by, ms", fmt::format("{:.1f}", figures.bias / n), none, "");
+  Line("within 50 ms", fmt::format("{:.1f} %", 100.0 * static_cast<double>(within) / n), none,
+       "98 %");
+  Line("closures of p, b, m hit", hits(figures.closures), theirs ? hits(*theirs) : none, "95 %");
+  Line("their beginning, mean error, ms", fmt::format("{:.1f}", figures.closures.mean_error()),
+       theirs ? fmt::format("{:.1f}", theirs->mean_error()) : none, "25");
+  Line("processor time by sound's time", fmt::format("{:.3f}", figures.work_s / figures.sound_s),
+       theirs ? fmt::format("{:.3f}", peer_s / figures.sound_s) : none, "0.04");
   if (std::getenv("FAR") != nullptr) {
     for (const auto& [pair, count] : figures.far) std::printf("   %s: %d\n", pair.c_str(), count);
   }
   std::fflush(stdout);
-}
-
-/// Rhubarb's answer: "0.25<tab>B" lines, shape A is the closed mouth. Empty: it is not there.
-bool Rhubarb(const std::string& wav, const std::string& text, std::vector<Interval>& closed,
-             double& work_s) {
-  std::ofstream(wav + ".txt") << text;
-  const std::string command = "rhubarb -q -f tsv -r pocketSphinx -d '" + wav + ".txt' -o '" + wav +
-                              ".tsv' '" + wav + "' >/dev/null 2>&1";
-  const auto start = std::chrono::steady_clock::now();
-  if (std::system(command.c_str()) != 0) return false;
-  work_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::ifstream file(wav + ".tsv");
-  double seconds = 0;
-  std::string shape;
-  while (file >> seconds >> shape) {
-    if (!closed.empty() && closed.back().end == 0) closed.back().end = seconds * 1000;
-    if (shape == "A") closed.push_back({seconds * 1000, 0, shape});
-  }
-  if (!closed.empty() && closed.back().end == 0) closed.back().end = 1e9;
-  return true;
 }
 
 bool Measure(const std::string& voice) {
@@ -161,9 +137,9 @@ bool Measure(const std::string& voice) {
     return false;
   }
   Figures ours;
-  Closures peer;
-  double peer_s = 0;
-  const bool has_peer = std::system("command -v rhubarb >/dev/null 2>&1") == 0;
+  Closures peers;
+  speech_bench::Peer peer;
+  const bool has_peer = speech_bench::IsOnPath(peer.program);
   const ssm::TemporaryFolder folder;
   for (const auto* list : {&speech_bench::OtherSentences(), &speech_bench::Phrases()}) {
     for (const std::string& text : *list) {
@@ -175,32 +151,31 @@ bool Measure(const std::string& voice) {
       ours.sound_s += speech_bench::SoundSeconds(speech.samples);
       if (found) ours.Add(truth, Intervals(found->phonemes));
       if (!has_peer) continue;
-      const std::string wav = folder.File("a.wav");
-      std::vector<Interval> closed;
-      if (ssm::WriteWav(wav, speech.samples) && Rhubarb(wav, text, closed, peer_s)) {
-        peer.Add(truth, closed);
+      const std::string wav = folder.File("a.wav"), dialog = folder.File("a.txt");
+      std::ofstream(dialog) << text << "\n";
+      if (!ssm::WriteWav(wav, speech.samples)) return false;
+      auto closed = peer.Closed(wav, dialog);
+      if (!closed) {
+        std::printf("%s\n", closed.error().text.c_str());
+        return false;
       }
+      peers.Add(truth, *closed);
     }
   }
-  Print("align", voice, ours);
-  if (!has_peer) return true;
-  std::printf("%-8s %-6s %44s %4d/%-4d %6.1f %7.3f\n", "rhubarb", voice.c_str(), "", peer.hit,
-              peer.all, peer.all > 0 ? peer.error_sum / peer.all : 0, peer_s / ours.sound_s);
+  Print(voice, ours, has_peer ? &peers : nullptr, peer.work_s);
   return true;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::printf("%-8s %-6s %11s %6s %6s %6s %8s %9s %6s %7s\n", "", "voice", "boundaries", "median",
-              "mean", "bias", "<=50ms", "closures", "error", "rtf");
   const std::vector<std::string> usual = {"slt", "rms", "kal16"};
   for (const std::string& voice :
        argc > 1 ? std::vector<std::string>(argv + 1, argv + argc) : usual) {
     if (!Measure(voice)) return 1;
   }
-  if (std::system("command -v rhubarb >/dev/null 2>&1") != 0) {
-    std::printf("(Rhubarb Lip Sync is not on the path, its lines are left out)\n");
+  if (!speech_bench::IsOnPath(speech_bench::Peer{}.program)) {
+    std::printf("n/a: Rhubarb Lip Sync (program rhubarb) is not on the path\n");
   }
   return 0;
 }

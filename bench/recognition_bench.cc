@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "bench/speech_material.h"
+#include "srm/core/ear.h"
 #include "srm/engine/decoder.h"
 #include "srm/engine/sound_file.h"
 #include "ssm/engines/espeak_engine.h"
@@ -89,6 +90,8 @@ void EnglishGrammar(srm::SpeechDecoder& decoder, Engines& engines) {
     std::printf("%-14s %6d %9d %6d %9d\n", voice, right[0], rejected[0], right[1], rejected[1]);
     std::fflush(stdout);
   }
+  Print("phrases of the grammar", totals);
+  totals = {};
   for (const char* voice : {"slt", "rms", "awb"}) {
     int accepted = 0;
     for (const std::string& other : speech_bench::OtherSentences()) {
@@ -101,7 +104,60 @@ void EnglishGrammar(srm::SpeechDecoder& decoder, Engines& engines) {
     }
     std::printf("%-14s %d of 50 sentences outside the grammar accepted\n", voice, accepted);
   }
-  Print("grammar", totals);
+  Print("sentences outside it", totals);
+}
+
+/// What somebody waits for: from the last sound of speech to the result, beyond Listen.silence. The
+/// phrases come one after the other through the ear, in a room that is never quite silent.
+void ThroughTheEar(std::unique_ptr<srm::SpeechDecoder> decoder, Engines& engines, int noise_db) {
+  UsePhrases(*decoder, speech_bench::Phrases());
+  const srm::Endpointer::Settings settings;
+  std::string heard;
+  bool ended = false;
+  srm::Ear ear(std::move(decoder), nullptr, settings,
+               {.began = [] {},
+                .partial = [](const std::string&) {},
+                .ended =
+                    [&](const srm::Ear::Heard& result) {
+                      heard = result.hypothesis.text;
+                      ended = true;
+                    },
+                .spotted = [](const std::string&) {}});
+  int right = 0, all = 0;
+  double sum_ms = 0, worst_ms = 0, slowest_ms = 0;
+  const Samples gap(16'000);
+  for (const char* voice : {"slt", "rms", "awb"}) {
+    for (const std::string& phrase : speech_bench::Phrases()) {
+      const auto speech = speech_bench::Say(engines.Of(voice), phrase, voice);
+      Samples room = gap;
+      room.insert(room.end(), speech.samples.begin(), speech.samples.end());
+      room.insert(room.end(), gap.begin(), gap.end());
+      room = speech_bench::WithNoise(std::move(room), noise_db);
+      const std::size_t pause = ssm::ToFrames(speech.plan.phonemes.back().duration);
+      const std::size_t end = gap.size() + speech.samples.size() - pause;
+      ++all;
+      heard.clear();
+      ended = false;
+      for (std::size_t at = 0; at < room.size() && !ended; at += 160) {
+        const auto start = Clock::now();
+        ear.Feed(std::span(room).subspan(at, std::min<std::size_t>(160, room.size() - at)));
+        const double work_ms =
+            std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        slowest_ms = std::fmax(slowest_ms, work_ms);
+        if (!ended) continue;
+        const double sound_ms = (static_cast<double>(at + 160) - static_cast<double>(end)) / 16;
+        const double delay_ms = sound_ms - static_cast<double>(settings.silence.count()) + work_ms;
+        sum_ms += delay_ms;
+        worst_ms = std::fmax(worst_ms, delay_ms);
+      }
+      ear.Finish();
+      right += heard == phrase;
+    }
+  }
+  std::printf(
+      "through the ear, noise at %d dB: %d of %d right, last sound to result %.0f ms beyond "
+      "the silence (worst %.0f), longest work at once %.0f ms\n",
+      noise_db, right, all, sum_ms / all, worst_ms, slowest_ms);
 }
 
 void Japanese(srm::SpeechDecoder& decoder, ssm::SpeechEngine& engine, const std::string& voice) {
@@ -221,6 +277,9 @@ int main(int argc, char** argv) {
   }
   Engines engines;
   EnglishGrammar(**decoder, engines);
+  for (const int noise_db : {50, 20}) {
+    if (auto own = srm::OpenPocketsphinx({})) ThroughTheEar(std::move(*own), engines, noise_db);
+  }
   Japanese(**decoder, *engines.espeak, "espeak-ja");
   if (argc > 1) {
     auto engine = ssm::MakeOpenJtalkEngine({.name = "htsvoice", .voice_file = argv[1]});

@@ -72,13 +72,13 @@ void Ear::Finish() { endpointer_.Finish(); }
 
 void Ear::Reset() {
   endpointer_.Reset();
-  if (std::exchange(decoding_, false)) decoder_->End();
+  if (std::exchange(decoding_, false)) decoder_->Abandon();
   utterance_.clear();
 }
 
 vm::Result<void> Ear::Use(const std::vector<const Grammar*>& grammars) {
   if (!decoding_) return decoder_->Use(grammars);
-  decoder_->End();
+  decoder_->Abandon();
   auto used = decoder_->Use(grammars);
   decoder_->Begin();
   decoder_->Feed(std::span(utterance_).first(last_partial_));

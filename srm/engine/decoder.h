@@ -55,7 +55,10 @@ class SpeechDecoder {
   virtual void Feed(std::span<const std::int16_t> samples) = 0;
   /// The words so far; may change.
   virtual std::string Partial() = 0;
+  /// What fits badly is looked at once more, which takes as long again as all of Feed did.
   virtual Hypothesis End() = 0;
+  /// Ends an utterance whose result nobody wants.
+  virtual void Abandon() { static_cast<void>(End()); }
   /// How many hypotheses End looks for; 1 = the best alone (the others take some ms). At most
   /// kMostAlternatives.
   virtual void set_most(std::size_t most) = 0;

@@ -44,11 +44,13 @@ bool LoadInto(HTS_Engine& engine, std::vector<std::string> files) {
 /// The library does not look at what it reads: damaged data end the process, or never come to an
 /// end. So a child loads the files first and says a little with them.
 bool CanBeSpoken(const std::vector<std::string>& files) {
-  constexpr unsigned kLimitS = 10;
+  constexpr unsigned kWorkLimitS = 10, kLimitS = 60;
   const pid_t child = fork();
   if (child == 0) {
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
+    const rlimit little_work{kWorkLimitS, kWorkLimitS};
+    setrlimit(RLIMIT_CPU, &little_work);
     alarm(kLimitS);
     if (const int null = open("/dev/null", O_WRONLY); null >= 0) dup2(null, STDERR_FILENO);
     HTS_Engine engine{};

@@ -1,62 +1,17 @@
 // The real engine on speech made by our own voice. Skipped where the model is not installed.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 
 #include "srm/align/phone_aligner.h"
 #include "srm/engine/pronunciation.h"
-#include "ssm/flite/flite_engine.h"
+#include "tests/srm/speech_world.h"
 
 namespace {
 
 using srm::Millis;
-
-const srm::PocketsphinxOptions kOptions;
-bool HasModel() { return access((kOptions.model + "/cmudict-en-us.dict").c_str(), R_OK) == 0; }
-
-struct Speech {
-  ssm::SpeechPlan plan;
-  std::vector<std::int16_t> samples;
-};
-
-Speech Say(const std::string& text, const std::string& voice = "slt") {
-  static const auto engine = ssm::MakeFliteEngine();
-  const std::atomic<bool> never{false};
-  auto plan = engine->Plan({{.text = text, .voice = voice}}, never);
-  EXPECT_TRUE(plan);
-  ssm::SampleBuffer buffer(ssm::ToFrames(vm::TotalDuration(plan->phonemes)));
-  EXPECT_TRUE(engine->Render(*plan, buffer));
-  return {std::move(*plan), {buffer.Ready().begin(), buffer.Ready().end()}};
-}
-
-class RecognitionTest : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!HasModel()) GTEST_SKIP() << "the model is not installed (pocketsphinx-en-us)";
-    auto opened = srm::OpenPocketsphinx(kOptions);
-    ASSERT_TRUE(opened) << opened.error().text;
-    decoder_ = std::move(*opened);
-  }
-  srm::Hypothesis Hear(const std::vector<std::int16_t>& samples) {
-    decoder_->Begin();
-    for (std::size_t at = 0; at < samples.size(); at += 1600) {
-      decoder_->Feed(
-          std::span(samples).subspan(at, std::min<std::size_t>(1600, samples.size() - at)));
-    }
-    return decoder_->End();
-  }
-  void Use(std::string_view text) {
-    auto grammar = srm::ParseGrammar(text);
-    ASSERT_TRUE(grammar) << grammar.error().text;
-    grammar_ = std::make_unique<srm::Grammar>(std::move(*grammar));
-    auto used = decoder_->Use({grammar_.get()});
-    ASSERT_TRUE(used) << used.error().text;
-  }
-  std::unique_ptr<srm::SpeechDecoder> decoder_;
-  std::unique_ptr<srm::Grammar> grammar_;
-};
+using namespace speech_world;
 
 constexpr const char* kPhrases[] = {
     "yes please",           "no thank you",     "turn on the light",    "turn off the light",
@@ -84,6 +39,38 @@ TEST_F(RecognitionTest, PhrasesOfThreeVoicesAreHeardAsTheyWereSaid) {
   }
   RecordProperty("right", right);
   EXPECT_GE(right, all - 2) << wrong;
+}
+
+/// White noise 20 dB below the sound.
+std::vector<std::int16_t> InNoise(std::vector<std::int16_t> samples) {
+  const double rms = ssm_test::Rms(samples) / 10;
+  std::uint32_t state = 1;
+  for (std::int16_t& sample : samples) {
+    state = state * 1664525u + 1013904223u;
+    const double noise = (static_cast<double>(state >> 8) / (1 << 23) - 1) * rms * std::sqrt(3.0);
+    sample = static_cast<std::int16_t>(std::lround(std::clamp(sample + noise, -32768.0, 32767.0)));
+  }
+  return samples;
+}
+
+TEST_F(RecognitionTest, NoiseThatComesAndGoesIsHeardThrough) {
+  std::string grammar;
+  for (const char* phrase : kPhrases) grammar += std::string(phrase) + "\n";
+  Use(grammar);
+  std::string wrong;
+  int missed = 0;
+  for (const char* voice : {"slt", "awb"}) {
+    for (const char* phrase : kPhrases) {
+      const Speech speech = Say(phrase, voice);
+      Hear(speech.samples);
+      const auto heard = Hear(InNoise(speech.samples));
+      if (heard.text == phrase) continue;
+      ++missed;
+      wrong += std::string(voice) + ": " + phrase + " -> " + heard.text + " " +
+               std::to_string(heard.fit) + "\n";
+    }
+  }
+  EXPECT_EQ(missed, 0) << wrong;
 }
 
 TEST_F(RecognitionTest, WhatIsNotInTheGrammarHasLittleConfidence) {
