@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdio>
 
+#include "vm_protocol/core/xml_text.h"
+
 namespace ear {
 namespace {
 
@@ -14,37 +16,14 @@ std::string Short(double number) {
 
 }  // namespace
 
-std::string EscapeXml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 std::string FormatResult(const ResultReport& report) {
   std::string xml = "<result start=\"" + vm::FormatMs(report.start) + "\" end=\"" +
                     vm::FormatMs(report.end) + "\">";
   int rank = 0;
   for (const Candidate& candidate : report.candidates) {
     xml += "<candidate rank=\"" + std::to_string(++rank) + "\" confidence=\"" +
-           Short(candidate.confidence) + "\" grammar=\"" + EscapeXml(candidate.grammar) +
-           "\" tag=\"" + EscapeXml(candidate.tag) + "\">" + EscapeXml(candidate.text) +
+           Short(candidate.confidence) + "\" grammar=\"" + vm::EscapeXml(candidate.grammar) +
+           "\" tag=\"" + vm::EscapeXml(candidate.tag) + "\">" + vm::EscapeXml(candidate.text) +
            "</candidate>";
   }
   return xml + "</result>";

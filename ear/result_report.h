@@ -28,7 +28,6 @@ struct ResultReport {
 /// <result start="MS" end="MS"><candidate rank="1" confidence="C" grammar="NAME"
 /// tag="MEANING">TEXT</candidate>...</result> on one line.
 std::string FormatResult(const ResultReport& report);
-std::string EscapeXml(std::string_view text);
 
 /// Declares Result and what is said of it before, NoMatch and NoInput.
 void DeclareResultSlots(vm::SlotMachine& slots);

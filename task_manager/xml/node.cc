@@ -1,5 +1,7 @@
 #include "task_manager/xml/node.h"
 
+#include "vm_protocol/core/xml_text.h"
+
 namespace vxml::xml {
 namespace {
 
@@ -95,29 +97,7 @@ bool IsBlank(std::string_view text) {
   return text.find_first_not_of(kBlanks) == std::string_view::npos;
 }
 
-std::string Escape(std::string_view text) {
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
+std::string Escape(std::string_view text) { return vm::EscapeXml(text); }
 
 std::string Write(const Node& node) {
   std::string out;
