@@ -129,7 +129,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       const float groove = 1.4f * taper * std::pow(std::max(0.0f, std::sin(around)), 8.0f);
       const glm::vec3 p(half_width * std::cos(around),
                         base_y + rise + height * std::sin(around) - groove, z);
-      const float open = 0.14f + 0.72f * SmoothStep(0.2f, 1, part);
+      const float open = 0.24f + 0.66f * SmoothStep(0.15f, 0.9f, part);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
       mesh.Add(p, palette.tongue, open, Bone::kTongue, flesh);

@@ -60,7 +60,7 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const EyeAnatomy
   Paint paint = SkinPaint(p, eye, palette);
   if (tag.deep > 0) {
     paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.1f, 0.5f, tag.deep));
-    paint.open = 0.05f + 0.55f * (1 - tag.deep) * (1 - tag.deep);
+    paint.open = 0.13f + 0.5f * (1 - tag.deep) * (1 - tag.deep);
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {
