@@ -7,7 +7,7 @@ packages=(
   g++ cmake ninja-build pkg-config ccache git python3
   libboost1.81-dev libcli11-dev nlohmann-json3-dev libfmt-dev libglm-dev
   libssl-dev openssl zlib1g-dev
-  duktape-dev libexpat1-dev libcurl4-openssl-dev
+  duktape-dev libpcre2-dev libexpat1-dev libcurl4-openssl-dev
   libgtest-dev libbenchmark-dev
   libosmesa6-dev libegl-dev libglfw3-dev libgl-dev libpng-dev libjpeg-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev

@@ -25,6 +25,7 @@ struct Options {
   bool dtmf = false;
   bool from_stdin = false;
   bool check = false;
+  bool lenient = false;
 };
 
 int Judge(const vxml::srgs::Rule& rule, const std::string& input) {
@@ -58,6 +59,7 @@ int Run(const Options& options) {
   vxml::srgs::GrammarContext context;
   context.language = options.language;
   context.mode = options.dtmf ? vxml::srgs::Mode::kDtmf : vxml::srgs::Mode::kVoice;
+  context.alone = !options.lenient;
   const vxml::srgs::Rule* rule = nullptr;
   vm::Result<const vxml::srgs::Grammar*> grammar = nullptr;
   if (options.grammar.starts_with("builtin:")) {
@@ -108,6 +110,9 @@ int main(int argc, char** argv) {
   app.add_option("--rule", options.rule, "start at this rule instead of the root");
   app.add_option("--lang", options.language, "language of built-in types (en, ja)");
   app.add_flag("--dtmf", options.dtmf, "take the grammar's mode as dtmf where it does not say");
+  app.add_flag("--lenient", options.lenient,
+               "take what documents may hold: no version, namespace, language or root, and the "
+               "original's shortcuts");
   app.add_flag("--check", options.check, "only compile and link the grammar");
   app.footer("Exit status: 0 all inputs accepted, 1 one rejected, 2 bad grammar, 3 bad usage.");
   try {

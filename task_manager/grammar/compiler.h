@@ -21,6 +21,9 @@ struct GrammarContext {
   std::string base;  ///< relative references are resolved against it
   std::string language;
   Mode mode = Mode::kVoice;
+  /// A document by itself: what SRGS 1.0 asks of one is asked for, the header, version, namespace
+  /// and language; nothing is inherited and no root guessed, and the shortcuts are no part of it.
+  bool alone = false;
 };
 
 /// The XML form (SRGS 1.0), from a <grammar> element. Also taken: the Galatea shortcuts (<token>
@@ -41,12 +44,22 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
 bool ParseWeight(std::string_view text, double& value);
 /// An XML name without '.', ':' and '-' (SRGS 1.0 section 3.1).
 bool IsRuleName(std::string_view name);
+bool IsSpecialRule(std::string_view name);  ///< NULL, VOID, GARBAGE
+/// A language tag as RFC 3066 writes it: letters, then parts of letters and digits.
+bool IsLanguage(std::string_view text);
+/// A grammar that has what its surroundings give.
+std::unique_ptr<Grammar> MakeGrammar(const GrammarContext& context);
+/// The root is there (one rule alone needs no naming, unless the grammar is `alone`), and so is the
+/// language of a voice grammar. Errors: kSyntax, without place.
+vm::Result<void> CheckHeader(Grammar& grammar, const GrammarContext& context);
 /// In a dtmf grammar every token is made of keys (SRGS 1.0 appendix E); "star" and "pound" are
 /// made '*' and '#'.
 vm::Result<void> CheckTokens(Grammar& grammar);
 
 /// "2", "0-1", "3-" -> min, max. False if it is none of these.
 bool ParseRepeat(std::string_view text, int& min, int& max);
+/// What ABNF writes between '<' and '>': a repeat, and perhaps /its probability/.
+vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat);
 std::unique_ptr<Expansion> MakeToken(std::string_view text);
 /// "grammar.xml#rule" -> the reference's uri and rule.
 void SplitReference(const std::string& reference, Expansion& into);

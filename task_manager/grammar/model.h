@@ -67,6 +67,7 @@ struct Grammar {
   std::string language;
   std::string tag_format;
   Mode mode = Mode::kVoice;
+  bool alone = false;         ///< a document judged by the recommendation alone
   bool split_digits = false;  ///< typed figures need no blanks between them (built-in types)
   std::vector<std::string> header_tags;
   std::map<std::string, std::unique_ptr<Rule>> rules;

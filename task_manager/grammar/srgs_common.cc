@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 
 #include "task_manager/grammar/compiler.h"
@@ -8,7 +9,6 @@ namespace vxml::srgs {
 namespace {
 
 bool ReadCount(std::string_view text, int& value) {
-  text = xml::Trim(text);
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   return read.ec == std::errc() && read.ptr == text.data() + text.size() && value >= 0 &&
          value <= kMaxRepeat;
@@ -32,6 +32,47 @@ bool IsRuleName(std::string_view name) {
     if (!letter) return false;
   }
   return true;
+}
+
+bool IsSpecialRule(std::string_view name) {
+  return name == "NULL" || name == "VOID" || name == "GARBAGE";
+}
+
+bool IsLanguage(std::string_view text) {
+  bool first = true;
+  while (true) {
+    const std::size_t end = std::min(text.find('-'), text.size());
+    if (end == 0 || end > 8) return false;
+    for (const char c : text.substr(0, end)) {
+      const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+      if (!letter && (first || c < '0' || c > '9')) return false;
+    }
+    if (end == text.size()) return true;
+    text.remove_prefix(end + 1);
+    first = false;
+  }
+}
+
+std::unique_ptr<Grammar> MakeGrammar(const GrammarContext& context) {
+  auto grammar = std::make_unique<Grammar>();
+  grammar->uri = context.uri;
+  grammar->language = context.alone ? "" : context.language;
+  grammar->mode = context.mode;
+  grammar->alone = context.alone;
+  return grammar;
+}
+
+vm::Result<void> CheckHeader(Grammar& grammar, const GrammarContext& context) {
+  if (!grammar.root.empty() && !grammar.Find(grammar.root)) {
+    return vm::Fail(vm::Errc::kSyntax, "root rule '" + grammar.root + "' is not defined");
+  }
+  if (context.alone && grammar.mode == Mode::kVoice && grammar.language.empty()) {
+    return vm::Fail(vm::Errc::kSyntax, "a voice grammar has to declare its language");
+  }
+  if (!context.alone && grammar.root.empty() && grammar.rules.size() == 1) {
+    grammar.root = grammar.rules.begin()->first;
+  }
+  return {};
 }
 
 namespace {
@@ -73,11 +114,33 @@ bool ParseRepeat(std::string_view text, int& min, int& max) {
     return true;
   }
   if (!ReadCount(text.substr(0, dash), min)) return false;
-  if (xml::IsBlank(text.substr(dash + 1))) {
+  if (dash + 1 == text.size()) {
     max = Expansion::kUnbounded;
     return true;
   }
   return ReadCount(text.substr(dash + 1), max) && max >= min;
+}
+
+vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat) {
+  const std::string given(inside);
+  if (const std::size_t slash = inside.find('/'); slash != std::string_view::npos) {
+    std::string_view chance = xml::Trim(inside.substr(slash + 1));
+    double value = 0;
+    if (!chance.ends_with('/')) {
+      return vm::Fail(vm::Errc::kSyntax, "'/' expected after the probability");
+    }
+    chance.remove_suffix(1);
+    if (!ParseWeight(chance, value) || value > 1) {
+      return vm::Fail(vm::Errc::kSyntax, "a probability of 0 to 1 expected");
+    }
+    inside = inside.substr(0, slash);
+  }
+  if (!ParseRepeat(xml::Trim(inside), repeat.min, repeat.max)) {
+    return vm::Fail(
+        vm::Errc::kSyntax,
+        "repeat <" + given + ">, expected <N>, <N-M> or <N-> up to " + std::to_string(kMaxRepeat));
+  }
+  return {};
 }
 
 std::unique_ptr<Expansion> MakeToken(std::string_view text) {
@@ -104,10 +167,11 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
   }
   std::string_view start = bytes;
   if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);
+  const std::string_view unmarked = start;
   start = xml::Trim(start);
   const bool utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
   if (!start.starts_with("<") && !utf16) {
-    if (!start.starts_with("#ABNF")) {
+    if (!start.starts_with("#ABNF") || (context.alone && !unmarked.starts_with("#ABNF"))) {
       return vm::Fail(vm::Errc::kSyntax, context.uri + ":1:1: neither XML nor '#ABNF 1.0'");
     }
     std::string text(start);

@@ -84,7 +84,8 @@ vm::Result<void> GrammarStore::LinkReference(Grammar& grammar, Expansion& node) 
   }
   GrammarContext context;
   context.language = grammar.language;
-  context.mode = grammar.mode;
+  if (!grammar.alone) context.mode = grammar.mode;
+  context.alone = grammar.alone;
   // A base may itself be relative: to the place of the grammar.
   const std::string base = grammar.base.empty() || grammar.uri.starts_with("platform:")
                                ? grammar.uri

@@ -1,6 +1,7 @@
 #include "task_manager/script/engine.h"
 
 #include "embedded/prelude.h"
+#include "embedded/regexps.h"
 #include "task_manager/script/engine_impl.h"
 #include "task_manager/script/rewriter.h"
 
@@ -19,10 +20,59 @@ Engine::Impl::Impl(const Limits& given) : limits(given) {
     duk_put_global_string(c, "__t");
     duk_push_c_function(c, &Eval, 1);
     duk_put_global_string(c, "__eval");
+    duk_push_c_function(c, &MatchPattern, 4);
+    duk_put_global_string(c, "__match");
   });
-  const std::string_view prelude = embedded::prelude();
-  ok = Protect([&](duk_context* c) { duk_eval_lstring(c, prelude.data(), prelude.size()); });
+  ok = true;
+  for (const std::string_view source : {embedded::prelude(), embedded::regexps()}) {
+    ok = ok && Protect([&](duk_context* c) { duk_eval_lstring(c, source.data(), source.size()); });
+  }
 }
+
+/// __match(source, flags, text, from): beginnings and ends, or null.
+duk_ret_t Engine::Impl::MatchPattern(duk_context* c) {
+  Impl& impl = From(c);
+  if (impl.steps_left == 0 || impl.Late()) return impl.RunOut(c);
+  duk_size_t source_size = 0;
+  duk_size_t flags_size = 0;
+  duk_size_t text_size = 0;
+  const char* source = duk_require_lstring(c, 0, &source_size);
+  const char* flags = duk_require_lstring(c, 1, &flags_size);
+  const char* text = duk_require_lstring(c, 2, &text_size);
+  const double from = duk_require_number(c, 3);
+  if (text_size > Regexps::kMaxTextBytes) {
+    return duk_error(c, DUK_ERR_RANGE_ERROR, "the text is too long for a regular expression");
+  }
+  // One text is mostly searched many times over: it is kept, alive and in characters.
+  if (impl.searched_in != duk_get_heapptr(c, 2)) {
+    duk_push_heap_stash(c);
+    duk_dup(c, 2);
+    duk_put_prop_string(c, -2, kText);
+    duk_pop(c);
+    impl.searched = Characters({text, text_size});
+    impl.searched_in = duk_get_heapptr(c, 2);
+  }
+  Regexps::Outcome outcome = Regexps::Outcome::kNoMatch;
+  if (from >= 0 && from <= static_cast<double>(impl.searched.size())) {
+    outcome = impl.regexps.Match({source, source_size}, {flags, flags_size}, impl.searched,
+                                 static_cast<std::size_t>(from), impl.spans);
+  }
+  if (outcome == Regexps::Outcome::kOverLimit || impl.Late()) return impl.RunOut(c);
+  if (outcome == Regexps::Outcome::kRefused) {
+    return duk_error(c, DUK_ERR_RANGE_ERROR, "the regular expression is too large");
+  }
+  if (outcome == Regexps::Outcome::kNoMatch) {
+    duk_push_null(c);
+    return 1;
+  }
+  const duk_idx_t result = duk_push_array(c);
+  for (std::size_t i = 0; i < impl.spans.size(); ++i) {
+    duk_push_number(c, static_cast<double>(impl.spans[i]));
+    duk_put_prop_index(c, result, static_cast<duk_uarridx_t>(i));
+  }
+  return 1;
+}
+
 void Engine::Impl::Push(duk_context* c, const Value& value) const {
   if (value.slot_) {
     PushSlot(c, value.slot_->index);

@@ -8,15 +8,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include "task_manager/script/engine.h"
+#include "task_manager/script/regexps.h"
 
 namespace vxml::script {
 
 constexpr duk_size_t kMaxCached = 2000;
 constexpr const char* kValues = "v";
 constexpr const char* kCache = "c";
+constexpr const char* kText = "t";  // the text last searched by a regular expression
+constexpr std::size_t kLargeBlock = std::size_t{64} << 10;
 
 struct BlockHeader {
   std::size_t size;
@@ -44,6 +48,12 @@ struct Engine::Impl {
       impl.starved = true;
       return nullptr;
     }
+    // Large blocks are what long operations on texts are made of, and nobody counts those.
+    if (size > had && size > kLargeBlock && impl.nesting > 0 && impl.Late()) {
+      impl.out_of_time = true;
+      impl.steps_left = 0;
+      return nullptr;
+    }
     auto* block = static_cast<BlockHeader*>(std::realloc(header, sizeof(BlockHeader) + size));
     if (!block) return nullptr;
     impl.used = impl.used - had + size;
@@ -69,25 +79,40 @@ struct Engine::Impl {
     duk_get_memory_functions(c, &functions);
     return *static_cast<Impl*>(functions.udata);
   }
+  /// Whether the evaluation has used up its time. Real time is cheap to ask for; only when that is
+  /// over is the thread's own time looked at, so that a busy machine does not count against it.
+  bool Late() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now <= deadline) return false;
+    const auto spent = ThreadTime() - began;
+    if (spent >= limits.time) return true;
+    deadline = now + (limits.time - spent);
+    return false;
+  }
+  static std::chrono::nanoseconds ThreadTime() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+  }
   static duk_ret_t Tick(duk_context* c) {
     Impl& impl = From(c);
     // Functions of the engine that go over many elements charge for all of them at once.
     const double asked = duk_get_number_default(c, 0, 1);
     const std::uint64_t cost = asked > 1 ? static_cast<std::uint64_t>(std::min(asked, 1e15)) : 1;
-    const bool look = cost > 256 || impl.steps_left % 1024 == 0;
-    const bool late = look && std::chrono::steady_clock::now() > impl.deadline;
-    if (impl.steps_left < cost || late) {
-      impl.steps_left = 0;
-      impl.out_of_time = true;
-      return duk_error(c, DUK_ERR_RANGE_ERROR, "the script runs too long");
-    }
+    if (impl.steps_left < cost || impl.Late()) return impl.RunOut(c);
     impl.steps_left -= cost;
     duk_push_true(c);
     return 1;
   }
+  duk_ret_t RunOut(duk_context* c) {
+    steps_left = 0;
+    out_of_time = true;
+    return duk_error(c, DUK_ERR_RANGE_ERROR, "the script runs too long");
+  }
   void StartBudget() {
     if (nesting > 0) return;
     steps_left = limits.steps;
+    began = ThreadTime();
     deadline = std::chrono::steady_clock::now() + limits.time;
     starved = out_of_time = false;
   }
@@ -153,6 +178,7 @@ struct Engine::Impl {
   }
 
   static duk_ret_t Eval(duk_context* c);
+  static duk_ret_t MatchPattern(duk_context* c);
 
   Limits limits;
   duk_context* context = nullptr;
@@ -161,7 +187,12 @@ struct Engine::Impl {
   std::size_t used = 0;
   std::size_t allowance = 0;
   std::uint64_t steps_left = 0;
+  std::chrono::nanoseconds began{};
   std::chrono::steady_clock::time_point deadline;
+  Regexps regexps;
+  std::u32string searched;  // kText's characters
+  const void* searched_in = nullptr;
+  Regexps::Spans spans;  // here, because an error of the engine jumps over destructors
   bool starved = false;
   bool out_of_time = false;
   bool ok = false;

@@ -5,7 +5,19 @@ namespace vxml::script {
 // --- making values
 
 Value Engine::NewScope() {
-  return impl_->Make([](duk_context* c) { duk_push_bare_object(c); }).value_or(Value());
+  return impl_
+      ->Make([](duk_context* c) {
+        const duk_idx_t scope = duk_push_bare_object(c);
+        // A script that could give these another meaning would no longer be counted.
+        for (const char* name : {"__t", "__f", "__w"}) {
+          duk_push_string(c, name);
+          duk_get_global_string(c, name);
+          duk_def_prop(c, scope,
+                       DUK_DEFPROP_HAVE_VALUE | DUK_DEFPROP_HAVE_WRITABLE |
+                           DUK_DEFPROP_HAVE_ENUMERABLE | DUK_DEFPROP_HAVE_CONFIGURABLE);
+        }
+      })
+      .value_or(Value());
 }
 Value Engine::Undefined() {
   return impl_->Make([](duk_context* c) { duk_push_undefined(c); }).value_or(Value());

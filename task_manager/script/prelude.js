@@ -41,11 +41,40 @@
     for (var i = 0; i < others.length; ++i) sum += typeof others[i] === 'object' ? lengthOf(others[i]) : 1;
     return sum;
   });
-  charge(String.prototype, 'indexOf lastIndexOf split replace', function (text, args) {
+  charge(String.prototype, 'indexOf lastIndexOf split replace includes startsWith endsWith', function (text, args) {
     return lengthOf(text) * (1 + (typeof args[0] === 'string' ? args[0].length / 16 : 0));
   });
-  charge(String.prototype, 'match search', lengthOf);
-  charge(RegExp.prototype, 'exec test', function (pattern, args) { return lengthOf(args[0]); });
+  charge(String.prototype, 'toUpperCase toLowerCase toLocaleUpperCase toLocaleLowerCase trim ' +
+    'localeCompare concat repeat', lengthOf);
+  charge(JSON, 'parse', function (owner, args) { return lengthOf(args[0]); });
+  charge(global, 'encodeURIComponent decodeURIComponent encodeURI decodeURI escape unescape parseInt parseFloat',
+    function (owner, args) { return lengthOf(args[0]); });
+  delete global.Proxy;
+
+  // for (name in __f(object)): the names are charged for before the loop begins.
+  var keys = Object.keys, prototypeOf = Object.getPrototypeOf, define = Object.defineProperty;
+  hide('__f', function (object) {
+    var count = 1;
+    if (typeof object === 'string') count += object.length;
+    for (var at = object; at && (typeof at === 'object' || typeof at === 'function'); at = prototypeOf(at)) {
+      count += keys(at).length;
+    }
+    tick(count);
+    return object;
+  });
+  // with (__w(object)): what the rewriter put in keeps its meaning inside.
+  hide('__w', function (object) {
+    tick();
+    if (object && (typeof object === 'object' || typeof object === 'function')) {
+      ['__t', '__f', '__w'].forEach(function (name) {
+        if (name in object && object[name] !== global[name]) throw new TypeError('with: ' + name + ' is taken');
+        if (Object.isExtensible(object)) {
+          define(object, name, { value: global[name], writable: false, enumerable: false, configurable: false });
+        }
+      });
+    }
+    return object;
+  });
 
   hide('__keys', function (o) { return (o && typeof o === 'object') ? Object.keys(o).join('\n') : ''; });
   hide('__json', function (v) {

@@ -8,9 +8,10 @@ namespace {
 
 /// One open bracket.
 struct Open {
-  enum class Role { kPlain, kWhile, kFor, kParameters, kBody };
+  enum class Role { kPlain, kWhile, kFor, kWith, kParameters, kBody };
   char sign;
   Role role = Role::kPlain;
+  bool is_switch = false;
   int semicolons = 0;        // seen directly inside a `for (`
   bool wrapped = false;      // the `for` test got a closing bracket of ours
   bool declaration = false;  // kParameters/kBody of a hoisted function
@@ -18,7 +19,18 @@ struct Open {
 
 class Rewriter {
  public:
-  Rewriter(std::vector<Token> tokens, SourceKind kind) : tokens_(std::move(tokens)), kind_(kind) {}
+  Rewriter(std::vector<Token> tokens, SourceKind kind) : tokens_(std::move(tokens)), kind_(kind) {
+    closing_.resize(tokens_.size(), tokens_.size());
+    std::vector<std::size_t> round;
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      if (tokens_[i].type != Token::Type::kSign) continue;
+      if (tokens_[i].text == "(") round.push_back(i);
+      if (tokens_[i].text == ")" && !round.empty()) {
+        closing_[round.back()] = i;
+        round.pop_back();
+      }
+    }
+  }
 
   vm::Result<Rewritten> Run() {
     for (at_ = 0; at_ < tokens_.size(); ++at_) {
@@ -56,6 +68,13 @@ class Rewriter {
       next_role_ = Open::Role::kWhile;
     } else if (token.text == "for" && NextIs("(")) {
       next_role_ = Open::Role::kFor;
+    } else if (token.text == "with" && NextIs("(")) {
+      next_role_ = Open::Role::kWith;
+    } else if (token.text == "in" && !open_.empty() && open_.back().role == Open::Role::kFor &&
+               open_.back().semicolons == 0 && !open_.back().wrapped) {
+      open_.back().wrapped = true;
+      out().append("in __f(");
+      return;
     } else if (token.text == "function") {
       return Function(token);
     } else if (token.text == "var" && functions_ == 0 && kind_ == SourceKind::kScript) {
@@ -139,8 +158,27 @@ class Rewriter {
     return true;
   }
 
+  /// {name() {..}} and {get name() {..}}: a function without the word.
+  bool IsMethod() const {
+    if (at_ < 2 || tokens_[at_ - 1].type == Token::Type::kSign) return false;
+    if (tokens_[at_ - 1].text == "if" || tokens_[at_ - 1].text == "switch") return false;
+    const Token& before = tokens_[at_ - 2];
+    return before.text == "{" || before.text == "," || before.text == "get" || before.text == "set";
+  }
+
   void OpenBracket(char c) {
     Open open{c};
+    open.is_switch = c == '(' && at_ > 0 && tokens_[at_ - 1].text == "switch";
+    if (c == '(' && next_role_ == Open::Role::kPlain && IsMethod()) {
+      const std::size_t close = closing_[at_];
+      if (close + 1 < tokens_.size() && tokens_[close + 1].text == "{") {
+        next_role_ = Open::Role::kParameters;
+      }
+    }
+    // Every block behind a bracket counts, and those that catch: time that is over stays over.
+    const bool counted = c == '{' && at_ > 0 && !body_next_ &&
+                         ((tokens_[at_ - 1].text == ")" && !closed_switch_) ||
+                          (tokens_[at_ - 1].text == "finally" && !WasProperty()));
     if (c == '(' && next_role_ != Open::Role::kPlain) {
       open.role = std::exchange(next_role_, Open::Role::kPlain);
       open.declaration = std::exchange(next_is_declaration_, false);
@@ -153,8 +191,10 @@ class Rewriter {
     open_.push_back(open);
     out() += c;
     if (open.role == Open::Role::kWhile) out() += "__t()&&(";
-    if (open.role == Open::Role::kBody) out() += "__t();";
+    if (open.role == Open::Role::kWith) out() += "__w(";
+    if (open.role == Open::Role::kBody || counted) out() += "__t();";
   }
+  bool WasProperty() const { return at_ > 1 && tokens_[at_ - 2].text == "."; }
 
   bool CloseBracket(char c) {
     if (open_.empty()) return false;
@@ -164,7 +204,11 @@ class Rewriter {
         (open.sign == '{' && c != '}')) {
       return false;
     }
-    if (open.role == Open::Role::kWhile || (open.wrapped && open.semicolons < 2)) out() += ')';
+    closed_switch_ = open.is_switch;
+    if (open.role == Open::Role::kWhile || open.role == Open::Role::kWith ||
+        (open.wrapped && open.semicolons < 2)) {
+      out() += ')';
+    }
     out() += c;
     if (open.role == Open::Role::kParameters) {
       body_next_ = true;
@@ -191,6 +235,8 @@ class Rewriter {
   }
 
   std::vector<Token> tokens_;
+  std::vector<std::size_t>
+      closing_;  ///< of each round bracket that opens, the token that closes it
   SourceKind kind_;
   std::size_t at_ = 0;
   std::string body_;
@@ -201,6 +247,7 @@ class Rewriter {
   Open::Role next_role_ = Open::Role::kPlain;
   bool next_is_declaration_ = false;
   bool body_next_ = false;
+  bool closed_switch_ = false;
   int functions_ = 0;
 };
 

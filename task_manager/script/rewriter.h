@@ -9,7 +9,8 @@
 namespace vxml::script {
 
 /// A script made ready to run inside `with` blocks of our scope objects, under a budget.
-///   - every loop test and function entry calls __t(), which counts and may throw;
+///   - every loop test, function entry and block that catches calls __t(), which counts and may
+///     throw; for-in counts the names it goes over (__f), with keeps these names its own (__w);
 ///   - `var` at the top level loses its keyword, its names are listed: they become properties of
 ///     the scope, so functions of the script and later expressions share them;
 ///   - named functions at the top level become assignments, placed first (hoisting).
@@ -21,7 +22,8 @@ struct Rewritten {
 enum class SourceKind { kExpression, kScript };
 
 /// Works on tokens, not on a full parse: what is not ECMAScript stays so and is refused later by
-/// the engine. Errors: kSyntax for unbalanced brackets and unterminated strings or comments.
+/// the engine. Errors: kSyntax for unbalanced brackets, unterminated strings or comments, names
+/// with escapes or of ours, and a '/' of which tokens cannot tell whether it divides (after '}').
 vm::Result<Rewritten> Rewrite(std::string_view source, SourceKind kind);
 
 /// A bare name: letters, digits, '_' and '$', not starting with a digit (bytes beyond ASCII count

@@ -17,6 +17,22 @@ constexpr std::array<std::string_view, 36> kReserved = {
 constexpr std::array<std::string_view, 11> kBeforeOperand = {
     "return", "typeof", "case", "in", "delete", "void", "throw", "new", "else", "do", "instanceof"};
 
+/// Words in front of a bracket after which a statement follows, so a '/' begins a regular
+/// expression.
+constexpr std::array<std::string_view, 4> kHeaders = {"if", "while", "for", "with"};
+
+/// Blanks and line ends beyond ASCII (ECMA-262 sections 7.2 and 7.3), in UTF-8.
+constexpr std::array<std::string_view, 21> kWideBlanks = {
+    "\xc2\xa0",     "\xe1\x9a\x80", "\xe1\xa0\x8e", "\xe2\x80\x80", "\xe2\x80\x81", "\xe2\x80\x82",
+    "\xe2\x80\x83", "\xe2\x80\x84", "\xe2\x80\x85", "\xe2\x80\x86", "\xe2\x80\x87", "\xe2\x80\x88",
+    "\xe2\x80\x89", "\xe2\x80\x8a", "\xe2\x80\xa8", "\xe2\x80\xa9", "\xe2\x80\xaf", "\xe2\x81\x9f",
+    "\xe3\x80\x80", "\xef\xbb\xbf", "\xc2\x85"};
+
+template <std::size_t n>
+bool IsOneOf(const std::array<std::string_view, n>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 bool IsLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '$' || c == '\\' ||
          static_cast<unsigned char>(c) >= 0x80;
@@ -39,7 +55,10 @@ class Scanner {
       const char c = source_[at_];
       if (IsLetter(c)) {
         type = Token::Type::kWord;
-        while (at_ < source_.size() && (IsLetter(source_[at_]) || IsDigit(source_[at_]))) ++at_;
+        SkipWord();
+        const std::string_view word = source_.substr(start, at_ - start);
+        if (word.find('\\') != std::string_view::npos) return Bad("a name with an escape");
+        if (IsOurs(word)) return Bad("the name '" + std::string(word) + "' is the engine's own");
       } else if (IsDigit(c) ||
                  (c == '.' && at_ + 1 < source_.size() && IsDigit(source_[at_ + 1]))) {
         type = Token::Type::kNumber;
@@ -47,10 +66,17 @@ class Scanner {
       } else if (c == '"' || c == '\'') {
         type = Token::Type::kString;
         if (!SkipString(c)) return Bad("a string without end");
-      } else if (c == '/' && RegexMayStart()) {
-        type = Token::Type::kRegex;
-        if (!SkipRegex()) return Bad("a regular expression without end");
+      } else if (c == '/') {
+        const Slash slash = Meaning();
+        if (slash == Slash::kUnclear) return Bad("a '/' that may divide or begin an expression");
+        if (slash == Slash::kDivision) {
+          ++at_;
+        } else {
+          type = Token::Type::kRegex;
+          if (!SkipRegex()) return Bad("a regular expression without end");
+        }
       } else {
+        Bracket(c);
         ++at_;
       }
       tokens_.push_back({type, source_.substr(start, at_ - start), before, newline});
@@ -62,17 +88,37 @@ class Scanner {
     return vm::Fail(vm::Errc::kSyntax, what, at_ + 1);
   }
 
+  /// Bytes of a blank or line end beyond ASCII at `at`, 0 for none.
+  std::size_t WideBlank(std::size_t at) const {
+    if (at >= source_.size() || static_cast<unsigned char>(source_[at]) < 0x80) return 0;
+    const std::string_view rest = source_.substr(at);
+    for (const std::string_view blank : kWideBlanks) {
+      if (rest.starts_with(blank)) return blank.size();
+    }
+    return 0;
+  }
+  bool AtLineEnd() const {
+    const std::string_view rest = source_.substr(at_);
+    return rest[0] == '\n' || rest[0] == '\r' || rest.starts_with("\xe2\x80\xa8") ||
+           rest.starts_with("\xe2\x80\xa9");
+  }
+  void SkipLine() {
+    while (at_ < source_.size() && !AtLineEnd()) ++at_;
+  }
+
   bool SkipGap(bool& newline) {
+    newline = tokens_.empty();
     while (at_ < source_.size()) {
       const char c = source_[at_];
       const std::string_view rest = source_.substr(at_);
-      if (c == '\n' || c == '\r') newline = true;
+      if (AtLineEnd()) newline = true;
       if (c == ' ' || (c >= '\t' && c <= '\r')) {
         ++at_;
-      } else if (rest.starts_with("\xc2\xa0")) {
-        at_ += 2;
-      } else if (rest.starts_with("//") || rest.starts_with("<!--")) {
-        at_ = std::min(source_.find('\n', at_), source_.size());
+      } else if (const std::size_t wide = WideBlank(at_)) {
+        at_ += wide;
+      } else if (rest.starts_with("//") || rest.starts_with("<!--") ||
+                 (newline && rest.starts_with("-->"))) {
+        SkipLine();
       } else if (rest.starts_with("/*")) {
         const std::size_t end = source_.find("*/", at_ + 2);
         if (end == std::string_view::npos) return false;
@@ -83,6 +129,21 @@ class Scanner {
       }
     }
     return true;
+  }
+
+  void SkipWord() {
+    while (at_ < source_.size() && (IsLetter(source_[at_]) || IsDigit(source_[at_])) &&
+           WideBlank(at_) == 0) {
+      ++at_;
+    }
+  }
+
+  /// Names the rewriter puts in: a script that could give them another meaning would not be
+  /// counted.
+  static bool IsOurs(std::string_view word) {
+    if (word == "__t" || word == "__f" || word == "__w" || word == "__v") return true;
+    return word.starts_with("__s") && word.size() > 3 &&
+           word.find_first_not_of("0123456789", 3) == std::string_view::npos;
   }
 
   void SkipNumber() {
@@ -103,7 +164,7 @@ class Scanner {
       } else if (source_[at_] == quote) {
         ++at_;
         return true;
-      } else if (source_[at_] == '\n') {
+      } else if (source_[at_] == '\n' || source_[at_] == '\r') {
         return false;
       }
     }
@@ -112,7 +173,7 @@ class Scanner {
 
   bool SkipRegex() {
     bool in_class = false;
-    for (++at_; at_ < source_.size() && source_[at_] != '\n'; ++at_) {
+    for (++at_; at_ < source_.size() && !AtLineEnd(); ++at_) {
       const char c = source_[at_];
       if (c == '\\') {
         ++at_;
@@ -129,19 +190,51 @@ class Scanner {
     return false;
   }
 
-  bool RegexMayStart() const {
-    if (tokens_.empty()) return true;
+  /// Notes which round brackets belong to `if (`, `while (`, `for (`, `with (`.
+  void Bracket(char c) {
+    if (c == '(') {
+      headers_.push_back(!tokens_.empty() && tokens_.back().type == Token::Type::kWord &&
+                         !IsProperty(tokens_.size() - 1) && IsOneOf(kHeaders, tokens_.back().text));
+    } else if (c == ')' && !headers_.empty()) {
+      closed_header_ = headers_.back();
+      headers_.pop_back();
+    }
+  }
+  bool IsProperty(std::size_t token) const { return token > 0 && tokens_[token - 1].text == "."; }
+
+  enum class Slash { kDivision, kRegex, kUnclear };
+
+  /// Code taken for an expression would escape the rewriter: what cannot be told from the tokens
+  /// alone is refused.
+  Slash Meaning() const {
+    if (tokens_.empty()) return Slash::kRegex;
     const Token& last = tokens_.back();
     if (last.type == Token::Type::kWord) {
-      return std::find(kBeforeOperand.begin(), kBeforeOperand.end(), last.text) !=
-             kBeforeOperand.end();
+      if (IsProperty(tokens_.size() - 1)) return Slash::kDivision;
+      if (IsOneOf(kBeforeOperand, last.text)) return Slash::kRegex;
+      const bool statement =
+          last.text == "break" || last.text == "continue" || last.text == "debugger";
+      return statement ? Slash::kUnclear : Slash::kDivision;
     }
-    return last.type == Token::Type::kSign && last.text != ")" && last.text != "]";
+    if (last.type != Token::Type::kSign || last.text == "]") return Slash::kDivision;
+    if (last.text == ")") return closed_header_ ? Slash::kRegex : Slash::kDivision;
+    if (last.text == "}") return Slash::kUnclear;
+    if (last.text == "+" || last.text == "-") {
+      // a+++/b/ is a++ + /b/: pairs are taken from the left.
+      std::size_t run = 1;
+      for (std::size_t i = tokens_.size() - 1; i > 0; --i, ++run) {
+        if (!tokens_[i].before.empty() || tokens_[i - 1].text != last.text) break;
+      }
+      return run % 2 == 0 ? Slash::kDivision : Slash::kRegex;
+    }
+    return Slash::kRegex;
   }
 
   std::string_view source_;
   std::size_t at_ = 0;
   std::vector<Token> tokens_;
+  std::vector<bool> headers_;
+  bool closed_header_ = false;
 };
 
 }  // namespace
