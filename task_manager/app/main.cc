@@ -49,7 +49,13 @@ int main(int argc, char** argv) {
                  "what was selected, matched, handled and fetched, in JSON lines; - = stderr")
       ->expected(0, 1)
       ->default_str("-");
-  app.add_option("--connect", options.connect, "the hub: unix:PATH or tcp:HOST:PORT");
+  app.add_option("--connect", options.connect,
+                 "the hub: unix:PATH, tcp:HOST:PORT or tls:HOST:PORT");
+  app.add_option("--token-file", options.credentials.token_file, "the secret the hub asks for");
+  app.add_option("--certificate", options.credentials.certificate, "tls: what we show (PEM)");
+  app.add_option("--key", options.credentials.key, "tls: its key (PEM)");
+  app.add_option("--authority", options.credentials.authority,
+                 "tls: who signs for the others (PEM)");
   app.add_option("--name", options.name, "this module's name at the hub");
   app.add_option("--out", options.out, "with a hub: a film of the whole dialogue, FILE.mp4");
   app.add_option("--sessions", options.sessions, "independent sessions of the same document")

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "task_manager/interpreter/session.h"
+#include "vm_protocol/runtime/credentials.h"
 
 namespace vxml {
 
@@ -16,6 +17,7 @@ struct Options {
   std::string transcript_file;
   std::string trace;  ///< file, "-" = stderr, "" = none
   std::string connect;
+  vm::Credentials credentials;
   std::string name = "DM";
   std::string out;  ///< film of the dialogue, .mp4
   bool check = false;

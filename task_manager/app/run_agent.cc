@@ -32,7 +32,7 @@ CommandSource ReadScript(const std::string& path) {
 int RunOne(const Options& options, int number, std::mutex& out) {
   const std::string name = number == 0 ? options.name : options.name + std::to_string(number + 1);
   const bool keyboard = options.scripts.empty() && options.sessions == 1;
-  HubLink hub(options.connect, name, keyboard);
+  HubLink hub({options.connect, options.credentials}, name, keyboard);
   AgentPlatform::Options platform_options;
   platform_options.name = name;
   if (!options.scripts.empty()) {

@@ -113,21 +113,26 @@ void PromptBuilder::Audio(const xml::Node& node) {
   }
   if (source.empty()) return AddChildren(node);
   const std::string uri = source == "recording:" ? source : fetch::Resolve(s_.BaseOf(node), source);
-  if (!Exists(node, uri)) return AddChildren(node);
+  std::shared_ptr<const std::string> sound;
+  if (!Exists(node, uri, sound)) return AddChildren(node);
   EndWords();
-  prompt_.segments.push_back({Segment::Kind::kAudio, uri, Millis(0), "", false, ""});
+  prompt_.segments.push_back({Segment::Kind::kAudio, uri, Millis(0), "", false, "", sound});
   ssml_ += "<audio src=\"" + xml::Escape(uri) + "\"/>";
 }
 
-bool PromptBuilder::Exists(const xml::Node& node, const std::string& uri) {
+bool PromptBuilder::Exists(const xml::Node& node, const std::string& uri,
+                           std::shared_ptr<const std::string>& sound) {
   if (uri.starts_with("recording:") || uri.starts_with("builtin:")) return true;
   fetch::Request request = s_.FetchOptions(node, "audio");
   request.uri = uri;
-  const auto got = s_.fetcher_.Fetch(request);
+  auto got = s_.fetcher_.Fetch(request);
   JsonLine line;
   line.Text("uri", uri).Text("kind", "audio").Bool("ok", got.has_value());
   if (!got) line.Text("error", got.error().text);
   s_.Trace("fetch", line);
+  if (got && !uri.starts_with("file:")) {
+    sound = std::make_shared<const std::string>(std::move(got->body));
+  }
   return got.has_value();
 }
 

@@ -27,7 +27,8 @@ class PromptBuilder {
   void Command(const std::string& line, Millis wait, bool parallel);
   void Speech(const xml::Node& node);
   void Audio(const xml::Node& node);
-  bool Exists(const xml::Node& node, const std::string& uri);
+  bool Exists(const xml::Node& node, const std::string& uri,
+              std::shared_ptr<const std::string>& sound);
   void Enumerate(const xml::Node& node);
   void Foreach(const xml::Node& node);
   void Pause(const xml::Node& node);

@@ -72,7 +72,6 @@ void AgentPlatform::Interrupt(const Command& command, const std::vector<Prompt>&
   auto message = vm::ParseMessage("to @AM-MCL set DialogueInterrupt = NOW");
   if (!message) return;
   interrupting_ = true;
-  hub_.Hold();
   hub_.client().Request(*message, [this, command, keys](const vm::Result<std::string>&) {
     interrupting_ = false;
     if (keys) Hear(Input::Kind::kDtmf, command.hypotheses);

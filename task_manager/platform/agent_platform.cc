@@ -162,7 +162,6 @@ void AgentPlatform::StartParallel(const Prompt& prompt) {
   hub_.Send("to @AM-MCL def DialogueBeside = [{\"wait\": {\"from\": \"" + options_.voice +
             "\", \"slot\": \"Speak.stat\", \"value\": \"SPEAKING\"}, \"limit_ms\": 20000}" + steps +
             "]");
-  hub_.Hold();
   hub_.Send("to @AM-MCL do DialogueBeside");
 }
 
@@ -190,10 +189,16 @@ bool AgentPlatform::Utter(const std::string& text, bool may_be_stopped) {
 /// A sound file, by the voice: it plays what the listener is to hear, also in films.
 void AgentPlatform::PlayFile(const std::string& file, bool may_be_stopped) {
   const std::string path = file.starts_with("file://") ? file.substr(7) : file;
-  if (!path.starts_with("/")) return;  // what was fetched over http is on no disk
+  if (!path.starts_with("/")) return;  // recording: and builtin: have none
   hub_.Send("tell start " + path);
   Utter("<speak><audio src=\"" + xml::Escape(path) + "\"/></speak>", may_be_stopped);
   hub_.Send("tell end " + path);
+}
+
+void AgentPlatform::PlaySound(const Segment& segment, bool may_be_stopped) {
+  if (!segment.sound) return PlayFile(segment.text, may_be_stopped);
+  const auto file = fetched_sounds_.FileOf(segment.text, *segment.sound);
+  if (file) PlayFile(*file, may_be_stopped);
 }
 
 /// Words in one utterance as far as no sound file stands between them.
@@ -224,7 +229,7 @@ void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
       continue;
     }
     end_piece();
-    if (!stopped()) PlayFile(segment.text, may_be_stopped);
+    if (!stopped()) PlaySound(segment, may_be_stopped);
   }
   end_piece();
 }
@@ -288,6 +293,7 @@ void AgentPlatform::Native(const std::string& line) {
 void AgentPlatform::Fetching(const std::string& uri, bool begins) {
   static_cast<void>(uri);
   hub_.Send("to @" + options_.face + (begins ? " set Gaze = -8 14" : " set Gaze = 0 0"));
+  hub_.Flush();  // the fetch itself does not look for news
 }
 
 }  // namespace vxml

@@ -8,6 +8,7 @@
 #include "task_manager/platform/hub_link.h"
 #include "task_manager/platform/input_script.h"
 #include "task_manager/platform/platform.h"
+#include "task_manager/platform/sound_keeper.h"
 
 namespace vxml {
 
@@ -47,6 +48,7 @@ class AgentPlatform final : public Platform {
  private:
   void Say(const Prompt& prompt, bool may_be_stopped);
   bool Utter(const std::string& text, bool may_be_stopped);
+  void PlaySound(const Segment& segment, bool may_be_stopped);
   void PlayFile(const std::string& file, bool may_be_stopped);
   std::string Tagged(const std::vector<Segment>& segments);
   void Act(std::size_t index);
@@ -66,6 +68,7 @@ class AgentPlatform final : public Platform {
   std::size_t acted_ = 0;
   std::deque<std::string> sounds_;  ///< files @SND was told to play
   bool has_sound_module_ = false;
+  SoundKeeper fetched_sounds_;
   std::string in_ear_;           ///< phrases of the grammar loaded last, "" = none
   bool interrupting_ = false;    ///< a scripted interruption is on its way
   std::optional<Command> next_;  ///< of the script, taken but not used

@@ -1,34 +1,22 @@
 #include "task_manager/platform/hub_link.h"
 
-#include <poll.h>
-#include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "vm_protocol/runtime/doorkeeper.h"
 #include "vm_protocol/runtime/endpoint.h"
 
 namespace vxml {
 namespace {
 
-int Connect(const std::string& text) {
-  auto endpoint = vm::ParseEndpoint(text);
-  if (!endpoint) throw std::runtime_error("--connect: " + endpoint.error().text);
-  if (endpoint->kind == vm::Endpoint::Kind::kTls) {
-    throw std::runtime_error("--connect " + text +
-                             ": unix:PATH or tcp:HOST:PORT expected; over TLS, join a hub here that "
-                             "calls the other");
-  }
-  boost::asio::io_context io;
-  vm::Result<int> connected = vm::Fail(vm::Errc::kUnavailable, "no answer");
-  vm::ConnectTo(io, *endpoint, [&](vm::Result<int> fd) { connected = std::move(fd); });
-  io.run();
-  if (!connected) throw std::runtime_error("--connect " + text + ": " + connected.error().text);
-  return *connected;
-}
+constexpr Millis kLongestWait{1000};  ///< of one look for news
+constexpr Millis kFlushLimit{1000};
 
 /// Takes the next whole line out of a buffer.
 std::optional<std::string> TakeLine(std::string& buffer) {
@@ -42,42 +30,58 @@ std::optional<std::string> TakeLine(std::string& buffer) {
 
 }  // namespace
 
-HubLink::HubLink(const std::string& endpoint, const std::string& name, bool keyboard)
-    : fd_(Connect(endpoint)), keyboard_(keyboard) {
+struct HubLink::Channel {
+  explicit Channel(const HubAddress& hub) {
+    const auto endpoint = vm::ParseEndpoint(hub.endpoint);
+    if (!endpoint) throw std::runtime_error("--connect: " + endpoint.error().text);
+    std::optional<vm::Result<std::shared_ptr<vm::StreamPeer>>> called;
+    vm::Call(io, *endpoint, hub.credentials, vm::Framing::kLf, vm::Encoding::kUtf8,
+             [&called](vm::Result<std::shared_ptr<vm::StreamPeer>> given) {
+               called = std::move(given);
+             });
+    while (!called && io.run_one() > 0) {
+    }
+    if (!called || !*called) {
+      throw std::runtime_error("--connect " + hub.endpoint + ": " +
+                               (called ? called->error().text : "no answer"));
+    }
+    stream = std::move(**called);
+  }
+
+  boost::asio::io_context io;
+  std::shared_ptr<vm::StreamPeer> stream;
+  boost::asio::posix::stream_descriptor keys{io};
+};
+
+HubLink::HubLink(const HubAddress& hub, const std::string& name, bool keyboard)
+    : keyboard_(keyboard), channel_(std::make_unique<Channel>(hub)) {
   client_ =
       std::make_unique<vm::Client>([this](std::string_view line) { Send(std::string(line)); });
+  channel_->stream->Start(
+      [this](vm::Result<std::string_view> line) {
+        if (line) client_->HandleLine(*line);
+      },
+      [this](const std::string&) { gone_ = true; });
+  channel_->stream->ResumeReading();
+  if (keyboard_) WaitForKeys();
   auto named = Ask("to @AM set Name = " + name, Millis(5000));
   if (!named)
     throw std::runtime_error("the hub refuses the name " + name + ": " + named.error().text);
 }
 
 HubLink::~HubLink() {
-  if (fd_ >= 0) ::close(fd_);
+  if (!gone_) Flush();
+  channel_->stream->Close();
+  channel_->io.restart();
+  channel_->io.poll();  // lets go of the callbacks that hold us
 }
 
-void HubLink::Send(const std::string& line) {
-  held_ += line + "\n";
-  if (!holding_) Release();
-}
+void HubLink::Send(const std::string& line) { channel_->stream->Send(line); }
 
-void HubLink::Release() {
-  holding_ = false;
-  const std::string whole = std::exchange(held_, "");
-  std::string_view left = whole;
-  while (!left.empty() && !gone_) {
-    const ssize_t n = ::send(fd_, left.data(), left.size(), MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
-      pollfd wait{fd_, POLLOUT, 0};
-      ::poll(&wait, 1, 1000);
-      continue;
-    }
-    if (n < 0) {
-      gone_ = true;
-      return;
-    }
-    left.remove_prefix(static_cast<std::size_t>(n));
-  }
+void HubLink::Flush() {
+  const auto done = std::make_shared<bool>(false);  // outlives a wait that is given up
+  channel_->stream->Flush([done] { *done = true; });
+  WaitFor([&] { return *done; }, kFlushLimit);
 }
 
 vm::Result<std::string> HubLink::Ask(const std::string& line, Millis limit) {
@@ -97,38 +101,47 @@ bool HubLink::WaitFor(const std::function<bool()>& done, std::optional<Millis> l
   const auto deadline = std::chrono::steady_clock::now() + limit.value_or(Millis(0));
   while (!done()) {
     if (gone_) return false;
-    int timeout = 1000;
+    Millis wait = kLongestWait;
     if (limit) {
       const auto left = std::chrono::ceil<Millis>(deadline - std::chrono::steady_clock::now());
       if (left.count() <= 0) return false;
-      timeout = static_cast<int>(std::min<long long>(left.count(), 1000));
+      wait = std::min(left, wait);
     }
-    Pump(timeout);
+    Pump(wait);
   }
   return true;
 }
 
-bool HubLink::Pump(int timeout_ms) {
-  Release();
-  std::array<pollfd, 2> wait{{{fd_, POLLIN, 0}, {STDIN_FILENO, POLLIN, 0}}};
-  const nfds_t count = keyboard_ && !typed_end_ ? 2 : 1;
-  if (::poll(wait.data(), count, timeout_ms) <= 0) return false;
+void HubLink::Pump(Millis limit) {
+  if (keys_from_file_ && !typed_end_) ReadKeys();
+  if (channel_->io.stopped()) channel_->io.restart();
+  channel_->io.run_one_for(limit);
+}
+
+/// A file cannot be waited for and never has to be: it is read at every look for news.
+void HubLink::WaitForKeys() {
+  if (!channel_->keys.is_open()) {
+    struct stat about {};
+    keys_from_file_ = ::fstat(STDIN_FILENO, &about) == 0 && S_ISREG(about.st_mode);
+    if (keys_from_file_) return;
+    channel_->keys.assign(::dup(STDIN_FILENO));
+  }
+  channel_->keys.async_wait(boost::asio::posix::stream_descriptor::wait_read,
+                            [this](const boost::system::error_code& error) {
+                              if (error) typed_end_ = true;
+                              if (!typed_end_) ReadKeys();
+                              if (!typed_end_) WaitForKeys();
+                            });
+}
+
+void HubLink::ReadKeys() {
   std::array<char, 65536> bytes{};
-  if (count == 2 && wait[1].revents != 0) {
-    const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    if (n <= 0) typed_end_ = true;
-    if (n > 0) typed_.append(bytes.data(), static_cast<std::size_t>(n));
-    while (auto line = TakeLine(typed_)) {
-      if (on_typed) on_typed(*line);
-    }
+  const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+  if (n <= 0) typed_end_ = true;
+  if (n > 0) typed_.append(bytes.data(), static_cast<std::size_t>(n));
+  while (auto line = TakeLine(typed_)) {
+    if (on_typed) on_typed(*line);
   }
-  if (wait[0].revents != 0) {
-    const ssize_t n = ::recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT);
-    if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) gone_ = true;
-    if (n > 0) input_.append(bytes.data(), static_cast<std::size_t>(n));
-    while (auto line = TakeLine(input_)) client_->HandleLine(*line);
-  }
-  return true;
 }
 
 }  // namespace vxml

@@ -7,25 +7,32 @@
 
 #include "task_manager/platform/platform.h"
 #include "vm_protocol/core/client.h"
+#include "vm_protocol/runtime/credentials.h"
 
 namespace vxml {
 
-/// A connection to the hub used by one session, with blocking waits. Owns its socket.
-/// Thread: the session's.
+/// Where the hub is and what is shown to it.
+struct HubAddress {
+  std::string endpoint;  ///< unix:PATH, tcp:HOST:PORT or tls:HOST:PORT
+  vm::Credentials credentials;
+};
+
+/// A connection to the hub used by one session, with blocking waits.
+/// Thread: the session's. What is sent goes out together at the next wait: between two lines of one
+/// packet a virtual clock does not move. Limits: those of StreamPeer; a line over them is left out.
 class HubLink {
  public:
   /// Throws std::runtime_error with a sentence if the hub cannot be reached. `keyboard` reads
   /// lines from standard input beside the hub's.
-  HubLink(const std::string& endpoint, const std::string& name, bool keyboard);
+  HubLink(const HubAddress& hub, const std::string& name, bool keyboard);
   ~HubLink();
   HubLink(const HubLink&) = delete;
   HubLink& operator=(const HubLink&) = delete;
 
   vm::Client& client() { return *client_; }
   void Send(const std::string& line);
-  /// Keeps what is sent back until the next wait, so that it arrives together: between two lines of
-  /// one packet a virtual clock does not move.
-  void Hold() { holding_ = true; }
+  /// Hands over what was sent, before work that takes long.
+  void Flush();
   /// Asks and waits for the answer. Errors: the refusal, kTimeout, kUnavailable (the hub is gone).
   vm::Result<std::string> Ask(const std::string& line, Millis limit);
   /// Handles what comes until `done` says so or the time is up. False at the time limit.
@@ -36,15 +43,16 @@ class HubLink {
   bool typed_end() const { return typed_end_; }
 
  private:
-  bool Pump(int timeout_ms);
-  void Release();
-  int fd_ = -1;
+  void Pump(Millis limit);
+  void WaitForKeys();
+  void ReadKeys();
+
+  struct Channel;
   bool keyboard_;
+  std::unique_ptr<Channel> channel_;
+  bool keys_from_file_ = false;
   bool typed_end_ = false;
   bool gone_ = false;
-  bool holding_ = false;
-  std::string held_;
-  std::string input_;
   std::string typed_;
   std::unique_ptr<vm::Client> client_;
 };

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct Segment {
   /// kCommand: runs beside the words instead of between them (<media type="face">).
   bool parallel = false;
   std::string emotion;  ///< kText: the voice follows this feeling; "" = it does not
+  /// kAudio: the sound itself where it lies on no disk here (http, data); null otherwise.
+  std::shared_ptr<const std::string> sound = nullptr;
 };
 
 /// One <prompt> ready to be rendered. Its expressions have been evaluated.

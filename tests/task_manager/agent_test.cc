@@ -1,9 +1,12 @@
 // The agent platform with the real hub and the voice's, the ear's and a face-less stack: the
 // programs as people run them.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cstdlib>
 #include <fstream>
 
+#include "tests/support/certificates.h"
 #include "tests/support/process.h"
 
 namespace vxml_test {
@@ -109,6 +112,58 @@ TEST_F(AgentTest, SoundFilesArePlayedByTheVoiceAlsoThoseForSnd) {
   EXPECT_LT(first, log.find("Speak = after"));
   EXPECT_NE(log.find(play, log.find("Speak = after")), std::string::npos);
   EXPECT_NE(log.find("tell end " + (folder_ / "bell.wav")), std::string::npos);
+}
+
+TEST_F(AgentTest, SoundsThatCameOverTheNetAreKeptForTheVoice) {
+  // 16 kHz, 16 bit, two samples of silence.
+  Talk(
+      "<vxml version=\"2.1\"><form><block><prompt>before <audio src=\"data:audio/x-wav;base64,"
+      "UklGRigAAABXQVZFZm10IBAAAAABAAEAgD4AAAB9AAACABAAZGF0YQQAAAAAAAAA\"/> after</prompt>"
+      "</block></form></vxml>",
+      "silence\n");
+  const std::string log = Log();
+  const std::size_t play = log.find("<speak><audio src=\"/");
+  ASSERT_NE(play, std::string::npos);
+  const std::size_t begin = log.find('/', play);
+  const std::string file = log.substr(begin, log.find('"', begin) - begin);
+  EXPECT_NE(file.find("galatea-sounds-"), std::string::npos) << file;
+  EXPECT_FALSE(std::ifstream(file).good()) << file << " is still there";
+}
+
+TEST_F(AgentTest, TheHubIsReachedOverTlsWithAToken) {
+  support::Certificates certificates(folder_.path());
+  certificates.Sign("distant");  // its files are named so, and "hub" is a socket
+  std::ofstream(folder_ / "token") << "a token nobody guesses\n";
+  chmod((folder_ / "token").c_str(), 0600);
+  std::ofstream(folder_ / "far.json")
+      << "{\"listen\": [{\"at\": \"tls:127.0.0.1:0\", \"certificate\": \""
+      << certificates.Certificate("distant") << "\", \"key\": \"" << certificates.Key("distant")
+      << "\", \"token_file\": \"" << (folder_ / "token") << "\"}], \"modules\": [{\"name\": "
+      << "\"SSM\", \"command\": [\"" GALATEA_BIN_DIR "/ssm_stub\"]}, {\"name\": \"SRM\", "
+      << "\"command\": [\"" GALATEA_BIN_DIR "/srm_stub\"]}]}";
+  support::Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder_ / "far.json"});
+  ASSERT_TRUE(hub.ExpectError("listening on ") && hub.ExpectError("\n")) << hub.ErrorText();
+  const std::string said = hub.ErrorText();
+  const std::size_t at = said.find("127.0.0.1:");
+  ASSERT_NE(at, std::string::npos) << said;
+  const std::string port = std::to_string(std::atoi(said.c_str() + at + 10));
+  std::ofstream(folder_ / "d.vxml")
+      << "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt>Is it "
+         "you?</prompt><filled><exit expr=\"f\"/></filled></field></form></vxml>";
+  std::ofstream(folder_ / "s.txt") << "say yes\n";
+  const auto talk = [&](const std::string& authority) {
+    return support::Process({GALATEA_BIN_DIR "/task_manager", folder_ / "d.vxml", "--connect",
+                             "tls:127.0.0.1:" + port, "--authority", authority, "--token-file",
+                             folder_ / "token", "--script", folder_ / "s.txt"});
+  };
+  support::Process dialogue = talk(certificates.Certificate("ca"));
+  const auto lines = dialogue.ReadAll();
+  EXPECT_EQ(dialogue.Wait(), 0) << dialogue.ErrorText();
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("\"value\":true"), std::string::npos) << lines.back();
+  support::Process wary = talk(certificates.Certificate("distant"));  // not its authority
+  EXPECT_NE(wary.Wait(), 0);
+  EXPECT_NE(wary.ErrorText().find("no TLS agreement"), std::string::npos) << wary.ErrorText();
 }
 
 TEST_F(AgentTest, CommandsBesideTheWordsStartWithTheVoice) {
