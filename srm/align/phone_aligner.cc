@@ -149,8 +149,7 @@ vm::Result<Alignment> PhoneAligner::Align(const std::vector<std::int16_t>& sampl
   }
   ps_decoder_t* decoder = parts_->decoder.get();
   const std::string jsgf = "#JSGF V1.0;\ngrammar a;\npublic <a> = " + rules + ";\n";
-  if (ps_set_jsgf_string(decoder, kSearch, jsgf.c_str()) != 0 ||
-      ps_set_search(decoder, kSearch) != 0) {
+  if (!SetJsgf(decoder, kSearch, jsgf) || ps_set_search(decoder, kSearch) != 0) {
     return vm::Fail(vm::Errc::kBadValue,
                     "the text cannot be aligned: '" + text.substr(0, 60) + "'");
   }

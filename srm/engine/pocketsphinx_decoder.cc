@@ -52,8 +52,7 @@ class PocketsphinxDecoder final : public SpeechDecoder {
       }
     }
     const std::string jsgf = ToJsgf(grammars);
-    if (ps_set_jsgf_string(grammar_.get(), kSearch, jsgf.c_str()) != 0 ||
-        ps_set_search(grammar_.get(), kSearch) != 0) {
+    if (!SetJsgf(grammar_.get(), kSearch, jsgf) || ps_set_search(grammar_.get(), kSearch) != 0) {
       return vm::Fail(vm::Errc::kBadValue, "the recogniser cannot take the grammar");
     }
     using_ = grammar_.get();

@@ -1,6 +1,8 @@
 #include "srm/engine/pocketsphinx_handle.h"
 
 #include <sphinxbase/err.h>
+#include <sphinxbase/fsg_model.h>
+#include <sphinxbase/jsgf.h>
 
 #include <algorithm>
 
@@ -28,6 +30,19 @@ vm::Result<DecoderPtr> OpenDecoder(
                                                 "' (Debian: pocketsphinx-en-us)");
   }
   return DecoderPtr(decoder);
+}
+
+bool SetJsgf(ps_decoder_t* decoder, const char* name, const std::string& text) {
+  const std::unique_ptr<jsgf_t, void (*)(jsgf_t*)> grammar(jsgf_parse_string(text.c_str(), nullptr),
+                                                           jsgf_grammar_free);
+  jsgf_rule_t* rule = grammar ? jsgf_get_public_rule(grammar.get()) : nullptr;
+  if (rule == nullptr) return false;
+  const auto weight = static_cast<float>(cmd_ln_float_r(ps_get_config(decoder), "-lw"));
+  fsg_model_t* model = jsgf_build_fsg(grammar.get(), rule, ps_get_logmath(decoder), weight);
+  if (model == nullptr) return false;
+  const bool set = ps_set_fsg(decoder, name, model) == 0;
+  fsg_model_free(model);  // the decoder has its own hold on it
+  return set;
 }
 
 void AddPhonemeWords(ps_decoder_t* decoder) {

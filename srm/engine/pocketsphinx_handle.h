@@ -27,6 +27,10 @@ using DecoderPtr = std::unique_ptr<ps_decoder_t, DecoderDeleter>;
 vm::Result<DecoderPtr> OpenDecoder(
     const std::string& model, const std::vector<std::pair<std::string, std::string>>& settings);
 
+/// Sets a grammar in JSGF under a name. As ps_set_jsgf_string, which never gives back what it
+/// parsed: that adds up where grammars are switched. False if the decoder cannot take it.
+bool SetJsgf(ps_decoder_t* decoder, const char* name, const std::string& text);
+
 /// The phonemes as words of one phoneme each.
 void AddPhonemeWords(ps_decoder_t* decoder);
 
