@@ -34,7 +34,7 @@ using Chain = std::vector<Value>;
 struct Limits {
   std::size_t heap_bytes = std::size_t{32} << 20;  ///< and up to a quarter more to recover
   std::uint64_t steps = 20'000'000;      ///< loop turns and function calls of one evaluation
-  std::chrono::milliseconds time{1000};  ///< of the processor, for one evaluation
+  std::chrono::milliseconds time{1000};  ///< real time, then as much again of the processor's
   std::size_t source_bytes = std::size_t{1} << 20;
 };
 

@@ -80,10 +80,17 @@ struct Engine::Impl {
     return *static_cast<Impl*>(functions.udata);
   }
   /// Whether the evaluation has used up its time. Real time is cheap to ask for; only when that is
-  /// over is the thread's own time looked at, so that a busy machine does not count against it.
+  /// over is the thread's own time looked at from then on, so that a busy machine does not count
+  /// against a script, and the many short evaluations do not ask the system.
   bool Late() {
     const auto now = std::chrono::steady_clock::now();
     if (now <= deadline) return false;
+    if (!measured) {
+      measured = true;
+      began = ThreadTime();
+      deadline = now + limits.time;
+      return false;
+    }
     const auto spent = ThreadTime() - began;
     if (spent >= limits.time) return true;
     deadline = now + (limits.time - spent);
@@ -112,7 +119,7 @@ struct Engine::Impl {
   void StartBudget() {
     if (nesting > 0) return;
     steps_left = limits.steps;
-    began = ThreadTime();
+    measured = false;
     deadline = std::chrono::steady_clock::now() + limits.time;
     starved = out_of_time = false;
   }
@@ -187,6 +194,7 @@ struct Engine::Impl {
   std::size_t used = 0;
   std::size_t allowance = 0;
   std::uint64_t steps_left = 0;
+  bool measured = false;
   std::chrono::nanoseconds began{};
   std::chrono::steady_clock::time_point deadline;
   Regexps regexps;
