@@ -109,9 +109,9 @@ class LongHair {
   }
 
   void Shell(float side) {
-    constexpr int kStrands = 23;
-    constexpr int kCapRows = 10;  // the skull is round, what hangs nearly straight
-    constexpr int kRows = 16;
+    constexpr int kStrands = 30;
+    constexpr int kCapRows = 13;  // the skull is round, what hangs nearly straight
+    constexpr int kRows = 19;
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Closer together at the face, where the edge is seen.
@@ -136,17 +136,21 @@ class LongHair {
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side > 0);
   }
 
-  // The dark inside of the hanging hair, seen beside the neck.
+  // The dark inside of the hair, seen beside the neck and beyond the far temple.
   void Lining(float side) {
     constexpr int kStrands = 12;
-    constexpr int kRows = 4;
-    constexpr std::array kInset{-14.0f, -8.0f, -5.0f, -2.5f, -0.5f};
+    constexpr int kRows = 6;
+    constexpr std::array kInset{-14.0f, -10.0f, -7.0f, -4.5f, -2.5f, -1.2f, -0.5f};
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
-      const float i = glm::mix(0.01f, 1.0f, static_cast<float>(k) / kStrands);
+      // Beside the face it reaches up to the forehead: there one looks under the hair.
+      const float u = static_cast<float>(k) / kStrands;
+      const float i = glm::mix(0.005f, 1.0f, glm::mix(u * u, u, 0.4f));
+      const float behind = SmoothStep(0.06f, 0.3f, i);
       for (int row = 0; row <= kRows; ++row) {
-        const float t = glm::mix(kCap * 0.6f, kEnd, static_cast<float>(row) / kRows);
-        const float inset = kInset[static_cast<std::size_t>(row)];
+        const float t =
+            glm::mix(kCap * glm::mix(0.1f, 0.6f, behind), kEnd, static_cast<float>(row) / kRows);
+        const float inset = glm::mix(-0.6f, kInset[static_cast<std::size_t>(row)], behind);
         mesh_.Add(Point(i, side, t, inset), palette_.hair, 0.5f, Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .cover = SmoothStep(1.04f, 0.86f, t),
