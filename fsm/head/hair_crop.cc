@@ -78,8 +78,9 @@ class CroppedHair {
   }
 
   void Shell() {
-    constexpr int kAround = 40;
-    constexpr std::array kUp = {0.0f, 0.022f, 0.06f, 0.14f, 0.25f, 0.40f, 0.58f, 0.78f, 1.0f};
+    constexpr int kAround = 56;
+    constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.12f, 0.20f, 0.29f,
+                                0.39f, 0.50f,  0.62f, 0.75f, 0.88f, 1.0f};
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (std::size_t r = 0; r < kUp.size(); ++r) {
       for (int k = 0; k <= kAround; ++k) {
@@ -130,7 +131,7 @@ class CroppedHair {
       const float swing = style_.wave_mm * std::sin(2.2f * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
       const float over = Depth(d, Up(d));  // along the shell
-      path.push_back(scalp_.Over(d, 1.05f * over + lift * v * (1 - 0.75f * v) + 0.5f));
+      path.push_back(scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + 0.3f));
     }
     const float width = glm::mix(2.4f, 2.0f + 0.11f * style_.lock_mm, SmoothStep(0, 0.28f, up));
     AddLock(path,

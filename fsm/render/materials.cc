@@ -46,8 +46,8 @@ struct Surface {
 constexpr Surface kSurfaces[] = {
     // clang-format off
     // material             wrap                   lobes               through sheen saturation bump planar
-    {Material::kSkin,        {0.38F, 0.29F, 0.24F}, {1.5F, 1.9F, 0.0F}, 0.35F, 1.0F, 1.12F, 1.0F, 0.0F},
-    {Material::kLip,         {0.40F, 0.24F, 0.18F}, {1.2F, 1.4F, 3.0F}, 0.35F, 1.0F, 1.10F, 1.0F, 0.0F},
+    {Material::kSkin,        {0.54F, 0.44F, 0.39F}, {1.5F, 1.9F, 0.0F}, 0.35F, 1.0F, 1.12F, 1.0F, 0.0F},
+    {Material::kLip,         {0.52F, 0.40F, 0.34F}, {1.2F, 1.4F, 3.0F}, 0.35F, 1.0F, 1.10F, 1.0F, 0.0F},
     {Material::kTeeth,       {0.30F, 0.26F, 0.22F}, {0.0F, 3.0F, 3.0F}, 0.0F,  0.2F, 1.0F,  0.0F, 0.02F},
     {Material::kGum,         {0.40F, 0.20F, 0.15F}, {0.0F, 3.5F, 2.0F}, 0.0F,  0.2F, 1.0F,  0.1F, 0.01F},
     {Material::kTongue,      {0.40F, 0.20F, 0.15F}, {1.0F, 2.0F, 0.0F}, 0.0F,  0.2F, 1.0F,  0.4F, 0.01F},

@@ -36,9 +36,13 @@ float KeyShadow(vec3 world) {
 vec3 Ambient(vec3 n) { return mix(kGroundColor, kSkyColor, 0.5 + 0.5 * n.y); }
 
 // Light that has gone round under the surface, further for red than for blue; `wrap` says how far.
-// Divided by the sum, so that softer does not mean brighter.
+// Divided by the sum, so that softer does not mean brighter. It fades out softly: an edge in its slope
+// would be seen as a line.
 vec3 Wrapped(float n_dot_l, vec3 wrap) {
-  return max((n_dot_l + wrap) / ((1.0 + wrap) * (1.0 + wrap)), 0.0);
+  const float kSoft = 0.4;
+  vec3 x = (n_dot_l + wrap) / (1.0 + wrap);
+  vec3 t = clamp(x / kSoft, 0.0, 1.0);
+  return (max(x - kSoft, 0.0) + 0.5 * kSoft * t * t) / ((1.0 - 0.5 * kSoft) * (1.0 + wrap));
 }
 
 // What a surface of refractive index about 1.4 mirrors, by the cosine of the angle (Schlick 1994).
