@@ -11,6 +11,7 @@
 #include <string>
 
 #include "face_fit/dress/dress.h"
+#include "face_fit/find/head_finder.h"
 #include "face_fit/report.h"
 #include "fsm/head/face_folder.h"
 
@@ -36,7 +37,7 @@ class Progress {
 };
 
 struct Options {
-  std::string photo, name, out, base = "galatea", networks;
+  std::string photo, name, out, base = "galatea", networks, head;
   int face = 1;
   bool quiet = false;
 };
@@ -47,8 +48,28 @@ T Get(vm::Result<T> result) {
   return std::move(*result);
 }
 
+/// Looks for eyes, nose and mouth of a head from elsewhere and writes them beside it.
+void FindPointsOfHead(const Options& options) {
+  Progress progress(options.quiet);
+  const fsm::HeadFile file = Get(fsm::ReadHeadFile(options.head));
+  facefit::FaceNetworks networks = Get(facefit::FaceNetworks::Load(options.networks));
+  progress.Say("head and networks read");
+  const auto points = facefit::FindHeadPoints(networks, file, options.head, options.base);
+  progress.Say("points found");
+  const std::string path = options.out.empty() ? options.head + ".points" : options.out;
+  std::ofstream out(path);
+  if (!(out << fsm::FormatHeadPoints(points)).flush()) {
+    throw std::runtime_error("cannot write '" + path + "'");
+  }
+  std::cout << "face_fit: wrote " << path << "\n";
+}
+
 void Run(const Options& options) {
   using namespace facefit;
+  if (!options.head.empty()) return FindPointsOfHead(options);
+  if (options.photo.empty() || options.name.empty()) {
+    throw std::runtime_error("a photo and --name, or --head, expected; --help tells more");
+  }
   if (!fsm::IsFaceName(options.name)) {
     throw std::runtime_error("--name '" + options.name +
                              "': letters, digits, - and _ expected, as anna");
@@ -110,8 +131,11 @@ void Run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Makes a face from a photo: fsm --mask NAME wears it");
-  app.add_option("photo", options.photo, "The photo, JPEG or PNG")->required();
-  app.add_option("--name", options.name, "What the face is called")->required();
+  app.add_option("photo", options.photo, "The photo, JPEG or PNG");
+  app.add_option("--name", options.name, "What the face is called");
+  app.add_option("--head", options.head,
+                 "Instead: finds eyes, nose and mouth of a head (.obj, .glb, .gltf, .vrm) and "
+                 "writes HEAD.points, which fsm --head reads (--out: another file)");
   app.add_option("--out", options.out,
                  "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
   app.add_option("--face", options.face, "Which of several faces, 1 = the largest");

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "fsm/mesh/head_file.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/pnt_file.h"
@@ -15,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   std::string why;
-  switch (data[0] % 7) {
+  switch (data[0] % 9) {
     case 0:
       if (const auto file = fsm::ParsePnt("f", text)) {
         for (const auto& name : file->names) {
@@ -45,6 +46,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 5:
       (void)fsm::ParseTeethDef("f", text);
+      break;
+    case 6:
+      if (const auto file = fsm::ParseGltfHead("f", text)) {
+        for (const auto& part : file->parts) {
+          for (const auto v : part.indices) {
+            if (v >= file->position.size()) __builtin_trap();
+          }
+        }
+      }
+      break;
+    case 7:
+      (void)fsm::ParseHeadPoints("f", text);
       break;
     default:
       (void)fsm::DecodeSgi(std::span(data + 1, size - 1), why);

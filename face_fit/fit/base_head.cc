@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "fsm/render/camera.h"
 #include "fsm/render/renderer.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr int kSide = 720;
 
+constexpr int kUpperOuter[] = {185, 40, 39, 37, 0, 267, 269, 270, 409};
+constexpr int kLowerOuter[] = {146, 91, 181, 84, 17, 314, 405, 321, 375};
 constexpr int kUpperInner[] = {78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308};
 constexpr int kLowerInner[] = {95, 88, 178, 87, 14, 317, 402, 318, 324};
 constexpr int kRightEye[] = {33,  246, 161, 160, 159, 158, 157, 173,
@@ -91,6 +94,8 @@ void OntoSeam(const BaseHead& base, std::vector<MeshPlace>& places) {
 }  // namespace
 
 std::span<const int> FitPoints() { return kFit; }
+std::span<const int> UpperOuterLip() { return kUpperOuter; }
+std::span<const int> LowerOuterLip() { return kLowerOuter; }
 std::span<const int> UpperInnerLip() { return kUpperInner; }
 std::span<const int> LowerInnerLip() { return kLowerInner; }
 std::span<const int> EyeOutline(int side) {
@@ -98,9 +103,14 @@ std::span<const int> EyeOutline(int side) {
 }
 
 BaseHead BaseHead::See(FaceNetworks& networks, const std::string& name) {
+  return See(networks, fsm::Head::Make(name), name, true);
+}
+
+BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                       const std::string& name, bool own_seam) {
   BaseHead base;
   base.name = name;
-  base.head = fsm::Head::Make(name);
+  base.head = std::move(head);
   const fsm::FaceState state;
   base.head->Evaluate(state, base.rest);
   const auto context = fsm::RenderContext::MakeHeadless(kSide, kSide);
@@ -111,8 +121,7 @@ BaseHead BaseHead::See(FaceNetworks& networks, const std::string& name) {
     renderer->Read(picture);
   }
   const auto boxes = FindFaces(networks, picture);
-  if (boxes.empty())
-    throw std::runtime_error("no face is seen on the built-in head '" + name + "'");
+  if (boxes.empty()) throw std::runtime_error("no face is seen on the head '" + name + "'");
   const FoundFace face = FindPoints(networks, picture, boxes.front());
 
   const fsm::View view = fsm::FramePortrait(state, fsm::Camera{}, kSide, kSide);
@@ -154,7 +163,7 @@ BaseHead BaseHead::See(FaceNetworks& networks, const std::string& name) {
   }
   const float mm = 2 / view.samples_per_mm;  // samples lie twice as close as pixels
   for (const glm::vec3& p : face.points) base.seen_z.push_back(p.z * mm);
-  OntoSeam(base, base.places);
+  if (own_seam) OntoSeam(base, base.places);
   return base;
 }
 

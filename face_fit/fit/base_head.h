@@ -34,10 +34,16 @@ struct BaseHead {
 
   /// Throws std::runtime_error if it cannot be drawn or no face is seen.
   static BaseHead See(FaceNetworks& networks, const std::string& name);
+  /// Likewise of any head. `own_seam`: its lips meet in a seam that its own units open, onto which
+  /// the points of the inner lips are moved.
+  static BaseHead See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                      const std::string& name, bool own_seam);
 };
 
 /// Points of the network by what they lie on; numbers of MediaPipe's face mesh.
 std::span<const int> FitPoints();           ///< those the fit uses
+std::span<const int> UpperOuterLip();       ///< without corners
+std::span<const int> LowerOuterLip();       ///< likewise
 std::span<const int> UpperInnerLip();       ///< from the person's right to left, corners included
 std::span<const int> LowerInnerLip();       ///< likewise, without corners
 std::span<const int> EyeOutline(int side);  ///< closed; side 0 = the person's right

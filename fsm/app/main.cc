@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -11,8 +12,10 @@
 
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_studio.h"
+#include "fsm/app/head_of_file.h"
 #include "fsm/app/more_faces.h"
 #include "fsm/app/sheet.h"
+#include "fsm/head/face_folder.h"
 #include "vm_protocol/runtime/module_main.h"
 
 namespace {
@@ -25,6 +28,8 @@ struct Options {
   std::vector<int> size_pair;
   std::vector<int> position;
   std::string config;
+  std::string head;
+  std::string export_file;
   std::string sheet;
   std::string out;
   bool no_labels = false;
@@ -73,6 +78,10 @@ void AddOptions(CLI::App& app, Options& options) {
       "--tables", options.module.tables,
       "A folder of tables (mouth_shapes.txt, emotions.txt, ...) in place of the built-in");
   app.add_option("--mask", options.module.mask, "The face worn at the start (default galatea)");
+  app.add_option("--head", options.head,
+                 "A head from elsewhere, .obj, .glb, .gltf or .vrm, worn at the start");
+  app.add_option("--export", options.export_file,
+                 "Writes the face named by --mask with ARKit's shapes as .glb and ends");
   app.add_option("--life", options.module.life,
                  "What the face does by itself from the start: OFF (default), CALM, LIVELY, ...");
   app.add_option("--sheet", options.sheet,
@@ -80,6 +89,44 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--out", options.out, "The sheet's file, .png or .bmp");
   app.add_flag("--no-labels", options.no_labels, "Draws the sheet without names");
   app.add_option("--seed", options.module.seed, "Of what the face does by itself (default 1)");
+}
+
+/// Faces beside the built-in ones, the one to be worn first of all.
+std::vector<fsm::GlStudio::Options::MoreFace> MoreFaces(const Options& options,
+                                                        const fsm::OriginalConfig& config) {
+  auto faces = fsm::FacesOf(config, options.module.tables);
+  if (!options.head.empty()) {
+    std::string name = std::filesystem::path(options.head).stem().string();
+    for (char& c : name) {
+      if (!fsm::IsFaceName(std::string_view(&c, 1))) c = '_';
+    }
+    faces.insert(faces.begin(), {name.empty() ? "head" : name,
+                                 [file = options.head, tables = options.module.tables] {
+                                   return fsm::MakeHeadOfFile(file, tables);
+                                 }});
+  }
+  return faces;
+}
+
+/// Exit code of a run that only writes a head; -1 if none is asked for.
+int ExportIfAsked(const Options& options) {
+  if (options.export_file.empty()) return -1;
+  const auto fail = [](const std::string& text) {
+    std::cerr << "fsm: " << text << "\n";
+    return 1;
+  };
+  const auto tables = fsm::MotionTables::Load(options.module.tables);
+  if (!tables) return fail(tables.error().text);
+  try {
+    const auto head = options.module.mask.empty() ? fsm::Head::MakeGeneric()
+                                                  : fsm::Head::Make(options.module.mask, false);
+    if (auto done = fsm::ExportHead(*head, *tables, options.export_file); !done) {
+      return fail(done.error().text);
+    }
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+  return 0;
 }
 
 fsm::GlStudio::Options StudioOptions(const Options& options) {
@@ -103,7 +150,7 @@ fsm::GlStudio::Options StudioOptions(const Options& options) {
   }
   if (options.context == "egl") studio.off_screen = fsm::OffScreen::kEgl;
   if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};
-  studio.more_faces = fsm::FacesOf(options.module.config, options.module.tables);
+  studio.more_faces = MoreFaces(options, options.module.config);
   using Where = fsm::GlStudio::Options::Where;
   const bool must = options.window || options.context == "window";
   studio.where = must && WindowWanted(options) ? Where::kWindow
@@ -130,7 +177,7 @@ int DrawSheetIfAsked(const Options& options) {
   }
   fsm::GlStudio studio({.width = fsm::kCellWidth,
                         .height = fsm::kCellHeight,
-                        .more_faces = fsm::FacesOf(config, options.module.tables)});
+                        .more_faces = MoreFaces(options, config)});
   if (!options.module.mask.empty()) {
     if (auto worn = studio.Wear(options.module.mask); !worn) return fail(worn.error().text);
   }
@@ -154,7 +201,11 @@ int main(int argc, char** argv) {
        .original_port = 10700,
        .virtual_by_default = true,
        .add_options = [&options](CLI::App& app) { AddOptions(app, options); },
-       .before_start = [&options] { return DrawSheetIfAsked(options); },
+       .before_start =
+           [&options] {
+             const int exported = ExportIfAsked(options);
+             return exported >= 0 ? exported : DrawSheetIfAsked(options);
+           },
        .needs_real_clock = [&options] { return WindowWanted(options); },
        .make = [&options](vm::Scheduler& clock,
                           boost::asio::io_context&) -> std::unique_ptr<vm::Module> {

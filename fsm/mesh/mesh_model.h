@@ -30,6 +30,7 @@ struct MeshModel {
   std::vector<HeadMesh::Batch> batches;
   std::array<EyePlace, 2> eyes{};  ///< right, left; meaningful where has_eyes
   bool has_eyes = false;
+  bool sewn = false;           ///< vertices are doubled where the texture is sewn together
   glm::vec3 hinge{0, -4, -3};  ///< the jaw's axis goes through it, as ours does
   Landmarks landmarks;
   /// Vertices of the upper and the lower lip that meet when the mouth is closed, from the agent's

@@ -8,7 +8,7 @@
 #include "fsm/mesh/lip_seal.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
-#include "fsm/mesh/viseme_mix.h"
+#include "fsm/mesh/shape_mix.h"
 
 namespace fsm {
 namespace {
@@ -23,10 +23,16 @@ constexpr int kEyesClosed = 43;
 /// default, which stands for three quarters here.
 constexpr float kVisemePart = 0.4f;
 
+std::vector<ShapeMix::Row> Rows(const VisemeMouths& mouths) {
+  std::vector<ShapeMix::Row> rows;
+  for (const auto& mouth : mouths) rows.emplace_back(mouth.begin(), mouth.end());
+  return rows;
+}
+
 class OwnMotion : public MeshMotion {
  public:
   OwnMotion(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths)
-      : mix_(mouths), seal_(model, face.wireframe.at.size()) {
+      : mix_(Rows(mouths)), seal_(model, face.wireframe.at.size()) {
     // Offsets belong to the standard wireframe and grow with the face: across with the distance of
     // the eyes, up and down with the height from eyes to mouth.
     const OriginalFrame own(face.wireframe), standard(face.standard);
@@ -79,9 +85,9 @@ class OwnMotion : public MeshMotion {
       if (weight == 0) return;
       for (const Delta& d : field) position[d.vertex] += weight * d.by;
     };
-    const VisemeMix::Parts parts = mix_.TakeApart(state.mouth);
-    for (std::size_t k = 0; k < visemes_.size() && k < parts.visemes.size(); ++k) {
-      add(visemes_[k], kVisemePart * parts.visemes[k]);
+    const ShapeMix::Parts parts = mix_.TakeApart(state.mouth);
+    for (std::size_t k = 0; k < visemes_.size() && k < parts.weights.size(); ++k) {
+      add(visemes_[k], kVisemePart * parts.weights[k]);
     }
     for (std::size_t k = 0; k < mouth_units_.size(); ++k) {
       if (unit_size_[k] != 0) {
@@ -126,7 +132,7 @@ class OwnMotion : public MeshMotion {
   std::vector<Field> units_, mouth_units_, visemes_;
   std::array<float, kMouthParameters> unit_size_{};
   std::vector<float> left_;  // part of the agent's left side in a vertex
-  VisemeMix mix_;
+  ShapeMix mix_;
   LipSeal seal_;
   std::size_t chin_ = 0;
   glm::vec3 chin_rest_{}, hinge_{};

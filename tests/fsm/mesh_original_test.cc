@@ -7,7 +7,7 @@
 
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
-#include "fsm/mesh/viseme_mix.h"
+#include "fsm/mesh/shape_mix.h"
 
 namespace fsm {
 namespace {
@@ -112,27 +112,27 @@ TEST(SmallOriginalFaceTest, AKeyMouthIsShownByItsViseme) {
   EXPECT_NEAR(fall, 0.4F * 0.1F * OriginalFrame(face.wireframe).mm(), 0.1F);
 }
 
-TEST(VisemeMixTest, MixturesComeApartAgain) {
-  std::vector<VisemeMix::Mouth> keys(3);
-  keys[0] = {0.5F, 0, 0.5F, 0, -0.9F, 0, -0.7F, 0, 0, 0, 0, 9};
-  keys[1] = {0.6F, -1, 0.8F, -0.9F, -1.4F, -0.9F, -1.1F, -1, 3.5F, 0.5F, -1.2F, 2};
-  keys[2] = {0.3F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.5F, 5, -5, 0, 2.2F, 5};
-  VisemeMix::Mouth mixed{};
+TEST(ShapeMixTest, MixturesComeApartAgain) {
+  std::vector<ShapeMix::Row> keys;
+  keys.push_back({0.5F, 0, 0.5F, 0, -0.9F, 0, -0.7F, 0, 0, 0, 0, 9});
+  keys.push_back({0.6F, -1, 0.8F, -0.9F, -1.4F, -0.9F, -1.1F, -1, 3.5F, 0.5F, -1.2F, 2});
+  keys.push_back({0.3F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.5F, 5, -5, 0, 2.2F, 5});
+  ShapeMix::Row mixed(12);
   for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] = 0.6F * keys[0][i] + 0.4F * keys[2][i];
-  const auto parts = VisemeMix(keys).TakeApart(mixed);
-  EXPECT_NEAR(parts.visemes[0], 0.6F, 0.03F);
-  EXPECT_NEAR(parts.visemes[1], 0.0F, 0.03F);
-  EXPECT_NEAR(parts.visemes[2], 0.4F, 0.03F);
+  const auto parts = ShapeMix(keys).TakeApart(mixed);
+  EXPECT_NEAR(parts.weights[0], 0.6F, 0.03F);
+  EXPECT_NEAR(parts.weights[1], 0.0F, 0.03F);
+  EXPECT_NEAR(parts.weights[2], 0.4F, 0.03F);
   EXPECT_NEAR(parts.rest[11], 0, 0.2F);
 }
 
-TEST(VisemeMixTest, WhatNoKeyExplainsIsGivenBack) {
-  std::vector<VisemeMix::Mouth> keys(1);
+TEST(ShapeMixTest, WhatNoKeyExplainsIsGivenBack) {
+  std::vector<ShapeMix::Row> keys(1, ShapeMix::Row(12));
   keys[0][11] = 9;
-  VisemeMix::Mouth mouth{};
+  ShapeMix::Row mouth(12);
   mouth[9] = 2;
-  const auto parts = VisemeMix(keys).TakeApart(mouth);
-  EXPECT_EQ(parts.visemes[0], 0);
+  const auto parts = ShapeMix(keys).TakeApart(mouth);
+  EXPECT_EQ(parts.weights[0], 0);
   EXPECT_EQ(parts.rest[9], 2);
 }
 

@@ -1,4 +1,4 @@
-#include "fsm/mesh/viseme_mix.h"
+#include "fsm/mesh/shape_mix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace fsm {
 namespace {
 
-float Product(const VisemeMix::Mouth& a, const VisemeMix::Mouth& b) {
+float Product(const ShapeMix::Row& a, const ShapeMix::Row& b) {
   float sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
@@ -15,27 +15,27 @@ float Product(const VisemeMix::Mouth& a, const VisemeMix::Mouth& b) {
 
 }  // namespace
 
-VisemeMix::VisemeMix(std::vector<Mouth> keys) : keys_(std::move(keys)) {
-  for (const Mouth& a : keys_) {
-    std::vector<float> row;
-    for (const Mouth& b : keys_) row.push_back(Product(a, b));
-    products_.push_back(std::move(row));
+ShapeMix::ShapeMix(std::vector<Row> keys) : keys_(std::move(keys)) {
+  for (const Row& a : keys_) {
+    Row products;
+    for (const Row& b : keys_) products.push_back(Product(a, b));
+    products_.push_back(std::move(products));
   }
 }
 
-VisemeMix::Parts VisemeMix::TakeApart(const Mouth& mouth) const {
+ShapeMix::Parts ShapeMix::TakeApart(std::span<const float> row) const {
   // One key after another takes its best part; a small price on every part prefers few keys.
   constexpr int kRounds = 60;
   constexpr float kPrice = 0.05F, kMost = 1.5F, kLeast = 1e-3F;
   Parts parts;
-  parts.rest = mouth;
+  parts.rest.assign(row.begin(), row.end());
   for (float& v : parts.rest) {
     if (!std::isfinite(v)) v = 0;
   }
-  parts.visemes.assign(keys_.size(), 0);
+  parts.weights.assign(keys_.size(), 0);
   std::vector<float> slope;  // of the fit, by key
   float size = 0;
-  for (const Mouth& key : keys_) {
+  for (const Row& key : keys_) {
     slope.push_back(Product(key, parts.rest));
     size = std::max(size, std::abs(slope.back()));
   }
@@ -45,18 +45,18 @@ VisemeMix::Parts VisemeMix::TakeApart(const Mouth& mouth) const {
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       const float own = products_[k][k];
       if (own < kLeast) continue;
-      const float wanted = std::clamp(parts.visemes[k] + (slope[k] - kPrice) / own, 0.0F, kMost);
-      const float by = wanted - parts.visemes[k];
+      const float wanted = std::clamp(parts.weights[k] + (slope[k] - kPrice) / own, 0.0F, kMost);
+      const float by = wanted - parts.weights[k];
       if (by == 0) continue;
-      parts.visemes[k] = wanted;
+      parts.weights[k] = wanted;
       moved = std::max(moved, std::abs(by));
       for (std::size_t j = 0; j < keys_.size(); ++j) slope[j] -= by * products_[k][j];
     }
     if (moved < kLeast) break;
   }
   for (std::size_t k = 0; k < keys_.size(); ++k) {
-    for (std::size_t i = 0; i < mouth.size(); ++i) {
-      parts.rest[i] -= parts.visemes[k] * keys_[k][i];
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      parts.rest[i] -= parts.weights[k] * keys_[k][i];
     }
   }
   return parts;

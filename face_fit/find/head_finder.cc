@@ -1,0 +1,95 @@
+#include "face_fit/find/head_finder.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "face_fit/fit/base_head.h"
+
+namespace facefit {
+namespace {
+
+/// Ways a file may have its head stand, each as the turn that sets it upright to the viewer.
+constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards z
+                                {-1, 0, 0, 0, 1, 0, 0, 0, -1},  // towards -z
+                                {1, 0, 0, 0, 0, -1, 0, 1, 0},   // z up, towards -y
+                                {0, 0, 1, 0, 1, 0, -1, 0, 0},   // towards -x
+                                {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards x
+
+/// The head as large as ours and in the middle of the picture, the upper part of a whole figure.
+fsm::Similarity Guess(const fsm::HeadFile& file, const glm::mat3& turn, float part) {
+  glm::vec3 low(1e9F), high(-1e9F);
+  for (const glm::vec3& p : file.position) {
+    low = glm::min(low, turn * p);
+    high = glm::max(high, turn * p);
+  }
+  constexpr float kHeight = 290, kTop = 140;
+  fsm::Similarity guess;
+  guess.turn = turn;
+  guess.scale = kHeight / std::max((high.y - low.y) * part, 1e-6F);
+  guess.move = {-0.5F * guess.scale * (low.x + high.x), kTop - guess.scale * high.y,
+                -0.5F * guess.scale * (low.z + high.z)};
+  return guess;
+}
+
+fsm::FacePart PartOf(int point) {
+  const auto among = [point](std::span<const int> list) {
+    return std::ranges::find(list, point) != list.end();
+  };
+  constexpr int kUpperLids[] = {246, 161, 160, 159, 158, 157, 173,
+                                466, 388, 387, 386, 385, 384, 398};
+  constexpr int kLowerLids[] = {7, 163, 144, 145, 153, 154, 155, 249, 390, 373, 374, 380, 381, 382};
+  if (among(UpperOuterLip())) return fsm::FacePart::kUpperLip;
+  if (among(LowerOuterLip())) return fsm::FacePart::kLowerLip;
+  if (among(kUpperLids)) return fsm::FacePart::kUpperLid;
+  if (among(kLowerLids)) return fsm::FacePart::kLowerLid;
+  return fsm::FacePart::kPlain;
+}
+
+}  // namespace
+
+fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
+                               const std::string& name, const std::string& face) {
+  const BaseHead base = BaseHead::See(networks, face);
+  // Where both lips meet a point may come to lie on either.
+  std::set<int> ambiguous(UpperInnerLip().begin(), UpperInnerLip().end());
+  ambiguous.insert(LowerInnerLip().begin(), LowerInnerLip().end());
+  const auto pairs = [&](const BaseHead& other, const fsm::Similarity& place) {
+    std::vector<fsm::PlacePair> found;
+    for (const int point : FitPoints()) {
+      const auto k = static_cast<std::size_t>(point);
+      if (ambiguous.contains(point)) continue;
+      const glm::vec3 at = other.places[k].On(other.rest.position);
+      const glm::vec3 raw = glm::transpose(place.turn) * ((at - place.move) / place.scale);
+      found.push_back({base.places[k].On(base.rest.position), raw, PartOf(point)});
+    }
+    return found;
+  };
+  const auto see = [&](const fsm::Similarity& place) {
+    return BaseHead::See(networks,
+                         fsm::MakeMeshHead(fsm::ModelOf(file, place, -43), fsm::StillMotion()),
+                         name, false);
+  };
+  for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
+    for (const glm::mat3& turn : kTurns) {
+      std::optional<std::vector<fsm::PlacePair>> first;
+      const fsm::Similarity guess = Guess(file, turn, part);
+      try {
+        first = pairs(see(guess), guess);
+      } catch (const std::runtime_error&) {
+        continue;  // nothing is seen from there
+      }
+      // Once more, as large and straight as our own head was looked at.
+      const fsm::Similarity straight = fsm::FitSimilarity(*first);
+      return {face, pairs(see(straight), straight)};
+    }
+  }
+  throw std::runtime_error("no face is seen on '" + name +
+                           "' from any side; points can be written by hand (docs/heads.md)");
+}
+
+}  // namespace facefit

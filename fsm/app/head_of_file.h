@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fsm/head/head.h"
+#include "fsm/mesh/gltf_writer.h"
+#include "fsm/motion/motion_tables.h"
+
+namespace fsm {
+
+/// Somebody else's head out of .obj, .glb, .gltf or .vrm. It is moved by its own shapes where their
+/// names are ARKit's or VRM's, else by ours carried over with the points of `path`.points; without
+/// either only head, eyes and jaw move, and a notice says so. Throws std::runtime_error.
+std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables);
+
+/// Every ARKit shape of the tables as a state of the face.
+std::vector<ExportedShape> ArkitShapes(const MotionTables& tables);
+
+/// Writes a built-in head with all ARKit shapes; see WriteGltfHead. Errors: kUnavailable.
+vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path);
+
+}  // namespace fsm

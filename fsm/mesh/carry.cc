@@ -1,0 +1,152 @@
+#include "fsm/mesh/carry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "fsm/head/spline.h"
+#include "fsm/head/warp.h"
+#include "fsm/mesh/surface_index.h"
+
+namespace fsm {
+namespace {
+
+/// Marks a surface's lips and lids by the ways from those of the pairs that lie on them.
+void MarkParts(WeldedSurface& surface, std::span<const PlacePair> pairs, bool from) {
+  const auto seeds = [&](FacePart part) {
+    std::vector<glm::vec3> places;
+    for (const PlacePair& pair : pairs) {
+      if (pair.part == part) places.push_back(from ? pair.from : pair.to);
+    }
+    return places;
+  };
+  const auto mark = [&](FacePart upper, FacePart lower, float reach, float clear,
+                        std::vector<float>& out) {
+    const auto above = seeds(upper), below = seeds(lower);
+    if (above.empty() || below.empty()) return;
+    const auto up = surface.WayFrom(above, reach), down = surface.WayFrom(below, reach);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const float here = std::clamp((down[i] - up[i]) / clear, -1.0f, 1.0f);
+      // Farther away both go over into what is neither.
+      out[i] = here * SmoothStep(reach, 0.5f * reach, std::min(up[i], down[i]));
+    }
+  };
+  mark(FacePart::kUpperLip, FacePart::kLowerLip, 40, 12, surface.lip);
+  mark(FacePart::kUpperLid, FacePart::kLowerLid, 20, 8, surface.lid);
+}
+
+/// Spreads values over a surface; those with no weight of their own take their neighbours'.
+template <typename T>
+void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<float> weight,
+            int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<T> old = value;
+    const std::vector<float> old_weight = weight;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      T sum = old[i] * old_weight[i];
+      float total = old_weight[i];
+      for (const std::uint32_t j : surface.next[i]) {
+        sum += old[j] * old_weight[j];
+        total += old_weight[j];
+      }
+      if (total > 1e-6f) value[i] = sum * (1 / total);
+      weight[i] = total / static_cast<float>(surface.next[i].size() + 1);
+    }
+  }
+}
+
+}  // namespace
+
+Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const PlacePair> pairs) {
+  if (pairs.size() < 8) {
+    throw std::runtime_error("at least eight places that both faces have are needed");
+  }
+  const WeldedSurface rest = [&] {
+    WeldedSurface surface(from.position, from.triangles, from.sewn);
+    MarkParts(surface, pairs, true);
+    return surface;
+  }();
+  WeldedSurface target(to.position, to.triangles, to.sewn);
+  MarkParts(target, pairs, false);
+
+  std::vector<WarpPoint> points;
+  for (const PlacePair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
+  const Warp warp(points, 0.5f);
+  WeldedSurface drawn = rest;
+  for (glm::vec3& p : drawn.at) p += warp.Motion(p);
+  drawn.FindNormals();
+
+  // Drawn onto the other surface in rounds, at first as a whole, in the end in detail.
+  constexpr float kReach = 14;
+  const SurfaceIndex there(target, kReach);
+  constexpr int kSpread[] = {40, 24, 14, 8, 5, 3};
+  for (const int rounds : kSpread) {
+    std::vector<glm::vec3> by(drawn.at.size(), glm::vec3(0));
+    std::vector<float> weight(drawn.at.size(), 0);
+    float sum = 0, count = 0;
+    for (std::size_t i = 0; i < drawn.at.size(); ++i) {
+      const auto hit = there.Find(drawn.at[i], drawn.normal[i], drawn.lip[i], drawn.lid[i]);
+      if (!hit) continue;
+      by[i] = hit->at - drawn.at[i];
+      weight[i] = SmoothStep(kReach, 0.4f * kReach, hit->far);
+      sum += weight[i] * hit->far;
+      count += weight[i];
+    }
+    residual_ = sum / std::max(count, 1e-6f);
+    Spread(drawn, by, weight, rounds);
+    for (std::size_t i = 0; i < drawn.at.size(); ++i) drawn.at[i] += 0.8f * by[i];
+    drawn.FindNormals();
+  }
+
+  constexpr float kTieReach = 20;
+  const SurfaceIndex own(drawn, kTieReach);
+  ties_.resize(target.at.size());
+  std::vector<std::uint32_t> open;
+  std::vector<bool> tied(target.at.size(), false);
+  for (std::uint32_t w = 0; w < target.at.size(); ++w) {
+    const auto hit = own.Find(target.at[w], target.normal[w], target.lip[w], target.lid[w]);
+    if (!hit) continue;
+    const auto& t = drawn.triangles[hit->triangle];
+    ties_[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
+    tied[w] = true;
+    open.push_back(w);
+  }
+  // What lies over no place of the first face, as the lining of a mouth, goes with its neighbours.
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    for (const std::uint32_t w : target.next[open[k]]) {
+      if (tied[w]) continue;
+      ties_[w] = ties_[open[k]];
+      tied[w] = true;
+      open.push_back(w);
+    }
+  }
+  for (std::size_t w = 0; w < ties_.size(); ++w) {
+    if (!tied[w]) ties_[w].part = glm::vec3(0);
+  }
+  next_ = std::move(target.next);
+  of_ = std::move(target.of);
+}
+
+void Carry::Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const {
+  std::vector<glm::vec3> by;
+  by.reserve(ties_.size());
+  for (const Tie& tie : ties_) {
+    by.push_back(from_by[tie.corner[0]] * tie.part.x + from_by[tie.corner[1]] * tie.part.y +
+                 from_by[tie.corner[2]] * tie.part.z);
+  }
+  // Neighbours may be tied to places that lie apart: each takes a quarter of its neighbours' mean.
+  std::vector<glm::vec3> even = by;
+  for (std::size_t w = 0; w < by.size(); ++w) {
+    if (next_[w].empty()) continue;
+    glm::vec3 sum(0);
+    for (const std::uint32_t n : next_[w]) sum += by[n];
+    even[w] = 0.75f * by[w] + 0.25f * sum / static_cast<float>(next_[w].size());
+  }
+  for (std::size_t v = 0; v < of_.size(); ++v) {
+    if (of_[v] != WeldedSurface::kNone) to_by[v] += even[of_[v]];
+  }
+}
+
+}  // namespace fsm

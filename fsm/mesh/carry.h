@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+namespace fsm {
+
+/// What lies so near to its opposite that the nearest place may be the wrong one.
+enum class FacePart : std::uint8_t { kPlain, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
+
+/// The same place on two faces, millimetres.
+struct PlacePair {
+  glm::vec3 from, to;
+  FacePart part = FacePart::kPlain;
+};
+
+/// A face to carry motion from or to. Both lie in the same frame, nearly over each other.
+struct CarrySurface {
+  std::span<const glm::vec3> position;       ///< all vertices, at rest
+  std::span<const std::uint32_t> triangles;  ///< of flesh, outside counter-clockwise
+  /// Vertices are doubled where the texture is sewn together. Else two at one place are two, as
+  /// where closed lips meet.
+  bool sewn = false;
+};
+
+/// Carries displacements of one face over to another, whatever its mesh: landmarks guide a radial
+/// warp, the warped surface is then drawn onto the other, and every vertex follows the place of the
+/// first face it came to lie on (expression cloning, Noh and Neumann 2001). Motion keeps its size
+/// and direction: turned and stretched with the local surface, as in that paper, the large motions
+/// of a jaw tear, and shapes brought to another head and back came out a third smaller. Upper and
+/// lower lips and lids are told apart along the surface, so that they are never taken for each
+/// other. Immutable; thread: any.
+class Carry {
+ public:
+  /// Throws std::runtime_error if there are fewer than eight pairs or they lie in a plane.
+  Carry(const CarrySurface& from, const CarrySurface& to, std::span<const PlacePair> pairs);
+  /// Adds to `to_by` what `from_by` means there; both by vertex.
+  void Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const;
+  /// Mean distance of the drawn surface from the other over what was matched, millimetres.
+  float residual_mm() const { return residual_; }
+
+ private:
+  struct Tie {
+    std::array<std::uint32_t, 3> corner{};
+    glm::vec3 part{1, 0, 0};
+  };
+  std::vector<Tie> ties_;  // of the second face's vertices, doubled ones once
+  std::vector<std::vector<std::uint32_t>> next_;
+  std::vector<std::uint32_t> of_;  // index into ties_ of each given vertex
+  float residual_ = 0;
+};
+
+}  // namespace fsm

@@ -1,0 +1,353 @@
+#include "fsm/mesh/gltf_document.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "fsm/mesh/obj_file.h"
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxElements = 4U << 20;  ///< of one accessor
+constexpr std::size_t kMaxDepth = 64;           ///< of the JSON
+
+const json kNothing = json::object();
+
+std::uint32_t Word(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 4; k-- > 0;) value = value << 8 | static_cast<std::uint8_t>(bytes[at + k]);
+  return value;
+}
+
+std::optional<std::string> FromBase64(std::string_view text) {
+  std::string out;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    std::uint32_t value = 0;
+    if (c >= 'A' && c <= 'Z') {
+      value = static_cast<std::uint32_t>(c - 'A');
+    } else if (c >= 'a' && c <= 'z') {
+      value = static_cast<std::uint32_t>(c - 'a') + 26;
+    } else if (c >= '0' && c <= '9') {
+      value = static_cast<std::uint32_t>(c - '0') + 52;
+    } else if (c == '+' || c == '/') {
+      value = c == '+' ? 62 : 63;
+    } else if (c == '=') {
+      break;
+    } else {
+      return std::nullopt;
+    }
+    bits = bits << 6 | value;
+    if (++count == 4) {
+      for (int k = 16; k >= 0; k -= 8) out += static_cast<char>(bits >> k & 0xff);
+      bits = 0;
+      count = 0;
+    }
+  }
+  if (count >= 2) out += static_cast<char>(bits >> (6 * count - 8) & 0xff);
+  if (count == 3) out += static_cast<char>(bits >> 2 & 0xff);
+  return out;
+}
+
+struct Kind {
+  std::size_t bytes;
+  double scale;  // of a normalised one
+  bool sign;
+};
+
+std::optional<Kind> KindOf(std::int64_t component) {
+  switch (component) {
+    case 5120:
+      return Kind{1, 127, true};
+    case 5121:
+      return Kind{1, 255, false};
+    case 5122:
+      return Kind{2, 32767, true};
+    case 5123:
+      return Kind{2, 65535, false};
+    case 5125:
+      return Kind{4, 4294967295.0, false};
+    case 5126:
+      return Kind{4, 1, true};
+    default:
+      return std::nullopt;
+  }
+}
+
+double Value(const std::uint8_t* at, std::int64_t component, const Kind& kind, bool normalised) {
+  std::uint32_t bits = 0;
+  for (std::size_t k = kind.bytes; k-- > 0;) bits = bits << 8 | at[k];
+  if (component == 5126) {
+    float value = 0;
+    std::memcpy(&value, &bits, sizeof(value));
+    return std::isfinite(value) ? static_cast<double>(value) : 0;
+  }
+  double value = bits;
+  if (kind.sign) {
+    value = kind.bytes == 1 ? static_cast<std::int8_t>(bits) : static_cast<std::int16_t>(bits);
+  }
+  return normalised ? std::max(value / kind.scale, -1.0) : value;
+}
+
+int WidthOf(const std::string& type) {
+  constexpr std::array<std::pair<const char*, int>, 5> kTypes{
+      {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT4", 16}}};
+  for (const auto& [name, width] : kTypes) {
+    if (type == name) return width;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::int64_t WholeOf(const json& object, const char* key, std::int64_t otherwise) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_number_integer() ? found->get<std::int64_t>()
+                                                             : otherwise;
+}
+double RealOf(const json& object, const char* key, double otherwise) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+}
+std::string TextOf(const json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+}
+const json& PartOf(const json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_structured() ? *found : kNothing;
+}
+
+GltfDocument::GltfDocument() = default;
+GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
+GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
+GltfDocument::~GltfDocument() = default;
+
+std::unexpected<vm::Error> GltfDocument::Wrong(const std::string& text) const {
+  return vm::Fail(vm::Errc::kBadValue, name_ + ": " + text);
+}
+
+vm::Result<GltfDocument> GltfDocument::Parse(
+    const std::string& name, std::string_view bytes,
+    const std::function<std::optional<std::string>(const std::string&)>& beside) {
+  GltfDocument document;
+  document.name_ = name;
+  document.beside_ = beside;
+  std::string_view text = bytes;
+  std::string_view own_buffer;
+  bool has_own = false;
+  if (bytes.starts_with("glTF")) {
+    if (bytes.size() < 20 || Word(bytes, 4) != 2) {
+      return document.Wrong("byte 4: version 2 of binary glTF expected");
+    }
+    if (Word(bytes, 8) > bytes.size()) {
+      return document.Wrong("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
+                            std::to_string(Word(bytes, 8)) + " bytes are announced");
+    }
+    std::size_t at = 12;
+    for (int chunk = 0; at + 8 <= bytes.size(); ++chunk) {
+      const std::size_t length = Word(bytes, at), kind = Word(bytes, at + 4);
+      if (length > bytes.size() - at - 8) {
+        return document.Wrong("byte " + std::to_string(at) + ": a chunk of " +
+                              std::to_string(length) + " bytes is cut off");
+      }
+      const std::string_view body = bytes.substr(at + 8, length);
+      if (chunk == 0) {
+        if (kind != 0x4E4F534A) return document.Wrong("byte 16: a chunk of JSON expected");
+        text = body;
+      } else if (chunk == 1 && kind == 0x004E4942) {
+        own_buffer = body;
+        has_own = true;
+      }
+      at += 8 + length + (4 - length % 4) % 4;
+    }
+    if (text.data() == bytes.data()) return document.Wrong("byte 12: a chunk of JSON expected");
+  }
+  // Deep nesting is the one way JSON can cost more than its length.
+  const auto shallow = [](int depth, json::parse_event_t, json&) {
+    return depth <= static_cast<int>(kMaxDepth);
+  };
+  auto parsed = json::parse(text.begin(), text.end(), shallow, false);
+  if (parsed.is_discarded() || !parsed.is_object() || !parsed.contains("asset")) {
+    return document.Wrong("no glTF: JSON with an \"asset\" expected");
+  }
+  document.json_ = std::make_unique<json>(std::move(parsed));
+  if (!TextOf(PartOf(document.root(), "asset"), "version").starts_with("2")) {
+    return document.Wrong("asset: version 2 expected");
+  }
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < document.Count("buffers"); ++i) {
+    const json& buffer = document.At("buffers", static_cast<std::int64_t>(i));
+    const std::string uri = TextOf(buffer, "uri");
+    if (uri.empty() && i == 0 && has_own) {
+      document.buffers_.emplace_back(own_buffer);
+    } else {
+      auto read = document.Resolve(uri);
+      if (!read) {
+        return document.Wrong("buffers[" + std::to_string(i) + "]: " + read.error().text);
+      }
+      document.buffers_.push_back(std::move(*read));
+    }
+    if (total += document.buffers_.back().size(); total > kMaxMeshBytes) {
+      return vm::Fail(vm::Errc::kLimit, name + ": its buffers hold more than " +
+                                            std::to_string(kMaxMeshBytes) + " bytes");
+    }
+    if (WholeOf(buffer, "byteLength", 0) >
+        static_cast<std::int64_t>(document.buffers_.back().size())) {
+      return document.Wrong("buffers[" + std::to_string(i) +
+                            "]: it is shorter than its byteLength");
+    }
+  }
+  return document;
+}
+
+const json& GltfDocument::At(const char* key, std::int64_t index) const {
+  const json& list = PartOf(*json_, key);
+  if (!list.is_array() || index < 0 || static_cast<std::size_t>(index) >= list.size()) {
+    return kNothing;
+  }
+  return list[static_cast<std::size_t>(index)];
+}
+
+std::size_t GltfDocument::Count(const char* key) const {
+  const json& list = PartOf(*json_, key);
+  return list.is_array() ? list.size() : 0;
+}
+
+vm::Result<std::string> GltfDocument::Resolve(const std::string& uri) const {
+  if (uri.starts_with("data:")) {
+    const auto comma = uri.find(";base64,");
+    auto bytes = comma == std::string::npos ? std::nullopt
+                                            : FromBase64(std::string_view(uri).substr(comma + 8));
+    if (!bytes) return vm::Fail(vm::Errc::kBadValue, "its data URI is not base64");
+    return std::move(*bytes);
+  }
+  auto bytes = uri.empty() || !beside_ ? std::nullopt : beside_(uri);
+  if (!bytes) {
+    return vm::Fail(vm::Errc::kUnavailable,
+                    "its file '" + uri.substr(0, 80) + "' cannot be read from beside it");
+  }
+  return std::move(*bytes);
+}
+
+vm::Result<GltfDocument::View> GltfDocument::ViewOf(std::int64_t index) const {
+  const json& view = At("bufferViews", index);
+  const std::int64_t buffer = WholeOf(view, "buffer"), offset = WholeOf(view, "byteOffset", 0),
+                     length = WholeOf(view, "byteLength", -1),
+                     stride = WholeOf(view, "byteStride", 0);
+  if (buffer < 0 || static_cast<std::size_t>(buffer) >= buffers_.size() || offset < 0 ||
+      length < 0 || stride < 0 || stride > 65536) {
+    return Wrong("bufferViews[" + std::to_string(index) + "]: it points nowhere");
+  }
+  const std::string& bytes = buffers_[static_cast<std::size_t>(buffer)];
+  const auto size = static_cast<std::int64_t>(bytes.size());
+  if (offset > size || length > size - offset) {
+    return Wrong("bufferViews[" + std::to_string(index) + "]: bytes " + std::to_string(offset) +
+                 " to " + std::to_string(offset) + " + " + std::to_string(length) +
+                 " are not in its buffer of " + std::to_string(size));
+  }
+  const auto* first = reinterpret_cast<const std::uint8_t*>(bytes.data()) + offset;
+  return View{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
+}
+
+vm::Result<std::vector<double>> GltfDocument::Read(std::int64_t index, int width) const {
+  const json& accessor = At("accessors", index);
+  const std::string place = "accessors[" + std::to_string(index) + "]";
+  const std::int64_t count = WholeOf(accessor, "count", -1);
+  const std::int64_t component = WholeOf(accessor, "componentType");
+  const auto kind = KindOf(component);
+  const int own_width = WidthOf(TextOf(accessor, "type"));
+  if (count < 0 || !kind || own_width == 0 || own_width != width) {
+    return Wrong(place + ": " + std::to_string(width) + " numbers of a known kind expected");
+  }
+  if (static_cast<std::size_t>(count) > kMaxElements) {
+    return vm::Fail(vm::Errc::kLimit, name_ + ": " + place + ": more than " +
+                                          std::to_string(kMaxElements) + " elements");
+  }
+  const auto numbers = static_cast<std::size_t>(width);
+  const bool normalised = accessor.value("normalized", json(false)) == json(true);
+  std::vector<double> out(static_cast<std::size_t>(count) * numbers, 0.0);
+  const auto fill = [&](std::int64_t view_index, std::int64_t offset, const Kind& of,
+                        std::int64_t type, std::size_t elements, std::size_t each,
+                        const auto& take) -> vm::Result<void> {
+    const auto view = ViewOf(view_index);
+    if (!view) return std::unexpected(view.error());
+    const std::size_t tight = of.bytes * each;
+    const std::size_t stride = view->stride == 0 ? tight : view->stride;
+    if (offset < 0 || (elements > 0 && (stride < tight || static_cast<std::size_t>(offset) +
+                                                                  stride * (elements - 1) + tight >
+                                                              view->bytes.size()))) {
+      return Wrong(place + ": its elements are not in its bufferView");
+    }
+    for (std::size_t i = 0; i < elements; ++i) {
+      const std::uint8_t* at = view->bytes.data() + static_cast<std::size_t>(offset) + i * stride;
+      for (std::size_t k = 0; k < each; ++k) {
+        take(i, k, Value(at + k * of.bytes, type, of, normalised));
+      }
+    }
+    return {};
+  };
+  if (accessor.contains("bufferView")) {
+    auto done = fill(WholeOf(accessor, "bufferView"), WholeOf(accessor, "byteOffset", 0), *kind,
+                     component, static_cast<std::size_t>(count), numbers,
+                     [&](std::size_t i, std::size_t k, double v) { out[i * numbers + k] = v; });
+    if (!done) return std::unexpected(done.error());
+  }
+  const json& sparse = PartOf(accessor, "sparse");
+  if (sparse.empty()) return out;
+  const std::int64_t changed = WholeOf(sparse, "count", -1);
+  const json &where = PartOf(sparse, "indices"), &what = PartOf(sparse, "values");
+  const std::int64_t where_type = WholeOf(where, "componentType");
+  const auto where_kind = KindOf(where_type);
+  if (changed < 0 || changed > count || !where_kind)
+    return Wrong(place + ": sparse: a damaged list");
+  std::vector<std::size_t> vertex(static_cast<std::size_t>(changed));
+  bool inside = true;
+  auto done = fill(WholeOf(where, "bufferView"), WholeOf(where, "byteOffset", 0), *where_kind,
+                   where_type, vertex.size(), 1, [&](std::size_t i, std::size_t, double v) {
+                     inside = inside && v >= 0 && v < static_cast<double>(count);
+                     vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
+                   });
+  if (done && !inside) return Wrong(place + ": sparse: an index beyond its elements");
+  if (done) {
+    done = fill(WholeOf(what, "bufferView"), WholeOf(what, "byteOffset", 0), *kind, component,
+                vertex.size(), numbers,
+                [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * numbers + k] = v; });
+  }
+  if (!done) return std::unexpected(done.error());
+  return out;
+}
+
+vm::Result<std::vector<float>> GltfDocument::Numbers(std::int64_t accessor, int width) const {
+  const auto read = Read(accessor, width);
+  if (!read) return std::unexpected(read.error());
+  return std::vector<float>(read->begin(), read->end());
+}
+
+vm::Result<std::vector<std::uint32_t>> GltfDocument::Indices(std::int64_t accessor) const {
+  const auto read = Read(accessor, 1);
+  if (!read) return std::unexpected(read.error());
+  std::vector<std::uint32_t> out;
+  out.reserve(read->size());
+  for (const double v : *read) out.push_back(v >= 0 ? static_cast<std::uint32_t>(v) : 0xffffffffU);
+  return out;
+}
+
+vm::Result<std::string> GltfDocument::ImageBytes(std::int64_t index) const {
+  const json& image = At("images", index);
+  if (image.contains("bufferView")) {
+    const auto view = ViewOf(WholeOf(image, "bufferView"));
+    if (!view) return std::unexpected(view.error());
+    return std::string(view->bytes.begin(), view->bytes.end());
+  }
+  auto bytes = Resolve(TextOf(image, "uri"));
+  if (!bytes) return Wrong("images[" + std::to_string(index) + "]: " + bytes.error().text);
+  return bytes;
+}
+
+}  // namespace fsm

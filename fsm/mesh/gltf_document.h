@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// A glTF 2.0 file taken apart: its JSON, and its buffers, every access to them checked. We read it
+/// ourselves because tinygltf 2.7, the version to be had, trusts the offsets of a hostile file.
+class GltfDocument {
+ public:
+  /// `beside`: the bytes of a file named by a relative URI; nothing for those not allowed or not
+  /// there. Errors: kBadValue naming what is damaged; kLimit.
+  static vm::Result<GltfDocument> Parse(
+      const std::string& name, std::string_view bytes,
+      const std::function<std::optional<std::string>(const std::string&)>& beside);
+  GltfDocument(GltfDocument&&) noexcept;
+  GltfDocument& operator=(GltfDocument&&) noexcept;
+  ~GltfDocument();
+
+  const nlohmann::json& root() const { return *json_; }
+  /// Element `index` of the array `key` at the top; an empty object if there is none.
+  const nlohmann::json& At(const char* key, std::int64_t index) const;
+  std::size_t Count(const char* key) const;
+
+  /// Numbers of an accessor: `width` for each of its elements, normalised integers as 0..1, sparse
+  /// ones filled in. Errors: kBadValue "NAME: accessors[I]: ...", kLimit.
+  vm::Result<std::vector<float>> Numbers(std::int64_t accessor, int width) const;
+  vm::Result<std::vector<std::uint32_t>> Indices(std::int64_t accessor) const;
+  /// The bytes of images[index], wherever they are.
+  vm::Result<std::string> ImageBytes(std::int64_t index) const;
+
+  std::unexpected<vm::Error> Wrong(const std::string& text) const;
+
+ private:
+  struct View {
+    std::span<const std::uint8_t> bytes;
+    std::size_t stride = 0;  // 0 = tight
+  };
+  GltfDocument();
+  vm::Result<View> ViewOf(std::int64_t view) const;
+  vm::Result<std::string> Resolve(const std::string& uri) const;
+  vm::Result<std::vector<double>> Read(std::int64_t accessor, int width) const;
+
+  std::string name_;
+  std::unique_ptr<nlohmann::json> json_;
+  std::vector<std::string> buffers_;
+  std::function<std::optional<std::string>(const std::string&)> beside_;
+};
+
+/// An integer member, or `otherwise` if it is missing or no integer.
+std::int64_t WholeOf(const nlohmann::json& object, const char* key, std::int64_t otherwise = -1);
+double RealOf(const nlohmann::json& object, const char* key, double otherwise);
+std::string TextOf(const nlohmann::json& object, const char* key);
+/// A member that is an array or object, else an empty one.
+const nlohmann::json& PartOf(const nlohmann::json& object, const char* key);
+
+}  // namespace fsm

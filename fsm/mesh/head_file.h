@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/head/face_state.h"
+#include "fsm/mesh/head_points.h"
+#include "fsm/mesh/mesh_model.h"
+#include "fsm/render/renderer.h"
+
+namespace fsm {
+
+/// Somebody else's head as its file has it: own unit and frame, y up.
+struct HeadFile {
+  struct Part {
+    std::string name;  ///< of group, mesh and material, in small letters
+    std::vector<std::uint32_t> indices;
+    glm::vec3 colour{0.6f, 0.42f, 0.33f};  ///< linear
+    int picture = -1;                      ///< index into pictures
+    bool cut_out = false;                  ///< what is transparent in the picture is left out
+    bool two_sided = false;
+  };
+  /// A shape of its own: what it is called there, and by how much it moves which vertices.
+  struct Shape {
+    struct Delta {
+      std::uint32_t vertex;
+      glm::vec3 by;
+    };
+    std::string name;
+    std::vector<Delta> deltas;
+  };
+  std::vector<glm::vec3> position;
+  std::vector<glm::vec2> place;  ///< in the part's picture, v down; of each vertex, or none at all
+  std::vector<glm::vec3> tint;   ///< linear, on the part's colour; of each vertex, or none at all
+  std::vector<Part> parts;
+  std::vector<Image> pictures;
+  std::vector<Shape> shapes;
+  std::vector<std::int8_t> eye;  ///< 0 none, 1 the agent's right, 2 the left; or none at all
+  bool metres = false;           ///< the file's kind says so
+};
+
+/// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers beside the file are read from its folder
+/// only. Errors: kUnavailable, kLimit, kBadValue naming file and place.
+vm::Result<HeadFile> ReadHeadFile(const std::string& path);
+vm::Result<HeadFile> ReadObjHead(const std::string& path);
+vm::Result<HeadFile> ReadGltfHead(const std::string& path);
+/// From memory; nothing outside it is read. `name` is for messages.
+vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view bytes);
+
+/// The head in our frame: `place` takes it there. Parts are told by their names, and rigid ones by
+/// where they lie to the mouth, which is at `mouth_y`.
+MeshModel ModelOf(const HeadFile& file, const Similarity& place, float mouth_y);
+
+/// The triangles of a built-in head's skin, lips and mouth.
+std::vector<std::uint32_t> FleshOf(const HeadTopology& topology);
+
+/// Stands still, but for head, eyes and jaw.
+std::unique_ptr<MeshMotion> StillMotion();
+/// Moved as `source` would be; `pairs` in our frame. Throws as Carry.
+std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
+                                          std::span<const PlacePair> pairs);
+
+/// What a shape of that name stands for, "mouthsmileleft" in small letters.
+struct ShapeMeaning {
+  std::string name;
+  FaceState state;
+};
+/// Moved by the file's own shapes, those whose names have a meaning: they are mixed so that
+/// `source` would look as it does. Nothing if there are fewer than four.
+std::unique_ptr<MeshMotion> OwnShapesMotion(const HeadFile& file, const Similarity& place,
+                                            std::shared_ptr<const Head> source,
+                                            std::span<const ShapeMeaning> meanings);
+
+/// A name in small letters without anything but letters and digits; _L and _R at its end become
+/// left and right, so that names of different makers are the same.
+std::string PlainShapeName(std::string_view name);
+
+}  // namespace fsm

@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "fsm/head/paint.h"
+#include "fsm/head/spline.h"
+#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/picture_sheet.h"
+
+namespace fsm {
+namespace {
+
+bool Has(const std::string& name, std::initializer_list<const char*> words) {
+  return std::ranges::any_of(
+      words, [&](const char* word) { return name.find(word) != std::string::npos; });
+}
+
+/// What a part is by its name.
+enum class Kind { kSkin, kEye, kTeeth, kGum, kTongue, kMouth, kHair, kLash, kOther };
+
+Kind KindOf(const std::string& name) {
+  if (Has(name, {"lash"})) return Kind::kLash;
+  if (Has(name, {"socket", "brow", "lid"}))
+    return Has(name, {"mouth"}) ? Kind::kMouth : Kind::kSkin;
+  if (Has(name, {"eye", "iris", "sclera", "pupil", "cornea"})) return Kind::kEye;
+  if (Has(name, {"gum"})) return Kind::kGum;
+  if (Has(name, {"teeth", "tooth"})) return Kind::kTeeth;
+  if (Has(name, {"tongue"})) return Kind::kTongue;
+  if (Has(name, {"mouth", "oral"})) return Kind::kMouth;
+  if (Has(name, {"hair"})) return Kind::kHair;
+  if (Has(name,
+          {"cloth", "shirt", "dress", "shoe", "body_tops", "tops", "bottoms", "glass", "hat"})) {
+    return Kind::kOther;
+  }
+  return Kind::kSkin;
+}
+
+/// Numbers of the connected pieces of a part's vertices.
+std::vector<std::uint32_t> Pieces(std::size_t count, std::span<const std::uint32_t> indices) {
+  std::vector<std::uint32_t> parent(count);
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+    parent[root(indices[i])] = root(indices[i + 1]);
+    parent[root(indices[i + 1])] = root(indices[i + 2]);
+  }
+  for (std::uint32_t v = 0; v < count; ++v) parent[v] = root(v);
+  return parent;
+}
+
+class HeadBuilder {
+ public:
+  HeadBuilder(const HeadFile& file, const Similarity& place, float mouth_y)
+      : file_(file), mouth_y_(mouth_y) {
+    for (const glm::vec3& p : file.position) at_.push_back(place(p));
+  }
+
+  MeshModel Build() {
+    for (const Image& picture : file_.pictures) sheet_.Add(picture);
+    model_.photo = sheet_.Make();
+    model_.sewn = !file_.place.empty();
+    for (const glm::vec3& p : at_) {
+      // The neck gives way below the chin, as ours does.
+      model_.Add(p, Bone::kFlesh, Palette().skin, {}, SmoothStep(-168, -96, p.y));
+    }
+    FindEyes();
+    for (const auto& part : file_.parts) AddPart(part);
+    return std::move(model_);
+  }
+
+ private:
+  struct Box {
+    glm::vec3 low{1e9f}, high{-1e9f};
+    std::size_t count = 0;
+    void Add(glm::vec3 p) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+      ++count;
+    }
+    glm::vec3 centre() const { return 0.5f * (low + high); }
+    glm::vec3 radii() const { return 0.5f * (high - low); }
+  };
+
+  bool IsEye(const HeadFile::Part& part) const { return KindOf(part.name) == Kind::kEye; }
+
+  /// Eyes are parts called so, or vertices the file's skeleton gives to eyes.
+  void FindEyes() {
+    std::array<Box, 2> box;
+    eye_.assign(at_.size(), 0);
+    for (const auto& part : file_.parts) {
+      for (const std::uint32_t v : part.indices) {
+        if (!file_.eye.empty() ? file_.eye[v] == 0 : !IsEye(part)) continue;
+        eye_[v] = at_[v].x < 0 ? 1 : 2;
+        box[at_[v].x < 0 ? 0 : 1].Add(at_[v]);
+      }
+    }
+    if (box[0].count == 0 || box[1].count == 0) return;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const glm::vec3 radii = box[side].radii();
+      EyePlace& eye = model_.eyes[side];
+      eye.ball_radius = std::max(0.5f * (radii.x + radii.y), 1e-6f);
+      // Of half a ball only the front is there.
+      eye.centre = box[side].centre();
+      eye.centre.z = box[side].high.z - eye.ball_radius;
+      eye.iris_radius = 0.5f * eye.ball_radius;
+      eye.iris_colour = Palette().iris;
+    }
+    model_.has_eyes =
+        std::ranges::all_of(model_.eyes, [](const EyePlace& eye) { return eye.ball_radius < 40; });
+  }
+
+  void AddPart(const HeadFile::Part& part) {
+    const Kind kind = KindOf(part.name);
+    const bool pictured = part.picture >= 0 && !file_.place.empty();
+    if (kind == Kind::kEye && !pictured && model_.has_eyes) {
+      AddBalls(part);
+      return;
+    }
+    const auto pieces = kind == Kind::kTeeth || kind == Kind::kGum
+                            ? Pieces(at_.size(), part.indices)
+                            : std::vector<std::uint32_t>();
+    std::vector<Box> piece(pieces.empty() ? 0 : at_.size());
+    if (!pieces.empty()) {
+      for (const std::uint32_t v : part.indices) piece[pieces[v]].Add(at_[v]);
+    }
+    for (const std::uint32_t v : part.indices) {
+      model_.bone[v] = BoneOf(kind, v, pieces.empty() ? nullptr : &piece[pieces[v]]);
+      model_.albedo[v] = ColourOf(kind, part, v);
+      if (!pictured) continue;
+      const glm::vec2 uv = file_.place[v];
+      const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
+      model_.photo_place[v] =
+          glm::vec3(sheet_.place(static_cast<std::size_t>(part.picture)).At(within), 1);
+    }
+    const Material material = MaterialOf(kind, pictured, part.cut_out);
+    for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3) {
+      const std::uint32_t* t = &part.indices[i];
+      model_.Triangle(material, t[0], t[1], t[2]);
+      if (part.two_sided && material != Material::kMouthInside) {
+        model_.Triangle(material, t[0], t[2], t[1]);
+      }
+    }
+  }
+
+  static float Wrapped(float x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); }
+
+  Bone BoneOf(Kind kind, std::uint32_t v, const Box* piece) const {
+    if (eye_[v] != 0 && model_.has_eyes) return eye_[v] == 1 ? Bone::kEyeRight : Bone::kEyeLeft;
+    switch (kind) {
+      case Kind::kTeeth:
+      case Kind::kGum:
+        return (piece ? piece->centre().y : at_[v].y) > mouth_y_ ? Bone::kSkull : Bone::kJaw;
+      case Kind::kTongue:
+        return Bone::kJaw;
+      case Kind::kHair:
+      case Kind::kOther:
+        return Bone::kSkull;
+      default:
+        return Bone::kFlesh;
+    }
+  }
+
+  glm::vec3 ColourOf(Kind kind, const HeadFile::Part& part, std::uint32_t v) const {
+    const Palette palette;
+    if (!file_.tint.empty() && file_.tint[v] != glm::vec3(1)) return part.colour * file_.tint[v];
+    switch (kind) {
+      case Kind::kTeeth:
+        return palette.tooth;
+      case Kind::kGum:
+        return palette.gum;
+      case Kind::kTongue:
+        return palette.tongue;
+      case Kind::kMouth:
+        return palette.mouth;
+      case Kind::kLash:
+        return palette.lash;
+      default:
+        return part.colour;
+    }
+  }
+
+  Material MaterialOf(Kind kind, bool pictured, bool cut_out) const {
+    if (pictured) return cut_out ? Material::kPhoto : Material::kSkin;
+    switch (kind) {
+      case Kind::kTeeth:
+        return Material::kTeeth;
+      case Kind::kGum:
+        return Material::kGum;
+      case Kind::kTongue:
+        return Material::kTongue;
+      case Kind::kMouth:
+      case Kind::kLash:
+        return Material::kMouthInside;
+      default:
+        // Beside pictures skin would be drawn by them.
+        return model_.photo ? Material::kMouthInside : Material::kSkin;
+    }
+  }
+
+  /// Balls of our own, because helper spheres have no iris; once for both sides.
+  void AddBalls(const HeadFile::Part&) {
+    if (balls_) return;
+    balls_ = true;
+    for (std::size_t side = 0; side < 2; ++side) {
+      model_.eyes[side].iris_radius = 5.9f;
+      model_.AddBall(side);
+    }
+  }
+
+  const HeadFile& file_;
+  float mouth_y_;
+  std::vector<glm::vec3> at_;
+  std::vector<std::uint8_t> eye_;  // 1 the agent's right, 2 the left
+  PictureSheet sheet_;
+  MeshModel model_;
+  bool balls_ = false;
+};
+
+}  // namespace
+
+MeshModel ModelOf(const HeadFile& file, const Similarity& place, float mouth_y) {
+  return HeadBuilder(file, place, mouth_y).Build();
+}
+
+}  // namespace fsm

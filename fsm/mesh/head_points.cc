@@ -1,0 +1,137 @@
+#include "fsm/mesh/head_points.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace fsm {
+namespace {
+
+constexpr std::array<const char*, 5> kParts{"plain", "upper_lip", "lower_lip", "upper_lid",
+                                            "lower_lid"};
+constexpr std::size_t kMaxPairs = 2000;
+
+}  // namespace
+
+vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view text) {
+  HeadPoints points;
+  int number = 0;
+  const auto wrong = [&](const std::string& what) {
+    return vm::Fail(vm::Errc::kBadValue, name + ":" + std::to_string(number) + ": " + what);
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line = text.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    line = line.substr(0, line.find('#'));
+    std::vector<std::string_view> words;
+    for (std::size_t i = 0; i < line.size() && words.size() < 10;) {
+      const std::size_t begin = line.find_first_not_of(" \t\r", i);
+      if (begin == std::string_view::npos) break;
+      i = std::min(line.find_first_of(" \t\r", begin), line.size());
+      words.push_back(line.substr(begin, i - begin));
+    }
+    if (words.empty()) continue;
+    if (words[0] == "face" && words.size() == 2) {
+      points.face = std::string(words[1]);
+      continue;
+    }
+    if (words[0] != "point" || words.size() != 8) {
+      return wrong("face NAME or point PART X Y Z X Y Z expected");
+    }
+    const auto part = std::ranges::find(kParts, words[1]);
+    if (part == kParts.end()) {
+      return wrong("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
+    }
+    std::array<float, 6> v{};
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::string_view word = words[2 + k];
+      const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), v[k]);
+      if (code != std::errc() || stop != word.data() + word.size() || !std::isfinite(v[k])) {
+        return wrong("six numbers expected after the part");
+      }
+    }
+    if (points.pairs.size() >= kMaxPairs) {
+      return wrong("at most " + std::to_string(kMaxPairs) + " points are read");
+    }
+    points.pairs.push_back(
+        {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, static_cast<FacePart>(part - kParts.begin())});
+  }
+  if (points.pairs.size() < 8) {
+    return wrong("at least eight points expected, " + std::to_string(points.pairs.size()) +
+                 " are there");
+  }
+  return points;
+}
+
+std::string FormatHeadPoints(const HeadPoints& points) {
+  std::string out = "face " + points.face + "\n";
+  std::array<char, 200> line{};
+  for (const PlacePair& pair : points.pairs) {
+    const auto d = [](float v) { return static_cast<double>(v); };
+    std::snprintf(line.data(), line.size(), "point %s %.3f %.3f %.3f  %.7g %.7g %.7g\n",
+                  kParts[static_cast<std::size_t>(pair.part)], d(pair.from.x), d(pair.from.y),
+                  d(pair.from.z), d(pair.to.x), d(pair.to.y), d(pair.to.z));
+    out += line.data();
+  }
+  return out;
+}
+
+Similarity FitSimilarity(std::span<const PlacePair> pairs) {
+  // Horn, "Closed-form solution of absolute orientation using unit quaternions", 1987: the turn is
+  // the eigenvector of the largest eigenvalue of a 4 x 4 matrix, here found by squaring it.
+  glm::dvec3 from_mean(0), to_mean(0);
+  for (const PlacePair& pair : pairs) {
+    from_mean += glm::dvec3(pair.from);
+    to_mean += glm::dvec3(pair.to);
+  }
+  from_mean /= static_cast<double>(pairs.size());
+  to_mean /= static_cast<double>(pairs.size());
+  glm::dmat3 s(0.0);
+  double from_size = 0, to_size = 0;
+  for (const PlacePair& pair : pairs) {
+    const glm::dvec3 f = glm::dvec3(pair.from) - from_mean, t = glm::dvec3(pair.to) - to_mean;
+    s += glm::outerProduct(f, t);  // s[c][r] = f_r t_c
+    from_size += glm::dot(f, f);
+    to_size += glm::dot(t, t);
+  }
+  const auto m = [&s](int t, int f) { return s[t][f]; };
+  const glm::dmat4 n(m(0, 0) + m(1, 1) + m(2, 2), m(1, 2) - m(2, 1), m(2, 0) - m(0, 2),
+                     m(0, 1) - m(1, 0), m(1, 2) - m(2, 1), m(0, 0) - m(1, 1) - m(2, 2),
+                     m(0, 1) + m(1, 0), m(2, 0) + m(0, 2), m(2, 0) - m(0, 2), m(0, 1) + m(1, 0),
+                     -m(0, 0) + m(1, 1) - m(2, 2), m(1, 2) + m(2, 1), m(0, 1) - m(1, 0),
+                     m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), -m(0, 0) - m(1, 1) + m(2, 2));
+  double bound = 0;
+  for (int c = 0; c < 4; ++c) {
+    double sum = 0;
+    for (int r = 0; r < 4; ++r) sum += std::abs(n[c][r]);
+    bound = std::max(bound, sum);
+  }
+  glm::dmat4 power = n + glm::dmat4(bound);  // no eigenvalue below zero
+  for (int k = 0; k < 24; ++k) {
+    double most = 1e-300;
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r) most = std::max(most, std::abs(power[c][r]));
+    }
+    power = (1 / most) * power;
+    power = power * power;
+  }
+  glm::dvec4 axis = power[0];
+  for (int c = 1; c < 4; ++c) {
+    if (glm::length(power[c]) > glm::length(axis)) axis = power[c];
+  }
+  axis = glm::normalize(axis);
+  Similarity fit;
+  fit.turn = glm::mat3(glm::mat3_cast(glm::dquat(axis[0], axis[1], axis[2], axis[3])));
+  fit.scale = static_cast<float>(std::sqrt(from_size / std::max(to_size, 1e-12)));
+  fit.move = glm::vec3(from_mean) - fit.scale * (fit.turn * glm::vec3(to_mean));
+  return fit;
+}
+
+}  // namespace fsm

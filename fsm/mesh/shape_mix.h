@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace fsm {
+
+/// Tells of which key shapes something is mixed: the least squares with no negative part. What
+/// they cannot explain is given back. All are rows of numbers of one length and one measure.
+class ShapeMix {
+ public:
+  using Row = std::vector<float>;
+  ShapeMix() = default;
+  explicit ShapeMix(std::vector<Row> keys);
+
+  struct Parts {
+    std::vector<float> weights;  ///< of each key, 0..1.5
+    Row rest;                    ///< what they leave
+  };
+  Parts TakeApart(std::span<const float> row) const;
+
+ private:
+  std::vector<Row> keys_;
+  std::vector<Row> products_;  // of each two keys
+};
+
+}  // namespace fsm

@@ -1,0 +1,201 @@
+#include "fsm/mesh/surface_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+#include <queue>
+#include <tuple>
+
+namespace fsm {
+namespace {
+
+/// The place of a triangle nearest to p, as parts of its corners (Ericson, Real-Time Collision
+/// Detection, 5.1.5).
+glm::vec3 NearestPart(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+  const glm::vec3 ab = b - a, ac = c - a, ap = p - a;
+  const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
+  const glm::vec3 bp = p - b;
+  const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
+  const glm::vec3 cp = p - c;
+  const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
+  const float vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) {
+    const float v = d1 / std::max(d1 - d3, 1e-12f);
+    return {1 - v, v, 0};
+  }
+  const float vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) {
+    const float w = d2 / std::max(d2 - d6, 1e-12f);
+    return {1 - w, 0, w};
+  }
+  const float va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+    const float w = (d4 - d3) / std::max((d4 - d3) + (d5 - d6), 1e-12f);
+    return {0, 1 - w, w};
+  }
+  const float sum = std::max(va + vb + vc, 1e-20f);
+  return {1 - vb / sum - vc / sum, vb / sum, vc / sum};
+}
+
+}  // namespace
+
+WeldedSurface::WeldedSurface(std::span<const glm::vec3> position,
+                             std::span<const std::uint32_t> given, bool sewn) {
+  // A first guess of the normals tells a seam of the texture, where both sides run on, from lips
+  // that touch.
+  std::vector<glm::vec3> own(position.size(), glm::vec3(0));
+  for (std::size_t i = 0; i + 2 < given.size(); i += 3) {
+    const glm::vec3 a = position[given[i]];
+    const glm::vec3 n = glm::cross(position[given[i + 1]] - a, position[given[i + 2]] - a);
+    for (std::size_t k = 0; k < 3; ++k) own[given[i + k]] += n;
+  }
+  of.assign(position.size(), kNone);
+  std::map<std::tuple<long, long, long>, std::vector<std::uint32_t>> there;
+  const auto weld = [&](std::uint32_t v) {
+    if (of[v] != kNone) return of[v];
+    const auto key = [](float x) { return std::lround(x * 200); };
+    const glm::vec3 p = position[v];
+    const glm::vec3 n = own[v] / std::max(glm::length(own[v]), 1e-12f);
+    auto& same = there[{key(p.x), key(p.y), key(p.z)}];
+    for (const std::uint32_t w : sewn ? same : std::vector<std::uint32_t>()) {
+      const glm::vec3 m = own[first[w]] / std::max(glm::length(own[first[w]]), 1e-12f);
+      if (glm::dot(n, m) > 0.9f) return of[v] = w;
+    }
+    at.push_back(p);
+    first.push_back(v);
+    same.push_back(static_cast<std::uint32_t>(at.size() - 1));
+    return of[v] = same.back();
+  };
+  for (std::size_t i = 0; i + 2 < given.size(); i += 3) {
+    const std::array<std::uint32_t, 3> t{weld(given[i]), weld(given[i + 1]), weld(given[i + 2])};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+  }
+  next.resize(at.size());
+  for (const auto& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      next[t[k]].push_back(t[(k + 1) % 3]);
+      next[t[(k + 1) % 3]].push_back(t[k]);
+    }
+  }
+  for (auto& list : next) {
+    std::ranges::sort(list);
+    const auto rest = std::ranges::unique(list);
+    list.erase(rest.begin(), rest.end());
+  }
+  lip.assign(at.size(), 0);
+  lid.assign(at.size(), 0);
+  FindNormals();
+}
+
+void WeldedSurface::FindNormals() {
+  normal.assign(at.size(), glm::vec3(0));
+  for (const auto& t : triangles) {
+    const glm::vec3 n = glm::cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]]);
+    for (const std::uint32_t v : t) normal[v] += n;
+  }
+  for (glm::vec3& n : normal) n /= std::max(glm::length(n), 1e-12f);
+}
+
+std::uint32_t WeldedSurface::Nearest(glm::vec3 p) const {
+  std::uint32_t best = 0;
+  float least = 1e30f;
+  for (std::uint32_t i = 0; i < at.size(); ++i) {
+    const glm::vec3 d = at[i] - p;
+    const float far = glm::dot(d, d);
+    if (far < least) {
+      least = far;
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::vector<float> WeldedSurface::WayFrom(std::span<const glm::vec3> seeds, float reach) const {
+  std::vector<float> far(at.size(), reach);
+  using Way = std::pair<float, std::uint32_t>;
+  std::priority_queue<Way, std::vector<Way>, std::greater<>> open;
+  for (const glm::vec3& seed : seeds) {
+    const std::uint32_t v = Nearest(seed);
+    far[v] = 0;
+    open.emplace(0.0f, v);
+  }
+  while (!open.empty()) {
+    const auto [way, v] = open.top();
+    open.pop();
+    if (way > far[v]) continue;
+    for (const std::uint32_t w : next[v]) {
+      const float on = way + glm::distance(at[v], at[w]);
+      if (on >= far[w]) continue;
+      far[w] = on;
+      open.emplace(on, w);
+    }
+  }
+  return far;
+}
+
+SurfaceIndex::SurfaceIndex(const WeldedSurface& surface, float reach)
+    : surface_(surface), reach_(reach), cell_(std::max(reach / 2, 1.0f)) {
+  for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto& t = surface.triangles[i];
+    const glm::vec3 low = glm::min(surface.at[t[0]], glm::min(surface.at[t[1]], surface.at[t[2]]));
+    const glm::vec3 high = glm::max(surface.at[t[0]], glm::max(surface.at[t[1]], surface.at[t[2]]));
+    const glm::ivec3 a(glm::floor(low / cell_)), b(glm::floor(high / cell_));
+    if ((b.x - a.x + 1) * (b.y - a.y + 1) * (b.z - a.z + 1) > 4096) continue;
+    for (int x = a.x; x <= b.x; ++x) {
+      for (int y = a.y; y <= b.y; ++y) {
+        for (int z = a.z; z <= b.z; ++z) cells_[Cell({x, y, z})].push_back(i);
+      }
+    }
+  }
+}
+
+std::int64_t SurfaceIndex::Cell(glm::ivec3 c) const {
+  return ((static_cast<std::int64_t>(c.x) + 100000) * 200003 + c.y + 100000) * 200003 + c.z +
+         100000;
+}
+
+std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(glm::vec3 p, glm::vec3 normal, float lip,
+                                                    float lid) const {
+  // Millimetres that a difference counts: turned away, on the other lip, on the other lid.
+  constexpr float kTurned = 4, kLip = 14, kLid = 9;
+  constexpr float kLeastFacing = 0.15f;
+  std::optional<Hit> best;
+  float least = reach_ * reach_;
+  const glm::ivec3 low(glm::floor((p - reach_) / cell_)), high(glm::floor((p + reach_) / cell_));
+  for (int x = low.x; x <= high.x; ++x) {
+    for (int y = low.y; y <= high.y; ++y) {
+      for (int z = low.z; z <= high.z; ++z) {
+        const auto found = cells_.find(Cell({x, y, z}));
+        if (found == cells_.end()) continue;
+        for (const std::uint32_t i : found->second) {
+          const auto& t = surface_.triangles[i];
+          const glm::vec3 part =
+              NearestPart(p, surface_.at[t[0]], surface_.at[t[1]], surface_.at[t[2]]);
+          const auto mix = [&](const auto& v) {
+            return v[t[0]] * part.x + v[t[1]] * part.y + v[t[2]] * part.z;
+          };
+          const glm::vec3 there = mix(surface_.at);
+          const glm::vec3 d = there - p;
+          float cost = glm::dot(d, d);
+          if (cost >= least) continue;
+          const float facing = glm::dot(normal, mix(surface_.normal));
+          if (facing < kLeastFacing) continue;
+          const float turned = kTurned * (1 - facing), other = kLip * (lip - mix(surface_.lip)),
+                      shut = kLid * (lid - mix(surface_.lid));
+          cost += turned * turned + other * other + shut * shut;
+          if (cost >= least) continue;
+          least = cost;
+          best = Hit{i, part, there, glm::length(d)};
+        }
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace fsm

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace fsm {
+
+/// A surface with what tells its places apart beside where they are. Vertices at one place that
+/// belong to one sheet (a seam of the texture) are one here.
+class WeldedSurface {
+ public:
+  /// `weld`: at all.
+  WeldedSurface(std::span<const glm::vec3> position, std::span<const std::uint32_t> triangles,
+                bool weld);
+
+  std::vector<glm::vec3> at, normal;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::vector<std::uint32_t>> next;  ///< neighbours along edges
+  std::vector<std::uint32_t> of;  ///< welded vertex of each given one, kNone if no triangle has it
+  std::vector<std::uint32_t> first;  ///< a given vertex of each welded one
+  /// Where the vertex lies between opposites: 1 = upper, -1 = lower, 0 = neither.
+  std::vector<float> lip, lid;
+  static constexpr std::uint32_t kNone = 0xffffffffU;
+
+  void FindNormals();
+  std::uint32_t Nearest(glm::vec3 p) const;
+  /// Distances along edges from the vertices nearest to the seeds, up to `reach`; beyond it
+  /// `reach`.
+  std::vector<float> WayFrom(std::span<const glm::vec3> seeds, float reach) const;
+};
+
+/// Finds the nearest place of a surface that faces the same way and belongs to the same lip or lid.
+class SurfaceIndex {
+ public:
+  SurfaceIndex(const WeldedSurface& surface, float reach);
+  struct Hit {
+    std::uint32_t triangle;
+    glm::vec3 part, at;
+    float far;  ///< millimetres
+  };
+  std::optional<Hit> Find(glm::vec3 p, glm::vec3 normal, float lip, float lid) const;
+
+ private:
+  std::int64_t Cell(glm::ivec3 c) const;
+  const WeldedSurface& surface_;
+  float reach_, cell_;
+  std::unordered_map<std::int64_t, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace fsm

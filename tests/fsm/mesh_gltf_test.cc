@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fsm/mesh/gltf_document.h"
+#include "fsm/mesh/gltf_writer.h"
+#include "fsm/mesh/head_file.h"
+#include "tests/fsm/ball_head.h"
+
+namespace fsm {
+namespace {
+
+ExportedShape Shape(const char* name, std::size_t unit, bool left, bool right) {
+  ExportedShape shape{name, {}};
+  shape.state.asymmetry = 0;
+  shape.state.au_left[unit] = left ? 1 : 0;
+  shape.state.au_right[unit] = right ? 1 : 0;
+  return shape;
+}
+
+TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
+  const auto head = Head::Make("galatea", false);
+  const std::vector<ExportedShape> shapes = {Shape("jawOpen", 27, true, true),
+                                             Shape("mouthSmileLeft", 12, true, false)};
+  const auto file = ParseGltfHead("head.glb", WriteGltfHead(*head, shapes));
+  ASSERT_TRUE(file) << file.error().text;
+  EXPECT_TRUE(file->metres);
+  ASSERT_EQ(file->shapes.size(), 2U);
+  EXPECT_EQ(file->shapes[1].name, "mouthSmileLeft");
+  std::size_t corners = 0;
+  for (const auto& part : file->parts) corners += part.indices.size();
+  EXPECT_EQ(corners, head->topology().indices.size());
+  // By place: every vertex that moves must be where the head itself puts it.
+  HeadVertices rest, moved;
+  head->Evaluate({}, rest);
+  head->Evaluate(shapes[0].state, moved);
+  glm::vec3 chin(0), lowest(0);
+  float nearest = 1e9F, fall = 0;
+  for (std::size_t i = 0; i < rest.position.size(); ++i) {
+    const float far = glm::distance(rest.position[i], head->Landmark("gnathion"));
+    if (far < nearest) {
+      nearest = far;
+      chin = rest.position[i];
+      fall = moved.position[i].y - rest.position[i].y;
+    }
+  }
+  nearest = 1e9F;
+  for (const auto& delta : file->shapes[0].deltas) {
+    const float far = glm::distance(1000.0F * file->position[delta.vertex], chin);
+    if (far < nearest) {
+      nearest = far;
+      lowest = delta.by;
+    }
+  }
+  EXPECT_LT(nearest, 0.01F);
+  EXPECT_NEAR(1000 * lowest.y, fall, 0.01F);
+  ASSERT_LT(fall, -5);
+}
+
+TEST(GltfHeadTest, OnlyWhatMovesIsStored) {
+  const auto head = Head::Make("galatea", false);
+  const auto none = WriteGltfHead(*head, {});
+  const std::vector<ExportedShape> one = {Shape("browOuterUpLeft", 2, true, false)};
+  EXPECT_LT(WriteGltfHead(*head, one).size() - none.size(), 150000U);
+}
+
+TEST(GltfHeadTest, EveryCutFileIsRefusedInWords) {
+  const BallHead ball;
+  const std::vector<ExportedShape> shapes = {Shape("jawOpen", 26, true, true)};
+  const std::string whole = WriteGltfHead(ball, shapes);
+  for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 97) {
+    const auto file = ParseGltfHead("cut.glb", std::string_view(whole).substr(0, size));
+    ASSERT_FALSE(file) << size;
+    EXPECT_NE(file.error().text.find("cut.glb"), std::string::npos) << file.error().text;
+  }
+}
+
+struct Damage {
+  const char* json;
+  const char* words;
+};
+
+class DamagedGltfTest : public testing::TestWithParam<Damage> {};
+
+TEST_P(DamagedGltfTest, IsRefusedWithItsPlace) {
+  const auto file = ParseGltfHead("a.gltf", GetParam().json);
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().text.find(GetParam().words), std::string::npos) << file.error().text;
+}
+
+// AAAAAAAAAAAAAAAAAAAAAAAAAAAA... is a buffer of zeros.
+#define BUFFER                                                                  \
+  R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)" \
+  R"(AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"}],)"
+
+INSTANTIATE_TEST_SUITE_P(
+    All, DamagedGltfTest,
+    testing::Values(
+        Damage{"", "no glTF"}, Damage{"[1,2]", "no glTF"}, Damage{"{}", "no glTF"},
+        Damage{R"({"asset":{"version":"1.0"}})", "version 2"},
+        Damage{R"({"asset":{"version":"2.0"}})", "no mesh"},
+        Damage{R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"data:x,y"}]})",
+               "buffers[0]: its data URI is not base64"},
+        Damage{
+            R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"../../etc/passwd"}]})",
+            "cannot be read from beside it"},
+        Damage{R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{}]}]})",
+               "accessors[-1]"},
+        Damage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+               "bufferViews":[{"buffer":0,"byteOffset":30,"byteLength":36}],
+               "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+               "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
+               "bufferViews[0]: bytes 30"},
+        Damage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+               "bufferViews":[{"buffer":0,"byteLength":36}],
+               "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"}],
+               "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
+               "accessors[0]: its elements are not in its bufferView"},
+        Damage{"{" BUFFER R"("asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+               "bufferViews":[{"buffer":0,"byteLength":36}],
+               "accessors":[{"bufferView":0,"componentType":5126,"count":999999999,"type":"VEC3"}],
+               "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
+               "more than"},
+        Damage{"{" BUFFER
+               R"("asset":{"version":"2.0"},"nodes":[{"children":[1]},{"children":[1]}]})",
+               "their own parents"}));
+
+TEST(ShapeNameTest, MakersAgreeOnSidesOnceSpelledAlike) {
+  EXPECT_EQ(PlainShapeName("mouthSmile_L"), "mouthsmileleft");
+  EXPECT_EQ(PlainShapeName("mouthSmileLeft"), "mouthsmileleft");
+  EXPECT_EQ(PlainShapeName("blendShape1.Eye_Blink_R"), "eyeblinkright");
+}
+
+}  // namespace
+}  // namespace fsm
