@@ -90,6 +90,7 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
           }},
          {"log", [&](const json& v, const std::string& k) { config.log = ReadLogConfig(v, k); }},
          {"web", [&](const json& v, const std::string& k) { config.web = ReadWeb(v, k); }},
+         {"mqtt", [&](const json& v, const std::string& k) { config.mqtt = ReadMqtt(v, k); }},
          {"rules",
           [&](const json& v, const std::string& k) {
             ReadList(v, k, "a list of rules", [&](const json& rule, const std::string& key) {
@@ -97,6 +98,10 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
               if (config.rules.size() > Rules::kMaxRules)
                 throw ConfigFault{key, "more than " + std::to_string(Rules::kMaxRules) + " rules"};
             });
+          }},
+         {"spin_us",
+          [&](const json& v, const std::string& k) {
+            config.spin = std::chrono::microseconds(Whole(v, k, 0, 10000));
           }},
          {"start_limit_ms",
           [&](const json& v, const std::string& k) {
@@ -114,6 +119,8 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
                       : steps.dump();
             }
           }}});
+    if (config.virtual_clock && !config.mqtt.broker.empty())
+      throw ConfigFault{"mqtt", "other agents do not follow a virtual clock, expected clock: real"};
     return config;
   } catch (const ConfigFault& fault) {
     return Fail(Errc::kBadValue, origin + " line " + std::to_string(LineOfKey(text, fault.key)) +

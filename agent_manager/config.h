@@ -52,6 +52,19 @@ struct WebConfig {
   bool operator==(const WebConfig&) const = default;
 };
 
+/// An MQTT 5 broker by which other agents reach our modules and we theirs.
+struct MqttConfig {
+  std::string broker;            ///< tcp:HOST:PORT or tls:HOST:PORT; empty: none
+  std::string agent;             ///< what we are called there
+  std::string root = "galatea";  ///< the level above the agents
+  std::string user;
+  std::string password_file;
+  vm::Credentials credentials;       ///< for tls: certificate, key, authority
+  std::vector<std::string> modules;  ///< patterns: who is shown and may be spoken to; empty = all
+  std::chrono::seconds keep_alive{15};
+  bool operator==(const MqttConfig&) const = default;
+};
+
 /// Where the session log is kept and how much of it.
 struct LogConfig {
   std::string file;             ///< empty: none
@@ -90,8 +103,12 @@ struct Config {
   std::vector<Rule> rules;             ///< in the order in which they are applied
   std::vector<std::string> broadcast;  ///< names that hear what modules say to nobody in particular
   bool virtual_clock = false;
+  /// Real clock: how long the hub looks for work before it lets the system put it to sleep, since
+  /// being woken takes longer than a message. 0: it sleeps at once.
+  std::chrono::microseconds spin{0};
   LogConfig log;
   WebConfig web;
+  MqttConfig mqtt;
   std::map<std::string, std::string> macros;  ///< name -> steps, as JSON text
   std::chrono::milliseconds start_limit{
       3000};  ///< for a module to answer to Clock, before it counts as original

@@ -54,6 +54,7 @@ std::string ReadTextFile(const std::string& path, const std::string& key);
 void AddCredentialReaders(Readers& readers, vm::Credentials& credentials);
 ListenConfig ReadListen(const json& value, const std::string& key);
 WebConfig ReadWeb(const json& value, const std::string& key);
+MqttConfig ReadMqtt(const json& value, const std::string& key);
 LogConfig ReadLogConfig(const json& value, const std::string& key);
 ModuleConfig ReadModule(const json& object, const std::string& key);
 /// `number` names a rule without a name.

@@ -75,6 +75,10 @@ Result<PeerKey> Hub::Attach(std::unique_ptr<Link> link, PeerKind kind, const std
     } else {
       Probe(attached);
     }
+  } else if (kind == PeerKind::kRemote) {
+    clock_.Post([this, key] {
+      if (Peer* remote = ByKey(key)) MeasureClock(*remote, kClockExchanges);
+    });
   }
   return key;
 }
@@ -166,13 +170,17 @@ void Hub::Complain(Peer& sender, const Error& error) {
   }
   if (++sender.complaints > kComplaintsPerSecond) return;
   Notice("@" + sender.name + ": " + vm::FormatError(error));
-  if (sender.kind == PeerKind::kModule) return;
+  if (sender.kind == PeerKind::kModule || sender.kind == PeerKind::kRemote) return;
   Message rep = vm::Rep("Error", vm::FormatError(error));
   rep.from = "AM";
   Send(sender, rep);
 }
 
 bool Hub::IsPresent(std::string_view name) const { return Find(name) != nullptr; }
+bool Hub::IsModule(std::string_view name) const {
+  const Peer* peer = Find(name);
+  return peer != nullptr && peer->kind == PeerKind::kModule;
+}
 bool Hub::IsReady(std::string_view name) const {
   const Peer* peer = Find(name);
   return peer != nullptr && !peer->probing;

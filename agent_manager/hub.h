@@ -40,6 +40,7 @@ enum class PeerKind {
   kConsole,  ///< the hub's own terminal or input
   kModule,   ///< from the configuration: probed, its clock measured
   kClient,   ///< came by a socket; becomes a module-like name by `to @AM set Name = X`
+  kRemote,   ///< a module of another hub, which answers for it: never probed, its clock measured
 };
 
 /// What there is to know about a peer that is there.
@@ -77,6 +78,8 @@ class Hub {
   void Ask(const std::string& sender, vm::Message message, const OnAnswer& done);
 
   bool IsPresent(std::string_view name) const;
+  /// One of this hub's own modules: from the configuration, or a client that has become one.
+  bool IsModule(std::string_view name) const;
   /// True once a module has said what it is (or was declared original) and can be spoken to.
   bool IsReady(std::string_view name) const;
   std::vector<std::string> Names() const;
@@ -97,6 +100,11 @@ class Hub {
   /// Diagnostics for people.
   using OnNotice = std::function<void(const std::string& text)>;
   void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
+
+  /// Asked about a receiver that is not there: true if it has been attached meanwhile, false if it
+  /// is nobody, an error if there is more to say about it.
+  using OnUnknown = std::function<vm::Result<bool>(const std::string& name)>;
+  void set_on_unknown(OnUnknown on_unknown) { on_unknown_ = std::move(on_unknown); }
 
   /// For what is no message of the session and stands in no log; false if the peer is gone.
   bool SendUnlogged(PeerKey peer, std::string_view line);
@@ -196,10 +204,12 @@ class Hub {
   OnCutOff on_cut_off_;
   OnReport on_report_;
   OnPresence on_presence_;
+  OnUnknown on_unknown_;
   OnNotice on_notice_;
   PeerKey last_key_ = 0;
   unsigned long last_tag_ = 0;
   int held_ = 0;
+  unsigned measurements_ = 0;
   bool lockstep_ = false;
 };
 

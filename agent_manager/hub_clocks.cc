@@ -15,8 +15,9 @@ using vm::Result;
 
 namespace {
 
-constexpr int kClockExchanges = 5;  // when a module comes; the quickest one counts
-constexpr int kSilentRounds = 4;    // of EndProbes, for a module that has said nothing yet
+// Another hub's clock is measured less often: hundreds of them are all one broker's work.
+constexpr unsigned kRemoteEvery = 5;  // rounds of MeasureClocks
+constexpr int kSilentRounds = 4;      // of EndProbes, for a module that has said nothing yet
 
 }  // namespace
 
@@ -84,6 +85,14 @@ void Hub::MeasureClock(Peer& peer, int exchanges) {
 
 void Hub::MeasureClocks() {
   for (const PeerKey key : ModernModules()) MeasureClock(*ByKey(key), 2);
+  if (++measurements_ % kRemoteEvery != 0) return;
+  std::vector<PeerKey> remotes;
+  for (const auto& [key, peer] : peers_) {
+    if (peer->kind == PeerKind::kRemote) remotes.push_back(key);
+  }
+  for (const PeerKey key : remotes) {
+    if (Peer* peer = ByKey(key)) MeasureClock(*peer, 2);
+  }
 }
 
 Hub::ClockState Hub::ClockOf(std::string_view name) const {

@@ -17,6 +17,9 @@ namespace am {
 /// The asker of what the hub asks itself.
 inline constexpr PeerKey kHub = 0;
 
+/// When a module comes; the quickest one counts.
+inline constexpr int kClockExchanges = 5;
+
 /// The hub's own tags: "h" and a number; the number is 0 if it is no tag of ours.
 std::string HubTag(unsigned long number);
 unsigned long HubTagNumber(std::string_view tag);

@@ -76,6 +76,10 @@ void Hub::DeliverNow(const std::string& sender_name, PeerKey asker, const std::s
   }
   const auto machine = internal_.find(receiver);
   if (machine == internal_.end()) {
+    const Result<bool> attached = on_unknown_ ? on_unknown_(receiver) : Result<bool>(false);
+    if (!attached) return AnswerTo(asker, "AM", message, std::unexpected(attached.error()), done);
+    if (*attached && IsPresent(receiver))
+      return DeliverNow(sender_name, asker, receiver, message, std::move(done));
     return AnswerTo(
         asker, "AM", message,
         Fail(Errc::kUnknownModule, "there is no @" + receiver + " (inq Modules lists them)"), done);
@@ -113,8 +117,8 @@ void Hub::ReportNow(Peer& sender, Message message) {
   if (receivers.empty()) {
     for (const auto& [key, peer] : peers_) {
       if (key != sender.key &&
-          (broadcast_.contains(peer->name) || peer->subscriptions.contains("*") ||
-           peer->subscriptions.contains(sender.name))) {
+          ((sender.kind != PeerKind::kRemote && broadcast_.contains(peer->name)) ||
+           peer->subscriptions.contains("*") || peer->subscriptions.contains(sender.name))) {
         receivers.insert(key);
       }
     }

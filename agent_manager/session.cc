@@ -12,6 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "agent_manager/mqtt/bridge.h"
 #include "agent_manager/service_notify.h"
 #include "agent_manager/web/web_server.h"
 #include "embedded/built_in_macros.h"
@@ -101,9 +102,13 @@ Session::Session(Config config, Options options)
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
     if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
     mcl_.OnPresence(name, present, reason);
+    if (mqtt_ != nullptr) mqtt_->OnPresence(name, present, reason);
     if (!present) return;
     next_.clear();
     supervisor_.OnPresent(name);
+  });
+  hub_.set_on_unknown([this](const std::string& name) -> Result<bool> {
+    return mqtt_ != nullptr ? mqtt_->Open(name) : Result<bool>(false);
   });
   DeclareSlots();
   hub_.AddInternal(slots_);
@@ -176,13 +181,23 @@ int Session::Run() {
     if (clock_.real()) {
       AskQuiet();
       CheckIdleWait();
-      if (!Over()) io_.run_one();
+      if (!Over()) RunSome();
     } else {
       StepVirtual();
     }
   }
   Shutdown();
   return options_.strict && errors_ > 0 ? 1 : 0;
+}
+
+void Session::RunSome() {
+  if (config_.spin.count() > 0) {
+    const auto until = std::chrono::steady_clock::now() + config_.spin;
+    do {
+      if (io_.poll_one() > 0) return;
+    } while (std::chrono::steady_clock::now() < until);
+  }
+  io_.run_one();
 }
 
 void Session::ShowOnlookers(std::string_view line) {
@@ -221,11 +236,12 @@ void Session::FeedWatchdog() {
 
 void Session::Shutdown() {
   NotifyService("STOPPING=1");
-  web_.reset();
   doors_.clear();
   bool done = false;
   supervisor_.StopAll([&done] { done = true; });
   while (!done) io_.run_one();
+  web_.reset();  // after the face, which may be writing pictures for it
+  mqtt_.reset();
   if (console_stream_ == nullptr) return;
   bool flushed = false;
   boost::asio::steady_timer limit(io_, kFlushPatience);

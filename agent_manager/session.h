@@ -25,6 +25,9 @@
 namespace am {
 
 class WebServer;
+namespace mqtt {
+class Bridge;
+}
 
 /// The content of a file. Throws std::runtime_error with a sentence.
 std::string ReadWhole(const std::string& path);
@@ -61,6 +64,7 @@ class Session {
   // session_config.cc: what the configuration says, at the start and when it is read again.
   void ApplyConfig();
   void Listen();
+  void JoinBroker();
   void OnGuest(const vm::Doorkeeper::Guest& guest);
   void Refused(const std::string& text);
   void ReloadOnSignal();
@@ -83,6 +87,8 @@ class Session {
   void StepVirtual();
   void GrantAll(vm::Time time);
   void OnClockAnswer(PeerKey module, const vm::Result<std::string>& answer);
+  /// Waits for something to do, and does it.
+  void RunSome();
   void Shutdown();
   void FeedWatchdog();
   void ShowOnlookers(std::string_view line);
@@ -123,6 +129,8 @@ class Session {
   std::size_t replay_pending_ = 0;
   boost::asio::steady_timer probe_timer_, grant_timer_, watchdog_timer_, log_timer_;
   std::unique_ptr<WebServer> web_;
+  std::unique_ptr<mqtt::Bridge> mqtt_;
+  MqttConfig joined_;  // as mqtt_ was made
   boost::asio::signal_set reload_signal_;
   std::map<PeerKey, NextEvent> next_;
   std::set<PeerKey> open_grants_;

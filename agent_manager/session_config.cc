@@ -5,6 +5,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "agent_manager/mqtt/bridge.h"
 #include "agent_manager/service_notify.h"
 #include "agent_manager/session.h"
 
@@ -19,6 +20,7 @@ void Session::ApplyConfig() {
     names.insert(module.name);
     DeclareSlotsOf(module.name);
   }
+  names.insert(mqtt::Bridge::kName);
   hub_.Reserve(std::move(names));
   hub_.limits() = config_.limits;
   hub_.rules().set_rules(config_.rules);
@@ -31,6 +33,7 @@ void Session::ApplyConfig() {
     if (!defined) throw std::runtime_error("macro " + name + ": " + defined.error().text);
   }
   Listen();
+  JoinBroker();
   supervisor_.Apply(config_.modules);
 }
 
@@ -51,6 +54,28 @@ void Session::Listen() {
               << std::endl;
     doors_.emplace_back(listen, std::move(door));
   }
+}
+
+void Session::JoinBroker() {
+  if (joined_ == config_.mqtt) return;
+  mqtt_.reset();
+  joined_ = {};
+  if (config_.mqtt.broker.empty()) return slots_.Report("Mqtt", "NONE");
+  mqtt::Bridge::Hooks hooks;
+  hooks.on_notice = [this](const std::string& text) {
+    ++errors_;
+    std::cerr << "agent_manager: " << text << std::endl;
+  };
+  hooks.on_state = [this](const std::string& state) {
+    std::cerr << "agent_manager: mqtt: " << state << std::endl;
+    slots_.Report("Mqtt", state);
+  };
+  mqtt_ = std::make_unique<mqtt::Bridge>(
+      clock_, hub_, config_.mqtt, std::move(hooks),
+      [this](const mqtt::Packet& will, mqtt::Broker::Events events) {
+        return mqtt::ConnectToBroker(io_, config_.mqtt, will, std::move(events));
+      });
+  joined_ = config_.mqtt;
 }
 
 void Session::Refused(const std::string& text) {

@@ -1,5 +1,6 @@
 // The slots of @AM about its peers: what they may do and what they have done.
 
+#include "agent_manager/mqtt/bridge.h"
 #include "agent_manager/session.h"
 
 namespace am {
@@ -10,7 +11,17 @@ using vm::SetValue;
 namespace {
 
 std::string_view KindName(PeerKind kind) {
-  return kind == PeerKind::kConsole ? "CONSOLE" : kind == PeerKind::kModule ? "MODULE" : "CLIENT";
+  switch (kind) {
+    case PeerKind::kConsole:
+      return "CONSOLE";
+    case PeerKind::kModule:
+      return "MODULE";
+    case PeerKind::kRemote:
+      return "REMOTE";
+    case PeerKind::kClient:
+      break;
+  }
+  return "CLIENT";
 }
 
 }  // namespace
@@ -48,6 +59,13 @@ void Session::DeclareLimitSlots() {
                   .access = vm::Access::kReadOnly,
                   .initial = "0",
                   .help = "How many were turned away at a door so far, and who the last one was."});
+  slots_.Declare({.name = "Mqtt",
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = "NONE",
+                  .help =
+                      "The broker by which other agents are reached: ONLINE and where, AWAY and "
+                      "why, or NONE."});
   slots_.Declare({.name = "Traffic",
                   .grammar = "<text>",
                   .access = vm::Access::kReadOnly,
@@ -117,6 +135,10 @@ std::string Session::Metrics() const {
   sample("errors_total", "", errors_);
   family("refused_total", "counter", "Those turned away at a door.");
   sample("refused_total", "", refused_);
+  family("mqtt_online", "gauge", "1 while the broker is reached.");
+  sample("mqtt_online", "", mqtt_ != nullptr && mqtt_->online() ? 1 : 0);
+  family("mqtt_dropped_total", "counter", "What the broker did not take in time.");
+  sample("mqtt_dropped_total", "", mqtt_ != nullptr ? mqtt_->dropped() : 0);
   family("log_lost_bytes_total", "counter", "Bytes of the session log that could not be written.");
   sample("log_lost_bytes_total", "", log_writer_ ? log_writer_->lost() : 0);
   family("clock_seconds", "gauge", "The session's clock.");

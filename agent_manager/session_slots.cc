@@ -1,5 +1,6 @@
 // The slots of @AM.
 
+#include "agent_manager/mqtt/bridge.h"
 #include "agent_manager/session.h"
 #include "vm_protocol/core/module.h"
 
@@ -32,6 +33,9 @@ void Session::DeclareSlots() {
                       if (item.text != "NONE") names.insert(item.text);
                     }
                     hub_.Subscribe(value.peer, names);
+                    for (const std::string& name : names) {
+                      if (mqtt_ != nullptr) mqtt_->Want(name);
+                    }
                     return value.text;
                   }});
   slots_.Declare({.name = "Modules",

@@ -11,6 +11,7 @@ TEST(ConfigTest, ReadsEveryKey) {
   const auto config = Parse(R"({
     // comments are allowed
     "clock": "virtual", "log": "s.log", "listen": ["unix:/tmp/x"], "broadcast": ["DM"], "start_limit_ms": 500,
+    "spin_us": 200,
     "modules": [
       {"name": "SSM", "command": ["ssm", "--sink", "null"], "cwd": "/", "env": {"A": "1"}, "restart": "always",
        "dialect": "original", "framing": "mmi", "encoding": "euc-jp"},
@@ -20,6 +21,7 @@ TEST(ConfigTest, ReadsEveryKey) {
   })");
   ASSERT_TRUE(config) << config.error().text;
   EXPECT_TRUE(config->virtual_clock);
+  EXPECT_EQ(config->spin, std::chrono::microseconds(200));
   ASSERT_EQ(config->modules.size(), 3u);
   EXPECT_EQ(config->modules[0].command, (std::vector<std::string>{"ssm", "--sink", "null"}));
   EXPECT_EQ(config->modules[0].env, (std::vector<std::string>{"A=1"}));
@@ -41,6 +43,18 @@ TEST(ConfigTest, MacroFilesAreRelativeToTheConfigurationOrAbsolute) {
   }
 }
 
+TEST(ConfigTest, ReadsTheBroker) {
+  const auto config = Parse(R"({"mqtt": {"broker": "tls:broker.example:8883", "agent": "HALL",
+    "root": "museum/north", "user": "hall", "password_file": "p", "authority": "ca.pem",
+    "modules": ["SSM", "F*"], "keep_alive_s": 30}})");
+  ASSERT_TRUE(config) << config.error().text;
+  EXPECT_EQ(config->mqtt.agent, "HALL");
+  EXPECT_EQ(config->mqtt.root, "museum/north");
+  EXPECT_EQ(config->mqtt.credentials.authority, "ca.pem");
+  EXPECT_EQ(config->mqtt.modules, (std::vector<std::string>{"SSM", "F*"}));
+  EXPECT_EQ(config->mqtt.keep_alive, std::chrono::seconds(30));
+}
+
 struct BadConfig {
   const char* text;
   const char* part;
@@ -57,6 +71,21 @@ INSTANTIATE_TEST_SUITE_P(
     Texts, BadConfigTest,
     testing::Values(
         BadConfig{"{\n\"modules\": [\n}", "am.json line 3: not JSON"},
+        BadConfig{R"({"mqtt": {"agent": "A"}})", "line 1: mqtt: broker is missing"},
+        BadConfig{R"({"mqtt": {"broker": "tcp:localhost:1883"}})", "agent is missing"},
+        BadConfig{R"({"mqtt": {"broker": "unix:/x", "agent": "A"}})", "expected tcp:HOST:PORT"},
+        BadConfig{R"({"mqtt": {"broker": "tcp:localhost:1", "agent": "A/B"}})", "mqtt.agent: "},
+        BadConfig{R"({"mqtt": {"broker": "tcp:localhost:1", "agent": "A", "root": "a/+"}})",
+                  "mqtt.root: "},
+        BadConfig{R"({"mqtt": {"broker": "tcp:192.0.2.1:1883", "agent": "A"}})",
+                  "mqtt.broker: other machines reach this broker"},
+        BadConfig{R"({"mqtt": {"broker": "tcp:localhost:1", "agent": "A", "key": "k"}})",
+                  "certificate and key come together"},
+        BadConfig{R"({"mqtt": {"broker": "tcp:localhost:1", "agent": "A", "password_file": "p"}})",
+                  "user is missing"},
+        BadConfig{R"({"clock": "virtual", "mqtt": {"broker": "tcp:localhost:1", "agent": "A"}})",
+                  "mqtt: other agents do not follow a virtual clock"},
+        BadConfig{R"({"spin_us": 20000})", "spin_us: found 20000, expected a whole number"},
         BadConfig{"[]", "line 1: (top): found [], expected an object"},
         BadConfig{"{\n\"clok\": 1}",
                   "am.json line 2: clok: unknown key, expected one of broadcast, clock"},

@@ -47,6 +47,19 @@ TEST(MessageTest, TakesSeveralReceiversWithAndWithoutTheirAtSign) {
   EXPECT_EQ(Parsed("to @SSM, @FSM set Speak = STOP").to, both);
 }
 
+TEST(MessageTest, AModuleOfAnotherAgentIsNamedWithItsAgent) {
+  EXPECT_EQ(Parsed("to @LOBBY/FSM,@SSM set X = 1").to,
+            (std::vector<std::string>{"LOBBY/FSM", "SSM"}));
+  Message rep = Rep("X", "1");
+  rep.from = "LOBBY/FSM";
+  EXPECT_EQ(FormatMessage(rep), "From @LOBBY/FSM rep X = 1");
+  EXPECT_EQ(Parsed("From @LOBBY/FSM rep X = 1"), rep);
+  EXPECT_TRUE(IsValid(rep));
+  for (const char* line : {"to @/FSM set X = 1", "to @LOBBY/ set X = 1", "to @A/B/C set X = 1"})
+    EXPECT_EQ(Refused(line).code, Errc::kSyntax) << line;
+  EXPECT_FALSE(IsModuleName("LOBBY/FSM")) << "no module can take such a name";
+}
+
 TEST(MessageTest, KnowsTagsRelationsAndBothOrdersOfIdentifiers) {
   const Message message = Parsed("from @A to @B set#r-17 Text << more");
   EXPECT_EQ(message.from, "A");

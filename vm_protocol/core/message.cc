@@ -46,6 +46,13 @@ bool IsNameByte(char c) {
   return IsAlnum(c) || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80;
 }
 
+/// A module's name, or AGENT/MODULE: one of another agent.
+bool IsAddress(std::string_view name) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string_view::npos) return IsModuleName(name);
+  return IsModuleName(name.substr(0, slash)) && IsModuleName(name.substr(slash + 1));
+}
+
 bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, [](char x, char y) {
     const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -128,9 +135,9 @@ class LineParser {
       const std::size_t name_at = at_;
       if (at_sign) ++at_;
       std::size_t end = at_;
-      while (end < line_.size() && IsNameByte(line_[end])) ++end;
+      while (end < line_.size() && (IsNameByte(line_[end]) || line_[end] == '/')) ++end;
       const std::string_view name = line_.substr(at_, end - at_);
-      if (!IsModuleName(name)) {
+      if (!IsAddress(name)) {
         return Syntax(name_at, "found " + Found(name_at) + ", expected a module's name: " +
                                    "letters, digits, '_' or '-', at most " +
                                    std::to_string(kMaxModuleNameBytes) + " bytes");
@@ -329,8 +336,8 @@ Result<Message> ParseMessage(std::string_view line) {
 }
 
 bool IsValid(const Message& message) {
-  if (message.to.size() > kMaxReceivers || !std::ranges::all_of(message.to, IsModuleName) ||
-      (!message.from.empty() && !IsModuleName(message.from)) ||
+  if (message.to.size() > kMaxReceivers || !std::ranges::all_of(message.to, IsAddress) ||
+      (!message.from.empty() && !IsAddress(message.from)) ||
       (!message.tag.empty() && !IsTag(message.tag)) || !IsLineText(message.value)) {
     return false;
   }

@@ -29,24 +29,28 @@ std::string Hex(const unsigned char* bytes, std::size_t count) {
 
 }  // namespace
 
-Result<std::string> ReadToken(const Credentials& credentials) {
-  const std::string& path = credentials.token_file;
-  if (path.empty()) return "";
+Result<std::string> ReadSecret(const std::string& path, const std::string& what,
+                               std::size_t least_bytes) {
   struct stat info {};
   std::ifstream file(path);
   if (!file || stat(path.c_str(), &info) != 0)
     return Fail(Errc::kUnavailable,
-                "cannot read the token file '" + path + "': " + std::strerror(errno));
+                "cannot read the " + what + " file '" + path + "': " + std::strerror(errno));
   if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     return Fail(Errc::kUnavailable,
-                "the token file '" + path + "' is open to others, expected mode 600");
-  std::string token;
-  std::getline(file, token);
-  while (!token.empty() && (token.back() == '\r' || token.back() == ' ')) token.pop_back();
-  if (token.size() < kMinTokenBytes)
-    return Fail(Errc::kUnavailable, "the token in '" + path + "' is shorter than " +
-                                        std::to_string(kMinTokenBytes) + " bytes");
-  return token;
+                "the " + what + " file '" + path + "' is open to others, expected mode 600");
+  std::string secret;
+  std::getline(file, secret);
+  while (!secret.empty() && (secret.back() == '\r' || secret.back() == ' ')) secret.pop_back();
+  if (secret.size() < least_bytes)
+    return Fail(Errc::kUnavailable, "the " + what + " in '" + path + "' is shorter than " +
+                                        std::to_string(least_bytes) + " bytes");
+  return secret;
+}
+
+Result<std::string> ReadToken(const Credentials& credentials) {
+  if (credentials.token_file.empty()) return "";
+  return ReadSecret(credentials.token_file, "token", kMinTokenBytes);
 }
 
 bool IsLoopback(const Endpoint& endpoint) {

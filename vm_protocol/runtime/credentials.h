@@ -20,6 +20,10 @@ struct Credentials {
 
 inline constexpr std::size_t kMinTokenBytes = 16;
 
+/// The first line of a file only its owner can read. kUnavailable: unreadable, open to others, or
+/// shorter than `least_bytes`; `what` names it in the sentence ("token").
+Result<std::string> ReadSecret(const std::string& path, const std::string& what,
+                               std::size_t least_bytes);
 /// The token, "" where no file is named. kUnavailable: unreadable, too short, or readable for
 /// others than its owner.
 Result<std::string> ReadToken(const Credentials& credentials);
