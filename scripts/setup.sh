@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config ccache git python3
   libboost1.81-dev libcli11-dev nlohmann-json3-dev libfmt-dev libglm-dev
-  libssl-dev openssl zlib1g-dev
+  libssl-dev openssl zlib1g-dev libmosquitto-dev mosquitto mosquitto-clients
   duktape-dev libpcre2-dev libexpat1-dev libcurl4-openssl-dev
   libgtest-dev libbenchmark-dev
   libosmesa6-dev libegl-dev libglfw3-dev libgl-dev libpng-dev libjpeg-dev ffmpeg
