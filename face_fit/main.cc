@@ -11,9 +11,12 @@
 #include <string>
 
 #include "face_fit/dress/dress.h"
+#include "face_fit/find/hand_points.h"
 #include "face_fit/find/head_finder.h"
+#include "face_fit/find/upright.h"
 #include "face_fit/report.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/mesh/pnt_file.h"
 
 namespace {
 
@@ -37,7 +40,7 @@ class Progress {
 };
 
 struct Options {
-  std::string photo, name, out, base = "galatea", networks, head;
+  std::string photo, name, out, base = "galatea", networks, head, points;
   int face = 1;
   bool quiet = false;
 };
@@ -64,6 +67,36 @@ void FindPointsOfHead(const Options& options) {
   std::cout << "face_fit: wrote " << path << "\n";
 }
 
+/// The face asked for, found by the networks; `faces`: how many there are.
+facefit::FoundFace FindFace(const Options& options, facefit::FaceNetworks& networks,
+                            const fsm::Image& photo, int& faces) {
+  const auto boxes = facefit::FindFaces(networks, photo);
+  const char* by_hand = "; --points FILE with a few points set by hand helps (docs/photo.md)";
+  if (boxes.empty()) {
+    throw std::runtime_error(
+        "no face found in '" + options.photo +
+        "': it should look into the camera, be lit and fill a tenth of the picture or more" +
+        by_hand);
+  }
+  faces = static_cast<int>(boxes.size());
+  if (options.face < 1 || options.face > faces) {
+    throw std::runtime_error("--face " + std::to_string(options.face) + ": there are " +
+                             std::to_string(faces) + ", counted from the largest");
+  }
+  facefit::FoundFace face =
+      facefit::FindPoints(networks, photo, boxes[static_cast<std::size_t>(options.face - 1)]);
+  if (face.certainty < 0.5F) {
+    throw std::runtime_error("what looked like a face in '" + options.photo +
+                             "' has no eyes, nose and mouth that can be told apart" + by_hand);
+  }
+  return face;
+}
+
+facefit::FoundFace FaceFromPoints(const Options& options, const facefit::BaseHead& base) {
+  const std::string text = Get(fsm::ReadWhole(options.points, 1U << 20));
+  return facefit::FaceFromHand(base, Get(facefit::ParseHandPoints(options.points, text)));
+}
+
 void Run(const Options& options) {
   using namespace facefit;
   if (!options.head.empty()) return FindPointsOfHead(options);
@@ -75,28 +108,20 @@ void Run(const Options& options) {
                              "': letters, digits, - and _ expected, as anna");
   }
   Progress progress(options.quiet);
-  const fsm::Image photo = Get(ReadPhoto(options.photo));
+  fsm::Image photo = Get(ReadPhoto(options.photo));
   FaceNetworks networks = Get(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");
-  const auto faces = FindFaces(networks, photo);
-  if (faces.empty()) {
-    throw std::runtime_error(
-        "no face found in '" + options.photo +
-        "': it should look into the camera, be lit and fill a tenth of the picture or more");
+  if (const int way = options.points.empty() ? UprightWay(networks, photo) : 1; way != 1) {
+    photo = Turned(photo, way);
+    std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
+                 "was set upright\n";
   }
-  if (options.face < 1 || static_cast<std::size_t>(options.face) > faces.size()) {
-    throw std::runtime_error("--face " + std::to_string(options.face) + ": there are " +
-                             std::to_string(faces.size()) + ", counted from the largest");
-  }
-  const FoundFace face =
-      FindPoints(networks, photo, faces[static_cast<std::size_t>(options.face - 1)]);
-  if (face.certainty < 0.5F) {
-    throw std::runtime_error("what looked like a face in '" + options.photo +
-                             "' has no eyes, nose and mouth that can be told apart");
-  }
-  progress.Say("face and its points found");
   const BaseHead base = BaseHead::See(networks, options.base);
   progress.Say("head looked at");
+  int faces = 1;
+  const FoundFace face = options.points.empty() ? FindFace(options, networks, photo, faces)
+                                                : FaceFromPoints(options, base);
+  progress.Say("face and its points found");
   const Fit fit = FitFace(base, face);
   progress.Say("head fitted");
   const Figure figure = CutOut(photo, FindFigure(networks, photo));
@@ -111,8 +136,7 @@ void Run(const Options& options) {
   const std::string folder =
       (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
   std::filesystem::create_directories(folder);
-  const std::string report =
-      Report(face, fit, photo, dress.coverage, static_cast<int>(faces.size()));
+  const std::string report = Report(face, fit, photo, dress.coverage, faces);
   const auto write = [&folder](const char* name, const std::string& text) {
     std::ofstream file(folder + "/" + name);
     if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + "/" + name);
@@ -139,6 +163,8 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out,
                  "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
   app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
+  app.add_option("--points", options.points,
+                 "Points set by hand, lines NAME X Y in pixels, where no face is found");
   app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
   app.add_option("--networks", options.networks,
                  "Where the networks are (default: where scripts/face_networks.sh puts them)");

@@ -92,6 +92,18 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit) {
   return out;
 }
 
+/// 0 for a grey photo, 1 for one in colour: by the mean difference of channels of the skin seen.
+float Saturation(const fsm::Image& map, const Field& seen) {
+  float sum = 0, light = 0;
+  for (std::size_t i = 0; i < seen.at.size(); ++i) {
+    if (seen.at[i] < 0.9F) continue;
+    const std::uint8_t* p = &map.rgba[4 * i];
+    sum += static_cast<float>(std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]}));
+    light += static_cast<float>(std::max({p[0], p[1], p[2]}));
+  }
+  return glm::smoothstep(0.04F, 0.16F, sum / std::max(light, 1.0F));
+}
+
 }  // namespace
 
 Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
@@ -140,6 +152,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     seen.at[i] = weight;
     face_seen += front ? weight : 0.0F;
   }
+  set.saturation = Saturation(map, seen);
   dress.coverage = face_seen / std::max(face_texels, 1.0F);
   // A side that was not seen takes what the other side shows, if that shows it.
   const fsm::Image one_side = map;

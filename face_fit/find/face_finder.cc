@@ -65,8 +65,11 @@ std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image) 
   Detect(networks, image, {size * 0.5F, longer, 0}, found);
   // A face that fills the picture is too large for the network, one in a crowd too small.
   if (found.empty()) Detect(networks, image, {size * 0.5F, longer * 1.6F, 0}, found);
+  float largest = 0;
+  for (const FaceBox& face : found) largest = std::max(largest, face.size.x);
   for (const int parts : {2, 4}) {
-    if (!found.empty()) break;
+    // Where faces are small there may be more, too small to be seen in the whole picture.
+    if (largest > 0.6F * longer / static_cast<float>(2 * parts)) break;
     const float side = longer / static_cast<float>(parts) * 1.4F;
     for (int y = 0; y < 2 * parts; ++y) {
       for (int x = 0; x < 2 * parts; ++x) {

@@ -39,6 +39,8 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
       set.smooth = std::max(row.Number(1), 0.0f);
     } else if (key == "iris") {
       set.iris_colour = row.Vector(1);
+    } else if (key == "saturation") {
+      set.saturation = std::clamp(row.Number(1), 0.0f, 1.0f);
     } else if (key == "white") {
       set.white_colour = row.Vector(1);
     } else if (key == "skin") {
@@ -81,6 +83,7 @@ std::string WriteFaceSet(const FaceSet& set) {
   };
   const auto d = [](float v) { return static_cast<double>(v); };
   put("smooth %.3f\n", d(set.smooth));
+  put("saturation %.2f\n", d(set.saturation));
   put("iris %.4f %.4f %.4f\n", d(set.iris_colour.x), d(set.iris_colour.y), d(set.iris_colour.z));
   put("white %.4f %.4f %.4f\n", d(set.white_colour.x), d(set.white_colour.y),
       d(set.white_colour.z));

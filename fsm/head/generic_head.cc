@@ -43,6 +43,7 @@ class GenericHead : public Head {
       warp_.emplace(set->points, set->smooth);
       identity_.palette.iris = set->iris_colour;
       identity_.palette.sclera = set->white_colour;
+      Wash(identity_.palette, set->saturation);
     }
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
     const Shaper shaper(Table("tables/sliders.txt", embedded::sliders()), identity_.sliders);
@@ -119,6 +120,14 @@ class GenericHead : public Head {
   }
 
  private:
+  /// What a grey photo does not show must be grey too.
+  static void Wash(Palette& palette, float saturation) {
+    for (glm::vec3* colour : {&palette.tooth, &palette.lip_inside, &palette.rim, &palette.mouth,
+                              &palette.tongue, &palette.gum}) {
+      *colour = glm::mix(glm::vec3(glm::dot(*colour, glm::vec3(0.3f, 0.6f, 0.1f))), *colour, saturation);
+    }
+  }
+
   /// Moves the base head to the identity's form. Eyes and what touches them, and teeth with tongue,
   /// move as wholes.
   void Shape(const Shaper& shaper, HeadMesh& mesh, std::size_t fixed_first, std::size_t fixed_end) {

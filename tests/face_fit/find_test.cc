@@ -7,6 +7,7 @@
 #include <string>
 
 #include "face_fit/find/face_finder.h"
+#include "face_fit/find/upright.h"
 #include "face_fit/fit/fit.h"
 
 namespace facefit {
@@ -49,6 +50,34 @@ TEST_F(FindTest, AnEvenPictureHasNoFaceAndNoFigure) {
   const fsm::Image grey{
       .width = 200, .height = 150, .rgba = std::vector<std::uint8_t>(200 * 150 * 4, 128)};
   EXPECT_TRUE(FindFaces(*networks_, grey).empty());
+}
+
+TEST_F(FindTest, APhotoThatLiesIsSetUpright) {
+  const std::string path = Photos() + "/collins_nasa.png";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no photos in " << Photos();
+  const auto photo = ReadPhoto(path);
+  ASSERT_TRUE(photo) << photo.error().text;
+  EXPECT_EQ(UprightWay(*networks_, *photo), 1);
+  EXPECT_EQ(UprightWay(*networks_, Turned(*photo, 6)), 8);
+  EXPECT_EQ(UprightWay(*networks_, Turned(*photo, 8)), 6);
+  EXPECT_EQ(UprightWay(*networks_, Turned(*photo, 3)), 3);
+}
+
+TEST_F(FindTest, InAGroupEveryFaceIsFound) {
+  const std::string path = Photos() + "/collins_nasa.png";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no photos in " << Photos();
+  const auto one = ReadPhoto(path);
+  ASSERT_TRUE(one) << one.error().text;
+  constexpr int kAcross = 5, kDown = 2;
+  fsm::Image group{.width = one->width * kAcross, .height = one->height * kDown, .rgba = {}};
+  for (int y = 0; y < group.height; ++y) {
+    for (int x = 0; x < group.width; ++x) {
+      const auto from =
+          static_cast<std::size_t>(4 * ((y % one->height) * one->width + x % one->width));
+      group.rgba.insert(group.rgba.end(), &one->rgba[from], &one->rgba[from] + 4);
+    }
+  }
+  EXPECT_EQ(FindFaces(*networks_, group).size(), 10U);
 }
 
 TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {

@@ -1,0 +1,134 @@
+#include "face_fit/find/hand_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+#include "fsm/head/warp.h"
+
+namespace facefit {
+namespace {
+
+struct Named {
+  const char* name;
+  std::size_t point;
+  bool needed;
+};
+constexpr Named kNames[] = {{"right_eye_outer", 33, true},
+                            {"left_eye_outer", 263, true},
+                            {"nose_tip", 1, true},
+                            {"mouth_right", 61, true},
+                            {"mouth_left", 291, true},
+                            {"chin", 152, true},
+                            {"right_eye_inner", 133, false},
+                            {"left_eye_inner", 362, false},
+                            {"right_eye_top", 159, false},
+                            {"left_eye_top", 386, false},
+                            {"right_eye_bottom", 145, false},
+                            {"left_eye_bottom", 374, false},
+                            {"right_brow", 105, false},
+                            {"left_brow", 334, false},
+                            {"nose_bottom", 2, false},
+                            {"nose_right", 129, false},
+                            {"nose_left", 358, false},
+                            {"lip_top", 0, false},
+                            {"lip_bottom", 17, false},
+                            {"jaw_right", 172, false},
+                            {"jaw_left", 397, false},
+                            {"cheek_right", 234, false},
+                            {"cheek_left", 454, false},
+                            {"forehead", 10, false}};
+
+}  // namespace
+
+std::string HandPointNames() {
+  std::string names;
+  for (const Named& named : kNames) names += (names.empty() ? "" : " ") + std::string(named.name);
+  return names;
+}
+
+vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text) {
+  HandPoints points;
+  std::istringstream lines{std::string(text)};
+  int number = 0;
+  const auto wrong = [&](const std::string& what) {
+    return vm::Fail(vm::Errc::kBadValue, name + ":" + std::to_string(number) + ": " + what);
+  };
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string key, more;
+    if (!(words >> key)) continue;
+    glm::vec2 at;
+    if (!(words >> at.x >> at.y) || words >> more || !std::isfinite(at.x) || !std::isfinite(at.y) ||
+        std::abs(at.x) > 1e5F || std::abs(at.y) > 1e5F) {
+      return wrong("NAME X Y expected, as: chin 320 455");
+    }
+    const auto found = std::ranges::find(kNames, key, &Named::name);
+    std::size_t point = kNetworkPoints;
+    if (found != std::end(kNames)) {
+      point = found->point;
+    } else if (key.size() <= 3 &&
+               std::ranges::all_of(key, [](char c) { return c >= '0' && c <= '9'; })) {
+      point = std::stoul(key);
+    }
+    if (point >= kNetworkPoints) {
+      return wrong("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " +
+                   HandPointNames() + " expected");
+    }
+    points[point] = at;
+  }
+  for (const Named& named : kNames) {
+    if (named.needed && !points.contains(named.point)) {
+      return wrong(std::string(named.name) + " is missing");
+    }
+  }
+  return points;
+}
+
+FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
+  const auto on_base = [&base](std::size_t i) { return base.places[i].On(base.rest.position); };
+  // From the head's millimetres to pixels: size, tilt and place by least squares, as complex
+  // numbers; the picture's y runs down.
+  glm::vec2 head_mean(0), photo_mean(0);
+  for (const auto& [i, at] : points) {
+    head_mean += glm::vec2(on_base(i)) * glm::vec2(1, -1) / static_cast<float>(points.size());
+    photo_mean += at / static_cast<float>(points.size());
+  }
+  glm::vec2 turn(0);
+  float size = 0;
+  for (const auto& [i, at] : points) {
+    const glm::vec2 h = glm::vec2(on_base(i)) * glm::vec2(1, -1) - head_mean, p = at - photo_mean;
+    turn += glm::vec2(h.x * p.x + h.y * p.y, h.x * p.y - h.y * p.x);
+    size += glm::dot(h, h);
+  }
+  turn /= std::max(size, 1e-6F);
+  const float scale = std::max(glm::length(turn), 1e-6F);
+  const auto to_photo = [&](glm::vec2 mm) {
+    const glm::vec2 h = mm * glm::vec2(1, -1) - head_mean;
+    return photo_mean + glm::vec2(turn.x * h.x - turn.y * h.y, turn.y * h.x + turn.x * h.y);
+  };
+  std::vector<fsm::WarpPoint> bends;
+  for (const auto& [i, at] : points) {
+    bends.push_back({on_base(i), glm::vec3((at - to_photo(glm::vec2(on_base(i)))) / scale, 0)});
+  }
+  const fsm::Warp warp(bends, 0.5F);
+  FoundFace face;
+  face.certainty = 1;
+  glm::vec2 low(1e9F), high(-1e9F);
+  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
+    const glm::vec3 p = on_base(i);
+    const glm::vec2 at = to_photo(glm::vec2(p)) + scale * glm::vec2(warp.Motion(p));
+    face.points.emplace_back(at, scale * base.seen_z[i]);
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  face.crop = {(low + high) * 0.5F, 1.5F * std::max(high.x - low.x, high.y - low.y),
+               std::atan2(turn.y, turn.x)};
+  return face;
+}
+
+}  // namespace facefit
