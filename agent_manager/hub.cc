@@ -75,10 +75,6 @@ Result<PeerKey> Hub::Attach(std::unique_ptr<Link> link, PeerKind kind, const std
     } else {
       Probe(attached);
     }
-  } else if (kind == PeerKind::kRemote) {
-    clock_.Post([this, key] {
-      if (Peer* remote = ByKey(key)) MeasureClock(*remote, kClockExchanges);
-    });
   }
   return key;
 }

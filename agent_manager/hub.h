@@ -40,7 +40,7 @@ enum class PeerKind {
   kConsole,  ///< the hub's own terminal or input
   kModule,   ///< from the configuration: probed, its clock measured
   kClient,   ///< came by a socket; becomes a module-like name by `to @AM set Name = X`
-  kRemote,   ///< a module of another hub, which answers for it: never probed, its clock measured
+  kRemote,   ///< a module of another hub, which answers for it: never probed
 };
 
 /// What there is to know about a peer that is there.
@@ -161,6 +161,7 @@ class Hub {
   void GiveUp(PeerKey module, unsigned long number);
   void SendBare(Peer& module, vm::Message message, const std::string& tag);
   bool HoldStart(Peer& module, vm::Message& message);
+  bool AwaitClock(Peer& module, const vm::Message& message);
   void ForwardOriginal(Peer& module, vm::Message message, PeerKey asker, const OnAnswer& done);
   void Report(Peer& sender, vm::Message message);
   bool ResolvePending(Peer& sender, const vm::Message& message);

@@ -15,7 +15,8 @@ using vm::Result;
 
 namespace {
 
-// Another hub's clock is measured less often: hundreds of them are all one broker's work.
+// Another hub's clock is measured less often, and only where start times have been sent: all agents
+// measuring all others would be most of what a broker has to do.
 constexpr unsigned kRemoteEvery = 5;  // rounds of MeasureClocks
 constexpr int kSilentRounds = 4;      // of EndProbes, for a module that has said nothing yet
 
@@ -72,14 +73,17 @@ void Hub::SampleClock(Peer& peer, vm::Time asked_at, const std::string& value) {
 }
 
 void Hub::MeasureClock(Peer& peer, int exchanges) {
-  if (exchanges <= 0) return;
+  if (exchanges <= 0) {
+    if (std::exchange(peer.measuring, false)) FlushWaiting(peer);
+    return;
+  }
   Forward(
       peer, vm::Inq("Clock"), kHub,
       [this, key = peer.key, asked_at = clock_.Now(), exchanges](const Result<std::string>& value) {
         Peer* answering = ByKey(key);
-        if (answering == nullptr || !value) return;
-        SampleClock(*answering, asked_at, *value);
-        MeasureClock(*answering, exchanges - 1);
+        if (answering == nullptr) return;
+        if (value) SampleClock(*answering, asked_at, *value);
+        MeasureClock(*answering, value ? exchanges - 1 : 0);
       });
 }
 
@@ -88,7 +92,7 @@ void Hub::MeasureClocks() {
   if (++measurements_ % kRemoteEvery != 0) return;
   std::vector<PeerKey> remotes;
   for (const auto& [key, peer] : peers_) {
-    if (peer->kind == PeerKind::kRemote) remotes.push_back(key);
+    if (peer->kind == PeerKind::kRemote && peer->asked_clock) remotes.push_back(key);
   }
   for (const PeerKey key : remotes) {
     if (Peer* peer = ByKey(key)) MeasureClock(*peer, 2);

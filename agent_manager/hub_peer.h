@@ -46,6 +46,8 @@ struct Hub::Peer {
   std::map<unsigned long, Pending> pending;           // by the number in our tag
   std::map<std::string, std::vector<Pending>> asked;  // original dialect: inq, by slot
   std::map<std::string, vm::TimerId> held;            // original dialect: starts held back, by slot
+  bool measuring = false;    // a start time waits for its clock to be known
+  bool asked_clock = false;  // another hub's clock is measured once a start time needs it
   ClockState clock;
   ClockEstimate estimate;
   vm::Time granted{0};  // lockstep: where its clock stands

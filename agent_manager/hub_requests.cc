@@ -28,11 +28,12 @@ std::string SlotOf(const Message& request) {
 }  // namespace
 
 void Hub::Forward(Peer& module, Message message, PeerKey asker, OnAnswer done) {
-  if (module.probing) {
+  const bool of_its_clock = asker == kHub && message.slot == "Clock";
+  if (module.probing || (module.measuring && !of_its_clock) || AwaitClock(module, message)) {
     if (module.waiting.size() >= limits_.waiting) {
       return AnswerTo(
           asker, module.name, message,
-          Fail(Errc::kLimit, "@" + module.name + " is still starting, too much waits for it"),
+          Fail(Errc::kLimit, "@" + module.name + " is still being asked, too much waits for it"),
           done);
     }
     module.waiting.push_back({asker, std::move(message), std::move(done)});
@@ -70,6 +71,19 @@ void Hub::Forward(Peer& module, Message message, PeerKey asker, OnAnswer done) {
         clock_.After(kAnswerLimit, [this, key = module.key, number] { GiveUp(key, number); });
   }
   SendBare(module, std::move(message), HubTag(number));
+}
+
+bool Hub::AwaitClock(Peer& module, const Message& message) {
+  if (module.kind != PeerKind::kRemote || module.asked_clock || message.command != Command::kSet ||
+      !message.value.starts_with('@'))
+    return false;
+  const auto start = vm::ParseStartTime(message.value);
+  if (!start || start->kind != vm::StartTime::Kind::kAt) return false;
+  module.asked_clock = module.measuring = true;
+  clock_.Post([this, key = module.key] {
+    if (Peer* peer = ByKey(key)) MeasureClock(*peer, kClockExchanges);
+  });
+  return true;
 }
 
 void Hub::GiveUp(PeerKey key, unsigned long number) {

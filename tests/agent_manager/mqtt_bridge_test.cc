@@ -215,9 +215,7 @@ TEST_F(BridgeTest, RequestsBeyondTheWindowWaitForAnswersAndKeepTheirOrder) {
     ASSERT_LT(i, sent.size());
     EXPECT_EQ(sent[i].payload, "set X = " + std::to_string(i));
     Come("galatea/HALL/$reply", "rep X = " + std::to_string(i), "", sent[i].correlation);
-    for (const Packet& packet : Acknowledge()) {
-      if (packet.payload != "inq Clock") sent.push_back(packet);
-    }
+    for (const Packet& packet : Acknowledge()) sent.push_back(packet);
   }
   EXPECT_EQ(a->heard.size(), all);
   EXPECT_EQ(a->heard.back(),
@@ -293,18 +291,38 @@ TEST_F(BridgeTest, WhoSubscribesHearsAnotherAgentsModuleAlsoAfterItHasBeenAway) 
 TEST_F(BridgeTest, AStartTimeCountsOnTheOtherHubsClock) {
   const auto a = world.Join(PeerKind::kClient, "A");
   world.clock.RunUntil(std::chrono::seconds(5));
+  world.Say(*a, "to @LOBBY/FSM set Speak = @6000");
   world.Say(*a, "to @LOBBY/FSM set Gaze = 0 0");
   world.clock.RunReady();
+  Strings sent;
+  int asked = 0;
   for (int i = 0; i < 6; ++i) {
     for (const Packet& packet : Acknowledge()) {
-      if (packet.payload == "inq Clock") {
-        EXPECT_EQ(packet.topic, "galatea/LOBBY/$do/AM");
-        Come("galatea/HALL/$reply", "rep Clock = 65000.000", "", packet.correlation);
+      if (packet.payload != "inq Clock") {
+        sent.push_back(packet.payload);
+        continue;
       }
+      ++asked;
+      EXPECT_EQ(packet.topic, "galatea/LOBBY/$do/AM");
+      Come("galatea/HALL/$reply", "rep Clock = 65000.000", "", packet.correlation);
     }
   }
+  EXPECT_EQ(asked, 5);
+  EXPECT_EQ(sent, (Strings{"set Speak = @66000", "set Gaze = 0 0"})) << "in their order";
+  world.Say(*a, "to @LOBBY/FSM set Speak = @7000");
+  EXPECT_EQ(Acknowledge().at(0).payload, "set Speak = @67000");
+}
+
+TEST_F(BridgeTest, WhoDoesNotTellItsClockGetsTheStartAtItsTime) {
+  const auto a = world.Join(PeerKind::kClient, "A");
   world.Say(*a, "to @LOBBY/FSM set Speak = @6000");
-  EXPECT_EQ(Acknowledge().at(0).payload, "set Speak = @66000");
+  world.clock.RunReady();
+  const auto question = Acknowledge().at(0);
+  ASSERT_EQ(question.payload, "inq Clock");
+  Come("galatea/HALL/$reply", "rep Clock.error = UNKNOWN_SLOT no clock", "", question.correlation);
+  EXPECT_EQ(Acknowledge().size(), 0u);
+  world.clock.RunUntil(std::chrono::seconds(6));
+  EXPECT_EQ(Acknowledge().at(0).payload, "set Speak = NOW");
 }
 
 TEST_F(BridgeTest, AfterALossEveryValueIsPublishedAgainAndOnlyTheLatest) {
