@@ -68,7 +68,25 @@ unsigned FaceVideo::Watch(OnPicture on_picture) {
 
 void FaceVideo::Leave(unsigned viewer) {
   viewers_.erase(viewer);
-  if (viewers_.empty() && !beginning_) End();
+  if (viewers_.empty() && !beginning_) Stop();
+}
+
+void FaceVideo::Stop() {
+  if (stopping_ || !recording_) return;
+  stopping_ = true;
+  const auto stopped = [this](const vm::Result<std::string>&) {
+    stopping_ = false;
+    recording_ = false;
+    End();
+    if (!viewers_.empty()) Begin();  // somebody has come meanwhile
+  };
+  Ask("Record", "STOP", [this, stopped](const vm::Result<std::string>& answer) {
+    if (!stopping_) return;  // the face has gone meanwhile
+    if (old_fps_.empty()) return stopped(answer);
+    Ask("Record.fps", old_fps_, [this, stopped](const vm::Result<std::string>& set) {
+      if (stopping_) stopped(set);
+    });
+  });
 }
 
 void FaceVideo::Ask(const std::string& slot, const std::string& value,
@@ -122,7 +140,7 @@ void FaceVideo::Open(int width, int height) {
           recording_ = true;
           beginning_ = false;
           thread_ = std::thread([this, width, height] { ReadFrames(width, height); });
-          if (viewers_.empty()) End();
+          if (viewers_.empty()) Stop();
         });
       });
 }
@@ -153,6 +171,7 @@ void FaceVideo::ReadFrames(int width, int height) {
 
 void FaceVideo::Deliver(const Picture& picture) {
   if (picture->empty()) {
+    if (stopping_) return;  // what we have asked for
     recording_ = false;
     if (!beginning_) End();
   }

@@ -36,6 +36,8 @@ class FaceVideo {
   void Open(int width, int height);
   void ReadFrames(int width, int height);  // the thread
   void Deliver(const Picture& picture);
+  /// Asks the face to stop and reads on until it has: a pipe closed before that is an error there.
+  void Stop();
   void End();
 
   boost::asio::io_context& io_;
@@ -43,7 +45,7 @@ class FaceVideo {
   std::map<unsigned, OnPicture> viewers_;
   unsigned last_viewer_ = 0;
   std::string folder_, pipe_, old_fps_;
-  bool beginning_ = false, recording_ = false;
+  bool beginning_ = false, recording_ = false, stopping_ = false;
   std::thread thread_;
   int frames_fd_ = -1;  // read end of the pipe
   int stop_fd_ = -1;    // an event that ends the thread

@@ -24,6 +24,7 @@ struct WebServer::Impl {
   std::unique_ptr<FaceVideo> video;
   std::size_t connections = 0;
   bool closed = false;
+  bool microphone = false;  ///< somebody's is being listened to
 };
 
 namespace web {
@@ -33,6 +34,9 @@ using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 /// Speaks the protocol over a WebSocket until either side ends. Has been let in already.
 void ServeSocket(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
                  const Request& request);
+/// Hands a browser's microphone to the ear until either side ends. Has been let in already.
+void ServeMicrophone(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
+                     const Request& request);
 /// Sends pictures of the face until either side ends.
 void ServeVideo(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream);
 

@@ -13,6 +13,8 @@
 #include "embedded/page_app_js.h"
 #include "embedded/page_galatea_js.h"
 #include "embedded/page_index_html.h"
+#include "embedded/page_microphone_js.h"
+#include "embedded/page_microphone_worklet_js.h"
 #include "embedded/page_module_html.h"
 #include "embedded/page_module_js.h"
 #include "embedded/page_style_css.h"
@@ -38,13 +40,16 @@ struct File {
   string_view (*content)();
 };
 /// All there is: nothing is read from the disk, so no path leads out of here.
-const std::array<File, 7>& Files() {
-  static const std::array<File, 7> files{{
+const std::array<File, 9>& Files() {
+  static const std::array<File, 9> files{{
       {"/", "text/html; charset=utf-8", embedded::page_index_html},
       {"/index.html", "text/html; charset=utf-8", embedded::page_index_html},
       {"/module.html", "text/html; charset=utf-8", embedded::page_module_html},
       {"/module.js", "text/javascript; charset=utf-8", embedded::page_module_js},
       {"/galatea.js", "text/javascript; charset=utf-8", embedded::page_galatea_js},
+      {"/microphone.js", "text/javascript; charset=utf-8", embedded::page_microphone_js},
+      {"/microphone_worklet.js", "text/javascript; charset=utf-8",
+       embedded::page_microphone_worklet_js},
       {"/app.js", "text/javascript; charset=utf-8", embedded::page_app_js},
       {"/style.css", "text/css; charset=utf-8", embedded::page_style_css},
   }};
@@ -98,7 +103,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (!by_address && !HasToken(View(request_[http::field::cookie]), ';', kCookie) &&
         !HasToken(View(request_[http::field::authorization]), ';', "Bearer "))
       return Refuse(http::status::unauthorized, "a request without the token");
-    if (path == "/ws") return Upgrade();
+    if (path == "/ws" || path == "/microphone") return Upgrade(path);
     if (path == "/face.mjpg") return web::ServeVideo(server_, std::move(stream_));
     if (path == "/metrics")
       return Reply(http::status::ok, "text/plain; version=0.0.4", server_->metrics());
@@ -119,11 +124,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     Write(std::move(response));
   }
 
-  void Upgrade() {
+  void Upgrade(const std::string& path) {
     const std::string origin(View(request_[http::field::origin]));
     if (!origin.empty() && origin != "http://" + server_->host && origin != "http://" + LocalName())
       return Refuse(http::status::forbidden, "a WebSocket from the site " + origin.substr(0, 100));
+    if (path == "/microphone" && server_->microphone)
+      return Refuse(http::status::conflict, "a second microphone");
     stream_.expires_never();
+    if (path == "/microphone") return web::ServeMicrophone(server_, std::move(stream_), request_);
     web::ServeSocket(server_, std::move(stream_), request_);
   }
 

@@ -24,7 +24,9 @@ class WebTest : public testing::Test {
     chmod(token.c_str(), 0600);
     std::ofstream(config) << "{\"web\": {\"at\": \"tcp:127.0.0.1:0\", \"token_file\": \"" << token
                           << "\"}, \"modules\": [{\"name\": \"FSM\", \"command\": [\"python3\", \""
-                          << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_face.py\"]}]}";
+                          << GALATEA_SOURCE_DIR
+        "/tests/agent_manager/fake_face.py\"]}, {\"name\": \"SRM\", \"command\": [\"python3\", \""
+                          << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_ear.py\"]}]}";
     hub_ = std::make_unique<Process>(std::vector<std::string>{kHub, "--config", config});
     EXPECT_TRUE(hub_->ExpectError("/?token=")) << hub_->ErrorText();
     const std::string text = hub_->ErrorText();
@@ -55,8 +57,9 @@ class WebTest : public testing::Test {
     if (text.size() < 126) {
       frame += static_cast<char>(0x80 | text.size());
     } else {
-      frame += static_cast<char>(0x80 | 127);
-      for (int i = 7; i >= 0; --i) frame += static_cast<char>(text.size() >> (8 * i) & 0xff);
+      const bool wide = text.size() > 0xffff;
+      frame += static_cast<char>(0x80 | (wide ? 127 : 126));
+      for (int i = wide ? 7 : 1; i >= 0; --i) frame += static_cast<char>(text.size() >> (8 * i) & 0xff);
     }
     return frame + std::string(4, '\0') + text;
   }
@@ -164,13 +167,68 @@ TEST_F(WebTest, MetricsAreInTheFormOfPrometheus) {
   EXPECT_TRUE(metrics->Expect("galatea_module_ready{module=\"FSM\"} 1"));
 }
 
+TEST_F(WebTest, AMicrophoneBecomesTheEarsInputAndThenNoMore) {
+  hub_->WriteLine("to @SRM set#1 Listen = START");
+  ASSERT_TRUE(hub_->Expect("rep#1 Listen = START"));
+  {
+    const auto microphone = Open("/microphone", Host() + Cookie() + Socket("http://" + host_));
+    ASSERT_TRUE(microphone->Expect("101 Switching")) << hub_->ErrorText();
+    EXPECT_EQ(StatusOf("/microphone", Host() + Cookie() + Socket("http://" + host_)), "409")
+        << "one at a time";
+    std::string samples;  // half a second of 1000 Hz at 16 kHz
+    for (int i = 0; i < 8000; ++i)
+      samples += i % 16 < 8 ? std::string("\0\x20", 2) : std::string("\0\xe0", 2);
+    std::string frame = Frame(samples);
+    frame[0] = '\x82';  // binary
+    microphone->Write(frame);
+    // 499 times through zero in half a second.
+    EXPECT_TRUE(hub_->Expect("From @SRM rep Result = 998")) << hub_->Seen() << hub_->ErrorText();
+  }
+  std::string input;
+  for (int i = 0; i < 100 && input.find("= NONE") == std::string::npos; ++i) {
+    hub_->WriteLine("to @SRM inq#2 Input");
+    input = hub_->Expect("rep#2 Input").value_or("");
+  }
+  EXPECT_NE(input.find("= NONE"), std::string::npos) << "as it was before";
+  EXPECT_EQ(StatusOf("/microphone", Host() + Socket("")), "401");
+  EXPECT_EQ(StatusOf("/microphone", Host() + Cookie() + Socket("http://evil.example")), "403");
+}
+
+const char* Chromium() {
+  for (const char* name : {"chromium", "chromium-headless-shell"}) {
+    if (std::system(("command -v " + std::string(name) + " >/dev/null").c_str()) == 0) return name;
+  }
+  return nullptr;
+}
+
+TEST_F(WebTest, WhatABrowsersMicrophoneHearsTheEarUnderstands) {
+  const char* const browser = Chromium();
+  if (browser == nullptr) GTEST_SKIP() << "no chromium-headless-shell and no chromium here";
+  const std::string sound = folder_ / "tone.wav";
+  ASSERT_EQ(std::system(("python3 -c \"import wave, math, struct; w = wave.open('" + sound +
+                         "', 'wb'); w.setparams((1, 2, 48000, 0, 'NONE', '')); "
+                         "w.writeframes(b''.join(struct.pack('<h', int(12000 * math.sin(i * "
+                         "math.tau * 500 / 48000))) for i in range(96000)))\"")
+                            .c_str()),
+            0);
+  Process page(
+      {"python3", GALATEA_SOURCE_DIR "/tests/support/browse.py", browser, folder_ / "profile",
+       "http://" + host_ + "/module.html?token=" + kToken, "--use-fake-ui-for-media-stream",
+       "--use-fake-device-for-media-stream", "--use-file-for-fake-audio-capture=" + sound,
+       "--autoplay-policy=no-user-gesture-required", "wait:document.querySelector('#link.on')",
+       "wait:document.querySelector('#flow').textContent.includes('inq Clock')",
+       "do:document.querySelector('#listen').click()",
+       "wait:/^(49|50)\\d$/.test(document.querySelector('#said').textContent)",
+       "picture:" + (folder_ / "microphone.png"), "do:document.querySelector('#listen').click()",
+       "wait:document.querySelector('#said').textContent == 'Not listening.'"});
+  EXPECT_EQ(page.Wait(support::Millis(120000)), 0) << page.ErrorText() << hub_->ErrorText();
+  EXPECT_TRUE(hub_->Expect("From @PAGE rep Listen = ON")) << hub_->Seen();
+  EXPECT_TRUE(hub_->Expect("From @PAGE rep Result = ")) << "what it hears is its Result";
+}
+
 /// A whole browser, where there is one, does what a new user would.
 TEST_F(WebTest, ABrowserShowsThePageAndWorksIt) {
-  const char* browser = nullptr;
-  for (const char* name : {"chromium", "chromium-headless-shell"}) {
-    if (std::system(("command -v " + std::string(name) + " >/dev/null").c_str()) == 0)
-      browser = name;
-  }
+  const char* const browser = Chromium();
   if (browser == nullptr) GTEST_SKIP() << "no chromium-headless-shell and no chromium here";
   const std::string address = "http://" + host_ + "/";
   Process page({"python3", GALATEA_SOURCE_DIR "/tests/support/browse.py", browser,

@@ -2,7 +2,7 @@
 """Drives a headless Chromium: browse.py BROWSER PROFILE URL STEP...
 
 A step is  wait:EXPRESSION  (until it is true in the page, at most 30 s),  do:EXPRESSION,
-print:EXPRESSION,  or  picture:FILE.png.  Ends with 1 and a sentence if a wait runs out.
+print:EXPRESSION,  picture:FILE.png,  or  --FLAG  for the browser.  Ends with 1 and a sentence if a wait runs out.
 Speaks the DevTools protocol over the browser's pipe: JSON texts ended by a zero byte.
 """
 import base64
@@ -16,14 +16,14 @@ LIMIT_S = 30
 
 
 class Browser:
-    def __init__(self, program, profile):
+    def __init__(self, program, profile, flags):
         to_read, self.out = os.pipe()
         self.inp, to_write = os.pipe()
         # The browser reads descriptor 3 and writes descriptor 4, whatever ours are called.
         script = f'exec 3<&{to_read} 4>&{to_write}; exec "$0" "$@"'
         self.process = subprocess.Popen(
             ["bash", "-c", script, program, "--headless", "--no-sandbox", "--disable-gpu",
-             "--remote-debugging-pipe", "--window-size=1280,1100", f"--user-data-dir={profile}"],
+             "--remote-debugging-pipe", "--window-size=1280,1100", f"--user-data-dir={profile}", *flags],
             pass_fds=(to_read, to_write), stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         os.close(to_read)
         os.close(to_write)
@@ -58,7 +58,7 @@ class Browser:
 
 def main():
     program, profile, url, *steps = sys.argv[1:]
-    browser = Browser(program, profile)
+    browser = Browser(program, profile, [step for step in steps if step.startswith("--")])
     try:
         target = browser.call("Target.createTarget", url="about:blank")["targetId"]
         browser.session = browser.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]

@@ -43,6 +43,30 @@ $('speak').onsubmit = event => {
   $('text').select();
 };
 $('hush').onclick = () => ask('to @AM-MCL set Speak = STOP').catch(() => {});
+
+// ---- the microphone: what the ear understands is shown as an answer
+const microphone = new Microphone(why => {
+  $('talk').textContent = 'Talk';
+  show(why, Boolean(why));
+});
+$('talk').onclick = async () => {
+  if (microphone.on) return microphone.stop();
+  try {
+    await microphone.start();
+    await hub.ask('to @SRM set Listen = START', 'u');
+    $('talk').textContent = 'Talk no more';
+    show('listening: say something');
+  } catch (error) {
+    microphone.stop();
+    show(error.message, true);
+  }
+};
+function hearEar(slot, value) {
+  if (slot === 'Result.partial') show(`${value} ...`);
+  if (slot === 'Result') show(`heard: ${value}`);
+  if (slot === 'NoMatch') show(`not understood: ${value}`, true);
+}
+
 for (const look of kLooks) {
   $('looks').append(element('button', {
     textContent: look.toLowerCase(),
@@ -51,30 +75,39 @@ for (const look of kLooks) {
 }
 
 // ---- modules
-let face_pid = '';
+const pids = new Map();
+const opened = new Set();  // modules whose last lines are being read
+function whyOf(name, ending, log) {
+  if (!ending && !log) return [];
+  const lines = log.split(' | ').map(line => element('div', {className: line.split(' ')[0], textContent: line}));
+  const details = element('details', {open: opened.has(name)},
+      element('summary', {className: ending ? 'why' : '', textContent: ending ? `ended before: ${ending}` : 'what it has said'}),
+      ...lines);
+  details.ontoggle = () => { details.open ? opened.add(name) : opened.delete(name); };
+  return [element('tr', {className: 'said'}, element('td', {colSpan: 4}, details))];
+}
 async function showModules() {
   const text = await hub.ask('inq Processes').catch(() => '');
   const rows = [];
   for (const part of text.split(', ').filter(Boolean)) {
     const name = part.split(' ')[0];
     const of = slot => hub.ask(`inq Module.${name}.${slot}`).catch(() => '');
-    const [state, pid, starts, ending, output] =
-        await Promise.all(['state', 'pid', 'starts', 'ending', 'output'].map(of));
+    const [state, pid, starts, ending, log] =
+        await Promise.all(['state', 'pid', 'starts', 'ending', 'log'].map(of));
     const act = word => element('button', {
       textContent: word,
       onclick: () => ask(`set ${word} = ${name}`).catch(() => {}).then(showModules),
     });
-    if (name === 'FSM' && state === 'READY' && pid !== face_pid) {  // a face that has come anew
-      face_pid = pid;
-      watchFace();
+    if (state === 'READY' && pid !== pids.get(name)) {  // it has come, perhaps anew
+      pids.set(name, pid);
+      if (name === 'FSM') watchFace();
+      if (name === $('whose').value) showSlots();
     }
-    const why = ending ? element('div', {className: 'why', textContent: `ended before: ${ending}`}) : '';
-    const said = output ? element('div', {className: output.split(' ')[0], textContent: output}) : '';
     rows.push(element('tr', {},
-        element('td', {}, element('b', {textContent: name}), why, said),
+        element('td', {}, element('b', {textContent: name})),
         element('td', {className: state, textContent: state}),
         element('td', {textContent: pid > 0 ? `pid ${pid}, start ${starts}` : ''}),
-        element('td', {}, act('Start'), act('Stop'), act('Restart'))));
+        element('td', {}, act('Start'), act('Stop'), act('Restart'))), ...whyOf(name, ending, log));
   }
   $('modules').tBodies[0].replaceChildren(...rows);
   showNames();
@@ -122,6 +155,16 @@ function filterSlots() {
 $('whose').onchange = showSlots;
 $('slot-filter').oninput = filterSlots;
 
+// A value that is reported while its slot is shown is shown anew, unless somebody is writing there.
+function updateSlot(from, line) {
+  const found = from === $('whose').value && line.match(/^(?:From @\S+ )?rep(?:#\S+)? (\S+) = (.*)$/);
+  if (!found) return;
+  for (const row of $('slots').rows) {
+    const value = row.querySelector('input');
+    if (row.dataset.name === found[1] && value !== document.activeElement) value.value = found[2];
+  }
+}
+
 // ---- messages
 const lines = [];
 function lineOf(entry) {
@@ -141,6 +184,7 @@ $('flow-filter').oninput = showFlow;
 const ours = entry => /^(?:(?:to|From) \S+ )*[a-z]+#w\d/.test(entry.line);
 hub.onFlow = entry => {
   measure(entry);
+  updateSlot(entry.from, entry.line);
   if (/ (Run|Module\.|Processes|Modules)\b.*/.test(entry.line) && entry.line.startsWith('tell')) showModules();
   if ($('hold').checked || ours(entry)) return;
   lines.push(entry);
@@ -199,8 +243,10 @@ function draw() {
     const end = Math.max(u.silent || 0, u.still || 0);
     if (end) parts.push(`<text x="${x(end - u.text) + 4}" y="${y + 12}">${Math.round(end - u.text)} ms</text>`);
   });
+  if (!parts.length) parts.push(`<text x="8" y="20">Let it say something, and here is how it went.</text>`);
   $('chart').innerHTML = parts.join('');
 }
+draw();
 
 hub.onState = on => {
   $('link').textContent = on ? 'connected' : 'the hub is away';
@@ -211,6 +257,7 @@ hub.onState = on => {
   showModules();
 };
 hub.onReport = ({from, slot, value}) => {
+  if (from === 'SRM' && microphone.on) hearEar(slot, value);
   // A module has come, gone, or said something for people.
   if ((slot === 'Run' && value === 'LIVE') || /has gone/.test(value) || slot.startsWith('Module.')) showModules();
 };

@@ -1,0 +1,138 @@
+// A browser's microphone as the ear's input: a WebSocket that takes samples, 16 bit, one channel,
+// little-endian, kRate a second, and hands them to @SRM over a socket of its own.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/websocket.hpp>
+#include <cstdlib>
+#include <utility>
+
+#include "agent_manager/web/web_impl.h"
+
+namespace am::web {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = boost::beast::websocket;
+using boost::system::error_code;
+
+constexpr int kRate = 16000;
+constexpr std::size_t kMaxMessageBytes = 64u * 1024;
+constexpr std::size_t kMaxWaitingBytes = 2 * 2 * kRate;  // two seconds; what is older is of no use
+constexpr const char* kEar = "SRM";
+
+/// One browser that is listened to. The ear's input before it is given back in the end.
+class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession> {
+ public:
+  MicrophoneSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
+      : server_(std::move(server)), socket_(std::move(stream)), ear_(server_->io) {
+    ++server_->connections;
+    server_->microphone = true;
+  }
+  ~MicrophoneSession() {
+    --server_->connections;
+    server_->microphone = false;
+    if (!path_.empty()) unlink(path_.c_str());
+    if (!folder_.empty()) rmdir(folder_.c_str());
+  }
+
+  void Start(const Request& request) {
+    socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    socket_.read_message_max(kMaxMessageBytes);
+    socket_.async_accept(request, [self = shared_from_this()](const error_code& error) {
+      if (!error) self->AskEar();
+    });
+  }
+
+ private:
+  void Ask(const vm::Message& message, std::function<void(const vm::Result<std::string>&)> next) {
+    server_->hub.Ask(
+        "AM", vm::To(kEar, message),
+        [self = shared_from_this(), next = std::move(next)](const vm::Result<std::string>& answer) {
+          if (!self->server_->closed) next(answer);
+        });
+  }
+
+  void AskEar() {
+    std::string folder = "/tmp/galatea-ear-XXXXXX";  // mkdtemp makes it ours alone
+    if (mkdtemp(folder.data()) == nullptr) return Refuse("no folder for the sound");
+    folder_ = folder;
+    path_ = folder_ + "/sound";
+    Ask(vm::Inq("Input"), [this](const vm::Result<std::string>& input) {
+      if (!input) return Refuse(input.error().text);
+      before_ = *input;
+      Ask(vm::Set("Input", "unix@" + std::to_string(kRate) + ":" + path_),
+          [this](const vm::Result<std::string>& set) {
+            if (!set) return Refuse(set.error().text);
+            ear_.async_connect(path_, [self = shared_from_this()](const error_code& error) {
+              if (error) return self->Refuse("the ear does not take sound: " + error.message());
+              self->Read();
+            });
+          });
+    });
+  }
+
+  void Refuse(const std::string& why) {
+    server_->on_refusal("web page: no microphone: " + why);
+    // Beast takes at most 123 bytes of reason.
+    socket_.async_close({websocket::close_code::try_again_later, why.substr(0, 120)},
+                        [self = shared_from_this()](const error_code&) { self->End(); });
+  }
+
+  void Read() {
+    socket_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
+      if (error || self->server_->closed) return self->End();
+      self->Take();
+      self->Read();
+    });
+  }
+
+  void Take() {
+    const auto bytes = buffer_.data();
+    if (socket_.got_binary() && waiting_.size() + bytes.size() <= kMaxWaitingBytes)
+      waiting_.append(static_cast<const char*>(bytes.data()), bytes.size());
+    buffer_.consume(buffer_.size());
+    if (!writing_) Write();
+  }
+
+  void Write() {
+    if (waiting_.empty()) return;
+    writing_ = true;
+    going_ = std::exchange(waiting_, {});
+    asio::async_write(ear_, asio::buffer(going_),
+                      [self = shared_from_this()](const error_code& error, std::size_t) {
+                        self->writing_ = false;
+                        if (error) return self->End();
+                        self->Write();
+                      });
+  }
+
+  void End() {
+    if (std::exchange(ended_, true)) return;
+    error_code ignored;
+    ear_.close(ignored);
+    beast::get_lowest_layer(socket_).socket().close(ignored);
+    if (before_.empty() || server_->closed || !server_->hub.IsPresent(kEar)) return;
+    Ask(vm::Set("Input", before_), [](const vm::Result<std::string>&) {});
+  }
+
+  std::shared_ptr<WebServer::Impl> server_;
+  websocket::stream<beast::tcp_stream> socket_;
+  asio::local::stream_protocol::socket ear_;
+  beast::flat_buffer buffer_;
+  std::string folder_, path_, before_, waiting_, going_;
+  bool writing_ = false, ended_ = false;
+};
+
+}  // namespace
+
+void ServeMicrophone(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream,
+                     const Request& request) {
+  std::make_shared<MicrophoneSession>(std::move(server), std::move(stream))->Start(request);
+}
+
+}  // namespace am::web
