@@ -131,7 +131,8 @@ bool Session::SomethingGoesOn() const {
 void Session::AskQuiet() {
   // Only asked when somebody waits for it. Each module answers after all that was said to it
   // before.
-  const bool wanted = idle_wait_ || (console_ended_ && !options_.serve) || (options_.replay && replay_pending_ == 0);
+  const bool wanted = idle_wait_ || (console_ended_ && !options_.serve) ||
+                      (options_.replay && replay_pending_ == 0);
   if (quiet_ || asking_quiet_ || !wanted) return;
   asking_quiet_ = true;
   const auto modules = hub_.ModernModules();
