@@ -1,12 +1,14 @@
 // Makes a face that fsm can wear from a photo of a person.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +17,7 @@
 #include "face_fit/find/head_finder.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/report.h"
+#include "fsm/app/original_config.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/mesh/pnt_file.h"
 
@@ -40,7 +43,7 @@ class Progress {
 };
 
 struct Options {
-  std::string photo, name, out, base = "galatea", networks, head, points;
+  std::string photo, name, out, base = "galatea", networks, head, points, galatea;
   int face = 1;
   bool quiet = false;
 };
@@ -97,21 +100,48 @@ facefit::FoundFace FaceFromPoints(const Options& options, const facefit::BaseHea
   return facefit::FaceFromHand(base, Get(facefit::ParseHandPoints(options.points, text)));
 }
 
+/// A face of a configuration of the original, with the points its wireframe was fitted to.
+struct OriginalFace {
+  fsm::Image photo;
+  facefit::HandPoints points;
+};
+
+OriginalFace ReadOriginal(const Options& options) {
+  const auto config = Get(fsm::OriginalConfig::Read(options.galatea));
+  const auto mask = std::ranges::find(config.masks, options.name, &fsm::OriginalConfig::Mask::name);
+  if (mask == config.masks.end()) {
+    std::string names;
+    for (const auto& other : config.masks) names += " " + other.name;
+    throw std::runtime_error(options.galatea + " has no face '" + options.name + "'; it has" +
+                             (names.empty() ? " none" : ":" + names));
+  }
+  OriginalFace face;
+  face.photo = Get(fsm::ReadImage(mask->picture));
+  const auto wireframe = Get(fsm::ReadPnt(mask->wireframe));
+  face.points = Get(
+      facefit::PointsOfWireframe(mask->wireframe, wireframe, face.photo.width, face.photo.height));
+  return face;
+}
+
 void Run(const Options& options) {
   using namespace facefit;
   if (!options.head.empty()) return FindPointsOfHead(options);
-  if (options.photo.empty() || options.name.empty()) {
-    throw std::runtime_error("a photo and --name, or --head, expected; --help tells more");
+  if (options.photo.empty() == options.galatea.empty() || options.name.empty()) {
+    throw std::runtime_error(
+        "a photo and --name, --galatea and --name, or --head expected; --help tells more");
   }
   if (!fsm::IsFaceName(options.name)) {
     throw std::runtime_error("--name '" + options.name +
                              "': letters, digits, - and _ expected, as anna");
   }
   Progress progress(options.quiet);
-  fsm::Image photo = Get(ReadPhoto(options.photo));
+  std::optional<OriginalFace> original;
+  if (!options.galatea.empty()) original = ReadOriginal(options);
+  fsm::Image photo = original ? std::move(original->photo) : Get(ReadPhoto(options.photo));
+  const bool by_hand = original || !options.points.empty();
   FaceNetworks networks = Get(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");
-  if (const int way = options.points.empty() ? UprightWay(networks, photo) : 1; way != 1) {
+  if (const int way = by_hand ? 1 : UprightWay(networks, photo); way != 1) {
     photo = Turned(photo, way);
     std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
                  "was set upright\n";
@@ -119,8 +149,9 @@ void Run(const Options& options) {
   const BaseHead base = BaseHead::See(networks, options.base);
   progress.Say("head looked at");
   int faces = 1;
-  const FoundFace face = options.points.empty() ? FindFace(options, networks, photo, faces)
-                                                : FaceFromPoints(options, base);
+  const FoundFace face = original  ? FaceFromHand(base, original->points)
+                         : by_hand ? FaceFromPoints(options, base)
+                                   : FindFace(options, networks, photo, faces);
   progress.Say("face and its points found");
   const Fit fit = FitFace(base, face);
   progress.Say("head fitted");
@@ -165,6 +196,9 @@ int main(int argc, char** argv) {
   app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
   app.add_option("--points", options.points,
                  "Points set by hand, lines NAME X Y in pixels, where no face is found");
+  app.add_option(
+      "--galatea", options.galatea,
+      "Instead of a photo: a configuration of the original, whose face NAME is made ours");
   app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
   app.add_option("--networks", options.networks,
                  "Where the networks are (default: where scripts/face_networks.sh puts them)");

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "fsm/head/warp.h"
+#include "fsm/mesh/original_points.h"
 
 namespace facefit {
 namespace {
@@ -85,6 +86,23 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
     if (named.needed && !points.contains(named.point)) {
       return wrong(std::string(named.name) + " is missing");
     }
+  }
+  return points;
+}
+
+vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
+                                         int width, int height) {
+  // What lies where on the original's standard head: see fsm/mesh/original_points.h.
+  constexpr std::pair<std::size_t, fsm::PointName> kSame[] = {
+      {33, {4, 23}},  {133, {4, 17}}, {159, {4, 20}}, {145, {4, 26}}, {263, {5, 23}},
+      {362, {5, 17}}, {386, {5, 20}}, {374, {5, 26}}, {1, {3, 15}},   {2, {3, 25}},
+      {129, {3, 18}}, {358, {3, 22}}, {61, {1, 33}},  {291, {2, 33}}, {152, fsm::kChin}};
+  if (auto there = fsm::CheckPoints(name, wireframe); !there) return std::unexpected(there.error());
+  HandPoints points;
+  for (const auto& [point, of] : kSame) {
+    const glm::vec3 p = wireframe.at[wireframe.index.at(of)];
+    points[point] = {0.5F * (p.x + 1) * static_cast<float>(width),
+                     0.5F * (1 - p.y) * static_cast<float>(height)};
   }
   return points;
 }

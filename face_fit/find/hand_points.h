@@ -6,6 +6,7 @@
 
 #include "face_fit/find/face_finder.h"
 #include "face_fit/fit/base_head.h"
+#include "fsm/mesh/pnt_file.h"
 
 namespace facefit {
 
@@ -19,6 +20,11 @@ using HandPoints = std::map<std::size_t, glm::vec2>;
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text);
 /// The names, with blanks between them.
 std::string HandPointNames();
+
+/// The points that a wireframe of the original fitted to a photo of that size gives. Error:
+/// kBadValue if it is none of its standard head.
+vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
+                                         int width, int height);
 
 /// All points of a face of which some are known: the others lie to them as on the built-in head.
 FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points);

@@ -102,6 +102,15 @@ TEST(HandPointsTest, SixPlacesPutTheFaceWhereTheyAre) {
   EXPECT_NEAR(FitFace(base, face).pose.turn.y, 0, 0.2F);
 }
 
+TEST(HandPointsTest, AWireframeOfAnotherHeadIsRefused) {
+  const auto wireframe = fsm::ParsePnt("w.pnt", "#2\n1 1 33 0 0 0\n");
+  ASSERT_TRUE(wireframe);
+  const auto points = PointsOfWireframe("w.pnt", *wireframe, 100, 100);
+  ASSERT_FALSE(points);
+  EXPECT_NE(points.error().text.find("w.pnt: point 14 of group 1"), std::string::npos)
+      << points.error().text;
+}
+
 TEST(HandPointsTest, DamageIsToldWithItsLine) {
   for (const auto& [text, words] :
        {std::pair("chin 1\n", "p:1: NAME X Y"), std::pair("chin 1 2 3\n", "p:1: NAME X Y"),
