@@ -60,6 +60,23 @@ void Listening::Declare(const std::string& module_version) {
                     if (on_ && !hooks_.hearing()) Arm();
                     return std::to_string(timeout_.count());
                   }});
+  slots_.Declare({.name = "Listen.longest",
+                  .grammar = "<int 100..600000>",
+                  .initial = std::to_string(longest_.count()),
+                  .help = "An utterance is ended after so many ms.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    longest_ = Millis(static_cast<long>(value.number(0)));
+                    return std::to_string(longest_.count());
+                  }});
+  slots_.Declare({.name = "Listen.end",
+                  .grammar = "NOW",
+                  .access = vm::Access::kWriteOnly,
+                  .help = "What is being said ends here and is reported as ever; answered then.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    if (on_ && hooks_.hearing()) hooks_.end();
+                    return value.word(0);
+                  },
+                  .saved = false});
 }
 
 void Listening::Start() {

@@ -11,8 +11,8 @@ namespace ear {
 
 using Millis = std::chrono::milliseconds;
 
-/// Whether an ear listens, and its patience: the slots Run, Listen, Listen.stat, Listen.timeout and
-/// the versions.
+/// Whether an ear listens, and its patience: the slots Run, Listen, Listen.stat, Listen.timeout,
+/// Listen.longest, Listen.end and the versions.
 ///
 ///   OFF --Start--> LISTENING --Hear--> SPEECH --Wait--> LISTENING     Stop from anywhere -> OFF
 ///
@@ -24,6 +24,7 @@ class Listening {
     std::function<void()> stopped{};  ///< before OFF is reported
     std::function<void()> exit{};     ///< Run = EXIT
     std::function<bool()> hearing{};  ///< somebody is speaking just now
+    std::function<void()> end{};      ///< what is being said ends here, and counts
   };
   Listening(vm::Scheduler& scheduler, vm::SlotMachine& slots, Hooks hooks);
   ~Listening() { Disarm(); }
@@ -40,6 +41,8 @@ class Listening {
   /// Nobody speaks any more; `more` follows at once, so no patience is needed.
   void Wait(bool more = false);
   void Disarm();
+  /// An utterance is ended after that.
+  Millis longest() const { return longest_; }
 
  private:
   void Arm();
@@ -48,6 +51,7 @@ class Listening {
   const Hooks hooks_;
   bool on_ = false;
   Millis timeout_{0};
+  Millis longest_{20'000};
   vm::TimerId timer_ = 0;
 };
 

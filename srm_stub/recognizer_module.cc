@@ -1,6 +1,8 @@
 #include "srm_stub/recognizer_module.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "ear/result_report.h"
@@ -28,6 +30,10 @@ std::string Join(const std::vector<std::string>& words, std::size_t count) {
 
 const vm::Error kNotListening{vm::Errc::kBusy, "not listening; set Run = START first", 0};
 
+/// How long the sound of a word is where words take no time to hear.
+constexpr Millis kWordSound{250};
+constexpr double kToneHz = 440;
+constexpr double kToneLevel = 3000;
 
 /// A file has a phrase on each line.
 std::string PhrasesOfLines(std::string_view text) {
@@ -56,11 +62,19 @@ RecognizerModule::RecognizerModule(vm::Scheduler& scheduler, Options options)
                         DropInputs({vm::Errc::kStopped, "listening was stopped", 0});
                       },
                   .exit = [this] { exit_requested_ = true; },
-                  .hearing = [this] { return !inputs_.empty(); }}) {
+                  .hearing = [this] { return !inputs_.empty(); },
+                  .end =
+                      [this] {
+                        if (!underway_) return;  // the next one of many has not begun
+                        if (word_timer_ != 0) scheduler_.Cancel(std::exchange(word_timer_, 0));
+                        Finish();
+                      }}),
+      keep_(slots_) {
   listening_.Declare(options_.module_version);
   DeclareGrammar();
   DeclareInput();
   ear::DeclareResultSlots(slots_);
+  keep_.Declare();
 }
 
 RecognizerModule::~RecognizerModule() { Shutdown(); }
@@ -123,8 +137,21 @@ void RecognizerModule::DeclareInput() {
                   .help =
                       "What somebody says. Refused while not listening. Further texts wait until "
                       "this one has been heard.",
-                  .on_set_later = [this](const vm::SetValue& value,
-                                         const vm::Reply& reply) { Take(value.text, reply); },
+                  .on_set_later =
+                      [this](const vm::SetValue& value, const vm::Reply& reply) {
+                        Take({value.text, reply});
+                      },
+                  .saved = false});
+  slots_.Declare({.name = "Input.sound",
+                  .grammar = "<int 1..600000>",
+                  .access = vm::Access::kWriteOnly,
+                  .help =
+                      "Somebody is heard for so many ms, without words; else as Input.text. For "
+                      "recordings.",
+                  .on_set_later =
+                      [this](const vm::SetValue& value, const vm::Reply& reply) {
+                        Take({"", reply, Millis(static_cast<long>(value.number(0)))});
+                      },
                   .saved = false});
   slots_.Declare({.name = "Input.wordtime",
                   .grammar = "<ms>",
@@ -148,34 +175,54 @@ void RecognizerModule::DeclareInput() {
 
 // --- hearing
 
-void RecognizerModule::Take(const std::string& text, const vm::Reply& reply) {
-  if (!listening_.on()) return reply.Fail(kNotListening);
+void RecognizerModule::Take(Input input) {
+  if (!listening_.on()) return input.reply.Fail(kNotListening);
   if (inputs_.size() >= kMaxQueuedInputs) {
-    return reply.Fail(
+    return input.reply.Fail(
         {vm::Errc::kLimit, "more than " + std::to_string(kMaxQueuedInputs) + " texts wait", 0});
   }
-  inputs_.push_back({text, reply});
+  inputs_.push_back(std::move(input));
   if (inputs_.size() == 1) Hear(inputs_.front());
 }
 
 void RecognizerModule::Hear(const Input& input) {
   written_ = Pieces(input.text);
   heard_since_ = scheduler_.Now();
+  said_ = 0;
+  underway_ = true;
   listening_.Hear();
-  if (word_time_.count() == 0 || written_.empty()) return Finish();
-  word_timer_ = scheduler_.After(word_time_, [this] { HearWord(1); });
+  if (input.sound.count() > 0) return Until(heard_since_ + input.sound, 0);
+  if (word_time_.count() > 0 && !written_.empty()) return Until(heard_since_ + word_time_, 1);
+  said_ = written_.size();
+  Finish();
+}
+
+/// At that time so many words are said; Listen.longest may come before.
+void RecognizerModule::Until(vm::Time when, std::size_t words) {
+  const vm::Time last = heard_since_ + listening_.longest();
+  if (when > last) {
+    word_timer_ = scheduler_.At(last, [this] {
+      word_timer_ = 0;
+      Finish();
+    });
+  } else {
+    word_timer_ = scheduler_.At(when, [this, words] { HearWord(words); });
+  }
 }
 
 void RecognizerModule::HearWord(std::size_t count) {
   word_timer_ = 0;
-  slots_.Report("Result.partial", Join(written_, count));
+  said_ = count;
+  if (count > 0) slots_.Report("Result.partial", Join(written_, count));
   if (count == written_.size()) return Finish();
-  word_timer_ = scheduler_.After(word_time_, [this, count] { HearWord(count + 1); });
+  Until(scheduler_.Now() + word_time_, count + 1);
 }
 
 void RecognizerModule::Finish() {
+  underway_ = false;
   const vm::Reply reply = inputs_.front().reply;
-  const std::string text = Join(written_, written_.size());
+  const std::string text = Join(written_, said_);
+  KeepSound();
   Recognize(text);
   reply.Ok(text);
   inputs_.pop_front();
@@ -186,6 +233,22 @@ void RecognizerModule::Finish() {
     word_timer_ = 0;
     Hear(inputs_.front());
   });
+}
+
+/// As long as it took to hear; where words take no time, kWordSound for each.
+void RecognizerModule::KeepSound() {
+  if (!keep_.on()) return;
+  const auto heard = std::chrono::duration_cast<Millis>(scheduler_.Now() - heard_since_);
+  const bool timed = word_time_.count() > 0 || inputs_.front().sound.count() > 0;
+  const Millis words = kWordSound * static_cast<long>(said_);
+  const Millis length = std::min(timed ? heard : words, listening_.longest());
+  std::vector<std::int16_t> tone(static_cast<std::size_t>(length.count()) *
+                                 ear::SoundKeep::kRateHz / 1000);
+  const double step = 2 * std::numbers::pi * kToneHz / ear::SoundKeep::kRateHz;
+  for (std::size_t i = 0; i < tone.size(); ++i) {
+    tone[i] = static_cast<std::int16_t>(kToneLevel * std::sin(step * static_cast<double>(i)));
+  }
+  keep_.Keep(tone, length == listening_.longest());
 }
 
 void RecognizerModule::Recognize(const std::string& text) {
@@ -225,12 +288,12 @@ void RecognizerModule::NextScriptLine() {
     script_timer_ = 0;
     const ScriptLine line = std::move(script_.front());
     script_.pop_front();
-    Take(line.text, vm::Reply([this, number = line.number](vm::Result<std::string> taken) {
-           if (taken) return;
-           slots_.ReportError("Input.script",
-                              {taken.error().code,
-                               "line " + std::to_string(number) + ": " + taken.error().text, 0});
-         }));
+    Take({line.text, vm::Reply([this, number = line.number](vm::Result<std::string> taken) {
+            if (taken) return;
+            slots_.ReportError("Input.script",
+                               {taken.error().code,
+                                "line " + std::to_string(number) + ": " + taken.error().text, 0});
+          })});
     NextScriptLine();
   });
 }

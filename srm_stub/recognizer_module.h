@@ -8,6 +8,7 @@
 
 #include "ear/grammar_shelf.h"
 #include "ear/listening.h"
+#include "ear/sound_keep.h"
 #include "srm_stub/input_script.h"
 #include "srm_stub/word_grammar.h"
 #include "vm_protocol/core/module.h"
@@ -20,7 +21,7 @@ inline constexpr std::size_t kMaxQueuedInputs = 64;
 
 /// The speech recognition module (SRM) with typed text for a microphone: what is "said" comes by
 /// `Input.text` or from a script, takes time word by word if wished, and is matched against the
-/// active grammars.
+/// active grammars. What Listen.keep keeps of it is a tone as long as it took.
 ///
 ///   OFF --Run = START--> LISTENING --first word--> SPEECH --last word--> LISTENING
 ///                                        Result.partial ...   Result or NoMatch
@@ -46,16 +47,19 @@ class RecognizerModule final : public vm::Module {
   struct Input {
     std::string text;
     vm::Reply reply;
+    Millis sound{0};  ///< without words, for so long
   };
 
   void DeclareGrammar();
   void DeclareInput();
 
   void DropInputs(const vm::Error& why);
-  void Take(const std::string& text, const vm::Reply& reply);
+  void Take(Input input);
   void Hear(const Input& input);
   void HearWord(std::size_t count);
+  void Until(vm::Time when, std::size_t words);
   void Finish();
+  void KeepSound();
   void Recognize(const std::string& text);
   vm::Result<std::string> StartScript(const std::string& path);
   void NextScriptLine();
@@ -66,9 +70,12 @@ class RecognizerModule final : public vm::Module {
 
   ear::GrammarShelf<WordGrammar> grammars_;
   ear::Listening listening_;
+  ear::SoundKeep keep_;
   Millis word_time_{0};
   std::deque<Input> inputs_;          // the first one is being heard
   std::vector<std::string> written_;  // its words as written
+  bool underway_ = false;             // it has begun
+  std::size_t said_ = 0;              // of them, so far
   vm::Time heard_since_{0};
   vm::TimerId word_timer_ = 0;
 

@@ -64,7 +64,8 @@ void Ear::OnEnd() {
   Heard heard{.hypothesis = decoder_->End(),
               .start = start_,
               .length = Millis(static_cast<std::int64_t>(utterance_.size() / kFramesPerMs))};
-  utterance_.clear();
+  heard.longest = heard.length >= endpointer_.settings().longest;
+  heard.sound = std::exchange(utterance_, {});
   events_.ended(heard);
 }
 

@@ -20,6 +20,8 @@ class Ear {
     Hypothesis hypothesis{};
     Millis start{0};   ///< of the first sound handed over, in the sound's own time
     Millis length{0};  ///< with the silence that ended it
+    std::vector<std::int16_t> sound{};
+    bool longest = false;  ///< ended because it was too long
   };
   struct Events {
     std::function<void()> began;  ///< somebody speaks

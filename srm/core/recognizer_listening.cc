@@ -79,6 +79,7 @@ vm::Result<void> RecognizerModule::StartSource() {
 }
 
 void RecognizerModule::Hear(std::span<const std::int16_t> samples) {
+  ear_->settings().longest = listening_.longest();
   if (!canceller_) return ear_->Feed(samples);
   const std::vector<std::int16_t> clean = canceller_->Clean(samples);
   if (!clean.empty()) ear_->Feed(clean);
@@ -181,6 +182,7 @@ void RecognizerModule::OnBegan() {
 }
 
 void RecognizerModule::OnEnded(const Ear::Heard& heard) {
+  keep_.Keep(heard.sound, heard.longest);
   Recognize(heard.hypothesis.text, &heard);
   listening_.Wait();
 }

@@ -18,13 +18,16 @@ RecognizerModule::RecognizerModule(vm::Scheduler& scheduler, Options options)
                       },
                   .stopped = [this] { StopListening(); },
                   .exit = [this] { exit_requested_ = true; },
-                  .hearing = [this] { return ear_ && ear_->in_speech(); }}) {
+                  .hearing = [this] { return ear_ && ear_->in_speech(); },
+                  .end = [this] { ear_->Finish(); }}),
+      keep_(slots_) {
   listening_.Declare(options_.module_version);
   DeclareListen();
   DeclareAgent();
   DeclareGrammar();
   DeclareInput();
   DeclareResult();
+  keep_.Declare();
 }
 
 RecognizerModule::~RecognizerModule() { Shutdown(); }

@@ -9,6 +9,7 @@
 #include "ear/grammar_shelf.h"
 #include "ear/listening.h"
 #include "ear/result_report.h"
+#include "ear/sound_keep.h"
 #include "srm/core/audio_source.h"
 #include "srm/core/ear.h"
 #include "srm/engine/echo_canceller.h"
@@ -88,6 +89,7 @@ class RecognizerModule final : public vm::Module {
   std::vector<std::pair<std::string, std::string>> pronunciations_;
 
   ear::Listening listening_;
+  ear::SoundKeep keep_;
   bool agent_speaking_ = false;
   Echo echo_ = Echo::kHalf;
   std::unique_ptr<EchoCanceller> canceller_;  // while echo_ is kCancel

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <numbers>
 
 #include "srm/core/recognizer_module.h"
+#include "srm/engine/sound_file.h"
+#include "tests/support/process.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace {
@@ -314,6 +318,46 @@ TEST_F(RecognizerTest, BadRequestsAreRefusedAndChangeNothing) {
   }
   EXPECT_EQ(module_->slots().Value("Grammar"), "NONE");
   EXPECT_EQ(module_->slots().Value("Input"), "NONE");
+}
+
+TEST_F(RecognizerTest, WhatWasSaidIsKeptWithItsLeadAndItsFinalSilence) {
+  support::TempDir folder;
+  Tell("set Listen.keep = " + folder.path());
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  UntilIdle();
+  const std::string told = module_->slots().Value("Result.sound");
+  const std::string file = folder / "utterance-1.wav";
+  const auto ms = static_cast<std::size_t>(std::atoi(told.c_str()));
+  EXPECT_NEAR(static_cast<double>(ms), 300 + 700 + 500, 25);
+  EXPECT_EQ(told, std::to_string(ms) + " " + std::to_string(44 + ms * 32) + " WHOLE " + file);
+  const auto kept = srm::ReadSound(file);
+  ASSERT_TRUE(kept) << kept.error().text;
+  EXPECT_NE(std::search(sound_.begin(), sound_.end(), kept->begin(), kept->begin() + 12'000),
+            sound_.end());
+}
+
+TEST_F(RecognizerTest, ALongUtteranceIsCutWhereItIsTold) {
+  support::TempDir folder;
+  Tell("set Listen.keep = " + folder.path());
+  Tell("set Listen.longest = 700");
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  UntilIdle();
+  EXPECT_TRUE(std::filesystem::exists(folder / "utterance-1.wav"));
+  const Lines said = Said();
+  EXPECT_NE(std::find(said.begin(), said.end(),
+                      "rep Result.sound = 700 22444 CUT " + (folder / "utterance-1.wav")),
+            said.end());
+}
+
+TEST_F(RecognizerTest, AnUtteranceCanBeEndedFromOutside) {
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  clock_.RunUntil(vm::Time(1'300'000));
+  Said();
+  Tell("set Listen.end = NOW");
+  EXPECT_EQ(Said()[2], "rep Result = yes please");
 }
 
 TEST_F(RecognizerTest, StopDropsWhatIsBeingHeard) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -134,6 +135,68 @@ TEST_F(RecognizerTest, WordsTakeTimeAndArePartialResults) {
                            "500 rep Result.tag = HI", "500 rep Result = Hello there",
                            "500 rep Listen.stat = LISTENING"}));
   EXPECT_FALSE(module_.Busy());
+}
+
+TEST_F(RecognizerTest, ASoundIsKeptAsLongAsItWasAndReportedBeforeTheResult) {
+  support::TempDir folder;
+  Tell("set Listen.keep = " + (folder / "missing"));
+  EXPECT_EQ(std::exchange(errors_, {}),
+            Lines{"BAD_VALUE '" + (folder / "missing") + "' is no folder"});
+  Tell("set Listen.keep = " + folder.path());
+  Tell("set Run = START");
+  Said();
+  Tell("set Input.sound = 1500");
+  UntilIdle();
+  const std::string first = folder / "utterance-1.wav";
+  EXPECT_EQ(Said(), (Lines{"0 rep Listen.stat = SPEECH",
+                           "1500 rep Result.sound = 1500 48044 WHOLE " + first,
+                           "1500 rep NoMatch = ", "1500 rep Listen.stat = LISTENING"}));
+  EXPECT_EQ(std::filesystem::file_size(first), 48044u);
+  Tell("set Listen.keep = NONE");
+  Tell("set Input.text = three words long");
+  for (const std::string& line : Said()) EXPECT_EQ(line.find("sound"), std::string::npos) << line;
+}
+
+TEST_F(RecognizerTest, ATooLongUtteranceIsCutWithTheWordsSaidSoFar) {
+  support::TempDir folder;
+  Tell("set Listen.keep = " + folder.path());
+  Tell("set Listen.longest = 600");
+  Tell("set Input.wordtime = 250");
+  Tell("set Run = START");
+  Said();
+  Tell("set Input.text = one two three");
+  UntilIdle();
+  EXPECT_EQ(Said()[3], "600 rep Result.sound = 600 19244 CUT " + (folder / "utterance-1.wav"));
+  EXPECT_EQ(module_.slots().Value("Result"), "one two");
+}
+
+TEST_F(RecognizerTest, AnUtteranceCanBeEndedFromOutside) {
+  Tell("set Listen.end = NOW");  // nothing is being said: nothing happens
+  Tell("set Input.wordtime = 250");
+  Tell("set Run = START");
+  Said();
+  Tell("set#1 Input.text = one two three");
+  Tell("set#2 Input.text = next");
+  clock_.RunUntil(vm::Time(300'000));
+  Said();
+  Tell("set#3 Listen.end = NOW");
+  Tell("set#4 Listen.end = NOW");  // the next one has not begun
+  const Lines said = Said();
+  EXPECT_EQ(said[2], "300 rep Result = one");
+  EXPECT_EQ(said[3], "300 rep#1 Input.text = one");
+  EXPECT_EQ(said[5], "300 rep#3 Listen.end = NOW");
+  UntilIdle();
+  EXPECT_EQ(module_.slots().Value("Result"), "next");
+}
+
+TEST_F(RecognizerTest, OnlySoManySoundsAreKeptAndTheOldestGo) {
+  support::TempDir folder;
+  Tell("set Listen.keep = " + folder.path());
+  Tell("set Run = START");
+  for (std::size_t i = 0; i <= ear::SoundKeep::kMaxFiles; ++i) Tell("set Input.text = a");
+  EXPECT_FALSE(std::filesystem::exists(folder / "utterance-1.wav"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "utterance-2.wav"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "utterance-257.wav"));
 }
 
 TEST_F(RecognizerTest, WhatFitsNoActiveGrammarIsNoMatch) {
