@@ -53,6 +53,7 @@ Listen Session::MakeListen(const Item& item, const std::vector<ActiveGrammar>& a
     return state;
   };
   listen.attention = Property("attention") != "false";
+  listen.keep_sound = Property("recordutterance") == "true";
   listen.phrases = [&active](std::size_t most_bytes) {
     std::string all;
     for (const ActiveGrammar& grammar : active) {
@@ -139,8 +140,11 @@ void Session::SetLastResult(const std::vector<Match>& matches, const Input& inpu
   }
   if (Property("recordutterance") == "true" && input.recorded.count() > 0) {
     const auto duration = static_cast<double>(input.recorded.count());
-    engine_.Set(last, "recording", engine_.Object());
-    engine_.Set(last, "recordingsize", engine_.Number(duration * 8));  // 8 kHz, 8 bit
+    const double bytes = input.recorded_bytes > 0 ? static_cast<double>(input.recorded_bytes)
+                                                  : duration * 8;  // 8 kHz, 8 bit
+    engine_.Set(last, "recording",
+                RecordingObject(input.recording, Property("recordutterancetype"), input.recorded));
+    engine_.Set(last, "recordingsize", engine_.Number(bytes));
     engine_.Set(last, "recordingduration", engine_.Number(duration));
   }
   engine_.Set(context_->application, "lastresult$", last);

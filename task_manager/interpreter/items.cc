@@ -59,6 +59,19 @@ void Session::VisitObject(Item& item) {
   ThrowEvent("error.unsupported.objectname", "no object '" + item.node->Get("classid") + "'");
 }
 
+/// A recording as a script sees it; <audio>, <value> and submitting take it.
+Value Session::RecordingObject(const std::string& uri, const std::string& type, Millis duration) {
+  const Value recording = engine_.Object();
+  engine_.Set(recording, "uri", engine_.String(uri));
+  engine_.Set(recording, "type", engine_.String(type));
+  engine_.Set(recording, "duration", engine_.Number(static_cast<double>(duration.count())));
+  return recording;
+}
+
+bool Session::IsRecording(const Value& value) {
+  return engine_.Has(value, "uri") && engine_.Has(value, "duration") && engine_.Has(value, "type");
+}
+
 void Session::VisitRecord(Item& item) {
   const xml::Node& node = *item.node;
   if (hung_up_ || disconnected_) throw ExitSession{"hangup"};
@@ -83,12 +96,11 @@ void Session::VisitRecord(Item& item) {
   steps_ = 0;
   if (result.kind == RecordResult::Kind::kSilence) ThrowEvent("noinput");
   if (result.kind == RecordResult::Kind::kUnsupported) ThrowEvent("error.unsupported.record");
+  if (result.kind == RecordResult::Kind::kBadFormat) {
+    ThrowEvent("error.unsupported.format", "recording as '" + request.type + "'");
+  }
   const auto keep = [&](const std::string& termchar) {
-    const Value recording = engine_.Object();
-    engine_.Set(recording, "uri", engine_.String(result.uri));
-    engine_.Set(recording, "type", engine_.String(plain));
-    engine_.Set(recording, "duration",
-                engine_.Number(static_cast<double>(result.duration.count())));
+    const Value recording = RecordingObject(result.uri, plain, result.duration);
     const Value shadow = engine_.Object();
     engine_.Set(shadow, "duration", engine_.Number(static_cast<double>(result.duration.count())));
     engine_.Set(shadow, "size", engine_.Number(static_cast<double>(result.bytes)));

@@ -17,7 +17,10 @@ void PromptBuilder::Add(const xml::Node& node) {
   s_.Step();
   const std::string& name = node.name;
   if (name == "prompt") return AddChildren(node);
-  if (name == "value") return Words(s_.TextOf(node, node.Get("expr")));
+  if (name == "value") {
+    const Value value = s_.Evaluate(node, node.Get("expr"));
+    return s_.IsRecording(value) ? Audio(node, value) : Words(s_.engine_.ToString(value));
+  }
   if (name == "audio") return Audio(node);
   if (name == "enumerate") return Enumerate(node);
   if (name == "foreach") return Foreach(node);
@@ -103,16 +106,24 @@ void PromptBuilder::Speech(const xml::Node& node) {
 }
 
 void PromptBuilder::Audio(const xml::Node& node) {
-  std::string source = node.Get("src");
   if (const std::string* expression = node.Find("expr")) {
     const Value value = s_.Evaluate(node, *expression);
     if (s_.engine_.IsUndefined(value)) return;  // section 4.1.3: nothing at all
-    source = s_.engine_.IsObject(value) ? s_.engine_.ToString(s_.engine_.Get(value, "uri"))
-                                        : s_.engine_.ToString(value);
-    if (s_.engine_.IsObject(value) && source.empty()) source = "recording:";
+    return Audio(node, value);
   }
+  Audio(node, node.Get("src"));
+}
+
+void PromptBuilder::Audio(const xml::Node& node, const Value& value) {
+  if (!s_.engine_.IsObject(value)) return Audio(node, s_.engine_.ToString(value));
+  const std::string uri = s_.engine_.ToString(s_.engine_.Get(value, "uri"));
+  Audio(node, uri.empty() ? "recording:" : uri);
+}
+
+void PromptBuilder::Audio(const xml::Node& node, const std::string& source) {
   if (source.empty()) return AddChildren(node);
-  const std::string uri = source == "recording:" ? source : fetch::Resolve(s_.BaseOf(node), source);
+  const std::string uri =
+      source.starts_with("recording:") ? source : fetch::Resolve(s_.BaseOf(node), source);
   std::shared_ptr<const std::string> sound;
   if (!Exists(node, uri, sound)) return AddChildren(node);
   EndWords();

@@ -6,6 +6,7 @@
 
 #include "task_manager/interpreter/markup.h"
 #include "task_manager/platform/platform.h"
+#include "task_manager/script/engine.h"
 
 namespace vxml {
 
@@ -27,6 +28,8 @@ class PromptBuilder {
   void Command(const std::string& line, Millis wait, bool parallel);
   void Speech(const xml::Node& node);
   void Audio(const xml::Node& node);
+  void Audio(const xml::Node& node, const script::Value& value);
+  void Audio(const xml::Node& node, const std::string& source);
   bool Exists(const xml::Node& node, const std::string& uri,
               std::shared_ptr<const std::string>& sound);
   void Enumerate(const xml::Node& node);

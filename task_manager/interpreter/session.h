@@ -134,6 +134,8 @@ class Session {
   // items.cc
   void VisitSubdialog(Item& item);
   void VisitRecord(Item& item);
+  script::Value RecordingObject(const std::string& uri, const std::string& type, Millis duration);
+  bool IsRecording(const script::Value& value);
   void VisitTransfer(Item& item);
   void VisitObject(Item& item);
   void FillPlain(Item& item, const script::Value& value);

@@ -55,12 +55,12 @@ std::vector<fetch::Field> Session::SubmitFields(const xml::Node& node,
 void Session::Flatten(const std::string& name, const Value& value,
                       std::vector<fetch::Field>& fields, int depth) {
   if (depth > 8 || fields.size() > 10'000) return;
-  if (engine_.Has(value, "uri") && engine_.Has(value, "duration") && engine_.Has(value, "type")) {
+  if (IsRecording(value)) {
     // A recording: its bytes where the platform keeps them, else only its name.
     const std::string uri = engine_.ToString(engine_.Get(value, "uri"));
-    auto bytes = uri.empty() ? vm::Result<fetch::Response>() : fetcher_.Get(uri);
-    fields.push_back({name, bytes ? bytes->body : "", engine_.ToString(engine_.Get(value, "type")),
-                      name + ".wav"});
+    const auto bytes = platform_.Recording(uri);
+    fields.push_back(
+        {name, bytes ? *bytes : "", engine_.ToString(engine_.Get(value, "type")), name + ".wav"});
     return;
   }
   if (engine_.IsObject(value)) {

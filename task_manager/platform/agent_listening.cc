@@ -11,20 +11,39 @@ constexpr Millis kAnswer{5000};
 constexpr Millis kReaction{500};
 constexpr std::size_t kMostGrammar = 12'000;  // the ear takes 16 KiB
 
+/// The key that ends an input is no part of it, unless a grammar takes it so.
+void EndKeys(Input& input, const Listen& listen) {
+  if (input.kind != Input::Kind::kDtmf || input.hypotheses.empty()) return;
+  std::string& keys = input.hypotheses.front().text;
+  if (keys.size() < 2 || listen.termchar != keys.substr(keys.size() - 1)) return;
+  if (listen.keys && listen.keys(keys).complete) return;
+  input.termchar = listen.termchar;
+  keys.pop_back();
+}
+
 }  // namespace
 
-void AgentPlatform::OnTyped(const std::string& line) {
-  if (xml::IsBlank(line)) return;
-  if (line[0] != '/') return hub_.Send("to @" + options_.ear + " set Input.text = " + line);
+bool AgentPlatform::OnTyped(const std::string& line) {
+  if (xml::IsBlank(line)) return false;
+  if (line[0] != '/') {
+    auto message = vm::ParseMessage("to @" + options_.ear + " set Input.text = " + line);
+    if (!message) return false;
+    ++typed_waiting_;
+    hub_.client().Request(*message, [this](const vm::Result<std::string>&) { --typed_waiting_; });
+    return true;
+  }
   auto command = ParseCommand(std::string_view(line).substr(1));
-  if (!command) return;
+  if (!command) return false;
   if (command->kind == Command::Kind::kDtmf) {
     Hear(Input::Kind::kDtmf, command->hypotheses);
   } else if (command->kind == Command::Kind::kHangup) {
     Hear(Input::Kind::kHangup, {});
   } else if (command->kind == Command::Kind::kSilence) {
     Hear(Input::Kind::kSilence, {});
+  } else {
+    return false;
   }
+  return true;
 }
 
 /// The active grammars, as far as the ear can hold them. What it cannot is heard freely and
@@ -97,6 +116,7 @@ void AgentPlatform::Hear(Input::Kind kind, std::vector<Hypothesis> hypotheses) {
   Input input;
   input.kind = kind;
   input.hypotheses = std::move(hypotheses);
+  if (kind == Input::Kind::kSpeech) AddSound(input);
   heard_.push_back(std::move(input));
 }
 
@@ -137,6 +157,7 @@ std::optional<Input> AgentPlatform::Taken() {
 Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& listen) {
   mark_.clear();
   UseGrammars(listen);
+  KeepSounds(listen.keep_sound);
   attends_ = listen.attention;
   std::optional<Command> command = options_.script ? Next() : std::nullopt;
   const bool interrupts = command && command->at;
@@ -154,17 +175,24 @@ Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& l
   }
   const bool on_its_way = interrupts && (interrupting_ || hearing_);
   if (options_.script && heard_.empty() && !on_its_way) {
-    if (auto scripted = FromScript(command, listen)) return *scripted;
+    if (auto scripted = FromScript(command, listen)) {
+      EndKeys(*scripted, listen);
+      return *scripted;
+    }
   } else if (options_.script && !interrupts) {
     next_ = command;  // somebody else spoke first
   }
-  const auto ready = [&] { return !heard_.empty() || hub_.typed_end(); };
+  if (heard_.empty() && !hearing_) hub_.TakeTyped();
+  const auto ready = [&] { return !heard_.empty() || TypedOver(); };
   while (!ready() && !hub_.gone()) {
     if (!hub_.WaitFor([&] { return ready() || hearing_; }, listen.timeout)) break;
     if (!ready()) hub_.WaitFor(ready, listen.max_speech);
   }
-  if (auto taken = Taken()) return *taken;
-  input.kind = hub_.gone() || hub_.typed_end() ? Input::Kind::kHangup : Input::Kind::kSilence;
+  if (auto taken = Taken()) {
+    EndKeys(*taken, listen);
+    return *taken;
+  }
+  input.kind = hub_.gone() || TypedOver() ? Input::Kind::kHangup : Input::Kind::kSilence;
   return input;
 }
 

@@ -51,6 +51,9 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
   hub_.client().On("Listen.stat", [this](const vm::Message& m) {
     if (m.from == options_.ear) hearing_ = m.value == "SPEECH";
   });
+  hub_.client().On("Result.sound", [this](const vm::Message& m) {
+    if (m.from == options_.ear) OnSound(m.value);
+  });
   hub_.client().On("Result.partial", [this](const vm::Message& m) {
     const auto now = std::chrono::steady_clock::now();
     if (m.from != options_.ear || !attends_ || now - last_nod_ < kNodPause) return;
@@ -64,7 +67,7 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
     std::from_chars(name.data() + 1, name.data() + name.size(), index);
     while (acted_ <= index && acted_ < actions_.size()) Act(acted_++);
   });
-  hub_.on_typed = [this](const std::string& line) { OnTyped(line); };
+  hub_.on_typed = [this](const std::string& line) { return OnTyped(line); };
   static_cast<void>(
       hub_.Ask("to @AM set Subscribe = " + ear + " " + options_.voice + " AM-MCL", kAnswer));
   hub_.Send("to @" + options_.voice + " prop Speak.mark = AutoOutput");
@@ -189,15 +192,18 @@ bool AgentPlatform::Utter(const std::string& text, bool may_be_stopped) {
 /// A sound file, by the voice: it plays what the listener is to hear, also in films.
 void AgentPlatform::PlayFile(const std::string& file, bool may_be_stopped) {
   const std::string path = file.starts_with("file://") ? file.substr(7) : file;
-  if (!path.starts_with("/")) return;  // recording: and builtin: have none
+  if (!path.starts_with("/")) return;  // builtin: has none
   hub_.Send("tell start " + path);
   Utter("<speak><audio src=\"" + xml::Escape(path) + "\"/></speak>", may_be_stopped);
   hub_.Send("tell end " + path);
 }
 
 void AgentPlatform::PlaySound(const Segment& segment, bool may_be_stopped) {
+  if (const auto found = recordings_.find(segment.text); found != recordings_.end()) {
+    return PlayFile(found->second, may_be_stopped);
+  }
   if (!segment.sound) return PlayFile(segment.text, may_be_stopped);
-  const auto file = fetched_sounds_.FileOf(segment.text, *segment.sound);
+  const auto file = sounds_kept_.FileOf(segment.text, *segment.sound);
   if (file) PlayFile(*file, may_be_stopped);
 }
 
@@ -246,13 +252,6 @@ bool AgentPlatform::Speaks(const std::vector<Prompt>& prompts, bool listening) {
 }
 
 bool AgentPlatform::Play(const std::vector<Prompt>& prompts) { return Speaks(prompts, false); }
-
-RecordResult AgentPlatform::Record(const std::vector<Prompt>& prompts, const RecordRequest&) {
-  Play(prompts);
-  RecordResult result;
-  result.kind = RecordResult::Kind::kUnsupported;
-  return result;
-}
 
 TransferResult AgentPlatform::Transfer(const std::vector<Prompt>& prompts,
                                        const TransferRequest& request) {

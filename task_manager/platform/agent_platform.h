@@ -2,6 +2,8 @@
 
 #include <deque>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +18,10 @@ namespace vxml {
 /// @SRM, expressions to @FSM. What stands between the words starts where the voice passes its
 /// BOOKMARK. Input is what the ear hears; typed lines (keyboard) and scripts are put into it.
 /// While listening the agent looks at the user and nods to what it hears; on long fetches it looks
-/// aside (property attention). Sound files are played by the voice. There is no recording and no
-/// telephone: error.unsupported.record, .transfer. Time is the hub's where a script drives the
-/// dialogue (films), else the machine's. Thread: the session's.
+/// aside (property attention). Sound files are played by the voice. The ear keeps what is recorded,
+/// in a folder of the session's, so both have to see the same disk. There is no telephone:
+/// error.unsupported.transfer. Time is the hub's where a script drives the dialogue (films), else
+/// the machine's. Thread: the session's.
 class AgentPlatform final : public Platform {
  public:
   struct Options {
@@ -30,12 +33,14 @@ class AgentPlatform final : public Platform {
     std::function<void(const std::string& line)> write{};
   };
   AgentPlatform(HubLink& hub, Options options);
+  ~AgentPlatform() override;
 
   Input Collect(const std::vector<Prompt>& prompts, const Listen& listen) override;
   bool Play(const std::vector<Prompt>& prompts) override;
   RecordResult Record(const std::vector<Prompt>& prompts, const RecordRequest& request) override;
   TransferResult Transfer(const std::vector<Prompt>& prompts,
                           const TransferRequest& request) override;
+  vm::Result<std::string> Recording(const std::string& uri) const override;
   void Disconnect() override {}
   void Native(const std::string& line) override;
   void Fetching(const std::string& uri, bool begins) override;
@@ -53,7 +58,9 @@ class AgentPlatform final : public Platform {
   std::string Tagged(const std::vector<Segment>& segments);
   void Act(std::size_t index);
   void StartParallel(const Prompt& prompt);
-  void OnTyped(const std::string& line);
+  bool OnTyped(const std::string& line);
+  /// Nothing more is typed, and nothing typed is on its way.
+  bool TypedOver() const { return hub_.typed_end() && typed_waiting_ == 0; }
   void UseGrammars(const Listen& listen);
   void Interrupt(const Command& command, const std::vector<Prompt>& prompts, const Listen& listen);
   std::optional<Command> Next();
@@ -61,6 +68,19 @@ class AgentPlatform final : public Platform {
   std::optional<Input> FromScript(const std::optional<Command>& command, const Listen& listen);
   std::optional<Input> Taken();
   bool Speaks(const std::vector<Prompt>& prompts, bool listening);
+  // agent_recording.cc
+  bool KeepSounds(bool keep);
+  void OnSound(const std::string& told);
+  void AddSound(Input& input);
+  std::string EarSetting(const std::string& slot, const std::string& value);
+  void RecordScripted(const std::optional<Command>& command, const RecordRequest& request);
+  void AwaitRecording(const RecordRequest& request);
+  bool Ends(const Input& key, const RecordRequest& request) const;
+  void PressKey(const Input& key, const RecordRequest& request, RecordResult& result) const;
+  void EndUtterance();
+  bool TakeSound(RecordResult& result);
+  RecordResult Recorded(const RecordRequest& request);
+  void Beep();
 
   HubLink& hub_;
   Options options_;
@@ -68,14 +88,28 @@ class AgentPlatform final : public Platform {
   std::size_t acted_ = 0;
   std::deque<std::string> sounds_;  ///< files @SND was told to play
   bool has_sound_module_ = false;
-  SoundKeeper fetched_sounds_;
+  SoundKeeper sounds_kept_;
+  /// What the ear kept of an utterance, until its result comes.
+  struct KeptSound {
+    Millis length{0};
+    std::size_t bytes = 0;
+    bool cut = false;  ///< it was too long
+    std::string uri;
+  };
+  static constexpr std::size_t kMaxRecordings = 256;  ///< as many files as the ear keeps
+  bool keeps_ = false;                                ///< the ear keeps sounds now
+  std::optional<KeptSound> sound_;
+  std::map<std::string, std::string> recordings_;  ///< URI: file
+  std::deque<std::string> recording_order_;        ///< their URIs, oldest first
+  std::size_t recording_count_ = 0;
   std::string in_ear_;           ///< phrases of the grammar loaded last, "" = none
   bool interrupting_ = false;    ///< a scripted interruption is on its way
   std::optional<Command> next_;  ///< of the script, taken but not used
   bool attends_ = true;
   std::string beside_;  ///< steps of PAR for the next speech
   std::deque<Input> heard_;
-  bool hearing_ = false;  ///< somebody speaks
+  std::size_t typed_waiting_ = 0;  ///< typed lines the ear has not answered
+  bool hearing_ = false;           ///< somebody speaks
   bool ran_out_ = false;
   std::string mark_;
   std::chrono::steady_clock::time_point mark_at_;

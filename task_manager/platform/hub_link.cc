@@ -59,7 +59,7 @@ HubLink::HubLink(const HubAddress& hub, const std::string& name, bool keyboard)
       std::make_unique<vm::Client>([this](std::string_view line) { Send(std::string(line)); });
   channel_->stream->Start(
       [this](vm::Result<std::string_view> line) {
-        if (line) client_->HandleLine(*line);
+        if (line && listening_) client_->HandleLine(*line);
       },
       [this](const std::string&) { gone_ = true; });
   channel_->stream->ResumeReading();
@@ -77,6 +77,11 @@ HubLink::~HubLink() {
 }
 
 void HubLink::Send(const std::string& line) { channel_->stream->Send(line); }
+
+void HubLink::StopListening() {
+  listening_ = false;
+  on_typed = nullptr;
+}
 
 void HubLink::Flush() {
   const auto done = std::make_shared<bool>(false);  // outlives a wait that is given up
@@ -113,12 +118,11 @@ bool HubLink::WaitFor(const std::function<bool()>& done, std::optional<Millis> l
 }
 
 void HubLink::Pump(Millis limit) {
-  if (keys_from_file_ && !typed_end_) ReadKeys();
   if (channel_->io.stopped()) channel_->io.restart();
   channel_->io.run_one_for(limit);
 }
 
-/// A file cannot be waited for and never has to be: it is read at every look for news.
+/// A file cannot be waited for and never has to be.
 void HubLink::WaitForKeys() {
   if (!channel_->keys.is_open()) {
     struct stat about {};
@@ -134,13 +138,28 @@ void HubLink::WaitForKeys() {
                             });
 }
 
-void HubLink::ReadKeys() {
+/// False at the end.
+bool HubLink::ReadMore() {
   std::array<char, 65536> bytes{};
   const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-  if (n <= 0) typed_end_ = true;
   if (n > 0) typed_.append(bytes.data(), static_cast<std::size_t>(n));
+  return n > 0;
+}
+
+void HubLink::ReadKeys() {
+  typed_end_ = !ReadMore();
   while (auto line = TakeLine(typed_)) {
     if (on_typed) on_typed(*line);
+  }
+}
+
+void HubLink::TakeTyped() {
+  while (keys_from_file_ && !typed_end_) {
+    auto line = TakeLine(typed_);
+    if (!line && ReadMore()) continue;
+    typed_end_ = !line && typed_.empty();
+    if (!line) line = std::exchange(typed_, "");  // the last one may have no end
+    if (on_typed && on_typed(*line)) return;
   }
 }
 

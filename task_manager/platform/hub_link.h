@@ -38,14 +38,21 @@ class HubLink {
   /// Handles what comes until `done` says so or the time is up. False at the time limit.
   bool WaitFor(const std::function<bool()>& done, std::optional<Millis> limit);
   bool gone() const { return gone_; }
+  /// Nothing that comes is handed over any more: who asked for it goes before this link.
+  void StopListening();
 
-  std::function<void(const std::string& line)> on_typed;
+  /// A typed line as it comes. False: there is nothing in it.
+  std::function<bool(const std::string& line)> on_typed;
+  /// Where standard input is a file, hands over its next line with something in it. A file has all
+  /// its lines at once, so they wait until somebody listens.
+  void TakeTyped();
   bool typed_end() const { return typed_end_; }
 
  private:
   void Pump(Millis limit);
   void WaitForKeys();
   void ReadKeys();
+  bool ReadMore();
 
   struct Channel;
   bool keyboard_;
@@ -53,6 +60,7 @@ class HubLink {
   bool keys_from_file_ = false;
   bool typed_end_ = false;
   bool gone_ = false;
+  bool listening_ = true;
   std::string typed_;
   std::unique_ptr<vm::Client> client_;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "task_manager/platform/json_line.h"
+#include "vm_protocol/core/result.h"
 
 namespace vxml {
 
@@ -61,6 +62,9 @@ struct Input {
   Millis mark_time{0};                 ///< since that mark
   std::string termchar;                ///< the key that ended dtmf input, "" if none did
   Millis recorded{0};                  ///< length of the utterance's recording, 0 if there is none
+  std::size_t recorded_bytes = 0;      ///< of it; 0: as many as it would have
+  std::string recording;               ///< its URI as RecordResult::uri
+  bool recording_cut = false;          ///< it was ended because it was too long
 };
 
 struct KeysState {
@@ -85,7 +89,8 @@ struct Listen {
   /// The active voice grammars as phrases for the ear (slot Grammar.load); "" = they cannot be
   /// written so, and the ear takes everything.
   std::function<std::string(std::size_t most_bytes)> phrases;
-  bool attention = true;  ///< the agent looks at the user and nods (property attention)
+  bool attention = true;    ///< the agent looks at the user and nods (property attention)
+  bool keep_sound = false;  ///< what is said is recorded (property recordutterance)
 };
 
 struct RecordRequest {
@@ -97,13 +102,13 @@ struct RecordRequest {
   std::string type;
 };
 struct RecordResult {
-  enum class Kind { kRecorded, kSilence, kHangup, kInput, kUnsupported };
+  enum class Kind { kRecorded, kSilence, kHangup, kInput, kUnsupported, kBadFormat };
   Kind kind = Kind::kRecorded;
   Millis duration{0};
   std::size_t bytes = 0;
   std::string termchar;
   bool reached_max = false;
-  std::string uri;  ///< where the recording is, "" if it exists only as a number
+  std::string uri;  ///< recording:NAME for Recording(), "" if it exists only as a number
   Input input;      ///< kInput: what matched a grammar and ended the recording
 };
 
@@ -134,6 +139,10 @@ class Platform {
   virtual TransferResult Transfer(const std::vector<Prompt>& prompts,
                                   const TransferRequest& request) = 0;
   virtual void Disconnect() = 0;
+  /// The bytes of a recording by its URI. Errors: kUnavailable (there is none such, any more).
+  virtual vm::Result<std::string> Recording(const std::string& uri) const {
+    return vm::Fail(vm::Errc::kUnavailable, "no recording '" + uri + "'");
+  }
   /// A raw command of the protocol (<native>).
   virtual void Native(const std::string& line) = 0;
   /// A fetch that may take long begins and ends (fetchaudio, a thinking look).

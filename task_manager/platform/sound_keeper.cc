@@ -35,19 +35,23 @@ void SoundKeeper::Clear() {
   bytes_ = 0;
 }
 
+vm::Result<std::string> SoundKeeper::Folder() {
+  if (!folder_.empty()) return folder_;
+  std::error_code none;
+  std::string name = std::filesystem::temp_directory_path(none) / "galatea-sounds-XXXXXX";
+  if (none || ::mkdtemp(name.data()) == nullptr) {
+    return vm::Fail(vm::Errc::kUnavailable, "no folder for sounds can be made");
+  }
+  folder_ = name;
+  return folder_;
+}
+
 vm::Result<std::string> SoundKeeper::FileOf(const std::string& uri, const std::string& bytes) {
   const std::size_t hash = std::hash<std::string>()(bytes);
   if (const auto found = kept_.find(uri); found != kept_.end() && found->second.second == hash) {
     return found->second.first;
   }
-  if (folder_.empty()) {
-    std::error_code none;
-    std::string name = std::filesystem::temp_directory_path(none) / "galatea-sounds-XXXXXX";
-    if (none || ::mkdtemp(name.data()) == nullptr) {
-      return vm::Fail(vm::Errc::kUnavailable, "no folder for sounds can be made");
-    }
-    folder_ = name;
-  }
+  if (auto folder = Folder(); !folder) return folder;
   if (kept_.size() >= kMaxFiles || bytes_ + bytes.size() > kMaxBytes) Clear();
   const std::string path = folder_ + "/" + std::to_string(++count_) + EndingOf(uri);
   std::ofstream file(path, std::ios::binary);

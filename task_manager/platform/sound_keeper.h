@@ -20,6 +20,8 @@ class SoundKeeper {
   SoundKeeper(const SoundKeeper&) = delete;
   SoundKeeper& operator=(const SoundKeeper&) = delete;
 
+  /// Its folder, made when first needed. Other files in it are not counted, and go with it.
+  vm::Result<std::string> Folder();
   /// The file that holds `bytes`, written now unless `uri` brought the same before.
   vm::Result<std::string> FileOf(const std::string& uri, const std::string& bytes);
 

@@ -8,6 +8,7 @@
 
 #include "tests/support/certificates.h"
 #include "tests/support/process.h"
+#include "tests/task_manager/http_server.h"
 
 namespace vxml_test {
 namespace {
@@ -199,14 +200,170 @@ TEST_F(AgentTest, TransfersAndObjectsAreRefusedWithTheirEvents) {
   EXPECT_NE(lines.back().find("\"value\":2"), std::string::npos) << lines.back();
 }
 
-TEST_F(AgentTest, RecordingIsRefusedWithItsEvent) {
-  const auto lines = Talk(
-      "<vxml version=\"2.1\"><form><record name=\"r\"><catch "
-      "event=\"error.unsupported.record\"><exit expr=\"'refused'\"/></catch></record>"
-      "</form></vxml>",
-      "record 3s\n");
+std::string Form(const std::string& content) {
+  return "<vxml version=\"2.1\"><form>" + content + "</form></vxml>";
+}
+
+/// The shadow variables of a recording r, one after the other.
+const char* const kShadow =
+    "<filled><exit expr=\"r$.duration+' '+r$.size+' '+r$.termchar+' '+r$.maxtime\"/></filled>";
+
+/// The file of the nth sound played, "" if there are not so many.
+std::string Played(const std::string& log, int number) {
+  std::size_t at = 0;
+  for (int i = 0; i < number; ++i) {
+    at = log.find("tell start ", at + 1);
+    if (at == std::string::npos) return "";
+  }
+  const std::size_t begin = at + 11;
+  return log.substr(begin, log.find('\n', begin) - begin);
+}
+
+TEST_F(AgentTest, ARecordingIsKeptPlayedBackAndGoneAtTheEnd) {
+  const auto lines =
+      Talk(Form("<record name=\"r\" beep=\"true\" maxtime=\"10s\"><prompt>Speak.</prompt></record>"
+                "<block><prompt>You said <audio expr=\"r\"/> I repeat <value expr=\"r\"/></prompt>"
+                "<exit expr=\"r$.duration+' '+r$.size+' '+r$.termchar+' '+r$.maxtime\"/></block>"),
+           "record 3s key=#\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("3000 96044 # false"), std::string::npos) << lines.back();
+  const std::string log = Log();
+  EXPECT_NE(Played(log, 1).find("/galatea-sounds-"), std::string::npos);
+  EXPECT_NE(Played(log, 1).find(".au"), std::string::npos) << "the beep";
+  EXPECT_LT(log.find("Speak = Speak."), log.find(Played(log, 1)));
+  EXPECT_LT(log.find(Played(log, 1)), log.find("Input.sound = 3000"));
+  const std::string file = Played(log, 2);
+  EXPECT_NE(file.find("/utterance-1.wav"), std::string::npos) << file;
+  EXPECT_EQ(Played(log, 3), file);
+  EXPECT_NE(log.find("tell end " + file), std::string::npos);
+  EXPECT_FALSE(std::ifstream(file).good()) << file << " is still there";
+  EXPECT_NE(log.find("Listen.keep = NONE"), std::string::npos);
+}
+
+TEST_F(AgentTest, ARecordingEndsAtItsLongestTime) {
+  const auto lines =
+      Talk(Form("<record name=\"r\" maxtime=\"2s\">" + std::string(kShadow) + "</record>"),
+           "record 5s key=#\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("2000 64044 null true"), std::string::npos) << lines.back();
+  EXPECT_NE(Log().find("Listen.longest = 20000"), std::string::npos) << "as before";
+}
+
+TEST_F(AgentTest, KeysDoNotEndARecordingWithoutDtmfterm) {
+  const auto lines = Talk(Form("<record name=\"r\" maxtime=\"5s\" dtmfterm=\"false\">" +
+                               std::string(kShadow) + "</record>"),
+                          "record 1s key=5\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("1000 32044 null false"), std::string::npos) << lines.back();
+}
+
+TEST_F(AgentTest, ARecordingNobodySpeaksToIsNoInput) {
+  const auto lines =
+      Talk(Form("<record name=\"r\"><noinput><exit expr=\"'nobody'\"/></noinput></record>"),
+           "silence\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("nobody"), std::string::npos) << lines.back();
+}
+
+TEST_F(AgentTest, AFormatTheEarDoesNotWriteIsRefusedWithItsEvent) {
+  const auto lines =
+      Talk(Form("<record name=\"r\" type=\"audio/basic\"><catch "
+                "event=\"error.unsupported.format\"><exit expr=\"'refused'\"/></catch></record>"),
+           "record 3s\n");
   ASSERT_FALSE(lines.empty());
   EXPECT_NE(lines.back().find("refused"), std::string::npos) << lines.back();
+}
+
+TEST_F(AgentTest, WordsOfAnOuterGrammarEndARecordingThatIsNotModal) {
+  const std::string document =
+      "<vxml version=\"2.1\"><link event=\"enough\"><grammar root=\"r\"><rule id=\"r\">no "
+      "more</rule></grammar></link><form><catch event=\"enough\"><exit expr=\"'enough'\"/></catch>"
+      "<record name=\"r\" modal=\"MODAL\">" +
+      std::string(kShadow) + "</record></form></vxml>";
+  const auto with = [&](const std::string& modal) {
+    std::string whole = document;
+    const auto lines = Talk(whole.replace(whole.find("MODAL"), 5, modal), "say no more\n");
+    return lines.empty() ? "" : lines.back();
+  };
+  EXPECT_NE(with("false").find("enough"), std::string::npos);
+  EXPECT_NE(with("true").find("500 16044 null false"), std::string::npos);
+}
+
+TEST_F(AgentTest, UtterancesAreRecordedWhereThePropertySaysSo) {
+  const std::string content =
+      "<property name=\"recordutterance\" value=\"true\"/><field name=\"f\" type=\"boolean\"/>"
+      "<block><prompt><audio expr=\"application.lastresult$.recording\"/></prompt><exit "
+      "expr=\"f$.recordingduration+' '+f$.recordingsize+' '+f$.recording.type\"/></block>";
+  const auto lines = Talk(Form(content), "say yes\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("250 8044 audio/x-wav"), std::string::npos) << lines.back();
+  EXPECT_NE(Played(Log(), 1).find("/utterance-1.wav"), std::string::npos);
+}
+
+TEST_F(AgentTest, ARecordingIsSentByASubmission) {
+  HttpServer server([](const HttpServer::Request& request) {
+    const bool sent = request.body.find("RIFF") != std::string::npos &&
+                      request.body.find("audio/x-wav") != std::string::npos;
+    return Answer(Form("<block><exit expr=\"'" + std::string(sent ? "got " : "lost ") +
+                       (request.body.size() > 32'044 ? "all" : "a part") + "'\"/></block>"));
+  });
+  const auto lines = Talk(Form("<record name=\"r\"/><block><submit next=\"" + server.Url("/") +
+                               "\" method=\"post\" enctype=\"multipart/form-data\" "
+                               "namelist=\"r\"/></block>"),
+                          "record 1s\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("got all"), std::string::npos) << lines.back();
+}
+
+TEST_F(AgentTest, OnlyWhatWasRecordedCanBeSentAsARecording) {
+  std::ofstream(folder_ / "secret") << "a secret";
+  HttpServer server([](const HttpServer::Request& request) {
+    const bool leaked = request.body.find("secret") != std::string::npos;
+    return Answer(Form(leaked ? "<block><exit expr=\"'leaked'\"/></block>"
+                              : "<block><exit expr=\"'kept'\"/></block>"));
+  });
+  const auto lines =
+      Talk(Form("<block><var name=\"r\" expr=\"({uri: 'file://" + (folder_ / "s") +
+                "ecret', duration: 1, type: 'audio/x-wav'})\"/><submit next=\"" + server.Url("/") +
+                "\" method=\"post\" enctype=\"multipart/form-data\" namelist=\"r\"/></block>"),
+           "silence\n");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("kept"), std::string::npos) << lines.back();
+}
+
+TEST_F(AgentTest, AFileOfTypedLinesIsTakenLineByLineAsTheDialogueListens) {
+  std::ofstream(folder_ / "d.vxml") << Form(
+      "<field name=\"a\" type=\"boolean\"><prompt bargein=\"false\">One?</prompt></field>"
+      "<field name=\"b\" type=\"digits\"><prompt bargein=\"false\">Two?</prompt></field>"
+      "<field name=\"c\" type=\"boolean\"><prompt bargein=\"false\">Three?</prompt></field>"
+      "<block><exit expr=\"a+' '+b+' '+c\"/></block>");
+  std::ofstream(folder_ / "typed.txt") << "yes\n\n/dtmf 42#\n/nonsense\nno";
+  support::Process dialogue({"/bin/sh", "-c",
+                             std::string("exec " GALATEA_BIN_DIR "/task_manager '") +
+                                 (folder_ / "d.vxml") + "' --transcript json --connect 'unix:" +
+                                 (folder_ / "hub") + "' < '" + (folder_ / "typed.txt") + "'"});
+  EXPECT_TRUE(dialogue.Expect("true 42 false")) << dialogue.Seen() << dialogue.ErrorText();
+}
+
+TEST_F(AgentTest, AKeyEndsARecordingInTheMiddle) {
+  std::ofstream(folder_ / "d.vxml") << Form(
+      "<record name=\"r\" beep=\"true\" maxtime=\"60s\"><prompt>Speak.</prompt><filled><exit "
+      "expr=\"r$.termchar+' '+r$.maxtime+' '+(r$.duration&lt;60000)\"/></filled></record>");
+  // Time stands still for who speaks a minute for each word: only the key can be the end.
+  std::ofstream(folder_ / "real.json")
+      << "{\"listen\": [\"unix:" << folder_ / "real"
+      << "\"], \"modules\": [{\"name\": \"SSM\", "
+      << "\"command\": [\"" GALATEA_BIN_DIR "/ssm_stub\"]}, {\"name\": \"SRM\", \"command\": [\""
+      << GALATEA_BIN_DIR "/srm_stub\"]}]}";
+  support::Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder_ / "real.json"});
+  hub.WriteLine("to @SRM set#w Input.wordtime = 60000");
+  ASSERT_TRUE(hub.Expect("Input.wordtime = 60000"));
+  support::Process dialogue({GALATEA_BIN_DIR "/task_manager", folder_ / "d.vxml", "--connect",
+                             "unix:" + (folder_ / "real"), "--transcript", "json"});
+  ASSERT_TRUE(hub.Expect("tell end ")) << "the beep is over";
+  dialogue.WriteLine("hello there");
+  dialogue.WriteLine("/dtmf 7");
+  EXPECT_TRUE(dialogue.Expect("7 false true")) << dialogue.Seen() << dialogue.ErrorText();
 }
 
 }  // namespace
