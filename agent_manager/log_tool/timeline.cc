@@ -5,6 +5,7 @@
 #include <map>
 
 #include "agent_manager/log_tool/entries.h"
+#include "vm_protocol/core/xml_text.h"
 
 namespace am {
 namespace {
@@ -12,22 +13,10 @@ namespace {
 constexpr double kLeft = 110, kRight = 20, kTop = 40, kLane = 56, kWidth = 1200;  // pixels
 constexpr std::size_t kMaxLabel = 28;                                             // bytes
 
-std::string Escape(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else if (static_cast<unsigned char>(c) >= 0x20) {
-      out += c;
-    }
-  }
-  return out;
+/// Control characters may not stand in XML at all.
+std::string Escape(std::string text) {
+  std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+  return vm::EscapeXml(text);
 }
 
 std::string Number(double value) {

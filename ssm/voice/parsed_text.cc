@@ -3,6 +3,7 @@
 #include <tinyxml2.h>
 
 #include "ssm/voice/span_builder.h"
+#include "vm_protocol/core/xml_text.h"
 
 namespace ssm {
 namespace {
@@ -11,19 +12,6 @@ using tinyxml2::XMLElement;
 
 constexpr int kMaxDepth = 64;
 
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '<')
-      escaped += "&lt;";
-    else if (c == '&')
-      escaped += "&amp;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
 void Write(const XMLElement& element, int depth, std::string& text) {
   if (depth > kMaxDepth) return;
   const std::string_view name = element.Name();
@@ -31,15 +19,16 @@ void Write(const XMLElement& element, int depth, std::string& text) {
   if ((name == "W2" || name == "PRON") && written != nullptr) {
     const char* reading = element.Attribute("pron");
     const bool kana = reading != nullptr && IsKanaReading(reading);
-    text += kana ? "<PRON SYM=\"" + std::string(reading) + "\">" + Escaped(written) + "</PRON>"
-                 : Escaped(written);
+    text += kana
+                ? "<PRON SYM=\"" + std::string(reading) + "\">" + vm::EscapeXml(written) + "</PRON>"
+                : vm::EscapeXml(written);
     return;  // what a word is made of says the same again
   }
   const bool tag = name != "S" && name != "AP" && name != "W1" && depth > 0;
   if (tag) {
     text += "<" + std::string(name);
     for (auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
-      text += " " + std::string(a->Name()) + "=\"" + a->Value() + "\"";
+      text += " " + std::string(a->Name()) + "=\"" + vm::EscapeXml(a->Value()) + "\"";
     }
     text += element.NoChildren() ? "/>" : ">";
   }

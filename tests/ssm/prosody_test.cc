@@ -130,6 +130,12 @@ TEST(ParsedTextTest, WordsOfAnAnalysisHaveTheirReadings) {
   EXPECT_EQ(ssm::TextOfParsed("<S></S>").error().code, vm::Errc::kBadValue);
 }
 
+TEST(ParsedTextTest, QuotesAndAmpersandsInAttributesStayMarkup) {
+  EXPECT_EQ(*ssm::TextOfParsed("<S><VOICE NAME=\"A &amp; &quot;B&quot;\"><W2 orth=\"x\" pron=\"\"/>"
+                               "</VOICE></S>"),
+            "<VOICE NAME=\"A &amp; &quot;B&quot;\">x</VOICE>");
+}
+
 TEST(PronouncedTextTest, IpaSampaAndArpabetAreOneForAnEngine) {
   EXPECT_EQ(*ssm::IpaForFlite("təˈmɑːtoʊ"), "t ax0 m aa1 t ow0");
   EXPECT_EQ(*ssm::IpaForFlite(*ssm::IpaOfSampa("t@\"mA:toU")), "t ax0 m aa1 t ow0");
