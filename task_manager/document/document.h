@@ -18,6 +18,9 @@ struct Finding {
   std::size_t column = 0;
   std::string text;    ///< what is wrong
   std::string advice;  ///< what to do about it, "" if that is plain
+  /// The element that throws error.badfetch when it is reached, null if the document as a whole is
+  /// unfit.
+  const xml::Node* thrown_at = nullptr;
 };
 /// "URI:LINE:COLUMN: error: text (advice)"
 std::string FormatFinding(const std::string& uri, const Finding& finding);
@@ -31,6 +34,10 @@ struct Document {
   std::string version;
   std::unique_ptr<xml::Node> root;
   std::vector<const xml::Node*> dialogs;  ///< forms and menus in document order
+  /// Elements whose attributes exclude each other, in documents that themselves handle
+  /// error.badfetch: what is wrong, thrown when the element is reached. A document without such a
+  /// handler is refused as a whole, so that who refers to it may handle the event.
+  std::map<const xml::Node*, std::string> thrown_at;
 
   /// The form or menu of that id, or null.
   const xml::Node* FindDialog(const std::string& id) const;

@@ -109,6 +109,7 @@ const std::vector<AttributeChoice> kChoices = {
     {"mark", "name nameexpr", 1, 1},
     {"var", "name", 1, 1},
     {"foreach", "array", 1, 1},
+    {"foreach", "item", 1, 1},
 };
 
 }  // namespace

@@ -27,9 +27,7 @@ bool Holds(const Ends& ends, std::size_t end) {
 }
 
 EndsFinder::EndsFinder(const std::string& input, bool dtmf, bool split_digits)
-    : text_(Fold(input)), dtmf_(dtmf), split_digits_(split_digits) {
-  if (dtmf_) std::erase(text_, ' ');
-}
+    : text_(dtmf ? FoldKeys(Fold(input)) : Fold(input)), dtmf_(dtmf), split_digits_(split_digits) {}
 
 bool EndsFinder::Spend() {
   if (++steps_ > kMaxSteps || depth_ > kMaxDepth) over_limit_ = true;

@@ -79,9 +79,7 @@ namespace {
 
 bool CheckKeys(Expansion& node, std::string& wrong) {
   if (node.kind == Expansion::Kind::kToken) {
-    if (node.folded == "star") node.folded = "*";
-    if (node.folded == "pound") node.folded = "#";
-    std::erase(node.folded, ' ');
+    node.folded = FoldKeys(node.folded);
     if (node.folded.find_first_not_of("0123456789*#abcd") != std::string::npos) {
       wrong = node.text;
       return false;

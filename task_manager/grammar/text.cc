@@ -1,5 +1,6 @@
 #include "task_manager/grammar/text.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace vxml::srgs {
@@ -105,6 +106,22 @@ std::string Fold(std::string_view text) {
     for (std::size_t i = begin; i < end; ++i) AppendUtf8(folded, word[i]);
   }
   return folded;
+}
+
+std::string FoldKeys(std::string_view folded) {
+  std::string keys;
+  while (!folded.empty()) {
+    const std::string_view word = folded.substr(0, folded.find(' '));
+    folded.remove_prefix(std::min(word.size() + 1, folded.size()));
+    if (word == "star") {
+      keys += '*';
+    } else if (word == "pound") {
+      keys += '#';
+    } else {
+      keys += word;
+    }
+  }
+  return keys;
 }
 
 }  // namespace vxml::srgs

@@ -8,6 +8,8 @@ namespace vxml::srgs {
 /// What tokens and input are compared by: blanks collapsed to one, letters without case (ASCII,
 /// Latin-1, Greek, Cyrillic, full-width), punctuation at the ends of words dropped.
 std::string Fold(std::string_view text);
+/// The keys that folded text names, without blanks: "1 star pound" -> "1*#" (SRGS 1.0 appendix E).
+std::string FoldKeys(std::string_view folded);
 
 /// Writing without blanks between words: kana, kanji, hangul, full-width forms.
 bool IsUnspaced(char32_t c);

@@ -182,6 +182,7 @@ void Session::QueuePrompts(Item& item) {
 }
 
 void Session::Visit(Item& item) {
+  ThrowIfUnfit(*item.node);
   switch (item.kind) {
     case ItemKind::kBlock: {
       Store(item.name, engine_.Boolean(true));
@@ -252,6 +253,7 @@ void Session::TransitTo(const Match& match, const xml::Node* dialog) {
 
 /// A link or choice that was chosen: on to its document, or its event.
 void Session::FollowTarget(const xml::Node& node, const Document& document) {
+  ThrowIfUnfit(node);
   std::string event = node.Get("event");
   if (const std::string* expression = node.Find("eventexpr")) event = TextOf(node, *expression);
   if (!event.empty()) {

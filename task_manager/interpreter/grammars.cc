@@ -111,6 +111,7 @@ void Session::AddBuiltin(const std::string& name, const xml::Node& node, const D
 }
 
 const srgs::Rule* Session::CompileGrammar(const xml::Node& node, const Document& document) {
+  ThrowIfUnfit(node);
   const std::string type = node.Get("type");
   static constexpr std::string_view kTypes =
       "application/srgs+xml application/srgs application/grammar+xml application/grammar text/xml "

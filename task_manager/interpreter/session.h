@@ -113,6 +113,8 @@ class Session {
                     bool multipart = false, bool is_submit = false);
   fetch::Request FetchOptions(const xml::Node& node, const char* kind);
   std::string BaseOf(const xml::Node& node) const;
+  /// error.badfetch if the element's attributes exclude each other (Document::thrown_at).
+  void ThrowIfUnfit(const xml::Node& node) const;
 
   // form.cc: the form interpretation algorithm
   void RunDialog(const xml::Node& node, std::shared_ptr<Match> carried);

@@ -232,6 +232,8 @@ INSTANTIATE_TEST_SUITE_P(
         Parsed{"CaseDoesNotCount", InAbnf("$r = New York;"), "new YORK", "$r[\"New\", \"York\"]"},
         Parsed{"Keys", "#ABNF 1.0;\nmode dtmf;\nroot $r;\n$r = 1 pound \"*\";", "1 # *",
                "$r[\"1\", \"pound\", \"*\"]"},
+        Parsed{"NamedKeys", "#ABNF 1.0;\nmode dtmf;\nroot $r;\n$r = 1 pound \"*\";", "1 pound star",
+               "$r[\"1\", \"pound\", \"*\"]"},
         Parsed{"TheWholeInput", InAbnf("$r = a;"), "a b", ""}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
