@@ -38,7 +38,7 @@ void ReadFile(const std::filesystem::path& path, std::vector<Case>& cases) {
   std::string line;
   std::string* body = nullptr;
   const std::size_t first = cases.size();
-  for (int number = 1; std::getline(in, line); ++number) {
+  while (std::getline(in, line)) {
     if (line.starts_with("== ")) {
       Case made;
       made.name = line.substr(3);
