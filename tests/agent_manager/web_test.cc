@@ -144,8 +144,13 @@ TEST_F(WebTest, TheFaceComesAsPicturesWhileSomebodyLooks) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(video->Expect("Content-Type: image/jpeg")) << i;
   }
   EXPECT_TRUE(hub_->Expect("From @FSM tell recording stopped")) << "nobody looks any more";
-  hub_->WriteLine("to @FSM inq#1 Record.fps");
-  EXPECT_TRUE(hub_->Expect("rep#1 Record.fps = 30")) << "as it was before";
+  // The face tells of the end before it answers the hub, which only then sets the rate.
+  std::optional<std::string> rate;
+  for (int i = 1; i <= 20 && rate.value_or("").find("= 30") == std::string::npos; ++i) {
+    hub_->WriteLine("to @FSM inq#" + std::to_string(i) + " Record.fps");
+    rate = hub_->Expect("rep#" + std::to_string(i) + " Record.fps = ");
+  }
+  EXPECT_NE(rate.value_or("").find("Record.fps = 30"), std::string::npos) << "as it was before";
 }
 
 TEST_F(WebTest, AFilmSomebodyMakesIsNotDisturbed) {
