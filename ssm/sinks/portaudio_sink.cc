@@ -15,7 +15,6 @@
 namespace ssm {
 namespace {
 
-using SteadyClock = std::chrono::steady_clock;
 using Micros = std::chrono::microseconds;
 
 constexpr std::size_t kFadeFrames = 80;  // 5 ms, so that a stop does not click
@@ -30,8 +29,9 @@ vm::Error Unavailable(std::string text) { return {vm::Errc::kUnavailable, std::m
 
 class PortAudioSink final : public AudioSink {
  public:
-  PortAudioSink(vm::Scheduler& scheduler, std::unique_ptr<PortAudioLibrary> library)
-      : scheduler_(scheduler), library_(std::move(library)) {}
+  PortAudioSink(vm::Scheduler& scheduler, std::unique_ptr<PortAudioLibrary> library,
+                std::function<vm::Time()> instants)
+      : scheduler_(scheduler), library_(std::move(library)), instants_(std::move(instants)) {}
   ~PortAudioSink() override {
     if (stream_ == nullptr) return;
     const QuietStderr quiet;
@@ -50,7 +50,7 @@ class PortAudioSink final : public AudioSink {
     PaError error = Pa_OpenStream(&stream_, nullptr, &output, static_cast<double>(kSampleRateHz),
                                   paFramesPerBufferUnspecified, paNoFlag, &OnBuffer, this);
     if (error != paNoError) stream_ = nullptr;
-    opened_ = SteadyClock::now();
+    opened_ = instants_();
     last_buffer_us_ = Now();
     if (error == paNoError) error = Pa_StartStream(stream_);
     if (error == paNoError) {
@@ -68,7 +68,7 @@ class PortAudioSink final : public AudioSink {
     WaitForCallback();
     samples_ = std::move(samples);
     start_ = std::max(start, scheduler_.Now());
-    // Instants are handed over on the steady clock, counted from when the stream was opened.
+    // Instants are handed over on the clock of both threads, counted from when the stream opened.
     start_us_ = Now() + (start_ - scheduler_.Now()).count();
     next_frame_ = 0;
     first_heard_us_ = kNever;
@@ -102,9 +102,7 @@ class PortAudioSink final : public AudioSink {
  private:
   static constexpr std::int64_t kNever = INT64_MIN;
 
-  std::int64_t Now() const {
-    return std::chrono::duration_cast<Micros>(SteadyClock::now() - opened_).count();
-  }
+  std::int64_t Now() const { return (instants_() - opened_).count(); }
   bool Failed() const { return runaway_ || Now() - last_buffer_us_ > kDeadAfter.count(); }
 
   /// Until the callback that may be running has ended: afterwards none uses the old samples.
@@ -175,7 +173,8 @@ class PortAudioSink final : public AudioSink {
   const std::unique_ptr<PortAudioLibrary> library_;
   PaStream* stream_ = nullptr;
   std::string name_;
-  SteadyClock::time_point opened_;
+  const std::function<vm::Time()> instants_;
+  vm::Time opened_{0};
 
   // The scheduler's thread only.
   std::shared_ptr<const SampleBuffer> samples_;
@@ -202,7 +201,14 @@ class PortAudioSink final : public AudioSink {
 }  // namespace
 
 vm::Result<std::unique_ptr<AudioSink>> OpenPortAudio(vm::Scheduler& scheduler,
-                                                     const std::string& device) {
+                                                     const std::string& device,
+                                                     std::function<vm::Time()> instants) {
+  if (!instants) {
+    instants = [] {
+      return std::chrono::duration_cast<vm::Time>(
+          std::chrono::steady_clock::now().time_since_epoch());
+    };
+  }
   const QuietStderr quiet;
   auto library = std::make_unique<PortAudioLibrary>();
   if (library->error() != paNoError) {
@@ -210,7 +216,7 @@ vm::Result<std::unique_ptr<AudioSink>> OpenPortAudio(vm::Scheduler& scheduler,
   }
   const auto chosen = ChooseOutputDevice(device);
   if (!chosen) return std::unexpected(chosen.error());
-  auto sink = std::make_unique<PortAudioSink>(scheduler, std::move(library));
+  auto sink = std::make_unique<PortAudioSink>(scheduler, std::move(library), std::move(instants));
   if (auto opened = sink->Open(*chosen); !opened) return std::unexpected(opened.error());
   return sink;
 }

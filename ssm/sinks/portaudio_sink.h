@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -16,9 +17,11 @@ namespace ssm {
 /// Thread: the library's own thread reads the samples; everything shared with it is atomic.
 /// Errors: kUnavailable with one sentence: no device, no such device (naming those there are), it
 /// cannot be opened, or it is one that swallows sound without taking its time (ALSA's "null").
-/// REQUIRES: the scheduler's clock is the real one.
+/// `instants`: a steady clock that any thread may read, empty for the real one.
+/// REQUIRES: the scheduler's clock runs as `instants` does.
 vm::Result<std::unique_ptr<AudioSink>> OpenPortAudio(vm::Scheduler& scheduler,
-                                                     const std::string& device);
+                                                     const std::string& device,
+                                                     std::function<vm::Time()> instants = {});
 /// True if there is a default device that might be opened.
 bool HasSoundDevice();
 
