@@ -13,41 +13,39 @@
 namespace facefit {
 namespace {
 
-struct Named {
-  const char* name;
-  std::size_t point;
-  bool needed;
-};
-constexpr Named kNames[] = {{"right_eye_outer", 33, true},
-                            {"left_eye_outer", 263, true},
-                            {"nose_tip", 1, true},
-                            {"mouth_right", 61, true},
-                            {"mouth_left", 291, true},
-                            {"chin", 152, true},
-                            {"right_eye_inner", 133, false},
-                            {"left_eye_inner", 362, false},
-                            {"right_eye_top", 159, false},
-                            {"left_eye_top", 386, false},
-                            {"right_eye_bottom", 145, false},
-                            {"left_eye_bottom", 374, false},
-                            {"right_brow", 105, false},
-                            {"left_brow", 334, false},
-                            {"nose_bottom", 2, false},
-                            {"nose_right", 129, false},
-                            {"nose_left", 358, false},
-                            {"lip_top", 0, false},
-                            {"lip_bottom", 17, false},
-                            {"jaw_right", 172, false},
-                            {"jaw_left", 397, false},
-                            {"cheek_right", 234, false},
-                            {"cheek_left", 454, false},
-                            {"forehead", 10, false}};
+constexpr HandPointName kNames[] = {{"right_eye_outer", 33, true},
+                                    {"left_eye_outer", 263, true},
+                                    {"nose_tip", 1, true},
+                                    {"mouth_right", 61, true},
+                                    {"mouth_left", 291, true},
+                                    {"chin", 152, true},
+                                    {"right_eye_inner", 133, false},
+                                    {"left_eye_inner", 362, false},
+                                    {"right_eye_top", 159, false},
+                                    {"left_eye_top", 386, false},
+                                    {"right_eye_bottom", 145, false},
+                                    {"left_eye_bottom", 374, false},
+                                    {"right_brow", 105, false},
+                                    {"left_brow", 334, false},
+                                    {"nose_bottom", 2, false},
+                                    {"nose_right", 129, false},
+                                    {"nose_left", 358, false},
+                                    {"lip_top", 0, false},
+                                    {"lip_bottom", 17, false},
+                                    {"jaw_right", 172, false},
+                                    {"jaw_left", 397, false},
+                                    {"cheek_right", 234, false},
+                                    {"cheek_left", 454, false},
+                                    {"forehead", 10, false}};
 
 }  // namespace
 
+std::span<const HandPointName> HandPointList() { return kNames; }
+
 std::string HandPointNames() {
   std::string names;
-  for (const Named& named : kNames) names += (names.empty() ? "" : " ") + std::string(named.name);
+  for (const HandPointName& named : kNames)
+    names += (names.empty() ? "" : " ") + std::string(named.name);
   return names;
 }
 
@@ -68,7 +66,7 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
         std::abs(at.x) > 1e5F || std::abs(at.y) > 1e5F) {
       return wrong("NAME X Y expected, as: chin 320 455");
     }
-    const auto found = std::ranges::find(kNames, key, &Named::name);
+    const auto found = std::ranges::find(kNames, key, &HandPointName::name);
     std::size_t point = kNetworkPoints;
     if (found != std::end(kNames)) {
       point = found->point;
@@ -82,7 +80,7 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
     }
     points[point] = at;
   }
-  for (const Named& named : kNames) {
+  for (const HandPointName& named : kNames) {
     if (named.needed && !points.contains(named.point)) {
       return wrong(std::string(named.name) + " is missing");
     }

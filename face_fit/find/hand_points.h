@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,13 @@ using HandPoints = std::map<std::size_t, glm::vec2>;
 /// `#` begins a comment. Needed are both outer eye corners, nose_tip, both mouth corners and chin.
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text);
+/// A point people can name; `needed`: a file of points must have it.
+struct HandPointName {
+  std::string_view name;
+  std::size_t point;
+  bool needed;
+};
+std::span<const HandPointName> HandPointList();
 /// The names, with blanks between them.
 std::string HandPointNames();
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,8 @@ class HeadCurve {
   explicit HeadCurve(std::vector<Key> keys);
   Angles At(double ms) const;  ///< the last key's angles after the end
   double length_ms() const { return keys_.back().ms; }
+  /// As they were given.
+  std::span<const Key> keys() const { return std::span(keys_).subspan(1); }
 
  private:
   std::vector<Key> keys_;       // the first is 0 0 0 at 0

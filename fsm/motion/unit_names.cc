@@ -194,7 +194,7 @@ std::string FormatLook(const ActionUnits& look) {
   const auto add = [&text](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
   for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
     const float left = look.left[unit], right = look.right[unit];
-    if (left == right && left != 0) {
+    if (left == right && left != 0 && !IsOneSided(static_cast<int>(unit))) {
       add(fmt::format("{}:{:g}", unit, left));
       continue;
     }
