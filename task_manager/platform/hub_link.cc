@@ -132,9 +132,8 @@ void HubLink::WaitForKeys() {
   }
   channel_->keys.async_wait(boost::asio::posix::stream_descriptor::wait_read,
                             [this](const boost::system::error_code& error) {
-                              if (error) typed_end_ = true;
-                              if (!typed_end_) ReadKeys();
-                              if (!typed_end_) WaitForKeys();
+                              // /dev/null cannot be waited for: nobody types.
+                              if (!error && ReadKeys()) WaitForKeys();
                             });
 }
 
@@ -142,15 +141,19 @@ void HubLink::WaitForKeys() {
 bool HubLink::ReadMore() {
   std::array<char, 65536> bytes{};
   const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-  if (n > 0) typed_.append(bytes.data(), static_cast<std::size_t>(n));
-  return n > 0;
+  if (n <= 0) return false;
+  typed_.append(bytes.data(), static_cast<std::size_t>(n));
+  typed_any_ = true;
+  return true;
 }
 
-void HubLink::ReadKeys() {
-  typed_end_ = !ReadMore();
+bool HubLink::ReadKeys() {
+  const bool more = ReadMore();
+  if (!more) typed_end_ = typed_any_ || ::isatty(STDIN_FILENO) == 1;
   while (auto line = TakeLine(typed_)) {
     if (on_typed) on_typed(*line);
   }
+  return more;
 }
 
 void HubLink::TakeTyped() {

@@ -46,18 +46,21 @@ class HubLink {
   /// Where standard input is a file, hands over its next line with something in it. A file has all
   /// its lines at once, so they wait until somebody listens.
   void TakeTyped();
+  /// Typing is over: the file is read, a terminal's user ended it, or a pipe that had lines. From
+  /// an empty standard input nothing was to be expected, the ear alone counts.
   bool typed_end() const { return typed_end_; }
 
  private:
   void Pump(Millis limit);
   void WaitForKeys();
-  void ReadKeys();
+  bool ReadKeys();  ///< false at the end
   bool ReadMore();
 
   struct Channel;
   bool keyboard_;
   std::unique_ptr<Channel> channel_;
   bool keys_from_file_ = false;
+  bool typed_any_ = false;
   bool typed_end_ = false;
   bool gone_ = false;
   bool listening_ = true;

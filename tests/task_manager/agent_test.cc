@@ -331,6 +331,24 @@ TEST_F(AgentTest, OnlyWhatWasRecordedCanBeSentAsARecording) {
   EXPECT_NE(lines.back().find("kept"), std::string::npos) << lines.back();
 }
 
+TEST_F(AgentTest, WithoutAKeyboardTheEarAloneCounts) {
+  std::ofstream(folder_ / "d.vxml")
+      << "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt timeout=\"1s\">"
+         "Well?</prompt><noinput><exit expr=\"'nobody'\"/></noinput></field></form></vxml>";
+  const std::string command =
+      GALATEA_BIN_DIR "/task_manager d.vxml --transcript json --connect unix:" + (folder_ / "hub");
+  for (const char* input : {" </dev/null", ""}) {
+    support::Process dialogue({"/bin/sh", "-c", "exec " + command + input},
+                              support::Process::Options{.cwd = folder_.path(), .env = {}});
+    dialogue.CloseInput();
+    const auto lines = dialogue.ReadAll();
+    ASSERT_FALSE(lines.empty()) << dialogue.ErrorText();
+    EXPECT_NE(lines.back().find("\"value\":\"nobody\""), std::string::npos)
+        << input << ": " << lines.back();
+    EXPECT_EQ(dialogue.Wait(), 0);
+  }
+}
+
 TEST_F(AgentTest, AFileOfTypedLinesIsTakenLineByLineAsTheDialogueListens) {
   std::ofstream(folder_ / "d.vxml") << Form(
       "<field name=\"a\" type=\"boolean\"><prompt bargein=\"false\">One?</prompt></field>"
