@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that building, running and testing the toolkit needs.
-# Does nothing (and asks for no password) if all of them are there.
+# Installs the Debian 12 packages that building and running the toolkit needs, with --tests also those
+# that only tests use. Does nothing (and asks for no password) if all of them are there.
 set -euo pipefail
 
 packages=(
@@ -15,6 +15,9 @@ packages=(
   libpocketsphinx-dev pocketsphinx-en-us pocketsphinx-testdata libspeexdsp-dev libtinyxml2-dev
   xvfb iproute2
 )
+
+# A browser for the tests of the hub's page.
+[ "${1:-}" != --tests ] || packages+=(chromium-headless-shell)
 
 missing=()
 for package in "${packages[@]}"; do

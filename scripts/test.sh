@@ -2,6 +2,6 @@
 # Sets up, builds and runs every test:  scripts/test.sh [ctest options...]
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
-"$root/scripts/setup.sh"
+"$root/scripts/setup.sh" --tests
 "$root/scripts/build.sh" "$root/build" -DGALATEA_WERROR="${GALATEA_WERROR:-OFF}"
 ctest --test-dir "$root/build" --output-on-failure --parallel "$(nproc)" "$@"
