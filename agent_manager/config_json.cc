@@ -1,10 +1,10 @@
 #include "agent_manager/config_json.h"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <set>
-#include <sstream>
+
+#include "vm_protocol/core/text_file.h"
 
 namespace am {
 namespace {
@@ -69,10 +69,10 @@ void ReadList(const json& list, const std::string& key, const std::string& expec
 }
 
 std::string ReadTextFile(const std::string& path, const std::string& key) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf())) throw ConfigFault{key, "cannot read '" + path + "'"};
-  return text.str();
+  constexpr std::size_t kMaxMacroBytes = 4u << 20;
+  auto text = vm::ReadTextFile(path, kMaxMacroBytes);
+  if (!text) throw ConfigFault{key, text.error().text};
+  return std::move(*text);
 }
 
 namespace {

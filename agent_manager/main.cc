@@ -3,21 +3,15 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <sstream>
 
 #include "agent_manager/session.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace {
 
-vm::Result<std::string> ReadText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf()))
-    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
-  return text.str();
-}
+constexpr std::size_t kMaxFileBytes = 16u << 20;  // a configuration, lines for the console
 
 }  // namespace
 
@@ -51,7 +45,7 @@ int main(int argc, char** argv) {
       am::Config config;
       if (!config_path.empty()) {
         const std::string folder = std::filesystem::path(config_path).parent_path().string();
-        const auto text = ReadText(config_path);
+        const auto text = vm::ReadTextFile(config_path, kMaxFileBytes);
         if (!text) return std::unexpected(text.error());
         auto parsed = am::ParseConfig(*text, config_path, folder.empty() ? "." : folder);
         if (!parsed) return parsed;
@@ -68,7 +62,7 @@ int main(int argc, char** argv) {
     options.console = !no_console;
     if (!replay.empty()) options.replay = replay;
     if (!do_file.empty()) {
-      const auto text = ReadText(do_file);
+      const auto text = vm::ReadTextFile(do_file, kMaxFileBytes);
       if (!text) throw std::runtime_error(text.error().text);
       std::istringstream lines(*text);
       for (std::string line; std::getline(lines, line);) options.first_lines.push_back(line);

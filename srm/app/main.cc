@@ -3,37 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 #include "srm/app/sources.h"
 #include "srm/core/recognizer_module.h"
+#include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/asio_scheduler.h"
 #include "vm_protocol/runtime/module_main.h"
-
-namespace {
-
-constexpr std::size_t kMaxFileBytes = srm::Grammar::kMaxBytes;
-
-vm::Result<std::string> ReadTextFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text(kMaxFileBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file.eof() && file.fail()) {
-    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
-  }
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kMaxFileBytes) {
-    return vm::Fail(vm::Errc::kTooLong,
-                    "'" + path + "' is over " + std::to_string(kMaxFileBytes) + " bytes");
-  }
-  return text;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   srm::PocketsphinxOptions engine;
@@ -66,7 +43,10 @@ int main(int argc, char** argv) {
              return std::make_unique<srm::RecognizerModule>(
                  scheduler, srm::RecognizerModule::Options{
                                 .module_version = "Galatea SRM " GALATEA_VERSION,
-                                .read_file = ReadTextFile,
+                                .read_file =
+                                    [](const std::string& path) {
+                                      return vm::ReadTextFile(path, srm::Grammar::kMaxBytes);
+                                    },
                                 .open_decoder = [&engine] { return srm::OpenPocketsphinx(engine); },
                                 .open_spotter = [&engine] { return srm::OpenSpotter(engine); },
                                 .open_source = [&](const std::string& name)

@@ -7,9 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -23,6 +21,7 @@
 #include "ssm/sinks/portaudio_sink.h"
 #include "ssm/sinks/sink_choice.h"
 #include "ssm/voice/voice_module.h"
+#include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/module_main.h"
 
 namespace {
@@ -42,12 +41,10 @@ struct Options {
 
 void Notice(const std::string& text) { std::cerr << "ssm: " << text << std::endl; }
 
+constexpr std::size_t kMaxFileBytes = 4u << 20;  // configurations, tables of voices
+
 vm::Result<std::string> ReadFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
-  }
-  return std::string{std::istreambuf_iterator<char>(file), {}};
+  return vm::ReadTextFile(path, kMaxFileBytes);
 }
 
 std::string ReadFileOrThrow(const std::string& path) {

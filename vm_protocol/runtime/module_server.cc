@@ -10,29 +10,13 @@
 #include <utility>
 
 #include "vm_protocol/core/limits.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace vm {
 namespace {
 
 constexpr auto kFlushLimit = std::chrono::seconds(3);  // for a reader that does not read at the end
 constexpr std::size_t kMaxFileBytes = 4u << 20;        // read by `<` and `do FILE`
-
-Result<std::string> ReadTextFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
-  std::string text;
-  char buffer[4096];
-  while (file.read(buffer, sizeof(buffer)) || file.gcount() > 0) {
-    text.append(buffer, static_cast<std::size_t>(file.gcount()));
-    if (text.size() > kMaxFileBytes) {
-      return Fail(Errc::kTooLong,
-                  "file '" + path + "' is over " + std::to_string(kMaxFileBytes) + " bytes");
-    }
-  }
-  if (file.bad())
-    return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
-  return text;
-}
 
 Result<void> AppendTextFile(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary | std::ios::app);
@@ -49,7 +33,7 @@ ModuleServer::ModuleServer(boost::asio::io_context& io, ClockScheduler& clock, M
     : io_(io), clock_(clock), module_(module), options_(std::move(options)) {
   SlotMachine& slots = module_.slots();
   slots.set_output([this](PeerId id, const Message& message) { Emit(id, message); });
-  slots.set_read_file(ReadTextFile);
+  slots.set_read_file([](const std::string& path) { return ReadTextFile(path, kMaxFileBytes); });
   slots.set_append_file(AppendTextFile);
   slots.set_on_error([this](PeerId, const std::string& line, const Error& error) {
     ++errors_;

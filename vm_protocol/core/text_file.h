@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "vm_protocol/core/result.h"
+
+namespace vm {
+
+/// A whole file. Errors: kUnavailable if it cannot be read (with the system's reason), kTooLong if
+/// it is over `max_bytes`, of which no more is read. Both name the file.
+Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes);
+
+}  // namespace vm
