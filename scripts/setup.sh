@@ -9,11 +9,11 @@ packages=(
   libssl-dev openssl zlib1g-dev libmosquitto-dev mosquitto mosquitto-clients
   duktape-dev libpcre2-dev libexpat1-dev libcurl4-openssl-dev
   libgtest-dev libbenchmark-dev
-  libosmesa6-dev libegl-dev libglfw3-dev libgl-dev libpng-dev libjpeg-dev ffmpeg
+  libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev fonts-dejavu-core libgl-dev libpng-dev libjpeg-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev
   libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic libhtsengine-dev
   libpocketsphinx-dev pocketsphinx-en-us pocketsphinx-testdata libspeexdsp-dev libtinyxml2-dev
-  xvfb iproute2
+  xvfb xdotool iproute2
 )
 
 # A browser for the tests of the hub's page.

@@ -1,13 +1,12 @@
 #include "fsm/app/gl_studio.h"
 
 #include <algorithm>
-#include <fstream>
 #include <future>
 #include <iostream>
 #include <stdexcept>
 
+#include "fsm/app/face_of_name.h"
 #include "fsm/head/face_folder.h"
-#include "fsm/head/face_set.h"
 
 namespace fsm {
 
@@ -39,20 +38,7 @@ std::unique_ptr<Head> GlStudio::MakeHead(const std::string& face) const {
     if (face.empty() || more.name == face) return more.make();
   }
   if (face.empty()) return Head::MakeGeneric();
-  if (std::ranges::find(Head::Identities(), face, &IdentityInfo::name) !=
-      Head::Identities().end()) {
-    return Head::Make(face);
-  }
-  const std::string folder = FacesFolder() + "/" + face;
-  std::ifstream file(folder + "/face.txt");
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file) throw std::runtime_error("cannot read " + folder + "/face.txt");
-  FaceSet set = ReadFaceSet(folder + "/face.txt", text);
-  auto image = ReadImage(folder + "/photo.png");
-  if (!image) throw std::runtime_error(image.error().text);
-  set.photo =
-      std::make_shared<WornPhoto>(WornPhoto{image->width, image->height, std::move(image->rgba)});
-  return Head::Make(set);
+  return MakeHeadOfName(face);
 }
 
 void GlStudio::MakeRenderer() {

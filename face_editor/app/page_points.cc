@@ -1,0 +1,72 @@
+// The page of the photo: what is dragged and how, and the face made of it.
+
+#include "face_editor/app/ui.h"
+
+namespace editor {
+namespace {
+
+void Groups(Ui& ui) {
+  Heading("Drag points; several: click with Shift, Shift and drag a frame, or");
+  float width = 0;
+  const float room = ImGui::GetContentRegionAvail().x;
+  for (const PointGroup& group : PointGroups()) {
+    const float wide = ImGui::CalcTextSize(group.title.data()).x + 24;
+    if (width > 0 && width + wide < room) {
+      ImGui::SameLine();
+    } else {
+      width = 0;
+    }
+    width += wide;
+    if (!Button(ui, group.title.data())) continue;
+    auto& selection = ui.editor.selection;
+    if (!ImGui::GetIO().KeyShift) selection.clear();
+    for (const int i : group.points) {
+      if (ui.editor.state().points.contains(i)) selection.insert(i);
+    }
+  }
+}
+
+void Build(Ui& ui) {
+  Heading("Make the face of it");
+  ImGui::SetNextItemWidth(130);
+  Text(ui, "##name", &ui.face_name, "name");
+  ImGui::SameLine();
+  const bool can = ui.editor.work() && ui.editor.work()->base;
+  if (Button(ui, "Build face", can, "Makes it a face that fsm --mask NAME wears")) {
+    const auto place = ui.editor.BuildFace(ui.face_name, "");
+    if (ui.Check(place)) {
+      ui.Tell("Face made in " + *place + ": fsm --mask " + ui.face_name + " wears it");
+    }
+  }
+}
+
+}  // namespace
+
+fsm::FaceState PointsPage(Ui& ui) {
+  Groups(ui);
+  Checkbox(ui, "Both sides alike", &ui.editor.symmetric,
+           "The other side of the face moves as its mirror image");
+  ImGui::SameLine();
+  float percent = 100 * ui.editor.reach01;
+  ImGui::SetNextItemWidth(110);
+  if (Slider(ui, "What is near goes along", &percent, 0, 100, "%.0f %%")) {
+    ui.editor.reach01 = percent / 100;
+  }
+  if (Button(ui, "As found", ui.editor.work() != nullptr,
+             "All points back to where they were found")) {
+    ui.Check(ui.editor.ResetPoints());
+  }
+  ImGui::SameLine();
+  Checkbox(ui, "Mesh", &ui.view.mesh);
+  ImGui::SameLine();
+  Checkbox(ui, "Points", &ui.view.points);
+  ImGui::SameLine();
+  if (Button(ui, "Whole face", ui.editor.work() != nullptr, "Zooms so that it fits"))
+    ui.view.zoom = 0;
+  TryIt(ui);
+  Build(ui);
+  FileRow(ui, Part::kPoints, "points.txt");
+  return {};
+}
+
+}  // namespace editor

@@ -1,0 +1,289 @@
+#include "face_editor/app/script.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "face_editor/core/commands.h"
+#include "fsm/motion/table_text.h"
+
+namespace editor {
+
+using vm::Errc;
+using vm::Fail;
+
+std::optional<std::string> LineSource::Next() {
+  while (true) {
+    const std::size_t newline = text_.find('\n');
+    if (newline != std::string::npos || text_.size() > kMaxLineBytes ||
+        (ended_ && !text_.empty())) {
+      const std::size_t length = std::min({newline, text_.size(), kMaxLineBytes});
+      std::string line = text_.substr(0, length);
+      text_.erase(0, newline == std::string::npos ? length : newline + 1);
+      ++line_;
+      return line;
+    }
+    if (ended_) return std::nullopt;
+    pollfd ready{descriptor_, POLLIN, 0};
+    if (::poll(&ready, 1, 0) <= 0) return std::nullopt;
+    std::array<char, 4096> bytes;
+    const ssize_t n = ::read(descriptor_, bytes.data(), bytes.size());
+    if (n <= 0) ended_ = true;
+    if (n > 0) text_.append(bytes.data(), static_cast<std::size_t>(n));
+  }
+}
+
+namespace {
+
+using Words = std::vector<std::string>;
+using Answer = vm::Result<std::string>;
+
+Answer Done(vm::Result<void> result) {
+  if (!result) return std::unexpected(result.error());
+  return "";
+}
+
+vm::Result<std::vector<float>> Numbers(const Words& words, std::size_t first, std::size_t count) {
+  std::vector<float> numbers;
+  for (std::size_t i = first; i < words.size(); ++i) {
+    const auto number = fsm::ParseNumber(words[i]);
+    if (!number) return std::unexpected(number.error());
+    numbers.push_back(static_cast<float>(*number));
+  }
+  if (numbers.size() != count) {
+    return Fail(Errc::kSyntax, fmt::format("{} numbers found, {} expected", numbers.size(), count));
+  }
+  return numbers;
+}
+
+int PatternIn(const Words& words, std::size_t at) {
+  const auto number = at < words.size() ? fsm::ParseNumber(words[at]) : 1.0;
+  return number ? static_cast<int>(*number) : 0;
+}
+
+Answer Turn(Program& program, const Words& words) {
+  for (const PageName& page : kPages) {
+    if (words.size() == 2 && words[1] == page.word) {
+      program.ui.page = page.page;
+      program.ui.player.Stop();
+      // The tabs need a few frames to follow.
+      for (int i = 0; i < 4; ++i) static_cast<void>(program.frame(""));
+      return "";
+    }
+  }
+  return Fail(Errc::kBadValue, "points, units, expressions, mouth, motions or identity expected");
+}
+
+Answer Play(Program& program, const Words& words) {
+  Show show;
+  const std::string kind = words.size() > 1 ? words[1] : "";
+  if (kind == "expression" && words.size() > 2) {
+    show.expression = words[2];
+    show.pattern = PatternIn(words, 3);
+    show.elicited = program.ui.elicited;
+  } else if (kind == "motion" && words.size() > 2) {
+    show.motion = words[2];
+    show.motion_pattern = PatternIn(words, 3);
+  } else if (kind == "speech") {
+    std::string text;
+    for (std::size_t i = 2; i < words.size(); ++i) text += words[i] + " ";
+    const auto speech = vm::ParsePhonemes(text.empty() ? program.ui.say : text);
+    if (!speech) return std::unexpected(speech.error());
+    show.speech = *speech;
+  } else {
+    return Fail(
+        Errc::kSyntax,
+        "play expression NAME [N], play motion KIND [N] or play speech [PHONEMES] expected");
+  }
+  return Done(program.ui.player.Start(show, program.ui.loop, program.ui.now));
+}
+
+Answer Choose(Program& program, const Words& words) {
+  Ui& ui = program.ui;
+  const std::string kind = words.size() > 2 ? words[1] : "";
+  if (kind == "expression") {
+    ui.expression = words[2];
+    ui.pattern = PatternIn(words, 3);
+  } else if (kind == "mouth" || kind == "mouth28") {
+    ui.bilingual = kind == "mouth28";
+    ui.shape = words[2];
+  } else if (kind == "motion" && ui.editor.state().curves.contains(words[2])) {
+    ui.motion = words[2];
+    ui.motion_pattern = PatternIn(words, 3);
+    if (words.size() > 4) ui.scrub_ms = static_cast<float>(PatternIn(words, 4));
+  } else {
+    return Fail(Errc::kSyntax,
+                "choose expression NAME [N], mouth NAME, mouth28 NAME or motion KIND [N [MS]] "
+                "expected");
+  }
+  return "";
+}
+
+/// Where a point of the photo or a widget is in the window.
+vm::Result<ImVec2> Place(const Program& program, const Words& words) {
+  std::string label;
+  for (std::size_t i = 1; i < words.size(); ++i) label += (i > 1 ? " " : "") + words[i];
+  const auto mark = program.ui.marks.find(label);
+  if (mark != program.ui.marks.end()) return mark->second;
+  const auto points = PointsNamed(label);
+  if (points && points->size() == 1 && program.ui.page == Page::kPoints) {
+    const auto at = program.ui.editor.state().points.find(*points->begin());
+    if (at != program.ui.editor.state().points.end()) {
+      const glm::vec2 there = program.ui.view.ToWindow(glm::vec2(at->second));
+      return ImVec2(there.x, there.y);
+    }
+  }
+  return Fail(Errc::kBadValue, "'" + label + "' is neither a widget nor a point that is shown");
+}
+
+void Draw(Program& program, int frames) {
+  for (int i = 0; i < frames; ++i) static_cast<void>(program.frame(""));
+}
+
+void Press(Program& program, bool down) {
+  program.ui.window.hand->down[0] = down;
+  Draw(program, 2);
+}
+
+void MoveHand(Program& program, ImVec2 to) {
+  auto& hand = program.ui.window.hand;
+  if (!hand) hand = Window::Hand();
+  hand->x = to.x;
+  hand->y = to.y;
+  Draw(program, 2);
+}
+
+Answer Mouse(Program& program, const Words& words) {
+  const std::string what = words.size() > 1 ? words[1] : "";
+  auto& hand = program.ui.window.hand;
+  if (what == "off") {
+    hand.reset();
+    return "";
+  }
+  const std::size_t count = what == "move" ? 2 : what == "drag" ? 4 : what == "wheel" ? 1 : 0;
+  const auto at = Numbers(words, 2, count);
+  if (!at) return std::unexpected(at.error());
+  const std::vector<float>& v = *at;
+  if (!hand && what != "move" && what != "drag") {
+    return Fail(Errc::kBadValue, "mouse move X Y comes first");
+  }
+  if (what == "move") {
+    MoveHand(program, {v[0], v[1]});
+  } else if (what == "down" || what == "up") {
+    Press(program, what == "down");
+  } else if (what == "wheel") {
+    hand->wheel = v[0];
+    Draw(program, 2);
+  } else if (what == "drag") {
+    MoveHand(program, {v[0], v[1]});
+    Press(program, true);
+    constexpr int kSteps = 4;
+    for (int i = 1; i <= kSteps; ++i) {
+      const float part = static_cast<float>(i) / kSteps;
+      MoveHand(program, {v[0] + part * (v[2] - v[0]), v[1] + part * (v[3] - v[1])});
+    }
+    Press(program, false);
+  } else {
+    return Fail(Errc::kSyntax, "mouse move, down, up, wheel, drag or off expected");
+  }
+  return "";
+}
+
+Answer Click(Program& program, const Words& words) {
+  const auto at = Place(program, words);
+  if (!at) return std::unexpected(at.error());
+  MoveHand(program, *at);
+  Press(program, true);
+  Press(program, false);
+  return "";
+}
+
+Answer View(Program& program, const Words& words) {
+  const bool zoom = words[0] == "zoom";
+  const auto v = Numbers(words, 1, zoom ? 1 : 2);
+  if (!v) return std::unexpected(v.error());
+  if (zoom) {
+    if ((*v)[0] < 0 || (*v)[0] > 60) return Fail(Errc::kBadValue, "0 (fit) to 60 expected");
+    program.ui.view.zoom = (*v)[0];
+  } else if (words[0] == "turn") {
+    program.ui.stage.turn = {(*v)[0], (*v)[1]};
+  } else {
+    program.ui.view.centre = {(*v)[0], (*v)[1]};
+  }
+  return "";
+}
+
+Answer Wait(Program& program, const Words& words) {
+  if (words.size() == 1) {
+    program.settle();
+    return "";
+  }
+  const auto ms = Numbers(words, 1, 1);
+  if (!ms) return std::unexpected(ms.error());
+  if ((*ms)[0] < 0 || (*ms)[0] > 600000) return Fail(Errc::kBadValue, "0 to 600000 ms expected");
+  program.pass(vm::Time(static_cast<std::int64_t>((*ms)[0] * 1000)));
+  return "";
+}
+
+Answer RunWindowCommand(Program& program, const Words& words) {
+  const std::string& name = words[0];
+  Ui& ui = program.ui;
+  if (name == "page") return Turn(program, words);
+  if (name == "play") return Play(program, words);
+  if (name == "choose") return Choose(program, words);
+  if (name == "mouse") return Mouse(program, words);
+  if (name == "click") return Click(program, words);
+  if (name == "zoom" || name == "centre" || name == "turn") return View(program, words);
+  if (name == "wait") return Wait(program, words);
+  if (name == "stop") {
+    ui.player.Stop();
+    return "";
+  }
+  if (name == "where") {
+    const auto at = Place(program, words);
+    if (!at) return std::unexpected(at.error());
+    return fmt::format("{:.1f} {:.1f}", at->x, at->y);
+  }
+  if (name == "message") return ui.message;
+  if (name == "key" && words.size() == 2) {
+    ui.window.key = words[1];
+    Draw(program, 3);
+    return "";
+  }
+  if (name == "type" && words.size() == 2) {
+    ui.window.typed = words[1];
+    Draw(program, 2);
+    return "";
+  }
+  if (name == "screenshot" && words.size() == 2) return Done(program.frame(words[1]));
+  if (name == "quit") {
+    program.quit = true;
+    return "";
+  }
+  return Fail(Errc::kUnknownCommand, "'" + name.substr(0, 40) + "' is no command, or something " +
+                                         "must follow it; docs/face_editor.md lists them");
+}
+
+}  // namespace
+
+vm::Result<std::string> RunLine(Program& program, const std::string& line) {
+  const auto words = CommandWords(line);
+  if (!words) return std::unexpected(words.error());
+  if (words->empty()) return "";
+  auto answer = RunCommand(program.ui.editor, *words);
+  if (!answer) return RunWindowCommand(program, *words);
+  if (program.ui.Check(*answer) && !(*answer)->empty() && (*words)[0] != "get") {
+    program.ui.Tell(**answer);
+  }
+  if ((*words)[0] == "open" && *answer) {
+    program.ui.photo_path = program.ui.editor.work()->path;
+    program.ui.Tell(program.ui.editor.work()->notice);
+  }
+  Draw(program, 2);
+  return *answer;
+}
+
+}  // namespace editor

@@ -1,0 +1,97 @@
+#include "face_editor/app/stage.h"
+
+#include <algorithm>
+#include <exception>
+#include <glm/geometric.hpp>
+
+#include "face_editor/core/identity_head.h"
+
+namespace editor {
+
+Stage::Stage(fsm::RenderContext& context, std::shared_ptr<const fsm::Head> given)
+    : renderer_(fsm::Renderer::Make(context)), given_(std::move(given)) {}
+
+vm::Result<void> Stage::Update(const Editor& editor, bool identity) {
+  const auto& work = editor.work();
+  const Source source = identity             ? Source::kIdentity
+                        : work && work->base ? Source::kPhoto
+                        : given_             ? Source::kGiven
+                                             : Source::kIdentity;
+  const Part part = source == Source::kPhoto ? Part::kPoints : Part::kIdentity;
+  const std::uint64_t version = editor.state().version[static_cast<std::size_t>(part)];
+  const bool other = source != source_ || (source == Source::kPhoto && work != work_);
+  if (other || (version != version_ && source != Source::kGiven)) {
+    source_ = source;
+    work_ = work;
+    version_ = version;
+    if (other) built_ = nullptr;
+    if (source == Source::kGiven) {
+      head_ = given_;
+    } else if (source == Source::kPhoto) {
+      maker_.Ask([work, points = editor.state().points]() -> vm::Result<MadeHead> {
+        auto built = BuildFace(*work, points);
+        if (!built) return std::unexpected(built.error());
+        return MadeHead{(*built)->head, *built};
+      });
+    } else {
+      maker_.Ask(
+          [base = editor.state().base, sliders = editor.state().sliders]() -> vm::Result<MadeHead> {
+            auto head = MakeIdentityHead(base, sliders);
+            if (!head) return std::unexpected(head.error());
+            return MadeHead{*head, nullptr};
+          });
+    }
+  }
+  auto made = maker_.Take();
+  if (!made) return {};
+  if (!*made) return std::unexpected(made->error());
+  // What was made for a page that was left meanwhile is not worn.
+  const bool for_photo = (*made)->built != nullptr;
+  if (for_photo != (source_ == Source::kPhoto) || source_ == Source::kGiven) return {};
+  head_ = (*made)->head;
+  built_ = (*made)->built;
+  return {};
+}
+
+void Stage::Draw(const fsm::Pane& pane, const fsm::FaceState& state) {
+  if (!head_ || pane.width < 8 || pane.height < 8) return;
+  fsm::FaceState turned = state;
+  turned.agent_rotation = {turn[0], turn[1], 0};
+  head_->Evaluate(turned, vertices_);
+  renderer_->Place(pane);
+  renderer_->Draw(*head_, vertices_, turned, scene);
+}
+
+std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& base,
+                                                       const facefit::Fit& fit) {
+  const auto& topology = base.head->topology();
+  std::vector<glm::vec3> camera;
+  for (const glm::vec3& p : fit.worn) camera.push_back(fit.pose.ToCamera(p));
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& part : topology.parts) {
+    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
+    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
+      const std::uint32_t* t = &topology.indices[part.first_index + k];
+      const glm::vec3 n = glm::cross(camera[t[1]] - camera[t[0]], camera[t[2]] - camera[t[0]]);
+      // The neck is not fitted, what lies behind is not seen.
+      const bool face = std::all_of(t, t + 3, [&](std::uint32_t v) {
+        return fit.worn[v].z > 10 && base.rest.position[v].y > -95;
+      });
+      if (!face || n.z <= 0.1F * glm::length(n)) continue;
+      for (int c = 0; c < 3; ++c) {
+        edges.emplace_back(std::minmax(t[c], t[(c + 1) % 3]));
+      }
+    }
+  }
+  std::ranges::sort(edges);
+  const auto rest = std::ranges::unique(edges);
+  edges.erase(rest.begin(), rest.end());
+  std::vector<std::pair<glm::vec2, glm::vec2>> lines;
+  lines.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    lines.emplace_back(fit.pose.Project(camera[a]), fit.pose.Project(camera[b]));
+  }
+  return lines;
+}
+
+}  // namespace editor

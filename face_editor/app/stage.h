@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "face_editor/core/editor.h"
+#include "face_editor/core/head_maker.h"
+#include "fsm/render/renderer.h"
+
+namespace editor {
+
+/// The live preview: which head is worn, made anew whenever what it is made of is edited, and
+/// drawn.
+class Stage {
+ public:
+  /// `given`: worn while no photo is open; may be nullptr.
+  Stage(fsm::RenderContext& context, std::shared_ptr<const fsm::Head> given);
+
+  /// Asks for heads that are needed and takes those that are made. `identity`: the built-in face
+  /// with its sliders is shown, whatever is open. Errors: those of the points, once each.
+  vm::Result<void> Update(const Editor& editor, bool identity);
+  bool busy() const { return maker_.busy(); }
+  /// nullptr while the first one is being made.
+  const fsm::Head* head() const { return head_.get(); }
+  /// The last face made from the photo that is open; nullptr if there is none.
+  const std::shared_ptr<const BuiltFace>& built() const { return built_; }
+
+  void Draw(const fsm::Pane& pane, const fsm::FaceState& state);
+  fsm::Scene scene;
+  std::array<float, 2> turn{};  ///< of the whole figure, degrees: down, to the viewer's right
+
+ private:
+  std::unique_ptr<fsm::Renderer> renderer_;
+  std::shared_ptr<const fsm::Head> given_, head_;
+  std::shared_ptr<const BuiltFace> built_;
+  enum class Source { kNone, kGiven, kPhoto, kIdentity } source_ = Source::kNone;
+  std::shared_ptr<const PhotoWork> work_;
+  std::uint64_t version_ = 0;  // of what the head worn or asked for is made of
+  fsm::HeadVertices vertices_;
+  HeadMaker maker_;
+};
+
+/// The lines of the fitted mesh over the photo, in its pixels: what faces the viewer.
+std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& base,
+                                                       const facefit::Fit& fit);
+
+}  // namespace editor

@@ -1,0 +1,201 @@
+#include "face_editor/core/editor.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "face_editor/core/table_writer.h"
+#include "face_fit/find/hand_points.h"
+#include "fsm/mesh/pnt_file.h"
+#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/table_text.h"
+
+namespace editor {
+
+using vm::Errc;
+using vm::Fail;
+
+bool Editor::Unsaved(Part part) const {
+  const auto i = static_cast<std::size_t>(part);
+  return state().version[i] != saved_[i];
+}
+
+void Editor::MarkSaved(Part part) {
+  const auto i = static_cast<std::size_t>(part);
+  saved_[i] = state().version[i];
+}
+
+vm::Result<void> Editor::OpenPhoto(const std::string& path, int face) {
+  auto work = editor::OpenPhoto(sight_.get(), path, face);
+  if (!work) return std::unexpected(work.error());
+  work_ = std::move(*work);
+  selection.clear();
+  history_.Restart(Part::kPoints, [this](State& state) { state.points = work_->found; });
+  MarkSaved(Part::kPoints);
+  return {};
+}
+
+vm::Result<void> Editor::LoadPoints(const std::string& path) {
+  if (!work_) return Fail(Errc::kBadValue, "open the photo before its points");
+  auto text = fsm::ReadWhole(path, 1U << 20);
+  if (!text) return std::unexpected(text.error());
+  auto points = facefit::ParseHandPoints(path, *text);
+  if (!points) return std::unexpected(points.error());
+  PointMap at;
+  for (const auto& [i, place] : *points) at[static_cast<int>(i)] = glm::vec3(place, 0);
+  if (work_->base) {
+    const bool all = at.size() == work_->found.size();
+    const PointMap whole = AllPoints(*work_, at);
+    // Written by us, all are there: depth is then as it was found.
+    for (const auto& [i, place] : whole) {
+      at[i] = all ? glm::vec3(glm::vec2(at[i]), work_->found.at(i).z) : place;
+    }
+  }
+  history_.Change(Part::kPoints, "points read", "", [&](State& state) { state.points = at; });
+  MarkSaved(Part::kPoints);
+  return {};
+}
+
+vm::Result<void> Editor::SavePoints(const std::string& path) {
+  if (!work_) return Fail(Errc::kBadValue, "there are no points: open a photo first");
+  if (auto done = WriteWhole(path, WritePoints(state().points)); !done) return done;
+  MarkSaved(Part::kPoints);
+  return {};
+}
+
+vm::Result<void> Editor::ResetPoints() {
+  if (!work_) return Fail(Errc::kBadValue, "there are no points: open a photo first");
+  history_.Change(Part::kPoints, "points as found", "",
+                  [this](State& state) { state.points = work_->found; });
+  return {};
+}
+
+void Editor::DragSelection(const PointMap& from, glm::vec2 by, std::string_view merge) {
+  if (!work_ || selection.empty()) return;
+  const Drag drag{selection, by, symmetric, reach01 * EyeDistance(from)};
+  const std::string what =
+      selection.size() == 1 ? "move " + PointName(*selection.begin()) : "move points";
+  history_.Change(Part::kPoints, what, merge,
+                  [&](State& state) { state.points = Dragged(from, work_->mirror, drag); });
+}
+
+vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::string& folder) {
+  if (!work_) return Fail(Errc::kBadValue, "there is no photo: open one first");
+  if (!work_->base) return Fail(Errc::kUnavailable, work_->notice);
+  const auto built = editor::BuildFace(*work_, state().points);
+  if (!built) return std::unexpected(built.error());
+  return WriteFace(**built, folder, name);
+}
+
+vm::Result<void> Editor::SetUnit(int unit, bool left, bool right, float strength,
+                                 std::string_view merge) {
+  if (!fsm::IsActionUnit(unit)) {
+    return Fail(Errc::kBadValue,
+                fmt::format("{} is no action unit; 1 to 46 without 3 and 40 expected", unit));
+  }
+  if (auto fits = fsm::CheckStrength(static_cast<double>(strength)); !fits) return fits;
+  history_.Change(Part::kLook, fmt::format("unit {}", unit), merge, [&](State& state) {
+    const auto i = static_cast<std::size_t>(unit);
+    if (left) state.look.left[i] = strength;
+    if (right) state.look.right[i] = strength;
+  });
+  return {};
+}
+
+void Editor::SetLook(const fsm::ActionUnits& look, std::string what, std::string_view merge) {
+  history_.Change(Part::kLook, std::move(what), merge, [&](State& state) { state.look = look; });
+}
+
+std::vector<fsm::ActionUnits>* Editor::PatternsOf(State& state, std::string_view name) const {
+  const auto found = state.emotions.find(name);
+  return found == state.emotions.end() ? nullptr : &found->second.patterns;
+}
+
+vm::Result<void> Editor::CheckPattern(std::string_view name, int pattern) const {
+  const auto found = state().emotions.find(name);
+  if (found == state().emotions.end()) {
+    return Fail(Errc::kBadValue, fmt::format("there is no expression '{}'; {} expected",
+                                             name.substr(0, 40), fsm::KeysOf(state().emotions)));
+  }
+  return fsm::CheckPattern(name, pattern, 1, found->second.patterns.size());
+}
+
+vm::Result<void> Editor::SetExpression(std::string_view name, int pattern,
+                                       const fsm::ActionUnits& look, std::string_view merge) {
+  if (auto fits = CheckPattern(name, pattern); !fits) return fits;
+  history_.Change(Part::kEmotions, fmt::format("{} {}", name, pattern), merge, [&](State& state) {
+    (*PatternsOf(state, name))[static_cast<std::size_t>(pattern - 1)] = look;
+  });
+  return {};
+}
+
+vm::Result<void> Editor::SetTiming(std::string_view name, bool posed,
+                                   const fsm::Emotion::Timing& timing, std::string_view merge) {
+  if (auto fits = CheckPattern(name, 1); !fits) return fits;
+  const auto within = [](double v, double most) { return v >= 0 && v <= most; };
+  bool good = within(timing.onset_ms, 10000);
+  for (const double lag : timing.lag_ms) good = good && within(lag, 1000);
+  if (!good) return Fail(Errc::kBadValue, "an onset of 0 to 10000 ms, lags of 0 to 1000 expected");
+  history_.Change(Part::kEmotions, fmt::format("times of {}", name), merge, [&](State& state) {
+    auto& emotion = state.emotions.find(name)->second;
+    (posed ? emotion.posed : emotion.elicited) = timing;
+  });
+  return {};
+}
+
+vm::Result<void> Editor::AddPattern(std::string_view name) {
+  const std::string word(name);
+  const fsm::TableText table("an expression", word);
+  if (table.lines().empty() || table.lines().front().words.size() != 1) {
+    return Fail(Errc::kBadValue, "a name expected: a letter, then letters, digits and _");
+  }
+  if (auto named = table.Name(table.lines().front(), 0, "a name"); !named) return named;
+  if (word == "posed" || word == "elicited") {
+    return Fail(Errc::kBadValue, "'" + word + "' is a word of the table, another name expected");
+  }
+  const auto found = state().emotions.find(word);
+  if (found != state().emotions.end() && found->second.patterns.size() >= 100) {
+    return Fail(Errc::kLimit, "an expression has at most 100 patterns");
+  }
+  history_.Change(Part::kEmotions, "add a pattern of " + word, "", [&](State& state) {
+    auto& patterns = state.emotions[word].patterns;
+    patterns.push_back(patterns.empty() ? fsm::ActionUnits{} : patterns.back());
+  });
+  return {};
+}
+
+vm::Result<void> Editor::RemovePattern(std::string_view name, int pattern) {
+  if (auto fits = CheckPattern(name, pattern); !fits) return fits;
+  const bool last = state().emotions.find(name)->second.patterns.size() == 1;
+  history_.Change(Part::kEmotions, fmt::format("remove {} {}", name, pattern), "",
+                  [&](State& state) {
+                    auto& patterns = *PatternsOf(state, name);
+                    patterns.erase(patterns.begin() + (pattern - 1));
+                    if (last) state.emotions.erase(state.emotions.find(name));
+                  });
+  return {};
+}
+
+vm::Result<void> Editor::SetShape(bool bilingual, const fsm::MouthShape& shape,
+                                  std::string_view merge) {
+  if (!fsm::FindShape(shapes(bilingual), shape.name)) {
+    std::string names;
+    for (const auto& other : shapes(bilingual)) names += " " + other.name;
+    return Fail(Errc::kBadValue, fmt::format("there is no mouth shape '{}'; one of{} expected",
+                                             shape.name.substr(0, 40), names));
+  }
+  // The same bounds as those of the table.
+  const fsm::TableText table("shape", fsm::FormatShapeValues(shape));
+  fsm::MouthShape checked = shape;
+  if (auto fits = fsm::ReadShapeValues(table.lines().front().words, 0, checked); !fits) {
+    return std::unexpected(fits.error());
+  }
+  history_.Change(Part::kMouth, "mouth shape " + shape.name, merge, [&](State& state) {
+    for (auto& other : bilingual ? state.shapes28 : state.shapes14) {
+      if (other.name == shape.name) other = shape;
+    }
+  });
+  return {};
+}
+
+}  // namespace editor

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "face_editor/core/history.h"
+#include "face_editor/core/photo_work.h"
+#include "fsm/motion/motion_tables.h"
+#include "vm_protocol/core/result.h"
+
+namespace editor {
+
+/// What is open and what can be done to it; pages and scripts do the same things here. No window,
+/// no time. Everything that changes the state can be undone; opening a file cannot.
+/// Errors: kBadValue with what was expected, kUnavailable for files; then nothing has changed.
+class Editor {
+ public:
+  /// `tables`: a folder of tables in place of the built-in ones, "" = none.
+  static vm::Result<std::unique_ptr<Editor>> Make(const std::string& tables);
+
+  const State& state() const { return history_.now(); }
+  History& history() { return history_; }
+  const History& history() const { return history_; }
+  /// The tables as they are edited now.
+  fsm::MotionTables Tables() const;
+  const fsm::UnitNames& unit_names() const { return tables_.unit_names; }
+  const fsm::UnitList& unit_list() const { return tables_.units; }
+  bool Unsaved(Part part) const;
+
+  // The photo.
+  void SetSight(std::shared_ptr<FaceSight> sight) { sight_ = std::move(sight); }
+  vm::Result<void> OpenPhoto(const std::string& path, int face = 1);
+  const std::shared_ptr<const PhotoWork>& work() const { return work_; }
+  vm::Result<void> LoadPoints(const std::string& path);
+  vm::Result<void> SavePoints(const std::string& path);
+  /// Back to where they were found.
+  vm::Result<void> ResetPoints();
+  /// Moves the selection from where it is in `from`; see Drag.
+  void DragSelection(const PointMap& from, glm::vec2 by, std::string_view merge);
+  std::set<int> selection;
+  bool symmetric = true;
+  float reach01 = 0.2F;  ///< how far others go along, in distances of the outer eye corners
+  vm::Result<std::string> BuildFace(const std::string& name, const std::string& folder);
+
+  // Units and expressions. Strengths 0..2.
+  vm::Result<void> SetUnit(int unit, bool left, bool right, float strength,
+                           std::string_view merge = "");
+  void SetLook(const fsm::ActionUnits& look, std::string what, std::string_view merge = "");
+  vm::Result<void> SetExpression(std::string_view name, int pattern, const fsm::ActionUnits& look,
+                                 std::string_view merge = "");
+  vm::Result<void> SetTiming(std::string_view name, bool posed, const fsm::Emotion::Timing& timing,
+                             std::string_view merge = "");
+  /// A pattern that looks as the last one, or a new expression with an empty pattern 1.
+  vm::Result<void> AddPattern(std::string_view name);
+  /// The expression too with its last one.
+  vm::Result<void> RemovePattern(std::string_view name, int pattern);
+
+  // Mouth shapes, of the 14 or the 28.
+  const fsm::MouthShapes& shapes(bool bilingual) const {
+    return bilingual ? state().shapes28 : state().shapes14;
+  }
+  vm::Result<void> SetShape(bool bilingual, const fsm::MouthShape& shape,
+                            std::string_view merge = "");
+
+  // Movements of the head.
+  using Keys = std::vector<fsm::HeadCurve::Key>;
+  vm::Result<void> SetCurve(std::string_view kind, int pattern, const Keys& keys,
+                            std::string_view merge = "");
+  /// Moves as the last one of its kind.
+  vm::Result<void> AddCurve(std::string_view kind);
+  vm::Result<void> RemoveCurve(std::string_view kind, int pattern);
+
+  // Files of tables.
+  vm::Result<void> Load(Part part, const std::string& path, bool bilingual = false);
+  vm::Result<void> Save(Part part, const std::string& path, bool bilingual = false);
+  vm::Result<void> LoadTables(const std::string& folder);
+  /// Writes the tables that differ from what the program carries or stand in the folder; says how
+  /// many.
+  vm::Result<int> SaveTables(const std::string& folder);
+
+ private:
+  explicit Editor(fsm::MotionTables tables);
+  void Adopt(const fsm::MotionTables& tables);
+  void MarkSaved(Part part);
+  std::vector<fsm::ActionUnits>* PatternsOf(State& state, std::string_view name) const;
+  vm::Result<void> CheckPattern(std::string_view name, int pattern) const;
+  vm::Result<void> CheckCurve(std::string_view kind, int pattern) const;
+
+  fsm::MotionTables tables_;  // as read; what is edited lies in the state
+  std::string emotions_text_, shapes14_text_, shapes28_text_, motions_text_;
+  History history_;
+  std::array<std::uint64_t, kParts> saved_{};
+  std::shared_ptr<FaceSight> sight_;
+  std::shared_ptr<const PhotoWork> work_;
+};
+
+/// The key frames are in order of time from above 0, angles within 180 degrees. Error: kBadValue.
+vm::Result<void> CheckKeys(const Editor::Keys& keys);
+
+}  // namespace editor

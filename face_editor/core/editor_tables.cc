@@ -1,0 +1,253 @@
+// The tables: movements of the head, and the files.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "embedded/editor_emotions.h"
+#include "embedded/editor_motions.h"
+#include "embedded/editor_mouth_shapes.h"
+#include "embedded/editor_mouth_shapes_28.h"
+#include "face_editor/core/editor.h"
+#include "face_editor/core/table_writer.h"
+#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/table_text.h"
+
+namespace editor {
+
+using vm::Errc;
+using vm::Fail;
+
+namespace {
+
+constexpr const char* kEmotionsFile = "emotions.txt";
+constexpr const char* kShapes14File = "mouth_shapes.txt";
+constexpr const char* kShapes28File = "mouth_shapes_28.txt";
+constexpr const char* kMotionsFile = "motions.txt";
+
+vm::Result<std::string> ReadTable(const std::string& path) {
+  auto text = fsm::ReadTableFile(path);
+  if (!text) return text;
+  if (auto encoded = fsm::CheckTableEncoding(path, *text); !encoded) {
+    return std::unexpected(encoded.error());
+  }
+  return text;
+}
+
+/// The text of a table in `folder`, else what the program carries.
+std::string TextIn(const std::string& folder, const char* file, std::string_view built_in) {
+  std::error_code code;
+  const std::string path = folder + "/" + file;
+  if (folder.empty() || !std::filesystem::exists(path, code)) return std::string(built_in);
+  return ReadTable(path).value_or(std::string(built_in));
+}
+
+State First() {
+  State state;
+  for (const char* kind : {"NOD", "REFUSE", "LISTEN", "USERDEF"}) state.curves[kind];
+  return state;
+}
+
+}  // namespace
+
+Editor::Editor(fsm::MotionTables tables) : tables_(std::move(tables)), history_(First()) {}
+
+vm::Result<std::unique_ptr<Editor>> Editor::Make(const std::string& tables) {
+  auto loaded = fsm::MotionTables::Load("");
+  if (!loaded) return std::unexpected(loaded.error());
+  std::unique_ptr<Editor> editor(new Editor(std::move(*loaded)));
+  if (auto done = editor->LoadTables(tables); !done) return std::unexpected(done.error());
+  return editor;
+}
+
+vm::Result<void> Editor::LoadTables(const std::string& folder) {
+  auto tables = fsm::MotionTables::Load(folder);
+  if (!tables) return std::unexpected(tables.error());
+  tables_ = std::move(*tables);
+  emotions_text_ = TextIn(folder, kEmotionsFile, embedded::editor_emotions());
+  shapes14_text_ = TextIn(folder, kShapes14File, embedded::editor_mouth_shapes());
+  shapes28_text_ = TextIn(folder, kShapes28File, embedded::editor_mouth_shapes_28());
+  motions_text_ = TextIn(folder, kMotionsFile, embedded::editor_motions());
+  const auto put = [this](Part part, const std::function<void(State&)>& change) {
+    history_.Restart(part, change);
+    MarkSaved(part);
+  };
+  put(Part::kEmotions, [this](State& state) { state.emotions = tables_.emotions; });
+  put(Part::kMouth, [this](State& state) {
+    state.shapes14 = tables_.set14.shapes;
+    state.shapes28 = tables_.set28.shapes;
+  });
+  put(Part::kMotions, [this](State& state) {
+    for (auto& [kind, curves] : state.curves) {
+      const auto read = tables_.motions.head.find(kind);
+      curves = read == tables_.motions.head.end() ? std::vector<fsm::HeadCurve>{} : read->second;
+    }
+  });
+  return {};
+}
+
+fsm::MotionTables Editor::Tables() const {
+  fsm::MotionTables tables = tables_;
+  tables.emotions = state().emotions;
+  tables.set14.shapes = state().shapes14;
+  tables.set28.shapes = state().shapes28;
+  for (const auto& [kind, curves] : state().curves) tables.motions.head[kind] = curves;
+  return tables;
+}
+
+vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual) {
+  if (part == Part::kPoints) return LoadPoints(path);
+  auto text = ReadTable(path);
+  if (!text) return std::unexpected(text.error());
+  const auto put = [&](const std::string& what, const std::function<void(State&)>& change) {
+    history_.Change(part, what, "", change);
+    MarkSaved(part);
+  };
+  if (part == Part::kEmotions) {
+    auto read = fsm::ReadEmotions(path, *text);
+    if (!read) return std::unexpected(read.error());
+    emotions_text_ = std::move(*text);
+    put("expressions read", [&](State& state) { state.emotions = std::move(*read); });
+  } else if (part == Part::kMouth) {
+    auto read =
+        fsm::ReadMouthShapes(path, *text, bilingual ? fsm::kBilingualShapes : fsm::kMouthShapes);
+    if (!read) return std::unexpected(read.error());
+    // Phonemes and dominances know shapes by name and place.
+    for (std::size_t i = 0; i < read->size(); ++i) {
+      const auto& mine = shapes(bilingual)[i];
+      if ((*read)[i].name != mine.name) {
+        return Fail(Errc::kBadValue, fmt::format("{}: shape {} is '{}', '{}' expected", path, i + 1,
+                                                 (*read)[i].name, mine.name));
+      }
+      (*read)[i].dominance = mine.dominance;
+      (*read)[i].pose.contact = mine.pose.contact;
+    }
+    (bilingual ? shapes28_text_ : shapes14_text_) = std::move(*text);
+    put("mouth shapes read",
+        [&](State& state) { (bilingual ? state.shapes28 : state.shapes14) = std::move(*read); });
+  } else if (part == Part::kMotions) {
+    auto read = fsm::ReadMotions(path, *text);
+    if (!read) return std::unexpected(read.error());
+    motions_text_ = std::move(*text);
+    tables_.motions = *read;
+    put("movements read", [&](State& state) {
+      for (auto& [kind, curves] : state.curves) curves = read->head[kind];
+    });
+  } else {
+    return Fail(Errc::kBadValue, "this part has no table of its own");
+  }
+  return {};
+}
+
+vm::Result<void> Editor::Save(Part part, const std::string& path, bool bilingual) {
+  if (part == Part::kPoints) return SavePoints(path);
+  std::string text;
+  if (part == Part::kEmotions) {
+    text = WriteEmotions(emotions_text_, state().emotions);
+  } else if (part == Part::kMouth) {
+    text = WriteMouthShapes(bilingual ? shapes28_text_ : shapes14_text_, shapes(bilingual));
+  } else if (part == Part::kMotions) {
+    text = WriteCurves(motions_text_, state().curves);
+  } else {
+    return Fail(Errc::kBadValue, "this part has no table of its own");
+  }
+  if (auto done = WriteWhole(path, text); !done) return done;
+  MarkSaved(part);
+  return {};
+}
+
+vm::Result<int> Editor::SaveTables(const std::string& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  struct File {
+    const char* name;
+    Part part;
+    bool bilingual;
+    std::string text;
+    std::string_view built_in;
+  };
+  const File files[] = {
+      {kEmotionsFile, Part::kEmotions, false, WriteEmotions(emotions_text_, state().emotions),
+       embedded::editor_emotions()},
+      {kShapes14File, Part::kMouth, false, WriteMouthShapes(shapes14_text_, state().shapes14),
+       embedded::editor_mouth_shapes()},
+      {kShapes28File, Part::kMouth, true, WriteMouthShapes(shapes28_text_, state().shapes28),
+       embedded::editor_mouth_shapes_28()},
+      {kMotionsFile, Part::kMotions, false, WriteCurves(motions_text_, state().curves),
+       embedded::editor_motions()}};
+  int written = 0;
+  for (const File& file : files) {
+    const std::string path = folder + "/" + file.name;
+    if (file.text == file.built_in && !std::filesystem::exists(path, code)) continue;
+    if (auto done = WriteWhole(path, file.text); !done) return std::unexpected(done.error());
+    ++written;
+  }
+  for (const Part part : {Part::kEmotions, Part::kMouth, Part::kMotions}) MarkSaved(part);
+  return written;
+}
+
+vm::Result<void> CheckKeys(const Editor::Keys& keys) {
+  double before = 0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto& key = keys[i];
+    if (!(key.ms > before) || key.ms > 86400000) {
+      return Fail(Errc::kBadValue,
+                  fmt::format("key frame {} at {:g} ms is not after the one before "
+                              "it ({:g} ms)",
+                              i + 1, key.ms, before));
+    }
+    before = key.ms;
+    for (const float angle : key.angles) {
+      if (!(std::abs(angle) <= 180)) {
+        return Fail(Errc::kBadValue,
+                    fmt::format("key frame {}: angles from -180 to 180 expected", i + 1));
+      }
+    }
+  }
+  if (keys.empty()) return Fail(Errc::kBadValue, "a movement has at least one key frame");
+  if (keys.size() > 1000) return Fail(Errc::kLimit, "at most 1000 key frames are edited");
+  return {};
+}
+
+vm::Result<void> Editor::CheckCurve(std::string_view kind, int pattern) const {
+  const auto found = state().curves.find(kind);
+  if (found == state().curves.end()) {
+    return Fail(Errc::kBadValue, fmt::format("there is no movement '{}'; {} expected",
+                                             kind.substr(0, 40), fsm::KeysOf(state().curves)));
+  }
+  return fsm::CheckPattern(kind, pattern, 1, found->second.size());
+}
+
+vm::Result<void> Editor::SetCurve(std::string_view kind, int pattern, const Keys& keys,
+                                  std::string_view merge) {
+  if (auto fits = CheckCurve(kind, pattern); !fits) return fits;
+  if (auto fits = CheckKeys(keys); !fits) return fits;
+  history_.Change(Part::kMotions, fmt::format("{} {}", kind, pattern), merge, [&](State& state) {
+    state.curves.find(kind)->second[static_cast<std::size_t>(pattern - 1)] = fsm::HeadCurve(keys);
+  });
+  return {};
+}
+
+vm::Result<void> Editor::AddCurve(std::string_view kind) {
+  const auto found = state().curves.find(kind);
+  if (found == state().curves.end()) return CheckCurve(kind, 1);
+  history_.Change(Part::kMotions, fmt::format("add {}", kind), "", [&](State& state) {
+    auto& curves = state.curves.find(kind)->second;
+    const fsm::HeadCurve first({{400, {10, 0, 0}}, {800, {0, 0, 0}}});
+    curves.push_back(curves.empty() ? first : curves.back());
+  });
+  return {};
+}
+
+vm::Result<void> Editor::RemoveCurve(std::string_view kind, int pattern) {
+  if (auto fits = CheckCurve(kind, pattern); !fits) return fits;
+  history_.Change(Part::kMotions, fmt::format("remove {} {}", kind, pattern), "",
+                  [&](State& state) {
+                    auto& curves = state.curves.find(kind)->second;
+                    curves.erase(curves.begin() + (pattern - 1));
+                  });
+  return {};
+}
+
+}  // namespace editor

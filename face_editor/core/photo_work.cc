@@ -1,0 +1,166 @@
+#include "face_editor/core/photo_work.h"
+
+#include <exception>
+#include <filesystem>
+#include <glm/geometric.hpp>
+
+#include "face_editor/core/table_writer.h"
+#include "face_fit/find/hand_points.h"
+#include "face_fit/find/upright.h"
+#include "face_fit/report.h"
+#include "fsm/head/face_folder.h"
+
+namespace editor {
+namespace {
+
+facefit::FoundFace FoundFrom(const PointMap& points) {
+  facefit::FoundFace face;
+  face.certainty = 1;
+  for (const auto& [i, at] : points) face.points.push_back(at);
+  return face;
+}
+
+/// The steps from points to a dressed face.
+template <typename Set, typename Fit>
+facefit::Dress Dressed(const PhotoWork& work, const facefit::FoundFace& face, Fit& fit, Set& set) {
+  const auto fitted = [&](const auto& base) {
+    if constexpr (requires { facefit::FitFace(base, face, &work.photo); }) {
+      return facefit::FitFace(base, face, &work.photo);
+    } else {
+      return facefit::FitFace(base, face);
+    }
+  };
+  fit = fitted(*work.base);
+  set.base = work.base->name;
+  set.points = fit.points;
+  set.smooth = fit.smooth;
+  if constexpr (requires { set.eyes = fit.eyes; }) set.eyes = fit.eyes;
+  if constexpr (requires {
+                  facefit::MakeDress(*work.base, face, fit, work.photo, *work.figure, set);
+                }) {
+    return facefit::MakeDress(*work.base, face, fit, work.photo, *work.figure, set);
+  } else {
+    return facefit::MakeDress(*work.base, face, fit, work.photo, *work.figure, {}, set);
+  }
+}
+
+PointMap PointsOf(const facefit::FoundFace& face) {
+  PointMap points;
+  for (std::size_t i = 0; i < face.points.size(); ++i) {
+    points[static_cast<int>(i)] = face.points[i];
+  }
+  return points;
+}
+
+}  // namespace
+
+vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder) {
+  auto networks = facefit::FaceNetworks::Load(folder);
+  if (!networks) return std::unexpected(networks.error());
+  auto sight = std::make_shared<FaceSight>(FaceSight{std::move(*networks), nullptr, {}});
+  try {
+    auto base = facefit::BaseHead::See(sight->networks, "galatea");
+    std::vector<glm::vec3> places;
+    for (const auto& place : base.places) places.push_back(place.On(base.rest.position));
+    sight->mirror = MirrorOf(places);
+    sight->base = std::make_shared<const facefit::BaseHead>(std::move(base));
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, error.what());
+  }
+  return sight;
+}
+
+PointMap AllPoints(const PhotoWork& work, const PointMap& known) {
+  facefit::HandPoints hand;
+  for (const auto& [i, at] : known) hand[static_cast<std::size_t>(i)] = glm::vec2(at);
+  return PointsOf(facefit::FaceFromHand(*work.base, hand));
+}
+
+vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const std::string& path,
+                                                       int face) {
+  auto photo = facefit::ReadPhoto(path);
+  if (!photo) return std::unexpected(photo.error());
+  auto work = std::make_shared<PhotoWork>();
+  work->path = path;
+  work->photo = std::move(*photo);
+  const auto by_hand = [&] {
+    work->found = PlainPoints(work->photo.width, work->photo.height);
+    if (work->base) work->found = AllPoints(*work, work->found);
+  };
+  if (!sight) {
+    work->mirror = MirrorByName();
+    work->notice =
+        "The networks that find faces are not installed (scripts/face_networks.sh): "
+        "points can be set and saved, but no face be made of them";
+    by_hand();
+    return work;
+  }
+  try {
+    if (const int way = facefit::UprightWay(sight->networks, work->photo); way != 1) {
+      work->photo = facefit::Turned(work->photo, way);
+      work->notice = "The photo was lying; it was set upright";
+    }
+    work->base = sight->base;
+    work->mirror = sight->mirror;
+    const auto boxes = facefit::FindFaces(sight->networks, work->photo);
+    work->faces = static_cast<int>(boxes.size());
+    if (face < 1 || (face > work->faces && face != 1)) {
+      return vm::Fail(vm::Errc::kBadValue, "face " + std::to_string(face) + ": there are " +
+                                               std::to_string(work->faces) +
+                                               ", counted from the largest");
+    }
+    if (boxes.empty()) {
+      work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
+      by_hand();
+    } else {
+      work->found = PointsOf(facefit::FindPoints(sight->networks, work->photo,
+                                                 boxes[static_cast<std::size_t>(face - 1)]));
+    }
+    work->figure = facefit::CutOut(work->photo, facefit::FindFigure(sight->networks, work->photo));
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
+  }
+  return work;
+}
+
+vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
+                                                       const PointMap& points) {
+  try {
+    auto built = std::make_shared<BuiltFace>();
+    const facefit::FoundFace face = FoundFrom(points);
+    facefit::Dress dress = Dressed(work, face, built->fit, built->set);
+    built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces);
+    built->picture = std::move(dress.picture);
+    built->set.photo = std::make_shared<fsm::WornPhoto>(
+        fsm::WornPhoto{built->picture.width, built->picture.height, built->picture.rgba});
+    built->head = fsm::Head::Make(built->set);
+    return built;
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    std::string("these points do not make a face: ") + error.what());
+  }
+}
+
+vm::Result<std::string> WriteFace(const BuiltFace& face, const std::string& folder,
+                                  const std::string& name) {
+  if (!fsm::IsFaceName(name)) {
+    return vm::Fail(vm::Errc::kBadValue, "'" + name.substr(0, 70) +
+                                             "' cannot be a face's name: letters, digits, - and _ "
+                                             "expected, as anna");
+  }
+  const std::string place = (folder.empty() ? fsm::FacesFolder() : folder) + "/" + name;
+  std::error_code code;
+  std::filesystem::create_directories(place, code);
+  if (auto done = fsm::WriteImage(face.picture, place + "/photo.png"); !done) {
+    return std::unexpected(done.error());
+  }
+  if (auto done = WriteWhole(place + "/report.txt", face.report); !done) {
+    return std::unexpected(done.error());
+  }
+  if (auto done = WriteWhole(place + "/face.txt", fsm::WriteFaceSet(face.set)); !done) {
+    return std::unexpected(done.error());
+  }
+  return place;
+}
+
+}  // namespace editor

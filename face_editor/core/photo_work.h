@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "face_editor/core/face_points.h"
+#include "face_fit/dress/dress.h"
+#include "face_fit/find/face_networks.h"
+#include "face_fit/fit/fit.h"
+#include "fsm/head/face_set.h"
+
+namespace editor {
+
+/// The networks and the built-in head as they see it: the same for every photo.
+struct FaceSight {
+  facefit::FaceNetworks networks;
+  std::shared_ptr<const facefit::BaseHead> base;
+  Mirror mirror;
+};
+/// `folder` as of FaceNetworks::Load. Errors: its, and kUnavailable if the head cannot be drawn.
+vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder);
+
+/// A photo and what was found in it. Immutable; thread: any.
+struct PhotoWork {
+  std::string path;
+  fsm::Image photo;    ///< upright, at most facefit::kWorkingSide
+  int faces = 0;       ///< found in it
+  PointMap found;      ///< of the face chosen, or as they may be set by hand
+  std::string notice;  ///< what the user should know, a sentence; may be empty
+  Mirror mirror;
+  // Not there without the networks: then points can be set, but no face be made of them.
+  std::shared_ptr<const facefit::BaseHead> base;
+  std::optional<facefit::Figure> figure;
+};
+/// `sight` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;
+/// kBadValue if there are fewer faces.
+vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const std::string& path,
+                                                       int face);
+
+/// All 468 points of a face of which some are known. REQUIRES: work.base, eye corners, tip of the
+/// nose, mouth corners and chin.
+PointMap AllPoints(const PhotoWork& work, const PointMap& known);
+
+/// The head of the person, fitted to points on the photo.
+struct BuiltFace {
+  facefit::Fit fit;
+  fsm::FaceSet set;  ///< its picture included
+  fsm::Image picture;
+  std::string report;
+  std::shared_ptr<const fsm::Head> head;
+};
+/// Takes most of a second. Error: kBadValue if the points do not make a face. REQUIRES: work.base
+vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
+                                                       const PointMap& points);
+/// Writes the folder NAME that fsm --mask wears, into `folder` ("" = where fsm looks), and says
+/// where. Errors: kBadValue for a name, kUnavailable.
+vm::Result<std::string> WriteFace(const BuiltFace& face, const std::string& folder,
+                                  const std::string& name);
+
+}  // namespace editor

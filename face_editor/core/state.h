@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fsm/motion/emotion_table.h"
+#include "fsm/motion/motion_table.h"
+#include "fsm/motion/mouth_tables.h"
+
+namespace editor {
+
+/// Points of the landmark network (0..467) on the photo: x and y in pixels, y down; z in the same
+/// unit towards the viewer.
+using PointMap = std::map<int, glm::vec3>;
+/// Movements of the head by kind (NOD REFUSE LISTEN USERDEF); pattern n is element n - 1.
+using HeadCurves = std::map<std::string, std::vector<fsm::HeadCurve>, std::less<>>;
+using Sliders = std::map<std::string, float, std::less<>>;
+
+/// What is edited; each part is kept in a file of its own.
+enum class Part : std::size_t { kPoints, kLook, kEmotions, kMouth, kMotions, kIdentity };
+inline constexpr std::size_t kParts = 6;
+
+/// Everything that can be edited, at one instant. A plain value.
+struct State {
+  PointMap points;
+  fsm::ActionUnits look;  ///< units as they are set on the face now
+  fsm::EmotionTable emotions;
+  fsm::MouthShapes shapes14, shapes28;
+  HeadCurves curves;
+  std::string base = "galatea";  ///< the built-in face whose sliders are moved
+  Sliders sliders;
+  /// Differs whenever a part does: cheap to compare.
+  std::array<std::uint64_t, kParts> version{};
+};
+
+}  // namespace editor

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "face_editor/core/state.h"
+#include "vm_protocol/core/result.h"
+
+namespace editor {
+
+// Tables written back into the text they were read from: comments, blank lines and every row that
+// says the same stay as they are. `text` must have been read without an error. What is given is
+// what is read again, but for the sixth digit of a number.
+
+/// mouth_shapes.txt or mouth_shapes_28.txt. REQUIRES: the same names.
+std::string WriteMouthShapes(std::string_view text, const fsm::MouthShapes& shapes);
+/// emotions.txt.
+std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotions);
+/// The movements of the head in motions.txt; its other lines are not touched.
+std::string WriteCurves(std::string_view text, const HeadCurves& curves);
+
+/// Puts a whole file in place of what is there, or leaves that as it is. Error: kUnavailable.
+vm::Result<void> WriteWhole(const std::string& path, std::string_view text);
+
+}  // namespace editor

@@ -1,0 +1,237 @@
+// The real program under Xvfb: by script, and by a mouse that the window system moves.
+
+#include "tests/support/process.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "fsm/render/renderer.h"
+
+namespace {
+
+using support::Millis;
+using support::Process;
+constexpr Millis kLong{120000};  // software drawing on a busy machine
+
+/// A screen in memory for the length of a test.
+class Screen {
+ public:
+  Screen() {
+    try {
+      server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0",
+                                               "1280x800x24", "-nolisten", "tcp"});
+      if (const auto number = server_->ReadLine()) display_ = ":" + *number;
+    } catch (const std::exception&) {
+    }
+  }
+  bool ready() const { return !display_.empty(); }
+  std::vector<std::string> env() const { return {"DISPLAY=" + display_, "WAYLAND_DISPLAY="}; }
+
+ private:
+  std::optional<Process> server_;
+  std::string display_;
+};
+
+class FaceEditorTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!screen_.ready()) GTEST_SKIP() << "there is no Xvfb on this machine";
+    folder_ = testing::TempDir() + "/face_editor_XXXXXX";
+    ASSERT_NE(mkdtemp(folder_.data()), nullptr);
+  }
+  void TearDown() override {
+    if (!folder_.empty()) std::filesystem::remove_all(folder_);
+  }
+
+  std::unique_ptr<Process> Start(std::vector<std::string> options) {
+    std::vector<std::string> argv{GALATEA_BIN_DIR "/face_editor"};
+    argv.insert(argv.end(), options.begin(), options.end());
+    auto env = screen_.env();
+    env.push_back("GALATEA_FACES=" + folder_ + "/faces");
+    env_ = env;
+    return std::make_unique<Process>(argv, Process::Options{folder_, env_});
+  }
+  /// Runs a script to its end.
+  int RunScript(const std::string& script, std::vector<std::string> options = {}) {
+    std::ofstream(folder_ + "/script.txt") << script;
+    options.insert(options.end(), {"--script", folder_ + "/script.txt"});
+    program_ = Start(options);
+    program_->CloseInput();
+    const auto code = program_->Wait(kLong);
+    return code.value_or(-1);
+  }
+  std::string Output() {
+    std::string text;
+    for (const std::string& line : program_->ReadAll()) text += line + "\n";
+    return text;
+  }
+  /// A picture drawn of a built-in head: a photo whose face can be found without other people's.
+  std::string DrawnPhoto() {
+    const auto head = fsm::Head::Make("pygmalion", false);
+    fsm::HeadVertices vertices;
+    head->Evaluate({}, vertices);
+    const auto context = fsm::RenderContext::MakeHeadless(400, 400);
+    const auto renderer = fsm::Renderer::Make(*context);
+    renderer->Draw(*head, vertices, {}, fsm::Scene{});
+    fsm::Image image;
+    renderer->Read(image);
+    const std::string path = folder_ + "/photo.png";
+    EXPECT_TRUE(fsm::WriteImage(image, path));
+    return path;
+  }
+  static glm::vec2 PlaceIn(const std::string& text) {
+    std::istringstream words(text.substr(text.find_first_of("0123456789-")));
+    glm::vec2 place;
+    words >> place.x >> place.y;
+    return place;
+  }
+  /// What a command answers, over stdin.
+  std::string Ask(const std::string& command) {
+    program_->WriteLine(command);
+    std::string answer;
+    while (const auto line = program_->ReadLine(kLong)) {
+      if (*line == "ok" || *line == "error") return answer;
+      answer += *line;
+    }
+    return "no answer: " + program_->ErrorText();
+  }
+
+  Screen screen_;
+  std::string folder_;
+  std::vector<std::string> env_;
+  std::unique_ptr<Process> program_;
+};
+
+TEST_F(FaceEditorTest, VersionAndHelpNeedNoScreen) {
+  Process version({GALATEA_BIN_DIR "/face_editor", "--version"});
+  EXPECT_TRUE(version.Expect("face_editor (Galatea) "));
+  EXPECT_EQ(version.Wait(), 0);
+  Process help({GALATEA_BIN_DIR "/face_editor", "--help"});
+  EXPECT_TRUE(help.Expect("--script"));
+  EXPECT_EQ(help.Wait(), 0);
+}
+
+TEST_F(FaceEditorTest, WithoutAScreenOneSentenceSaysSo) {
+  Process program({GALATEA_BIN_DIR "/face_editor"}, {"", {"DISPLAY=:7777", "WAYLAND_DISPLAY="}});
+  EXPECT_EQ(program.Wait(kLong), 1);
+  EXPECT_NE(program.ErrorText().find("face_editor: cannot open a window"), std::string::npos)
+      << program.ErrorText();
+}
+
+TEST_F(FaceEditorTest, TheMousePostedMovesAPointAndUndoBringsItBack) {
+  const std::string photo = DrawnPhoto();
+  ASSERT_EQ(
+      RunScript("open " + photo + "\npage points\nreach 0\nget point chin\nwhere chin\nquit\n"), 0)
+      << program_->ErrorText();
+  std::istringstream lines(Output());
+  std::string before, where;
+  std::getline(lines, before);
+  std::getline(lines, where);
+  const glm::vec2 at = PlaceIn(where);
+  std::ostringstream script;
+  script << "open " << photo << "\npage points\nreach 0\n"
+         << "mouse drag " << at.x << " " << at.y << " " << at.x << " " << at.y + 30 << "\n"
+         << "get point chin\nkey ctrl+z\nget point chin\nclick Redo\nget point chin\nquit\n";
+  ASSERT_EQ(RunScript(script.str()), 0) << program_->ErrorText();
+  std::istringstream after(Output());
+  std::string moved, undone, redone;
+  std::getline(after, moved);
+  std::getline(after, undone);
+  std::getline(after, redone);
+  EXPECT_GT(PlaceIn(moved).y, PlaceIn(before).y + 3) << before << " -> " << moved;
+  EXPECT_EQ(undone, before);
+  EXPECT_EQ(redone, moved);
+}
+
+TEST_F(FaceEditorTest, AMouseOfTheWindowSystemMovesAPoint) {
+  Process present({"xdotool", "version"}, {"", screen_.env()});
+  if (present.Wait() != 0) GTEST_SKIP() << "there is no xdotool on this machine";
+  program_ = Start({DrawnPhoto(), "--script", "-"});
+  Ask("reach 0");
+  const std::string before = Ask("get point chin");
+  const glm::vec2 at = PlaceIn(Ask("where chin"));
+  const auto at_x = std::to_string(std::lround(at.x));
+  const auto xdo = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "xdotool");
+    Process tool(words, {"", env_});
+    ASSERT_EQ(tool.Wait(), 0) << tool.ErrorText();
+    Ask("wait 200");  // the window takes its events with its frames
+  };
+  xdo({"mousemove", at_x, std::to_string(std::lround(at.y))});
+  xdo({"mousedown", "1"});
+  xdo({"mousemove", at_x, std::to_string(std::lround(at.y) + 15)});
+  xdo({"mousemove", at_x, std::to_string(std::lround(at.y) + 40)});
+  xdo({"mouseup", "1"});
+  const std::string after = Ask("get point chin");
+  EXPECT_GT(PlaceIn(after).y, PlaceIn(before).y + 3) << before << " -> " << after;
+  // Without a window manager nobody gives the window the keyboard.
+  xdo({"search", "--name", "Galatea face editor", "windowfocus"});
+  xdo({"keydown", "ctrl", "keydown", "z"});
+  xdo({"keyup", "z", "keyup", "ctrl"});
+  EXPECT_EQ(Ask("get point chin"), before);
+  program_->WriteLine("quit");
+  EXPECT_EQ(program_->Wait(kLong), 0) << program_->ErrorText();
+}
+
+TEST_F(FaceEditorTest, EveryPageIsDrawn) {
+  std::string script = "open " + DrawnPhoto() + "\nwait\n";
+  for (const char* page : {"points", "units", "expressions", "mouth", "motions", "identity"}) {
+    script += std::string("page ") + page + "\nwait\nscreenshot " + folder_ + "/" + page + ".png\n";
+  }
+  ASSERT_EQ(RunScript(script + "quit\n"), 0) << program_->ErrorText();
+  std::vector<std::vector<std::uint8_t>> seen;
+  for (const char* page : {"points", "units", "expressions", "mouth", "motions", "identity"}) {
+    const auto image = fsm::ReadImage(folder_ + "/" + page + ".png");
+    ASSERT_TRUE(image) << image.error().text;
+    EXPECT_EQ(image->width, 1280);
+    for (const auto& other : seen) EXPECT_NE(other, image->rgba) << page;
+    seen.push_back(image->rgba);
+  }
+}
+
+TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {
+  ASSERT_EQ(RunScript("page expressions\nclick expression\nclick SAD\nclick 2\nclick Remove\n"
+                      "get expression SAD 2\nclick Undo\nget expression SAD 2\n"
+                      "page units\nclick AU 12L\nget look\n"
+                      "page mouth\nclick o\nclick outer edge up\nget mouth o\n"
+                      "page motions\nclick Another key frame\nget motion NOD 1\nquit\n"),
+            0)
+      << program_->ErrorText();
+  std::istringstream lines(Output());
+  std::vector<std::string> answers;
+  for (std::string line; std::getline(lines, line);) answers.push_back(line);
+  ASSERT_EQ(answers.size(), 7U);
+  EXPECT_EQ(answers[0], "1:1 4:0.7 7:0.4 15:0.9 17:0.8 25:0.2") << "what was the third";
+  EXPECT_EQ(answers[1], "1:0.6 4:0.3 15:0.4");
+  EXPECT_EQ(answers[2], "12:0.5") << "the middle of the slider, both sides together";
+  EXPECT_TRUE(answers[3].starts_with("0 5 ")) << answers[3];
+  EXPECT_EQ(answers[6], "400 0 0 0");
+}
+
+TEST_F(FaceEditorTest, ASavedTableIsReadByTheFace) {
+  ASSERT_EQ(RunScript("set mouth a 12 15\nset expression HAPPY 1 12 0.5\nset key NOD 1 1 90 8 0 0\n"
+                      "save tables " +
+                      folder_ + "/tables\nget unsaved\nquit\n"),
+            0)
+      << program_->ErrorText();
+  EXPECT_EQ(Output(), "3 tables written to " + folder_ + "/tables\nnothing\n");
+  ASSERT_EQ(RunScript("get expression HAPPY 1\nget motion NOD 1\nquit\n",
+                      {"--tables", folder_ + "/tables"}),
+            0);
+  EXPECT_EQ(Output(), "12:0.5\n90 8 0 0\n200 0 0 0\n");
+}
+
+TEST_F(FaceEditorTest, AScriptStopsAtItsFirstMistakeAndNamesTheLine) {
+  EXPECT_EQ(RunScript("page units\n\nset AU 99 10\nquit\n"), 1);
+  EXPECT_NE(program_->ErrorText().find("script.txt:3: '99' is not an action unit"),
+            std::string::npos)
+      << program_->ErrorText();
+}
+
+}  // namespace
