@@ -11,11 +11,13 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "face_fit/dress/dress.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/head_finder.h"
 #include "face_fit/find/upright.h"
+#include "face_fit/fit/view.h"
 #include "face_fit/report.h"
 #include "fsm/app/original_config.h"
 #include "fsm/head/face_folder.h"
@@ -43,6 +45,7 @@ class Progress {
 };
 
 struct Options {
+  std::vector<std::string> views;
   std::string photo, name, out, base = "galatea", networks, head, points, galatea;
   int face = 1;
   bool quiet = false;
@@ -123,6 +126,38 @@ OriginalFace ReadOriginal(const Options& options) {
   return face;
 }
 
+/// The further photos that help; of the others it is said why they do not.
+std::vector<facefit::SideView> LookFromTheSide(const Options& options,
+                                               facefit::FaceNetworks& networks,
+                                               const facefit::BaseHead& base,
+                                               const fsm::Image& front, facefit::Fit& fit) {
+  using namespace facefit;
+  constexpr std::size_t kMost = 6;
+  if (options.views.size() > kMost) {
+    throw std::runtime_error("--view: at most " + std::to_string(kMost) + " are used");
+  }
+  std::vector<SideView> sides;
+  for (const std::string& path : options.views) {
+    const auto leave_out = [&path](const std::string& why) {
+      std::cerr << "face_fit: notice: '" << path << "' is left out: " << why << "\n";
+    };
+    auto photo = ReadPhoto(path);
+    if (!photo) {
+      leave_out(photo.error().text);
+      continue;
+    }
+    if (const int way = UprightWay(networks, *photo); way != 1) *photo = Turned(*photo, way);
+    auto view = PlaceView(networks, base, fit, *photo);
+    if (!view) {
+      leave_out(view.error().text);
+      continue;
+    }
+    Deepen(base, front, *photo, *view, fit);
+    sides.push_back({std::move(*view), CutOut(*photo, FindFigure(networks, *photo))});
+  }
+  return sides;
+}
+
 void Run(const Options& options) {
   using namespace facefit;
   if (!options.head.empty()) return FindPointsOfHead(options);
@@ -153,15 +188,18 @@ void Run(const Options& options) {
                          : by_hand ? FaceFromPoints(options, base)
                                    : FindFace(options, networks, photo, faces);
   progress.Say("face and its points found");
-  const Fit fit = FitFace(base, face);
+  Fit fit = FitFace(base, face, &photo);
   progress.Say("head fitted");
+  const auto sides = LookFromTheSide(options, networks, base, photo, fit);
+  if (!sides.empty()) progress.Say("seen from the side, too");
   const Figure figure = CutOut(photo, FindFigure(networks, photo));
   progress.Say("figure cut out");
   fsm::FaceSet set;
   set.base = options.base;
   set.points = fit.points;
   set.smooth = fit.smooth;
-  const Dress dress = MakeDress(base, face, fit, photo, figure, set);
+  set.eyes = fit.eyes;
+  const Dress dress = MakeDress(base, face, fit, photo, figure, sides, set);
   progress.Say("photo put on");
 
   const std::string folder =
@@ -194,6 +232,10 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out,
                  "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
   app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
+  app.add_option("--view,--profile", options.views,
+                 "Another photo of the same person turned by 20 to 60 degrees; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--points", options.points,
                  "Points set by hand, lines NAME X Y in pixels, where no face is found");
   app.add_option(

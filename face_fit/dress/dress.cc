@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "face_fit/dress/sheet.h"
 
@@ -14,21 +15,30 @@ std::size_t MapIndex(int x, int y) {
   return static_cast<std::size_t>(y) * kMapSide + static_cast<std::size_t>(x);
 }
 
-/// For each texel of the skin's map: where it lies in the photo, and how squarely it was seen.
+/// For each texel of the skin's map: where it lies in a photo, and how squarely it was seen.
 struct SkinPlaces {
   std::vector<glm::vec2> pixel;
   std::vector<float> facing, outward;
+  std::vector<float> across;    ///< millimetres to the person's left of the middle
+  std::vector<float> off_seam;  ///< millimetres from where the lips meet
   SkinPlaces()
       : pixel(static_cast<std::size_t>(kMapSide) * kMapSide),
         facing(pixel.size(), -1),
-        outward(pixel.size(), -1e9F) {}
+        outward(pixel.size(), -1e9F),
+        across(pixel.size(), 0),
+        off_seam(pixel.size(), 1e9F) {}
 };
 
-SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit) {
+/// Whether a texel belongs to what is counted as face.
+bool OnFront(const SkinPlaces& places, std::size_t i) {
+  return places.outward[i] > 0 && i / kMapSide > kMapSide / 5 && i / kMapSide < kMapSide * 3 / 4;
+}
+
+SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose) {
   const auto& topology = base.head->topology();
   SkinPlaces out;
   std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fit.worn) camera.push_back(fit.pose.ToCamera(p));
+  for (const glm::vec3& p : fit.worn) camera.push_back(pose.ToCamera(p));
   std::vector<glm::vec3> normal(camera.size(), glm::vec3(0));
   const auto each = [&](auto&& f) {
     for (const auto& part : topology.parts) {
@@ -43,6 +53,17 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit) {
     for (int c = 0; c < 3; ++c) normal[t[c]] += n;
   });
   constexpr glm::vec3 kEye(0, 0, 794);
+  std::vector<glm::vec3> seam;
+  for (const int i : UpperInnerLip()) {
+    seam.push_back(base.places[static_cast<std::size_t>(i)].On(base.rest.position));
+  }
+  const auto off_seam = [&seam](glm::vec3 p) {
+    if (p.x < seam.front().x || p.x > seam.back().x || p.z < 60) return 1e9F;
+    std::size_t k = 1;
+    while (k + 1 < seam.size() && seam[k].x < p.x) ++k;
+    const float part = (p.x - seam[k - 1].x) / std::max(seam[k].x - seam[k - 1].x, 1e-3F);
+    return std::abs(p.y - glm::mix(seam[k - 1].y, seam[k].y, glm::clamp(part, 0.0F, 1.0F)));
+  };
   each([&](const std::uint32_t* t) {
     glm::vec2 uv[3];
     for (int c = 0; c < 3; ++c) {
@@ -83,13 +104,58 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit) {
         const glm::vec3 q = between(camera);
         const glm::vec3 n = between(normal);
         out.outward[i] = outward;
-        out.pixel[i] = fit.pose.Project(q);
+        out.pixel[i] = pose.Project(q);
+        out.across[i] = rest.x;
+        out.off_seam[i] = off_seam(rest);
         out.facing[i] =
             glm::dot(glm::normalize(n + glm::vec3(0, 0, 1e-9F)), glm::normalize(kEye - q));
       }
     }
   });
   return out;
+}
+
+bool InPhoto(const fsm::Image& photo, glm::vec2 p) {
+  return p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(photo.width) &&
+         p.y < static_cast<float>(photo.height);
+}
+
+/// Lays a view from the side over what the first photo saw at a slant or not at all.
+void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const SkinPlaces& front,
+             fsm::Image& map, Field& seen) {
+  const Pose& pose = side.view.pose;
+  const SkinPlaces places = PlaceSkin(base, fit, pose);
+  // What it shows is of the side towards it: the other cheek lies behind the nose.
+  const float towards = (glm::transpose(pose.Rotation()) * glm::vec3(0, 0, 1)).x > 0 ? 1.0F : -1.0F;
+  const fsm::Image& colours = side.figure.colours;
+  // The same skin in another light: a gain for each channel makes it match.
+  glm::vec3 here(1), there(1);
+  for (std::size_t i = 0; i < seen.at.size(); ++i) {
+    if (seen.at[i] < 0.9F || front.facing[i] < 0.4F || places.facing[i] < 0.5F ||
+        towards * front.across[i] < 5 || !InPhoto(colours, places.pixel[i])) {
+      continue;
+    }
+    const std::uint8_t* p = &map.rgba[4 * i];
+    here += glm::vec3(p[0], p[1], p[2]);
+    there += ColourAt(colours, places.pixel[i]);
+  }
+  const glm::vec3 gain = glm::clamp(here / there, 0.4F, 2.5F);
+  for (std::size_t i = 0; i < seen.at.size(); ++i) {
+    if (places.facing[i] < 0.15F || !InPhoto(colours, places.pixel[i])) continue;
+    const float can = glm::smoothstep(0.15F, 0.45F, places.facing[i]) *
+                      glm::smoothstep(-4.0F, 12.0F, towards * front.across[i]);
+    const float known = seen.at[i] * glm::smoothstep(0.2F, 0.5F, front.facing[i]);
+    const float sum = known + (1 - known) * can;
+    if (sum <= seen.at[i] * 0.01F || can <= 0) continue;
+    const float part = (1 - known) * can / std::max(sum, 1e-4F);
+    const glm::vec3 colour = glm::min(gain * ColourAt(colours, places.pixel[i]), 255.0F);
+    for (std::size_t c = 0; c < 3; ++c) {
+      map.rgba[4 * i + c] = static_cast<std::uint8_t>(
+          glm::mix(static_cast<float>(map.rgba[4 * i + c]), colour[static_cast<int>(c)], part) +
+          0.5F);
+    }
+    seen.at[i] = std::max(seen.at[i], sum);
+  }
 }
 
 /// 0 for a grey photo, 1 for one in colour: by the mean difference of channels of the skin seen.
@@ -119,13 +185,14 @@ Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
 }
 
 Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
-                const fsm::Image& photo, const Figure& figure, fsm::FaceSet& set) {
+                const fsm::Image& photo, const Figure& figure, std::span<const SideView> sides,
+                fsm::FaceSet& set) {
   Dress dress;
   dress.picture.width = 2 * kMapSide;
   dress.picture.height = kMapSide;
   dress.picture.rgba.assign(static_cast<std::size_t>(8 * kMapSide) * kMapSide, 255);
 
-  const SkinPlaces places = PlaceSkin(base, fit);
+  const SkinPlaces places = PlaceSkin(base, fit, fit.pose);
   fsm::Image map;
   map.width = map.height = kMapSide;
   map.rgba.assign(static_cast<std::size_t>(4 * kMapSide) * kMapSide, 255);
@@ -133,24 +200,45 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   std::vector<int> mouth(UpperInnerLip().begin(), UpperInnerLip().end());
   mouth.insert(mouth.end(), LowerInnerLip().rbegin(), LowerInnerLip().rend());
   const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
+  // Teeth shine through the blurred edge of the lips.
+  const float rim = std::max(0.7F * fit.pose.PixelsPerMm(), 0.7F);
+  // The dark line of the lashes stays on the rims of the lids.
+  const float lash = 0.4F * fit.pose.PixelsPerMm();
+  struct Round {
+    glm::vec2 middle;
+    float radius;
+  };
+  const auto around = [&face](std::span<const int> outline) {
+    glm::vec2 low(1e9F), high(-1e9F);
+    for (const int i : outline) {
+      low = glm::min(low, glm::vec2(face.points[static_cast<std::size_t>(i)]));
+      high = glm::max(high, glm::vec2(face.points[static_cast<std::size_t>(i)]));
+    }
+    return Round{0.5F * (low + high), 0.5F * glm::distance(low, high)};
+  };
+  const Round eyes[] = {around(EyeOutline(0)), around(EyeOutline(1))}, lips = around(mouth);
+  const auto near = [rim](const Round& round, glm::vec2 p) {
+    return glm::distance(p, round.middle) < round.radius + rim;
+  };
   float face_texels = 0, face_seen = 0;
   for (std::size_t i = 0; i < places.facing.size(); ++i) {
     const glm::vec2 p = places.pixel[i];
-    const bool inside = p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(photo.width) &&
-                        p.y < static_cast<float>(photo.height);
-    const bool front =
-        places.outward[i] > 0 && i / kMapSide > kMapSide / 5 && i / kMapSide < kMapSide * 3 / 4;
-    face_texels += front ? 1.0F : 0.0F;
+    const bool inside = InPhoto(photo, p);
+    face_texels += OnFront(places, i) ? 1.0F : 0.0F;
     if (!inside || places.facing[i] < 0.03F) continue;
     float weight = glm::smoothstep(0.03F, 0.2F, places.facing[i]);
     // What is seen between lids and lips is not skin.
-    if (Within(face, EyeOutline(0), 0.96F, p) || Within(face, EyeOutline(1), 0.96F, p)) weight = 0;
-    if (open && Within(face, mouth, 0.95F, p)) weight = 0;
+    if (near(eyes[0], p) && Within(face, EyeOutline(0), -lash, p)) weight = 0;
+    if (near(eyes[1], p) && Within(face, EyeOutline(1), -lash, p)) weight = 0;
+    if (open && near(lips, p) && Within(face, mouth, rim, p)) weight = 0;
     const glm::vec3 colour = ColourAt(figure.colours, p);
     for (int c = 0; c < 3; ++c)
       map.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c] + 0.5F);
     seen.at[i] = weight;
-    face_seen += front ? weight : 0.0F;
+  }
+  for (const SideView& side : sides) LayOver(base, fit, side, places, map, seen);
+  for (std::size_t i = 0; i < places.facing.size(); ++i) {
+    if (OnFront(places, i)) face_seen += seen.at[i];
   }
   set.saturation = Saturation(map, seen);
   dress.coverage = face_seen / std::max(face_texels, 1.0F);
@@ -171,6 +259,15 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     }
   }
   FillIn(map, seen);
+  if (open) {
+    // Where lips that were apart now meet there is a dark line.
+    for (std::size_t i = 0; i < places.off_seam.size(); ++i) {
+      const float line = glm::smoothstep(1.3F, 0.2F, places.off_seam[i]);
+      for (std::size_t c = 0; c < 3 && line > 0; ++c) {
+        map.rgba[4 * i + c] = static_cast<std::uint8_t>(map.rgba[4 * i + c] * (1 - 0.5F * line));
+      }
+    }
+  }
 
   const fsm::Image back = BehindFace(base, fit, figure);
   for (int y = 0; y < kMapSide; ++y) {
@@ -183,7 +280,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
       const glm::vec3 colour = ColourAt(back, p);
       std::uint8_t* right = left + 4 * kMapSide;
       for (int c = 0; c < 3; ++c) right[c] = static_cast<std::uint8_t>(colour[c] + 0.5F);
-      right[3] = static_cast<std::uint8_t>(255 * figure.opacity.Near(p.x, p.y) + 0.5F);
+      right[3] = static_cast<std::uint8_t>(255 * figure.opacity.Between(p.x, p.y) + 0.5F);
     }
   }
   // Half a texel within, so that the halves do not run into each other.
@@ -191,7 +288,11 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   set.skin_low = {kHalf, 1};
   set.skin_high = {0.5F - kHalf, 0};
   MakeSheet(base, fit, figure, set);
-  SampleEyes(face, photo, set);
+  for (const SideView& side : sides) {
+    set.also_seen.push_back(glm::transpose(side.view.pose.Rotation()) * glm::vec3(0, 0, 1));
+  }
+  SampleEyes(face, fit, photo, set);
+  SampleMouth(face, photo, set);
   return dress;
 }
 

@@ -3,6 +3,7 @@
 #include "face_fit/dress/field.h"
 #include "face_fit/find/face_finder.h"
 #include "face_fit/fit/fit.h"
+#include "face_fit/fit/view.h"
 #include "fsm/head/face_set.h"
 
 namespace facefit {
@@ -23,14 +24,24 @@ struct Figure {
 };
 Figure CutOut(const fsm::Image& photo, const std::vector<float>& person);
 
+/// A photo of the person from the side.
+struct SideView {
+  View view;
+  Figure figure;
+};
+
 /// Paints both halves and fills the set's map, sheet and eye colours.
 Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
-                const fsm::Image& photo, const Figure& figure, fsm::FaceSet& set);
+                const fsm::Image& photo, const Figure& figure, std::span<const SideView> sides,
+                fsm::FaceSet& set);
 
 /// Colours of iris and white, from the photo.
-void SampleEyes(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set);
+void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, fsm::FaceSet& set);
+/// Colour of the lips where they turn inward, and how bright teeth are in its light.
+void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set);
 
-/// Whether a pixel lies within a closed line through points of the face, shrunk about its middle.
-bool Within(const FoundFace& face, std::span<const int> outline, float shrunk, glm::vec2 pixel);
+/// Whether a pixel lies within a closed line through points of the face, `wider` pixels more or
+/// (negative) less all round.
+bool Within(const FoundFace& face, std::span<const int> outline, float wider, glm::vec2 pixel);
 
 }  // namespace facefit

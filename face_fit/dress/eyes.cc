@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 #include "face_fit/dress/dress.h"
@@ -17,50 +18,37 @@ glm::vec3 Linear(glm::vec3 screen) {
 
 }  // namespace
 
-bool Within(const FoundFace& face, std::span<const int> outline, float shrunk, glm::vec2 pixel) {
-  glm::vec2 middle(0);
-  for (const int i : outline) middle += glm::vec2(face.points[static_cast<std::size_t>(i)]);
-  middle /= static_cast<float>(outline.size());
+bool Within(const FoundFace& face, std::span<const int> outline, float wider, glm::vec2 pixel) {
   bool inside = false;
+  float nearest = 1e9F;
   const auto at = [&](std::size_t k) {
-    return glm::mix(middle, glm::vec2(face.points[static_cast<std::size_t>(outline[k])]), shrunk);
+    return glm::vec2(face.points[static_cast<std::size_t>(outline[k])]);
   };
   for (std::size_t k = 0, j = outline.size() - 1; k < outline.size(); j = k++) {
-    const glm::vec2 a = at(k), b = at(j);
+    const glm::vec2 a = at(k), b = at(j), way = b - a;
+    const float part =
+        glm::clamp(glm::dot(pixel - a, way) / std::max(glm::dot(way, way), 1e-6F), 0.0F, 1.0F);
+    nearest = std::min(nearest, glm::distance(pixel, a + part * way));
     if ((a.y > pixel.y) == (b.y > pixel.y)) continue;
-    if (pixel.x < (b.x - a.x) * (pixel.y - a.y) / (b.y - a.y) + a.x) inside = !inside;
+    if (pixel.x < way.x * (pixel.y - a.y) / way.y + a.x) inside = !inside;
   }
-  return inside;
+  return inside ? nearest > -wider : nearest < wider;
 }
 
-void SampleEyes(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set) {
+void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, fsm::FaceSet& set) {
   std::vector<glm::vec3> iris, white;
   for (int side = 0; side < 2; ++side) {
     const auto outline = EyeOutline(side);
     const glm::vec2 a(face.points[static_cast<std::size_t>(outline[0])]);
     const glm::vec2 b(face.points[static_cast<std::size_t>(outline[8])]);
     const float wide = glm::distance(a, b);
-    // The iris is the darkest place of its own size in the slit.
-    const float radius = 0.19F * wide;
-    glm::vec2 centre = 0.5F * (a + b);
-    float darkest = 1e9F;
-    for (int k = -6; k <= 6; ++k) {
-      const glm::vec2 at = 0.5F * (a + b) + (b - a) * (static_cast<float>(k) * 0.025F);
-      float sum = 0;
-      for (int n = 0; n < 24; ++n) {
-        const float t = static_cast<float>(n) * 0.2618F;
-        sum += Brightness(
-            ColourAt(photo, at + 0.6F * radius * glm::vec2(std::cos(t), 0.6F * std::sin(t))));
-      }
-      if (sum < darkest) {
-        darkest = sum;
-        centre = at;
-      }
-    }
+    const IrisRing& ring = fit.irises[static_cast<std::size_t>(side)];
+    const float radius = ring.radius;
+    const glm::vec2 centre = ring.centre;
     for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
       for (float x = -0.5F; x <= 0.5F; x += 0.02F) {
         const glm::vec2 at = 0.5F * (a + b) + wide * glm::vec2(x, y);
-        if (!Within(face, outline, 0.85F, at)) continue;
+        if (!Within(face, outline, -0.05F * wide, at)) continue;
         const float far = glm::distance(at, centre) / radius;
         const glm::vec3 colour = ColourAt(photo, at);
         if (far > 0.45F && far < 0.85F) iris.push_back(colour);
@@ -77,11 +65,30 @@ void SampleEyes(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& se
     for (std::size_t i = first; i < first + 7; ++i) sum += colours[std::min(i, colours.size() - 1)];
     return sum / 7.0F;
   };
-  // The shader's iris is darkest where it meets pupil and rim, so its base is brighter than its
-  // mean.
+  // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   set.iris_colour =
-      glm::clamp(Linear(pick(iris, 0.5F, glm::vec3(90, 70, 55))) * 1.5F, 0.015F, 0.45F);
-  set.white_colour = glm::clamp(Linear(pick(white, 0.75F, glm::vec3(190))) * 0.9F, 0.16F, 0.72F);
+      glm::clamp(Linear(pick(iris, 0.5F, glm::vec3(90, 70, 55))) * 1.35F, 0.01F, 0.6F);
+  set.white_colour = glm::clamp(Linear(pick(white, 0.7F, glm::vec3(190))), 0.04F, 0.8F);
+  set.iris_size = fit.iris_size;
+}
+
+void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set) {
+  // Along the middle of the lower lip, where it is widest.
+  constexpr std::pair<std::size_t, std::size_t> kLower[] = {
+      {84, 87}, {17, 14}, {314, 317}, {181, 178}, {405, 402}};
+  glm::vec3 lip(0);
+  for (const auto& [outer, inner] : kLower) {
+    const glm::vec2 at = 0.5F * (glm::vec2(face.points[outer]) + glm::vec2(face.points[inner]));
+    lip += Linear(ColourAt(photo, at)) / static_cast<float>(std::size(kLower));
+  }
+  // Screen colours are squares of it there; the inner rim lies in shade.
+  set.lip_colour = 0.5F * glm::pow(lip, glm::vec3(0.91F));
+  float light = 0;
+  constexpr std::size_t kSkin[] = {50, 280, 205, 425, 151, 9, 199};
+  for (const std::size_t i : kSkin) {
+    light += Brightness(Linear(ColourAt(photo, face.points[i]))) / std::size(kSkin);
+  }
+  set.teeth = std::clamp(0.35F + 1.3F * light, 0.4F, 1.05F);
 }
 
 }  // namespace facefit

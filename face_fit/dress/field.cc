@@ -7,9 +7,14 @@
 
 namespace facefit {
 
-float Field::Near(float x, float y) const {
-  return at[Index(std::clamp(static_cast<int>(x), 0, width - 1),
-                  std::clamp(static_cast<int>(y), 0, height - 1))];
+float Field::Between(float x, float y) const {
+  const float px = std::clamp(x - 0.5F, 0.0F, static_cast<float>(width - 1));
+  const float py = std::clamp(y - 0.5F, 0.0F, static_cast<float>(height - 1));
+  const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
+  const int x1 = std::min(x0 + 1, width - 1), y1 = std::min(y0 + 1, height - 1);
+  const float u = px - static_cast<float>(x0), v = py - static_cast<float>(y0);
+  return (at[Index(x0, y0)] * (1 - u) + at[Index(x1, y0)] * u) * (1 - v) +
+         (at[Index(x0, y1)] * (1 - u) + at[Index(x1, y1)] * u) * v;
 }
 
 Field Blurred(const Field& field, int reach) {

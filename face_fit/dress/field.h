@@ -16,8 +16,8 @@ struct Field {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
-  /// The nearest pixel's; the edge goes on outside.
-  float Near(float x, float y) const;
+  /// Between the pixels, whose centres lie at .5; the edge goes on outside.
+  float Between(float x, float y) const;
 };
 
 /// The mean over squares of side 2 * reach + 1.

@@ -121,7 +121,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   const auto pixel = [&](int x, int y) { return origin + glm::vec2(x, y) * cell; };
   const auto opacity = [&](int x, int y) {
     const glm::vec2 p = pixel(x, y);
-    return figure.opacity.Near(p.x, p.y);
+    return figure.opacity.Between(p.x, p.y);
   };
   constexpr float kNone = -1e9F;
   std::ranges::fill(depth.at, kNone);

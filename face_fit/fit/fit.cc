@@ -6,6 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "face_fit/find/mouth_line.h"
+#include "face_fit/fit/form.h"
+#include "face_fit/fit/least_squares.h"
+
 namespace facefit {
 namespace {
 
@@ -61,50 +65,15 @@ std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) 
   return out;
 }
 
-/// Solves a x = b for a small symmetric positive matrix, in place.
-Parameters SolveSmall(std::array<Parameters, kParameters> a, Parameters b) {
-  for (std::size_t k = 0; k < kParameters; ++k) {
-    for (std::size_t i = k + 1; i < kParameters; ++i) {
-      const double f = a[i][k] / a[k][k];
-      for (std::size_t j = k; j < kParameters; ++j) a[i][j] -= f * a[k][j];
-      b[i] -= f * b[k];
-    }
-  }
-  for (std::size_t k = kParameters; k-- > 0;) {
-    for (std::size_t j = k + 1; j < kParameters; ++j) b[k] -= a[k][j] * b[j];
-    b[k] /= a[k][k];
-  }
-  return b;
-}
-
-/// Gauss and Newton with differences for derivatives.
-Parameters Settle(const Sight& sight, Parameters p) {
+Parameters Settle(const Sight& sight, const Parameters& start) {
   constexpr Parameters kStep = {1e-3, 1e-3, 1e-3, 1e-3, 0.5, 0.5, 0.05, 0.05, 0.05};
-  for (int round = 0; round < 7; ++round) {
-    const auto here = Residuals(sight, p);
-    std::array<std::vector<double>, kParameters> slopes;
-    for (std::size_t i = 0; i < kParameters; ++i) {
-      Parameters moved = p;
-      moved[i] += kStep[i];
-      slopes[i] = Residuals(sight, moved);
-      for (std::size_t r = 0; r < here.size(); ++r)
-        slopes[i][r] = (slopes[i][r] - here[r]) / kStep[i];
-    }
-    std::array<Parameters, kParameters> a{};
-    Parameters b{};
-    for (std::size_t i = 0; i < kParameters; ++i) {
-      for (std::size_t j = 0; j < kParameters; ++j) {
-        for (std::size_t r = 0; r < here.size(); ++r) a[i][j] += slopes[i][r] * slopes[j][r];
-      }
-      for (std::size_t r = 0; r < here.size(); ++r) b[i] -= slopes[i][r] * here[r];
-      a[i][i] *= 1.001;
-      a[i][i] += 1e-9;
-    }
-    const Parameters by = SolveSmall(a, b);
-    for (std::size_t i = 0; i < kParameters; ++i) p[i] += by[i];
-    for (std::size_t i = 6; i < kParameters; ++i) p[i] = std::clamp(p[i], 0.0, 1.5);
-  }
-  return p;
+  return Descend<kParameters>([&sight](const Parameters& p) { return Residuals(sight, p); }, start,
+                              kStep, 7,
+                              [](Parameters& p) {
+                                for (std::size_t i = 6; i < kParameters; ++i) {
+                                  p[i] = std::clamp(p[i], 0.0, 1.5);
+                                }
+                              });
 }
 
 }  // namespace
@@ -144,13 +113,8 @@ fsm::FaceState Expression::State() const {
   return state;
 }
 
-Fit FitFace(const BaseHead& base, const FoundFace& face) {
-  const auto apart = [&face](std::size_t a, std::size_t b) {
-    return glm::distance(glm::vec2(face.points[a]), glm::vec2(face.points[b]));
-  };
-  // Between the middles of the inner lips, by the width of the mouth.
-  constexpr float kLeastGap = 0.06F;
-  Sight sight{base, face, {}, apart(13, 14) > kLeastGap * apart(61, 291)};
+Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
+  Sight sight{base, face, {}, LipsApart(face)};
   float mean = 0;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     sight.depth_bias.push_back(base.places[i].On(base.rest.position).z - base.seen_z[i]);
@@ -173,9 +137,15 @@ Fit FitFace(const BaseHead& base, const FoundFace& face) {
   const Parameters settled = Settle(sight, start);
 
   Fit fit;
+  fit.lips_apart = sight.lips_apart;
   fit.pose = PoseOf(settled);
   fit.expression = ExpressionOf(settled);
-  if (fit.expression.smile < 0.12F) fit.expression.smile = 0;
+  // How mouths at rest differ from the built-in one looks like that much of a smile; taken away
+  // from a closed mouth it would leave a grim face.
+  const float own = sight.lips_apart ? 0.12F : 0.45F;
+  fit.expression.smile = fit.expression.smile < own ? 0
+                         : sight.lips_apart         ? fit.expression.smile
+                                                    : fit.expression.smile - own;
   fsm::HeadVertices now;
   base.head->Evaluate(fit.expression.State(), now);
   const float mm = 1 / fit.pose.PixelsPerMm();
@@ -187,25 +157,19 @@ Fit FitFace(const BaseHead& base, const FoundFace& face) {
               static_cast<float>(FitPoints().size());
   }
   constexpr float kTrustDepth = 0.3F;
-  std::vector<fsm::WarpPoint> all;
   for (const int i : FitPoints()) {
     const auto k = static_cast<std::size_t>(i);
     const glm::vec3 q = fit.pose.ToCamera(base.places[k].On(now.position));
     const float seen = face.points[k].z * mm + sight.depth_bias[k] + offset;
     const float z = q.z + kTrustDepth * std::clamp(seen - q.z, -15.0F, 15.0F);
-    const glm::vec3 to = fit.pose.FromCamera(fit.pose.Unproject(glm::vec2(face.points[k]), z));
-    const fsm::WarpPoint point{base.places[k].On(base.rest.position),
-                               to - base.places[k].On(now.position)};
-    all.push_back(point);
-    // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
-    const bool inner = std::ranges::find(UpperInnerLip(), i) != UpperInnerLip().end() ||
-                       std::ranges::find(LowerInnerLip(), i) != LowerInnerLip().end();
-    if (!inner || !sight.lips_apart) fit.points.push_back(point);
+    fit.aims.push_back({i, base.places[k], glm::vec2(face.points[k]), z});
   }
-  fit.warp = fsm::Warp(all, fit.smooth);
-  for (std::size_t i = 0; i < now.position.size(); ++i) {
-    fit.worn.push_back(now.position[i] + fit.warp.Motion(base.rest.position[i]));
+  FindIrises(base, face, photo, fit);
+  CentreEyes(base, fit, fit.aims);
+  if (photo && !sight.lips_apart) {
+    AimAtMouthLine(base, face, fit.pose, now.position, *photo, fit.aims);
   }
+  Form(base, fit);
   for (const int i : FitPoints()) {
     const auto k = static_cast<std::size_t>(i);
     const glm::vec2 at = fit.pose.Project(fit.pose.ToCamera(base.places[k].On(fit.worn)));

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "face_fit/find/face_finder.h"
+#include "face_fit/find/iris.h"
 #include "face_fit/fit/base_head.h"
+#include "fsm/head/eye_seat.h"
 #include "fsm/head/warp.h"
 
 namespace facefit {
@@ -35,17 +38,30 @@ struct Expression {
   fsm::FaceState State() const;
 };
 
+/// Where a place of the head has to be seen in the photo, and how near to the camera it lies.
+struct Aim {
+  int point;  ///< of the network, -1 = none
+  MeshPlace place;
+  glm::vec2 pixel;
+  float z;  ///< in the camera's frame
+};
+
 struct Fit {
   Pose pose;
   Expression expression;
+  bool lips_apart = false;
+  std::vector<Aim> aims;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
   float smooth = 1;
-  fsm::Warp warp;               ///< base face with the expression -> person in the photo
+  std::array<fsm::EyeSeat, 2> eyes;  ///< right, left
+  std::array<IrisRing, 2> irises;    ///< likewise, in the photo
+  float iris_size = 1;               ///< of that of the built-in head, by the size of the eye
   std::vector<glm::vec3> worn;  ///< every vertex of the base as it lies in the photo, head's frame
   float residual_mm = 0;        ///< mean distance of the network's points from those of the fit
 };
 
-/// Pose and expression by least squares, then the warp.
-Fit FitFace(const BaseHead& base, const FoundFace& face);
+/// Pose and expression by least squares, then the form. With the photo closed lips are parted where
+/// they are seen to meet.
+Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo = nullptr);
 
 }  // namespace facefit

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <system_error>
 
-#include "face_fit/picture/jpeg_file.h"
 #include "fsm/render/image_codec.h"
 
 namespace facefit {
@@ -22,6 +21,18 @@ bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_
   return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
 }
 
+/// Of several EXIF blocks the last that says something counts.
+vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int& orientation) {
+  fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = kWorkingSide, .exif = {}};
+  std::string why;
+  auto image = fsm::DecodeJpeg(bytes, wish, why);
+  if (!image) return vm::Fail(vm::Errc::kBadValue, why);
+  for (const auto& block : wish.exif) {
+    if (const int found = ExifOrientation(block); found != 1) orientation = found;
+  }
+  return std::move(*image);
+}
+
 vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   // Width and height stand in the first chunk; they are looked at before anything is decoded.
   if (bytes.size() < 24) return vm::Fail(vm::Errc::kBadValue, "the PNG file ends too early");
@@ -31,7 +42,7 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
     return n;
   };
   const std::int64_t width = number(16), height = number(20);
-  if (width * height > kMaxPixels) {
+  if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
     return vm::Fail(vm::Errc::kBadValue, "the photo has " + std::to_string(width) + " x " +
                                              std::to_string(height) + " pixels; at most " +
                                              std::to_string(kMaxPixels / 1'000'000) +
@@ -57,7 +68,7 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
 vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes) {
   constexpr std::uint8_t kJpegStart[] = {0xff, 0xd8, 0xff};
   int orientation = 1;
-  vm::Result<fsm::Image> image = StartsWith(bytes, kJpegStart) ? DecodeJpeg(bytes, orientation)
+  vm::Result<fsm::Image> image = StartsWith(bytes, kJpegStart) ? DecodeJpegPhoto(bytes, orientation)
                                  : StartsWith(bytes, kPngStart)
                                      ? DecodePngPhoto(bytes)
                                      : vm::Fail(vm::Errc::kBadValue,

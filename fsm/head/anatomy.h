@@ -20,6 +20,11 @@ class EyeAnatomy {
   glm::vec3 centre() const { return centre_; }
   float radius() const { return radius_; }
   float iris_radius() const { return iris_; }
+  /// Makes iris and pupil larger or smaller.
+  void ScaleIris(float by) {
+    iris_ *= by;
+    pupil_ *= by;
+  }
   float pupil_radius() const { return pupil_; }
   /// How far the cornea's centre lies before the ball's, so that they meet at the iris's edge.
   float CorneaCentre() const;

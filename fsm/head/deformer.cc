@@ -8,9 +8,10 @@ namespace fsm {
 
 Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
-                   const ActionUnits& units, const EyeAnatomy& eye, glm::vec3 eye_shift,
-                   const MouthAnatomy& mouth, glm::vec3 teeth_shift)
-    : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)) {
+                   const ActionUnits& units, const EyeAnatomy& eye,
+                   const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
+                   glm::vec3 teeth_shift)
+    : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)), seats_(seats) {
   for (std::size_t side = 0; side < 2; ++side) {
     std::array<std::vector<glm::vec3>, kActionUnits> sums;
     for (const ActionUnits::Field& field : units.fields()) {
@@ -40,7 +41,7 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                          std::min(kLeast, p.z - upper_teeth_.At(p.x)),
                          std::min(kLeast, p.z - lower_teeth_.At(p.x))});
   }
-  AddLids(eye, eye_shift);
+  AddLids(eye);
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     if (flesh_[i].jaw > 0.001f) jawed_.push_back(static_cast<std::uint32_t>(i));
     if (flesh_[i].lip_column >= 0 && flesh_[i].lip_weight != 0) {
@@ -92,9 +93,9 @@ void Deformer::AddMouthFields(const MouthAnatomy& mouth) {
   }
 }
 
-void Deformer::AddLids(const EyeAnatomy& eye, glm::vec3 shift) {
-  ball_[1] = eye.centre() + shift;
-  ball_[0] = ball_[1] * glm::vec3(-1, 1, 1);
+void Deformer::AddLids(const EyeAnatomy& eye) {
+  const std::array<glm::vec3, 2> table = {eye.centre() * glm::vec3(-1, 1, 1), eye.centre()};
+  for (std::size_t side = 0; side < 2; ++side) ball_[side] = table[side] + seats_[side].shift;
   cornea_ = eye.CorneaCentre();
   float widest = 0;
   for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {
@@ -106,9 +107,13 @@ void Deformer::AddLids(const EyeAnatomy& eye, glm::vec3 shift) {
     const float x = std::clamp(std::abs(f.domain.x), eye.inner_x(), eye.outer_x());
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
-    lids_.push_back({static_cast<std::uint32_t>(i), f.eye > 0 ? 1 : 0, f.lid_upper, f.lid_lower,
-                     upper, lower, eye.MeetAngle(x), (eye.UpperY(x) - eye.LowerY(x)) / widest,
-                     eye.centre().y + shift.y, eye.LidAxisZ(x) + shift.z});
+    const int side = f.eye > 0 ? 1 : 0;
+    const EyeSeat& seat = seats_[static_cast<std::size_t>(side)];
+    const EyeSeat back{.turn = -seat.turn, .size = 1 / seat.size};
+    const glm::vec3 from_ball = back.Turned(rest_[i] - ball_[static_cast<std::size_t>(side)]);
+    lids_.push_back({static_cast<std::uint32_t>(i), side, f.lid_upper, f.lid_lower, upper, lower,
+                     eye.MeetAngle(x), (eye.UpperY(x) - eye.LowerY(x)) / widest, from_ball.y,
+                     from_ball.z + eye.centre().z - eye.LidAxisZ(x)});
   }
 }
 
@@ -116,8 +121,9 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
   constexpr float kRadius = 13.35f;  // turns millimetres at the lid's edge into an angle
   for (const LidVertex& lid : lids_) {
     const UnitEffects::Lids& ask = pose.lids[static_cast<std::size_t>(lid.side)];
-    float upper = lid.upper_angle + lid.opening * ask.upper_mm / kRadius;
-    float lower = lid.lower_angle + lid.opening * ask.lower_mm / kRadius;
+    const EyeSeat& seat = seats_[static_cast<std::size_t>(lid.side)];
+    float upper = lid.upper_angle + lid.opening * (seat.upper_mm + ask.upper_mm) / kRadius;
+    float lower = lid.lower_angle + lid.opening * (seat.lower_mm + ask.lower_mm) / kRadius;
     if (upper < lower) upper = lower = 0.5f * (upper + lower);
     upper += ask.close * (lid.meet_angle - upper);
     lower += ask.close * (lid.meet_angle - lower);
@@ -126,21 +132,20 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
     if (turn != 0) {
       const float c = std::cos(turn);
       const float s = std::sin(turn);
-      const glm::vec3 rest = rest_[lid.vertex];
-      const float y = rest.y - lid.axis_y;
-      const float z = rest.z - lid.axis_z;
-      out[lid.vertex] += glm::vec3(0, y * c + z * s - y, z * c - y * s - z);
+      out[lid.vertex] +=
+          seat.Turned({0, lid.y * c + lid.z * s - lid.y, lid.z * c - lid.y * s - lid.z});
     }
     // The cornea bulges the lid it rolls under.
     constexpr float kThickness = 0.35f;
     constexpr float kOnBall = 12.05f;  // nearer than that lies the fold behind the lids
     const auto side = static_cast<std::size_t>(lid.side);
-    const glm::vec3 middle = ball_[side] + cornea_ * pose.eye[side][2];
+    const glm::vec3 middle = ball_[side] + seat.size * cornea_ * pose.eye[side][2];
     const glm::vec3 off = out[lid.vertex] - middle;
     const float distance = glm::length(off);
-    const bool lid_proper = glm::length(rest_[lid.vertex] - ball_[side]) > kOnBall;
-    if (lid_proper && distance < kCorneaRadius + kThickness && distance > 1) {
-      out[lid.vertex] = middle + off * ((kCorneaRadius + kThickness) / distance);
+    const bool lid_proper = glm::length(rest_[lid.vertex] - ball_[side]) > seat.size * kOnBall;
+    const float least = seat.size * (kCorneaRadius + kThickness);
+    if (lid_proper && distance < least && distance > 1) {
+      out[lid.vertex] = middle + off * (least / distance);
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include "fsm/head/action_units.h"
 #include "fsm/head/anatomy.h"
+#include "fsm/head/eye_seat.h"
 #include "fsm/head/face_state.h"
 #include "fsm/head/rig.h"
 
@@ -45,11 +46,11 @@ glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 /// measured, so that both give the same numbers. Immutable; thread: any.
 class Deformer {
  public:
-  /// `seam` pairs index the arrays given. `eye_shift`: of the left eye from where `eye` has it;
-  /// `teeth_shift` likewise. Flesh::lip_column indexes `seam`.
+  /// `seam` pairs index the arrays given. `seats`: of the right and the left eye; `teeth_shift`:
+  /// from where `mouth` has them. Flesh::lip_column indexes `seam`.
   Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
            std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const ActionUnits& units,
-           const EyeAnatomy& eye, glm::vec3 eye_shift, const MouthAnatomy& mouth,
+           const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
            glm::vec3 teeth_shift);
 
   std::size_t size() const { return rest_.size(); }
@@ -67,10 +68,10 @@ class Deformer {
     int side;            // 0 right, 1 left
     float upper, lower;  // part in each lid's turn
     float upper_angle, lower_angle, meet_angle, opening;
-    float axis_y, axis_z;
+    float y, z;  // at rest from the axis of the lids, in the table's eye
   };
   void AddMouthFields(const MouthAnatomy& mouth);
-  void AddLids(const EyeAnatomy& eye, glm::vec3 shift);
+  void AddLids(const EyeAnatomy& eye);
   void MoveLids(const Pose& pose, glm::vec3* out) const;
   void KeepOffTeeth(const Pose& pose, glm::vec3* out) const;
   void CloseLips(const Pose& pose, glm::vec3* out) const;
@@ -80,6 +81,7 @@ class Deformer {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam_;
   std::array<std::array<std::vector<Delta>, kActionUnits>, 2> unit_fields_;
   std::array<std::vector<Delta>, kMouthParameters> mouth_fields_;
+  std::array<EyeSeat, 2> seats_;
   std::array<glm::vec3, 2> ball_{};  ///< centres, right and left
   float cornea_ = 0;                 ///< how far its centre lies before the ball's
   std::vector<LidVertex> lids_;

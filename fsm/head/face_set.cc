@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "fsm/head/table_reader.h"
 
@@ -11,16 +12,33 @@ namespace fsm {
 namespace {
 
 constexpr std::size_t kMostPoints = 600;
+constexpr std::size_t kMostViews = 8;
 constexpr std::size_t kMostVertices = 20000;
 
 glm::vec2 Pair(const TableRow& row, std::size_t index) {
   return {row.Number(index), row.Number(index + 1)};
 }
 
-void Finite(const TableRow& row) {
-  for (const float v : row.Numbers(1)) {
+void Finite(const TableRow& row, std::size_t first) {
+  for (const float v : row.Numbers(first)) {
     if (!(std::abs(v) < 1e5f)) row.Fail("a number out of bounds");
   }
+}
+
+constexpr float kRadians = std::numbers::pi_v<float> / 180;
+
+/// eye SIDE DX DY DZ TURN SIZE UPPER LOWER
+void ReadEye(const TableRow& row, FaceSet& set) {
+  const std::string side = row.Word(1);
+  if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
+  const EyeSeat seat{.shift = row.Vector(2),
+                     .turn = row.Number(5) * kRadians,
+                     .size = row.Number(6),
+                     .upper_mm = row.Number(7),
+                     .lower_mm = row.Number(8)};
+  if (!(seat.size >= 0.5f && seat.size <= 2)) row.Fail("a size from 0.5 to 2 expected");
+  if (!set.eyes) set.eyes.emplace();
+  (*set.eyes)[side == "left" ? 1 : 0] = seat;
 }
 
 }  // namespace
@@ -34,11 +52,18 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
       set.base = row.Word(1);
       continue;
     }
-    Finite(row);
+    Finite(row, key == "eye" ? 2 : 1);
     if (key == "smooth") {
       set.smooth = std::max(row.Number(1), 0.0f);
     } else if (key == "iris") {
       set.iris_colour = row.Vector(1);
+      if (row.size() > 4) set.iris_size = std::clamp(row.Number(4), 0.7f, 1.3f);
+    } else if (key == "teeth") {
+      set.teeth = std::clamp(row.Number(1), 0.0f, 2.0f);
+    } else if (key == "lip") {
+      set.lip_colour = row.Vector(1);
+    } else if (key == "eye") {
+      ReadEye(row, set);
     } else if (key == "saturation") {
       set.saturation = std::clamp(row.Number(1), 0.0f, 1.0f);
     } else if (key == "white") {
@@ -49,6 +74,9 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
       set.skin_bottom_y = row.Number(5);
     } else if (key == "seen_from") {
       set.seen_from = row.Vector(1);
+    } else if (key == "also_seen") {
+      if (set.also_seen.size() == kMostViews) row.Fail("more views than are read");
+      set.also_seen.push_back(row.Vector(1));
     } else if (key == "point") {
       if (set.points.size() == kMostPoints) row.Fail("more points than are read");
       set.points.push_back({row.Vector(1), row.Vector(4)});
@@ -84,12 +112,26 @@ std::string WriteFaceSet(const FaceSet& set) {
   const auto d = [](float v) { return static_cast<double>(v); };
   put("smooth %.3f\n", d(set.smooth));
   put("saturation %.2f\n", d(set.saturation));
-  put("iris %.4f %.4f %.4f\n", d(set.iris_colour.x), d(set.iris_colour.y), d(set.iris_colour.z));
+  put("iris %.4f %.4f %.4f %.3f\n", d(set.iris_colour.x), d(set.iris_colour.y),
+      d(set.iris_colour.z), d(set.iris_size));
+  put("teeth %.2f\n", d(set.teeth));
   put("white %.4f %.4f %.4f\n", d(set.white_colour.x), d(set.white_colour.y),
       d(set.white_colour.z));
+  if (set.lip_colour) {
+    const glm::vec3 c = *set.lip_colour;
+    put("lip %.4f %.4f %.4f\n", d(c.x), d(c.y), d(c.z));
+  }
+  for (std::size_t i = 0; set.eyes && i < 2; ++i) {
+    const EyeSeat& eye = (*set.eyes)[i];
+    put("eye %s %.3f %.3f %.3f  %.2f %.4f  %.3f %.3f\n", i == 0 ? "right" : "left", d(eye.shift.x),
+        d(eye.shift.y), d(eye.shift.z), d(eye.turn / kRadians), d(eye.size), d(eye.upper_mm),
+        d(eye.lower_mm));
+  }
   put("skin %.5f %.5f %.5f %.5f %.2f\n", d(set.skin_low.x), d(set.skin_low.y), d(set.skin_high.x),
       d(set.skin_high.y), d(set.skin_bottom_y));
   put("seen_from %.4f %.4f %.4f\n", d(set.seen_from.x), d(set.seen_from.y), d(set.seen_from.z));
+  for (const glm::vec3& v : set.also_seen)
+    put("also_seen %.4f %.4f %.4f\n", d(v.x), d(v.y), d(v.z));
   out += "# point: of the base face at rest, and how it moves, millimetres\n";
   for (const WarpPoint& p : set.points) {
     put("point %.3f %.3f %.3f  %.3f %.3f %.3f\n", d(p.at.x), d(p.at.y), d(p.at.z), d(p.by.x),

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "fsm/head/eye_seat.h"
 #include "fsm/head/head.h"
 #include "fsm/head/warp.h"
 
@@ -15,15 +18,19 @@ namespace fsm {
 
 /// The face of a person from a photo: what a folder made by face_fit holds (docs/photo.md).
 struct FaceSet {
-  std::string base = "galatea";                     ///< the built-in face that is warped
-  std::vector<WarpPoint> points;                    ///< of the base face at rest, millimetres
-  float smooth = 0;                                 ///< see Warp
+  std::string base = "galatea";                ///< the built-in face that is warped
+  std::vector<WarpPoint> points;               ///< of the base face at rest, millimetres
+  float smooth = 0;                            ///< see Warp
+  std::optional<std::array<EyeSeat, 2>> eyes;  ///< right, left; else both go with the warp alike
   glm::vec3 iris_colour{0.1f}, white_colour{0.6f};  ///< linear RGB
-  float saturation = 1;  ///< of what is painted beside the photo: 0 for a grey one
+  float iris_size = 1, teeth = 1;       ///< of the table's iris; brightness of the teeth
+  std::optional<glm::vec3> lip_colour;  ///< likewise, where the lips turn inward
+  float saturation = 1;                 ///< of what is painted beside the photo: 0 for a grey one
   /// The skin's map in the photo: HeadTopology::uv (0, 0) and (1, 1), as u right, v down in 0..1.
   glm::vec2 skin_low{0, 1}, skin_high{0.5f, 0};
-  glm::vec3 seen_from{0, 0, 1};  ///< unit, from the head to the camera
-  float skin_bottom_y = -110;    ///< below it the figure shows neck and clothes
+  glm::vec3 seen_from{0, 0, 1};      ///< unit, from the head to the camera
+  std::vector<glm::vec3> also_seen;  ///< likewise, of photos from the side
+  float skin_bottom_y = -110;        ///< below it the figure shows neck and clothes
 
   /// Hair, neck and clothes: a sheet with gentle depth.
   struct SheetVertex {

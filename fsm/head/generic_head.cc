@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "embedded/action_units.h"
 #include "embedded/curves.h"
@@ -44,6 +45,15 @@ class GenericHead : public Head {
       identity_.palette.iris = set->iris_colour;
       identity_.palette.sclera = set->white_colour;
       Wash(identity_.palette, set->saturation);
+      if (set->lip_colour) {
+        // Where the lips turn inward the mouth is painted: it begins in their colour.
+        constexpr float kOpen = 0.63f;
+        identity_.palette.lip_inside = *set->lip_colour / kOpen;
+        identity_.palette.mouth = 0.45f * identity_.palette.lip_inside;
+      }
+      seats_ = set->eyes.value_or(seats_);
+      eye_.ScaleIris(set->iris_size);
+      identity_.palette.tooth *= set->teeth;
     }
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
     const Shaper shaper(Table("tables/sliders.txt", embedded::sliders()), identity_.sliders);
@@ -64,14 +74,14 @@ class GenericHead : public Head {
     topology_.skin_hairs = BuildBrows(front, identity_, mesh);
     const auto folds = BuildLidFolds(front, eye_);
     topology_.skin_hairs.insert(topology_.skin_hairs.end(), folds.begin(), folds.end());
-    BuildLashes(eye_, identity_, mesh);
+    if (!set) BuildLashes(eye_, identity_, mesh);  // a photo shows them
     flesh_count_ = mesh.position.size();
     BuildEyes(eye_, palette, mesh);
     BuildTeeth(mouth_, palette, mesh);
     BuildTongue(mouth_, palette, mesh);
     if (identity_.crop && !set) BuildEars(palette, mesh);  // long hair covers them
     base_ = mesh.position;
-    Shape(shaper, mesh, skin_count, set ? sheet_end : skin_count);
+    Shape(shaper, mesh, skin_count, set ? sheet_end : skin_count, set && set->eyes);
     hair_first_ = mesh.position.size();
     if (set) {
       LeaveOutUnseen(*set, mesh);
@@ -84,7 +94,7 @@ class GenericHead : public Head {
                  mesh.position.end());
     Finish(std::move(mesh), skin);
     if (set) WearPhoto(*set, skin_count);
-    landmarks_ = NameLandmarks(cage, fine, rest_, eye_, eye_shift_);
+    landmarks_ = NameLandmarks(cage, fine, rest_, eye_, seats_);
   }
 
   const HeadTopology& topology() const override { return topology_; }
@@ -124,28 +134,36 @@ class GenericHead : public Head {
   static void Wash(Palette& palette, float saturation) {
     for (glm::vec3* colour : {&palette.tooth, &palette.lip_inside, &palette.rim, &palette.mouth,
                               &palette.tongue, &palette.gum}) {
-      *colour = glm::mix(glm::vec3(glm::dot(*colour, glm::vec3(0.3f, 0.6f, 0.1f))), *colour, saturation);
+      *colour =
+          glm::mix(glm::vec3(glm::dot(*colour, glm::vec3(0.3f, 0.6f, 0.1f))), *colour, saturation);
     }
   }
 
   /// Moves the base head to the identity's form. Eyes and what touches them, and teeth with tongue,
   /// move as wholes.
-  void Shape(const Shaper& shaper, HeadMesh& mesh, std::size_t fixed_first, std::size_t fixed_end) {
+  void Shape(const Shaper& shaper, HeadMesh& mesh, std::size_t fixed_first, std::size_t fixed_end,
+             bool seated) {
     const auto motion = [&](glm::vec3 p) {
       const glm::vec3 by = shaper.Motion(p);
       return warp_ ? by + warp_->Motion(p + by) : by;
     };
     constexpr glm::vec3 kMirror(-1, 1, 1);
-    eye_shift_ = 0.5f * (motion(eye_.centre()) + kMirror * motion(eye_.centre() * kMirror));
+    if (!seated) {
+      const glm::vec3 by =
+          0.5f * (motion(eye_.centre()) + kMirror * motion(eye_.centre() * kMirror));
+      seats_[1].shift = by;
+      seats_[0].shift = by * kMirror;
+    }
     teeth_shift_ = motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) *
                    (warp_ ? glm::vec3(0, 1, 1) : glm::vec3(0, 0.5f, 0.5f));
+    if (warp_) teeth_shift_.z -= TeethTooFar(mesh, motion);
     for (std::size_t i = 0; i < mesh.position.size(); ++i) {
       if (i >= fixed_first && i < fixed_end) continue;
       glm::vec3& p = mesh.position[i];
       switch (mesh.bone[i]) {
         case Bone::kEyeLeft:
         case Bone::kEyeRight:
-          p += EyeShift(mesh.bone[i] == Bone::kEyeLeft ? 1 : 0);
+          p = Seated(mesh.bone[i] == Bone::kEyeLeft ? 1 : 0, p);
           break;
         case Bone::kJaw:
         case Bone::kTongue:
@@ -161,13 +179,29 @@ class GenericHead : public Head {
           glm::vec3 by = motion(p);
           if (flesh.eye != 0) {
             const float hold = SmoothStep(0, 0.8f, flesh.lid_upper + flesh.lid_lower);
-            by = glm::mix(by, EyeShift(flesh.eye > 0 ? 1 : 0), hold);
+            by = glm::mix(by, Seated(flesh.eye > 0 ? 1 : 0, p) - p, hold);
           }
           p += by;
           break;
         }
       }
     }
+  }
+
+  /// How much too far the teeth stand forward for the lips of a warped head, millimetres: by the
+  /// room that lips have on the base head.
+  float TeethTooFar(const HeadMesh& mesh, const std::function<glm::vec3(glm::vec3)>& motion) const {
+    constexpr float kRoom = 1.3f, kMost = 8;
+    float most = 0;
+    for (const ToothArch& arch : {mouth_.UpperTeeth(), mouth_.LowerTeeth()}) {
+      for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+        if (mesh.bone[i] != Bone::kFlesh || !mesh.flesh[i].by_teeth) continue;
+        const glm::vec3 p = mesh.position[i], q = p + motion(p);
+        const float room = std::min(kRoom, p.z - arch.At(p.x));
+        most = std::max(most, room - (q.z - arch.Moved(teeth_shift_).At(q.x)));
+      }
+    }
+    return std::min(most, kMost);
   }
 
   /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
@@ -196,8 +230,9 @@ class GenericHead : public Head {
       for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
         const std::uint32_t* corner = &batch.indices[i];
         const bool seen = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+          const auto faces = [&](glm::vec3 camera) { return glm::dot(normal[v], camera) > 0.08f; };
           return mesh.position[v].y > set.skin_bottom_y && mesh.position[v].z > -2 &&
-                 glm::dot(normal[v], set.seen_from) > 0.08f;
+                 (faces(set.seen_from) || std::ranges::any_of(set.also_seen, faces));
         });
         // Within the face all stays: lids and nostrils turn every way.
         const bool within = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
@@ -247,8 +282,11 @@ class GenericHead : public Head {
     }
   }
 
-  glm::vec3 EyeShift(std::size_t side) const {
-    return side == 1 ? eye_shift_ : eye_shift_ * glm::vec3(-1, 1, 1);
+  glm::vec3 EyeCentre(std::size_t side) const {
+    return eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1);
+  }
+  glm::vec3 Seated(std::size_t side, glm::vec3 p) const {
+    return seats_[side].Placed(EyeCentre(side), p);
   }
 
   void Finish(HeadMesh mesh, const SkinMap& skin) {
@@ -275,7 +313,7 @@ class GenericHead : public Head {
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
     face_.emplace(std::vector<glm::vec3>(rest_.begin(), rest_.begin() + flesh_end),
                   std::vector<Flesh>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end), skin.seam,
-                  units_, eye_, eye_shift_, mouth_, teeth_shift_);
+                  units_, eye_, seats_, mouth_, teeth_shift_);
     const auto [upper, lower] = skin.seam[skin.mid_column];
     std::vector<glm::vec3> rest;
     std::vector<Flesh> flesh;
@@ -286,20 +324,18 @@ class GenericHead : public Head {
     }
     probe_.emplace(std::move(rest), std::move(flesh),
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_,
-                   eye_shift_, mouth_, teeth_shift_);
+                   seats_, mouth_, teeth_shift_);
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
     topology_.strands = std::move(mesh.strands);
     for (glm::vec3& colour : topology_.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
     for (const glm::vec3 p : base_) topology_.uv.push_back(Unroll(p));
     for (std::size_t side = 0; side < 2; ++side) {
-      glm::vec3 centre = eye_.centre();
-      if (side == 0) centre.x = -centre.x;
-      centre += EyeShift(side);
-      topology_.eyes[side] = {.centre = centre,
-                              .ball_radius = eye_.radius(),
-                              .iris_radius = eye_.iris_radius(),
-                              .pupil_radius = eye_.pupil_radius(),
+      const float size = seats_[side].size;
+      topology_.eyes[side] = {.centre = Seated(side, EyeCentre(side)),
+                              .ball_radius = size * eye_.radius(),
+                              .iris_radius = size * eye_.iris_radius(),
+                              .pupil_radius = size * eye_.pupil_radius(),
                               .iris_colour = identity_.palette.iris,
                               .white_colour = identity_.palette.sclera};
     }
@@ -366,9 +402,7 @@ class GenericHead : public Head {
       case Bone::kEyeLeft:
       case Bone::kEyeRight: {
         const std::size_t side = bone_[i] == Bone::kEyeLeft ? 1 : 0;
-        glm::vec3 centre = eye_.centre();
-        if (side == 0) centre.x = -centre.x;
-        centre += EyeShift(side);
+        const glm::vec3 centre = topology_.eyes[side].centre;
         p = centre + pose.eye[side] * (p - centre);
         n = pose.eye[side] * n;
         break;
@@ -398,9 +432,9 @@ class GenericHead : public Head {
   ActionUnits units_;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
-  glm::vec3 teeth_shift_{};      // from the base head's
-  glm::vec3 eye_shift_{};        // of the left eye from the base head's
-  std::vector<glm::vec3> base_;  // the base head's rest form, for texture coordinates
+  glm::vec3 teeth_shift_{};       // from the base head's
+  std::array<EyeSeat, 2> seats_;  // of the right and the left eye
+  std::vector<glm::vec3> base_;   // the base head's rest form, for texture coordinates
   HeadTopology topology_;
   std::size_t flesh_count_ = 0;
   std::size_t hair_first_ = 0;

@@ -10,7 +10,7 @@
 namespace fsm {
 
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, glm::vec3 eye_shift) {
+                        const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats) {
   Landmarks landmarks;
   const auto pair = [&](const std::string& name, glm::vec3 p) {
     landmarks[name + "_left"] = p;
@@ -27,15 +27,22 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
       row.Fail("middle or side expected");
     }
   }
-  const auto on_lid = [&](float x, float y) {
-    return glm::vec3(x, y, eye.LidAxisZ(x) + eye.LidRadius(x)) + eye_shift;
-  };
   const float middle = eye.centre().x;
-  pair("endocanthion", on_lid(eye.inner_x(), eye.UpperY(eye.inner_x())));
-  pair("exocanthion", on_lid(eye.outer_x(), eye.UpperY(eye.outer_x())));
-  pair("palpebrale_superius", on_lid(middle, eye.UpperY(middle)));
-  pair("palpebrale_inferius", on_lid(middle, eye.LowerY(middle)));
-  pair("pupil", eye.centre() + eye_shift + glm::vec3(0, 0, eye.radius()));
+  for (const std::size_t side : {0U, 1U}) {
+    const glm::vec3 mirror(side == 0 ? -1 : 1, 1, 1);
+    const auto put = [&](const char* name, glm::vec3 p) {
+      landmarks[name + std::string(side == 0 ? "_right" : "_left")] =
+          seats[side].Placed(mirror * eye.centre(), mirror * p);
+    };
+    const auto on_lid = [&](float x, float y) {
+      return glm::vec3(x, y, eye.LidAxisZ(x) + eye.LidRadius(x));
+    };
+    put("endocanthion", on_lid(eye.inner_x(), eye.UpperY(eye.inner_x())));
+    put("exocanthion", on_lid(eye.outer_x(), eye.UpperY(eye.outer_x())));
+    put("palpebrale_superius", on_lid(middle, eye.UpperY(middle) + seats[side].upper_mm));
+    put("palpebrale_inferius", on_lid(middle, eye.LowerY(middle) + seats[side].lower_mm));
+    put("pupil", eye.centre() + glm::vec3(0, 0, eye.radius()));
+  }
   pair("tragion", {65.7f, 0, 0});
   for (const auto& [name, place] : EarLandmarks()) pair(name, place);
   return landmarks;

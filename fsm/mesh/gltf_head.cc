@@ -292,7 +292,7 @@ class GltfReader {
       std::optional<Image> picture;
       if (bytes) {
         picture =
-            DecodePng({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()}, why);
+            DecodePicture({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()}, why);
       }
       if (picture) {
         known->second = static_cast<int>(head_.pictures.size());

@@ -22,6 +22,20 @@ std::optional<Image> DecodePng(std::span<const std::uint8_t> bytes, std::string&
 std::optional<Image> DecodeBmp(std::span<const std::uint8_t> bytes, std::string& why);
 std::optional<Image> DecodeSgi(std::span<const std::uint8_t> bytes, std::string& why);
 
+/// What is wanted of a JPEG file, and what it says beside its picture.
+struct JpegWish {
+  std::int64_t most_pixels = 50'000'000;
+  /// 0: the whole picture; else the least of 1/1, 1/2, 1/4, 1/8 whose longer side is as long.
+  int enough_side = 0;
+  std::vector<std::vector<std::uint8_t>> exif;  ///< out: the APP1 blocks
+};
+/// RGB, grey and CMYK; a file that ends too early is damaged. Not turned.
+std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, JpegWish& wish,
+                                std::string& why);
+std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, std::string& why);
+/// PNG or JPEG, told apart by content.
+std::optional<Image> DecodePicture(std::span<const std::uint8_t> bytes, std::string& why);
+
 /// Whether a decoder may go on: 1..kMaxImageSide on each side.
 bool SizeAllowed(std::int64_t width, std::int64_t height, std::string& why);
 /// An image of that size, opaque black.

@@ -25,8 +25,11 @@ struct Format {
   std::optional<Image> (*decode)(std::span<const std::uint8_t>, std::string&);
 };
 
-constexpr Format kFormats[] = {
-    {".png", EncodePng, DecodePng}, {".bmp", EncodeBmp, DecodeBmp}, {".rgb", EncodeSgi, DecodeSgi}};
+constexpr Format kFormats[] = {{".png", EncodePng, DecodePng},
+                               {".bmp", EncodeBmp, DecodeBmp},
+                               {".rgb", EncodeSgi, DecodeSgi},
+                               {".jpg", nullptr, DecodeJpeg},
+                               {".jpeg", nullptr, DecodeJpeg}};
 
 const Format* FormatOf(const std::string& path) {
   for (const auto& format : kFormats) {
@@ -43,9 +46,9 @@ const Format* FormatOf(const std::string& path) {
   return nullptr;
 }
 
-std::unexpected<vm::Error> BadEnding(const std::string& path) {
+std::unexpected<vm::Error> BadEnding(const std::string& path, const char* more = "") {
   return vm::Fail(vm::Errc::kBadValue,
-                  "'" + path + "' is no picture's name: it must end in .png, .bmp or .rgb");
+                  "'" + path + "' is no picture's name: it must end in .png, .bmp or .rgb" + more);
 }
 
 std::unexpected<vm::Error> Refused(const char* verb, const std::string& path) {
@@ -111,11 +114,16 @@ Image MakeBlack(int width, int height) {
   return image;
 }
 
+std::optional<Image> DecodePicture(std::span<const std::uint8_t> bytes, std::string& why) {
+  const bool jpeg = bytes.size() > 2 && bytes[0] == 0xff && bytes[1] == 0xd8;
+  return jpeg ? DecodeJpeg(bytes, why) : DecodePng(bytes, why);
+}
+
 vm::Result<void> WriteImage(const Image& image, const std::string& path) {
   assert(image.rgba.size() ==
          static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
   const Format* format = FormatOf(path);
-  if (!format) return BadEnding(path);
+  if (!format || !format->encode) return BadEnding(path);
   const auto bytes = format->encode(image);
   // Written beside its place and then moved there, so that nobody ever reads half a picture.
   const std::string beside = path + ".part" + std::to_string(getpid());
@@ -131,7 +139,7 @@ vm::Result<void> WriteImage(const Image& image, const std::string& path) {
 
 vm::Result<Image> ReadImage(const std::string& path) {
   const Format* format = FormatOf(path);
-  if (!format) return BadEnding(path);
+  if (!format) return BadEnding(path, " (or .jpg, to be read)");
   // Without waiting: a named pipe in the place of a picture must not stop the program.
   File file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};

@@ -218,11 +218,18 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   const auto light = [](const Scene& s) {
     return s.key.strength * s.key.color.g + s.fill.strength * s.fill.color.g + 0.8F;
   };
-  gl_.Uniform1f(photo_.Uniform("brightness"), std::sqrt(light(scene) / light(studio)));
+  const float brightness = std::sqrt(light(scene) / light(studio));
+  gl_.Uniform1f(photo_.Uniform("brightness"), brightness);
   gl_.UseProgram(hair_.id());
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
-  if (head.eyes().found()) SetEyes(view, head, vertices);
+  if (!head.eyes().found()) return;
+  SetEyes(view, head, vertices);
+  // The white of a grey photo is grey, and so is the flesh beside it.
+  const glm::vec3 white = head.eye_place().white_colour;
+  const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
+  const glm::vec3 worn(head.photo() ? brightness : 0, grey ? 0 : 1, 0);
+  gl_.Uniform3fv(eye_.Uniform("worn"), 1, glm::value_ptr(worn));
 }
 
 void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices) {

@@ -45,9 +45,21 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   set.points = kPoints;
   set.smooth = 1.5F;
   for (int i = 0; i < 4; ++i)
-    set.sheet.push_back({glm::vec3(static_cast<float>(i)), glm::vec2(0.25F * static_cast<float>(i))});
+    set.sheet.push_back(
+        {glm::vec3(static_cast<float>(i)), glm::vec2(0.25F * static_cast<float>(i))});
   set.sheet_triangles = {0, 1, 2, 0, 2, 3};
+  set.eyes.emplace();
+  (*set.eyes)[1] = {.shift = {1, 2, -3}, .turn = 0.1F, .size = 1.1F, .upper_mm = -2, .lower_mm = 1};
+  set.lip_colour = glm::vec3(0.2F, 0.1F, 0.05F);
+  set.iris_size = 0.9F;
   const FaceSet back = ReadFaceSet("face.txt", WriteFaceSet(set));
+  ASSERT_TRUE(back.eyes && back.lip_colour);
+  EXPECT_EQ((*back.eyes)[1].shift, (*set.eyes)[1].shift);
+  EXPECT_NEAR((*back.eyes)[1].turn, 0.1F, 1e-3F);
+  EXPECT_EQ((*back.eyes)[1].upper_mm, -2);
+  EXPECT_EQ((*back.eyes)[0].size, 1);
+  EXPECT_EQ(*back.lip_colour, *set.lip_colour);
+  EXPECT_NEAR(back.iris_size, 0.9F, 1e-3F);
   ASSERT_EQ(back.points.size(), set.points.size());
   EXPECT_EQ(back.points[5].by, set.points[5].by);
   EXPECT_EQ(back.smooth, set.smooth);
@@ -57,7 +69,8 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
 
 TEST(FaceSetTest, DamageIsReportedWithItsLine) {
   for (const char* text : {"smooth 1\nnose 3", "base galatea\nquad 0 1 2 3", "smooth 1\npoint 1 2",
-                           "smooth 1\niris nan 0 0", "smooth 1\nvertex 1e9 0 0 0 0"}) {
+                           "smooth 1\niris nan 0 0", "smooth 1\neye middle 0 0 0 0 1 0 0",
+                           "smooth 1\neye left 0 0 0 0 9 0 0", "smooth 1\nvertex 1e9 0 0 0 0"}) {
     try {
       ReadFaceSet("face.txt", text);
       ADD_FAILURE() << text;
@@ -65,6 +78,40 @@ TEST(FaceSetTest, DamageIsReportedWithItsLine) {
       EXPECT_NE(std::string(error.what()).find("face.txt:2"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(FaceSetTest, EachEyeSitsAndOpensAsTheFaceSays) {
+  FaceSet set;
+  set.points = kPoints;
+  for (auto& point : set.points) point.by = glm::vec3(0);
+  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {0, 0, 0, 255}});
+  set.eyes.emplace();
+  const auto plain = Head::Make(set);
+  (*set.eyes)[0].shift = {-2, 1, 0};
+  (*set.eyes)[1].upper_mm = -4;
+  const auto own = Head::Make(set);
+  EXPECT_LT(glm::distance(own->Landmark("pupil_right"),
+                          plain->Landmark("pupil_right") + glm::vec3(-2, 1, 0)),
+            0.01F);
+  EXPECT_EQ(own->Landmark("pupil_left"), plain->Landmark("pupil_left"));
+  // The rim of the left upper lid hangs lower, the right one has gone with its eye.
+  const auto rim = [](const Head& head, float side) {
+    HeadVertices vertices;
+    head.Evaluate({}, vertices);
+    float lowest = 1e9F;
+    const EyePlace& eye = head.topology().eyes[side > 0 ? 1 : 0];
+    for (const auto& part : head.topology().parts) {
+      if (part.material != Material::kSkin) continue;
+      for (std::uint32_t k = 0; k < part.index_count; ++k) {
+        const glm::vec3 p = vertices.position[head.topology().indices[part.first_index + k]];
+        const glm::vec3 d = p - eye.centre;
+        if (std::abs(d.x) < 3 && d.y > -1 && d.z > 9) lowest = std::min(lowest, p.y);
+      }
+    }
+    return lowest;
+  };
+  EXPECT_NEAR(rim(*own, 1), rim(*plain, 1) - 4, 1.2F);
+  EXPECT_NEAR(rim(*own, -1), rim(*plain, -1) + 1, 0.3F);
 }
 
 }  // namespace

@@ -67,6 +67,31 @@ TEST(GltfHeadTest, OnlyWhatMovesIsStored) {
   EXPECT_LT(WriteGltfHead(*head, one).size() - none.size(), 150000U);
 }
 
+// 8 x 8 pixels of one red.
+constexpr const char* kRedJpeg =
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAA0JCgsKCA0LCgsODg0PEyAVExISEyccHhcgLikxMC4pLSwzOko+MzZGNy"
+    "wtQFdBRkxOUlNSMj5aYVpQYEpRUk//2wBDAQ4ODhMREyYVFSZPNS01T09PT09PT09PT09PT09PT09PT09PT09PT09P"
+    "T09PT09PT09PT09PT09PT09PT09PT0//wAARCAAIAAgDASIAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAAAAAAAAX/xA"
+    "AUEAEAAAAAAAAAAAAAAAAAAAAA/8QAFQEBAQAAAAAAAAAAAAAAAAAABQb/xAAUEQEAAAAAAAAAAAAAAAAAAAAA/9oA"
+    "DAMBAAIRAxEAPwCAALVz/9k=";
+
+TEST(GltfHeadTest, PicturesMayBeJpeg) {
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,)"
+      R"("uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],)"
+      R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],)"
+      R"("textures":[{"source":0}],"images":[{"uri":"data:image/jpeg;base64,)" +
+      std::string(kRedJpeg) + R"("}]})";
+  const auto file = ParseGltfHead("a.gltf", json);
+  ASSERT_TRUE(file) << file.error().text;
+  ASSERT_EQ(file->pictures.size(), 1U);
+  EXPECT_NEAR(file->pictures[0].rgba[0], 0xc0, 4);
+  EXPECT_NEAR(file->pictures[0].rgba[1], 0x20, 4);
+}
+
 TEST(GltfHeadTest, EveryCutFileIsRefusedInWords) {
   const BallHead ball;
   const std::vector<ExportedShape> shapes = {Shape("jawOpen", 26, true, true)};

@@ -12,6 +12,7 @@ uniform vec4 iris;       // radius, pupil's part of it, how far its plane lies b
 uniform vec3 iris_color;
 uniform vec3 white_color;
 uniform float figure_scale;
+uniform vec3 worn;         // colours are as a photo shows them: its brightness, else 0; redness of flesh; 0
 
 out vec4 color;
 
@@ -48,13 +49,14 @@ void main() {
   vec3 across_up = cross(axis, across_right);
   // Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
   float corner = smoothstep(0.30, 1.0, abs(n.x - axis.x));
-  vec3 base = white_color * mix(vec3(1.0), vec3(0.95, 0.76, 0.70), corner);
+  float red = worn.y;
+  vec3 base = white_color * mix(vec3(1.0), mix(vec3(0.80), vec3(0.95, 0.76, 0.70), red), corner);
   base *= mix(0.60, 1.0, smoothstep(1.0, 1.18, r_surface));
   // The flesh of the tear corner.
   float inward = side == 0 ? n.x - axis.x : axis.x - n.x;
-  base = mix(base, white_color * vec3(0.92, 0.50, 0.46), 0.85 * smoothstep(0.66, 0.80, inward));
+  base = mix(base, white_color * mix(vec3(0.6), vec3(0.92, 0.50, 0.46), red), 0.85 * smoothstep(0.66, 0.80, inward));
   float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
-  base *= 1.0 - vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
+  base *= 1.0 - red * vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
   float edge = smoothstep(1.06, 0.98, r_surface);
   if (edge > 0.0) {
     // The line of sight bends at the cornea and meets the plane of the iris behind it.
@@ -76,11 +78,15 @@ void main() {
   float shade = mix(0.36, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
                 mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
+  shade = worn.x > 0.0 ? 0.35 + 0.65 * shade : shade;
+
   vec3 light = Ambient(n) * 0.9;
   light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;
   light += lamp_colors[1] * Wrapped(dot(n, lamp_directions[1]), vec3(0.35));
+  light = worn.x > 0.0 ? vec3(1.0) : light;
   vec3 result = base * light * shade * mix(occlusion, 1.0, 0.3);
 
+  float gloss = worn.x > 0.0 ? 0.45 : 1.0;
   vec3 mirrored = reflect(-v, wet);
   // A window of two panes, above left.
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
@@ -90,8 +96,9 @@ void main() {
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
                  mix(0.45, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
-  result += 0.5 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
-  result += lamp_colors[1] * 0.16 * soft_box * shade;
-  result += Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * 0.6;
-  color = vec4(ToScreen(max(result, 0.0)), alpha);
+  result += gloss * 0.5 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
+  result += gloss * lamp_colors[1] * 0.16 * soft_box * shade;
+  result += gloss * Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * 0.6;
+  result = max(result, 0.0);
+  color = vec4(worn.x > 0.0 ? worn.x * pow(result, vec3(0.4545)) : ToScreen(result), alpha);
 }

@@ -1,0 +1,135 @@
+#include "face_fit/fit/eye_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "face_fit/fit/form.h"
+#include "face_fit/fit/least_squares.h"
+
+namespace facefit {
+namespace {
+
+constexpr std::size_t kInnerCorner = 8;  // of EyeOutline; the upper lid lies before it
+
+fsm::EyeSeat FitEye(const BaseHead& base, const std::map<int, glm::vec3>& to, int side) {
+  const auto outline = EyeOutline(side);
+  const glm::vec3 centre = base.head->topology().eyes[static_cast<std::size_t>(side)].centre;
+  const auto place = [&](std::size_t k) {
+    return base.places[static_cast<std::size_t>(outline[k])].On(base.rest.position);
+  };
+  const float inner = place(kInnerCorner).x, outer = place(0).x;
+  // Unknown: shift x and y, size times cosine and sine of the turn, raise of upper and lower lid.
+  LeastSquares<6> sum;
+  float forward = 0;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const glm::vec3 p = place(k) - centre;
+    const glm::vec3 q = to.at(outline[k]) - centre;
+    const float along = 2 * (place(k).x - inner) / (outer - inner) - 1;
+    const double open = static_cast<double>(std::max(1 - along * along, 0.0F));
+    const bool upper = k > 0 && k<kInnerCorner, lower = k> kInnerCorner;
+    const double px = static_cast<double>(p.x), py = static_cast<double>(p.y);
+    sum.Add({1, 0, px, -py, 0, 0}, static_cast<double>(q.x));
+    sum.Add({0, 1, py, px, upper ? open : 0, lower ? open : 0}, static_cast<double>(q.y));
+    forward += (q.z - p.z) / static_cast<float>(outline.size());
+  }
+  const auto solved = sum.Solve(1e-6);
+  const auto part = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
+  fsm::EyeSeat seat;
+  // What people's eyes do; beyond it a point was misjudged.
+  seat.size = std::clamp(std::hypot(part(2), part(3)), 0.82F, 1.2F);
+  seat.turn = std::clamp(std::atan2(part(3), part(2)), -0.25F, 0.25F);
+  seat.shift = {part(0), part(1), forward};
+  seat.upper_mm = std::clamp(part(4) / seat.size, -6.0F, 0.7F);
+  seat.lower_mm = std::clamp(part(5) / seat.size, -2.5F, 3.5F);
+  return seat;
+}
+
+}  // namespace
+
+std::array<fsm::EyeSeat, 2> FitEyes(const BaseHead& base, const std::map<int, glm::vec3>& to) {
+  return {FitEye(base, to, 0), FitEye(base, to, 1)};
+}
+
+namespace {
+
+/// An eye's outline in the photo: corners and the middle between the lids.
+struct Slit {
+  glm::vec2 outer, inner, middle;
+};
+template <typename Place>
+Slit SlitOf(int side, Place place) {
+  const auto outline = EyeOutline(side);
+  // The lids' middles lie as far from the corner on either side.
+  return {place(outline[0]), place(outline[kInnerCorner]),
+          0.5F * (place(outline[4]) + place(outline[12]))};
+}
+Slit SlitOfBase(const BaseHead& base, int side) {
+  return SlitOf(side, [&base](int i) {
+    const glm::vec3 p = base.places[static_cast<std::size_t>(i)].On(base.rest.position);
+    return glm::vec2(p.x, -p.y);
+  });
+}
+/// Where the iris is expected, and the photo's pixels by millimetre of the base head's eye.
+struct Expected {
+  glm::vec2 centre;
+  float scale;
+};
+Expected ExpectedIris(const BaseHead& base, const Slit& seen, int side) {
+  const Slit own = SlitOfBase(base, side);
+  const glm::vec3 ball = base.head->topology().eyes[static_cast<std::size_t>(side)].centre;
+  const glm::vec2 from = own.inner - own.outer, to = seen.inner - seen.outer;
+  const float scale = glm::length(to) / std::max(glm::length(from), 1e-3F);
+  const float turn = std::atan2(to.y, to.x) - std::atan2(from.y, from.x);
+  const glm::vec2 off = glm::vec2(ball.x, -ball.y) - own.middle;
+  const float c = scale * std::cos(turn), s = scale * std::sin(turn);
+  return {seen.middle + glm::vec2(c * off.x - s * off.y, s * off.x + c * off.y), scale};
+}
+
+}  // namespace
+
+void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
+  float size = 0, count = 0;
+  for (const int side : {0, 1}) {
+    const Slit slit = SlitOf(
+        side, [&face](int i) { return glm::vec2(face.points[static_cast<std::size_t>(i)]); });
+    const Expected iris = ExpectedIris(base, slit, side);
+    const auto k = static_cast<std::size_t>(side);
+    const float radius = iris.scale * base.head->topology().eyes[k].iris_radius;
+    IrisRing& ring = fit.irises[k];
+    ring = {.centre = iris.centre, .radius = radius, .contrast = 0};
+    if (photo) ring = FindIris(*photo, slit.outer, slit.inner, iris.centre, radius);
+    if (ring.contrast < kClearRing) {
+      ring = {.centre = iris.centre, .radius = radius, .contrast = 0};
+      continue;
+    }
+    size += ring.radius / radius;
+    count += 1;
+  }
+  fit.iris_size = count > 0 ? std::clamp(size / count, 0.8F, 1.12F) : 1.0F;
+}
+
+void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<Aim>& aims) {
+  for (const int side : {0, 1}) {
+    const IrisRing& ring = fit.irises[static_cast<std::size_t>(side)];
+    if (ring.contrast <= 0) continue;
+    const auto outline = EyeOutline(side);
+    const Slit slit =
+        SlitOf(side, [&aims](int i) { return std::ranges::find(aims, i, &Aim::point)->pixel; });
+    const Expected iris = ExpectedIris(base, slit, side);
+    const glm::vec2 axis = glm::normalize(slit.inner - slit.outer);
+    const glm::vec2 across(-axis.y, axis.x);
+    const float off = glm::dot(ring.centre - iris.centre, across);
+    const float free = 0.5F * iris.scale;  // eyes rest that differently in their slits
+    const float by = std::clamp(off, -3 * iris.scale, 3 * iris.scale);
+    if (std::abs(by) <= free) continue;
+    for (Aim& aim : aims) {
+      if (std::ranges::find(outline, aim.point) == outline.end()) continue;
+      aim.pixel += (by - std::copysign(free, by)) * across;
+    }
+  }
+}
+
+}  // namespace facefit

@@ -1,0 +1,145 @@
+#include "face_fit/fit/form.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "face_fit/find/mouth_line.h"
+#include "face_fit/fit/eye_fit.h"
+#include "fsm/head/face_set.h"
+
+namespace facefit {
+namespace {
+
+bool Among(std::span<const int> list, int point) {
+  return std::ranges::find(list, point) != list.end();
+}
+bool OfInnerLips(int point) {
+  return Among(UpperInnerLip(), point) || Among(LowerInnerLip(), point);
+}
+int EyeOf(int point) {
+  return Among(EyeOutline(0), point) ? 0 : Among(EyeOutline(1), point) ? 1 : -1;
+}
+
+std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
+  std::uint32_t nearest = 0;
+  const auto& topology = base.head->topology();
+  const auto far = [&](std::uint32_t v) { return glm::distance(base.rest.position[v], p); };
+  bool any = false;
+  for (const auto& part : topology.parts) {
+    if (part.material != fsm::Material::kLip) continue;
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      const std::uint32_t v = topology.indices[part.first_index + k];
+      if (!any || far(v) < far(nearest)) nearest = v;
+      any = true;
+    }
+  }
+  return nearest;
+}
+
+/// The fitted head as fsm will show it, in the photo's expression: its skin takes the place of the
+/// base head's in `worn`.
+void Wear(const BaseHead& base, Fit& fit) {
+  fsm::FaceSet set;
+  set.base = base.name;
+  set.points = fit.points;
+  set.smooth = fit.smooth;
+  set.eyes = fit.eyes;
+  set.photo = std::make_shared<fsm::WornPhoto>(fsm::WornPhoto{1, 1, {0, 0, 0, 255}});
+  const auto head = fsm::Head::Make(set);
+  fsm::HeadVertices vertices;
+  head->Evaluate(fit.expression.State(), vertices);
+  // Both begin with the same skin.
+  std::uint32_t end = 0;
+  const auto& topology = head->topology();
+  for (const auto& part : topology.parts) {
+    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      end = std::max(end, topology.indices[part.first_index + k] + 1);
+    }
+  }
+  end = std::min(end, static_cast<std::uint32_t>(fit.worn.size()));
+  std::copy_n(vertices.position.begin(), end, fit.worn.begin());
+}
+
+}  // namespace
+
+void AimAtMouthLine(const BaseHead& base, const FoundFace& face, const Pose& pose,
+                    std::span<const glm::vec3> now, const fsm::Image& photo,
+                    std::vector<Aim>& aims) {
+  const glm::vec3 right = base.head->Landmark("cheilion_right");
+  const glm::vec3 left = base.head->Landmark("cheilion_left");
+  const auto along = [&](const MeshPlace& place) {
+    return (place.On(base.rest.position).x - right.x) / (left.x - right.x);
+  };
+  const auto line = FindMouthLine(photo, face, along(base.places[61]), along(base.places[291]));
+  std::erase_if(aims, [](const Aim& aim) { return OfInnerLips(aim.point); });
+  const auto aim_at = [&](const MeshPlace& place) {
+    const float at = glm::clamp(along(place), 0.0F, 1.0F) * (kMouthLinePlaces - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), kMouthLinePlaces - 2);
+    const glm::vec2 pixel = glm::mix(line[k], line[k + 1], at - static_cast<float>(k));
+    aims.push_back({-1, place, pixel, pose.ToCamera(place.On(now)).z});
+  };
+  for (const int point : UpperInnerLip()) {
+    if (point != 78 && point != 308) aim_at(base.places[static_cast<std::size_t>(point)]);
+  }
+  for (const glm::vec3 corner : {right, left}) {
+    const std::uint32_t v = NearestLip(base, corner);
+    aim_at({{v, v, v}, {1, 0, 0}});
+  }
+}
+
+void Form(const BaseHead& base, Fit& fit) {
+  const std::vector<Aim>& aims = fit.aims;
+  fsm::HeadVertices posed;
+  base.head->Evaluate(fit.expression.State(), posed);
+  const std::vector<glm::vec3>& now = posed.position;
+  const auto lies = [&](const Aim& aim) {
+    return fit.pose.FromCamera(fit.pose.Unproject(aim.pixel, aim.z));
+  };
+  std::map<int, glm::vec3> eyes;
+  for (const Aim& aim : aims) {
+    if (EyeOf(aim.point) < 0) continue;
+    eyes[aim.point] = lies(aim) - (aim.place.On(now) - aim.place.On(base.rest.position));
+  }
+  fit.eyes = FitEyes(base, eyes);
+  const auto& seats = base.head->topology().eyes;
+  fit.points.clear();
+  std::vector<std::size_t> bent;  // aims of fit.points that may be corrected
+  std::vector<std::size_t> of;
+  for (std::size_t i = 0; i < aims.size(); ++i) {
+    const Aim& aim = aims[i];
+    // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
+    if (fit.lips_apart && OfInnerLips(aim.point)) continue;
+    const glm::vec3 rest = aim.place.On(base.rest.position);
+    const int eye = EyeOf(aim.point);
+    if (eye < 0) {
+      bent.push_back(fit.points.size());
+      of.push_back(i);
+      fit.points.push_back({rest, lies(aim) - aim.place.On(now)});
+    } else {
+      // Lids go with the eye: the skin around them must, too.
+      const auto side = static_cast<std::size_t>(eye);
+      const fsm::EyeSeat& seat = fit.eyes[side];
+      fit.points.push_back({rest, seat.Placed(seats[side].centre, rest) - rest});
+    }
+  }
+  const fsm::Warp warp(fit.points, fit.smooth);
+  fit.worn.clear();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    fit.worn.push_back(now[i] + warp.Motion(base.rest.position[i]));
+  }
+  // What the head then makes of its units, lids and lips moves places a little off; once more with
+  // that taken into account.
+  Wear(base, fit);
+  constexpr float kGain = 0.8F;
+  for (std::size_t k = 0; k < bent.size(); ++k) {
+    const Aim& aim = aims[of[k]];
+    const glm::vec3 q = fit.pose.ToCamera(aim.place.On(fit.worn));
+    const glm::vec3 should = fit.pose.FromCamera(fit.pose.Unproject(aim.pixel, q.z));
+    fit.points[bent[k]].by += kGain * (should - fit.pose.FromCamera(q));
+  }
+  Wear(base, fit);
+}
+
+}  // namespace facefit

@@ -1,0 +1,244 @@
+#include "face_fit/fit/stereo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/fit/pose_fit.h"
+
+namespace facefit {
+namespace {
+
+constexpr float kCell = 1.4F;   // millimetres between samples of the first photo
+constexpr int kPatch = 5;       // samples to each side of a patch's middle
+constexpr int kApart = 4;       // samples between the middles of patches
+constexpr float kAlike = 0.7F;  // correlation from which a patch counts as found
+constexpr std::size_t kFewest = 25;
+
+float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
+
+/// The fitted skin as the first photo shows it, on a grid.
+struct Seen {
+  int columns = 0, rows = 0;
+  glm::vec2 origin{0};                  // pixel of the first sample
+  float step = 1;                       // pixels
+  std::vector<glm::vec3> camera, rest;  // in the camera's frame; on the base head
+  std::vector<float> light, facing,
+      side;  // to the first camera, to the second; facing < 0: no skin
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const Pose& side) {
+  Seen seen;
+  seen.step = kCell * fit.pose.PixelsPerMm();
+  std::vector<glm::vec3> camera;
+  glm::vec2 low(1e9F), high(-1e9F);
+  for (const int i : FitPoints()) {
+    const glm::vec2 p =
+        fit.pose.Project(fit.pose.ToCamera(base.places[static_cast<std::size_t>(i)].On(fit.worn)));
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  seen.origin = low;
+  seen.columns = std::clamp(static_cast<int>((high.x - low.x) / seen.step), 1, 400);
+  seen.rows = std::clamp(static_cast<int>((high.y - low.y) / seen.step), 1, 400);
+  const auto count = static_cast<std::size_t>(seen.columns) * static_cast<std::size_t>(seen.rows);
+  seen.camera.assign(count, glm::vec3(0, 0, -1e9F));
+  seen.rest.assign(count, glm::vec3(0));
+  seen.light.assign(count, 0);
+  seen.facing.assign(count, -1);
+  seen.side.assign(count, -1);
+  const glm::vec3 to_side = glm::transpose(side.Rotation()) * glm::vec3(0, 0, 1);
+  for (const glm::vec3& p : fit.worn) camera.push_back(fit.pose.ToCamera(p));
+  const auto& topology = base.head->topology();
+  for (const auto& part : topology.parts) {
+    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
+    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
+      const std::uint32_t* t = &topology.indices[part.first_index + k];
+      const auto grid = [&](std::uint32_t v) {
+        return (fit.pose.Project(camera[v]) - seen.origin) / seen.step;
+      };
+      const glm::vec2 a = grid(t[0]), b = grid(t[1]), c = grid(t[2]);
+      const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+      if (area > -1e-6F) continue;  // seen from behind: y runs down
+      const glm::vec3 n = glm::normalize(
+          glm::cross(fit.worn[t[1]] - fit.worn[t[0]], fit.worn[t[2]] - fit.worn[t[0]]));
+      const glm::vec2 from = glm::max(glm::ceil(glm::min(a, glm::min(b, c))), 0.0F);
+      const glm::vec2 to = glm::min(glm::floor(glm::max(a, glm::max(b, c))),
+                                    glm::vec2(seen.columns - 1, seen.rows - 1));
+      for (int y = static_cast<int>(from.y); y <= static_cast<int>(to.y); ++y) {
+        for (int x = static_cast<int>(from.x); x <= static_cast<int>(to.x); ++x) {
+          const glm::vec2 p(x, y);
+          const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
+          const float v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
+          if (u < -1e-3F || v < -1e-3F || u + v > 1.001F) continue;
+          const auto between = [&](const auto& of) {
+            return of[t[0]] * (1 - u - v) + of[t[1]] * u + of[t[2]] * v;
+          };
+          const glm::vec3 q = between(camera);
+          const std::size_t i = seen.Index(x, y);
+          if (q.z <= seen.camera[i].z) continue;
+          seen.camera[i] = q;
+          seen.rest[i] = between(base.rest.position);
+          seen.facing[i] = (fit.pose.Rotation() * n).z;
+          seen.side[i] = glm::dot(n, to_side);
+          seen.light[i] = Brightness(ColourAt(front, seen.origin + p * seen.step));
+        }
+      }
+    }
+  }
+  return seen;
+}
+
+/// Takes mean and slopes off a patch: how light falls changes them when a head turns.
+void Flatten(std::vector<float>& patch) {
+  float mean = 0, across = 0, down = 0, squares = 0;
+  std::size_t i = 0;
+  for (int y = -kPatch; y <= kPatch; ++y) {
+    for (int x = -kPatch; x <= kPatch; ++x, ++i) {
+      mean += patch[i];
+      across += static_cast<float>(x) * patch[i];
+      down += static_cast<float>(y) * patch[i];
+      squares += static_cast<float>(x * x);
+    }
+  }
+  mean /= static_cast<float>(patch.size());
+  i = 0;
+  for (int y = -kPatch; y <= kPatch; ++y) {
+    for (int x = -kPatch; x <= kPatch; ++x, ++i) {
+      patch[i] -= mean + (across * static_cast<float>(x) + down * static_cast<float>(y)) / squares;
+    }
+  }
+}
+
+/// Correlation of two flattened patches, -1..1; 0 where one shows hardly anything.
+float Alike(std::span<const float> a, std::span<const float> b) {
+  constexpr float kLeast = 1.5F;  // of 255, root of the mean square
+  float aa = 0, bb = 0, ab = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += a[i] * a[i];
+    bb += b[i] * b[i];
+    ab += a[i] * b[i];
+  }
+  const float least = kLeast * kLeast * static_cast<float>(a.size());
+  return aa < least || bb < least ? 0 : ab / std::sqrt(aa * bb);
+}
+
+struct Patch {
+  std::size_t middle;
+  std::vector<float> light;
+  std::vector<glm::vec3> camera;
+};
+
+std::vector<Patch> PatchesOf(const Seen& seen) {
+  std::vector<Patch> patches;
+  for (int y = kPatch; y + kPatch < seen.rows; y += kApart) {
+    for (int x = kPatch; x + kPatch < seen.columns; x += kApart) {
+      Patch patch{seen.Index(x, y), {}, {}};
+      bool whole = true;
+      for (int dy = -kPatch; dy <= kPatch && whole; ++dy) {
+        for (int dx = -kPatch; dx <= kPatch && whole; ++dx) {
+          const std::size_t i = seen.Index(x + dx, y + dy);
+          whole = seen.facing[i] > 0.25F && seen.side[i] > 0.2F &&
+                  std::abs(seen.camera[i].z - seen.camera[patch.middle].z) < 25;
+          patch.light.push_back(seen.light[i]);
+          patch.camera.push_back(seen.camera[i]);
+        }
+      }
+      if (!whole) continue;
+      Flatten(patch.light);
+      patches.push_back(std::move(patch));
+    }
+  }
+  return patches;
+}
+
+/// The best of values at even steps, refined by the parabola through its neighbours.
+struct Peak {
+  float at, value;
+};
+template <typename F>
+Peak FindPeak(int reach, F value) {
+  int best = 0;
+  float most = -2;
+  std::vector<float> all;
+  for (int k = -reach; k <= reach; ++k) {
+    all.push_back(value(k));
+    if (all.back() > most) {
+      most = all.back();
+      best = k;
+    }
+  }
+  float at = static_cast<float>(best);
+  if (std::abs(best) < reach) {
+    const auto i = static_cast<std::size_t>(best + reach);
+    const float bend = all[i - 1] - 2 * all[i] + all[i + 1];
+    if (bend < -1e-6F) at += 0.5F * (all[i - 1] - all[i + 1]) / bend;
+  }
+  return {at, most};
+}
+
+}  // namespace
+
+std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
+                                         const fsm::Image& front, const fsm::Image& side,
+                                         View& view) {
+  const auto sample = [&](const Patch& patch, auto&& pixel) {
+    std::vector<float> light;
+    light.reserve(patch.camera.size());
+    for (const glm::vec3& q : patch.camera) light.push_back(Brightness(ColourAt(side, pixel(q))));
+    Flatten(light);
+    return Alike(patch.light, light);
+  };
+  // First where whole patches lie in the second photo, whatever their depth: that settles the pose.
+  for (int round = 0; round < 2; ++round) {
+    const Seen seen = LookAt(base, fit, front, view.pose);
+    std::vector<PoseMark> marks;
+    const float mm = view.pose.PixelsPerMm();
+    for (const Patch& patch : PatchesOf(seen)) {
+      const auto shown = [&](const glm::vec3& q) {
+        return view.pose.Project(view.pose.ToCamera(fit.pose.FromCamera(q)));
+      };
+      float best = kAlike;
+      glm::vec2 by(0);
+      for (int y = -4; y <= 4; ++y) {
+        for (int x = -6; x <= 6; ++x) {
+          const glm::vec2 off = glm::vec2(x, y) * mm;
+          const float alike = sample(patch, [&](const glm::vec3& q) { return shown(q) + off; });
+          if (alike <= best) continue;
+          best = alike;
+          by = off;
+        }
+      }
+      if (best <= kAlike) continue;
+      const glm::vec3 q = seen.camera[patch.middle];
+      marks.push_back({fit.pose.FromCamera(q), shown(q) + by, 1});
+    }
+    if (marks.size() < kFewest) return {};
+    view.pose = SettlePose(marks, view.pose);
+  }
+  // Then along the line of sight of the first photo.
+  constexpr float kStep = 0.75F;  // millimetres
+  constexpr int kReach = 14;
+  const Seen seen = LookAt(base, fit, front, view.pose);
+  std::vector<fsm::WarpPoint> said;
+  for (const Patch& patch : PatchesOf(seen)) {
+    const Peak peak = FindPeak(kReach, [&](int k) {
+      const float by = kStep * static_cast<float>(k);
+      const float alike = sample(patch, [&](const glm::vec3& q) {
+        const glm::vec3 moved = fit.pose.Unproject(fit.pose.Project(q), q.z + by);
+        return view.pose.Project(view.pose.ToCamera(fit.pose.FromCamera(moved)));
+      });
+      return alike - 0.0012F * by * by;  // of places as alike the nearest
+    });
+    if (peak.value < kAlike || std::abs(peak.at) > kReach - 1) continue;
+    said.push_back({seen.rest[patch.middle], glm::vec3(0, 0, kStep * peak.at)});
+  }
+  return said.size() < kFewest ? std::vector<fsm::WarpPoint>{} : said;
+}
+
+}  // namespace facefit

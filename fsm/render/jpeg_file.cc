@@ -1,0 +1,152 @@
+#include <csetjmp>
+#include <cstddef>
+#include <cstdio>
+
+// Only after the standard's headers, whose names they use.
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include "fsm/render/image_codec.h"
+
+namespace fsm {
+namespace {
+
+/// A progressive picture of more rounds than that is a trap, not a photo: each is a pass over all.
+constexpr int kMostScans = 100;
+
+struct Failure {
+  jpeg_error_mgr manager;
+  jpeg_progress_mgr progress;
+  std::jmp_buf back;
+  char text[JMSG_LENGTH_MAX];
+  bool cut_off, torn, endless;
+};
+
+void Fail(j_common_ptr info) {
+  auto* failure = reinterpret_cast<Failure*>(info->err);
+  info->err->format_message(info, failure->text);
+  std::longjmp(failure->back, 1);
+}
+
+/// libjpeg goes on after damage and fills the rest with grey; notes what it met.
+void Note(j_common_ptr info, int level) {
+  if (level >= 0) return;
+  auto* failure = reinterpret_cast<Failure*>(info->err);
+  switch (info->err->msg_code) {
+    case JWRN_JPEG_EOF:
+      failure->cut_off = true;
+      break;
+    case JWRN_EXTRANEOUS_DATA:  // bytes between the parts, as some cameras leave them
+    case JWRN_ADOBE_XFORM:
+    case JWRN_JFIF_MAJOR:
+    case JWRN_TOO_MUCH_DATA:
+    case JWRN_BOGUS_ICC:
+      break;
+    default:
+      failure->torn = true;
+  }
+}
+
+void CountScans(j_common_ptr info) {
+  const auto* decoder = reinterpret_cast<jpeg_decompress_struct*>(info);
+  if (decoder->input_scan_number <= kMostScans) return;
+  auto* failure = reinterpret_cast<Failure*>(info->err);
+  failure->endless = true;
+  std::longjmp(failure->back, 1);
+}
+
+enum class Outcome { kDone, kDamaged, kTooLarge };
+
+/// Only plain data lives here: a damaged file leaves by a long jump, past destructors.
+Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const std::uint8_t> bytes,
+               JpegWish& wish, Image& out) {
+  if (setjmp(failure.back)) return Outcome::kDamaged;
+  jpeg_mem_src(&info, bytes.data(), bytes.size());
+  jpeg_save_markers(&info, JPEG_APP0 + 1, 0xffff);
+  jpeg_read_header(&info, TRUE);
+  if (static_cast<std::int64_t>(info.image_width) * info.image_height > wish.most_pixels) {
+    return Outcome::kTooLarge;
+  }
+  for (const jpeg_marker_struct* m = info.marker_list; m; m = m->next) {
+    wish.exif.emplace_back(m->data, m->data + m->data_length);
+  }
+  const unsigned longer =
+      info.image_width > info.image_height ? info.image_width : info.image_height;
+  info.scale_num = 1;
+  info.scale_denom = 1;
+  while (wish.enough_side > 0 && info.scale_denom < 8 &&
+         longer / (2 * info.scale_denom) >= static_cast<unsigned>(wish.enough_side)) {
+    info.scale_denom *= 2;
+  }
+  const bool inked = info.jpeg_color_space == JCS_CMYK || info.jpeg_color_space == JCS_YCCK;
+  // Adobe's files hold inks inverted, which is what nearly all files of this kind are.
+  const bool inverted = info.saw_Adobe_marker;
+  info.out_color_space = inked ? JCS_CMYK : JCS_RGB;
+  jpeg_start_decompress(&info);
+  out.width = static_cast<int>(info.output_width);
+  out.height = static_cast<int>(info.output_height);
+  out.rgba.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4,
+                  255);
+  const auto components = static_cast<std::size_t>(info.output_components);
+  // libjpeg's own memory, so that it goes with the decoder.
+  JSAMPARRAY row =
+      (*info.mem->alloc_sarray)(reinterpret_cast<j_common_ptr>(&info), JPOOL_IMAGE,
+                                info.output_width * static_cast<JDIMENSION>(components), 1);
+  while (info.output_scanline < info.output_height) {
+    std::uint8_t* to = out.rgba.data() + static_cast<std::size_t>(info.output_scanline) *
+                                             static_cast<std::size_t>(out.width) * 4;
+    jpeg_read_scanlines(&info, row, 1);
+    const std::uint8_t* from = row[0];
+    const auto light = [inverted](std::uint8_t ink) { return inverted ? ink : 255 - ink; };
+    for (int x = 0; x < out.width; ++x, from += components, to += 4) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        to[c] = inked ? static_cast<std::uint8_t>(light(from[c]) * light(from[3]) / 255) : from[c];
+      }
+    }
+  }
+  jpeg_finish_decompress(&info);
+  return Outcome::kDone;
+}
+
+}  // namespace
+
+std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, JpegWish& wish,
+                                std::string& why) {
+  jpeg_decompress_struct info{};
+  Failure failure{};
+  info.err = jpeg_std_error(&failure.manager);
+  failure.manager.error_exit = Fail;
+  failure.manager.emit_message = Note;
+  failure.progress.progress_monitor = CountScans;
+  Image out;
+  jpeg_create_decompress(&info);
+  info.progress = &failure.progress;
+  const Outcome outcome = Decode(info, failure, bytes, wish, out);
+  const std::string size =
+      std::to_string(info.image_width) + " x " + std::to_string(info.image_height);
+  jpeg_destroy_decompress(&info);
+  if (outcome == Outcome::kTooLarge) {
+    why = "it has " + size + " pixels; at most " + std::to_string(wish.most_pixels / 1'000'000) +
+          " million are read: scale it down";
+  } else if (failure.endless) {
+    why = "it is built of more than " + std::to_string(kMostScans) + " scans";
+  } else if (failure.cut_off) {
+    why = "the JPEG file is cut off: its end is missing";
+  } else if (failure.torn) {
+    why = "the JPEG file is damaged in the middle of the picture";
+  } else if (outcome == Outcome::kDamaged) {
+    why = std::string("the JPEG file is damaged: ") + failure.text;
+  } else {
+    return out;
+  }
+  return std::nullopt;
+}
+
+std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, std::string& why) {
+  JpegWish wish;
+  auto image = DecodeJpeg(bytes, wish, why);
+  if (image && !SizeAllowed(image->width, image->height, why)) return std::nullopt;
+  return image;
+}
+
+}  // namespace fsm
