@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Days of dialogue on the virtual clock, each utterance checked:
 
-    scripts/soak.py [--days 7] [--minutes 70] [--bin build/bin] [--seed 1]
+    scripts/soak.py [--days 7] [--minutes 70] [--dense] [--bin build/bin] [--seed 1]
 
 The hub in lockstep with the stub voice, the stub ear and the face (no pictures are drawn): somebody
-says something to the ear, the agent answers, and some seconds pass. Everything that passes through
-the hub is seen, and for each exchange
+says something to the ear, the agent answers, and some seconds pass. As in a museum: visitors of 3 to
+12 exchanges come every now and then for eight hours, and at night nobody does; with --dense they come
+one after the other day and night. Everything that passes through the hub is seen, and for each
+exchange
  - voice and face begin at one and the same instant, and both end;
  - every message is there, once, in its order: for one sentence what each party says, with times
    counted from the beginning, is the same to the microsecond each time it is said, days apart;
@@ -28,6 +30,8 @@ WORDS = """good morning how may I help you the museum closes at six would like t
 second floor please wait moment do not touch paintings thank for your visit today we have an
 exhibition of old instruments from north""".split()
 AHEAD = 40  # exchanges said to the hub before they are done
+OPEN_MS, NIGHT_MS = 8 * 3_600_000, 16 * 3_600_000
+EXCHANGE_MS = 8_000  # about what one takes, to know when the museum closes
 DAY_MS = 86_400_000
 
 
@@ -60,12 +64,26 @@ class Hub:
         return sizes
 
 
+def pauses(dense):
+    """After each exchange, in ms."""
+    while True:
+        day = 0
+        while dense or day < OPEN_MS:
+            visit = [random.randint(2_000, 10_000) for _ in range(random.randint(3, 12))]
+            if not dense:
+                visit[-1] = random.randint(20_000, 300_000)
+            day += sum(visit) + EXCHANGE_MS * len(visit)
+            if not dense and day >= OPEN_MS:
+                visit[-1] = NIGHT_MS
+            yield from visit
+
+
 class Speaker(threading.Thread):
     """Says the exchanges to the hub, not too far ahead of what is done."""
 
-    def __init__(self, hub, choice):
+    def __init__(self, hub, choice, dense):
         super().__init__(daemon=True)
-        self.hub, self.choice = hub, choice
+        self.hub, self.choice, self.pauses = hub, choice, pauses(dense)
         self.room = threading.Semaphore(AHEAD)
         self.ending = False
         self.said = []  # (sentence, pause) by number
@@ -84,7 +102,7 @@ class Speaker(threading.Thread):
                             f"to @SRM set#heard{number} Input.text = {sentence}\nset Wait = IDLE\n"
                             f"to @AM-MCL set#spoken{number} Speak = {sentence}\nset Wait = IDLE\n"
                             f"to @AM inq#end{number} Clock\n"
-                            f"set Wait = {random.randint(2000, 10000)}\n").encode())
+                            f"set Wait = {next(self.pauses)}\n").encode())
                 pipe.flush()
             pipe.close()
         except BrokenPipeError:
@@ -151,13 +169,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--days", type=float, default=7)
     parser.add_argument("--minutes", type=float, default=70)
+    parser.add_argument("--dense", action="store_true")
     parser.add_argument("--bin", default="build/bin")
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
     random.seed(options.seed)
     with tempfile.TemporaryDirectory() as folder:
         hub = Hub(folder, options.bin)
-        speaker = Speaker(hub, sentences(60))
+        speaker = Speaker(hub, sentences(60), options.dense)
         checker = Checker(speaker)
         memory = []
         start = said_at = time.monotonic()
