@@ -6,7 +6,7 @@ namespace editor {
 namespace {
 
 void Groups(Ui& ui) {
-  Heading("Drag points; several: click with Shift, Shift and drag a frame, or");
+  Heading("Drag points. Several: Shift and click, Shift and drag, or");
   float width = 0;
   const float room = ImGui::GetContentRegionAvail().x;
   for (const PointGroup& group : PointGroups()) {
@@ -61,7 +61,7 @@ fsm::FaceState PointsPage(Ui& ui) {
   ImGui::SameLine();
   Checkbox(ui, "Points", &ui.view.points);
   ImGui::SameLine();
-  if (Button(ui, "Whole face", ui.editor.work() != nullptr, "Zooms so that it fits"))
+  if (Button(ui, "Fit view", ui.editor.work() != nullptr, "Zooms so that it fits"))
     ui.view.zoom = 0;
   TryIt(ui);
   Build(ui);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace editor {
 namespace {
@@ -112,7 +113,7 @@ void Preview(Ui& ui, ImVec2 low, ImVec2 size) {
     ui.stage.turn[1] = std::clamp(ui.stage.turn[1] + 0.4F * io.MouseDelta.x, -180.0F, 180.0F);
     ui.stage.turn[0] = std::clamp(ui.stage.turn[0] + 0.4F * io.MouseDelta.y, -60.0F, 60.0F);
   }
-  float& distance = ui.stage.scene.camera.distance;
+  float& distance = ui.distance;
   if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
     distance = std::clamp(distance * std::pow(0.9F, io.MouseWheel), 0.25F, 3.0F);
   }
@@ -128,6 +129,10 @@ void Preview(Ui& ui, ImVec2 low, ImVec2 size) {
         lines ? fsm::ViewMode::kTextureWithWireframe : fsm::ViewMode::kTexture;
   }
   ImGui::End();
+  // Beside a photo there is only room for the head.
+  const bool near = ui.page == Page::kPoints;
+  ui.stage.scene.camera.distance = distance * (near ? 0.68F : 1.0F);
+  ui.stage.scene.camera.height_mm = near ? 28.0F : 0.0F;
   const float scale = ui.window.scale();
   const auto pixels = [scale](float v) { return static_cast<int>(std::lround(scale * v)); };
   ui.preview = {pixels(low.x), pixels(low.y), pixels(size.x), pixels(size.y)};
@@ -156,6 +161,10 @@ fsm::FaceState PageOf(Ui& ui) {
 fsm::FaceState DrawUi(Ui& ui) {
   ui.marks.clear();
   Shortcuts(ui);
+  if (!ui.window.dropped.empty()) {
+    ui.photo_path = std::exchange(ui.window.dropped, "");
+    OpenTyped(ui);
+  }
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   TopBar(ui, size);
   BottomBar(ui, size);

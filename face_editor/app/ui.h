@@ -90,8 +90,10 @@ struct Ui {
   bool linked = true;                   ///< both sides of the face
   std::array<bool, 3> regions{true, true, true};
   bool loop = true;
+  float distance = 1;  ///< of the viewer from the head, as of fsm::Camera
   std::string say = kHello;
   std::string face_name = "anna";
+  std::string own_name = "berta";     ///< of the face made with sliders
   std::string new_name;               ///< of an expression to be made
   std::map<Part, std::string> paths;  ///< where each part is kept
   std::string folder;                 ///< of tables

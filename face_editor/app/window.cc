@@ -60,6 +60,10 @@ Window::Window(int width, int height)
   std::error_code code;
   if (std::filesystem::exists(kFont, code)) io.Fonts->AddFontFromFileTTF(kFont, 15);
   Style();
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    if (count > 0) static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped = paths[0];
+  });
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }

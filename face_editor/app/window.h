@@ -48,6 +48,8 @@ class Window {
   std::string key;
   /// Text typed in the next frame.
   std::string typed;
+  /// The file dropped on the window last, until it is taken.
+  std::string dropped;
 
  private:
   void ApplyHand();

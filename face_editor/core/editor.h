@@ -74,6 +74,14 @@ class Editor {
   vm::Result<void> AddCurve(std::string_view kind);
   vm::Result<void> RemoveCurve(std::string_view kind, int pattern);
 
+  // Identity: a built-in face made into somebody else.
+  vm::Result<void> SetBase(std::string_view name);
+  vm::Result<void> SetSlider(std::string_view name, float value, std::string_view merge = "");
+  /// A face of the folder of faces ("" = where fsm looks), which fsm --mask NAME wears. Saving says
+  /// where.
+  vm::Result<void> LoadIdentity(const std::string& name, const std::string& folder);
+  vm::Result<std::string> SaveIdentity(const std::string& name, const std::string& folder);
+
   // Files of tables.
   vm::Result<void> Load(Part part, const std::string& path, bool bilingual = false);
   vm::Result<void> Save(Part part, const std::string& path, bool bilingual = false);
@@ -90,7 +98,8 @@ class Editor {
   vm::Result<void> CheckPattern(std::string_view name, int pattern) const;
   vm::Result<void> CheckCurve(std::string_view kind, int pattern) const;
 
-  fsm::MotionTables tables_;  // as read; what is edited lies in the state
+  fsm::MotionTables tables_;    // as read; what is edited lies in the state
+  std::string identity_other_;  // lines of its file that are not edited
   std::string emotions_text_, shapes14_text_, shapes28_text_, motions_text_;
   History history_;
   std::array<std::uint64_t, kParts> saved_{};

@@ -10,6 +10,7 @@
 #include "embedded/editor_mouth_shapes.h"
 #include "embedded/editor_mouth_shapes_28.h"
 #include "face_editor/core/editor.h"
+#include "face_editor/core/identity_head.h"
 #include "face_editor/core/table_writer.h"
 #include "fsm/motion/motion_errors.h"
 #include "fsm/motion/table_text.h"
@@ -46,6 +47,7 @@ std::string TextIn(const std::string& folder, const char* file, std::string_view
 State First() {
   State state;
   for (const char* kind : {"NOD", "REFUSE", "LISTEN", "USERDEF"}) state.curves[kind];
+  state.sliders = SlidersOf(state.base);
   return state;
 }
 

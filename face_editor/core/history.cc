@@ -9,10 +9,10 @@ void History::Change(Part part, std::string what, std::string_view merge,
   if (!same) {
     Seal();
     if (steps_.size() > kMostSteps) {
-      steps_.erase(steps_.begin());
+      steps_.pop_front();
       --at_;
     }
-    steps_.push_back({steps_[at_].state, std::move(what), std::string(merge)});
+    steps_.push_back(Step{steps_[at_].state, std::move(what), std::string(merge)});
     ++at_;
   }
   change(steps_[at_].state);
@@ -38,7 +38,7 @@ void History::Restart(Part part, const std::function<void(State&)>& change) {
   State state = now();
   change(state);
   state.version[static_cast<std::size_t>(part)] = ++versions_;
-  steps_.assign(1, {std::move(state), "", ""});
+  steps_.assign(1, Step{std::move(state), "", ""});
   at_ = 0;
 }
 

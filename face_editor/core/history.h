@@ -1,9 +1,9 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "face_editor/core/state.h"
 
@@ -43,7 +43,8 @@ class History {
     std::string what;  ///< led here
     std::string merge;
   };
-  std::vector<Step> steps_;  // never empty
+  // Never empty; a deque, so that what a change is made of may be part of the state before it.
+  std::deque<Step> steps_;
   std::size_t at_ = 0;
   std::uint64_t versions_ = 0;
 };

@@ -1,15 +1,27 @@
 #include "fsm/app/face_of_name.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 
 #include "fsm/head/face_folder.h"
 #include "fsm/head/face_set.h"
+#include "fsm/head/own_identity.h"
 #include "fsm/render/renderer.h"
 
 namespace fsm {
+namespace {
+
+std::string ReadText(const std::string& path) {
+  std::ifstream file(path);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file) throw std::runtime_error("cannot read " + path);
+  return text;
+}
+
+}  // namespace
 
 std::unique_ptr<Head> MakeHeadOfName(const std::string& face) {
   if (std::ranges::find(Head::Identities(), face, &IdentityInfo::name) !=
@@ -17,10 +29,10 @@ std::unique_ptr<Head> MakeHeadOfName(const std::string& face) {
     return Head::Make(face);
   }
   const std::string folder = FacesFolder() + "/" + face;
-  std::ifstream file(folder + "/face.txt");
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file) throw std::runtime_error("cannot read " + folder + "/face.txt");
-  FaceSet set = ReadFaceSet(folder + "/face.txt", text);
+  std::error_code error;
+  const std::string own = folder + "/identity.txt";
+  if (std::filesystem::exists(own, error)) return MakeHead(ReadOwnIdentity(own, ReadText(own)));
+  FaceSet set = ReadFaceSet(folder + "/face.txt", ReadText(folder + "/face.txt"));
   auto image = ReadImage(folder + "/photo.png");
   if (!image) throw std::runtime_error(image.error().text);
   set.photo =

@@ -30,7 +30,10 @@ std::vector<std::string> FacesIn(const std::string& folder) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     std::string name = entry.path().filename().string();
-    if (IsFaceName(name) && std::filesystem::exists(entry.path() / "face.txt", error)) {
+    const auto has = [&](const char* file) {
+      return std::filesystem::exists(entry.path() / file, error);
+    };
+    if (IsFaceName(name) && (has("face.txt") || has("identity.txt"))) {
       names.push_back(std::move(name));
     }
   }

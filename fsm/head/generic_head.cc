@@ -13,7 +13,6 @@
 #include "embedded/action_units.h"
 #include "embedded/curves.h"
 #include "embedded/eye.h"
-#include "embedded/identities.h"
 #include "embedded/mouth.h"
 #include "embedded/patches.h"
 #include "embedded/sliders.h"
@@ -23,6 +22,7 @@
 #include "fsm/head/head.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
+#include "fsm/head/own_identity.h"
 #include "fsm/head/parts.h"
 #include "fsm/head/skin_mesh.h"
 #include "fsm/head/tongue_way.h"
@@ -35,8 +35,8 @@ namespace {
 /// parts.
 class GenericHead : public Head {
  public:
-  GenericHead(std::string_view name, bool asymmetric, const FaceSet* set = nullptr)
-      : identity_(ReadIdentity(Table("tables/identities.txt", embedded::identities()), name)),
+  GenericHead(Identity identity, bool asymmetric, const FaceSet* set = nullptr)
+      : identity_(std::move(identity)),
         units_(Table("tables/action_units.txt", embedded::action_units())),
         eye_(Table("tables/eye.txt", embedded::eye())),
         mouth_(Table("tables/mouth.txt", embedded::mouth())) {
@@ -455,12 +455,16 @@ glm::vec3 Head::Landmark(std::string_view name) const {
 }
 
 std::unique_ptr<Head> Head::Make(std::string_view identity, bool asymmetric) {
-  return std::make_unique<GenericHead>(identity, asymmetric);
+  return MakeHead(BuiltInIdentity(identity), asymmetric);
 }
 
 std::unique_ptr<Head> Head::Make(const FaceSet& set) {
   if (!set.photo) throw std::runtime_error("a face set without its photo");
-  return std::make_unique<GenericHead>(set.base, true, &set);
+  return std::make_unique<GenericHead>(BuiltInIdentity(set.base), true, &set);
+}
+
+std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric) {
+  return std::make_unique<GenericHead>(std::move(identity), asymmetric);
 }
 
 std::unique_ptr<Head> Head::MakeGeneric() { return Make(Identities().front().name); }

@@ -31,13 +31,16 @@ constexpr std::array<NamedColour, 10> kColours = {{{"skin", &Palette::skin},
                                                    {"tooth", &Palette::tooth},
                                                    {"sclera", &Palette::sclera}}};
 
-void ReadLine(const TableRow& row, Identity& identity) {
+}  // namespace
+
+void ReadIdentityRow(const TableRow& row, Identity& identity) {
   const std::string& key = row.key();
   if (key == "colour") {
     const auto found = std::ranges::find(kColours, row.Word(1), &NamedColour::name);
     if (found == kColours.end()) row.Fail("no part of a face is called " + row.Word(1));
     identity.palette.*found->colour = row.Vector(2);
   } else if (key == "slider") {
+    std::erase_if(identity.sliders, [&](const auto& other) { return other.first == row.Word(1); });
     identity.sliders.emplace_back(row.Word(1), row.Number(2));
   } else if (key == "hair") {
     if (row.Word(1) == "crop") {
@@ -61,8 +64,6 @@ void ReadLine(const TableRow& row, Identity& identity) {
   }
 }
 
-}  // namespace
-
 std::span<const IdentityInfo> Head::Identities() { return kIdentities; }
 
 std::size_t IdentityIndex(std::string_view name) {
@@ -85,7 +86,7 @@ Identity ReadIdentity(const Table& table, std::string_view name) {
       mine = row.Word(1) == name;
       found |= mine;
     } else if (mine) {
-      ReadLine(row, identity);
+      ReadIdentityRow(row, identity);
     }
   }
   if (!found) throw std::runtime_error(table.name() + ": no face '" + std::string(name) + "'");

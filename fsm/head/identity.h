@@ -30,6 +30,8 @@ std::size_t IdentityIndex(std::string_view name);
 /// Throws std::invalid_argument for an unknown name, std::runtime_error naming file and line for a
 /// damaged table.
 Identity ReadIdentity(const Table& table, std::string_view name);
+/// One line of a face's block; a slider takes the place of one of the same name.
+void ReadIdentityRow(const TableRow& row, Identity& identity);
 
 /// The sliders as a displacement of space.
 class Shaper {

@@ -58,6 +58,16 @@ TEST(HistoryTest, VersionsTellWhichPartDiffersAndComeBackWithIt) {
   EXPECT_EQ(history.now().version, first);
 }
 
+TEST(HistoryTest, AChangeMayBeMadeOfTheStateBeforeIt) {
+  History history{State{}};
+  SetBase(history, "a name too long to be kept within the string itself");
+  for (int i = 0; i < 40; ++i) {
+    const std::string& before = history.now().base;
+    history.Change(Part::kIdentity, "longer", "", [&](State& state) { state.base = before + "!"; });
+  }
+  EXPECT_TRUE(history.now().base.ends_with("itself" + std::string(40, '!')));
+}
+
 TEST(HistoryTest, OnlySoManyStepsAreKept) {
   History history{State{}};
   for (std::size_t i = 0; i < History::kMostSteps + 20; ++i) SetBase(history, std::to_string(i));
