@@ -20,30 +20,6 @@ facefit::FoundFace FoundFrom(const PointMap& points) {
   return face;
 }
 
-/// The steps from points to a dressed face.
-template <typename Set, typename Fit>
-facefit::Dress Dressed(const PhotoWork& work, const facefit::FoundFace& face, Fit& fit, Set& set) {
-  const auto fitted = [&](const auto& base) {
-    if constexpr (requires { facefit::FitFace(base, face, &work.photo); }) {
-      return facefit::FitFace(base, face, &work.photo);
-    } else {
-      return facefit::FitFace(base, face);
-    }
-  };
-  fit = fitted(*work.base);
-  set.base = work.base->name;
-  set.points = fit.points;
-  set.smooth = fit.smooth;
-  if constexpr (requires { set.eyes = fit.eyes; }) set.eyes = fit.eyes;
-  if constexpr (requires {
-                  facefit::MakeDress(*work.base, face, fit, work.photo, *work.figure, set);
-                }) {
-    return facefit::MakeDress(*work.base, face, fit, work.photo, *work.figure, set);
-  } else {
-    return facefit::MakeDress(*work.base, face, fit, work.photo, *work.figure, {}, set);
-  }
-}
-
 PointMap PointsOf(const facefit::FoundFace& face) {
   PointMap points;
   for (std::size_t i = 0; i < face.points.size(); ++i) {
@@ -128,7 +104,13 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
   try {
     auto built = std::make_shared<BuiltFace>();
     const facefit::FoundFace face = FoundFrom(points);
-    facefit::Dress dress = Dressed(work, face, built->fit, built->set);
+    built->fit = facefit::FitFace(*work.base, face, &work.photo);
+    built->set.base = work.base->name;
+    built->set.points = built->fit.points;
+    built->set.smooth = built->fit.smooth;
+    built->set.eyes = built->fit.eyes;
+    facefit::Dress dress =
+        facefit::MakeDress(*work.base, face, built->fit, work.photo, *work.figure, {}, built->set);
     built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces);
     built->picture = std::move(dress.picture);
     built->set.photo = std::make_shared<fsm::WornPhoto>(

@@ -11,6 +11,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "face_fit/find/face_networks.h"
+#include "face_fit/find/hand_points.h"
+#include "fsm/head/face_set.h"
 #include "fsm/render/renderer.h"
 
 namespace {
@@ -177,6 +180,39 @@ TEST_F(FaceEditorTest, AMouseOfTheWindowSystemMovesAPoint) {
   EXPECT_EQ(Ask("get point chin"), before);
   program_->WriteLine("quit");
   EXPECT_EQ(program_->Wait(kLong), 0) << program_->ErrorText();
+}
+
+TEST_F(FaceEditorTest, AFaceIsBuiltOfPointsThatWereDraggedAndWorn) {
+  if (const auto networks = facefit::FaceNetworks::Load(""); !networks) {
+    GTEST_SKIP() << networks.error().text;
+  }
+  ASSERT_EQ(RunScript("open " + DrawnPhoto() + "\ndrag mouth 0 5\nbuild anna\nquit\n"), 0)
+      << program_->ErrorText();
+  EXPECT_EQ(Output(), folder_ + "/faces/anna\n");
+  std::ifstream file(folder_ + "/faces/anna/face.txt");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_GT(fsm::ReadFaceSet("face.txt", text).points.size(), 100U);
+  ASSERT_EQ(RunScript("set slider jaw_width 2\nsave identity berta\nquit\n"), 0);
+  for (const char* name : {"anna", "berta"}) {
+    ASSERT_EQ(
+        RunScript("wait\nscreenshot " + folder_ + "/" + name + ".png\nquit\n", {"--mask", name}), 0)
+        << program_->ErrorText();
+  }
+  EXPECT_NE(fsm::ReadImage(folder_ + "/anna.png")->rgba,
+            fsm::ReadImage(folder_ + "/berta.png")->rgba);
+}
+
+TEST_F(FaceEditorTest, WithoutTheNetworksPointsAreSetByHand) {
+  ASSERT_EQ(RunScript("open " + DrawnPhoto() + "\nmessage\ndrag chin 0 5\nsave points " + folder_ +
+                          "/points.txt\nbuild anna\n",
+                      {"--networks", "/nowhere"}),
+            1);
+  EXPECT_TRUE(Output().starts_with("The networks that find faces are not installed"));
+  EXPECT_NE(program_->ErrorText().find("script.txt:5: The networks"), std::string::npos)
+      << program_->ErrorText();
+  std::ifstream file(folder_ + "/points.txt");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_TRUE(facefit::ParseHandPoints("points.txt", text));
 }
 
 TEST_F(FaceEditorTest, EveryPageIsDrawn) {
