@@ -52,6 +52,18 @@ bool UnitRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
   return changed;
 }
 
+std::vector<int> UnitOrder(const fsm::ActionUnits& look, bool used_first) {
+  std::vector<int> order;
+  for (const bool used : {true, false}) {
+    for (int unit = 1; unit < static_cast<int>(fsm::kActionUnits); ++unit) {
+      const auto i = static_cast<std::size_t>(unit);
+      const bool acts = look.left[i] != 0 || look.right[i] != 0;
+      if (fsm::IsActionUnit(unit) && (used_first ? acts == used : used)) order.push_back(unit);
+    }
+  }
+  return order;
+}
+
 bool GazeRow(Ui& ui, fsm::ActionUnits& look, std::string* merge) {
   Heading("Where the eyes look, degrees");
   bool changed = false;
@@ -69,14 +81,14 @@ bool GazeRow(Ui& ui, fsm::ActionUnits& look, std::string* merge) {
 
 }  // namespace
 
-bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool only_used, std::string* merge) {
+bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* merge) {
   Checkbox(ui, "Both sides together", &ui.linked);
   for (std::size_t r = 0; r < fsm::kRegions; ++r) {
     ImGui::SameLine();
     Checkbox(ui, kRegionTitles[r], &ui.regions[r]);
   }
   bool changed = false;
-  const float room = ImGui::GetContentRegionAvail().y - (only_used ? 330.0F : 210.0F);
+  const float room = ImGui::GetContentRegionAvail().y - (used_first ? 330.0F : 210.0F);
   if (ImGui::BeginTable("units", 3, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg,
                         {0, std::max(room, 120.0F)})) {
     ImGui::TableSetupScrollFreeze(0, 1);
@@ -84,9 +96,12 @@ bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool only_used, std::string* me
     ImGui::TableSetupColumn("agent's right", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableSetupColumn("agent's left", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableHeadersRow();
-    for (int unit = 1; unit < static_cast<int>(fsm::kActionUnits); ++unit) {
+    // They keep their places while one is dragged.
+    if (!ImGui::IsAnyItemActive() || ui.unit_order.empty()) {
+      ui.unit_order = UnitOrder(look, used_first);
+    }
+    for (const int unit : ui.unit_order) {
       const auto i = static_cast<std::size_t>(unit);
-      if (!fsm::IsActionUnit(unit)) continue;
       if (!ui.regions[static_cast<std::size_t>(ui.editor.unit_list().region[i])]) continue;
       if (UnitRow(ui, unit, look, merge)) changed = true;
     }

@@ -89,6 +89,7 @@ struct Ui {
   std::pair<int, int> plot_key{-1, 0};  ///< the key frame and axis dragged, -1 = none
   bool linked = true;                   ///< both sides of the face
   std::array<bool, 3> regions{true, true, true};
+  std::vector<int> unit_order;  ///< of the sliders
   bool loop = true;
   float distance = 1;  ///< of the viewer from the head, as of fsm::Camera
   std::string say = kHello;
@@ -140,8 +141,9 @@ fsm::FaceState MouthPage(Ui& ui);
 fsm::FaceState MotionsPage(Ui& ui);
 fsm::FaceState IdentityPage(Ui& ui);
 
-/// Sliders of the units of a look; true if one was moved. `merge` gets the name of the change.
-bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool only_used, std::string* merge);
+/// Sliders of the units of a look, by number or those that act before the others; true if one was
+/// moved. `merge` gets the name of the change.
+bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* merge);
 /// Buttons that play expressions and speech on the preview.
 void TryIt(Ui& ui);
 /// Path, load and save of a part.
