@@ -50,6 +50,32 @@ fsm::FacePart PartOf(int point) {
   return fsm::FacePart::kPlain;
 }
 
+/// Heads are made symmetric, and so is ours: where a place and its opposite nearly mirror each
+/// other their mean is nearer to the truth than what the network saw of each. `place` brings the
+/// pairs' `to` into our frame.
+void Balance(const fsm::Similarity& place, std::vector<fsm::PlacePair>& pairs) {
+  constexpr glm::vec3 kMirror(-1, 1, 1);
+  constexpr float kSame = 5, kNear = 7;  // millimetres: opposite on our face; on the other
+  std::vector<fsm::PlacePair> ours = pairs;
+  for (auto& pair : ours) pair.to = place(pair.to);
+  const std::vector<fsm::PlacePair> seen = ours;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto opposite = std::ranges::min_element(seen, {}, [&](const fsm::PlacePair& other) {
+      return other.part == seen[i].part ? glm::distance(kMirror * other.from, seen[i].from) : 1e9F;
+    });
+    if (glm::distance(kMirror * opposite->from, seen[i].from) > kSame ||
+        glm::distance(kMirror * opposite->to, seen[i].to) > kNear) {
+      continue;
+    }
+    ours[i].from = 0.5F * (seen[i].from + kMirror * opposite->from);
+    ours[i].to = 0.5F * (seen[i].to + kMirror * opposite->to);
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i].from = ours[i].from;
+    pairs[i].to = glm::transpose(place.turn) * ((ours[i].to - place.move) / place.scale);
+  }
+}
+
 }  // namespace
 
 fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
@@ -85,7 +111,9 @@ fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file
       }
       // Once more, as large and straight as our own head was looked at.
       const fsm::Similarity straight = fsm::FitSimilarity(*first);
-      return {face, pairs(see(straight), straight)};
+      fsm::HeadPoints points{face, pairs(see(straight), straight)};
+      Balance(fsm::FitSimilarity(points.pairs), points.pairs);
+      return points;
     }
   }
   throw std::runtime_error("no face is seen on '" + name +

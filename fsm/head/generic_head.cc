@@ -49,7 +49,7 @@ class GenericHead : public Head {
         // Where the lips turn inward the mouth is painted: it begins in their colour.
         constexpr float kOpen = 0.63f;
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
-        identity_.palette.mouth = 0.45f * identity_.palette.lip_inside;
+        identity_.palette.mouth = identity_.palette.lip_inside;
       }
       seats_ = set->eyes.value_or(seats_);
       eye_.ScaleIris(set->iris_size);

@@ -73,7 +73,10 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
 
   std::vector<WarpPoint> points;
   for (const PlacePair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
-  const Warp warp(points, 0.5f);
+  // Landmarks lie a millimetre or two off; a warp that goes through each of them tears lids and
+  // lips. What it leaves undone the drawing below does.
+  constexpr float kSmooth = 80;
+  const Warp warp(points, kSmooth);
   WeldedSurface drawn = rest;
   for (glm::vec3& p : drawn.at) p += warp.Motion(p);
   drawn.FindNormals();
@@ -125,6 +128,15 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   for (std::size_t w = 0; w < ties_.size(); ++w) {
     if (!tied[w]) ties_[w].part = glm::vec3(0);
   }
+  // Neighbours even out what is smaller than a few millimetres; those of a coarse mesh lie farther.
+  constexpr float kMost = 0.25f, kNear = 2.5f;
+  for (std::size_t w = 0; w < target.at.size(); ++w) {
+    float edge = 0;
+    for (const std::uint32_t n : target.next[w]) edge += glm::distance(target.at[w], target.at[n]);
+    edge /= std::max(static_cast<float>(target.next[w].size()), 1.0f);
+    const float part = std::min(1.0f, kNear / std::max(edge, 1e-6f));
+    share_.push_back(kMost * part * part);
+  }
   next_ = std::move(target.next);
   of_ = std::move(target.of);
 }
@@ -136,13 +148,13 @@ void Carry::Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by
     by.push_back(from_by[tie.corner[0]] * tie.part.x + from_by[tie.corner[1]] * tie.part.y +
                  from_by[tie.corner[2]] * tie.part.z);
   }
-  // Neighbours may be tied to places that lie apart: each takes a quarter of its neighbours' mean.
+  // Neighbours may be tied to places that lie apart: each takes a share of its neighbours' mean.
   std::vector<glm::vec3> even = by;
   for (std::size_t w = 0; w < by.size(); ++w) {
     if (next_[w].empty()) continue;
     glm::vec3 sum(0);
     for (const std::uint32_t n : next_[w]) sum += by[n];
-    even[w] = 0.75f * by[w] + 0.25f * sum / static_cast<float>(next_[w].size());
+    even[w] = (1 - share_[w]) * by[w] + share_[w] * sum / static_cast<float>(next_[w].size());
   }
   for (std::size_t v = 0; v < of_.size(); ++v) {
     if (of_[v] != WeldedSurface::kNone) to_by[v] += even[of_[v]];

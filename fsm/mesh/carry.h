@@ -49,6 +49,7 @@ class Carry {
   };
   std::vector<Tie> ties_;  // of the second face's vertices, doubled ones once
   std::vector<std::vector<std::uint32_t>> next_;
+  std::vector<float> share_;       // of its neighbours' mean that each of them takes
   std::vector<std::uint32_t> of_;  // index into ties_ of each given vertex
   float residual_ = 0;
 };
