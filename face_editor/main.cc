@@ -88,9 +88,9 @@ class Run {
   int Go() {
     static_cast<void>(Frame(""));  // so that something is seen while networks and photo are read
     Open();
-    while (!program_.quit && !window_.close_requested()) {
+    while (!Ended()) {
       if (!RunScript()) return 1;
-      if (program_.quit) break;
+      if (Ended()) break;
       Idle();
     }
     return 0;
@@ -98,6 +98,10 @@ class Run {
 
  private:
   bool counted() const { return file_.descriptor() > STDIN_FILENO && !lines_.ended(); }
+  bool Ended() const {
+    const bool kept = editor_->UnsavedNames().empty();
+    return program_.quit || ui_.closed || (window_.close_requested() && kept);
+  }
   bool OfIdentity() const { return ui_.page == editor::Page::kIdentity; }
 
   void Open() {
@@ -146,7 +150,7 @@ class Run {
   bool RunScript() {
     if (file_.descriptor() < 0) return true;
     const bool typed = file_.descriptor() == STDIN_FILENO;
-    while (!program_.quit) {
+    while (!Ended()) {
       const auto line = lines_.Next();
       if (!line) return true;
       const auto answer = editor::RunLine(program_, *line);
@@ -171,6 +175,7 @@ class Run {
     const bool listens = file_.descriptor() >= 0 && !lines_.ended();
     const bool happened = window_.Wait(moves ? 0.005 : listens ? 0.03 : 0.25);
     if (happened) restless_ = 4;  // widgets answer over a few frames
+    if (window_.close_requested()) restless_ = 4;
     if (!moves && restless_ == 0) {
       before_ = std::chrono::steady_clock::now();
       return;

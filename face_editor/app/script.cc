@@ -259,6 +259,11 @@ Answer RunWindowCommand(Program& program, const Words& words) {
     return "";
   }
   if (name == "screenshot" && words.size() == 2) return Done(program.frame(words[1]));
+  if (name == "close") {
+    ui.window.RequestClose(true);
+    Draw(program, 3);
+    return "";
+  }
   if (name == "quit") {
     program.quit = true;
     return "";

@@ -138,6 +138,24 @@ void Preview(Ui& ui, ImVec2 low, ImVec2 size) {
   ui.preview = {pixels(low.x), pixels(low.y), pixels(size.x), pixels(size.y)};
 }
 
+/// Closing the window is held up while something is not saved.
+void AskBeforeLeaving(Ui& ui) {
+  constexpr const char* kTitle = "Not saved";
+  if (ui.window.close_requested() && !ui.editor.UnsavedNames().empty()) {
+    ui.window.RequestClose(false);
+    ImGui::OpenPopup(kTitle);
+  }
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * size.x, 0.5F * size.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+  ImGui::Text("Changed and not saved: %s", ui.editor.UnsavedNames().c_str());
+  ImGui::Spacing();
+  if (Button(ui, "Close without saving")) ui.closed = true;
+  ImGui::SameLine();
+  if (Button(ui, "Go on editing")) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
 fsm::FaceState PageOf(Ui& ui) {
   switch (ui.page) {
     case Page::kPoints:
@@ -189,6 +207,7 @@ fsm::FaceState DrawUi(Ui& ui) {
   ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
   const fsm::FaceState still = PageOf(ui);
   ImGui::End();
+  AskBeforeLeaving(ui);
   return ui.player.At(ui.now).value_or(still);
 }
 

@@ -75,6 +75,7 @@ struct Ui {
   std::string photo_path;
   std::string message;  ///< the last thing to tell, at the bottom
   bool failed = false;
+  bool closed = false;  ///< the window is to go, whatever is not saved
 
   std::string expression = "HAPPY";
   int pattern = 1;

@@ -85,6 +85,8 @@ bool Window::Wait(double seconds) {
   return glfwGetTime() - start < 0.9 * seconds;
 }
 
+void Window::RequestClose(bool close) { glfwSetWindowShouldClose(window_, close ? 1 : 0); }
+
 float Window::scale() const {
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);

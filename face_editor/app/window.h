@@ -29,6 +29,8 @@ class Window {
   /// Shows the frame, and writes it to `picture` if that is not "". Error: kUnavailable.
   vm::Result<void> EndFrame(const std::string& picture = "");
   bool close_requested() const { return context_->close_requested(); }
+  /// As its button does, or takes that back.
+  void RequestClose(bool close);
 
   fsm::RenderContext& context() { return *context_; }
   /// Frame buffer pixels for each unit of the window's coordinates.

@@ -252,16 +252,8 @@ Answer GetMouth(Editor& editor, const Words& words, bool bilingual) {
 }
 
 Answer GetUnsaved(Editor& editor, const Words&) {
-  constexpr std::pair<Part, const char*> kNames[] = {{Part::kPoints, "points"},
-                                                     {Part::kEmotions, "emotions"},
-                                                     {Part::kMouth, "mouth"},
-                                                     {Part::kMotions, "motions"},
-                                                     {Part::kIdentity, "identity"}};
-  std::string text;
-  for (const auto& [part, name] : kNames) {
-    if (editor.Unsaved(part)) text += (text.empty() ? "" : " ") + std::string(name);
-  }
-  return text.empty() ? "nothing" : text;
+  const std::string names = editor.UnsavedNames();
+  return names.empty() ? "nothing" : names;
 }
 
 Answer SetReach(Editor& editor, const Words& words) {

@@ -20,6 +20,19 @@ bool Editor::Unsaved(Part part) const {
   return state().version[i] != saved_[i];
 }
 
+std::string Editor::UnsavedNames() const {
+  constexpr std::pair<Part, const char*> kNames[] = {{Part::kPoints, "points"},
+                                                     {Part::kEmotions, "emotions"},
+                                                     {Part::kMouth, "mouth"},
+                                                     {Part::kMotions, "motions"},
+                                                     {Part::kIdentity, "identity"}};
+  std::string text;
+  for (const auto& [part, name] : kNames) {
+    if (Unsaved(part)) text += (text.empty() ? "" : " ") + std::string(name);
+  }
+  return text;
+}
+
 void Editor::MarkSaved(Part part) {
   const auto i = static_cast<std::size_t>(part);
   saved_[i] = state().version[i];

@@ -30,6 +30,8 @@ class Editor {
   const fsm::UnitNames& unit_names() const { return tables_.unit_names; }
   const fsm::UnitList& unit_list() const { return tables_.units; }
   bool Unsaved(Part part) const;
+  /// "points mouth": what is kept in files and has been changed since; "" if nothing.
+  std::string UnsavedNames() const;
 
   // The photo.
   void SetSight(std::shared_ptr<FaceSight> sight) { sight_ = std::move(sight); }

@@ -250,6 +250,15 @@ TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {
   EXPECT_EQ(answers[6], "400 0 0 0");
 }
 
+TEST_F(FaceEditorTest, ClosingAsksWhenSomethingIsNotSaved) {
+  EXPECT_EQ(RunScript("close\nget look\n"), 0) << "nothing to ask: " << program_->ErrorText();
+  ASSERT_EQ(RunScript("set slider jaw_width 1\nclose\nclick Go on editing\nget unsaved\n"
+                      "close\nclick Close without saving\nget nothing\n"),
+            0)
+      << program_->ErrorText();
+  EXPECT_EQ(Output(), "identity\n");
+}
+
 TEST_F(FaceEditorTest, ASavedTableIsReadByTheFace) {
   ASSERT_EQ(RunScript("set mouth a 12 15\nset expression HAPPY 1 12 0.5\nset key NOD 1 1 90 8 0 0\n"
                       "save tables " +
