@@ -265,6 +265,7 @@ class GenericHead : public Head {
 
   void WearPhoto(const FaceSet& set, std::size_t skin_count) {
     topology_.photo = set.photo;
+    topology_.saturation = set.saturation;
     topology_.photo_place.resize(topology_.uv.size(), glm::vec3(0));
     for (std::size_t i = 0; i < skin_count; ++i) {
       const glm::vec2 at = glm::mix(set.skin_low, set.skin_high, topology_.uv[i]);

@@ -88,6 +88,8 @@ struct HeadTopology {
   /// Per vertex where there is a photo: its place there (0..1, v down) and the photo's part in the
   /// colour, 0..1.
   std::vector<glm::vec3> photo_place;
+  /// Of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
+  float saturation = 1;
   std::array<EyePlace, 2> eyes;  ///< the agent's right, left
 };
 

@@ -126,6 +126,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(5, creases.right);
   upload(6, creases.left);
   photo_ = topology.photo;
+  saturation_ = topology.saturation;
   std::vector<glm::vec3> photo_place = topology.photo_place;
   photo_place.resize(paint.size());
   upload(7, photo_place);

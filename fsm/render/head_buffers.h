@@ -42,6 +42,8 @@ class HeadBuffers {
   int generation() const { return generation_; }
   /// What is worn in place of painted skin, if anything.
   const WornPhoto* photo() const { return photo_.get(); }
+  /// Of what is lit beside a photo, 0..1.
+  float saturation() const { return saturation_; }
 
  private:
   void UploadTopology(const Head& head);
@@ -63,6 +65,7 @@ class HeadBuffers {
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
   std::shared_ptr<const WornPhoto> photo_;
+  float saturation_ = 1;
   int generation_ = 0;
 };
 

@@ -125,6 +125,7 @@ void Materials::Fill(Texture texture, int width, int height, const std::uint8_t*
 void Materials::WearSkin(HeadBuffers& head, float samples_per_mm) {
   const bool fresh = generation_ != head.generation();
   has_photo_ = head.photo() != nullptr;
+  chroma_ = head.saturation();
   if (has_photo_ && fresh) {
     Fill(kPhoto, head.photo()->width, head.photo()->height, head.photo()->rgba.data());
     for (const int filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
@@ -293,6 +294,7 @@ void Materials::Use(Material material) {
     gl_.Uniform1f(surface_.Uniform("saturation"), surface.saturation);
     gl_.Uniform1f(surface_.Uniform("bump"), surface.bump);
     gl_.Uniform1f(surface_.Uniform("planar"), surface.planar);
+    gl_.Uniform1f(surface_.Uniform("chroma"), chroma_);
     const bool skin = surface.planar == 0 && has_skin_;
     Bind(skin ? kSkinTint : kPlain, GL_TEXTURE1);
     Bind(skin ? kSkinRelief : surface.planar > 0 ? kWeave : kPlain, GL_TEXTURE2);

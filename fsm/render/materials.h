@@ -48,6 +48,7 @@ class Materials {
   int generation_ = 0;  // of the head whose skin is in the textures
   bool has_skin_ = false;
   bool has_photo_ = false;
+  float chroma_ = 1;  // of the picture, 0 beside a grey photo
   int skin_level_ = 0;
   GLint skin_filter_ = 0;
 };

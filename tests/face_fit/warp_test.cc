@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "fsm/head/face_set.h"
+#include "fsm/render/renderer.h"
 
 namespace fsm {
 namespace {
@@ -112,6 +114,42 @@ TEST(FaceSetTest, EachEyeSitsAndOpensAsTheFaceSays) {
   };
   EXPECT_NEAR(rim(*own, 1), rim(*plain, 1) - 4, 1.2F);
   EXPECT_NEAR(rim(*own, -1), rim(*plain, -1) + 1, 0.3F);
+}
+
+/// The most any pixel of the open mouth differs from grey, of 255.
+int ColourOfTheMouth(float saturation) {
+  FaceSet set;
+  set.points = kPoints;
+  for (auto& point : set.points) point.by = glm::vec3(0);
+  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {0, 0, 0, 255}});
+  set.saturation = saturation;
+  const auto head = Head::Make(set);
+  FaceState state;
+  state.au_right[26] = state.au_left[26] = 0.8F;
+  state.au_right[25] = state.au_left[25] = 0.6F;
+  HeadVertices vertices;
+  head->Evaluate(state, vertices);
+  const auto context = RenderContext::MakeHeadless(240, 240);
+  const auto renderer = Renderer::Make(*context);
+  renderer->Draw(*head, vertices, state, Scene{});
+  Image image;
+  renderer->Read(image);
+  int most = 0, brightest = 0;
+  for (int y = 130; y < 190; ++y) {
+    for (int x = 105; x < 135; ++x) {
+      const std::uint8_t* pixel = &image.rgba[static_cast<std::size_t>(y * 240 + x) * 4];
+      const auto [low, high] = std::minmax({pixel[0], pixel[1], pixel[2]});
+      most = std::max(most, high - low);
+      brightest = std::max<int>(brightest, high);
+    }
+  }
+  EXPECT_GT(brightest, 60) << "teeth are seen";
+  return most;
+}
+
+TEST(FaceSetTest, AGreyPhotoHasAGreyMouth) {
+  EXPECT_LE(ColourOfTheMouth(0), 1);
+  EXPECT_GT(ColourOfTheMouth(1), 20);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ in vec4 slopes;
 in vec3 shine;
 
 uniform float alpha;
+uniform float chroma;     // of the colour on the screen, less than 1 beside a faded photo
 uniform float bump;       // of pores or threads
 uniform vec3 lobes;       // strengths of a broad, a middle and a tight highlight
 uniform sampler2D tint;   // on the colour in rgb, on highlights in a; both about half
@@ -23,6 +24,7 @@ void main() {
   lobe *= lobe;
   lobe *= lobe;
   float highlight = shine.x * t.a * dot(lobe, lobes) + shine.z;
-  color = vec4(ToScreen(t.rgb * (light * (2.0 + 2.0 * dot(slope, slopes.xy))) +
-                        lamp_colors[0] * highlight), alpha);
+  vec3 seen = ToScreen(t.rgb * (light * (2.0 + 2.0 * dot(slope, slopes.xy))) +
+                       lamp_colors[0] * highlight);
+  color = vec4(mix(vec3(dot(seen, vec3(0.3, 0.6, 0.1))), seen, chroma), alpha);
 }
