@@ -20,14 +20,14 @@ int ReadUnit(const TableRow& row, std::size_t index) {
   return unit;
 }
 
-ActionUnits::Field ReadField(const TableRow& row) {
-  ActionUnits::Field field{};
+UnitTable::Field ReadField(const TableRow& row) {
+  UnitTable::Field field{};
   field.unit = ReadUnit(row, 1);
   field.at = {row.Number(2), row.Number(3)};
   field.radius = {row.Number(4), row.Number(5)};
   if (field.radius.x <= 0 || field.radius.y <= 0) row.Fail("a radius must be positive");
   const std::string& part = row.Word(6);
-  using Part = ActionUnits::Field::Part;
+  using Part = UnitTable::Field::Part;
   if (part == "above") {
     field.part = Part::kAbove;
   } else if (part == "below") {
@@ -49,7 +49,7 @@ float Acting(float strength) {
 
 }  // namespace
 
-ActionUnits::ActionUnits(const Table& table) {
+UnitTable::UnitTable(const Table& table) {
   for (auto& side : gain_) side.fill(1);
   using enum Effect::Kind;
   for (const TableRow& row : table.rows()) {
@@ -86,7 +86,7 @@ ActionUnits::ActionUnits(const Table& table) {
   }
 }
 
-void ActionUnits::MakeAsymmetric(int seed) {
+void UnitTable::MakeAsymmetric(int seed) {
   constexpr float kPart = 0.035f;
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
     if (unit >= 41 || unit == 26 || unit == 27) continue;
@@ -96,7 +96,7 @@ void ActionUnits::MakeAsymmetric(int seed) {
   }
 }
 
-SidedUnits ActionUnits::Combine(const FaceState& state) const {
+SidedUnits UnitTable::Combine(const FaceState& state) const {
   SidedUnits units{};
   const float shown = std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, 5.0f) : 0;
   for (std::size_t i = 1; i < kActionUnits; ++i) {
@@ -123,7 +123,7 @@ SidedUnits ActionUnits::Combine(const FaceState& state) const {
   return units;
 }
 
-UnitEffects ActionUnits::Effects(const SidedUnits& units) const {
+UnitEffects UnitTable::Effects(const SidedUnits& units) const {
   UnitEffects sum;
   for (const Effect& effect : effects_) {
     const float right = units[0][At(effect.unit)];
@@ -160,7 +160,7 @@ UnitEffects ActionUnits::Effects(const SidedUnits& units) const {
   return sum;
 }
 
-glm::vec3 ActionUnits::Motion(const Field& field, const Flesh& flesh, bool mirror) {
+glm::vec3 UnitTable::Motion(const Field& field, const Flesh& flesh, bool mirror) {
   const float x = mirror ? -flesh.domain.x : flesh.domain.x;
   if (std::abs(flesh.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right together make the whole.

@@ -25,7 +25,7 @@ struct UnitEffects {
 };
 
 /// The table of action units: knowledge only, no vertices. Immutable.
-class ActionUnits {
+class UnitTable {
  public:
   struct Field {
     int unit;
@@ -35,7 +35,7 @@ class ActionUnits {
   };
 
   /// Throws std::runtime_error naming file and line if the table is damaged.
-  explicit ActionUnits(const Table& table);
+  explicit UnitTable(const Table& table);
 
   /// Gives every unit but those of the lids a slightly different strength on either side, the same
   /// for the same `seed`.

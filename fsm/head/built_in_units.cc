@@ -4,8 +4,8 @@
 
 namespace fsm {
 
-const ActionUnits& BuiltInUnits() {
-  static const ActionUnits units(Table("tables/action_units.txt", embedded::action_units()));
+const UnitTable& BuiltInUnits() {
+  static const UnitTable units(Table("tables/action_units.txt", embedded::action_units()));
   return units;
 }
 

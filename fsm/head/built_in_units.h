@@ -5,6 +5,6 @@
 namespace fsm {
 
 /// The units of tables/action_units.txt, both sides alike. Made at the first call; thread: any.
-const ActionUnits& BuiltInUnits();
+const UnitTable& BuiltInUnits();
 
 }  // namespace fsm

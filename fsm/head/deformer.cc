@@ -8,17 +8,17 @@ namespace fsm {
 
 Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
-                   const ActionUnits& units, const EyeAnatomy& eye,
+                   const UnitTable& units, const EyeAnatomy& eye,
                    const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
                    glm::vec3 teeth_shift)
     : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)), seats_(seats) {
   for (std::size_t side = 0; side < 2; ++side) {
     std::array<std::vector<glm::vec3>, kActionUnits> sums;
-    for (const ActionUnits::Field& field : units.fields()) {
+    for (const UnitTable::Field& field : units.fields()) {
       auto& sum = sums[static_cast<std::size_t>(field.unit)];
       sum.resize(rest_.size(), glm::vec3(0));
       for (std::size_t i = 0; i < rest_.size(); ++i) {
-        sum[i] += ActionUnits::Motion(field, flesh_[i], side == 0);
+        sum[i] += UnitTable::Motion(field, flesh_[i], side == 0);
       }
     }
     for (std::size_t unit = 0; unit < kActionUnits; ++unit) {

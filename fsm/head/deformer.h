@@ -29,7 +29,7 @@ struct Pose {
   float head_forward_mm = 0;
 };
 /// Clamps `state` to what anatomy allows; anything not a number counts as 0.
-Pose MakePose(const FaceState& state, const ActionUnits& units);
+Pose MakePose(const FaceState& state, const UnitTable& units);
 
 /// The hinge of the jaw: an axis along x.
 inline constexpr float kHingeY = -4.0f;
@@ -49,7 +49,7 @@ class Deformer {
   /// `seam` pairs index the arrays given. `seats`: of the right and the left eye; `teeth_shift`:
   /// from where `mouth` has them. Flesh::lip_column indexes `seam`.
   Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
-           std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const ActionUnits& units,
+           std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const UnitTable& units,
            const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
            glm::vec3 teeth_shift);
 

@@ -430,7 +430,7 @@ class GenericHead : public Head {
 
   Identity identity_;
   std::optional<Warp> warp_;  // of a face from a photo
-  ActionUnits units_;
+  UnitTable units_;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
   glm::vec3 teeth_shift_{};       // from the base head's

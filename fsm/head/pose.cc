@@ -39,7 +39,7 @@ void FollowGaze(float up_degrees, UnitEffects::Lids& lids) {
 
 }  // namespace
 
-Pose MakePose(const FaceState& state, const ActionUnits& table) {
+Pose MakePose(const FaceState& state, const UnitTable& table) {
   Pose pose{};
   pose.units = table.Combine(state);
   const UnitEffects effects = table.Effects(pose.units);

@@ -42,7 +42,7 @@ TEST(HeadTablesTest, ErrorsNameFileAndLine) {
 
 TEST(HeadTablesTest, ActionUnitTableRefusesNonsense) {
   const auto complain = [](std::string_view text) {
-    return Complaint([&] { ActionUnits(Table("au.txt", text)); });
+    return Complaint([&] { UnitTable(Table("au.txt", text)); });
   };
   EXPECT_EQ(complain("field 3 1 1 1 1 both 0 0 0\n"),
             "au.txt:1: '3' is no action unit (1, 2, 4-39, 41-46)");
@@ -54,7 +54,7 @@ TEST(HeadTablesTest, ActionUnitTableRefusesNonsense) {
 }
 
 TEST(HeadTablesTest, UnitsThatActTogetherAreCorrected) {
-  const ActionUnits units(Table("au.txt", "damp 4 1 0.5\noppose 12 18\nstrongest 43 45\n"));
+  const UnitTable units(Table("au.txt", "damp 4 1 0.5\noppose 12 18\nstrongest 43 45\n"));
   FaceState state;
   state.au_left[1] = state.au_left[4] = state.au_left[12] = state.au_left[18] = 1;
   state.au_left[43] = 0.4f;
