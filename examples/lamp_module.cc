@@ -6,13 +6,15 @@
 class Lamp final : public vm::Module {
  public:
   explicit Lamp(vm::Scheduler& clock) : slots_("LAMP"), clock_(clock) {
-    vm::DeclareCommonSlots(slots_, {.module_version = "1.0", .protocol_version = "1.0"});
+    vm::DeclareCommonSlots(slots_, {.module_version = "1.0",
+                                    .protocol_version = "1.0",
+                                    .on_exit = [this] { exit_ = true; }});
     slots_.Declare(
         {.name = "Lamp",
-         .grammar = "ON <ms> | OFF",
+         .grammar = "ON [ <ms> ] | OFF",
          .initial = "OFF",
          .auto_output = true,
-         .help = "The light: ON for so many ms, or OFF.",
+         .help = "The light: ON, for so many ms or until OFF.",
          .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
            clock_.Cancel(timer_);
            timer_ = value.size() == 2
@@ -24,6 +26,7 @@ class Lamp final : public vm::Module {
   }
   vm::SlotMachine& slots() override { return slots_; }
   bool Busy() const override { return timer_ != 0; }
+  bool ExitRequested() const override { return exit_; }
 
  private:
   void Off() {
@@ -33,6 +36,7 @@ class Lamp final : public vm::Module {
   vm::SlotMachine slots_;
   vm::Scheduler& clock_;
   vm::TimerId timer_ = 0;
+  bool exit_ = false;
 };
 
 int main(int argc, char** argv) {

@@ -67,6 +67,9 @@ case ${emotion%% *} in
   "" | HAPPY | ANGRY | DISGUSTED | SAD | SURPRISED | FEARED | NEUTRAL) ;;
   *) fail "--emotion '$emotion': expected HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL" ;;
 esac
+if [[ $emotion == *" "* ]] && { ! [[ ${emotion#* } =~ ^[0-9]{1,3}$ ]] || [ "${emotion#* }" -gt 100 ]; }; then
+  fail "--emotion '$emotion': the strength is a number from 0 to 100"
+fi
 
 cd "$root"
 "$root/scripts/setup.sh"
