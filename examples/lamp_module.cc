@@ -6,9 +6,9 @@
 class Lamp final : public vm::Module {
  public:
   explicit Lamp(vm::Scheduler& clock) : slots_("LAMP"), clock_(clock) {
-    vm::DeclareCommonSlots(slots_, {.module_version = "1.0",
-                                    .protocol_version = "1.0",
-                                    .on_exit = [this] { exit_ = true; }});
+    vm::DeclareCommonSlots(
+        slots_,
+        {.module_version = "1.0", .protocol_version = "1.0", .on_exit = [this] { exit_ = true; }});
     slots_.Declare(
         {.name = "Lamp",
          .grammar = "ON [ <ms> ] | OFF",
