@@ -2,23 +2,24 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "fsm/head/face_folder.h"
 #include "fsm/head/face_set.h"
 #include "fsm/head/own_identity.h"
 #include "fsm/render/renderer.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
 
+constexpr std::size_t kMaxFileBytes = 16u << 20;  // thirty times a face of a large photo
+
 std::string ReadText(const std::string& path) {
-  std::ifstream file(path);
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file) throw std::runtime_error("cannot read " + path);
-  return text;
+  auto text = vm::ReadTextFile(path, kMaxFileBytes);
+  if (!text) throw std::runtime_error(text.error().text);
+  return std::move(*text);
 }
 
 }  // namespace
