@@ -3,6 +3,9 @@
 //
 //   hub_bench galatea tcp:PORT | unix:PATH
 //   hub_bench mqtt | zmq | redis PORT
+//   hub_bench relay PATH                bytes copied by a process that looks at none of them:
+//                                       the least any hub can cost on this machine
+//   hub_bench relay-run PATH            is that process; runs until killed
 //   hub_bench zmq-forward PORT          is the broker ZeroMQ does not have; runs until killed
 //
 // Prints one line of JSON. Latency: messages of 65 bytes, one every 250 us, time from just before
@@ -92,6 +95,7 @@ double Throughput(Lane& lane) {
 int main(int argc, char** argv) {
   const std::map<std::string, std::function<std::unique_ptr<Lane>(const std::string&)>> lanes{
       {"galatea", [](const std::string& at) { return bench::GalateaLane(at); }},
+      {"relay", [](const std::string& path) { return bench::RelayLane(path); }},
       {"mqtt", [](const std::string& port) { return bench::MqttLane(std::stoi(port)); }},
 #ifdef BENCH_HAS_ZMQ
       {"zmq", [](const std::string& port) { return bench::ZmqLane(std::stoi(port)); }},
@@ -102,6 +106,7 @@ int main(int argc, char** argv) {
   };
   const std::string kind = argc == 3 ? argv[1] : "";
   try {
+    if (kind == "relay-run") bench::Relay(argv[2]);
 #ifdef BENCH_HAS_ZMQ
     if (kind == "zmq-forward") {
       bench::ZmqForward(std::atoi(argv[2]));
@@ -110,7 +115,7 @@ int main(int argc, char** argv) {
 #endif
     const auto make = lanes.find(kind);
     if (make == lanes.end()) {
-      std::fprintf(stderr, "usage: hub_bench KIND PORT|tcp:PORT|unix:PATH, with KIND one of");
+      std::fprintf(stderr, "usage: hub_bench KIND PORT|PATH|tcp:PORT|unix:PATH, with KIND one of");
       for (const auto& [name, unused] : lanes) std::fprintf(stderr, " %s", name.c_str());
       std::fprintf(stderr, "\n");
       return 2;

@@ -23,6 +23,10 @@ class Lane {
 
 /// Our hub at tcp:PORT of 127.0.0.1 or unix:PATH.
 std::unique_ptr<Lane> GalateaLane(const std::string& at);
+/// Relay at a Unix socket: what two hops cost when nothing is read, kept or routed.
+std::unique_ptr<Lane> RelayLane(const std::string& path);
+/// Copies bytes from a second connection to the first, pair after pair, until it is killed.
+[[noreturn]] void Relay(const std::string& path);
 /// An MQTT 3.1.1 broker (OASIS standard of 29 October 2014), QoS 0.
 std::unique_ptr<Lane> MqttLane(int port);
 /// A ZeroMQ forwarder (ZmqForward) at PORT (for senders) and PORT + 1 (for receivers).

@@ -18,6 +18,14 @@
 namespace bench {
 namespace {
 
+sockaddr_un UnixAddress(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof(address.sun_path)) throw std::runtime_error("path too long: " + path);
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  return address;
+}
+
 int Dial(int family, const sockaddr* address, socklen_t size, const std::string& name) {
   const int fd = socket(family, SOCK_STREAM, 0);
   if (connect(fd, address, size) != 0)
@@ -141,11 +149,8 @@ int DialTcp(int port) {
 }
 
 int DialUnix(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof(address.sun_path)) throw std::runtime_error("path too long: " + path);
-  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-  return Dial(AF_UNIX, reinterpret_cast<sockaddr*>(&address), sizeof(address), path);
+  const sockaddr_un address = UnixAddress(path);
+  return Dial(AF_UNIX, reinterpret_cast<const sockaddr*>(&address), sizeof(address), path);
 }
 
 void WriteAll(int fd, std::string_view bytes) {
@@ -161,6 +166,32 @@ std::unique_ptr<Lane> GalateaLane(const std::string& at) {
   std::string line = "to @B set Load = ";
   line.resize(kMessageBytes - 1, 'x');
   return std::make_unique<LineLane>(GalateaConnect(at, "A"), receiver, line + "\n");
+}
+
+std::unique_ptr<Lane> RelayLane(const std::string& path) {
+  const int receiver = DialUnix(path);
+  std::string line = "set Load = ";
+  line.resize(kMessageBytes - 1, 'x');
+  return std::make_unique<LineLane>(DialUnix(path), receiver, line + "\n");
+}
+
+void Relay(const std::string& path) {
+  const sockaddr_un address = UnixAddress(path);
+  const int listener = socket(AF_UNIX, SOCK_STREAM, 0);
+  if (bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
+      listen(listener, 2) != 0)
+    throw std::runtime_error("cannot listen at " + path + ": " + std::strerror(errno));
+  while (true) {
+    const int receiver = accept(listener, nullptr, nullptr);
+    const int sender = accept(listener, nullptr, nullptr);
+    if (receiver < 0 || sender < 0)
+      throw std::runtime_error("accept: " + std::string(std::strerror(errno)));
+    char chunk[65536];
+    for (ssize_t n; (n = read(sender, chunk, sizeof(chunk))) > 0;)
+      WriteAll(receiver, {chunk, static_cast<std::size_t>(n)});
+    close(sender);
+    close(receiver);
+  }
 }
 
 std::unique_ptr<Lane> MqttLane(int port) {

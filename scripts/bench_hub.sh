@@ -3,7 +3,8 @@
 #     scripts/bench_hub.sh [RUNS] [FOLDER OF PROGRAMS]
 # Without a folder the programs are built first. Peers that are not installed (Debian packages
 # mosquitto, redis-server; libzmq3-dev and libhiredis-dev when building) print n/a.
-# "spin" is our hub with "spin_us": 300. Prints each run and the medians.
+# "spin" is our hub with "spin_us": 300; "relay" copies bytes between two Unix sockets and looks at
+# none of them, so it shows what the machine itself costs. Prints each run and the medians.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 PATH=$PATH:/usr/sbin
@@ -34,6 +35,8 @@ for hub in galatea spin; do
   at[$hub-tcp]="galatea tcp:$port"
   at[$hub-unix]="galatea unix:$work/$hub"
 done
+in_background "$bin/hub_bench" relay-run "$work/relay"
+at[relay]="relay $work/relay"
 if command -v mosquitto >/dev/null; then
   port=$(free_port)
   printf 'listener %s 127.0.0.1\nallow_anonymous true\nset_tcp_nodelay true\nlog_type error\n' "$port" >"$work/m.conf"
@@ -54,7 +57,7 @@ if [[ $kinds == *" zmq"* ]]; then
   at[zeromq]="zmq $port"
 fi
 
-order=(galatea-tcp galatea-unix spin-tcp spin-unix mosquitto zeromq redis)
+order=(relay galatea-tcp galatea-unix spin-tcp spin-unix mosquitto zeromq redis)
 for _ in $(seq "$runs"); do
   for name in "${order[@]}"; do
     [ -n "${at[$name]:-}" ] || continue
