@@ -128,6 +128,9 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
 
 std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder) {
   const HeadFile file = OrThrow(ReadHeadFile(path));
+  for (const std::string& notice : file.notices) {
+    std::cerr << "fsm: notice: '" << path << "': " << notice << "\n";
+  }
   const MotionTables tables = OrThrow(MotionTables::Load(tables_folder));
   const std::string beside = path + ".points";
   std::error_code code;
@@ -140,7 +143,8 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
     placed = PlaceByLook(file);
   }
   MeshModel model = ModelOf(file, placed.place, placed.mouth_y);
-  auto own = OwnShapesMotion(file, placed.place, Head::Make(placed.face, false), Meanings(tables));
+  auto own =
+      OwnShapesMotion(file, placed.place, model, Head::Make(placed.face, false), Meanings(tables));
   if (own) return MakeMeshHead(std::move(model), std::move(own));
   if (has_points) {
     auto carried = CarriedMotion(model, Head::Make(placed.face), placed.pairs);

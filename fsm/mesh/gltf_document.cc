@@ -180,6 +180,14 @@ vm::Result<GltfDocument> GltfDocument::Parse(
   if (!TextOf(PartOf(document.root(), "asset"), "version").starts_with("2")) {
     return document.Wrong("asset: version 2 expected");
   }
+  for (const json& needed : PartOf(document.root(), "extensionsRequired")) {
+    for (const char* packed :
+         {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+      if (needed == json(packed)) {
+        return document.Wrong(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
+      }
+    }
+  }
   std::size_t total = 0;
   for (std::size_t i = 0; i < document.Count("buffers"); ++i) {
     const json& buffer = document.At("buffers", static_cast<std::int64_t>(i));
@@ -273,7 +281,7 @@ vm::Result<std::vector<double>> GltfDocument::Read(std::int64_t index, int width
   const bool normalised = accessor.value("normalized", json(false)) == json(true);
   std::vector<double> out(static_cast<std::size_t>(count) * numbers, 0.0);
   const auto fill = [&](std::int64_t view_index, std::int64_t offset, const Kind& of,
-                        std::int64_t type, std::size_t elements, std::size_t each,
+                        std::int64_t type, std::size_t elements, std::size_t each, bool fraction,
                         const auto& take) -> vm::Result<void> {
     const auto view = ViewOf(view_index);
     if (!view) return std::unexpected(view.error());
@@ -287,14 +295,14 @@ vm::Result<std::vector<double>> GltfDocument::Read(std::int64_t index, int width
     for (std::size_t i = 0; i < elements; ++i) {
       const std::uint8_t* at = view->bytes.data() + static_cast<std::size_t>(offset) + i * stride;
       for (std::size_t k = 0; k < each; ++k) {
-        take(i, k, Value(at + k * of.bytes, type, of, normalised));
+        take(i, k, Value(at + k * of.bytes, type, of, fraction));
       }
     }
     return {};
   };
   if (accessor.contains("bufferView")) {
     auto done = fill(WholeOf(accessor, "bufferView"), WholeOf(accessor, "byteOffset", 0), *kind,
-                     component, static_cast<std::size_t>(count), numbers,
+                     component, static_cast<std::size_t>(count), numbers, normalised,
                      [&](std::size_t i, std::size_t k, double v) { out[i * numbers + k] = v; });
     if (!done) return std::unexpected(done.error());
   }
@@ -309,14 +317,14 @@ vm::Result<std::vector<double>> GltfDocument::Read(std::int64_t index, int width
   std::vector<std::size_t> vertex(static_cast<std::size_t>(changed));
   bool inside = true;
   auto done = fill(WholeOf(where, "bufferView"), WholeOf(where, "byteOffset", 0), *where_kind,
-                   where_type, vertex.size(), 1, [&](std::size_t i, std::size_t, double v) {
+                   where_type, vertex.size(), 1, false, [&](std::size_t i, std::size_t, double v) {
                      inside = inside && v >= 0 && v < static_cast<double>(count);
                      vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
                    });
   if (done && !inside) return Wrong(place + ": sparse: an index beyond its elements");
   if (done) {
     done = fill(WholeOf(what, "bufferView"), WholeOf(what, "byteOffset", 0), *kind, component,
-                vertex.size(), numbers,
+                vertex.size(), numbers, normalised,
                 [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * numbers + k] = v; });
   }
   if (!done) return std::unexpected(done.error());

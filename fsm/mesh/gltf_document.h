@@ -57,6 +57,10 @@ class GltfDocument {
   std::function<std::optional<std::string>(const std::string&)> beside_;
 };
 
+/// What to say of geometry that is packed in a way not read here.
+inline constexpr const char* kPackedMesh =
+    "its geometry is compressed (Draco or meshopt), which is not read; export it uncompressed";
+
 /// An integer member, or `otherwise` if it is missing or no integer.
 std::int64_t WholeOf(const nlohmann::json& object, const char* key, std::int64_t otherwise = -1);
 double RealOf(const nlohmann::json& object, const char* key, double otherwise);

@@ -44,7 +44,12 @@ struct HeadFile {
   std::vector<Image> pictures;
   std::vector<Shape> shapes;
   std::vector<std::int8_t> eye;  ///< 0 none, 1 the agent's right, 2 the left; or none at all
-  bool metres = false;           ///< the file's kind says so
+  /// What those turn about, right and left, where the file says it.
+  std::optional<std::array<glm::vec3, 2>> eye_pivot;
+  std::optional<LookRanges> look;    ///< how the eyes follow a gaze, where the file says it
+  bool look_by_shape = false;        ///< not by turning, but by shapes vrmlookleft and so on
+  std::vector<std::string> notices;  ///< what was left out
+  bool metres = false;               ///< the file's kind says so
 };
 
 /// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers beside the file are read from its folder
@@ -74,9 +79,10 @@ struct ShapeMeaning {
   FaceState state;
 };
 /// Moved by the file's own shapes, those whose names have a meaning: they are mixed so that
-/// `source` would look as it does. Nothing if there are fewer than four.
+/// `source` would look as it does. What they move in `model` is flesh then, teeth too. Nothing if
+/// there are fewer than four.
 std::unique_ptr<MeshMotion> OwnShapesMotion(const HeadFile& file, const Similarity& place,
-                                            std::shared_ptr<const Head> source,
+                                            MeshModel& model, std::shared_ptr<const Head> source,
                                             std::span<const ShapeMeaning> meanings);
 
 /// A name in small letters without anything but letters and digits; _L and _R at its end become

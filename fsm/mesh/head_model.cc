@@ -23,7 +23,7 @@ enum class Kind { kSkin, kEye, kTeeth, kGum, kTongue, kMouth, kHair, kLash, kOth
 
 Kind KindOf(const std::string& name) {
   if (Has(name, {"lash"})) return Kind::kLash;
-  if (Has(name, {"socket", "brow", "lid"}))
+  if (Has(name, {"socket", "brow", "lid", "eyeline", "eyeliner", "eyeshadow"}))
     return Has(name, {"mouth"}) ? Kind::kMouth : Kind::kSkin;
   if (Has(name, {"eye", "iris", "sclera", "pupil", "cornea"})) return Kind::kEye;
   if (Has(name, {"gum"})) return Kind::kGum;
@@ -57,7 +57,7 @@ std::vector<std::uint32_t> Pieces(std::size_t count, std::span<const std::uint32
 class HeadBuilder {
  public:
   HeadBuilder(const HeadFile& file, const Similarity& place, float mouth_y)
-      : file_(file), mouth_y_(mouth_y) {
+      : file_(file), place_(place), mouth_y_(mouth_y) {
     for (const glm::vec3& p : file.position) at_.push_back(place(p));
   }
 
@@ -113,6 +113,14 @@ class HeadBuilder {
     }
     model_.has_eyes =
         std::ranges::all_of(model_.eyes, [](const EyePlace& eye) { return eye.ball_radius < 40; });
+    model_.look = file_.look;
+    if (file_.eye_pivot) {
+      model_.eye_pivot = {place_((*file_.eye_pivot)[0]), place_((*file_.eye_pivot)[1])};
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+      // A drawn eye is a disc that turns about a place deep in the head.
+      if (box[side].radii().z < 0.4f * model_.eyes[side].ball_radius) model_.round_eyes = false;
+    }
   }
 
   void AddPart(const HeadFile::Part& part) {
@@ -214,6 +222,7 @@ class HeadBuilder {
   }
 
   const HeadFile& file_;
+  const Similarity& place_;
   float mouth_y_;
   std::vector<glm::vec3> at_;
   std::vector<std::uint8_t> eye_;  // 1 the agent's right, 2 the left

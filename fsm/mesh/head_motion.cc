@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "fsm/head/deformer.h"
@@ -60,8 +61,8 @@ class Carried : public MeshMotion {
 
 class OwnShapes : public MeshMotion {
  public:
-  OwnShapes(const HeadFile& file, const Similarity& place, std::shared_ptr<const Head> source,
-            std::span<const ShapeMeaning> meanings)
+  OwnShapes(const HeadFile& file, const Similarity& place, const MeshModel& model,
+            std::shared_ptr<const Head> source, std::span<const ShapeMeaning> meanings)
       : source_(std::move(source)) {
     HeadVertices vertices;
     source_->Evaluate({}, vertices);
@@ -69,19 +70,52 @@ class OwnShapes : public MeshMotion {
     ChooseProbes();
     std::map<std::string, const FaceState*> known;
     for (const ShapeMeaning& meaning : meanings) known.emplace(meaning.name, &meaning.state);
+    std::set<std::string> given;
+    for (const auto& shape : file.shapes) given.insert(PlainShapeName(shape.name));
     std::vector<std::vector<float>> keys;
     for (const auto& shape : file.shapes) {
-      const auto found = known.find(PlainShapeName(shape.name));
-      if (found == known.end()) continue;
-      keys.push_back(Look(*found->second));
+      const std::string name = PlainShapeName(shape.name);
       std::vector<HeadFile::Shape::Delta> deltas = shape.deltas;
       for (auto& delta : deltas) delta.by = place.scale * (place.turn * delta.by);
+      if (file.look_by_shape) {
+        const auto look = std::ranges::find(kLooks, name);
+        if (look != std::end(kLooks)) {
+          looks_[static_cast<std::size_t>(look - std::begin(kLooks))] = std::move(deltas);
+          continue;
+        }
+      }
+      auto found = known.find(name);
+      // Avatars made for face tracking have expressions called as ARKit's shapes.
+      if (found == known.end() && name.starts_with("vrm") && !given.contains(name.substr(3))) {
+        found = known.find(name.substr(3));
+      }
+      if (found == known.end()) continue;
+      // Eyes turn by themselves.
+      if (name.find("eyelook") != std::string::npos && model.has_eyes) {
+        std::erase_if(deltas, [&](const auto& delta) { return IsEye(model.bone[delta.vertex]); });
+      }
+      keys.push_back(Look(*found->second));
       shapes_.push_back(std::move(deltas));
     }
     mix_ = ShapeMix(std::move(keys));
+    if (file.look) ranges_ = *file.look;
   }
 
   std::size_t count() const { return shapes_.size(); }
+
+  /// Teeth and tongues that the shapes move are not moved with the jaw as well.
+  void FreeWhatMoves(const HeadFile& file, MeshModel& model) const {
+    std::vector<bool> moves(model.position.size(), false);
+    for (const auto& shape : shapes_) {
+      for (const auto& delta : shape) moves[delta.vertex] = true;
+    }
+    for (const auto& part : file.parts) {
+      if (std::ranges::none_of(part.indices, [&](std::uint32_t v) { return moves[v]; })) continue;
+      for (const std::uint32_t v : part.indices) {
+        if (!IsEye(model.bone[v])) model.bone[v] = Bone::kFlesh;
+      }
+    }
+  }
 
   JawMove Move(const FaceState& state, const Pose& pose,
                std::span<glm::vec3> position) const override {
@@ -90,10 +124,32 @@ class OwnShapes : public MeshMotion {
       if (weights[k] == 0) continue;
       for (const auto& delta : shapes_[k]) position[delta.vertex] += weights[k] * delta.by;
     }
+    LookByShape(pose, position);
     return JawOf(pose);
   }
 
  private:
+  /// In this order LookByShape takes them.
+  static constexpr const char* kLooks[] = {"vrmlookleft", "vrmlookright", "vrmlookup",
+                                           "vrmlookdown"};
+  static bool IsEye(Bone bone) { return bone == Bone::kEyeRight || bone == Bone::kEyeLeft; }
+
+  void LookByShape(const Pose& pose, std::span<glm::vec3> position) const {
+    const Gaze right = GazeOf(pose.eye[0]), left = GazeOf(pose.eye[1]);
+    // Both eyes go with one shape; the agent's left is to the viewer's right.
+    const float side = 0.5f * (right.right_deg + left.right_deg);
+    const float up = 0.5f * (right.up_deg + left.up_deg);
+    const auto add = [&](std::size_t look, float angle, const LookRange& range) {
+      const float weight =
+          std::clamp(angle / range.gaze_deg, 0.0f, 1.0f) * std::min(range.turn, 1.0f);
+      for (const auto& delta : looks_[look]) position[delta.vertex] += weight * delta.by;
+    };
+    add(0, side, ranges_.outer);
+    add(1, -side, ranges_.outer);
+    add(2, up, ranges_.up);
+    add(3, -up, ranges_.down);
+  }
+
   /// Some vertices of the face, a few millimetres from each other.
   void ChooseProbes() {
     constexpr float kApart = 5;
@@ -122,6 +178,8 @@ class OwnShapes : public MeshMotion {
   std::vector<glm::vec3> rest_;
   std::vector<std::uint32_t> probes_;
   std::vector<std::vector<HeadFile::Shape::Delta>> shapes_;
+  std::array<std::vector<HeadFile::Shape::Delta>, 4> looks_;
+  LookRanges ranges_;
   ShapeMix mix_;
 };
 
@@ -148,10 +206,11 @@ std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_pt
 }
 
 std::unique_ptr<MeshMotion> OwnShapesMotion(const HeadFile& file, const Similarity& place,
-                                            std::shared_ptr<const Head> source,
+                                            MeshModel& model, std::shared_ptr<const Head> source,
                                             std::span<const ShapeMeaning> meanings) {
-  auto motion = std::make_unique<OwnShapes>(file, place, std::move(source), meanings);
+  auto motion = std::make_unique<OwnShapes>(file, place, model, std::move(source), meanings);
   if (motion->count() < 4) return nullptr;
+  motion->FreeWhatMoves(file, model);
   return motion;
 }
 

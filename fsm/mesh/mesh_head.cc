@@ -29,7 +29,7 @@ class MeshHead : public Head {
     topology_.photo = model_.photo;
     topology_.photo_place = model_.photo_place;
     topology_.eyes = model_.eyes;
-    if (model_.has_eyes) FindLids();
+    if (model_.has_eyes && model_.round_eyes) FindLids();
   }
 
   const HeadTopology& topology() const override { return topology_; }
@@ -38,6 +38,7 @@ class MeshHead : public Head {
     const Pose pose = MakePose(state, BuiltInUnits());
     out.position = model_.position;
     const JawMove jaw = motion_->Move(state, pose, out.position);
+    const std::array<glm::mat3, 2> eye{EyeTurn(pose, 0), EyeTurn(pose, 1)};
     for (const Lid& lid : lids_) {
       glm::vec3& p = out.position[lid.vertex];
       const glm::vec3 off = p - model_.eyes[lid.side].centre;
@@ -50,8 +51,9 @@ class MeshHead : public Head {
         case Bone::kEyeRight:
         case Bone::kEyeLeft: {
           const std::size_t side = model_.bone[i] == Bone::kEyeRight ? 0 : 1;
-          const glm::vec3 centre = model_.eyes[side].centre;
-          p = centre + pose.eye[side] * (p - centre);
+          const glm::vec3 centre =
+              model_.eye_pivot ? (*model_.eye_pivot)[side] : model_.eyes[side].centre;
+          p = centre + eye[side] * (p - centre);
           break;
         }
         case Bone::kJaw:
@@ -90,6 +92,19 @@ class MeshHead : public Head {
     std::uint8_t side;
     float least;  // distance from the ball's centre
   };
+
+  glm::mat3 EyeTurn(const Pose& pose, std::size_t side) const {
+    if (!model_.look) return pose.eye[side];
+    const Gaze gaze = GazeOf(pose.eye[side]);
+    // To the viewer's right is outward of the agent's left eye.
+    const bool outward = (gaze.right_deg > 0) == (side == 1);
+    const auto turned = [](float angle, const LookRange& range) {
+      return std::copysign(std::min(std::abs(angle) / range.gaze_deg, 1.0F) * range.turn, angle);
+    };
+    const float right = turned(gaze.right_deg, outward ? model_.look->outer : model_.look->inner);
+    const float up = turned(gaze.up_deg, gaze.up_deg > 0 ? model_.look->up : model_.look->down);
+    return EyeTo({.right_deg = right, .up_deg = up});
+  }
 
   /// Flesh outside a ball at rest stays outside, whatever moves it.
   void FindLids() {

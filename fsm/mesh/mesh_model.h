@@ -2,8 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +21,22 @@ struct Pose;
 /// (head/tables/eye.txt).
 inline constexpr glm::vec3 kEyePlace{30.5f, 22.3f, 63.6f};
 
+/// How far an eye turns for a gaze: in proportion up to `gaze_deg`, where it has turned by `turn`
+/// (degrees; where shapes do it, the weight of one). VRM 0.x and 1.0, "lookAt".
+struct LookRange {
+  float gaze_deg = 90, turn = 10;
+};
+struct LookRanges {
+  LookRange inner, outer, up, down;
+};
+
+/// Where an eye looks: to the viewer's right, and up.
+struct Gaze {
+  float right_deg = 0, up_deg = 0;
+};
+Gaze GazeOf(const glm::mat3& eye);
+glm::mat3 EyeTo(const Gaze& gaze);
+
 /// Somebody else's head at rest, in our frame and millimetres: what MeshHead shows.
 struct MeshModel {
   std::vector<glm::vec3> position;
@@ -30,6 +48,9 @@ struct MeshModel {
   std::vector<HeadMesh::Batch> batches;
   std::array<EyePlace, 2> eyes{};  ///< right, left; meaningful where has_eyes
   bool has_eyes = false;
+  std::optional<std::array<glm::vec3, 2>> eye_pivot;  ///< what they turn about, if not the centres
+  std::optional<LookRanges> look;                     ///< else they turn as ours do
+  bool round_eyes = true;                             ///< balls that lids must stay outside of
   bool sewn = false;           ///< vertices are doubled where the texture is sewn together
   glm::vec3 hinge{0, -4, -3};  ///< the jaw's axis goes through it, as ours does
   Landmarks landmarks;

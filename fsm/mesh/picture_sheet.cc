@@ -28,8 +28,12 @@ Image Halved(const Image& image) {
 
 }  // namespace
 
+void Shrink(Image& picture, int side) {
+  while (picture.width > side || picture.height > side) picture = Halved(picture);
+}
+
 std::size_t PictureSheet::Add(Image picture) {
-  while (picture.width > kMaxSide || picture.height > kMaxSide) picture = Halved(picture);
+  Shrink(picture, kMaxSide);
   pictures_.push_back(std::move(picture));
   return pictures_.size() - 1;
 }

@@ -9,9 +9,13 @@
 
 namespace fsm {
 
+/// Halves a picture until neither side is longer than `side`.
+void Shrink(Image& picture, int side);
+
 /// Puts several pictures into one, because a head wears one photo.
 class PictureSheet {
  public:
+  static constexpr int kMaxSide = 2048;  ///< of one picture
   /// Where a picture lies on the sheet: its corners, 0..1, v down.
   struct Place {
     glm::vec2 low{0}, high{1};
@@ -25,7 +29,6 @@ class PictureSheet {
   const Place& place(std::size_t picture) const { return places_[picture]; }
 
  private:
-  static constexpr int kMaxSide = 2048;   ///< of one picture
   static constexpr int kMaxSheet = 8192;  ///< of the sheet
   std::vector<Image> pictures_;
   std::vector<Place> places_;

@@ -1,0 +1,182 @@
+#include "fsm/mesh/gltf_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxDepth = 200;
+const glm::mat4 kIdentity(1.0f);
+
+glm::mat4 MatrixOf(const json& node) {
+  const json& given = PartOf(node, "matrix");
+  glm::mat4 m(1.0f);
+  if (given.is_array() && given.size() == 16) {
+    for (std::size_t i = 0; i < 16; ++i) {
+      if (given[i].is_number())
+        m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = given[i].get<float>();
+    }
+    return m;
+  }
+  const auto numbers = [&node](const char* key, glm::vec4 otherwise, std::size_t count) {
+    const json& list = PartOf(node, key);
+    if (!list.is_array() || list.size() != count) return otherwise;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (list[i].is_number()) otherwise[static_cast<int>(i)] = list[i].get<float>();
+    }
+    return otherwise;
+  };
+  const glm::vec4 move = numbers("translation", glm::vec4(0), 3),
+                  size = numbers("scale", glm::vec4(1), 3),
+                  q = numbers("rotation", {0, 0, 0, 1}, 4);
+  m = glm::mat4_cast(glm::quat(q.w, q.x, q.y, q.z));
+  for (int c = 0; c < 3; ++c) m[c] *= size[c];
+  m[3] = glm::vec4(glm::vec3(move), 1);
+  return m;
+}
+
+/// What no number of a file may make of a place.
+bool Usable(const glm::mat4& m) {
+  for (int c = 0; c < 4; ++c) {
+    for (int r = 0; r < 4; ++r) {
+      if (!std::isfinite(m[c][r])) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
+  GltfNodes nodes;
+  const std::size_t count = document.Count("nodes");
+  nodes.world_.assign(count, kIdentity);
+  nodes.stands_.assign(count, false);
+  std::vector<bool> child(count, false);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const json& of : PartOf(document.At("nodes", static_cast<std::int64_t>(i)), "children")) {
+      if (!of.is_number_integer()) continue;
+      const auto index = of.get<std::int64_t>();
+      if (index >= 0 && static_cast<std::size_t>(index) < count)
+        child[static_cast<std::size_t>(index)] = true;
+    }
+  }
+  std::vector<std::int64_t> roots;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (child[i]) continue;
+    roots.push_back(static_cast<std::int64_t>(i));
+    if (auto done = nodes.Stand(document, roots.back(), kIdentity, 0); !done) {
+      return std::unexpected(done.error());
+    }
+  }
+  const json& scene = document.At("scenes", WholeOf(document.root(), "scene", 0));
+  std::vector<bool> seen(count, false);
+  for (const json& of : PartOf(scene, "nodes")) {
+    if (of.is_number_integer()) nodes.Show(document, of.get<std::int64_t>(), seen);
+  }
+  if (nodes.shown_.empty()) {
+    for (const std::int64_t root : roots) nodes.Show(document, root, seen);
+  }
+  return nodes;
+}
+
+vm::Result<void> GltfNodes::Stand(const GltfDocument& document, std::int64_t node,
+                                  const glm::mat4& above, int depth) {
+  if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return {};
+  const auto at = static_cast<std::size_t>(node);
+  if (depth > kMaxDepth || stands_[at]) {
+    return document.Wrong("nodes[" + std::to_string(node) + "]: nodes that are their own parents");
+  }
+  stands_[at] = true;
+  world_[at] = above * MatrixOf(document.At("nodes", node));
+  if (!Usable(world_[at])) {
+    return document.Wrong("nodes[" + std::to_string(node) + "]: its place is no finite number");
+  }
+  for (const json& child : PartOf(document.At("nodes", node), "children")) {
+    if (!child.is_number_integer()) continue;
+    if (auto done = Stand(document, child.get<std::int64_t>(), world_[at], depth + 1); !done) {
+      return done;
+    }
+  }
+  return {};
+}
+
+void GltfNodes::Show(const GltfDocument& document, std::int64_t node, std::vector<bool>& seen) {
+  // Those that go round in a ring stand under no root and were left out by Stand.
+  if (node < 0 || static_cast<std::size_t>(node) >= seen.size()) return;
+  const auto at = static_cast<std::size_t>(node);
+  if (seen[at] || !stands_[at]) return;
+  seen[at] = true;
+  shown_.push_back(node);
+  for (const json& child : PartOf(document.At("nodes", node), "children")) {
+    if (child.is_number_integer()) Show(document, child.get<std::int64_t>(), seen);
+  }
+}
+
+const glm::mat4& GltfNodes::World(std::int64_t node) const {
+  if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return kIdentity;
+  return world_[static_cast<std::size_t>(node)];
+}
+
+vm::Result<GltfSkin> GltfSkin::Read(const GltfDocument& document, const GltfNodes& nodes,
+                                    std::int64_t index) {
+  GltfSkin skin;
+  const json& given = document.At("skins", index);
+  std::vector<float> inverse;
+  if (given.contains("inverseBindMatrices")) {
+    auto read = document.Numbers(WholeOf(given, "inverseBindMatrices"), 16);
+    if (!read) return std::unexpected(read.error());
+    inverse = std::move(*read);
+  }
+  for (const json& joint : PartOf(given, "joints")) {
+    const std::int64_t node = joint.is_number_integer() ? joint.get<std::int64_t>() : -1;
+    glm::mat4 from(1.0f);
+    for (std::size_t k = 0; k < 16 && 16 * skin.node_.size() + k < inverse.size(); ++k) {
+      from[static_cast<int>(k / 4)][static_cast<int>(k % 4)] = inverse[16 * skin.node_.size() + k];
+    }
+    const glm::mat4 takes = nodes.World(node) * from;
+    skin.takes_.push_back(Usable(takes) ? takes : kIdentity);
+    skin.node_.push_back(node);
+  }
+  return skin;
+}
+
+vm::Result<GltfSkin::Held> GltfSkin::Hold(const GltfDocument& document, const json& attributes,
+                                          std::size_t count, const glm::mat4& place) const {
+  Held held;
+  held.place.assign(count, glm::mat4(0.0f));
+  held.main.assign(count, -1);
+  std::vector<float> total(count, 0), most(count, 0);
+  for (const char* set : {"0", "1"}) {
+    const std::string joints = std::string("JOINTS_") + set,
+                      weights = std::string("WEIGHTS_") + set;
+    if (!attributes.contains(joints) || !attributes.contains(weights)) continue;
+    const auto which = document.Numbers(WholeOf(attributes, joints.c_str()), 4);
+    if (!which) return std::unexpected(which.error());
+    const auto part = document.Numbers(WholeOf(attributes, weights.c_str()), 4);
+    if (!part) return std::unexpected(part.error());
+    for (std::size_t i = 0; i < std::min({4 * count, which->size(), part->size()}); ++i) {
+      const float weight = (*part)[i], number = (*which)[i];
+      if (!(weight > 0) || !(number >= 0) || number >= static_cast<float>(takes_.size())) continue;
+      const auto joint = static_cast<std::size_t>(number);
+      held.place[i / 4] += weight * takes_[joint];
+      total[i / 4] += weight;
+      if (weight > most[i / 4]) {
+        most[i / 4] = weight;
+        held.main[i / 4] = node_[joint];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    held.place[i] = total[i] > 1e-4f ? (1 / total[i]) * held.place[i] : place;
+  }
+  return held;
+}
+
+}  // namespace fsm

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <map>
+#include <string>
+#include <tuple>
+
+#include "fsm/mesh/gltf_document.h"
+#include "fsm/mesh/head_file.h"
+
+namespace fsm {
+
+/// Where a material's picture lies on a mesh: v = turn * (size * uv) + move
+/// (KHR_texture_transform).
+struct GltfUv {
+  std::int64_t set = 0;  ///< TEXCOORD_set
+  glm::vec2 move{0}, size{1};
+  float turn_rad = 0;
+  glm::vec2 operator()(glm::vec2 uv) const;
+};
+
+/// Gives the parts of a head the colours and pictures of a glTF file's materials. What a material
+/// does to its picture (factor, cut-off, no transparency) is done to a copy, so that a part needs
+/// nothing but its picture. Light and shade of toon materials (MToon, unlit) are left out: all
+/// pictures are shown as they are.
+class GltfPaint {
+ public:
+  /// Both outlive it.
+  GltfPaint(const GltfDocument& document, HeadFile& head) : document_(document), head_(head) {}
+  void Dress(std::int64_t material, HeadFile::Part& part);
+  /// Of a material's picture.
+  GltfUv Place(std::int64_t material) const;
+
+ private:
+  /// Image, factor in steps of 1/255, cut-off (-1 opaque, 256 smooth).
+  using Key = std::tuple<std::int64_t, std::uint32_t, int>;
+  int Picture(const Key& key, glm::vec4 factor);
+  std::int64_t ImageOf(std::int64_t texture);
+
+  const GltfDocument& document_;
+  HeadFile& head_;
+  std::map<Key, int> picture_of_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,273 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "fsm/mesh/head_file.h"
+#include "fsm/render/image_codec.h"
+#include "tests/fsm/ball_head.h"
+#include "tests/fsm/gltf_maker.h"
+
+namespace fsm {
+namespace {
+
+const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+
+std::string Number(int n) { return std::to_string(n); }
+
+void ExpectPlace(glm::vec3 is, glm::vec3 wanted) {
+  EXPECT_LT(glm::distance(is, wanted), 1e-5F) << is.x << " " << is.y << " " << is.z;
+}
+
+HeadFile Read(const std::string& json) {
+  auto file = ParseGltfHead("a.gltf", json);
+  EXPECT_TRUE(file) << file.error().text;
+  return file ? std::move(*file) : HeadFile{};
+}
+
+TEST(GltfPlaceTest, SkinnedMeshStandsWhereItsBonesHoldIt) {
+  // Made ten times too large; the skeleton is scaled by a tenth and lies a metre up. The third
+  // vertex is half of each bone, the place of its own node counts for nothing.
+  GltfMaker maker;
+  const int place = maker.Places({0, 0, 0, 10, 0, 0, 0, 10, 0});
+  const int joints = maker.Bytes({0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0}, "VEC4", 4);
+  const int weights = maker.Floats({1, 0, 0, 0, 1, 0, 0, 0, 0.5F, 0.5F, 0, 0}, "VEC4", 4);
+  const int inverse = maker.Floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+                                    1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                   "MAT4", 16);
+  const HeadFile file = Read(
+      maker.File(R"("nodes":[{"scale":[0.1,0.1,0.1],"translation":[0,1,0],"children":[1,2]},{},)"
+                 R"({"translation":[0,0,20]},{"mesh":0,"skin":0,"translation":[5,5,5]}],)"
+                 R"("skins":[{"joints":[1,2],"inverseBindMatrices":)" +
+                 Number(inverse) + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+                 Number(place) + R"(,"JOINTS_0":)" + Number(joints) + R"(,"WEIGHTS_0":)" +
+                 Number(weights) + "}}]}]"));
+  ASSERT_EQ(file.position.size(), 3U);
+  ExpectPlace(file.position[0], {0, 1, 0});
+  ExpectPlace(file.position[1], {1, 1, 0});
+  ExpectPlace(file.position[2], {0, 2, 1});
+}
+
+TEST(GltfPlaceTest, OnlyTheSceneIsShownAndMirroredPartsKeepTheirOutside) {
+  GltfMaker maker;
+  const int place = maker.Places(kTriangle);
+  const std::string mesh =
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":)" + Number(place) + "}}]}]";
+  const HeadFile file = Read(maker.File(
+      R"("scenes":[{"nodes":[1]}],"nodes":[{"mesh":0},{"mesh":0,"scale":[-1,1,1]}],)" + mesh));
+  ASSERT_EQ(file.position.size(), 3U);
+  const auto& t = file.parts.at(0).indices;
+  const glm::vec3 outward = glm::cross(file.position[t[1]] - file.position[t[0]],
+                                       file.position[t[2]] - file.position[t[0]]);
+  EXPECT_GT(outward.z, 0);
+}
+
+TEST(GltfPlaceTest, ShapesOfShortsWithOneVertexNamedMoveThatVertex) {
+  GltfMaker maker;
+  const int place = maker.Shorts({0, 0, 0, 32767, 0, 0, 0, 32767, 0}, "VEC3", 3);
+  const int by = maker.SparseShorts(3, 2, {0, -16384, 0});
+  const HeadFile file = Read(maker.File(
+      R"("nodes":[{"mesh":0,"scale":[2,2,2]}],"meshes":[{"extras":{"targetNames":["jawOpen"]},)"
+      R"("primitives":[{"attributes":{"POSITION":)" +
+      Number(place) + R"(},"targets":[{"POSITION":)" + Number(by) + "}]}]}]"));
+  ASSERT_EQ(file.shapes.size(), 1U);
+  ASSERT_EQ(file.shapes[0].deltas.size(), 1U);
+  EXPECT_EQ(file.shapes[0].deltas[0].vertex, 2U);
+  EXPECT_NEAR(file.shapes[0].deltas[0].by.y, -1, 1e-3F);
+  ExpectPlace(file.position[2], {0, 2, 0});
+}
+
+TEST(GltfPlaceTest, PackedGeometryIsRefusedByName) {
+  for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+    const auto file = ParseGltfHead("a.glb", std::string(R"({"asset":{"version":"2.0"},)") +
+                                                 R"("extensionsRequired":[")" + name + "\"]}");
+    ASSERT_FALSE(file);
+    EXPECT_NE(file.error().text.find(name), std::string::npos) << file.error().text;
+    EXPECT_NE(file.error().text.find("uncompressed"), std::string::npos) << file.error().text;
+  }
+  // Draco beside a fallback that is not there.
+  const auto file = ParseGltfHead(
+      "a.gltf",
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"accessors":[{"componentType":5126,)"
+      R"("count":3,"type":"VEC3"}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},)"
+      R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}]}]})");
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().text.find("meshes[0]: its geometry"), std::string::npos);
+}
+
+/// Two pixels: light grey opaque, white half transparent.
+std::vector<std::uint8_t> TwoPixels() {
+  return EncodePng(Image{2, 1, {188, 188, 188, 255, 255, 255, 255, 100}});
+}
+
+HeadFile Painted(const std::string& material) {
+  GltfMaker maker;
+  const int place = maker.Places(kTriangle);
+  const int uv = maker.Floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+  maker.Picture(TwoPixels());
+  return Read(maker.File(R"("nodes":[{"mesh":0}],"materials":[)" + material +
+                         R"(],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":)" +
+                         Number(place) + R"(,"TEXCOORD_0":)" + Number(uv) + "}}]}]"));
+}
+
+TEST(GltfPaintTest, FactorIsPaintedIntoThePictureAsLight) {
+  // 188 is half of the light (sRGB); half of that is 137.
+  const HeadFile file = Painted(
+      R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"baseColorFactor":[0.5,1,0,1]}})");
+  ASSERT_EQ(file.pictures.size(), 1U);
+  EXPECT_NEAR(file.pictures[0].rgba[0], 137, 1);
+  EXPECT_EQ(file.pictures[0].rgba[1], 188);
+  EXPECT_EQ(file.pictures[0].rgba[2], 0);
+  EXPECT_EQ(file.pictures[0].rgba[7], 255) << "opaque: its alpha means nothing";
+  EXPECT_FALSE(file.parts[0].cut_out);
+}
+
+TEST(GltfPaintTest, WhatIsBelowTheCutOffIsLeftOut) {
+  const HeadFile cut =
+      Painted(R"({"alphaMode":"MASK","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  EXPECT_EQ(cut.pictures.at(0).rgba[3], 255);
+  EXPECT_EQ(cut.pictures.at(0).rgba[7], 0);
+  EXPECT_TRUE(cut.parts[0].cut_out);
+  const HeadFile low = Painted(R"({"alphaMode":"MASK","alphaCutoff":0.3,)"
+                               R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  EXPECT_EQ(low.pictures.at(0).rgba[7], 255);
+  const HeadFile smooth =
+      Painted(R"({"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})");
+  EXPECT_EQ(smooth.pictures.at(0).rgba[7], 100);
+}
+
+TEST(GltfPaintTest, PicturesMayBeMovedScaledAndTurned) {
+  const HeadFile file =
+      Painted(R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":)"
+              R"({"KHR_texture_transform":{"offset":[0.25,0.5],"scale":[0.5,0.25],)"
+              R"("rotation":1.5707963}}}}})");
+  // (1, 0) is scaled to (0.5, 0), turned to (0, -0.5) and moved.
+  EXPECT_NEAR(file.place.at(1).x, 0.25F, 1e-5F);
+  EXPECT_NEAR(file.place.at(1).y, 0, 1e-5F);
+  EXPECT_NEAR(file.place.at(2).x, 0.5F, 1e-5F);
+}
+
+TEST(GltfPaintTest, PictureOfAnotherKindIsLeftOutWithANotice) {
+  GltfMaker maker;
+  const int place = maker.Places(kTriangle);
+  maker.Picture({'R', 'I', 'F', 'F', 0, 0, 0, 0, 'W', 'E', 'B', 'P'});
+  const HeadFile file = Read(maker.File(
+      R"("nodes":[{"mesh":0}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":)"
+      R"({"index":0}}}],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":)" +
+      Number(place) + "}}]}]"));
+  ASSERT_EQ(file.notices.size(), 1U);
+  EXPECT_NE(file.notices[0].find("images[0] is left out"), std::string::npos) << file.notices[0];
+  EXPECT_EQ(file.parts.at(0).picture, -1);
+}
+
+/// A mesh of two triangles, one of them an eye's, with four shapes; the extension is the caller's.
+std::string Avatar(const std::string& extension) {
+  GltfMaker maker;
+  const int place = maker.Places(
+      {0, 0, 0, 0.1F, 0, 0, 0, 0.1F, 0, 0.03F, 0, 0.1F, 0.04F, 0, 0.1F, 0.03F, 0.01F, 0.1F});
+  const int joints = maker.Bytes(
+      {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  const int weights = maker.Floats(
+      {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 4);
+  std::string targets;
+  for (int t = 0; t < 4; ++t) {
+    std::vector<float> by(18, 0);
+    by[static_cast<std::size_t>(3 * t + 1)] = -0.01F;
+    targets += std::string(t > 0 ? "," : "") + R"({"POSITION":)" + Number(maker.Places(by)) + "}";
+  }
+  // The skin says nothing of how it was bound: identity, so the bones' places add to the mesh.
+  return maker.File(
+      R"("nodes":[{"children":[1,2]},{"translation":[0,0,0]},{"translation":[0,0,0]},)"
+      R"({"mesh":0,"skin":0,"name":"Face"}],"skins":[{"joints":[0,1,2]}],)"
+      R"("meshes":[{"extras":{"targetNames":["t0","t1","t2","t3"]},"primitives":[{"attributes":)"
+      R"({"POSITION":)" +
+      Number(place) + R"(,"JOINTS_0":)" + Number(joints) + R"(,"WEIGHTS_0":)" + Number(weights) +
+      R"(},"targets":[)" + targets + R"(]}]}],"extensions":{)" + extension + "}");
+}
+
+TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
+  const HeadFile file = Read(Avatar(
+      R"("VRM":{"humanoid":{"humanBones":[{"bone":"leftEye","node":1},{"bone":"rightEye","node":2}]},)"
+      R"("firstPerson":{"lookAtTypeName":"Bone","lookAtHorizontalOuter":{"xRange":60,"yRange":12}},)"
+      R"("blendShapeMaster":{"blendShapeGroups":[{"name":"A","presetName":"a","binds":)"
+      R"([{"mesh":0,"index":0,"weight":50},{"mesh":0,"index":1,"weight":100}]},)"
+      R"({"name":"Surprised","presetName":"unknown","binds":[{"mesh":0,"index":2,"weight":100}]}]}})"));
+  ExpectPlace(file.position[1], {-0.1F, 0, 0});
+  ExpectPlace(file.position[3], {-0.03F, 0, -0.1F});
+  ASSERT_EQ(file.eye.size(), 6U);
+  EXPECT_EQ(file.eye[2], 0);
+  EXPECT_EQ(file.eye[4], 2);
+  ASSERT_TRUE(file.eye_pivot);
+  ASSERT_TRUE(file.look);
+  EXPECT_EQ(file.look->outer.gaze_deg, 60);
+  EXPECT_EQ(file.look->outer.turn, 12);
+  EXPECT_FALSE(file.look_by_shape);
+  ASSERT_EQ(file.shapes.size(), 6U);
+  EXPECT_EQ(file.shapes[4].name, "vrma");
+  ASSERT_EQ(file.shapes[4].deltas.size(), 2U);
+  EXPECT_NEAR(file.shapes[4].deltas[0].by.y, -0.005F, 1e-6F);
+  EXPECT_EQ(file.shapes[5].name, "vrmSurprised");
+}
+
+TEST(VrmTest, NewAvatarsLookWithShapesAndHaveExpressionsOfTheirOwn) {
+  const HeadFile file = Read(Avatar(
+      R"("VRMC_vrm":{"specVersion":"1.0","lookAt":{"type":"expression","rangeMapVerticalUp":)"
+      R"({"inputMaxValue":30,"outputScale":0.5}},"expressions":{"preset":{"aa":)"
+      R"({"morphTargetBinds":[{"node":3,"index":0,"weight":1}]},"oh":)"
+      R"({"morphTargetBinds":[{"node":0,"index":0,"weight":1}]}},"custom":{"JawOpen":)"
+      R"({"morphTargetBinds":[{"node":3,"index":2,"weight":1}]}}}})"));
+  ExpectPlace(file.position[1], {0.1F, 0, 0});
+  EXPECT_TRUE(file.look_by_shape);
+  ASSERT_EQ(file.shapes.size(), 6U) << "what no node has is no shape";
+  EXPECT_EQ(file.shapes[4].name, "vrmaa");
+  EXPECT_EQ(file.shapes[5].name, "vrmJawOpen");
+}
+
+TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
+  MeshModel model;
+  model.has_eyes = true;
+  model.eyes[0].centre = {-30, 0, 60};
+  model.eyes[1].centre = {30, 0, 60};
+  model.eye_pivot = {glm::vec3(-30, 0, 40), glm::vec3(30, 0, 40)};
+  model.look.emplace().outer = {.gaze_deg = 40, .turn = 8};
+  for (const glm::vec3 p : {glm::vec3(30, 0, 70), glm::vec3(31, 0, 70), glm::vec3(30, 1, 70)}) {
+    model.Add(p, Bone::kEyeLeft, glm::vec3(1));
+  }
+  model.Triangle(Material::kSkin, 0, 1, 2);
+  const auto head = MakeMeshHead(std::move(model), StillMotion());
+  FaceState state;
+  state.eye_left.y = 20;  // to the viewer's right, outward for the agent's left eye
+  HeadVertices moved;
+  head->Evaluate(state, moved);
+  EXPECT_NEAR(moved.position[0].x, 30 + 30 * std::sin(4.0F / 57.29578F), 0.01F);
+}
+
+TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) {
+  HeadFile file;
+  file.position = {{0, -40, 70}, {5, -40, 70}, {0, -45, 70}};
+  file.parts.push_back({.name = "teeth", .indices = {0, 1, 2}});
+  std::vector<ShapeMeaning> meanings;
+  for (const char* name : {"jawopen", "browdownleft", "browdownright", "mouthpucker"}) {
+    FaceState state;
+    const std::size_t unit = name[0] == 'j' ? 27 : name[0] == 'm' ? 18 : 4;
+    if (name != std::string("browdownleft")) state.au_right[unit] = 1;
+    if (name != std::string("browdownright")) state.au_left[unit] = 1;
+    meanings.push_back({name, state});
+    file.shapes.push_back({"vrm" + std::string(name), {}});
+  }
+  file.shapes[0].deltas = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
+  MeshModel model = ModelOf(file, {}, -30);
+  ASSERT_EQ(model.bone[0], Bone::kJaw);
+  auto motion = OwnShapesMotion(file, {}, model, Head::Make("galatea", false), meanings);
+  ASSERT_TRUE(motion);
+  EXPECT_EQ(model.bone[0], Bone::kFlesh);
+  const auto head = MakeMeshHead(std::move(model), std::move(motion));
+  HeadVertices moved;
+  head->Evaluate(meanings[0].state, moved);
+  EXPECT_NEAR(moved.position[0].y, -50, 0.5F);
+}
+
+}  // namespace
+}  // namespace fsm
