@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -15,6 +16,7 @@
 #include "face_editor/app/script.h"
 #include "fsm/app/face_of_name.h"
 #include "fsm/app/head_of_file.h"
+#include "fsm/head/face_folder.h"
 
 namespace {
 
@@ -34,7 +36,7 @@ T Get(vm::Result<T> result) {
 
 std::shared_ptr<const fsm::Head> GivenHead(const Options& options) {
   if (!options.head.empty()) return fsm::MakeHeadOfFile(options.head, options.tables);
-  if (!options.mask.empty()) return fsm::MakeHeadOfName(options.mask);
+  if (!options.mask.empty()) return fsm::MakeHeadOfName(options.mask, options.tables);
   return nullptr;
 }
 
@@ -111,6 +113,7 @@ class Run {
     } else {
       std::cerr << "face_editor: notice: " << sight.error().text << "\n";
     }
+    OpenUnitsOfMask();
     if (options_.photo.empty()) {
       const bool head = !options_.mask.empty() || !options_.head.empty();
       if (head) ui_.page = editor::Page::kExpressions;
@@ -120,6 +123,16 @@ class Run {
     if (!options_.points.empty()) Get(editor_->LoadPoints(options_.points));
     ui_.photo_path = options_.photo;
     ui_.Tell(editor_->work()->notice);
+  }
+
+  /// A face's own table of units goes before that of the folder of tables.
+  void OpenUnitsOfMask() {
+    if (options_.mask.empty()) return;
+    const std::string path = fsm::FacesFolder() + "/" + options_.mask + "/" + fsm::kUnitsFile;
+    std::error_code code;
+    if (!fsm::IsFaceName(options_.mask) || !std::filesystem::exists(path, code)) return;
+    Get(editor_->Load(editor::Part::kUnits, path));
+    ui_.paths[editor::Part::kUnits] = path;
   }
 
   static void Get(vm::Result<void> result) {

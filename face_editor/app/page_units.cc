@@ -13,18 +13,7 @@ namespace {
 
 constexpr const char* kRegionTitles[] = {"Eyes", "Brows", "Mouth and jaw"};
 
-/// "LipCornerPuller" as words.
-std::string Spaced(const std::string& name) {
-  std::string text;
-  for (const char c : name) {
-    const bool capital = c >= 'A' && c <= 'Z';
-    if (capital && !text.empty()) text += ' ';
-    text += capital && !text.empty() ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return text;
-}
-
-bool UnitRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
+bool SliderRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
   const auto i = static_cast<std::size_t>(unit);
   const auto& names = ui.editor.unit_names().names;
   const auto name = names.find(unit);
@@ -81,6 +70,16 @@ bool GazeRow(Ui& ui, fsm::ActionUnits& look, std::string* merge) {
 
 }  // namespace
 
+std::string Spaced(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    const bool capital = c >= 'A' && c <= 'Z';
+    if (capital && !text.empty()) text += ' ';
+    text += capital && !text.empty() ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return text;
+}
+
 bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* merge) {
   Checkbox(ui, "Both sides together", &ui.linked);
   for (std::size_t r = 0; r < fsm::kRegions; ++r) {
@@ -103,7 +102,7 @@ bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* m
     for (const int unit : ui.unit_order) {
       const auto i = static_cast<std::size_t>(unit);
       if (!ui.regions[static_cast<std::size_t>(ui.editor.unit_list().region[i])]) continue;
-      if (UnitRow(ui, unit, look, merge)) changed = true;
+      if (SliderRow(ui, unit, look, merge)) changed = true;
     }
     ImGui::EndTable();
   }

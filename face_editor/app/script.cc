@@ -9,6 +9,7 @@
 
 #include "face_editor/core/commands.h"
 #include "fsm/motion/table_text.h"
+#include "fsm/motion/unit_names.h"
 
 namespace editor {
 
@@ -74,7 +75,8 @@ Answer Turn(Program& program, const Words& words) {
       return "";
     }
   }
-  return Fail(Errc::kBadValue, "points, units, expressions, mouth, motions or identity expected");
+  return Fail(Errc::kBadValue,
+              "points, units, fields, expressions, mouth, motions or identity expected");
 }
 
 Answer Play(Program& program, const Words& words) {
@@ -114,10 +116,16 @@ Answer Choose(Program& program, const Words& words) {
     ui.motion = words[2];
     ui.motion_pattern = PatternIn(words, 3);
     if (words.size() > 4) ui.scrub_ms = static_cast<float>(PatternIn(words, 4));
+  } else if (const auto unit = fsm::ParseUnitName(words.size() > 2 ? words[2] : "");
+             kind == "unit" && unit) {
+    ui.field_unit = unit->number;
+    ui.field_sides = {unit->right, unit->left};
+    if (words.size() > 3)
+      ui.field_percent = static_cast<float>(std::clamp(PatternIn(words, 3), 0, 200));
   } else {
     return Fail(Errc::kSyntax,
-                "choose expression NAME [N], mouth NAME, mouth28 NAME or motion KIND [N [MS]] "
-                "expected");
+                "choose expression NAME [N], mouth NAME, mouth28 NAME, motion KIND [N [MS]] or "
+                "unit UNIT[L|R] [PERCENT] expected");
   }
   return "";
 }

@@ -11,7 +11,23 @@ namespace editor {
 Stage::Stage(fsm::RenderContext& context, std::shared_ptr<const fsm::Head> given)
     : renderer_(fsm::Renderer::Make(context)), given_(std::move(given)) {}
 
+void Stage::TakeUnits(const Editor& editor) {
+  const auto& units = editor.state().units;
+  if (moved_of_ == head_ && moved_by_ == units) return;
+  moved_of_ = head_;
+  moved_by_ = units;
+  // A head that was given may have units of its own.
+  const bool own = units != editor.built_in_units() || (head_ && head_ == given_);
+  moved_ = head_ && own ? head_->WithUnits(units->table) : nullptr;
+}
+
 vm::Result<void> Stage::Update(const Editor& editor, bool identity) {
+  auto taken = Take(editor, identity);
+  TakeUnits(editor);
+  return taken;
+}
+
+vm::Result<void> Stage::Take(const Editor& editor, bool identity) {
   const auto& work = editor.work();
   const Source source = identity             ? Source::kIdentity
                         : work && work->base ? Source::kPhoto
@@ -57,7 +73,7 @@ void Stage::Draw(const fsm::Pane& pane, const fsm::FaceState& state) {
   if (!head_ || pane.width < 8 || pane.height < 8) return;
   fsm::FaceState turned = state;
   turned.agent_rotation = {turn[0], turn[1], 0};
-  head_->Evaluate(turned, vertices_);
+  head()->Evaluate(turned, vertices_);
   renderer_->Place(pane);
   renderer_->Draw(*head_, vertices_, turned, scene);
 }

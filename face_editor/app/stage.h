@@ -24,8 +24,8 @@ class Stage {
   /// with its sliders is shown, whatever is open. Errors: those of the points, once each.
   vm::Result<void> Update(const Editor& editor, bool identity);
   bool busy() const { return maker_.busy(); }
-  /// nullptr while the first one is being made.
-  const fsm::Head* head() const { return head_.get(); }
+  /// The head as its units move it now; nullptr while the first one is being made.
+  const fsm::Head* head() const { return moved_ ? moved_.get() : head_.get(); }
   /// The last face made from the photo that is open; nullptr if there is none.
   const std::shared_ptr<const BuiltFace>& built() const { return built_; }
 
@@ -34,8 +34,14 @@ class Stage {
   std::array<float, 2> turn{};  ///< of the whole figure, degrees: down, to the viewer's right
 
  private:
+  vm::Result<void> Take(const Editor& editor, bool identity);
+  void TakeUnits(const Editor& editor);
+
   std::unique_ptr<fsm::Renderer> renderer_;
   std::shared_ptr<const fsm::Head> given_, head_;
+  // head_ by the units that are edited, made anew with either; nullptr: as it is.
+  std::shared_ptr<const fsm::Head> moved_, moved_of_;
+  std::shared_ptr<const Units> moved_by_;
   std::shared_ptr<const BuiltFace> built_;
   enum class Source { kNone, kGiven, kPhoto, kIdentity } source_ = Source::kNone;
   std::shared_ptr<const PhotoWork> work_;

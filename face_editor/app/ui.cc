@@ -162,6 +162,8 @@ fsm::FaceState PageOf(Ui& ui) {
       return PointsPage(ui);
     case Page::kUnits:
       return UnitsPage(ui);
+    case Page::kFields:
+      return FieldsPage(ui);
     case Page::kExpressions:
       return ExpressionsPage(ui);
     case Page::kMouth:

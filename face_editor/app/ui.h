@@ -17,15 +17,16 @@
 
 namespace editor {
 
-enum class Page { kPoints, kUnits, kExpressions, kMouth, kMotions, kIdentity };
+enum class Page { kPoints, kUnits, kFields, kExpressions, kMouth, kMotions, kIdentity };
 struct PageName {
   Page page;
   const char* word;   ///< in scripts
   const char* title;  ///< on its tab
 };
-inline constexpr std::array<PageName, 6> kPages = {
+inline constexpr std::array<PageName, 7> kPages = {
     {{Page::kPoints, "points", "Photo"},
      {Page::kUnits, "units", "Units"},
+     {Page::kFields, "fields", "Units' fields"},
      {Page::kExpressions, "expressions", "Expressions"},
      {Page::kMouth, "mouth", "Mouth shapes"},
      {Page::kMotions, "motions", "Movements"},
@@ -76,6 +77,12 @@ struct Ui {
   std::string message;  ///< the last thing to tell, at the bottom
   bool failed = false;
   bool closed = false;  ///< the window is to go, whatever is not saved
+
+  int field_unit = 12;                          ///< whose rows are shown
+  std::array<bool, 2> field_sides{true, true};  ///< right, left: shown there
+  float field_percent = 100;
+  int field_row = 0;                 ///< the field under the mouse, 0 = none
+  std::string field_word = "field";  ///< of a new row
 
   std::string expression = "HAPPY";
   int pattern = 1;
@@ -137,6 +144,7 @@ void Mark(Ui& ui, const char* label);
 void DrawPhoto(Ui& ui);  ///< the photo with its points, in the current window
 fsm::FaceState PointsPage(Ui& ui);
 fsm::FaceState UnitsPage(Ui& ui);
+fsm::FaceState FieldsPage(Ui& ui);
 fsm::FaceState ExpressionsPage(Ui& ui);
 fsm::FaceState MouthPage(Ui& ui);
 fsm::FaceState MotionsPage(Ui& ui);
@@ -145,6 +153,8 @@ fsm::FaceState IdentityPage(Ui& ui);
 /// Sliders of the units of a look, by number or those that act before the others; true if one was
 /// moved. `merge` gets the name of the change.
 bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* merge);
+/// "LipCornerPuller" as words.
+std::string Spaced(const std::string& name);
 /// Buttons that play expressions and speech on the preview.
 void TryIt(Ui& ui);
 /// Path, load and save of a part.

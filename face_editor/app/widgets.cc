@@ -80,6 +80,7 @@ bool Choice(Ui& ui, const char* label, std::string* value, const std::vector<std
       changed = true;
     }
     Mark(ui, name.c_str());
+    if (name == *value && ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
   }
   ImGui::EndCombo();
   return changed;

@@ -41,11 +41,10 @@ struct FileKind {
   Part part;
   bool bilingual;
 };
-constexpr FileKind kFiles[] = {{"points", Part::kPoints, false},
-                               {"emotions", Part::kEmotions, false},
-                               {"mouth", Part::kMouth, false},
-                               {"mouth28", Part::kMouth, true},
-                               {"motions", Part::kMotions, false}};
+constexpr FileKind kFiles[] = {
+    {"points", Part::kPoints, false},   {"emotions", Part::kEmotions, false},
+    {"mouth", Part::kMouth, false},     {"mouth28", Part::kMouth, true},
+    {"motions", Part::kMotions, false}, {"units", Part::kUnits, false}};
 
 }  // namespace
 
@@ -202,7 +201,7 @@ Answer LoadOrSave(Editor& editor, const Words& words, bool save) {
   if (kind == std::end(kFiles)) {
     return vm::Fail(Errc::kBadValue, "'" + words[0] +
                                          "' found; points, emotions, mouth, mouth28, motions, "
-                                         "identity or tables expected");
+                                         "units, identity or tables expected");
   }
   return Done(save ? editor.Save(kind->part, words[1], kind->bilingual)
                    : editor.Load(kind->part, words[1], kind->bilingual));

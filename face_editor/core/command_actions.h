@@ -29,6 +29,9 @@ Answer SetMouth(Editor& editor, const Words& words, bool bilingual);
 enum class KeyChange { kSet, kAdd, kRemove };
 Answer ChangeKey(Editor& editor, const Words& words, KeyChange change);
 Answer SetSlider(Editor& editor, const Words& words);
+Answer SetRow(Editor& editor, const Words& words);
+Answer AddRow(Editor& editor, const Words& words);
+Answer RemoveRow(Editor& editor, const Words& words);
 Answer LoadOrSave(Editor& editor, const Words& words, bool save);
 
 Answer GetPoint(Editor& editor, const Words& words);
@@ -36,6 +39,8 @@ Answer GetExpression(Editor& editor, const Words& words);
 Answer GetMouth(Editor& editor, const Words& words, bool bilingual);
 Answer GetMotion(Editor& editor, const Words& words);
 Answer GetSlider(Editor& editor, const Words& words);
+/// The rows of a unit, numbered.
+Answer GetRows(Editor& editor, const Words& words);
 Answer GetUnsaved(Editor& editor, const Words& words);
 
 }  // namespace editor::actions

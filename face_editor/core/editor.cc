@@ -21,11 +21,9 @@ bool Editor::Unsaved(Part part) const {
 }
 
 std::string Editor::UnsavedNames() const {
-  constexpr std::pair<Part, const char*> kNames[] = {{Part::kPoints, "points"},
-                                                     {Part::kEmotions, "emotions"},
-                                                     {Part::kMouth, "mouth"},
-                                                     {Part::kMotions, "motions"},
-                                                     {Part::kIdentity, "identity"}};
+  constexpr std::pair<Part, const char*> kNames[] = {
+      {Part::kPoints, "points"},   {Part::kEmotions, "emotions"}, {Part::kMouth, "mouth"},
+      {Part::kMotions, "motions"}, {Part::kUnits, "units"},       {Part::kIdentity, "identity"}};
   std::string text;
   for (const auto& [part, name] : kNames) {
     if (Unsaved(part)) text += (text.empty() ? "" : " ") + std::string(name);
@@ -102,10 +100,7 @@ vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::st
 
 vm::Result<void> Editor::SetUnit(int unit, bool left, bool right, float strength,
                                  std::string_view merge) {
-  if (!fsm::IsActionUnit(unit)) {
-    return Fail(Errc::kBadValue,
-                fmt::format("{} is no action unit; 1 to 46 without 3 and 40 expected", unit));
-  }
+  if (auto fits = CheckUnit(unit); !fits) return fits;
   if (auto fits = fsm::CheckStrength(static_cast<double>(strength)); !fits) return fits;
   history_.Change(Part::kLook, fmt::format("unit {}", unit), merge, [&](State& state) {
     const auto i = static_cast<std::size_t>(unit);

@@ -76,6 +76,15 @@ class Editor {
   vm::Result<void> AddCurve(std::string_view kind);
   vm::Result<void> RemoveCurve(std::string_view kind, int pattern);
 
+  // How far each unit moves which skin. Rows of a unit count from 1; see UnitRowKinds for columns.
+  vm::Result<void> SetRow(int unit, int row, std::string_view column, const std::string& value,
+                          std::string_view merge = "");
+  /// `values`: what follows the unit, "" = an example.
+  vm::Result<void> AddRow(int unit, std::string_view word, const std::string& values = "");
+  vm::Result<void> RemoveRow(int unit, int row);
+  /// What the program carries: while nothing else is edited, it is this very object.
+  const std::shared_ptr<const Units>& built_in_units() const { return built_in_units_; }
+
   // Identity: a built-in face made into somebody else.
   vm::Result<void> SetBase(std::string_view name);
   vm::Result<void> SetSlider(std::string_view name, float value, std::string_view merge = "");
@@ -94,13 +103,16 @@ class Editor {
 
  private:
   explicit Editor(fsm::MotionTables tables);
-  void Adopt(const fsm::MotionTables& tables);
   void MarkSaved(Part part);
   std::vector<fsm::ActionUnits>* PatternsOf(State& state, std::string_view name) const;
   vm::Result<void> CheckPattern(std::string_view name, int pattern) const;
   vm::Result<void> CheckCurve(std::string_view kind, int pattern) const;
+  vm::Result<std::size_t> RowOf(int unit, int row) const;
+  vm::Result<void> ChangeRows(UnitRows rows, const std::string& what, std::string_view merge);
+  vm::Result<std::shared_ptr<const Units>> UnitsIn(const std::string& folder) const;
 
-  fsm::MotionTables tables_;    // as read; what is edited lies in the state
+  fsm::MotionTables tables_;  // as read; what is edited lies in the state
+  std::shared_ptr<const Units> built_in_units_;
   std::string identity_other_;  // lines of its file that are not edited
   std::string emotions_text_, shapes14_text_, shapes28_text_, motions_text_;
   History history_;
@@ -111,5 +123,7 @@ class Editor {
 
 /// The key frames are in order of time from above 0, angles within 180 degrees. Error: kBadValue.
 vm::Result<void> CheckKeys(const Editor::Keys& keys);
+/// Error: kBadValue.
+vm::Result<void> CheckUnit(int unit);
 
 }  // namespace editor

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "embedded/editor_action_units.h"
 #include "embedded/editor_emotions.h"
 #include "embedded/editor_motions.h"
 #include "embedded/editor_mouth_shapes.h"
@@ -26,6 +27,7 @@ constexpr const char* kEmotionsFile = "emotions.txt";
 constexpr const char* kShapes14File = "mouth_shapes.txt";
 constexpr const char* kShapes28File = "mouth_shapes_28.txt";
 constexpr const char* kMotionsFile = "motions.txt";
+constexpr const char* kUnitsFile = "action_units.txt";
 
 vm::Result<std::string> ReadTable(const std::string& path) {
   auto text = fsm::ReadTableFile(path);
@@ -59,6 +61,9 @@ vm::Result<std::unique_ptr<Editor>> Editor::Make(const std::string& tables) {
   auto loaded = fsm::MotionTables::Load("");
   if (!loaded) return std::unexpected(loaded.error());
   std::unique_ptr<Editor> editor(new Editor(std::move(*loaded)));
+  auto units = ReadUnits(kUnitsFile, embedded::editor_action_units());
+  if (!units) return std::unexpected(units.error());
+  editor->built_in_units_ = std::move(*units);
   if (auto done = editor->LoadTables(tables); !done) return std::unexpected(done.error());
   return editor;
 }
@@ -66,6 +71,8 @@ vm::Result<std::unique_ptr<Editor>> Editor::Make(const std::string& tables) {
 vm::Result<void> Editor::LoadTables(const std::string& folder) {
   auto tables = fsm::MotionTables::Load(folder);
   if (!tables) return std::unexpected(tables.error());
+  auto units = UnitsIn(folder);
+  if (!units) return std::unexpected(units.error());
   tables_ = std::move(*tables);
   emotions_text_ = TextIn(folder, kEmotionsFile, embedded::editor_emotions());
   shapes14_text_ = TextIn(folder, kShapes14File, embedded::editor_mouth_shapes());
@@ -80,6 +87,7 @@ vm::Result<void> Editor::LoadTables(const std::string& folder) {
     state.shapes14 = tables_.set14.shapes;
     state.shapes28 = tables_.set28.shapes;
   });
+  put(Part::kUnits, [&](State& state) { state.units = *units; });
   put(Part::kMotions, [this](State& state) {
     for (auto& [kind, curves] : state.curves) {
       const auto read = tables_.motions.head.find(kind);
@@ -87,6 +95,15 @@ vm::Result<void> Editor::LoadTables(const std::string& folder) {
     }
   });
   return {};
+}
+
+vm::Result<std::shared_ptr<const Units>> Editor::UnitsIn(const std::string& folder) const {
+  std::error_code code;
+  const std::string path = folder + "/" + kUnitsFile;
+  if (folder.empty() || !std::filesystem::exists(path, code)) return built_in_units_;
+  const auto text = ReadTable(path);
+  if (!text) return std::unexpected(text.error());
+  return ReadUnits(path, *text);
 }
 
 fsm::MotionTables Editor::Tables() const {
@@ -136,6 +153,10 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
     put("movements read", [&](State& state) {
       for (auto& [kind, curves] : state.curves) curves = read->head[kind];
     });
+  } else if (part == Part::kUnits) {
+    auto read = ReadUnits(path, *text);
+    if (!read) return std::unexpected(read.error());
+    put("units' fields read", [&](State& state) { state.units = *read; });
   } else {
     return Fail(Errc::kBadValue, "this part has no table of its own");
   }
@@ -151,10 +172,15 @@ vm::Result<void> Editor::Save(Part part, const std::string& path, bool bilingual
     text = WriteMouthShapes(bilingual ? shapes28_text_ : shapes14_text_, shapes(bilingual));
   } else if (part == Part::kMotions) {
     text = WriteCurves(motions_text_, state().curves);
+  } else if (part == Part::kUnits) {
+    text = WriteUnits(*state().units);
   } else {
     return Fail(Errc::kBadValue, "this part has no table of its own");
   }
   if (auto done = WriteWhole(path, text); !done) return done;
+  const std::string& other = bilingual ? shapes14_text_ : shapes28_text_;
+  // The other set of mouth shapes is a file of its own.
+  if (part == Part::kMouth && WriteMouthShapes(other, shapes(!bilingual)) != other) return {};
   MarkSaved(part);
   return {};
 }
@@ -177,7 +203,9 @@ vm::Result<int> Editor::SaveTables(const std::string& folder) {
       {kShapes28File, Part::kMouth, true, WriteMouthShapes(shapes28_text_, state().shapes28),
        embedded::editor_mouth_shapes_28()},
       {kMotionsFile, Part::kMotions, false, WriteCurves(motions_text_, state().curves),
-       embedded::editor_motions()}};
+       embedded::editor_motions()},
+      {kUnitsFile, Part::kUnits, false, WriteUnits(*state().units),
+       embedded::editor_action_units()}};
   int written = 0;
   for (const File& file : files) {
     const std::string path = folder + "/" + file.name;
@@ -185,7 +213,9 @@ vm::Result<int> Editor::SaveTables(const std::string& folder) {
     if (auto done = WriteWhole(path, file.text); !done) return std::unexpected(done.error());
     ++written;
   }
-  for (const Part part : {Part::kEmotions, Part::kMouth, Part::kMotions}) MarkSaved(part);
+  for (const Part part : {Part::kEmotions, Part::kMouth, Part::kMotions, Part::kUnits}) {
+    MarkSaved(part);
+  }
   return written;
 }
 

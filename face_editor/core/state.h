@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "face_editor/core/unit_rows.h"
 #include "fsm/motion/emotion_table.h"
 #include "fsm/motion/motion_table.h"
 #include "fsm/motion/mouth_tables.h"
@@ -21,8 +23,8 @@ using HeadCurves = std::map<std::string, std::vector<fsm::HeadCurve>, std::less<
 using Sliders = std::map<std::string, float, std::less<>>;
 
 /// What is edited; each part is kept in a file of its own.
-enum class Part : std::size_t { kPoints, kLook, kEmotions, kMouth, kMotions, kIdentity };
-inline constexpr std::size_t kParts = 6;
+enum class Part : std::size_t { kPoints, kLook, kEmotions, kMouth, kMotions, kIdentity, kUnits };
+inline constexpr std::size_t kParts = 7;
 
 /// Everything that can be edited, at one instant. A plain value.
 struct State {
@@ -31,7 +33,8 @@ struct State {
   fsm::EmotionTable emotions;
   fsm::MouthShapes shapes14, shapes28;
   HeadCurves curves;
-  std::string base = "galatea";  ///< the built-in face whose sliders are moved
+  std::shared_ptr<const Units> units;  ///< how far each moves which skin; never nullptr
+  std::string base = "galatea";        ///< the built-in face whose sliders are moved
   Sliders sliders;
   /// Differs whenever a part does: cheap to compare.
   std::array<std::uint64_t, kParts> version{};

@@ -8,6 +8,7 @@
 #include "fsm/head/face_folder.h"
 #include "fsm/head/face_set.h"
 #include "fsm/head/own_identity.h"
+#include "fsm/motion/table_text.h"
 #include "fsm/render/renderer.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -24,21 +25,43 @@ std::string ReadText(const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<Head> MakeHeadOfName(const std::string& face) {
+std::optional<UnitTable> UnitsIn(const std::string& folder) {
+  const std::string path = folder + "/" + kUnitsFile;
+  std::error_code error;
+  if (folder.empty() || !std::filesystem::exists(path, error)) return std::nullopt;
+  const auto text = ReadTableFile(path);
+  if (!text) throw std::runtime_error(text.error().text);
+  if (auto encoded = CheckTableEncoding(path, *text); !encoded) {
+    throw std::runtime_error(encoded.error().text);
+  }
+  return UnitTable(Table(path, *text));
+}
+
+std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head) {
+  const auto units = UnitsIn(tables);
+  auto moved = units ? head->WithUnits(*units) : nullptr;
+  return moved ? std::move(moved) : std::move(head);
+}
+
+std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables) {
   if (std::ranges::find(Head::Identities(), face, &IdentityInfo::name) !=
       Head::Identities().end()) {
-    return Head::Make(face);
+    return MovedAsIn(tables, Head::Make(face));
   }
   const std::string folder = FacesFolder() + "/" + face;
   std::error_code error;
+  const bool own_units = std::filesystem::exists(folder + "/" + kUnitsFile, error);
+  const std::string& units = own_units ? folder : tables;
   const std::string own = folder + "/identity.txt";
-  if (std::filesystem::exists(own, error)) return MakeHead(ReadOwnIdentity(own, ReadText(own)));
+  if (std::filesystem::exists(own, error)) {
+    return MovedAsIn(units, MakeHead(ReadOwnIdentity(own, ReadText(own))));
+  }
   FaceSet set = ReadFaceSet(folder + "/face.txt", ReadText(folder + "/face.txt"));
   auto image = ReadImage(folder + "/photo.png");
   if (!image) throw std::runtime_error(image.error().text);
   set.photo =
       std::make_shared<WornPhoto>(WornPhoto{image->width, image->height, std::move(image->rgba)});
-  return Head::Make(set);
+  return MovedAsIn(units, Head::Make(set));
 }
 
 }  // namespace fsm

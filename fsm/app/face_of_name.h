@@ -1,14 +1,25 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "fsm/head/action_units.h"
 #include "fsm/head/head.h"
 
 namespace fsm {
 
-/// A built-in head, or one out of the folder of faces (FacesFolder). Throws std::runtime_error or
+/// How far each unit moves which skin, in place of fsm/head/tables/action_units.txt: the file of
+/// that name in a folder of tables or of a face; nothing if there is none. Throws
+/// std::runtime_error naming file and line.
+std::optional<UnitTable> UnitsIn(const std::string& folder);
+inline constexpr const char* kUnitsFile = "action_units.txt";
+/// The same head, moved by the units of a folder of tables if that has any. Throws as UnitsIn.
+std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head);
+
+/// A built-in head, or one out of the folder of faces (FacesFolder). Its units are those of its own
+/// folder, else those of the folder `tables`, else the built-in ones. Throws std::runtime_error or
 /// std::invalid_argument with a sentence.
-std::unique_ptr<Head> MakeHeadOfName(const std::string& face);
+std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables = "");
 
 }  // namespace fsm

@@ -37,8 +37,8 @@ std::unique_ptr<Head> GlStudio::MakeHead(const std::string& face) const {
   for (const auto& more : options_.more_faces) {
     if (face.empty() || more.name == face) return more.make();
   }
-  if (face.empty()) return Head::MakeGeneric();
-  return MakeHeadOfName(face);
+  return MakeHeadOfName(face.empty() ? std::string(Head::Identities().front().name) : face,
+                        options_.tables);
 }
 
 void GlStudio::MakeRenderer() {

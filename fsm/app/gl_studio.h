@@ -29,6 +29,7 @@ class GlStudio final : public Studio {
       std::function<std::unique_ptr<Head>()> make;
     };
     std::vector<MoreFace> more_faces = {};
+    std::string tables = {};  ///< a folder whose units move the faces, see MakeHeadOfName
   };
   /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had.
   explicit GlStudio(const Options& options);

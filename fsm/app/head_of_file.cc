@@ -7,6 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "fsm/app/face_of_name.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/face_motion.h"
@@ -145,15 +146,18 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
   MeshModel model = ModelOf(file, placed.place, placed.mouth_y);
   auto own =
       OwnShapesMotion(file, placed.place, model, Head::Make(placed.face, false), Meanings(tables));
-  if (own) return MakeMeshHead(std::move(model), std::move(own));
+  const auto make = [&](std::unique_ptr<MeshMotion> motion) {
+    return MovedAsIn(tables_folder, MakeMeshHead(std::move(model), std::move(motion)));
+  };
+  if (own) return make(std::move(own));
   if (has_points) {
     auto carried = CarriedMotion(model, Head::Make(placed.face), placed.pairs);
-    return MakeMeshHead(std::move(model), std::move(carried));
+    return make(std::move(carried));
   }
   std::cerr << "fsm: notice: '" << path << "' has no shapes with names of ARKit or VRM, and no '"
             << beside << "' says where its eyes and mouth are (face_fit --head finds out): only "
             << "head, eyes and jaw move\n";
-  return MakeMeshHead(std::move(model), StillMotion());
+  return make(StillMotion());
 }
 
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/app/face_of_name.h"
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_studio.h"
 #include "fsm/app/head_of_file.h"
@@ -118,8 +119,10 @@ int ExportIfAsked(const Options& options) {
   const auto tables = fsm::MotionTables::Load(options.module.tables);
   if (!tables) return fail(tables.error().text);
   try {
-    const auto head = options.module.mask.empty() ? fsm::Head::MakeGeneric()
-                                                  : fsm::Head::Make(options.module.mask, false);
+    const auto head =
+        fsm::MovedAsIn(options.module.tables, options.module.mask.empty()
+                                                  ? fsm::Head::MakeGeneric()
+                                                  : fsm::Head::Make(options.module.mask, false));
     if (auto done = fsm::ExportHead(*head, *tables, options.export_file); !done) {
       return fail(done.error().text);
     }
@@ -151,6 +154,8 @@ fsm::GlStudio::Options StudioOptions(const Options& options) {
   if (options.context == "egl") studio.off_screen = fsm::OffScreen::kEgl;
   if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};
   studio.more_faces = MoreFaces(options, options.module.config);
+  studio.tables = options.module.tables;
+  static_cast<void>(fsm::UnitsIn(studio.tables));  // a damaged one is told before the start
   using Where = fsm::GlStudio::Options::Where;
   const bool must = options.window || options.context == "window";
   studio.where = must && WindowWanted(options) ? Where::kWindow
@@ -177,7 +182,8 @@ int DrawSheetIfAsked(const Options& options) {
   }
   fsm::GlStudio studio({.width = fsm::kCellWidth,
                         .height = fsm::kCellHeight,
-                        .more_faces = MoreFaces(options, config)});
+                        .more_faces = MoreFaces(options, config),
+                        .tables = options.module.tables});
   if (!options.module.mask.empty()) {
     if (auto worn = studio.Wear(options.module.mask); !worn) return fail(worn.error().text);
   }

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "fsm/app/face_of_name.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/motion/motion_tables.h"
 
@@ -24,7 +25,7 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   }
   MeshModel model = ModelOf(*face);
   auto moved = OwnMotionOf(*face, model, mouths);
-  return MakeMeshHead(std::move(model), std::move(moved));
+  return MovedAsIn(tables, MakeMeshHead(std::move(model), std::move(moved)));
 }
 
 /// The first of the files that is not there; "" if all are.

@@ -1,7 +1,9 @@
 #include "fsm/head/action_units.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "fsm/head/paint.h"
@@ -20,11 +22,28 @@ int ReadUnit(const TableRow& row, std::size_t index) {
   return unit;
 }
 
+float Within(const TableRow& row, std::size_t index, float low, float high) {
+  const float value = row.Number(index);
+  if (!(value >= low && value <= high)) {
+    std::array<char, 48> bounds;
+    std::snprintf(bounds.data(), bounds.size(), "%g to %g", static_cast<double>(low),
+                  static_cast<double>(high));
+    row.Fail("'" + row.Word(index) + "' found where " + bounds.data() + " was expected");
+  }
+  return value;
+}
+
+/// Nothing may follow what was read: a number too many is one that stands in the wrong place.
+void EndsAt(const TableRow& row, std::size_t count) {
+  if (row.size() > count) row.Fail("'" + row.Word(count) + "' is one word too many");
+}
+
 UnitTable::Field ReadField(const TableRow& row) {
+  constexpr float kFace = 300, kMost = 100;  // millimetres
   UnitTable::Field field{};
   field.unit = ReadUnit(row, 1);
-  field.at = {row.Number(2), row.Number(3)};
-  field.radius = {row.Number(4), row.Number(5)};
+  field.at = {Within(row, 2, -kFace, kFace), Within(row, 3, -kFace, kFace)};
+  field.radius = {Within(row, 4, -kFace, kFace), Within(row, 5, -kFace, kFace)};
   if (field.radius.x <= 0 || field.radius.y <= 0) row.Fail("a radius must be positive");
   const std::string& part = row.Word(6);
   using Part = UnitTable::Field::Part;
@@ -37,7 +56,9 @@ UnitTable::Field ReadField(const TableRow& row) {
   } else {
     row.Fail("'" + part + "' found where above, below or both was expected");
   }
-  field.by = row.Vector(7);
+  field.by = {Within(row, 7, -kMost, kMost), Within(row, 8, -kMost, kMost),
+              Within(row, 9, -kMost, kMost)};
+  EndsAt(row, 10);
   return field;
 }
 
@@ -54,26 +75,34 @@ UnitTable::UnitTable(const Table& table) {
   using enum Effect::Kind;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();
-    const auto effect = [&](Effect::Kind kind, bool two) {
-      effects_.push_back({kind, ReadUnit(row, 1), row.Number(2), two ? row.Number(3) : 0});
+    // What follows the unit: one number of -most to most, or two.
+    const auto effect = [&](Effect::Kind kind, float most, float most_second = 0) {
+      const bool two = most_second > 0;
+      effects_.push_back({kind, ReadUnit(row, 1), Within(row, 2, -most, most),
+                          two ? Within(row, 3, -most_second, most_second) : 0});
+      EndsAt(row, two ? 4 : 3);
     };
     const auto rule = [&](Rule::Kind kind, bool part) {
-      rules_.push_back({kind, ReadUnit(row, 1), ReadUnit(row, 2), part ? row.Number(3) : 0});
+      rules_.push_back({kind, ReadUnit(row, 1), ReadUnit(row, 2), part ? Within(row, 3, 0, 1) : 0});
+      EndsAt(row, part ? 4 : 3);
     };
+    if (fields_.size() + effects_.size() + rules_.size() >= kMostRows) {
+      row.Fail("more rows than are read (" + std::to_string(kMostRows) + ")");
+    }
     if (key == "field") {
       fields_.push_back(ReadField(row));
     } else if (key == "lid") {
-      effect(kLid, true);
+      effect(kLid, 20, 20);
     } else if (key == "close") {
-      effect(kClose, false);
+      effect(kClose, 1);
     } else if (key == "jaw") {
-      effect(kJaw, true);
+      effect(kJaw, 60, 30);
     } else if (key == "sway") {
-      effect(kSway, false);
+      effect(kSway, 30);
     } else if (key == "seal") {
-      effect(kSeal, false);
+      effect(kSeal, 1);
     } else if (key == "tongue") {
-      effect(kTongue, true);
+      effect(kTongue, 1, 60);
     } else if (key == "damp") {
       rule(Rule::Kind::kDamp, true);
     } else if (key == "oppose") {

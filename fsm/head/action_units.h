@@ -34,8 +34,10 @@ class UnitTable {
     glm::vec3 by;
   };
 
-  /// Throws std::runtime_error naming file and line if the table is damaged.
+  /// Throws std::runtime_error naming file and line if the table is damaged, if a number is beyond
+  /// what a face can do, or if there are more than kMostRows.
   explicit UnitTable(const Table& table);
+  static constexpr std::size_t kMostRows = 1000;
 
   /// Gives every unit but those of the lids a slightly different strength on either side, the same
   /// for the same `seed`.

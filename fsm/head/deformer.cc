@@ -12,24 +12,7 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                    const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
                    glm::vec3 teeth_shift)
     : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)), seats_(seats) {
-  for (std::size_t side = 0; side < 2; ++side) {
-    std::array<std::vector<glm::vec3>, kActionUnits> sums;
-    for (const UnitTable::Field& field : units.fields()) {
-      auto& sum = sums[static_cast<std::size_t>(field.unit)];
-      sum.resize(rest_.size(), glm::vec3(0));
-      for (std::size_t i = 0; i < rest_.size(); ++i) {
-        sum[i] += UnitTable::Motion(field, flesh_[i], side == 0);
-      }
-    }
-    for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
-      for (std::size_t i = 0; i < sums[unit].size(); ++i) {
-        const glm::vec3 d = sums[unit][i];
-        if (d.x * d.x + d.y * d.y + d.z * d.z > 1e-6f) {
-          unit_fields_[side][unit].push_back({static_cast<std::uint32_t>(i), d});
-        }
-      }
-    }
-  }
+  MoveBy(units);
   AddMouthFields(mouth);
   upper_teeth_ = mouth.UpperTeeth().Moved(teeth_shift);
   lower_teeth_ = mouth.LowerTeeth().Moved(teeth_shift);
@@ -46,6 +29,28 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
     if (flesh_[i].jaw > 0.001f) jawed_.push_back(static_cast<std::uint32_t>(i));
     if (flesh_[i].lip_column >= 0 && flesh_[i].lip_weight != 0) {
       lipped_.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+}
+
+void Deformer::MoveBy(const UnitTable& units) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::array<std::vector<glm::vec3>, kActionUnits> sums;
+    for (const UnitTable::Field& field : units.fields()) {
+      auto& sum = sums[static_cast<std::size_t>(field.unit)];
+      sum.resize(rest_.size(), glm::vec3(0));
+      for (std::size_t i = 0; i < rest_.size(); ++i) {
+        sum[i] += UnitTable::Motion(field, flesh_[i], side == 0);
+      }
+    }
+    for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
+      unit_fields_[side][unit].clear();
+      for (std::size_t i = 0; i < sums[unit].size(); ++i) {
+        const glm::vec3 d = sums[unit][i];
+        if (d.x * d.x + d.y * d.y + d.z * d.z > 1e-6f) {
+          unit_fields_[side][unit].push_back({static_cast<std::uint32_t>(i), d});
+        }
+      }
     }
   }
 }

@@ -54,6 +54,8 @@ class Deformer {
            glm::vec3 teeth_shift);
 
   std::size_t size() const { return rest_.size(); }
+  /// Takes the fields of other units.
+  void MoveBy(const UnitTable& units);
   /// Writes size() positions, the head's turn not yet applied.
   void Deform(const Pose& pose, glm::vec3* out) const;
   float neck(std::size_t i) const { return flesh_[i].neck; }

@@ -83,7 +83,7 @@ struct HeadTopology {
   /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows.
   std::vector<glm::vec2> uv;
   std::vector<SkinHair> skin_hairs;
-  std::vector<Strand> strands;   ///< per vertex, meaningful where there is hair; may be empty
+  std::vector<Strand> strands;  ///< per vertex, meaningful where there is hair; may be empty
   std::shared_ptr<const WornPhoto> photo;  ///< nothing: skin is painted and lit
   /// Per vertex where there is a photo: its place there (0..1, v down) and the photo's part in the
   /// colour, 0..1.
@@ -113,6 +113,7 @@ struct IdentityInfo {
 };
 
 struct FaceSet;
+class UnitTable;
 
 /// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,
 /// figure placement (agent_*) and camera not. Immutable after construction; safe to share.
@@ -134,6 +135,9 @@ class Head {
   virtual const HeadTopology& topology() const = 0;
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
   virtual void Evaluate(const FaceState& state, HeadVertices& out) const = 0;
+  /// The same head, of the same topology, whose units move it as another table says
+  /// (UnitTable); nothing if it has none to replace.
+  virtual std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
   /// The mouth of a state, measured on the vertices Evaluate would give.
   virtual MouthMeasure MeasureMouth(const FaceState& state) const = 0;
   /// Where a named landmark lies at rest, after Farkas: "nasion", "pronasale", "subnasale",

@@ -47,6 +47,12 @@ class Carried : public MeshMotion {
     return JawOf(pose);
   }
 
+  std::unique_ptr<MeshMotion> WithUnits(const UnitTable& units) const override {
+    auto other = std::make_unique<Carried>(*this);
+    other->source_ = source_->WithUnits(units);
+    return other;
+  }
+
  private:
   static std::vector<glm::vec3> Rest(const Head& head) {
     HeadVertices rest;
@@ -54,7 +60,7 @@ class Carried : public MeshMotion {
     return std::move(rest.position);
   }
 
-  std::unique_ptr<Head> source_;
+  std::shared_ptr<const Head> source_;
   std::vector<glm::vec3> rest_;
   Carry carry_;
 };
@@ -126,6 +132,14 @@ class OwnShapes : public MeshMotion {
     }
     LookByShape(pose, position);
     return JawOf(pose);
+  }
+
+  /// The shapes keep the meaning they have by the built-in units, and are mixed to look as these
+  /// do.
+  std::unique_ptr<MeshMotion> WithUnits(const UnitTable& units) const override {
+    auto other = std::make_unique<OwnShapes>(*this);
+    other->source_ = source_->WithUnits(units);
+    return other;
   }
 
  private:

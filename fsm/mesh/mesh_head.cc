@@ -35,7 +35,7 @@ class MeshHead : public Head {
   const HeadTopology& topology() const override { return topology_; }
 
   void Evaluate(const FaceState& state, HeadVertices& out) const override {
-    const Pose pose = MakePose(state, BuiltInUnits());
+    const Pose pose = MakePose(state, units_);
     out.position = model_.position;
     const JawMove jaw = motion_->Move(state, pose, out.position);
     const std::array<glm::mat3, 2> eye{EyeTurn(pose, 0), EyeTurn(pose, 1)};
@@ -71,7 +71,7 @@ class MeshHead : public Head {
 
   MouthMeasure MeasureMouth(const FaceState& state) const override {
     if (model_.seam.empty()) return {};
-    const Pose pose = MakePose(state, BuiltInUnits());
+    const Pose pose = MakePose(state, units_);
     std::vector<glm::vec3> position = model_.position;
     const JawMove jaw = motion_->Move(state, pose, position);
     const auto [upper, lower] = model_.seam[model_.seam.size() / 2];
@@ -79,6 +79,13 @@ class MeshHead : public Head {
             .width_mm = glm::distance(position[model_.seam.front().first],
                                       position[model_.seam.back().first]),
             .jaw_degrees = glm::degrees(jaw.open_rad)};
+  }
+
+  std::unique_ptr<Head> WithUnits(const UnitTable& units) const override {
+    auto other = std::make_unique<MeshHead>(*this);
+    other->units_ = units;
+    if (auto motion = motion_->WithUnits(units)) other->motion_ = std::move(motion);
+    return other;
   }
 
   glm::vec3 Landmark(std::string_view name) const override {
@@ -143,7 +150,8 @@ class MeshHead : public Head {
   }
 
   MeshModel model_;
-  std::unique_ptr<MeshMotion> motion_;
+  std::shared_ptr<const MeshMotion> motion_;
+  UnitTable units_ = BuiltInUnits();
   HeadTopology topology_;
   std::vector<Lid> lids_;
 };

@@ -16,6 +16,7 @@
 namespace fsm {
 
 struct Pose;
+class UnitTable;
 
 /// Where the eyes of every head from elsewhere are put: those of the built-in head
 /// (head/tables/eye.txt).
@@ -79,6 +80,10 @@ class MeshMotion {
   /// apart.
   virtual JawMove Move(const FaceState& state, const Pose& pose,
                        std::span<glm::vec3> position) const = 0;
+  /// The same, where units move as another table says; nothing if that changes nothing here.
+  virtual std::unique_ptr<MeshMotion> WithUnits(const UnitTable& /*units*/) const {
+    return nullptr;
+  }
 };
 
 /// A head that shows `model`, moved by `motion`. Throws std::runtime_error if the model has no

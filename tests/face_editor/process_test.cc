@@ -217,18 +217,51 @@ TEST_F(FaceEditorTest, WithoutTheNetworksPointsAreSetByHand) {
 
 TEST_F(FaceEditorTest, EveryPageIsDrawn) {
   std::string script = "open " + DrawnPhoto() + "\nwait\n";
-  for (const char* page : {"points", "units", "expressions", "mouth", "motions", "identity"}) {
+  for (const char* page :
+       {"points", "units", "fields", "expressions", "mouth", "motions", "identity"}) {
     script += std::string("page ") + page + "\nwait\nscreenshot " + folder_ + "/" + page + ".png\n";
   }
   ASSERT_EQ(RunScript(script + "quit\n"), 0) << program_->ErrorText();
   std::vector<std::vector<std::uint8_t>> seen;
-  for (const char* page : {"points", "units", "expressions", "mouth", "motions", "identity"}) {
+  for (const char* page :
+       {"points", "units", "fields", "expressions", "mouth", "motions", "identity"}) {
     const auto image = fsm::ReadImage(folder_ + "/" + page + ".png");
     ASSERT_TRUE(image) << image.error().text;
     EXPECT_EQ(image->width, 1280);
     for (const auto& other : seen) EXPECT_NE(other, image->rgba) << page;
     seen.push_back(image->rgba);
   }
+}
+
+TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
+  const std::string shot = "screenshot " + folder_ + "/";
+  const std::string script =
+      "page fields\nwait\nchoose unit 25\nclick unit\nclick 26 Jaw drop\nget rows 26\n"
+      "click row 1 degrees\nget rows 26\n" +
+      shot + "jaw.png\nclick Undo\nget rows 26\n" + shot +
+      "undone.png\nclick Add row\nget rows 26\nclick remove row 2\nget rows 26\nquit\n";
+  ASSERT_EQ(RunScript(script), 0) << program_->ErrorText();
+  std::istringstream lines(Output());
+  std::vector<std::string> answers;
+  for (std::string line; std::getline(lines, line);) answers.push_back(line);
+  ASSERT_EQ(answers.size(), 6U);
+  EXPECT_EQ(answers[0], "1: jaw 26 12 1.5");
+  EXPECT_EQ(answers[1], "1: jaw 26 11.5 1.5") << "the middle of the slider";
+  EXPECT_EQ(answers[2], answers[0]);
+  EXPECT_EQ(answers[4], "2: field 26 25 -42 15 15 both 0 1 0");
+  EXPECT_EQ(answers[5], answers[0]);
+  const auto jaw = fsm::ReadImage(folder_ + "/jaw.png");
+  const auto undone = fsm::ReadImage(folder_ + "/undone.png");
+  ASSERT_TRUE(jaw && undone);
+  // The chin, left of the page.
+  std::size_t differ = 0;
+  for (std::size_t y = 480; y < 680; ++y) {
+    for (std::size_t x = 300; x < 500; ++x) {
+      const std::size_t i = 4 * (y * 1280 + x);
+      if (std::abs(jaw->rgba[i] - undone->rgba[i]) > 8) ++differ;
+    }
+  }
+  EXPECT_GT(differ, 200U) << "the mouth was a little less open";
 }
 
 TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {

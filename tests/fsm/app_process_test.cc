@@ -108,6 +108,34 @@ TEST_F(FsmProcessTest, BadOptionsAndTablesEndInOneSentence) {
   EXPECT_EQ(err, "fsm: cannot read nowhere.txt\n");
 }
 
+/// Opens the mouth by unit 26 and films it; frames are reported with the jaw's angle.
+constexpr const char* kOpenMouth =
+    "prop Frame = AutoOutput\nset AU = 26 1 0\nset Record = a.rgba\nset LipSync.pho = pau 100\n"
+    "set Speak = NOW\nset Wait = IDLE\nset Record = STOP\n";
+
+TEST_F(FsmProcessTest, UnitsOfOnesOwnMoveTheFace) {
+  EXPECT_EQ(Run("--headless --size 64x64", kOpenMouth), 0) << err;
+  EXPECT_NE(out.find("rep Frame = 0 0 pau 12.00 "), std::string::npos) << out;
+  std::filesystem::create_directory(folder / "tables");
+  std::ofstream(folder / "tables/action_units.txt") << "jaw 26 20 0\n";
+  EXPECT_EQ(Run("--headless --size 64x64 --tables tables", kOpenMouth), 0) << err;
+  EXPECT_NE(out.find("rep Frame = 0 0 pau 20.00 "), std::string::npos) << out;
+  std::ofstream(folder / "tables/action_units.txt") << "jaw 26 20 0\njaw 26 far 0\n";
+  EXPECT_EQ(Run("--headless --tables tables", ""), 1);
+  EXPECT_EQ(err, "fsm: tables/action_units.txt:2: 'far' found where a number was expected\n");
+}
+
+TEST_F(FsmProcessTest, AFacesOwnUnitsGoBeforeThoseOfTheTables) {
+  std::filesystem::create_directories(folder / "faces/berta");
+  std::ofstream(folder / "faces/berta/identity.txt") << "base galatea\n";
+  std::ofstream(folder / "faces/berta/action_units.txt") << "jaw 26 17 0\n";
+  std::ofstream(folder / "action_units.txt") << "jaw 26 20 0\n";
+  ASSERT_EQ(::setenv("GALATEA_FACES", (folder / "faces").c_str(), 1), 0);
+  EXPECT_EQ(Run("--headless --size 64x64 --mask berta --tables .", kOpenMouth), 0) << err;
+  ::unsetenv("GALATEA_FACES");
+  EXPECT_NE(out.find("rep Frame = 0 0 pau 17.00 "), std::string::npos) << out;
+}
+
 TEST_F(FsmProcessTest, StrictTurnsRefusalsIntoTheExitCode) {
   EXPECT_EQ(Run("--headless", "set FaceExp = BORED 1 100 0\n"), 0);
   EXPECT_NE(err.find("'BORED' is no expression"), std::string::npos);

@@ -50,6 +50,14 @@ TEST(HeadTablesTest, ActionUnitTableRefusesNonsense) {
   EXPECT_EQ(complain("field 1 1 1 1 1 left 0 0 0\n"),
             "au.txt:1: 'left' found where above, below or both was expected");
   EXPECT_EQ(complain("\nfeld 1\n"), "au.txt:2: unknown word 'feld'");
+  EXPECT_EQ(complain("field 1 1 1 1 1 both 0 101 0\n"),
+            "au.txt:1: '101' found where -100 to 100 was expected");
+  EXPECT_EQ(complain("field 1 1 1 1 1 both 0 1 0 7\n"), "au.txt:1: '7' is one word too many");
+  EXPECT_EQ(complain("close 43 2\n"), "au.txt:1: '2' found where -1 to 1 was expected");
+  EXPECT_EQ(complain("damp 4 1 -0.1\n"), "au.txt:1: '-0.1' found where 0 to 1 was expected");
+  std::string many;
+  for (std::size_t i = 0; i <= UnitTable::kMostRows; ++i) many += "seal 8 1\n";
+  EXPECT_EQ(complain(many), "au.txt:1001: more rows than are read (1000)");
   EXPECT_EQ(complain("jaw 26\n"), "au.txt:1: 'jaw' needs at least 2 values after it, found 1");
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/head/action_units.h"
 #include "fsm/mesh/gltf_document.h"
 #include "fsm/mesh/gltf_writer.h"
 #include "fsm/mesh/head_file.h"
@@ -65,6 +66,39 @@ TEST(GltfHeadTest, OnlyWhatMovesIsStored) {
   const auto none = WriteGltfHead(*head, {});
   const std::vector<ExportedShape> one = {Shape("browOuterUpLeft", 2, true, false)};
   EXPECT_LT(WriteGltfHead(*head, one).size() - none.size(), 150000U);
+}
+
+TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
+  const std::shared_ptr<const Head> source = Head::Make("galatea", false);
+  std::vector<ExportedShape> shapes;
+  std::vector<ShapeMeaning> meanings;
+  for (const auto& [name, unit] : {std::pair("a", 26), {"b", 12}, {"c", 2}, {"d", 4}}) {
+    shapes.push_back(Shape(name, static_cast<std::size_t>(unit), true, true));
+    meanings.push_back({name, shapes.back().state});
+  }
+  const auto file = ParseGltfHead("head.glb", WriteGltfHead(*source, shapes));
+  ASSERT_TRUE(file) << file.error().text;
+  const Similarity place{.scale = 1000};
+  MeshModel model = ModelOf(*file, place, -43);
+  auto motion = OwnShapesMotion(*file, place, model, source, meanings);
+  ASSERT_NE(motion, nullptr);
+  const auto head = MakeMeshHead(std::move(model), std::move(motion));
+  const UnitTable units(Table("u", "jaw 26 6 0.75\nfield 2 43 47 20 20 both 0 5 0\n"));
+  const auto own = head->WithUnits(units);
+  ASSERT_NE(own, nullptr);
+  const auto farthest = [](const Head& moved, const FaceState& state) {
+    HeadVertices rest, now;
+    moved.Evaluate({}, rest);
+    moved.Evaluate(state, now);
+    float most = 0;
+    for (std::size_t i = 0; i < rest.position.size(); ++i) {
+      most = std::max(most, glm::distance(rest.position[i], now.position[i]));
+    }
+    return most;
+  };
+  EXPECT_GT(farthest(*head, shapes[1].state), 5);
+  EXPECT_LT(farthest(*own, shapes[1].state), 0.1F) << "these units know no smile";
+  EXPECT_LT(farthest(*own, shapes[0].state), 0.7F * farthest(*head, shapes[0].state));
 }
 
 // 8 x 8 pixels of one red.

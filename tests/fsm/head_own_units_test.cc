@@ -1,0 +1,50 @@
+// Heads moved by a table of units of one's own.
+
+#include <gtest/gtest.h>
+
+#include "fsm/head/action_units.h"
+#include "fsm/head/built_in_units.h"
+#include "tests/fsm/head_fixture.h"
+
+namespace fsm {
+namespace {
+
+using testing::GenericHead;
+using testing::SkinAt;
+using testing::WithUnit;
+
+UnitTable TableOf(std::string_view text) { return UnitTable(Table("own.txt", text)); }
+
+TEST(OwnUnitsTest, AUnitMovesTheSkinAsItsOwnTableSays) {
+  const auto own = GenericHead().WithUnits(TableOf("field 2 43 47 20 20 both 0 3 0\n"));
+  ASSERT_NE(own, nullptr);
+  EXPECT_EQ(own->topology().indices, GenericHead().topology().indices);
+  HeadVertices rest, moved;
+  own->Evaluate({}, rest);
+  EXPECT_EQ(rest.position, testing::Vertices({}).position) << "at rest nothing differs";
+  own->Evaluate(WithUnit(2, 1), moved);
+  const std::size_t brow = SkinAt(43, 47);
+  EXPECT_NEAR(moved.position[brow].y - rest.position[brow].y, 3, 0.4F);
+  own->Evaluate(WithUnit(12, 1), moved);
+  EXPECT_EQ(moved.position, rest.position) << "what the table does not say does not happen";
+}
+
+TEST(OwnUnitsTest, TheJawOpensAsFarAsTheTableSays) {
+  const auto own = GenericHead().WithUnits(TableOf("jaw 26 20 0\n"));
+  EXPECT_NEAR(own->MeasureMouth(WithUnit(26, 1)).jaw_degrees, 20, 0.01F);
+  EXPECT_NEAR(GenericHead().MeasureMouth(WithUnit(26, 1)).jaw_degrees, 12, 0.5F);
+}
+
+TEST(OwnUnitsTest, AHeadKeepsItsOwnAsymmetry) {
+  const auto head = Head::Make("galatea");
+  const auto same = head->WithUnits(BuiltInUnits());
+  HeadVertices before, after;
+  head->Evaluate(WithUnit(12, 1), before);
+  same->Evaluate(WithUnit(12, 1), after);
+  EXPECT_EQ(after.position, before.position);
+  GenericHead().Evaluate(WithUnit(12, 1), after);
+  EXPECT_NE(after.position, before.position) << "else this would say nothing";
+}
+
+}  // namespace
+}  // namespace fsm
