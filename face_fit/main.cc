@@ -195,10 +195,6 @@ void Run(const Options& options) {
   const Figure figure = CutOut(photo, FindFigure(networks, photo));
   progress.Say("figure cut out");
   fsm::FaceSet set;
-  set.base = options.base;
-  set.points = fit.points;
-  set.smooth = fit.smooth;
-  set.eyes = fit.eyes;
   const Dress dress = MakeDress(base, face, fit, photo, figure, sides, set);
   progress.Say("photo put on");
 

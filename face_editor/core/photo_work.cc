@@ -105,10 +105,6 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     auto built = std::make_shared<BuiltFace>();
     const facefit::FoundFace face = FoundFrom(points);
     built->fit = facefit::FitFace(*work.base, face, &work.photo);
-    built->set.base = work.base->name;
-    built->set.points = built->fit.points;
-    built->set.smooth = built->fit.smooth;
-    built->set.eyes = built->fit.eyes;
     facefit::Dress dress =
         facefit::MakeDress(*work.base, face, built->fit, work.photo, *work.figure, {}, built->set);
     built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces);

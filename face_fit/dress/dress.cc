@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "face_fit/dress/openings.h"
 #include "face_fit/dress/sheet.h"
 
 namespace facefit {
@@ -187,6 +188,10 @@ Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
 Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
                 const fsm::Image& photo, const Figure& figure, std::span<const SideView> sides,
                 fsm::FaceSet& set) {
+  set.base = base.name;
+  set.points = fit.points;
+  set.smooth = fit.smooth;
+  set.eyes = EyesAtRest(base, fit);
   Dress dress;
   dress.picture.width = 2 * kMapSide;
   dress.picture.height = kMapSide;
@@ -197,29 +202,9 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   map.width = map.height = kMapSide;
   map.rgba.assign(static_cast<std::size_t>(4 * kMapSide) * kMapSide, 255);
   Field seen(kMapSide, kMapSide);
-  std::vector<int> mouth(UpperInnerLip().begin(), UpperInnerLip().end());
-  mouth.insert(mouth.end(), LowerInnerLip().rbegin(), LowerInnerLip().rend());
   const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
-  // Teeth shine through the blurred edge of the lips.
-  const float rim = std::max(0.7F * fit.pose.PixelsPerMm(), 0.7F);
-  // The dark line of the lashes stays on the rims of the lids.
-  const float lash = 0.4F * fit.pose.PixelsPerMm();
-  struct Round {
-    glm::vec2 middle;
-    float radius;
-  };
-  const auto around = [&face](std::span<const int> outline) {
-    glm::vec2 low(1e9F), high(-1e9F);
-    for (const int i : outline) {
-      low = glm::min(low, glm::vec2(face.points[static_cast<std::size_t>(i)]));
-      high = glm::max(high, glm::vec2(face.points[static_cast<std::size_t>(i)]));
-    }
-    return Round{0.5F * (low + high), 0.5F * glm::distance(low, high)};
-  };
-  const Round eyes[] = {around(EyeOutline(0)), around(EyeOutline(1))}, lips = around(mouth);
-  const auto near = [rim](const Round& round, glm::vec2 p) {
-    return glm::distance(p, round.middle) < round.radius + rim;
-  };
+  const Openings openings(face, fit.pose.PixelsPerMm(), open);
+  std::vector<bool> skin(places.facing.size(), true);
   float face_texels = 0, face_seen = 0;
   for (std::size_t i = 0; i < places.facing.size(); ++i) {
     const glm::vec2 p = places.pixel[i];
@@ -227,10 +212,9 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     face_texels += OnFront(places, i) ? 1.0F : 0.0F;
     if (!inside || places.facing[i] < 0.03F) continue;
     float weight = glm::smoothstep(0.03F, 0.2F, places.facing[i]);
-    // What is seen between lids and lips is not skin.
-    if (near(eyes[0], p) && Within(face, EyeOutline(0), -lash, p)) weight = 0;
-    if (near(eyes[1], p) && Within(face, EyeOutline(1), -lash, p)) weight = 0;
-    if (open && near(lips, p) && Within(face, mouth, rim, p)) weight = 0;
+    const float part = openings.Skin(p);
+    skin[i] = part >= 1;
+    weight *= part;
     const glm::vec3 colour = ColourAt(figure.colours, p);
     for (int c = 0; c < 3; ++c)
       map.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c] + 0.5F);
@@ -242,14 +226,15 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   }
   set.saturation = Saturation(map, seen);
   dress.coverage = face_seen / std::max(face_texels, 1.0F);
-  // A side that was not seen takes what the other side shows, if that shows it.
+  // A side that was not seen takes what the other side shows, if that shows it: but not so within
+  // eyes and mouth, which differ too much from side to side.
   const fsm::Image one_side = map;
   const Field seen_once = seen;
   for (int y = 0; y < kMapSide; ++y) {
     for (int x = 0; x < kMapSide; ++x) {
       const std::size_t i = MapIndex(x, y), j = MapIndex(kMapSide - 1 - x, y);
       const float part = std::max(seen_once.at[j] - seen_once.at[i], 0.0F) * 0.5F;
-      if (part <= 0) continue;
+      if (part <= 0 || !skin[i]) continue;
       const float sum = seen_once.at[i] + part;
       for (std::size_t c = 0; c < 3; ++c) {
         map.rgba[4 * i + c] = static_cast<std::uint8_t>(
@@ -262,9 +247,9 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   if (open) {
     // Where lips that were apart now meet there is a dark line.
     for (std::size_t i = 0; i < places.off_seam.size(); ++i) {
-      const float line = glm::smoothstep(1.3F, 0.2F, places.off_seam[i]);
+      const float line = glm::smoothstep(1.0F, 0.1F, places.off_seam[i]);
       for (std::size_t c = 0; c < 3 && line > 0; ++c) {
-        map.rgba[4 * i + c] = static_cast<std::uint8_t>(map.rgba[4 * i + c] * (1 - 0.5F * line));
+        map.rgba[4 * i + c] = static_cast<std::uint8_t>(map.rgba[4 * i + c] * (1 - 0.35F * line));
       }
     }
   }

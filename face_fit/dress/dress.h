@@ -30,18 +30,20 @@ struct SideView {
   Figure figure;
 };
 
-/// Paints both halves and fills the set's map, sheet and eye colours.
+/// Paints both halves and fills the set but for its photo.
 Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
                 const fsm::Image& photo, const Figure& figure, std::span<const SideView> sides,
                 fsm::FaceSet& set);
 
+/// The eyes without the photo's expression. Of the squint of a smile half is kept: how wide they
+/// would be without it was not seen, and eyes that are too wide stare.
+std::array<fsm::EyeSeat, 2> EyesAtRest(const BaseHead& base, const Fit& fit);
 /// Colours of iris and white, from the photo.
 void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, fsm::FaceSet& set);
 /// Colour of the lips where they turn inward, and how bright teeth are in its light.
 void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set);
 
-/// Whether a pixel lies within a closed line through points of the face, `wider` pixels more or
-/// (negative) less all round.
-bool Within(const FoundFace& face, std::span<const int> outline, float wider, glm::vec2 pixel);
+/// How many pixels outside (negative: within) a closed line through points of the face `pixel` is.
+float Outside(const FoundFace& face, std::span<const int> outline, glm::vec2 pixel);
 
 }  // namespace facefit

@@ -18,7 +18,7 @@ glm::vec3 Linear(glm::vec3 screen) {
 
 }  // namespace
 
-bool Within(const FoundFace& face, std::span<const int> outline, float wider, glm::vec2 pixel) {
+float Outside(const FoundFace& face, std::span<const int> outline, glm::vec2 pixel) {
   bool inside = false;
   float nearest = 1e9F;
   const auto at = [&](std::size_t k) {
@@ -32,7 +32,25 @@ bool Within(const FoundFace& face, std::span<const int> outline, float wider, gl
     if ((a.y > pixel.y) == (b.y > pixel.y)) continue;
     if (pixel.x < way.x * (pixel.y - a.y) / way.y + a.x) inside = !inside;
   }
-  return inside ? nearest > -wider : nearest < wider;
+  return inside ? -nearest : nearest;
+}
+
+std::array<fsm::EyeSeat, 2> EyesAtRest(const BaseHead& base, const Fit& fit) {
+  constexpr float kKept = 0.5F;
+  constexpr std::size_t kUpper = 4, kLower = 12;  // the lids' middles in EyeOutline
+  fsm::HeadVertices posed;
+  base.head->Evaluate(fit.expression.State(), posed);
+  std::array<fsm::EyeSeat, 2> seats = fit.eyes;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto raised = [&](std::size_t k) {
+      const auto point = static_cast<std::size_t>(EyeOutline(static_cast<int>(side))[k]);
+      const MeshPlace& lid = base.places[point];
+      return lid.On(posed.position).y - lid.On(base.rest.position).y;
+    };
+    seats[side].upper_mm += kKept * std::min(raised(kUpper), 0.0F);
+    seats[side].lower_mm += kKept * std::max(raised(kLower), 0.0F);
+  }
+  return seats;
 }
 
 void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, fsm::FaceSet& set) {
@@ -48,7 +66,7 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, 
     for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
       for (float x = -0.5F; x <= 0.5F; x += 0.02F) {
         const glm::vec2 at = 0.5F * (a + b) + wide * glm::vec2(x, y);
-        if (!Within(face, outline, -0.05F * wide, at)) continue;
+        if (Outside(face, outline, at) > -0.05F * wide) continue;
         const float far = glm::distance(at, centre) / radius;
         const glm::vec3 colour = ColourAt(photo, at);
         if (far > 0.45F && far < 0.85F) iris.push_back(colour);
@@ -68,7 +86,7 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, 
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   set.iris_colour =
       glm::clamp(Linear(pick(iris, 0.5F, glm::vec3(90, 70, 55))) * 1.35F, 0.01F, 0.6F);
-  set.white_colour = glm::clamp(Linear(pick(white, 0.7F, glm::vec3(190))), 0.04F, 0.8F);
+  set.white_colour = glm::clamp(Linear(pick(white, 0.6F, glm::vec3(190))), 0.04F, 0.8F);
   set.iris_size = fit.iris_size;
 }
 

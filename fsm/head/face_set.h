@@ -25,7 +25,7 @@ struct FaceSet {
   glm::vec3 iris_colour{0.1f}, white_colour{0.6f};  ///< linear RGB
   float iris_size = 1, teeth = 1;       ///< of the table's iris; brightness of the teeth
   std::optional<glm::vec3> lip_colour;  ///< likewise, where the lips turn inward
-  float saturation = 1;                 ///< of what is painted beside the photo: 0 for a grey one
+  float saturation = 1;  ///< of what is painted beside the photo: 0 for a grey one
   /// The skin's map in the photo: HeadTopology::uv (0, 0) and (1, 1), as u right, v down in 0..1.
   glm::vec2 skin_low{0, 1}, skin_high{0.5f, 0};
   glm::vec3 seen_from{0, 0, 1};      ///< unit, from the head to the camera

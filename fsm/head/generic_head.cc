@@ -24,6 +24,7 @@
 #include "fsm/head/landmarks.h"
 #include "fsm/head/own_identity.h"
 #include "fsm/head/parts.h"
+#include "fsm/head/photo_lids.h"
 #include "fsm/head/skin_mesh.h"
 #include "fsm/head/tongue_way.h"
 
@@ -47,15 +48,14 @@ class GenericHead : public Head {
       Wash(identity_.palette, set->saturation);
       if (set->lip_colour) {
         // Where the lips turn inward the mouth is painted: it begins in their colour.
-        constexpr float kOpen = 0.63f;
+        constexpr float kOpen = 0.85f;
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
-        identity_.palette.mouth = identity_.palette.lip_inside;
+        identity_.palette.mouth = 0.8f * identity_.palette.lip_inside;
       }
       seats_ = set->eyes.value_or(seats_);
       eye_.ScaleIris(set->iris_size);
       identity_.palette.tooth *= set->teeth;
     }
-    asymmetric_ = asymmetric;
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
     const Shaper shaper(Table("tables/sliders.txt", embedded::sliders()), identity_.sliders);
     const Cage cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
@@ -93,8 +93,10 @@ class GenericHead : public Head {
     }
     base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
                  mesh.position.end());
+    const std::vector<Flesh> flesh(mesh.flesh.begin(),
+                                   mesh.flesh.begin() + static_cast<std::ptrdiff_t>(skin_count));
     Finish(std::move(mesh), skin);
-    if (set) WearPhoto(*set, skin_count);
+    if (set) WearPhoto(*set, flesh);
     landmarks_ = NameLandmarks(cage, fine, rest_, eye_, seats_);
   }
 
@@ -112,15 +114,7 @@ class GenericHead : public Head {
     FleshNormals(out);
     for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, tongue, out);
     out.wrinkles = Wrinkles(pose.units);
-  }
-
-  std::unique_ptr<Head> WithUnits(const UnitTable& units) const override {
-    auto other = std::make_unique<GenericHead>(*this);
-    other->units_ = units;
-    if (asymmetric_) other->units_.MakeAsymmetric(static_cast<int>(identity_.index));
-    other->face_->MoveBy(other->units_);
-    other->probe_->MoveBy(other->units_);
-    return other;
+    for (std::size_t side = 0; side < 2; ++side) out.lids_shut[side] = pose.lids[side].close;
   }
 
   glm::vec3 Landmark(std::string_view name) const override {
@@ -273,7 +267,8 @@ class GenericHead : public Head {
     }
   }
 
-  void WearPhoto(const FaceSet& set, std::size_t skin_count) {
+  void WearPhoto(const FaceSet& set, std::span<const Flesh> skin) {
+    const std::size_t skin_count = skin.size();
     topology_.photo = set.photo;
     topology_.saturation = set.saturation;
     topology_.photo_place.resize(topology_.uv.size(), glm::vec3(0));
@@ -290,6 +285,11 @@ class GenericHead : public Head {
       for (std::uint32_t k = 0; k < part.index_count; ++k) {
         topology_.photo_place[topology_.indices[part.first_index + k]].z = 0;
       }
+    }
+    for (const LidPaint& lid : PaintLids(*set.photo, topology_.photo_place, skin)) {
+      topology_.albedo[lid.vertex] = lid.screen * lid.screen;
+      topology_.occlusion[lid.vertex] = 1;
+      topology_.photo_place[lid.vertex].z = 1 + lid.part;
     }
   }
 
@@ -441,7 +441,6 @@ class GenericHead : public Head {
   Identity identity_;
   std::optional<Warp> warp_;  // of a face from a photo
   UnitTable units_;
-  bool asymmetric_ = false;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
   glm::vec3 teeth_shift_{};       // from the base head's
@@ -465,8 +464,6 @@ class GenericHead : public Head {
 glm::vec3 Head::Landmark(std::string_view name) const {
   throw std::out_of_range("there is no landmark '" + std::string(name) + "'");
 }
-
-std::unique_ptr<Head> Head::WithUnits(const UnitTable& /*units*/) const { return nullptr; }
 
 std::unique_ptr<Head> Head::Make(std::string_view identity, bool asymmetric) {
   return MakeHead(BuiltInIdentity(identity), asymmetric);

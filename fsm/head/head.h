@@ -86,7 +86,8 @@ struct HeadTopology {
   std::vector<Strand> strands;  ///< per vertex, meaningful where there is hair; may be empty
   std::shared_ptr<const WornPhoto> photo;  ///< nothing: skin is painted and lit
   /// Per vertex where there is a photo: its place there (0..1, v down) and the photo's part in the
-  /// colour, 0..1.
+  /// colour, 0..1. What exceeds 1 is lid: that part of the photo gives way to the vertex's own
+  /// colour as the lid shuts, because a photo of an open eye does not show its skin.
   std::vector<glm::vec3> photo_place;
   /// Of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
   float saturation = 1;
@@ -104,6 +105,7 @@ struct HeadVertices {
   std::vector<glm::vec3> normal;  ///< N x 3 float, unit length
   /// Depth of the creases, 0..1: [Wrinkle][0 = the agent's right (-x), 1 = left].
   std::array<std::array<float, 2>, 4> wrinkles{};
+  std::array<float, 2> lids_shut{};  ///< right, left: 0 = as at rest, 1 = wholly
 };
 
 /// A face to choose: a row of tables/identities.txt.
@@ -113,7 +115,6 @@ struct IdentityInfo {
 };
 
 struct FaceSet;
-class UnitTable;
 
 /// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,
 /// figure placement (agent_*) and camera not. Immutable after construction; safe to share.
@@ -135,9 +136,6 @@ class Head {
   virtual const HeadTopology& topology() const = 0;
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
   virtual void Evaluate(const FaceState& state, HeadVertices& out) const = 0;
-  /// The same head, of the same topology, whose units move it as another table says
-  /// (UnitTable); nothing if it has none to replace.
-  virtual std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
   /// The mouth of a state, measured on the vertices Evaluate would give.
   virtual MouthMeasure MeasureMouth(const FaceState& state) const = 0;
   /// Where a named landmark lies at rest, after Farkas: "nasion", "pronasale", "subnasale",

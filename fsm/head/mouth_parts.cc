@@ -111,9 +111,10 @@ void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mes
 }
 
 void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
-  // A flattened half ellipsoid along the floor of the mouth; its row number is its way to the tip.
-  constexpr int kAlong = 13;
-  constexpr int kAround = 12;
+  // A rounded back over a flat belly along the floor of the mouth; its row number is its way to the
+  // tip, which lies low behind the lower teeth.
+  constexpr int kAlong = 17;
+  constexpr int kAround = 20;
   const float tip_z = mouth.LineZ(0) - 12.5f;
   const float base_y = mouth.LineY(0) - 12.5f;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
@@ -121,18 +122,20 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
     const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
     const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 2.2f)));
     const float half_width = 17 * taper * (0.8f + 0.2f * part) + 0.2f;
-    const float height = 7.0f * taper + 0.1f;
+    const float height = 7.0f * taper * (1 - 0.35f * part * part) + 0.1f;
     const float z = glm::mix(tip_z - 46, tip_z, std::sin(part * kPi / 2));
     const float rise = 4.0f * (1 - part);
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
-      const float groove = 1.4f * taper * std::pow(std::max(0.0f, std::sin(around)), 8.0f);
-      const glm::vec3 p(half_width * std::cos(around),
-                        base_y + rise + height * std::sin(around) - groove, z);
-      const float open = 0.24f + 0.66f * SmoothStep(0.15f, 0.9f, part);
+      const float up = std::sin(around);
+      const float groove = 1.6f * taper * std::pow(std::max(0.0f, up), 12.0f);
+      const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
+      // Light comes in over the tip: the back of the tongue is lost in the dark, and so are the
+      // sides and all that looks down.
+      const float lit = SmoothStep(0.35f, 1.0f, part) * SmoothStep(-0.3f, 0.8f, up);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
-      mesh.Add(p, palette.tongue, open, Bone::kTongue, flesh);
+      mesh.Add(p, palette.tongue, 0.08f + 0.6f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

@@ -59,8 +59,9 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const EyeAnatomy
                 const Palette& palette) {
   Paint paint = SkinPaint(p, eye, palette);
   if (tag.deep > 0) {
-    paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.1f, 0.5f, tag.deep));
-    paint.open = 0.13f + 0.5f * (1 - tag.deep) * (1 - tag.deep);
+    paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
+    const float out = 1 - tag.deep;
+    paint.open = 0.08f + 0.77f * out * out;
     return paint;
   }
   if (tag.red >= 0 && kind == SkinKind::kLip) {

@@ -13,6 +13,7 @@ constexpr float kNoRoom = 2.5f, kRoom = 5.5f;  // between teeth and lips, millim
 constexpr float kSkin = 0.6f;                  // kept between the tongue and what it touches
 constexpr float kEdges = 0.9f;                 // teeth are not all of one height
 constexpr float kBehindTeeth = 3.5f;           // of the arch, which is their outer face
+constexpr float kOut = 1.5f;                   // put out this far it goes over the teeth
 constexpr float kWidest = 17;                  // half the tongue's width at rest
 constexpr float kInArch = 11;                  // and what goes through between the canines
 
@@ -53,10 +54,9 @@ glm::vec3 TongueWay::Fit(glm::vec3 p) const {
   if (lips_.empty()) return p;
   const float jaw_x = p.x - pose_.jaw_sway_mm;
   const float lower_z = TurnJaw({jaw_x, lower_.edge_y, lower_.At(jaw_x)}, pose_, 1).z;
-  if (part_ <= 0) {
-    p.z = std::min(p.z, std::min(lower_z, upper_.At(p.x)) - kBehindTeeth);
-    return p;
-  }
+  const glm::vec3 within(p.x, p.y, std::min(p.z, std::min(lower_z, upper_.At(p.x)) - kBehindTeeth));
+  const float out = SmoothStep(0, kOut, part_ * pose_.tongue_out_mm);
+  if (out <= 0) return within;
   const float middle_x = 0.5f * (open_from_ + open_to_);
   const float width = std::min(kInArch, 0.35f * (open_to_ - open_from_)) / kWidest;
   const float squeezed = SmoothStep(front_z_ - 16, front_z_ - 5, p.z);
@@ -74,7 +74,7 @@ glm::vec3 TongueWay::Fit(glm::vec3 p) const {
   const float middle_y = 0.5f * (lips.low.y + lips.high.y);
   above(lips.low.z, std::min(lips.low.y + kSkin, middle_y));
   below(lips.high.z, std::max(lips.high.y - kSkin, middle_y));
-  return p;
+  return glm::mix(within, p, out);
 }
 
 }  // namespace fsm

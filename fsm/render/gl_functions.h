@@ -68,6 +68,7 @@ class RenderContext;
   X(PFNGLTEXIMAGE3DPROC, TexImage3D)                           \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
   X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
+  X(PFNGLUNIFORM1FVPROC, Uniform1fv)                           \
   X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
   X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
   X(PFNGLUNIFORM4FPROC, Uniform4f)                             \

@@ -212,6 +212,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
   gl_.UseProgram(photo_.id());
   gl_.Uniform4fv(photo_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
+  gl_.Uniform1fv(photo_.Uniform("lids_shut"), 2, vertices.lids_shut.data());
   gl_.Uniform1i(photo_.Uniform("photo"), 1);
   gl_.Uniform1i(photo_.Uniform("relief"), 2);
   // The photo's light stands for the lamps as they are by default.

@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "face_fit/dress/openings.h"
 #include "face_fit/find/iris.h"
 #include "face_fit/find/mouth_line.h"
+#include "face_fit/fit/base_head.h"
 
 namespace facefit {
 namespace {
@@ -66,6 +68,20 @@ TEST(MouthLineTest, TeethTellOpenLipsFromClosedOnes) {
   EXPECT_FALSE(LipsApart(face));
   face.points[14].y += 12;
   EXPECT_TRUE(LipsApart(face));
+}
+
+TEST(OpeningsTest, TeethBetweenOpenLipsAreNoSkinAndTheLipsBesideThemOnlyInPart) {
+  FoundFace face = StraightMouth();
+  for (const int i : LowerInnerLip()) face.points[static_cast<std::size_t>(i)].y += 12;
+  const Openings open(face, 2, true);
+  EXPECT_EQ(open.Skin({100, 106}), 0);
+  EXPECT_EQ(open.Skin({100, 99}), 0) << "the blurred edge";
+  const float part = open.Skin({100, 97.6F});
+  EXPECT_GT(part, 0.1F);
+  EXPECT_LT(part, 0.9F);
+  EXPECT_EQ(open.Skin({100, 90}), 1);
+  EXPECT_EQ(open.Skin({20, 20}), 1);
+  EXPECT_EQ(Openings(face, 2, false).Skin({100, 106}), 1) << "closed lips are all skin";
 }
 
 TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {

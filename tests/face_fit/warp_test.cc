@@ -116,6 +116,23 @@ TEST(FaceSetTest, EachEyeSitsAndOpensAsTheFaceSays) {
   EXPECT_NEAR(rim(*own, -1), rim(*plain, -1) + 1, 0.3F);
 }
 
+TEST(FaceSetTest, LidsGiveUpThePhotoAsTheyShut) {
+  FaceSet set;
+  set.points = kPoints;
+  for (auto& point : set.points) point.by = glm::vec3(0);
+  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {200, 150, 100, 255}});
+  const auto head = Head::Make(set);
+  const auto& places = head->topology().photo_place;
+  EXPECT_GT(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 1.9F; }), 40);
+  EXPECT_EQ(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 2; }), 0);
+  FaceState state;
+  state.au_left[45] = 1;
+  HeadVertices vertices;
+  head->Evaluate(state, vertices);
+  EXPECT_EQ(vertices.lids_shut[0], 0);
+  EXPECT_EQ(vertices.lids_shut[1], 1);
+}
+
 /// The most any pixel of the open mouth differs from grey, of 255.
 int ColourOfTheMouth(float saturation) {
   FaceSet set;

@@ -33,6 +33,7 @@ class ContactProbe {
   const Pairs& rims(std::size_t side) const { return rims_[side]; }  ///< 0 = the agent's right
   /// Edges of the incisors, from -x to +x.
   const std::vector<std::uint32_t>& upper_edge() const { return upper_edge_; }
+  const std::vector<std::uint32_t>& lower_edge() const { return lower_edge_; }
 
   std::size_t seam_pairs() const { return seam_.size(); }
   std::size_t rim_pairs() const { return rims_[0].size() + rims_[1].size(); }

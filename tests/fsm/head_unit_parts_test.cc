@@ -152,6 +152,16 @@ TEST(HeadUnitPartsTest, TheTongueBulgesOneCheekLocally) {
   EXPECT_LT(glm::length(MotionAt(34, -20, state)), 0.5F) << "a bump, no puff";
 }
 
+TEST(HeadUnitPartsTest, InAnOpenMouthTheTongueLiesBehindTheLowerTeeth) {
+  for (const FaceState& state : {WithUnit(26, 1), WithUnit(27, 1), WithUnit(25, 1)}) {
+    const HeadVertices v = Vertices(state);
+    const auto& edge = Probe().lower_edge();
+    const glm::vec3 tooth = v.position[edge[edge.size() / 2]];
+    EXPECT_LT(FarthestTongue(state).z, tooth.z - 0.5F);
+    EXPECT_LT(FarthestTongue(state).y, tooth.y) << "its tip is low";
+  }
+}
+
 TEST(HeadUnitPartsTest, TheTongueShowsPastTheTeethAndWipesTheLip) {
   const HeadVertices rest = Vertices({});
   const auto& edge = Probe().upper_edge();

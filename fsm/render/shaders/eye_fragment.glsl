@@ -78,7 +78,7 @@ void main() {
   float shade = mix(0.36, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
                 mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
-  shade = worn.x > 0.0 ? 0.35 + 0.65 * shade : shade;
+  shade = worn.x > 0.0 ? 0.2 + 0.8 * shade : shade;
 
   vec3 light = Ambient(n) * 0.9;
   light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;
@@ -86,7 +86,7 @@ void main() {
   light = worn.x > 0.0 ? vec3(1.0) : light;
   vec3 result = base * light * shade * mix(occlusion, 1.0, 0.3);
 
-  float gloss = worn.x > 0.0 ? 0.45 : 1.0;
+  float gloss = worn.x > 0.0 ? 0.3 : 1.0;
   vec3 mirrored = reflect(-v, wet);
   // A window of two panes, above left.
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
@@ -95,6 +95,8 @@ void main() {
   vec2 inside = smoothstep(vec2(0.235, 0.275), vec2(0.165, 0.205), abs(pane));
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
                  mix(0.45, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
+  // A photographer's lamp is smaller and round.
+  if (worn.x > 0.0) window = 1.6 * smoothstep(0.16, 0.09, length(pane)) * step(0.0, dot(mirrored, kWindow));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
   result += gloss * 0.5 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
   result += gloss * lamp_colors[1] * 0.16 * soft_box * shade;

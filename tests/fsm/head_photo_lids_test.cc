@@ -1,0 +1,107 @@
+// Lids of a face that wears a photo of open eyes.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsm/head/photo_lids.h"
+
+namespace fsm {
+namespace {
+
+constexpr glm::vec3 kSkin(0.8f, 0.6f, 0.5f);
+
+/// The agent's left eye, 30 mm wide: 20 rows of an upper lid from its socket (0) to its rim (1) in
+/// the upper half of a picture, as many of a lower lid in the other half.
+struct Eye {
+  std::vector<Flesh> skin;
+  std::vector<glm::vec3> places;
+  WornPhoto photo{60, 40, std::vector<std::uint8_t>(4 * 60 * 40, 255)};
+
+  Eye() {
+    for (int row = 0; row < 40; ++row) {
+      for (int column = 0; column < 30; ++column) {
+        Flesh f;
+        f.eye = 1;
+        f.domain = {15.0f + static_cast<float>(column), 0};
+        const float held = static_cast<float>(row < 20 ? row : 39 - row) / 19;
+        (row < 20 ? f.lid_upper : f.lid_lower) = held;
+        skin.push_back(f);
+        places.emplace_back((static_cast<float>(column) + 0.5f) / 30,
+                            (static_cast<float>(row) + 0.5f) / 40, 1);
+      }
+    }
+    for (int row = 0; row < 40; ++row) Paint(row, 0, 60, kSkin);
+  }
+  void Paint(int row, int from, int to, glm::vec3 colour) {
+    for (int x = from; x < to; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        photo.rgba[static_cast<std::size_t>(4 * (row * 60 + x) + c)] =
+            static_cast<std::uint8_t>(255 * colour[c]);
+      }
+    }
+  }
+  std::vector<LidPaint> Lids() const { return PaintLids(photo, places, skin); }
+};
+
+void ExpectSkinInTheMiddle(const Eye& eye, float tolerance) {
+  int checked = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    const float held = eye.skin[lid.vertex].lid_upper;
+    if (held < 0.6f || held > 0.9f) continue;
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(lid.screen[c] / kSkin[c], 1, tolerance) << held;
+    EXPECT_GT(lid.part, 0.95f);
+    ++checked;
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST(PhotoLidsTest, DarkLashesDoNotColourTheLid) {
+  Eye eye;
+  for (int row = 6; row < 20; ++row) eye.Paint(row, 0, 60, glm::vec3(0.05f));
+  ExpectSkinInTheMiddle(eye, 0.12f);
+}
+
+TEST(PhotoLidsTest, TheRimOfGlassesAndItsReflectionAreLeftOut) {
+  Eye eye;
+  for (int row = 0; row < 3; ++row) {
+    eye.Paint(row, 0, 24, glm::vec3(0.04f));
+    eye.Paint(row, 24, 30, glm::vec3(1));
+  }
+  ExpectSkinInTheMiddle(eye, 0.2f);
+}
+
+TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
+  Eye eye;
+  for (int row = 0; row < 40; ++row) eye.Paint(row, 30, 60, 0.6f * kSkin);
+  float inner = 0, outer = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    const Flesh& f = eye.skin[lid.vertex];
+    if (std::abs(f.lid_upper - 0.8f) > 0.05f) continue;
+    if (f.domain.x < 18) inner = lid.screen.g;
+    if (f.domain.x > 41) outer = lid.screen.g;
+  }
+  EXPECT_NEAR(outer / inner, 0.6f, 0.1f);
+}
+
+TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
+  const Eye eye;
+  for (const LidPaint& lid : eye.Lids()) {
+    const float held = eye.skin[lid.vertex].lid_upper;
+    EXPECT_GT(held, 0.05f) << "the lower lid and the socket keep the photo";
+    if (held < 0.12f) {
+      EXPECT_LT(lid.part, 0.1f);
+    }
+    if (held == 1) {
+      EXPECT_LT(lid.screen.g, 0.6f * kSkin.g);
+    }
+  }
+}
+
+TEST(PhotoLidsTest, AHeadWithoutLidsHasNone) {
+  const Eye eye;
+  EXPECT_TRUE(PaintLids(eye.photo, eye.places, std::vector<Flesh>(eye.skin.size())).empty());
+}
+
+}  // namespace
+}  // namespace fsm
