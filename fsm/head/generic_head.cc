@@ -56,6 +56,7 @@ class GenericHead : public Head {
       eye_.ScaleIris(set->iris_size);
       identity_.palette.tooth *= set->teeth;
     }
+    asymmetric_ = asymmetric;
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
     const Shaper shaper(Table("tables/sliders.txt", embedded::sliders()), identity_.sliders);
     const Cage cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
@@ -115,6 +116,15 @@ class GenericHead : public Head {
     for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, tongue, out);
     out.wrinkles = Wrinkles(pose.units);
     for (std::size_t side = 0; side < 2; ++side) out.lids_shut[side] = pose.lids[side].close;
+  }
+
+  std::unique_ptr<Head> WithUnits(const UnitTable& units) const override {
+    auto other = std::make_unique<GenericHead>(*this);
+    other->units_ = units;
+    if (asymmetric_) other->units_.MakeAsymmetric(static_cast<int>(identity_.index));
+    other->face_->MoveBy(other->units_);
+    other->probe_->MoveBy(other->units_);
+    return other;
   }
 
   glm::vec3 Landmark(std::string_view name) const override {
@@ -441,6 +451,7 @@ class GenericHead : public Head {
   Identity identity_;
   std::optional<Warp> warp_;  // of a face from a photo
   UnitTable units_;
+  bool asymmetric_ = false;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
   glm::vec3 teeth_shift_{};       // from the base head's
@@ -464,6 +475,8 @@ class GenericHead : public Head {
 glm::vec3 Head::Landmark(std::string_view name) const {
   throw std::out_of_range("there is no landmark '" + std::string(name) + "'");
 }
+
+std::unique_ptr<Head> Head::WithUnits(const UnitTable& /*units*/) const { return nullptr; }
 
 std::unique_ptr<Head> Head::Make(std::string_view identity, bool asymmetric) {
   return MakeHead(BuiltInIdentity(identity), asymmetric);

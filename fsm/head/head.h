@@ -115,6 +115,7 @@ struct IdentityInfo {
 };
 
 struct FaceSet;
+class UnitTable;
 
 /// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,
 /// figure placement (agent_*) and camera not. Immutable after construction; safe to share.
@@ -136,6 +137,9 @@ class Head {
   virtual const HeadTopology& topology() const = 0;
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
   virtual void Evaluate(const FaceState& state, HeadVertices& out) const = 0;
+  /// The same head, of the same topology, whose units move it as another table says
+  /// (UnitTable); nothing if it has none to replace.
+  virtual std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
   /// The mouth of a state, measured on the vertices Evaluate would give.
   virtual MouthMeasure MeasureMouth(const FaceState& state) const = 0;
   /// Where a named landmark lies at rest, after Farkas: "nasion", "pronasale", "subnasale",
