@@ -8,6 +8,7 @@
 
 #include "face_fit/dress/openings.h"
 #include "face_fit/dress/sheet.h"
+#include "face_fit/dress/skin_colours.h"
 
 namespace facefit {
 namespace {
@@ -159,18 +160,6 @@ void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const S
   }
 }
 
-/// 0 for a grey photo, 1 for one in colour: by the mean difference of channels of the skin seen.
-float Saturation(const fsm::Image& map, const Field& seen) {
-  float sum = 0, light = 0;
-  for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (seen.at[i] < 0.9F) continue;
-    const std::uint8_t* p = &map.rgba[4 * i];
-    sum += static_cast<float>(std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]}));
-    light += static_cast<float>(std::max({p[0], p[1], p[2]}));
-  }
-  return glm::smoothstep(0.04F, 0.16F, sum / std::max(light, 1.0F));
-}
-
 }  // namespace
 
 Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
@@ -252,6 +241,15 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
         map.rgba[4 * i + c] = static_cast<std::uint8_t>(map.rgba[4 * i + c] * (1 - 0.35F * line));
       }
     }
+  }
+
+  Field face_seen_at = seen;
+  for (std::size_t i = 0; i < face_seen_at.at.size(); ++i) {
+    if (!OnFront(places, i)) face_seen_at.at[i] = 0;
+  }
+  const Field likeness = SkinLikeness(map, face_seen_at);
+  for (std::size_t i = 0; i < likeness.at.size(); ++i) {
+    map.rgba[4 * i + 3] = static_cast<std::uint8_t>(255 * likeness.at[i] + 0.5F);
   }
 
   const fsm::Image back = BehindFace(base, fit, figure);

@@ -106,7 +106,7 @@ void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& s
   for (const std::size_t i : kSkin) {
     light += Brightness(Linear(ColourAt(photo, face.points[i]))) / std::size(kSkin);
   }
-  set.teeth = std::clamp(0.35F + 1.3F * light, 0.4F, 1.05F);
+  set.teeth = std::clamp(0.4F + 1.9F * light, 0.4F, 1.5F);
 }
 
 }  // namespace facefit

@@ -12,6 +12,8 @@ namespace {
 
 /// How far below the chin skin goes on, before the neck of the photo's own takes over.
 constexpr float kBelowChin = 7;
+/// Millimetres of sheet behind the skin's edge.
+constexpr float kRim = 13;
 
 float ChinY(const BaseHead& base, const Fit& fit) { return base.places[152].On(fit.worn).y; }
 
@@ -129,6 +131,10 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
     float& d = depth.at[depth.Index(x, y)];
     d = std::max(d, z);
   });
+  Field skin(columns, rows);
+  for (std::size_t i = 0; i < skin.at.size(); ++i) skin.at[i] = depth.at[i] > kNone ? 1.0F : 0.0F;
+  const Field within_skin =
+      Blurred(skin, std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1));
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       const std::size_t i = depth.Index(x, y);
@@ -137,7 +143,10 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
         // Behind the lower face lies the neck.
         const float neck = glm::smoothstep(chin + 45, chin + 12, height);
         covered.at[i] = 1;
-        depth.at[i] = glm::mix(depth.at[i] - 5, std::min(depth.at[i] - 5, 22.0F), neck);
+        // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
+        const float under =
+            depth.at[i] - glm::mix(0.6F, 5.0F, glm::smoothstep(0.5F, 0.9F, within_skin.at[i]));
+        depth.at[i] = glm::mix(under, std::min(under, 22.0F), neck);
         fixed.at[i] = 1;
       } else if (opacity(x, y) < 0.05F) {
         // The outline: hair stands before the ears, shoulders lie in their plane.
@@ -164,7 +173,6 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   }
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
-  constexpr float kRim = 13;  // millimetres of sheet behind the skin's edge
   const Field within =
       Blurred(covered, std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1));
   const auto hidden = [&](int x, int y) { return within.at[depth.Index(x, y)] > 0.999F; };

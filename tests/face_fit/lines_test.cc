@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "face_fit/dress/openings.h"
+#include "face_fit/dress/skin_colours.h"
 #include "face_fit/find/iris.h"
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/base_head.h"
@@ -82,6 +83,19 @@ TEST(OpeningsTest, TeethBetweenOpenLipsAreNoSkinAndTheLipsBesideThemOnlyInPart) 
   EXPECT_EQ(open.Skin({100, 90}), 1);
   EXPECT_EQ(open.Skin({20, 20}), 1);
   EXPECT_EQ(Openings(face, 2, false).Skin({100, 106}), 1) << "closed lips are all skin";
+}
+
+TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
+  // From the top: a hat, dark hair, a forehead in the light, the face.
+  const fsm::Image map = Drawn(400, [](glm::vec2 p) {
+    return p.y < 50 ? 200 : p.y < 100 ? 60 : p.y < 200 ? 240 : 160;
+  });
+  const Field likeness = SkinLikeness(map, Field(400, 400, 1));
+  const auto at = [&](int y) { return likeness.at[likeness.Index(200, y)]; };
+  EXPECT_EQ(at(75), 0);
+  EXPECT_EQ(at(150), 1);
+  EXPECT_EQ(at(300), 1);
+  EXPECT_EQ(SkinLikeness(map, Field(400, 400)).at[75 * 400], 1) << "no face was seen";
 }
 
 TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {

@@ -19,6 +19,7 @@ void main() {
   float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
   if (ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
   vec2 slope = texture(relief, place).zw - 0.5;
-  float shade = 1.0 - clamp(crease, 0.0, 1.0) * (0.04 + 0.45 * dot(slope, vec2(-0.5, 0.85)));
+  // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
+  float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.04 + 0.45 * dot(slope, vec2(-0.5, 0.85)));
   color = vec4(mix(paint, p.rgb, worn.z) * clamp(shade, 0.6, 1.25) * brightness, alpha);
 }

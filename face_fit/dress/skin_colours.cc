@@ -1,0 +1,53 @@
+#include "face_fit/dress/skin_colours.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <vector>
+
+namespace facefit {
+namespace {
+
+constexpr float kSeen = 0.9F;
+
+}  // namespace
+
+float Saturation(const fsm::Image& map, const Field& seen) {
+  float sum = 0, light = 0;
+  for (std::size_t i = 0; i < seen.at.size(); ++i) {
+    if (seen.at[i] < kSeen) continue;
+    const std::uint8_t* p = &map.rgba[4 * i];
+    sum += static_cast<float>(std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]}));
+    light += static_cast<float>(std::max({p[0], p[1], p[2]}));
+  }
+  return glm::smoothstep(0.04F, 0.16F, sum / std::max(light, 1.0F));
+}
+
+Field SkinLikeness(const fsm::Image& map, const Field& face_seen) {
+  std::array<std::vector<std::uint8_t>, 3> channels;
+  for (std::size_t i = 0; i < face_seen.at.size(); ++i) {
+    if (face_seen.at[i] < kSeen) continue;
+    for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(map.rgba[4 * i + c]);
+  }
+  Field likeness(map.width, map.height, 1);
+  if (channels[0].empty()) return likeness;
+  std::array<float, 3> middle{};
+  constexpr float kDark = 8;  // steps of brightness that make no difference
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto half = channels[c].begin() + static_cast<std::ptrdiff_t>(channels[c].size() / 2);
+    std::ranges::nth_element(channels[c], half);
+    middle[c] = static_cast<float>(*half) + kDark;
+  }
+  for (std::size_t i = 0; i < likeness.at.size(); ++i) {
+    float darker = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      darker =
+          std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
+    }
+    likeness.at[i] = glm::smoothstep(0.75F, 0.35F, darker);
+  }
+  return Blurred(likeness, map.width / 170);
+}
+
+}  // namespace facefit
