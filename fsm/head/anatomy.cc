@@ -83,14 +83,14 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   border_z_lower_ = table.Only("border_z").Number(2);
 }
 
-// The upper incisors end 3 mm below the line of the lips and overlap the lower ones by half of it.
+// The upper incisors end 2.6 mm below the line of the lips and overlap the lower ones by half of it.
 ToothArch MouthAnatomy::UpperTeeth() const {
-  const float y = LineY(0) - 3.0f;
+  const float y = LineY(0) - 2.6f;
   return {LineZ(0) - 7.0f, 40, 27, y, y + 17};
 }
 
 ToothArch MouthAnatomy::LowerTeeth() const {
-  const float y = LineY(0) - 1.6f;
+  const float y = LineY(0) - 1.3f;
   return {LineZ(0) - 9.6f, 40, 26, y, y - 15};
 }
 

@@ -50,11 +50,13 @@ class GenericHead : public Head {
         // Where the lips turn inward the mouth is painted: it begins in their colour.
         constexpr float kOpen = 0.85f;
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
-        identity_.palette.mouth = 0.8f * identity_.palette.lip_inside;
+        identity_.palette.mouth = 1.3f * identity_.palette.lip_inside;
       }
       seats_ = set->eyes.value_or(seats_);
       eye_.ScaleIris(set->iris_size);
+      // A photographer's light comes from the front and reaches into the mouth.
       identity_.palette.tooth *= set->teeth;
+      identity_.palette.tongue *= 2.2f * set->teeth;
     }
     asymmetric_ = asymmetric;
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));

@@ -132,10 +132,11 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // Light comes in over the tip: the back of the tongue is lost in the dark, and so are the
       // sides and all that looks down.
-      const float lit = SmoothStep(0.35f, 1.0f, part) * SmoothStep(-0.3f, 0.8f, up);
+      const float lit =
+          SmoothStep(0.28f, 0.95f, part) * glm::mix(SmoothStep(-0.3f, 0.8f, up), 1.0f, part * part);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
-      mesh.Add(p, palette.tongue, 0.08f + 0.6f * lit, Bone::kTongue, flesh);
+      mesh.Add(p, palette.tongue, 0.10f + 0.7f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);
