@@ -13,9 +13,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "face_editor/app/given_head.h"
 #include "face_editor/app/script.h"
 #include "fsm/app/face_of_name.h"
-#include "fsm/app/head_of_file.h"
 #include "fsm/head/face_folder.h"
 
 namespace {
@@ -34,10 +34,13 @@ T Get(vm::Result<T> result) {
   return std::move(*result);
 }
 
-std::shared_ptr<const fsm::Head> GivenHead(const Options& options) {
-  if (!options.head.empty()) return fsm::MakeHeadOfFile(options.head, options.tables);
-  if (!options.mask.empty()) return fsm::MakeHeadOfName(options.mask, options.tables);
-  return nullptr;
+/// With --head, --mask names a face of a configuration.
+editor::MadeHead GivenHead(const Options& options) {
+  if (!options.head.empty()) {
+    return Get(editor::OpenHead(options.head, options.mask, options.tables));
+  }
+  if (options.mask.empty()) return {};
+  return {fsm::MakeHeadOfName(options.mask, options.tables), nullptr, ""};
 }
 
 /// A descriptor of a script; -1 = none. Closed at the end, unless it is stdin.
@@ -69,20 +72,24 @@ class Run {
         lines_(file_.descriptor()),
         editor_(Get(editor::Editor::Make(options.tables))),
         window_(options.width, options.height),
-        stage_(window_.context(), GivenHead(options)),
+        given_(GivenHead(options)),
+        stage_(window_.context(), given_.head),
         player_(*editor_),
         ui_{*editor_, player_, stage_, window_} {
-    ui_.folder = options.tables;
+    ui_.folder = ui_.tables = options.tables;
+    if (!given_.notice.empty()) ui_.Tell(given_.notice);
     program_.frame = [this](const std::string& picture) { return Frame(picture); };
     program_.pass = [this](vm::Time time) {
       for (const vm::Time end = ui_.now + time; ui_.now < end;) static_cast<void>(Frame(""));
     };
     program_.settle = [this] {
+      vm::Result<void> worst;
       do {
         static_cast<void>(window_.Wait(0.02));
-        ui_.Check(stage_.Update(*editor_, OfIdentity()));
+        if (auto done = editor::UpdateStage(ui_); !done) worst = done;
       } while (stage_.busy());
       static_cast<void>(Frame(""));
+      return worst;
     };
   }
 
@@ -104,7 +111,6 @@ class Run {
     const bool kept = editor_->UnsavedNames().empty();
     return program_.quit || ui_.closed || (window_.close_requested() && kept);
   }
-  bool OfIdentity() const { return ui_.page == editor::Page::kIdentity; }
 
   void Open() {
     auto sight = editor::LoadSight(options_.networks);
@@ -127,7 +133,7 @@ class Run {
 
   /// A face's own table of units goes before that of the folder of tables.
   void OpenUnitsOfMask() {
-    if (options_.mask.empty()) return;
+    if (options_.mask.empty() || !options_.head.empty()) return;
     const std::string path = fsm::FacesFolder() + "/" + options_.mask + "/" + fsm::kUnitsFile;
     std::error_code code;
     if (!fsm::IsFaceName(options_.mask) || !std::filesystem::exists(path, code)) return;
@@ -150,7 +156,7 @@ class Run {
     before_ = real;
     const vm::Time step = counted() ? kTick : std::clamp(since, vm::Time(1), vm::Time(1s));
     ui_.now += step;
-    ui_.Check(stage_.Update(*editor_, OfIdentity()));
+    static_cast<void>(editor::UpdateStage(ui_));
     window_.context().MakeCurrent();  // the networks' view of the head has one of its own
     window_.BeginFrame(std::chrono::duration<float>(step).count());
     const fsm::FaceState state = editor::DrawUi(ui_);
@@ -202,6 +208,7 @@ class Run {
   editor::LineSource lines_;
   std::unique_ptr<editor::Editor> editor_;
   editor::Window window_;
+  editor::MadeHead given_;
   editor::Stage stage_;
   editor::Player player_;
   editor::Ui ui_;
@@ -220,7 +227,9 @@ int main(int argc, char** argv) {
   app.add_option("photo", options.photo, "A photo to make a face of, JPEG or PNG");
   app.add_option("--points", options.points, "Points saved before, or set by hand");
   app.add_option("--mask", options.mask, "The face shown while no photo is open, as of fsm");
-  app.add_option("--head", options.head, "A head from elsewhere instead, .obj .glb .gltf .vrm");
+  app.add_option("--head", options.head,
+                 "A head from elsewhere instead: .obj .glb .gltf .vrm, or a "
+                 "configuration of the original (config.txt), of which --mask chooses the face");
   app.add_option("--tables", options.tables, "A folder of tables to edit in place of the built-in");
   app.add_option("--networks", options.networks,
                  "Where the networks are (default: where scripts/face_networks.sh puts them)");

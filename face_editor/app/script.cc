@@ -226,7 +226,7 @@ Answer View(Program& program, const Words& words) {
 
 Answer Wait(Program& program, const Words& words) {
   if (words.size() == 1) {
-    program.settle();
+    static_cast<void>(program.settle());  // the bottom line tells
     return "";
   }
   const auto ms = Numbers(words, 1, 1);
@@ -256,6 +256,15 @@ Answer RunWindowCommand(Program& program, const Words& words) {
     return fmt::format("{:.1f} {:.1f}", at->x, at->y);
   }
   if (name == "message") return ui.message;
+  if (name == "head" && (words.size() == 2 || words.size() == 3)) {
+    if (!IsHeadFile(words[1])) {
+      return Fail(Errc::kBadValue,
+                  "'" + words[1] + "' is no head's name: .obj, .glb, .gltf, .vrm or .txt expected");
+    }
+    auto opened = OpenFile(ui, words[1], words.size() == 3 ? words[2] : "");
+    if (opened) opened = program.settle();
+    return Done(opened);
+  }
   if (name == "key" && words.size() == 2) {
     ui.window.key = words[1];
     Draw(program, 3);
@@ -287,7 +296,11 @@ vm::Result<std::string> RunLine(Program& program, const std::string& line) {
   if (!words) return std::unexpected(words.error());
   if (words->empty()) return "";
   auto answer = RunCommand(program.ui.editor, *words);
-  if (!answer) return RunWindowCommand(program, *words);
+  if (!answer) {
+    auto done = RunWindowCommand(program, *words);
+    program.ui.Check(done);
+    return done;
+  }
   if (program.ui.Check(*answer) && !(*answer)->empty() && (*words)[0] != "get") {
     program.ui.Tell(**answer);
   }

@@ -31,7 +31,8 @@ struct Program {
   Ui& ui;
   std::function<vm::Result<void>(const std::string& picture)> frame;  ///< draws one
   std::function<void(vm::Time)> pass;  ///< lets so much time pass, drawing
-  std::function<void()> settle;        ///< waits until the face is made, then draws
+  /// Waits until the face is made, then draws. Error: why the last one was not.
+  std::function<vm::Result<void>()> settle;
   bool quit = false;
 };
 

@@ -21,21 +21,36 @@ void Stage::TakeUnits(const Editor& editor) {
   moved_ = head_ && own ? head_->WithUnits(units->table) : nullptr;
 }
 
-vm::Result<void> Stage::Update(const Editor& editor, bool identity) {
-  auto taken = Take(editor, identity);
-  TakeUnits(editor);
-  return taken;
+vm::Result<void> Stage::TakeOpened() {
+  auto opened = opener_.Take();
+  if (!opened) return {};
+  if (!*opened) return std::unexpected(opened->error());
+  given_ = (*opened)->head;
+  notice = (*opened)->notice;
+  given_last_ = true;
+  return {};
 }
 
-vm::Result<void> Stage::Take(const Editor& editor, bool identity) {
+vm::Result<void> Stage::Update(const Editor& editor, Wanted wanted) {
+  const auto opened = TakeOpened();
+  auto taken = Take(editor, wanted);
+  TakeUnits(editor);
+  return opened ? taken : opened;
+}
+
+vm::Result<void> Stage::Take(const Editor& editor, Wanted wanted) {
   const auto& work = editor.work();
-  const Source source = identity             ? Source::kIdentity
-                        : work && work->base ? Source::kPhoto
-                        : given_             ? Source::kGiven
-                                             : Source::kIdentity;
+  if (work != last_work_) given_last_ = false;
+  last_work_ = work;
+  const bool photo = work && work->base && (wanted == Wanted::kPhoto || !given_last_);
+  const Source source = wanted == Wanted::kIdentity ? Source::kIdentity
+                        : photo                     ? Source::kPhoto
+                        : given_                    ? Source::kGiven
+                                                    : Source::kIdentity;
   const Part part = source == Source::kPhoto ? Part::kPoints : Part::kIdentity;
   const std::uint64_t version = editor.state().version[static_cast<std::size_t>(part)];
-  const bool other = source != source_ || (source == Source::kPhoto && work != work_);
+  const bool other = source != source_ || (source == Source::kPhoto && work != work_) ||
+                     (source == Source::kGiven && head_ != given_);
   if (other || (version != version_ && source != Source::kGiven)) {
     source_ = source;
     work_ = work;
@@ -47,14 +62,14 @@ vm::Result<void> Stage::Take(const Editor& editor, bool identity) {
       maker_.Ask([work, points = editor.state().points]() -> vm::Result<MadeHead> {
         auto built = BuildFace(*work, points);
         if (!built) return std::unexpected(built.error());
-        return MadeHead{(*built)->head, *built};
+        return MadeHead{(*built)->head, *built, ""};
       });
     } else {
       maker_.Ask(
           [base = editor.state().base, sliders = editor.state().sliders]() -> vm::Result<MadeHead> {
             auto head = MakeIdentityHead(base, sliders);
             if (!head) return std::unexpected(head.error());
-            return MadeHead{*head, nullptr};
+            return MadeHead{*head, nullptr, ""};
           });
     }
   }

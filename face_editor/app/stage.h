@@ -20,10 +20,17 @@ class Stage {
   /// `given`: worn while no photo is open; may be nullptr.
   Stage(fsm::RenderContext& context, std::shared_ptr<const fsm::Head> given);
 
-  /// Asks for heads that are needed and takes those that are made. `identity`: the built-in face
-  /// with its sliders is shown, whatever is open. Errors: those of the points, once each.
-  vm::Result<void> Update(const Editor& editor, bool identity);
-  bool busy() const { return maker_.busy(); }
+  /// Which head is shown: of the photo and a head from elsewhere the one opened last, the photo's
+  /// if there is one, or the built-in face with its sliders.
+  enum class Wanted { kLast, kPhoto, kIdentity };
+  /// Asks for heads that are needed and takes those that are made. Errors: those of the points and
+  /// of Open, once each.
+  vm::Result<void> Update(const Editor& editor, Wanted wanted);
+  /// Makes a head from elsewhere that is then shown; what was shown before stays until it is made.
+  void Open(HeadMaker::Job job) { opener_.Ask(std::move(job)); }
+  bool busy() const { return maker_.busy() || opener_.busy(); }
+  /// What is to be known of a head that was opened; "" once it is taken.
+  std::string notice;
   /// The head as its units move it now; nullptr while the first one is being made.
   const fsm::Head* head() const { return moved_ ? moved_.get() : head_.get(); }
   /// The last face made from the photo that is open; nullptr if there is none.
@@ -34,7 +41,8 @@ class Stage {
   std::array<float, 2> turn{};  ///< of the whole figure, degrees: down, to the viewer's right
 
  private:
-  vm::Result<void> Take(const Editor& editor, bool identity);
+  vm::Result<void> Take(const Editor& editor, Wanted wanted);
+  vm::Result<void> TakeOpened();
   void TakeUnits(const Editor& editor);
 
   std::unique_ptr<fsm::Renderer> renderer_;
@@ -45,9 +53,11 @@ class Stage {
   std::shared_ptr<const BuiltFace> built_;
   enum class Source { kNone, kGiven, kPhoto, kIdentity } source_ = Source::kNone;
   std::shared_ptr<const PhotoWork> work_;
-  std::uint64_t version_ = 0;  // of what the head worn or asked for is made of
+  std::shared_ptr<const PhotoWork> last_work_;  // the photo opened last
+  bool given_last_ = false;                     // given_ was opened after it
+  std::uint64_t version_ = 0;                   // of what the head worn or asked for is made of
   fsm::HeadVertices vertices_;
-  HeadMaker maker_;
+  HeadMaker maker_, opener_;
 };
 
 /// The lines of the fitted mesh over the photo, in its pixels: what faces the viewer.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "face_editor/app/given_head.h"
+
 namespace editor {
 namespace {
 
@@ -15,14 +17,20 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-void OpenTyped(Ui& ui) {
-  if (!ui.Check(ui.editor.OpenPhoto(ui.photo_path))) return;
-  ui.page = Page::kPoints;
-  const auto& work = ui.editor.work();
-  ui.Tell(!work->notice.empty() ? work->notice
-          : work->faces > 1
-              ? fmt::format("{} faces; the largest was taken", work->faces)
-              : "Opened " + ui.photo_path + ": drag points where they miss, then build the face");
+vm::Result<void> LoadFolder(Ui& ui, const std::string& folder) {
+  auto done = ui.editor.LoadTables(folder);
+  if (!done) return done;
+  ui.folder = ui.tables = folder;
+  ui.Tell("Read the tables in " + folder);
+  return {};
+}
+
+vm::Result<void> SaveFolder(Ui& ui, const std::string& folder) {
+  const auto count = ui.editor.SaveTables(folder);
+  if (!count) return std::unexpected(count.error());
+  ui.folder = folder;
+  ui.Tell(fmt::format("{} tables written to {}", *count, folder));
+  return {};
 }
 
 void Shortcuts(Ui& ui) {
@@ -37,12 +45,21 @@ void TopBar(Ui& ui, ImVec2 size) {
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize({size.x, kTopHeight});
   ImGui::Begin("top", nullptr, kFixed);
-  ImGui::SetNextItemWidth(std::max(size.x - 640, 200.0F));
-  const bool entered = ImGui::InputTextWithHint("##photo", "a photo, JPEG or PNG", &ui.photo_path,
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SetNextItemWidth(std::max(size.x - 690, 150.0F));
+  const bool entered = ImGui::InputTextWithHint(
+      "##photo", "a photo, or a head: .obj .glb .gltf .vrm, or an original's config.txt",
+      &ui.photo_path, ImGuiInputTextFlags_EnterReturnsTrue);
   Mark(ui, "photo path");
   ImGui::SameLine();
-  if (Button(ui, "Open photo", !ui.photo_path.empty()) || entered) OpenTyped(ui);
+  if (Button(ui, "...##photo", true, "Looks for a photo or a head")) {
+    Browse(ui, "A photo or a head", FileKind::kPhotoOrHead, ui.photo_path,
+           {{"Open", false, [&ui](const std::string& path) { return OpenFile(ui, path); }}});
+  }
+  Mark(ui, "browse photo");
+  ImGui::SameLine();
+  if (Button(ui, "Open", !ui.photo_path.empty()) || entered) {
+    ui.Check(OpenFile(ui, ui.photo_path));
+  }
   ImGui::SameLine();
   const History& history = ui.editor.history();
   const std::string undo = "Takes back: " + std::string(history.undo_name());
@@ -54,15 +71,20 @@ void TopBar(Ui& ui, ImVec2 size) {
   ImGui::SetNextItemWidth(130);
   Text(ui, "##folder", &ui.folder, "folder of tables");
   ImGui::SameLine();
-  if (Button(ui, "Load all", !ui.folder.empty(), "Reads all tables found in the folder") &&
-      ui.Check(ui.editor.LoadTables(ui.folder))) {
-    ui.Tell("Read the tables in " + ui.folder);
+  if (Button(ui, "...##folder", true, "Looks for a folder of tables")) {
+    Browse(ui, "A folder of tables", FileKind::kFolder, ui.folder,
+           {{"Load all", false, [&ui](const std::string& path) { return LoadFolder(ui, path); }},
+            {"Save all", false, [&ui](const std::string& path) { return SaveFolder(ui, path); }}});
+  }
+  Mark(ui, "browse folder");
+  ImGui::SameLine();
+  if (Button(ui, "Load all", !ui.folder.empty(), "Reads all tables found in the folder")) {
+    ui.Check(LoadFolder(ui, ui.folder));
   }
   ImGui::SameLine();
   if (Button(ui, "Save all", !ui.folder.empty(),
              "Writes all tables that were changed; fsm --tables FOLDER uses them")) {
-    const auto count = ui.editor.SaveTables(ui.folder);
-    if (ui.Check(count)) ui.Tell(fmt::format("{} tables written to {}", *count, ui.folder));
+    ui.Check(SaveFolder(ui, ui.folder));
   }
   // A page may also be turned by a script.
   if (ui.page != ui.tab) ui.turning = 3;
@@ -178,12 +200,42 @@ fsm::FaceState PageOf(Ui& ui) {
 
 }  // namespace
 
+vm::Result<void> OpenFile(Ui& ui, const std::string& path, const std::string& face) {
+  if (IsHeadFile(path)) {
+    ui.photo_path = path;
+    ui.Tell("Opening " + path + " ...");
+    ui.stage.Open([path, face, tables = ui.tables] { return OpenHead(path, face, tables); });
+    if (ui.page == Page::kPoints || ui.page == Page::kIdentity) ui.page = Page::kExpressions;
+    return {};
+  }
+  auto opened = ui.editor.OpenPhoto(path);
+  if (!opened) return opened;
+  ui.photo_path = path;
+  ui.page = Page::kPoints;
+  const auto& work = ui.editor.work();
+  ui.Tell(!work->notice.empty() ? work->notice
+          : work->faces > 1
+              ? fmt::format("{} faces; the largest was taken", work->faces)
+              : "Opened " + path + ": drag points where they miss, then build the face");
+  return {};
+}
+
+vm::Result<void> UpdateStage(Ui& ui) {
+  using Wanted = Stage::Wanted;
+  const Wanted wanted = ui.page == Page::kIdentity ? Wanted::kIdentity
+                        : ui.page == Page::kPoints ? Wanted::kPhoto
+                                                   : Wanted::kLast;
+  auto updated = ui.stage.Update(ui.editor, wanted);
+  ui.Check(updated);
+  if (!ui.stage.notice.empty()) ui.Tell(std::exchange(ui.stage.notice, ""));
+  return updated;
+}
+
 fsm::FaceState DrawUi(Ui& ui) {
   ui.marks.clear();
   Shortcuts(ui);
   if (!ui.window.dropped.empty()) {
-    ui.photo_path = std::exchange(ui.window.dropped, "");
-    OpenTyped(ui);
+    ui.Check(OpenFile(ui, std::exchange(ui.window.dropped, "")));
   }
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   TopBar(ui, size);
@@ -209,6 +261,7 @@ fsm::FaceState DrawUi(Ui& ui) {
   ImGui::Begin("panel", nullptr, kFixed & ~ImGuiWindowFlags_NoScrollbar);
   const fsm::FaceState still = PageOf(ui);
   ImGui::End();
+  DrawFileDialog(ui);
   AskBeforeLeaving(ui);
   return ui.player.At(ui.now).value_or(still);
 }

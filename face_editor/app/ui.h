@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_editor/app/file_dialog.h"
 #include "face_editor/app/stage.h"
 #include "face_editor/app/window.h"
 #include "face_editor/core/editor.h"
@@ -106,6 +107,8 @@ struct Ui {
   std::string new_name;               ///< of an expression to be made
   std::map<Part, std::string> paths;  ///< where each part is kept
   std::string folder;                 ///< of tables
+  std::string tables;                 ///< the folder whose tables heads from elsewhere are made by
+  FileDialog dialog;
   PhotoView view;
   fsm::Pane preview;  ///< where the head is drawn this frame; width 0: nowhere
 
@@ -160,6 +163,10 @@ void TryIt(Ui& ui);
 /// Path, load and save of a part.
 void FileRow(Ui& ui, Part part, const char* file, bool bilingual = false);
 
+/// Opens a photo, or a head from elsewhere (`face`: see OpenHead), which is shown once it is made.
+vm::Result<void> OpenFile(Ui& ui, const std::string& path, const std::string& face = "");
+/// Takes new heads and tells what is to be known of them. Error: what the user was told.
+vm::Result<void> UpdateStage(Ui& ui);
 /// The whole window; gives what the face does in it.
 fsm::FaceState DrawUi(Ui& ui);
 

@@ -91,16 +91,32 @@ void FileRow(Ui& ui, Part part, const char* file, bool bilingual) {
   std::string& path = ui.paths[part];
   if (path.empty()) path = file;
   ImGui::PushID(file);
-  ImGui::SetNextItemWidth(-130);
+  const auto load = [&ui, part, bilingual](const std::string& from) {
+    auto done = ui.editor.Load(part, from, bilingual);
+    if (!done) return done;
+    ui.paths[part] = from;
+    ui.Tell("Read " + from);
+    return done;
+  };
+  const auto save = [&ui, part, bilingual](const std::string& to) {
+    auto done = ui.editor.Save(part, to, bilingual);
+    if (!done) return done;
+    ui.paths[part] = to;
+    ui.Tell("Written " + to);
+    return done;
+  };
+  ImGui::SetNextItemWidth(-168);
   Text(ui, "##path", &path, file);
   ImGui::SameLine();
-  if (Button(ui, "Load") && ui.Check(ui.editor.Load(part, path, bilingual))) {
-    ui.Tell("Read " + path);
+  if (Button(ui, "...", true, "Looks for the file")) {
+    Browse(ui, std::string("A file as ") + file, FileKind::kTable, path,
+           {{"Load", false, load}, {"Save", true, save}});
   }
+  Mark(ui, "browse file");
   ImGui::SameLine();
-  if (Button(ui, "Save") && ui.Check(ui.editor.Save(part, path, bilingual))) {
-    ui.Tell("Written " + path);
-  }
+  if (Button(ui, "Load")) ui.Check(load(path));
+  ImGui::SameLine();
+  if (Button(ui, "Save")) ui.Check(save(path));
   ImGui::PopID();
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "fsm/head/head.h"
@@ -18,6 +19,7 @@ struct BuiltFace;
 struct MadeHead {
   std::shared_ptr<const fsm::Head> head;
   std::shared_ptr<const BuiltFace> built;
+  std::string notice;  ///< what the user should know; may be empty
 };
 
 /// Makes heads aside, so that dragging never waits. Owns one thread, joined in the destructor; of

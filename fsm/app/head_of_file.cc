@@ -127,11 +127,18 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
   return shapes;
 }
 
-std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder) {
+std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
+                                     std::string* notice) {
   const HeadFile file = OrThrow(ReadHeadFile(path));
-  for (const std::string& notice : file.notices) {
-    std::cerr << "fsm: notice: '" << path << "': " << notice << "\n";
-  }
+  const auto tell = [&](const std::string& what) {
+    const std::string told = "'" + path + "': " + what;
+    if (notice) {
+      *notice += (notice->empty() ? "" : "; ") + told;
+    } else {
+      std::cerr << "fsm: notice: " << told << "\n";
+    }
+  };
+  for (const std::string& what : file.notices) tell(what);
   const MotionTables tables = OrThrow(MotionTables::Load(tables_folder));
   const std::string beside = path + ".points";
   std::error_code code;
@@ -154,9 +161,9 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
     auto carried = CarriedMotion(model, Head::Make(placed.face), placed.pairs);
     return make(std::move(carried));
   }
-  std::cerr << "fsm: notice: '" << path << "' has no shapes with names of ARKit or VRM, and no '"
-            << beside << "' says where its eyes and mouth are (face_fit --head finds out): only "
-            << "head, eyes and jaw move\n";
+  tell("has no shapes with names of ARKit or VRM, and no '" + beside +
+       "' says where its eyes and mouth are (face_fit --head finds out): only head, eyes and jaw "
+       "move");
   return make(StillMotion());
 }
 

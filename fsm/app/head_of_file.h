@@ -11,8 +11,10 @@ namespace fsm {
 
 /// Somebody else's head out of .obj, .glb, .gltf or .vrm. It is moved by its own shapes where their
 /// names are ARKit's or VRM's, else by ours carried over with the points of `path`.points; without
-/// either only head, eyes and jaw move, and a notice says so. Throws std::runtime_error.
-std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables);
+/// either only head, eyes and jaw move, and a notice says so: in `notice`, else on stderr. Throws
+/// std::runtime_error.
+std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables,
+                                     std::string* notice = nullptr);
 
 /// Every ARKit shape of the tables as a state of the face.
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables);

@@ -46,7 +46,8 @@ std::string Missing(const OriginalFaceFiles& files, const OriginalSharedFiles& s
 }  // namespace
 
 std::vector<GlStudio::Options::MoreFace> FacesOf(const OriginalConfig& config,
-                                                 const std::string& tables) {
+                                                 const std::string& tables,
+                                                 std::vector<std::string>* left_out) {
   std::vector<GlStudio::Options::MoreFace> faces;
   const OriginalSharedFiles shared{
       config.standard_wireframe,
@@ -60,8 +61,13 @@ std::vector<GlStudio::Options::MoreFace> FacesOf(const OriginalConfig& config,
     const OriginalFaceFiles files{mask.name,        mask.picture, mask.wireframe,
                                   mask.eye_picture, mask.eye_def, mask.teeth_def};
     if (const std::string missing = Missing(files, shared); !missing.empty()) {
-      std::cerr << "fsm: notice: " << config.path << ": face '" << mask.name << "' is left out, "
-                << missing << " is missing\n";
+      const std::string told =
+          config.path + ": face '" + mask.name + "' is left out, " + missing + " is missing";
+      if (left_out) {
+        left_out->push_back(told);
+      } else {
+        std::cerr << "fsm: notice: " << told << "\n";
+      }
       continue;
     }
     faces.push_back(

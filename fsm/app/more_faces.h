@@ -9,8 +9,10 @@
 namespace fsm {
 
 /// The faces of a configuration of the original. A face whose files are not there is left out with
-/// a notice on stderr. `tables`: folder of tables that replace the built-in ones.
+/// a notice, in `left_out` or else on stderr. `tables`: folder of tables that replace the built-in
+/// ones.
 std::vector<GlStudio::Options::MoreFace> FacesOf(const OriginalConfig& config,
-                                                 const std::string& tables);
+                                                 const std::string& tables,
+                                                 std::vector<std::string>* left_out = nullptr);
 
 }  // namespace fsm

@@ -1,115 +1,15 @@
 // The real program under Xvfb: by script, and by a mouse that the window system moves.
 
-#include "tests/support/process.h"
-
-#include <fcntl.h>
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "face_fit/find/face_networks.h"
 #include "face_fit/find/hand_points.h"
 #include "fsm/head/face_set.h"
-#include "fsm/render/renderer.h"
+#include "tests/face_editor/editor_process.h"
 
 namespace {
 
-using support::Millis;
-using support::Process;
-constexpr Millis kLong{120000};  // software drawing on a busy machine
-
-/// A screen in memory for the length of a test.
-class Screen {
- public:
-  Screen() {
-    try {
-      server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0",
-                                               "1280x800x24", "-nolisten", "tcp"});
-      if (const auto number = server_->ReadLine()) display_ = ":" + *number;
-    } catch (const std::exception&) {
-    }
-  }
-  bool ready() const { return !display_.empty(); }
-  std::vector<std::string> env() const { return {"DISPLAY=" + display_, "WAYLAND_DISPLAY="}; }
-
- private:
-  std::optional<Process> server_;
-  std::string display_;
-};
-
-class FaceEditorTest : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!screen_.ready()) GTEST_SKIP() << "there is no Xvfb on this machine";
-    folder_ = testing::TempDir() + "/face_editor_XXXXXX";
-    ASSERT_NE(mkdtemp(folder_.data()), nullptr);
-  }
-  void TearDown() override {
-    if (!folder_.empty()) std::filesystem::remove_all(folder_);
-  }
-
-  std::unique_ptr<Process> Start(std::vector<std::string> options) {
-    std::vector<std::string> argv{GALATEA_BIN_DIR "/face_editor"};
-    argv.insert(argv.end(), options.begin(), options.end());
-    auto env = screen_.env();
-    env.push_back("GALATEA_FACES=" + folder_ + "/faces");
-    env_ = env;
-    return std::make_unique<Process>(argv, Process::Options{folder_, env_});
-  }
-  /// Runs a script to its end.
-  int RunScript(const std::string& script, std::vector<std::string> options = {}) {
-    std::ofstream(folder_ + "/script.txt") << script;
-    options.insert(options.end(), {"--script", folder_ + "/script.txt"});
-    program_ = Start(options);
-    program_->CloseInput();
-    const auto code = program_->Wait(kLong);
-    return code.value_or(-1);
-  }
-  std::string Output() {
-    std::string text;
-    for (const std::string& line : program_->ReadAll()) text += line + "\n";
-    return text;
-  }
-  /// A picture drawn of a built-in head: a photo whose face can be found without other people's.
-  std::string DrawnPhoto() {
-    const auto head = fsm::Head::Make("pygmalion", false);
-    fsm::HeadVertices vertices;
-    head->Evaluate({}, vertices);
-    const auto context = fsm::RenderContext::MakeHeadless(400, 400);
-    const auto renderer = fsm::Renderer::Make(*context);
-    renderer->Draw(*head, vertices, {}, fsm::Scene{});
-    fsm::Image image;
-    renderer->Read(image);
-    const std::string path = folder_ + "/photo.png";
-    EXPECT_TRUE(fsm::WriteImage(image, path));
-    return path;
-  }
-  static glm::vec2 PlaceIn(const std::string& text) {
-    std::istringstream words(text.substr(text.find_first_of("0123456789-")));
-    glm::vec2 place;
-    words >> place.x >> place.y;
-    return place;
-  }
-  /// What a command answers, over stdin.
-  std::string Ask(const std::string& command) {
-    program_->WriteLine(command);
-    std::string answer;
-    while (const auto line = program_->ReadLine(kLong)) {
-      if (*line == "ok" || *line == "error") return answer;
-      answer += *line;
-    }
-    return "no answer: " + program_->ErrorText();
-  }
-
-  Screen screen_;
-  std::string folder_;
-  std::vector<std::string> env_;
-  std::unique_ptr<Process> program_;
-};
+using namespace editor_process;
 
 TEST_F(FaceEditorTest, VersionAndHelpNeedNoScreen) {
   Process version({GALATEA_BIN_DIR "/face_editor", "--version"});

@@ -1,0 +1,53 @@
+#include "face_editor/app/given_head.h"
+
+#include <exception>
+#include <memory>
+#include <vector>
+
+#include "fsm/app/head_of_file.h"
+#include "fsm/app/more_faces.h"
+
+namespace editor {
+namespace {
+
+vm::Result<MadeHead> OpenOriginal(const std::string& path, const std::string& face,
+                                  const std::string& tables) {
+  const auto config = fsm::OriginalConfig::Read(path);
+  if (!config) return std::unexpected(config.error());
+  std::vector<std::string> left_out;
+  std::string names;
+  for (const auto& one : fsm::FacesOf(*config, tables, &left_out)) {
+    names += (names.empty() ? "" : ", ") + one.name;
+    if (!face.empty() && one.name != face) continue;
+    MadeHead made;
+    made.head = one.make();
+    made.notice = "Face '" + one.name + "' of " + path;
+    if (!left_out.empty()) made.notice += "; not all others can be had: " + left_out.front();
+    return made;
+  }
+  if (!names.empty()) {
+    return vm::Fail(vm::Errc::kBadValue, path + " has no face '" + face + "'; it has " + names);
+  }
+  return vm::Fail(vm::Errc::kBadValue,
+                  left_out.empty() ? path +
+                                         " names no face (MaskFile), as a configuration of the "
+                                         "original would"
+                                   : left_out.front());
+}
+
+}  // namespace
+
+vm::Result<MadeHead> OpenHead(const std::string& path, const std::string& face,
+                              const std::string& tables) {
+  try {
+    if (path.ends_with(".txt")) return OpenOriginal(path, face, tables);
+    MadeHead made;
+    made.head = fsm::MakeHeadOfFile(path, tables, &made.notice);
+    if (made.notice.empty()) made.notice = "Head of " + path;
+    return made;
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kBadValue, error.what());
+  }
+}
+
+}  // namespace editor
