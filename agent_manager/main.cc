@@ -1,5 +1,7 @@
 // agent_manager: the hub. Reads a configuration, starts the modules, routes what they say.
 
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <filesystem>
@@ -12,6 +14,16 @@
 namespace {
 
 constexpr std::size_t kMaxFileBytes = 16u << 20;  // a configuration, lines for the console
+
+/// Left to itself glibc raises both limits to the largest block ever freed, and what a flood once
+/// needed is never given back.
+void GiveBackMemory() {
+#ifdef __GLIBC__
+  constexpr int kBytes = 128 << 10;
+  mallopt(M_MMAP_THRESHOLD, kBytes);
+  mallopt(M_TRIM_THRESHOLD, kBytes);
+#endif
+}
 
 }  // namespace
 
@@ -40,6 +52,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "agent_manager (Galatea) " GALATEA_VERSION);
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
+  GiveBackMemory();
   try {
     const auto read_config = [&]() -> vm::Result<am::Config> {
       am::Config config;
