@@ -8,6 +8,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "face_fit/find/lid_edges.h"
+#include "face_fit/find/lip_seam.h"
 #include "face_fit/fit/base_head.h"
 
 namespace facefit {
@@ -36,6 +38,9 @@ fsm::Similarity Guess(const fsm::HeadFile& file, const glm::mat3& turn, float pa
   return guess;
 }
 
+/// Where the inner lips end, and the outer.
+constexpr int kRightCorner = 78, kLeftCorner = 308, kOuterRight = 61, kOuterLeft = 291;
+
 fsm::FacePart PartOf(int point) {
   const auto among = [point](std::span<const int> list) {
     return std::ranges::find(list, point) != list.end();
@@ -43,6 +48,7 @@ fsm::FacePart PartOf(int point) {
   constexpr int kUpperLids[] = {246, 161, 160, 159, 158, 157, 173,
                                 466, 388, 387, 386, 385, 384, 398};
   constexpr int kLowerLids[] = {7, 163, 144, 145, 153, 154, 155, 249, 390, 373, 374, 380, 381, 382};
+  // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
   if (among(UpperOuterLip())) return fsm::FacePart::kUpperLip;
   if (among(LowerOuterLip())) return fsm::FacePart::kLowerLip;
   if (among(kUpperLids)) return fsm::FacePart::kUpperLid;
@@ -76,29 +82,83 @@ void Balance(const fsm::Similarity& place, std::vector<fsm::PlacePair>& pairs) {
   }
 }
 
+/// A head with what its surface is made of.
+struct Surface {
+  const BaseHead& head;
+  std::vector<std::uint32_t> flesh;
+  bool sewn;
+
+  std::optional<LipSeam> Seam() const {
+    const auto places = [this](std::span<const int> points) {
+      std::vector<glm::vec3> at;
+      for (const int point : points) {
+        at.push_back(head.places[static_cast<std::size_t>(point)].On(head.rest.position));
+      }
+      return at;
+    };
+    return FindLipSeam(head.head->topology(), head.rest.position, flesh, sewn,
+                       places(UpperOuterLip()), places(LowerOuterLip()));
+  }
+};
+
+/// Moves the points of the inner lips onto a seam.
+void OntoSeam(const LipSeam& seam, std::vector<MeshPlace>& places) {
+  places[kRightCorner] = seam.right;
+  places[kLeftCorner] = seam.left;
+  for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
+    places[static_cast<std::size_t>(UpperInnerLip()[k + 1])] = seam.upper[k];
+    places[static_cast<std::size_t>(LowerInnerLip()[k])] = seam.lower[k];
+  }
+}
+
 }  // namespace
 
 fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
                                const std::string& name, const std::string& face) {
   const BaseHead base = BaseHead::See(networks, face);
-  // Where both lips meet a point may come to lie on either.
-  std::set<int> ambiguous(UpperInnerLip().begin(), UpperInnerLip().end());
-  ambiguous.insert(LowerInnerLip().begin(), LowerInnerLip().end());
-  const auto pairs = [&](const BaseHead& other, const fsm::Similarity& place) {
+  // Where both lips meet a point of the network may come to lie on either.
+  std::set<int> inner(UpperInnerLip().begin(), UpperInnerLip().end());
+  inner.insert(LowerInnerLip().begin(), LowerInnerLip().end());
+  const auto own_seam = Surface{base, fsm::FleshOf(base.head->topology()), false}.Seam();
+  const auto own_eyes = EyeVertices(base.head->topology(), base.rest.position.size());
+  struct Seen {
+    BaseHead head;
+    std::vector<bool> eye;
+    std::vector<std::uint32_t> flesh;
+    bool sewn;
+  };
+  const auto pairs = [&](const Seen& seen, const fsm::Similarity& place) {
+    std::vector<MeshPlace> ours = base.places, theirs = seen.head.places;
+    OntoLidEdges({base, own_eyes}, ours, {seen.head, seen.eye}, theirs);
+    const auto seam = Surface{seen.head, seen.flesh, seen.sewn}.Seam();
+    const bool both = own_seam && seam;
+    if (both) {
+      OntoSeam(*own_seam, ours);
+      OntoSeam(*seam, theirs);
+    }
     std::vector<fsm::PlacePair> found;
     for (const int point : FitPoints()) {
       const auto k = static_cast<std::size_t>(point);
-      if (ambiguous.contains(point)) continue;
-      const glm::vec3 at = other.places[k].On(other.rest.position);
+      if (inner.contains(point) ? !both : both && (point == kOuterRight || point == kOuterLeft)) {
+        continue;
+      }
+      const glm::vec3 at = theirs[k].On(seen.head.rest.position);
       const glm::vec3 raw = glm::transpose(place.turn) * ((at - place.move) / place.scale);
-      found.push_back({base.places[k].On(base.rest.position), raw, PartOf(point)});
+      found.push_back({ours[k].On(base.rest.position), raw, PartOf(point)});
     }
     return found;
   };
   const auto see = [&](const fsm::Similarity& place) {
-    return BaseHead::See(networks,
-                         fsm::MakeMeshHead(fsm::ModelOf(file, place, -43), fsm::StillMotion()),
-                         name, false);
+    fsm::MeshModel model = fsm::ModelOf(file, place, -43);
+    std::vector<std::uint32_t> flesh = model.FleshTriangles();
+    const bool sewn = model.sewn;
+    std::vector<bool> eye;
+    for (const fsm::Bone bone : model.bone) {
+      eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
+    }
+    return Seen{BaseHead::See(networks, fsm::MakeMeshHead(std::move(model), fsm::StillMotion()),
+                              name, false),
+                std::move(eye), std::move(flesh), sewn};
   };
   for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
     for (const glm::mat3& turn : kTurns) {

@@ -57,6 +57,36 @@ void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<flo
   }
 }
 
+/// The edges of the lids are known better than other places (where flesh ends before the eyeball),
+/// and they are what closes an eye: what a warp left undone there is made up for, a few millimetres
+/// around.
+class EdgePull {
+ public:
+  EdgePull(std::span<const PlacePair> pairs, const Warp& warp) {
+    for (const PlacePair& pair : pairs) {
+      if (pair.part != FacePart::kUpperLid && pair.part != FacePart::kLowerLid) continue;
+      const glm::vec3 at = pair.from + warp.Motion(pair.from);
+      left_.push_back({at, pair.to - at});
+    }
+  }
+  glm::vec3 Pulled(glm::vec3 p) const {
+    constexpr float kNear = 4;  // millimetres
+    glm::vec3 sum(0);
+    float total = 0, most = 0;
+    for (const WarpPoint& point : left_) {
+      const glm::vec3 off = (p - point.at) / kNear;
+      const float weight = std::exp(-0.5f * glm::dot(off, off));
+      sum += weight * point.by;
+      total += weight;
+      most = std::max(most, weight);
+    }
+    return total > 1e-6f ? p + (most / total) * sum : p;
+  }
+
+ private:
+  std::vector<WarpPoint> left_;
+};
+
 }  // namespace
 
 Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const PlacePair> pairs) {
@@ -77,8 +107,9 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   // lips. What it leaves undone the drawing below does.
   constexpr float kSmooth = 80;
   const Warp warp(points, kSmooth);
+  const EdgePull edges(pairs, warp);
   WeldedSurface drawn = rest;
-  for (glm::vec3& p : drawn.at) p += warp.Motion(p);
+  for (glm::vec3& p : drawn.at) p = edges.Pulled(p + warp.Motion(p));
   drawn.FindNormals();
 
   // Drawn onto the other surface in rounds, at first as a whole, in the end in detail.
@@ -92,7 +123,9 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
     for (std::size_t i = 0; i < drawn.at.size(); ++i) {
       const auto hit = there.Find(drawn.at[i], drawn.normal[i], drawn.lip[i], drawn.lid[i]);
       if (!hit) continue;
-      by[i] = hit->at - drawn.at[i];
+      // Along its own normal: where to, sideways, is what the landmarks said; the nearest place, as
+      // it falls on other triangles from round to round, would drift.
+      by[i] = glm::dot(hit->at - drawn.at[i], drawn.normal[i]) * drawn.normal[i];
       weight[i] = SmoothStep(kReach, 0.4f * kReach, hit->far);
       sum += weight[i] * hit->far;
       count += weight[i];

@@ -1,0 +1,113 @@
+#include "face_fit/find/lip_seam.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "face_fit/find/front_view.h"
+#include "fsm/mesh/surface_index.h"
+
+namespace facefit {
+namespace {
+
+constexpr float kReach = 40;  ///< of ways along the surface, millimetres
+
+/// Where a column of the view goes over from the upper lip to the lower.
+struct Crossing {
+  int above = -1, below = -1;  ///< rows
+  float jump = 0;              ///< of the way from the upper lip, millimetres
+};
+
+/// Whether the triangle that begins at `index` lines the mouth.
+bool IsInside(const fsm::HeadTopology& topology, std::uint32_t index) {
+  return std::ranges::any_of(topology.parts, [index](const auto& part) {
+    return part.material == fsm::Material::kMouthInside && index >= part.first_index &&
+           index < part.first_index + part.index_count;
+  });
+}
+
+}  // namespace
+
+std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
+                                   std::span<const glm::vec3> position,
+                                   const std::vector<std::uint32_t>& flesh, bool sewn,
+                                   std::span<const glm::vec3> upper,
+                                   std::span<const glm::vec3> lower) {
+  if (upper.empty() || lower.empty()) return std::nullopt;
+  const fsm::WeldedSurface surface(position, flesh, sewn);
+  const auto up = surface.WayFrom(upper, kReach), down = surface.WayFrom(lower, kReach);
+  glm::vec2 low(1e9F), high(-1e9F);
+  for (const auto& list : {upper, lower}) {
+    for (const glm::vec3& p : list) {
+      low = glm::min(low, glm::vec2(p));
+      high = glm::max(high, glm::vec2(p));
+    }
+  }
+  const FrontView view(topology, position, low - glm::vec2(15, 3), high + glm::vec2(15, 3));
+  // Of the flesh in a cell, the ways from both lips; nothing where teeth or the mouth's lining are.
+  const auto ways = [&](int column, int row) -> std::optional<glm::vec2> {
+    const std::uint32_t triangle = view.Triangle(column, row);
+    if (triangle == FrontView::kNone || IsInside(topology, triangle)) return std::nullopt;
+    const MeshPlace place = view.Place(column, row);
+    glm::vec2 sum(0);
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = surface.of[place.corner[static_cast<std::size_t>(k)]];
+      if (v == fsm::WeldedSurface::kNone) return std::nullopt;
+      sum += place.part[k] * glm::vec2(up[v], down[v]);
+    }
+    return sum;
+  };
+  std::vector<Crossing> steps;
+  for (int column = 0; column < view.columns(); ++column) {
+    Crossing step;
+    std::optional<glm::vec2> before;
+    int row_before = -1;
+    for (int row = view.rows(); row-- > 0;) {
+      const auto here = ways(column, row);
+      if (!here) continue;
+      if (before && before->x < before->y && here->x >= here->y) {
+        const float apart = FrontView::kCell * static_cast<float>(row_before - row);
+        const float jump = std::min(here->x - before->x, before->y - here->y) - apart;
+        if (jump > step.jump) step = {row_before, row, jump};
+      }
+      before = here;
+      row_before = row;
+    }
+    steps.push_back(step);
+  }
+  // Near a corner the way round it is short; the jump ends there. The longest run is the mouth.
+  constexpr float kLeastJump = 2;
+  constexpr int kHole = 8;
+  int first = 0, last = -1, begin = -1, end = -1;
+  for (int column = 0; column < view.columns(); ++column) {
+    if (steps[static_cast<std::size_t>(column)].jump < kLeastJump) continue;
+    if (begin < 0 || column - end > kHole) begin = column;
+    end = column;
+    if (end - begin > last - first) {
+      first = begin;
+      last = end;
+    }
+  }
+  const float width = FrontView::kCell * static_cast<float>(last - first);
+  if (width < 20 || width > 90) return std::nullopt;
+  const auto step_at = [&](float part) {
+    int column = static_cast<int>(
+        std::lround(static_cast<float>(first) + part * static_cast<float>(last - first)));
+    while (column < last && steps[static_cast<std::size_t>(column)].above < 0) ++column;
+    return std::pair(column, steps[static_cast<std::size_t>(column)]);
+  };
+  LipSeam seam;
+  const auto [c0, s0] = step_at(0);
+  const auto [c1, s1] = step_at(1);
+  seam.right = view.Place(c0, s0.above);
+  seam.left = view.Place(c1, s1.above);
+  for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
+    const auto [column, step] =
+        step_at(static_cast<float>(k + 1) / static_cast<float>(LipSeam::kBetween + 1));
+    seam.upper[k] = view.Place(column, step.above);
+    seam.lower[k] = view.Place(column, step.below);
+  }
+  return seam;
+}
+
+}  // namespace facefit

@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "face_fit/find/lid_edges.h"
+#include "face_fit/find/lip_seam.h"
+#include "fsm/mesh/head_file.h"
+
+namespace facefit {
+namespace {
+
+/// The built-in head, whose own units say which lip and which lid a place belongs to.
+class EdgesTest : public testing::Test {
+ protected:
+  EdgesTest() : head_(fsm::Head::Make("galatea", false)) { head_->Evaluate({}, rest_); }
+
+  std::optional<LidEdges> Lids(const fsm::HeadVertices& at, std::size_t side) const {
+    const auto& topology = head_->topology();
+    return FindLidEdges(topology, at.position, EyeVertices(topology, at.position.size()),
+                        topology.eyes[side].centre, side == 0 ? -1.0F : 1.0F);
+  }
+  std::optional<LipSeam> Seam(const fsm::HeadVertices& at) const {
+    // Skin above and below the lips, wherever it is now.
+    const auto flesh = fsm::FleshOf(head_->topology());
+    const auto now = [&](glm::vec3 p) {
+      const auto nearest = std::ranges::min_element(
+          flesh, {}, [&](std::uint32_t v) { return glm::distance(rest_.position[v], p); });
+      return at.position[*nearest];
+    };
+    std::vector<glm::vec3> upper, lower;
+    const glm::vec3 mouth = head_->Landmark("stomion");
+    for (const float x : {-14.0F, 0.0F, 14.0F}) {
+      upper.push_back(now(mouth + glm::vec3(x, 7, 0)));
+      lower.push_back(now(mouth + glm::vec3(x, -8, 0)));
+    }
+    return FindLipSeam(head_->topology(), at.position, fsm::FleshOf(head_->topology()), false,
+                       upper, lower);
+  }
+  fsm::HeadVertices Shown(const fsm::FaceState& state) const {
+    fsm::HeadVertices vertices;
+    head_->Evaluate(state, vertices);
+    return vertices;
+  }
+  float Fall(const MeshPlace& place, const fsm::HeadVertices& moved) const {
+    return place.On(rest_.position).y - place.On(moved.position).y;
+  }
+
+  std::unique_ptr<fsm::Head> head_;
+  fsm::HeadVertices rest_;
+};
+
+TEST_F(EdgesTest, LidEdgesLieBesideTheEyeballInOrder) {
+  for (const std::size_t side : {0U, 1U}) {
+    const auto edges = Lids(rest_, side);
+    ASSERT_TRUE(edges) << side;
+    const auto& eye = head_->topology().eyes[side];
+    const glm::vec3 outer = edges->outer.On(rest_.position),
+                    inner = edges->inner.On(rest_.position);
+    EXPECT_GT(std::abs(outer.x), std::abs(inner.x) + 20);
+    float before = std::abs(outer.x);
+    for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
+      const glm::vec3 above = edges->upper[k].On(rest_.position),
+                      below = edges->lower[k].On(rest_.position);
+      EXPECT_GT(above.y, below.y) << k;
+      EXPECT_LT(std::abs(above.x), before) << k;
+      before = std::abs(above.x);
+      for (const glm::vec3 p : {above, below}) {
+        EXPECT_LT(std::abs(glm::distance(p, eye.centre) - eye.ball_radius), 3) << k;
+      }
+    }
+  }
+}
+
+TEST_F(EdgesTest, UpperEdgeFallsWhenTheEyeCloses) {
+  const auto edges = Lids(rest_, 0);
+  ASSERT_TRUE(edges);
+  fsm::FaceState shut;
+  shut.blink_right = 1;
+  const auto moved = Shown(shut);
+  const std::size_t middle = LidEdges::kBetween / 2;
+  const float opening =
+      edges->upper[middle].On(rest_.position).y - edges->lower[middle].On(rest_.position).y;
+  EXPECT_GT(Fall(edges->upper[middle], moved), 0.7F * opening);
+  EXPECT_LT(Fall(edges->lower[middle], moved), 0.1F);
+}
+
+TEST_F(EdgesTest, ShutEyesHaveNoEdges) {
+  fsm::FaceState shut;
+  shut.blink_right = shut.blink_left = 1;
+  EXPECT_FALSE(Lids(Shown(shut), 0));
+}
+
+TEST_F(EdgesTest, SeamTellsTheLipsApart) {
+  const auto seam = Seam(rest_);
+  ASSERT_TRUE(seam);
+  fsm::FaceState open;
+  open.asymmetry = 0;
+  open.au_left[27] = open.au_right[27] = 1;
+  const auto moved = Shown(open);
+  for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
+    const glm::vec3 up = seam->upper[k].On(rest_.position), low = seam->lower[k].On(rest_.position);
+    EXPECT_LT(glm::distance(glm::vec2(up), glm::vec2(low)), 1) << "they meet";
+    EXPECT_GT(Fall(seam->lower[k], moved), Fall(seam->upper[k], moved) + 2) << k;
+  }
+  const std::size_t middle = LipSeam::kBetween / 2;
+  EXPECT_GT(Fall(seam->lower[middle], moved), Fall(seam->upper[middle], moved) + 20);
+  const glm::vec3 right = seam->right.On(rest_.position), left = seam->left.On(rest_.position);
+  const float width = head_->MeasureMouth({}).width_mm;
+  EXPECT_NEAR(left.x - right.x, width, 0.2F * width);
+}
+
+TEST_F(EdgesTest, PartedLipsHaveTwoEdges) {
+  fsm::FaceState open;
+  open.asymmetry = 0;
+  open.au_left[26] = open.au_right[26] = 1;
+  const auto moved = Shown(open);
+  const auto seam = Seam(moved);
+  ASSERT_TRUE(seam);
+  const std::size_t middle = LipSeam::kBetween / 2;
+  const float gap =
+      seam->upper[middle].On(moved.position).y - seam->lower[middle].On(moved.position).y;
+  EXPECT_GT(gap, 3);
+  EXPECT_NEAR(gap, head_->MeasureMouth(open).gap_mm, 3);
+}
+
+TEST_F(EdgesTest, NoLipsNoSeam) {
+  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::FleshOf(head_->topology()),
+                           false, {}, {}));
+  // A forehead has none.
+  const std::vector<glm::vec3> above{{-10, 70, 80}, {10, 70, 80}},
+      below{{-10, 55, 85}, {10, 55, 85}};
+  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::FleshOf(head_->topology()),
+                           false, above, below));
+}
+
+}  // namespace
+}  // namespace facefit
