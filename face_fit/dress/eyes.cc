@@ -16,6 +16,16 @@ glm::vec3 Linear(glm::vec3 screen) {
   return c * (c * (c * 0.305306F + 0.682171F) + 0.012523F);
 }
 
+/// Of cheeks, upper lip, forehead and chin: linear.
+float SkinLight(const FoundFace& face, const fsm::Image& photo) {
+  constexpr std::size_t kSkin[] = {50, 280, 205, 425, 151, 9, 199};
+  float light = 0;
+  for (const std::size_t i : kSkin) {
+    light += Brightness(Linear(ColourAt(photo, face.points[i]))) / std::size(kSkin);
+  }
+  return light;
+}
+
 }  // namespace
 
 float Outside(const FoundFace& face, std::span<const int> outline, glm::vec2 pixel) {
@@ -86,7 +96,13 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, 
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   set.iris_colour =
       glm::clamp(Linear(pick(iris, 0.5F, glm::vec3(90, 70, 55))) * 1.35F, 0.01F, 0.6F);
-  set.white_colour = glm::clamp(Linear(pick(white, 0.6F, glm::vec3(190))), 0.04F, 0.8F);
+  // Whites are nearly grey, and in whatever shade they are not darker than half the skin beside
+  // them.
+  glm::vec3 ball = Linear(pick(white, 0.6F, glm::vec3(190)));
+  const float least = 0.45F * SkinLight(face, photo);
+  ball = glm::mix(ball, glm::vec3(Brightness(ball)), 0.6F);
+  ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
+  set.white_colour = glm::clamp(ball, 0.04F, 0.8F);
   set.iris_size = fit.iris_size;
 }
 
@@ -101,11 +117,7 @@ void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& s
   }
   // Screen colours are squares of it there; the inner rim lies in shade.
   set.lip_colour = 0.5F * glm::pow(lip, glm::vec3(0.91F));
-  float light = 0;
-  constexpr std::size_t kSkin[] = {50, 280, 205, 425, 151, 9, 199};
-  for (const std::size_t i : kSkin) {
-    light += Brightness(Linear(ColourAt(photo, face.points[i]))) / std::size(kSkin);
-  }
+  const float light = SkinLight(face, photo);
   set.teeth = std::clamp(0.4F + 1.9F * light, 0.4F, 1.5F);
 }
 

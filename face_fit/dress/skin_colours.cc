@@ -45,7 +45,7 @@ Field SkinLikeness(const fsm::Image& map, const Field& face_seen) {
       darker =
           std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
     }
-    likeness.at[i] = glm::smoothstep(0.75F, 0.35F, darker);
+    likeness.at[i] = glm::smoothstep(0.6F, 0.3F, darker);
   }
   return Blurred(likeness, map.width / 170);
 }

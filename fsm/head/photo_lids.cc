@@ -79,12 +79,13 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const float down = SmoothStep(0.1f, 0.95f, f.lid_upper);
       const glm::vec3 colour =
           glm::mix(Near(above, f.domain.x, Brightness(usual_above), usual_above),
-                   Near(below, f.domain.x, Brightness(usual), usual), 0.05f + 0.45f * down);
+                   Near(below, f.domain.x, Brightness(usual), usual), 0.05f + 0.35f * down);
       // The ball rounds the lid; the fold over it is in shade, and so are the lashes' roots.
-      const float round = 1 + 0.06f * SmoothStep(0.5f, 0.85f, f.lid_upper) -
+      const float round = 0.94f + 0.06f * SmoothStep(0.5f, 0.85f, f.lid_upper) -
                           0.10f * SmoothStep(0.55f, 0.3f, f.lid_upper);
-      const float lashes = 1 - 0.55f * SmoothStep(0.965f, 1.0f, f.lid_upper);
-      lids.push_back({i, glm::clamp(colour * (round * lashes), 0.0f, 1.0f), part});
+      const float lashes = 1 - 0.7f * SmoothStep(0.95f, 1.0f, f.lid_upper);
+      // A part of the photo stays, which has the skin's grain.
+      lids.push_back({i, glm::clamp(colour * (round * lashes), 0.0f, 1.0f), 0.78f * part});
     }
   }
   return lids;

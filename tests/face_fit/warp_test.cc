@@ -123,7 +123,7 @@ TEST(FaceSetTest, LidsGiveUpThePhotoAsTheyShut) {
   set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {200, 150, 100, 255}});
   const auto head = Head::Make(set);
   const auto& places = head->topology().photo_place;
-  EXPECT_GT(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 1.9F; }), 40);
+  EXPECT_GT(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 1.7F; }), 40);
   EXPECT_EQ(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 2; }), 0);
   FaceState state;
   state.au_left[45] = 1;

@@ -50,7 +50,7 @@ void ExpectSkinInTheMiddle(const Eye& eye, float tolerance) {
     const float held = eye.skin[lid.vertex].lid_upper;
     if (held < 0.6f || held > 0.9f) continue;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(lid.screen[c] / kSkin[c], 1, tolerance) << held;
-    EXPECT_GT(lid.part, 0.95f);
+    EXPECT_GT(lid.part, 0.7f) << "most of it is no photo";
     ++checked;
   }
   EXPECT_GT(checked, 100);

@@ -27,7 +27,7 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   base = mix(base, base * vec3(1.40, 1.10, 0.75) + 0.008, collar * 0.6);
   // Light falls in through the cornea and gathers on the far side.
   base *= 0.85 + 0.75 * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
-  base *= mix(1.0, 0.16, smoothstep(0.78, 1.0, r));
+  base *= mix(1.0, worn.x > 0.0 ? 0.4 : 0.16, smoothstep(0.78, 1.0, r));
   return mix(vec3(0.003), base, smoothstep(iris.y - 0.05, iris.y + 0.04, r + 0.03 * (fibre - 0.5)));
 }
 
@@ -78,7 +78,7 @@ void main() {
   float shade = mix(0.36, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
                 mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
-  shade = worn.x > 0.0 ? 0.2 + 0.8 * shade : shade;
+  shade = worn.x > 0.0 ? 0.1 + 0.9 * shade : shade;
 
   vec3 light = Ambient(n) * 0.9;
   light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;
