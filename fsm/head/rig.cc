@@ -57,13 +57,13 @@ Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y) {
   // Along the slit the lower lip is all jaw in the middle; towards the corner, and a little before
   // it, the lips stay together and share the way, so an open mouth is round at its ends. Away from
   // the slit both go over into chin and cheek.
-  constexpr float kApart = 24.3f;  // millimetres from the middle
+  constexpr float kApart = 21.5f;  // millimetres from the middle
   const float arch = std::max(0.0f, 1 - a * a / (kApart * kApart));
   const float reach_down = 16 + 0.5f * beyond;
   const float reach_up = 18 + 0.5f * beyond;
   const bool lower = side < 0 || (side == 0 && below > 0);
   if (lower) {
-    const float seam = 0.4f + 0.6f * std::pow(arch, 0.6f);
+    const float seam = 0.4f + 0.6f * std::pow(arch, 0.85f);
     f.jaw = seam + (1 - seam) * SmoothStep(0, reach_down, below);
     f.above_mouth = side < 0 ? 0.5f * (1 - SmoothStep(25, 19, a)) * (1 - SmoothStep(0, 12, below))
                              : 0.5f * (1 - SmoothStep(0, 8 + 0.3f * beyond, below));
