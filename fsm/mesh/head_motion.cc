@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -101,6 +102,11 @@ class OwnShapes : public MeshMotion {
         std::erase_if(deltas, [&](const auto& delta) { return IsEye(model.bone[delta.vertex]); });
       }
       keys.push_back(Look(*found->second));
+      opens_mm_.push_back(OpensOnlyMouth(keys.back())
+                              ? source_->MeasureMouth(FaceOnly(*found->second)).gap_mm
+                              : 0.0f);
+      // ARKit's closes what jawOpen opens, and means nothing without it.
+      if (name == "mouthclose") closes_ = shapes_.size();
       shapes_.push_back(std::move(deltas));
     }
     mix_ = ShapeMix(std::move(keys));
@@ -125,7 +131,8 @@ class OwnShapes : public MeshMotion {
 
   JawMove Move(const FaceState& state, const Pose& pose,
                std::span<glm::vec3> position) const override {
-    const auto weights = mix_.TakeApart(Look(FaceOnly(state))).weights;
+    std::vector<float> weights = mix_.TakeApart(Look(FaceOnly(state))).weights;
+    HoldShut(source_->MeasureMouth(FaceOnly(state)).gap_mm, weights);
     for (std::size_t k = 0; k < shapes_.size(); ++k) {
       if (weights[k] == 0) continue;
       for (const auto& delta : shapes_[k]) position[delta.vertex] += weights[k] * delta.by;
@@ -147,6 +154,29 @@ class OwnShapes : public MeshMotion {
   static constexpr const char* kLooks[] = {"vrmlookleft", "vrmlookright", "vrmlookup",
                                            "vrmlookdown"};
   static bool IsEye(Bone bone) { return bone == Bone::kEyeRight || bone == Bone::kEyeLeft; }
+
+  /// Whether what a look moves lies below the nose.
+  bool OpensOnlyMouth(const std::vector<float>& look) const {
+    constexpr float kBelow = -10, kRest = 0.1f;
+    float above = 0, all = 0;
+    for (std::size_t i = 0; i < look.size(); ++i) {
+      all += look[i] * look[i];
+      if (rest_[probes_[i / 3]].y > kBelow) above += look[i] * look[i];
+    }
+    return above < kRest * all;
+  }
+
+  /// Few shapes mixed to a mouth that is shut are as near to it a little open, but p, b and m must
+  /// shut: what opens nothing but the mouth opens it no wider than ours.
+  void HoldShut(float wanted_mm, std::vector<float>& weights) const {
+    if (closes_ && weights[*closes_] > 0.05f) return;
+    float open = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) open += weights[k] * opens_mm_[k];
+    if (open <= std::max(wanted_mm, 1e-3f)) return;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      if (opens_mm_[k] > 0) weights[k] *= wanted_mm / open;
+    }
+  }
 
   void LookByShape(const Pose& pose, std::span<glm::vec3> position) const {
     const Gaze right = GazeOf(pose.eye[0]), left = GazeOf(pose.eye[1]);
@@ -192,6 +222,8 @@ class OwnShapes : public MeshMotion {
   std::vector<glm::vec3> rest_;
   std::vector<std::uint32_t> probes_;
   std::vector<std::vector<HeadFile::Shape::Delta>> shapes_;
+  std::vector<float> opens_mm_;  // of each shape that moves only the mouth, else 0
+  std::optional<std::size_t> closes_;
   std::array<std::vector<HeadFile::Shape::Delta>, 4> looks_;
   LookRanges ranges_;
   ShapeMix mix_;

@@ -1,10 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "fsm/head/built_in_units.h"
+#include "fsm/head/deformer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/render/image_codec.h"
 #include "tests/fsm/ball_head.h"
@@ -267,6 +271,49 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   HeadVertices moved;
   head->Evaluate(meanings[0].state, moved);
   EXPECT_NEAR(moved.position[0].y, -50, 0.5F);
+}
+
+/// A face whose lower half falls with unit 27; unit 24 shuts its lips, which moves nothing else.
+class FallingBall : public BallHead {
+ public:
+  void Evaluate(const FaceState& state, HeadVertices& out) const override {
+    BallHead::Evaluate(state, out);
+    for (glm::vec3& p : out.position) {
+      if (p.y < -30 && p.y > -100) p.y -= 10 * state.au_left[27];
+      if (p.y > 0) p.y += 10 * (state.au_left[1] + state.au_left[2] + state.au_left[4]);
+    }
+  }
+  MouthMeasure MeasureMouth(const FaceState& state) const override {
+    return {.gap_mm = std::max(0.0F, 10 * state.au_left[27] - 10 * state.au_left[24])};
+  }
+};
+
+TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
+  HeadFile file;
+  file.position = {{0, -40, 70}, {5, -40, 70}, {0, -45, 70}, {0, 40, 70}};
+  file.parts.push_back({.name = "face", .indices = {0, 1, 2, 1, 2, 3}});
+  std::vector<ShapeMeaning> meanings;
+  for (const auto& [name, unit] :
+       {std::pair("jawopen", 27U), {"browinnerup", 1U}, {"browouterup", 2U}, {"browdown", 4U}}) {
+    FaceState state;
+    state.au_left[unit] = 1;
+    meanings.push_back({name, state});
+    file.shapes.push_back({name, {{unit == 27 ? 0U : 3U, {0, unit == 27 ? -10 : 10, 0}}}});
+  }
+  MeshModel model = ModelOf(file, {}, -30);
+  auto motion = OwnShapesMotion(file, {}, model, std::make_shared<FallingBall>(), meanings);
+  ASSERT_TRUE(motion);
+  const auto fall = [&](FaceState state) {
+    std::vector<glm::vec3> position = model.position;
+    motion->Move(state, MakePose(state, BuiltInUnits()), position);
+    return model.position[0].y - position[0].y;
+  };
+  FaceState state = meanings[0].state;
+  EXPECT_NEAR(fall(state), 10, 0.5F);
+  state.au_left[24] = 0.5F;
+  EXPECT_NEAR(fall(state), 5, 0.5F) << "no wider than ours";
+  state.au_left[24] = 1;
+  EXPECT_NEAR(fall(state), 0, 0.1F);
 }
 
 }  // namespace
