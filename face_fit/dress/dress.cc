@@ -64,7 +64,11 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose) {
     std::size_t k = 1;
     while (k + 1 < seam.size() && seam[k].x < p.x) ++k;
     const float part = (p.x - seam[k - 1].x) / std::max(seam[k].x - seam[k - 1].x, 1e-3F);
-    return std::abs(p.y - glm::mix(seam[k - 1].y, seam[k].y, glm::clamp(part, 0.0F, 1.0F)));
+    const float off =
+        std::abs(p.y - glm::mix(seam[k - 1].y, seam[k].y, glm::clamp(part, 0.0F, 1.0F)));
+    // Towards its ends a line grows thin.
+    const float to_end = std::min(p.x - seam.front().x, seam.back().x - p.x);
+    return off + 0.15F * std::max(5 - to_end, 0.0F);
   };
   each([&](const std::uint32_t* t) {
     glm::vec2 uv[3];
@@ -234,11 +238,13 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   }
   FillIn(map, seen);
   if (open) {
-    // Where lips that were apart now meet there is a dark line.
+    // Where lips that were apart now meet there is a dark line, reddish where the photo has colour.
+    const glm::vec3 dark = glm::mix(glm::vec3(0.4F), glm::vec3(0.3F, 0.5F, 0.48F), set.saturation);
     for (std::size_t i = 0; i < places.off_seam.size(); ++i) {
       const float line = glm::smoothstep(1.0F, 0.1F, places.off_seam[i]);
       for (std::size_t c = 0; c < 3 && line > 0; ++c) {
-        map.rgba[4 * i + c] = static_cast<std::uint8_t>(map.rgba[4 * i + c] * (1 - 0.35F * line));
+        map.rgba[4 * i + c] =
+            static_cast<std::uint8_t>(map.rgba[4 * i + c] * (1 - dark[static_cast<int>(c)] * line));
       }
     }
   }
@@ -263,7 +269,9 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
       const glm::vec3 colour = ColourAt(back, p);
       std::uint8_t* right = left + 4 * kMapSide;
       for (int c = 0; c < 3; ++c) right[c] = static_cast<std::uint8_t>(colour[c] + 0.5F);
-      right[3] = static_cast<std::uint8_t>(255 * figure.opacity.Between(p.x, p.y) + 0.5F);
+      // Soft edges are drawn long where the sheet is turned to the viewer: sharper ones tear less.
+      const float opacity = glm::smoothstep(0.25F, 0.85F, figure.opacity.Between(p.x, p.y));
+      right[3] = static_cast<std::uint8_t>(255 * opacity + 0.5F);
     }
   }
   // Half a texel within, so that the halves do not run into each other.

@@ -254,7 +254,12 @@ class GenericHead : public Head {
         const bool within = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
           return mesh.position[v].z > 45 && mesh.position[v].y > set.skin_bottom_y + 14;
         });
-        if (seen || within) kept.insert(kept.end(), corner, corner + 3);
+        // What the jaw hides of its own underside is seen from the side.
+        const bool under_jaw = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+          return mesh.position[v].z > 0 && mesh.position[v].y > set.skin_bottom_y &&
+                 normal[v].y < -0.25f;
+        });
+        if (seen || within || under_jaw) kept.insert(kept.end(), corner, corner + 3);
       }
       batch.indices = std::move(kept);
     }
