@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "face_fit/dress/dress.h"
+#include "face_fit/dress/side_view.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/head_finder.h"
 #include "face_fit/find/upright.h"
-#include "face_fit/fit/view.h"
 #include "face_fit/report.h"
 #include "fsm/app/original_config.h"
 #include "fsm/head/face_folder.h"
@@ -132,28 +132,19 @@ std::vector<facefit::SideView> LookFromTheSide(const Options& options,
                                                const facefit::BaseHead& base,
                                                const fsm::Image& front, facefit::Fit& fit) {
   using namespace facefit;
-  constexpr std::size_t kMost = 6;
-  if (options.views.size() > kMost) {
-    throw std::runtime_error("--view: at most " + std::to_string(kMost) + " are used");
+  if (options.views.size() > kMostSideViews) {
+    throw std::runtime_error("--view: at most " + std::to_string(kMostSideViews) + " are used");
   }
   std::vector<SideView> sides;
   for (const std::string& path : options.views) {
-    const auto leave_out = [&path](const std::string& why) {
-      std::cerr << "face_fit: notice: '" << path << "' is left out: " << why << "\n";
-    };
-    auto photo = ReadPhoto(path);
-    if (!photo) {
-      leave_out(photo.error().text);
-      continue;
+    const auto photo = ReadUpright(networks, path);
+    auto side = photo ? LookFromSide(networks, base, front, *photo, fit)
+                      : vm::Result<SideView>(std::unexpected(photo.error()));
+    if (side) {
+      sides.push_back(std::move(*side));
+    } else {
+      std::cerr << "face_fit: notice: '" << path << "' is left out: " << side.error().text << "\n";
     }
-    if (const int way = UprightWay(networks, *photo); way != 1) *photo = Turned(*photo, way);
-    auto view = PlaceView(networks, base, fit, *photo);
-    if (!view) {
-      leave_out(view.error().text);
-      continue;
-    }
-    Deepen(base, front, *photo, *view, fit);
-    sides.push_back({std::move(*view), CutOut(*photo, FindFigure(networks, *photo))});
   }
   return sides;
 }

@@ -8,6 +8,7 @@
 #include "face_editor/app/ui.h"
 #include "fsm/motion/table_text.h"
 #include "fsm/motion/unit_names.h"
+#include "fsm/render/camera.h"
 
 namespace editor {
 namespace {
@@ -137,7 +138,39 @@ void NewRow(Ui& ui) {
   }
 }
 
+fsm::FaceState Shown(const Ui& ui, float strength) {
+  fsm::FaceState state;
+  const auto unit = static_cast<std::size_t>(ui.field_unit);
+  if (ui.field_sides[0]) state.au_right[unit] = strength;
+  if (ui.field_sides[1]) state.au_left[unit] = strength;
+  return state;
+}
+
 }  // namespace
+
+void DrawTouched(Ui& ui, ImVec2 low, ImVec2 size) {
+  const auto& units = *ui.editor.state().units;
+  const auto rows = RowsOf(units.rows, ui.field_unit);
+  const auto row = static_cast<std::size_t>(ui.field_row);
+  if (row < 1 || row > rows.size()) return;
+  const auto alone = WithRows(units, {units.rows[rows[row - 1]]});
+  if (!alone) return;
+  fsm::FaceState turned;
+  turned.agent_rotation = {ui.stage.turn[0], ui.stage.turn[1], 0};
+  const fsm::View view =
+      fsm::FramePortrait(turned, ui.stage.scene.camera, ui.preview.width, ui.preview.height);
+  const auto touched =
+      ui.stage.TouchedBy((*alone)->table, Shown(ui, 1), Shown(ui, ui.field_percent / 100));
+  float most = 0;
+  for (const auto& place : touched) most = std::max(most, place.by);
+  for (const auto& place : touched) {
+    const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(place.at, 1.0F);
+    const ImVec2 at{low.x + size.x * (0.5F + 0.5F * clip.x / clip.w),
+                    low.y + size.y * (0.5F - 0.5F * clip.y / clip.w)};
+    const int alpha = static_cast<int>(40 + 200 * place.by / most);
+    ImGui::GetWindowDrawList()->AddCircleFilled(at, 1.7F, IM_COL32(255, 210, 60, alpha));
+  }
+}
 
 fsm::FaceState FieldsPage(Ui& ui) {
   ChooseUnit(ui);
@@ -153,11 +186,7 @@ fsm::FaceState FieldsPage(Ui& ui) {
   ImGui::EndChild();
   NewRow(ui);
   FileRow(ui, Part::kUnits, "action_units.txt");
-  fsm::FaceState state;
-  const auto unit = static_cast<std::size_t>(ui.field_unit);
-  if (ui.field_sides[0]) state.au_right[unit] = ui.field_percent / 100;
-  if (ui.field_sides[1]) state.au_left[unit] = ui.field_percent / 100;
-  return state;
+  return Shown(ui, ui.field_percent / 100);
 }
 
 }  // namespace editor

@@ -1,6 +1,9 @@
 // The page of the photo: what is dragged and how, and the face made of it.
 
+#include <fmt/format.h>
+
 #include "face_editor/app/ui.h"
+#include "face_fit/dress/side_view.h"
 
 namespace editor {
 namespace {
@@ -38,6 +41,23 @@ void Build(Ui& ui) {
       ui.Tell("Face made in " + *place + ": fsm --mask " + ui.face_name + " wears it");
     }
   }
+  ImGui::SameLine();
+  const std::size_t views = ui.editor.side_photos().size();
+  const std::string label = fmt::format("From the side: {} ...###side", views);
+  if (Button(ui, label.c_str(), can && views < facefit::kMostSideViews,
+             "Photos of the same person turned by 20 to 60 degrees: the face that is built gets "
+             "their depth and their skin")) {
+    Browse(ui, "A photo from the side", FileKind::kPhoto, ui.photo_path,
+           {{"Add", false, [&ui](const std::string& path) {
+               auto added = ui.editor.AddSidePhoto(path);
+               if (added) ui.Tell(path + " is used when the face is built");
+               return added;
+             }}});
+  }
+  Mark(ui, "from the side");
+  ImGui::SameLine();
+  if (Button(ui, "x##sides", views > 0, "None of them")) ui.editor.RemoveSidePhotos();
+  Mark(ui, "no side photos");
 }
 
 }  // namespace

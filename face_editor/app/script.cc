@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "face_editor/app/script_hand.h"
 #include "face_editor/core/commands.h"
 #include "fsm/motion/table_text.h"
 #include "fsm/motion/unit_names.h"
@@ -45,19 +46,6 @@ using Answer = vm::Result<std::string>;
 Answer Done(vm::Result<void> result) {
   if (!result) return std::unexpected(result.error());
   return "";
-}
-
-vm::Result<std::vector<float>> Numbers(const Words& words, std::size_t first, std::size_t count) {
-  std::vector<float> numbers;
-  for (std::size_t i = first; i < words.size(); ++i) {
-    const auto number = fsm::ParseNumber(words[i]);
-    if (!number) return std::unexpected(number.error());
-    numbers.push_back(static_cast<float>(*number));
-  }
-  if (numbers.size() != count) {
-    return Fail(Errc::kSyntax, fmt::format("{} numbers found, {} expected", numbers.size(), count));
-  }
-  return numbers;
 }
 
 int PatternIn(const Words& words, std::size_t at) {
@@ -147,65 +135,10 @@ vm::Result<ImVec2> Place(const Program& program, const Words& words) {
   return Fail(Errc::kBadValue, "'" + label + "' is neither a widget nor a point that is shown");
 }
 
-void Draw(Program& program, int frames) {
-  for (int i = 0; i < frames; ++i) static_cast<void>(program.frame(""));
-}
-
-void Press(Program& program, bool down) {
-  program.ui.window.hand->down[0] = down;
-  Draw(program, 2);
-}
-
-void MoveHand(Program& program, ImVec2 to) {
-  auto& hand = program.ui.window.hand;
-  if (!hand) hand = Window::Hand();
-  hand->x = to.x;
-  hand->y = to.y;
-  Draw(program, 2);
-}
-
-Answer Mouse(Program& program, const Words& words) {
-  const std::string what = words.size() > 1 ? words[1] : "";
-  auto& hand = program.ui.window.hand;
-  if (what == "off") {
-    hand.reset();
-    return "";
-  }
-  const std::size_t count = what == "move" ? 2 : what == "drag" ? 4 : what == "wheel" ? 1 : 0;
-  const auto at = Numbers(words, 2, count);
-  if (!at) return std::unexpected(at.error());
-  const std::vector<float>& v = *at;
-  if (!hand && what != "move" && what != "drag") {
-    return Fail(Errc::kBadValue, "mouse move X Y comes first");
-  }
-  if (what == "move") {
-    MoveHand(program, {v[0], v[1]});
-  } else if (what == "down" || what == "up") {
-    Press(program, what == "down");
-  } else if (what == "wheel") {
-    hand->wheel = v[0];
-    Draw(program, 2);
-  } else if (what == "drag") {
-    MoveHand(program, {v[0], v[1]});
-    Press(program, true);
-    constexpr int kSteps = 4;
-    for (int i = 1; i <= kSteps; ++i) {
-      const float part = static_cast<float>(i) / kSteps;
-      MoveHand(program, {v[0] + part * (v[2] - v[0]), v[1] + part * (v[3] - v[1])});
-    }
-    Press(program, false);
-  } else {
-    return Fail(Errc::kSyntax, "mouse move, down, up, wheel, drag or off expected");
-  }
-  return "";
-}
-
 Answer Click(Program& program, const Words& words) {
   const auto at = Place(program, words);
   if (!at) return std::unexpected(at.error());
-  MoveHand(program, *at);
-  Press(program, true);
-  Press(program, false);
+  ClickAt(program, *at);
   return "";
 }
 
@@ -242,7 +175,7 @@ Answer RunWindowCommand(Program& program, const Words& words) {
   if (name == "page") return Turn(program, words);
   if (name == "play") return Play(program, words);
   if (name == "choose") return Choose(program, words);
-  if (name == "mouse") return Mouse(program, words);
+  if (name == "mouse") return MoveMouse(program, words);
   if (name == "click") return Click(program, words);
   if (name == "zoom" || name == "centre" || name == "turn") return View(program, words);
   if (name == "wait") return Wait(program, words);

@@ -84,6 +84,24 @@ vm::Result<void> Stage::Take(const Editor& editor, Wanted wanted) {
   return {};
 }
 
+std::vector<Stage::Touched> Stage::TouchedBy(const fsm::UnitTable& units,
+                                             const fsm::FaceState& full,
+                                             const fsm::FaceState& state) const {
+  constexpr float kLeast = 0.15F;  // millimetres
+  std::vector<Touched> touched;
+  const auto alone = head_ ? head_->WithUnits(units) : nullptr;
+  if (!alone) return touched;
+  fsm::HeadVertices rest, moved, now;
+  alone->Evaluate({}, rest);
+  alone->Evaluate(full, moved);
+  head()->Evaluate(state, now);
+  for (std::size_t i = 0; i < rest.position.size(); ++i) {
+    const float by = glm::distance(rest.position[i], moved.position[i]);
+    if (by > kLeast && now.normal[i].z > 0) touched.push_back({now.position[i], by});
+  }
+  return touched;
+}
+
 void Stage::Draw(const fsm::Pane& pane, const fsm::FaceState& state) {
   if (!head_ || pane.width < 8 || pane.height < 8) return;
   fsm::FaceState turned = state;

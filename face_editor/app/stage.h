@@ -36,6 +36,15 @@ class Stage {
   /// The last face made from the photo that is open; nullptr if there is none.
   const std::shared_ptr<const BuiltFace>& built() const { return built_; }
 
+  /// Where `units` alone move skin that faces the front, as it lies in `state`, and by how many
+  /// millimetres in `full`.
+  struct Touched {
+    glm::vec3 at;
+    float by;
+  };
+  std::vector<Touched> TouchedBy(const fsm::UnitTable& units, const fsm::FaceState& full,
+                                 const fsm::FaceState& state) const;
+
   void Draw(const fsm::Pane& pane, const fsm::FaceState& state);
   fsm::Scene scene;
   std::array<float, 2> turn{};  ///< of the whole figure, degrees: down, to the viewer's right

@@ -128,6 +128,7 @@ void Preview(Ui& ui, ImVec2 low, ImVec2 size) {
   ImGui::SetNextWindowSize(size);
   ImGui::Begin("preview", nullptr, kFixed | ImGuiWindowFlags_NoBackground);
   if (!ui.stage.head()) ImGui::TextDisabled("The face is being made ...");
+  if (ui.page == Page::kFields) DrawTouched(ui, low, size);
   ImGui::SetCursorPos({0, 0});
   ImGui::InvisibleButton("turn", {size.x, std::max(size.y - 40, 10.0F)});
   const ImGuiIO& io = ImGui::GetIO();

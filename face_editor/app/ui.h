@@ -153,6 +153,9 @@ fsm::FaceState MouthPage(Ui& ui);
 fsm::FaceState MotionsPage(Ui& ui);
 fsm::FaceState IdentityPage(Ui& ui);
 
+/// Dots over the preview, in the current window: what the field under the mouse moves.
+void DrawTouched(Ui& ui, ImVec2 low, ImVec2 size);
+
 /// Sliders of the units of a look, by number or those that act before the others; true if one was
 /// moved. `merge` gets the name of the change.
 bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* merge);

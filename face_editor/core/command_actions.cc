@@ -221,6 +221,14 @@ Answer GetPoint(Editor& editor, const Words& words) {
   return text;
 }
 
+Answer GetViews(Editor& editor, const Words&) {
+  std::string paths;
+  for (const auto& side : editor.side_photos()) {
+    paths += (paths.empty() ? "" : "\n") + side->path;
+  }
+  return paths.empty() ? "nothing" : paths;
+}
+
 Answer GetExpression(Editor& editor, const Words& words) {
   const auto pattern = Whole(words[1]);
   const auto found = editor.state().emotions.find(words[0]);

@@ -35,6 +35,7 @@ Answer RemoveRow(Editor& editor, const Words& words);
 Answer LoadOrSave(Editor& editor, const Words& words, bool save);
 
 Answer GetPoint(Editor& editor, const Words& words);
+Answer GetViews(Editor& editor, const Words& words);
 Answer GetExpression(Editor& editor, const Words& words);
 Answer GetMouth(Editor& editor, const Words& words, bool bilingual);
 Answer GetMotion(Editor& editor, const Words& words);

@@ -71,6 +71,16 @@ const std::vector<Command>& Commands() {
        1,
        2,
        [](E e, W w) { return e.BuildFace(w[0], w.size() == 2 ? w[1] : ""); }},
+      {{"view"},
+       "PHOTO|none",
+       1,
+       1,
+       [](E e, W w) -> Answer {
+         if (w[0] != "none") return Done(e.AddSidePhoto(w[0]));
+         e.RemoveSidePhotos();
+         return "";
+       }},
+      {{"get", "views"}, "", 0, 0, GetViews},
       {{"set", "AU"}, "UNIT [L|R] PERCENT", 2, 3, SetUnit},
       {{"clear", "units"},
        "",

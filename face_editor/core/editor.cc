@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "face_editor/core/table_writer.h"
+#include "face_fit/dress/side_view.h"
 #include "face_fit/find/hand_points.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/motion_errors.h"
@@ -40,6 +41,7 @@ vm::Result<void> Editor::OpenPhoto(const std::string& path, int face) {
   auto work = editor::OpenPhoto(sight_.get(), path, face);
   if (!work) return std::unexpected(work.error());
   work_ = std::move(*work);
+  sides_.clear();
   selection.clear();
   history_.Restart(Part::kPoints, [this](State& state) { state.points = work_->found; });
   MarkSaved(Part::kPoints);
@@ -93,9 +95,24 @@ void Editor::DragSelection(const PointMap& from, glm::vec2 by, std::string_view 
 vm::Result<std::string> Editor::BuildFace(const std::string& name, const std::string& folder) {
   if (!work_) return Fail(Errc::kBadValue, "there is no photo: open one first");
   if (!work_->base) return Fail(Errc::kUnavailable, work_->notice);
-  const auto built = editor::BuildFace(*work_, state().points);
+  const auto built = editor::BuildFace(*work_, state().points, sight_.get(), sides_);
   if (!built) return std::unexpected(built.error());
-  return WriteFace(**built, folder, name);
+  auto place = WriteFace(**built, folder, name);
+  if (place && !(*built)->left_out.empty()) *place += "; left out: " + (*built)->left_out;
+  return place;
+}
+
+vm::Result<void> Editor::AddSidePhoto(const std::string& path) {
+  if (!work_) return Fail(Errc::kBadValue, "open the photo from the front first");
+  if (!work_->base || !sight_) return Fail(Errc::kUnavailable, work_->notice);
+  if (sides_.size() >= facefit::kMostSideViews) {
+    return Fail(Errc::kLimit,
+                fmt::format("at most {} photos from the side are used", facefit::kMostSideViews));
+  }
+  auto side = OpenSidePhoto(*sight_, *work_, state().points, path);
+  if (!side) return std::unexpected(side.error());
+  sides_.push_back(std::move(*side));
+  return {};
 }
 
 vm::Result<void> Editor::SetUnit(int unit, bool left, bool right, float strength,

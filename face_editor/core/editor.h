@@ -39,6 +39,11 @@ class Editor {
   const std::shared_ptr<const PhotoWork>& work() const { return work_; }
   vm::Result<void> LoadPoints(const std::string& path);
   vm::Result<void> SavePoints(const std::string& path);
+  /// More photos of the person, from the side, which the face that is built is made of as well;
+  /// another photo opened takes them away.
+  vm::Result<void> AddSidePhoto(const std::string& path);
+  void RemoveSidePhotos() { sides_.clear(); }
+  const SidePhotos& side_photos() const { return sides_; }
   /// Back to where they were found.
   vm::Result<void> ResetPoints();
   /// Moves the selection from where it is in `from`; see Drag.
@@ -46,6 +51,7 @@ class Editor {
   std::set<int> selection;
   bool symmetric = true;
   float reach01 = 0.2F;  ///< how far others go along, in distances of the outer eye corners
+  /// Says where it lies, and then which photos from the side were left out.
   vm::Result<std::string> BuildFace(const std::string& name, const std::string& folder);
 
   // Units and expressions. Strengths 0..2.
@@ -119,6 +125,7 @@ class Editor {
   std::array<std::uint64_t, kParts> saved_{};
   std::shared_ptr<FaceSight> sight_;
   std::shared_ptr<const PhotoWork> work_;
+  SidePhotos sides_;
 };
 
 /// The key frames are in order of time from above 0, angles within 180 degrees. Error: kBadValue.

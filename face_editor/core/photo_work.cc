@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_editor/core/table_writer.h"
+#include "face_fit/dress/side_view.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/report.h"
@@ -99,14 +100,42 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
   return work;
 }
 
+vm::Result<std::shared_ptr<const SidePhoto>> OpenSidePhoto(FaceSight& sight, const PhotoWork& work,
+                                                           const PointMap& points,
+                                                           const std::string& path) {
+  try {
+    auto photo = facefit::ReadUpright(sight.networks, path);
+    if (!photo) return std::unexpected(photo.error());
+    const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.photo);
+    if (auto placed = facefit::PlaceView(sight.networks, *work.base, fit, *photo); !placed) {
+      return vm::Fail(placed.error().code, path + ": " + placed.error().text);
+    }
+    return std::make_shared<const SidePhoto>(SidePhoto{path, std::move(*photo)});
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
+  }
+}
+
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
-                                                       const PointMap& points) {
+                                                       const PointMap& points, FaceSight* sight,
+                                                       const SidePhotos& sides) {
   try {
     auto built = std::make_shared<BuiltFace>();
     const facefit::FoundFace face = FoundFrom(points);
     built->fit = facefit::FitFace(*work.base, face, &work.photo);
-    facefit::Dress dress =
-        facefit::MakeDress(*work.base, face, built->fit, work.photo, *work.figure, {}, built->set);
+    std::vector<facefit::SideView> seen;
+    for (const auto& side : sides) {
+      auto view =
+          facefit::LookFromSide(sight->networks, *work.base, work.photo, side->photo, built->fit);
+      if (view) {
+        seen.push_back(std::move(*view));
+      } else {
+        built->left_out +=
+            (built->left_out.empty() ? "" : "; ") + side->path + ": " + view.error().text;
+      }
+    }
+    facefit::Dress dress = facefit::MakeDress(*work.base, face, built->fit, work.photo,
+                                              *work.figure, seen, built->set);
     built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces);
     built->picture = std::move(dress.picture);
     built->set.photo = std::make_shared<fsm::WornPhoto>(

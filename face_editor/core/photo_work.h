@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "face_editor/core/face_points.h"
 #include "face_fit/dress/dress.h"
@@ -38,6 +39,18 @@ struct PhotoWork {
 vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const std::string& path,
                                                        int face);
 
+/// Another photo of the person, from the side. Immutable; thread: any.
+struct SidePhoto {
+  std::string path;
+  fsm::Image photo;  ///< upright
+};
+using SidePhotos = std::vector<std::shared_ptr<const SidePhoto>>;
+/// Such a photo, if it shows the person whose face these points make. Error: kBadValue "PATH: why
+/// not". REQUIRES: work.base
+vm::Result<std::shared_ptr<const SidePhoto>> OpenSidePhoto(FaceSight& sight, const PhotoWork& work,
+                                                           const PointMap& points,
+                                                           const std::string& path);
+
 /// All 468 points of a face of which some are known. REQUIRES: work.base, eye corners, tip of the
 /// nose, mouth corners and chin.
 PointMap AllPoints(const PhotoWork& work, const PointMap& known);
@@ -49,10 +62,15 @@ struct BuiltFace {
   fsm::Image picture;
   std::string report;
   std::shared_ptr<const fsm::Head> head;
+  std::string left_out;  ///< photos from the side that did not help, and why; may be empty
 };
-/// Takes most of a second. Error: kBadValue if the points do not make a face. REQUIRES: work.base
+/// Takes most of a second, and about one more for each photo from the side; for those `sight` is
+/// looked with, which only one thread may do. Error: kBadValue if the points do not make a face.
+/// REQUIRES: work.base
 vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
-                                                       const PointMap& points);
+                                                       const PointMap& points,
+                                                       FaceSight* sight = nullptr,
+                                                       const SidePhotos& sides = {});
 /// Writes the folder NAME that fsm --mask wears, into `folder` ("" = where fsm looks), and says
 /// where. Errors: kBadValue for a name, kUnavailable.
 vm::Result<std::string> WriteFace(const BuiltFace& face, const std::string& folder,

@@ -75,16 +75,18 @@ class FaceEditorTest : public testing::Test {
     return text;
   }
   /// A picture drawn of a built-in head: a photo whose face can be found without other people's.
-  std::string DrawnPhoto() {
+  std::string DrawnPhoto(const std::string& name = "photo.png", float turned_degrees = 0) {
     const auto head = fsm::Head::Make("pygmalion", false);
     fsm::HeadVertices vertices;
     head->Evaluate({}, vertices);
     const auto context = fsm::RenderContext::MakeHeadless(400, 400);
     const auto renderer = fsm::Renderer::Make(*context);
-    renderer->Draw(*head, vertices, {}, fsm::Scene{});
+    fsm::Scene scene;
+    scene.camera.angle_degrees = turned_degrees;
+    renderer->Draw(*head, vertices, {}, scene);
     fsm::Image image;
     renderer->Read(image);
-    const std::string path = folder_ + "/photo.png";
+    const std::string path = folder_ + "/" + name;
     EXPECT_TRUE(fsm::WriteImage(image, path));
     return path;
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "face_fit/find/face_networks.h"
+#include "fsm/head/face_set.h"
 #include "fsm/mesh/gltf_writer.h"
 #include "tests/face_editor/editor_process.h"
 
@@ -141,7 +143,7 @@ TEST_F(EditorFilesTest, DamagedFilesAreToldInOneLineAndNothingIsLost) {
   program_ = Start({DrawnPhoto(), "--networks", "/nowhere", "--script", "-"});
   Ask("drag chin 0 9");
   Ask("set expression HAPPY 1 12 0.5");
-  Ask("set row 26 1 degrees 9");
+  Ask("set row 29 1 degrees 9");
   const std::string chin = Ask("get point chin");
   for (const auto& [command, words] :
        {std::pair("open cut.png", "cut.png': the PNG file cannot be read"),
@@ -167,10 +169,34 @@ TEST_F(EditorFilesTest, DamagedFilesAreToldInOneLineAndNothingIsLost) {
   }
   EXPECT_EQ(Ask("get point chin"), chin);
   EXPECT_EQ(Ask("get expression HAPPY 1"), "12:0.5");
-  EXPECT_EQ(Ask("get rows 26"), "1: jaw 26 9 1.5");
+  EXPECT_EQ(Ask("get rows 29"), "1: jaw 29 9 9");
   EXPECT_EQ(Ask("get unsaved"), "points emotions units");
   program_->WriteLine("quit");
   EXPECT_EQ(program_->Wait(kLong), 0) << program_->ErrorText();
+}
+
+TEST_F(EditorFilesTest, PhotosFromTheSideAreLookedAtAndUsed) {
+  if (const auto networks = facefit::FaceNetworks::Load(""); !networks) {
+    GTEST_SKIP() << networks.error().text;
+  }
+  const std::string front = DrawnPhoto();
+  DrawnPhoto("side.png", 35);
+  const std::string open = "open " + front + "\n";
+  ASSERT_EQ(RunScript(open + "build plain\nview side.png\nget views\n" +
+                      "build deep\nview none\nget views\nquit\n"),
+            0)
+      << program_->ErrorText();
+  EXPECT_EQ(Output(), folder_ + "/faces/plain\nside.png\n" + folder_ + "/faces/deep\nnothing\n");
+  const auto set = [this](const std::string& name) {
+    std::ifstream in(folder_ + "/faces/" + name + "/face.txt");
+    return fsm::ReadFaceSet(name, std::string(std::istreambuf_iterator<char>(in), {}));
+  };
+  EXPECT_EQ(set("plain").also_seen.size(), 0U);
+  EXPECT_EQ(set("deep").also_seen.size(), 1U);
+  EXPECT_EQ(RunScript(open + "view photo.png\n"), 1) << "the front again";
+  EXPECT_NE(program_->ErrorText().find("photo.png: "), std::string::npos) << program_->ErrorText();
+  EXPECT_EQ(RunScript("view side.png\n"), 1);
+  EXPECT_NE(program_->ErrorText().find("from the front first"), std::string::npos);
 }
 
 TEST_F(EditorFilesTest, AMouseAndKeyboardOfTheWindowSystemChooseAFile) {
