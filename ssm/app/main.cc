@@ -122,7 +122,10 @@ std::unique_ptr<vm::Module> MakeModule(const Options& options, vm::Scheduler& sc
     if (choice.kind == ssm::SinkChoice::Kind::kPortAudio) {
       throw std::runtime_error("--sink portaudio needs the real clock (--clock real)");
     }
-    if (choice.kind == ssm::SinkChoice::Kind::kAuto) choice.kind = ssm::SinkChoice::Kind::kNull;
+    if (choice.kind == ssm::SinkChoice::Kind::kAuto) {
+      choice.kind = ssm::SinkChoice::Kind::kNull;
+      Notice("the clock is virtual, so nothing is heard; --sink file:PATH.wav keeps the sound");
+    }
   }
   ssm::OpenedSink opened = ssm::OpenSink(choice, scheduler);
   if (!opened.notice.empty()) Notice(opened.notice);
