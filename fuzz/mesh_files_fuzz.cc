@@ -53,7 +53,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           for (const auto v : part.indices) {
             if (v >= file->position.size()) __builtin_trap();
           }
+          if (part.picture >= static_cast<int>(file->pictures.size())) __builtin_trap();
         }
+        for (const auto& shape : file->shapes) {
+          for (const auto& delta : shape.deltas) {
+            if (delta.vertex >= file->position.size()) __builtin_trap();
+          }
+        }
+        // As a head of ours: whatever its places are, it has as many bones and colours.
+        const fsm::MeshModel model = fsm::ModelOf(*file, {}, -43);
+        if (model.bone.size() != model.position.size()) __builtin_trap();
       }
       break;
     case 7:
