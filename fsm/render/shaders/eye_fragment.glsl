@@ -27,7 +27,7 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   base = mix(base, base * vec3(1.40, 1.10, 0.75) + 0.008, collar * 0.6);
   // Light falls in through the cornea and gathers on the far side.
   base *= 0.85 + 0.75 * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
-  base *= mix(1.0, worn.x > 0.0 ? 0.4 : 0.16, smoothstep(0.78, 1.0, r));
+  base *= mix(1.0, worn.x > 0.0 ? 0.55 : 0.16, smoothstep(0.78, 1.0, r));
   return mix(vec3(0.003), base, smoothstep(iris.y - 0.05, iris.y + 0.04, r + 0.03 * (fibre - 0.5)));
 }
 
@@ -96,7 +96,7 @@ void main() {
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
                  mix(0.45, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   // A photographer's lamp is smaller and round.
-  if (worn.x > 0.0) window = 1.6 * smoothstep(0.16, 0.09, length(pane)) * step(0.0, dot(mirrored, kWindow));
+  if (worn.x > 0.0) window = 1.1 * smoothstep(0.24, 0.04, length(pane)) * step(0.0, dot(mirrored, kWindow));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
   result += gloss * 0.5 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
   result += gloss * lamp_colors[1] * 0.16 * soft_box * shade;
