@@ -219,8 +219,10 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out,
                  "Where its folder is made (default: $GALATEA_FACES or the user's data folder)");
   app.add_option("--face", options.face, "Which of several faces, 1 = the largest");
-  app.add_option("--view,--profile", options.views,
-                 "Another photo of the same person turned by 20 to 60 degrees; may be repeated")
+  app.add_option(
+         "--view,--profile", options.views,
+         "Another photo of the same person turned by 20 to 60 degrees, or in full profile; may be "
+         "repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--points", options.points,

@@ -213,7 +213,9 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
       map.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c] + 0.5F);
     seen.at[i] = weight;
   }
-  for (const SideView& side : sides) LayOver(base, fit, side, places, map, seen);
+  for (const SideView& side : sides) {
+    if (!side.outline_only) LayOver(base, fit, side, places, map, seen);
+  }
   for (std::size_t i = 0; i < places.facing.size(); ++i) {
     if (OnFront(places, i)) face_seen += seen.at[i];
   }
@@ -280,6 +282,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   set.skin_high = {0.5F - kHalf, 0};
   MakeSheet(base, fit, figure, set);
   for (const SideView& side : sides) {
+    if (side.outline_only) continue;
     set.also_seen.push_back(glm::transpose(side.view.pose.Rotation()) * glm::vec3(0, 0, 1));
   }
   SampleEyes(face, fit, photo, set);

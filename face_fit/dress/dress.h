@@ -28,6 +28,9 @@ Figure CutOut(const fsm::Image& photo, const std::vector<float>& person);
 struct SideView {
   View view;
   Figure figure;
+  /// Only its outline was used: of a full profile too little is seen from the front, too, to bring
+  /// both photos into one light.
+  bool outline_only = false;
 };
 
 /// Paints both halves and fills the set but for its photo.

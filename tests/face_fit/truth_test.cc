@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 
+#include "face_fit/dress/profile.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/fit/view.h"
@@ -174,6 +175,61 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
               static_cast<double>(all_with / count), static_cast<double>(all_without / count));
   // Smooth drawn skin has little to recognise; single views may even mislead.
   EXPECT_LT(all_with, 0.93F * all_without);
+}
+
+/// 1 where a picture drawn on an even background shows something.
+Field FigureOf(const fsm::Image& photo) {
+  Field figure(photo.width, photo.height);
+  for (std::size_t i = 0; i < figure.at.size(); ++i) {
+    int off = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      off = std::max(off, std::abs(photo.rgba[4 * i + c] - photo.rgba[c]));
+    }
+    figure.at[i] = off > 12 ? 1.0F : 0.0F;
+  }
+  return figure;
+}
+
+TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
+  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  for (const float strength : {1.0F, -1.0F}) {
+    const Profile truth(*truth_, strength);
+    const fsm::Image photo = truth.Photo(0);
+    const FoundFace face = FindPoints(*networks_, photo, FindFaces(*networks_, photo).at(0));
+    const Fit front = FitFace(base, face, &photo);
+    const float without = DepthError(truth, front);
+    for (const float turn : {-90.0F, 90.0F}) {
+      Fit fit = front;
+      const auto view = DeepenByProfile(base, FigureOf(truth.Photo(turn)), fit);
+      ASSERT_TRUE(view) << turn << ": " << view.error().text;
+      EXPECT_EQ(view->pose.turn.y > 0, turn > 0);
+      const float with = DepthError(truth, fit);
+      std::printf("%-9s %+.0f profile %+.0f (%.2f mm off): depth %.2f mm off, front alone %.2f\n",
+                  GetParam(), static_cast<double>(strength), static_cast<double>(turn),
+                  static_cast<double>(view->residual_mm), static_cast<double>(with),
+                  static_cast<double>(without));
+      EXPECT_LT(with, 0.85F * without);
+    }
+  }
+}
+
+TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
+  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  const FoundFace face = FindPoints(*networks_, photo_, FindFaces(*networks_, photo_).at(0));
+  const Fit before = FitFace(base, face, &photo_);
+  Field box(300, 400), round(300, 400);
+  for (int y = 50; y < 350; ++y) {
+    for (int x = 50; x < 250; ++x) {
+      box.at[box.Index(x, y)] = 1;
+      if (std::hypot(x - 150, (y - 200) * 0.7) < 95) round.at[round.Index(x, y)] = 1;
+    }
+  }
+  for (const Field& figure : {box, round, Field(300, 400), Field(300, 400, 1), Field(1, 1, 1)}) {
+    Fit fit = before;
+    const auto view = DeepenByProfile(base, figure, fit);
+    EXPECT_FALSE(view) << view->residual_mm;
+    EXPECT_EQ(fit.worn, before.worn);
+  }
 }
 
 TEST_P(TruthTest, APhotoThatDoesNotHelpIsRefusedInWords) {
