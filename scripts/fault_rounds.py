@@ -113,6 +113,10 @@ class DelayedLine:
     def close(self):
         self.listener.close()
         for end in self.ends:
+            try:
+                end.shutdown(socket.SHUT_RDWR)  # a thread that reads keeps what is only closed
+            except OSError:
+                pass
             end.close()
         os.unlink(self.path)
 
