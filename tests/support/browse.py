@@ -30,6 +30,12 @@ class Browser:
         self.buffer, self.last, self.session = b"", 0, None
 
     def call(self, method, **params):
+        answer = self.ask(method, **params)
+        if "error" in answer:
+            sys.exit(f"browse: {method}: {answer['error']['message']}")
+        return answer["result"]
+
+    def ask(self, method, **params):
         self.last += 1
         message = {"id": self.last, "method": method, "params": params}
         if self.session:
@@ -44,9 +50,7 @@ class Browser:
             text, self.buffer = self.buffer.split(b"\0", 1)
             answer = json.loads(text)
             if answer.get("id") == self.last:
-                if "error" in answer:
-                    sys.exit(f"browse: {method}: {answer['error']['message']}")
-                return answer["result"]
+                return answer
 
     def evaluate(self, expression):
         result = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
@@ -54,6 +58,12 @@ class Browser:
         if "exceptionDetails" in result:
             return None
         return result["result"].get("value")
+
+    def is_true(self, expression):
+        """False, too, while the page that was asked makes way for the next one."""
+        answer = self.ask("Runtime.evaluate", expression=f"Boolean({expression})", returnByValue=True,
+                          awaitPromise=True)
+        return answer.get("result", {}).get("result", {}).get("value") is True
 
 
 def main():
@@ -68,7 +78,7 @@ def main():
             kind, _, text = step.partition(":")
             if kind == "wait":
                 limit = time.monotonic() + LIMIT_S
-                while not browser.evaluate(f"Boolean({text})"):
+                while not browser.is_true(text):
                     if time.monotonic() > limit:
                         sys.exit(f"browse: never true: {text}\n" +
                                  str(browser.evaluate("document.body && document.body.innerText"))[:3000])
