@@ -286,6 +286,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     set.also_seen.push_back(glm::transpose(side.view.pose.Rotation()) * glm::vec3(0, 0, 1));
   }
   SampleEyes(face, fit, photo, set);
+  PaintEyes(base, face, fit, photo, dress.picture, set);
   SampleMouth(face, photo, set);
   return dress;
 }

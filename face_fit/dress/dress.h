@@ -43,6 +43,12 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
 std::array<fsm::EyeSeat, 2> EyesAtRest(const BaseHead& base, const Fit& fit);
 /// Colours of iris and white, from the photo.
 void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, fsm::FaceSet& set);
+/// Paints the irises and what is between the lids beside them into a corner of the picture that
+/// shows nothing else. What lids and irises hide is completed by what is seen round it. Does nothing
+/// where an iris is not seen clearly.
+void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit,
+               const fsm::Image& photo, fsm::Image& picture, fsm::FaceSet& set);
+inline constexpr float kLeastIris = 3;  ///< radius in pixels of what is worth showing
 /// Colour of the lips where they turn inward, and how bright teeth are in its light.
 void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set);
 

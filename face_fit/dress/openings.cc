@@ -10,7 +10,7 @@ namespace facefit {
 
 Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) : face_(face) {
   // The dark line of the lashes stays on the rims of the lids.
-  const float lash = 0.4F * pixels_per_mm;
+  const float lash = 0.9F * pixels_per_mm;
   for (const int side : {0, 1}) {
     const auto outline = EyeOutline(side);
     openings_.push_back({{outline.begin(), outline.end()}, -lash, -lash});

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <span>
+#include <vector>
 
 #include "face_fit/find/face_finder.h"
+#include "face_fit/find/lid_lines.h"
 
 namespace facefit {
 
@@ -14,10 +17,16 @@ struct IrisRing {
 };
 inline constexpr float kClearRing = 0.06F;
 
-/// Looks between two corners of an eye for the circle whose sides to the right and left are darkest
-/// within and brightest without; lids hide the rest of it. `expected`: its radius by the head's
-/// form, pixels.
-IrisRing FindIris(const fsm::Image& photo, glm::vec2 corner, glm::vec2 other_corner,
-                  glm::vec2 middle, float expected);
+/// An open eye in a photo, pixels.
+struct OpenEye {
+  EyePoints lids;
+  glm::vec2 middle;    ///< of the iris where eyes look into the camera
+  float expected = 0;  ///< its radius by the head's form
+};
+
+/// Looks between the lids for the circle that parts dark from bright best and whose sides to the
+/// right and left are darkest within and brightest without. Irises of one person are of one size:
+/// the eyes given are looked at together. A ring for each, in their order.
+std::vector<IrisRing> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes);
 
 }  // namespace facefit

@@ -91,21 +91,25 @@ Expected ExpectedIris(const BaseHead& base, const Slit& seen, int side) {
 }  // namespace
 
 void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
-  float size = 0, count = 0;
+  std::array<OpenEye, 2> eyes;
   for (const int side : {0, 1}) {
-    const Slit slit = SlitOf(
-        side, [&face](int i) { return glm::vec2(face.points[static_cast<std::size_t>(i)]); });
-    const Expected iris = ExpectedIris(base, slit, side);
+    const auto place = [&face](int i) {
+      return glm::vec2(face.points[static_cast<std::size_t>(i)]);
+    };
+    const Expected iris = ExpectedIris(base, SlitOf(side, place), side);
     const auto k = static_cast<std::size_t>(side);
-    const float radius = iris.scale * base.head->topology().eyes[k].iris_radius;
-    IrisRing& ring = fit.irises[k];
-    ring = {.centre = iris.centre, .radius = radius, .contrast = 0};
-    if (photo) ring = FindIris(*photo, slit.outer, slit.inner, iris.centre, radius);
-    if (ring.contrast < kClearRing) {
-      ring = {.centre = iris.centre, .radius = radius, .contrast = 0};
-      continue;
-    }
-    size += ring.radius / radius;
+    std::ranges::transform(EyeOutline(side), eyes[k].lids.begin(), place);
+    eyes[k].middle = iris.centre;
+    eyes[k].expected = iris.scale * base.head->topology().eyes[k].iris_radius;
+    fit.irises[k] = {.centre = iris.centre, .radius = eyes[k].expected, .contrast = 0};
+  }
+  if (!photo) return;
+  const auto rings = FindIrises(*photo, eyes);
+  float size = 0, count = 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (rings[k].contrast < kClearRing) continue;
+    fit.irises[k] = rings[k];
+    size += rings[k].radius / eyes[k].expected;
     count += 1;
   }
   fit.iris_size = count > 0 ? std::clamp(size / count, 0.8F, 1.12F) : 1.0F;

@@ -41,18 +41,32 @@ void ReadEye(const TableRow& row, FaceSet& set) {
   (*set.eyes)[side == "left" ? 1 : 0] = seat;
 }
 
+/// eye_picture SIDE, then left, top, right and bottom of iris and ball
+void ReadEyePicture(const TableRow& row, std::array<std::optional<EyePicture>, 2>& eyes) {
+  const std::string side = row.Word(1);
+  if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
+  const EyePicture eye{{Pair(row, 2), Pair(row, 4)}, {Pair(row, 6), Pair(row, 8)}};
+  for (const glm::vec4& p : {eye.iris, eye.ball}) {
+    if (p.x < 0 || p.y < 0 || p.z > 1 || p.w > 1 || p.x >= p.z || p.y >= p.w) {
+      row.Fail("left, top, right and bottom within 0 to 1 expected");
+    }
+  }
+  eyes[side == "left" ? 1 : 0] = eye;
+}
+
 }  // namespace
 
 FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
   FaceSet set;
   const Table table(name, text);
+  std::array<std::optional<EyePicture>, 2> pictures;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();
     if (key == "base") {
       set.base = row.Word(1);
       continue;
     }
-    Finite(row, key == "eye" ? 2 : 1);
+    Finite(row, key == "eye" || key == "eye_picture" ? 2 : 1);
     if (key == "smooth") {
       set.smooth = std::max(row.Number(1), 0.0f);
     } else if (key == "iris") {
@@ -64,6 +78,8 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
       set.lip_colour = row.Vector(1);
     } else if (key == "eye") {
       ReadEye(row, set);
+    } else if (key == "eye_picture") {
+      ReadEyePicture(row, pictures);
     } else if (key == "saturation") {
       set.saturation = std::clamp(row.Number(1), 0.0f, 1.0f);
     } else if (key == "white") {
@@ -98,6 +114,7 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
       row.Fail("unknown word '" + key + "'");
     }
   }
+  if (pictures[0] && pictures[1]) set.eye_pictures = {*pictures[0], *pictures[1]};
   return set;
 }
 
@@ -126,6 +143,13 @@ std::string WriteFaceSet(const FaceSet& set) {
     put("eye %s %.3f %.3f %.3f  %.2f %.4f  %.3f %.3f\n", i == 0 ? "right" : "left", d(eye.shift.x),
         d(eye.shift.y), d(eye.shift.z), d(eye.turn / kRadians), d(eye.size), d(eye.upper_mm),
         d(eye.lower_mm));
+  }
+  for (std::size_t i = 0; set.eye_pictures && i < 2; ++i) {
+    put("eye_picture %s", i == 0 ? "right" : "left");
+    for (const glm::vec4& p : {(*set.eye_pictures)[i].iris, (*set.eye_pictures)[i].ball}) {
+      put("  %.6f %.6f %.6f %.6f", d(p.x), d(p.y), d(p.z), d(p.w));
+    }
+    out += '\n';
   }
   put("skin %.5f %.5f %.5f %.5f %.2f\n", d(set.skin_low.x), d(set.skin_low.y), d(set.skin_high.x),
       d(set.skin_high.y), d(set.skin_bottom_y));

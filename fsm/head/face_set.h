@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,7 @@ struct FaceSet {
   glm::vec3 iris_colour{0.1f}, white_colour{0.6f};  ///< linear RGB
   float iris_size = 1, teeth = 1;       ///< of the table's iris; brightness of the teeth
   std::optional<glm::vec3> lip_colour;  ///< likewise, where the lips turn inward
+  std::optional<std::array<EyePicture, 2>> eye_pictures;  ///< right, left: in the photo
   float saturation = 1;  ///< of what is painted beside the photo: 0 for a grey one
   /// The skin's map in the photo: HeadTopology::uv (0, 0) and (1, 1), as u right, v down in 0..1.
   glm::vec2 skin_low{0, 1}, skin_high{0.5f, 0};

@@ -288,6 +288,7 @@ class GenericHead : public Head {
     const std::size_t skin_count = skin.size();
     topology_.photo = set.photo;
     topology_.saturation = set.saturation;
+    topology_.eye_pictures = set.eye_pictures;
     topology_.photo_place.resize(topology_.uv.size(), glm::vec3(0));
     for (std::size_t i = 0; i < skin_count; ++i) {
       const glm::vec2 at = glm::mix(set.skin_low, set.skin_high, topology_.uv[i]);
@@ -303,10 +304,23 @@ class GenericHead : public Head {
         topology_.photo_place[topology_.indices[part.first_index + k]].z = 0;
       }
     }
-    for (const LidPaint& lid : PaintLids(*set.photo, topology_.photo_place, skin)) {
-      topology_.albedo[lid.vertex] = lid.screen * lid.screen;
+    topology_.photo_lender.resize(topology_.uv.size(), glm::vec4(0));
+    HeadVertices open, shut;
+    Evaluate({}, open);
+    FaceState asleep;
+    asleep.blink_left = asleep.blink_right = 1;
+    Evaluate(asleep, shut);
+    const auto of_skin = [skin_count](const HeadVertices& v) {
+      return std::span(v.position).first(skin_count);
+    };
+    for (const LidPaint& lid :
+         PaintLids(*set.photo, topology_.photo_place, skin, of_skin(open), of_skin(shut))) {
+      const glm::vec3 gain = lid.screen / (2.0f * glm::max(lid.lender_screen, 0.02f));
+      const glm::vec3 most = glm::min(gain, 1.0f);
+      topology_.albedo[lid.vertex] = most * most;
       topology_.occlusion[lid.vertex] = 1;
       topology_.photo_place[lid.vertex].z = 1 + lid.part;
+      topology_.photo_lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
     }
   }
 

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -45,6 +47,16 @@ struct EyePlace {
   glm::vec3 iris_colour{};                      ///< linear RGB
   glm::vec3 white_colour{0.66f, 0.64f, 0.62f};  ///< of the sclera
 };
+
+/// Where a photo shows an eye: squares as left, top, right and bottom, 0..1, v down.
+struct EyePicture {
+  glm::vec4 iris{};  ///< to kIrisSpan radii of the iris from its middle
+  /// What lies between the lids beside the iris, from the front: to kBallSpan radii of the ball
+  /// from its centre.
+  glm::vec4 ball{};
+};
+inline constexpr float kIrisSpan = 1.25f;
+inline constexpr float kBallSpan = 1.4f;
 
 /// How hairs run at a vertex of hair, brows or lashes.
 struct Strand {
@@ -89,6 +101,12 @@ struct HeadTopology {
   /// colour, 0..1. What exceeds 1 is lid: that part of the photo gives way to the vertex's own
   /// colour as the lid shuts, because a photo of an open eye does not show its skin.
   std::vector<glm::vec3> photo_place;
+  /// Per vertex of an upper lid: the place in the photo whose skin, times twice the square root of
+  /// the vertex's colour, is the shut lid's; and how far in the photo the place of the vertex moves
+  /// until then. 0 elsewhere; may be empty.
+  std::vector<glm::vec4> photo_lender;
+  /// Of the agent's right and left, if the photo shows them; else they are drawn.
+  std::optional<std::array<EyePicture, 2>> eye_pictures;
   /// Of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
   float saturation = 1;
   std::array<EyePlace, 2> eyes;  ///< the agent's right, left

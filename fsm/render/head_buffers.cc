@@ -21,6 +21,7 @@ std::uint64_t ChecksumOf(const HeadTopology& topology) {
   add(topology.albedo);
   add(topology.occlusion);
   add(topology.photo_place);
+  add(topology.photo_lender);
   for (const auto& part : topology.parts) {
     const std::uint64_t words[] = {static_cast<std::uint64_t>(part.material), part.first_index,
                                    part.index_count};
@@ -49,7 +50,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(kAttributes + 1, buffers_);
   gl_.BindVertexArray(array_);
-  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3};
+  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3, 4};
   for (GLuint i = 0; i < kAttributes; ++i) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[i]);
     gl_.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -127,11 +128,16 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(6, creases.left);
   photo_ = topology.photo;
   saturation_ = topology.saturation;
+  eye_pictures_ = topology.eye_pictures;
   std::vector<glm::vec3> photo_place = topology.photo_place;
   photo_place.resize(paint.size());
   upload(7, photo_place);
+  std::vector<glm::vec4> photo_lender = topology.photo_lender;
+  photo_lender.resize(paint.size());
+  upload(8, photo_lender);
   Order(topology, rest);
   eyes_ = EyeFinder(topology, rest);
+  if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
   shadows_ = ShadowFinder(topology, rest);
   eye_place_ = topology.eyes[0];
   ++generation_;

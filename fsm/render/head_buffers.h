@@ -42,6 +42,10 @@ class HeadBuffers {
   int generation() const { return generation_; }
   /// What is worn in place of painted skin, if anything.
   const WornPhoto* photo() const { return photo_.get(); }
+  /// Where the photo shows eyes: HeadTopology::eye_pictures.
+  const std::optional<std::array<EyePicture, 2>>& eye_pictures() const { return eye_pictures_; }
+  /// The eyes as they are at rest. REQUIRES: eyes().found().
+  const std::array<EyeFrame, 2>& resting_eyes() const { return resting_eyes_; }
   /// Of what is lit beside a photo, 0..1.
   float saturation() const { return saturation_; }
 
@@ -54,7 +58,7 @@ class HeadBuffers {
   // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
   // the right and of the left side; of hair its place among hairs, direction and cover, place
   // across its lock; indices.
-  static constexpr GLuint kAttributes = 8;  // the last: place in a photo
+  static constexpr GLuint kAttributes = 9;  // the last two: places in a photo
   GLuint buffers_[kAttributes + 1] = {};
   const Head* head_ = nullptr;
   std::uint64_t checksum_ = 0;
@@ -65,6 +69,8 @@ class HeadBuffers {
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
   std::shared_ptr<const WornPhoto> photo_;
+  std::optional<std::array<EyePicture, 2>> eye_pictures_;
+  std::array<EyeFrame, 2> resting_eyes_;
   float saturation_ = 1;
   int generation_ = 0;
 };

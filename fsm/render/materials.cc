@@ -230,8 +230,27 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   // The white of a grey photo is grey, and so is the flesh beside it.
   const glm::vec3 white = head.eye_place().white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
-  const glm::vec3 worn(head.photo() ? brightness : 0, grey ? 0 : 1, 0);
+  const bool shown = head.photo() && head.eye_pictures();
+  const glm::vec3 worn(head.photo() ? brightness : 0, grey ? 0 : 1, shown ? 1 : 0);
   gl_.Uniform3fv(eye_.Uniform("worn"), 1, glm::value_ptr(worn));
+  gl_.Uniform1i(eye_.Uniform("photo"), 1);
+  if (!shown) return;
+  for (const auto& [name, place] :
+       {std::pair("irises", &EyePicture::iris), std::pair("balls", &EyePicture::ball)}) {
+    const glm::vec4 squares[] = {(*head.eye_pictures())[0].*place,
+                                 (*head.eye_pictures())[1].*place};
+    gl_.Uniform4fv(eye_.Uniform(name), 2, glm::value_ptr(squares[0]));
+  }
+  glm::vec4 open[2];
+  const auto eyes = head.eyes().Measure(vertices);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const EyeFrame& rest = head.resting_eyes()[i];
+    open[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,
+               eyes[i].upper_lid_y - eyes[i].centre.y, kBallSpan * eyes[i].radius};
+  }
+  gl_.Uniform4fv(eye_.Uniform("open"), 2, glm::value_ptr(open[0]));
+  const glm::mat3 world_to_head = glm::inverse(rest_to_world);
+  gl_.UniformMatrix3fv(eye_.Uniform("world_to_head"), 1, GL_FALSE, glm::value_ptr(world_to_head));
 }
 
 void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices) {
@@ -272,6 +291,7 @@ void Materials::Use(Material material) {
     case Material::kSclera:
     case Material::kIris:
     case Material::kPupil:
+      Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
       return gl_.UseProgram(eye_.id());
     case Material::kHair:
       return UseHair(1.0F, 1.0F);

@@ -4,13 +4,17 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "face_fit/dress/dress.h"
 #include "face_fit/dress/openings.h"
 #include "face_fit/dress/skin_colours.h"
 #include "face_fit/find/iris.h"
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/base_head.h"
+#include "face_fit/fit/fit.h"
 
 namespace facefit {
 namespace {
@@ -98,21 +102,114 @@ TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
   EXPECT_EQ(SkinLikeness(map, Field(400, 400)).at[75 * 400], 1) << "no face was seen";
 }
 
+/// An open eye from x = 60 to 140 about y = 96, its lids 16 pixels apart; the outer corner at the
+/// left, or at the right.
+OpenEye EyeAcross(bool mirrored) {
+  OpenEye eye{.lids = {}, .middle = {100, 97}, .expected = 15};
+  for (std::size_t k = 0; k < eye.lids.size(); ++k) {
+    const float part = static_cast<float>(k <= 8 ? k : 16 - k) / 8;
+    const float open = k % 8 == 0 ? 0.0F : k < 8 ? -8.0F : 8.0F;
+    eye.lids[k] = {mirrored ? 140 - 80 * part : 60 + 80 * part, 96 + open};
+  }
+  return eye;
+}
+
 TEST(IrisTest, IsFoundBetweenLidsThatHideHalfOfIt) {
   constexpr glm::vec2 kCentre(98, 94);
   const fsm::Image photo = Drawn(200, [&](glm::vec2 p) {
     if (p.y < 88 || p.y > 104) return 120;  // lids
     return glm::distance(p, kCentre) < 13 ? 60 : 200;
   });
-  const IrisRing ring = FindIris(photo, {60, 98}, {140, 98}, {100, 97}, 15);
-  EXPECT_GT(ring.contrast, kClearRing);
-  EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F);
-  EXPECT_NEAR(ring.radius, 13, 1.6F);
+  for (const bool mirrored : {false, true}) {
+    const OpenEye eye = EyeAcross(mirrored);
+    const IrisRing ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+    EXPECT_GT(ring.contrast, kClearRing);
+    EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F);
+    EXPECT_NEAR(ring.radius, 13, 1.6F);
+  }
+}
+
+TEST(IrisTest, IsFoundBesideACornerInDeepShade) {
+  constexpr glm::vec2 kCentre(106, 97);
+  const fsm::Image photo = Drawn(200, [&](glm::vec2 p) {
+    if (p.y < 88 || p.y > 104) return 120;
+    const float far = glm::distance(p, kCentre);
+    // An iris that is hardly darker than the shade, round its pupil.
+    return far < 5 ? 15 : far < 12 ? 70 : p.x < 88 ? 85 : 180;
+  });
+  const OpenEye eye = EyeAcross(false);
+  const IrisRing ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+  EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F) << ring.centre.x;
 }
 
 TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
   const fsm::Image photo = Drawn(200, [](glm::vec2) { return 90; });
-  EXPECT_LT(FindIris(photo, {60, 98}, {140, 98}, {100, 97}, 15).contrast, kClearRing);
+  const OpenEye eye = EyeAcross(false);
+  EXPECT_LT(FindIrises(photo, std::span(&eye, 1)).at(0).contrast, kClearRing);
+}
+
+TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
+  // The built-in head as it would be seen by a camera of four pixels to the millimetre, whose eyes
+  // look at it and are half hidden by their upper lids.
+  BaseHead base;
+  base.head = fsm::Head::Make("galatea");
+  base.head->Evaluate({}, base.rest);
+  base.places.resize(kNetworkPoints);
+  FoundFace face;
+  face.points.assign(kNetworkPoints, glm::vec3(0));
+  Fit fit;
+  std::vector<glm::vec2> centres;
+  for (const int side : {0, 1}) {
+    const auto k = static_cast<std::size_t>(side);
+    const glm::vec3 ball = base.head->topology().eyes[k].centre;
+    const glm::vec2 centre(500 + 4 * ball.x, 300 - 4 * ball.y);
+    centres.push_back(centre);
+    fit.irises[k] = {.centre = centre, .radius = 24, .contrast = 0.4F};
+    for (std::size_t i = 0; i < 16; ++i) {
+      const auto point = static_cast<std::size_t>(EyeOutline(side)[i]);
+      const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
+      const float x = (side == 0 ? 13.0F : -13.0F) * part;
+      const float open = i % 8 == 0 ? 0.0F : i < 8 ? 3.0F : -6.0F;
+      face.points[point] = glm::vec3(centre + 4.0F * glm::vec2(x, -open), 0);
+      // The nearest vertex of the skin stands for the place on the mesh.
+      float nearest = 1e9F;
+      for (std::uint32_t v = 0; v < base.rest.position.size(); ++v) {
+        const glm::vec3 off = base.rest.position[v] - ball;
+        const float far = glm::distance(glm::vec2(off), {x, open}) + (off.z < 4 ? 100.0F : 0.0F);
+        if (far >= nearest) continue;
+        nearest = far;
+        base.places[point].corner = {v, v, v};
+      }
+    }
+  }
+  const fsm::Image photo = Drawn(1000, [&](glm::vec2 p) {
+    for (const glm::vec2 centre : centres) {
+      const glm::vec2 off = p - centre;
+      if (std::abs(off.x) > 60 || off.y < -12 || off.y > 24) continue;
+      return glm::length(off) < 24 ? 40 : 220;
+    }
+    return 130;
+  });
+  fsm::Image picture{.width = 1024, .height = 512, .rgba = {}};
+  picture.rgba.assign(std::size_t{4} * 1024 * 512, 255);
+  fsm::FaceSet set;
+  PaintEyes(base, face, fit, photo, picture, set);
+  ASSERT_TRUE(set.eye_pictures);
+  for (const fsm::EyePicture& eye : *set.eye_pictures) {
+    const auto shown = [&](const glm::vec4& square, glm::vec2 part) {
+      const glm::vec2 at = glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, part);
+      return ColourAt(picture, at * glm::vec2(1024, 512)).g;
+    };
+    EXPECT_NEAR(shown(eye.iris, {0.5F, 0.5F}), 40, 3);
+    EXPECT_NEAR(shown(eye.iris, {0.5F, 0.15F}), 40, 12) << "what the lid hides is completed";
+    EXPECT_NEAR(shown(eye.iris, {0.02F, 0.6F}), 220, 12) << "beside it is the white";
+    EXPECT_NEAR(shown(eye.ball, {0.5F, 0.5F}), 220, 12) << "no iris is left in the white";
+    EXPECT_NEAR(shown(eye.ball, {0.2F, 0.55F}), 220, 12);
+  }
+  fit.irises[1].contrast = 0.01F;
+  fsm::FaceSet unclear;
+  PaintEyes(base, face, fit, photo, picture, unclear);
+  EXPECT_FALSE(unclear.eye_pictures) << "eyes that are not seen clearly are drawn";
 }
 
 }  // namespace

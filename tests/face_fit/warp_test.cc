@@ -54,6 +54,8 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   (*set.eyes)[1] = {.shift = {1, 2, -3}, .turn = 0.1F, .size = 1.1F, .upper_mm = -2, .lower_mm = 1};
   set.lip_colour = glm::vec3(0.2F, 0.1F, 0.05F);
   set.iris_size = 0.9F;
+  set.eye_pictures.emplace();
+  for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.2F, 0.3F, 0.4F}, {0.5F, 0.25F, 1, 0.75F}};
   const FaceSet back = ReadFaceSet("face.txt", WriteFaceSet(set));
   ASSERT_TRUE(back.eyes && back.lip_colour);
   EXPECT_EQ((*back.eyes)[1].shift, (*set.eyes)[1].shift);
@@ -62,6 +64,9 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   EXPECT_EQ((*back.eyes)[0].size, 1);
   EXPECT_EQ(*back.lip_colour, *set.lip_colour);
   EXPECT_NEAR(back.iris_size, 0.9F, 1e-3F);
+  ASSERT_TRUE(back.eye_pictures);
+  EXPECT_EQ((*back.eye_pictures)[1].iris, (*set.eye_pictures)[1].iris);
+  EXPECT_EQ((*back.eye_pictures)[0].ball, (*set.eye_pictures)[0].ball);
   ASSERT_EQ(back.points.size(), set.points.size());
   EXPECT_EQ(back.points[5].by, set.points[5].by);
   EXPECT_EQ(back.smooth, set.smooth);
@@ -70,9 +75,11 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
 }
 
 TEST(FaceSetTest, DamageIsReportedWithItsLine) {
-  for (const char* text : {"smooth 1\nnose 3", "base galatea\nquad 0 1 2 3", "smooth 1\npoint 1 2",
-                           "smooth 1\niris nan 0 0", "smooth 1\neye middle 0 0 0 0 1 0 0",
-                           "smooth 1\neye left 0 0 0 0 9 0 0", "smooth 1\nvertex 1e9 0 0 0 0"}) {
+  for (const char* text :
+       {"smooth 1\nnose 3", "base galatea\nquad 0 1 2 3", "smooth 1\npoint 1 2",
+        "smooth 1\niris nan 0 0", "smooth 1\neye middle 0 0 0 0 1 0 0",
+        "smooth 1\neye left 0 0 0 0 9 0 0", "smooth 1\neye_picture up 0 0 1 1 0 0 1 1",
+        "smooth 1\neye_picture left 0 0 1 1 0.5 0 0.4 1", "smooth 1\nvertex 1e9 0 0 0 0"}) {
     try {
       ReadFaceSet("face.txt", text);
       ADD_FAILURE() << text;
@@ -167,6 +174,60 @@ int ColourOfTheMouth(float saturation) {
 TEST(FaceSetTest, AGreyPhotoHasAGreyMouth) {
   EXPECT_LE(ColourOfTheMouth(0), 1);
   EXPECT_GT(ColourOfTheMouth(1), 20);
+}
+
+TEST(FaceSetTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
+  // Green irises in blue balls, on red skin.
+  constexpr int kSide = 64;
+  WornPhoto photo{kSide, kSide, {}};
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const bool iris = y < kSide / 4, ball = !iris && y < kSide / 2;
+      for (const int value : {iris || ball ? 0 : 200, iris ? 200 : 0, ball ? 200 : 0, 255}) {
+        photo.rgba.push_back(static_cast<std::uint8_t>(value));
+      }
+    }
+  }
+  FaceSet set;
+  set.points = kPoints;
+  for (auto& point : set.points) point.by = glm::vec3(0);
+  set.photo = std::make_shared<WornPhoto>(photo);
+  set.skin_low = {0.1F, 0.9F};
+  set.skin_high = {0.9F, 0.6F};
+  set.eye_pictures.emplace();
+  for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.05F, 0.9F, 0.2F}, {0.1F, 0.3F, 0.9F, 0.45F}};
+  const auto head = Head::Make(set);
+  const auto context = RenderContext::MakeHeadless(400, 400);
+  const auto renderer = Renderer::Make(*context);
+  // Sums over the picture of x where green, and of how much is green and blue.
+  struct Seen {
+    double green = 0, blue = 0, green_x = 0;
+  };
+  const auto look = [&](float turn) {
+    FaceState state;
+    state.eye_left.y = state.eye_right.y = turn;
+    HeadVertices vertices;
+    head->Evaluate(state, vertices);
+    Image image;
+    renderer->Draw(*head, vertices, state, {});
+    renderer->Read(image);
+    Seen seen;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+      const int r = image.rgba[i], g = image.rgba[i + 1], b = image.rgba[i + 2];
+      if (g > 120 && r < 60 && b < 60) {
+        seen.green += 1;
+        seen.green_x += static_cast<double>(i / 4 % 400);
+      }
+      seen.blue += b > 120 && r < 60 && g < 60;
+    }
+    return seen;
+  };
+  const Seen ahead = look(0);
+  EXPECT_GT(ahead.green, 30);
+  EXPECT_GT(ahead.blue, 30);
+  const Seen aside = look(20);
+  ASSERT_GT(aside.green, 20);
+  EXPECT_GT(std::abs(aside.green_x / aside.green - ahead.green_x / ahead.green), 2);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 in vec3 world_position;
 in float occlusion;
 
+const float kIrisSpan = 1.25;  // as in head.h
+
 uniform float alpha;
 uniform sampler2D noise;
 uniform vec4 ball[2];    // centre in world coordinates, radius; left of the picture, right
@@ -12,7 +14,15 @@ uniform vec4 iris;       // radius, pupil's part of it, how far its plane lies b
 uniform vec3 iris_color;
 uniform vec3 white_color;
 uniform float figure_scale;
-uniform vec3 worn;         // colours are as a photo shows them: its brightness, else 0; redness of flesh; 0
+// Colours are as a photo shows them: its brightness, else 0; redness of flesh; whether it shows the
+// eyes, too: the squares of iris and ball in it, as left, top, right and bottom.
+uniform vec3 worn;
+uniform vec4 irises[2];
+uniform vec4 balls[2];
+uniform vec4 open[2];        // heights of the lids over the centre: upper and lower at rest, upper now;
+                             // how far the picture of the ball reaches
+uniform mat3 world_to_head;  // to millimetres
+uniform sampler2D photo;
 
 out vec4 color;
 
@@ -29,6 +39,11 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   base *= 0.85 + 0.75 * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
   base *= mix(1.0, worn.x > 0.0 ? 0.55 : 0.16, smoothstep(0.78, 1.0, r));
   return mix(vec3(0.003), base, smoothstep(iris.y - 0.05, iris.y + 0.04, r + 0.03 * (fibre - 0.5)));
+}
+
+vec3 Photographed(vec4 square, vec2 from_middle) {
+  vec2 part = clamp(0.5 + 0.5 * vec2(from_middle.x, -from_middle.y), 0.0, 1.0);
+  return pow(texture(photo, mix(square.xy, square.zw, part)).rgb, vec3(2.2));
 }
 
 void main() {
@@ -57,7 +72,16 @@ void main() {
   base = mix(base, white_color * mix(vec3(0.6), vec3(0.92, 0.50, 0.46), red), 0.85 * smoothstep(0.66, 0.80, inward));
   float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
   base *= 1.0 - red * vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
-  float edge = smoothstep(1.06, 0.98, r_surface);
+  bool shown = worn.z > 0.0;
+  if (shown) {
+    // The shade of the lid goes with it where the eye opens wider.
+    vec4 lid = open[side];
+    vec2 q = (world_to_head * from_centre).xy;
+    q.y = lid.y + (q.y - lid.y) * min((lid.x - lid.y) / max(lid.z - lid.y, 0.1), 1.0);
+    base = Photographed(balls[side], q / lid.w);
+  }
+  // A photo shows the soft edge of the iris, too.
+  float edge = shown ? smoothstep(1.20, 1.02, r_surface) : smoothstep(1.06, 0.98, r_surface);
   if (edge > 0.0) {
     // The line of sight bends at the cornea and meets the plane of the iris behind it.
     vec3 ray = refract(-v, wet, 1.0 / 1.336);
@@ -67,8 +91,12 @@ void main() {
     float r = length(p);
     vec3 l = lamp_directions[0];
     vec3 inner = Iris(p, r, dot(p / max(r, 1e-3), vec2(dot(l, across_right), dot(l, across_up))));
-    // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
-    inner = mix(inner, white_color * 0.3, smoothstep(1.0, 1.12, r));
+    if (shown) {
+      inner = Photographed(irises[side], p / kIrisSpan);
+    } else {
+      // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
+      inner = mix(inner, white_color * 0.3, smoothstep(1.0, 1.12, r));
+    }
     base = mix(base, inner, edge);
   }
 
@@ -79,6 +107,7 @@ void main() {
                 mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
   shade = worn.x > 0.0 ? 0.1 + 0.9 * shade : shade;
+  if (shown) shade = 1.0;
 
   vec3 light = Ambient(n) * 0.9;
   light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;
@@ -86,7 +115,8 @@ void main() {
   light = worn.x > 0.0 ? vec3(1.0) : light;
   vec3 result = base * light * shade * mix(occlusion, 1.0, 0.3);
 
-  float gloss = worn.x > 0.0 ? 0.3 : 1.0;
+  // What a photographed eye mirrors is seen in it.
+  float gloss = worn.x > 0.0 ? (shown ? 0.0 : 0.3) : 1.0;
   vec3 mirrored = reflect(-v, wet);
   // A window of two panes, above left.
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);

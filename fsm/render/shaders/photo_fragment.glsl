@@ -2,6 +2,7 @@
 in vec2 place;
 in vec3 worn;
 in vec3 paint;
+in vec3 lender;
 in float crease;
 
 uniform float alpha;
@@ -21,5 +22,6 @@ void main() {
   vec2 slope = texture(relief, place).zw - 0.5;
   // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
   float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.04 + 0.45 * dot(slope, vec2(-0.5, 0.85)));
-  color = vec4(mix(paint, p.rgb, worn.z) * clamp(shade, 0.6, 1.25) * brightness, alpha);
+  vec3 painted = lender.z > 0.0 ? mix(paint, 2.0 * paint * texture(photo, lender.xy).rgb, lender.z) : paint;
+  color = vec4(mix(painted, p.rgb, worn.z) * clamp(shade, 0.6, 1.25) * brightness, alpha);
 }

@@ -4,20 +4,25 @@ layout(location = 5) in vec4 creases_right;
 layout(location = 6) in vec4 creases_left;
 layout(location = 7) in vec3 photo_place;  // u, v down; the photo's part in the colour, beyond 1: lid
 
+layout(location = 8) in vec4 photo_lender;  // of a lid: the place whose grain it takes; its way
+
 uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
 
 out vec2 place;
 out vec3 worn;
 out vec3 paint;
+out vec3 lender;
 out float crease;
 
 void main() {
   Place();
   place = unrolled;
   float lid = max(photo_place.z - 1.0, 0.0);
-  float shut = smoothstep(0.15, 0.75, rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1]);
-  worn = vec3(photo_place.xy, min(photo_place.z, 1.0) * (1.0 - lid * shut));
+  float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
+  float shut = smoothstep(0.1, 0.4, closed);
+  worn = vec3(photo_place.xy + closed * photo_lender.zw, min(photo_place.z, 1.0) * (1.0 - lid * shut));
+  lender = photo_lender.x > 0.0 ? vec3(photo_lender.xy, 1.0) : vec3(photo_place.xy, 0.0);
   crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
   paint = sqrt(max(albedo_occlusion.rgb * albedo_occlusion.a, 0.0));
 }

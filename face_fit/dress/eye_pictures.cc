@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <utility>
+#include <vector>
+
+#include "face_fit/dress/dress.h"
+
+namespace facefit {
+namespace {
+
+// Squares side by side in the lower left corner of the picture: below the neck the skin's map is
+// not looked at. Texels between them, so that they do not run into each other.
+constexpr int kIrisSide = 64;
+constexpr int kEyeSide = 128;
+constexpr int kMargin = 4;
+constexpr int kRings = 24;
+
+struct Texel {
+  glm::vec3 colour{0};
+  float seen = 0;    ///< 0..1, not hidden by a lid
+  float radius = 0;  ///< in radii of the iris
+};
+
+/// The usual colour at each distance from the middle, from where it is seen.
+std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
+  std::array<std::vector<glm::vec3>, kRings> rings;
+  const auto ring_of = [](float radius) {
+    return std::min(static_cast<int>(radius / fsm::kIrisSpan * kRings), kRings - 1);
+  };
+  for (const Texel& t : texels) {
+    if (t.seen > 0.9F) rings[static_cast<std::size_t>(ring_of(t.radius))].push_back(t.colour);
+  }
+  const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
+  std::array<glm::vec3, kRings> usual;
+  int last = -1;
+  for (int k = 0; k < kRings; ++k) {
+    auto& ring = rings[static_cast<std::size_t>(k)];
+    if (ring.empty()) continue;
+    const auto middle = ring.begin() + static_cast<std::ptrdiff_t>(ring.size() / 2);
+    std::ranges::nth_element(ring, middle, {}, light);
+    // Rings that are nowhere seen are as those within them, the innermost as those round them.
+    for (int empty = last < 0 ? 0 : last + 1; empty < k; ++empty) {
+      usual[static_cast<std::size_t>(empty)] =
+          last < 0 ? *middle : usual[static_cast<std::size_t>(last)];
+    }
+    usual[static_cast<std::size_t>(k)] = *middle;
+    last = k;
+  }
+  for (int k = last + 1; k < kRings && last >= 0; ++k) {
+    usual[static_cast<std::size_t>(k)] = usual[static_cast<std::size_t>(last)];
+  }
+  return usual;
+}
+
+/// A square of texels; (-1, 1) is its upper left corner.
+template <typename Colour>
+fsm::Image Painted(int side, Colour colour_at) {
+  fsm::Image out;
+  out.width = out.height = side;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(side) - 1.0F;
+      const glm::vec3 colour = colour_at(glm::vec2(p.x, -p.y));
+      for (int c = 0; c < 3; ++c) out.rgba.push_back(static_cast<std::uint8_t>(colour[c] + 0.5F));
+      out.rgba.push_back(255);
+    }
+  }
+  return out;
+}
+
+/// Its place in the picture: left, top, right, bottom.
+glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
+  const int side = square.width;
+  const int top = picture.height - kMargin - side;
+  for (int y = 0; y < side; ++y) {
+    std::copy_n(&square.rgba[static_cast<std::size_t>(4 * y * side)], 4 * side,
+                &picture.rgba[4 * (static_cast<std::size_t>(top + y) *
+                                       static_cast<std::size_t>(picture.width) +
+                                   static_cast<std::size_t>(left))]);
+  }
+  const glm::vec2 size(picture.width, picture.height);
+  return {glm::vec2(left, top) / size, glm::vec2(left + side, top + side) / size};
+}
+
+struct SeenEye {
+  const IrisRing& ring;
+  LidLines lids;        ///< in the photo
+  glm::vec2 right, up;  ///< the head's axes there, unit
+};
+
+fsm::Image IrisPicture(const SeenEye& eye, const fsm::Image& photo) {
+  // The shade of the lid's edge and its lashes.
+  const float edge = std::max(0.15F * eye.ring.radius, 0.7F);
+  const auto texel_at = [&](glm::vec2 p) {
+    p *= fsm::kIrisSpan;
+    const glm::vec2 at = eye.ring.centre + eye.ring.radius * (p.x * eye.right + p.y * eye.up);
+    const auto [upper, lower] = eye.lids.At(eye.lids.Part(at));
+    const float within = std::min(eye.lids.Down(at) - upper, lower - eye.lids.Down(at));
+    return Texel{ColourAt(photo, at), glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
+  };
+  std::vector<Texel> texels;
+  Painted(kIrisSide, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
+  const auto usual = UsualByRing(texels);
+  return Painted(kIrisSide, [&](glm::vec2 p) {
+    const Texel t = texel_at(p);
+    const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
+    const auto k = static_cast<std::size_t>(ring);
+    return glm::mix(glm::mix(usual[k], usual[k + 1], ring - static_cast<float>(k)), t.colour,
+                    t.seen);
+  });
+}
+
+/// `rest`: the lids of the eye at rest; `radius`: of its ball; both in millimetres round its
+/// centre.
+fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
+                       const fsm::Image& photo) {
+  const auto place = [&](glm::vec2 p) {
+    p *= fsm::kBallSpan * radius;
+    const float part = glm::clamp(rest.Part(p), 0.0F, 1.0F);
+    const auto [upper, lower] = rest.At(part);
+    const float between = (rest.Down(p) - upper) / std::max(lower - upper, 0.05F);
+    const auto [upper_seen, lower_seen] = eye.lids.At(part);
+    return std::pair(
+        eye.lids.Place(part, glm::mix(upper_seen, lower_seen, glm::clamp(between, 0.0F, 1.0F))),
+        between);
+  };
+  const auto beside_iris = [&eye](glm::vec2 at) {
+    return glm::smoothstep(1.12F, 1.35F, glm::distance(at, eye.ring.centre) / eye.ring.radius);
+  };
+  fsm::Image white =
+      Painted(kEyeSide, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });
+  // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
+  Field weight(kEyeSide, kEyeSide);
+  std::size_t i = 0;
+  Painted(kEyeSide, [&](glm::vec2 p) {
+    const auto [at, between] = place(p);
+    weight.at[i++] = beside_iris(at) * glm::smoothstep(0.15F, 0.35F, between) *
+                     glm::smoothstep(1.0F, 0.85F, between);
+    return glm::vec3(0);
+  });
+  FillIn(white, weight);
+  i = 0;
+  return Painted(kEyeSide, [&](glm::vec2 p) {
+    const glm::vec2 at = place(p).first;
+    const std::uint8_t* filled = &white.rgba[4 * i++];
+    return glm::mix(glm::vec3(filled[0], filled[1], filled[2]), ColourAt(photo, at),
+                    beside_iris(at));
+  });
+}
+
+}  // namespace
+
+void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+               fsm::Image& picture, fsm::FaceSet& set) {
+  for (const IrisRing& ring : fit.irises) {
+    if (ring.contrast < kClearRing || ring.radius < kLeastIris) return;
+  }
+  const glm::mat3 turned = fit.pose.Rotation();
+  const glm::vec2 right = glm::normalize(glm::vec2(turned[0].x, -turned[0].y));
+  int left = kMargin;
+  set.eye_pictures.emplace();
+  for (int side = 0; side < 2; ++side) {
+    const auto k = static_cast<std::size_t>(side);
+    const fsm::EyePlace& ball = base.head->topology().eyes[k];
+    const fsm::EyeSeat seat = set.eyes ? (*set.eyes)[k] : fsm::EyeSeat();
+    EyePoints seen, rest;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const auto point = static_cast<std::size_t>(EyeOutline(side)[i]);
+      seen[i] = glm::vec2(face.points[point]);
+      rest[i] = glm::vec2(base.places[point].On(base.rest.position) - ball.centre);
+    }
+    const float inner = rest[8].x, outer = rest[0].x;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const float along = 2 * (rest[i].x - inner) / (outer - inner) - 1;
+      const float open = std::max(1 - along * along, 0.0F);
+      const float raised = i % 8 == 0 ? 0 : i < 8 ? seat.upper_mm : seat.lower_mm;
+      rest[i] = glm::vec2(seat.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
+    }
+    const SeenEye eye{fit.irises[k], LidLines(seen), right, {right.y, -right.x}};
+    fsm::EyePicture& places = (*set.eye_pictures)[k];
+    places.iris = Insert(IrisPicture(eye, photo), left, picture);
+    left += kIrisSide + kMargin;
+    places.ball = Insert(BallPicture(eye, LidLines(rest), seat.size * ball.ball_radius, photo),
+                         left, picture);
+    left += kEyeSide + kMargin;
+  }
+}
+
+}  // namespace facefit
