@@ -47,6 +47,7 @@ class Progress {
 struct Options {
   std::vector<std::string> views;
   std::string photo, name, out, base = "galatea", networks, head, points, galatea;
+  std::string glasses;  // yes, no, or empty: to be seen
   int face = 1;
   bool quiet = false;
 };
@@ -187,12 +188,13 @@ void Run(const Options& options) {
   progress.Say("figure cut out");
   fsm::FaceSet set;
   const Dress dress = MakeDress(base, face, fit, photo, figure, sides, set);
+  if (!options.glasses.empty()) set.glasses = options.glasses == "yes";
   progress.Say("photo put on");
 
   const std::string folder =
       (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
   std::filesystem::create_directories(folder);
-  const std::string report = Report(face, fit, photo, dress.coverage, faces);
+  const std::string report = Report(face, fit, photo, dress.coverage, faces, set.glasses);
   const auto write = [&folder](const char* name, const std::string& text) {
     std::ofstream file(folder + "/" + name);
     if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + "/" + name);
@@ -233,6 +235,10 @@ int main(int argc, char** argv) {
   app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
   app.add_option("--networks", options.networks,
                  "Where the networks are (default: where scripts/face_networks.sh puts them)");
+  app.add_option(
+         "--glasses", options.glasses,
+         "Whether the person wears glasses, yes or no (default: what a look at the nose says)")
+      ->check(CLI::IsMember({"yes", "no"}));
   app.add_flag("--quiet", options.quiet, "Does not tell what is being done");
   CLI11_PARSE(app, argc, argv);
   try {

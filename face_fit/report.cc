@@ -40,7 +40,7 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
 }  // namespace
 
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
-                   int faces) {
+                   int faces, bool glasses) {
   std::string out;
   std::array<char, 200> line;
   const auto put = [&](const char* format, auto... values) {
@@ -61,6 +61,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
       d(fit.expression.jaw), d(fit.expression.parted));
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
+  put("glasses     %s\n", glasses ? "yes" : "no");
   if (eyes < 80) out += "warning: the face is small; details will be soft\n";
   if (std::abs(turn.y) > 15)
     out += "warning: the head is turned; one side is completed from the other\n";
@@ -70,6 +71,11 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
     out += "warning: strong light from one side stays in the skin\n";
   if (fit.expression.smile > 0.4F || fit.expression.jaw + fit.expression.parted > 0.4F) {
     out += "warning: not a neutral face; folds of the expression stay in the skin\n";
+  }
+  if (glasses) {
+    out +=
+        "warning: glasses stay as they are, and so does the skin round the eyes; --glasses no if "
+        "there are none\n";
   }
   if (faces > 1) out += "warning: several faces; --face N takes another\n";
   return out;

@@ -9,6 +9,6 @@ namespace facefit {
 
 /// What was measured, a line each, and warnings of what will look worse than it could.
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
-                   int faces);
+                   int faces, bool glasses);
 
 }  // namespace facefit

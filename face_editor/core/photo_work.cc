@@ -136,7 +136,8 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     }
     facefit::Dress dress = facefit::MakeDress(*work.base, face, built->fit, work.photo,
                                               *work.figure, seen, built->set);
-    built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces);
+    built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces,
+                                    built->set.glasses);
     built->picture = std::move(dress.picture);
     built->set.photo = std::make_shared<fsm::WornPhoto>(
         fsm::WornPhoto{built->picture.width, built->picture.height, built->picture.rgba});

@@ -9,6 +9,7 @@
 #include "face_fit/dress/openings.h"
 #include "face_fit/dress/sheet.h"
 #include "face_fit/dress/skin_colours.h"
+#include "face_fit/find/glasses.h"
 
 namespace facefit {
 namespace {
@@ -288,6 +289,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   SampleEyes(face, fit, photo, set);
   PaintEyes(base, face, fit, photo, dress.picture, set);
   SampleMouth(face, photo, set);
+  set.glasses = BarOnNose(face, photo) > kGlasses;
   return dress;
 }
 

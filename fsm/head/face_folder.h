@@ -6,9 +6,9 @@
 
 namespace fsm {
 
-/// Faces from photos (face.txt) and those made of built-in ones (identity.txt) lie in folders of one
-/// folder: $GALATEA_FACES, else
-/// $XDG_DATA_HOME/galatea/faces, else ~/.local/share/galatea/faces.
+/// Faces from photos (face.txt) and those made of built-in ones (identity.txt) lie in folders of
+/// one folder: $GALATEA_FACES, else $XDG_DATA_HOME/galatea/faces, else
+/// ~/.local/share/galatea/faces.
 std::string FacesFolder();
 /// Letters, digits, - and _, at most 64.
 bool IsFaceName(std::string_view name);

@@ -72,6 +72,8 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
     } else if (key == "iris") {
       set.iris_colour = row.Vector(1);
       if (row.size() > 4) set.iris_size = std::clamp(row.Number(4), 0.7f, 1.3f);
+    } else if (key == "glasses") {
+      set.glasses = row.Number(1) != 0;
     } else if (key == "teeth") {
       set.teeth = std::clamp(row.Number(1), 0.0f, 2.0f);
     } else if (key == "lip") {
@@ -131,6 +133,7 @@ std::string WriteFaceSet(const FaceSet& set) {
   put("saturation %.2f\n", d(set.saturation));
   put("iris %.4f %.4f %.4f %.3f\n", d(set.iris_colour.x), d(set.iris_colour.y),
       d(set.iris_colour.z), d(set.iris_size));
+  if (set.glasses) put("glasses %d\n", 1);
   put("teeth %.2f\n", d(set.teeth));
   put("white %.4f %.4f %.4f\n", d(set.white_colour.x), d(set.white_colour.y),
       d(set.white_colour.z));

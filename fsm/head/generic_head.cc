@@ -96,6 +96,7 @@ class GenericHead : public Head {
     }
     base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
                  mesh.position.end());
+    if (set && set->glasses) HoldBehindGlasses(mesh, skin_count);
     const std::vector<Flesh> flesh(mesh.flesh.begin(),
                                    mesh.flesh.begin() + static_cast<std::ptrdiff_t>(skin_count));
     Finish(std::move(mesh), skin);
@@ -220,6 +221,17 @@ class GenericHead : public Head {
     return std::min(most, kMost);
   }
 
+  /// Glasses are in the photo on the skin. It stays where they rest, or they would bend with it.
+  void HoldBehindGlasses(HeadMesh& mesh, std::size_t skin_count) const {
+    constexpr glm::vec2 kReach(33, 20);  // of a large lens and its rim about the eye, millimetres
+    const glm::vec2 lens = glm::vec2(eye_.centre()) - glm::vec2(0, 4);
+    for (std::size_t i = 0; i < skin_count; ++i) {
+      Flesh& f = mesh.flesh[i];
+      const glm::vec2 off = (glm::vec2(std::abs(f.domain.x), f.domain.y) - lens) / kReach;
+      f.free *= SmoothStep(1, 1.35f, glm::length(off));
+    }
+  }
+
   /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
   static void AddSheet(const FaceSet& set, HeadMesh& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.position.size());
@@ -315,7 +327,7 @@ class GenericHead : public Head {
     };
     for (const LidPaint& lid :
          PaintLids(*set.photo, topology_.photo_place, skin, of_skin(open), of_skin(shut))) {
-      const glm::vec3 gain = lid.screen / (2.0f * glm::max(lid.lender_screen, 0.02f));
+      const glm::vec3 gain = lid.screen / (2 * std::max(lid.lender_light, 0.02f));
       const glm::vec3 most = glm::min(gain, 1.0f);
       topology_.albedo[lid.vertex] = most * most;
       topology_.occlusion[lid.vertex] = 1;

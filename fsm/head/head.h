@@ -101,9 +101,9 @@ struct HeadTopology {
   /// colour, 0..1. What exceeds 1 is lid: that part of the photo gives way to the vertex's own
   /// colour as the lid shuts, because a photo of an open eye does not show its skin.
   std::vector<glm::vec3> photo_place;
-  /// Per vertex of an upper lid: the place in the photo whose skin, times twice the square root of
-  /// the vertex's colour, is the shut lid's; and how far in the photo the place of the vertex moves
-  /// until then. 0 elsewhere; may be empty.
+  /// Per vertex of an upper lid: the place in the photo whose brightness, times twice the square
+  /// root of the vertex's colour, is the shut lid's; and how far in the photo the place of the
+  /// vertex moves until then. 0 elsewhere; may be empty.
   std::vector<glm::vec4> photo_lender;
   /// Of the agent's right and left, if the photo shows them; else they are drawn.
   std::optional<std::array<EyePicture, 2>> eye_pictures;

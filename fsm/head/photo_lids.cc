@@ -140,18 +140,23 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const glm::vec2 at(shut[i]);
       const float meet = HeightAt(lower_rim, at.x), rim = HeightAt(upper_rim, at.x);
       const float down = SmoothStep(rim, meet, at.y);
-      const glm::vec3 colour =
-          glm::mix(Near(above, at.x, Brightness(usual_above), usual_above),
-                   Near(below, at.x, Brightness(usual), usual), 0.2f + 0.35f * down);
+      const glm::vec3 over = Near(above, at.x, Brightness(usual_above), usual_above);
+      const glm::vec3 under = Near(below, at.x, Brightness(usual), usual);
+      // As light as the skin on either side of it; half of the hue of most of it,
+      // because near an eye there are lashes and blue shade.
+      const float light = Brightness(glm::mix(over, under, 0.3f + 0.3f * down));
+      const glm::vec3 hue = usual / Brightness(usual) + under / Brightness(under);
+      const glm::vec3 colour = 0.5f * light * hue;
       // The ball rounds the lid; the fold over it is in shade, and so are the lashes' roots.
-      const float round = 0.90f + 0.12f * SmoothStep(0.0f, 0.5f, down) - 0.06f * down;
+      const float round = 0.90f + 0.08f * SmoothStep(0.0f, 0.5f, down) - 0.05f * down;
       const float lashes = 1 - 0.6f * SmoothStep(0.97f, 1.0f, f.lid_upper);
       const float part =
-          SmoothStep(rim + 2.6f, rim - 0.3f, at.y) * SmoothStep(0.06f, 0.4f, f.lid_upper);
+          SmoothStep(rim + 3.6f, rim + 0.4f, at.y) * SmoothStep(0.06f, 0.4f, f.lid_upper);
       const glm::vec2 mirrored(at.x, meet - 1.5f - std::max(at.y - meet, 0.0f));
       const Lender near = Around(lenders, mirrored, 1.5f), wide = Around(lenders, mirrored, 4);
       lids.push_back({i, glm::clamp(colour * (round * lashes), 0.0f, 1.0f), 0.92f * part,
-                      near.place, wide.screen, photo_by_face * (at - glm::vec2(open[i]))});
+                      near.place, Brightness(wide.screen),
+                      photo_by_face * (at - glm::vec2(open[i]))});
     }
   }
   return lids;

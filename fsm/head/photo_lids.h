@@ -16,8 +16,8 @@ struct LidPaint {
   glm::vec3 screen;  ///< colour on the screen, 0..1
   float part;        ///< how much of it is lid, 0..1: it goes over into the skin round it
   /// Skin that lends its grain: below the lower lid, as far from the line in which the lids meet.
-  glm::vec2 lender;         ///< its place in the photo, as HeadTopology::photo_place
-  glm::vec3 lender_screen;  ///< the mean colour round it, 0..1
+  glm::vec2 lender;    ///< its place in the photo, as HeadTopology::photo_place
+  float lender_light;  ///< the mean brightness round it, 0..1
   /// From its place in the photo to where in the photo it comes to lie.
   glm::vec2 slide;
 };

@@ -11,6 +11,7 @@
 #include "face_fit/dress/dress.h"
 #include "face_fit/dress/openings.h"
 #include "face_fit/dress/skin_colours.h"
+#include "face_fit/find/glasses.h"
 #include "face_fit/find/iris.h"
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/base_head.h"
@@ -100,6 +101,28 @@ TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
   EXPECT_EQ(at(150), 1);
   EXPECT_EQ(at(300), 1);
   EXPECT_EQ(SkinLikeness(map, Field(400, 400)).at[75 * 400], 1) << "no face was seen";
+}
+
+TEST(GlassesTest, ABarAcrossTheNoseIsSeenAndAFoldIsNot) {
+  FoundFace face;
+  face.points.assign(kNetworkPoints, glm::vec3(0));
+  face.points[133] = glm::vec3(136, 200, 0);  // inner corners, two pixels to the millimetre
+  face.points[362] = glm::vec3(200, 200, 0);
+  // A nose that grows darker downwards.
+  const auto nose = [](glm::vec2 p) { return 170 - 0.15F * (p.y - 150); };
+  const auto seen = [&](auto drawn) { return BarOnNose(face, Drawn(336, drawn)); };
+  EXPECT_LT(seen(nose), 0.03F);
+  EXPECT_GT(seen([&](glm::vec2 p) { return p.y > 196 && p.y < 204 ? 60 : nose(p); }), kGlasses);
+  EXPECT_GT(seen([&](glm::vec2 p) { return p.y > 192 && p.y < 204 ? 230 : nose(p); }), kGlasses)
+      << "of clear plastic";
+  EXPECT_LT(seen([&](glm::vec2 p) { return p.y > 199.5F && p.y < 200.5F ? 120 : nose(p); }),
+            kGlasses)
+      << "a fold is thin";
+  EXPECT_LT(seen([&](glm::vec2 p) { return p.y < 185 ? 50 : nose(p); }), kGlasses)
+      << "brows that meet have forehead above them, but farther away";
+  EXPECT_LT(seen([&](glm::vec2 p) { return p.y > 196 && p.y < 204 && p.x < 165 ? 60 : nose(p); }),
+            kGlasses)
+      << "it has to go across";
 }
 
 /// An open eye from x = 60 to 140 about y = 96, its lids 16 pixels apart; the outer corner at the

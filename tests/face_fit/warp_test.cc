@@ -54,6 +54,7 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   (*set.eyes)[1] = {.shift = {1, 2, -3}, .turn = 0.1F, .size = 1.1F, .upper_mm = -2, .lower_mm = 1};
   set.lip_colour = glm::vec3(0.2F, 0.1F, 0.05F);
   set.iris_size = 0.9F;
+  set.glasses = true;
   set.eye_pictures.emplace();
   for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.2F, 0.3F, 0.4F}, {0.5F, 0.25F, 1, 0.75F}};
   const FaceSet back = ReadFaceSet("face.txt", WriteFaceSet(set));
@@ -64,6 +65,7 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   EXPECT_EQ((*back.eyes)[0].size, 1);
   EXPECT_EQ(*back.lip_colour, *set.lip_colour);
   EXPECT_NEAR(back.iris_size, 0.9F, 1e-3F);
+  EXPECT_TRUE(back.glasses);
   ASSERT_TRUE(back.eye_pictures);
   EXPECT_EQ((*back.eye_pictures)[1].iris, (*set.eye_pictures)[1].iris);
   EXPECT_EQ((*back.eye_pictures)[0].ball, (*set.eye_pictures)[0].ball);
@@ -174,6 +176,39 @@ int ColourOfTheMouth(float saturation) {
 TEST(FaceSetTest, AGreyPhotoHasAGreyMouth) {
   EXPECT_LE(ColourOfTheMouth(0), 1);
   EXPECT_GT(ColourOfTheMouth(1), 20);
+}
+
+TEST(FaceSetTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
+  FaceSet set;
+  set.points = kPoints;
+  for (auto& point : set.points) point.by = glm::vec3(0);
+  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {0, 0, 0, 255}});
+  const auto moved = [&set](glm::vec2 from_eye) {
+    const auto head = Head::Make(set);
+    HeadVertices rest, frown;
+    head->Evaluate({}, rest);
+    FaceState state;
+    for (const std::size_t unit : {std::size_t{4}, std::size_t{6}}) {
+      state.au_left[unit] = state.au_right[unit] = 1;
+    }
+    head->Evaluate(state, frown);
+    const glm::vec3 eye = head->topology().eyes[1].centre;
+    float nearest = 1e9F, way = 0;
+    for (std::size_t i = 0; i < rest.position.size(); ++i) {
+      const glm::vec3 off = rest.position[i] - eye;
+      const float far = glm::distance(glm::vec2(off), from_eye) + (off.z < 0 ? 100.0F : 0.0F);
+      if (far >= nearest) continue;
+      nearest = far;
+      way = glm::distance(rest.position[i], frown.position[i]);
+    }
+    return way;
+  };
+  constexpr glm::vec2 kUnderRim(-14, 12), kBrow(-12, 26);
+  EXPECT_GT(moved(kUnderRim), 0.8F);
+  const float brow = moved(kBrow);
+  set.glasses = true;
+  EXPECT_LT(moved(kUnderRim), 0.2F);
+  EXPECT_GT(moved(kBrow), 0.5F * brow);
 }
 
 TEST(FaceSetTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {

@@ -114,7 +114,7 @@ TEST(PhotoLidsTest, WhatIsAboveTheEyeStaysInItsPlaceWhileALidComesDown) {
     if (way > 1) {
       EXPECT_GT(lid.slide.y, 0.5f * way / 40);
     }
-    if (eye.shut[i].y > 8) {
+    if (eye.shut[i].y > 9) {
       EXPECT_LT(lid.part, 0.1f) << "the photo is seen there";
       EXPECT_LT(slid.y, 0.5f);
       ++stays;

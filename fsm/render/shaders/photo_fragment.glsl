@@ -22,6 +22,10 @@ void main() {
   vec2 slope = texture(relief, place).zw - 0.5;
   // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
   float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.04 + 0.45 * dot(slope, vec2(-0.5, 0.85)));
-  vec3 painted = lender.z > 0.0 ? mix(paint, 2.0 * paint * texture(photo, lender.xy).rgb, lender.z) : paint;
+  vec3 painted = paint;
+  if (lender.z > 0.0) {
+    float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
+    painted = mix(paint, 2.0 * grain * paint, lender.z);
+  }
   color = vec4(mix(painted, p.rgb, worn.z) * clamp(shade, 0.6, 1.25) * brightness, alpha);
 }
