@@ -70,7 +70,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   if (side > 1.45F || side < 0.69F)
     out += "warning: strong light from one side stays in the skin\n";
   if (fit.expression.smile > 0.4F || fit.expression.jaw + fit.expression.parted > 0.4F) {
-    out += "warning: not a neutral face; folds of the expression stay in the skin\n";
+    out += "warning: not a neutral face; some folds of the expression stay in the skin\n";
   }
   if (glasses) {
     out +=

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "face_fit/dress/folds.h"
 #include "face_fit/dress/openings.h"
 #include "face_fit/dress/sheet.h"
 #include "face_fit/dress/skin_colours.h"
@@ -196,6 +197,9 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   map.width = map.height = kMapSide;
   map.rgba.assign(static_cast<std::size_t>(4 * kMapSide) * kMapSide, 255);
   Field seen(kMapSide, kMapSide);
+  fsm::Image colours = figure.colours;
+  FillSmileFolds(face, 0.8F * glm::clamp(fit.expression.smile, 0.0F, 1.0F), fit.pose.PixelsPerMm(),
+                 colours);
   const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
   const Openings openings(face, fit.pose.PixelsPerMm(), open);
   std::vector<bool> skin(places.facing.size(), true);
@@ -209,7 +213,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     const float part = openings.Skin(p);
     skin[i] = part >= 1;
     weight *= part;
-    const glm::vec3 colour = ColourAt(figure.colours, p);
+    const glm::vec3 colour = ColourAt(colours, p);
     for (int c = 0; c < 3; ++c)
       map.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c] + 0.5F);
     seen.at[i] = weight;
