@@ -19,6 +19,9 @@ constexpr std::array kUpperWidth = {8.4f, 6.6f, 7.5f, 6.8f, 6.6f, 9.6f};
 constexpr std::array kUpperHeight = {10.2f, 9.2f, 9.9f, 8.6f, 8.0f, 7.4f};
 constexpr std::array kLowerWidth = {5.3f, 5.8f, 6.8f, 7.0f, 7.2f, 10.4f};
 constexpr std::array kLowerHeight = {8.8f, 9.0f, 9.6f, 8.4f, 8.0f, 7.4f};
+// How far their edges stay behind those of the longest, which makes a row look grown.
+constexpr std::array kUpperShort = {0.0f, 0.7f, 0.1f, 0.7f, 1.0f, 1.1f};
+constexpr std::array kLowerShort = {0.1f, 0.0f, 0.1f, 0.5f, 0.8f, 0.9f};
 
 /// The point of an arch at an arc length from the median, followed in small steps.
 glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
@@ -39,48 +42,77 @@ struct Jaw {
   Bone bone;
 };
 
-void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const float> heights,
-             const Palette& palette, HeadMesh& mesh) {
-  constexpr int kPerTooth = 3;
+struct Crowns {
+  std::span<const float> widths, heights, shorts;
+};
+
+/// Enamel is thin and grey at the edge and lets the warm dentine through towards the gum, most in a
+/// canine; no two teeth are of one shade.
+glm::vec3 Enamel(const Palette& palette, int tooth, float shade, float row) {
+  const float warm = 0.25f + 0.1f * static_cast<float>(tooth) + (tooth == 2 ? 0.25f : 0.0f) +
+                     0.6f * SmoothStep(0.35f, 1.0f, row);
+  const glm::vec3 edge = glm::mix(glm::vec3(1), glm::vec3(0.86f, 0.90f, 0.94f),
+                                  tooth < 2 ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
+  return palette.tooth * edge * (0.97f + 0.03f * shade) *
+         glm::mix(glm::vec3(1), glm::vec3(0.96f, 0.90f, 0.78f), std::min(warm, 1.0f));
+}
+
+void AddArch(const Jaw& jaw, const Crowns& crowns, const Palette& palette, HeadMesh& mesh) {
+  // Closer together where two teeth meet.
+  constexpr std::array kWithin = {0.0f, 0.12f, 0.31f, 0.5f, 0.69f, 0.88f};
+  constexpr int kPerTooth = kWithin.size();
+  const auto [widths, heights, shorts] = crowns;
   const int count = static_cast<int>(widths.size());
   const int columns = 2 * count * kPerTooth + 1;
   // Rows from behind the chewing edge over the front of the crown to the gum, and a lip of gum
   // above.
-  constexpr std::array kRows = {-0.5f, -0.1f, 0.0f, 0.3f, 0.7f, 1.0f};
+  constexpr std::array kRows = {-0.5f, -0.15f, 0.0f, 0.1f, 0.3f, 0.55f, 0.8f, 1.0f};
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  std::vector<float> arc_at, bump_at, height_at;
+  std::vector<float> arc_at, bump_at, height_at, short_at;
+  std::vector<int> tooth_at;
   for (int c = 0; c < columns; ++c) {
     const int signed_c = c - count * kPerTooth;
     const int step = std::abs(signed_c);
     const int tooth = std::min(step / kPerTooth, count - 1);
     float arc = 0;
     for (int t = 0; t < tooth; ++t) arc += widths[static_cast<std::size_t>(t)];
-    const float within = static_cast<float>(step - tooth * kPerTooth) / kPerTooth;
+    const int place = step - tooth * kPerTooth;
+    const float within = place < kPerTooth ? kWithin[static_cast<std::size_t>(place)] : 1.0f;
     arc += within * widths[static_cast<std::size_t>(tooth)];
     arc_at.push_back(signed_c < 0 ? -arc : arc);
     bump_at.push_back(std::sqrt(std::max(0.0f, std::sin(kPi * within))));
     height_at.push_back(heights[static_cast<std::size_t>(tooth)]);
+    // Canines come to a point, the others are round at their corners.
+    const float off_middle = std::abs(2 * within - 1);
+    const float corner = tooth == 2 ? 1.1f * off_middle : 0.8f * std::pow(off_middle, 4.0f);
+    tooth_at.push_back(tooth);
+    short_at.push_back(shorts[static_cast<std::size_t>(tooth)] + corner +
+                       0.1f * (1 + Grain(tooth_at.back(), static_cast<int>(jaw.upward))));
   }
   for (const float row : kRows) {
     for (int c = 0; c < columns; ++c) {
       const auto i = static_cast<std::size_t>(c);
       const float back = std::abs(arc_at[i]);
-      const float short_edge = 0.7f * (1 - bump_at[i]) + (row <= 0.12f ? 0.012f * back : 0.0f);
+      const float shorter = short_at[i] * SmoothStep(0.6f, 0.0f, row);
       const float up = row < -0.3f ? 0.6f * height_at[i]
-                       : row < 0   ? 0.2f
-                                   : row * height_at[i] + (row < 0.5f ? short_edge : 0.0f);
+                       : row < 0   ? 0.3f + short_at[i]
+                                   : row * height_at[i] + shorter;
       glm::vec3 p =
           AlongArch(jaw.arch, arc_at[i], jaw.arch.edge_y + jaw.upward * (up + 0.02f * back));
-      const float thin = row < -0.3f ? 4.6f : row < 0 ? 2.4f : row == 0 ? 0.9f : 0.0f;
+      const float thin = row < -0.3f    ? 4.6f
+                         : row < -0.15f ? 3.2f
+                         : row < 0      ? 2.2f
+                         : row == 0     ? 0.9f
+                                        : 0.0f;
       const float curve =
-          0.9f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
+          0.5f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
       p.z += curve - thin - 0.75f * (1 - bump_at[i]);
       p.x *= 1 - 0.012f * thin;
-      const float crevice = 0.58f + 0.42f * std::sqrt(bump_at[i]);
-      const glm::vec3 colour =
-          palette.tooth * (row > 0.7f ? glm::vec3(0.95f, 0.88f, 0.78f) : glm::vec3(1));
-      const float dark = glm::mix(0.95f, 0.28f, SmoothStep(8, 34, back));
-      mesh.Add(p, colour, crevice * dark * (row < 0 ? 0.4f : 1.0f), jaw.bone);
+      // Deep between the teeth and in the corners of the mouth there is little light.
+      const float crevice = 0.22f + 0.78f * SmoothStep(0.0f, 0.75f, bump_at[i]);
+      const glm::vec3 colour = Enamel(palette, tooth_at[i], Grain(tooth_at[i], 7), row);
+      const float dark = glm::mix(jaw.upward > 0 ? 0.95f : 0.52f, 0.16f, SmoothStep(6, 32, back));
+      mesh.Add(p, colour, crevice * dark * (row < -0.3f ? 0.4f : 1.0f), jaw.bone);
     }
   }
   const bool flip = jaw.upward > 0;
@@ -106,8 +138,10 @@ void AddArch(const Jaw& jaw, std::span<const float> widths, std::span<const floa
 }  // namespace
 
 void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
-  AddArch({mouth.UpperTeeth(), 1, Bone::kSkull}, kUpperWidth, kUpperHeight, palette, mesh);
-  AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, kLowerWidth, kLowerHeight, palette, mesh);
+  AddArch({mouth.UpperTeeth(), 1, Bone::kSkull}, {kUpperWidth, kUpperHeight, kUpperShort}, palette,
+          mesh);
+  AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, palette,
+          mesh);
 }
 
 void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
@@ -121,22 +155,21 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
   for (int i = 0; i < kAlong; ++i) {
     const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
     const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 2.2f)));
-    const float half_width = 17 * taper * (0.8f + 0.2f * part) + 0.2f;
+    const float half_width = 17 * taper * (0.86f + 0.14f * part) + 0.2f;
     const float height = 7.0f * taper * (1 - 0.35f * part * part) + 0.1f;
     const float z = glm::mix(tip_z - 46, tip_z, std::sin(part * kPi / 2));
-    const float rise = 4.0f * (1 - part);
+    const float rise = 5.0f * (1 - part);
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
       const float up = std::sin(around);
       const float groove = 1.6f * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
-      // Light comes in over the tip: the back of the tongue is lost in the dark, and so are the
-      // sides and all that looks down.
-      const float lit =
-          SmoothStep(0.28f, 0.95f, part) * glm::mix(SmoothStep(-0.3f, 0.8f, up), 1.0f, part * part);
+      // The sides lie in the shade of the teeth beside them, the root in that of the palate.
+      const float lit = SmoothStep(0.05f, 0.9f, part) *
+                        glm::mix(SmoothStep(-0.1f, 1.0f, up), SmoothStep(-0.6f, 0.6f, up), part);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
-      mesh.Add(p, palette.tongue, 0.10f + 0.7f * lit, Bone::kTongue, flesh);
+      mesh.Add(p, palette.tongue, 0.12f + 0.75f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);
