@@ -50,13 +50,13 @@ class GenericHead : public Head {
         // Where the lips turn inward the mouth is painted: it begins in their colour.
         constexpr float kOpen = 0.85f;
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
-        identity_.palette.mouth = 1.3f * identity_.palette.lip_inside;
+        identity_.palette.mouth = 1.3f * Wetter(identity_.palette.lip_inside, set->saturation);
       }
       seats_ = set->eyes.value_or(seats_);
       eye_.ScaleIris(set->iris_size);
       // A photographer's light comes from the front and reaches into the mouth.
-      identity_.palette.tooth *= set->teeth;
-      identity_.palette.tongue *= 2.2f * set->teeth;
+      identity_.palette.tooth *= 0.8f * set->teeth;
+      identity_.palette.tongue *= 1.05f * set->teeth;
     }
     asymmetric_ = asymmetric;
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));
@@ -100,7 +100,7 @@ class GenericHead : public Head {
     const std::vector<Flesh> flesh(mesh.flesh.begin(),
                                    mesh.flesh.begin() + static_cast<std::ptrdiff_t>(skin_count));
     Finish(std::move(mesh), skin);
-    if (set) WearPhoto(*set, flesh);
+    if (set) WearPhoto(*set, flesh, fine.tag);
     landmarks_ = NameLandmarks(cage, fine, rest_, eye_, seats_);
   }
 
@@ -154,6 +154,11 @@ class GenericHead : public Head {
       *colour =
           glm::mix(glm::vec3(glm::dot(*colour, glm::vec3(0.3f, 0.6f, 0.1f))), *colour, saturation);
     }
+  }
+
+  /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
+  static glm::vec3 Wetter(glm::vec3 lip, float saturation) {
+    return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
   }
 
   /// Moves the base head to the identity's form. Eyes and what touches them, and teeth with tongue,
@@ -296,7 +301,7 @@ class GenericHead : public Head {
     }
   }
 
-  void WearPhoto(const FaceSet& set, std::span<const Flesh> skin) {
+  void WearPhoto(const FaceSet& set, std::span<const Flesh> skin, std::span<const CageTag> tags) {
     const std::size_t skin_count = skin.size();
     topology_.photo = set.photo;
     topology_.saturation = set.saturation;
@@ -316,6 +321,7 @@ class GenericHead : public Head {
         topology_.photo_place[topology_.indices[part.first_index + k]].z = 0;
       }
     }
+    RollLips(set, tags);
     topology_.photo_lender.resize(topology_.uv.size(), glm::vec4(0));
     HeadVertices open, shut;
     Evaluate({}, open);
@@ -333,6 +339,27 @@ class GenericHead : public Head {
       topology_.occlusion[lid.vertex] = 1;
       topology_.photo_place[lid.vertex].z = 1 + lid.part;
       topology_.photo_lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
+    }
+  }
+
+  /// A photo of a closed mouth does not show where the lips roll inward: from the line where they
+  /// meet, their own colour turns redder and darker until it is the lining's.
+  void RollLips(const FaceSet& set, std::span<const CageTag> tags) {
+    constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
+    constexpr float kPhoto = 1.2f, kWet = -2.0f;  // outward of the line: all photo, all paint
+    const glm::vec3 lip = set.lip_colour.value_or(identity_.palette.lip_inside);
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      const CageTag& tag = tags[i];
+      if (tag.red < 0 || tag.deep > 0.4f) continue;
+      // The lower lip shows more of its inside.
+      const float outward =
+          (tag.deep > 0 ? -kDeep * tag.deep : kRed * tag.red) - (tag.lip_side < 0 ? 0.9f : 0.0f);
+      if (outward >= kPhoto) continue;
+      const float at_corner = SmoothStep(4.5f, 6.0f, tag.lip_column);
+      const float wet = SmoothStep(kPhoto, kWet, outward) * (1 - 0.6f * at_corner);
+      topology_.albedo[i] = glm::mix(lip, Wetter(lip, set.saturation), wet);
+      topology_.occlusion[i] = glm::mix(1.25f, 0.35f, SmoothStep(0.5f, -4.0f, outward));
+      topology_.photo_place[i].z = 1 - wet;
     }
   }
 
@@ -362,6 +389,13 @@ class GenericHead : public Head {
     for (const Flesh& flesh : mesh.flesh) bend_.push_back(flesh.free);
 
     seam_ = skin.seam;
+    topology_.mouth = {.lips = skin.seam,
+                       .corner_right = skin.corner_right,
+                       .corner_left = skin.corner_left,
+                       .upper_incisor = 0,
+                       .lower_incisor = 0,
+                       .upper_root = 0};
+    FindIncisors();
     upper_teeth_ = mouth_.UpperTeeth().Moved(teeth_shift_);
     lower_teeth_ = mouth_.LowerTeeth().Moved(teeth_shift_);
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
@@ -392,6 +426,32 @@ class GenericHead : public Head {
                               .pupil_radius = size * eye_.pupil_radius(),
                               .iris_colour = identity_.palette.iris,
                               .white_colour = identity_.palette.sclera};
+    }
+  }
+
+  /// The middle of either row of teeth, at its edge, and of the upper one at its root.
+  void FindIncisors() {
+    constexpr float kMiddle = 3;  // millimetres to either side
+    MouthSlit& mouth = topology_.mouth;
+    std::array<float, 3> best = {1e9f, 1e9f, 1e9f};
+    const auto keep = [&](std::size_t which, float y, std::uint32_t i, std::uint32_t& found) {
+      if (y >= best[which]) return;
+      best[which] = y;
+      found = i;
+    };
+    for (const auto& part : topology_.parts) {
+      if (part.material != Material::kTeeth) continue;
+      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+        const std::uint32_t i = topology_.indices[k];
+        const glm::vec3 p = rest_[i];
+        if (std::abs(p.x) > kMiddle) continue;
+        if (bone_[i] == Bone::kJaw) {
+          keep(1, -p.y, i, mouth.lower_incisor);
+        } else {
+          keep(0, p.y, i, mouth.upper_incisor);
+          keep(2, -p.y, i, mouth.upper_root);
+        }
+      }
     }
   }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fsm/head/face_state.h"
@@ -80,6 +81,15 @@ struct WornPhoto {
   std::vector<std::uint8_t> rgba;  ///< screen colours and opacity, row 0 at the top
 };
 
+/// Where the lips part, by vertices: light comes into the mouth there. Teeth bound it further in.
+struct MouthSlit {
+  /// Edges of the upper and the lower lip, from -x to +x, corners excluded; may be empty.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> lips;
+  std::uint32_t corner_right = 0, corner_left = 0;     ///< the agent's
+  std::uint32_t upper_incisor = 0, lower_incisor = 0;  ///< at their edges
+  std::uint32_t upper_root = 0;                        ///< right above upper_incisor
+};
+
 /// The part of a head that never changes while it moves.
 struct HeadTopology {
   struct Part {
@@ -107,6 +117,7 @@ struct HeadTopology {
   std::vector<glm::vec4> photo_lender;
   /// Of the agent's right and left, if the photo shows them; else they are drawn.
   std::optional<std::array<EyePicture, 2>> eye_pictures;
+  MouthSlit mouth;
   /// Of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
   float saturation = 1;
   std::array<EyePlace, 2> eyes;  ///< the agent's right, left

@@ -20,7 +20,7 @@ struct Palette {
   glm::vec3 tooth{0.76f, 0.735f, 0.66f};
   glm::vec3 lip_inside{0.36f, 0.11f, 0.10f};
   glm::vec3 rim{0.58f, 0.30f, 0.25f};
-  glm::vec3 mouth{0.26f, 0.075f, 0.065f};
+  glm::vec3 mouth{0.36f, 0.105f, 0.09f};
   glm::vec3 tongue{0.56f, 0.25f, 0.23f};
   glm::vec3 gum{0.46f, 0.18f, 0.17f};
   glm::vec3 sclera{0.74f, 0.725f, 0.71f};

@@ -139,6 +139,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   eyes_ = EyeFinder(topology, rest);
   if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
   shadows_ = ShadowFinder(topology, rest);
+  mouth_ = MouthFinder(topology);
   eye_place_ = topology.eyes[0];
   ++generation_;
 }

@@ -10,6 +10,7 @@
 #include "fsm/head/head.h"
 #include "fsm/render/eye_frame.h"
 #include "fsm/render/gl_functions.h"
+#include "fsm/render/mouth_frame.h"
 #include "fsm/render/shadow_frame.h"
 #include "fsm/render/skin_texture.h"
 
@@ -31,6 +32,7 @@ class HeadBuffers {
   const std::vector<HeadTopology::Part>& parts() const { return parts_; }
   const EyeFinder& eyes() const { return eyes_; }
   const ShadowFinder& shadows() const { return shadows_; }
+  const MouthFinder& mouth() const { return mouth_; }
   /// True until skin() has been asked for since the head came: it is being painted meanwhile.
   bool painting() const { return painting_.valid(); }
   /// The detail of this head's skin; nothing if it does not say where its features are. Waits until
@@ -65,6 +67,7 @@ class HeadBuffers {
   std::vector<HeadTopology::Part> parts_;
   EyeFinder eyes_;
   ShadowFinder shadows_;
+  MouthFinder mouth_;
   EyePlace eye_place_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins

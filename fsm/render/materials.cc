@@ -18,6 +18,7 @@
 #include "embedded/hair_vertex.h"
 #include "embedded/lighting.h"
 #include "embedded/line_fragment.h"
+#include "embedded/mouth_vertex.h"
 #include "embedded/photo_fragment.h"
 #include "embedded/photo_vertex.h"
 #include "embedded/surface_fragment.h"
@@ -56,6 +57,11 @@ constexpr Surface kSurfaces[] = {
     // clang-format on
 };
 
+constexpr bool IsOfMouth(Material material) {
+  return material == Material::kTeeth || material == Material::kGum ||
+         material == Material::kTongue || material == Material::kMouthInside;
+}
+
 /// A square RGBA picture at half its size.
 std::vector<std::uint8_t> Halve(const std::uint8_t* rgba, int side) {
   const auto row = static_cast<std::size_t>(side) * 4;
@@ -92,6 +98,7 @@ Materials::Materials(const GlFunctions& gl)
     : gl_(gl),
       surface_(gl, "surface", Vertex(embedded::surface_vertex()),
                Fragment(embedded::surface_fragment())),
+      mouth_(gl, "mouth", Vertex(embedded::mouth_vertex()), Fragment(embedded::surface_fragment())),
       eye_(gl, "eye", Vertex(embedded::eye_vertex()), Fragment(embedded::eye_fragment())),
       hair_(gl, "hair", Vertex(embedded::hair_vertex()), Fragment(embedded::hair_fragment())),
       line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()),
@@ -182,7 +189,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   if (generation_ != head.generation()) has_skin_ = false;
   Bind(kNoise, GL_TEXTURE0);
   Bind(kStrands, GL_TEXTURE3);
-  for (const GlProgram* program : {&surface_, &eye_, &hair_, &line_, &photo_}) {
+  for (const GlProgram* program : {&surface_, &mouth_, &eye_, &hair_, &line_, &photo_}) {
     gl_.UseProgram(program->id());
     gl_.UniformMatrix4fv(program->Uniform("figure_to_world"), 1, GL_FALSE,
                          glm::value_ptr(view.figure_to_world));
@@ -197,11 +204,13 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
     gl_.UniformMatrix4fv(program->Uniform("occluders"), 2, GL_FALSE, glm::value_ptr(occluders[0]));
     gl_.Uniform3fv(program->Uniform("occluder_lights"), 2, glm::value_ptr(lights[0]));
   }
-  gl_.UseProgram(surface_.id());
-  gl_.Uniform1i(surface_.Uniform("tint"), 1);
-  gl_.Uniform1i(surface_.Uniform("relief"), 2);
   const glm::vec3 head_up = glm::normalize(glm::mat3(view.figure_to_world) * shadows.turn[1]);
-  gl_.Uniform3fv(surface_.Uniform("head_up"), 1, glm::value_ptr(head_up));
+  for (const GlProgram* program : {&mouth_, &surface_}) {
+    gl_.UseProgram(program->id());
+    gl_.Uniform1i(program->Uniform("tint"), 1);
+    gl_.Uniform1i(program->Uniform("relief"), 2);
+    gl_.Uniform3fv(program->Uniform("head_up"), 1, glm::value_ptr(head_up));
+  }
   glm::vec4 depths[2];
   for (int side = 0; side < 2; ++side) {
     for (int k = 0; k < 4; ++k) {
@@ -225,6 +234,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.UseProgram(hair_.id());
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
+  SetMouth(view, head, vertices, directions[0]);
   if (!head.eyes().found()) return;
   SetEyes(view, head, vertices);
   // The white of a grey photo is grey, and so is the flesh beside it.
@@ -251,6 +261,28 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.Uniform4fv(eye_.Uniform("open"), 2, glm::value_ptr(open[0]));
   const glm::mat3 world_to_head = glm::inverse(rest_to_world);
   gl_.UniformMatrix3fv(eye_.Uniform("world_to_head"), 1, GL_FALSE, glm::value_ptr(world_to_head));
+}
+
+void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
+                         glm::vec3 key_direction) {
+  const auto opening = head.mouth().Measure(vertices);
+  has_mouth_ = opening.has_value();
+  if (!opening) return;
+  const glm::mat3 turn(view.figure_to_world);
+  const glm::mat3 to_world =
+      turn / glm::length(turn[0]) * glm::transpose(glm::mat3(opening->to_mouth));
+  glm::vec3 key = glm::transpose(to_world) * key_direction;
+  // The lamp is large, so most of what lips leave of its light comes from straight ahead; photos
+  // are taken with the light behind the camera, more or less.
+  key = glm::normalize(glm::mix(key, glm::vec3(0, 0.55F, 1), head.photo() ? 0.9F : 0.5F));
+  gl_.UseProgram(mouth_.id());
+  gl_.UniformMatrix4fv(mouth_.Uniform("to_mouth"), 1, GL_FALSE, glm::value_ptr(opening->to_mouth));
+  gl_.UniformMatrix3fv(mouth_.Uniform("mouth_to_world"), 1, GL_FALSE, glm::value_ptr(to_world));
+  gl_.Uniform3fv(mouth_.Uniform("lips"), 2 * MouthFinder::kColumns,
+                 glm::value_ptr(opening->lips[0]));
+  gl_.Uniform4f(mouth_.Uniform("mouth_edges"), opening->corners.x, opening->corners.y,
+                opening->teeth.x, opening->teeth.y);
+  gl_.Uniform3fv(mouth_.Uniform("mouth_key"), 1, glm::value_ptr(key));
 }
 
 void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices) {
@@ -306,16 +338,22 @@ void Materials::Use(Material material) {
   }
   for (const auto& surface : kSurfaces) {
     if (surface.material != material) continue;
-    gl_.UseProgram(surface_.id());
-    gl_.Uniform3fv(surface_.Uniform("wrap"), 1, glm::value_ptr(surface.wrap));
+    const bool inside = has_mouth_ && IsOfMouth(material);
+    const GlProgram& program = inside ? mouth_ : surface_;
+    gl_.UseProgram(program.id());
+    gl_.Uniform3fv(program.Uniform("wrap"), 1, glm::value_ptr(surface.wrap));
     const glm::vec3 lobes = 2.0F * surface.lobes;  // of a texture in which one half stands for 1
-    gl_.Uniform3fv(surface_.Uniform("lobes"), 1, glm::value_ptr(lobes));
-    gl_.Uniform1f(surface_.Uniform("key_through"), surface.key_through);
-    gl_.Uniform1f(surface_.Uniform("sheen"), surface.sheen);
-    gl_.Uniform1f(surface_.Uniform("saturation"), surface.saturation);
-    gl_.Uniform1f(surface_.Uniform("bump"), surface.bump);
-    gl_.Uniform1f(surface_.Uniform("planar"), surface.planar);
-    gl_.Uniform1f(surface_.Uniform("chroma"), chroma_);
+    gl_.Uniform3fv(program.Uniform("lobes"), 1, glm::value_ptr(lobes));
+    if (inside) {
+      gl_.Uniform1f(program.Uniform("lining"), material == Material::kMouthInside ? 1.0F : 0.0F);
+    } else {
+      gl_.Uniform1f(program.Uniform("key_through"), surface.key_through);
+      gl_.Uniform1f(program.Uniform("sheen"), surface.sheen);
+    }
+    gl_.Uniform1f(program.Uniform("saturation"), surface.saturation);
+    gl_.Uniform1f(program.Uniform("bump"), surface.bump);
+    gl_.Uniform1f(program.Uniform("planar"), surface.planar);
+    gl_.Uniform1f(program.Uniform("chroma"), chroma_);
     const bool skin = surface.planar == 0 && has_skin_;
     Bind(skin ? kSkinTint : kPlain, GL_TEXTURE1);
     Bind(skin ? kSkinRelief : surface.planar > 0 ? kWeave : kPlain, GL_TEXTURE2);

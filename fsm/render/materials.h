@@ -35,11 +35,14 @@ class Materials {
   void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
   void Bind(Texture texture, GLenum unit);
   void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices);
+  void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
+                glm::vec3 key_direction);
   void UsePhoto(bool ragged);
   void UseHair(float streaks, float shine);
 
   const GlFunctions& gl_;
   GlProgram surface_;
+  GlProgram mouth_;
   GlProgram eye_;
   GlProgram hair_;
   GlProgram line_;
@@ -48,7 +51,8 @@ class Materials {
   int generation_ = 0;  // of the head whose skin is in the textures
   bool has_skin_ = false;
   bool has_photo_ = false;
-  float chroma_ = 1;  // of the picture, 0 beside a grey photo
+  bool has_mouth_ = false;  // of which is known how light comes in
+  float chroma_ = 1;        // of the picture, 0 beside a grey photo
   int skin_level_ = 0;
   GLint skin_filter_ = 0;
 };

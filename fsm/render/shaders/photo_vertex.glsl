@@ -16,13 +16,17 @@ out vec3 lender;
 out float crease;
 
 void main() {
-  Place();
+  vec3 world = Place();
   place = unrolled;
   float lid = max(photo_place.z - 1.0, 0.0);
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
   float shut = smoothstep(0.1, 0.4, closed);
   worn = vec3(photo_place.xy + closed * photo_lender.zw, min(photo_place.z, 1.0) * (1.0 - lid * shut));
   lender = photo_lender.x > 0.0 ? vec3(photo_lender.xy, 1.0) : vec3(photo_place.xy, 0.0);
+  // A lip that rolls inward is paint in part, and the more so as it turns away.
+  float roll = smoothstep(0.0, 0.3, 1.0 - photo_place.z);
+  float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
+  worn.z *= mix(1.0, facing, roll);
   crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
-  paint = sqrt(max(albedo_occlusion.rgb * albedo_occlusion.a, 0.0));
+  paint = sqrt(max(albedo_occlusion.rgb * albedo_occlusion.a, 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }

@@ -1,6 +1,6 @@
-// Skin, lips, teeth, gums, tongue, the inside of the mouth, cloth. Light is worked out here and only
-// bent per pixel: the mesh is so fine that a software rasterizer shades several pixels beside every
-// triangle for each one in it.
+// Skin, lips, cloth, and the inside of mouths that do not say where they open (others:
+// mouth_vertex.glsl). Light is worked out here and only bent per pixel: the mesh is so fine that a
+// software rasterizer shades several pixels beside every triangle for each one in it.
 layout(location = 4) in vec2 unrolled;
 layout(location = 5) in vec4 creases_right;  // how much each crease of that side shows here
 layout(location = 6) in vec4 creases_left;

@@ -1,0 +1,42 @@
+#include "fsm/render/mouth_frame.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace fsm {
+
+MouthFinder::MouthFinder(const HeadTopology& topology) {
+  if (topology.mouth.lips.size() >= kColumns) slit_ = topology.mouth;
+}
+
+std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& vertices) const {
+  if (!slit_) return std::nullopt;
+  const auto at = [&vertices](std::uint32_t i) { return vertices.position[i]; };
+  const glm::vec3 right = at(slit_->corner_right), left = at(slit_->corner_left);
+  const glm::vec3 middle = 0.5F * (right + left);
+  // Teeth stand upright in the skull, whatever the lips do.
+  const auto unit = [](glm::vec3 v, glm::vec3 otherwise) {
+    return glm::length(v) > 1 ? glm::normalize(v) : otherwise;
+  };
+  const glm::vec3 x = unit(left - right, {1, 0, 0});
+  glm::vec3 y = at(slit_->upper_root) - at(slit_->upper_incisor);
+  y = unit(y - x * glm::dot(x, y), {0, 1, 0});
+  const glm::mat4 frame(glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(glm::cross(x, y), 0),
+                        glm::vec4(middle, 1));
+  Opening opening{};
+  opening.to_mouth = glm::inverse(frame);
+  const auto place = [&](std::uint32_t i) {
+    return glm::vec3(opening.to_mouth * glm::vec4(at(i), 1));
+  };
+  for (std::size_t k = 0; k < kColumns; ++k) {
+    // The middles of equal parts of the row.
+    const auto [upper, lower] = slit_->lips[(2 * k + 1) * slit_->lips.size() / (2 * kColumns)];
+    opening.lips[k] = place(upper);
+    opening.lips[k + kColumns] = place(lower);
+  }
+  opening.corners = {place(slit_->corner_right).x, place(slit_->corner_left).x};
+  opening.teeth = {place(slit_->upper_incisor).y, place(slit_->lower_incisor).y};
+  return opening;
+}
+
+}  // namespace fsm

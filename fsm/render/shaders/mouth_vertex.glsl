@@ -1,0 +1,130 @@
+// Teeth, gums, tongue and the lining of the mouth. Light comes in between the lips, and deeper between
+// the teeth: how much of it, from where, is worked out here for the mouth as it stands. Detail and
+// highlights are those of surface_fragment.glsl.
+layout(location = 4) in vec2 unrolled;
+
+const int kColumns = 11;
+const int kRing = 2 * kColumns + 2;
+
+uniform vec3 wrap;
+uniform float saturation;
+uniform float planar;
+uniform float lining;                // 1: of the walls, which are seen from within
+uniform vec3 head_up;
+uniform mat4 to_mouth;               // from the figure's frame: x along the lips, y up, z out
+uniform mat3 mouth_to_world;         // directions
+uniform vec3 lips[2 * kColumns];     // the upper edge from -x to +x, then the lower one
+uniform vec4 mouth_edges;            // x of the corners (y = z = 0), heights of upper and lower teeth's
+uniform vec3 mouth_key;              // towards the key light, in the mouth's frame
+
+out vec2 place;
+out vec3 light;
+out vec4 slopes;
+out vec3 shine;
+
+const float kBehindTeeth = 9.0;  // behind the lips
+const float kRoom = 0.27;   // the lamps' part in it
+const float kBounced = 0.55;  // of light on the walls, how much they give back to each other
+
+const vec3 kThroughFlesh = vec3(1.0, 0.5, 0.42);
+
+vec3 RingAt(int i, float deep) {
+  if (i == 0) return vec3(mouth_edges.x, 0.0, 0.0);
+  if (i == kColumns + 1) return vec3(mouth_edges.y, 0.0, 0.0);
+  if (i > kColumns) {
+    vec3 upper = lips[kRing - 1 - i];
+    return vec3(upper.x, mix(upper.y, min(upper.y, mouth_edges.z), deep), upper.z);
+  }
+  vec3 lower = lips[kColumns + i - 1];
+  return vec3(lower.x, mix(lower.y, max(lower.y, mouth_edges.w), deep), lower.z);
+}
+
+// Light from all sides through the opening, as a vector: with a surface's normal it gives the light on
+// it, 1 where that sees nothing but the outside. After Lambert (1760): the sum over the edges of the
+// angle each fills, along the normal of its plane with the place.
+vec3 ThroughLips(vec3 p, float deep) {
+  vec3 sum = vec3(0.0);
+  vec3 a = normalize(RingAt(kRing - 1, deep) - p);
+  for (int i = 0; i < kRing; ++i) {
+    vec3 b = normalize(RingAt(i, deep) - p);
+    vec3 c = cross(a, b);
+    float s = length(c);
+    sum += c * (s > 1e-4 ? acos(clamp(dot(a, b), -1.0, 1.0)) / s : 1.0);
+    a = b;
+  }
+  return sum / 6.2831853;
+}
+
+// Where the upper edge (first = 0) or the lower one (kColumns) is at one x: y, z; in the third how much
+// of it there is.
+vec3 EdgeAt(int first, float x) {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < kColumns; ++i) {
+    vec3 p = lips[first + i];
+    float d = (p.x - x) / 3.5;
+    sum += vec3(p.yz, 1.0) * exp(-d * d);
+  }
+  return vec3(sum.xy / max(sum.z, 1e-4), sum.z);
+}
+
+void main() {
+  vec3 world = Place();
+  vec3 n_world = WorldNormal();
+  vec3 v = normalize(eye - world);
+  vec3 p = (to_mouth * vec4(position, 1.0)).xyz;
+  vec3 n = mat3(to_mouth) * normal;
+  float occlusion = albedo_occlusion.a;
+  vec3 albedo = albedo_occlusion.rgb;
+  albedo = max(mix(vec3(dot(albedo, vec3(0.3, 0.6, 0.1))), albedo, saturation), 0.0);
+
+  vec3 upper = EdgeAt(0, p.x);
+  vec3 lower = EdgeAt(kColumns, p.x);
+  float height = clamp((p.y - lower.x) / max(upper.x - lower.x, 1.0), 0.0, 1.0);
+  float inward = mix(lower.y, upper.y, height) - p.z;
+  float out_of_mouth = smoothstep(1.0, -3.0, inward);
+  float deep = smoothstep(kBehindTeeth, kBehindTeeth + 6.0, inward);
+
+  vec3 flow = mix(ThroughLips(p, deep), vec3(0.0, 0.0, 1.0), out_of_mouth);
+  float amount = length(flow);
+  vec3 from = amount > 1e-4 ? flow / amount : vec3(0.0, 0.0, 1.0);
+  // The room before the mouth, lit by the lamps as the face is.
+  vec3 sky = Ambient(mouth_to_world * from) + kRoom * (lamp_colors[0] + lamp_colors[1]);
+  vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
+  // What goes round between the walls is red.
+  vec3 bounced = sky * kThroughFlesh * sqrt(amount) * kBounced *
+                 mix(0.35, 1.0, smoothstep(3.0, 12.0, inward)) * (1.0 - out_of_mouth);
+
+  // The key lamp shines in past the lips' edges, which throw a soft shadow.
+  vec2 reach = max(vec2(upper.y, lower.y) - p.z, 0.0) / max(mouth_key.z, 0.3);
+  vec2 blur = 0.7 + 0.2 * reach;
+  upper = EdgeAt(0, p.x + mouth_key.x * reach.x);
+  lower = EdgeAt(kColumns, p.x + mouth_key.x * reach.y);
+  upper.x = mix(upper.x, min(upper.x, mouth_edges.z), deep);
+  lower.x = mix(lower.x, max(lower.x, mouth_edges.w), deep);
+  float lit = smoothstep(-blur.x, blur.x, upper.x - p.y - mouth_key.y * reach.x) *
+              smoothstep(-blur.y, blur.y, p.y + mouth_key.y * reach.y - lower.x) *
+              smoothstep(0.05, 0.6, min(upper.z, lower.z));
+  lit = mix(lit, 1.0, out_of_mouth);
+  float n_dot_l = dot(n, mouth_key);
+  float shadow = KeyShadow(world) * lit;
+  vec3 key = lamp_colors[0] * shadow * Wrapped(n_dot_l, wrap);
+
+  vec3 total = soft + key;
+  // What turns away from the viewer, wet and soft, has no hard outline.
+  float facing = smoothstep(-0.1, 0.55, dot(n_world, v));
+  float outline = mix(0.4 + 0.6 * facing, 1.0, lining);
+  float open = mix(mix(sqrt(occlusion), 1.0, 0.5 * lining), occlusion * occlusion, out_of_mouth);
+  light = albedo * (total * open * outline + bounced * mix(0.4, 1.0, open));
+
+  vec3 right = normalize(cross(head_up, n_world) + vec3(1e-5, 0.0, 0.0));
+  vec3 up = cross(n_world, right);
+  float power =
+      lamp_colors[0].g * shadow * smoothstep(-0.35, 0.15, n_dot_l) * 0.8 / max(total.g, 1e-3);
+  slopes.xy = -power * vec2(dot(right, lamp_directions[0]), dot(up, lamp_directions[0]) + 0.12);
+  vec3 h = normalize(mouth_to_world * mouth_key + v);
+  slopes.zw = vec2(dot(right, h), dot(up, h));
+  shine.x = Fresnel(dot(h, v)) * occlusion * occlusion * shadow * smoothstep(0.0, 0.3, dot(n_world, h));
+  shine.y = 0.0;
+  shine.z = 0.0;
+  place = rest_position.xz * planar;
+}

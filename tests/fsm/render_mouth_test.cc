@@ -1,0 +1,132 @@
+// The open mouth as a picture shows it, by places known on the head.
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "fsm/head/face_set.h"
+#include "fsm/render/camera.h"
+#include "tests/fsm/render_support.h"
+
+namespace fsm {
+namespace {
+
+constexpr int kSide = 600;
+
+/// A head with some action units, drawn from near by.
+class MouthPicture {
+ public:
+  MouthPicture(std::unique_ptr<Head> head, std::vector<std::pair<std::size_t, float>> units)
+      : head_(std::move(head)) {
+    FaceState state;
+    for (const auto& [unit, strength] : units) {
+      state.au_left[unit] = state.au_right[unit] = strength;
+    }
+    Scene scene;
+    scene.camera = {.distance = 0.4F, .height_mm = -40};
+    const auto context = RenderContext::MakeHeadless(kSide, kSide);
+    const auto renderer = Renderer::Make(*context);
+    head_->Evaluate(state, vertices_);
+    renderer->Draw(*head_, vertices_, state, scene);
+    renderer->Read(image_);
+    const View view = FramePortrait(state, scene.camera, kSide, kSide);
+    to_clip_ = view.world_to_clip * view.figure_to_world;
+  }
+
+  /// Screen colours 0..255 at a place of the head's frame, the mean of 3 x 3 pixels.
+  glm::vec3 At(glm::vec3 place) const {
+    const glm::vec4 clip = to_clip_ * glm::vec4(place, 1);
+    const int x = static_cast<int>((0.5F + 0.5F * clip.x / clip.w) * kSide);
+    const int y = static_cast<int>((0.5F - 0.5F * clip.y / clip.w) * kSide);
+    EXPECT_TRUE(x > 0 && x < kSide - 1 && y > 0 && y < kSide - 1) << "the mouth is in the picture";
+    glm::vec3 sum(0);
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const auto i = static_cast<std::size_t>((y + dy) * kSide + x + dx) * 4;
+        sum += glm::vec3(image_.rgba[i], image_.rgba[i + 1], image_.rgba[i + 2]);
+      }
+    }
+    return sum / 9.0F;
+  }
+  float Light(glm::vec3 place) const { return glm::dot(At(place), glm::vec3(0.3F, 0.6F, 0.1F)); }
+
+  glm::vec3 Vertex(std::uint32_t i) const { return vertices_.position[i]; }
+  const MouthSlit& mouth() const { return head_->topology().mouth; }
+  /// The upper or the lower lip's edge at one x.
+  glm::vec3 Lip(bool upper, float x) const {
+    glm::vec3 best(1e6F);
+    for (const auto& [above, below] : mouth().lips) {
+      const glm::vec3 p = Vertex(upper ? above : below);
+      if (std::abs(p.x - x) < std::abs(best.x - x)) best = p;
+    }
+    return best;
+  }
+
+ private:
+  std::unique_ptr<Head> head_;
+  HeadVertices vertices_;
+  Image image_;
+  glm::mat4 to_clip_{1.0F};
+};
+
+constexpr float kIncisor = 4;  // its middle, millimetres from the median
+
+constexpr glm::vec3 kPhoto(200, 150, 130);
+
+/// The base head in a photo of one colour.
+std::unique_ptr<Head> InPhoto() {
+  FaceSet set;
+  for (const glm::vec3 at : {glm::vec3(-60, 0, 0), glm::vec3(60, 0, 0), glm::vec3(0, 60, 60),
+                             glm::vec3(0, -80, 60), glm::vec3(0, 0, 90)}) {
+    set.points.push_back({at, glm::vec3(0)});
+  }
+  auto photo = std::make_shared<WornPhoto>(WornPhoto{8, 8, {}});
+  for (int i = 0; i < 64; ++i) {
+    for (int c = 0; c < 3; ++c) photo->rgba.push_back(static_cast<std::uint8_t>(kPhoto[c]));
+    photo->rgba.push_back(255);
+  }
+  set.photo = photo;
+  set.lip_colour = 0.5F * (kPhoto / 255.0F) * (kPhoto / 255.0F);
+  return Head::Make(set);
+}
+
+TEST(MouthPictureTest, UpperTeethAreDarkestUnderTheLip) {
+  const MouthPicture picture(InPhoto(), {{10, 1.0F}, {26, 0.5F}, {25, 1.0F}});
+  const glm::vec3 lip = picture.Lip(true, kIncisor);
+  const float edge = picture.Vertex(picture.mouth().upper_incisor).y;
+  ASSERT_GT(lip.y - edge, 2.5F) << "enough of the tooth is seen";
+  const float z = picture.Vertex(picture.mouth().upper_incisor).z;
+  const auto at = [&](float part) {
+    return picture.Light({kIncisor, glm::mix(lip.y, edge, part), z});
+  };
+  EXPECT_LT(at(0.15F), 0.93F * at(0.55F));
+}
+
+TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
+  const MouthPicture picture(InPhoto(), {{27, 0.8F}});
+  const glm::vec3 teeth = picture.Vertex(picture.mouth().lower_incisor);
+  const auto at = [&](float x) { return picture.Light({x, teeth.y + 4, teeth.z - 12}); };
+  EXPECT_GT(at(0), 45) << "it is lit in the middle";
+  for (const float side : {-1.0F, 1.0F}) {
+    EXPECT_LT(at(side * 11), 0.85F * at(side * 4)) << side;
+    EXPECT_LT(at(side * 14), 0.7F * at(side * 11)) << side;
+  }
+}
+
+TEST(MouthPictureTest, PhotoLipsRollInwardThroughADarkerRedderBand) {
+  const MouthPicture picture(InPhoto(), {{26, 0.6F}, {25, 0.5F}});
+  for (const bool upper : {true, false}) {
+    const glm::vec3 lip = picture.Lip(upper, kIncisor);
+    const float out = upper ? 1.0F : -1.0F;
+    const glm::vec3 outside = picture.At(lip + glm::vec3(0, 4 * out, 0));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(outside[c], kPhoto[c], 12) << "the photo's own colour";
+    const glm::vec3 edge = picture.At(lip + glm::vec3(0, 0.5F * out, 0));
+    EXPECT_LT(edge.g, 0.92F * outside.g);
+    EXPECT_GT(edge.g, 0.35F * outside.g) << "which is no cut into the dark";
+    EXPECT_GT(edge.r / edge.g, 1.02F * outside.r / outside.g);
+  }
+}
+
+}  // namespace
+}  // namespace fsm
