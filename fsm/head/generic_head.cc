@@ -354,10 +354,10 @@ class GenericHead : public Head {
       // The lower lip shows more of its inside.
       const float outward =
           (tag.deep > 0 ? -kDeep * tag.deep : kRed * tag.red) - (tag.lip_side < 0 ? 0.9f : 0.0f);
-      if (outward >= kPhoto) continue;
+      if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
       const float at_corner = SmoothStep(4.5f, 6.0f, tag.lip_column);
       const float wet = SmoothStep(kPhoto, kWet, outward) * (1 - 0.6f * at_corner);
-      topology_.albedo[i] = glm::mix(lip, Wetter(lip, set.saturation), wet);
+      topology_.albedo[i] = glm::mix(lip, Wetter(lip, set.saturation), std::max(wet, 0.2f));
       topology_.occlusion[i] = glm::mix(1.25f, 0.35f, SmoothStep(0.5f, -4.0f, outward));
       topology_.photo_place[i].z = 1 - wet;
     }

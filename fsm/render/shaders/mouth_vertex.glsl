@@ -11,6 +11,7 @@ uniform float saturation;
 uniform float planar;
 uniform float lining;                // 1: of the walls, which are seen from within
 uniform vec3 head_up;
+uniform float flash;                 // how much more light a photographer's lamps bring in, 1 without
 uniform mat4 to_mouth;               // from the figure's frame: x along the lips, y up, z out
 uniform mat3 mouth_to_world;         // directions
 uniform vec3 lips[2 * kColumns];     // the upper edge from -x to +x, then the lower one
@@ -24,7 +25,7 @@ out vec3 shine;
 
 const float kBehindTeeth = 9.0;  // behind the lips
 const float kRoom = 0.27;   // the lamps' part in it
-const float kBounced = 0.55;  // of light on the walls, how much they give back to each other
+const float kBounced = 0.8;   // of light on the walls, how much they give back to each other
 
 const vec3 kThroughFlesh = vec3(1.0, 0.5, 0.42);
 
@@ -114,7 +115,8 @@ void main() {
   float facing = smoothstep(-0.1, 0.55, dot(n_world, v));
   float outline = mix(0.4 + 0.6 * facing, 1.0, lining);
   float open = mix(mix(sqrt(occlusion), 1.0, 0.5 * lining), occlusion * occlusion, out_of_mouth);
-  light = albedo * (total * open * outline + bounced * mix(0.4, 1.0, open));
+  light = albedo * (total * open * outline + bounced * mix(0.4, 1.0, open)) *
+          mix(1.0, flash, smoothstep(2.0, 9.0, inward));
 
   vec3 right = normalize(cross(head_up, n_world) + vec3(1e-5, 0.0, 0.0));
   vec3 up = cross(n_world, right);
