@@ -24,7 +24,7 @@
 #include "fsm/head/landmarks.h"
 #include "fsm/head/own_identity.h"
 #include "fsm/head/parts.h"
-#include "fsm/head/photo_lids.h"
+#include "fsm/head/photo_wear.h"
 #include "fsm/head/skin_mesh.h"
 #include "fsm/head/tongue_way.h"
 
@@ -88,7 +88,7 @@ class GenericHead : public Head {
     Shape(shaper, mesh, skin_count, set ? sheet_end : skin_count, set && set->eyes);
     hair_first_ = mesh.position.size();
     if (set) {
-      LeaveOutUnseen(*set, mesh);
+      LeaveOutUnseen(*set, mouth_.LineY(0) + teeth_shift_.y + 12, mesh);
     } else if (identity_.crop) {
       BuildCroppedHair(*identity_.crop, palette, mesh);
     } else {
@@ -96,11 +96,20 @@ class GenericHead : public Head {
     }
     base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
                  mesh.position.end());
-    if (set && set->glasses) HoldBehindGlasses(mesh, skin_count);
+    if (set && set->glasses) HoldBehindGlasses(glm::vec2(eye_.centre()), skin_count, mesh);
     const std::vector<Flesh> flesh(mesh.flesh.begin(),
                                    mesh.flesh.begin() + static_cast<std::ptrdiff_t>(skin_count));
     Finish(std::move(mesh), skin);
-    if (set) WearPhoto(*set, flesh, fine.tag);
+    if (set) {
+      HeadVertices open, shut;
+      Evaluate({}, open);
+      FaceState asleep;
+      asleep.blink_left = asleep.blink_right = 1;
+      Evaluate(asleep, shut);
+      const PhotoSkin worn{flesh, fine.tag, std::span(open.position).first(skin_count),
+                           std::span(shut.position).first(skin_count)};
+      WearPhoto(*set, worn, identity_.palette.lip_inside, topology_);
+    }
     landmarks_ = NameLandmarks(cage, fine, rest_, eye_, seats_);
   }
 
@@ -154,11 +163,6 @@ class GenericHead : public Head {
       *colour =
           glm::mix(glm::vec3(glm::dot(*colour, glm::vec3(0.3f, 0.6f, 0.1f))), *colour, saturation);
     }
-  }
-
-  /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
-  static glm::vec3 Wetter(glm::vec3 lip, float saturation) {
-    return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
   }
 
   /// Moves the base head to the identity's form. Eyes and what touches them, and teeth with tongue,
@@ -224,143 +228,6 @@ class GenericHead : public Head {
       }
     }
     return std::min(most, kMost);
-  }
-
-  /// Glasses are in the photo on the skin. It stays where they rest, or they would bend with it.
-  void HoldBehindGlasses(HeadMesh& mesh, std::size_t skin_count) const {
-    constexpr glm::vec2 kReach(33, 20);  // of a large lens and its rim about the eye, millimetres
-    const glm::vec2 lens = glm::vec2(eye_.centre()) - glm::vec2(0, 4);
-    for (std::size_t i = 0; i < skin_count; ++i) {
-      Flesh& f = mesh.flesh[i];
-      const glm::vec2 off = (glm::vec2(std::abs(f.domain.x), f.domain.y) - lens) / kReach;
-      f.free *= SmoothStep(1, 1.35f, glm::length(off));
-    }
-  }
-
-  /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
-  static void AddSheet(const FaceSet& set, HeadMesh& mesh) {
-    const auto first = static_cast<std::uint32_t>(mesh.position.size());
-    for (const auto& vertex : set.sheet) {
-      Flesh flesh;
-      flesh.free = 0;
-      flesh.domain = vertex.position;
-      flesh.neck = SmoothStep(-166, -98, vertex.position.y);
-      mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kFlesh, flesh);
-    }
-    const auto& t = set.sheet_triangles;
-    for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
-      mesh.Triangle(Material::kPhoto, first + t[i], first + t[i + 1], first + t[i + 2]);
-    }
-  }
-
-  /// Skin the photo does not show: behind the outline and below the jaw, where the sheet is.
-  void LeaveOutUnseen(const FaceSet& set, HeadMesh& mesh) const {
-    DarkenNostrils(mesh);
-    for (auto& batch : mesh.batches) {
-      if (batch.material != Material::kSkin) continue;
-      const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
-      std::vector<std::uint32_t> kept;
-      for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
-        const std::uint32_t* corner = &batch.indices[i];
-        const bool seen = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
-          const auto faces = [&](glm::vec3 camera) { return glm::dot(normal[v], camera) > 0.08f; };
-          return mesh.position[v].y > set.skin_bottom_y && mesh.position[v].z > -2 &&
-                 (faces(set.seen_from) || std::ranges::any_of(set.also_seen, faces));
-        });
-        // Within the face all stays: lids and nostrils turn every way.
-        const bool within = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
-          return mesh.position[v].z > 45 && mesh.position[v].y > set.skin_bottom_y + 14;
-        });
-        // What the jaw hides of its own underside is seen from the side.
-        const bool under_jaw = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
-          return mesh.position[v].z > 0 && mesh.position[v].y > set.skin_bottom_y &&
-                 normal[v].y < -0.25f;
-        });
-        if (seen || within || under_jaw) kept.insert(kept.end(), corner, corner + 3);
-      }
-      batch.indices = std::move(kept);
-    }
-  }
-
-  /// The photo shows how dark nostrils are, so they wear it like the skin around them.
-  void DarkenNostrils(HeadMesh& mesh) const {
-    const float below_nose = mouth_.LineY(0) + teeth_shift_.y + 12;
-    std::vector<std::uint32_t> nostrils;
-    for (auto& batch : mesh.batches) {
-      if (batch.material != Material::kMouthInside) continue;
-      std::vector<std::uint32_t> kept;
-      for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
-        const std::uint32_t* corner = &batch.indices[i];
-        const bool nose = mesh.position[*corner].y > below_nose;
-        (nose ? nostrils : kept).insert((nose ? nostrils : kept).end(), corner, corner + 3);
-      }
-      batch.indices = std::move(kept);
-    }
-    for (std::size_t i = 0; i + 2 < nostrils.size(); i += 3) {
-      mesh.Triangle(Material::kSkin, nostrils[i], nostrils[i + 1], nostrils[i + 2]);
-    }
-  }
-
-  void WearPhoto(const FaceSet& set, std::span<const Flesh> skin, std::span<const CageTag> tags) {
-    const std::size_t skin_count = skin.size();
-    topology_.photo = set.photo;
-    topology_.saturation = set.saturation;
-    topology_.eye_pictures = set.eye_pictures;
-    topology_.photo_place.resize(topology_.uv.size(), glm::vec3(0));
-    for (std::size_t i = 0; i < skin_count; ++i) {
-      const glm::vec2 at = glm::mix(set.skin_low, set.skin_high, topology_.uv[i]);
-      topology_.photo_place[i] = glm::vec3(at, 1);
-    }
-    for (std::size_t i = 0; i < set.sheet.size(); ++i) {
-      topology_.photo_place[skin_count + i] = glm::vec3(set.sheet[i].place, 1);
-    }
-    // The photo ends at the lips: what lies within the mouth is painted.
-    for (const auto& part : topology_.parts) {
-      if (part.material != Material::kMouthInside) continue;
-      for (std::uint32_t k = 0; k < part.index_count; ++k) {
-        topology_.photo_place[topology_.indices[part.first_index + k]].z = 0;
-      }
-    }
-    RollLips(set, tags);
-    topology_.photo_lender.resize(topology_.uv.size(), glm::vec4(0));
-    HeadVertices open, shut;
-    Evaluate({}, open);
-    FaceState asleep;
-    asleep.blink_left = asleep.blink_right = 1;
-    Evaluate(asleep, shut);
-    const auto of_skin = [skin_count](const HeadVertices& v) {
-      return std::span(v.position).first(skin_count);
-    };
-    for (const LidPaint& lid :
-         PaintLids(*set.photo, topology_.photo_place, skin, of_skin(open), of_skin(shut))) {
-      const glm::vec3 gain = lid.screen / (2 * std::max(lid.lender_light, 0.02f));
-      const glm::vec3 most = glm::min(gain, 1.0f);
-      topology_.albedo[lid.vertex] = most * most;
-      topology_.occlusion[lid.vertex] = 1;
-      topology_.photo_place[lid.vertex].z = 1 + lid.part;
-      topology_.photo_lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
-    }
-  }
-
-  /// A photo of a closed mouth does not show where the lips roll inward: from the line where they
-  /// meet, their own colour turns redder and darker until it is the lining's.
-  void RollLips(const FaceSet& set, std::span<const CageTag> tags) {
-    constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
-    constexpr float kPhoto = 1.2f, kWet = -2.0f;  // outward of the line: all photo, all paint
-    const glm::vec3 lip = set.lip_colour.value_or(identity_.palette.lip_inside);
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-      const CageTag& tag = tags[i];
-      if (tag.red < 0 || tag.deep > 0.4f) continue;
-      // The lower lip shows more of its inside.
-      const float outward =
-          (tag.deep > 0 ? -kDeep * tag.deep : kRed * tag.red) - (tag.lip_side < 0 ? 0.9f : 0.0f);
-      if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
-      const float at_corner = SmoothStep(4.5f, 6.0f, tag.lip_column);
-      const float wet = SmoothStep(kPhoto, kWet, outward) * (1 - 0.6f * at_corner);
-      topology_.albedo[i] = glm::mix(lip, Wetter(lip, set.saturation), std::max(wet, 0.2f));
-      topology_.occlusion[i] = glm::mix(1.25f, 0.35f, SmoothStep(0.5f, -4.0f, outward));
-      topology_.photo_place[i].z = 1 - wet;
-    }
   }
 
   glm::vec3 EyeCentre(std::size_t side) const {
@@ -479,28 +346,6 @@ class GenericHead : public Head {
       }
     }
     return creases;
-  }
-
-  static std::vector<glm::vec3> Normals(std::span<const std::uint32_t> triangles,
-                                        std::span<const glm::vec3> position, std::size_t count) {
-    std::vector<glm::vec3> normal(count, glm::vec3(0));
-    Accumulate(triangles, position, normal);
-    return normal;
-  }
-
-  static void Accumulate(std::span<const std::uint32_t> triangles,
-                         std::span<const glm::vec3> position, std::span<glm::vec3> normal) {
-    for (std::size_t i = 0; i < triangles.size(); i += 3) {
-      const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
-      const glm::vec3 n = glm::cross(position[b] - position[a], position[c] - position[a]);
-      normal[a] += n;
-      normal[b] += n;
-      normal[c] += n;
-    }
-    for (glm::vec3& n : normal) {
-      const float squared = glm::dot(n, n);
-      n = squared > 1e-12f ? n / std::sqrt(squared) : glm::vec3(0, 0, 1);
-    }
   }
 
   void FleshNormals(HeadVertices& out) const {

@@ -140,7 +140,10 @@ void AddArch(const Jaw& jaw, const Crowns& crowns, const Palette& palette, HeadM
 void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
   AddArch({mouth.UpperTeeth(), 1, Bone::kSkull}, {kUpperWidth, kUpperHeight, kUpperShort}, palette,
           mesh);
-  AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, palette,
+  // The lower ones stand farther back, in the shade of lip and upper row.
+  Palette shaded = palette;
+  shaded.tooth *= 0.4f;
+  AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, shaded,
           mesh);
 }
 

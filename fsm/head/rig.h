@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "fsm/head/head.h"
@@ -54,5 +55,12 @@ struct HeadMesh {
 /// Fills the weights that follow from a place on the face alone. `side`: +1 above the mouth's slit,
 /// -1 below it, 0 where the cheek joins both.
 Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y);
+
+/// Adds the normals of triangles, by their areas, to those of their corners, and makes them unit.
+void Accumulate(std::span<const std::uint32_t> triangles, std::span<const glm::vec3> position,
+                std::span<glm::vec3> normal);
+/// Likewise from nothing, of `count` vertices.
+std::vector<glm::vec3> Normals(std::span<const std::uint32_t> triangles,
+                               std::span<const glm::vec3> position, std::size_t count);
 
 }  // namespace fsm

@@ -11,7 +11,8 @@ uniform float saturation;
 uniform float planar;
 uniform float lining;                // 1: of the walls, which are seen from within
 uniform vec3 head_up;
-uniform float flash;                 // how much more light a photographer's lamps bring in, 1 without
+uniform float front_gain;            // how much more light there is than the lamps bring in: on the
+uniform float deep_gain;             // teeth, and deeper
 uniform mat4 to_mouth;               // from the figure's frame: x along the lips, y up, z out
 uniform mat3 mouth_to_world;         // directions
 uniform vec3 lips[2 * kColumns];     // the upper edge from -x to +x, then the lower one
@@ -82,7 +83,8 @@ void main() {
   vec3 lower = EdgeAt(kColumns, p.x);
   float height = clamp((p.y - lower.x) / max(upper.x - lower.x, 1.0), 0.0, 1.0);
   float inward = mix(lower.y, upper.y, height) - p.z;
-  float out_of_mouth = smoothstep(1.0, -3.0, inward);
+  // Nostrils are lined like the mouth.
+  float out_of_mouth = max(smoothstep(1.0, -3.0, inward), smoothstep(8.0, 11.0, p.y - upper.x));
   float deep = smoothstep(kBehindTeeth, kBehindTeeth + 6.0, inward);
 
   vec3 flow = mix(ThroughLips(p, deep), vec3(0.0, 0.0, 1.0), out_of_mouth);
@@ -116,7 +118,7 @@ void main() {
   float outline = mix(0.4 + 0.6 * facing, 1.0, lining);
   float open = mix(mix(sqrt(occlusion), 1.0, 0.5 * lining), occlusion * occlusion, out_of_mouth);
   light = albedo * (total * open * outline + bounced * mix(0.4, 1.0, open)) *
-          mix(1.0, flash, smoothstep(2.0, 9.0, inward));
+          mix(front_gain, deep_gain, smoothstep(2.0, 9.0, inward));
 
   vec3 right = normalize(cross(head_up, n_world) + vec3(1e-5, 0.0, 0.0));
   vec3 up = cross(n_world, right);

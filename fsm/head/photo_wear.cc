@@ -1,0 +1,150 @@
+#include "fsm/head/photo_wear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
+
+#include "fsm/head/photo_lids.h"
+#include "fsm/head/skin_mesh.h"
+#include "fsm/head/spline.h"
+
+namespace fsm {
+namespace {
+
+void DarkenNostrils(float nose_y, HeadMesh& mesh) {
+  std::vector<std::uint32_t> nostrils;
+  for (auto& batch : mesh.batches) {
+    if (batch.material != Material::kMouthInside) continue;
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
+      const std::uint32_t* corner = &batch.indices[i];
+      const bool nose = mesh.position[*corner].y > nose_y;
+      (nose ? nostrils : kept).insert((nose ? nostrils : kept).end(), corner, corner + 3);
+    }
+    batch.indices = std::move(kept);
+  }
+  for (std::size_t i = 0; i + 2 < nostrils.size(); i += 3) {
+    mesh.Triangle(Material::kSkin, nostrils[i], nostrils[i + 1], nostrils[i + 2]);
+  }
+}
+
+/// A photo of a closed mouth does not show where the lips roll inward: from the line where they
+/// meet, their own colour turns redder and darker until it is the lining's.
+void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_inside,
+              HeadTopology& topology) {
+  constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
+  constexpr float kPhoto = 1.2f, kWet = -2.0f;  // outward of the line: all photo, all paint
+  const glm::vec3 lip = set.lip_colour.value_or(lip_inside);
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const CageTag& tag = tags[i];
+    if (tag.red < 0 || tag.deep > 0.4f) continue;
+    // The lower lip shows more of its inside.
+    const float outward =
+        (tag.deep > 0 ? -kDeep * tag.deep : kRed * tag.red) - (tag.lip_side < 0 ? 0.9f : 0.0f);
+    if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
+    const float at_corner = SmoothStep(4.5f, 6.0f, tag.lip_column);
+    const float wet = SmoothStep(kPhoto, kWet, outward) * (1 - 0.6f * at_corner);
+    topology.albedo[i] = glm::mix(lip, Wetter(lip, set.saturation), std::max(wet, 0.2f));
+    topology.occlusion[i] = glm::mix(1.25f, 0.5f, SmoothStep(0.5f, -4.0f, outward));
+    topology.photo_place[i].z = 1 - wet;
+  }
+}
+
+}  // namespace
+
+glm::vec3 Wetter(glm::vec3 lip, float saturation) {
+  return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
+}
+
+void AddSheet(const FaceSet& set, HeadMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.position.size());
+  for (const auto& vertex : set.sheet) {
+    Flesh flesh;
+    flesh.free = 0;
+    flesh.domain = vertex.position;
+    flesh.neck = SmoothStep(-166, -98, vertex.position.y);
+    mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kFlesh, flesh);
+  }
+  const auto& t = set.sheet_triangles;
+  for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
+    mesh.Triangle(Material::kPhoto, first + t[i], first + t[i + 1], first + t[i + 2]);
+  }
+}
+
+void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
+  // Of a large lens and its rim from the eye, millimetres.
+  constexpr float kAside = 33, kUp = 16, kDown = 29;
+  for (std::size_t i = 0; i < skin_count; ++i) {
+    Flesh& f = mesh.flesh[i];
+    const float up = f.domain.y - eye.y;
+    const glm::vec2 off((std::abs(f.domain.x) - eye.x) / kAside, up / (up > 0 ? kUp : kDown));
+    f.free *= SmoothStep(1, 1.35f, glm::length(off));
+  }
+}
+
+void LeaveOutUnseen(const FaceSet& set, float nose_y, HeadMesh& mesh) {
+  DarkenNostrils(nose_y, mesh);
+  for (auto& batch : mesh.batches) {
+    if (batch.material != Material::kSkin) continue;
+    const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
+      const std::uint32_t* corner = &batch.indices[i];
+      const bool seen = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+        const auto faces = [&](glm::vec3 camera) { return glm::dot(normal[v], camera) > 0.08f; };
+        return mesh.position[v].y > set.skin_bottom_y && mesh.position[v].z > -2 &&
+               (faces(set.seen_from) || std::ranges::any_of(set.also_seen, faces));
+      });
+      // Within the face all stays: lids and nostrils turn every way.
+      const bool within = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+        return mesh.position[v].z > 45 && mesh.position[v].y > set.skin_bottom_y + 14;
+      });
+      // What the jaw hides of its own underside is seen from the side.
+      const bool under_jaw = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
+        return mesh.position[v].z > 0 && mesh.position[v].y > set.skin_bottom_y &&
+               normal[v].y < -0.25f;
+      });
+      if (seen || within || under_jaw) kept.insert(kept.end(), corner, corner + 3);
+    }
+    batch.indices = std::move(kept);
+  }
+}
+
+void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
+               HeadTopology& topology) {
+  const std::size_t skin_count = skin.flesh.size();
+  topology.photo = set.photo;
+  topology.saturation = set.saturation;
+  topology.eye_pictures = set.eye_pictures;
+  topology.photo_place.resize(topology.uv.size(), glm::vec3(0));
+  for (std::size_t i = 0; i < skin_count; ++i) {
+    const glm::vec2 at = glm::mix(set.skin_low, set.skin_high, topology.uv[i]);
+    topology.photo_place[i] = glm::vec3(at, 1);
+  }
+  for (std::size_t i = 0; i < set.sheet.size(); ++i) {
+    topology.photo_place[skin_count + i] = glm::vec3(set.sheet[i].place, 1);
+  }
+  // The photo ends at the lips: what lies within the mouth is painted.
+  for (const auto& part : topology.parts) {
+    if (part.material != Material::kMouthInside) continue;
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      topology.photo_place[topology.indices[part.first_index + k]].z = 0;
+    }
+  }
+  RollLips(set, skin.tags, lip_inside, topology);
+  topology.photo_lender.resize(topology.uv.size(), glm::vec4(0));
+  for (const LidPaint& lid :
+       PaintLids(*set.photo, topology.photo_place, skin.flesh, skin.open, skin.shut)) {
+    const glm::vec3 gain = lid.screen / (2 * std::max(lid.lender_light, 0.02f));
+    const glm::vec3 most = glm::min(gain, 1.0f);
+    topology.albedo[lid.vertex] = most * most;
+    topology.occlusion[lid.vertex] = 1;
+    topology.photo_place[lid.vertex].z = 1 + lid.part;
+    topology.photo_lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
+  }
+}
+
+}  // namespace fsm

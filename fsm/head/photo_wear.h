@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "fsm/head/cage.h"
+#include "fsm/head/face_set.h"
+#include "fsm/head/head.h"
+#include "fsm/head/rig.h"
+
+namespace fsm {
+
+/// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
+void AddSheet(const FaceSet& set, HeadMesh& mesh);
+
+/// Glasses are in the photo on the skin. It stays where they rest, or they would bend with it.
+/// `eye`: centre of the left one at rest, (x, y) of the base identity.
+void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
+
+/// Skin the photo does not show: behind the outline and below the jaw, where the sheet is. The
+/// nostrils, which are lined like the mouth and lie above `nose_y`, become skin: the photo shows
+/// how dark they are.
+void LeaveOutUnseen(const FaceSet& set, float nose_y, HeadMesh& mesh);
+
+/// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
+glm::vec3 Wetter(glm::vec3 lip, float saturation);
+
+/// The vertices of the skin, which come first: all four of one length.
+struct PhotoSkin {
+  std::span<const Flesh> flesh;
+  std::span<const CageTag> tags;
+  std::span<const glm::vec3> open, shut;  ///< with lids at rest and shut, millimetres
+};
+
+/// Gives every vertex of skin and sheet its place in the photo, lids and lips their own paint.
+/// `lip_inside`: the colour of lips that roll inward if the set has none.
+void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
+               HeadTopology& topology);
+
+}  // namespace fsm
