@@ -126,6 +126,8 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       lenders.push_back({at, glm::vec2(places[i]), sample.screen});
     }
     if (above.empty() || below.empty() || upper_rim.empty() || lower_rim.empty()) continue;
+    const auto [rim_first, rim_last] = std::ranges::minmax(upper_rim, {}, &glm::vec2::x);
+    const float rim_from = rim_first.x, rim_to = rim_last.x;
     const glm::mat2 photo_by_face = PhotoByFace(lenders);
     std::erase_if(lenders,
                   [&](const Lender& l) { return l.at.y > HeightAt(lower_rim, l.at.x) - 0.5f; });
@@ -144,12 +146,18 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const glm::vec3 under = Near(below, at.x, Brightness(usual), usual);
       // As light as the skin on either side of it; half of the hue of most of it,
       // because near an eye there are lashes and blue shade.
-      const float light = Brightness(glm::mix(over, under, 0.3f + 0.3f * down));
+      const float light = Brightness(glm::mix(over, under, 0.2f + 0.3f * down));
       const glm::vec3 hue = usual / Brightness(usual) + under / Brightness(under);
       const glm::vec3 colour = 0.5f * light * hue;
-      // The ball rounds the lid; the fold over it is in shade, and so are the lashes' roots.
-      const float round = 0.90f + 0.08f * SmoothStep(0.0f, 0.5f, down) - 0.05f * down;
-      const float lashes = 1 - 0.6f * SmoothStep(0.97f, 1.0f, f.lid_upper);
+      // The ball rounds the lid, most in the middle; the fold over it is in shade, and so are the
+      // lashes' roots.
+      const float aside = (2 * at.x - rim_from - rim_to) / std::max(rim_to - rim_from, 1.0f);
+      const float bulge = SmoothStep(0.0f, 0.35f, down) * SmoothStep(1.0f, 0.6f, down);
+      const float round = 0.90f + 0.10f * bulge - 0.14f * std::min(aside * aside, 1.2f);
+      // Lashes are densest and longest outward.
+      const float outward = SmoothStep(-0.3f, 0.9f, aside * static_cast<float>(side));
+      const float lashes =
+          1 - (0.5f + 0.2f * outward) * SmoothStep(0.975f - 0.025f * outward, 1.0f, f.lid_upper);
       const float part =
           SmoothStep(rim + 3.6f, rim + 0.4f, at.y) * SmoothStep(0.06f, 0.4f, f.lid_upper);
       const glm::vec2 mirrored(at.x, meet - 1.5f - std::max(at.y - meet, 0.0f));
