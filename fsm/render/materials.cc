@@ -236,7 +236,8 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
   SetMouth(view, head, vertices, directions[0]);
   if (!head.eyes().found()) return;
-  SetEyes(view, head, vertices);
+  const auto eyes = head.eyes().Measure(vertices);
+  SetEyes(view, head, eyes);
   // The white of a grey photo is grey, and so is the flesh beside it.
   const glm::vec3 white = head.eye_place().white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
@@ -244,7 +245,11 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   const glm::vec3 worn(head.photo() ? brightness : 0, grey ? 0 : 1, shown ? 1 : 0);
   gl_.Uniform3fv(eye_.Uniform("worn"), 1, glm::value_ptr(worn));
   gl_.Uniform1i(eye_.Uniform("photo"), 1);
-  if (!shown) return;
+  if (shown) SetEyePictures(head, eyes, rest_to_world);
+}
+
+void Materials::SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
+                               const glm::mat3& rest_to_world) {
   for (const auto& [name, place] :
        {std::pair("irises", &EyePicture::iris), std::pair("balls", &EyePicture::ball)}) {
     const glm::vec4 squares[] = {(*head.eye_pictures())[0].*place,
@@ -252,7 +257,6 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
     gl_.Uniform4fv(eye_.Uniform(name), 2, glm::value_ptr(squares[0]));
   }
   glm::vec4 open[2];
-  const auto eyes = head.eyes().Measure(vertices);
   for (std::size_t i = 0; i < 2; ++i) {
     const EyeFrame& rest = head.resting_eyes()[i];
     open[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,
@@ -287,8 +291,8 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
   gl_.Uniform3fv(mouth_.Uniform("mouth_key"), 1, glm::value_ptr(key));
 }
 
-void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices) {
-  const auto eyes = head.eyes().Measure(vertices);
+void Materials::SetEyes(const View& view, const HeadBuffers& head,
+                        const std::array<EyeFrame, 2>& eyes) {
   const glm::mat3 turn(view.figure_to_world);
   const float scale = glm::length(turn[0]);
   glm::vec4 balls[2];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
 
 #include "fsm/head/head.h"
@@ -34,7 +36,9 @@ class Materials {
 
   void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
   void Bind(Texture texture, GLenum unit);
-  void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices);
+  void SetEyes(const View& view, const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes);
+  void SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
+                      const glm::mat3& rest_to_world);
   void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                 glm::vec3 key_direction);
   void UsePhoto(bool ragged);
