@@ -36,6 +36,8 @@ std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
   }
   const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
   std::array<glm::vec3, kRings> usual;
+  // Of an iris all hidden there is nothing better than what is hidden least.
+  usual.fill(std::ranges::max_element(texels, {}, &Texel::seen)->colour);
   int last = -1;
   for (int k = 0; k < kRings; ++k) {
     auto& ring = rings[static_cast<std::size_t>(k)];
@@ -105,8 +107,8 @@ fsm::Image IrisPicture(const SeenEye& eye, const fsm::Image& photo) {
   std::vector<Texel> texels;
   Painted(kIrisSide, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
   const auto usual = UsualByRing(texels);
-  return Painted(kIrisSide, [&](glm::vec2 p) {
-    const Texel t = texel_at(p);
+  return Painted(kIrisSide, [&, next = texels.begin()](glm::vec2) mutable {
+    const Texel& t = *next++;
     const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
     const auto k = static_cast<std::size_t>(ring);
     return glm::mix(glm::mix(usual[k], usual[k + 1], ring - static_cast<float>(k)), t.colour,

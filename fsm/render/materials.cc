@@ -242,7 +242,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   const glm::vec3 white = head.eye_place().white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
   const bool shown = head.photo() && head.eye_pictures();
-  const glm::vec3 worn(head.photo() ? brightness : 0, grey ? 0 : 1, shown ? 1 : 0);
+  const glm::vec3 worn(head.photo() ? brightness : 0, grey ? 0 : 1, shown ? kIrisSpan : 0);
   gl_.Uniform3fv(eye_.Uniform("worn"), 1, glm::value_ptr(worn));
   gl_.Uniform1i(eye_.Uniform("photo"), 1);
   if (shown) SetEyePictures(head, eyes, rest_to_world);

@@ -256,6 +256,12 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(shown(eye.ball, {0.5F, 0.5F}), 220, 12) << "no iris is left in the white";
     EXPECT_NEAR(shown(eye.ball, {0.2F, 0.55F}), 220, 12);
   }
+  // Nothing of the face is painted there.
+  const auto& uv = base.head->topology().uv;
+  for (std::size_t v = 0; v < uv.size(); ++v) {
+    if (base.rest.position[v].y < -90 || base.rest.position[v].z < 0) continue;
+    EXPECT_GT(uv[v].y, 0.14F);
+  }
   fit.irises[1].contrast = 0.01F;
   fsm::FaceSet unclear;
   PaintEyes(base, face, fit, photo, picture, unclear);

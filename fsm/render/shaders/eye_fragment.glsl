@@ -3,8 +3,6 @@
 in vec3 world_position;
 in float occlusion;
 
-const float kIrisSpan = 1.25;  // as in head.h
-
 uniform float alpha;
 uniform sampler2D noise;
 uniform vec4 ball[2];    // centre in world coordinates, radius; left of the picture, right
@@ -14,8 +12,8 @@ uniform vec4 iris;       // radius, pupil's part of it, how far its plane lies b
 uniform vec3 iris_color;
 uniform vec3 white_color;
 uniform float figure_scale;
-// Colours are as a photo shows them: its brightness, else 0; redness of flesh; whether it shows the
-// eyes, too: the squares of iris and ball in it, as left, top, right and bottom.
+// Colours are as a photo shows them: its brightness, else 0; redness of flesh; if it shows the eyes, too,
+// how far their pictures of the iris reach, in radii. The squares of iris and ball: left, top, right, bottom.
 uniform vec3 worn;
 uniform vec4 irises[2];
 uniform vec4 balls[2];
@@ -92,7 +90,7 @@ void main() {
     vec3 l = lamp_directions[0];
     vec3 inner = Iris(p, r, dot(p / max(r, 1e-3), vec2(dot(l, across_right), dot(l, across_up))));
     if (shown) {
-      inner = Photographed(irises[side], p / kIrisSpan);
+      inner = Photographed(irises[side], p / worn.z);
     } else {
       // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
       inner = mix(inner, white_color * 0.3, smoothstep(1.0, 1.12, r));
