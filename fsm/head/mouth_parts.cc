@@ -142,7 +142,7 @@ void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mes
           mesh);
   // The lower ones stand farther back, in the shade of lip and upper row.
   Palette shaded = palette;
-  shaded.tooth *= 0.4f;
+  shaded.tooth *= 0.28f;
   AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, shaded,
           mesh);
 }

@@ -14,44 +14,97 @@ namespace fsm {
 namespace {
 
 struct Sample {
-  float x;  ///< along the eye, millimetres
+  glm::vec2 at;  ///< millimetres
   glm::vec3 screen;
+  bool above;
+  float known;  ///< how surely it is skin, 0..1
 };
 
 float Brightness(glm::vec3 c) { return 0.3f * c.r + 0.6f * c.g + 0.1f * c.b + 0.004f; }
 
-glm::vec3 PixelAt(const WornPhoto& photo, glm::vec3 place) {
-  const auto at = [](float part, int size) {
-    return static_cast<std::size_t>(
-        std::clamp(static_cast<int>(part * static_cast<float>(size)), 0, size - 1));
-  };
-  const std::uint8_t* p =
-      &photo.rgba[4 * (at(place.y, photo.height) * static_cast<std::size_t>(photo.width) +
-                       at(place.x, photo.width))];
-  return glm::vec3(p[0], p[1], p[2]) / 255.0f;
-}
-
-glm::vec3 Median(std::vector<Sample>& samples) {
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-  std::ranges::nth_element(samples, middle, {},
-                           [](const Sample& s) { return Brightness(s.screen); });
-  return middle->screen;
-}
-
-/// The mean of samples near `x`, those of usual brightness above all.
-glm::vec3 Near(std::span<const Sample> samples, float x, float usual, glm::vec3 otherwise) {
-  constexpr float kReach = 6;      // millimetres
-  constexpr float kSpread = 1.0f;  // of the logarithm of brightness
-  glm::vec3 sum = 0.001f * otherwise;
-  float weight = 0.001f;
+template <typename Which>
+glm::vec3 Median(std::span<const Sample> samples, Which which) {
+  std::vector<glm::vec3> colours;
   for (const Sample& s : samples) {
-    const float off = (s.x - x) / kReach;
-    const float odd = std::log(Brightness(s.screen) / usual) / kSpread;
-    const float w = std::exp(-off * off - odd * odd);
-    sum += w * s.screen;
-    weight += w;
+    if (which(s)) colours.push_back(s.screen);
   }
-  return sum / weight;
+  if (colours.empty()) return glm::vec3(0.5f);
+  const auto middle = colours.begin() + static_cast<std::ptrdiff_t>(colours.size() / 2);
+  std::ranges::nth_element(colours, middle, {}, Brightness);
+  return *middle;
+}
+
+/// What would be seen where the eye is if there were none: a membrane held by the skin round it.
+class Membrane {
+ public:
+  explicit Membrane(std::span<const Sample> samples) {
+    glm::vec2 low(1e9f), high(-1e9f);
+    for (const Sample& s : samples) {
+      low = glm::min(low, s.at);
+      high = glm::max(high, s.at);
+    }
+    low_ = low - kStep;
+    width_ = static_cast<int>(std::min((high.x - low_.x) / kStep, kMost)) + 2;
+    height_ = static_cast<int>(std::min((high.y - low_.y) / kStep, kMost)) + 2;
+    std::vector<glm::vec4> held(static_cast<std::size_t>(width_ * height_), glm::vec4(0));
+    glm::vec4 all(0);
+    for (const Sample& s : samples) {
+      const glm::ivec2 c(glm::round((s.at - low_) / kStep));
+      const glm::vec4 sample(s.known * s.screen, s.known);
+      held[Cell(c.x, c.y)] += sample;
+      all += sample;
+    }
+    colour_.assign(held.size(), glm::vec3(all) / std::max(all.w, 1e-6f));
+    for (int round = 0; round < kRounds; ++round) {
+      for (int y = 0; y < height_; ++y) {
+        for (int x = 0; x < width_; ++x) {
+          const glm::vec3 beside = colour_[Cell(x - 1, y)] + colour_[Cell(x + 1, y)] +
+                                   colour_[Cell(x, y - 1)] + colour_[Cell(x, y + 1)];
+          const glm::vec4 here = held[Cell(x, y)];
+          colour_[Cell(x, y)] = (glm::vec3(here) + kStiff * beside) / (here.w + 4 * kStiff);
+        }
+      }
+    }
+  }
+  glm::vec3 At(glm::vec2 at) const {
+    const glm::vec2 p = (at - low_) / kStep;
+    const glm::vec2 corner = glm::floor(p), part = p - corner;
+    const auto row = [&](float y) {
+      const int x = static_cast<int>(corner.x);
+      return glm::mix(colour_[Cell(x, static_cast<int>(y))],
+                      colour_[Cell(x + 1, static_cast<int>(y))], part.x);
+    };
+    return glm::mix(row(corner.y), row(corner.y + 1), part.y);
+  }
+
+ private:
+  static constexpr float kStep = 0.75f;  // millimetres
+  static constexpr float kMost = 150;    // cells each way
+  static constexpr float kStiff = 0.3f;  // against what is known at a cell
+  static constexpr int kRounds = 300;
+
+  std::size_t Cell(int x, int y) const {
+    return static_cast<std::size_t>(std::clamp(y, 0, height_ - 1) * width_ +
+                                    std::clamp(x, 0, width_ - 1));
+  }
+  glm::vec2 low_{};
+  int width_ = 0, height_ = 0;
+  std::vector<glm::vec3> colour_;
+};
+
+/// Lashes, glasses, brows and reflections are darker or brighter than most of the skin round an
+/// eye.
+void Weigh(std::span<Sample> samples) {
+  constexpr float kSpread = 0.45f;  // of the logarithm of brightness
+  const glm::vec3 usual = Median(samples, [](const Sample& s) { return s.known > 0; });
+  const glm::vec3 above = Median(samples, [](const Sample& s) { return s.known > 0 && s.above; });
+  // Sockets may well be darker than what lies below the eye.
+  const float usual_above = std::sqrt(Brightness(usual) * Brightness(above));
+  for (Sample& s : samples) {
+    const float odd =
+        std::log(Brightness(s.screen) / (s.above ? usual_above : Brightness(usual))) / kSpread;
+    s.known *= std::exp(-odd * odd);
+  }
 }
 
 /// Skin below an eye that lends its grain to the lid above it.
@@ -105,66 +158,84 @@ glm::mat2 PhotoByFace(std::span<const Lender> all) {
 
 }  // namespace
 
+glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place) {
+  const auto at = [](float part, int size) {
+    return static_cast<std::size_t>(
+        std::clamp(static_cast<int>(part * static_cast<float>(size)), 0, size - 1));
+  };
+  const std::uint8_t* p =
+      &photo.rgba[4 * (at(place.y, photo.height) * static_cast<std::size_t>(photo.width) +
+                       at(place.x, photo.width))];
+  return glm::vec3(p[0], p[1], p[2]) / 255.0f;
+}
+
 std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec3> places,
                                 std::span<const Flesh> skin, std::span<const glm::vec3> open,
                                 std::span<const glm::vec3> shut) {
+  constexpr float kAside = 3;  // millimetres beyond the corners
   std::vector<LidPaint> lids;
   for (const int side : {-1, 1}) {
     // How far a place goes with a lid: 1 at the rim, a third where the lid ends, 0 at the socket's.
-    std::vector<Sample> above, below;
+    std::vector<Sample> samples;
     std::vector<Lender> lenders;
-    std::vector<glm::vec2> upper_rim, lower_rim;
+    std::vector<glm::vec2> upper_rim, lower_rim, rims;
     for (std::size_t i = 0; i < skin.size(); ++i) {
       const Flesh& f = skin[i];
       if (f.eye != side) continue;
       const glm::vec2 at(open[i]);
-      const Sample sample{at.x, PixelAt(photo, places[i])};
-      if (f.lid_upper > 0.01f && f.lid_upper < 0.25f) above.push_back(sample);
-      if (f.lid_lower > 0.10f && f.lid_lower < 0.7f) below.push_back(sample);
+      const glm::vec3 screen = PhotoColour(photo, glm::vec2(places[i]));
+      samples.push_back({at, screen, f.lid_upper >= f.lid_lower, 1});
+      if (f.lid_upper + f.lid_lower > 0.95f) rims.push_back(at);
       if (f.lid_upper > 0.95f) upper_rim.push_back(at);
       if (f.lid_lower > 0.95f) lower_rim.push_back(at);
-      lenders.push_back({at, glm::vec2(places[i]), sample.screen});
+      lenders.push_back({at, glm::vec2(places[i]), screen});
     }
-    if (above.empty() || below.empty() || upper_rim.empty() || lower_rim.empty()) continue;
+    if (upper_rim.empty() || lower_rim.empty()) continue;
     const auto [rim_first, rim_last] = std::ranges::minmax(upper_rim, {}, &glm::vec2::x);
     const float rim_from = rim_first.x, rim_to = rim_last.x;
     const glm::mat2 photo_by_face = PhotoByFace(lenders);
-    std::erase_if(lenders,
+    for (Sample& s : samples) {
+      // Along the rims the photo shows lashes.
+      float away = 100;
+      for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.at));
+      s.known = s.above ? SmoothStep(1.0f, 3.0f, away) : SmoothStep(0.6f, 1.6f, away);
+    }
+    Weigh(samples);
+    const Membrane eyeless(samples);
+    std::vector<Lender> below = lenders;
+    std::erase_if(below,
                   [&](const Lender& l) { return l.at.y > HeightAt(lower_rim, l.at.x) - 0.5f; });
-    std::vector<Sample> all = above;
-    all.insert(all.end(), below.begin(), below.end());
-    const glm::vec3 usual = Median(all);
-    // Sockets may well be darker than what lies round them.
-    const glm::vec3 usual_above = glm::sqrt(usual * Median(above));
     for (std::uint32_t i = 0; i < skin.size(); ++i) {
       const Flesh& f = skin[i];
-      if (f.eye != side || f.lid_upper <= 0) continue;
+      if (f.eye != side) continue;
       const glm::vec2 at(shut[i]);
+      const float aside = (2 * at.x - rim_from - rim_to) / std::max(rim_to - rim_from, 1.0f);
+      // Lashes are densest and longest outward.
+      const float outward = SmoothStep(-0.8f, 0.7f, aside * static_cast<float>(side));
+      const glm::vec3 colour = eyeless.At(at);
+      if (f.lid_upper <= 0) {
+        // The lashes of the upper lid lie over the rim of the lower.
+        const float lashes = SmoothStep(0.9f, 1.0f, f.lid_lower);
+        lids.push_back({i, (1 - 0.58f * lashes) * colour, (0.3f + 0.4f * outward) * lashes,
+                        glm::vec2(places[i]), Brightness(Around(lenders, at, 2).screen),
+                        glm::vec2(0)});
+        continue;
+      }
       const float meet = HeightAt(lower_rim, at.x), rim = HeightAt(upper_rim, at.x);
       const float down = SmoothStep(rim, meet, at.y);
-      const glm::vec3 over = Near(above, at.x, Brightness(usual_above), usual_above);
-      const glm::vec3 under = Near(below, at.x, Brightness(usual), usual);
-      // As light as the skin on either side of it; half of the hue of most of it,
-      // because near an eye there are lashes and blue shade.
-      const float light = Brightness(glm::mix(over, under, 0.2f + 0.3f * down));
-      const glm::vec3 hue = usual / Brightness(usual) + under / Brightness(under);
-      const glm::vec3 colour = 0.5f * light * hue;
       // The ball rounds the lid, most in the middle; the fold over it is in shade, and so are the
       // lashes' roots.
-      const float aside = (2 * at.x - rim_from - rim_to) / std::max(rim_to - rim_from, 1.0f);
       const float bulge = SmoothStep(0.0f, 0.35f, down) * SmoothStep(1.0f, 0.6f, down);
-      const float round = 0.90f + 0.10f * bulge - 0.14f * std::min(aside * aside, 1.2f);
-      // Lashes are densest and longest outward.
-      const float outward = SmoothStep(-0.3f, 0.9f, aside * static_cast<float>(side));
-      const float lashes =
-          1 - (0.5f + 0.2f * outward) * SmoothStep(0.975f - 0.025f * outward, 1.0f, f.lid_upper);
-      const float part =
-          SmoothStep(rim + 3.6f, rim + 0.4f, at.y) * SmoothStep(0.06f, 0.4f, f.lid_upper);
+      const float round = 1 + SmoothStep(0.0f, 0.3f, down) *
+                                  (0.08f * bulge - 0.06f - 0.1f * std::min(aside * aside, 1.0f));
+      const float lashes = 1 - (0.3f + 0.3f * outward) * SmoothStep(0.97f, 1.0f, f.lid_upper);
+      const float part = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) *
+                         SmoothStep(0.02f, 0.2f, f.lid_upper) *
+                         SmoothStep(kAside, 0, std::max(rim_from - at.x, at.x - rim_to));
       const glm::vec2 mirrored(at.x, meet - 1.5f - std::max(at.y - meet, 0.0f));
-      const Lender near = Around(lenders, mirrored, 1.5f), wide = Around(lenders, mirrored, 4);
-      lids.push_back({i, glm::clamp(colour * (round * lashes), 0.0f, 1.0f), 0.92f * part,
-                      near.place, Brightness(wide.screen),
-                      photo_by_face * (at - glm::vec2(open[i]))});
+      const Lender near = Around(below, mirrored, 1.5f), wide = Around(below, mirrored, 4);
+      lids.push_back({i, glm::clamp(colour * (round * lashes), 0.0f, 1.0f), part, near.place,
+                      Brightness(wide.screen), photo_by_face * (at - glm::vec2(open[i]))});
     }
   }
   return lids;

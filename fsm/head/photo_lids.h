@@ -22,6 +22,9 @@ struct LidPaint {
   glm::vec2 slide;
 };
 
+/// What a photo shows at a place (u, v down), on the screen, 0..1.
+glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place);
+
 /// Lids for a face that wears a photo of open eyes. A lid that shuts comes out from under the skin
 /// above it: what the photo shows there, a fold or a rim of glasses, stays where it is, and the eye
 /// gives way to skin coloured like that above and below, as far as that is not darker or brighter

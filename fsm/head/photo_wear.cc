@@ -35,8 +35,8 @@ void DarkenNostrils(float nose_y, HeadMesh& mesh) {
 /// meet, their own colour turns redder and darker until it is the lining's.
 void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_inside,
               HeadTopology& topology) {
-  constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
-  constexpr float kPhoto = 1.2f, kWet = -2.0f;  // outward of the line: all photo, all paint
+  constexpr float kRed = 8, kDeep = 14;          // millimetres of what the tags count
+  constexpr float kPhoto = -0.6f, kWet = -3.0f;  // outward of the line: all photo, all paint
   const glm::vec3 lip = set.lip_colour.value_or(lip_inside);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const CageTag& tag = tags[i];
@@ -47,8 +47,9 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
     const float at_corner = SmoothStep(4.5f, 6.0f, tag.lip_column);
     const float wet = SmoothStep(kPhoto, kWet, outward) * (1 - 0.6f * at_corner);
-    topology.albedo[i] = glm::mix(lip, Wetter(lip, set.saturation), std::max(wet, 0.2f));
-    topology.occlusion[i] = glm::mix(1.25f, 0.5f, SmoothStep(0.5f, -4.0f, outward));
+    const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
+    topology.albedo[i] = glm::mix(dry, Wetter(lip, set.saturation), wet);
+    topology.occlusion[i] = glm::mix(1.0f, 0.5f, SmoothStep(0.5f, -4.0f, outward));
     topology.photo_place[i].z = 1 - wet;
   }
 }
@@ -134,14 +135,19 @@ void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
       topology.photo_place[topology.indices[part.first_index + k]].z = 0;
     }
   }
+  // Where paint begins it goes over from the photo's colour.
+  for (std::size_t i = 0; i < skin_count; ++i) {
+    if (topology.photo_place[i].z <= 0) continue;
+    const glm::vec3 seen = PhotoColour(*set.photo, glm::vec2(topology.photo_place[i]));
+    topology.albedo[i] = seen * seen;
+    topology.occlusion[i] = 1;
+  }
   RollLips(set, skin.tags, lip_inside, topology);
   topology.photo_lender.resize(topology.uv.size(), glm::vec4(0));
   for (const LidPaint& lid :
        PaintLids(*set.photo, topology.photo_place, skin.flesh, skin.open, skin.shut)) {
-    const glm::vec3 gain = lid.screen / (2 * std::max(lid.lender_light, 0.02f));
-    const glm::vec3 most = glm::min(gain, 1.0f);
-    topology.albedo[lid.vertex] = most * most;
-    topology.occlusion[lid.vertex] = 1;
+    topology.albedo[lid.vertex] = lid.screen * lid.screen;
+    topology.occlusion[lid.vertex] = std::max(lid.lender_light, 0.02f);
     topology.photo_place[lid.vertex].z = 1 + lid.part;
     topology.photo_lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
   }

@@ -90,16 +90,37 @@ TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
 
 TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
   const Eye eye;
+  int rims = 0;
   for (const LidPaint& lid : eye.Lids()) {
-    const float held = eye.skin[lid.vertex].lid_upper;
-    EXPECT_GT(held, 0.05f) << "the lower lid and the socket keep the photo";
-    if (held < 0.12f) {
-      EXPECT_LT(lid.part, 0.1f);
+    const Flesh& f = eye.skin[lid.vertex];
+    if (std::max(f.lid_upper, f.lid_lower) < 0.12f) {
+      EXPECT_LT(lid.part, 0.1f) << "the socket keeps the photo";
     }
-    if (held == 1) {
-      EXPECT_LT(lid.screen.g, 0.6f * kSkin.g);
+    if (f.lid_upper == 0 && f.lid_lower < 0.85f) {
+      EXPECT_EQ(lid.part, 0) << "the lower lid keeps it up to its rim";
+    }
+    if (f.lid_upper == 1 || f.lid_lower == 1) {
+      EXPECT_LT(lid.screen.g, 0.7f * kSkin.g);
+      EXPECT_GT(lid.part, 0.25f);
+      ++rims;
     }
   }
+  EXPECT_EQ(rims, 60);
+}
+
+TEST(PhotoLidsTest, TheLidHasTheColoursOfTheSkinRoundTheEyeWhereverTheyChange) {
+  Eye eye;
+  for (int row = 20; row < 40; ++row) eye.Paint(row, 0, 60, 0.7f * kSkin);
+  float above = 0, below = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    const Flesh& f = eye.skin[lid.vertex];
+    if (std::abs(eye.open[lid.vertex].x - 30) > 3) continue;
+    if (std::abs(f.lid_upper - 0.55f) < 0.03f) above = lid.screen.g;
+    if (std::abs(f.lid_upper - 0.9f) < 0.03f) below = lid.screen.g;
+  }
+  EXPECT_GT(above, 0.9f * kSkin.g) << "the upper skin's where that begins";
+  EXPECT_LT(below, 0.88f * kSkin.g) << "and the lower's below";
+  EXPECT_GT(below, 0.6f * kSkin.g);
 }
 
 TEST(PhotoLidsTest, WhatIsAboveTheEyeStaysInItsPlaceWhileALidComesDown) {

@@ -2,7 +2,7 @@
 in vec2 place;
 in vec3 worn;
 in vec3 paint;
-in vec3 lender;
+in vec4 lender;
 in float crease;
 
 uniform float alpha;
@@ -12,6 +12,8 @@ uniform sampler2D photo;
 uniform sampler2D relief;
 
 out vec4 color;
+
+const float kGrain = 0.5;  // of what lends it: lids are smoother than what lies below an eye
 
 void main() {
   vec4 p = texture(photo, worn.xy);
@@ -25,7 +27,7 @@ void main() {
   vec3 painted = paint;
   if (lender.z > 0.0) {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
-    painted = mix(paint, 2.0 * grain * paint, lender.z);
+    painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), kGrain * lender.z);
   }
   color = vec4(mix(painted, p.rgb, worn.z) * clamp(shade, 0.6, 1.25) * brightness, alpha);
 }

@@ -12,7 +12,7 @@ uniform float lids_shut[2];  // right, left
 out vec2 place;
 out vec3 worn;
 out vec3 paint;
-out vec3 lender;
+out vec4 lender;  // place, whether there is one, how bright it is round it
 out float crease;
 
 void main() {
@@ -20,13 +20,15 @@ void main() {
   place = unrolled;
   float lid = max(photo_place.z - 1.0, 0.0);
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
-  float shut = smoothstep(0.1, 0.4, closed);
+  // The rim of the lower lid, which has no way to go, is reached last.
+  float shut = photo_lender.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
   worn = vec3(photo_place.xy + closed * photo_lender.zw, min(photo_place.z, 1.0) * (1.0 - lid * shut));
-  lender = photo_lender.x > 0.0 ? vec3(photo_lender.xy, 1.0) : vec3(photo_place.xy, 0.0);
+  bool lent = photo_lender.x > 0.0;
+  lender = lent ? vec4(photo_lender.xy, 1.0, albedo_occlusion.a) : vec4(photo_place.xy, 0.0, 1.0);
   // A lip that rolls inward is paint in part, and the more so as it turns away.
   float roll = smoothstep(0.0, 0.3, 1.0 - photo_place.z);
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
   worn.z *= mix(1.0, facing, roll);
   crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
-  paint = sqrt(max(albedo_occlusion.rgb * albedo_occlusion.a, 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
+  paint = sqrt(max(albedo_occlusion.rgb * (lent ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }
