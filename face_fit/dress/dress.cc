@@ -24,12 +24,14 @@ struct SkinPlaces {
   std::vector<glm::vec2> pixel;
   std::vector<float> facing, outward;
   std::vector<float> across;    ///< millimetres to the person's left of the middle
+  std::vector<float> up;        ///< millimetres above the brows
   std::vector<float> off_seam;  ///< millimetres from where the lips meet
   SkinPlaces()
       : pixel(static_cast<std::size_t>(kMapSide) * kMapSide),
         facing(pixel.size(), -1),
         outward(pixel.size(), -1e9F),
         across(pixel.size(), 0),
+        up(pixel.size(), -1),
         off_seam(pixel.size(), 1e9F) {}
 };
 
@@ -57,6 +59,8 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose) {
     for (int c = 0; c < 3; ++c) normal[t[c]] += n;
   });
   constexpr glm::vec3 kEye(0, 0, 794);
+  constexpr float kBrows = 27;  // millimetres above the nasion they end
+  const float brows = base.head->Landmark("nasion").y + kBrows;
   std::vector<glm::vec3> seam;
   for (const int i : UpperInnerLip()) {
     seam.push_back(base.places[static_cast<std::size_t>(i)].On(base.rest.position));
@@ -114,6 +118,7 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose) {
         out.outward[i] = outward;
         out.pixel[i] = pose.Project(q);
         out.across[i] = rest.x;
+        out.up[i] = rest.y - brows;
         out.off_seam[i] = off_seam(rest);
         out.facing[i] =
             glm::dot(glm::normalize(n + glm::vec3(0, 0, 1e-9F)), glm::normalize(kEye - q));
@@ -260,7 +265,8 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   for (std::size_t i = 0; i < face_seen_at.at.size(); ++i) {
     if (!OnFront(places, i)) face_seen_at.at[i] = 0;
   }
-  const Field likeness = SkinLikeness(map, face_seen_at);
+  Field likeness = SkinLikeness(map, face_seen_at);
+  EndAtHair(places.up, likeness);
   for (std::size_t i = 0; i < likeness.at.size(); ++i) {
     map.rgba[4 * i + 3] = static_cast<std::uint8_t>(255 * likeness.at[i] + 0.5F);
   }

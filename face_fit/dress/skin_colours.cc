@@ -50,4 +50,22 @@ Field SkinLikeness(const fsm::Image& map, const Field& face_seen) {
   return Blurred(likeness, map.width / 170);
 }
 
+void EndAtHair(const std::vector<float>& up, Field& likeness) {
+  // A line of the forehead is narrower than this, a fringe is not.
+  const Field wide = Blurred(likeness, likeness.width / 100);
+  Field skin(likeness.width, likeness.height, 1);
+  for (int x = 0; x < likeness.width; ++x) {
+    float least = 1;
+    for (int y = likeness.height - 1; y >= 0; --y) {
+      const auto i = static_cast<std::size_t>(y * likeness.width + x);
+      if (up[i] > 0) least = std::min(least, glm::smoothstep(0.35F, 0.75F, wide.at[i]));
+      skin.at[i] = least;
+    }
+  }
+  skin = Blurred(skin, likeness.width / 170);
+  for (std::size_t i = 0; i < likeness.at.size(); ++i) {
+    likeness.at[i] = std::min(likeness.at[i], skin.at[i]);
+  }
+}
+
 }  // namespace facefit

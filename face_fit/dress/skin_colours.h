@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "face_fit/dress/field.h"
 
 namespace facefit {
@@ -11,5 +13,9 @@ float Saturation(const fsm::Image& map, const Field& seen);
 /// How much of each texel is skin rather than hair over it, 0..1: hair is much darker than most of
 /// the face that is seen.
 Field SkinLikeness(const fsm::Image& map, const Field& face_seen);
+
+/// Above the brows skin goes up to the hair and no further: bright strands of a fringe are no skin.
+/// `up`: of each texel, millimetres above the line from which on hair may begin.
+void EndAtHair(const std::vector<float>& up, Field& likeness);
 
 }  // namespace facefit

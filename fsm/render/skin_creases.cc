@@ -26,10 +26,15 @@ float CreaseHeight(const glm::vec3& p, const FaceMarks& m) {
   const float brow_y = m.nasion.y + 20;
   if (p.y > brow_y - 2 && p.y < m.trichion.y) {
     const float room = m.trichion.y - brow_y;
-    const float bow = 2.5F * std::sin(side * 0.055F) + 0.5F * std::sin(p.x * 0.21F + 1);
+    // Round in the middle, and no line quite like another.
+    const float bow = 2.5F * std::sin((std::sqrt(side * side + 49) - 7) * 0.055F);
     for (const float part : {0.20F, 0.40F, 0.60F, 0.78F}) {
       const float reach = (46 - 26 * std::abs(part - 0.45F)) * (part == 0.78F ? 0.7F : 1.0F);
-      height += 0.75F * Crease(p.y - brow_y - room * part * 0.9F - bow, 1.15F) *
+      const float sway = 0.9F * std::sin(p.x * (0.09F + 0.05F * part) + 11 * part) +
+                         0.4F * std::sin(p.x * 0.27F + 7 * part);
+      const float deep = 0.6F + 0.25F * std::sin(p.x * 0.075F + 23 * part) +
+                         0.15F * std::sin(p.x * 0.19F + 5 * part);
+      height += deep * Crease(p.y - brow_y - room * part * 0.9F - bow - sway, 1.15F) *
                 Smooth(reach + 8, reach - 8, side);
     }
   }

@@ -104,6 +104,28 @@ TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
   EXPECT_EQ(SkinLikeness(map, Field(400, 400)).at[75 * 400], 1) << "no face was seen";
 }
 
+TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
+  // From the top: bright strands, dark ones, forehead with a dark line, brows, cheek.
+  Field likeness(400, 400, 1);
+  std::vector<float> up(likeness.at.size());
+  for (int y = 0; y < 400; ++y) {
+    for (int x = 0; x < 400; ++x) {
+      const std::size_t i = likeness.Index(x, y);
+      up[i] = static_cast<float>(250 - y) / 5;
+      const bool dark = (y > 60 && y < 120) || y == 180 || (y > 255 && y < 270);
+      if (dark) likeness.at[i] = 0;
+    }
+  }
+  EndAtHair(up, likeness);
+  const auto at = [&](int y) { return likeness.at[likeness.Index(200, y)]; };
+  EXPECT_LT(at(30), 0.05F) << "bright strands";
+  EXPECT_EQ(at(90), 0) << "dark ones";
+  EXPECT_GT(at(150), 0.95F) << "the forehead above its line";
+  EXPECT_GT(at(220), 0.95F);
+  EXPECT_EQ(at(262), 0) << "the brows";
+  EXPECT_EQ(at(330), 1);
+}
+
 TEST(SmileFoldsTest, ADarkFoldIsFilledAndABeardIsNot) {
   FoundFace face;
   face.points.assign(kNetworkPoints, glm::vec3(0));

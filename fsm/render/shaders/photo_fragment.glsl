@@ -23,7 +23,7 @@ void main() {
   if (ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
   vec2 slope = texture(relief, place).zw - 0.5;
   // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
-  float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.04 + 0.45 * dot(slope, vec2(-0.5, 0.85)));
+  float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.03 + 0.32 * dot(slope, vec2(-0.5, 0.85)));
   vec3 painted = paint;
   if (lender.z > 0.0) {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
