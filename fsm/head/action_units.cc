@@ -213,4 +213,19 @@ glm::vec3 UnitTable::Motion(const Field& field, const Flesh& flesh, bool mirror)
   return weight * by;
 }
 
+std::array<std::array<float, 2>, 4> CreaseDepths(const SidedUnits& units,
+                                                 const std::array<float, 4>& at_rest) {
+  std::array<std::array<float, 2>, 4> creases{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto& u = units[side];
+    const std::array<float, 4> depth = {0.6f * (u[1] + u[2]), 0.7f * (u[4] + u[9]),
+                                        0.6f * (u[6] + 0.7f * u[12]),
+                                        0.4f * (u[10] + u[11]) + 0.75f * u[12]};
+    for (std::size_t k = 0; k < depth.size(); ++k) {
+      creases[k][side] = std::clamp(at_rest[k] + depth[k], 0.0f, 1.0f);
+    }
+  }
+  return creases;
+}
+
 }  // namespace fsm

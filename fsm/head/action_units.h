@@ -68,4 +68,9 @@ class UnitTable {
   std::vector<Effect> effects_;
 };
 
+/// How deep forehead, glabella, crow's feet and nasolabial fold crease, right and left, 0..1: by
+/// what the units bunch up there, beyond `at_rest`.
+std::array<std::array<float, 2>, 4> CreaseDepths(const SidedUnits& units,
+                                                 const std::array<float, 4>& at_rest);
+
 }  // namespace fsm

@@ -20,6 +20,7 @@
 #include "fsm/head/face_set.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/head.h"
+#include "fsm/head/head_form.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/own_identity.h"
@@ -52,7 +53,6 @@ class GenericHead : public Head {
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
         identity_.palette.mouth = 1.3f * Wetter(identity_.palette.lip_inside, set->saturation);
       }
-      seats_ = set->eyes.value_or(seats_);
       eye_.ScaleIris(set->iris_size);
       // A photographer's light comes from the front and reaches into the mouth.
       identity_.palette.tooth *= 0.8f * set->teeth;
@@ -85,7 +85,11 @@ class GenericHead : public Head {
     BuildTongue(mouth_, palette, mesh);
     if (identity_.crop && !set) BuildEars(palette, mesh);  // long hair covers them
     base_ = mesh.position;
-    Shape(shaper, mesh, skin_count, set ? sheet_end : skin_count, set && set->eyes);
+    const HeadForm form(eye_, mouth_, shaper, warp_ ? &*warp_ : nullptr,
+                        set ? set->eyes : std::nullopt, mesh);
+    form.Shape(skin_count, set ? sheet_end : skin_count, mesh);
+    seats_ = form.seats();
+    teeth_shift_ = form.teeth_shift();
     hair_first_ = mesh.position.size();
     if (set) {
       LeaveOutUnseen(*set, mouth_.LineY(0) + teeth_shift_.y + 12, mesh);
@@ -126,7 +130,7 @@ class GenericHead : public Head {
     }
     FleshNormals(out);
     for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, tongue, out);
-    out.wrinkles = Wrinkles(pose.units);
+    out.wrinkles = CreaseDepths(pose.units, identity_.creases);
     for (std::size_t side = 0; side < 2; ++side) out.lids_shut[side] = pose.lids[side].close;
   }
 
@@ -165,78 +169,6 @@ class GenericHead : public Head {
     }
   }
 
-  /// Moves the base head to the identity's form. Eyes and what touches them, and teeth with tongue,
-  /// move as wholes.
-  void Shape(const Shaper& shaper, HeadMesh& mesh, std::size_t fixed_first, std::size_t fixed_end,
-             bool seated) {
-    const auto motion = [&](glm::vec3 p) {
-      const glm::vec3 by = shaper.Motion(p);
-      return warp_ ? by + warp_->Motion(p + by) : by;
-    };
-    constexpr glm::vec3 kMirror(-1, 1, 1);
-    if (!seated) {
-      const glm::vec3 by =
-          0.5f * (motion(eye_.centre()) + kMirror * motion(eye_.centre() * kMirror));
-      seats_[1].shift = by;
-      seats_[0].shift = by * kMirror;
-    }
-    teeth_shift_ = motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) *
-                   (warp_ ? glm::vec3(0, 1, 1) : glm::vec3(0, 0.5f, 0.5f));
-    if (warp_) teeth_shift_.z -= TeethTooFar(mesh, motion);
-    for (std::size_t i = 0; i < mesh.position.size(); ++i) {
-      if (i >= fixed_first && i < fixed_end) continue;
-      glm::vec3& p = mesh.position[i];
-      switch (mesh.bone[i]) {
-        case Bone::kEyeLeft:
-        case Bone::kEyeRight:
-          p = Seated(mesh.bone[i] == Bone::kEyeLeft ? 1 : 0, p);
-          break;
-        case Bone::kJaw:
-        case Bone::kTongue:
-          p += teeth_shift_;
-          break;
-        case Bone::kSkull: {
-          const bool tooth = p.z > 30 && std::abs(p.x) < 40;
-          p += tooth ? teeth_shift_ : motion(p);
-          break;
-        }
-        case Bone::kFlesh: {
-          const Flesh& flesh = mesh.flesh[i];
-          glm::vec3 by = motion(p);
-          if (flesh.eye != 0) {
-            const float hold = SmoothStep(0, 0.8f, flesh.lid_upper + flesh.lid_lower);
-            by = glm::mix(by, Seated(flesh.eye > 0 ? 1 : 0, p) - p, hold);
-          }
-          p += by;
-          break;
-        }
-      }
-    }
-  }
-
-  /// How much too far the teeth stand forward for the lips of a warped head, millimetres: by the
-  /// room that lips have on the base head.
-  float TeethTooFar(const HeadMesh& mesh, const std::function<glm::vec3(glm::vec3)>& motion) const {
-    constexpr float kRoom = 1.3f, kMost = 8;
-    float most = 0;
-    for (const ToothArch& arch : {mouth_.UpperTeeth(), mouth_.LowerTeeth()}) {
-      for (std::size_t i = 0; i < mesh.position.size(); ++i) {
-        if (mesh.bone[i] != Bone::kFlesh || !mesh.flesh[i].by_teeth) continue;
-        const glm::vec3 p = mesh.position[i], q = p + motion(p);
-        const float room = std::min(kRoom, p.z - arch.At(p.x));
-        most = std::max(most, room - (q.z - arch.Moved(teeth_shift_).At(q.x)));
-      }
-    }
-    return std::min(most, kMost);
-  }
-
-  glm::vec3 EyeCentre(std::size_t side) const {
-    return eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1);
-  }
-  glm::vec3 Seated(std::size_t side, glm::vec3 p) const {
-    return seats_[side].Placed(EyeCentre(side), p);
-  }
-
   void Finish(HeadMesh mesh, const SkinMap& skin) {
     for (const HeadMesh::Batch& batch : mesh.batches) {
       topology_.parts.push_back({batch.material,
@@ -251,8 +183,7 @@ class GenericHead : public Head {
     }
     rest_ = mesh.position;
     rest_normal_ = Normals(topology_.indices, rest_, rest_.size());
-    SmoothHair();
-    bone_ = std::move(mesh.bone);
+    LightAsOne(std::span(rest_).subspan(hair_first_), std::span(rest_normal_).subspan(hair_first_));
     for (const Flesh& flesh : mesh.flesh) bend_.push_back(flesh.free);
 
     seam_ = skin.seam;
@@ -262,7 +193,7 @@ class GenericHead : public Head {
                        .upper_incisor = 0,
                        .lower_incisor = 0,
                        .upper_root = 0};
-    FindIncisors();
+    FindIncisors(rest_, mesh.bone, topology_);
     upper_teeth_ = mouth_.UpperTeeth().Moved(teeth_shift_);
     lower_teeth_ = mouth_.LowerTeeth().Moved(teeth_shift_);
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
@@ -280,6 +211,7 @@ class GenericHead : public Head {
     probe_.emplace(std::move(rest), std::move(flesh),
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_,
                    seats_, mouth_, teeth_shift_);
+    bone_ = std::move(mesh.bone);
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
     topology_.strands = std::move(mesh.strands);
@@ -287,65 +219,14 @@ class GenericHead : public Head {
     for (const glm::vec3 p : base_) topology_.uv.push_back(Unroll(p));
     for (std::size_t side = 0; side < 2; ++side) {
       const float size = seats_[side].size;
-      topology_.eyes[side] = {.centre = Seated(side, EyeCentre(side)),
-                              .ball_radius = size * eye_.radius(),
-                              .iris_radius = size * eye_.iris_radius(),
-                              .pupil_radius = size * eye_.pupil_radius(),
-                              .iris_colour = identity_.palette.iris,
-                              .white_colour = identity_.palette.sclera};
+      topology_.eyes[side] = {
+          .centre = Seated(eye_, seats_, side, eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1)),
+          .ball_radius = size * eye_.radius(),
+          .iris_radius = size * eye_.iris_radius(),
+          .pupil_radius = size * eye_.pupil_radius(),
+          .iris_colour = identity_.palette.iris,
+          .white_colour = identity_.palette.sclera};
     }
-  }
-
-  /// The middle of either row of teeth, at its edge, and of the upper one at its root.
-  void FindIncisors() {
-    constexpr float kMiddle = 3;  // millimetres to either side
-    MouthSlit& mouth = topology_.mouth;
-    std::array<float, 3> best = {1e9f, 1e9f, 1e9f};
-    const auto keep = [&](std::size_t which, float y, std::uint32_t i, std::uint32_t& found) {
-      if (y >= best[which]) return;
-      best[which] = y;
-      found = i;
-    };
-    for (const auto& part : topology_.parts) {
-      if (part.material != Material::kTeeth) continue;
-      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
-        const std::uint32_t i = topology_.indices[k];
-        const glm::vec3 p = rest_[i];
-        if (std::abs(p.x) > kMiddle) continue;
-        if (bone_[i] == Bone::kJaw) {
-          keep(1, -p.y, i, mouth.lower_incisor);
-        } else {
-          keep(0, p.y, i, mouth.upper_incisor);
-          keep(2, -p.y, i, mouth.upper_root);
-        }
-      }
-    }
-  }
-
-  /// Locks are flat cards, but take light as the head of hair they lie on: their own normals only
-  /// ruffle its.
-  void SmoothHair() {
-    for (std::size_t i = hair_first_; i < rest_.size(); ++i) {
-      const glm::vec3 from = rest_[i] - kHairCentre;
-      const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : 0.25f, 1));
-      glm::vec3& n = rest_normal_[i];
-      if (glm::dot(n, outward) < 0) continue;  // the lining
-      n = glm::normalize(glm::mix(n, outward, 0.7f));
-    }
-  }
-
-  std::array<std::array<float, 2>, 4> Wrinkles(const SidedUnits& units) const {
-    std::array<std::array<float, 2>, 4> creases{};
-    for (std::size_t side = 0; side < 2; ++side) {
-      const auto& u = units[side];
-      const std::array<float, 4> depth = {0.6f * (u[1] + u[2]), 0.7f * (u[4] + u[9]),
-                                          0.6f * (u[6] + 0.7f * u[12]),
-                                          0.4f * (u[10] + u[11]) + 0.75f * u[12]};
-      for (std::size_t k = 0; k < depth.size(); ++k) {
-        creases[k][side] = std::clamp(identity_.creases[k] + depth[k], 0.0f, 1.0f);
-      }
-    }
-    return creases;
   }
 
   void FleshNormals(HeadVertices& out) const {

@@ -120,4 +120,13 @@ void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Pale
   }
 }
 
+void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) {
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const glm::vec3 from = place[i] - kHairCentre;
+    const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : 0.25f, 1));
+    if (glm::dot(normal[i], outward) < 0) continue;  // the lining
+    normal[i] = glm::normalize(glm::mix(normal[i], outward, 0.7f));
+  }
+}
+
 }  // namespace fsm

@@ -50,6 +50,10 @@ void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Pale
 void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette& palette,
                  HeadMesh& mesh);
 
+/// Locks are flat cards, but take light as the head of hair they lie on: their own normals only
+/// ruffle its. `place` and `normal` of one length.
+void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal);
+
 struct CropStyle {
   float side_mm, top_mm;  ///< of the shell over the skin
   int locks;

@@ -178,4 +178,30 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);
 }
 
+void FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
+                  HeadTopology& topology) {
+  constexpr float kMiddle = 3;  // millimetres to either side
+  MouthSlit& mouth = topology.mouth;
+  std::array<float, 3> best = {1e9f, 1e9f, 1e9f};
+  const auto keep = [&best](std::size_t which, float y, std::uint32_t i, std::uint32_t& found) {
+    if (y >= best[which]) return;
+    best[which] = y;
+    found = i;
+  };
+  for (const auto& part : topology.parts) {
+    if (part.material != Material::kTeeth) continue;
+    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+      const std::uint32_t i = topology.indices[k];
+      const glm::vec3 p = rest[i];
+      if (std::abs(p.x) > kMiddle) continue;
+      if (bone[i] == Bone::kJaw) {
+        keep(1, -p.y, i, mouth.lower_incisor);
+      } else {
+        keep(0, p.y, i, mouth.upper_incisor);
+        keep(2, -p.y, i, mouth.upper_root);
+      }
+    }
+  }
+}
+
 }  // namespace fsm

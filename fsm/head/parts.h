@@ -1,9 +1,12 @@
 #pragma once
 
 #include <array>
+#include <glm/vec3.hpp>
+#include <span>
 #include <utility>
 
 #include "fsm/head/anatomy.h"
+#include "fsm/head/head.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/rig.h"
@@ -23,6 +26,10 @@ void BuildLashes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh
 void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);
 void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh);
 void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh);
+/// Fills the incisors of `topology.mouth`: the middle of either row of teeth at its edge, and of
+/// the upper one at its root. `rest` and `bone` of all its vertices.
+void FindIncisors(std::span<const glm::vec3> rest, std::span<const Bone> bone,
+                  HeadTopology& topology);
 void BuildEars(const Palette& palette, HeadMesh& mesh);
 /// Highest, lowest, foremost and hindmost point of the base head's left ear in its own plane.
 std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks();

@@ -24,10 +24,12 @@ void main() {
   vec2 slope = texture(relief, place).zw - 0.5;
   // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
   float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.03 + 0.32 * dot(slope, vec2(-0.5, 0.85)));
+  // Furrows are seen by their shadows; their rims hardly shine.
+  shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, 0.6, 1.15);
   vec3 painted = paint;
   if (lender.z > 0.0) {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
     painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), kGrain * lender.z);
   }
-  color = vec4(mix(painted, p.rgb, worn.z) * clamp(shade, 0.6, 1.25) * brightness, alpha);
+  color = vec4(mix(painted, p.rgb, worn.z) * shade * brightness, alpha);
 }

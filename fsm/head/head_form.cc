@@ -1,0 +1,84 @@
+#include "fsm/head/head_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "fsm/head/spline.h"
+
+namespace fsm {
+
+HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper,
+                   const Warp* warp, const std::optional<std::array<EyeSeat, 2>>& seats,
+                   const HeadMesh& base)
+    : eye_(eye), mouth_(mouth), shaper_(shaper), warp_(warp) {
+  if (seats) {
+    seats_ = *seats;
+  } else {
+    constexpr glm::vec3 kMirror(-1, 1, 1);
+    const glm::vec3 by = 0.5f * (Motion(eye_.centre()) + kMirror * Motion(eye_.centre() * kMirror));
+    seats_[1].shift = by;
+    seats_[0].shift = by * kMirror;
+  }
+  teeth_shift_ = Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) *
+                 (warp_ ? glm::vec3(0, 1, 1) : glm::vec3(0, 0.5f, 0.5f));
+  if (warp_) teeth_shift_.z -= TeethTooFar(base);
+}
+
+glm::vec3 HeadForm::Motion(glm::vec3 p) const {
+  const glm::vec3 by = shaper_.Motion(p);
+  return warp_ ? by + warp_->Motion(p + by) : by;
+}
+
+float HeadForm::TeethTooFar(const HeadMesh& base) const {
+  constexpr float kRoom = 1.3f, kMost = 8;
+  float most = 0;
+  for (const ToothArch& arch : {mouth_.UpperTeeth(), mouth_.LowerTeeth()}) {
+    for (std::size_t i = 0; i < base.position.size(); ++i) {
+      if (base.bone[i] != Bone::kFlesh || !base.flesh[i].by_teeth) continue;
+      const glm::vec3 p = base.position[i], q = p + Motion(p);
+      const float room = std::min(kRoom, p.z - arch.At(p.x));
+      most = std::max(most, room - (q.z - arch.Moved(teeth_shift_).At(q.x)));
+    }
+  }
+  return std::min(most, kMost);
+}
+
+void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const {
+  for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+    if (i >= fixed_first && i < fixed_end) continue;
+    glm::vec3& p = mesh.position[i];
+    switch (mesh.bone[i]) {
+      case Bone::kEyeLeft:
+      case Bone::kEyeRight:
+        p = Seated(eye_, seats_, mesh.bone[i] == Bone::kEyeLeft ? 1 : 0, p);
+        break;
+      case Bone::kJaw:
+      case Bone::kTongue:
+        p += teeth_shift_;
+        break;
+      case Bone::kSkull: {
+        const bool tooth = p.z > 30 && std::abs(p.x) < 40;
+        p += tooth ? teeth_shift_ : Motion(p);
+        break;
+      }
+      case Bone::kFlesh: {
+        const Flesh& flesh = mesh.flesh[i];
+        glm::vec3 by = Motion(p);
+        if (flesh.eye != 0) {
+          const float hold = SmoothStep(0, 0.8f, flesh.lid_upper + flesh.lid_lower);
+          by = glm::mix(by, Seated(eye_, seats_, flesh.eye > 0 ? 1 : 0, p) - p, hold);
+        }
+        p += by;
+        break;
+      }
+    }
+  }
+}
+
+glm::vec3 Seated(const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, std::size_t side,
+                 glm::vec3 p) {
+  return seats[side].Placed(eye.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1), p);
+}
+
+}  // namespace fsm

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "fsm/head/anatomy.h"
+#include "fsm/head/eye_seat.h"
+#include "fsm/head/identity.h"
+#include "fsm/head/rig.h"
+#include "fsm/head/warp.h"
+
+namespace fsm {
+
+/// From the base head to the form of one identity or of a person in a photo. Eyes and what touches
+/// them, and teeth with tongue, move as wholes. Keeps references to what it is made of.
+class HeadForm {
+ public:
+  /// `warp`: of a face from a photo, or null. `seats`: of its right and left eye if they are known;
+  /// otherwise eyes go where the skin goes. `base`: the head before it takes this form.
+  HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper, const Warp* warp,
+           const std::optional<std::array<EyeSeat, 2>>& seats, const HeadMesh& base);
+
+  /// Moves all vertices but those from `fixed_first` to before `fixed_end`.
+  void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;
+
+  const std::array<EyeSeat, 2>& seats() const { return seats_; }
+  glm::vec3 teeth_shift() const { return teeth_shift_; }
+
+ private:
+  glm::vec3 Motion(glm::vec3 p) const;
+  /// How much too far the teeth stand forward for the lips of a warped head, millimetres: by the
+  /// room that lips have on the base head.
+  float TeethTooFar(const HeadMesh& base) const;
+
+  const EyeAnatomy& eye_;
+  const MouthAnatomy& mouth_;
+  const Shaper& shaper_;
+  const Warp* warp_;
+  std::array<EyeSeat, 2> seats_;
+  glm::vec3 teeth_shift_;
+};
+
+/// Where a place of the table's eye lies in a face with these seats. `side`: 0 right, 1 left.
+glm::vec3 Seated(const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, std::size_t side,
+                 glm::vec3 p);
+
+}  // namespace fsm
