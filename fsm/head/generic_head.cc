@@ -55,7 +55,7 @@ class GenericHead : public Head {
       }
       eye_.ScaleIris(set->iris_size);
       // A photographer's light comes from the front and reaches into the mouth.
-      identity_.palette.tooth *= 0.8f * set->teeth;
+      identity_.palette.tooth *= 0.67f * set->teeth;
       identity_.palette.tongue *= 1.05f * set->teeth;
     }
     asymmetric_ = asymmetric;

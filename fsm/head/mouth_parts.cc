@@ -84,7 +84,7 @@ void AddArch(const Jaw& jaw, const Crowns& crowns, const Palette& palette, HeadM
     height_at.push_back(heights[static_cast<std::size_t>(tooth)]);
     // Canines come to a point, the others are round at their corners.
     const float off_middle = std::abs(2 * within - 1);
-    const float corner = tooth == 2 ? 1.1f * off_middle : 0.8f * std::pow(off_middle, 4.0f);
+    const float corner = tooth == 2 ? 1.1f * off_middle : 0.5f * std::pow(off_middle, 4.0f);
     tooth_at.push_back(tooth);
     short_at.push_back(shorts[static_cast<std::size_t>(tooth)] + corner +
                        0.1f * (1 + Grain(tooth_at.back(), static_cast<int>(jaw.upward))));
@@ -109,7 +109,7 @@ void AddArch(const Jaw& jaw, const Crowns& crowns, const Palette& palette, HeadM
       p.z += curve - thin - 0.75f * (1 - bump_at[i]);
       p.x *= 1 - 0.012f * thin;
       // Deep between the teeth and in the corners of the mouth there is little light.
-      const float crevice = 0.22f + 0.78f * SmoothStep(0.0f, 0.75f, bump_at[i]);
+      const float crevice = 0.45f + 0.55f * SmoothStep(0.0f, 0.75f, bump_at[i]);
       const glm::vec3 colour = Enamel(palette, tooth_at[i], Grain(tooth_at[i], 7), row);
       const float dark = glm::mix(jaw.upward > 0 ? 0.95f : 0.52f, 0.16f, SmoothStep(6, 32, back));
       mesh.Add(p, colour, crevice * dark * (row < -0.3f ? 0.4f : 1.0f), jaw.bone);

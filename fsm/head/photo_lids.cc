@@ -129,6 +129,13 @@ Lender Around(std::span<const Lender> lenders, glm::vec2 at, float reach) {
   return mean;
 }
 
+/// Skin under lashes that take `dark` of its light, 0..1: they are brown where there is colour.
+glm::vec3 Lashed(glm::vec3 skin, float dark) {
+  const float chroma = std::max(skin.r - skin.b, 0.0f) / std::max(skin.r, 0.01f);
+  const glm::vec3 brown = glm::vec3(1) + std::min(2 * chroma, 1.0f) * glm::vec3(0, 0.3f, 0.6f);
+  return skin * glm::pow(glm::vec3(1 - dark), brown);
+}
+
 /// Of a line of places by x; 0 without any.
 float HeightAt(std::span<const glm::vec2> line, float x) {
   float sum = 0, weight = 1e-9f;
@@ -216,7 +223,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       if (f.lid_upper <= 0) {
         // The lashes of the upper lid lie over the rim of the lower.
         const float lashes = SmoothStep(0.9f, 1.0f, f.lid_lower);
-        lids.push_back({i, (1 - 0.58f * lashes) * colour, (0.3f + 0.4f * outward) * lashes,
+        lids.push_back({i, Lashed(colour, 0.58f * lashes), (0.3f + 0.4f * outward) * lashes,
                         glm::vec2(places[i]), Brightness(Around(lenders, at, 2).screen),
                         glm::vec2(0)});
         continue;
@@ -227,14 +234,14 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       // lashes' roots.
       const float bulge = SmoothStep(0.0f, 0.35f, down) * SmoothStep(1.0f, 0.6f, down);
       const float round = 1 + SmoothStep(0.0f, 0.3f, down) *
-                                  (0.08f * bulge - 0.06f - 0.1f * std::min(aside * aside, 1.0f));
-      const float lashes = 1 - (0.3f + 0.3f * outward) * SmoothStep(0.97f, 1.0f, f.lid_upper);
+                                  (0.16f * bulge - 0.03f - 0.1f * std::min(aside * aside, 1.0f));
+      const float lashes = (0.3f + 0.3f * outward) * SmoothStep(0.97f, 1.0f, f.lid_upper);
       const float part = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) *
                          SmoothStep(0.02f, 0.2f, f.lid_upper) *
                          SmoothStep(kAside, 0, std::max(rim_from - at.x, at.x - rim_to));
       const glm::vec2 mirrored(at.x, meet - 1.5f - std::max(at.y - meet, 0.0f));
       const Lender near = Around(below, mirrored, 1.5f), wide = Around(below, mirrored, 4);
-      lids.push_back({i, glm::clamp(colour * (round * lashes), 0.0f, 1.0f), part, near.place,
+      lids.push_back({i, glm::clamp(Lashed(round * colour, lashes), 0.0f, 1.0f), part, near.place,
                       Brightness(wide.screen), photo_by_face * (at - glm::vec2(open[i]))});
     }
   }

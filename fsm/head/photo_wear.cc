@@ -31,12 +31,12 @@ void DarkenNostrils(float nose_y, HeadMesh& mesh) {
   }
 }
 
-/// A photo of a closed mouth does not show where the lips roll inward: from the line where they
-/// meet, their own colour turns redder and darker until it is the lining's.
+/// A photo of a closed mouth does not show where the lips roll inward: as they part, from beside
+/// the line where they met on, their own colour turns redder and darker until it is the lining's.
 void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_inside,
               HeadTopology& topology) {
-  constexpr float kRed = 8, kDeep = 14;          // millimetres of what the tags count
-  constexpr float kPhoto = -0.6f, kWet = -3.0f;  // outward of the line: all photo, all paint
+  constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
+  constexpr float kPhoto = 1.2f, kWet = -2.0f;  // outward of the line: all photo, all paint
   const glm::vec3 lip = set.lip_colour.value_or(lip_inside);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const CageTag& tag = tags[i];
@@ -45,10 +45,11 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     const float outward =
         (tag.deep > 0 ? -kDeep * tag.deep : kRed * tag.red) - (tag.lip_side < 0 ? 0.9f : 0.0f);
     if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
-    const float at_corner = SmoothStep(4.5f, 6.0f, tag.lip_column);
-    const float wet = SmoothStep(kPhoto, kWet, outward) * (1 - 0.6f * at_corner);
+    // Corners stay together: there the photo's own line is seen.
+    const float at_corner = SmoothStep(4.0f, 5.2f, tag.lip_column);
+    const float wet = SmoothStep(glm::mix(kPhoto, -0.6f, at_corner), kWet, outward);
     const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
-    topology.albedo[i] = glm::mix(dry, Wetter(lip, set.saturation), wet);
+    topology.albedo[i] = Wetter(dry, set.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.5f, SmoothStep(0.5f, -4.0f, outward));
     topology.photo_place[i].z = 1 - wet;
   }
@@ -77,7 +78,7 @@ void AddSheet(const FaceSet& set, HeadMesh& mesh) {
 
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
   // Of a large lens and its rim from the eye, millimetres.
-  constexpr float kAside = 33, kUp = 16, kDown = 29;
+  constexpr float kAside = 37, kUp = 19, kDown = 29;
   for (std::size_t i = 0; i < skin_count; ++i) {
     Flesh& f = mesh.flesh[i];
     const float up = f.domain.y - eye.y;

@@ -279,6 +279,10 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
   // The lamp is large, so most of what lips leave of its light comes from straight ahead; photos
   // are taken with the light behind the camera, more or less.
   key = glm::normalize(glm::mix(key, glm::vec3(0, 0.55F, 1), head.photo() ? 0.9F : 0.5F));
+  const std::size_t middle = MouthFinder::kColumns / 2;
+  const float gap = opening->lips[middle].y - opening->lips[middle + MouthFinder::kColumns].y;
+  gl_.UseProgram(photo_.id());
+  gl_.Uniform1f(photo_.Uniform("lips_apart"), glm::smoothstep(0.4F, 2.5F, gap));
   gl_.UseProgram(mouth_.id());
   gl_.UniformMatrix4fv(mouth_.Uniform("to_mouth"), 1, GL_FALSE, glm::value_ptr(opening->to_mouth));
   gl_.UniformMatrix3fv(mouth_.Uniform("mouth_to_world"), 1, GL_FALSE, glm::value_ptr(to_world));

@@ -225,8 +225,8 @@ TEST(SpeechTest, EmotionTintsTheMouthAndKeepsTheBrows) {
   const FaceState state = motion.StateAt(1000ms);
   EXPECT_FLOAT_EQ(state.au_left[1], 1);
   EXPECT_FLOAT_EQ(state.au_left[5], 0.5f);
-  EXPECT_NEAR(state.au_left[26], 0.6 * 0.4, 1e-5);
-  EXPECT_FLOAT_EQ(motion.StateAt(2500ms).au_left[26], 0.6f);
+  EXPECT_NEAR(state.au_left[26], 0.85 * 0.4, 1e-5);
+  EXPECT_FLOAT_EQ(motion.StateAt(2500ms).au_left[26], 0.85f);
 }
 
 TEST(SpeechTest, MouthScaleMultipliesButClosuresStay) {

@@ -114,18 +114,28 @@ TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
   }
 }
 
-TEST(MouthPictureTest, PhotoLipsAreThePhotosUpToTheirEdgeAndRollInwardIntoTheDark) {
+TEST(MouthPictureTest, PhotoLipsRollInwardThroughADarkerRedderBand) {
   const MouthPicture picture(InPhoto(), {{26, 0.6F}, {25, 0.5F}});
   for (const bool upper : {true, false}) {
     const glm::vec3 lip = picture.Lip(upper, kIncisor);
     const float out = upper ? 1.0F : -1.0F;
-    for (const float mm : {4.0F, 0.8F}) {
-      const glm::vec3 outside = picture.At(lip + glm::vec3(0, mm * out, 0));
-      for (int c = 0; c < 3; ++c) EXPECT_NEAR(outside[c], kPhoto[c], 4) << mm;
+    const glm::vec3 outside = picture.At(lip + glm::vec3(0, 4 * out, 0));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(outside[c], kPhoto[c], 12) << "the photo's own colour";
+    const glm::vec3 edge = picture.At(lip + glm::vec3(0, 0.2F * out, 0));
+    EXPECT_LT(edge.g, 0.92F * outside.g);
+    EXPECT_GT(edge.g, 0.35F * outside.g) << "which is no cut into the dark";
+    EXPECT_GT(edge.r / edge.g, 1.02F * outside.r / outside.g);
+  }
+}
+
+TEST(MouthPictureTest, ClosedPhotoLipsMeetAsThePhotoShowsThem) {
+  const MouthPicture picture(InPhoto(), {});
+  for (const float x : {0.0F, 10.0F, -20.0F}) {
+    const glm::vec3 lip = picture.Lip(false, x);
+    for (float mm = -1.5F; mm < 1.6F; mm += 0.5F) {
+      const glm::vec3 seen = picture.At(lip + glm::vec3(0, mm, 0));
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], kPhoto[c], 4) << x << ' ' << mm;
     }
-    const glm::vec3 edge = picture.At(lip - glm::vec3(0, 0.3F * out, 0));
-    EXPECT_LT(edge.r, 0.97F * kPhoto.r);
-    EXPECT_GT(edge.r, 0.5F * kPhoto.r) << "which is no cut into the dark";
   }
 }
 

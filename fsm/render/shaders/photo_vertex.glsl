@@ -8,6 +8,7 @@ layout(location = 8) in vec4 photo_lender;  // of a lid: the place whose grain i
 
 uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
+uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
 
 out vec2 place;
 out vec3 worn;
@@ -29,6 +30,7 @@ void main() {
   float roll = smoothstep(0.0, 0.3, 1.0 - photo_place.z);
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
   worn.z *= mix(1.0, facing, roll);
+  if (photo_place.z > 0.0 && roll > 0.0) worn.z = mix(1.0, worn.z, lips_apart);
   crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
   paint = sqrt(max(albedo_occlusion.rgb * (lent ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }
