@@ -97,6 +97,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   CreaseWeights creases;
   skin_.reset();
   painting_ = {};
+  chin_y_ = marks ? marks->gnathion.y : kNoChin;
   if (marks && topology.uv.size() == paint.size()) {
     creases = WeighCreases(rest, *marks);
     painting_ = std::async(std::launch::async, [topology, rest, marks = *marks] {

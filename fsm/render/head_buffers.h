@@ -48,10 +48,14 @@ class HeadBuffers {
   const std::optional<std::array<EyePicture, 2>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
   const std::array<EyeFrame, 2>& resting_eyes() const { return resting_eyes_; }
+  /// Height of the chin's lowest point at rest, millimetres; of a head without landmarks far below.
+  float chin_y() const { return chin_y_; }
   /// Of what is lit beside a photo, 0..1.
   float saturation() const { return saturation_; }
 
  private:
+  static constexpr float kNoChin = -1e4F;
+
   void UploadTopology(const Head& head);
   void Order(const HeadTopology& topology, const HeadVertices& rest);
 
@@ -75,6 +79,7 @@ class HeadBuffers {
   std::optional<std::array<EyePicture, 2>> eye_pictures_;
   std::array<EyeFrame, 2> resting_eyes_;
   float saturation_ = 1;
+  float chin_y_ = kNoChin;
   int generation_ = 0;
 };
 

@@ -283,6 +283,11 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
   const float gap = opening->lips[middle].y - opening->lips[middle + MouthFinder::kColumns].y;
   gl_.UseProgram(photo_.id());
   gl_.Uniform1f(photo_.Uniform("lips_apart"), glm::smoothstep(0.4F, 2.5F, gap));
+  // At rest the lower incisors stand behind the upper ones.
+  constexpr float kOverlap = 1.3F;
+  const float dropped = opening->teeth.x - opening->teeth.y + kOverlap;
+  gl_.Uniform1f(photo_.Uniform("chin_y"), head.chin_y());
+  gl_.Uniform1f(photo_.Uniform("chin_drop"), std::max(dropped, 0.0F));
   gl_.UseProgram(mouth_.id());
   gl_.UniformMatrix4fv(mouth_.Uniform("to_mouth"), 1, GL_FALSE, glm::value_ptr(opening->to_mouth));
   gl_.UniformMatrix3fv(mouth_.Uniform("mouth_to_world"), 1, GL_FALSE, glm::value_ptr(to_world));
@@ -373,6 +378,7 @@ void Materials::Use(Material material) {
 void Materials::UsePhoto(bool ragged) {
   gl_.UseProgram(photo_.id());
   gl_.Uniform1f(photo_.Uniform("ragged"), ragged ? 1.0F : 0.0F);
+  gl_.Uniform1f(photo_.Uniform("under_chin"), ragged ? 1.0F : 0.0F);
   Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
   Bind(has_skin_ ? kSkinRelief : kPlain, GL_TEXTURE2);
 }

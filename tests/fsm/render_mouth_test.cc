@@ -74,8 +74,8 @@ constexpr float kIncisor = 4;  // its middle, millimetres from the median
 
 constexpr glm::vec3 kPhoto(200, 150, 130);
 
-/// The base head in a photo of one colour.
-std::unique_ptr<Head> InPhoto() {
+/// A photo of one colour.
+FaceSet OneColour() {
   FaceSet set;
   for (const glm::vec3 at : {glm::vec3(-60, 0, 0), glm::vec3(60, 0, 0), glm::vec3(0, 60, 60),
                              glm::vec3(0, -80, 60), glm::vec3(0, 0, 90)}) {
@@ -88,6 +88,26 @@ std::unique_ptr<Head> InPhoto() {
   }
   set.photo = photo;
   set.lip_colour = 0.5F * (kPhoto / 255.0F) * (kPhoto / 255.0F);
+  return set;
+}
+
+/// The base head in it.
+std::unique_ptr<Head> InPhoto() { return Head::Make(OneColour()); }
+
+/// With a neck: a sheet behind the chin.
+std::unique_ptr<Head> WithNeck() {
+  FaceSet set = OneColour();
+  set.skin_bottom_y = -86;
+  constexpr std::uint32_t kColumns = 13;
+  for (std::uint32_t i = 0; i < kColumns * kColumns; ++i) {
+    const auto column = static_cast<float>(i % kColumns), row = static_cast<float>(i / kColumns);
+    set.sheet.push_back({{-60 + 10 * column, -60 - 10 * row, 20}, {0.5F, 0.5F}});
+    if (i % kColumns == 0 || i < kColumns) continue;
+    const std::uint32_t left = i - 1, above = i - kColumns;
+    for (const std::uint32_t v : {above - 1, left, i, above - 1, i, above}) {
+      set.sheet_triangles.push_back(v);
+    }
+  }
   return Head::Make(set);
 }
 
@@ -137,6 +157,16 @@ TEST(MouthPictureTest, ClosedPhotoLipsMeetAsThePhotoShowsThem) {
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], kPhoto[c], 4) << x << ' ' << mm;
     }
   }
+}
+
+TEST(MouthPictureTest, ADroppedChinThrowsAShadowOnTheNeckOfAPhoto) {
+  const auto neck = [](float jaw) {
+    return MouthPicture(WithNeck(), {{26, jaw}}).Light({8, -104, 20});
+  };
+  const float at_rest = neck(0);
+  EXPECT_NEAR(at_rest, glm::dot(kPhoto, glm::vec3(0.3F, 0.6F, 0.1F)), 3) << "as the photo has it";
+  EXPECT_LT(neck(0.5F), 0.93F * at_rest);
+  EXPECT_GT(neck(0.5F), 0.65F * at_rest);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ in vec3 worn;
 in vec3 paint;
 in vec4 lender;
 in float crease;
+in float shadow;
 
 uniform float alpha;
 uniform float brightness;
@@ -31,5 +32,5 @@ void main() {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
     painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), kGrain * lender.z);
   }
-  color = vec4(mix(painted, p.rgb, worn.z) * shade * brightness, alpha);
+  color = vec4(mix(painted, p.rgb, worn.z) * shade * shadow * brightness, alpha);
 }

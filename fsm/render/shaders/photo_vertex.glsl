@@ -8,6 +8,9 @@ layout(location = 8) in vec4 photo_lender;  // of a lid: the place whose grain i
 
 uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
+uniform float chin_y;         // of its lowest point at rest, millimetres
+uniform float chin_drop;      // how far it is below that
+uniform float under_chin;     // 1: of what lies behind the chin and does not move with it
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
 
 out vec2 place;
@@ -15,6 +18,7 @@ out vec3 worn;
 out vec3 paint;
 out vec4 lender;  // place, whether there is one, how bright it is round it
 out float crease;
+out float shadow;
 
 void main() {
   vec3 world = Place();
@@ -31,6 +35,10 @@ void main() {
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
   worn.z *= mix(1.0, facing, roll);
   if (photo_place.z > 0.0 && roll > 0.0) worn.z = mix(1.0, worn.z, lips_apart);
+  // The shadow that a dropped chin throws on the neck. The jaw's line rises to the sides.
+  float below = chin_y - chin_drop + 0.012 * rest_position.x * rest_position.x - rest_position.y;
+  shadow = 1.0 - 0.33 * under_chin * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
+                     exp(-max(below, 0.0) / 11.0);
   crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
   paint = sqrt(max(albedo_occlusion.rgb * (lent ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }
