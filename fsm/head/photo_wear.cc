@@ -55,6 +55,23 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
   }
 }
 
+/// How much of the skin at a place hides the sheet, which shows the same beside it: it fades where
+/// the photo did not see it squarely.
+float SeenSkin(const FaceSet& set, glm::vec3 p, glm::vec3 normal) {
+  const float above = p.y - set.skin_bottom_y;
+  // Within the face all stays: lids and nostrils turn every way.
+  if (p.z > 45 && above > 14) return 1;
+  float faces = glm::dot(normal, set.seen_from);
+  for (const glm::vec3 camera : set.also_seen) faces = std::max(faces, glm::dot(normal, camera));
+  // Behind the chin the sheet keeps off: what it hides of its own underside is seen from the side.
+  const float chin = SmoothStep(60, 45, above) * SmoothStep(40, 25, std::abs(p.x)) *
+                     SmoothStep(0.0f, -0.25f, normal.y);
+  // Behind the jaw's line the neck faces the camera again: it is the sheet's.
+  const float line = 30 * SmoothStep(48, 36, above);
+  const float face = SmoothStep(0.12f, 0.36f, faces) * SmoothStep(line - 2, line + 10, p.z);
+  return std::max(face, chin) * SmoothStep(0, 6, above);
+}
+
 }  // namespace
 
 glm::vec3 Wetter(glm::vec3 lip, float saturation) {
@@ -74,6 +91,9 @@ void AddSheet(const FaceSet& set, HeadMesh& mesh) {
   for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
     mesh.Triangle(Material::kPhoto, first + t[i], first + t[i + 1], first + t[i + 2]);
   }
+  // It is drawn first: the skin fades into it.
+  const auto sheet = std::ranges::find(mesh.batches, Material::kPhoto, &HeadMesh::Batch::material);
+  if (sheet != mesh.batches.end()) std::rotate(mesh.batches.begin(), sheet, sheet + 1);
 }
 
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
@@ -92,24 +112,15 @@ void LeaveOutUnseen(const FaceSet& set, float nose_y, HeadMesh& mesh) {
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kSkin) continue;
     const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
+    for (const std::uint32_t v : batch.indices) {
+      mesh.strands[v].cover = SeenSkin(set, mesh.position[v], normal[v]);
+    }
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
       const std::uint32_t* corner = &batch.indices[i];
-      const bool seen = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
-        const auto faces = [&](glm::vec3 camera) { return glm::dot(normal[v], camera) > 0.08f; };
-        return mesh.position[v].y > set.skin_bottom_y && mesh.position[v].z > -2 &&
-               (faces(set.seen_from) || std::ranges::any_of(set.also_seen, faces));
-      });
-      // Within the face all stays: lids and nostrils turn every way.
-      const bool within = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
-        return mesh.position[v].z > 45 && mesh.position[v].y > set.skin_bottom_y + 14;
-      });
-      // What the jaw hides of its own underside is seen from the side.
-      const bool under_jaw = std::all_of(corner, corner + 3, [&](std::uint32_t v) {
-        return mesh.position[v].z > 0 && mesh.position[v].y > set.skin_bottom_y &&
-               normal[v].y < -0.25f;
-      });
-      if (seen || within || under_jaw) kept.insert(kept.end(), corner, corner + 3);
+      const bool seen = std::any_of(corner, corner + 3,
+                                    [&](std::uint32_t v) { return mesh.strands[v].cover > 0; });
+      if (seen) kept.insert(kept.end(), corner, corner + 3);
     }
     batch.indices = std::move(kept);
   }

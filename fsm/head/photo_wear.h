@@ -19,9 +19,9 @@ void AddSheet(const FaceSet& set, HeadMesh& mesh);
 /// `eye`: centre of the left one at rest, (x, y) of the base identity.
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
 
-/// Skin the photo does not show: behind the outline and below the jaw, where the sheet is. The
-/// nostrils, which are lined like the mouth and lie above `nose_y`, become skin: the photo shows
-/// how dark they are.
+/// Skin the photo does not show, behind the outline and below the jaw, where the sheet is: it goes,
+/// and what is beside it fades (Strand::cover). The nostrils, which are lined like the mouth and
+/// lie above `nose_y`, become skin: the photo shows how dark they are.
 void LeaveOutUnseen(const FaceSet& set, float nose_y, HeadMesh& mesh);
 
 /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.

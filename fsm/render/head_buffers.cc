@@ -50,7 +50,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(kAttributes + 1, buffers_);
   gl_.BindVertexArray(array_);
-  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3, 4};
+  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3, 4, 1};
   for (GLuint i = 0; i < kAttributes; ++i) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[i]);
     gl_.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -136,6 +136,13 @@ void HeadBuffers::UploadTopology(const Head& head) {
   std::vector<glm::vec4> photo_lender = topology.photo_lender;
   photo_lender.resize(paint.size());
   upload(8, photo_lender);
+  // What wears a photo thins out as hair does; a mesh from elsewhere has cut-outs in any order.
+  blends_ = photo_ && !topology.strands.empty();
+  std::vector<float> cover(paint.size(), 1.0F);
+  for (std::size_t i = 0; i < std::min(cover.size(), topology.strands.size()); ++i) {
+    cover[i] = topology.strands[i].cover;
+  }
+  upload(9, cover);
   Order(topology, rest);
   eyes_ = EyeFinder(topology, rest);
   if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
@@ -159,11 +166,14 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   std::vector<Triangle> hair;
   std::vector<std::uint32_t> indices;
   parts_.clear();
+  soft_.clear();
   const auto depth = [&rest](const Triangle& t) {
     return rest.position[t[0]].z + rest.position[t[1]].z + rest.position[t[2]].z;
   };
-  const auto add = [&](Material material, std::span<const std::uint32_t> corners) {
+  const auto add = [&](Material material, std::span<const std::uint32_t> corners,
+                       bool soft = false) {
     if (corners.empty()) return;
+    soft_.push_back(soft);
     parts_.push_back({material, static_cast<std::uint32_t>(indices.size()),
                       static_cast<std::uint32_t>(corners.size())});
     indices.insert(indices.end(), corners.begin(), corners.end());
@@ -195,7 +205,22 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   add(Material::kHair, flat({hair.begin(), behind}));
   for (const auto& part : topology.parts) {
     if (part.material == Material::kHair) continue;
-    add(part.material, std::span(topology.indices).subspan(part.first_index, part.index_count));
+    const auto corners = std::span(topology.indices).subspan(part.first_index, part.index_count);
+    if (!blends_ || part.material != Material::kSkin) {
+      add(part.material, corners, blends_ && part.material == Material::kPhoto);
+      continue;
+    }
+    // Most of the skin hides what is behind it, and mixing costs time.
+    std::vector<std::uint32_t> whole, fading;
+    for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+      const auto triangle = corners.subspan(k, 3);
+      const bool fades = std::ranges::any_of(
+          triangle, [&](std::uint32_t v) { return topology.strands[v].cover < 1; });
+      (fades ? fading : whole)
+          .insert((fades ? fading : whole).end(), triangle.begin(), triangle.end());
+    }
+    add(part.material, whole);
+    add(part.material, fading, true);
   }
   add(Material::kHair, flat({behind, hair.end()}));
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,

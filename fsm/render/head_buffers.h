@@ -44,6 +44,10 @@ class HeadBuffers {
   int generation() const { return generation_; }
   /// What is worn in place of painted skin, if anything.
   const WornPhoto* photo() const { return photo_.get(); }
+  /// Whether that is laid on in layers from back to front with soft edges, and which of parts()
+  /// have such edges.
+  bool blends() const { return blends_; }
+  bool IsSoft(std::size_t part) const { return soft_[part]; }
   /// Where the photo shows eyes: HeadTopology::eye_pictures.
   const std::optional<std::array<EyePicture, 2>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
@@ -64,11 +68,12 @@ class HeadBuffers {
   // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
   // the right and of the left side; of hair its place among hairs, direction and cover, place
   // across its lock; indices.
-  static constexpr GLuint kAttributes = 9;  // the last two: places in a photo
+  static constexpr GLuint kAttributes = 10;  // the last three: places in a photo, cover
   GLuint buffers_[kAttributes + 1] = {};
   const Head* head_ = nullptr;
   std::uint64_t checksum_ = 0;
   std::vector<HeadTopology::Part> parts_;
+  std::vector<bool> soft_;
   EyeFinder eyes_;
   ShadowFinder shadows_;
   MouthFinder mouth_;
@@ -80,6 +85,7 @@ class HeadBuffers {
   std::array<EyeFrame, 2> resting_eyes_;
   float saturation_ = 1;
   float chin_y_ = kNoChin;
+  bool blends_ = false;
   int generation_ = 0;
 };
 

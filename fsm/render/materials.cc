@@ -223,6 +223,8 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.Uniform4fv(photo_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
   gl_.Uniform1fv(photo_.Uniform("lids_shut"), 2, vertices.lids_shut.data());
   gl_.Uniform1i(photo_.Uniform("photo"), 1);
+  blends_ = head.blends();
+  gl_.Uniform1f(photo_.Uniform("blends"), blends_ ? 1.0F : 0.0F);
   gl_.Uniform1i(photo_.Uniform("relief"), 2);
   // The photo's light stands for the lamps as they are by default.
   const Scene studio;
@@ -379,6 +381,9 @@ void Materials::UsePhoto(bool ragged) {
   gl_.UseProgram(photo_.id());
   gl_.Uniform1f(photo_.Uniform("ragged"), ragged ? 1.0F : 0.0F);
   gl_.Uniform1f(photo_.Uniform("under_chin"), ragged ? 1.0F : 0.0F);
+  // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
+  constexpr float kYields = 5;
+  gl_.Uniform1f(photo_.Uniform("yields"), ragged && blends_ ? kYields : 0.0F);
   Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
   Bind(has_skin_ ? kSkinRelief : kPlain, GL_TEXTURE2);
 }

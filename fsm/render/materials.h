@@ -54,7 +54,7 @@ class Materials {
   GLuint textures_[kTextures] = {};
   int generation_ = 0;  // of the head whose skin is in the textures
   bool has_skin_ = false;
-  bool has_photo_ = false;
+  bool has_photo_ = false, blends_ = false;
   bool has_mouth_ = false;  // of which is known how light comes in
   float chroma_ = 1;        // of the picture, 0 beside a grey photo
   int skin_level_ = 0;

@@ -84,8 +84,8 @@ class GlRenderer : public Renderer {
         // back and hidden layers never shine through.
         gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         for (const auto& part : parts) {
-          if (IsHair(part.material)) {
-            materials_.Use(part.material);  // hair has holes
+          if (IsHair(part.material) || part.material == Material::kPhoto) {
+            materials_.Use(part.material);  // they have holes
           } else {
             materials_.UseLine(glm::vec4(0.0F));
           }
@@ -101,7 +101,11 @@ class GlRenderer : public Renderer {
         // has an inside of its own where it hangs.
         (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part.material);
+        const bool soft =
+            alpha >= 1 && head_.IsSoft(static_cast<std::size_t>(&part - parts.data()));
+        if (soft) BeginBlending();
         DrawPart(part);
+        if (soft) gl_.Disable(GL_BLEND);
         // A software driver draws on threads of its own, but begins when told to.
         if (&part == &parts.front()) gl_.Flush();
       }

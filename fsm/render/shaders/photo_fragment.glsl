@@ -5,10 +5,12 @@ in vec3 paint;
 in vec4 lender;
 in float crease;
 in float shadow;
+in float covering;
 
 uniform float alpha;
 uniform float brightness;
 uniform float ragged;     // 1: what is transparent in the photo is left out
+uniform float blends;     // 1: in part, over what is drawn already; 0: sample by sample
 uniform sampler2D photo;
 uniform sampler2D relief;
 
@@ -18,10 +20,13 @@ const float kGrain = 0.4;  // of what lends it: lids are smoother than what lies
 
 void main() {
   vec4 p = texture(photo, worn.xy);
-  // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
-  ivec2 s = ivec2(gl_FragCoord.xy) & 1;
-  float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
-  if (ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
+  float opacity = covering * mix(1.0, p.a, ragged);
+  if (opacity < 0.98) {
+    // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
+    ivec2 s = ivec2(gl_FragCoord.xy) & 1;
+    float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
+    if (1.0 - opacity > mix(step, 0.99, blends)) discard;
+  }
   vec2 slope = texture(relief, place).zw - 0.5;
   // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
   float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.03 + 0.32 * dot(slope, vec2(-0.5, 0.85)));
@@ -32,5 +37,5 @@ void main() {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
     painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), kGrain * lender.z);
   }
-  color = vec4(mix(painted, p.rgb, worn.z) * shade * shadow * brightness, alpha);
+  color = vec4(mix(painted, p.rgb, worn.z) * shade * shadow * brightness, alpha * mix(1.0, opacity, blends));
 }

@@ -5,6 +5,7 @@ layout(location = 6) in vec4 creases_left;
 layout(location = 7) in vec3 photo_place;  // u, v down; the photo's part in the colour, beyond 1: lid
 
 layout(location = 8) in vec4 photo_lender;  // of a lid: the place whose grain it takes; its way
+layout(location = 9) in float cover;        // 1: hides what is behind, 0: is not there
 
 uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
@@ -12,6 +13,7 @@ uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
 uniform float under_chin;     // 1: of what lies behind the chin and does not move with it
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
+uniform float yields;        // millimetres by which it lies behind what is as near
 
 out vec2 place;
 out vec3 worn;
@@ -19,9 +21,14 @@ out vec3 paint;
 out vec4 lender;  // place, whether there is one, how bright it is round it
 out float crease;
 out float shadow;
+out float covering;
 
 void main() {
   vec3 world = Place();
+  if (yields > 0.0) {
+    vec4 farther = world_to_clip * vec4(world + yields * normalize(world - eye), 1.0);
+    gl_Position.z = farther.z / farther.w * gl_Position.w;
+  }
   place = unrolled;
   float lid = max(photo_place.z - 1.0, 0.0);
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
@@ -39,6 +46,7 @@ void main() {
   float below = chin_y - chin_drop + 0.012 * rest_position.x * rest_position.x - rest_position.y;
   shadow = 1.0 - 0.33 * under_chin * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
                      exp(-max(below, 0.0) / 11.0);
+  covering = cover;
   crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
   paint = sqrt(max(albedo_occlusion.rgb * (lent ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }

@@ -1,0 +1,127 @@
+// A head that wears a photo: the sheet of hair and clothes, and the skin that fades into it.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "fsm/head/face_set.h"
+#include "fsm/render/camera.h"
+#include "tests/fsm/render_support.h"
+
+namespace fsm {
+namespace {
+
+constexpr int kSide = 400;
+constexpr glm::vec3 kSkin(200, 40, 40), kHair(40, 200, 40);
+
+/// A face of `kSkin`, and a sheet of `kHair` of some opacity across it.
+FaceSet RedFaceAndGreenSheet(int opacity, std::initializer_list<float> depths) {
+  FaceSet set;
+  for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
+    set.points.push_back({at, glm::vec3(0)});
+  }
+  WornPhoto photo{2, 1, {}};
+  for (const auto& [colour, a] : {std::pair(kSkin, 255), std::pair(kHair, opacity)}) {
+    for (int c = 0; c < 3; ++c) photo.rgba.push_back(static_cast<std::uint8_t>(colour[c]));
+    photo.rgba.push_back(static_cast<std::uint8_t>(a));
+  }
+  set.photo = std::make_shared<WornPhoto>(photo);
+  set.skin_low = {0.24F, 0.9F};
+  set.skin_high = {0.26F, 0.1F};
+  for (const float z : depths) {
+    const auto first = static_cast<std::uint32_t>(set.sheet.size());
+    for (const glm::vec2 p : {glm::vec2(-90, 120), {-90, -60}, {90, -60}, {90, 120}}) {
+      set.sheet.push_back({{p, z}, {0.75F, 0.5F}});
+    }
+    for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) set.sheet_triangles.push_back(first + k);
+  }
+  return set;
+}
+
+/// Screen colours 0..255 at places of the head's frame, the mean of 3 x 3 pixels.
+std::vector<glm::vec3> Drawn(const FaceSet& set, std::initializer_list<glm::vec3> places) {
+  const auto head = Head::Make(set);
+  const FaceState state;
+  HeadVertices vertices;
+  head->Evaluate(state, vertices);
+  Scene scene;
+  scene.background = glm::vec3(0, 0, 1);
+  const auto context = RenderContext::MakeHeadless(kSide, kSide);
+  const auto renderer = Renderer::Make(*context);
+  renderer->Draw(*head, vertices, state, scene);
+  Image image;
+  renderer->Read(image);
+  const View view = FramePortrait(state, scene.camera, kSide, kSide);
+  std::vector<glm::vec3> seen;
+  for (const glm::vec3 place : places) {
+    const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(place, 1);
+    const int x = static_cast<int>((0.5F + 0.5F * clip.x / clip.w) * kSide);
+    const int y = static_cast<int>((0.5F - 0.5F * clip.y / clip.w) * kSide);
+    glm::vec3 sum(0);
+    for (int k = 0; k < 9; ++k) {
+      const auto i = static_cast<std::size_t>((y + k / 3 - 1) * kSide + x + k % 3 - 1) * 4;
+      sum += glm::vec3(image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]);
+    }
+    seen.push_back(sum / 9.0F);
+  }
+  return seen;
+}
+
+TEST(PhotoTest, ASheetIsAsTransparentAsThePhotoSays) {
+  const auto seen = Drawn(RedFaceAndGreenSheet(102, {60}), {{-75, 60, 60}});
+  const glm::vec3 should = glm::mix(glm::vec3(0, 0, 255), kHair, 0.4F);
+  EXPECT_LT(glm::distance(seen[0], should), 6) << seen[0].x << " " << seen[0].y << " " << seen[0].z;
+}
+
+TEST(PhotoTest, WhatLiesBehindASoftEdgeIsSeenThroughIt) {
+  // Two sheets, the farther first, as face_fit writes them.
+  const auto seen = Drawn(RedFaceAndGreenSheet(102, {20, 60}), {{-75, 60, 60}});
+  const glm::vec3 should = glm::mix(glm::vec3(0, 0, 255), kHair, 1 - 0.6F * 0.6F);
+  EXPECT_LT(glm::distance(seen[0], should), 6) << seen[0].x << " " << seen[0].y << " " << seen[0].z;
+}
+
+TEST(PhotoTest, SkinIsSeenWhereTheSheetComesNearlyAsFar) {
+  const auto base = Head::Make("galatea");
+  const glm::vec3 nasion = base->Landmark("nasion");
+  const glm::vec3 forehead = nasion + glm::vec3(0, 30, 0);
+  HeadVertices rest;
+  base->Evaluate({}, rest);
+  float z = -1e9F;
+  for (const glm::vec3 p : rest.position) {
+    if (glm::distance(glm::vec2(p), glm::vec2(forehead)) < 5) z = std::max(z, p.z);
+  }
+  const glm::vec3 place(forehead.x, forehead.y, z);
+  EXPECT_GT(Drawn(RedFaceAndGreenSheet(255, {z + 2}), {place})[0].r, 150);
+  EXPECT_LT(Drawn(RedFaceAndGreenSheet(255, {z + 20}), {place})[0].r, 60);
+}
+
+TEST(PhotoTest, TheSkinFadesAtItsSidesAndEndsAtTheJaw) {
+  const auto head = Head::Make(RedFaceAndGreenSheet(255, {-20}));
+  const auto& topology = head->topology();
+  HeadVertices rest;
+  head->Evaluate({}, rest);
+  const glm::vec3 chin = head->Landmark("gnathion");
+  int fading = 0;
+  for (const auto& part : topology.parts) {
+    if (part.material != Material::kSkin) continue;
+    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+      const std::uint32_t v = topology.indices[k];
+      const glm::vec3 p = rest.position[v];
+      const float cover = topology.strands[v].cover;
+      if (p.z > 60 && p.y > chin.y + 8) {
+        EXPECT_EQ(cover, 1) << p.x << " " << p.y;
+      }
+      fading += cover > 0.1F && cover < 0.9F;
+      // The neck, which faces the camera again behind the jaw.
+      const bool neck = p.z < 20 && std::abs(p.x) > 42 && p.y < chin.y + 20;
+      EXPECT_TRUE(!neck || cover == 0) << p.x << " " << p.y << " " << p.z << ": " << cover;
+    }
+  }
+  EXPECT_GT(fading, 60);
+  EXPECT_EQ(topology.parts.front().material, Material::kPhoto) << "the skin is laid over it";
+}
+
+}  // namespace
+}  // namespace fsm
