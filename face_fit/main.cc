@@ -15,6 +15,7 @@
 
 #include "face_fit/dress/dress.h"
 #include "face_fit/dress/side_view.h"
+#include "face_fit/find/figure_finder.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/head_finder.h"
 #include "face_fit/find/upright.h"
@@ -184,7 +185,7 @@ void Run(const Options& options) {
   progress.Say("head fitted");
   const auto sides = LookFromTheSide(options, networks, base, photo, fit);
   if (!sides.empty()) progress.Say("seen from the side, too");
-  const Figure figure = CutOut(photo, FindFigure(networks, photo));
+  const Figure figure = CutOut(photo, FindFigure(networks, photo, &face));
   progress.Say("figure cut out");
   fsm::FaceSet set;
   const Dress dress = MakeDress(base, face, fit, photo, figure, sides, set);

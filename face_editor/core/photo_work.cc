@@ -6,6 +6,7 @@
 
 #include "face_editor/core/table_writer.h"
 #include "face_fit/dress/side_view.h"
+#include "face_fit/find/figure_finder.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/report.h"
@@ -93,7 +94,10 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
       work->found = PointsOf(facefit::FindPoints(sight->networks, work->photo,
                                                  boxes[static_cast<std::size_t>(face - 1)]));
     }
-    work->figure = facefit::CutOut(work->photo, facefit::FindFigure(sight->networks, work->photo));
+    const facefit::FoundFace seen = FoundFrom(work->found);
+    work->figure = facefit::CutOut(
+        work->photo,
+        facefit::FindFigure(sight->networks, work->photo, boxes.empty() ? nullptr : &seen));
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, path + ": " + error.what());
   }

@@ -6,7 +6,11 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "face_fit/dress/cover.h"
+#include "face_fit/dress/enlarge.h"
 #include "face_fit/dress/folds.h"
+#include "face_fit/dress/grain.h"
+#include "face_fit/dress/matte.h"
 #include "face_fit/dress/openings.h"
 #include "face_fit/dress/sheet.h"
 #include "face_fit/dress/skin_colours.h"
@@ -26,13 +30,15 @@ struct SkinPlaces {
   std::vector<float> across;    ///< millimetres to the person's left of the middle
   std::vector<float> up;        ///< millimetres above the brows
   std::vector<float> off_seam;  ///< millimetres from where the lips meet
+  std::vector<float> aside;     ///< 1 on the sides of the head and below the chin, 0 on the face
   SkinPlaces()
       : pixel(static_cast<std::size_t>(kMapSide) * kMapSide),
         facing(pixel.size(), -1),
         outward(pixel.size(), -1e9F),
         across(pixel.size(), 0),
         up(pixel.size(), -1),
-        off_seam(pixel.size(), 1e9F) {}
+        off_seam(pixel.size(), 1e9F),
+        aside(pixel.size(), 0) {}
 };
 
 /// Whether a texel belongs to what is counted as face.
@@ -40,7 +46,38 @@ bool OnFront(const SkinPlaces& places, std::size_t i) {
   return places.outward[i] > 0 && i / kMapSide > kMapSide / 5 && i / kMapSide < kMapSide * 3 / 4;
 }
 
-SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose) {
+/// Whether the head itself hides a place of its skin from the camera, as the jaw does the throat.
+class Hidden {
+ public:
+  Hidden(const BaseHead& base, const Fit& fit) : fit_(fit) {
+    const glm::vec2 middle = fit.pose.Project({0, 0, 0});
+    const float reach = kReach * fit.pose.PixelsPerMm();
+    const float cell = 2 * reach / kCells;
+    grid_ = {middle - reach, cell, kCells, kCells};
+    nearest_ = CoverWithSkin(base, fit, grid_, -1e9F).depth;
+  }
+  bool operator()(glm::vec3 camera) const {
+    const glm::vec2 at = (fit_.pose.Project(camera) - grid_.origin) / grid_.cell + 0.5F;
+    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+    if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
+    constexpr float kBehind = 5;  // millimetres
+    for (int k = 0; k < 9; ++k) {
+      const float z = nearest_.at[nearest_.Index(x + k % 3 - 1, y + k / 3 - 1)];
+      if (z < camera.z + kBehind) return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int kCells = 256;
+  static constexpr float kReach = 180;  // millimetres
+  const Fit& fit_;
+  PhotoGrid grid_{};
+  Field nearest_{0, 0};
+};
+
+SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose,
+                     const Hidden* hidden = nullptr) {
   const auto& topology = base.head->topology();
   SkinPlaces out;
   std::vector<glm::vec3> camera;
@@ -61,6 +98,7 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose) {
   constexpr glm::vec3 kEye(0, 0, 794);
   constexpr float kBrows = 27;  // millimetres above the nasion they end
   const float brows = base.head->Landmark("nasion").y + kBrows;
+  const float chin = base.places[152].On(base.rest.position).y;
   std::vector<glm::vec3> seam;
   for (const int i : UpperInnerLip()) {
     seam.push_back(base.places[static_cast<std::size_t>(i)].On(base.rest.position));
@@ -120,8 +158,12 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose) {
         out.across[i] = rest.x;
         out.up[i] = rest.y - brows;
         out.off_seam[i] = off_seam(rest);
+        out.aside[i] = std::max(glm::smoothstep(40.0F, 52.0F, std::abs(rest.x)),
+                                glm::smoothstep(chin + 22, chin + 10, rest.y));
         out.facing[i] =
-            glm::dot(glm::normalize(n + glm::vec3(0, 0, 1e-9F)), glm::normalize(kEye - q));
+            hidden && (*hidden)(q)
+                ? -1.0F
+                : glm::dot(glm::normalize(n + glm::vec3(0, 0, 1e-9F)), glm::normalize(kEye - q));
       }
     }
   });
@@ -176,12 +218,8 @@ void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const S
 Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
   Field mask(photo.width, photo.height);
   mask.at = person;
-  Figure figure{photo, Sharpened(mask, photo, std::max(photo.width, photo.height) / 100 + 2)};
-  Field sure(photo.width, photo.height);
-  // Near the outline the photo's pixels hold some of the background.
-  const Field soft = Blurred(figure.opacity, std::max(photo.width, photo.height) / 400 + 1);
-  for (std::size_t i = 0; i < sure.at.size(); ++i) sure.at[i] = soft.at[i] > 0.97F ? 1.0F : 0.0F;
-  FillIn(figure.colours, sure);
+  const Field opacity = Matte(photo, mask);
+  Figure figure{WithoutBackground(photo, opacity), opacity};
   return figure;
 }
 
@@ -197,7 +235,8 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   dress.picture.height = kMapSide;
   dress.picture.rgba.assign(static_cast<std::size_t>(8 * kMapSide) * kMapSide, 255);
 
-  const SkinPlaces places = PlaceSkin(base, fit, fit.pose);
+  const Hidden hidden(base, fit);
+  const SkinPlaces places = PlaceSkin(base, fit, fit.pose, &hidden);
   fsm::Image map;
   map.width = map.height = kMapSide;
   map.rgba.assign(static_cast<std::size_t>(4 * kMapSide) * kMapSide, 255);
@@ -213,12 +252,14 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     const glm::vec2 p = places.pixel[i];
     const bool inside = InPhoto(photo, p);
     face_texels += OnFront(places, i) ? 1.0F : 0.0F;
-    if (!inside || places.facing[i] < 0.03F) continue;
-    float weight = glm::smoothstep(0.03F, 0.2F, places.facing[i]);
+    // Near the head's outline the photo shows more of what lies beside it than of its skin.
+    const float least = glm::mix(0.03F, 0.14F, places.aside[i]);
+    if (!inside || places.facing[i] < least) continue;
+    float weight = glm::smoothstep(least, least + 0.18F, places.facing[i]);
     const float part = openings.Skin(p);
     skin[i] = part >= 1;
     weight *= part;
-    const glm::vec3 colour = ColourAt(colours, p);
+    const glm::vec3 colour = SharpColourAt(colours, p);
     for (int c = 0; c < 3; ++c)
       map.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c] + 0.5F);
     seen.at[i] = weight;
@@ -249,6 +290,9 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     }
   }
   FillIn(map, seen);
+  Field aside(kMapSide, kMapSide);
+  aside.at = places.aside;
+  AddGrain(seen, aside, kMapSide / 170, map);
   if (open) {
     // Where lips that were apart now meet there is a dark line, reddish where the photo has colour.
     const glm::vec3 dark = glm::mix(glm::vec3(0.4F), glm::vec3(0.3F, 0.5F, 0.48F), set.saturation);
@@ -272,6 +316,10 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   }
 
   const fsm::Image back = BehindFace(base, fit, figure);
+  // An edge as wide as a pixel of a small photo would look blurred: screens show two and more
+  // pixels to a millimetre.
+  constexpr float kShown = 2;
+  const float steep = glm::clamp(kShown / fit.pose.PixelsPerMm(), 1.0F, 3.0F);
   for (int y = 0; y < kMapSide; ++y) {
     for (int x = 0; x < kMapSide; ++x) {
       std::uint8_t* left = &dress.picture.rgba[4 * (static_cast<std::size_t>(y) * 2 * kMapSide +
@@ -279,11 +327,11 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
       std::copy_n(&map.rgba[4 * MapIndex(x, y)], 4, left);
       const glm::vec2 p = (glm::vec2(x, y) + 0.5F) / static_cast<float>(kMapSide) *
                           glm::vec2(photo.width, photo.height);
-      const glm::vec3 colour = ColourAt(back, p);
+      const glm::vec3 colour = SharpColourAt(back, p);
       std::uint8_t* right = left + 4 * kMapSide;
       for (int c = 0; c < 3; ++c) right[c] = static_cast<std::uint8_t>(colour[c] + 0.5F);
-      // Soft edges are drawn long where the sheet is turned to the viewer: sharper ones tear less.
-      const float opacity = glm::smoothstep(0.25F, 0.85F, figure.opacity.Between(p.x, p.y));
+      const float opacity =
+          glm::clamp(0.5F + steep * (SmoothAt(figure.opacity, p) - 0.5F), 0.0F, 1.0F);
       right[3] = static_cast<std::uint8_t>(255 * opacity + 0.5F);
     }
   }

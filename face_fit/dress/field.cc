@@ -43,32 +43,6 @@ Field Blurred(const Field& field, int reach) {
   return out;
 }
 
-Field Sharpened(const Field& mask, const fsm::Image& image, int reach) {
-  Field guide(mask.width, mask.height), square = guide, product = guide;
-  for (std::size_t i = 0; i < guide.at.size(); ++i) {
-    const std::uint8_t* p = &image.rgba[4 * i];
-    const float g = (0.3F * p[0] + 0.5F * p[1] + 0.2F * p[2]) / 255;
-    guide.at[i] = g;
-    square.at[i] = g * g;
-    product.at[i] = g * mask.at[i];
-  }
-  const Field mean = Blurred(guide, reach), mean_square = Blurred(square, reach);
-  const Field mean_mask = Blurred(mask, reach), mean_product = Blurred(product, reach);
-  Field slope(mask.width, mask.height), base = slope;
-  for (std::size_t i = 0; i < guide.at.size(); ++i) {
-    const float variance = mean_square.at[i] - mean.at[i] * mean.at[i];
-    slope.at[i] = (mean_product.at[i] - mean.at[i] * mean_mask.at[i]) / (variance + 2e-4F);
-    base.at[i] = mean_mask.at[i] - slope.at[i] * mean.at[i];
-  }
-  const Field a = Blurred(slope, reach), b = Blurred(base, reach);
-  Field out(mask.width, mask.height);
-  for (std::size_t i = 0; i < out.at.size(); ++i) {
-    const float v = std::clamp((a.at[i] * guide.at[i] + b.at[i] - 0.35F) / 0.4F, 0.0F, 1.0F);
-    out.at[i] = v * v * (3 - 2 * v);
-  }
-  return out;
-}
-
 void FillIn(fsm::Image& image, const Field& weight) {
   struct Level {
     int width, height;

@@ -22,9 +22,6 @@ struct Field {
 
 /// The mean over squares of side 2 * reach + 1.
 Field Blurred(const Field& field, int reach);
-/// A mask made to follow the edges of the picture it belongs to (He, Sun and Tang, Guided Image
-/// Filtering, 2010), and made steeper.
-Field Sharpened(const Field& mask, const fsm::Image& image, int reach);
 /// Fills what has no weight from around it, farther away from ever wider around (a pyramid of
 /// halved pictures); full weight stays as it is.
 void FillIn(fsm::Image& image, const Field& weight);

@@ -7,6 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/dress/cover.h"
+#include "face_fit/dress/grain.h"
+#include "face_fit/fit/form.h"
+
 namespace facefit {
 namespace {
 
@@ -17,176 +21,228 @@ constexpr float kRim = 13;
 
 float ChinY(const BaseHead& base, const Fit& fit) { return base.places[152].On(fit.worn).y; }
 
-/// Calls `f(x, y, z)` for the cells of a grid over the photo that the face's skin covers, z towards
-/// the camera.
-template <typename F>
-void CoverSkin(const BaseHead& base, const Fit& fit, glm::vec2 origin, float cell, int columns,
-               int rows, F f) {
-  const float bottom = ChinY(base, fit) - kBelowChin;
-  const auto& topology = base.head->topology();
-  for (const auto& part : topology.parts) {
-    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
-    for (std::uint32_t k = part.first_index; k + 2 < part.first_index + part.index_count; k += 3) {
-      const std::uint32_t* t = &topology.indices[k];
-      glm::vec3 q[3];
-      glm::vec2 p[3];
-      bool low = false;
-      for (int c = 0; c < 3; ++c) {
-        low = low || fit.worn[t[c]].y < bottom || fit.worn[t[c]].z < 0;
-        q[c] = fit.pose.ToCamera(fit.worn[t[c]]);
-        p[c] = (fit.pose.Project(q[c]) - origin) / cell;
-      }
-      const glm::vec3 n = glm::cross(q[1] - q[0], q[2] - q[0]);
-      if (low || n.z <= 0.1F * glm::length(n)) continue;
-      const float area =
-          (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-      if (std::abs(area) < 1e-7F) continue;
-      const glm::vec2 least = glm::max(glm::floor(glm::min(p[0], glm::min(p[1], p[2]))), 0.0F);
-      const glm::vec2 most = glm::min(glm::ceil(glm::max(p[0], glm::max(p[1], p[2]))),
-                                      glm::vec2(columns - 1, rows - 1));
-      for (int y = static_cast<int>(least.y); y <= static_cast<int>(most.y); ++y) {
-        for (int x = static_cast<int>(least.x); x <= static_cast<int>(most.x); ++x) {
-          const glm::vec2 at(x, y);
-          const float b =
-              ((at.x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (at.y - p[0].y)) / area;
-          const float c =
-              ((p[1].x - p[0].x) * (at.y - p[0].y) - (at.x - p[0].x) * (p[1].y - p[0].y)) / area;
-          if (b < -0.01F || c < -0.01F || b + c > 1.01F) continue;
-          f(x, y, q[0].z * (1 - b - c) + q[1].z * b + q[2].z * c);
-        }
+/// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
+/// `p`: in the head's frame.
+float BeforeNeck(float chin, glm::vec3 p) {
+  return glm::smoothstep(chin + 45, chin + 12, p.y) * glm::smoothstep(40.0F, 22.0F, std::abs(p.x));
+}
+
+/// Spans a skin of soap, a little rounder, over what is not fixed.
+void Span(const Field& fixed, Field& depth) {
+  for (int round = 0; round < 400; ++round) {
+    for (int y = 0; y < depth.height; ++y) {
+      for (int x = 0; x < depth.width; ++x) {
+        const std::size_t i = depth.Index(x, y);
+        if (fixed.at[i] > 0) continue;
+        const auto next = [&](int dx, int dy) {
+          return depth.at[depth.Index(std::clamp(x + dx, 0, depth.width - 1),
+                                      std::clamp(y + dy, 0, depth.height - 1))];
+        };
+        depth.at[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + 0.12F;
       }
     }
   }
 }
 
-/// Sets what cannot be reached from the edge: eyes and an open mouth lie within the face.
-void FillHoles(Field& covered) {
-  Field outside(covered.width, covered.height);
-  std::vector<std::pair<int, int>> open;
-  const auto reach = [&](int x, int y) {
-    if (x < 0 || y < 0 || x >= covered.width || y >= covered.height) return;
-    const std::size_t i = covered.Index(x, y);
-    if (covered.at[i] > 0 || outside.at[i] > 0) return;
-    outside.at[i] = 1;
-    open.emplace_back(x, y);
-  };
-  for (int x = 0; x < covered.width; ++x) {
-    reach(x, 0);
-    reach(x, covered.height - 1);
+/// The mean of what is covered around each point, ever less beyond its edge.
+void Spread(const Field& covered, int reach, Field& field) {
+  const Field share = Blurred(covered, reach);
+  field = Blurred(field, reach);
+  for (std::size_t i = 0; i < field.at.size(); ++i) {
+    field.at[i] *= glm::smoothstep(0.0F, 0.3F, share.at[i]) / std::max(share.at[i], 1e-3F);
   }
-  for (int y = 0; y < covered.height; ++y) {
-    reach(0, y);
-    reach(covered.width - 1, y);
-  }
-  while (!open.empty()) {
-    const auto [x, y] = open.back();
-    open.pop_back();
-    reach(x + 1, y);
-    reach(x - 1, y);
-    reach(x, y + 1);
-    reach(x, y - 1);
-  }
-  for (std::size_t i = 0; i < covered.at.size(); ++i) covered.at[i] = 1 - outside.at[i];
 }
+
+/// How the skin moves from the photo's expression to rest, at each vertex of the base head.
+std::vector<glm::vec3> MotionToRest(const BaseHead& base, const Fit& fit) {
+  const std::vector<glm::vec3> rest = SkinWith(base, fit, {});
+  std::vector<glm::vec3> motion(fit.worn.size(), glm::vec3(0));
+  for (std::size_t i = 0; i < std::min(rest.size(), motion.size()); ++i) {
+    motion[i] = rest[i] - fit.worn[i];
+  }
+  return motion;
+}
+
+/// The figure with what goes on beyond the photo's edges: clothes are mirrored there to and fro,
+/// and pulled down as the shoulders fall. Hair that the photo cuts off ends softly.
+class Beyond {
+ public:
+  /// `chin`: its pixel; `mm`: pixels to a millimetre.
+  Beyond(const Figure& figure, glm::vec2 chin, float mm)
+      : opacity_(figure.opacity),
+        width_(static_cast<float>(opacity_.width)),
+        height_(static_cast<float>(opacity_.height)),
+        chin_(chin),
+        mm_(mm) {
+    constexpr float kHalfHead = 80;  // millimetres, with hair
+    for (const int side : {0, 1}) {
+      fall_[side] = Fall(side);
+      const float aside = side == 0 ? chin.x : width_ - chin.x;
+      strip_[side] = std::max(0.35F * (aside - kHalfHead * mm), 0.04F * width_);
+    }
+    lower_ = std::max(0.6F * (height_ - chin.y), 0.04F * height_);
+  }
+  /// The pixel shown at a place in the photo's plane.
+  glm::vec2 Pixel(glm::vec2 p) const {
+    const int side = p.x < 0 ? 0 : 1;
+    if (const float out = Out(p); out > 0) {
+      const float in = ToAndFro(out, strip_[side]);
+      // A shoulder bends down into the arm.
+      constexpr float kRound = 55;  // millimetres
+      p.y -= fall_[side] * (out + in) + out * out / (2 * kRound * mm_);
+      p.x = side == 0 ? in : width_ - in;
+    }
+    if (p.y > height_) p.y = height_ - ToAndFro(p.y - height_, lower_);
+    return glm::clamp(p, glm::vec2(0), glm::vec2(width_, height_));
+  }
+  float Opacity(glm::vec2 p) const {
+    const glm::vec2 at = Pixel(p);
+    const float shown = opacity_.Between(at.x, at.y);
+    return p.y < chin_.y && Out(p) > 4 * mm_ ? 0 : shown;
+  }
+
+ private:
+  float Out(glm::vec2 p) const { return std::max({-p.x, p.x - width_, 0.0F}); }
+  static float ToAndFro(float way, float length) {
+    const float rest = std::fmod(way, 2 * length);
+    return std::min(rest, 2 * length - rest);
+  }
+  /// How many pixels the outline falls for each that it comes nearer to the edge.
+  float Fall(int side) const {
+    const auto top = [&](int inward) {
+      const int x = side == 0 ? inward : opacity_.width - 1 - inward;
+      int y = 0;
+      while (y < opacity_.height && opacity_.at[opacity_.Index(x, y)] < 0.5F) ++y;
+      return y;
+    };
+    const int inward = std::max(opacity_.width / 16, 1);
+    const int edge = top(0), within = top(inward);
+    constexpr float kLeast = 0.25F, kMost = 1.2F;
+    if (edge >= opacity_.height || within >= opacity_.height) return kLeast;
+    return std::clamp(static_cast<float>(edge - within) / static_cast<float>(inward), kLeast,
+                      kMost);
+  }
+  const Field& opacity_;
+  float width_, height_;
+  glm::vec2 chin_;
+  float mm_;
+  float fall_[2] = {}, strip_[2] = {}, lower_ = 1;
+};
 
 }  // namespace
 
 fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
-  Field face(width, height);
-  CoverSkin(base, fit, glm::vec2(0.5F), 1, width, height,
-            [&](int x, int y, float) { face.at[face.Index(x, y)] = 1; });
+  const float chin = ChinY(base, fit);
+  Field face =
+      CoverWithSkin(base, fit, {glm::vec2(0.5F), 1, width, height}, chin - kBelowChin).depth;
+  for (float& v : face.at) v = v > SkinCover::kNone ? 1.0F : 0.0F;
   FillHoles(face);
   // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
-  // temples are mostly hair already, so the hole begins at the brows.
+  // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
+  // large as the skin, or the chin would be seen a second time.
   const float mm = fit.pose.PixelsPerMm();
-  const Field soft = Blurred(face, std::max(static_cast<int>(5 * mm), 1));
-  Field keep(width, height, 1);
-  for (std::size_t i = 0; i < keep.at.size(); ++i) keep.at[i] = soft.at[i] > 0.85F ? 0.0F : 1.0F;
+  constexpr float kBeside = 0.42F;
+  const Field soft = Blurred(face, std::max(static_cast<int>(9 * mm), 1));
+  Field keep(width, height, 1), beside(width, height, 1), below(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
+      const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(pixel, 20));
+      const std::size_t i = keep.Index(x, y);
+      const float most = glm::mix(0.9F, kBeside, BeforeNeck(chin, about));
+      keep.at[i] = glm::smoothstep(most + 0.08F, most - 0.12F, soft.at[i]);
+      beside.at[i] = glm::smoothstep(kBeside + 0.1F, kBeside - 0.1F, soft.at[i]);
+      below.at[i] = glm::smoothstep(chin + 45, chin + 12, about.y);
+    }
+  }
   fsm::Image out = figure.colours;
   FillIn(out, keep);
+  const int grain = std::max(static_cast<int>(2.5F * mm), 2);
+  const Field all(width, height, 1);
+  AddGrain(keep, all, grain, out);
+  // Behind the jaw lies what is below it, not what is on it.
+  fsm::Image neck = figure.colours;
+  FillIn(neck, beside);
+  AddGrain(beside, all, grain, neck);
+  for (std::size_t i = 0; i < keep.at.size(); ++i) {
+    const float part = below.at[i] * (1 - keep.at[i]);
+    for (std::size_t c = 4 * i; c < 4 * i + 3 && part > 0; ++c) {
+      out.rgba[c] = static_cast<std::uint8_t>(
+          glm::mix(static_cast<float>(out.rgba[c]), static_cast<float>(neck.rgba[c]), part) + 0.5F);
+    }
+  }
   return out;
 }
 
 void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::FaceSet& set) {
   const glm::vec2 size(figure.colours.width, figure.colours.height);
   const float mm = fit.pose.PixelsPerMm();
-  // Beyond the photo's lower corners the clothes go on as they end.
   constexpr float kBeyond = 90;  // millimetres
   const glm::vec2 origin = glm::vec2(-kBeyond * mm, 0);
   const glm::vec2 extent = size + glm::vec2(2 * kBeyond, kBeyond) * mm;
   const float cell = std::max(4.5F * mm, std::sqrt(extent.x * extent.y / 9000));
   const int columns = static_cast<int>(extent.x / cell) + 2,
             rows = static_cast<int>(extent.y / cell) + 2;
-  Field depth(columns, rows), fixed(columns, rows), covered(columns, rows);
   const float chin = ChinY(base, fit);
+  const Beyond beyond(figure, fit.pose.Project(fit.pose.ToCamera(base.places[152].On(fit.worn))),
+                      mm);
   const auto pixel = [&](int x, int y) { return origin + glm::vec2(x, y) * cell; };
-  const auto opacity = [&](int x, int y) {
-    const glm::vec2 p = pixel(x, y);
-    return figure.opacity.Between(p.x, p.y);
-  };
-  constexpr float kNone = -1e9F;
-  std::ranges::fill(depth.at, kNone);
-  CoverSkin(base, fit, origin, cell, columns, rows, [&](int x, int y, float z) {
-    float& d = depth.at[depth.Index(x, y)];
-    d = std::max(d, z);
-  });
-  Field skin(columns, rows);
-  for (std::size_t i = 0; i < skin.at.size(); ++i) skin.at[i] = depth.at[i] > kNone ? 1.0F : 0.0F;
-  const Field within_skin =
-      Blurred(skin, std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1));
+  const auto opacity = [&](int x, int y) { return beyond.Opacity(pixel(x, y)); };
+  SkinCover skin = CoverWithSkin(base, fit, {origin, cell, columns, rows}, chin - kBelowChin,
+                                 MotionToRest(base, fit));
+  Field& depth = skin.depth;
+  Field covered(columns, rows);
+  for (std::size_t i = 0; i < depth.at.size(); ++i) {
+    covered.at[i] = depth.at[i] > SkinCover::kNone ? 1.0F : 0.0F;
+  }
+  const int rim = std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1);
+  const Field within_skin = Blurred(covered, rim);
+  // Hair and neck beside the skin go with it.
+  for (Field& axis : skin.motion) Spread(covered, rim, axis);
+  Field fixed(columns, rows);
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       const std::size_t i = depth.Index(x, y);
-      const float height = fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), 20)).y;
-      if (depth.at[i] > kNone) {
-        // Behind the lower face lies the neck.
-        const float neck = glm::smoothstep(chin + 45, chin + 12, height);
-        covered.at[i] = 1;
+      const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), 20));
+      // Not at the very edge: there the skin turns away, and each point has a depth of its own.
+      constexpr float kEdge = 0.62F;
+      if (covered.at[i] > 0 && within_skin.at[i] > kEdge) {
+        fixed.at[i] = 1;
         // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
         const float under =
-            depth.at[i] - glm::mix(0.6F, 5.0F, glm::smoothstep(0.5F, 0.9F, within_skin.at[i]));
-        depth.at[i] = glm::mix(under, std::min(under, 22.0F), neck);
-        fixed.at[i] = 1;
-      } else if (opacity(x, y) < 0.05F) {
+            depth.at[i] - glm::mix(0.6F, 5.0F, glm::smoothstep(kEdge, 0.95F, within_skin.at[i]));
+        // Behind the lower face lies the neck; the jaw has room to open.
+        depth.at[i] = glm::mix(under, std::min(under, 30.0F), BeforeNeck(chin, about)) -
+                      2 * glm::smoothstep(chin + 45, chin + 12, about.y);
+      } else if (covered.at[i] <= 0 && opacity(x, y) < 0.05F) {
         // The outline: hair stands before the ears, shoulders lie in their plane.
-        depth.at[i] = glm::mix(-4.0F, -30.0F, glm::smoothstep(chin, chin - 70, height));
+        depth.at[i] = glm::mix(-4.0F, -30.0F, glm::smoothstep(chin, chin - 70, about.y));
         fixed.at[i] = 1;
       } else {
         depth.at[i] = 0;
       }
     }
   }
-  for (int round = 0; round < 400; ++round) {
-    for (int y = 0; y < rows; ++y) {
-      for (int x = 0; x < columns; ++x) {
-        const std::size_t i = depth.Index(x, y);
-        if (fixed.at[i] > 0) continue;
-        const auto next = [&](int dx, int dy) {
-          return depth
-              .at[depth.Index(std::clamp(x + dx, 0, columns - 1), std::clamp(y + dy, 0, rows - 1))];
-        };
-        // A little rounder than a skin of soap.
-        depth.at[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + 0.12F;
-      }
-    }
-  }
+  Span(fixed, depth);
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
-  const Field within =
-      Blurred(covered, std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1));
+  const Field within = Blurred(covered, rim);
   const auto hidden = [&](int x, int y) { return within.at[depth.Index(x, y)] > 0.999F; };
   set.sheet.clear();
   set.sheet_triangles.clear();
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
-      const glm::vec2 p = pixel(x, y);
-      const glm::vec2 at = glm::clamp(p / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
-      set.sheet.push_back(
-          {fit.pose.FromCamera(fit.pose.Unproject(p, std::min(depth.at[depth.Index(x, y)], 60.0F))),
-           {0.5F + 0.5F * at.x, at.y}});
+      const std::size_t i = depth.Index(x, y);
+      const glm::vec2 at =
+          glm::clamp(beyond.Pixel(pixel(x, y)) / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
+      const glm::vec3 by(skin.motion[0].at[i], skin.motion[1].at[i], skin.motion[2].at[i]);
+      const glm::vec3 place =
+          fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), std::min(depth.at[i], 60.0F)));
+      set.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
     }
   }
+  std::vector<std::array<std::uint32_t, 4>> quads;
   for (int y = 0; y + 1 < rows; ++y) {
     for (int x = 0; x + 1 < columns; ++x) {
       if (std::max({opacity(x, y), opacity(x + 1, y), opacity(x, y + 1), opacity(x + 1, y + 1),
@@ -197,9 +253,15 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
       const auto at = [&](int dx, int dy) {
         return static_cast<std::uint32_t>(depth.Index(x + dx, y + dy));
       };
-      const std::uint32_t a = at(0, 0), b = at(0, 1), c = at(1, 1), d = at(1, 0);
-      set.sheet_triangles.insert(set.sheet_triangles.end(), {a, b, c, a, c, d});
+      quads.push_back({at(0, 0), at(0, 1), at(1, 1), at(1, 0)});
     }
+  }
+  // From back to front: soft edges show what lies behind them.
+  std::ranges::sort(quads, {}, [&](const auto& quad) {
+    return std::pair(set.sheet[quad[0]].position.z + set.sheet[quad[2]].position.z, quad);
+  });
+  for (const auto& quad : quads) {
+    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) set.sheet_triangles.push_back(quad[k]);
   }
   set.seen_from = glm::transpose(fit.pose.Rotation()) * glm::vec3(0, 0, 1);
   set.skin_bottom_y = chin - kBelowChin;

@@ -1,6 +1,7 @@
 #include "face_fit/dress/side_view.h"
 
 #include "face_fit/dress/profile.h"
+#include "face_fit/find/figure_finder.h"
 #include "face_fit/find/upright.h"
 
 namespace facefit {

@@ -11,7 +11,6 @@ namespace {
 constexpr int kDetectorSide = 128;
 constexpr float kLeastScore = 0.5F;
 constexpr int kPointsSide = 192;
-constexpr int kFigureSide = 256;
 /// How much larger than a face's box the picture is which the landmark network was trained on.
 constexpr float kRoom = 1.5F;
 
@@ -119,43 +118,6 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
                  std::atan2(eyes.y, eyes.x)};
   }
   return face;
-}
-
-std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image) {
-  // The network takes the whole picture, stretched to a square.
-  std::vector<float> input;
-  input.reserve(kFigureSide * kFigureSide * 3);
-  const glm::vec2 size(image.width, image.height);
-  const glm::vec2 step = size / static_cast<float>(kFigureSide);
-  const int n = std::clamp(static_cast<int>(std::ceil(std::max(step.x, step.y))), 1, 8);
-  for (int y = 0; y < kFigureSide; ++y) {
-    for (int x = 0; x < kFigureSide; ++x) {
-      glm::vec3 sum(0);
-      for (int k = 0; k < n * n; ++k) {
-        const glm::vec2 within = (glm::vec2(k % n, k / n) + 0.5F) / static_cast<float>(n);
-        sum += ColourAt(image, (glm::vec2(x, y) + within) * step);
-      }
-      sum /= 255.0F * static_cast<float>(n * n);
-      for (int c = 0; c < 3; ++c) input.push_back(sum[c]);
-    }
-  }
-  networks.figure.Run(input);
-  const auto part = networks.figure.output(0);
-  std::vector<float> out;
-  out.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const glm::vec2 at = glm::clamp((glm::vec2(x, y) + 0.5F) / step - 0.5F, 0.0F,
-                                      static_cast<float>(kFigureSide) - 1.001F);
-      const auto cell =
-          static_cast<std::size_t>(static_cast<int>(at.y) * kFigureSide + static_cast<int>(at.x));
-      const glm::vec2 t = glm::fract(at);
-      const float top = glm::mix(part[cell], part[cell + 1], t.x);
-      const float bottom = glm::mix(part[cell + kFigureSide], part[cell + kFigureSide + 1], t.x);
-      out.push_back(glm::mix(top, bottom, t.y));
-    }
-  }
-  return out;
 }
 
 }  // namespace facefit

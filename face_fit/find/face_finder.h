@@ -34,8 +34,4 @@ std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image);
 /// The points of one face.
 FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box);
 
-/// How much each pixel belongs to a person, 0..1, as large as the picture; blurred to the network's
-/// 256 x 256.
-std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image);
-
 }  // namespace facefit

@@ -37,9 +37,16 @@ std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// The fitted head as fsm will show it, in the photo's expression: its skin takes the place of the
-/// base head's in `worn`.
+/// The fitted head's skin in the photo's expression takes the place of the base head's in `worn`.
 void Wear(const BaseHead& base, Fit& fit) {
+  const auto skin = SkinWith(base, fit, fit.expression.State());
+  std::ranges::copy(std::span(skin).first(std::min(skin.size(), fit.worn.size())),
+                    fit.worn.begin());
+}
+
+}  // namespace
+
+std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm::FaceState& state) {
   fsm::FaceSet set;
   set.base = base.name;
   set.points = fit.points;
@@ -48,7 +55,7 @@ void Wear(const BaseHead& base, Fit& fit) {
   set.photo = std::make_shared<fsm::WornPhoto>(fsm::WornPhoto{1, 1, {0, 0, 0, 255}});
   const auto head = fsm::Head::Make(set);
   fsm::HeadVertices vertices;
-  head->Evaluate(fit.expression.State(), vertices);
+  head->Evaluate(state, vertices);
   // Both begin with the same skin.
   std::uint32_t end = 0;
   const auto& topology = head->topology();
@@ -58,11 +65,9 @@ void Wear(const BaseHead& base, Fit& fit) {
       end = std::max(end, topology.indices[part.first_index + k] + 1);
     }
   }
-  end = std::min(end, static_cast<std::uint32_t>(fit.worn.size()));
-  std::copy_n(vertices.position.begin(), end, fit.worn.begin());
+  vertices.position.resize(end);
+  return vertices.position;
 }
-
-}  // namespace
 
 void AimAtMouthLine(const BaseHead& base, const FoundFace& face, const Pose& pose,
                     std::span<const glm::vec3> now, const fsm::Image& photo,

@@ -18,6 +18,10 @@ void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* p
 /// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
 void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<Aim>& aims);
 
+/// The skin of the fitted head as fsm will show it in a state: its first vertices, which are those
+/// of the base head.
+std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm::FaceState& state);
+
 /// Fills points, eyes and worn of a fit that has pose, expression and aims.
 void Form(const BaseHead& base, Fit& fit);
 
