@@ -24,6 +24,8 @@ uniform sampler2D photo;
 
 out vec4 color;
 
+const float kCorner = 1.1;  // how far the corners of the eye are beside its middle, in radii of the ball
+
 // The iris at a place of its plane, in units of its radius: fibres run from the pupil to the rim,
 // which is dark (the limbal ring).
 vec3 Iris(vec2 p, float r, float toward_light) {
@@ -105,7 +107,14 @@ void main() {
                 mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
   shade = worn.x > 0.0 ? 0.1 + 0.9 * shade : shade;
-  if (shown) shade = 1.0;
+  if (shown) {
+    // The photo has its shade, but not where it was completed and where the eye opens wider than in it.
+    vec2 q = (world_to_head * from_centre).xy;
+    float aside = q.x / (radius * kCorner / figure_scale);
+    float rim = open[side].z - aside * aside * 0.65 * (open[side].z - open[side].y);
+    shade = mix(mix(0.72, 0.5, edge), 1.0, smoothstep(-0.4, 1.7, rim - q.y)) *
+            mix(0.8, 1.0, smoothstep(-0.3, 0.7, above_lower));
+  }
 
   vec3 light = Ambient(n) * 0.9;
   light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;
