@@ -21,6 +21,7 @@
 #include "face_fit/find/upright.h"
 #include "face_fit/report.h"
 #include "fsm/app/original_config.h"
+#include "fsm/app/face_of_name.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/mesh/pnt_file.h"
 
@@ -47,7 +48,7 @@ class Progress {
 
 struct Options {
   std::vector<std::string> views;
-  std::string photo, name, out, base = "galatea", networks, head, points, galatea;
+  std::string photo, name, out, base = "galatea", networks, head, points, galatea, tables;
   std::string glasses;  // yes, no, or empty: to be seen
   int face = 1;
   bool quiet = false;
@@ -164,6 +165,9 @@ void Run(const Options& options) {
   }
   Progress progress(options.quiet);
   std::optional<OriginalFace> original;
+  const std::string folder =
+      (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
+  const auto units = fsm::UnitsIn(fsm::UnitsFolder(folder, options.tables));
   if (!options.galatea.empty()) original = ReadOriginal(options);
   fsm::Image photo = original ? std::move(original->photo) : Get(ReadPhoto(options.photo));
   const bool by_hand = original || !options.points.empty();
@@ -174,7 +178,8 @@ void Run(const Options& options) {
     std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
                  "was set upright\n";
   }
-  const BaseHead base = BaseHead::See(networks, options.base);
+  BaseHead base = BaseHead::See(networks, options.base);
+  if (units) base.MoveBy(*units);
   progress.Say("head looked at");
   int faces = 1;
   const FoundFace face = original  ? FaceFromHand(base, original->points)
@@ -192,8 +197,6 @@ void Run(const Options& options) {
   if (!options.glasses.empty()) set.glasses = options.glasses == "yes";
   progress.Say("photo put on");
 
-  const std::string folder =
-      (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
   std::filesystem::create_directories(folder);
   const std::string report = Report(face, fit, photo, dress.coverage, faces, set.glasses);
   const auto write = [&folder](const char* name, const std::string& text) {
@@ -236,6 +239,10 @@ int main(int argc, char** argv) {
   app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
   app.add_option("--networks", options.networks,
                  "Where the networks are (default: where scripts/face_networks.sh puts them)");
+  app.add_option(
+      "--tables", options.tables,
+      "A folder of tables: its action_units.txt says what the photo's expression does to "
+      "the face, as fsm --tables");
   app.add_option(
          "--glasses", options.glasses,
          "Whether the person wears glasses, yes or no (default: what a look at the nose says)")

@@ -102,6 +102,16 @@ std::span<const int> EyeOutline(int side) {
   return side == 0 ? std::span<const int>(kRightEye) : std::span<const int>(kLeftEye);
 }
 
+void BaseHead::MoveBy(const fsm::UnitTable& own) {
+  units = own;
+  head = Moved(std::move(head));
+}
+
+std::unique_ptr<fsm::Head> BaseHead::Moved(std::unique_ptr<fsm::Head> other) const {
+  auto moved = units ? other->WithUnits(*units) : nullptr;
+  return moved ? std::move(moved) : std::move(other);
+}
+
 BaseHead BaseHead::See(FaceNetworks& networks, const std::string& name) {
   return See(networks, fsm::Head::Make(name), name, true);
 }

@@ -4,11 +4,13 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "face_fit/find/face_finder.h"
 #include "fsm/head/head.h"
+#include "fsm/head/action_units.h"
 
 namespace facefit {
 
@@ -29,8 +31,16 @@ struct BaseHead {
   std::string name;
   std::unique_ptr<fsm::Head> head;
   fsm::HeadVertices rest;
-  std::vector<MeshPlace> places;  ///< of the kNetworkPoints
-  std::vector<float> seen_z;      ///< the depth the network gave each, millimetres
+  std::vector<MeshPlace> places;             ///< of the kNetworkPoints
+  std::vector<float> seen_z;                 ///< the depth the network gave each, millimetres
+  fsm::Image picture = {};                   ///< what the network was shown
+  std::vector<glm::vec2> seen = {};          ///< where it found the points there, pixels
+  std::optional<fsm::UnitTable> units = {};  ///< of one's own, that move it
+
+  /// From now on moved by these units. Its places stay: they were seen at rest.
+  void MoveBy(const fsm::UnitTable& own);
+  /// A head of the same base face, moved by the same units.
+  std::unique_ptr<fsm::Head> Moved(std::unique_ptr<fsm::Head> other) const;
 
   /// Throws std::runtime_error if it cannot be drawn or no face is seen.
   static BaseHead See(FaceNetworks& networks, const std::string& name);

@@ -53,7 +53,7 @@ std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm:
   set.smooth = fit.smooth;
   set.eyes = fit.eyes;
   set.photo = std::make_shared<fsm::WornPhoto>(fsm::WornPhoto{1, 1, {0, 0, 0, 255}});
-  const auto head = fsm::Head::Make(set);
+  const auto head = base.Moved(fsm::Head::Make(set));
   fsm::HeadVertices vertices;
   head->Evaluate(state, vertices);
   // Both begin with the same skin.

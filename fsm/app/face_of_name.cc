@@ -43,16 +43,20 @@ std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head>
   return moved ? std::move(moved) : std::move(head);
 }
 
+std::string UnitsFolder(const std::string& folder, const std::string& tables) {
+  std::error_code error;
+  return std::filesystem::exists(folder + "/" + kUnitsFile, error) ? folder : tables;
+}
+
 std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables) {
   if (std::ranges::find(Head::Identities(), face, &IdentityInfo::name) !=
       Head::Identities().end()) {
     return MovedAsIn(tables, Head::Make(face));
   }
   const std::string folder = FacesFolder() + "/" + face;
-  std::error_code error;
-  const bool own_units = std::filesystem::exists(folder + "/" + kUnitsFile, error);
-  const std::string& units = own_units ? folder : tables;
+  const std::string units = UnitsFolder(folder, tables);
   const std::string own = folder + "/identity.txt";
+  std::error_code error;
   if (std::filesystem::exists(own, error)) {
     return MovedAsIn(units, MakeHead(ReadOwnIdentity(own, ReadText(own))));
   }

@@ -17,6 +17,9 @@ inline constexpr const char* kUnitsFile = "action_units.txt";
 /// The same head, moved by the units of a folder of tables if that has any. Throws as UnitsIn.
 std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head);
 
+/// Which folder's units move the face kept in `folder`: its own if it has any, else `tables`.
+std::string UnitsFolder(const std::string& folder, const std::string& tables);
+
 /// A built-in head, or one out of the folder of faces (FacesFolder). Its units are those of its own
 /// folder, else those of the folder `tables`, else the built-in ones. Throws std::runtime_error or
 /// std::invalid_argument with a sentence.

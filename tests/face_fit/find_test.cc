@@ -9,6 +9,7 @@
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/fit/fit.h"
+#include "fsm/head/table_reader.h"
 
 namespace facefit {
 namespace {
@@ -80,24 +81,70 @@ TEST_F(FindTest, InAGroupEveryFaceIsFound) {
   EXPECT_EQ(FindFaces(*networks_, group).size(), 10U);
 }
 
-TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
-  // What the network saw of the head, as if it were a photo.
-  FoundFace face;
+Pose SomePose() {
   Pose pose;
   pose.focal = 1500;
   pose.centre = {400, 380};
   pose.turn = {0.05F, -0.1F, 0.07F};
-  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    const glm::vec3 q = pose.ToCamera(base.places[i].On(base.rest.position));
+  return pose;
+}
+
+/// What the network saw of a head, as if it were a photo.
+FoundFace SeenOf(const std::vector<MeshPlace>& places, const std::vector<glm::vec3>& vertices) {
+  FoundFace face;
+  const Pose pose = SomePose();
+  for (const MeshPlace& place : places) {
+    const glm::vec3 q = pose.ToCamera(place.On(vertices));
     face.points.emplace_back(pose.Project(q), q.z * pose.PixelsPerMm());
   }
-  BaseHead exact{base.name, fsm::Head::Make("galatea"), base.rest, base.places, {}};
+  return face;
+}
+
+/// The head as a network would see it whose depth is true.
+BaseHead Exact(const BaseHead& base) {
+  BaseHead exact{base.name, fsm::Head::Make("galatea", false), base.rest, base.places, {}};
   for (const MeshPlace& place : base.places) exact.seen_z.push_back(place.On(base.rest.position).z);
-  const Fit fit = FitFace(exact, face);
-  EXPECT_LT(glm::distance(fit.pose.turn, pose.turn), 0.01F);
-  EXPECT_NEAR(fit.pose.focal, pose.focal, 10);
+  return exact;
+}
+
+TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
+  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  const FoundFace face = SeenOf(base.places, base.rest.position);
+  const Fit fit = FitFace(Exact(base), face);
+  EXPECT_LT(glm::distance(fit.pose.turn, SomePose().turn), 0.01F);
+  EXPECT_NEAR(fit.pose.focal, SomePose().focal, 10);
   for (const auto& point : fit.points) EXPECT_LT(glm::length(point.by), 1.0F);
+}
+
+TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
+  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  // Corners that rise steeply without going outward.
+  const fsm::UnitTable own(fsm::Table("own.txt",
+                                      "field 12 25 -42 22 25 both 0 11 0\n"
+                                      "field 25 7 -38 20 11 above 0 1.4 0.2\n"
+                                      "field 25 7 -45 24 16 below 0 -8 0\n"));
+  BaseHead built_in = Exact(base), moved = Exact(base);
+  moved.MoveBy(own);
+  Expression smiling;
+  smiling.smile = 0.9F;
+  smiling.parted = 0.9F;
+  fsm::HeadVertices vertices;
+  moved.head->Evaluate(smiling.State(), vertices);
+  const FoundFace face = SeenOf(base.places, vertices.position);
+  const auto most = [](const Fit& fit) {
+    float far = 0;
+    for (const auto& point : fit.points) far = std::max(far, glm::length(point.by));
+    return far;
+  };
+  const Fit fit = FitFace(moved, face);
+  EXPECT_NEAR(fit.expression.smile, smiling.smile, 0.1F);
+  EXPECT_LT(most(fit), 2);
+  EXPECT_GT(most(FitFace(built_in, face)), 4) << "else this would say nothing";
+  // The head as worn in the photo smiles by the same table.
+  const std::size_t corner = 291;
+  EXPECT_LT(
+      glm::distance(base.places[corner].On(fit.worn), base.places[corner].On(vertices.position)),
+      2);
 }
 
 }  // namespace
