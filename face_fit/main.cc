@@ -15,13 +15,14 @@
 
 #include "face_fit/dress/dress.h"
 #include "face_fit/dress/side_view.h"
+#include "face_fit/find/cover.h"
 #include "face_fit/find/figure_finder.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/head_finder.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/report.h"
-#include "fsm/app/original_config.h"
 #include "fsm/app/face_of_name.h"
+#include "fsm/app/original_config.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/mesh/pnt_file.h"
 
@@ -164,10 +165,10 @@ void Run(const Options& options) {
                              "': letters, digits, - and _ expected, as anna");
   }
   Progress progress(options.quiet);
-  std::optional<OriginalFace> original;
   const std::string folder =
       (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
   const auto units = fsm::UnitsIn(fsm::UnitsFolder(folder, options.tables));
+  std::optional<OriginalFace> original;
   if (!options.galatea.empty()) original = ReadOriginal(options);
   fsm::Image photo = original ? std::move(original->photo) : Get(ReadPhoto(options.photo));
   const bool by_hand = original || !options.points.empty();
@@ -198,7 +199,8 @@ void Run(const Options& options) {
   progress.Say("photo put on");
 
   std::filesystem::create_directories(folder);
-  const std::string report = Report(face, fit, photo, dress.coverage, faces, set.glasses);
+  const std::string report = Report(face, fit, photo, dress.coverage, faces, set.glasses,
+                                    FindCover(networks, base, face, photo));
   const auto write = [&folder](const char* name, const std::string& text) {
     std::ofstream file(folder + "/" + name);
     if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + "/" + name);
@@ -237,12 +239,12 @@ int main(int argc, char** argv) {
       "--galatea", options.galatea,
       "Instead of a photo: a configuration of the original, whose face NAME is made ours");
   app.add_option("--base", options.base, "The built-in face that is warped (default galatea)");
-  app.add_option("--networks", options.networks,
-                 "Where the networks are (default: where scripts/face_networks.sh puts them)");
   app.add_option(
       "--tables", options.tables,
       "A folder of tables: its action_units.txt says what the photo's expression does to "
       "the face, as fsm --tables");
+  app.add_option("--networks", options.networks,
+                 "Where the networks are (default: where scripts/face_networks.sh puts them)");
   app.add_option(
          "--glasses", options.glasses,
          "Whether the person wears glasses, yes or no (default: what a look at the nose says)")

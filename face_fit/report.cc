@@ -40,7 +40,7 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
 }  // namespace
 
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
-                   int faces, bool glasses) {
+                   int faces, bool glasses, const Cover& cover) {
   std::string out;
   std::array<char, 200> line;
   const auto put = [&](const char* format, auto... values) {
@@ -62,6 +62,10 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
   put("glasses     %s\n", glasses ? "yes" : "no");
+  if (!cover.where.empty()) {
+    put("covered     %.2f (from 1 on something is before the face), most at %s\n", d(cover.measure),
+        cover.where.c_str());
+  }
   if (eyes < 80) out += "warning: the face is small; details will be soft\n";
   if (std::abs(turn.y) > 15)
     out += "warning: the head is turned; one side is completed from the other\n";
@@ -76,6 +80,10 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
     out +=
         "warning: glasses stay as they are, and so does the skin round the eyes; --glasses no if "
         "there are none\n";
+  }
+  if (cover.measure >= 1) {
+    out += "warning: covered by something that is no face: " + cover.where +
+           "; what is before the face becomes part of it\n";
   }
   if (faces > 1) out += "warning: several faces; --face N takes another\n";
   return out;

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "face_fit/find/cover.h"
 #include "face_fit/find/face_finder.h"
 #include "face_fit/fit/fit.h"
 
@@ -9,6 +10,6 @@ namespace facefit {
 
 /// What was measured, a line each, and warnings of what will look worse than it could.
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
-                   int faces, bool glasses);
+                   int faces, bool glasses, const Cover& cover = {});
 
 }  // namespace facefit

@@ -10,7 +10,6 @@ namespace {
 
 constexpr int kDetectorSide = 128;
 constexpr float kLeastScore = 0.5F;
-constexpr int kPointsSide = 192;
 /// How much larger than a face's box the picture is which the landmark network was trained on.
 constexpr float kRoom = 1.5F;
 
@@ -98,18 +97,19 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
   constexpr std::size_t kEyes[] = {33, 263};  // outer corners
   // The first look says where the face is, the second sees it upright and as large as in training.
   for (int look = 0; look < 3; ++look) {
-    networks.landmarks.Run(face.crop.Sample(image, kPointsSide, 0, 1));
+    networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
     const auto raw = networks.landmarks.output(0);
     const float logit = networks.landmarks.output(1)[0];
     face.certainty = 1 / (1 + std::exp(-logit));
     face.points.clear();
     glm::vec2 low(1e9F), high(-1e9F);
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-      const glm::vec2 at = glm::vec2(raw[3 * i], raw[3 * i + 1]) / static_cast<float>(kPointsSide);
+      const glm::vec2 at =
+          glm::vec2(raw[3 * i], raw[3 * i + 1]) / static_cast<float>(kPointsPixels);
       const glm::vec2 p = face.crop.ToPicture(at);
       low = glm::min(low, at);
       high = glm::max(high, at);
-      face.points.emplace_back(p, -raw[3 * i + 2] / kPointsSide * face.crop.side);
+      face.points.emplace_back(p, -raw[3 * i + 2] / kPointsPixels * face.crop.side);
     }
     if (look == 2) break;
     const glm::vec2 eyes = glm::vec2(face.points[kEyes[1]]) - glm::vec2(face.points[kEyes[0]]);

@@ -19,6 +19,7 @@ struct FaceBox {
 };
 
 inline constexpr std::size_t kNetworkPoints = 468;
+inline constexpr int kPointsPixels = 192;  ///< the side of what the landmark network is shown
 
 /// A face with its points: x and y in pixels of the picture, y down, z in the same unit towards
 /// the viewer, 0 about the middle of the head.

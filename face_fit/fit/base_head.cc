@@ -172,7 +172,11 @@ BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
     if (best_z < -1e8F) base.places[i] = aside;
   }
   const float mm = 2 / view.samples_per_mm;  // samples lie twice as close as pixels
-  for (const glm::vec3& p : face.points) base.seen_z.push_back(p.z * mm);
+  for (const glm::vec3& p : face.points) {
+    base.seen_z.push_back(p.z * mm);
+    base.seen.emplace_back(p);
+  }
+  base.picture = std::move(picture);
   if (own_seam) OntoSeam(base, base.places);
   return base;
 }

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <array>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <span>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "face_fit/find/face_finder.h"
-#include "fsm/head/head.h"
 #include "fsm/head/action_units.h"
+#include "fsm/head/head.h"
 
 namespace facefit {
 
