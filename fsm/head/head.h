@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "fsm/head/face_state.h"
+#include "fsm/head/finish.h"
 
 namespace fsm {
 
@@ -96,6 +97,8 @@ struct HeadTopology {
     Material material;
     std::uint32_t first_index;  ///< into `indices`
     std::uint32_t index_count;  ///< multiple of 3
+    int finish = -1;            ///< into `finishes`; -1: as its material is
+    bool two_sided = false;
   };
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
   std::vector<Part> parts;
@@ -107,6 +110,11 @@ struct HeadTopology {
   std::vector<SkinHair> skin_hairs;
   std::vector<Strand> strands;  ///< per vertex, meaningful where there is hair; may be empty
   std::shared_ptr<const WornPhoto> photo;  ///< nothing: skin is painted and lit
+  std::vector<Finish> finishes;
+  /// Laid out as the photo; nothing where no finish needs it. Of `relief` red and green are the
+  /// normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of `lights`
+  /// the colour is that of what glows (toon: of the shade), alpha how open to light.
+  std::shared_ptr<const WornPhoto> relief, lights;
   /// Per vertex where there is a photo: its place there (0..1, v down) and the photo's part in the
   /// colour, 0..1. What exceeds 1 is lid: that part of the photo gives way to the vertex's own
   /// colour as the lid shuts, because a photo of an open eye does not show its skin.

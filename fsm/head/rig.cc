@@ -26,7 +26,7 @@ void HeadMesh::Triangle(Material material, std::uint32_t a, std::uint32_t b, std
       return;
     }
   }
-  batches.push_back({material, {a, b, c}});
+  batches.push_back({.material = material, .indices = {a, b, c}});
 }
 
 void HeadMesh::Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c,

@@ -41,6 +41,8 @@ struct HeadMesh {
   struct Batch {
     Material material;
     std::vector<std::uint32_t> indices;
+    int finish = -1;  ///< see HeadTopology::Part, two_sided too
+    bool two_sided = false;
   };
   std::vector<Batch> batches;
 

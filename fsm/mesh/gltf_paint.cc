@@ -15,6 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMaxPictures = 64;
+constexpr std::size_t kMaxDetailed = 16;  // materials whose light has pictures
 constexpr int kOpaque = -1, kSmooth = 256;
 
 glm::vec4 FactorOf(const json& material) {
@@ -58,16 +59,7 @@ void Paint(Image& picture, glm::vec4 factor, int cut) {
   }
 }
 
-}  // namespace
-
-glm::vec2 GltfUv::operator()(glm::vec2 uv) const {
-  const float c = std::cos(turn_rad), s = std::sin(turn_rad);
-  const glm::vec2 at = size * uv;
-  return move + glm::vec2(c * at.x + s * at.y, c * at.y - s * at.x);
-}
-
-GltfUv GltfPaint::Place(std::int64_t material) const {
-  const json& texture = TextureOf(document_.At("materials", material));
+GltfUv UvOf(const json& texture) {
   GltfUv uv;
   uv.set = WholeOf(texture, "texCoord", 0);
   const json& by = PartOf(PartOf(texture, "extensions"), "KHR_texture_transform");
@@ -83,6 +75,50 @@ GltfUv GltfPaint::Place(std::int64_t material) const {
   uv.size = pair("scale", uv.size);
   uv.turn_rad = static_cast<float>(RealOf(by, "rotation", 0));
   return uv;
+}
+
+Image Sized(Image image, int width, int height) {
+  if (image.width == width && image.height == height) return image;
+  Image out{width, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto from = static_cast<std::size_t>(
+          4 * ((y * image.height / height) * image.width + x * image.width / width));
+      out.rgba.insert(out.rgba.end(), &image.rgba[from], &image.rgba[from] + 4);
+    }
+  }
+  return out;
+}
+
+/// Both as large as the larger; what is missing is `otherwise` all over. Nothing if both are.
+bool Pair(std::optional<Image>& a, std::optional<Image>& b,
+          const std::array<std::uint8_t, 4>& a_otherwise,
+          const std::array<std::uint8_t, 4>& b_otherwise) {
+  if (!a && !b) return false;
+  if (!a) a = Image{1, 1, {a_otherwise.begin(), a_otherwise.end()}};
+  if (!b) b = Image{1, 1, {b_otherwise.begin(), b_otherwise.end()}};
+  const int width = std::max(a->width, b->width), height = std::max(a->height, b->height);
+  a = Sized(std::move(*a), width, height);
+  b = Sized(std::move(*b), width, height);
+  return true;
+}
+
+}  // namespace
+
+glm::vec2 GltfUv::operator()(glm::vec2 uv) const {
+  const float c = std::cos(turn_rad), s = std::sin(turn_rad);
+  const glm::vec2 at = size * uv;
+  return move + glm::vec2(c * at.x + s * at.y, c * at.y - s * at.x);
+}
+
+GltfUv GltfPaint::Place(std::int64_t material) const {
+  const json& base = TextureOf(document_.At("materials", material));
+  if (base.contains("index")) return UvOf(base);
+  const GltfFinish finish = ReadFinish(document_, material);
+  for (const auto* one : {&finish.normal, &finish.surface, &finish.open, &finish.glow}) {
+    if (one->index >= 0 && one->where) return UvOf(*one->where);
+  }
+  return {};
 }
 
 std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
@@ -105,8 +141,17 @@ void GltfPaint::Dress(std::int64_t index, HeadFile::Part& part) {
   const std::string mode = TextOf(material, "alphaMode");
   part.cut_out = mode == "MASK" || mode == "BLEND";
   part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
+  const GltfFinish finish = ReadFinish(document_, index);
+  if (finish.finish) {
+    const auto [known, fresh] =
+        finish_of_.try_emplace(index, static_cast<int>(head_.finishes.size()));
+    if (fresh) head_.finishes.push_back(*finish.finish);
+    part.finish = known->second;
+  }
   const std::int64_t texture = WholeOf(TextureOf(material), "index");
-  if (texture < 0) return;
+  const bool detailed = finish.normal.index >= 0 || finish.surface.index >= 0 ||
+                        finish.open.index >= 0 || finish.glow.index >= 0;
+  if (texture < 0 && !detailed) return;
   const double cut_off = std::clamp(RealOf(material, "alphaCutoff", 0.5), 0.0, 1.0);
   const int cut = mode == "MASK"    ? static_cast<int>(std::lround(255 * cut_off))
                   : mode == "BLEND" ? kSmooth
@@ -115,14 +160,16 @@ void GltfPaint::Dress(std::int64_t index, HeadFile::Part& part) {
   for (int k = 0; k < 4; ++k) {
     steps = steps << 8 | static_cast<std::uint32_t>(std::lround(255 * factor[k]));
   }
-  part.picture = Picture({ImageOf(texture), steps, cut}, factor);
+  const Key key{texture < 0 ? -1 : ImageOf(texture), steps, cut, detailed ? index : -1};
+  if (const auto known = picture_of_.find(key); known != picture_of_.end()) {
+    part.picture = known->second;
+    return;
+  }
+  part.picture =
+      Picture(key, factor, detailed ? DetailOf(finish, Place(index)) : HeadFile::Detail{});
 }
 
-int GltfPaint::Picture(const Key& key, glm::vec4 factor) {
-  const auto [known, fresh] = picture_of_.try_emplace(key, -1);
-  if (!fresh || head_.pictures.size() >= kMaxPictures) return known->second;
-  // A picture that cannot be read leaves the colour; the form is still worth showing.
-  const std::int64_t image = std::get<0>(key);
+std::optional<Image> GltfPaint::Decode(std::int64_t image) {
   const auto bytes = document_.ImageBytes(image);
   std::string why = bytes ? "" : bytes.error().text;
   std::optional<Image> picture;
@@ -132,13 +179,79 @@ int GltfPaint::Picture(const Key& key, glm::vec4 factor) {
   }
   if (!picture) {
     head_.notices.push_back("images[" + std::to_string(image) + "] is left out: " + why);
-    return -1;
+    return std::nullopt;
   }
   Shrink(*picture, PictureSheet::kMaxSide);
+  return picture;
+}
+
+HeadFile::Detail GltfPaint::DetailOf(const GltfFinish& finish, const GltfUv& uv) {
+  HeadFile::Detail detail;
+  if (++detailed_ > kMaxDetailed) {
+    if (detailed_ == kMaxDetailed + 1) {
+      head_.notices.push_back("pictures of light of more than " + std::to_string(kMaxDetailed) +
+                              " materials are left out");
+    }
+    return detail;
+  }
+  const auto read = [&](const GltfFinish::Texture& texture) -> std::optional<Image> {
+    if (texture.index < 0) return std::nullopt;
+    if (texture.where && UvOf(*texture.where) != uv) {
+      head_.notices.push_back("textures[" + std::to_string(texture.index) +
+                              "] is left out: it lies on the mesh otherwise than the colour");
+      return std::nullopt;
+    }
+    return Decode(ImageOf(texture.index));
+  };
+  auto normal = read(finish.normal), surface = read(finish.surface);
+  if (Pair(normal, surface, {128, 128, 255, 255}, {255, 255, 255, 255})) {
+    const auto bent = [&](std::uint8_t byte) {
+      const float off = finish.normal.strength * (static_cast<float>(byte) - 128);
+      return static_cast<std::uint8_t>(std::clamp(128 + off, 1.0f, 255.0f));
+    };
+    for (std::size_t i = 0; i < normal->rgba.size(); i += 4) {
+      std::uint8_t* n = &normal->rgba[i];
+      n[0] = bent(n[0]);
+      n[1] = bent(n[1]);
+      n[2] = surface->rgba[i + 1];
+      n[3] = surface->rgba[i + 2];
+    }
+    detail.relief = std::move(*normal);
+  }
+  auto glow = read(finish.glow), open = read(finish.open);
+  if (Pair(glow, open, {255, 255, 255, 255}, {255, 255, 255, 255})) {
+    for (std::size_t i = 0; i < glow->rgba.size(); i += 4) {
+      const float shut = finish.open.strength * static_cast<float>(255 - open->rgba[i]);
+      glow->rgba[i + 3] = static_cast<std::uint8_t>(std::clamp(255 - shut, 0.0f, 255.0f));
+    }
+    detail.lights = std::move(*glow);
+  }
+  return detail;
+}
+
+int GltfPaint::Picture(const Key& key, glm::vec4 factor, HeadFile::Detail detail) {
+  int& known = picture_of_.emplace(key, -1).first->second;
+  if (head_.pictures.size() >= kMaxPictures) return known;
+  // A picture that cannot be read leaves the colour; the form is still worth showing.
+  std::optional<Image> picture;
+  if (const std::int64_t image = std::get<0>(key); image >= 0) {
+    picture = Decode(image);
+  } else {
+    const Image& larger = detail.relief.width > detail.lights.width ? detail.relief : detail.lights;
+    if (larger.width > 0) {
+      picture =
+          Image{larger.width, larger.height, std::vector<std::uint8_t>(larger.rgba.size(), 255)};
+    }
+  }
+  if (!picture) return known;
   Paint(*picture, factor, std::get<2>(key));
-  known->second = static_cast<int>(head_.pictures.size());
+  known = static_cast<int>(head_.pictures.size());
   head_.pictures.push_back(std::move(*picture));
-  return known->second;
+  if (!detail.relief.rgba.empty() || !detail.lights.rgba.empty()) {
+    head_.details.resize(head_.pictures.size());
+    head_.details.back() = std::move(detail);
+  }
+  return known;
 }
 
 }  // namespace fsm

@@ -3,10 +3,12 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 
 #include "fsm/mesh/gltf_document.h"
+#include "fsm/mesh/gltf_finish.h"
 #include "fsm/mesh/head_file.h"
 
 namespace fsm {
@@ -18,12 +20,12 @@ struct GltfUv {
   glm::vec2 move{0}, size{1};
   float turn_rad = 0;
   glm::vec2 operator()(glm::vec2 uv) const;
+  bool operator==(const GltfUv&) const = default;
 };
 
 /// Gives the parts of a head the colours and pictures of a glTF file's materials. What a material
 /// does to its picture (factor, cut-off, no transparency) is done to a copy, so that a part needs
-/// nothing but its picture. Light and shade of toon materials (MToon, unlit) are left out: all
-/// pictures are shown as they are.
+/// nothing but its picture; the pictures of light (GltfFinish) are put together to two beside it.
 class GltfPaint {
  public:
   /// Both outlive it.
@@ -33,14 +35,20 @@ class GltfPaint {
   GltfUv Place(std::int64_t material) const;
 
  private:
-  /// Image, factor in steps of 1/255, cut-off (-1 opaque, 256 smooth).
-  using Key = std::tuple<std::int64_t, std::uint32_t, int>;
-  int Picture(const Key& key, glm::vec4 factor);
+  /// Image, factor in steps of 1/255, cut-off (-1 opaque, 256 smooth), material if its light has
+  /// pictures of its own.
+  using Key = std::tuple<std::int64_t, std::uint32_t, int, std::int64_t>;
+  int Picture(const Key& key, glm::vec4 factor, HeadFile::Detail detail);
   std::int64_t ImageOf(std::int64_t texture);
+  std::optional<Image> Decode(std::int64_t image);
+  /// The pictures of light, where they lie on the mesh as `uv` says.
+  HeadFile::Detail DetailOf(const GltfFinish& finish, const GltfUv& uv);
 
   const GltfDocument& document_;
   HeadFile& head_;
   std::map<Key, int> picture_of_;
+  std::map<std::int64_t, int> finish_of_;  // of materials
+  std::size_t detailed_ = 0;
 };
 
 }  // namespace fsm

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numeric>
 
 #include "fsm/head/paint.h"
@@ -64,6 +65,7 @@ class HeadBuilder {
   MeshModel Build() {
     for (const Image& picture : file_.pictures) sheet_.Add(picture);
     model_.photo = sheet_.Make();
+    if (model_.photo) LayDetails();
     model_.sewn = !file_.place.empty();
     for (const glm::vec3& p : at_) {
       // The neck gives way below the chin, as ours does.
@@ -86,6 +88,16 @@ class HeadBuilder {
     glm::vec3 centre() const { return 0.5f * (low + high); }
     glm::vec3 radii() const { return 0.5f * (high - low); }
   };
+
+  void LayDetails() {
+    std::vector<Image> reliefs, lights;
+    for (const auto& detail : file_.details) {
+      reliefs.push_back(detail.relief);
+      lights.push_back(detail.lights);
+    }
+    model_.relief = sheet_.MakeBeside(std::move(reliefs), {128, 128, 255, 255});
+    model_.lights = sheet_.MakeBeside(std::move(lights), {255, 255, 255, 255});
+  }
 
   bool IsEye(const HeadFile::Part& part) const { return KindOf(part.name) == Kind::kEye; }
 
@@ -146,14 +158,31 @@ class HeadBuilder {
       model_.photo_place[v] =
           glm::vec3(sheet_.place(static_cast<std::size_t>(part.picture)).At(within), 1);
     }
-    const Material material = MaterialOf(kind, pictured, part.cut_out);
-    for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3) {
-      const std::uint32_t* t = &part.indices[i];
-      model_.Triangle(material, t[0], t[1], t[2]);
-      if (part.two_sided && material != Material::kMouthInside) {
-        model_.Triangle(material, t[0], t[2], t[1]);
+    const int finish = FinishOf(kind, part, pictured);
+    if (finish >= 0) {
+      for (const std::uint32_t v : part.indices) {
+        // On a picture only the tint is left to say.
+        const glm::vec3 tint = file_.tint.empty() ? glm::vec3(1) : file_.tint[v];
+        model_.albedo[v] = pictured ? tint : tint * part.colour;
       }
     }
+    const Material material = MaterialOf(kind, pictured, part.cut_out);
+    auto& indices = model_.BatchOf(material, finish, part.two_sided).indices;
+    indices.insert(indices.end(), part.indices.begin(),
+                   part.indices.begin() + static_cast<std::ptrdiff_t>(part.indices.size() / 3 * 3));
+  }
+
+  /// The number in the model of how the part takes light. Without pictures skin and mouth are as
+  /// ours, unless they are drawn in two colours.
+  int FinishOf(Kind kind, const HeadFile::Part& part, bool pictured) {
+    if (part.finish < 0) return -1;
+    const Finish& finish = file_.finishes[static_cast<std::size_t>(part.finish)];
+    const bool own = kind == Kind::kHair || kind == Kind::kOther || model_.photo != nullptr;
+    if (!pictured && !own && finish.kind == Finish::Kind::kLit) return -1;
+    const auto [known, fresh] =
+        finish_.try_emplace(part.finish, static_cast<int>(model_.finishes.size()));
+    if (fresh) model_.finishes.push_back(finish);
+    return known->second;
   }
 
   static float Wrapped(float x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); }
@@ -227,6 +256,7 @@ class HeadBuilder {
   std::vector<glm::vec3> at_;
   std::vector<std::uint8_t> eye_;  // 1 the agent's right, 2 the left
   PictureSheet sheet_;
+  std::map<int, int> finish_;  // of the file's the model's
   MeshModel model_;
   bool balls_ = false;
 };

@@ -2,7 +2,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "fsm/head/built_in_units.h"
@@ -17,9 +19,9 @@ class MeshHead : public Head {
   MeshHead(MeshModel model, std::unique_ptr<MeshMotion> motion)
       : model_(std::move(model)), motion_(std::move(motion)) {
     for (const auto& batch : model_.batches) {
-      topology_.parts.push_back({batch.material,
-                                 static_cast<std::uint32_t>(topology_.indices.size()),
-                                 static_cast<std::uint32_t>(batch.indices.size())});
+      topology_.parts.push_back(
+          {batch.material, static_cast<std::uint32_t>(topology_.indices.size()),
+           static_cast<std::uint32_t>(batch.indices.size()), batch.finish, batch.two_sided});
       topology_.indices.insert(topology_.indices.end(), batch.indices.begin(), batch.indices.end());
     }
     if (topology_.indices.empty()) throw std::runtime_error("the head has no triangles");
@@ -28,8 +30,12 @@ class MeshHead : public Head {
     for (const glm::vec3& p : model_.position) topology_.uv.push_back(Unroll(p));
     topology_.photo = model_.photo;
     topology_.photo_place = model_.photo_place;
+    topology_.finishes = model_.finishes;
+    topology_.relief = model_.relief;
+    topology_.lights = model_.lights;
     topology_.eyes = model_.eyes;
     if (model_.has_eyes && model_.round_eyes) FindLids();
+    if (!topology_.finishes.empty()) FindSewn();
   }
 
   const HeadTopology& topology() const override { return topology_; }
@@ -128,6 +134,35 @@ class MeshHead : public Head {
     }
   }
 
+  /// Where a texture is sewn together vertices are doubled; light must not show that. Two at one
+  /// place that face the same way share a normal.
+  void FindSewn() {
+    HeadVertices rest;
+    rest.position = model_.position;
+    Normals(rest);
+    std::vector<std::uint32_t> order(rest.position.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(order, {}, [&](std::uint32_t i) {
+      const glm::vec3 p = rest.position[i];
+      return std::tuple(p.x, p.y, p.z, i);
+    });
+    sewn_.resize(order.size());
+    std::iota(sewn_.begin(), sewn_.end(), 0U);
+    constexpr float kFacesTheSameWay = 0.5F;  // cosine
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      for (std::size_t j = k; j-- > 0;) {
+        const std::uint32_t one = order[k], other = order[j];
+        if (rest.position[one] != rest.position[other]) break;
+        if (sewn_[other] != other ||
+            glm::dot(rest.normal[one], rest.normal[other]) < kFacesTheSameWay) {
+          continue;
+        }
+        sewn_[one] = other;
+        break;
+      }
+    }
+  }
+
   glm::vec3 TurnWithJaw(glm::vec3 p, const JawMove& jaw) const {
     const float c = std::cos(jaw.open_rad), s = std::sin(jaw.open_rad);
     const float y = p.y - model_.hinge.y, z = p.z - model_.hinge.z;
@@ -141,12 +176,13 @@ class MeshHead : public Head {
       const std::uint32_t* t = &topology_.indices[i];
       const glm::vec3 a = out.position[t[0]];
       const glm::vec3 n = glm::cross(out.position[t[1]] - a, out.position[t[2]] - a);
-      for (int k = 0; k < 3; ++k) out.normal[t[k]] += n;
+      for (int k = 0; k < 3; ++k) out.normal[sewn_.empty() ? t[k] : sewn_[t[k]]] += n;
     }
     for (glm::vec3& n : out.normal) {
       const float squared = glm::dot(n, n);
       n = squared > 1e-12F ? n / std::sqrt(squared) : glm::vec3(0, 0, 1);
     }
+    for (std::size_t i = 0; i < sewn_.size(); ++i) out.normal[i] = out.normal[sewn_[i]];
   }
 
   MeshModel model_;
@@ -154,6 +190,7 @@ class MeshHead : public Head {
   UnitTable units_ = BuiltInUnits();
   HeadTopology topology_;
   std::vector<Lid> lids_;
+  std::vector<std::uint32_t> sewn_;  // of each vertex the one whose normal it has; or none at all
 };
 
 }  // namespace

@@ -19,9 +19,17 @@ std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, glm::vec3 pl
 }
 
 void MeshModel::Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  auto found = std::ranges::find(batches, material, &HeadMesh::Batch::material);
-  if (found == batches.end()) found = batches.insert(batches.end(), {material, {}});
-  found->indices.insert(found->indices.end(), {a, b, c});
+  auto& indices = BatchOf(material, -1, false).indices;
+  indices.insert(indices.end(), {a, b, c});
+}
+
+HeadMesh::Batch& MeshModel::BatchOf(Material material, int finish, bool two_sided) {
+  const auto same = [&](const HeadMesh::Batch& batch) {
+    return batch.material == material && batch.finish == finish && batch.two_sided == two_sided;
+  };
+  const auto found = std::ranges::find_if(batches, same);
+  if (found != batches.end()) return *found;
+  return batches.emplace_back(HeadMesh::Batch{material, {}, finish, two_sided});
 }
 
 std::vector<std::uint32_t> MeshModel::FleshTriangles() const {

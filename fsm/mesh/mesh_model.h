@@ -45,7 +45,8 @@ struct MeshModel {
   std::vector<float> neck;             ///< part of the head's turn each vertex makes
   std::vector<glm::vec3> albedo;       ///< linear RGB
   std::vector<glm::vec3> photo_place;  ///< see HeadTopology
-  std::shared_ptr<const WornPhoto> photo;
+  std::shared_ptr<const WornPhoto> photo, relief, lights;
+  std::vector<Finish> finishes;
   std::vector<HeadMesh::Batch> batches;
   std::array<EyePlace, 2> eyes{};  ///< right, left; meaningful where has_eyes
   bool has_eyes = false;
@@ -61,6 +62,8 @@ struct MeshModel {
 
   std::uint32_t Add(glm::vec3 p, Bone b, glm::vec3 colour, glm::vec3 place = {}, float turn = 1);
   void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  /// The triangles of that material which take light so.
+  HeadMesh::Batch& BatchOf(Material material, int finish, bool two_sided);
   /// Every triangle of flesh, three corners each.
   std::vector<std::uint32_t> FleshTriangles() const;
   /// An eyeball with an iris about eyes[side], in our own colours.

@@ -1,6 +1,7 @@
 #include "fsm/mesh/picture_sheet.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 namespace fsm {
@@ -26,6 +27,35 @@ Image Halved(const Image& image) {
   return half;
 }
 
+WornPhoto Blank(int width, int height, glm::u8vec4 colour) {
+  WornPhoto sheet{width, height, {}};
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  sheet.rgba.reserve(4 * pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    sheet.rgba.insert(sheet.rgba.end(), {colour.r, colour.g, colour.b, colour.a});
+  }
+  return sheet;
+}
+
+/// Copies a picture to a place of the sheet, in the size given, its edge pixels repeated around it.
+void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, WornPhoto& sheet) {
+  for (int y = -rim; y < size.y + rim; ++y) {
+    const int to_y = at.y + y;
+    const int from_y = std::clamp(y, 0, size.y - 1) * picture.height / size.y;
+    for (int x = -rim; x < size.x + rim; ++x) {
+      const int to_x = at.x + x;
+      if (to_x < 0 || to_y < 0 || to_x >= sheet.width || to_y >= sheet.height) continue;
+      const int from_x = std::clamp(x, 0, size.x - 1) * picture.width / size.x;
+      const auto index = [](int column, int row, int width) {
+        return 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(column));
+      };
+      std::copy_n(&picture.rgba[index(from_x, from_y, picture.width)], 4,
+                  &sheet.rgba[index(to_x, to_y, sheet.width)]);
+    }
+  }
+}
+
 }  // namespace
 
 void Shrink(Image& picture, int side) {
@@ -42,54 +72,51 @@ std::shared_ptr<const WornPhoto> PictureSheet::Make() {
   if (pictures_.empty()) return nullptr;
   // In rows, each as high as its highest picture; a rim of repeated edge pixels around each keeps
   // filtering from mixing neighbours.
-  constexpr int kRim = 2;
-  struct Spot {
-    int x, y;
-  };
-  std::vector<Spot> spots;
-  int width = 0, height = 0;
   for (;;) {
-    spots.clear();
-    width = height = 0;
+    spots_.clear();
+    width_ = height_ = 0;
     int x = 0, row = 0;
     for (const Image& picture : pictures_) {
       const int w = picture.width + 2 * kRim;
       if (x > 0 && x + w > 2 * kMaxSide + 4 * kRim) {
-        height += row;
+        height_ += row;
         x = row = 0;
       }
-      spots.push_back({x + kRim, height + kRim});
+      spots_.push_back({x + kRim, height_ + kRim});
       x += w;
       row = std::max(row, picture.height + 2 * kRim);
-      width = std::max(width, x);
+      width_ = std::max(width_, x);
     }
-    height += row;
-    if (height <= kMaxSheet) break;
+    height_ += row;
+    if (height_ <= kMaxSheet) break;
     for (Image& picture : pictures_) picture = Halved(picture);
   }
-  WornPhoto sheet{width, height, {}};
-  sheet.rgba.assign(static_cast<std::size_t>(4) * static_cast<std::size_t>(width) *
-                        static_cast<std::size_t>(height),
-                    255);
+  WornPhoto sheet = Blank(width_, height_, glm::u8vec4(255));
   places_.clear();
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const Image& picture = pictures_[i];
-    for (int y = -kRim; y < picture.height + kRim; ++y) {
-      for (int x = -kRim; x < picture.width + kRim; ++x) {
-        const int sx = std::clamp(x, 0, picture.width - 1);
-        const int sy = std::clamp(y, 0, picture.height - 1);
-        const auto from = static_cast<std::size_t>(4) *
-                          (static_cast<std::size_t>(sy) * static_cast<std::size_t>(picture.width) +
-                           static_cast<std::size_t>(sx));
-        const auto to = static_cast<std::size_t>(4) * (static_cast<std::size_t>(spots[i].y + y) *
-                                                           static_cast<std::size_t>(width) +
-                                                       static_cast<std::size_t>(spots[i].x + x));
-        std::copy_n(&picture.rgba[from], 4, &sheet.rgba[to]);
-      }
+    Lay(picture, {spots_[i].x, spots_[i].y}, {picture.width, picture.height}, kRim, sheet);
+    const glm::vec2 size(width_, height_);
+    places_.push_back(
+        {glm::vec2(spots_[i].x, spots_[i].y) / size,
+         glm::vec2(spots_[i].x + picture.width, spots_[i].y + picture.height) / size});
+  }
+  return std::make_shared<WornPhoto>(std::move(sheet));
+}
+
+std::shared_ptr<const WornPhoto> PictureSheet::MakeBeside(std::vector<Image> others,
+                                                          glm::u8vec4 neutral) const {
+  if (std::ranges::all_of(others, [](const Image& image) { return image.rgba.empty(); })) {
+    return nullptr;
+  }
+  WornPhoto sheet = Blank((width_ + 1) / 2, (height_ + 1) / 2, neutral);
+  for (std::size_t i = 0; i < std::min(others.size(), pictures_.size()); ++i) {
+    if (others[i].rgba.empty()) continue;
+    const glm::ivec2 size = glm::max(glm::ivec2(pictures_[i].width, pictures_[i].height) / 2, 1);
+    while (others[i].width >= 2 * size.x && others[i].height >= 2 * size.y) {
+      others[i] = Halved(others[i]);
     }
-    const glm::vec2 size(width, height);
-    places_.push_back({glm::vec2(spots[i].x, spots[i].y) / size,
-                       glm::vec2(spots[i].x + picture.width, spots[i].y + picture.height) / size});
+    Lay(others[i], glm::ivec2(spots_[i].x, spots_[i].y) / 2, size, kRim / 2, sheet);
   }
   return std::make_shared<WornPhoto>(std::move(sheet));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/gtc/type_precision.hpp>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <vector>
@@ -25,13 +26,22 @@ class PictureSheet {
   std::size_t Add(Image picture);
   /// Lays all out. Nothing if there are none.
   std::shared_ptr<const WornPhoto> Make();
+  /// Others laid out alike, half as large; `neutral` where one is missing or empty. Nothing if all
+  /// are. REQUIRES: Make was called.
+  std::shared_ptr<const WornPhoto> MakeBeside(std::vector<Image> others, glm::u8vec4 neutral) const;
   /// Valid after Make.
   const Place& place(std::size_t picture) const { return places_[picture]; }
 
  private:
   static constexpr int kMaxSheet = 8192;  ///< of the sheet
+  struct Spot {
+    int x, y;
+  };
+  static constexpr int kRim = 2;
   std::vector<Image> pictures_;
+  std::vector<Spot> spots_;
   std::vector<Place> places_;
+  int width_ = 0, height_ = 0;
 };
 
 }  // namespace fsm

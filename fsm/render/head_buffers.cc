@@ -24,7 +24,8 @@ std::uint64_t ChecksumOf(const HeadTopology& topology) {
   add(topology.photo_lender);
   for (const auto& part : topology.parts) {
     const std::uint64_t words[] = {static_cast<std::uint64_t>(part.material), part.first_index,
-                                   part.index_count};
+                                   part.index_count, static_cast<std::uint64_t>(part.finish + 1),
+                                   part.two_sided ? 1U : 0U};
     sum = Checksum(words, sizeof(words), sum);
   }
   return sum;
@@ -128,6 +129,9 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(5, creases.right);
   upload(6, creases.left);
   photo_ = topology.photo;
+  relief_ = topology.relief;
+  lights_ = topology.lights;
+  finishes_ = topology.finishes;
   saturation_ = topology.saturation;
   eye_pictures_ = topology.eye_pictures;
   std::vector<glm::vec3> photo_place = topology.photo_place;
@@ -170,12 +174,13 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   const auto depth = [&rest](const Triangle& t) {
     return rest.position[t[0]].z + rest.position[t[1]].z + rest.position[t[2]].z;
   };
-  const auto add = [&](Material material, std::span<const std::uint32_t> corners,
+  const auto add = [&](HeadTopology::Part part, std::span<const std::uint32_t> corners,
                        bool soft = false) {
     if (corners.empty()) return;
     soft_.push_back(soft);
-    parts_.push_back({material, static_cast<std::uint32_t>(indices.size()),
-                      static_cast<std::uint32_t>(corners.size())});
+    part.first_index = static_cast<std::uint32_t>(indices.size());
+    part.index_count = static_cast<std::uint32_t>(corners.size());
+    parts_.push_back(part);
     indices.insert(indices.end(), corners.begin(), corners.end());
   };
   const auto flat = [](std::span<const Triangle> triangles) {
@@ -202,12 +207,13 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   };
   std::ranges::sort(hair, {}, key);
   const auto behind = std::ranges::find_if(hair, [&](const auto& t) { return depth(t) < kBehind; });
-  add(Material::kHair, flat({hair.begin(), behind}));
+  const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
+  add(locks, flat({hair.begin(), behind}));
   for (const auto& part : topology.parts) {
     if (part.material == Material::kHair) continue;
     const auto corners = std::span(topology.indices).subspan(part.first_index, part.index_count);
     if (!blends_ || part.material != Material::kSkin) {
-      add(part.material, corners, blends_ && part.material == Material::kPhoto);
+      add(part, corners, blends_ && part.material == Material::kPhoto);
       continue;
     }
     // Most of the skin hides what is behind it, and mixing costs time.
@@ -219,10 +225,10 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
       (fades ? fading : whole)
           .insert((fades ? fading : whole).end(), triangle.begin(), triangle.end());
     }
-    add(part.material, whole);
-    add(part.material, fading, true);
+    add(part, whole);
+    add(part, fading, true);
   }
-  add(Material::kHair, flat({behind, hair.end()}));
+  add(locks, flat({behind, hair.end()}));
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
                  GL_STATIC_DRAW);

@@ -48,6 +48,10 @@ class HeadBuffers {
   /// have such edges.
   bool blends() const { return blends_; }
   bool IsSoft(std::size_t part) const { return soft_[part]; }
+  /// HeadTopology::relief, lights and finishes.
+  const WornPhoto* relief() const { return relief_.get(); }
+  const WornPhoto* lights() const { return lights_.get(); }
+  const std::vector<Finish>& finishes() const { return finishes_; }
   /// Where the photo shows eyes: HeadTopology::eye_pictures.
   const std::optional<std::array<EyePicture, 2>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
@@ -80,7 +84,8 @@ class HeadBuffers {
   EyePlace eye_place_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
-  std::shared_ptr<const WornPhoto> photo_;
+  std::shared_ptr<const WornPhoto> photo_, relief_, lights_;
+  std::vector<Finish> finishes_;
   std::optional<std::array<EyePicture, 2>> eye_pictures_;
   std::array<EyeFrame, 2> resting_eyes_;
   float saturation_ = 1;

@@ -14,6 +14,8 @@
 
 #include "embedded/eye_fragment.h"
 #include "embedded/eye_vertex.h"
+#include "embedded/finish_fragment.h"
+#include "embedded/finish_vertex.h"
 #include "embedded/hair_fragment.h"
 #include "embedded/hair_vertex.h"
 #include "embedded/lighting.h"
@@ -133,11 +135,17 @@ void Materials::WearSkin(HeadBuffers& head, float samples_per_mm) {
   const bool fresh = generation_ != head.generation();
   has_photo_ = head.photo() != nullptr;
   chroma_ = head.saturation();
-  if (has_photo_ && fresh) {
-    Fill(kPhoto, head.photo()->width, head.photo()->height, head.photo()->rgba.data());
+  const auto wear = [this](Texture texture, const WornPhoto& picture) {
+    Fill(texture, picture.width, picture.height, picture.rgba.data());
     for (const int filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
       gl_.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(filter), GL_LINEAR);
     }
+  };
+  if (has_photo_ && fresh) wear(kPhoto, *head.photo());
+  if (fresh) finishes_ = head.finishes();
+  if (fresh && !finishes_.empty()) {
+    wear(kRelief, head.relief() ? *head.relief() : WornPhoto{1, 1, {128, 128, 255, 255}});
+    wear(kLights, head.lights() ? *head.lights() : WornPhoto{1, 1, {255, 255, 255, 255}});
   }
   generation_ = head.generation();
   const SkinTexture* skin = head.skin();
@@ -189,7 +197,15 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   if (generation_ != head.generation()) has_skin_ = false;
   Bind(kNoise, GL_TEXTURE0);
   Bind(kStrands, GL_TEXTURE3);
-  for (const GlProgram* program : {&surface_, &mouth_, &eye_, &hair_, &line_, &photo_}) {
+  std::vector<const GlProgram*> programs{&surface_, &mouth_, &eye_, &hair_, &line_, &photo_};
+  if (!head.finishes().empty()) {
+    if (!finish_) {
+      finish_ = std::make_unique<GlProgram>(gl_, "finish", Vertex(embedded::finish_vertex()),
+                                            Fragment(embedded::finish_fragment()));
+    }
+    programs.push_back(finish_.get());
+  }
+  for (const GlProgram* program : programs) {
     gl_.UseProgram(program->id());
     gl_.UniformMatrix4fv(program->Uniform("figure_to_world"), 1, GL_FALSE,
                          glm::value_ptr(view.figure_to_world));
@@ -233,6 +249,13 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   };
   const float brightness = std::sqrt(light(scene) / light(studio));
   gl_.Uniform1f(photo_.Uniform("brightness"), brightness);
+  if (finish_) {
+    gl_.UseProgram(finish_->id());
+    gl_.Uniform1f(finish_->Uniform("brightness"), brightness);
+    gl_.Uniform1i(finish_->Uniform("photo"), 1);
+    gl_.Uniform1i(finish_->Uniform("relief"), 4);
+    gl_.Uniform1i(finish_->Uniform("lights"), 5);
+  }
   gl_.UseProgram(hair_.id());
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
@@ -375,6 +398,28 @@ void Materials::Use(Material material) {
     Bind(skin ? kSkinTint : kPlain, GL_TEXTURE1);
     Bind(skin ? kSkinRelief : surface.planar > 0 ? kWeave : kPlain, GL_TEXTURE2);
   }
+}
+
+void Materials::Use(const HeadTopology::Part& part) {
+  if (part.finish < 0) return Use(part.material);
+  // Drawn once before its head is worn, to warm up.
+  const auto index = static_cast<std::size_t>(part.finish);
+  UseFinish(index < finishes_.size() ? finishes_[index] : Finish{});
+}
+
+void Materials::UseFinish(const Finish& finish) {
+  gl_.UseProgram(finish_->id());
+  gl_.Uniform1f(finish_->Uniform("ragged"), finish.cut_out ? 1.0F : 0.0F);
+  gl_.Uniform1f(finish_->Uniform("toon"), finish.kind == Finish::Kind::kToon ? 1.0F : 0.0F);
+  gl_.Uniform1f(finish_->Uniform("metallic"), finish.metallic);
+  gl_.Uniform1f(finish_->Uniform("roughness"), finish.roughness);
+  gl_.Uniform1f(finish_->Uniform("shade_to"), finish.shade_to);
+  gl_.Uniform1f(finish_->Uniform("light_from"), finish.light_from);
+  gl_.Uniform3fv(finish_->Uniform("glow"), 1, glm::value_ptr(finish.glow));
+  gl_.Uniform3fv(finish_->Uniform("shade"), 1, glm::value_ptr(finish.shade));
+  Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
+  Bind(kRelief, GL_TEXTURE4);
+  Bind(kLights, GL_TEXTURE5);
 }
 
 void Materials::UsePhoto(bool ragged) {

@@ -3,6 +3,8 @@
 #include <array>
 #include <glm/mat3x3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
 
 #include "fsm/head/head.h"
 #include "fsm/render/camera.h"
@@ -24,7 +26,7 @@ class Materials {
   /// Hands camera, eyes and the like to every program. `vertices` are in the head's own frame.
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                   const Scene& scene, float alpha);
-  void Use(Material material);
+  void Use(const HeadTopology::Part& part);
   /// Gives the head of the last BeginFrame its skin, which is plain until then, in the detail that
   /// the picture can show. Waits until it is painted.
   void WearSkin(HeadBuffers& head, float samples_per_mm);
@@ -32,7 +34,18 @@ class Materials {
   void UseLine(const glm::vec4& color);
 
  private:
-  enum Texture { kNoise, kWeave, kStrands, kPlain, kSkinTint, kSkinRelief, kPhoto, kTextures };
+  enum Texture {
+    kNoise,
+    kWeave,
+    kStrands,
+    kPlain,
+    kSkinTint,
+    kSkinRelief,
+    kPhoto,
+    kRelief,
+    kLights,
+    kTextures
+  };
 
   void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
   void Bind(Texture texture, GLenum unit);
@@ -41,7 +54,9 @@ class Materials {
                       const glm::mat3& rest_to_world);
   void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                 glm::vec3 key_direction);
+  void Use(Material material);
   void UsePhoto(bool ragged);
+  void UseFinish(const Finish& finish);
   void UseHair(float streaks, float shine);
 
   const GlFunctions& gl_;
@@ -51,6 +66,8 @@ class Materials {
   GlProgram hair_;
   GlProgram line_;
   GlProgram photo_;
+  std::unique_ptr<GlProgram> finish_;  // made for the first head that has any
+  std::vector<Finish> finishes_;
   GLuint textures_[kTextures] = {};
   int generation_ = 0;  // of the head whose skin is in the textures
   bool has_skin_ = false;

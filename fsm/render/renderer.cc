@@ -20,8 +20,9 @@ namespace {
 constexpr glm::vec4 kLineColor{0.10F, 0.55F, 0.42F, 1.0F};
 constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 1.0F};
 
-bool IsSheet(Material material) {
-  return material == Material::kLash || material == Material::kMouthInside;
+bool IsSheet(const HeadTopology::Part& part) {
+  return part.two_sided || part.material == Material::kLash ||
+         part.material == Material::kMouthInside;
 }
 
 class GlRenderer : public Renderer {
@@ -84,8 +85,8 @@ class GlRenderer : public Renderer {
         // back and hidden layers never shine through.
         gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         for (const auto& part : parts) {
-          if (IsHair(part.material) || part.material == Material::kPhoto) {
-            materials_.Use(part.material);  // they have holes
+          if (IsHair(part.material) || part.material == Material::kPhoto || part.finish >= 0) {
+            materials_.Use(part);  // they have holes
           } else {
             materials_.UseLine(glm::vec4(0.0F));
           }
@@ -99,8 +100,8 @@ class GlRenderer : public Renderer {
       for (const auto& part : parts) {
         // Lashes have two sides; everything else is the skin of something closed, or of hair, which
         // has an inside of its own where it hangs.
-        (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
-        materials_.Use(part.material);
+        (IsSheet(part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        materials_.Use(part);
         const bool soft =
             alpha >= 1 && head_.IsSoft(static_cast<std::size_t>(&part - parts.data()));
         if (soft) BeginBlending();
@@ -125,8 +126,8 @@ class GlRenderer : public Renderer {
     gl_.CullFace(GL_BACK);
     for (auto part : head_.parts()) {
       part.index_count = 3;
-      (IsSheet(part.material) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
-      materials_.Use(part.material);
+      (IsSheet(part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+      materials_.Use(part);
       DrawPart(part);
     }
     gl_.Disable(GL_CULL_FACE);

@@ -1,0 +1,105 @@
+#include "fsm/mesh/gltf_finish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+float Share(const json& of, const char* key, double otherwise) {
+  return static_cast<float>(std::clamp(RealOf(of, key, otherwise), 0.0, 1.0));
+}
+
+glm::vec3 ColourOf(const json& given, glm::vec3 otherwise) {
+  for (std::size_t k = 0; k < 3 && given.is_array() && k < given.size(); ++k) {
+    if (given[k].is_number()) {
+      otherwise[static_cast<int>(k)] = std::clamp(given[k].get<float>(), 0.0F, 16.0F);
+    }
+  }
+  return otherwise;
+}
+
+GltfFinish::Texture TextureOf(const json& of, const char* key, const char* strength = "") {
+  const json& given = PartOf(of, key);
+  return {WholeOf(given, "index"),
+          static_cast<float>(std::clamp(RealOf(given, strength, 1), -4.0, 4.0)), &given};
+}
+
+/// Between which cosines a drawn figure goes from shade to light: below -1 + toony - shift it is
+/// all shade, above 1 - toony - shift all light (VRMC_materials_mtoon 1.0, "Lighting").
+void SetEdges(double toony, double shift, Finish& finish) {
+  finish.shade_to = static_cast<float>(-1 + toony - shift);
+  finish.light_from = static_cast<float>(1 - toony - shift);
+}
+
+void ReadToon(const json& toon, GltfFinish& out) {
+  Finish& finish = out.finish.emplace();
+  finish.kind = Finish::Kind::kToon;
+  finish.shade = ColourOf(PartOf(toon, "shadeColorFactor"), glm::vec3(1));
+  SetEdges(std::clamp(RealOf(toon, "shadingToonyFactor", 0.9), 0.0, 1.0),
+           std::clamp(RealOf(toon, "shadingShiftFactor", 0), -1.0, 1.0), finish);
+  out.glow = TextureOf(toon, "shadeMultiplyTexture");
+}
+
+/// Properties of the shader of Unity's MToon as VRM 0.x has them. Its numbers lie between the shade
+/// threshold and that moved towards 1 by what is not toony; colours are those of the screen.
+void ReadOldToon(const json& properties, GltfFinish& out) {
+  Finish& finish = out.finish.emplace();
+  finish.kind = Finish::Kind::kToon;
+  const json& numbers = PartOf(properties, "floatProperties");
+  const float shift = static_cast<float>(std::clamp(RealOf(numbers, "_ShadeShift", 0), -1.0, 1.0));
+  finish.shade_to = shift;
+  finish.light_from = shift + (1 - shift) * (1 - Share(numbers, "_ShadeToony", 0.9));
+  const glm::vec3 shown =
+      ColourOf(PartOf(PartOf(properties, "vectorProperties"), "_ShadeColor"), glm::vec3(1));
+  for (int k = 0; k < 3; ++k) finish.shade[k] = std::pow(shown[k], 2.2F);
+  out.glow.index = WholeOf(PartOf(properties, "textureProperties"), "_ShadeTexture");
+}
+
+const json& OldProperties(const GltfDocument& document, std::int64_t material) {
+  static const json none;
+  const json& list =
+      PartOf(PartOf(PartOf(document.root(), "extensions"), "VRM"), "materialProperties");
+  const auto index = static_cast<std::size_t>(material);
+  return material >= 0 && list.is_array() && index < list.size() ? list[index] : none;
+}
+
+}  // namespace
+
+GltfFinish ReadFinish(const GltfDocument& document, std::int64_t material) {
+  GltfFinish out;
+  if (material < 0) return out;
+  const json& given = document.At("materials", material);
+  const json& extensions = PartOf(given, "extensions");
+  const json& old = OldProperties(document, material);
+  const std::string shader = TextOf(old, "shader");
+  // Drawn figures often say that they are unlit, too, for programs that do not know MToon.
+  if (extensions.contains("VRMC_materials_mtoon")) {
+    ReadToon(PartOf(extensions, "VRMC_materials_mtoon"), out);
+  } else if (shader == "VRM/MToon") {
+    ReadOldToon(old, out);
+  } else if (extensions.contains("KHR_materials_unlit") || shader.starts_with("VRM/Unlit")) {
+    return out;
+  } else {
+    Finish& finish = out.finish.emplace();
+    const json& metal = PartOf(given, "pbrMetallicRoughness");
+    finish.metallic = Share(metal, "metallicFactor", 1);
+    finish.roughness = Share(metal, "roughnessFactor", 1);
+    out.surface = TextureOf(metal, "metallicRoughnessTexture");
+    out.open = TextureOf(given, "occlusionTexture", "strength");
+    out.glow = TextureOf(given, "emissiveTexture");
+  }
+  out.normal = TextureOf(given, "normalTexture", "scale");
+  out.finish->glow = ColourOf(PartOf(given, "emissiveFactor"), glm::vec3(0));
+  const double strength =
+      RealOf(PartOf(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
+  out.finish->glow *= static_cast<float>(std::clamp(strength, 0.0, 16.0));
+  const std::string mode = TextOf(given, "alphaMode");
+  out.finish->cut_out = mode == "MASK" || mode == "BLEND";
+  return out;
+}
+
+}  // namespace fsm

@@ -1,0 +1,98 @@
+// Metal and roughness (glTF 2.0, appendix B: Lambert and GGX), or the two colours of a drawn figure
+// (VRMC_materials_mtoon 1.0, "Lighting").
+in vec3 at;
+in vec3 facing;
+in vec3 worn;
+in vec3 tint;  // on the picture, or the colour where there is none
+
+uniform float alpha;
+uniform float brightness;
+uniform float ragged;      // 1: what is transparent is left out
+uniform float toon;        // 1: two colours
+uniform float metallic;
+uniform float roughness;
+uniform float shade_to;    // cosines: shade up to here,
+uniform float light_from;  // light from here
+uniform vec3 glow;
+uniform vec3 shade;
+uniform sampler2D photo;
+uniform sampler2D relief;  // normal's x and y, roughness, metallic
+uniform sampler2D lights;  // what glows, or the picture of the shade; a: open to light
+
+out vec4 color;
+
+// Colours of materials are meant for light that white sends back as white; of our lamps and room a
+// white plate that faces the viewer sends back twice as much.
+const float kPlate = 0.52;
+
+vec3 Linear(vec3 shown) { return pow(shown, vec3(2.2)); }
+
+// The normal bent as the relief says, in the frame in which the picture lies on the surface: found
+// from how both change from pixel to pixel (Schueler, "Followup: Normal Mapping Without Precomputed
+// Tangents", 2013).
+vec3 Bent(vec3 n, vec2 slope) {
+  vec3 dx = dFdx(at), dy = dFdy(at);
+  vec2 ux = dFdx(worn.xy), uy = dFdy(worn.xy);
+  vec3 across = cross(dy, n), along = cross(n, dx);
+  vec3 right = across * ux.x + along * uy.x;
+  vec3 down = across * ux.y + along * uy.y;
+  float size = inversesqrt(max(max(dot(right, right), dot(down, down)), 1e-20));
+  float z = sqrt(max(1.0 - dot(slope, slope), 0.0));
+  return normalize(right * size * slope.x - down * size * slope.y + n * z);
+}
+
+// What a surface mirrors of a lamp, without its Fresnel part: GGX with Smith's shadowing.
+float Mirrored(float n_h, float n_l, float n_v, float a2) {
+  float d = n_h * n_h * (a2 - 1.0) + 1.0;
+  float v = n_l * sqrt(n_v * n_v * (1.0 - a2) + a2) + n_v * sqrt(n_l * n_l * (1.0 - a2) + a2);
+  return a2 / (d * d) * 0.5 / max(v, 1e-3);
+}
+
+void main() {
+  vec4 p = texture(photo, worn.xy);
+  // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
+  ivec2 s = ivec2(gl_FragCoord.xy) & 1;
+  float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
+  if (worn.z > 0.0 && ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
+  vec3 base = worn.z > 0.0 ? Linear(p.rgb) * tint : tint;
+  vec4 r = worn.z > 0.0 ? texture(relief, worn.xy) : vec4(0.5, 0.5, 1.0, 1.0);
+  vec4 l = worn.z > 0.0 ? texture(lights, worn.xy) : vec4(1.0);
+
+  vec3 n = normalize(facing);
+  if (!gl_FrontFacing) n = -n;
+  vec2 slope = (r.xy * 255.0 - 128.0) / 127.0;
+  if (dot(slope, slope) > 1e-3) n = Bent(n, slope);
+  if (toon > 0.5) {
+    float lit = clamp((dot(n, lamp_directions[0]) - shade_to) / max(light_from - shade_to, 1e-3),
+                      0.0, 1.0);
+    vec3 drawn = mix(shade * Linear(l.rgb) * tint, base, lit) + glow;
+    color = vec4(pow(drawn, vec3(1.0 / 2.2)) * brightness, alpha);
+    return;
+  }
+  vec3 v = normalize(eye - at);
+  float metal = metallic * r.w, rough = clamp(roughness * r.z, 0.05, 1.0);
+  vec3 f0 = mix(vec3(0.04), base, metal), scatters = base * (1.0 - metal);
+  float a2 = rough * rough * rough * rough;
+  float n_v = max(dot(n, v), 1e-3);
+  float shadow = KeyShadow(at);
+  vec3 light = vec3(0.0);
+  for (int i = 0; i < 3; ++i) {
+    float n_l = dot(n, lamp_directions[i]);
+    if (n_l <= 0.0) continue;
+    vec3 h = normalize(lamp_directions[i] + v);
+    float c = 1.0 - clamp(dot(h, v), 0.0, 1.0);
+    vec3 fresnel = f0 + (1.0 - f0) * c * c * c * c * c;
+    // Lamps are given by what white that faces them sends back.
+    vec3 falls = lamp_colors[i] * n_l * (i == 0 ? shadow : 1.0);
+    light += falls * ((1.0 - fresnel) * scatters +
+                      fresnel * Mirrored(max(dot(n, h), 0.0), n_l, n_v, a2));
+  }
+  // Of the room a rough surface mirrors little (Lazarov's fit of the split sum, 2013).
+  vec4 q = rough * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+  float e = min(q.x * q.x, exp2(-9.28 * n_v)) * q.x + q.y;
+  vec3 room = f0 * (-1.04 * e + q.z) + (1.04 * e + q.w);
+  light += l.a * (Ambient(n) * scatters + Ambient(reflect(-v, n)) * room);
+  light *= kPlate;
+  light += glow * Linear(l.rgb) / kExposure;
+  color = vec4(ToScreen(light), alpha);
+}

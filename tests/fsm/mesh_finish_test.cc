@@ -1,0 +1,247 @@
+// How parts of heads from elsewhere take light: what files say of it, and what is seen.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/picture_sheet.h"
+#include "fsm/render/image_codec.h"
+#include "tests/fsm/gltf_maker.h"
+
+namespace fsm {
+namespace {
+
+std::string Number(int n) { return std::to_string(n); }
+
+/// A triangle of one material; `more`: further members of the file.
+HeadFile Read(GltfMaker& maker, const std::string& material, const std::string& more = "") {
+  const int place = maker.Places({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const int uv = maker.Floats({0, 0, 1, 0, 0, 1}, "VEC2", 2);
+  auto file = ParseGltfHead(
+      "a.gltf", maker.File(R"("nodes":[{"mesh":0}],"materials":[)" + material +
+                           R"(],"meshes":[{"primitives":[{"material":0,"attributes":{"POSITION":)" +
+                           Number(place) + R"(,"TEXCOORD_0":)" + Number(uv) + "}}]}]" + more));
+  EXPECT_TRUE(file) << file.error().text;
+  return file ? std::move(*file) : HeadFile{};
+}
+
+Finish FinishOf(const std::string& material, const std::string& more = "") {
+  GltfMaker maker;
+  const HeadFile file = Read(maker, material, more);
+  EXPECT_EQ(file.finishes.size(), 1U);
+  EXPECT_EQ(file.parts.at(0).finish, 0);
+  return file.finishes.empty() ? Finish{} : file.finishes[0];
+}
+
+TEST(GltfFinishTest, MetalAndRoughnessAreReadAndAreWholeIfNothingIsSaid) {
+  const Finish said = FinishOf(
+      R"({"pbrMetallicRoughness":{"metallicFactor":0.25,"roughnessFactor":0.5},"emissiveFactor":)"
+      R"([0.1,0.2,0.3],"alphaMode":"MASK","extensions":{"KHR_materials_emissive_strength":)"
+      R"({"emissiveStrength":2}}})");
+  EXPECT_EQ(said.kind, Finish::Kind::kLit);
+  EXPECT_FLOAT_EQ(said.metallic, 0.25F);
+  EXPECT_FLOAT_EQ(said.roughness, 0.5F);
+  EXPECT_FLOAT_EQ(said.glow.b, 0.6F);
+  EXPECT_TRUE(said.cut_out);
+  const Finish silent = FinishOf("{}");
+  EXPECT_FLOAT_EQ(silent.metallic, 1);
+  EXPECT_FLOAT_EQ(silent.roughness, 1);
+}
+
+TEST(GltfFinishTest, UnlitStaysAsItIsButNotWhereItOnlyStandsInForMToon) {
+  GltfMaker maker;
+  const HeadFile plain = Read(maker, R"({"extensions":{"KHR_materials_unlit":{}}})");
+  EXPECT_TRUE(plain.finishes.empty());
+  EXPECT_EQ(plain.parts.at(0).finish, -1);
+  const Finish toon = FinishOf(R"({"extensions":{"KHR_materials_unlit":{},)"
+                               R"("VRMC_materials_mtoon":{"shadeColorFactor":[0.5,0.25,0.125],)"
+                               R"("shadingToonyFactor":0.75,"shadingShiftFactor":-0.25}}})");
+  EXPECT_EQ(toon.kind, Finish::Kind::kToon);
+  EXPECT_FLOAT_EQ(toon.shade.g, 0.25F);
+  EXPECT_FLOAT_EQ(toon.shade_to, 0);
+  EXPECT_FLOAT_EQ(toon.light_from, 0.5F);
+}
+
+TEST(GltfFinishTest, OldAvatarsSayItInPropertiesOfTheShader) {
+  const auto old = [](const char* shader) {
+    return std::string(R"(,"extensions":{"VRM":{"materialProperties":[{"shader":")") + shader +
+           R"(","floatProperties":{"_ShadeShift":-0.5,"_ShadeToony":0.8},)"
+           R"("vectorProperties":{"_ShadeColor":[0.5,1,0,1]}}]}})";
+  };
+  const Finish toon = FinishOf("{}", old("VRM/MToon"));
+  EXPECT_EQ(toon.kind, Finish::Kind::kToon);
+  EXPECT_NEAR(toon.shade.r, 0.218F, 2e-3F) << "a colour of the screen";
+  EXPECT_FLOAT_EQ(toon.shade_to, -0.5F);
+  EXPECT_FLOAT_EQ(toon.light_from, -0.2F);
+  GltfMaker maker;
+  EXPECT_TRUE(Read(maker, "{}", old("VRM/UnlitTexture")).finishes.empty());
+}
+
+TEST(GltfFinishTest, PicturesOfLightArePutTogetherBesideTheColour) {
+  GltfMaker maker;
+  maker.Picture(EncodePng(Image{2, 1, {10, 20, 30, 255, 40, 50, 60, 255}}));  // colour
+  maker.Picture(EncodePng(Image{1, 1, {228, 78, 255, 255}}));                 // normal
+  maker.Picture(EncodePng(Image{1, 1, {100, 150, 200, 255}}));  // openness, roughness, metal
+  const HeadFile file =
+      Read(maker,
+           R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":)"
+           R"({"index":2}},"normalTexture":{"index":1,"scale":0.5},"occlusionTexture":{"index":2,)"
+           R"("strength":0.5}})");
+  ASSERT_EQ(file.pictures.size(), 1U);
+  ASSERT_EQ(file.details.size(), 1U);
+  EXPECT_EQ(file.details[0].relief.rgba, (std::vector<std::uint8_t>{178, 103, 150, 200}));
+  ASSERT_EQ(file.details[0].lights.rgba.size(), 4U);
+  EXPECT_EQ(file.details[0].lights.rgba[3], 177) << "half as shut as the picture says";
+
+  PictureSheet sheet;
+  sheet.Add(file.pictures[0]);
+  ASSERT_TRUE(sheet.Make());
+  const auto relief = sheet.MakeBeside({file.details[0].relief}, {128, 128, 255, 255});
+  ASSERT_TRUE(relief);
+  const glm::vec2 at = sheet.place(0).At({0.5F, 0.5F}) * glm::vec2(relief->width, relief->height);
+  const auto texel = static_cast<std::size_t>(
+      4 * (static_cast<int>(at.y) * relief->width + static_cast<int>(at.x)));
+  EXPECT_EQ(relief->rgba[texel], 178);
+  EXPECT_EQ(sheet.MakeBeside({Image{}}, {0, 0, 0, 0}), nullptr);
+}
+
+TEST(GltfFinishTest, APictureThatLiesOtherwiseThanTheColourIsLeftOutWithANotice) {
+  GltfMaker maker;
+  maker.Picture(EncodePng(Image{1, 1, {10, 20, 30, 255}}));
+  maker.Picture(EncodePng(Image{1, 1, {228, 78, 255, 255}}));
+  const HeadFile file =
+      Read(maker, R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"normalTexture":)"
+                  R"({"index":1,"texCoord":1}})");
+  EXPECT_TRUE(file.details.empty());
+  ASSERT_EQ(file.notices.size(), 1U);
+  EXPECT_NE(file.notices[0].find("textures[1] is left out"), std::string::npos) << file.notices[0];
+}
+
+/// A plate of 100 mm before the face's middle, its picture grey; it faces the viewer, or away.
+struct Plate {
+  Finish finish;
+  bool two_sided = false, faces_away = false;
+  std::vector<std::uint8_t> relief = {}, lights = {};  // one pixel
+};
+
+/// The colour on the screen in the middle of the plate. `front` light only comes from the viewer.
+glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0, 1}) {
+  MeshModel model;
+  for (const auto& [x, y] : {std::pair(-1.0F, -1.0F), {1, -1}, {1, 1}, {-1, 1}}) {
+    model.Add({50 * x, 50 * y, 80}, Bone::kSkull, glm::vec3(1),
+              {0.5F + 0.5F * x, 0.5F - 0.5F * y, 1});
+  }
+  model.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {188, 188, 188, 255}});
+  if (!plate.relief.empty()) {
+    model.relief = std::make_shared<WornPhoto>(WornPhoto{1, 1, plate.relief});
+  }
+  if (!plate.lights.empty()) {
+    model.lights = std::make_shared<WornPhoto>(WornPhoto{1, 1, plate.lights});
+  }
+  model.finishes = {plate.finish};
+  auto& indices = model.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
+  indices = plate.faces_away ? std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2}
+                             : std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3};
+  const auto head = MakeMeshHead(std::move(model), StillMotion());
+  HeadVertices vertices;
+  head->Evaluate({}, vertices);
+  constexpr int kSide = 64;
+  const auto context = RenderContext::MakeHeadless(kSide, kSide);
+  const auto renderer = Renderer::Make(*context);
+  Scene scene;
+  scene.background = {0, 0, 1};
+  scene.key.direction = key;
+  scene.key.strength = key_strength;
+  scene.fill.strength = scene.rim.strength = 0;
+  renderer->Draw(*head, vertices, {}, scene);
+  Image image;
+  renderer->Read(image);
+  // The middle of the plate lies a little above the middle of a portrait.
+  const std::uint8_t* p = &image.rgba[4 * (26 * kSide + kSide / 2)];
+  return {p[0], p[1], p[2]};
+}
+
+TEST(FinishTest, WhatIsLitDarkensWithTheLampsAndWhatGlowsDoesNot) {
+  Plate plate{.finish = {.metallic = 0, .roughness = 1}};
+  const float bright = Seen(plate).g, dim = Seen(plate, 0).g;
+  EXPECT_GT(bright, 1.6F * dim);
+  EXPECT_GT(dim, 10) << "the room has some light";
+  plate.finish.glow = glm::vec3(0.5F, 0, 0);
+  const glm::vec3 glowing = Seen(plate, 0);
+  EXPECT_GT(glowing.r, dim + 40);
+  EXPECT_NEAR(glowing.g, dim, 2);
+}
+
+TEST(FinishTest, ARoughMetalMirrorsTheLampLessThanASmoothOne) {
+  const float smooth = Seen({.finish = {.metallic = 1, .roughness = 0.35F}}).g;
+  const float rough = Seen({.finish = {.metallic = 1, .roughness = 1}}).g;
+  EXPECT_GT(smooth, rough + 30);
+  // Roughness and metal may lie in a picture: blue is rough, alpha metal.
+  EXPECT_NEAR(Seen({.finish = {.metallic = 1, .roughness = 1}, .relief = {128, 128, 89, 255}}).g,
+              smooth, 3);
+}
+
+TEST(FinishTest, ANormalThatLeansToTheLampIsBrighter) {
+  const glm::vec3 right{0.8F, 0, 0.6F}, up{0, 0.8F, 0.6F};
+  const auto lit = [](std::vector<std::uint8_t> relief, glm::vec3 key) {
+    return Seen({.finish = {.metallic = 0, .roughness = 1}, .relief = std::move(relief)}, 1, key).g;
+  };
+  const float flat = lit({128, 128, 255, 255}, right);
+  EXPECT_GT(lit({200, 128, 255, 255}, right), flat + 10) << "red is to the right of the picture";
+  EXPECT_LT(lit({56, 128, 255, 255}, right), flat - 10);
+  EXPECT_GT(lit({128, 200, 255, 255}, up), flat + 10) << "green is up";
+  EXPECT_LT(lit({128, 56, 255, 255}, up), flat - 10);
+}
+
+TEST(FinishTest, OccludedPlacesGetLessOfTheRoomsLightAndAllOfTheLamps) {
+  Plate plate{.finish = {.metallic = 0, .roughness = 1}};
+  const float open = Seen(plate, 0).g;
+  plate.lights = {255, 255, 255, 64};
+  EXPECT_LT(Seen(plate, 0).g, 0.7F * open);
+}
+
+TEST(FinishTest, AToonHasTwoColoursWithAnEdgeBetween) {
+  Finish toon{.kind = Finish::Kind::kToon, .shade = {0.05F, 0.3F, 0.05F}};
+  toon.shade_to = 0.4F;
+  toon.light_from = 0.5F;
+  const auto at = [&toon](float cosine) {
+    return Seen({.finish = toon}, 1, {std::sqrt(1 - cosine * cosine), 0, cosine});
+  };
+  const glm::vec3 light = at(0.9F), shade = at(0.2F);
+  EXPECT_EQ(at(0.55F), light);
+  EXPECT_EQ(at(0.35F), shade);
+  EXPECT_NEAR(light.r, light.g, 1) << "the picture's grey";
+  EXPECT_GT(shade.g, 2 * shade.r) << "the shade's green";
+}
+
+TEST(FinishTest, OfTwoSidesBothAreSeenAndLit) {
+  const Finish matt{.metallic = 0, .roughness = 1};
+  const glm::vec3 front = Seen({.finish = matt});
+  const glm::vec3 gone = Seen({.finish = matt, .faces_away = true});
+  EXPECT_LT(gone.r, 3) << "only the blue behind it";
+  EXPECT_EQ(Seen({.finish = matt, .two_sided = true, .faces_away = true}), front);
+}
+
+TEST(FinishTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
+  // A roof: its two slopes meet in doubled vertices.
+  MeshModel model;
+  for (const glm::vec3 p :
+       {glm::vec3(-10, 0, 0), {0, 0, 5}, {0, 10, 5}, {0, 0, 5}, {10, 0, 0}, {0, 10, 5}}) {
+    model.Add(p, Bone::kSkull, glm::vec3(1));
+  }
+  model.finishes.emplace_back();
+  model.BatchOf(Material::kSkin, 0, false).indices = {0, 1, 2, 3, 4, 5};
+  const auto head = MakeMeshHead(std::move(model), StillMotion());
+  HeadVertices vertices;
+  head->Evaluate({}, vertices);
+  EXPECT_EQ(vertices.normal[1], vertices.normal[3]);
+  EXPECT_NEAR(vertices.normal[2].x, 0, 1e-5F);
+}
+
+}  // namespace
+}  // namespace fsm
