@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "fsm/head/spline.h"
 #include "fsm/head/warp.h"
@@ -13,7 +14,8 @@
 namespace fsm {
 namespace {
 
-/// Marks a surface's lips and lids by the ways from those of the pairs that lie on them.
+/// Marks a surface's lips and lids by the ways from those of the pairs that lie on them, and what
+/// of it is seen.
 void MarkParts(WeldedSurface& surface, std::span<const PlacePair> pairs, bool from) {
   const auto seeds = [&](FacePart part) {
     std::vector<glm::vec3> places;
@@ -35,6 +37,7 @@ void MarkParts(WeldedSurface& surface, std::span<const PlacePair> pairs, bool fr
   };
   mark(FacePart::kUpperLip, FacePart::kLowerLip, 40, 12, surface.lip);
   mark(FacePart::kUpperLid, FacePart::kLowerLid, 20, 8, surface.lid);
+  surface.FindSeen();
 }
 
 /// Spreads values over a surface; those with no weight of their own take their neighbours'.
@@ -112,21 +115,22 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   for (glm::vec3& p : drawn.at) p = edges.Pulled(p + warp.Motion(p));
   drawn.FindNormals();
 
-  // Drawn onto the other surface in rounds, at first as a whole, in the end in detail.
-  constexpr float kReach = 14;
-  const SurfaceIndex there(target, kReach);
-  constexpr int kSpread[] = {40, 24, 14, 8, 5, 3};
-  for (const int rounds : kSpread) {
+  // Drawn onto the other surface in rounds, at first as a whole, in the end in detail. Necks and
+  // backs of heads, where no landmarks are, lie far apart at first.
+  constexpr std::pair<float, int> kRounds[] = {{30, 40}, {26, 24}, {22, 14},
+                                               {18, 8},  {14, 5},  {14, 3}};
+  for (const auto& [reach, rounds] : kRounds) {
+    const SurfaceIndex there(target, reach);
     std::vector<glm::vec3> by(drawn.at.size(), glm::vec3(0));
     std::vector<float> weight(drawn.at.size(), 0);
     float sum = 0, count = 0;
     for (std::size_t i = 0; i < drawn.at.size(); ++i) {
-      const auto hit = there.Find(drawn.at[i], drawn.normal[i], drawn.lip[i], drawn.lid[i]);
+      const auto hit = there.Find(drawn, i);
       if (!hit) continue;
       // Along its own normal: where to, sideways, is what the landmarks said; the nearest place, as
       // it falls on other triangles from round to round, would drift.
       by[i] = glm::dot(hit->at - drawn.at[i], drawn.normal[i]) * drawn.normal[i];
-      weight[i] = SmoothStep(kReach, 0.4f * kReach, hit->far);
+      weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
       sum += weight[i] * hit->far;
       count += weight[i];
     }
@@ -142,7 +146,7 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   std::vector<std::uint32_t> open;
   std::vector<bool> tied(target.at.size(), false);
   for (std::uint32_t w = 0; w < target.at.size(); ++w) {
-    const auto hit = own.Find(target.at[w], target.normal[w], target.lip[w], target.lid[w]);
+    const auto hit = own.Find(target, w);
     if (!hit) continue;
     const auto& t = drawn.triangles[hit->triangle];
     ties_[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <map>
 #include <queue>
 #include <tuple>
+#include <utility>
+
+#include "fsm/head/spline.h"
 
 namespace fsm {
 namespace {
@@ -101,6 +105,50 @@ void WeldedSurface::FindNormals() {
   for (glm::vec3& n : normal) n /= std::max(glm::length(n), 1e-12f);
 }
 
+void WeldedSurface::FindSeen() {
+  constexpr float kCell = 1, kClear = 0.5f, kBehind = 3;  // millimetres
+  constexpr int kMost = 2000;
+  seen.assign(at.size(), 1);
+  glm::vec2 low(1e9f), high(-1e9f);
+  for (const glm::vec3& p : at) {
+    low = glm::min(low, glm::vec2(p));
+    high = glm::max(high, glm::vec2(p));
+  }
+  const glm::ivec2 size(glm::clamp((high - low) / kCell + 2.0f, 2.0f, float{kMost}));
+  std::vector<float> front(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y),
+                           -1e9f);
+  const auto index = [&size](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
+           static_cast<std::size_t>(x);
+  };
+  for (const auto& t : triangles) {
+    const glm::vec2 a(at[t[0]]), b(at[t[1]]), c(at[t[2]]);
+    const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (area <= 1e-6f) continue;  // turned away
+    const glm::ivec2 from(glm::max((glm::min(a, glm::min(b, c)) - low) / kCell, 0.0f));
+    const glm::ivec2 to =
+        glm::min(glm::ivec2((glm::max(a, glm::max(b, c)) - low) / kCell) + 1, size - 1);
+    for (int y = from.y; y <= to.y; ++y) {
+      for (int x = from.x; x <= to.x; ++x) {
+        const glm::vec2 p = low + kCell * glm::vec2(x, y);
+        const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
+        const float v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        const float z = at[t[0]].z * (1 - u - v) + at[t[1]].z * u + at[t[2]].z * v;
+        front[index(x, y)] = std::max(front[index(x, y)], z);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const glm::ivec2 cell = glm::min(glm::ivec2((glm::vec2(at[i]) - low) / kCell), size - 2);
+    float least = 1e9f;  // around it: at a slope, and at the edge of an opening, it is seen
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+      least = std::min(least, front[index(cell.x + x, cell.y + y)]);
+    }
+    seen[i] = SmoothStep(kBehind, kClear, least - at[i].z);
+  }
+}
+
 std::uint32_t WeldedSurface::Nearest(glm::vec3 p) const {
   std::uint32_t best = 0;
   float least = 1e30f;
@@ -159,10 +207,11 @@ std::int64_t SurfaceIndex::Cell(glm::ivec3 c) const {
          100000;
 }
 
-std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(glm::vec3 p, glm::vec3 normal, float lip,
-                                                    float lid) const {
-  // Millimetres that a difference counts: turned away, on the other lip, on the other lid.
-  constexpr float kTurned = 4, kLip = 14, kLid = 9;
+std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
+                                                    std::size_t vertex) const {
+  // Millimetres that a difference counts: turned away, on the other lip, on the other lid, hidden.
+  constexpr float kTurned = 4, kLip = 14, kLid = 9, kHidden = 10;
+  const glm::vec3 p = other.at[vertex], normal = other.normal[vertex];
   constexpr float kLeastFacing = 0.15f;
   std::optional<Hit> best;
   float least = reach_ * reach_;
@@ -185,9 +234,11 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(glm::vec3 p, glm::vec3 norma
           if (cost >= least) continue;
           const float facing = glm::dot(normal, mix(surface_.normal));
           if (facing < kLeastFacing) continue;
-          const float turned = kTurned * (1 - facing), other = kLip * (lip - mix(surface_.lip)),
-                      shut = kLid * (lid - mix(surface_.lid));
-          cost += turned * turned + other * other + shut * shut;
+          const float turned = kTurned * (1 - facing);
+          const float lip = kLip * (other.lip[vertex] - mix(surface_.lip));
+          const float lid = kLid * (other.lid[vertex] - mix(surface_.lid));
+          const float hidden = kHidden * (other.seen[vertex] - mix(surface_.seen));
+          cost += turned * turned + lip * lip + lid * lid + hidden * hidden;
           if (cost >= least) continue;
           least = cost;
           best = Hit{i, part, there, glm::length(d)};

@@ -25,16 +25,21 @@ class WeldedSurface {
   std::vector<std::uint32_t> first;  ///< a given vertex of each welded one
   /// Where the vertex lies between opposites: 1 = upper, -1 = lower, 0 = neither.
   std::vector<float> lip, lid;
+  /// 1 = seen from the front, 0 = more than a few millimetres behind what is seen there, as the
+  /// linings of mouths and eye sockets. Filled by FindSeen.
+  std::vector<float> seen;
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   void FindNormals();
+  void FindSeen();
   std::uint32_t Nearest(glm::vec3 p) const;
   /// Distances along edges from the vertices nearest to the seeds, up to `reach`; beyond it
   /// `reach`.
   std::vector<float> WayFrom(std::span<const glm::vec3> seeds, float reach) const;
 };
 
-/// Finds the nearest place of a surface that faces the same way and belongs to the same lip or lid.
+/// Finds the nearest place of a surface that faces the same way, belongs to the same lip or lid and
+/// is as well seen.
 class SurfaceIndex {
  public:
   SurfaceIndex(const WeldedSurface& surface, float reach);
@@ -43,7 +48,8 @@ class SurfaceIndex {
     glm::vec3 part, at;
     float far;  ///< millimetres
   };
-  std::optional<Hit> Find(glm::vec3 p, glm::vec3 normal, float lip, float lid) const;
+  /// What the vertex of another surface lies nearest to. REQUIRES: FindSeen was called for both.
+  std::optional<Hit> Find(const WeldedSurface& other, std::size_t vertex) const;
 
  private:
   std::int64_t Cell(glm::ivec3 c) const;
