@@ -22,7 +22,10 @@ SkinCover CoverWithSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& g
       glm::vec2 p[3];
       bool low = false;
       for (int c = 0; c < 3; ++c) {
-        low = low || fit.worn[t[c]].y < bottom || fit.worn[t[c]].z < 0;
+        const glm::vec3 v = fit.worn[t[c]];
+        // Behind the line of the jaw lies the neck, which is not the face's.
+        const float line = 30 * glm::smoothstep(48.0F, 36.0F, v.y - bottom);
+        low = low || v.y < bottom || v.z < line;
         q[c] = fit.pose.ToCamera(fit.worn[t[c]]);
         p[c] = (fit.pose.Project(q[c]) - grid.origin) / grid.cell;
       }

@@ -21,7 +21,7 @@ struct SkinCover {
   std::array<Field, 3> motion;  ///< of the skin there by `motion`, 0 where no skin is
 };
 
-/// Of the skin above `bottom` (millimetres, the head's frame) and before the ears. `motion`: of
+/// Of the skin above `bottom` (millimetres, the head's frame) and before ears and neck. `motion`: of
 /// each vertex of the base head, or empty.
 SkinCover CoverWithSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& grid, float bottom,
                         std::span<const glm::vec3> motion = {});

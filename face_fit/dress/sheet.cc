@@ -159,7 +159,8 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   fsm::Image out = figure.colours;
   FillIn(out, keep);
   const int grain = std::max(static_cast<int>(2.5F * mm), 2);
-  const Field all(width, height, 1);
+  // Of a small photo grain is as coarse as its pixels.
+  const Field all(width, height, glm::smoothstep(0.6F, 1.6F, mm));
   AddGrain(keep, all, grain, out);
   // Behind the jaw lies what is below it, not what is on it.
   fsm::Image neck = figure.colours;
@@ -198,6 +199,21 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   }
   const int rim = std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1);
   const Field within_skin = Blurred(covered, rim);
+  // Not at the very edge: there the skin turns away, and each point has a depth of its own.
+  constexpr float kEdge = 0.62F;
+  Field inner(columns, rows), beside(columns, rows);
+  for (std::size_t i = 0; i < inner.at.size(); ++i) {
+    if (covered.at[i] <= 0 || within_skin.at[i] <= kEdge) continue;
+    inner.at[i] = 1;
+    beside.at[i] = depth.at[i];
+  }
+  Field shown(columns, rows);
+  for (int y = 0; y < rows; ++y) {
+    for (int x = 0; x < columns; ++x) shown.at[shown.Index(x, y)] = opacity(x, y);
+  }
+  shown = Blurred(shown, 2);
+  const Field share = Blurred(inner, rim);
+  beside = Blurred(beside, rim);
   // Hair and neck beside the skin go with it.
   for (Field& axis : skin.motion) Spread(covered, rim, axis);
   Field fixed(columns, rows);
@@ -205,9 +221,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
     for (int x = 0; x < columns; ++x) {
       const std::size_t i = depth.Index(x, y);
       const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), 20));
-      // Not at the very edge: there the skin turns away, and each point has a depth of its own.
-      constexpr float kEdge = 0.62F;
-      if (covered.at[i] > 0 && within_skin.at[i] > kEdge) {
+      if (inner.at[i] > 0) {
         fixed.at[i] = 1;
         // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
         const float under =
@@ -215,9 +229,14 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
         // Behind the lower face lies the neck; the jaw has room to open.
         depth.at[i] = glm::mix(under, std::min(under, 30.0F), BeforeNeck(chin, about)) -
                       2 * glm::smoothstep(chin + 45, chin + 12, about.y);
-      } else if (covered.at[i] <= 0 && opacity(x, y) < 0.05F) {
-        // The outline: hair stands before the ears, shoulders lie in their plane.
-        depth.at[i] = glm::mix(-4.0F, -30.0F, glm::smoothstep(chin, chin - 70, about.y));
+      } else if (covered.at[i] <= 0 && shown.at[i] < 0.12F) {
+        // Somewhat beyond the outline, which would waver as the grid's points lie within it or not.
+        // Hair stands before the ears, shoulders lie in their plane. Where it is the
+        // cheek's it stays near that, or its last pixels would be drawn long.
+        constexpr float kTurns = 8;
+        const float far = glm::mix(-4.0F, -30.0F, glm::smoothstep(chin, chin - 70, about.y));
+        const float near = std::max(beside.at[i] / std::max(share.at[i], 1e-3F) - kTurns, far);
+        depth.at[i] = glm::mix(far, near, glm::smoothstep(0.0F, 0.25F, share.at[i]));
         fixed.at[i] = 1;
       } else {
         depth.at[i] = 0;
@@ -225,6 +244,12 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
     }
   }
   Span(fixed, depth);
+  // A steep fall, as from the jaw to the neck, would fold when the head turns.
+  const Field spanned = depth;
+  depth = Blurred(Blurred(depth, 1), 1);
+  for (std::size_t i = 0; i < depth.at.size(); ++i) {
+    if (inner.at[i] > 0) depth.at[i] = std::min(depth.at[i], spanned.at[i]);
+  }
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   const Field within = Blurred(covered, rim);

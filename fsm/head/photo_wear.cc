@@ -91,9 +91,6 @@ void AddSheet(const FaceSet& set, HeadMesh& mesh) {
   for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
     mesh.Triangle(Material::kPhoto, first + t[i], first + t[i + 1], first + t[i + 2]);
   }
-  // It is drawn first: the skin fades into it.
-  const auto sheet = std::ranges::find(mesh.batches, Material::kPhoto, &HeadMesh::Batch::material);
-  if (sheet != mesh.batches.end()) std::rotate(mesh.batches.begin(), sheet, sheet + 1);
 }
 
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {

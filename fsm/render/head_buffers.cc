@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cstring>
 #include <functional>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <span>
 #include <tuple>
@@ -29,6 +31,30 @@ std::uint64_t ChecksumOf(const HeadTopology& topology) {
     sum = Checksum(words, sizeof(words), sum);
   }
   return sum;
+}
+
+/// Whether nothing is seen through a triangle. `cut_out`: it is not there where the photo is not.
+bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> triangle, bool cut_out) {
+  glm::vec2 low(1e9F), high(-1e9F);
+  for (const std::uint32_t v : triangle) {
+    if (topology.strands[v].cover < 1) return false;
+    low = glm::min(low, glm::vec2(topology.photo_place[v]));
+    high = glm::max(high, glm::vec2(topology.photo_place[v]));
+  }
+  if (!cut_out) return true;
+  const WornPhoto& photo = *topology.photo;
+  const glm::ivec2 last(photo.width - 1, photo.height - 1);
+  const glm::vec2 size(photo.width, photo.height);
+  const auto from = glm::clamp(glm::ivec2(low * size) - 1, glm::ivec2(0), last);
+  const auto to = glm::clamp(glm::ivec2(high * size) + 1, glm::ivec2(0), last);
+  for (int y = from.y; y <= to.y; ++y) {
+    for (int x = from.x; x <= to.x; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(photo.width) +
+                     static_cast<std::size_t>(x);
+      if (photo.rgba[4 * i + 3] < 250) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -209,25 +235,28 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   const auto behind = std::ranges::find_if(hair, [&](const auto& t) { return depth(t) < kBehind; });
   const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
   add(locks, flat({hair.begin(), behind}));
+  HeadTopology::Part skin{}, sheet{};
+  std::vector<std::uint32_t> soft_sheet, fading;
   for (const auto& part : topology.parts) {
     if (part.material == Material::kHair) continue;
     const auto corners = std::span(topology.indices).subspan(part.first_index, part.index_count);
-    if (!blends_ || part.material != Material::kSkin) {
-      add(part, corners, blends_ && part.material == Material::kPhoto);
+    const bool of_sheet = part.material == Material::kPhoto;
+    if (!blends_ || (part.material != Material::kSkin && !of_sheet)) {
+      add(part, corners);
       continue;
     }
-    // Most of the skin hides what is behind it, and mixing costs time.
-    std::vector<std::uint32_t> whole, fading;
+    (of_sheet ? sheet : skin) = part;
+    // What hides all behind it comes first: mixing costs time.
+    std::vector<std::uint32_t> whole;
     for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
       const auto triangle = corners.subspan(k, 3);
-      const bool fades = std::ranges::any_of(
-          triangle, [&](std::uint32_t v) { return topology.strands[v].cover < 1; });
-      (fades ? fading : whole)
-          .insert((fades ? fading : whole).end(), triangle.begin(), triangle.end());
+      auto& list = HidesAll(topology, triangle, of_sheet) ? whole : of_sheet ? soft_sheet : fading;
+      list.insert(list.end(), triangle.begin(), triangle.end());
     }
     add(part, whole);
-    add(part, fading, true);
   }
+  add(sheet, soft_sheet, true);
+  add(skin, fading, true);
   add(locks, flat({behind, hair.end()}));
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
