@@ -20,7 +20,7 @@ constexpr std::array kUpperHeight = {10.2f, 9.2f, 9.9f, 8.6f, 8.0f, 7.4f};
 constexpr std::array kLowerWidth = {5.3f, 5.8f, 6.8f, 7.0f, 7.2f, 10.4f};
 constexpr std::array kLowerHeight = {8.8f, 9.0f, 9.6f, 8.4f, 8.0f, 7.4f};
 // How far their edges stay behind those of the longest, which makes a row look grown.
-constexpr std::array kUpperShort = {0.0f, 0.7f, 0.1f, 0.7f, 1.0f, 1.1f};
+constexpr std::array kUpperShort = {0.0f, 0.45f, 0.1f, 0.6f, 0.9f, 1.0f};
 constexpr std::array kLowerShort = {0.1f, 0.0f, 0.1f, 0.5f, 0.8f, 0.9f};
 
 /// The point of an arch at an arc length from the median, followed in small steps.
@@ -142,7 +142,7 @@ void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mes
           mesh);
   // The lower ones stand farther back, in the shade of lip and upper row.
   Palette shaded = palette;
-  shaded.tooth *= 0.28f;
+  shaded.tooth *= 0.18f;
   AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, shaded,
           mesh);
 }

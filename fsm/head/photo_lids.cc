@@ -222,7 +222,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const glm::vec3 colour = eyeless.At(at);
       if (f.lid_upper <= 0) {
         // The lashes of the upper lid lie over the rim of the lower.
-        const float lashes = SmoothStep(0.9f, 1.0f, f.lid_lower);
+        const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, f.lid_lower);
         lids.push_back({i, Lashed(colour, 0.58f * lashes), (0.3f + 0.4f * outward) * lashes,
                         glm::vec2(places[i]), Brightness(Around(lenders, at, 2).screen),
                         glm::vec2(0)});
@@ -230,11 +230,14 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       }
       const float meet = HeightAt(lower_rim, at.x), rim = HeightAt(upper_rim, at.x);
       const float down = SmoothStep(rim, meet, at.y);
-      // The ball rounds the lid, most in the middle; the fold over it is in shade, and so are the
-      // lashes' roots.
-      const float bulge = SmoothStep(0.0f, 0.35f, down) * SmoothStep(1.0f, 0.6f, down);
-      const float round = 1 + SmoothStep(0.0f, 0.3f, down) *
-                                  (0.16f * bulge - 0.03f - 0.1f * std::min(aside * aside, 1.0f));
+      // The ball rounds the lid: a ridge of light across it, most in the middle, shade at its ends,
+      // a soft furrow above where it slips under the skin.
+      const float inside = std::min(aside * aside, 1.0f);
+      const float ridge = SmoothStep(0.15f, 0.5f, down) * SmoothStep(0.95f, 0.6f, down);
+      const float furrow = (at.y - rim - 0.6f) / 1.1f;
+      const float round = (1 + SmoothStep(0.0f, 0.3f, down) *
+                                   (0.24f * ridge * (1 - 0.5f * inside) - 0.06f - 0.1f * inside)) *
+                          (1 - 0.16f * (1 - inside) * std::exp(-furrow * furrow));
       const float lashes = (0.3f + 0.3f * outward) * SmoothStep(0.97f, 1.0f, f.lid_upper);
       const float part = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) *
                          SmoothStep(0.02f, 0.2f, f.lid_upper) *
