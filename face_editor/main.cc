@@ -113,7 +113,7 @@ class Run {
   }
 
   void Open() {
-    auto sight = editor::LoadSight(options_.networks);
+    auto sight = editor::LoadSight(options_.networks, options_.tables);
     if (sight) {
       editor_->SetSight(std::move(*sight));
     } else {

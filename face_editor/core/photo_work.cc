@@ -10,6 +10,7 @@
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/report.h"
+#include "fsm/app/face_of_name.h"
 #include "fsm/head/face_folder.h"
 
 namespace editor {
@@ -32,12 +33,14 @@ PointMap PointsOf(const facefit::FoundFace& face) {
 
 }  // namespace
 
-vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder) {
+vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
+                                                 const std::string& tables) {
   auto networks = facefit::FaceNetworks::Load(folder);
   if (!networks) return std::unexpected(networks.error());
   auto sight = std::make_shared<FaceSight>(FaceSight{std::move(*networks), nullptr, {}});
   try {
     auto base = facefit::BaseHead::See(sight->networks, "galatea");
+    if (const auto units = fsm::UnitsIn(tables)) base.MoveBy(*units);
     std::vector<glm::vec3> places;
     for (const auto& place : base.places) places.push_back(place.On(base.rest.position));
     sight->mirror = MirrorOf(places);
@@ -91,8 +94,10 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
       work->notice = "No face was found: drag the points to where eyes, nose, mouth and chin are";
       by_hand();
     } else {
-      work->found = PointsOf(facefit::FindPoints(sight->networks, work->photo,
-                                                 boxes[static_cast<std::size_t>(face - 1)]));
+      const facefit::FoundFace found = facefit::FindPoints(
+          sight->networks, work->photo, boxes[static_cast<std::size_t>(face - 1)]);
+      work->found = PointsOf(found);
+      work->cover = facefit::FindCover(sight->networks, *work->base, found, work->photo);
     }
     const facefit::FoundFace seen = FoundFrom(work->found);
     work->figure = facefit::CutOut(
@@ -141,7 +146,7 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     facefit::Dress dress = facefit::MakeDress(*work.base, face, built->fit, work.photo,
                                               *work.figure, seen, built->set);
     built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces,
-                                    built->set.glasses);
+                                    built->set.glasses, work.cover);
     built->picture = std::move(dress.picture);
     built->set.photo = std::make_shared<fsm::WornPhoto>(
         fsm::WornPhoto{built->picture.width, built->picture.height, built->picture.rgba});

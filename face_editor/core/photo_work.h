@@ -7,6 +7,7 @@
 
 #include "face_editor/core/face_points.h"
 #include "face_fit/dress/dress.h"
+#include "face_fit/find/cover.h"
 #include "face_fit/find/face_networks.h"
 #include "face_fit/fit/fit.h"
 #include "fsm/head/face_set.h"
@@ -19,8 +20,11 @@ struct FaceSight {
   std::shared_ptr<const facefit::BaseHead> base;
   Mirror mirror;
 };
-/// `folder` as of FaceNetworks::Load. Errors: its, and kUnavailable if the head cannot be drawn.
-vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder);
+/// `folder` as of FaceNetworks::Load; `tables`: a folder whose units, if it has any, move the head
+/// that photos are fitted with. Errors: its, and kUnavailable if the head cannot be drawn or the
+/// units be read.
+vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
+                                                 const std::string& tables);
 
 /// A photo and what was found in it. Immutable; thread: any.
 struct PhotoWork {
@@ -33,6 +37,7 @@ struct PhotoWork {
   // Not there without the networks: then points can be set, but no face be made of them.
   std::shared_ptr<const facefit::BaseHead> base;
   std::optional<facefit::Figure> figure;
+  facefit::Cover cover;  ///< of the face that was found
 };
 /// `sight` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;
 /// kBadValue if there are fewer faces.
