@@ -18,6 +18,7 @@ struct Sample {
   glm::vec3 screen;
   bool above;
   float known;  ///< how surely it is skin, 0..1
+  bool near;    ///< beside the lid rather than the brow
 };
 
 float Brightness(glm::vec3 c) { return 0.3f * c.r + 0.6f * c.g + 0.1f * c.b + 0.004f; }
@@ -78,9 +79,9 @@ class Membrane {
   }
 
  private:
-  static constexpr float kStep = 0.75f;  // millimetres
-  static constexpr float kMost = 150;    // cells each way
-  static constexpr float kStiff = 0.3f;  // against what is known at a cell
+  static constexpr float kStep = 0.75f;   // millimetres
+  static constexpr float kMost = 150;     // cells each way
+  static constexpr float kStiff = 0.15f;  // against what is known at a cell
   static constexpr int kRounds = 300;
 
   std::size_t Cell(int x, int y) const {
@@ -95,14 +96,19 @@ class Membrane {
 /// Lashes, glasses, brows and reflections are darker or brighter than most of the skin round an
 /// eye.
 void Weigh(std::span<Sample> samples) {
-  constexpr float kSpread = 0.45f;  // of the logarithm of brightness
-  const glm::vec3 usual = Median(samples, [](const Sample& s) { return s.known > 0; });
-  const glm::vec3 above = Median(samples, [](const Sample& s) { return s.known > 0 && s.above; });
+  constexpr float kSpread = 0.6f;  // of the logarithm of brightness
+  constexpr float kDarkest = 3;    // times darker than most a socket may be, unlike lashes
+  constexpr float kOwn = 0.85f;    // how far either side's own brightness is believed
+  const float usual = Brightness(Median(samples, [](const Sample& s) { return s.known > 0; }));
   // Sockets may well be darker than what lies below the eye.
-  const float usual_above = std::sqrt(Brightness(usual) * Brightness(above));
+  const auto mostly = [&](bool above) {
+    const glm::vec3 here = Median(
+        samples, [above](const Sample& s) { return s.known > 0 && s.near && s.above == above; });
+    return std::pow(usual, 1 - kOwn) * std::pow(std::max(Brightness(here), usual / kDarkest), kOwn);
+  };
+  const float above = mostly(true), below = mostly(false);
   for (Sample& s : samples) {
-    const float odd =
-        std::log(Brightness(s.screen) / (s.above ? usual_above : Brightness(usual))) / kSpread;
+    const float odd = std::log(Brightness(s.screen) / (s.above ? above : below)) / kSpread;
     s.known *= std::exp(-odd * odd);
   }
 }
@@ -191,7 +197,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       if (f.eye != side) continue;
       const glm::vec2 at(open[i]);
       const glm::vec3 screen = PhotoColour(photo, glm::vec2(places[i]));
-      samples.push_back({at, screen, f.lid_upper >= f.lid_lower, 1});
+      samples.push_back({at, screen, f.lid_upper >= f.lid_lower, 1, false});
       if (f.lid_upper + f.lid_lower > 0.95f) rims.push_back(at);
       if (f.lid_upper > 0.95f) upper_rim.push_back(at);
       if (f.lid_lower > 0.95f) lower_rim.push_back(at);
@@ -205,6 +211,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       // Along the rims the photo shows lashes.
       float away = 100;
       for (const glm::vec2 rim : rims) away = std::min(away, glm::distance(rim, s.at));
+      s.near = away < 6;
       s.known = s.above ? SmoothStep(1.0f, 3.0f, away) : SmoothStep(0.6f, 1.6f, away);
     }
     Weigh(samples);

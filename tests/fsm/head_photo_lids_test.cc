@@ -123,6 +123,20 @@ TEST(PhotoLidsTest, TheLidHasTheColoursOfTheSkinRoundTheEyeWhereverTheyChange) {
   EXPECT_GT(below, 0.6f * kSkin.g);
 }
 
+TEST(PhotoLidsTest, InADarkSocketTheLidBeginsDarkAndGrowsLightDownward) {
+  Eye eye;
+  for (int row = 0; row < 20; ++row) eye.Paint(row, 0, 60, 0.4f * kSkin);
+  float above = 0, below = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    const Flesh& f = eye.skin[lid.vertex];
+    if (std::abs(eye.open[lid.vertex].x - 30) > 3) continue;
+    if (std::abs(f.lid_upper - 0.55f) < 0.03f) above = lid.screen.g;
+    if (std::abs(f.lid_upper - 0.9f) < 0.03f) below = lid.screen.g;
+  }
+  EXPECT_LT(above, 0.5f * kSkin.g);
+  EXPECT_GT(below, 1.4f * above);
+}
+
 TEST(PhotoLidsTest, WhatIsAboveTheEyeStaysInItsPlaceWhileALidComesDown) {
   const Eye eye;
   int stays = 0;
