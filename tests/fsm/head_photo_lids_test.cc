@@ -60,6 +60,16 @@ void ExpectSkinInTheMiddle(const Eye& eye, float tolerance) {
   EXPECT_GE(checked, 28);
 }
 
+/// Where the lid takes part in the turn as `held` says.
+float GreenInTheMiddle(const Eye& eye, float held) {
+  float green = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    const bool middle = std::abs(eye.open[lid.vertex].x - 30) <= 3;
+    if (middle && std::abs(eye.skin[lid.vertex].lid_upper - held) < 0.03f) green = lid.screen.g;
+  }
+  return green;
+}
+
 TEST(PhotoLidsTest, DarkLashesDoNotColourTheLid) {
   Eye eye;
   for (int row = 6; row < 20; ++row) eye.Paint(row, 0, 60, glm::vec3(0.05f));
@@ -111,13 +121,7 @@ TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
 TEST(PhotoLidsTest, TheLidHasTheColoursOfTheSkinRoundTheEyeWhereverTheyChange) {
   Eye eye;
   for (int row = 20; row < 40; ++row) eye.Paint(row, 0, 60, 0.7f * kSkin);
-  float above = 0, below = 0;
-  for (const LidPaint& lid : eye.Lids()) {
-    const Flesh& f = eye.skin[lid.vertex];
-    if (std::abs(eye.open[lid.vertex].x - 30) > 3) continue;
-    if (std::abs(f.lid_upper - 0.55f) < 0.03f) above = lid.screen.g;
-    if (std::abs(f.lid_upper - 0.9f) < 0.03f) below = lid.screen.g;
-  }
+  const float above = GreenInTheMiddle(eye, 0.55f), below = GreenInTheMiddle(eye, 0.9f);
   EXPECT_GT(above, 0.8f * kSkin.g) << "the upper skin's where that begins, in a furrow";
   EXPECT_LT(below, 0.92f * kSkin.g) << "and the lower's below";
   EXPECT_GT(below, 0.6f * kSkin.g);
@@ -126,13 +130,7 @@ TEST(PhotoLidsTest, TheLidHasTheColoursOfTheSkinRoundTheEyeWhereverTheyChange) {
 TEST(PhotoLidsTest, InADarkSocketTheLidBeginsDarkAndGrowsLightDownward) {
   Eye eye;
   for (int row = 0; row < 20; ++row) eye.Paint(row, 0, 60, 0.4f * kSkin);
-  float above = 0, below = 0;
-  for (const LidPaint& lid : eye.Lids()) {
-    const Flesh& f = eye.skin[lid.vertex];
-    if (std::abs(eye.open[lid.vertex].x - 30) > 3) continue;
-    if (std::abs(f.lid_upper - 0.55f) < 0.03f) above = lid.screen.g;
-    if (std::abs(f.lid_upper - 0.9f) < 0.03f) below = lid.screen.g;
-  }
+  const float above = GreenInTheMiddle(eye, 0.55f), below = GreenInTheMiddle(eye, 0.9f);
   EXPECT_LT(above, 0.5f * kSkin.g);
   EXPECT_GT(below, 1.4f * above);
 }
