@@ -296,6 +296,19 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
                          glm::vec3 key_direction) {
   const auto opening = head.mouth().Measure(vertices);
   has_mouth_ = opening.has_value();
+  float gap = 0, dropped = 0;
+  if (opening) {
+    constexpr std::size_t kMiddle = MouthFinder::kColumns / 2;
+    gap = opening->lips[kMiddle].y - opening->lips[kMiddle + MouthFinder::kColumns].y;
+    // At rest the lower incisors stand behind the upper ones.
+    constexpr float kOverlap = 1.3F;
+    dropped = std::max(opening->teeth.x - opening->teeth.y + kOverlap, 0.0F);
+  }
+  // Said of every head: the one drawn before it may have had its mouth open.
+  gl_.UseProgram(photo_.id());
+  gl_.Uniform1f(photo_.Uniform("lips_apart"), glm::smoothstep(0.4F, 2.5F, gap));
+  gl_.Uniform1f(photo_.Uniform("chin_y"), head.chin_y());
+  gl_.Uniform1f(photo_.Uniform("chin_drop"), dropped);
   if (!opening) return;
   const glm::mat3 turn(view.figure_to_world);
   const glm::mat3 to_world =
@@ -304,15 +317,6 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
   // The lamp is large, so most of what lips leave of its light comes from straight ahead; photos
   // are taken with the light behind the camera, more or less.
   key = glm::normalize(glm::mix(key, glm::vec3(0, 0.55F, 1), head.photo() ? 0.9F : 0.5F));
-  const std::size_t middle = MouthFinder::kColumns / 2;
-  const float gap = opening->lips[middle].y - opening->lips[middle + MouthFinder::kColumns].y;
-  gl_.UseProgram(photo_.id());
-  gl_.Uniform1f(photo_.Uniform("lips_apart"), glm::smoothstep(0.4F, 2.5F, gap));
-  // At rest the lower incisors stand behind the upper ones.
-  constexpr float kOverlap = 1.3F;
-  const float dropped = opening->teeth.x - opening->teeth.y + kOverlap;
-  gl_.Uniform1f(photo_.Uniform("chin_y"), head.chin_y());
-  gl_.Uniform1f(photo_.Uniform("chin_drop"), std::max(dropped, 0.0F));
   gl_.UseProgram(mouth_.id());
   gl_.UniformMatrix4fv(mouth_.Uniform("to_mouth"), 1, GL_FALSE, glm::value_ptr(opening->to_mouth));
   gl_.UniformMatrix3fv(mouth_.Uniform("mouth_to_world"), 1, GL_FALSE, glm::value_ptr(to_world));
@@ -425,7 +429,6 @@ void Materials::UseFinish(const Finish& finish) {
 void Materials::UsePhoto(bool ragged) {
   gl_.UseProgram(photo_.id());
   gl_.Uniform1f(photo_.Uniform("ragged"), ragged ? 1.0F : 0.0F);
-  gl_.Uniform1f(photo_.Uniform("under_chin"), ragged ? 1.0F : 0.0F);
   // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
   constexpr float kYields = 5;
   gl_.Uniform1f(photo_.Uniform("yields"), ragged && blends_ ? kYields : 0.0F);

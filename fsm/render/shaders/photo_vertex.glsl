@@ -11,7 +11,7 @@ uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
-uniform float under_chin;     // 1: of what lies behind the chin and does not move with it
+uniform float ragged;         // 1: the sheet, which lies behind the chin and does not move with it
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
 uniform float yields;        // millimetres by which it lies behind what is as near
 
@@ -44,7 +44,7 @@ void main() {
   if (photo_place.z > 0.0 && roll > 0.0) worn.z = mix(1.0, worn.z, lips_apart);
   // The shadow that a dropped chin throws on the neck. The jaw's line rises to the sides.
   float below = chin_y - chin_drop + 0.012 * rest_position.x * rest_position.x - rest_position.y;
-  shadow = 1.0 - 0.33 * under_chin * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
+  shadow = 1.0 - 0.33 * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
                      exp(-max(below, 0.0) / 11.0);
   covering = cover;
   crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
