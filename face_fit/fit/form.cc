@@ -1,12 +1,14 @@
 #include "face_fit/fit/form.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/eye_fit.h"
 #include "fsm/head/face_set.h"
+#include "fsm/head/spline.h"
 
 namespace facefit {
 namespace {
@@ -16,6 +18,9 @@ bool Among(std::span<const int> list, int point) {
 }
 bool OfInnerLips(int point) {
   return Among(UpperInnerLip(), point) || Among(LowerInnerLip(), point);
+}
+bool OfOuterLips(int point) {
+  return Among(UpperOuterLip(), point) || Among(LowerOuterLip(), point);
 }
 int EyeOf(int point) {
   return Among(EyeOutline(0), point) ? 0 : Among(EyeOutline(1), point) ? 1 : -1;
@@ -79,11 +84,23 @@ void AimAtMouthLine(const BaseHead& base, const FoundFace& face, const Pose& pos
   };
   const auto line = FindMouthLine(photo, face, along(base.places[61]), along(base.places[291]));
   std::erase_if(aims, [](const Aim& aim) { return OfInnerLips(aim.point); });
-  const auto aim_at = [&](const MeshPlace& place) {
-    const float at = glm::clamp(along(place), 0.0F, 1.0F) * (kMouthLinePlaces - 1);
+  const auto on_line = [&](float part) {
+    const float at = glm::clamp(part, 0.0F, 1.0F) * (kMouthLinePlaces - 1);
     const auto k = std::min(static_cast<std::size_t>(at), kMouthLinePlaces - 2);
-    const glm::vec2 pixel = glm::mix(line[k], line[k + 1], at - static_cast<float>(k));
-    aims.push_back({-1, place, pixel, pose.ToCamera(place.On(now)).z});
+    return glm::mix(line[k], line[k + 1], at - static_cast<float>(k));
+  };
+  // Where the network misplaced a corner it misplaced the outer lips beside it, too.
+  for (const int corner : {61, 291}) {
+    const auto c = static_cast<std::size_t>(corner);
+    const float corner_at = along(base.places[c]);
+    const glm::vec2 off = on_line(corner_at) - glm::vec2(face.points[c]);
+    for (Aim& aim : aims) {
+      if (aim.point != corner && !OfOuterLips(aim.point)) continue;
+      aim.pixel += off * fsm::SmoothStep(0.3F, 0.05F, std::abs(along(aim.place) - corner_at));
+    }
+  }
+  const auto aim_at = [&](const MeshPlace& place) {
+    aims.push_back({-1, place, on_line(along(place)), pose.ToCamera(place.On(now)).z});
   };
   for (const int point : UpperInnerLip()) {
     if (point != 78 && point != 308) aim_at(base.places[static_cast<std::size_t>(point)]);

@@ -51,12 +51,12 @@ class GenericHead : public Head {
         // Where the lips turn inward the mouth is painted: it begins in their colour.
         constexpr float kOpen = 0.85f;
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
-        identity_.palette.mouth = 1.3f * Wetter(identity_.palette.lip_inside, set->saturation);
+        identity_.palette.mouth = 0.9f * Wetter(identity_.palette.lip_inside, set->saturation);
       }
       eye_.ScaleIris(set->iris_size);
       // A photographer's light comes from the front and reaches into the mouth.
       identity_.palette.tooth *= 0.67f * set->teeth;
-      identity_.palette.tongue *= 1.05f * set->teeth;
+      identity_.palette.tongue *= 1.5f * set->teeth;
     }
     asymmetric_ = asymmetric;
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));

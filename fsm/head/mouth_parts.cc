@@ -142,7 +142,8 @@ void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mes
           mesh);
   // The lower ones stand farther back, in the shade of lip and upper row.
   Palette shaded = palette;
-  shaded.tooth *= 0.18f;
+  // What light they get comes from between red walls.
+  shaded.tooth *= glm::vec3(0.17f, 0.135f, 0.11f);
   AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, shaded,
           mesh);
 }
@@ -168,11 +169,11 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       const float groove = 1.6f * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
-      const float lit = SmoothStep(0.05f, 0.9f, part) *
-                        glm::mix(SmoothStep(-0.1f, 1.0f, up), SmoothStep(-0.6f, 0.6f, up), part);
+      const float lit = SmoothStep(0.3f, 1.0f, part) *
+                        glm::mix(SmoothStep(0.1f, 1.0f, up), SmoothStep(-0.2f, 0.9f, up), part);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
-      mesh.Add(p, palette.tongue, 0.12f + 0.75f * lit, Bone::kTongue, flesh);
+      mesh.Add(p, palette.tongue, 0.03f + 0.84f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

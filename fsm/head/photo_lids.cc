@@ -142,6 +142,13 @@ glm::vec3 Lashed(glm::vec3 skin, float dark) {
   return skin * glm::pow(glm::vec3(1 - dark), brown);
 }
 
+/// A lid is of one skin with what lies below the eye; what it takes from above may be the shine of
+/// glasses, a rim, or lashes.
+glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) {
+  constexpr float kPart = 0.65f;
+  return glm::mix(colour, skin * (Brightness(colour) / Brightness(skin)), kPart);
+}
+
 /// Of a line of places by x; 0 without any.
 float HeightAt(std::span<const glm::vec2> line, float x) {
   float sum = 0, weight = 1e-9f;
@@ -152,6 +159,13 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
     weight += w;
   }
   return sum / weight;
+}
+
+/// To and fro: there is only so much skin below an eye before a cheek or a rim of glasses begins.
+float Folded(float away) {
+  constexpr float kThere = 5;  // millimetres
+  const float part = std::fmod(away, 2 * kThere);
+  return kThere - std::abs(part - kThere);
 }
 
 /// How places in the photo go with places on the face: the slope of the plane through them.
@@ -215,7 +229,10 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       s.known = s.above ? SmoothStep(1.0f, 3.0f, away) : SmoothStep(0.6f, 1.6f, away);
     }
     Weigh(samples);
-    const Membrane eyeless(samples);
+    const Membrane membrane(samples);
+    const glm::vec3 below_eye =
+        Median(samples, [](const Sample& s) { return s.known > 0.5f && !s.above; });
+    const auto eyeless = [&](glm::vec2 at) { return OfHue(membrane.At(at), below_eye); };
     std::vector<Lender> below = lenders;
     std::erase_if(below,
                   [&](const Lender& l) { return l.at.y > HeightAt(lower_rim, l.at.x) - 0.5f; });
@@ -226,7 +243,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const float aside = (2 * at.x - rim_from - rim_to) / std::max(rim_to - rim_from, 1.0f);
       // Lashes are densest and longest outward.
       const float outward = SmoothStep(-0.8f, 0.7f, aside * static_cast<float>(side));
-      const glm::vec3 colour = eyeless.At(at);
+      const glm::vec3 colour = eyeless(at);
       if (f.lid_upper <= 0) {
         // The lashes of the upper lid lie over the rim of the lower.
         const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, f.lid_lower);
@@ -249,7 +266,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const float part = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) *
                          SmoothStep(0.02f, 0.2f, f.lid_upper) *
                          SmoothStep(kAside, 0, std::max(rim_from - at.x, at.x - rim_to));
-      const glm::vec2 mirrored(at.x, meet - 1.5f - std::max(at.y - meet, 0.0f));
+      const glm::vec2 mirrored(at.x, meet - 1.5f - Folded(std::max(at.y - meet, 0.0f)));
       const Lender near = Around(below, mirrored, 1.5f), wide = Around(below, mirrored, 4);
       lids.push_back({i, glm::clamp(Lashed(round * colour, lashes), 0.0f, 1.0f), part, near.place,
                       Brightness(wide.screen), photo_by_face * (at - glm::vec2(open[i]))});

@@ -47,7 +47,7 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
     // Corners stay together: there the photo's own line is seen.
     const float at_corner = SmoothStep(4.0f, 5.2f, tag.lip_column);
-    const float wet = SmoothStep(glm::mix(kPhoto, -0.6f, at_corner), kWet, outward);
+    const float wet = SmoothStep(glm::mix(kPhoto, 0.4f, at_corner), kWet, outward);
     const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
     topology.albedo[i] = Wetter(dry, set.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.5f, SmoothStep(0.5f, -4.0f, outward));

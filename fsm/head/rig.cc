@@ -59,9 +59,9 @@ Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y) {
   // takes almost half; both go to the corner late and steeply, so an open mouth is round at its
   // ends. After ICT-FaceKit's jawOpen: the upper lip 7 % of the lower in the middle, 10 % at
   // 10 mm, the corner 43 %; the lower lip 88 % at 10 mm, 75 % at 18.
-  constexpr float kCorner = 24, kApart = 21.5f;  // millimetres from the middle
+  constexpr float kCorner = 22.5f, kApart = 21.5f;  // millimetres from the middle
   const float out = std::min(1.0f, a / kCorner);
-  const float upper_seam = 0.06f + 0.38f * out * out * out * out;
+  const float upper_seam = 0.06f + 0.40f * out * out * out;
   const float apart = std::max(0.0f, 1 - a * a / (kApart * kApart));
   const float lower_seam = upper_seam + (1 - upper_seam) * std::pow(apart, 0.4f);
   const float reach_down = 16 + 0.5f * beyond;

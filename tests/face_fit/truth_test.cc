@@ -101,6 +101,24 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
   }
 }
 
+TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
+  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  FoundFace face = FindPoints(*networks_, photo_, FindFaces(*networks_, photo_).at(0));
+  const auto corners = [&] {
+    const Fit fit = FitFace(base, face, &photo_);
+    return std::pair(base.places[61].On(fit.worn).y, base.places[291].On(fit.worn).y);
+  };
+  const auto said = corners();
+  constexpr float kHigher = 2.5F;  // millimetres
+  const float mm = glm::distance(face.points[33], face.points[263]) / 90;
+  for (const std::size_t i : {61U, 291U, 185U, 409U, 146U, 375U, 78U, 308U}) {
+    face.points[i].y -= kHigher * mm;
+  }
+  const auto moved = corners();
+  EXPECT_NEAR(moved.first, said.first, 0.15F * kHigher);
+  EXPECT_NEAR(moved.second, said.second, 0.15F * kHigher);
+}
+
 /// A head whose profile is not the built-in one's: brow and chin lie back, the nose stands forward,
 /// or (`strength` negative) the other way round. Seen from the front it hardly differs.
 class Profile {

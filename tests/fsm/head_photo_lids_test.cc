@@ -179,6 +179,31 @@ TEST(PhotoLidsTest, TheGrainComesFromBelowTheEye) {
   }
 }
 
+TEST(PhotoLidsTest, TheGrainComesFromASkinThatIsNearTheEye) {
+  const Eye eye;
+  int checked = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    if (lid.part < 0.5f || eye.skin[lid.vertex].lid_upper == 0) continue;
+    // The lower rim is at half the picture's height, 2 % of it each millimetre and a quarter.
+    EXPECT_LT(lid.lender.y, 0.5f + 0.02f * 9 / 0.79f) << eye.skin[lid.vertex].lid_upper;
+    ++checked;
+  }
+  EXPECT_GT(checked, 100);
+}
+
+TEST(PhotoLidsTest, AGreyShineAboveTheEyeDoesNotMakeTheLidGrey) {
+  Eye eye;
+  for (int row = 0; row < 20; ++row) eye.Paint(row, 0, 60, glm::vec3(0.63f));  // grey of a shine
+  int checked = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    const float held = eye.skin[lid.vertex].lid_upper;
+    if (held < 0.5f || held > 0.9f) continue;
+    EXPECT_LT(lid.screen.b / lid.screen.r, 0.5f * (1 + kSkin.b / kSkin.r)) << held;
+    ++checked;
+  }
+  EXPECT_GT(checked, 100);
+}
+
 TEST(PhotoLidsTest, AHeadWithoutLidsHasNone) {
   const Eye eye;
   EXPECT_TRUE(

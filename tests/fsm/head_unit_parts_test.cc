@@ -112,6 +112,32 @@ TEST(HeadUnitPartsTest, TheJawDropsTwelveDegrees) {
   EXPECT_NEAR(GenericHead().MeasureMouth(WithUnit(26, 0.5F)).jaw_degrees, 6, 0.5);
 }
 
+// After ICT-FaceKit's jawOpen: parts of the way that the middle of the lower lip goes.
+TEST(HeadUnitPartsTest, ADroppedJawArchesTheUpperLipRoundToTheCorners) {
+  const HeadVertices rest = Vertices({});
+  const HeadVertices v = Vertices(WithUnit(26, 1));
+  const auto& middle = Probe().seam()[Probe().seam_pairs() / 2];
+  const auto way = [&](std::uint32_t i) { return rest.position[i].y - v.position[i].y; };
+  const float whole = way(middle.second);
+  ASSERT_GT(whole, 10);
+  int beside = 0;
+  for (const auto& [upper, lower] : Probe().seam()) {
+    const float x = std::abs(rest.position[upper].x);
+    if (x < 11 && x > 9) {
+      EXPECT_NEAR(way(upper) / whole, 0.10F, 0.04F) << x;
+      EXPECT_NEAR(way(lower) / whole, 0.88F, 0.06F) << x;
+      ++beside;
+    }
+    if (x < 20.5F && x > 19) {
+      EXPECT_GT(way(upper) / whole, 0.3F) << "on its way to the corner";
+    }
+  }
+  EXPECT_EQ(beside, 2);
+  for (const float side : {-1.0F, 1.0F}) {
+    EXPECT_NEAR(-MotionAt(25 * side, -41.7F, WithUnit(26, 1)).y / whole, 0.43F, 0.06F);
+  }
+}
+
 TEST(HeadUnitPartsTest, TheJawMovesSidewaysAndTakesTheLipsAlong) {
   FaceState state;
   state.au_left[30] = 1;

@@ -16,7 +16,7 @@ uniform sampler2D relief;
 
 out vec4 color;
 
-const float kGrain = 0.4;  // of what lends it: lids are smoother than what lies below an eye
+const float kGrain = 0.75;  // of what lends it: lids are smoother than what lies below an eye
 
 void main() {
   vec4 p = texture(photo, worn.xy);
