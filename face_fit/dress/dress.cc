@@ -12,6 +12,7 @@
 #include "face_fit/dress/grain.h"
 #include "face_fit/dress/matte.h"
 #include "face_fit/dress/openings.h"
+#include "face_fit/dress/other_side.h"
 #include "face_fit/dress/sheet.h"
 #include "face_fit/dress/skin_colours.h"
 #include "face_fit/find/glasses.h"
@@ -272,23 +273,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   }
   set.saturation = Saturation(map, seen);
   dress.coverage = face_seen / std::max(face_texels, 1.0F);
-  // A side that was not seen takes what the other side shows, if that shows it: but not so within
-  // eyes and mouth, which differ too much from side to side.
-  const fsm::Image one_side = map;
-  const Field seen_once = seen;
-  for (int y = 0; y < kMapSide; ++y) {
-    for (int x = 0; x < kMapSide; ++x) {
-      const std::size_t i = MapIndex(x, y), j = MapIndex(kMapSide - 1 - x, y);
-      const float part = std::max(seen_once.at[j] - seen_once.at[i], 0.0F) * 0.5F;
-      if (part <= 0 || !skin[i]) continue;
-      const float sum = seen_once.at[i] + part;
-      for (std::size_t c = 0; c < 3; ++c) {
-        map.rgba[4 * i + c] = static_cast<std::uint8_t>(
-            (one_side.rgba[4 * i + c] * seen_once.at[i] + one_side.rgba[4 * j + c] * part) / sum);
-      }
-      seen.at[i] = sum;
-    }
-  }
+  TakeFromOtherSide(skin, map, seen);
   FillIn(map, seen);
   Field aside(kMapSide, kMapSide);
   aside.at = places.aside;

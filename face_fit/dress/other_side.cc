@@ -1,0 +1,89 @@
+#include "face_fit/dress/other_side.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+namespace facefit {
+namespace {
+
+/// Texels that light is told for together.
+constexpr int kCell = 8;
+
+/// For each cell of a map what the light of its own side is, as part of that of the other side.
+class Light {
+ public:
+  Light(const std::vector<bool>& skin, const fsm::Image& map, const Field& seen)
+      : width_((map.width + kCell - 1) / kCell),
+        height_((map.height + kCell - 1) / kCell),
+        gain_{Field(width_, height_, 1), Field(width_, height_, 1), Field(width_, height_, 1)} {
+    std::array<Field, 3> own{gain_}, other{gain_};
+    for (auto* fields : {&own, &other}) {
+      for (Field& field : *fields) field = Field(width_, height_);
+    }
+    Field both(width_, height_);
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);
+        if (!skin[i] || !skin[j]) continue;
+        const float weight = seen.at[i] * seen.at[j];
+        const std::size_t cell = both.Index(x / kCell, y / kCell);
+        both.at[cell] += weight / (kCell * kCell);
+        for (std::size_t c = 0; c < 3; ++c) {
+          own[c].at[cell] += weight * map.rgba[4 * i + c];
+          other[c].at[cell] += weight * map.rgba[4 * j + c];
+        }
+      }
+    }
+    // From wide to narrow: what lies nearest counts most, where enough of it was seen.
+    for (const int part : {2, 8, 20, 40}) {
+      const int reach = std::max(width_ / part, 1);
+      const Field share = Blurred(both, reach);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Field here = Blurred(own[c], reach), there = Blurred(other[c], reach);
+        for (std::size_t i = 0; i < share.at.size(); ++i) {
+          if (there.at[i] <= 0) continue;
+          gain_[c].at[i] =
+              glm::mix(gain_[c].at[i], glm::clamp(here.at[i] / there.at[i], 0.4F, 2.5F),
+                       glm::smoothstep(0.0F, 0.1F, share.at[i]));
+        }
+      }
+    }
+  }
+  glm::vec3 At(int x, int y) const {
+    const float u = (static_cast<float>(x) + 0.5F) / kCell,
+                v = (static_cast<float>(y) + 0.5F) / kCell;
+    return {gain_[0].Between(u, v), gain_[1].Between(u, v), gain_[2].Between(u, v)};
+  }
+
+ private:
+  int width_, height_;
+  std::array<Field, 3> gain_;
+};
+
+}  // namespace
+
+void TakeFromOtherSide(const std::vector<bool>& skin, fsm::Image& map, Field& seen) {
+  const Light light(skin, map, seen);
+  const fsm::Image one_side = map;
+  const Field seen_once = seen;
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);
+      const float part = std::max(seen_once.at[j] - seen_once.at[i], 0.0F) * 0.5F;
+      if (part <= 0 || !skin[i]) continue;
+      const float sum = seen_once.at[i] + part;
+      const glm::vec3 gain = light.At(x, y);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float taken = std::min(
+            gain[static_cast<int>(c)] * static_cast<float>(one_side.rgba[4 * j + c]), 255.0F);
+        const float own = seen_once.at[i] * static_cast<float>(one_side.rgba[4 * i + c]);
+        map.rgba[4 * i + c] = static_cast<std::uint8_t>((own + taken * part) / sum + 0.5F);
+      }
+      seen.at[i] = sum;
+    }
+  }
+}
+
+}  // namespace facefit

@@ -1,0 +1,76 @@
+// The side of a face that the photo does not show.
+
+#include "face_fit/dress/other_side.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace facefit {
+namespace {
+
+constexpr int kSide = 256;
+
+/// A face whose right half is lit orange and whose left one blue, with freckles that are the same
+/// on both.
+glm::vec3 Lit(int x, int y) {
+  const int from_middle = std::abs(2 * x + 1 - kSide) / 2;
+  const float freckle = (from_middle / 4 + y / 4) % 5 == 0 ? 0.8F : 1.0F;
+  return freckle * (x < kSide / 2 ? glm::vec3(220, 140, 90) : glm::vec3(110, 120, 200));
+}
+
+struct OtherSideTest : testing::Test {
+  OtherSideTest() {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const glm::vec3 c = Lit(x, y);
+        for (int k = 0; k < 3; ++k) map.rgba.push_back(static_cast<std::uint8_t>(c[k]));
+        map.rgba.push_back(255);
+      }
+    }
+    // A wing of the nose that the photo does not show, black until it is completed.
+    for (int y = kLow; y < kHigh; ++y) {
+      for (int x = kLow; x < kHigh; ++x) {
+        seen.at[seen.Index(x, y)] = 0;
+        for (std::size_t c = 0; c < 3; ++c) map.rgba[4 * seen.Index(x, y) + c] = 0;
+      }
+    }
+  }
+  glm::vec3 At(int x, int y) const {
+    const std::uint8_t* p = &map.rgba[4 * seen.Index(x, y)];
+    return {p[0], p[1], p[2]};
+  }
+
+  static constexpr int kLow = 150, kHigh = 170;
+  fsm::Image map{.width = kSide, .height = kSide, .rgba = {}};
+  Field seen{kSide, kSide, 1};
+  std::vector<bool> skin = std::vector<bool>(kSide * kSide, true);
+};
+
+TEST_F(OtherSideTest, WhatIsTakenFromTheOtherSideStandsInTheLightOfItsOwn) {
+  TakeFromOtherSide(skin, map, seen);
+  for (int y = kLow; y < kHigh; ++y) {
+    for (int x = kLow; x < kHigh; ++x) {
+      EXPECT_LT(glm::distance(At(x, y), Lit(x, y)), 8) << x << " " << y;
+      EXPECT_GT(seen.at[seen.Index(x, y)], 0);
+    }
+  }
+}
+
+TEST_F(OtherSideTest, WhatWasSeenStaysAsItIs) {
+  TakeFromOtherSide(skin, map, seen);
+  for (int x = 0; x < kSide; ++x) {
+    EXPECT_LT(glm::distance(At(x, 100), glm::floor(Lit(x, 100))), 1.8F) << x;
+  }
+}
+
+TEST_F(OtherSideTest, NothingIsTakenWithinEyesAndMouth) {
+  skin.assign(skin.size(), false);
+  TakeFromOtherSide(skin, map, seen);
+  EXPECT_EQ(At(160, 160), glm::vec3(0));
+}
+
+}  // namespace
+}  // namespace facefit
