@@ -1,6 +1,7 @@
 #include "face_fit/dress/sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -62,6 +63,46 @@ std::vector<glm::vec3> MotionToRest(const BaseHead& base, const Fit& fit) {
   }
   return motion;
 }
+
+/// The eyes and the mouth, which open: no part of the sheet may lie behind them. Of a turned head
+/// one eye and one corner of the mouth are near the edge of what the photo shows, where the sheet
+/// goes on from just under the skin.
+class OpeningsOfHead {
+ public:
+  OpeningsOfHead(const BaseHead& base, const Fit& fit) {
+    const auto at = [&](std::size_t point) { return base.places[point].On(fit.worn); };
+    constexpr std::array<std::pair<std::size_t, std::size_t>, 2> kEyes = {std::pair(33U, 133U),
+                                                                          std::pair(362U, 263U)};
+    // Millimetres that lids and lips go beyond their corners, and above and below.
+    constexpr float kLids = 3, kLips = 5;
+    for (std::size_t i = 0; i < kEyes.size(); ++i) {
+      const glm::vec3 right = at(kEyes[i].first), left = at(kEyes[i].second);
+      const float half = 0.5F * std::abs(left.x - right.x) + kLids;
+      ovals_[i] = {0.5F * (left + right), half, half, half};
+    }
+    const glm::vec3 right = at(78), left = at(308);
+    constexpr float kJawFalls = 34;
+    ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + kLips, 10, kJawFalls};
+  }
+  /// `p`: in the head's frame.
+  bool Behind(glm::vec3 p) const {
+    // Further back there is the hair at the nape.
+    constexpr float kBehind = 90;
+    return std::ranges::any_of(ovals_, [p](const Oval& oval) {
+      if (p.z < oval.middle.z - kBehind) return false;
+      const glm::vec2 off = glm::vec2(p - oval.middle);
+      const glm::vec2 part = off / glm::vec2(oval.half, off.y > 0 ? oval.above : oval.below);
+      return glm::dot(part, part) < 1;
+    });
+  }
+
+ private:
+  struct Oval {
+    glm::vec3 middle{0};
+    float half = 1, above = 1, below = 1;
+  };
+  std::array<Oval, 3> ovals_{};
+};
 
 /// The figure with what goes on beyond the photo's edges: clothes are mirrored there to and fro,
 /// and pulled down as the shoulders fall. Hair that the photo cuts off ends softly.
@@ -253,7 +294,12 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   const Field within = Blurred(covered, rim);
-  const auto hidden = [&](int x, int y) { return within.at[depth.Index(x, y)] > 0.999F; };
+  const OpeningsOfHead openings(base, fit);
+  const auto hidden = [&](int x, int y) {
+    const std::size_t i = depth.Index(x, y);
+    return within.at[i] > 0.999F ||
+           openings.Behind(fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), depth.at[i])));
+  };
   set.sheet.clear();
   set.sheet_triangles.clear();
   for (int y = 0; y < rows; ++y) {

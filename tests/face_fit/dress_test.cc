@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <optional>
 #include <vector>
 
@@ -321,6 +322,25 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
   EXPECT_NEAR(motion(glm::vec2(cheek)), -6, 2);
   EXPECT_NEAR(motion(glm::vec2(0, cheek.y + 140)), 0, 0.5F) << "far from the face";
   EXPECT_EQ(still.sheet.size(), moved.sheet.size());
+}
+
+TEST_F(SheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
+  fit_.pose.turn.y = glm::radians(25.0F);
+  const fsm::FaceSet set = Sheet();
+  const auto at = [&](std::size_t point) { return base_->places[point].On(base_->rest.position); };
+  // Within the corners of the mouth, below them, and within the corners of the eyes.
+  const glm::vec3 in(5, 0, 0), down(0, 9, 0);
+  for (const glm::vec3 opening : {at(78) + in, at(308) - in, at(78) + in - down,
+                                  at(308) - in - down, at(33) + in, at(263) - in}) {
+    for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
+      const glm::vec3 p = 0.5F * (set.sheet[set.sheet_triangles[i]].position +
+                                  set.sheet[set.sheet_triangles[i + 2]].position);
+      // What lies far behind is the hair at the nape.
+      if (p.z < opening.z - 80) continue;
+      EXPECT_GT(glm::distance(glm::vec2(p), glm::vec2(opening)), 3) << p.x << " " << p.y;
+    }
+  }
+  EXPECT_GT(set.sheet_triangles.size(), 600U);
 }
 
 }  // namespace
