@@ -8,19 +8,25 @@
 #include <vector>
 
 namespace facefit {
+namespace {
 
-float BarOnNose(const FoundFace& face, const fsm::Image& photo) {
+/// The same, looked for so many millimetres to the left of the middle and turned by so many
+/// radians.
+float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, float turn) {
   const auto point = [&face](std::size_t i) { return glm::vec2(face.points[i]); };
   // Between the inner corners of the eyes, which lie some 32 mm apart.
   const glm::vec2 right = point(133), left = point(362), middle = 0.5F * (right + left);
   const float mm = std::max(glm::distance(right, left) / 32, 1e-3F);
-  const glm::vec2 across = (left - right) / (32 * mm), down(-across.y, across.x);
+  const glm::vec2 level = (left - right) / (32 * mm);
+  const glm::vec2 across = std::cos(turn) * level + std::sin(turn) * glm::vec2(-level.y, level.x);
+  const glm::vec2 down(-across.y, across.x);
   constexpr int kColumns = 9, kRows = 60;  // 1.25 mm apart; half millimetres from above the brows
   constexpr float kTop = -14;
   std::array<std::array<glm::vec3, kRows>, kColumns> colour{};
   for (std::size_t c = 0; c < kColumns; ++c) {
     for (std::size_t r = 0; r < kRows; ++r) {
-      const float x = 1.25F * (static_cast<float>(c) - 4), y = kTop + 0.5F * static_cast<float>(r);
+      const float x = aside + 1.25F * (static_cast<float>(c) - 4),
+                  y = kTop + 0.5F * static_cast<float>(r);
       colour[c][r] = ColourAt(photo, middle + mm * (x * across + y * down));
     }
   }
@@ -49,6 +55,22 @@ float BarOnNose(const FoundFace& face, const fsm::Image& photo) {
     }
   }
   return most;
+}
+
+}  // namespace
+
+float BarOnNose(const FoundFace& face, const fsm::Image& photo) {
+  // A bar is seen whichever way one looks across it, a crease only along its line; and a point that
+  // lies a pixel elsewhere must not decide.
+  std::vector<float> seen;
+  for (const float turn : {-0.1F, 0.0F, 0.1F}) {
+    for (const float aside : {-2.0F, 0.0F, 2.0F}) {
+      seen.push_back(BarAcross(face, photo, aside, turn));
+    }
+  }
+  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+  std::ranges::nth_element(seen, middle);
+  return *middle;
 }
 
 }  // namespace facefit

@@ -7,6 +7,6 @@ namespace facefit {
 /// How much a bar across the nose between the eyes differs from the skin above and below it, as
 /// part of their brightness: where glasses rest. Beyond kGlasses there are some.
 float BarOnNose(const FoundFace& face, const fsm::Image& photo);
-inline constexpr float kGlasses = 0.12F;
+inline constexpr float kGlasses = 0.11F;
 
 }  // namespace facefit

@@ -5,27 +5,41 @@
 namespace facefit {
 namespace {
 
-/// How clearly and how upright the largest face is seen, 0..1. Upside down counts nothing.
-float Clearness(FaceNetworks& networks, const fsm::Image& photo) {
-  const auto boxes = FindFaces(networks, photo);
-  if (boxes.empty()) return 0;
-  const FoundFace face = FindPoints(networks, photo, boxes.front());
-  const glm::vec2 eyes = glm::vec2(face.points[263]) - glm::vec2(face.points[33]);
-  const float tilt = std::atan2(eyes.y, eyes.x);
-  return face.certainty * std::max(std::cos(tilt), 0.0F);
+/// How many faces there are, and how many of them are seen clearly and upright: each counts 0..1,
+/// upside down nothing. All are looked at: in a group the largest may lean far to one side.
+/// `clear`: the same, weighed by how sure the detector is; the landmark network alone draws an
+/// upright face onto one that stands on its head.
+struct Seen {
+  float faces = 0, upright = 0, clear = 0;
+};
+
+Seen Look(FaceNetworks& networks, const fsm::Image& photo) {
+  Seen seen;
+  for (const FaceBox& box : FindFaces(networks, photo)) {
+    const FoundFace face = FindPoints(networks, photo, box);
+    const glm::vec2 eyes = glm::vec2(face.points[263]) - glm::vec2(face.points[33]);
+    const float tilt = std::atan2(eyes.y, eyes.x);
+    seen.faces += 1;
+    const float upright = face.certainty * std::max(std::cos(tilt), 0.0F);
+    seen.upright += upright;
+    seen.clear += box.score * upright;
+  }
+  return seen;
 }
 
 }  // namespace
 
 int UprightWay(FaceNetworks& networks, const fsm::Image& photo) {
-  constexpr float kClear = 0.93F;
-  float best = Clearness(networks, photo);
+  const Seen seen = Look(networks, photo);
+  // Of several people some may lean, but not all to the same side.
+  const float most = seen.faces > 1 ? 0.75F : 0.93F;
+  float best = seen.clear;
   int way = 1;
-  if (best > kClear) return way;
+  if (seen.faces > 0 && seen.upright > most * seen.faces) return way;
   for (const int other : {6, 8, 3}) {
     // A photo that lies is rare, so another way must be clearly better.
-    const float clear = Clearness(networks, Turned(photo, other));
-    if (clear > best + 0.04F) {
+    const float clear = Look(networks, Turned(photo, other)).clear;
+    if (clear > best + 0.04F * std::max(seen.faces, 1.0F)) {
       best = clear;
       way = other;
     }

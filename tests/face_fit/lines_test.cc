@@ -172,6 +172,11 @@ TEST(GlassesTest, ABarAcrossTheNoseIsSeenAndAFoldIsNot) {
   EXPECT_LT(seen([&](glm::vec2 p) { return p.y > 196 && p.y < 204 && p.x < 165 ? 60 : nose(p); }),
             kGlasses)
       << "it has to go across";
+  EXPECT_LT(seen([&](glm::vec2 p) {
+              return p.y > 196 && p.y < 202 && std::abs(p.x - 168) < 10.5F ? 60 : nose(p);
+            }),
+            kGlasses)
+      << "a crease of the brow is deep but short";
 }
 
 /// An open eye from x = 60 to 140 about y = 96, its lids 16 pixels apart; the outer corner at the
