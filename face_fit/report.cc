@@ -37,6 +37,20 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
   return left / right;
 }
 
+/// How far the eyes are open: the height of the opening as part of its width, in space, so that a
+/// turned or bent head changes little; the mean of both eyes.
+float EyesOpen(const FoundFace& face) {
+  struct Lids {
+    std::size_t outer, inner, top, bottom;
+  };
+  float sum = 0;
+  for (const Lids& lids : {Lids{33, 133, 159, 145}, Lids{263, 362, 386, 374}}) {
+    sum += glm::distance(face.points[lids.top], face.points[lids.bottom]) /
+           std::max(glm::distance(face.points[lids.outer], face.points[lids.inner]), 1e-3F);
+  }
+  return sum / 2;
+}
+
 }  // namespace
 
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
@@ -55,10 +69,13 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("photo       %d x %d pixels, eyes %.0f pixels apart at their outer corners\n", photo.width,
       photo.height, d(eyes));
   put("faces       %d\n", faces);
+  const glm::vec3 nose = face.points[1];
+  put("place       nose %.0f pixels from the left, %.0f from the top\n", d(nose.x), d(nose.y));
   put("certainty   %.3f\n", d(face.certainty));
   put("pose        nod %.1f, turn %.1f, tilt %.1f degrees\n", d(turn.x), d(turn.y), d(turn.z));
   put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(fit.expression.smile),
       d(fit.expression.jaw), d(fit.expression.parted));
+  put("eyes        open by %.2f of their width\n", d(EyesOpen(face)));
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
   put("glasses     %s\n", glasses ? "yes" : "no");
