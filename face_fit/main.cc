@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -11,10 +12,12 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "face_fit/dress/dress.h"
 #include "face_fit/dress/side_view.h"
+#include "face_fit/find/around_face.h"
 #include "face_fit/find/cover.h"
 #include "face_fit/find/figure_finder.h"
 #include "face_fit/find/hand_points.h"
@@ -153,6 +156,15 @@ std::vector<facefit::SideView> LookFromTheSide(const Options& options,
   return sides;
 }
 
+/// Where in the whole photo the face lies, in the pixels of --points.
+std::string Place(const facefit::FoundFace& face, const fsm::Image& whole) {
+  const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
+  const glm::vec3 nose = face.points[1];
+  return "place       nose " + pixel(nose.x) + " pixels from the left, " + pixel(nose.y) +
+         " from the top, of " + std::to_string(whole.width) + " x " + std::to_string(whole.height) +
+         "\n";
+}
+
 void Run(const Options& options) {
   using namespace facefit;
   if (!options.head.empty()) return FindPointsOfHead(options);
@@ -170,12 +182,15 @@ void Run(const Options& options) {
   const auto units = fsm::UnitsIn(fsm::UnitsFolder(folder, options.tables));
   std::optional<OriginalFace> original;
   if (!options.galatea.empty()) original = ReadOriginal(options);
-  fsm::Image photo = original ? std::move(original->photo) : Get(ReadPhoto(options.photo));
+  fsm::Image finest =
+      original ? std::move(original->photo) : Get(ReadPhoto(options.photo, kFineSide));
+  fsm::Image photo = original ? finest : AtWorkingSide(finest);
   const bool by_hand = original || !options.points.empty();
   FaceNetworks networks = Get(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");
   if (const int way = by_hand ? 1 : UprightWay(networks, photo); way != 1) {
     photo = Turned(photo, way);
+    finest = Turned(finest, way);
     std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
                  "was set upright\n";
   }
@@ -183,10 +198,12 @@ void Run(const Options& options) {
   if (units) base.MoveBy(*units);
   progress.Say("head looked at");
   int faces = 1;
-  const FoundFace face = original  ? FaceFromHand(base, original->points)
-                         : by_hand ? FaceFromPoints(options, base)
-                                   : FindFace(options, networks, photo, faces);
+  const FoundFace found = original  ? FaceFromHand(base, original->points)
+                          : by_hand ? FaceFromPoints(options, base)
+                                    : FindFace(options, networks, photo, faces);
   progress.Say("face and its points found");
+  const auto [near, face] = original ? AroundFace{photo, found} : CutToFace(photo, finest, found);
+  const fsm::Image whole = std::exchange(photo, near);
   Fit fit = FitFace(base, face, &photo);
   progress.Say("head fitted");
   const auto sides = LookFromTheSide(options, networks, base, photo, fit);
@@ -199,8 +216,9 @@ void Run(const Options& options) {
   progress.Say("photo put on");
 
   std::filesystem::create_directories(folder);
-  const std::string report = Report(face, fit, photo, dress.coverage, faces, set.glasses,
-                                    FindCover(networks, base, face, photo));
+  const std::string report =
+      Place(found, whole) + Report(face, fit, photo, dress.coverage, faces, set.glasses,
+                                   FindCover(networks, base, face, photo));
   const auto write = [&folder](const char* name, const std::string& text) {
     std::ofstream file(folder + "/" + name);
     if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + "/" + name);

@@ -69,8 +69,6 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("photo       %d x %d pixels, eyes %.0f pixels apart at their outer corners\n", photo.width,
       photo.height, d(eyes));
   put("faces       %d\n", faces);
-  const glm::vec3 nose = face.points[1];
-  put("place       nose %.0f pixels from the left, %.0f from the top\n", d(nose.x), d(nose.y));
   put("certainty   %.3f\n", d(face.certainty));
   put("pose        nod %.1f, turn %.1f, tilt %.1f degrees\n", d(turn.x), d(turn.y), d(turn.z));
   put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(fit.expression.smile),

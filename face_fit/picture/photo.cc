@@ -22,8 +22,9 @@ bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_
 }
 
 /// Of several EXIF blocks the last that says something counts.
-vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int& orientation) {
-  fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = kWorkingSide, .exif = {}};
+vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_side,
+                                       int& orientation) {
+  fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = most_side, .exif = {}};
   std::string why;
   auto image = fsm::DecodeJpeg(bytes, wish, why);
   if (!image) return vm::Fail(vm::Errc::kBadValue, why);
@@ -63,14 +64,30 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   return std::move(*image);
 }
 
+void ScaleTo(int most_side, fsm::Image& image) {
+  const int longer = std::max(image.width, image.height);
+  if (longer <= most_side) return;
+  const auto scaled = [&](int side) {
+    return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_side / longer)),
+                    1);
+  };
+  image = ScaledDown(image, scaled(image.width), scaled(image.height));
+}
+
 }  // namespace
 
-vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes) {
+fsm::Image AtWorkingSide(const fsm::Image& photo) {
+  fsm::Image out = photo;
+  ScaleTo(kWorkingSide, out);
+  return out;
+}
+
+vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most_side) {
   constexpr std::uint8_t kJpegStart[] = {0xff, 0xd8, 0xff};
   int orientation = 1;
-  vm::Result<fsm::Image> image = StartsWith(bytes, kJpegStart) ? DecodeJpegPhoto(bytes, orientation)
-                                 : StartsWith(bytes, kPngStart)
-                                     ? DecodePngPhoto(bytes)
+  vm::Result<fsm::Image> image =
+      StartsWith(bytes, kJpegStart)  ? DecodeJpegPhoto(bytes, most_side, orientation)
+      : StartsWith(bytes, kPngStart) ? DecodePngPhoto(bytes)
                                      : vm::Fail(vm::Errc::kBadValue,
                                                 "not a picture that is read here: a JPEG or PNG "
                                                 "file is expected");
@@ -81,19 +98,12 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes) {
                                              " pixels; at least " + std::to_string(kLeastSide) +
                                              " on each side are needed");
   }
-  const int longer = std::max(image->width, image->height);
-  if (longer > kWorkingSide) {
-    const auto scaled = [&](int side) {
-      return std::max(
-          static_cast<int>(std::lround(static_cast<double>(side) * kWorkingSide / longer)), 1);
-    };
-    *image = ScaledDown(*image, scaled(image->width), scaled(image->height));
-  }
+  ScaleTo(most_side, *image);
   if (orientation != 1) *image = Turned(*image, orientation);
   return image;
 }
 
-vm::Result<fsm::Image> ReadPhoto(const std::string& path) {
+vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_side) {
   std::error_code error;
   const auto bytes = std::filesystem::file_size(path, error);
   if (error) {
@@ -107,7 +117,7 @@ vm::Result<fsm::Image> ReadPhoto(const std::string& path) {
   if (!file.read(reinterpret_cast<char*>(data.data()), static_cast<std::streamsize>(bytes))) {
     return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
   }
-  auto image = DecodePhoto(data);
+  auto image = DecodePhoto(data, most_side);
   if (!image) return vm::Fail(image.error().code, "'" + path + "': " + image.error().text);
   return image;
 }
