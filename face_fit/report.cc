@@ -1,5 +1,6 @@
 #include "face_fit/report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -37,18 +38,44 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
   return left / right;
 }
 
-/// How far the eyes are open: the height of the opening as part of its width, in space, so that a
-/// turned or bent head changes little; the mean of both eyes.
-float EyesOpen(const FoundFace& face) {
-  struct Lids {
-    std::size_t outer, inner, top, bottom;
-  };
-  float sum = 0;
-  for (const Lids& lids : {Lids{33, 133, 159, 145}, Lids{263, 362, 386, 374}}) {
-    sum += glm::distance(face.points[lids.top], face.points[lids.bottom]) /
-           std::max(glm::distance(face.points[lids.outer], face.points[lids.inner]), 1e-3F);
+/// From that turn on more than 15 degrees of one side are not seen at all.
+constexpr float kTurned = 15, kTurnedFar = 20;
+
+std::string WarnOfTurn(glm::vec3 turn) {
+  std::string out;
+  if (std::abs(turn.y) > kTurnedFar) {
+    out +=
+        "warning: the head is turned far; its other side is guessed and may look wrong: a photo "
+        "turned by less than 15 degrees is needed, or --view with another one\n";
+  } else if (std::abs(turn.y) > kTurned) {
+    out += "warning: the head is turned; one side is completed from the other\n";
   }
-  return sum / 2;
+  if (std::abs(turn.x) > kTurned) {
+    out += "warning: the head is bent; a level photo fits better\n";
+  }
+  return out;
+}
+
+std::string WarnOfEyes(const Fit& fit) {
+  const auto hidden = std::ranges::count_if(
+      fit.irises, [](const IrisRing& ring) { return ring.contrast < kClearRing; });
+  if (hidden == 2) {
+    return "warning: no iris is seen: the eyes are shut, look down or lie in the shade; they are "
+           "drawn, and their lids keep what the photo shows on them\n";
+  }
+  return hidden == 1 ? "warning: one iris is not seen clearly; both eyes are drawn\n" : "";
+}
+
+/// Of 21 faces of people the limits were not set on what lay beyond 1.5 was hair or paint, and what
+/// lay below, hard light, shut eyes and turned heads.
+std::string WarnOfCover(const Cover& cover) {
+  constexpr float kSurely = 1.5F;
+  if (cover.measure < 1) return "";
+  return cover.measure < kSurely
+             ? "warning: something may be before the face at " + cover.where +
+                   "; hard light, shut eyes or a turned head look like that, too\n"
+             : "warning: covered by something that is no face: " + cover.where +
+                   "; what is before the face becomes part of it\n";
 }
 
 }  // namespace
@@ -73,7 +100,8 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("pose        nod %.1f, turn %.1f, tilt %.1f degrees\n", d(turn.x), d(turn.y), d(turn.z));
   put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(fit.expression.smile),
       d(fit.expression.jaw), d(fit.expression.parted));
-  put("eyes        open by %.2f of their width\n", d(EyesOpen(face)));
+  put("irises      %.2f and %.2f clear (below %.2f not seen)\n", d(fit.irises[0].contrast),
+      d(fit.irises[1].contrast), d(kClearRing));
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
   put("glasses     %s\n", glasses ? "yes" : "no");
@@ -82,9 +110,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
         cover.where.c_str());
   }
   if (eyes < 80) out += "warning: the face is small; details will be soft\n";
-  if (std::abs(turn.y) > 15)
-    out += "warning: the head is turned; one side is completed from the other\n";
-  if (std::abs(turn.x) > 15) out += "warning: the head is bent; a level photo fits better\n";
+  out += WarnOfTurn(turn) + WarnOfEyes(fit);
   if (sharp < 0.012F) out += "warning: the photo is blurred\n";
   if (side > 1.45F || side < 0.69F)
     out += "warning: strong light from one side stays in the skin\n";
@@ -96,10 +122,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
         "warning: glasses stay as they are, and so does the skin round the eyes; --glasses no if "
         "there are none\n";
   }
-  if (cover.measure >= 1) {
-    out += "warning: covered by something that is no face: " + cover.where +
-           "; what is before the face becomes part of it\n";
-  }
+  out += WarnOfCover(cover);
   if (faces > 1) out += "warning: several faces; --face N takes another\n";
   return out;
 }

@@ -1,0 +1,58 @@
+// What is said of a photo that will not do.
+
+#include "face_fit/report.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/trigonometric.hpp>
+
+namespace facefit {
+namespace {
+
+struct ReportTest : testing::Test {
+  ReportTest() {
+    face.points.assign(kNetworkPoints, glm::vec3(100, 100, 0));
+    face.points[33].x = 50;
+    face.points[263].x = 150;
+    face.crop = {glm::vec2(100), 150, 0};
+    fit.irises = {{{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}}};
+    photo.rgba.assign(200 * 200 * 4, 128);
+  }
+  bool Says(const std::string& what) const {
+    return Report(face, fit, photo, 0.6F, 1, false, cover).find(what) != std::string::npos;
+  }
+
+  FoundFace face;
+  Fit fit;
+  fsm::Image photo{.width = 200, .height = 200, .rgba = {}};
+  Cover cover{0.5F, "the nose"};
+};
+
+TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
+  EXPECT_FALSE(Says("turned"));
+  fit.pose.turn.y = glm::radians(-17.0F);
+  EXPECT_TRUE(Says("the head is turned; one side"));
+  fit.pose.turn.y = glm::radians(27.0F);
+  EXPECT_TRUE(Says("the head is turned far"));
+  EXPECT_FALSE(Says("bent"));
+}
+
+TEST_F(ReportTest, EyesThatAreShutOrInTheShadeAreSpokenOf) {
+  EXPECT_FALSE(Says("iris is"));
+  fit.irises[1].contrast = 0;
+  EXPECT_TRUE(Says("one iris is not seen clearly"));
+  fit.irises[0].contrast = 0.01F;
+  EXPECT_TRUE(Says("no iris is seen"));
+}
+
+TEST_F(ReportTest, WhatMayBeBeforeAFaceIsToldApartFromWhatSurelyIs) {
+  EXPECT_FALSE(Says("before the face at"));
+  cover.measure = 1.2F;
+  EXPECT_TRUE(Says("may be before the face at the nose"));
+  EXPECT_FALSE(Says("covered by"));
+  cover.measure = 1.6F;
+  EXPECT_TRUE(Says("covered by something that is no face: the nose"));
+}
+
+}  // namespace
+}  // namespace facefit
