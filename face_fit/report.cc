@@ -63,7 +63,9 @@ std::string WarnOfEyes(const Fit& fit) {
     return "warning: no iris is seen: the eyes are shut, look down or lie in the shade; they are "
            "drawn, and their lids keep what the photo shows on them\n";
   }
-  return hidden == 1 ? "warning: one iris is not seen clearly; both eyes are drawn\n" : "";
+  return hidden == 1 ? "warning: one iris is not seen clearly; the other stands in for it, or both "
+                       "are drawn\n"
+                     : "";
 }
 
 /// Of 21 faces of people the limits were not set on what lay beyond 1.5 was hair or paint, and what

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -154,19 +155,65 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
   });
 }
 
+struct EyeSquares {
+  fsm::Image iris, ball;
+};
+
+/// Whose picture each eye shows: its own, or that of the other where it is not seen. None where
+/// neither is seen well enough.
+std::optional<std::array<std::size_t, 2>> ShownEyes(const Fit& fit) {
+  // What stands for both is no half shut eye.
+  constexpr float kForBoth = 0.1F;
+  const auto seen = [&fit](std::size_t k, float contrast) {
+    return fit.irises[k].contrast >= contrast && fit.irises[k].radius >= kLeastIris;
+  };
+  if (seen(0, kClearRing) && seen(1, kClearRing)) return {{0, 1}};
+  for (const std::size_t k : {0U, 1U}) {
+    if (seen(k, kForBoth)) return {{k, k}};
+  }
+  return std::nullopt;
+}
+
+/// The skin below an eye and beside it.
+glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, std::size_t side) {
+  constexpr std::array<std::array<std::size_t, 4>, 2> kSkin = {
+      {{119, 118, 117, 101}, {348, 347, 346, 330}}};
+  glm::vec3 light(1);
+  for (const std::size_t point : kSkin[side]) light += ColourAt(photo, face.points[point]);
+  return light;
+}
+
+/// Right and left exchanged, in another light.
+fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
+  gain = glm::clamp(gain, 0.4F, 2.5F);
+  fsm::Image out = square;
+  for (int y = 0; y < square.height; ++y) {
+    for (int x = 0; x < square.width; ++x) {
+      const auto at = [&](int column) {
+        return 4 * static_cast<std::size_t>(y * square.width + column);
+      };
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float from = square.rgba[at(square.width - 1 - x) + c];
+        out.rgba[at(x) + c] =
+            static_cast<std::uint8_t>(std::min(from * gain[static_cast<int>(c)] + 0.5F, 255.0F));
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                fsm::Image& picture, fsm::FaceSet& set) {
-  for (const IrisRing& ring : fit.irises) {
-    if (ring.contrast < kClearRing || ring.radius < kLeastIris) return;
-  }
+  const auto shown = ShownEyes(fit);
+  if (!shown) return;
   const glm::mat3 turned = fit.pose.Rotation();
   const glm::vec2 right = glm::normalize(glm::vec2(turned[0].x, -turned[0].y));
-  int left = kMargin;
-  set.eye_pictures.emplace();
-  for (int side = 0; side < 2; ++side) {
+  std::array<EyeSquares, 2> squares;
+  for (const int side : {0, 1}) {
     const auto k = static_cast<std::size_t>(side);
+    if ((*shown)[k] != k) continue;
     const fsm::EyePlace& ball = base.head->topology().eyes[k];
     const fsm::EyeSeat seat = set.eyes ? (*set.eyes)[k] : fsm::EyeSeat();
     EyePoints seen, rest;
@@ -183,11 +230,20 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
       rest[i] = glm::vec2(seat.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
     }
     const SeenEye eye{fit.irises[k], LidLines(seen), right, {right.y, -right.x}};
+    squares[k] = {IrisPicture(eye, photo),
+                  BallPicture(eye, LidLines(rest), seat.size * ball.ball_radius, photo)};
+  }
+  int left = kMargin;
+  set.eye_pictures.emplace();
+  for (std::size_t k = 0; k < 2; ++k) {
+    if ((*shown)[k] != k) {
+      const glm::vec3 gain = LightBeside(face, photo, k) / LightBeside(face, photo, 1 - k);
+      squares[k] = {Mirrored(squares[1 - k].iris, gain), Mirrored(squares[1 - k].ball, gain)};
+    }
     fsm::EyePicture& places = (*set.eye_pictures)[k];
-    places.iris = Insert(IrisPicture(eye, photo), left, picture);
+    places.iris = Insert(squares[k].iris, left, picture);
     left += kIrisSide + kMargin;
-    places.ball = Insert(BallPicture(eye, LidLines(rest), seat.size * ball.ball_radius, photo),
-                         left, picture);
+    places.ball = Insert(squares[k].ball, left, picture);
     left += kEyeSide + kMargin;
   }
 }

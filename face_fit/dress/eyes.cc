@@ -94,8 +94,11 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, 
     return sum / 7.0F;
   };
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
-  set.iris_colour =
-      glm::clamp(Linear(pick(iris, 0.5F, glm::vec3(90, 70, 55))) * 1.35F, 0.01F, 0.6F);
+  // In weak light it keeps its hue: brightened channel by channel a brown one would turn grey.
+  const glm::vec3 tint = Linear(pick(iris, 0.5F, glm::vec3(90, 70, 55))) * 1.35F;
+  constexpr float kDarkest = 0.012F;
+  set.iris_colour = glm::clamp(tint * std::max(1.0F, kDarkest / std::max(Brightness(tint), 1e-4F)),
+                               0.0005F, 0.6F);
   // Whites are nearly grey, and in whatever shade they are not darker than half the skin beside
   // them.
   glm::vec3 ball = Linear(pick(white, 0.6F, glm::vec3(190)));

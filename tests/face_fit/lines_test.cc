@@ -289,10 +289,29 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     if (base.rest.position[v].y < -90 || base.rest.position[v].z < 0) continue;
     EXPECT_GT(uv[v].y, 0.14F);
   }
+  // Hair before one eye: the other stands in for it, but not if that is hardly open.
+  fsm::Image hidden = photo;
+  for (int y = 200; y < 400; ++y) {
+    const auto row = hidden.rgba.begin() + 4 * (y * 1000 + 500);
+    std::fill(row, row + 4 * 500, std::uint8_t{130});
+  }
   fit.irises[1].contrast = 0.01F;
-  fsm::FaceSet unclear;
-  PaintEyes(base, face, fit, photo, picture, unclear);
-  EXPECT_FALSE(unclear.eye_pictures) << "eyes that are not seen clearly are drawn";
+  fsm::FaceSet one_hidden, half_shut;
+  PaintEyes(base, face, fit, hidden, picture, one_hidden);
+  ASSERT_TRUE(one_hidden.eye_pictures);
+  const auto& [right, left] = *one_hidden.eye_pictures;
+  for (const glm::vec2 part : {glm::vec2(0.5F, 0.5F), {0.02F, 0.6F}, {0.2F, 0.8F}}) {
+    const auto at = [&](const glm::vec4& square, glm::vec2 p) {
+      return ColourAt(picture, glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, p) *
+                                   glm::vec2(1024, 512))
+          .g;
+    };
+    EXPECT_NEAR(at(left.iris, part), at(right.iris, {1 - part.x, part.y}), 2) << part.x;
+    EXPECT_NEAR(at(left.ball, part), at(right.ball, {1 - part.x, part.y}), 2) << part.x;
+  }
+  fit.irises[0].contrast = 0.08F;
+  PaintEyes(base, face, fit, hidden, picture, half_shut);
+  EXPECT_FALSE(half_shut.eye_pictures) << "eyes that are not seen clearly are drawn";
 }
 
 }  // namespace
