@@ -99,11 +99,11 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, 
   constexpr float kDarkest = 0.012F;
   set.iris_colour = glm::clamp(tint * std::max(1.0F, kDarkest / std::max(Brightness(tint), 1e-4F)),
                                0.0005F, 0.6F);
-  // Whites are nearly grey, and in whatever shade they are not darker than half the skin beside
-  // them.
+  // Whites are paler than what is seen of them, but have the hue of the light; and in whatever
+  // shade they are not darker than a third of the skin beside them.
   glm::vec3 ball = Linear(pick(white, 0.6F, glm::vec3(190)));
-  const float least = 0.45F * SkinLight(face, photo);
-  ball = glm::mix(ball, glm::vec3(Brightness(ball)), 0.6F);
+  const float least = 0.36F * SkinLight(face, photo);
+  ball = glm::mix(ball, glm::vec3(Brightness(ball)), 0.35F);
   ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
   set.white_colour = glm::clamp(ball, 0.04F, 0.8F);
   set.iris_size = fit.iris_size;

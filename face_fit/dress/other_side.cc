@@ -68,6 +68,12 @@ void TakeFromOtherSide(const std::vector<bool>& skin, fsm::Image& map, Field& se
   const Light light(skin, map, seen);
   const fsm::Image one_side = map;
   const Field seen_once = seen;
+  // What shines or is in the shade on the other side alone, as a wing of the nose in the sun, is
+  // kept near to what lies around it here.
+  fsm::Image around = map;
+  FillIn(around, seen_once);
+  const Field near = Blurred(seen_once, std::max(map.width / 50, 1));
+  constexpr float kDarkest = 0.65F, kBrightest = 1.15F, kAny = 50;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);
@@ -75,9 +81,12 @@ void TakeFromOtherSide(const std::vector<bool>& skin, fsm::Image& map, Field& se
       if (part <= 0 || !skin[i]) continue;
       const float sum = seen_once.at[i] + part;
       const glm::vec3 gain = light.At(x, y);
+      const float held = glm::smoothstep(0.05F, 0.4F, near.at[i]);
       for (std::size_t c = 0; c < 3; ++c) {
-        const float taken = std::min(
-            gain[static_cast<int>(c)] * static_cast<float>(one_side.rgba[4 * j + c]), 255.0F);
+        const float here = around.rgba[4 * i + c];
+        const float taken = std::clamp(
+            gain[static_cast<int>(c)] * static_cast<float>(one_side.rgba[4 * j + c]),
+            held * kDarkest * here, std::min(glm::mix(kAny, kBrightest, held) * here, 255.0F));
         const float own = seen_once.at[i] * static_cast<float>(one_side.rgba[4 * i + c]);
         map.rgba[4 * i + c] = static_cast<std::uint8_t>((own + taken * part) / sum + 0.5F);
       }

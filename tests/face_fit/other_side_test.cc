@@ -66,6 +66,21 @@ TEST_F(OtherSideTest, WhatWasSeenStaysAsItIs) {
   }
 }
 
+TEST_F(OtherSideTest, AHighlightOfTheOtherSideAloneIsNotTakenOver) {
+  for (int y = kLow; y < kHigh; ++y) {
+    for (int x = kLow; x < kHigh; ++x) {
+      std::uint8_t* p = &map.rgba[4 * seen.Index(kSide - 1 - x, y)];
+      for (int c = 0; c < 3; ++c) p[c] = 255;
+    }
+  }
+  TakeFromOtherSide(skin, map, seen);
+  for (int y = kLow; y < kHigh; ++y) {
+    for (int x = kLow; x < kHigh; ++x) {
+      EXPECT_LT(At(x, y).r, 1.2F * Lit(200, 2).r) << x << " " << y;
+    }
+  }
+}
+
 TEST_F(OtherSideTest, NothingIsTakenWithinEyesAndMouth) {
   skin.assign(skin.size(), false);
   TakeFromOtherSide(skin, map, seen);

@@ -123,7 +123,9 @@ void main() {
   vec3 result = base * light * shade * mix(occlusion, 1.0, 0.3);
 
   // What a photographed eye mirrors is seen in it.
-  float gloss = worn.x > 0.0 ? (shown ? 0.0 : 0.3) : 1.0;
+  // One drawn into a photo mirrors as little light as there is.
+  float bright = clamp(dot(white_color, vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
+  float gloss = worn.x > 0.0 ? (shown ? 0.0 : 0.3 * bright) : 1.0;
   vec3 mirrored = reflect(-v, wet);
   // A window of two panes, above left.
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
