@@ -10,6 +10,7 @@
 #include "face_fit/dress/enlarge.h"
 #include "face_fit/dress/folds.h"
 #include "face_fit/dress/grain.h"
+#include "face_fit/dress/lips.h"
 #include "face_fit/dress/matte.h"
 #include "face_fit/dress/openings.h"
 #include "face_fit/dress/other_side.h"
@@ -31,6 +32,7 @@ struct SkinPlaces {
   std::vector<float> across;    ///< millimetres to the person's left of the middle
   std::vector<float> up;        ///< millimetres above the brows
   std::vector<float> off_seam;  ///< millimetres from where the lips meet
+  std::vector<float> red;       ///< millimetres within the border of the lips, negative outside
   std::vector<float> aside;     ///< 1 on the sides of the head and below the chin, 0 on the face
   SkinPlaces()
       : pixel(static_cast<std::size_t>(kMapSide) * kMapSide),
@@ -39,6 +41,7 @@ struct SkinPlaces {
         across(pixel.size(), 0),
         up(pixel.size(), -1),
         off_seam(pixel.size(), 1e9F),
+        red(pixel.size(), -1e9F),
         aside(pixel.size(), 0) {}
 };
 
@@ -77,6 +80,14 @@ class Hidden {
   Field nearest_{0, 0};
 };
 
+/// Of a line from the person's right to left.
+float HeightAt(std::span<const glm::vec3> line, float x) {
+  std::size_t k = 1;
+  while (k + 1 < line.size() && line[k].x < x) ++k;
+  const float part = (x - line[k - 1].x) / std::max(line[k].x - line[k - 1].x, 1e-3F);
+  return glm::mix(line[k - 1].y, line[k].y, glm::clamp(part, 0.0F, 1.0F));
+}
+
 SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose,
                      const Hidden* hidden = nullptr) {
   const auto& topology = base.head->topology();
@@ -106,14 +117,25 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose,
   }
   const auto off_seam = [&seam](glm::vec3 p) {
     if (p.x < seam.front().x || p.x > seam.back().x || p.z < 60) return 1e9F;
-    std::size_t k = 1;
-    while (k + 1 < seam.size() && seam[k].x < p.x) ++k;
-    const float part = (p.x - seam[k - 1].x) / std::max(seam[k].x - seam[k - 1].x, 1e-3F);
-    const float off =
-        std::abs(p.y - glm::mix(seam[k - 1].y, seam[k].y, glm::clamp(part, 0.0F, 1.0F)));
+    const float off = std::abs(p.y - HeightAt(seam, p.x));
     // Towards its ends a line grows thin.
     const float to_end = std::min(p.x - seam.front().x, seam.back().x - p.x);
     return off + 0.15F * std::max(5 - to_end, 0.0F);
+  };
+  const auto border = [&base](std::span<const int> points) {
+    std::vector<glm::vec3> line;
+    const auto add = [&](int i) {
+      line.push_back(base.places[static_cast<std::size_t>(i)].On(base.rest.position));
+    };
+    add(61);
+    for (const int i : points) add(i);
+    add(291);
+    return line;
+  };
+  const auto upper = border(UpperOuterLip()), lower = border(LowerOuterLip());
+  const auto red = [&](glm::vec3 p) {
+    if (p.x < upper.front().x || p.x > upper.back().x || p.z < 60) return -1e9F;
+    return std::min(HeightAt(upper, p.x) - p.y, p.y - HeightAt(lower, p.x));
   };
   each([&](const std::uint32_t* t) {
     glm::vec2 uv[3];
@@ -159,6 +181,7 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose,
         out.across[i] = rest.x;
         out.up[i] = rest.y - brows;
         out.off_seam[i] = off_seam(rest);
+        out.red[i] = red(rest);
         out.aside[i] = std::max(glm::smoothstep(40.0F, 52.0F, std::abs(rest.x)),
                                 glm::smoothstep(chin + 22, chin + 10, rest.y));
         out.facing[i] =
@@ -279,6 +302,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   aside.at = places.aside;
   AddGrain(seen, aside, kMapSide / 170, map);
   if (open) {
+    RedLips(places.red, map);
     // Where lips that were apart now meet there is a dark line, reddish where the photo has colour.
     const glm::vec3 dark = glm::mix(glm::vec3(0.4F), glm::vec3(0.3F, 0.5F, 0.48F), set.saturation);
     for (std::size_t i = 0; i < places.off_seam.size(); ++i) {

@@ -134,6 +134,16 @@ TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
   }
 }
 
+TEST(MouthPictureTest, AMouthThatIsHardlyOpenIsDarkRedAndNotBlack) {
+  const MouthPicture picture(InPhoto(), {{25, 0.9F}, {18, 0.6F}});
+  const glm::vec3 upper = picture.Lip(true, 9), lower = picture.Lip(false, 9);
+  ASSERT_GT(upper.y - lower.y, 1);
+  const glm::vec3 seen = picture.At(glm::mix(lower, upper, 0.3F) - glm::vec3(0, 0, 1));
+  EXPECT_GT(seen.r, 0.4F * kPhoto.r);
+  EXPECT_GT(seen.r, 1.4F * seen.g);
+  EXPECT_LT(seen.r, 0.6F * kPhoto.r);
+}
+
 TEST(MouthPictureTest, PhotoLipsRollInwardThroughADarkerRedderBand) {
   const MouthPicture picture(InPhoto(), {{26, 0.6F}, {25, 0.5F}});
   for (const bool upper : {true, false}) {

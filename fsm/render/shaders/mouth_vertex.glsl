@@ -28,6 +28,7 @@ const float kBehindTeeth = 9.0;  // behind the lips
 const float kRoom = 0.27;   // the lamps' part in it
 const float kBounced = 0.8;   // of light on the walls, how much they give back to each other
 
+const float kSeeps = 0.04;  // through cheeks and lips: a mouth that is hardly open is not black
 const vec3 kThroughFlesh = vec3(1.0, 0.5, 0.42);
 
 vec3 RingAt(int i, float deep) {
@@ -94,7 +95,7 @@ void main() {
   vec3 sky = Ambient(mouth_to_world * from) + kRoom * (lamp_colors[0] + lamp_colors[1]);
   vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
   // What goes round between the walls is red.
-  vec3 bounced = sky * kThroughFlesh * sqrt(amount) * kBounced *
+  vec3 bounced = sky * kThroughFlesh * sqrt(amount + kSeeps) * kBounced *
                  mix(0.35, 1.0, smoothstep(3.0, 12.0, inward)) * (1.0 - out_of_mouth);
 
   // The key lamp shines in past the lips' edges, which throw a soft shadow.
