@@ -10,12 +10,12 @@ Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
                    const UnitTable& units, const EyeAnatomy& eye,
                    const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
-                   glm::vec3 teeth_shift)
+                   const TeethPlace& teeth)
     : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)), seats_(seats) {
   MoveBy(units);
   AddMouthFields(mouth);
-  upper_teeth_ = mouth.UpperTeeth().Moved(teeth_shift);
-  lower_teeth_ = mouth.LowerTeeth().Moved(teeth_shift);
+  upper_teeth_ = mouth.UpperTeeth().Moved(teeth);
+  lower_teeth_ = mouth.LowerTeeth().Moved(teeth);
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     if (!flesh_[i].by_teeth) continue;
     const glm::vec3 p = rest_[i];

@@ -46,12 +46,12 @@ glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 /// measured, so that both give the same numbers. Immutable; thread: any.
 class Deformer {
  public:
-  /// `seam` pairs index the arrays given. `seats`: of the right and the left eye; `teeth_shift`:
+  /// `seam` pairs index the arrays given. `seats`: of the right and the left eye; `teeth`:
   /// from where `mouth` has them. Flesh::lip_column indexes `seam`.
   Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
            std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const UnitTable& units,
            const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
-           glm::vec3 teeth_shift);
+           const TeethPlace& teeth);
 
   std::size_t size() const { return rest_.size(); }
   /// Takes the fields of other units.

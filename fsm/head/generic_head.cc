@@ -89,10 +89,10 @@ class GenericHead : public Head {
                         set ? set->eyes : std::nullopt, mesh);
     form.Shape(skin_count, set ? sheet_end : skin_count, mesh);
     seats_ = form.seats();
-    teeth_shift_ = form.teeth_shift();
+    teeth_ = form.teeth();
     hair_first_ = mesh.position.size();
     if (set) {
-      LeaveOutUnseen(*set, mouth_.LineY(0) + teeth_shift_.y + 12, mesh);
+      LeaveOutUnseen(*set, fine.tag, mesh);
     } else if (identity_.crop) {
       BuildCroppedHair(*identity_.crop, palette, mesh);
     } else {
@@ -194,12 +194,12 @@ class GenericHead : public Head {
                        .lower_incisor = 0,
                        .upper_root = 0};
     FindIncisors(rest_, mesh.bone, topology_);
-    upper_teeth_ = mouth_.UpperTeeth().Moved(teeth_shift_);
-    lower_teeth_ = mouth_.LowerTeeth().Moved(teeth_shift_);
+    upper_teeth_ = mouth_.UpperTeeth().Moved(teeth_);
+    lower_teeth_ = mouth_.LowerTeeth().Moved(teeth_);
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
     face_.emplace(std::vector<glm::vec3>(rest_.begin(), rest_.begin() + flesh_end),
                   std::vector<Flesh>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end), skin.seam,
-                  units_, eye_, seats_, mouth_, teeth_shift_);
+                  units_, eye_, seats_, mouth_, teeth_);
     const auto [upper, lower] = skin.seam[skin.mid_column];
     std::vector<glm::vec3> rest;
     std::vector<Flesh> flesh;
@@ -210,7 +210,7 @@ class GenericHead : public Head {
     }
     probe_.emplace(std::move(rest), std::move(flesh),
                    std::vector<std::pair<std::uint32_t, std::uint32_t>>{{0, 1}}, units_, eye_,
-                   seats_, mouth_, teeth_shift_);
+                   seats_, mouth_, teeth_);
     bone_ = std::move(mesh.bone);
     topology_.albedo = std::move(mesh.albedo);
     topology_.occlusion = std::move(mesh.occlusion);
@@ -273,7 +273,7 @@ class GenericHead : public Head {
   bool asymmetric_ = false;
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
-  glm::vec3 teeth_shift_{};       // from the base head's
+  TeethPlace teeth_;              // from the base head's
   std::array<EyeSeat, 2> seats_;  // of the right and the left eye
   std::vector<glm::vec3> base_;   // the base head's rest form, for texture coordinates
   HeadTopology topology_;

@@ -20,9 +20,18 @@ HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shape
     seats_[1].shift = by;
     seats_[0].shift = by * kMirror;
   }
-  teeth_shift_ = Motion({0, mouth_.LineY(0), mouth_.LineZ(0)}) *
-                 (warp_ ? glm::vec3(0, 1, 1) : glm::vec3(0, 0.5f, 0.5f));
-  if (warp_) teeth_shift_.z -= TeethTooFar(base);
+  const auto lips = [&](float x) {
+    return Motion({x, mouth_.LineY(std::abs(x)), mouth_.LineZ(std::abs(x))});
+  };
+  teeth_.shift = lips(0) * (warp_ ? glm::vec3(0, 1, 1) : glm::vec3(0, 0.5f, 0.5f));
+  if (warp_) {
+    // A person's mouth may lie beside the middle and look to a side.
+    constexpr float kAside = 18, kSteepest = 0.35f;
+    const glm::vec3 left = lips(kAside), right = lips(-kAside);
+    teeth_.shift.x = 0.5f * (left.x + right.x);
+    teeth_.slope = std::clamp((left.z - right.z) / (2 * kAside), -kSteepest, kSteepest);
+    teeth_.shift.z -= TeethTooFar(base);
+  }
 }
 
 glm::vec3 HeadForm::Motion(glm::vec3 p) const {
@@ -38,7 +47,7 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
       if (base.bone[i] != Bone::kFlesh || !base.flesh[i].by_teeth) continue;
       const glm::vec3 p = base.position[i], q = p + Motion(p);
       const float room = std::min(kRoom, p.z - arch.At(p.x));
-      most = std::max(most, room - (q.z - arch.Moved(teeth_shift_).At(q.x)));
+      most = std::max(most, room - (q.z - arch.Moved(teeth_).At(q.x)));
     }
   }
   return std::min(most, kMost);
@@ -55,11 +64,11 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
         break;
       case Bone::kJaw:
       case Bone::kTongue:
-        p += teeth_shift_;
+        p = teeth_(p);
         break;
       case Bone::kSkull: {
         const bool tooth = p.z > 30 && std::abs(p.x) < 40;
-        p += tooth ? teeth_shift_ : Motion(p);
+        p = tooth ? teeth_(p) : p + Motion(p);
         break;
       }
       case Bone::kFlesh: {

@@ -14,14 +14,15 @@
 namespace fsm {
 namespace {
 
-void DarkenNostrils(float nose_y, HeadMesh& mesh) {
+void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
   std::vector<std::uint32_t> nostrils;
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kMouthInside) continue;
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
       const std::uint32_t* corner = &batch.indices[i];
-      const bool nose = mesh.position[*corner].y > nose_y;
+      const bool nose = std::any_of(
+          corner, corner + 3, [&](std::uint32_t v) { return v < tags.size() && tags[v].hole > 0; });
       (nose ? nostrils : kept).insert((nose ? nostrils : kept).end(), corner, corner + 3);
     }
     batch.indices = std::move(kept);
@@ -104,8 +105,8 @@ void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
   }
 }
 
-void LeaveOutUnseen(const FaceSet& set, float nose_y, HeadMesh& mesh) {
-  DarkenNostrils(nose_y, mesh);
+void LeaveOutUnseen(const FaceSet& set, std::span<const CageTag> tags, HeadMesh& mesh) {
+  DarkenNostrils(tags, mesh);
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kSkin) continue;
     const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());

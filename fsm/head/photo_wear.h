@@ -20,9 +20,10 @@ void AddSheet(const FaceSet& set, HeadMesh& mesh);
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
 
 /// Skin the photo does not show, behind the outline and below the jaw, where the sheet is: it goes,
-/// and what is beside it fades (Strand::cover). The nostrils, which are lined like the mouth and
-/// lie above `nose_y`, become skin: the photo shows how dark they are.
-void LeaveOutUnseen(const FaceSet& set, float nose_y, HeadMesh& mesh);
+/// and what is beside it fades (Strand::cover). The nostrils, which are lined like the mouth,
+/// become skin: the photo shows how dark they are. `tags`: of the skin's vertices, the mesh's
+/// first.
+void LeaveOutUnseen(const FaceSet& set, std::span<const CageTag> tags, HeadMesh& mesh);
 
 /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
 glm::vec3 Wetter(glm::vec3 lip, float saturation);

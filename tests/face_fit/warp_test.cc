@@ -173,6 +173,44 @@ int ColourOfTheMouth(float saturation) {
   return most;
 }
 
+/// The row of upper teeth: x of the middle incisors, how far the left side stands before the right.
+std::pair<float, float> UpperTeethOf(const fsm::FaceSet& set) {
+  const auto head = fsm::Head::Make(set);
+  fsm::HeadVertices rest;
+  head->Evaluate({}, rest);
+  const auto& topology = head->topology();
+  const glm::vec3 incisor = rest.position[topology.mouth.upper_incisor];
+  glm::vec2 z(0), count(0);
+  for (const auto& part : topology.parts) {
+    if (part.material != fsm::Material::kTeeth) continue;
+    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+      const glm::vec3 p = rest.position[topology.indices[k]];
+      const float side = p.x - incisor.x;
+      if (p.y < incisor.y || std::abs(side) < 8 || std::abs(side) > 20) continue;
+      z[side > 0] += p.z;
+      count[side > 0] += 1;
+    }
+  }
+  z /= count;
+  return {incisor.x, z[1] - z[0]};
+}
+
+TEST(FaceSetTest, TeethGoWithAMouthThatLiesAsideAndLooksToASide) {
+  fsm::FaceSet set;
+  set.photo = std::make_shared<fsm::WornPhoto>(fsm::WornPhoto{1, 1, {200, 150, 130, 255}});
+  for (const glm::vec3 at : {glm::vec3(-70, 0, 0), glm::vec3(70, 0, 0), glm::vec3(0, 80, 60),
+                             glm::vec3(0, -110, 40), glm::vec3(0, 20, -60)}) {
+    set.points.push_back({at, glm::vec3(0)});
+  }
+  const auto straight = UpperTeethOf(set);
+  for (const float side : {-1.0F, 1.0F}) {
+    set.points.push_back({glm::vec3(25 * side, -42, 70), glm::vec3(4, 0, 4 * side)});
+  }
+  const auto aside = UpperTeethOf(set);
+  EXPECT_NEAR(aside.first - straight.first, 4, 1);
+  EXPECT_NEAR(aside.second - straight.second, 4.5F, 1.5F);
+}
+
 TEST(FaceSetTest, AGreyPhotoHasAGreyMouth) {
   EXPECT_LE(ColourOfTheMouth(0), 1);
   EXPECT_GT(ColourOfTheMouth(1), 20);
