@@ -318,6 +318,11 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   for (std::size_t i = 0; i < face_seen_at.at.size(); ++i) {
     if (!OnFront(places, i)) face_seen_at.at[i] = 0;
   }
+  // Smooth skin lies in soft folds, an old one creases.
+  constexpr float kSmooth = 0.012F, kOld = 0.038F, kSoft = 0.3F;
+  set.lined =
+      glm::mix(kSoft, 1.0F,
+               glm::clamp((Roughness(map, face_seen_at) - kSmooth) / (kOld - kSmooth), 0.0F, 1.0F));
   Field likeness = SkinLikeness(map, face_seen_at);
   EndAtHair(places.up, likeness);
   for (std::size_t i = 0; i < likeness.at.size(); ++i) {

@@ -84,6 +84,8 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
       ReadEyePicture(row, pictures);
     } else if (key == "saturation") {
       set.saturation = std::clamp(row.Number(1), 0.0f, 1.0f);
+    } else if (key == "lined") {
+      set.lined = std::clamp(row.Number(1), 0.0f, 1.0f);
     } else if (key == "white") {
       set.white_colour = row.Vector(1);
     } else if (key == "skin") {
@@ -131,6 +133,7 @@ std::string WriteFaceSet(const FaceSet& set) {
   const auto d = [](float v) { return static_cast<double>(v); };
   put("smooth %.3f\n", d(set.smooth));
   put("saturation %.2f\n", d(set.saturation));
+  put("lined %.2f\n", d(set.lined));
   put("iris %.4f %.4f %.4f %.3f\n", d(set.iris_colour.x), d(set.iris_colour.y),
       d(set.iris_colour.z), d(set.iris_size));
   if (set.glasses) put("glasses %d\n", 1);

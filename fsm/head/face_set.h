@@ -29,6 +29,7 @@ struct FaceSet {
   std::optional<glm::vec3> lip_colour;  ///< likewise, where the lips turn inward
   std::optional<std::array<EyePicture, 2>> eye_pictures;  ///< right, left: in the photo
   float saturation = 1;  ///< of what is painted beside the photo: 0 for a grey one
+  float lined = 1;  ///< how deep the skin creases with expression, 0..1: less where it is smooth
   /// The skin's map in the photo: HeadTopology::uv (0, 0) and (1, 1), as u right, v down in 0..1.
   glm::vec2 skin_low{0, 1}, skin_high{0.5f, 0};
   glm::vec3 seen_from{0, 0, 1};      ///< unit, from the head to the camera

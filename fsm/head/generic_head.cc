@@ -53,6 +53,7 @@ class GenericHead : public Head {
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
         identity_.palette.mouth = 0.9f * Wetter(identity_.palette.lip_inside, set->saturation);
       }
+      lined_ = set->lined;
       eye_.ScaleIris(set->iris_size);
       // A photographer's light comes from the front and reaches into the mouth.
       identity_.palette.tooth *= 0.67f * set->teeth;
@@ -131,6 +132,9 @@ class GenericHead : public Head {
     FleshNormals(out);
     for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, tongue, out);
     out.wrinkles = CreaseDepths(pose.units, identity_.creases);
+    for (auto& sides : out.wrinkles) {
+      for (float& depth : sides) depth *= lined_;
+    }
     for (std::size_t side = 0; side < 2; ++side) out.lids_shut[side] = pose.lids[side].close;
   }
 
@@ -271,6 +275,7 @@ class GenericHead : public Head {
   std::optional<Warp> warp_;  // of a face from a photo
   UnitTable units_;
   bool asymmetric_ = false;
+  float lined_ = 1;  // of a photo's skin
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
   TeethPlace teeth_;              // from the base head's

@@ -126,6 +126,16 @@ TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
   EXPECT_EQ(at(330), 1);
 }
 
+TEST(SkinColoursTest, LinesMakeASkinRoughAndShadeDoesNot) {
+  const auto rough = [](auto brightness, float seen) {
+    return Roughness(Drawn(512, brightness), Field(512, 512, seen));
+  };
+  const auto lined = [](glm::vec2 p) { return 160 + 14 * std::sin(p.y * 0.8F); };
+  EXPECT_LT(rough([](glm::vec2 p) { return 110 + 0.2F * p.x; }, 1), 0.006F);
+  EXPECT_GT(rough(lined, 1), 0.03F);
+  EXPECT_EQ(rough(lined, 0), 0) << "no face was seen";
+}
+
 TEST(SmileFoldsTest, ADarkFoldIsFilledAndABeardIsNot) {
   FoundFace face;
   face.points.assign(kNetworkPoints, glm::vec3(0));

@@ -55,6 +55,7 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   set.lip_colour = glm::vec3(0.2F, 0.1F, 0.05F);
   set.iris_size = 0.9F;
   set.glasses = true;
+  set.lined = 0.4F;
   set.eye_pictures.emplace();
   for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.2F, 0.3F, 0.4F}, {0.5F, 0.25F, 1, 0.75F}};
   const FaceSet back = ReadFaceSet("face.txt", WriteFaceSet(set));
@@ -66,6 +67,7 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(*back.lip_colour, *set.lip_colour);
   EXPECT_NEAR(back.iris_size, 0.9F, 1e-3F);
   EXPECT_TRUE(back.glasses);
+  EXPECT_NEAR(back.lined, 0.4F, 1e-3F);
   ASSERT_TRUE(back.eye_pictures);
   EXPECT_EQ((*back.eye_pictures)[1].iris, (*set.eye_pictures)[1].iris);
   EXPECT_EQ((*back.eye_pictures)[0].ball, (*set.eye_pictures)[0].ball);
@@ -209,6 +211,22 @@ TEST(FaceSetTest, TeethGoWithAMouthThatLiesAsideAndLooksToASide) {
   const auto aside = UpperTeethOf(set);
   EXPECT_NEAR(aside.first - straight.first, 4, 1);
   EXPECT_NEAR(aside.second - straight.second, 4.5F, 1.5F);
+}
+
+TEST(FaceSetTest, ASmoothSkinCreasesLess) {
+  const auto depth = [](float lined) {
+    FaceSet set;
+    set.points = kPoints;
+    set.lined = lined;
+    set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {200, 150, 130, 255}});
+    FaceState surprise;
+    for (const std::size_t unit : {1, 2}) surprise.au_left[unit] = surprise.au_right[unit] = 1;
+    HeadVertices v;
+    Head::Make(set)->Evaluate(surprise, v);
+    return v.wrinkles[0][0];
+  };
+  EXPECT_GT(depth(1), 0.5F);
+  EXPECT_NEAR(depth(0.3F), 0.3F * depth(1), 1e-3F);
 }
 
 TEST(FaceSetTest, AGreyPhotoHasAGreyMouth) {

@@ -179,5 +179,14 @@ TEST(MouthPictureTest, ADroppedChinThrowsAShadowOnTheNeckOfAPhoto) {
   EXPECT_GT(neck(0.5F), 0.65F * at_rest);
 }
 
+TEST(MouthPictureTest, TheChinsShadowDoesNotReachBeyondTheNeck) {
+  for (float y = -64; y > -100; y -= 4) {
+    const auto beside = [y](float jaw) {
+      return MouthPicture(WithNeck(), {{26, jaw}}).Light({-58, y, 20});
+    };
+    EXPECT_NEAR(beside(0.8F), beside(0), 6) << y;
+  }
+}
+
 }  // namespace
 }  // namespace fsm

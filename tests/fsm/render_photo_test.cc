@@ -41,9 +41,9 @@ FaceSet RedFaceAndGreenSheet(int opacity, std::initializer_list<float> depths) {
 }
 
 /// Screen colours 0..255 at places of the head's frame, the mean of 3 x 3 pixels.
-std::vector<glm::vec3> Drawn(const FaceSet& set, std::initializer_list<glm::vec3> places) {
+std::vector<glm::vec3> Drawn(const FaceSet& set, const std::vector<glm::vec3>& places,
+                             const FaceState& state = {}) {
   const auto head = Head::Make(set);
-  const FaceState state;
   HeadVertices vertices;
   head->Evaluate(state, vertices);
   Scene scene;
@@ -95,6 +95,34 @@ TEST(PhotoTest, SkinIsSeenWhereTheSheetComesNearlyAsFar) {
   const glm::vec3 place(forehead.x, forehead.y, z);
   EXPECT_GT(Drawn(RedFaceAndGreenSheet(255, {z + 2}), {place})[0].r, 150);
   EXPECT_LT(Drawn(RedFaceAndGreenSheet(255, {z + 20}), {place})[0].r, 60);
+}
+
+TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
+  FaceSet set = RedFaceAndGreenSheet(255, {});
+  const glm::vec3 corner = Head::Make(set)->Landmark("exocanthion_left");
+  constexpr int kRows = 9;
+  std::vector<glm::vec3> places;
+  for (int i = 0; i < kRows * kRows; ++i) {
+    const glm::vec3 p =
+        corner + glm::vec3(-4 + 3 * (i % kRows), 12 - 3 * static_cast<float>(i / kRows), 15);
+    set.sheet.push_back({p, {0.75F, 0.5F}});
+    if (i % kRows == 0 || i < kRows) continue;
+    places.push_back(p + glm::vec3(-1.5F, 1.5F, 0));
+    const auto v = static_cast<std::uint32_t>(i), above = v - kRows;
+    for (const std::uint32_t k : {above - 1, v - 1, v, above - 1, v, above}) {
+      set.sheet_triangles.push_back(k);
+    }
+  }
+  FaceState smile;
+  for (const std::size_t unit : {6, 12}) smile.au_left[unit] = smile.au_right[unit] = 1;
+  const auto darkest = [&](const FaceSet& s, float glm::vec3::*channel) {
+    float least = 255;
+    for (const glm::vec3 c : Drawn(s, places, smile)) least = std::min(least, c.*channel);
+    return least;
+  };
+  EXPECT_GT(darkest(set, &glm::vec3::g), kHair.g - 6) << "hair";
+  set.sheet_triangles.clear();
+  EXPECT_LT(darkest(set, &glm::vec3::r), kSkin.r - 8) << "skin";
 }
 
 TEST(PhotoTest, TheSkinFadesAtItsSidesAndEndsAtTheJaw) {

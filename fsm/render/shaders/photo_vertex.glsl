@@ -45,8 +45,10 @@ void main() {
   // The shadow that a dropped chin throws on the neck. The jaw's line rises to the sides.
   float below = chin_y - chin_drop + 0.012 * rest_position.x * rest_position.x - rest_position.y;
   shadow = 1.0 - 0.33 * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
-                     exp(-max(below, 0.0) / 11.0);
+                     exp(-max(below, 0.0) / 11.0) * smoothstep(62.0, 40.0, abs(rest_position.x));
   covering = cover;
-  crease = dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]);
+  // The sheet shows what is beside the face.
+  crease = (1.0 - ragged) *
+           (dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]));
   paint = sqrt(max(albedo_occlusion.rgb * (lent ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }
