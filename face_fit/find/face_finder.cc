@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -85,6 +86,12 @@ fsm::Image Halved(const fsm::Image& image) {
   return half;
 }
 
+/// What was taken for a face, and how much rather it is believed than another of the same face.
+struct Sighting {
+  FaceBox face;
+  float rank;
+};
+
 /// A picture that is looked at in squares of many sizes: each is cut from a copy that is hardly
 /// finer than the detector sees it, which takes a tenth of the time.
 class Scan {
@@ -96,10 +103,11 @@ class Scan {
     }
   }
 
-  void Look(glm::vec2 centre, float side) {
+  /// `whole`: from the picture itself, as exactly as it can be seen.
+  void Look(glm::vec2 centre, float side, bool whole = false) {
     float scale = 1;
     std::size_t copy = 0;
-    while (copy + 1 < copies_.size() && side * scale > 2 * kDetectorSide) {
+    while (!whole && copy + 1 < copies_.size() && side * scale > 2 * kDetectorSide) {
       scale *= 0.5F;
       ++copy;
     }
@@ -109,11 +117,11 @@ class Scan {
       face.centre /= scale;
       face.size /= scale;
       for (glm::vec2& eye : face.eyes) eye /= scale;
-      if (std::min(face.size.x, face.size.y) >= 8) found.push_back(face);
+      if (std::min(face.size.x, face.size.y) >= 8) found.push_back({face, face.score});
     }
   }
 
-  std::vector<FaceBox> found;
+  std::vector<Sighting> found;
 
  private:
   FaceNetworks& networks_;
@@ -123,10 +131,10 @@ class Scan {
 /// Of boxes of one face the surest, those of the first look before others nearly as sure; where
 /// there are several faces, those with eyes, nose and mouth.
 std::vector<FaceBox> Apart(FaceNetworks& networks, const fsm::Image& image,
-                           std::vector<FaceBox> found) {
-  std::ranges::sort(found, [](const FaceBox& a, const FaceBox& b) { return a.score > b.score; });
+                           std::vector<Sighting> found) {
+  std::ranges::stable_sort(found, std::greater<>(), &Sighting::rank);
   std::vector<FaceBox> apart;
-  for (const FaceBox& face : found) {
+  for (const auto& [face, rank] : found) {
     if (std::ranges::none_of(apart, [&](const FaceBox& other) {
           return Overlap(other, face) > 0.3F || Within(other, face) > 0.6F;
         })) {
@@ -152,13 +160,14 @@ std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image) 
   const glm::vec2 size(image.width, image.height);
   const float longer = std::max(size.x, size.y);
   Scan scan(networks, image);
-  scan.Look(size * 0.5F, longer);
-  // A face is best seen with all that is around it.
-  for (FaceBox& face : scan.found) face.score = std::min(face.score + 0.15F, 1.0F);
+  scan.Look(size * 0.5F, longer, true);
+  // A face is best seen with all that is around it; one that fills a fifth of the picture, for
+  // which the detector was made, could not be seen better.
+  for (Sighting& seen : scan.found) seen.rank += seen.face.size.x > 0.2F * longer ? 1.0F : 0.15F;
   // A face that fills the picture is too large for the network, one in a crowd too small.
-  if (scan.found.empty()) scan.Look(size * 0.5F, longer * 1.6F);
+  if (scan.found.empty()) scan.Look(size * 0.5F, longer * 1.6F, true);
   float largest = 0;
-  for (const FaceBox& face : scan.found) largest = std::max(largest, face.size.x);
+  for (const Sighting& seen : scan.found) largest = std::max(largest, seen.face.size.x);
   for (const int parts : {2, 4}) {
     // The detector sees faces well that fill a fifth of what it is shown. Those of people who
     // stand beside the largest, further back or turned, are up to three times smaller.
