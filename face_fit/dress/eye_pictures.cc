@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "face_fit/dress/dress.h"
+#include "face_fit/dress/red_eye.h"
 
 namespace facefit {
 namespace {
@@ -95,7 +96,8 @@ struct SeenEye {
   glm::vec2 right, up;  ///< the head's axes there, unit
 };
 
-fsm::Image IrisPicture(const SeenEye& eye, const fsm::Image& photo) {
+/// `skin`: its colour below the eye.
+fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& photo) {
   // The shade of the lid's edge and its lashes.
   const float edge = std::max(0.15F * eye.ring.radius, 0.7F);
   const auto texel_at = [&](glm::vec2 p) {
@@ -103,7 +105,13 @@ fsm::Image IrisPicture(const SeenEye& eye, const fsm::Image& photo) {
     const glm::vec2 at = eye.ring.centre + eye.ring.radius * (p.x * eye.right + p.y * eye.up);
     const auto [upper, lower] = eye.lids.At(eye.lids.Part(at));
     const float within = std::min(eye.lids.Down(at) - upper, lower - eye.lids.Down(at));
-    return Texel{ColourAt(photo, at), glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
+    float red = 0;
+    for (int k = 0; k < 9; ++k) {
+      const glm::vec2 beside = at + 0.22F * eye.ring.radius * (glm::vec2(k % 3, k / 3) - 1.0F);
+      red = std::max(red, RedEye(ColourAt(photo, beside), skin));
+    }
+    return Texel{WithoutRedEye(ColourAt(photo, at), skin, red),
+                 glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
   };
   std::vector<Texel> texels;
   Painted(kIrisSide, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
@@ -179,7 +187,7 @@ glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, std::size_
   constexpr std::array<std::array<std::size_t, 4>, 2> kSkin = {
       {{119, 118, 117, 101}, {348, 347, 346, 330}}};
   glm::vec3 light(1);
-  for (const std::size_t point : kSkin[side]) light += ColourAt(photo, face.points[point]);
+  for (const std::size_t point : kSkin[side]) light += ColourAt(photo, face.points[point]) / 4.0F;
   return light;
 }
 
@@ -230,7 +238,7 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
       rest[i] = glm::vec2(seat.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
     }
     const SeenEye eye{fit.irises[k], LidLines(seen), right, {right.y, -right.x}};
-    squares[k] = {IrisPicture(eye, photo),
+    squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
                   BallPicture(eye, LidLines(rest), seat.size * ball.ball_radius, photo)};
   }
   int left = kMargin;

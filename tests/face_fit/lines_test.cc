@@ -11,6 +11,7 @@
 #include "face_fit/dress/dress.h"
 #include "face_fit/dress/folds.h"
 #include "face_fit/dress/openings.h"
+#include "face_fit/dress/red_eye.h"
 #include "face_fit/dress/skin_colours.h"
 #include "face_fit/find/glasses.h"
 #include "face_fit/find/iris.h"
@@ -233,6 +234,28 @@ TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
   const fsm::Image photo = Drawn(200, [](glm::vec2) { return 90; });
   const OpenEye eye = EyeAcross(false);
   EXPECT_LT(FindIrises(photo, std::span(&eye, 1)).at(0).contrast, kClearRing);
+}
+
+TEST(RedEyeTest, WhatAFlashThrowsBackIsDarkenedAndIrisesStay) {
+  const glm::vec3 skin(215, 190, 155), warm(210, 140, 80);
+  for (const glm::vec3 flash : {glm::vec3(225, 90, 90), {190, 60, 70}, {240, 130, 120}}) {
+    const glm::vec3 pupil = WithoutRedEye(flash, skin, RedEye(flash, skin));
+    EXPECT_LT(pupil.r, 80) << flash.r;
+    EXPECT_NEAR(pupil.r, pupil.g, 12) << flash.r;
+  }
+  // Brown in daylight and in weak warm light, amber, blue, a dark pupil, a white reflection.
+  for (const glm::vec3 iris : {glm::vec3(110, 70, 40),
+                               {70, 45, 35},
+                               {150, 100, 45},
+                               {90, 120, 160},
+                               {25, 18, 16},
+                               {250, 245, 240}}) {
+    EXPECT_LT(RedEye(iris, skin), 0.05F) << iris.r;
+  }
+  EXPECT_LT(RedEye({90, 45, 15}, warm), 0.05F);
+  // Where red has run over the edge it is taken away, too, but nothing else beside it.
+  EXPECT_LT(WithoutRedEye({110, 70, 65}, skin, 1).r, 60);
+  EXPECT_EQ(WithoutRedEye({200, 195, 185}, skin, 1), glm::vec3(200, 195, 185));
 }
 
 TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
