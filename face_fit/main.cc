@@ -98,7 +98,7 @@ facefit::FoundFace FindFace(const Options& options, facefit::FaceNetworks& netwo
   }
   facefit::FoundFace face =
       facefit::FindPoints(networks, photo, boxes[static_cast<std::size_t>(options.face - 1)]);
-  if (face.certainty < 0.5F) {
+  if (face.certainty < facefit::kCertainFace) {
     throw std::runtime_error("what looked like a face in '" + options.photo +
                              "' has no eyes, nose and mouth that can be told apart" + by_hand);
   }

@@ -144,7 +144,7 @@ std::vector<FaceBox> Apart(FaceNetworks& networks, const fsm::Image& image,
   if (apart.size() > 1) {
     std::vector<FaceBox> faces;
     for (const FaceBox& face : apart) {
-      if (FindPoints(networks, image, face).certainty >= 0.5F) faces.push_back(face);
+      if (FindPoints(networks, image, face).certainty >= kCertainFace) faces.push_back(face);
     }
     if (!faces.empty()) apart = std::move(faces);
   }
