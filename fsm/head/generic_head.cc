@@ -57,7 +57,7 @@ class GenericHead : public Head {
       eye_.ScaleIris(set->iris_size);
       // A photographer's light comes from the front and reaches into the mouth.
       identity_.palette.tooth *= 0.67f * set->teeth;
-      identity_.palette.tongue *= 1.5f * set->teeth;
+      identity_.palette.tongue *= 1.9f * set->teeth;
     }
     asymmetric_ = asymmetric;
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));

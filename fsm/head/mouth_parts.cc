@@ -169,11 +169,12 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       const float groove = 1.6f * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
-      const float lit = SmoothStep(0.3f, 1.0f, part) *
-                        glm::mix(SmoothStep(0.1f, 1.0f, up), SmoothStep(-0.2f, 0.9f, up), part);
+      const float lit = SmoothStep(0.25f, 0.95f, part) * SmoothStep(0.05f, 1.0f, up);
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
-      mesh.Add(p, palette.tongue, 0.03f + 0.84f * lit, Bone::kTongue, flesh);
+      // Its outline is lost in the dark of the mouth.
+      const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
+      mesh.Add(p, colour, 0.10f + 0.77f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

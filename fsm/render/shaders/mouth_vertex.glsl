@@ -28,7 +28,7 @@ const float kBehindTeeth = 9.0;  // behind the lips
 const float kRoom = 0.27;   // the lamps' part in it
 const float kBounced = 0.8;   // of light on the walls, how much they give back to each other
 
-const float kSeeps = 0.04;  // through cheeks and lips: a mouth that is hardly open is not black
+const float kSeeps = 0.03;  // through cheeks and lips: a mouth that is hardly open is not black
 const vec3 kThroughFlesh = vec3(1.0, 0.5, 0.42);
 
 vec3 RingAt(int i, float deep) {
