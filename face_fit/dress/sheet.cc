@@ -85,15 +85,9 @@ class OpeningsOfHead {
     ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + kLips, 10, kJawFalls};
   }
   /// `p`: in the head's frame.
+  bool BehindMouth(glm::vec3 p) const { return Behind(ovals_[2], p); }
   bool Behind(glm::vec3 p) const {
-    // Further back there is the hair at the nape.
-    constexpr float kBehind = 90;
-    return std::ranges::any_of(ovals_, [p](const Oval& oval) {
-      if (p.z < oval.middle.z - kBehind) return false;
-      const glm::vec2 off = glm::vec2(p - oval.middle);
-      const glm::vec2 part = off / glm::vec2(oval.half, off.y > 0 ? oval.above : oval.below);
-      return glm::dot(part, part) < 1;
-    });
+    return std::ranges::any_of(ovals_, [p](const Oval& oval) { return Behind(oval, p); });
   }
 
  private:
@@ -101,6 +95,14 @@ class OpeningsOfHead {
     glm::vec3 middle{0};
     float half = 1, above = 1, below = 1;
   };
+  static bool Behind(const Oval& oval, glm::vec3 p) {
+    // Further back there is the hair at the nape.
+    constexpr float kBehind = 90;
+    if (p.z < oval.middle.z - kBehind) return false;
+    const glm::vec2 off = glm::vec2(p - oval.middle);
+    const glm::vec2 part = off / glm::vec2(oval.half, off.y > 0 ? oval.above : oval.below);
+    return glm::dot(part, part) < 1;
+  }
   std::array<Oval, 3> ovals_{};
 };
 
@@ -223,7 +225,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   constexpr float kBeyond = 90;  // millimetres
   const glm::vec2 origin = glm::vec2(-kBeyond * mm, 0);
   const glm::vec2 extent = size + glm::vec2(2 * kBeyond, kBeyond) * mm;
-  const float cell = std::max(4.5F * mm, std::sqrt(extent.x * extent.y / 9000));
+  const float cell = std::max(4.5F * mm, std::sqrt(extent.x * extent.y / 14000));
   const int columns = static_cast<int>(extent.x / cell) + 2,
             rows = static_cast<int>(extent.y / cell) + 2;
   const float chin = ChinY(base, fit);
@@ -295,10 +297,17 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   const Field within = Blurred(covered, rim);
   const OpeningsOfHead openings(base, fit);
+  const auto about = [&](int x, int y) {
+    return fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), depth.at[depth.Index(x, y)]));
+  };
   const auto hidden = [&](int x, int y) {
-    const std::size_t i = depth.Index(x, y);
-    return within.at[i] > 0.999F ||
-           openings.Behind(fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), depth.at[i])));
+    return within.at[depth.Index(x, y)] > 0.999F || openings.Behind(about(x, y));
+  };
+  // Of a photo of few pixels a cell is wider than what is left between lips and cheek.
+  const auto in_mouth = [&](int x, int y) {
+    int corners = 0;
+    for (int k = 0; k < 4; ++k) corners += openings.BehindMouth(about(x + k % 2, y + k / 2));
+    return corners >= 2;
   };
   set.sheet.clear();
   set.sheet_triangles.clear();
@@ -321,6 +330,7 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
         continue;
       }
       if (hidden(x, y) && hidden(x + 1, y) && hidden(x, y + 1) && hidden(x + 1, y + 1)) continue;
+      if (in_mouth(x, y)) continue;
       const auto at = [&](int dx, int dy) {
         return static_cast<std::uint32_t>(depth.Index(x + dx, y + dy));
       };

@@ -343,5 +343,21 @@ TEST_F(SheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   EXPECT_GT(set.sheet_triangles.size(), 600U);
 }
 
+TEST_F(SheetTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
+  // A head that is small in its photo: a cell is 9 mm wide.
+  fit_.pose.focal = 250;
+  fit_.pose.turn.y = glm::radians(15.0F);
+  const fsm::FaceSet set = Sheet();
+  const glm::vec3 right = base_->places[78].On(base_->rest.position),
+                  left = base_->places[308].On(base_->rest.position);
+  for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
+    const glm::vec3 p = 0.5F * (set.sheet[set.sheet_triangles[i]].position +
+                                set.sheet[set.sheet_triangles[i + 2]].position);
+    if (p.z < right.z - 80) continue;
+    const bool behind = p.x > right.x && p.x < left.x && p.y < right.y && p.y > right.y - 20;
+    EXPECT_FALSE(behind) << p.x << " " << p.y;
+  }
+}
+
 }  // namespace
 }  // namespace facefit
