@@ -68,8 +68,8 @@ std::string WarnOfEyes(const Fit& fit) {
                      : "";
 }
 
-/// Of 21 faces of people the limits were not set on what lay beyond 1.5 was hair or paint, and what
-/// lay below, hard light, shut eyes and turned heads.
+/// Of 21 faces of people the limits were not set on two of three beyond 1.5 had hair before them;
+/// below, paint, hard light and turned heads were taken for something.
 std::string WarnOfCover(const Cover& cover) {
   constexpr float kSurely = 1.5F;
   if (cover.measure < 1) return "";
