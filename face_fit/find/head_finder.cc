@@ -10,6 +10,7 @@
 
 #include "face_fit/find/lid_edges.h"
 #include "face_fit/find/lip_seam.h"
+#include "face_fit/find/symmetry.h"
 #include "face_fit/fit/base_head.h"
 
 namespace facefit {
@@ -54,32 +55,6 @@ fsm::FacePart PartOf(int point) {
   if (among(kUpperLids)) return fsm::FacePart::kUpperLid;
   if (among(kLowerLids)) return fsm::FacePart::kLowerLid;
   return fsm::FacePart::kPlain;
-}
-
-/// Heads are made symmetric, and so is ours: where a place and its opposite nearly mirror each
-/// other their mean is nearer to the truth than what the network saw of each. `place` brings the
-/// pairs' `to` into our frame.
-void Balance(const fsm::Similarity& place, std::vector<fsm::PlacePair>& pairs) {
-  constexpr glm::vec3 kMirror(-1, 1, 1);
-  constexpr float kSame = 5, kNear = 7;  // millimetres: opposite on our face; on the other
-  std::vector<fsm::PlacePair> ours = pairs;
-  for (auto& pair : ours) pair.to = place(pair.to);
-  const std::vector<fsm::PlacePair> seen = ours;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const auto opposite = std::ranges::min_element(seen, {}, [&](const fsm::PlacePair& other) {
-      return other.part == seen[i].part ? glm::distance(kMirror * other.from, seen[i].from) : 1e9F;
-    });
-    if (glm::distance(kMirror * opposite->from, seen[i].from) > kSame ||
-        glm::distance(kMirror * opposite->to, seen[i].to) > kNear) {
-      continue;
-    }
-    ours[i].from = 0.5F * (seen[i].from + kMirror * opposite->from);
-    ours[i].to = 0.5F * (seen[i].to + kMirror * opposite->to);
-  }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[i].from = ours[i].from;
-    pairs[i].to = glm::transpose(place.turn) * ((ours[i].to - place.move) / place.scale);
-  }
 }
 
 /// A head with what its surface is made of.
@@ -170,8 +145,10 @@ fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file
         continue;  // nothing is seen from there
       }
       // Once more, as large and straight as our own head was looked at.
+      LeaveOutStrays(*first);
       const fsm::Similarity straight = fsm::FitSimilarity(*first);
       fsm::HeadPoints points{face, pairs(see(straight), straight)};
+      LeaveOutStrays(points.pairs);
       Balance(fsm::FitSimilarity(points.pairs), points.pairs);
       return points;
     }

@@ -14,8 +14,7 @@
 namespace fsm {
 namespace {
 
-/// Marks a surface's lips and lids by the ways from those of the pairs that lie on them, and what
-/// of it is seen.
+/// Marks a surface's lips and lids by the ways from those of the pairs that lie on them.
 void MarkParts(WeldedSurface& surface, std::span<const PlacePair> pairs, bool from) {
   const auto seeds = [&](FacePart part) {
     std::vector<glm::vec3> places;
@@ -37,7 +36,6 @@ void MarkParts(WeldedSurface& surface, std::span<const PlacePair> pairs, bool fr
   };
   mark(FacePart::kUpperLip, FacePart::kLowerLip, 40, 12, surface.lip);
   mark(FacePart::kUpperLid, FacePart::kLowerLid, 20, 8, surface.lid);
-  surface.FindSeen();
 }
 
 /// Spreads values over a surface; those with no weight of their own take their neighbours'.
@@ -96,13 +94,14 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   if (pairs.size() < 8) {
     throw std::runtime_error("at least eight places that both faces have are needed");
   }
-  const WeldedSurface rest = [&] {
-    WeldedSurface surface(from.position, from.triangles, from.sewn);
-    MarkParts(surface, pairs, true);
+  const auto prepared = [&pairs](const CarrySurface& face, bool is_from) {
+    WeldedSurface surface(face.position, face.triangles, face.sewn);
+    MarkParts(surface, pairs, is_from);
+    surface.FindSeen(face.position, face.eyes);
     return surface;
-  }();
-  WeldedSurface target(to.position, to.triangles, to.sewn);
-  MarkParts(target, pairs, false);
+  };
+  const WeldedSurface rest = prepared(from, true);
+  WeldedSurface target = prepared(to, false);
 
   std::vector<WarpPoint> points;
   for (const PlacePair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});

@@ -24,6 +24,7 @@ struct CarrySurface {
   /// Vertices are doubled where the texture is sewn together. Else two at one place are two, as
   /// where closed lips meet.
   bool sewn = false;
+  std::span<const std::uint32_t> eyes = {};  ///< triangles of the eyeballs: sockets are behind them
 };
 
 /// Carries displacements of one face over to another, whatever its mesh: landmarks guide a radial

@@ -73,6 +73,8 @@ MeshModel ModelOf(const HeadFile& file, const Similarity& place, float mouth_y);
 
 /// The triangles of a built-in head's skin, lips and mouth.
 std::vector<std::uint32_t> FleshOf(const HeadTopology& topology);
+/// Those of its eyeballs.
+std::vector<std::uint32_t> EyesOf(const HeadTopology& topology);
 
 /// Stands still, but for head, eyes and jaw.
 std::unique_ptr<MeshMotion> StillMotion();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,6 +25,17 @@ FaceState FaceOnly(FaceState state) {
   return state;
 }
 
+std::vector<std::uint32_t> TrianglesOf(const HeadTopology& topology,
+                                       std::initializer_list<Material> materials) {
+  std::vector<std::uint32_t> out;
+  for (const auto& part : topology.parts) {
+    if (std::ranges::find(materials, part.material) == materials.end()) continue;
+    const auto first = topology.indices.begin() + part.first_index;
+    out.insert(out.end(), first, first + part.index_count);
+  }
+  return out;
+}
+
 class Still : public MeshMotion {
  public:
   JawMove Move(const FaceState&, const Pose& pose, std::span<glm::vec3>) const override {
@@ -36,8 +48,8 @@ class Carried : public MeshMotion {
   Carried(const MeshModel& model, std::unique_ptr<Head> source, std::span<const PlacePair> pairs)
       : source_(std::move(source)),
         rest_(Rest(*source_)),
-        carry_({rest_, FleshOf(source_->topology())},
-               {model.position, model.FleshTriangles(), model.sewn}, pairs) {}
+        carry_({rest_, FleshOf(source_->topology()), false, EyesOf(source_->topology())},
+               {model.position, model.FleshTriangles(), model.sewn, model.EyeTriangles()}, pairs) {}
 
   JawMove Move(const FaceState& state, const Pose& pose,
                std::span<glm::vec3> position) const override {
@@ -232,16 +244,11 @@ class OwnShapes : public MeshMotion {
 }  // namespace
 
 std::vector<std::uint32_t> FleshOf(const HeadTopology& topology) {
-  std::vector<std::uint32_t> flesh;
-  for (const auto& part : topology.parts) {
-    if (part.material != Material::kSkin && part.material != Material::kLip &&
-        part.material != Material::kMouthInside) {
-      continue;
-    }
-    const auto first = topology.indices.begin() + part.first_index;
-    flesh.insert(flesh.end(), first, first + part.index_count);
-  }
-  return flesh;
+  return TrianglesOf(topology, {Material::kSkin, Material::kLip, Material::kMouthInside});
+}
+
+std::vector<std::uint32_t> EyesOf(const HeadTopology& topology) {
+  return TrianglesOf(topology, {Material::kSclera, Material::kIris, Material::kPupil});
 }
 
 std::unique_ptr<MeshMotion> StillMotion() { return std::make_unique<Still>(); }

@@ -32,17 +32,31 @@ HeadMesh::Batch& MeshModel::BatchOf(Material material, int finish, bool two_side
   return batches.emplace_back(HeadMesh::Batch{material, {}, finish, two_sided});
 }
 
-std::vector<std::uint32_t> MeshModel::FleshTriangles() const {
-  std::vector<std::uint32_t> flesh;
-  for (const auto& batch : batches) {
+namespace {
+
+/// The triangles whose corners all belong to a bone that `is` says.
+template <typename Is>
+std::vector<std::uint32_t> TrianglesOf(const MeshModel& model, Is is) {
+  std::vector<std::uint32_t> out;
+  for (const auto& batch : model.batches) {
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
       const std::uint32_t* t = &batch.indices[i];
-      if (std::all_of(t, t + 3, [this](std::uint32_t v) { return bone[v] == Bone::kFlesh; })) {
-        flesh.insert(flesh.end(), t, t + 3);
+      if (std::all_of(t, t + 3, [&](std::uint32_t v) { return is(model.bone[v]); })) {
+        out.insert(out.end(), t, t + 3);
       }
     }
   }
-  return flesh;
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> MeshModel::FleshTriangles() const {
+  return TrianglesOf(*this, [](Bone b) { return b == Bone::kFlesh; });
+}
+
+std::vector<std::uint32_t> MeshModel::EyeTriangles() const {
+  return TrianglesOf(*this, [](Bone b) { return b == Bone::kEyeRight || b == Bone::kEyeLeft; });
 }
 
 Gaze GazeOf(const glm::mat3& eye) {

@@ -66,6 +66,7 @@ struct MeshModel {
   HeadMesh::Batch& BatchOf(Material material, int finish, bool two_sided);
   /// Every triangle of flesh, three corners each.
   std::vector<std::uint32_t> FleshTriangles() const;
+  std::vector<std::uint32_t> EyeTriangles() const;  ///< those of the eyeballs
   /// An eyeball with an iris about eyes[side], in our own colours.
   void AddBall(std::size_t side);
 };

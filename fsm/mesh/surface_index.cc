@@ -105,7 +105,8 @@ void WeldedSurface::FindNormals() {
   for (glm::vec3& n : normal) n /= std::max(glm::length(n), 1e-12f);
 }
 
-void WeldedSurface::FindSeen() {
+void WeldedSurface::FindSeen(std::span<const glm::vec3> position,
+                             std::span<const std::uint32_t> eyes) {
   constexpr float kCell = 1, kClear = 0.5f, kBehind = 3;  // millimetres
   constexpr int kMost = 2000;
   seen.assign(at.size(), 1);
@@ -121,23 +122,27 @@ void WeldedSurface::FindSeen() {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
            static_cast<std::size_t>(x);
   };
-  for (const auto& t : triangles) {
-    const glm::vec2 a(at[t[0]]), b(at[t[1]]), c(at[t[2]]);
+  const auto draw = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
     const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    if (area <= 1e-6f) continue;  // turned away
-    const glm::ivec2 from(glm::max((glm::min(a, glm::min(b, c)) - low) / kCell, 0.0f));
-    const glm::ivec2 to =
-        glm::min(glm::ivec2((glm::max(a, glm::max(b, c)) - low) / kCell) + 1, size - 1);
+    if (area <= 1e-6f) return;  // turned away
+    const glm::vec2 least = glm::min(glm::vec2(a), glm::min(glm::vec2(b), glm::vec2(c)));
+    const glm::vec2 most = glm::max(glm::vec2(a), glm::max(glm::vec2(b), glm::vec2(c)));
+    const glm::ivec2 from(glm::max((least - low) / kCell, 0.0f));
+    const glm::ivec2 to = glm::min(glm::ivec2(glm::max(most - low, 0.0f) / kCell) + 1, size - 1);
     for (int y = from.y; y <= to.y; ++y) {
       for (int x = from.x; x <= to.x; ++x) {
         const glm::vec2 p = low + kCell * glm::vec2(x, y);
         const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
         const float v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
         if (u < 0 || v < 0 || u + v > 1) continue;
-        const float z = at[t[0]].z * (1 - u - v) + at[t[1]].z * u + at[t[2]].z * v;
+        const float z = a.z * (1 - u - v) + b.z * u + c.z * v;
         front[index(x, y)] = std::max(front[index(x, y)], z);
       }
     }
+  };
+  for (const auto& t : triangles) draw(at[t[0]], at[t[1]], at[t[2]]);
+  for (std::size_t k = 0; k + 2 < eyes.size(); k += 3) {
+    draw(position[eyes[k]], position[eyes[k + 1]], position[eyes[k + 2]]);
   }
   for (std::size_t i = 0; i < at.size(); ++i) {
     const glm::ivec2 cell = glm::min(glm::ivec2((glm::vec2(at[i]) - low) / kCell), size - 2);
@@ -210,7 +215,9 @@ std::int64_t SurfaceIndex::Cell(glm::ivec3 c) const {
 std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
                                                     std::size_t vertex) const {
   // Millimetres that a difference counts: turned away, on the other lip, on the other lid, hidden.
-  constexpr float kTurned = 4, kLip = 14, kLid = 9, kHidden = 10;
+  // Only opposites are kept apart: how clearly a place belongs to one, at a corner or within the
+  // mouth, differs from head to head.
+  constexpr float kTurned = 4, kLip = 28, kLid = 18, kHidden = 10;
   const glm::vec3 p = other.at[vertex], normal = other.normal[vertex];
   constexpr float kLeastFacing = 0.15f;
   std::optional<Hit> best;
@@ -235,8 +242,9 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
           const float facing = glm::dot(normal, mix(surface_.normal));
           if (facing < kLeastFacing) continue;
           const float turned = kTurned * (1 - facing);
-          const float lip = kLip * (other.lip[vertex] - mix(surface_.lip));
-          const float lid = kLid * (other.lid[vertex] - mix(surface_.lid));
+          const auto opposite = [](float a, float b) { return std::max(-a * b, 0.0f); };
+          const float lip = kLip * opposite(other.lip[vertex], mix(surface_.lip));
+          const float lid = kLid * opposite(other.lid[vertex], mix(surface_.lid));
           const float hidden = kHidden * (other.seen[vertex] - mix(surface_.seen));
           cost += turned * turned + lip * lip + lid * lid + hidden * hidden;
           if (cost >= least) continue;

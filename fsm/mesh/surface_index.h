@@ -31,7 +31,9 @@ class WeldedSurface {
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   void FindNormals();
-  void FindSeen();
+  /// `eyes`: triangles of the eyeballs, which hide what lies behind them; of the vertices
+  /// `position`.
+  void FindSeen(std::span<const glm::vec3> position, std::span<const std::uint32_t> eyes);
   std::uint32_t Nearest(glm::vec3 p) const;
   /// Distances along edges from the vertices nearest to the seeds, up to `reach`; beyond it
   /// `reach`.

@@ -1,0 +1,96 @@
+#include "face_fit/find/symmetry.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <iterator>
+#include <span>
+
+namespace facefit {
+namespace {
+
+constexpr glm::vec3 kMirror(-1, 1, 1);
+
+/// The pair on the other side of our face, or none.
+const fsm::PlacePair* Opposite(const fsm::PlacePair& pair, std::span<const fsm::PlacePair> pairs) {
+  constexpr float kSame = 5;  // millimetres
+  const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PlacePair& other) {
+    return other.part == pair.part ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
+  });
+  return glm::distance(kMirror * nearest->from, pair.from) > kSame ? nullptr : &*nearest;
+}
+
+/// What a head is symmetric about.
+struct MirrorPlane {
+  glm::vec3 at, normal;
+  glm::vec3 Mirrored(glm::vec3 p) const { return p - 2 * glm::dot(p - at, normal) * normal; }
+};
+
+float Median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// By the ways across from one side to the other and by their middles, which a few points that are
+/// off do not turn.
+MirrorPlane FindMirror(std::span<const fsm::PlacePair> pairs) {
+  constexpr float kApart = 20;  // millimetres
+  std::vector<float> up, ahead, middles;
+  for (const auto& pair : pairs) {
+    const auto* other = Opposite(pair, pairs);
+    if (!other || pair.to.x - other->to.x < kApart) continue;
+    const glm::vec3 across = pair.to - other->to;
+    up.push_back(across.y / across.x);
+    ahead.push_back(across.z / across.x);
+  }
+  if (up.empty()) return {glm::vec3(0), {1, 0, 0}};
+  const glm::vec3 normal = glm::normalize(glm::vec3(1, Median(up), Median(ahead)));
+  for (const auto& pair : pairs) {
+    const auto* other = Opposite(pair, pairs);
+    if (other) middles.push_back(0.5F * glm::dot(pair.to + other->to, normal));
+  }
+  return {Median(middles) * normal, normal};
+}
+
+}  // namespace
+
+void LeaveOutStrays(std::vector<fsm::PlacePair>& pairs) {
+  constexpr float kLeast = 8, kTimes = 3;  // millimetres; of the middle of all distances
+  constexpr int kRounds = 6;
+  std::vector<fsm::PlacePair> kept = pairs;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto place = fsm::FitSimilarity(kept);
+    const auto off = [&place](const fsm::PlacePair& pair) {
+      return glm::distance(place(pair.to), pair.from);
+    };
+    std::vector<float> sorted;
+    for (const auto& pair : pairs) sorted.push_back(off(pair));
+    std::ranges::sort(sorted);
+    const float limit = std::max(kLeast, kTimes * sorted[sorted.size() / 2]);
+    kept.clear();
+    std::ranges::copy_if(pairs, std::back_inserter(kept),
+                         [&](const auto& pair) { return off(pair) <= limit; });
+  }
+  pairs = std::move(kept);
+}
+
+void Balance(const fsm::Similarity& place, std::vector<fsm::PlacePair>& pairs) {
+  constexpr float kNear = 7;  // millimetres
+  std::vector<fsm::PlacePair> seen = pairs;
+  for (auto& pair : seen) pair.to = place(pair.to);
+  const MirrorPlane mirror = FindMirror(seen);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto* opposite = Opposite(seen[i], seen);
+    if (!opposite) continue;
+    const glm::vec3 there = mirror.Mirrored(opposite->to);
+    if (glm::distance(there, seen[i].to) > kNear) continue;
+    pairs[i].from = 0.5F * (seen[i].from + kMirror * opposite->from);
+    const glm::vec3 to = 0.5F * (seen[i].to + there);
+    pairs[i].to = glm::transpose(place.turn) * ((to - place.move) / place.scale);
+  }
+}
+
+}  // namespace facefit
