@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
+#include <string_view>
 
 #include "fsm/head/face_set.h"
 #include "fsm/render/camera.h"
@@ -186,6 +187,49 @@ TEST(MouthPictureTest, TheChinsShadowDoesNotReachBeyondTheNeck) {
     };
     EXPECT_NEAR(beside(0.8F), beside(0), 6) << y;
   }
+}
+
+/// A photo with a neck that does not say where its lips part, as heads from elsewhere may not.
+class WithoutMouth : public Head {
+ public:
+  WithoutMouth() : head_(WithNeck()), topology_(head_->topology()) { topology_.mouth = {}; }
+  const HeadTopology& topology() const override { return topology_; }
+  void Evaluate(const FaceState& state, HeadVertices& out) const override {
+    head_->Evaluate(state, out);
+  }
+  MouthMeasure MeasureMouth(const FaceState&) const override { return {}; }
+  glm::vec3 Landmark(std::string_view name) const override { return head_->Landmark(name); }
+
+ private:
+  std::unique_ptr<Head> head_;
+  HeadTopology topology_;
+};
+
+TEST(MouthPictureTest, AHeadThatSaysNothingOfItsLipsTakesNothingFromTheOneDrawnBefore) {
+  const WithoutMouth second;
+  const auto first = WithNeck();
+  Scene scene;
+  scene.camera = {.distance = 0.4F, .height_mm = -40};
+  const auto drawn = [&](const Head* before) {
+    const auto context = RenderContext::MakeHeadless(kSide, kSide);
+    const auto renderer = Renderer::Make(*context);
+    HeadVertices vertices;
+    if (before) {
+      FaceState open;
+      open.au_left[26] = open.au_right[26] = 1;
+      before->Evaluate(open, vertices);
+      renderer->Draw(*before, vertices, open, scene);
+    }
+    second.Evaluate({}, vertices);
+    renderer->Draw(second, vertices, {}, scene);
+    Image image;
+    renderer->Read(image);
+    return image.rgba;
+  };
+  const auto alone = drawn(nullptr), after = drawn(first.get());
+  int other = 0;
+  for (std::size_t i = 0; i < alone.size(); ++i) other += alone[i] != after[i] ? 1 : 0;
+  EXPECT_EQ(other, 0) << "bytes of the picture";
 }
 
 }  // namespace
