@@ -5,6 +5,7 @@ It is a client of the hub like any other program: what you type goes to the ear 
 speech, the ear's result comes back, and the answer goes to the hub's Speak macro.
 Usage: demo_dialogue.py SOCKET [VOICE MODULE]
 """
+import os
 import random
 import select
 import socket
@@ -45,6 +46,22 @@ class Hub:
         return [line.decode(errors="replace") for line in lines]
 
 
+class Typed:
+    """Lines from the terminal or a pipe. Python's own reader keeps what came at once with the first."""
+
+    def __init__(self):
+        self.rest = b""
+
+    def lines(self):
+        """What has arrived; None at the end."""
+        data = os.read(sys.stdin.fileno(), 65536)
+        if not data:
+            last, self.rest = self.rest, b""
+            return [last.decode(errors="replace")] if last else None
+        *lines, self.rest = (self.rest + data).split(b"\n")
+        return [line.decode(errors="replace") for line in lines]
+
+
 def answer(text):
     words = "".join(c if c.isalnum() else " " for c in text.lower()).split()
     for keys, feeling, sentences in RULES:
@@ -71,16 +88,18 @@ def main():
     hub.send("to @AM-MCL set#said Speak = Hello! I am Galatea. Please type something to me.")
     print("Galatea: Hello! I am Galatea. Please type something to me.", flush=True)
     watched = [hub.socket, sys.stdin]
+    typed = Typed()
     while True:
         ready, _, _ = select.select(watched, [], [])
         if sys.stdin in ready:
-            typed = sys.stdin.readline()
-            if not typed:
+            lines = typed.lines()
+            if lines is None:
                 watched.remove(sys.stdin)
                 leaving = True
                 hub.send("to @AM-MCL inq#said Speak.stat")  # leave at once if nothing is being said
-            elif typed.strip():
-                hub.send("to @SRM set Input.text = " + typed.strip())
+            for line in lines or []:
+                if line.strip():
+                    hub.send("to @SRM set Input.text = " + line.strip())
         if hub.socket in ready:
             lines = hub.lines()
             if lines is None:

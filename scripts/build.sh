@@ -1,7 +1,13 @@
 #!/usr/bin/env bash
-# Builds everything into build/ (or the folder given). Programs end up in build/bin/.
-#   scripts/build.sh [FOLDER] [cmake options...]
+# Builds everything into build/ (or the folder given), with --programs all but the tests. Programs end
+# up in build/bin/.
+#   scripts/build.sh [--programs] [FOLDER] [cmake options...]
 set -euo pipefail
+target=all
+if [ "${1:-}" = --programs ]; then
+  target=programs
+  shift
+fi
 root=$(cd "$(dirname "$0")/.." && pwd)
 folder=${1:-$root/build}
 [ $# -gt 0 ] && shift
@@ -15,4 +21,4 @@ fi
 jobs=$(nproc)
 memory_gib=$(awk '/MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
 [ "$memory_gib" -lt "$jobs" ] && jobs=$((memory_gib > 1 ? memory_gib : 1))
-cmake --build "$folder" --parallel "$jobs"
+cmake --build "$folder" --target "$target" --parallel "$jobs"

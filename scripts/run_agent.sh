@@ -72,12 +72,13 @@ if [[ $emotion == *" "* ]] && { ! [[ ${emotion#* } =~ ^[0-9]{1,3}$ ]] || [ "${em
 fi
 
 cd "$root"
-"$root/scripts/setup.sh"
-"$root/scripts/build.sh" >/tmp/galatea-build.$$ 2>&1 || { cat /tmp/galatea-build.$$ >&2; rm -f /tmp/galatea-build.$$; fail "the build failed"; }
+# What is typed meanwhile is for the agent: nothing before it reads it.
+"$root/scripts/setup.sh" </dev/null
+"$root/scripts/build.sh" --programs </dev/null >/tmp/galatea-build.$$ 2>&1 || { cat /tmp/galatea-build.$$ >&2; rm -f /tmp/galatea-build.$$; fail "the build failed"; }
 rm -f /tmp/galatea-build.$$
 
 # A display counts only if a window can really be opened on it.
-has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$root/build/bin/fsm" --window --slots-markdown >/dev/null 2>&1; }
+has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$root/build/bin/fsm" --window --slots-markdown </dev/null >/dev/null 2>&1; }
 if [ -n "$out" ]; then
   film=1
 elif has_display; then
@@ -98,9 +99,9 @@ cleanup() {
 trap cleanup EXIT
 
 if [ -n "$photo" ]; then
-  "$root/scripts/face_networks.sh"
+  "$root/scripts/face_networks.sh" </dev/null
   export GALATEA_FACES=$work/faces
-  "$root/build/bin/face_fit" "$photo" --name photo >&2 || fail "no face could be made from the photo"
+  "$root/build/bin/face_fit" "$photo" --name photo </dev/null >&2 || fail "no face could be made from the photo"
 fi
 if [ -z "$config" ]; then
   config=$work/agent.json
