@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <boost/asio/post.hpp>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -118,17 +119,20 @@ std::unique_ptr<vm::Module> MakeModule(const Options& options, vm::Scheduler& sc
                                        boost::asio::io_context& io) {
   auto& clock = dynamic_cast<vm::ClockScheduler&>(scheduler);
   ssm::SinkChoice choice = options.sink;
+  std::string notice;
   if (!clock.real()) {
     if (choice.kind == ssm::SinkChoice::Kind::kPortAudio) {
       throw std::runtime_error("--sink portaudio needs the real clock (--clock real)");
     }
     if (choice.kind == ssm::SinkChoice::Kind::kAuto) {
       choice.kind = ssm::SinkChoice::Kind::kNull;
-      Notice("the clock is virtual, so nothing is heard; --sink file:PATH.wav keeps the sound");
+      notice = "the clock is virtual, so nothing is heard; --sink file:PATH.wav keeps the sound";
     }
   }
   ssm::OpenedSink opened = ssm::OpenSink(choice, scheduler);
-  if (!opened.notice.empty()) Notice(opened.notice);
+  if (!opened.notice.empty()) notice = opened.notice;
+  // Said once it runs: --slots-markdown only asks what there is.
+  if (!notice.empty()) boost::asio::post(io, [notice] { Notice(notice); });
   if (opened.sink->name().starts_with("portaudio:")) {
     opened.sink = std::make_unique<ssm::RealTimeSink>(clock, std::move(opened.sink));
   }

@@ -266,4 +266,18 @@ TEST_F(SsmProgramTest, ErrorTextsCanGoToAFileAndBack) {
   EXPECT_NE(program.ErrorText().find("Foo"), std::string::npos);
 }
 
+TEST(SsmNoticeTest, ThatNothingIsHeardIsSaidByWhatRunsAndNotByWhatOnlyTellsItsSlots) {
+  const std::string ssm = std::string(GALATEA_BIN_DIR) + "/ssm";
+  const auto errors = [&ssm](std::vector<std::string> argv) {
+    argv.insert(argv.begin(), ssm);
+    Process program(argv);
+    program.CloseInput();
+    program.ReadAll();
+    EXPECT_EQ(program.Wait().value_or(-1), 0);
+    return program.ErrorText();
+  };
+  EXPECT_EQ(errors({"--clock", "virtual", "--slots-markdown"}), "");
+  EXPECT_NE(errors({"--clock", "virtual"}).find("nothing is heard"), std::string::npos);
+}
+
 }  // namespace
