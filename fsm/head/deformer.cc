@@ -128,7 +128,9 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
     const UnitEffects::Lids& ask = pose.lids[static_cast<std::size_t>(lid.side)];
     const EyeSeat& seat = seats_[static_cast<std::size_t>(lid.side)];
     float upper = lid.upper_angle + lid.opening * (seat.upper_mm + ask.upper_mm) / kRadius;
-    float lower = lid.lower_angle + lid.opening * (seat.lower_mm + ask.lower_mm) / kRadius;
+    // A lower lid that is raised goes up nearly as far beside the middle, so that it stays a curve.
+    const float raised = ask.lower_mm * (ask.lower_mm > 0 ? std::sqrt(lid.opening) : lid.opening);
+    float lower = lid.lower_angle + (lid.opening * seat.lower_mm + raised) / kRadius;
     if (upper < lower) upper = lower = 0.5f * (upper + lower);
     upper += ask.close * (lid.meet_angle - upper);
     lower += ask.close * (lid.meet_angle - lower);

@@ -100,6 +100,16 @@ TEST(HeadUnitPartsTest, AWinkIsOfOneEye) {
   EXPECT_EQ(MidLids(wink, 0).upper, glm::vec3(0));
 }
 
+TEST(HeadUnitPartsTest, ARaisedLowerLidGoesUpBesideTheMiddleToo) {
+  const glm::vec3 middle = GenericHead().Landmark("palpebrale_inferius_left");
+  const glm::vec3 corner = GenericHead().Landmark("exocanthion_left");
+  const glm::vec2 beside = glm::mix(glm::vec2(middle), glm::vec2(corner), glm::vec2(0.55F, 0.3F));
+  const FaceState squint = WithUnit(7, 1);
+  const float up = MotionAt(middle.x, middle.y, squint).y;
+  ASSERT_GT(up, 0.8F);
+  EXPECT_GT(MotionAt(beside.x, beside.y, squint).y, 0.8F * up);
+}
+
 TEST(HeadUnitPartsTest, LipsPartWithoutTheJaw) {
   const MouthMeasure parted = GenericHead().MeasureMouth(WithUnit(25, 1));
   EXPECT_GE(parted.gap_mm, 2);

@@ -114,6 +114,10 @@ void main() {
     float rim = open[side].z - aside * aside * 0.65 * (open[side].z - open[side].y);
     shade = mix(mix(0.72, 0.5, edge), 1.0, smoothstep(-0.4, 1.7, rim - q.y)) *
             mix(0.8, 1.0, smoothstep(-0.3, 0.7, above_lower));
+    // A lower lid that squints brings its lashes and its shade along, most in the middle.
+    float raised = (lids[side].y - centre.y) / figure_scale - open[side].y;
+    shade *= 1.0 - 0.6 * smoothstep(0.3, 1.6, raised) *
+                       smoothstep(1.5 - 0.7 * aside * aside, -0.3, above_lower);
   }
 
   vec3 light = Ambient(n) * 0.9;
