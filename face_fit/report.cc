@@ -10,8 +10,6 @@
 namespace facefit {
 namespace {
 
-float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
-
 /// Mean difference of neighbouring pixels over the face, as part of its brightness: sharpness.
 float Sharpness(const FoundFace& face, const fsm::Image& photo) {
   float sum = 0, light = 0;

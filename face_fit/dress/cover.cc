@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/head/photo_wear.h"
+
 namespace facefit {
 
 SkinCover CoverWithSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& grid, float bottom,
@@ -23,9 +25,7 @@ SkinCover CoverWithSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& g
       bool low = false;
       for (int c = 0; c < 3; ++c) {
         const glm::vec3 v = fit.worn[t[c]];
-        // Behind the line of the jaw lies the neck, which is not the face's.
-        const float line = 30 * glm::smoothstep(48.0F, 36.0F, v.y - bottom);
-        low = low || v.y < bottom || v.z < line;
+        low = low || v.y < bottom || v.z < fsm::JawLine(v.y - bottom);
         q[c] = fit.pose.ToCamera(fit.worn[t[c]]);
         p[c] = (fit.pose.Project(q[c]) - grid.origin) / grid.cell;
       }

@@ -9,8 +9,6 @@
 namespace facefit {
 namespace {
 
-float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
-
 glm::vec3 Linear(glm::vec3 screen) {
   const glm::vec3 c = screen / 255.0F;
   return c * (c * (c * 0.305306F + 0.682171F) + 0.012523F);

@@ -5,10 +5,11 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
+#include "face_fit/picture/photo.h"
+
 namespace facefit {
 namespace {
 
-float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.6F * c.g + 0.1F * c.b; }
 float Redness(glm::vec3 c) { return std::log((c.r + 4) / (c.g + 4)); }
 
 /// The texels `which` of the map says, as the mean of those whose redness is `from` to `to` of the

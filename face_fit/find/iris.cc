@@ -9,8 +9,6 @@
 namespace facefit {
 namespace {
 
-float Brightness(glm::vec3 c) { return (0.3F * c.r + 0.5F * c.g + 0.2F * c.b) / 255; }
-
 constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
 constexpr std::array<float, 7> kSizes = {0.68F, 0.76F, 0.84F, 0.92F, 1.0F, 1.08F, 1.16F};
 
@@ -24,7 +22,7 @@ class Opening {
       // The rims' shade and the lashes are left out.
       for (float part = 0.22F; part < 0.9F; part += 0.095F) {
         const glm::vec2 at = lids_.Place(x, glm::mix(upper, lower, part));
-        samples_.push_back({at, Brightness(ColourAt(photo, at)), std::abs(lower - upper)});
+        samples_.push_back({at, Brightness(ColourAt(photo, at)) / 255, std::abs(lower - upper)});
         all.push_back(samples_.back().light);
       }
     }
@@ -84,7 +82,9 @@ class Opening {
     return std::min(step[0], step[1]) + 0.35F * std::max(step[0], step[1]);
   }
 
-  float Light(glm::vec2 at) const { return std::min(Brightness(ColourAt(photo_, at)), brightest_); }
+  float Light(glm::vec2 at) const {
+    return std::min(Brightness(ColourAt(photo_, at)) / 255, brightest_);
+  }
 
   /// How well the ring parts dark from bright: the deviation between the two (Otsu 1979), 0 where
   /// it is brighter within; and how much darker than all its inner half is, where the pupil lies.

@@ -24,8 +24,6 @@ constexpr int kOffsets = 25;  // looked at on the line across each place, half o
 /// As far as it is looked, by the mouth's width: a tenth of 50 mm.
 constexpr float kReach = 0.08F;
 
-float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
-
 }  // namespace
 
 bool LipsApart(const FoundFace& face) {

@@ -16,8 +16,6 @@ constexpr int kApart = 4;       // samples between the middles of patches
 constexpr float kAlike = 0.7F;  // correlation from which a patch counts as found
 constexpr std::size_t kFewest = 25;
 
-float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
-
 /// The fitted skin as the first photo shows it, on a grid.
 struct Seen {
   int columns = 0, rows = 0;

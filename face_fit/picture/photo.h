@@ -36,4 +36,7 @@ fsm::Image ScaledDown(const fsm::Image& image, int width, int height);
 /// Colour at a place (pixel centres at .5), between the pixels; the edge goes on outside. 0..255.
 glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at);
 
+/// How bright a colour is, in its own unit: of a face's reds more is counted than eyes would.
+inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
+
 }  // namespace facefit

@@ -67,13 +67,14 @@ float SeenSkin(const FaceSet& set, glm::vec3 p, glm::vec3 normal) {
   // Behind the chin the sheet keeps off: what it hides of its own underside is seen from the side.
   const float chin = SmoothStep(60, 45, above) * SmoothStep(40, 25, std::abs(p.x)) *
                      SmoothStep(0.0f, -0.25f, normal.y);
-  // Behind the jaw's line the neck faces the camera again: it is the sheet's.
-  const float line = 30 * SmoothStep(48, 36, above);
+  const float line = JawLine(above);
   const float face = SmoothStep(0.12f, 0.36f, faces) * SmoothStep(line - 2, line + 10, p.z);
   return std::max(face, chin) * SmoothStep(0, 6, above);
 }
 
 }  // namespace
+
+float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom); }
 
 glm::vec3 Wetter(glm::vec3 lip, float saturation) {
   return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);

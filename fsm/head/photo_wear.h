@@ -19,6 +19,11 @@ void AddSheet(const FaceSet& set, HeadMesh& mesh);
 /// `eye`: centre of the left one at rest, (x, y) of the base identity.
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
 
+/// How far forward (z, millimetres) the neck reaches at a height above FaceSet::skin_bottom_y:
+/// skin behind that faces the camera again, but is not the face's. What covers a photo with skin
+/// (face_fit) and what leaves skin out where the sheet is go by the same line.
+float JawLine(float above_bottom);
+
 /// Skin the photo does not show, behind the outline and below the jaw, where the sheet is: it goes,
 /// and what is beside it fades (Strand::cover). The nostrils, which are lined like the mouth,
 /// become skin: the photo shows how dark they are. `tags`: of the skin's vertices, the mesh's
