@@ -230,6 +230,23 @@ TEST(IrisTest, IsFoundBesideACornerInDeepShade) {
   EXPECT_LT(glm::distance(ring.centre, kCentre), 3.5F) << ring.centre.x;
 }
 
+TEST(IrisTest, IsWhereItIsDarkWithinNotBetweenTheShadowsOfTwoLashes) {
+  // Beside the iris two dark lines as far apart as one is wide, whose outer sides are the clearest
+  // steps there are. It is pale with a dark pupil, or dark throughout.
+  constexpr glm::vec2 kCentre(108, 97);
+  for (const auto& [pupil, pale] : {std::pair(15, 110), {95, 95}}) {
+    const fsm::Image photo = Drawn(200, [&](glm::vec2 p) {
+      if (p.y < 88 || p.y > 104) return 120;
+      const float far = glm::distance(p, kCentre);
+      if (far < 13) return far < 5 ? pupil : pale;
+      return std::abs(std::abs(p.x - 82) - 11) < 1.6F ? 70 : 170;
+    });
+    const OpenEye eye = EyeAcross(false);
+    const IrisRing ring = FindIrises(photo, std::span(&eye, 1)).at(0);
+    EXPECT_LT(glm::distance(ring.centre, kCentre), 4) << pupil << ": " << ring.centre.x;
+  }
+}
+
 TEST(IrisTest, IsNotImaginedInAnEvenPatch) {
   const fsm::Image photo = Drawn(200, [](glm::vec2) { return 90; });
   const OpenEye eye = EyeAcross(false);
