@@ -56,7 +56,11 @@ class GenericHead : public Head {
       lined_ = set->lined;
       eye_.ScaleIris(set->iris_size);
       // A photographer's light comes from the front and reaches into the mouth.
-      identity_.palette.tooth *= 0.67f * set->teeth;
+      // Teeth stand in the light whose hue the whites of the eyes show.
+      const glm::vec3 white = set->white_colour;
+      identity_.palette.tooth *=
+          0.67f * set->teeth *
+          glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}), 0.5f);
       identity_.palette.tongue *= 1.9f * set->teeth;
     }
     asymmetric_ = asymmetric;

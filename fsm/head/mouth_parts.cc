@@ -109,7 +109,7 @@ void AddArch(const Jaw& jaw, const Crowns& crowns, const Palette& palette, HeadM
       p.z += curve - thin - 0.75f * (1 - bump_at[i]);
       p.x *= 1 - 0.012f * thin;
       // Deep between the teeth and in the corners of the mouth there is little light.
-      const float crevice = 0.45f + 0.55f * SmoothStep(0.0f, 0.75f, bump_at[i]);
+      const float crevice = 0.6f + 0.4f * SmoothStep(0.0f, 0.75f, bump_at[i]);
       const glm::vec3 colour = Enamel(palette, tooth_at[i], Grain(tooth_at[i], 7), row);
       const float dark = glm::mix(jaw.upward > 0 ? 0.95f : 0.52f, 0.16f, SmoothStep(6, 32, back));
       mesh.Add(p, colour, crevice * dark * (row < -0.3f ? 0.4f : 1.0f), jaw.bone);

@@ -124,6 +124,20 @@ TEST(MouthPictureTest, UpperTeethAreDarkestUnderTheLip) {
   EXPECT_LT(at(0.15F), 0.93F * at(0.55F));
 }
 
+TEST(MouthPictureTest, TeethStandInTheHueThatTheWhitesOfTheEyesShow) {
+  const auto tooth = [](glm::vec3 white) {
+    FaceSet set = OneColour();
+    set.white_colour = white;
+    const MouthPicture picture(Head::Make(set), {{10, 1.0F}, {26, 0.5F}, {25, 1.0F}});
+    const glm::vec3 edge = picture.Vertex(picture.mouth().upper_incisor);
+    return picture.At(
+        glm::mix(picture.Lip(true, kIncisor), glm::vec3(kIncisor, edge.y, edge.z), 0.6F));
+  };
+  const glm::vec3 plain = tooth(glm::vec3(0.5F)), warm = tooth({0.5F, 0.35F, 0.25F});
+  EXPECT_GT(warm.r / warm.b, 1.1F * plain.r / plain.b);
+  EXPECT_NEAR(warm.r, plain.r, 4) << "no darker in what the light has most of";
+}
+
 TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
   const MouthPicture picture(InPhoto(), {{27, 0.8F}});
   const glm::vec3 teeth = picture.Vertex(picture.mouth().lower_incisor);
