@@ -142,6 +142,18 @@ glm::vec3 Lashed(glm::vec3 skin, float dark) {
   return skin * glm::pow(glm::vec3(1 - dark), brown);
 }
 
+/// The mean of the skin below an eye.
+glm::vec3 MeanBelow(std::span<const Sample> samples) {
+  glm::vec3 sum(1e-4f);
+  float weight = 1e-4f;
+  for (const Sample& s : samples) {
+    if (s.above) continue;
+    sum += s.known * s.screen;
+    weight += s.known;
+  }
+  return sum / weight;
+}
+
 /// A lid is of one skin with what lies below the eye; what it takes from above may be the shine of
 /// glasses, a rim, or lashes.
 glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) {
@@ -230,8 +242,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
     }
     Weigh(samples);
     const Membrane membrane(samples);
-    const glm::vec3 below_eye =
-        Median(samples, [](const Sample& s) { return s.known > 0.5f && !s.above; });
+    const glm::vec3 below_eye = MeanBelow(samples);
     const auto eyeless = [&](glm::vec2 at) { return OfHue(membrane.At(at), below_eye); };
     std::vector<Lender> below = lenders;
     std::erase_if(below,
@@ -260,7 +271,7 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const float ridge = SmoothStep(0.15f, 0.5f, down) * SmoothStep(0.95f, 0.6f, down);
       const float furrow = (at.y - rim - 0.6f) / 1.1f;
       const float round = (1 + SmoothStep(0.0f, 0.3f, down) *
-                                   (0.24f * ridge * (1 - 0.5f * inside) - 0.06f - 0.1f * inside)) *
+                                   (0.14f * ridge * (1 - 0.5f * inside) - 0.06f - 0.1f * inside)) *
                           (1 - 0.16f * (1 - inside) * std::exp(-furrow * furrow));
       const float lashes = (0.3f + 0.3f * outward) * SmoothStep(0.97f, 1.0f, f.lid_upper);
       const float part = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) *
