@@ -132,7 +132,7 @@ class Scan {
 /// there are several faces, those with eyes, nose and mouth.
 std::vector<FaceBox> Apart(FaceNetworks& networks, const fsm::Image& image,
                            std::vector<Sighting> found) {
-  std::ranges::stable_sort(found, std::greater<>(), &Sighting::rank);
+  std::ranges::sort(found, std::greater<>(), &Sighting::rank);
   std::vector<FaceBox> apart;
   for (const auto& [face, rank] : found) {
     if (std::ranges::none_of(apart, [&](const FaceBox& other) {

@@ -96,7 +96,8 @@ void main() {
   vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
   // What goes round between the walls is red.
   vec3 bounced = sky * kThroughFlesh * sqrt(amount + kSeeps) * kBounced *
-                 mix(0.35, 1.0, smoothstep(3.0, 12.0, inward)) * (1.0 - out_of_mouth);
+                 mix(0.35, 1.0, smoothstep(3.0, 12.0, inward)) *
+                 mix(1.0, 0.5, smoothstep(14.0, 40.0, inward)) * (1.0 - out_of_mouth);
 
   // The key lamp shines in past the lips' edges, which throw a soft shadow.
   vec2 reach = max(vec2(upper.y, lower.y) - p.z, 0.0) / max(mouth_key.z, 0.3);
