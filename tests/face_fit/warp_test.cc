@@ -220,7 +220,7 @@ TEST(FaceSetTest, ASmoothSkinCreasesLess) {
     set.lined = lined;
     set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {200, 150, 130, 255}});
     FaceState surprise;
-    for (const std::size_t unit : {1, 2}) surprise.au_left[unit] = surprise.au_right[unit] = 1;
+    for (const std::size_t unit : {1U, 2U}) surprise.au_left[unit] = surprise.au_right[unit] = 1;
     HeadVertices v;
     Head::Make(set)->Evaluate(surprise, v);
     return v.wrinkles[0][0];

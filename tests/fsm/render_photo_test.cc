@@ -114,7 +114,7 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
     }
   }
   FaceState smile;
-  for (const std::size_t unit : {6, 12}) smile.au_left[unit] = smile.au_right[unit] = 1;
+  for (const std::size_t unit : {6U, 12U}) smile.au_left[unit] = smile.au_right[unit] = 1;
   const auto darkest = [&](const FaceSet& s, float glm::vec3::*channel) {
     float least = 255;
     for (const glm::vec3 c : Drawn(s, places, smile)) least = std::min(least, c.*channel);
