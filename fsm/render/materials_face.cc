@@ -1,0 +1,101 @@
+// What of the materials follows eyes and mouth, frame by frame.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "fsm/render/materials.h"
+
+namespace fsm {
+
+void Materials::SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
+                               const glm::mat3& rest_to_world) {
+  for (const auto& [name, place] :
+       {std::pair("irises", &EyePicture::iris), std::pair("balls", &EyePicture::ball)}) {
+    const glm::vec4 squares[] = {(*head.eye_pictures())[0].*place,
+                                 (*head.eye_pictures())[1].*place};
+    gl_.Uniform4fv(eye_.Uniform(name), 2, glm::value_ptr(squares[0]));
+  }
+  glm::vec4 open[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const EyeFrame& rest = head.resting_eyes()[i];
+    open[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,
+               eyes[i].upper_lid_y - eyes[i].centre.y, kBallSpan * eyes[i].radius};
+  }
+  gl_.Uniform4fv(eye_.Uniform("open"), 2, glm::value_ptr(open[0]));
+  const glm::mat3 world_to_head = glm::inverse(rest_to_world);
+  gl_.UniformMatrix3fv(eye_.Uniform("world_to_head"), 1, GL_FALSE, glm::value_ptr(world_to_head));
+}
+
+void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
+                         glm::vec3 key_direction) {
+  const auto opening = head.mouth().Measure(vertices);
+  has_mouth_ = opening.has_value();
+  float gap = 0, dropped = 0;
+  if (opening) {
+    constexpr std::size_t kMiddle = MouthFinder::kColumns / 2;
+    gap = opening->lips[kMiddle].y - opening->lips[kMiddle + MouthFinder::kColumns].y;
+    // At rest the lower incisors stand behind the upper ones.
+    constexpr float kOverlap = 1.3F;
+    dropped = std::max(opening->teeth.x - opening->teeth.y + kOverlap, 0.0F);
+  }
+  // Said of every head: the one drawn before it may have had its mouth open.
+  gl_.UseProgram(photo_.id());
+  gl_.Uniform1f(photo_.Uniform("lips_apart"), glm::smoothstep(0.4F, 2.5F, gap));
+  gl_.Uniform1f(photo_.Uniform("chin_y"), head.chin_y());
+  gl_.Uniform1f(photo_.Uniform("chin_drop"), dropped);
+  if (!opening) return;
+  const glm::mat3 turn(view.figure_to_world);
+  const glm::mat3 to_world =
+      turn / glm::length(turn[0]) * glm::transpose(glm::mat3(opening->to_mouth));
+  glm::vec3 key = glm::transpose(to_world) * key_direction;
+  // The lamp is large, so most of what lips leave of its light comes from straight ahead; photos
+  // are taken with the light behind the camera, more or less.
+  key = glm::normalize(glm::mix(key, glm::vec3(0, 0.55F, 1), head.photo() ? 0.9F : 0.5F));
+  gl_.UseProgram(mouth_.id());
+  gl_.UniformMatrix4fv(mouth_.Uniform("to_mouth"), 1, GL_FALSE, glm::value_ptr(opening->to_mouth));
+  gl_.UniformMatrix3fv(mouth_.Uniform("mouth_to_world"), 1, GL_FALSE, glm::value_ptr(to_world));
+  gl_.Uniform3fv(mouth_.Uniform("lips"), 2 * MouthFinder::kColumns,
+                 glm::value_ptr(opening->lips[0]));
+  gl_.Uniform4f(mouth_.Uniform("mouth_edges"), opening->corners.x, opening->corners.y,
+                opening->teeth.x, opening->teeth.y);
+  gl_.Uniform1f(mouth_.Uniform("front_gain"), head.photo() ? 1.0F : 1.35F);
+  gl_.Uniform1f(mouth_.Uniform("deep_gain"), head.photo() ? 1.4F : 1.7F);
+  gl_.Uniform3fv(mouth_.Uniform("mouth_key"), 1, glm::value_ptr(key));
+}
+
+void Materials::SetEyes(const View& view, const HeadBuffers& head,
+                        const std::array<EyeFrame, 2>& eyes) {
+  const glm::mat3 turn(view.figure_to_world);
+  const float scale = glm::length(turn[0]);
+  glm::vec4 balls[2];
+  glm::vec3 gazes[2];
+  glm::vec4 lids[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto& eye = eyes[static_cast<std::size_t>(i)];
+    const auto place = [&view](const glm::vec3& p) {
+      return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0F));
+    };
+    balls[i] = glm::vec4(place(eye.centre), eye.radius * scale);
+    gazes[i] = turn * eye.gaze / scale;
+    const glm::vec3 front = eye.centre + eye.gaze * eye.radius;
+    lids[i].x = place({front.x, eye.upper_lid_y, front.z}).y;
+    lids[i].y = place({front.x, eye.lower_lid_y, front.z}).y;
+  }
+  gl_.UseProgram(eye_.id());
+  gl_.Uniform4fv(eye_.Uniform("ball"), 2, glm::value_ptr(balls[0]));
+  gl_.Uniform3fv(eye_.Uniform("gaze"), 2, glm::value_ptr(gazes[0]));
+  gl_.Uniform4fv(eye_.Uniform("lids"), 2, glm::value_ptr(lids[0]));
+  const EyePlace& place = head.eye_place();
+  const float plane = std::sqrt(
+      std::max(eyes[0].radius * eyes[0].radius - eyes[0].iris_radius * eyes[0].iris_radius, 1.0F));
+  const glm::vec4 iris(eyes[0].iris_radius * scale, place.pupil_radius / place.iris_radius,
+                       plane * scale, 0.0F);
+  gl_.Uniform4fv(eye_.Uniform("iris"), 1, glm::value_ptr(iris));
+  gl_.Uniform3fv(eye_.Uniform("iris_color"), 1, glm::value_ptr(place.iris_colour));
+  gl_.Uniform3fv(eye_.Uniform("white_color"), 1, glm::value_ptr(place.white_colour));
+  gl_.Uniform1f(eye_.Uniform("figure_scale"), scale);
+}
+
+}  // namespace fsm
