@@ -273,14 +273,18 @@ std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec
       const float round = (1 + SmoothStep(0.0f, 0.3f, down) *
                                    (0.14f * ridge * (1 - 0.5f * inside) - 0.06f - 0.1f * inside)) *
                           (1 - 0.16f * (1 - inside) * std::exp(-furrow * furrow));
+      // What bulges to the front is lit like the skin below.
+      const float front = glm::mix(1.0f, Brightness(below_eye) / Brightness(colour),
+                                   0.45f * SmoothStep(0.0f, 0.7f, down) * (1 - 0.4f * inside));
       const float lashes = (0.3f + 0.3f * outward) * SmoothStep(0.97f, 1.0f, f.lid_upper);
       const float part = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) *
                          SmoothStep(0.02f, 0.2f, f.lid_upper) *
                          SmoothStep(kAside, 0, std::max(rim_from - at.x, at.x - rim_to));
       const glm::vec2 mirrored(at.x, meet - 1.5f - Folded(std::max(at.y - meet, 0.0f)));
       const Lender near = Around(below, mirrored, 1.5f), wide = Around(below, mirrored, 4);
-      lids.push_back({i, glm::clamp(Lashed(round * colour, lashes), 0.0f, 1.0f), part, near.place,
-                      Brightness(wide.screen), photo_by_face * (at - glm::vec2(open[i]))});
+      lids.push_back({i, glm::clamp(Lashed(front * round * colour, lashes), 0.0f, 1.0f), part,
+                      near.place, Brightness(wide.screen),
+                      photo_by_face * (at - glm::vec2(open[i]))});
     }
   }
   return lids;
