@@ -6,7 +6,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "fsm/render/image_codec.h"
 
@@ -64,22 +66,22 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   return std::move(*image);
 }
 
-void ScaleTo(int most_side, fsm::Image& image) {
+/// Nothing if it is no larger.
+std::optional<fsm::Image> ScaledTo(int most_side, const fsm::Image& image) {
   const int longer = std::max(image.width, image.height);
-  if (longer <= most_side) return;
+  if (longer <= most_side) return std::nullopt;
   const auto scaled = [&](int side) {
     return std::max(static_cast<int>(std::lround(static_cast<double>(side) * most_side / longer)),
                     1);
   };
-  image = ScaledDown(image, scaled(image.width), scaled(image.height));
+  return ScaledDown(image, scaled(image.width), scaled(image.height));
 }
 
 }  // namespace
 
 fsm::Image AtWorkingSide(const fsm::Image& photo) {
-  fsm::Image out = photo;
-  ScaleTo(kWorkingSide, out);
-  return out;
+  auto scaled = ScaledTo(kWorkingSide, photo);
+  return scaled ? std::move(*scaled) : photo;
 }
 
 vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most_side) {
@@ -98,7 +100,7 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
                                              " pixels; at least " + std::to_string(kLeastSide) +
                                              " on each side are needed");
   }
-  ScaleTo(most_side, *image);
+  if (auto scaled = ScaledTo(most_side, *image)) *image = std::move(*scaled);
   if (orientation != 1) *image = Turned(*image, orientation);
   return image;
 }
@@ -177,48 +179,45 @@ fsm::Image Turned(const fsm::Image& image, int exif_orientation) {
 
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {
   // First across, then down; weights are the lengths by which pixels overlap.
-  const auto shrink = [](const std::vector<float>& in, std::size_t lines, int from, int to,
-                         std::size_t step, std::size_t line) {
-    std::vector<float> out(lines * static_cast<std::size_t>(to) * 3);
-    const double ratio = static_cast<double>(from) / to;
-    for (int k = 0; k < to; ++k) {
-      const double begin = k * ratio, end = (k + 1) * ratio;
-      for (std::size_t l = 0; l < lines; ++l) {
-        double sum[3] = {};
-        for (int i = static_cast<int>(begin); i < from && i < end; ++i) {
-          const double w = std::min<double>(i + 1, end) - std::max<double>(i, begin);
-          const float* p = &in[l * line + static_cast<std::size_t>(i) * step];
-          for (int c = 0; c < 3; ++c) sum[c] += w * static_cast<double>(p[c]);
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-          out[(l * static_cast<std::size_t>(to) + static_cast<std::size_t>(k)) * 3 + c] =
-              static_cast<float>(sum[c] / ratio);
-        }
-      }
+  const auto each = [](double ratio, int k, int from, auto&& add) {
+    const double begin = k * ratio, end = (k + 1) * ratio;
+    for (int i = static_cast<int>(begin); i < from && i < end; ++i) {
+      add(i, std::min<double>(i + 1, end) - std::max<double>(i, begin));
     }
-    return out;
   };
-  const auto w = static_cast<std::size_t>(image.width);
-  const auto h = static_cast<std::size_t>(image.height);
-  std::vector<float> colours(w * h * 3);
-  for (std::size_t i = 0; i < w * h; ++i) {
-    for (std::size_t c = 0; c < 3; ++c) colours[3 * i + c] = image.rgba[4 * i + c];
-  }
-  const auto across = shrink(colours, h, image.width, width, 3, 3 * w);
-  // Columns become lines.
-  const auto down = shrink(across, static_cast<std::size_t>(width), image.height, height,
-                           3 * static_cast<std::size_t>(width), 3);
+  const double across = static_cast<double>(image.width) / width;
+  const double down = static_cast<double>(image.height) / height;
+  const auto row_size = static_cast<std::size_t>(width) * 3;
+  std::vector<float> row(row_size);
+  int shrunk = -1;  // which line of the picture `row` is
+  const auto shrink = [&](int line) {
+    const std::uint8_t* from =
+        &image.rgba[static_cast<std::size_t>(line) * 4 * static_cast<std::size_t>(image.width)];
+    for (int x = 0; x < width; ++x) {
+      double sum[3] = {};
+      each(across, x, image.width, [&](int i, double weight) {
+        for (int c = 0; c < 3; ++c) sum[c] += weight * from[4 * i + c];
+      });
+      for (int c = 0; c < 3; ++c)
+        row[static_cast<std::size_t>(3 * x + c)] = static_cast<float>(sum[c] / across);
+    }
+    shrunk = line;
+  };
   fsm::Image out;
   out.width = width;
   out.height = height;
-  out.rgba.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4, 255);
-  for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
-    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float v = down[(x * static_cast<std::size_t>(height) + y) * 3 + c];
-        out.rgba[4 * (y * static_cast<std::size_t>(width) + x) + c] =
-            static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F));
-      }
+  out.rgba.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  std::vector<double> sum(row_size);
+  for (int y = 0; y < height; ++y) {
+    std::ranges::fill(sum, 0);
+    each(down, y, image.height, [&](int i, double weight) {
+      if (i != shrunk) shrink(i);  // a line on the border counts for two
+      for (std::size_t k = 0; k < row_size; ++k) sum[k] += weight * static_cast<double>(row[k]);
+    });
+    for (std::size_t k = 0; k < row_size; ++k) {
+      const auto v = static_cast<float>(sum[k] / down);
+      out.rgba.push_back(static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F)));
+      if (k % 3 == 2) out.rgba.push_back(255);
     }
   }
   return out;

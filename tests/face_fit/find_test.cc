@@ -3,13 +3,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <string>
 
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/fit/fit.h"
 #include "fsm/head/table_reader.h"
+#include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
 namespace {
@@ -20,15 +20,7 @@ std::string Photos() {
   return named ? named : std::string(GALATEA_SOURCE_DIR) + "/../shared/data/photos";
 }
 
-class FindTest : public testing::Test {
- protected:
-  void SetUp() override {
-    auto loaded = FaceNetworks::Load("");
-    if (!loaded) GTEST_SKIP() << loaded.error().text;
-    networks_.emplace(std::move(*loaded));
-  }
-  std::optional<FaceNetworks> networks_;
-};
+using FindTest = NetworkTest;
 
 TEST_F(FindTest, EyesChinAndCornersLieWhereTheyDoInThePhoto) {
   const std::string path = Photos() + "/collins_nasa.png";

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
 #include "fsm/head/head.h"
 #include "fsm/render/renderer.h"
+#include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
 namespace {
@@ -50,15 +50,7 @@ fsm::Image Group(int width, int height, const std::vector<Person>& people) {
   return group;
 }
 
-class GroupTest : public testing::Test {
- protected:
-  void SetUp() override {
-    auto loaded = FaceNetworks::Load("");
-    if (!loaded) GTEST_SKIP() << loaded.error().text;
-    networks_.emplace(std::move(*loaded));
-  }
-  std::optional<FaceNetworks> networks_;
-};
+using GroupTest = NetworkTest;
 
 TEST_F(GroupTest, PeopleBesideTheLargestAreFoundThoughSmallerAndTurned) {
   const std::vector<Person> people = {{"galatea", 0, 0, 560, 300, 520},

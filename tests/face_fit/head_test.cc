@@ -10,13 +10,13 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <tuple>
 
 #include "face_fit/find/head_finder.h"
 #include "fsm/mesh/obj_file.h"
+#include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
 namespace {
@@ -34,13 +34,11 @@ struct Subject {
   std::map<std::string, std::vector<glm::vec3>> shapes;
 };
 
-class HeadTest : public testing::Test {
+class HeadTest : public NetworkTest {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(Heads())) GTEST_SKIP() << "no heads in " << Heads();
-    auto loaded = FaceNetworks::Load("");
-    if (!loaded) GTEST_SKIP() << loaded.error().text;
-    networks_.emplace(std::move(*loaded));
+    NetworkTest::SetUp();
   }
 
   Subject Read(const std::string& name) {
@@ -77,8 +75,6 @@ class HeadTest : public testing::Test {
     }
     return subject;
   }
-
-  std::optional<FaceNetworks> networks_;
 };
 
 /// Mean distance of `carried` from `truth` over the flesh that really moves, as part of its motion.
