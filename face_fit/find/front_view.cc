@@ -15,7 +15,7 @@ FrontView::FrontView(const fsm::HeadTopology& topology, std::span<const glm::vec
       z_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1e9F),
       first_(z_.size(), kNone) {
   for (const auto& part : topology.parts) {
-    if (part.material == fsm::Material::kHair || part.material == fsm::Material::kLash) continue;
+    if (IsHair(part.material) || part.material == fsm::Material::kShutLash) continue;
     for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) Draw(part.first_index + k);
   }
 }

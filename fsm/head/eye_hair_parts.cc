@@ -24,10 +24,12 @@ constexpr std::array kLashRows = {LashRow{true, 40, 0.10f, 0.99f},
 
 class LashBuilder {
  public:
-  LashBuilder(const EyeAnatomy& eye, const Identity& identity, int side, HeadMesh& mesh)
+  LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, int side,
+              HeadMesh& mesh)
       : eye_(eye),
         palette_(identity.palette),
         size_(identity.lashes),
+        of_photo_(of_photo),
         side_(static_cast<float>(side)),
         mesh_(mesh) {
     flesh_.eye = static_cast<std::int8_t>(side);
@@ -52,13 +54,17 @@ class LashBuilder {
   std::uint32_t Add(glm::vec3 p, float at_x, float dark) {
     flesh_.domain = {at_x * side_, eye_.centre().y};
     p.x *= side_;
-    return mesh_.Add(p, glm::mix(palette_.skin, palette_.lash, dark), 1, Bone::kFlesh, flesh_);
+    const glm::vec3 colour = glm::mix(palette_.skin, palette_.lash, of_photo_ ? 1.0f : dark);
+    const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kFlesh, flesh_);
+    if (of_photo_) mesh_.strands.back().cover = dark;
+    return i;
   }
   void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Material material = of_photo_ ? Material::kShutLash : Material::kLash;
     if (side_ > 0) {
-      mesh_.Triangle(Material::kLash, a, b, c);
+      mesh_.Triangle(material, a, b, c);
     } else {
-      mesh_.Triangle(Material::kLash, a, c, b);
+      mesh_.Triangle(material, a, c, b);
     }
   }
 
@@ -73,10 +79,11 @@ class LashBuilder {
                           (0.40f + 0.70f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
-      const std::uint32_t low =
-          Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x, 0.6f + 0.4f * ends);
-      const std::uint32_t high =
-          Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x, 0.2f + 0.65f * ends);
+      const float soft = of_photo_ ? 0.65f * SmoothStep(0, 0.5f, part) : 1.0f;
+      const std::uint32_t low = Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
+                                    soft * (0.6f + 0.4f * ends));
+      const std::uint32_t high = Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
+                                     of_photo_ ? 0 : 0.2f + 0.65f * ends);
       if (i > 0) {
         Face(before[0], low, high);
         Face(before[0], high, before[1]);
@@ -98,19 +105,20 @@ class LashBuilder {
                               (0.94f + 0.34f * Grain(i, 9))
                         : 1.3f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
-    const float width = upper_ ? 0.19f : 0.09f;
+    const float width = of_photo_ ? 0.13f : upper_ ? 0.19f : 0.09f;
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark = upper_ ? 0.9f : 0.12f;
+    const float dark = of_photo_ ? 0.6f : upper_ ? 0.9f : 0.12f;
+    // Those of a photo are seen on a shut lid, where they hang over the cheek.
+    const float rise = of_photo_ ? -0.35f : upper_ ? 0.44f : -0.40f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
-    const glm::vec3 tip =
-        root + length * (0.72f * out + glm::vec3(0, (upper_ ? 0.44f : -0.40f), 0));
+    const glm::vec3 tip = root + length * (0.72f * out + glm::vec3(0, rise, 0));
     const std::uint32_t a = Add(root - glm::vec3(width, 0, 0), x, dark);
     const std::uint32_t b = Add(root + glm::vec3(width, 0, 0), x, dark);
     const std::uint32_t c = Add(middle - glm::vec3(0.6f * width, 0, 0), x, dark);
     const std::uint32_t d = Add(middle + glm::vec3(0.6f * width, 0, 0), x, dark);
-    const std::uint32_t e = Add(tip, x, 0.75f * dark);
+    const std::uint32_t e = Add(tip, x, (of_photo_ ? 0.2f : 0.75f) * dark);
     Face(a, b, d);
     Face(a, d, c);
     Face(c, d, e);
@@ -119,6 +127,7 @@ class LashBuilder {
   const EyeAnatomy& eye_;
   const Palette& palette_;
   float size_;
+  bool of_photo_;
   float side_;
   HeadMesh& mesh_;
   Flesh flesh_;
@@ -127,10 +136,12 @@ class LashBuilder {
 
 }  // namespace
 
-void BuildLashes(const EyeAnatomy& eye, const Identity& identity, HeadMesh& mesh) {
+void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh) {
   for (const int side : {-1, 1}) {
-    LashBuilder builder(eye, identity, side, mesh);
-    for (const LashRow& row : kLashRows) builder.Row(row);
+    LashBuilder builder(eye, identity, of_photo, side, mesh);
+    for (const LashRow& row : kLashRows) {
+      if (row.upper || !of_photo) builder.Row(row);
+    }
   }
 }
 

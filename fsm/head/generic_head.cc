@@ -83,7 +83,8 @@ class GenericHead : public Head {
     topology_.skin_hairs = BuildBrows(front, identity_, mesh);
     const auto folds = BuildLidFolds(front, eye_);
     topology_.skin_hairs.insert(topology_.skin_hairs.end(), folds.begin(), folds.end());
-    if (!set) BuildLashes(eye_, identity_, mesh);  // a photo shows them
+    // Of open eyes a photo shows the lashes.
+    BuildLashes(eye_, identity_, set != nullptr, mesh);
     flesh_count_ = mesh.position.size();
     BuildEyes(eye_, palette, mesh);
     BuildTeeth(mouth_, palette, mesh);
@@ -115,8 +116,11 @@ class GenericHead : public Head {
       FaceState asleep;
       asleep.blink_left = asleep.blink_right = 1;
       Evaluate(asleep, shut);
-      const PhotoSkin worn{flesh, fine.tag, std::span(open.position).first(skin_count),
-                           std::span(shut.position).first(skin_count)};
+      const auto pose = [skin_count](const HeadVertices& v) {
+        return SkinPose{std::span(v.position).first(skin_count),
+                        std::span(v.normal).first(skin_count)};
+      };
+      const PhotoSkin worn{flesh, fine.tag, pose(open), pose(shut)};
       WearPhoto(*set, worn, identity_.palette.lip_inside, topology_);
     }
     landmarks_ = NameLandmarks(cage, fine, rest_, eye_, seats_);

@@ -32,7 +32,8 @@ enum class Material {
   kLash,
   kHair,
   kCloth,
-  kPhoto  ///< a sheet that shows the photo worn and nothing else
+  kPhoto,    ///< a sheet that shows the photo worn and nothing else
+  kShutLash  ///< of lids that wear a photo of open eyes: seen as they shut
 };
 
 constexpr bool IsHair(Material material) {

@@ -22,17 +22,24 @@ struct LidPaint {
   glm::vec2 slide;
 };
 
+/// Where vertices of the skin lie and which way they face.
+struct SkinPose {
+  std::span<const glm::vec3> position;  ///< millimetres
+  std::span<const glm::vec3> normal;    ///< unit
+};
+
 /// What a photo shows at a place (u, v down), on the screen, 0..1.
 glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place);
 
 /// Lids for a face that wears a photo of open eyes. A lid that shuts comes out from under the skin
-/// above it: what the photo shows there, a fold or a rim of glasses, stays where it is, and the eye
-/// gives way to skin coloured like that above and below, as far as that is not darker or brighter
-/// than most of it (glasses, brows, reflections), with the grain of the lower lid's. `places` are
-/// HeadTopology::photo_place; `open` and `shut`: where the vertices lie with lids at rest and
-/// shut, millimetres. All four of one length.
+/// above it: what the photo shows there stays where it is, but the lashes of the open eye, and the
+/// eye gives way to skin with the grain of the lower lid's. At the top the skin is coloured like
+/// that round the eye, as far as that is not darker or brighter than most of it (glasses, brows,
+/// reflections); downward it comes out into the light that falls on the face. `places` are
+/// HeadTopology::photo_place; `open` and `shut`: with lids at rest and shut. All of one length.
+/// `glasses`: nothing above the eye is taken for lashes.
 std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec3> places,
-                                std::span<const Flesh> skin, std::span<const glm::vec3> open,
-                                std::span<const glm::vec3> shut);
+                                std::span<const Flesh> skin, const SkinPose& open,
+                                const SkinPose& shut, bool glasses);
 
 }  // namespace fsm

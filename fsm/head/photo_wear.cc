@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/head/photo_lids.h"
 #include "fsm/head/skin_mesh.h"
 #include "fsm/head/spline.h"
 
@@ -156,7 +155,7 @@ void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
   RollLips(set, skin.tags, lip_inside, topology);
   topology.photo_lender.resize(topology.uv.size(), glm::vec4(0));
   for (const LidPaint& lid :
-       PaintLids(*set.photo, topology.photo_place, skin.flesh, skin.open, skin.shut)) {
+       PaintLids(*set.photo, topology.photo_place, skin.flesh, skin.open, skin.shut, set.glasses)) {
     topology.albedo[lid.vertex] = lid.screen * lid.screen;
     topology.occlusion[lid.vertex] = std::max(lid.lender_light, 0.02f);
     topology.photo_place[lid.vertex].z = 1 + lid.part;

@@ -8,6 +8,7 @@
 #include "fsm/head/cage.h"
 #include "fsm/head/face_set.h"
 #include "fsm/head/head.h"
+#include "fsm/head/photo_lids.h"
 #include "fsm/head/rig.h"
 
 namespace fsm {
@@ -33,11 +34,11 @@ void LeaveOutUnseen(const FaceSet& set, std::span<const CageTag> tags, HeadMesh&
 /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
 glm::vec3 Wetter(glm::vec3 lip, float saturation);
 
-/// The vertices of the skin, which come first: all four of one length.
+/// The vertices of the skin, which come first: all of one length.
 struct PhotoSkin {
   std::span<const Flesh> flesh;
   std::span<const CageTag> tags;
-  std::span<const glm::vec3> open, shut;  ///< with lids at rest and shut, millimetres
+  SkinPose open, shut;  ///< with lids at rest and shut
 };
 
 /// Gives every vertex of skin and sheet its place in the photo, lids and lips their own paint.

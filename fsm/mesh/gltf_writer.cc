@@ -39,6 +39,7 @@ const char* NameOf(Material material) {
     case Material::kMouthInside:
       return "mouth";
     case Material::kLash:
+    case Material::kShutLash:
       return "lashes";
     case Material::kHair:
       return "hair";
@@ -66,6 +67,7 @@ class Writer {
     // All of a material in one, with vertices of its own.
     std::map<Material, std::vector<std::uint32_t>> corners;
     for (const auto& part : topology.parts) {
+      if (part.material == Material::kShutLash) continue;  // a file's lids have no moment for them
       auto& all = corners[part.material];
       all.insert(all.end(), topology.indices.begin() + part.first_index,
                  topology.indices.begin() + part.first_index + part.index_count);

@@ -237,10 +237,15 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   add(locks, flat({hair.begin(), behind}));
   HeadTopology::Part skin{}, sheet{};
   std::vector<std::uint32_t> soft_sheet, fading;
+  std::vector<HeadTopology::Part> lashes;
   for (const auto& part : topology.parts) {
     if (part.material == Material::kHair) continue;
     const auto corners = std::span(topology.indices).subspan(part.first_index, part.index_count);
     const bool of_sheet = part.material == Material::kPhoto;
+    if (part.material == Material::kShutLash) {
+      lashes.push_back(part);
+      continue;
+    }
     if (!blends_ || (part.material != Material::kSkin && !of_sheet)) {
       add(part, corners);
       continue;
@@ -257,6 +262,9 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   }
   add(sheet, soft_sheet, true);
   add(skin, fading, true);
+  for (const auto& part : lashes) {
+    add(part, std::span(topology.indices).subspan(part.first_index, part.index_count), true);
+  }
   add(locks, flat({behind, hair.end()}));
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),

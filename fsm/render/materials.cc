@@ -284,12 +284,14 @@ void Materials::Use(Material material) {
       return UseHair(1.0F, 1.0F);
     case Material::kLash:
       return UseHair(0.0F, 0.0F);
+    case Material::kShutLash:
+      return UsePhoto(material);
     default:
       break;
   }
   if (material == Material::kPhoto ||
       (has_photo_ && (material == Material::kSkin || material == Material::kLip))) {
-    return UsePhoto(material == Material::kPhoto);
+    return UsePhoto(material);
   }
   for (const auto& surface : kSurfaces) {
     if (surface.material != material) continue;
@@ -337,8 +339,10 @@ void Materials::UseFinish(const Finish& finish) {
   Bind(kLights, GL_TEXTURE5);
 }
 
-void Materials::UsePhoto(bool ragged) {
+void Materials::UsePhoto(Material material) {
+  const bool ragged = material == Material::kPhoto;
   gl_.UseProgram(photo_.id());
+  gl_.Uniform1f(photo_.Uniform("lashes"), material == Material::kShutLash ? 1.0F : 0.0F);
   gl_.Uniform1f(photo_.Uniform("ragged"), ragged ? 1.0F : 0.0F);
   // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
   constexpr float kYields = 5;

@@ -55,7 +55,7 @@ class Materials {
   void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                 glm::vec3 key_direction);
   void Use(Material material);
-  void UsePhoto(bool ragged);
+  void UsePhoto(Material material);
   void UseFinish(const Finish& finish);
   void UseHair(float streaks, float shine);
 

@@ -22,7 +22,7 @@ constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 1.0F};
 
 bool IsSheet(const HeadTopology::Part& part) {
   return part.two_sided || part.material == Material::kLash ||
-         part.material == Material::kMouthInside;
+         part.material == Material::kShutLash || part.material == Material::kMouthInside;
 }
 
 class GlRenderer : public Renderer {
@@ -85,7 +85,8 @@ class GlRenderer : public Renderer {
         // back and hidden layers never shine through.
         gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
         for (const auto& part : parts) {
-          if (IsHair(part.material) || part.material == Material::kPhoto || part.finish >= 0) {
+          if (IsHair(part.material) || part.material == Material::kPhoto ||
+              part.material == Material::kShutLash || part.finish >= 0) {
             materials_.Use(part);  // they have holes
           } else {
             materials_.UseLine(glm::vec4(0.0F));

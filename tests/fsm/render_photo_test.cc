@@ -125,6 +125,39 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
   EXPECT_LT(darkest(set, &glm::vec3::r), kSkin.r - 8) << "skin";
 }
 
+TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
+  FaceSet set = RedFaceAndGreenSheet(255, {});
+  auto bright = std::make_shared<WornPhoto>(*set.photo);
+  std::ranges::fill(bright->rgba, std::uint8_t{230});
+  set.photo = bright;
+  set.white_colour = glm::vec3(1);
+  const auto head = Head::Make(set);
+  const auto& topology = head->topology();
+  // How dark it is in the middle of hairs of either eye.
+  const auto dark = [&](float blink, float side) {
+    FaceState state;
+    state.blink_left = state.blink_right = blink;
+    HeadVertices vertices;
+    head->Evaluate(state, vertices);
+    std::vector<glm::vec3> places;
+    for (const auto& part : topology.parts) {
+      if (part.material != Material::kShutLash) continue;
+      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+        const std::uint32_t v = topology.indices[k];
+        const glm::vec3 p = vertices.position[v];
+        if (topology.strands[v].cover > 0.5F && p.x * side > 0) places.push_back(p);
+      }
+    }
+    float sum = 0;
+    for (const glm::vec3 c : Drawn(set, places, state)) sum += 1 - c.g / 230;
+    return sum / static_cast<float>(places.size());
+  };
+  for (const float side : {-1.0F, 1.0F}) {
+    EXPECT_GT(dark(1, side), 0.25F);
+    EXPECT_LT(dark(0, side), 0.05F);
+  }
+}
+
 TEST(PhotoTest, TheSkinFadesAtItsSidesAndEndsAtTheJaw) {
   const auto head = Head::Make(RedFaceAndGreenSheet(255, {-20}));
   const auto& topology = head->topology();

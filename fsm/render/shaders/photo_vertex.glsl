@@ -13,6 +13,7 @@ uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
 uniform float ragged;         // 1: the sheet, which lies behind the chin and does not move with it
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
+uniform float lashes;        // 1: seen on shut lids; those of open ones are in the photo
 uniform float yields;        // millimetres by which it lies behind what is as near
 
 out vec2 place;
@@ -46,7 +47,7 @@ void main() {
   float below = chin_y - chin_drop + 0.012 * rest_position.x * rest_position.x - rest_position.y;
   shadow = 1.0 - 0.33 * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
                      exp(-max(below, 0.0) / 11.0) * smoothstep(62.0, 40.0, abs(rest_position.x));
-  covering = cover;
+  covering = cover * mix(1.0, smoothstep(0.4, 0.9, closed), lashes);
   // The sheet shows what is beside the face.
   crease = (1.0 - ragged) *
            (dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]));

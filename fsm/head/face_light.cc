@@ -1,0 +1,40 @@
+#include "fsm/head/face_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+namespace fsm {
+
+float ScreenBrightness(glm::vec3 screen) {
+  return 0.3f * screen.r + 0.6f * screen.g + 0.1f * screen.b + 0.004f;
+}
+
+FaceLight::FaceLight(std::span<const Patch> skin) {
+  constexpr int kRounds = 4;       // the first takes all patches alike
+  constexpr float kSpread = 0.6f;  // of the logarithm of light, beyond which a patch is no skin
+  constexpr float kLeast = 1e-3f;
+  for (int round = 0; round < kRounds && !skin.empty(); ++round) {
+    glm::mat4 spread(1e-3f);
+    glm::vec4 sum(0);
+    for (const Patch& patch : skin) {
+      const glm::vec4 n(patch.normal, 1);
+      // Light is nearly the square of what a screen shows.
+      const float shown = ScreenBrightness(patch.screen), light = shown * shown;
+      const float expected = std::max(glm::dot(light_, n), kLeast);
+      const float odd = round == 0 ? 0 : std::log(light / expected) / kSpread;
+      const float weight = std::exp(-odd * odd);
+      spread += weight * glm::outerProduct(n, n);
+      sum += weight * light * n;
+    }
+    light_ = glm::inverse(spread) * sum;
+  }
+}
+
+float FaceLight::On(glm::vec3 normal) const {
+  return std::sqrt(std::max(glm::dot(light_, glm::vec4(normal, 1)), 0.01f));
+}
+
+}  // namespace fsm

@@ -1,0 +1,112 @@
+#include "fsm/head/skin_membrane.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
+
+#include "fsm/head/face_light.h"
+
+namespace fsm {
+namespace {
+
+constexpr float kStep = 0.75f;  // of the membrane's cells, millimetres
+
+/// The brightness below which `part` of those lie that are chosen; of none, that of a half.
+template <typename Which>
+float UsualBrightness(std::span<const SkinSample> samples, float part, Which which) {
+  std::vector<float> all;
+  for (const SkinSample& s : samples) {
+    if (which(s)) all.push_back(ScreenBrightness(s.screen));
+  }
+  if (all.empty()) return 0.5f;
+  const auto place =
+      all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<float>(all.size() - 1));
+  std::ranges::nth_element(all, place);
+  return *place;
+}
+
+}  // namespace
+
+void DoubtOddSkin(std::span<SkinSample> samples, float usual_above) {
+  // Of the logarithm of brightness. Above the eye there are lashes, and the shade of the brow.
+  constexpr float kSpreadAbove = 0.3f, kSpreadBelow = 0.6f;
+  constexpr float kDarkest = 3;  // times darker than most a socket may be, unlike lashes
+  constexpr float kOwn = 0.85f;  // how far either side's own brightness is believed
+  const float usual =
+      UsualBrightness(samples, 0.5f, [](const SkinSample& s) { return s.known > 0; });
+  const auto mostly = [&](bool above) {
+    const float here = UsualBrightness(
+        samples, above ? usual_above : 0.5f,
+        [above](const SkinSample& s) { return s.known > 0 && s.near && s.above == above; });
+    return std::pow(usual, 1 - kOwn) * std::pow(std::max(here, usual / kDarkest), kOwn);
+  };
+  const float above = mostly(true), below = mostly(false);
+  for (SkinSample& s : samples) {
+    const float odd = std::log(ScreenBrightness(s.screen) / (s.above ? above : below)) /
+                      (s.above ? kSpreadAbove : kSpreadBelow);
+    s.known *= std::exp(-odd * odd);
+  }
+}
+
+glm::vec3 MeanBelow(std::span<const SkinSample> samples) {
+  glm::vec3 sum(1e-4f);
+  float weight = 1e-4f;
+  for (const SkinSample& s : samples) {
+    if (s.above) continue;
+    sum += s.known * s.screen;
+    weight += s.known;
+  }
+  return sum / weight;
+}
+
+SkinMembrane::SkinMembrane(std::span<const SkinSample> samples) {
+  constexpr float kMost = 150;     // cells each way
+  constexpr float kStiff = 0.15f;  // against what is known at a cell
+  constexpr int kRounds = 300;
+  glm::vec2 low(1e9f), high(-1e9f);
+  for (const SkinSample& s : samples) {
+    low = glm::min(low, s.at);
+    high = glm::max(high, s.at);
+  }
+  low_ = low - kStep;
+  width_ = static_cast<int>(std::min((high.x - low_.x) / kStep, kMost)) + 2;
+  height_ = static_cast<int>(std::min((high.y - low_.y) / kStep, kMost)) + 2;
+  std::vector<glm::vec4> held(static_cast<std::size_t>(width_ * height_), glm::vec4(0));
+  glm::vec4 all(0);
+  for (const SkinSample& s : samples) {
+    const glm::ivec2 c(glm::round((s.at - low_) / kStep));
+    const glm::vec4 sample(s.known * s.screen, s.known);
+    held[Cell(c.x, c.y)] += sample;
+    all += sample;
+  }
+  colour_.assign(held.size(), glm::vec3(all) / std::max(all.w, 1e-6f));
+  for (int round = 0; round < kRounds; ++round) {
+    for (int y = 0; y < height_; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const glm::vec3 beside = colour_[Cell(x - 1, y)] + colour_[Cell(x + 1, y)] +
+                                 colour_[Cell(x, y - 1)] + colour_[Cell(x, y + 1)];
+        const glm::vec4 here = held[Cell(x, y)];
+        colour_[Cell(x, y)] = (glm::vec3(here) + kStiff * beside) / (here.w + 4 * kStiff);
+      }
+    }
+  }
+}
+
+glm::vec3 SkinMembrane::At(glm::vec2 at) const {
+  const glm::vec2 p = (at - low_) / kStep;
+  const glm::vec2 corner = glm::floor(p), part = p - corner;
+  const auto row = [&](float y) {
+    const int x = static_cast<int>(corner.x);
+    return glm::mix(colour_[Cell(x, static_cast<int>(y))],
+                    colour_[Cell(x + 1, static_cast<int>(y))], part.x);
+  };
+  return glm::mix(row(corner.y), row(corner.y + 1), part.y);
+}
+
+std::size_t SkinMembrane::Cell(int x, int y) const {
+  return static_cast<std::size_t>(std::clamp(y, 0, height_ - 1) * width_ +
+                                  std::clamp(x, 0, width_ - 1));
+}
+
+}  // namespace fsm
