@@ -103,11 +103,13 @@ void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage) {
   constexpr std::array<float, kLipColumns + 1> kX = {0, 3.8f, 8.0f, 12.8f, 17.6f, 22.0f, 25.0f};
   struct Bag {
     float height, back, widen;
+    // Flesh closes the corners of an open mouth: how much nearer to the middle than the lips.
+    float web;
   };
   // From the deepest ring to the inside of the lips.
-  constexpr std::array<Bag, kSeamRing> kBag = {Bag{0, 62, 0.5f},      Bag{12, 48, 1.08f},
-                                               Bag{15, 26, 1.2f},     Bag{11.5f, 11, 1.1f},
-                                               Bag{4.6f, 5.2f, 1.0f}, Bag{1.2f, 2.4f, 1.0f}};
+  constexpr std::array<Bag, kSeamRing> kBag = {
+      Bag{0, 62, 0.5f, 0},         Bag{12, 48, 1.08f, 0},       Bag{15, 26, 1.2f, 0},
+      Bag{11.5f, 11, 1.1f, 0.12f}, Bag{4.6f, 5.2f, 1.0f, 0.2f}, Bag{1.2f, 2.4f, 1.0f, 0.13f}};
   constexpr std::array<float, kMouthRings - kSeamRing> kRed = {0, 0.3f, 0.66f, 1};
   for (int ring = 0; ring < kMouthRings; ++ring) {
     const std::string name = "mouth" + std::to_string(ring);
@@ -141,8 +143,10 @@ void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage) {
         tag.lip_hold = ring >= 4 ? 1.0f : ring == 3 ? 0.6f : 0.0f;
         p = mouth.Red(1, x, 0);
         p.x *= glm::mix(std::min(bag.widen, 1.0f), bag.widen, std::min(1.0f, 2 * open));
+        const float web = bag.web * SmoothStep(14, 24, x);
+        p.x *= 1 - web;
         p.y += side * bag.height * (0.15f + 0.85f * open);
-        p.z -= bag.back * (0.85f + 0.15f * open);
+        p.z -= bag.back * (0.85f + 0.15f * open) * (1 - 3 * web);
       }
       Add(cage, name, p, tag);
     }

@@ -61,7 +61,7 @@ class GenericHead : public Head {
       identity_.palette.tooth *=
           0.67f * set->teeth *
           glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}), 0.5f);
-      identity_.palette.tongue *= 1.9f * set->teeth;
+      identity_.palette.tongue *= 0.85f * set->teeth;
     }
     asymmetric_ = asymmetric;
     if (asymmetric) units_.MakeAsymmetric(static_cast<int>(identity_.index));

@@ -143,7 +143,7 @@ void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mes
   // The lower ones stand farther back, in the shade of lip and upper row.
   Palette shaded = palette;
   // What light they get comes from between red walls.
-  shaded.tooth *= glm::vec3(0.17f, 0.135f, 0.11f);
+  shaded.tooth *= glm::vec3(0.30f, 0.235f, 0.20f);
   AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, shaded,
           mesh);
 }
@@ -162,14 +162,15 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
     const float half_width = 17 * taper * (0.86f + 0.14f * part) + 0.2f;
     const float height = 7.0f * taper * (1 - 0.35f * part * part) + 0.1f;
     const float z = glm::mix(tip_z - 46, tip_z, std::sin(part * kPi / 2));
-    const float rise = 5.0f * (1 - part);
+    const float rise = 5.0f * (1 - part) + 3.0f * std::sin(kPi * part);
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
       const float up = std::sin(around);
       const float groove = 1.6f * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
-      const float lit = SmoothStep(0.25f, 0.95f, part) * SmoothStep(0.05f, 1.0f, up);
+      const float lit = SmoothStep(-0.1f, 0.8f, part) * SmoothStep(0, 1, up) *
+                        SmoothStep(0.88f, 0.25f, std::abs(std::cos(around)));
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.

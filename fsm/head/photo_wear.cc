@@ -36,7 +36,7 @@ void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
 void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_inside,
               HeadTopology& topology) {
   constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
-  constexpr float kPhoto = 1.2f, kWet = -2.0f;  // outward of the line: all photo, all paint
+  constexpr float kPhoto = 1.8f, kWet = -2.0f;  // outward of the line: all photo, all paint
   const glm::vec3 lip = set.lip_colour.value_or(lip_inside);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const CageTag& tag = tags[i];
@@ -47,10 +47,12 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
     // Corners stay together: there the photo's own line is seen.
     const float at_corner = SmoothStep(4.0f, 5.2f, tag.lip_column);
-    const float wet = SmoothStep(glm::mix(kPhoto, 0.4f, at_corner), kWet, outward);
+    const float wet = SmoothStep(glm::mix(kPhoto, 1.3f, at_corner), kWet, outward);
     const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
-    topology.albedo[i] = Wetter(dry, set.saturation);
-    topology.occlusion[i] = glm::mix(1.0f, 0.5f, SmoothStep(0.5f, -4.0f, outward));
+    // Within the mouth what light there is has gone through flesh.
+    const float inside = SmoothStep(0.5f, -4.0f, outward);
+    topology.albedo[i] = Wetter(Wetter(dry, set.saturation), inside * set.saturation);
+    topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
     topology.photo_place[i].z = 1 - wet;
   }
 }

@@ -145,7 +145,25 @@ TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
   EXPECT_GT(at(0), 45) << "it is lit in the middle";
   for (const float side : {-1.0F, 1.0F}) {
     EXPECT_LT(at(side * 12), 0.85F * at(side * 4)) << side;
-    EXPECT_NEAR(at(side * 14), at(side * 12), 22) << side << ": no edge there";
+    EXPECT_NEAR(at(side * 14), at(side * 12), 32) << side << ": no edge there";
+  }
+}
+
+TEST(MouthPictureTest, FleshClosesTheCornersOfAnOpenMouth) {
+  const MouthPicture picture(InPhoto(), {{25, 0.6F}, {26, 1.0F}});
+  for (const float side : {-1.0F, 1.0F}) {
+    // From the side inward: where the lips are first apart.
+    float x = 26;
+    const auto gap = [&] { return picture.Lip(true, side * x).y - picture.Lip(false, side * x).y; };
+    while (x > 0 && gap() < 3) x -= 0.25F;
+    const auto between = [&](float at) {
+      const glm::vec3 upper = picture.Lip(true, side * at), lower = picture.Lip(false, side * at);
+      return picture.At({side * at, 0.5F * (upper.y + lower.y), upper.z});
+    };
+    const glm::vec3 corner = between(x + 0.5F), inside = between(x - 5);
+    EXPECT_GT(corner.r, 1.6F * inside.r) << side;
+    EXPECT_GT(corner.r, 1.3F * corner.g) << side << ": it is red";
+    EXPECT_LT(corner.r, 0.7F * kPhoto.r) << side;
   }
 }
 
