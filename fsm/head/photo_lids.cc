@@ -54,8 +54,9 @@ glm::vec3 Lashed(glm::vec3 skin, float dark) {
 glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) {
   constexpr float kPart = 0.85f, kThrough = 0.15f;
   const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
-  const float warm = kThrough * (skin.r - skin.b) / std::max(skin.r, 0.01f);
-  const glm::vec3 shaded = skin * glm::pow(glm::vec3(dim), glm::vec3(1 - warm, 1, 1 + warm));
+  const float red = kThrough * (skin.r - skin.b) / std::max(skin.r, 0.01f);
+  const glm::vec3 shaded =
+      skin * glm::pow(glm::vec3(dim), glm::vec3(1 - red, 1 + 0.4f * red, 1 + 0.4f * red));
   return glm::mix(colour, shaded, kPart);
 }
 
@@ -78,8 +79,14 @@ float Folded(float away) {
   return kThere - std::abs(part - kThere);
 }
 
-/// How places in the photo go with places on the face: the slope of the plane through them.
-glm::mat2 PhotoByFace(std::span<const Lender> all) {
+/// How places in the photo go with places on the face: the plane through them.
+struct PhotoPlane {
+  glm::vec2 at{0}, place{0};  ///< the middle
+  glm::mat2 slope{0};
+  glm::vec2 operator()(glm::vec2 p) const { return place + slope * (p - at); }
+};
+
+PhotoPlane PhotoByFace(std::span<const Lender> all) {
   Lender mean{glm::vec2(0), glm::vec2(0), glm::vec3(0), 0};
   for (const Lender& l : all) {
     mean.at += l.at / static_cast<float>(all.size());
@@ -90,7 +97,7 @@ glm::mat2 PhotoByFace(std::span<const Lender> all) {
     spread += glm::outerProduct(l.at - mean.at, l.at - mean.at);
     both += glm::outerProduct(l.place - mean.place, l.at - mean.at);
   }
-  return both * glm::inverse(spread);
+  return {mean.at, mean.place, both * glm::inverse(spread)};
 }
 
 /// The face as the photo shows it, and its lids when they are shut.
@@ -139,10 +146,12 @@ class LidPainter {
     const auto [first, last] = std::ranges::minmax(upper_rim_, {}, &glm::vec2::x);
     rim_from_ = first.x;
     rim_to_ = last.x;
+    lowest_ = std::ranges::min(lower_rim_, {}, &glm::vec2::y).y;
     photo_by_face_ = PhotoByFace(around_);
     below_ = around_;
     std::erase_if(below_,
                   [&](const Lender& l) { return l.at.y > HeightAt(lower_rim_, l.at.x) - 0.5f; });
+    if (!below_.empty()) grain_by_face_ = PhotoByFace(below_);
     for (SkinSample& s : samples) {
       // Along the rims the photo shows lashes.
       float away = 100;
@@ -179,24 +188,29 @@ class LidPainter {
   /// the light.
   glm::vec3 Skin(std::uint32_t i, glm::vec2 at) const {
     const glm::vec3 deep = OfHue(eyeless_->At(at), skin_below_);
-    const float meet = HeightAt(lower_rim_, at.x);
+    const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const glm::vec2 below(at.x, meet - 3);
     // A socket lies in the shade of the brow.
-    constexpr float kSheltered = 0.88f;
+    constexpr float kSheltered = 0.92f;
     const float turned = light_.On(face_.shut.normal[i]) / Around(below_, below, 4).lit;
     const glm::vec3 lit = kSheltered * turned * OfHue(eyeless_->At(below), skin_below_);
-    const float down = SmoothStep(HeightAt(upper_rim_, at.x) + 1, meet, at.y);
-    return glm::mix(deep, lit, glm::mix(0.2f, 0.75f, down));
+    const float down = SmoothStep(rim + 2, meet, at.y);
+    // The frame of glasses shades what lies behind it.
+    if (face_.glasses) return glm::mix(0.78f * deep, lit, 0.45f * down);
+    return glm::mix(deep, lit, glm::mix(0.15f, 0.7f, down));
   }
 
   LidPaint Lower(std::uint32_t i) const {
     // The lashes of the upper lid lie over the rim of the lower.
     const glm::vec2 at(face_.shut.position[i]);
     const float outward = Outward(at);
-    const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, face_.skin[i].lid_lower);
+    const float held = face_.skin[i].lid_lower;
+    const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, held);
+    // The wet rim of the open eye is hidden.
+    const float rim = SmoothStep(0.92f, 0.97f, held);
     return {i,
-            Lashed(Skin(i, at), 0.58f * lashes),
-            (0.3f + 0.4f * outward) * lashes,
+            Lashed(Skin(i, at), 0.5f * lashes),
+            std::max(0.8f * rim, (0.3f + 0.4f * outward) * lashes),
             glm::vec2(face_.places[i]),
             ScreenBrightness(Around(around_, at, 2).screen),
             glm::vec2(0)};
@@ -209,30 +223,31 @@ class LidPainter {
     const float inside = std::min(Along(at) * Along(at), 1.0f);
     // A soft furrow where the lid slips under the skin.
     const float deep = (at.y - rim - 0.6f) / 1.1f;
-    const float furrow = 1 - 0.1f * (1 - inside) * std::exp(-deep * deep);
-    const glm::vec3 skin = furrow * Skin(i, at);
+    const float furrow = 1 - 0.16f * (1 - inside) * std::exp(-deep * deep);
+    // It turns away at its ends, and its lashes shade it.
+    const float shade = (1 - 0.12f * inside) * (1 - 0.14f * SmoothStep(2.0f, 0.0f, at.y - meet));
+    const glm::vec3 skin = furrow * shade * Skin(i, at);
     const float lashes = (0.3f + 0.3f * Outward(at)) * SmoothStep(0.97f, 1.0f, held);
-    const glm::vec2 mirrored(at.x, meet - 1.5f - Folded(std::max(at.y - meet, 0.0f)));
-    const Lender near = Around(below_, mirrored, 1.5f), wide = Around(below_, mirrored, 4);
+    const glm::vec2 mirrored(at.x, lowest_ - 1.5f - Folded(std::max(at.y - lowest_, 0.0f)));
+    const Lender wide = Around(below_, mirrored, 4);
     return {i,
             glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f),
             Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
-            near.place,
+            grain_by_face_(mirrored),
             ScreenBrightness(wide.screen),
-            photo_by_face_ * (at - glm::vec2(face_.open.position[i]))};
+            photo_by_face_.slope * (at - glm::vec2(face_.open.position[i]))};
   }
 
   /// How much is lid: from a little above the eye's rim on, and where its lashes were.
   float Part(glm::vec2 at, float rim, glm::vec3 skin) const {
-    constexpr float kAside = 3;  // millimetres beyond the corners
-    float part = SmoothStep(rim + 4.6f, rim + 2.2f, at.y);
-    if (!face_.glasses) {
-      const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen);
-      const float dark = 1 - shown / ScreenBrightness(skin);
-      part =
-          std::max(part, SmoothStep(0.05f, 0.2f, dark) * SmoothStep(rim + 7.5f, rim + 5.5f, at.y));
-    }
-    return part * SmoothStep(kAside, 0, std::max(rim_from_ - at.x, at.x - rim_to_));
+    const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // the corners, millimetres
+    const float lid = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) * SmoothStep(3, 0, beyond);
+    if (face_.glasses) return lid;
+    constexpr float kLashes = 0.75f;  // some shade is left of them
+    const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen);
+    const float dark = SmoothStep(0.05f, 0.2f, 1 - shown / ScreenBrightness(skin));
+    return std::max(
+        lid, kLashes * dark * SmoothStep(rim + 7.5f, rim + 5.5f, at.y) * SmoothStep(6, 3, beyond));
   }
 
   const Face& face_;
@@ -240,8 +255,8 @@ class LidPainter {
   int side_;
   std::vector<Lender> around_, below_;
   std::vector<glm::vec2> upper_rim_, lower_rim_;
-  float rim_from_ = 0, rim_to_ = 0;
-  glm::mat2 photo_by_face_{0};
+  float rim_from_ = 0, rim_to_ = 0, lowest_ = 0;
+  PhotoPlane photo_by_face_, grain_by_face_;
   glm::vec3 skin_below_{0};
   std::optional<SkinMembrane> eyeless_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,21 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     topology.albedo[i] = Wetter(Wetter(dry, set.saturation), inside * set.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
     topology.photo_place[i].z = 1 - wet;
+  }
+}
+
+/// Lashes grow thin and pale with age, of which creases tell.
+void ThinLashes(const FaceSet& set, HeadTopology& topology) {
+  constexpr float kLost = 0.5f;
+  const glm::vec3 colour =
+      glm::mix(glm::vec3(0.02f), glm::vec3(0.03f, 0.018f, 0.012f), set.saturation);
+  for (const auto& part : topology.parts) {
+    if (part.material != Material::kShutLash) continue;
+    const auto first = topology.indices.begin() + part.first_index;
+    for (const std::uint32_t v : std::set<std::uint32_t>(first, first + part.index_count)) {
+      topology.strands[v].cover *= 1 - kLost * set.lined;
+      topology.albedo[v] = colour;
+    }
   }
 }
 
@@ -154,6 +170,7 @@ void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
     topology.albedo[i] = seen * seen;
     topology.occlusion[i] = 1;
   }
+  ThinLashes(set, topology);
   RollLips(set, skin.tags, lip_inside, topology);
   topology.photo_lender.resize(topology.uv.size(), glm::vec4(0));
   for (const LidPaint& lid :

@@ -131,8 +131,19 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
   std::ranges::fill(bright->rgba, std::uint8_t{230});
   set.photo = bright;
   set.white_colour = glm::vec3(1);
+  set.lined = 0;
   const auto head = Head::Make(set);
   const auto& topology = head->topology();
+  const auto cover = [](const HeadTopology& t) {
+    float sum = 0;
+    for (const auto& part : t.parts) {
+      if (part.material != Material::kShutLash) continue;
+      for (std::uint32_t k = 0; k < part.index_count; ++k) {
+        sum += t.strands[t.indices[part.first_index + k]].cover;
+      }
+    }
+    return sum;
+  };
   // How dark it is in the middle of hairs of either eye.
   const auto dark = [&](float blink, float side) {
     FaceState state;
@@ -156,6 +167,8 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
     EXPECT_GT(dark(1, side), 0.25F);
     EXPECT_LT(dark(0, side), 0.05F);
   }
+  set.lined = 1;
+  EXPECT_LT(cover(Head::Make(set)->topology()), 0.6F * cover(topology)) << "old people's are thin";
 }
 
 TEST(PhotoTest, TheSkinFadesAtItsSidesAndEndsAtTheJaw) {
