@@ -17,6 +17,7 @@
 #include "face_fit/dress/sheet.h"
 #include "face_fit/dress/skin_colours.h"
 #include "face_fit/dress/skin_places.h"
+#include "face_fit/dress/smile_shade.h"
 #include "face_fit/find/glasses.h"
 
 namespace facefit {
@@ -125,6 +126,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   dress.coverage = face_seen / std::max(face_texels, 1.0F);
   TakeFromOtherSide(skin, map, seen);
   FillIn(map, seen);
+  EvenSmileShade(base, places, seen, 0.85F * glm::clamp(fit.expression.smile, 0.0F, 1.0F), map);
   Field aside(kMapSide, kMapSide);
   aside.at = places.aside;
   AddGrain(seen, aside, kMapSide / 170, map);

@@ -18,7 +18,7 @@ FaceLight::FaceLight(std::span<const Patch> skin) {
   constexpr float kLeast = 1e-3f;
   for (int round = 0; round < kRounds && !skin.empty(); ++round) {
     glm::mat4 spread(1e-3f);
-    glm::vec4 sum(0);
+    glm::vec4 sum(0), colours(0);
     for (const Patch& patch : skin) {
       const glm::vec4 n(patch.normal, 1);
       // Light is nearly the square of what a screen shows.
@@ -28,7 +28,9 @@ FaceLight::FaceLight(std::span<const Patch> skin) {
       const float weight = std::exp(-odd * odd);
       spread += weight * glm::outerProduct(n, n);
       sum += weight * light * n;
+      colours += weight * glm::vec4(patch.screen, 1);
     }
+    skin_ = glm::vec3(colours) / std::max(colours.w, 1e-6f);
     light_ = glm::inverse(spread) * sum;
   }
 }

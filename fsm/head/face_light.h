@@ -24,8 +24,14 @@ class FaceLight {
   /// Brightness on the screen of usual skin that faces so; at least a tenth.
   float On(glm::vec3 normal) const;
 
+  /// The mean of what was taken for skin, on the screen.
+  glm::vec3 skin() const { return skin_; }
+  /// Light on a normal n: dot(xyz, n) + w.
+  glm::vec4 coefficients() const { return light_; }
+
  private:
   glm::vec4 light_{0, 0, 0, 0.25f};
+  glm::vec3 skin_{0.5f};
 };
 
 }  // namespace fsm

@@ -124,6 +124,10 @@ struct HeadTopology {
   /// root of the vertex's colour, is the shut lid's; and how far in the photo the place of the
   /// vertex moves until then. 0 elsewhere; may be empty.
   std::vector<glm::vec4> photo_lender;
+  /// The light in the photo, as FaceLight::coefficients().
+  glm::vec4 photo_light{0, 0, 0, 1};
+  /// Per vertex: how much that light follows it as it turns with an expression, 0..1. May be empty.
+  std::vector<float> relit;
   /// Of the agent's right and left, if the photo shows them; else they are drawn.
   std::optional<std::array<EyePicture, 2>> eye_pictures;
   MouthSlit mouth;

@@ -9,7 +9,6 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "fsm/head/face_light.h"
 #include "fsm/head/skin_membrane.h"
 #include "fsm/head/spline.h"
 
@@ -110,18 +109,6 @@ struct Face {
   bool glasses;
 };
 
-FaceLight LightOf(const Face& face) {
-  constexpr float kSquarely = 0.3f, kFront = 45;  // millimetres: no neck, no ears
-  std::vector<FaceLight::Patch> seen;
-  for (std::size_t i = 0; i < face.skin.size(); ++i) {
-    const glm::vec3 normal = face.open.normal[i];
-    const bool squarely = normal.z > kSquarely && face.open.position[i].z > kFront;
-    if (face.places[i].z <= 0 || !squarely) continue;
-    seen.push_back({normal, PhotoColour(face.photo, glm::vec2(face.places[i]))});
-  }
-  return FaceLight(seen);
-}
-
 /// The lids of one eye.
 class LidPainter {
  public:
@@ -161,7 +148,10 @@ class LidPainter {
     }
     // Nothing bright but skin is above an eye, unless glasses shine there.
     DoubtOddSkin(samples, face.glasses ? 0.5f : 0.65f);
+    // Below an eye skin is thin and bluish: half of the hue is the face's.
     skin_below_ = MeanBelow(samples);
+    const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
+    skin_below_ = glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue, 0.5f);
     eyeless_.emplace(samples);
   }
 
@@ -274,11 +264,21 @@ glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place) {
   return glm::vec3(p[0], p[1], p[2]) / 255.0f;
 }
 
+FaceLight LightOf(const WornPhoto& photo, std::span<const glm::vec3> places, const SkinPose& open) {
+  constexpr float kSquarely = 0.3f, kFront = 45;  // millimetres: no neck, no ears
+  std::vector<FaceLight::Patch> seen;
+  for (std::size_t i = 0; i < open.normal.size(); ++i) {
+    const bool squarely = open.normal[i].z > kSquarely && open.position[i].z > kFront;
+    if (places[i].z <= 0 || !squarely) continue;
+    seen.push_back({open.normal[i], PhotoColour(photo, glm::vec2(places[i]))});
+  }
+  return FaceLight(seen);
+}
+
 std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec3> places,
                                 std::span<const Flesh> skin, const SkinPose& open,
-                                const SkinPose& shut, bool glasses) {
+                                const SkinPose& shut, const FaceLight& light, bool glasses) {
   const Face face{photo, places, skin, open, shut, glasses};
-  const FaceLight light = LightOf(face);
   std::vector<LidPaint> lids;
   for (const int side : {-1, 1}) {
     const LidPainter painter(face, light, side);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "fsm/head/face_light.h"
 #include "fsm/head/head.h"
 #include "fsm/head/rig.h"
 
@@ -40,6 +41,9 @@ glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place);
 /// `glasses`: nothing above the eye is taken for lashes.
 std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec3> places,
                                 std::span<const Flesh> skin, const SkinPose& open,
-                                const SkinPose& shut, bool glasses);
+                                const SkinPose& shut, const FaceLight& light, bool glasses);
+
+/// The light of a photo, from the front of the face that wears it.
+FaceLight LightOf(const WornPhoto& photo, std::span<const glm::vec3> places, const SkinPose& open);
 
 }  // namespace fsm

@@ -1,6 +1,7 @@
 #include "fsm/head/photo_wear.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -56,6 +57,28 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
     topology.photo_place[i].z = 1 - wet;
   }
+}
+
+/// How much the photo's light follows the skin: not round the eyes, which fold more than their
+/// light tells, and nothing beside the skin.
+std::vector<float> RelitParts(const PhotoSkin& skin) {
+  constexpr float kNone = 14, kAll = 26;  // millimetres from the middle of an eye
+  std::array<glm::vec3, 2> eye{};         // sums and number: right, left
+  for (std::size_t i = 0; i < skin.flesh.size(); ++i) {
+    const Flesh& f = skin.flesh[i];
+    if (f.eye == 0 || f.lid_upper + f.lid_lower < 0.95f) continue;
+    eye[f.eye > 0 ? 1 : 0] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
+  }
+  std::vector<float> parts(skin.flesh.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    float nearest = 1e9f;
+    for (const glm::vec3 e : eye) {
+      const glm::vec2 middle = glm::vec2(e) / std::max(e.z, 1.0f);
+      nearest = std::min(nearest, glm::distance(glm::vec2(skin.open.position[i]), middle));
+    }
+    parts[i] = SmoothStep(kNone, kAll, nearest);
+  }
+  return parts;
 }
 
 /// Lashes grow thin and pale with age, of which creases tell.
@@ -173,8 +196,11 @@ void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
   ThinLashes(set, topology);
   RollLips(set, skin.tags, lip_inside, topology);
   topology.photo_lender.resize(topology.uv.size(), glm::vec4(0));
-  for (const LidPaint& lid :
-       PaintLids(*set.photo, topology.photo_place, skin.flesh, skin.open, skin.shut, set.glasses)) {
+  const FaceLight light = LightOf(*set.photo, topology.photo_place, skin.open);
+  topology.photo_light = light.coefficients();
+  topology.relit = RelitParts(skin);
+  for (const LidPaint& lid : PaintLids(*set.photo, topology.photo_place, skin.flesh, skin.open,
+                                       skin.shut, light, set.glasses)) {
     topology.albedo[lid.vertex] = lid.screen * lid.screen;
     topology.occlusion[lid.vertex] = std::max(lid.lender_light, 0.02f);
     topology.photo_place[lid.vertex].z = 1 + lid.part;

@@ -77,7 +77,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(kAttributes + 1, buffers_);
   gl_.BindVertexArray(array_);
-  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3, 4, 1};
+  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3, 4, 1, 3};
   for (GLuint i = 0; i < kAttributes; ++i) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[i]);
     gl_.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -159,6 +159,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   lights_ = topology.lights;
   finishes_ = topology.finishes;
   saturation_ = topology.saturation;
+  photo_light_ = topology.photo_light;
   eye_pictures_ = topology.eye_pictures;
   std::vector<glm::vec3> photo_place = topology.photo_place;
   photo_place.resize(paint.size());
@@ -173,6 +174,12 @@ void HeadBuffers::UploadTopology(const Head& head) {
     cover[i] = topology.strands[i].cover;
   }
   upload(9, cover);
+  // As long as the light on it changes.
+  std::vector<glm::vec3> rest_normal = rest.normal;
+  for (std::size_t i = 0; i < rest_normal.size(); ++i) {
+    rest_normal[i] *= i < topology.relit.size() ? topology.relit[i] : 0.0F;
+  }
+  upload(10, rest_normal);
   Order(topology, rest);
   eyes_ = EyeFinder(topology, rest);
   if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);

@@ -58,6 +58,8 @@ class HeadBuffers {
   const std::array<EyeFrame, 2>& resting_eyes() const { return resting_eyes_; }
   /// Height of the chin's lowest point at rest, millimetres; of a head without landmarks far below.
   float chin_y() const { return chin_y_; }
+  /// HeadTopology::photo_light.
+  glm::vec4 photo_light() const { return photo_light_; }
   /// Of what is lit beside a photo, 0..1.
   float saturation() const { return saturation_; }
 
@@ -72,7 +74,7 @@ class HeadBuffers {
   // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
   // the right and of the left side; of hair its place among hairs, direction and cover, place
   // across its lock; indices.
-  static constexpr GLuint kAttributes = 10;  // the last three: places in a photo, cover
+  static constexpr GLuint kAttributes = 11;  // the last: places in a photo, cover, rest normal
   GLuint buffers_[kAttributes + 1] = {};
   const Head* head_ = nullptr;
   std::uint64_t checksum_ = 0;
@@ -89,6 +91,7 @@ class HeadBuffers {
   std::optional<std::array<EyePicture, 2>> eye_pictures_;
   std::array<EyeFrame, 2> resting_eyes_;
   float saturation_ = 1;
+  glm::vec4 photo_light_{0, 0, 0, 1};
   float chin_y_ = kNoChin;
   bool blends_ = false;
   int generation_ = 0;

@@ -259,6 +259,9 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.UseProgram(hair_.id());
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
+  gl_.UseProgram(photo_.id());
+  gl_.UniformMatrix3fv(photo_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
+  gl_.Uniform4fv(photo_.Uniform("photo_light"), 1, glm::value_ptr(head.photo_light()));
   SetMouth(view, head, vertices, directions[0]);
   if (!head.eyes().found()) return;
   const auto eyes = head.eyes().Measure(vertices);

@@ -49,7 +49,9 @@ struct Eye {
     }
   }
   std::vector<LidPaint> Lids() const {
-    return PaintLids(photo, places, skin, {open, open_normal}, {shut, shut_normal}, glasses);
+    const SkinPose seen{open, open_normal};
+    return PaintLids(photo, places, skin, seen, {shut, shut_normal}, LightOf(photo, places, seen),
+                     glasses);
   }
 };
 
@@ -245,7 +247,8 @@ TEST(PhotoLidsTest, AGreyShineAboveTheEyeDoesNotMakeTheLidGrey) {
 TEST(PhotoLidsTest, AHeadWithoutLidsHasNone) {
   const Eye eye;
   EXPECT_TRUE(PaintLids(eye.photo, eye.places, std::vector<Flesh>(eye.skin.size()),
-                        {eye.open, eye.open_normal}, {eye.shut, eye.shut_normal}, false)
+                        {eye.open, eye.open_normal}, {eye.shut, eye.shut_normal}, FaceLight({}),
+                        false)
                   .empty());
 }
 

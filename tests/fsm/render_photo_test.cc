@@ -171,6 +171,64 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
   EXPECT_LT(cover(Head::Make(set)->topology()), 0.6F * cover(topology)) << "old people's are thin";
 }
 
+TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
+  FaceSet set = RedFaceAndGreenSheet(255, {});
+  // Skin lit from above, painted round its vertices.
+  constexpr int kMap = 128, kRound = 4;
+  WornPhoto lit{kMap, kMap, std::vector<std::uint8_t>(4 * kMap * kMap, 255)};
+  set.skin_low = {0, 1};
+  set.skin_high = {1, 0};
+  const auto plain = Head::Make(set);
+  HeadVertices bare;
+  plain->Evaluate({}, bare);
+  for (std::size_t i = 0; i < bare.position.size(); ++i) {
+    const glm::vec2 place(plain->topology().photo_place[i]);
+    const float light = std::max(0.4F + 0.5F * bare.normal[i].y, 0.05F);
+    for (int k = 0; k < (2 * kRound + 1) * (2 * kRound + 1); ++k) {
+      const int x = static_cast<int>(place.x * kMap) + k % (2 * kRound + 1) - kRound;
+      const int y = static_cast<int>(place.y * kMap) + k / (2 * kRound + 1) - kRound;
+      if (x < 0 || y < 0 || x >= kMap || y >= kMap) continue;
+      std::fill_n(&lit.rgba[static_cast<std::size_t>(4 * (y * kMap + x))], 3,
+                  static_cast<std::uint8_t>(255 * std::sqrt(light)));
+    }
+  }
+  set.photo = std::make_shared<WornPhoto>(lit);
+  const auto head = Head::Make(set);
+  const auto& topology = head->topology();
+  EXPECT_GT(topology.photo_light.y, 0.2F);
+  FaceState smile;
+  for (const std::size_t unit : {6U, 12U}) smile.au_left[unit] = smile.au_right[unit] = 1;
+  HeadVertices rest, smiling;
+  head->Evaluate({}, rest);
+  head->Evaluate(smile, smiling);
+  const float nasion = head->Landmark("nasion").y, chin = head->Landmark("gnathion").y;
+  // Of cheeks, by whether they turn up or down: how bright they become, the photo being the same.
+  std::array<float, 2> change{};
+  std::array<int, 2> count{};
+  std::vector<glm::vec3> places, were;
+  std::vector<std::size_t> turned;
+  for (std::size_t i = 0; i < rest.position.size(); ++i) {
+    const glm::vec3 p = rest.position[i];
+    if (topology.photo_place[i].z != 1 || topology.relit[i] < 1) continue;
+    const bool cheek = p.z > 50 && std::abs(p.x) > 18 && std::abs(p.x) < 45 && p.y < nasion - 25 &&
+                       p.y > chin + 30;
+    const float up = smiling.normal[i].y - rest.normal[i].y;
+    if (!cheek || std::abs(up) < 0.1F || smiling.normal[i].z < 0.6F) continue;
+    turned.push_back(up > 0 ? 0 : 1);
+    were.push_back(p);
+    places.push_back(smiling.position[i]);
+  }
+  const auto before = Drawn(set, were), after = Drawn(set, places, smile);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    change[turned[k]] += after[k].g / before[k].g - 1;
+    ++count[turned[k]];
+  }
+  ASSERT_GT(std::min(count[0], count[1]), 8);
+  const float up = change[0] / static_cast<float>(count[0]);
+  const float down = change[1] / static_cast<float>(count[1]);
+  EXPECT_GT(up - down, 0.05F) << up << " " << down;
+}
+
 TEST(PhotoTest, TheSkinFadesAtItsSidesAndEndsAtTheJaw) {
   const auto head = Head::Make(RedFaceAndGreenSheet(255, {-20}));
   const auto& topology = head->topology();

@@ -5,6 +5,7 @@ layout(location = 6) in vec4 creases_left;
 layout(location = 7) in vec3 photo_place;  // u, v down; the photo's part in the colour, beyond 1: lid
 
 layout(location = 8) in vec4 photo_lender;  // of a lid: the place whose grain it takes; its way
+layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
 layout(location = 9) in float cover;        // 1: hides what is behind, 0: is not there
 
 uniform vec4 crease_depths[2];
@@ -12,6 +13,8 @@ uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
 uniform float ragged;         // 1: the sheet, which lies behind the chin and does not move with it
+uniform vec4 photo_light;     // in the head's frame: on a normal, and from all sides
+uniform mat3 rest_to_world;   // how the head is turned, with the figure's scale
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
 uniform float lashes;        // 1: seen on shut lids; those of open ones are in the photo
 uniform float yields;        // millimetres by which it lies behind what is as near
@@ -47,6 +50,16 @@ void main() {
   float below = chin_y - chin_drop + 0.012 * rest_position.x * rest_position.x - rest_position.y;
   shadow = 1.0 - 0.33 * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
                      exp(-max(below, 0.0) / 11.0) * smoothstep(62.0, 40.0, abs(rest_position.x));
+  // The photo has the light on the face at rest; what turns with an expression is lit as it faces then
+  // (an expression ratio image, Liu, Shan and Zhang 2001).
+  float follows = length(rest_normal);
+  if (follows > 0.0) {
+    vec3 n = normalize(transpose(rest_to_world) * WorldNormal());
+    vec2 light = vec2(dot(photo_light.xyz, n), dot(photo_light.xyz, rest_normal / follows)) + photo_light.w;
+    light = max(light, 0.15 * (length(photo_light.xyz) + abs(photo_light.w)));
+    float change = sqrt(light.x / light.y) - 1.0;
+    shadow *= 1.0 + follows * change / (1.0 + 3.0 * abs(change));
+  }
   covering = cover * mix(1.0, smoothstep(0.4, 0.9, closed), lashes);
   // The sheet shows what is beside the face.
   crease = (1.0 - ragged) *

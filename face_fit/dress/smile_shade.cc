@@ -1,0 +1,88 @@
+#include "face_fit/dress/smile_shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+namespace facefit {
+namespace {
+
+/// Where on the base face a smile shades the skin, 0..1.
+class Cheeks {
+ public:
+  explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrows) {
+    const auto at = [&base](std::size_t point) {
+      return base.places[point].On(base.rest.position);
+    };
+    eyes_ = 0.5F * (at(145).y + at(374).y);
+    wing_ = 0.5F * std::abs(at(129).x - at(358).x);
+    nose_ = at(2).y;
+    chin_ = at(152).y;
+  }
+  float At(const SkinPlaces& places, std::size_t i) const {
+    const float y = Y(places, i), x = std::abs(places.across[i]);
+    return glm::smoothstep(eyes_ - 10, eyes_ - 22, y) * glm::smoothstep(chin_ + 8, chin_ + 20, y) *
+           glm::smoothstep(58.0F, 44.0F, x) *
+           std::max(glm::smoothstep(wing_ + 1, wing_ + 7, x),
+                    0.7F * glm::smoothstep(nose_ - 3, nose_ - 7, y)) *
+           glm::smoothstep(-1.5F, -4.0F, places.red[i]);
+  }
+  /// Whether it is skin that can stand for the cheeks: no lips, no nose.
+  bool Skin(const SkinPlaces& places, std::size_t i) const {
+    const float y = Y(places, i), x = std::abs(places.across[i]);
+    return places.red[i] < -2 && y < eyes_ - 8 && (x > wing_ || y < nose_ - 2);
+  }
+
+ private:
+  static constexpr float kBrows = 27;  // as SkinPlaces::up is counted from
+  float Y(const SkinPlaces& places, std::size_t i) const { return places.up[i] + brows_; }
+  float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
+};
+
+/// Means of one channel over a width, of what has weight.
+class Means {
+ public:
+  Means(const Field& weight, int reach) : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
+  Field Of(const Field& values) const {
+    Field weighted = values;
+    for (std::size_t i = 0; i < weighted.at.size(); ++i) weighted.at[i] *= weight_.at[i];
+    Field means = Soft(weighted);
+    for (std::size_t i = 0; i < means.at.size(); ++i) means.at[i] /= std::max(sum_.at[i], 1e-3F);
+    return means;
+  }
+
+ private:
+  Field Soft(const Field& field) const { return Blurred(Blurred(field, reach_), reach_); }
+  const Field& weight_;
+  int reach_;
+  Field sum_;
+};
+
+}  // namespace
+
+void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const Field& seen, float smile,
+                    fsm::Image& map) {
+  if (smile <= 0) return;
+  // The map shows some 4 texels to a millimetre of the cheeks.
+  constexpr int kFine = 8, kWide = 40;
+  const Cheeks cheeks(base);
+  Field weight(kMapSide, kMapSide);
+  for (std::size_t i = 0; i < weight.at.size(); ++i) {
+    weight.at[i] = cheeks.Skin(places, i) ? seen.at[i] * seen.at[i] : 0.0F;
+  }
+  const Means fine(weight, kFine), wide(weight, kWide);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    Field values(kMapSide, kMapSide);
+    for (std::size_t i = 0; i < values.at.size(); ++i) values.at[i] = map.rgba[4 * i + channel];
+    const Field near = fine.Of(values), far = wide.Of(values);
+    for (std::size_t i = 0; i < values.at.size(); ++i) {
+      const float part = smile * cheeks.At(places, i);
+      if (part <= 0) continue;
+      const float even = (far.at[i] + 1) / (near.at[i] + 1);
+      map.rgba[4 * i + channel] = static_cast<std::uint8_t>(
+          std::min(values.at[i] * glm::mix(1.0F, even, part), 255.0F) + 0.5F);
+    }
+  }
+}
+
+}  // namespace facefit

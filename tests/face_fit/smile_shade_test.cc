@@ -1,0 +1,97 @@
+// A photo of a smile brought to rest: the light on its cheeks.
+
+#include "face_fit/dress/smile_shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "tests/face_fit/network_fixture.h"
+
+namespace facefit {
+namespace {
+
+/// The built-in head as if a photo of 300 pixels showed it, and a map of one skin with grain, with
+/// a band across the cheeks that shines, and the forehead as well.
+class SmileShadeTest : public NetworkTest {
+ protected:
+  static constexpr int kPhoto = 300;
+  void SetUp() override {
+    NetworkTest::SetUp();
+    if (IsSkipped()) return;
+    base_.emplace(BaseHead::See(*networks_, "galatea"));
+    fit_.pose.focal = 760;
+    fit_.pose.centre = {kPhoto / 2, kPhoto / 2};
+    fit_.worn = base_->rest.position;
+    places_ = PlaceSkin(*base_, fit_, fit_.pose, true);
+    map_ = {.width = kMapSide, .height = kMapSide, .rgba = {}};
+    for (std::size_t i = 0; i < places_.up.size(); ++i) {
+      const float y = Height(i);
+      const bool band = std::abs(y - middle()) < 5 || places_.up[i] > 10;
+      const int grain = static_cast<int>(i * 7919 % 13) - 6;
+      const auto c = static_cast<std::uint8_t>((band ? 190 : 150) + grain);
+      map_.rgba.insert(map_.rgba.end(), {c, c, c, 255});
+    }
+  }
+  glm::vec3 Place(std::size_t point) const { return base_->places[point].On(base_->rest.position); }
+  float Height(std::size_t i) const {
+    return places_.up[i] + base_->head->Landmark("nasion").y + 27;
+  }
+  /// Between nose and mouth, on the cheeks.
+  float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
+  /// The mean over cheeks at one height.
+  float Mean(float y) const {
+    float sum = 0, count = 0;
+    for (std::size_t i = 0; i < places_.up.size(); ++i) {
+      const float x = std::abs(places_.across[i]);
+      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || places_.facing[i] < 0.2F) continue;
+      sum += map_.rgba[4 * i];
+      ++count;
+    }
+    return sum / count;
+  }
+
+  std::optional<BaseHead> base_;
+  Fit fit_;
+  SkinPlaces places_;
+  fsm::Image map_;
+  Field seen_{kMapSide, kMapSide, 1};
+};
+
+TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
+  const fsm::Image before = map_;
+  EXPECT_GT(Mean(middle()) - Mean(middle() - 9), 35);
+  EvenSmileShade(*base_, places_, seen_, 1, map_);
+  EXPECT_LT(std::abs(Mean(middle()) - Mean(middle() - 9)), 16);
+  // Neighbours differ as before.
+  float rough = 0, was = 0;
+  for (std::size_t i = 1; i < places_.up.size(); ++i) {
+    if (std::abs(std::abs(places_.across[i]) - 36) > 6 || std::abs(Height(i) - middle()) > 1)
+      continue;
+    rough += static_cast<float>(std::abs(map_.rgba[4 * i] - map_.rgba[4 * i - 4]));
+    was += static_cast<float>(std::abs(before.rgba[4 * i] - before.rgba[4 * i - 4]));
+  }
+  EXPECT_GT(rough, 0.7F * was);
+}
+
+TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
+  const fsm::Image before = map_;
+  EvenSmileShade(*base_, places_, seen_, 1, map_);
+  for (std::size_t i = 0; i < places_.up.size(); ++i) {
+    const bool nose = std::abs(places_.across[i]) < 10 && Height(i) > Place(2).y;
+    const bool other = Height(i) > Place(145).y - 8 || nose || places_.red[i] > -1;
+    if (other) {
+      ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
+    }
+  }
+}
+
+TEST_F(SmileShadeTest, WithoutASmileNothingChanges) {
+  const fsm::Image before = map_;
+  EvenSmileShade(*base_, places_, seen_, 0, map_);
+  EXPECT_EQ(map_.rgba, before.rgba);
+}
+
+}  // namespace
+}  // namespace facefit
