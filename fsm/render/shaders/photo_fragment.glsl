@@ -37,5 +37,9 @@ void main() {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
     painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), kGrain * lender.z);
   }
-  color = vec4(mix(painted, p.rgb, worn.z) * shade * shadow * brightness, alpha * mix(1.0, opacity, blends));
+  vec3 seen = mix(painted, p.rgb, worn.z);
+  // Light that reaches skin in the shade has gone through skin.
+  float skin = 0.6 * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
+  vec3 shaded = vec3(shadow) + skin * shadow * (1.0 - shadow) * vec3(1.0, 0.0, -0.4);
+  color = vec4(seen * shade * shaded * brightness, alpha * mix(1.0, opacity, blends));
 }
