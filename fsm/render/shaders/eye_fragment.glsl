@@ -116,8 +116,11 @@ void main() {
             mix(0.8, 1.0, smoothstep(-0.3, 0.7, above_lower));
     // A lower lid that squints brings its lashes and its shade along, most in the middle.
     float raised = (lids[side].y - centre.y) / figure_scale - open[side].y;
-    shade *= 1.0 - 0.6 * smoothstep(0.3, 1.6, raised) *
-                       smoothstep(1.5 - 0.7 * aside * aside, -0.3, above_lower);
+    shade *= 1.0 - 0.45 * smoothstep(0.3, 1.6, raised) *
+                       smoothstep(2.0 - 0.7 * aside * aside, 0.4, above_lower);
+    // Its wet rim is soft and pale.
+    vec3 rim_color = white_color * mix(vec3(0.5), vec3(0.66, 0.42, 0.36), red);
+    base = mix(base, rim_color / max(shade, 0.3), 0.75 * smoothstep(0.15, 0.8, raised) * smoothstep(0.75, 0.1, above_lower));
   }
 
   vec3 light = Ambient(n) * 0.9;
