@@ -120,6 +120,20 @@ glm::vec3 Wetter(glm::vec3 lip, float saturation) {
   return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
 }
 
+namespace {
+
+/// How much the sheet goes with the jaw: what touches the chin and the line of the jaw nearly
+/// wholly, so that nothing comes out from behind them; farther down skin and clothes are pushed
+/// together.
+float JawPart(glm::vec3 p, float skin_bottom) {
+  constexpr float kMost = 0.9f, kChin = 8;  // millimetres above the skin's bottom
+  const float line = skin_bottom + kChin + 0.012f * p.x * p.x;
+  return kMost * SmoothStep(line + 16, line + 2, p.y) * SmoothStep(line - 62, line - 4, p.y) *
+         SmoothStep(78, 46, std::abs(p.x));
+}
+
+}  // namespace
+
 void AddSheet(const FaceSet& set, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const auto& vertex : set.sheet) {
@@ -127,6 +141,7 @@ void AddSheet(const FaceSet& set, HeadMesh& mesh) {
     flesh.free = 0;
     flesh.domain = vertex.position;
     flesh.neck = SmoothStep(-166, -98, vertex.position.y);
+    flesh.jaw = JawPart(vertex.position, set.skin_bottom_y);
     mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kFlesh, flesh);
   }
   const auto& t = set.sheet_triangles;

@@ -171,6 +171,47 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
   EXPECT_LT(cover(Head::Make(set)->topology()), 0.6F * cover(topology)) << "old people's are thin";
 }
 
+TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
+  FaceSet set = RedFaceAndGreenSheet(255, {});
+  const glm::vec3 chin = Head::Make("galatea")->Landmark("gnathion");
+  set.skin_bottom_y = chin.y - 8;
+  struct At {
+    glm::vec2 from_chin;
+    float least, most;  // of the chin's way
+  };
+  constexpr At kPlaces[] = {{{0, 0}, 0.4F, 1},      {{0, -20}, 0.2F, 0.85F}, {{0, -75}, 0, 0.02F},
+                            {{85, -5}, 0, 0.02F},   {{-85, 30}, 0, 0.02F},   {{0, 30}, 0, 0.02F},
+                            {{-30, 8}, 0.4F, 1.05F}};
+  for (const At& at : kPlaces) {
+    const auto first = static_cast<std::uint32_t>(set.sheet.size());
+    for (int k = 0; k < 3; ++k) {
+      set.sheet.push_back({{chin.x + at.from_chin.x, chin.y + at.from_chin.y, 60}, {0.75F, 0.5F}});
+    }
+    set.sheet_triangles.insert(set.sheet_triangles.end(), {first, first + 1, first + 2});
+  }
+  const auto head = Head::Make(set);
+  FaceState open;
+  open.au_left[26] = open.au_right[26] = 1;
+  HeadVertices rest, opened;
+  head->Evaluate({}, rest);
+  head->Evaluate(open, opened);
+  float way = 0;
+  std::uint32_t sheet = 0;
+  for (const auto& part : head->topology().parts) {
+    if (part.material == Material::kPhoto) sheet = head->topology().indices[part.first_index];
+  }
+  for (std::size_t i = 0; i < sheet; ++i) {
+    way = std::max(way, rest.position[i].y - opened.position[i].y);
+  }
+  EXPECT_GT(way, 8);
+  for (std::size_t k = 0; k < std::size(kPlaces); ++k) {
+    const std::size_t i = sheet + 3 * k;
+    const float part = (rest.position[i].y - opened.position[i].y) / way;
+    EXPECT_GE(part, kPlaces[k].least - 0.01F) << k;
+    EXPECT_LE(part, kPlaces[k].most) << k;
+  }
+}
+
 TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   FaceSet set = RedFaceAndGreenSheet(255, {});
   // Skin lit from above, painted round its vertices.

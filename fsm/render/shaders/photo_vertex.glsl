@@ -12,7 +12,7 @@ uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
 uniform float chin_y;         // of its lowest point at rest, millimetres
 uniform float chin_drop;      // how far it is below that
-uniform float ragged;         // 1: the sheet, which lies behind the chin and does not move with it
+uniform float ragged;         // 1: the sheet
 uniform vec4 photo_light;     // in the head's frame: on a normal, and from all sides
 uniform mat3 rest_to_world;   // how the head is turned, with the figure's scale
 uniform float lips_apart;    // 0: closed, where the photo shows them so; 1: as they are without it
@@ -46,8 +46,8 @@ void main() {
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
   worn.z *= mix(1.0, facing, roll);
   if (photo_place.z > 0.0 && roll > 0.0) worn.z = mix(1.0, worn.z, lips_apart);
-  // The shadow that a dropped chin throws on the neck. The jaw's line rises to the sides.
-  float below = chin_y - chin_drop + 0.012 * rest_position.x * rest_position.x - rest_position.y;
+  // The shadow that a dropped chin throws on the neck, which goes with it. The jaw's line rises to the sides.
+  float below = chin_y + 0.012 * rest_position.x * rest_position.x - rest_position.y;
   shadow = 1.0 - 0.45 * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
                      exp(-max(below, 0.0) / 14.0) * smoothstep(59.0, 36.0, abs(rest_position.x));
   // The photo has the light on the face at rest; what turns with an expression is lit as it faces then
