@@ -85,7 +85,7 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose, boo
     const float off = std::abs(p.y - HeightAt(seam, p.x));
     // Towards its ends a line grows thin.
     const float to_end = std::min(p.x - seam.front().x, seam.back().x - p.x);
-    return off + 0.15F * std::max(5 - to_end, 0.0F);
+    return off + 0.2F * std::max(7 - to_end, 0.0F);
   };
   const auto border = [&base](std::span<const int> points) {
     std::vector<glm::vec3> line;

@@ -83,7 +83,8 @@ MouthAnatomy::MouthAnatomy(const Table& table)
   border_z_lower_ = table.Only("border_z").Number(2);
 }
 
-// The upper incisors end 2.6 mm below the line of the lips and overlap the lower ones by half of it.
+// The upper incisors end 2.6 mm below the line of the lips and overlap the lower ones by half of
+// it.
 ToothArch MouthAnatomy::UpperTeeth() const {
   const float y = LineY(0) - 2.6f;
   return {LineZ(0) - 7.0f, 40, 27, y, y + 17};

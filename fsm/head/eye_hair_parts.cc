@@ -98,16 +98,17 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     // Neighbours lean together in threes.
-    const float clump = 0.16f * (static_cast<float>(1 - i % 3)) + 0.10f * Grain(i, 5);
+    const float clump = 0.16f * (static_cast<float>(1 - i % 3)) + 0.10f * Grain(i, 5) +
+                        (of_photo_ ? 0.35f * Grain(i, 6) : 0.0f);
     const float fan = 1.9f * (along - 0.40f) + clump;
     const float length =
         size_ * (upper_ ? (1.6f + 2.8f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
-                              (0.94f + 0.34f * Grain(i, 9))
+                              (0.94f + (of_photo_ ? 0.6f : 0.34f) * Grain(i, 9))
                         : 1.3f * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
-    const float width = of_photo_ ? 0.13f : upper_ ? 0.19f : 0.09f;
+    const float width = of_photo_ ? 0.15f : upper_ ? 0.19f : 0.09f;
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark = of_photo_ ? 0.6f : upper_ ? 0.9f : 0.12f;
+    const float dark = of_photo_ ? 0.45f + 0.2f * Grain(i, 4) : upper_ ? 0.9f : 0.12f;
     // Those of a photo are seen on a shut lid, where they hang over the cheek.
     const float rise = of_photo_ ? -0.35f : upper_ ? 0.44f : -0.40f;
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);

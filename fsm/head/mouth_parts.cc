@@ -170,12 +170,12 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
       const float lit = SmoothStep(-0.1f, 0.8f, part) * SmoothStep(0, 1, up) *
-                        SmoothStep(0.88f, 0.25f, std::abs(std::cos(around)));
+                        SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, 0.10f + 0.77f * lit, Bone::kTongue, flesh);
+      mesh.Add(p, colour, 0.17f + 0.70f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

@@ -48,6 +48,12 @@ glm::vec3 Lashed(glm::vec3 skin, float dark) {
   return skin * glm::pow(glm::vec3(1 - dark), brown);
 }
 
+/// Skin that gets less light: what reaches it has gone through skin.
+glm::vec3 Shaded(glm::vec3 skin, float light) {
+  const float chroma = std::clamp(1 - skin.b / std::max(skin.r, 0.05f), 0.0f, 1.0f);
+  return skin * light * (1.0f + (1 - light) * chroma * glm::vec3(0.8f, 0, -0.3f));
+}
+
 /// A lid is of one skin with what lies below the eye; what it takes from above may be the shine of
 /// glasses, a rim, or lashes. Skin in the shade is redder: light has gone through it.
 glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) {
@@ -72,10 +78,9 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
 }
 
 /// To and fro: there is only so much skin below an eye before a cheek or a rim of glasses begins.
-float Folded(float away) {
-  constexpr float kThere = 5;  // millimetres
-  const float part = std::fmod(away, 2 * kThere);
-  return kThere - std::abs(part - kThere);
+float Folded(float away, float there) {
+  const float part = std::fmod(away, 2 * there);
+  return there - std::abs(part - there);
 }
 
 /// How places in the photo go with places on the face: the plane through them.
@@ -186,8 +191,11 @@ class LidPainter {
     const glm::vec3 lit = kSheltered * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
     // The frame of glasses shades what lies behind it.
-    if (face_.glasses) return glm::mix(0.78f * deep, lit, 0.45f * down);
-    return glm::mix(deep, lit, glm::mix(0.15f, 0.7f, down));
+    if (face_.glasses) return glm::mix(Shaded(deep, 0.88f), lit, 0.45f * down);
+    // Out of a deep socket, which is dark, it does not come all the way.
+    const float out = glm::mix(
+        0.5f, 1.0f, SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
+    return glm::mix(deep, lit, out * glm::mix(0.15f, 0.7f, down));
   }
 
   LidPaint Lower(std::uint32_t i) const {
@@ -216,9 +224,10 @@ class LidPainter {
     const float furrow = 1 - 0.16f * (1 - inside) * std::exp(-deep * deep);
     // It turns away at its ends, and its lashes shade it.
     const float shade = (1 - 0.12f * inside) * (1 - 0.14f * SmoothStep(2.0f, 0.0f, at.y - meet));
-    const glm::vec3 skin = furrow * shade * Skin(i, at);
+    const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
     const float lashes = (0.3f + 0.3f * Outward(at)) * SmoothStep(0.97f, 1.0f, held);
-    const glm::vec2 mirrored(at.x, lowest_ - 1.5f - Folded(std::max(at.y - lowest_, 0.0f)));
+    const float there = face_.glasses ? 3 : 5;  // millimetres
+    const glm::vec2 mirrored(at.x, lowest_ - 1.5f - Folded(std::max(at.y - lowest_, 0.0f), there));
     const Lender wide = Around(below_, mirrored, 4);
     return {i,
             glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f),

@@ -49,7 +49,9 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     if (outward >= kPhoto + 4) continue;  // beyond it colours still run into the triangles there
     // Corners stay together: there the photo's own line is seen.
     const float at_corner = SmoothStep(4.0f, 5.2f, tag.lip_column);
-    const float wet = SmoothStep(glm::mix(kPhoto, 1.3f, at_corner), kWet, outward);
+    // Beyond the end of the opening they do so however wide it is.
+    const float opens = tag.deep > 0 ? 1.0f : SmoothStep(5.5f, 4.7f, tag.lip_column);
+    const float wet = opens * SmoothStep(glm::mix(kPhoto, 1.3f, at_corner), kWet, outward);
     const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
     // Within the mouth what light there is has gone through flesh.
     const float inside = SmoothStep(0.5f, -4.0f, outward);
