@@ -92,10 +92,10 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   fsm::Image map;
   map.width = map.height = kMapSide;
   map.rgba.assign(static_cast<std::size_t>(4 * kMapSide) * kMapSide, 255);
-  Field seen(kMapSide, kMapSide);
+  Field seen(kMapSide, kMapSide), smooth(kMapSide, kMapSide);
   fsm::Image colours = figure.colours;
-  FillSmileFolds(face, 0.8F * glm::clamp(fit.expression.smile, 0.0F, 1.0F), fit.pose.PixelsPerMm(),
-                 colours);
+  const Field filled = FillSmileFolds(face, 0.8F * glm::clamp(fit.expression.smile, 0.0F, 1.0F),
+                                      fit.pose.PixelsPerMm(), colours);
   const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
   const Openings openings(face, fit.pose.PixelsPerMm(), open);
   std::vector<bool> skin(places.facing.size(), true);
@@ -115,6 +115,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     for (int c = 0; c < 3; ++c)
       map.rgba[4 * i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(colour[c] + 0.5F);
     seen.at[i] = weight;
+    smooth.at[i] = filled.Between(p.x, p.y);
   }
   for (const SideView& side : sides) {
     if (!side.outline_only) LayOver(base, fit, side, places, map, seen);
@@ -127,6 +128,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   TakeFromOtherSide(skin, map, seen);
   FillIn(map, seen);
   EvenSmileShade(base, places, seen, 0.85F * glm::clamp(fit.expression.smile, 0.0F, 1.0F), map);
+  GrainFromCheeks(smooth, map);
   Field aside(kMapSide, kMapSide);
   aside.at = places.aside;
   AddGrain(seen, aside, kMapSide / 170, map);

@@ -58,10 +58,11 @@ float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
 
 }  // namespace
 
-void FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fsm::Image& photo) {
-  if (smile <= 0) return;
+Field FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fsm::Image& photo) {
+  Field smooth(photo.width, photo.height);
+  if (smile <= 0) return smooth;
   const int valley = static_cast<int>(std::lround(kValley * pixels_per_mm));
-  if (valley < 1) return;
+  if (valley < 1) return smooth;
   for (const auto& fold : kFolds) {
     std::array<glm::vec2, 5> line;
     glm::vec2 low(1e9F), high(-1e9F);
@@ -103,12 +104,15 @@ void FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fsm
         for (int x = 0; x < size.x; ++x) {
           const std::size_t i = light.Index(x, y);
           const float lit = std::max(filled.at[i], light.at[i]);
+          float& lost = smooth.at[smooth.Index(first.x + x, first.y + y)];
+          if (lit > light.at[i]) lost = std::max(lost, part.at[i]);
           value(x, y, channel) =
               static_cast<std::uint8_t>(glm::mix(light.at[i], lit, part.at[i]) + 0.5F);
         }
       }
     }
   }
+  return smooth;
 }
 
 }  // namespace facefit

@@ -43,6 +43,8 @@ class Cheeks {
 class Means {
  public:
   Means(const Field& weight, int reach) : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
+  /// How much there is to go by near a texel, 0..1.
+  float Known(std::size_t i) const { return sum_.at[i]; }
   Field Of(const Field& values) const {
     Field weighted = values;
     for (std::size_t i = 0; i < weighted.at.size(); ++i) weighted.at[i] *= weight_.at[i];
@@ -76,11 +78,33 @@ void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const Field&
     for (std::size_t i = 0; i < values.at.size(); ++i) values.at[i] = map.rgba[4 * i + channel];
     const Field near = fine.Of(values), far = wide.Of(values);
     for (std::size_t i = 0; i < values.at.size(); ++i) {
-      const float part = smile * cheeks.At(places, i);
+      const float part = smile * cheeks.At(places, i) * glm::smoothstep(0.1F, 0.5F, fine.Known(i));
       if (part <= 0) continue;
       const float even = (far.at[i] + 1) / (near.at[i] + 1);
       map.rgba[4 * i + channel] = static_cast<std::uint8_t>(
           std::min(values.at[i] * glm::mix(1.0F, even, part), 255.0F) + 0.5F);
+    }
+  }
+}
+
+void GrainFromCheeks(const Field& smooth, fsm::Image& map) {
+  constexpr int kUp = 48, kOut = 36;  // texels, some 12 and 9 millimetres
+  constexpr int kGrain = 8;           // what varies over more is no grain
+  constexpr float kMost = 0.12F;      // of the brightness: more is a line, not grain
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    Field values(kMapSide, kMapSide);
+    for (std::size_t i = 0; i < values.at.size(); ++i) values.at[i] = map.rgba[4 * i + channel];
+    const Field means = Blurred(Blurred(values, kGrain), kGrain);
+    for (int y = kUp; y < kMapSide; ++y) {
+      for (int x = kOut; x < kMapSide - kOut; ++x) {
+        const std::size_t i = MapIndex(x, y);
+        if (smooth.at[i] <= 0) continue;
+        const std::size_t from = MapIndex(x < kMapSide / 2 ? x - kOut : x + kOut, y - kUp);
+        const float grain = (values.at[from] + 1) / (means.at[from] + 1) - 1;
+        map.rgba[4 * i + channel] = static_cast<std::uint8_t>(
+            glm::clamp(values.at[i] * (1 + smooth.at[i] * glm::clamp(grain, -kMost, kMost)) + 0.5F,
+                       0.0F, 255.0F));
+      }
     }
   }
 }

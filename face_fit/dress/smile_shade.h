@@ -14,4 +14,8 @@ namespace facefit {
 void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const Field& seen, float smile,
                     fsm::Image& map);
 
+/// Gives back to skin that was smoothed the grain that the cheek has above it and farther out.
+/// `smooth`: how much of its own each texel of the map lost, 0..1.
+void GrainFromCheeks(const Field& smooth, fsm::Image& map);
+
 }  // namespace facefit

@@ -87,6 +87,49 @@ TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
   }
 }
 
+TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
+  // The photo shows one cheek only; beyond is what was filled in.
+  for (std::size_t i = 0; i < places_.up.size(); ++i) seen_.at[i] = places_.across[i] < 0 ? 1 : 0;
+  const fsm::Image before = map_;
+  EvenSmileShade(*base_, places_, seen_, 1, map_);
+  int changed = 0;
+  for (std::size_t i = 0; i < places_.up.size(); ++i) {
+    if (places_.across[i] > 6) {
+      ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
+    }
+    changed += map_.rgba[4 * i] != before.rgba[4 * i];
+  }
+  EXPECT_GT(changed, 1000) << "the other cheek is evened out";
+}
+
+TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
+  fsm::Image flat = map_;
+  Field smooth(kMapSide, kMapSide);
+  const auto spot = [&](std::size_t i) {
+    return std::abs(std::abs(places_.across[i]) - 30) < 4 &&
+           std::abs(Height(i) - middle() + 12) < 3;
+  };
+  for (std::size_t i = 0; i < places_.up.size(); ++i) {
+    if (!spot(i)) continue;
+    smooth.at[i] = 1;
+    for (std::size_t c = 0; c < 3; ++c) flat.rgba[4 * i + c] = 150;
+  }
+  const fsm::Image before = flat;
+  GrainFromCheeks(smooth, flat);
+  float rough = 0, sum = 0, count = 0;
+  for (std::size_t i = 1; i < places_.up.size(); ++i) {
+    if (!spot(i)) {
+      ASSERT_EQ(flat.rgba[4 * i], before.rgba[4 * i]) << "nothing else changes";
+      continue;
+    }
+    rough += std::abs(static_cast<float>(flat.rgba[4 * i]) - 150);
+    sum += flat.rgba[4 * i];
+    ++count;
+  }
+  EXPECT_GT(rough / count, 1.5F);
+  EXPECT_NEAR(sum / count, 150, 2) << "no colour changes on the mean";
+}
+
 TEST_F(SmileShadeTest, WithoutASmileNothingChanges) {
   const fsm::Image before = map_;
   EvenSmileShade(*base_, places_, seen_, 0, map_);
