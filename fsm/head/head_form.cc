@@ -30,6 +30,8 @@ HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shape
     const glm::vec3 left = lips(kAside), right = lips(-kAside);
     teeth_.shift.x = 0.5f * (left.x + right.x);
     teeth_.slope = std::clamp((left.z - right.z) / (2 * kAside), -kSteepest, kSteepest);
+    // Lips that part show them, women's more than 3 mm, men's 2 (Vig and Brundo 1978).
+    teeth_.shift.y -= 1.0f;
     teeth_.shift.z -= TeethTooFar(base);
   }
 }

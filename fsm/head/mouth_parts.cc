@@ -169,13 +169,13 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       const float groove = 1.6f * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
-      const float lit = SmoothStep(-0.1f, 0.8f, part) * SmoothStep(0, 1, up) *
+      const float lit = SmoothStep(-0.2f, 1.0f, part) * SmoothStep(0, 1, up) *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
       Flesh flesh;
       flesh.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, 0.14f + 0.73f * lit, Bone::kTongue, flesh);
+      mesh.Add(p, colour, 0.16f + 0.5f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

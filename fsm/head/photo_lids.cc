@@ -77,10 +77,13 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
   return sum / weight;
 }
 
-/// To and fro: there is only so much skin below an eye before a cheek or a rim of glasses begins.
-float Folded(float away, float there) {
-  const float part = std::fmod(away, 2 * there);
-  return there - std::abs(part - there);
+constexpr float kHighest = 15;  // that a lid comes to lie above the rim of the lower, millimetres
+
+/// To and fro: there is only so much skin below an eye before a rim of glasses begins.
+float Folded(float away) {
+  constexpr float kThere = 2.5f;  // millimetres
+  const float part = std::fmod(away, 2 * kThere);
+  return kThere - std::abs(part - kThere);
 }
 
 /// How places in the photo go with places on the face: the plane through them.
@@ -191,7 +194,7 @@ class LidPainter {
     const glm::vec3 lit = kSheltered * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
     // The frame of glasses shades what lies behind it.
-    if (face_.glasses) return glm::mix(Shaded(deep, 0.88f), lit, 0.45f * down);
+    if (face_.glasses) return glm::mix(0.84f * deep, lit, 0.4f * down);
     // Out of a deep socket, which is dark, it does not come all the way.
     const float out = glm::mix(
         0.5f, 1.0f, SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
@@ -226,13 +229,14 @@ class LidPainter {
     const float shade = (1 - 0.12f * inside) * (1 - 0.14f * SmoothStep(2.0f, 0.0f, at.y - meet));
     const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
     const float lashes = (0.3f + 0.3f * Outward(at)) * SmoothStep(0.97f, 1.0f, held);
-    const float there = face_.glasses ? 3 : 5;  // millimetres
-    const glm::vec2 mirrored(at.x, lowest_ - 1.5f - Folded(std::max(at.y - lowest_, 0.0f), there));
-    const Lender wide = Around(below_, mirrored, 4);
+    const float height = std::max(at.y - lowest_, 0.0f);
+    const float down = face_.glasses ? Folded(height) : std::max(kHighest - height, 0.0f);
+    const glm::vec2 lender(at.x, lowest_ - 1.5f - down);
+    const Lender wide = Around(below_, lender, 4);
     return {i,
             glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f),
             Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
-            grain_by_face_(mirrored),
+            grain_by_face_(lender),
             ScreenBrightness(wide.screen),
             photo_by_face_.slope * (at - glm::vec2(face_.open.position[i]))};
   }
