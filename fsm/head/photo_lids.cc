@@ -77,7 +77,7 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
   return sum / weight;
 }
 
-constexpr float kHighest = 15;  // that a lid comes to lie above the rim of the lower, millimetres
+constexpr float kHighest = 12;  // that a lid comes to lie above the rim of the lower, millimetres
 
 /// To and fro: there is only so much skin below an eye before a rim of glasses begins.
 float Folded(float away) {
