@@ -44,8 +44,10 @@ class GlTarget {
   int height() const { return height_; }
   /// Makes it the one drawn into, all of it.
   void Bind() const;
-  /// The averaged picture, `rgba` width * height * 4 bytes, row 0 at the top.
-  void Read(std::uint8_t* rgba);
+  /// The averaged picture, `rgba` width * height * 4 bytes, row 0 at the top. `soft`: over 4 x 4
+  /// samples, the outer ones in part, as a camera would; edges that are nearly level then do not
+  /// look like stairs.
+  void Read(std::uint8_t* rgba, bool soft);
   /// Averages into the framebuffer bound as GL_DRAW_FRAMEBUFFER, its lower left corner at (x, y).
   void Show(int x, int y) const;
 
@@ -56,6 +58,7 @@ class GlTarget {
   GLuint frame_ = 0;
   GLuint buffers_[2] = {};              // colour, depth
   std::vector<std::uint32_t> samples_;  // some rows of RGBA8, as they are read
+  std::vector<std::uint32_t> sums_;     // of one row
 };
 
 }  // namespace fsm

@@ -60,7 +60,8 @@ class GlRenderer : public Renderer {
     out.width = target_->width();
     out.height = target_->height();
     out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
-    target_->Read(out.rgba.data());
+    // Beside a photo's own softness hard edges are seen.
+    target_->Read(out.rgba.data(), head_.blends());
     if (transparent_) Unmultiply(out);
   }
 

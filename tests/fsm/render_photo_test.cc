@@ -82,6 +82,34 @@ TEST(PhotoTest, WhatLiesBehindASoftEdgeIsSeenThroughIt) {
   EXPECT_LT(glm::distance(seen[0], should), 6) << seen[0].x << " " << seen[0].y << " " << seen[0].z;
 }
 
+TEST(PhotoTest, LevelEdgesAreSoftAsThoseOfPhotos) {
+  const FaceSet set = RedFaceAndGreenSheet(255, {60});
+  const auto head = Head::Make(set);
+  HeadVertices vertices;
+  head->Evaluate({}, vertices);
+  Scene scene;
+  scene.background = glm::vec3(0, 0, 1);
+  for (const auto& [width, height] : {std::pair(401, 399), std::pair(400, 17), std::pair(1, 1)}) {
+    const auto context = RenderContext::MakeHeadless(width, height);
+    const auto renderer = Renderer::Make(*context);
+    renderer->Draw(*head, vertices, {}, scene);
+    Image image;
+    renderer->Read(image);
+    if (height < 100) continue;  // that it is drawn at all
+    // Down beside the head: background, the sheet's upper edge, the sheet.
+    int between = 0, before = 0;
+    for (int y = 0; y < height / 2; ++y) {
+      const auto i = static_cast<std::size_t>(y * width + width / 4) * 4;
+      const int green = image.rgba[i + 1];
+      EXPECT_GE(green, before);
+      between += green > 10 && green < 190;
+      before = green;
+    }
+    EXPECT_GT(before, 195);
+    EXPECT_GE(between, 2);
+  }
+}
+
 TEST(PhotoTest, SkinIsSeenWhereTheSheetComesNearlyAsFar) {
   const auto base = Head::Make("galatea");
   const glm::vec3 nasion = base->Landmark("nasion");
