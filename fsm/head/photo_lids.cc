@@ -77,11 +77,11 @@ float HeightAt(std::span<const glm::vec2> line, float x) {
   return sum / weight;
 }
 
-constexpr float kHighest = 12;  // that a lid comes to lie above the rim of the lower, millimetres
+constexpr float kHighest = 14;  // that a lid comes to lie above the rim of the lower, millimetres
 
 /// To and fro: there is only so much skin below an eye before a rim of glasses begins.
 float Folded(float away) {
-  constexpr float kThere = 2.5f;  // millimetres
+  constexpr float kThere = 5;  // millimetres
   const float part = std::fmod(away, 2 * kThere);
   return kThere - std::abs(part - kThere);
 }
@@ -194,7 +194,7 @@ class LidPainter {
     const glm::vec3 lit = kSheltered * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
     // The frame of glasses shades what lies behind it.
-    if (face_.glasses) return glm::mix(0.84f * deep, lit, 0.4f * down);
+    if (face_.glasses) return glm::mix(0.92f * glm::mix(deep, skin_below_, 0.5f), lit, 0.4f * down);
     // Out of a deep socket, which is dark, it does not come all the way.
     const float out = glm::mix(
         0.5f, 1.0f, SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
@@ -226,11 +226,11 @@ class LidPainter {
     const float deep = (at.y - rim - 0.6f) / 1.1f;
     const float furrow = 1 - 0.16f * (1 - inside) * std::exp(-deep * deep);
     // It turns away at its ends, and its lashes shade it.
-    const float shade = (1 - 0.12f * inside) * (1 - 0.14f * SmoothStep(2.0f, 0.0f, at.y - meet));
+    const float shade = (1 - 0.07f * inside) * (1 - 0.14f * SmoothStep(2.0f, 0.0f, at.y - meet));
     const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
-    const float lashes = (0.3f + 0.3f * Outward(at)) * SmoothStep(0.97f, 1.0f, held);
+    const float lashes = (0.42f + 0.28f * Outward(at)) * SmoothStep(0.96f, 1.0f, held);
     const float height = std::max(at.y - lowest_, 0.0f);
-    const float down = face_.glasses ? Folded(height) : std::max(kHighest - height, 0.0f);
+    const float down = face_.glasses ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 lender(at.x, lowest_ - 1.5f - down);
     const Lender wide = Around(below_, lender, 4);
     return {i,

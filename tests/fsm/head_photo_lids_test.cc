@@ -224,8 +224,8 @@ TEST(PhotoLidsTest, TheGrainComesFromASkinThatIsNearTheEye) {
   int checked = 0;
   for (const LidPaint& lid : eye.Lids()) {
     if (lid.part < 0.5f || eye.skin[lid.vertex].lid_upper == 0) continue;
-    // The lower rim is at half the picture's height, 2 % of it each millimetre and a quarter.
-    EXPECT_LT(lid.lender.y, 0.5f + 0.02f * 18 / 0.79f) << eye.skin[lid.vertex].lid_upper;
+    // The lower rim is at half the picture's height, 15 millimetres below it is the end.
+    EXPECT_LT(lid.lender.y, 0.5f + 0.5f * 15.6f / 15) << eye.skin[lid.vertex].lid_upper;
     ++checked;
   }
   EXPECT_GT(checked, 100);
