@@ -51,7 +51,7 @@ class GenericHead : public Head {
         // Where the lips turn inward the mouth is painted: it begins in their colour.
         constexpr float kOpen = 0.85f;
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
-        identity_.palette.mouth = 0.9f * Wetter(identity_.palette.lip_inside, set->saturation);
+        identity_.palette.mouth = 0.9f * Wetter(identity_.palette.lip_inside, 0.5f * set->saturation);
       }
       lined_ = set->lined;
       eye_.ScaleIris(set->iris_size);

@@ -175,7 +175,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       flesh.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, 0.16f + 0.5f * lit, Bone::kTongue, flesh);
+      mesh.Add(p, colour, 0.2f + 0.46f * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

@@ -61,7 +61,7 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
   gl_.Uniform4f(mouth_.Uniform("mouth_edges"), opening->corners.x, opening->corners.y,
                 opening->teeth.x, opening->teeth.y);
   gl_.Uniform1f(mouth_.Uniform("front_gain"), head.photo() ? 1.0F : 1.35F);
-  gl_.Uniform1f(mouth_.Uniform("deep_gain"), head.photo() ? 1.4F : 1.7F);
+  gl_.Uniform1f(mouth_.Uniform("deep_gain"), head.photo() ? 2.0F : 1.7F);
   gl_.Uniform3fv(mouth_.Uniform("mouth_key"), 1, glm::value_ptr(key));
 }
 
