@@ -156,10 +156,11 @@ class LidPainter {
     }
     // Nothing bright but skin is above an eye, unless glasses shine there.
     DoubtOddSkin(samples, face.glasses ? 0.5f : 0.65f);
-    // Below an eye skin is thin and bluish: half of the hue is the face's.
+    // Below an eye skin is thin and bluish: half of the hue is the face's. Lenses have their own.
     skin_below_ = MeanBelow(samples);
     const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
-    skin_below_ = glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue, 0.5f);
+    skin_below_ = glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue,
+                           face.glasses ? 0.15f : 0.5f);
     eyeless_.emplace(samples);
   }
 
@@ -232,7 +233,8 @@ class LidPainter {
     const float height = std::max(at.y - lowest_, 0.0f);
     const float down = face_.glasses ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 lender(at.x, lowest_ - 1.5f - down);
-    const Lender wide = Around(below_, lender, 4);
+    // Near a rim of glasses skin darkens within millimetres: that is no grain.
+    const Lender wide = Around(below_, lender, face_.glasses ? 1.2f : 4.0f);
     return {i,
             glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f),
             Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
@@ -245,10 +247,11 @@ class LidPainter {
   float Part(glm::vec2 at, float rim, glm::vec3 skin) const {
     const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // the corners, millimetres
     const float lid = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) * SmoothStep(3, 0, beyond);
-    if (face_.glasses) return lid;
+    const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen) / ScreenBrightness(skin);
+    // What a lens mirrors lies before the lid.
+    if (face_.glasses) return lid * SmoothStep(1.7f, 1.3f, shown);
     constexpr float kLashes = 0.75f;  // some shade is left of them
-    const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen);
-    const float dark = SmoothStep(0.05f, 0.2f, 1 - shown / ScreenBrightness(skin));
+    const float dark = SmoothStep(0.05f, 0.2f, 1 - shown);
     return std::max(
         lid, kLashes * dark * SmoothStep(rim + 7.5f, rim + 5.5f, at.y) * SmoothStep(6, 3, beyond));
   }

@@ -78,6 +78,20 @@ float GreenInTheMiddle(const Eye& eye, float held) {
   return green;
 }
 
+/// How much is lid between two heights in the middle of the shut eye.
+float MeanPart(const Eye& eye, float from, float to) {
+  float part = 0;
+  int count = 0;
+  for (const LidPaint& lid : eye.Lids()) {
+    const glm::vec3 at = eye.shut[lid.vertex];
+    if (eye.skin[lid.vertex].lid_upper <= 0 || std::abs(at.x - 30) > 8) continue;
+    if (at.y < from || at.y > to) continue;
+    part += lid.part;
+    ++count;
+  }
+  return part / static_cast<float>(std::max(count, 1));
+}
+
 TEST(PhotoLidsTest, DarkLashesDoNotColourTheLid) {
   Eye eye;
   for (int row = 6; row < 20; ++row) eye.Paint(row, 0, 60, glm::vec3(0.05f));
@@ -193,21 +207,19 @@ TEST(PhotoLidsTest, TheLashesOfTheOpenEyeAreGoneWhenItIsShutButARimOfGlassesStay
   Eye eye;
   // From 3 to 6 millimetres above the open eye's rim; the skin above it is bright.
   for (int row = 12; row < 16; ++row) eye.Paint(row, 0, 60, 0.3f * kSkin);
-  const auto part_there = [](const Eye& e) {
-    float part = 0;
-    int count = 0;
-    for (const LidPaint& lid : e.Lids()) {
-      const glm::vec3 at = e.shut[lid.vertex];
-      if (e.skin[lid.vertex].lid_upper <= 0 || std::abs(at.x - 30) > 8) continue;
-      if (at.y < 9.3f || at.y > 10.3f) continue;
-      part += lid.part;
-      ++count;
-    }
-    return part / static_cast<float>(std::max(count, 1));
-  };
-  EXPECT_GT(part_there(eye), 0.5f);
+  EXPECT_GT(MeanPart(eye, 9.3f, 10.3f), 0.5f);
   eye.glasses = true;
-  EXPECT_LT(part_there(eye), 0.1f);
+  EXPECT_LT(MeanPart(eye, 9.3f, 10.3f), 0.1f);
+}
+
+TEST(PhotoLidsTest, WhatALensMirrorsStaysBeforeTheLid) {
+  Eye eye;
+  for (int row = 0; row < 40; ++row) eye.Paint(row, 0, 60, 0.5f * kSkin);
+  eye.glasses = true;
+  EXPECT_GT(MeanPart(eye, 6.4f, 7.6f), 0.8f);
+  // From 1 to 5 millimetres above the open eye's rim.
+  for (int row = 12; row < 19; ++row) eye.Paint(row, 0, 60, glm::vec3(1));
+  EXPECT_LT(MeanPart(eye, 6.4f, 7.6f), 0.3f);
 }
 
 TEST(PhotoLidsTest, TheGrainComesFromBelowTheEye) {
