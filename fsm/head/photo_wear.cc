@@ -98,6 +98,16 @@ void ThinLashes(const FaceSet& set, HeadTopology& topology) {
   }
 }
 
+/// How much the sheet goes with the jaw: what touches the chin and the line of the jaw nearly
+/// wholly, so that nothing comes out from behind them; farther down skin and clothes are pushed
+/// together.
+float JawPart(glm::vec3 p, float skin_bottom) {
+  constexpr float kMost = 0.9f, kChin = 8;  // millimetres above the skin's bottom
+  const float line = skin_bottom + kChin + 0.012f * p.x * p.x;
+  return kMost * SmoothStep(line + 16, line + 2, p.y) * SmoothStep(line - 62, line - 4, p.y) *
+         SmoothStep(78, 46, std::abs(p.x));
+}
+
 /// How much of the skin at a place hides the sheet, which shows the same beside it: it fades where
 /// the photo did not see it squarely.
 float SeenSkin(const FaceSet& set, glm::vec3 p, glm::vec3 normal) {
@@ -121,20 +131,6 @@ float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom)
 glm::vec3 Wetter(glm::vec3 lip, float saturation) {
   return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
 }
-
-namespace {
-
-/// How much the sheet goes with the jaw: what touches the chin and the line of the jaw nearly
-/// wholly, so that nothing comes out from behind them; farther down skin and clothes are pushed
-/// together.
-float JawPart(glm::vec3 p, float skin_bottom) {
-  constexpr float kMost = 0.9f, kChin = 8;  // millimetres above the skin's bottom
-  const float line = skin_bottom + kChin + 0.012f * p.x * p.x;
-  return kMost * SmoothStep(line + 16, line + 2, p.y) * SmoothStep(line - 62, line - 4, p.y) *
-         SmoothStep(78, 46, std::abs(p.x));
-}
-
-}  // namespace
 
 void AddSheet(const FaceSet& set, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
