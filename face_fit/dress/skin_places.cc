@@ -73,8 +73,7 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const Pose& pose, boo
     for (int c = 0; c < 3; ++c) normal[t[c]] += n;
   });
   constexpr glm::vec3 kEye(0, 0, 794);
-  constexpr float kBrows = 27;  // millimetres above the nasion they end
-  const float brows = base.head->Landmark("nasion").y + kBrows;
+  const float brows = base.head->Landmark("nasion").y + kBrowsEnd;
   const float chin = base.places[152].On(base.rest.position).y;
   std::vector<glm::vec3> seam;
   for (const int i : UpperInnerLip()) {

@@ -11,6 +11,8 @@ inline std::size_t MapIndex(int x, int y) {
   return static_cast<std::size_t>(y) * kMapSide + static_cast<std::size_t>(x);
 }
 
+inline constexpr float kBrowsEnd = 27;  ///< millimetres above the nasion
+
 /// For each texel of the skin's map: where it lies in a photo, and how squarely it was seen.
 struct SkinPlaces {
   std::vector<glm::vec2> pixel;

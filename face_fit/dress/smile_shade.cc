@@ -10,7 +10,7 @@ namespace {
 /// Where on the base face a smile shades the skin, 0..1.
 class Cheeks {
  public:
-  explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrows) {
+  explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrowsEnd) {
     const auto at = [&base](std::size_t point) {
       return base.places[point].On(base.rest.position);
     };
@@ -34,7 +34,6 @@ class Cheeks {
   }
 
  private:
-  static constexpr float kBrows = 27;  // as SkinPlaces::up is counted from
   float Y(const SkinPlaces& places, std::size_t i) const { return places.up[i] + brows_; }
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
@@ -88,6 +87,7 @@ void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const Field&
 }
 
 void GrainFromCheeks(const Field& smooth, fsm::Image& map) {
+  if (std::ranges::none_of(smooth.at, [](float s) { return s > 0; })) return;
   constexpr int kUp = 48, kOut = 36;  // texels, some 12 and 9 millimetres
   constexpr int kGrain = 8;           // what varies over more is no grain
   constexpr float kMost = 0.12F;      // of the brightness: more is a line, not grain

@@ -16,7 +16,7 @@ struct LidPaint {
   std::uint32_t vertex;
   glm::vec3 screen;  ///< colour on the screen, 0..1
   float part;        ///< how much of it is lid, 0..1: it goes over into the skin round it
-  /// Skin that lends its grain: below the lower lid, as far from the line in which the lids meet.
+  /// Skin that lends its grain: a lid's height below, or nearer behind glasses.
   glm::vec2 lender;    ///< its place in the photo, as HeadTopology::photo_place
   float lender_light;  ///< the mean brightness round it, 0..1
   /// From its place in the photo to where in the photo it comes to lie.

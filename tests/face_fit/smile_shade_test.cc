@@ -36,7 +36,7 @@ class SmileShadeTest : public NetworkTest {
   }
   glm::vec3 Place(std::size_t point) const { return base_->places[point].On(base_->rest.position); }
   float Height(std::size_t i) const {
-    return places_.up[i] + base_->head->Landmark("nasion").y + 27;
+    return places_.up[i] + base_->head->Landmark("nasion").y + kBrowsEnd;
   }
   /// Between nose and mouth, on the cheeks.
   float middle() const { return 0.5F * (Place(2).y + Place(61).y); }

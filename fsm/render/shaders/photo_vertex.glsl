@@ -5,8 +5,8 @@ layout(location = 6) in vec4 creases_left;
 layout(location = 7) in vec3 photo_place;  // u, v down; the photo's part in the colour, beyond 1: lid
 
 layout(location = 8) in vec4 photo_lender;  // of a lid: the place whose grain it takes; its way
-layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
 layout(location = 9) in float cover;        // 1: hides what is behind, 0: is not there
+layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
 
 uniform vec4 crease_depths[2];
 uniform float lids_shut[2];  // right, left
