@@ -138,6 +138,15 @@ TEST(MouthPictureTest, TeethStandInTheHueThatTheWhitesOfTheEyesShow) {
   EXPECT_NEAR(warm.r, plain.r, 4) << "no darker in what the light has most of";
 }
 
+TEST(MouthPictureTest, MoreOfTheUpperTeethIsSeenOfAFaceFromAPhoto) {
+  const auto below_lip = [](std::unique_ptr<Head> head) {
+    const MouthPicture picture(std::move(head), {});
+    return picture.Lip(true, 0).y - picture.Vertex(picture.mouth().upper_incisor).y;
+  };
+  const float built_in = below_lip(Head::Make("galatea"));
+  EXPECT_NEAR(below_lip(InPhoto()) - built_in, 1, 0.3F);
+}
+
 TEST(MouthPictureTest, TongueSinksIntoTheDarkToItsSides) {
   const MouthPicture picture(InPhoto(), {{27, 0.8F}});
   const glm::vec3 teeth = picture.Vertex(picture.mouth().lower_incisor);
