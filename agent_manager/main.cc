@@ -1,14 +1,16 @@
 // agent_manager: the hub. Reads a configuration, starts the modules, routes what they say.
 
 #include <malloc.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 
-#include "agent_manager/session.h"
+#include "agent_manager/agent_manager.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace {
@@ -25,6 +27,15 @@ void GiveBackMemory() {
 #endif
 }
 
+/// The usual soft limit, 1024, is less than the peers we may have; TLS takes three for each.
+void RaiseDescriptorLimit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  constexpr rlim_t kWanted = 65536;
+  limit.rlim_cur = std::min(limit.rlim_max, std::max(limit.rlim_cur, kWanted));
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -33,7 +44,7 @@ int main(int argc, char** argv) {
   std::string config_path, log, clock, replay, do_file;
   std::string web;
   bool no_console = false;
-  am::Session::Options options;
+  am::AgentManager::Options options;
   app.add_option("--config,-C", config_path, "Configuration (JSON, docs/configuration.md)");
   app.add_option("--log", log, "Write every message to this file");
   app.add_option("--clock", clock, "real or virtual (overrides the configuration)")
@@ -53,6 +64,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
   GiveBackMemory();
+  RaiseDescriptorLimit();
   try {
     const auto read_config = [&]() -> vm::Result<am::Config> {
       am::Config config;
@@ -80,12 +92,12 @@ int main(int argc, char** argv) {
       std::istringstream lines(*text);
       for (std::string line; std::getline(lines, line);) options.first_lines.push_back(line);
     }
-    am::Session session(std::move(*config), options);
+    am::AgentManager hub(std::move(*config), options);
     if (slots_markdown) {
-      std::cout << session.SlotsMarkdown();
+      std::cout << hub.SlotsMarkdown();
       return 0;
     }
-    return session.Run();
+    return hub.Run();
   } catch (const std::exception& error) {
     std::cerr << "agent_manager: " << error.what() << std::endl;
     return 1;

@@ -301,7 +301,7 @@ class Hub:
         config = os.path.join(folder, "hub.json")
         with open(config, "w") as file:
             json.dump({
-                "listen": ["unix:" + self.path], "log": "/dev/full",
+                "listen": [{"at": "unix:" + self.path, "role": "owner"}], "log": "/dev/full",
                 "modules": [{"name": name, "command": [module],
                              "restart": {"when": "always", "first_ms": 1, "longest_ms": 50,
                                          "tries": 1000000, "within_ms": 1000},

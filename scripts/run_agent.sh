@@ -145,7 +145,7 @@ if [ -n "$say" ]; then
 fi
 
 # A dialogue: the hub in the background, the dialogue as one of its clients.
-printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [\"unix:$work/hub\"],#" "$config")" >"$work/dialogue.json"
+printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"role\": \"owner\"}],#" "$config")" >"$work/dialogue.json"
 "$hub_program" --config "$work/dialogue.json" --no-console 2>"$work/hub.log" &
 hub=$!
 for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done

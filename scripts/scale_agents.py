@@ -56,7 +56,7 @@ class Agent:
         modules = [{"name": name, "command": [os.path.join(programs, program)]}
                    for name, program in (("SSM", "ssm_stub"), ("SRM", "srm_stub"))]
         with open(config, "w") as file:
-            json.dump({"listen": ["unix:" + self.path], "modules": modules,
+            json.dump({"listen": [{"at": "unix:" + self.path, "role": "owner"}], "modules": modules,
                        "mqtt": {"broker": f"tcp:127.0.0.1:{broker_port}", "agent": self.name}}, file)
         self.said = open(self.path + ".said", "wb")
         self.process = subprocess.Popen(

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "agent_manager/rules.h"
+#include "agent_manager/access/pattern.h"
 
 namespace am {
 namespace {

@@ -6,8 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "agent_manager/access/pattern.h"
 #include "agent_manager/mqtt/bridge_links.h"
-#include "agent_manager/rules.h"
+#include "vm_protocol/core/utf8.h"
 #include "vm_protocol/runtime/credentials.h"
 
 namespace am::mqtt {
@@ -34,8 +35,8 @@ Bridge::Bridge(vm::Scheduler& clock, Hub& hub, MqttConfig config, Hooks hooks,
   events.on_packet = [this](const Packet& packet) { OnPacket(packet); };
   events.on_receipt = [this](const Broker::Events::Receipt& receipt) { OnReceipt(receipt); };
   broker_ = connect({.topic = Path(Kind::kState), .payload = kLost, .retain = true}, events);
-  const auto key =
-      hub_.Attach(std::make_unique<GatewayLink>(*this), PeerKind::kClient, kName, Dialect::kAuto);
+  const auto key = hub_.Attach(std::make_unique<GatewayLink>(*this), PeerKind::kClient,
+                               config_.role, kName, Dialect::kAuto);
   if (!key) throw std::runtime_error("mqtt: " + key.error().text);
   gateway_ = *key;
   hub_.Subscribe(gateway_, {"*"});
@@ -51,9 +52,9 @@ Bridge::Bridge(vm::Scheduler& clock, Hub& hub, MqttConfig config, Hooks hooks,
 Bridge::~Bridge() {
   *alive_ = false;
   for (const auto& [name, remote] : std::exchange(remotes_, {})) {
-    if (remote.key != 0) hub_.Detach(remote.key, "the bridge to the broker has ended");
+    if (remote.key != 0) hub_.Evict(remote.key, "the bridge to the broker has ended");
   }
-  hub_.Detach(gateway_, "the bridge to the broker has ended");
+  hub_.Evict(gateway_, "the bridge to the broker has ended");
   if (online_) broker_->Publish({.topic = Path(Kind::kState), .payload = kOffline, .retain = true});
 }
 
@@ -80,7 +81,7 @@ void Bridge::Notice(const std::string& text) {
     notices_since_ = clock_.Now();
     notices_ = 0;
   }
-  if (++notices_ <= kNoticesPerSecond) hooks_.on_notice("mqtt: " + text);
+  if (++notices_ <= kNoticesPerSecond) hooks_.on_notice("mqtt: " + vm::ShownUtf8(text));
 }
 
 void Bridge::Claim() {
@@ -205,7 +206,7 @@ void Bridge::OnPacket(const Packet& packet) {
 
 void Bridge::Refuse(const Packet& packet, const std::string& slot, const vm::Error& error) {
   const std::string text = vm::FormatError(error);
-  Notice("refused '" + packet.topic.substr(0, 200) + "': " + text);
+  Notice("refused '" + std::string(vm::CutUtf8(packet.topic, 200)) + "': " + text);
   if (packet.response_topic.empty()) return;
   Publish({.topic = packet.response_topic,
            .payload = "rep " + slot + (slot == "Error" ? "" : ".error") + " = " + text,

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "agent_manager/hub.h"
 #include "agent_manager/mqtt/broker.h"
 #include "agent_manager/mqtt/topics.h"
+#include "agent_manager/routing/hub.h"
 
 namespace am::mqtt {
 
@@ -71,7 +71,7 @@ class Bridge {
     PeerKey key = 0;  // 0: not there now
     bool wanted = false;
     std::map<std::string, Unanswered> unanswered;  // by the hub's tag
-    std::deque<std::string> waiting;               // lines beyond kMaxUnanswered
+    std::deque<vm::Message> waiting;               // beyond kMaxUnanswered
     std::size_t bytes = 0;                         // not yet taken by the broker, waiting ones too
   };
   struct Request {  // from the broker
@@ -101,12 +101,12 @@ class Bridge {
                    const std::string& slot = "") const;
   bool Shows(const std::string& module) const;
   // bridge_local.cc: our modules, seen and spoken to from the broker.
-  void OnOurLine(std::string_view line);
+  void OnOurMessage(const vm::Message& said);
   void Answer(const vm::Message& rep);
   void OnCommand(const Topic& topic, const Packet& packet);
   void PublishModules();
   // bridge_remote.cc: modules of other agents.
-  void SendToRemote(const std::string& name, std::string_view line);
+  void SendToRemote(const std::string& name, const vm::Message& message);
   void PublishTo(const std::string& name, Remote& remote, vm::Message message);
   void SendWaiting(const std::string& name);
   void OnReply(const Packet& packet);

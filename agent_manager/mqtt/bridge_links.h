@@ -13,7 +13,7 @@ namespace am::mqtt {
 class Bridge::GatewayLink final : public Link {
  public:
   explicit GatewayLink(Bridge& bridge) : bridge_(bridge) {}
-  void Send(std::string_view line) override { bridge_.OnOurLine(line); }
+  void Send(const Outgoing& outgoing) override { bridge_.OnOurMessage(outgoing.message()); }
   void Close() override {}
 
  private:
@@ -24,7 +24,7 @@ class Bridge::GatewayLink final : public Link {
 class Bridge::RemoteLink final : public Link {
  public:
   RemoteLink(Bridge& bridge, std::string name) : bridge_(bridge), name_(std::move(name)) {}
-  void Send(std::string_view line) override { bridge_.SendToRemote(name_, line); }
+  void Send(const Outgoing& outgoing) override { bridge_.SendToRemote(name_, outgoing.message()); }
   void Close() override { bridge_.RemoteGone(name_); }
   std::size_t backlog_bytes() const override {
     const auto remote = bridge_.remotes_.find(name_);

@@ -41,32 +41,26 @@ void Bridge::PublishModules() {
   PublishValue(Path(Kind::kModules), names);
 }
 
-void Bridge::OnOurLine(std::string_view line) {
-  const auto said = vm::ParseMessage(line);
-  if (!said) return Notice(vm::FormatError(said.error()));
-  if (said->command != Command::kRep && said->command != Command::kTell) {
-    if (said->tag.empty()) return;
-    Message rep =
-        vm::Rep(said->slot.empty() ? std::string(vm::CommandName(said->command)) : said->slot, "");
-    rep.slot += ".error";
-    rep.value = "UNKNOWN_SLOT the broker has no slots of its own: to @AGENT/MODULE reaches others";
-    rep.tag = said->tag;
-    clock_.Post([this, alive = alive_, text = vm::FormatMessage(rep)] {
-      if (*alive) hub_.OnLine(gateway_, std::string_view(text));
-    });
-    return;
+void Bridge::OnOurMessage(const Message& said) {
+  if (said.command != Command::kRep && said.command != Command::kTell) {
+    if (said.tag.empty()) return;
+    Message rep = vm::Rep(SlotOf(said) + ".error",
+                          "UNKNOWN_SLOT the broker has no slots of its own: to @AGENT/MODULE "
+                          "reaches others");
+    rep.tag = said.tag;
+    return hub_.Receive(gateway_, std::move(rep));
   }
-  if (!said->tag.empty()) return Answer(*said);
-  const std::string& from = said->from;
+  if (!said.tag.empty()) return Answer(said);
+  const std::string& from = said.from;
   if ((!kInside.contains(from) && !hub_.IsModule(from)) || !Shows(from)) return;
-  const bool error = said->slot == "Error" || said->slot.ends_with(".error");
-  if (said->command == Command::kRep && !error)
-    return PublishValue(Path(Kind::kSlot, from, said->slot), said->value);
-  Message bare = *said;
+  const bool error = said.slot == "Error" || said.slot.ends_with(".error");
+  if (said.command == Command::kRep && !error)
+    return PublishValue(Path(Kind::kSlot, from, said.slot), said.value);
+  Message bare = said;
   bare.from.clear();
   if (in_flight_bytes_ >= kMaxInFlightBytes ||
       !Publish({.topic = Path(error ? Kind::kError : Kind::kTell, from),
-                .payload = error ? vm::FormatMessage(bare) : said->value},
+                .payload = error ? vm::FormatMessage(bare) : said.value},
                {}))
     ++dropped_;
 }
@@ -105,8 +99,7 @@ void Bridge::OnCommand(const Topic& topic, const Packet& packet) {
   } else {
     return refuse("Error", Errc::kSyntax, "this topic is ours to publish");
   }
-  const std::string slot =
-      message.slot.empty() ? std::string(vm::CommandName(message.command)) : message.slot;
+  const std::string slot = SlotOf(message);
   if (message.command == Command::kRep || message.command == Command::kTell)
     return refuse(
         "Error", Errc::kUnknownCommand,
@@ -121,8 +114,7 @@ void Bridge::OnCommand(const Topic& topic, const Packet& packet) {
     return refuse(slot, Errc::kAccess, "@" + topic.module + " is not to be spoken to from here");
   if (topic.module == "AM" && kOfTheConnection.contains(message.slot))
     return refuse(slot, Errc::kAccess, message.slot + " is for clients of the hub itself");
-  if (packet.response_topic.empty())
-    return hub_.OnLine(gateway_, std::string_view(vm::FormatMessage(message)));
+  if (packet.response_topic.empty()) return hub_.Receive(gateway_, std::move(message));
   // We may be allowed to publish where the one who asks is not: answers go to nobody's commands.
   const auto answers_to = ParseTopic(config_.root, packet.response_topic);
   if (packet.response_topic.starts_with(config_.root + "/") &&
@@ -140,7 +132,7 @@ void Bridge::OnCommand(const Topic& topic, const Packet& packet) {
                   "more than " + std::to_string(kMaxRequests) + " requests are unanswered");
   message.tag = "q" + std::to_string(++last_tag_);
   requests_[message.tag] = {packet.response_topic, packet.correlation, slot};
-  hub_.OnLine(gateway_, std::string_view(vm::FormatMessage(message)));
+  hub_.Receive(gateway_, std::move(message));
 }
 
 }  // namespace am::mqtt

@@ -5,6 +5,7 @@
 
 #include "agent_manager/mqtt/bridge.h"
 #include "agent_manager/mqtt/bridge_links.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace am::mqtt {
 
@@ -19,10 +20,6 @@ namespace {
 
 // A little longer than the hub waits for an answer.
 constexpr vm::Time kForgetAfter = std::chrono::seconds(125);
-
-std::string SlotOf(const Message& request) {
-  return request.slot.empty() ? std::string(vm::CommandName(request.command)) : request.slot;
-}
 
 }  // namespace
 
@@ -39,8 +36,8 @@ Result<bool> Bridge::Open(const std::string& name) {
     return Fail(Errc::kLimit,
                 "more than " + std::to_string(kMaxRemotes) + " modules of other agents");
   const bool watched = remotes_.contains(name);
-  const auto key = hub_.Attach(std::make_unique<RemoteLink>(*this, name), PeerKind::kRemote, name,
-                               Dialect::kModern);
+  const auto key = hub_.Attach(std::make_unique<RemoteLink>(*this, name), PeerKind::kRemote,
+                               config_.role, name, Dialect::kModern);
   if (!key) return std::unexpected(key.error());
   remotes_[name].key = *key;
   if (!watched) WatchRemote(name);
@@ -91,14 +88,13 @@ void Bridge::RemoteGone(const std::string& name) {
 void Bridge::CloseRemote(const std::string& name, const std::string& reason) {
   const auto found = remotes_.find(name);
   if (found == remotes_.end() || found->second.key == 0) return;
-  hub_.Detach(found->second.key, reason);  // its link tells RemoteGone
+  hub_.Leave(found->second.key, reason);  // its link tells RemoteGone
 }
 
-void Bridge::SendToRemote(const std::string& name, std::string_view line) {
-  auto message = vm::ParseMessage(line);
-  if (!message) return Notice("@" + name + ": " + vm::FormatError(message.error()));
-  if (message->command == Command::kRep || message->command == Command::kTell)
-    return Notice("@" + name + " is not sent '" + std::string(line.substr(0, 60)) +
+void Bridge::SendToRemote(const std::string& name, const Message& message) {
+  if (message.command == Command::kRep || message.command == Command::kTell)
+    return Notice("@" + name + " is not sent '" +
+                  std::string(vm::CutUtf8(vm::FormatMessage(message), 60)) +
                   "': it hears reports by subscribing to them");
   const auto found = remotes_.find(name);
   if (found == remotes_.end()) return;
@@ -106,10 +102,10 @@ void Bridge::SendToRemote(const std::string& name, std::string_view line) {
   std::erase_if(remote.unanswered, [&](const auto& entry) {
     return clock_.Now() - entry.second.asked > kForgetAfter;
   });
-  if (message->tag.empty() || (remote.waiting.empty() && remote.unanswered.size() < kMaxUnanswered))
-    return PublishTo(name, remote, std::move(*message));
-  remote.bytes += line.size();
-  remote.waiting.emplace_back(line);
+  if (message.tag.empty() || (remote.waiting.empty() && remote.unanswered.size() < kMaxUnanswered))
+    return PublishTo(name, remote, message);
+  remote.bytes += message.value.size();
+  remote.waiting.push_back(message);
 }
 
 void Bridge::SendWaiting(const std::string& name) {
@@ -119,10 +115,10 @@ void Bridge::SendWaiting(const std::string& name) {
         found->second.unanswered.size() >= kMaxUnanswered)
       return;
     Remote& remote = found->second;
-    const std::string line = std::move(remote.waiting.front());
+    Message message = std::move(remote.waiting.front());
     remote.waiting.pop_front();
-    remote.bytes -= line.size();
-    if (auto message = vm::ParseMessage(line)) PublishTo(name, remote, std::move(*message));
+    remote.bytes -= message.value.size();
+    PublishTo(name, remote, std::move(message));
   }
 }
 
@@ -167,7 +163,7 @@ void Bridge::OnReply(const Packet& packet) {
   rep->tag = tag;
   rep->to.clear();
   rep->from.clear();
-  hub_.OnLine(remote->second.key, std::string_view(vm::FormatMessage(*rep)));
+  hub_.Receive(remote->second.key, std::move(*rep));
   SendWaiting(name);
 }
 
@@ -202,7 +198,7 @@ void Bridge::OnRemote(const Topic& topic, const Packet& packet) {
       topic.kind == Kind::kSlot ? vm::Rep(topic.slot, packet.payload) : vm::Tell(packet.payload);
   if (!vm::IsValid(said))
     return Notice("'" + packet.topic + "' is not one line of UTF-8 text, it is not passed on");
-  hub_.OnLine(remote->second.key, std::string_view(vm::FormatMessage(said)));
+  hub_.Receive(remote->second.key, said);
 }
 
 }  // namespace am::mqtt

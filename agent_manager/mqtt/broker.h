@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "agent_manager/config.h"
+#include "agent_manager/config/config.h"
 #include "vm_protocol/core/result.h"
 
 namespace am::mqtt {

@@ -5,11 +5,12 @@
 
 #include "vm_protocol/core/result.h"
 
+// clang-format off
 /// Where agents, modules and slots stand in a broker's tree of topics:
 ///
-///     ROOT/AGENT/$state            retained: ONLINE, OFFLINE (it has stopped), LOST (its last
-///     will) ROOT/AGENT/$hub              retained: which process is this agent, so that no second
-///     one is ROOT/AGENT/$modules          retained: the modules that can be spoken to
+///     ROOT/AGENT/$state            retained: ONLINE, OFFLINE (it has stopped), LOST (its last will)
+///     ROOT/AGENT/$hub              retained: which process is this agent, so that no second one is
+///     ROOT/AGENT/$modules          retained: the modules that can be spoken to
 ///     ROOT/AGENT/$reply            answers for this agent's own requests
 ///     ROOT/AGENT/$do/MODULE        a command: one line of the protocol without `to` and `from`
 ///     ROOT/AGENT/MODULE/$state     retained: LIVE, or GONE and why
@@ -20,6 +21,7 @@
 ///     ROOT/AGENT/MODULE/SLOT/inq   a command: a question
 ///
 /// No name of ours holds a '/', '+', '#' or '$', so nothing can be taken for something else.
+// clang-format on
 namespace am::mqtt {
 
 struct Topic {

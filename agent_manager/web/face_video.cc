@@ -12,6 +12,9 @@
 
 #include <array>
 #include <boost/asio/post.hpp>
+#include <cerrno>
+#include <csetjmp>
+#include <cstdint>
 #include <cstdlib>
 #include <sstream>
 #include <utility>
@@ -23,30 +26,49 @@ namespace {
 constexpr int kQuality = 80;
 constexpr const char* kFace = "FSM";
 
-/// `rgba`: width x height x 4, top row first.
+/// Of a picture's width and height, and of its area: 4096 x 4096 pixels are 64 MiB.
+constexpr int kMaxSide = 8192;
+constexpr std::int64_t kMaxPixels = 4096 * 4096;
+
+/// libjpeg's own handler ends the program.
+struct JpegErrors {
+  jpeg_error_mgr manager{};  // first: libjpeg knows only of this
+  std::jmp_buf back{};
+};
+[[noreturn]] void OnJpegError(j_common_ptr jpeg) {
+  std::longjmp(reinterpret_cast<JpegErrors*>(jpeg->err)->back, 1);
+}
+
+/// `rgba`: width x height x 4, top row first. Empty if libjpeg fails.
 std::string Compress(const std::vector<unsigned char>& rgba, int width, int height) {
   jpeg_compress_struct jpeg{};
-  jpeg_error_mgr errors{};
-  jpeg.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&jpeg);
+  JpegErrors errors;
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
-  jpeg_mem_dest(&jpeg, &bytes, &size);
-  jpeg.image_width = static_cast<JDIMENSION>(width);
-  jpeg.image_height = static_cast<JDIMENSION>(height);
-  jpeg.input_components = 4;
-  jpeg.in_color_space = JCS_EXT_RGBX;
-  jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, kQuality, TRUE);
-  jpeg_start_compress(&jpeg, TRUE);
-  const std::size_t stride = static_cast<std::size_t>(width) * 4;
-  while (jpeg.next_scanline < jpeg.image_height) {
-    JSAMPROW row = const_cast<JSAMPROW>(rgba.data() + jpeg.next_scanline * stride);
-    jpeg_write_scanlines(&jpeg, &row, 1);
+  jpeg.err = jpeg_std_error(&errors.manager);
+  errors.manager.error_exit = OnJpegError;
+  // Nothing with a destructor is made between here and the end of compressing.
+  const bool failed = setjmp(errors.back) != 0;
+  if (!failed) {
+    jpeg_create_compress(&jpeg);
+    jpeg_mem_dest(&jpeg, &bytes, &size);
+    jpeg.image_width = static_cast<JDIMENSION>(width);
+    jpeg.image_height = static_cast<JDIMENSION>(height);
+    jpeg.input_components = 4;
+    jpeg.in_color_space = JCS_EXT_RGBX;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, kQuality, TRUE);
+    jpeg_start_compress(&jpeg, TRUE);
+    while (jpeg.next_scanline < jpeg.image_height) {
+      JSAMPROW row = const_cast<JSAMPROW>(rgba.data() +
+                                          static_cast<std::size_t>(width) * 4 * jpeg.next_scanline);
+      jpeg_write_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_compress(&jpeg);
   }
-  jpeg_finish_compress(&jpeg);
-  std::string picture(reinterpret_cast<const char*>(bytes), size);
   jpeg_destroy_compress(&jpeg);
+  std::string picture;
+  if (!failed) picture.assign(reinterpret_cast<const char*>(bytes), size);
   std::free(bytes);
   return picture;
 }
@@ -103,7 +125,9 @@ void FaceVideo::Begin() {
   Ask("Window", "", [this](const vm::Result<std::string>& size) {
     int width = 0, height = 0;
     if (size) std::istringstream(*size) >> width >> height;
-    if (width <= 0 || height <= 0 || viewers_.empty()) {
+    const bool fits = width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide &&
+                      std::int64_t{width} * height <= kMaxPixels;
+    if (!fits || viewers_.empty()) {
       beginning_ = false;
       return Deliver(std::make_shared<std::string>());
     }
@@ -160,12 +184,15 @@ void FaceVideo::ReadFrames(int width, int height) {
     poll(waits.data(), waits.size(), -1);
     if (waits[1].revents != 0) return;
     const ssize_t n = read(frames_fd_, frame.data() + filled, frame.size() - filled);
+    if (n < 0 && errno != EAGAIN && errno != EINTR) return post("");
     if (n < 0) continue;          // nothing there after all
     if (n == 0) return post("");  // the face has stopped writing, or has gone
     filled += static_cast<std::size_t>(n);
     if (filled < frame.size()) continue;
     filled = 0;
-    post(Compress(frame, width, height));
+    std::string picture = Compress(frame, width, height);
+    if (picture.empty()) return post("");
+    post(std::move(picture));
   }
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "agent_manager/hub.h"
+#include "agent_manager/routing/hub.h"
 
 namespace am {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <functional>
+#include <list>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -33,6 +35,8 @@ using std::string_view;
 constexpr auto kRequestLimit = std::chrono::seconds(10);
 constexpr std::size_t kMaxHeaderBytes = 8192;
 constexpr std::size_t kMaxConnections = 64;
+constexpr std::size_t kBeingDropped = 8;  // closed, and not gone yet
+constexpr auto kAcceptAgain = std::chrono::milliseconds(200);
 constexpr string_view kCookie = "galatea_token=";
 
 struct File {
@@ -62,10 +66,22 @@ string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(std::shared_ptr<WebServer::Impl> server, asio::ip::tcp::socket socket)
-      : server_(std::move(server)), stream_(std::move(socket)) {
+      : server_(std::move(server)), stream_(std::move(socket)), at_(server_->strangers.end()) {
     ++server_->connections;
   }
-  ~HttpSession() { --server_->connections; }
+  ~HttpSession() {
+    --server_->connections;
+    Known();
+  }
+  HttpSession(const HttpSession&) = delete;
+
+  /// Waits among those who have not shown the token yet.
+  void Begin() {
+    at_ = server_->strangers.insert(server_->strangers.end(), [weak = weak_from_this()] {
+      if (const auto self = weak.lock()) self->Drop();
+    });
+    Read();
+  }
 
   void Read() {
     parser_.emplace();
@@ -78,8 +94,17 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
  private:
+  void Known() {
+    if (at_ != server_->strangers.end()) server_->strangers.erase(at_);
+    at_ = server_->strangers.end();
+  }
+  void Drop() {
+    Known();
+    error_code ignored;
+    stream_.socket().close(ignored);
+  }
   void OnRead(const error_code& error) {
-    if (server_->closed) return;
+    if (server_->closed || !stream_.socket().is_open()) return;
     if (error == http::error::header_limit || error == http::error::body_limit)
       return Refuse(http::status::payload_too_large, "a request that is too large");
     if (error == http::error::end_of_stream || error == beast::error::timeout) return;
@@ -103,6 +128,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (!by_address && !HasToken(View(request_[http::field::cookie]), ';', kCookie) &&
         !HasToken(View(request_[http::field::authorization]), ';', "Bearer "))
       return Refuse(http::status::unauthorized, "a request without the token");
+    Known();
     if (path == "/ws" || path == "/microphone") return Upgrade(path);
     if (path == "/face.mjpg") return web::ServeVideo(server_, std::move(stream_));
     if (path == "/metrics")
@@ -197,6 +223,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   std::shared_ptr<WebServer::Impl> server_;
   beast::tcp_stream stream_;
+  std::list<std::function<void()>>::iterator at_;  // among the strangers
   beast::flat_buffer buffer_{kMaxHeaderBytes * 2};
   std::optional<http::request_parser<http::empty_body>> parser_;
   web::Request request_;
@@ -206,9 +233,24 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
   server->acceptor.async_accept([server](const error_code& error, asio::ip::tcp::socket socket) {
     if (server->closed || error == asio::error::operation_aborted) return;
-    if (!error && server->connections < kMaxConnections) {
+    if (error) {  // no descriptor left, say: looked at again when some may have been given back
+      if (!std::exchange(server->starved, true))
+        server->on_refusal("web page: cannot accept: " + error.message());
+      server->retry.expires_after(kAcceptAgain);
+      server->retry.async_wait([server](const error_code& stopped) {
+        if (!stopped) AcceptNext(server);
+      });
+      return;
+    }
+    server->starved = false;
+    // Those who only hold a place give it to who comes.
+    if (server->connections >= kMaxConnections && !server->strangers.empty()) {
+      const auto drop = server->strangers.front();
+      drop();
+    }
+    if (server->connections < kMaxConnections + kBeingDropped) {
       fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
-      std::make_shared<HttpSession>(server, std::move(socket))->Read();
+      std::make_shared<HttpSession>(server, std::move(socket))->Begin();
     }
     AcceptNext(server);
   });
@@ -223,6 +265,7 @@ WebServer::WebServer(asio::io_context& io, const WebConfig& config, Hub& hub,
   credentials.token_file = config.token_file;
   const auto token = vm::ReadToken(credentials);
   if (!token) throw std::runtime_error(token.error().text);
+  impl_->role = config.role;
   impl_->token = token->empty() ? vm::MakeNonce() : *token;
   impl_->metrics = std::move(metrics);
   impl_->on_refusal = std::move(on_refusal);
@@ -253,6 +296,7 @@ WebServer::~WebServer() {
   impl_->closed = true;
   error_code ignored;
   impl_->acceptor.close(ignored);
+  impl_->retry.cancel();
   impl_->video.reset();
 }
 

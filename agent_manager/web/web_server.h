@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "agent_manager/config.h"
-#include "agent_manager/hub.h"
+#include "agent_manager/config/config.h"
+#include "agent_manager/routing/hub.h"
 
 namespace am {
 

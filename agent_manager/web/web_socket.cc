@@ -63,7 +63,8 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
    public:
     explicit SocketLink(std::shared_ptr<SocketSession> session) : session_(std::move(session)) {}
     ~SocketLink() override { session_->End(); }
-    void Send(std::string_view line) override { session_->Send(line); }
+    void Send(const Outgoing& outgoing) override { session_->Send(outgoing.line()); }
+    void SendComment(std::string_view text) override { session_->Send(text); }
     void Close() override { session_->End(); }
     void PauseReading() override { session_->Pause(true); }
     void ResumeReading() override { session_->Pause(false); }
@@ -76,7 +77,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   void Join() {
     if (server_->closed) return;
     const auto key = server_->hub.Attach(std::make_unique<SocketLink>(shared_from_this()),
-                                         PeerKind::kClient, "", Dialect::kAuto);
+                                         PeerKind::kClient, server_->role, "", Dialect::kAuto);
     if (!key) return server_->on_refusal("web page: " + key.error().text);
     peer_ = *key;
     Read();
@@ -98,9 +99,9 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
       if (error == websocket::error::message_too_big) {
         const std::string why = "a message over " + std::to_string(vm::kMaxLineBytes) + " bytes";
         server_->on_refusal("web page: refused " + why);
-        return server_->hub.Detach(peer, why);
+        return server_->hub.Leave(peer, why);
       }
-      return server_->hub.Detach(
+      return server_->hub.Leave(
           peer, error == websocket::error::closed ? "end of input" : error.message());
     }
     const std::string text = beast::buffers_to_string(buffer_.data());
@@ -109,7 +110,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     std::string_view rest = text;
     while (!rest.empty() && peer_ != 0 && !ended_) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());
-      server_->hub.OnLine(peer_, rest.substr(0, end));
+      server_->hub.Receive(peer_, rest.substr(0, end));
       rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     Read();

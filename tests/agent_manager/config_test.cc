@@ -1,4 +1,4 @@
-#include "agent_manager/config.h"
+#include "agent_manager/config/config.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "agent_manager/hub.h"
-#include "agent_manager/limits.h"
+#include "agent_manager/routing/hub.h"
+#include "agent_manager/routing/limits.h"
 #include "tests/agent_manager/world.h"
 
 namespace am {
@@ -22,9 +22,9 @@ struct Reader {
 class ReaderLink final : public Link {
  public:
   explicit ReaderLink(std::shared_ptr<Reader> reader) : reader_(std::move(reader)) {}
-  void Send(std::string_view line) override {
+  void Send(const Outgoing& outgoing) override {
     ++reader_->heard;
-    if (!reader_->reads) reader_->backlog += line.size() + 1;
+    if (!reader_->reads) reader_->backlog += outgoing.line().size() + 1;
   }
   void Close() override { reader_->closed = true; }
   void PauseReading() override { reader_->paused = true; }
@@ -40,12 +40,13 @@ class HubLimitsTest : public testing::Test {
   std::pair<PeerKey, std::shared_ptr<Reader>> Join(const std::string& name,
                                                    PeerKind kind = PeerKind::kClient) {
     auto reader = std::make_shared<Reader>();
-    const auto key =
-        world_.hub.Attach(std::make_unique<ReaderLink>(reader), kind, name, Dialect::kOriginal);
+    const auto key = world_.hub.Attach(std::make_unique<ReaderLink>(reader), kind, Role::kOwner,
+                                       name, Dialect::kOriginal);
     return {key.value_or(0), reader};
   }
   void Say(PeerKey peer, const std::string& line) {
-    world_.hub.OnLine(peer, std::string_view(line));
+    world_.hub.Receive(peer, std::string_view(line));
+    world_.clock.Settle();
   }
   World world_;
   const std::string long_line_ = "to @SLOW set Text = " + std::string(60000, 'x');
@@ -121,7 +122,7 @@ TEST_F(HubLimitsTest, AFloodIsReadAtTheStatedRate) {
 
 TEST_F(HubLimitsTest, APeerDefinesAtMostSoManySlots) {
   vm::SlotMachine machine("AM");
-  world_.hub.AddInternal(machine);
+  world_.hub.AddMachine(machine);
   world_.hub.limits().slots = 2;
   const auto a = world_.Join(PeerKind::kClient, "A");
   world_.Say(*a, "def#1 One = 1");

@@ -126,7 +126,8 @@ TEST(HubProcessTest, ClientsAndModulesComeOverASocket) {
   const support::TempDir folder;
   const std::string socket = folder / "hub.sock";
   Process hub({kHub, "--no-console", "--config",
-               WriteConfig(folder, "{\"listen\": [\"unix:" + socket + "\"], \"modules\": []}")});
+               WriteConfig(folder, "{\"listen\": [{\"at\": \"unix:" + socket +
+                                       "\", \"role\": \"owner\"}], \"modules\": []}")});
   const auto client = SocketClient::Unix(socket);
   Process module({kModule, "--connect", "unix:" + socket, "--name", "FAR"});
   client->WriteLine("to @AM set#0 Subscribe = *");

@@ -1,6 +1,8 @@
-#include "agent_manager/hub.h"
+#include "agent_manager/routing/hub.h"
 
 #include <gtest/gtest.h>
+
+#include <stdexcept>
 
 #include "tests/agent_manager/world.h"
 
@@ -38,14 +40,14 @@ TEST(HubTest, WhatManyHearStandsOnceInTheLog) {
   SessionLog log([&](std::string_view line) { lines.emplace_back(line); });
   Hub hub(clock, log);
   vm::SlotMachine machine("AM");
-  hub.AddInternal(machine);
+  hub.AddMachine(machine);
   struct Nowhere final : Link {
-    void Send(std::string_view) override {}
+    void Send(const Outgoing&) override {}
     void Close() override {}
   };
   for (const char* name : {"A", "B"}) {
-    const auto key =
-        hub.Attach(std::make_unique<Nowhere>(), PeerKind::kClient, name, Dialect::kAuto);
+    const auto key = hub.Attach(std::make_unique<Nowhere>(), PeerKind::kClient, Role::kOwner, name,
+                                Dialect::kAuto);
     ASSERT_TRUE(key);
     hub.Subscribe(*key, {"*"});
   }
@@ -91,7 +93,7 @@ TEST(HubTest, ATagComesBackToTheAskerOnlyAndAnUntaggedQuestionToo) {
   world.clock.RunReady();
   EXPECT_EQ(a->heard, (Strings{"From @SSM rep#x1 Volume = 5", "From @SSM rep Speaker = "}));
   EXPECT_EQ(b->heard, Strings{});
-  EXPECT_EQ(world.hub.ModernModules().size(), 1u);
+  EXPECT_EQ(world.hub.clocks().WithClock().size(), 1u);
 }
 
 TEST(HubTest, RefusalsKeepTheirCodeWithAndWithoutATag) {
@@ -119,7 +121,7 @@ TEST(HubTest, NamesCannotBeTakenTwice) {
   EXPECT_TRUE(world.hub.Rename(b->key, "C"));
   world.Say(*a, "to @C set X = 1");
   EXPECT_EQ(b->heard, Strings{"set X = 1"});
-  world.hub.Detach(a->key, "gone");
+  world.Leave(*a, "gone");
   EXPECT_TRUE(world.hub.Rename(b->key, "A")) << "a name is free when its holder has gone";
 }
 
@@ -131,7 +133,7 @@ TEST(HubTest, TheDeathOfAModuleAnswersWhatWasAskedOfIt) {
   world.Say(*a, "to @SSM set#1 Text = x");
   world.Say(*a, "to @SSM inq Speaker");
   world.clock.RunReady();
-  world.hub.Detach(m->key, "killed by signal 9");
+  world.Leave(*m, "killed by signal 9");
   EXPECT_EQ(
       a->heard,
       (Strings{"From @SSM rep#1 Text.error = UNAVAILABLE @SSM has gone (killed by signal 9)",
@@ -143,8 +145,8 @@ TEST(HubTest, ClockOffsetsAreMeasuredAndStartTimesTranslated) {
   world.clock.RunUntil(milliseconds(1000));
   const auto m = world.JoinModern("SSM", milliseconds(250));
   const auto a = world.Join(PeerKind::kClient, "A");
-  EXPECT_EQ(world.hub.ClockOf("SSM").offset, milliseconds(250));
-  EXPECT_EQ(world.hub.ClockOf("SSM").delay, vm::Time(0));
+  EXPECT_EQ(world.hub.clocks().ClockOf("SSM").offset, milliseconds(250));
+  EXPECT_EQ(world.hub.clocks().ClockOf("SSM").delay, vm::Time(0));
   world.Say(*a, "to @SSM set Speak = @5000");
   ASSERT_FALSE(m->heard.empty());
   EXPECT_NE(m->heard.back().find("Speak = @5250"), std::string::npos) << m->heard.back();
@@ -176,10 +178,10 @@ TEST(HubTest, WhatIsSaidToAModuleThatIsStillStartingWaitsInOrder) {
   world.Say(*a, "to @SSM set Text = one");
   world.Say(*a, "to @SSM set Speak = NOW");
   EXPECT_EQ(m->heard.size(), 1u) << "only the probe";
-  world.hub.EndProbes(world.hub.Probing());
+  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
   EXPECT_EQ(m->heard.size(), 1u) << "it has not said a word: it may still be starting";
   world.Say(*m, "rep Run = LIVE");
-  world.hub.EndProbes(world.hub.Probing());
+  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
   EXPECT_EQ(m->heard[1], "set Text = one");
   EXPECT_EQ(m->heard[2], "set Speak = NOW");
 }
@@ -188,7 +190,7 @@ TEST(HubTest, AFloodOfBadLinesIsNotAFloodOfReports) {
   World world;
   const auto a = world.Join(PeerKind::kClient, "A");
   int notices = 0;
-  world.hub.set_on_notice([&](const std::string&) { ++notices; });
+  world.hub.set_on_notice([&](const std::string&, PeerKey) { ++notices; });
   for (int i = 0; i < 10000; ++i) world.Say(*a, "nonsense");
   EXPECT_LE(notices, 10);
   EXPECT_LE(a->heard.size(), 10u);
@@ -203,6 +205,59 @@ TEST(HubTest, AModuleThatAnswersNothingIsBounded) {
     world.Say(*a, "to @SSM set#t X = 1");
   EXPECT_GE(a->heard.size(), 100u);
   EXPECT_NE(a->heard.front().find("TIMEOUT"), std::string::npos);
+}
+
+TEST(HubTest, AModuleOfTheOriginalThatAnswersNothingIsBoundedToo) {
+  World world;
+  const auto m = world.Join(PeerKind::kModule, "SSM", Dialect::kOriginal);
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.hub.limits().pending = 10;
+  for (int i = 0; i < 200; ++i)
+    world.Say(*a, "to @SSM inq#" + std::to_string(i) + " S" + std::to_string(i));
+  EXPECT_EQ(a->heard.size(), 190u);
+  EXPECT_NE(a->heard.front().find("rep#0 S0.error = TIMEOUT"), std::string::npos);
+  EXPECT_EQ(world.hub.Status()[0].pending, 10u);
+  world.clock.RunUntil(world.clock.Now() + std::chrono::minutes(3));
+  EXPECT_EQ(a->heard.size(), 200u) << "one time-out for both dialects";
+  EXPECT_EQ(world.hub.Status()[0].pending, 0u);
+}
+
+TEST(HubTest, ATaggedLineThatIsNoMessageIsAnsweredWithItsTag) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @B set#7 X");
+  ASSERT_EQ(a->heard.size(), 1u);
+  EXPECT_TRUE(a->heard[0].starts_with("From @AM rep#7 Error = SYNTAX")) << a->heard[0];
+}
+
+TEST(HubTest, WhatAConsumerThrowsIsThatPeersErrorAndNothingElse) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto b = world.Join(PeerKind::kClient, "B");
+  world.hub.set_on_report([](const std::string&, const vm::Message& message) {
+    if (message.value == "boom") throw std::runtime_error("a consumer's fault");
+  });
+  world.Say(*a, "to @B rep X = boom");
+  EXPECT_EQ(b->heard, Strings{"From @A rep X = boom"});
+  ASSERT_EQ(a->heard.size(), 1u);
+  EXPECT_NE(a->heard[0].find("INTERNAL"), std::string::npos) << a->heard[0];
+  world.Say(*a, "to @B rep X = fine");
+  EXPECT_EQ(b->heard.back(), "From @A rep X = fine");
+}
+
+TEST(HubTest, AConsumerThatSpeaksIsHeardAfterTheMessageItHeard) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto b = world.Join(PeerKind::kClient, "B");
+  const auto c = world.Join(PeerKind::kClient, "C");
+  world.hub.set_on_report([&](const std::string&, const vm::Message&) {
+    world.hub.Ask("AM", vm::To("C", vm::Set("Y", "1")), nullptr);
+    world.hub.Leave(a->key, "in the middle of its own message");
+  });
+  world.Say(*a, "to @B,@C rep X = 1");
+  EXPECT_EQ(b->heard, Strings{"From @A rep X = 1"});
+  EXPECT_EQ(c->heard, (Strings{"From @A rep X = 1", "set Y = 1"}));
+  EXPECT_TRUE(a->closed);
 }
 
 TEST(HubTest, TheHubIsFullAtItsLimit) {

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "agent_manager/mcl.h"
+#include "agent_manager/macros/macro_layer.h"
+#include "agent_manager/macros/speak.h"
 #include "tests/agent_manager/world.h"
 
 namespace am {
@@ -20,7 +21,12 @@ class MacroBranchesTest : public testing::Test {
               return vm::Fail(vm::Errc::kUnavailable, "no files");
             },
             [](const std::string&) {}) {
-    world_.hub.AddInternal(mcl_.slots());
+    world_.hub.AddMachine(mcl_.slots());
+    mcl_.AddReader("emotion", ReadEmotion);
+    world_.hub.set_on_machine([this](vm::SlotMachine&, const Envelope& envelope) {
+      mcl_.Handle(envelope);
+      return vm::Result<Router::Taken>(Router::Taken{.taken = true});
+    });
     world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
       mcl_.OnReport(from, message);
     });
@@ -41,7 +47,7 @@ class MacroBranchesTest : public testing::Test {
     world_.clock.RunUntil(until);
   }
   World world_;
-  Mcl mcl_;
+  MacroLayer mcl_;
   std::shared_ptr<World::Peer> client_, lamp_;
 };
 
@@ -95,7 +101,7 @@ TEST_F(MacroBranchesTest, AModuleThatDiesWhileABranchSpeaksToItEndsTheRun) {
   Define(R"([{"parallel": [[{"send": "to @LAMP set X = 1"}, {"pause_ms": 1000}],
                            [{"pause_ms": 1000}]]}])");
   Run("x", milliseconds(10));
-  world_.hub.Detach(lamp_->key, "unplugged");
+  world_.Leave(*lamp_, "unplugged");
   world_.clock.RunUntil(milliseconds(20));
   EXPECT_EQ(client_->heard.back(),
             "From @AM-MCL rep#1 M.error = UNAVAILABLE @LAMP has gone in the middle of it "

@@ -76,6 +76,7 @@ struct BridgeTest : testing::Test {
   void Come(const std::string& topic, const std::string& payload, const std::string& answer_to = "",
             const std::string& correlation = "") {
     broker->events.on_packet({topic, payload, false, answer_to, correlation});
+    world.clock.Settle();
     world.clock.RunReady();
   }
 
@@ -96,7 +97,7 @@ TEST_F(BridgeTest, AModuleThatComesAndGoesIsSeen) {
   EXPECT_EQ(Texts(Acknowledge()),
             (Strings{"galatea/HALL/SSM/$state = LIVE retained",
                      "galatea/HALL/$modules = AM AM-MCL FS-MCL SSM retained"}));
-  world.hub.Detach(ssm->key, "killed by signal 9");
+  world.Leave(*ssm, "killed by signal 9");
   EXPECT_EQ(Texts(Acknowledge()),
             (Strings{"galatea/HALL/SSM/$state = GONE killed by signal 9 retained",
                      "galatea/HALL/$modules = AM AM-MCL FS-MCL retained"}));
@@ -236,6 +237,7 @@ TEST_F(BridgeTest, WithoutSuchAnAgentTheRequestIsAnsweredAtOnce) {
   const auto a = world.Join(PeerKind::kClient, "A");
   world.Say(*a, "to @NOWHERE/FSM set#1 Gaze = 1 2");
   broker->events.on_receipt({broker->last, true, ""});
+  world.clock.Settle();
   ASSERT_EQ(a->heard.size(), 1u);
   EXPECT_TRUE(a->heard[0].starts_with("From @NOWHERE/FSM rep#1 Gaze.error = UNAVAILABLE"))
       << a->heard[0];
@@ -330,6 +332,7 @@ TEST_F(BridgeTest, AfterALossEveryValueIsPublishedAgainAndOnlyTheLatest) {
   world.Say(*ssm, "rep Speak.stat = READY");
   Acknowledge();
   broker->events.on_lost("gone");
+  world.clock.Settle();
   EXPECT_EQ(bridge->State(), "AWAY gone");
   world.Say(*ssm, "rep Speak.stat = SPEAKING");
   world.Say(*ssm, "rep Speak.stat = IDLE");
@@ -343,6 +346,7 @@ TEST_F(BridgeTest, AfterALossEveryValueIsPublishedAgainAndOnlyTheLatest) {
 
 TEST_F(BridgeTest, ANameAnotherHubHasIsLeftToIt) {
   broker->events.on_lost("gone");
+  world.clock.Settle();
   GoOnline("ONLINE", "of another");
   EXPECT_EQ(bridge->State(), "AWAY another hub goes by the name HALL there");
   EXPECT_EQ(broker->published.size(), 0u) << "nothing is said in its name";
@@ -367,6 +371,7 @@ TEST_F(BridgeTest, WhileTheBrokerIsAwayARequestIsAnsweredThatItIs) {
   const auto a = world.Join(PeerKind::kClient, "A");
   world.Say(*a, "to @LOBBY/FSM set#1 Gaze = 1 2");
   broker->events.on_lost("gone");
+  world.clock.Settle();
   ASSERT_EQ(a->heard.size(), 1u);
   EXPECT_NE(a->heard[0].find("UNAVAILABLE"), std::string::npos);
   world.Say(*a, "to @LOBBY/FSM set#2 Gaze = 1 2");
@@ -392,6 +397,7 @@ TEST_F(BridgeTest, WhatTheBrokerRefusesIsSaid) {
   const auto a = world.Join(PeerKind::kClient, "A");
   world.Say(*a, "to @LOBBY/FSM set#1 Gaze = 1 2");
   broker->events.on_receipt({broker->last, false, "Not authorized"});
+  world.clock.Settle();
   ASSERT_EQ(a->heard.size(), 1u);
   EXPECT_NE(a->heard[0].find("Not authorized"), std::string::npos) << a->heard[0];
   EXPECT_NE(notices.at(0).find("galatea/LOBBY/$do/FSM"), std::string::npos) << notices[0];

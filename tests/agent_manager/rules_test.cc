@@ -1,8 +1,8 @@
-#include "agent_manager/rules.h"
+#include "agent_manager/routing/rules.h"
 
 #include <gtest/gtest.h>
 
-#include "agent_manager/config.h"
+#include "agent_manager/config/config.h"
 #include "tests/agent_manager/world.h"
 
 namespace am {
@@ -114,7 +114,7 @@ TEST_F(RulesTest, ThrottleCountsEachSenderOnItsOwn) {
 
 TEST_F(RulesTest, LastEndsTheRulesAndNotesAreForPeople) {
   std::string noted;
-  world_.hub.set_on_notice([&](const std::string& text) { noted += text; });
+  world_.hub.set_on_notice([&](const std::string& text, PeerKey) { noted += text; });
   Use(R"([{"from": "A", "name": "watch", "note": true, "last": true}, {"drop": true}])");
   world_.Say(*a_, "to @B set X = 1");
   world_.Say(*c_, "to @B set X = 2");
@@ -126,7 +126,8 @@ TEST_F(RulesTest, ARewriteThatMakesNoMessageDropsIt) {
   Use(R"([{"rewrite": {"slot": "not a slot"}}])");
   world_.Say(*a_, "to @B set#1 X = 1");
   EXPECT_EQ(b_->heard, Strings{});
-  EXPECT_NE(a_->heard.back().find("rule 1 made of it what is no message"), std::string::npos);
+  EXPECT_NE(a_->heard.back().find("rule 1 makes a line of it that is no message"),
+            std::string::npos);
 }
 
 TEST(RulesConfigTest, FaultsNameTheRule) {

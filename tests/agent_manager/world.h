@@ -7,14 +7,56 @@
 #include <string>
 #include <vector>
 
-#include "agent_manager/hub.h"
+#include "agent_manager/routing/hub.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace am {
 
+/// A virtual clock that has the hub's queue worked off before time goes on, as the program's loop
+/// does.
+class LoopClock final : public vm::Scheduler {
+ public:
+  vm::Time Now() const override { return inner_.Now(); }
+  vm::TimerId At(vm::Time when, std::function<void()> action) override {
+    return inner_.At(when, std::move(action));
+  }
+  void Cancel(vm::TimerId id) override { inner_.Cancel(id); }
+
+  void set_hub(Hub& hub) { hub_ = &hub; }
+  /// Deals with all that has been said, and what is due at this instant. Within itself: later.
+  void Settle() {
+    if (std::exchange(settling_, true)) return;
+    for (int rounds = 0; rounds < kMaxRounds && hub_->Drain(); ++rounds) {
+    }
+    settling_ = false;
+  }
+  void RunReady() { RunUntil(inner_.Now()); }
+  void RunUntil(vm::Time until) {
+    Settle();
+    while (inner_.Next() && *inner_.Next() <= until) {
+      inner_.RunUntil(*inner_.Next());
+      Settle();
+    }
+    inner_.RunUntil(until);
+  }
+  bool RunUntilIdle(vm::Time limit) {
+    Settle();
+    while (inner_.Next() && *inner_.Next() <= limit) RunUntil(*inner_.Next());
+    return !inner_.Next();
+  }
+
+ private:
+  static constexpr int kMaxRounds = 100000;
+  vm::VirtualScheduler inner_;
+  Hub* hub_ = nullptr;
+  bool settling_ = false;
+};
+
 /// Peers in memory: what each is sent, and what it does about it.
 struct World {
+  World() { clock.set_hub(hub); }
+
   struct Peer {
     PeerKey key = 0;
     std::vector<std::string> heard;
@@ -24,12 +66,13 @@ struct World {
   class MemoryLink final : public Link {
    public:
     MemoryLink(World& world, std::shared_ptr<Peer> peer) : world_(world), peer_(std::move(peer)) {}
-    void Send(std::string_view line) override {
-      peer_->heard.emplace_back(line);
+    void Send(const Outgoing& outgoing) override {
+      peer_->heard.push_back(outgoing.line());
       // As on a pipe: the other side reacts later, never within our call.
       if (peer_->on_line)
-        world_.clock.Post([peer = peer_, text = std::string(line)] { peer->on_line(text); });
+        world_.clock.Post([peer = peer_, text = outgoing.line()] { peer->on_line(text); });
     }
+    void SendComment(std::string_view text) override { peer_->heard.emplace_back(text); }
     void Close() override { peer_->closed = true; }
 
    private:
@@ -39,15 +82,26 @@ struct World {
 
   std::shared_ptr<Peer> Join(PeerKind kind, const std::string& name,
                              Dialect dialect = Dialect::kAuto,
-                             std::function<void(const std::string&)> on_line = nullptr) {
+                             std::function<void(const std::string&)> on_line = nullptr,
+                             Role role = Role::kOwner) {
     auto peer = std::make_shared<Peer>();
     peer->on_line = std::move(on_line);
-    peer->key =
-        hub.Attach(std::make_unique<MemoryLink>(*this, peer), kind, name, dialect).value_or(0);
+    peer->key = hub.Attach(std::make_unique<MemoryLink>(*this, peer), kind, role, name, dialect)
+                    .value_or(0);
+    clock.Settle();
     return peer;
   }
   void Say(const Peer& peer, const std::string& line) {
-    hub.OnLine(peer.key, std::string_view(line));
+    hub.Receive(peer.key, std::string_view(line));
+    clock.Settle();
+  }
+  /// A guest, or whatever else may do less than the owner.
+  std::shared_ptr<Peer> JoinAs(Role role, const std::string& name) {
+    return Join(PeerKind::kClient, name, Dialect::kAuto, nullptr, role);
+  }
+  void Leave(const Peer& peer, const std::string& reason) {
+    hub.Leave(peer.key, reason);
+    clock.Settle();
   }
   /// A module that answers every tagged request with its value, its clock being ours plus `offset`.
   std::shared_ptr<Peer> JoinModern(const std::string& name, vm::Time offset = vm::Time(0),
@@ -63,14 +117,12 @@ struct World {
             vm::Rep(message->slot,
                     message->slot == "Clock" ? vm::FormatMs(clock.Now() + offset) : message->value);
         rep.tag = message->tag;
-        if (answers)
-          hub.OnLine(self->key,
-                     vm::Result<std::string_view>(std::string_view(vm::FormatMessage(rep))));
+        if (answers) hub.Receive(self->key, std::move(rep));
       }
       if (also) also(*self, *message);
     };
-    peer->key = hub.Attach(std::make_unique<MemoryLink>(*this, peer), PeerKind::kModule, name,
-                           Dialect::kAuto)
+    peer->key = hub.Attach(std::make_unique<MemoryLink>(*this, peer), PeerKind::kModule,
+                           Role::kModule, name, Dialect::kAuto)
                     .value_or(0);
     clock.RunReady();
     return peer;
@@ -79,7 +131,7 @@ struct World {
     return std::ranges::count(peer.heard, line) == 1;
   }
 
-  vm::VirtualScheduler clock;
+  LoopClock clock;
   SessionLog log;
   Hub hub{clock, log};
   bool answers = true;

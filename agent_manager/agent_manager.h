@@ -1,0 +1,116 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "agent_manager/config/config.h"
+#include "agent_manager/macros/macro_layer.h"
+#include "agent_manager/mqtt/bridge.h"
+#include "agent_manager/routing/hub.h"
+#include "agent_manager/session/console.h"
+#include "agent_manager/session/listeners.h"
+#include "agent_manager/session/lockstep.h"
+#include "agent_manager/session/log_writer.h"
+#include "agent_manager/session/quiet_watch.h"
+#include "agent_manager/session/replay.h"
+#include "agent_manager/session/session_log.h"
+#include "agent_manager/slots/hub_machines.h"
+#include "agent_manager/slots/hub_slots.h"
+#include "agent_manager/supervision/supervisor.h"
+#include "agent_manager/web/web_server.h"
+#include "vm_protocol/runtime/asio_scheduler.h"
+
+namespace am {
+
+/// The hub at work: puts its parts together, runs the one loop they live on, applies the
+/// configuration, and ends it all in order. Owns everything. Thread: the one that calls Run.
+class AgentManager {
+ public:
+  struct Options {
+    bool console = true;  ///< stdin and stdout are the peer @CONSOLE
+    bool serve = false;   ///< go on after the console's input has ended
+    bool strict = false;
+    std::vector<std::string> first_lines;  ///< said by @CONSOLE before its own input
+    std::optional<std::string> replay;     ///< a session log whose clients' lines are said again
+    double replay_speed = 1;
+    /// Reads the configuration again (SIGHUP, `set Reload = NOW`); empty = there is none to read.
+    std::function<vm::Result<Config>()> read_config;
+  };
+  /// Throws std::runtime_error with a sentence.
+  AgentManager(Config config, Options options);
+  ~AgentManager();
+  AgentManager(const AgentManager&) = delete;
+  /// Returns the exit code.
+  int Run();
+  /// The slots of @AM and @AM-MCL for docs/slots.md.
+  std::string SlotsMarkdown();
+
+ private:
+  // Making it.
+  void ConnectParts();
+  void LoadBuiltInMacros();
+  // The configuration, at the start and when it is read again.
+  void Apply(const Config& config);
+  void JoinBroker(const MqttConfig& config);
+  vm::Result<std::string> Reload();
+  void ReloadOnSignal();
+  // The loop.
+  void RunSome();
+  void StepVirtual();
+  bool Started() const;
+  bool SomethingGoesOn() const;
+  bool IdleIsWanted() const;
+  bool Over() const;
+  void OnStarted();
+  void Shutdown();
+  // On timers.
+  void EndProbesInTime(const std::set<PeerKey>& asked_before);
+  void MeasureClocks();
+  void FlushLog();
+  void FeedWatchdog();
+  // What parts say to people and to each other.
+  void Say(const std::string& text) const;
+  void SayError(const std::string& text, PeerKey about = kHub);
+  void Refused(const std::string& text);
+  void Watch(PeerKey peer, bool on);
+  void ShowOnlookers(std::string_view line);
+  std::string Metrics() const;
+
+  Config config_;
+  Options options_;
+  boost::asio::io_context io_;
+  vm::ClockScheduler clock_;
+  std::unique_ptr<LogWriter> log_writer_;
+  std::set<PeerKey> onlookers_;  // to whom every message is shown
+  SessionLog log_;
+  Hub hub_;
+  vm::SlotMachine slots_;
+  MacroLayer macros_;
+  Supervisor supervisor_;
+  Console console_;
+  HubSlots hub_slots_;
+  HubMachines hub_machines_;
+  Listeners listeners_;
+  Lockstep lockstep_;
+  QuietWatch quiet_;
+  std::optional<Replay> replay_;
+  std::unique_ptr<WebServer> web_;
+  std::unique_ptr<mqtt::Bridge> mqtt_;
+  boost::asio::steady_timer probe_timer_, measure_timer_, watchdog_timer_, log_timer_;
+  boost::asio::signal_set reload_signal_;
+  std::set<std::string> configured_macros_;
+  bool applied_ = false;
+  bool started_once_ = false;
+  bool stop_ = false;
+  const bool person_ = false;  // reads both stdout and stderr
+  std::uint64_t errors_ = 0, refused_ = 0;
+};
+
+}  // namespace am

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "agent_manager/config/config.h"
+
+/// Reading a configuration's JSON member by member; every fault knows its key. Only for the files
+/// that read configurations.
+namespace am {
+
+using nlohmann::json;
+
+/// A fault at a key; turned into a vm::Error, with the line, by ParseConfig.
+struct ConfigFault {
+  std::string key;
+  std::string text;
+};
+
+[[noreturn]] void Wrong(const std::string& key, const json& value, const std::string& expected);
+std::string Text(const json& value, const std::string& key);
+std::vector<std::string> Texts(const json& value, const std::string& key);
+/// A whole number within the bounds.
+long Whole(const json& value, const std::string& key, long least, long most);
+bool Flag(const json& value, const std::string& key);
+std::chrono::milliseconds Millis(const json& value, const std::string& key, long least, long most);
+
+template <typename T>
+T OneOf(const json& value, const std::string& key,
+        const std::vector<std::pair<std::string, T>>& words) {
+  std::string expected;
+  for (const auto& [word, meaning] : words) {
+    if (value.is_string() && value.get<std::string>() == word) return meaning;
+    expected += (expected.empty() ? "" : ", ") + word;
+  }
+  Wrong(key, value, "one of " + expected);
+}
+
+/// Calls the reader of each member; a member without a reader is a fault.
+using Readers = std::map<std::string, std::function<void(const json&, const std::string& key)>>;
+void ReadObject(const json& object, const std::string& key, const Readers& readers);
+/// Calls `read` for every element of a list.
+void ReadList(const json& list, const std::string& key, const std::string& expected,
+              const std::function<void(const json&, const std::string& key)>& read);
+std::string ReadTextFile(const std::string& path, const std::string& key);
+
+Role ReadRole(const json& value, const std::string& key);
+/// "rights": a table whose rows change the default ones member by member.
+RightsTable ReadRights(const json& value, const std::string& key);
+/// Readers of token_file, certificate, key and authority; files relative to where the hub runs.
+void AddCredentialReaders(Readers& readers, vm::Credentials& credentials);
+ListenConfig ReadListen(const json& value, const std::string& key);
+WebConfig ReadWeb(const json& value, const std::string& key);
+MqttConfig ReadMqtt(const json& value, const std::string& key);
+LogConfig ReadLogConfig(const json& value, const std::string& key);
+ModuleConfig ReadModule(const json& object, const std::string& key);
+/// `number` names a rule without a name.
+Rule ReadRule(const json& object, const std::string& key, std::size_t number);
+
+/// The JSON value, comments allowed, keys unique. Throws ConfigFault with the line in its text.
+json ParseJson(std::string_view text, const std::string& origin);
+/// The line of the deepest part of a key like "modules[1].env.A" that stands in the text.
+std::size_t LineOfKey(std::string_view text, std::string_view key);
+
+}  // namespace am

@@ -1,0 +1,92 @@
+// The members of one rule in the configuration.
+
+#include <algorithm>
+#include <array>
+
+#include "agent_manager/config/config_json.h"
+#include "vm_protocol/core/message.h"
+
+namespace am {
+namespace {
+
+std::vector<std::string> OneOrMore(const json& value, const std::string& key) {
+  if (value.is_string()) return {Text(value, key)};
+  return Texts(value, key);
+}
+
+std::vector<std::string> Names(const json& value, const std::string& key) {
+  std::vector<std::string> names = OneOrMore(value, key);
+  for (std::string& name : names) {
+    if (name.starts_with('@')) name.erase(0, 1);
+  }
+  return names;
+}
+
+std::vector<std::string> Commands(const json& value, const std::string& key) {
+  static constexpr std::array<std::string_view, 10> kCommands{"set", "inq", "prop", "save", "rest",
+                                                              "del", "def", "do",   "rep",  "tell"};
+  std::vector<std::string> commands = OneOrMore(value, key);
+  for (const std::string& command : commands) {
+    if (std::ranges::find(kCommands, command) == kCommands.end())
+      Wrong(key, value, "commands: set inq prop save rest del def do rep tell");
+  }
+  return commands;
+}
+
+}  // namespace
+
+Rule ReadRule(const json& object, const std::string& key, std::size_t number) {
+  Rule rule;
+  rule.name = "rule " + std::to_string(number);
+  bool acts = false;
+  using Read = std::function<void(const json&, const std::string&)>;
+  const auto action = [&acts](Read read) -> Read {
+    return [&acts, read = std::move(read)](const json& v, const std::string& k) {
+      acts = true;
+      read(v, k);
+    };
+  };
+  ReadObject(
+      object, key,
+      {{"name", [&](const json& v, const std::string& k) { rule.name = Text(v, k); }},
+       {"from", [&](const json& v, const std::string& k) { rule.from = Names(v, k); }},
+       {"to", [&](const json& v, const std::string& k) { rule.to = Names(v, k); }},
+       {"command", [&](const json& v, const std::string& k) { rule.command = Commands(v, k); }},
+       {"slot", [&](const json& v, const std::string& k) { rule.slot = OneOrMore(v, k); }},
+       {"value", [&](const json& v, const std::string& k) { rule.value = OneOrMore(v, k); }},
+       {"role",
+        [&](const json& v, const std::string& k) {
+          const json list = v.is_array() ? v : json::array({v});
+          ReadList(list, k, "a list of roles", [&](const json& role, const std::string& at) {
+            rule.role.push_back(ReadRole(role, at));
+          });
+        }},
+       {"copy_to",
+        action([&](const json& v, const std::string& k) { rule.copy_to = Names(v, k); })},
+       {"rewrite", action([&](const json& v, const std::string& k) {
+          ReadObject(
+              v, k,
+              {{"to", [&](const json& t, const std::string& at) { rule.new_to = Text(t, at); }},
+               {"slot", [&](const json& t, const std::string& at) { rule.new_slot = Text(t, at); }},
+               {"value",
+                [&](const json& t, const std::string& at) { rule.new_value = Text(t, at); }}});
+        })},
+       {"drop", action([&](const json& v, const std::string& k) { rule.drop = Flag(v, k); })},
+       {"refuse", action([&](const json& v, const std::string& k) { rule.refuse = Text(v, k); })},
+       {"delay_ms", action([&](const json& v, const std::string& k) {
+          rule.delay = Millis(v, k, 0, 3600000);
+        })},
+       {"per_second", action([&](const json& v, const std::string& k) {
+          rule.per_s = static_cast<std::uint64_t>(Whole(v, k, 1, 1000000));
+        })},
+       {"note", action([&](const json& v, const std::string& k) { rule.note = Flag(v, k); })},
+       {"last", action([&](const json& v, const std::string& k) { rule.last = Flag(v, k); })}});
+  if (!acts)
+    throw ConfigFault{key,
+                      "expected what to do: copy_to, rewrite, drop, refuse, delay_ms, per_second, "
+                      "note or last"};
+  if (!rule.refuse.empty() && rule.refuse.size() > 1000) Wrong(key, object, "a shorter refusal");
+  return rule;
+}
+
+}  // namespace am

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "agent_manager/macros/macro_run.h"
+
+namespace am {
+
+/// The macro layer (MCL), addressed as @AM-MCL (and @FS-MCL): every macro is a slot; setting it
+/// runs the macro, and the answer comes when the run ends. One run per macro at a time: a new one
+/// stops the one before (barge-in). Reports of a stopped run are never taken for those of the next,
+/// since the next starts only when the modules have said they are idle, or their time for it is
+/// over. Thread: the scheduler's. The hub outlives it.
+/// Limits: kMaxMacros macros with kMaxMacroBytes of text; Sequence has those of one run.
+class MacroLayer {
+ public:
+  static constexpr std::size_t kMaxMacros = 1024;
+  static constexpr std::size_t kMaxMacroBytes = 8u << 20;
+  using ReadFile = std::function<vm::Result<std::string>(const std::string& path)>;
+  MacroLayer(vm::Scheduler& clock, Hub& hub, ReadFile read_file,
+             std::function<void(const std::string& path)> remove_file);
+  MacroLayer(const MacroLayer&) = delete;
+
+  vm::SlotMachine& slots() { return slots_; }
+  /// A macro whose "reads" is `name` has its value taken apart by this, beside its words.
+  using Reader = std::function<void(Variables& variables)>;
+  void AddReader(std::string name, Reader reader) { readers_[std::move(name)] = std::move(reader); }
+  /// A slot of the layer's own. REQUIRES: the name is new and valid, the grammar well-formed.
+  void Declare(vm::SlotSpec slot) { slots_.Declare(std::move(slot)); }
+  /// A macro that exists is replaced; a run of it ends as it began.
+  vm::Result<void> Define(Macro macro);
+  /// Errors: kUnknownSlot. A run of it ends as it began.
+  vm::Result<void> Remove(const std::string& name);
+
+  /// Deals with a message to @AM-MCL.
+  void Handle(const Envelope& envelope);
+  /// Feed what modules say, and their comings and goings.
+  void OnReport(const std::string& from, const vm::Message& message);
+  void OnPresence(const std::string& name, bool present, const std::string& reason);
+  bool Busy() const { return !runs_.empty(); }
+  bool Has(const std::string& name) const { return macros_.contains(name); }
+  /// On a clock of lockstep the start of speaking needs no room for delays.
+  void set_lockstep(bool lockstep) { services_.lockstep = lockstep; }
+
+ private:
+  bool OnDefinition(const vm::Message& message, const vm::Reply& reply);
+  vm::Result<std::string> DefineBy(const vm::Message& message);
+  void Start(const std::string& name, const vm::SetValue& value, const vm::Reply& reply);
+  void Begin(const std::string& name, MacroRun::Successor start);
+  void Finish(const std::string& name);
+  void StopWithoutRun(const Macro& macro);
+  void CollectAwaited();
+  void SwitchOn(const std::string& module);
+
+  Hub& hub_;
+  ReadFile read_file_;
+  vm::SlotMachine slots_;
+  MacroServices services_;
+  std::map<std::string, std::shared_ptr<const Macro>> macros_;
+  std::map<std::string, Reader> readers_;
+  std::map<std::string, std::unique_ptr<MacroRun>> runs_;  // by macro
+  std::set<std::pair<std::string, std::string>> awaited_;  // (module, slot) some macro listens to
+  std::size_t bytes_ = 0;
+  Origin origin_;  // of the message being handled
+};
+
+}  // namespace am

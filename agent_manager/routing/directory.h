@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "agent_manager/routing/peer.h"
+#include "vm_protocol/core/slot_machine.h"
+
+namespace am {
+
+/// Who exists: peers by key and by name, the hub's own machines with their other names, and the
+/// names kept for modules of the configuration. Ownership: owns the peers, borrows the machines.
+/// Thread: one. Limits: the caller bounds the number of peers.
+class Directory {
+ public:
+  /// Takes the peer, or fails if its name is taken and leaves it. REQUIRES: a new key.
+  vm::Result<Peer*> Add(std::unique_ptr<Peer>& peer);
+  /// The peer is no longer found; the caller ends what concerns it. Null if it is not there.
+  std::unique_ptr<Peer> Remove(PeerKey key);
+  /// Errors: kAccess for who may not, kBadValue for what is no name, kBusy if it is taken.
+  vm::Result<void> Rename(PeerKey key, const std::string& name);
+
+  Peer* ByKey(PeerKey key);
+  const Peer* ByKey(PeerKey key) const;
+  Peer* Find(std::string_view name);
+  const Peer* Find(std::string_view name) const;
+  const std::map<PeerKey, std::unique_ptr<Peer>>& peers() const { return peers_; }
+  std::vector<std::string> Names() const;  ///< of peers, sorted
+
+  void AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases);
+  vm::SlotMachine* Machine(std::string_view name) const;
+  /// Each machine once.
+  std::vector<vm::SlotMachine*> Machines() const;
+
+  void Reserve(std::set<std::string> names) { reserved_ = std::move(names); }
+
+ private:
+  struct Hash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view text) const {
+      return std::hash<std::string_view>()(text);
+    }
+  };
+  std::map<PeerKey, std::unique_ptr<Peer>> peers_;
+  std::unordered_map<std::string, Peer*, Hash, std::equal_to<>> names_;
+  std::map<std::string, vm::SlotMachine*, std::less<>> machines_;  // by every name of theirs
+  std::set<std::string> reserved_;
+};
+
+/// True for a name that shows as what it is: no control, invisible or direction-changing
+/// characters.
+bool IsPlainName(std::string_view name);
+
+}  // namespace am

@@ -1,0 +1,228 @@
+#include "agent_manager/routing/hub.h"
+
+#include <exception>
+#include <utility>
+
+namespace am {
+
+using vm::Errc;
+using vm::Fail;
+using vm::Message;
+using vm::Result;
+
+Hub::Hub(vm::Scheduler& clock, SessionLog& log)
+    : clock_(clock),
+      back_pressure_(clock, directory_, limits_,
+                     [this](PeerKey peer, const std::string& why) {
+                       outbox_.Notice("@" + NameOf(peer) + ": " + why + ", it is cut off");
+                       Leave(peer, why);
+                     }),
+      outbox_(clock, log, directory_, back_pressure_, queue_),
+      requests_(clock, directory_, outbox_, limits_),
+      lines_(clock, directory_, outbox_, requests_, access_, limits_),
+      clocks_(clock, directory_, outbox_, requests_, lines_,
+              [this](Peer& module) {
+                if (on_presence_) on_presence_(module.name, true, "");
+              }),
+      router_(clock, log, directory_, outbox_, requests_, lines_, queue_, access_, limits_) {
+  router_.set_on_module([this](Peer& peer) { clocks_.Probe(peer); });
+}
+
+Hub::~Hub() = default;
+
+void Hub::set_lockstep(bool lockstep) {
+  back_pressure_.set_lockstep(lockstep);
+  lines_.set_lockstep(lockstep);
+}
+
+Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
+  if (directory_.peers().size() >= limits_.peers) {
+    peer->link->Close();
+    return Fail(Errc::kLimit, "more than " + std::to_string(limits_.peers) + " peers");
+  }
+  peer->key = ++last_key_;
+  if (peer->name.empty()) peer->name = "CLIENT" + std::to_string(peer->key);
+  const auto added = directory_.Add(peer);
+  if (!added) {
+    peer->link->Close();
+    return std::unexpected(added.error());
+  }
+  Peer& there = **added;
+  if (there.kind == PeerKind::kConsole) there.subscriptions = {"*"};
+  if (there.kind == PeerKind::kModule && there.dialect != Dialect::kOriginal) {
+    clocks_.Probe(there);
+  } else if (there.kind == PeerKind::kModule) {
+    queue_.Post([this, name = there.name] {
+      if (on_presence_ && IsPresent(name)) on_presence_(name, true, "");
+    });
+  }
+  return there.key;
+}
+
+Result<PeerKey> Hub::Attach(std::unique_ptr<Link> link, PeerKind kind, Role role,
+                            const std::string& name, Dialect dialect) {
+  auto peer = std::make_unique<Peer>();
+  peer->name = name;
+  peer->kind = kind;
+  peer->role = role;
+  peer->dialect = dialect;
+  peer->link = std::move(link);
+  return Add(std::move(peer));
+}
+
+Result<PeerKey> Hub::AttachModule(std::unique_ptr<Link> link, const std::string& name,
+                                  Dialect dialect, const std::string& folder) {
+  auto peer = std::make_unique<Peer>();
+  peer->name = name;
+  peer->kind = PeerKind::kModule;
+  peer->role = Role::kModule;
+  peer->dialect = dialect;
+  peer->configured = true;
+  peer->folder = folder;
+  peer->link = std::move(link);
+  return Add(std::move(peer));
+}
+
+void Hub::Receive(PeerKey key, Result<std::string_view> line) {
+  Peer* const sender = directory_.ByKey(key);
+  if (sender == nullptr || sender->flow.cut_off) return;
+  sender->spoken = true;
+  ++sender->traffic.messages_in;
+  const std::size_t bytes = line ? line->size() + 1 : 0;
+  sender->traffic.bytes_in += bytes;
+  auto message = line ? vm::ParseMessage(*line) : Result<Message>(std::unexpected(line.error()));
+  // Answers were asked for, and are counted with those who asked.
+  const bool answer = message && message->command == vm::Command::kRep && !message->tag.empty();
+  if (!answer) back_pressure_.Count(*sender, bytes);
+  if (message) return queue_.Push({std::move(*message), {.peer = key, .role = sender->role}});
+  if (message.error().code == Errc::kEmpty) return;
+  queue_.Post(
+      [this, key, error = message.error(), tag = line ? vm::TagOf(*line) : std::string()] {
+        if (Peer* const peer = directory_.ByKey(key)) outbox_.Complain(*peer, error, tag);
+      },
+      key);
+}
+
+void Hub::Receive(PeerKey key, Message message) {
+  Peer* const sender = directory_.ByKey(key);
+  if (sender == nullptr || sender->flow.cut_off) return;
+  sender->spoken = true;
+  ++sender->traffic.messages_in;
+  sender->traffic.bytes_in += message.value.size();
+  back_pressure_.Count(*sender, message.value.size());
+  queue_.Push({std::move(message), {.peer = key, .role = sender->role}});
+}
+
+void Hub::Leave(PeerKey key, const std::string& reason) {
+  queue_.Post([this, key, reason] { Evict(key, reason); });
+}
+
+void Hub::Evict(PeerKey key, const std::string& reason) {
+  const std::unique_ptr<Peer> peer = directory_.Remove(key);
+  if (peer == nullptr) return;
+  back_pressure_.Release(*peer);
+  peer->link->Close();
+  requests_.FailAll(*peer,
+                    {Errc::kUnavailable, "@" + peer->name + " has gone (" + reason + ")", 0});
+  lines_.Forget(*peer);
+  for (vm::SlotMachine* const machine : directory_.Machines()) machine->PeerGone(key);
+  if (on_presence_) on_presence_(peer->name, false, reason);
+}
+
+bool Hub::Drain() {
+  // What comes while these are dealt with waits for the next time: the loop looks at its
+  // descriptors and timers in between, whatever the hub's parts say to each other.
+  const std::size_t now = queue_.size();
+  for (std::size_t i = 0; i < now; ++i) Do(queue_.Pop());
+  return now > 0;
+}
+
+void Hub::Do(WorkQueue::Item item) {
+  auto* const envelope = std::get_if<Envelope>(&item);
+  const PeerKey blamed = envelope ? envelope->origin.peer : std::get<Work>(item).blamed;
+  try {
+    if (envelope) {
+      router_.Route(std::move(*envelope));
+    } else {
+      std::get<Work>(item).act();
+    }
+  } catch (const std::exception& error) {
+    Blame(blamed, error.what());
+  }
+}
+
+void Hub::Blame(PeerKey key, const char* what) {
+  const vm::Error error{Errc::kInternal, std::string("a message could not be dealt with: ") + what,
+                        0};
+  Peer* const peer = directory_.ByKey(key);
+  if (peer == nullptr) return outbox_.Notice(vm::FormatError(error));
+  outbox_.Complain(*peer, error);
+}
+
+void Hub::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases) {
+  directory_.AddMachine(machine, std::move(aliases));
+  machine.set_output([this, name = machine.module_name()](PeerKey to, const Message& said) {
+    router_.FromMachine(name, to, said);
+  });
+}
+
+void Hub::Ask(const std::string& sender, Message message, OnAnswer done, const Origin& origin) {
+  queue_.Push({std::move(message), origin, sender, std::move(done)});
+}
+
+void Hub::SayAs(const Origin& origin, Message message) {
+  queue_.Push({std::move(message), origin});
+}
+
+bool Hub::IsModule(std::string_view name) const {
+  const Peer* const peer = directory_.Find(name);
+  return peer != nullptr && peer->kind == PeerKind::kModule;
+}
+bool Hub::IsReady(std::string_view name) const {
+  const Peer* const peer = directory_.Find(name);
+  return peer != nullptr && !peer->module.probing;
+}
+
+std::string Hub::NameOf(PeerKey key) const {
+  const Peer* const peer = directory_.ByKey(key);
+  return peer == nullptr ? "" : peer->name;
+}
+
+Role Hub::RoleOf(PeerKey key) const {
+  if (key == kHub) return Role::kOwner;
+  const Peer* const peer = directory_.ByKey(key);
+  return peer == nullptr ? Role::kGuest : peer->role;
+}
+
+Result<void> Hub::Rename(PeerKey key, const std::string& name) {
+  if (const auto checked = access_.CheckName(RoleOf(key), name); !checked) return checked;
+  return directory_.Rename(key, name);
+}
+
+void Hub::Grant(PeerKey key, vm::Time until, OnAnswer done) {
+  if (Peer* const module = directory_.ByKey(key)) lines_.Grant(*module, until, std::move(done));
+}
+
+void Hub::Subscribe(PeerKey key, const std::set<std::string>& modules) {
+  if (Peer* const peer = directory_.ByKey(key)) peer->subscriptions = modules;
+}
+
+bool Hub::SendComment(PeerKey key, std::string_view text) {
+  Peer* const peer = directory_.ByKey(key);
+  if (peer == nullptr || peer->flow.cut_off) return false;
+  peer->link->SendComment(text);
+  back_pressure_.AfterSend(*peer, kHub);  // an onlooker holds nobody
+  return true;
+}
+
+std::vector<PeerStatus> Hub::Status() const {
+  std::vector<PeerStatus> all;
+  for (const auto& [key, peer] : directory_.peers()) {
+    all.push_back({peer->name, peer->kind, peer->role, peer->traffic, peer->link->backlog_bytes(),
+                   peer->requests.open.size() + peer->module.waiting.size(), peer->defined.size(),
+                   peer->flow.held_by > 0});
+  }
+  return all;
+}
+
+}  // namespace am

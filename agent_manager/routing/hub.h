@@ -1,0 +1,126 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agent_manager/routing/module_clocks.h"
+#include "agent_manager/routing/router.h"
+
+namespace am {
+
+/// The direct layer (DCL): who is there, and who gets what. Whatever is said, by a peer or by one
+/// of the hub's own parts, waits in one queue; Drain, called by the program's loop and by nobody
+/// else, takes one item after the other, so no consumer runs in the middle of another, and a peer
+/// goes only between two items. What an item throws is that peer's error. Pure: lines come in by
+/// Receive and go out by links; time comes from the scheduler. Ownership: owns the links. Thread:
+/// the scheduler's. Limits: struct Limits; they can change at any time. Errors: whatever cannot be
+/// delivered is answered to its sender (docs/protocol.md "Errors").
+class Hub {
+ public:
+  Hub(vm::Scheduler& clock, SessionLog& log);
+  ~Hub();
+  Hub(const Hub&) = delete;
+
+  /// Fails if the name is taken or the hub is full; the link is then closed.
+  vm::Result<PeerKey> Attach(std::unique_ptr<Link> link, PeerKind kind, Role role,
+                             const std::string& name, Dialect dialect);
+  /// A module of the configuration, whose name is its own, and which runs in `folder`.
+  vm::Result<PeerKey> AttachModule(std::unique_ptr<Link> link, const std::string& name,
+                                   Dialect dialect, const std::string& folder);
+  /// What a peer has said.
+  void Receive(PeerKey peer, vm::Result<std::string_view> line);
+  void Receive(PeerKey peer, vm::Message message);
+  /// The peer goes, after what it has said before: pending requests to it are answered with
+  /// UNAVAILABLE and `reason`.
+  void Leave(PeerKey peer, const std::string& reason);
+  /// As Leave, at once. REQUIRES: no message is being dealt with (use Post).
+  void Evict(PeerKey peer, const std::string& reason);
+
+  /// Deals with what has been said by now. False if there was nothing to do.
+  bool Drain();
+  bool idle() const { return queue_.empty(); }
+  /// Does something in the loop, between two messages.
+  void Post(std::function<void()> act) { queue_.Post(std::move(act)); }
+
+  /// A machine inside the hub that is addressed like a module. Borrowed; outlives the hub's use.
+  void AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases = {});
+  /// Says something as the hub's own machine `sender`, on behalf of `origin`; `done` is called from
+  /// the queue with the answer.
+  void Ask(const std::string& sender, vm::Message message, OnAnswer done,
+           const Origin& origin = {});
+  /// Says something as a peer, as if it had come by its link: the lines of `do`.
+  void SayAs(const Origin& origin, vm::Message message);
+
+  bool IsPresent(std::string_view name) const { return directory_.Find(name) != nullptr; }
+  /// One of this hub's own modules: from the configuration, or a client that has become one.
+  bool IsModule(std::string_view name) const;
+  /// True once a module has said what it is (or was declared original) and can be spoken to.
+  bool IsReady(std::string_view name) const;
+  std::vector<std::string> Names() const { return directory_.Names(); }
+  std::string NameOf(PeerKey peer) const;
+  /// kHub's is the owner's.
+  Role RoleOf(PeerKey peer) const;
+  vm::Result<void> Rename(PeerKey peer, const std::string& name);
+  /// Names of the configuration: kept for their modules, also while those are away.
+  void Reserve(std::set<std::string> names) { directory_.Reserve(std::move(names)); }
+  void Subscribe(PeerKey peer, const std::set<std::string>& modules);  ///< "*" = all
+  std::vector<PeerStatus> Status() const;
+
+  void set_broadcast(std::set<std::string> names) { router_.set_broadcast(std::move(names)); }
+  /// Told of every report a module makes, and of comings and goings.
+  void set_on_report(Router::OnReport on_report) { router_.set_on_report(std::move(on_report)); }
+  using OnPresence =
+      std::function<void(const std::string& name, bool present, const std::string& reason)>;
+  void set_on_presence(OnPresence on_presence) { on_presence_ = std::move(on_presence); }
+  /// Diagnostics for people.
+  void set_on_notice(Outbox::OnNotice on_notice) { outbox_.set_on_notice(std::move(on_notice)); }
+  void set_on_unknown(Router::OnUnknown on_unknown) {
+    router_.set_on_unknown(std::move(on_unknown));
+  }
+  void set_on_machine(Router::OnMachine on_machine) {
+    router_.set_on_machine(std::move(on_machine));
+  }
+
+  /// A comment, for what is no message of the session; false if the peer is gone.
+  bool SendComment(PeerKey peer, std::string_view text);
+
+  Rules& rules() { return router_.rules(); }
+  AccessControl& access() { return access_; }
+  Limits& limits() { return limits_; }
+  const Limits& limits() const { return limits_; }
+  ModuleClocks& clocks() { return clocks_; }
+  const ModuleClocks& clocks() const { return clocks_; }
+  ModuleLines& lines() { return lines_; }
+
+  /// Modules on the virtual clock follow ours exactly; nothing is measured.
+  void set_lockstep(bool lockstep);
+  /// Lockstep: tells a module how far its clock may go.
+  void Grant(PeerKey module, vm::Time until, OnAnswer done);
+  /// True while messages wait for their time.
+  bool HasHeld() const { return lines_.HasHeld(); }
+
+ private:
+  vm::Result<PeerKey> Add(std::unique_ptr<Peer> peer);
+  void Do(WorkQueue::Item item);
+  void Blame(PeerKey peer, const char* what);
+
+  vm::Scheduler& clock_;
+  Limits limits_;
+  AccessControl access_;
+  WorkQueue queue_;
+  Directory directory_;
+  BackPressure back_pressure_;
+  Outbox outbox_;
+  Requests requests_;
+  ModuleLines lines_;
+  ModuleClocks clocks_;
+  Router router_;
+  OnPresence on_presence_;
+  PeerKey last_key_ = 0;
+};
+
+}  // namespace am

@@ -1,0 +1,143 @@
+#include "agent_manager/routing/module_clocks.h"
+
+#include <utility>
+
+namespace am {
+
+using vm::Message;
+using vm::Result;
+
+namespace {
+
+constexpr int kExchanges = 5;  // when a module comes; the quickest one counts
+// Another hub's clock is measured less often, and only where start times have been sent: all agents
+// measuring all others would be most of what a broker has to do.
+constexpr unsigned kRemoteEvery = 5;  // rounds of MeasureAll
+constexpr int kSilentRounds = 4;      // of EndProbes, for a module that has said nothing yet
+
+void Ignore(const Result<std::string>&) {}
+
+}  // namespace
+
+ModuleClocks::ModuleClocks(vm::Scheduler& clock, Directory& directory, Outbox& outbox,
+                           Requests& requests, ModuleLines& lines, OnKnown on_known)
+    : clock_(clock),
+      directory_(directory),
+      outbox_(outbox),
+      requests_(requests),
+      lines_(lines),
+      on_known_(std::move(on_known)) {
+  lines_.set_on_clock_needed([this](PeerKey key) { MeasureSoon(key); });
+}
+
+void ModuleClocks::Probe(Peer& module) {
+  module.module.probing = true;
+  Message question = vm::Inq("Clock");
+  question.tag = requests_.Add(
+      module, {kHub, question,
+               [this, key = module.key, asked_at = clock_.Now()](const Result<std::string>& value) {
+                 Peer* const answering = directory_.ByKey(key);
+                 if (answering != nullptr && answering->module.probing)
+                   BecomeModern(*answering, asked_at, value);
+               },
+               vm::Time(0)});
+  outbox_.Write(module, question, kHub);
+}
+
+void ModuleClocks::BecomeModern(Peer& module, vm::Time asked_at, const Result<std::string>& clock) {
+  // A refusal with our tag is an answer too: such a module knows tags, but has no clock.
+  module.dialect = Dialect::kModern;
+  module.module.probing = false;
+  module.module.granted = clock_.Now();
+  if (clock) Sample(module, asked_at, *clock);
+  outbox_.Write(
+      module, Message{{}, "", vm::Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"},
+      kHub);
+  if (module.module.clock.known) {
+    lines_.Forward(module, vm::Set("Clock.mode", lines_.lockstep() ? "HUB" : "REAL"), {}, Ignore);
+    if (lines_.lockstep()) {
+      lines_.Grant(module, clock_.Now(), Ignore);  // from here on its clock is ours
+    } else {
+      Measure(module, kExchanges);
+    }
+  }
+  lines_.FlushWaiting(module);
+  on_known_(module);
+}
+
+void ModuleClocks::Sample(Peer& peer, vm::Time asked_at, const std::string& value) {
+  const auto theirs = vm::ParseMs(value.substr(0, value.find(' ')));
+  if (!theirs) return;
+  peer.module.estimate.Add(asked_at, clock_.Now(), *theirs);
+  peer.module.clock = {true, peer.module.estimate.offset(), peer.module.estimate.delay()};
+}
+
+void ModuleClocks::Measure(Peer& peer, int exchanges) {
+  if (exchanges <= 0) {
+    if (std::exchange(peer.module.measuring, false)) lines_.FlushWaiting(peer);
+    return;
+  }
+  lines_.Forward(
+      peer, vm::Inq("Clock"), {},
+      [this, key = peer.key, asked_at = clock_.Now(), exchanges](const Result<std::string>& value) {
+        Peer* const answering = directory_.ByKey(key);
+        if (answering == nullptr) return;
+        if (value) Sample(*answering, asked_at, *value);
+        Measure(*answering, value ? exchanges - 1 : 0);
+      });
+}
+
+void ModuleClocks::MeasureSoon(PeerKey key) {
+  clock_.Post([this, key] {
+    if (Peer* const peer = directory_.ByKey(key)) Measure(*peer, kExchanges);
+  });
+}
+
+void ModuleClocks::MeasureAll() {
+  for (const PeerKey key : WithClock()) Measure(*directory_.ByKey(key), 2);
+  if (++rounds_ % kRemoteEvery != 0) return;
+  for (const auto& [key, peer] : directory_.peers()) {
+    if (peer->kind == PeerKind::kRemote && peer->module.asked_clock) Measure(*peer, 2);
+  }
+}
+
+ClockState ModuleClocks::ClockOf(std::string_view name) const {
+  const Peer* const peer = directory_.Find(name);
+  return peer == nullptr ? ClockState{} : peer->module.clock;
+}
+
+void ModuleClocks::EndProbes(const std::set<PeerKey>& modules) {
+  for (const PeerKey key : modules) {
+    Peer* const peer = directory_.ByKey(key);
+    if (peer == nullptr || !peer->module.probing) continue;
+    // One that has said nothing at all yet may still be starting, on a busy machine.
+    if (!peer->spoken && ++peer->module.silent_rounds < kSilentRounds) continue;
+    outbox_.Notice("@" + peer->name +
+                   " does not know the slot Clock: it is spoken to as a module of the original");
+    peer->module.probing = false;
+    peer->dialect = Dialect::kOriginal;
+    requests_.Forget(*peer);
+    lines_.FlushWaiting(*peer);
+    on_known_(*peer);
+  }
+}
+
+std::set<PeerKey> ModuleClocks::Probing() const {
+  std::set<PeerKey> keys;
+  for (const auto& [key, peer] : directory_.peers()) {
+    if (peer->module.probing) keys.insert(key);
+  }
+  return keys;
+}
+
+std::vector<PeerKey> ModuleClocks::WithClock() const {
+  std::vector<PeerKey> keys;
+  for (const auto& [key, peer] : directory_.peers()) {
+    if (peer->kind == PeerKind::kModule && peer->dialect == Dialect::kModern &&
+        peer->module.clock.known)
+      keys.push_back(key);
+  }
+  return keys;
+}
+
+}  // namespace am

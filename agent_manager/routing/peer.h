@@ -1,0 +1,121 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "agent_manager/access/file_slots.h"
+#include "agent_manager/access/role.h"
+#include "agent_manager/routing/dialect.h"
+#include "agent_manager/routing/envelope.h"
+#include "agent_manager/routing/limits.h"
+#include "agent_manager/routing/link.h"
+#include "agent_manager/session/clock_estimate.h"
+
+namespace am {
+
+enum class PeerKind {
+  kConsole,  ///< the hub's own terminal or input
+  kModule,   ///< from the configuration, or a client that has said `rep Run = LIVE`: probed, its
+             ///< clock measured
+  kClient,   ///< came by a socket
+  kRemote,   ///< a module of another hub, which answers for it: never probed
+};
+
+/// A request that waits for its answer.
+struct Request {
+  PeerKey asker = kHub;
+  vm::Message message;
+  OnAnswer done{};
+  vm::Time asked{0};
+  bool members_seen = false;  ///< a group's members have come
+};
+
+/// The requests one module has not answered. Only Requests changes it.
+struct RequestTable {
+  std::map<unsigned long, Request> open;  ///< by the number of our tag, so the oldest first
+  std::map<std::string, std::deque<unsigned long>> by_slot;  ///< the original's dialect: `inq`
+  vm::TimerId timer = 0;
+};
+
+/// How a peer reads and is read. Only BackPressure changes it.
+struct FlowState {
+  RateMeter messages, bytes;
+  bool throttled = false;
+  int held_by = 0;          ///< reasons why it is not read from
+  std::set<PeerKey> holds;  ///< senders that wait until it has read what they said
+  vm::TimerId timer = 0;
+  vm::Time full_since{0};
+  std::size_t least_backlog = 0;
+  bool cut_off = false;
+};
+
+/// What the hub knows of a peer's clock.
+struct ClockState {
+  bool known = false;
+  vm::Time offset{0};  ///< the peer's clock minus ours
+  vm::Time delay{0};   ///< there and back, of the best exchange
+};
+
+/// A message that waits until it is known how to say it.
+struct Held {
+  vm::Message message;
+  Origin origin;
+  OnAnswer done{};
+};
+
+/// What is known of a module, and what waits until it is. Only ModuleLines and ModuleClocks change
+/// it.
+struct ModuleState {
+  bool probing = false;        ///< it is being asked whether it knows Clock
+  int silent_rounds = 0;       ///< EndProbes has passed over it
+  bool measuring = false;      ///< a start time waits for its clock to be known
+  bool asked_clock = false;    ///< another hub's clock is measured once a start time needs it
+  std::deque<Held> waiting{};  ///< until it is no longer being asked
+  std::map<std::string, vm::TimerId> held_starts{};  ///< `set SLOT = @T` for those that lack `@T`
+  ClockState clock{};
+  ClockEstimate estimate{};
+  vm::Time granted{0};               ///< lockstep: where its clock stands
+  std::optional<FileSlots> files{};  ///< which of its slots take file names; none: not known yet
+  vm::TimerId files_timer = 0;
+};
+
+/// Everything the hub keeps of one peer. Owned by the Directory; it goes only between two items of
+/// the queue, so a reference is good for as long as one item is dealt with.
+struct Peer {
+  PeerKey key = kHub;
+  std::string name;
+  PeerKind kind = PeerKind::kClient;
+  Role role = Role::kGuest;
+  Dialect dialect = Dialect::kAuto;
+  std::unique_ptr<Link> link;
+  bool configured = false;  ///< its name is the configuration's
+  std::string folder{};     ///< where it runs, for the files it is told of; empty: as the hub
+  bool spoken = false;      ///< anything at all
+  std::set<std::string> subscriptions{};
+  std::set<std::string> defined{};  ///< its slots and macros at the hub
+  Traffic traffic{};
+  FlowState flow{};
+  RequestTable requests{};
+  ModuleState module{};
+  vm::Time complaints_since{0};
+  int complaints = 0;
+};
+
+/// What there is to know about a peer that is there.
+struct PeerStatus {
+  std::string name;
+  PeerKind kind = PeerKind::kClient;
+  Role role = Role::kGuest;
+  Traffic traffic;
+  std::size_t backlog_bytes = 0;
+  std::size_t pending = 0;  ///< requests it has not answered
+  std::size_t defined = 0;  ///< slots and macros it has made at the hub
+  bool held = false;        ///< it is not read from at the moment
+};
+
+}  // namespace am

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "agent_manager/routing/outbox.h"
+
+namespace am {
+
+/// The requests that modules have not answered yet, with one limit (Limits::pending) and one
+/// time-out (kAnswerLimit) for both dialects: those that know tags, where ours comes back, and
+/// those of the original, where the next report of the slot is the answer to `inq`. Thread: the
+/// scheduler's. All that it is given outlives it.
+class Requests {
+ public:
+  static constexpr vm::Time kAnswerLimit = std::chrono::minutes(2);
+  Requests(vm::Scheduler& clock, Directory& directory, Outbox& outbox, const Limits& limits);
+
+  /// Returns the tag to send. Beyond the limit the oldest request is answered TIMEOUT.
+  std::string Add(Peer& module, Request request);
+  /// A question without a tag; the next report of its slot answers it.
+  void AddBySlot(Peer& module, Request request);
+  /// True if the report was an answer (also a late one): it is then dealt with.
+  bool Resolve(Peer& module, const vm::Message& rep);
+  /// The questions which this report of a slot answers.
+  std::vector<Request> TakeBySlot(Peer& module, const std::string& slot);
+  /// Nobody will answer them any more. The asker is told.
+  void FailAll(Peer& module, const vm::Error& error);
+  /// They are forgotten without an answer.
+  void Forget(Peer& module);
+
+ private:
+  unsigned long Insert(Peer& module, Request request);
+  static Request TakeOldest(Peer& module);
+  void Fail(const Peer& module, const Request& request, const vm::Error& error);
+  void Watch(Peer& module);
+  void Expire(PeerKey key);
+
+  vm::Scheduler& clock_;
+  Directory& directory_;
+  Outbox& outbox_;
+  const Limits& limits_;
+  unsigned long last_number_ = 0;
+};
+
+}  // namespace am

@@ -1,0 +1,113 @@
+#include "agent_manager/session/console.h"
+
+#include <unistd.h>
+
+#include <utility>
+
+#include "agent_manager/session/stream_link.h"
+
+namespace am {
+
+using vm::Errc;
+using vm::Reply;
+using vm::Result;
+
+namespace {
+
+constexpr const char* kHelp[] = {
+    "# to @NAME set SLOT = VALUE       set a module's slot          to @SSM set Volume = 80",
+    "# to @NAME inq SLOT               ask its value                to @SSM inq Speaker",
+    "# inq Modules                     who can be spoken to",
+    "# to @NAME inq Slots              what a module knows; inq SLOT.help explains one",
+    "# to @AM-MCL set Speak = TEXT     speak, with the lips in step",
+    "# set Wait = IDLE                 hold the next lines until nothing goes on",
+    "# quit                            end the hub and its modules (as set Run = EXIT)",
+    "# docs/protocol.md has the rest"};
+
+}  // namespace
+
+Console::Console(boost::asio::io_context& io, vm::Scheduler& clock, Hub& hub, Hooks hooks)
+    : io_(io), clock_(clock), hub_(hub), hooks_(std::move(hooks)) {}
+
+void Console::Start(const std::vector<std::string>& first_lines) {
+  stream_ = vm::StreamPeer::Make(io_, STDIN_FILENO, STDOUT_FILENO, vm::Framing::kLf);
+  key_ = hub_.Attach(std::make_unique<StreamLink>(stream_), PeerKind::kConsole, Role::kOwner,
+                     "CONSOLE", Dialect::kAuto)
+             .value();
+  for (const char* const machine : {"AM", "AM-MCL"})
+    hub_.SayAs(
+        {.peer = key_, .role = Role::kOwner},
+        vm::To(machine,
+               {{}, "", vm::Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"}));
+  lines_.assign(first_lines.begin(), first_lines.end());
+  stream_->Start([this](Result<std::string_view> line) { OnLine(std::move(line)); },
+                 [this](const std::string&) { ended_ = true; });
+}
+
+bool Console::TakeWord(const std::string& line) {
+  if (line == "help" || line == "?") {
+    for (const char* const text : kHelp) hub_.SendComment(key_, text);
+    return true;
+  }
+  if (line != "quit" && line != "exit") return false;
+  hooks_.on_quit();
+  return true;
+}
+
+void Console::OnLine(Result<std::string_view> line) {
+  if (!line) return hub_.Receive(key_, std::unexpected(line.error()));
+  lines_.emplace_back(*line);
+  Feed();
+}
+
+void Console::Feed() {
+  // One line after the other: what it does, waiting above all, is known before the next.
+  while (!lines_.empty() && !timed_wait_ && !idle_wait_ && !saying_ && hooks_.started()) {
+    const std::string line = std::move(lines_.front());
+    lines_.pop_front();
+    hooks_.on_said();
+    if (TakeWord(line)) continue;
+    saying_ = true;
+    hub_.Receive(key_, std::string_view(line));
+    hub_.Post([this] {
+      saying_ = false;
+      Feed();
+    });
+  }
+  if (stream_ == nullptr) return;
+  // A script of any length may be piped in.
+  if (lines_.size() > kMaxLines) {
+    stream_->PauseReading();
+  } else {
+    stream_->ResumeReading();
+  }
+}
+
+void Console::AskWait(const vm::SetValue& value, const Reply& reply) {
+  if (value.peer != key_ || key_ == kHub)
+    return reply.Fail({Errc::kAccess, "only the console's lines can be held", 0});
+  if (value.word(0) == "IDLE") {
+    idle_wait_ = reply;
+    return;
+  }
+  timed_wait_ = true;
+  clock_.After(vm::Time(static_cast<vm::Time::rep>(value.number(0) * 1000)), [this, reply] {
+    timed_wait_ = false;
+    reply.Ok("0");
+    Feed();
+  });
+}
+
+void Console::OnIdle() {
+  if (!idle_wait_) return;
+  const Reply reply = *std::exchange(idle_wait_, std::nullopt);
+  reply.Ok("IDLE");
+  Feed();
+}
+
+void Console::Flush(std::function<void()> done) {
+  if (stream_ == nullptr) return done();
+  stream_->Flush(std::move(done));
+}
+
+}  // namespace am

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "agent_manager/routing/hub.h"
+#include "vm_protocol/runtime/asio_scheduler.h"
+
+namespace am {
+
+/// The virtual clock of all modules, in lockstep (docs/architecture.md "Time"): grants each module
+/// time, and goes on to the next event once all have answered. Thread: the context's.
+class Lockstep {
+ public:
+  /// Told of a module that does not answer within kPatience of real time.
+  using OnLate = std::function<void(PeerKey module)>;
+  static constexpr std::chrono::milliseconds kPatience{60000};
+  Lockstep(boost::asio::io_context& io, vm::ClockScheduler& clock, Hub& hub, OnLate on_late);
+
+  /// True while a module has not answered.
+  bool Waiting() const { return !open_.empty(); }
+  /// Does what is due at this instant. False if there is nothing left to do at it.
+  bool StepNow();
+  /// Goes on to the next event. False if there is none.
+  bool StepOn();
+  /// True if a module says that it has something to do.
+  bool Busy() const;
+  /// Modules have come or gone: what they said of their next events is old.
+  void Forget() { next_.clear(); }
+
+ private:
+  struct NextEvent {
+    std::optional<vm::Time> at;
+    bool busy = false;
+  };
+  void GrantAll(vm::Time time);
+  void OnAnswer(PeerKey module, const vm::Result<std::string>& answer);
+
+  vm::ClockScheduler& clock_;
+  Hub& hub_;
+  OnLate on_late_;
+  boost::asio::steady_timer patience_;
+  std::map<PeerKey, NextEvent> next_;
+  std::set<PeerKey> open_;
+  vm::Time granted_{-1};
+};
+
+}  // namespace am

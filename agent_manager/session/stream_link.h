@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "agent_manager/routing/link.h"
+#include "vm_protocol/runtime/stream_peer.h"
+
+namespace am {
+
+/// A Link over a StreamPeer.
+class StreamLink final : public Link {
+ public:
+  explicit StreamLink(std::shared_ptr<vm::StreamPeer> peer) : peer_(std::move(peer)) {}
+  ~StreamLink() override { peer_->Close(); }
+  void Send(const Outgoing& outgoing) override { peer_->Send(outgoing.line()); }
+  void SendComment(std::string_view text) override { peer_->Send(text); }
+  void Close() override { peer_->Close(); }
+  void PauseReading() override { peer_->PauseReading(); }
+  void ResumeReading() override { peer_->ResumeReading(); }
+  std::size_t backlog_bytes() const override { return peer_->backlog_bytes(); }
+
+ private:
+  std::shared_ptr<vm::StreamPeer> peer_;
+};
+
+}  // namespace am

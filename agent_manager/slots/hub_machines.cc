@@ -1,0 +1,73 @@
+#include "agent_manager/slots/hub_machines.h"
+
+#include <utility>
+
+namespace am {
+
+using vm::Command;
+using vm::Message;
+using vm::Relation;
+using vm::Result;
+
+HubMachines::HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros,
+                         LineScripts::ReadFile read_file)
+    : hub_(hub), am_(am), macros_(macros), scripts_(hub, std::move(read_file)) {
+  hub_.set_on_machine([this](vm::SlotMachine& machine, const Envelope& envelope) {
+    return Take(machine, envelope);
+  });
+}
+
+Result<void> HubMachines::CheckFiles(const vm::SlotMachine& machine,
+                                     const Envelope& envelope) const {
+  if (hub_.access().AllFiles(envelope.origin.role)) return {};
+  const Message& message = envelope.message;
+  const bool kept =
+      message.command == Command::kDo && (scripts_.Has(message.slot) || macros_.Has(message.slot));
+  if (kept) return {};
+  return hub_.access().CheckFiles(envelope.origin.role, message,
+                                  FileSlots(machine.Value("Slots.files")), "");
+}
+
+Result<Router::Taken> HubMachines::Take(vm::SlotMachine& machine, const Envelope& envelope) {
+  if (const auto checked = CheckFiles(machine, envelope); !checked)
+    return std::unexpected(checked.error());
+  const Message& message = envelope.message;
+  const bool defines_lines =
+      message.command == Command::kDef &&
+      (message.relation == Relation::kAppend || message.relation == Relation::kFromFile);
+  const bool does = message.command == Command::kDo && !macros_.Has(message.slot);
+  const bool deletes = message.command == Command::kDel && scripts_.Has(message.slot);
+  const bool of_scripts = &machine == &am_ ? defines_lines || does || deletes : does;
+  if (of_scripts) {
+    auto done = Script(envelope);
+    if (!done) return std::unexpected(done.error());
+    return Router::Taken{true, std::move(*done)};
+  }
+  if (&machine != &macros_.slots()) return Router::Taken{};
+  macros_.Handle(envelope);
+  return Router::Taken{.taken = true};
+}
+
+Result<std::string> HubMachines::Script(const Envelope& envelope) {
+  const Message& message = envelope.message;
+  if (message.command == Command::kDo) {
+    const auto lines =
+        scripts_.Do(message.slot.empty() ? message.value : message.slot, envelope.origin);
+    if (!lines) return std::unexpected(lines.error());
+    return std::to_string(*lines) + " lines";
+  }
+  const auto allowed =
+      hub_.access().CheckPermission(envelope.origin.role, Permission::kDefine, "define macros");
+  if (!allowed) return std::unexpected(allowed.error());
+  if (message.command == Command::kDel) {
+    scripts_.Delete(message.slot);
+    return "deleted";
+  }
+  const auto kept = message.relation == Relation::kAppend
+                        ? scripts_.Append(message.slot, message.value)
+                        : scripts_.Load(message.slot, message.value);
+  if (!kept) return std::unexpected(kept.error());
+  return message.value;
+}
+
+}  // namespace am

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "agent_manager/macros/line_scripts.h"
+#include "agent_manager/macros/macro_layer.h"
+#include "agent_manager/routing/hub.h"
+
+namespace am {
+
+/// What reaches the hub's own machines, @AM and @AM-MCL: whether the files it names may be named,
+/// and `do`, whose lines go through the hub like any other. Thread: the scheduler's. All that it is
+/// given outlives it.
+class HubMachines {
+ public:
+  HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros, LineScripts::ReadFile read_file);
+
+ private:
+  vm::Result<Router::Taken> Take(vm::SlotMachine& machine, const Envelope& envelope);
+  vm::Result<void> CheckFiles(const vm::SlotMachine& machine, const Envelope& envelope) const;
+  vm::Result<std::string> Script(const Envelope& envelope);
+
+  Hub& hub_;
+  vm::SlotMachine& am_;
+  MacroLayer& macros_;
+  LineScripts scripts_;
+};
+
+}  // namespace am

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "agent_manager/routing/hub.h"
+#include "agent_manager/supervision/supervisor.h"
+#include "vm_protocol/core/slot_machine.h"
+
+namespace am {
+
+/// The slots of @AM: who is there, what each has done, the limits, the modules. Thread: the
+/// scheduler's. All that it is given outlives it.
+class HubSlots {
+ public:
+  struct Hooks {
+    std::function<void()> on_exit;
+    std::function<void(const vm::SetValue&, const vm::Reply&)> on_wait;
+    std::function<void(const vm::Reply&)> on_reload;
+    /// Somebody wants to hear a module which may be another hub's.
+    std::function<void(const std::string& name)> on_want;
+    std::function<void(PeerKey peer, bool on)> on_flow;
+  };
+  HubSlots(vm::Scheduler& clock, Hub& hub, Supervisor& supervisor, vm::SlotMachine& slots,
+           Hooks hooks);
+  /// Module.NAME.state and so on, for these modules and no others.
+  void DeclareModules(const std::set<std::string>& names);
+
+ private:
+  void DeclarePeers();
+  void DeclareProcesses();
+  void DeclareLimits();
+  void DeclareModule(const std::string& name);
+
+  vm::Scheduler& clock_;
+  Hub& hub_;
+  Supervisor& supervisor_;
+  vm::SlotMachine& slots_;
+  Hooks hooks_;
+  std::set<std::string> modules_;
+};
+
+}  // namespace am

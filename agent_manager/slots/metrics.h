@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "agent_manager/routing/peer.h"
+#include "agent_manager/supervision/supervisor.h"
+
+namespace am {
+
+/// The hub's state for Prometheus: counters and gauges in its text format, version 0.0.4.
+struct MetricsSource {
+  std::vector<PeerStatus> peers;
+  std::vector<ModuleStatus> modules;
+  std::uint64_t errors = 0, refused = 0, mqtt_dropped = 0, log_lost_bytes = 0;
+  bool mqtt_online = false;
+  vm::Time clock{0};
+};
+std::string FormatMetrics(const MetricsSource& source);
+
+}  // namespace am

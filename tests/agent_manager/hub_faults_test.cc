@@ -1,0 +1,242 @@
+// What once ended, hung or fattened the hub, or reached a file, said to the real program again.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/process.h"
+
+namespace {
+
+using support::Process;
+using support::SocketClient;
+
+const std::string kHub = GALATEA_BIN_DIR "/agent_manager";
+const std::string kModule = GALATEA_BIN_DIR "/test_module";
+
+class HubFaultsTest : public testing::Test {
+ protected:
+  /// `more`: further members of the configuration.
+  Process& Start(const std::string& modules, const std::string& more = "") {
+    Configure(modules, more);
+    hub_.emplace(std::vector<std::string>{kHub, "--config", folder_ / "hub.json"});
+    return *hub_;
+  }
+  void Configure(const std::string& modules, const std::string& more = "") {
+    std::ofstream(folder_ / "hub.json")
+        << "{\"listen\": [\"unix:" + Socket() + "\"], \"modules\": [" + modules + "]" + more + "}";
+  }
+  std::string Socket() const { return folder_ / "hub.sock"; }
+  std::string Shell(const std::string& name, const std::string& text,
+                    const std::string& more = "") {
+    const std::string script = folder_ / (name + ".sh");
+    std::ofstream(script) << text;
+    return "{\"name\": \"" + name + "\", \"dialect\": \"original\", \"command\": [\"/bin/sh\", \"" +
+           script + "\"]" + more + "}";
+  }
+  /// The hub still answers.
+  void ExpectAlive() {
+    static int number = 0;
+    const std::string tag = "alive" + std::to_string(++number);
+    hub_->WriteLine("inq#" + tag + " Run");
+    EXPECT_TRUE(hub_->Expect("rep#" + tag + " Run = LIVE")) << hub_->Seen() << hub_->ErrorText();
+  }
+
+  support::TempDir folder_;
+  std::optional<Process> hub_;
+};
+
+TEST_F(HubFaultsTest, NoDefinitionOfAMacroEndsIt) {
+  Process& hub = Start("");
+  for (const std::string& definition :
+       {std::string(R"({"grammar":"<bogus>","steps":[]})"),
+        std::string(R"({"grammar":"<int a..b>"})"),
+        "{\"grammar\":\"" + std::string(60000, '(') + "\"}", std::string(60000, '['),
+        std::string(R"([{"parallel":[]}])"), std::string(R"([{"wait":{}}])"),
+        std::string("[{\"let\":{\"a\":\"${\"}}]")}) {
+    hub.WriteLine("to @AM-MCL def#1 B = " + definition);
+    EXPECT_TRUE(hub.Expect("rep#1 B.error")) << definition.substr(0, 60);
+  }
+  ExpectAlive();
+}
+
+TEST_F(HubFaultsTest, AMacroThatSendsToItselfOrGrowsEndsWithALimit) {
+  Process& hub = Start("");
+  hub.WriteLine(R"(to @AM-MCL def X = {"steps":[],"finally":[{"send":"to @AM-MCL set X = 1"}]})");
+  hub.WriteLine("to @AM-MCL set#1 X = 1");
+  EXPECT_TRUE(hub.Expect("rep#1 X = 1"));
+  hub.WriteLine(R"(to @AM-MCL def L = [{"request":"to @AM-MCL set M = 1"}])");
+  hub.WriteLine(R"(to @AM-MCL def M = [{"request":"to @AM-MCL set L = 1"}])");
+  hub.WriteLine("to @AM-MCL set#2 L = 1");
+  EXPECT_TRUE(hub.Expect("rep#2 L.error")) << hub.Seen();
+  std::string doubling = R"(to @AM-MCL def#3 D = [{"let":{"a":"0123456789"}})";
+  for (int i = 0; i < 40; ++i) doubling += R"(,{"let":{"a":"${a}${a}"}})";
+  hub.WriteLine(doubling + "]");
+  hub.WriteLine("to @AM-MCL set#4 D = 1");
+  EXPECT_TRUE(hub.Expect("rep#4 D.error = TOO_LONG")) << hub.Seen();
+  ExpectAlive();
+}
+
+TEST_F(HubFaultsTest, AClientReadsAndDeletesNoFileOfTheHubsUser) {
+  const std::string secret = folder_ / "secret", kept = folder_ / "kept";
+  std::ofstream(secret) << "secret words";
+  std::ofstream(kept) << "kept";
+  Start("");
+  const auto client = SocketClient::Unix(Socket());
+  client->WriteLine("def A = x");
+  client->WriteLine("set#1 A < " + secret);
+  EXPECT_TRUE(client->Expect("rep#1 A.error = ACCESS"));
+  client->WriteLine("to @AM-MCL def#2 R = [{\"remove\": \"${value}\"}]");
+  EXPECT_TRUE(client->Expect("rep#2 R.error = ACCESS"));
+  client->WriteLine("do#3 " + secret);
+  EXPECT_TRUE(client->Expect("rep#3 do.error = ACCESS"));
+  client->WriteLine("inq#4 A");
+  EXPECT_TRUE(client->Expect("rep#4 A = x"));
+  EXPECT_TRUE(std::filesystem::exists(kept));
+}
+
+TEST_F(HubFaultsTest, PipesAndDevicesAsFilesAreRefusedAtOnce) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  Process& hub = Start("{\"name\": \"TEST\", \"command\": [\"" + kModule + "\"]}");
+  hub.WriteLine("def A = x");
+  for (const std::string& file : {pipe, std::string("/dev/zero"), std::string("/dev/stdin")}) {
+    hub.WriteLine("set#1 A < " + file);
+    EXPECT_TRUE(hub.Expect("rep#1 A.error = UNAVAILABLE")) << file;
+    hub.WriteLine("do#2 " + file);
+    EXPECT_TRUE(hub.Expect("rep#2 do.error = UNAVAILABLE")) << file;
+    hub.WriteLine("to @TEST set#3 X < " + file);
+    EXPECT_TRUE(hub.Expect("rep#3 X.error = UNAVAILABLE")) << file << hub.Seen();
+  }
+  ExpectAlive();
+}
+
+TEST_F(HubFaultsTest, ReloadingWhileAConfiguredMacroRunsGoesOn) {
+  const std::string macro = R"(, "macros": {"Long": [{"pause_ms": 3600000}]})";
+  Process& hub = Start("", macro);
+  hub.WriteLine("to @AM-MCL set#1 Long = x");
+  hub.WriteLine("set#2 Reload = NOW");
+  EXPECT_TRUE(hub.Expect("rep#2 Reload = NOW")) << hub.ErrorText();
+  Configure("", R"(, "macros": {"Long": [{"jump": 1}]})");
+  hub.WriteLine("set#3 Reload = NOW");
+  EXPECT_TRUE(hub.Expect("rep#3 Reload.error = BAD_VALUE")) << hub.Seen();
+  Configure("");
+  hub.WriteLine("set#4 Reload = NOW");
+  EXPECT_TRUE(hub.Expect("rep#4 Reload = NOW")) << hub.Seen();
+  hub.WriteLine("to @AM-MCL set#5 Long = x");
+  EXPECT_TRUE(hub.Expect("rep#5 Long.error = UNKNOWN_SLOT")) << "no longer configured";
+  ExpectAlive();
+}
+
+TEST_F(HubFaultsTest, AMacroThatStopsAModuleItIsConnectedToIsSafe) {
+  Process listening({kModule, "--listen", "unix:" + folder_ / "module"});
+  ASSERT_TRUE(listening.ExpectError("listening on"));
+  Process& hub = Start("{\"name\": \"FAR\", \"connect\": \"unix:" + folder_ / "module" + "\"}");
+  hub.WriteLine(
+      R"(to @AM-MCL def Both = [{"parallel": [[{"wait": {"from": "FAR", "slot": "X", "value": "9"}, "limit_ms": 60000}], [{"request": "to @AM set Stop = FAR"}]]}])");
+  hub.WriteLine("to @FAR set#1 X = 1");
+  ASSERT_TRUE(hub.Expect("rep#1 X = 1")) << hub.Seen() << hub.ErrorText();
+  hub.WriteLine(
+      "to @AM-MCL def Other = [{\"request\": \"to @FAR inq X\", \"limit_ms\": 60000}, "
+      "{\"pause_ms\": 60000}]");
+  hub.WriteLine("to @AM-MCL set#3 Other = x");
+  hub.WriteLine("to @FAR set X = 2");
+  hub.WriteLine("to @AM-MCL set#2 Both = x");
+  EXPECT_TRUE(hub.Expect("rep#3 Other.error = UNAVAILABLE @FAR has gone")) << hub.Seen();
+  ExpectAlive();
+}
+
+TEST_F(HubFaultsTest, BytesOfAModulesErrorsAreShownAsText) {
+  Process& hub = Start(Shell("RAW",
+                             "printf 'bad \\377\\033[31m bytes\\r\\n' >&2\n"
+                             "while read -r line; do case $line in *EXIT*) exit 0;; esac; "
+                             "done\n"));
+  std::optional<std::string> log;
+  for (int i = 0; i < 200 && (!log || log->find("bad") == std::string::npos); ++i) {
+    hub.WriteLine("inq#1 Module.RAW.log");
+    log = hub.Expect("rep#1 Module.RAW.log");
+  }
+  ASSERT_TRUE(log);
+  EXPECT_NE(log->find("bad \xEF\xBF\xBD [31m bytes"), std::string::npos) << *log;
+}
+
+TEST_F(HubFaultsTest, AModuleHasTheWholeTimeToStopThatItWasGiven) {
+  const std::string marker = folder_ / "stopped well";
+  Process& hub = Start(Shell("SLOW",
+                             "while read -r line; do case $line in *EXIT*) exec >&-; sleep 1; "
+                             "touch '" +
+                                 marker + "'; exit 0;; esac; done\n",
+                             ", \"stop_within_ms\": 20000"));
+  hub.WriteLine("set#1 Stop = SLOW");
+  EXPECT_TRUE(hub.Expect("rep#1 Stop = STOPPED")) << hub.Seen() << hub.ErrorText();
+  EXPECT_TRUE(std::filesystem::exists(marker));
+}
+
+TEST_F(HubFaultsTest, AConfiguredModuleKeepsItsName) {
+  Process& hub = Start(Shell("FIRM",
+                             "echo 'to @AM set#n Name = OTHER'\nwhile read -r line; do case $line "
+                             "in *EXIT*) exit 0;; *) echo \"tell heard $line\";; esac; done\n"));
+  EXPECT_TRUE(hub.Expect("From @FIRM tell heard From @AM rep#n Name.error = ACCESS"))
+      << hub.Seen() << hub.ErrorText();
+}
+
+TEST_F(HubFaultsTest, WhatAModuleHasStartedItselfEndsWithIt) {
+  const std::string pid = folder_ / "pid";
+  Process& hub = Start(
+      "{\"name\": \"SHELL\", \"dialect\": \"original\", \"command\": "
+      "\"sleep 600 & echo $! > '" +
+      pid + "'; echo tell up; read line; exit 0\"}");
+  ASSERT_TRUE(hub.Expect("From @SHELL tell up")) << hub.ErrorText();
+  hub.WriteLine("set#1 Stop = SHELL");
+  ASSERT_TRUE(hub.Expect("rep#1 Stop = STOPPED"));
+  std::ifstream file(pid);
+  pid_t child = 0;
+  file >> child;
+  ASSERT_GT(child, 0);
+  const auto runs = [child] {  // it may wait for whoever adopted it to take its exit code
+    std::ifstream stat("/proc/" + std::to_string(child) + "/stat");
+    std::string number, name, state;
+    stat >> number >> name >> state;
+    return !state.empty() && state != "Z";
+  };
+  for (int tries = 0; runs() && tries < 1000; ++tries) ExpectAlive();
+  EXPECT_FALSE(runs());
+}
+
+TEST_F(HubFaultsTest, AModuleThatFailsToStartIsAnErrorWithItsReasonAndIsGivenUp) {
+  Process& hub = Start(
+      "{\"name\": \"BAD\", \"command\": \"echo 'fsm: no display' >&2; exit 1\", "
+      "\"restart\": {\"when\": \"always\", \"first_ms\": 1}}");
+  EXPECT_TRUE(hub.ExpectError("@BAD ended with code 1 before it was ready: fsm: no display"))
+      << hub.ErrorText();
+  EXPECT_TRUE(hub.ExpectError("@BAD has failed to start 3 times, it is not started again"))
+      << hub.ErrorText();
+  hub.WriteLine("inq#1 Module.BAD.state");
+  EXPECT_TRUE(hub.Expect("rep#1 Module.BAD.state = FAILED"));
+}
+
+TEST_F(HubFaultsTest, AHundredThousandReportsLeaveNothingBehind) {
+  Start("").WriteLine("set Subscribe = NONE");  // nobody reads what the console would hear
+  ExpectAlive();
+  const auto client = SocketClient::Unix(Socket());
+  client->WriteLine("set#0 Name = FLOOD");
+  ASSERT_TRUE(client->Expect("rep#0 Name = FLOOD"));
+  const auto memory_kib = [this] {
+    std::ifstream status("/proc/" + std::to_string(hub_->pid()) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+    }
+    return 0L;
+  };
+  const long before = memory_kib();
+  const std::string long_value(2000, 'x');
+  for (int i = 0; i < 100000; ++i)
+    client->WriteLine("rep Slot" + std::to_string(i) + " = " + long_value);
+  client->WriteLine("inq#1 Run");
+  ASSERT_TRUE(client->Expect("rep#1 Run = LIVE"));
+  EXPECT_LT(memory_kib() - before, 20000);
+}
+
+}  // namespace
