@@ -24,15 +24,11 @@ class DeepChecker {
   DeepChecker(Document& document, fetch::Fetcher& fetcher)
       : document_(document),
         fetcher_(fetcher),
-        store_(
-            [this](const std::string& uri) -> vm::Result<std::string> {
-              auto got = fetcher_.Get(uri);
-              if (!got) return std::unexpected(got.error());
-              return std::move(got->body);
-            },
-            [](const std::string& base, const std::string& uri) {
-              return fetch::Resolve(base, uri);
-            }) {}
+        store_([this](const std::string& uri) -> vm::Result<std::string> {
+          auto got = fetcher_.Get(uri);
+          if (!got) return std::unexpected(got.error());
+          return std::move(got->body);
+        }) {}
 
   std::vector<Finding> Run() {
     Visit(*document_.root);

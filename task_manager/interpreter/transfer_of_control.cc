@@ -202,8 +202,8 @@ void Session::RunData(const xml::Node& node) {
   if (!node.Has("name")) return;
   auto data = xml::Parse(got.body, got.uri, got.charset);
   if (!data) ThrowEvent("error.badfetch", data.error().text);
-  const std::string host = fetch::ParseUri(context_->document->uri).authority;
-  if (!MayRead(*data, host.substr(0, host.find(':')))) {
+  const std::string host = fetch::Host(OriginOf(node).uri);
+  if (!MayRead(*data, host)) {
     ThrowEvent("error.noauthorization", got.uri + ": access-control does not allow " + host);
   }
   std::string spec;

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <utility>
 
+#include "task_manager/fetch/uri.h"
 #include "task_manager/xml/node.h"
 
 namespace vxml {
@@ -191,7 +192,7 @@ bool AgentPlatform::Utter(const std::string& text, bool may_be_stopped) {
 
 /// A sound file, by the voice: it plays what the listener is to hear, also in films.
 void AgentPlatform::PlayFile(const std::string& file, bool may_be_stopped) {
-  const std::string path = file.starts_with("file://") ? file.substr(7) : file;
+  const std::string path = fetch::PathOf(file).value_or(file);
   if (!path.starts_with("/")) return;  // builtin: has none
   hub_.Send("tell start " + path);
   Utter("<speak><audio src=\"" + xml::Escape(path) + "\"/></speak>", may_be_stopped);

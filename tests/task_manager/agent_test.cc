@@ -53,6 +53,10 @@ class AgentTest : public ::testing::Test {
   std::unique_ptr<support::Process> hub_;
 };
 
+std::string Form(const std::string& content) {
+  return "<vxml version=\"2.1\"><form>" + content + "</form></vxml>";
+}
+
 TEST_F(AgentTest, SpeaksHearsAndMovesTheFaceThroughTheHub) {
   const auto lines = Talk(
       "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt>Do you <emotion "
@@ -113,6 +117,12 @@ TEST_F(AgentTest, SoundFilesArePlayedByTheVoiceAlsoThoseForSnd) {
   EXPECT_LT(first, log.find("Speak = after"));
   EXPECT_NE(log.find(play, log.find("Speak = after")), std::string::npos);
   EXPECT_NE(log.find("tell end " + (folder_ / "bell.wav")), std::string::npos);
+}
+
+TEST_F(AgentTest, TheEscapesOfASoundsUriAreNoPartOfItsFile) {
+  std::ofstream(folder_ / "two bells.wav") << "RIFF";
+  Talk(Form("<block><prompt><audio src=\"two%20bells.wav\"/></prompt></block>"), "silence\n");
+  EXPECT_NE(Log().find("tell start " + (folder_ / "two bells.wav")), std::string::npos);
 }
 
 TEST_F(AgentTest, SoundsThatCameOverTheNetAreKeptForTheVoice) {
@@ -198,10 +208,6 @@ TEST_F(AgentTest, TransfersAndObjectsAreRefusedWithTheirEvents) {
       "silence\n");
   ASSERT_FALSE(lines.empty());
   EXPECT_NE(lines.back().find("\"value\":2"), std::string::npos) << lines.back();
-}
-
-std::string Form(const std::string& content) {
-  return "<vxml version=\"2.1\"><form>" + content + "</form></vxml>";
 }
 
 /// The shadow variables of a recording r, one after the other.
