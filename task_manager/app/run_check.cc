@@ -1,4 +1,5 @@
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "task_manager/app/options.h"
@@ -177,7 +178,7 @@ int RunCheck(const Options& options) {
 
 namespace {
 
-std::string DotId(const std::string& text) { return JsonQuote(text); }
+std::string DotId(const std::string& text) { return JsonText(text); }
 
 void Edges(const xml::Node& node, const std::string& from) {
   const auto edge = [&](const std::string& to, const std::string& label) {
