@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "vm_protocol/runtime/doorkeeper.h"
+#include "vm_protocol/runtime/acceptor.h"
 #include "vm_protocol/runtime/endpoint.h"
 
 namespace vxml {
@@ -35,7 +35,7 @@ struct HubLink::Channel {
     const auto endpoint = vm::ParseEndpoint(hub.endpoint);
     if (!endpoint) throw std::runtime_error("--connect: " + endpoint.error().text);
     std::optional<vm::Result<std::shared_ptr<vm::StreamPeer>>> called;
-    vm::Call(io, *endpoint, hub.credentials, vm::Framing::kLf, vm::Encoding::kUtf8,
+    vm::Connect(io, *endpoint, hub.credentials, vm::Framing::kLf, vm::Encoding::kUtf8,
              [&called](vm::Result<std::shared_ptr<vm::StreamPeer>> given) {
                called = std::move(given);
              });

@@ -62,9 +62,7 @@ bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
 
 std::string Quoted(std::string_view text) {
   if (text.size() <= kShownBytes) return "'" + std::string(text) + "'";
-  std::size_t end = kShownBytes;  // never cut inside a UTF-8 sequence
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return "'" + std::string(text.substr(0, end)) + "...'";
+  return "'" + std::string(CutUtf8(text, kShownBytes)) + "...'";
 }
 
 /// Walks one line from left to right; every helper leaves `at_` behind what it has read.
@@ -333,6 +331,19 @@ Result<Message> ParseMessage(std::string_view line) {
     return Fail(Errc::kSyntax, "found a NUL, CR or LF inside the line, expected text", control + 1);
   }
   return LineParser(line).Parse();
+}
+
+std::string TagOf(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
+    std::size_t word = at;
+    while (word > 0 && IsAlnum(line[word - 1])) --word;
+    const bool command =
+        std::ranges::find(kCommandNames, line.substr(word, at - word)) != kCommandNames.end();
+    const std::string_view tag =
+        line.substr(at + 1, line.find_first_of(" \t\r\n", at + 1) - at - 1);
+    if (command && (word == 0 || IsBlank(line[word - 1])) && IsTag(tag)) return std::string(tag);
+  }
+  return "";
 }
 
 bool IsValid(const Message& message) {

@@ -43,6 +43,10 @@ struct Message {
 /// has the column, what was found and what was expected.
 Result<Message> ParseMessage(std::string_view line);
 
+/// The request tag of a line that is no message, so that whoever asked hears why; empty: none can
+/// be read.
+std::string TagOf(std::string_view line);
+
 /// Writes a message exactly as the original does: one blank between words, "SLOT = VALUE".
 /// The `from` identifier is written "From @X", as its hub did. REQUIRES: IsValid(message).
 std::string FormatMessage(const Message& message);

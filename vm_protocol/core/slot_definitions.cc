@@ -158,8 +158,7 @@ void SlotMachine::HandleDel(const Message& message, PeerId peer) {
                     {Errc::kAccess,
                      "slot '" + message.slot + "' belongs to the module, it cannot be deleted", 0});
     }
-    by_name_.erase(message.slot);
-    std::erase_if(slots_, [slot](const auto& owned) { return owned.get() == slot; });
+    Remove(message.slot);
     --user_slots_;
     removed = true;
   }

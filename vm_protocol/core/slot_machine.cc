@@ -6,6 +6,7 @@
 
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/slot.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace vm {
 namespace {
@@ -63,6 +64,19 @@ void SlotMachine::DeclareOwnSlots() {
              for (const auto& slot : slots_) names += (names.empty() ? "" : " ") + slot->spec.name;
              return names;
            }});
+  Declare({.name = "Slots.files",
+           .grammar = "<text>",
+           .access = Access::kReadOnly,
+           .help = "The slots that take file names, with their grammars: NAME GRAMMAR; NAME "
+                   "GRAMMAR; ... A hub asks for it, to know who may set them.",
+           .on_inq = [this] {
+             std::string text;
+             for (const auto& slot : slots_) {
+               if (slot->spec.access != Access::kReadOnly && slot->grammar.has_file())
+                 text += (text.empty() ? "" : "; ") + slot->spec.name + " " + slot->spec.grammar;
+             }
+             return text;
+           }});
   Declare({.name = std::string(kErrorSlot),
            .grammar = "<text>",
            .access = Access::kReadOnly,
@@ -86,6 +100,13 @@ void SlotMachine::Declare(SlotSpec spec) {
   by_name_[slots_.back()->spec.name] = slots_.back().get();
 }
 
+void SlotMachine::Remove(std::string_view name) {
+  const auto found = by_name_.find(name);
+  if (found == by_name_.end()) return;
+  std::erase_if(slots_, [slot = found->second](const auto& owned) { return owned.get() == slot; });
+  by_name_.erase(found);
+}
+
 SlotMachine::Slot* SlotMachine::Find(std::string_view name) {
   const auto found = by_name_.find(name);
   return found == by_name_.end() ? nullptr : found->second;
@@ -101,7 +122,7 @@ void SlotMachine::HandleLine(std::string_view line, PeerId peer) {
   auto message = ParseMessage(line);
   if (!message) {
     if (message.error().code == Errc::kEmpty) return;
-    if (on_error_) on_error_(peer, std::string(line.substr(0, 200)), message.error());
+    if (on_error_) on_error_(peer, std::string(CutUtf8(line, 200)), message.error());
     ReportUnread(peer, message.error());
     return;
   }
@@ -289,7 +310,7 @@ void SlotMachine::ReportUnread(PeerId peer, const Error& error, std::string_view
 }
 
 void SlotMachine::Refuse(const Message& message, PeerId peer, const Error& error) {
-  if (on_error_) on_error_(peer, FormatMessage(message).substr(0, 200), error);
+  if (on_error_) on_error_(peer, std::string(CutUtf8(FormatMessage(message), 200)), error);
   const std::string slot = Place(message);
   if (message.tag.empty()) return ReportUnread(peer, error, slot);
   Store(kErrorSlot, FormatError(error));
@@ -306,7 +327,8 @@ Error SlotMachine::UnknownSlot(const std::string& name) const {
 void SlotMachine::Emit(PeerId peer, Message message) {
   // A value over the line limit would be an invalid message: what is said must be readable.
   constexpr std::size_t kRoom = kMaxNameBytes + kMaxModuleNameBytes + 64;
-  if (message.value.size() + kRoom > kMaxLineBytes) message.value.resize(kMaxLineBytes - kRoom);
+  if (message.value.size() + kRoom > kMaxLineBytes)
+    message.value = CutUtf8(message.value, kMaxLineBytes - kRoom);
   if (output_) output_(peer, message);
 }
 

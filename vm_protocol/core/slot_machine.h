@@ -79,8 +79,9 @@ struct SlotSpec {
 
 /// The slots of one virtual machine and everything that can be said to them. Pure: no I/O, no
 /// clock; output goes to the callback. Gives every module, without code of its own:
-///   inq Slots, inq X.help, inq X.prop; prop X = AutoOutput|NoAutoOutput, prop Error = AutoOutput;
-///   save/rest NAME; def/del of user slots; `<` and `<<`; def NAME << LINE and do NAME (macros).
+///   inq Slots, inq Slots.files, inq X.help, inq X.prop; prop X = AutoOutput|NoAutoOutput, prop
+///   Error = AutoOutput; save/rest NAME; def/del of user slots; `<` and `<<`; def NAME << LINE and
+///   do NAME (macros).
 /// Thread: none of its own; one instance, one thread. Callbacks may call Report() and Handle().
 class SlotMachine {
  public:
@@ -109,6 +110,8 @@ class SlotMachine {
 
   /// REQUIRES: the name is new and valid; the grammar is well-formed.
   void Declare(SlotSpec spec);
+  /// Takes a slot back. Not from within one of its own callbacks.
+  void Remove(std::string_view slot);
   bool Has(std::string_view slot) const;
 
   /// Deals with one line from a peer: parses, checks, acts, answers. Never throws on bad input.

@@ -1,27 +1,47 @@
 #include "vm_protocol/core/text_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 namespace vm {
+namespace {
+
+struct Descriptor {
+  int fd = -1;
+  ~Descriptor() {
+    if (fd >= 0) close(fd);
+  }
+};
+
+}  // namespace
 
 Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
+  const auto cannot = [&path](const char* why) {
+    return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + why);
+  };
+  // Without O_NONBLOCK opening a named pipe waits for somebody to write into it.
+  const Descriptor file{open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};
+  if (file.fd < 0) return cannot(std::strerror(errno));
+  struct stat info {};
+  if (fstat(file.fd, &info) != 0) return cannot(std::strerror(errno));
+  if (!S_ISREG(info.st_mode)) return cannot("it is not a regular file");
   std::string text;
-  char buffer[4096];
-  while (file.read(buffer, sizeof(buffer)) || file.gcount() > 0) {
-    text.append(buffer, static_cast<std::size_t>(file.gcount()));
-    if (text.size() > max_bytes) {
+  std::array<char, 16384> buffer;
+  while (true) {
+    const ssize_t n = read(file.fd, buffer.data(), buffer.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return cannot(std::strerror(errno));
+    if (n == 0) return text;
+    text.append(buffer.data(), static_cast<std::size_t>(n));
+    if (text.size() > max_bytes)
       return Fail(Errc::kTooLong,
                   "file '" + path + "' is over " + std::to_string(max_bytes) + " bytes");
-    }
   }
-  if (!file.is_open() || file.bad()) {
-    return Fail(Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));
-  }
-  return text;
 }
 
 }  // namespace vm

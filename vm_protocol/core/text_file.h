@@ -6,8 +6,9 @@
 
 namespace vm {
 
-/// A whole file. Errors: kUnavailable if it cannot be read (with the system's reason), kTooLong if
-/// it is over `max_bytes`, of which no more is read. Both name the file.
+/// A whole regular file. Errors: kUnavailable if it cannot be read (with the system's reason) or is
+/// a pipe, a device or a folder; kTooLong if it is over `max_bytes`, of which no more is read. Both
+/// name the file. Does not wait for anybody to write.
 Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes);
 
 }  // namespace vm

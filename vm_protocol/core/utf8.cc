@@ -1,5 +1,7 @@
 #include "vm_protocol/core/utf8.h"
 
+#include <algorithm>
+
 namespace vm {
 namespace {
 
@@ -44,6 +46,58 @@ std::optional<std::size_t> FirstBadUtf8(std::string_view text) {
     i += length;
   }
   return std::nullopt;
+}
+
+std::optional<CodePoint> DecodeUtf8(std::string_view text, std::size_t at) {
+  if (at >= text.size()) return std::nullopt;
+  const std::size_t length = SequenceLength(text, at);
+  if (length == 0) return std::nullopt;
+  constexpr unsigned kLeadBits[] = {0, 0x7F, 0x1F, 0x0F, 0x07};
+  char32_t value = Byte(text, at) & kLeadBits[length];
+  for (std::size_t k = 1; k < length; ++k) value = (value << 6) | (Byte(text, at + k) & 0x3F);
+  return CodePoint{value, length};
+}
+
+void AppendUtf8(std::string& out, char32_t sign) {
+  const auto put = [&out](char32_t byte) { out += static_cast<char>(byte); };
+  if (sign < 0x80) {
+    put(sign);
+  } else if (sign < 0x800) {
+    put(0xC0 | (sign >> 6));
+    put(0x80 | (sign & 0x3F));
+  } else if (sign < 0x10000) {
+    put(0xE0 | (sign >> 12));
+    put(0x80 | ((sign >> 6) & 0x3F));
+    put(0x80 | (sign & 0x3F));
+  } else {
+    put(0xF0 | (sign >> 18));
+    put(0x80 | ((sign >> 12) & 0x3F));
+    put(0x80 | ((sign >> 6) & 0x3F));
+    put(0x80 | (sign & 0x3F));
+  }
+}
+
+std::string_view CutUtf8(std::string_view text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return text;
+  std::size_t end = max_bytes;
+  while (end > 0 && (Byte(text, end) & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
+std::string ShownUtf8(std::string_view bytes) {
+  std::string shown;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const auto sign = DecodeUtf8(bytes, at);
+    if (!sign) {
+      AppendUtf8(shown, 0xFFFD);
+    } else if (sign->value < 0x20 || (sign->value >= 0x7F && sign->value < 0xA0)) {
+      shown += ' ';
+    } else {
+      shown += bytes.substr(at, sign->length);
+    }
+    at += sign ? sign->length : 1;
+  }
+  return shown;
 }
 
 }  // namespace vm

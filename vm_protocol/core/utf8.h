@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace vm {
@@ -9,5 +10,23 @@ namespace vm {
 /// Byte position (0-based) of the first byte that is not part of well-formed UTF-8 (RFC 3629: no
 /// overlong forms, no surrogates, at most U+10FFFF); none = all well.
 std::optional<std::size_t> FirstBadUtf8(std::string_view text);
+
+/// One sign of a text and how many bytes it takes.
+struct CodePoint {
+  char32_t value = 0;
+  std::size_t length = 0;
+};
+/// The sign that begins at `at`; none at the end, or where no well-formed sequence begins.
+std::optional<CodePoint> DecodeUtf8(std::string_view text, std::size_t at);
+
+/// REQUIRES: a Unicode scalar value.
+void AppendUtf8(std::string& out, char32_t sign);
+
+/// The beginning of a text, at most `max_bytes` long, that does not end within a sign.
+std::string_view CutUtf8(std::string_view text, std::size_t max_bytes);
+
+/// Bytes from anywhere as text that can stand in a message and on a terminal: each byte that is not
+/// UTF-8 becomes U+FFFD, each control character (also DEL, U+0080 to U+009F) a blank.
+std::string ShownUtf8(std::string_view bytes);
 
 }  // namespace vm

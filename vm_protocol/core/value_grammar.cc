@@ -1,10 +1,10 @@
 #include "vm_protocol/core/value_grammar.h"
 
-#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "vm_protocol/core/start_time.h"
@@ -71,25 +71,6 @@ std::optional<double> ReadNumber(std::string_view word) {
   return value;
 }
 
-void AppendUtf8(std::string& out, unsigned code) {
-  const auto put = [&out](unsigned byte) { out += static_cast<char>(byte); };
-  if (code < 0x80) {
-    put(code);
-  } else if (code < 0x800) {
-    put(0xC0 | (code >> 6));
-    put(0x80 | (code & 0x3F));
-  } else if (code < 0x10000) {
-    put(0xE0 | (code >> 12));
-    put(0x80 | ((code >> 6) & 0x3F));
-    put(0x80 | (code & 0x3F));
-  } else {
-    put(0xF0 | (code >> 18));
-    put(0x80 | ((code >> 12) & 0x3F));
-    put(0x80 | ((code >> 6) & 0x3F));
-    put(0x80 | (code & 0x3F));
-  }
-}
-
 std::optional<unsigned> ReadHex4(std::string_view text, std::size_t at) {
   if (at + 4 > text.size()) return std::nullopt;
   unsigned value = 0;
@@ -154,7 +135,13 @@ std::optional<std::pair<std::string, std::size_t>> ReadQuoted(std::string_view t
 
 namespace {
 
-/// Reads the grammar text itself. Grammars are part of the program, so faults are asserted.
+/// A fault in a grammar's text.
+struct GrammarFault {
+  std::size_t at;
+  std::string expected;
+};
+
+/// Reads the grammar text itself. Throws GrammarFault, which Parse catches.
 template <typename Node>
 class GrammarReader {
  public:
@@ -162,7 +149,7 @@ class GrammarReader {
 
   std::unique_ptr<Node> Read() {
     auto root = Alternatives();
-    assert(at_ == text_.size() && "value grammar: unexpected text at the end");
+    if (at_ != text_.size()) throw GrammarFault{at_, "the end of the grammar"};
     return root;
   }
 
@@ -180,8 +167,8 @@ class GrammarReader {
     Skip();
     return at_ < text_.size() ? text_[at_] : '\0';
   }
-  void Expect([[maybe_unused]] char c) {
-    assert(Peek() == c && "value grammar: unbalanced bracket");
+  void Expect(char c) {
+    if (Peek() != c) throw GrammarFault{at_, std::string("'") + c + "'"};
     ++at_;
   }
 
@@ -213,9 +200,13 @@ class GrammarReader {
   NodePtr Term() {
     const char c = Peek();
     if (c == '[' || c == '(') {
+      if (++depth_ > ValueGrammar::kMaxDepth)
+        throw GrammarFault{
+            at_, "at most " + std::to_string(ValueGrammar::kMaxDepth) + " brackets in each other"};
       ++at_;
       NodePtr inner = Alternatives();
       Expect(c == '[' ? ']' : ')');
+      --depth_;
       if (c == '(') return inner;
       auto optional = Make(NodeKind::kOptional);
       optional->children.push_back(std::move(inner));
@@ -226,7 +217,6 @@ class GrammarReader {
     const std::size_t end = std::min(text_.find_first_of(" \t|()[]<", at_), text_.size());
     std::string_view word = text_.substr(at_, end - at_);
     if (word.size() > 3 && word.ends_with("...")) word.remove_suffix(3);
-    assert(!word.empty());
     literal->literal = word;
     at_ += word.size();
     return literal;
@@ -234,7 +224,8 @@ class GrammarReader {
 
   NodePtr Placeholder() {
     const std::size_t end = text_.find('>', at_);
-    assert(end != std::string_view::npos && "value grammar: '<' without '>'");
+    if (end == std::string_view::npos) throw GrammarFault{at_, "'>'"};
+    const std::size_t start = at_;
     const std::string_view inside = text_.substr(at_ + 1, end - at_ - 1);
     at_ = end + 1;
     const std::size_t blank = inside.find(' ');
@@ -250,22 +241,28 @@ class GrammarReader {
         node->low = 0;
         node->high = 86'400'000;
       }
-      if (blank != std::string_view::npos) ReadRange(inside.substr(blank + 1), *node);
+      if (blank != std::string_view::npos) ReadRange(inside.substr(blank + 1), *node, start);
       return node;
     }
-    assert(false && "value grammar: unknown placeholder");
-    return Make(NodeKind::kText);
+    throw GrammarFault{start, "<number>, <int>, <ms>, <time>, <word>, <text> or <file>"};
   }
 
-  static void ReadRange(std::string_view range, Node& node) {
+  static void ReadRange(std::string_view range, Node& node, std::size_t at) {
     const std::size_t dots = range.find("..");
-    assert(dots != std::string_view::npos && "value grammar: a range is LOW..HIGH");
-    if (dots > 0) node.low = ReadNumber(range.substr(0, dots)).value();
-    if (dots + 2 < range.size()) node.high = ReadNumber(range.substr(dots + 2)).value();
+    const auto bound = [&](std::string_view text, double& target) {
+      if (text.empty()) return;
+      const auto number = ReadNumber(text);
+      if (!number) throw GrammarFault{at, "a range of numbers, LOW..HIGH"};
+      target = *number;
+    };
+    if (dots == std::string_view::npos) throw GrammarFault{at, "a range, LOW..HIGH"};
+    bound(range.substr(0, dots), node.low);
+    bound(range.substr(dots + 2), node.high);
   }
 
   std::string_view text_;
   std::size_t at_ = 0;
+  std::size_t depth_ = 0;
 };
 
 /// Matches by continuation: an element calls `next` with the place behind it, and tries its next
@@ -279,7 +276,9 @@ class Matcher {
   explicit Matcher(std::string_view text) : text_(text) {}
 
   bool Match(const Node& node, std::size_t at, const Next& next) {
-    if (++steps_ > kMaxSteps) return false;
+    // A continuation runs within the match before it, so a long sequence is a deep call, too.
+    if (++steps_ > kMaxSteps || depth_ >= kMaxCalls) return false;
+    const Deeper deeper(depth_);
     at = SkipBlanks(text_, at);
     switch (node.kind) {
       case Node::Kind::kSequence:
@@ -312,6 +311,13 @@ class Matcher {
  private:
   /// Bounds the work of a hostile value against an ambiguous grammar.
   static constexpr int kMaxSteps = 200'000;
+  static constexpr int kMaxCalls = 2'000;  // a frame of each kind takes a few hundred bytes
+  struct Deeper {
+    explicit Deeper(int& calls) : depth(calls) { ++depth; }
+    ~Deeper() { --depth; }
+    Deeper(const Deeper&) = delete;
+    int& depth;
+  };
 
   template <typename F>
   bool Attempt(const F& attempt) {
@@ -321,8 +327,8 @@ class Matcher {
     return false;
   }
 
-  bool Take(std::string text, double number, std::size_t end, const Next& next) {
-    items_.push_back({std::move(text), number});
+  bool Take(std::string text, double number, std::size_t end, const Next& next, bool file = false) {
+    items_.push_back({std::move(text), number, file});
     Reached(SkipBlanks(text_, end));
     if (next(end)) return true;
     items_.pop_back();
@@ -363,14 +369,14 @@ class Matcher {
     if (text_[at] == '"') {
       if (auto quoted = ReadQuoted(text_, at); quoted && !quoted->first.empty()) {
         if (SkipBlanks(text_, quoted->second) == text_.size()) {
-          return Take(std::move(quoted->first), 0, text_.size(), next);
+          return Take(std::move(quoted->first), 0, text_.size(), next, true);
         }
       }
       return false;
     }
     std::size_t end = text_.size();
     while (end > at && IsBlank(text_[end - 1])) --end;
-    return Take(std::string(text_.substr(at, end - at)), 0, text_.size(), next);
+    return Take(std::string(text_.substr(at, end - at)), 0, text_.size(), next, true);
   }
 
   bool MatchTime(std::size_t at, const Next& next) {
@@ -407,12 +413,36 @@ class Matcher {
   Items items_;
   std::size_t farthest_ = 0;
   int steps_ = 0;
+  int depth_ = 0;
 };
 
 }  // namespace
 
-ValueGrammar::ValueGrammar(std::string_view text)
-    : text_(text), root_(GrammarReader<Node>(text_).Read()) {}
+Result<ValueGrammar> ValueGrammar::Parse(std::string_view text) {
+  if (text.size() > kMaxBytes)
+    return Fail(Errc::kBadValue, "a value grammar of " + std::to_string(text.size()) +
+                                     " bytes, expected at most " + std::to_string(kMaxBytes));
+  try {
+    return ValueGrammar(text, GrammarReader<Node>(text).Read());
+  } catch (const GrammarFault& fault) {
+    const std::string found = fault.at < text.size()
+                                  ? "'" + ShownUtf8(CutUtf8(text.substr(fault.at), 40)) + "'"
+                                  : "the end";
+    return Fail(Errc::kBadValue, "value grammar: found " + found + ", expected " + fault.expected,
+                fault.at + 1);
+  }
+}
+
+ValueGrammar::ValueGrammar(std::string_view text) {
+  auto parsed = Parse(text);
+  if (!parsed) throw std::logic_error(FormatError(parsed.error()));
+  *this = std::move(*parsed);
+}
+
+ValueGrammar::ValueGrammar(std::string_view text, std::unique_ptr<Node> root)
+    : text_(text), root_(std::move(root)) {}
+
+bool ValueGrammar::has_file() const { return text_.find("<file>") != std::string::npos; }
 ValueGrammar::~ValueGrammar() = default;
 ValueGrammar::ValueGrammar(ValueGrammar&&) noexcept = default;
 ValueGrammar& ValueGrammar::operator=(ValueGrammar&&) noexcept = default;
@@ -428,12 +458,7 @@ Result<ValueGrammar::Items> ValueGrammar::Match(std::string_view value) const {
   const std::size_t at = SkipBlanks(value, matcher.farthest());
   std::string found = "the end of the value";
   if (at < value.size()) {
-    std::size_t end = WordEnd(value, at);
-    if (end - at > 40) {
-      end = at + 40;
-      while (end > at && (static_cast<unsigned char>(value[end]) & 0xC0) == 0x80) --end;
-    }
-    found = "'" + std::string(value.substr(at, end - at)) + "'";
+    found = "'" + std::string(CutUtf8(value.substr(at, WordEnd(value, at) - at), 40)) + "'";
   }
   return Fail(Errc::kBadValue, "found " + found + ", expected " + text_, at + 1);
 }

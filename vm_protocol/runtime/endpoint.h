@@ -12,7 +12,7 @@
 namespace vm {
 
 /// unix:PATH | tcp:HOST:PORT | tls:HOST:PORT (HOST a name, an IPv4 address, or [IPv6]). What tls:
-/// means beyond TCP is the business of Doorkeeper and Call.
+/// means beyond TCP is the business of Acceptor and Connect.
 struct Endpoint {
   enum class Kind { kUnix, kTcp, kTls };
   Kind kind = Kind::kUnix;

@@ -11,7 +11,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "vm_protocol/runtime/doorkeeper.h"
+#include "vm_protocol/runtime/acceptor.h"
 #include "vm_protocol/runtime/module_server.h"
 
 namespace vm {
@@ -135,19 +135,19 @@ class Program {
       if (!error) server.RequestStop();
     });
 
-    std::vector<std::unique_ptr<Doorkeeper>> doors;
+    std::vector<std::unique_ptr<Acceptor>> acceptors;
     const auto listen = [&](const Endpoint& endpoint, Framing how) {
-      doors.push_back(Doorkeeper::Open(
+      acceptors.push_back(Acceptor::Open(
           io, endpoint, options_.credentials, how, encoding,
-          [&](const Doorkeeper::Guest& guest) {
-            if (!server.HasRoom()) return guest.stream->Close();
-            server.AddPeer(guest.stream, {});
-            guest.stream->ResumeReading();
+          [&](const Acceptor::Connection& connection) {
+            if (!server.HasRoom()) return connection.stream->Close();
+            server.AddPeer(connection.stream, {});
+            connection.stream->ResumeReading();
           },
           [this](const std::string& text) {
             std::cerr << info_.name << ": " << text << std::endl;
           }));
-      std::cerr << info_.name << ": listening on " << FormatEndpoint(doors.back()->endpoint())
+      std::cerr << info_.name << ": listening on " << FormatEndpoint(acceptors.back()->endpoint())
                 << std::endl;
     };
     for (const std::string& text : options_.listen) listen(Need(ParseEndpoint(text)), framing);
@@ -180,14 +180,14 @@ class Program {
     // Taken apart here: g++ 12 takes a Result that is moved out of a callback for uninitialised.
     std::shared_ptr<StreamPeer> stream;
     std::string refusal;
-    Call(io, endpoint, options_.credentials, Framing::kLf, encoding,
-         [&](const Result<std::shared_ptr<StreamPeer>>& called) {
-           if (called) {
-             stream = *called;
-           } else {
-             refusal = called.error().text;
-           }
-         });
+    vm::Connect(io, endpoint, options_.credentials, Framing::kLf, encoding,
+                [&](const Result<std::shared_ptr<StreamPeer>>& called) {
+                  if (called) {
+                    stream = *called;
+                  } else {
+                    refusal = called.error().text;
+                  }
+                });
     while (stream == nullptr && refusal.empty()) io.run_one();
     if (stream == nullptr) throw std::runtime_error(refusal);
     server.AddPeer(stream, {.first_lines = {"to @AM set Name = " + name}, .ends_module = true});

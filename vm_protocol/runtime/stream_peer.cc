@@ -1,7 +1,7 @@
 #include "vm_protocol/runtime/stream_peer.h"
 
 #include <fcntl.h>
-#include <sys/epoll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,14 +23,12 @@ using boost::system::error_code;
 
 constexpr std::size_t kReadBytes = 64u * 1024;
 
-/// Regular files and /dev/null are always ready and cannot be waited for.
+/// Regular files and /dev/null are always ready, and cannot be waited for.
 bool CanWaitFor(int fd) {
-  const int epoll = epoll_create1(EPOLL_CLOEXEC);
-  if (epoll < 0) return false;
-  epoll_event event{};
-  const bool can = epoll_ctl(epoll, EPOLL_CTL_ADD, fd, &event) == 0;
-  close(epoll);
-  return can;
+  struct stat info {};
+  if (fstat(fd, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode)) return false;
+  struct stat null {};
+  return !S_ISCHR(info.st_mode) || stat("/dev/null", &null) != 0 || info.st_rdev != null.st_rdev;
 }
 
 /// A descriptor with its old flags: Asio makes it non-blocking, and the standard streams are
@@ -43,25 +41,17 @@ struct StandardStream {
   }
 };
 
-/// Peers that were given something to say while one peer's input is being handled. They write when
-/// that is done: one write for all that was said, and without another trip through the loop.
-class Turn {
- public:
-  /// The turn being taken on this thread, or none.
-  static Turn*& Current() {
-    thread_local Turn* current = nullptr;
-    return current;
-  }
-  Turn() : outer_(std::exchange(Current(), this)) {}
-  ~Turn();
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-  void Add(std::shared_ptr<class StreamPeerImpl> peer) { peers_.push_back(std::move(peer)); }
+class StreamPeerImpl;
 
- private:
-  Turn* outer_;
-  std::vector<std::shared_ptr<class StreamPeerImpl>> peers_;
+/// The peers that were given something to say within the batch of this thread.
+struct Batch {
+  bool open = false;
+  std::vector<std::shared_ptr<StreamPeerImpl>> peers;
 };
+Batch& CurrentBatch() {
+  thread_local Batch batch;
+  return batch;
+}
 
 class StreamPeerImpl final : public StreamPeer {
  public:
@@ -106,7 +96,7 @@ class StreamPeerImpl final : public StreamPeer {
       outgoing_ += FromUtf8(line, encoding_);
     }
     outgoing_ += reader_.framing() == Framing::kMmi ? "./\n" : "\n";
-    if (outgoing_.size() + writing_.size() > kMaxBacklogBytes) {
+    if (backlog_bytes() > kMaxBacklogBytes) {
       EndOutput("backlog over " + std::to_string(kMaxBacklogBytes) +
                 " bytes: the reader is too slow");
       return;
@@ -145,7 +135,9 @@ class StreamPeerImpl final : public StreamPeer {
     });
   }
 
-  std::size_t backlog_bytes() const override { return outgoing_.size() + writing_.size(); }
+  std::size_t backlog_bytes() const override {
+    return outgoing_.size() + writing_.size() - written_;
+  }
 
   /// Writes as much as the system takes at once; the rest follows when it takes more.
   void WriteMore() {
@@ -212,7 +204,7 @@ class StreamPeerImpl final : public StreamPeer {
     reading_ = false;
     if (closed_) return;
     {
-      const Turn turn;
+      const WriteBatch batch;
       HandleRead(n, error);
     }
     ReadMore();
@@ -276,10 +268,10 @@ class StreamPeerImpl final : public StreamPeer {
   void ScheduleWrite() {
     if (write_scheduled_) return;
     write_scheduled_ = true;
-    // Later, not at once: everything said within one turn goes out in one write.
+    // Later, not at once: everything said within one batch goes out in one write.
     auto self = std::static_pointer_cast<StreamPeerImpl>(shared_from_this());
-    if (Turn::Current() != nullptr) {
-      Turn::Current()->Add(std::move(self));
+    if (CurrentBatch().open) {
+      CurrentBatch().peers.push_back(std::move(self));
     } else {
       asio::post(io_, [self = std::move(self)] { self->WriteMore(); });
     }
@@ -347,12 +339,16 @@ class StreamPeerImpl final : public StreamPeer {
   std::vector<std::function<void()>> flushes_;
 };
 
-Turn::~Turn() {
-  Current() = outer_;
-  for (const auto& peer : peers_) peer->WriteMore();
-}
-
 }  // namespace
+
+WriteBatch::WriteBatch() : outermost_(!std::exchange(CurrentBatch().open, true)) {}
+
+WriteBatch::~WriteBatch() {
+  if (!outermost_) return;
+  Batch& batch = CurrentBatch();
+  batch.open = false;
+  for (const auto& peer : std::exchange(batch.peers, {})) peer->WriteMore();
+}
 
 std::shared_ptr<StreamPeer> StreamPeer::Make(asio::io_context& io, int read_fd, int write_fd,
                                              Framing framing, Encoding encoding) {

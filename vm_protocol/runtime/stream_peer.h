@@ -46,4 +46,16 @@ class StreamPeer : public std::enable_shared_from_this<StreamPeer> {
   virtual std::size_t backlog_bytes() const = 0;
 };
 
+/// While one lives on this thread, what stream peers are given to say is kept; they write when the
+/// outermost one ends: one write for all that was said, and without another trip through the loop.
+class WriteBatch {
+ public:
+  WriteBatch();
+  ~WriteBatch();
+  WriteBatch(const WriteBatch&) = delete;
+
+ private:
+  const bool outermost_;
+};
+
 }  // namespace vm

@@ -15,29 +15,29 @@ namespace vm {
 /// A place where others come in, and what is asked of them before anybody hears a line of theirs:
 /// TLS where the endpoint says so, the token where there is one.
 /// Limits: kMaxUnadmitted at once who have not shown what is asked, kAdmissionLimit for each.
-class Doorkeeper {
+class Acceptor {
  public:
   static constexpr std::size_t kMaxUnadmitted = 32;
-  struct Guest {
+  struct Connection {
     std::shared_ptr<StreamPeer> stream;  ///< not started again yet: call Start, then ResumeReading
     std::string from;                    ///< where it comes from, and its certificate's name
   };
-  using OnGuest = std::function<void(Guest guest)>;
+  using OnConnection = std::function<void(Connection connection)>;
   using OnRefusal = std::function<void(const std::string& text)>;
   /// Throws std::runtime_error with a sentence: the endpoint cannot be had, the files cannot be
   /// used, or it would be open to everybody.
-  static std::unique_ptr<Doorkeeper> Open(boost::asio::io_context& io, const Endpoint& endpoint,
-                                          const Credentials& credentials, Framing framing,
-                                          Encoding encoding, OnGuest on_guest,
-                                          OnRefusal on_refusal);
-  virtual ~Doorkeeper() = default;
+  static std::unique_ptr<Acceptor> Open(boost::asio::io_context& io, const Endpoint& endpoint,
+                                        const Credentials& credentials, Framing framing,
+                                        Encoding encoding, OnConnection on_connection,
+                                        OnRefusal on_refusal);
+  virtual ~Acceptor() = default;
   virtual Endpoint endpoint() const = 0;
 };
 
 /// Goes to a listener and shows what it asks for. `done` gets a stream to be started by Start and
 /// ResumeReading, or a sentence. Files are read anew each time.
-void Call(boost::asio::io_context& io, const Endpoint& endpoint, const Credentials& credentials,
-          Framing framing, Encoding encoding,
-          std::function<void(Result<std::shared_ptr<StreamPeer>>)> done);
+void Connect(boost::asio::io_context& io, const Endpoint& endpoint, const Credentials& credentials,
+             Framing framing, Encoding encoding,
+             std::function<void(Result<std::shared_ptr<StreamPeer>>)> done);
 
 }  // namespace vm

@@ -1,4 +1,4 @@
-#include "vm_protocol/runtime/doorkeeper.h"
+#include "vm_protocol/runtime/acceptor.h"
 
 #include <netdb.h>
 #include <sys/socket.h>
@@ -135,14 +135,14 @@ class Handshake : public std::enable_shared_from_this<Handshake> {
   Done done_;
 };
 
-class DoorkeeperImpl final : public Doorkeeper {
+class AcceptorImpl final : public Acceptor {
  public:
-  DoorkeeperImpl(asio::io_context& io, const Endpoint& endpoint, const Credentials& credentials,
-                 Framing framing, Encoding encoding, OnGuest on_guest, OnRefusal on_refusal)
+  AcceptorImpl(asio::io_context& io, const Endpoint& endpoint, const Credentials& credentials,
+               Framing framing, Encoding encoding, OnConnection on_connection, OnRefusal on_refusal)
       : io_(io),
         framing_(framing),
         encoding_(encoding),
-        on_guest_(std::move(on_guest)),
+        on_connection_(std::move(on_connection)),
         on_refusal_(std::move(on_refusal)) {
     if (const auto checked = CheckListening(endpoint, credentials); !checked)
       throw std::runtime_error(checked.error().text);
@@ -152,7 +152,7 @@ class DoorkeeperImpl final : public Doorkeeper {
     if (endpoint.kind == Endpoint::Kind::kTls) tls_ = Tls::ForListener(credentials);
     listener_ = Listener::Open(io, endpoint, [this](int fd, const std::string&) { OnAccept(fd); });
   }
-  ~DoorkeeperImpl() override { *alive_ = false; }
+  ~AcceptorImpl() override { *alive_ = false; }
   Endpoint endpoint() const override { return listener_->endpoint(); }
 
  private:
@@ -160,7 +160,7 @@ class DoorkeeperImpl final : public Doorkeeper {
     const std::string from = OtherEnd(fd);
     if (unadmitted_ >= kMaxUnadmitted) {
       close(fd);
-      return Refused(from, "too many at the door");
+      return Refused(from, "too many are waiting to be admitted");
     }
     ++unadmitted_;
     if (tls_ == nullptr) return Ask(fd, from);
@@ -178,13 +178,13 @@ class DoorkeeperImpl final : public Doorkeeper {
     const auto stream = StreamPeer::Make(io_, fd, fd, framing_, encoding_);
     if (token_.empty()) {
       --unadmitted_;
-      return on_guest_({stream, from});
+      return on_connection_({stream, from});
     }
     std::make_shared<Handshake>(io_, stream, token_)
         ->Admit([this, alive = alive_, stream, from](Result<void> result) {
           if (!*alive) return stream->Close();
           --unadmitted_;
-          result ? on_guest_({stream, from}) : Refused(from, result.error().text);
+          result ? on_connection_({stream, from}) : Refused(from, result.error().text);
         });
   }
   void Refused(const std::string& from, const std::string& why) {
@@ -194,7 +194,7 @@ class DoorkeeperImpl final : public Doorkeeper {
   asio::io_context& io_;
   Framing framing_;
   Encoding encoding_;
-  OnGuest on_guest_;
+  OnConnection on_connection_;
   OnRefusal on_refusal_;
   std::string token_;
   std::shared_ptr<Tls> tls_;
@@ -205,17 +205,17 @@ class DoorkeeperImpl final : public Doorkeeper {
 
 }  // namespace
 
-std::unique_ptr<Doorkeeper> Doorkeeper::Open(asio::io_context& io, const Endpoint& endpoint,
-                                             const Credentials& credentials, Framing framing,
-                                             Encoding encoding, OnGuest on_guest,
-                                             OnRefusal on_refusal) {
-  return std::make_unique<DoorkeeperImpl>(io, endpoint, credentials, framing, encoding,
-                                          std::move(on_guest), std::move(on_refusal));
+std::unique_ptr<Acceptor> Acceptor::Open(asio::io_context& io, const Endpoint& endpoint,
+                                         const Credentials& credentials, Framing framing,
+                                         Encoding encoding, OnConnection on_connection,
+                                         OnRefusal on_refusal) {
+  return std::make_unique<AcceptorImpl>(io, endpoint, credentials, framing, encoding,
+                                        std::move(on_connection), std::move(on_refusal));
 }
 
-void Call(asio::io_context& io, const Endpoint& endpoint, const Credentials& credentials,
-          Framing framing, Encoding encoding,
-          std::function<void(Result<std::shared_ptr<StreamPeer>>)> done) {
+void Connect(asio::io_context& io, const Endpoint& endpoint, const Credentials& credentials,
+             Framing framing, Encoding encoding,
+             std::function<void(Result<std::shared_ptr<StreamPeer>>)> done) {
   const auto token = ReadToken(credentials);
   if (!token) return done(std::unexpected(token.error()));
   std::shared_ptr<Tls> tls;
