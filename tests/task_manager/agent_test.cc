@@ -339,7 +339,7 @@ TEST_F(AgentTest, OnlyWhatWasRecordedCanBeSentAsARecording) {
 
 TEST_F(AgentTest, WithoutAKeyboardTheEarAloneCounts) {
   std::ofstream(folder_ / "d.vxml")
-      << "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt timeout=\"1s\">"
+      << "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt timeout=\"50ms\">"
          "Well?</prompt><noinput><exit expr=\"'nobody'\"/></noinput></field></form></vxml>";
   const std::string command =
       GALATEA_BIN_DIR "/task_manager d.vxml --transcript json --connect unix:" + (folder_ / "hub");
