@@ -12,10 +12,10 @@ Millis DurationOf(const Segment& segment) {
     case Segment::Kind::kText: {
       long long ms = 0;
       for (std::size_t at = 0; at < segment.text.size();) {
-        std::size_t size = 0;
-        const char32_t c = srgs::DecodeAt(segment.text, at, size);
-        ms += srgs::IsUnspaced(c) ? TextPlatform::kMsPerCharacter : TextPlatform::kMsPerLetter;
-        at += size;
+        const vm::CodePoint sign = srgs::DecodeAt(segment.text, at);
+        const bool wide = srgs::IsUnspaced(sign.value);
+        ms += wide ? TextPlatform::kMsPerCharacter : TextPlatform::kMsPerLetter;
+        at += sign.length;
       }
       return Millis(ms);
     }

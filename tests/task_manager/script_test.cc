@@ -165,6 +165,17 @@ INSTANTIATE_TEST_SUITE_P(
         Trick{"RegexAfterBreak", "a: { break a\n/\"/; } while(true){} //\""}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
+TEST(ScriptTextTest, PairsOfSurrogatesLeaveTheEngineAsUtf8) {
+  Engine engine;
+  const auto text = [&](const std::string& code) {
+    return engine.ToString(*engine.Evaluate({engine.NewScope()}, code));
+  };
+  EXPECT_EQ(text(R"('a\uD83D\uDE00b')"), "a\U0001F600b");
+  EXPECT_EQ(text(R"('\uD83D'+'\uDE00')"), "\U0001F600");
+  EXPECT_EQ(text(R"('a\uD83D' + 'b\uDE00\uD83D')"), "a\uFFFDb\uFFFD\uFFFD");
+  EXPECT_EQ(JsonOf(R"(['\uD83D\uDE00'])"), "[\"\U0001F600\"]");
+}
+
 TEST(ScriptTimeTest, IsRealTimeAndThenAsMuchOfTheProcessorsExactly) {
   Limits limits = WithTicks(std::chrono::milliseconds(1));
   limits.time = std::chrono::milliseconds(100);
