@@ -15,11 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto made = bytes.starts_with("<") ? vxml::srgs::CompileBytes(bytes, context)
                                      : vxml::srgs::CompileAbnf(bytes, context);
   if (!made) return 0;
-  vxml::srgs::GrammarStore store(
-      [](const std::string&) -> vm::Result<std::string> {
-        return vm::Fail(vm::Errc::kUnavailable, "nothing is fetched");
-      },
-      [](const std::string&, const std::string& uri) { return uri; });
+  vxml::srgs::GrammarStore store([](const std::string&) -> vm::Result<std::string> {
+    return vm::Fail(vm::Errc::kUnavailable, "nothing is fetched");
+  });
   auto linked = store.Add(std::move(*made));
   if (!linked || !(*linked)->RootRule()) return 0;
   static_cast<void>(vxml::srgs::ToPhrases(*(*linked)->RootRule(), 12'000));

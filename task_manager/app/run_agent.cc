@@ -55,7 +55,8 @@ int RunOne(const Options& options, int number, std::mutex& out) {
   SessionOptions session_options = MakeSessionOptions(options);
   if (!options.trace.empty() && options.sessions == 1) {
     session_options.trace = [](std::string_view kind, const JsonLine& fields) {
-      std::cerr << "{\"trace\":\"" << kind << "\"," << fields.str().substr(1) << "\n";
+      JsonLine line;
+      std::cerr << line.Text("trace", kind).Add(fields).str() << "\n";
     };
   }
   Session session(std::move(session_options), platform);

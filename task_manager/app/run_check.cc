@@ -1,4 +1,5 @@
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "task_manager/app/options.h"
@@ -24,15 +25,11 @@ class DeepChecker {
   DeepChecker(Document& document, fetch::Fetcher& fetcher)
       : document_(document),
         fetcher_(fetcher),
-        store_(
-            [this](const std::string& uri) -> vm::Result<std::string> {
-              auto got = fetcher_.Get(uri);
-              if (!got) return std::unexpected(got.error());
-              return std::move(got->body);
-            },
-            [](const std::string& base, const std::string& uri) {
-              return fetch::Resolve(base, uri);
-            }) {}
+        store_([this](const std::string& uri) -> vm::Result<std::string> {
+          auto got = fetcher_.Get(uri);
+          if (!got) return std::unexpected(got.error());
+          return std::move(got->body);
+        }) {}
 
   std::vector<Finding> Run() {
     Visit(*document_.root);
@@ -181,7 +178,7 @@ int RunCheck(const Options& options) {
 
 namespace {
 
-std::string DotId(const std::string& text) { return JsonQuote(text); }
+std::string DotId(const std::string& text) { return JsonText(text); }
 
 void Edges(const xml::Node& node, const std::string& from) {
   const auto edge = [&](const std::string& to, const std::string& label) {

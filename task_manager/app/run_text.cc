@@ -93,8 +93,7 @@ int RunOne(const Options& options, const std::string& script, Output& output, st
     session_options.trace = [&](std::string_view kind, const JsonLine& fields) {
       JsonLine head;
       head.Number("t", static_cast<double>(platform.Now().count())).Text("trace", kind);
-      const std::string a = head.str();
-      *trace << a.substr(0, a.size() - 1) << "," << fields.str().substr(1) << std::endl;
+      *trace << head.Add(fields).str() << std::endl;
     };
   }
   Session session(std::move(session_options), platform);
@@ -119,7 +118,9 @@ int RunMany(const Options& options) {
   const auto work = [&] {
     for (std::size_t i; (i = next++) < count;) {
       TextPlatform platform(sources[i], [&texts, i](const std::string& line) {
-        texts[i] << "{\"session\":" << i + 1 << "," << line.substr(1) << "\n";
+        JsonLine numbered;
+        numbered.Number("session", static_cast<double>(i + 1)).Add(line);
+        texts[i] << numbered.str() << "\n";
       });
       Session session(session_options, platform);
       const SessionResult result = session.Run();

@@ -47,15 +47,11 @@ int Judge(const vxml::srgs::Rule& rule, const std::string& input) {
 
 int Run(const Options& options) {
   vxml::fetch::Fetcher fetcher({});
-  vxml::srgs::GrammarStore store(
-      [&](const std::string& uri) -> vm::Result<std::string> {
-        auto got = fetcher.Get(uri);
-        if (!got) return std::unexpected(got.error());
-        return std::move(got->body);
-      },
-      [](const std::string& base, const std::string& uri) {
-        return vxml::fetch::Resolve(base, uri);
-      });
+  vxml::srgs::GrammarStore store([&](const std::string& uri) -> vm::Result<std::string> {
+    auto got = fetcher.Get(uri);
+    if (!got) return std::unexpected(got.error());
+    return std::move(got->body);
+  });
   vxml::srgs::GrammarContext context;
   context.language = options.language;
   context.mode = options.dtmf ? vxml::srgs::Mode::kDtmf : vxml::srgs::Mode::kVoice;

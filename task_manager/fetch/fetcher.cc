@@ -1,8 +1,10 @@
 #include "task_manager/fetch/fetcher.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include "task_manager/fetch/cache.h"
 #include "task_manager/fetch/http.h"
@@ -12,6 +14,7 @@ namespace vxml::fetch {
 namespace {
 
 constexpr int kMaxRedirections = 10;
+constexpr std::size_t kShownOrigin = 200;  // a data URI may be long
 
 std::unexpected<Failure> Refuse(vm::Errc code, std::string text, int status = 0) {
   Failure failure;
@@ -105,6 +108,11 @@ Fetcher::Fetcher(Options options)
           .count();
     };
   }
+  for (const std::string& root : options_.allowed_roots) {
+    const auto place = PlaceOf(root);
+    if (!place) throw std::runtime_error("'" + root + "': no place to fetch from");
+    roots_.push_back(*place);
+  }
 }
 Fetcher::~Fetcher() = default;
 
@@ -117,12 +125,10 @@ vm::Result<Response> Fetcher::Get(const std::string& uri) {
 }
 
 bool Fetcher::Allowed(const std::string& uri) const {
-  if (options_.allowed_roots.empty() || uri.starts_with("data:")) return true;
-  const std::string plain = PercentDecode(uri);
-  for (const std::string& root : options_.allowed_roots) {
-    if (plain.starts_with(root) && plain.find("/../") == std::string::npos) return true;
-  }
-  return false;
+  if (roots_.empty() || Scheme(uri) == "data") return true;
+  const auto place = PlaceOf(uri);
+  return place && std::any_of(roots_.begin(), roots_.end(),
+                              [&](const Place& root) { return root.Holds(*place); });
 }
 
 std::expected<Response, Failure> Fetcher::Fetch(const Request& original) {
@@ -133,10 +139,14 @@ std::expected<Response, Failure> Fetcher::Fetch(const Request& original) {
     request.uri += FormEncode(request.fields);
     request.fields.clear();
   }
-  const std::string scheme = ParseUri(request.uri).scheme;
+  const std::string scheme = Scheme(request.uri);
   if (!Allowed(request.uri)) {
     return Refuse(vm::Errc::kAccess,
                   request.uri + ": outside of the places fetching is allowed from");
+  }
+  if (!MayRead(request.from, request.uri)) {
+    return Refuse(vm::Errc::kAccess, request.uri + ": " + request.from.substr(0, kShownOrigin) +
+                                         " is no file and may not read files");
   }
   if (scheme == "file") return FetchFile(request);
   if (scheme == "data") return FetchData(request);
@@ -145,25 +155,24 @@ std::expected<Response, Failure> Fetcher::Fetch(const Request& original) {
 }
 
 std::expected<Response, Failure> Fetcher::FetchFile(const Request& request) {
-  const Uri uri = ParseUri(request.uri);
-  const std::string path = PercentDecode(uri.path);
+  const auto place = PlaceOf(request.uri);  // opened where it was judged, its links followed
   std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error || !std::filesystem::is_regular_file(path, error)) {
+  const auto size = place ? std::filesystem::file_size(place->path, error) : 0;
+  if (!place || error || !std::filesystem::is_regular_file(place->path, error)) {
     return Refuse(vm::Errc::kUnavailable, request.uri + ": no such file");
   }
   if (size > options_.max_bytes) {
     return Refuse(vm::Errc::kTooLong,
                   request.uri + ": over " + std::to_string(options_.max_bytes) + " bytes");
   }
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(place->path, std::ios::binary);
   if (!file) return Refuse(vm::Errc::kUnavailable, request.uri + ": cannot be read");
   Response response;
   response.body.resize(size);
   file.read(response.body.data(), static_cast<std::streamsize>(size));
   response.body.resize(static_cast<std::size_t>(file.gcount()));
   response.uri = request.uri;
-  response.content_type = TypeOfName(path);
+  response.content_type = TypeOfName(request.uri);
   return response;
 }
 
@@ -232,7 +241,7 @@ std::expected<Response, Failure> Fetcher::FetchHttp(const Request& request) {
     const auto location = got->headers.find("location");
     if (got->status >= 300 && got->status < 400 && location != got->headers.end()) {
       uri = WithoutFragment(Resolve(uri, location->second));
-      const std::string scheme = ParseUri(uri).scheme;
+      const std::string scheme = Scheme(uri);
       if (scheme != "http" && scheme != "https") {
         return Refuse(vm::Errc::kAccess, uri + ": a redirection out of http");
       }

@@ -8,14 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "task_manager/fetch/uri.h"
 #include "vm_protocol/core/result.h"
 
 namespace vxml::fetch {
 
 /// What the configuration allows and how much one fetch may cost.
 struct Options {
-  /// URI prefixes that may be fetched ("file:///srv/dialogs/", "http://127.0.0.1:8080/"). Empty:
-  /// everything of file, http, https and data.
+  /// Places that may be fetched with all below them ("file:///srv/dialogs/",
+  /// "http://127.0.0.1:8080/", Place::Holds). Empty: everything of file, http, https and data.
   std::vector<std::string> allowed_roots{};
   std::size_t max_bytes = std::size_t{16} << 20;
   std::chrono::milliseconds default_timeout{10'000};
@@ -35,6 +36,7 @@ struct Field {
 
 struct Request {
   std::string uri;
+  std::string from{};  ///< URI of the document or grammar that asks; "" = the user (MayRead)
   bool post = false;
   bool multipart = false;
   std::vector<Field> fields{};
@@ -63,6 +65,7 @@ struct Failure : vm::Error {
 /// Thread: one instance, one thread. Blocks up to the timeout.
 class Fetcher {
  public:
+  /// Throws std::runtime_error if an allowed root is no file, http or https URI.
   explicit Fetcher(Options options);
   ~Fetcher();
   Fetcher(const Fetcher&) = delete;
@@ -79,6 +82,7 @@ class Fetcher {
 
   struct Cache;
   Options options_;
+  std::vector<Place> roots_;
   std::unique_ptr<Cache> cache_;
 };
 

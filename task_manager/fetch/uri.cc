@@ -1,107 +1,60 @@
 #include "task_manager/fetch/uri.h"
 
-#include <cctype>
-#include <filesystem>
-#include <vector>
+#include <curl/curl.h>
+
+#include <algorithm>
+#include <memory>
 
 namespace vxml::fetch {
 namespace {
 
-bool IsSchemeChar(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' || c == '.';
-}
+struct CurlFree {
+  void operator()(CURLU* handle) const { curl_url_cleanup(handle); }
+  void operator()(char* text) const { curl_free(text); }
+};
+using CurlText = std::unique_ptr<char, CurlFree>;
 
-std::string RemoveDots(const std::string& path) {
-  std::vector<std::string> kept;
-  const bool absolute = path.starts_with("/");
-  bool folder = false;
-  for (std::size_t at = absolute ? 1 : 0; at <= path.size();) {
-    const std::size_t end = std::min(path.find('/', at), path.size());
-    const std::string part = path.substr(at, end - at);
-    const bool last = end == path.size();
-    folder = last && (part.empty() || part == "." || part == "..");
-    if (part == "..") {
-      if (!kept.empty()) kept.pop_back();
-    } else if (part != "." && !(last && part.empty())) {
-      kept.push_back(part);
-    }
-    at = end + 1;
-  }
-  std::string result = absolute ? "/" : "";
-  for (std::size_t i = 0; i < kept.size(); ++i) result += (i ? "/" : "") + kept[i];
-  if (folder && !result.ends_with("/")) result += "/";
-  return result;
-}
+class Url {
+ public:
+  Url() : handle_(curl_url()) {}
+  explicit Url(const std::string& text) : Url() { ok_ = Set(CURLUPART_URL, text); }
 
-}  // namespace
+  /// Setting CURLUPART_URL a second time resolves a reference.
+  bool Set(CURLUPart part, const std::string& text, unsigned flags = 0) {
+    constexpr unsigned kAlways = CURLU_NON_SUPPORT_SCHEME | CURLU_URLENCODE;
+    if (text.find('\0') != std::string::npos) return false;
+    if (part == CURLUPART_URL) flags |= kAlways;
+    return curl_url_set(handle_.get(), part, text.c_str(), flags) == CURLUE_OK;
+  }
+  std::optional<std::string> Get(CURLUPart part, unsigned flags = 0) const {
+    char* text = nullptr;
+    if (curl_url_get(handle_.get(), part, &text, flags) != CURLUE_OK) return {};
+    return CurlText(text).get();
+  }
+  bool ok() const { return ok_; }
 
-Uri ParseUri(std::string_view text) {
-  Uri uri;
-  if (const std::size_t hash = text.find('#'); hash != std::string_view::npos) {
-    uri.has_fragment = true;
-    uri.fragment = text.substr(hash + 1);
-    text = text.substr(0, hash);
-  }
-  std::size_t scheme = 0;
-  while (scheme < text.size() && IsSchemeChar(text[scheme])) ++scheme;
-  if (scheme > 0 && scheme < text.size() && text[scheme] == ':' &&
-      std::isalpha(static_cast<unsigned char>(text[0])) != 0) {
-    for (const char c : text.substr(0, scheme)) {
-      uri.scheme += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    text.remove_prefix(scheme + 1);
-  }
-  if (const std::size_t query = text.find('?'); query != std::string_view::npos) {
-    uri.has_query = true;
-    uri.query = text.substr(query + 1);
-    text = text.substr(0, query);
-  }
-  if (text.starts_with("//")) {
-    uri.has_authority = true;
-    const std::size_t end = std::min(text.find('/', 2), text.size());
-    uri.authority = text.substr(2, end - 2);
-    text.remove_prefix(end);
-  }
-  uri.path = text;
-  return uri;
-}
+ private:
+  std::unique_ptr<CURLU, CurlFree> handle_;
+  bool ok_ = false;
+};
 
-std::string FormatUri(const Uri& uri) {
-  std::string text;
-  if (!uri.scheme.empty()) text += uri.scheme + ":";
-  if (uri.has_authority) text += "//" + uri.authority;
-  text += uri.path;
-  if (uri.has_query) text += "?" + uri.query;
-  if (uri.has_fragment) text += "#" + uri.fragment;
+std::string Lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
   return text;
 }
 
+bool IsData(const std::string& uri) { return Lower(uri.substr(0, 5)) == "data:"; }
+
+}  // namespace
+
 std::string Resolve(const std::string& base, const std::string& reference) {
-  if (base.empty()) return reference;
-  Uri r = ParseUri(reference);
-  if (!r.scheme.empty()) return reference;
-  const Uri b = ParseUri(base);
-  Uri t = r;
-  t.scheme = b.scheme;
-  if (!r.has_authority) {
-    t.authority = b.authority;
-    t.has_authority = b.has_authority;
-    if (r.path.empty()) {
-      t.path = b.path;
-      if (!r.has_query) {
-        t.has_query = b.has_query;
-        t.query = b.query;
-      }
-    } else if (r.path.starts_with("/")) {
-      t.path = RemoveDots(r.path);
-    } else {
-      const std::size_t slash = b.path.rfind('/');
-      const std::string folder =
-          slash == std::string::npos ? (b.has_authority ? "/" : "") : b.path.substr(0, slash + 1);
-      t.path = RemoveDots(folder + r.path);
-    }
-  }
-  return FormatUri(t);
+  if (base.empty() || IsData(reference)) return reference;
+  // libcurl before 8 loses the last part of the path where a reference has none.
+  const std::string fragment = reference.substr(std::min(reference.find('#'), reference.size()));
+  if (fragment.size() == reference.size()) return WithoutFragment(base) + fragment;
+  Url url(WithoutFragment(base));
+  if (!url.ok() || !url.Set(CURLUPART_URL, WithoutFragment(reference))) return reference;
+  return url.Get(CURLUPART_URL).value_or(reference) + fragment;
 }
 
 std::string WithoutFragment(const std::string& uri) { return uri.substr(0, uri.find('#')); }
@@ -110,58 +63,77 @@ std::string Fragment(const std::string& uri) {
   return hash == std::string::npos ? "" : uri.substr(hash + 1);
 }
 
+std::string Scheme(const std::string& uri) {
+  return IsData(uri) ? "data" : Lower(Url(uri).Get(CURLUPART_SCHEME).value_or(""));
+}
+std::string Host(const std::string& uri) {
+  return IsData(uri) ? "" : Lower(Url(uri).Get(CURLUPART_HOST).value_or(""));
+}
+bool HasQuery(const std::string& uri) {
+  return !IsData(uri) && Url(uri).Get(CURLUPART_QUERY).has_value();
+}
+
 std::string FromPath(const std::string& path_or_uri) {
-  const Uri uri = ParseUri(path_or_uri);
-  if (uri.scheme.size() > 1) return path_or_uri;
-  std::string path = std::filesystem::absolute(path_or_uri).lexically_normal().string();
-  std::string encoded;
-  for (const char c : path) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte <= ' ' || byte >= 0x7F || c == '%' || c == '?' || c == '#') {
-      encoded += PercentEncode(std::string_view(&c, 1));
-    } else {
-      encoded += c;
-    }
-  }
-  return "file://" + encoded;
+  if (!Scheme(path_or_uri).empty()) return path_or_uri;
+  Url url;
+  const std::string path = std::filesystem::absolute(path_or_uri).lexically_normal().string();
+  url.Set(CURLUPART_SCHEME, "file");
+  url.Set(CURLUPART_PATH, path, CURLU_URLENCODE);
+  return url.Get(CURLUPART_URL).value_or("");
+}
+
+std::optional<std::string> PathOf(const std::string& uri) {
+  if (IsData(uri)) return {};
+  const Url url(uri);
+  if (url.Get(CURLUPART_SCHEME) != "file") return {};
+  return url.Get(CURLUPART_PATH, CURLU_URLDECODE);
 }
 
 std::string PercentDecode(std::string_view text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto hex = [&](std::size_t at) {
-      const char c = at < text.size() ? text[at] : '!';
-      if (c >= '0' && c <= '9') return c - '0';
-      if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-      if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-      return -1;
-    };
-    if (text[i] == '%' && hex(i + 1) >= 0 && hex(i + 2) >= 0) {
-      decoded += static_cast<char>(hex(i + 1) * 16 + hex(i + 2));
-      i += 2;
-    } else {
-      decoded += text[i];
-    }
-  }
-  return decoded;
+  if (text.empty()) return "";  // to libcurl a length of 0 means up to the NUL
+  int size = 0;
+  const CurlText plain(
+      curl_easy_unescape(nullptr, text.data(), static_cast<int>(text.size()), &size));
+  return plain ? std::string(plain.get(), static_cast<std::size_t>(size)) : "";
 }
 
 std::string PercentEncode(std::string_view text) {
-  static constexpr std::string_view kHex = "0123456789ABCDEF";
-  std::string encoded;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '.' || c == '_' || c == '~';
-    if (plain) {
-      encoded += c;
-    } else {
-      encoded += '%';
-      encoded += kHex[byte / 16];
-      encoded += kHex[byte % 16];
-    }
+  if (text.empty()) return "";
+  const CurlText escaped(curl_easy_escape(nullptr, text.data(), static_cast<int>(text.size())));
+  return escaped ? escaped.get() : "";
+}
+
+bool Place::Holds(const Place& other) const {
+  return origin == other.origin &&
+         std::mismatch(path.begin(), path.end(), other.path.begin(), other.path.end()).first ==
+             path.end();
+}
+
+std::optional<Place> PlaceOf(const std::string& uri) {
+  if (IsData(uri)) return {};
+  const Url url(uri);
+  const auto scheme = url.Get(CURLUPART_SCHEME);
+  const auto path = url.Get(CURLUPART_PATH, CURLU_URLDECODE);
+  if (!scheme || !path) return {};
+  Place place;
+  place.origin = Lower(*scheme) + ":";
+  std::error_code failed;
+  if (place.origin == "file:") {
+    place.path = std::filesystem::weakly_canonical(*path, failed);
+  } else {
+    std::string host = Lower(url.Get(CURLUPART_HOST).value_or(""));
+    if (host.ends_with('.')) host.pop_back();
+    place.origin += "//" + host + ":" + url.Get(CURLUPART_PORT, CURLU_DEFAULT_PORT).value_or("");
+    place.path = std::filesystem::path(*path).lexically_normal();
   }
-  return encoded;
+  if (failed) return {};
+  if (!place.path.has_filename()) place.path = place.path.parent_path();
+  return place;
+}
+
+bool IsLocal(const std::string& uri) { return uri.empty() || Scheme(uri) == "file"; }
+bool MayRead(const std::string& from, const std::string& uri) {
+  return Scheme(uri) != "file" || IsLocal(from);
 }
 
 }  // namespace vxml::fetch

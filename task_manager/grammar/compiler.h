@@ -17,7 +17,7 @@ inline constexpr int kMaxRepeat = 100'000;
 
 /// What surrounds a grammar: its place, and what it inherits where it does not say itself.
 struct GrammarContext {
-  std::string uri;   ///< of the grammar or the document it stands in; for messages
+  std::string uri;   ///< of the grammar or the document it stands in, or that refers to it
   std::string base;  ///< relative references are resolved against it
   std::string language;
   Mode mode = Mode::kVoice;

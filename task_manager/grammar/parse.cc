@@ -25,10 +25,9 @@ std::string Parse::Text() const {
                              : item.kind == ParseItem::Kind::kTag ? ""
                                                                   : item.text;
     if (part.empty()) continue;
-    const bool joined = !dtmf && !text.empty() && [&] {
-      std::size_t size = 0;
-      return !IsUnspaced(DecodeBefore(text, text.size())) || !IsUnspaced(DecodeAt(part, 0, size));
-    }();
+    const bool joined =
+        !dtmf && !text.empty() &&
+        (!IsUnspaced(DecodeBefore(text, text.size())) || !IsUnspaced(DecodeAt(part, 0).value));
     if (joined) text += ' ';
     text += part;
   }

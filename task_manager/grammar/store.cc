@@ -2,10 +2,11 @@
 
 #include <utility>
 
+#include "task_manager/fetch/uri.h"
+
 namespace vxml::srgs {
 
-GrammarStore::GrammarStore(Fetch fetch, Resolve resolve)
-    : fetch_(std::move(fetch)), resolve_(std::move(resolve)) {}
+GrammarStore::GrammarStore(Fetch fetch) : fetch_(std::move(fetch)) {}
 
 vm::Result<const Grammar*> GrammarStore::Add(std::unique_ptr<Grammar> grammar) {
   if (auto linked = Link(*grammar); !linked) return std::unexpected(linked.error());
@@ -15,10 +16,9 @@ vm::Result<const Grammar*> GrammarStore::Add(std::unique_ptr<Grammar> grammar) {
 
 vm::Result<const Grammar*> GrammarStore::Load(const std::string& uri, const GrammarContext& context,
                                               const Rule** rule) {
-  const std::size_t hash = uri.find('#');
-  auto grammar = Fetched(uri.substr(0, hash), context);
+  auto grammar = Fetched(fetch::WithoutFragment(uri), context);
   if (!grammar) return std::unexpected(grammar.error());
-  const std::string name = hash == std::string::npos ? "" : uri.substr(hash + 1);
+  const std::string name = fetch::Fragment(uri);
   *rule = name.empty() ? (*grammar)->RootRule() : (*grammar)->Find(name);
   if (!*rule) {
     return vm::Fail(vm::Errc::kBadValue,
@@ -32,6 +32,9 @@ vm::Result<const Grammar*> GrammarStore::Load(const std::string& uri, const Gram
 }
 
 vm::Result<Grammar*> GrammarStore::Fetched(const std::string& uri, const GrammarContext& context) {
+  if (!fetch::MayRead(context.uri, uri)) {  // also where somebody else had it fetched
+    return vm::Fail(vm::Errc::kAccess, uri + ": " + context.uri + " may not read files");
+  }
   if (const auto found = by_uri_.find(uri); found != by_uri_.end()) return found->second.get();
   if (by_uri_.size() >= kMaxGrammars) {
     return vm::Fail(vm::Errc::kLimit,
@@ -83,14 +86,15 @@ vm::Result<void> GrammarStore::LinkReference(Grammar& grammar, Expansion& node) 
     return {};
   }
   GrammarContext context;
+  context.uri = grammar.uri;
   context.language = grammar.language;
   if (!grammar.alone) context.mode = grammar.mode;
   context.alone = grammar.alone;
   // A base may itself be relative: to the place of the grammar.
   const std::string base = grammar.base.empty() || grammar.uri.starts_with("platform:")
                                ? grammar.uri
-                               : resolve_(grammar.uri, grammar.base);
-  const std::string uri = resolve_(base, node.text);
+                               : fetch::Resolve(grammar.uri, grammar.base);
+  const std::string uri = fetch::Resolve(base, node.text);
   const Rule* rule = nullptr;
   auto loaded = Load(uri, context, &rule);
   if (!loaded) return vm::Fail(loaded.error().code, place + ": " + loaded.error().text);

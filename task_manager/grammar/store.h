@@ -16,16 +16,16 @@ namespace vxml::srgs {
 class GrammarStore {
  public:
   static constexpr std::size_t kMaxGrammars = 200;
-  /// Gets the bytes of an absolute URI. Resolve joins a base and a reference.
+  /// Gets the bytes of an absolute URI; the store has judged whether they may be read.
   using Fetch = std::function<vm::Result<std::string>(const std::string& uri)>;
-  using Resolve = std::function<std::string(const std::string& base, const std::string& uri)>;
 
-  GrammarStore(Fetch fetch, Resolve resolve);
+  explicit GrammarStore(Fetch fetch);
 
   /// Links a grammar compiled by the caller and keeps it. Errors: as CompileBytes, kUnavailable
   /// (not fetched), kBadValue (no such rule, or a private one of another grammar).
   vm::Result<const Grammar*> Add(std::unique_ptr<Grammar> grammar);
   /// The grammar at `uri` (with #rule or without), linked; `rule` gets the rule to start at.
+  /// context.uri is who refers to it. Errors besides: kAccess (fetch::MayRead).
   vm::Result<const Grammar*> Load(const std::string& uri, const GrammarContext& context,
                                   const Rule** rule);
 
@@ -36,7 +36,6 @@ class GrammarStore {
   vm::Result<void> LinkReference(Grammar& grammar, Expansion& node);
 
   Fetch fetch_;
-  Resolve resolve_;
   std::map<std::string, std::unique_ptr<Grammar>> by_uri_;
   std::vector<std::unique_ptr<Grammar>> others_;
 };

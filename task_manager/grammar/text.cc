@@ -32,22 +32,8 @@ bool IsUnspaced(char32_t c) {
          (c >= 0xFF00 && c <= 0xFFEF) || (c >= 0x20000 && c <= 0x3FFFF);
 }
 
-char32_t DecodeAt(std::string_view text, std::size_t at, std::size_t& size) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const unsigned first = byte(at);
-  size = 1;
-  if (first < 0xC0) return first;
-  const std::size_t more = first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
-  char32_t c = first & (0x3FU >> more);
-  for (std::size_t i = 1; i <= more; ++i) {
-    const unsigned next = byte(at + i);
-    if ((next & 0xC0U) != 0x80U) return first;
-    c = (c << 6U) | (next & 0x3FU);
-  }
-  size = more + 1;
-  return c;
+vm::CodePoint DecodeAt(std::string_view text, std::size_t at) {
+  return vm::DecodeUtf8(text, at).value_or(vm::CodePoint{0xFFFD, 1});
 }
 
 char32_t DecodeBefore(std::string_view text, std::size_t end) {
@@ -57,34 +43,15 @@ char32_t DecodeBefore(std::string_view text, std::size_t end) {
          (static_cast<unsigned char>(text[start]) & 0xC0U) == 0x80U) {
     --start;
   }
-  std::size_t size = 0;
-  return DecodeAt(text, start, size);
-}
-
-void AppendUtf8(std::string& out, char32_t c) {
-  if (c < 0x80) {
-    out += static_cast<char>(c);
-  } else if (c < 0x800) {
-    out += static_cast<char>(0xC0U | (c >> 6U));
-    out += static_cast<char>(0x80U | (c & 0x3FU));
-  } else if (c < 0x10000) {
-    out += static_cast<char>(0xE0U | (c >> 12U));
-    out += static_cast<char>(0x80U | ((c >> 6U) & 0x3FU));
-    out += static_cast<char>(0x80U | (c & 0x3FU));
-  } else {
-    out += static_cast<char>(0xF0U | (c >> 18U));
-    out += static_cast<char>(0x80U | ((c >> 12U) & 0x3FU));
-    out += static_cast<char>(0x80U | ((c >> 6U) & 0x3FU));
-    out += static_cast<char>(0x80U | (c & 0x3FU));
-  }
+  return DecodeAt(text, start).value;
 }
 
 std::string Fold(std::string_view text) {
   std::vector<std::u32string> words(1);
   for (std::size_t at = 0; at < text.size();) {
-    std::size_t size = 0;
-    const char32_t c = Lower(DecodeAt(text, at, size));
-    at += size;
+    const vm::CodePoint sign = DecodeAt(text, at);
+    const char32_t c = Lower(sign.value);
+    at += sign.length;
     if (c == U' ' || (c >= U'\t' && c <= U'\r')) {
       if (!words.back().empty()) words.emplace_back();
     } else {
@@ -103,7 +70,7 @@ std::string Fold(std::string_view text) {
       end = word.size();
     }
     if (!folded.empty()) folded += ' ';
-    for (std::size_t i = begin; i < end; ++i) AppendUtf8(folded, word[i]);
+    for (std::size_t i = begin; i < end; ++i) vm::AppendUtf8(folded, word[i]);
   }
   return folded;
 }

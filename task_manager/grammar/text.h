@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "vm_protocol/core/utf8.h"
+
 namespace vxml::srgs {
 
 /// What tokens and input are compared by: blanks collapsed to one, letters without case (ASCII,
@@ -13,10 +15,9 @@ std::string FoldKeys(std::string_view folded);
 
 /// Writing without blanks between words: kana, kanji, hangul, full-width forms.
 bool IsUnspaced(char32_t c);
-/// The code point that starts at `at`; `size` gets its bytes (1 for a bad byte).
-char32_t DecodeAt(std::string_view text, std::size_t at, std::size_t& size);
+/// The code point that starts at `at`; of a bad byte and of the end U+FFFD, one byte long.
+vm::CodePoint DecodeAt(std::string_view text, std::size_t at);
 /// The code point that ends before `end`; 0 at the start.
 char32_t DecodeBefore(std::string_view text, std::size_t end);
-void AppendUtf8(std::string& out, char32_t c);
 
 }  // namespace vxml::srgs

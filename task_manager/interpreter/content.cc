@@ -230,6 +230,7 @@ void Session::RunThrow(const xml::Node& node) {
 
 /// <native>: a line of the module protocol, in its place among the words.
 void Session::RunNative(const xml::Node& node) {
+  RequireLocal(node);
   std::string line;
   if (const std::string* expression = node.Find("expr")) {
     line = TextOf(node, *expression);

@@ -169,6 +169,7 @@ const srgs::Rule* Session::CompileExternal(const xml::Node& node, const Document
     return both[dtmf ? 1 : 0].rule;
   }
   srgs::GrammarContext context;
+  context.uri = OriginOf(node).uri;
   context.language = LanguageAt(node);
   context.mode = node.Get("mode") == "dtmf" ? Mode::kDtmf : Mode::kVoice;
   const std::string base = node.Inherited("xml:base");

@@ -31,9 +31,25 @@ std::string Session::BaseOf(const xml::Node& node) const {
   return context_->document->base;
 }
 
+const Document& Session::OriginOf(const xml::Node& node) const {
+  const xml::Node* top = &node;
+  while (top->parent) top = top->parent;
+  const bool of_root = context_->root && top == context_->root->root.get();
+  return of_root ? *context_->root : *context_->document;
+}
+
+/// error.noauthorization unless the element came from a file of this machine.
+void Session::RequireLocal(const xml::Node& node) const {
+  const std::string& uri = OriginOf(node).uri;
+  if (fetch::IsLocal(uri)) return;
+  ThrowEvent("error.noauthorization",
+             uri + ":" + std::to_string(node.line) + ": <" + node.name + "> only runs from files");
+}
+
 /// maxage, maxstale and fetchtimeout of the element, or of the properties for its kind of fetch.
 fetch::Request Session::FetchOptions(const xml::Node& node, const char* kind) {
   fetch::Request request;
+  request.from = OriginOf(node).uri;
   const auto seconds = [&](const char* name) -> std::optional<long long> {
     std::string text = node.Get(name);
     if (text.empty()) text = Property(std::string(kind) + name, &node);
@@ -85,6 +101,10 @@ std::shared_ptr<Document> Session::Load(const fetch::Request& request) {
 }
 
 std::shared_ptr<Document> Session::LoadRoot(const Document& document) {
+  if (!fetch::MayRead(document.uri, document.application)) {  // nor share a root that is here
+    ThrowEvent("error.noauthorization",
+               document.uri + ": its application root " + document.application + " is a file");
+  }
   if (context_ && context_->root && context_->root->uri == document.application &&
       context_->root->root->IsElement("vxml")) {
     return context_->root;
@@ -122,7 +142,7 @@ Transition Session::Locate(const xml::Node& node, const std::string& reference, 
     to.root = to.document->application.empty() ? to.document : LoadRoot(*to.document);
     if (to.root == to.document && context_->root && context_->root->uri == to.document->uri &&
         context_->root->root->IsElement("vxml")) {
-      to.fresh_application = is_submit || fetch::ParseUri(uri).has_query;
+      to.fresh_application = is_submit || fetch::HasQuery(uri);
     }
   }
   if (fragment.empty()) {

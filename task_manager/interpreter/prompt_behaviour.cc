@@ -29,6 +29,7 @@ void PromptBuilder::Emotion(const xml::Node& node) {
 }
 
 std::string PromptBuilder::LineOf(const xml::Node& node) {
+  s_.RequireLocal(node);
   if (const std::string* expression = node.Find("expr")) return s_.TextOf(node, *expression);
   std::string line;
   for (const auto& child : node.children) {

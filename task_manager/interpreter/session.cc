@@ -1,6 +1,5 @@
 #include "task_manager/interpreter/session.h"
 
-#include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/scope_guard.h"
 
 namespace vxml {
@@ -16,11 +15,11 @@ Session::Session(SessionOptions options, Platform& platform)
       [this](const std::string& uri) -> vm::Result<std::string> {
         fetch::Request request = FetchOptions(Here(), "grammar");
         request.uri = uri;
+        request.from.clear();  // the store has judged who asks
         auto got = fetcher_.Fetch(request);
         if (!got) return std::unexpected(static_cast<vm::Error>(got.error()));
         return std::move(got->body);
-      },
-      [](const std::string& base, const std::string& uri) { return fetch::Resolve(base, uri); });
+      });
 }
 
 Session::~Session() = default;

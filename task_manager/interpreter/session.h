@@ -113,6 +113,9 @@ class Session {
                     bool multipart = false, bool is_submit = false);
   fetch::Request FetchOptions(const xml::Node& node, const char* kind);
   std::string BaseOf(const xml::Node& node) const;
+  /// The document the element was written in: its origin decides what the element may do.
+  const Document& OriginOf(const xml::Node& node) const;
+  void RequireLocal(const xml::Node& node) const;
   /// error.badfetch if the element's attributes exclude each other (Document::thrown_at).
   void ThrowIfUnfit(const xml::Node& node) const;
 

@@ -1,3 +1,5 @@
+#include <nlohmann/json.hpp>
+
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/session.h"
@@ -134,39 +136,36 @@ void Session::RunDisconnect(const xml::Node& node) {
 
 namespace {
 
-void WriteSpec(const xml::Node& node, std::string& out) {
+/// A node as prelude.js wants it: [type, name, text, namespace, [attribute...], [child...]].
+nlohmann::json SpecOf(const xml::Node& node) {
   using Kind = xml::Node::Kind;
-  const auto name = [&] { return node.prefix.empty() ? node.name : node.prefix + ":" + node.name; };
+  using nlohmann::json;
+  const auto none = json::array();
+  const auto space = [](const std::string& uri) { return uri.empty() ? json() : json(uri); };
   switch (node.kind) {
     case Kind::kText:
-      out += std::string("[") + (node.cdata ? "4,\"#cdata-section\"," : "3,\"#text\",") +
-             JsonQuote(node.text) + ",null,[],[]]";
-      return;
+      return {node.cdata ? 4 : 3,
+              node.cdata ? "#cdata-section" : "#text",
+              node.text,
+              nullptr,
+              none,
+              none};
     case Kind::kComment:
-      out += "[8,\"#comment\"," + JsonQuote(node.text) + ",null,[],[]]";
-      return;
+      return {8, "#comment", node.text, nullptr, none, none};
     case Kind::kInstruction:
-      out += "[7," + JsonQuote(node.name) + "," + JsonQuote(node.text) + ",null,[],[]]";
-      return;
+      return {7, node.name, node.text, nullptr, none, none};
     case Kind::kElement:
       break;
   }
-  out += "[1," + JsonQuote(name()) + ",null," +
-         (node.space.empty() ? "null" : JsonQuote(node.space)) + ",[";
-  bool first = true;
+  auto attributes = none;
   for (const xml::Attribute& attribute : node.attributes) {
-    if (!std::exchange(first, false)) out += ",";
-    out += "[" + JsonQuote(attribute.name) + "," +
-           (attribute.space.empty() ? "null" : JsonQuote(attribute.space)) + "," +
-           JsonQuote(attribute.value) + "]";
+    attributes.push_back({attribute.name, space(attribute.space), attribute.value});
   }
-  out += "],[";
-  first = true;
-  for (const auto& child : node.children) {
-    if (!std::exchange(first, false)) out += ",";
-    WriteSpec(*child, out);
-  }
-  out += "]]";
+  auto children = none;
+  for (const auto& child : node.children) children.push_back(SpecOf(*child));
+  const std::string name = node.prefix.empty() ? node.name : node.prefix + ":" + node.name;
+  return json::array(
+      {1, name, nullptr, space(node.space), std::move(attributes), std::move(children)});
 }
 
 /// <?access-control allow="HOST ..."?> (VoiceXML 2.1 section 5, appendix E).
@@ -202,13 +201,11 @@ void Session::RunData(const xml::Node& node) {
   if (!node.Has("name")) return;
   auto data = xml::Parse(got.body, got.uri, got.charset);
   if (!data) ThrowEvent("error.badfetch", data.error().text);
-  const std::string host = fetch::ParseUri(context_->document->uri).authority;
-  if (!MayRead(*data, host.substr(0, host.find(':')))) {
+  const std::string host = fetch::Host(OriginOf(node).uri);
+  if (!MayRead(*data, host)) {
     ThrowEvent("error.noauthorization", got.uri + ": access-control does not allow " + host);
   }
-  std::string spec;
-  WriteSpec(*data->root, spec);
-  auto dom = engine_.Dom(spec);
+  auto dom = engine_.Dom(JsonText(SpecOf(*data->root)));
   if (!dom) ThrowSemantic(*context_->document, node, dom.error().text);
   Declare(node, node.Get("name"), *dom);
 }

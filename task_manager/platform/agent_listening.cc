@@ -76,19 +76,17 @@ void AgentPlatform::Interrupt(const Command& command, const std::vector<Prompt>&
     stops = stops && prompt.bargein &&
             (!prompt.hotword || !spoken || (listen.accepts && listen.accepts(words)));
   }
-  std::string steps = "[";
-  if (speaks) {
-    steps += "{\"wait\": {\"from\": \"" + options_.voice +
-             "\", \"slot\": \"Speak.stat\", \"value\": \"SPEAKING\"}, \"limit_ms\": 20000}, ";
-  }
-  steps += "{\"pause_ms\": " + std::to_string(command.at->count()) + "}";
+  auto steps = nlohmann::json::array();
+  if (speaks) steps.push_back(SpeakingStep());
+  steps.push_back(PauseStep(*command.at));
   if (spoken) {
-    const std::string line = "to @" + options_.ear + " set Input.text = " + words;
-    steps += ", {\"request\": " + JsonQuote(line) + ", \"limit_ms\": 20000}";
+    steps.push_back({{"request", "to @" + options_.ear + " set Input.text = " + words},
+                     {"limit_ms", kMacroLimit.count()}});
   }
-  if (speaks && stops) steps += ", {\"send\": \"to @AM-MCL set Speak = STOP\"}";
-  if (!hub_.Ask("to @AM-MCL def DialogueInterrupt = " + steps + "]", kAnswer)) return;
-  auto message = vm::ParseMessage("to @AM-MCL set DialogueInterrupt = NOW");
+  if (speaks && stops) steps.push_back(SendStep("to @AM-MCL set Speak = STOP"));
+  const std::string macro = Macro("Interrupt");
+  if (!hub_.Ask("to @AM-MCL def " + macro + " = " + JsonText(steps), kAnswer)) return;
+  auto message = vm::ParseMessage("to @AM-MCL set " + macro + " = NOW");
   if (!message) return;
   interrupting_ = true;
   hub_.client().Request(*message, [this, command, keys](const vm::Result<std::string>&) {
@@ -100,9 +98,10 @@ void AgentPlatform::Interrupt(const Command& command, const std::vector<Prompt>&
 
 /// Time of the hub passes: a film's clock is virtual, so the machine's says nothing.
 void AgentPlatform::Pause(Millis time) {
-  const std::string steps = "[{\"pause_ms\": " + std::to_string(time.count()) + "}]";
-  auto defined = hub_.Ask("to @AM-MCL def DialoguePause = " + steps, kAnswer);
-  if (defined) static_cast<void>(hub_.Ask("to @AM-MCL set DialoguePause = NOW", time + kAnswer));
+  const std::string macro = Macro("Pause");
+  const auto steps = nlohmann::json::array({PauseStep(time)});
+  auto defined = hub_.Ask("to @AM-MCL def " + macro + " = " + JsonText(steps), kAnswer);
+  if (defined) static_cast<void>(hub_.Ask("to @AM-MCL set " + macro + " = NOW", time + kAnswer));
 }
 
 std::optional<Command> AgentPlatform::Next() {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <utility>
 
+#include "task_manager/fetch/uri.h"
 #include "task_manager/xml/node.h"
 
 namespace vxml {
@@ -83,10 +84,8 @@ Millis AgentPlatform::Now() const {
 void AgentPlatform::Report(std::string_view type, const JsonLine& fields) {
   if (!options_.write) return;
   JsonLine head;
-  head.Number("t", static_cast<double>(Now().count())).Text("type", type);
-  const std::string a = head.str();
-  const std::string b = fields.str();
-  options_.write(b == "{}" ? a : a.substr(0, a.size() - 1) + "," + b.substr(1));
+  head.Number("t", static_cast<double>(Now().count())).Text("type", type).Add(fields);
+  options_.write(head.str());
 }
 
 /// The prompt as one utterance: bookmarks where something else has to happen.
@@ -143,29 +142,39 @@ void AgentPlatform::Act(std::size_t index) {
   }
   if (action.starts_with("after ")) {  // so much later than the bookmark, by the hub's clock
     const std::size_t blank = action.find(' ', 6);
-    hub_.Send("to @AM-MCL def DialogueLater" + std::to_string(index) +
-              " = [{\"pause_ms\": " + action.substr(6, blank - 6) +
-              "}, {\"send\": " + JsonQuote(action.substr(blank + 1)) + "}]");
-    return hub_.Send("to @AM-MCL do DialogueLater" + std::to_string(index));
+    const std::string macro = Macro("Later" + std::to_string(index));
+    hub_.Send("to @AM-MCL def " + macro + " = " +
+              JsonText({PauseStep(Millis(std::stoll(action.substr(6, blank - 6)))),
+                        SendStep(action.substr(blank + 1))}));
+    return hub_.Send("to @AM-MCL do " + macro);
   }
   Native(action);
 }
 
+nlohmann::json AgentPlatform::PauseStep(Millis time) { return {{"pause_ms", time.count()}}; }
+nlohmann::json AgentPlatform::SendStep(const std::string& line) { return {{"send", line}}; }
+nlohmann::json AgentPlatform::SpeakingStep() const {
+  return {{"wait", {{"from", options_.voice}, {"slot", "Speak.stat"}, {"value", "SPEAKING"}}},
+          {"limit_ms", kMacroLimit.count()}};
+}
+
+std::string AgentPlatform::Macro(const std::string& purpose) {
+  return *macros_.insert("Dialogue" + purpose + "." + options_.name).first;
+}
+
 /// Commands beside the words: a macro of the hub that starts with the voice (the original's PAR).
 void AgentPlatform::StartParallel(const Prompt& prompt) {
-  std::string steps = std::exchange(beside_, "");
+  nlohmann::json steps = std::exchange(beside_, nlohmann::json::array());
   for (const Segment& segment : prompt.segments) {
     if (segment.kind != Segment::Kind::kCommand || !segment.parallel) continue;
-    if (segment.pause.count() > 0) {
-      steps += ", {\"pause_ms\": " + std::to_string(segment.pause.count()) + "}";
-    }
-    steps += ", {\"send\": " + JsonQuote(segment.text) + "}";
+    if (segment.pause.count() > 0) steps.push_back(PauseStep(segment.pause));
+    steps.push_back(SendStep(segment.text));
   }
   if (steps.empty()) return;
-  hub_.Send("to @AM-MCL def DialogueBeside = [{\"wait\": {\"from\": \"" + options_.voice +
-            "\", \"slot\": \"Speak.stat\", \"value\": \"SPEAKING\"}, \"limit_ms\": 20000}" + steps +
-            "]");
-  hub_.Send("to @AM-MCL do DialogueBeside");
+  steps.insert(steps.begin(), SpeakingStep());
+  const std::string macro = Macro("Beside");
+  hub_.Send("to @AM-MCL def " + macro + " = " + JsonText(steps));
+  hub_.Send("to @AM-MCL do " + macro);
 }
 
 /// One utterance, to its end or until somebody speaks. False: it was stopped, or failed.
@@ -191,7 +200,7 @@ bool AgentPlatform::Utter(const std::string& text, bool may_be_stopped) {
 
 /// A sound file, by the voice: it plays what the listener is to hear, also in films.
 void AgentPlatform::PlayFile(const std::string& file, bool may_be_stopped) {
-  const std::string path = file.starts_with("file://") ? file.substr(7) : file;
+  const std::string path = fetch::PathOf(file).value_or(file);
   if (!path.starts_with("/")) return;  // builtin: has none
   hub_.Send("tell start " + path);
   Utter("<speak><audio src=\"" + xml::Escape(path) + "\"/></speak>", may_be_stopped);
@@ -277,12 +286,12 @@ void AgentPlatform::Native(const std::string& line) {
     double seconds = 0;
     const std::string& value = message->value;
     if (message->slot == "Init") {
-      beside_.clear();
+      beside_ = nlohmann::json::array();
     } else if (value.starts_with("sleep ")) {
       std::from_chars(value.data() + 6, value.data() + value.size(), seconds);
-      beside_ += ", {\"pause_ms\": " + std::to_string(static_cast<int>(seconds * 1000)) + "}";
+      beside_.push_back(PauseStep(Millis(static_cast<long long>(seconds * 1000))));
     } else {
-      beside_ += ", {\"send\": " + JsonQuote(value) + "}";
+      beside_.push_back(SendStep(value));
     }
     return;
   }

@@ -3,7 +3,9 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,12 @@ class AgentPlatform final : public Platform {
   bool Utter(const std::string& text, bool may_be_stopped);
   void PlaySound(const Segment& segment, bool may_be_stopped);
   void PlayFile(const std::string& file, bool may_be_stopped);
+  /// Steps of macros (docs/protocol.md). SpeakingStep waits until the voice speaks.
+  static nlohmann::json PauseStep(Millis time);
+  static nlohmann::json SendStep(const std::string& line);
+  nlohmann::json SpeakingStep() const;
+  /// The name of this dialogue's own macro for the purpose; other dialogues have theirs.
+  std::string Macro(const std::string& purpose);
   std::string Tagged(const std::vector<Segment>& segments);
   void Act(std::size_t index);
   void StartParallel(const Prompt& prompt);
@@ -96,6 +104,7 @@ class AgentPlatform final : public Platform {
     bool cut = false;  ///< it was too long
     std::string uri;
   };
+  static constexpr Millis kMacroLimit{20'000};        ///< of one step of a macro
   static constexpr std::size_t kMaxRecordings = 256;  ///< as many files as the ear keeps
   bool keeps_ = false;                                ///< the ear keeps sounds now
   std::optional<KeptSound> sound_;
@@ -106,7 +115,8 @@ class AgentPlatform final : public Platform {
   bool interrupting_ = false;    ///< a scripted interruption is on its way
   std::optional<Command> next_;  ///< of the script, taken but not used
   bool attends_ = true;
-  std::string beside_;  ///< steps of PAR for the next speech
+  nlohmann::json beside_ = nlohmann::json::array();  ///< steps of PAR for the next speech
+  std::set<std::string> macros_;                     ///< defined at the hub, removed at the end
   std::deque<Input> heard_;
   std::size_t typed_waiting_ = 0;  ///< typed lines the ear has not answered
   bool hearing_ = false;           ///< somebody speaks

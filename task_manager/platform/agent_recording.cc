@@ -56,6 +56,7 @@ long NumberOf(const std::string& text) {
 
 AgentPlatform::~AgentPlatform() {
   KeepSounds(false);
+  for (const std::string& macro : macros_) hub_.Send("to @AM-MCL del " + macro);
   hub_.StopListening();
 }
 

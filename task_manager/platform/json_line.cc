@@ -1,74 +1,63 @@
 #include "task_manager/platform/json_line.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace vxml {
+namespace {
 
-std::string JsonQuote(std::string_view text) {
-  static constexpr std::string_view kHex = "0123456789abcdef";
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    switch (c) {
-      case '"':
-        out += "\\\"";
-        break;
-      case '\\':
-        out += "\\\\";
-        break;
-      case '\n':
-        out += "\\n";
-        break;
-      case '\t':
-        out += "\\t";
-        break;
-      case '\r':
-        out += "\\r";
-        break;
-      default:
-        if (byte < 0x20 || byte == 0x7F) {
-          out += "\\u00";
-          out += kHex[byte / 16];
-          out += kHex[byte % 16];
-        } else {
-          out += c;
-        }
-    }
-  }
-  return out + "\"";
+using Json = nlohmann::ordered_json;
+
+constexpr double kMaxInteger = 9007199254740992.0;  // 2^53: doubles below are exact
+
+template <typename AnyJson>
+std::string Dump(const AnyJson& json) {
+  return json.dump(-1, ' ', false, AnyJson::error_handler_t::replace);
 }
 
-void JsonLine::Name(std::string_view name) {
-  if (!fields_.empty()) fields_ += ",";
-  fields_ += JsonQuote(name) + ":";
-}
+}  // namespace
+
+std::string JsonText(const nlohmann::json& json) { return Dump(json); }
+
+JsonLine::JsonLine() : object_(std::make_unique<Json>(Json::object())) {}
+JsonLine::~JsonLine() = default;
+
 JsonLine& JsonLine::Text(std::string_view name, std::string_view value) {
-  Name(name);
-  fields_ += JsonQuote(value);
+  (*object_)[std::string(name)] = value;
   return *this;
 }
 JsonLine& JsonLine::Number(std::string_view name, double value) {
-  Name(name);
-  std::array<char, 40> digits{};
-  if (!std::isfinite(value)) {
-    fields_ += "null";
-    return *this;
+  Json& field = (*object_)[std::string(name)];
+  if (std::trunc(value) == value && std::abs(value) < kMaxInteger) {
+    field = static_cast<long long>(value);
+  } else {
+    field = value;  // null if it is not finite
   }
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  fields_.append(digits.data(), end);
   return *this;
 }
 JsonLine& JsonLine::Bool(std::string_view name, bool value) {
-  Name(name);
-  fields_ += value ? "true" : "false";
+  (*object_)[std::string(name)] = value;
+  return *this;
+}
+JsonLine& JsonLine::List(std::string_view name, const std::vector<std::string>& texts) {
+  (*object_)[std::string(name)] = texts;
   return *this;
 }
 JsonLine& JsonLine::Raw(std::string_view name, std::string_view json) {
-  Name(name);
-  fields_ += json == "undefined" ? "null" : json;
+  Json value = json == "undefined" ? Json() : Json::parse(json, nullptr, false);
+  if (value.is_discarded()) value = json;
+  (*object_)[std::string(name)] = std::move(value);
   return *this;
 }
+JsonLine& JsonLine::Add(const JsonLine& other) {
+  object_->update(*other.object_);
+  return *this;
+}
+JsonLine& JsonLine::Add(std::string_view line) {
+  const Json other = Json::parse(line, nullptr, false);
+  if (other.is_object()) object_->update(other);
+  return *this;
+}
+std::string JsonLine::str() const { return Dump(*object_); }
 
 }  // namespace vxml

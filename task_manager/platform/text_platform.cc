@@ -12,10 +12,10 @@ Millis DurationOf(const Segment& segment) {
     case Segment::Kind::kText: {
       long long ms = 0;
       for (std::size_t at = 0; at < segment.text.size();) {
-        std::size_t size = 0;
-        const char32_t c = srgs::DecodeAt(segment.text, at, size);
-        ms += srgs::IsUnspaced(c) ? TextPlatform::kMsPerCharacter : TextPlatform::kMsPerLetter;
-        at += size;
+        const vm::CodePoint sign = srgs::DecodeAt(segment.text, at);
+        const bool wide = srgs::IsUnspaced(sign.value);
+        ms += wide ? TextPlatform::kMsPerCharacter : TextPlatform::kMsPerLetter;
+        at += sign.length;
       }
       return Millis(ms);
     }
@@ -44,14 +44,12 @@ Millis Total(const std::vector<Prompt>& prompts) {
   return total;
 }
 
-std::string AudioList(const Prompt& prompt) {
-  std::string list = "[";
+std::vector<std::string> AudioList(const Prompt& prompt) {
+  std::vector<std::string> list;
   for (const Segment& segment : prompt.segments) {
-    if (segment.kind != Segment::Kind::kAudio) continue;
-    if (list.size() > 1) list += ",";
-    list += JsonQuote(segment.text);
+    if (segment.kind == Segment::Kind::kAudio) list.push_back(segment.text);
   }
-  return list + "]";
+  return list;
 }
 
 }  // namespace
@@ -61,10 +59,8 @@ TextPlatform::TextPlatform(CommandSource commands, std::function<void(const std:
 
 void TextPlatform::Report(std::string_view type, const JsonLine& fields) {
   JsonLine head;
-  head.Number("t", static_cast<double>(now_.count())).Text("type", type);
-  const std::string a = head.str();
-  const std::string b = fields.str();
-  write_(b == "{}" ? a : a.substr(0, a.size() - 1) + "," + b.substr(1));
+  head.Number("t", static_cast<double>(now_.count())).Text("type", type).Add(fields);
+  write_(head.str());
 }
 
 std::optional<Command> TextPlatform::Next() {
@@ -95,7 +91,7 @@ void TextPlatform::PlayUntil(const std::vector<Prompt>& prompts, Millis until) {
     line.Number("ms", static_cast<double>(length.count()));
     if (cut) line.Number("heard_ms", static_cast<double>((end - now_).count()));
     if (!prompt.language.empty()) line.Text("lang", prompt.language);
-    if (const std::string audio = AudioList(prompt); audio != "[]") line.Raw("audio", audio);
+    if (const auto audio = AudioList(prompt); !audio.empty()) line.List("audio", audio);
     line.Text("ssml", prompt.ssml);
     if (!prompt.text.empty() || length.count() > 0) Report("prompt", line);
     const Millis prompt_start = now_;

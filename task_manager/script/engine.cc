@@ -1,5 +1,7 @@
 #include "task_manager/script/engine.h"
 
+#include <ctime>
+
 #include "embedded/prelude.h"
 #include "embedded/regexps.h"
 #include "task_manager/script/engine_impl.h"
@@ -7,7 +9,21 @@
 
 namespace vxml::script {
 
+namespace {
+
+std::chrono::nanoseconds RealTime() { return std::chrono::steady_clock::now().time_since_epoch(); }
+
+std::chrono::nanoseconds ThreadTime() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+}  // namespace
+
 Engine::Impl::Impl(const Limits& given) : limits(given) {
+  if (!limits.clocks.real) limits.clocks.real = RealTime;
+  if (!limits.clocks.processor) limits.clocks.processor = ThreadTime;
   context = duk_create_heap(&Allocate, &Reallocate, &Release, this, &Fatal);
   if (!context) std::abort();
   Protect([](duk_context* c) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -31,11 +32,19 @@ class Value {
 /// Scope objects from the outermost to the innermost one.
 using Chain = std::vector<Value>;
 
+/// What the time of scripts is measured on, since a moment that does not matter. Each is asked at
+/// every loop turn, call and large block of memory. Empty: the machine's.
+struct Clocks {
+  std::function<std::chrono::nanoseconds()> real{};
+  std::function<std::chrono::nanoseconds()> processor{};  ///< of this thread
+};
+
 struct Limits {
   std::size_t heap_bytes = std::size_t{32} << 20;  ///< and up to a quarter more to recover
   std::uint64_t steps = 20'000'000;      ///< loop turns and function calls of one evaluation
   std::chrono::milliseconds time{1000};  ///< real time, then as much again of the processor's
   std::size_t source_bytes = std::size_t{1} << 20;
+  Clocks clocks{};
 };
 
 /// The data model: ECMAScript (Duktape) with scopes that are ordinary objects on a `with` chain.

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <utility>
 
 #include "task_manager/script/engine.h"
@@ -83,23 +82,18 @@ struct Engine::Impl {
   /// over is the thread's own time looked at from then on, so that a busy machine does not count
   /// against a script, and the many short evaluations do not ask the system.
   bool Late() {
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = limits.clocks.real();
     if (now <= deadline) return false;
     if (!measured) {
       measured = true;
-      began = ThreadTime();
+      began = limits.clocks.processor();
       deadline = now + limits.time;
       return false;
     }
-    const auto spent = ThreadTime() - began;
+    const auto spent = limits.clocks.processor() - began;
     if (spent >= limits.time) return true;
     deadline = now + (limits.time - spent);
     return false;
-  }
-  static std::chrono::nanoseconds ThreadTime() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
   }
   static duk_ret_t Tick(duk_context* c) {
     Impl& impl = From(c);
@@ -120,7 +114,7 @@ struct Engine::Impl {
     if (nesting > 0) return;
     steps_left = limits.steps;
     measured = false;
-    deadline = std::chrono::steady_clock::now() + limits.time;
+    deadline = limits.clocks.real() + limits.time;
     starved = out_of_time = false;
   }
 
@@ -196,7 +190,7 @@ struct Engine::Impl {
   std::uint64_t steps_left = 0;
   bool measured = false;
   std::chrono::nanoseconds began{};
-  std::chrono::steady_clock::time_point deadline;
+  std::chrono::nanoseconds deadline{};
   Regexps regexps;
   std::u32string searched;  // kText's characters
   const void* searched_in = nullptr;

@@ -200,7 +200,7 @@ std::string Engine::ToString(const Value& value) {
     const char* bytes = duk_safe_to_lstring(c, -1, &size);
     text.assign(bytes, size);
   });
-  return text;
+  return ToUtf8(text);
 }
 std::string Engine::ToJson(const Value& value) {
   std::string text = "undefined";
@@ -212,7 +212,7 @@ std::string Engine::ToJson(const Value& value) {
     const char* bytes = duk_get_lstring(c, -1, &size);
     if (bytes) text.assign(bytes, size);
   });
-  return done ? text : "\"[object]\"";
+  return done ? ToUtf8(text) : "\"[object]\"";
 }
 
 std::size_t Engine::heap_bytes() const { return impl_->used; }

@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "task_manager/script/regexps.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace vxml::script {
 namespace {
@@ -267,17 +268,36 @@ std::u32string Characters(std::string_view text) {
   std::u32string characters;
   characters.reserve(text.size());
   for (std::size_t at = 0; at < text.size();) {
-    const auto byte = [&](std::size_t i) {
-      return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-    };
-    const unsigned first = byte(at);
-    const std::size_t more = first < 0xC0 ? 0 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : 3;
-    char32_t c = more == 0 ? first : first & (0x3FU >> more);
-    for (std::size_t i = 1; i <= more; ++i) c = (c << 6U) | (byte(at + i) & 0x3FU);
-    characters.push_back(c);
-    at += more + 1;
+    if (const auto sign = vm::DecodeUtf8(text, at)) {
+      characters.push_back(sign->value);
+      at += sign->length;
+    } else if (text[at] == '\xED' && at + 2 < text.size()) {  // half of a surrogate pair
+      const auto bits = [&](std::size_t i) { return static_cast<unsigned char>(text[i]) & 0x3FU; };
+      characters.push_back(0xD000U | (bits(at + 1) << 6U) | bits(at + 2));
+      at += 3;
+    } else {
+      characters.push_back(static_cast<unsigned char>(text[at++]));
+    }
   }
   return characters;
+}
+
+std::string ToUtf8(std::string_view text) {
+  if (!vm::FirstBadUtf8(text)) return std::string(text);
+  const std::u32string characters = Characters(text);
+  std::string utf8;
+  for (std::size_t i = 0; i < characters.size(); ++i) {
+    const char32_t c = characters[i];
+    const char32_t next = i + 1 < characters.size() ? characters[i + 1] : 0;
+    const bool half = c >= 0xD800 && c <= 0xDFFF;
+    if (half && c <= 0xDBFF && next >= 0xDC00 && next <= 0xDFFF) {
+      vm::AppendUtf8(utf8, 0x10000 + ((c - 0xD800) << 10U) + (next - 0xDC00));
+      ++i;
+    } else {
+      vm::AppendUtf8(utf8, half ? 0xFFFD : c);
+    }
+  }
+  return utf8;
 }
 
 }  // namespace vxml::script

@@ -51,5 +51,7 @@ class Regexps {
 
 /// The engine's strings (UTF-8, surrogates as three bytes each) as a sequence of its characters.
 std::u32string Characters(std::string_view text);
+/// The same as UTF-8: pairs of surrogates joined, half ones U+FFFD.
+std::string ToUtf8(std::string_view text);
 
 }  // namespace vxml::script

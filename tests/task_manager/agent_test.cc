@@ -53,6 +53,10 @@ class AgentTest : public ::testing::Test {
   std::unique_ptr<support::Process> hub_;
 };
 
+std::string Form(const std::string& content) {
+  return "<vxml version=\"2.1\"><form>" + content + "</form></vxml>";
+}
+
 TEST_F(AgentTest, SpeaksHearsAndMovesTheFaceThroughTheHub) {
   const auto lines = Talk(
       "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt>Do you <emotion "
@@ -113,6 +117,12 @@ TEST_F(AgentTest, SoundFilesArePlayedByTheVoiceAlsoThoseForSnd) {
   EXPECT_LT(first, log.find("Speak = after"));
   EXPECT_NE(log.find(play, log.find("Speak = after")), std::string::npos);
   EXPECT_NE(log.find("tell end " + (folder_ / "bell.wav")), std::string::npos);
+}
+
+TEST_F(AgentTest, TheEscapesOfASoundsUriAreNoPartOfItsFile) {
+  std::ofstream(folder_ / "two bells.wav") << "RIFF";
+  Talk(Form("<block><prompt><audio src=\"two%20bells.wav\"/></prompt></block>"), "silence\n");
+  EXPECT_NE(Log().find("tell start " + (folder_ / "two bells.wav")), std::string::npos);
 }
 
 TEST_F(AgentTest, SoundsThatCameOverTheNetAreKeptForTheVoice) {
@@ -198,10 +208,6 @@ TEST_F(AgentTest, TransfersAndObjectsAreRefusedWithTheirEvents) {
       "silence\n");
   ASSERT_FALSE(lines.empty());
   EXPECT_NE(lines.back().find("\"value\":2"), std::string::npos) << lines.back();
-}
-
-std::string Form(const std::string& content) {
-  return "<vxml version=\"2.1\"><form>" + content + "</form></vxml>";
 }
 
 /// The shadow variables of a recording r, one after the other.
@@ -333,7 +339,7 @@ TEST_F(AgentTest, OnlyWhatWasRecordedCanBeSentAsARecording) {
 
 TEST_F(AgentTest, WithoutAKeyboardTheEarAloneCounts) {
   std::ofstream(folder_ / "d.vxml")
-      << "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt timeout=\"1s\">"
+      << "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt timeout=\"50ms\">"
          "Well?</prompt><noinput><exit expr=\"'nobody'\"/></noinput></field></form></vxml>";
   const std::string command =
       GALATEA_BIN_DIR "/task_manager d.vxml --transcript json --connect unix:" + (folder_ / "hub");
@@ -382,6 +388,58 @@ TEST_F(AgentTest, AKeyEndsARecordingInTheMiddle) {
   dialogue.WriteLine("hello there");
   dialogue.WriteLine("/dtmf 7");
   EXPECT_TRUE(dialogue.Expect("7 false true")) << dialogue.Seen() << dialogue.ErrorText();
+}
+
+TEST_F(AgentTest, DialoguesOnOneHubWaitEachItsOwnTime) {
+  const auto write = [&](const std::string& name, const std::string& timeout) {
+    std::ofstream(folder_ / name) << Form("<field name=\"f\" type=\"boolean\"><prompt timeout=\"" +
+                                          timeout +
+                                          "\"><break time=\"1ms\"/></prompt><noinput><exit "
+                                          "expr=\"'nobody'\"/></noinput></field>");
+  };
+  write("long.vxml", "3600s");
+  write("short.vxml", "300ms");
+  std::ofstream(folder_ / "s.txt") << "silence\n";
+  std::ofstream(folder_ / "real.json")
+      << "{\"listen\": [\"unix:" << folder_ / "real"
+      << "\"], \"modules\": [{\"name\": \"SSM\", "
+      << "\"command\": [\"" GALATEA_BIN_DIR "/ssm_stub\"]}, {\"name\": \"SRM\", \"command\": [\""
+      << GALATEA_BIN_DIR "/srm_stub\"]}]}";
+  support::Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder_ / "real.json",
+                        "--log", folder_ / "real.log"});
+  hub.WriteLine("inq#up Slots");
+  ASSERT_TRUE(hub.Expect("#up Slots"));
+  const auto talk = [&](const std::string& document, const std::string& name) {
+    return support::Process({GALATEA_BIN_DIR "/task_manager", folder_ / document, "--connect",
+                             "unix:" + (folder_ / "real"), "--name", name, "--script",
+                             folder_ / "s.txt"});
+  };
+  const auto log = [&] {
+    std::ifstream file(folder_ / "real.log");
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  support::Process first = talk("long.vxml", "DM");
+  for (bool waits = false; !waits;) {
+    hub.WriteLine("to @AM-MCL inq#m Macros");
+    ASSERT_TRUE(hub.Expect("rep#m Macros")) << hub.Seen();
+    waits = hub.Seen().find("DialoguePause.DM") != std::string::npos;
+  }
+  support::Process second = talk("short.vxml", "DM2");
+  const auto lines = second.ReadAll();
+  ASSERT_FALSE(lines.empty()) << second.ErrorText();
+  EXPECT_NE(lines.back().find("nobody"), std::string::npos) << lines.back();
+  EXPECT_EQ(second.Wait(), 0);
+  hub.Terminate();
+  hub.Wait();
+  const auto time_of = [text = log()](const std::string& line) {
+    const std::size_t at = text.find(line);
+    if (at == std::string::npos) return -1;
+    return std::atoi(text.c_str() + text.rfind('\n', at) + 1);
+  };
+  const int begins = time_of("DialoguePause.DM2 = NOW");
+  const int ends = time_of("del DialoguePause.DM2");
+  ASSERT_GE(begins, 0);
+  EXPECT_GE(ends - begins, 300);
 }
 
 }  // namespace

@@ -175,10 +175,9 @@ const vxml::srgs::Grammar* Link(vxml::srgs::GrammarStore& store, const std::stri
 }
 
 vxml::srgs::GrammarStore NoFetch() {
-  return {[](const std::string&) -> vm::Result<std::string> {
-            return vm::Fail(vm::Errc::kUnavailable, "no");
-          },
-          [](const std::string&, const std::string& uri) { return uri; }};
+  return vxml::srgs::GrammarStore([](const std::string&) -> vm::Result<std::string> {
+    return vm::Fail(vm::Errc::kUnavailable, "no");
+  });
 }
 
 TEST(HostileGrammarTest, ARuleOfOnlyItselfMatchesNothing) {

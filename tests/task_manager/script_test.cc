@@ -7,6 +7,7 @@
 
 #include "task_manager/script/engine.h"
 #include "task_manager/script/regexps.h"
+#include "tests/task_manager/ticking_clock.h"
 
 namespace vxml::script {
 namespace {
@@ -107,10 +108,17 @@ struct Trick {
 };
 class ScriptLimit : public ::testing::TestWithParam<Trick> {};
 
+Limits WithTicks(std::chrono::nanoseconds tick = std::chrono::microseconds(20)) {
+  Limits limits;
+  limits.clocks = vxml_test::TickingClocks(tick);
+  limits.steps = 500'000;
+  return limits;
+}
+
 /// Not a speed test: without the guard these run for minutes or for ever; 20 s of the processor are
 /// many times what the limit of one evaluation allows.
 TEST_P(ScriptLimit, Holds) {
-  Engine engine;
+  Engine engine(WithTicks());
   const Chain chain{engine.NewScope()};
   const double before = ProcessorSeconds();
   auto ran = engine.Run(chain, GetParam().code);
@@ -133,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
         Trick{"RegexSplit",
               "'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa!'.split(/(a|a)*[bc]/)"},
         Trick{"ForIn",
-              "var o={}; for(var i=0;i<30000;i++) o['k'+i]=i;"
+              "var o={}; for(var i=0;i<3000;i++) o['k'+i]=i;"
               "for(var a in o) for(var b in o) for(var c in o);"},
         Trick{"LongTexts", "var s='x'; while(s.length<4e6) s+=s; while(true) s.toUpperCase();"},
         Trick{
@@ -157,8 +165,51 @@ INSTANTIATE_TEST_SUITE_P(
         Trick{"RegexAfterBreak", "a: { break a\n/\"/; } while(true){} //\""}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST(ScriptScopeTest, TheOwnNamesCannotBeTakenThroughAScopeObject) {
+TEST(ScriptTextTest, PairsOfSurrogatesLeaveTheEngineAsUtf8) {
   Engine engine;
+  const auto text = [&](const std::string& code) {
+    return engine.ToString(*engine.Evaluate({engine.NewScope()}, code));
+  };
+  EXPECT_EQ(text(R"('a\uD83D\uDE00b')"), "a\U0001F600b");
+  EXPECT_EQ(text(R"('\uD83D'+'\uDE00')"), "\U0001F600");
+  EXPECT_EQ(text(R"('a\uD83D' + 'b\uDE00\uD83D')"), "a\uFFFDb\uFFFD\uFFFD");
+  EXPECT_EQ(JsonOf(R"(['\uD83D\uDE00'])"), "[\"\U0001F600\"]");
+}
+
+TEST(ScriptTimeTest, IsRealTimeAndThenAsMuchOfTheProcessorsExactly) {
+  Limits limits = WithTicks(std::chrono::milliseconds(1));
+  limits.time = std::chrono::milliseconds(100);
+  Engine engine(limits);
+  const Value scope = engine.NewScope();
+  ASSERT_TRUE(engine.Run({scope}, "var n = 0;"));
+  const auto turns = [&] {
+    EXPECT_EQ(engine.Run({scope}, "n = 0; while (true) ++n;").error().code, vm::Errc::kLimit);
+    return engine.ToJson(engine.Get(scope, "n"));
+  };
+  const std::string first = turns();
+  EXPECT_GE(std::stoi(first), 100);
+  EXPECT_LE(std::stoi(first), 200);
+  EXPECT_EQ(turns(), first);
+}
+
+TEST(ScriptTimeTest, ABusyMachineDoesNotCountAgainstAScript) {
+  Limits limits = WithTicks(std::chrono::seconds(1));  // each look finds much real time gone
+  limits.clocks.processor = [] { return std::chrono::nanoseconds(0); };
+  Engine engine(limits);
+  EXPECT_TRUE(engine.Run({engine.NewScope()}, "for (var i = 0; i < 1000; ++i);"));
+}
+
+TEST(ScriptTimeTest, StepsAreCountedWhereTimeStandsStill) {
+  Limits limits = WithTicks(std::chrono::seconds(0));
+  limits.steps = 1000;
+  Engine engine(limits);
+  const Value scope = engine.NewScope();
+  EXPECT_TRUE(engine.Run({scope}, "for (var i = 0; i < 990; ++i);"));
+  EXPECT_FALSE(engine.Run({scope}, "for (var i = 0; i < 1010; ++i);"));
+}
+
+TEST(ScriptScopeTest, TheOwnNamesCannotBeTakenThroughAScopeObject) {
+  Engine engine(WithTicks());
   const Value scope = engine.NewScope();
   engine.Set(scope, "dialog", scope);
   EXPECT_FALSE(engine.Run({scope}, "dialog['__t']=function(){return true}; while(true){}"));

@@ -9,10 +9,9 @@ namespace vxml::srgs {
 namespace {
 
 GrammarStore NoFetch() {
-  return {[](const std::string&) -> vm::Result<std::string> {
-            return vm::Fail(vm::Errc::kUnavailable, "nothing is fetched");
-          },
-          [](const std::string&, const std::string& uri) { return uri; }};
+  return GrammarStore([](const std::string&) -> vm::Result<std::string> {
+    return vm::Fail(vm::Errc::kUnavailable, "nothing is fetched");
+  });
 }
 
 GrammarContext Alone() {
@@ -244,12 +243,9 @@ TEST(SrgsAloneTest, AGrammarWithoutRootHasNoneEvenIfItHasOneRule) {
 }
 
 TEST(SrgsAloneTest, GrammarsReferredToAreJudgedAsStrictly) {
-  GrammarStore store(
-      [](const std::string&) -> vm::Result<std::string> {
-        return std::string(
-            "<grammar root=\"r\"><rule id=\"r\" scope=\"public\">b</rule></grammar>");
-      },
-      [](const std::string&, const std::string& uri) { return uri; });
+  GrammarStore store([](const std::string&) -> vm::Result<std::string> {
+    return std::string("<grammar root=\"r\"><rule id=\"r\" scope=\"public\">b</rule></grammar>");
+  });
   auto made = CompileBytes(InAbnf("$r = a $<other.grxml>;"), Alone());
   ASSERT_TRUE(made);
   EXPECT_FALSE(store.Add(std::move(*made)));
