@@ -237,6 +237,7 @@ void Run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Makes a face from a photo: fsm --mask NAME wears it");
+  app.set_version_flag("--version", "face_fit (Galatea) " GALATEA_VERSION);
   app.add_option("photo", options.photo, "The photo, JPEG or PNG");
   app.add_option("--name", options.name, "What the face is called");
   app.add_option("--head", options.head,

@@ -16,5 +16,5 @@ for preset in asan tsan; do
   [ "$which" = all ] || [ "$which" = "$preset" ] || continue
   cmake --preset "$preset" >/dev/null
   cmake --build "build-$preset"
-  ctest --test-dir "build-$preset" --output-on-failure --parallel "$(nproc)"
+  scripts/run_tests.sh "build-$preset"
 done

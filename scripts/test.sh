@@ -4,4 +4,4 @@ set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 "$root/scripts/setup.sh" --tests
 "$root/scripts/build.sh" "$root/build" -DGALATEA_WERROR="${GALATEA_WERROR:-OFF}"
-ctest --test-dir "$root/build" --output-on-failure --parallel "$(nproc)" "$@"
+"$root/scripts/run_tests.sh" "$root/build" "$@"

@@ -94,6 +94,7 @@ int Once(srm::PhoneAligner& aligner, Options options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Finds when each phoneme of a recording is spoken");
+  app.set_version_flag("--version", "align (Galatea) " GALATEA_VERSION);
   app.add_option("wav", options.wav, "The recording (any format libsndfile reads)");
   app.add_option("-t,--text", options.text, "What is said in it; without it, phonemes are guessed");
   app.add_option("--text-file", options.text_file, "The same from a file");

@@ -44,7 +44,7 @@ class Screen {
 class FaceEditorTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!screen_.ready()) GTEST_SKIP() << "there is no Xvfb on this machine";
+    if (!screen_.ready()) GTEST_SKIP() << "needs Xvfb (Debian: xvfb)";
     folder_ = testing::TempDir() + "face_editor_XXXXXX";
     ASSERT_NE(mkdtemp(folder_.data()), nullptr);
   }

@@ -7,6 +7,7 @@
 #include "fsm/head/face_set.h"
 #include "fsm/mesh/gltf_writer.h"
 #include "tests/face_editor/editor_process.h"
+#include "tests/support/test_data.h"
 
 namespace {
 
@@ -71,10 +72,9 @@ TEST_F(EditorFilesTest, AHeadWithoutPointsSaysWhatItLacks) {
 }
 
 TEST_F(EditorFilesTest, AFaceOfAConfigurationOfTheOriginalIsShown) {
-  const char* named = std::getenv("GALATEA_ORIGINAL");
-  const std::string data =
-      (named ? std::string(named) : GALATEA_SOURCE_DIR "/../shared/data/galatea_fsm") + "/data";
-  if (!std::filesystem::exists(data + "/fheadv2.pnt")) GTEST_SKIP() << "no data of the original";
+  const auto original = support::Original();
+  if (!original.Has()) GTEST_SKIP() << original.Missing();
+  const std::string data = original / "data";
   std::ofstream(folder_ + "/config.txt")
       << "MaskFile anna " << DrawnPhoto() << " " << data << "/fheadv2.pnt\nMaskFile gone no.png "
       << data << "/fheadv2.pnt\nDEF_WFM_PNT " << data << "/fheadv2.pnt\nDEF_WFM_LNK " << data
@@ -201,7 +201,7 @@ TEST_F(EditorFilesTest, PhotosFromTheSideAreLookedAtAndUsed) {
 
 TEST_F(EditorFilesTest, AMouseAndKeyboardOfTheWindowSystemChooseAFile) {
   Process present({"xdotool", "version"}, {"", screen_.env()});
-  if (present.Wait() != 0) GTEST_SKIP() << "there is no xdotool on this machine";
+  if (present.Wait() != 0) GTEST_SKIP() << "needs xdotool (Debian: xdotool)";
   DrawnPhoto();
   program_ = Start({"--networks", "/nowhere", "--script", "-"});
   const auto xdo = [&](std::vector<std::string> words) {

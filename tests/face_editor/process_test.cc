@@ -54,7 +54,7 @@ TEST_F(FaceEditorTest, TheMousePostedMovesAPointAndUndoBringsItBack) {
 
 TEST_F(FaceEditorTest, AMouseOfTheWindowSystemMovesAPoint) {
   Process present({"xdotool", "version"}, {"", screen_.env()});
-  if (present.Wait() != 0) GTEST_SKIP() << "there is no xdotool on this machine";
+  if (present.Wait() != 0) GTEST_SKIP() << "needs xdotool (Debian: xdotool)";
   program_ = Start({DrawnPhoto(), "--script", "-"});
   Ask("reach 0");
   const std::string before = Ask("get point chin");

@@ -1,5 +1,5 @@
 // Photos with something drawn before the face. The photos are not part of the repository
-// (tests/face_fit/README.md); without them or the networks the tests are skipped.
+// (tests/README.md); without them or the networks the tests are skipped.
 
 #include "face_fit/find/cover.h"
 
@@ -15,6 +15,8 @@
 #include <optional>
 #include <string>
 
+#include "tests/support/test_data.h"
+
 namespace facefit {
 namespace {
 
@@ -29,10 +31,10 @@ using Drawing = std::function<glm::vec4(glm::vec2 place, glm::vec3 below)>;
 class CoverTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const char* named = std::getenv("GALATEA_PHOTOS");
-    folder_ = named ? named : std::string(GALATEA_SOURCE_DIR) + "/../shared/data/photos";
+    const auto photos = support::Photos();
     auto loaded = FaceNetworks::Load("");
-    if (!loaded || !std::filesystem::exists(folder_)) return;
+    missing_ = !photos.Has() ? photos.Missing() : !loaded ? loaded.error().text : "";
+    if (!missing_.empty()) return;
     networks_.emplace(std::move(*loaded));
     base_.emplace(BaseHead::See(*networks_, "galatea"));
   }
@@ -41,7 +43,7 @@ class CoverTest : public testing::Test {
     networks_.reset();
   }
   void SetUp() override {
-    if (!base_) GTEST_SKIP() << "no networks, or no photos in " << folder_;
+    if (!missing_.empty()) GTEST_SKIP() << missing_;
   }
 
   static FoundFace Find(const fsm::Image& photo) {
@@ -51,7 +53,7 @@ class CoverTest : public testing::Test {
   }
 
   static Cover Look(const std::string& name, const Drawing& drawing = {}) {
-    auto photo = ReadPhoto(folder_ + "/" + name);
+    auto photo = ReadPhoto(support::Photos() / name);
     EXPECT_TRUE(photo);
     if (!photo) return {};
     if (drawing) Draw(Find(*photo), drawing, *photo);
@@ -77,7 +79,7 @@ class CoverTest : public testing::Test {
     }
   }
 
-  static inline std::string folder_;
+  static inline std::string missing_;
   static inline std::optional<FaceNetworks> networks_;
   static inline std::optional<BaseHead> base_;
 };

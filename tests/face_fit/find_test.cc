@@ -10,21 +10,17 @@
 #include "face_fit/fit/fit.h"
 #include "fsm/head/table_reader.h"
 #include "tests/face_fit/network_fixture.h"
+#include "tests/support/test_data.h"
 
 namespace facefit {
 namespace {
 
-/// The photos are not part of the repository (tests/face_fit/README.md).
-std::string Photos() {
-  const char* named = std::getenv("GALATEA_PHOTOS");
-  return named ? named : std::string(GALATEA_SOURCE_DIR) + "/../shared/data/photos";
-}
-
 using FindTest = NetworkTest;
 
 TEST_F(FindTest, EyesChinAndCornersLieWhereTheyDoInThePhoto) {
-  const std::string path = Photos() + "/collins_nasa.png";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no photos in " << Photos();
+  const auto photos = support::Photos();
+  if (!photos.Has()) GTEST_SKIP() << photos.Missing();
+  const std::string path = photos / "collins_nasa.png";
   const auto photo = ReadPhoto(path);
   ASSERT_TRUE(photo) << photo.error().text;
   const auto faces = FindFaces(*networks_, *photo);
@@ -46,8 +42,9 @@ TEST_F(FindTest, AnEvenPictureHasNoFaceAndNoFigure) {
 }
 
 TEST_F(FindTest, APhotoThatLiesIsSetUpright) {
-  const std::string path = Photos() + "/collins_nasa.png";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no photos in " << Photos();
+  const auto photos = support::Photos();
+  if (!photos.Has()) GTEST_SKIP() << photos.Missing();
+  const std::string path = photos / "collins_nasa.png";
   const auto photo = ReadPhoto(path);
   ASSERT_TRUE(photo) << photo.error().text;
   EXPECT_EQ(UprightWay(*networks_, *photo), 1);
@@ -57,8 +54,9 @@ TEST_F(FindTest, APhotoThatLiesIsSetUpright) {
 }
 
 TEST_F(FindTest, InAGroupEveryFaceIsFound) {
-  const std::string path = Photos() + "/collins_nasa.png";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no photos in " << Photos();
+  const auto photos = support::Photos();
+  if (!photos.Has()) GTEST_SKIP() << photos.Missing();
+  const std::string path = photos / "collins_nasa.png";
   const auto one = ReadPhoto(path);
   ASSERT_TRUE(one) << one.error().text;
   constexpr int kAcross = 5, kDown = 2;

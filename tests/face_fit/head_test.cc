@@ -17,14 +17,10 @@
 #include "face_fit/find/head_finder.h"
 #include "fsm/mesh/obj_file.h"
 #include "tests/face_fit/network_fixture.h"
+#include "tests/support/test_data.h"
 
 namespace facefit {
 namespace {
-
-std::string Heads() {
-  const char* named = std::getenv("GALATEA_HEADS");
-  return named ? named : std::string(GALATEA_SOURCE_DIR) + "/../shared/data/heads";
-}
 
 /// A head by its points in our frame, with its own shapes as offsets of its vertices.
 struct Subject {
@@ -37,12 +33,12 @@ struct Subject {
 class HeadTest : public NetworkTest {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(Heads())) GTEST_SKIP() << "no heads in " << Heads();
+    if (const auto heads = support::Heads(); !heads.Has()) GTEST_SKIP() << heads.Missing();
     NetworkTest::SetUp();
   }
 
   Subject Read(const std::string& name) {
-    const std::string folder = Heads() + "/" + name;
+    const std::string folder = support::Heads() / name;
     const auto file = fsm::ReadHeadFile(folder + "/neutral.obj");
     EXPECT_TRUE(file) << file.error().text;
     const auto points = FindHeadPoints(*networks_, *file, name, "galatea");

@@ -8,17 +8,13 @@
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/mesh/shape_mix.h"
+#include "tests/support/test_data.h"
 
 namespace fsm {
 namespace {
 
 /// The original's own data are not part of the repository (docs/heads.md).
-std::string Data() {
-  const char* named = std::getenv("GALATEA_ORIGINAL");
-  return (named ? std::string(named)
-                : std::string(GALATEA_SOURCE_DIR) + "/../shared/data/galatea_fsm") +
-         "/data";
-}
+std::string Data() { return support::Original() / "data"; }
 
 Image Grey() { return {.width = 8, .height = 8, .rgba = std::vector<std::uint8_t>(256, 128)}; }
 
@@ -139,7 +135,7 @@ TEST(ShapeMixTest, WhatNoKeyExplainsIsGivenBack) {
 class StandardFaceTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(Data() + "/fheadv2.pnt")) GTEST_SKIP() << "no data in " << Data();
+    if (const auto data = support::Original(); !data.Has()) GTEST_SKIP() << data.Missing();
     const std::string picture = testing::TempDir() + "/mesh_original_test.png";
     ASSERT_TRUE(WriteImage(Grey(), picture));
     auto face = ReadOriginalFace(

@@ -386,7 +386,7 @@ TEST(ContextTest, OsMesaAndEglDrawTheSame) {
   try {
     other = RenderContext::MakeHeadless(kWidth, kHeight, OffScreen::kEgl);
   } catch (const std::runtime_error& error) {
-    GTEST_SKIP() << error.what();
+    GTEST_SKIP() << "needs EGL (Debian: libegl1, libegl-dev): " << error.what();
   }
   BallHead head;
   HeadVertices vertices;

@@ -68,7 +68,7 @@ class VirtualScreen {
 
 TEST(WindowTest, WindowAndHeadlessContextInOneProcessShowTheSamePicture) {
   const VirtualScreen screen;
-  if (!screen.ready()) GTEST_SKIP() << "there is no Xvfb on this machine";
+  if (!screen.ready()) GTEST_SKIP() << "needs Xvfb (Debian: xvfb)";
 #ifdef FSM_LEAK_CHECK
   // The window system's driver is unloaded with what it forgot, so that no name is left for a
   // suppression to match.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # units.sh UNITS_FOLDER PROGRAMS_FOLDER: what systemd says of the example units. 77: no systemd here.
 set -euo pipefail
-command -v systemd-analyze >/dev/null || { echo "no systemd-analyze here"; exit 77; }
+command -v systemd-analyze >/dev/null || { echo "needs systemd-analyze (Debian: systemd)"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for unit in "$1"/*.service; do

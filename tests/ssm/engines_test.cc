@@ -183,7 +183,9 @@ TEST(OpenJtalkTest, AFileThatIsNoVoiceIsRefused) {
 class EspeakTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (access(kHelper, X_OK) != 0) GTEST_SKIP() << "ssm_espeak is not built (libespeak-ng-dev)";
+    if (access(kHelper, X_OK) != 0)
+      GTEST_SKIP()
+          << "needs ssm_espeak, which is built where there is espeak-ng (Debian: libespeak-ng-dev)";
     engine_ = ssm::MakeEspeakEngine({.helper = kHelper});
   }
   static constexpr const char* kHelper = GALATEA_BIN_DIR "/ssm_espeak";

@@ -18,6 +18,7 @@
 #include "ssm/engines/wav_piece.h"
 #include "ssm/voice/pitch_track.h"
 #include "tests/ssm/spoken.h"
+#include "tests/support/test_data.h"
 
 namespace {
 
@@ -26,10 +27,8 @@ using ssm::Millis;
 constexpr double kPitch = 0.8, kStretch = 1.5, kLoudness = 0.6;
 const std::string kText = "今日は良い天気ですね。";
 
-std::string Named() {
-  const char* named = std::getenv("GALATEA_HTSVOICE");
-  return named ? named
-               : std::string(GALATEA_SOURCE_DIR) + "/../shared/data/voices/mei/mei_normal.htsvoice";
+support::TestData Voice() {
+  return {"an HTS voice file", "GALATEA_HTSVOICE", "voices/mei/mei_normal.htsvoice"};
 }
 
 std::string Bytes(const std::string& path) {
@@ -90,18 +89,16 @@ struct Heard {
 class HtsEngineTest : public testing::Test {
  protected:
   void SetUp() override {
-    if (access(Named().c_str(), R_OK) != 0) {
-      GTEST_SKIP() << "no voice file '" << Named() << "' (GALATEA_HTSVOICE names another)";
-    }
-    std::ofstream(changed_, std::ios::binary) << Changed(Bytes(Named()));
+    if (const auto voice = Voice(); !voice.Has()) GTEST_SKIP() << voice.Missing();
+    std::ofstream(changed_, std::ios::binary) << Changed(Bytes(Voice().path()));
     if (auto good = ssm::CheckOpenJtalkDictionary({}); !good) GTEST_SKIP() << good.error().text;
     auto engine = Make(changed_);
     ASSERT_TRUE(engine) << engine.error().text;
     engine_ = std::move(*engine);
   }
   vm::Result<std::unique_ptr<ssm::SpeechEngine>> Make(const std::string& happy) const {
-    return ssm::MakeHtsEngine(
-        {.analysis = {.name = "mei", .voice_file = Named()}, .emotions = {{"HAPPY", happy}}});
+    return ssm::MakeHtsEngine({.analysis = {.name = "mei", .voice_file = Voice().path()},
+                               .emotions = {{"HAPPY", happy}}});
   }
   /// As the voice module asks for an emotion.
   static ssm::SpeechSpan Feeling(const std::string& emotion, double strength) {
@@ -151,7 +148,7 @@ TEST_F(HtsEngineTest, StrengthMovesTheVoiceFromOneFileToTheOther) {
 }
 
 TEST_F(HtsEngineTest, ItsOwnVoiceIsThatOfTheProgram) {
-  auto program = ssm::MakeOpenJtalkEngine({.name = "mei", .voice_file = Named()});
+  auto program = ssm::MakeOpenJtalkEngine({.name = "mei", .voice_file = Voice().path()});
   ASSERT_TRUE(program);
   const Heard theirs = Hear(**program, {.text = kText}), ours = Hear(*engine_, {.text = kText});
   EXPECT_EQ(vm::FormatPhonemesVoice(ours.phonemes), vm::FormatPhonemesVoice(theirs.phonemes));
@@ -193,7 +190,7 @@ TEST_F(HtsEngineTest, SoundIsNotMadeForWhatWasStopped) {
 }
 
 TEST_F(HtsEngineTest, VoiceFilesThatAreNoneOrDoNotFitAreRefused) {
-  const std::string good = Bytes(Named());
+  const std::string good = Bytes(Voice().path());
   EXPECT_NE(ErrorOf("nonsense").find("is no voice file, expected it to begin [GLOBAL]"),
             std::string::npos);
   EXPECT_NE(ErrorOf(good.substr(0, good.size() / 2)).find("bytes of data"), std::string::npos);

@@ -82,7 +82,7 @@ TEST(FaultTest, AModuleThatSendsGarbageDisturbsNobody) {
 
 TEST(FaultTest, AVoiceThatNeverAnswersEndsInOneReport) {
   const std::string deaf = "import sys; print('rep Run = LIVE', flush=True); sys.stdin.read()";
-  Stack stack("real",
+  Stack stack("virtual",
               {{"SSM", {"/usr/bin/env", "python3", "-c", deaf}, ", \"dialect\": \"original\""},
                stack::Face()});
   stack.Say("to @AM-MCL set#said Speak = papa");

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Runs the tests of a build and says in one line at the end how many were skipped and what they need;
+# ends as ctest does:  scripts/run_tests.sh BUILD_FOLDER [ctest options...]
+set -euo pipefail
+build=$(cd "$1" && pwd)
+shift
+report=$build/Testing/report.xml
+rm -f "$report"
+status=0
+ctest --test-dir "$build" --output-on-failure --parallel "$(nproc)" --output-junit "$report" \
+  --test-output-size-passed 100000 "$@" || status=$?
+[ ! -f "$report" ] || python3 - "$report" <<'PY'
+import collections, re, sys
+import xml.etree.ElementTree as xml
+
+needs = collections.Counter()
+for test in xml.parse(sys.argv[1]).iter("testcase"):
+    said = test.findtext("system-out") or ""
+    # A GoogleTest says why after "FILE:LINE: Skipped", a script is skipped by its exit status.
+    reasons = re.findall(r"^\S+:\d+: Skipped\n(.*)", said, re.MULTILINE)
+    if not reasons and test.find("skipped") is not None:
+        reasons = said.strip().splitlines()[-1:] or ["no reason given"]
+    needs.update(reason.strip() or "no reason given" for reason in reasons[:1])
+if needs:
+    listed = "; ".join(f"{count}: {reason}" for reason, count in needs.most_common())
+    print(f"tests: {sum(needs.values())} skipped: {listed}", file=sys.stderr)
+PY
+exit "$status"
