@@ -57,6 +57,7 @@ AgentManager::AgentManager(Config config, Options options)
       hub_(clock_, log_),
       slots_("AM"),
       macros_(clock_, hub_, ReadFile, [](const std::string& path) { std::remove(path.c_str()); }),
+      parallel_(clock_, hub_),
       supervisor_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& module, const OutputLine& line) {
@@ -83,7 +84,7 @@ AgentManager::AgentManager(Config config, Options options)
                         if (mqtt_ != nullptr) mqtt_->Want(name);
                       },
                   .on_flow = [this](PeerKey peer, bool on) { Watch(peer, on); }}),
-      hub_machines_(hub_, slots_, macros_, ReadFile),
+      hub_machines_(hub_, slots_, macros_, parallel_, ReadFile),
       listeners_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& text) { Refused(text); }),
@@ -123,6 +124,7 @@ void AgentManager::ConnectParts() {
   hub_.set_on_notice([this](const std::string& text, PeerKey about) { SayError(text, about); });
   hub_.set_on_report([this](const std::string& from, const vm::Message& message) {
     macros_.OnReport(from, message);
+    parallel_.OnReport(from, message);
   });
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
     if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
@@ -137,7 +139,8 @@ void AgentManager::ConnectParts() {
   });
   hub_.AddMachine(slots_);
   hub_.AddMachine(macros_.slots(), {"FS-MCL"});
-  for (auto* const machine : {&slots_, &macros_.slots()}) {
+  hub_.AddMachine(parallel_.slots(), {}, true);
+  for (auto* const machine : {&slots_, &macros_.slots(), &parallel_.slots()}) {
     machine->set_on_error([this](vm::PeerId peer, const std::string& line, const vm::Error& error) {
       if (error.code == vm::Errc::kStopped) return;  // somebody's wish, not a fault
       SayError("error: " + vm::FormatError(error) + (line.empty() ? "" : " (in: " + line + ")"),
@@ -160,7 +163,7 @@ void AgentManager::LoadBuiltInMacros() {
 
 std::string AgentManager::SlotsMarkdown() {
   return "### @AM\n\n" + slots_.DocsMarkdown() + "\n### @AM-MCL, @FS-MCL\n\n" +
-         macros_.slots().DocsMarkdown();
+         macros_.slots().DocsMarkdown() + "\n### @PAR\n\n" + parallel_.slots().DocsMarkdown();
 }
 
 void AgentManager::Say(const std::string& text) const {
@@ -181,6 +184,7 @@ void AgentManager::Refused(const std::string& text) {
 }
 
 void AgentManager::Apply(const Config& config) {
+  for (const std::string& note : config.notes) Say(note);
   // What can fail comes first, and changes nothing.
   std::vector<Macro> macros;
   for (const auto& [name, text] : config.macros) {
@@ -363,7 +367,8 @@ bool AgentManager::Started() const {
 }
 
 bool AgentManager::SomethingGoesOn() const {
-  if (macros_.Busy() || hub_.HasHeld() || !hub_.idle() || (replay_ && replay_->pending() > 0))
+  if (macros_.Busy() || parallel_.Busy() || hub_.HasHeld() || !hub_.idle() ||
+      (replay_ && replay_->pending() > 0))
     return true;
   return clock_.real() ? !quiet_.quiet() : lockstep_.Busy();
 }

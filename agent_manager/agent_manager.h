@@ -93,6 +93,7 @@ class AgentManager {
   Hub hub_;
   vm::SlotMachine slots_;
   MacroLayer macros_;
+  Parallel parallel_;
   Supervisor supervisor_;
   Console console_;
   HubSlots hub_slots_;

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "agent_manager/agent_manager.h"
+#include "agent_manager/config/am_conf.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace {
@@ -45,7 +46,8 @@ int main(int argc, char** argv) {
   std::string web;
   bool no_console = false;
   am::AgentManager::Options options;
-  app.add_option("--config,-C", config_path, "Configuration (JSON, docs/configuration.md)");
+  app.add_option("--config,-C", config_path,
+                 "Configuration (JSON, or the original's am.conf; docs/configuration.md)");
   app.add_option("--log", log, "Write every message to this file");
   app.add_option("--clock", clock, "real or virtual (overrides the configuration)")
       ->check(CLI::IsMember({"real", "virtual"}));
@@ -72,7 +74,9 @@ int main(int argc, char** argv) {
         const std::string folder = std::filesystem::path(config_path).parent_path().string();
         const auto text = vm::ReadTextFile(config_path, kMaxFileBytes);
         if (!text) return std::unexpected(text.error());
-        auto parsed = am::ParseConfig(*text, config_path, folder.empty() ? "." : folder);
+        auto parsed = am::IsAmConf(*text)
+                          ? am::ParseAmConf(*text, config_path)
+                          : am::ParseConfig(*text, config_path, folder.empty() ? "." : folder);
         if (!parsed) return parsed;
         config = std::move(*parsed);
       }

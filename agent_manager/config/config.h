@@ -113,6 +113,7 @@ struct Config {
   LogConfig log;
   WebConfig web;
   MqttConfig mqtt;
+  std::vector<std::string> notes;             ///< for people: what was passed over and why
   std::map<std::string, std::string> macros;  ///< name -> steps, as JSON text
   std::chrono::milliseconds start_limit{
       3000};  ///< for a module to answer to Clock, before it counts as original

@@ -47,7 +47,8 @@ bool IsPlainName(std::string_view name) {
 }
 
 Result<Peer*> Directory::Add(std::unique_ptr<Peer>& peer) {
-  if (names_.contains(peer->name) || machines_.contains(peer->name))
+  if (names_.contains(peer->name) ||
+      (machines_.contains(peer->name) && !replaceable_.contains(peer->name)))
     return Fail(Errc::kBusy, "the name @" + peer->name + " is taken");
   Peer* const added = peer.get();
   peers_.emplace(added->key, std::move(peer));
@@ -103,14 +104,17 @@ std::vector<std::string> Directory::Names() const {
   return names;
 }
 
-void Directory::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases) {
+void Directory::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases,
+                           bool replaceable) {
+  if (replaceable) replaceable_.insert(machine.module_name());
   machines_[machine.module_name()] = &machine;
   for (std::string& alias : aliases) machines_[std::move(alias)] = &machine;
 }
 
 vm::SlotMachine* Directory::Machine(std::string_view name) const {
   const auto found = machines_.find(name);
-  return found == machines_.end() ? nullptr : found->second;
+  if (found == machines_.end()) return nullptr;
+  return replaceable_.contains(name) && names_.contains(name) ? nullptr : found->second;
 }
 
 std::vector<vm::SlotMachine*> Directory::Machines() const {

@@ -33,7 +33,9 @@ class Directory {
   const std::map<PeerKey, std::unique_ptr<Peer>>& peers() const { return peers_; }
   std::vector<std::string> Names() const;  ///< of peers, sorted
 
-  void AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases);
+  /// `replaceable`: a peer may take its name, and then its place.
+  void AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases, bool replaceable);
+  /// Null also while a peer has taken its place.
   vm::SlotMachine* Machine(std::string_view name) const;
   /// Each machine once.
   std::vector<vm::SlotMachine*> Machines() const;
@@ -50,6 +52,7 @@ class Directory {
   std::map<PeerKey, std::unique_ptr<Peer>> peers_;
   std::unordered_map<std::string, Peer*, Hash, std::equal_to<>> names_;
   std::map<std::string, vm::SlotMachine*, std::less<>> machines_;  // by every name of theirs
+  std::set<std::string, std::less<>> replaceable_;
   std::set<std::string> reserved_;
 };
 

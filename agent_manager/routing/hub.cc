@@ -159,8 +159,8 @@ void Hub::Blame(PeerKey key, const char* what) {
   outbox_.Complain(*peer, error);
 }
 
-void Hub::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases) {
-  directory_.AddMachine(machine, std::move(aliases));
+void Hub::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases, bool replaceable) {
+  directory_.AddMachine(machine, std::move(aliases), replaceable);
   machine.set_output([this, name = machine.module_name()](PeerKey to, const Message& said) {
     router_.FromMachine(name, to, said);
   });

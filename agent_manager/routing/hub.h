@@ -47,7 +47,9 @@ class Hub {
   void Post(std::function<void()> act) { queue_.Post(std::move(act)); }
 
   /// A machine inside the hub that is addressed like a module. Borrowed; outlives the hub's use.
-  void AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases = {});
+  /// `replaceable`: a module of that name may take its place.
+  void AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases = {},
+                  bool replaceable = false);
   /// Says something as the hub's own machine `sender`, on behalf of `origin`; `done` is called from
   /// the queue with the answer.
   void Ask(const std::string& sender, vm::Message message, OnAnswer done,

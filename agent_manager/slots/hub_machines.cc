@@ -9,9 +9,13 @@ using vm::Message;
 using vm::Relation;
 using vm::Result;
 
-HubMachines::HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros,
+HubMachines::HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros, Parallel& parallel,
                          LineScripts::ReadFile read_file)
-    : hub_(hub), am_(am), macros_(macros), scripts_(hub, std::move(read_file)) {
+    : hub_(hub),
+      am_(am),
+      macros_(macros),
+      parallel_(parallel),
+      scripts_(hub, std::move(read_file)) {
   hub_.set_on_machine([this](vm::SlotMachine& machine, const Envelope& envelope) {
     return Take(machine, envelope);
   });
@@ -43,8 +47,13 @@ Result<Router::Taken> HubMachines::Take(vm::SlotMachine& machine, const Envelope
     if (!done) return std::unexpected(done.error());
     return Router::Taken{true, std::move(*done)};
   }
-  if (&machine != &macros_.slots()) return Router::Taken{};
-  macros_.Handle(envelope);
+  if (&machine == &parallel_.slots()) {
+    parallel_.Handle(envelope);
+  } else if (&machine == &macros_.slots()) {
+    macros_.Handle(envelope);
+  } else {
+    return Router::Taken{};
+  }
   return Router::Taken{.taken = true};
 }
 

@@ -2,16 +2,18 @@
 
 #include "agent_manager/macros/line_scripts.h"
 #include "agent_manager/macros/macro_layer.h"
+#include "agent_manager/macros/parallel.h"
 #include "agent_manager/routing/hub.h"
 
 namespace am {
 
-/// What reaches the hub's own machines, @AM and @AM-MCL: whether the files it names may be named,
-/// and `do`, whose lines go through the hub like any other. Thread: the scheduler's. All that it is
-/// given outlives it.
+/// What reaches the hub's own machines, @AM, @AM-MCL and @PAR: whether the files it names may be
+/// named, and `do`, whose lines go through the hub like any other. Thread: the scheduler's. All
+/// that it is given outlives it.
 class HubMachines {
  public:
-  HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros, LineScripts::ReadFile read_file);
+  HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros, Parallel& parallel,
+              LineScripts::ReadFile read_file);
 
  private:
   vm::Result<Router::Taken> Take(vm::SlotMachine& machine, const Envelope& envelope);
@@ -21,6 +23,7 @@ class HubMachines {
   Hub& hub_;
   vm::SlotMachine& am_;
   MacroLayer& macros_;
+  Parallel& parallel_;
   LineScripts scripts_;
 };
 

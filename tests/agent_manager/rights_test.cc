@@ -51,7 +51,8 @@ class RightsTest : public testing::Test {
       : am_("AM"),
         macros_(world_.clock, world_.hub, Read,
                 [this](const std::string& path) { removed_.push_back(path); }),
-        machines_(world_.hub, am_, macros_, Read) {
+        parallel_(world_.clock, world_.hub),
+        machines_(world_.hub, am_, macros_, parallel_, Read) {
     world_.hub.AddMachine(am_);
     world_.hub.AddMachine(macros_.slots(), {"FS-MCL"});
     world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
@@ -80,6 +81,7 @@ class RightsTest : public testing::Test {
   World world_;
   vm::SlotMachine am_;
   MacroLayer macros_;
+  Parallel parallel_;
   HubMachines machines_;
   std::shared_ptr<World::Peer> module_;
   std::map<Role, std::shared_ptr<World::Peer>> peers_;

@@ -59,7 +59,8 @@ class WebTest : public testing::Test {
     } else {
       const bool wide = text.size() > 0xffff;
       frame += static_cast<char>(0x80 | (wide ? 127 : 126));
-      for (int i = wide ? 7 : 1; i >= 0; --i) frame += static_cast<char>(text.size() >> (8 * i) & 0xff);
+      for (int i = wide ? 7 : 1; i >= 0; --i)
+        frame += static_cast<char>(text.size() >> (8 * i) & 0xff);
     }
     return frame + std::string(4, '\0') + text;
   }
