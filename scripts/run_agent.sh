@@ -71,11 +71,36 @@ if [[ $emotion == *" "* ]] && { ! [[ ${emotion#* } =~ ^[0-9]{1,3}$ ]] || [ "${em
   fail "--emotion '$emotion': the strength is a number from 0 to 100"
 fi
 
+# Builds the programs. The first time that takes minutes, so it tells how far it is: at a terminal in one line that
+# changes, else in a line every half minute.
+build() {
+  local log line done total seconds left shown=-30 lines="\n"
+  log=$(mktemp)
+  while IFS= read -r line; do
+    echo "$line" >>"$log"
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\ +([0-9]+)[0-9.]*\]\ (.*)$ ]] || continue
+    done=${BASH_REMATCH[1]} total=${BASH_REMATCH[2]} seconds=${BASH_REMATCH[3]} line=${BASH_REMATCH[4]##* }
+    [ "$done" -gt 0 ] || continue
+    [ ! -t 2 ] && [ $((seconds - shown)) -lt 30 ] && continue
+    shown=$seconds
+    left=""
+    [ "$seconds" -lt 10 ] || left=", about $((seconds * (total - done) / done / 60 + 1)) min left"
+    [ ! -t 2 ] || lines="\r\033[K"
+    printf "run_agent: building, %d of %d: %s%s$lines" "$done" "$total" "${line%%/CMakeFiles/*}" "$left" >&2
+  done < <(NINJA_STATUS='[%f/%t %e] ' "$root/scripts/build.sh" --programs </dev/null 2>&1 || echo "build.sh: failed")
+  [ ! -t 2 ] || [ "$shown" -lt 0 ] || printf '\r\033[K' >&2
+  if [ "$(tail -n 1 "$log")" = "build.sh: failed" ]; then
+    cat "$log" >&2
+    rm -f "$log"
+    fail "the build failed"
+  fi
+  rm -f "$log"
+}
+
 cd "$root"
 # What is typed meanwhile is for the agent: nothing before it reads it.
 "$root/scripts/setup.sh" </dev/null
-"$root/scripts/build.sh" --programs </dev/null >/tmp/galatea-build.$$ 2>&1 || { cat /tmp/galatea-build.$$ >&2; rm -f /tmp/galatea-build.$$; fail "the build failed"; }
-rm -f /tmp/galatea-build.$$
+build
 
 # A display counts only if a window can really be opened on it.
 has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$root/build/bin/fsm" --window --slots-markdown </dev/null >/dev/null 2>&1; }
@@ -101,7 +126,7 @@ trap cleanup EXIT
 if [ -n "$photo" ]; then
   "$root/scripts/face_networks.sh" </dev/null
   export GALATEA_FACES=$work/faces
-  "$root/build/bin/face_fit" "$photo" --name photo </dev/null >&2 || fail "no face could be made from the photo"
+  "$root/build/bin/face_fit" "$photo" --name photo </dev/null | sed '/^face_fit: wrote /d' >&2 || fail "no face could be made from the photo"
 fi
 if [ -z "$config" ]; then
   config=$work/agent.json

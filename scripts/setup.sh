@@ -4,20 +4,19 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build pkg-config ccache git python3
+  g++ cmake ninja-build pkg-config ccache python3
   libboost1.81-dev libcli11-dev nlohmann-json3-dev libfmt-dev libglm-dev
-  libssl-dev openssl zlib1g-dev libmosquitto-dev mosquitto mosquitto-clients
+  libssl-dev zlib1g-dev libmosquitto-dev
   duktape-dev libpcre2-dev libexpat1-dev libcurl4-openssl-dev
-  libgtest-dev libbenchmark-dev
   libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev fonts-dejavu-core libgl-dev libpng-dev libjpeg-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev
   libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic libhtsengine-dev
-  libpocketsphinx-dev pocketsphinx-en-us pocketsphinx-testdata libspeexdsp-dev libtinyxml2-dev
-  xvfb xdotool iproute2
+  libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev libtinyxml2-dev
 )
-
-# A browser for the tests of the hub's page.
-[ "${1:-}" != --tests ] || packages+=(chromium-headless-shell)
+# The framework, servers, screens, a browser and recordings for the tests.
+[ "${1:-}" != --tests ] || packages+=(
+  libgtest-dev openssl mosquitto mosquitto-clients iproute2 xvfb xdotool chromium-headless-shell pocketsphinx-testdata
+)
 
 missing=()
 for package in "${packages[@]}"; do

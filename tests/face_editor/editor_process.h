@@ -54,6 +54,7 @@ class FaceEditorTest : public testing::Test {
 
   std::unique_ptr<Process> Start(std::vector<std::string> options) {
     std::vector<std::string> argv{GALATEA_BIN_DIR "/face_editor"};
+    if (!size_.empty()) argv.insert(argv.end(), {"--size", size_});
     argv.insert(argv.end(), options.begin(), options.end());
     auto env = screen_.env();
     env.push_back("GALATEA_FACES=" + folder_ + "/faces");
@@ -113,6 +114,8 @@ class FaceEditorTest : public testing::Test {
     return "no answer: " + program_->ErrorText();
   }
 
+  /// Of the window; drawing one as large as it usually is (empty) takes three times as long.
+  std::string size_ = "800x600";
   Screen screen_;
   std::string folder_;
   std::vector<std::string> env_;

@@ -40,6 +40,7 @@ class EditorFilesTest : public FaceEditorTest {
 };
 
 TEST_F(EditorFilesTest, AHeadFromElsewhereIsShownAndMovedByUnits) {
+  size_ = "";
   const std::string head = WriteHead();
   ASSERT_EQ(RunScript(Lines({"page units", "wait", Shoot("rest.png"), "set AU 26 100",
                              Shoot("open.png"), "set row 26 1 degrees 2", Shoot("little.png"),

@@ -28,25 +28,21 @@ TEST_F(FaceEditorTest, WithoutAScreenOneSentenceSaysSo) {
 }
 
 TEST_F(FaceEditorTest, TheMousePostedMovesAPointAndUndoBringsItBack) {
-  const std::string photo = DrawnPhoto();
-  ASSERT_EQ(
-      RunScript("open " + photo + "\npage points\nreach 0\nget point chin\nwhere chin\nquit\n"), 0)
-      << program_->ErrorText();
-  std::istringstream lines(Output());
-  std::string before, where;
-  std::getline(lines, before);
-  std::getline(lines, where);
-  const glm::vec2 at = PlaceIn(where);
-  std::ostringstream script;
-  script << "open " << photo << "\npage points\nreach 0\n"
-         << "mouse drag " << at.x << " " << at.y << " " << at.x << " " << at.y + 30 << "\n"
-         << "get point chin\nkey ctrl+z\nget point chin\nclick Redo\nget point chin\nquit\n";
-  ASSERT_EQ(RunScript(script.str()), 0) << program_->ErrorText();
-  std::istringstream after(Output());
-  std::string moved, undone, redone;
-  std::getline(after, moved);
-  std::getline(after, undone);
-  std::getline(after, redone);
+  program_ = Start({DrawnPhoto(), "--script", "-"});
+  Ask("page points");
+  Ask("reach 0");
+  const std::string before = Ask("get point chin");
+  const glm::vec2 at = PlaceIn(Ask("where chin"));
+  std::ostringstream drag;
+  drag << "mouse drag " << at.x << " " << at.y << " " << at.x << " " << at.y + 30;
+  Ask(drag.str());
+  const std::string moved = Ask("get point chin");
+  Ask("key ctrl+z");
+  const std::string undone = Ask("get point chin");
+  Ask("click Redo");
+  const std::string redone = Ask("get point chin");
+  program_->WriteLine("quit");
+  EXPECT_EQ(program_->Wait(kLong), 0) << program_->ErrorText();
   EXPECT_GT(PlaceIn(moved).y, PlaceIn(before).y + 3) << before << " -> " << moved;
   EXPECT_EQ(undone, before);
   EXPECT_EQ(redone, moved);
@@ -116,6 +112,7 @@ TEST_F(FaceEditorTest, WithoutTheNetworksPointsAreSetByHand) {
 }
 
 TEST_F(FaceEditorTest, EveryPageIsDrawn) {
+  size_ = "";
   std::string script = "open " + DrawnPhoto() + "\nwait\n";
   for (const char* page :
        {"points", "units", "fields", "expressions", "mouth", "motions", "identity"}) {
@@ -134,6 +131,7 @@ TEST_F(FaceEditorTest, EveryPageIsDrawn) {
 }
 
 TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
+  size_ = "";
   const std::string shot = "screenshot " + folder_ + "/";
   const std::string script =
       "page fields\nwait\nchoose unit 28\nclick unit\nclick 29 Jaw thrust\nget rows 29\n"
@@ -168,6 +166,7 @@ TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
 }
 
 TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {
+  size_ = "";
   ASSERT_EQ(RunScript("page expressions\nclick expression\nclick SAD\nclick 2\nclick Remove\n"
                       "get expression SAD 2\nclick Undo\nget expression SAD 2\n"
                       "page units\nclick AU 12L\nget look\n"
