@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "vm_protocol/core/charset.h"
+
 namespace vm {
 namespace {
 
@@ -28,6 +30,46 @@ TEST(EncodingTest, KnowsTheNamesInAnyCase) {
   EXPECT_EQ(ParseEncoding("Shift_JIS"), Encoding::kShiftJis);
   EXPECT_EQ(ParseEncoding("utf-8"), Encoding::kUtf8);
   EXPECT_FALSE(ParseEncoding("latin1"));
+}
+
+// 髙 (FB FC) and ① (87 40) are signs of IBM and NEC, which plain Shift_JIS lacks; ｱ is B1.
+TEST(EncodingTest, ShiftJisMeansTheSupersetOfPcs) {
+  EXPECT_EQ(ToUtf8("\xfb\xfc\x87\x40\xb1", Encoding::kShiftJis), "髙①ｱ");
+  EXPECT_EQ(FromUtf8("髙①ｱ", Encoding::kShiftJis), "\xfb\xfc\x87\x40\xb1");
+  EXPECT_EQ(DecodeCharset("\x87\x40", "Shift_JIS"), "①");
+}
+
+TEST(EncodingTest, ACharsetWithStatesIsLeftInItsFirst) {
+  EXPECT_EQ(EncodeCharset("あ", "ISO-2022-JP"), "\x1b$B$\"\x1b(B");
+  EXPECT_EQ(DecodeCharset("\x1b$B$\"\x1b(B", "ISO-2022-JP"), "あ");
+  EXPECT_EQ(DecodeCharset("x", "bogus").error().code, Errc::kBadValue);
+  EXPECT_EQ(DecodeCharset("\xa4", "EUC-JP").error().code, Errc::kBadUtf8) << "half a character";
+}
+
+TEST(EncodingTest, ALineThatIsNotUtf8IsRecognisedByWhatItWouldSay) {
+  for (const auto* text : {"set Text = こんにちは", "set Text = 今日は、いい天気です。",
+                           "set Text = カタカナ", "set Text = 東京", "rep Voice = 男性１"}) {
+    for (const Encoding encoding : {Encoding::kEucJp, Encoding::kShiftJis}) {
+      const std::string line = FromUtf8(text, encoding);
+      EXPECT_EQ(RecogniseEncoding(line), encoding) << text;
+    }
+  }
+  for (const auto* garbage : {"\xff\xfe", "set Text = \x80", "a\xa0", "\xfd\xfd\xfd"})
+    EXPECT_EQ(RecogniseEncoding(garbage), Encoding::kUtf8) << "none of them";
+}
+
+TEST(EncodingTest, APeerIsRememberedInTheEncodingItSpokeFirst) {
+  PeerEncoding original(Encoding::kUtf8);
+  EXPECT_TRUE(original.IsPlain("inq Run"));
+  EXPECT_FALSE(original.IsPlain("def A = \xa4\xa2"));
+  EXPECT_EQ(original.Read("def A = \xa4\xa2"), "def A = あ");
+  EXPECT_EQ(original.encoding(), Encoding::kEucJp);
+  EXPECT_FALSE(original.IsPlain("inq A"));
+
+  PeerEncoding modern(Encoding::kUtf8);
+  EXPECT_TRUE(modern.IsPlain("def A = あ"));
+  EXPECT_TRUE(modern.IsPlain("def A = \xa4\xa2")) << "one bad line does not change it";
+  EXPECT_EQ(modern.encoding(), Encoding::kUtf8);
 }
 
 }  // namespace

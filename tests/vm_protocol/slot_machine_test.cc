@@ -7,6 +7,7 @@
 
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/module.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace vm {
 namespace {
@@ -149,7 +150,8 @@ TEST(ReplyTest, AReplyMayOutliveItsMachine) {
 }
 
 TEST_F(SlotMachineTest, ListsAndExplainsItself) {
-  EXPECT_EQ(Say("inq Slots"), Strings{"1:rep Slots = Slots Error Volume State Play Mask Later"});
+  EXPECT_EQ(Say("inq Slots"),
+            Strings{"1:rep Slots = Slots Slots.files Error Volume State Play Mask Later"});
   EXPECT_EQ(Say("inq Volume.help"),
             Strings{"1:rep Volume.help = Loudness in %. Value: <number 0..200>"});
   EXPECT_EQ(Say("inq Volume.prop"),
@@ -179,7 +181,7 @@ TEST_F(SlotMachineTest, ShortcutsStandForWholeLines) {
 TEST_F(SlotMachineTest, WhatItSaysAlwaysFitsALine) {
   slots_.Report("State", std::string(2 * kMaxLineBytes, 'x'));
   ASSERT_EQ(said_.size(), 1u);
-  EXPECT_LE(said_[0].size(), kMaxLineBytes + 2);
+  EXPECT_LE(said_[0].size(), kMaxLineBytes + 2) << "two bytes of it are the test's";
 }
 
 TEST_F(SlotMachineTest, ReportsOfOthersAreNotForIt) {
@@ -200,6 +202,84 @@ TEST_F(SlotMachineTest, EveryModuleHasTheCommonSlots) {
   EXPECT_EQ(Say("set#1 Run = EXIT"), (Strings{"0:rep Run = EXIT", "1:rep#1 Run = EXIT"}));
   EXPECT_TRUE(ended);
   EXPECT_EQ(Say("set#2 Run = INIT")[0].substr(0, 34), "1:rep#2 Run.error = BAD_VALUE colu");
+}
+
+TEST_F(SlotMachineTest, SaysWhichOfItsSlotsTakeFiles) {
+  EXPECT_EQ(Say("inq Slots.files"), Strings{"1:rep Slots.files = "});
+  slots_.Declare({.name = "Save", .grammar = "<file> | STOP", .access = Access::kWriteOnly});
+  slots_.Declare({.name = "Log", .grammar = "<file>", .access = Access::kReadOnly});
+  slots_.Declare({.name = "Film", .grammar = "<int> <file>"});
+  EXPECT_EQ(Say("inq Slots.files"),
+            Strings{"1:rep Slots.files = Save <file> | STOP; Film <int> <file>"});
+}
+
+TEST_F(SlotMachineTest, ALongAnswerEndsBetweenTwoSignsAndLeavesRoomForAHub) {
+  std::string kana;
+  while (kana.size() < 2 * kMaxLineBytes) kana += "あ";
+  slots_.Report("State", kana);
+  ASSERT_EQ(said_.size(), 1u);
+  const std::string line = said_[0].substr(2);
+  EXPECT_FALSE(FirstBadUtf8(line));
+  EXPECT_LE(line.size() + std::string("From @ ").size() + kMaxModuleNameBytes, kMaxLineBytes);
+  EXPECT_TRUE(ParseMessage(line));
+}
+
+TEST_F(SlotMachineTest, WhatIsNoTextIsNeverSaid) {
+  slots_.Report("State", "a\r\nb\xff");
+  EXPECT_EQ(said_, Strings{"0:rep State = a  b\xef\xbf\xbd"});
+}
+
+TEST_F(SlotMachineTest, ATaggedLineThatCannotBeReadIsAnsweredWithItsTag) {
+  EXPECT_EQ(Say("set#7 Volume 50"),
+            Strings{"1:rep#7 Error = SYNTAX column 14: found '50', expected '=', '<' or '<<'"});
+  EXPECT_EQ(Say("to @A inq#x_1 a b").size(), 1u);
+  EXPECT_EQ(Say("sett#7 Volume = 50"), Strings{}) << "no command, no tag";
+}
+
+TEST_F(SlotMachineTest, AMistypedSlotIsGuessed) {
+  slots_.Declare({.name = "HeadRotAbs.1", .grammar = "<number>"});
+  EXPECT_EQ(Say("inq#1 HeadRotAbs"), Strings{"1:rep#1 HeadRotAbs.error = UNKNOWN_SLOT module FSM "
+                                             "has no slot 'HeadRotAbs', did you mean "
+                                             "'HeadRotAbs.1'?"});
+  EXPECT_NE(Say("inq#1 volum")[0].find("did you mean 'Volume'?"), std::string::npos);
+}
+
+TEST_F(SlotMachineTest, ABlankAtTheEndIsPartOfTextsOnly) {
+  Say("set Mask = bob \t");
+  EXPECT_EQ(Say("inq Mask"), Strings{"1:rep Mask = \"bob\""});
+  Say("def T = a b ");
+  EXPECT_EQ(Say("inq T"), Strings{"1:rep T = a b "});
+}
+
+TEST_F(SlotMachineTest, WhatUsersKeepIsBounded) {
+  const std::string much(60'000, 'x');
+  std::string refused;
+  for (int i = 0; i < 400 && refused.empty(); ++i) {
+    for (const std::string& line : {"def#1 U" + std::to_string(i) + " = " + much,
+                                    "def#1 M << tell " + much, "save#1 S" + std::to_string(i)}) {
+      const Strings said = Say(line);
+      if (refused.empty() && said[0].find(".error = LIMIT") != std::string::npos) refused = line;
+    }
+  }
+  EXPECT_NE(refused, "");
+  for (int i = 0; i < 400; ++i) {
+    Say("del U" + std::to_string(i));
+    Say("del S" + std::to_string(i));
+  }
+  Say("del M");
+  EXPECT_EQ(Say("def#1 U = 1"), Strings{"1:rep#1 U = 1"}) << "what was deleted counts no longer";
+  Say("set U = " + much);
+  EXPECT_NE(Say("set#1 U << " + much)[0].find("TOO_LONG"), std::string::npos);
+}
+
+TEST_F(SlotMachineTest, TheWayOutIsHeldByTheGate) {
+  std::vector<std::function<void()>> held;
+  slots_.set_exit_gate([&](std::function<void()> exit) { held.push_back(std::move(exit)); });
+  DeclareCommonSlots(slots_, {.auto_output = true});
+  EXPECT_EQ(Say("set#1 Run = exit"), Strings{});
+  ASSERT_EQ(held.size(), 1u);
+  held[0]();
+  EXPECT_EQ(said_, (Strings{"0:rep Run = EXIT", "1:rep#1 Run = EXIT"}));
 }
 
 }  // namespace

@@ -15,14 +15,11 @@ class TestModule final : public vm::Module {
                                     .on_exit = [this] { exit_ = true; }});
     slots_.Declare({.name = "X", .grammar = "<number>", .initial = "0", .auto_output = true});
     // When this process's clock stood at 0, in ms of the machine's: for tests of clock offsets.
-    slots_.Declare({.name = "Epoch",
-                    .grammar = "<number>",
-                    .access = vm::Access::kReadOnly,
-                    .on_inq = [this] {
-                      const auto now = std::chrono::system_clock::now().time_since_epoch();
-                      return vm::FormatMs(std::chrono::duration_cast<vm::Time>(now) -
-                                          clock_.Now());
-                    }});
+    slots_.Declare(
+        {.name = "Epoch", .grammar = "<number>", .access = vm::Access::kReadOnly, .on_inq = [this] {
+           const auto now = std::chrono::system_clock::now().time_since_epoch();
+           return vm::FormatMs(std::chrono::duration_cast<vm::Time>(now) - clock_.Now());
+         }});
     slots_.Declare({.name = "Work",
                     .grammar = "<ms>",
                     .access = vm::Access::kWriteOnly,

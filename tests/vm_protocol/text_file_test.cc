@@ -1,6 +1,7 @@
 #include "vm_protocol/core/text_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -22,8 +23,20 @@ TEST(TextFileTest, AFileIsReadWholeUpToItsLimit) {
   EXPECT_EQ(over.error().text, "file '" + (folder / "a") + "' is over 9999 bytes");
 }
 
-TEST(TextFileTest, AnEndlessFileIsNotReadToItsEnd) {
-  EXPECT_EQ(ReadTextFile("/dev/zero", 1 << 20).error().code, Errc::kTooLong);
+TEST(TextFileTest, WhatIsNotARegularFileIsRefusedAtOnce) {
+  const support::TempDir folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {pipe, std::string("/dev/zero"), std::string("/dev/null")}) {
+    const auto text = ReadTextFile(path, 1 << 20);
+    ASSERT_FALSE(text) << path;
+    EXPECT_EQ(text.error().code, Errc::kAccess);
+    EXPECT_EQ(text.error().text, "'" + path + "' is not a regular file");
+  }
+}
+
+TEST(TextFileTest, AFileWithoutASizeIsReadUpToTheLimit) {
+  EXPECT_EQ(ReadTextFile("/proc/self/status", 10).error().code, Errc::kTooLong);
 }
 
 TEST(TextFileTest, WhatCannotBeReadIsNamedWithTheReason) {

@@ -18,7 +18,8 @@ std::string Items(std::string_view grammar, std::string_view value) {
 TEST(ValueGrammarTest, WordsMatchInAnyCaseAndAreGivenAsDeclared) {
   EXPECT_EQ(Items("NOW | STOP", "stop"), "[STOP]");
   EXPECT_EQ(Items("NOW | STOP", " NOW "), "[NOW]");
-  EXPECT_EQ(Items("NOW | STOP", "NOWX"), "! 1 found 'NOWX', expected NOW | STOP");
+  EXPECT_EQ(Items("NOW | STOP", "NOWX"),
+            "! 1 found 'NOWX', expected NOW | STOP, did you mean 'NOW'?");
 }
 
 TEST(ValueGrammarTest, NumbersKeepTheirBounds) {
@@ -75,6 +76,61 @@ TEST(ValueGrammarTest, TextIsTheRestOfTheLineAsItIs) {
   EXPECT_EQ(Items("<text>", "  a  b "), "[a  b ]");
   EXPECT_EQ(Items("<text>", ""), "[]");
   EXPECT_EQ(Items("HAPPY <text>", "happy a b"), "[HAPPY][a b]");
+}
+
+TEST(ValueGrammarTest, AMistypedWordIsGuessed) {
+  const auto* grammar = "( MERRY | SAD ) <int 1..5>";
+  EXPECT_EQ(Items(grammar, "MERY 1"),
+            "! 1 found 'MERY', expected " + std::string(grammar) + ", did you mean 'MERRY'?");
+  EXPECT_EQ(Items(grammar, "GREEN 1"), "! 1 found 'GREEN', expected " + std::string(grammar));
+}
+
+TEST(ValueGrammarTest, AGrammarFromOutsideIsRefusedWithItsPlace) {
+  const std::pair<std::string, std::string> kBad[] = {
+      {"", "column 1: value grammar: found the end, expected a word"},
+      {"A |", "column 4: value grammar: found the end, expected a word"},
+      {"<bogus>", "column 1: value grammar: found '<bogus>', expected <number>"},
+      {"<int a..b>", "column 1: value grammar: found '<int a..b>', expected a range"},
+      {"<int 5>", "column 1: value grammar: found '<int 5>', expected a range"},
+      {"A [ B", "column 6: value grammar: found the end, expected ']'"},
+      {"A )", "column 3: value grammar: found ')', expected the end"},
+      {"<int", "column 1: value grammar: found '<int', expected '>'"},
+      {"A; B", "column 2: value grammar"},
+      {"A\n", "column 2: value grammar"},
+      {"\xff", "column 1: value grammar"},
+      {std::string(60'000, '('), "a value grammar of 60000 bytes"},
+      {std::string(4'000, '('), "column 33: value grammar: found '(((("}};
+  for (const auto& [text, error] : kBad) {
+    const auto grammar = ValueGrammar::Parse(text);
+    ASSERT_FALSE(grammar) << text;
+    EXPECT_EQ(grammar.error().code, Errc::kBadValue);
+    EXPECT_NE(FormatError(grammar.error()).find(error), std::string::npos)
+        << FormatError(grammar.error());
+  }
+  EXPECT_TRUE(ValueGrammar::Parse(std::string(32, '(') + "A" + std::string(32, ')')));
+  EXPECT_THROW(ValueGrammar("<bogus>"), std::logic_error);
+}
+
+TEST(ValueGrammarTest, AFilesNameIsMarkedWhereverItStands) {
+  const auto grammar = ValueGrammar("STOP | <word> <file>");
+  EXPECT_TRUE(grammar.has_file());
+  const auto items = grammar.Match("png a b.png");
+  ASSERT_TRUE(items);
+  EXPECT_FALSE((*items)[0].file);
+  EXPECT_TRUE((*items)[1].file);
+  EXPECT_EQ((*items)[1].text, "a b.png");
+  EXPECT_FALSE(ValueGrammar("STOP | <text>").has_file());
+}
+
+TEST(ValueGrammarTest, AnAmbiguousGrammarAndALongValueTakeBoundedTime) {
+  std::string optional = "( ";
+  for (int i = 0; i < 60; ++i) optional += "[ <word> ] ";
+  const std::string value = std::string(30'000, 'a') + " " + std::string(30'000, 'b') + " c d";
+  EXPECT_EQ(Items(optional + "x )...", value)[0], '!');
+  EXPECT_EQ(Items("( ( ( <text> )... )... )... x", value)[0], '!');
+  std::string long_grammar;
+  for (int i = 0; i < 2'000; ++i) long_grammar += "a ";
+  EXPECT_EQ(Items(long_grammar, long_grammar)[0], '!') << "deeper than the stack may grow";
 }
 
 }  // namespace

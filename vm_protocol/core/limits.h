@@ -14,10 +14,12 @@ inline constexpr std::size_t kMaxUserSlots = 1024;        ///< slots made by `de
 inline constexpr std::size_t kMaxMacroLines = 1024;       ///< lines of one macro or command file
 inline constexpr std::size_t kMaxMacroDepth = 16;         ///< `do` within `do`
 inline constexpr std::size_t kMaxDoLines =
-    16u * 1024;                                     ///< lines run by one `do`, nested ones included
-inline constexpr std::size_t kMaxSavedSets = 256;   ///< sets kept by `save`, per module
-inline constexpr std::size_t kMaxPhonemes = 8192;   ///< items of one phoneme list
-inline constexpr std::size_t kMaxConnections = 64;  ///< clients of one module
+    16u * 1024;                                    ///< lines run by one `do`, nested ones included
+inline constexpr std::size_t kMaxSavedSets = 256;  ///< sets kept by `save`, per module
+inline constexpr std::size_t kMaxKeptBytes = 16u << 20;    ///< of what `def` and `save` keep
+inline constexpr std::size_t kMaxErrorPeers = 1024;        ///< who asked for `prop Error`
+inline constexpr std::size_t kMaxPhonemes = 8192;          ///< items of one phoneme list
+inline constexpr std::size_t kMaxConnections = 64;         ///< clients of one module
 inline constexpr std::size_t kMaxBacklogBytes = 4u << 20;  ///< unsent output kept for one reader
 
 }  // namespace vm

@@ -24,7 +24,7 @@ Result<Time> ParseMs(std::string_view text);
 using TimerId = std::uint64_t;
 
 /// Time, injected: the only way any code here learns the time or waits. The same code runs on the
-/// real clock (AsioScheduler, in vm_protocol/runtime) and on a virtual one (below).
+/// real clock (ClockScheduler, in vm_protocol/runtime) and on a virtual one (below).
 /// Thread: one; callbacks run on the thread that runs the scheduler, never inside At().
 class Scheduler {
  public:

@@ -32,6 +32,26 @@ std::vector<std::string> Lines(std::string_view text) {
   return lines;
 }
 
+constexpr std::size_t kEntryBytes = 64;  // what an entry takes beside its text, roughly
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+std::size_t BytesOf(const Values& values) {
+  std::size_t bytes = kEntryBytes;
+  for (const auto& [name, value] : values) bytes += 2 * kEntryBytes + name.size() + value.size();
+  return bytes;
+}
+std::size_t BytesOf(const std::vector<std::string>& lines) {
+  std::size_t bytes = kEntryBytes;
+  for (const std::string& line : lines) bytes += kEntryBytes + line.size();
+  return bytes;
+}
+/// What is kept under a name, 0 if nothing is.
+template <typename Map>
+std::size_t BytesKept(const Map& map, const std::string& name) {
+  const auto found = map.find(name);
+  return found == map.end() ? 0 : BytesOf(found->second);
+}
+
 }  // namespace
 
 void SlotMachine::HandleSave(const Message& message, PeerId peer) {
@@ -44,7 +64,7 @@ void SlotMachine::HandleSave(const Message& message, PeerId peer) {
         names.push_back(slot->spec.name);
     }
   }
-  std::vector<std::pair<std::string, std::string>> values;
+  Values values;
   for (const std::string& name : names) {
     const Slot* slot = Find(name);
     if (slot == nullptr) return Refuse(message, peer, UnknownSlot(name));
@@ -66,8 +86,11 @@ void SlotMachine::HandleSave(const Message& message, PeerId peer) {
     return Refuse(message, peer,
                   {Errc::kLimit, "more than " + std::to_string(kMaxSavedSets) + " saved sets", 0});
   }
-  Answer(message, peer, std::to_string(values.size()) + " slots");
+  if (const auto kept = Keep(BytesKept(saved_, message.slot), BytesOf(values)); !kept)
+    return Refuse(message, peer, kept.error());
+  const std::string count = std::to_string(values.size()) + " slots";
   saved_[message.slot] = std::move(values);
+  Answer(message, peer, count);
 }
 
 void SlotMachine::HandleRest(const Message& message, PeerId peer) {
@@ -84,7 +107,6 @@ void SlotMachine::HandleRest(const Message& message, PeerId peer) {
 }
 
 Result<void> SlotMachine::DefineMacroLines(const Message& message) {
-  auto& lines = macros_[message.slot];
   std::vector<std::string> more{message.value};
   if (message.relation == Relation::kFromFile) {
     if (!read_file_) return Fail(Errc::kUnavailable, "files cannot be read here");
@@ -101,12 +123,16 @@ Result<void> SlotMachine::DefineMacroLines(const Message& message) {
                   parsed.error().column);
     }
   }
-  if (lines.size() + more.size() > kMaxMacroLines) {
+  if (message.relation == Relation::kAppend) {
+    if (const auto made = macros_.find(message.slot); made != macros_.end())
+      more.insert(more.begin(), made->second.begin(), made->second.end());
+  }
+  if (more.size() > kMaxMacroLines) {
     return Fail(Errc::kLimit, "macro '" + message.slot + "' would have more than " +
                                   std::to_string(kMaxMacroLines) + " lines");
   }
-  if (message.relation == Relation::kFromFile) lines.clear();
-  lines.insert(lines.end(), more.begin(), more.end());
+  if (auto kept = Keep(BytesKept(macros_, message.slot), BytesOf(more)); !kept) return kept;
+  macros_[message.slot] = std::move(more);
   return {};
 }
 
@@ -116,12 +142,14 @@ Result<void> SlotMachine::DefineUserSlot(const Message& message) {
       return Fail(Errc::kAccess,
                   "slot '" + message.slot + "' belongs to the module, it cannot be defined anew");
     }
+    if (auto kept = Keep(slot->value.size(), message.value.size()); !kept) return kept;
     slot->value = message.value;
     return {};
   }
   if (user_slots_ >= kMaxUserSlots) {
     return Fail(Errc::kLimit, "more than " + std::to_string(kMaxUserSlots) + " user slots");
   }
+  if (auto kept = Keep(0, kEntryBytes + message.value.size()); !kept) return kept;
   Declare({.name = message.slot,
            .grammar = "<text>",
            .initial = message.value,
@@ -141,8 +169,6 @@ void SlotMachine::HandleDef(const Message& message, PeerId peer) {
                 "expected `def NAME = VALUE` (a slot) or `def NAME << LINE` (a macro)");
   } else {
     done = DefineMacroLines(message);
-    if (const auto made = macros_.find(message.slot); !done && made->second.empty())
-      macros_.erase(made);
   }
   if (!done) return Refuse(message, peer, done.error());
   Answer(message, peer, message.value);
@@ -150,6 +176,7 @@ void SlotMachine::HandleDef(const Message& message, PeerId peer) {
 
 void SlotMachine::HandleDel(const Message& message, PeerId peer) {
   if (definition_hook_ && definition_hook_(message, peer, MakeReply(message, peer))) return;
+  (void)Keep(BytesKept(macros_, message.slot) + BytesKept(saved_, message.slot), 0);
   bool removed = macros_.erase(message.slot) > 0;
   removed |= saved_.erase(message.slot) > 0;
   if (Slot* slot = Find(message.slot)) {
@@ -158,6 +185,7 @@ void SlotMachine::HandleDel(const Message& message, PeerId peer) {
                     {Errc::kAccess,
                      "slot '" + message.slot + "' belongs to the module, it cannot be deleted", 0});
     }
+    (void)Keep(kEntryBytes + slot->value.size(), 0);
     Remove(message.slot);
     --user_slots_;
     removed = true;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "vm_protocol/core/limits.h"
+#include "vm_protocol/core/nearest_word.h"
 #include "vm_protocol/core/slot.h"
 #include "vm_protocol/core/utf8.h"
 
@@ -12,6 +13,9 @@ namespace vm {
 namespace {
 
 constexpr std::string_view kErrorSlot = "Error";
+constexpr std::size_t kShownLineBytes = 200;  // of a refused line, for the log
+
+bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 
 std::string JoinLines(std::string_view text) {
   std::string joined;
@@ -89,6 +93,7 @@ void SlotMachine::set_output(Output output) { output_ = std::move(output); }
 void SlotMachine::set_read_file(ReadFile read_file) { read_file_ = std::move(read_file); }
 void SlotMachine::set_append_file(AppendFile append_file) { append_file_ = std::move(append_file); }
 void SlotMachine::set_on_error(OnError on_error) { on_error_ = std::move(on_error); }
+void SlotMachine::set_exit_gate(ExitGate exit_gate) { exit_gate_ = std::move(exit_gate); }
 void SlotMachine::set_definition_hook(Hook hook) { definition_hook_ = std::move(hook); }
 void SlotMachine::AddShortcut(std::string line, std::string replacement) {
   shortcuts_[std::move(line)] = std::move(replacement);
@@ -122,7 +127,9 @@ void SlotMachine::HandleLine(std::string_view line, PeerId peer) {
   auto message = ParseMessage(line);
   if (!message) {
     if (message.error().code == Errc::kEmpty) return;
-    if (on_error_) on_error_(peer, std::string(CutUtf8(line, 200)), message.error());
+    if (on_error_) on_error_(peer, ShownUtf8(CutUtf8(line, kShownLineBytes)), message.error());
+    if (const std::string tag = TagOf(line); !tag.empty())
+      return RefuseTagged(std::string(kErrorSlot), tag, peer, message.error());
     ReportUnread(peer, message.error());
     return;
   }
@@ -187,9 +194,11 @@ Result<std::string> SlotMachine::ResolveValue(const Message& message, const std:
     }
     return joined;
   }
-  if (message.relation == Relation::kAppend && !present.empty())
-    return present + " " + message.value;
-  return message.value;
+  if (message.relation != Relation::kAppend || present.empty()) return message.value;
+  if (present.size() + 1 + message.value.size() > kMaxLineBytes)
+    return Fail(Errc::kTooLong,
+                "the value would be over " + std::to_string(kMaxLineBytes) + " bytes");
+  return present + " " + message.value;
 }
 
 void SlotMachine::HandleSet(const Message& message, PeerId peer) {
@@ -201,18 +210,35 @@ void SlotMachine::HandleSet(const Message& message, PeerId peer) {
   }
   auto text = ResolveValue(message, slot->value);
   if (!text) return Refuse(message, peer, text.error());
+  // A blank at the end is part of a text only, not of a word, a number or a file's name.
+  if (!slot->grammar.has_text()) {
+    while (!text->empty() && IsBlank(text->back())) text->pop_back();
+  }
   auto items = slot->grammar.Match(*text);
   if (!items) return Refuse(message, peer, items.error());
-  const SetValue value{std::move(*text), std::move(*items), slot->spec.name, peer};
+  SetValue value{std::move(*text), std::move(*items), slot->spec.name, peer};
+  const bool exits = slot->spec.name == "Run" && value.size() == 1 && value.word(0) == "EXIT";
+  if (!exits || !exit_gate_) return Perform(message, value);
+  exit_gate_([this, message, value = std::move(value)] { Perform(message, value); });
+}
+
+void SlotMachine::Perform(const Message& message, const SetValue& value) {
+  const PeerId peer = value.peer;
+  Slot* slot = Find(message.slot);
+  if (slot == nullptr) return Refuse(message, peer, UnknownSlot(message.slot));
   if (slot->spec.on_set_later) {
     slot->spec.on_set_later(value, MakeReply(message, peer));
     return;
   }
   Result<std::string> stored = value.text;
   if (slot->spec.on_set) stored = slot->spec.on_set(value);
-  // The action may have deleted the slot (a user slot's own `del` cannot, a hook might).
+  if (stored && slot->user_made) {
+    if (const auto kept = Keep(slot->value.size(), stored->size()); !kept)
+      stored = std::unexpected(kept.error());
+  }
   if (!stored) return Refuse(message, peer, stored.error());
-  Report(message.slot, *stored);
+  // The action may have deleted the slot.
+  if (Has(message.slot)) Report(message.slot, *stored);
   Answer(message, peer, std::move(*stored));
 }
 
@@ -260,6 +286,11 @@ void SlotMachine::HandleProp(const Message& message, PeerId peer) {
   if (slot == nullptr) return Refuse(message, peer, UnknownSlot(message.slot));
   if (message.slot == kErrorSlot) {
     std::erase(error_peers_, peer);
+    if (on && error_peers_.size() >= kMaxErrorPeers) {
+      return Refuse(message, peer,
+                    {Errc::kLimit,
+                     "more than " + std::to_string(kMaxErrorPeers) + " peers ask for errors", 0});
+    }
     if (on) error_peers_.push_back(peer);
   }
   slot->auto_output = on;
@@ -304,31 +335,60 @@ void SlotMachine::ReportUnread(PeerId peer, const Error& error, std::string_view
   Store(kErrorSlot, FormatError(error));
   Message rep = Rep(slot.empty() ? std::string(kErrorSlot) : std::string(slot) + ".error",
                     FormatError(error));
-  for (const PeerId wanting : error_peers_) {
+  const auto wanting_it = error_peers_;  // a copy: one of them may go while it is told
+  for (const PeerId wanting : wanting_it) {
     if (peer == kEveryone || wanting == kEveryone || wanting == peer) Emit(wanting, rep);
   }
 }
 
 void SlotMachine::Refuse(const Message& message, PeerId peer, const Error& error) {
-  if (on_error_) on_error_(peer, std::string(CutUtf8(FormatMessage(message), 200)), error);
+  if (on_error_)
+    on_error_(peer, ShownUtf8(CutUtf8(FormatMessage(message), kShownLineBytes)), error);
   const std::string slot = Place(message);
   if (message.tag.empty()) return ReportUnread(peer, error, slot);
+  RefuseTagged(slot + ".error", message.tag, peer, error);
+}
+
+void SlotMachine::RefuseTagged(const std::string& place, const std::string& tag, PeerId peer,
+                               const Error& error) {
   Store(kErrorSlot, FormatError(error));
-  Message answer = Rep(slot + ".error", FormatError(error));
-  answer.tag = message.tag;
+  Message answer = Rep(place, FormatError(error));
+  answer.tag = tag;
   Emit(peer, std::move(answer));
 }
 
 Error SlotMachine::UnknownSlot(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const auto& slot : slots_) names.push_back(slot->spec.name);
+  const std::string guess = DidYouMean(name, names);
   return {Errc::kUnknownSlot,
-          "module " + module_name_ + " has no slot '" + name + "' (inq Slots lists them)", 0};
+          "module " + module_name_ + " has no slot '" + name + "'" +
+              (guess.empty() ? " (inq Slots lists them)" : guess),
+          0};
+}
+
+Result<void> SlotMachine::Keep(std::size_t before, std::size_t after) {
+  const std::size_t kept = kept_bytes_ - std::min(before, kept_bytes_) + after;
+  if (after > before && kept > kMaxKeptBytes) {
+    return Fail(Errc::kLimit,
+                "what def and save keep would be over " + std::to_string(kMaxKeptBytes) + " bytes");
+  }
+  kept_bytes_ = kept;
+  return {};
 }
 
 void SlotMachine::Emit(PeerId peer, Message message) {
-  // A value over the line limit would be an invalid message: what is said must be readable.
-  constexpr std::size_t kRoom = kMaxNameBytes + kMaxModuleNameBytes + 64;
-  if (message.value.size() + kRoom > kMaxLineBytes)
-    message.value = CutUtf8(message.value, kMaxLineBytes - kRoom);
+  // What is said must be readable: one line of text, also behind the "From @NAME " of a hub.
+  constexpr std::size_t kRoom = 2 * kMaxModuleNameBytes + 8;
+  std::string& value = message.value;
+  if (value.find_first_of(std::string_view("\0\r\n", 3)) != std::string::npos ||
+      FirstBadUtf8(value)) {
+    value = ShownUtf8(value);
+  }
+  if (value.size() > kMaxLineBytes / 2) {
+    const std::size_t line = FormatMessage(message).size() + kRoom;
+    if (line > kMaxLineBytes) value = CutUtf8(value, value.size() - (line - kMaxLineBytes));
+  }
   if (output_) output_(peer, message);
 }
 

@@ -105,6 +105,9 @@ class SlotMachine {
   /// (So a module can define its own kinds of things.)
   using Hook = std::function<bool(const Message& message, PeerId peer, Reply reply)>;
   void set_definition_hook(Hook hook);
+  /// Given what `set Run = EXIT` does, to be called at once or when what was said before is done.
+  using ExitGate = std::function<void(std::function<void()> exit)>;
+  void set_exit_gate(ExitGate exit_gate);
   /// Lines to be replaced before parsing, as the original's one-letter shortcuts.
   void AddShortcut(std::string line, std::string replacement);
 
@@ -144,7 +147,10 @@ class SlotMachine {
   const Slot* Find(std::string_view name) const;
   void Emit(PeerId peer, Message message);
   void Refuse(const Message& message, PeerId peer, const Error& error);
+  void RefuseTagged(const std::string& place, const std::string& tag, PeerId peer,
+                    const Error& error);
   void HandleSet(const Message& message, PeerId peer);
+  void Perform(const Message& message, const SetValue& value);
   void HandleInq(const Message& message, PeerId peer);
   void HandleProp(const Message& message, PeerId peer);
   void HandleSave(const Message& message, PeerId peer);
@@ -158,6 +164,8 @@ class SlotMachine {
   Result<void> DefineMacroLines(const Message& message);
   Result<void> DefineUserSlot(const Message& message);
   void ReportUnread(PeerId peer, const Error& error, std::string_view slot = {});
+  /// Accounts for something kept for users that grows or shrinks. kLimit over kMaxKeptBytes.
+  Result<void> Keep(std::size_t before, std::size_t after);
   Error UnknownSlot(const std::string& name) const;
 
   std::string module_name_;
@@ -166,6 +174,7 @@ class SlotMachine {
   AppendFile append_file_;
   OnError on_error_;
   Hook definition_hook_;
+  ExitGate exit_gate_;
   std::map<std::string, std::string, std::less<>> shortcuts_;
   std::vector<std::unique_ptr<Slot>> slots_;  // in order of declaration
   std::map<std::string, Slot*, std::less<>> by_name_;
@@ -173,8 +182,9 @@ class SlotMachine {
   std::map<std::string, std::vector<std::string>, std::less<>> macros_;
   std::vector<PeerId> error_peers_;  // peers that asked for untagged error reports
   std::size_t user_slots_ = 0;
-  std::size_t depth_ = 0;      // `do` within `do`
-  std::size_t lines_run_ = 0;  // by the outermost `do` under way
+  std::size_t kept_bytes_ = 0;  // of user slots, macros and saved sets
+  std::size_t depth_ = 0;       // `do` within `do`
+  std::size_t lines_run_ = 0;   // by the outermost `do` under way
   std::shared_ptr<bool> alive_;
 };
 

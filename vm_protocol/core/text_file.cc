@@ -29,7 +29,13 @@ Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes)
   if (file.fd < 0) return cannot(std::strerror(errno));
   struct stat info {};
   if (fstat(file.fd, &info) != 0) return cannot(std::strerror(errno));
-  if (!S_ISREG(info.st_mode)) return cannot("it is not a regular file");
+  if (S_ISDIR(info.st_mode)) return cannot(std::strerror(EISDIR));
+  if (!S_ISREG(info.st_mode)) return Fail(Errc::kAccess, "'" + path + "' is not a regular file");
+  const auto over = [&] {
+    return Fail(Errc::kTooLong,
+                "file '" + path + "' is over " + std::to_string(max_bytes) + " bytes");
+  };
+  if (info.st_size > 0 && static_cast<std::size_t>(info.st_size) > max_bytes) return over();
   std::string text;
   std::array<char, 16384> buffer;
   while (true) {
@@ -38,9 +44,7 @@ Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes)
     if (n < 0) return cannot(std::strerror(errno));
     if (n == 0) return text;
     text.append(buffer.data(), static_cast<std::size_t>(n));
-    if (text.size() > max_bytes)
-      return Fail(Errc::kTooLong,
-                  "file '" + path + "' is over " + std::to_string(max_bytes) + " bytes");
+    if (text.size() > max_bytes) return over();  // it grew, or has no size as those in /proc
   }
 }
 

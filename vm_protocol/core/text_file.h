@@ -6,9 +6,9 @@
 
 namespace vm {
 
-/// A whole regular file. Errors: kUnavailable if it cannot be read (with the system's reason) or is
-/// a pipe, a device or a folder; kTooLong if it is over `max_bytes`, of which no more is read. Both
-/// name the file. Does not wait for anybody to write.
+/// A whole regular file; does not wait for anybody to write. Errors, which name the file:
+/// kUnavailable with the system's reason, kAccess for pipes and devices, kTooLong over `max_bytes`
+/// (of which no more is read).
 Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes);
 
 }  // namespace vm

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "vm_protocol/core/nearest_word.h"
 #include "vm_protocol/core/start_time.h"
 #include "vm_protocol/core/utf8.h"
 
@@ -194,6 +195,7 @@ class GrammarReader {
       }
       node->children.push_back(std::move(term));
     }
+    if (node->children.empty()) throw GrammarFault{at_, "a word, a placeholder or a bracket"};
     return node;
   }
 
@@ -277,7 +279,7 @@ class Matcher {
 
   bool Match(const Node& node, std::size_t at, const Next& next) {
     // A continuation runs within the match before it, so a long sequence is a deep call, too.
-    if (++steps_ > kMaxSteps || depth_ >= kMaxCalls) return false;
+    if (!Spend(0)) return false;
     const Deeper deeper(depth_);
     at = SkipBlanks(text_, at);
     switch (node.kind) {
@@ -294,7 +296,8 @@ class Matcher {
       case Node::Kind::kRepeat:
         return MatchRepeat(*node.children.front(), at, next);
       case Node::Kind::kText:
-        return Take(std::string(text_.substr(at)), 0, text_.size(), next);
+        return Spend(text_.size() - at) &&
+               Take(std::string(text_.substr(at)), 0, text_.size(), next);
       case Node::Kind::kFile:
         return MatchFile(at, next);
       case Node::Kind::kTime:
@@ -306,12 +309,22 @@ class Matcher {
 
   Items TakeItems() { return std::move(items_); }
   std::size_t farthest() const { return farthest_; }
+  bool exhausted() const { return exhausted_; }
   void Reached(std::size_t at) { farthest_ = std::max(farthest_, at); }
 
  private:
   /// Bounds the work of a hostile value against an ambiguous grammar.
-  static constexpr int kMaxSteps = 200'000;
-  static constexpr int kMaxCalls = 2'000;  // a frame of each kind takes a few hundred bytes
+  static constexpr std::size_t kMaxSteps = 200'000;
+  static constexpr std::size_t kStepsPerByte = 16;
+  static constexpr std::size_t kBytesPerStep = 64;  // copied or looked through
+  static constexpr int kMaxCalls = 1'000;           // each takes about a kilobyte of the stack
+  /// One step, and `bytes` of the value looked at. False for good once all steps are taken.
+  bool Spend(std::size_t bytes) {
+    steps_ += 1 + bytes / kBytesPerStep;
+    exhausted_ =
+        exhausted_ || depth_ >= kMaxCalls || steps_ > kMaxSteps + kStepsPerByte * text_.size();
+    return !exhausted_;
+  }
   struct Deeper {
     explicit Deeper(int& calls) : depth(calls) { ++depth; }
     ~Deeper() { --depth; }
@@ -357,7 +370,6 @@ class Matcher {
       }
       any = true;
       at = end;
-      steps_ = 0;
     }
     if (any && next(at)) return true;
     items_.resize(kept);
@@ -365,7 +377,7 @@ class Matcher {
   }
 
   bool MatchFile(std::size_t at, const Next& next) {
-    if (at >= text_.size()) return false;
+    if (at >= text_.size() || !Spend(text_.size() - at)) return false;
     if (text_[at] == '"') {
       if (auto quoted = ReadQuoted(text_, at); quoted && !quoted->first.empty()) {
         if (SkipBlanks(text_, quoted->second) == text_.size()) {
@@ -383,6 +395,7 @@ class Matcher {
     // "+ 500" is one time in two words: try the longer reading first.
     const std::size_t one = WordEnd(text_, at);
     const std::size_t two = WordEnd(text_, SkipBlanks(text_, one));
+    if (!Spend(two - at)) return false;
     for (const std::size_t end : {two, one}) {
       const auto start = ParseStartTime(text_.substr(at, end - at));
       if (start && Attempt([&] { return Take(FormatStartTime(*start), 0, end, next); }))
@@ -395,9 +408,11 @@ class Matcher {
     if (at >= text_.size()) return false;
     if (node.kind == Node::Kind::kWord && text_[at] == '"') {
       auto quoted = ReadQuoted(text_, at);
+      if (!Spend((quoted ? quoted->second : text_.size()) - at)) return false;
       return quoted && Take(std::move(quoted->first), 0, quoted->second, next);
     }
     const std::size_t end = WordEnd(text_, at);
+    if (!Spend(end - at)) return false;
     const std::string_view word = text_.substr(at, end - at);
     if (node.kind == Node::Kind::kWord) return Take(std::string(word), 0, end, next);
     if (node.kind == Node::Kind::kLiteral) {
@@ -412,7 +427,8 @@ class Matcher {
   std::string_view text_;
   Items items_;
   std::size_t farthest_ = 0;
-  int steps_ = 0;
+  std::size_t steps_ = 0;
+  bool exhausted_ = false;
   int depth_ = 0;
 };
 
@@ -422,6 +438,14 @@ Result<ValueGrammar> ValueGrammar::Parse(std::string_view text) {
   if (text.size() > kMaxBytes)
     return Fail(Errc::kBadValue, "a value grammar of " + std::to_string(text.size()) +
                                      " bytes, expected at most " + std::to_string(kMaxBytes));
+  // ';' stands between the grammars of Slots.files; what is not text cannot be shown.
+  for (std::size_t at = 0; at < text.size();) {
+    const auto sign = DecodeUtf8(text, at);
+    if (!sign || sign->value < 0x20 || sign->value == 0x7F || sign->value == ';')
+      return Fail(Errc::kBadValue, "value grammar: found ';' or what is no text, expected words",
+                  at + 1);
+    at += sign->length;
+  }
   try {
     return ValueGrammar(text, GrammarReader<Node>(text).Read());
   } catch (const GrammarFault& fault) {
@@ -443,6 +467,21 @@ ValueGrammar::ValueGrammar(std::string_view text, std::unique_ptr<Node> root)
     : text_(text), root_(std::move(root)) {}
 
 bool ValueGrammar::has_file() const { return text_.find("<file>") != std::string::npos; }
+bool ValueGrammar::has_text() const { return text_.find("<text>") != std::string::npos; }
+
+/// The literal words of the grammar.
+std::vector<std::string> ValueGrammar::Words() const {
+  std::vector<std::string> words;
+  std::vector<const Node*> open{root_.get()};
+  while (!open.empty()) {
+    const Node* node = open.back();
+    open.pop_back();
+    if (node->kind == Node::Kind::kLiteral) words.push_back(node->literal);
+    for (const auto& child : node->children) open.push_back(child.get());
+  }
+  return words;
+}
+
 ValueGrammar::~ValueGrammar() = default;
 ValueGrammar::ValueGrammar(ValueGrammar&&) noexcept = default;
 ValueGrammar& ValueGrammar::operator=(ValueGrammar&&) noexcept = default;
@@ -455,12 +494,17 @@ Result<ValueGrammar::Items> ValueGrammar::Match(std::string_view value) const {
     return end == value.size();
   });
   if (fits) return matcher.TakeItems();
+  if (matcher.exhausted())
+    return Fail(Errc::kLimit, "the value takes too many steps to be compared with " + text_);
   const std::size_t at = SkipBlanks(value, matcher.farthest());
   std::string found = "the end of the value";
+  std::string guess;
   if (at < value.size()) {
-    found = "'" + std::string(CutUtf8(value.substr(at, WordEnd(value, at) - at), 40)) + "'";
+    const std::string_view word = value.substr(at, WordEnd(value, at) - at);
+    found = "'" + ShownUtf8(CutUtf8(word, 40)) + "'";
+    guess = DidYouMean(word, Words());
   }
-  return Fail(Errc::kBadValue, "found " + found + ", expected " + text_, at + 1);
+  return Fail(Errc::kBadValue, "found " + found + ", expected " + text_ + guess, at + 1);
 }
 
 }  // namespace vm

@@ -47,14 +47,17 @@ class ValueGrammar {
   ValueGrammar(ValueGrammar&&) noexcept;
   ValueGrammar& operator=(ValueGrammar&&) noexcept;
 
-  /// Errors: kBadValue with the column within `value`, what was found, and the grammar expected.
+  /// Errors: kBadValue with the column within `value`, what was found, and the grammar expected;
+  /// kLimit where the grammar leaves so much open that finding out would take too long.
   Result<Items> Match(std::string_view value) const;
   const std::string& text() const { return text_; }
-  /// True if part of a value can be a file's name.
+  /// True if part of a value can be a file's name, or a text in which every blank counts.
   bool has_file() const;
+  bool has_text() const;
 
  private:
   struct Node;
+  std::vector<std::string> Words() const;
   ValueGrammar(std::string_view text, std::unique_ptr<Node> root);
   std::string text_;
   std::unique_ptr<Node> root_;

@@ -1,66 +1,40 @@
 #include "vm_protocol/runtime/encoding.h"
 
-#include <iconv.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <memory>
-#include <stdexcept>
 
+#include "vm_protocol/core/charset.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace vm {
 namespace {
 
-const char* IconvName(Encoding encoding) {
-  switch (encoding) {
-    case Encoding::kUtf8:
-      return "UTF-8";
-    case Encoding::kEucJp:
-      return "EUC-JP";
-    case Encoding::kShiftJis:
-      return "SHIFT_JIS";
-  }
-  return "UTF-8";
+const char* CharsetOf(Encoding encoding) {
+  return encoding == Encoding::kEucJp      ? "EUC-JP"
+         : encoding == Encoding::kShiftJis ? "CP932"
+                                           : "UTF-8";
 }
 
-/// Owns one iconv conversion.
-class Converter {
- public:
-  Converter(Encoding to, Encoding from) : handle_(iconv_open(IconvName(to), IconvName(from))) {
-    if (handle_ == reinterpret_cast<iconv_t>(-1)) {
-      throw std::runtime_error("the system's iconv lacks an encoding (EUC-JP or Shift_JIS)");
-    }
-  }
-  ~Converter() { iconv_close(handle_); }
-  Converter(const Converter&) = delete;
-  Converter& operator=(const Converter&) = delete;
-
-  /// Calls `on_bad(rest)` at a sequence that cannot be converted; it returns how many bytes of the
-  /// rest to skip (after appending what it likes to `out`), or 0 to give up.
-  template <typename OnBad>
-  bool Convert(std::string_view text, std::string& out, const OnBad& on_bad) {
-    std::string input(text);
-    char* in = input.data();
-    std::size_t in_left = input.size();
-    char buffer[1024];
-    while (in_left > 0) {
-      char* to = buffer;
-      std::size_t to_left = sizeof(buffer);
-      const std::size_t result = iconv(handle_, &in, &in_left, &to, &to_left);
-      out.append(buffer, sizeof(buffer) - to_left);
-      if (result != static_cast<std::size_t>(-1) || errno == E2BIG) continue;
-      const std::size_t skip = on_bad(std::string_view(in, in_left));
-      if (skip == 0) return false;
-      in += skip;
-      in_left -= skip;
-    }
-    return true;
-  }
-
- private:
-  iconv_t handle_;
+/// What speaks for and against a reading of a line.
+struct Reading {
+  bool fits = false;
+  int half_width = 0;  // kana of half the width
+  int kana = 0;
 };
+
+Reading Read(std::string_view line, Encoding encoding) {
+  const auto text = ToUtf8(line, encoding);
+  Reading reading{.fits = text.has_value()};
+  if (!text) return reading;
+  for (std::size_t at = 0; at < text->size();) {
+    const CodePoint sign = DecodeUtf8(*text, at).value_or(CodePoint{0, 1});
+    at += sign.length;
+    // iconv reads bytes that begin no character of EUC-JP as control characters.
+    if (sign.value >= 0x80 && sign.value < 0xA0) reading.fits = false;
+    if (sign.value >= 0xFF61 && sign.value <= 0xFF9F) ++reading.half_width;
+    if (sign.value >= 0x3040 && sign.value <= 0x30FF) ++reading.kana;
+  }
+  return reading;
+}
 
 }  // namespace
 
@@ -71,7 +45,7 @@ Result<Encoding> ParseEncoding(std::string_view name) {
   });
   if (lower == "utf-8" || lower == "utf8") return Encoding::kUtf8;
   if (lower == "euc-jp" || lower == "eucjp") return Encoding::kEucJp;
-  if (lower == "shift-jis" || lower == "sjis") return Encoding::kShiftJis;
+  if (lower == "shift-jis" || lower == "sjis" || lower == "cp932") return Encoding::kShiftJis;
   return Fail(Errc::kBadValue,
               "found encoding '" + std::string(name) + "', expected utf-8, euc-jp or shift_jis");
 }
@@ -83,30 +57,32 @@ Result<std::string> ToUtf8(std::string_view text, Encoding encoding) {
     }
     return std::string(text);
   }
-  std::string out;
-  std::size_t bad_at = 0;
-  const bool good =
-      Converter(Encoding::kUtf8, encoding).Convert(text, out, [&](std::string_view rest) {
-        bad_at = text.size() - rest.size() + 1;
-        return std::size_t{0};
-      });
-  if (!good) {
-    return Fail(Errc::kBadUtf8, std::string("found a byte that is not ") + IconvName(encoding),
-                bad_at);
-  }
-  return out;
+  return DecodeCharset(text, CharsetOf(encoding));
 }
 
 std::string FromUtf8(std::string_view text, Encoding encoding) {
   if (encoding == Encoding::kUtf8) return std::string(text);
-  std::string out;
-  Converter(encoding, Encoding::kUtf8).Convert(text, out, [&](std::string_view rest) {
-    out += '?';
-    std::size_t skip = 1;
-    while (skip < rest.size() && (static_cast<unsigned char>(rest[skip]) & 0xC0) == 0x80) ++skip;
-    return skip;
-  });
-  return out;
+  return EncodeCharset(text, CharsetOf(encoding)).value_or(std::string(text));
+}
+
+Encoding RecogniseEncoding(std::string_view line) {
+  const Reading euc = Read(line, Encoding::kEucJp);
+  const Reading sjis = Read(line, Encoding::kShiftJis);
+  if (!euc.fits && !sjis.fits) return Encoding::kUtf8;
+  if (euc.fits != sjis.fits) return euc.fits ? Encoding::kEucJp : Encoding::kShiftJis;
+  const bool is_euc =
+      euc.half_width != sjis.half_width ? euc.half_width < sjis.half_width : euc.kana >= sjis.kana;
+  return is_euc ? Encoding::kEucJp : Encoding::kShiftJis;
+}
+
+bool PeerEncoding::IsPlain(std::string_view line) {
+  const auto ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  if (encoding_ != Encoding::kUtf8) return false;
+  if (settled_ || std::ranges::all_of(line, ascii)) return true;
+  const bool is_utf8 = !FirstBadUtf8(line);
+  if (!is_utf8) encoding_ = RecogniseEncoding(line);
+  settled_ = is_utf8 || encoding_ != Encoding::kUtf8;
+  return encoding_ == Encoding::kUtf8;
 }
 
 }  // namespace vm

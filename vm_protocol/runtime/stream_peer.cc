@@ -90,10 +90,10 @@ class StreamPeerImpl final : public StreamPeer {
 
   void Send(std::string_view line) override {
     if (closed_ || output_dead_) return;
-    if (encoding_ == Encoding::kUtf8) {
+    if (encoding_.encoding() == Encoding::kUtf8) {
       outgoing_ += line;
     } else {
-      outgoing_ += FromUtf8(line, encoding_);
+      outgoing_ += FromUtf8(line, encoding_.encoding());
     }
     outgoing_ += reader_.framing() == Framing::kMmi ? "./\n" : "\n";
     if (backlog_bytes() > kMaxBacklogBytes) {
@@ -237,8 +237,8 @@ class StreamPeerImpl final : public StreamPeer {
   }
 
   void Deliver(const Result<std::string_view>& line) {
-    if (line && encoding_ != Encoding::kUtf8) {
-      const auto converted = ToUtf8(*line, encoding_);
+    if (line && !encoding_.IsPlain(*line)) {
+      const auto converted = encoding_.Read(*line);
       on_line_(converted ? Result<std::string_view>(*converted)
                          : std::unexpected(converted.error()));
     } else {
@@ -314,7 +314,7 @@ class StreamPeerImpl final : public StreamPeer {
   std::array<StandardStream, 2> standard_;
   int read_fd_;
   int write_fd_;
-  Encoding encoding_;
+  PeerEncoding encoding_;
   LineReader reader_;
   std::optional<asio::posix::stream_descriptor> input_;       // none: a file, read without waiting
   std::optional<asio::posix::stream_descriptor> own_output_;  // none: same as input_, or a file
