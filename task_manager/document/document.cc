@@ -38,11 +38,28 @@ bool HandlesBadFetch(const xml::Node& node, const Document& document) {
                                 [](const xml::Node* each) { return HasHandler(*each); });
 }
 
+void CollectProperties(const xml::Node& node, Document& into) {
+  for (const auto& child : node.children) {
+    if (!child->IsElement()) continue;
+    if (child->name == "property" && child->Has("value")) {
+      into.properties[&node][child->Get("name")] = child->Get("value");
+    }
+    CollectProperties(*child, into);
+  }
+}
+
 }  // namespace
 
 bool IsVoiceXml(const xml::Node& node) {
   return node.space.empty() || node.space == kSpace ||
          node.space.find("/vxml") != std::string::npos;
+}
+
+const std::string* Document::FindProperty(const xml::Node& element, const std::string& name) const {
+  const auto of_element = properties.find(&element);
+  if (of_element == properties.end()) return nullptr;
+  const auto found = of_element->second.find(name);
+  return found == of_element->second.end() ? nullptr : &found->second;
 }
 
 const xml::Node* Document::FindDialog(const std::string& id) const {
@@ -72,6 +89,7 @@ vm::Result<std::shared_ptr<Document>> LoadDocument(std::string_view bytes, const
     if (child->IsElement("form") || child->IsElement("menu"))
       document->dialogs.push_back(child.get());
   }
+  CollectProperties(root, *document);
   for (const Finding& finding : CheckDocument(*document)) {
     if (finding.severity != Finding::Severity::kError) continue;
     if (!finding.thrown_at || !HandlesBadFetch(*finding.thrown_at, *document)) {

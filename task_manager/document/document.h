@@ -39,6 +39,11 @@ struct Document {
   /// handler is refused as a whole, so that who refers to it may handle the event.
   std::map<const xml::Node*, std::string> thrown_at;
 
+  /// The last value of each <property>, by the element it stands in.
+  std::map<const xml::Node*, std::map<std::string, std::string>> properties;
+
+  /// What a <property> directly inside the element says, or null.
+  const std::string* FindProperty(const xml::Node& element, const std::string& name) const;
   /// The form or menu of that id, or null.
   const xml::Node* FindDialog(const std::string& id) const;
 };

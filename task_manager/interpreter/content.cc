@@ -4,12 +4,15 @@
 #include "task_manager/interpreter/session.h"
 #include "task_manager/script/rewriter.h"
 #include "task_manager/xml/parser.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace vxml {
 
 using script::Value;
 
 namespace {
+
+constexpr std::size_t kMaxLogBytes = 8192;
 
 /// Prompt markup that stands in executable content without its <prompt>.
 bool IsSpeech(const xml::Node& node) {
@@ -207,6 +210,8 @@ void Session::RunLog(const xml::Node& node) {
     const std::string value = TextOf(node, *expression);
     text += (text.empty() || value.empty() ? "" : " ") + value;
   }
+  text = vm::CutUtf8(text, kMaxLogBytes);
+  Step(text.size() / kBytesOfAStep);
   JsonLine line;
   line.Text("label", node.Get("label")).Text("text", text);
   platform_.Report("log", line);
@@ -245,6 +250,7 @@ void Session::RunNative(const xml::Node& node) {
       {Segment::Kind::kCommand, xml::Collapse(line), Millis(0), "", false, ""});
   prompt.language = LanguageAt(node);
   prompt.ssml = "<speak version=\"1.0\"/>";
+  Step(line.size() / kBytesOfAStep);
   queue_.push_back(std::move(prompt));
 }
 

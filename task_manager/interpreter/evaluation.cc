@@ -86,27 +86,19 @@ const xml::Node& Session::Here() const {
   return *context_->document->root;
 }
 
-namespace {
-
-const std::string* FindProperty(const xml::Node& scope, const std::string& name) {
-  const std::string* value = nullptr;  // the last one wins
-  for (const auto& child : scope.children) {
-    if (child->IsElement("property") && child->Get("name") == name) value = child->Find("value");
-  }
-  return value;
-}
-
-}  // namespace
-
 std::string Session::Property(const std::string& name, const xml::Node* from) {
   // Handlers act as if copied into the active item: its properties count, not those around them.
   const xml::Node* node = scope_item_ ? scope_item_->node : dialog_ ? dialog_->node : nullptr;
   if (!node) node = from ? from : &Here();
-  for (; node; node = node->parent) {
-    if (const std::string* value = FindProperty(*node, name)) return *value;
+  for (; node && context_; node = node->parent) {
+    for (const auto& document : {context_->document, context_->root}) {
+      const std::string* value = document ? document->FindProperty(*node, name) : nullptr;
+      if (value) return *value;
+    }
   }
   if (context_ && context_->root) {
-    if (const std::string* value = FindProperty(*context_->root->root, name)) return *value;
+    const std::string* value = context_->root->FindProperty(*context_->root->root, name);
+    if (value) return *value;
   }
   const auto given = options_.properties.find(name);
   return given != options_.properties.end() ? given->second : DefaultProperty(name);
@@ -135,14 +127,17 @@ void Session::RequireLanguage(const std::string& language) {
   ThrowEvent("error.unsupported.language", "the language '" + language + "'");
 }
 
-void Session::Step() {
-  if (++steps_ <= options_.max_steps_between_inputs) return;
-  if (steps_ > options_.max_steps_between_inputs + 2000) {
+void Session::Step(std::size_t cost) {
+  const std::size_t most = options_.max_steps_between_inputs;
+  const bool over = steps_ > most;
+  steps_ += cost;
+  if (steps_ <= most) return;
+  if (over && steps_ > most + 2000) {
     throw ExitSession{"error.noresource"};  // its handlers run on and on as well
   }
-  if (steps_ == options_.max_steps_between_inputs + 1) {
-    ThrowEvent("error.noresource", "more than " +
-                                       std::to_string(options_.max_steps_between_inputs) +
+  if (!over) {
+    steps_ = most + 1;
+    ThrowEvent("error.noresource", "more than " + std::to_string(most) +
                                        " elements executed without waiting for input");
   }
 }

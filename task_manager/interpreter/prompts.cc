@@ -19,6 +19,7 @@ void Session::QueuePrompt(const xml::Node& node) {
   PromptBuilder builder(*this, prompt);
   builder.Add(node);
   builder.Finish();
+  Step((prompt.text.size() + prompt.ssml.size()) / kBytesOfAStep);
   queue_.push_back(std::move(prompt));
 }
 
@@ -32,6 +33,7 @@ void Session::QueueImplicit(const std::vector<const xml::Node*>& nodes) {
   PromptBuilder builder(*this, prompt);
   for (const xml::Node* node : nodes) builder.Add(*node);
   builder.Finish();
+  Step((prompt.text.size() + prompt.ssml.size()) / kBytesOfAStep);
   queue_.push_back(std::move(prompt));
 }
 

@@ -231,7 +231,9 @@ class Session {
   std::string LanguageAt(const xml::Node& node) const;
   void RequireLanguage(const std::string& language);
   const xml::Node& Here() const;
-  void Step();
+  /// Counts against max_steps_between_inputs: an element is one, what it writes or says is more.
+  void Step(std::size_t cost = 1);
+  static constexpr std::size_t kBytesOfAStep = 256;
   void Trace(std::string_view kind, const JsonLine& fields);
 
   // prompts.cc

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <ctime>
 
 #include "task_manager/grammar/compiler.h"
 #include "task_manager/grammar/matcher.h"
@@ -150,6 +151,33 @@ TEST(HostileDialogTest, AHandlerCanEndAnEndlessLoop) {
       "</block></form>",
       {"exit: pass"});
   EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, WhatALoopLogsAndQueuesIsBounded) {
+  const std::string text = "<var name=\"s\" expr=\"new Array(30000).join('x')\"/>";
+  for (const char* element :
+       {"<log expr=\"s\"/>", "<prompt><value expr=\"s\"/></prompt>", "<native expr=\"s\"/>"}) {
+    const auto outcome =
+        RunDoc(text +
+                   "<catch event=\"error.noresource\"><exit expr=\"'bounded'\"/></catch>"
+                   "<form id=\"a\"><block>" +
+                   element + "<goto next=\"#a\"/></block></form>",
+               {"exit: bounded"});
+    EXPECT_TRUE(outcome.pass) << element << outcome.why;
+    EXPECT_LT(outcome.transcript.size(), std::size_t{80} << 20) << element;
+  }
+}
+
+TEST(HostileDialogTest, ManyPromptsAreQueuedInTimeThatGrowsWithTheirNumber) {
+  // Looking for properties went through all of them for each of them: 35 s.
+  const double before = static_cast<double>(std::clock());
+  const auto outcome =
+      RunDoc("<form><property name=\"bargein\" value=\"false\"/>" +
+                 Times("<block><prompt>a</prompt></block>", 10) + "<block>" +
+                 Times("<prompt>a</prompt>", 40'000) + "</block><block><pass/></block></form>",
+             {"exit: pass"});
+  EXPECT_TRUE(outcome.pass) << outcome.why << outcome.transcript.substr(0, 500);
+  EXPECT_LT((static_cast<double>(std::clock()) - before) / CLOCKS_PER_SEC, 15);
 }
 
 TEST(HostileDialogTest, RecursiveSubdialogsEnd) {
