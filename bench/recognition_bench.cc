@@ -58,7 +58,7 @@ void Print(const char* what, const Totals& totals) {
 bool UsePhrases(srm::SpeechDecoder& decoder, const std::vector<std::string>& phrases) {
   std::string text;
   for (const std::string& phrase : phrases) text += phrase + "\n";
-  const auto grammar = srm::ParseGrammar(text);
+  const auto grammar = ear::ParseGrammar(text);
   return grammar && decoder.Use({&*grammar});
 }
 
@@ -180,7 +180,7 @@ void Japanese(srm::SpeechDecoder& decoder, ssm::SpeechEngine& engine, const std:
 
 /// Words to be deleted, put in or changed, of those said.
 int WordErrors(const std::string& said, const std::string& heard, int& words) {
-  const auto a = srm::WordsOf(said), b = srm::WordsOf(heard);
+  const auto a = ear::WordsOf(said), b = ear::WordsOf(heard);
   words += static_cast<int>(a.size());
   std::vector<int> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
@@ -220,7 +220,7 @@ bool ReadTranscription(const std::string& line, std::string& said, std::string& 
   if (open == std::string::npos || close == std::string::npos) return false;
   name = line.substr(open + 1, close - open - 1);
   said.clear();
-  for (const std::string& word : srm::WordsOf(line.substr(0, open))) {
+  for (const std::string& word : ear::WordsOf(line.substr(0, open))) {
     if (word != "s") said += word + " ";
   }
   return true;
@@ -246,7 +246,7 @@ void Recordings(srm::SpeechDecoder& decoder) {
   const auto use_file = [&](const std::filesystem::path& file) {
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
-    const auto grammar = srm::ParseGrammar(text.str());
+    const auto grammar = ear::ParseGrammar(text.str());
     if (!grammar) std::printf("   %s: %s\n", file.c_str(), grammar.error().text.c_str());
     return grammar && decoder.Use({&*grammar});
   };

@@ -79,16 +79,11 @@ class GrammarShelf {
   std::vector<std::string> active_;
 };
 
-/// What the slots of grammars do, and how the module explains its own form.
+/// What the slots of grammars do.
 struct GrammarSlots {
   std::string none_help{};  ///< what is heard with NONE
-  std::string load_help{};
-  std::string file_help{};
   std::function<vm::Result<std::string>(const vm::SetValue&)> activate{};
   std::function<vm::Result<std::string>(const std::string& name, const std::string& text)> load{};
-  /// The text of a file, as read.
-  std::function<vm::Result<std::string>(const std::string& name, const std::string& text)>
-      load_file{};
   std::function<vm::Result<std::string>(const std::string& path)> read_file{};
   std::function<vm::Result<std::string>(const std::string& name)> drop{};
   std::function<std::string()> names{};

@@ -15,15 +15,19 @@ void DeclareGrammarSlots(vm::SlotMachine& slots, const GrammarSlots& grammars) {
       {.name = "Grammar.load",
        .grammar = "<word> <text>",
        .access = vm::Access::kWriteOnly,
-       .help = grammars.load_help,
+       .help =
+           "NAME PHRASE | PHRASE ...: loads or replaces a grammar. A phrase has words, * for any "
+           "word, [optional words], (one | other), x+, x<2-4>, /WEIGHT/ and {meaning}. Case and "
+           "punctuation do not count. docs/speech.md has the whole form.",
        .on_set = [load = grammars.load](
                      const vm::SetValue& value) { return load(value.word(0), value.word(1)); },
        .saved = false});
   slots.Declare({.name = "Grammar.file",
                  .grammar = "<word> <file>",
                  .access = vm::Access::kWriteOnly,
-                 .help = grammars.file_help,
-                 .on_set = [read = grammars.read_file, load = grammars.load_file](
+                 .help = "NAME FILE: the same from a file: a phrase on each line and rules "
+                         "$name = ..., or JSGF, or SRGS in XML; told by its first characters.",
+                 .on_set = [read = grammars.read_file, load = grammars.load](
                                const vm::SetValue& value) -> vm::Result<std::string> {
                    auto text = read(value.word(1));
                    if (!text) return std::unexpected(text.error());

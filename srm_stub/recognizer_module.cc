@@ -35,20 +35,6 @@ constexpr Millis kWordSound{250};
 constexpr double kToneHz = 440;
 constexpr double kToneLevel = 3000;
 
-/// A file has a phrase on each line.
-std::string PhrasesOfLines(std::string_view text) {
-  std::string phrases;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.find_first_not_of(" \t") == std::string_view::npos || line[0] == '#') continue;
-    phrases += (phrases.empty() ? "" : " | ") + std::string(line);
-  }
-  return phrases;
-}
-
 }  // namespace
 
 RecognizerModule::RecognizerModule(vm::Scheduler& scheduler, Options options)
@@ -101,33 +87,26 @@ void RecognizerModule::DropInputs(const vm::Error& why) {
 // --- what there is to set and to ask
 
 void RecognizerModule::DeclareGrammar() {
-  const auto load = [this](const std::string& name, const std::string& text) {
-    return grammars_.Put(name, WordGrammar::Parse(text));
-  };
   ear::DeclareGrammarSlots(
-      slots_,
-      {.none_help = "With NONE everything is taken as it is heard.",
-       .load_help = "NAME PHRASE | PHRASE ...: loads or replaces a grammar. A phrase has words, "
-                    "* for any word, [optional words], (one | other), and may end in {meaning}. "
-                    "Case and punctuation do not count.",
-       .file_help = "NAME FILE: the same from a file with a phrase on each line.",
-       .activate = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-         auto chosen = grammars_.Chosen(value);
-         if (!chosen) return std::unexpected(chosen.error());
-         grammars_.Activate(std::move(*chosen));
-         return grammars_.ActiveNames();
-       },
-       .load = load,
-       .load_file = [load](const std::string& name,
-                           const std::string& text) { return load(name, PhrasesOfLines(text)); },
-       .read_file = options_.read_file,
-       .drop = [this](const std::string& name) -> vm::Result<std::string> {
-         const auto was_active = grammars_.Drop(name);
-         if (!was_active) return std::unexpected(was_active.error());
-         if (*was_active) slots_.Report("Grammar", grammars_.ActiveNames());
-         return name;
-       },
-       .names = [this] { return grammars_.Names(); }});
+      slots_, {.none_help = "With NONE everything is taken as it is heard.",
+               .activate = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                 auto chosen = grammars_.Chosen(value);
+                 if (!chosen) return std::unexpected(chosen.error());
+                 grammars_.Activate(std::move(*chosen));
+                 return grammars_.ActiveNames();
+               },
+               .load =
+                   [this](const std::string& name, const std::string& text) {
+                     return grammars_.Put(name, ear::ParseGrammar(text));
+                   },
+               .read_file = options_.read_file,
+               .drop = [this](const std::string& name) -> vm::Result<std::string> {
+                 const auto was_active = grammars_.Drop(name);
+                 if (!was_active) return std::unexpected(was_active.error());
+                 if (*was_active) slots_.Report("Grammar", grammars_.ActiveNames());
+                 return name;
+               },
+               .names = [this] { return grammars_.Names(); }});
 }
 
 void RecognizerModule::DeclareInput() {
@@ -252,13 +231,13 @@ void RecognizerModule::KeepSound() {
 }
 
 void RecognizerModule::Recognize(const std::string& text) {
-  const std::vector<std::string> words = WordsOf(text);
+  const std::vector<std::string> words = ear::WordsOf(text);
   ear::ResultReport report{.start = heard_since_, .end = scheduler_.Now()};
   if (grammars_.active().empty() && !words.empty()) report.candidates.push_back({.text = text});
   for (const std::string& name : grammars_.active()) {
     if (words.empty() || !report.candidates.empty()) break;
     if (auto meaning = grammars_.at(name).Match(words)) {
-      report.candidates.push_back({.text = text, .grammar = name, .tag = std::move(*meaning)});
+      report.candidates.push_back({.text = text, .grammar = name, .tag = meaning->Joined()});
     }
   }
   ear::TellResult(slots_, report, text);

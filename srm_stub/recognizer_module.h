@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "ear/grammar/grammar.h"
 #include "ear/grammar_shelf.h"
 #include "ear/listening.h"
 #include "ear/sound_keep.h"
 #include "srm_stub/input_script.h"
-#include "srm_stub/word_grammar.h"
 #include "vm_protocol/core/module.h"
 
 namespace srm_stub {
@@ -68,7 +68,7 @@ class RecognizerModule final : public vm::Module {
   const Options options_;
   vm::SlotMachine slots_;
 
-  ear::GrammarShelf<WordGrammar> grammars_;
+  ear::GrammarShelf<ear::Grammar> grammars_;
   ear::Listening listening_;
   ear::SoundKeep keep_;
   Millis word_time_{0};

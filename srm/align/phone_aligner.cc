@@ -138,7 +138,7 @@ vm::Result<Alignment> PhoneAligner::Align(const std::vector<std::int16_t>& sampl
                                           const std::string& text) {
   std::vector<std::string> said;
   std::string rules;
-  for (const std::string& word : WordsOf(text)) {
+  for (const std::string& word : ear::WordsOf(text)) {
     std::string rule = parts_->WordRule(word);
     if (rule.empty()) continue;
     said.push_back(word);

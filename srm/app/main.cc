@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "ear/grammar/grammar_limits.h"
 #include "srm/app/sources.h"
 #include "srm/core/recognizer_module.h"
 #include "vm_protocol/core/text_file.h"
@@ -45,7 +46,7 @@ int main(int argc, char** argv) {
                                 .module_version = "Galatea SRM " GALATEA_VERSION,
                                 .read_file =
                                     [](const std::string& path) {
-                                      return vm::ReadTextFile(path, srm::Grammar::kMaxBytes);
+                                      return vm::ReadTextFile(path, ear::kMaxGrammarBytes);
                                     },
                                 .open_decoder = [&engine] { return srm::OpenPocketsphinx(engine); },
                                 .open_spotter = [&engine] { return srm::OpenSpotter(engine); },

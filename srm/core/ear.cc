@@ -77,7 +77,7 @@ void Ear::Reset() {
   utterance_.clear();
 }
 
-vm::Result<void> Ear::Use(const std::vector<const Grammar*>& grammars) {
+vm::Result<void> Ear::Use(const std::vector<const ear::Grammar*>& grammars) {
   if (!decoding_) return decoder_->Use(grammars);
   decoder_->Abandon();
   auto used = decoder_->Use(grammars);

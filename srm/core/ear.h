@@ -40,7 +40,7 @@ class Ear {
   void Reset();
   /// Other grammars, empty = dictation. In the middle of an utterance it is decoded again from its
   /// beginning, so nothing said is lost.
-  vm::Result<void> Use(const std::vector<const Grammar*>& grammars);
+  vm::Result<void> Use(const std::vector<const ear::Grammar*>& grammars);
   vm::Result<void> Pronounce(const std::string& word, const std::string& spoken) {
     return decoder_->Pronounce(word, spoken);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "ear/result_report.h"
@@ -27,6 +28,22 @@ std::string WordConfidences(const Ear::Heard& heard) {
     text += fmt::format("{}{} {:.2f}", text.empty() ? "" : " ", word.text, word.confidence);
   }
   return text;
+}
+
+/// Words of a text that was heard: the engine's stand-in for any word is one of them.
+std::vector<std::string> HeardWords(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    at = end + 1;
+    if (word == ear::kNotUnderstood) {
+      words.push_back(word);
+    } else {
+      for (std::string& one : ear::WordsOf(word)) words.push_back(std::move(one));
+    }
+  }
+  return words;
 }
 
 /// "0.93 yes please | 0.41 yes": what fits, best first.
@@ -141,7 +158,7 @@ vm::Result<std::string> RecognizerModule::SetSpot(const std::string& text) {
   for (std::size_t at = 0; at <= text.size() && text != "NONE";) {
     const std::size_t end = std::min(text.find('|', at), text.size());
     std::string phrase;
-    for (const std::string& word : WordsOf(text.substr(at, end - at))) {
+    for (const std::string& word : ear::WordsOf(text.substr(at, end - at))) {
       phrase += (phrase.empty() ? "" : " ") + word;
     }
     if (!phrase.empty()) phrases.push_back(std::move(phrase));
@@ -213,11 +230,12 @@ void RecognizerModule::Recognize(const std::string& text, const Ear::Heard* hear
 /// What a text means to the first active grammar it fits; without grammars it stands as it is.
 std::optional<ear::Candidate> RecognizerModule::Understand(const std::string& text,
                                                            double confidence) const {
-  if (WordsOf(text).empty()) return std::nullopt;
+  const std::vector<std::string> words = HeardWords(text);
+  if (words.empty()) return std::nullopt;
   ear::Candidate candidate{.text = text, .confidence = confidence};
   if (grammars_.active().empty()) return candidate;
   for (const std::string& name : grammars_.active()) {
-    if (auto meaning = grammars_.at(name).Match(text)) {
+    if (auto meaning = grammars_.at(name).Match(words)) {
       candidate.grammar = name;
       candidate.tag = meaning->Joined();
       return candidate;

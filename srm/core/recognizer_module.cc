@@ -68,7 +68,7 @@ vm::Result<Ear*> RecognizerModule::NeedEar() {
 vm::Result<void> RecognizerModule::UseGrammars() {
   auto ear = NeedEar();
   if (!ear) return std::unexpected(ear.error());
-  std::vector<const Grammar*> grammars;
+  std::vector<const ear::Grammar*> grammars;
   for (const std::string& name : grammars_.active()) grammars.push_back(&grammars_.at(name));
   auto used = (*ear)->Use(grammars);
   grammars_used_ = used.has_value();
@@ -79,7 +79,7 @@ vm::Result<void> RecognizerModule::UseGrammars() {
 
 vm::Result<std::string> RecognizerModule::LoadGrammar(const std::string& name,
                                                       const std::string& text) {
-  auto put = grammars_.Put(name, ParseGrammar(text));
+  auto put = grammars_.Put(name, ear::ParseGrammar(text));
   if (put && grammars_used_ && grammars_.IsActive(name)) {
     if (auto used = UseGrammars(); !used) return std::unexpected(used.error());
   }

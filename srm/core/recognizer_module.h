@@ -85,7 +85,7 @@ class RecognizerModule final : public vm::Module {
   std::string source_name_ = "NONE";
   vm::Time source_start_{0};
 
-  ear::GrammarShelf<Grammar> grammars_;
+  ear::GrammarShelf<ear::Grammar> grammars_;
   std::vector<std::pair<std::string, std::string>> pronunciations_;
 
   ear::Listening listening_;

@@ -95,22 +95,13 @@ void RecognizerModule::DeclareAgent() {
 }
 
 void RecognizerModule::DeclareGrammar() {
-  const auto load = [this](const std::string& name, const std::string& text) {
-    return LoadGrammar(name, text);
-  };
   ear::DeclareGrammarSlots(
       slots_,
       {.none_help = "May be changed while somebody speaks: nothing said is lost. With NONE typed "
                     "text is taken as it is, and sound by the language model (dictation).",
-       .load_help =
-           "NAME PHRASE | PHRASE ...: loads or replaces a grammar. A phrase has words, * for "
-           "any word, [optional words], (one | other), x+, x<2-4>, /WEIGHT/ and {meaning}. "
-           "Case and punctuation do not count. docs/speech.md has the whole form.",
-       .file_help = "NAME FILE: the same from a file: a phrase on each line and rules "
-                    "$name = ..., or JSGF, or SRGS in XML; told by its first characters.",
        .activate = [this](const vm::SetValue& value) { return ActivateGrammars(value); },
-       .load = load,
-       .load_file = load,
+       .load = [this](const std::string& name,
+                      const std::string& text) { return LoadGrammar(name, text); },
        .read_file = options_.read_file,
        .drop = [this](const std::string& name) { return DropGrammar(name); },
        .names = [this] { return grammars_.Names(); }});

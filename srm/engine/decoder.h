@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "srm/grammar/grammar.h"
+#include "ear/grammar/grammar.h"
 
 namespace srm {
 
@@ -48,7 +48,7 @@ class SpeechDecoder {
   virtual ~SpeechDecoder() = default;
   /// What may be said from the next utterance on: the grammars together. Empty = the language
   /// model (dictation). Between utterances only.
-  virtual vm::Result<void> Use(const std::vector<const Grammar*>& grammars) = 0;
+  virtual vm::Result<void> Use(const std::vector<const ear::Grammar*>& grammars) = 0;
   /// A word's pronunciation, in kana or in phonemes of the model (G AE L AH T).
   virtual vm::Result<void> Pronounce(const std::string& word, const std::string& spoken) = 0;
   virtual void Begin() = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "ear/grammar/grammar_limits.h"
 #include "srm/engine/decoder.h"
 #include "srm/engine/feature_mean.h"
 #include "srm/engine/free_phonemes.h"
@@ -44,9 +45,16 @@ class PocketsphinxDecoder final : public SpeechDecoder {
     using_ = grammar_.get();
   }
 
-  vm::Result<void> Use(const std::vector<const Grammar*>& grammars) override {
+  vm::Result<void> Use(const std::vector<const ear::Grammar*>& grammars) override {
     if (grammars.empty()) return UseDictation();
-    for (const Grammar* grammar : grammars) {
+    std::size_t parts = 0;
+    for (const ear::Grammar* grammar : grammars) parts += grammar->expanded_parts();
+    if (parts > ear::kMaxExpandedParts) {
+      return vm::Fail(vm::Errc::kLimit, "the active grammars have " + std::to_string(parts) +
+                                            " parts when written out, expected at most " +
+                                            std::to_string(ear::kMaxExpandedParts));
+    }
+    for (const ear::Grammar* grammar : grammars) {
       for (const std::string& word : grammar->Words()) {
         if (auto known = Know(word); !known) return known;
       }
@@ -208,7 +216,7 @@ class PocketsphinxDecoder final : public SpeechDecoder {
       const bool stand_in = word.starts_with(kPhonemeWord);
       if (filler || (stand_in && any)) continue;
       any = stand_in;
-      clean += (clean.empty() ? "" : " ") + (stand_in ? std::string("...") : word);
+      clean += (clean.empty() ? "" : " ") + (stand_in ? std::string(ear::kNotUnderstood) : word);
     }
     return clean;
   }
@@ -217,7 +225,7 @@ class PocketsphinxDecoder final : public SpeechDecoder {
     for (ps_seg_t* seg = ps_seg_iter(using_); seg != nullptr; seg = ps_seg_next(seg)) {
       const Segment part = ReadSegment(seg);
       const std::string word = Cleaned(ps_seg_word(seg));
-      if (word.empty() || word == "..." || part.frames() <= 0) continue;
+      if (word.empty() || word == ear::kNotUnderstood || part.frames() <= 0) continue;
       const double fit =
           free ? (part.score - free_->Score(part.first, part.last)) / part.frames() : 0;
       heard.words.push_back({word, Millis(part.first * kFrameMs),

@@ -48,7 +48,7 @@ vm::Result<void> PocketsphinxSpotter::Listen() {
   std::FILE* file = std::tmpfile();
   if (file == nullptr) return vm::Fail(vm::Errc::kUnavailable, "no temporary file can be made");
   for (const std::string& phrase : phrases_) {
-    for (const std::string& word : WordsOf(phrase)) {
+    for (const std::string& word : ear::WordsOf(phrase)) {
       char* known = ps_lookup_word(decoder_.get(), word.c_str());
       if (known != nullptr) {
         ckd_free(known);

@@ -10,6 +10,8 @@ cst_lexicon* cmu_lex_init(void);
 #include <cstdlib>
 #include <mutex>
 
+#include "ear/grammar/grammar_limits.h"
+
 namespace srm {
 namespace {
 
@@ -113,6 +115,7 @@ std::vector<std::string> KanaPronunciations(std::string_view word) {
 
 /// flite's phonemes in the model's spelling: no stress, ax is AH.
 std::string LatinPronunciation(const std::string& word) {
+  if (word.size() > ear::kMaxWordBytes) return {};  // flite's rules take the stack for each letter
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   static cst_lexicon* lexicon = cmu_lex_init();

@@ -2,14 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 namespace srm {
 namespace {
 
+using ear::Grammar;
+using ear::kUnlimited;
+using ear::Node;
 using Kind = Node::Kind;
 
 class Writer {
  public:
-  Writer(std::size_t index, const Grammar& grammar) : index_(index), grammar_(grammar) {}
+  Writer(std::size_t index, const Grammar& grammar) : index_(index), grammar_(grammar) {
+    for (const auto& [name, node] : grammar.rules()) numbers_.emplace(name, numbers_.size());
+  }
 
   std::string Rules() {
     std::string text;
@@ -23,12 +30,7 @@ class Writer {
  private:
   /// Rules of several grammars must not meet, and may have any name.
   std::string Name(std::string_view name) const {
-    std::size_t number = 0;
-    for (const auto& [rule, node] : grammar_.rules()) {
-      if (rule == name) break;
-      ++number;
-    }
-    return fmt::format("g{}_{}", index_, number);
+    return fmt::format("g{}_{}", index_, numbers_.at(name));
   }
 
   std::string Text(const Node& node) {
@@ -80,6 +82,7 @@ class Writer {
 
   const std::size_t index_;
   const Grammar& grammar_;
+  std::map<std::string_view, std::size_t> numbers_;
 };
 
 }  // namespace

@@ -89,7 +89,7 @@ class ToldDecoder final : public srm::SpeechDecoder {
  public:
   explicit ToldDecoder(std::string& text, double& fit, std::vector<std::string>& calls)
       : text_(text), fit_(fit), calls_(calls) {}
-  vm::Result<void> Use(const std::vector<const srm::Grammar*>& grammars) override {
+  vm::Result<void> Use(const std::vector<const ear::Grammar*>& grammars) override {
     calls_.push_back("use " + std::to_string(grammars.size()));
     return {};
   }

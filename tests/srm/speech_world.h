@@ -44,14 +44,14 @@ class RecognitionTest : public testing::Test {
     return decoder_->End();
   }
   void Use(std::string_view text) {
-    auto grammar = srm::ParseGrammar(text);
+    auto grammar = ear::ParseGrammar(text);
     ASSERT_TRUE(grammar) << grammar.error().text;
-    grammar_ = std::make_unique<srm::Grammar>(std::move(*grammar));
+    grammar_ = std::make_unique<ear::Grammar>(std::move(*grammar));
     auto used = decoder_->Use({grammar_.get()});
     ASSERT_TRUE(used) << used.error().text;
   }
   std::unique_ptr<srm::SpeechDecoder> decoder_;
-  std::unique_ptr<srm::Grammar> grammar_;
+  std::unique_ptr<ear::Grammar> grammar_;
 };
 
 }  // namespace speech_world

@@ -12,60 +12,6 @@ namespace srm_stub {
 namespace {
 
 using Lines = std::vector<std::string>;
-using Words = std::vector<std::string>;
-
-TEST(WordsTest, CaseAndPunctuationDoNotCount) {
-  EXPECT_EQ(WordsOf("Yes, please!"), (Words{"yes", "please"}));
-  EXPECT_EQ(WordsOf(" don't  -  re-do 42 "), (Words{"don't", "re-do", "42"}));
-  EXPECT_EQ(WordsOf("はい、A。"), (Words{"は", "い", "a"}));
-  EXPECT_TRUE(WordsOf(" ?! ").empty());
-}
-
-std::string Meaning(const std::string& grammar, const std::string& text) {
-  const auto parsed = WordGrammar::Parse(grammar);
-  EXPECT_TRUE(parsed) << grammar;
-  return parsed->Match(WordsOf(text)).value_or("-");
-}
-
-TEST(WordGrammarTest, PhrasesMatchWhole) {
-  const std::string grammar =
-      "yes [please] {YES} | (no | nope [thanks]) {NO} | call * {CALL} | stop";
-  EXPECT_EQ(Meaning(grammar, "Yes."), "YES");
-  EXPECT_EQ(Meaning(grammar, "yes PLEASE"), "YES");
-  EXPECT_EQ(Meaning(grammar, "nope thanks"), "NO");
-  EXPECT_EQ(Meaning(grammar, "no thanks"), "-");
-  EXPECT_EQ(Meaning(grammar, "call Mary"), "CALL");
-  EXPECT_EQ(Meaning(grammar, "call"), "-");
-  EXPECT_EQ(Meaning(grammar, "call Mary now"), "-");
-  EXPECT_EQ(Meaning(grammar, "stop"), "");
-  EXPECT_EQ(Meaning(grammar, "stop it"), "-");
-}
-
-TEST(WordGrammarTest, JapaneseNeedsNoBlanks) {
-  EXPECT_EQ(Meaning("赤門[です] {AKAMON}", "赤門です。"), "AKAMON");
-  EXPECT_EQ(Meaning("赤門[です] {AKAMON}", "赤門"), "AKAMON");
-  EXPECT_EQ(Meaning("赤門", "赤"), "-");
-}
-
-TEST(WordGrammarTest, MalformedGrammarsAreRefusedWithTheirPlace) {
-  for (const char* bad : {"", "|", "a |", "| a", "(a", "a)", "[a", "a]", "()", "[]", "a {x", "{x}",
-                          "a } b", "(a | )", "a {x} b", "(a]"}) {
-    const auto grammar = WordGrammar::Parse(bad);
-    ASSERT_FALSE(grammar) << bad;
-    EXPECT_EQ(grammar.error().code, vm::Errc::kSyntax) << bad;
-    EXPECT_GT(grammar.error().column, 0u) << bad;
-  }
-  EXPECT_EQ(WordGrammar::Parse(std::string(20000, 'a')).error().code, vm::Errc::kTooLong);
-  EXPECT_EQ(WordGrammar::Parse(std::string(5000, '(')).error().code, vm::Errc::kLimit);
-}
-
-TEST(WordGrammarTest, ManyOptionsDoNotTakeForever) {
-  std::string grammar, text;
-  for (int i = 0; i < 500; ++i) grammar += "[a] ";
-  for (int i = 0; i < 499; ++i) text += "a ";
-  EXPECT_EQ(Meaning(grammar + "b", text), "-");
-  EXPECT_EQ(Meaning(grammar + "b", text + "b"), "");
-}
 
 TEST(ScriptTest, LinesAreReadInOrderOfTime) {
   const auto script = ParseScript("# talk\n500 second one\r\n\n 100\tfirst\n500 third");

@@ -1,18 +1,14 @@
 #include <algorithm>
 
-#include "srm/grammar/grammar.h"
+#include "ear/grammar/grammar.h"
+#include "vm_protocol/core/utf8.h"
 
-namespace srm {
+namespace ear {
 namespace {
 
 bool IsWordByte(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '\'' ||
          c == '-';
-}
-
-std::size_t CharacterBytes(char c) {
-  const auto first = static_cast<unsigned char>(c);
-  return first < 0xC0 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
 }
 
 bool IsWideSign(std::string_view character) {
@@ -35,9 +31,10 @@ std::vector<std::string> WordsOf(std::string_view text) {
       if (word.find_first_not_of("'-") == std::string::npos) word.clear();
     } else if (static_cast<unsigned char>(text[at]) >= 0x80) {
       while (at < text.size() && static_cast<unsigned char>(text[at]) >= 0x80) {
-        const std::string_view c = text.substr(at, CharacterBytes(text[at]));
+        const auto sign = vm::DecodeUtf8(text, at);
+        const std::string_view c = text.substr(at, sign ? sign->length : 1);
         at += c.size();
-        if (IsWideSign(c)) break;
+        if (!sign || IsWideSign(c)) break;  // a byte that is not UTF-8 is no part of a word
         word += c;
       }
     } else {
@@ -48,4 +45,4 @@ std::vector<std::string> WordsOf(std::string_view text) {
   return words;
 }
 
-}  // namespace srm
+}  // namespace ear

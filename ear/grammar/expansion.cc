@@ -1,10 +1,12 @@
-#include "srm/grammar/expansion.h"
+#include "ear/grammar/expansion.h"
 
 #include <charconv>
 #include <cstdlib>
 #include <utility>
 
-namespace srm {
+#include "ear/grammar/grammar_limits.h"
+
+namespace ear {
 namespace {
 
 using Kind = Node::Kind;
@@ -20,8 +22,9 @@ Node WordsNode(std::string_view text, std::size_t line) {
 /// What stands right of a rule's name.
 class Expansion {
  public:
-  Expansion(std::string_view text, Form form, std::size_t line)
-      : text_(text), form_(form), line_(line) {}
+  Expansion(std::string_view text, Form form, std::string_view rule, std::size_t line,
+            std::size_t& parts)
+      : text_(text), form_(form), rule_(rule), line_(line), parts_(parts) {}
 
   vm::Result<Node> Whole() {
     auto node = Choice(0);
@@ -38,6 +41,10 @@ class Expansion {
                     "line " + std::to_string(line_) + ": found " + found + ", expected " + what);
   }
 
+  std::unexpected<vm::Error> TooMuch(const std::string& what) const {
+    return vm::Fail(vm::Errc::kLimit, AtLine(line_) + RuleLabel(rule_) + ": " + what);
+  }
+
   char Peek() {
     while (at_ < text_.size() && IsBlank(text_[at_])) {
       if (text_[at_] == '\n') ++line_;
@@ -47,7 +54,7 @@ class Expansion {
   }
 
   vm::Result<Node> Choice(int depth) {
-    if (depth > Grammar::kMaxDepth) return vm::Fail(vm::Errc::kLimit, "nested too deep");
+    if (depth > kMaxNesting) return TooMuch(NestedTooDeep());
     Node choice{.kind = Kind::kChoice, .line = line_};
     while (true) {
       double weight = 1;
@@ -86,6 +93,7 @@ class Expansion {
     while (true) {
       const char c = Peek();
       if (c == '\0' || c == '|' || c == ')' || c == ']') break;
+      if (++parts_ > kMaxParts) return TooMuch(TooManyParts());
       auto item = Item(c, depth);
       if (!item) return item;
       words = words || item->kind != Kind::kTag;
@@ -199,14 +207,28 @@ class Expansion {
 
   std::string_view text_;
   const Form form_;
+  const std::string_view rule_;
   std::size_t line_;
+  std::size_t& parts_;
   std::size_t at_ = 0;
 };
 
 }  // namespace
 
-vm::Result<Node> ParseExpansion(std::string_view text, Form form, std::size_t line) {
-  return Expansion(text, form, line).Whole();
+vm::Result<Node> ParseExpansion(std::string_view text, Form form, std::string_view rule,
+                                std::size_t line, std::size_t& parts) {
+  return Expansion(text, form, rule, line, parts).Whole();
+}
+
+std::string AtLine(std::size_t line) {
+  return line == 0 ? std::string() : "line " + std::to_string(line) + ": ";
+}
+std::string RuleLabel(std::string_view rule) {
+  return rule.empty() ? "the phrases" : "rule '" + std::string(rule) + "'";
+}
+std::string NestedTooDeep() { return "nested deeper than " + std::to_string(kMaxNesting); }
+std::string TooManyParts() {
+  return "the grammar has more than " + std::to_string(kMaxParts) + " parts";
 }
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
@@ -225,4 +247,4 @@ std::unexpected<vm::Error> Wrong(std::size_t line, const std::string& what) {
   return vm::Fail(vm::Errc::kSyntax, "line " + std::to_string(line) + ": " + what);
 }
 
-}  // namespace srm
+}  // namespace ear

@@ -8,9 +8,11 @@
 #include <cstring>
 #include <utility>
 
-#include "srm/grammar/grammar.h"
+#include "ear/grammar/expansion.h"
+#include "ear/grammar/grammar.h"
+#include "ear/grammar/grammar_limits.h"
 
-namespace srm {
+namespace ear {
 namespace {
 
 using Kind = Node::Kind;
@@ -19,9 +21,8 @@ using tinyxml2::XMLNode;
 
 std::size_t LineOf(const XMLNode& node) { return static_cast<std::size_t>(node.GetLineNum()); }
 
-std::unexpected<vm::Error> Wrong(const XMLNode& node, const std::string& what,
-                                 vm::Errc code = vm::Errc::kSyntax) {
-  return vm::Fail(code, "line " + std::to_string(LineOf(node)) + ": " + what);
+std::unexpected<vm::Error> Wrong(const XMLNode& node, const std::string& what) {
+  return ear::Wrong(LineOf(node), what);
 }
 
 /// The name without a namespace's prefix.
@@ -36,9 +37,7 @@ std::string TextIn(const XMLElement& element) {
   for (const XMLNode* child = element.FirstChild(); child; child = child->NextSibling()) {
     if (child->ToText() != nullptr) text += child->Value();
   }
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
+  return std::string(Trim(text));
 }
 
 void AddWords(std::string_view text, std::size_t line, Node& sequence) {
@@ -51,7 +50,7 @@ void AddWords(std::string_view text, std::size_t line, Node& sequence) {
 bool ReadRepeat(const char* text, Node& repeat) {
   char* rest = nullptr;
   const long least = std::strtol(text, &rest, 10);
-  if (rest == text || least < 0 || least > Grammar::kMaxRepeat) return false;
+  if (rest == text || least < 0 || least > kMaxRepeat) return false;
   repeat.least = repeat.most = static_cast<int>(least);
   if (*rest == '\0') return true;
   if (*rest++ != '-') return false;
@@ -59,7 +58,7 @@ bool ReadRepeat(const char* text, Node& repeat) {
   if (*rest == '\0') return true;
   char* end = nullptr;
   const long most = std::strtol(rest, &end, 10);
-  if (end == rest || *end != '\0' || most < least || most > Grammar::kMaxRepeat) return false;
+  if (end == rest || *end != '\0' || most < least || most > kMaxRepeat) return false;
   repeat.most = static_cast<int>(most);
   return true;
 }
@@ -130,8 +129,8 @@ vm::Result<Node> Element(const XMLElement& element, int depth) {
 
 /// What an item or a rule holds, one after the other; an item's repeat around it.
 vm::Result<Node> Contents(const XMLElement& element, int depth) {
-  if (depth > Grammar::kMaxDepth) return Wrong(element, "nested too deep", vm::Errc::kLimit);
   Node sequence{.line = LineOf(element)};
+  if (depth > kMaxNesting) return sequence;  // Grammar::Make refuses the rule by its name
   for (const XMLNode* child = element.FirstChild(); child; child = child->NextSibling()) {
     if (child->ToText() != nullptr) {
       AddWords(child->Value(), LineOf(*child), sequence);
@@ -166,7 +165,7 @@ vm::Result<Grammar> ParseSrgs(std::string_view text) {
   }
   const XMLElement* root = document.RootElement();
   if (root == nullptr || LocalName(*root) != "grammar") {
-    return vm::Fail(vm::Errc::kSyntax, "line 1: expected a <grammar> element");
+    return ear::Wrong(1, "expected a <grammar> element");
   }
   Grammar::Rules rules;
   std::string first;
@@ -190,4 +189,4 @@ vm::Result<Grammar> ParseSrgs(std::string_view text) {
   return Grammar::Make(std::move(rules), wanted != nullptr ? wanted : first);
 }
 
-}  // namespace srm
+}  // namespace ear

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <utility>
 
-#include "srm/grammar/expansion.h"
+#include "ear/grammar/expansion.h"
 
-namespace srm {
+namespace ear {
 
 vm::Result<Grammar> ParseOwnForm(std::string_view text) {
   Grammar::Rules rules;
   Node main{.kind = Node::Kind::kChoice, .line = 1};
-  std::size_t line = 0;
+  std::size_t line = 0, parts = 0;
   while (!text.empty()) {
     ++line;
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -23,12 +23,12 @@ vm::Result<Grammar> ParseOwnForm(std::string_view text) {
       std::size_t stop = 1;
       while (stop < whole.size() && IsNameByte(whole[stop])) ++stop;
       const std::string_view rest = Trim(whole.substr(stop));
-      if (rest.starts_with('=')) {
+      if (stop > 1 && rest.starts_with('=')) {
         name = whole.substr(1, stop - 1);
         right = rest.substr(1);
       }
     }
-    auto node = ParseExpansion(right, Form::kOwn, line);
+    auto node = ParseExpansion(right, Form::kOwn, name, line, parts);
     if (!node) return std::unexpected(node.error());
     if (name.empty()) {
       main.parts.push_back(std::move(*node));
@@ -42,4 +42,4 @@ vm::Result<Grammar> ParseOwnForm(std::string_view text) {
   return Grammar::Make(std::move(rules), "");
 }
 
-}  // namespace srm
+}  // namespace ear

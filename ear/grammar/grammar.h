@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,7 +11,7 @@
 
 #include "vm_protocol/core/result.h"
 
-namespace srm {
+namespace ear {
 
 /// A part of a grammar.
 struct Node {
@@ -34,14 +35,16 @@ struct Node {
 };
 inline constexpr int kUnlimited = -1;
 
-/// What may be said, as a set of rules. Constant once it is made.
-/// Limits: kMaxBytes of source, kMaxNodes, kMaxDepth of nesting, kMaxRepeat.
+/// Stands in the words of a heard text for one or more words that were not understood; only "any
+/// word" takes it.
+inline constexpr std::string_view kNotUnderstood = "...";
+
+class Network;
+
+/// What may be said, as a set of rules. Constant once it is made; copies share it.
+/// Limits: those of grammar_limits.h.
 class Grammar {
  public:
-  static constexpr std::size_t kMaxBytes = 1u << 20;
-  static constexpr std::size_t kMaxNodes = 50'000;
-  static constexpr int kMaxDepth = 64;
-  static constexpr int kMaxRepeat = 1000;
   using Rules = std::map<std::string, Node, std::less<>>;
 
   /// Checks the rules: every rule named is there, none begins with itself (left recursion), the
@@ -56,17 +59,24 @@ class Grammar {
   /// The first way in which the whole text fits; none if it does not. Case, punctuation and blanks
   /// between other than Latin words do not count.
   std::optional<Meaning> Match(std::string_view text) const;
+  /// The same for words, each as WordsOf or kNotUnderstood.
+  std::optional<Meaning> Match(const std::vector<std::string>& words) const;
   /// Every word there is to be heard.
   std::set<std::string> Words() const;
   /// True if somewhere any word may stand.
   bool HasAny() const { return has_any_; }
 
-  const Rules& rules() const { return rules_; }
+  /// How many parts it has when every repeat and every rule in it is written out.
+  std::size_t expanded_parts() const { return expanded_parts_; }
+
+  const Rules& rules() const { return *rules_; }
   const std::string& root() const { return root_; }
 
  private:
-  Rules rules_;
+  std::shared_ptr<const Rules> rules_;
+  std::shared_ptr<const Network> network_;  // borrows from rules_
   std::string root_;
+  std::size_t expanded_parts_ = 0;
   bool has_any_ = false;
 };
 
@@ -82,4 +92,4 @@ vm::Result<Grammar> ParseSrgs(std::string_view text);
 /// beyond ASCII without punctuation.
 std::vector<std::string> WordsOf(std::string_view text);
 
-}  // namespace srm
+}  // namespace ear

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "srm/grammar/expansion.h"
+#include "ear/grammar/expansion.h"
 
-namespace srm {
+namespace ear {
 namespace {
 
 /// JSGF without its comments; line ends stay.
@@ -46,7 +46,7 @@ std::size_t StatementEnd(std::string_view text, std::size_t at) {
 
 /// "public <name> = ..." into the rules; the first public one becomes the root.
 vm::Result<void> JsgfRule(std::string_view statement, std::size_t line, Grammar::Rules& rules,
-                          std::string& root) {
+                          std::string& root, std::size_t& parts) {
   const bool is_public = statement.starts_with("public") && statement.size() > 6 &&
                          (IsBlank(statement[6]) || statement[6] == '<');
   if (is_public) statement = Trim(statement.substr(6));
@@ -59,7 +59,7 @@ vm::Result<void> JsgfRule(std::string_view statement, std::size_t line, Grammar:
                            "', expected grammar NAME; or [public] <NAME> = ...;");
   }
   const std::string name(Trim(statement.substr(1, close - 1)));
-  auto node = ParseExpansion(statement.substr(equal + 1), Form::kJsgf, line);
+  auto node = ParseExpansion(statement.substr(equal + 1), Form::kJsgf, name, line, parts);
   if (!node) return std::unexpected(node.error());
   if (!rules.emplace(name, std::move(*node)).second) {
     return Wrong(line, "rule '" + name + "' is there twice");
@@ -74,7 +74,7 @@ vm::Result<Grammar> ParseJsgf(std::string_view source) {
   const std::string text = WithoutComments(source);
   Grammar::Rules rules;
   std::string root;
-  std::size_t line = 1;
+  std::size_t line = 1, parts = 0;
   for (std::size_t at = 0; at < text.size();) {
     while (at < text.size() && IsBlank(text[at])) line += text[at++] == '\n' ? 1 : 0;
     if (at == text.size()) break;
@@ -83,7 +83,7 @@ vm::Result<Grammar> ParseJsgf(std::string_view source) {
     const std::string_view statement = std::string_view(text).substr(at, end - at);
     if (statement.starts_with("import")) return Wrong(line, "import is not supported");
     if (!statement.starts_with("#JSGF") && !statement.starts_with("grammar")) {
-      if (auto taken = JsgfRule(statement, line, rules, root); !taken) {
+      if (auto taken = JsgfRule(statement, line, rules, root, parts); !taken) {
         return std::unexpected(taken.error());
       }
     }
@@ -94,4 +94,4 @@ vm::Result<Grammar> ParseJsgf(std::string_view source) {
   return Grammar::Make(std::move(rules), std::move(root));
 }
 
-}  // namespace srm
+}  // namespace ear
