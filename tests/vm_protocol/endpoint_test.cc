@@ -1,12 +1,19 @@
 #include "vm_protocol/runtime/endpoint.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/process.h"
+#include "vm_protocol/runtime/acceptor.h"
 
 namespace vm {
 namespace {
@@ -112,6 +119,106 @@ TEST(StreamPeerTest, AReaderThatDoesNotReadIsCutOffAtTheLimit) {
   peer->Close();
   close(ends[0]);
   close(input[1]);
+}
+
+TEST(StreamPeerTest, ALineCutOffByAResetIsNotHeard) {
+  boost::asio::io_context io;
+  std::shared_ptr<StreamPeer> server;
+  std::vector<std::string> heard;
+  std::string reason;
+  const auto listener =
+      Listener::Open(io, *ParseEndpoint("tcp:127.0.0.1:0"), [&](int fd, const std::string&) {
+        server = StreamPeer::Make(io, fd, fd, Framing::kLf);
+        server->Start([&](Result<std::string_view> line) { heard.emplace_back(*line); },
+                      [&](const std::string& text) { reason = text; });
+      });
+  int client = -1;
+  ConnectTo(io, listener->endpoint(), [&](Result<int> fd) { client = fd.value_or(-1); });
+  while (client < 0 || !server) io.run_one();
+  constexpr std::string_view kWhole = "whole\n", kCut = "set Run = EXIT";
+  ASSERT_EQ(write(client, kWhole.data(), kWhole.size()), 6);
+  while (heard.empty()) io.run_one();
+  ASSERT_EQ(write(client, kCut.data(), kCut.size()), 14);
+  const linger reset{.l_onoff = 1, .l_linger = 0};
+  setsockopt(client, SOL_SOCKET, SO_LINGER, &reset, sizeof(reset));
+  close(client);
+  while (reason.empty()) io.run_one();
+  EXPECT_EQ(heard, std::vector<std::string>{"whole"});
+  EXPECT_NE(reason.find("reset"), std::string::npos) << reason;
+  server->Close();
+}
+
+TEST(ListenerTroubleTest, RunningOutOfDescriptorsIsSaidOnceAndPasses) {
+  const support::TempDir folder;
+  boost::asio::io_context io;
+  std::vector<std::string> troubles;
+  int accepted = 0;
+  const auto listener = Listener::Open(
+      io, {Endpoint::Kind::kUnix, folder / "s", 0},
+      [&](int fd, const std::string&) {
+        ++accepted;
+        close(fd);
+      },
+      [&](const std::string& text) { troubles.push_back(text); });
+  const auto client = support::SocketClient::Unix(folder / "s");
+  rlimit old{};
+  getrlimit(RLIMIT_NOFILE, &old);
+  const rlimit none{.rlim_cur = 3, .rlim_max = old.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &none);
+  std::size_t turns = 0;
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(500);
+  while (std::chrono::steady_clock::now() < until) turns += io.run_one_until(until);
+  setrlimit(RLIMIT_NOFILE, &old);
+  ASSERT_EQ(troubles.size(), 1u);
+  EXPECT_NE(troubles[0].find("cannot accept: Too many open files"), std::string::npos);
+  EXPECT_LT(turns, 20u) << "it does not spin";
+  while (accepted == 0) io.run_one();
+  EXPECT_EQ(accepted, 1);
+}
+
+TEST(AcceptorTest, SilentStrangersDoNotLockOutWhoHasTheToken) {
+  const support::TempDir folder;
+  std::ofstream(folder / "token") << "0123456789abcdef\n";
+  ASSERT_EQ(chmod((folder / "token").c_str(), 0600), 0);
+  const Credentials credentials{.token_file = folder / "token"};
+  boost::asio::io_context io;
+  std::vector<std::shared_ptr<StreamPeer>> admitted;
+  std::size_t refused = 0;
+  const auto acceptor = Acceptor::Open(
+      io, {Endpoint::Kind::kUnix, folder / "s", 0}, credentials, Framing::kLf, Encoding::kUtf8,
+      [&](const Acceptor::Connection& connection) { admitted.push_back(connection.stream); },
+      [&](const std::string&) { ++refused; });
+  std::vector<std::unique_ptr<support::SocketClient>> strangers;
+  for (std::size_t i = 0; i < 2 * Acceptor::kMaxUnadmitted; ++i) {
+    strangers.push_back(support::SocketClient::Unix(folder / "s"));
+    io.poll();
+  }
+  std::shared_ptr<StreamPeer> caller;
+  Connect(io, acceptor->endpoint(), credentials, Framing::kLf, Encoding::kUtf8,
+          [&](const Result<std::shared_ptr<StreamPeer>>& called) {
+            ASSERT_TRUE(called) << called.error().text;
+            caller = *called;
+          });
+  while (!caller || admitted.empty()) io.run_one();
+  EXPECT_GE(refused, Acceptor::kMaxUnadmitted);
+  caller->Close();
+  admitted[0]->Close();
+}
+
+TEST(ConnectTest, ANameIsResolvedWithoutBlockingAndAllItsAddressesAreTried) {
+  boost::asio::io_context io;
+  const auto listener = Listener::Open(io, *ParseEndpoint("tcp:127.0.0.1:0"),
+                                       [](int fd, const std::string&) { close(fd); });
+  Endpoint where = listener->endpoint();
+  where.host = "localhost";  // ::1 first, on many machines
+  int connected = -1;
+  ConnectTo(io, where, [&](const Result<int>& fd) {
+    ASSERT_TRUE(fd) << fd.error().text;
+    connected = *fd;
+  });
+  EXPECT_EQ(connected, -1);
+  while (connected < 0) io.run_one();
+  close(connected);
 }
 
 }  // namespace

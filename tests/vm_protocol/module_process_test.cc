@@ -1,8 +1,12 @@
 // The runtime every module shares, in a real process: stdio, sockets, clocks, the end.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <chrono>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/process.h"
@@ -118,6 +122,88 @@ TEST(ModuleProcessTest, TheOriginalsSocketModeEndsMessagesInDotSlashAndTakesOneC
   EXPECT_EQ(client->ReadLine(), std::nullopt);
   const auto third = SocketClient::Tcp(10600);
   EXPECT_EQ(third->ReadLine(), "rep Run = LIVE./");
+}
+
+TEST(ModuleProcessTest, EndOfInputEndsItEvenIfNoTimerTellsTheEndOfItsWork) {
+  Process module({kModule, "--clock", "real"});
+  module.Write("set#1 Settle = 100\n");
+  EXPECT_TRUE(module.Expect("rep#1"));
+  module.CloseInput();
+  EXPECT_EQ(module.Wait(), 0);
+}
+
+TEST(ModuleProcessTest, ExitComesAfterWhatWasSaidBeforeIt) {
+  for (const auto* clock : {"real", "virtual"}) {
+    Process module({kModule, "--clock", clock});
+    module.Write("set#1 Work = 100\nset#2 Run = EXIT\n");
+    const Strings said = module.ReadAll();
+    ASSERT_EQ(said.size(), 5u) << module.Seen();
+    EXPECT_EQ(said[1].substr(0, 12), "tell worked ");
+    EXPECT_EQ((Strings{said[2], said[3], said[4]}),
+              (Strings{"rep#1 Work = done", "rep Run = EXIT", "rep#2 Run = EXIT"}));
+    EXPECT_EQ(module.Wait(), 0);
+  }
+}
+
+TEST(ModuleProcessTest, ASecondExitAndASignalEndItAtOnce) {
+  for (const bool signal : {false, true}) {
+    Process module({kModule, "--clock", "real"});
+    module.Write("set Work = 80000000\nset Run = EXIT\ninq#1 Clock.busy\n");
+    EXPECT_TRUE(module.Expect("rep#1 Clock.busy = BUSY"));
+    if (signal) {
+      module.Terminate();
+    } else {
+      module.WriteLine("set Run = EXIT");
+    }
+    EXPECT_EQ(module.Wait(), 0);
+  }
+}
+
+TEST(ModuleProcessTest, AClientThatHalfClosesStillGetsItsAnswers) {
+  const support::TempDir folder;
+  const std::string path = folder / "s";
+  Process module({kModule, "--listen", "unix:" + path});
+  for (int i = 0; i < 20; ++i) {
+    const auto client = SocketClient::Unix(path);
+    client->Write("set#1 Work = 30\ninq#2 X");
+    client->CloseInput();
+    const Strings said = client->ReadAll();
+    ASSERT_EQ(said.size(), 4u);
+    EXPECT_EQ(said[1], "rep#2 X = 0") << "a last line without its newline counts";
+    EXPECT_EQ(said[3], "rep#1 Work = done");
+    EXPECT_TRUE(client->AtEnd());
+  }
+}
+
+TEST(ModuleProcessTest, ASignalEndsItWhileItConnects) {
+  const support::TempDir folder;
+  const std::string path = folder / "s";
+  std::ofstream(folder / "token") << "0123456789abcdef\n";
+  ASSERT_EQ(chmod((folder / "token").c_str(), 0600), 0);
+  Process silent(
+      {kModule, "--listen", "unix:" + path});  // asks for no token, however long it waits
+  const auto there = SocketClient::Unix(path);
+  silent.Signal(SIGSTOP);
+  Process module({kModule, "--connect", "unix:" + path, "--token-file", folder / "token"});
+  const auto ready = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const std::string status = "/proc/" + std::to_string(module.pid()) + "/wchan";
+  const auto waits = [&] {
+    std::string what;
+    std::getline(std::ifstream(status) >> std::ws, what);
+    return what.find("epoll") != std::string::npos;
+  };
+  while (!waits() && std::chrono::steady_clock::now() < ready) std::this_thread::yield();
+  module.Terminate();
+  EXPECT_EQ(module.Wait(std::chrono::seconds(5)), 0) << "before its 10 s have run out";
+  silent.Signal(SIGCONT);
+}
+
+TEST(ModuleProcessTest, AClientOfTheOriginalsEncodingIsAnsweredInItWithoutBeingAsked) {
+  Process module({kModule});
+  module.Write("def Text = \xa4\xa2\ninq Text\n");
+  module.CloseInput();
+  EXPECT_TRUE(module.Expect("rep Text = \xa4\xa2"));
+  EXPECT_EQ(module.Wait(), 0);
 }
 
 TEST(ModuleProcessTest, SpeaksTheOriginalsEncodings) {

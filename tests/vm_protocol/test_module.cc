@@ -32,15 +32,24 @@ class TestModule final : public vm::Module {
                                      reply.Ok("done");
                                    });
                     }});
+    // Work whose end no timer tells.
+    slots_.Declare({.name = "Settle",
+                    .grammar = "<ms>",
+                    .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                      settled_ = clock_.Now() +
+                                 vm::Time(static_cast<vm::Time::rep>(value.number(0) * 1000));
+                      return value.text;
+                    }});
   }
   vm::SlotMachine& slots() override { return slots_; }
-  bool Busy() const override { return working_ > 0; }
+  bool Busy() const override { return working_ > 0 || clock_.Now() < settled_; }
   bool ExitRequested() const override { return exit_; }
 
  private:
   vm::SlotMachine slots_;
   vm::Scheduler& clock_;
   int working_ = 0;
+  vm::Time settled_{0};
   bool exit_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <chrono>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -150,7 +151,8 @@ class AcceptorImpl final : public Acceptor {
     if (!token) throw std::runtime_error(token.error().text);
     token_ = *token;
     if (endpoint.kind == Endpoint::Kind::kTls) tls_ = Tls::ForListener(credentials);
-    listener_ = Listener::Open(io, endpoint, [this](int fd, const std::string&) { OnAccept(fd); });
+    listener_ = Listener::Open(
+        io, endpoint, [this](int fd, const std::string&) { OnAccept(fd); }, on_refusal_);
   }
   ~AcceptorImpl() override { *alive_ = false; }
   Endpoint endpoint() const override { return listener_->endpoint(); }
@@ -158,32 +160,35 @@ class AcceptorImpl final : public Acceptor {
  private:
   void OnAccept(int fd) {
     const std::string from = OtherEnd(fd);
-    if (unadmitted_ >= kMaxUnadmitted) {
-      close(fd);
-      return Refused(from, "too many are waiting to be admitted");
+    const unsigned id = ++last_id_;
+    // Whoever has been silent for longest makes room, so that strangers cannot lock the others out.
+    if (unadmitted_.size() >= kMaxUnadmitted) {
+      shutdown(unadmitted_.begin()->second, SHUT_RDWR);
+      unadmitted_.erase(unadmitted_.begin());
     }
-    ++unadmitted_;
-    if (tls_ == nullptr) return Ask(fd, from);
-    tls_->Wrap(io_, fd, "", [this, alive = alive_, from](Result<Tls::Plain> plain) {
+    unadmitted_[id] = fd;
+    if (tls_ == nullptr) return Ask(id, fd, from);
+    tls_->Wrap(io_, fd, "", [this, id, alive = alive_, from](Result<Tls::Plain> plain) {
       if (!*alive) {
         if (plain) close(plain->fd);
         return;
       }
-      if (plain) return Ask(plain->fd, plain->name.empty() ? from : from + " " + plain->name);
-      --unadmitted_;
+      if (plain) return Ask(id, plain->fd, plain->name.empty() ? from : from + " " + plain->name);
+      unadmitted_.erase(id);
       Refused(from, plain.error().text);
     });
   }
-  void Ask(int fd, const std::string& from) {
+  void Ask(unsigned id, int fd, const std::string& from) {
     const auto stream = StreamPeer::Make(io_, fd, fd, framing_, encoding_);
+    if (const auto found = unadmitted_.find(id); found != unadmitted_.end()) found->second = fd;
     if (token_.empty()) {
-      --unadmitted_;
+      unadmitted_.erase(id);
       return on_connection_({stream, from});
     }
     std::make_shared<Handshake>(io_, stream, token_)
-        ->Admit([this, alive = alive_, stream, from](Result<void> result) {
+        ->Admit([this, id, alive = alive_, stream, from](Result<void> result) {
           if (!*alive) return stream->Close();
-          --unadmitted_;
+          unadmitted_.erase(id);
           result ? on_connection_({stream, from}) : Refused(from, result.error().text);
         });
   }
@@ -199,7 +204,9 @@ class AcceptorImpl final : public Acceptor {
   std::string token_;
   std::shared_ptr<Tls> tls_;
   std::unique_ptr<Listener> listener_;
-  std::size_t unadmitted_ = 0;
+  std::map<unsigned, int>
+      unadmitted_;  // in order of coming: the descriptors that are shut for room
+  unsigned last_id_ = 0;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };
 

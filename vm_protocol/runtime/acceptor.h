@@ -14,7 +14,8 @@ namespace vm {
 
 /// A place where others come in, and what is asked of them before anybody hears a line of theirs:
 /// TLS where the endpoint says so, the token where there is one.
-/// Limits: kMaxUnadmitted at once who have not shown what is asked, kAdmissionLimit for each.
+/// Limits: kMaxUnadmitted at once who have not shown what is asked, kAdmissionLimit for each; one
+/// more makes the one go that came first.
 class Acceptor {
  public:
   static constexpr std::size_t kMaxUnadmitted = 32;

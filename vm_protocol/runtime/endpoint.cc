@@ -8,9 +8,13 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
+#include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <charconv>
+#include <chrono>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +25,8 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using asio::local::stream_protocol;
 using boost::system::error_code;
+
+constexpr auto kAcceptPause = std::chrono::milliseconds(200);
 
 std::unexpected<Error> BadEndpoint(std::string_view text) {
   return Fail(Errc::kBadValue, "found '" + std::string(text) +
@@ -42,8 +48,12 @@ template <typename Protocol>
 class ListenerImpl final : public Listener {
  public:
   ListenerImpl(asio::io_context& io, const typename Protocol::endpoint& where, Endpoint endpoint,
-               OnAccept on_accept)
-      : acceptor_(io), endpoint_(std::move(endpoint)), on_accept_(std::move(on_accept)) {
+               OnAccept on_accept, OnTrouble on_trouble)
+      : acceptor_(io),
+        pause_(io),
+        endpoint_(std::move(endpoint)),
+        on_accept_(std::move(on_accept)),
+        on_trouble_(std::move(on_trouble)) {
     acceptor_.open(where.protocol());
     if constexpr (std::is_same_v<Protocol, tcp>)
       acceptor_.set_option(tcp::acceptor::reuse_address(true));
@@ -67,6 +77,8 @@ class ListenerImpl final : public Listener {
   void AcceptNext() {
     acceptor_.async_accept([this](const error_code& error, typename Protocol::socket socket) {
       if (error == asio::error::operation_aborted) return;
+      if (error && error != asio::error::connection_aborted) return Pause(error);
+      in_trouble_ = in_trouble_ && error;
       if (!error) {
         if constexpr (std::is_same_v<Protocol, tcp>) NoDelay(socket.native_handle());
         fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
@@ -76,9 +88,22 @@ class ListenerImpl final : public Listener {
     });
   }
 
+  /// Trying again at once would spin: the connection stays in the system's queue.
+  void Pause(const error_code& error) {
+    if (!std::exchange(in_trouble_, true) && on_trouble_)
+      on_trouble_(FormatEndpoint(endpoint_) + ": cannot accept: " + error.message());
+    pause_.expires_after(kAcceptPause);
+    pause_.async_wait([this](const error_code& cancelled) {
+      if (!cancelled) AcceptNext();
+    });
+  }
+
   typename Protocol::acceptor acceptor_;
+  asio::steady_timer pause_;
   Endpoint endpoint_;
   OnAccept on_accept_;
+  OnTrouble on_trouble_;
+  bool in_trouble_ = false;  // and on_trouble_ knows
 };
 
 /// Removes the file of a Unix socket nobody listens on any more.
@@ -94,20 +119,23 @@ void RemoveStale(asio::io_context& io, const std::string& path) {
   unlink(path.c_str());
 }
 
-template <typename Protocol>
-void Connect(asio::io_context& io, const typename Protocol::endpoint& where,
-             const Endpoint& endpoint, std::function<void(Result<int>)> done) {
+/// Tries all of `places` in order.
+template <typename Protocol, typename Places>
+void Connect(asio::io_context& io, const Places& places, const Endpoint& endpoint,
+             std::function<void(Result<int>)> done) {
   auto socket = std::make_shared<typename Protocol::socket>(io);
-  socket->async_connect(where, [socket, endpoint, done = std::move(done)](const error_code& error) {
-    if (error) {
-      done(Fail(Errc::kUnavailable,
-                "cannot connect to " + FormatEndpoint(endpoint) + ": " + error.message()));
-      return;
-    }
-    if constexpr (std::is_same_v<Protocol, tcp>) NoDelay(socket->native_handle());
-    fcntl(socket->native_handle(), F_SETFD, FD_CLOEXEC);
-    done(socket->release());
-  });
+  asio::async_connect(
+      *socket, places,
+      [socket, endpoint, done = std::move(done)](const error_code& error, const auto&) {
+        if (error) {
+          done(Fail(Errc::kUnavailable,
+                    "cannot connect to " + FormatEndpoint(endpoint) + ": " + error.message()));
+          return;
+        }
+        if constexpr (std::is_same_v<Protocol, tcp>) NoDelay(socket->native_handle());
+        fcntl(socket->native_handle(), F_SETFD, FD_CLOEXEC);
+        done(socket->release());
+      });
 }
 
 constexpr std::size_t kMaxUnixPath = sizeof(sockaddr_un::sun_path) - 1;
@@ -146,17 +174,19 @@ std::string FormatEndpoint(const Endpoint& endpoint) {
 }
 
 std::unique_ptr<Listener> Listener::Open(asio::io_context& io, const Endpoint& endpoint,
-                                         OnAccept on_accept) {
+                                         OnAccept on_accept, OnTrouble on_trouble) {
   try {
     if (endpoint.kind == Endpoint::Kind::kUnix) {
       RemoveStale(io, endpoint.host);
       return std::make_unique<ListenerImpl<stream_protocol>>(
-          io, stream_protocol::endpoint(endpoint.host), endpoint, std::move(on_accept));
+          io, stream_protocol::endpoint(endpoint.host), endpoint, std::move(on_accept),
+          std::move(on_trouble));
     }
     error_code error;
     const auto where = ResolveTcp(io, endpoint, error);
     if (error) throw boost::system::system_error(error);
-    return std::make_unique<ListenerImpl<tcp>>(io, where, endpoint, std::move(on_accept));
+    return std::make_unique<ListenerImpl<tcp>>(io, where, endpoint, std::move(on_accept),
+                                               std::move(on_trouble));
   } catch (const boost::system::system_error& error) {
     throw std::runtime_error("cannot listen on " + FormatEndpoint(endpoint) + ": " +
                              error.code().message());
@@ -166,16 +196,17 @@ std::unique_ptr<Listener> Listener::Open(asio::io_context& io, const Endpoint& e
 void ConnectTo(asio::io_context& io, const Endpoint& endpoint,
                std::function<void(Result<int> fd)> done) {
   if (endpoint.kind == Endpoint::Kind::kUnix) {
-    return Connect<stream_protocol>(io, stream_protocol::endpoint(endpoint.host), endpoint,
-                                    std::move(done));
+    return Connect<stream_protocol>(io, std::array{stream_protocol::endpoint(endpoint.host)},
+                                    endpoint, std::move(done));
   }
-  error_code error;
-  const auto where = ResolveTcp(io, endpoint, error);
-  if (error) {
-    done(Fail(Errc::kUnavailable, "cannot find " + endpoint.host + ": " + error.message()));
-    return;
-  }
-  Connect<tcp>(io, where, endpoint, std::move(done));
+  const auto resolver = std::make_shared<tcp::resolver>(io);
+  resolver->async_resolve(
+      endpoint.host, std::to_string(endpoint.port),
+      [&io, resolver, endpoint, done = std::move(done)](const error_code& error,
+                                                        const tcp::resolver::results_type& found) {
+        if (!error) return Connect<tcp>(io, found, endpoint, done);
+        done(Fail(Errc::kUnavailable, "cannot find " + endpoint.host + ": " + error.message()));
+      });
 }
 
 }  // namespace vm

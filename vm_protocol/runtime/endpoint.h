@@ -27,16 +27,20 @@ std::string FormatEndpoint(const Endpoint& endpoint);
 class Listener {
  public:
   using OnAccept = std::function<void(int fd, std::string peer_name)>;
+  using OnTrouble = std::function<void(const std::string& text)>;
   /// Throws std::runtime_error with a sentence if the endpoint cannot be had. Port 0: any free one.
+  /// Where the system cannot give it a connection (no descriptors left), `on_trouble` hears it
+  /// once, and it tries again every kAcceptPause until that has passed.
   static std::unique_ptr<Listener> Open(boost::asio::io_context& io, const Endpoint& endpoint,
-                                        OnAccept on_accept);
+                                        OnAccept on_accept, OnTrouble on_trouble = {});
   virtual ~Listener() = default;
   /// Where it really listens (the port chosen for 0).
   virtual Endpoint endpoint() const = 0;
 };
 
-/// Connects without blocking the context (names are resolved by the system, briefly blocking).
-/// `done` gets a connected descriptor, or kUnavailable with a sentence.
+/// Connects without blocking the context; names are resolved on a thread of Asio's. All addresses
+/// of a name are tried in order. `done` gets a connected descriptor, or kUnavailable with a
+/// sentence.
 void ConnectTo(boost::asio::io_context& io, const Endpoint& endpoint,
                std::function<void(Result<int> fd)> done);
 

@@ -178,20 +178,26 @@ class Program {
     const std::string name = options_.name.empty() ? info_.module_name : options_.name;
     if (!IsModuleName(name)) throw std::runtime_error("'" + name + "' is not a module's name");
     // Taken apart here: g++ 12 takes a Result that is moved out of a callback for uninitialised.
-    std::shared_ptr<StreamPeer> stream;
-    std::string refusal;
+    // Shared, since a signal ends our waiting before the call is over.
+    struct Call {
+      std::shared_ptr<StreamPeer> stream;
+      std::string refusal;
+    };
+    const auto call = std::make_shared<Call>();
     vm::Connect(io, endpoint, options_.credentials, Framing::kLf, encoding,
-                [&](const Result<std::shared_ptr<StreamPeer>>& called) {
+                [call](const Result<std::shared_ptr<StreamPeer>>& called) {
                   if (called) {
-                    stream = *called;
+                    call->stream = *called;
                   } else {
-                    refusal = called.error().text;
+                    call->refusal = called.error().text;
                   }
                 });
-    while (stream == nullptr && refusal.empty()) io.run_one();
-    if (stream == nullptr) throw std::runtime_error(refusal);
-    server.AddPeer(stream, {.first_lines = {"to @AM set Name = " + name}, .ends_module = true});
-    stream->ResumeReading();
+    while (call->stream == nullptr && call->refusal.empty() && !server.stopping()) io.run_one();
+    if (!call->refusal.empty()) throw std::runtime_error(call->refusal);
+    if (call->stream == nullptr) return;
+    server.AddPeer(call->stream,
+                   {.first_lines = {"to @AM set Name = " + name}, .ends_module = true});
+    call->stream->ResumeReading();
   }
 
   const Options& options_;

@@ -1,5 +1,6 @@
 #include "vm_protocol/runtime/module_server.h"
 
+#include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <cerrno>
@@ -11,12 +12,17 @@
 
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/text_file.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace vm {
 namespace {
 
 constexpr auto kFlushLimit = std::chrono::seconds(3);  // for a reader that does not read at the end
-constexpr std::size_t kMaxFileBytes = 4u << 20;        // read by `<` and `do FILE`
+/// How long a peer whose input has ended is kept for the end of what goes on.
+constexpr auto kHalfClosedLimit = std::chrono::seconds(60);
+/// A module may become idle by the clock alone, without a timer of its own: we have to look.
+constexpr auto kIdleCheck = std::chrono::milliseconds(20);
+constexpr std::size_t kMaxFileBytes = 4u << 20;  // read by `<` and `do FILE`
 
 Result<void> AppendTextFile(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary | std::ios::app);
@@ -39,6 +45,12 @@ ModuleServer::ModuleServer(boost::asio::io_context& io, ClockScheduler& clock, M
     ++errors_;
     Complain("error: " + FormatError(error) + (line.empty() ? "" : " (in: " + line + ")"));
   });
+  // EXIT comes after what was said before it; said again, it comes at once.
+  slots.set_exit_gate([this](std::function<void()> exit) {
+    held_exits_.push_back(std::move(exit));
+    if (module_.Busy() && held_exits_.size() == 1) return;
+    for (const auto& held : std::exchange(held_exits_, {})) held();
+  });
   DeclareSlots();
 }
 
@@ -47,7 +59,7 @@ ModuleServer::~ModuleServer() {
 }
 
 void ModuleServer::Complain(std::string_view text) const {
-  std::cerr << options_.program_name << ": " << text << std::endl;
+  std::cerr << options_.program_name << ": " << ShownUtf8(text) << std::endl;
 }
 
 void ModuleServer::DeclareSlots() {
@@ -137,7 +149,8 @@ void ModuleServer::EndWait(PeerId id, const Reply& reply) {
 }
 
 bool ModuleServer::HasRoom() const {
-  return options_.one_client ? peers_.empty() : peers_.size() < kMaxConnections;
+  if (!options_.one_client) return peers_.size() < kMaxConnections;
+  return std::ranges::all_of(peers_, [](const auto& entry) { return entry.second.ended; });
 }
 
 void ModuleServer::AddPeer(std::shared_ptr<StreamPeer> stream, PeerOptions options) {
@@ -174,12 +187,26 @@ void ModuleServer::OnEnd(PeerId id, const std::string& reason) {
   if (reason != "end of input") Complain("peer " + std::to_string(id) + ": " + reason);
   if (found->second.ends_module) {
     module_ending_ = true;
-    found->second.ended = true;  // kept: what is still said goes there
+    found->second.ended = true;
+    return;
+  }
+  if (reason == "end of input") {  // it may still read: Settle releases it
+    found->second.ended = true;
+    found->second.kept_until = std::chrono::steady_clock::now() + kHalfClosedLimit;
     return;
   }
   found->second.stream->Close();
   peers_.erase(found);
   module_.slots().PeerGone(id);
+}
+
+void ModuleServer::Release(PeerId id) {
+  const auto stream = std::move(peers_.at(id).stream);
+  peers_.erase(id);
+  module_.slots().PeerGone(id);
+  const auto limit = std::make_shared<boost::asio::steady_timer>(io_, kFlushLimit);
+  limit->async_wait([stream, limit](const auto&) { stream->Close(); });
+  stream->Flush([limit] { limit->cancel(); });
 }
 
 void ModuleServer::Emit(PeerId id, const Message& message) {
@@ -192,7 +219,7 @@ void ModuleServer::Emit(PeerId id, const Message& message) {
 }
 
 bool ModuleServer::TimeIsWanted() const {
-  if (module_.Busy()) return true;
+  if (module_.Busy()) return true;  // also while a held EXIT waits for it
   for (const auto& [id, peer] : peers_) {
     if (peer.waiting) return true;
   }
@@ -201,8 +228,17 @@ bool ModuleServer::TimeIsWanted() const {
 
 bool ModuleServer::Settle() {
   if (stop_ || module_.ExitRequested()) return true;
+  if (!held_exits_.empty() && !module_.Busy()) {
+    for (const auto& exit : std::exchange(held_exits_, {})) exit();
+    return false;
+  }
   bool waiting = false;
   for (auto& [id, peer] : peers_) {
+    if (peer.ended && !peer.ends_module &&
+        (!module_.Busy() || std::chrono::steady_clock::now() > peer.kept_until)) {
+      Release(id);
+      return false;
+    }
     if (peer.on_idle && !module_.Busy()) {
       const Reply reply = *peer.on_idle;
       EndWait(id, reply);
@@ -213,9 +249,20 @@ bool ModuleServer::Settle() {
   return module_ending_ && !waiting && !module_.Busy();
 }
 
+bool ModuleServer::IdleIsAwaited() const {
+  return module_ending_ || !held_exits_.empty() ||
+         std::ranges::any_of(peers_, [](const auto& entry) {
+           return entry.second.ended || entry.second.on_idle.has_value();
+         });
+}
+
 void ModuleServer::Step() {
   if (clock_.real() || hub_clock_) {
-    io_.run_one();
+    if (IdleIsAwaited()) {
+      io_.run_one_for(kIdleCheck);
+    } else {
+      io_.run_one();
+    }
     return;
   }
   // Alone on the virtual clock: input first, then time, then wait for input.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -43,14 +44,16 @@ class ModuleServer {
   /// Runs until the module is told to exit, or its input has ended and nothing is pending; then
   /// shuts the module down and flushes. Returns the number of errors seen.
   int Run();
-  /// Makes Run return soon, as for `set Run = EXIT`. Safe within callbacks.
+  /// Makes Run return soon, whatever goes on. Safe within callbacks.
   void RequestStop() { stop_ = true; }
+  bool stopping() const { return stop_; }
 
  private:
   struct Peer {
     std::shared_ptr<StreamPeer> stream;
     bool ends_module = false;
-    bool ended = false;
+    bool ended = false;  // its input is; it is kept for what is still said to it
+    std::chrono::steady_clock::time_point kept_until{};
     bool waiting = false;          // a `Wait` holds its input
     std::optional<Reply> on_idle;  // it waits for IDLE
   };
@@ -63,7 +66,10 @@ class ModuleServer {
   void OnLine(PeerId id, Result<std::string_view> line);
   void OnEnd(PeerId id, const std::string& reason);
   void Emit(PeerId id, const Message& message);
+  void Release(PeerId id);
   void Step();
+  /// True if something goes on only when the module is no longer busy.
+  bool IdleIsAwaited() const;
   /// After anything happened: ends waits for IDLE, and says whether all is over.
   bool Settle();
   bool TimeIsWanted() const;
@@ -79,6 +85,7 @@ class ModuleServer {
   bool hub_clock_ = false;
   bool module_ending_ = false;  // a peer whose end ends the module is gone
   bool stop_ = false;
+  std::vector<std::function<void()>> held_exits_;  // `set Run = EXIT` said while something goes on
   int errors_ = 0;
 };
 

@@ -217,7 +217,9 @@ class StreamPeerImpl final : public StreamPeer {
     }
     input_ended_ = true;
     end_reason_ = error.empty() ? "end of input" : "cannot read: " + error;
-    reader_.End([this](Result<std::string_view> line) { OnRawLine(std::move(line)); });
+    // Only who ends in order means its last line without a newline as a whole one.
+    if (error.empty())
+      reader_.End([this](Result<std::string_view> line) { OnRawLine(std::move(line)); });
     DeliverHeld();
   }
 

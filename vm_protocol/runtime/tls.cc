@@ -45,7 +45,9 @@ class Tunnel : public std::enable_shared_from_this<Tunnel> {
     }
     limit_.expires_after(kTlsHandshakeLimit);
     limit_.async_wait([self = shared_from_this()](const error_code& error) {
-      if (!error) self->CloseRemote();
+      // Not closed before Done was called: until then whoever called us may use the descriptor.
+      error_code ignored;
+      if (!error) self->remote_.lowest_layer().shutdown(asio::socket_base::shutdown_both, ignored);
     });
     remote_.async_handshake(listener ? ssl::stream_base::server : ssl::stream_base::client,
                             [self = shared_from_this()](const error_code& error) {

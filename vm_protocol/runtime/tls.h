@@ -25,7 +25,8 @@ class Tls {
     std::string name;  ///< the common name in the other side's certificate; empty = it showed none
   };
   using Done = std::function<void(Result<Plain>)>;
-  /// Takes the socket over. A caller checks that the certificate is for `host`.
+  /// Takes the socket over, which stays open until `done` is called. A caller checks that the
+  /// certificate is for `host`.
   virtual void Wrap(boost::asio::io_context& io, int fd, const std::string& host, Done done) = 0;
 };
 
