@@ -18,8 +18,6 @@ vm::Result<Node> ParseExpansion(std::string_view text, Form form, std::string_vi
 
 /// "line 3: "; nothing if it is not known (0).
 std::string AtLine(std::size_t line);
-/// "rule 'x'"; the phrases outside of all rules are a rule without a name.
-std::string RuleLabel(std::string_view rule);
 std::string NestedTooDeep();
 std::string TooManyParts();
 bool IsBlank(char c);

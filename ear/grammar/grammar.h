@@ -88,6 +88,9 @@ vm::Result<Grammar> ParseOwnForm(std::string_view text);
 vm::Result<Grammar> ParseJsgf(std::string_view text);
 vm::Result<Grammar> ParseSrgs(std::string_view text);
 
+/// "rule 'x'"; the phrases outside of all rules are a rule without a name.
+std::string RuleLabel(std::string_view rule);
+
 /// Lower-case words of a text: runs of ASCII letters, digits, ' and -, and runs of characters
 /// beyond ASCII without punctuation.
 std::vector<std::string> WordsOf(std::string_view text);

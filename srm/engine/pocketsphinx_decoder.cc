@@ -49,6 +49,14 @@ class PocketsphinxDecoder final : public SpeechDecoder {
     if (grammars.empty()) return UseDictation();
     std::size_t parts = 0;
     for (const ear::Grammar* grammar : grammars) parts += grammar->expanded_parts();
+    for (const ear::Grammar* grammar : grammars) {
+      if (const std::size_t row = LongestOptionalRow(*grammar); row > kMaxOptionalRow) {
+        return vm::Fail(vm::Errc::kLimit,
+                        ear::RuleLabel(grammar->root()) + ": " + std::to_string(row) +
+                            " parts in a row that may be left out, expected at most " +
+                            std::to_string(kMaxOptionalRow));
+      }
+    }
     if (parts > ear::kMaxExpandedParts) {
       return vm::Fail(vm::Errc::kLimit, "the active grammars have " + std::to_string(parts) +
                                             " parts when written out, expected at most " +

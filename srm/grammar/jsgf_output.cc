@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 namespace srm {
@@ -85,7 +86,81 @@ class Writer {
   std::map<std::string_view, std::size_t> numbers_;
 };
 
+/// Rows of parts that may be left out, in a piece of a grammar.
+struct Rows {
+  bool empty = true;        ///< the whole piece may be left out: a row of `through`
+  std::size_t through = 0;  ///< else 0
+  std::size_t head = 0, tail = 0, longest = 0;
+
+  void Append(const Rows& next) {
+    longest = std::max({longest, next.longest, tail + next.head});
+    if (empty) head = std::max(head, through + next.head);
+    tail = next.empty ? std::max(next.tail, tail + next.through) : next.tail;
+    empty = empty && next.empty;
+    through = empty ? through + next.through : 0;
+  }
+  void Or(const Rows& other) {
+    empty = empty || other.empty;
+    through = std::max(through, other.through);
+    head = std::max(head, other.head);
+    tail = std::max(tail, other.tail);
+    longest = std::max(longest, other.longest);
+  }
+  void MakeOptional() { Or({.empty = true, .through = 1, .head = 1, .tail = 1, .longest = 1}); }
+};
+
+class RowFinder {
+ public:
+  explicit RowFinder(const Grammar& grammar) : grammar_(grammar) {}
+
+  Rows Of(const Node& node) {
+    Rows rows;
+    switch (node.kind) {
+      case Kind::kWord:
+      case Kind::kAny:
+      case Kind::kVoid:
+        rows.empty = false;
+        break;
+      case Kind::kTag:
+        break;
+      case Kind::kRule:
+        if (std::find(path_.begin(), path_.end(), node.text) != path_.end()) {
+          rows.empty = false;
+          break;
+        }
+        path_.push_back(node.text);
+        rows = Of(grammar_.rules().find(node.text)->second);
+        path_.pop_back();
+        break;
+      case Kind::kSequence:
+        for (const Node& part : node.parts) rows.Append(Of(part));
+        break;
+      case Kind::kChoice:
+        rows.empty = false;
+        for (const Node& part : node.parts) rows.Or(Of(part));
+        break;
+      case Kind::kRepeat: {
+        Rows once = Of(node.parts[0]);
+        for (int i = 0; i < node.least; ++i) rows.Append(once);
+        once.MakeOptional();
+        const int most = node.most == kUnlimited ? node.least + 1 : node.most;
+        for (int i = node.least; i < most; ++i) rows.Append(once);
+        break;
+      }
+    }
+    return rows;
+  }
+
+ private:
+  const Grammar& grammar_;
+  std::vector<std::string_view> path_;
+};
+
 }  // namespace
+
+std::size_t LongestOptionalRow(const Grammar& grammar) {
+  return RowFinder(grammar).Of(grammar.rules().find(grammar.root())->second).longest;
+}
 
 const std::vector<std::string>& ModelPhonemes() {
   static const std::vector<std::string> names = {
