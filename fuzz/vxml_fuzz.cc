@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "task_manager/document/document.h"
+#include "task_manager/document/vxml_document.h"
 #include "task_manager/script/rewriter.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

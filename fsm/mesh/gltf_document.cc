@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fsm/mesh/obj_file.h"
+#include "vm_protocol/runtime/base64.h"
 
 namespace fsm {
 namespace {
@@ -21,37 +22,6 @@ std::uint32_t Word(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t k = 4; k-- > 0;) value = value << 8 | static_cast<std::uint8_t>(bytes[at + k]);
   return value;
-}
-
-std::optional<std::string> FromBase64(std::string_view text) {
-  std::string out;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    std::uint32_t value = 0;
-    if (c >= 'A' && c <= 'Z') {
-      value = static_cast<std::uint32_t>(c - 'A');
-    } else if (c >= 'a' && c <= 'z') {
-      value = static_cast<std::uint32_t>(c - 'a') + 26;
-    } else if (c >= '0' && c <= '9') {
-      value = static_cast<std::uint32_t>(c - '0') + 52;
-    } else if (c == '+' || c == '/') {
-      value = c == '+' ? 62 : 63;
-    } else if (c == '=') {
-      break;
-    } else {
-      return std::nullopt;
-    }
-    bits = bits << 6 | value;
-    if (++count == 4) {
-      for (int k = 16; k >= 0; k -= 8) out += static_cast<char>(bits >> k & 0xff);
-      bits = 0;
-      count = 0;
-    }
-  }
-  if (count >= 2) out += static_cast<char>(bits >> (6 * count - 8) & 0xff);
-  if (count == 3) out += static_cast<char>(bits >> 2 & 0xff);
-  return out;
 }
 
 struct Kind {
@@ -230,8 +200,9 @@ std::size_t GltfDocument::Count(const char* key) const {
 vm::Result<std::string> GltfDocument::Resolve(const std::string& uri) const {
   if (uri.starts_with("data:")) {
     const auto comma = uri.find(";base64,");
-    auto bytes = comma == std::string::npos ? std::nullopt
-                                            : FromBase64(std::string_view(uri).substr(comma + 8));
+    auto bytes = comma == std::string::npos
+                     ? std::nullopt
+                     : vm::DecodeBase64(std::string_view(uri).substr(comma + 8));
     if (!bytes) return vm::Fail(vm::Errc::kBadValue, "its data URI is not base64");
     return std::move(*bytes);
   }

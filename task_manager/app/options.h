@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "vm_protocol/runtime/credentials.h"
 
 namespace vxml {

@@ -59,7 +59,7 @@ int RunOne(const Options& options, int number, std::mutex& out) {
       std::cerr << line.Text("trace", kind).Add(fields).str() << "\n";
     };
   }
-  Session session(std::move(session_options), platform);
+  DialogSession session(std::move(session_options), platform);
   const SessionResult result = session.Run();
   if (!options.out.empty()) {
     platform.Pause(Millis(700));

@@ -16,13 +16,13 @@ namespace {
 
 /// Reads a document without refusing it for its structure.
 struct Loose {
-  Document document;
+  VxmlDocument document;
   std::vector<Finding> findings;
 };
 
 class DeepChecker {
  public:
-  DeepChecker(Document& document, fetch::Fetcher& fetcher)
+  DeepChecker(VxmlDocument& document, fetch::Fetcher& fetcher)
       : document_(document),
         fetcher_(fetcher),
         store_([this](const std::string& uri) -> vm::Result<std::string> {
@@ -124,7 +124,7 @@ class DeepChecker {
     if (!added) Say(node, "grammar: " + added.error().text, "");
   }
 
-  Document& document_;
+  VxmlDocument& document_;
   fetch::Fetcher& fetcher_;
   srgs::GrammarStore store_;
   script::Engine engine_;

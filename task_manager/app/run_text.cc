@@ -96,7 +96,7 @@ int RunOne(const Options& options, const std::string& script, Output& output, st
       *trace << head.Add(fields).str() << std::endl;
     };
   }
-  Session session(std::move(session_options), platform);
+  DialogSession session(std::move(session_options), platform);
   const SessionResult result = session.Run();
   if (result.failed && !session.started()) return kNotStarted;
   return CodeOf(result, platform.ran_out());
@@ -122,7 +122,7 @@ int RunMany(const Options& options) {
         numbered.Number("session", static_cast<double>(i + 1)).Add(line);
         texts[i] << numbered.str() << "\n";
       });
-      Session session(session_options, platform);
+      DialogSession session(session_options, platform);
       const SessionResult result = session.Run();
       codes[i] =
           result.failed && !session.started() ? kNotStarted : CodeOf(result, platform.ran_out());

@@ -1,8 +1,8 @@
 #include <map>
 
-#include "task_manager/document/document.h"
 #include "task_manager/document/schema.h"
 #include "task_manager/document/values.h"
+#include "task_manager/document/vxml_document.h"
 #include "task_manager/xml/parser.h"
 
 namespace vxml {
@@ -10,7 +10,7 @@ namespace {
 
 class Checker {
  public:
-  explicit Checker(const Document& document) : document_(document) {}
+  explicit Checker(const VxmlDocument& document) : document_(document) {}
 
   std::vector<Finding> Run() {
     const xml::Node& root = *document_.root;
@@ -218,7 +218,7 @@ class Checker {
     }
   }
 
-  const Document& document_;
+  const VxmlDocument& document_;
   std::vector<Finding> findings_;
 };
 
@@ -232,6 +232,6 @@ std::string FormatFinding(const std::string& uri, const Finding& finding) {
   return text;
 }
 
-std::vector<Finding> CheckDocument(const Document& document) { return Checker(document).Run(); }
+std::vector<Finding> CheckDocument(const VxmlDocument& document) { return Checker(document).Run(); }
 
 }  // namespace vxml

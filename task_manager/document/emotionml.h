@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "task_manager/document/document.h"
+#include "task_manager/document/vxml_document.h"
 
 namespace vxml {
 

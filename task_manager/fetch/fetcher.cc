@@ -9,6 +9,7 @@
 #include "task_manager/fetch/cache.h"
 #include "task_manager/fetch/http.h"
 #include "task_manager/fetch/uri.h"
+#include "vm_protocol/runtime/base64.h"
 
 namespace vxml::fetch {
 namespace {
@@ -60,28 +61,6 @@ std::string TypeOfName(const std::string& path) {
   if (dot == std::string::npos) return "";
   const auto found = kTypes.find(Lower(path.substr(dot)));
   return found == kTypes.end() ? "" : found->second;
-}
-
-std::string DecodeBase64(std::string_view text) {
-  std::string out;
-  unsigned bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    int value = -1;
-    if (c >= 'A' && c <= 'Z') value = c - 'A';
-    if (c >= 'a' && c <= 'z') value = c - 'a' + 26;
-    if (c >= '0' && c <= '9') value = c - '0' + 52;
-    if (c == '+' || c == '-') value = 62;
-    if (c == '/' || c == '_') value = 63;
-    if (value < 0) continue;
-    bits = (bits << 6U) | static_cast<unsigned>(value);
-    count += 6;
-    if (count >= 8) {
-      count -= 8;
-      out += static_cast<char>((bits >> static_cast<unsigned>(count)) & 0xFFU);
-    }
-  }
-  return out;
 }
 
 }  // namespace
@@ -187,7 +166,9 @@ std::expected<Response, Failure> Fetcher::FetchData(const Request& request) {
   if (base64) header.erase(header.size() - 7);
   SplitType(header, response);
   const std::string body = PercentDecode(std::string_view(request.uri).substr(comma + 1));
-  response.body = base64 ? DecodeBase64(body) : body;
+  auto bytes = base64 ? vm::DecodeBase64(body) : body;
+  if (!bytes) return Refuse(vm::Errc::kBadValue, "data URI that is not base64");
+  response.body = std::move(*bytes);
   response.uri = request.uri;
   return response;
 }

@@ -4,6 +4,7 @@
 #include "task_manager/grammar/compiler.h"
 #include "task_manager/grammar/text.h"
 #include "task_manager/xml/parser.h"
+#include "vm_protocol/core/charset.h"
 
 namespace vxml::srgs {
 namespace {
@@ -180,7 +181,7 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
     if (!encoding.empty()) {
       for (char& c : encoding) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
       if (encoding != "utf-8") {
-        auto utf8 = xml::ToUtf8(start, encoding);
+        auto utf8 = vm::DecodeCharset(start, encoding);
         if (!utf8) return vm::Fail(utf8.error().code, context.uri + ":1:1: " + utf8.error().text);
         text = std::move(*utf8);
       }

@@ -1,9 +1,10 @@
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/scope_guard.h"
-#include "task_manager/interpreter/session.h"
 #include "task_manager/script/rewriter.h"
 #include "task_manager/xml/parser.h"
+#include "vm_protocol/core/charset.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace vxml {
@@ -23,7 +24,7 @@ bool IsSpeech(const xml::Node& node) {
 
 }  // namespace
 
-void Session::RunContent(const xml::Node& parent) {
+void DialogSession::RunContent(const xml::Node& parent) {
   std::vector<const xml::Node*> speech;
   const auto end_speech = [&] {
     bool something = false;
@@ -44,17 +45,17 @@ void Session::RunContent(const xml::Node& parent) {
   end_speech();
 }
 
-void Session::RunElement(const xml::Node& node) {
-  using Action = void (Session::*)(const xml::Node&);
+void DialogSession::RunElement(const xml::Node& node) {
+  using Action = void (DialogSession::*)(const xml::Node&);
   static const std::map<std::string_view, Action> kTable = {
-      {"assign", &Session::RunAssign}, {"clear", &Session::RunClear},
-      {"data", &Session::RunData},     {"disconnect", &Session::RunDisconnect},
-      {"exit", &Session::RunExit},     {"foreach", &Session::RunForeach},
-      {"goto", &Session::RunGoto},     {"if", &Session::RunIf},
-      {"log", &Session::RunLog},       {"native", &Session::RunNative},
-      {"return", &Session::RunReturn}, {"script", &Session::RunScript},
-      {"submit", &Session::RunSubmit}, {"throw", &Session::RunThrow},
-      {"var", &Session::RunVar},
+      {"assign", &DialogSession::RunAssign}, {"clear", &DialogSession::RunClear},
+      {"data", &DialogSession::RunData},     {"disconnect", &DialogSession::RunDisconnect},
+      {"exit", &DialogSession::RunExit},     {"foreach", &DialogSession::RunForeach},
+      {"goto", &DialogSession::RunGoto},     {"if", &DialogSession::RunIf},
+      {"log", &DialogSession::RunLog},       {"native", &DialogSession::RunNative},
+      {"return", &DialogSession::RunReturn}, {"script", &DialogSession::RunScript},
+      {"submit", &DialogSession::RunSubmit}, {"throw", &DialogSession::RunThrow},
+      {"var", &DialogSession::RunVar},
   };
   Step();
   const xml::Node* before = std::exchange(active_node_, &node);
@@ -69,7 +70,7 @@ void Session::RunElement(const xml::Node& node) {
   active_node_ = before;
 }
 
-void Session::RunIf(const xml::Node& node) {
+void DialogSession::RunIf(const xml::Node& node) {
   bool done = false;
   bool active = Condition(node);
   done = active;
@@ -99,7 +100,7 @@ void Session::RunIf(const xml::Node& node) {
   end_speech();
 }
 
-void Session::RunForeach(const xml::Node& node) {
+void DialogSession::RunForeach(const xml::Node& node) {
   const Value array = Evaluate(node, node.Get("array"));
   if (!engine_.IsArray(array)) {
     ThrowSemantic(*context_->document, node, "'" + node.Get("array") + "' is not an array");
@@ -124,14 +125,14 @@ void Session::RunForeach(const xml::Node& node) {
   }
 }
 
-void Session::RunVar(const xml::Node& node) {
+void DialogSession::RunVar(const xml::Node& node) {
   const std::string* expression = node.Find("expr");
   // Declared again in the same scope without a value it keeps the one it has (section 5.3.1).
   if (!expression && engine_.Has(CurrentChain().back(), node.Get("name"))) return;
   Declare(node, node.Get("name"), expression ? Evaluate(node, *expression) : engine_.Undefined());
 }
 
-void Session::RunAssign(const xml::Node& node) {
+void DialogSession::RunAssign(const xml::Node& node) {
   const std::string name(xml::Trim(node.Get("name")));
   const std::string* expression = node.Find("expr");
   const Value value = expression ? Evaluate(node, *expression) : engine_.Undefined();
@@ -149,7 +150,7 @@ void Session::RunAssign(const xml::Node& node) {
   }
 }
 
-bool Session::IsDeclaredBeforeSession(const std::string& base) {
+bool DialogSession::IsDeclaredBeforeSession(const std::string& base) {
   const script::Chain chain = CurrentChain();
   for (std::size_t i = chain.size(); i-- > 2;) {
     if (engine_.Has(chain[i], base)) return true;
@@ -157,7 +158,7 @@ bool Session::IsDeclaredBeforeSession(const std::string& base) {
   return false;
 }
 
-void Session::RunClear(const xml::Node& node) {
+void DialogSession::RunClear(const xml::Node& node) {
   const std::string namelist = node.Get("namelist");
   std::vector<std::string> names;
   for (const std::string_view word : SplitWords(namelist)) names.emplace_back(word);
@@ -178,7 +179,7 @@ void Session::RunClear(const xml::Node& node) {
   }
 }
 
-void Session::RunScript(const xml::Node& node) {
+void DialogSession::RunScript(const xml::Node& node) {
   std::string source = node.Get("src");
   if (const std::string* expression = node.Find("srcexpr")) source = TextOf(node, *expression);
   std::string text = node.Text();
@@ -190,7 +191,7 @@ void Session::RunScript(const xml::Node& node) {
     std::string charset = got.charset.empty() ? node.Get("charset") : got.charset;
     for (char& c : charset) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
     if (!charset.empty() && charset != "utf-8") {
-      auto utf8 = xml::ToUtf8(text, charset);
+      auto utf8 = vm::DecodeCharset(text, charset);
       if (!utf8) ThrowEvent("error.badfetch", request.uri + ": " + utf8.error().text);
       text = *utf8;
     }
@@ -199,7 +200,7 @@ void Session::RunScript(const xml::Node& node) {
   if (!ran) ThrowSemantic(*context_->document, node, "script: " + ran.error().text);
 }
 
-void Session::RunLog(const xml::Node& node) {
+void DialogSession::RunLog(const xml::Node& node) {
   std::string text;
   for (const auto& child : node.children) {
     if (child->IsText()) text += child->text;
@@ -217,7 +218,7 @@ void Session::RunLog(const xml::Node& node) {
   platform_.Report("log", line);
 }
 
-void Session::RunThrow(const xml::Node& node) {
+void DialogSession::RunThrow(const xml::Node& node) {
   EventThrown event;
   event.name = node.Get("event");
   if (const std::string* expression = node.Find("eventexpr"))
@@ -234,7 +235,7 @@ void Session::RunThrow(const xml::Node& node) {
 }
 
 /// <native>: a line of the module protocol, in its place among the words.
-void Session::RunNative(const xml::Node& node) {
+void DialogSession::RunNative(const xml::Node& node) {
   RequireLocal(node);
   std::string line;
   if (const std::string* expression = node.Find("expr")) {

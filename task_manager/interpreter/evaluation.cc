@@ -1,9 +1,9 @@
 #include <charconv>
 
 #include "task_manager/document/schema.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/languages.h"
 #include "task_manager/interpreter/properties.h"
-#include "task_manager/interpreter/session.h"
 #include "task_manager/script/rewriter.h"
 
 namespace vxml {
@@ -23,19 +23,19 @@ std::optional<Millis> ParseTime(std::string_view text) {
   return {};
 }
 
-void ThrowSemantic(const Document& document, const xml::Node& node, const std::string& what) {
+void ThrowSemantic(const VxmlDocument& document, const xml::Node& node, const std::string& what) {
   ThrowEvent("error.semantic", document.uri + ":" + std::to_string(node.line) + ":" +
                                    std::to_string(node.column) + ": " + what);
 }
 
-script::Chain Session::CurrentChain() const {
+script::Chain DialogSession::CurrentChain() const {
   script::Chain chain{context_->names, session_scope_, context_->application, context_->variables};
   if (dialog_) chain.push_back(dialog_->scope);
   chain.insert(chain.end(), anonymous_.begin(), anonymous_.end());
   return chain;
 }
 
-Value Session::Evaluate(const xml::Node& node, const std::string& expression) {
+Value DialogSession::Evaluate(const xml::Node& node, const std::string& expression) {
   auto value = engine_.Evaluate(CurrentChain(), expression);
   if (!value) {
     ThrowSemantic(*context_->document, node, "'" + expression + "': " + value.error().text);
@@ -43,17 +43,17 @@ Value Session::Evaluate(const xml::Node& node, const std::string& expression) {
   return *value;
 }
 
-bool Session::Condition(const xml::Node& node, const std::string& attribute) {
+bool DialogSession::Condition(const xml::Node& node, const std::string& attribute) {
   const std::string* expression = node.Find(attribute);
   return !expression || engine_.ToBoolean(Evaluate(node, *expression));
 }
 
-std::string Session::TextOf(const xml::Node& node, const std::string& expression) {
+std::string DialogSession::TextOf(const xml::Node& node, const std::string& expression) {
   return engine_.ToString(Evaluate(node, expression));
 }
 
 /// Into the innermost scope, or the one named in front of a dot, which is not allowed.
-void Session::Declare(const xml::Node& node, const std::string& name, const Value& value) {
+void DialogSession::Declare(const xml::Node& node, const std::string& name, const Value& value) {
   if (!script::IsIdentifier(name)) {
     ThrowSemantic(*context_->document, node, "'" + name + "' cannot be declared");
   }
@@ -61,13 +61,13 @@ void Session::Declare(const xml::Node& node, const std::string& name, const Valu
   engine_.Set(chain.back(), name, value);
 }
 
-void Session::Store(const std::string& name, const Value& value) {
+void DialogSession::Store(const std::string& name, const Value& value) {
   engine_.Set(dialog_->scope, name, value);
 }
-Value Session::Variable(const std::string& name) { return engine_.Get(dialog_->scope, name); }
+Value DialogSession::Variable(const std::string& name) { return engine_.Get(dialog_->scope, name); }
 
 /// Whether a plain or scope-prefixed variable exists; of longer paths the base is what counts.
-bool Session::IsDeclared(const std::string& name) {
+bool DialogSession::IsDeclared(const std::string& name) {
   const std::size_t dot = name.find_first_of(".[ ");
   const std::string base = name.substr(0, dot);
   const script::Chain chain = CurrentChain();
@@ -80,13 +80,13 @@ bool Session::IsDeclared(const std::string& name) {
   return engine_.Has(engine_.Get(chain[0], base), rest.substr(0, rest.find_first_of(".[ ")));
 }
 
-const xml::Node& Session::Here() const {
+const xml::Node& DialogSession::Here() const {
   if (active_node_) return *active_node_;
   if (dialog_) return *dialog_->node;
   return *context_->document->root;
 }
 
-std::string Session::Property(const std::string& name, const xml::Node* from) {
+std::string DialogSession::Property(const std::string& name, const xml::Node* from) {
   // Handlers act as if copied into the active item: its properties count, not those around them.
   const xml::Node* node = scope_item_ ? scope_item_->node : dialog_ ? dialog_->node : nullptr;
   if (!node) node = from ? from : &Here();
@@ -104,7 +104,7 @@ std::string Session::Property(const std::string& name, const xml::Node* from) {
   return given != options_.properties.end() ? given->second : DefaultProperty(name);
 }
 
-Millis Session::TimeProperty(const std::string& name, Millis otherwise) {
+Millis DialogSession::TimeProperty(const std::string& name, Millis otherwise) {
   const std::string text = Property(name);
   if (text.empty()) return otherwise;
   const auto time = ParseTime(text);
@@ -115,19 +115,19 @@ Millis Session::TimeProperty(const std::string& name, Millis otherwise) {
   return *time;
 }
 
-std::string Session::LanguageAt(const xml::Node& node) const {
+std::string DialogSession::LanguageAt(const xml::Node& node) const {
   const std::string language = node.Inherited("xml:lang");
   if (!language.empty()) return language;
   if (context_->root) return context_->root->language;
   return "";
 }
 
-void Session::RequireLanguage(const std::string& language) {
+void DialogSession::RequireLanguage(const std::string& language) {
   if (language.empty() || IsSupported(language, options_.languages)) return;
   ThrowEvent("error.unsupported.language", "the language '" + language + "'");
 }
 
-void Session::Step(std::size_t cost) {
+void DialogSession::Step(std::size_t cost) {
   const std::size_t most = options_.max_steps_between_inputs;
   const bool over = steps_ > most;
   steps_ += cost;
@@ -142,7 +142,7 @@ void Session::Step(std::size_t cost) {
   }
 }
 
-void Session::Trace(std::string_view kind, const JsonLine& fields) {
+void DialogSession::Trace(std::string_view kind, const JsonLine& fields) {
   if (options_.trace) options_.trace(kind, fields);
 }
 

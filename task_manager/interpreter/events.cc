@@ -1,7 +1,7 @@
 #include "task_manager/document/schema.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/properties.h"
 #include "task_manager/interpreter/scope_guard.h"
-#include "task_manager/interpreter/session.h"
 
 namespace vxml {
 namespace {
@@ -56,7 +56,7 @@ constexpr DefaultHandler kDefaults[] = {
 
 }  // namespace
 
-void Session::CountEvent(const std::string& name, Item* item) {
+void DialogSession::CountEvent(const std::string& name, Item* item) {
   auto& counters = item ? item->events : dialog_ ? dialog_->events : document_events_;
   ++counters[""];
   for (std::size_t at = 0; at < name.size();) {
@@ -65,14 +65,14 @@ void Session::CountEvent(const std::string& name, Item* item) {
   }
 }
 
-int Session::CounterOf(const std::string& prefix, Item* item) const {
+int DialogSession::CounterOf(const std::string& prefix, Item* item) const {
   const auto& counters = item ? item->events : dialog_ ? dialog_->events : document_events_;
   const auto found = counters.find(prefix);
   return found == counters.end() ? 0 : found->second;
 }
 
-void Session::CollectHandlers(const xml::Node& scope, const EventThrown& event, Item* item,
-                              std::vector<Handler>& into) {
+void DialogSession::CollectHandlers(const xml::Node& scope, const EventThrown& event, Item* item,
+                                    std::vector<Handler>& into) {
   for (const auto& child : scope.children) {
     if (!IsHandler(*child)) continue;
     int counter = -1;
@@ -88,7 +88,8 @@ void Session::CollectHandlers(const xml::Node& scope, const EventThrown& event, 
 
 /// VoiceXML 2.0 section 5.2.4: over all scopes from the inside out, the highest count that is
 /// reached, and of those the first.
-std::optional<Session::Handler> Session::FindHandler(const EventThrown& event, Item* item) {
+std::optional<DialogSession::Handler> DialogSession::FindHandler(const EventThrown& event,
+                                                                 Item* item) {
   std::vector<Handler> handlers;
   if (item && item->node != (dialog_ ? dialog_->node : nullptr)) {
     CollectHandlers(*item->node, event, item, handlers);
@@ -112,7 +113,7 @@ std::optional<Session::Handler> Session::FindHandler(const EventThrown& event, I
 
 /// Runs the handler an event finds, and those of the events it throws in turn. True if prompts
 /// are to be played next.
-bool Session::HandleEvent(EventThrown event, Item* item) {
+bool DialogSession::HandleEvent(EventThrown event, Item* item) {
   struct Depth {
     int& depth;
     explicit Depth(int& d) : depth(++d) {}
@@ -139,7 +140,7 @@ bool Session::HandleEvent(EventThrown event, Item* item) {
   }
 }
 
-bool Session::RunHandler(const Handler& handler, const EventThrown& event) {
+bool DialogSession::RunHandler(const Handler& handler, const EventThrown& event) {
   JsonLine line;
   line.Text("event", event.name);
   if (handler.node) {
@@ -174,7 +175,7 @@ bool Session::RunHandler(const Handler& handler, const EventThrown& event) {
   return std::exchange(reprompt_, false);
 }
 
-void Session::RunDefault(const std::string& action, const EventThrown& event) {
+void DialogSession::RunDefault(const std::string& action, const EventThrown& event) {
   for (const std::string_view word : SplitWords(action)) {
     if (word == "exit") {
       const bool hangup = event.name.starts_with("connection.disconnect");

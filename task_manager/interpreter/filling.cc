@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "task_manager/document/schema.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/scope_guard.h"
-#include "task_manager/interpreter/session.h"
 
 namespace vxml {
 
@@ -25,7 +25,7 @@ Value Dig(script::Engine& engine, Value value, const std::string& path) {
 }  // namespace
 
 /// Results to variables (VoiceXML 2.0 section 3.1.6).
-void Session::Fill(const Match& match, Item* current, std::set<std::string>& filled) {
+void DialogSession::Fill(const Match& match, Item* current, std::set<std::string>& filled) {
   if (match.owner == Match::Owner::kItem && current) {
     const std::string slot = current->node->Get("slot", current->name);
     Value value = match.value;
@@ -52,7 +52,7 @@ void Session::Fill(const Match& match, Item* current, std::set<std::string>& fil
   }
 }
 
-void Session::SetShadow(const std::string& name, const Match& match) {
+void DialogSession::SetShadow(const std::string& name, const Match& match) {
   const Value shadow = engine_.Object();
   engine_.Set(shadow, "utterance", engine_.String(match.utterance));
   engine_.Set(shadow, "confidence", engine_.Number(match.confidence));
@@ -69,7 +69,7 @@ void Session::SetShadow(const std::string& name, const Match& match) {
   platform_.Report("filled", line);
 }
 
-void Session::RunFilled(const std::set<std::string>& filled) {
+void DialogSession::RunFilled(const std::set<std::string>& filled) {
   if (filled.empty()) return;
   for (const auto& child : dialog_->node->children) {
     if (!child->IsElement()) continue;
@@ -96,7 +96,7 @@ void Session::RunFilled(const std::set<std::string>& filled) {
   }
 }
 
-bool Session::FormFilledApplies(const xml::Node& node, const std::set<std::string>& filled) {
+bool DialogSession::FormFilledApplies(const xml::Node& node, const std::set<std::string>& filled) {
   std::vector<std::string> names;
   const std::string namelist = node.Get("namelist");
   for (const std::string_view word : SplitWords(namelist)) names.emplace_back(word);

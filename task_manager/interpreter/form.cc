@@ -1,7 +1,7 @@
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/scope_guard.h"
-#include "task_manager/interpreter/session.h"
 
 namespace vxml {
 
@@ -22,7 +22,7 @@ std::optional<ItemKind> KindOf(const xml::Node& node) {
 
 }  // namespace
 
-void Session::RunDialog(const xml::Node& node, std::shared_ptr<Match> carried) {
+void DialogSession::RunDialog(const xml::Node& node, std::shared_ptr<Match> carried) {
   Dialog dialog;
   dialog.node = &node;
   dialog.scope = engine_.NewScope();
@@ -68,7 +68,7 @@ void Session::RunDialog(const xml::Node& node, std::shared_ptr<Match> carried) {
   }
 }
 
-void Session::InitForm(Dialog& dialog) {
+void DialogSession::InitForm(Dialog& dialog) {
   if (dialog.node->name == "menu") {
     Item item;
     item.node = dialog.node;
@@ -101,7 +101,7 @@ void Session::InitForm(Dialog& dialog) {
   }
 }
 
-void Session::InitItem(Dialog& dialog, const xml::Node& node) {
+void DialogSession::InitItem(Dialog& dialog, const xml::Node& node) {
   Item item;
   item.node = &node;
   item.kind = *KindOf(node);
@@ -115,13 +115,13 @@ void Session::InitItem(Dialog& dialog, const xml::Node& node) {
   dialog.items.push_back(std::move(item));
 }
 
-bool Session::ItemReady(const Item& item) {
+bool DialogSession::ItemReady(const Item& item) {
   if (item.kind == ItemKind::kMenu) return true;
   if (!engine_.IsUndefined(Variable(item.name))) return false;
   return Condition(*item.node);
 }
 
-Item* Session::Select() {
+Item* DialogSession::Select() {
   if (!dialog_->next_item.empty()) {
     const std::string wanted = std::exchange(dialog_->next_item, "");
     for (Item& item : dialog_->items) {
@@ -136,7 +136,7 @@ Item* Session::Select() {
 }
 
 /// The prompts of the highest count not above the item's counter (VoiceXML 2.0 section 4.1.6).
-void Session::QueuePrompts(Item& item) {
+void DialogSession::QueuePrompts(Item& item) {
   if (item.kind == ItemKind::kBlock) return;
   struct Candidate {
     std::vector<const xml::Node*> nodes;
@@ -181,7 +181,7 @@ void Session::QueuePrompts(Item& item) {
   ++item.prompt_count;
 }
 
-void Session::Visit(Item& item) {
+void DialogSession::Visit(Item& item) {
   ThrowIfUnfit(*item.node);
   switch (item.kind) {
     case ItemKind::kBlock: {
@@ -204,7 +204,7 @@ void Session::Visit(Item& item) {
   }
 }
 
-void Session::VisitInput(Item& item) {
+void DialogSession::VisitInput(Item& item) {
   const bool modal = item.kind == ItemKind::kField && item.node->Get("modal", "false") == "true";
   const std::vector<ActiveGrammar> active = ActiveGrammars(item, modal);
   if (active.empty()) {
@@ -219,7 +219,7 @@ void Session::VisitInput(Item& item) {
 }
 
 /// Process phase: what an input in any scope leads to.
-void Session::TakeMatch(const Match& match, Item* current) {
+void DialogSession::TakeMatch(const Match& match, Item* current) {
   switch (match.owner) {
     case Match::Owner::kUniversal:
       ThrowEvent(match.utterance);
@@ -241,7 +241,7 @@ void Session::TakeMatch(const Match& match, Item* current) {
   RunFilled(filled);
 }
 
-void Session::TransitTo(const Match& match, const xml::Node* dialog) {
+void DialogSession::TransitTo(const Match& match, const xml::Node* dialog) {
   Transition to;
   to.root = context_->root;
   to.document = match.document == context_->document.get() ? context_->document : context_->root;
@@ -252,7 +252,7 @@ void Session::TransitTo(const Match& match, const xml::Node* dialog) {
 }
 
 /// A link or choice that was chosen: on to its document, or its event.
-void Session::FollowTarget(const xml::Node& node, const Document& document) {
+void DialogSession::FollowTarget(const xml::Node& node, const VxmlDocument& document) {
   ThrowIfUnfit(node);
   std::string event = node.Get("event");
   if (const std::string* expression = node.Find("eventexpr")) event = TextOf(node, *expression);

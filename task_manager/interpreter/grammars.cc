@@ -1,7 +1,7 @@
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/grammar/builtin.h"
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 
 namespace vxml {
 
@@ -9,12 +9,12 @@ using srgs::Mode;
 
 /// In order of precedence (VoiceXML 2.0 section 3.1.4): the item's own, its dialog's, its
 /// document's, the application root's, the platform's.
-std::vector<ActiveGrammar> Session::ActiveGrammars(const Item& item, bool modal) {
+std::vector<ActiveGrammar> DialogSession::ActiveGrammars(const Item& item, bool modal) {
   std::vector<ActiveGrammar> active;
   AddItemGrammars(item, active);
   if (modal) return active;
   AddDialogGrammars(*dialog_->node, *context_->document, false, active);
-  const auto add_document = [&](const Document& document) {
+  const auto add_document = [&](const VxmlDocument& document) {
     AddLinks(*document.root, document, active);
     for (const xml::Node* dialog : document.dialogs) {
       if (dialog != dialog_->node) AddDialogGrammars(*dialog, document, true, active);
@@ -26,12 +26,12 @@ std::vector<ActiveGrammar> Session::ActiveGrammars(const Item& item, bool modal)
   return active;
 }
 
-void Session::AddItemGrammars(const Item& item, std::vector<ActiveGrammar>& active) {
+void DialogSession::AddItemGrammars(const Item& item, std::vector<ActiveGrammar>& active) {
   if (item.kind == ItemKind::kMenu || item.kind == ItemKind::kInitial) {
     AddLinks(*item.node, *context_->document, active);
     return;
   }
-  const Document& document = *context_->document;
+  const VxmlDocument& document = *context_->document;
   for (const auto& child : item.node->children) {
     if (child->IsElement("grammar")) {
       AddGrammar(*child, document, Match::Owner::kItem, *item.node, active);
@@ -47,8 +47,8 @@ void Session::AddItemGrammars(const Item& item, std::vector<ActiveGrammar>& acti
 }
 
 /// A form's or menu's own grammars; of other dialogs only those with document scope.
-void Session::AddDialogGrammars(const xml::Node& dialog, const Document& document,
-                                bool only_document, std::vector<ActiveGrammar>& active) {
+void DialogSession::AddDialogGrammars(const xml::Node& dialog, const VxmlDocument& document,
+                                      bool only_document, std::vector<ActiveGrammar>& active) {
   const bool wide = dialog.Get("scope") == "document";
   if (dialog.name == "menu") {
     if (wide || !only_document) AddChoices(dialog, document, active);
@@ -64,8 +64,8 @@ void Session::AddDialogGrammars(const xml::Node& dialog, const Document& documen
   if (!only_document) AddLinks(dialog, document, active);
 }
 
-void Session::AddLinks(const xml::Node& parent, const Document& document,
-                       std::vector<ActiveGrammar>& active) {
+void DialogSession::AddLinks(const xml::Node& parent, const VxmlDocument& document,
+                             std::vector<ActiveGrammar>& active) {
   for (const auto& child : parent.children) {
     if (!child->IsElement("link")) continue;
     for (const auto& inner : child->children) {
@@ -80,15 +80,16 @@ void Session::AddLinks(const xml::Node& parent, const Document& document,
   }
 }
 
-void Session::AddGrammar(const xml::Node& grammar, const Document& document, Match::Owner owner,
-                         const xml::Node& target, std::vector<ActiveGrammar>& active) {
+void DialogSession::AddGrammar(const xml::Node& grammar, const VxmlDocument& document,
+                               Match::Owner owner, const xml::Node& target,
+                               std::vector<ActiveGrammar>& active) {
   if (const srgs::Rule* rule = CompileGrammar(grammar, document)) {
     active.push_back({rule, owner, &target, &document});
   }
 }
 
-void Session::AddBuiltin(const std::string& name, const xml::Node& node, const Document& document,
-                         std::vector<ActiveGrammar>& active) {
+void DialogSession::AddBuiltin(const std::string& name, const xml::Node& node,
+                               const VxmlDocument& document, std::vector<ActiveGrammar>& active) {
   const std::string language = LanguageAt(node);
   for (const Mode mode : {Mode::kVoice, Mode::kDtmf}) {
     const std::string key = "builtin " + name + (mode == Mode::kDtmf ? " dtmf" : " " + language);
@@ -110,7 +111,8 @@ void Session::AddBuiltin(const std::string& name, const xml::Node& node, const D
   }
 }
 
-const srgs::Rule* Session::CompileGrammar(const xml::Node& node, const Document& document) {
+const srgs::Rule* DialogSession::CompileGrammar(const xml::Node& node,
+                                                const VxmlDocument& document) {
   ThrowIfUnfit(node);
   const std::string type = node.Get("type");
   static constexpr std::string_view kTypes =
@@ -156,8 +158,9 @@ const srgs::Rule* Session::CompileGrammar(const xml::Node& node, const Document&
   return rule;
 }
 
-const srgs::Rule* Session::CompileExternal(const xml::Node& node, const Document& document,
-                                           const std::string& reference) {
+const srgs::Rule* DialogSession::CompileExternal(const xml::Node& node,
+                                                 const VxmlDocument& document,
+                                                 const std::string& reference) {
   if (reference.starts_with("builtin:")) {
     std::string name = reference.substr(8);
     const bool dtmf = name.starts_with("dtmf/");

@@ -4,7 +4,7 @@
 #include "task_manager/grammar/matcher.h"
 #include "task_manager/grammar/phrases.h"
 #include "task_manager/grammar/semantics.h"
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 
 namespace vxml {
 
@@ -24,7 +24,7 @@ double NumberOr(const std::string& text, double otherwise) {
 
 }  // namespace
 
-Listen Session::MakeListen(const Item& item, const std::vector<ActiveGrammar>& active) {
+Listen DialogSession::MakeListen(const Item& item, const std::vector<ActiveGrammar>& active) {
   Listen listen;
   const std::string modes = Property("inputmodes");
   listen.voice = modes.find("voice") != std::string::npos;
@@ -73,8 +73,8 @@ Listen Session::MakeListen(const Item& item, const std::vector<ActiveGrammar>& a
   return listen;
 }
 
-std::optional<Match> Session::MatchText(const std::string& text, bool dtmf,
-                                        const std::vector<ActiveGrammar>& active) {
+std::optional<Match> DialogSession::MatchText(const std::string& text, bool dtmf,
+                                              const std::vector<ActiveGrammar>& active) {
   for (const ActiveGrammar& grammar : active) {
     if (IsDtmf(grammar) != dtmf) continue;
     const srgs::MatchResult found = srgs::Match(*grammar.rule, text);
@@ -99,8 +99,9 @@ std::optional<Match> Session::MatchText(const std::string& text, bool dtmf,
   return {};
 }
 
-std::vector<Match> Session::Recognize(const Input& input, const std::vector<ActiveGrammar>& active,
-                                      bool& below_confidence) {
+std::vector<Match> DialogSession::Recognize(const Input& input,
+                                            const std::vector<ActiveGrammar>& active,
+                                            bool& below_confidence) {
   const bool dtmf = input.kind == Input::Kind::kDtmf;
   const double threshold = dtmf ? 0 : NumberOr(Property("confidencelevel"), 0.5);
   const auto most = static_cast<std::size_t>(std::max(1.0, NumberOr(Property("maxnbest"), 1)));
@@ -120,7 +121,7 @@ std::vector<Match> Session::Recognize(const Input& input, const std::vector<Acti
 }
 
 /// application.lastresult$ (VoiceXML 2.0 section 5.1.5).
-void Session::SetLastResult(const std::vector<Match>& matches, const Input& input) {
+void DialogSession::SetLastResult(const std::vector<Match>& matches, const Input& input) {
   const Value last = engine_.Array();
   const auto fill = [&](const Value& into, const Match& match) {
     engine_.Set(into, "utterance", engine_.String(match.utterance));
@@ -151,7 +152,7 @@ void Session::SetLastResult(const std::vector<Match>& matches, const Input& inpu
 }
 
 /// The best match of what came in; everything else is thrown as its event.
-Match Session::HandleInput(const Input& input, const std::vector<ActiveGrammar>& active) {
+Match DialogSession::HandleInput(const Input& input, const std::vector<ActiveGrammar>& active) {
   switch (input.kind) {
     case Input::Kind::kSilence:
       ThrowEvent("noinput");

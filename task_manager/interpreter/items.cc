@@ -1,12 +1,12 @@
 #include "task_manager/document/schema.h"
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 
 namespace vxml {
 
 using script::Value;
 
 /// The item's variable gets a value that no grammar gave; its <filled> follow.
-void Session::FillPlain(Item& item, const Value& value) {
+void DialogSession::FillPlain(Item& item, const Value& value) {
   Store(item.name, value);
   JsonLine line;
   line.Text("item", item.name).Raw("value", engine_.ToJson(value));
@@ -14,7 +14,7 @@ void Session::FillPlain(Item& item, const Value& value) {
   RunFilled({item.name});
 }
 
-void Session::VisitSubdialog(Item& item) {
+void DialogSession::VisitSubdialog(Item& item) {
   const xml::Node& node = *item.node;
   if (subdialogs_ >= options_.max_subdialogs) {
     ThrowEvent("error.noresource",
@@ -55,13 +55,14 @@ void Session::VisitSubdialog(Item& item) {
   throw ExitSession{"end"};
 }
 
-void Session::VisitObject(Item& item) {
+void DialogSession::VisitObject(Item& item) {
   // This platform has no objects; the event's name is fixed by VoiceXML 2.0 section 2.3.5.
   ThrowEvent("error.unsupported.objectname", "no object '" + item.node->Get("classid") + "'");
 }
 
 /// A recording as a script sees it; <audio>, <value> and submitting take it.
-Value Session::RecordingObject(const std::string& uri, const std::string& type, Millis duration) {
+Value DialogSession::RecordingObject(const std::string& uri, const std::string& type,
+                                     Millis duration) {
   const Value recording = engine_.Object();
   engine_.Set(recording, "uri", engine_.String(uri));
   engine_.Set(recording, "type", engine_.String(type));
@@ -69,11 +70,11 @@ Value Session::RecordingObject(const std::string& uri, const std::string& type, 
   return recording;
 }
 
-bool Session::IsRecording(const Value& value) {
+bool DialogSession::IsRecording(const Value& value) {
   return engine_.Has(value, "uri") && engine_.Has(value, "duration") && engine_.Has(value, "type");
 }
 
-void Session::VisitRecord(Item& item) {
+void DialogSession::VisitRecord(Item& item) {
   const xml::Node& node = *item.node;
   if (hung_up_ || disconnected_) throw ExitSession{"hangup"};
   const bool modal = node.Get("modal", "true") == "true";
@@ -129,7 +130,7 @@ void Session::VisitRecord(Item& item) {
   FillPlain(item, keep(result.termchar));
 }
 
-void Session::VisitTransfer(Item& item) {
+void DialogSession::VisitTransfer(Item& item) {
   const xml::Node& node = *item.node;
   if (hung_up_ || disconnected_) throw ExitSession{"hangup"};
   TransferRequest request;

@@ -1,18 +1,18 @@
 #include <charconv>
 
 #include "task_manager/fetch/uri.h"
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 
 namespace vxml {
 
-void Session::ThrowFetch(const fetch::Failure& failure) {
+void DialogSession::ThrowFetch(const fetch::Failure& failure) {
   std::string event = "error.badfetch";
   if (failure.http_status > 0) event += ".http." + std::to_string(failure.http_status);
   if (failure.code == vm::Errc::kAccess) event = "error.noauthorization";
   ThrowEvent(event, failure.text);
 }
 
-void Session::ThrowIfUnfit(const xml::Node& node) const {
+void DialogSession::ThrowIfUnfit(const xml::Node& node) const {
   for (const auto& document : {context_->document, context_->root}) {
     if (!document) continue;
     const auto found = document->thrown_at.find(&node);
@@ -20,7 +20,7 @@ void Session::ThrowIfUnfit(const xml::Node& node) const {
   }
 }
 
-std::string Session::BaseOf(const xml::Node& node) const {
+std::string DialogSession::BaseOf(const xml::Node& node) const {
   // Handlers act as if copied into the active dialog: its document's base counts, unless an
   // element between them says otherwise.
   for (const xml::Node* at = &node; at && at->parent; at = at->parent) {
@@ -31,7 +31,7 @@ std::string Session::BaseOf(const xml::Node& node) const {
   return context_->document->base;
 }
 
-const Document& Session::OriginOf(const xml::Node& node) const {
+const VxmlDocument& DialogSession::OriginOf(const xml::Node& node) const {
   const xml::Node* top = &node;
   while (top->parent) top = top->parent;
   const bool of_root = context_->root && top == context_->root->root.get();
@@ -39,7 +39,7 @@ const Document& Session::OriginOf(const xml::Node& node) const {
 }
 
 /// error.noauthorization unless the element came from a file of this machine.
-void Session::RequireLocal(const xml::Node& node) const {
+void DialogSession::RequireLocal(const xml::Node& node) const {
   const std::string& uri = OriginOf(node).uri;
   if (fetch::IsLocal(uri)) return;
   ThrowEvent("error.noauthorization",
@@ -47,7 +47,7 @@ void Session::RequireLocal(const xml::Node& node) const {
 }
 
 /// maxage, maxstale and fetchtimeout of the element, or of the properties for its kind of fetch.
-fetch::Request Session::FetchOptions(const xml::Node& node, const char* kind) {
+fetch::Request DialogSession::FetchOptions(const xml::Node& node, const char* kind) {
   fetch::Request request;
   request.from = OriginOf(node).uri;
   const auto seconds = [&](const char* name) -> std::optional<long long> {
@@ -68,7 +68,8 @@ fetch::Request Session::FetchOptions(const xml::Node& node, const char* kind) {
   return request;
 }
 
-fetch::Response Session::FetchFor(const xml::Node& node, fetch::Request request, const char* kind) {
+fetch::Response DialogSession::FetchFor(const xml::Node& node, fetch::Request request,
+                                        const char* kind) {
   std::string audio = node.Get("fetchaudio");
   if (audio.empty()) audio = Property("fetchaudio", &node);
   const bool waits = !audio.empty() && context_ && !hung_up_;
@@ -86,7 +87,7 @@ fetch::Response Session::FetchFor(const xml::Node& node, fetch::Request request,
   return std::move(*got);
 }
 
-std::shared_ptr<Document> Session::Load(const fetch::Request& request) {
+std::shared_ptr<VxmlDocument> DialogSession::Load(const fetch::Request& request) {
   const fetch::Response got = FetchFor(Here(), request, "document");
   const std::string uri = fetch::WithoutFragment(got.uri);
   // The same bytes of the same place are parsed once: long sessions do not grow by going round.
@@ -100,7 +101,7 @@ std::shared_ptr<Document> Session::Load(const fetch::Request& request) {
   return *document;
 }
 
-std::shared_ptr<Document> Session::LoadRoot(const Document& document) {
+std::shared_ptr<VxmlDocument> DialogSession::LoadRoot(const VxmlDocument& document) {
   if (!fetch::MayRead(document.uri, document.application)) {  // nor share a root that is here
     ThrowEvent("error.noauthorization",
                document.uri + ": its application root " + document.application + " is a file");
@@ -120,9 +121,9 @@ std::shared_ptr<Document> Session::LoadRoot(const Document& document) {
 }
 
 /// Where a reference leads: loads what has to be loaded, so that a failure is the referrer's.
-Transition Session::Locate(const xml::Node& node, const std::string& reference, const char* kind,
-                           std::vector<fetch::Field> fields, bool post, bool multipart,
-                           bool is_submit) {
+Transition DialogSession::Locate(const xml::Node& node, const std::string& reference,
+                                 const char* kind, std::vector<fetch::Field> fields, bool post,
+                                 bool multipart, bool is_submit) {
   Transition to;
   const std::string uri = fetch::Resolve(BaseOf(node), reference);
   const std::string fragment = fetch::Fragment(uri);

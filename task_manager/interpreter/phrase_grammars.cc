@@ -1,7 +1,7 @@
 // Grammars nobody wrote out: of choices, options, keys and the platform's own words.
 #include "task_manager/document/schema.h"
 #include "task_manager/interpreter/choice_keys.h"
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 
 namespace vxml {
 namespace {
@@ -33,8 +33,8 @@ std::map<const xml::Node*, std::string> ChoiceKeys(const xml::Node& menu) {
   return keys;
 }
 
-void Session::AddChoices(const xml::Node& menu, const Document& document,
-                         std::vector<ActiveGrammar>& active) {
+void DialogSession::AddChoices(const xml::Node& menu, const VxmlDocument& document,
+                               std::vector<ActiveGrammar>& active) {
   const auto keys = ChoiceKeys(menu);
   for (const auto& child : menu.children) {
     if (!child->IsElement("choice")) continue;
@@ -58,8 +58,8 @@ void Session::AddChoices(const xml::Node& menu, const Document& document,
   }
 }
 
-void Session::AddOptions(const xml::Node& field, const Document& document,
-                         std::vector<ActiveGrammar>& active) {
+void DialogSession::AddOptions(const xml::Node& field, const VxmlDocument& document,
+                               std::vector<ActiveGrammar>& active) {
   for (const auto& child : field.children) {
     if (!child->IsElement("option")) continue;
     const std::string phrase = PhraseOf(*child);
@@ -80,7 +80,7 @@ void Session::AddOptions(const xml::Node& field, const Document& document,
 }
 
 /// help, cancel and exit as words of the platform (property universals).
-void Session::AddUniversals(std::vector<ActiveGrammar>& active) {
+void DialogSession::AddUniversals(std::vector<ActiveGrammar>& active) {
   const std::string wanted = Property("universals");
   for (const char* word : {"help", "cancel", "exit"}) {
     bool on = false;
@@ -92,9 +92,9 @@ void Session::AddUniversals(std::vector<ActiveGrammar>& active) {
 }
 
 /// A grammar of one phrase (or of its parts, in order), or of keys.
-const srgs::Rule* Session::MakePhrase(const std::string& key, const std::string& text,
-                                      bool approximate, bool dtmf, const std::string& value,
-                                      bool has_value) {
+const srgs::Rule* DialogSession::MakePhrase(const std::string& key, const std::string& text,
+                                            bool approximate, bool dtmf, const std::string& value,
+                                            bool has_value) {
   if (const auto found = phrases_.find(key); found != phrases_.end()) return found->second;
   auto grammar = std::make_unique<srgs::Grammar>();
   grammar->uri = "platform:" + key;

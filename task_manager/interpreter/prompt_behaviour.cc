@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/prompt_builder.h"
-#include "task_manager/interpreter/session.h"
 
 namespace vxml {
 

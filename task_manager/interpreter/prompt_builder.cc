@@ -4,8 +4,8 @@
 
 #include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/choice_keys.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/scope_guard.h"
-#include "task_manager/interpreter/session.h"
 
 namespace vxml {
 
@@ -174,7 +174,7 @@ void PromptBuilder::Enumerate(const xml::Node& node) {
       Words(" " + phrase + (dtmf.empty() ? "" : ", " + dtmf) + ";");
       continue;
     }
-    Session::ScopeGuard guard(s_);
+    DialogSession::ScopeGuard guard(s_);
     s_.engine_.Set(guard.scope(), "_prompt", s_.engine_.String(phrase));
     s_.engine_.Set(guard.scope(), "_dtmf", s_.engine_.String(dtmf));
     AddChildren(node);
@@ -192,7 +192,7 @@ void PromptBuilder::Foreach(const xml::Node& node) {
   const Value copy = s_.engine_.Copy(array);
   const std::string item = node.Get("item");
   const std::size_t length = s_.engine_.Length(copy);
-  Session::ScopeGuard guard(s_);
+  DialogSession::ScopeGuard guard(s_);
   for (std::size_t i = 0; i < length; ++i) {
     s_.Step();
     if (!item.empty()) {

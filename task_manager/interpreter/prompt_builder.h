@@ -10,13 +10,13 @@
 
 namespace vxml {
 
-class Session;
+class DialogSession;
 
 /// Turns prompt markup into segments, words and SSML, evaluating what has to be evaluated. One for
 /// each prompt; errors are thrown as events.
 class PromptBuilder {
  public:
-  PromptBuilder(Session& session, Prompt& prompt) : s_(session), prompt_(prompt) {}
+  PromptBuilder(DialogSession& session, Prompt& prompt) : s_(session), prompt_(prompt) {}
 
   void Add(const xml::Node& node);
   void Finish();
@@ -52,7 +52,7 @@ class PromptBuilder {
     std::size_t line;
   };
 
-  Session& s_;
+  DialogSession& s_;
   Prompt& prompt_;
   std::string words_;
   std::string ssml_;

@@ -1,9 +1,9 @@
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/prompt_builder.h"
-#include "task_manager/interpreter/session.h"
 
 namespace vxml {
 
-void Session::QueuePrompt(const xml::Node& node) {
+void DialogSession::QueuePrompt(const xml::Node& node) {
   if (hung_up_ || disconnected_) return;
   Prompt prompt;
   prompt.language = LanguageAt(node);
@@ -23,7 +23,7 @@ void Session::QueuePrompt(const xml::Node& node) {
   queue_.push_back(std::move(prompt));
 }
 
-void Session::QueueImplicit(const std::vector<const xml::Node*>& nodes) {
+void DialogSession::QueueImplicit(const std::vector<const xml::Node*>& nodes) {
   if (hung_up_ || disconnected_) return;
   Prompt prompt;
   prompt.language = LanguageAt(*nodes.front()->parent);
@@ -38,7 +38,7 @@ void Session::QueueImplicit(const std::vector<const xml::Node*>& nodes) {
 }
 
 /// Plays what is queued, to its end.
-void Session::Flush() {
+void DialogSession::Flush() {
   if (queue_.empty()) return;
   const std::vector<Prompt> queue = std::exchange(queue_, {});
   if (platform_.Play(queue)) return;

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 
 namespace vxml {
 
 /// An anonymous scope for the time of a block, a handler or a filled.
-class Session::ScopeGuard {
+class DialogSession::ScopeGuard {
  public:
-  explicit ScopeGuard(Session& session)
+  explicit ScopeGuard(DialogSession& session)
       : session_(session), node_(session.active_node_), depth_(session.anonymous_.size()) {
     session_.anonymous_.push_back(session_.engine_.NewScope());
   }
@@ -20,7 +20,7 @@ class Session::ScopeGuard {
   script::Value& scope() { return session_.anonymous_.back(); }
 
  private:
-  Session& session_;
+  DialogSession& session_;
   const xml::Node* node_;
   std::size_t depth_;
 };

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "task_manager/document/document.h"
+#include "task_manager/document/vxml_document.h"
 #include "task_manager/fetch/fetcher.h"
 #include "task_manager/script/engine.h"
 
@@ -12,7 +12,7 @@ namespace vxml {
 
 // What executable content can do besides going on is thrown as one of these C++ objects: a
 // VoiceXML <throw> is a C++ throw, caught by the form interpretation algorithm. None of them
-// leaves Session::Run().
+// leaves DialogSession::Run().
 
 /// A VoiceXML event on its way to a handler.
 struct EventThrown {
@@ -25,7 +25,7 @@ struct EventThrown {
   throw EventThrown{std::move(name), std::move(message), has};
 }
 /// A failure of a script as error.semantic at a place.
-[[noreturn]] void ThrowSemantic(const Document& document, const xml::Node& node,
+[[noreturn]] void ThrowSemantic(const VxmlDocument& document, const xml::Node& node,
                                 const std::string& what);
 
 /// <goto nextitem>.
@@ -37,8 +37,8 @@ struct GoToItem {
 struct Match {
   enum class Owner { kItem, kForm, kLink, kChoice, kUniversal };
   Owner owner = Owner::kForm;
-  const xml::Node* node = nullptr;     ///< the form, link, choice or item the grammar belongs to
-  const Document* document = nullptr;  ///< where that is
+  const xml::Node* node = nullptr;  ///< the form, link, choice or item the grammar belongs to
+  const VxmlDocument* document = nullptr;  ///< where that is
   script::Value value;
   std::string utterance;
   double confidence = 1.0;
@@ -47,8 +47,8 @@ struct Match {
 
 /// On to a dialog of the same or another document; everything is loaded already.
 struct Transition {
-  std::shared_ptr<Document> document;
-  std::shared_ptr<Document> root;  ///< equal to document if it is its own root
+  std::shared_ptr<VxmlDocument> document;
+  std::shared_ptr<VxmlDocument> root;  ///< equal to document if it is its own root
   const xml::Node* dialog = nullptr;
   bool same_document = false;      ///< the document's variables stay
   bool fresh_application = false;  ///< a submit to the root document starts it anew

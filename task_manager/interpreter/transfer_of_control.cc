@@ -2,14 +2,14 @@
 
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/xml/parser.h"
 
 namespace vxml {
 
 using script::Value;
 
-void Session::RunGoto(const xml::Node& node) {
+void DialogSession::RunGoto(const xml::Node& node) {
   if (node.Has("nextitem") || node.Has("expritem")) {
     const std::string* expression = node.Find("expritem");
     const std::string item = expression ? TextOf(node, *expression) : node.Get("nextitem");
@@ -25,7 +25,7 @@ void Session::RunGoto(const xml::Node& node) {
   throw Locate(node, next, "document");
 }
 
-void Session::RunSubmit(const xml::Node& node) {
+void DialogSession::RunSubmit(const xml::Node& node) {
   std::string next = node.Get("next");
   if (const std::string* expression = node.Find("expr")) next = TextOf(node, *expression);
   std::string namelist = node.Get("namelist");
@@ -43,8 +43,8 @@ void Session::RunSubmit(const xml::Node& node) {
                enctype == "multipart/form-data", true);
 }
 
-std::vector<fetch::Field> Session::SubmitFields(const xml::Node& node,
-                                                const std::string& namelist) {
+std::vector<fetch::Field> DialogSession::SubmitFields(const xml::Node& node,
+                                                      const std::string& namelist) {
   std::vector<fetch::Field> fields;
   for (const std::string_view word : SplitWords(namelist)) {
     const std::string name(word);
@@ -54,8 +54,8 @@ std::vector<fetch::Field> Session::SubmitFields(const xml::Node& node,
 }
 
 /// Objects are sent property by property, as a.b=value.
-void Session::Flatten(const std::string& name, const Value& value,
-                      std::vector<fetch::Field>& fields, int depth) {
+void DialogSession::Flatten(const std::string& name, const Value& value,
+                            std::vector<fetch::Field>& fields, int depth) {
   if (depth > 8 || fields.size() > 10'000) return;
   if (IsRecording(value)) {
     // A recording: its bytes where the platform keeps them, else only its name.
@@ -75,7 +75,7 @@ void Session::Flatten(const std::string& name, const Value& value,
   fields.push_back({name, engine_.IsUndefined(value) ? "" : engine_.ToString(value), "", ""});
 }
 
-void Session::RunExit(const xml::Node& node) {
+void DialogSession::RunExit(const xml::Node& node) {
   std::string json = "undefined";
   if (const std::string* expression = node.Find("expr")) {
     json = engine_.ToJson(Evaluate(node, *expression));
@@ -89,7 +89,7 @@ void Session::RunExit(const xml::Node& node) {
   throw ExitSession{"exit", json};
 }
 
-void Session::RunReturn(const xml::Node& node) {
+void DialogSession::RunReturn(const xml::Node& node) {
   if (!context_->is_subdialog) {
     ThrowSemantic(*context_->document, node, "<return> outside of a subdialog");
   }
@@ -116,7 +116,7 @@ void Session::RunReturn(const xml::Node& node) {
   throw back;
 }
 
-void Session::RunDisconnect(const xml::Node& node) {
+void DialogSession::RunDisconnect(const xml::Node& node) {
   std::string json = "undefined";
   if (const std::string* namelist = node.Find("namelist")) {
     const Value values = engine_.Object();
@@ -169,7 +169,7 @@ nlohmann::json SpecOf(const xml::Node& node) {
 }
 
 /// <?access-control allow="HOST ..."?> (VoiceXML 2.1 section 5, appendix E).
-bool MayRead(const xml::Document& data, const std::string& host) {
+bool MayRead(const xml::XmlDocument& data, const std::string& host) {
   for (const auto& instruction : data.prolog) {
     if (instruction->name != "access-control") continue;
     const std::string& text = instruction->text;
@@ -189,7 +189,7 @@ bool MayRead(const xml::Document& data, const std::string& host) {
 
 }  // namespace
 
-void Session::RunData(const xml::Node& node) {
+void DialogSession::RunData(const xml::Node& node) {
   std::string source = node.Get("src");
   if (const std::string* expression = node.Find("srcexpr")) source = TextOf(node, *expression);
   fetch::Request request = FetchOptions(node, "data");

@@ -1,5 +1,7 @@
 #include "task_manager/xml/parser.h"
 
+#include "vm_protocol/core/charset.h"
+
 // Debian builds the library so; the header shows the entity limits only then.
 #define XML_DTD 1
 #include <expat.h>
@@ -76,7 +78,7 @@ class Builder {
               0};
     XML_StopParser(parser_, XML_FALSE);
   }
-  Document& document() { return document_; }
+  XmlDocument& document() { return document_; }
 
  private:
   static Builder& To(void* self) { return *static_cast<Builder*>(self); }
@@ -179,7 +181,7 @@ class Builder {
   XML_Parser parser_;
   std::string name_;
   Limits limits_;
-  Document document_;
+  XmlDocument document_;
   std::vector<Node*> open_;
   std::vector<std::map<std::string, std::string>> spaces_;
   std::size_t depth_ = 0;
@@ -191,8 +193,8 @@ class Builder {
 
 }  // namespace
 
-vm::Result<Document> Parse(std::string_view bytes, const std::string& name,
-                           const std::string& charset, const Limits& limits) {
+vm::Result<XmlDocument> Parse(std::string_view bytes, const std::string& name,
+                              const std::string& charset, const Limits& limits) {
   if (bytes.size() > limits.document_bytes) {
     return vm::Fail(vm::Errc::kTooLong, name + ": document of " + std::to_string(bytes.size()) +
                                             " bytes, at most " +
@@ -204,7 +206,7 @@ vm::Result<Document> Parse(std::string_view bytes, const std::string& name,
   std::string converted;
   const char* override_charset = charset.empty() ? nullptr : wanted.c_str();
   if (!IsExpatCharset(wanted)) {
-    auto utf8 = ToUtf8(bytes, wanted);
+    auto utf8 = vm::DecodeCharset(bytes, wanted);
     if (!utf8) return vm::Fail(utf8.error().code, name + ":1:1: " + utf8.error().text);
     converted = std::move(*utf8);
     bytes = converted;
@@ -230,7 +232,7 @@ vm::Result<Document> Parse(std::string_view bytes, const std::string& name,
     if (last) break;
     at += size;
   }
-  Document document = std::move(builder.document());
+  XmlDocument document = std::move(builder.document());
   document.encoding = wanted.empty() ? "utf-8" : wanted;
   return document;
 }

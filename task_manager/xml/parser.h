@@ -19,23 +19,18 @@ struct Limits {
   double entity_growth = 20.0;  ///< expanded bytes over bytes read, beyond the first 64 KiB
 };
 
-struct Document {
+struct XmlDocument {
   std::unique_ptr<Node> root;
   std::vector<std::unique_ptr<Node>> prolog;  ///< instructions before the root element
   std::string encoding;                       ///< as declared, lower case; "utf-8" otherwise
 };
 
 /// Reads an XML document (expat; namespaces resolved, external entities and DTDs never fetched).
-/// The encodings utf-8, utf-16, iso-8859-1 and us-ascii are expat's, all others the system's
-/// iconv (euc-jp, shift_jis, ...); `charset` from outside, if not empty, wins over the declaration.
-/// Errors (kSyntax, kTooLong, kLimit, kBadUtf8) read "NAME:LINE:COLUMN: what is wrong".
-/// Thread: none of its own; no shared state.
-vm::Result<Document> Parse(std::string_view bytes, const std::string& name,
-                           const std::string& charset = "", const Limits& limits = {});
-
-/// `bytes` in `charset` as UTF-8. Error: kBadValue (unknown charset), kBadUtf8 (bad sequence).
-vm::Result<std::string> ToUtf8(std::string_view bytes, const std::string& charset);
-/// The reverse; characters that do not exist there become '?'.
-std::string FromUtf8(std::string_view text, const std::string& charset);
+/// The encodings utf-8, utf-16, iso-8859-1 and us-ascii are expat's, all others those of
+/// vm::DecodeCharset (euc-jp, shift_jis, ...); `charset` from outside, if not empty, wins over the
+/// declaration. Errors (kSyntax, kTooLong, kLimit, kBadUtf8) read "NAME:LINE:COLUMN: what is
+/// wrong". Thread: none of its own; no shared state.
+vm::Result<XmlDocument> Parse(std::string_view bytes, const std::string& name,
+                              const std::string& charset = "", const Limits& limits = {});
 
 }  // namespace vxml::xml

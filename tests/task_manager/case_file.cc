@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "task_manager/fetch/uri.h"
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/platform/text_platform.h"
 #include "task_manager/xml/node.h"
 #include "tests/task_manager/ticking_clock.h"
@@ -166,7 +166,7 @@ Outcome RunCase(const Case& the_case) {
   vxml::SessionOptions options;
   options.uri = vxml::fetch::FromPath((folder / "main.vxml").string());
   options.script.clocks = TickingClocks();
-  vxml::Session session(options, platform);
+  vxml::DialogSession session(options, platform);
   session.Run();
   fs::remove_all(folder);
   for (const std::string& line : lines) outcome.transcript += line + "\n";

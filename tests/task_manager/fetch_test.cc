@@ -239,6 +239,12 @@ TEST_F(FetcherTest, DataUrisHoldTheirBytes) {
   Fetcher fetcher(WithClock());
   EXPECT_EQ(fetcher.Fetch(For("data:,a%20b"))->body, "a b");
   EXPECT_EQ(fetcher.Fetch(For("data:text/plain;base64,aGVsbG8="))->body, "hello");
+  EXPECT_EQ(fetcher.Fetch(For("data:;base64,aGVs%0AbG8"))->body, "hello");
+  EXPECT_EQ(fetcher.Fetch(For("data:;base64,AAAA"))->body, std::string(3, '\0'));
+  EXPECT_EQ(fetcher.Fetch(For("data:;base64,"))->body, "");
+  for (const char* bad : {"aGVsbG8*", "aGVsbG8==", "aG=sbG8=", "a", "====", "=", "aGVsb"}) {
+    EXPECT_FALSE(fetcher.Fetch(For(std::string("data:;base64,") + bad))) << bad;
+  }
 }
 
 Outcome RunMain(const std::string& body, const std::string& script,

@@ -88,6 +88,15 @@ TEST(HostileXmlTest, EucJpAndShiftJisAreRead) {
   EXPECT_EQ(parsed->root->Text(), "\u3042");
 }
 
+TEST(HostileXmlTest, ShiftJisIsWhatPcsWriteUnderEachOfItsNames) {
+  for (const std::string name : {"Shift_JIS", "shift-jis", "SJIS", "CP932"}) {
+    auto parsed = vxml::xml::Parse(
+        "<?xml version=\"1.0\" encoding=\"" + name + "\"?><a>\x87\x40\\~</a>", "d");
+    ASSERT_TRUE(parsed) << parsed.error().text;
+    EXPECT_EQ(parsed->root->Text(), "\u2460\\~") << name;  // a sign of NEC, and no yen
+  }
+}
+
 struct EndlessScript {
   const char* name;
   const char* text;

@@ -26,7 +26,7 @@ struct Finding {
 std::string FormatFinding(const std::string& uri, const Finding& finding);
 
 /// A loaded VoiceXML document. Immutable; shared by the sessions' contexts that run it.
-struct Document {
+struct VxmlDocument {
   std::string uri;          ///< absolute, without fragment
   std::string base;         ///< what relative references are resolved against (xml:base or uri)
   std::string application;  ///< absolute URI of the application root, "" if it is its own root
@@ -50,11 +50,12 @@ struct Document {
 
 /// Reads and checks a document. Errors: kSyntax, kLimit, kTooLong, kBadUtf8; the text is the first
 /// finding of severity error.
-vm::Result<std::shared_ptr<Document>> LoadDocument(std::string_view bytes, const std::string& uri,
-                                                   const std::string& charset = "");
+vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
+                                                       const std::string& uri,
+                                                       const std::string& charset = "");
 
 /// Everything there is to say about a document's structure (VoiceXML 2.1 with our extensions).
-std::vector<Finding> CheckDocument(const Document& document);
+std::vector<Finding> CheckDocument(const VxmlDocument& document);
 
 /// A VoiceXML element, of its namespace or of none (the original wrote none).
 bool IsVoiceXml(const xml::Node& node);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "task_manager/document/document.h"
+#include "task_manager/document/vxml_document.h"
 #include "task_manager/fetch/fetcher.h"
 #include "task_manager/grammar/store.h"
 #include "task_manager/interpreter/signals.h"
@@ -40,8 +40,8 @@ struct SessionResult {
 
 /// An execution context: documents and their scopes. A subdialog has its own.
 struct Context {
-  std::shared_ptr<Document> document;
-  std::shared_ptr<Document> root;
+  std::shared_ptr<VxmlDocument> document;
+  std::shared_ptr<VxmlDocument> root;
   script::Value names;  ///< the scopes by their names
   script::Value application;
   script::Value variables;  ///< document scope
@@ -73,18 +73,18 @@ struct ActiveGrammar {
   const srgs::Rule* rule = nullptr;
   Match::Owner owner = Match::Owner::kForm;
   const xml::Node* node = nullptr;
-  const Document* document = nullptr;
+  const VxmlDocument* document = nullptr;
 };
 
 /// One dialogue: the form interpretation algorithm (VoiceXML 2.0 appendix C) over a document, from
 /// its first dialog to its end. Owns its script engine, variables and grammars.
 /// Thread: one; Run blocks in the platform. The platform outlives the session.
-class Session {
+class DialogSession {
  public:
-  Session(SessionOptions options, Platform& platform);
-  ~Session();
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
+  DialogSession(SessionOptions options, Platform& platform);
+  ~DialogSession();
+  DialogSession(const DialogSession&) = delete;
+  DialogSession& operator=(const DialogSession&) = delete;
 
   SessionResult Run();
   std::size_t heap_bytes() const { return engine_.heap_bytes(); }
@@ -100,12 +100,12 @@ class Session {
   void RunContext(Transition start);
   void Enter(Transition& transition);
   void EnterApplication(const Transition& transition);
-  void InitDocument(const Document& document, const script::Value& scope);
+  void InitDocument(const VxmlDocument& document, const script::Value& scope);
   void FinishPrompts();
 
   // loading.cc
-  std::shared_ptr<Document> Load(const fetch::Request& request);
-  std::shared_ptr<Document> LoadRoot(const Document& document);
+  std::shared_ptr<VxmlDocument> Load(const fetch::Request& request);
+  std::shared_ptr<VxmlDocument> LoadRoot(const VxmlDocument& document);
   fetch::Response FetchFor(const xml::Node& node, fetch::Request request, const char* kind);
   [[noreturn]] void ThrowFetch(const fetch::Failure& failure);
   Transition Locate(const xml::Node& node, const std::string& uri, const char* kind,
@@ -114,9 +114,9 @@ class Session {
   fetch::Request FetchOptions(const xml::Node& node, const char* kind);
   std::string BaseOf(const xml::Node& node) const;
   /// The document the element was written in: its origin decides what the element may do.
-  const Document& OriginOf(const xml::Node& node) const;
+  const VxmlDocument& OriginOf(const xml::Node& node) const;
   void RequireLocal(const xml::Node& node) const;
-  /// error.badfetch if the element's attributes exclude each other (Document::thrown_at).
+  /// error.badfetch if the element's attributes exclude each other (VxmlDocument::thrown_at).
   void ThrowIfUnfit(const xml::Node& node) const;
 
   // form.cc: the form interpretation algorithm
@@ -133,7 +133,7 @@ class Session {
   void RunFilled(const std::set<std::string>& filled);
   bool FormFilledApplies(const xml::Node& node, const std::set<std::string>& filled);
   void TakeMatch(const Match& match, Item* current);
-  void FollowTarget(const xml::Node& node, const Document& document);
+  void FollowTarget(const xml::Node& node, const VxmlDocument& document);
   void TransitTo(const Match& match, const xml::Node* dialog);
 
   // items.cc
@@ -157,21 +157,21 @@ class Session {
   // grammars.cc: which grammars listen
   std::vector<ActiveGrammar> ActiveGrammars(const Item& item, bool modal);
   void AddItemGrammars(const Item& item, std::vector<ActiveGrammar>& active);
-  void AddDialogGrammars(const xml::Node& dialog, const Document& document, bool only_document,
+  void AddDialogGrammars(const xml::Node& dialog, const VxmlDocument& document, bool only_document,
                          std::vector<ActiveGrammar>& active);
-  void AddLinks(const xml::Node& parent, const Document& document,
+  void AddLinks(const xml::Node& parent, const VxmlDocument& document,
                 std::vector<ActiveGrammar>& active);
-  void AddGrammar(const xml::Node& grammar, const Document& document, Match::Owner owner,
+  void AddGrammar(const xml::Node& grammar, const VxmlDocument& document, Match::Owner owner,
                   const xml::Node& target, std::vector<ActiveGrammar>& active);
-  void AddChoices(const xml::Node& menu, const Document& document,
+  void AddChoices(const xml::Node& menu, const VxmlDocument& document,
                   std::vector<ActiveGrammar>& active);
-  void AddOptions(const xml::Node& field, const Document& document,
+  void AddOptions(const xml::Node& field, const VxmlDocument& document,
                   std::vector<ActiveGrammar>& active);
   void AddUniversals(std::vector<ActiveGrammar>& active);
-  void AddBuiltin(const std::string& name, const xml::Node& node, const Document& document,
+  void AddBuiltin(const std::string& name, const xml::Node& node, const VxmlDocument& document,
                   std::vector<ActiveGrammar>& active);
-  const srgs::Rule* CompileGrammar(const xml::Node& node, const Document& document);
-  const srgs::Rule* CompileExternal(const xml::Node& node, const Document& document,
+  const srgs::Rule* CompileGrammar(const xml::Node& node, const VxmlDocument& document);
+  const srgs::Rule* CompileExternal(const xml::Node& node, const VxmlDocument& document,
                                     const std::string& reference);
   const srgs::Rule* MakePhrase(const std::string& key, const std::string& text, bool approximate,
                                bool dtmf, const std::string& value, bool has_value);
@@ -249,7 +249,8 @@ class Session {
   std::map<const xml::Node*, const srgs::Rule*> compiled_;
   std::map<std::string, const srgs::Rule*> phrases_;
   /// By URI and hash of the bytes; kept, since compiled_ names their nodes.
-  std::vector<std::pair<std::pair<std::string, std::size_t>, std::shared_ptr<Document>>> parsed_;
+  std::vector<std::pair<std::pair<std::string, std::size_t>, std::shared_ptr<VxmlDocument>>>
+      parsed_;
 
   script::Value session_scope_;
   Context* context_ = nullptr;

@@ -1,4 +1,4 @@
-#include "task_manager/interpreter/session.h"
+#include "task_manager/interpreter/dialog_session.h"
 
 #include "task_manager/interpreter/scope_guard.h"
 
@@ -6,7 +6,7 @@ namespace vxml {
 
 using script::Value;
 
-Session::Session(SessionOptions options, Platform& platform)
+DialogSession::DialogSession(SessionOptions options, Platform& platform)
     : options_(std::move(options)),
       platform_(platform),
       fetcher_(options_.fetch),
@@ -22,12 +22,12 @@ Session::Session(SessionOptions options, Platform& platform)
       });
 }
 
-Session::~Session() = default;
+DialogSession::~DialogSession() = default;
 
-SessionResult Session::Run() {
+SessionResult DialogSession::Run() {
   SessionResult result;
   Context nowhere;
-  nowhere.document = std::make_shared<Document>();
+  nowhere.document = std::make_shared<VxmlDocument>();
   nowhere.document->root = std::make_unique<xml::Node>();
   nowhere.document->uri = nowhere.document->base = options_.uri;
   nowhere.root = nowhere.document;
@@ -61,7 +61,7 @@ SessionResult Session::Run() {
 }
 
 /// At the end what is still queued is played (VoiceXML 2.0 section 4.1.8).
-void Session::FinishPrompts() {
+void DialogSession::FinishPrompts() {
   try {
     if (!hung_up_ && !disconnected_) Flush();
   } catch (const EventThrown&) {
@@ -69,7 +69,7 @@ void Session::FinishPrompts() {
   }
 }
 
-void Session::MakeSessionScope() {
+void DialogSession::MakeSessionScope() {
   session_scope_ = engine_.NewScope();
   std::map<std::string, std::string> variables = {{"connection.local.uri", "galatea:agent"},
                                                   {"connection.remote.uri", "galatea:user"},
@@ -101,7 +101,7 @@ void Session::MakeSessionScope() {
 }
 
 /// Runs dialogs until one ends without naming the next.
-void Session::RunContext(Transition start) {
+void DialogSession::RunContext(Transition start) {
   Context context;
   Context* outer = context_;
   if (outer) {
@@ -150,7 +150,7 @@ void Session::RunContext(Transition start) {
   }
 }
 
-void Session::Enter(Transition& transition) {
+void DialogSession::Enter(Transition& transition) {
   JsonLine line;
   line.Text("document", transition.document->uri)
       .Text("dialog", transition.dialog ? transition.dialog->Get("id") : "")
@@ -171,7 +171,7 @@ void Session::Enter(Transition& transition) {
 }
 
 /// The application's variables stay while its root stays (VoiceXML 2.0 section 1.5.2).
-void Session::EnterApplication(const Transition& transition) {
+void DialogSession::EnterApplication(const Transition& transition) {
   const bool stays =
       context_->root && context_->root->uri == transition.root->uri &&
       context_->application.valid() && !transition.fresh_application &&
@@ -190,7 +190,7 @@ void Session::EnterApplication(const Transition& transition) {
   InitDocument(*transition.root, context_->application);
 }
 
-void Session::InitDocument(const Document& document, const Value& scope) {
+void DialogSession::InitDocument(const VxmlDocument& document, const Value& scope) {
   static_cast<void>(scope);  // the innermost scope while no dialog runs
   for (const auto& child : document.root->children) {
     if (!child->IsElement()) continue;

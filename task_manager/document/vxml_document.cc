@@ -1,4 +1,4 @@
-#include "task_manager/document/document.h"
+#include "task_manager/document/vxml_document.h"
 
 #include <algorithm>
 
@@ -28,7 +28,7 @@ bool HasHandler(const xml::Node& parent) {
 
 /// True if the element would find a handler for error.badfetch in its own document. What stands
 /// outside of dialogs (links, handlers) acts in each of them.
-bool HandlesBadFetch(const xml::Node& node, const Document& document) {
+bool HandlesBadFetch(const xml::Node& node, const VxmlDocument& document) {
   const xml::Node* dialog = nullptr;
   for (const xml::Node* at = node.parent; at; at = at->parent) {
     if (HasHandler(*at)) return true;
@@ -38,7 +38,7 @@ bool HandlesBadFetch(const xml::Node& node, const Document& document) {
                                 [](const xml::Node* each) { return HasHandler(*each); });
 }
 
-void CollectProperties(const xml::Node& node, Document& into) {
+void CollectProperties(const xml::Node& node, VxmlDocument& into) {
   for (const auto& child : node.children) {
     if (!child->IsElement()) continue;
     if (child->name == "property" && child->Has("value")) {
@@ -55,25 +55,27 @@ bool IsVoiceXml(const xml::Node& node) {
          node.space.find("/vxml") != std::string::npos;
 }
 
-const std::string* Document::FindProperty(const xml::Node& element, const std::string& name) const {
+const std::string* VxmlDocument::FindProperty(const xml::Node& element,
+                                              const std::string& name) const {
   const auto of_element = properties.find(&element);
   if (of_element == properties.end()) return nullptr;
   const auto found = of_element->second.find(name);
   return found == of_element->second.end() ? nullptr : &found->second;
 }
 
-const xml::Node* Document::FindDialog(const std::string& id) const {
+const xml::Node* VxmlDocument::FindDialog(const std::string& id) const {
   for (const xml::Node* dialog : dialogs) {
     if (dialog->Get("id") == id) return dialog;
   }
   return nullptr;
 }
 
-vm::Result<std::shared_ptr<Document>> LoadDocument(std::string_view bytes, const std::string& uri,
-                                                   const std::string& charset) {
+vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
+                                                       const std::string& uri,
+                                                       const std::string& charset) {
   auto parsed = xml::Parse(bytes, uri, charset);
   if (!parsed) return std::unexpected(parsed.error());
-  auto document = std::make_shared<Document>();
+  auto document = std::make_shared<VxmlDocument>();
   document->uri = fetch::WithoutFragment(uri);
   document->root = std::move(parsed->root);
   const xml::Node& root = *document->root;
