@@ -114,7 +114,8 @@ void Supervisor::AskToStop(const ChildPtr& child) {
     child->stream->Close();
     return LeaveHub(child, "the hub lets it go", [this, child] { Stopped(child); });
   }
-  if (child->stream) child->stream->Send("set Run = EXIT");
+  // The first waits until what was said before is done, the second does not.
+  for (int i = 0; i < 2 && child->stream; ++i) child->stream->Send("set Run = EXIT");
   child->stop_timer.expires_after(child->config.stop_within);
   child->stop_timer.async_wait([child](const auto& error) {
     if (error || child->pid <= 0) return;

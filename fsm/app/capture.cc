@@ -26,6 +26,12 @@ void Capture::Tick() {
 }
 
 bool Capture::WriteNext() {
+  if (next_ >= kMaxPictures) {
+    running_ = false;
+    on_failure_({vm::Errc::kLimit,
+                 "Capture: more than " + std::to_string(kMaxPictures) + " pictures", 0});
+    return false;
+  }
   auto done = draw_(next_, series_.TimeOf(next_));
   if (done) {
     const std::string path =
@@ -43,7 +49,9 @@ bool Capture::WriteNext() {
 
 bool Capture::End() {
   if (!running_) return false;
-  while (series_.TimeOf(next_) <= clock_.Now()) {
+  // Drawing takes time: what becomes due meanwhile is after the end.
+  const vm::Time end = clock_.Now();
+  while (series_.TimeOf(next_) <= end) {
     if (!WriteNext()) break;
   }
   Cancel();

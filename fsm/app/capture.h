@@ -11,8 +11,10 @@ namespace fsm {
 
 /// Numbered pictures of one utterance: DIR/PREFIX00001.bmp and on, from its begin to its end, at a
 /// given rate. Picture k shows the face at begin + k / rate exactly; none is left out.
+/// Limits: kMaxPictures, then it ends as a failure.
 class Capture {
  public:
+  static constexpr long kMaxPictures = 36'000;  ///< 20 minutes at 30 a second
   struct Order {
     std::string folder;
     std::string prefix;

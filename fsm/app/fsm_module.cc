@@ -16,8 +16,8 @@ namespace fsm {
 namespace {
 
 constexpr vm::Time kWindowEvents = std::chrono::milliseconds(200);
-constexpr const char* kModuleVersion = "Galatea FSM " GALATEA_VERSION;
-constexpr const char* kProtocolVersion = "2.06";  // the original's last, which this one contains
+constexpr const char* kModuleVersion = "Module Ver. Galatea FSM " GALATEA_VERSION;
+constexpr const char* kProtocolVersion = "Protocol Ver. 2.06";  // the original's last, which this one contains
 
 template <typename T>
 T OrThrow(vm::Result<T> result) {

@@ -5,6 +5,8 @@
 namespace fsm {
 namespace {
 
+constexpr const char* kNothing = "non";  // the original's word for it
+
 std::string NamesOf(const vm::PhonemeList& list) {
   std::string names;
   for (const vm::Phoneme& phoneme : list) names += (names.empty() ? "" : " ") + phoneme.name;
@@ -27,8 +29,9 @@ SpeechSlots::SpeechSlots(FsmCore& core, Listener listener)
 void SpeechSlots::DeclareListSlots() {
   core_.slots.Declare({.name = "LipSync.pho",
                        .grammar = "<text>",
+                       .initial = kNothing,
                        .help = "The phonemes to speak and their ms: `h 80 a 100`, `h[80] a[100]`. "
-                               "Refused while SPEAKING.",
+                               "Refused while SPEAKING. non: there are none.",
                        .on_set = [this](const vm::SetValue& value) { return Prepare(value.text); },
                        .saved = false});
   core_.slots.Declare({.name = "LipSync.dur",
@@ -58,10 +61,10 @@ void SpeechSlots::DeclareSpeakSlots() {
                          .initial = initial,
                          .help = help});
   };
-  read_only("Speak.text", "", "The names of the phonemes to speak.");
-  read_only("Speak.pho", "", "The phonemes to speak with their ms.");
+  read_only("Speak.text", kNothing, "The names of the phonemes to speak.");
+  read_only("Speak.pho", kNothing, "The phonemes to speak with their ms.");
   read_only("Speak.dur", "0", "Their duration in ms.");
-  read_only("Speak.utt", "", "The phonemes spoken before, as far as they were spoken.");
+  read_only("Speak.utt", kNothing, "The phonemes spoken before, as far as they were spoken.");
   read_only("Speak.len", "0", "How many ms of them were spoken.");
   read_only("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
   core_.slots.Declare(
@@ -253,7 +256,7 @@ void SpeechSlots::Reset() {
   spoken_.clear();
   start_.reset();
   for (const char* name : {"Speak.text", "Speak.pho", "Speak.utt", "LipSync.pho"}) {
-    core_.slots.Store(name, "");
+    core_.slots.Store(name, kNothing);
   }
   for (const char* name : {"Speak.dur", "Speak.len", "LipSync.dur"}) core_.slots.Store(name, "0");
   if (was_busy) {

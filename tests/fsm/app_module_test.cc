@@ -13,8 +13,8 @@ TEST(FsmModuleTest, AnswersAsTheOriginal) {
   FsmStage fsm;
   EXPECT_EQ(vm::FormatMessage(fsm.module.Greeting().at(0)), "rep Run = LIVE");
   EXPECT_EQ(fsm.Say("inq Run"), "rep Run = LIVE");
-  EXPECT_EQ(fsm.Say("inq ProtocolVersion"), "rep ProtocolVersion = 2.06");
-  EXPECT_EQ(fsm.Say("inq ModuleVersion"), "rep ModuleVersion = Galatea FSM " GALATEA_VERSION);
+  EXPECT_EQ(fsm.Say("inq ProtocolVersion"), "rep ProtocolVersion = Protocol Ver. 2.06");
+  EXPECT_EQ(fsm.Say("inq ModuleVersion"), "rep ModuleVersion = Module Ver. Galatea FSM " GALATEA_VERSION);
   EXPECT_EQ(fsm.Say("inq MaskSet"), "rep MaskSet = \"galatea,pygmalion\"");
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
   EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain\"");

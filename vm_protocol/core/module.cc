@@ -4,11 +4,12 @@ namespace vm {
 
 void DeclareCommonSlots(SlotMachine& slots, const CommonSlots& common) {
   slots.Declare({.name = "Run",
-                 .grammar = common.on_init ? "LIVE | INIT | EXIT" : "LIVE | EXIT",
+                 .grammar = common.on_init ? "LIVE | INIT | SLEEP | EXIT" : "LIVE | SLEEP | EXIT",
                  .initial = "LIVE",
                  .auto_output = common.auto_output,
                  .help = std::string("LIVE while the module runs. EXIT ends it") +
-                         (common.on_init ? ", INIT resets everything to its state at start." : "."),
+                         (common.on_init ? ", INIT resets everything to its state at start" : "") +
+                         ". SLEEP, which scripts of the original have, does nothing.",
                  .on_set_later =
                      [&slots, common](const SetValue& value, const Reply& reply) {
                        if (value.word(0) == "INIT") {
@@ -21,7 +22,7 @@ void DeclareCommonSlots(SlotMachine& slots, const CommonSlots& common) {
                          if (common.on_exit) common.on_exit();
                          return;
                        }
-                       slots.Report("Run", "LIVE");
+                       if (value.word(0) != "SLEEP") slots.Report("Run", "LIVE");
                        reply.Ok("LIVE");
                      },
                  .saved = false});
