@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   CLI::App app("Galatea agent manager: starts the modules and carries what they say to each other",
                "agent_manager");
   std::string config_path, log, clock, replay, do_file;
-  std::string web;
+  std::string web, web_role;
   bool no_console = false;
   am::AgentManager::Options options;
   app.add_option("--config,-C", config_path,
@@ -53,6 +53,10 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"real", "virtual"}));
   app.add_option("--web", web, "Serve the page on this port of this machine (0: any free one)")
       ->check(CLI::Range(0, 65535));
+  app.add_option("--web-role", web_role,
+                 "What those who open the page may do: guest (default), client, module or owner "
+                 "(docs/security.md)")
+      ->check(CLI::IsMember({"guest", "client", "module", "owner"}));
   app.add_option("--do", do_file, "Lines the console says first");
   app.add_option("--replay", replay, "Say again what clients said in this session log");
   app.add_option("--speed", options.replay_speed, "How many times faster to replay")
@@ -82,6 +86,9 @@ int main(int argc, char** argv) {
       }
       if (!log.empty()) config.log.file = log;
       if (!web.empty()) config.web.at = "tcp:127.0.0.1:" + web;
+      for (const am::Role role : am::kRoles) {
+        if (web_role == am::RoleName(role)) config.web.role = role;
+      }
       if (!clock.empty()) config.virtual_clock = clock == "virtual";
       return config;
     };

@@ -150,7 +150,7 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   core_.slots.Report("Speak.text", NamesOf(list_));
   core_.slots.Report("Speak.pho", written);
   core_.slots.Report("Speak.dur", LengthOf(list_));
-  core_.slots.Report("Speak.utt", vm::FormatPhonemesFace(spoken_));
+  core_.slots.Report("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
   core_.slots.Report("Speak.len", LengthOf(spoken_));
   SetStat(Stat::kReady);
   // As the original, a list with unknown phonemes is spoken all the same; but it is said.
@@ -243,7 +243,7 @@ void SpeechSlots::End(vm::PhonemeList spoken) {
   list_.clear();
   start_.reset();
   core_.slots.Report("Speak.len", LengthOf(spoken_));
-  core_.slots.Report("Speak.utt", vm::FormatPhonemesFace(spoken_));
+  core_.slots.Report("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
   SetStat(Stat::kIdle);
   if (listener_.ended) listener_.ended();
 }

@@ -34,7 +34,7 @@ TEST(AmConfTest, JsonIsNotTakenForIt) {
 TEST(AmConfTest, FaultsNameTheLine) {
   for (const auto& [text, part] : std::vector<std::pair<const char*, const char*>>{
            {"broadcast: A\nnonsense", "line 2: found 'nonsense'"},
-           {"module: commands: x", "expected module:NAME commands: LINE"},
+           {"module: commands: x", "found 'commands:', expected a module's name"},
            {"module:A", "expected module:NAME commands: LINE"},
            {"module:A commands:", "expected module:NAME commands: LINE"},
            {"module:A commands: x\nmodule:A commands: y", "line 2: found 'A'"}}) {

@@ -22,11 +22,12 @@ class WebTest : public testing::Test {
     const std::string token = folder_ / "token", config = folder_ / "config.json";
     std::ofstream(token) << kToken << "\n";
     chmod(token.c_str(), 0600);
-    std::ofstream(config) << "{\"web\": {\"at\": \"tcp:127.0.0.1:0\", \"token_file\": \"" << token
-                          << "\"}, \"modules\": [{\"name\": \"FSM\", \"command\": [\"python3\", \""
-                          << GALATEA_SOURCE_DIR
+    std::ofstream(config)
+        << "{\"web\": {\"at\": \"tcp:127.0.0.1:0\", \"role\": \"owner\", \"token_file\": \""
+        << token << "\"}, \"modules\": [{\"name\": \"FSM\", \"command\": [\"python3\", \""
+        << GALATEA_SOURCE_DIR
         "/tests/agent_manager/fake_face.py\"]}, {\"name\": \"SRM\", \"command\": [\"python3\", \""
-                          << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_ear.py\"]}]}";
+        << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_ear.py\"]}]}";
     hub_ = std::make_unique<Process>(std::vector<std::string>{kHub, "--config", config});
     EXPECT_TRUE(hub_->ExpectError("/?token=")) << hub_->ErrorText();
     const std::string text = hub_->ErrorText();

@@ -18,8 +18,9 @@ class AgentTest : public ::testing::Test {
   AgentTest() {
     const std::string bin = GALATEA_BIN_DIR;
     std::ofstream(folder_ / "hub.json")
-        << "{\"clock\": \"virtual\", \"listen\": [\"unix:" << folder_ / "hub"
-        << "\"], \"modules\": [{\"name\": \"SSM\", \"command\": [\"" << bin
+        << "{\"clock\": \"virtual\", \"listen\": [{\"role\": \"owner\", \"at\": \"unix:"
+        << folder_ / "hub"
+        << "\"}], \"modules\": [{\"name\": \"SSM\", \"command\": [\"" << bin
         << "/ssm_stub\"]}, {\"name\": \"SRM\", \"command\": [\"" << bin << "/srm_stub\"]}]}";
     hub_ = std::make_unique<support::Process>(
         std::vector<std::string>{bin + "/agent_manager", "--config", folder_ / "hub.json", "--log",
@@ -147,7 +148,7 @@ TEST_F(AgentTest, TheHubIsReachedOverTlsWithAToken) {
   std::ofstream(folder_ / "token") << "a token nobody guesses\n";
   chmod((folder_ / "token").c_str(), 0600);
   std::ofstream(folder_ / "far.json")
-      << "{\"listen\": [{\"at\": \"tls:127.0.0.1:0\", \"certificate\": \""
+      << "{\"listen\": [{\"role\": \"owner\", \"at\": \"tls:127.0.0.1:0\", \"certificate\": \""
       << certificates.Certificate("distant") << "\", \"key\": \"" << certificates.Key("distant")
       << "\", \"token_file\": \"" << (folder_ / "token") << "\"}], \"modules\": [{\"name\": "
       << "\"SSM\", \"command\": [\"" GALATEA_BIN_DIR "/ssm_stub\"]}, {\"name\": \"SRM\", "
@@ -375,8 +376,8 @@ TEST_F(AgentTest, AKeyEndsARecordingInTheMiddle) {
       "expr=\"r$.termchar+' '+r$.maxtime+' '+(r$.duration&lt;60000)\"/></filled></record>");
   // Time stands still for who speaks a minute for each word: only the key can be the end.
   std::ofstream(folder_ / "real.json")
-      << "{\"listen\": [\"unix:" << folder_ / "real"
-      << "\"], \"modules\": [{\"name\": \"SSM\", "
+      << "{\"listen\": [{\"role\": \"owner\", \"at\": \"unix:" << folder_ / "real"
+      << "\"}], \"modules\": [{\"name\": \"SSM\", "
       << "\"command\": [\"" GALATEA_BIN_DIR "/ssm_stub\"]}, {\"name\": \"SRM\", \"command\": [\""
       << GALATEA_BIN_DIR "/srm_stub\"]}]}";
   support::Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder_ / "real.json"});
@@ -401,8 +402,8 @@ TEST_F(AgentTest, DialoguesOnOneHubWaitEachItsOwnTime) {
   write("short.vxml", "300ms");
   std::ofstream(folder_ / "s.txt") << "silence\n";
   std::ofstream(folder_ / "real.json")
-      << "{\"listen\": [\"unix:" << folder_ / "real"
-      << "\"], \"modules\": [{\"name\": \"SSM\", "
+      << "{\"listen\": [{\"role\": \"owner\", \"at\": \"unix:" << folder_ / "real"
+      << "\"}], \"modules\": [{\"name\": \"SSM\", "
       << "\"command\": [\"" GALATEA_BIN_DIR "/ssm_stub\"]}, {\"name\": \"SRM\", \"command\": [\""
       << GALATEA_BIN_DIR "/srm_stub\"]}]}";
   support::Process hub({GALATEA_BIN_DIR "/agent_manager", "--config", folder_ / "real.json",

@@ -180,7 +180,8 @@ TEST(AcceptorTest, SilentStrangersDoNotLockOutWhoHasTheToken) {
   const support::TempDir folder;
   std::ofstream(folder / "token") << "0123456789abcdef\n";
   ASSERT_EQ(chmod((folder / "token").c_str(), 0600), 0);
-  const Credentials credentials{.token_file = folder / "token", .certificate = "", .key = "", .authority = ""};
+  const Credentials credentials{
+      .token_file = folder / "token", .certificate = "", .key = "", .authority = ""};
   boost::asio::io_context io;
   std::vector<std::shared_ptr<StreamPeer>> admitted;
   std::size_t refused = 0;
