@@ -323,13 +323,13 @@ void AgentManager::OnStarted() {
 
 void AgentManager::RunSome() {
   // What parts have said to each other meanwhile is dealt with before anybody waits.
-  const auto until = std::chrono::steady_clock::now() + config_.spin;
   const vm::WriteBatch batch;  // everything said in one round goes out in one write each
   try {
     std::size_t done = 0;
     if (!hub_.idle()) {
       done = io_.poll_one();
     } else if (config_.spin.count() > 0) {
+      const auto until = std::chrono::steady_clock::now() + config_.spin;
       do {
         done = io_.poll_one();
       } while (done == 0 && std::chrono::steady_clock::now() < until);

@@ -62,7 +62,12 @@ struct RightsTable {
 /// Errors: kAccess with a sentence that names the role and the member of the table that forbids it.
 class AccessControl {
  public:
-  void set_table(RightsTable table) { table_ = std::move(table); }
+  AccessControl() { set_table(RightsTable::Default()); }
+  void set_table(RightsTable table) {
+    table_ = std::move(table);
+    for (const Role role : kRoles)
+      all_files_[static_cast<std::size_t>(role)] = table_[role].AllFiles();
+  }
   const RightsTable& table() const { return table_; }
 
   /// May it be said at all? `receiver`: the name it reaches, not an alias; empty for a report.
@@ -75,10 +80,11 @@ class AccessControl {
   vm::Result<void> CheckName(Role role, std::string_view name) const;
   vm::Result<void> CheckPermission(Role role, Permission permission, std::string_view deed) const;
   /// True if CheckFiles can refuse nothing.
-  bool AllFiles(Role role) const { return table_[role].AllFiles(); }
+  bool AllFiles(Role role) const { return all_files_[static_cast<std::size_t>(role)]; }
 
  private:
-  RightsTable table_ = RightsTable::Default();
+  RightsTable table_;
+  std::array<bool, kRoles.size()> all_files_{};
 };
 
 /// True if `file` (relative to `folder`) lies in one of `folders` (relative to where the hub runs),

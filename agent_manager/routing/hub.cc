@@ -94,7 +94,7 @@ void Hub::Receive(PeerKey key, Result<std::string_view> line) {
   // Answers were asked for, and are counted with those who asked.
   const bool answer = message && message->command == vm::Command::kRep && !message->tag.empty();
   if (!answer) back_pressure_.Count(*sender, bytes);
-  if (message) return queue_.Push({std::move(*message), {.peer = key, .role = sender->role}});
+  if (message) return queue_.Push(std::move(*message), {.peer = key, .role = sender->role});
   if (message.error().code == Errc::kEmpty) return;
   queue_.Post(
       [this, key, error = message.error(), tag = line ? vm::TagOf(*line) : std::string()] {
@@ -110,7 +110,7 @@ void Hub::Receive(PeerKey key, Message message) {
   ++sender->traffic.messages_in;
   sender->traffic.bytes_in += message.value.size();
   back_pressure_.Count(*sender, message.value.size());
-  queue_.Push({std::move(message), {.peer = key, .role = sender->role}});
+  queue_.Push(std::move(message), {.peer = key, .role = sender->role});
 }
 
 void Hub::Leave(PeerKey key, const std::string& reason) {
@@ -132,17 +132,15 @@ void Hub::Evict(PeerKey key, const std::string& reason) {
 bool Hub::Drain() {
   // What comes while these are dealt with waits for the next time: the loop looks at its
   // descriptors and timers in between, whatever the hub's parts say to each other.
-  const std::size_t now = queue_.size();
-  for (std::size_t i = 0; i < now; ++i) Do(queue_.Pop());
-  return now > 0;
+  return queue_.Drain([this](WorkQueue::Item& item) { Do(item); }) > 0;
 }
 
-void Hub::Do(WorkQueue::Item item) {
+void Hub::Do(WorkQueue::Item& item) {
   auto* const envelope = std::get_if<Envelope>(&item);
   const PeerKey blamed = envelope ? envelope->origin.peer : std::get<Work>(item).blamed;
   try {
     if (envelope) {
-      router_.Route(std::move(*envelope));
+      router_.Route(*envelope);
     } else {
       std::get<Work>(item).act();
     }
@@ -167,11 +165,11 @@ void Hub::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases,
 }
 
 void Hub::Ask(const std::string& sender, Message message, OnAnswer done, const Origin& origin) {
-  queue_.Push({std::move(message), origin, sender, std::move(done)});
+  queue_.Push(Envelope{std::move(message), origin, sender, std::move(done)});
 }
 
 void Hub::SayAs(const Origin& origin, Message message) {
-  queue_.Push({std::move(message), origin});
+  queue_.Push(std::move(message), origin);
 }
 
 bool Hub::IsModule(std::string_view name) const {

@@ -107,7 +107,7 @@ class Hub {
 
  private:
   vm::Result<PeerKey> Add(std::unique_ptr<Peer> peer);
-  void Do(WorkQueue::Item item);
+  void Do(WorkQueue::Item& item);
   void Blame(PeerKey peer, const char* what);
 
   vm::Scheduler& clock_;

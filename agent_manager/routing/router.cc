@@ -56,7 +56,7 @@ void Router::Refuse(const Envelope& envelope, const vm::Error& error, const std:
   outbox_.Answer(asker, by, envelope.message, std::unexpected(error), envelope.done);
 }
 
-void Router::Route(Envelope envelope) {
+void Router::Route(Envelope& envelope) {
   if (envelope.machine.empty()) {
     Peer* const sender = directory_.ByKey(envelope.origin.peer);
     if (sender == nullptr) return;  // gone: what it asked for nobody waits for
@@ -73,22 +73,26 @@ void Router::Route(Envelope envelope) {
                              0});
   std::vector<std::string> receivers = std::exchange(envelope.message.to, {});
   if (receivers.empty()) receivers.emplace_back("AM");
-  for (std::size_t i = 0; i + 1 < receivers.size(); ++i) Deliver(envelope, receivers[i]);
-  Deliver(std::move(envelope), std::move(receivers.back()));
+  for (std::size_t i = 0; i + 1 < receivers.size(); ++i) {
+    Envelope copy = envelope;
+    Deliver(copy, receivers[i]);
+  }
+  Deliver(envelope, receivers.back());
 }
 
-void Router::Deliver(Envelope envelope, std::string receiver) {
-  if (const vm::SlotMachine* const machine = directory_.Machine(receiver))
+void Router::Deliver(Envelope& envelope, std::string& receiver) {
+  if (const vm::SlotMachine* const machine = directory_.Machine(receiver);
+      machine != nullptr && machine->module_name() != receiver)
     receiver = machine->module_name();  // not one of its other names: rules and rights know one
   if (envelope.origin.role != Role::kOwner) {
     const auto checked = access_.CheckMessage(envelope.origin.role, receiver, envelope.message);
     if (!checked) return Refuse(envelope, checked.error());
   }
-  if (rules_.empty()) return DeliverNow(std::move(envelope), receiver);
-  DeliverByRule(std::move(envelope), std::move(receiver));
+  if (rules_.empty()) return DeliverNow(envelope, receiver);
+  DeliverByRule(envelope, receiver);
 }
 
-void Router::DeliverByRule(Envelope envelope, std::string receiver) {
+void Router::DeliverByRule(Envelope& envelope, std::string& receiver) {
   const Rules::Sender sender = RuleSenderOf(envelope);
   const Rules::Outcome outcome = rules_.Apply(sender, receiver, envelope.message, clock_.Now());
   CarryOut(outcome, sender.name);
@@ -98,12 +102,12 @@ void Router::DeliverByRule(Envelope envelope, std::string receiver) {
       Refuse(envelope, {Errc::kAccess, *outcome.dropped, 0});
     return;
   }
-  if (outcome.delay <= vm::Time(0)) return DeliverNow(std::move(envelope), receiver);
+  if (outcome.delay <= vm::Time(0)) return DeliverNow(envelope, receiver);
   lines_.CountHeld(1);
-  clock_.After(outcome.delay, [this, envelope = std::move(envelope), receiver] {
+  const auto held = std::make_shared<Envelope>(std::move(envelope));
+  clock_.After(outcome.delay, [this, held, receiver] {
     lines_.CountHeld(-1);
-    queue_.Post([this, envelope, receiver] { DeliverNow(envelope, receiver); },
-                envelope.origin.peer);
+    queue_.Post([this, held, receiver] { DeliverNow(*held, receiver); }, held->origin.peer);
   });
 }
 
@@ -131,7 +135,7 @@ void Router::LogTo(const Envelope& envelope, const std::string& receiver) {
              vm::FormatMessage(vm::To(receiver, envelope.message)));
 }
 
-void Router::DeliverNow(Envelope envelope, const std::string& receiver) {
+void Router::DeliverNow(Envelope& envelope, const std::string& receiver) {
   envelope.message.from.clear();
   if (Peer* const peer = directory_.Find(receiver)) {
     LogTo(envelope, receiver);
@@ -142,17 +146,17 @@ void Router::DeliverNow(Envelope envelope, const std::string& receiver) {
   }
   if (vm::SlotMachine* const machine = directory_.Machine(receiver)) {
     LogTo(envelope, receiver);
-    return ToMachine(*machine, std::move(envelope));
+    return ToMachine(*machine, envelope);
   }
   const Result<bool> attached = on_unknown_ ? on_unknown_(receiver) : Result<bool>(false);
   if (!attached) return Refuse(envelope, attached.error());
   if (*attached && directory_.Find(receiver) != nullptr)
-    return DeliverNow(std::move(envelope), receiver);
+    return DeliverNow(envelope, receiver);
   Refuse(envelope,
          {Errc::kUnknownModule, "there is no @" + receiver + " (inq Modules lists them)", 0});
 }
 
-void Router::ToMachine(vm::SlotMachine& machine, Envelope envelope) {
+void Router::ToMachine(vm::SlotMachine& machine, Envelope& envelope) {
   if (const auto counted = CountDefinition(envelope); !counted)
     return Refuse(envelope, counted.error(), machine.module_name());
   const PeerKey asker = envelope.machine.empty() ? envelope.origin.peer : kHub;

@@ -22,7 +22,8 @@ class Router {
          Requests& requests, ModuleLines& lines, WorkQueue& queue, const AccessControl& access,
          const Limits& limits);
 
-  void Route(Envelope envelope);
+  /// What it needs of the envelope it takes.
+  void Route(Envelope& envelope);
   /// What one of the hub's own machines says: to one peer, or to all who subscribed to it.
   void FromMachine(const std::string& machine, PeerKey to, const vm::Message& said);
 
@@ -52,10 +53,10 @@ class Router {
   void Report(Peer& sender, vm::Message message);
   void ReportByRule(Peer& sender, vm::Message message);
   void ReportNow(Peer& sender, vm::Message message);
-  void Deliver(Envelope envelope, std::string receiver);
-  void DeliverByRule(Envelope envelope, std::string receiver);
-  void DeliverNow(Envelope envelope, const std::string& receiver);
-  void ToMachine(vm::SlotMachine& machine, Envelope envelope);
+  void Deliver(Envelope& envelope, std::string& receiver);
+  void DeliverByRule(Envelope& envelope, std::string& receiver);
+  void DeliverNow(Envelope& envelope, const std::string& receiver);
+  void ToMachine(vm::SlotMachine& machine, Envelope& envelope);
   void CarryOut(const Rules::Outcome& outcome, const std::string& from);
   std::string SenderOf(const Envelope& envelope) const;
   Rules::Sender RuleSenderOf(const Envelope& envelope) const;

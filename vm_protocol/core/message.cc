@@ -326,8 +326,11 @@ Result<Message> ParseMessage(std::string_view line) {
   if (const auto bad = FirstBadUtf8(line)) {
     return Fail(Errc::kBadUtf8, "found a byte that is not UTF-8, expected UTF-8 text", *bad + 1);
   }
-  if (const auto control = line.find_first_of(std::string_view("\0\r\n", 3));
-      control != std::string_view::npos) {
+  // A loop of comparisons; find_first_of would look each byte up in the set.
+  const auto is_control = [](char c) { return c == '\0' || c == '\r' || c == '\n'; };
+  const auto control =
+      static_cast<std::size_t>(std::ranges::find_if(line, is_control) - line.begin());
+  if (control < line.size()) {
     return Fail(Errc::kSyntax, "found a NUL, CR or LF inside the line, expected text", control + 1);
   }
   return LineParser(line).Parse();
@@ -373,6 +376,9 @@ bool IsValid(const Message& message) {
 
 std::string FormatMessage(const Message& message) {
   std::string line;
+  constexpr std::size_t kWords = 32;  // of the identifiers, the command and the signs
+  line.reserve(kWords + message.from.size() + message.tag.size() + message.slot.size() +
+               message.value.size());
   if (!message.to.empty()) {
     line += "to ";
     for (std::size_t i = 0; i < message.to.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "vm_protocol/core/utf8.h"
 
-#include <algorithm>
+#include <cstdint>
+#include <cstring>
 
 namespace vm {
 namespace {
@@ -38,8 +39,19 @@ std::size_t SequenceLength(std::string_view text, std::size_t i) {
 
 }  // namespace
 
-std::optional<std::size_t> FirstBadUtf8(std::string_view text) {
+std::size_t AsciiPrefix(std::string_view text) {
+  constexpr std::uint64_t kHighBits = 0x8080808080808080;
   std::size_t i = 0;
+  for (std::uint64_t word = 0; i + sizeof(word) <= text.size(); i += sizeof(word)) {
+    std::memcpy(&word, text.data() + i, sizeof(word));
+    if ((word & kHighBits) != 0) break;
+  }
+  while (i < text.size() && Byte(text, i) < 0x80) ++i;
+  return i;
+}
+
+std::optional<std::size_t> FirstBadUtf8(std::string_view text) {
+  std::size_t i = AsciiPrefix(text);  // most lines are nothing else
   while (i < text.size()) {
     const std::size_t length = SequenceLength(text, i);
     if (length == 0) return i;

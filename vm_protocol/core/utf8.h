@@ -11,6 +11,9 @@ namespace vm {
 /// overlong forms, no surrogates, at most U+10FFFF); none = all well.
 std::optional<std::size_t> FirstBadUtf8(std::string_view text);
 
+/// How many bytes at the beginning are ASCII.
+std::size_t AsciiPrefix(std::string_view text);
+
 /// One sign of a text and how many bytes it takes.
 struct CodePoint {
   char32_t value = 0;

@@ -76,9 +76,8 @@ Encoding RecogniseEncoding(std::string_view line) {
 }
 
 bool PeerEncoding::IsPlain(std::string_view line) {
-  const auto ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
   if (encoding_ != Encoding::kUtf8) return false;
-  if (settled_ || std::ranges::all_of(line, ascii)) return true;
+  if (settled_ || AsciiPrefix(line) == line.size()) return true;
   const bool is_utf8 = !FirstBadUtf8(line);
   if (!is_utf8) encoding_ = RecogniseEncoding(line);
   settled_ = is_utf8 || encoding_ != Encoding::kUtf8;

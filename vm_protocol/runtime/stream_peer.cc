@@ -46,7 +46,8 @@ class StreamPeerImpl;
 /// The peers that were given something to say within the batch of this thread.
 struct Batch {
   bool open = false;
-  std::vector<std::shared_ptr<StreamPeerImpl>> peers;
+  std::vector<std::shared_ptr<StreamPeerImpl>> writers;
+  std::vector<std::shared_ptr<StreamPeerImpl>> readers;  ///< go on reading after that
 };
 Batch& CurrentBatch() {
   thread_local Batch batch;
@@ -161,6 +162,23 @@ class StreamPeerImpl final : public StreamPeer {
     FinishFlushes();
   }
 
+  void ReadMore() {
+    if (closed_ || paused_ || reading_ || input_ended_) return;
+    reading_ = true;
+    auto self = shared_from_this();
+    if (input_) {
+      input_->async_read_some(
+          asio::buffer(buffer_), [self, this](const error_code& error, std::size_t n) {
+            OnRead(n, error && error != asio::error::eof ? error.message() : std::string());
+          });
+      return;
+    }
+    asio::post(io_, [self, this] {
+      const ssize_t n = closed_ ? 0 : read(read_fd_, buffer_.data(), buffer_.size());
+      OnRead(n > 0 ? static_cast<std::size_t>(n) : 0, n < 0 ? std::strerror(errno) : "");
+    });
+  }
+
  private:
   asio::posix::stream_descriptor* Output() {
     if (own_output_) return &*own_output_;
@@ -183,31 +201,13 @@ class StreamPeerImpl final : public StreamPeer {
     read_fd_ = write_fd_ = -1;
   }
 
-  void ReadMore() {
-    if (closed_ || paused_ || reading_ || input_ended_) return;
-    reading_ = true;
-    auto self = shared_from_this();
-    if (input_) {
-      input_->async_read_some(
-          asio::buffer(buffer_), [self, this](const error_code& error, std::size_t n) {
-            OnRead(n, error && error != asio::error::eof ? error.message() : std::string());
-          });
-      return;
-    }
-    asio::post(io_, [self, this] {
-      const ssize_t n = closed_ ? 0 : read(read_fd_, buffer_.data(), buffer_.size());
-      OnRead(n > 0 ? static_cast<std::size_t>(n) : 0, n < 0 ? std::strerror(errno) : "");
-    });
-  }
-
   void OnRead(std::size_t n, const std::string& error) {
     reading_ = false;
     if (closed_) return;
-    {
-      const WriteBatch batch;
-      HandleRead(n, error);
-    }
-    ReadMore();
+    const WriteBatch batch;
+    HandleRead(n, error);
+    // What was said because of this is written before there is another look for input.
+    CurrentBatch().readers.push_back(std::static_pointer_cast<StreamPeerImpl>(shared_from_this()));
   }
 
   void HandleRead(std::size_t n, const std::string& error) {
@@ -273,7 +273,7 @@ class StreamPeerImpl final : public StreamPeer {
     // Later, not at once: everything said within one batch goes out in one write.
     auto self = std::static_pointer_cast<StreamPeerImpl>(shared_from_this());
     if (CurrentBatch().open) {
-      CurrentBatch().peers.push_back(std::move(self));
+      CurrentBatch().writers.push_back(std::move(self));
     } else {
       asio::post(io_, [self = std::move(self)] { self->WriteMore(); });
     }
@@ -349,7 +349,11 @@ WriteBatch::~WriteBatch() {
   if (!outermost_) return;
   Batch& batch = CurrentBatch();
   batch.open = false;
-  for (const auto& peer : std::exchange(batch.peers, {})) peer->WriteMore();
+  // By index: what ends in here may open a batch of its own, and the lists keep their room.
+  for (std::size_t i = 0; i < batch.writers.size(); ++i) batch.writers[i]->WriteMore();
+  batch.writers.clear();
+  for (std::size_t i = 0; i < batch.readers.size(); ++i) batch.readers[i]->ReadMore();
+  batch.readers.clear();
 }
 
 std::shared_ptr<StreamPeer> StreamPeer::Make(asio::io_context& io, int read_fd, int write_fd,
