@@ -92,11 +92,11 @@ void MacroLayer::CollectAwaited() {
   awaited_.clear();
   const auto collect = [this](const MacroStep& step) {
     if (const auto* const wait = std::get_if<WaitStep>(&step.action))
-      awaited_.emplace(wait->from, wait->slot);
+      awaited_[{wait->from, wait->slot}] = true;
     if (const auto* const follow = std::get_if<FollowStep>(&step.action))
-      awaited_.emplace(follow->from, follow->tell);
+      awaited_.try_emplace({follow->from, follow->tell}, false);
     if (const auto* const mirror = std::get_if<MirrorStep>(&step.action)) {
-      for (const std::string& slot : mirror->slots) awaited_.emplace(mirror->from, slot);
+      for (const std::string& slot : mirror->slots) awaited_[{mirror->from, slot}] = true;
     }
   };
   for (const auto& [name, macro] : macros_) {
@@ -109,8 +109,9 @@ void MacroLayer::CollectAwaited() {
 
 void MacroLayer::SwitchOn(const std::string& module) {
   // The original's face reports nothing unasked: whatever a macro waits for is switched on.
-  for (const auto& [from, slot] : awaited_) {
-    if (from != module) continue;
+  for (const auto& [place, is_value] : awaited_) {
+    const auto& [from, slot] = place;
+    if (from != module || !is_value) continue;
     hub_.Ask(
         kName,
         vm::To(module, {{}, "", Command::kProp, "", slot, vm::Relation::kAssign, "AutoOutput"}),

@@ -3,7 +3,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -64,7 +63,9 @@ class MacroLayer {
   std::map<std::string, std::shared_ptr<const Macro>> macros_;
   std::map<std::string, Reader> readers_;
   std::map<std::string, std::unique_ptr<MacroRun>> runs_;  // by macro
-  std::set<std::pair<std::string, std::string>> awaited_;  // (module, slot) some macro listens to
+  /// (module, slot) that some macro listens to, and whether it is a slot's value, which may have to
+  /// be switched on, and no event.
+  std::map<std::pair<std::string, std::string>, bool> awaited_;
   std::size_t bytes_ = 0;
   Origin origin_;  // of the message being handled
 };

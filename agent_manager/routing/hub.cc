@@ -168,9 +168,7 @@ void Hub::Ask(const std::string& sender, Message message, OnAnswer done, const O
   queue_.Push(Envelope{std::move(message), origin, sender, std::move(done)});
 }
 
-void Hub::SayAs(const Origin& origin, Message message) {
-  queue_.Push(std::move(message), origin);
-}
+void Hub::SayAs(const Origin& origin, Message message) { queue_.Push(std::move(message), origin); }
 
 bool Hub::IsModule(std::string_view name) const {
   const Peer* const peer = directory_.Find(name);

@@ -150,8 +150,7 @@ void Router::DeliverNow(Envelope& envelope, const std::string& receiver) {
   }
   const Result<bool> attached = on_unknown_ ? on_unknown_(receiver) : Result<bool>(false);
   if (!attached) return Refuse(envelope, attached.error());
-  if (*attached && directory_.Find(receiver) != nullptr)
-    return DeliverNow(envelope, receiver);
+  if (*attached && directory_.Find(receiver) != nullptr) return DeliverNow(envelope, receiver);
   Refuse(envelope,
          {Errc::kUnknownModule, "there is no @" + receiver + " (inq Modules lists them)", 0});
 }

@@ -16,8 +16,8 @@ struct Work {
 };
 
 /// What the hub has still to do, in the order in which it came: the one place where messages wait
-/// between the peer that said them and whoever takes them. Its length is bounded by what one read of
-/// each peer brings, and by Limits: readers are held while it is worked off. Thread: one.
+/// between the peer that said them and whoever takes them. Its length is bounded by what one read
+/// of each peer brings, and by Limits: readers are held while it is worked off. Thread: one.
 class WorkQueue {
  public:
   using Item = std::variant<Envelope, Work>;

@@ -245,6 +245,13 @@ TEST_F(MacroLayerTest, AfterAnEmotionAroundTheTextTheOneSetBeforeComesBack) {
   EXPECT_EQ(last(), "FaceExp = NEUTRAL");
 }
 
+TEST_F(MacroLayerTest, WhatItWaitsForIsSwitchedOnAndEventsAreNot) {
+  JoinVoice();
+  Run();
+  EXPECT_TRUE(Contains(voice_->heard, "Speak.stat = AutoOutput"));
+  EXPECT_FALSE(Contains(voice_->heard, "Speak.sync = AutoOutput")) << "it is no slot";
+}
+
 TEST_F(MacroLayerTest, UsersDefineTheirOwnMacros) {
   JoinFace();
   world_.Say(

@@ -10,7 +10,7 @@ TEST(FsmSpeechTest, ReportsComeInTheOriginalsOrder) {
   EXPECT_EQ(fsm.Say("prop Speak = AutoOutput"), "");
   EXPECT_EQ(fsm.Say("set LipSync.pho = h 80 a 100"),
             "rep Speak.stat = PROCESSING|rep Speak.text = h a|rep Speak.pho = h [80] a [100] |"
-            "rep Speak.dur = 180|rep Speak.utt = |rep Speak.len = 0|rep Speak.stat = READY");
+            "rep Speak.dur = 180|rep Speak.utt = non|rep Speak.len = 0|rep Speak.stat = READY");
   EXPECT_EQ(fsm.Say("set Speak = NOW"), "rep Speak.stat = SPEAKING");
   EXPECT_TRUE(fsm.module.Busy());
   EXPECT_EQ(fsm.Until(179.9), "");
@@ -37,7 +37,7 @@ TEST(FsmSpeechTest, TheSlotsAnswer) {
   fsm.Say("set LipSync.pho = h [80] a [100]");
   EXPECT_EQ(fsm.Say("inq Speak"),
             "rep Speak.text = h a|rep Speak.pho = h [80] a [100] |rep Speak.dur = 180|"
-            "rep Speak.utt = |rep Speak.len = 0|rep Speak.stat = READY");
+            "rep Speak.utt = non|rep Speak.len = 0|rep Speak.stat = READY");
   EXPECT_EQ(fsm.Say("inq LipSync"), "rep LipSync.pho = h [80] a [100] |rep LipSync.dur = 180");
   EXPECT_EQ(fsm.Say("inq LipSync.pho"), "rep LipSync.pho = h [80] a [100] ");
   EXPECT_EQ(fsm.Say("inq Speak.dur"), "rep Speak.dur = 180");
