@@ -79,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string line(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty()) continue;
-    const auto who = static_cast<unsigned char>(line.front()) % 8;
+    const std::size_t who = static_cast<unsigned char>(line.front()) % 8u;
     if (who < session.peers.size()) {
       session.world.Say(*session.peers[who], line.substr(1));
     } else if (who == 5) {

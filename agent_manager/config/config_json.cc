@@ -1,6 +1,7 @@
 #include "agent_manager/config/config_json.h"
 
 #include <algorithm>
+#include <charconv>
 #include <iterator>
 #include <set>
 
@@ -96,7 +97,11 @@ class KeyLocator {
       const std::string part(path.substr(index ? 1 : 0, end - (index ? 1 : 0)));
       path.remove_prefix(index ? std::min(end + 1, path.size()) : end);
       if (path.starts_with('.')) path.remove_prefix(1);
-      if (!(index ? EnterElement(std::stoul(part)) : EnterMember(part, found))) break;
+      std::size_t number = 0;
+      if (index &&
+          std::from_chars(part.data(), part.data() + part.size(), number).ec != std::errc())
+        break;  // a bracket in a member's name
+      if (!(index ? EnterElement(number) : EnterMember(part, found))) break;
       if (index) found = at_;
     }
     return LineAt(text_, found);
@@ -231,6 +236,8 @@ json ParseJson(std::string_view text, const std::string& origin) {
     throw ConfigFault{
         "", origin + " line " + std::to_string(LineAt(text, error.byte > 0 ? error.byte - 1 : 0)) +
                 ": not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2))};
+  } catch (const json::exception& error) {  // a number beyond all numbers, say
+    throw ConfigFault{"", origin + " line " + std::to_string(line) + ": not JSON: " + error.what()};
   }
 }
 

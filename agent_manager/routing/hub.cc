@@ -11,8 +11,7 @@ using vm::Message;
 using vm::Result;
 
 Hub::Hub(vm::Scheduler& clock, SessionLog& log)
-    : clock_(clock),
-      back_pressure_(clock, directory_, limits_,
+    : back_pressure_(clock, directory_, limits_,
                      [this](PeerKey peer, const std::string& why) {
                        outbox_.Notice("@" + NameOf(peer) + ": " + why + ", it is cut off");
                        Leave(peer, why);

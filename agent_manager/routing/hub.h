@@ -110,7 +110,6 @@ class Hub {
   void Do(WorkQueue::Item& item);
   void Blame(PeerKey peer, const char* what);
 
-  vm::Scheduler& clock_;
   Limits limits_;
   AccessControl access_;
   WorkQueue queue_;

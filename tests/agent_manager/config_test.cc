@@ -112,5 +112,15 @@ INSTANTIATE_TEST_SUITE_P(
                   "am.json line 4: modules[1].cwd: found 5"},
         BadConfig{"{\"macros\": {\"M\": \"/nonexistent.json\"}}", "macros.M: cannot read"}));
 
+TEST(ConfigTest, NumbersBeyondAllAndBracketsInNamesAreFaultsLikeOthers) {
+  const auto number = ParseConfig("{\n \"spin_us\": 57e572}", "am.json", ".");
+  ASSERT_FALSE(number);
+  EXPECT_NE(number.error().text.find("am.json line 2: not JSON"), std::string::npos)
+      << number.error().text;
+  const auto name = ParseConfig("{\"macros\": {\"a[b].c\": \"/no/such/file\"}}", "am.json", ".");
+  ASSERT_FALSE(name);
+  EXPECT_NE(name.error().text.find("/no/such/file"), std::string::npos) << name.error().text;
+}
+
 }  // namespace
 }  // namespace am
