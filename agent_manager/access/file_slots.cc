@@ -3,18 +3,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "agent_manager/access/pattern.h"
 #include "embedded/file_slots.h"
 
 namespace am {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
 
 /// Calls `take` for each part between separators, without blanks around it.
 template <typename Take>

@@ -24,6 +24,8 @@ class FileSlots {
   /// counts as a file name.
   explicit FileSlots(std::string_view declared);
 
+  /// True if a value of this slot can be a file name.
+  bool Takes(const std::string& slot) const { return all_ || grammars_.contains(slot); }
   /// The file names in a value of this slot; the whole value where it does not fit the grammar.
   std::vector<std::string> FilesIn(const std::string& slot, const std::string& value) const;
 

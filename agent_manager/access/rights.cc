@@ -85,7 +85,8 @@ RightsTable RightsTable::Default() {
   for (const auto& known : kPermissionNames) table[Role::kOwner].may.push_back(known.permission);
   table[Role::kOwner].files = {"/"};
   table[Role::kModule].files = {"/"};
-  table[Role::kModule].may = {Permission::kDefine};  // dialogues drive the agent by their own macros
+  table[Role::kModule].may = {
+      Permission::kDefine};  // dialogues drive the agent by their own macros
   table[Role::kClient].files = {"."};
   table[Role::kGuest].commands = {"set", "inq", "prop", "do", "rep", "tell"};
   return table;
@@ -144,6 +145,9 @@ Result<void> AccessControl::CheckFiles(Role role, const Message& message, const 
   if (message.command == Command::kDo)  // a macro, or a file of that name
     return CheckFile(role, message.slot.empty() ? message.value : message.slot, folder);
   if (message.command != Command::kSet) return {};
+  // Appended to what is there, which is not known here, any value can make a file's name.
+  if (message.relation == Relation::kAppend && slots.Takes(message.slot))
+    return Refuse(role, "files", "append to the file name in " + message.slot);
   for (const std::string& file : slots.FilesIn(message.slot, message.value)) {
     if (const auto checked = CheckFile(role, file, folder); !checked) return checked;
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "agent_manager/access/pattern.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/utf8.h"
 
@@ -11,14 +12,6 @@ namespace am {
 namespace {
 
 constexpr std::array<std::string_view, 4> kPartsOfTheHub{"AM", "AM-MCL", "FS-MCL", "PAR"};
-constexpr std::string_view kBlanks = " \t\r";
-
-std::string_view Trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 /// Takes the word before the next blank, and the blanks.
 std::string_view TakeWord(std::string_view& text) {
   const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());

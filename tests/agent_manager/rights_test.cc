@@ -91,9 +91,10 @@ class RightsTest : public testing::Test {
 TEST_F(RightsTest, AGuestNamesNoFileInWhateverWay) {
   for (const char* line :
        {"to @SSM set#1 SaveWAV = /tmp/x.wav", "to @SSM set#1 Text < /etc/passwd",
-        "to @SSM set#1 Record = x.wav", "to @SSM set#1 Input = unix:/tmp/s", "do#1 /etc/passwd",
-        "to @SSM do#1 some.file", "to @AM-MCL do#1 ./x", "set#1 U < /etc/hostname",
-        "to @SSM save#1 s << /tmp/x", "to @AM,@FS-MCL def#1 M < /etc/passwd"})
+        "to @SSM set#1 Record = x.wav", "to @SSM set#1 Record << STOP",
+        "to @SSM set#1 Input = unix:/tmp/s", "do#1 /etc/passwd", "to @SSM do#1 some.file",
+        "to @AM-MCL do#1 ./x", "set#1 U < /etc/hostname", "to @SSM save#1 s << /tmp/x",
+        "to @AM,@FS-MCL def#1 M < /etc/passwd"})
     EXPECT_TRUE(Refused(Say(Role::kGuest, line))) << line << ": " << Say(Role::kGuest, line);
   EXPECT_EQ(set_, Strings{});
   EXPECT_EQ(Say(Role::kGuest, "to @SSM set#1 Record = STOP"), "From @SSM rep#1 Record = STOP");
