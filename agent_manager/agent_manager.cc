@@ -58,6 +58,7 @@ AgentManager::AgentManager(Config config, Options options)
       slots_("AM"),
       macros_(clock_, hub_, ReadFile, [](const std::string& path) { std::remove(path.c_str()); }),
       parallel_(clock_, hub_),
+      sounds_(hub_),
       supervisor_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& module, const OutputLine& line) {
@@ -84,7 +85,7 @@ AgentManager::AgentManager(Config config, Options options)
                         if (mqtt_ != nullptr) mqtt_->Want(name);
                       },
                   .on_flow = [this](PeerKey peer, bool on) { Watch(peer, on); }}),
-      hub_machines_(hub_, slots_, macros_, parallel_, ReadFile),
+      hub_machines_(hub_, slots_, macros_, own_machines_, ReadFile),
       listeners_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& text) { Refused(text); }),
@@ -123,12 +124,11 @@ AgentManager::~AgentManager() = default;
 void AgentManager::ConnectParts() {
   hub_.set_on_notice([this](const std::string& text, PeerKey about) { SayError(text, about); });
   hub_.set_on_report([this](const std::string& from, const vm::Message& message) {
-    macros_.OnReport(from, message);
-    parallel_.OnReport(from, message);
+    for (OwnMachine* const machine : own_machines_) machine->OnReport(from, message);
   });
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
     if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
-    macros_.OnPresence(name, present, reason);
+    for (OwnMachine* const machine : own_machines_) machine->OnPresence(name, present, reason);
     if (mqtt_ != nullptr) mqtt_->OnPresence(name, present, reason);
     if (!present) return;
     lockstep_.Forget();
@@ -140,7 +140,8 @@ void AgentManager::ConnectParts() {
   hub_.AddMachine(slots_);
   hub_.AddMachine(macros_.slots(), {"FS-MCL"});
   hub_.AddMachine(parallel_.slots(), {}, true);
-  for (auto* const machine : {&slots_, &macros_.slots(), &parallel_.slots()}) {
+  hub_.AddMachine(sounds_.slots(), {}, true);
+  for (auto* const machine : {&slots_, &macros_.slots(), &parallel_.slots(), &sounds_.slots()}) {
     machine->set_on_error([this](vm::PeerId peer, const std::string& line, const vm::Error& error) {
       if (error.code == vm::Errc::kStopped) return;  // somebody's wish, not a fault
       SayError("error: " + vm::FormatError(error) + (line.empty() ? "" : " (in: " + line + ")"),
@@ -163,7 +164,8 @@ void AgentManager::LoadBuiltInMacros() {
 
 std::string AgentManager::SlotsMarkdown() {
   return "### @AM\n\n" + slots_.DocsMarkdown() + "\n### @AM-MCL, @FS-MCL\n\n" +
-         macros_.slots().DocsMarkdown() + "\n### @PAR\n\n" + parallel_.slots().DocsMarkdown();
+         macros_.slots().DocsMarkdown() + "\n### @PAR\n\n" + parallel_.slots().DocsMarkdown() +
+         "\n### @SND\n\n" + sounds_.slots().DocsMarkdown();
 }
 
 void AgentManager::Say(const std::string& text) const {
@@ -367,7 +369,8 @@ bool AgentManager::Started() const {
 }
 
 bool AgentManager::SomethingGoesOn() const {
-  if (macros_.Busy() || parallel_.Busy() || hub_.HasHeld() || !hub_.idle() ||
+  const auto busy = [](const OwnMachine* machine) { return machine->Busy(); };
+  if (std::ranges::any_of(own_machines_, busy) || hub_.HasHeld() || !hub_.idle() ||
       (replay_ && replay_->pending() > 0))
     return true;
   return clock_.real() ? !quiet_.quiet() : lockstep_.Busy();

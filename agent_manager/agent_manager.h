@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -12,6 +13,8 @@
 
 #include "agent_manager/config/config.h"
 #include "agent_manager/macros/macro_layer.h"
+#include "agent_manager/macros/parallel.h"
+#include "agent_manager/macros/sound_player.h"
 #include "agent_manager/mqtt/bridge.h"
 #include "agent_manager/routing/hub.h"
 #include "agent_manager/session/console.h"
@@ -49,7 +52,7 @@ class AgentManager {
   AgentManager(const AgentManager&) = delete;
   /// Returns the exit code.
   int Run();
-  /// The slots of @AM and @AM-MCL for docs/slots.md.
+  /// The slots of the hub's own machines for docs/slots.md.
   std::string SlotsMarkdown();
 
  private:
@@ -94,6 +97,8 @@ class AgentManager {
   vm::SlotMachine slots_;
   MacroLayer macros_;
   Parallel parallel_;
+  SoundPlayer sounds_;
+  const std::array<OwnMachine*, 3> own_machines_{&macros_, &parallel_, &sounds_};
   Supervisor supervisor_;
   Console console_;
   HubSlots hub_slots_;

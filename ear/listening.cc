@@ -8,21 +8,23 @@ Listening::Listening(vm::Scheduler& scheduler, vm::SlotMachine& slots, Hooks hoo
     : scheduler_(scheduler), slots_(slots), hooks_(std::move(hooks)) {}
 
 void Listening::Declare(const std::string& module_version) {
-  slots_.Declare({.name = "Run",
-                  .grammar = "START | STOP | LIVE | EXIT",
-                  .initial = "LIVE",
-                  .auto_output = true,
-                  .help = "START: listen from now on. STOP: no longer. EXIT ends the module.",
-                  .on_set_later =
-                      [this](const vm::SetValue& value, const vm::Reply& reply) {
-                        const std::string& word = value.word(0);
-                        slots_.Report("Run", word);
-                        if (word == "START") Start();
-                        if (word == "STOP") Stop();
-                        reply.Ok(word);
-                        if (word == "EXIT") hooks_.exit();
-                      },
-                  .saved = false});
+  slots_.Declare(
+      {.name = "Run",
+       .grammar = "START | STOP | LIVE | SLEEP | EXIT",
+       .initial = "LIVE",
+       .auto_output = true,
+       .help = "START: listen from now on. STOP: no longer. EXIT ends the module. SLEEP, which "
+               "scripts of the original have, does nothing.",
+       .on_set_later =
+           [this](const vm::SetValue& value, const vm::Reply& reply) {
+             const std::string& word = value.word(0);
+             if (word != "SLEEP") slots_.Report("Run", word);
+             if (word == "START") Start();
+             if (word == "STOP") Stop();
+             reply.Ok(word);
+             if (word == "EXIT") hooks_.exit();
+           },
+       .saved = false});
   const auto version = [this](std::string name, std::string value, std::string help) {
     slots_.Declare({.name = std::move(name),
                     .grammar = "<text>",

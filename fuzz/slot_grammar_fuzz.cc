@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   for (const auto& item : *items) {
-    if (item.file && !grammar->has_file()) std::abort();
+    if (!item.files.empty() && !grammar->has_file()) std::abort();
   }
   return 0;
 }

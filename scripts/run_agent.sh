@@ -52,6 +52,7 @@ done
 case $say in *$'\n'*) say=${say//$'\n'/ } ;; esac
 case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in .mp4" ;; esac
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
+[ -z "$out" ] || [ -w "$(dirname "$out")" ] || fail "--out: the folder '$(dirname "$out")' cannot be written to"
 [ -z "$photo" ] || [ -r "$photo" ] || fail "--photo: cannot read '$photo'"
 [ -z "$photo" ] || [ -z "$config" ] || fail "--photo and --config exclude each other: put --mask into the configuration"
 [ -z "$config" ] || [ -r "$config" ] || fail "--config: cannot read '$config'"

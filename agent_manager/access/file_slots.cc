@@ -51,7 +51,7 @@ std::vector<std::string> FileSlots::FilesIn(const std::string& slot,
   if (!items) return {value};
   std::vector<std::string> files;
   for (const auto& item : *items) {
-    if (item.file) files.push_back(item.text);
+    files.insert(files.end(), item.files.begin(), item.files.end());
   }
   return files;
 }

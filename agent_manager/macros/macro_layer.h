@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agent_manager/macros/macro_run.h"
+#include "agent_manager/macros/own_machine.h"
 
 namespace am {
 
@@ -16,7 +17,7 @@ namespace am {
 /// since the next starts only when the modules have said they are idle, or their time for it is
 /// over. Thread: the scheduler's. The hub outlives it.
 /// Limits: kMaxMacros macros with kMaxMacroBytes of text; Sequence has those of one run.
-class MacroLayer {
+class MacroLayer final : public OwnMachine {
  public:
   static constexpr std::size_t kMaxMacros = 1024;
   static constexpr std::size_t kMaxMacroBytes = 8u << 20;
@@ -25,7 +26,7 @@ class MacroLayer {
              std::function<void(const std::string& path)> remove_file);
   MacroLayer(const MacroLayer&) = delete;
 
-  vm::SlotMachine& slots() { return slots_; }
+  vm::SlotMachine& slots() override { return slots_; }
   /// A macro whose "reads" is `name` has its value taken apart by this, beside its words.
   using Reader = std::function<void(Variables& variables)>;
   void AddReader(std::string name, Reader reader) { readers_[std::move(name)] = std::move(reader); }
@@ -36,12 +37,10 @@ class MacroLayer {
   /// Errors: kUnknownSlot. A run of it ends as it began.
   vm::Result<void> Remove(const std::string& name);
 
-  /// Deals with a message to @AM-MCL.
-  void Handle(const Envelope& envelope);
-  /// Feed what modules say, and their comings and goings.
-  void OnReport(const std::string& from, const vm::Message& message);
-  void OnPresence(const std::string& name, bool present, const std::string& reason);
-  bool Busy() const { return !runs_.empty(); }
+  void Handle(const Envelope& envelope) override;
+  void OnReport(const std::string& from, const vm::Message& message) override;
+  void OnPresence(const std::string& name, bool present, const std::string& reason) override;
+  bool Busy() const override { return !runs_.empty(); }
   bool Has(const std::string& name) const { return macros_.contains(name); }
   /// On a clock of lockstep the start of speaking needs no room for delays.
   void set_lockstep(bool lockstep) { services_.lockstep = lockstep; }

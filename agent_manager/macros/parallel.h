@@ -3,8 +3,8 @@
 #include <deque>
 #include <string>
 
+#include "agent_manager/macros/own_machine.h"
 #include "agent_manager/routing/hub.h"
-#include "vm_protocol/core/slot_machine.h"
 
 namespace am {
 
@@ -12,20 +12,18 @@ namespace am {
 /// 1` clears it, each `set Cmd = ...` appends `sleep SECONDS` or a line with a receiver, and it
 /// begins when the voice says that it speaks. Lines are said as whoever appended them. Thread: the
 /// scheduler's. Limits: kMaxCommands.
-class Parallel {
+class Parallel final : public OwnMachine {
  public:
   static constexpr std::size_t kMaxCommands = 256;
   Parallel(vm::Scheduler& clock, Hub& hub);
-  ~Parallel();
+  ~Parallel() override;
   Parallel(const Parallel&) = delete;
 
-  vm::SlotMachine& slots() { return slots_; }
-  /// Deals with a message to @PAR.
-  void Handle(const Envelope& envelope);
-  /// Feed what modules say.
-  void OnReport(const std::string& from, const vm::Message& message);
-  /// True while the list is being said.
-  bool Busy() const { return timer_ != 0; }
+  vm::SlotMachine& slots() override { return slots_; }
+  void Handle(const Envelope& envelope) override;
+  void OnReport(const std::string& from, const vm::Message& message) override;
+  void OnPresence(const std::string&, bool, const std::string&) override {}
+  bool Busy() const override { return timer_ != 0; }
 
  private:
   struct Command {

@@ -9,13 +9,10 @@ using vm::Message;
 using vm::Relation;
 using vm::Result;
 
-HubMachines::HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros, Parallel& parallel,
-                         LineScripts::ReadFile read_file)
-    : hub_(hub),
-      am_(am),
-      macros_(macros),
-      parallel_(parallel),
-      scripts_(hub, std::move(read_file)) {
+HubMachines::HubMachines(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
+                         std::span<OwnMachine* const> machines, LineScripts::ReadFile read_file)
+    : hub_(hub), am_(am), macros_(macros), scripts_(hub, std::move(read_file)) {
+  for (OwnMachine* const machine : machines) machines_[&machine->slots()] = machine;
   hub_.set_on_machine([this](vm::SlotMachine& machine, const Envelope& envelope) {
     return Take(machine, envelope);
   });
@@ -47,13 +44,9 @@ Result<Router::Taken> HubMachines::Take(vm::SlotMachine& machine, const Envelope
     if (!done) return std::unexpected(done.error());
     return Router::Taken{true, std::move(*done)};
   }
-  if (&machine == &parallel_.slots()) {
-    parallel_.Handle(envelope);
-  } else if (&machine == &macros_.slots()) {
-    macros_.Handle(envelope);
-  } else {
-    return Router::Taken{};
-  }
+  const auto own = machines_.find(&machine);
+  if (own == machines_.end()) return Router::Taken{};
+  own->second->Handle(envelope);
   return Router::Taken{.taken = true};
 }
 

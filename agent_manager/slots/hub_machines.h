@@ -1,19 +1,22 @@
 #pragma once
 
+#include <map>
+#include <span>
+
 #include "agent_manager/macros/line_scripts.h"
 #include "agent_manager/macros/macro_layer.h"
-#include "agent_manager/macros/parallel.h"
+#include "agent_manager/macros/own_machine.h"
 #include "agent_manager/routing/hub.h"
 
 namespace am {
 
-/// What reaches the hub's own machines, @AM, @AM-MCL and @PAR: whether the files it names may be
-/// named, and `do`, whose lines go through the hub like any other. Thread: the scheduler's. All
+/// What reaches the hub's own machines, @AM, @AM-MCL, @PAR and @SND: whether the files it names may
+/// be named, and `do`, whose lines go through the hub like any other. Thread: the scheduler's. All
 /// that it is given outlives it.
 class HubMachines {
  public:
-  HubMachines(Hub& hub, vm::SlotMachine& am, MacroLayer& macros, Parallel& parallel,
-              LineScripts::ReadFile read_file);
+  HubMachines(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
+              std::span<OwnMachine* const> machines, LineScripts::ReadFile read_file);
 
  private:
   vm::Result<Router::Taken> Take(vm::SlotMachine& machine, const Envelope& envelope);
@@ -22,8 +25,8 @@ class HubMachines {
 
   Hub& hub_;
   vm::SlotMachine& am_;
-  MacroLayer& macros_;
-  Parallel& parallel_;
+  const MacroLayer& macros_;
+  std::map<const vm::SlotMachine*, OwnMachine*> machines_;
   LineScripts scripts_;
 };
 

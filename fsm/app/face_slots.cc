@@ -35,22 +35,31 @@ void DeclareUnits(FsmCore& core) {
   for (std::size_t i = 0; i < list.units.size(); ++i) {
     const std::string what = list.units[i] > 0 ? "action unit " + std::to_string(list.units[i])
                                                : "expression " + list.emotions[i];
-    core.Declare({"Face." + std::to_string(i + 1), "<number 0..200>",
-                  "Strength of " + what + " in per cent.",
-                  [&core](const vm::SetValue& value) {
-                    return core.motion->SetFace(core.Now(), NumberOf(value.slot),
-                                                value.number(0) / 100);
-                  },
-                  "0"});
+    core.Declare({.name = "Face." + std::to_string(i + 1),
+                  .grammar = "<number>",
+                  .help = "Strength of " + what + " in per cent, 0 to 200.",
+                  .action =
+                      [&core](const vm::SetValue& value) {
+                        return core.motion->SetFace(core.Now(), NumberOf(value.slot),
+                                                    value.number(0) / 100);
+                      },
+                  .initial = "0",
+                  .least = 0,
+                  .most = 200});
   }
   for (std::size_t i = 1; i <= kMouthParameters; ++i) {
-    core.Declare({"Mouth." + std::to_string(i), "<number 0..200>",
-                  "Strength of mouth parameter " + std::to_string(i) + " in per cent.",
-                  [&core](const vm::SetValue& value) {
-                    return core.motion->SetMouth(core.Now(), NumberOf(value.slot),
-                                                 value.number(0) / 100);
-                  },
-                  "0"});
+    core.Declare(
+        {.name = "Mouth." + std::to_string(i),
+         .grammar = "<number>",
+         .help = "Strength of mouth parameter " + std::to_string(i) + " in per cent, 0 to 200.",
+         .action =
+             [&core](const vm::SetValue& value) {
+               return core.motion->SetMouth(core.Now(), NumberOf(value.slot),
+                                            value.number(0) / 100);
+             },
+         .initial = "0",
+         .least = 0,
+         .most = 200});
   }
   core.Declare(
       {"AU", "<text>",
@@ -68,20 +77,20 @@ void DeclareUnits(FsmCore& core) {
 }
 
 void DeclareExpressions(FsmCore& core) {
-  core.Declare({"FaceExp", "NEUTRAL | <word> <int 1..> <number 0..200> <ms>",
-                "An expression: HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED or USERDEF, its pattern "
-                "(1 to 5), its strength in per cent and its duration in ms (0 = until the next); "
-                "or NEUTRAL.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  if (value.size() == 1) {
-                    core.motion->Neutral(core.Now());
-                    return {};
-                  }
-                  return core.motion->Express(core.Now(), value.word(0),
-                                              static_cast<int>(value.number(1)),
-                                              value.number(2) / 100, Ms(value.number(3)));
-                },
-                "NEUTRAL"});
+  core.Declare(
+      {"FaceExp", "NEUTRAL [ <int> <number> <ms> ] | <word> <int 1..> <number 0..200> <ms>",
+       "An expression: HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED or USERDEF, its pattern "
+       "(1 to 5), its strength in per cent and its duration in ms (0 = until the next); "
+       "or NEUTRAL.",
+       [&core](const vm::SetValue& value) -> vm::Result<void> {
+         if (value.word(0) == "NEUTRAL") {
+           core.motion->Neutral(core.Now());
+           return {};
+         }
+         return core.motion->Express(core.Now(), value.word(0), static_cast<int>(value.number(1)),
+                                     value.number(2) / 100, Ms(value.number(3)));
+       },
+       "NEUTRAL"});
   const MotionSettings& settings = core.motion->settings();
   core.Declare({"FaceExp.onset", "POSED | ELICITED | NATURAL | <ms>",
                 "How long an expression takes to come: as measured on people who show (POSED, or "
@@ -101,37 +110,43 @@ void DeclareExpressions(FsmCore& core) {
 
 void DeclareHead(FsmCore& core) {
   const std::string axes =
-      "x y z in degrees: x+ = down, y+ = to the viewer's right, z+ = tilt there.";
-  core.Declare({"HeadRotAbs.1", "<number -90..90> <number -90..90> <number -90..90>",
-                "Turns the head to " + axes,
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
+      "x y z in degrees, -90 to 90: x+ = down, y+ = to the viewer's right, z+ = tilt there.";
+  core.Declare({.name = "HeadRotAbs.1",
+                .grammar = "<number> <number> <number>",
+                .help = "Turns the head to " + axes,
+                .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
                   core.motion->TurnHead(core.Now(), AnglesOf(value));
                   return {};
                 },
-                "0 0 0"});
-  core.Declare({"HeadRotRel.1", "<number -90..90> <number -90..90> <number -90..90>",
-                "Turns the head further by " + axes,
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
+                .initial = "0 0 0",
+                .least = -90,
+                .most = 90});
+  core.Declare({.name = "HeadRotRel.1",
+                .grammar = "<number> <number> <number>",
+                .help = "Turns the head further by " + axes,
+                .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
                   core.motion->TurnHeadBy(core.Now(), AnglesOf(value));
                   return {};
                 },
-                "", false});
-  core.Declare({"FaceMot",
-                "NOMOVE | ( NOD | REFUSE | SHAKE | LISTEN | TILT | BLINK | USERDEF ) <int 1..> "
-                "[ <number 0..300> [ <int 1..20> ] ]",
-                "One movement and its pattern, its strength in per cent (100) and how many times "
-                "(1), or NOMOVE to end what is moving. SHAKE is REFUSE, TILT is LISTEN.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  if (value.size() == 1) {
-                    core.motion->StopMoves(core.Now());
-                    return {};
-                  }
-                  return core.motion->Move(
-                      core.Now(), value.word(0), static_cast<int>(value.number(1)),
-                      value.size() > 2 ? value.number(2) / 100 : 1,
-                      value.size() > 3 ? static_cast<int>(value.number(3)) : 1);
-                },
-                "", false});
+                .readable = false,
+                .least = -90,
+                .most = 90});
+  core.Declare(
+      {"FaceMot",
+       "NOMOVE [ <int> ] | ( NOD | REFUSE | SHAKE | LISTEN | TILT | BLINK | USERDEF ) <int 1..> "
+       "[ <number 0..300> [ <int 1..20> ] ]",
+       "One movement and its pattern, its strength in per cent (100) and how many times "
+       "(1), or NOMOVE to end what is moving. SHAKE is REFUSE, TILT is LISTEN.",
+       [&core](const vm::SetValue& value) -> vm::Result<void> {
+         if (value.word(0) == "NOMOVE") {
+           core.motion->StopMoves(core.Now());
+           return {};
+         }
+         return core.motion->Move(core.Now(), value.word(0), static_cast<int>(value.number(1)),
+                                  value.size() > 2 ? value.number(2) / 100 : 1,
+                                  value.size() > 3 ? static_cast<int>(value.number(3)) : 1);
+       },
+       "", false});
 }
 
 void DeclareEyes(FsmCore& core) {

@@ -40,22 +40,41 @@ struct FsmCore {
     std::string initial = "";
     bool readable = true;  ///< false: the slot is an action and has no value to ask for
     bool quoted = false;
+    /// Numbers beyond are taken for the nearest within, as the original does; 0, 0: none are.
+    int least = 0, most = 0;
+    /// How the value is told; null: as it came.
+    std::string (*told)(const vm::SetValue&) = nullptr;
   };
   /// A slot whose value is stored as it came if the action accepts it.
   void Declare(Declaration slot) {
     if (slot.readable) initial_values.emplace_back(slot.name, slot.initial);
-    slots.Declare({.name = slot.name,
-                   .grammar = slot.grammar,
-                   .access = slot.readable ? vm::Access::kReadWrite : vm::Access::kWriteOnly,
-                   .initial = slot.initial,
-                   .help = slot.help,
-                   .on_set = [this, action = std::move(slot.action)](
-                                 const vm::SetValue& value) -> vm::Result<std::string> {
-                     if (auto done = action(value); !done) return std::unexpected(done.error());
-                     changed();
-                     return value.text;
-                   },
-                   .quoted = slot.quoted});
+    slots.Declare(
+        {.name = slot.name,
+         .grammar = slot.grammar,
+         .access = slot.readable ? vm::Access::kReadWrite : vm::Access::kWriteOnly,
+         .initial = slot.initial,
+         .help = slot.help,
+         .on_set = [this, action = std::move(slot.action), least = slot.least, most = slot.most,
+                    told = slot.told](vm::SetValue value) -> vm::Result<std::string> {
+           if (least < most) Clamp(value, least, most);
+           if (auto done = action(value); !done) return std::unexpected(done.error());
+           changed();
+           return told != nullptr ? told(value) : value.text;
+         },
+         .quoted = slot.quoted});
+  }
+
+ private:
+  static void Clamp(vm::SetValue& value, int least, int most) {
+    value.text.clear();
+    for (auto& item : value.items) {
+      if (item.number < least || item.number > most) {
+        const int nearest = item.number < least ? least : most;
+        item.number = nearest;
+        item.text = std::to_string(nearest);
+      }
+      value.text += (value.text.empty() ? "" : " ") + item.text;
+    }
   }
 };
 

@@ -97,6 +97,8 @@ std::vector<fsm::GlStudio::Options::MoreFace> MoreFaces(const Options& options,
                                                         const fsm::OriginalConfig& config) {
   auto faces = fsm::FacesOf(config, options.module.tables);
   if (!options.head.empty()) {
+    if (!std::filesystem::is_regular_file(options.head))
+      throw std::runtime_error("--head: there is no file '" + options.head + "'");
     std::string name = std::filesystem::path(options.head).stem().string();
     for (char& c : name) {
       if (!fsm::IsFaceName(std::string_view(&c, 1))) c = '_';

@@ -34,8 +34,11 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first) : core_(core), first_(std
                        .quoted = true});
   core_.Declare({"Mask", "<text>", "Wears one of the faces of MaskSet.",
                  [this](const vm::SetValue& value) -> vm::Result<void> {
-                   if (auto worn = Wear(value.text); !worn) return worn;
-                   core_.slots.Report("NowMask", value.text);
+                   // Names may hold blanks; at the end, as the original's clients send them, not.
+                   const std::string name =
+                       value.text.substr(0, value.text.find_last_not_of(' ') + 1);
+                   if (auto worn = Wear(name); !worn) return worn;
+                   core_.slots.Report("NowMask", name);
                    return {};
                  },
                  first_});

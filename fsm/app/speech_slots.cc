@@ -78,7 +78,8 @@ void SpeechSlots::DeclareSpeakSlots() {
              if (auto done = Speak(value); !done) return reply.Fail(done.error());
              reply.Ok(value.text);
            },
-       .group = {"Speak.text", "Speak.pho", "Speak.dur", "Speak.utt", "Speak.len", "Speak.stat"}});
+       .group = {"Speak.text", "Speak.pho", "Speak.dur", "Speak.utt", "Speak.len", "Speak.stat"},
+       .told_with_group = {"Speak.syncoffset"}});
   core_.slots.Declare({.name = "Speak.sync",
                        .grammar = "<number 0..86400000>",
                        .access = vm::Access::kWriteOnly,
@@ -96,16 +97,20 @@ void SpeechSlots::DeclareSpeakSlots() {
 
 void SpeechSlots::DeclareSettings() {
   const auto setting = [this](const char* name, const char* grammar, const char* help,
-                              const std::string& initial, auto apply) {
-    core_.Declare({name, grammar, help,
-                   [this, apply](const vm::SetValue& value) -> vm::Result<void> {
+                              const std::string& initial, auto apply,
+                              std::string (*told)(const vm::SetValue&) = nullptr) {
+    core_.Declare({.name = name,
+                   .grammar = grammar,
+                   .help = help,
+                   .action = [this, apply](const vm::SetValue& value) -> vm::Result<void> {
                      MotionSettings settings = core_.motion->settings();
                      apply(settings, value);
                      core_.motion->Apply(core_.Now(), settings);
                      if (stat_ == Stat::kSpeaking) WaitForEnd();
                      return {};
                    },
-                   initial});
+                   .initial = initial,
+                   .told = told});
   };
   setting("Speak.syncoffset", "<number -10000..10000>",
           "ms added to what the voice reports in Speak.sync.", "0",
@@ -114,8 +119,11 @@ void SpeechSlots::DeclareSettings() {
           "How quickly a difference to the voice is worked off: at most so many per cent faster or "
           "slower than time.",
           "25", [](MotionSettings& s, const vm::SetValue& v) { s.sync_rate = v.number(0) / 100; });
-  setting("Offset", "<number -10000..10000>", "Delays the mouth by so many ms.", "0",
-          [](MotionSettings& s, const vm::SetValue& v) { s.offset_ms = v.number(0); });
+  setting(
+      "Offset", "<number -10000..10000>", "Delays the mouth by so many ms.", "0.000000",
+      [](MotionSettings& s, const vm::SetValue& v) { s.offset_ms = v.number(0); },
+      // The original writes it so: 100.000000.
+      [](const vm::SetValue& value) { return std::to_string(value.number(0)); });
   setting("LipSync.lead", "<number -1000..1000>", "The mouth is ahead of the voice by so many ms.",
           "40", [](MotionSettings& s, const vm::SetValue& v) { s.lead_ms = v.number(0); });
   setting("LipSync.language", "AUTO | JP | EN",
@@ -146,12 +154,12 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   list_ = std::move(*list);
   const std::string written = vm::FormatPhonemesFace(list_);
   core_.slots.Store("LipSync.dur", LengthOf(list_));
-  SetStat(Stat::kProcessing);
   core_.slots.Report("Speak.text", NamesOf(list_));
   core_.slots.Report("Speak.pho", written);
   core_.slots.Report("Speak.dur", LengthOf(list_));
   core_.slots.Report("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
   core_.slots.Report("Speak.len", LengthOf(spoken_));
+  SetStat(Stat::kProcessing);
   SetStat(Stat::kReady);
   // As the original, a list with unknown phonemes is spoken all the same; but it is said.
   for (const std::string& name : core_.motion->UnknownPhonemes(list_)) {
@@ -242,8 +250,9 @@ void SpeechSlots::End(vm::PhonemeList spoken) {
   spoken_ = std::move(spoken);
   list_.clear();
   start_.reset();
-  core_.slots.Report("Speak.len", LengthOf(spoken_));
-  core_.slots.Report("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
+  // As in the original they are reported with the next list; the end is told by IDLE alone.
+  core_.slots.Store("Speak.len", LengthOf(spoken_));
+  core_.slots.Store("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
   SetStat(Stat::kIdle);
   if (listener_.ended) listener_.ended();
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "vm_protocol/core/nearest_word.h"
+
 namespace ssm {
 
 std::vector<SpeakerAlias> OriginalSpeakers() {
@@ -34,6 +36,15 @@ const VoiceInfo* SpeakerTable::Find(std::string_view name) const {
     if (entry.name == name) return &entry.voice;
   }
   return nullptr;
+}
+
+vm::Result<const VoiceInfo*> SpeakerTable::Wanted(std::string_view name) const {
+  if (const VoiceInfo* found = Find(name)) return found;
+  std::vector<std::string> known;
+  for (const Entry& entry : entries_) known.push_back(entry.name);
+  return vm::Fail(vm::Errc::kBadValue, "unknown speaker '" + std::string(name) +
+                                           "', expected one of: " + Names() +
+                                           vm::DidYouMean(name, known));
 }
 
 std::string SpeakerTable::Names() const {

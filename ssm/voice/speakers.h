@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ssm/voice/speech_engine.h"
+#include "vm_protocol/core/result.h"
 
 namespace ssm {
 
@@ -24,6 +25,8 @@ class SpeakerTable {
   SpeakerTable(const std::vector<VoiceInfo>& voices, const std::vector<SpeakerAlias>& aliases);
   /// The voice meant by a name of the table; null for any other.
   const VoiceInfo* Find(std::string_view name) const;
+  /// The same with an error that says which names there are.
+  vm::Result<const VoiceInfo*> Wanted(std::string_view name) const;
   /// The names of listed voices and the aliases, separated by blanks: the value of SpeakerSet.
   std::string Names() const;
   /// With those voices that are not listed.

@@ -29,6 +29,15 @@ void VoiceModule::Save(const std::string& path, SoundFormat format, const vm::Re
   waiting_for_sound_.push_back({std::move(save), reply});
 }
 
+/// A client of the original waits for `rep Save = FILE`.
+void VoiceModule::SaveAndTell(const std::string& path, SoundFormat format, const vm::Reply& reply) {
+  Save(path, format, vm::Reply([this, reply](vm::Result<std::string> saved) {
+         if (!saved) return reply.Fail(saved.error());
+         slots_.Report("Save", *saved);
+         reply.Ok(*saved);
+       }));
+}
+
 void VoiceModule::Load(const std::string& path, SoundFormat format, const vm::Reply& reply) {
   if (player_.active()) {
     return reply.Fail({vm::Errc::kBusy, "speaking; wait for Speak.stat = IDLE", 0});
@@ -92,15 +101,10 @@ void VoiceModule::LoadParsed(const std::string& path, SoundFormat, const vm::Rep
 
 void VoiceModule::SetNext(const std::string& text, const vm::Reply& reply) {
   if (!player_.active() && state_ != State::kPaused) return SetText(text, reply);
-  if (text.size() > kMaxTextBytes) {
-    return reply.Fail({vm::Errc::kTooLong,
-                       "the text has " + std::to_string(text.size()) + " bytes, expected at most " +
-                           std::to_string(kMaxTextBytes),
-                       0});
-  }
+  if (text.size() > kMaxTextBytes) return reply.Fail(TooLong(text));
   auto read = ReadMarkup(text);
   if (!read) return reply.Fail(read.error());
-  DropNext("another Text.next came");
+  DropNext("another text came to be the next");
   auto next = std::make_shared<Preparation>(
       Preparation{.utterance = std::make_shared<Utterance>(
                       Utterance{.text = text, .spoken_text = std::move(read->plain)}),
@@ -117,7 +121,7 @@ void VoiceModule::SetNext(const std::string& text, const vm::Reply& reply) {
                    return TakeNext();
                  }
                  next->reply.Fail(next->plan.error());
-                 next_.reset();
+                 DropNext("its text cannot be spoken");
                });
 }
 
@@ -125,6 +129,7 @@ void VoiceModule::DropNext(const char* why) {
   if (!next_) return;
   *next_->cancelled = true;
   next_->reply.Fail({vm::Errc::kStopped, why, 0});
+  Abandon(next_->after, why);
   next_.reset();
 }
 
@@ -140,6 +145,10 @@ void VoiceModule::TakeNext() {
   slots_.Report("Speak.text", next->utterance->spoken_text);
   preparation_ = next;
   OnPlanned(next);
+  if (!utterance_) return Abandon(next->after, "its text cannot be spoken");
+  for (auto queue = std::exchange(next->after, {}); !queue.empty(); queue.pop_front()) {
+    queue.front().action();
+  }
 }
 
 vm::Result<std::string> VoiceModule::SetRecord(const std::string& path) {

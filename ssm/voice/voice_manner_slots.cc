@@ -25,17 +25,13 @@ void VoiceModule::DeclareManner() {
                           "original, which stand for voices of the same sex."});
   slots_.Declare({.name = "Speaker",
                   .grammar = "<word>",
-                  .initial = speakers_.Find(options_.speaker) ? options_.speaker : voice_.name,
+                  .initial = options_.speaker.empty() ? voice_.name : options_.speaker,
                   .auto_output = true,
                   .help = "Who speaks from the next Text on; one of SpeakerSet.",
                   .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-                    const VoiceInfo* wanted = speakers_.Find(value.word(0));
-                    if (wanted == nullptr) {
-                      return vm::Fail(vm::Errc::kBadValue,
-                                      "unknown speaker '" + value.word(0) +
-                                          "', expected one of: " + speakers_.Names());
-                    }
-                    voice_ = *wanted;
+                    const auto wanted = speakers_.Wanted(value.word(0));
+                    if (!wanted) return std::unexpected(wanted.error());
+                    voice_ = **wanted;
                     if (!voice_.pitch_adjustable && pitch_ != 1) {
                       pitch_ = 1;
                       slots_.Report("Pitch", "1");

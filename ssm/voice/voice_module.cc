@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <stdexcept>
 #include <utility>
 
 namespace ssm {
@@ -24,7 +25,11 @@ VoiceModule::VoiceModule(vm::Scheduler& scheduler, Parts parts, Options options)
       speakers_(engine_->voices(), options_.aliases),
       voice_(engine_->voices().front()),
       auto_play_(options_.auto_play) {
-  if (const VoiceInfo* wanted = speakers_.Find(options_.speaker)) voice_ = *wanted;
+  if (!options_.speaker.empty()) {
+    const auto wanted = speakers_.Wanted(options_.speaker);
+    if (!wanted) throw std::runtime_error("--speaker: " + wanted.error().text);
+    voice_ = **wanted;
+  }
   vm::DeclareCommonSlots(slots_, {.module_version = options_.module_version,
                                   .protocol_version = "Protocol Ver. 1.0",
                                   .quoted_versions = true,
@@ -50,7 +55,7 @@ VoiceModule::~VoiceModule() {
 
 bool VoiceModule::Busy() const {
   return state_ == State::kProcessing || player_.active() || !waiting_.empty() ||
-         !waiting_for_sound_.empty();
+         !waiting_for_sound_.empty() || (next_ && !next_->after.empty());
 }
 
 void VoiceModule::Shutdown() {
@@ -76,6 +81,20 @@ void VoiceModule::SetState(State state) {
 
 void VoiceModule::Fault(std::string_view slot, const vm::Error& error) {
   slots_.ReportError(slot, error);
+}
+
+bool VoiceModule::PutOff(const std::function<void()>& action, const vm::Reply& reply) {
+  if (!next_ && !MustWait()) return false;
+  if (!next_) {
+    WaitTurn(action, reply);
+  } else if (next_->after.size() < kMaxWaiting) {
+    next_->after.push_back({action, reply});
+  } else {
+    reply.Fail({vm::Errc::kLimit,
+                "more than " + std::to_string(kMaxWaiting) + " requests wait for the next text",
+                0});
+  }
+  return true;
 }
 
 void VoiceModule::WaitTurn(std::function<void()> action, const vm::Reply& reply) {

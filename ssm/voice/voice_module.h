@@ -69,20 +69,22 @@ class VoiceModule final : public vm::Module {
 
  private:
   enum class State { kIdle, kProcessing, kReady, kSpeaking, kError, kPaused };
+  /// A request that waits for the text before it, or for its sound.
+  struct Waiting {
+    std::function<void()> action;
+    vm::Reply reply;
+  };
   struct Preparation {
     std::shared_ptr<Utterance> utterance;
     std::vector<SpeechSpan> spans;
     vm::Result<SpeechPlan> plan = vm::Fail(vm::Errc::kStopped, "not planned");
     std::shared_ptr<std::atomic<bool>> cancelled;
     vm::Reply reply;
-    bool planned = false;                      ///< a next text's plan may be read
+    bool planned = false;         ///< a next text's plan may be read
+    std::deque<Waiting> after{};  ///< what was asked of a next text before it is the present one
+    bool spoken = false;          ///< Speak is among it
     std::shared_ptr<const Prosody> prosody{};  ///< from a file; null = the engine's own
     SpeechPlan engine_plan{};                  ///< before the prosody changed it
-  };
-  /// A request that waits for the text before it, or for its sound.
-  struct Waiting {
-    std::function<void()> action;
-    vm::Reply reply;
   };
 
   // voice_manner_slots.cc
@@ -97,6 +99,7 @@ class VoiceModule final : public vm::Module {
   void DeclareRefused(const std::string& name, const std::string& why, bool readable);
 
   // voice_preparing.cc
+  static vm::Error TooLong(const std::string& text);
   void SetText(const std::string& text, const vm::Reply& reply);
   void Prepare(const std::string& text, const vm::Reply& reply,
                std::shared_ptr<const Prosody> prosody = nullptr);
@@ -122,12 +125,15 @@ class VoiceModule final : public vm::Module {
   // voice_module.cc
   void SetState(State state);
   void Fault(std::string_view slot, const vm::Error& error);
+  /// Puts off what concerns the next text, or the text being prepared; false: it can be done now.
+  bool PutOff(const std::function<void()>& action, const vm::Reply& reply);
   bool MustWait() const { return state_ == State::kProcessing || !waiting_.empty(); }
   void WaitTurn(std::function<void()> action, const vm::Reply& reply);
   void TakeTurns();
   static void Abandon(std::deque<Waiting>& queue, const char* why);
   // voice_files.cc: what goes to files and comes from them.
   void Save(const std::string& path, SoundFormat format, const vm::Reply& reply);
+  void SaveAndTell(const std::string& path, SoundFormat format, const vm::Reply& reply);
   void Load(const std::string& path, SoundFormat format, const vm::Reply& reply);
   vm::Result<std::string> SetRecord(const std::string& path);
   void SavePros(const std::string& path, SoundFormat, const vm::Reply& reply);

@@ -33,22 +33,16 @@ bool IsBlank(const std::vector<SpeechSpan>& spans) {
 
 }  // namespace
 
+vm::Error VoiceModule::TooLong(const std::string& text) {
+  return {vm::Errc::kTooLong,
+          "the text has " + std::to_string(text.size()) + " bytes, expected at most " +
+              std::to_string(kMaxTextBytes),
+          0};
+}
+
 void VoiceModule::SetText(const std::string& text, const vm::Reply& reply) {
-  if (text.size() > kMaxTextBytes) {
-    return reply.Fail({vm::Errc::kTooLong,
-                       "the text has " + std::to_string(text.size()) + " bytes, expected at most " +
-                           std::to_string(kMaxTextBytes),
-                       0});
-  }
-  if (state_ == State::kPaused) {
-    return reply.Fail({vm::Errc::kBusy, "paused; set Speak = RESUME or STOP first", 0});
-  }
-  if (player_.active()) {
-    return reply.Fail({vm::Errc::kBusy,
-                       std::string(player_.started() ? "speaking" : "about to speak") +
-                           "; wait for Speak.stat = IDLE or set Speak = STOP",
-                       0});
-  }
+  if (text.size() > kMaxTextBytes) return reply.Fail(TooLong(text));
+  if (state_ == State::kPaused || player_.active()) return SetNext(text, reply);
   // A sound still wanted by a SaveWAV is made to the end first.
   if (MustWait() || !waiting_for_sound_.empty()) {
     return WaitTurn([this, text, reply] { SetText(text, reply); }, reply);

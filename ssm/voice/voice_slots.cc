@@ -12,21 +12,23 @@ vm::Result<std::string> YesOrNo(const vm::SetValue& value) { return value.word(0
 
 void VoiceModule::DeclareTextSlots() {
   slots_.Declare({.name = "Text",
-                  .grammar = "<text>",
+                  .grammar = "<markup>",
                   .access = vm::Access::kWriteOnly,
                   .help =
                       "Prepares a text, at most 8192 bytes, for speaking: Text.pho is reported "
                       "before there is sound, then Speak.stat = READY. Tags of JEIDA-62-2000 are "
                       "obeyed, and so is SSML, if the text is a <speak> element. An empty text is "
-                      "a pause of 10 ms. Refused while speaking.",
+                      "a pause of 10 ms. While another is spoken it is Text.next.",
                   .on_set_later = [this](const vm::SetValue& value,
                                          vm::Reply reply) { SetText(value.text, reply); },
                   .saved = false});
   slots_.Declare({.name = "Text.next",
-                  .grammar = "<text>",
+                  .grammar = "<markup>",
                   .access = vm::Access::kWriteOnly,
-                  .help = "A Text made ready while another is spoken; it becomes the present one, "
-                          "with the usual reports, right after IDLE. Without speech it is Text.",
+                  .help =
+                      "A Text made ready while another is spoken; it becomes the present one, "
+                      "with the usual reports, right after IDLE; `Speak = NOW` meanwhile speaks "
+                      "it then. Without speech it is Text.",
                   .on_set_later = [this](const vm::SetValue& value,
                                          vm::Reply reply) { SetNext(value.text, reply); },
                   .saved = false});
@@ -114,26 +116,30 @@ void VoiceModule::DeclareFileSlots() {
   const auto action =
       [this](std::string name, std::string help,
              void (VoiceModule::*act)(const std::string&, SoundFormat, const vm::Reply&),
-             SoundFormat format) {
-        slots_.Declare(
-            {.name = std::move(name),
-             .grammar = "<file>",
-             .access = vm::Access::kWriteOnly,
-             .help = std::move(help),
-             .on_set_later =
-                 [this, act, format](const vm::SetValue& value, vm::Reply reply) {
-                   const std::string path = value.word(0);
-                   if (!MustWait()) return (this->*act)(path, format, reply);
-                   WaitTurn([this, act, path, format, reply] { (this->*act)(path, format, reply); },
-                            reply);
-                 },
-             .saved = false});
+             SoundFormat format, bool auto_output = false) {
+        slots_.Declare({.name = std::move(name),
+                        .grammar = "<file>",
+                        .access = vm::Access::kWriteOnly,
+                        .auto_output = auto_output,
+                        .help = std::move(help),
+                        .on_set_later =
+                            [this, act, format](const vm::SetValue& value, vm::Reply reply) {
+                              const std::string path = value.word(0);
+                              const auto carry_out = [this, act, path, format, reply] {
+                                (this->*act)(path, format, reply);
+                              };
+                              if (!PutOff(carry_out, reply)) carry_out();
+                            },
+                        .saved = false});
       };
   const std::string info = " FILE.info gets the text and the phonemes.";
   action("SaveRAW", "Writes the prepared text's sound, 16 kHz 16 bit mono, big endian." + info,
          &VoiceModule::Save, SoundFormat::kRaw);
-  action("Save", "The same as SaveRAW; FILE.wav is a WAV file with its phonemes in FILE.wav.lab.",
-         &VoiceModule::Save, SoundFormat::kRaw);
+  action(
+      "Save",
+      "The same as SaveRAW, reported as `rep Save = FILE` when it is done; FILE.wav is a WAV file "
+      "with its phonemes in FILE.wav.lab.",
+      &VoiceModule::SaveAndTell, SoundFormat::kRaw, true);
   action("SaveWAV", "Writes the prepared text's sound as a WAV file." + info, &VoiceModule::Save,
          SoundFormat::kWav);
   action("LoadRAW", "Loads what SaveRAW wrote, with its FILE.info, ready to Speak.",
@@ -147,9 +153,10 @@ void VoiceModule::DeclareFileSlots() {
                   .on_set_later =
                       [this](const vm::SetValue& value, vm::Reply reply) {
                         const std::string path = value.word(0);
-                        if (!MustWait()) return Load(path, SoundFormat::kRaw, reply);
-                        WaitTurn([this, path, reply] { Load(path, SoundFormat::kRaw, reply); },
-                                 reply);
+                        const auto load = [this, path, reply] {
+                          Load(path, SoundFormat::kRaw, reply);
+                        };
+                        if (!PutOff(load, reply)) load();
                       },
                   .saved = false});
   action("SavePros",
@@ -167,9 +174,10 @@ void VoiceModule::DeclareFileSlots() {
                   .on_set_later =
                       [this](const vm::SetValue& value, vm::Reply reply) {
                         const std::string path = value.word(0);
-                        if (!MustWait()) return LoadPros(path, SoundFormat::kRaw, reply);
-                        WaitTurn([this, path, reply] { LoadPros(path, SoundFormat::kRaw, reply); },
-                                 reply);
+                        const auto load = [this, path, reply] {
+                          LoadPros(path, SoundFormat::kRaw, reply);
+                        };
+                        if (!PutOff(load, reply)) load();
                       },
                   .saved = false});
   action("ParsedText",

@@ -13,10 +13,9 @@ void VoiceModule::SetSpeak(const std::string& text, const vm::Reply& reply) {
   if (!start) return reply.Fail(start.error());
   // A delay counts from the request, also when the text is not ready yet.
   const vm::Time at = vm::Resolve(*start, scheduler_.Now(), options_.wall_clock());
-  if (MustWait()) {
-    return WaitTurn([this, at, text, reply] { Speak(at, text, reply); }, reply);
-  }
-  Speak(at, text, reply);
+  if (next_ && std::exchange(next_->spoken, true))
+    return reply.Fail({vm::Errc::kBusy, "the next text is to be spoken already", 0});
+  if (!PutOff([this, at, text, reply] { Speak(at, text, reply); }, reply)) Speak(at, text, reply);
 }
 
 void VoiceModule::Speak(vm::Time at, const std::string& text, const vm::Reply& reply) {

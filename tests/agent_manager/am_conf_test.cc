@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "agent_manager/macros/parallel.h"
-#include "tests/agent_manager/world.h"
-
 namespace am {
 namespace {
 
@@ -42,37 +39,6 @@ TEST(AmConfTest, FaultsNameTheLine) {
     ASSERT_FALSE(config) << text;
     EXPECT_NE(config.error().text.find(part), std::string::npos) << config.error().text;
   }
-}
-
-TEST(ParallelTest, ItsLinesBeginWithTheSpeechAndKeepTheirTimes) {
-  World world;
-  Parallel parallel(world.clock, world.hub);
-  world.hub.AddMachine(parallel.slots(), {}, true);
-  world.hub.set_on_machine([&](vm::SlotMachine&, const Envelope& envelope) {
-    parallel.Handle(envelope);
-    return vm::Result<Router::Taken>(Router::Taken{.taken = true});
-  });
-  world.hub.set_on_report([&](const std::string& from, const vm::Message& message) {
-    parallel.OnReport(from, message);
-  });
-  const auto voice = world.Join(PeerKind::kModule, "SSM", Dialect::kOriginal);
-  const auto face = world.Join(PeerKind::kModule, "FSM", Dialect::kOriginal);
-  const auto a = world.Join(PeerKind::kClient, "A");
-  for (const char* line : {"to @PAR set Init = 1", "to @PAR set Cmd = to @FSM set FaceMot = NOD 1",
-                           "to @PAR set Cmd = sleep 0.5", "to @PAR set Cmd = to @FSM set X = 2"})
-    world.Say(*a, line);
-  EXPECT_EQ(face->heard, Strings{});
-  world.Say(*voice, "rep Speak.stat = SPEAKING");
-  EXPECT_EQ(face->heard, Strings{"set FaceMot = NOD 1"});
-  world.clock.RunUntil(std::chrono::milliseconds(499));
-  EXPECT_EQ(face->heard.size(), 1u);
-  world.clock.RunUntil(std::chrono::milliseconds(500));
-  EXPECT_EQ(face->heard.back(), "set X = 2");
-  world.Say(*a, "to @PAR set#1 Cmd = sleep long");
-  EXPECT_NE(a->heard.back().find("rep#1 Cmd.error = BAD_VALUE"), std::string::npos);
-  const auto own = world.Join(PeerKind::kModule, "PAR", Dialect::kOriginal);
-  world.Say(*a, "to @PAR set Cmd = mine");
-  EXPECT_EQ(own->heard, Strings{"set Cmd = mine"}) << "a module of that name takes its place";
 }
 
 }  // namespace

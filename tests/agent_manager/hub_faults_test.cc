@@ -174,6 +174,30 @@ TEST_F(HubFaultsTest, AModuleHasTheWholeTimeToStopThatItWasGiven) {
   EXPECT_TRUE(std::filesystem::exists(marker));
 }
 
+TEST_F(HubFaultsTest, MoreClientsThanDescriptorsWaitAndNobodyElseDoes) {
+  Configure("");
+  const std::string command =
+      "ulimit -n 40; exec '" + kHub + "' --config '" + folder_ / "hub.json'";
+  hub_.emplace(std::vector<std::string>{"/bin/sh", "-c", command});
+  ExpectAlive();
+  const auto first = SocketClient::Unix(Socket());
+  first->WriteLine("inq#1 Run");
+  ASSERT_TRUE(first->Expect("rep#1 Run = LIVE"));
+  std::vector<std::unique_ptr<SocketClient>> many;
+  for (int i = 0; i < 60; ++i) {
+    many.push_back(SocketClient::Unix(Socket()));
+    many.back()->WriteLine("inq#1 Run");
+  }
+  ExpectAlive();
+  first->WriteLine("inq#2 Run");
+  EXPECT_TRUE(first->Expect("rep#2 Run = LIVE")) << hub_->ErrorText();
+  many.clear();
+  ExpectAlive();
+  const auto late = SocketClient::Unix(Socket());
+  late->WriteLine("inq#3 Run");
+  EXPECT_TRUE(late->Expect("rep#3 Run = LIVE")) << hub_->ErrorText();
+}
+
 TEST_F(HubFaultsTest, AConfiguredModuleKeepsItsName) {
   Process& hub = Start(Shell("FIRM",
                              "echo 'to @AM set#n Name = OTHER'\nwhile read -r line; do case $line "

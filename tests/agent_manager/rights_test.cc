@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -51,8 +52,7 @@ class RightsTest : public testing::Test {
       : am_("AM"),
         macros_(world_.clock, world_.hub, Read,
                 [this](const std::string& path) { removed_.push_back(path); }),
-        parallel_(world_.clock, world_.hub),
-        machines_(world_.hub, am_, macros_, parallel_, Read) {
+        machines_(world_.hub, am_, macros_, own_machines_, Read) {
     world_.hub.AddMachine(am_);
     world_.hub.AddMachine(macros_.slots(), {"FS-MCL"});
     world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
@@ -81,7 +81,7 @@ class RightsTest : public testing::Test {
   World world_;
   vm::SlotMachine am_;
   MacroLayer macros_;
-  Parallel parallel_;
+  const std::array<OwnMachine*, 1> own_machines_{&macros_};
   HubMachines machines_;
   std::shared_ptr<World::Peer> module_;
   std::map<Role, std::shared_ptr<World::Peer>> peers_;
@@ -90,11 +90,12 @@ class RightsTest : public testing::Test {
 
 TEST_F(RightsTest, AGuestNamesNoFileInWhateverWay) {
   for (const char* line :
-       {"to @SSM set#1 SaveWAV = /tmp/x.wav", "to @SSM set#1 Text < /etc/passwd",
-        "to @SSM set#1 Record = x.wav", "to @SSM set#1 Record << STOP",
-        "to @SSM set#1 Input = unix:/tmp/s", "do#1 /etc/passwd", "to @SSM do#1 some.file",
-        "to @AM-MCL do#1 ./x", "set#1 U < /etc/hostname", "to @SSM save#1 s << /tmp/x",
-        "to @AM,@FS-MCL def#1 M < /etc/passwd"})
+       {"to @SSM set#1 SaveWAV = /tmp/x.wav",
+        "to @SSM set#1 Text = <speak>a<audio src=\"/tmp/x.wav\"/></speak>",
+        "to @SSM set#1 Text < /etc/passwd", "to @SSM set#1 Record = x.wav",
+        "to @SSM set#1 Record << STOP", "to @SSM set#1 Input = unix:/tmp/s", "do#1 /etc/passwd",
+        "to @SSM do#1 some.file", "to @AM-MCL do#1 ./x", "set#1 U < /etc/hostname",
+        "to @SSM save#1 s << /tmp/x", "to @AM,@FS-MCL def#1 M < /etc/passwd"})
     EXPECT_TRUE(Refused(Say(Role::kGuest, line))) << line << ": " << Say(Role::kGuest, line);
   EXPECT_EQ(set_, Strings{});
   EXPECT_EQ(Say(Role::kGuest, "to @SSM set#1 Record = STOP"), "From @SSM rep#1 Record = STOP");

@@ -155,6 +155,17 @@ TEST_F(WebTest, TheFaceComesAsPicturesWhileSomebodyLooks) {
   EXPECT_NE(rate.value_or("").find("Record.fps = 30"), std::string::npos) << "as it was before";
 }
 
+TEST_F(WebTest, AFaceOfImpossibleSizeHasNoPicturesAndTheHubGoesOn) {
+  int tag = 0;
+  for (const char* size : {"70000 1", "8192 8192", "0 0", "-5 7", "99999999999 1", "x", ""}) {
+    hub_->WriteLine("to @FSM set#" + std::to_string(++tag) + " Window = " + size);
+    ASSERT_TRUE(hub_->Expect("rep#" + std::to_string(tag) + " Window")) << hub_->Seen();
+    EXPECT_EQ(StatusOf("/face.mjpg", Host() + Cookie()), "503") << size;
+  }
+  hub_->WriteLine("inq#alive Run");
+  EXPECT_TRUE(hub_->Expect("rep#alive Run = LIVE")) << hub_->ErrorText();
+}
+
 TEST_F(WebTest, AFilmSomebodyMakesIsNotDisturbed) {
   hub_->WriteLine("to @FSM set Record = /dev/null");
   hub_->WriteLine("to @FSM inq#1 Record");

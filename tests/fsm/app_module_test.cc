@@ -14,13 +14,14 @@ TEST(FsmModuleTest, AnswersAsTheOriginal) {
   EXPECT_EQ(vm::FormatMessage(fsm.module.Greeting().at(0)), "rep Run = LIVE");
   EXPECT_EQ(fsm.Say("inq Run"), "rep Run = LIVE");
   EXPECT_EQ(fsm.Say("inq ProtocolVersion"), "rep ProtocolVersion = Protocol Ver. 2.06");
-  EXPECT_EQ(fsm.Say("inq ModuleVersion"), "rep ModuleVersion = Module Ver. Galatea FSM " GALATEA_VERSION);
+  EXPECT_EQ(fsm.Say("inq ModuleVersion"),
+            "rep ModuleVersion = Module Ver. Galatea FSM " GALATEA_VERSION);
   EXPECT_EQ(fsm.Say("inq MaskSet"), "rep MaskSet = \"galatea,pygmalion\"");
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
   EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain\"");
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
   EXPECT_EQ(fsm.Say("inq MouthScale"), "rep MouthScale = 30");
-  EXPECT_EQ(fsm.Say("inq Offset"), "rep Offset = 0");
+  EXPECT_EQ(fsm.Say("inq Offset"), "rep Offset = 0.000000");
   EXPECT_EQ(fsm.Say("inq ViewMode"), "rep ViewMode = TEXTURE");
   EXPECT_EQ(fsm.Say("inq ViewBackground"), "rep ViewBackground = ENABLE");
   EXPECT_EQ(fsm.Say("inq Capture"), "rep Capture = DISABLE");
@@ -78,7 +79,19 @@ TEST(FsmModuleTest, NoSlotReportsByItselfAtFirst) {
   }
   EXPECT_TRUE(fsm.errors.empty()) << fsm.errors.at(0);
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"#102030\"");
-  EXPECT_EQ(fsm.Say("inq Offset"), "rep Offset = 10.5");
+  EXPECT_EQ(fsm.Say("inq Offset"), "rep Offset = 10.500000");
+}
+
+TEST(FsmModuleTest, WhatIsBeyondIsTakenForTheNearestAsInTheOriginal) {
+  FsmStage fsm;
+  EXPECT_EQ(fsm.Say("set#1 Face.1 = 201.5"), "rep#1 Face.1 = 200");
+  EXPECT_EQ(fsm.Say("set#1 Mouth.3 = -1"), "rep#1 Mouth.3 = 0");
+  EXPECT_EQ(fsm.Say("set#1 HeadRotAbs.1 = 12.5 -120 91"), "rep#1 HeadRotAbs.1 = 12.5 -90 90");
+  EXPECT_EQ(fsm.Say("inq HeadRotAbs.1"), "rep HeadRotAbs.1 = 12.5 -90 90");
+  EXPECT_EQ(fsm.Say("set#1 FaceExp = NEUTRAL 1 100 0"), "rep#1 FaceExp = NEUTRAL 1 100 0");
+  EXPECT_EQ(fsm.Say("set#1 FaceMot = NOMOVE 0"), "rep#1 FaceMot = NOMOVE 0");
+  EXPECT_EQ(fsm.Say("set#1 Mask = galatea "), "rep#1 Mask = galatea ");
+  EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
 }
 
 TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
@@ -88,7 +101,7 @@ TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
     EXPECT_NE(answer.find(".error = "), std::string::npos) << answer;
     EXPECT_NE(answer.find(text), std::string::npos) << answer;
   };
-  refused("Face.1 = 201", "BAD_VALUE");
+  refused("Face.1 = nan", "BAD_VALUE");
   refused("Face.37 = 1", "UNKNOWN_SLOT");
   refused("HeadRotAbs.2 = 1 2 3", "UNKNOWN_SLOT");
   refused("HeadRotAbs.1 = 1 2", "BAD_VALUE");

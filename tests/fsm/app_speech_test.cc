@@ -9,18 +9,18 @@ TEST(FsmSpeechTest, ReportsComeInTheOriginalsOrder) {
   FsmStage fsm;
   EXPECT_EQ(fsm.Say("prop Speak = AutoOutput"), "");
   EXPECT_EQ(fsm.Say("set LipSync.pho = h 80 a 100"),
-            "rep Speak.stat = PROCESSING|rep Speak.text = h a|rep Speak.pho = h [80] a [100] |"
-            "rep Speak.dur = 180|rep Speak.utt = non|rep Speak.len = 0|rep Speak.stat = READY");
+            "rep Speak.text = h a|rep Speak.pho = h [80] a [100] |rep Speak.dur = 180|"
+            "rep Speak.utt = non|rep Speak.len = 0|rep Speak.stat = PROCESSING|"
+            "rep Speak.stat = READY");
   EXPECT_EQ(fsm.Say("set Speak = NOW"), "rep Speak.stat = SPEAKING");
   EXPECT_TRUE(fsm.module.Busy());
   EXPECT_EQ(fsm.Until(179.9), "");
-  EXPECT_EQ(fsm.Until(180),
-            "rep Speak.len = 180|rep Speak.utt = h [80] a [100] |rep Speak.stat = IDLE");
+  EXPECT_EQ(fsm.Until(180), "rep Speak.stat = IDLE");
   EXPECT_FALSE(fsm.module.Busy());
   // utt and len of the next list are those of the one before.
   EXPECT_EQ(fsm.Say("set LipSync.pho = o 50"),
-            "rep Speak.stat = PROCESSING|rep Speak.text = o|rep Speak.pho = o [50] |"
-            "rep Speak.dur = 50|rep Speak.utt = h [80] a [100] |rep Speak.len = 180|"
+            "rep Speak.text = o|rep Speak.pho = o [50] |rep Speak.dur = 50|"
+            "rep Speak.utt = h [80] a [100] |rep Speak.len = 180|rep Speak.stat = PROCESSING|"
             "rep Speak.stat = READY");
 }
 
@@ -37,7 +37,8 @@ TEST(FsmSpeechTest, TheSlotsAnswer) {
   fsm.Say("set LipSync.pho = h [80] a [100]");
   EXPECT_EQ(fsm.Say("inq Speak"),
             "rep Speak.text = h a|rep Speak.pho = h [80] a [100] |rep Speak.dur = 180|"
-            "rep Speak.utt = non|rep Speak.len = 0|rep Speak.stat = READY");
+            "rep Speak.utt = non|rep Speak.len = 0|rep Speak.stat = READY|"
+            "rep Speak.syncoffset = 0");
   EXPECT_EQ(fsm.Say("inq LipSync"), "rep LipSync.pho = h [80] a [100] |rep LipSync.dur = 180");
   EXPECT_EQ(fsm.Say("inq LipSync.pho"), "rep LipSync.pho = h [80] a [100] ");
   EXPECT_EQ(fsm.Say("inq Speak.dur"), "rep Speak.dur = 180");
@@ -99,8 +100,9 @@ TEST(FsmSpeechTest, StopReportsWhatWasSpokenAndClosesTheMouth) {
   fsm.Say("set LipSync.pho = h 80 a 400 o 400");
   fsm.Say("set Speak = NOW");
   fsm.Until(300);
-  EXPECT_EQ(fsm.Say("set Speak = STOP"),
-            "rep Speak.len = 300|rep Speak.utt = h [80] a [220] |rep Speak.stat = IDLE");
+  EXPECT_EQ(fsm.Say("set Speak = STOP"), "rep Speak.stat = IDLE");
+  EXPECT_EQ(fsm.Say("inq Speak.len"), "rep Speak.len = 300");
+  EXPECT_EQ(fsm.Say("inq Speak.utt"), "rep Speak.utt = h [80] a [220] ");
   fsm.Until(420);
   EXPECT_NEAR(fsm.Now().mouth[11], 0, 1e-3);
   EXPECT_GT(fsm.Now().lip_seal, 0.999);

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace vm {
 namespace {
+
+using Strings = std::vector<std::string>;
 
 std::string Items(std::string_view grammar, std::string_view value) {
   const auto items = ValueGrammar(grammar).Match(value);
@@ -116,10 +119,26 @@ TEST(ValueGrammarTest, AFilesNameIsMarkedWhereverItStands) {
   EXPECT_TRUE(grammar.has_file());
   const auto items = grammar.Match("png a b.png");
   ASSERT_TRUE(items);
-  EXPECT_FALSE((*items)[0].file);
-  EXPECT_TRUE((*items)[1].file);
+  EXPECT_TRUE((*items)[0].files.empty());
+  EXPECT_EQ((*items)[1].files, Strings{"a b.png"});
   EXPECT_EQ((*items)[1].text, "a b.png");
   EXPECT_FALSE(ValueGrammar("STOP | <text>").has_file());
+}
+
+TEST(ValueGrammarTest, EverySourceInAMarkupIsAFilesName) {
+  const ValueGrammar grammar("NOW | <markup>");
+  EXPECT_TRUE(grammar.has_file());
+  EXPECT_TRUE(grammar.has_text());
+  const auto files = [&](const char* text) {
+    const auto items = grammar.Match(text);
+    return items && items->size() == 1 && (*items)[0].text == text ? (*items)[0].files
+                                                                   : Strings{"no match"};
+  };
+  EXPECT_EQ(files("src is a word, src = too"), Strings{});
+  EXPECT_EQ(files("<speak>a<audio src=\"a.wav\"/> <audio\tx='1' src = '/b c.wav'>d</audio>"),
+            (Strings{"a.wav", "/b c.wav"}));
+  EXPECT_EQ(files("<audio src='&#47;etc'/><audio src=\"\"/>"), Strings{"markup:&#47;etc"});
+  EXPECT_EQ(files("<audio src='never closed"), Strings{});
 }
 
 TEST(ValueGrammarTest, AnAmbiguousGrammarAndALongValueTakeBoundedTime) {

@@ -72,7 +72,8 @@ class LineParser {
 
   Result<Message> Parse() {
     SkipBlanks();
-    if (AtEnd() || line_[at_] == '#') return Fail(Errc::kEmpty, "nothing but blanks or a comment");
+    if (AtEnd() || line_[at_] == '#' || line_.substr(at_).starts_with("//"))
+      return Fail(Errc::kEmpty, "nothing but blanks or a comment");
     if (auto head = ParseIdentifiers(); !head) return std::unexpected(head.error());
     if (auto command = ParseCommand(); !command) return std::unexpected(command.error());
     if (message_.command == Command::kTell) return ParseTell();
@@ -225,6 +226,8 @@ class LineParser {
     if (message_.command == Command::kDo && message_.slot.empty()) return {};
     const std::size_t after_slot = at_;
     SkipBlanks();
+    // The original answers a question whatever comes after the slot's name.
+    if (message_.command == Command::kInq && at_ > after_slot) return {};
     const ValueRule rule = RuleFor(message_.command);
     const bool sign = !AtEnd() && (line_[at_] == '=' || line_[at_] == '<');
     if (!AtEnd() && !sign) {

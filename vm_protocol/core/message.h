@@ -38,9 +38,9 @@ struct Message {
 };
 
 /// Reads one line (without its newline; a final CR is dropped). Pure.
-/// Loose where the original was: `a=b`, tabs, any case of to/from, `to @A,B`.
-/// Errors: kEmpty (blank or comment), kTooLong, kBadUtf8, kUnknownCommand, kSyntax; the error
-/// has the column, what was found and what was expected.
+/// Loose where the original was: `a=b`, tabs, any case of to/from, `to @A,B`, `inq SLOT anything`.
+/// Errors: kEmpty (blank, or a comment: `#` or `//` first), kTooLong, kBadUtf8, kUnknownCommand,
+/// kSyntax; the error has the column, what was found and what was expected.
 Result<Message> ParseMessage(std::string_view line);
 
 /// The request tag of a line that is no message, so that whoever asked hears why; empty: none can

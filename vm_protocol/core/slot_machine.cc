@@ -254,8 +254,9 @@ void SlotMachine::HandleInq(const Message& message, PeerId peer) {
       return Refuse(message, peer,
                     {Errc::kAccess, "slot '" + message.slot + "' can only be set", 0});
     }
-    for (const std::string& member : slot->spec.group) {
-      answer(member, Value(member), Find(member)->spec.quoted);
+    for (const auto& members : {slot->spec.group, slot->spec.told_with_group}) {
+      for (const std::string& member : members)
+        answer(member, Value(member), Find(member)->spec.quoted);
     }
     // A group that has no value of its own says it only to a tagged question, which needs an end.
     if (slot->spec.group.empty() || slot->spec.access != Access::kWriteOnly ||

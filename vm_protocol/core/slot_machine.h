@@ -75,6 +75,7 @@ struct SlotSpec {
   bool saved = true;    ///< part of `save NAME` without a list (read-write slots only)
   /// Names of slots which `inq` of this one also lists, before itself, and which `prop` reaches.
   std::vector<std::string> group{};
+  std::vector<std::string> told_with_group{};  ///< which `inq` lists too, but `prop` leaves alone
 };
 
 /// The slots of one virtual machine and everything that can be said to them. Pure: no I/O, no

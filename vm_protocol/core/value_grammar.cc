@@ -27,6 +27,7 @@ struct ValueGrammar::Node {
     kTime,
     kWord,
     kText,
+    kMarkup,
     kFile
   };
   Kind kind = Kind::kSequence;
@@ -132,6 +133,29 @@ std::optional<std::pair<std::string, std::size_t>> ReadQuoted(std::string_view t
   return std::nullopt;
 }
 
+/// What the src attributes in a text name, without reading it as XML: more may be found than are
+/// there, never fewer. A name with references (&#47;) is given as what is no plain path, since only
+/// a reader of XML knows what it is.
+std::vector<std::string> SourcesIn(std::string_view markup) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  constexpr std::string_view kAttribute = "src";
+  std::vector<std::string> names;
+  for (std::size_t at = markup.find(kAttribute); at != std::string_view::npos;
+       at = markup.find(kAttribute, at + 1)) {
+    const std::size_t sign = markup.find_first_not_of(kBlanks, at + kAttribute.size());
+    if (sign == std::string_view::npos || markup[sign] != '=') continue;
+    const std::size_t quote = markup.find_first_not_of(kBlanks, sign + 1);
+    if (quote == std::string_view::npos || (markup[quote] != '"' && markup[quote] != '\''))
+      continue;
+    const std::size_t end = markup.find(markup[quote], quote + 1);
+    if (end == std::string_view::npos) continue;
+    std::string name(markup.substr(quote + 1, end - quote - 1));
+    if (name.contains('&')) name.insert(0, "markup:");
+    if (!name.empty()) names.push_back(std::move(name));
+  }
+  return names;
+}
+
 }  // namespace
 
 namespace {
@@ -235,7 +259,7 @@ class GrammarReader {
     static constexpr std::pair<std::string_view, NodeKind> kKinds[] = {
         {"number", NodeKind::kNumber}, {"int", NodeKind::kInt},   {"ms", NodeKind::kMs},
         {"time", NodeKind::kTime},     {"word", NodeKind::kWord}, {"text", NodeKind::kText},
-        {"file", NodeKind::kFile}};
+        {"markup", NodeKind::kMarkup}, {"file", NodeKind::kFile}};
     for (const auto& [word, kind] : kKinds) {
       if (word != name) continue;
       auto node = Make(kind);
@@ -246,7 +270,7 @@ class GrammarReader {
       if (blank != std::string_view::npos) ReadRange(inside.substr(blank + 1), *node, start);
       return node;
     }
-    throw GrammarFault{start, "<number>, <int>, <ms>, <time>, <word>, <text> or <file>"};
+    throw GrammarFault{start, "<number>, <int>, <ms>, <time>, <word>, <text>, <markup> or <file>"};
   }
 
   static void ReadRange(std::string_view range, Node& node, std::size_t at) {
@@ -296,8 +320,8 @@ class Matcher {
       case Node::Kind::kRepeat:
         return MatchRepeat(*node.children.front(), at, next);
       case Node::Kind::kText:
-        return Spend(text_.size() - at) &&
-               Take(std::string(text_.substr(at)), 0, text_.size(), next);
+      case Node::Kind::kMarkup:
+        return Spend(text_.size() - at) && MatchRest(node, text_.substr(at), next);
       case Node::Kind::kFile:
         return MatchFile(at, next);
       case Node::Kind::kTime:
@@ -340,8 +364,9 @@ class Matcher {
     return false;
   }
 
-  bool Take(std::string text, double number, std::size_t end, const Next& next, bool file = false) {
-    items_.push_back({std::move(text), number, file});
+  bool Take(std::string text, double number, std::size_t end, const Next& next,
+            std::vector<std::string> files = {}) {
+    items_.push_back({std::move(text), number, std::move(files)});
     Reached(SkipBlanks(text_, end));
     if (next(end)) return true;
     items_.pop_back();
@@ -376,19 +401,22 @@ class Matcher {
     return false;
   }
 
+  bool MatchRest(const Node& node, std::string_view rest, const Next& next) {
+    auto files = node.kind == Node::Kind::kMarkup ? SourcesIn(rest) : std::vector<std::string>{};
+    return Take(std::string(rest), 0, text_.size(), next, std::move(files));
+  }
+
   bool MatchFile(std::size_t at, const Next& next) {
     if (at >= text_.size() || !Spend(text_.size() - at)) return false;
-    if (text_[at] == '"') {
-      if (auto quoted = ReadQuoted(text_, at); quoted && !quoted->first.empty()) {
-        if (SkipBlanks(text_, quoted->second) == text_.size()) {
-          return Take(std::move(quoted->first), 0, text_.size(), next, true);
-        }
-      }
-      return false;
-    }
     std::size_t end = text_.size();
     while (end > at && IsBlank(text_[end - 1])) --end;
-    return Take(std::string(text_.substr(at, end - at)), 0, text_.size(), next, true);
+    std::string name(text_.substr(at, end - at));
+    if (text_[at] == '"') {
+      auto quoted = ReadQuoted(text_, at);
+      if (!quoted || quoted->first.empty() || quoted->second != end) return false;
+      name = std::move(quoted->first);
+    }
+    return Take(name, 0, text_.size(), next, {name});
   }
 
   bool MatchTime(std::size_t at, const Next& next) {
@@ -466,8 +494,12 @@ ValueGrammar::ValueGrammar(std::string_view text) {
 ValueGrammar::ValueGrammar(std::string_view text, std::unique_ptr<Node> root)
     : text_(text), root_(std::move(root)) {}
 
-bool ValueGrammar::has_file() const { return text_.find("<file>") != std::string::npos; }
-bool ValueGrammar::has_text() const { return text_.find("<text>") != std::string::npos; }
+bool ValueGrammar::has_file() const {
+  return text_.contains("<file>") || text_.contains("<markup>");
+}
+bool ValueGrammar::has_text() const {
+  return text_.contains("<text>") || text_.contains("<markup>");
+}
 
 /// The literal words of the grammar.
 std::vector<std::string> ValueGrammar::Words() const {

@@ -19,6 +19,7 @@ namespace vm {
 ///     <time>                   a start time (vm_protocol/core/start_time.h)
 ///     <word>                   one word, or a "quoted string" with JSON escapes
 ///     <text>                   the rest of the line, may be empty
+///     <markup>                 as <text>; each src="..." within it names a file
 ///     <file>                   the rest of the line, or one "quoted string"; not empty
 ///     A B  [ A ]  ( A | B )  A...    sequence, optional, group, one or more
 ///
@@ -31,8 +32,8 @@ class ValueGrammar {
   /// words, unquoted for strings.
   struct Item {
     std::string text;
-    double number = 0;  ///< for <number>, <int>, <ms>
-    bool file = false;  ///< matched by <file>
+    double number = 0;                 ///< for <number>, <int>, <ms>
+    std::vector<std::string> files{};  ///< those it names: <file> itself, each src of <markup>
     bool operator==(const Item&) const = default;
   };
   using Items = std::vector<Item>;
@@ -51,7 +52,7 @@ class ValueGrammar {
   /// kLimit where the grammar leaves so much open that finding out would take too long.
   Result<Items> Match(std::string_view value) const;
   const std::string& text() const { return text_; }
-  /// True if part of a value can be a file's name, or a text in which every blank counts.
+  /// True if part of a value can name a file, or is a text in which every blank counts.
   bool has_file() const;
   bool has_text() const;
 

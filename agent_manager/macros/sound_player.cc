@@ -1,0 +1,117 @@
+#include "agent_manager/macros/sound_player.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "vm_protocol/core/xml_text.h"
+
+namespace am {
+
+using vm::Errc;
+using vm::Result;
+
+namespace {
+
+constexpr const char* kName = "SND";
+constexpr const char* kVoice = "SSM";
+
+void Ignore(const Result<std::string>&) {}
+
+}  // namespace
+
+SoundPlayer::SoundPlayer(Hub& hub) : hub_(hub), slots_(kName) {
+  slots_.Declare({.name = "Play",
+                  .grammar = "STOP | <file>",
+                  .access = vm::Access::kWriteOnly,
+                  .help = "Has the voice play a sound file after what it is speaking; `tell start "
+                          "FILE` and `tell end FILE` say when. STOP ends it and forgets the next "
+                          "ones.",
+                  .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
+                    if (value.items[0].files.empty()) {
+                      Drop({Errc::kStopped, "set Play = STOP came first", 0});
+                      return reply.Ok("STOP");
+                    }
+                    Add(value.word(0), reply);
+                  }});
+}
+
+void SoundPlayer::Handle(const Envelope& envelope) {
+  origin_ = envelope.origin;
+  slots_.Handle(envelope.message, envelope.machine.empty() ? envelope.origin.peer : kHub);
+}
+
+void SoundPlayer::Add(const std::string& name, const vm::Reply& reply) {
+  std::error_code error;
+  const auto path = std::filesystem::absolute(name, error);
+  if (error || !std::filesystem::is_regular_file(path, error))
+    return reply.Fail({Errc::kUnavailable, "there is no sound file '" + name + "'", 0});
+  if (!hub_.IsPresent(kVoice))
+    return reply.Fail({Errc::kUnavailable, "there is no voice (@SSM) to play it", 0});
+  if (files_.size() >= kMaxFiles)
+    return reply.Fail(
+        {Errc::kLimit, "more than " + std::to_string(kMaxFiles) + " files wait to be played", 0});
+  files_.push_back({name, path.string(), reply, origin_});
+  if (files_.size() == 1) Prepare();
+}
+
+void SoundPlayer::Prepare() {
+  const File& file = files_.front();
+  const std::string markup = "<speak><audio src=\"" + vm::EscapeXml(file.path) + "\"/></speak>";
+  hub_.Ask(
+      kName, vm::To(kVoice, vm::Set("Text", markup)),
+      [this, reply = file.reply](const Result<std::string>& taken) {
+        if (reply.done()) return;  // dropped meanwhile
+        if (taken) return Speak();
+        reply.Fail(taken.error());
+        End();
+      },
+      file.origin);
+}
+
+void SoundPlayer::Speak() {
+  const File& file = files_.front();
+  hub_.Ask(
+      kName, vm::To(kVoice, vm::Set("Speak", "NOW")),
+      [this, reply = file.reply](const Result<std::string>& begun) {
+        if (reply.done()) return;
+        if (!begun) {
+          reply.Fail(begun.error());
+          return End();
+        }
+        files_.front().playing = true;
+        slots_.TellAll("start " + files_.front().name);
+        reply.Ok(files_.front().name);
+      },
+      file.origin);
+}
+
+void SoundPlayer::OnReport(const std::string& from, const vm::Message& message) {
+  if (from != kVoice || message.slot != "Speak.stat" || message.value != "IDLE" || files_.empty() ||
+      !files_.front().playing)
+    return;
+  slots_.TellAll("end " + files_.front().name);
+  End();
+}
+
+void SoundPlayer::OnPresence(const std::string& name, bool present, const std::string&) {
+  if (name == kVoice && !present) Drop({Errc::kUnavailable, "the voice (@SSM) has gone", 0});
+}
+
+/// The first file is over; the next one begins.
+void SoundPlayer::End() {
+  files_.pop_front();
+  if (!files_.empty()) Prepare();
+}
+
+void SoundPlayer::Drop(const vm::Error& error) {
+  auto files = std::exchange(files_, {});
+  for (const File& file : files) {
+    if (file.playing) slots_.TellAll("end " + file.name);
+    file.reply.Fail(error);
+  }
+  if (!files.empty() && hub_.IsPresent(kVoice))
+    hub_.Ask(kName, vm::To(kVoice, vm::Set("Speak", "STOP")), Ignore, files.front().origin);
+}
+
+}  // namespace am
