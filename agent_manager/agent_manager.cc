@@ -56,7 +56,7 @@ AgentManager::AgentManager(Config config, Options options)
       }),
       hub_(clock_, log_),
       slots_("AM"),
-      macros_(clock_, hub_, ReadFile, [](const std::string& path) { std::remove(path.c_str()); }),
+      macros_(clock_, hub_, ReadFile, [](const std::string& path) { unlink(path.c_str()); }),
       parallel_(clock_, hub_),
       sounds_(hub_),
       supervisor_(
@@ -68,7 +68,12 @@ AgentManager::AgentManager(Config config, Options options)
       console_(io_, clock_, hub_,
                {.started = [this] { return Started(); },
                 .on_said = [this] { quiet_.Disturb(); },
-                .on_quit = [this] { stop_ = true; }}),
+                .on_quit = [this] { stop_ = true; },
+                .on_lost =
+                    [this](const std::string& why) {
+                      SayError("console: " + why);
+                      console_lost_ = true;
+                    }}),
       hub_slots_(clock_, hub_, supervisor_, slots_,
                  {.on_exit = [this] { stop_ = true; },
                   .on_wait = [this](const SetValue& value,
@@ -125,6 +130,9 @@ void AgentManager::ConnectParts() {
   hub_.set_on_notice([this](const std::string& text, PeerKey about) { SayError(text, about); });
   hub_.set_on_report([this](const std::string& from, const vm::Message& message) {
     for (OwnMachine* const machine : own_machines_) machine->OnReport(from, message);
+  });
+  hub_.set_owes([this](PeerKey peer) {
+    return std::ranges::any_of(own_machines_, [peer](const auto* m) { return m->Owes(peer); });
   });
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
     if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
@@ -313,7 +321,7 @@ int AgentManager::Run() {
     if (!Over()) RunSome();
   }
   Shutdown();
-  return options_.strict && errors_ > 0 ? 1 : 0;
+  return console_lost_ || (options_.strict && errors_ > 0) ? 1 : 0;
 }
 
 void AgentManager::OnStarted() {
@@ -392,6 +400,8 @@ bool AgentManager::Over() const {
 void AgentManager::Shutdown() {
   NotifyService("STOPPING=1");
   listeners_.CloseAll();
+  for (OwnMachine* const machine : own_machines_)
+    machine->Abandon({vm::Errc::kStopped, "the hub ends", 0});
   bool done = false;
   supervisor_.StopAll([&done] { done = true; });
   while (!done) RunSome();
@@ -402,7 +412,7 @@ void AgentManager::Shutdown() {
   bool flushed = false;
   boost::asio::steady_timer limit(io_, kFlushPatience);
   limit.async_wait([&flushed](const auto&) { flushed = true; });
-  console_.Flush([&flushed] { flushed = true; });
+  hub_.WhenAllSent([&flushed] { flushed = true; });
   while (!flushed) RunSome();
 }
 

@@ -115,6 +115,7 @@ class AgentManager {
   bool applied_ = false;
   bool started_once_ = false;
   bool stop_ = false;
+  bool console_lost_ = false;
   const bool person_ = false;  // reads both stdout and stderr
   std::uint64_t errors_ = 0, refused_ = 0;
 };

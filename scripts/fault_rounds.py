@@ -47,7 +47,7 @@ class Client:
                 raise EOFError("the hub has closed the connection")
             self.buffer += more
         line, self.buffer = self.buffer.split(b"\n", 1)
-        return line.decode()
+        return line.decode(errors="replace")  # garbage may have been taken for EUC-JP, and is answered in it
 
     def expect(self, part):
         while True:

@@ -55,14 +55,23 @@ std::optional<Deed> DeedOf(std::string_view receiver, const Message& message) {
   }
   if (sets && (slot == "Clock" || slot == "Clock.mode" || slot == "Wait"))
     return Deed{Permission::kClock, "hold or set the clock and input of a module"};
+  if (message.command == Command::kProp && message.value != "AutoOutput" && slot != "Error")
+    return Deed{Permission::kMute, "have a module no longer report"};
   return std::nullopt;
 }
 
 /// `..` and links followed as far as the path exists; no slash at the end.
 std::filesystem::path Resolved(const std::filesystem::path& path) {
+  constexpr int kMaxLinks = 40;
   std::error_code error;
-  auto resolved = std::filesystem::weakly_canonical(path, error);
-  if (error) resolved = std::filesystem::absolute(path, error).lexically_normal();
+  auto resolved = std::filesystem::absolute(path, error);
+  for (int links = 0; links < kMaxLinks; ++links) {
+    const auto canonical = std::filesystem::weakly_canonical(resolved, error);
+    resolved = error ? resolved.lexically_normal() : canonical;
+    // What it leads to need not exist yet: whoever writes there makes it.
+    if (!std::filesystem::is_symlink(resolved, error)) break;
+    resolved = resolved.parent_path() / std::filesystem::read_symlink(resolved, error);
+  }
   return resolved.has_filename() ? resolved : resolved.parent_path();
 }
 
@@ -85,8 +94,8 @@ RightsTable RightsTable::Default() {
   for (const auto& known : kPermissionNames) table[Role::kOwner].may.push_back(known.permission);
   table[Role::kOwner].files = {"/"};
   table[Role::kModule].files = {"/"};
-  table[Role::kModule].may = {
-      Permission::kDefine};  // dialogues drive the agent by their own macros
+  table[Role::kModule].may = {Permission::kDefine,  // dialogues drive the agent by their own macros
+                              Permission::kMute};
   table[Role::kClient].files = {"."};
   table[Role::kGuest].commands = {"set", "inq", "prop", "do", "rep", "tell"};
   return table;
@@ -126,7 +135,18 @@ Result<void> AccessControl::CheckMessage(Role role, std::string_view receiver,
     return Refuse(role, "slots", "name the slot " + message.slot);
   if (const auto deed = DeedOf(receiver, message))
     return CheckPermission(role, deed->permission, deed->name);
+  // A line that a module keeps is never seen again.
+  if (receiver != kHubName && message.command == Command::kDef &&
+      message.relation == Relation::kAppend) {
+    if (const auto kept = vm::ParseMessage(message.value))
+      return CheckMessage(role, receiver, *kept);
+  }
   return {};
+}
+
+Result<void> AccessControl::CheckUnseenLines(Role role, const std::string& receiver) const {
+  if (AllFiles(role)) return {};
+  return Refuse(role, "files", "have @" + receiver + " run a file");
 }
 
 Result<void> AccessControl::CheckFile(Role role, const std::string& file,

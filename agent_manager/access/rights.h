@@ -21,18 +21,20 @@ enum class Permission {
   kLimits,  ///< change the hub's limits
   kWatch,   ///< be shown every message (Flow)
   kClock,   ///< set the clock and the input of a module, which all who speak to it share
+  kMute,    ///< have a module no longer report a slot, which all hear (NoAutoOutput)
 };
 struct PermissionName {
   Permission permission;
   std::string_view name;  ///< in the configuration
 };
-inline constexpr std::array<PermissionName, 7> kPermissionNames{{{Permission::kDefine, "define"},
+inline constexpr std::array<PermissionName, 8> kPermissionNames{{{Permission::kDefine, "define"},
                                                                  {Permission::kRemove, "remove"},
                                                                  {Permission::kStop, "stop"},
                                                                  {Permission::kReload, "reload"},
                                                                  {Permission::kLimits, "limits"},
                                                                  {Permission::kWatch, "watch"},
-                                                                 {Permission::kClock, "clock"}}};
+                                                                 {Permission::kClock, "clock"},
+                                                                 {Permission::kMute, "mute"}}};
 
 /// One row of the table: what the peers of one role may do. In patterns `*` stands for any text.
 struct Rights {
@@ -76,6 +78,8 @@ class AccessControl {
   /// May it name the files it names? `folder`: where the receiver runs.
   vm::Result<void> CheckFiles(Role role, const vm::Message& message, const FileSlots& slots,
                               const std::string& folder) const;
+  /// May it have a module run a file, or lines that have not passed the hub?
+  vm::Result<void> CheckUnseenLines(Role role, const std::string& receiver) const;
   vm::Result<void> CheckFile(Role role, const std::string& file, const std::string& folder) const;
   vm::Result<void> CheckName(Role role, std::string_view name) const;
   vm::Result<void> CheckPermission(Role role, Permission permission, std::string_view deed) const;

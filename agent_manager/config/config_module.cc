@@ -128,6 +128,10 @@ ModuleConfig ReadModule(const json& object, const std::string& key) {
   AddCredentialReaders(readers, module.credentials);
   ReadObject(object, key, readers);
   if (module.name.empty()) throw ConfigFault{key + ".name", "missing, expected the module's name"};
+  for (const char* const own : {"AM", "AM-MCL", "FS-MCL", "CONSOLE", "MQTT"}) {
+    if (module.name == own)
+      throw ConfigFault{key + ".name", "found '" + module.name + "', a name of the hub's own"};
+  }
   if (module.command.empty() == module.connect.empty())
     throw ConfigFault{key, "expected either command or connect"};
   return module;

@@ -119,6 +119,14 @@ void MacroLayer::SwitchOn(const std::string& module) {
   }
 }
 
+void MacroLayer::Abandon(const vm::Error& error) {
+  for (const auto& [name, run] : runs_) run->Abandon(error);
+}
+
+bool MacroLayer::Owes(PeerKey peer) const {
+  return std::ranges::any_of(runs_, [&](const auto& run) { return run.second->Owes(peer); });
+}
+
 void MacroLayer::Handle(const Envelope& envelope) {
   origin_ = envelope.origin;
   slots_.Handle(envelope.message, envelope.machine.empty() ? envelope.origin.peer : kHub);

@@ -40,6 +40,8 @@ class MacroLayer final : public OwnMachine {
   void Handle(const Envelope& envelope) override;
   void OnReport(const std::string& from, const vm::Message& message) override;
   void OnPresence(const std::string& name, bool present, const std::string& reason) override;
+  void Abandon(const vm::Error& error) override;
+  bool Owes(PeerKey peer) const override;
   bool Busy() const override { return !runs_.empty(); }
   bool Has(const std::string& name) const { return macros_.contains(name); }
   /// On a clock of lockstep the start of speaking needs no room for delays.

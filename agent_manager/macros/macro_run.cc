@@ -58,6 +58,17 @@ void MacroRun::Fail(const Error& error) {
   Enter(Phase::kStopping);
 }
 
+void MacroRun::Abandon(const vm::Error& error) {
+  reply_.Fail(error);
+  for (const vm::Reply& reply : stop_replies_) reply.Fail(error);
+  if (successor_) successor_->reply.Fail(error);
+}
+
+bool MacroRun::Owes(PeerKey peer) const {
+  return (!reply_.done() && state_.origin.peer == peer) ||
+         (successor_ && successor_->origin.peer == peer);
+}
+
 void MacroRun::Stop(const vm::Reply& reply) {
   stop_replies_.push_back(reply);
   Fail({Errc::kStopped, "stopped on request", 0});

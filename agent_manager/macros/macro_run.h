@@ -28,6 +28,10 @@ class MacroRun {
   void Fail(const vm::Error& error);
   /// A stop asked for by a peer, which is answered at the end.
   void Stop(const vm::Reply& reply);
+  /// Answers everybody at once; the steps go on.
+  void Abandon(const vm::Error& error);
+  /// True if `peer` waits for its end.
+  bool Owes(PeerKey peer) const;
   /// Another begins when this one has ended; one that waited before is told that it does not.
   void Succeed(Successor successor);
   void OnReport(const std::string& from, const std::string& slot, const std::string& value,

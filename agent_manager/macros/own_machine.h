@@ -20,6 +20,10 @@ class OwnMachine {
   virtual void OnReport(const std::string& from, const vm::Message& message) = 0;
   /// Told of modules that come (`present`) and go, and why.
   virtual void OnPresence(const std::string& name, bool present, const std::string& reason) = 0;
+  /// Answers whoever waits for something to end, which will not be.
+  virtual void Abandon(const vm::Error& error) = 0;
+  /// True if `peer` waits for something to end.
+  virtual bool Owes(PeerKey peer) const = 0;
   /// True while it does something that has an end.
   virtual bool Busy() const = 0;
 };

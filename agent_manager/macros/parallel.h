@@ -23,6 +23,8 @@ class Parallel final : public OwnMachine {
   void Handle(const Envelope& envelope) override;
   void OnReport(const std::string& from, const vm::Message& message) override;
   void OnPresence(const std::string&, bool, const std::string&) override {}
+  void Abandon(const vm::Error&) override {}
+  bool Owes(PeerKey) const override { return false; }
   bool Busy() const override { return timer_ != 0; }
 
  private:

@@ -1,5 +1,6 @@
 #include "agent_manager/macros/sound_player.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -96,6 +97,10 @@ void SoundPlayer::OnReport(const std::string& from, const vm::Message& message) 
 
 void SoundPlayer::OnPresence(const std::string& name, bool present, const std::string&) {
   if (name == kVoice && !present) Drop({Errc::kUnavailable, "the voice (@SSM) has gone", 0});
+}
+
+bool SoundPlayer::Owes(PeerKey peer) const {
+  return std::ranges::any_of(files_, [&](const File& file) { return file.origin.peer == peer; });
 }
 
 /// The first file is over; the next one begins.

@@ -22,6 +22,8 @@ class SoundPlayer final : public OwnMachine {
   void Handle(const Envelope& envelope) override;
   void OnReport(const std::string& from, const vm::Message& message) override;
   void OnPresence(const std::string& name, bool present, const std::string& reason) override;
+  void Abandon(const vm::Error& error) override { Drop(error); }
+  bool Owes(PeerKey peer) const override;
   bool Busy() const override { return !files_.empty(); }
 
  private:

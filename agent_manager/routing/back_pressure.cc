@@ -14,8 +14,10 @@ BackPressure::BackPressure(vm::Scheduler& clock, Directory& directory, const Lim
                            OnCutOff on_cut_off)
     : clock_(clock), directory_(directory), limits_(limits), on_cut_off_(std::move(on_cut_off)) {}
 
-void BackPressure::Hold(Peer& sender) {
+bool BackPressure::Hold(Peer& sender) const {
+  if (lockstep_) return false;
   if (++sender.flow.held_by == 1) sender.link->PauseReading();
+  return true;
 }
 
 void BackPressure::LetGo(Peer& sender) {

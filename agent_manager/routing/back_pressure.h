@@ -25,6 +25,9 @@ class BackPressure {
   void AfterSend(Peer& receiver, PeerKey commander);
   /// Those who wait for this reader go on.
   void Release(Peer& reader);
+  /// Does not read from a peer until LetGo, which may come as often; false in lockstep.
+  bool Hold(Peer& sender) const;
+  static void LetGo(Peer& sender);
   /// In lockstep time stands while others work: nobody is held.
   void set_lockstep(bool lockstep) { lockstep_ = lockstep; }
 
@@ -32,8 +35,6 @@ class BackPressure {
   void Watch(Peer& reader);
   void Look(PeerKey key);
   void CutOff(Peer& peer, const std::string& why);
-  static void Hold(Peer& sender);
-  static void LetGo(Peer& sender);
 
   vm::Scheduler& clock_;
   Directory& directory_;

@@ -1,5 +1,6 @@
 #include "agent_manager/routing/hub.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -10,14 +11,24 @@ using vm::Fail;
 using vm::Message;
 using vm::Result;
 
+namespace {
+
+constexpr const char* kEndOfInput = "end of input";
+/// How long a peer whose input has ended is kept for its answers.
+constexpr vm::Time kHalfClosedLimit = std::chrono::minutes(5);
+constexpr std::uint64_t kShareForOthers = 8;  // of limits.peers, which guests cannot take
+
+}  // namespace
+
 Hub::Hub(vm::Scheduler& clock, SessionLog& log)
-    : back_pressure_(clock, directory_, limits_,
+    : clock_(clock),
+      back_pressure_(clock, directory_, limits_,
                      [this](PeerKey peer, const std::string& why) {
                        outbox_.Notice("@" + NameOf(peer) + ": " + why + ", it is cut off");
                        Leave(peer, why);
                      }),
       outbox_(clock, log, directory_, back_pressure_, queue_),
-      requests_(clock, directory_, outbox_, limits_),
+      requests_(clock, directory_, outbox_, back_pressure_, limits_),
       lines_(clock, directory_, outbox_, requests_, access_, limits_),
       clocks_(clock, directory_, outbox_, requests_, lines_,
               [this](Peer& module) {
@@ -39,6 +50,12 @@ Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
     peer->link->Close();
     return Fail(Errc::kLimit, "more than " + std::to_string(limits_.peers) + " peers");
   }
+  // Guests leave room for those who may more.
+  const std::uint64_t most_guests = limits_.peers - limits_.peers / kShareForOthers;
+  if (peer->role == Role::kGuest && GuestsThere() >= most_guests) {
+    peer->link->Close();
+    return Fail(Errc::kLimit, "more than " + std::to_string(most_guests) + " guests");
+  }
   peer->key = ++last_key_;
   if (peer->name.empty()) peer->name = "CLIENT" + std::to_string(peer->key);
   const auto added = directory_.Add(peer);
@@ -56,6 +73,11 @@ Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
     });
   }
   return there.key;
+}
+
+std::uint64_t Hub::GuestsThere() const {
+  return static_cast<std::uint64_t>(std::ranges::count_if(
+      directory_.peers(), [](const auto& entry) { return entry.second->role == Role::kGuest; }));
 }
 
 Result<PeerKey> Hub::Attach(std::unique_ptr<Link> link, PeerKind kind, Role role,
@@ -116,6 +138,31 @@ void Hub::Leave(PeerKey key, const std::string& reason) {
   queue_.Post([this, key, reason] { Evict(key, reason); });
 }
 
+void Hub::EndInput(PeerKey key) {
+  queue_.Post([this, key] {
+    if (directory_.ByKey(key) == nullptr) return;
+    half_closed_.insert(key);
+    clock_.After(kHalfClosedLimit, [this, key] { Leave(key, kEndOfInput); });
+  });
+}
+
+/// Those who speak no more go once they have heard what they asked for.
+void Hub::ReleaseHalfClosed() {
+  std::erase_if(half_closed_, [this](PeerKey key) {
+    const Peer* const peer = directory_.ByKey(key);
+    if (peer == nullptr) return true;
+    if (peer->asked > 0 || (owes_ && owes_(key))) return false;
+    peer->link->WhenSent([this, key] { Leave(key, kEndOfInput); });
+    return true;
+  });
+}
+
+void Hub::WhenAllSent(std::function<void()> done) {
+  // The last of the links lets go of it.
+  const std::shared_ptr<void> all(nullptr, [done = std::move(done)](void*) { done(); });
+  for (const auto& [key, peer] : directory_.peers()) peer->link->WhenSent([all] {});
+}
+
 void Hub::Evict(PeerKey key, const std::string& reason) {
   const std::unique_ptr<Peer> peer = directory_.Remove(key);
   if (peer == nullptr) return;
@@ -131,7 +178,9 @@ void Hub::Evict(PeerKey key, const std::string& reason) {
 bool Hub::Drain() {
   // What comes while these are dealt with waits for the next time: the loop looks at its
   // descriptors and timers in between, whatever the hub's parts say to each other.
-  return queue_.Drain([this](WorkQueue::Item& item) { Do(item); }) > 0;
+  const bool any = queue_.Drain([this](WorkQueue::Item& item) { Do(item); }) > 0;
+  if (!half_closed_.empty()) ReleaseHalfClosed();
+  return any || !queue_.empty();
 }
 
 void Hub::Do(WorkQueue::Item& item) {

@@ -37,6 +37,10 @@ class Hub {
   /// The peer goes, after what it has said before: pending requests to it are answered with
   /// UNAVAILABLE and `reason`.
   void Leave(PeerKey peer, const std::string& reason);
+  /// The peer has said all it will say; it leaves when its questions have been answered.
+  void EndInput(PeerKey peer);
+  /// Calls `done` once every peer's system has taken what the peer was sent.
+  void WhenAllSent(std::function<void()> done);
   /// As Leave, at once. REQUIRES: no message is being dealt with (use Post).
   void Evict(PeerKey peer, const std::string& reason);
 
@@ -56,6 +60,9 @@ class Hub {
            const Origin& origin = {});
   /// Says something as a peer, as if it had come by its link: the lines of `do`.
   void SayAs(const Origin& origin, vm::Message message);
+
+  /// Asks the hub's own parts whether they still have something to answer to a peer.
+  void set_owes(std::function<bool(PeerKey peer)> owes) { owes_ = std::move(owes); }
 
   bool IsPresent(std::string_view name) const { return directory_.Find(name) != nullptr; }
   /// One of this hub's own modules: from the configuration, or a client that has become one.
@@ -108,8 +115,11 @@ class Hub {
  private:
   vm::Result<PeerKey> Add(std::unique_ptr<Peer> peer);
   void Do(WorkQueue::Item& item);
+  void ReleaseHalfClosed();
+  std::uint64_t GuestsThere() const;
   void Blame(PeerKey peer, const char* what);
 
+  vm::Scheduler& clock_;
   Limits limits_;
   AccessControl access_;
   WorkQueue queue_;
@@ -120,6 +130,8 @@ class Hub {
   ModuleLines lines_;
   ModuleClocks clocks_;
   Router router_;
+  std::set<PeerKey> half_closed_;
+  std::function<bool(PeerKey)> owes_;
   OnPresence on_presence_;
   PeerKey last_key_ = 0;
 };

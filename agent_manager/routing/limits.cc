@@ -17,7 +17,8 @@ const std::vector<LimitName>& LimitNames() {
       {"stall_ms", &Limits::stall_ms, 100, 3600000,
        "How long a peer may hold others by not reading, in ms, before it is cut off."},
       {"pending", &Limits::pending, 1, 1000000,
-       "Unanswered requests to one module; beyond, the oldest is answered TIMEOUT."},
+       "Unanswered requests of one peer: from half of it the peer is not read; beyond, its oldest "
+       "is answered LIMIT."},
       {"waiting", &Limits::waiting, 1, 1000000,
        "Lines held for a module that is starting; beyond, they are answered LIMIT."},
       {"slots", &Limits::slots, 0, 1000000,

@@ -18,8 +18,8 @@ struct Limits {
   std::uint64_t bytes_per_s = 0;                       ///< from one peer; it is read slower
   std::uint64_t backlog_bytes = vm::kMaxBacklogBytes;  ///< unread output of one peer; it is cut
   std::uint64_t stall_ms = 5000;                       ///< a full reader takes nothing; it is cut
-  std::uint64_t pending = 4096;                        ///< unanswered requests to one module
-  std::uint64_t waiting = 4096;                        ///< lines held for a module that starts
+  std::uint64_t pending = 8192;                        ///< unanswered requests of one peer
+  std::uint64_t waiting = 8192;                        ///< lines held for a module that starts
   std::uint64_t slots = 256;                           ///< slots and macros one peer may define
   bool operator==(const Limits&) const = default;
 };

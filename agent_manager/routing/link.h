@@ -36,6 +36,8 @@ class Link {
   /// A line that is no message (`# ...`), for peers that read lines.
   virtual void SendComment(std::string_view) {}
   virtual void Close() = 0;
+  /// Calls `done`, later or at once, when what was sent has been taken by the system.
+  virtual void WhenSent(std::function<void()> done) { done(); }
   /// Stops and resumes the lines that come from it.
   virtual void PauseReading() {}
   virtual void ResumeReading() {}

@@ -49,7 +49,9 @@ void ModuleClocks::BecomeModern(Peer& module, vm::Time asked_at, const Result<st
   module.dialect = Dialect::kModern;
   module.module.probing = false;
   module.module.granted = clock_.Now();
-  if (clock) Sample(module, asked_at, *clock);
+  // In lockstep time waits for every clock that is known: never for a guest's.
+  const bool kept_out = lines_.lockstep() && module.role == Role::kGuest;
+  if (clock && !kept_out) Sample(module, asked_at, *clock);
   outbox_.Write(
       module, Message{{}, "", vm::Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"},
       kHub);

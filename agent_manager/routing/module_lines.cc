@@ -71,6 +71,30 @@ void ModuleLines::AskFiles(Peer& peer) {
   Forward(peer, vm::Inq("Slots.files"), Origin{}, learn);
 }
 
+Result<void> ModuleLines::CheckFiles(const Peer& peer, const Message& message, Role role) const {
+  static const FileSlots kUndeclared;
+  if (message.command == Command::kDef && message.relation == vm::Relation::kAppend) {
+    const auto kept = vm::ParseMessage(message.value);
+    return kept ? CheckFiles(peer, *kept, role) : Result<void>();
+  }
+  const bool runs_macro = message.command == Command::kDo;
+  if (runs_macro && peer.module.macros.contains(message.slot)) return {};
+  const bool unseen = runs_macro || (message.command == Command::kDef &&
+                                     message.relation == vm::Relation::kFromFile);
+  if (unseen) return access_.CheckUnseenLines(role, peer.name);
+  return access_.CheckFiles(role, message, peer.module.files ? *peer.module.files : kUndeclared,
+                            peer.folder);
+}
+
+/// Keeps in mind which names of a module are macros, no files.
+void ModuleLines::NoteMacros(Peer& peer, const Message& message) {
+  auto& macros = peer.module.macros;
+  if (message.command == Command::kDel) macros.erase(message.slot);
+  if (message.command == Command::kDef && message.relation == vm::Relation::kAppend &&
+      macros.size() < limits_.slots)
+    macros.insert(message.slot);
+}
+
 void ModuleLines::Forward(Peer& peer, Message message, const Origin& origin, OnAnswer done) {
   if (MustWait(peer, message, origin)) {
     if (peer.module.waiting.size() >= limits_.waiting) {
@@ -79,16 +103,15 @@ void ModuleLines::Forward(Peer& peer, Message message, const Origin& origin, OnA
           Fail(Errc::kLimit, "@" + peer.name + " is still being asked, too much waits for it"),
           done);
     }
+    requests_.Count(origin.peer);
     peer.module.waiting.push_back({std::move(message), origin, std::move(done)});
     return;
   }
   if (!access_.AllFiles(origin.role) && message.command != Command::kRep) {
-    static const FileSlots kUndeclared;
-    const auto checked = access_.CheckFiles(
-        origin.role, message, peer.module.files ? *peer.module.files : kUndeclared, peer.folder);
-    if (!checked)
+    if (const auto checked = CheckFiles(peer, message, origin.role); !checked)
       return outbox_.Answer(origin.peer, "AM", message, std::unexpected(checked.error()), done);
   }
+  NoteMacros(peer, message);
   if (peer.dialect == Dialect::kOriginal)
     return ForwardOriginal(peer, std::move(message), origin, done);
   const bool modern = peer.dialect == Dialect::kModern;
@@ -105,8 +128,10 @@ void ModuleLines::Forward(Peer& peer, Message message, const Origin& origin, OnA
 }
 
 void ModuleLines::FlushWaiting(Peer& peer) {
-  for (Held& held : std::exchange(peer.module.waiting, {}))
+  for (Held& held : std::exchange(peer.module.waiting, {})) {
+    requests_.Uncount(held.origin.peer);
     Forward(peer, std::move(held.message), held.origin, std::move(held.done));
+  }
 }
 
 void ModuleLines::SendBare(Peer& module, Message message, PeerKey commander) {
@@ -172,8 +197,10 @@ void ModuleLines::Forget(Peer& peer) {
     --held_;
   }
   const vm::Error gone{Errc::kUnavailable, "@" + peer.name + " has gone", 0};
-  for (const Held& held : std::exchange(peer.module.waiting, {}))
+  for (const Held& held : std::exchange(peer.module.waiting, {})) {
+    requests_.Uncount(held.origin.peer);
     outbox_.Answer(held.origin.peer, peer.name, held.message, std::unexpected(gone), held.done);
+  }
 }
 
 }  // namespace am

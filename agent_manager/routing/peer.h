@@ -39,6 +39,7 @@ struct Request {
 struct RequestTable {
   std::map<unsigned long, Request> open;  ///< by the number of our tag, so the oldest first
   std::map<std::string, std::deque<unsigned long>> by_slot;  ///< the original's dialect: `inq`
+  std::map<PeerKey, std::set<unsigned long>> by_asker;
   vm::TimerId timer = 0;
 };
 
@@ -81,6 +82,7 @@ struct ModuleState {
   ClockEstimate estimate{};
   vm::Time granted{0};               ///< lockstep: where its clock stands
   std::optional<FileSlots> files{};  ///< which of its slots take file names; none: not known yet
+  std::set<std::string> macros{};    ///< its macros whose every line has passed the hub
   vm::TimerId files_timer = 0;
 };
 
@@ -101,6 +103,8 @@ struct Peer {
   Traffic traffic{};
   FlowState flow{};
   RequestTable requests{};
+  std::size_t asked = 0;           ///< its own requests that no module has answered yet
+  bool waits_for_answers = false;  ///< it is not read from until most of them are
   ModuleState module{};
   vm::Time complaints_since{0};
   int complaints = 0;

@@ -23,36 +23,76 @@ unsigned long NumberOf(std::string_view tag) {
 
 }  // namespace
 
-Requests::Requests(vm::Scheduler& clock, Directory& directory, Outbox& outbox, const Limits& limits)
-    : clock_(clock), directory_(directory), outbox_(outbox), limits_(limits) {}
+Requests::Requests(vm::Scheduler& clock, Directory& directory, Outbox& outbox,
+                   BackPressure& back_pressure, const Limits& limits)
+    : clock_(clock),
+      directory_(directory),
+      outbox_(outbox),
+      back_pressure_(back_pressure),
+      limits_(limits) {}
 
 void Requests::Fail(const Peer& module, const Request& request, const Error& error) {
   outbox_.Answer(request.asker, module.name, request.message, std::unexpected(error), request.done);
 }
 
-Request Requests::TakeOldest(Peer& module) {
+/// REQUIRES: the request is open.
+Request Requests::Take(Peer& module, unsigned long number) {
   RequestTable& table = module.requests;
-  const auto oldest = table.open.begin();
-  // What is the oldest of all is the oldest of its slot.
-  const auto numbers = table.by_slot.find(oldest->second.message.slot);
-  if (numbers != table.by_slot.end() && numbers->second.front() == oldest->first) {
-    numbers->second.pop_front();
-    if (numbers->second.empty()) table.by_slot.erase(numbers);
+  const auto found = table.open.find(number);
+  Request request = std::move(found->second);
+  table.open.erase(found);
+  if (const auto slot = table.by_slot.find(request.message.slot); slot != table.by_slot.end()) {
+    std::erase(slot->second, number);
+    if (slot->second.empty()) table.by_slot.erase(slot);
   }
-  Request request = std::move(oldest->second);
-  table.open.erase(oldest);
+  if (const auto mine = table.by_asker.find(request.asker); mine != table.by_asker.end()) {
+    mine->second.erase(number);
+    if (mine->second.empty()) table.by_asker.erase(mine);
+  }
+  if (table.open.empty()) clock_.Cancel(std::exchange(table.timer, 0));
+  Uncount(request.asker);
   return request;
+}
+
+void Requests::Count(PeerKey asker) {
+  Peer* const peer = directory_.ByKey(asker);
+  if (peer == nullptr || ++peer->asked <= limits_.pending / 2 || peer->waits_for_answers) return;
+  peer->waits_for_answers = back_pressure_.Hold(*peer);
+}
+
+void Requests::Uncount(PeerKey asker) {
+  Peer* const peer = directory_.ByKey(asker);
+  if (peer == nullptr) return;
+  --peer->asked;
+  if (peer->waits_for_answers && peer->asked <= limits_.pending / 4) {
+    peer->waits_for_answers = false;
+    BackPressure::LetGo(*peer);
+  }
+}
+
+void Requests::Refuse(Peer& module, PeerKey asker) {
+  const Request request = Take(module, *module.requests.by_asker.at(asker).begin());
+  Fail(module, request,
+       {Errc::kLimit, "too many requests to @" + module.name + " are unanswered", 0});
 }
 
 unsigned long Requests::Insert(Peer& module, Request request) {
   RequestTable& table = module.requests;
-  if (table.open.size() >= limits_.pending)
-    Fail(module, TakeOldest(module),
-         {Errc::kTimeout, "@" + module.name + " leaves too many requests unanswered", 0});
+  const PeerKey asker = request.asker;
+  if (const auto mine = table.by_asker.find(asker);
+      mine != table.by_asker.end() && asker != kHub && mine->second.size() >= limits_.pending) {
+    Refuse(module, asker);
+  } else if (table.open.size() >= limits_.pending * kPeersShares) {
+    const auto most = std::ranges::max_element(
+        table.by_asker, {}, [](const auto& entry) { return entry.second.size(); });
+    Refuse(module, most->first);
+  }
   request.asked = clock_.Now();
   const unsigned long number = ++last_number_;
   table.open.emplace_hint(table.open.end(), number, std::move(request));
+  table.by_asker[asker].insert(number);
   if (table.timer == 0) Watch(module);
+  Count(asker);
   return number;
 }
 
@@ -78,11 +118,11 @@ void Requests::Expire(PeerKey key) {
   RequestTable& table = module->requests;
   table.timer = 0;
   while (!table.open.empty() && table.open.begin()->second.asked + kAnswerLimit <= clock_.Now()) {
-    Fail(*module, TakeOldest(*module),
+    Fail(*module, Take(*module, table.open.begin()->first),
          {Errc::kTimeout,
           "@" + module->name + " has not answered for " + vm::FormatMs(kAnswerLimit) + " ms", 0});
   }
-  if (!table.open.empty()) Watch(*module);
+  if (!table.open.empty() && table.timer == 0) Watch(*module);
 }
 
 bool Requests::Resolve(Peer& module, const Message& rep) {
@@ -102,9 +142,7 @@ bool Requests::Resolve(Peer& module, const Message& rep) {
     }
     return true;
   }
-  const Request request = std::move(found->second);
-  table.open.erase(found);
-  if (table.open.empty()) clock_.Cancel(std::exchange(table.timer, 0));
+  const Request request = Take(module, found->first);
   // A group has no value of its own; its tagged end is only for those who asked with a tag.
   if (!refused && request.members_seen && request.message.tag.empty() && !request.done) return true;
   outbox_.Answer(request.asker, module.name, request.message,
@@ -119,26 +157,18 @@ std::vector<Request> Requests::TakeBySlot(Peer& module, const std::string& slot)
   RequestTable& table = module.requests;
   const auto numbers = table.by_slot.find(slot);
   if (numbers == table.by_slot.end()) return requests;
-  for (const unsigned long number : numbers->second) {
-    const auto found = table.open.find(number);
-    if (found == table.open.end()) continue;
-    requests.push_back(std::move(found->second));
-    table.open.erase(found);
-  }
-  table.by_slot.erase(numbers);
-  if (table.open.empty()) clock_.Cancel(std::exchange(table.timer, 0));
+  for (const unsigned long number : std::deque<unsigned long>(numbers->second))
+    requests.push_back(Take(module, number));
   return requests;
 }
 
 void Requests::FailAll(Peer& module, const Error& error) {
-  const auto open = std::move(module.requests.open);
-  Forget(module);
-  for (const auto& [number, request] : open) Fail(module, request, error);
+  while (!module.requests.open.empty())
+    Fail(module, Take(module, module.requests.open.begin()->first), error);
 }
 
 void Requests::Forget(Peer& module) {
-  clock_.Cancel(module.requests.timer);
-  module.requests = {};
+  while (!module.requests.open.empty()) Take(module, module.requests.open.begin()->first);
 }
 
 }  // namespace am

@@ -14,9 +14,12 @@ namespace am {
 class Requests {
  public:
   static constexpr vm::Time kAnswerLimit = std::chrono::minutes(2);
-  Requests(vm::Scheduler& clock, Directory& directory, Outbox& outbox, const Limits& limits);
+  /// All requests to one module, in limits of one peer; beyond it whoever has most loses one.
+  static constexpr std::size_t kPeersShares = 16;
+  Requests(vm::Scheduler& clock, Directory& directory, Outbox& outbox, BackPressure& back_pressure,
+           const Limits& limits);
 
-  /// Returns the tag to send. Beyond the limit the oldest request is answered TIMEOUT.
+  /// Returns the tag to send. Beyond the limit the asker's own oldest request is answered LIMIT.
   std::string Add(Peer& module, Request request);
   /// A question without a tag; the next report of its slot answers it.
   void AddBySlot(Peer& module, Request request);
@@ -26,12 +29,17 @@ class Requests {
   std::vector<Request> TakeBySlot(Peer& module, const std::string& slot);
   /// Nobody will answer them any more. The asker is told.
   void FailAll(Peer& module, const vm::Error& error);
+  /// A line of the peer's waits to be sent: it is one of those that it has not been answered. A
+  /// peer with half of the limit of them is not read from until half of those have been answered.
+  void Count(PeerKey asker);
+  void Uncount(PeerKey asker);
   /// They are forgotten without an answer.
   void Forget(Peer& module);
 
  private:
   unsigned long Insert(Peer& module, Request request);
-  static Request TakeOldest(Peer& module);
+  Request Take(Peer& module, unsigned long number);
+  void Refuse(Peer& module, PeerKey asker);
   void Fail(const Peer& module, const Request& request, const vm::Error& error);
   void Watch(Peer& module);
   void Expire(PeerKey key);
@@ -39,6 +47,7 @@ class Requests {
   vm::Scheduler& clock_;
   Directory& directory_;
   Outbox& outbox_;
+  BackPressure& back_pressure_;
   const Limits& limits_;
   unsigned long last_number_ = 0;
 };

@@ -41,7 +41,10 @@ void Console::Start(const std::vector<std::string>& first_lines) {
                {{}, "", vm::Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"}));
   lines_.assign(first_lines.begin(), first_lines.end());
   stream_->Start([this](Result<std::string_view> line) { OnLine(std::move(line)); },
-                 [this](const std::string&) { ended_ = true; });
+                 [this](const std::string& reason) {
+                   ended_ = true;
+                   if (reason != "end of input") hooks_.on_lost(reason);
+                 });
 }
 
 bool Console::TakeWord(const std::string& line) {
@@ -103,11 +106,6 @@ void Console::OnIdle() {
   const Reply reply = *std::exchange(idle_wait_, std::nullopt);
   reply.Ok("IDLE");
   Feed();
-}
-
-void Console::Flush(std::function<void()> done) {
-  if (stream_ == nullptr) return done();
-  stream_->Flush(std::move(done));
 }
 
 }  // namespace am

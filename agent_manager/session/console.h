@@ -23,6 +23,7 @@ class Console {
     std::function<bool()> started;  ///< lines can be said
     std::function<void()> on_said;  ///< after each
     std::function<void()> on_quit;
+    std::function<void(const std::string& why)> on_lost;  ///< what is said cannot be written
   };
   Console(boost::asio::io_context& io, vm::Scheduler& clock, Hub& hub, Hooks hooks);
 
@@ -35,7 +36,6 @@ class Console {
   /// Nothing goes on any more: who waits for that goes on.
   void OnIdle();
   /// Everything sent so far is handed to the system; `done` is called then.
-  void Flush(std::function<void()> done);
 
   PeerKey key() const { return key_; }
   bool started() const { return stream_ != nullptr; }

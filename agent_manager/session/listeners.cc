@@ -48,7 +48,8 @@ void Listeners::OnConnection(const vm::Acceptor::Connection& connection, Role ro
   stream->Start([this, peer = *key](
                     vm::Result<std::string_view> line) { hub_.Receive(peer, std::move(line)); },
                 [this, peer = *key](const std::string& reason) {
-                  if (reason != "end of input") on_notice_("@" + hub_.NameOf(peer) + ": " + reason);
+                  if (reason == "end of input") return hub_.EndInput(peer);
+                  on_notice_("@" + hub_.NameOf(peer) + ": " + reason);
                   hub_.Leave(peer, reason);
                 });
   stream->ResumeReading();

@@ -16,6 +16,7 @@ class StreamLink final : public Link {
   void Send(const Outgoing& outgoing) override { peer_->Send(outgoing.line()); }
   void SendComment(std::string_view text) override { peer_->Send(text); }
   void Close() override { peer_->Close(); }
+  void WhenSent(std::function<void()> done) override { peer_->Flush(std::move(done)); }
   void PauseReading() override { peer_->PauseReading(); }
   void ResumeReading() override { peer_->ResumeReading(); }
   std::size_t backlog_bytes() const override { return peer_->backlog_bytes(); }

@@ -175,14 +175,12 @@ void Supervisor::OnEnd(const ChildPtr& child, const std::string& reason) {
   if (child->pid > 0) {
     // Usually the process is ending and SIGCHLD will tell why; one that only closed its output, or
     // does not read, is of no use any more and gets a moment to go.
-    if (reason != "end of input") {
-      on_notice_("@" + child->config.name + ": " + reason);
-      child->killed_for = reason;
-    }
     if (child->state == State::kStopping) return;  // it has the time to stop that it was given
     child->stop_timer.expires_after(kClosedPatience);
-    child->stop_timer.async_wait([child](const auto& error) {
-      if (!error) child->Signal(SIGKILL);
+    child->stop_timer.async_wait([child, reason](const auto& error) {
+      if (error) return;
+      child->killed_for = reason;
+      child->Signal(SIGKILL);
     });
     return;
   }

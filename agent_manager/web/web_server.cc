@@ -37,7 +37,11 @@ constexpr std::size_t kMaxHeaderBytes = 8192;
 constexpr std::size_t kMaxConnections = 64;
 constexpr std::size_t kBeingDropped = 8;  // closed, and not gone yet
 constexpr auto kAcceptAgain = std::chrono::milliseconds(200);
-constexpr string_view kCookie = "galatea_token=";
+/// Cookies are of a host, whatever the port: pages of two hubs on it need two names.
+std::string CookieOf(std::string_view host) {
+  const std::size_t colon = host.rfind(':');
+  return "galatea_token_" + std::string(host.substr(colon + 1)) + "=";
+}
 
 struct File {
   string_view path, type;
@@ -125,7 +129,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return Refuse(http::status::method_not_allowed, "a method that is not GET");
     const bool by_address =
         HasToken(mark == string_view::npos ? "" : target.substr(mark + 1), '&', "token=");
-    if (!by_address && !HasToken(View(request_[http::field::cookie]), ';', kCookie) &&
+    if (!by_address &&
+        !HasToken(View(request_[http::field::cookie]), ';', CookieOf(server_->host)) &&
         !HasToken(View(request_[http::field::authorization]), ';', "Bearer "))
       return Refuse(http::status::unauthorized, "a request without the token");
     Known();
@@ -146,7 +151,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     auto response = Make(http::status::see_other, "text/plain", "");
     response.set(http::field::location, path);
     response.set(http::field::set_cookie,
-                 std::string(kCookie) + server_->token + "; Path=/; HttpOnly; SameSite=Strict");
+                 CookieOf(server_->host) + server_->token + "; Path=/; HttpOnly; SameSite=Strict");
     Write(std::move(response));
   }
 

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "tests/support/process.h"
 
@@ -153,6 +154,7 @@ TEST_F(HubFaultsTest, BytesOfAModulesErrorsAreShownAsText) {
                              "printf 'bad \\377\\033[31m bytes\\r\\n' >&2\n"
                              "while read -r line; do case $line in *EXIT*) exit 0;; esac; "
                              "done\n"));
+  ASSERT_TRUE(hub.ExpectError("RAW INFO: bad")) << hub.ErrorText();
   std::optional<std::string> log;
   for (int i = 0; i < 200 && (!log || log->find("bad") == std::string::npos); ++i) {
     hub.WriteLine("inq#1 Module.RAW.log");
@@ -174,7 +176,7 @@ TEST_F(HubFaultsTest, AModuleHasTheWholeTimeToStopThatItWasGiven) {
   EXPECT_TRUE(std::filesystem::exists(marker));
 }
 
-TEST_F(HubFaultsTest, MoreClientsThanDescriptorsWaitAndNobodyElseDoes) {
+TEST_F(HubFaultsTest, MoreClientsThanDescriptorsAreTurnedAwayAndNobodyElseWaits) {
   Configure("");
   const std::string command =
       "ulimit -n 40; exec '" + kHub + "' --config '" + folder_ / "hub.json'";
@@ -191,11 +193,17 @@ TEST_F(HubFaultsTest, MoreClientsThanDescriptorsWaitAndNobodyElseDoes) {
   ExpectAlive();
   first->WriteLine("inq#2 Run");
   EXPECT_TRUE(first->Expect("rep#2 Run = LIVE")) << hub_->ErrorText();
+  EXPECT_TRUE(many.front()->Expect("rep#1 Run = LIVE"));
+  EXPECT_FALSE(many.back()->Expect("rep#1 Run = LIVE")) << "it is told, by the end";
   many.clear();
-  ExpectAlive();
-  const auto late = SocketClient::Unix(Socket());
-  late->WriteLine("inq#3 Run");
-  EXPECT_TRUE(late->Expect("rep#3 Run = LIVE")) << hub_->ErrorText();
+  bool answered = false;  // once the hub has seen that the others are gone
+  for (int tries = 0; tries < 200 && !answered; ++tries) {
+    ExpectAlive();
+    const auto late = SocketClient::Unix(Socket());
+    late->WriteLine("inq#3 Run");
+    answered = late->Expect("rep#3 Run = LIVE").has_value();
+  }
+  EXPECT_TRUE(answered) << hub_->ErrorText();
 }
 
 TEST_F(HubFaultsTest, AConfiguredModuleKeepsItsName) {
@@ -239,6 +247,51 @@ TEST_F(HubFaultsTest, AModuleThatFailsToStartIsAnErrorWithItsReasonAndIsGivenUp)
       << hub.ErrorText();
   hub.WriteLine("inq#1 Module.BAD.state");
   EXPECT_TRUE(hub.Expect("rep#1 Module.BAD.state = FAILED"));
+}
+
+TEST_F(HubFaultsTest, AFloodOfQuestionsEndsNoModuleAndIsAnsweredWhole) {
+  Process& hub = Start("{\"name\": \"M\", \"command\": [\"" + kModule + "\"]}");
+  hub.WriteLine("to @M inq#first Run");
+  ASSERT_TRUE(hub.Expect("rep#first Run = LIVE"));
+  const auto client = SocketClient::Unix(Socket());
+  constexpr int kQuestions = 20000;
+  std::string flood = "set Subscribe = NONE\n";
+  for (int i = 0; i < kQuestions; ++i) flood += "to @M inq Slots.files\nto @M inq#x Slots\n";
+  std::thread writer([&] { client->Write(flood); });
+  int answers = 0, errors = 0;
+  for (std::optional<std::string> line; answers < kQuestions && (line = client->ReadLine());) {
+    answers += line->find("rep#x Slots") != std::string::npos ? 1 : 0;
+    errors += line->find(".error") != std::string::npos ? 1 : 0;
+  }
+  writer.join();
+  EXPECT_EQ(answers, kQuestions);
+  EXPECT_EQ(errors, 0);
+  hub.WriteLine("inq#state Module.M.state");
+  EXPECT_TRUE(hub.Expect("rep#state Module.M.state = READY")) << hub.ErrorText();
+}
+
+TEST_F(HubFaultsTest, WhoSpeaksNoMoreIsAnsweredAndThenLetGo) {
+  Process& hub = Start("{\"name\": \"M\", \"command\": [\"" + kModule + "\"]}");
+  hub.WriteLine("to @M inq#first Run");
+  ASSERT_TRUE(hub.Expect("rep#first Run = LIVE"));
+  for (const char* question : {"to @M inq#1 Run\n", "to @M inq#1 Run"}) {
+    const auto client = SocketClient::Unix(Socket());
+    client->Write(question);
+    client->CloseInput();
+    EXPECT_TRUE(client->Expect("rep#1 Run = LIVE")) << question;
+    EXPECT_FALSE(client->ReadLine()) << "nothing more";
+  }
+}
+
+TEST_F(HubFaultsTest, WhatIsUnansweredAtTheEndIsAnsweredStopped) {
+  Process& hub = Start("");
+  hub.WriteLine(R"(to @AM-MCL def Long = [{"pause_ms": 60000}])");
+  const auto client = SocketClient::Unix(Socket());
+  client->WriteLine("to @AM-MCL set#1 Long = 1");
+  client->WriteLine("inq#2 Run");
+  ASSERT_TRUE(client->Expect("rep#2 Run = LIVE"));
+  hub.WriteLine("quit");
+  EXPECT_TRUE(client->Expect("rep#1 Long.error = STOPPED the hub ends"));
 }
 
 TEST_F(HubFaultsTest, AHundredThousandReportsLeaveNothingBehind) {

@@ -204,7 +204,66 @@ TEST(HubTest, AModuleThatAnswersNothingIsBounded) {
   for (std::size_t i = 0; i < world.hub.limits().pending + 100; ++i)
     world.Say(*a, "to @SSM set#t X = 1");
   EXPECT_GE(a->heard.size(), 100u);
-  EXPECT_NE(a->heard.front().find("TIMEOUT"), std::string::npos);
+  EXPECT_NE(a->heard.front().find("LIMIT"), std::string::npos);
+}
+
+TEST(HubTest, AFloodOfQuestionsIsReadSlowerAndCostsNobodyElseAnAnswer) {
+  World world;
+  world.JoinModern("SSM");
+  world.answers = false;
+  world.hub.limits().pending = 100;
+  const auto flood = world.Join(PeerKind::kClient, "FLOOD");
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @SSM inq#mine Run");
+  for (int i = 0; i < 5000; ++i) world.Say(*flood, "to @SSM inq#x Volume");
+  EXPECT_TRUE(flood->paused);
+  EXPECT_FALSE(a->paused);
+  EXPECT_EQ(a->heard, Strings{}) << "it goes on waiting";
+  world.clock.RunUntil(world.clock.Now() + std::chrono::minutes(3));
+  EXPECT_FALSE(flood->paused) << "its questions have been answered";
+}
+
+TEST(HubTest, AllTogetherHaveALimitAndWhoeverHasMostLosesOne) {
+  World world;
+  world.JoinModern("SSM");
+  world.answers = false;
+  world.hub.limits().pending = 10;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @SSM inq#mine Run");
+  std::vector<std::shared_ptr<World::Peer>> many;
+  for (int i = 0; i < 40; ++i) {
+    many.push_back(world.Join(PeerKind::kClient, "M" + std::to_string(i)));
+    for (int k = 0; k < 10; ++k) world.Say(*many.back(), "to @SSM inq#x Volume");
+  }
+  EXPECT_EQ(a->heard, Strings{});
+  EXPECT_LE(world.hub.Status()[0].pending, 160u);
+}
+
+TEST(HubTest, WhoSpeaksNoMoreLeavesWithItsAnswers) {
+  World world;
+  world.JoinModern("SSM");
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto b = world.Join(PeerKind::kClient, "B");
+  world.answers = false;
+  world.Say(*a, "to @SSM set#1 X = 1");
+  world.hub.EndInput(a->key);
+  world.hub.EndInput(b->key);
+  world.clock.RunReady();
+  EXPECT_TRUE(b->closed) << "it has asked nothing";
+  EXPECT_FALSE(a->closed);
+  world.clock.RunUntil(world.clock.Now() + std::chrono::minutes(3));
+  EXPECT_NE(a->heard.back().find("rep#1 X.error = TIMEOUT"), std::string::npos);
+  EXPECT_TRUE(a->closed);
+}
+
+TEST(HubTest, GuestsLeaveRoomForOthers) {
+  World world;
+  world.hub.limits().peers = 16;
+  std::vector<std::shared_ptr<World::Peer>> guests;
+  for (int i = 0; i < 20; ++i) guests.push_back(world.JoinAs(Role::kGuest, ""));
+  EXPECT_EQ(world.hub.Status().size(), 14u);
+  EXPECT_TRUE(guests.back()->closed);
+  EXPECT_NE(world.JoinAs(Role::kClient, "C")->key, kHub);
 }
 
 TEST(HubTest, AModuleOfTheOriginalThatAnswersNothingIsBoundedToo) {
@@ -215,7 +274,7 @@ TEST(HubTest, AModuleOfTheOriginalThatAnswersNothingIsBoundedToo) {
   for (int i = 0; i < 200; ++i)
     world.Say(*a, "to @SSM inq#" + std::to_string(i) + " S" + std::to_string(i));
   EXPECT_EQ(a->heard.size(), 190u);
-  EXPECT_NE(a->heard.front().find("rep#0 S0.error = TIMEOUT"), std::string::npos);
+  EXPECT_NE(a->heard.front().find("rep#0 S0.error = LIMIT"), std::string::npos);
   EXPECT_EQ(world.hub.Status()[0].pending, 10u);
   world.clock.RunUntil(world.clock.Now() + std::chrono::minutes(3));
   EXPECT_EQ(a->heard.size(), 200u) << "one time-out for both dialects";

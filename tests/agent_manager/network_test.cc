@@ -167,7 +167,8 @@ TEST_F(NetworkTest, OverTlsACertificateIsEnoughAndNoneIsTooLittle) {
   hub->WriteLine("to @FAR set#1 X = " + std::to_string(6));
   EXPECT_TRUE(hub->Expect("From @FAR rep#1 X = 6"));
   Process bare({kModule, "--connect", at, "--authority", certificates_->Certificate("ca")});
-  EXPECT_EQ(bare.Wait(), 0) << "it hears the end at once";
+  EXPECT_EQ(bare.Wait(), 1) << "it hears the end at once";
+  EXPECT_NE(bare.ErrorText().find("ended the connection without a word"), std::string::npos);
   EXPECT_TRUE(hub->ExpectError("refused 127.0.0.1")) << hub->ErrorText();
   const auto plain = SocketClient::Tcp(port_);
   plain->WriteLine("to @AM set Run = EXIT");

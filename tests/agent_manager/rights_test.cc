@@ -136,6 +136,29 @@ TEST_F(RightsTest, OnlyTheOwnerDefinesStopsReloadsAndWatches) {
   EXPECT_EQ(Say(Role::kOwner, "to @AM-MCL def#1 M = []"), "From @AM-MCL rep#1 M = defined");
 }
 
+TEST_F(RightsTest, LinesThatAModuleKeepsAreCheckedWhenTheyAreGivenToIt) {
+  const auto client = [this](const std::string& line) { return Say(Role::kClient, line); };
+  for (const char* line :
+       {"set SaveWAV = /tmp/x.wav", "set Text < /etc/passwd", "set Run = EXIT", "set Wait = 5",
+        "def n << set Run = EXIT", "def n << set SaveWAV = /tmp/x.wav", "do some.file"})
+    EXPECT_TRUE(Refused(client(std::string("to @SSM def#1 m << ") + line))) << line;
+  EXPECT_TRUE(Refused(client("to @SSM def#1 m < ./lines"))) << "nobody knows what is in it";
+  EXPECT_TRUE(Refused(client("to @SSM do#1 m"))) << "it can only be a file";
+  EXPECT_FALSE(Refused(client("to @SSM def#1 m << set Text = hello")));
+  EXPECT_FALSE(Refused(client("to @SSM do#1 m")));
+  EXPECT_FALSE(Refused(client("to @SSM del#1 m")));
+  EXPECT_TRUE(Refused(client("to @SSM do#1 m")));
+  EXPECT_FALSE(Refused(Say(Role::kOwner, "to @SSM do#1 any.file")));
+}
+
+TEST_F(RightsTest, AClientsOwnNewFilesAreItsAndNobodyStopsReportsForAll) {
+  EXPECT_FALSE(Refused(Say(Role::kClient, "to @SSM set#1 SaveWAV = x-that-is-not-there.wav")));
+  for (const Role role : {Role::kClient, Role::kGuest}) {
+    EXPECT_TRUE(Refused(Say(role, "to @SSM prop#1 Speak.stat = NoAutoOutput")));
+    EXPECT_FALSE(Refused(Say(role, "to @SSM prop#1 Speak.stat = AutoOutput")));
+  }
+}
+
 TEST_F(RightsTest, AMacroHasTheRightsOfWhoStartsIt) {
   Say(Role::kOwner,
       R"(to @AM-MCL def Keep = [{"request": "to @SSM set SaveWAV = ${value}"}, {"remove": "${value}"}])");

@@ -42,7 +42,8 @@ class WebTest : public testing::Test {
     return client;
   }
   std::string Host() const { return "Host: " + host_ + "\r\n"; }
-  static std::string Cookie() { return "Cookie: other=1; galatea_token=" + kToken + "\r\n"; }
+  std::string CookieName() const { return "galatea_token_" + std::to_string(port_); }
+  std::string Cookie() const { return "Cookie: other=1; " + CookieName() + "=" + kToken + "\r\n"; }
   std::string StatusOf(const std::string& target, const std::string& headers) {
     const auto line = Open(target, headers)->ReadLine();
     return line && line->size() > 12 ? line->substr(9, 3) : "nothing";
@@ -75,7 +76,7 @@ class WebTest : public testing::Test {
 TEST_F(WebTest, OnlyTheTokenOpensThePage) {
   EXPECT_EQ(StatusOf("/", Host()), "401");
   EXPECT_EQ(StatusOf("/?token=wrong", Host()), "401");
-  EXPECT_EQ(StatusOf("/", Host() + "Cookie: galatea_token=\r\n"), "401");
+  EXPECT_EQ(StatusOf("/", Host() + "Cookie: " + CookieName() + "=\r\n"), "401");
   EXPECT_EQ(StatusOf("/ws", Host() + Socket("http://" + host_)), "401");
   EXPECT_TRUE(hub_->ExpectError("web page: refused a request without the token from 127.0.0.1"));
   const auto first = Open("/?token=" + kToken, Host());

@@ -62,6 +62,7 @@ struct World {
     std::vector<std::string> heard;
     std::function<void(const std::string& line)> on_line;
     bool closed = false;
+    bool paused = false;
   };
   class MemoryLink final : public Link {
    public:
@@ -74,6 +75,8 @@ struct World {
     }
     void SendComment(std::string_view text) override { peer_->heard.emplace_back(text); }
     void Close() override { peer_->closed = true; }
+    void PauseReading() override { peer_->paused = true; }
+    void ResumeReading() override { peer_->paused = false; }
 
    private:
     World& world_;

@@ -18,7 +18,7 @@ namespace vm {
 /// more makes the one go that came first.
 class Acceptor {
  public:
-  static constexpr std::size_t kMaxUnadmitted = 32;
+  static constexpr std::size_t kMaxUnadmitted = 256;
   struct Connection {
     std::shared_ptr<StreamPeer> stream;  ///< not started again yet: call Start, then ResumeReading
     std::string from;                    ///< where it comes from, and its certificate's name

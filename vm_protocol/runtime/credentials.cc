@@ -1,5 +1,6 @@
 #include "vm_protocol/runtime/credentials.h"
 
+#include <arpa/inet.h>
 #include <openssl/crypto.h>
 #include <openssl/evp.h>
 #include <openssl/hmac.h>
@@ -54,8 +55,11 @@ Result<std::string> ReadToken(const Credentials& credentials) {
 }
 
 bool IsLoopback(const Endpoint& endpoint) {
+  in_addr address{};
+  const bool numeric = inet_pton(AF_INET, endpoint.host.c_str(), &address) == 1;
+  constexpr std::uint32_t kLoopbackNet = 127;
   return endpoint.kind == Endpoint::Kind::kUnix || endpoint.host == "localhost" ||
-         endpoint.host == "::1" || endpoint.host.starts_with("127.");
+         endpoint.host == "::1" || (numeric && ntohl(address.s_addr) >> 24 == kLoopbackNet);
 }
 
 Result<void> CheckListening(const Endpoint& endpoint, const Credentials& credentials) {

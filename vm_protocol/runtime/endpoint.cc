@@ -69,6 +69,7 @@ class ListenerImpl final : public Listener {
     AcceptNext();
   }
   ~ListenerImpl() override {
+    if (spare_ >= 0) close(spare_);
     if (endpoint_.kind == Endpoint::Kind::kUnix) unlink(endpoint_.host.c_str());
   }
   Endpoint endpoint() const override { return endpoint_; }
@@ -77,6 +78,7 @@ class ListenerImpl final : public Listener {
   void AcceptNext() {
     acceptor_.async_accept([this](const error_code& error, typename Protocol::socket socket) {
       if (error == asio::error::operation_aborted) return;
+      if (error == asio::error::no_descriptors && spare_ >= 0) return TurnAway(error);
       if (error && error != asio::error::connection_aborted) return Pause(error);
       in_trouble_ = in_trouble_ && error;
       if (!error) {
@@ -88,10 +90,25 @@ class ListenerImpl final : public Listener {
     });
   }
 
-  /// Trying again at once would spin: the connection stays in the system's queue.
-  void Pause(const error_code& error) {
+  /// With the descriptor kept for it the one who came is accepted and let go: it hears that it is
+  /// refused, and does not wait.
+  void TurnAway(const error_code& error) {
+    close(std::exchange(spare_, -1));
+    const int fd = accept(acceptor_.native_handle(), nullptr, nullptr);
+    if (fd >= 0) close(fd);
+    spare_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    Tell(error);
+    AcceptNext();
+  }
+
+  void Tell(const error_code& error) {
     if (!std::exchange(in_trouble_, true) && on_trouble_)
       on_trouble_(FormatEndpoint(endpoint_) + ": cannot accept: " + error.message());
+  }
+
+  /// Trying again at once would spin: the connection stays in the system's queue.
+  void Pause(const error_code& error) {
+    Tell(error);
     pause_.expires_after(kAcceptPause);
     pause_.async_wait([this](const error_code& cancelled) {
       if (!cancelled) AcceptNext();
@@ -104,6 +121,7 @@ class ListenerImpl final : public Listener {
   OnAccept on_accept_;
   OnTrouble on_trouble_;
   bool in_trouble_ = false;  // and on_trouble_ knows
+  int spare_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
 };
 
 /// Removes the file of a Unix socket nobody listens on any more.

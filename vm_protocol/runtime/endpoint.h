@@ -29,8 +29,8 @@ class Listener {
   using OnAccept = std::function<void(int fd, std::string peer_name)>;
   using OnTrouble = std::function<void(const std::string& text)>;
   /// Throws std::runtime_error with a sentence if the endpoint cannot be had. Port 0: any free one.
-  /// Where the system cannot give it a connection (no descriptors left), `on_trouble` hears it
-  /// once, and it tries again every kAcceptPause until that has passed.
+  /// Where the system cannot give it a connection, `on_trouble` hears it once; for lack of
+  /// descriptors whoever comes is turned away, else it tries again every kAcceptPause.
   static std::unique_ptr<Listener> Open(boost::asio::io_context& io, const Endpoint& endpoint,
                                         OnAccept on_accept, OnTrouble on_trouble = {});
   virtual ~Listener() = default;

@@ -169,7 +169,7 @@ class Program {
                      std::move(peer));
     }
     const int errors = server.Run();
-    return options_.strict && errors > 0 ? 1 : 0;
+    return server.failed() || (options_.strict && errors > 0) ? 1 : 0;
   }
 
  private:

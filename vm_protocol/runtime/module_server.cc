@@ -158,6 +158,8 @@ void ModuleServer::AddPeer(std::shared_ptr<StreamPeer> stream, PeerOptions optio
   Peer& peer = peers_[id];
   peer.stream = std::move(stream);
   peer.ends_module = options.ends_module;
+  peer.called = !options.first_lines.empty();
+  peer.stream->HoldInputWhileBehind();
   if (!options.already_read.empty()) peer.stream->Prefeed(std::move(options.already_read));
   for (const std::string& line : options.first_lines) peer.stream->Send(line);
   for (const Message& message : module_.Greeting()) Emit(id, message);
@@ -167,6 +169,7 @@ void ModuleServer::AddPeer(std::shared_ptr<StreamPeer> stream, PeerOptions optio
 }
 
 void ModuleServer::OnLine(PeerId id, Result<std::string_view> line) {
+  if (const auto found = peers_.find(id); found != peers_.end()) found->second.heard = true;
   if (!line) {
     ++errors_;
     Complain("error: " + FormatError(line.error()));
@@ -186,6 +189,9 @@ void ModuleServer::OnEnd(PeerId id, const std::string& reason) {
   if (found == peers_.end()) return;
   if (reason != "end of input") Complain("peer " + std::to_string(id) + ": " + reason);
   if (found->second.ends_module) {
+    const bool refused = found->second.called && !found->second.heard;
+    if (refused) Complain("the hub has ended the connection without a word");
+    failed_ = refused || reason != "end of input";
     module_ending_ = true;
     found->second.ended = true;
     return;

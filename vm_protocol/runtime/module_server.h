@@ -47,12 +47,16 @@ class ModuleServer {
   /// Makes Run return soon, whatever goes on. Safe within callbacks.
   void RequestStop() { stop_ = true; }
   bool stopping() const { return stop_; }
+  /// True if the peer whose end ends the module was lost: no orderly end.
+  bool failed() const { return failed_; }
 
  private:
   struct Peer {
     std::shared_ptr<StreamPeer> stream;
     bool ends_module = false;
-    bool ended = false;  // its input is; it is kept for what is still said to it
+    bool called = false;  // we have called it, and spoken first
+    bool heard = false;   // it has said something
+    bool ended = false;   // its input is; it is kept for what is still said to it
     std::chrono::steady_clock::time_point kept_until{};
     bool waiting = false;          // a `Wait` holds its input
     std::optional<Reply> on_idle;  // it waits for IDLE
@@ -85,6 +89,7 @@ class ModuleServer {
   bool hub_clock_ = false;
   bool module_ending_ = false;  // a peer whose end ends the module is gone
   bool stop_ = false;
+  bool failed_ = false;
   std::vector<std::function<void()>> held_exits_;  // `set Run = EXIT` said while something goes on
   int errors_ = 0;
 };

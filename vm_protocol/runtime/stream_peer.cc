@@ -105,15 +105,14 @@ class StreamPeerImpl final : public StreamPeer {
     ScheduleWrite();
   }
 
+  void HoldInputWhileBehind() override { holds_while_behind_ = true; }
+
   void PauseReading() override { paused_ = true; }
 
   void ResumeReading() override {
     if (!paused_ || closed_) return;
     paused_ = false;
-    asio::post(io_, [self = shared_from_this(), this] {
-      DeliverHeld();
-      ReadMore();
-    });
+    GoOnReading();
   }
 
   void Flush(std::function<void()> done) override {
@@ -160,10 +159,11 @@ class StreamPeerImpl final : public StreamPeer {
     }
     write_scheduled_ = false;
     FinishFlushes();
+    if (holds_while_behind_ && (!held_.empty() || !reading_)) GoOnReading();
   }
 
   void ReadMore() {
-    if (closed_ || paused_ || reading_ || input_ended_) return;
+    if (closed_ || paused_ || reading_ || input_ended_ || Behind()) return;
     reading_ = true;
     auto self = shared_from_this();
     if (input_) {
@@ -180,6 +180,18 @@ class StreamPeerImpl final : public StreamPeer {
   }
 
  private:
+  bool Behind() const { return holds_while_behind_ && backlog_bytes() > kMaxBacklogBytes / 4; }
+
+  void GoOnReading() {
+    asio::post(io_, [self = shared_from_this(), this] {
+      {
+        const WriteBatch batch;
+        DeliverHeld();
+      }
+      ReadMore();
+    });
+  }
+
   asio::posix::stream_descriptor* Output() {
     if (own_output_) return &*own_output_;
     return write_fd_ == read_fd_ && input_ ? &*input_ : nullptr;
@@ -230,7 +242,7 @@ class StreamPeerImpl final : public StreamPeer {
 
   void OnRawLine(Result<std::string_view> line) {
     if (closed_) return;
-    if (paused_ || !held_.empty()) {
+    if (paused_ || Behind() || !held_.empty()) {
       held_.push_back(line ? Result<std::string>(std::string(*line))
                            : std::unexpected(line.error()));
       return;
@@ -250,7 +262,7 @@ class StreamPeerImpl final : public StreamPeer {
 
   void DeliverHeld() {
     const auto self = shared_from_this();
-    while (!held_.empty() && !paused_ && !closed_) {
+    while (!held_.empty() && !paused_ && !closed_ && !Behind()) {
       // Taken out first, but the queue must not look empty to a nested OnRawLine: there is none,
       // since lines only arrive from the event loop.
       const Result<std::string> line = std::move(held_.front());
@@ -328,6 +340,7 @@ class StreamPeerImpl final : public StreamPeer {
   std::deque<Result<std::string>> held_;  // lines read while paused
   bool reading_ = false;
   bool paused_ = false;
+  bool holds_while_behind_ = false;
   bool input_ended_ = false;
   bool end_reported_ = false;
   std::string end_reason_;

@@ -36,6 +36,9 @@ class StreamPeer : public std::enable_shared_from_this<StreamPeer> {
   virtual void Start(OnLine on_line, OnClose on_close) = 0;
   /// Queues one line (without terminator) in the peer's framing and encoding.
   virtual void Send(std::string_view line) = 0;
+  /// Keeps lines back while a quarter of kMaxBacklogBytes is unsent: for a program that answers
+  /// what it hears, so that whoever asks faster than it reads waits. Before Start.
+  virtual void HoldInputWhileBehind() = 0;
   /// Stops and resumes reading (back-pressure, `set Wait`). Lines already read are kept back too.
   virtual void PauseReading() = 0;
   virtual void ResumeReading() = 0;
