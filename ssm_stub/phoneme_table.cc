@@ -1,8 +1,5 @@
 #include "ssm_stub/phoneme_table.h"
 
-#include <cstddef>
-#include <cstdint>
-
 namespace ssm_stub {
 namespace {
 
@@ -101,52 +98,6 @@ Millis PauseOf(char32_t sign) {
     if (pause.signs.find(sign) != std::u32string_view::npos) return Millis(pause.ms);
   }
   return Millis{0};
-}
-
-std::u32string Decode(std::string_view utf8) {
-  std::u32string text;
-  for (std::size_t at = 0; at < utf8.size();) {
-    const auto byte = [&](std::size_t i) -> std::uint32_t {
-      return i < utf8.size() ? static_cast<unsigned char>(utf8[i]) : 0u;
-    };
-    const std::uint32_t first = byte(at);
-    const std::size_t bytes = first < 0x80 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    char32_t code = bytes == 1 ? first : first & (0xFFu >> (bytes + 1));
-    bool good = first < 0x80 || first >= 0xC2;
-    for (std::size_t i = 1; i < bytes; ++i) {
-      good = good && (byte(at + i) & 0xC0) == 0x80;
-      code = code << 6 | (byte(at + i) & 0x3F);
-    }
-    text += good ? code : char32_t{0xFFFD};
-    at += good ? bytes : 1;
-  }
-  return text;
-}
-
-std::string Encode(std::u32string_view text) {
-  std::string utf8;
-  const auto tail = [&](std::uint32_t code, int shift) {
-    utf8 += static_cast<char>(0x80 | (code >> shift & 0x3F));
-  };
-  for (const char32_t code : text) {
-    const std::uint32_t c = code;
-    if (c < 0x80) {
-      utf8 += static_cast<char>(c);
-    } else if (c < 0x800) {
-      utf8 += static_cast<char>(0xC0 | c >> 6);
-      tail(c, 0);
-    } else if (c < 0x10000) {
-      utf8 += static_cast<char>(0xE0 | c >> 12);
-      tail(c, 6);
-      tail(c, 0);
-    } else {
-      utf8 += static_cast<char>(0xF0 | (c >> 18 & 0x07));
-      tail(c, 12);
-      tail(c, 6);
-      tail(c, 0);
-    }
-  }
-  return utf8;
 }
 
 }  // namespace ssm_stub

@@ -17,8 +17,4 @@ inline constexpr Millis kOtherPhoneme{70};
 Millis PauseOf(char32_t sign);
 inline constexpr Millis kEdgePause{100};  ///< before the first phoneme and after the last
 
-/// Text as code points. A byte that is no UTF-8 becomes U+FFFD.
-std::u32string Decode(std::string_view utf8);
-std::string Encode(std::u32string_view text);
-
 }  // namespace ssm_stub

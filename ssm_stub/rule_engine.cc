@@ -9,6 +9,7 @@
 #include "ssm_stub/english_rules.h"
 #include "ssm_stub/japanese_rules.h"
 #include "ssm_stub/phoneme_table.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace ssm_stub {
 namespace {
@@ -74,7 +75,7 @@ std::vector<Token> Tokens(std::u32string_view text) {
 }
 
 std::string LowerAscii(std::u32string_view word) {
-  std::string lower = Encode(word);
+  std::string lower = vm::Utf8Of(word);
   for (char& c : lower) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + ('a' - 'A'));
   }
@@ -133,7 +134,7 @@ class Speller {
                     stretch);
       }
       case Kind::kUnreadable:
-        if (unreadable_.size() < kNamed) unreadable_ += Encode(token.text);
+        if (unreadable_.size() < kNamed) unreadable_ += vm::Utf8Of(token.text);
         return Word(token, UnreadablePhonemes(), stretch);
     }
   }
@@ -161,7 +162,7 @@ class Speller {
     if (names.empty()) return;
     const ssm::Millis start = at_;
     for (const std::string& name : names) Add(name, PhonemeLength(name), stretch);
-    plan_.words.push_back({Encode(token.text), start, at_});
+    plan_.words.push_back({vm::Utf8Of(token.text), start, at_});
     spoke_ = true;
   }
   void Add(const std::string& name, Millis length, double stretch) {
@@ -197,7 +198,7 @@ class RuleEngine final : public ssm::SpeechEngine {
     std::vector<std::vector<Token>> tokens;
     std::vector<Token> all;
     for (const ssm::SpeechSpan& span : spans) {
-      tokens.push_back(Tokens(Decode(ssm::AsWritten(span.text))));
+      tokens.push_back(Tokens(vm::SignsOf(ssm::AsWritten(span.text))));
       all.insert(all.end(), tokens.back().begin(), tokens.back().end());
     }
     Speller speller(IsJapanese(all));

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "agent_manager/log_tool/entries.h"
+#include "vm_protocol/core/utf8.h"
 #include "vm_protocol/core/xml_text.h"
 
 namespace am {
@@ -115,11 +116,7 @@ std::string TimelineSvg(const std::vector<Entry>& entries, const std::vector<Exc
            colour + "\">" + title + "</circle>\n";
     std::string label =
         entry.message.slot + (entry.message.value.empty() ? "" : " = ") + entry.message.value;
-    if (label.size() > kMaxLabel) {
-      std::size_t cut = kMaxLabel;  // not within a character
-      while (cut > 0 && (static_cast<unsigned char>(label[cut]) & 0xC0) == 0x80) --cut;
-      label = label.substr(0, cut) + "...";
-    }
+    if (label.size() > kMaxLabel) label = std::string(vm::CutUtf8(label, kMaxLabel)) + "...";
     if (at < label_end[from]) continue;
     label_end[from] = at + 5.5 * static_cast<double>(label.size()) + 8;
     svg += "<text x=\"" + Number(at + 4) + "\" y=\"" + Number(y(from) - 9) + "\" fill=\"" + colour +

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ear/grammar/grammar_limits.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace ear {
 
@@ -193,8 +194,7 @@ class Walk {
     }
     if (static_cast<unsigned char>(text_[place.at]) < 0x80) return;
     for (std::size_t end = *stop - 1; end > place.at; --end) {
-      const bool is_first_byte = (static_cast<unsigned char>(text_[end]) & 0xC0) != 0x80;
-      if (is_first_byte) left.push_back({next, end, place.tags});
+      if (vm::BeginsSign(text_[end])) left.push_back({next, end, place.tags});
     }
   }
 

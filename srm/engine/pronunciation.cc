@@ -5,12 +5,13 @@ extern "C" {
 cst_lexicon* cmu_lex_init(void);
 }
 
+#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdlib>
 #include <mutex>
 
 #include "ear/grammar/grammar_limits.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace srm {
 namespace {
@@ -59,11 +60,7 @@ void JoinSmall(Phones& phones, std::string_view small) {
 
 Phones KanaPhones(std::string_view kana, bool long_vowels) {
   Phones phones;
-  for (std::size_t at = 0; at + 3 <= kana.size(); at += 3) {
-    const auto byte = [&](std::size_t i) {
-      return static_cast<std::uint32_t>(static_cast<unsigned char>(kana[at + i]));
-    };
-    std::uint32_t code = (byte(0) & 0x0F) << 12 | (byte(1) & 0x3F) << 6 | (byte(2) & 0x3F);
+  for (char32_t code : vm::SignsOf(kana)) {
     if (code >= 0x3041 && code <= 0x3096) code += 0x60;
     if (code == 0x30FC) {
       if (long_vowels && !phones.empty() && IsVowel(phones.back())) phones.push_back(phones.back());
@@ -153,13 +150,9 @@ std::string Below1000(unsigned long number) {
 }  // namespace
 
 bool IsKana(std::string_view word) {
-  if (word.empty() || word.size() % 3 != 0) return false;
-  for (std::size_t at = 0; at < word.size(); at += 3) {
-    const auto second = static_cast<unsigned char>(word[at + 1]);
-    if (static_cast<unsigned char>(word[at]) != 0xE3 || second < 0x81 || second > 0x83)
-      return false;
-  }
-  return true;
+  const std::u32string signs = vm::SignsOf(word);
+  return !signs.empty() &&
+         std::ranges::all_of(signs, [](char32_t c) { return c >= 0x3040 && c <= 0x30FF; });
 }
 
 std::string NumberWords(std::string_view digits) {

@@ -16,6 +16,7 @@
 #include "ssm/voice/phoneme_map.h"
 #include "ssm/voice/pronounced_text.h"
 #include "ssm/voice/resample.h"
+#include "vm_protocol/core/utf8.h"
 #ifdef SSM_HAS_MECAB
 #include "ssm/japanese/reader.h"
 #endif
@@ -42,22 +43,6 @@ PhonemeMap LoadMap(std::string_view table, const std::string& file) {
   auto map = PhonemeMap::Parse(table, file);
   if (!map) throw std::runtime_error(map.error().text);
   return std::move(*map);
-}
-
-/// The byte at which a character of UTF-8 text begins; its size if there are fewer.
-std::size_t ByteOf(std::string_view text, std::size_t character) {
-  std::size_t at = 0;
-  for (; at < text.size(); ++at) {
-    const bool begins = (static_cast<unsigned char>(text[at]) & 0xC0) != 0x80;
-    if (begins && character-- == 0) break;
-  }
-  return at;
-}
-
-std::size_t Characters(std::string_view text) {
-  std::size_t count = 0;
-  for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0) != 0x80 ? 1 : 0;
-  return count;
 }
 
 class EspeakEngine final : public PieceEngine {
@@ -135,9 +120,9 @@ class EspeakEngine final : public PieceEngine {
     for (const TextPiece& piece : CutPronounced(text)) {
       const auto mnemonics = IpaForEspeak(piece.ipa);
       if (!piece.ipa.empty() && mnemonics) {
-        const std::size_t begin = Characters(script.text);
+        const std::size_t begin = vm::SignsOf(script.text).size();
         script.text += "[[" + *mnemonics + "]]";
-        script.pronounced.push_back({begin, Characters(script.text), piece.text});
+        script.pronounced.push_back({begin, vm::SignsOf(script.text).size(), piece.text});
         continue;
       }
       for (const char c : piece.text) {
@@ -153,14 +138,14 @@ class EspeakEngine final : public PieceEngine {
     Piece piece{.phonemes = map.Map(answer.phonemes), .unspoken = script.unspoken};
     piece.samples = Resample(answer.samples, answer.rate, kSampleRateHz);
     const Millis end = vm::TotalDuration(piece.phonemes);
+    const std::u32string signs = vm::SignsOf(script.text);
     for (std::size_t i = 0; i < answer.words.size(); ++i) {
       const auto& word = answer.words[i];
       const Millis next = i + 1 < answer.words.size() ? answer.words[i + 1].at : end;
-      const std::size_t begin = ByteOf(script.text, word.character);
       std::string text =
           i < script.words.size()
               ? script.words[i]
-              : script.text.substr(begin, ByteOf(script.text, word.character + word.count) - begin);
+              : vm::Utf8Of(signs.substr(std::min(word.character, signs.size()), word.count));
       for (const auto& [first, last, written] : script.pronounced) {
         if (word.character >= first && word.character < last) text = written;
       }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <utility>
+
+#include "vm_protocol/core/utf8.h"
 
 namespace ssm {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 enum class Script { kNone, kLatin, kKana, kHan, kHangul, kCyrillic, kGreek, kArabic, kDevanagari };
 
 struct Range {
-  std::uint32_t first, last;
+  char32_t first, last;
   Script script;
 };
 constexpr std::array<Range, 14> kRanges = {{{'A', 'Z', Script::kLatin},
@@ -30,10 +31,10 @@ constexpr std::array<Range, 14> kRanges = {{{'A', 'Z', Script::kLatin},
                                             {0xF900, 0xFAFF, Script::kHan}}};
 
 // See ssm/voice/pronounced_text.h.
-constexpr std::uint32_t kPronouncedBegin = 0xE000;
+constexpr char32_t kPronouncedBegin = 0xE000;
 constexpr std::string_view kPronouncedEnd = "\xEE\x80\x82";
 
-Script ScriptOf(std::uint32_t code) {
+Script ScriptOf(char32_t code) {
   if (code == 0xD7 || code == 0xF7 || code == 0x30FB) return Script::kNone;
   for (const Range& range : kRanges) {
     if (code >= range.first && code <= range.last) return range.script;
@@ -83,29 +84,11 @@ std::string LanguageOf(Script script, std::string_view base) {
   return std::string(base);
 }
 
-struct Character {
-  std::uint32_t code;
-  std::size_t bytes;
-};
-
-Character Front(std::string_view text) {
-  const auto byte = [&](std::size_t i) -> std::uint32_t {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const std::uint32_t first = byte(0);
-  const std::size_t bytes = first < 0xC0 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (bytes == 1 || bytes > text.size()) return {first, 1};
-  std::uint32_t code = first & (0xFFu >> (bytes + 1));
-  for (std::size_t i = 1; i < bytes; ++i) code = code << 6 | (byte(i) & 0x3F);
-  return {code, bytes};
-}
-
 /// The Latin letters at the front, if they are an acronym that Japanese speakers spell out.
 bool IsAcronym(std::string_view text) {
   std::size_t size = 0;
   while (size < text.size() && text[size] >= 'A' && text[size] <= 'Z') ++size;
-  const Character next = Front(text.substr(std::min(size, text.size())));
-  return size >= 1 && size <= 3 && ScriptOf(next.code) != Script::kLatin;
+  return size >= 1 && size <= 3 && ScriptOf(vm::SignAt(text, size).value) != Script::kLatin;
 }
 
 }  // namespace
@@ -115,22 +98,22 @@ std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view 
   std::string leading;  // signs before the first letter go with it
   bool in_acronym = false;
   for (std::string_view rest = text; !rest.empty();) {
-    const Character c = Front(rest);
-    const std::string_view written = rest.substr(0, c.bytes);
-    if (c.code == kPronouncedBegin) {  // such a word goes with what is before it
+    const vm::CodePoint c = vm::SignAt(rest, 0);
+    const std::string_view written = rest.substr(0, c.length);
+    if (c.value == kPronouncedBegin) {  // such a word goes with what is before it
       const std::size_t end = rest.find(kPronouncedEnd);
-      const std::size_t bytes = end == rest.npos ? c.bytes : end + kPronouncedEnd.size();
+      const std::size_t bytes = end == rest.npos ? c.length : end + kPronouncedEnd.size();
       (runs.empty() ? leading : runs.back().text) += rest.substr(0, bytes);
       rest.remove_prefix(bytes);
       continue;
     }
-    const Script script = ScriptOf(c.code);
+    const Script script = ScriptOf(c.value);
     const bool word_begins =
         script == Script::kLatin &&
         (written.data() == text.data() ||
          ScriptOf(static_cast<unsigned char>(written.data()[-1])) != Script::kLatin);
     if (word_begins) in_acronym = base == "ja" && IsAcronym(rest);
-    rest.remove_prefix(c.bytes);
+    rest.remove_prefix(c.length);
     if (script == Script::kNone) {
       (runs.empty() ? leading : runs.back().text) += written;
       continue;

@@ -75,10 +75,6 @@ class Joiner {
   std::shared_ptr<PieceDetail> detail_ = std::make_shared<PieceDetail>();
 };
 
-std::size_t CharacterBytes(unsigned char first) {
-  return first < 0x80 ? 1 : first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-}
-
 bool IsWideStop(std::string_view c) { return c == "。" || c == "！" || c == "？" || c == "．"; }
 bool IsWideSign(std::string_view c) {
   return IsWideStop(c) || c == "、" || c == "，" || c == "　" || c == "「" || c == "」" ||
@@ -87,7 +83,7 @@ bool IsWideSign(std::string_view c) {
 
 bool HasSomethingToSay(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t bytes = CharacterBytes(static_cast<unsigned char>(text[at]));
+    const std::size_t bytes = vm::SignAt(text, at).length;
     const std::string_view c = text.substr(at, bytes);
     if (bytes == 1 ? std::isalnum(static_cast<unsigned char>(c[0])) != 0 || c[0] == '%' ||
                          c[0] == '$' || c[0] == '&' || c[0] == '@'
@@ -169,7 +165,7 @@ std::vector<std::string> SplitUtf8Sentences(std::string_view raw) {
     begin = room = end;
   };
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t bytes = CharacterBytes(static_cast<unsigned char>(text[at]));
+    const std::size_t bytes = vm::SignAt(text, at).length;
     const std::string_view c = std::string_view(text).substr(at, bytes);
     if (at - begin + bytes > kMaxSentenceBytes) cut(room > begin ? room : at);
     at += bytes;

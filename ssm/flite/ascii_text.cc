@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdint>
+
+#include "vm_protocol/core/utf8.h"
 
 namespace ssm {
 namespace {
@@ -25,28 +26,6 @@ constexpr Spelling kSpellings[] = {
 constexpr std::string_view kLatin1 =
     "AAAAAA CEEEEIIIIDNOOOOO  UUUUYT aaaaaa ceeeeiiiidnooooo  uuuuyty";
 static_assert(kLatin1.size() == 64);
-
-struct Character {
-  char32_t code = 0;
-  std::size_t bytes = 1;
-};
-
-/// The character at the front; a byte that begins none counts as U+FFFD.
-Character Front(std::string_view text) {
-  const auto byte = [&](std::size_t i) -> std::uint32_t {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const std::uint32_t first = byte(0);
-  if (first < 0x80) return {first, 1};
-  const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC2 ? 2 : 0;
-  if (bytes == 0 || bytes > text.size()) return {0xFFFD, 1};
-  char32_t code = first & (0xFFu >> (bytes + 1));
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return {0xFFFD, 1};
-    code = code << 6 | (byte(i) & 0x3F);
-  }
-  return {code, bytes};
-}
 
 /// True if the word before the full stop at `stop` is one that takes a full stop by itself.
 bool IsTitle(std::string_view text, std::size_t stop) {
@@ -85,7 +64,7 @@ AsciiText ToAscii(std::string_view utf8) {
     }
   };
   while (!utf8.empty()) {
-    const auto [code, bytes] = Front(utf8);
+    const auto [code, bytes] = vm::SignAt(utf8, 0);
     const std::string_view written = utf8.substr(0, bytes);
     utf8.remove_prefix(bytes);
     const auto spelling = std::find_if(std::begin(kSpellings), std::end(kSpellings),

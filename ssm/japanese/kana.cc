@@ -1,7 +1,8 @@
 #include "ssm/japanese/kana.h"
 
 #include <array>
-#include <cstdint>
+
+#include "vm_protocol/core/utf8.h"
 
 namespace ssm {
 namespace {
@@ -55,16 +56,7 @@ void Join(Names& names, std::string_view small) {
 
 std::vector<std::string> KanaToPhonemes(std::string_view kana) {
   Names names;
-  for (std::size_t at = 0; at + 3 <= kana.size();) {
-    const auto byte = [&](std::size_t i) {
-      return static_cast<std::uint32_t>(static_cast<unsigned char>(kana[at + i]));
-    };
-    if (byte(0) != 0xE3) {
-      ++at;
-      continue;
-    }
-    std::uint32_t code = (byte(0) & 0x0F) << 12 | (byte(1) & 0x3F) << 6 | (byte(2) & 0x3F);
-    at += 3;
+  for (char32_t code : vm::SignsOf(kana)) {
     if (code >= 0x3041 && code <= 0x3096) code += 0x60;  // hiragana
     if (code == 0x30FC) {
       if (!names.empty() && IsVowel(names.back())) names.push_back(std::string(names.back()));

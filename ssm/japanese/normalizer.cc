@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "vm_protocol/core/utf8.h"
+
 namespace ssm {
 namespace {
 
@@ -15,21 +17,16 @@ bool IsLetter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 
 /// Wide letters, digits and signs as their ASCII forms.
 std::string Narrow(std::string_view text) {
+  static constexpr std::u32string_view kKept = U"！？，";
   std::string narrow;
   for (std::size_t at = 0; at < text.size();) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
-    // U+FF01 to U+FF5E are EF BC 81 to EF BD 9E.
-    if (at + 3 <= text.size() && byte(0) == 0xEF && (byte(1) == 0xBC || byte(1) == 0xBD)) {
-      const int code = (byte(1) == 0xBC ? 0 : 0x40) + (byte(2) - 0x80);
-      const bool keep =
-          text.substr(at, 3) == "！" || text.substr(at, 3) == "？" || text.substr(at, 3) == "，";
-      if (!keep && code >= 1 && code <= 0x5E) {
-        narrow += static_cast<char>(0x20 + code);
-        at += 3;
-        continue;
-      }
+    const auto [sign, bytes] = vm::SignAt(text, at);
+    if (sign >= 0xFF01 && sign <= 0xFF5E && !kKept.contains(sign)) {
+      narrow += static_cast<char>(sign - 0xFF01 + '!');
+    } else {
+      narrow += text.substr(at, bytes);
     }
-    narrow += text[at++];
+    at += bytes;
   }
   return narrow;
 }

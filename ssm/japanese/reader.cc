@@ -2,11 +2,13 @@
 
 #include <mecab.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
 #include "embedded/ja_counters.h"
 #include "ssm/japanese/normalizer.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace ssm {
 namespace {
@@ -22,15 +24,11 @@ std::string Field(std::string_view feature, std::size_t wanted) {
   return field == "*" ? std::string() : std::string(field);
 }
 
-/// True for a text of kana and the long mark only. (U+3041 to U+30FF: E3 81 81 to E3 83 BF.)
+/// True for a text of kana and the long mark only.
 bool IsKana(std::string_view text) {
-  if (text.empty() || text.size() % 3 != 0) return false;
-  for (std::size_t at = 0; at < text.size(); at += 3) {
-    const auto second = static_cast<unsigned char>(text[at + 1]);
-    if (static_cast<unsigned char>(text[at]) != 0xE3 || second < 0x81 || second > 0x83)
-      return false;
-  }
-  return true;
+  const std::u32string signs = vm::SignsOf(text);
+  return !signs.empty() &&
+         std::ranges::all_of(signs, [](char32_t c) { return c >= 0x3040 && c <= 0x30FF; });
 }
 
 std::string PauseOf(std::string_view sign) {

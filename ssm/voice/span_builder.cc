@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "vm_protocol/core/utf8.h"
+
 namespace ssm {
 namespace {
 
@@ -81,7 +83,7 @@ std::string SpellOut(std::string_view text) {
   std::string spelled;
   for (std::size_t at = 0; at < text.size();) {
     std::size_t end = at + 1;
-    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+    while (end < text.size() && !vm::BeginsSign(text[end])) ++end;
     std::string one(text.substr(at, end - at));
     at = end;
     const auto byte = static_cast<unsigned char>(one[0]);

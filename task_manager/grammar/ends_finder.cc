@@ -143,7 +143,7 @@ bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || c == '\''; }
 bool EndsFinder::AtWordEnd(std::size_t at) const {
   if (dtmf_ || at == text_.size() || text_[at] == ' ') return true;
   if (split_digits_ && (!IsLetter(text_[at - 1]) || !IsLetter(text_[at]))) return true;
-  return IsUnspaced(DecodeBefore(text_, at)) || IsUnspaced(DecodeAt(text_, at).value);
+  return IsUnspaced(DecodeBefore(text_, at)) || IsUnspaced(vm::SignAt(text_, at).value);
 }
 std::size_t EndsFinder::SkipBlank(std::size_t at) const {
   return at < text_.size() && text_[at] == ' ' ? at + 1 : at;
@@ -167,7 +167,7 @@ Ends EndsFinder::OfGarbage(std::size_t at) {
   touched_end_ = true;
   Ends ends{at};
   for (std::size_t end = at; end < text_.size();) {
-    end += DecodeAt(text_, end).length;
+    end += vm::SignAt(text_, end).length;
     if (AtWordEnd(end) && text_[end - 1] != ' ') ends.push_back(end);
   }
   return ends;

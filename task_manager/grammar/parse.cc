@@ -27,7 +27,7 @@ std::string Parse::Text() const {
     if (part.empty()) continue;
     const bool joined =
         !dtmf && !text.empty() &&
-        (!IsUnspaced(DecodeBefore(text, text.size())) || !IsUnspaced(DecodeAt(part, 0).value));
+        (!IsUnspaced(DecodeBefore(text, text.size())) || !IsUnspaced(vm::SignAt(part, 0).value));
     if (joined) text += ' ';
     text += part;
   }

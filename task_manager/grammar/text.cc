@@ -32,26 +32,17 @@ bool IsUnspaced(char32_t c) {
          (c >= 0xFF00 && c <= 0xFFEF) || (c >= 0x20000 && c <= 0x3FFFF);
 }
 
-vm::CodePoint DecodeAt(std::string_view text, std::size_t at) {
-  return vm::DecodeUtf8(text, at).value_or(vm::CodePoint{0xFFFD, 1});
-}
-
 char32_t DecodeBefore(std::string_view text, std::size_t end) {
   if (end == 0) return 0;
   std::size_t start = end - 1;
-  while (start > 0 && end - start < 4 &&
-         (static_cast<unsigned char>(text[start]) & 0xC0U) == 0x80U) {
-    --start;
-  }
-  return DecodeAt(text, start).value;
+  while (start > 0 && end - start < 4 && !vm::BeginsSign(text[start])) --start;
+  return vm::SignAt(text, start).value;
 }
 
 std::string Fold(std::string_view text) {
   std::vector<std::u32string> words(1);
-  for (std::size_t at = 0; at < text.size();) {
-    const vm::CodePoint sign = DecodeAt(text, at);
-    const char32_t c = Lower(sign.value);
-    at += sign.length;
+  for (const char32_t sign : vm::SignsOf(text)) {
+    const char32_t c = Lower(sign);
     if (c == U' ' || (c >= U'\t' && c <= U'\r')) {
       if (!words.back().empty()) words.emplace_back();
     } else {

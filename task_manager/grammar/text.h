@@ -15,8 +15,6 @@ std::string FoldKeys(std::string_view folded);
 
 /// Writing without blanks between words: kana, kanji, hangul, full-width forms.
 bool IsUnspaced(char32_t c);
-/// The code point that starts at `at`; of a bad byte and of the end U+FFFD, one byte long.
-vm::CodePoint DecodeAt(std::string_view text, std::size_t at);
 /// The code point that ends before `end`; 0 at the start.
 char32_t DecodeBefore(std::string_view text, std::size_t end);
 

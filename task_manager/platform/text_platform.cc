@@ -11,11 +11,9 @@ Millis DurationOf(const Segment& segment) {
   switch (segment.kind) {
     case Segment::Kind::kText: {
       long long ms = 0;
-      for (std::size_t at = 0; at < segment.text.size();) {
-        const vm::CodePoint sign = srgs::DecodeAt(segment.text, at);
-        const bool wide = srgs::IsUnspaced(sign.value);
+      for (const char32_t sign : vm::SignsOf(segment.text)) {
+        const bool wide = srgs::IsUnspaced(sign);
         ms += wide ? TextPlatform::kMsPerCharacter : TextPlatform::kMsPerLetter;
-        at += sign.length;
       }
       return Millis(ms);
     }

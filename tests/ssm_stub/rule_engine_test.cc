@@ -5,6 +5,7 @@
 #include "ssm_stub/english_rules.h"
 #include "ssm_stub/japanese_rules.h"
 #include "ssm_stub/phoneme_table.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace ssm_stub {
 namespace {
@@ -14,9 +15,9 @@ std::string Join(const PhonemeNames& names) {
   for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
   return text;
 }
-std::string Kana(std::string_view text) { return Join(FromKana(Decode(text))); }
+std::string Kana(std::string_view text) { return Join(FromKana(vm::SignsOf(text))); }
 std::string Romaji(std::string_view text) {
-  const auto names = FromRomaji(Decode(text));
+  const auto names = FromRomaji(vm::SignsOf(text));
   return names ? Join(*names) : "-";
 }
 
@@ -55,7 +56,7 @@ TEST(KanaTest, SmallVowelsMakeForeignSyllables) {
 TEST(KanaTest, LettersOutOfPlaceAreNoTrouble) {
   for (const char* text :
        {"ー", "っ", "ん", "ゃ", "ぁ", "ーー", "っゃ", "んー", "んぁ", "ヶ", "ヵ", "ゎ"}) {
-    FromKana(Decode(text));
+    FromKana(vm::SignsOf(text));
   }
   EXPECT_EQ(Kana("ゃ"), "y a");
   EXPECT_EQ(Kana("ー"), "");
@@ -172,12 +173,6 @@ TEST(RuleEngineTest, WordsStandWhereTheirPhonemesDo) {
   ASSERT_EQ(plan.words.size(), 2u);
   EXPECT_EQ(plan.words[0], (ssm::WordTime{"Hello", ssm::Millis(100), ssm::Millis(430)}));
   EXPECT_EQ(plan.words[1], (ssm::WordTime{"you", ssm::Millis(630), ssm::Millis(790)}));
-}
-
-TEST(CodePointsTest, DecodeAndEncodeAreInverse) {
-  const std::string text = "aé あ 😀";
-  EXPECT_EQ(Encode(Decode(text)), text);
-  EXPECT_EQ(Decode("\x80"), U"\uFFFD");
 }
 
 }  // namespace

@@ -20,6 +20,20 @@ TEST(Utf8Test, EverySignIsReadAsItWasWritten) {
     EXPECT_FALSE(DecodeUtf8(bad, 0)) << bad;
 }
 
+TEST(Utf8Test, ATextIsItsSigns) {
+  const std::string text = "aé あ\U0001F600";
+  EXPECT_EQ(SignsOf(text), U"aé あ\U0001F600");
+  EXPECT_EQ(Utf8Of(SignsOf(text)), text);
+  EXPECT_EQ(SignsOf("\xe3\x81z\xff"), U"\uFFFD\uFFFDz\uFFFD");
+  EXPECT_EQ(SignAt("あ", 0).length, 3u);
+  for (const std::size_t at : {1u, 3u}) {
+    EXPECT_EQ(SignAt("あ", at).value, U'\uFFFD') << "within a sign, and at the end";
+    EXPECT_EQ(SignAt("あ", at).length, 1u);
+  }
+  EXPECT_TRUE(BeginsSign('a') && BeginsSign("あ"[0]));
+  EXPECT_FALSE(BeginsSign('\x80') || BeginsSign('\xbf'));
+}
+
 TEST(Utf8Test, ATextIsCutBetweenSigns) {
   EXPECT_EQ(CutUtf8("aあい", 6), "aあ");
   EXPECT_EQ(CutUtf8("aあい", 4), "aあ");

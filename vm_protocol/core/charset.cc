@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "vm_protocol/core/utf8.h"
+
 namespace vm {
 namespace {
 
@@ -80,7 +82,7 @@ Result<std::string> EncodeCharset(std::string_view text, const std::string& char
     converter.Convert("?", out);
     do {  // the rest of the character that is not there
       text.remove_prefix(1);
-    } while (!text.empty() && (static_cast<unsigned char>(text.front()) & 0xC0) == 0x80);
+    } while (!text.empty() && !BeginsSign(text.front()));
   }
 }
 

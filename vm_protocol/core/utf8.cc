@@ -32,7 +32,7 @@ std::size_t SequenceLength(std::string_view text, std::size_t i) {
   if (i + length > text.size()) return 0;
   if (Byte(text, i + 1) < low || Byte(text, i + 1) > high) return 0;
   for (std::size_t k = 2; k < length; ++k) {
-    if ((Byte(text, i + k) & 0xC0) != 0x80) return 0;
+    if (BeginsSign(text[i + k])) return 0;
   }
   return length;
 }
@@ -70,6 +70,20 @@ std::optional<CodePoint> DecodeUtf8(std::string_view text, std::size_t at) {
   return CodePoint{value, length};
 }
 
+CodePoint SignAt(std::string_view text, std::size_t at) {
+  return DecodeUtf8(text, at).value_or(CodePoint{0xFFFD, 1});
+}
+
+std::u32string SignsOf(std::string_view text) {
+  std::u32string signs;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint sign = SignAt(text, at);
+    signs += sign.value;
+    at += sign.length;
+  }
+  return signs;
+}
+
 void AppendUtf8(std::string& out, char32_t sign) {
   const auto put = [&out](char32_t byte) { out += static_cast<char>(byte); };
   if (sign < 0x80) {
@@ -89,25 +103,26 @@ void AppendUtf8(std::string& out, char32_t sign) {
   }
 }
 
+std::string Utf8Of(std::u32string_view signs) {
+  std::string text;
+  for (const char32_t sign : signs) AppendUtf8(text, sign);
+  return text;
+}
+
+bool BeginsSign(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
+
 std::string_view CutUtf8(std::string_view text, std::size_t max_bytes) {
   if (text.size() <= max_bytes) return text;
   std::size_t end = max_bytes;
-  while (end > 0 && (Byte(text, end) & 0xC0) == 0x80) --end;
+  while (end > 0 && !BeginsSign(text[end])) --end;
   return text.substr(0, end);
 }
 
 std::string ShownUtf8(std::string_view bytes) {
   std::string shown;
-  for (std::size_t at = 0; at < bytes.size();) {
-    const auto sign = DecodeUtf8(bytes, at);
-    if (!sign) {
-      AppendUtf8(shown, 0xFFFD);
-    } else if (sign->value < 0x20 || (sign->value >= 0x7F && sign->value < 0xA0)) {
-      shown += ' ';
-    } else {
-      shown += bytes.substr(at, sign->length);
-    }
-    at += sign ? sign->length : 1;
+  for (const char32_t sign : SignsOf(bytes)) {
+    const bool control = sign < 0x20 || (sign >= 0x7F && sign < 0xA0);
+    AppendUtf8(shown, control ? U' ' : sign);
   }
   return shown;
 }

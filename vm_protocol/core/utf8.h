@@ -21,9 +21,18 @@ struct CodePoint {
 };
 /// The sign that begins at `at`; none at the end, or where no well-formed sequence begins.
 std::optional<CodePoint> DecodeUtf8(std::string_view text, std::size_t at);
+/// The same; where DecodeUtf8 finds none, U+FFFD, one byte long.
+CodePoint SignAt(std::string_view text, std::size_t at);
+/// All signs of a text; each byte that is not UTF-8 becomes U+FFFD.
+std::u32string SignsOf(std::string_view text);
 
 /// REQUIRES: a Unicode scalar value.
 void AppendUtf8(std::string& out, char32_t sign);
+/// REQUIRES: Unicode scalar values.
+std::string Utf8Of(std::u32string_view signs);
+
+/// False for a byte that only continues a sequence (0x80 to 0xBF).
+bool BeginsSign(char byte);
 
 /// The beginning of a text, at most `max_bytes` long, that does not end within a sign.
 std::string_view CutUtf8(std::string_view text, std::size_t max_bytes);
