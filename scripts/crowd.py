@@ -158,7 +158,7 @@ def flooded(path, seconds):
     one, other = Client(path, "ONE"), Client(path, "OTHER")
     print("two talk, quiet:  ", ping(one, other, seconds))
     sink = subprocess.Popen([sys.executable, "-c", SINK, path])
-    wait_until(lambda: name_is_there(one, "SINK"), "the one who reads the flood did not come")
+    wait_until(lambda: is_there(one, "SINK"), "the one who reads the flood did not come")
     flood = subprocess.Popen([sys.executable, "-c", FLOOD, path])
     time.sleep(0.5)
     print("two talk, flooded:", ping(one, other, seconds))
@@ -168,8 +168,13 @@ def flooded(path, seconds):
 
 
 def is_there(client, name):
-    client.socket.sendall(f"to @{name} tell\ninq#m Run\n".encode())
-    return b"UNAVAILABLE" not in client.line() + client.line()
+    client.socket.sendall(f"to @{name} tell hello\ninq#m Run\n".encode())
+    there = True
+    while True:
+        line = client.line()
+        if b"#m" in line:
+            return there
+        there = there and b"UNKNOWN_MODULE" not in line
 
 
 def main():

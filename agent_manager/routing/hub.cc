@@ -140,21 +140,25 @@ void Hub::Leave(PeerKey key, const std::string& reason) {
 
 void Hub::EndInput(PeerKey key) {
   queue_.Post([this, key] {
-    if (directory_.ByKey(key) == nullptr) return;
-    half_closed_.insert(key);
-    clock_.After(kHalfClosedLimit, [this, key] { Leave(key, kEndOfInput); });
+    if (directory_.ByKey(key) != nullptr) half_closed_.try_emplace(key);
   });
 }
 
 /// Those who speak no more go once they have heard what they asked for.
 void Hub::ReleaseHalfClosed() {
-  std::erase_if(half_closed_, [this](PeerKey key) {
+  for (auto at = half_closed_.begin(); at != half_closed_.end();) {
+    const PeerKey key = at->first;
     const Peer* const peer = directory_.ByKey(key);
-    if (peer == nullptr) return true;
-    if (peer->asked > 0 || (owes_ && owes_(key))) return false;
-    peer->link->WhenSent([this, key] { Leave(key, kEndOfInput); });
-    return true;
-  });
+    const auto leave = [this, key] { Leave(key, kEndOfInput); };
+    if (peer != nullptr && (peer->asked > 0 || (owes_ && owes_(key)))) {
+      if (at->second == 0) at->second = clock_.After(kHalfClosedLimit, leave);
+      ++at;
+      continue;
+    }
+    clock_.Cancel(at->second);
+    at = half_closed_.erase(at);
+    if (peer != nullptr) peer->link->WhenSent(leave);
+  }
 }
 
 void Hub::WhenAllSent(std::function<void()> done) {

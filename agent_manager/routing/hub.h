@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -130,7 +131,7 @@ class Hub {
   ModuleLines lines_;
   ModuleClocks clocks_;
   Router router_;
-  std::set<PeerKey> half_closed_;
+  std::map<PeerKey, vm::TimerId> half_closed_;  // and what ends their waiting
   std::function<bool(PeerKey)> owes_;
   OnPresence on_presence_;
   PeerKey last_key_ = 0;
