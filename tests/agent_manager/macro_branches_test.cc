@@ -21,19 +21,8 @@ class MacroBranchesTest : public testing::Test {
               return vm::Fail(vm::Errc::kUnavailable, "no files");
             },
             [](const std::string&) {}) {
-    world_.hub.AddMachine(mcl_.slots());
+    world_.Connect(mcl_);
     mcl_.AddReader("emotion", ReadEmotion);
-    world_.hub.set_on_machine([this](vm::SlotMachine&, const Envelope& envelope) {
-      mcl_.Handle(envelope);
-      return vm::Result<Router::Taken>(Router::Taken{.taken = true});
-    });
-    world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
-      mcl_.OnReport(from, message);
-    });
-    world_.hub.set_on_presence(
-        [this](const std::string& name, bool present, const std::string& reason) {
-          mcl_.OnPresence(name, present, reason);
-        });
     client_ = world_.Join(PeerKind::kClient, "A");
     lamp_ = world_.Join(PeerKind::kModule, "LAMP", Dialect::kOriginal);
   }

@@ -22,19 +22,8 @@ class MacroLayerTest : public testing::Test {
               return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
             },
             [this](const std::string& path) { removed_.push_back(path); }) {
-    world_.hub.AddMachine(mcl_.slots(), {"FS-MCL"});
+    world_.Connect(mcl_, {"FS-MCL"});
     mcl_.AddReader("emotion", ReadEmotion);
-    world_.hub.set_on_machine([this](vm::SlotMachine&, const Envelope& envelope) {
-      mcl_.Handle(envelope);
-      return vm::Result<Router::Taken>(Router::Taken{.taken = true});
-    });
-    world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
-      mcl_.OnReport(from, message);
-    });
-    world_.hub.set_on_presence(
-        [this](const std::string& name, bool present, const std::string& reason) {
-          mcl_.OnPresence(name, present, reason);
-        });
     auto built_in = ParseMacroFile(BuiltInMacros());
     EXPECT_TRUE(built_in) << built_in.error().text;
     for (vm::SlotSpec& slot : built_in->slots) mcl_.Declare(std::move(slot));

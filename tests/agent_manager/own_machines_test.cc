@@ -13,25 +13,10 @@ namespace {
 
 using Strings = std::vector<std::string>;
 
-void Connect(World& world, OwnMachine& machine) {
-  world.hub.AddMachine(machine.slots(), {}, true);
-  world.hub.set_on_machine([&machine](vm::SlotMachine&, const Envelope& envelope) {
-    machine.Handle(envelope);
-    return vm::Result<Router::Taken>(Router::Taken{.taken = true});
-  });
-  world.hub.set_on_report([&machine](const std::string& from, const vm::Message& message) {
-    machine.OnReport(from, message);
-  });
-  world.hub.set_on_presence(
-      [&machine](const std::string& name, bool present, const std::string& reason) {
-        machine.OnPresence(name, present, reason);
-      });
-}
-
 TEST(ParallelTest, ItsLinesBeginWithTheSpeechAndKeepTheirTimes) {
   World world;
   Parallel parallel(world.clock, world.hub);
-  Connect(world, parallel);
+  world.Connect(parallel, {}, true);
   const auto voice = world.Join(PeerKind::kModule, "SSM", Dialect::kOriginal);
   const auto face = world.Join(PeerKind::kModule, "FSM", Dialect::kOriginal);
   const auto a = world.Join(PeerKind::kClient, "A");
@@ -55,7 +40,7 @@ TEST(ParallelTest, ItsLinesBeginWithTheSpeechAndKeepTheirTimes) {
 class SoundPlayerTest : public testing::Test {
  protected:
   SoundPlayerTest() {
-    Connect(world_, player_);
+    world_.Connect(player_, {}, true);
     voice_ = world_.JoinModern("SSM", vm::Time(0), [this](World::Peer&, const vm::Message& said) {
       if (said.command == vm::Command::kSet) set_.push_back(said.slot + " = " + said.value);
     });

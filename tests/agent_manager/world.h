@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "agent_manager/macros/own_machine.h"
 #include "agent_manager/routing/hub.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/scheduler.h"
@@ -132,6 +133,23 @@ struct World {
   }
   static bool Heard(const Peer& peer, const std::string& line) {
     return std::ranges::count(peer.heard, line) == 1;
+  }
+
+  /// One of the hub's own machines deals with its messages and hears what modules say.
+  void Connect(OwnMachine& machine, std::vector<std::string> aliases = {},
+               bool replaceable = false) {
+    hub.AddMachine(machine.slots(), std::move(aliases), replaceable);
+    hub.set_on_machine([&machine](vm::SlotMachine&, const Envelope& envelope) {
+      machine.Handle(envelope);
+      return vm::Result<Router::Taken>(Router::Taken{.taken = true});
+    });
+    hub.set_on_report([&machine](const std::string& from, const vm::Message& message) {
+      machine.OnReport(from, message);
+    });
+    hub.set_on_presence(
+        [&machine](const std::string& name, bool present, const std::string& reason) {
+          machine.OnPresence(name, present, reason);
+        });
   }
 
   LoopClock clock;
