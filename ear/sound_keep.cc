@@ -4,6 +4,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "vm_protocol/core/file_kind.h"
+
 namespace ear {
 namespace {
 
@@ -73,6 +75,9 @@ void SoundKeep::Keep(std::span<const std::int16_t> samples, bool longest) {
   const std::string path =
       (std::filesystem::path(folder_) / ("utterance-" + std::to_string(++count_) + ".wav"))
           .string();
+  if (auto fit = vm::CheckWritable(path); !fit) {
+    return slots_.ReportError("Listen.keep", fit.error());
+  }
   std::ofstream file(path, std::ios::binary);
   file << wav;
   file.close();

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "fsm/motion/table_text.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace fsm {
 namespace {
@@ -138,6 +139,7 @@ vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
 }
 
 vm::Result<void> SaveShapes(FsmCore& core, bool bilingual, const std::string& path) {
+  if (auto fit = vm::CheckWritable(path); !fit) return fit;
   std::ofstream out(path, std::ios::binary);
   out << "# Mouth shapes: name, the 17 mouth parameters, seal, tongue, hold (docs/face.md).\n";
   for (const MouthShape& shape : core.motion->shapes(bilingual)) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fsm/motion/table_text.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace fsm {
 namespace {
@@ -131,6 +132,7 @@ namespace {
 vm::Result<std::vector<HeadCurve>> ReadCurves(const std::vector<std::string>& files) {
   std::vector<HeadCurve> curves;
   for (const std::string& file : files) {
+    if (auto fit = vm::CheckReadable(file); !fit) return std::unexpected(fit.error());
     const auto text = ReadAll(file);
     if (!text) return std::unexpected(text.error());
     auto curve = ReadMotionFile(file, *text);

@@ -2,10 +2,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <span>
-#include <system_error>
+
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -159,18 +158,7 @@ vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text) {
 }
 
 vm::Result<std::string> ReadWhole(const std::string& path, std::size_t limit) {
-  std::error_code code;
-  const auto size = std::filesystem::file_size(path, code);
-  std::ifstream file(path, std::ios::binary);
-  if (code || !file) return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
-  if (size > limit) {
-    return vm::Fail(vm::Errc::kLimit, "'" + path + "' is longer than " + std::to_string(limit) +
-                                          " bytes, which is the most that is read");
-  }
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(size));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
+  return vm::ReadTextFile(path, limit);
 }
 
 vm::Result<PntFile> ReadPnt(const std::string& path) {

@@ -45,7 +45,7 @@ vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text);
 vm::Result<PntFile> ReadPnt(const std::string& path);
 vm::Result<LnkFile> ReadLnk(const std::string& path);
 
-/// All bytes of a plain file of at most `limit`. Errors: kUnavailable, kLimit.
+/// All bytes of a regular file of at most `limit`. Errors: those of vm::ReadTextFile.
 vm::Result<std::string> ReadWhole(const std::string& path, std::size_t limit);
 
 }  // namespace fsm

@@ -12,6 +12,7 @@
 
 #include "fsm/render/image_codec.h"
 #include "fsm/render/renderer.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace fsm {
 namespace {
@@ -124,9 +125,11 @@ vm::Result<void> WriteImage(const Image& image, const std::string& path) {
          static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
   const Format* format = FormatOf(path);
   if (!format || !format->encode) return BadEnding(path);
+  if (auto fit = vm::CheckWritable(path); !fit) return fit;
   const auto bytes = format->encode(image);
   // Written beside its place and then moved there, so that nobody ever reads half a picture.
   const std::string beside = path + ".part" + std::to_string(getpid());
+  if (auto fit = vm::CheckWritable(beside); !fit) return fit;
   File file(open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (!file.open()) return Refused("write", path);
   if (!WriteAll(file.get(), bytes) || !file.Close() || rename(beside.c_str(), path.c_str()) != 0) {

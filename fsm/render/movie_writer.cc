@@ -16,6 +16,7 @@
 #include "fsm/render/frame_feeder.h"
 #include "fsm/render/renderer.h"
 #include "fsm/render/yuv_planes.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace fsm {
 namespace {
@@ -123,12 +124,11 @@ class FfmpegMovieWriter : public MovieWriter {
   /// Replaces the draft by one with sound; on failure the silent one stays.
   vm::Result<void> AddSound(const std::string& sound) {
     const std::string with_sound = draft_ + ".sound";
-    auto ffmpeg = FfmpegProcess::Start(SoundWords(draft_, sound, with_sound));
-    vm::Result<void> done;
-    if (!ffmpeg) {
-      done = std::unexpected(ffmpeg.error());
-    } else {
-      done = (*ffmpeg)->Finish();
+    vm::Result<void> done = vm::CheckReadable(sound);
+    if (done) done = vm::CheckWritable(with_sound);
+    if (done) {
+      auto ffmpeg = FfmpegProcess::Start(SoundWords(draft_, sound, with_sound));
+      done = ffmpeg ? (*ffmpeg)->Finish() : std::unexpected(ffmpeg.error());
     }
     if (done && rename(with_sound.c_str(), draft_.c_str()) == 0) return {};
     unlink(with_sound.c_str());
@@ -201,6 +201,10 @@ class RawMovieWriter : public MovieWriter {
 };
 
 vm::Result<std::unique_ptr<MovieWriter>> OpenRaw(const std::string& path) {
+  struct stat state {};
+  if (stat(path.c_str(), &state) != 0 || !S_ISFIFO(state.st_mode)) {
+    if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
+  }
   // Without waiting: a pipe that nobody reads is an error at once.
   const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666);
   if (fd < 0) {
@@ -248,6 +252,7 @@ vm::Result<std::unique_ptr<MovieWriter>> MovieWriter::Open(const std::string& pa
                                              std::to_string(frames_per_second) + " per second");
   }
   if (raw) return OpenRaw(path);
+  if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
   auto draft = MakeDraft(path);
   if (!draft) return std::unexpected(std::move(draft.error()));
   auto ffmpeg = FfmpegProcess::Start(

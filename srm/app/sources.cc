@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "srm/engine/sound_file.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace srm {
 namespace {
@@ -45,6 +46,7 @@ vm::Result<std::unique_ptr<AudioSource>> OpenSource(const std::string& name,
                         "unix[@RATE]:PATH or portaudio[:DEVICE]");
   }
   if (source.kind == "wav") {
+    if (auto fit = vm::CheckReadable(source.place); !fit) return std::unexpected(fit.error());
     auto samples = ReadSound(source.place);
     if (!samples) return std::unexpected(samples.error());
     return std::make_unique<RecordedSource>(scheduler, std::move(*samples));

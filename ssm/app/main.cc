@@ -22,6 +22,7 @@
 #include "ssm/sinks/portaudio_sink.h"
 #include "ssm/sinks/sink_choice.h"
 #include "ssm/voice/voice_module.h"
+#include "vm_protocol/core/file_kind.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/module_main.h"
 
@@ -98,6 +99,9 @@ void ReadConfig(Options& options) {
 /// stderr to the end of a file, or back to where it went at the start for CONSOLE.
 vm::Result<void> RedirectErrors(const std::string& where) {
   static const int console = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (where != "CONSOLE") {
+    if (auto fit = vm::CheckWritable(where); !fit) return fit;
+  }
   const int target = where == "CONSOLE"
                          ? console
                          : open(where.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);

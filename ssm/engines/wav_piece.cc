@@ -12,10 +12,12 @@
 
 #include "ssm/voice/resample.h"
 #include "ssm/voice/wav_file.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace ssm {
 
 vm::Result<std::vector<std::int16_t>> ReadSoundFile(const std::string& path) {
+  if (auto fit = vm::CheckReadable(path); !fit) return std::unexpected(fit.error());
   SF_INFO info{};
   std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open(path.c_str(), SFM_READ, &info),
                                                    sf_close);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "ssm/voice/prosody.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace ssm {
 namespace {
@@ -55,6 +56,7 @@ bool ReadFrame(const std::string& line, std::size_t expected, double& f0, double
 }  // namespace
 
 vm::Result<void> WriteProsody(const Prosody& prosody, const std::string& path) {
+  if (auto fit = vm::CheckWritable(path); !fit) return fit;
   std::ofstream file(path, std::ios::trunc);
   file << "input_text: " << prosody.text << "\nspoken_text: " << prosody.spoken_text
        << "\nnumber_of_phonemes: " << prosody.phonemes.size()
@@ -73,6 +75,7 @@ vm::Result<void> WriteProsody(const Prosody& prosody, const std::string& path) {
 }
 
 vm::Result<Prosody> ReadProsody(const std::string& path) {
+  if (auto fit = vm::CheckReadable(path); !fit) return std::unexpected(fit.error());
   std::ifstream file(path);
   if (!file) {
     return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': " + std::strerror(errno));

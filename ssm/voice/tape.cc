@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "vm_protocol/core/file_kind.h"
+
 namespace ssm {
 
 vm::Result<std::unique_ptr<Tape>> Tape::Start(const std::string& path, vm::Time now) {
+  if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(fit.error());
   auto file = WavWriter::Open(path);
   if (!file) return std::unexpected(file.error());
   return std::unique_ptr<Tape>(new Tape(std::move(*file), now));

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "ssm/voice/wav_file.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace ssm {
 namespace {
@@ -31,6 +32,7 @@ vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& pa
   const auto samples = utterance.samples->Ready();
   auto saved = format == SoundFormat::kWav ? WriteWav(path, samples) : WriteRaw(path, samples);
   if (!saved) return saved;
+  if (auto fit = vm::CheckWritable(path + ".info"); !fit) return fit;
   std::ofstream info(path + ".info", std::ios::trunc);
   info << "input_text: " << utterance.text << "\nspoken_text: " << utterance.spoken_text
        << "\n-----\n";
@@ -47,6 +49,7 @@ vm::Result<void> SaveUtterance(const Utterance& utterance, const std::string& pa
 
 vm::Result<void> SaveLabels(const Utterance& utterance, const std::string& path) {
   constexpr std::int64_t kPerMs = 10'000;
+  if (auto fit = vm::CheckWritable(path); !fit) return fit;
   std::ofstream file(path, std::ios::trunc);
   Millis at{0};
   for (const vm::Phoneme& phoneme : utterance.plan.phonemes) {
@@ -60,11 +63,14 @@ vm::Result<void> SaveLabels(const Utterance& utterance, const std::string& path)
 }
 
 vm::Result<InfoFile> ReadInfo(const std::string& path) {
+  constexpr const char* kExpected = "; it must hold the phonemes, NAME [MS]";
+  if (const auto fit = vm::CheckReadable(path + ".info"); !fit) {
+    return vm::Fail(fit.error().code, fit.error().text + kExpected);
+  }
   std::ifstream info(path + ".info");
   if (!info) {
     return std::unexpected(
-        InfoError(vm::Errc::kUnavailable, path,
-                  std::string(std::strerror(errno)) + "; it must hold the phonemes, NAME [MS]"));
+        InfoError(vm::Errc::kUnavailable, path, std::string(std::strerror(errno)) + kExpected));
   }
   InfoFile read;
   std::string list;

@@ -10,6 +10,7 @@
 #include "ssm/voice/prosody.h"
 #include "ssm/voice/ssml.h"
 #include "ssm/voice/voice_module.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace ssm {
 
@@ -82,6 +83,7 @@ void VoiceModule::LoadPros(const std::string& path, SoundFormat, const vm::Reply
 }
 
 void VoiceModule::LoadParsed(const std::string& path, SoundFormat, const vm::Reply& reply) {
+  if (auto fit = vm::CheckReadable(path); !fit) return reply.Fail(fit.error());
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     return reply.Fail(

@@ -5,11 +5,14 @@
 #include <iostream>
 #include <utility>
 
+#include "vm_protocol/core/file_kind.h"
+
 namespace ssm {
 
 vm::Result<void> VoiceLog::Open(const std::string& where) {
   std::ofstream file;
   if (where != "NO" && where != "CONSOLE") {
+    if (auto fit = vm::CheckWritable(where); !fit) return fit;
     file.open(where, std::ios::app);
     if (!file) {
       return vm::Fail(vm::Errc::kUnavailable,

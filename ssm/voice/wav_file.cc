@@ -9,6 +9,8 @@
 #include <fstream>
 #include <utility>
 
+#include "vm_protocol/core/file_kind.h"
+
 namespace ssm {
 namespace {
 
@@ -72,12 +74,14 @@ void WavWriter::Flush() {
 }
 
 vm::Result<void> WriteWav(const std::string& path, std::span<const std::int16_t> samples) {
+  if (auto fit = vm::CheckWritable(path); !fit) return fit;
   auto writer = WavWriter::Open(path);
   if (!writer) return std::unexpected(writer.error());
   return (*writer)->Write(samples);
 }
 
 vm::Result<void> WriteRaw(const std::string& path, std::span<const std::int16_t> samples) {
+  if (auto fit = vm::CheckWritable(path); !fit) return fit;
   std::string bytes;
   bytes.reserve(samples.size() * 2);
   for (const std::int16_t sample : samples) {
@@ -93,6 +97,7 @@ vm::Result<void> WriteRaw(const std::string& path, std::span<const std::int16_t>
 }
 
 vm::Result<std::vector<std::int16_t>> ReadWav(const std::string& path) {
+  if (auto fit = vm::CheckReadable(path); !fit) return std::unexpected(fit.error());
   SF_INFO info{};
   SNDFILE* handle = sf_open(path.c_str(), SFM_READ, &info);
   if (handle == nullptr) return std::unexpected(CannotRead(path, sf_strerror(nullptr)));
@@ -115,6 +120,7 @@ vm::Result<std::vector<std::int16_t>> ReadWav(const std::string& path) {
 }
 
 vm::Result<std::vector<std::int16_t>> ReadRaw(const std::string& path) {
+  if (auto fit = vm::CheckReadable(path); !fit) return std::unexpected(fit.error());
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
   if (size < 0) return std::unexpected(CannotRead(path, std::strerror(errno)));

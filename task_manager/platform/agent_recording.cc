@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "task_manager/platform/agent_platform.h"
+#include "vm_protocol/core/file_kind.h"
 
 namespace vxml {
 namespace {
@@ -104,6 +105,7 @@ void AgentPlatform::AddSound(Input& input) {
 vm::Result<std::string> AgentPlatform::Recording(const std::string& uri) const {
   const auto found = recordings_.find(uri);
   if (found == recordings_.end()) return Platform::Recording(uri);
+  if (auto fit = vm::CheckReadable(found->second); !fit) return std::unexpected(fit.error());
   std::ifstream file(found->second, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) return vm::Fail(vm::Errc::kUnavailable, found->second + ": cannot be read");

@@ -1,12 +1,19 @@
 // The real program, spoken to through pipes.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
+
+#include "tests/support/process.h"
 
 namespace fsm {
 namespace {
@@ -140,6 +147,91 @@ TEST_F(FsmProcessTest, StrictTurnsRefusalsIntoTheExitCode) {
   EXPECT_EQ(Run("--headless", "set FaceExp = BORED 1 100 0\n"), 0);
   EXPECT_NE(err.find("'BORED' is no expression"), std::string::npos);
   EXPECT_EQ(Run("--headless --strict", "set FaceExp = BORED 1 100 0\n"), 1);
+}
+
+/// Named pipes in the test's folder, and the face started there.
+struct NamedPipeTest : FsmProcessTest {
+  void Pipes(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0) << name;
+    }
+  }
+  std::unique_ptr<support::Process> Start(const std::vector<std::string>& more) {
+    std::vector<std::string> words{GALATEA_BIN_DIR "/fsm", "--headless", "--size", "64x64"};
+    words.insert(words.end(), more.begin(), more.end());
+    return std::make_unique<support::Process>(
+        words, support::Process::Options{.cwd = folder.string(), .env = {}});
+  }
+  /// The line is answered with an error that has `why` in it.
+  static void Refused(support::Process& face, const std::string& line, const std::string& why) {
+    face.WriteLine(line);
+    const auto answer = face.Expect("rep#1 ");
+    ASSERT_TRUE(answer) << line;
+    EXPECT_NE(answer->find(why), std::string::npos) << line << "\n" << *answer;
+  }
+  static void Alive(support::Process& face) {
+    face.WriteLine("inq#2 Run");
+    EXPECT_TRUE(face.Expect("rep#2 Run = LIVE"));
+  }
+};
+
+TEST_F(NamedPipeTest, ThoseNamedInLinesAreRefusedAndItGoesOn) {
+  std::filesystem::create_directory(folder / "shots");
+  Pipes({"pipe", "pipe.png", "pipe.mp4", "pipe.rgba", "pipe.wav", "shots/a00001.bmp"});
+  const auto face = Start({});
+  const std::string irregular = "' is not a regular file";
+  Refused(*face, "save#1 mine << pipe", irregular);
+  Refused(*face, "do#1 pipe", irregular);
+  Refused(*face, "set#1 LipSync.pho < pipe", irregular);
+  Refused(*face, "set#1 SaveImage = pipe.png", irregular);
+  Refused(*face, "set#1 Background = pipe.png", "not a plain file");
+  Refused(*face, "set#1 MouthShapes = pipe", "cannot read pipe");
+  Refused(*face, "set#1 SaveMouthShapes = 14 pipe", irregular);
+  Refused(*face, "set#1 Capture = pipe a 10", "'pipe' is not a folder");
+  Refused(*face, "set#1 Record = pipe.mp4", irregular);
+  Refused(*face, "set#1 Record = pipe.rgba", "nobody reads that pipe");
+  face->WriteLine("set Record.sound = pipe.wav");
+  face->WriteLine("set Record = film.mp4");
+  Refused(*face, "set#1 Record = STOP", "'pipe.wav': 'pipe.wav" + irregular);
+  face->WriteLine("set Capture = shots a 10");
+  face->WriteLine("set LipSync.pho = pau 100");
+  face->WriteLine("set Speak = NOW");
+  Alive(*face);
+  EXPECT_TRUE(face->ExpectError("a00001.bmp" + irregular)) << face->ErrorText();
+}
+
+TEST_F(NamedPipeTest, AReaderOfAPipeStillGetsTheFrames) {
+  Pipes({"pipe.rgba"});
+  const auto face = Start({});
+  const int reader = open((folder / "pipe.rgba").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  face->WriteLine("set Record = pipe.rgba");
+  face->WriteLine("set#1 Record = STOP");
+  EXPECT_TRUE(face->Expect("rep#1 Record = STOP")) << face->ErrorText();
+  std::vector<char> frame(64 * 64 * 4 + 1);
+  EXPECT_EQ(read(reader, frame.data(), frame.size()), 64 * 64 * 4);
+  close(reader);
+}
+
+TEST_F(NamedPipeTest, ThoseNamedInAConfigurationOfFacesAreRefusedWhenTheFaceIsWorn) {
+  Pipes({"a.pnt"});
+  std::ofstream(folder / "rest") << "";
+  std::ofstream(folder / "config.txt")
+      << "DEF_WFM_PNT rest\nDEF_WFM_LNK rest\nMaskFile a rest a.pnt\n";
+  const auto face = Start({"-C", "config.txt", "--mask", "galatea"});
+  Refused(*face, "set#1 Mask = a", "a.pnt' is not a regular file");
+  Alive(*face);
+}
+
+TEST_F(NamedPipeTest, ThoseNamedInAHeadsFileDoNotHoldItUp) {
+  Pipes({"pipe.bin", "pipe.mtl"});
+  std::ofstream(folder / "a.gltf")
+      << R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"pipe.bin"}]})";
+  std::ofstream(folder / "a.obj") << "mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  for (const char* head : {"a.gltf", "a.obj"}) {
+    const auto face = Start({"--head", head});
+    face->CloseInput();
+    EXPECT_TRUE(face->Wait()) << head;
+  }
 }
 
 TEST_F(FsmProcessTest, SizeAndPositionAreTakenAsOptions) {

@@ -1,6 +1,7 @@
 // The module with a decoder that hears what it is told, on a virtual clock; and the end-pointer.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -335,6 +336,17 @@ TEST_F(RecognizerTest, WhatWasSaidIsKeptWithItsLeadAndItsFinalSilence) {
   ASSERT_TRUE(kept) << kept.error().text;
   EXPECT_NE(std::search(sound_.begin(), sound_.end(), kept->begin(), kept->begin() + 12'000),
             sound_.end());
+}
+
+TEST_F(RecognizerTest, WhatWasSaidIsNotWrittenToANamedPipe) {
+  support::TempDir folder;
+  const std::string pipe = folder / "utterance-1.wav";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  Tell("set Listen.keep = " + folder.path());
+  Tell("set Input = wav:a");
+  Tell("set Run = START");
+  UntilIdle();
+  EXPECT_EQ(errors_, (Lines{"ACCESS '" + pipe + "' is not a regular file"}));
 }
 
 TEST_F(RecognizerTest, ALongUtteranceIsCutWhereItIsTold) {

@@ -1,6 +1,7 @@
 // The real program on the virtual clock: bad input is one clear error, and the next request works.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -63,6 +64,19 @@ TEST_F(ProgramTest, BadGrammarsAreNamedWithTheirLine) {
   const std::string left = Write("l.gram", "$a = $a x | y\n$a\n");
   EXPECT_NE(ErrorOf("set Grammar.file = g " + left).find("rule 'a' begins with itself"),
             std::string::npos);
+}
+
+TEST_F(ProgramTest, NamedPipesInLinesAreRefusedAndItGoesOn) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string line : {"save mine << ", "do ", "set Input = wav:", "set Grammar.load < ",
+                                 "set Grammar.file = g "}) {
+    const std::string error = ErrorOf(line + pipe);
+    EXPECT_NE(error.find("'" + pipe + "' is not a regular file"), std::string::npos) << error;
+  }
+  EXPECT_NE(ErrorOf("set Listen.keep = " + pipe).find("is no folder"), std::string::npos);
+  ear_->WriteLine("set#1 Listen.timeout = 500");
+  EXPECT_TRUE(ear_->Expect("rep#1 Listen.timeout = 500"));
 }
 
 TEST_F(ProgramTest, ALyingHeaderAndSilenceDoNoHarmAndTheNextRequestWorks) {

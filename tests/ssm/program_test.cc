@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
@@ -115,6 +116,43 @@ TEST_P(VoiceProgramTest, StopIsQuick) {
     EXPECT_GE(spoken, 295);
     EXPECT_LE(spoken, 400) << "50 ms and what a busy machine adds";
   }
+}
+
+TEST_P(VoiceProgramTest, NamedPipesInLinesAreRefusedAndItGoesOn) {
+  const TempDir folder;
+  for (const char* name : {"pipe", "a.info", "b.wav.lab"}) {
+    ASSERT_EQ(mkfifo((folder / name).c_str(), 0600), 0);
+  }
+  Process program(Command(), {.cwd = folder.path(), .env = {}});
+  program.WriteLine("set Text = hello");
+  program.WriteLine("set#ready SaveWAV = c");
+  ASSERT_TRUE(program.Expect("rep#ready SaveWAV = c"));
+  ASSERT_EQ(unlink((folder / "c.info").c_str()), 0);
+  ASSERT_EQ(mkfifo((folder / "c.info").c_str(), 0600), 0);
+  Lines lines{"save#1 mine << pipe",    "do#1 pipe",
+              "set#1 Text < pipe",      "set#1 SaveWAV = pipe",
+              "set#1 SaveRAW = pipe",   "set#1 Save = pipe",
+              "set#1 SaveWAV = a",      "set#1 Save = b.wav",
+              "set#1 SavePros = pipe",  "set#1 Log = pipe",
+              "set#1 Err = pipe",       "set#1 Record = pipe",
+              "set#1 LoadWAV = pipe",   "set#1 LoadRAW = pipe",
+              "set#1 LoadWAV = c",      "set#1 SpeechFile = pipe",
+              "set#1 LoadPros = pipe",  "set#1 ProsFile = pipe",
+              "set#1 ParsedText = pipe"};
+  const bool engines = GetParam() == std::string("ssm");
+  if (engines) lines.push_back("set#1 Text = <speak><audio src=\"pipe\"/></speak>");
+  for (const std::string& line : lines) {
+    program.WriteLine(line);
+    const auto answer = program.Expect("rep#1 ");
+    ASSERT_TRUE(answer) << line;
+    const bool none = !engines && line.starts_with("set#1 Err");  // the stub has no such file
+    EXPECT_NE(answer->find(none ? ".error = UNAVAILABLE" : "' is not a regular file"),
+              std::string::npos)
+        << line << "\n"
+        << *answer;
+  }
+  program.WriteLine("set#2 Text = hello again");
+  EXPECT_TRUE(program.Expect("rep#2 Text = hello again"));
 }
 
 TEST_P(VoiceProgramTest, ABatchPipedInIsDoneAtOnceOnTheVirtualClock) {

@@ -222,6 +222,22 @@ TEST(ModuleProcessTest, AWorldThatRefusesIsOneSentenceAndANonzeroEnd) {
       << module.ErrorText();
 }
 
+TEST(ModuleProcessTest, ANamedPipeInALineIsRefusedAndTheRestGoesOn) {
+  const support::TempDir folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  Process module({kModule});
+  const std::string why = "'" + pipe + "' is not a regular file";
+  for (const std::string line : {"set#1 X < ", "do#1 ", "save#1 mine << "}) {
+    module.WriteLine(line + pipe);
+    const auto answer = module.Expect("rep#1 ");
+    ASSERT_TRUE(answer) << line;
+    EXPECT_NE(answer->find(why), std::string::npos) << *answer;
+  }
+  module.WriteLine("set X = 5");
+  EXPECT_TRUE(module.Expect("rep X = 5"));
+}
+
 TEST(ModuleProcessTest, HelpAndVersionAreThere) {
   Process help({kModule, "--help"});
   EXPECT_TRUE(help.Expect("--listen"));

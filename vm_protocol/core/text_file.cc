@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "vm_protocol/core/file_kind.h"
+
 namespace vm {
 namespace {
 
@@ -29,13 +31,9 @@ Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes)
   if (file.fd < 0) return cannot(std::strerror(errno));
   struct stat info {};
   if (fstat(file.fd, &info) != 0) return cannot(std::strerror(errno));
-  if (S_ISDIR(info.st_mode)) return cannot(std::strerror(EISDIR));
-  if (!S_ISREG(info.st_mode)) return Fail(Errc::kAccess, "'" + path + "' is not a regular file");
-  const auto over = [&] {
-    return Fail(Errc::kTooLong,
-                "file '" + path + "' is over " + std::to_string(max_bytes) + " bytes");
-  };
-  if (info.st_size > 0 && static_cast<std::size_t>(info.st_size) > max_bytes) return over();
+  if (auto regular = CheckRegular(path, info, max_bytes); !regular) {
+    return std::unexpected(std::move(regular.error()));
+  }
   std::string text;
   std::array<char, 16384> buffer;
   while (true) {
@@ -44,7 +42,9 @@ Result<std::string> ReadTextFile(const std::string& path, std::size_t max_bytes)
     if (n < 0) return cannot(std::strerror(errno));
     if (n == 0) return text;
     text.append(buffer.data(), static_cast<std::size_t>(n));
-    if (text.size() > max_bytes) return over();  // it grew, or has no size as those in /proc
+    if (text.size() > max_bytes) {  // it grew, or has no size as those in /proc
+      return std::unexpected(FileTooLong(path, max_bytes));
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <utility>
 
+#include "vm_protocol/core/file_kind.h"
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/core/utf8.h"
@@ -25,6 +26,7 @@ constexpr auto kIdleCheck = std::chrono::milliseconds(20);
 constexpr std::size_t kMaxFileBytes = 4u << 20;  // read by `<` and `do FILE`
 
 Result<void> AppendTextFile(const std::string& path, const std::string& text) {
+  if (auto fit = CheckWritable(path); !fit) return fit;
   std::ofstream file(path, std::ios::binary | std::ios::app);
   if (!file || !(file << text) || !file.flush()) {
     return Fail(Errc::kUnavailable, "cannot write '" + path + "': " + std::strerror(errno));
