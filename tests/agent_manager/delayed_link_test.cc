@@ -28,7 +28,9 @@ TEST_P(DelayedLinkTest, TheHubKnowsWhereAFarClockStands) {
   const std::string enter =
       std::string("ip link set lo up") + (*GetParam().setup ? " && " : "") + GetParam().setup;
   if (std::system(("unshare -rn sh -c '" + enter + "' 2>/dev/null >&2").c_str()) != 0)
-    GTEST_SKIP() << "not permitted here: unshare -rn, " << enter;
+    GTEST_SKIP()
+        << "no network of one's own with delays (unshare -rn as a user who may; tc of the Debian "
+           "package iproute2; the kernel's sch_netem)";
   const support::TempDir folder;
   const std::string path = folder / "config.json";
   std::ofstream(path)

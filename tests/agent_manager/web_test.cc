@@ -222,7 +222,8 @@ const char* Chromium() {
 
 TEST_F(WebTest, WhatABrowsersMicrophoneHearsTheEarUnderstands) {
   const char* const browser = Chromium();
-  if (browser == nullptr) GTEST_SKIP() << "no chromium-headless-shell and no chromium here";
+  if (browser == nullptr)
+    GTEST_SKIP() << "no chromium here (Debian package chromium-headless-shell or chromium)";
   const std::string sound = folder_ / "tone.wav";
   ASSERT_EQ(std::system(("python3 -c \"import wave, math, struct; w = wave.open('" + sound +
                          "', 'wb'); w.setparams((1, 2, 48000, 0, 'NONE', '')); "
@@ -248,7 +249,8 @@ TEST_F(WebTest, WhatABrowsersMicrophoneHearsTheEarUnderstands) {
 /// A whole browser, where there is one, does what a new user would.
 TEST_F(WebTest, ABrowserShowsThePageAndWorksIt) {
   const char* const browser = Chromium();
-  if (browser == nullptr) GTEST_SKIP() << "no chromium-headless-shell and no chromium here";
+  if (browser == nullptr)
+    GTEST_SKIP() << "no chromium here (Debian package chromium-headless-shell or chromium)";
   const std::string address = "http://" + host_ + "/";
   Process page({"python3", GALATEA_SOURCE_DIR "/tests/support/browse.py", browser,
                 folder_ / "profile", address + "?token=" + kToken,
