@@ -229,6 +229,7 @@ TEST_F(NamedPipeTest, ThoseNamedInAHeadsFileDoNotHoldItUp) {
   std::ofstream(folder / "a.obj") << "mtllib pipe.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
   for (const char* head : {"a.gltf", "a.obj"}) {
     const auto face = Start({"--head", head});
+    face->WriteLine("set SaveImage = a.png");  // the head is read when it is first drawn
     face->CloseInput();
     EXPECT_TRUE(face->Wait()) << head;
   }
