@@ -60,7 +60,7 @@ TEST_F(FaceEditorTest, AMouseOfTheWindowSystemMovesAPoint) {
     words.insert(words.begin(), "xdotool");
     Process tool(words, {"", env_});
     ASSERT_EQ(tool.Wait(), 0) << tool.ErrorText();
-    Ask("wait 200");  // the window takes its events with its frames
+    TakeEvents();
   };
   xdo({"mousemove", at_x, std::to_string(std::lround(at.y))});
   xdo({"mousedown", "1"});
@@ -82,13 +82,15 @@ TEST_F(FaceEditorTest, AFaceIsBuiltOfPointsThatWereDraggedAndWorn) {
   if (const auto networks = facefit::FaceNetworks::Load(""); !networks) {
     GTEST_SKIP() << networks.error().text;
   }
-  ASSERT_EQ(RunScript("open " + DrawnPhoto() + "\ndrag mouth 0 5\nbuild anna\nquit\n"), 0)
+  ASSERT_EQ(RunScript("open " + DrawnPhoto() +
+                      "\ndrag mouth 0 5\nbuild anna\n"
+                      "set slider jaw_width 2\nsave identity berta\nquit\n"),
+            0)
       << program_->ErrorText();
-  EXPECT_EQ(Output(), folder_ + "/faces/anna\n");
+  EXPECT_TRUE(Output().starts_with(folder_ + "/faces/anna\n")) << Output();
   std::ifstream file(folder_ + "/faces/anna/face.txt");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   EXPECT_GT(fsm::ReadFaceSet("face.txt", text).points.size(), 100U);
-  ASSERT_EQ(RunScript("set slider jaw_width 2\nsave identity berta\nquit\n"), 0);
   for (const char* name : {"anna", "berta"}) {
     ASSERT_EQ(
         RunScript("wait\nscreenshot " + folder_ + "/" + name + ".png\nquit\n", {"--mask", name}), 0)
@@ -131,6 +133,7 @@ TEST_F(FaceEditorTest, EveryPageIsDrawn) {
 }
 
 TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
+  finds_faces_ = false;
   size_ = "";
   const std::string shot = "screenshot " + folder_ + "/";
   const std::string script =
@@ -166,7 +169,8 @@ TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
 }
 
 TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {
-  size_ = "";
+  size_ = "640x800";
+  finds_faces_ = false;
   ASSERT_EQ(RunScript("page expressions\nclick expression\nclick SAD\nclick 2\nclick Remove\n"
                       "get expression SAD 2\nclick Undo\nget expression SAD 2\n"
                       "page units\nclick AU 12L\nget look\n"
@@ -186,6 +190,7 @@ TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {
 }
 
 TEST_F(FaceEditorTest, ClosingAsksWhenSomethingIsNotSaved) {
+  finds_faces_ = false;
   EXPECT_EQ(RunScript("close\nget look\n"), 0) << "nothing to ask: " << program_->ErrorText();
   ASSERT_EQ(RunScript("set slider jaw_width 1\nclose\nclick Go on editing\nget unsaved\n"
                       "close\nclick Close without saving\nget nothing\n"),
@@ -195,6 +200,7 @@ TEST_F(FaceEditorTest, ClosingAsksWhenSomethingIsNotSaved) {
 }
 
 TEST_F(FaceEditorTest, ASavedTableIsReadByTheFace) {
+  finds_faces_ = false;
   ASSERT_EQ(RunScript("set mouth a 12 15\nset expression HAPPY 1 12 0.5\nset key NOD 1 1 90 8 0 0\n"
                       "save tables " +
                       folder_ + "/tables\nget unsaved\nquit\n"),
