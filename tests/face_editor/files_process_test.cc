@@ -115,7 +115,7 @@ TEST_F(EditorFilesTest, TheDialogOpensFilesOfItsKindAndWalksFolders) {
 }
 
 TEST_F(EditorFilesTest, TheDialogAsksBeforeItReplacesAFile) {
-  size_ = "800x600";
+  size_ = "640x600";
   finds_faces_ = false;
   std::ofstream(folder_ + "/mine.txt") << "mine";
   const std::string open =
