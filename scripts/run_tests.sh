@@ -20,7 +20,7 @@ for test in xml.parse(sys.argv[1]).iter("testcase"):
     reasons = re.findall(r"^\S+:\d+: Skipped\n(.*)", said, re.MULTILINE)
     if not reasons and test.find("skipped") is not None:
         reasons = said.strip().splitlines()[-1:] or ["no reason given"]
-    needs.update(reason.strip() or "no reason given" for reason in reasons[:1])
+    needs.update(reason.strip() or "no reason given" for reason in reasons)
 if needs:
     listed = "; ".join(f"{count}: {reason}" for reason, count in needs.most_common())
     print(f"tests: {sum(needs.values())} skipped: {listed}", file=sys.stderr)

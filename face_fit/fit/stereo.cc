@@ -185,10 +185,12 @@ Peak FindPeak(int reach, F value) {
 std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
                                          const fsm::Image& front, const fsm::Image& side,
                                          View& view) {
+  std::vector<float> light;  // of one patch, kept for its memory
   const auto sample = [&](const Patch& patch, auto&& pixel) {
-    std::vector<float> light;
-    light.reserve(patch.camera.size());
-    for (const glm::vec3& q : patch.camera) light.push_back(Brightness(ColourAt(side, pixel(q))));
+    light.clear();
+    for (std::size_t i = 0; i < patch.camera.size(); ++i) {
+      light.push_back(Brightness(ColourAt(side, pixel(i))));
+    }
     Flatten(light);
     return Alike(patch.light, light);
   };
@@ -196,17 +198,21 @@ std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
   for (int round = 0; round < 2; ++round) {
     const Seen seen = LookAt(base, fit, front, view.pose);
     std::vector<PoseMark> marks;
+    std::vector<glm::vec2> pixels;
     const float mm = view.pose.PixelsPerMm();
     for (const Patch& patch : PatchesOf(seen)) {
       const auto shown = [&](const glm::vec3& q) {
         return view.pose.Project(view.pose.ToCamera(fit.pose.FromCamera(q)));
       };
+      // Projected once: turning a head takes longer than looking up a pixel.
+      pixels.clear();
+      for (const glm::vec3& q : patch.camera) pixels.push_back(shown(q));
       float best = kAlike;
       glm::vec2 by(0);
       for (int y = -4; y <= 4; ++y) {
         for (int x = -6; x <= 6; ++x) {
           const glm::vec2 off = glm::vec2(x, y) * mm;
-          const float alike = sample(patch, [&](const glm::vec3& q) { return shown(q) + off; });
+          const float alike = sample(patch, [&](std::size_t i) { return pixels[i] + off; });
           if (alike <= best) continue;
           best = alike;
           by = off;
@@ -227,7 +233,8 @@ std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
   for (const Patch& patch : PatchesOf(seen)) {
     const Peak peak = FindPeak(kReach, [&](int k) {
       const float by = kStep * static_cast<float>(k);
-      const float alike = sample(patch, [&](const glm::vec3& q) {
+      const float alike = sample(patch, [&](std::size_t i) {
+        const glm::vec3& q = patch.camera[i];
         const glm::vec3 moved = fit.pose.Unproject(fit.pose.Project(q), q.z + by);
         return view.pose.Project(view.pose.ToCamera(fit.pose.FromCamera(moved)));
       });

@@ -26,12 +26,15 @@ template <typename F>
 void Combine(const Tensor& a, const Tensor& b, Tensor& out, F f) {
   const std::size_t n = a.values.size();
   const std::size_t m = b.values.size();
+  const float* left = a.values.data();
+  const float* right = b.values.data();
+  float* to = out.values.data();
   if (m == n) {
-    for (std::size_t i = 0; i < n; ++i) out.values[i] = f(a.values[i], b.values[i]);
+    for (std::size_t i = 0; i < n; ++i) to[i] = f(left[i], right[i]);
     return;
   }
   for (std::size_t i = 0; i < n; i += m) {
-    for (std::size_t k = 0; k < m; ++k) out.values[i + k] = f(a.values[i + k], b.values[k]);
+    for (std::size_t k = 0; k < m; ++k) to[i + k] = f(left[i + k], right[k]);
   }
 }
 void Activate(Activation activation, std::vector<float>& values);

@@ -197,6 +197,8 @@ SurfaceIndex::SurfaceIndex(const WeldedSurface& surface, float reach)
     const auto& t = surface.triangles[i];
     const glm::vec3 low = glm::min(surface.at[t[0]], glm::min(surface.at[t[1]], surface.at[t[2]]));
     const glm::vec3 high = glm::max(surface.at[t[0]], glm::max(surface.at[t[1]], surface.at[t[2]]));
+    low_.push_back(low);
+    high_.push_back(high);
     const glm::ivec3 a(glm::floor(low / cell_)), b(glm::floor(high / cell_));
     if ((b.x - a.x + 1) * (b.y - a.y + 1) * (b.z - a.z + 1) > 4096) continue;
     for (int x = a.x; x <= b.x; ++x) {
@@ -229,6 +231,9 @@ std::optional<SurfaceIndex::Hit> SurfaceIndex::Find(const WeldedSurface& other,
         const auto found = cells_.find(Cell({x, y, z}));
         if (found == cells_.end()) continue;
         for (const std::uint32_t i : found->second) {
+          // No place of a triangle lies nearer than its box; the margin is for rounding.
+          const glm::vec3 off = glm::max(glm::max(low_[i] - p, p - high_[i]), 0.0f);
+          if (glm::dot(off, off) > 1.001f * least + 1e-6f) continue;
           const auto& t = surface_.triangles[i];
           const glm::vec3 part =
               NearestPart(p, surface_.at[t[0]], surface_.at[t[1]], surface_.at[t[2]]);

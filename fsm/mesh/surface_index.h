@@ -57,6 +57,7 @@ class SurfaceIndex {
   std::int64_t Cell(glm::ivec3 c) const;
   const WeldedSurface& surface_;
   float reach_, cell_;
+  std::vector<glm::vec3> low_, high_;  ///< corners of each triangle's box
   std::unordered_map<std::int64_t, std::vector<std::uint32_t>> cells_;
 };
 

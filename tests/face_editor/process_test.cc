@@ -60,7 +60,7 @@ TEST_F(FaceEditorTest, AMouseOfTheWindowSystemMovesAPoint) {
     words.insert(words.begin(), "xdotool");
     Process tool(words, {"", env_});
     ASSERT_EQ(tool.Wait(), 0) << tool.ErrorText();
-    Ask("wait 200");  // the window takes its events with its frames
+    TakeEvents();
   };
   xdo({"mousemove", at_x, std::to_string(std::lround(at.y))});
   xdo({"mousedown", "1"});
@@ -82,13 +82,15 @@ TEST_F(FaceEditorTest, AFaceIsBuiltOfPointsThatWereDraggedAndWorn) {
   if (const auto networks = facefit::FaceNetworks::Load(""); !networks) {
     GTEST_SKIP() << networks.error().text;
   }
-  ASSERT_EQ(RunScript("open " + DrawnPhoto() + "\ndrag mouth 0 5\nbuild anna\nquit\n"), 0)
+  ASSERT_EQ(RunScript("open " + DrawnPhoto() +
+                      "\ndrag mouth 0 5\nbuild anna\n"
+                      "set slider jaw_width 2\nsave identity berta\nquit\n"),
+            0)
       << program_->ErrorText();
-  EXPECT_EQ(Output(), folder_ + "/faces/anna\n");
+  EXPECT_TRUE(Output().starts_with(folder_ + "/faces/anna\n")) << Output();
   std::ifstream file(folder_ + "/faces/anna/face.txt");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   EXPECT_GT(fsm::ReadFaceSet("face.txt", text).points.size(), 100U);
-  ASSERT_EQ(RunScript("set slider jaw_width 2\nsave identity berta\nquit\n"), 0);
   for (const char* name : {"anna", "berta"}) {
     ASSERT_EQ(
         RunScript("wait\nscreenshot " + folder_ + "/" + name + ".png\nquit\n", {"--mask", name}), 0)
@@ -131,13 +133,14 @@ TEST_F(FaceEditorTest, EveryPageIsDrawn) {
 }
 
 TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
-  size_ = "";
+  finds_faces_ = false;
+  size_ = "960x800";
   const std::string shot = "screenshot " + folder_ + "/";
   const std::string script =
       "page fields\nwait\nchoose unit 28\nclick unit\nclick 29 Jaw thrust\nget rows 29\n"
       "click row 1 degrees\nget rows 29\n" +
       shot + "jaw.png\nclick Undo\nget rows 29\n" + shot +
-      "undone.png\nclick Add row\nget rows 29\n" + shot + "away.png\nmouse move 1130 310\n" + shot +
+      "undone.png\nclick Add row\nget rows 29\n" + shot + "away.png\nmouse move 810 310\n" + shot +
       "dots.png\nclick remove row 2\nget rows 29\nquit\n";
   ASSERT_EQ(RunScript(script), 0) << program_->ErrorText();
   std::istringstream lines(Output());
@@ -154,8 +157,8 @@ TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
     const fsm::Image a = Shot(one), b = Shot(other);
     std::size_t count = 0;
     for (std::size_t y = 480; y < 680; ++y) {
-      for (std::size_t x = 300; x < 500; ++x) {
-        const std::size_t i = 4 * (y * 1280 + x);
+      for (std::size_t x = 140; x < 340; ++x) {
+        const std::size_t i = 4 * (y * 960 + x);
         if (std::abs(a.rgba[i] - b.rgba[i]) > 8) ++count;
       }
     }
@@ -166,7 +169,8 @@ TEST_F(FaceEditorTest, FieldsAreMovedWithTheMouseAndTheHeadFollowsAtOnce) {
 }
 
 TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {
-  size_ = "";
+  size_ = "640x800";
+  finds_faces_ = false;
   ASSERT_EQ(RunScript("page expressions\nclick expression\nclick SAD\nclick 2\nclick Remove\n"
                       "get expression SAD 2\nclick Undo\nget expression SAD 2\n"
                       "page units\nclick AU 12L\nget look\n"
@@ -186,6 +190,7 @@ TEST_F(FaceEditorTest, WidgetsChangeWhatIsEdited) {
 }
 
 TEST_F(FaceEditorTest, ClosingAsksWhenSomethingIsNotSaved) {
+  finds_faces_ = false;
   EXPECT_EQ(RunScript("close\nget look\n"), 0) << "nothing to ask: " << program_->ErrorText();
   ASSERT_EQ(RunScript("set slider jaw_width 1\nclose\nclick Go on editing\nget unsaved\n"
                       "close\nclick Close without saving\nget nothing\n"),
@@ -195,6 +200,7 @@ TEST_F(FaceEditorTest, ClosingAsksWhenSomethingIsNotSaved) {
 }
 
 TEST_F(FaceEditorTest, ASavedTableIsReadByTheFace) {
+  finds_faces_ = false;
   ASSERT_EQ(RunScript("set mouth a 12 15\nset expression HAPPY 1 12 0.5\nset key NOD 1 1 90 8 0 0\n"
                       "save tables " +
                       folder_ + "/tables\nget unsaved\nquit\n"),

@@ -12,9 +12,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
-#include <optional>
+#include <map>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
+#include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
 namespace facefit {
@@ -28,22 +31,15 @@ constexpr const char* kPhotos[] = {"collins_nasa.png", "hopper_usnavy.jpg",
 /// which lie 90 apart.
 using Drawing = std::function<glm::vec4(glm::vec2 place, glm::vec3 below)>;
 
-class CoverTest : public testing::Test {
+class CoverTest : public NetworkTest {
  protected:
-  static void SetUpTestSuite() {
-    const auto photos = support::Photos();
-    auto loaded = FaceNetworks::Load("");
-    missing_ = !photos.Has() ? photos.Missing() : !loaded ? loaded.error().text : "";
-    if (!missing_.empty()) return;
-    networks_.emplace(std::move(*loaded));
-    base_.emplace(BaseHead::See(*networks_, "galatea"));
-  }
   static void TearDownTestSuite() {
-    base_.reset();
-    networks_.reset();
+    seen_.clear();
+    NetworkTest::TearDownTestSuite();
   }
   void SetUp() override {
-    if (!missing_.empty()) GTEST_SKIP() << missing_;
+    if (const auto photos = support::Photos(); !photos.Has()) GTEST_SKIP() << photos.Missing();
+    NetworkTest::SetUp();
   }
 
   static FoundFace Find(const fsm::Image& photo) {
@@ -53,14 +49,28 @@ class CoverTest : public testing::Test {
   }
 
   static Cover Look(const std::string& name, const Drawing& drawing = {}) {
-    auto photo = ReadPhoto(support::Photos() / name);
-    EXPECT_TRUE(photo);
-    if (!photo) return {};
-    if (drawing) Draw(Find(*photo), drawing, *photo);
-    return FindCover(*networks_, *base_, Find(*photo), *photo);
+    const Seen& seen = AsItIs(name);
+    if (!drawing) return FindCover(*networks_, Galatea(), seen.face, seen.photo);
+    fsm::Image photo = seen.photo;
+    Draw(seen.face, drawing, photo);
+    return FindCover(*networks_, Galatea(), Find(photo), photo);
   }
 
  private:
+  /// A photo with nothing drawn on it, read and looked at once.
+  struct Seen {
+    fsm::Image photo;
+    FoundFace face;
+  };
+  static const Seen& AsItIs(const std::string& name) {
+    const auto known = seen_.find(name);
+    if (known != seen_.end()) return known->second;
+    auto photo = ReadPhoto(support::Photos() / name);
+    if (!photo) throw std::runtime_error(photo.error().text);
+    const FoundFace face = Find(*photo);
+    return seen_[name] = {std::move(*photo), face};
+  }
+
   static void Draw(const FoundFace& face, const Drawing& drawing, fsm::Image& photo) {
     const glm::vec2 right(face.points[33]), left(face.points[263]), middle = 0.5F * (right + left);
     const glm::vec2 across = (left - right) / 90.0F;
@@ -79,9 +89,7 @@ class CoverTest : public testing::Test {
     }
   }
 
-  static inline std::string missing_;
-  static inline std::optional<FaceNetworks> networks_;
-  static inline std::optional<BaseHead> base_;
+  static inline std::map<std::string, Seen> seen_;
 };
 
 TEST_F(CoverTest, NothingIsBeforeTheFacesAsTheyAre) {

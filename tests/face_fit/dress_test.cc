@@ -8,7 +8,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
-#include <optional>
 #include <vector>
 
 #include "face_fit/dress/enlarge.h"
@@ -16,6 +15,7 @@
 #include "face_fit/dress/matte.h"
 #include "face_fit/dress/sheet.h"
 #include "face_fit/find/figure_finder.h"
+#include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
 namespace {
@@ -350,16 +350,15 @@ TEST(EnlargeTest, ColoursGoThroughTheirPixelsAndContoursAreStraight) {
 }
 
 /// The built-in head as if a photo showed it, with shoulders that the photo's sides cut off.
-class SheetTest : public testing::Test {
+class SheetTest : public NetworkTest {
  protected:
   static constexpr int kPhoto = 300;
   void SetUp() override {
-    auto networks = FaceNetworks::Load("");
-    if (!networks) GTEST_SKIP() << networks.error().text;
-    base_.emplace(BaseHead::See(*networks, "galatea"));
+    NetworkTest::SetUp();
+    if (IsSkipped()) return;
     fit_.pose.focal = 760;
     fit_.pose.centre = {kPhoto / 2, kPhoto / 2};
-    fit_.worn = base_->rest.position;
+    fit_.worn = Galatea().rest.position;
     for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
       fit_.points.push_back({at, glm::vec3(0)});
     }
@@ -376,7 +375,7 @@ class SheetTest : public testing::Test {
   static float Shoulder(float off) { return 240 + 0.3F * std::max(off - 40, 0.0F); }
   fsm::FaceSet Sheet() {
     fsm::FaceSet set;
-    MakeSheet(*base_, fit_, figure_, set);
+    MakeSheet(Galatea(), fit_, figure_, set);
     return set;
   }
   /// The pixel over which a vertex lies.
@@ -384,7 +383,6 @@ class SheetTest : public testing::Test {
     return fit_.pose.Project(fit_.pose.ToCamera(vertex.position));
   }
 
-  std::optional<BaseHead> base_;
   Fit fit_;
   Figure figure_{{.width = kPhoto, .height = kPhoto, .rgba = {}}, Field(kPhoto, kPhoto)};
 };
@@ -428,7 +426,7 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
   // In the photo the whole face is 6 mm higher than at rest.
   for (glm::vec3& p : fit_.worn) p.y += p.z > 0 ? 6.0F : 0.0F;
   const fsm::FaceSet moved = Sheet();
-  const glm::vec3 cheek = base_->places[234].On(base_->rest.position);
+  const glm::vec3 cheek = Galatea().places[234].On(Galatea().rest.position);
   const auto motion = [&](glm::vec2 near) {
     float nearest = 1e9F, by = 0;
     for (const auto& vertex : moved.sheet) {
@@ -450,7 +448,9 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
 TEST_F(SheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   fit_.pose.turn.y = glm::radians(25.0F);
   const fsm::FaceSet set = Sheet();
-  const auto at = [&](std::size_t point) { return base_->places[point].On(base_->rest.position); };
+  const auto at = [&](std::size_t point) {
+    return Galatea().places[point].On(Galatea().rest.position);
+  };
   // Within the corners of the mouth, below them, and within the corners of the eyes.
   const glm::vec3 in(5, 0, 0), down(0, 9, 0);
   for (const glm::vec3 opening : {at(78) + in, at(308) - in, at(78) + in - down,
@@ -471,8 +471,8 @@ TEST_F(SheetTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
   fit_.pose.focal = 250;
   fit_.pose.turn.y = glm::radians(15.0F);
   const fsm::FaceSet set = Sheet();
-  const glm::vec3 right = base_->places[78].On(base_->rest.position),
-                  left = base_->places[308].On(base_->rest.position);
+  const glm::vec3 right = Galatea().places[78].On(Galatea().rest.position),
+                  left = Galatea().places[308].On(Galatea().rest.position);
   for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
     const glm::vec3 p = 0.5F * (set.sheet[set.sheet_triangles[i]].position +
                                 set.sheet[set.sheet_triangles[i + 2]].position);

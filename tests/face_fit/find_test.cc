@@ -98,7 +98,7 @@ BaseHead Exact(const BaseHead& base) {
 }
 
 TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  const BaseHead& base = Galatea();
   const FoundFace face = SeenOf(base.places, base.rest.position);
   const Fit fit = FitFace(Exact(base), face);
   EXPECT_LT(glm::distance(fit.pose.turn, SomePose().turn), 0.01F);
@@ -107,7 +107,7 @@ TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
 }
 
 TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  const BaseHead& base = Galatea();
   // Corners that rise steeply without going outward.
   const fsm::UnitTable own(fsm::Table("own.txt",
                                       "field 12 25 -42 22 25 both 0 11 0\n"

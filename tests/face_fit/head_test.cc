@@ -10,6 +10,7 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -36,8 +37,20 @@ class HeadTest : public NetworkTest {
     if (const auto heads = support::Heads(); !heads.Has()) GTEST_SKIP() << heads.Missing();
     NetworkTest::SetUp();
   }
+  static void TearDownTestSuite() {
+    subjects_.clear();
+    NetworkTest::TearDownTestSuite();
+  }
 
-  Subject Read(const std::string& name) {
+  /// Read and looked at once.
+  static const Subject& Of(const std::string& name) {
+    auto& subject = subjects_[name];
+    if (!subject) subject.emplace(Read(name));
+    return *subject;
+  }
+
+ private:
+  static Subject Read(const std::string& name) {
     const std::string folder = support::Heads() / name;
     const auto file = fsm::ReadHeadFile(folder + "/neutral.obj");
     EXPECT_TRUE(file) << file.error().text;
@@ -71,6 +84,8 @@ class HeadTest : public NetworkTest {
     }
     return subject;
   }
+
+  static inline std::map<std::string, std::optional<Subject>> subjects_;
 };
 
 /// Mean distance of `carried` from `truth` over the flesh that really moves, as part of its motion.
@@ -96,7 +111,7 @@ float ErrorOf(const Subject& subject, const std::vector<glm::vec3>& truth,
 
 TEST_F(HeadTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) {
   for (const char* name : {"ict", "makehuman"}) {
-    const Subject subject = Read(name);
+    const Subject& subject = Of(name);
     const auto ours = fsm::Head::Make("galatea", false);
     fsm::HeadVertices rest;
     ours->Evaluate({}, rest);
@@ -133,7 +148,7 @@ TEST_F(HeadTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) {
 
 TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
   for (const char* name : {"ict", "makehuman"}) {
-    const Subject subject = Read(name);
+    const Subject& subject = Of(name);
     const auto pairs = subject.pairs;
     const auto mean = [&](const std::vector<glm::vec3>& position, fsm::FacePart part) {
       float y = 0, count = 0;

@@ -3,21 +3,41 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "face_fit/find/face_networks.h"
+#include "face_fit/fit/base_head.h"
 
 namespace facefit {
 
 /// A test that needs the networks that find faces; it skips with their message where they are not.
+/// They and the built-in head as they see it are shared by the tests of a suite, which do not
+/// change them: what a network is shown last leaves nothing in it.
 class NetworkTest : public testing::Test {
  protected:
-  void SetUp() override {
+  static void SetUpTestSuite() {
     auto loaded = FaceNetworks::Load("");
-    if (!loaded) GTEST_SKIP() << loaded.error().text;
-    networks_.emplace(std::move(*loaded));
+    missing_ = loaded ? "" : loaded.error().text;
+    if (loaded) networks_.emplace(std::move(*loaded));
   }
-  std::optional<FaceNetworks> networks_;
+  static void TearDownTestSuite() {
+    base_.reset();
+    networks_.reset();
+  }
+  void SetUp() override {
+    if (!networks_) GTEST_SKIP() << missing_;
+  }
+  static const BaseHead& Galatea() {
+    if (!base_) base_.emplace(BaseHead::See(*networks_, "galatea"));
+    return *base_;
+  }
+
+  static inline std::optional<FaceNetworks> networks_;
+
+ private:
+  static inline std::string missing_;
+  static inline std::optional<BaseHead> base_;
 };
 
 }  // namespace facefit

@@ -13,48 +13,55 @@ namespace facefit {
 namespace {
 
 /// The built-in head as if a photo of 300 pixels showed it, and a map of one skin with grain, with
-/// a band across the cheeks that shines, and the forehead as well.
+/// a band across the cheeks that shines, and the forehead as well. Where the map's skin lies is
+/// worked out once; each test has a map of its own.
 class SmileShadeTest : public NetworkTest {
  protected:
   static constexpr int kPhoto = 300;
+  static void TearDownTestSuite() {
+    placed_.reset();
+    NetworkTest::TearDownTestSuite();
+  }
   void SetUp() override {
     NetworkTest::SetUp();
     if (IsSkipped()) return;
-    base_.emplace(BaseHead::See(*networks_, "galatea"));
-    fit_.pose.focal = 760;
-    fit_.pose.centre = {kPhoto / 2, kPhoto / 2};
-    fit_.worn = base_->rest.position;
-    places_ = PlaceSkin(*base_, fit_, fit_.pose, true);
+    if (!placed_) {
+      Fit fit;
+      fit.pose.focal = 760;
+      fit.pose.centre = {kPhoto / 2, kPhoto / 2};
+      fit.worn = Galatea().rest.position;
+      placed_.emplace(PlaceSkin(Galatea(), fit, fit.pose, true));
+    }
     map_ = {.width = kMapSide, .height = kMapSide, .rgba = {}};
-    for (std::size_t i = 0; i < places_.up.size(); ++i) {
+    for (std::size_t i = 0; i < placed_->up.size(); ++i) {
       const float y = Height(i);
-      const bool band = std::abs(y - middle()) < 5 || places_.up[i] > 10;
+      const bool band = std::abs(y - middle()) < 5 || placed_->up[i] > 10;
       const int grain = static_cast<int>(i * 7919 % 13) - 6;
       const auto c = static_cast<std::uint8_t>((band ? 190 : 150) + grain);
       map_.rgba.insert(map_.rgba.end(), {c, c, c, 255});
     }
   }
-  glm::vec3 Place(std::size_t point) const { return base_->places[point].On(base_->rest.position); }
+  glm::vec3 Place(std::size_t point) const {
+    return Galatea().places[point].On(Galatea().rest.position);
+  }
   float Height(std::size_t i) const {
-    return places_.up[i] + base_->head->Landmark("nasion").y + kBrowsEnd;
+    return placed_->up[i] + Galatea().head->Landmark("nasion").y + kBrowsEnd;
   }
   /// Between nose and mouth, on the cheeks.
   float middle() const { return 0.5F * (Place(2).y + Place(61).y); }
   /// The mean over cheeks at one height.
   float Mean(float y) const {
     float sum = 0, count = 0;
-    for (std::size_t i = 0; i < places_.up.size(); ++i) {
-      const float x = std::abs(places_.across[i]);
-      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || places_.facing[i] < 0.2F) continue;
+    for (std::size_t i = 0; i < placed_->up.size(); ++i) {
+      const float x = std::abs(placed_->across[i]);
+      if (x < 30 || x > 42 || std::abs(Height(i) - y) > 1 || placed_->facing[i] < 0.2F) continue;
       sum += map_.rgba[4 * i];
       ++count;
     }
     return sum / count;
   }
 
-  std::optional<BaseHead> base_;
-  Fit fit_;
-  SkinPlaces places_;
+  static inline std::optional<SkinPlaces> placed_;
   fsm::Image map_;
   Field seen_{kMapSide, kMapSide, 1};
 };
@@ -62,12 +69,12 @@ class SmileShadeTest : public NetworkTest {
 TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
   const fsm::Image before = map_;
   EXPECT_GT(Mean(middle()) - Mean(middle() - 9), 35);
-  EvenSmileShade(*base_, places_, seen_, 1, map_);
+  EvenSmileShade(Galatea(), *placed_, seen_, 1, map_);
   EXPECT_LT(std::abs(Mean(middle()) - Mean(middle() - 9)), 16);
   // Neighbours differ as before.
   float rough = 0, was = 0;
-  for (std::size_t i = 1; i < places_.up.size(); ++i) {
-    if (std::abs(std::abs(places_.across[i]) - 36) > 6 || std::abs(Height(i) - middle()) > 1)
+  for (std::size_t i = 1; i < placed_->up.size(); ++i) {
+    if (std::abs(std::abs(placed_->across[i]) - 36) > 6 || std::abs(Height(i) - middle()) > 1)
       continue;
     rough += static_cast<float>(std::abs(map_.rgba[4 * i] - map_.rgba[4 * i - 4]));
     was += static_cast<float>(std::abs(before.rgba[4 * i] - before.rgba[4 * i - 4]));
@@ -77,10 +84,10 @@ TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
 
 TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
   const fsm::Image before = map_;
-  EvenSmileShade(*base_, places_, seen_, 1, map_);
-  for (std::size_t i = 0; i < places_.up.size(); ++i) {
-    const bool nose = std::abs(places_.across[i]) < 10 && Height(i) > Place(2).y;
-    const bool other = Height(i) > Place(145).y - 8 || nose || places_.red[i] > -1;
+  EvenSmileShade(Galatea(), *placed_, seen_, 1, map_);
+  for (std::size_t i = 0; i < placed_->up.size(); ++i) {
+    const bool nose = std::abs(placed_->across[i]) < 10 && Height(i) > Place(2).y;
+    const bool other = Height(i) > Place(145).y - 8 || nose || placed_->red[i] > -1;
     if (other) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }
@@ -89,12 +96,12 @@ TEST_F(SmileShadeTest, ForeheadEyesNoseAndLipsStayAsTheyAre) {
 
 TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
   // The photo shows one cheek only; beyond is what was filled in.
-  for (std::size_t i = 0; i < places_.up.size(); ++i) seen_.at[i] = places_.across[i] < 0 ? 1 : 0;
+  for (std::size_t i = 0; i < placed_->up.size(); ++i) seen_.at[i] = placed_->across[i] < 0 ? 1 : 0;
   const fsm::Image before = map_;
-  EvenSmileShade(*base_, places_, seen_, 1, map_);
+  EvenSmileShade(Galatea(), *placed_, seen_, 1, map_);
   int changed = 0;
-  for (std::size_t i = 0; i < places_.up.size(); ++i) {
-    if (places_.across[i] > 6) {
+  for (std::size_t i = 0; i < placed_->up.size(); ++i) {
+    if (placed_->across[i] > 6) {
       ASSERT_EQ(map_.rgba[4 * i], before.rgba[4 * i]) << i;
     }
     changed += map_.rgba[4 * i] != before.rgba[4 * i];
@@ -106,10 +113,10 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   fsm::Image flat = map_;
   Field smooth(kMapSide, kMapSide);
   const auto spot = [&](std::size_t i) {
-    return std::abs(std::abs(places_.across[i]) - 30) < 4 &&
+    return std::abs(std::abs(placed_->across[i]) - 30) < 4 &&
            std::abs(Height(i) - middle() + 12) < 3;
   };
-  for (std::size_t i = 0; i < places_.up.size(); ++i) {
+  for (std::size_t i = 0; i < placed_->up.size(); ++i) {
     if (!spot(i)) continue;
     smooth.at[i] = 1;
     for (std::size_t c = 0; c < 3; ++c) flat.rgba[4 * i + c] = 150;
@@ -117,7 +124,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   const fsm::Image before = flat;
   GrainFromCheeks(smooth, flat);
   float rough = 0, sum = 0, count = 0;
-  for (std::size_t i = 1; i < places_.up.size(); ++i) {
+  for (std::size_t i = 1; i < placed_->up.size(); ++i) {
     if (!spot(i)) {
       ASSERT_EQ(flat.rgba[4 * i], before.rgba[4 * i]) << "nothing else changes";
       continue;
@@ -132,7 +139,7 @@ TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
 
 TEST_F(SmileShadeTest, WithoutASmileNothingChanges) {
   const fsm::Image before = map_;
-  EvenSmileShade(*base_, places_, seen_, 0, map_);
+  EvenSmileShade(Galatea(), *placed_, seen_, 0, map_);
   EXPECT_EQ(map_.rgba, before.rgba);
 }
 

@@ -6,7 +6,10 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "face_fit/dress/profile.h"
 #include "face_fit/find/hand_points.h"
@@ -15,6 +18,7 @@
 #include "fsm/head/face_set.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/render/renderer.h"
+#include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
 namespace {
@@ -51,74 +55,6 @@ std::unique_ptr<fsm::Head> HeadOf(const Fit& fit) {
   return fsm::Head::Make(set);
 }
 
-class TruthTest : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    auto loaded = FaceNetworks::Load("");
-    if (!loaded) GTEST_SKIP() << loaded.error().text;
-    networks_.emplace(std::move(*loaded));
-    truth_ = fsm::Head::Make(GetParam(), false);
-    photo_ = PhotoOf(*truth_, 0);
-  }
-  std::optional<FaceNetworks> networks_;
-  std::unique_ptr<fsm::Head> truth_;
-  fsm::Image photo_;
-};
-
-/// Places of both heads, the fitted one brought over the true one.
-std::vector<fsm::PlacePair> Compared(const fsm::Head& truth, const fsm::Head& fitted) {
-  std::vector<fsm::PlacePair> pairs;
-  for (const char* place : kPlaces) {
-    pairs.push_back({truth.Landmark(place), fitted.Landmark(place), fsm::FacePart::kPlain});
-  }
-  const fsm::Similarity over = fsm::FitSimilarity(pairs);
-  for (auto& pair : pairs) pair.to = over(pair.to);
-  return pairs;
-}
-
-TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
-  const auto boxes = FindFaces(*networks_, photo_);
-  ASSERT_EQ(boxes.size(), 1U);
-  const FoundFace face = FindPoints(*networks_, photo_, boxes[0]);
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
-  const Fit fit = FitFace(base, face, &photo_);
-  const auto fitted = HeadOf(fit);
-  const auto pairs = Compared(*truth_, *fitted);
-  const float eyes = glm::distance(pairs[0].from, pairs[1].from);
-  float sum = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const float flat = glm::distance(glm::vec2(pairs[i].from), glm::vec2(pairs[i].to));
-    sum += flat / eyes;
-    std::printf("%-9s %-20s %4.1f %% of the eyes' distance, depth %+.1f mm\n", GetParam(),
-                kPlaces[i], static_cast<double>(100 * flat / eyes),
-                static_cast<double>(pairs[i].to.z - pairs[i].from.z));
-  }
-  std::printf("%-9s mean %.2f %%\n", GetParam(),
-              static_cast<double>(100 * sum / static_cast<float>(pairs.size())));
-  EXPECT_LT(sum / static_cast<float>(pairs.size()), 0.015F);
-  for (const std::size_t i : {6U, 10U, 11U}) {  // nose, between the brows, chin
-    EXPECT_LT(std::abs(pairs[i].to.z - pairs[i].from.z), 4) << kPlaces[i];
-  }
-}
-
-TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
-  FoundFace face = FindPoints(*networks_, photo_, FindFaces(*networks_, photo_).at(0));
-  const auto corners = [&] {
-    const Fit fit = FitFace(base, face, &photo_);
-    return std::pair(base.places[61].On(fit.worn).y, base.places[291].On(fit.worn).y);
-  };
-  const auto said = corners();
-  constexpr float kHigher = 2.5F;  // millimetres
-  const float mm = glm::distance(face.points[33], face.points[263]) / 90;
-  for (const std::size_t i : {61U, 291U, 185U, 409U, 146U, 375U, 78U, 308U}) {
-    face.points[i].y -= kHigher * mm;
-  }
-  const auto moved = corners();
-  EXPECT_NEAR(moved.first, said.first, 0.15F * kHigher);
-  EXPECT_NEAR(moved.second, said.second, 0.15F * kHigher);
-}
-
 /// A head whose profile is not the built-in one's: brow and chin lie back, the nose stands forward,
 /// or (`strength` negative) the other way round. Seen from the front it hardly differs.
 class Profile {
@@ -148,6 +84,100 @@ class Profile {
   fsm::Warp warp_;
 };
 
+/// The head that is drawn, and what is found in photos of it and fitted to them. All of that is
+/// shared by the tests of the suite, which look at it in several ways.
+class TruthTest : public NetworkTest, public testing::WithParamInterface<const char*> {
+ protected:
+  /// A photo from the front.
+  struct Front {
+    fsm::Image photo;
+    std::size_t faces;
+    FoundFace face;
+    Fit fit;
+  };
+
+  static void TearDownTestSuite() {
+    fronts_.clear();
+    truths_.clear();
+    NetworkTest::TearDownTestSuite();
+  }
+  static const fsm::Head& truth() {
+    auto& head = truths_[GetParam()];
+    if (!head) head = fsm::Head::Make(GetParam(), false);
+    return *head;
+  }
+  static const Front& front() {
+    return FrontOf(0, [] { return PhotoOf(truth(), 0); });
+  }
+  static const Front& FrontOf(const Profile& truth, float strength) {
+    return FrontOf(strength, [&truth] { return truth.Photo(0); });
+  }
+
+ private:
+  template <typename F>
+  static const Front& FrontOf(float strength, F photo_of) {
+    auto& front = fronts_[{GetParam(), strength}];
+    if (front) return *front;
+    fsm::Image photo = photo_of();
+    const auto boxes = FindFaces(*networks_, photo);
+    const FoundFace face = FindPoints(*networks_, photo, boxes.at(0));
+    Fit fit = FitFace(Galatea(), face, &photo);
+    return front.emplace(Front{std::move(photo), boxes.size(), face, std::move(fit)});
+  }
+
+  static inline std::map<std::string, std::unique_ptr<fsm::Head>> truths_;
+  static inline std::map<std::pair<std::string, float>, std::optional<Front>> fronts_;
+};
+
+/// Places of both heads, the fitted one brought over the true one.
+std::vector<fsm::PlacePair> Compared(const fsm::Head& truth, const fsm::Head& fitted) {
+  std::vector<fsm::PlacePair> pairs;
+  for (const char* place : kPlaces) {
+    pairs.push_back({truth.Landmark(place), fitted.Landmark(place), fsm::FacePart::kPlain});
+  }
+  const fsm::Similarity over = fsm::FitSimilarity(pairs);
+  for (auto& pair : pairs) pair.to = over(pair.to);
+  return pairs;
+}
+
+TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
+  ASSERT_EQ(front().faces, 1U);
+  const auto fitted = HeadOf(front().fit);
+  const auto pairs = Compared(truth(), *fitted);
+  const float eyes = glm::distance(pairs[0].from, pairs[1].from);
+  float sum = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const float flat = glm::distance(glm::vec2(pairs[i].from), glm::vec2(pairs[i].to));
+    sum += flat / eyes;
+    std::printf("%-9s %-20s %4.1f %% of the eyes' distance, depth %+.1f mm\n", GetParam(),
+                kPlaces[i], static_cast<double>(100 * flat / eyes),
+                static_cast<double>(pairs[i].to.z - pairs[i].from.z));
+  }
+  std::printf("%-9s mean %.2f %%\n", GetParam(),
+              static_cast<double>(100 * sum / static_cast<float>(pairs.size())));
+  EXPECT_LT(sum / static_cast<float>(pairs.size()), 0.015F);
+  for (const std::size_t i : {6U, 10U, 11U}) {  // nose, between the brows, chin
+    EXPECT_LT(std::abs(pairs[i].to.z - pairs[i].from.z), 4) << kPlaces[i];
+  }
+}
+
+TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
+  const BaseHead& base = Galatea();
+  const auto corners = [&](const Fit& fit) {
+    return std::pair(base.places[61].On(fit.worn).y, base.places[291].On(fit.worn).y);
+  };
+  const auto said = corners(front().fit);
+  FoundFace face = front().face;
+  constexpr float kHigher = 2.5F;  // millimetres
+  const float mm = glm::distance(face.points[33], face.points[263]) / 90;
+  for (const std::size_t i : {61U, 291U, 185U, 409U, 146U, 375U, 78U, 308U}) {
+    face.points[i].y -= kHigher * mm;
+  }
+  const auto moved = corners(FitFace(base, face, &front().photo));
+  EXPECT_NEAR(moved.first, said.first, 0.15F * kHigher);
+  EXPECT_NEAR(moved.second, said.second, 0.15F * kHigher);
+}
+
 /// Root of the mean square of the depths' errors, millimetres.
 float DepthError(const Profile& truth, const Fit& fit) {
   std::vector<fsm::PlacePair> pairs;
@@ -165,13 +195,11 @@ float DepthError(const Profile& truth, const Fit& fit) {
 }
 
 TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  const BaseHead& base = Galatea();
   float all_without = 0, all_with = 0, count = 0;
   for (const float strength : {1.0F, -1.0F}) {
-    const Profile truth(*truth_, strength);
-    const fsm::Image photo = truth.Photo(0);
-    const FoundFace face = FindPoints(*networks_, photo, FindFaces(*networks_, photo).at(0));
-    const Fit front = FitFace(base, face, &photo);
+    const Profile truth(this->truth(), strength);
+    const auto& [photo, faces, face, front] = FrontOf(truth, strength);
     const float without = DepthError(truth, front);
     for (const float turn : {-40.0F, 25.0F, 40.0F, 55.0F}) {
       Fit fit = front;
@@ -209,12 +237,10 @@ Field FigureOf(const fsm::Image& photo) {
 }
 
 TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
+  const BaseHead& base = Galatea();
   for (const float strength : {1.0F, -1.0F}) {
-    const Profile truth(*truth_, strength);
-    const fsm::Image photo = truth.Photo(0);
-    const FoundFace face = FindPoints(*networks_, photo, FindFaces(*networks_, photo).at(0));
-    const Fit front = FitFace(base, face, &photo);
+    const Profile truth(this->truth(), strength);
+    const auto& [photo, faces, face, front] = FrontOf(truth, strength);
     const float without = DepthError(truth, front);
     for (const float turn : {-90.0F, 90.0F}) {
       Fit fit = front;
@@ -232,9 +258,8 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
 }
 
 TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
-  const FoundFace face = FindPoints(*networks_, photo_, FindFaces(*networks_, photo_).at(0));
-  const Fit before = FitFace(base, face, &photo_);
+  const BaseHead& base = Galatea();
+  const Fit& before = front().fit;
   Field box(300, 400), round(300, 400);
   for (int y = 50; y < 350; ++y) {
     for (int x = 50; x < 250; ++x) {
@@ -251,19 +276,18 @@ TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
 }
 
 TEST_P(TruthTest, APhotoThatDoesNotHelpIsRefusedInWords) {
-  const BaseHead base = BaseHead::See(*networks_, "galatea");
-  const FoundFace face = FindPoints(*networks_, photo_, FindFaces(*networks_, photo_).at(0));
-  const Fit fit = FitFace(base, face, &photo_);
+  const BaseHead& base = Galatea();
   const auto refusal = [&](const fsm::Image& photo) {
-    const auto view = PlaceView(*networks_, base, fit, photo);
+    const auto view = PlaceView(*networks_, base, front().fit, photo);
     return view ? "points " + std::to_string(view->residual_mm) : view.error().text;
   };
   const fsm::Image grey{
       .width = 300, .height = 300, .rgba = std::vector<std::uint8_t>(300 * 300 * 4, 128)};
   EXPECT_NE(refusal(grey).find("no face"), std::string::npos);
-  EXPECT_NE(refusal(photo_).find("from the front"), std::string::npos) << refusal(photo_);
+  EXPECT_NE(refusal(front().photo).find("from the front"), std::string::npos)
+      << refusal(front().photo);
   // A face as wide as two.
-  const fsm::Image side = PhotoOf(*truth_, 40);
+  const fsm::Image side = PhotoOf(truth(), 40);
   fsm::Image wide{.width = 2 * side.width, .height = side.height, .rgba = {}};
   for (std::size_t i = 0; i < side.rgba.size(); i += 4) {
     for (int k = 0; k < 2; ++k) {
