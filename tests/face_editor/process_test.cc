@@ -87,7 +87,7 @@ TEST_F(FaceEditorTest, AFaceIsBuiltOfPointsThatWereDraggedAndWorn) {
                       "set slider jaw_width 2\nsave identity berta\nquit\n"),
             0)
       << program_->ErrorText();
-  EXPECT_TRUE(Output().starts_with(folder_ + "/faces/anna\n")) << Output();
+  EXPECT_EQ(Output(), folder_ + "/faces/anna\n" + folder_ + "/faces/berta\n");
   std::ifstream file(folder_ + "/faces/anna/face.txt");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   EXPECT_GT(fsm::ReadFaceSet("face.txt", text).points.size(), 100U);
