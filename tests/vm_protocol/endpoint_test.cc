@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/support/process.h"
+#include "tests/support/sanitized.h"
 #include "vm_protocol/runtime/acceptor.h"
 
 namespace vm {
@@ -149,6 +150,7 @@ TEST(StreamPeerTest, ALineCutOffByAResetIsNotHeard) {
 }
 
 TEST(ListenerTroubleTest, RunningOutOfDescriptorsIsSaidOnceAndPasses) {
+  if (support::kSanitized) GTEST_SKIP() << "the sanitizers need descriptors of their own";
   const support::TempDir folder;
   boost::asio::io_context io;
   std::vector<std::string> troubles;

@@ -36,8 +36,8 @@ std::string OtherEnd(int fd) {
   return std::string(host.data()) + ":" + port.data();
 }
 
-/// One line each way before the stream belongs to somebody else. Kept alive by the stream's
-/// callbacks and its timer until it is done, once.
+/// One line each way before the stream belongs to somebody else. Kept alive by its timer until it
+/// is done, once.
 class Handshake : public std::enable_shared_from_this<Handshake> {
  public:
   using Done = std::function<void(Result<void>)>;
@@ -66,14 +66,15 @@ class Handshake : public std::enable_shared_from_this<Handshake> {
   void Listen(std::function<void(const std::string& line)> on_line) {
     on_line_ = std::move(on_line);
     stream_->Start(
-        [self = shared_from_this()](Result<std::string_view> line) {
-          if (self->done_ == nullptr) return;
+        [weak = weak_from_this()](Result<std::string_view> line) {
+          const auto self = weak.lock();
+          if (self == nullptr || self->done_ == nullptr) return;
           if (!line) return self->End(std::unexpected(line.error()));
           const std::string text(*line);
           self->on_line_(text);
         },
-        [self = shared_from_this()](const std::string& reason) {
-          self->End(Fail(Errc::kAccess, "it left: " + reason));
+        [weak = weak_from_this()](const std::string& reason) {
+          if (const auto self = weak.lock()) self->End(Fail(Errc::kAccess, "it left: " + reason));
         });
   }
   /// At the listener: `set#token Token = NONCE PROOF`.
