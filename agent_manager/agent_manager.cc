@@ -372,7 +372,7 @@ void AgentManager::StepVirtual() {
 }
 
 bool AgentManager::Started() const {
-  const bool known = hub_.clocks().Probing().empty();
+  const bool known = !hub_.clocks().ProbingForUs();
   return started_once_ ? known : known && supervisor_.AllReady();
 }
 
@@ -409,6 +409,7 @@ void AgentManager::Shutdown() {
   mqtt_.reset();
   while (hub_.Drain()) {
   }
+  hub_.FailRequests({vm::Errc::kStopped, "the hub ends", 0});
   bool flushed = false;
   boost::asio::steady_timer limit(io_, kFlushPatience);
   limit.async_wait([&flushed](const auto&) { flushed = true; });

@@ -55,7 +55,7 @@ std::optional<Deed> DeedOf(std::string_view receiver, const Message& message) {
   }
   if (sets && (slot == "Clock" || slot == "Clock.mode" || slot == "Wait"))
     return Deed{Permission::kClock, "hold or set the clock and input of a module"};
-  if (message.command == Command::kProp && message.value != "AutoOutput" && slot != "Error")
+  if (message.command == Command::kProp && message.value != "AutoOutput")
     return Deed{Permission::kMute, "have a module no longer report"};
   return std::nullopt;
 }
@@ -123,14 +123,27 @@ Result<void> AccessControl::CheckPermission(Role role, Permission permission,
   return Refuse(role, "may: " + std::string(known->name), deed);
 }
 
+Result<void> AccessControl::CheckReceiver(Role role, std::string_view receiver) const {
+  if (AnyMatches(table_[role].to, receiver)) return {};
+  return Refuse(role, "to", "speak to @" + std::string(receiver));
+}
+
 Result<void> AccessControl::CheckMessage(Role role, std::string_view receiver,
                                          const Message& message) const {
+  return CheckMessage(role, receiver, message, 0);
+}
+
+Result<void> AccessControl::CheckMessage(Role role, std::string_view receiver,
+                                         const Message& message, int depth) const {
+  constexpr int kMaxDepth = 4;
+  if (depth > kMaxDepth) return Refuse(role, "files", "have lines kept within lines");
   const Rights& rights = table_[role];
   const std::string_view command = vm::CommandName(message.command);
   if (!AnyMatches(rights.commands, command))
     return Refuse(role, "commands", "say " + std::string(command));
-  if (!receiver.empty() && !AnyMatches(rights.to, receiver))
-    return Refuse(role, "to", "speak to @" + std::string(receiver));
+  if (!receiver.empty()) {
+    if (const auto checked = CheckReceiver(role, receiver); !checked) return checked;
+  }
   if (!message.slot.empty() && !AnyMatches(rights.slots, message.slot))
     return Refuse(role, "slots", "name the slot " + message.slot);
   if (const auto deed = DeedOf(receiver, message))
@@ -139,14 +152,14 @@ Result<void> AccessControl::CheckMessage(Role role, std::string_view receiver,
   if (receiver != kHubName && message.command == Command::kDef &&
       message.relation == Relation::kAppend) {
     if (const auto kept = vm::ParseMessage(message.value))
-      return CheckMessage(role, receiver, *kept);
+      return CheckMessage(role, receiver, *kept, depth + 1);
   }
   return {};
 }
 
 Result<void> AccessControl::CheckUnseenLines(Role role, const std::string& receiver) const {
   if (AllFiles(role)) return {};
-  return Refuse(role, "files", "have @" + receiver + " run a file");
+  return Refuse(role, "files", "have @" + receiver + " run lines of a file or that it keeps");
 }
 
 Result<void> AccessControl::CheckFile(Role role, const std::string& file,
@@ -158,6 +171,10 @@ Result<void> AccessControl::CheckFile(Role role, const std::string& file,
 Result<void> AccessControl::CheckFiles(Role role, const Message& message, const FileSlots& slots,
                                        const std::string& folder) const {
   if (AllFiles(role)) return {};
+  // What the file holds is not known here.
+  if (message.command == Command::kSet && message.relation == Relation::kFromFile &&
+      slots.Takes(message.slot))
+    return Refuse(role, "files", "read from a file what names files, in " + message.slot);
   const bool writes_or_reads =
       message.relation == Relation::kFromFile ||
       (message.relation == Relation::kAppend && message.command == Command::kSave);

@@ -75,10 +75,12 @@ class AccessControl {
   /// May it be said at all? `receiver`: the name it reaches, not an alias; empty for a report.
   vm::Result<void> CheckMessage(Role role, std::string_view receiver,
                                 const vm::Message& message) const;
+  /// May it say something to this peer of its own accord?
+  vm::Result<void> CheckReceiver(Role role, std::string_view receiver) const;
   /// May it name the files it names? `folder`: where the receiver runs.
   vm::Result<void> CheckFiles(Role role, const vm::Message& message, const FileSlots& slots,
                               const std::string& folder) const;
-  /// May it have a module run a file, or lines that have not passed the hub?
+  /// May it have a module run lines that the hub does not see, or no more?
   vm::Result<void> CheckUnseenLines(Role role, const std::string& receiver) const;
   vm::Result<void> CheckFile(Role role, const std::string& file, const std::string& folder) const;
   vm::Result<void> CheckName(Role role, std::string_view name) const;
@@ -87,6 +89,9 @@ class AccessControl {
   bool AllFiles(Role role) const { return all_files_[static_cast<std::size_t>(role)]; }
 
  private:
+  vm::Result<void> CheckMessage(Role role, std::string_view receiver, const vm::Message& message,
+                                int depth) const;
+
   RightsTable table_;
   std::array<bool, kRoles.size()> all_files_{};
 };

@@ -11,7 +11,7 @@ using vm::Result;
 
 namespace {
 
-constexpr double kLongestSleepS = 3600;
+constexpr double kLongestSleepS = 60;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ Result<std::string> Parallel::Append(const std::string& text) {
     char* end = nullptr;
     const double seconds = std::strtod(text.c_str() + 6, &end);
     if (*end != '\0' || !std::isfinite(seconds) || seconds < 0 || seconds > kLongestSleepS)
-      return vm::Fail(Errc::kBadValue, "found '" + text + "', expected sleep SECONDS, 0 to 3600");
+      return vm::Fail(Errc::kBadValue, "found '" + text + "', expected sleep SECONDS, 0 to 60");
     command.sleep = vm::Time(static_cast<vm::Time::rep>(seconds * 1e6));
   } else {
     auto message = vm::ParseMessage(text);

@@ -57,7 +57,10 @@ Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
     return Fail(Errc::kLimit, "more than " + std::to_string(most_guests) + " guests");
   }
   peer->key = ++last_key_;
-  if (peer->name.empty()) peer->name = "CLIENT" + std::to_string(peer->key);
+  if (peer->name.empty()) {  // others may have taken such names
+    do peer->name = "CLIENT" + std::to_string(++last_name_);
+    while (directory_.Find(peer->name) != nullptr);
+  }
   const auto added = directory_.Add(peer);
   if (!added) {
     peer->link->Close();
@@ -113,7 +116,8 @@ void Hub::Receive(PeerKey key, Result<std::string_view> line) {
   sender->traffic.bytes_in += bytes;
   auto message = line ? vm::ParseMessage(*line) : Result<Message>(std::unexpected(line.error()));
   // Answers were asked for, and are counted with those who asked.
-  const bool answer = message && message->command == vm::Command::kRep && !message->tag.empty();
+  const bool answer = message && message->command == vm::Command::kRep && !message->tag.empty() &&
+                      !sender->requests.open.empty();
   if (!answer) back_pressure_.Count(*sender, bytes);
   if (message) return queue_.Push(std::move(*message), {.peer = key, .role = sender->role});
   if (message.error().code == Errc::kEmpty) return;
@@ -150,15 +154,20 @@ void Hub::ReleaseHalfClosed() {
     const PeerKey key = at->first;
     const Peer* const peer = directory_.ByKey(key);
     const auto leave = [this, key] { Leave(key, kEndOfInput); };
-    if (peer != nullptr && (peer->asked > 0 || (owes_ && owes_(key)))) {
+    const bool owed = peer != nullptr && (peer->asked > 0 || (owes_ && owes_(key)));
+    if (owed || (peer != nullptr && peer->link->backlog_bytes() > 0)) {
       if (at->second == 0) at->second = clock_.After(kHalfClosedLimit, leave);
       ++at;
       continue;
     }
     clock_.Cancel(at->second);
     at = half_closed_.erase(at);
-    if (peer != nullptr) peer->link->WhenSent(leave);
+    leave();
   }
+}
+
+void Hub::FailRequests(const vm::Error& error) {
+  for (const auto& [key, peer] : directory_.peers()) requests_.FailAll(*peer, error);
 }
 
 void Hub::WhenAllSent(std::function<void()> done) {

@@ -40,6 +40,8 @@ class Hub {
   void Leave(PeerKey peer, const std::string& reason);
   /// The peer has said all it will say; it leaves when its questions have been answered.
   void EndInput(PeerKey peer);
+  /// Nobody will answer what has been asked of peers.
+  void FailRequests(const vm::Error& error);
   /// Calls `done` once every peer's system has taken what the peer was sent.
   void WhenAllSent(std::function<void()> done);
   /// As Leave, at once. REQUIRES: no message is being dealt with (use Post).
@@ -135,6 +137,7 @@ class Hub {
   std::function<bool(PeerKey)> owes_;
   OnPresence on_presence_;
   PeerKey last_key_ = 0;
+  unsigned long last_name_ = 0;  // of those who have none
 };
 
 }  // namespace am

@@ -1,5 +1,6 @@
 #include "agent_manager/routing/module_clocks.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace am {
@@ -130,6 +131,12 @@ std::set<PeerKey> ModuleClocks::Probing() const {
     if (peer->module.probing) keys.insert(key);
   }
   return keys;
+}
+
+bool ModuleClocks::ProbingForUs() const {
+  return std::ranges::any_of(directory_.peers(), [](const auto& entry) {
+    return entry.second->module.probing && entry.second->role != Role::kGuest;
+  });
 }
 
 std::vector<PeerKey> ModuleClocks::WithClock() const {

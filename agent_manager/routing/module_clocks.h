@@ -21,6 +21,8 @@ class ModuleClocks {
   void Probe(Peer& module);
   /// Modules that are still being asked what they are.
   std::set<PeerKey> Probing() const;
+  /// True while one is being asked that is no guest: those wait for nobody but themselves.
+  bool ProbingForUs() const;
   /// Those among `modules` that have not answered by now count as original; one that has said
   /// nothing at all is given four times as long.
   void EndProbes(const std::set<PeerKey>& modules);

@@ -77,22 +77,12 @@ Result<void> ModuleLines::CheckFiles(const Peer& peer, const Message& message, R
     const auto kept = vm::ParseMessage(message.value);
     return kept ? CheckFiles(peer, *kept, role) : Result<void>();
   }
-  const bool runs_macro = message.command == Command::kDo;
-  if (runs_macro && peer.module.macros.contains(message.slot)) return {};
-  const bool unseen = runs_macro || (message.command == Command::kDef &&
-                                     message.relation == vm::Relation::kFromFile);
+  const bool unseen =
+      message.command == Command::kDo ||
+      (message.command == Command::kDef && message.relation == vm::Relation::kFromFile);
   if (unseen) return access_.CheckUnseenLines(role, peer.name);
   return access_.CheckFiles(role, message, peer.module.files ? *peer.module.files : kUndeclared,
                             peer.folder);
-}
-
-/// Keeps in mind which names of a module are macros, no files.
-void ModuleLines::NoteMacros(Peer& peer, const Message& message) {
-  auto& macros = peer.module.macros;
-  if (message.command == Command::kDel) macros.erase(message.slot);
-  if (message.command == Command::kDef && message.relation == vm::Relation::kAppend &&
-      macros.size() < limits_.slots)
-    macros.insert(message.slot);
 }
 
 void ModuleLines::Forward(Peer& peer, Message message, const Origin& origin, OnAnswer done) {
@@ -111,7 +101,6 @@ void ModuleLines::Forward(Peer& peer, Message message, const Origin& origin, OnA
     if (const auto checked = CheckFiles(peer, message, origin.role); !checked)
       return outbox_.Answer(origin.peer, "AM", message, std::unexpected(checked.error()), done);
   }
-  NoteMacros(peer, message);
   if (peer.dialect == Dialect::kOriginal)
     return ForwardOriginal(peer, std::move(message), origin, done);
   const bool modern = peer.dialect == Dialect::kModern;

@@ -44,7 +44,6 @@ class ModuleLines {
  private:
   bool MustWait(Peer& peer, const vm::Message& message, const Origin& origin);
   vm::Result<void> CheckFiles(const Peer& peer, const vm::Message& message, Role role) const;
-  void NoteMacros(Peer& peer, const vm::Message& message);
   void ForwardOriginal(Peer& module, vm::Message message, const Origin& origin,
                        const OnAnswer& done);
   bool HoldStart(Peer& module, const vm::Message& message);

@@ -49,13 +49,14 @@ void Outbox::Send(Peer& receiver, const Message& message, PeerKey commander) {
   Deliver(receiver, outgoing, commander);
 }
 
-void Outbox::SendAll(const std::set<PeerKey>& receivers, const Message& message) {
+void Outbox::SendAll(const std::set<PeerKey>& receivers, const Message& message,
+                     PeerKey commander) {
   const Outgoing outgoing(message);
   std::string names;
   for (const PeerKey key : receivers) {
     Peer* const peer = directory_.ByKey(key);
     if (peer == nullptr) continue;
-    Deliver(*peer, outgoing, kHub);
+    Deliver(*peer, outgoing, commander);
     if (log_.enabled()) names += (names.empty() ? "" : ",") + peer->name;
   }
   if (log_.enabled()) log_.Write(clock_.Now(), message.from, names, outgoing.line());

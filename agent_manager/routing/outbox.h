@@ -23,7 +23,7 @@ class Outbox {
   /// `commander`: the peer whose command this is, and who waits if the receiver is full; else kHub.
   void Send(Peer& receiver, const vm::Message& message, PeerKey commander);
   /// One line in the log and one formatting, however many receive it.
-  void SendAll(const std::set<PeerKey>& receivers, const vm::Message& message);
+  void SendAll(const std::set<PeerKey>& receivers, const vm::Message& message, PeerKey commander);
   /// Without a line in the log.
   void Write(Peer& receiver, const vm::Message& message, PeerKey commander);
 

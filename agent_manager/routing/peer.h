@@ -82,7 +82,6 @@ struct ModuleState {
   ClockEstimate estimate{};
   vm::Time granted{0};               ///< lockstep: where its clock stands
   std::optional<FileSlots> files{};  ///< which of its slots take file names; none: not known yet
-  std::set<std::string> macros{};    ///< its macros whose every line has passed the hub
   vm::TimerId files_timer = 0;
 };
 
@@ -109,6 +108,13 @@ struct Peer {
   vm::Time complaints_since{0};
   int complaints = 0;
 };
+
+/// Who waits when those are full who hear what `sender` says of its own accord: itself; nobody
+/// (kHub) for the owner and the hub's own modules, which none of their hearers may stop for others.
+inline PeerKey WaitsForHearers(const Peer& sender) {
+  const bool trusted = sender.role == Role::kOwner || sender.role == Role::kModule;
+  return trusted ? kHub : sender.key;
+}
 
 /// What there is to know about a peer that is there.
 struct PeerStatus {

@@ -57,6 +57,7 @@ Request Requests::Take(Peer& module, unsigned long number) {
 void Requests::Count(PeerKey asker) {
   Peer* const peer = directory_.ByKey(asker);
   if (peer == nullptr || ++peer->asked <= limits_.pending / 2 || peer->waits_for_answers) return;
+  if (!peer->requests.open.empty()) return;  // others wait for what it says
   peer->waits_for_answers = back_pressure_.Hold(*peer);
 }
 
@@ -64,10 +65,11 @@ void Requests::Uncount(PeerKey asker) {
   Peer* const peer = directory_.ByKey(asker);
   if (peer == nullptr) return;
   --peer->asked;
-  if (peer->waits_for_answers && peer->asked <= limits_.pending / 4) {
-    peer->waits_for_answers = false;
-    BackPressure::LetGo(*peer);
-  }
+  if (peer->asked <= limits_.pending / 4) GoOnReading(*peer);
+}
+
+void Requests::GoOnReading(Peer& peer) {
+  if (std::exchange(peer.waits_for_answers, false)) BackPressure::LetGo(peer);
 }
 
 void Requests::Refuse(Peer& module, PeerKey asker) {
@@ -87,6 +89,7 @@ unsigned long Requests::Insert(Peer& module, Request request) {
         table.by_asker, {}, [](const auto& entry) { return entry.second.size(); });
     Refuse(module, most->first);
   }
+  GoOnReading(module);  // its answer is wanted
   request.asked = clock_.Now();
   const unsigned long number = ++last_number_;
   table.open.emplace_hint(table.open.end(), number, std::move(request));
@@ -131,14 +134,14 @@ bool Requests::Resolve(Peer& module, const Message& rep) {
   const auto found = table.open.find(NumberOf(rep.tag));
   if (found == table.open.end()) return true;  // late, or not ours: nobody waits for it
   const std::string slot = SlotOf(found->second.message);
-  const bool refused = rep.slot == slot + ".error" || rep.slot == "Error";
+  const bool refused = rep.slot == slot + ".error" || (rep.slot == "Error" && slot != "Error");
   if (!refused && rep.slot != slot) {  // a member of a group, before the answer itself
     found->second.members_seen = true;
     if (Peer* const asker = directory_.ByKey(found->second.asker)) {
       Message member = rep;
       member.tag = found->second.message.tag;
       member.from = module.name;
-      outbox_.Send(*asker, member, kHub);
+      outbox_.Send(*asker, member, WaitsForHearers(module));
     }
     return true;
   }

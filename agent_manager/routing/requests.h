@@ -30,7 +30,8 @@ class Requests {
   /// Nobody will answer them any more. The asker is told.
   void FailAll(Peer& module, const vm::Error& error);
   /// A line of the peer's waits to be sent: it is one of those that it has not been answered. A
-  /// peer with half of the limit of them is not read from until half of those have been answered.
+  /// peer with half of the limit of them is not read from until half of those have been answered,
+  /// unless others wait for its own answers.
   void Count(PeerKey asker);
   void Uncount(PeerKey asker);
   /// They are forgotten without an answer.
@@ -40,6 +41,7 @@ class Requests {
   unsigned long Insert(Peer& module, Request request);
   Request Take(Peer& module, unsigned long number);
   void Refuse(Peer& module, PeerKey asker);
+  static void GoOnReading(Peer& peer);
   void Fail(const Peer& module, const Request& request, const vm::Error& error);
   void Watch(Peer& module);
   void Expire(PeerKey key);

@@ -202,7 +202,7 @@ void Router::FromMachine(const std::string& machine, PeerKey to, const Message& 
     if (peer->subscriptions.contains("*") || peer->subscriptions.contains(machine))
       receivers.insert(key);
   }
-  outbox_.SendAll(receivers, message);
+  outbox_.SendAll(receivers, message, kHub);
 }
 
 Result<void> Router::CountDefinition(const Envelope& envelope) {
@@ -223,6 +223,10 @@ Result<void> Router::CountDefinition(const Envelope& envelope) {
 
 void Router::Report(Peer& sender, Message message) {
   if (message.command == Command::kRep && requests_.Resolve(sender, message)) return;
+  for (const std::string& name : message.to) {
+    if (const auto checked = access_.CheckReceiver(sender.role, name); !checked)
+      return outbox_.Complain(sender, checked.error(), message.tag);
+  }
   if (sender.kind == PeerKind::kClient && message.slot == "Run" && message.value == "LIVE") {
     sender.kind = PeerKind::kModule;  // a module that came by a socket
     if (on_module_) on_module_(sender);
@@ -276,7 +280,7 @@ void Router::ReportNow(Peer& sender, Message message) {
     }
   }
   message.from = sender.name;
-  outbox_.SendAll(receivers, message);
+  outbox_.SendAll(receivers, message, WaitsForHearers(sender));
   if (on_report_) on_report_(sender.name, message);
 }
 

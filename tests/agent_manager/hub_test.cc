@@ -223,6 +223,42 @@ TEST(HubTest, AFloodOfQuestionsIsReadSlowerAndCostsNobodyElseAnAnswer) {
   EXPECT_FALSE(flood->paused) << "its questions have been answered";
 }
 
+TEST(HubTest, TwoWhoAskEachOtherMuchBothGoOn) {
+  World world;
+  world.hub.limits().pending = 100;
+  const auto a = world.JoinModern("AA"), b = world.JoinModern("BB");
+  world.answers = false;
+  for (int i = 0; i < 90; ++i) {
+    world.Say(*a, "to @BB inq#q" + std::to_string(i) + " X");
+    world.Say(*b, "to @AA inq#q" + std::to_string(i) + " X");
+  }
+  EXPECT_FALSE(a->paused) << "the other one waits for its answers";
+  EXPECT_FALSE(b->paused);
+}
+
+TEST(HubTest, WhoReportsWithoutPauseWaitsForThoseWhoHear) {
+  World world;
+  world.hub.limits().backlog_bytes = 1000;
+  const auto slow = world.Join(PeerKind::kConsole, "CONSOLE");
+  const auto guest = world.JoinAs(Role::kGuest, "G");
+  slow->backlog = 600;
+  world.Say(*guest, "rep X = 1");
+  EXPECT_TRUE(guest->paused);
+  slow->backlog = 0;
+  world.clock.RunUntil(world.clock.Now() + std::chrono::milliseconds(20));
+  EXPECT_FALSE(guest->paused);
+}
+
+TEST(HubTest, NamesThatOthersHaveTakenKeepNobodyOut) {
+  World world;
+  const auto a = world.JoinAs(Role::kGuest, "");
+  for (int i = 2; i < 9; ++i)
+    EXPECT_TRUE(world.hub.Rename(world.JoinAs(Role::kGuest, "x" + std::to_string(i))->key,
+                                 "CLIENT" + std::to_string(i)));
+  const auto b = world.JoinAs(Role::kClient, "");
+  EXPECT_EQ(world.hub.NameOf(b->key), "CLIENT9");
+}
+
 TEST(HubTest, AllTogetherHaveALimitAndWhoeverHasMostLosesOne) {
   World world;
   world.JoinModern("SSM");

@@ -143,11 +143,12 @@ TEST_F(RightsTest, LinesThatAModuleKeepsAreCheckedWhenTheyAreGivenToIt) {
         "def n << set Run = EXIT", "def n << set SaveWAV = /tmp/x.wav", "do some.file"})
     EXPECT_TRUE(Refused(client(std::string("to @SSM def#1 m << ") + line))) << line;
   EXPECT_TRUE(Refused(client("to @SSM def#1 m < ./lines"))) << "nobody knows what is in it";
-  EXPECT_TRUE(Refused(client("to @SSM do#1 m"))) << "it can only be a file";
   EXPECT_FALSE(Refused(client("to @SSM def#1 m << set Text = hello")));
-  EXPECT_FALSE(Refused(client("to @SSM do#1 m")));
-  EXPECT_FALSE(Refused(client("to @SSM del#1 m")));
-  EXPECT_TRUE(Refused(client("to @SSM do#1 m")));
+  EXPECT_TRUE(Refused(client("to @SSM do#1 m"))) << "it may as well be a file";
+  std::string nested = "to @SSM def#1 m << ";
+  for (int i = 0; i < 9000; ++i) nested += "def m<<";
+  EXPECT_TRUE(Refused(client(nested + "set V = 1")));
+  EXPECT_TRUE(Refused(client("to @SSM set#1 Text < ./t.ssml"))) << "it may name any file";
   EXPECT_FALSE(Refused(Say(Role::kOwner, "to @SSM do#1 any.file")));
 }
 
@@ -155,6 +156,7 @@ TEST_F(RightsTest, AClientsOwnNewFilesAreItsAndNobodyStopsReportsForAll) {
   EXPECT_FALSE(Refused(Say(Role::kClient, "to @SSM set#1 SaveWAV = x-that-is-not-there.wav")));
   for (const Role role : {Role::kClient, Role::kGuest}) {
     EXPECT_TRUE(Refused(Say(role, "to @SSM prop#1 Speak.stat = NoAutoOutput")));
+    EXPECT_TRUE(Refused(Say(role, "to @SSM prop#1 Error = NoAutoOutput")));
     EXPECT_FALSE(Refused(Say(role, "to @SSM prop#1 Speak.stat = AutoOutput")));
   }
 }

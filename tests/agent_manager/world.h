@@ -64,6 +64,7 @@ struct World {
     std::function<void(const std::string& line)> on_line;
     bool closed = false;
     bool paused = false;
+    std::size_t backlog = 0;  ///< what it has not read, as its link says
   };
   class MemoryLink final : public Link {
    public:
@@ -78,6 +79,7 @@ struct World {
     void Close() override { peer_->closed = true; }
     void PauseReading() override { peer_->paused = true; }
     void ResumeReading() override { peer_->paused = false; }
+    std::size_t backlog_bytes() const override { return peer_->backlog; }
 
    private:
     World& world_;

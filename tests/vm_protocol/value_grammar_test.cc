@@ -138,6 +138,10 @@ TEST(ValueGrammarTest, EverySourceInAMarkupIsAFilesName) {
   EXPECT_EQ(files("<speak>a<audio src=\"a.wav\"/> <audio\tx='1' src = '/b c.wav'>d</audio>"),
             (Strings{"a.wav", "/b c.wav"}));
   EXPECT_EQ(files("<audio src='&#47;etc'/><audio src=\"\"/>"), Strings{"markup:&#47;etc"});
+  EXPECT_EQ(files("<audio src='a&amp;b&quot;.wav'/>"), Strings{"a&b\".wav"});
+  EXPECT_EQ(files("<audio src\v=\f'/a'/><audio s\xEE\x80\x80rc='/b'/><a src=\xEE\x80\x81'/c'/>"),
+            (Strings{"/a", "/b", "/c"}));
+  EXPECT_EQ(files("<audio src='\xEE\x80\x82/abs'/>"), Strings{"/abs"});
   EXPECT_EQ(files("<audio src='never closed"), Strings{});
 }
 

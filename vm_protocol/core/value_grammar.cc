@@ -1,8 +1,10 @@
 #include "vm_protocol/core/value_grammar.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -133,14 +135,43 @@ std::optional<std::pair<std::string, std::size_t>> ReadQuoted(std::string_view t
   return std::nullopt;
 }
 
+/// A text without the signs of private use (U+E000 to U+F8FF), which readers may take out.
+std::string WithoutPrivateUse(std::string_view text) {
+  std::string kept;
+  kept.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint sign = SignAt(text, at);
+    if (sign.value < 0xE000 || sign.value > 0xF8FF) kept += text.substr(at, sign.length);
+    at += sign.length;
+  }
+  return kept;
+}
+
+/// Puts in what the five references of XML stand for.
+void ReplaceReferences(std::string& name) {
+  constexpr std::pair<std::string_view, char> kReferences[] = {
+      {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}};
+  for (std::size_t at = name.find('&'); at != std::string::npos; at = name.find('&', at + 1)) {
+    const auto known = std::ranges::find_if(kReferences, [&](const auto& reference) {
+      return std::string_view(name).substr(at).starts_with(reference.first);
+    });
+    // Of a number, say: only a reader of XML knows, so it is given as what is no plain path.
+    if (known == std::end(kReferences)) {
+      name.insert(0, "markup:");
+      return;
+    }
+    name.replace(at, known->first.size(), 1, known->second);
+  }
+}
+
 /// What the src attributes in a text name, without reading it as XML: more may be found than are
-/// there, never fewer. A name with references (&#47;) is given as what is no plain path, since only
-/// a reader of XML knows what it is.
-std::vector<std::string> SourcesIn(std::string_view markup) {
-  constexpr std::string_view kBlanks = " \t\r\n";
+/// there, never fewer.
+std::vector<std::string> SourcesIn(std::string_view text) {
+  const std::string markup = WithoutPrivateUse(text);
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
   constexpr std::string_view kAttribute = "src";
   std::vector<std::string> names;
-  for (std::size_t at = markup.find(kAttribute); at != std::string_view::npos;
+  for (std::size_t at = markup.find(kAttribute); at != std::string::npos;
        at = markup.find(kAttribute, at + 1)) {
     const std::size_t sign = markup.find_first_not_of(kBlanks, at + kAttribute.size());
     if (sign == std::string_view::npos || markup[sign] != '=') continue;
@@ -149,8 +180,8 @@ std::vector<std::string> SourcesIn(std::string_view markup) {
       continue;
     const std::size_t end = markup.find(markup[quote], quote + 1);
     if (end == std::string_view::npos) continue;
-    std::string name(markup.substr(quote + 1, end - quote - 1));
-    if (name.contains('&')) name.insert(0, "markup:");
+    std::string name = markup.substr(quote + 1, end - quote - 1);
+    ReplaceReferences(name);
     if (!name.empty()) names.push_back(std::move(name));
   }
   return names;

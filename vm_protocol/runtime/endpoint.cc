@@ -76,7 +76,9 @@ class ListenerImpl final : public Listener {
 
  private:
   void AcceptNext() {
-    acceptor_.async_accept([this](const error_code& error, typename Protocol::socket socket) {
+    acceptor_.async_accept([this, alive = std::weak_ptr(alive_)](const error_code& error,
+                                                                 typename Protocol::socket socket) {
+      if (alive.expired()) return;  // it had been accepted before, and is closed
       if (error == asio::error::operation_aborted) return;
       if (error == asio::error::no_descriptors && spare_ >= 0) return TurnAway(error);
       if (error && error != asio::error::connection_aborted) return Pause(error);
@@ -97,6 +99,8 @@ class ListenerImpl final : public Listener {
     const int fd = accept(acceptor_.native_handle(), nullptr, nullptr);
     if (fd >= 0) close(fd);
     spare_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    // None may be waiting; the system says that it has no descriptor all the same.
+    if (fd < 0) return Pause(error);
     Tell(error);
     AcceptNext();
   }
@@ -110,8 +114,8 @@ class ListenerImpl final : public Listener {
   void Pause(const error_code& error) {
     Tell(error);
     pause_.expires_after(kAcceptPause);
-    pause_.async_wait([this](const error_code& cancelled) {
-      if (!cancelled) AcceptNext();
+    pause_.async_wait([this, alive = std::weak_ptr(alive_)](const error_code& cancelled) {
+      if (!cancelled && !alive.expired()) AcceptNext();
     });
   }
 
@@ -120,6 +124,7 @@ class ListenerImpl final : public Listener {
   Endpoint endpoint_;
   OnAccept on_accept_;
   OnTrouble on_trouble_;
+  const std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
   bool in_trouble_ = false;  // and on_trouble_ knows
   int spare_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
 };
