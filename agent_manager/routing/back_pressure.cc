@@ -6,7 +6,7 @@
 namespace am {
 namespace {
 
-constexpr vm::Time kLookAgain = std::chrono::milliseconds(10);  // at a reader that is full
+constexpr vm::Time kLookAgain = std::chrono::milliseconds(1);  // at a reader that is full
 
 }  // namespace
 
