@@ -232,7 +232,12 @@ void Router::Report(Peer& sender, Message message) {
     if (on_module_) on_module_(sender);
   }
   if (rules_.empty()) return ReportNow(sender, std::move(message));
-  ReportByRule(sender, std::move(message));
+  if (message.to.empty()) return ReportByRule(sender, std::move(message));
+  for (const std::string& name : message.to) {  // a rule is for one receiver
+    Message copy = message;
+    copy.to = {name};
+    ReportByRule(sender, std::move(copy));
+  }
 }
 
 void Router::ReportByRule(Peer& sender, Message message) {
@@ -257,6 +262,7 @@ void Router::ReportByRule(Peer& sender, Message message) {
 
 void Router::ReportNow(Peer& sender, Message message) {
   std::set<PeerKey> receivers;
+  const bool addressed = !message.to.empty();
   for (const std::string& name : std::exchange(message.to, {})) {
     if (const Peer* const peer = directory_.Find(name)) {
       receivers.insert(peer->key);
@@ -264,7 +270,7 @@ void Router::ReportNow(Peer& sender, Message message) {
       outbox_.Complain(sender, {Errc::kUnknownModule, "there is no @" + name, 0});
     }
   }
-  if (receivers.empty()) {
+  if (!addressed) {
     for (const auto& [key, peer] : directory_.peers()) {
       if (key != sender.key &&
           ((sender.kind != PeerKind::kRemote && broadcast_.contains(peer->name)) ||

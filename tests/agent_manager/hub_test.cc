@@ -223,6 +223,28 @@ TEST(HubTest, AFloodOfQuestionsIsReadSlowerAndCostsNobodyElseAnAnswer) {
   EXPECT_FALSE(flood->paused) << "its questions have been answered";
 }
 
+TEST(HubTest, WhatIsSaidToSomebodyWhoIsNotThereIsHeardByNobodyElse) {
+  World world;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto onlooker = world.Join(PeerKind::kConsole, "CONSOLE");
+  world.Say(*a, "to @NOBODY tell a secret");
+  EXPECT_EQ(onlooker->heard, Strings{});
+  EXPECT_NE(a->heard.at(0).find("there is no @NOBODY"), std::string::npos);
+}
+
+TEST(HubTest, ARuleForOneOfTwoReceiversHoldsForThatOne) {
+  World world;
+  Rule rule;
+  rule.to = {"B"};
+  rule.drop = true;
+  world.hub.rules().set_rules({rule});
+  const auto a = world.Join(PeerKind::kClient, "A"), b = world.Join(PeerKind::kClient, "B"),
+             c = world.Join(PeerKind::kClient, "C");
+  world.Say(*a, "to @B,@C tell hello");
+  EXPECT_EQ(b->heard, Strings{});
+  EXPECT_EQ(c->heard, Strings{"From @A tell hello"});
+}
+
 TEST(HubTest, TwoWhoAskEachOtherMuchBothGoOn) {
   World world;
   world.hub.limits().pending = 100;
