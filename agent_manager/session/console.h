@@ -35,7 +35,6 @@ class Console {
   void AskWait(const vm::SetValue& value, const vm::Reply& reply);
   /// Nothing goes on any more: who waits for that goes on.
   void OnIdle();
-  /// Everything sent so far is handed to the system; `done` is called then.
 
   PeerKey key() const { return key_; }
   bool started() const { return stream_ != nullptr; }
