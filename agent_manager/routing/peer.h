@@ -38,7 +38,7 @@ struct Request {
 /// The requests one module has not answered. Only Requests changes it.
 struct RequestTable {
   std::map<unsigned long, Request> open;  ///< by the number of our tag, so the oldest first
-  std::map<std::string, std::deque<unsigned long>> by_slot;  ///< the original's dialect: `inq`
+  std::map<std::string, std::set<unsigned long>> by_slot;  ///< the original's dialect: `inq`
   std::map<PeerKey, std::set<unsigned long>> by_asker;
   vm::TimerId timer = 0;
 };

@@ -42,7 +42,7 @@ Request Requests::Take(Peer& module, unsigned long number) {
   Request request = std::move(found->second);
   table.open.erase(found);
   if (const auto slot = table.by_slot.find(request.message.slot); slot != table.by_slot.end()) {
-    std::erase(slot->second, number);
+    slot->second.erase(number);
     if (slot->second.empty()) table.by_slot.erase(slot);
   }
   if (const auto mine = table.by_asker.find(request.asker); mine != table.by_asker.end()) {
@@ -106,7 +106,7 @@ std::string Requests::Add(Peer& module, Request request) {
 void Requests::AddBySlot(Peer& module, Request request) {
   const std::string slot = request.message.slot;
   const unsigned long number = Insert(module, std::move(request));
-  module.requests.by_slot[slot].push_back(number);
+  module.requests.by_slot[slot].insert(number);
 }
 
 void Requests::Watch(Peer& module) {
@@ -158,10 +158,10 @@ bool Requests::Resolve(Peer& module, const Message& rep) {
 std::vector<Request> Requests::TakeBySlot(Peer& module, const std::string& slot) {
   std::vector<Request> requests;
   RequestTable& table = module.requests;
-  const auto numbers = table.by_slot.find(slot);
-  if (numbers == table.by_slot.end()) return requests;
-  for (const unsigned long number : std::deque<unsigned long>(numbers->second))
-    requests.push_back(Take(module, number));
+  // Out of the table first: Take would look each up in it.
+  const auto numbers = table.by_slot.extract(slot);
+  if (!numbers) return requests;
+  for (const unsigned long number : numbers.mapped()) requests.push_back(Take(module, number));
   return requests;
 }
 
