@@ -63,7 +63,8 @@ vm::Result<Spawned> SpawnProcess(const ModuleConfig& module) {
     if (why == ENOENT && program.front() != '/' && program.find('/') != std::string::npos)
       text += " (it is looked for from " + std::filesystem::current_path().string() +
               ": start from the root of the toolkit)";
-    return vm::Fail(vm::Errc::kUnavailable, text);
+    const bool for_now = why == EMFILE || why == ENFILE || why == EAGAIN || why == ENOMEM;
+    return vm::Fail(for_now ? vm::Errc::kBusy : vm::Errc::kUnavailable, text);
   };
   if (!input.ok() || !output.ok() || !errors.ok() || !failure.ok()) return refuse(errno);
   std::vector<char*> argv;

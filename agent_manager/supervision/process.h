@@ -19,8 +19,9 @@ struct Spawned {
 };
 
 /// Starts the module's command in its own process group, with its folder, environment and resource
-/// limits; it is killed when the hub dies. kUnavailable with a sentence if the program cannot be
-/// run. Blocks until exec has succeeded or failed.
+/// limits; it is killed when the hub dies. Blocks until exec has succeeded or failed.
+/// Errors: kUnavailable if the program cannot be run, kBusy if the system lacks the means for now
+/// (descriptors, processes, memory).
 vm::Result<Spawned> SpawnProcess(const ModuleConfig& module);
 
 /// "ended with code 3", "killed by signal 9, Killed": for people.

@@ -2,13 +2,17 @@
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <fstream>
+#include <memory>
+#include <vector>
 
 #include "tests/support/process.h"
+#include "tests/support/sanitized.h"
 
 namespace {
 
@@ -140,6 +144,75 @@ TEST_F(SupervisionTest, ReloadingTouchesOnlyWhatChanged) {
   for (std::string now = changed; now == changed || now == "-1";)  // until it has been replaced
     now = Ask(hub, "Module.CHANGED.pid");
   EXPECT_EQ(Ask(hub, "Module.CHANGED.starts"), "2");
+}
+
+/// X says under which configuration it was started, and does not exit before Release().
+class ReloadWhileStoppingTest : public SupervisionTest {
+ protected:
+  ReloadWhileStoppingTest() { mkfifo(gate_.c_str(), 0600); }
+  void ConfigureX(const std::string& version) {
+    Configure(Shell("X", "echo started $V >&2; read a; read b; cat " + gate_,
+                    ", \"stop_within_ms\": 20000, \"env\": {\"V\": \"" + version + "\"}"));
+  }
+  void Reload(Process& hub) {
+    const std::string tag = "r" + std::to_string(++asked_);
+    hub.WriteLine("set#" + tag + " Reload = NOW");
+    ASSERT_TRUE(hub.Expect("rep#" + tag + " Reload = NOW")) << hub.ErrorText();
+  }
+  void Release() const { std::ofstream(gate_) << "go\n"; }
+
+  std::string gate_ = folder_ / "gate";
+};
+
+TEST_F(ReloadWhileStoppingTest, TheLastConfigurationCounts) {
+  ConfigureX("A");
+  Process hub({kHub, "--config", path_});
+  ASSERT_TRUE(hub.ExpectError("X INFO: started A")) << hub.ErrorText();
+  ConfigureX("B");
+  Reload(hub);
+  EXPECT_EQ(Ask(hub, "Module.X.state"), "STOPPING");
+  ConfigureX("A");
+  Reload(hub);
+  Release();
+  std::string log;
+  while (log.find("started") == log.rfind("started")) log = Ask(hub, "Module.X.log");
+  EXPECT_EQ(log.find("started B"), std::string::npos) << log;
+}
+
+TEST_F(ReloadWhileStoppingTest, AModuleTakenOutAndPutBackIsStartedOnceItHasGone) {
+  ConfigureX("A");
+  Process hub({kHub, "--config", path_});
+  ASSERT_TRUE(hub.ExpectError("X INFO: started A")) << hub.ErrorText();
+  Configure("");
+  Reload(hub);
+  ConfigureX("B");
+  Reload(hub);
+  EXPECT_EQ(Ask(hub, "Module.X.state"), "STOPPING");
+  Release();
+  EXPECT_TRUE(hub.ExpectError("X INFO: started B")) << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Module.X.starts"), "2") << "no start while the old one ran";
+}
+
+TEST_F(SupervisionTest, AModuleIsTriedAgainWhileDescriptorsAreLacking) {
+  if (support::kSanitized) GTEST_SKIP() << "the sanitizers need descriptors of their own";
+  const std::string socket = folder_ / "hub.sock";
+  std::ofstream(path_) << "{\"listen\": [\"unix:" << socket << "\"], \"modules\": ["
+                       << Module("TEST",
+                                 ", \"restart\": {\"when\": \"always\", \"first_ms\": 1, "
+                                 "\"longest_ms\": 20, \"tries\": 10000}")
+                       << "]}";
+  Process hub({"/bin/sh", "-c", "ulimit -n 40; exec '" + kHub + "' --config '" + path_ + "'"});
+  const std::string pid = Ask(hub, "Module.TEST.pid");
+  std::vector<std::unique_ptr<support::SocketClient>> many;
+  for (int i = 0; i < 40; ++i) many.push_back(support::SocketClient::Unix(socket));
+  for (const auto& client : many) {  // answered or closed: all have been accepted
+    client->WriteLine("inq#1 Run");
+    static_cast<void>(client->Expect("rep#1 Run = LIVE"));
+  }
+  kill(std::stoi(pid), SIGKILL);
+  EXPECT_TRUE(hub.ExpectError("': Too many open files")) << hub.ErrorText();
+  many.clear();
+  EXPECT_TRUE(hub.Expect("From @TEST rep Run = LIVE")) << hub.ErrorText();
 }
 
 TEST_F(SupervisionTest, TheServiceManagerIsTold) {

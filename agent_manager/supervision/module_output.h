@@ -1,0 +1,33 @@
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+
+namespace am {
+
+/// A line of a module's stderr.
+struct OutputLine {
+  std::string level;  ///< ERROR, WARNING or INFO
+  std::string text;
+};
+
+/// Tells the level from the first words: "fsm: error: no display" is an ERROR; a line without such
+/// a word is INFO.
+OutputLine ParseOutputLine(std::string text);
+
+/// The last kMaxOutputLines lines of one module's stderr, oldest first.
+class ModuleOutput {
+ public:
+  static constexpr std::size_t kMaxOutputLines = 200;
+  void Add(OutputLine line) {
+    lines_.push_back(std::move(line));
+    if (lines_.size() > kMaxOutputLines) lines_.pop_front();
+  }
+  const std::deque<OutputLine>& lines() const { return lines_; }
+
+ private:
+  std::deque<OutputLine> lines_;
+};
+
+}  // namespace am
