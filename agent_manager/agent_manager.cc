@@ -131,7 +131,7 @@ void AgentManager::ConnectParts() {
   hub_.set_on_report([this](const std::string& from, const vm::Message& message) {
     for (OwnMachine* const machine : own_machines_) machine->OnReport(from, message);
   });
-  hub_.set_owes([this](PeerKey peer) {
+  hub_.set_awaited_by([this](PeerKey peer) {
     return std::ranges::any_of(own_machines_, [peer](const auto* m) { return m->Owes(peer); });
   });
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
@@ -211,9 +211,9 @@ void AgentManager::Apply(const Config& config) {
   hub_slots_.DeclareModules(names);
   names.insert(mqtt::Bridge::kName);
   hub_.Reserve(std::move(names));
-  hub_.limits() = config.limits;
-  hub_.access().set_table(config.rights);
-  hub_.rules().set_rules(config.rules);
+  hub_.set_limits(config.limits);
+  hub_.set_rights(config.rights);
+  hub_.set_rules(config.rules);
   hub_.set_broadcast({config.broadcast.begin(), config.broadcast.end()});
   listeners_.Commit(config.listen, std::move(opened));
   for (const std::string& name : std::exchange(configured_macros_, {})) {
@@ -362,7 +362,7 @@ void AgentManager::StepVirtual() {
   }
   if (io_.poll() > 0 || lockstep_.StepNow()) return;
   if (!SomethingGoesOn()) console_.OnIdle();
-  if (!hub_.idle() || !hub_.lines().dirty().empty() ||
+  if (!hub_.idle() || hub_.AnyGrantOutdated() ||
       (clock_.Next() && *clock_.Next() <= clock_.Now()))
     return;
   const bool time_wanted =
@@ -378,7 +378,7 @@ bool AgentManager::Started() const {
 
 bool AgentManager::SomethingGoesOn() const {
   const auto busy = [](const OwnMachine* machine) { return machine->Busy(); };
-  if (std::ranges::any_of(own_machines_, busy) || hub_.HasHeld() || !hub_.idle() ||
+  if (std::ranges::any_of(own_machines_, busy) || hub_.HoldsBack() || !hub_.idle() ||
       (replay_ && replay_->pending() > 0))
     return true;
   return clock_.real() ? !quiet_.quiet() : lockstep_.Busy();
@@ -418,7 +418,7 @@ void AgentManager::Shutdown() {
 }
 
 void AgentManager::EndProbesInTime(const std::set<PeerKey>& asked_before) {
-  hub_.clocks().EndProbes(asked_before);
+  hub_.EndProbes(asked_before);
   probe_timer_.expires_after(config_.start_limit);
   probe_timer_.async_wait([this, probing = hub_.clocks().Probing()](const auto& error) {
     if (!error) EndProbesInTime(probing);
@@ -429,7 +429,7 @@ void AgentManager::MeasureClocks() {
   measure_timer_.expires_after(kMeasureEvery);
   measure_timer_.async_wait([this](const auto& error) {
     if (error) return;
-    hub_.clocks().MeasureAll();
+    hub_.MeasureClocks();
     MeasureClocks();
   });
 }

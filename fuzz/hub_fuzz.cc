@@ -98,7 +98,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else if (who == 6) {
       session.world.Leave(*session.peers[line.size() % session.peers.size()], "it goes");
     } else {
-      session.world.hub.clocks().EndProbes(session.world.hub.clocks().Probing());
+      session.world.hub.EndProbes(session.world.hub.clocks().Probing());
     }
   }
   session.world.clock.RunUntil(session.world.clock.Now() + std::chrono::minutes(3));

@@ -5,6 +5,7 @@
 
 #include "agent_manager/access/pattern.h"
 #include "embedded/file_slots.h"
+#include "vm_protocol/core/blanks.h"
 
 namespace am {
 namespace {
@@ -14,7 +15,7 @@ template <typename Take>
 void ForEachPart(std::string_view text, char separator, const Take& take) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(separator), text.size());
-    if (const auto part = Trimmed(text.substr(0, end)); !part.empty()) take(part);
+    if (const auto part = vm::Trimmed(text.substr(0, end)); !part.empty()) take(part);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
 }
@@ -32,13 +33,13 @@ FileSlots::FileSlots(std::string_view declared) : FileSlots() {
 }
 
 void FileSlots::Add(std::string_view entry) {
-  const std::size_t blank = std::min(entry.find_first_of(kBlanks), entry.size());
+  const std::size_t blank = std::min(entry.find_first_of(vm::kBlanks), entry.size());
   const std::string name(entry.substr(0, blank));
   if (grammars_.size() >= kMaxSlots) {
     all_ = true;
     return;
   }
-  auto grammar = vm::ValueGrammar::Parse(Trimmed(entry.substr(blank)));
+  auto grammar = vm::ValueGrammar::Parse(vm::Trimmed(entry.substr(blank)));
   grammars_.insert_or_assign(name, grammar ? std::move(*grammar) : vm::ValueGrammar("<file>"));
 }
 

@@ -12,11 +12,6 @@ bool MatchesPattern(std::string_view pattern, std::string_view text);
 bool MatchesIgnoringCase(std::string_view pattern, std::string_view text);
 bool EqualsIgnoringCase(std::string_view a, std::string_view b);
 
-/// Between the words of a line.
-inline constexpr std::string_view kBlanks = " \t\r";
-/// Without blanks at either end.
-std::string_view Trimmed(std::string_view text);
-
 inline bool AnyMatches(const std::vector<std::string>& patterns, std::string_view text) {
   for (const std::string& pattern : patterns) {
     if (pattern == "*" || MatchesPattern(pattern, text)) return true;

@@ -4,7 +4,7 @@
 #include <array>
 #include <sstream>
 
-#include "agent_manager/access/pattern.h"
+#include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/utf8.h"
 
@@ -14,9 +14,9 @@ namespace {
 constexpr std::array<std::string_view, 4> kPartsOfTheHub{"AM", "AM-MCL", "FS-MCL", "PAR"};
 /// Takes the word before the next blank, and the blanks.
 std::string_view TakeWord(std::string_view& text) {
-  const std::size_t end = std::min(text.find_first_of(kBlanks), text.size());
+  const std::size_t end = std::min(text.find_first_of(vm::kBlanks), text.size());
   const std::string_view word = text.substr(0, end);
-  text = Trimmed(text.substr(end));
+  text = vm::Trimmed(text.substr(end));
   return word;
 }
 
@@ -25,7 +25,7 @@ std::string_view TakeWord(std::string_view& text) {
 bool IsAmConf(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = Trimmed(text.substr(0, end));
+    const std::string_view line = vm::Trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.starts_with('#')) continue;
     return line.starts_with("module:") || line.starts_with("broadcast:");
@@ -43,13 +43,13 @@ vm::Result<Config> ParseAmConf(std::string_view text, const std::string& origin)
   };
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = Trimmed(text.substr(0, end));
+    const std::string_view line = vm::Trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     ++number;
     if (line.empty() || line.starts_with('#')) continue;
     const std::size_t colon = std::min(line.find(':'), line.size());
     const std::string_view key = line.substr(0, colon);
-    std::string_view rest = Trimmed(line.substr(std::min(colon + 1, line.size())));
+    std::string_view rest = vm::Trimmed(line.substr(std::min(colon + 1, line.size())));
     if (key == "broadcast") {
       while (!rest.empty()) config.broadcast.emplace_back(TakeWord(rest));
       continue;

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "agent_manager/session/session_log.h"
+#include "agent_manager/log/session_log.h"
 #include "vm_protocol/core/message.h"
 
 namespace am {

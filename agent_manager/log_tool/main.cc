@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "agent_manager/log_tool/entries.h"
-#include "agent_manager/session/log_writer.h"
+#include "agent_manager/log/log_writer.h"
 
 int main(int argc, char** argv) {
   CLI::App app(

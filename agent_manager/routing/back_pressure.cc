@@ -24,7 +24,7 @@ void BackPressure::LetGo(Peer& sender) {
   if (--sender.flow.held_by == 0) sender.link->ResumeReading();
 }
 
-void BackPressure::Count(Peer& sender, std::size_t bytes) {
+void BackPressure::Meter(Peer& sender, std::size_t bytes) {
   if (lockstep_ || (limits_.messages_per_s == 0 && limits_.bytes_per_s == 0)) return;
   FlowState& flow = sender.flow;
   const vm::Time now = clock_.Now();

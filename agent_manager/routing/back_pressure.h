@@ -18,8 +18,8 @@ class BackPressure {
   BackPressure(vm::Scheduler& clock, Directory& directory, const Limits& limits,
                OnCutOff on_cut_off);
 
-  /// Call before a peer's message is dealt with. `bytes`: of its line.
-  void Count(Peer& sender, std::size_t bytes);
+  /// Measures a peer's rates. Call before its message is dealt with. `bytes`: of its line.
+  void Meter(Peer& sender, std::size_t bytes);
   /// Call after something was sent to a peer. `commander`: whose command it was; kHub: nobody's, or
   /// a report. A module has many hearers, and one of them must not stop it for the others.
   void AfterSend(Peer& receiver, PeerKey commander);

@@ -22,11 +22,14 @@ using OnAnswer = std::function<void(const vm::Result<std::string>& answer)>;
 /// On whose behalf something is said. What a macro says carries the origin of whoever started it.
 struct Origin {
   PeerKey peer = kHub;
-  Role role = Role::kOwner;
+  Role role = Role::kGuest;
   /// How many macros have started each other since a peer spoke, without time passing between.
   unsigned depth = 0;
   /// Lines that the outermost `do` may still say; null outside of one.
   std::shared_ptr<std::size_t> lines_left{};
+
+  /// The hub itself, which may do everything.
+  static Origin OfHub() { return {.peer = kHub, .role = Role::kOwner}; }
 };
 
 /// Beyond this depth a message is answered with LIMIT: macros that start themselves end there.

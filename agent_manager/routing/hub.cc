@@ -13,7 +13,6 @@ using vm::Result;
 
 namespace {
 
-constexpr const char* kEndOfInput = "end of input";
 /// How long a peer whose input has ended is kept for its answers.
 constexpr vm::Time kHalfClosedLimit = std::chrono::minutes(5);
 constexpr std::uint64_t kShareForOthers = 8;  // of limits.peers, which guests cannot take
@@ -29,12 +28,13 @@ Hub::Hub(vm::Scheduler& clock, SessionLog& log)
                      }),
       outbox_(clock, log, directory_, back_pressure_, queue_),
       requests_(clock, directory_, outbox_, back_pressure_, limits_),
-      lines_(clock, directory_, outbox_, requests_, access_, limits_),
-      clocks_(clock, directory_, outbox_, requests_, lines_,
+      grants_(clock, outbox_, requests_),
+      forwarder_(clock, directory_, outbox_, requests_, grants_, access_, limits_),
+      clocks_(clock, directory_, outbox_, requests_, grants_, forwarder_,
               [this](Peer& module) {
                 if (on_presence_) on_presence_(module.name, true, "");
               }),
-      router_(clock, log, directory_, outbox_, requests_, lines_, queue_, access_, limits_) {
+      router_(clock, log, directory_, outbox_, requests_, forwarder_, queue_, access_, limits_) {
   router_.set_on_module([this](Peer& peer) { clocks_.Probe(peer); });
 }
 
@@ -42,7 +42,7 @@ Hub::~Hub() = default;
 
 void Hub::set_lockstep(bool lockstep) {
   back_pressure_.set_lockstep(lockstep);
-  lines_.set_lockstep(lockstep);
+  grants_.set_lockstep(lockstep);
 }
 
 Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
@@ -107,19 +107,22 @@ Result<PeerKey> Hub::AttachModule(std::unique_ptr<Link> link, const std::string&
   return Add(std::move(peer));
 }
 
-void Hub::Receive(PeerKey key, Result<std::string_view> line) {
+Peer* Hub::CountInput(PeerKey key, std::size_t bytes) {
   Peer* const sender = directory_.ByKey(key);
-  if (sender == nullptr || sender->flow.cut_off) return;
+  if (sender == nullptr || sender->flow.cut_off) return nullptr;
   sender->spoken = true;
   ++sender->traffic.messages_in;
-  const std::size_t bytes = line ? line->size() + 1 : 0;
   sender->traffic.bytes_in += bytes;
+  return sender;
+}
+
+void Hub::Receive(PeerKey key, Result<std::string_view> line) {
+  const std::size_t bytes = line ? line->size() + 1 : 0;
+  Peer* const sender = CountInput(key, bytes);
+  if (sender == nullptr) return;
   auto message = line ? vm::ParseMessage(*line) : Result<Message>(std::unexpected(line.error()));
-  // Answers were asked for, and are counted with those who asked.
-  const bool answer = message && message->command == vm::Command::kRep && !message->tag.empty() &&
-                      !sender->requests.open.empty();
-  if (!answer) back_pressure_.Count(*sender, bytes);
-  if (message) return queue_.Push(std::move(*message), {.peer = key, .role = sender->role});
+  if (message) return Take(*sender, std::move(*message), bytes);
+  back_pressure_.Meter(*sender, bytes);
   if (message.error().code == Errc::kEmpty) return;
   queue_.Post(
       [this, key, error = message.error(), tag = line ? vm::TagOf(*line) : std::string()] {
@@ -129,13 +132,16 @@ void Hub::Receive(PeerKey key, Result<std::string_view> line) {
 }
 
 void Hub::Receive(PeerKey key, Message message) {
-  Peer* const sender = directory_.ByKey(key);
-  if (sender == nullptr || sender->flow.cut_off) return;
-  sender->spoken = true;
-  ++sender->traffic.messages_in;
-  sender->traffic.bytes_in += message.value.size();
-  back_pressure_.Count(*sender, message.value.size());
-  queue_.Push(std::move(message), {.peer = key, .role = sender->role});
+  const std::size_t bytes = message.value.size();
+  if (Peer* const sender = CountInput(key, bytes)) Take(*sender, std::move(message), bytes);
+}
+
+void Hub::Take(Peer& sender, Message message, std::size_t bytes) {
+  // An answer was asked for, and is counted with the requests of the peer that asked.
+  const bool answer =
+      message.command == vm::Command::kRep && !message.tag.empty() && !sender.requests.open.empty();
+  if (!answer) back_pressure_.Meter(sender, bytes);
+  queue_.Push(std::move(message), {.peer = sender.key, .role = sender.role});
 }
 
 void Hub::Leave(PeerKey key, const std::string& reason) {
@@ -153,9 +159,9 @@ void Hub::ReleaseHalfClosed() {
   for (auto at = half_closed_.begin(); at != half_closed_.end();) {
     const PeerKey key = at->first;
     const Peer* const peer = directory_.ByKey(key);
-    const auto leave = [this, key] { Leave(key, kEndOfInput); };
-    const bool owed = peer != nullptr && (peer->asked > 0 || (owes_ && owes_(key)));
-    if (owed || (peer != nullptr && peer->link->backlog_bytes() > 0)) {
+    const auto leave = [this, key] { Leave(key, "end of input"); };
+    const bool awaited = peer != nullptr && (peer->asked > 0 || (awaited_by_ && awaited_by_(key)));
+    if (awaited || (peer != nullptr && peer->link->backlog_bytes() > 0)) {
       if (at->second == 0) at->second = clock_.After(kHalfClosedLimit, leave);
       ++at;
       continue;
@@ -183,7 +189,7 @@ void Hub::Evict(PeerKey key, const std::string& reason) {
   peer->link->Close();
   requests_.FailAll(*peer,
                     {Errc::kUnavailable, "@" + peer->name + " has gone (" + reason + ")", 0});
-  lines_.Forget(*peer);
+  forwarder_.Forget(*peer);
   for (vm::SlotMachine* const machine : directory_.Machines()) machine->PeerGone(key);
   if (on_presence_) on_presence_(peer->name, false, reason);
 }
@@ -191,12 +197,12 @@ void Hub::Evict(PeerKey key, const std::string& reason) {
 bool Hub::Drain() {
   // What comes while these are dealt with waits for the next time: the loop looks at its
   // descriptors and timers in between, whatever the hub's parts say to each other.
-  const bool any = queue_.Drain([this](WorkQueue::Item& item) { Do(item); }) > 0;
+  const bool any = queue_.Drain([this](WorkQueue::Item& item) { DealWith(item); }) > 0;
   if (!half_closed_.empty()) ReleaseHalfClosed();
   return any || !queue_.empty();
 }
 
-void Hub::Do(WorkQueue::Item& item) {
+void Hub::DealWith(WorkQueue::Item& item) {
   auto* const envelope = std::get_if<Envelope>(&item);
   const PeerKey blamed = envelope ? envelope->origin.peer : std::get<Work>(item).blamed;
   try {
@@ -206,11 +212,11 @@ void Hub::Do(WorkQueue::Item& item) {
       std::get<Work>(item).act();
     }
   } catch (const std::exception& error) {
-    Blame(blamed, error.what());
+    ReportFailure(blamed, error.what());
   }
 }
 
-void Hub::Blame(PeerKey key, const char* what) {
+void Hub::ReportFailure(PeerKey key, const char* what) {
   const vm::Error error{Errc::kInternal, std::string("a message could not be dealt with: ") + what,
                         0};
   Peer* const peer = directory_.ByKey(key);
@@ -257,7 +263,7 @@ Result<void> Hub::Rename(PeerKey key, const std::string& name) {
 }
 
 void Hub::Grant(PeerKey key, vm::Time until, OnAnswer done) {
-  if (Peer* const module = directory_.ByKey(key)) lines_.Grant(*module, until, std::move(done));
+  if (Peer* const module = directory_.ByKey(key)) grants_.Grant(*module, until, std::move(done));
 }
 
 void Hub::Subscribe(PeerKey key, const std::set<std::string>& modules) {

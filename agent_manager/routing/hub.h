@@ -60,12 +60,14 @@ class Hub {
   /// Says something as the hub's own machine `sender`, on behalf of `origin`; `done` is called from
   /// the queue with the answer.
   void Ask(const std::string& sender, vm::Message message, OnAnswer done,
-           const Origin& origin = {});
+           const Origin& origin = Origin::OfHub());
   /// Says something as a peer, as if it had come by its link: the lines of `do`.
   void SayAs(const Origin& origin, vm::Message message);
 
-  /// Asks the hub's own parts whether they still have something to answer to a peer.
-  void set_owes(std::function<bool(PeerKey peer)> owes) { owes_ = std::move(owes); }
+  /// Asked whether a peer still waits for an answer of one of the hub's own parts.
+  void set_awaited_by(std::function<bool(PeerKey peer)> awaited_by) {
+    awaited_by_ = std::move(awaited_by);
+  }
 
   bool IsPresent(std::string_view name) const { return directory_.Find(name) != nullptr; }
   /// One of this hub's own modules: from the configuration, or a client that has become one.
@@ -100,27 +102,38 @@ class Hub {
   /// A comment, for what is no message of the session; false if the peer is gone.
   bool SendComment(PeerKey peer, std::string_view text);
 
-  Rules& rules() { return router_.rules(); }
-  AccessControl& access() { return access_; }
-  Limits& limits() { return limits_; }
+  void set_rules(std::vector<Rule> rules) { router_.set_rules(std::move(rules)); }
+  void set_rights(RightsTable rights) { access_.set_table(std::move(rights)); }
+  const AccessControl& access() const { return access_; }
+  void set_limits(const Limits& limits) { limits_ = limits; }
+  void set_limit(std::uint64_t Limits::*member, std::uint64_t value) { limits_.*member = value; }
   const Limits& limits() const { return limits_; }
-  ModuleClocks& clocks() { return clocks_; }
+
+  /// What is known of the modules' clocks.
   const ModuleClocks& clocks() const { return clocks_; }
-  ModuleLines& lines() { return lines_; }
+  void MeasureClocks() { clocks_.MeasureAll(); }
+  /// As ModuleClocks::EndProbes.
+  void EndProbes(const std::set<PeerKey>& modules) { clocks_.EndProbes(modules); }
 
   /// Modules on the virtual clock follow ours exactly; nothing is measured.
   void set_lockstep(bool lockstep);
-  /// Lockstep: tells a module how far its clock may go.
+  /// As ClockGrants::Grant.
   void Grant(PeerKey module, vm::Time until, OnAnswer done);
+  /// As ClockGrants::AnyOutdated.
+  bool AnyGrantOutdated() const { return grants_.AnyOutdated(); }
   /// True while messages wait for their time.
-  bool HasHeld() const { return lines_.HasHeld(); }
+  bool HoldsBack() const { return router_.HoldsBack() || forwarder_.HoldsBack(); }
 
  private:
   vm::Result<PeerKey> Add(std::unique_ptr<Peer> peer);
-  void Do(WorkQueue::Item& item);
+  /// Counts what a peer has sent. Null if the peer is gone or is being cut off.
+  Peer* CountInput(PeerKey peer, std::size_t bytes);
+  void Take(Peer& sender, vm::Message message, std::size_t bytes);
+  void DealWith(WorkQueue::Item& item);
   void ReleaseHalfClosed();
   std::uint64_t GuestsThere() const;
-  void Blame(PeerKey peer, const char* what);
+  /// What dealing with an item has thrown is the error of the peer that caused it.
+  void ReportFailure(PeerKey peer, const char* what);
 
   vm::Scheduler& clock_;
   Limits limits_;
@@ -130,11 +143,12 @@ class Hub {
   BackPressure back_pressure_;
   Outbox outbox_;
   Requests requests_;
-  ModuleLines lines_;
+  ClockGrants grants_;
+  Forwarder forwarder_;
   ModuleClocks clocks_;
   Router router_;
   std::map<PeerKey, vm::TimerId> half_closed_;  // and what ends their waiting
-  std::function<bool(PeerKey)> owes_;
+  std::function<bool(PeerKey)> awaited_by_;
   OnPresence on_presence_;
   PeerKey last_key_ = 0;
   unsigned long last_name_ = 0;  // of those who have none

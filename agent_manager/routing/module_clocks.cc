@@ -21,14 +21,16 @@ void Ignore(const Result<std::string>&) {}
 }  // namespace
 
 ModuleClocks::ModuleClocks(vm::Scheduler& clock, Directory& directory, Outbox& outbox,
-                           Requests& requests, ModuleLines& lines, OnKnown on_known)
+                           Requests& requests, ClockGrants& grants, Forwarder& forwarder,
+                           OnKnown on_known)
     : clock_(clock),
       directory_(directory),
       outbox_(outbox),
       requests_(requests),
-      lines_(lines),
+      grants_(grants),
+      forwarder_(forwarder),
       on_known_(std::move(on_known)) {
-  lines_.set_on_clock_needed([this](PeerKey key) { MeasureSoon(key); });
+  forwarder_.set_on_clock_needed([this](PeerKey key) { MeasureSoon(key); });
 }
 
 void ModuleClocks::Probe(Peer& module) {
@@ -51,20 +53,21 @@ void ModuleClocks::BecomeModern(Peer& module, vm::Time asked_at, const Result<st
   module.module.probing = false;
   module.module.granted = clock_.Now();
   // In lockstep time waits for every clock that is known: never for a guest's.
-  const bool kept_out = lines_.lockstep() && module.role == Role::kGuest;
+  const bool kept_out = grants_.lockstep() && module.role == Role::kGuest;
   if (clock && !kept_out) Sample(module, asked_at, *clock);
   outbox_.Write(
       module, Message{{}, "", vm::Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"},
       kHub);
   if (module.module.clock.known) {
-    lines_.Forward(module, vm::Set("Clock.mode", lines_.lockstep() ? "HUB" : "REAL"), {}, Ignore);
-    if (lines_.lockstep()) {
-      lines_.Grant(module, clock_.Now(), Ignore);  // from here on its clock is ours
+    forwarder_.Forward(module, vm::Set("Clock.mode", grants_.lockstep() ? "HUB" : "REAL"),
+                       Origin::OfHub(), Ignore);
+    if (grants_.lockstep()) {
+      grants_.Grant(module, clock_.Now(), Ignore);  // from here on its clock is ours
     } else {
       Measure(module, kExchanges);
     }
   }
-  lines_.FlushWaiting(module);
+  forwarder_.FlushWaiting(module);
   on_known_(module);
 }
 
@@ -77,11 +80,11 @@ void ModuleClocks::Sample(Peer& peer, vm::Time asked_at, const std::string& valu
 
 void ModuleClocks::Measure(Peer& peer, int exchanges) {
   if (exchanges <= 0) {
-    if (std::exchange(peer.module.measuring, false)) lines_.FlushWaiting(peer);
+    if (std::exchange(peer.module.measuring, false)) forwarder_.FlushWaiting(peer);
     return;
   }
-  lines_.Forward(
-      peer, vm::Inq("Clock"), {},
+  forwarder_.Forward(
+      peer, vm::Inq("Clock"), Origin::OfHub(),
       [this, key = peer.key, asked_at = clock_.Now(), exchanges](const Result<std::string>& value) {
         Peer* const answering = directory_.ByKey(key);
         if (answering == nullptr) return;
@@ -120,7 +123,7 @@ void ModuleClocks::EndProbes(const std::set<PeerKey>& modules) {
     peer->module.probing = false;
     peer->dialect = Dialect::kOriginal;
     requests_.Forget(*peer);
-    lines_.FlushWaiting(*peer);
+    forwarder_.FlushWaiting(*peer);
     on_known_(*peer);
   }
 }

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "agent_manager/routing/module_lines.h"
+#include "agent_manager/routing/forwarder.h"
 
 namespace am {
 
@@ -16,7 +16,7 @@ class ModuleClocks {
   /// A module can be spoken to from now on.
   using OnKnown = std::function<void(Peer& module)>;
   ModuleClocks(vm::Scheduler& clock, Directory& directory, Outbox& outbox, Requests& requests,
-               ModuleLines& lines, OnKnown on_known);
+               ClockGrants& grants, Forwarder& forwarder, OnKnown on_known);
 
   void Probe(Peer& module);
   /// Modules that are still being asked what they are.
@@ -44,7 +44,8 @@ class ModuleClocks {
   Directory& directory_;
   Outbox& outbox_;
   Requests& requests_;
-  ModuleLines& lines_;
+  ClockGrants& grants_;
+  Forwarder& forwarder_;
   OnKnown on_known_;
   unsigned rounds_ = 0;
 };

@@ -4,10 +4,10 @@
 #include <set>
 #include <string>
 
+#include "agent_manager/log/session_log.h"
 #include "agent_manager/routing/back_pressure.h"
 #include "agent_manager/routing/directory.h"
 #include "agent_manager/routing/work_queue.h"
-#include "agent_manager/session/session_log.h"
 
 namespace am {
 

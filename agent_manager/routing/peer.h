@@ -10,11 +10,11 @@
 
 #include "agent_manager/access/file_slots.h"
 #include "agent_manager/access/role.h"
+#include "agent_manager/routing/clock_estimate.h"
 #include "agent_manager/routing/dialect.h"
 #include "agent_manager/routing/envelope.h"
 #include "agent_manager/routing/limits.h"
 #include "agent_manager/routing/link.h"
-#include "agent_manager/session/clock_estimate.h"
 
 namespace am {
 
@@ -62,21 +62,21 @@ struct ClockState {
   vm::Time delay{0};   ///< there and back, of the best exchange
 };
 
-/// A message that waits until it is known how to say it.
-struct Held {
+/// A message that waits until the hub knows how to say it to its receiver.
+struct WaitingMessage {
   vm::Message message;
   Origin origin;
   OnAnswer done{};
 };
 
-/// What is known of a module, and what waits until it is. Only ModuleLines and ModuleClocks change
-/// it.
+/// What is known of a module, and the messages that wait until it is. Changed by Forwarder and its
+/// parts, ClockGrants and ModuleClocks only.
 struct ModuleState {
-  bool probing = false;        ///< it is being asked whether it knows Clock
-  int silent_rounds = 0;       ///< EndProbes has passed over it
-  bool measuring = false;      ///< a start time waits for its clock to be known
-  bool asked_clock = false;    ///< another hub's clock is measured once a start time needs it
-  std::deque<Held> waiting{};  ///< until it is no longer being asked
+  bool probing = false;      ///< it is being asked whether it knows Clock
+  int silent_rounds = 0;     ///< EndProbes has passed over it
+  bool measuring = false;    ///< a start time waits for its clock to be known
+  bool asked_clock = false;  ///< another hub's clock is measured once a start time needs it
+  std::deque<WaitingMessage> waiting{};              ///< until it is no longer being asked
   std::map<std::string, vm::TimerId> held_starts{};  ///< `set SLOT = @T` for those that lack `@T`
   ClockState clock{};
   ClockEstimate estimate{};

@@ -1,9 +1,9 @@
 #include "agent_manager/routing/requests.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
+#include "agent_manager/routing/tag.h"
 #include "vm_protocol/core/client.h"
 
 namespace am {
@@ -14,12 +14,7 @@ using vm::Message;
 
 namespace {
 
-/// The hub's own tags are "h" and a number; 0 for a tag that is none of ours.
-unsigned long NumberOf(std::string_view tag) {
-  unsigned long number = 0;
-  if (tag.starts_with('h')) std::from_chars(tag.data() + 1, tag.data() + tag.size(), number);
-  return number;
-}
+constexpr char kTagLetter = 'h';
 
 }  // namespace
 
@@ -50,18 +45,18 @@ Request Requests::Take(Peer& module, unsigned long number) {
     if (mine->second.empty()) table.by_asker.erase(mine);
   }
   if (table.open.empty()) clock_.Cancel(std::exchange(table.timer, 0));
-  Uncount(request.asker);
+  UncountUnanswered(request.asker);
   return request;
 }
 
-void Requests::Count(PeerKey asker) {
+void Requests::CountUnanswered(PeerKey asker) {
   Peer* const peer = directory_.ByKey(asker);
   if (peer == nullptr || ++peer->asked <= limits_.pending / 2 || peer->waits_for_answers) return;
   if (!peer->requests.open.empty()) return;  // others wait for what it says
   peer->waits_for_answers = back_pressure_.Hold(*peer);
 }
 
-void Requests::Uncount(PeerKey asker) {
+void Requests::UncountUnanswered(PeerKey asker) {
   Peer* const peer = directory_.ByKey(asker);
   if (peer == nullptr) return;
   --peer->asked;
@@ -95,12 +90,12 @@ unsigned long Requests::Insert(Peer& module, Request request) {
   table.open.emplace_hint(table.open.end(), number, std::move(request));
   table.by_asker[asker].insert(number);
   if (table.timer == 0) Watch(module);
-  Count(asker);
+  CountUnanswered(asker);
   return number;
 }
 
 std::string Requests::Add(Peer& module, Request request) {
-  return "h" + std::to_string(Insert(module, std::move(request)));
+  return FormatTag(kTagLetter, Insert(module, std::move(request)));
 }
 
 void Requests::AddBySlot(Peer& module, Request request) {
@@ -131,7 +126,7 @@ void Requests::Expire(PeerKey key) {
 bool Requests::Resolve(Peer& module, const Message& rep) {
   if (rep.tag.empty()) return false;
   RequestTable& table = module.requests;
-  const auto found = table.open.find(NumberOf(rep.tag));
+  const auto found = table.open.find(NumberOfTag(kTagLetter, rep.tag));
   if (found == table.open.end()) return true;  // late, or not ours: nobody waits for it
   const std::string slot = SlotOf(found->second.message);
   const bool refused = rep.slot == slot + ".error" || (rep.slot == "Error" && slot != "Error");

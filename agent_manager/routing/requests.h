@@ -32,8 +32,8 @@ class Requests {
   /// A line of the peer's waits to be sent: it is one of those that it has not been answered. A
   /// peer with half of the limit of them is not read from until half of those have been answered,
   /// unless others wait for its own answers.
-  void Count(PeerKey asker);
-  void Uncount(PeerKey asker);
+  void CountUnanswered(PeerKey asker);
+  void UncountUnanswered(PeerKey asker);
   /// They are forgotten without an answer.
   void Forget(Peer& module);
 

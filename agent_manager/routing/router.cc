@@ -1,6 +1,5 @@
 #include "agent_manager/routing/router.h"
 
-#include <charconv>
 #include <utility>
 #include <vector>
 
@@ -18,27 +17,21 @@ bool IsReport(const Message& message) {
   return message.command == Command::kRep || message.command == Command::kTell;
 }
 
-/// Tags of what the hub's parts ask of its own machines: "i" and a number.
-unsigned long NumberOf(std::string_view tag) {
-  unsigned long number = 0;
-  if (tag.starts_with('i')) std::from_chars(tag.data() + 1, tag.data() + tag.size(), number);
-  return number;
-}
-
 }  // namespace
 
 Router::Router(vm::Scheduler& clock, SessionLog& log, Directory& directory, Outbox& outbox,
-               Requests& requests, ModuleLines& lines, WorkQueue& queue,
+               Requests& requests, Forwarder& forwarder, WorkQueue& queue,
                const AccessControl& access, const Limits& limits)
     : clock_(clock),
       log_(log),
       directory_(directory),
       outbox_(outbox),
       requests_(requests),
-      lines_(lines),
+      forwarder_(forwarder),
       queue_(queue),
       access_(access),
-      limits_(limits) {}
+      limits_(limits),
+      questions_(queue, limits) {}
 
 std::string Router::SenderOf(const Envelope& envelope) const {
   if (!envelope.machine.empty()) return envelope.machine;
@@ -63,7 +56,7 @@ void Router::Route(Envelope& envelope) {
     if (IsReport(envelope.message)) {
       const auto checked = access_.CheckMessage(sender->role, "", envelope.message);
       if (!checked) return outbox_.Complain(*sender, checked.error(), envelope.message.tag);
-      return Report(*sender, std::move(envelope.message));
+      return RouteReport(*sender, std::move(envelope.message));
     }
   }
   if (envelope.origin.depth > kMaxOriginDepth)
@@ -75,12 +68,12 @@ void Router::Route(Envelope& envelope) {
   if (receivers.empty()) receivers.emplace_back("AM");
   for (std::size_t i = 0; i + 1 < receivers.size(); ++i) {
     Envelope copy = envelope;
-    Deliver(copy, receivers[i]);
+    RouteTo(receivers[i], copy);
   }
-  Deliver(envelope, receivers.back());
+  RouteTo(receivers.back(), envelope);
 }
 
-void Router::Deliver(Envelope& envelope, std::string& receiver) {
+void Router::RouteTo(std::string& receiver, Envelope& envelope) {
   if (const vm::SlotMachine* const machine = directory_.Machine(receiver);
       machine != nullptr && machine->module_name() != receiver)
     receiver = machine->module_name();  // not one of its other names: rules and rights know one
@@ -88,30 +81,36 @@ void Router::Deliver(Envelope& envelope, std::string& receiver) {
     const auto checked = access_.CheckMessage(envelope.origin.role, receiver, envelope.message);
     if (!checked) return Refuse(envelope, checked.error());
   }
-  if (rules_.empty()) return DeliverNow(envelope, receiver);
-  DeliverByRule(envelope, receiver);
+  if (rules_.empty()) return HandOver(envelope, receiver);
+  ApplyRules(envelope, receiver);
 }
 
-void Router::DeliverByRule(Envelope& envelope, std::string& receiver) {
+void Router::ApplyRules(Envelope& envelope, std::string& receiver) {
   const Rules::Sender sender = RuleSenderOf(envelope);
   const Rules::Outcome outcome = rules_.Apply(sender, receiver, envelope.message, clock_.Now());
-  CarryOut(outcome, sender.name);
+  SendCopies(outcome, sender.name, envelope.origin.role);
   if (outcome.dropped) {
-    // Nobody waits for an answer that never comes; who did not ask for one hears nothing.
+    // Nobody waits for an answer that never comes; a sender that did not ask for one hears nothing.
     if (envelope.done || !envelope.message.tag.empty())
       Refuse(envelope, {Errc::kAccess, *outcome.dropped, 0});
     return;
   }
-  if (outcome.delay <= vm::Time(0)) return DeliverNow(envelope, receiver);
-  lines_.CountHeld(1);
-  const auto held = std::make_shared<Envelope>(std::move(envelope));
-  clock_.After(outcome.delay, [this, held, receiver] {
-    lines_.CountHeld(-1);
-    queue_.Post([this, held, receiver] { DeliverNow(*held, receiver); }, held->origin.peer);
+  if (outcome.delay <= vm::Time(0)) return HandOver(envelope, receiver);
+  const auto delayed = std::make_shared<Envelope>(std::move(envelope));
+  Delay(
+      outcome.delay, [this, delayed, receiver] { HandOver(*delayed, receiver); },
+      delayed->origin.peer);
+}
+
+void Router::Delay(vm::Time delay, std::function<void()> act, PeerKey blamed) {
+  ++delayed_;
+  clock_.After(delay, [this, act = std::move(act), blamed] {
+    --delayed_;
+    queue_.Post(act, blamed);
   });
 }
 
-void Router::CarryOut(const Rules::Outcome& outcome, const std::string& from) {
+void Router::SendCopies(const Rules::Outcome& outcome, const std::string& from, Role role) {
   for (const std::string& note : outcome.notes) outbox_.Notice(note);
   for (const auto& [receiver, copy] : outcome.copies) {
     Peer* const peer = directory_.Find(receiver);
@@ -119,13 +118,14 @@ void Router::CarryOut(const Rules::Outcome& outcome, const std::string& from) {
     Message message = copy;
     message.to.clear();
     message.tag.clear();
-    if (!IsReport(copy)) {
-      message.from.clear();
-      lines_.Forward(*peer, std::move(message), {}, nullptr);
+    if (IsReport(copy)) {
+      message.from = from;
+      outbox_.Send(*peer, message, kHub);
       continue;
     }
-    message.from = from;
-    outbox_.Send(*peer, message, kHub);
+    message.from.clear();
+    // Nobody hears the answer to a copy, but the files it names are the sender's wish.
+    forwarder_.Forward(*peer, std::move(message), {.peer = kHub, .role = role}, nullptr);
   }
 }
 
@@ -135,14 +135,14 @@ void Router::LogTo(const Envelope& envelope, const std::string& receiver) {
              vm::FormatMessage(vm::To(receiver, envelope.message)));
 }
 
-void Router::DeliverNow(Envelope& envelope, const std::string& receiver) {
+void Router::HandOver(Envelope& envelope, const std::string& receiver) {
   envelope.message.from.clear();
   if (Peer* const peer = directory_.Find(receiver)) {
     LogTo(envelope, receiver);
     // A macro's own requests are answered to the macro, whoever started it.
     Origin origin = envelope.origin;
     if (!envelope.machine.empty()) origin.peer = kHub;
-    return lines_.Forward(*peer, std::move(envelope.message), origin, std::move(envelope.done));
+    return forwarder_.Forward(*peer, std::move(envelope.message), origin, std::move(envelope.done));
   }
   if (vm::SlotMachine* const machine = directory_.Machine(receiver)) {
     LogTo(envelope, receiver);
@@ -150,7 +150,7 @@ void Router::DeliverNow(Envelope& envelope, const std::string& receiver) {
   }
   const Result<bool> attached = on_unknown_ ? on_unknown_(receiver) : Result<bool>(false);
   if (!attached) return Refuse(envelope, attached.error());
-  if (*attached && directory_.Find(receiver) != nullptr) return DeliverNow(envelope, receiver);
+  if (*attached && directory_.Find(receiver) != nullptr) return HandOver(envelope, receiver);
   Refuse(envelope,
          {Errc::kUnknownModule, "there is no @" + receiver + " (inq Modules lists them)", 0});
 }
@@ -159,16 +159,7 @@ void Router::ToMachine(vm::SlotMachine& machine, Envelope& envelope) {
   if (const auto counted = CountDefinition(envelope); !counted)
     return Refuse(envelope, counted.error(), machine.module_name());
   const PeerKey asker = envelope.machine.empty() ? envelope.origin.peer : kHub;
-  if (envelope.done) {
-    if (asked_of_machines_.size() >= limits_.pending) {
-      const OnAnswer oldest = std::move(asked_of_machines_.begin()->second);
-      asked_of_machines_.erase(asked_of_machines_.begin());
-      queue_.Post([oldest] { oldest(Fail(Errc::kTimeout, "too many requests are unanswered")); });
-    }
-    const unsigned long number = ++last_number_;
-    envelope.message.tag = "i" + std::to_string(number);
-    asked_of_machines_.emplace_hint(asked_of_machines_.end(), number, std::move(envelope.done));
-  }
+  if (envelope.done) envelope.message.tag = questions_.Add(std::move(envelope.done));
   const Result<Taken> taken = on_machine_ ? on_machine_(machine, envelope) : Result<Taken>(Taken{});
   if (taken && !taken->taken) return machine.Handle(envelope.message, asker);
   if (taken && (!taken->answer || envelope.message.tag.empty())) return;
@@ -181,22 +172,14 @@ void Router::ToMachine(vm::SlotMachine& machine, Envelope& envelope) {
 
 void Router::FromMachine(const std::string& machine, PeerKey to, const Message& said) {
   // Only our own questions are asked in nobody's name, so a peer's tag is never taken for one.
-  if (to == kHub && !said.tag.empty()) {
-    const auto asked = asked_of_machines_.find(NumberOf(said.tag));
-    if (asked == asked_of_machines_.end()) return;
-    const OnAnswer done = std::move(asked->second);
-    asked_of_machines_.erase(asked);
-    const bool refused = said.slot.ends_with(".error");
-    return queue_.Post([done, refused, value = said.value] {
-      refused ? done(Fail(Errc::kUnavailable, value)) : done(value);
-    });
-  }
+  if (to == kHub && !said.tag.empty()) return questions_.Resolve(said);
   Message message = said;
   message.from = machine;
-  if (to != kHub) {
-    if (Peer* const peer = directory_.ByKey(to)) outbox_.Send(*peer, message, kHub);
-    return;
-  }
+  if (to == kHub) return ReportOf(machine, std::move(message));
+  if (Peer* const peer = directory_.ByKey(to)) outbox_.Send(*peer, message, kHub);
+}
+
+void Router::ReportOf(const std::string& machine, Message message) {
   std::set<PeerKey> receivers;
   for (const auto& [key, peer] : directory_.peers()) {
     if (peer->subscriptions.contains("*") || peer->subscriptions.contains(machine))
@@ -221,7 +204,7 @@ Result<void> Router::CountDefinition(const Envelope& envelope) {
   return {};
 }
 
-void Router::Report(Peer& sender, Message message) {
+void Router::RouteReport(Peer& sender, Message message) {
   if (message.command == Command::kRep && requests_.Resolve(sender, message)) return;
   for (const std::string& name : message.to) {
     if (const auto checked = access_.CheckReceiver(sender.role, name); !checked)
@@ -231,51 +214,52 @@ void Router::Report(Peer& sender, Message message) {
     sender.kind = PeerKind::kModule;  // a module that came by a socket
     if (on_module_) on_module_(sender);
   }
-  if (rules_.empty()) return ReportNow(sender, std::move(message));
-  if (message.to.empty()) return ReportByRule(sender, std::move(message));
+  if (rules_.empty()) return Spread(sender, std::move(message));
+  if (message.to.empty()) return ApplyRulesToReport(sender, std::move(message));
   for (const std::string& name : message.to) {  // a rule is for one receiver
     Message copy = message;
     copy.to = {name};
-    ReportByRule(sender, std::move(copy));
+    ApplyRulesToReport(sender, std::move(copy));
   }
 }
 
-void Router::ReportByRule(Peer& sender, Message message) {
+void Router::ApplyRulesToReport(Peer& sender, Message message) {
   std::string to = message.to.size() == 1 ? message.to.front() : "";
   const std::string before = to;
   const Rules::Outcome outcome =
       rules_.Apply({sender.name, "", sender.role}, to, message, clock_.Now());
-  CarryOut(outcome, sender.name);
+  SendCopies(outcome, sender.name, sender.role);
   if (outcome.dropped) return;
   if (to != before) message.to = {to};
-  if (outcome.delay <= vm::Time(0)) return ReportNow(sender, std::move(message));
-  lines_.CountHeld(1);
-  clock_.After(outcome.delay, [this, key = sender.key, message = std::move(message)] {
-    lines_.CountHeld(-1);
-    queue_.Post(
-        [this, key, message] {
-          if (Peer* const peer = directory_.ByKey(key)) ReportNow(*peer, message);
-        },
-        key);
-  });
+  if (outcome.delay <= vm::Time(0)) return Spread(sender, std::move(message));
+  const PeerKey key = sender.key;
+  Delay(
+      outcome.delay,
+      [this, key, message = std::move(message)] {
+        if (Peer* const peer = directory_.ByKey(key)) Spread(*peer, message);
+      },
+      key);
 }
 
-void Router::ReportNow(Peer& sender, Message message) {
+std::set<PeerKey> Router::HearersOf(const Peer& sender) {
+  std::set<PeerKey> hearers;
+  for (const auto& [key, peer] : directory_.peers()) {
+    const bool broadcast = sender.kind != PeerKind::kRemote && broadcast_.contains(peer->name);
+    if (key != sender.key && (broadcast || peer->subscriptions.contains("*") ||
+                              peer->subscriptions.contains(sender.name)))
+      hearers.insert(key);
+  }
+  return hearers;
+}
+
+void Router::Spread(Peer& sender, Message message) {
   std::set<PeerKey> receivers;
-  const bool addressed = !message.to.empty();
+  if (message.to.empty()) receivers = HearersOf(sender);
   for (const std::string& name : std::exchange(message.to, {})) {
     if (const Peer* const peer = directory_.Find(name)) {
       receivers.insert(peer->key);
     } else if (directory_.Machine(name) == nullptr) {
       outbox_.Complain(sender, {Errc::kUnknownModule, "there is no @" + name, 0});
-    }
-  }
-  if (!addressed) {
-    for (const auto& [key, peer] : directory_.peers()) {
-      if (key != sender.key &&
-          ((sender.kind != PeerKind::kRemote && broadcast_.contains(peer->name)) ||
-           peer->subscriptions.contains("*") || peer->subscriptions.contains(sender.name)))
-        receivers.insert(key);
     }
   }
   for (const Request& request : requests_.TakeBySlot(sender, message.slot)) {

@@ -1,33 +1,37 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "agent_manager/access/rights.h"
-#include "agent_manager/routing/module_lines.h"
+#include "agent_manager/routing/forwarder.h"
+#include "agent_manager/routing/machine_questions.h"
 #include "agent_manager/routing/rules.h"
 
 namespace am {
 
-/// Who gets what: takes one envelope, asks whether it may be said, applies the rules, and hands it
-/// to its receivers, or answers why not. Thread: the scheduler's; called by the hub's loop only.
-/// All that it is given outlives it.
+/// Decides who gets a message: checks the sender's rights, applies the rules, and hands the message
+/// to each receiver, or answers the sender with the reason why not. The answer of a module to a
+/// tagged request goes to the asker alone; rights and rules do not see it.
+/// Thread: the scheduler's; called by the hub's loop only. All that it is given outlives it.
 class Router {
  public:
   Router(vm::Scheduler& clock, SessionLog& log, Directory& directory, Outbox& outbox,
-         Requests& requests, ModuleLines& lines, WorkQueue& queue, const AccessControl& access,
+         Requests& requests, Forwarder& forwarder, WorkQueue& queue, const AccessControl& access,
          const Limits& limits);
 
-  /// What it needs of the envelope it takes.
+  /// Takes what it needs out of the envelope.
   void Route(Envelope& envelope);
-  /// What one of the hub's own machines says: to one peer, or to all who subscribed to it.
+  /// What one of the hub's own machines says: an answer to a peer, or, with kHub, to one of the
+  /// hub's parts if it has a tag, else a report to all peers that subscribed to the machine.
   void FromMachine(const std::string& machine, PeerKey to, const vm::Message& said);
 
-  Rules& rules() { return rules_; }
+  void set_rules(std::vector<Rule> rules) { rules_.set_rules(std::move(rules)); }
+  /// True while messages wait because a rule delays them.
+  bool HoldsBack() const { return delayed_ > 0; }
   /// Reports (`rep`, `tell`) without receiver also go to peers of these names.
   void set_broadcast(std::set<std::string> names) { broadcast_ = std::move(names); }
   /// Told of every report of a peer, after everybody else.
@@ -50,14 +54,18 @@ class Router {
   void set_on_machine(OnMachine on_machine) { on_machine_ = std::move(on_machine); }
 
  private:
-  void Report(Peer& sender, vm::Message message);
-  void ReportByRule(Peer& sender, vm::Message message);
-  void ReportNow(Peer& sender, vm::Message message);
-  void Deliver(Envelope& envelope, std::string& receiver);
-  void DeliverByRule(Envelope& envelope, std::string& receiver);
-  void DeliverNow(Envelope& envelope, const std::string& receiver);
+  void RouteReport(Peer& sender, vm::Message message);
+  void ApplyRulesToReport(Peer& sender, vm::Message message);
+  void Spread(Peer& sender, vm::Message message);
+  std::set<PeerKey> HearersOf(const Peer& sender);
+  void RouteTo(std::string& receiver, Envelope& envelope);
+  void ApplyRules(Envelope& envelope, std::string& receiver);
+  void HandOver(Envelope& envelope, const std::string& receiver);
   void ToMachine(vm::SlotMachine& machine, Envelope& envelope);
-  void CarryOut(const Rules::Outcome& outcome, const std::string& from);
+  void ReportOf(const std::string& machine, vm::Message message);
+  void SendCopies(const Rules::Outcome& outcome, const std::string& from, Role role);
+  /// Does it later, in the loop. `blamed`: the peer whose error it is if it throws.
+  void Delay(vm::Time delay, std::function<void()> act, PeerKey blamed);
   std::string SenderOf(const Envelope& envelope) const;
   Rules::Sender RuleSenderOf(const Envelope& envelope) const;
   void Refuse(const Envelope& envelope, const vm::Error& error, const std::string& by = "AM");
@@ -69,7 +77,7 @@ class Router {
   Directory& directory_;
   Outbox& outbox_;
   Requests& requests_;
-  ModuleLines& lines_;
+  Forwarder& forwarder_;
   WorkQueue& queue_;
   const AccessControl& access_;
   const Limits& limits_;
@@ -79,8 +87,8 @@ class Router {
   OnUnknown on_unknown_;
   OnMachine on_machine_;
   std::function<void(Peer&)> on_module_;
-  std::map<unsigned long, OnAnswer> asked_of_machines_;  // by our tag's number, the oldest first
-  unsigned long last_number_ = 0;
+  MachineQuestions questions_;
+  std::size_t delayed_ = 0;
 };
 
 }  // namespace am

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vm_protocol/core/blanks.h"
+
 namespace am {
 
 namespace {
@@ -18,7 +20,7 @@ bool ValueMatches(const Rule& rule, const vm::Message& message) {
       message.relation == vm::Relation::kFromFile || message.relation == vm::Relation::kAppend;
   if (unseen && (rule.drop || !rule.refuse.empty())) return true;
   return std::ranges::any_of(rule.value, [&](const std::string& pattern) {
-    return MatchesIgnoringCase(pattern, Trimmed(message.value));
+    return MatchesIgnoringCase(pattern, vm::Trimmed(message.value));
   });
 }
 

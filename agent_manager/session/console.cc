@@ -41,9 +41,9 @@ void Console::Start(const std::vector<std::string>& first_lines) {
                {{}, "", vm::Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"}));
   lines_.assign(first_lines.begin(), first_lines.end());
   stream_->Start([this](Result<std::string_view> line) { OnLine(std::move(line)); },
-                 [this](const std::string& reason) {
+                 [this](const vm::StreamEnd& end) {
                    ended_ = true;
-                   if (reason != "end of input") hooks_.on_lost(reason);
+                   if (!end.orderly) hooks_.on_lost(end.reason);
                  });
 }
 

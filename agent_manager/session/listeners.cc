@@ -47,10 +47,10 @@ void Listeners::OnConnection(const vm::Acceptor::Connection& connection, Role ro
   if (!key) return on_refusal_(connection.from + ": " + key.error().text);
   stream->Start([this, peer = *key](
                     vm::Result<std::string_view> line) { hub_.Receive(peer, std::move(line)); },
-                [this, peer = *key](const std::string& reason) {
-                  if (reason == "end of input") return hub_.EndInput(peer);
-                  on_notice_("@" + hub_.NameOf(peer) + ": " + reason);
-                  hub_.Leave(peer, reason);
+                [this, peer = *key](const vm::StreamEnd& end) {
+                  if (end.orderly) return hub_.EndInput(peer);
+                  on_notice_("@" + hub_.NameOf(peer) + ": " + end.reason);
+                  hub_.Leave(peer, end.reason);
                 });
   stream->ResumeReading();
 }

@@ -48,7 +48,7 @@ bool Lockstep::StepNow() {
     clock_.Advance(clock_.Now());
     return true;
   }
-  if (granted_ == clock_.Now() && hub_.lines().dirty().empty()) return false;
+  if (granted_ == clock_.Now() && !hub_.AnyGrantOutdated()) return false;
   GrantAll(clock_.Now());
   return true;
 }

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "agent_manager/session/log_writer.h"
+#include "agent_manager/log/log_writer.h"
 
 namespace am {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "agent_manager/log/session_log.h"
 #include "agent_manager/routing/hub.h"
-#include "agent_manager/session/session_log.h"
 
 namespace am {
 

@@ -187,7 +187,7 @@ void HubSlots::DeclareLimits() {
          .initial = std::to_string(Limits().*limit.member),
          .help = limit.help,
          .on_set = [this, member = limit.member](const SetValue& value) -> Result<std::string> {
-           hub_.limits().*member = static_cast<std::uint64_t>(value.number(0));
+           hub_.set_limit(member, static_cast<std::uint64_t>(value.number(0)));
            return value.word(0);
          },
          .on_inq = [this,

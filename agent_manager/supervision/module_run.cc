@@ -87,8 +87,8 @@ void ModuleRun::Join(std::shared_ptr<vm::StreamPeer> stream) {
   events_.on_joined();
   stream_->Start([&hub = hub_, key = *peer](
                      vm::Result<std::string_view> line) { hub.Receive(key, std::move(line)); },
-                 [self = weak_from_this()](const std::string& reason) {
-                   if (const auto run = self.lock()) run->OnInputEnd(reason);
+                 [self = weak_from_this()](const vm::StreamEnd& end) {
+                   if (const auto run = self.lock()) run->OnInputEnd(end.reason);
                  });
   stream_->ResumeReading();
 }
@@ -104,7 +104,7 @@ void ModuleRun::ReadErrors(int fd) {
         if (const auto run = self.lock()) run->last_output_ = said.text;
         on_output(said);
       },
-      [errors = std::weak_ptr(errors_)](const std::string&) {
+      [errors = std::weak_ptr(errors_)](const vm::StreamEnd&) {
         if (const auto stream = errors.lock()) stream->Close();
       });
 }

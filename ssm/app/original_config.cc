@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdlib>
 
+#include "vm_protocol/core/blanks.h"
+
 namespace ssm {
 namespace {
 
@@ -12,12 +14,6 @@ constexpr std::array<std::string_view, 18> kWithoutMeaning = {
     "NUMBER",         "ALPHABET",       "DATE",           "TIME",          "DICTIONARY",
     "PHONEME-LIST",   "AUDIODEV",       "DUR-TREE-FILE",  "PIT-TREE-FILE", "MCEP-TREE-FILE",
     "DUR-MODEL-FILE", "PIT-MODEL-FILE", "MCEP-MODEL-FILE"};
-
-std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
 
 vm::Error At(std::size_t line, vm::Errc code, const std::string& text) {
   return {code, "line " + std::to_string(line) + ": " + text, 0};
@@ -32,7 +28,7 @@ vm::Result<OriginalConfig> ParseOriginalConfig(std::string_view text) {
   while (!text.empty()) {
     ++number;
     const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = Trim(text.substr(0, end));
+    std::string_view line = vm::Trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (line.empty() || line.front() == '#') continue;
     const std::size_t colon = line.find(':');
@@ -40,8 +36,8 @@ vm::Result<OriginalConfig> ParseOriginalConfig(std::string_view text) {
       return std::unexpected(
           At(number, vm::Errc::kSyntax, "found '" + std::string(line) + "', expected KEY: value"));
     }
-    const std::string key(Trim(line.substr(0, colon)));
-    const std::string value(Trim(line.substr(colon + 1)));
+    const std::string key(vm::Trimmed(line.substr(0, colon)));
+    const std::string value(vm::Trimmed(line.substr(colon + 1)));
     const auto bad = [&](const char* expected) {
       std::string what = key;
       what.append(" is '").append(value).append("', expected ").append(expected);

@@ -61,7 +61,7 @@ HubLink::HubLink(const HubAddress& hub, const std::string& name, bool keyboard)
       [this](vm::Result<std::string_view> line) {
         if (line && listening_) client_->HandleLine(*line);
       },
-      [this](const std::string&) { gone_ = true; });
+      [this](const vm::StreamEnd&) { gone_ = true; });
   channel_->stream->ResumeReading();
   if (keyboard_) WaitForKeys();
   auto named = Ask("to @AM set Name = " + name, Millis(5000));

@@ -1,5 +1,6 @@
 #include "task_manager/xml/node.h"
 
+#include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/xml_text.h"
 
 namespace vxml::xml {
@@ -88,9 +89,7 @@ std::string Collapse(std::string_view text) {
 }
 
 std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  return vm::Trimmed(text, kBlanks);
 }
 
 bool IsBlank(std::string_view text) {

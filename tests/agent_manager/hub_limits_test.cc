@@ -102,7 +102,7 @@ TEST_F(HubLimitsTest, ASlowHearerOfReportsIsCutOffAndDoesNotHoldTheModule) {
 }
 
 TEST_F(HubLimitsTest, AFloodIsReadAtTheStatedRate) {
-  world_.hub.limits().messages_per_s = 100;
+  world_.hub.set_limit(&Limits::messages_per_s, 100);
   const auto [key, reader] = Join("FLOOD");
   const auto [other_key, other] = Join("OTHER");
   int said = 0;
@@ -123,7 +123,7 @@ TEST_F(HubLimitsTest, AFloodIsReadAtTheStatedRate) {
 TEST_F(HubLimitsTest, APeerDefinesAtMostSoManySlots) {
   vm::SlotMachine machine("AM");
   world_.hub.AddMachine(machine);
-  world_.hub.limits().slots = 2;
+  world_.hub.set_limit(&Limits::slots, 2);
   const auto a = world_.Join(PeerKind::kClient, "A");
   world_.Say(*a, "def#1 One = 1");
   world_.Say(*a, "def#2 Two = 2");

@@ -178,10 +178,10 @@ TEST(HubTest, WhatIsSaidToAModuleThatIsStillStartingWaitsInOrder) {
   world.Say(*a, "to @SSM set Text = one");
   world.Say(*a, "to @SSM set Speak = NOW");
   EXPECT_EQ(m->heard.size(), 1u) << "only the probe";
-  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
+  world.hub.EndProbes(world.hub.clocks().Probing());
   EXPECT_EQ(m->heard.size(), 1u) << "it has not said a word: it may still be starting";
   world.Say(*m, "rep Run = LIVE");
-  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
+  world.hub.EndProbes(world.hub.clocks().Probing());
   EXPECT_EQ(m->heard[1], "set Text = one");
   EXPECT_EQ(m->heard[2], "set Speak = NOW");
 }
@@ -211,7 +211,7 @@ TEST(HubTest, AFloodOfQuestionsIsReadSlowerAndCostsNobodyElseAnAnswer) {
   World world;
   world.JoinModern("SSM");
   world.answers = false;
-  world.hub.limits().pending = 100;
+  world.hub.set_limit(&Limits::pending, 100);
   const auto flood = world.Join(PeerKind::kClient, "FLOOD");
   const auto a = world.Join(PeerKind::kClient, "A");
   world.Say(*a, "to @SSM inq#mine Run");
@@ -237,7 +237,7 @@ TEST(HubTest, ARuleForOneOfTwoReceiversHoldsForThatOne) {
   Rule rule;
   rule.to = {"B"};
   rule.drop = true;
-  world.hub.rules().set_rules({rule});
+  world.hub.set_rules({rule});
   const auto a = world.Join(PeerKind::kClient, "A"), b = world.Join(PeerKind::kClient, "B"),
              c = world.Join(PeerKind::kClient, "C");
   world.Say(*a, "to @B,@C tell hello");
@@ -247,7 +247,7 @@ TEST(HubTest, ARuleForOneOfTwoReceiversHoldsForThatOne) {
 
 TEST(HubTest, TwoWhoAskEachOtherMuchBothGoOn) {
   World world;
-  world.hub.limits().pending = 100;
+  world.hub.set_limit(&Limits::pending, 100);
   const auto a = world.JoinModern("AA"), b = world.JoinModern("BB");
   world.answers = false;
   for (int i = 0; i < 90; ++i) {
@@ -260,7 +260,7 @@ TEST(HubTest, TwoWhoAskEachOtherMuchBothGoOn) {
 
 TEST(HubTest, WhoReportsWithoutPauseWaitsForThoseWhoHear) {
   World world;
-  world.hub.limits().backlog_bytes = 1000;
+  world.hub.set_limit(&Limits::backlog_bytes, 1000);
   const auto slow = world.Join(PeerKind::kConsole, "CONSOLE");
   const auto guest = world.JoinAs(Role::kGuest, "G");
   slow->backlog = 600;
@@ -285,7 +285,7 @@ TEST(HubTest, AllTogetherHaveALimitAndWhoeverHasMostLosesOne) {
   World world;
   world.JoinModern("SSM");
   world.answers = false;
-  world.hub.limits().pending = 10;
+  world.hub.set_limit(&Limits::pending, 10);
   const auto a = world.Join(PeerKind::kClient, "A");
   world.Say(*a, "to @SSM inq#mine Run");
   std::vector<std::shared_ptr<World::Peer>> many;
@@ -316,7 +316,7 @@ TEST(HubTest, WhoSpeaksNoMoreLeavesWithItsAnswers) {
 
 TEST(HubTest, GuestsLeaveRoomForOthers) {
   World world;
-  world.hub.limits().peers = 16;
+  world.hub.set_limit(&Limits::peers, 16);
   std::vector<std::shared_ptr<World::Peer>> guests;
   for (int i = 0; i < 20; ++i) guests.push_back(world.JoinAs(Role::kGuest, ""));
   EXPECT_EQ(world.hub.Status().size(), 14u);
@@ -328,7 +328,7 @@ TEST(HubTest, AModuleOfTheOriginalThatAnswersNothingIsBoundedToo) {
   World world;
   const auto m = world.Join(PeerKind::kModule, "SSM", Dialect::kOriginal);
   const auto a = world.Join(PeerKind::kClient, "A");
-  world.hub.limits().pending = 10;
+  world.hub.set_limit(&Limits::pending, 10);
   for (int i = 0; i < 200; ++i)
     world.Say(*a, "to @SSM inq#" + std::to_string(i) + " S" + std::to_string(i));
   EXPECT_EQ(a->heard.size(), 190u);

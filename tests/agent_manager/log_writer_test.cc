@@ -1,4 +1,4 @@
-#include "agent_manager/session/log_writer.h"
+#include "agent_manager/log/log_writer.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

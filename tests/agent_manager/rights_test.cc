@@ -115,7 +115,7 @@ TEST_F(RightsTest, AClientNamesFilesBelowItsFoldersAndTheOwnerAll) {
   const support::TempDir folder;
   RightsTable table = RightsTable::Default();
   table[Role::kClient].files = {folder.path()};
-  world_.hub.access().set_table(table);
+  world_.hub.set_rights(table);
   EXPECT_FALSE(Refused(Say(Role::kClient, "to @SSM set#1 SaveWAV = " + (folder / "x.wav"))));
   EXPECT_TRUE(Refused(Say(Role::kClient, "to @SSM set#1 SaveWAV = " + (folder / "../x.wav"))));
   EXPECT_TRUE(Refused(Say(Role::kClient, "to @SSM set#1 SaveWAV = " + folder.path() + "2/x.wav")));
@@ -183,7 +183,7 @@ TEST_F(RightsTest, AMacroThatSaysSoHasTheRightsOfWhoDefinedIt) {
 TEST_F(RightsTest, AMacroOfAClientWhoMayDefineRemovesNothing) {
   RightsTable table = RightsTable::Default();
   table[Role::kClient].may = {Permission::kDefine};
-  world_.hub.access().set_table(table);
+  world_.hub.set_rights(table);
   Say(Role::kClient, R"(to @AM-MCL def#1 Gone = [{"remove": "${value}"}])");
   const std::string answer = Say(Role::kOwner, "to @AM-MCL set#1 Gone = file");
   EXPECT_NE(answer.find("a client may not remove files (rights.client.may: remove)"),
@@ -215,7 +215,7 @@ TEST_F(RightsTest, AModuleThatTellsOfItsFileSlotsIsProtectedToo) {
 TEST_F(RightsTest, NamesAreThoseThatTheRoleMayHaveAndThatShow) {
   RightsTable table = RightsTable::Default();
   table[Role::kGuest].names = {"VISITOR*"};
-  world_.hub.access().set_table(table);
+  world_.hub.set_rights(table);
   const PeerKey guest = peers_[Role::kGuest]->key;
   EXPECT_FALSE(world_.hub.Rename(guest, "FSM"));
   EXPECT_TRUE(world_.hub.Rename(guest, "VISITOR1"));

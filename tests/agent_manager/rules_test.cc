@@ -22,7 +22,7 @@ class RulesTest : public testing::Test {
   void Use(const std::string& rules) {
     const auto config = ParseConfig("{\"rules\": " + rules + "}", "am.json", ".");
     ASSERT_TRUE(config) << config.error().text;
-    world_.hub.rules().set_rules(config->rules);
+    world_.hub.set_rules(config->rules);
   }
   World world_;
   std::shared_ptr<World::Peer> a_, b_, c_;
@@ -47,6 +47,15 @@ TEST(MatchesPatternTest, ManyStarsTakeNoLongTime) {
   std::string pattern;
   for (int i = 0; i < 1000; ++i) pattern += "a*";
   EXPECT_FALSE(MatchesPattern(pattern + "b", std::string(20000, 'a')));
+}
+
+TEST_F(RulesTest, ACopyNamesNoFileThatItsSenderMayNotName) {
+  const auto guest = world_.JoinAs(Role::kGuest, "GUEST");
+  Use(R"([{"from": "GUEST", "copy_to": "@B"}])");
+  world_.Say(*guest, "to @A set SaveWAV = /tmp/x.wav");
+  world_.Say(*guest, "to @A set Text = hello");
+  EXPECT_EQ(a_->heard, Strings{"set Text = hello"});
+  EXPECT_EQ(b_->heard, Strings{"set Text = hello"});
 }
 
 TEST_F(RulesTest, RewriteChangesReceiverSlotAndValue) {
@@ -91,12 +100,12 @@ TEST_F(RulesTest, DelayKeepsTheOrder) {
     world_.clock.RunUntil(world_.clock.Now() + milliseconds(10));
   }
   EXPECT_EQ(b_->heard, Strings{});
-  EXPECT_TRUE(world_.hub.HasHeld());
+  EXPECT_TRUE(world_.hub.HoldsBack());
   world_.clock.RunUntil(milliseconds(105));
   EXPECT_EQ(b_->heard, Strings{"set X = 0"});
   world_.clock.RunUntil(milliseconds(200));
   EXPECT_EQ(b_->heard, (Strings{"set X = 0", "set X = 1", "set X = 2"}));
-  EXPECT_FALSE(world_.hub.HasHeld());
+  EXPECT_FALSE(world_.hub.HoldsBack());
 }
 
 TEST_F(RulesTest, ThrottleCountsEachSenderOnItsOwn) {

@@ -54,7 +54,7 @@ TEST_P(ListenerTest, LinesGoBothWays) {
     server_side = StreamPeer::Make(io_, fd, fd, Framing::kLf);
     server_side->Start(
         [&](Result<std::string_view> line) { server_side->Send("echo " + std::string(*line)); },
-        [&](const std::string& reason) { heard.push_back("server: " + reason); });
+        [&](const StreamEnd& end) { heard.push_back("server: " + end.reason); });
   });
   std::shared_ptr<StreamPeer> client_side;
   ConnectTo(io_, listener->endpoint(), [&](Result<int> fd) {
@@ -65,7 +65,7 @@ TEST_P(ListenerTest, LinesGoBothWays) {
           heard.emplace_back(*line);
           if (heard.size() == 2) client_side->Close();
         },
-        [](const std::string&) {});
+        [](const StreamEnd&) {});
     client_side->Send("one");
     client_side->Send("two");
   });
@@ -109,7 +109,7 @@ TEST(StreamPeerTest, AReaderThatDoesNotReadIsCutOffAtTheLimit) {
   boost::asio::io_context io;
   const auto peer = StreamPeer::Make(io, input[0], ends[1], Framing::kLf);
   std::string reason;
-  peer->Start([](Result<std::string_view>) {}, [&](const std::string& text) { reason = text; });
+  peer->Start([](Result<std::string_view>) {}, [&](const StreamEnd& end) { reason = end.reason; });
   const std::string line(60000, 'x');
   while (reason.empty()) {
     peer->Send(line);

@@ -73,8 +73,9 @@ class Handshake : public std::enable_shared_from_this<Handshake> {
           const std::string text(*line);
           self->on_line_(text);
         },
-        [weak = weak_from_this()](const std::string& reason) {
-          if (const auto self = weak.lock()) self->End(Fail(Errc::kAccess, "it left: " + reason));
+        [weak = weak_from_this()](const StreamEnd& end) {
+          if (const auto self = weak.lock())
+            self->End(Fail(Errc::kAccess, "it left: " + end.reason));
         });
   }
   /// At the listener: `set#token Token = NONCE PROOF`.

@@ -167,7 +167,7 @@ void ModuleServer::AddPeer(std::shared_ptr<StreamPeer> stream, PeerOptions optio
   for (const Message& message : module_.Greeting()) Emit(id, message);
   if (options.wants_errors) module_.slots().HandleLine("prop Error = AutoOutput", id);
   peer.stream->Start([this, id](Result<std::string_view> line) { OnLine(id, std::move(line)); },
-                     [this, id](const std::string& reason) { OnEnd(id, reason); });
+                     [this, id](const StreamEnd& end) { OnEnd(id, end); });
 }
 
 void ModuleServer::OnLine(PeerId id, Result<std::string_view> line) {
@@ -181,24 +181,24 @@ void ModuleServer::OnLine(PeerId id, Result<std::string_view> line) {
   }
   if (options_.original_socket_words) {
     if (*line == "CloseSocket") return RequestStop();
-    if (*line == "set Run = CLOSE") return OnEnd(id, "closed on request");
+    if (*line == "set Run = CLOSE") return OnEnd(id, {false, "closed on request"});
   }
   module_.slots().HandleLine(*line, id);
 }
 
-void ModuleServer::OnEnd(PeerId id, const std::string& reason) {
+void ModuleServer::OnEnd(PeerId id, const StreamEnd& end) {
   const auto found = peers_.find(id);
   if (found == peers_.end()) return;
-  if (reason != "end of input") Complain("peer " + std::to_string(id) + ": " + reason);
+  if (!end.orderly) Complain("peer " + std::to_string(id) + ": " + end.reason);
   if (found->second.ends_module) {
     const bool refused = found->second.called && !found->second.heard;
     if (refused) Complain("the hub has ended the connection without a word");
-    failed_ = refused || reason != "end of input";
+    failed_ = refused || !end.orderly;
     module_ending_ = true;
     found->second.ended = true;
     return;
   }
-  if (reason == "end of input") {  // it may still read: Settle releases it
+  if (end.orderly) {  // it may still read: Settle releases it
     found->second.ended = true;
     found->second.kept_until = std::chrono::steady_clock::now() + kHalfClosedLimit;
     return;

@@ -68,7 +68,7 @@ class ModuleServer {
   void EndWait(PeerId id, const Reply& reply);
   std::string ClockText() const;
   void OnLine(PeerId id, Result<std::string_view> line);
-  void OnEnd(PeerId id, const std::string& reason);
+  void OnEnd(PeerId id, const StreamEnd& end);
   void Emit(PeerId id, const Message& message);
   void Release(PeerId id);
   void Step();

@@ -228,7 +228,7 @@ class StreamPeerImpl final : public StreamPeer {
       return;
     }
     input_ended_ = true;
-    end_reason_ = error.empty() ? "end of input" : "cannot read: " + error;
+    end_ = {error.empty(), error.empty() ? "end of input" : "cannot read: " + error};
     // Only who ends in order means its last line without a newline as a whole one.
     if (error.empty())
       reader_.End([this](Result<std::string_view> line) { OnRawLine(std::move(line)); });
@@ -269,14 +269,14 @@ class StreamPeerImpl final : public StreamPeer {
       held_.pop_front();
       Deliver(line ? Result<std::string_view>(*line) : std::unexpected(line.error()));
     }
-    if (input_ended_ && held_.empty() && !paused_ && !closed_) ReportEnd(end_reason_);
+    if (input_ended_ && held_.empty() && !paused_ && !closed_) ReportEnd(end_);
   }
 
-  void ReportEnd(const std::string& reason) {
+  void ReportEnd(const StreamEnd& end) {
     if (end_reported_ || !on_close_) return;
     end_reported_ = true;
     const OnClose on_close = on_close_;
-    on_close(reason);
+    on_close(end);
   }
 
   void ScheduleWrite() {
@@ -315,7 +315,7 @@ class StreamPeerImpl final : public StreamPeer {
     written_ = 0;
     asio::post(io_, [self = shared_from_this(), this, reason] {
       FinishFlushes();
-      if (!closed_) ReportEnd(reason);
+      if (!closed_) ReportEnd({false, reason});
     });
   }
 
@@ -343,7 +343,7 @@ class StreamPeerImpl final : public StreamPeer {
   bool holds_while_behind_ = false;
   bool input_ended_ = false;
   bool end_reported_ = false;
-  std::string end_reason_;
+  StreamEnd end_;
 
   std::string outgoing_;  // said, not yet being written
   std::string writing_;   // being written, from written_ on

@@ -11,6 +11,12 @@
 
 namespace vm {
 
+/// How a conversation has ended.
+struct StreamEnd {
+  bool orderly = false;  ///< the input has ended; Send works until Close, the output may be open
+  std::string reason;    ///< for people
+};
+
 /// One conversation in lines over file descriptors: a pair of pipes, a terminal, a file, a socket.
 /// Ownership: owns its descriptors and closes them (stdin/stdout are flushed but left open).
 ///            Kept alive by its pending operations; Close() or the end of both directions frees it.
@@ -21,9 +27,7 @@ namespace vm {
 class StreamPeer : public std::enable_shared_from_this<StreamPeer> {
  public:
   using OnLine = std::function<void(Result<std::string_view> line)>;
-  /// `reason` is "end of input" for an orderly end, else a sentence for people. After "end of
-  /// input" Send still works until Close (the other direction may be open).
-  using OnClose = std::function<void(const std::string& reason)>;
+  using OnClose = std::function<void(const StreamEnd& end)>;
 
   /// `read_fd` and `write_fd` may be the same (a socket). Takes both over; regular files are read
   /// without waiting.

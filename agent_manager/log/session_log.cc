@@ -1,4 +1,4 @@
-#include "agent_manager/session/session_log.h"
+#include "agent_manager/log/session_log.h"
 
 #include <array>
 

@@ -1,4 +1,4 @@
-#include "agent_manager/session/clock_estimate.h"
+#include "agent_manager/routing/clock_estimate.h"
 
 namespace am {
 
