@@ -46,13 +46,16 @@ std::unique_ptr<LogWriter> OpenLog(const LogConfig& config) {
 }  // namespace
 
 AgentManager::AgentManager(Config config, Options options)
-    : config_(std::move(config)),
-      options_(std::move(options)),
-      clock_(io_, !config_.virtual_clock),
-      log_writer_(OpenLog(config_.log)),
+    : options_(std::move(options)),
+      clock_(io_, !config.virtual_clock),
+      log_writer_(OpenLog(config.log)),
+      flow_watchers_([this](PeerKey peer, std::string_view comment) {
+        return hub_.SendComment(peer, comment);
+      }),
       log_([this](std::string_view line) {
         if (log_writer_) log_writer_->Write(line);
-        if (!onlookers_.empty()) ShowOnlookers(line);
+        flow_watchers_.Write(line);
+        EnableLog();
       }),
       hub_(clock_, log_),
       slots_("AM"),
@@ -62,55 +65,25 @@ AgentManager::AgentManager(Config config, Options options)
       supervisor_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& module, const OutputLine& line) {
-            Say(module + " " + line.level + ": " + line.text);
-            slots_.Report("Module." + module + ".output", line.level + " " + line.text);
+            OnModuleOutput(module, line);
           }),
-      console_(io_, clock_, hub_,
-               {.started = [this] { return Started(); },
-                .on_said = [this] { quiet_.Disturb(); },
-                .on_quit = [this] { stop_ = true; },
-                .on_lost =
-                    [this](const std::string& why) {
-                      SayError("console: " + why);
-                      console_lost_ = true;
-                    }}),
-      hub_slots_(clock_, hub_, supervisor_, slots_,
-                 {.on_exit = [this] { stop_ = true; },
-                  .on_wait = [this](const SetValue& value,
-                                    const Reply& reply) { console_.AskWait(value, reply); },
-                  .on_reload =
-                      [this](const Reply& reply) {
-                        hub_.Post([this, reply] {
-                          const auto reloaded = Reload();
-                          reloaded ? reply.Ok(*reloaded) : reply.Fail(reloaded.error());
-                        });
-                      },
-                  .on_want =
-                      [this](const std::string& name) {
-                        if (mqtt_ != nullptr) mqtt_->Want(name);
-                      },
-                  .on_flow = [this](PeerKey peer, bool on) { Watch(peer, on); }}),
+      console_(io_, clock_, hub_, ConsoleHooks()),
+      hub_slots_(clock_, hub_, supervisor_, slots_, SlotHooks()),
       hub_machines_(hub_, slots_, macros_, own_machines_, ReadFile),
       listeners_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& text) { Refused(text); }),
-      lockstep_(io_, clock_, hub_,
-                [this](PeerKey module) {
-                  const std::string name = hub_.NameOf(module);
-                  SayError("@" + name + " has not followed the clock for " +
-                           std::to_string(Lockstep::kPatience.count()) + " ms, it is ended");
-                  if (!supervisor_.Kill(name, "has not followed the clock"))
-                    hub_.Leave(module, "does not follow the clock");
-                }),
+      lockstep_(io_, clock_, hub_, [this](PeerKey module) { OnLateModule(module); }),
       quiet_(clock_, hub_, [this] { return macros_.Busy(); }),
-      probe_timer_(io_),
-      measure_timer_(io_),
-      watchdog_timer_(io_),
-      log_timer_(io_),
+      config_(std::move(config), ConfigParts()),
+      end_probes_(io_),
+      measure_clocks_(io_),
+      feed_watchdog_(io_),
+      flush_log_(io_),
       reload_signal_(io_),
       person_(isatty(STDOUT_FILENO) != 0 && isatty(STDERR_FILENO) != 0) {
-  log_.set_enabled(log_writer_ != nullptr);
-  if (config_.virtual_clock) {
+  EnableLog();
+  if (!clock_.real()) {
     supervisor_.set_watch_health(false);
     clock_.Advance(kVirtualStart);
     hub_.set_lockstep(true);
@@ -118,13 +91,63 @@ AgentManager::AgentManager(Config config, Options options)
   }
   ConnectParts();
   LoadBuiltInMacros();
-  if (!options_.replay) return;
-  std::set<std::string> modules;
-  for (const ModuleConfig& module : config_.modules) modules.insert(module.name);
-  replay_.emplace(clock_, hub_, *options_.replay, std::move(modules), options_.replay_speed);
+  if (options_.replay) StartReplay();
 }
 
 AgentManager::~AgentManager() = default;
+
+void AgentManager::StartReplay() {
+  std::set<std::string> modules;
+  for (const ModuleConfig& module : config_.config().modules) modules.insert(module.name);
+  replay_.emplace(clock_, hub_, *options_.replay, std::move(modules), options_.replay_speed);
+}
+
+Console::Hooks AgentManager::ConsoleHooks() {
+  return {.started = [this] { return Started(); },
+          .on_said = [this] { quiet_.Disturb(); },
+          .on_quit = [this] { stop_ = true; },
+          .on_lost =
+              [this](const std::string& why) {
+                SayError("console: " + why);
+                console_lost_ = true;
+              }};
+}
+
+HubSlots::Hooks AgentManager::SlotHooks() {
+  return {.on_exit = [this] { stop_ = true; },
+          .on_wait = [this](const SetValue& value,
+                            const Reply& reply) { console_.AskWait(value, reply); },
+          .on_reload =
+              [this](const Reply& reply) {
+                hub_.Post([this, reply] {
+                  const auto reloaded = Reload();
+                  reloaded ? reply.Ok(*reloaded) : reply.Fail(reloaded.error());
+                });
+              },
+          .on_want =
+              [this](const std::string& name) {
+                if (auto* const bridge = config_.bridge()) bridge->Want(name);
+              },
+          .on_flow =
+              [this](PeerKey peer, bool on) {
+                flow_watchers_.Set(peer, on);
+                EnableLog();
+              }};
+}
+
+LiveConfig::Parts AgentManager::ConfigParts() {
+  return {.io = io_,
+          .clock = clock_,
+          .hub = hub_,
+          .slots = slots_,
+          .hub_slots = hub_slots_,
+          .macros = macros_,
+          .listeners = listeners_,
+          .supervisor = supervisor_,
+          .say = [this](const std::string& text) { Say(text); },
+          .say_error = [this](const std::string& text) { SayError(text); },
+          .read = options_.read_config};
+}
 
 void AgentManager::ConnectParts() {
   hub_.set_on_notice([this](const std::string& text, PeerKey about) { SayError(text, about); });
@@ -135,15 +158,10 @@ void AgentManager::ConnectParts() {
     return std::ranges::any_of(own_machines_, [peer](const auto* m) { return m->Owes(peer); });
   });
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
-    if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
-    for (OwnMachine* const machine : own_machines_) machine->OnPresence(name, present, reason);
-    if (mqtt_ != nullptr) mqtt_->OnPresence(name, present, reason);
-    if (!present) return;
-    lockstep_.Forget();
-    supervisor_.OnPresent(name);
+    OnPresence(name, present, reason);
   });
   hub_.set_on_unknown([this](const std::string& name) -> Result<bool> {
-    return mqtt_ != nullptr ? mqtt_->Open(name) : Result<bool>(false);
+    return config_.bridge() != nullptr ? config_.bridge()->Open(name) : Result<bool>(false);
   });
   hub_.AddMachine(slots_);
   hub_.AddMachine(macros_.slots(), {"FS-MCL"});
@@ -151,12 +169,37 @@ void AgentManager::ConnectParts() {
   hub_.AddMachine(sounds_.slots(), {}, true);
   for (auto* const machine : {&slots_, &macros_.slots(), &parallel_.slots(), &sounds_.slots()}) {
     machine->set_on_error([this](vm::PeerId peer, const std::string& line, const vm::Error& error) {
-      if (error.code == vm::Errc::kStopped) return;  // somebody's wish, not a fault
-      SayError("error: " + vm::FormatError(error) + (line.empty() ? "" : " (in: " + line + ")"),
-               peer);
+      OnSlotError(peer, line, error);
     });
     machine->set_read_file(ReadFile);
   }
+}
+
+void AgentManager::OnPresence(const std::string& name, bool present, const std::string& reason) {
+  if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
+  for (OwnMachine* const machine : own_machines_) machine->OnPresence(name, present, reason);
+  if (auto* const bridge = config_.bridge()) bridge->OnPresence(name, present, reason);
+  if (!present) return;
+  lockstep_.Forget();
+  supervisor_.OnPresent(name);
+}
+
+void AgentManager::OnSlotError(PeerKey peer, const std::string& line, const vm::Error& error) {
+  if (error.code == vm::Errc::kStopped) return;  // somebody's wish, not a fault
+  SayError("error: " + vm::FormatError(error) + (line.empty() ? "" : " (in: " + line + ")"), peer);
+}
+
+void AgentManager::OnModuleOutput(const std::string& module, const OutputLine& line) {
+  Say(module + " " + line.level + ": " + line.text);
+  slots_.Report("Module." + module + ".output", line.level + " " + line.text);
+}
+
+void AgentManager::OnLateModule(PeerKey module) {
+  const std::string name = hub_.NameOf(module);
+  SayError("@" + name + " has not followed the clock for " +
+           std::to_string(Lockstep::kPatience.count()) + " ms, it is ended");
+  if (!supervisor_.Kill(name, "has not followed the clock"))
+    hub_.Leave(module, "does not follow the clock");
 }
 
 void AgentManager::LoadBuiltInMacros() {
@@ -193,88 +236,14 @@ void AgentManager::Refused(const std::string& text) {
   slots_.Report("Refused", std::to_string(refused_) + " " + vm::ShownUtf8(text));
 }
 
-void AgentManager::Apply(const Config& config) {
-  for (const std::string& note : config.notes) Say(note);
-  // What can fail comes first, and changes nothing.
-  std::vector<Macro> macros;
-  for (const auto& [name, text] : config.macros) {
-    auto macro = ParseMacro(name, text);
-    if (!macro) throw std::runtime_error("macro " + name + ": " + macro.error().text);
-    macro->name = name;
-    macros.push_back(std::move(*macro));
-  }
-  auto opened = listeners_.OpenMissing(config.listen);
-  if (!applied_ || config.mqtt != config_.mqtt) JoinBroker(config.mqtt);
-
-  std::set<std::string> names;
-  for (const ModuleConfig& module : config.modules) names.insert(module.name);
-  hub_slots_.DeclareModules(names);
-  names.insert(mqtt::Bridge::kName);
-  hub_.Reserve(std::move(names));
-  hub_.set_limits(config.limits);
-  hub_.set_rights(config.rights);
-  hub_.set_rules(config.rules);
-  hub_.set_broadcast({config.broadcast.begin(), config.broadcast.end()});
-  listeners_.Commit(config.listen, std::move(opened));
-  for (const std::string& name : std::exchange(configured_macros_, {})) {
-    if (!config.macros.contains(name)) static_cast<void>(macros_.Remove(name));
-  }
-  for (Macro& macro : macros) {
-    const std::string name = macro.name;
-    if (const auto defined = macros_.Define(std::move(macro)); !defined) {
-      if (!applied_) throw std::runtime_error("macro " + name + ": " + defined.error().text);
-      SayError("macro " + name + ": " + defined.error().text);
-    }
-    configured_macros_.insert(name);
-  }
-  supervisor_.Apply(config.modules);
-  applied_ = true;
-}
-
-void AgentManager::JoinBroker(const MqttConfig& config) {
-  if (config.broker.empty()) {
-    mqtt_.reset();
-    return slots_.Report("Mqtt", "NONE");
-  }
-  mqtt::Bridge::Hooks hooks;
-  hooks.on_notice = [this](const std::string& text) { SayError(text); };
-  hooks.on_state = [this](const std::string& state) {
-    Say("mqtt: " + state);
-    slots_.Report("Mqtt", state);
-  };
-  mqtt_.reset();
-  mqtt_ = std::make_unique<mqtt::Bridge>(
-      clock_, hub_, config, std::move(hooks),
-      [this, config](const mqtt::Packet& will, mqtt::Broker::Events events) {
-        return mqtt::ConnectToBroker(io_, config, will, std::move(events));
-      });
-}
-
 Result<std::string> AgentManager::Reload() {
-  if (!options_.read_config)
-    return vm::Fail(vm::Errc::kUnavailable, "the hub was started without a configuration file");
-  auto read = options_.read_config();
-  if (!read) return std::unexpected(read.error());
-  if (read->virtual_clock != config_.virtual_clock || read->log != config_.log ||
-      read->web != config_.web)
-    return vm::Fail(vm::Errc::kBadValue,
-                    "clock, log and web cannot change while the hub runs; nothing was changed");
   NotifyService("RELOADING=1");
-  Result<std::string> done = "NOW";
-  try {
-    Apply(*read);
-    config_ = std::move(*read);
-    Say("the configuration was read again");
-  } catch (const std::exception& error) {
-    if (mqtt_ == nullptr && !config_.mqtt.broker.empty()) JoinBroker(config_.mqtt);
-    done = vm::Fail(vm::Errc::kBadValue, std::string(error.what()) + "; nothing was changed");
-  }
+  auto reloaded = config_.Reload();
   NotifyService("READY=1");
-  return done;
+  return reloaded;
 }
 
 void AgentManager::ReloadOnSignal() {
-  reload_signal_.add(SIGHUP);
   reload_signal_.async_wait([this](const auto& error, int) {
     if (error) return;
     hub_.Post([this] {
@@ -284,25 +253,39 @@ void AgentManager::ReloadOnSignal() {
   });
 }
 
+void AgentManager::OpenPage() {
+  if (config_.config().web.at.empty()) return;
+  web_ = std::make_unique<WebServer>(
+      io_, config_.config().web, hub_, [this] { return Metrics(); },
+      [this](const std::string& text) { Refused(text); });
+  Say("the page is at " + web_->Address());
+}
+
+void AgentManager::StartTasks() {
+  probed_ = hub_.clocks().Probing();
+  end_probes_.Start(config_.config().start_limit, [this] {
+    hub_.EndProbes(probed_);
+    probed_ = hub_.clocks().Probing();
+  });
+  if (!clock_.real()) return;
+  measure_clocks_.Start(kMeasureEvery, [this] { hub_.MeasureClocks(); });
+  if (log_writer_) {
+    log_writer_->Flush();
+    flush_log_.Start(kFlushLogEvery, [this] { log_writer_->Flush(); });
+  }
+}
+
 int AgentManager::Run() {
   const auto work = boost::asio::make_work_guard(io_);
   boost::asio::signal_set signals(io_, SIGINT, SIGTERM);
   signals.async_wait([this](const auto& error, int) {
     if (!error) stop_ = true;
   });
-  Apply(config_);
+  config_.Apply();
+  reload_signal_.add(SIGHUP);
   ReloadOnSignal();
-  if (!config_.web.at.empty()) {
-    web_ = std::make_unique<WebServer>(
-        io_, config_.web, hub_, [this] { return Metrics(); },
-        [this](const std::string& text) { Refused(text); });
-    Say("the page is at " + web_->Address());
-  }
-  EndProbesInTime({});
-  if (clock_.real()) {
-    FlushLog();
-    MeasureClocks();
-  }
+  OpenPage();
+  StartTasks();
   if (options_.console) {
     if (!options_.read_config)
       Say("no configuration (--config FILE), so no modules are started; type help or quit");
@@ -327,7 +310,11 @@ int AgentManager::Run() {
 void AgentManager::OnStarted() {
   started_once_ = true;
   NotifyService("READY=1");
-  FeedWatchdog();
+  if (const auto period = WatchdogPeriod()) {
+    NotifyService("WATCHDOG=1");
+    feed_watchdog_.Start(std::chrono::duration_cast<milliseconds>(*period / 2),
+                         [] { NotifyService("WATCHDOG=1"); });
+  }
   if (replay_) replay_->Start([this] { quiet_.Disturb(); });
 }
 
@@ -338,8 +325,8 @@ void AgentManager::RunSome() {
     std::size_t done = 0;
     if (!hub_.idle()) {
       done = io_.poll_one();
-    } else if (config_.spin.count() > 0) {
-      const auto until = std::chrono::steady_clock::now() + config_.spin;
+    } else if (config_.config().spin.count() > 0) {
+      const auto until = std::chrono::steady_clock::now() + config_.config().spin;
       do {
         done = io_.poll_one();
       } while (done == 0 && std::chrono::steady_clock::now() < until);
@@ -362,8 +349,7 @@ void AgentManager::StepVirtual() {
   }
   if (io_.poll() > 0 || lockstep_.StepNow()) return;
   if (!SomethingGoesOn()) console_.OnIdle();
-  if (!hub_.idle() || hub_.AnyGrantOutdated() ||
-      (clock_.Next() && *clock_.Next() <= clock_.Now()))
+  if (!hub_.idle() || hub_.AnyGrantOutdated() || (clock_.Next() && *clock_.Next() <= clock_.Now()))
     return;
   const bool time_wanted =
       SomethingGoesOn() || console_.waits_for_time() || console_.waits_for_idle();
@@ -406,7 +392,7 @@ void AgentManager::Shutdown() {
   supervisor_.StopAll([&done] { done = true; });
   while (!done) RunSome();
   web_.reset();  // after the face, which may be writing pictures for it
-  mqtt_.reset();
+  config_.LeaveBroker();
   while (hub_.Drain()) {
   }
   hub_.FailRequests({vm::Errc::kStopped, "the hub ends", 0});
@@ -417,66 +403,19 @@ void AgentManager::Shutdown() {
   while (!flushed) RunSome();
 }
 
-void AgentManager::EndProbesInTime(const std::set<PeerKey>& asked_before) {
-  hub_.EndProbes(asked_before);
-  probe_timer_.expires_after(config_.start_limit);
-  probe_timer_.async_wait([this, probing = hub_.clocks().Probing()](const auto& error) {
-    if (!error) EndProbesInTime(probing);
-  });
-}
-
-void AgentManager::MeasureClocks() {
-  measure_timer_.expires_after(kMeasureEvery);
-  measure_timer_.async_wait([this](const auto& error) {
-    if (error) return;
-    hub_.MeasureClocks();
-    MeasureClocks();
-  });
-}
-
-void AgentManager::FlushLog() {
-  if (!log_writer_) return;
-  log_writer_->Flush();
-  log_timer_.expires_after(kFlushLogEvery);
-  log_timer_.async_wait([this](const auto& error) {
-    if (!error) FlushLog();
-  });
-}
-
-void AgentManager::FeedWatchdog() {
-  const auto period = WatchdogPeriod();
-  if (!period) return;
-  NotifyService("WATCHDOG=1");
-  watchdog_timer_.expires_after(*period / 2);
-  watchdog_timer_.async_wait([this](const auto& error) {
-    if (!error) FeedWatchdog();
-  });
-}
-
-void AgentManager::Watch(PeerKey peer, bool on) {
-  if (on) {
-    onlookers_.insert(peer);
-  } else {
-    onlookers_.erase(peer);
-  }
-  log_.set_enabled(log_writer_ != nullptr || !onlookers_.empty());
-}
-
-void AgentManager::ShowOnlookers(std::string_view line) {
-  std::string comment = "# flow ";  // a comment: whoever does not know it passes over it
-  comment += line;
-  std::erase_if(onlookers_, [&](PeerKey peer) { return !hub_.SendComment(peer, comment); });
-  log_.set_enabled(log_writer_ != nullptr || !onlookers_.empty());
+void AgentManager::EnableLog() {
+  log_.set_enabled(log_writer_ != nullptr || !flow_watchers_.empty());
 }
 
 std::string AgentManager::Metrics() const {
+  const mqtt::Bridge* const bridge = config_.bridge();
   return FormatMetrics({.peers = hub_.Status(),
                         .modules = supervisor_.Status(),
                         .errors = errors_,
                         .refused = refused_,
-                        .mqtt_dropped = mqtt_ != nullptr ? mqtt_->dropped() : 0,
+                        .mqtt_dropped = bridge != nullptr ? bridge->dropped() : 0,
                         .log_lost_bytes = log_writer_ ? log_writer_->lost() : 0,
-                        .mqtt_online = mqtt_ != nullptr && mqtt_->online(),
+                        .mqtt_online = bridge != nullptr && bridge->online(),
                         .clock = clock_.Now()});
 }
 

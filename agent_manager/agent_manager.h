@@ -3,7 +3,6 @@
 #include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,19 +10,20 @@
 #include <string>
 #include <vector>
 
-#include "agent_manager/config/config.h"
+#include "agent_manager/live_config.h"
+#include "agent_manager/log/log_writer.h"
+#include "agent_manager/log/session_log.h"
 #include "agent_manager/macros/macro_layer.h"
 #include "agent_manager/macros/parallel.h"
 #include "agent_manager/macros/sound_player.h"
-#include "agent_manager/mqtt/bridge.h"
 #include "agent_manager/routing/hub.h"
 #include "agent_manager/session/console.h"
+#include "agent_manager/session/flow_watchers.h"
 #include "agent_manager/session/listeners.h"
 #include "agent_manager/session/lockstep.h"
-#include "agent_manager/log/log_writer.h"
+#include "agent_manager/session/periodic_task.h"
 #include "agent_manager/session/quiet_watch.h"
 #include "agent_manager/session/replay.h"
-#include "agent_manager/log/session_log.h"
 #include "agent_manager/slots/hub_machines.h"
 #include "agent_manager/slots/hub_slots.h"
 #include "agent_manager/supervision/supervisor.h"
@@ -57,13 +57,12 @@ class AgentManager {
 
  private:
   // Making it.
+  HubSlots::Hooks SlotHooks();
+  Console::Hooks ConsoleHooks();
+  LiveConfig::Parts ConfigParts();
   void ConnectParts();
   void LoadBuiltInMacros();
-  // The configuration, at the start and when it is read again.
-  void Apply(const Config& config);
-  void JoinBroker(const MqttConfig& config);
-  vm::Result<std::string> Reload();
-  void ReloadOnSignal();
+  void StartReplay();
   // The loop.
   void RunSome();
   void StepVirtual();
@@ -73,25 +72,27 @@ class AgentManager {
   bool Over() const;
   void OnStarted();
   void Shutdown();
-  // On timers.
-  void EndProbesInTime(const std::set<PeerKey>& asked_before);
-  void MeasureClocks();
-  void FlushLog();
-  void FeedWatchdog();
+  // What begins with Run and goes on beside it.
+  void StartTasks();
+  void OpenPage();
+  void ReloadOnSignal();
+  vm::Result<std::string> Reload();
   // What parts say to people and to each other.
   void Say(const std::string& text) const;
   void SayError(const std::string& text, PeerKey about = kHub);
   void Refused(const std::string& text);
-  void Watch(PeerKey peer, bool on);
-  void ShowOnlookers(std::string_view line);
+  void OnModuleOutput(const std::string& module, const OutputLine& line);
+  void OnLateModule(PeerKey module);
+  void OnPresence(const std::string& name, bool present, const std::string& reason);
+  void OnSlotError(PeerKey peer, const std::string& line, const vm::Error& error);
+  void EnableLog();
   std::string Metrics() const;
 
-  Config config_;
   Options options_;
   boost::asio::io_context io_;
   vm::ClockScheduler clock_;
   std::unique_ptr<LogWriter> log_writer_;
-  std::set<PeerKey> onlookers_;  // to whom every message is shown
+  FlowWatchers flow_watchers_;
   SessionLog log_;
   Hub hub_;
   vm::SlotMachine slots_;
@@ -106,17 +107,16 @@ class AgentManager {
   Listeners listeners_;
   Lockstep lockstep_;
   QuietWatch quiet_;
+  LiveConfig config_;
   std::optional<Replay> replay_;
   std::unique_ptr<WebServer> web_;
-  std::unique_ptr<mqtt::Bridge> mqtt_;
-  boost::asio::steady_timer probe_timer_, measure_timer_, watchdog_timer_, log_timer_;
+  PeriodicTask end_probes_, measure_clocks_, feed_watchdog_, flush_log_;
   boost::asio::signal_set reload_signal_;
-  std::set<std::string> configured_macros_;
-  bool applied_ = false;
+  std::set<PeerKey> probed_;  // modules that were being asked when probes were ended the last time
   bool started_once_ = false;
   bool stop_ = false;
   bool console_lost_ = false;
-  const bool person_ = false;  // reads both stdout and stderr
+  const bool person_;  // reads both stdout and stderr
   std::uint64_t errors_ = 0, refused_ = 0;
 };
 

@@ -131,7 +131,7 @@ TEST(StreamPeerTest, ALineCutOffByAResetIsNotHeard) {
       Listener::Open(io, *ParseEndpoint("tcp:127.0.0.1:0"), [&](int fd, const std::string&) {
         server = StreamPeer::Make(io, fd, fd, Framing::kLf);
         server->Start([&](Result<std::string_view> line) { heard.emplace_back(*line); },
-                      [&](const std::string& text) { reason = text; });
+                      [&](const StreamEnd& end) { reason = end.reason; });
       });
   int client = -1;
   ConnectTo(io, listener->endpoint(), [&](Result<int> fd) { client = fd.value_or(-1); });
