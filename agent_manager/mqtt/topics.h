@@ -49,6 +49,15 @@ std::string FormatTopic(std::string_view root, const Topic& topic);
 /// kSyntax: outside the tree, or a name that is none; the text has the topic and what was expected.
 vm::Result<Topic> ParseTopic(std::string_view root, std::string_view topic);
 
+/// The tree of one agent.
+struct AgentTopics {
+  std::string root, agent;
+  std::string Path(Topic::Kind kind, const std::string& module = "",
+                   const std::string& slot = "") const {
+    return FormatTopic(root, {kind, agent, module, slot});
+  }
+};
+
 /// A module of another agent, as `to @AGENT/MODULE` names it. Both empty if it is no such name.
 struct RemoteName {
   std::string agent, module;

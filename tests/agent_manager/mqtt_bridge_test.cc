@@ -207,11 +207,11 @@ TEST_F(BridgeTest, AModuleOfAnotherAgentIsSpokenToAndAnswers) {
 
 TEST_F(BridgeTest, RequestsBeyondTheWindowWaitForAnswersAndKeepTheirOrder) {
   const auto a = world.Join(PeerKind::kClient, "A");
-  const std::size_t all = Bridge::kMaxUnanswered + 10;
+  const std::size_t all = RequestWindow::kMaxUnanswered + 10;
   for (std::size_t i = 0; i < all; ++i)
     world.Say(*a, "to @LOBBY/FSM set#" + std::to_string(i) + " X = " + std::to_string(i));
   auto sent = Acknowledge();
-  ASSERT_EQ(sent.size(), Bridge::kMaxUnanswered);
+  ASSERT_EQ(sent.size(), RequestWindow::kMaxUnanswered);
   for (std::size_t i = 0; i < all; ++i) {
     ASSERT_LT(i, sent.size());
     EXPECT_EQ(sent[i].payload, "set X = " + std::to_string(i));
@@ -385,7 +385,7 @@ TEST_F(BridgeTest, ABrokerThatTakesNothingGetsTheLatestValuesLater) {
   Acknowledge();
   for (int i = 0; i < 100; ++i)
     world.Say(*ssm, "rep Big = " + std::to_string(i) + std::string(60000, 'x'));
-  EXPECT_LE(broker->published.size(), Bridge::kMaxInFlightBytes / 60000 + 1);
+  EXPECT_LE(broker->published.size(), Publisher::kMaxInFlightBytes / 60000 + 1);
   world.Say(*ssm, "tell lost");
   EXPECT_EQ(bridge->dropped(), 1u);
   const auto taken = Acknowledge();

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "agent_manager/mqtt/publisher.h"
+#include "agent_manager/mqtt/topics.h"
+#include "vm_protocol/core/message.h"
+#include "vm_protocol/core/scheduler.h"
+
+namespace am::mqtt {
+
+/// Publishes what is said to one module of another agent. Brokers drop what they cannot queue, so
+/// at most kMaxUnanswered requests are on their way and the rest waits here, in order.
+/// Ownership: borrows the clock and the publisher; lives as long as the module's peer.
+/// Thread: the scheduler's.
+/// Limits: bytes() is the peer's backlog, by which the hub holds the senders.
+/// Errors: false from Send and SendWaiting means that the broker is away; the window is then of no
+///         more use.
+class RequestWindow {
+ public:
+  static constexpr std::size_t kMaxUnanswered = 64;
+  /// `ours`: where answers come to. `name`: AGENT/MODULE, which is `receiver` at the hub.
+  RequestWindow(vm::Scheduler& clock, Publisher& publisher, const AgentTopics& ours,
+                const std::string& name, PeerKey receiver, const std::string& secret);
+  RequestWindow(const RequestWindow&) = delete;
+
+  [[nodiscard]] bool Send(const vm::Message& message);
+  /// After an answer.
+  [[nodiscard]] bool SendWaiting();
+  /// The broker has acknowledged so much.
+  void Acknowledged(std::size_t bytes) { bytes_ -= bytes; }
+  /// The answer with the hub's tag; nothing if nobody waits for it.
+  std::optional<vm::Message> TakeAnswer(const std::string& tag, vm::Message rep);
+
+  PeerKey receiver() const { return receiver_; }
+  /// Not yet acknowledged, with what waits.
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  struct Unanswered {
+    std::string slot;
+    vm::Time asked{0};
+  };
+  bool Publish(vm::Message message);
+
+  vm::Scheduler& clock_;
+  Publisher& publisher_;
+  const AgentTopics ours_;
+  const std::string name_;
+  const PeerKey receiver_;
+  const std::string secret_;
+  std::map<std::string, Unanswered> unanswered_;  // by the hub's tag
+  std::deque<vm::Message> waiting_;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace am::mqtt
