@@ -169,12 +169,9 @@ void LocalGateway::Ask(const Packet& packet, const std::string& slot, Message me
   const auto refuse = [&](Errc code, const std::string& text) {
     Refuse(packet, slot, {code, text, 0});
   };
-  if (!MayAnswerTo(packet.response_topic)) {
-    Packet unanswered = packet;
-    unanswered.response_topic.clear();
-    return Refuse(unanswered, slot,
-                  {Errc::kAccess, "answers do not go to '" + packet.response_topic + "'", 0});
-  }
+  if (!MayAnswerTo(packet.response_topic))
+    return refuse(Errc::kAccess, "answers do not go to '" +
+                                     std::string(vm::CutUtf8(packet.response_topic, 200)) + "'");
   if (packet.correlation.size() > kMaxCorrelationBytes)
     return refuse(Errc::kLimit,
                   "correlation data over " + std::to_string(kMaxCorrelationBytes) + " bytes");
@@ -186,8 +183,8 @@ void LocalGateway::Ask(const Packet& packet, const std::string& slot, Message me
   hub_.Receive(peer_, std::move(message));
 }
 
-/// We may be allowed to publish where the one who asks is not: below the root, answers go to an
-/// agent's $reply only, never to a topic that is a command or a value.
+/// We may be allowed to publish where the one who asks is not: below the root, answers and refusals
+/// go to an agent's $reply only, never to a topic that is a command or a value.
 bool LocalGateway::MayAnswerTo(const std::string& topic) const {
   if (!topic.starts_with(config_.root + "/")) return true;
   const auto parsed = ParseTopic(config_.root, topic);
@@ -197,7 +194,7 @@ bool LocalGateway::MayAnswerTo(const std::string& topic) const {
 void LocalGateway::Refuse(const Packet& packet, const std::string& slot, const vm::Error& error) {
   const std::string text = vm::FormatError(error);
   on_notice_("refused '" + std::string(vm::CutUtf8(packet.topic, 200)) + "': " + text);
-  if (packet.response_topic.empty()) return;
+  if (packet.response_topic.empty() || !MayAnswerTo(packet.response_topic)) return;
   publisher_.PublishAnswer(
       {.topic = packet.response_topic,
        .payload = "rep " + slot + (slot == "Error" ? "" : ".error") + " = " + text,

@@ -17,8 +17,8 @@ namespace am::mqtt {
 /// Thread: the scheduler's.
 /// Limits: kMax... below. The peer has no backlog: what the broker does not take is the
 ///         publisher's to bound.
-/// Errors: a command that cannot be carried out is one notice and, where there is a response topic,
-///         one answer.
+/// Errors: a command that cannot be carried out is one notice and, where there is a response topic
+///         that may be answered to, one answer.
 class LocalGateway {
  public:
   static constexpr const char* kName = "MQTT";

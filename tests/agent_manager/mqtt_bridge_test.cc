@@ -411,5 +411,17 @@ TEST_F(BridgeTest, WhoSpeaksToTheBrokerItselfIsAnswered) {
   EXPECT_NE(a->heard[0].find("rep#1 X.error = UNKNOWN_SLOT"), std::string::npos) << a->heard[0];
 }
 
+TEST_F(BridgeTest, ARefusalCannotBeMadeACommandToSomebodyElseEither) {
+  world.JoinModern("SSM");
+  Acknowledge();
+  for (const char* topic : {"galatea/LOBBY/SSM/Text/set", "galatea/LOBBY/$do/SSM"}) {
+    Come("galatea/HALL/$do/SSM", "jump", topic);           // cannot be parsed
+    Come("galatea/HALL/$do/AM", "set Name = SSM", topic);  // may not be said
+    Come("galatea/HALL/x/y/z", "", topic);                 // no topic of ours
+  }
+  EXPECT_EQ(Texts(Acknowledge()), Strings{});
+  EXPECT_EQ(notices.size(), 6u);
+}
+
 }  // namespace
 }  // namespace am::mqtt
