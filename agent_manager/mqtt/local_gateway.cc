@@ -172,6 +172,9 @@ void LocalGateway::Ask(const Packet& packet, const std::string& slot, Message me
   if (!MayAnswerTo(packet.response_topic))
     return refuse(Errc::kAccess, "answers do not go to '" +
                                      std::string(vm::CutUtf8(packet.response_topic, 200)) + "'");
+  if (packet.response_topic.size() > kMaxResponseTopicBytes)
+    return refuse(Errc::kLimit,
+                  "response topic over " + std::to_string(kMaxResponseTopicBytes) + " bytes");
   if (packet.correlation.size() > kMaxCorrelationBytes)
     return refuse(Errc::kLimit,
                   "correlation data over " + std::to_string(kMaxCorrelationBytes) + " bytes");

@@ -23,6 +23,7 @@ class LocalGateway {
  public:
   static constexpr const char* kName = "MQTT";
   static constexpr std::size_t kMaxRequests = 4096;  ///< from the broker, unanswered
+  static constexpr std::size_t kMaxResponseTopicBytes = 1024;
   static constexpr std::size_t kMaxCorrelationBytes = 1024;
 
   /// Throws std::runtime_error if the hub does not take the peer.

@@ -23,16 +23,18 @@ void Publisher::SetValue(const std::string& topic, const std::string& value) {
   PublishChanged();
 }
 
-void Publisher::PublishEvent(const Packet& packet) {
-  if (in_flight_bytes_ >= kMaxInFlightBytes || !Publish(packet)) ++dropped_;
-}
+void Publisher::PublishEvent(const Packet& packet) { PublishBelow(kMaxInFlightBytes, packet); }
 
 void Publisher::PublishAnswer(const Packet& packet) {
-  if (!Publish(packet)) ++dropped_;
+  PublishBelow(kMaxInFlightBytesOfAnswers, packet);
 }
 
 bool Publisher::PublishCommand(const Packet& packet, PeerKey receiver) {
   return Publish(packet, receiver);
+}
+
+void Publisher::PublishBelow(std::size_t limit, const Packet& packet) {
+  if (in_flight_bytes_ >= limit || !Publish(packet)) ++dropped_;
 }
 
 bool Publisher::Publish(const Packet& packet, PeerKey receiver) {
@@ -41,7 +43,7 @@ bool Publisher::Publish(const Packet& packet, PeerKey receiver) {
   if (number == 0) return false;
   InFlight about{BytesOf(packet), packet.topic, receiver};
   in_flight_bytes_ += about.bytes;
-  in_flight_[number] = std::move(about);
+  in_flight_.emplace(number, std::move(about));
   return true;
 }
 
@@ -64,8 +66,8 @@ void Publisher::Lost() {
 }
 
 std::optional<Publisher::InFlight> Publisher::OnReceipt(const Broker::Events::Receipt& receipt) {
-  const auto found = in_flight_.find(receipt.number);
-  if (found == in_flight_.end()) return std::nullopt;
+  const auto found = in_flight_.lower_bound(receipt.number);
+  if (found == in_flight_.end() || found->first != receipt.number) return std::nullopt;
   InFlight about = std::move(found->second);
   in_flight_.erase(found);
   in_flight_bytes_ -= about.bytes;

@@ -21,7 +21,7 @@ using OnNotice = std::function<void(const std::string& text)>;
 ///     values     retained; beyond kMaxInFlightBytes the latest of each topic waits; all of them
 ///                are published again on each connection
 ///     events     beyond kMaxInFlightBytes dropped and counted
-///     answers    not bounded here
+///     answers    beyond kMaxInFlightBytesOfAnswers dropped and counted
 ///     commands   not bounded here: their sender's peer bounds them by its backlog
 ///
 /// Ownership: borrows the broker and the claim. Thread: the scheduler's.
@@ -32,6 +32,7 @@ class Publisher {
   static constexpr std::size_t kMaxValues = 16384;  ///< remembered for the broker
   static constexpr std::size_t kMaxValueBytes = 32u << 20;
   static constexpr std::size_t kMaxInFlightBytes = 1u << 20;
+  static constexpr std::size_t kMaxInFlightBytesOfAnswers = 4u << 20;
 
   Publisher(Broker& broker, const AgentClaim& claim, OnNotice on_notice);
   Publisher(const Publisher&) = delete;
@@ -60,6 +61,7 @@ class Publisher {
 
  private:
   bool Publish(const Packet& packet, PeerKey receiver = 0);
+  void PublishBelow(std::size_t limit, const Packet& packet);
   void PublishChanged();
 
   Broker& broker_;
@@ -67,8 +69,9 @@ class Publisher {
   const OnNotice on_notice_;
   std::map<std::string, std::string> values_;  // by topic
   std::size_t value_bytes_ = 0;
-  std::set<std::string> changed_;      // topics whose value the broker does not have yet
-  std::map<int, InFlight> in_flight_;  // by the number of the receipt
+  std::set<std::string> changed_;  // topics whose value the broker does not have yet
+  // By the number of the receipt. Numbers are 16 bits wide, so one can be on its way twice.
+  std::multimap<int, InFlight> in_flight_;
   std::size_t in_flight_bytes_ = 0;
   std::uint64_t dropped_ = 0;
 };

@@ -15,6 +15,11 @@ namespace {
 // A little longer than the hub waits for an answer.
 constexpr vm::Time kForgetAfter = std::chrono::seconds(125);
 
+/// What a message that waits counts for; a question without a value takes room, too.
+std::size_t BytesOf(const Message& message) {
+  return sizeof(Message) + message.slot.size() + message.value.size();
+}
+
 }  // namespace
 
 RequestWindow::RequestWindow(vm::Scheduler& clock, Publisher& publisher, const AgentTopics& ours,
@@ -32,7 +37,7 @@ bool RequestWindow::Send(const Message& message) {
   });
   if (message.tag.empty() || (waiting_.empty() && unanswered_.size() < kMaxUnanswered))
     return Publish(message);
-  bytes_ += message.value.size();
+  bytes_ += BytesOf(message);
   waiting_.push_back(message);
   return true;
 }
@@ -41,7 +46,7 @@ bool RequestWindow::SendWaiting() {
   while (!waiting_.empty() && unanswered_.size() < kMaxUnanswered) {
     Message message = std::move(waiting_.front());
     waiting_.pop_front();
-    bytes_ -= message.value.size();
+    bytes_ -= BytesOf(message);
     if (!Publish(std::move(message))) return false;
   }
   return true;

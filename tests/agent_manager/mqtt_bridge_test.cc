@@ -423,5 +423,53 @@ TEST_F(BridgeTest, ARefusalCannotBeMadeACommandToSomebodyElseEither) {
   EXPECT_EQ(notices.size(), 6u);
 }
 
+TEST_F(BridgeTest, WhatARequestIsRememberedByIsBounded) {
+  world.JoinModern("SSM");
+  Acknowledge();
+  Come("galatea/HALL/$do/SSM", "set Text = a", "me/" + std::string(60000, 'x'));
+  EXPECT_TRUE(Acknowledge().at(0).payload.starts_with("rep Text.error = LIMIT"));
+  Come("galatea/HALL/$do/SSM", "set Text = a", "me/answers", std::string(60000, 'x'));
+  EXPECT_TRUE(Acknowledge().at(0).payload.starts_with("rep Text.error = LIMIT"));
+}
+
+TEST_F(BridgeTest, AnswersThatTheBrokerDoesNotTakeAreBounded) {
+  world.JoinModern("SSM");
+  Acknowledge();
+  for (int i = 0; i < 200; ++i)
+    Come("galatea/HALL/SSM/Text/set", std::string(60000, 'x'), "me/answers");
+  EXPECT_LE(broker->published.size(), Publisher::kMaxInFlightBytesOfAnswers / 60000 + 1);
+  EXPECT_GT(bridge->dropped(), 0u);
+  Acknowledge();
+  Come("galatea/HALL/SSM/Text/set", "hello", "me/answers");
+  EXPECT_EQ(Texts(Acknowledge()), Strings{"me/answers = rep Text = hello"});
+}
+
+TEST_F(BridgeTest, ANumberThatComesTwiceBeforeItsReceiptIsCountedTwice) {
+  const auto ssm = world.JoinModern("SSM");
+  Acknowledge();
+  const int number = broker->last + 1;
+  for (int i = 0; i < 40; ++i) {
+    for (int twice = 0; twice < 2; ++twice) {
+      broker->last = number - 1;
+      world.Say(*ssm, "tell " + std::string(60000, 'x'));
+    }
+    for (int twice = 0; twice < 2; ++twice) broker->events.on_receipt({number, false, ""});
+  }
+  EXPECT_EQ(broker->published.size(), 80u);
+  EXPECT_EQ(bridge->dropped(), 0u);
+}
+
+TEST_F(BridgeTest, QuestionsThatWaitCountForTheBacklog) {
+  const auto a = world.Join(PeerKind::kClient, "A");
+  for (std::size_t i = 0; i < RequestWindow::kMaxUnanswered + 10; ++i)
+    world.Say(*a, "to @LOBBY/FSM inq#" + std::to_string(i) + " X");
+  Acknowledge();
+  for (const PeerStatus& peer : world.hub.Status()) {
+    if (peer.name == "LOBBY/FSM") {
+      EXPECT_GT(peer.backlog_bytes, 10u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace am::mqtt
