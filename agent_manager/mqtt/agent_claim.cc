@@ -21,6 +21,7 @@ AgentClaim::AgentClaim(Broker& broker, const MqttConfig& config, Hooks hooks)
       topics_{config.root, config.agent},
       hooks_(std::move(hooks)),
       id_(vm::MakeNonce().substr(0, kIdBytes)),
+      marker_(vm::MakeNonce().substr(0, kIdBytes)),
       state_("AWAY connecting to " + config.broker) {}
 
 AgentClaim::~AgentClaim() {
@@ -48,7 +49,7 @@ void AgentClaim::Begin() {
   broker_.Subscribe(topics_.Path(Kind::kState), true);
   broker_.Subscribe(topics_.Path(Kind::kReply), false);
   // The broker delivers in order: the retained values come before this.
-  broker_.Publish({.topic = topics_.Path(Kind::kReply), .correlation = id_});
+  broker_.Publish({.topic = topics_.Path(Kind::kReply), .correlation = marker_});
 }
 
 void AgentClaim::Lost(const std::string& reason) {
@@ -61,7 +62,7 @@ bool AgentClaim::OnPacket(const Topic& topic, const Packet& packet) {
     OnHub(packet.payload);
   } else if (topic.kind == Kind::kState) {
     seen_state_ = packet.payload;
-  } else if (topic.kind == Kind::kReply && claiming_ && packet.correlation == id_) {
+  } else if (topic.kind == Kind::kReply && claiming_ && packet.correlation == marker_) {
     Decide();
   } else {
     return false;

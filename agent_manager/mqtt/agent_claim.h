@@ -38,7 +38,7 @@ class AgentClaim {
   bool held() const { return held_; }
   /// "ONLINE tcp:HOST:PORT as AGENT", "AWAY why".
   const std::string& state() const { return state_; }
-  /// Stands at $hub, and tells our process from others.
+  /// Stands at $hub for everybody to read: it tells our process from others, and is no secret.
   const std::string& id() const { return id_; }
 
  private:
@@ -51,7 +51,7 @@ class AgentClaim {
   const MqttConfig& config_;
   const AgentTopics topics_;
   const Hooks hooks_;
-  const std::string id_;
+  const std::string id_, marker_;
   bool claiming_ = false;  // connected, and finding out whether the name is free
   bool held_ = false;
   std::string seen_state_, seen_hub_;  // what stands at the broker meanwhile

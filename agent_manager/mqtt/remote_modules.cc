@@ -70,8 +70,8 @@ Result<bool> RemoteModules::Open(const std::string& name) {
   const auto peer = hub_.Attach(std::make_unique<RemoteLink>(*this, name), PeerKind::kRemote,
                                 config_.role, name, Dialect::kModern);
   if (!peer) return std::unexpected(peer.error());
-  Add(name).window = std::make_unique<RequestWindow>(clock_, publisher_, TopicsOf(config_.agent),
-                                                     name, *peer, claim_.id());
+  Add(name).window =
+      std::make_unique<RequestWindow>(clock_, publisher_, TopicsOf(config_.agent), name, *peer);
   return true;
 }
 
@@ -166,7 +166,8 @@ void RemoteModules::OnReply(const Packet& packet) {
   const std::string secret = word(), name = word(), tag = word();
   RequestWindow* const window = WindowOf(name);
   auto rep = vm::ParseMessage(packet.payload);
-  if (secret != claim_.id() || !vm::IsTag(tag) || !rep || rep->command != Command::kRep)
+  if ((window != nullptr && secret != window->secret()) || !vm::IsTag(tag) || !rep ||
+      rep->command != Command::kRep)
     return on_notice_("an answer nobody has asked for: '" +
                       std::string(vm::CutUtf8(packet.payload, 60)) + "'");
   if (window == nullptr) return;  // too late

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "agent_manager/routing/outbox.h"
+#include "vm_protocol/runtime/credentials.h"
 
 namespace am::mqtt {
 
@@ -23,13 +24,13 @@ std::size_t BytesOf(const Message& message) {
 }  // namespace
 
 RequestWindow::RequestWindow(vm::Scheduler& clock, Publisher& publisher, const AgentTopics& ours,
-                             const std::string& name, PeerKey receiver, const std::string& secret)
+                             const std::string& name, PeerKey receiver)
     : clock_(clock),
       publisher_(publisher),
       ours_(ours),
       name_(name),
       receiver_(receiver),
-      secret_(secret) {}
+      secret_(vm::MakeNonce().substr(0, 16)) {}
 
 bool RequestWindow::Send(const Message& message) {
   std::erase_if(unanswered_, [&](const auto& entry) {

@@ -24,7 +24,7 @@ class RequestWindow {
   static constexpr std::size_t kMaxUnanswered = 64;
   /// `ours`: where answers come to. `name`: AGENT/MODULE, which is `receiver` at the hub.
   RequestWindow(vm::Scheduler& clock, Publisher& publisher, const AgentTopics& ours,
-                const std::string& name, PeerKey receiver, const std::string& secret);
+                const std::string& name, PeerKey receiver);
   RequestWindow(const RequestWindow&) = delete;
 
   [[nodiscard]] bool Send(const vm::Message& message);
@@ -32,6 +32,8 @@ class RequestWindow {
   [[nodiscard]] bool SendWaiting();
   /// The broker has acknowledged so much.
   void Acknowledged(std::size_t bytes) { bytes_ -= bytes; }
+  /// What a correlation must begin with.
+  const std::string& secret() const { return secret_; }
   /// The answer with the hub's tag; nothing if nobody waits for it.
   std::optional<vm::Message> TakeAnswer(const std::string& tag, vm::Message rep);
 

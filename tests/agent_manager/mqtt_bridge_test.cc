@@ -459,6 +459,29 @@ TEST_F(BridgeTest, ANumberThatComesTwiceBeforeItsReceiptIsCountedTwice) {
   EXPECT_EQ(bridge->dropped(), 0u);
 }
 
+TEST_F(BridgeTest, WhatStandsAtTheBrokerDoesNotTellHowToAnswerForAnother) {
+  broker->events.on_lost("gone");
+  world.clock.Settle();
+  GoOnline();
+  std::string hub;
+  for (const Packet& packet : Acknowledge()) {
+    if (packet.topic == "galatea/HALL/$hub") hub = packet.payload;
+  }
+  ASSERT_NE(hub, "");
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.Say(*a, "to @LOBBY/FSM set#1 Gaze = 1 2");
+  world.Say(*a, "to @ATTIC/FSM set#2 Gaze = 3 4");
+  const auto sent = Acknowledge();
+  ASSERT_EQ(sent.size(), 2u);
+  EXPECT_EQ(sent[0].correlation.find(hub), std::string::npos) << "anybody can read $hub";
+  // What ATTIC has been sent does not serve it to answer for LOBBY.
+  const std::string secret = sent[1].correlation.substr(0, sent[1].correlation.find(' '));
+  const std::string rest = sent[0].correlation.substr(sent[0].correlation.find(' '));
+  Come("galatea/HALL/$reply", "rep Gaze = 1 2", "", secret + rest);
+  EXPECT_EQ(a->heard, Strings{});
+  EXPECT_EQ(notices.size(), 1u);
+}
+
 TEST_F(BridgeTest, QuestionsThatWaitCountForTheBacklog) {
   const auto a = world.Join(PeerKind::kClient, "A");
   for (std::size_t i = 0; i < RequestWindow::kMaxUnanswered + 10; ++i)
