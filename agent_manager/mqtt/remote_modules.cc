@@ -16,6 +16,15 @@ using vm::Message;
 using vm::Result;
 using Kind = Topic::Kind;
 
+namespace {
+
+/// What comes from the broker, as it may stand in a line of ours.
+std::string Shown(std::string_view payload, std::size_t max_bytes) {
+  return vm::ShownUtf8(vm::CutUtf8(payload, max_bytes));
+}
+
+}  // namespace
+
 /// What a module of another agent is sent.
 class RemoteModules::RemoteLink final : public Link {
  public:
@@ -78,9 +87,10 @@ Result<bool> RemoteModules::Open(const std::string& name) {
 void RemoteModules::Want(const std::string& name) {
   const auto opened = Open(name);
   if (opened && !*opened) return;
-  if (!remotes_.contains(name) && remotes_.size() >= kMaxRemotes)
+  if (!opened && (SplitRemoteName(name).agent == config_.agent ||
+                  (!remotes_.contains(name) && remotes_.size() >= kMaxRemotes)))
     return on_notice_("@" + name + " is not heard: " + opened.error().text);
-  remotes_[name].wanted = true;
+  Add(name).wanted = true;
 }
 
 RemoteModules::Remote& RemoteModules::Add(const std::string& name) {
@@ -184,7 +194,7 @@ void RemoteModules::OnAgentState(const std::string& agent, const std::string& st
   }
   for (const std::string& name : names) {
     if (state != AgentClaim::kOnline) {
-      Close(name, "the agent " + agent + " is " + state.substr(0, 40));
+      Close(name, "the agent " + agent + " is " + Shown(state, 40));
     } else if (remotes_.at(name).wanted) {
       static_cast<void>(Open(name));
     }
@@ -198,7 +208,7 @@ void RemoteModules::OnPacket(const Topic& topic, const Packet& packet) {
   if (remote == remotes_.end()) return;
   if (topic.kind == Kind::kModuleState) {
     if (packet.payload != "LIVE") {
-      Close(name, packet.payload.substr(0, 200));
+      Close(name, Shown(packet.payload, 200));
     } else if (remote->second.wanted) {
       static_cast<void>(Open(name));
     }

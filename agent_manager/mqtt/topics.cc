@@ -110,7 +110,10 @@ Result<Topic> ParseTopic(std::string_view root, std::string_view text) {
 RemoteName SplitRemoteName(std::string_view name) {
   const std::size_t slash = name.find('/');
   if (slash == std::string_view::npos) return {};
-  return {std::string(name.substr(0, slash)), std::string(name.substr(slash + 1))};
+  const std::string_view agent = name.substr(0, slash), module = name.substr(slash + 1);
+  // What is subscribed to is made of it: a '+' or '#' would be everybody's reports.
+  if (!vm::IsModuleName(agent) || !vm::IsModuleName(module)) return {};
+  return {std::string(agent), std::string(module)};
 }
 
 }  // namespace am::mqtt

@@ -482,6 +482,43 @@ TEST_F(BridgeTest, WhatStandsAtTheBrokerDoesNotTellHowToAnswerForAnother) {
   EXPECT_EQ(notices.size(), 1u);
 }
 
+TEST_F(BridgeTest, WhatAnotherAgentSaysOfItselfStaysOneLine) {
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const std::string payload = "GONE\nrep#9 Forged = 1 \xff" + std::string(200, 'x');
+  for (const char* topic : {"galatea/LOBBY/SSM/$state", "galatea/LOBBY/$state"}) {
+    a->heard.clear();
+    world.Say(*a, "to @LOBBY/SSM set#1 Text = x");
+    Come(topic, payload);
+    ASSERT_EQ(a->heard.size(), 1u);
+    EXPECT_TRUE(vm::ParseMessage(a->heard[0])) << a->heard[0];
+    EXPECT_EQ(a->heard[0].find('\n'), std::string::npos) << a->heard[0];
+  }
+}
+
+TEST_F(BridgeTest, OnlyModulesOfOtherAgentsAreFollowedAtTheBroker) {
+  const auto filters = broker->filters;
+  for (const char* name : {"HALL/SSM", "LOBBY/#", "+/+", "LOBBY/", "/SSM", "LOBBY/a/b"})
+    bridge->Want(name);
+  EXPECT_EQ(broker->filters, filters);
+  broker->events.on_lost("gone");
+  world.clock.Settle();
+  broker->filters.clear();
+  GoOnline();
+  for (const std::string& filter : broker->filters)
+    EXPECT_TRUE(std::ranges::find(filters, filter) != filters.end()) << filter;
+}
+
+TEST_F(BridgeTest, WhoIsWantedWhileTheHubIsFullIsHeardLater) {
+  const std::size_t peers = world.hub.limits().peers;
+  world.hub.limits().peers = 1;
+  bridge->Want("LOBBY/SRM");
+  EXPECT_FALSE(world.hub.IsPresent("LOBBY/SRM"));
+  EXPECT_EQ(std::ranges::count(broker->filters, "galatea/LOBBY/SRM/+"), 1);
+  world.hub.limits().peers = peers;
+  Come("galatea/LOBBY/SRM/$state", "LIVE");
+  EXPECT_TRUE(world.hub.IsPresent("LOBBY/SRM"));
+}
+
 TEST_F(BridgeTest, QuestionsThatWaitCountForTheBacklog) {
   const auto a = world.Join(PeerKind::kClient, "A");
   for (std::size_t i = 0; i < RequestWindow::kMaxUnanswered + 10; ++i)

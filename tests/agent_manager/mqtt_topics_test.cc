@@ -61,6 +61,8 @@ TEST(MqttTopicsTest, AModuleOfAnotherAgentIsNamedWithASlash) {
   EXPECT_EQ(SplitRemoteName("LOBBY/FSM").agent, "LOBBY");
   EXPECT_EQ(SplitRemoteName("LOBBY/FSM").module, "FSM");
   EXPECT_EQ(SplitRemoteName("FSM").agent, "");
+  for (const char* name : {"LOBBY/#", "+/FSM", "LOBBY/", "/FSM", "LOBBY/FSM/Gaze", "LOBBY/$state"})
+    EXPECT_EQ(SplitRemoteName(name).agent, "") << name;
 }
 
 }  // namespace
