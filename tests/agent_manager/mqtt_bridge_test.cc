@@ -510,11 +510,11 @@ TEST_F(BridgeTest, OnlyModulesOfOtherAgentsAreFollowedAtTheBroker) {
 
 TEST_F(BridgeTest, WhoIsWantedWhileTheHubIsFullIsHeardLater) {
   const std::size_t peers = world.hub.limits().peers;
-  world.hub.limits().peers = 1;
+  world.hub.set_limit(&Limits::peers, 1);
   bridge->Want("LOBBY/SRM");
   EXPECT_FALSE(world.hub.IsPresent("LOBBY/SRM"));
   EXPECT_EQ(std::ranges::count(broker->filters, "galatea/LOBBY/SRM/+"), 1);
-  world.hub.limits().peers = peers;
+  world.hub.set_limit(&Limits::peers, peers);
   Come("galatea/LOBBY/SRM/$state", "LIVE");
   EXPECT_TRUE(world.hub.IsPresent("LOBBY/SRM"));
 }
