@@ -54,14 +54,27 @@ RemoteModules::RemoteModules(vm::Scheduler& clock, Hub& hub, const MqttConfig& c
       on_notice_(std::move(on_notice)) {}
 
 RemoteModules::~RemoteModules() {
-  for (const auto& [name, remote] : std::exchange(remotes_, {})) {
-    if (remote.window) hub_.Evict(remote.window->receiver(), "the bridge to the broker has ended");
+  for (const auto& [name, window] : std::exchange(windows_, {})) {
+    if (window) hub_.Evict(window->receiver(), "the bridge to the broker has ended");
   }
 }
 
 RequestWindow* RemoteModules::WindowOf(const std::string& name) const {
-  const auto found = remotes_.find(name);
-  return found == remotes_.end() ? nullptr : found->second.window.get();
+  const auto found = windows_.find(name);
+  return found == windows_.end() ? nullptr : found->second.get();
+}
+
+/// True if no other module than those there are can be spoken to or followed.
+bool RemoteModules::Full(const std::string& name) {
+  if (windows_.contains(name) || windows_.size() < kMaxRemotes) return false;
+  const auto idle = std::ranges::find_if(windows_, [this](const auto& entry) {
+    return entry.second == nullptr && !hub_.HasSubscriber(entry.first);
+  });
+  if (idle == windows_.end()) return true;
+  const std::string forgotten = idle->first;
+  windows_.erase(idle);
+  Unfollow(forgotten);
+  return false;
 }
 
 Result<bool> RemoteModules::Open(const std::string& name) {
@@ -73,13 +86,13 @@ Result<bool> RemoteModules::Open(const std::string& name) {
     return Fail(Errc::kUnavailable,
                 "@" + name + " cannot be reached, the broker is " + claim_.state());
   if (WindowOf(name) != nullptr) return true;
-  if (!remotes_.contains(name) && remotes_.size() >= kMaxRemotes)
+  if (Full(name))
     return Fail(Errc::kLimit,
                 "more than " + std::to_string(kMaxRemotes) + " modules of other agents");
   const auto peer = hub_.Attach(std::make_unique<RemoteLink>(*this, name), PeerKind::kRemote,
                                 config_.role, name, Dialect::kModern);
   if (!peer) return std::unexpected(peer.error());
-  Add(name).window =
+  Add(name) =
       std::make_unique<RequestWindow>(clock_, publisher_, TopicsOf(config_.agent), name, *peer);
   return true;
 }
@@ -87,20 +100,19 @@ Result<bool> RemoteModules::Open(const std::string& name) {
 void RemoteModules::Want(const std::string& name) {
   const auto opened = Open(name);
   if (opened && !*opened) return;
-  if (!opened && (SplitRemoteName(name).agent == config_.agent ||
-                  (!remotes_.contains(name) && remotes_.size() >= kMaxRemotes)))
+  if (!opened && (SplitRemoteName(name).agent == config_.agent || Full(name)))
     return on_notice_("@" + name + " is not heard: " + opened.error().text);
-  Add(name).wanted = true;
+  Add(name);
 }
 
-RemoteModules::Remote& RemoteModules::Add(const std::string& name) {
-  const auto [entry, added] = remotes_.try_emplace(name);
+RemoteModules::WindowPtr& RemoteModules::Add(const std::string& name) {
+  const auto [entry, added] = windows_.try_emplace(name);
   if (added && claim_.held()) Follow(name);
   return entry->second;
 }
 
 void RemoteModules::Follow() {
-  for (const auto& [name, remote] : remotes_) Follow(name);
+  for (const auto& [name, window] : windows_) Follow(name);
 }
 
 void RemoteModules::Follow(const std::string& name) {
@@ -116,18 +128,18 @@ void RemoteModules::Unfollow(const std::string& name) {
   const AgentTopics topics = TopicsOf(agent);
   broker_.Unsubscribe(topics.Path(Kind::kSlot, module, "+"));
   broker_.Unsubscribe(topics.Path(Kind::kModuleState, module));
-  const bool last = std::ranges::none_of(remotes_, [&, ours = agent](const auto& other) {
+  const bool last = std::ranges::none_of(windows_, [&, ours = agent](const auto& other) {
     return SplitRemoteName(other.first).agent == ours;
   });
   if (last) broker_.Unsubscribe(topics.Path(Kind::kState));
 }
 
 void RemoteModules::OnGone(const std::string& name) {
-  const auto found = remotes_.find(name);
-  if (found == remotes_.end()) return;
-  found->second.window.reset();
-  if (found->second.wanted) return;
-  remotes_.erase(found);
+  const auto found = windows_.find(name);
+  if (found == windows_.end()) return;
+  found->second.reset();
+  if (hub_.HasSubscriber(name)) return;
+  windows_.erase(found);
   Unfollow(name);
 }
 
@@ -137,7 +149,7 @@ void RemoteModules::Close(const std::string& name, const std::string& reason) {
 }
 
 void RemoteModules::Lost(const std::string& reason) {
-  for (const auto& [name, remote] : remotes_) Close(name, "the broker is away: " + reason);
+  for (const auto& [name, window] : windows_) Close(name, "the broker is away: " + reason);
 }
 
 void RemoteModules::Send(const std::string& name, const Message& message) {
@@ -189,13 +201,13 @@ void RemoteModules::OnReply(const Packet& packet) {
 
 void RemoteModules::OnAgentState(const std::string& agent, const std::string& state) {
   std::vector<std::string> names;
-  for (const auto& [name, remote] : remotes_) {
+  for (const auto& [name, window] : windows_) {
     if (SplitRemoteName(name).agent == agent) names.push_back(name);
   }
   for (const std::string& name : names) {
     if (state != AgentClaim::kOnline) {
       Close(name, "the agent " + agent + " is " + Shown(state, 40));
-    } else if (remotes_.at(name).wanted) {
+    } else if (hub_.HasSubscriber(name)) {
       static_cast<void>(Open(name));
     }
   }
@@ -204,17 +216,17 @@ void RemoteModules::OnAgentState(const std::string& agent, const std::string& st
 void RemoteModules::OnPacket(const Topic& topic, const Packet& packet) {
   if (topic.kind == Kind::kState) return OnAgentState(topic.agent, packet.payload);
   const std::string name = topic.agent + "/" + topic.module;
-  const auto remote = remotes_.find(name);
-  if (remote == remotes_.end()) return;
+  const auto found = windows_.find(name);
+  if (found == windows_.end()) return;
   if (topic.kind == Kind::kModuleState) {
     if (packet.payload != "LIVE") {
       Close(name, Shown(packet.payload, 200));
-    } else if (remote->second.wanted) {
+    } else if (hub_.HasSubscriber(name)) {
       static_cast<void>(Open(name));
     }
     return;
   }
-  const RequestWindow* const window = remote->second.window.get();
+  const RequestWindow* const window = found->second.get();
   if (window == nullptr || (topic.kind != Kind::kSlot && topic.kind != Kind::kTell)) return;
   const Message said =
       topic.kind == Kind::kSlot ? vm::Rep(topic.slot, packet.payload) : vm::Tell(packet.payload);

@@ -12,10 +12,10 @@ namespace am::mqtt {
 /// The modules of other agents that somebody here speaks to or wants to hear. Each is a peer of the
 /// hub, @AGENT/MODULE, of kind kRemote, so that requests, limits, clocks and endings are what they
 /// are for any peer. It follows the module's reports and presence at the broker, and the peer
-/// leaves when the module, its agent or the broker is gone. A module that is wanted comes back.
-/// Ownership: its peers leave the hub with it; borrows everything it is given.
-/// Thread: the scheduler's. Limits: kMaxRemotes; see RequestWindow.
-/// Errors: what the broker brings and cannot be used is one notice.
+/// leaves when the module, its agent or the broker is gone. A module that a peer is subscribed to
+/// comes back. Ownership: its peers leave the hub with it; borrows everything it is given. Thread:
+/// the scheduler's. Limits: kMaxRemotes; see RequestWindow. Errors: what the broker brings and
+/// cannot be used is one notice.
 class RemoteModules {
  public:
   static constexpr std::size_t kMaxRemotes = 1024;
@@ -27,7 +27,7 @@ class RemoteModules {
 
   /// Attaches @AGENT/MODULE if it can be. False: the name is none of another agent.
   vm::Result<bool> Open(const std::string& name);
-  /// Somebody wants to hear this module, now and whenever it is there.
+  /// A peer has subscribed to this module: it is followed until nobody is subscribed to it.
   void Want(const std::string& name);
 
   /// Our agent's name is held: subscribes to what the modules say.
@@ -42,13 +42,11 @@ class RemoteModules {
 
  private:
   class RemoteLink;
-  struct Remote {
-    bool wanted = false;
-    std::unique_ptr<RequestWindow> window{};  // none: it is not there now
-  };
 
   AgentTopics TopicsOf(const std::string& agent) const { return {config_.root, agent}; }
-  Remote& Add(const std::string& name);
+  using WindowPtr = std::unique_ptr<RequestWindow>;
+  WindowPtr& Add(const std::string& name);
+  bool Full(const std::string& name);
   void Follow(const std::string& name);
   void Unfollow(const std::string& name);
   void Send(const std::string& name, const vm::Message& message);
@@ -65,7 +63,7 @@ class RemoteModules {
   const AgentClaim& claim_;
   Publisher& publisher_;
   const OnNotice on_notice_;
-  std::map<std::string, Remote> remotes_;  // by AGENT/MODULE
+  std::map<std::string, WindowPtr> windows_;  // by AGENT/MODULE; null: it is not there now
 };
 
 }  // namespace am::mqtt

@@ -270,6 +270,12 @@ void Hub::Subscribe(PeerKey key, const std::set<std::string>& modules) {
   if (Peer* const peer = directory_.ByKey(key)) peer->subscriptions = modules;
 }
 
+bool Hub::HasSubscriber(const std::string& module) const {
+  return std::ranges::any_of(directory_.peers(), [&](const auto& entry) {
+    return entry.second->subscriptions.contains(module);
+  });
+}
+
 bool Hub::SendComment(PeerKey key, std::string_view text) {
   Peer* const peer = directory_.ByKey(key);
   if (peer == nullptr || peer->flow.cut_off) return false;

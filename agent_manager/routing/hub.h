@@ -82,6 +82,8 @@ class Hub {
   /// Names of the configuration: kept for their modules, also while those are away.
   void Reserve(std::set<std::string> names) { directory_.Reserve(std::move(names)); }
   void Subscribe(PeerKey peer, const std::set<std::string>& modules);  ///< "*" = all
+  /// True if a peer has subscribed to this name; "*" does not count.
+  bool HasSubscriber(const std::string& module) const;
   std::vector<PeerStatus> Status() const;
 
   void set_broadcast(std::set<std::string> names) { router_.set_broadcast(std::move(names)); }

@@ -87,6 +87,10 @@ void HubSlots::DeclarePeers() {
                     for (const auto& item : value.items) {
                       if (item.text != "NONE") names.insert(item.text);
                     }
+                    if (names.size() > hub_.limits().slots)
+                      return vm::Fail(vm::Errc::kLimit, "more than " +
+                                                            std::to_string(hub_.limits().slots) +
+                                                            " names (Limit.slots)");
                     hub_.Subscribe(value.peer, names);
                     for (const std::string& name : names) hooks_.on_want(name);
                     return value.text;

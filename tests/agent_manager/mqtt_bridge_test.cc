@@ -510,6 +510,8 @@ TEST_F(BridgeTest, OnlyModulesOfOtherAgentsAreFollowedAtTheBroker) {
 
 TEST_F(BridgeTest, WhoIsWantedWhileTheHubIsFullIsHeardLater) {
   const std::size_t peers = world.hub.limits().peers;
+  const auto a = world.Join(PeerKind::kClient, "A");
+  world.hub.Subscribe(a->key, {"LOBBY/SRM"});
   world.hub.set_limit(&Limits::peers, 1);
   bridge->Want("LOBBY/SRM");
   EXPECT_FALSE(world.hub.IsPresent("LOBBY/SRM"));
@@ -517,6 +519,14 @@ TEST_F(BridgeTest, WhoIsWantedWhileTheHubIsFullIsHeardLater) {
   world.hub.set_limit(&Limits::peers, peers);
   Come("galatea/LOBBY/SRM/$state", "LIVE");
   EXPECT_TRUE(world.hub.IsPresent("LOBBY/SRM"));
+}
+
+TEST_F(BridgeTest, NamesThatNobodyIsSubscribedToAnyMoreMakeRoomForOthers) {
+  world.hub.set_limit(&Limits::peers, 1);  // none of them can be attached
+  for (std::size_t i = 0; i < RemoteModules::kMaxRemotes; ++i)
+    bridge->Want("LOBBY/M" + std::to_string(i));
+  bridge->Want("LOBBY/SRM");
+  EXPECT_EQ(std::ranges::count(broker->filters, "galatea/LOBBY/SRM/+"), 1);
 }
 
 TEST_F(BridgeTest, QuestionsThatWaitCountForTheBacklog) {
