@@ -8,9 +8,10 @@
 
 namespace am {
 
-/// What peers may do to each other by speaking much or reading little: a flood is read slower, who
-/// speaks to a full reader waits for it, and a reader that takes nothing is cut off. Nobody else
-/// waits. Thread: the scheduler's. The directory and the limits outlive it.
+/// Protects peers from each other: a peer that sends faster than its rate is read slower, a peer
+/// that commands a full reader is not read from until that has read, and a reader that takes nothing
+/// for Limits::stall_ms is cut off. No other peer waits.
+/// Thread: the scheduler's. The directory and the limits outlive it.
 class BackPressure {
  public:
   /// Told of a peer that has to go; it is not gone yet when the call returns.
@@ -20,12 +21,14 @@ class BackPressure {
 
   /// Measures a peer's rates. Call before its message is dealt with. `bytes`: of its line.
   void Meter(Peer& sender, std::size_t bytes);
-  /// Call after something was sent to a peer. `commander`: whose command it was; kHub: nobody's, or
-  /// a report. A module has many hearers, and one of them must not stop it for the others.
+  /// Call after something was sent to a peer. `commander`: the peer whose command it was, which
+  /// waits if the receiver is full; kHub for a report, because one slow hearer of a module must not
+  /// stop it for the others.
   void AfterSend(Peer& receiver, PeerKey commander);
   /// Those who wait for this reader go on.
   void Release(Peer& reader);
-  /// Does not read from a peer until LetGo, which may come as often; false in lockstep.
+  /// Stops reading from a peer until LetGo was called as often as Hold. False in lockstep, where
+  /// nobody is held.
   bool Hold(Peer& sender) const;
   static void LetGo(Peer& sender);
   /// In lockstep time stands while others work: nobody is held.

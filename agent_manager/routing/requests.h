@@ -14,7 +14,8 @@ namespace am {
 class Requests {
  public:
   static constexpr vm::Time kAnswerLimit = std::chrono::minutes(2);
-  /// All requests to one module, in limits of one peer; beyond it whoever has most loses one.
+  /// One module has at most kPeersShares * Limits::pending open requests; beyond it the oldest of
+  /// the peer that has most of them is answered LIMIT.
   static constexpr std::size_t kPeersShares = 16;
   Requests(vm::Scheduler& clock, Directory& directory, Outbox& outbox, BackPressure& back_pressure,
            const Limits& limits);
@@ -27,14 +28,14 @@ class Requests {
   bool Resolve(Peer& module, const vm::Message& rep);
   /// The questions which this report of a slot answers.
   std::vector<Request> TakeBySlot(Peer& module, const std::string& slot);
-  /// Nobody will answer them any more. The asker is told.
+  /// Answers all open requests to this module with the error.
   void FailAll(Peer& module, const vm::Error& error);
-  /// A line of the peer's waits to be sent: it is one of those that it has not been answered. A
-  /// peer with half of the limit of them is not read from until half of those have been answered,
-  /// unless others wait for its own answers.
+  /// A message of this peer waits to be sent and counts as an unanswered request. A peer with more
+  /// than half of Limits::pending unanswered requests is not read from until only a quarter are
+  /// left, unless others wait for its own answers.
   void CountUnanswered(PeerKey asker);
   void UncountUnanswered(PeerKey asker);
-  /// They are forgotten without an answer.
+  /// Forgets all open requests to this module without an answer.
   void Forget(Peer& module);
 
  private:

@@ -34,6 +34,22 @@ TEST(MessageTest, ReadsTheLinesOfTheOriginalsPrograms) {
   EXPECT_EQ(Parsed("prop Text.pho = AutoOutput").command, Command::kProp);
 }
 
+TEST(MessageTest, AByteOrderMarkBeforeALineIsPassedOver) {
+  const auto message = ParseMessage("\xEF\xBB\xBFinq#1 Run");
+  ASSERT_TRUE(message);
+  EXPECT_EQ(FormatMessage(*message), "inq#1 Run");
+}
+
+TEST(MessageTest, TheTagOfALineThatIsNoMessageIsFound) {
+  for (const char* line : {"foo#7 x", "to @FSM foo#7 x", "To @A,@B set#7",
+                           "\xEF\xBB\xBF"
+                           "foo#7",
+                           "to set#7 X = 1", "from @A foo#7"})
+    EXPECT_EQ(TagOf(line), "7") << line;
+  for (const char* line : {"", "foo", "hello foo#7", "a b c foo#7", "#7", "foo#", "foo# x"})
+    EXPECT_EQ(TagOf(line), "") << line;
+}
+
 TEST(MessageTest, ReadsLooselyWhatTheOriginalReadLoosely) {
   EXPECT_EQ(Parsed("set Speak=NOW"), Set("Speak", "NOW"));
   EXPECT_EQ(Parsed("\tset\tSpeak\t=\tNOW\r"), Set("Speak", "NOW"));

@@ -233,7 +233,8 @@ TEST_F(SlotMachineTest, ATaggedLineThatCannotBeReadIsAnsweredWithItsTag) {
   EXPECT_EQ(Say("set#7 Volume 50"),
             Strings{"1:rep#7 Error = SYNTAX column 14: found '50', expected '=', '<' or '<<'"});
   EXPECT_EQ(Say("to @A inq#x_1 a b").size(), 1u);
-  EXPECT_EQ(Say("sett#7 Volume = 50"), Strings{}) << "no command, no tag";
+  EXPECT_EQ(Say("sett#7 Volume = 50").size(), 1u);
+  EXPECT_EQ(Say("sett Volume#7 = 50"), Strings{}) << "no command, no tag";
 }
 
 TEST_F(SlotMachineTest, AMistypedSlotIsGuessed) {

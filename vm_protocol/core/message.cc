@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/utf8.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 10> kCommandNames = {"set", "inq", "prop", "save", "rest",
                                                             "del", "def", "do",   "rep",  "tell"};
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kShownBytes = 40;  // how much of a bad word an error quotes
 
 /// What may stand after a command's slot.
@@ -273,6 +275,17 @@ bool IsLineText(std::string_view text) {
          text.find('\0') == std::string_view::npos && !FirstBadUtf8(text);
 }
 
+/// True if nothing but `to RECEIVERS` or `from SENDER` stands before.
+bool IsCommandPlace(std::string_view before) {
+  before = Trimmed(before);
+  const std::size_t blank = std::min(before.find_first_of(kBlanks), before.size());
+  std::string word(before.substr(0, blank));
+  std::ranges::transform(word, word.begin(), [](char c) { return static_cast<char>(c | 0x20); });
+  const std::string_view rest = Trimmed(before.substr(blank));
+  return before.empty() ||
+         ((word == "to" || word == "from") && rest.find_first_of(kBlanks) == rest.npos);
+}
+
 }  // namespace
 
 std::string_view CommandName(Command command) {
@@ -320,6 +333,7 @@ bool IsTag(std::string_view tag) {
 }
 
 Result<Message> ParseMessage(std::string_view line) {
+  if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   if (line.ends_with('\n')) line.remove_suffix(1);
   if (line.ends_with('\r')) line.remove_suffix(1);
   if (line.size() > kMaxLineBytes) {
@@ -340,11 +354,14 @@ Result<Message> ParseMessage(std::string_view line) {
 }
 
 std::string TagOf(std::string_view line) {
+  if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
     std::size_t word = at;
     while (word > 0 && IsAlnum(line[word - 1])) --word;
+    // A command we know anywhere, or whatever stands where a command does.
     const bool command =
-        std::ranges::find(kCommandNames, line.substr(word, at - word)) != kCommandNames.end();
+        std::ranges::find(kCommandNames, line.substr(word, at - word)) != kCommandNames.end() ||
+        (word < at && IsCommandPlace(line.substr(0, word)));
     const std::string_view tag =
         line.substr(at + 1, line.find_first_of(" \t\r\n", at + 1) - at - 1);
     if (command && (word == 0 || IsBlank(line[word - 1])) && IsTag(tag)) return std::string(tag);

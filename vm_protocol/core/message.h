@@ -38,6 +38,7 @@ struct Message {
 };
 
 /// Reads one line (without its newline; a final CR is dropped). Pure.
+/// A byte order mark before it, which some programs write at the start of a stream, is passed over.
 /// Loose where the original was: `a=b`, tabs, any case of to/from, `to @A,B`, `inq SLOT anything`.
 /// Errors: kEmpty (blank, or a comment: `#` or `//` first), kTooLong, kBadUtf8, kUnknownCommand,
 /// kSyntax; the error has the column, what was found and what was expected.
