@@ -37,78 +37,96 @@ void RaiseDescriptorLimit() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
+/// What the command line says.
+struct Arguments {
+  std::string config, log, clock, web, web_role, replay, do_file;
+  bool no_console = false;
+  bool slots_markdown = false;
+  am::AgentManager::Options options{};
+};
+
+void AddOptions(CLI::App& app, Arguments& arguments) {
+  app.add_option("--config,-C", arguments.config,
+                 "Configuration (JSON, or the original's am.conf; docs/configuration.md)");
+  app.add_option("--log", arguments.log, "Write every message to this file");
+  app.add_option("--clock", arguments.clock, "real or virtual (overrides the configuration)")
+      ->check(CLI::IsMember({"real", "virtual"}));
+  app.add_option("--web", arguments.web,
+                 "Serve the page on this port of this machine (0: any free one)")
+      ->check(CLI::Range(0, 65535));
+  app.add_option("--web-role", arguments.web_role,
+                 "What those who open the page may do: guest (default), client, module or owner "
+                 "(docs/security.md)")
+      ->check(CLI::IsMember({"guest", "client", "module", "owner"}));
+  app.add_option("--do", arguments.do_file, "Lines the console says first");
+  app.add_option("--replay", arguments.replay, "Say again what clients said in this session log");
+  app.add_option("--speed", arguments.options.replay_speed, "How many times faster to replay")
+      ->check(CLI::Range(0.01, 1000.0));
+  app.add_flag("--no-console", arguments.no_console, "Do not read stdin; run until told to exit");
+  app.add_flag("--serve", arguments.options.serve, "Go on after the end of stdin");
+  app.add_flag("--strict", arguments.options.strict, "End with exit code 1 if any error was seen");
+  app.add_flag("--slots-markdown", arguments.slots_markdown, "Print the tables of slots and end");
+  app.set_version_flag("--version", "agent_manager (Galatea) " GALATEA_VERSION);
+}
+
+vm::Result<am::Config> ReadConfigFile(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const auto text = vm::ReadTextFile(path, kMaxFileBytes);
+  if (!text) return std::unexpected(text.error());
+  return am::IsAmConf(*text) ? am::ParseAmConf(*text, path)
+                             : am::ParseConfig(*text, path, folder.empty() ? "." : folder);
+}
+
+/// The configuration of the file, as the command line changes it.
+vm::Result<am::Config> ReadConfig(const Arguments& arguments) {
+  auto config = arguments.config.empty() ? am::Config{} : ReadConfigFile(arguments.config);
+  if (!config) return config;
+  if (!arguments.log.empty()) config->log.file = arguments.log;
+  if (!arguments.web.empty()) config->web.at = "tcp:127.0.0.1:" + arguments.web;
+  for (const am::Role role : am::kRoles) {
+    if (arguments.web_role == am::RoleName(role)) config->web.role = role;
+  }
+  if (!arguments.clock.empty()) config->virtual_clock = arguments.clock == "virtual";
+  return config;
+}
+
+std::vector<std::string> ReadLines(const std::string& path) {
+  const auto text = vm::ReadTextFile(path, kMaxFileBytes);
+  if (!text) throw std::runtime_error(text.error().text);
+  std::istringstream stream(*text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+int Run(Arguments& arguments) {
+  auto config = ReadConfig(arguments);
+  if (!config) throw std::runtime_error(config.error().text);
+  am::AgentManager::Options& options = arguments.options;
+  if (!arguments.config.empty())
+    options.read_config = [&arguments] { return ReadConfig(arguments); };
+  options.console = !arguments.no_console;
+  if (!arguments.replay.empty()) options.replay = arguments.replay;
+  if (!arguments.do_file.empty()) options.first_lines = ReadLines(arguments.do_file);
+  am::AgentManager hub(std::move(*config), options);
+  if (!arguments.slots_markdown) return hub.Run();
+  std::cout << hub.SlotsMarkdown();
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Galatea agent manager: starts the modules and carries what they say to each other",
                "agent_manager");
-  std::string config_path, log, clock, replay, do_file;
-  std::string web, web_role;
-  bool no_console = false;
-  am::AgentManager::Options options;
-  app.add_option("--config,-C", config_path,
-                 "Configuration (JSON, or the original's am.conf; docs/configuration.md)");
-  app.add_option("--log", log, "Write every message to this file");
-  app.add_option("--clock", clock, "real or virtual (overrides the configuration)")
-      ->check(CLI::IsMember({"real", "virtual"}));
-  app.add_option("--web", web, "Serve the page on this port of this machine (0: any free one)")
-      ->check(CLI::Range(0, 65535));
-  app.add_option("--web-role", web_role,
-                 "What those who open the page may do: guest (default), client, module or owner "
-                 "(docs/security.md)")
-      ->check(CLI::IsMember({"guest", "client", "module", "owner"}));
-  app.add_option("--do", do_file, "Lines the console says first");
-  app.add_option("--replay", replay, "Say again what clients said in this session log");
-  app.add_option("--speed", options.replay_speed, "How many times faster to replay")
-      ->check(CLI::Range(0.01, 1000.0));
-  app.add_flag("--no-console", no_console, "Do not read stdin; run until told to exit");
-  app.add_flag("--serve", options.serve, "Go on after the end of stdin");
-  app.add_flag("--strict", options.strict, "End with exit code 1 if any error was seen");
-  bool slots_markdown = false;
-  app.add_flag("--slots-markdown", slots_markdown, "Print the tables of slots and end");
-  app.set_version_flag("--version", "agent_manager (Galatea) " GALATEA_VERSION);
+  Arguments arguments;
+  AddOptions(app, arguments);
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
   GiveBackMemory();
   RaiseDescriptorLimit();
   try {
-    const auto read_config = [&]() -> vm::Result<am::Config> {
-      am::Config config;
-      if (!config_path.empty()) {
-        const std::string folder = std::filesystem::path(config_path).parent_path().string();
-        const auto text = vm::ReadTextFile(config_path, kMaxFileBytes);
-        if (!text) return std::unexpected(text.error());
-        auto parsed = am::IsAmConf(*text)
-                          ? am::ParseAmConf(*text, config_path)
-                          : am::ParseConfig(*text, config_path, folder.empty() ? "." : folder);
-        if (!parsed) return parsed;
-        config = std::move(*parsed);
-      }
-      if (!log.empty()) config.log.file = log;
-      if (!web.empty()) config.web.at = "tcp:127.0.0.1:" + web;
-      for (const am::Role role : am::kRoles) {
-        if (web_role == am::RoleName(role)) config.web.role = role;
-      }
-      if (!clock.empty()) config.virtual_clock = clock == "virtual";
-      return config;
-    };
-    auto config = read_config();
-    if (!config) throw std::runtime_error(config.error().text);
-    if (!config_path.empty()) options.read_config = read_config;
-    options.console = !no_console;
-    if (!replay.empty()) options.replay = replay;
-    if (!do_file.empty()) {
-      const auto text = vm::ReadTextFile(do_file, kMaxFileBytes);
-      if (!text) throw std::runtime_error(text.error().text);
-      std::istringstream lines(*text);
-      for (std::string line; std::getline(lines, line);) options.first_lines.push_back(line);
-    }
-    am::AgentManager hub(std::move(*config), options);
-    if (slots_markdown) {
-      std::cout << hub.SlotsMarkdown();
-      return 0;
-    }
-    return hub.Run();
+    return Run(arguments);
   } catch (const std::exception& error) {
     std::cerr << "agent_manager: " << error.what() << std::endl;
     return 1;

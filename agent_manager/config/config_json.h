@@ -31,6 +31,12 @@ long Whole(const json& value, const std::string& key, long least, long most);
 bool Flag(const json& value, const std::string& key);
 std::chrono::milliseconds Millis(const json& value, const std::string& key, long least, long most);
 
+/// A reader that puts what `read` makes of a value into `target`.
+template <typename T, typename Read>
+auto Into(T& target, Read read) {
+  return [&target, read](const json& v, const std::string& k) { target = read(v, k); };
+}
+
 template <typename T>
 T OneOf(const json& value, const std::string& key,
         const std::vector<std::pair<std::string, T>>& words) {

@@ -6,13 +6,10 @@
 namespace am {
 
 void AddCredentialReaders(Readers& readers, vm::Credentials& credentials) {
-  const auto into = [](std::string& target) {
-    return [&target](const json& v, const std::string& k) { target = Text(v, k); };
-  };
-  readers["token_file"] = into(credentials.token_file);
-  readers["certificate"] = into(credentials.certificate);
-  readers["key"] = into(credentials.key);
-  readers["authority"] = into(credentials.authority);
+  readers["token_file"] = Into(credentials.token_file, Text);
+  readers["certificate"] = Into(credentials.certificate, Text);
+  readers["key"] = Into(credentials.key, Text);
+  readers["authority"] = Into(credentials.authority, Text);
 }
 
 ListenConfig ReadListen(const json& value, const std::string& key) {
@@ -20,9 +17,7 @@ ListenConfig ReadListen(const json& value, const std::string& key) {
   std::string at_key = key;
   if (value.is_object()) {
     at_key += ".at";
-    Readers readers{
-        {"at", [&](const json& v, const std::string& k) { listen.at = Text(v, k); }},
-        {"role", [&](const json& v, const std::string& k) { listen.role = ReadRole(v, k); }}};
+    Readers readers{{"at", Into(listen.at, Text)}, {"role", Into(listen.role, ReadRole)}};
     AddCredentialReaders(readers, listen.credentials);
     ReadObject(value, key, readers);
   } else {
@@ -41,10 +36,9 @@ WebConfig ReadWeb(const json& value, const std::string& key) {
   if (value.is_object()) {
     at_key += ".at";
     ReadObject(value, key,
-               {{"at", [&](const json& v, const std::string& k) { web.at = Text(v, k); }},
-                {"role", [&](const json& v, const std::string& k) { web.role = ReadRole(v, k); }},
-                {"token_file",
-                 [&](const json& v, const std::string& k) { web.token_file = Text(v, k); }}});
+               {{"at", Into(web.at, Text)},
+                {"role", Into(web.role, ReadRole)},
+                {"token_file", Into(web.token_file, Text)}});
   } else {
     web.at = Text(value, key);
   }
@@ -63,7 +57,7 @@ LogConfig ReadLogConfig(const json& value, const std::string& key) {
     return log;
   }
   ReadObject(value, key,
-             {{"file", [&](const json& v, const std::string& k) { log.file = Text(v, k); }},
+             {{"file", Into(log.file, Text)},
               {"rotate_mb",
                [&](const json& v, const std::string& k) {
                  log.rotate_mb = static_cast<std::uint64_t>(Whole(v, k, 1, 1000000));

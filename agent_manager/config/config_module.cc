@@ -24,7 +24,7 @@ RestartPolicy ReadRestart(const json& value, const std::string& key) {
     };
   };
   ReadObject(value, key,
-             {{"when", [&](const json& v, const std::string& k) { policy.when = when(v, k); }},
+             {{"when", Into(policy.when, when)},
               {"first_ms", into(policy.first, 0)},
               {"longest_ms", into(policy.longest, 0)},
               {"within_ms", into(policy.within, 1)},
@@ -52,86 +52,94 @@ ResourceLimits ReadLimits(const json& value, const std::string& key) {
   return limits;
 }
 
+HealthCheck ReadHealth(const json& value, const std::string& key) {
+  HealthCheck health;
+  const auto into = [](std::chrono::milliseconds& target) {
+    return [&target](const json& v, const std::string& k) { target = Millis(v, k, 10, 3600000); };
+  };
+  ReadObject(value, key,
+             {{"every_ms", into(health.every)},
+              {"within_ms", into(health.within)},
+              {"misses", [&](const json& v, const std::string& k) {
+                 health.misses = static_cast<unsigned>(Whole(v, k, 1, 1000));
+               }}});
+  if (health.every.count() == 0)
+    throw ConfigFault{key + ".every_ms", "missing, expected how often to ask"};
+  return health;
+}
+
+/// A text is a line for the shell.
+std::vector<std::string> ReadCommand(const json& value, const std::string& key) {
+  auto command = value.is_string() ? std::vector<std::string>{"/bin/sh", "-c", Text(value, key)}
+                                   : Texts(value, key);
+  if (command.empty()) Wrong(key, value, "a program and its arguments");
+  return command;
+}
+
+std::vector<std::string> ReadEnvironment(const json& value, const std::string& key) {
+  if (!value.is_object()) Wrong(key, value, "an object of strings");
+  std::vector<std::string> entries;
+  for (const auto& [name, text] : value.items())
+    entries.push_back(name + "=" + Text(text, key + "." + name));
+  return entries;
+}
+
+std::string ReadName(const json& value, const std::string& key) {
+  std::string name = Text(value, key);
+  if (!vm::IsModuleName(name)) Wrong(key, value, "letters, digits, '_' or '-'");
+  for (const char* const own : {"AM", "AM-MCL", "FS-MCL", "CONSOLE", "MQTT"}) {
+    if (name == own) throw ConfigFault{key, "found '" + name + "', a name of the hub's own"};
+  }
+  return name;
+}
+
+void ReadReady(const json& value, const std::string& key, ModuleConfig& module) {
+  const auto report = vm::ParseMessage("rep " + Text(value, key));
+  if (!report || report->relation != vm::Relation::kAssign)
+    Wrong(key, value, "SLOT = VALUE, such as Run = LIVE");
+  module.ready_slot = report->slot;
+  module.ready_value = report->value;
+}
+
+/// A reader of one word out of several, each of which stands for itself.
+auto WordOf(std::vector<std::string> words) {
+  return [words = std::move(words)](const json& v, const std::string& k) {
+    std::vector<std::pair<std::string, std::string>> choices;
+    for (const std::string& word : words) choices.emplace_back(word, word);
+    return OneOf<std::string>(v, k, choices);
+  };
+}
+
 }  // namespace
 
 ModuleConfig ReadModule(const json& object, const std::string& key) {
   ModuleConfig module;
-  Readers readers{
-      {"name",
-       [&](const json& v, const std::string& k) {
-         module.name = Text(v, k);
-         if (!vm::IsModuleName(module.name)) Wrong(k, v, "letters, digits, '_' or '-'");
-       }},
-      {"command",
-       [&](const json& v, const std::string& k) {
-         module.command =
-             v.is_string() ? std::vector<std::string>{"/bin/sh", "-c", Text(v, k)} : Texts(v, k);
-         if (module.command.empty()) Wrong(k, v, "a program and its arguments");
-       }},
-      {"connect", [&](const json& v, const std::string& k) { module.connect = Text(v, k); }},
-      {"cwd", [&](const json& v, const std::string& k) { module.cwd = Text(v, k); }},
-      {"env",
-       [&](const json& v, const std::string& k) {
-         if (!v.is_object()) Wrong(k, v, "an object of strings");
-         for (const auto& [name, value] : v.items())
-           module.env.push_back(name + "=" + Text(value, k + "." + name));
-       }},
-      {"restart", [&](const json& v, const std::string& k) { module.restart = ReadRestart(v, k); }},
-      {"after", [&](const json& v, const std::string& k) { module.after = Texts(v, k); }},
-      {"ready",
-       [&](const json& v, const std::string& k) {
-         const auto report = vm::ParseMessage("rep " + Text(v, k));
-         if (!report || report->relation != vm::Relation::kAssign)
-           Wrong(k, v, "SLOT = VALUE, such as Run = LIVE");
-         module.ready_slot = report->slot;
-         module.ready_value = report->value;
-       }},
-      {"ready_within_ms",
-       [&](const json& v, const std::string& k) {
-         module.ready_within = Millis(v, k, 100, 3600000);
-       }},
-      {"health",
-       [&](const json& v, const std::string& k) {
-         ReadObject(v, k,
-                    {{"every_ms",
-                      [&](const json& e, const std::string& at) {
-                        module.health.every = Millis(e, at, 10, 3600000);
-                      }},
-                     {"within_ms",
-                      [&](const json& e, const std::string& at) {
-                        module.health.within = Millis(e, at, 10, 3600000);
-                      }},
-                     {"misses", [&](const json& e, const std::string& at) {
-                        module.health.misses = static_cast<unsigned>(Whole(e, at, 1, 1000));
-                      }}});
-         if (module.health.every.count() == 0)
-           throw ConfigFault{k + ".every_ms", "missing, expected how often to ask"};
-       }},
-      {"limits", [&](const json& v, const std::string& k) { module.limits = ReadLimits(v, k); }},
-      {"stop_within_ms",
-       [&](const json& v, const std::string& k) { module.stop_within = Millis(v, k, 0, 600000); }},
-      {"dialect",
-       [&](const json& v, const std::string& k) {
-         module.dialect = OneOf<Dialect>(v, k,
-                                         {{"auto", Dialect::kAuto},
-                                          {"modern", Dialect::kModern},
-                                          {"original", Dialect::kOriginal}});
-       }},
-      {"framing",
-       [&](const json& v, const std::string& k) {
-         module.framing = OneOf<std::string>(v, k, {{"lf", "lf"}, {"mmi", "mmi"}});
-       }},
-      {"encoding", [&](const json& v, const std::string& k) {
-         module.encoding = OneOf<std::string>(
-             v, k, {{"utf-8", "utf-8"}, {"euc-jp", "euc-jp"}, {"shift_jis", "shift_jis"}});
-       }}};
+  const auto millis = [](long least, long most) {
+    return [least, most](const json& v, const std::string& k) { return Millis(v, k, least, most); };
+  };
+  const auto dialect = [](const json& v, const std::string& k) {
+    return OneOf<Dialect>(
+        v, k,
+        {{"auto", Dialect::kAuto}, {"modern", Dialect::kModern}, {"original", Dialect::kOriginal}});
+  };
+  Readers readers{{"name", Into(module.name, ReadName)},
+                  {"command", Into(module.command, ReadCommand)},
+                  {"connect", Into(module.connect, Text)},
+                  {"cwd", Into(module.cwd, Text)},
+                  {"env", Into(module.env, ReadEnvironment)},
+                  {"restart", Into(module.restart, ReadRestart)},
+                  {"after", Into(module.after, Texts)},
+                  {"ready", [&](const json& v, const std::string& k) { ReadReady(v, k, module); }},
+                  {"ready_within_ms", Into(module.ready_within, millis(100, 3600000))},
+                  {"health", Into(module.health, ReadHealth)},
+                  {"limits", Into(module.limits, ReadLimits)},
+                  {"stop_within_ms", Into(module.stop_within, millis(0, 600000))},
+                  {"dialect", Into(module.dialect, dialect)},
+                  {"framing", Into(module.framing, WordOf({"lf", "mmi"}))},
+                  {"encoding", Into(module.encoding, WordOf({"utf-8", "euc-jp", "shift_jis"}))}};
   AddCredentialReaders(readers, module.credentials);
   ReadObject(object, key, readers);
   if (module.name.empty()) throw ConfigFault{key + ".name", "missing, expected the module's name"};
-  for (const char* const own : {"AM", "AM-MCL", "FS-MCL", "CONSOLE", "MQTT"}) {
-    if (module.name == own)
-      throw ConfigFault{key + ".name", "found '" + module.name + "', a name of the hub's own"};
-  }
   if (module.command.empty() == module.connect.empty())
     throw ConfigFault{key, "expected either command or connect"};
   return module;

@@ -41,26 +41,24 @@ void CheckBroker(const MqttConfig& mqtt, const std::string& key) {
 
 MqttConfig ReadMqtt(const json& value, const std::string& key) {
   MqttConfig mqtt;
-  Readers readers{
-      {"broker", [&](const json& v, const std::string& k) { mqtt.broker = Text(v, k); }},
-      {"agent",
-       [&](const json& v, const std::string& k) {
-         mqtt.agent = Text(v, k);
-         if (!vm::IsModuleName(mqtt.agent)) Wrong(k, v, "letters, digits, '_' or '-'");
-       }},
-      {"root",
-       [&](const json& v, const std::string& k) {
-         mqtt.root = Text(v, k);
-         if (!IsRoot(mqtt.root)) Wrong(k, v, "names with '/' between them");
-       }},
-      {"user", [&](const json& v, const std::string& k) { mqtt.user = Text(v, k); }},
-      {"password_file",
-       [&](const json& v, const std::string& k) { mqtt.password_file = Text(v, k); }},
-      {"role", [&](const json& v, const std::string& k) { mqtt.role = ReadRole(v, k); }},
-      {"modules", [&](const json& v, const std::string& k) { mqtt.modules = Texts(v, k); }},
-      {"keep_alive_s", [&](const json& v, const std::string& k) {
-         mqtt.keep_alive = std::chrono::seconds(Whole(v, k, 5, 3600));
-       }}};
+  Readers readers{{"broker", Into(mqtt.broker, Text)},
+                  {"agent",
+                   [&](const json& v, const std::string& k) {
+                     mqtt.agent = Text(v, k);
+                     if (!vm::IsModuleName(mqtt.agent)) Wrong(k, v, "letters, digits, '_' or '-'");
+                   }},
+                  {"root",
+                   [&](const json& v, const std::string& k) {
+                     mqtt.root = Text(v, k);
+                     if (!IsRoot(mqtt.root)) Wrong(k, v, "names with '/' between them");
+                   }},
+                  {"user", Into(mqtt.user, Text)},
+                  {"password_file", Into(mqtt.password_file, Text)},
+                  {"role", Into(mqtt.role, ReadRole)},
+                  {"modules", Into(mqtt.modules, Texts)},
+                  {"keep_alive_s", [&](const json& v, const std::string& k) {
+                     mqtt.keep_alive = std::chrono::seconds(Whole(v, k, 5, 3600));
+                   }}};
   AddCredentialReaders(readers, mqtt.credentials);
   readers.erase("token_file");
   ReadObject(value, key, readers);

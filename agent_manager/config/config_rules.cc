@@ -48,12 +48,12 @@ Rule ReadRule(const json& object, const std::string& key, std::size_t number) {
   };
   ReadObject(
       object, key,
-      {{"name", [&](const json& v, const std::string& k) { rule.name = Text(v, k); }},
-       {"from", [&](const json& v, const std::string& k) { rule.from = Names(v, k); }},
-       {"to", [&](const json& v, const std::string& k) { rule.to = Names(v, k); }},
-       {"command", [&](const json& v, const std::string& k) { rule.command = Commands(v, k); }},
-       {"slot", [&](const json& v, const std::string& k) { rule.slot = OneOrMore(v, k); }},
-       {"value", [&](const json& v, const std::string& k) { rule.value = OneOrMore(v, k); }},
+      {{"name", Into(rule.name, Text)},
+       {"from", Into(rule.from, Names)},
+       {"to", Into(rule.to, Names)},
+       {"command", Into(rule.command, Commands)},
+       {"slot", Into(rule.slot, OneOrMore)},
+       {"value", Into(rule.value, OneOrMore)},
        {"role",
         [&](const json& v, const std::string& k) {
           const json list = v.is_array() ? v : json::array({v});
@@ -61,8 +61,7 @@ Rule ReadRule(const json& object, const std::string& key, std::size_t number) {
             rule.role.push_back(ReadRole(role, at));
           });
         }},
-       {"copy_to",
-        action([&](const json& v, const std::string& k) { rule.copy_to = Names(v, k); })},
+       {"copy_to", action(Into(rule.copy_to, Names))},
        {"rewrite", action([&](const json& v, const std::string& k) {
           ReadObject(
               v, k,
@@ -71,16 +70,16 @@ Rule ReadRule(const json& object, const std::string& key, std::size_t number) {
                {"value",
                 [&](const json& t, const std::string& at) { rule.new_value = Text(t, at); }}});
         })},
-       {"drop", action([&](const json& v, const std::string& k) { rule.drop = Flag(v, k); })},
-       {"refuse", action([&](const json& v, const std::string& k) { rule.refuse = Text(v, k); })},
+       {"drop", action(Into(rule.drop, Flag))},
+       {"refuse", action(Into(rule.refuse, Text))},
        {"delay_ms", action([&](const json& v, const std::string& k) {
           rule.delay = Millis(v, k, 0, 3600000);
         })},
        {"per_second", action([&](const json& v, const std::string& k) {
           rule.per_s = static_cast<std::uint64_t>(Whole(v, k, 1, 1000000));
         })},
-       {"note", action([&](const json& v, const std::string& k) { rule.note = Flag(v, k); })},
-       {"last", action([&](const json& v, const std::string& k) { rule.last = Flag(v, k); })}});
+       {"note", action(Into(rule.note, Flag))},
+       {"last", action(Into(rule.last, Flag))}});
   if (!acts)
     throw ConfigFault{key,
                       "expected what to do: copy_to, rewrite, drop, refuse, delay_ms, per_second, "

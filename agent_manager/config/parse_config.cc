@@ -38,6 +38,94 @@ void CheckOrder(const std::vector<ModuleConfig>& modules, const std::string& key
   }
 }
 
+std::vector<ModuleConfig> ReadModules(const json& value, const std::string& key) {
+  std::vector<ModuleConfig> modules;
+  std::set<std::string> names;
+  ReadList(value, key, "a list of modules", [&](const json& module, const std::string& at) {
+    modules.push_back(ReadModule(module, at));
+    if (!names.insert(modules.back().name).second)
+      throw ConfigFault{at + ".name", "the name is taken twice"};
+  });
+  CheckOrder(modules, key);
+  return modules;
+}
+
+std::vector<ListenConfig> ReadListeners(const json& value, const std::string& key) {
+  std::vector<ListenConfig> listeners;
+  ReadList(value, key, "a list of endpoints", [&](const json& item, const std::string& at) {
+    listeners.push_back(ReadListen(item, at));
+  });
+  return listeners;
+}
+
+Limits ReadLimits(const json& value, const std::string& key) {
+  Limits limits;
+  Readers readers;
+  for (const LimitName& limit : LimitNames()) {
+    readers[limit.name] = [&](const json& n, const std::string& at) {
+      limits.*limit.member = static_cast<std::uint64_t>(
+          Whole(n, at, static_cast<long>(limit.least), static_cast<long>(limit.most)));
+    };
+  }
+  ReadObject(value, key, readers);
+  return limits;
+}
+
+std::vector<Rule> ReadRules(const json& value, const std::string& key) {
+  std::vector<Rule> rules;
+  ReadList(value, key, "a list of rules", [&](const json& rule, const std::string& at) {
+    rules.push_back(ReadRule(rule, at, rules.size() + 1));
+    if (rules.size() > Rules::kMaxRules)
+      throw ConfigFault{at, "more than " + std::to_string(Rules::kMaxRules) + " rules"};
+  });
+  return rules;
+}
+
+/// The text of each macro; a string names a file in `folder`.
+std::map<std::string, std::string> ReadMacros(const json& value, const std::string& key,
+                                              const std::filesystem::path& folder) {
+  if (!value.is_object()) Wrong(key, value, "an object: name to steps, or to a file's name");
+  std::map<std::string, std::string> macros;
+  for (const auto& [name, steps] : value.items())
+    macros[name] = steps.is_string() ? ReadTextFile((folder / steps.get<std::string>()).string(),
+                                                    key + "." + name)
+                                     : steps.dump();
+  return macros;
+}
+
+Config ReadConfig(const json& root, const std::string& folder) {
+  Config config;
+  const auto clock = [](const json& v, const std::string& k) {
+    return OneOf<bool>(v, k, {{"real", false}, {"virtual", true}});
+  };
+  const auto spin = [](const json& v, const std::string& k) {
+    return std::chrono::microseconds(Whole(v, k, 0, 10000));
+  };
+  const auto start_limit = [](const json& v, const std::string& k) {
+    return Millis(v, k, 100, 600000);
+  };
+  const auto macros = [&folder](const json& v, const std::string& k) {
+    return ReadMacros(v, k, folder);
+  };
+  ReadObject(root, "",
+             {{"modules", Into(config.modules, ReadModules)},
+              {"listen", Into(config.listen, ReadListeners)},
+              {"limits", Into(config.limits, ReadLimits)},
+              {"rights", Into(config.rights, ReadRights)},
+              {"broadcast", Into(config.broadcast, Texts)},
+              {"clock", Into(config.virtual_clock, clock)},
+              {"log", Into(config.log, ReadLogConfig)},
+              {"web", Into(config.web, ReadWeb)},
+              {"mqtt", Into(config.mqtt, ReadMqtt)},
+              {"rules", Into(config.rules, ReadRules)},
+              {"spin_us", Into(config.spin, spin)},
+              {"start_limit_ms", Into(config.start_limit, start_limit)},
+              {"macros", Into(config.macros, macros)}});
+  if (config.virtual_clock && !config.mqtt.broker.empty())
+    throw ConfigFault{"mqtt", "other agents do not follow a virtual clock, expected clock: real"};
+  return config;
+}
+
 }  // namespace
 
 Result<Config> ParseConfig(std::string_view text, const std::string& origin,
@@ -51,77 +139,7 @@ Result<Config> ParseConfig(std::string_view text, const std::string& origin,
         fault.text);
   }
   try {
-    Config config;
-    ReadObject(
-        root, "",
-        {{"modules",
-          [&](const json& v, const std::string& k) {
-            std::set<std::string> names;
-            ReadList(v, k, "a list of modules", [&](const json& module, const std::string& key) {
-              config.modules.push_back(ReadModule(module, key));
-              if (!names.insert(config.modules.back().name).second)
-                throw ConfigFault{key + ".name", "the name is taken twice"};
-            });
-            CheckOrder(config.modules, k);
-          }},
-         {"listen",
-          [&](const json& v, const std::string& k) {
-            ReadList(v, k, "a list of endpoints", [&](const json& item, const std::string& key) {
-              config.listen.push_back(ReadListen(item, key));
-            });
-          }},
-         {"limits",
-          [&](const json& v, const std::string& k) {
-            Readers readers;
-            for (const LimitName& limit : LimitNames()) {
-              readers[limit.name] = [&config, &limit](const json& n, const std::string& at) {
-                config.limits.*limit.member = static_cast<std::uint64_t>(
-                    Whole(n, at, static_cast<long>(limit.least), static_cast<long>(limit.most)));
-              };
-            }
-            ReadObject(v, k, readers);
-          }},
-         {"rights", [&](const json& v, const std::string& k) { config.rights = ReadRights(v, k); }},
-         {"broadcast",
-          [&](const json& v, const std::string& k) { config.broadcast = Texts(v, k); }},
-         {"clock",
-          [&](const json& v, const std::string& k) {
-            config.virtual_clock = OneOf<bool>(v, k, {{"real", false}, {"virtual", true}});
-          }},
-         {"log", [&](const json& v, const std::string& k) { config.log = ReadLogConfig(v, k); }},
-         {"web", [&](const json& v, const std::string& k) { config.web = ReadWeb(v, k); }},
-         {"mqtt", [&](const json& v, const std::string& k) { config.mqtt = ReadMqtt(v, k); }},
-         {"rules",
-          [&](const json& v, const std::string& k) {
-            ReadList(v, k, "a list of rules", [&](const json& rule, const std::string& key) {
-              config.rules.push_back(ReadRule(rule, key, config.rules.size() + 1));
-              if (config.rules.size() > Rules::kMaxRules)
-                throw ConfigFault{key, "more than " + std::to_string(Rules::kMaxRules) + " rules"};
-            });
-          }},
-         {"spin_us",
-          [&](const json& v, const std::string& k) {
-            config.spin = std::chrono::microseconds(Whole(v, k, 0, 10000));
-          }},
-         {"start_limit_ms",
-          [&](const json& v, const std::string& k) {
-            config.start_limit = Millis(v, k, 100, 600000);
-          }},
-         {"macros", [&](const json& v, const std::string& k) {
-            if (!v.is_object()) Wrong(k, v, "an object: name to steps, or to a file's name");
-            for (const auto& [name, steps] : v.items()) {
-              const std::string key = k + "." + name;
-              config.macros[name] =
-                  steps.is_string()
-                      ? ReadTextFile(
-                            (std::filesystem::path(folder) / steps.get<std::string>()).string(),
-                            key)
-                      : steps.dump();
-            }
-          }}});
-    if (config.virtual_clock && !config.mqtt.broker.empty())
-      throw ConfigFault{"mqtt", "other agents do not follow a virtual clock, expected clock: real"};
-    return config;
+    return ReadConfig(root, folder);
   } catch (const ConfigFault& fault) {
     return Fail(Errc::kBadValue, origin + " line " + std::to_string(LineOfKey(text, fault.key)) +
                                      ": " + fault.key + ": " + fault.text);

@@ -48,81 +48,106 @@ std::string_view ColourOf(const vm::Message& message) {
   }
 }
 
-}  // namespace
-
-std::string TimelineSvg(const std::vector<Entry>& entries, const std::vector<Exchange>& exchanges) {
-  std::map<std::string, std::size_t> lanes;
-  std::vector<std::string> names;
-  const auto lane = [&](const std::string& name) {
-    const auto [at, added] = lanes.emplace(name, names.size());
-    if (added) names.push_back(name);
-    return at->second;
-  };
-  for (const Entry& entry : entries) {
-    lane(entry.log.sender);
-    for (const std::string& receiver : entry.receivers) lane(receiver);
+/// The drawing: one lane for each name, time to the right.
+class Timeline {
+ public:
+  explicit Timeline(const std::vector<Entry>& entries) {
+    for (const Entry& entry : entries) {
+      AddLane(entry.log.sender);
+      for (const std::string& receiver : entry.receivers) AddLane(receiver);
+    }
+    if (!entries.empty()) {
+      first_ms_ = Ms(entries.front().log.time);
+      last_ms_ = std::max(Ms(entries.back().log.time), first_ms_ + 1);
+    }
+    scale_ = (kWidth - kLeft - kRight) / (last_ms_ - first_ms_);
+    height_ = kTop + kLane * static_cast<double>(names_.size()) + 30;
+    svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Number(kWidth) + "\" height=\"" +
+           Number(height_) +
+           "\" font-family=\"sans-serif\" font-size=\"11\">\n"
+           "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
   }
-  const auto ms = [](vm::Time time) { return static_cast<double>(time.count()) / 1000; };
-  const double first = entries.empty() ? 0 : ms(entries.front().log.time);
-  const double last = entries.empty() ? 1 : std::max(ms(entries.back().log.time), first + 1);
-  const double scale = (kWidth - kLeft - kRight) / (last - first);
-  const auto x = [&](vm::Time time) { return kLeft + (ms(time) - first) * scale; };
-  const auto y = [&](std::size_t number) {
-    return kTop + kLane * (static_cast<double>(number) + 0.5);
-  };
-  const double height = kTop + kLane * static_cast<double>(names.size()) + 30;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + Number(kWidth) +
-                    "\" height=\"" + Number(height) +
-                    "\" font-family=\"sans-serif\" font-size=\"11\">\n"
-                    "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
-  const double step = NiceStep(last - first);
-  for (double at = std::ceil(first / step) * step; at <= last; at += step) {
-    const std::string place = Number(kLeft + (at - first) * scale);
-    svg += "<line x1=\"" + place + "\" x2=\"" + place + "\" y1=\"" + Number(kTop - 8) + "\" y2=\"" +
-           Number(height - 30) + "\" stroke=\"#e5e7e9\"/><text x=\"" + place + "\" y=\"" +
-           Number(kTop - 14) + "\" text-anchor=\"middle\" fill=\"#566573\">" + Number(at) +
-           " ms</text>\n";
+  void DrawGrid() {
+    const double step = NiceStep(last_ms_ - first_ms_);
+    for (double at = std::ceil(first_ms_ / step) * step; at <= last_ms_; at += step) {
+      const std::string place = Number(kLeft + (at - first_ms_) * scale_);
+      svg_ += Line(place, Number(kTop - 8), place, Number(height_ - 30), "#e5e7e9") +
+              "/><text x=\"" + place + "\" y=\"" + Number(kTop - 14) +
+              "\" text-anchor=\"middle\" fill=\"#566573\">" + Number(at) + " ms</text>\n";
+    }
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      svg_ += Line(Number(kLeft), Number(Y(i)), Number(kWidth - kRight), Number(Y(i)), "#aeb6bf") +
+              "/><text x=\"8\" y=\"" + Number(Y(i) + 4) + "\" font-weight=\"bold\">" +
+              Escape(names_[i]) + "</text>\n";
+    }
   }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    svg += "<line x1=\"" + Number(kLeft) + "\" x2=\"" + Number(kWidth - kRight) + "\" y1=\"" +
-           Number(y(i)) + "\" y2=\"" + Number(y(i)) + "\" stroke=\"#aeb6bf\"/><text x=\"8\" y=\"" +
-           Number(y(i) + 4) + "\" font-weight=\"bold\">" + Escape(names[i]) + "</text>\n";
+  void Draw(const Exchange& exchange) {
+    if (!exchange.answered || !lanes_.contains(exchange.to)) return;
+    svg_ += "<rect x=\"" + Number(X(exchange.asked)) + "\" y=\"" +
+            Number(Y(lanes_.at(exchange.to)) - 5) + "\" height=\"10\" width=\"" +
+            Number(std::max(1.0, X(*exchange.answered) - X(exchange.asked))) + "\" fill=\"" +
+            (exchange.refused ? "#f5b7b1" : "#abebc6") + "\"><title>" +
+            Escape("@" + exchange.from + " asked @" + exchange.to + " " + exchange.slot + ": " +
+                   vm::FormatMs(*exchange.answered - exchange.asked) + " ms") +
+            "</title></rect>\n";
   }
-  for (const Exchange& exchange : exchanges) {
-    if (!exchange.answered || !lanes.contains(exchange.to)) continue;
-    svg += "<rect x=\"" + Number(x(exchange.asked)) + "\" y=\"" +
-           Number(y(lanes.at(exchange.to)) - 5) + "\" height=\"10\" width=\"" +
-           Number(std::max(1.0, x(*exchange.answered) - x(exchange.asked))) + "\" fill=\"" +
-           (exchange.refused ? "#f5b7b1" : "#abebc6") + "\"><title>" +
-           Escape("@" + exchange.from + " asked @" + exchange.to + " " + exchange.slot + ": " +
-                  vm::FormatMs(*exchange.answered - exchange.asked) + " ms") +
-           "</title></rect>\n";
-  }
-  std::map<std::size_t, double> label_end;  // by lane: labels do not lie on each other
-  for (const Entry& entry : entries) {
-    const std::size_t from = lanes.at(entry.log.sender);
-    const double at = x(entry.log.time);
+  void Draw(const Entry& entry) {
+    const std::size_t from = lanes_.at(entry.log.sender);
+    const double at = X(entry.log.time);
     const std::string colour(ColourOf(entry.message));
     const std::string title =
         "<title>" +
         Escape(vm::FormatMs(entry.log.time) + " ms @" + entry.log.sender + ": " + entry.log.line) +
         "</title>";
     for (const std::string& receiver : entry.receivers) {
-      svg += "<line x1=\"" + Number(at) + "\" x2=\"" + Number(at) + "\" y1=\"" + Number(y(from)) +
-             "\" y2=\"" + Number(y(lanes.at(receiver))) + "\" stroke=\"" + colour +
-             "\" stroke-opacity=\"0.35\">" + title + "</line>\n";
+      svg_ +=
+          Line(Number(at), Number(Y(from)), Number(at), Number(Y(lanes_.at(receiver))), colour) +
+          " stroke-opacity=\"0.35\">" + title + "</line>\n";
     }
-    svg += "<circle cx=\"" + Number(at) + "\" cy=\"" + Number(y(from)) + "\" r=\"3\" fill=\"" +
-           colour + "\">" + title + "</circle>\n";
-    std::string label =
-        entry.message.slot + (entry.message.value.empty() ? "" : " = ") + entry.message.value;
-    if (label.size() > kMaxLabel) label = std::string(vm::CutUtf8(label, kMaxLabel)) + "...";
-    if (at < label_end[from]) continue;
-    label_end[from] = at + 5.5 * static_cast<double>(label.size()) + 8;
-    svg += "<text x=\"" + Number(at + 4) + "\" y=\"" + Number(y(from) - 9) + "\" fill=\"" + colour +
-           "\">" + Escape(label) + "</text>\n";
+    svg_ += "<circle cx=\"" + Number(at) + "\" cy=\"" + Number(Y(from)) + "\" r=\"3\" fill=\"" +
+            colour + "\">" + title + "</circle>\n";
+    DrawLabel(entry.message, from, at, colour);
   }
-  return svg + "</svg>\n";
+  std::string Finish() const { return svg_ + "</svg>\n"; }
+
+ private:
+  static double Ms(vm::Time time) { return static_cast<double>(time.count()) / 1000; }
+  double X(vm::Time time) const { return kLeft + (Ms(time) - first_ms_) * scale_; }
+  static double Y(std::size_t lane) { return kTop + kLane * (static_cast<double>(lane) + 0.5); }
+  /// Without its end.
+  static std::string Line(const std::string& x1, const std::string& y1, const std::string& x2,
+                          const std::string& y2, const std::string& colour) {
+    return "<line x1=\"" + x1 + "\" x2=\"" + x2 + "\" y1=\"" + y1 + "\" y2=\"" + y2 +
+           "\" stroke=\"" + colour + "\"";
+  }
+  void AddLane(const std::string& name) {
+    if (lanes_.emplace(name, names_.size()).second) names_.push_back(name);
+  }
+  void DrawLabel(const vm::Message& message, std::size_t lane, double at,
+                 const std::string& colour) {
+    std::string label = message.slot + (message.value.empty() ? "" : " = ") + message.value;
+    if (label.size() > kMaxLabel) label = std::string(vm::CutUtf8(label, kMaxLabel)) + "...";
+    if (at < label_end_[lane]) return;
+    label_end_[lane] = at + 5.5 * static_cast<double>(label.size()) + 8;
+    svg_ += "<text x=\"" + Number(at + 4) + "\" y=\"" + Number(Y(lane) - 9) + "\" fill=\"" +
+            colour + "\">" + Escape(label) + "</text>\n";
+  }
+
+  std::map<std::string, std::size_t> lanes_;
+  std::vector<std::string> names_;  // by lane
+  double first_ms_ = 0, last_ms_ = 1, scale_ = 1, height_ = 0;
+  std::map<std::size_t, double> label_end_;  // by lane: labels do not overlap
+  std::string svg_;
+};
+
+}  // namespace
+
+std::string TimelineSvg(const std::vector<Entry>& entries, const std::vector<Exchange>& exchanges) {
+  Timeline timeline(entries);
+  timeline.DrawGrid();
+  for (const Exchange& exchange : exchanges) timeline.Draw(exchange);
+  for (const Entry& entry : entries) timeline.Draw(entry);
+  return timeline.Finish();
 }
 
 }  // namespace am
