@@ -69,7 +69,7 @@ AgentManager::AgentManager(Config config, Options options)
           }),
       console_(io_, clock_, hub_, ConsoleHooks()),
       hub_slots_(clock_, hub_, supervisor_, slots_, SlotHooks()),
-      hub_machines_(hub_, slots_, macros_, own_machines_, ReadFile),
+      dispatcher_(hub_, slots_, macros_, built_in_modules_, ReadFile),
       listeners_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& text) { Refused(text); }),
@@ -152,10 +152,11 @@ LiveConfig::Parts AgentManager::ConfigParts() {
 void AgentManager::ConnectParts() {
   hub_.set_on_notice([this](const std::string& text, PeerKey about) { SayError(text, about); });
   hub_.set_on_report([this](const std::string& from, const vm::Message& message) {
-    for (OwnMachine* const machine : own_machines_) machine->OnReport(from, message);
+    for (BuiltInModule* const machine : built_in_modules_) machine->OnReport(from, message);
   });
   hub_.set_awaited_by([this](PeerKey peer) {
-    return std::ranges::any_of(own_machines_, [peer](const auto* m) { return m->Owes(peer); });
+    return std::ranges::any_of(built_in_modules_,
+                               [peer](const auto* m) { return m->IsAwaitedBy(peer); });
   });
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
     OnPresence(name, present, reason);
@@ -177,7 +178,7 @@ void AgentManager::ConnectParts() {
 
 void AgentManager::OnPresence(const std::string& name, bool present, const std::string& reason) {
   if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
-  for (OwnMachine* const machine : own_machines_) machine->OnPresence(name, present, reason);
+  for (BuiltInModule* const machine : built_in_modules_) machine->OnPresence(name, present, reason);
   if (auto* const bridge = config_.bridge()) bridge->OnPresence(name, present, reason);
   if (!present) return;
   lockstep_.Forget();
@@ -363,8 +364,8 @@ bool AgentManager::Started() const {
 }
 
 bool AgentManager::SomethingGoesOn() const {
-  const auto busy = [](const OwnMachine* machine) { return machine->Busy(); };
-  if (std::ranges::any_of(own_machines_, busy) || hub_.HoldsBack() || !hub_.idle() ||
+  const auto busy = [](const BuiltInModule* machine) { return machine->Busy(); };
+  if (std::ranges::any_of(built_in_modules_, busy) || hub_.HoldsBack() || !hub_.idle() ||
       (replay_ && replay_->pending() > 0))
     return true;
   return clock_.real() ? !quiet_.quiet() : lockstep_.Busy();
@@ -386,7 +387,7 @@ bool AgentManager::Over() const {
 void AgentManager::Shutdown() {
   NotifyService("STOPPING=1");
   listeners_.CloseAll();
-  for (OwnMachine* const machine : own_machines_)
+  for (BuiltInModule* const machine : built_in_modules_)
     machine->Abandon({vm::Errc::kStopped, "the hub ends", 0});
   bool done = false;
   supervisor_.StopAll([&done] { done = true; });

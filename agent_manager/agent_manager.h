@@ -24,7 +24,7 @@
 #include "agent_manager/session/periodic_task.h"
 #include "agent_manager/session/quiet_watch.h"
 #include "agent_manager/session/replay.h"
-#include "agent_manager/slots/hub_machines.h"
+#include "agent_manager/slots/built_in_dispatcher.h"
 #include "agent_manager/slots/hub_slots.h"
 #include "agent_manager/supervision/supervisor.h"
 #include "agent_manager/web/web_server.h"
@@ -99,11 +99,11 @@ class AgentManager {
   MacroLayer macros_;
   Parallel parallel_;
   SoundPlayer sounds_;
-  const std::array<OwnMachine*, 3> own_machines_{&macros_, &parallel_, &sounds_};
+  const std::array<BuiltInModule*, 3> built_in_modules_{&macros_, &parallel_, &sounds_};
   Supervisor supervisor_;
   Console console_;
   HubSlots hub_slots_;
-  HubMachines hub_machines_;
+  BuiltInDispatcher dispatcher_;
   Listeners listeners_;
   Lockstep lockstep_;
   QuietWatch quiet_;

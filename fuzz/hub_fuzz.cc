@@ -10,7 +10,7 @@
 #include "agent_manager/macros/parallel.h"
 #include "agent_manager/macros/sound_player.h"
 #include "agent_manager/macros/speak.h"
-#include "agent_manager/slots/hub_machines.h"
+#include "agent_manager/slots/built_in_dispatcher.h"
 #include "tests/agent_manager/world.h"
 
 namespace {
@@ -27,7 +27,7 @@ struct Session {
         macros(world.clock, world.hub, ReadFile, [](const std::string&) {}),
         parallel(world.clock, world.hub),
         sounds(world.hub),
-        machines(world.hub, am, macros, own_machines, ReadFile) {
+        machines(world.hub, am, macros, built_in_modules, ReadFile) {
     world.hub.AddMachine(parallel.slots(), {}, true);
     world.hub.AddMachine(sounds.slots(), {}, true);
     world.hub.AddMachine(am);
@@ -57,11 +57,12 @@ struct Session {
                   return value.text;
                 }});
     world.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
-      for (am::OwnMachine* machine : own_machines) machine->OnReport(from, message);
+      for (am::BuiltInModule* machine : built_in_modules) machine->OnReport(from, message);
     });
     world.hub.set_on_presence(
         [this](const std::string& name, bool present, const std::string& reason) {
-          for (am::OwnMachine* machine : own_machines) machine->OnPresence(name, present, reason);
+          for (am::BuiltInModule* machine : built_in_modules)
+            machine->OnPresence(name, present, reason);
         });
     peers = {world.Join(am::PeerKind::kConsole, "CONSOLE"),
              world.Join(am::PeerKind::kModule, "SSM"),
@@ -74,8 +75,8 @@ struct Session {
   am::MacroLayer macros;
   am::Parallel parallel;
   am::SoundPlayer sounds;
-  const std::array<am::OwnMachine*, 3> own_machines{&macros, &parallel, &sounds};
-  am::HubMachines machines;
+  const std::array<am::BuiltInModule*, 3> built_in_modules{&macros, &parallel, &sounds};
+  am::BuiltInDispatcher machines;
   std::vector<std::shared_ptr<am::World::Peer>> peers;
 };
 

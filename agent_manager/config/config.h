@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "agent_manager/access/rights.h"
+#include "agent_manager/config/restart_policy.h"
 #include "agent_manager/routing/dialect.h"
 #include "agent_manager/routing/limits.h"
 #include "agent_manager/routing/rules.h"
-#include "agent_manager/supervision/restart_policy.h"
 #include "vm_protocol/core/result.h"
 #include "vm_protocol/runtime/credentials.h"
 

@@ -16,8 +16,6 @@ namespace {
 constexpr const char* kName = "AM-MCL";
 constexpr std::size_t kMaxWords = 64;  // of a value that become variables
 
-void Ignore(const Result<std::string>&) {}
-
 }  // namespace
 
 MacroLayer::MacroLayer(vm::Scheduler& clock, Hub& hub, ReadFile read_file,
@@ -115,7 +113,7 @@ void MacroLayer::SwitchOn(const std::string& module) {
     hub_.Ask(
         kName,
         vm::To(module, {{}, "", Command::kProp, "", slot, vm::Relation::kAssign, "AutoOutput"}),
-        Ignore);
+        IgnoreAnswer);
   }
 }
 
@@ -123,8 +121,8 @@ void MacroLayer::Abandon(const vm::Error& error) {
   for (const auto& [name, run] : runs_) run->Abandon(error);
 }
 
-bool MacroLayer::Owes(PeerKey peer) const {
-  return std::ranges::any_of(runs_, [&](const auto& run) { return run.second->Owes(peer); });
+bool MacroLayer::IsAwaitedBy(PeerKey peer) const {
+  return std::ranges::any_of(runs_, [&](const auto& run) { return run.second->IsAwaitedBy(peer); });
 }
 
 void MacroLayer::Handle(const Envelope& envelope) {
@@ -194,7 +192,7 @@ void MacroLayer::StopWithoutRun(const Macro& macro) {
       return std::string();
     });
     if (message && hub_.IsPresent(message->to.front()))
-      hub_.Ask(kName, std::move(*message), Ignore, origin_);
+      hub_.Ask(kName, std::move(*message), IgnoreAnswer, origin_);
   }
 }
 
@@ -216,7 +214,7 @@ void MacroLayer::Start(const std::string& name, const vm::SetValue& value, const
 
 void MacroLayer::Begin(const std::string& name, MacroRun::Successor start) {
   if (const auto running = runs_.find(name); running != runs_.end())
-    return running->second->Succeed(std::move(start));
+    return running->second->ReplaceBy(std::move(start));
   auto& run = runs_[name];
   run = std::make_unique<MacroRun>(services_, macros_.at(name), std::move(start),
                                    [this, name] { Finish(name); });

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "agent_manager/macros/built_in_module.h"
 #include "agent_manager/macros/macro_run.h"
-#include "agent_manager/macros/own_machine.h"
 
 namespace am {
 
@@ -17,7 +17,7 @@ namespace am {
 /// since the next starts only when the modules have said they are idle, or their time for it is
 /// over. Thread: the scheduler's. The hub outlives it.
 /// Limits: kMaxMacros macros with kMaxMacroBytes of text; Sequence has those of one run.
-class MacroLayer final : public OwnMachine {
+class MacroLayer final : public BuiltInModule {
  public:
   static constexpr std::size_t kMaxMacros = 1024;
   static constexpr std::size_t kMaxMacroBytes = 8u << 20;
@@ -41,7 +41,7 @@ class MacroLayer final : public OwnMachine {
   void OnReport(const std::string& from, const vm::Message& message) override;
   void OnPresence(const std::string& name, bool present, const std::string& reason) override;
   void Abandon(const vm::Error& error) override;
-  bool Owes(PeerKey peer) const override;
+  bool IsAwaitedBy(PeerKey peer) const override;
   bool Busy() const override { return !runs_.empty(); }
   bool Has(const std::string& name) const { return macros_.contains(name); }
   /// On a clock of lockstep the start of speaking needs no room for delays.

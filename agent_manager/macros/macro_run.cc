@@ -64,7 +64,7 @@ void MacroRun::Abandon(const vm::Error& error) {
   if (successor_) successor_->reply.Fail(error);
 }
 
-bool MacroRun::Owes(PeerKey peer) const {
+bool MacroRun::IsAwaitedBy(PeerKey peer) const {
   return (!reply_.done() && state_.origin.peer == peer) ||
          (successor_ && successor_->origin.peer == peer);
 }
@@ -74,7 +74,7 @@ void MacroRun::Stop(const vm::Reply& reply) {
   Fail({Errc::kStopped, "stopped on request", 0});
 }
 
-void MacroRun::Succeed(Successor successor) {
+void MacroRun::ReplaceBy(Successor successor) {
   const std::string& name = state_.macro->name;
   if (successor_)
     successor_->reply.Fail(

@@ -31,9 +31,9 @@ class MacroRun {
   /// Answers everybody at once; the steps go on.
   void Abandon(const vm::Error& error);
   /// True if `peer` waits for its end.
-  bool Owes(PeerKey peer) const;
+  bool IsAwaitedBy(PeerKey peer) const;
   /// Another begins when this one has ended; one that waited before is told that it does not.
-  void Succeed(Successor successor);
+  void ReplaceBy(Successor successor);
   void OnReport(const std::string& from, const std::string& slot, const std::string& value,
                 bool told);
   void OnGone(const std::string& module, const std::string& reason);

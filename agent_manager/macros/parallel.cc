@@ -1,8 +1,10 @@
 #include "agent_manager/macros/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
+#include <vector>
 
 namespace am {
 
@@ -19,10 +21,9 @@ Parallel::Parallel(vm::Scheduler& clock, Hub& hub) : clock_(clock), hub_(hub), s
   slots_.Declare({.name = "Init",
                   .grammar = "<number>",
                   .access = vm::Access::kWriteOnly,
-                  .help = "Forgets all commands.",
+                  .help = "Forgets all your commands.",
                   .on_set = [this](const vm::SetValue& value) -> Result<std::string> {
-                    commands_.clear();
-                    clock_.Cancel(std::exchange(timer_, 0));
+                    Clear(origin_.peer);
                     return value.text;
                   }});
   slots_.Declare({.name = "Cmd",
@@ -33,7 +34,28 @@ Parallel::Parallel(vm::Scheduler& clock, Hub& hub) : clock_(clock), hub_(hub), s
                   .on_set = [this](const vm::SetValue& value) { return Append(value.text); }});
 }
 
-Parallel::~Parallel() { clock_.Cancel(timer_); }
+Parallel::~Parallel() {
+  for (const auto& [peer, list] : lists_) clock_.Cancel(list.timer);
+}
+
+bool Parallel::Busy() const {
+  return std::ranges::any_of(lists_, [](const auto& entry) { return entry.second.timer != 0; });
+}
+
+void Parallel::ForgetGone() {
+  std::erase_if(lists_, [this](const auto& entry) {
+    const bool gone = entry.first != kHub && hub_.NameOf(entry.first).empty();
+    if (gone) clock_.Cancel(entry.second.timer);
+    return gone;
+  });
+}
+
+void Parallel::Clear(PeerKey peer) {
+  const auto list = lists_.find(peer);
+  if (list == lists_.end()) return;
+  clock_.Cancel(list->second.timer);
+  lists_.erase(list);
+}
 
 void Parallel::Handle(const Envelope& envelope) {
   origin_ = envelope.origin;
@@ -41,8 +63,13 @@ void Parallel::Handle(const Envelope& envelope) {
 }
 
 Result<std::string> Parallel::Append(const std::string& text) {
-  if (commands_.size() >= kMaxCommands)
-    return vm::Fail(Errc::kLimit, "more than " + std::to_string(kMaxCommands) + " commands");
+  ForgetGone();
+  const auto found = lists_.find(origin_.peer);
+  const List* const list = found == lists_.end() ? nullptr : &found->second;
+  if (list != nullptr &&
+      (list->commands.size() >= kMaxCommands || list->bytes + text.size() > kMaxBytes))
+    return vm::Fail(Errc::kLimit, "more than " + std::to_string(kMaxCommands) + " commands or " +
+                                      std::to_string(kMaxBytes) + " bytes");
   Command command{.message = {}, .origin = origin_};
   if (text.starts_with("sleep ")) {
     char* end = nullptr;
@@ -58,28 +85,34 @@ Result<std::string> Parallel::Append(const std::string& text) {
     message->from.clear();
     command.message = std::move(*message);
   }
-  commands_.push_back(std::move(command));
+  List& mine = lists_[origin_.peer];
+  mine.bytes += text.size();
+  mine.commands.push_back(std::move(command));
   return text;
 }
 
 void Parallel::OnReport(const std::string& from, const vm::Message& message) {
-  if (from == "SSM" && message.slot == "Speak.stat" && message.value == "SPEAKING" && timer_ == 0)
-    Go();
+  if (from != "SSM" || message.slot != "Speak.stat" || message.value != "SPEAKING") return;
+  std::vector<PeerKey> ready;
+  for (const auto& [peer, list] : lists_) {
+    if (list.timer == 0) ready.push_back(peer);
+  }
+  for (const PeerKey peer : ready) Continue(peer);
 }
 
-void Parallel::Go() {
-  while (!commands_.empty()) {
-    const Command command = std::move(commands_.front());
-    commands_.pop_front();
+void Parallel::Continue(PeerKey peer) {
+  List& list = lists_.at(peer);
+  list.timer = 0;
+  while (!list.commands.empty()) {
+    const Command command = std::move(list.commands.front());
+    list.commands.pop_front();
     if (command.message.to.empty()) {
-      timer_ = clock_.After(command.sleep, [this] {
-        timer_ = 0;
-        Go();
-      });
+      list.timer = clock_.After(command.sleep, [this, peer] { Continue(peer); });
       return;
     }
     hub_.SayAs(command.origin, command.message);
   }
+  lists_.erase(peer);
 }
 
 }  // namespace am

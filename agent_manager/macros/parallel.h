@@ -1,20 +1,23 @@
 #pragma once
 
 #include <deque>
+#include <map>
 #include <string>
 
-#include "agent_manager/macros/own_machine.h"
+#include "agent_manager/macros/built_in_module.h"
 #include "agent_manager/routing/hub.h"
 
 namespace am {
 
-/// The original's @PAR: a list of lines that are said in step with the start of speech. `set Init =
-/// 1` clears it, each `set Cmd = ...` appends `sleep SECONDS` or a line with a receiver, and it
-/// begins when the voice says that it speaks. Lines are said as whoever appended them. Thread: the
-/// scheduler's. Limits: kMaxCommands.
-class Parallel final : public OwnMachine {
+/// The original's @PAR: lists of lines that are said in step with the start of speech, one list for
+/// each peer. `set Init = 1` clears the peer's list, each `set Cmd = ...` appends `sleep SECONDS`
+/// or a line with a receiver, and all lists begin when the voice reports that it speaks. Lines are
+/// said as the peer that appended them; the list of a peer that has gone is forgotten. Thread: the
+/// scheduler's. Limits: kMaxCommands and kMaxBytes for each peer.
+class Parallel final : public BuiltInModule {
  public:
   static constexpr std::size_t kMaxCommands = 256;
+  static constexpr std::size_t kMaxBytes = 64u << 10;
   Parallel(vm::Scheduler& clock, Hub& hub);
   ~Parallel() override;
   Parallel(const Parallel&) = delete;
@@ -24,8 +27,8 @@ class Parallel final : public OwnMachine {
   void OnReport(const std::string& from, const vm::Message& message) override;
   void OnPresence(const std::string&, bool, const std::string&) override {}
   void Abandon(const vm::Error&) override {}
-  bool Owes(PeerKey) const override { return false; }
-  bool Busy() const override { return timer_ != 0; }
+  bool IsAwaitedBy(PeerKey) const override { return false; }
+  bool Busy() const override;
 
  private:
   struct Command {
@@ -33,15 +36,21 @@ class Parallel final : public OwnMachine {
     vm::Message message;  ///< where sleep is 0
     Origin origin;
   };
+  struct List {
+    std::deque<Command> commands{};
+    std::size_t bytes = 0;  ///< of all that was appended
+    vm::TimerId timer = 0;  ///< of the sleep it is in
+  };
   vm::Result<std::string> Append(const std::string& text);
-  void Go();
+  void Clear(PeerKey peer);
+  void ForgetGone();
+  void Continue(PeerKey peer);
 
   vm::Scheduler& clock_;
   Hub& hub_;
   vm::SlotMachine slots_;
-  std::deque<Command> commands_;
+  std::map<PeerKey, List> lists_;
   Origin origin_;  // of the message being handled
-  vm::TimerId timer_ = 0;
 };
 
 }  // namespace am

@@ -18,8 +18,6 @@ constexpr const char* kName = "AM-MCL";
 /// Room for the mouth to lead, and for a busy machine.
 constexpr vm::Time kStartMargin = milliseconds(60);
 
-void Ignore(const Result<std::string>&) {}
-
 }  // namespace
 
 std::size_t Sequence::BytesOf(const Variables& variables) {
@@ -124,7 +122,7 @@ void Sequence::Say(const MessageTemplate& said, const Template::Lookup& lookup, 
 
 void Sequence::Do(const SendStep& step) {
   Say(
-      step.message, [this](const std::string& name) { return Value(name); }, Ignore);
+      step.message, [this](const std::string& name) { return Value(name); }, IgnoreAnswer);
 }
 
 void Sequence::Do(const RequestStep& step) {
@@ -220,7 +218,7 @@ void Sequence::OnReport(const std::string& from, const std::string& slot, const 
     const auto lookup = [&](const std::string& name) {
       return name == "told" ? value : Value(name);
     };
-    Say(follower->send, lookup, Ignore);
+    Say(follower->send, lookup, IgnoreAnswer);
   }
   for (const auto& branch : branches_) branch->OnReport(from, slot, value, told);
   const Heard heard{from, slot, value};
@@ -244,7 +242,7 @@ void Sequence::Do(const StoreStep& step) {
 
 void Sequence::Do(const PauseStep& step) {
   if (step.length > milliseconds(0)) origin_.depth = 0;  // time passes
-  After(step.length, &Sequence::GoOn);
+  After(step.length, &Sequence::Advance);
 }
 
 void Sequence::Do(const LetStep& step) {

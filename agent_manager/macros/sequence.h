@@ -100,7 +100,6 @@ class Sequence : public std::enable_shared_from_this<Sequence> {
   void ForgetHeard();
   void After(vm::Time delay, void (Sequence::*then)());
   void WaitedTooLong();
-  void GoOn() { Advance(); }
   void Fail(vm::Error error);
   void End(std::optional<vm::Error> error);
 

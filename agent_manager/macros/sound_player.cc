@@ -17,8 +17,6 @@ namespace {
 constexpr const char* kName = "SND";
 constexpr const char* kVoice = "SSM";
 
-void Ignore(const Result<std::string>&) {}
-
 }  // namespace
 
 SoundPlayer::SoundPlayer(Hub& hub) : hub_(hub), slots_(kName) {
@@ -99,7 +97,7 @@ void SoundPlayer::OnPresence(const std::string& name, bool present, const std::s
   if (name == kVoice && !present) Drop({Errc::kUnavailable, "the voice (@SSM) has gone", 0});
 }
 
-bool SoundPlayer::Owes(PeerKey peer) const {
+bool SoundPlayer::IsAwaitedBy(PeerKey peer) const {
   return std::ranges::any_of(files_, [&](const File& file) { return file.origin.peer == peer; });
 }
 
@@ -116,7 +114,7 @@ void SoundPlayer::Drop(const vm::Error& error) {
     file.reply.Fail(error);
   }
   if (!files.empty() && hub_.IsPresent(kVoice))
-    hub_.Ask(kName, vm::To(kVoice, vm::Set("Speak", "STOP")), Ignore, files.front().origin);
+    hub_.Ask(kName, vm::To(kVoice, vm::Set("Speak", "STOP")), IgnoreAnswer, files.front().origin);
 }
 
 }  // namespace am

@@ -3,7 +3,7 @@
 #include <deque>
 #include <string>
 
-#include "agent_manager/macros/own_machine.h"
+#include "agent_manager/macros/built_in_module.h"
 #include "agent_manager/routing/hub.h"
 
 namespace am {
@@ -13,7 +13,7 @@ namespace am {
 /// the voice comes from and is on the same recording. One file after the other. It is asked for as
 /// whoever set Play. Thread: the scheduler's. The hub outlives it. Limits: kMaxFiles.
 /// Errors, to whoever set Play: kUnavailable (no voice, no such file), kLimit, and the voice's own.
-class SoundPlayer final : public OwnMachine {
+class SoundPlayer final : public BuiltInModule {
  public:
   static constexpr std::size_t kMaxFiles = 64;
   explicit SoundPlayer(Hub& hub);
@@ -23,7 +23,7 @@ class SoundPlayer final : public OwnMachine {
   void OnReport(const std::string& from, const vm::Message& message) override;
   void OnPresence(const std::string& name, bool present, const std::string& reason) override;
   void Abandon(const vm::Error& error) override { Drop(error); }
-  bool Owes(PeerKey peer) const override;
+  bool IsAwaitedBy(PeerKey peer) const override;
   bool Busy() const override { return !files_.empty(); }
 
  private:

@@ -9,9 +9,9 @@
 namespace am {
 
 /// Protects peers from each other: a peer that sends faster than its rate is read slower, a peer
-/// that commands a full reader is not read from until that has read, and a reader that takes nothing
-/// for Limits::stall_ms is cut off. No other peer waits.
-/// Thread: the scheduler's. The directory and the limits outlive it.
+/// that commands a full reader is not read from until that has read, and a reader that takes
+/// nothing for Limits::stall_ms is cut off. No other peer waits. Thread: the scheduler's. The
+/// directory and the limits outlive it.
 class BackPressure {
  public:
   /// Told of a peer that has to go; it is not gone yet when the call returns.

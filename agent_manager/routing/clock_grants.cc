@@ -14,8 +14,7 @@ void ClockGrants::Grant(Peer& module, vm::Time until, OnAnswer done) {
 
 void ClockGrants::BeforeSending(Peer& module) {
   if (!module.module.clock.known) return;
-  if (lockstep_ && module.module.granted < clock_.Now())
-    Grant(module, clock_.Now(), [](const vm::Result<std::string>&) {});
+  if (lockstep_ && module.module.granted < clock_.Now()) Grant(module, clock_.Now(), IgnoreAnswer);
   outdated_.insert(module.key);
 }
 

@@ -18,6 +18,7 @@ inline constexpr PeerKey kHub = 0;
 
 /// The answer to a request of one of the hub's own parts. Called by the loop, never within a call.
 using OnAnswer = std::function<void(const vm::Result<std::string>& answer)>;
+inline void IgnoreAnswer(const vm::Result<std::string>&) {}
 
 /// On whose behalf something is said. What a macro says carries the origin of whoever started it.
 struct Origin {

@@ -20,7 +20,7 @@ struct Limits {
   std::uint64_t stall_ms = 5000;                       ///< a full reader takes nothing; it is cut
   std::uint64_t pending = 8192;                        ///< unanswered requests of one peer
   std::uint64_t waiting = 8192;                        ///< lines held for a module that starts
-  std::uint64_t slots = 256;                           ///< slots and macros one peer may define, names it subscribes to
+  std::uint64_t slots = 256;  ///< slots and macros one peer may define, names it subscribes to
   bool operator==(const Limits&) const = default;
 };
 

@@ -16,8 +16,6 @@ constexpr int kExchanges = 5;  // when a module comes; the quickest one counts
 constexpr unsigned kRemoteEvery = 5;  // rounds of MeasureAll
 constexpr int kSilentRounds = 4;      // of EndProbes, for a module that has said nothing yet
 
-void Ignore(const Result<std::string>&) {}
-
 }  // namespace
 
 ModuleClocks::ModuleClocks(vm::Scheduler& clock, Directory& directory, Outbox& outbox,
@@ -60,9 +58,9 @@ void ModuleClocks::BecomeModern(Peer& module, vm::Time asked_at, const Result<st
       kHub);
   if (module.module.clock.known) {
     forwarder_.Forward(module, vm::Set("Clock.mode", grants_.lockstep() ? "HUB" : "REAL"),
-                       Origin::OfHub(), Ignore);
+                       Origin::OfHub(), IgnoreAnswer);
     if (grants_.lockstep()) {
-      grants_.Grant(module, clock_.Now(), Ignore);  // from here on its clock is ours
+      grants_.Grant(module, clock_.Now(), IgnoreAnswer);  // from here on its clock is ours
     } else {
       Measure(module, kExchanges);
     }

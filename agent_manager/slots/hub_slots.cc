@@ -56,19 +56,13 @@ HubSlots::HubSlots(vm::Scheduler& clock, Hub& hub, Supervisor& supervisor, vm::S
   vm::DeclareCommonSlots(slots_, {.module_version = "Galatea agent_manager " GALATEA_VERSION,
                                   .protocol_version = "Galatea protocol 1.0",
                                   .on_exit = hooks_.on_exit});
-  DeclarePeers();
+  DeclareForPeers();
+  DeclareOverviews();
   DeclareProcesses();
   DeclareLimits();
 }
 
-void HubSlots::DeclarePeers() {
-  const auto report = [this](const char* name, const char* help, std::function<std::string()> inq) {
-    slots_.Declare({.name = name,
-                    .grammar = "<text>",
-                    .access = Access::kReadOnly,
-                    .help = help,
-                    .on_inq = std::move(inq)});
-  };
+void HubSlots::DeclareForPeers() {
   slots_.Declare({.name = "Name",
                   .grammar = "<word>",
                   .access = Access::kWriteOnly,
@@ -82,19 +76,7 @@ void HubSlots::DeclarePeers() {
                   .grammar = "NONE | <word>...",
                   .access = Access::kWriteOnly,
                   .help = "Whose reports you want to hear: names without @, * for all, or NONE.",
-                  .on_set = [this](const SetValue& value) -> Result<std::string> {
-                    std::set<std::string> names;
-                    for (const auto& item : value.items) {
-                      if (item.text != "NONE") names.insert(item.text);
-                    }
-                    if (names.size() > hub_.limits().slots)
-                      return vm::Fail(vm::Errc::kLimit, "more than " +
-                                                            std::to_string(hub_.limits().slots) +
-                                                            " names (Limit.slots)");
-                    hub_.Subscribe(value.peer, names);
-                    for (const std::string& name : names) hooks_.on_want(name);
-                    return value.text;
-                  }});
+                  .on_set = [this](const SetValue& value) { return Subscribe(value); }});
   slots_.Declare({.name = "Flow",
                   .grammar = "ON | OFF",
                   .access = Access::kWriteOnly,
@@ -110,6 +92,29 @@ void HubSlots::DeclarePeers() {
                   .help = "Holds the console's further lines for so many ms of the session's "
                           "clock, or until nothing goes on (IDLE).",
                   .on_set_later = hooks_.on_wait});
+}
+
+Result<std::string> HubSlots::Subscribe(const SetValue& value) {
+  std::set<std::string> names;
+  for (const auto& item : value.items) {
+    if (item.text != "NONE") names.insert(item.text);
+  }
+  if (names.size() > hub_.limits().slots)
+    return vm::Fail(vm::Errc::kLimit,
+                    "more than " + std::to_string(hub_.limits().slots) + " names (Limit.slots)");
+  hub_.Subscribe(value.peer, names);
+  for (const std::string& name : names) hooks_.on_want(name);
+  return value.text;
+}
+
+void HubSlots::DeclareOverviews() {
+  const auto report = [this](const char* name, const char* help, std::function<std::string()> inq) {
+    slots_.Declare({.name = name,
+                    .grammar = "<text>",
+                    .access = Access::kReadOnly,
+                    .help = help,
+                    .on_inq = std::move(inq)});
+  };
   report("Modules", "The names of all that can be spoken to now.", [this] {
     return Joined(hub_.Names(), " ", [](const std::string& name) { return name; });
   });

@@ -28,7 +28,9 @@ class HubSlots {
   void DeclareModules(const std::set<std::string>& names);
 
  private:
-  void DeclarePeers();
+  void DeclareForPeers();
+  void DeclareOverviews();
+  vm::Result<std::string> Subscribe(const vm::SetValue& value);
   void DeclareProcesses();
   void DeclareLimits();
   void DeclareModule(const std::string& name);

@@ -12,7 +12,7 @@
 #include "agent_manager/supervision/health_monitor.h"
 #include "agent_manager/supervision/module_output.h"
 #include "agent_manager/supervision/module_run.h"
-#include "agent_manager/supervision/restart_policy.h"
+#include "agent_manager/supervision/restart_history.h"
 
 namespace am {
 

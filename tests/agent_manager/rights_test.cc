@@ -9,7 +9,7 @@
 #include "agent_manager/config/config.h"
 #include "agent_manager/macros/line_scripts.h"
 #include "agent_manager/macros/macro_layer.h"
-#include "agent_manager/slots/hub_machines.h"
+#include "agent_manager/slots/built_in_dispatcher.h"
 #include "tests/agent_manager/world.h"
 #include "tests/support/process.h"
 
@@ -52,7 +52,7 @@ class RightsTest : public testing::Test {
       : am_("AM"),
         macros_(world_.clock, world_.hub, Read,
                 [this](const std::string& path) { removed_.push_back(path); }),
-        machines_(world_.hub, am_, macros_, own_machines_, Read) {
+        machines_(world_.hub, am_, macros_, built_in_modules_, Read) {
     world_.hub.AddMachine(am_);
     world_.hub.AddMachine(macros_.slots(), {"FS-MCL"});
     world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
@@ -81,8 +81,8 @@ class RightsTest : public testing::Test {
   World world_;
   vm::SlotMachine am_;
   MacroLayer macros_;
-  const std::array<OwnMachine*, 1> own_machines_{&macros_};
-  HubMachines machines_;
+  const std::array<BuiltInModule*, 1> built_in_modules_{&macros_};
+  BuiltInDispatcher machines_;
   std::shared_ptr<World::Peer> module_;
   std::map<Role, std::shared_ptr<World::Peer>> peers_;
   Strings set_, removed_;

@@ -9,9 +9,9 @@ namespace am {
 
 /// A machine inside the hub that deals with its messages itself and listens to what modules say:
 /// @AM-MCL, @PAR, @SND. Thread: the scheduler's.
-class OwnMachine {
+class BuiltInModule {
  public:
-  virtual ~OwnMachine() = default;
+  virtual ~BuiltInModule() = default;
 
   virtual vm::SlotMachine& slots() = 0;
   /// Deals with a message to it.
@@ -23,7 +23,7 @@ class OwnMachine {
   /// Answers whoever waits for something to end, which will not be.
   virtual void Abandon(const vm::Error& error) = 0;
   /// True if `peer` waits for something to end.
-  virtual bool Owes(PeerKey peer) const = 0;
+  virtual bool IsAwaitedBy(PeerKey peer) const = 0;
   /// True while it does something that has an end.
   virtual bool Busy() const = 0;
 };

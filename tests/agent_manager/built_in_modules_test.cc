@@ -37,6 +37,40 @@ TEST(ParallelTest, ItsLinesBeginWithTheSpeechAndKeepTheirTimes) {
   EXPECT_EQ(own->heard, Strings{"set Cmd = mine"}) << "a module of that name takes its place";
 }
 
+TEST(ParallelTest, EachPeerHasAListOfItsOwn) {
+  World world;
+  Parallel parallel(world.clock, world.hub);
+  world.Connect(parallel, {}, true);
+  const auto voice = world.Join(PeerKind::kModule, "SSM", Dialect::kOriginal);
+  const auto face = world.Join(PeerKind::kModule, "FSM", Dialect::kOriginal);
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const auto guest = world.JoinAs(Role::kGuest, "GUEST");
+  world.Say(*guest, "to @PAR set Cmd = sleep 60");
+  world.Say(*a, "to @PAR set Cmd = to @FSM set X = 1");
+  world.Say(*guest, "to @PAR set Init = 1");
+  world.Say(*guest, "to @PAR set Cmd = sleep 60");
+  world.Say(*voice, "rep Speak.stat = SPEAKING");
+  EXPECT_EQ(face->heard, Strings{"set X = 1"}) << "nobody else's sleep or Init concerns it";
+  world.Say(*a, "to @PAR set Cmd = to @FSM set X = 2");
+  world.Say(*voice, "rep Speak.stat = SPEAKING");
+  EXPECT_EQ(face->heard.back(), "set X = 2");
+  EXPECT_TRUE(parallel.Busy());
+}
+
+TEST(ParallelTest, WhatOnePeerKeepsIsBounded) {
+  World world;
+  Parallel parallel(world.clock, world.hub);
+  world.Connect(parallel, {}, true);
+  const auto a = world.Join(PeerKind::kClient, "A");
+  const std::string line = "to @PAR set#1 Cmd = to @FSM set X = " + std::string(20000, 'x');
+  for (int i = 0; i < 4; ++i) world.Say(*a, line);
+  EXPECT_NE(a->heard.back().find("Cmd.error = LIMIT"), std::string::npos);
+  world.Leave(*a, "gone");
+  const auto b = world.Join(PeerKind::kClient, "B");
+  world.Say(*b, line);
+  EXPECT_EQ(b->heard.back().find("error"), std::string::npos);
+}
+
 class SoundPlayerTest : public testing::Test {
  protected:
   SoundPlayerTest() {

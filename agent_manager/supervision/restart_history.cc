@@ -1,4 +1,4 @@
-#include "agent_manager/supervision/restart_policy.h"
+#include "agent_manager/supervision/restart_history.h"
 
 #include <algorithm>
 

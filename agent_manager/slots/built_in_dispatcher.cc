@@ -1,4 +1,4 @@
-#include "agent_manager/slots/hub_machines.h"
+#include "agent_manager/slots/built_in_dispatcher.h"
 
 #include <utility>
 
@@ -9,17 +9,18 @@ using vm::Message;
 using vm::Relation;
 using vm::Result;
 
-HubMachines::HubMachines(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
-                         std::span<OwnMachine* const> machines, LineScripts::ReadFile read_file)
+BuiltInDispatcher::BuiltInDispatcher(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
+                                     std::span<BuiltInModule* const> machines,
+                                     LineScripts::ReadFile read_file)
     : hub_(hub), am_(am), macros_(macros), scripts_(hub, std::move(read_file)) {
-  for (OwnMachine* const machine : machines) machines_[&machine->slots()] = machine;
+  for (BuiltInModule* const machine : machines) machines_[&machine->slots()] = machine;
   hub_.set_on_machine([this](vm::SlotMachine& machine, const Envelope& envelope) {
     return Take(machine, envelope);
   });
 }
 
-Result<void> HubMachines::CheckFiles(const vm::SlotMachine& machine,
-                                     const Envelope& envelope) const {
+Result<void> BuiltInDispatcher::CheckFiles(const vm::SlotMachine& machine,
+                                           const Envelope& envelope) const {
   if (hub_.access().AllFiles(envelope.origin.role)) return {};
   const Message& message = envelope.message;
   const bool kept =
@@ -29,7 +30,7 @@ Result<void> HubMachines::CheckFiles(const vm::SlotMachine& machine,
                                   FileSlots(machine.Value("Slots.files")), "");
 }
 
-Result<Router::Taken> HubMachines::Take(vm::SlotMachine& machine, const Envelope& envelope) {
+Result<Router::Taken> BuiltInDispatcher::Take(vm::SlotMachine& machine, const Envelope& envelope) {
   if (const auto checked = CheckFiles(machine, envelope); !checked)
     return std::unexpected(checked.error());
   const Message& message = envelope.message;
@@ -50,7 +51,7 @@ Result<Router::Taken> HubMachines::Take(vm::SlotMachine& machine, const Envelope
   return Router::Taken{.taken = true};
 }
 
-Result<std::string> HubMachines::Script(const Envelope& envelope) {
+Result<std::string> BuiltInDispatcher::Script(const Envelope& envelope) {
   const Message& message = envelope.message;
   if (message.command == Command::kDo) {
     const auto lines =

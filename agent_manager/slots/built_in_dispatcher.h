@@ -3,9 +3,9 @@
 #include <map>
 #include <span>
 
+#include "agent_manager/macros/built_in_module.h"
 #include "agent_manager/macros/line_scripts.h"
 #include "agent_manager/macros/macro_layer.h"
-#include "agent_manager/macros/own_machine.h"
 #include "agent_manager/routing/hub.h"
 
 namespace am {
@@ -13,10 +13,10 @@ namespace am {
 /// What reaches the hub's own machines, @AM, @AM-MCL, @PAR and @SND: whether the files it names may
 /// be named, and `do`, whose lines go through the hub like any other. Thread: the scheduler's. All
 /// that it is given outlives it.
-class HubMachines {
+class BuiltInDispatcher {
  public:
-  HubMachines(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
-              std::span<OwnMachine* const> machines, LineScripts::ReadFile read_file);
+  BuiltInDispatcher(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
+                    std::span<BuiltInModule* const> machines, LineScripts::ReadFile read_file);
 
  private:
   vm::Result<Router::Taken> Take(vm::SlotMachine& machine, const Envelope& envelope);
@@ -26,7 +26,7 @@ class HubMachines {
   Hub& hub_;
   vm::SlotMachine& am_;
   const MacroLayer& macros_;
-  std::map<const vm::SlotMachine*, OwnMachine*> machines_;
+  std::map<const vm::SlotMachine*, BuiltInModule*> machines_;
   LineScripts scripts_;
 };
 
