@@ -10,6 +10,7 @@
 
 #include "agent_manager/access/rights.h"
 #include "agent_manager/config/restart_policy.h"
+#include "agent_manager/log/log_config.h"
 #include "agent_manager/routing/dialect.h"
 #include "agent_manager/routing/limits.h"
 #include "agent_manager/routing/rules.h"
@@ -66,14 +67,6 @@ struct MqttConfig {
   Role role = Role::kGuest;          ///< with which what comes from there is said
   std::chrono::seconds keep_alive{15};
   bool operator==(const MqttConfig&) const = default;
-};
-
-/// Where the session log is kept and how much of it.
-struct LogConfig {
-  std::string file;             ///< empty: none
-  std::uint64_t rotate_mb = 0;  ///< a new file beyond so many MiB; 0 = never
-  unsigned keep = 10;           ///< older files: FILE.1.gz (newest) to FILE.<keep>.gz
-  bool operator==(const LogConfig&) const = default;
 };
 
 struct ModuleConfig {

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "agent_manager/config/config.h"
+#include "agent_manager/log/log_config.h"
 
 namespace am {
 
