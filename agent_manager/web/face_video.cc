@@ -149,23 +149,22 @@ void FaceVideo::Open(int width, int height) {
     End();
     Deliver(std::make_shared<std::string>());
   };
-  std::string folder = "/tmp/galatea-face-XXXXXX";  // mkdtemp makes it ours alone
-  if (mkdtemp(folder.data()) == nullptr) return give_up();
-  folder_ = folder;
-  pipe_ = folder_ + "/face.rgba";
-  if (mkfifo(pipe_.c_str(), 0600) != 0) return give_up();
-  frames_fd_ = open(pipe_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (!folder_.Make("face", "face.rgba")) return give_up();
+  const char* const pipe = folder_.file().c_str();
+  if (mkfifo(pipe, 0600) != 0) return give_up();
+  frames_fd_ = open(pipe, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   stop_fd_ = eventfd(0, EFD_CLOEXEC);
   if (frames_fd_ < 0 || stop_fd_ < 0) return give_up();
   Ask("Record.fps", std::to_string(kFramesPerSecond),
       [this, width, height, give_up](const vm::Result<std::string>&) {
-        Ask("Record", pipe_, [this, width, height, give_up](const vm::Result<std::string>& begun) {
-          if (!begun) return give_up();
-          recording_ = true;
-          beginning_ = false;
-          thread_ = std::thread([this, width, height] { ReadFrames(width, height); });
-          if (viewers_.empty()) Stop();
-        });
+        Ask("Record", folder_.file(),
+            [this, width, height, give_up](const vm::Result<std::string>& begun) {
+              if (!begun) return give_up();
+              recording_ = true;
+              beginning_ = false;
+              thread_ = std::thread([this, width, height] { ReadFrames(width, height); });
+              if (viewers_.empty()) Stop();
+            });
       });
 }
 
@@ -220,10 +219,7 @@ void FaceVideo::End() {
   for (int* fd : {&frames_fd_, &stop_fd_}) {
     if (*fd >= 0) close(std::exchange(*fd, -1));
   }
-  if (!pipe_.empty()) unlink(pipe_.c_str());
-  if (!folder_.empty()) rmdir(folder_.c_str());
-  pipe_.clear();
-  folder_.clear();
+  folder_.Remove();
 }
 
 }  // namespace am

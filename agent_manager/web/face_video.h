@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "agent_manager/routing/hub.h"
+#include "agent_manager/web/private_folder.h"
 
 namespace am {
 
@@ -44,7 +45,8 @@ class FaceVideo {
   Hub& hub_;
   std::map<unsigned, OnPicture> viewers_;
   unsigned last_viewer_ = 0;
-  std::string folder_, pipe_, old_fps_;
+  PrivateFolder folder_;  // of the pipe
+  std::string old_fps_;
   bool beginning_ = false, recording_ = false, stopping_ = false;
   std::thread thread_;
   int frames_fd_ = -1;  // read end of the pipe

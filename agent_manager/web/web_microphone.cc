@@ -1,15 +1,13 @@
 // A browser's microphone as the ear's input: a WebSocket that takes samples, 16 bit, one channel,
 // little-endian, kRate a second, and hands them to @SRM over a socket of its own.
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <boost/asio/local/stream_protocol.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/websocket.hpp>
-#include <cstdlib>
 #include <utility>
 
+#include "agent_manager/web/private_folder.h"
 #include "agent_manager/web/web_impl.h"
 
 namespace am::web {
@@ -36,8 +34,6 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   ~MicrophoneSession() {
     --server_->connections;
     server_->microphone = false;
-    if (!path_.empty()) unlink(path_.c_str());
-    if (!folder_.empty()) rmdir(folder_.c_str());
   }
 
   void Start(const Request& request) {
@@ -58,20 +54,18 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   }
 
   void AskEar() {
-    std::string folder = "/tmp/galatea-ear-XXXXXX";  // mkdtemp makes it ours alone
-    if (mkdtemp(folder.data()) == nullptr) return Refuse("no folder for the sound");
-    folder_ = folder;
-    path_ = folder_ + "/sound";
+    if (!folder_.Make("ear", "sound")) return Refuse("no folder for the sound");
     Ask(vm::Inq("Input"), [this](const vm::Result<std::string>& input) {
       if (!input) return Refuse(input.error().text);
       before_ = *input;
-      Ask(vm::Set("Input", "unix@" + std::to_string(kRate) + ":" + path_),
+      Ask(vm::Set("Input", "unix@" + std::to_string(kRate) + ":" + folder_.file()),
           [this](const vm::Result<std::string>& set) {
             if (!set) return Refuse(set.error().text);
-            ear_.async_connect(path_, [self = shared_from_this()](const error_code& error) {
-              if (error) return self->Refuse("the ear does not take sound: " + error.message());
-              self->Read();
-            });
+            ear_.async_connect(
+                folder_.file(), [self = shared_from_this()](const error_code& error) {
+                  if (error) return self->Refuse("the ear does not take sound: " + error.message());
+                  self->Read();
+                });
           });
     });
   }
@@ -124,7 +118,8 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   websocket::stream<beast::tcp_stream> socket_;
   asio::local::stream_protocol::socket ear_;
   beast::flat_buffer buffer_;
-  std::string folder_, path_, before_, waiting_, going_;
+  PrivateFolder folder_;  // of the socket
+  std::string before_, waiting_, going_;
   bool writing_ = false, ended_ = false;
 };
 
