@@ -151,21 +151,23 @@ const std::map<std::string, ReadAction>& Actions() {
   return actions;
 }
 
+[[noreturn]] void NoSuchMember(const std::string& key) {
+  throw ConfigFault{key, "this kind of step has no such member"};
+}
+
 /// A reader of a member that only steps of the kind `Step` have.
 template <typename Step, typename Set>
 Readers::mapped_type Of(MacroStep& step, Set set) {
   return [&step, set](const json& v, const std::string& k) {
     auto* const of = std::get_if<Step>(&step.action);
-    if (of == nullptr) throw ConfigFault{k, "this kind of step has no such member"};
+    if (of == nullptr) NoSuchMember(k);
     set(*of, v, k);
   };
 }
 
-MacroStep ReadStep(const json& object, const std::string& key, int depth, Budget& budget) {
-  if (!object.is_object()) Wrong(key, object, "an object");
-  if (++budget.steps > vm::kMaxMacroLines)
-    throw ConfigFault{key, "more than " + std::to_string(vm::kMaxMacroLines) + " steps"};
-  MacroStep step;
+/// Reads the one member that says what the step does. Returns whether there is one.
+bool ReadActionOf(MacroStep& step, const json& object, const std::string& key, int depth,
+                  Budget& budget) {
   std::string chosen;
   for (const auto& [name, value] : object.items()) {
     const auto action = Actions().find(name);
@@ -174,39 +176,52 @@ MacroStep ReadStep(const json& object, const std::string& key, int depth, Budget
     chosen = name;
     step.action = action->second(value, key + "." + name, depth, budget);
   }
+  return !chosen.empty();
+}
+
+void SetLimit(MacroStep& step, const json& value, const std::string& key) {
+  const milliseconds limit = Millis(value, key, 0, kLongestMs);
+  if (auto* const request = std::get_if<RequestStep>(&step.action)) {
+    request->limit = limit;
+  } else if (auto* const wait = std::get_if<WaitStep>(&step.action)) {
+    wait->limit = limit;
+  } else {
+    NoSuchMember(key);
+  }
+}
+
+/// Readers of every member a step may have; those of the action, which has been read, do nothing.
+Readers StepReaders(MacroStep& step, int depth, Budget& budget) {
+  using S = const std::string&;
   Readers readers{
-      {"of", Of<StartStep>(step, [](StartStep& s, const json& v,
-                                    const std::string& k) { s.of = Texts(v, k); })},
-      {"text", Of<NeedStep>(step, [](NeedStep& s, const json& v,
-                                     const std::string& k) { s.called = Text(v, k); })},
-      {"keep", Of<LetStep>(step, [](LetStep& s, const json& v,
-                                    const std::string& k) { s.keep = Flag(v, k); })},
-      {"limit_from", Of<WaitStep>(step, [](WaitStep& s, const json& v,
-                                           const std::string& k) { s.limit_from = Text(v, k); })},
-      {"limit_ms",
-       [&](const json& v, const std::string& k) {
-         const milliseconds limit = Millis(v, k, 0, kLongestMs);
-         if (auto* const request = std::get_if<RequestStep>(&step.action)) {
-           request->limit = limit;
-         } else if (auto* const wait = std::get_if<WaitStep>(&step.action)) {
-           wait->limit = limit;
-         } else {
-           throw ConfigFault{k, "this kind of step has no such member"};
-         }
-       }},
+      {"of", Of<StartStep>(step, [](StartStep& s, const json& v, S k) { s.of = Texts(v, k); })},
+      {"text", Of<NeedStep>(step, [](NeedStep& s, const json& v, S k) { s.called = Text(v, k); })},
+      {"keep", Of<LetStep>(step, [](LetStep& s, const json& v, S k) { s.keep = Flag(v, k); })},
+      {"limit_from",
+       Of<WaitStep>(step, [](WaitStep& s, const json& v, S k) { s.limit_from = Text(v, k); })},
+      {"limit_ms", [&step](const json& v, S k) { SetLimit(step, v, k); }},
       {"if_present", Into(step.if_present)},
       {"when", Into(step.when)},
-      {"when_is", [&](const json& v, const std::string& k) { step.when_is = TextsByName(v, k); }},
-      {"unless_is",
-       [&](const json& v, const std::string& k) { step.unless_is = TextsByName(v, k); }},
-      {"else", [&](const json& v, const std::string& k) {
+      {"when_is", [&step](const json& v, S k) { step.when_is = TextsByName(v, k); }},
+      {"unless_is", [&step](const json& v, S k) { step.unless_is = TextsByName(v, k); }},
+      {"else", [&step, depth, &budget](const json& v, S k) {
          step.otherwise = ReadSteps(v, k, depth + 1, budget);
        }}};
   for (const auto& [name, action] : Actions())
-    readers.emplace(name, [](const json&, const std::string&) {});  // read above
-  bool all_known = true;
+    readers.emplace(name, [](const json&, const std::string&) {});
+  return readers;
+}
+
+MacroStep ReadStep(const json& object, const std::string& key, int depth, Budget& budget) {
+  if (!object.is_object()) Wrong(key, object, "an object");
+  if (++budget.steps > vm::kMaxMacroLines)
+    throw ConfigFault{key, "more than " + std::to_string(vm::kMaxMacroLines) + " steps"};
+  MacroStep step;
+  const bool acts = ReadActionOf(step, object, key, depth, budget);
+  const Readers readers = StepReaders(step, depth, budget);
+  bool all_known = true;  // else ReadObject names the member that is not
   for (const auto& [name, value] : object.items()) all_known = all_known && readers.contains(name);
-  if (chosen.empty() && all_known) {
+  if (!acts && all_known) {
     std::string kinds;
     for (const auto& [name, action] : Actions()) kinds += (kinds.empty() ? "" : ", ") + name;
     throw ConfigFault{key, "expected exactly one of " + kinds};
