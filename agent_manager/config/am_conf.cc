@@ -12,6 +12,17 @@ namespace am {
 namespace {
 
 constexpr std::array<std::string_view, 4> kPartsOfTheHub{"AM", "AM-MCL", "FS-MCL", "PAR"};
+
+/// Takes the first line, without its end and the blanks around it. REQUIRES: text is not empty.
+std::string_view TakeLine(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = vm::Trimmed(text.substr(0, end));
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+bool IsBlankOrComment(std::string_view line) { return line.empty() || line.starts_with('#'); }
+
 /// Takes the word before the next blank, and the blanks.
 std::string_view TakeWord(std::string_view& text) {
   const std::size_t end = std::min(text.find_first_of(vm::kBlanks), text.size());
@@ -24,10 +35,8 @@ std::string_view TakeWord(std::string_view& text) {
 
 bool IsAmConf(std::string_view text) {
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = vm::Trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.empty() || line.starts_with('#')) continue;
+    const std::string_view line = TakeLine(text);
+    if (IsBlankOrComment(line)) continue;
     return line.starts_with("module:") || line.starts_with("broadcast:");
   }
   return false;
@@ -42,11 +51,9 @@ vm::Result<Config> ParseAmConf(std::string_view text, const std::string& origin)
                                              "', expected " + expected);
   };
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = vm::Trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = TakeLine(text);
     ++number;
-    if (line.empty() || line.starts_with('#')) continue;
+    if (IsBlankOrComment(line)) continue;
     const std::size_t colon = std::min(line.find(':'), line.size());
     const std::string_view key = line.substr(0, colon);
     std::string_view rest = vm::Trimmed(line.substr(std::min(colon + 1, line.size())));
