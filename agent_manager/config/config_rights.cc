@@ -1,4 +1,4 @@
-// Who may do what, in the configuration.
+// Reads roles and the table of their rights from the configuration.
 
 #include "agent_manager/config/config_json.h"
 #include "vm_protocol/core/message.h"
@@ -40,7 +40,8 @@ RightsTable ReadRights(const json& value, const std::string& key) {
   RightsTable table = RightsTable::Default();
   Readers readers;
   for (const Role role : kRoles) {
-    if (role == Role::kOwner) continue;  // may everything: it can end the hub at any time
+    if (role == Role::kOwner)
+      continue;  // the owner can end the hub anyway: its rights have no limits
     readers[std::string(RoleName(role))] = [&table, role](const json& v, const std::string& k) {
       ReadRow(v, k, table[role]);
     };

@@ -64,7 +64,7 @@ bool Selects(const Selection& selection, const Entry& entry) {
 
 std::vector<Exchange> FindExchanges(const std::vector<Entry>& entries) {
   std::vector<Exchange> exchanges;
-  // (asker, asked, tag) -> its place; one may use a tag again once it was answered.
+  // (asker, asked, tag) -> index of the open request; an answered tag may be used again.
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> open;
   for (const Entry& entry : entries) {
     const vm::Message& message = entry.message;
@@ -80,7 +80,7 @@ std::vector<Exchange> FindExchanges(const std::vector<Entry>& entries) {
       if (asked == open.end()) continue;
       Exchange& exchange = exchanges[asked->second];
       exchange.refused = message.slot == exchange.slot + ".error";
-      if (!exchange.refused && message.slot != exchange.slot) continue;  // a member of a group
+      if (!exchange.refused && message.slot != exchange.slot) continue;  // one slot of a group
       exchange.answered = entry.log.time;
       open.erase(asked);
     }

@@ -10,39 +10,42 @@
 
 namespace am {
 
-/// A line of a session log, taken apart.
+/// One parsed line of a session log.
 struct Entry {
   LogEntry log;
-  vm::Message message;                 ///< `tell` with the whole line where it was none
-  std::vector<std::string> receivers;  ///< empty: nobody heard it
+  vm::Message message;                 ///< a `tell` with the whole line if it cannot be parsed
+  std::vector<std::string> receivers;  ///< empty: the hub passed it to nobody
 };
 
-/// Which entries somebody wants to see; empty = all. `*` in a pattern stands for any text.
+/// The entries to show: those that match every member. An empty list matches all entries, and `*`
+/// in a pattern matches any text.
 struct Selection {
   std::vector<std::string> from{}, to{}, slot{}, command{};
-  std::string text{};  ///< somewhere in the line
+  std::string text{};  ///< contained in the line
   std::optional<vm::Time> since{}, until{};
 };
 
-/// The entries of a log. Lines that are none are counted in `bad`.
+/// Parses a session log. Adds the number of lines that are not entries to `bad`; empty lines are
+/// skipped.
 std::vector<Entry> ParseLog(std::string_view text, std::size_t& bad);
 bool Selects(const Selection& selection, const Entry& entry);
 
 /// A tagged request and its answer.
 struct Exchange {
   vm::Time asked{0};
-  std::optional<vm::Time> answered;  ///< none: it never was
+  std::optional<vm::Time> answered;  ///< none: the log has no answer
   std::string from, to, slot;
   bool refused = false;
 };
+/// Pairs tagged requests with their answers, in the order of the requests.
 std::vector<Exchange> FindExchanges(const std::vector<Entry>& entries);
 
-/// A table of how long answers took, by receiver and slot: count, median, 95th percentile, longest,
-/// refusals, unanswered. In ms.
+/// Returns a table of response times in ms, one row for each receiver and slot: count, median, 95th
+/// percentile, longest, refused, unanswered.
 std::string DelayTable(const std::vector<Exchange>& exchanges);
 
-/// A picture of who said what when: a lane for each party, time to the right, a mark for each
-/// message (its text under the pointer) and a bar for each request until its answer.
+/// Draws the log as an SVG picture: a lane for each peer, time to the right, a mark for each
+/// message (its text is the tooltip) and a bar from each request to its answer.
 std::string TimelineSvg(const std::vector<Entry>& entries, const std::vector<Exchange>& exchanges);
 
 }  // namespace am

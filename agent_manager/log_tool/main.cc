@@ -1,4 +1,4 @@
-// galatea-log: looks into session logs of the hub, compressed or not.
+// galatea-log: prints, measures and draws session logs of the hub, plain or compressed.
 
 #include <CLI/CLI.hpp>
 #include <fstream>

@@ -19,7 +19,7 @@ using Variables = std::map<std::string, std::string>;
 struct MacroStep;
 using Steps = std::vector<MacroStep>;
 
-// What a step does, one type for each. Their members in JSON: docs/macros.md.
+// What a step does, one type for each action. Their members in JSON: docs/macros.md.
 struct SendStep {
   MessageTemplate message;
 };
@@ -36,11 +36,11 @@ struct WaitStep {
   std::chrono::milliseconds limit{5000};
   std::string limit_from;  ///< a variable with phonemes whose length is added to the limit
 };
-struct FollowStep {  ///< as long as the steps go on
+struct FollowStep {  ///< until its sequence ends: sends a message for each `tell` of a module
   std::string from, tell;
   MessageTemplate send;
 };
-struct MirrorStep {  ///< as long as the run lasts: slots of ours follow a module's of the same name
+struct MirrorStep {  ///< until the run ends: our slots copy a module's slots of the same name
   std::string from;
   std::vector<std::string> slots;
 };
@@ -48,7 +48,7 @@ struct ReportStep {
   std::string slot;
   Template value;
 };
-struct StoreStep {  ///< without a report
+struct StoreStep {  ///< sets slots without reporting them
   std::map<std::string, std::string> slots;
 };
 struct PauseStep {
@@ -65,13 +65,13 @@ struct StartStep {
 };
 struct NeedStep {
   std::string module;
-  std::string called;  ///< what people call it
+  std::string called;  ///< how error messages name it
 };
 struct RemoveStep {
   Template file;
 };
 struct MarkStep {};
-struct BranchesStep {  ///< they go on side by side
+struct BranchesStep {  ///< runs lists of steps at the same time
   std::vector<std::shared_ptr<const Steps>> branches;
 };
 
@@ -79,46 +79,48 @@ using Action =
     std::variant<SendStep, RequestStep, WaitStep, FollowStep, MirrorStep, ReportStep, StoreStep,
                  PauseStep, LetStep, StartStep, NeedStep, RemoveStep, MarkStep, BranchesStep>;
 
-/// One step of a macro. A step whose conditions do not hold is passed over.
+/// One step of a macro. A step whose conditions do not hold is skipped.
 struct MacroStep {
   Action action;
-  std::string if_present;                  ///< a module that must be there
+  std::string if_present;                  ///< a module that must be present
   std::string when;                        ///< a variable that must not be empty
   Variables when_is, unless_is;            ///< variables and their values
-  std::shared_ptr<const Steps> otherwise;  ///< instead, where the conditions do not hold
+  std::shared_ptr<const Steps> otherwise;  ///< run if the conditions do not hold
 };
 
-/// A macro: what happens in several modules for one `set` or `do`. Does not change once defined.
+/// A macro: the steps that one `set` or `do` starts in several modules. Immutable once defined.
 struct Macro {
   std::string name;
   std::string grammar = "<text>";
   std::string help;
-  std::string reads;     ///< how its value is taken apart beside words; empty: not (MacroLayer)
+  std::string reads;  ///< a reader of MacroLayer that sets more variables from the value; or empty
   std::string stops_on;  ///< the value that stops a run instead of starting one
-  Template stop_text;    ///< follows the reason in the answer of a run that was stopped
+  Template stop_text;    ///< added to the reason when a stopped run is answered
   std::shared_ptr<const Steps> steps, on_stop, finally;
-  Role definer = Role::kOwner;  ///< who has defined it
-  bool as_definer = false;      ///< it has the definer's rights, whoever starts it
-  std::size_t bytes = 0;        ///< of its text
+  Role definer = Role::kOwner;  ///< the role of the peer that defined it
+  bool as_definer = false;      ///< it runs with the definer's rights, not its caller's
+  std::size_t bytes = 0;        ///< length of its text
 };
 
-/// Macros and the slots beside them, from one JSON text (built_in.json has the form).
+/// Macros and the slots of @AM-MCL that they use, from one JSON text such as built_in.json.
 struct MacroFile {
   std::vector<vm::SlotSpec> slots;
   std::vector<Macro> macros;
 };
 
-/// Reads one macro: an object, or just its list of steps. Its grammar has been checked.
-/// Errors: kSyntax, kBadValue; they name the step and the member.
-/// Limits: kMaxMacroDepth lists in each other, vm::kMaxMacroLines steps in all.
+/// Reads one macro: an object, or only its list of steps.
+/// Errors: kSyntax for what is not JSON; kBadValue, naming the step and the member, also for a
+/// grammar that cannot be parsed.
+/// Limits: kMaxMacroDepth nested lists, vm::kMaxMacroLines steps in all.
 inline constexpr int kMaxMacroDepth = 16;
 vm::Result<Macro> ParseMacro(const std::string& name, std::string_view json_text);
-/// Reads macros which carry their names, and slots.
+/// Reads slots and macros; each macro has a member `name`. Errors and limits: as ParseMacro.
 vm::Result<MacroFile> ParseMacroFile(std::string_view json_text);
-/// The macro (null: an empty one) with the step "send LINE" at its end (def NAME << LINE).
+/// Returns a copy of the macro (null: of an empty one) with the step "send LINE" at its end, as
+/// `def NAME << LINE` asks. Errors: as MessageTemplate::Parse; kLimit.
 vm::Result<Macro> WithLine(const Macro* macro, const std::string& name, const std::string& line);
 
-/// Calls `visit` for every step, those within others too.
+/// Calls `visit` for every step, including those in branches and in `else`.
 template <typename Visit>
 void ForEachStep(const std::shared_ptr<const Steps>& steps, const Visit& visit) {
   if (steps == nullptr) return;

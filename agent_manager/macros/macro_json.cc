@@ -1,4 +1,4 @@
-// Macros in JSON: every member a step may have, and how it is read.
+// Reads macros from JSON: a table of the actions, and readers for every other member of a step.
 
 #include <algorithm>
 #include <functional>
@@ -19,7 +19,7 @@ using vm::Result;
 
 constexpr long kLongestMs = 3'600'000;
 
-/// What reading one macro has come to.
+/// What has been read of one macro; counted against its limits.
 struct Budget {
   std::size_t steps = 0;
 };
@@ -45,7 +45,7 @@ Variables TextsByName(const json& value, const std::string& key) {
   return texts;
 }
 
-/// A reader that puts a string where it belongs.
+/// A reader that stores a string in `target`.
 Readers::mapped_type Into(std::string& target) {
   return [&target](const json& v, const std::string& k) { target = Text(v, k); };
 }
@@ -117,7 +117,7 @@ BranchesStep ReadParallel(const json& value, const std::string& key, int depth, 
   return step;
 }
 
-/// The members that choose what a step does.
+/// The members that say what a step does; each step has one of them.
 using ReadAction =
     std::function<Action(const json& value, const std::string& key, int depth, Budget& budget)>;
 const std::map<std::string, ReadAction>& Actions() {
@@ -289,7 +289,7 @@ vm::SlotSpec ReadSlot(const json& object, const std::string& key) {
   return slot;
 }
 
-/// Nesting is looked at before anything is built of the text, whose reader recurses.
+/// Checked before the text is parsed: the JSON parser and its values recurse for each level.
 bool NestsTooDeep(std::string_view text) {
   constexpr int kDeepest = 8 * kMaxMacroDepth;
   int depth = 0;

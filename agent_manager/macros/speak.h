@@ -6,12 +6,12 @@
 
 namespace am {
 
-/// The macros that are always there (built_in.json), above all Speak, which keeps voice and lips in
-/// step (docs/macros.md), with the slots beside them.
+/// Returns the JSON text of the macros every hub has and their slots (built_in.json). The most
+/// important one is Speak, which synchronises voice and lips (docs/macros.md).
 std::string_view BuiltInMacros();
 
-/// How Speak reads its value: takes `<emotion type="HAPPY" value="80">text</emotion>` apart where a
-/// text starts with it, into `emotion`, `strength` and `text`.
+/// The reader of Speak's value: if `text` starts with `<emotion type="HAPPY" value="80">`, sets
+/// `emotion` and `strength` to its attributes and removes the element's tags from `text`.
 void ReadEmotion(Variables& variables);
 
 }  // namespace am

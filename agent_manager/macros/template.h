@@ -9,17 +9,17 @@
 
 namespace am {
 
-/// A text with places for variables, read once: ${name}, ${name:-default}, and ${name|plain}, which
-/// writes a phoneme list in the form of LipSync.pho. Pure.
-/// Limits: what it expands to is at most vm::kMaxLineBytes.
+/// A text with variables in it, parsed once and expanded often: ${name}, ${name:-default}, and
+/// ${name|plain}, which writes a phoneme list in the form of LipSync.pho. Pure.
+/// Limits: the expanded text has at most vm::kMaxLineBytes.
 class Template {
  public:
-  /// Returns a variable's value; empty if there is none of that name.
+  /// Returns a variable's value; empty if there is no variable of that name.
   using Lookup = std::function<std::string(const std::string& name)>;
   Template() = default;
-  /// Errors: kBadValue for an unknown filter or an open brace.
+  /// Errors: kBadValue for an unknown filter, a missing name or a brace that is not closed.
   static vm::Result<Template> Parse(std::string_view text);
-  /// Errors: kTooLong; kBadValue for phonemes that cannot be read.
+  /// Errors: kTooLong; for ${name|plain} those of vm::ParsePhonemes.
   vm::Result<std::string> Expand(const Lookup& lookup) const;
 
  private:
@@ -38,9 +38,9 @@ class MessageTemplate {
   MessageTemplate() = default;
   /// Errors: as ParseMessage and Template::Parse; kSyntax for a line without a receiver.
   static vm::Result<MessageTemplate> Parse(std::string_view line);
-  /// Errors: as Template::Expand; kBadValue if no valid message comes out.
+  /// Errors: as Template::Expand; kBadValue if the expanded message is not valid.
   vm::Result<vm::Message> Expand(const Template::Lookup& lookup) const;
-  /// Without its value.
+  /// The message with an empty value.
   const vm::Message& message() const { return message_; }
 
  private:

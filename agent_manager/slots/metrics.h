@@ -8,7 +8,7 @@
 
 namespace am {
 
-/// The hub's state for Prometheus: counters and gauges in its text format, version 0.0.4.
+/// The part of the hub's state that is measured; counts are since its start.
 struct MetricsSource {
   std::vector<PeerStatus> peers;
   std::vector<ModuleStatus> modules;
@@ -16,6 +16,7 @@ struct MetricsSource {
   bool mqtt_online = false;
   vm::Time clock{0};
 };
+/// Formats counters and gauges for Prometheus (text format, version 0.0.4).
 std::string FormatMetrics(const MetricsSource& source);
 
 }  // namespace am

@@ -26,13 +26,13 @@ namespace {
 constexpr int kQuality = 80;
 constexpr const char* kFace = "FSM";
 
-/// Of a picture's width and height, and of its area: 4096 x 4096 pixels are 64 MiB.
+/// Limits of a picture's sides and of its area; 4096 * 4096 pixels are 64 MiB.
 constexpr int kMaxSide = 8192;
 constexpr std::int64_t kMaxPixels = 4096 * 4096;
 
-/// libjpeg's own handler ends the program.
+/// Replaces libjpeg's own error handler, which ends the program.
 struct JpegErrors {
-  jpeg_error_mgr manager{};  // first: libjpeg knows only of this
+  jpeg_error_mgr manager{};  // first, since libjpeg has only a pointer to this member
   std::jmp_buf back{};
 };
 [[noreturn]] void OnJpegError(j_common_ptr jpeg) {
@@ -47,7 +47,7 @@ std::string Compress(const std::vector<unsigned char>& rgba, int width, int heig
   unsigned long size = 0;
   jpeg.err = jpeg_std_error(&errors.manager);
   errors.manager.error_exit = OnJpegError;
-  // Nothing with a destructor is made between here and the end of compressing.
+  // longjmp skips destructors: no object that has one is created before compressing has ended.
   const bool failed = setjmp(errors.back) != 0;
   if (!failed) {
     jpeg_create_compress(&jpeg);
@@ -100,7 +100,7 @@ void FaceVideo::Stop() {
     stopping_ = false;
     recording_ = false;
     End();
-    if (!viewers_.empty()) Begin();  // somebody has come meanwhile
+    if (!viewers_.empty()) Begin();  // a viewer has come meanwhile
   };
   Ask("Record", "STOP", [this, stopped](const vm::Result<std::string>& answer) {
     if (!stopping_) return;  // the face has gone meanwhile
@@ -134,7 +134,7 @@ void FaceVideo::Begin() {
     Ask("Record.fps", "", [this, width, height](const vm::Result<std::string>& fps) {
       old_fps_ = fps.value_or("");
       Ask("Record", "", [this, width, height](const vm::Result<std::string>& record) {
-        // Setting Record would end a film that somebody is making.
+        // Setting Record would end a film that the face is recording for somebody else.
         if (record && *record == "STOP") return Open(width, height);
         beginning_ = false;
         Deliver(std::make_shared<std::string>());
@@ -184,7 +184,7 @@ void FaceVideo::ReadFrames(int width, int height) {
     if (waits[1].revents != 0) return;
     const ssize_t n = read(frames_fd_, frame.data() + filled, frame.size() - filled);
     if (n < 0 && errno != EAGAIN && errno != EINTR) return post("");
-    if (n < 0) continue;          // nothing there after all
+    if (n < 0) continue;          // spurious wake-up
     if (n == 0) return post("");  // the face has stopped writing, or has gone
     filled += static_cast<std::size_t>(n);
     if (filled < frame.size()) continue;
@@ -197,11 +197,11 @@ void FaceVideo::ReadFrames(int width, int height) {
 
 void FaceVideo::Deliver(const Picture& picture) {
   if (picture->empty()) {
-    if (stopping_) return;  // what we have asked for
+    if (stopping_) return;  // the end that Stop has asked for
     recording_ = false;
     if (!beginning_) End();
   }
-  const auto viewers = viewers_;  // one may leave while it is told
+  const auto viewers = viewers_;  // a viewer may leave during its call
   for (const auto& [number, on_picture] : viewers) on_picture(picture);
 }
 

@@ -12,21 +12,25 @@
 
 namespace am {
 
-/// The live face as JPEG pictures, while somebody looks. The face writes raw frames into a pipe
-/// (`set Record = PIPE.rgba`), as for any film; a film somebody else is making comes first.
-/// Thread: the context's, and one of its own that reads and compresses while there are viewers; it
-/// posts finished pictures back and is joined when the last viewer leaves.
+/// The live face as JPEG pictures, recorded only while there are viewers. The face writes raw
+/// frames into a pipe (`set Record = PIPE.rgba`), as for any film; while it records a film for
+/// somebody else, there is no video. Lifetime: `io` and `hub` outlive it. It owns the pipe, both
+/// descriptors and the thread. Thread: the context's, and one of its own that reads and compresses
+/// while there are viewers; it posts finished pictures back and is joined when recording ends.
+/// Limits: pictures of 8192 x 8192 and 4096 * 4096 pixels. Errors: end the video with an empty
+/// picture.
 class FaceVideo {
  public:
   static constexpr int kFramesPerSecond = 15;
   using Picture = std::shared_ptr<const std::string>;
-  /// An empty picture: the video has ended.
+  /// An empty picture means that the video has ended.
   using OnPicture = std::function<void(const Picture& picture)>;
   FaceVideo(boost::asio::io_context& io, Hub& hub);
   ~FaceVideo();
   FaceVideo(const FaceVideo&) = delete;
 
-  /// Pictures come until Leave, or until an empty one. Returns the viewer's number.
+  /// Calls `on_picture` for every picture until Leave, or until an empty one. Returns the viewer's
+  /// number.
   unsigned Watch(OnPicture on_picture);
   void Leave(unsigned viewer);
 
@@ -35,9 +39,10 @@ class FaceVideo {
   void Ask(const std::string& slot, const std::string& value,
            std::function<void(const vm::Result<std::string>&)> next);
   void Open(int width, int height);
-  void ReadFrames(int width, int height);  // the thread
+  void ReadFrames(int width, int height);  // runs on thread_
   void Deliver(const Picture& picture);
-  /// Asks the face to stop and reads on until it has: a pipe closed before that is an error there.
+  /// Asks the face to stop, and goes on reading until it has: a pipe closed before that would be an
+  /// error in the face.
   void Stop();
   void End();
 
@@ -50,7 +55,7 @@ class FaceVideo {
   bool beginning_ = false, recording_ = false, stopping_ = false;
   std::thread thread_;
   int frames_fd_ = -1;  // read end of the pipe
-  int stop_fd_ = -1;    // an event that ends the thread
+  int stop_fd_ = -1;    // eventfd that ends the thread
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };
 

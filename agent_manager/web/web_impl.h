@@ -11,38 +11,42 @@
 #include "agent_manager/web/face_video.h"
 #include "agent_manager/web/web_server.h"
 
-/// Shared by the files that make up the web server. Not for others.
+/// What the files of the web server share; not for other folders.
 namespace am {
 
+/// The state of the web server. Each connection shares it and stops when `closed` is set.
 struct WebServer::Impl {
   Impl(boost::asio::io_context& context, Hub& the_hub)
       : io(context), acceptor(context), retry(context), hub(the_hub) {}
   boost::asio::io_context& io;
   boost::asio::ip::tcp::acceptor acceptor;
-  boost::asio::steady_timer retry;  ///< after an accept that failed
+  boost::asio::steady_timer retry;  ///< delays the next accept after one that failed
   Hub& hub;
-  Role role = Role::kGuest;  ///< of those who come by the page
+  Role role = Role::kGuest;  ///< of every peer that connects through the page
   std::string token;
   std::string host;  ///< "127.0.0.1:8080"
   std::function<std::string()> metrics;
   OnRefusal on_refusal;
   std::unique_ptr<FaceVideo> video;
   std::size_t connections = 0;
-  /// Connections that have not shown the token yet, the oldest first; each ends its own.
+  /// One function for each connection that has not shown the token yet, the oldest first; it drops
+  /// that connection.
   std::list<std::function<void()>> strangers;
   bool starved = false;  ///< the last accept failed
   bool closed = false;
-  bool microphone = false;  ///< somebody's is being listened to
+  bool microphone = false;  ///< a browser streams its microphone
 };
 
 namespace web {
 
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 
-/// Speaks the protocol over a WebSocket until either side ends. Has been let in already.
+// Each takes over a connection whose request has shown the token.
+
+/// Speaks the protocol over a WebSocket until either side ends.
 void ServeSocket(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
                  const Request& request);
-/// Hands a browser's microphone to the ear until either side ends. Has been let in already.
+/// Passes the sound of a browser's microphone to the ear until either side ends.
 void ServeMicrophone(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
                      const Request& request);
 /// Sends pictures of the face until either side ends.

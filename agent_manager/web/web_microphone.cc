@@ -1,5 +1,5 @@
-// A browser's microphone as the ear's input: a WebSocket that takes samples, 16 bit, one channel,
-// little-endian, kRate a second, and hands them to @SRM over a socket of its own.
+// A browser's microphone as the ear's input: receives samples (16 bit, one channel, little-endian,
+// kRate a second) from a WebSocket and passes them to @SRM over a Unix socket.
 
 #include <algorithm>
 #include <boost/asio/local/stream_protocol.hpp>
@@ -20,10 +20,13 @@ using boost::system::error_code;
 
 constexpr int kRate = 16000;
 constexpr std::size_t kMaxMessageBytes = 64u * 1024;
-constexpr std::size_t kMaxWaitingBytes = 2 * 2 * kRate;  // two seconds; what is older is of no use
+constexpr std::size_t kMaxWaitingBytes = 2 * 2 * kRate;  // two seconds; more is dropped
 constexpr const char* kEar = "SRM";
 
-/// One browser that is listened to. The ear's input before it is given back in the end.
+/// One browser's microphone. Sets the ear's Input to a socket and restores the old value at the
+/// end. Lifetime: kept alive by its pending operations. Thread: the context's. Limits:
+/// kMaxMessageBytes a message; samples beyond kMaxWaitingBytes waiting for the ear are dropped.
+/// Errors: closes the WebSocket with the reason, and reports it.
 class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession> {
  public:
   MicrophoneSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)

@@ -35,9 +35,10 @@ using std::string_view;
 constexpr auto kRequestLimit = std::chrono::seconds(10);
 constexpr std::size_t kMaxHeaderBytes = 8192;
 constexpr std::size_t kMaxConnections = 64;
-constexpr std::size_t kBeingDropped = 8;  // closed, and not gone yet
+constexpr std::size_t kBeingDropped = 8;  // dropped connections whose last operation is pending
 constexpr auto kAcceptAgain = std::chrono::milliseconds(200);
-/// Cookies are of a host, whatever the port: pages of two hubs on it need two names.
+
+/// A browser sends a cookie to every port of a host, so the pages of two hubs need two names.
 std::string CookieOf(std::string_view host) {
   const std::size_t colon = host.rfind(':');
   return "galatea_token_" + std::string(host.substr(colon + 1)) + "=";
@@ -47,7 +48,7 @@ struct File {
   string_view path, type;
   string_view (*content)();
 };
-/// All there is: nothing is read from the disk, so no path leads out of here.
+/// Every file of the page. Nothing is read from the disk, so no path can leave this table.
 const std::array<File, 9>& Files() {
   static const std::array<File, 9> files{{
       {"/", "text/html; charset=utf-8", embedded::page_index_html},
@@ -66,7 +67,9 @@ const std::array<File, 9>& Files() {
 
 string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// One request after another on one connection.
+/// One connection: answers its requests one after the other, or hands it to a WebSocket or video.
+/// Lifetime: kept alive by its pending operation. Thread: the context's.
+/// Limits: kRequestLimit for a request of kMaxHeaderBytes without a body.
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(std::shared_ptr<WebServer::Impl> server, asio::ip::tcp::socket socket)
@@ -79,7 +82,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
   HttpSession(const HttpSession&) = delete;
 
-  /// Waits among those who have not shown the token yet.
+  /// Enters the list of connections without the token, and reads the first request.
   void Begin() {
     at_ = server_->strangers.insert(server_->strangers.end(), [weak = weak_from_this()] {
       if (const auto self = weak.lock()) self->Drop();
@@ -112,7 +115,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (error == http::error::header_limit || error == http::error::body_limit)
       return Refuse(http::status::payload_too_large, "a request that is too large");
     if (error == http::error::end_of_stream || error == beast::error::timeout) return;
-    if (error) return Refuse(http::status::bad_request, "what is no request: " + error.message());
+    if (error) return Refuse(http::status::bad_request, "a malformed request: " + error.message());
     request_ = parser_->release();
     Answer();
   }
@@ -121,7 +124,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     const string_view target = View(request_.target());
     const std::size_t mark = target.find('?');
     const std::string path(target.substr(0, mark));
-    // A site that gives its own name our address must not get in.
+    // DNS rebinding: a site whose name resolves to our address sends its own name as the host.
     if (View(request_[http::field::host]) != server_->host &&
         View(request_[http::field::host]) != LocalName())
       return Refuse(http::status::misdirected_request, "a request for another host");
@@ -146,7 +149,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     Refuse(http::status::not_found, "a request for '" + path.substr(0, 100) + "'");
   }
 
-  /// The token goes into a cookie and out of the address, where others might read it.
+  /// Moves the token from the address, which others might read, into a cookie.
   void ToWithoutToken(const std::string& path) {
     auto response = Make(http::status::see_other, "text/plain", "");
     response.set(http::field::location, path);
@@ -170,7 +173,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     return "localhost" + server_->host.substr(server_->host.rfind(':'));
   }
 
-  /// True if one of the parts is `name` followed by the token.
+  /// Returns true if one of the parts of `text`, separated by `between`, is `name` and the token.
   bool HasToken(string_view text, char between, string_view name) const {
     while (!text.empty()) {
       const std::size_t end = std::min(text.find(between), text.size());
@@ -228,7 +231,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
   std::shared_ptr<WebServer::Impl> server_;
   beast::tcp_stream stream_;
-  std::list<std::function<void()>>::iterator at_;  // among the strangers
+  std::list<std::function<void()>>::iterator at_;  // in strangers; its end once the token was shown
   beast::flat_buffer buffer_{kMaxHeaderBytes * 2};
   std::optional<http::request_parser<http::empty_body>> parser_;
   web::Request request_;
@@ -238,7 +241,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
   server->acceptor.async_accept([server](const error_code& error, asio::ip::tcp::socket socket) {
     if (server->closed || error == asio::error::operation_aborted) return;
-    if (error) {  // no descriptor left, say: looked at again when some may have been given back
+    if (error) {  // for example no descriptor left: tried again, when some may be free
       if (!std::exchange(server->starved, true))
         server->on_refusal("web page: cannot accept: " + error.message());
       server->retry.expires_after(kAcceptAgain);
@@ -248,7 +251,7 @@ void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
       return;
     }
     server->starved = false;
-    // Those who only hold a place give it to who comes.
+    // A connection that has not shown the token gives way to a new one.
     if (server->connections >= kMaxConnections && !server->strangers.empty()) {
       const auto drop = server->strangers.front();
       drop();

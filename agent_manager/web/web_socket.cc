@@ -1,4 +1,4 @@
-// A WebSocket as a peer of the hub.
+// Makes a WebSocket a peer of the hub.
 
 #include <algorithm>
 #include <boost/beast/core/buffers_to_string.hpp>
@@ -17,8 +17,10 @@ namespace beast = boost::beast;
 namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
 
-/// One connection. The hub owns the link, which only points here: whichever side ends first, the
-/// other hears of it.
+/// One WebSocket. The hub owns its link, which shares the session: the link's end closes the
+/// socket, and the socket's end makes the peer leave the hub. Lifetime: kept alive by the link and
+/// its pending operations. Thread: the context's. Limits: vm::kMaxLineBytes a message; a longer one
+/// ends the connection.
 class SocketSession : public std::enable_shared_from_this<SocketSession> {
  public:
   SocketSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
@@ -106,7 +108,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
     }
     const std::string text = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
-    // Usually one line; whoever sends several means them in this order.
+    // Usually one line; several are received in their order.
     std::string_view rest = text;
     while (!rest.empty() && peer_ != 0 && !ended_) {
       const std::size_t end = std::min(rest.find('\n'), rest.size());

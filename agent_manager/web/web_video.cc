@@ -1,4 +1,4 @@
-// Pictures of the face to a browser: one JPEG after another in one answer that does not end.
+// Streams pictures of the face to a browser: a multipart response with one JPEG after another.
 
 #include <boost/asio/write.hpp>
 #include <chrono>
@@ -13,8 +13,10 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using boost::system::error_code;
 
-constexpr auto kPictureLimit = std::chrono::seconds(10);  // for a browser to take one
+constexpr auto kPictureLimit = std::chrono::seconds(10);  // for a browser to receive one picture
 
+/// One browser that watches the face; a viewer of FaceVideo until either side ends.
+/// Lifetime: kept alive by FaceVideo and its pending operations. Thread: the context's.
 class VideoSession : public std::enable_shared_from_this<VideoSession> {
  public:
   VideoSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
@@ -32,7 +34,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
  private:
   void OnPicture(const FaceVideo::Picture& picture) {
     if (picture->empty()) {
-      // Before the first picture there is still an answer to be given.
+      // Before the first picture, the request has not been answered.
       if (!began_) {
         text_ =
             "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
@@ -41,7 +43,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
       }
       return Leave();
     }
-    if (writing_) return;  // a browser that is slow sees fewer pictures, not older ones
+    if (writing_) return;  // a slow browser gets fewer pictures, not older ones
     text_.clear();
     if (!std::exchange(began_, true))
       text_ =
