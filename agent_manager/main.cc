@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxFileBytes = 16u << 20;  // a configuration, lines for the console
 
-/// Left to itself glibc raises both limits to the largest block ever freed, and what a flood once
-/// needed is never given back.
+/// By default glibc raises both limits to the largest block ever freed, so that memory used during
+/// a flood of messages is never returned to the system.
 void GiveBackMemory() {
 #ifdef __GLIBC__
   constexpr int kBytes = 128 << 10;
@@ -28,7 +28,7 @@ void GiveBackMemory() {
 #endif
 }
 
-/// The usual soft limit, 1024, is less than the peers we may have; TLS takes three for each.
+/// The usual soft limit, 1024, is too low for the maximum of peers; TLS needs three for each.
 void RaiseDescriptorLimit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -37,7 +37,7 @@ void RaiseDescriptorLimit() {
   setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-/// What the command line says.
+/// The options of the command line.
 struct Arguments {
   std::string config, log, clock, web, web_role, replay, do_file;
   bool no_console = false;
@@ -77,7 +77,7 @@ vm::Result<am::Config> ReadConfigFile(const std::string& path) {
                              : am::ParseConfig(*text, path, folder.empty() ? "." : folder);
 }
 
-/// The configuration of the file, as the command line changes it.
+/// Reads the configuration file and applies the options of the command line.
 vm::Result<am::Config> ReadConfig(const Arguments& arguments) {
   auto config = arguments.config.empty() ? am::Config{} : ReadConfigFile(arguments.config);
   if (!config) return config;

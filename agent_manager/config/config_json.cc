@@ -82,7 +82,7 @@ std::size_t LineAt(std::string_view text, std::size_t at) {
   return 1 + static_cast<std::size_t>(std::ranges::count(text.substr(0, at), '\n'));
 }
 
-/// Walks JSON text that has been parsed already, to say where a key like "modules[1].env.A" stands.
+/// Finds the line of a key such as "modules[1].env.A" in JSON text that has been parsed before.
 class KeyLocator {
  public:
   explicit KeyLocator(std::string_view text) : text_(text) {}
@@ -178,7 +178,7 @@ class KeyLocator {
   std::size_t at_ = 0;
 };
 
-/// Text for the JSON parser that tells the line it has come to. An input iterator.
+/// An input iterator for the JSON parser that counts lines.
 class LineCounter {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -199,7 +199,7 @@ class LineCounter {
   std::size_t* line_;
 };
 
-/// Refuses a key written twice in one object, which nlohmann-json would take without a word.
+/// Refuses an object with the same key twice; nlohmann-json would silently keep the last.
 class DuplicateKeys {
  public:
   bool operator()(int depth, json::parse_event_t event, json& parsed) {
@@ -236,7 +236,7 @@ json ParseJson(std::string_view text, const std::string& origin) {
     throw ConfigFault{
         "", origin + " line " + std::to_string(LineAt(text, error.byte > 0 ? error.byte - 1 : 0)) +
                 ": not JSON: " + (colon == std::string::npos ? what : what.substr(colon + 2))};
-  } catch (const json::exception& error) {  // a number beyond all numbers, say
+  } catch (const json::exception& error) {  // for example a number out of range
     throw ConfigFault{"", origin + " line " + std::to_string(line) + ": not JSON: " + error.what()};
   }
 }

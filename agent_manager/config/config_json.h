@@ -11,8 +11,9 @@
 
 #include "agent_manager/config/config.h"
 
-/// Reading a configuration's JSON member by member; every fault knows its key. Only for the files
-/// that read configurations.
+/// Reads a configuration's JSON member by member. Every function throws ConfigFault, with the key
+/// of the member, for a value it does not accept. Only for files that read configurations or
+/// macros.
 namespace am {
 
 using nlohmann::json;
@@ -26,12 +27,12 @@ struct ConfigFault {
 [[noreturn]] void Wrong(const std::string& key, const json& value, const std::string& expected);
 std::string Text(const json& value, const std::string& key);
 std::vector<std::string> Texts(const json& value, const std::string& key);
-/// A whole number within the bounds.
+/// A whole number from `least` to `most`.
 long Whole(const json& value, const std::string& key, long least, long most);
 bool Flag(const json& value, const std::string& key);
 std::chrono::milliseconds Millis(const json& value, const std::string& key, long least, long most);
 
-/// A reader that puts what `read` makes of a value into `target`.
+/// A reader that stores the result of `read` in `target`.
 template <typename T, typename Read>
 auto Into(T& target, Read read) {
   return [&target, read](const json& v, const std::string& k) { target = read(v, k); };
@@ -57,21 +58,22 @@ void ReadList(const json& list, const std::string& key, const std::string& expec
 std::string ReadTextFile(const std::string& path, const std::string& key);
 
 Role ReadRole(const json& value, const std::string& key);
-/// "rights": a table whose rows change the default ones member by member.
+/// "rights": the default table, in which the given members replace those of each role.
 RightsTable ReadRights(const json& value, const std::string& key);
-/// Readers of token_file, certificate, key and authority; files relative to where the hub runs.
+/// Readers of token_file, certificate, key and authority; files relative to the hub's working
+/// folder.
 void AddCredentialReaders(Readers& readers, vm::Credentials& credentials);
 ListenConfig ReadListen(const json& value, const std::string& key);
 WebConfig ReadWeb(const json& value, const std::string& key);
 MqttConfig ReadMqtt(const json& value, const std::string& key);
 LogConfig ReadLogConfig(const json& value, const std::string& key);
 ModuleConfig ReadModule(const json& object, const std::string& key);
-/// `number` names a rule without a name.
+/// A rule without a name is called "rule NUMBER".
 Rule ReadRule(const json& object, const std::string& key, std::size_t number);
 
-/// The JSON value, comments allowed, keys unique. Throws ConfigFault with the line in its text.
+/// Parses JSON with comments and unique keys. Throws ConfigFault with the line in its text.
 json ParseJson(std::string_view text, const std::string& origin);
-/// The line of the deepest part of a key like "modules[1].env.A" that stands in the text.
+/// Returns the line of a key such as "modules[1].env.A", or of its deepest part in the text.
 std::size_t LineOfKey(std::string_view text, std::string_view key);
 
 }  // namespace am

@@ -1,4 +1,4 @@
-// The places where others come in, in the configuration.
+// Reads endpoints to listen on, the page and credentials from the configuration.
 
 #include "agent_manager/config/config_json.h"
 #include "vm_protocol/runtime/endpoint.h"

@@ -1,4 +1,4 @@
-// The members of one module in the configuration.
+// Reads one module from the configuration.
 
 #include "agent_manager/config/config_json.h"
 #include "vm_protocol/core/message.h"
@@ -68,7 +68,7 @@ HealthCheck ReadHealth(const json& value, const std::string& key) {
   return health;
 }
 
-/// A text is a line for the shell.
+/// A string is a command line for the shell, a list is argv.
 std::vector<std::string> ReadCommand(const json& value, const std::string& key) {
   auto command = value.is_string() ? std::vector<std::string>{"/bin/sh", "-c", Text(value, key)}
                                    : Texts(value, key);
@@ -101,7 +101,7 @@ void ReadReady(const json& value, const std::string& key, ModuleConfig& module) 
   module.ready_value = report->value;
 }
 
-/// A reader of one word out of several, each of which stands for itself.
+/// A reader of a string that must be one of `words`.
 auto WordOf(std::vector<std::string> words) {
   return [words = std::move(words)](const json& v, const std::string& k) {
     std::vector<std::pair<std::string, std::string>> choices;

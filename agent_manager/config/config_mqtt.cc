@@ -1,4 +1,4 @@
-// The broker, in the configuration.
+// Reads the MQTT broker from the configuration.
 
 #include <algorithm>
 

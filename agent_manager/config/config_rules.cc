@@ -1,4 +1,4 @@
-// The members of one rule in the configuration.
+// Reads one rule from the configuration.
 
 #include <algorithm>
 #include <array>

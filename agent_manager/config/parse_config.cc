@@ -13,7 +13,7 @@ using vm::Result;
 
 namespace {
 
-/// Every module comes after modules that exist, and nowhere in a circle.
+/// Checks that `after` names existing modules and has no cycle.
 void CheckOrder(const std::vector<ModuleConfig>& modules, const std::string& key) {
   std::set<std::string> placed;
   for (bool more = true; more;) {
@@ -81,7 +81,7 @@ std::vector<Rule> ReadRules(const json& value, const std::string& key) {
   return rules;
 }
 
-/// The text of each macro; a string names a file in `folder`.
+/// Reads the text of each macro: its steps, or those of a file in `folder`.
 std::map<std::string, std::string> ReadMacros(const json& value, const std::string& key,
                                               const std::filesystem::path& folder) {
   if (!value.is_object()) Wrong(key, value, "an object: name to steps, or to a file's name");

@@ -6,8 +6,8 @@ namespace am {
 
 enum class Restart { kNever, kOnFailure, kAlways };
 
-/// When a module that has ended is started again: after `first`, doubling up to `longest`; after
-/// more than `tries` starts within `within` not at all.
+/// When to restart a module that has ended: after `first`, then after delays that double up to
+/// `longest`; never again after more than `tries` starts within `within`.
 struct RestartPolicy {
   using Millis = std::chrono::milliseconds;
   Restart when = Restart::kOnFailure;

@@ -1,4 +1,4 @@
-// The timeline of a session as a picture.
+// Draws the timeline of a session.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 constexpr double kLeft = 110, kRight = 20, kTop = 40, kLane = 56, kWidth = 1200;  // pixels
 constexpr std::size_t kMaxLabel = 28;                                             // bytes
 
-/// Control characters may not stand in XML at all.
+/// XML does not allow control characters, even escaped.
 std::string Escape(std::string text) {
   std::erase_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
   return vm::EscapeXml(text);
@@ -25,7 +25,7 @@ std::string Number(double value) {
   return std::to_string(tenths / 10) + "." + std::to_string(std::abs(tenths % 10));
 }
 
-/// 1, 2 or 5 times a power of ten, so that about ten of them make up the span.
+/// Returns 1, 2 or 5 times a power of ten, so that the span has about ten steps.
 double NiceStep(double span_ms) {
   const double power = std::pow(10.0, std::floor(std::log10(std::max(span_ms, 1.0) / 10)));
   for (const double factor : {1.0, 2.0, 5.0}) {

@@ -7,24 +7,24 @@
 
 namespace am {
 
-/// A machine inside the hub that deals with its messages itself and listens to what modules say:
-/// @AM-MCL, @PAR, @SND. Thread: the scheduler's.
+/// A module that is part of the hub's own program: @AM-MCL, @PAR, @SND. It answers messages to it
+/// and hears every report of the other modules. Thread: the scheduler's.
 class BuiltInModule {
  public:
   virtual ~BuiltInModule() = default;
 
   virtual vm::SlotMachine& slots() = 0;
-  /// Deals with a message to it.
+  /// Handles a message addressed to it.
   virtual void Handle(const Envelope& envelope) = 0;
-  /// Told of every report and event of the modules.
+  /// Called for every report and event of a module.
   virtual void OnReport(const std::string& from, const vm::Message& message) = 0;
-  /// Told of modules that come (`present`) and go, and why.
+  /// Called when a module joins (`present`) or leaves the hub; `reason` says why.
   virtual void OnPresence(const std::string& name, bool present, const std::string& reason) = 0;
-  /// Answers whoever waits for something to end, which will not be.
+  /// Answers with `error` every peer that waits for its work to end: the hub stops before that.
   virtual void Abandon(const vm::Error& error) = 0;
-  /// True if `peer` waits for something to end.
+  /// True if `peer` waits for some of its work to end.
   virtual bool IsAwaitedBy(PeerKey peer) const = 0;
-  /// True while it does something that has an end.
+  /// True while it has work under way.
   virtual bool Busy() const = 0;
 };
 

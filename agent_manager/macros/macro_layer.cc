@@ -14,7 +14,7 @@ using vm::Result;
 namespace {
 
 constexpr const char* kName = "AM-MCL";
-constexpr std::size_t kMaxWords = 64;  // of a value that become variables
+constexpr std::size_t kMaxWords = 64;  // words of a value that become variables
 
 }  // namespace
 
@@ -106,7 +106,7 @@ void MacroLayer::CollectAwaited() {
 }
 
 void MacroLayer::SwitchOn(const std::string& module) {
-  // The original's face reports nothing unasked: whatever a macro waits for is switched on.
+  // The original's face reports a slot only if AutoOutput is set; set it for each awaited slot.
   for (const auto& [place, is_value] : awaited_) {
     const auto& [from, slot] = place;
     if (from != module || !is_value) continue;
@@ -172,7 +172,7 @@ Result<std::string> MacroLayer::DefineBy(const Message& message) {
   }
   if (!macro) return std::unexpected(macro.error());
   macro->name = message.slot;
-  // Whoever adds to a macro adds to what its starters say: the lesser rights count.
+  // An added line is sent on behalf of everyone who starts the macro: the lesser rights count.
   macro->definer = found == macros_.end() || message.relation != vm::Relation::kAppend
                        ? origin_.role
                        : std::max(origin_.role, found->second->definer);
@@ -182,7 +182,7 @@ Result<std::string> MacroLayer::DefineBy(const Message& message) {
 }
 
 void MacroLayer::StopWithoutRun(const Macro& macro) {
-  // Modules may have been started past us: stop them all the same.
+  // A peer may have started the modules directly, without the macro: stop them too.
   if (macro.on_stop == nullptr) return;
   for (const MacroStep& step : *macro.on_stop) {
     const auto* const send = std::get_if<SendStep>(&step.action);

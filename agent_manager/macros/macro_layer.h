@@ -13,9 +13,9 @@ namespace am {
 
 /// The macro layer (MCL), addressed as @AM-MCL (and @FS-MCL): every macro is a slot; setting it
 /// runs the macro, and the answer comes when the run ends. One run per macro at a time: a new one
-/// stops the one before (barge-in). Reports of a stopped run are never taken for those of the next,
-/// since the next starts only when the modules have said they are idle, or their time for it is
-/// over. Thread: the scheduler's. The hub outlives it.
+/// stops the one before (barge-in). Reports of a stopped run are not taken for those of the next,
+/// which starts only when the modules have reported that they are idle, or after a time limit.
+/// Lifetime: the clock and the hub outlive it. Thread: the scheduler's.
 /// Limits: kMaxMacros macros with kMaxMacroBytes of text; Sequence has those of one run.
 class MacroLayer final : public BuiltInModule {
  public:
@@ -27,14 +27,16 @@ class MacroLayer final : public BuiltInModule {
   MacroLayer(const MacroLayer&) = delete;
 
   vm::SlotMachine& slots() override { return slots_; }
-  /// A macro whose "reads" is `name` has its value taken apart by this, beside its words.
+  /// Sets variables from the value of each macro whose "reads" is `name`, besides its words.
   using Reader = std::function<void(Variables& variables)>;
   void AddReader(std::string name, Reader reader) { readers_[std::move(name)] = std::move(reader); }
-  /// A slot of the layer's own. REQUIRES: the name is new and valid, the grammar well-formed.
+  /// Declares a slot that is no macro. REQUIRES: the name is new and valid, the grammar
+  /// well-formed.
   void Declare(vm::SlotSpec slot) { slots_.Declare(std::move(slot)); }
-  /// A macro that exists is replaced; a run of it ends as it began.
+  /// Adds or replaces a macro; a run under way keeps its old steps. Errors: kBadValue, kAccess for
+  /// the name of a slot that is no macro, kLimit.
   vm::Result<void> Define(Macro macro);
-  /// Errors: kUnknownSlot. A run of it ends as it began.
+  /// Errors: kUnknownSlot. A run under way keeps its steps.
   vm::Result<void> Remove(const std::string& name);
 
   void Handle(const Envelope& envelope) override;
@@ -44,7 +46,7 @@ class MacroLayer final : public BuiltInModule {
   bool IsAwaitedBy(PeerKey peer) const override;
   bool Busy() const override { return !runs_.empty(); }
   bool Has(const std::string& name) const { return macros_.contains(name); }
-  /// On a clock of lockstep the start of speaking needs no room for delays.
+  /// In lockstep, modules have the same time: a common start does not allow for their delays.
   void set_lockstep(bool lockstep) { services_.lockstep = lockstep; }
 
  private:
@@ -64,8 +66,8 @@ class MacroLayer final : public BuiltInModule {
   std::map<std::string, std::shared_ptr<const Macro>> macros_;
   std::map<std::string, Reader> readers_;
   std::map<std::string, std::unique_ptr<MacroRun>> runs_;  // by macro
-  /// (module, slot) that some macro listens to, and whether it is a slot's value, which may have to
-  /// be switched on, and no event.
+  /// (module, slot) that some macro waits for -> true for a slot's value, whose reports may have to
+  /// be switched on; false for an event.
   std::map<std::pair<std::string, std::string>, bool> awaited_;
   std::size_t bytes_ = 0;
   Origin origin_;  // of the message being handled

@@ -10,7 +10,7 @@ using vm::Error;
 
 namespace {
 
-/// The rights of the one who starts it and of the one who defined it, whichever are less.
+/// A run has the lesser of its starter's and its definer's rights, or the definer's (as_definer).
 Origin OriginOf(const Macro& macro, Origin starter) {
   starter.role = macro.as_definer ? macro.definer : std::max(starter.role, macro.definer);
   ++starter.depth;
@@ -90,7 +90,7 @@ void MacroRun::OnReport(const std::string& from, const std::string& slot, const 
         services_.slots.Has(slot))
       services_.slots.Report(slot, value);
   }
-  const auto sequence = sequence_;  // what it hears may end it
+  const auto sequence = sequence_;  // kept alive: a report may end it
   if (sequence) sequence->OnReport(from, slot, value, told);
 }
 

@@ -9,35 +9,36 @@
 
 namespace am {
 
-/// One macro being carried out: its steps, after a failure or a stop those of on_stop, and at every
-/// end those of finally. Thread: the scheduler's.
+/// One execution of a macro: its steps, after a failure or a stop those of on_stop, and at last
+/// those of finally. Failures of on_stop and finally are skipped. Lifetime: the services outlive
+/// it; it shares the macro, which may be deleted meanwhile. Thread: the scheduler's.
 class MacroRun {
  public:
-  /// What shall happen when this run has ended.
+  /// A request to run the macro: its variables, on whose behalf, and where to answer.
   struct Successor {
     Variables variables;
     Origin origin;
     vm::Reply reply;
   };
-  /// `on_end` is called from the queue, once.
+  /// `on_end` is called once, from the hub's queue.
   MacroRun(MacroServices& services, std::shared_ptr<const Macro> macro, Successor start,
            std::function<void()> on_end);
 
   void Begin();
-  /// Ends its steps; what ends already goes on.
+  /// Goes on with on_stop and finally. Does nothing if they have begun.
   void Fail(const vm::Error& error);
-  /// A stop asked for by a peer, which is answered at the end.
+  /// Stops it at the request of a peer, which is answered when the run has ended.
   void Stop(const vm::Reply& reply);
-  /// Answers everybody at once; the steps go on.
+  /// Answers every waiting peer with `error` now; the steps go on.
   void Abandon(const vm::Error& error);
-  /// True if `peer` waits for its end.
+  /// True if `peer` waits for the end of this run or of the one after it.
   bool IsAwaitedBy(PeerKey peer) const;
-  /// Another begins when this one has ended; one that waited before is told that it does not.
+  /// Stops it; `successor` starts when it has ended. A successor set before is refused.
   void ReplaceBy(Successor successor);
   void OnReport(const std::string& from, const std::string& slot, const std::string& value,
                 bool told);
   void OnGone(const std::string& module, const std::string& reason);
-  /// Tells everybody how it ended. Returns who comes next.
+  /// Answers every waiting peer. Returns the successor, if any.
   std::optional<Successor> Finish();
 
   const Macro& macro() const { return *state_.macro; }

@@ -9,10 +9,10 @@
 
 namespace am {
 
-/// The original's @PAR: lists of lines that are said in step with the start of speech, one list for
-/// each peer. `set Init = 1` clears the peer's list, each `set Cmd = ...` appends `sleep SECONDS`
-/// or a line with a receiver, and all lists begin when the voice reports that it speaks. Lines are
-/// said as the peer that appended them; the list of a peer that has gone is forgotten. Thread: the
+/// The original's @PAR: lists of lines that are sent when speech starts, one list for each peer.
+/// `set Init = 1` clears the peer's list, each `set Cmd = ...` appends `sleep SECONDS` or a line
+/// with a receiver, and all lists begin when the voice reports that it speaks. Lines are sent on
+/// behalf of the peer that appended them; a peer's list is deleted when it leaves. Thread: the
 /// scheduler's. Limits: kMaxCommands and kMaxBytes for each peer.
 class Parallel final : public BuiltInModule {
  public:
@@ -33,13 +33,13 @@ class Parallel final : public BuiltInModule {
  private:
   struct Command {
     vm::Time sleep{0};
-    vm::Message message;  ///< where sleep is 0
+    vm::Message message;  ///< sent if sleep is 0
     Origin origin;
   };
   struct List {
     std::deque<Command> commands{};
-    std::size_t bytes = 0;  ///< of all that was appended
-    vm::TimerId timer = 0;  ///< of the sleep it is in
+    std::size_t bytes = 0;  ///< of all appended lines
+    vm::TimerId timer = 0;  ///< of the current sleep
   };
   vm::Result<std::string> Append(const std::string& text);
   void Clear(PeerKey peer);

@@ -15,7 +15,7 @@ using vm::Result;
 namespace {
 
 constexpr const char* kName = "AM-MCL";
-/// Room for the mouth to lead, and for a busy machine.
+/// Added to the common start time: lets the mouth move first, and allows for a busy computer.
 constexpr vm::Time kStartMargin = milliseconds(60);
 
 }  // namespace
@@ -241,7 +241,7 @@ void Sequence::Do(const StoreStep& step) {
 }
 
 void Sequence::Do(const PauseStep& step) {
-  if (step.length > milliseconds(0)) origin_.depth = 0;  // time passes
+  if (step.length > milliseconds(0)) origin_.depth = 0;  // a pause breaks a chain of messages
   After(step.length, &Sequence::Advance);
 }
 
@@ -297,7 +297,7 @@ void Sequence::Branch(const std::vector<std::shared_ptr<const Steps>>& branches)
     branch->origin_ = origin_;
     branches_.push_back(std::move(branch));
   }
-  // All of them are there before the first begins.
+  // All branches exist before the first starts, since it may end at once.
   const auto started = branches_;
   for (const auto& branch : started) branch->Start();
 }
@@ -308,8 +308,7 @@ void Sequence::OnBranchEnd(std::size_t index, const std::optional<Error>& error)
     Fail(*error);
     if (ended_) return;
   }
-  // What it set is known to the steps that follow; what two branches set, as the one that ended
-  // last has it.
+  // Later steps see the variables of the branches; where two differ, the last one to end counts.
   const Variables set = branches_[index]->variables();
   for (const auto& [name, value] : set) {
     if (!Let(name, value)) return;

@@ -15,7 +15,7 @@
 
 namespace am {
 
-/// What runs need of the world. All of it outlives them.
+/// What all runs of macros share. Outlives every run.
 struct MacroServices {
   vm::Scheduler& clock;
   Hub& hub;
@@ -27,34 +27,37 @@ struct MacroServices {
   bool lockstep = false;
 };
 
-/// What the sequences of one run share.
+/// What the sequences of one run share. Outlives them.
 struct RunState {
   std::shared_ptr<const Macro> macro;
-  Origin origin;                     ///< with which its messages are said
-  std::set<std::string> involved{};  ///< modules spoken to: their end ends the run
+  Origin origin;                     ///< on whose behalf its messages are sent
+  std::set<std::string> involved{};  ///< modules it sent to; if one leaves, the run fails
   std::vector<const MirrorStep*> mirrors{};
   std::size_t variable_bytes = 0;  ///< of all its sequences
 };
 
-/// A list of steps being carried out, one after the other, by the hub's loop. Steps that wait give
-/// the thread back. Thread: the scheduler's. Lifetime: let go of it, and nothing of it happens any
-/// more. Limits: kMaxVariableBytes in one run; kMaxHeardBytes of reports are remembered, the
-/// latest.
+/// Executes a list of steps, one after the other. A step that waits returns to the hub's loop; the
+/// answer, report or timer it waits for continues the list.
+/// Lifetime: the last shared_ptr cancels it: no later step is executed and OnEnd is not called.
+/// Thread: the scheduler's.
+/// Limits: kMaxVariableBytes for all sequences of a run, kMaxBranches at a time; of the reports it
+/// has heard, the latest kMaxHeardBytes are remembered.
+/// Errors: the first step that fails ends it, unless it is lenient; OnEnd gets the error.
 class Sequence : public std::enable_shared_from_this<Sequence> {
  public:
   static constexpr std::size_t kMaxVariableBytes = 1u << 20;
   static constexpr std::size_t kMaxHeardBytes = 256u << 10;
   static constexpr std::size_t kMaxBranches = 64;
-  /// Called from the queue, once. `error`: why it could not go on.
+  /// Called once, from the hub's queue. `error` is the failure of a step.
   using OnEnd = std::function<void(const std::optional<vm::Error>& error)>;
-  /// `lenient`: a step that fails is passed over.
+  /// `lenient`: a step that fails is skipped.
   Sequence(MacroServices& services, RunState& run, std::shared_ptr<const Steps> steps,
            Variables variables, bool lenient, OnEnd on_end);
   ~Sequence();
   Sequence(const Sequence&) = delete;
 
   void Start() { Advance(); }
-  /// `told`: it was no report of a slot's value but an event.
+  /// `told`: an event (`tell`), not the report of a slot's value.
   void OnReport(const std::string& from, const std::string& slot, const std::string& value,
                 bool told);
   const Variables& variables() const { return variables_; }
@@ -112,11 +115,11 @@ class Sequence : public std::enable_shared_from_this<Sequence> {
   Origin origin_;
   std::size_t next_ = 0;
   bool ended_ = false;
-  std::deque<Heard> heard_;  // since the start or the last mark
+  std::deque<Heard> heard_;  // since the start or the last MarkStep
   std::size_t heard_bytes_ = 0;
   std::vector<const FollowStep*> followers_;
   std::optional<Waiting> waiting_;
-  std::optional<unsigned> asking_;  // a request under way, by its number
+  std::optional<unsigned> asking_;  // the number of the request under way
   unsigned asked_ = 0;
   vm::TimerId timer_ = 0;
   std::vector<std::shared_ptr<Sequence>> branches_;

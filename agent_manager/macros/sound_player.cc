@@ -101,7 +101,7 @@ bool SoundPlayer::IsAwaitedBy(PeerKey peer) const {
   return std::ranges::any_of(files_, [&](const File& file) { return file.origin.peer == peer; });
 }
 
-/// The first file is over; the next one begins.
+/// Removes the first file, and begins the next.
 void SoundPlayer::End() {
   files_.pop_front();
   if (!files_.empty()) Prepare();

@@ -9,10 +9,11 @@
 namespace am {
 
 /// The original's @SND: `set Play = FILE` plays a sound file and tells `start FILE` and `end FILE`.
-/// The voice plays it, as <audio> of SSML, after what it is speaking, so that it comes from where
-/// the voice comes from and is on the same recording. One file after the other. It is asked for as
-/// whoever set Play. Thread: the scheduler's. The hub outlives it. Limits: kMaxFiles.
-/// Errors, to whoever set Play: kUnavailable (no voice, no such file), kLimit, and the voice's own.
+/// The voice plays it (<audio> in SSML) after its current utterance, so that the sound comes out of
+/// the same loudspeaker and is in the same recording. Files are played one after the other, on
+/// behalf of the peer that set Play.
+/// Lifetime: the hub outlives it. Thread: the scheduler's. Limits: kMaxFiles.
+/// Errors, answered to that peer: kUnavailable (no voice, no such file), kLimit, the voice's own.
 class SoundPlayer final : public BuiltInModule {
  public:
   static constexpr std::size_t kMaxFiles = 64;
@@ -41,7 +42,7 @@ class SoundPlayer final : public BuiltInModule {
 
   Hub& hub_;
   vm::SlotMachine slots_;
-  std::deque<File> files_;  // the first is with the voice
+  std::deque<File> files_;  // the first was given to the voice
   Origin origin_;           // of the message being handled
 };
 

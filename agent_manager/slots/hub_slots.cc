@@ -14,7 +14,7 @@ using vm::SetValue;
 
 namespace {
 
-/// Words with `between` between them.
+/// Joins words with `between`.
 template <typename List, typename Word>
 std::string Joined(const List& list, const char* between, const Word& word) {
   std::string text;

@@ -10,21 +10,21 @@
 
 namespace am {
 
-/// The slots of @AM: who is there, what each has done, the limits, the modules. Thread: the
-/// scheduler's. All that it is given outlives it.
+/// Declares the slots of @AM: peers and their traffic, limits, modules. Everything passed to the
+/// constructor outlives it. Thread: the scheduler's.
 class HubSlots {
  public:
   struct Hooks {
     std::function<void()> on_exit;
     std::function<void(const vm::SetValue&, const vm::Reply&)> on_wait;
     std::function<void(const vm::Reply&)> on_reload;
-    /// Somebody wants to hear a module which may be another hub's.
+    /// A peer subscribes to a module, which may be another hub's.
     std::function<void(const std::string& name)> on_want;
     std::function<void(PeerKey peer, bool on)> on_flow;
   };
   HubSlots(vm::Scheduler& clock, Hub& hub, Supervisor& supervisor, vm::SlotMachine& slots,
            Hooks hooks);
-  /// Module.NAME.state and so on, for these modules and no others.
+  /// Declares Module.NAME.state and so on for these modules, and removes those of others.
   void DeclareModules(const std::set<std::string>& names);
 
  private:

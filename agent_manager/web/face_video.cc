@@ -212,9 +212,9 @@ void FaceVideo::End() {
     thread_.join();
   }
   if (std::exchange(recording_, false) && hub_.IsPresent(kFace)) {
-    const auto ignore = [](const vm::Result<std::string>&) {};
-    hub_.Ask("AM", vm::To(kFace, vm::Set("Record", "STOP")), ignore);
-    if (!old_fps_.empty()) hub_.Ask("AM", vm::To(kFace, vm::Set("Record.fps", old_fps_)), ignore);
+    hub_.Ask("AM", vm::To(kFace, vm::Set("Record", "STOP")), IgnoreAnswer);
+    if (!old_fps_.empty())
+      hub_.Ask("AM", vm::To(kFace, vm::Set("Record.fps", old_fps_)), IgnoreAnswer);
   }
   for (int* fd : {&frames_fd_, &stop_fd_}) {
     if (*fd >= 0) close(std::exchange(*fd, -1));

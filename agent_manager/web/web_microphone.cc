@@ -114,7 +114,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
     ear_.close(ignored);
     beast::get_lowest_layer(socket_).socket().close(ignored);
     if (before_.empty() || server_->closed || !server_->hub.IsPresent(kEar)) return;
-    Ask(vm::Set("Input", before_), [](const vm::Result<std::string>&) {});
+    Ask(vm::Set("Input", before_), IgnoreAnswer);
   }
 
   std::shared_ptr<WebServer::Impl> server_;
