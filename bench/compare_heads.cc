@@ -18,6 +18,7 @@
 #include "bench/obj_head.h"
 #include "fsm/app/sheet_font.h"
 #include "fsm/head/head.h"
+#include "fsm/image/image_file.h"
 #include "fsm/render/renderer.h"
 
 namespace {

@@ -27,6 +27,7 @@
 #include "fsm/app/face_of_name.h"
 #include "fsm/app/original_config.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/image/image_file.h"
 #include "fsm/mesh/pnt_file.h"
 
 namespace {

@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
+#include "fsm/image/image_codec.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/pnt_file.h"
-#include "fsm/render/image_codec.h"
 
 /// The first byte chooses the reader. Whatever follows, it must answer; what was read must hold
 /// together.

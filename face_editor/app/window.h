@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 
+#include "fsm/image/image_file.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/renderer.h"
+#include "vm_protocol/core/result.h"
 
 struct GLFWwindow;
 

@@ -12,6 +12,7 @@
 #include "face_fit/report.h"
 #include "fsm/app/face_of_name.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/image/image_file.h"
 
 namespace editor {
 namespace {

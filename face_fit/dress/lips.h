@@ -1,8 +1,9 @@
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <vector>
 
-#include "fsm/render/renderer.h"
+#include "fsm/image/image.h"
 
 namespace facefit {
 

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "fsm/render/image_codec.h"
+#include "fsm/image/image_codec.h"
 
 namespace facefit {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/render/renderer.h"
+#include "fsm/image/image.h"
 #include "vm_protocol/core/result.h"
 
 namespace facefit {

@@ -8,8 +8,8 @@
 #include "fsm/head/face_folder.h"
 #include "fsm/head/face_set.h"
 #include "fsm/head/own_identity.h"
+#include "fsm/image/image_file.h"
 #include "fsm/motion/table_text.h"
-#include "fsm/render/renderer.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {

@@ -6,6 +6,7 @@
 
 #include "fsm/app/frame_series.h"
 #include "fsm/app/studio.h"
+#include "fsm/film/movie_writer.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace fsm {

@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include "fsm/app/face_of_name.h"
+#include "fsm/film/movie_writer.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/image/image_file.h"
 
 namespace fsm {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fsm/app/studio.h"
+#include "fsm/film/movie_writer.h"
 #include "fsm/head/head.h"
 
 namespace fsm {

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "fsm/image/color_space.h"
+
 namespace fsm {
 namespace {
 
@@ -27,13 +29,8 @@ std::optional<glm::vec3> ParseColour(std::string_view text) {
          255.0f;
 }
 
-/// sRGB to linear light (IEC 61966-2-1).
 glm::vec3 Linear(const glm::vec3& srgb) {
-  glm::vec3 out;
-  for (int c = 0; c < 3; ++c) {
-    out[c] = srgb[c] <= 0.04045f ? srgb[c] / 12.92f : std::pow((srgb[c] + 0.055f) / 1.055f, 2.4f);
-  }
-  return out;
+  return {SrgbToLinear(srgb.r), SrgbToLinear(srgb.g), SrgbToLinear(srgb.b)};
 }
 
 bool IsPictureName(const std::string& name) {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "fsm/render/renderer.h"
+#include "fsm/image/image.h"
 
 namespace fsm {
 

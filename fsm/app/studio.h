@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/film/movie_writer.h"
 #include "fsm/head/face_state.h"
 #include "fsm/render/renderer.h"
 #include "vm_protocol/core/result.h"

@@ -6,8 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fsm/image/color_space.h"
+#include "fsm/image/image_codec.h"
 #include "fsm/mesh/picture_sheet.h"
-#include "fsm/render/image_codec.h"
 
 namespace fsm {
 namespace {
@@ -32,15 +33,12 @@ const json& TextureOf(const json& material) {
   return PartOf(PartOf(material, "pbrMetallicRoughness"), "baseColorTexture");
 }
 
-/// A picture's byte times a factor of light; both ways by the curve of sRGB (IEC 61966-2-1).
+/// A picture's byte times a factor of light.
 std::array<std::uint8_t, 256> Dimmed(float factor) {
   std::array<std::uint8_t, 256> table{};
   for (std::size_t i = 0; i < table.size(); ++i) {
     const float shown = static_cast<float>(i) / 255;
-    const float light =
-        factor * (shown <= 0.04045f ? shown / 12.92f : std::pow((shown + 0.055f) / 1.055f, 2.4f));
-    const float out =
-        light <= 0.0031308f ? 12.92f * light : 1.055f * std::pow(light, 1 / 2.4f) - 0.055f;
+    const float out = LinearToSrgb(factor * SrgbToLinear(shown));
     table[i] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(out, 0.0f, 1.0f)));
   }
   return table;

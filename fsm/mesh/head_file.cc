@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "fsm/image/image_file.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
 

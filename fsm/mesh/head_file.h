@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "fsm/head/face_state.h"
+#include "fsm/image/image.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/mesh_model.h"
-#include "fsm/render/renderer.h"
 
 namespace fsm {
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "fsm/image/image_file.h"
 #include "fsm/mesh/original_points.h"
 
 namespace fsm {

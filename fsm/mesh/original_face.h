@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "fsm/head/face_state.h"
+#include "fsm/image/image.h"
 #include "fsm/mesh/mesh_model.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
-#include "fsm/render/renderer.h"
 
 namespace fsm {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsm/head/head.h"
-#include "fsm/render/renderer.h"
+#include "fsm/image/image.h"
 
 namespace fsm {
 

@@ -1,26 +1,14 @@
 #pragma once
 
-#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "fsm/head/face_state.h"
 #include "fsm/head/head.h"
-#include "vm_protocol/core/result.h"
+#include "fsm/image/image.h"
 
 namespace fsm {
-
-/// 8-bit RGBA, row 0 at the top, no padding.
-struct Image {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgba;  ///< width * height * 4
-};
-
-/// The longest side of a picture read, written or drawn.
-inline constexpr int kMaxImageSide = 8192;
 
 enum class ViewMode { kTexture, kTextureWithWireframe, kWireframe };
 
@@ -101,34 +89,6 @@ class Renderer {
                     const Scene& scene) = 0;
   /// The frame drawn last, of the pane's size.
   virtual void Read(Image& out) = 0;
-};
-
-/// Writes by the name's ending: .png, .bmp (24 bit), .rgb (SGI, uncompressed RGB).
-/// Errors: kBadValue for another ending, kUnavailable if the file cannot be written.
-vm::Result<void> WriteImage(const Image& image, const std::string& path);
-/// Reads .png, .bmp (24/32 bit uncompressed) and .rgb (SGI). Errors: kUnavailable, kBadValue. At
-/// most kMaxImageSide on each side.
-vm::Result<Image> ReadImage(const std::string& path);
-
-/// Writes a film through an ffmpeg process fed with raw frames on a pipe.
-/// Lifetime: Finish() or the destructor ends the process; without Finish the file is removed.
-/// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
-class MovieWriter {
- public:
-  /// .mp4 (H.264, yuv420p), or .rgba: every frame's width * height * 4 bytes one after the other,
-  /// into a file or a named pipe that somebody reads (SIGPIPE must be ignored). Error: kUnavailable
-  /// if ffmpeg is missing or refuses, with its last line.
-  static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
-                                                       int height, int frames_per_second);
-  virtual ~MovieWriter() = default;
-  /// The size must be that given at Open. Handed on by another thread; blocks only while several
-  /// frames wait. An error may belong to a frame before.
-  virtual vm::Result<void> Add(const Image& frame) = 0;
-  /// Ends the film; `sound_wav` (may be empty) is added as its sound from the start. The result is
-  /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault
-  /// the silent film is at the path and the text says so. Takes as long as the encoder needs.
-  virtual vm::Result<void> Finish(const std::string& sound_wav) = 0;
-  virtual int frames() const = 0;
 };
 
 }  // namespace fsm

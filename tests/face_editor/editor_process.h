@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/image/image_file.h"
 #include "fsm/render/renderer.h"
 #include "tests/support/process.h"
 

@@ -5,6 +5,7 @@
 #include "face_fit/find/face_networks.h"
 #include "face_fit/find/hand_points.h"
 #include "fsm/head/face_set.h"
+#include "fsm/image/image_file.h"
 #include "tests/face_editor/editor_process.h"
 
 namespace {

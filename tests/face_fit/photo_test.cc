@@ -9,7 +9,7 @@
 // Only after the standard's headers, whose names it uses.
 #include <jpeglib.h>
 
-#include "fsm/render/image_codec.h"
+#include "fsm/image/image_codec.h"
 
 namespace facefit {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fsm/app/fsm_module.h"
+#include "fsm/film/movie_writer.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace fsm {

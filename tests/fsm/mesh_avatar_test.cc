@@ -9,9 +9,10 @@
 
 #include "fsm/head/built_in_units.h"
 #include "fsm/head/deformer.h"
+#include "fsm/image/image_codec.h"
 #include "fsm/mesh/head_file.h"
-#include "fsm/render/image_codec.h"
 #include "tests/fsm/ball_head.h"
+#include "fsm/render/renderer.h"
 #include "tests/fsm/gltf_maker.h"
 
 namespace fsm {

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "fsm/image/image_codec.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/picture_sheet.h"
-#include "fsm/render/image_codec.h"
+#include "fsm/render/renderer.h"
 #include "tests/fsm/gltf_maker.h"
 
 namespace fsm {

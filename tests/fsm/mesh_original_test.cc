@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "fsm/image/image_file.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/mesh/shape_mix.h"

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "fsm/image/image_file.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {

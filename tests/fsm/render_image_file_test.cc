@@ -1,6 +1,7 @@
 #include <random>
 
-#include "fsm/render/image_codec.h"
+#include "fsm/image/image_codec.h"
+#include "fsm/image/image_file.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {

@@ -7,8 +7,9 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "fsm/render/byte_order.h"
-#include "fsm/render/renderer.h"
+#include "fsm/film/movie_writer.h"
+#include "fsm/image/byte_order.h"
+#include "fsm/image/image.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/image/image.h"
 #include "fsm/render/renderer.h"
 
 /// A folder of a test's own, gone with it.

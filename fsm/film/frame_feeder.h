@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "fsm/render/ffmpeg_process.h"
+#include "fsm/film/ffmpeg_process.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

@@ -1,5 +1,5 @@
-#include "fsm/render/byte_order.h"
-#include "fsm/render/image_codec.h"
+#include "fsm/image/byte_order.h"
+#include "fsm/image/image_codec.h"
 
 namespace fsm {
 namespace {

@@ -1,4 +1,4 @@
-#include "fsm/render/ffmpeg_process.h"
+#include "fsm/film/ffmpeg_process.h"
 
 #include <fcntl.h>
 #include <poll.h>

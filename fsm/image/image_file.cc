@@ -1,3 +1,5 @@
+#include "fsm/image/image_file.h"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,8 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "fsm/render/image_codec.h"
-#include "fsm/render/renderer.h"
+#include "fsm/image/image_codec.h"
 #include "vm_protocol/core/file_kind.h"
 
 namespace fsm {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsm/render/renderer.h"
+#include "fsm/image/image.h"
 
 namespace fsm {
 

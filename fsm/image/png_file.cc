@@ -3,7 +3,7 @@
 #include <cstring>
 #include <new>
 
-#include "fsm/render/image_codec.h"
+#include "fsm/image/image_codec.h"
 
 namespace fsm {
 namespace {

@@ -1,4 +1,4 @@
-#include "fsm/render/frame_feeder.h"
+#include "fsm/film/frame_feeder.h"
 
 #include <utility>
 

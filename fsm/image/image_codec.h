@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/render/renderer.h"
+#include "fsm/image/image.h"
 
 namespace fsm {
 

@@ -1,4 +1,4 @@
-#include "fsm/render/yuv_planes.h"
+#include "fsm/film/yuv_planes.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-#include "fsm/render/image_codec.h"
+#include "fsm/image/image_codec.h"
 
 namespace fsm {
 namespace {

@@ -1,3 +1,5 @@
+#include "fsm/film/movie_writer.h"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
@@ -12,10 +14,9 @@
 #include <system_error>
 #include <utility>
 
-#include "fsm/render/ffmpeg_process.h"
-#include "fsm/render/frame_feeder.h"
-#include "fsm/render/renderer.h"
-#include "fsm/render/yuv_planes.h"
+#include "fsm/film/ffmpeg_process.h"
+#include "fsm/film/frame_feeder.h"
+#include "fsm/film/yuv_planes.h"
 #include "vm_protocol/core/file_kind.h"
 
 namespace fsm {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "fsm/image/image.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// Writes a film through an ffmpeg process fed with raw frames on a pipe.
+/// Lifetime: Finish() or the destructor ends the process; without Finish the file is removed.
+/// Deterministic: the same frames give the same bytes (no time stamps, one encoder thread).
+class MovieWriter {
+ public:
+  /// .mp4 (H.264, yuv420p), or .rgba: every frame's width * height * 4 bytes one after the other,
+  /// into a file or a named pipe that somebody reads (SIGPIPE must be ignored). Error: kUnavailable
+  /// if ffmpeg is missing or refuses, with its last line.
+  static vm::Result<std::unique_ptr<MovieWriter>> Open(const std::string& path, int width,
+                                                       int height, int frames_per_second);
+  virtual ~MovieWriter() = default;
+  /// The size must be that given at Open. Handed on by another thread; blocks only while several
+  /// frames wait. An error may belong to a frame before.
+  virtual vm::Result<void> Add(const Image& frame) = 0;
+  /// Ends the film; `sound_wav` (may be empty) is added as its sound from the start. The result is
+  /// moved to the path only when complete. Errors: kUnavailable; when only the sound is at fault
+  /// the silent film is at the path and the text says so. Takes as long as the encoder needs.
+  virtual vm::Result<void> Finish(const std::string& sound_wav) = 0;
+  virtual int frames() const = 0;
+};
+
+}  // namespace fsm

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "fsm/image/image.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// Writes by the name's ending: .png, .bmp (24 bit), .rgb (SGI, uncompressed RGB).
+/// Errors: kBadValue for another ending, kUnavailable if the file cannot be written.
+vm::Result<void> WriteImage(const Image& image, const std::string& path);
+/// Reads .png, .bmp (24/32 bit uncompressed) and .rgb (SGI). Errors: kUnavailable, kBadValue. At
+/// most kMaxImageSide on each side.
+vm::Result<Image> ReadImage(const std::string& path);
+
+}  // namespace fsm
