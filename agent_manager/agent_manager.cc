@@ -73,7 +73,9 @@ AgentManager::AgentManager(Config config, Options options)
       listeners_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& text) { Refused(text); }),
-      lockstep_(io_, clock_, hub_, [this](PeerKey module) { OnLateModule(module); }),
+      lockstep_(
+          io_, clock_, hub_,
+          [this](PeerKey module, const std::string& why) { OnModuleWithoutClock(module, why); }),
       quiet_(clock_, hub_, [this] { return macros_.Busy(); }),
       config_(std::move(config), ConfigParts()),
       end_probes_(io_),
@@ -195,11 +197,10 @@ void AgentManager::OnModuleOutput(const std::string& module, const OutputLine& l
   slots_.Report("Module." + module + ".output", line.level + " " + line.text);
 }
 
-void AgentManager::OnLateModule(PeerKey module) {
+void AgentManager::OnModuleWithoutClock(PeerKey module, const std::string& why) {
   const std::string name = hub_.NameOf(module);
-  SayError("@" + name + " has not followed the clock for " +
-           std::to_string(Lockstep::kPatience.count()) + " ms, it is ended");
-  if (!supervisor_.Kill(name, "has not followed the clock"))
+  SayError("@" + name + " does not follow the clock: it " + why + "; it is ended");
+  if (!supervisor_.Kill(name, "does not follow the clock"))
     hub_.Leave(module, "does not follow the clock");
 }
 

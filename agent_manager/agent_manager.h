@@ -82,7 +82,7 @@ class AgentManager {
   void SayError(const std::string& text, PeerKey about = kHub);
   void Refused(const std::string& text);
   void OnModuleOutput(const std::string& module, const OutputLine& line);
-  void OnLateModule(PeerKey module);
+  void OnModuleWithoutClock(PeerKey module, const std::string& why);
   void OnPresence(const std::string& name, bool present, const std::string& reason);
   void OnSlotError(PeerKey peer, const std::string& line, const vm::Error& error);
   void EnableLog();

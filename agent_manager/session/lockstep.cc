@@ -8,8 +8,8 @@ namespace am {
 
 using vm::Result;
 
-Lockstep::Lockstep(boost::asio::io_context& io, vm::ClockScheduler& clock, Hub& hub, OnLate on_late)
-    : clock_(clock), hub_(hub), on_late_(std::move(on_late)), patience_(io) {}
+Lockstep::Lockstep(boost::asio::io_context& io, vm::ClockScheduler& clock, Hub& hub, OnLost on_lost)
+    : clock_(clock), hub_(hub), on_lost_(std::move(on_lost)), patience_(io) {}
 
 void Lockstep::GrantAll(vm::Time time) {
   for (const PeerKey module : hub_.clocks().WithClock()) {
@@ -23,7 +23,8 @@ void Lockstep::GrantAll(vm::Time time) {
   patience_.async_wait([this](const auto& error) {
     if (error) return;
     const auto late = open_;
-    for (const PeerKey module : late) on_late_(module);
+    for (const PeerKey module : late)
+      on_lost_(module, "has not answered for " + vm::FormatMs(kPatience) + " ms");
   });
 }
 
@@ -41,6 +42,10 @@ void Lockstep::OnAnswer(PeerKey module, const Result<std::string>& answer) {
   event.at.reset();
   if (const auto at = vm::ParseMs(next)) event.at = *at;
   event.busy = busy == "BUSY";
+  event.stale = event.at && *event.at <= granted_ ? event.stale + 1 : 0;
+  if (event.stale <= kMaxStaleEvents) return;
+  next_.erase(module);
+  on_lost_(module, "names " + next + " as its next event at " + vm::FormatMs(granted_) + " ms");
 }
 
 bool Lockstep::StepNow() {

@@ -17,10 +17,13 @@ namespace am {
 /// time, and goes on to the next event once all have answered. Thread: the context's.
 class Lockstep {
  public:
-  /// Told of a module that does not answer within kPatience of real time.
-  using OnLate = std::function<void(PeerKey module)>;
+  /// Told of a module that does not follow the clock, and of what it does instead: it does not
+  /// answer within kPatience of real time, or names a next event that is over kMaxStaleEvents times
+  /// in a row, so that time would stand still.
+  using OnLost = std::function<void(PeerKey module, const std::string& why)>;
   static constexpr std::chrono::milliseconds kPatience{60000};
-  Lockstep(boost::asio::io_context& io, vm::ClockScheduler& clock, Hub& hub, OnLate on_late);
+  static constexpr int kMaxStaleEvents = 1000;
+  Lockstep(boost::asio::io_context& io, vm::ClockScheduler& clock, Hub& hub, OnLost on_lost);
 
   /// True while a module has not answered.
   bool Waiting() const { return !open_.empty(); }
@@ -37,13 +40,14 @@ class Lockstep {
   struct NextEvent {
     std::optional<vm::Time> at;
     bool busy = false;
+    int stale = 0;  ///< answers in a row that named an event not after what was granted
   };
   void GrantAll(vm::Time time);
   void OnAnswer(PeerKey module, const vm::Result<std::string>& answer);
 
   vm::ClockScheduler& clock_;
   Hub& hub_;
-  OnLate on_late_;
+  OnLost on_lost_;
   boost::asio::steady_timer patience_;
   std::map<PeerKey, NextEvent> next_;
   std::set<PeerKey> open_;

@@ -40,9 +40,12 @@ ModuleRun::ModuleRun(boost::asio::io_context& io, Hub& hub, ChildReaper& reaper,
 
 ModuleRun::~ModuleRun() { Signal(SIGKILL); }
 
-/// To the process and what it has started itself, which are a group of their own.
+/// To the process and what it has started itself, which are a group of their own, and to the
+/// process once more in case it has left that group.
 void ModuleRun::Signal(int signal) const {
-  if (pid_ > 0) kill(-pid_, signal);
+  if (pid_ <= 0) return;
+  kill(-pid_, signal);
+  kill(pid_, signal);
 }
 
 vm::Result<void> ModuleRun::Start() { return is_process() ? Spawn() : Dial(); }

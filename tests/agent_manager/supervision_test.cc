@@ -146,6 +146,41 @@ TEST_F(SupervisionTest, ReloadingTouchesOnlyWhatChanged) {
   EXPECT_EQ(Ask(hub, "Module.CHANGED.starts"), "2");
 }
 
+TEST_F(SupervisionTest, AModuleWhoseNextEventIsAlwaysOverIsEndedAndTimeGoesOn) {
+  const std::string script = folder_ / "liar.sh";
+  std::ofstream(script)
+      << "while read -r line; do\n"
+         "  tag=${line#*#}; tag=${tag%% *}\n"
+         "  case $line in *EXIT*) exit 0;; [si][en][tq]*) echo \"rep#$tag Clock = 0 0 "
+         "IDLE\";; esac\n"
+         "done\n";
+  std::ofstream(path_) << R"({"clock": "virtual", "modules": [{"name": "LIAR", "restart": "never",
+                            "command": ["/bin/sh", ")"
+                       << script << "\"]}]}";
+  Process hub({kHub, "--config", path_});
+  hub.WriteLine("set Wait = 1000");
+  EXPECT_EQ(Ask(hub, "Clock"), "11000") << hub.ErrorText();
+  EXPECT_TRUE(hub.ExpectError("@LIAR does not follow the clock: it names 0 as its next event"))
+      << hub.ErrorText();
+}
+
+TEST_F(SupervisionTest, AModuleThatLeavesItsProcessGroupIsEndedAllTheSame) {
+  const std::string script = folder_ / "escape.py";
+  std::ofstream(script) << "import os, signal, sys\n"
+                           "signal.signal(signal.SIGTERM, signal.SIG_IGN)\n"
+                           "os.setpgid(0, os.getpgid(os.getppid()))\n"
+                           "print('rep Run = LIVE', flush=True)\n"
+                           "while True: signal.pause()\n";
+  Configure(R"({"name": "ESCAPE", "dialect": "original", "ready": "Run = LIVE", "restart": "never",
+                "stop_within_ms": 50, "command": ["python3", ")" +
+            script + "\"]}");
+  Process hub({kHub, "--config", path_});
+  hub.WriteLine("set#1 Start = ESCAPE");
+  ASSERT_TRUE(hub.Expect("rep#1 Start = READY")) << hub.ErrorText();
+  hub.WriteLine("set#2 Stop = ESCAPE");
+  EXPECT_TRUE(hub.Expect("rep#2 Stop = STOPPED")) << hub.ErrorText();
+}
+
 /// X says under which configuration it was started, and does not exit before Release().
 class ReloadWhileStoppingTest : public SupervisionTest {
  protected:
