@@ -1,5 +1,6 @@
 #include "ssm/japanese/numbers.h"
 
+#include <algorithm>
 #include <array>
 #include <sstream>
 #include <utility>
@@ -11,7 +12,30 @@ constexpr std::array<const char*, 10> kDigits = {"ゼロ", "イチ", "ニ",   "�
                                                  "ゴ",   "ロク", "ナナ", "ハチ", "キュー"};
 constexpr std::size_t kKana = 3;  // bytes of one kana
 
-std::string Thousands(std::uint64_t number) {  // 1 to 9999
+/// A unit of ten thousands, and which numbers before it lose their last kana to a ッ: those that
+/// end in one of `digits`, in tens, in hundreds.
+struct Myriad {
+  const char* kana;
+  std::string_view digits;
+  bool tens, hundreds;
+};
+constexpr std::array<Myriad, 6> kMyriads = {{{"", "", false, false},
+                                             {"マン", "", false, false},
+                                             {"オク", "", false, false},
+                                             {"チョー", "18", true, false},
+                                             {"ケイ", "168", true, true},
+                                             {"ガイ", "", false, false}}};
+static_assert(kMyriads.size() * 4 == kMostNumberDigits);
+
+/// Without the zeros before it; of a zero nothing is left.
+std::string_view Trimmed(std::string_view digits) {
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
+}
+
+/// イチ becomes イッ, ジュー ジュッ, ヒャク ヒャッ.
+void Shorten(std::string& read) { read.replace(read.size() - kKana, kKana, "ッ"); }
+
+std::string Thousands(std::size_t number) {  // 1 to 9999
   std::string text;
   if (const auto digit = number / 1000) {
     text += digit == 1   ? "セン"
@@ -32,24 +56,51 @@ std::string Thousands(std::uint64_t number) {  // 1 to 9999
   return text;
 }
 
+/// The digit of a number that is so many places from its end.
+char DigitAt(std::string_view number, std::size_t from_end) {
+  return from_end < number.size() ? number[number.size() - 1 - from_end] : '0';
+}
+
 }  // namespace
 
-std::string ReadNumber(std::uint64_t number) {
-  if (number == 0) return kDigits[0];
-  static constexpr std::array<const char*, 4> kUnits = {"", "マン", "オク", "チョー"};
+std::string ReadNumber(std::string_view digits) {
+  const std::string_view number = Trimmed(digits);
+  if (number.empty()) return kDigits[0];
+  if (number.size() > kMostNumberDigits) return ReadDigits(digits);
   std::string text;
-  for (std::size_t i = 4; i-- > 0;) {
-    std::uint64_t scale = 1;
-    for (std::size_t k = 0; k < i; ++k) scale *= 10'000;
-    const std::uint64_t part = number / scale % 10'000;
-    if (part == 0) continue;
-    std::string read = Thousands(part);
-    if (i == 3 && part % 10 == 1 && part % 100 != 11) {  // 一兆 is イッチョー
-      read.replace(read.size() - kKana, kKana, "ッ");
+  for (std::size_t i = kMyriads.size(); i-- > 0;) {
+    std::size_t part = 0;
+    for (std::size_t k = 4; k-- > 0;) {
+      part = 10 * part + static_cast<std::size_t>(DigitAt(number, 4 * i + k) - '0');
     }
-    text += read + kUnits[i];
+    if (part == 0) continue;
+    const Myriad& unit = kMyriads[i];
+    std::string read = Thousands(part);
+    const bool shortened = part % 10 != 0    ? unit.digits.contains(DigitAt(number, 4 * i))
+                           : part % 100 != 0 ? unit.tens
+                                             : unit.hundreds && part % 1000 != 0;
+    if (shortened) Shorten(read);
+    text += read + unit.kana;
   }
   return text;
+}
+
+std::string ReadPoint(std::string_view digits) {
+  const std::string_view number = Trimmed(digits);
+  if (number.empty()) return "レイテン";
+  std::string read = ReadNumber(digits);
+  const char last = DigitAt(number, 0);
+  if (number.size() > kMostNumberDigits) return read + "テン";
+  if (last == '1' || last == '8' || (last == '0' && DigitAt(number, 1) != '0')) {
+    Shorten(read);
+  } else if (last == '2' || last == '5') {
+    read += "ー";
+  }
+  return read + "テン";
+}
+
+std::string ReadDecimal(std::string_view whole, std::string_view decimals) {
+  return ReadPoint(whole) + ReadDigits(decimals);
 }
 
 std::string ReadDigits(std::string_view digits) {
@@ -107,31 +158,41 @@ std::string_view Counters::Find(std::string_view text) const {
   return longest;
 }
 
-std::string Counters::Read(std::uint64_t number, std::string_view name) const {
+const std::string& Counters::Kana(std::string_view name) const {
+  return counters_.find(name)->second.kana;
+}
+
+std::string Counters::Read(std::string_view digits, std::string_view name) const {
   const Counter& counter = counters_.find(name)->second;
   const auto& readings = counter.readings;
-  if (const auto whole = readings.find(std::to_string(number) + "!"); whole != readings.end()) {
-    return whole->second;
-  }
-  const auto before = [](std::uint64_t rest) { return rest == 0 ? "" : ReadNumber(rest); };
-  const auto entry = [&](const char* key) {
+  const std::string_view number = Trimmed(digits);
+  if (number.size() > kMostNumberDigits) return ReadDigits(digits) + counter.kana;
+  const auto entry = [&](const std::string& key) {
     const auto found = readings.find(key);
     return found == readings.end() ? std::string() : found->second;
   };
-  if (const auto digit = number % 10; digit != 0) {
-    const std::string read = entry(std::to_string(digit).c_str());
-    if (!read.empty()) return before(number - digit) + read;
-  } else if (const auto tens = number / 10 % 10; tens != 0) {
+  const std::string whole = entry((number.empty() ? "0" : std::string(number)) + "!");
+  if (!whole.empty()) return whole;
+  // The number without its last digits; nothing when there are no others.
+  const auto before = [&](std::size_t last) {
+    if (number.size() <= last) return std::string();
+    return ReadNumber(std::string(number.substr(0, number.size() - last)) + std::string(last, '0'));
+  };
+  if (const char digit = DigitAt(number, 0); digit != '0') {
+    const std::string read = entry(std::string(1, digit));
+    if (!read.empty()) return before(1) + read;
+  } else if (const char tens = DigitAt(number, 1); tens != '0') {
     const std::string read = entry("10");
-    const std::string hundreds = before(number - tens * 10);
-    if (!read.empty()) return hundreds + (tens == 1 ? "" : ReadNumber(tens)) + read;
-  } else if (number / 100 % 10 != 0) {
+    if (!read.empty()) {
+      return before(2) + (tens == '1' ? "" : ReadNumber(std::string(1, tens))) + read;
+    }
+  } else if (DigitAt(number, 2) != '0') {
     const std::string read = entry("100");
     std::string hundreds = ReadNumber(number);
     if (!read.empty()) return hundreds.erase(hundreds.size() - kKana) + read;
-  } else if (number != 0) {
-    const std::string read = entry("1000");
-    if (!read.empty()) return ReadNumber(number) + read;
+  } else if (std::string read = ReadNumber(number); read.ends_with("ン")) {  // セン, マン
+    const std::string behind = entry("1000");
+    if (!behind.empty()) return read + behind;
   }
   return ReadNumber(number) + counter.kana;
 }
