@@ -7,6 +7,14 @@
 #include "fsm/render/head_buffers.h"
 
 namespace fsm {
+namespace {
+
+/// Whether a scene shows a picture behind the figure.
+bool IsPictured(const Scene& scene) {
+  return scene.show_background && scene.background_image && !scene.background_image->rgba.empty();
+}
+
+}  // namespace
 
 Backdrop::Backdrop(const GlFunctions& gl)
     : gl_(gl),
@@ -26,7 +34,7 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     return;
   }
-  if (!scene.background_image || scene.background_image->rgba.empty()) {
+  if (!IsPictured(scene)) {
     gl_.ClearColor(scene.background.r, scene.background.g, scene.background.b, 1);
     gl_.Clear(GL_COLOR_BUFFER_BIT);
     return;
@@ -40,8 +48,29 @@ void Backdrop::Draw(const Scene& scene, int width, int height) {
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                     same ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
   gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, same ? GL_NEAREST : GL_LINEAR);
+  Cover(true, glm::vec3(0), 1);
+}
+
+void Backdrop::Veil(const Scene& scene, float opacity) {
+  const bool shown = scene.show_background;
+  if (IsPictured(scene)) {
+    gl_.ActiveTexture(GL_TEXTURE0);
+    gl_.BindTexture(GL_TEXTURE_2D, texture_);
+  }
+  gl_.Enable(GL_BLEND);
+  // Where there is no background nothing is added, and colours and opacity become less.
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, shown ? GL_ONE : GL_ZERO,
+                        GL_ONE_MINUS_SRC_ALPHA);
+  Cover(IsPictured(scene), shown ? scene.background : glm::vec3(0), opacity);
+  gl_.Disable(GL_BLEND);
+}
+
+void Backdrop::Cover(bool pictured, const glm::vec3& plain, float opacity) {
   gl_.UseProgram(program_.id());
   gl_.Uniform1i(program_.Uniform("picture"), 0);
+  gl_.Uniform1i(program_.Uniform("pictured"), pictured ? 1 : 0);
+  gl_.Uniform3f(program_.Uniform("plain"), plain.r, plain.g, plain.b);
+  gl_.Uniform1f(program_.Uniform("opacity"), opacity);
   gl_.BindVertexArray(array_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }

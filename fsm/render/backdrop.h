@@ -20,8 +20,13 @@ class Backdrop {
   /// Covers the target bound at present, which becomes a picture of `width` x `height`. The
   /// background's picture is uploaded again only when its content changes.
   void Draw(const Scene& scene, int width, int height);
+  /// Lays the background over what was drawn before it, which so fades: `opacity` 1 leaves nothing
+  /// of it. Over no background its colours, which are multiplied by its opacity, fade alike.
+  /// REQUIRES: the last Draw was of this scene into the target bound now; no depth test.
+  void Veil(const Scene& scene, float opacity);
 
  private:
+  void Cover(bool pictured, const glm::vec3& plain, float opacity);
   void Upload(const Image& image);
 
   const GlFunctions& gl_;

@@ -48,7 +48,11 @@ class GlRenderer : public Renderer {
     transparent_ = !scene.show_background;
     backdrop_.Draw(scene, width, height);
     const float alpha = std::clamp(state.agent_alpha, 0.0F, 1.0F);
-    if (state.agent_enabled && alpha > 0) DrawFigure(head, vertices, state, scene, alpha);
+    if (state.agent_enabled && alpha > 0) {
+      DrawFigure(head, vertices, state, scene);
+      // It fades as one picture. Each of its layers drawn in part would show what is behind them.
+      if (alpha < 1) backdrop_.Veil(scene, 1 - alpha);
+    }
     if (context_.is_window()) {
       gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
       target_->Show(pane_.x, pane_.width > 0 ? context_.height() - pane_.y - height : 0);
@@ -67,12 +71,12 @@ class GlRenderer : public Renderer {
 
  private:
   void DrawFigure(const Head& head, const HeadVertices& vertices, const FaceState& state,
-                  const Scene& scene, float alpha) {
+                  const Scene& scene) {
     const View view = FramePortrait(state, scene.camera, target_->width(), target_->height());
     head_.Upload(head, vertices);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    materials_.BeginFrame(view, head_, vertices, scene, alpha);
+    materials_.BeginFrame(view, head_, vertices, scene, 1);
     if (head_.painting()) WarmUp();
     materials_.WearSkin(head_, view.samples_per_mm);
     const auto& parts = head_.parts();
@@ -81,31 +85,13 @@ class GlRenderer : public Renderer {
         gl_.Enable(GL_POLYGON_OFFSET_FILL);
         gl_.PolygonOffset(1.5F, 2.0F);
       }
-      if (alpha < 1) {
-        // What is nearest is found first, so that the figure fades as a whole and its inside,
-        // back and hidden layers never shine through.
-        gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-        for (const auto& part : parts) {
-          if (IsHair(part.material) || part.material == Material::kPhoto ||
-              part.material == Material::kShutLash || part.finish >= 0) {
-            materials_.Use(part);  // they have holes
-          } else {
-            materials_.UseLine(glm::vec4(0.0F));
-          }
-          DrawPart(part);
-        }
-        gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-        gl_.DepthFunc(GL_EQUAL);
-        BeginBlending();
-      }
       gl_.CullFace(GL_BACK);
       for (const auto& part : parts) {
         // Lashes have two sides; everything else is the skin of something closed, or of hair, which
         // has an inside of its own where it hangs.
         (IsSheet(part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part);
-        const bool soft =
-            alpha >= 1 && head_.IsSoft(static_cast<std::size_t>(&part - parts.data()));
+        const bool soft = head_.IsSoft(static_cast<std::size_t>(&part - parts.data()));
         if (soft) BeginBlending();
         DrawPart(part);
         if (soft) gl_.Disable(GL_BLEND);
@@ -114,9 +100,8 @@ class GlRenderer : public Renderer {
       }
       gl_.Disable(GL_CULL_FACE);
       gl_.Disable(GL_POLYGON_OFFSET_FILL);
-      gl_.DepthFunc(GL_LESS);
     }
-    if (scene.view_mode != ViewMode::kTexture) DrawLines(parts, scene.view_mode, alpha);
+    if (scene.view_mode != ViewMode::kTexture) DrawLines(parts, scene.view_mode);
     gl_.Disable(GL_BLEND);
     gl_.Disable(GL_DEPTH_TEST);
   }
@@ -137,9 +122,9 @@ class GlRenderer : public Renderer {
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
   }
 
-  void DrawLines(const std::vector<HeadTopology::Part>& parts, ViewMode mode, float alpha) {
+  void DrawLines(const std::vector<HeadTopology::Part>& parts, ViewMode mode) {
     glm::vec4 color = mode == ViewMode::kWireframe ? kLineColor : kLineOverTexture;
-    color.a = mode == ViewMode::kWireframe ? alpha : 0.35F * alpha;
+    color.a = mode == ViewMode::kWireframe ? 1.0F : 0.35F;
     BeginBlending();
     gl_.DepthFunc(GL_LEQUAL);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);

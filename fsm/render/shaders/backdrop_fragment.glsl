@@ -1,6 +1,9 @@
 #version 330 core
 in vec2 place;
 uniform sampler2D picture;
+uniform bool pictured;
+uniform vec3 plain;     // the colour where there is no picture
+uniform float opacity;  // over what is drawn already
 out vec4 color;
-// The picture is in screen colours already.
-void main() { color = vec4(texture(picture, place).rgb, 1.0); }
+// Picture and colour are in screen colours already.
+void main() { color = vec4(pictured ? texture(picture, place).rgb : plain, opacity); }

@@ -1,0 +1,109 @@
+// A figure that fades (FaceState::agent_alpha) is one picture over what is behind it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsm/head/face_set.h"
+#include "tests/fsm/render_support.h"
+
+namespace fsm {
+namespace {
+
+constexpr int kWidth = 200, kHeight = 240;
+
+/// A head that wears a photo: its skin fades into the neck, and a sheet of hair that is seen
+/// through hangs before one of its sides.
+std::unique_ptr<Head> PhotoHead() {
+  FaceSet set;
+  for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
+    set.points.push_back({at, glm::vec3(0)});
+  }
+  set.photo = std::make_shared<WornPhoto>(
+      WornPhoto{2, 1, {200, 120, 90, 255, 60, 140, 50, 115}});  // skin, hair
+  set.skin_low = {0.24F, 0.9F};
+  set.skin_high = {0.26F, 0.1F};
+  for (const glm::vec3 at : {glm::vec3(-90, 120, 60), {-90, -60, 60}, {0, -60, 60}, {0, 120, 60}}) {
+    set.sheet.push_back({at, {0.75F, 0.5F}});
+  }
+  set.sheet_triangles = {0, 1, 2, 0, 2, 3};
+  return Head::Make(set);
+}
+
+struct FadeTest : ::testing::Test {
+  Image Draw(const Head& head, float alpha) {
+    FaceState state;
+    state.agent_alpha = alpha;
+    state.au_left[26] = state.au_right[26] = 0.5F;  // the mouth is open: there is an inside
+    head.Evaluate(state, vertices_);
+    renderer_->Draw(head, vertices_, state, scene_);
+    Image image;
+    renderer_->Read(image);
+    return image;
+  }
+
+  /// That every pixel of the faded picture lies at `alpha` between the empty and the whole one.
+  void ExpectOnePicture(const Head& head, const std::string& what) {
+    const Image whole = Draw(head, 1);  // first: beside a photo the background is read as softly
+    const Image nothing = Draw(head, 0);
+    for (const float alpha : {0.98F, 0.5F, 0.1F}) {
+      const Image faded = Draw(head, alpha);
+      std::size_t far = 0;
+      int most = 0;
+      for (std::size_t i = 0; i < faded.rgba.size(); ++i) {
+        const std::size_t opacity = i / 4 * 4 + 3;
+        // Colours without a background are those of the figure, as far as 8 bits keep them when
+        // they are multiplied by the opacity.
+        const bool open = nothing.rgba[opacity] == 0 && i != opacity;
+        if (open && faded.rgba[opacity] < 128) continue;
+        const float should = open ? static_cast<float>(whole.rgba[i])
+                                  : std::lerp(static_cast<float>(nothing.rgba[i]),
+                                              static_cast<float>(whole.rgba[i]), alpha);
+        const int off = static_cast<int>(std::abs(static_cast<float>(faded.rgba[i]) - should));
+        most = std::max(most, off);
+        far += off > (open ? 4 : 2);
+      }
+      EXPECT_EQ(far, 0U) << what << " at " << alpha << ", at most " << most << " levels off";
+    }
+    EXPECT_EQ(Draw(head, 1).rgba, whole.rgba) << what << ": fading left something behind";
+  }
+
+  Scene scene_;
+  HeadVertices vertices_;
+  std::unique_ptr<RenderContext> context_ = RenderContext::MakeHeadless(kWidth, kHeight);
+  std::unique_ptr<Renderer> renderer_ = Renderer::Make(*context_);
+};
+
+TEST_F(FadeTest, AHeadThatWearsAPhotoDoesNotTear) {
+  const auto head = PhotoHead();
+  scene_.background = {0, 0, 1};
+  ExpectOnePicture(*head, "before a colour");
+  scene_.show_background = false;
+  ExpectOnePicture(*head, "before nothing");
+}
+
+TEST_F(FadeTest, BuiltInHeadsDoNotShowTheirInside) {
+  for (const auto& identity : Head::Identities()) {
+    const auto head = Head::Make(identity.name);
+    ExpectOnePicture(*head, std::string(identity.name));
+  }
+}
+
+TEST_F(FadeTest, WhatIsBehindMayBeAPictureOfAnySize) {
+  const auto head = PhotoHead();
+  for (const int width : {kWidth, 37, 500}) {
+    const Image picture = Pattern(width, kHeight);
+    scene_.background_image = &picture;
+    ExpectOnePicture(*head, std::to_string(width) + " wide");
+  }
+}
+
+TEST_F(FadeTest, LinesFadeWithTheFigure) {
+  const auto head = PhotoHead();
+  for (const ViewMode mode : {ViewMode::kWireframe, ViewMode::kTextureWithWireframe}) {
+    scene_.view_mode = mode;
+    ExpectOnePicture(*head, mode == ViewMode::kWireframe ? "lines" : "lines over the skin");
+  }
+}
+
+}  // namespace
+}  // namespace fsm
