@@ -64,6 +64,15 @@ struct FsmCore {
          .quoted = slot.quoted});
   }
 
+  /// Takes back the slots declared after the module's own, for `Run = INIT`. Not from within one of
+  /// their callbacks.
+  void ForgetSlotsSinceStart() {
+    for (std::size_t i = declared_at_start; i < initial_values.size(); ++i) {
+      slots.Remove(initial_values[i].first);
+    }
+    initial_values.resize(declared_at_start);
+  }
+
  private:
   static void Clamp(vm::SetValue& value, int least, int most) {
     value.text.clear();

@@ -17,7 +17,8 @@ namespace {
 
 constexpr vm::Time kWindowEvents = std::chrono::milliseconds(200);
 constexpr const char* kModuleVersion = "Module Ver. Galatea FSM " GALATEA_VERSION;
-constexpr const char* kProtocolVersion = "Protocol Ver. 2.06";  // the original's last, which this one contains
+constexpr const char* kProtocolVersion =
+    "Protocol Ver. 2.06";  // the original's last, which this one contains
 
 template <typename T>
 T OrThrow(vm::Result<T> result) {
@@ -79,12 +80,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
   DeclareRecording();
   DeclareCapture();
   DeclareFrame();
-  if (!options_.life.empty()) {
-    if (auto set = core_.motion->SetLife(core_.Now(), options_.life); !set) {
-      throw std::runtime_error(set.error().text);
-    }
-    core_.slots.Store("Life", options_.life);
-  }
+  if (auto set = BeginLife(); !set) throw std::runtime_error(set.error().text);
   core_.declared_at_start = core_.initial_values.size();
   Changed();
 }
@@ -99,14 +95,30 @@ void FsmModule::MakeMotion() {
   core_.motion->Apply(core_.Now(), start_settings_);
 }
 
+vm::Result<void> FsmModule::BeginLife() {
+  if (options_.life.empty()) return {};
+  if (auto set = core_.motion->SetLife(core_.Now(), options_.life); !set) return set;
+  core_.slots.Store("Life", options_.life);
+  return {};
+}
+
 void FsmModule::Initialise() {
+  core_.slots.Store("Error", "");
+  // A film shows the face as it was until now, with the sound named until now.
+  if (film_->recording()) {
+    if (auto stopped = StopFilm(); !stopped) core_.slots.ReportError("Record", stopped.error());
+  }
   capture_->Cancel();
   core_.slots.Store("Capture", "DISABLE");
   MakeMotion();
   speech_->Reset();
+  core_.ForgetSlotsSinceStart();
   for (const auto& [name, value] : core_.initial_values) core_.slots.Store(name, value);
   mask_->Reset();
   scene_->Reset();
+  if (auto set = BeginLife(); !set) core_.slots.ReportError("Life", set.error());
+  frames_shown_ = 0;
+  core_.slots.Store("Frame", "");
   Changed();
 }
 
@@ -123,10 +135,7 @@ std::vector<vm::Message> FsmModule::Greeting() {
 void FsmModule::DeclareRecording() {
   core_.Declare({"Record.sound", "<text>",
                  "A WAV file that becomes the film's sound when it is stopped; empty = silent.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
-                   film_sound_ = value.text;
-                   return {};
-                 }});
+                 [](const vm::SetValue&) -> vm::Result<void> { return {}; }});
   core_.Declare({"Record.fps", "<int 1..120>", "Frames a second of films and of Frame reports.",
                  [](const vm::SetValue&) -> vm::Result<void> { return {}; }, "30"});
   core_.slots.Declare(
@@ -149,7 +158,7 @@ void FsmModule::DeclareRecording() {
 }
 
 vm::Result<std::string> FsmModule::StopFilm() {
-  const auto report = film_->Stop(film_sound_);
+  const auto report = film_->Stop(core_.slots.Value("Record.sound"));
   core_.slots.Store("Record", "STOP");
   Changed();
   if (!report) return std::unexpected(report.error());

@@ -46,7 +46,8 @@ class FsmModule final : public vm::Module {
 
  private:
   void MakeMotion();
-  void Initialise();  // Run = INIT
+  vm::Result<void> BeginLife();  // as FsmOptions::life says
+  void Initialise();             // Run = INIT
   void DeclareRecording();
   void DeclareCapture();
   void DeclareFrame();
@@ -69,7 +70,6 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<SpeechSlots> speech_;
   std::unique_ptr<Film> film_;
   std::unique_ptr<Capture> capture_;
-  std::string film_sound_;
   double frame_rate_ = 60;
   long frames_shown_ = 0;
   vm::TimerId frame_timer_ = 0;

@@ -40,7 +40,10 @@ bool IsPictureName(const std::string& name) {
 }  // namespace
 
 SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds)
-    : core_(core), backgrounds_(std::move(backgrounds)) {
+    : core_(core),
+      backgrounds_(std::move(backgrounds)),
+      start_width_(core.studio.width()),
+      start_height_(core.studio.height()) {
   DeclareBackgrounds();
   DeclareView();
   DeclareCamera();
@@ -152,11 +155,11 @@ void SceneSlots::DeclareView() {
            return vm::Fail(vm::Errc::kBusy,
                            "a film of this size is recorded; set Record = STOP first");
          }
-         if (value.size() == 1) return core_.studio.FillScreen(value.word(0) == "FULLSCREEN");
+         if (value.size() == 1) return FillScreen(value.word(0) == "FULLSCREEN");
          return core_.studio.Resize(static_cast<int>(value.number(0)),
                                     static_cast<int>(value.number(1)));
        },
-       std::to_string(core_.studio.width()) + " " + std::to_string(core_.studio.height())});
+       std::to_string(start_width_) + " " + std::to_string(start_height_)});
 }
 
 void SceneSlots::DeclareCamera() {
@@ -231,14 +234,30 @@ void SceneSlots::DeclareSaveImage() {
        }});
 }
 
+vm::Result<void> SceneSlots::FillScreen(bool fill) {
+  auto done = core_.studio.FillScreen(fill);
+  if (done) fills_screen_ = fill;
+  return done;
+}
+
+vm::Result<void> SceneSlots::ResetSize() {
+  if (fills_screen_) {
+    if (auto done = FillScreen(false); !done) return done;
+  }
+  // Another size costs a headless studio its context.
+  if (core_.studio.width() == start_width_ && core_.studio.height() == start_height_) return {};
+  return core_.studio.Resize(start_width_, start_height_);
+}
+
 void SceneSlots::Reset() {
   core_.scene = Scene{};
   transparent_ = false;
   background_enabled_ = true;
+  if (auto sized = ResetSize(); !sized) core_.slots.ReportError("Window", sized.error());
   const std::string first = backgrounds_.empty() ? kPlain : backgrounds_.front().first;
   if (auto set = SetBackground(first); !set) {
     core_.slots.ReportError("Background", set.error());
-    core_.slots.Store("NowBackground", kPlain);
+    for (const char* slot : {"Background", "NowBackground"}) core_.slots.Store(slot, kPlain);
     return;
   }
   core_.slots.Store("NowBackground", first);

@@ -15,7 +15,7 @@ class SceneSlots {
   /// `backgrounds`: names and files of the configuration; the first is shown at the start.
   /// Throws std::runtime_error if that one cannot be read. `core` outlives this.
   SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds);
-  void Reset();  ///< for `Run = INIT`
+  void Reset();  ///< for `Run = INIT`; no film is recorded
   /// The size cannot be changed while this says so (a film is recorded).
   void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
 
@@ -26,6 +26,8 @@ class SceneSlots {
   void DeclareLight(const std::string& name, const std::string& what, Lamp Scene::*lamp);
   void DeclareSaveImage();
   vm::Result<void> SetBackground(const std::string& name);
+  vm::Result<void> FillScreen(bool fill);
+  vm::Result<void> ResetSize();
 
   FsmCore& core_;
   std::vector<std::pair<std::string, std::string>> backgrounds_;
@@ -34,6 +36,8 @@ class SceneSlots {
   Image picture_;
   bool transparent_ = false;
   bool background_enabled_ = true;
+  int start_width_, start_height_;  // of the view
+  bool fills_screen_ = false;
   std::function<bool()> size_locked_;
 };
 

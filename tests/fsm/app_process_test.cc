@@ -149,6 +149,23 @@ TEST_F(FsmProcessTest, StrictTurnsRefusalsIntoTheExitCode) {
   EXPECT_EQ(Run("--headless --strict", "set FaceExp = BORED 1 100 0\n"), 1);
 }
 
+TEST_F(FsmProcessTest, APictureAfterInitIsThatOfAFreshProgram) {
+  EXPECT_EQ(Run("--headless --size 160x120", "set SaveImage = fresh.png\n"), 0) << err;
+  EXPECT_EQ(Run("--headless --size 160x120",
+                "set Window = 100 90\nset Mask = pygmalion\nset FaceExp = HAPPY 1 100 0\n"
+                "set HeadRotAbs.1 = 5 20 5\nset AgentAlpha = 0.5\nset AgentScale = 1.3\n"
+                "set Background = transparent\nset Camera = 0.5 10 40 20\nset Light.key = 3\n"
+                "set ViewMode = TEXTURE_WITH_WIREFRAME\nset AU = 26 1 0\n"
+                "set Record = film.rgba\nset SaveImage = used.png\nset Run = INIT\n"
+                "set SaveImage = after.png\ninq Window\n"),
+            0)
+      << err;
+  EXPECT_NE(out.find("rep Window = 160 120\n"), std::string::npos) << out;
+  EXPECT_EQ(ReadAll(folder / "after.png"), ReadAll(folder / "fresh.png"));
+  EXPECT_NE(ReadAll(folder / "used.png"), ReadAll(folder / "fresh.png"));
+  EXPECT_EQ(std::filesystem::file_size(folder / "film.rgba"), 100U * 90 * 4);
+}
+
 /// Named pipes in the test's folder, and the face started there.
 struct NamedPipeTest : FsmProcessTest {
   void Pipes(const std::vector<std::string>& names) {

@@ -49,6 +49,11 @@ class FakeStudio final : public Studio {
     return {};
   }
   bool has_window() const override { return window; }
+  vm::Result<void> FillScreen(bool fill) override {
+    if (!window) return Studio::FillScreen(fill);
+    fills_screen = fill;
+    return {};
+  }
   void Show() override { ++shown; }
   bool close_requested() const override { return closed; }
   vm::Result<void> WritePicture(const Image& image, const std::string& path) override {
@@ -73,6 +78,7 @@ class FakeStudio final : public Studio {
   int draws = 0;
   int shown = 0;
   bool window = false;
+  bool fills_screen = false;
   bool closed = false;
 
  private:
