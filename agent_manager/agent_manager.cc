@@ -6,7 +6,6 @@
 #include <boost/asio/executor_work_guard.hpp>
 #include <csignal>
 #include <cstdio>
-#include <iostream>
 #include <stdexcept>
 #include <utility>
 
@@ -37,10 +36,10 @@ Result<std::string> ReadFile(const std::string& path) {
   return vm::ReadTextFile(path, kMaxFileBytes);
 }
 
-std::unique_ptr<LogWriter> OpenLog(const LogConfig& config) {
+std::unique_ptr<LogWriter> OpenLog(const LogConfig& config, ErrorStream& errors) {
   if (config.file.empty()) return nullptr;
-  return std::make_unique<LogWriter>(
-      config, [](const std::string& text) { std::cerr << "agent_manager: " << text << std::endl; });
+  return std::make_unique<LogWriter>(config,
+                                     [&errors](const std::string& text) { errors.Write(text); });
 }
 
 }  // namespace
@@ -48,7 +47,7 @@ std::unique_ptr<LogWriter> OpenLog(const LogConfig& config) {
 AgentManager::AgentManager(Config config, Options options)
     : options_(std::move(options)),
       clock_(io_, !config.virtual_clock),
-      log_writer_(OpenLog(config.log)),
+      log_writer_(OpenLog(config.log, people_)),
       flow_watchers_([this](PeerKey peer, std::string_view comment) {
         return hub_.SendComment(peer, comment);
       }),
@@ -221,9 +220,7 @@ std::string AgentManager::SlotsMarkdown() {
          "\n### @SND\n\n" + sounds_.slots().DocsMarkdown();
 }
 
-void AgentManager::Say(const std::string& text) const {
-  std::cerr << "agent_manager: " << vm::ShownUtf8(text) << std::endl;
-}
+void AgentManager::Say(const std::string& text) { people_.Write(text); }
 
 void AgentManager::SayError(const std::string& text, PeerKey about) {
   ++errors_;
@@ -360,7 +357,7 @@ void AgentManager::StepVirtual() {
 }
 
 bool AgentManager::Started() const {
-  const bool known = !hub_.clocks().ProbingForUs();
+  const bool known = !hub_.clocks().ProbingConfigured();
   return started_once_ ? known : known && supervisor_.AllReady();
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
@@ -18,6 +20,7 @@
 #include "agent_manager/macros/sound_player.h"
 #include "agent_manager/routing/hub.h"
 #include "agent_manager/session/console.h"
+#include "agent_manager/session/error_stream.h"
 #include "agent_manager/session/flow_watchers.h"
 #include "agent_manager/session/listeners.h"
 #include "agent_manager/session/lockstep.h"
@@ -78,7 +81,7 @@ class AgentManager {
   void ReloadOnSignal();
   vm::Result<std::string> Reload();
   // What parts say to people and to each other.
-  void Say(const std::string& text) const;
+  void Say(const std::string& text);
   void SayError(const std::string& text, PeerKey about = kHub);
   void Refused(const std::string& text);
   void OnModuleOutput(const std::string& module, const OutputLine& line);
@@ -91,6 +94,7 @@ class AgentManager {
   Options options_;
   boost::asio::io_context io_;
   vm::ClockScheduler clock_;
+  ErrorStream people_{STDERR_FILENO};
   std::unique_ptr<LogWriter> log_writer_;
   FlowWatchers flow_watchers_;
   SessionLog log_;

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "agent_manager/log_tool/entries.h"
 #include "agent_manager/log/log_writer.h"
+#include "agent_manager/log_tool/entries.h"
 
 int main(int argc, char** argv) {
   CLI::App app(

@@ -201,13 +201,18 @@ class MosquittoBroker final : public Broker {
 
   void OnPacket(Packet packet) {
     // While we wait nothing is read, and the broker keeps the rest.
-    changed_.wait(*lock_, [this] { return waiting_ < kMaxWaiting || ending_; });
+    changed_.wait(*lock_, [this] {
+      return ending_ || (waiting_ < kMaxWaiting && waiting_bytes_ < kMaxWaitingBytes);
+    });
     if (ending_) return;
+    const std::size_t bytes = packet.payload.size() + packet.topic.size();
     ++waiting_;
-    Post([this, packet = std::move(packet)] {
+    waiting_bytes_ += bytes;
+    Post([this, packet = std::move(packet), bytes] {
       {
         const std::lock_guard lock(mutex_);
         --waiting_;
+        waiting_bytes_ -= bytes;
       }
       changed_.notify_all();
       events_.on_packet(packet);
@@ -234,6 +239,7 @@ class MosquittoBroker final : public Broker {
   bool ending_ = false;
   std::string rest_;                // why the connection is to be ended
   std::size_t waiting_ = 0;         // packets on their way to the context's thread
+  std::size_t waiting_bytes_ = 0;   // of these
   std::size_t unacknowledged_ = 0;  // published, no receipt yet
   unsigned long connection_ = 0;    // how many there have been
   unsigned long told_ = 0;          // the last one its owner has heard of

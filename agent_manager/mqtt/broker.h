@@ -22,11 +22,12 @@ struct Packet {
 /// A connection to a broker that comes back by itself: after a loss it is tried again after 0.5 s,
 /// doubled up to 30 s until a connection has lasted as long. Nothing is kept over a loss: who
 /// published must publish again. Thread: the caller's for all calls and all events; an
-/// implementation may have one of its own. Limits: packets beyond kMaxWaiting that the caller has
-/// not taken are left with the broker.
+/// implementation may have one of its own. Limits: packets beyond kMaxWaiting or kMaxWaitingBytes
+/// that the caller has not taken are left with the broker.
 class Broker {
  public:
   static constexpr std::size_t kMaxWaiting = 4096;
+  static constexpr std::size_t kMaxWaitingBytes = 4u << 20;
   struct Events {
     std::function<void()> on_online;
     std::function<void(const std::string& reason)> on_lost;

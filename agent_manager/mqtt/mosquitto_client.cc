@@ -5,10 +5,13 @@
 #include <openssl/ssl.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
+
+#include "vm_protocol/core/limits.h"
 
 namespace am::mqtt {
 namespace {
@@ -37,8 +40,10 @@ class Properties {
 Packet PacketOf(const mosquitto_message& message, const mosquitto_property* properties) {
   Packet packet;
   packet.topic = message.topic;
-  packet.payload.assign(static_cast<const char*>(message.payload),
-                        static_cast<std::size_t>(message.payloadlen));
+  // What is longer than a line is refused later, for which a byte more is enough.
+  packet.payload.assign(
+      static_cast<const char*>(message.payload),
+      std::min(static_cast<std::size_t>(message.payloadlen), vm::kMaxLineBytes + 1));
   packet.retain = message.retain;
   char* text = nullptr;
   if (mosquitto_property_read_string(properties, MQTT_PROP_RESPONSE_TOPIC, &text, false) !=

@@ -16,6 +16,12 @@ bool IsProbe(const Message& message, const Origin& origin) {
   return origin.peer == kHub && (message.slot == "Clock" || message.slot == "Slots.files");
 }
 
+/// What its answer is made of; values can be long, and modules can be slow.
+Message WithoutValue(const Message& message) {
+  return {message.to, message.from, message.command, message.tag, message.slot, message.relation,
+          ""};
+}
+
 }  // namespace
 
 Forwarder::Forwarder(vm::Scheduler& clock, Directory& directory, Outbox& outbox, Requests& requests,
@@ -49,13 +55,16 @@ bool Forwarder::MustWait(Peer& peer, const Message& message, const Origin& origi
 }
 
 void Forwarder::KeepWaiting(Peer& peer, Message message, const Origin& origin, OnAnswer done) {
-  if (peer.module.waiting.size() >= limits_.waiting)
+  ModuleState& module = peer.module;
+  if (module.waiting.size() >= limits_.waiting ||
+      module.waiting_bytes + message.value.size() > limits_.backlog_bytes)
     return outbox_.Answer(
         origin.peer, peer.name, message,
         vm::Fail(Errc::kLimit, "@" + peer.name + " is still being asked, too much waits for it"),
         done);
   requests_.CountUnanswered(origin.peer);
-  peer.module.waiting.push_back({std::move(message), origin, std::move(done)});
+  module.waiting_bytes += message.value.size();
+  module.waiting.push_back({std::move(message), origin, std::move(done)});
 }
 
 void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAnswer done) {
@@ -70,7 +79,7 @@ void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAns
     return Send(peer, message, origin.peer);
   if (modern && !peer.module.clock.known && starts_.Hold(peer, message))
     return outbox_.Answer(origin.peer, peer.name, message, message.value, done);
-  Request request{origin.peer, message, std::move(done), vm::Time(0)};
+  Request request{origin.peer, WithoutValue(message), std::move(done), vm::Time(0)};
   if (const auto start = modern ? StartTimeOf(message) : std::nullopt)
     message.value =
         "@" + vm::FormatMs(*start + (grants_.lockstep() ? vm::Time(0) : peer.module.clock.offset));
@@ -79,6 +88,7 @@ void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAns
 }
 
 void Forwarder::FlushWaiting(Peer& peer) {
+  peer.module.waiting_bytes = 0;
   for (WaitingMessage& waiting : std::exchange(peer.module.waiting, {})) {
     requests_.UncountUnanswered(waiting.origin.peer);
     Forward(peer, std::move(waiting.message), waiting.origin, std::move(waiting.done));
@@ -97,7 +107,7 @@ void Forwarder::ForwardOriginal(Peer& module, Message message, const Origin& ori
   Message bare = message;
   bare.tag.clear();
   if (message.command == Command::kInq) {
-    requests_.AddBySlot(module, {origin.peer, std::move(message), done, vm::Time(0)});
+    requests_.AddBySlot(module, {origin.peer, WithoutValue(message), done, vm::Time(0)});
     return Send(module, bare, origin.peer);
   }
   if (!starts_.Hold(module, message)) Send(module, bare, origin.peer);

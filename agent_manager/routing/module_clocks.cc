@@ -134,9 +134,9 @@ std::set<PeerKey> ModuleClocks::Probing() const {
   return keys;
 }
 
-bool ModuleClocks::ProbingForUs() const {
+bool ModuleClocks::ProbingConfigured() const {
   return std::ranges::any_of(directory_.peers(), [](const auto& entry) {
-    return entry.second->module.probing && entry.second->role != Role::kGuest;
+    return entry.second->module.probing && entry.second->configured;
   });
 }
 

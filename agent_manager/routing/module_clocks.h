@@ -21,8 +21,9 @@ class ModuleClocks {
   void Probe(Peer& module);
   /// Modules that are still being asked what they are.
   std::set<PeerKey> Probing() const;
-  /// True while one is being asked that is no guest: those wait for nobody but themselves.
-  bool ProbingForUs() const;
+  /// True while a module of the configuration is being asked. What is said to others waits for
+  /// them alone.
+  bool ProbingConfigured() const;
   /// Those among `modules` that have not answered by now count as original; one that has said
   /// nothing at all is given four times as long.
   void EndProbes(const std::set<PeerKey>& modules);

@@ -76,6 +76,7 @@ struct ModuleState {
   int silent_rounds = 0;     ///< EndProbes has passed over it
   bool measuring = false;    ///< a start time waits for its clock to be known
   bool asked_clock = false;  ///< another hub's clock is measured once a start time needs it
+  std::size_t waiting_bytes = 0;
   std::deque<WaitingMessage> waiting{};              ///< until it is no longer being asked
   std::map<std::string, vm::TimerId> held_starts{};  ///< `set SLOT = @T` for those that lack `@T`
   ClockState clock{};
@@ -103,6 +104,7 @@ struct Peer {
   FlowState flow{};
   RequestTable requests{};
   std::size_t asked = 0;           ///< its own requests that no module has answered yet
+  std::size_t delayed_bytes = 0;   ///< of its messages that rules delay
   bool waits_for_answers = false;  ///< it is not read from until most of them are
   ModuleState module{};
   vm::Time complaints_since{0};

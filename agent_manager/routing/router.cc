@@ -17,6 +17,11 @@ bool IsReport(const Message& message) {
   return message.command == Command::kRep || message.command == Command::kTell;
 }
 
+/// About what a message takes while it is kept.
+std::size_t BytesOf(const Message& message) {
+  return sizeof(Envelope) + message.value.size() + message.slot.size();
+}
+
 }  // namespace
 
 Router::Router(vm::Scheduler& clock, SessionLog& log, Directory& directory, Outbox& outbox,
@@ -97,17 +102,29 @@ void Router::ApplyRules(Envelope& envelope, std::string& receiver) {
   }
   if (outcome.delay <= vm::Time(0)) return HandOver(envelope, receiver);
   const auto delayed = std::make_shared<Envelope>(std::move(envelope));
-  Delay(
+  const auto kept = Delay(
       outcome.delay, [this, delayed, receiver] { HandOver(*delayed, receiver); },
-      delayed->origin.peer);
+      delayed->origin.peer, BytesOf(delayed->message));
+  if (!kept) Refuse(*delayed, kept.error());
 }
 
-void Router::Delay(vm::Time delay, std::function<void()> act, PeerKey blamed) {
+Result<void> Router::Delay(vm::Time delay, std::function<void()> act, PeerKey sender,
+                           std::size_t bytes) {
+  Peer* const peer = directory_.ByKey(sender);
+  const std::size_t own = peer == nullptr ? 0 : peer->delayed_bytes;
+  if (own + bytes > limits_.backlog_bytes ||
+      delayed_bytes_ + bytes > limits_.backlog_bytes * kDelayShares)
+    return Fail(Errc::kLimit, "too much is delayed by rules already");
   ++delayed_;
-  clock_.After(delay, [this, act = std::move(act), blamed] {
+  delayed_bytes_ += bytes;
+  if (peer != nullptr) peer->delayed_bytes += bytes;
+  clock_.After(delay, [this, act = std::move(act), sender, bytes] {
     --delayed_;
-    queue_.Post(act, blamed);
+    delayed_bytes_ -= bytes;
+    if (Peer* const there = directory_.ByKey(sender)) there->delayed_bytes -= bytes;
+    queue_.Post(act, sender);
   });
+  return {};
 }
 
 void Router::SendCopies(const Rules::Outcome& outcome, const std::string& from, Role role) {
@@ -233,12 +250,14 @@ void Router::ApplyRulesToReport(Peer& sender, Message message) {
   if (to != before) message.to = {to};
   if (outcome.delay <= vm::Time(0)) return Spread(sender, std::move(message));
   const PeerKey key = sender.key;
-  Delay(
+  const std::size_t bytes = BytesOf(message);
+  const auto kept = Delay(
       outcome.delay,
       [this, key, message = std::move(message)] {
         if (Peer* const peer = directory_.ByKey(key)) Spread(*peer, message);
       },
-      key);
+      key, bytes);
+  if (!kept) outbox_.Complain(sender, kept.error());
 }
 
 std::set<PeerKey> Router::HearersOf(const Peer& sender) {

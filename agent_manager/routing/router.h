@@ -30,6 +30,8 @@ class Router {
   void FromMachine(const std::string& machine, PeerKey to, const vm::Message& said);
 
   void set_rules(std::vector<Rule> rules) { rules_.set_rules(std::move(rules)); }
+  /// All messages that rules delay, in Limits::backlog_bytes; one peer has one of these shares.
+  static constexpr std::size_t kDelayShares = 8;
   /// True while messages wait because a rule delays them.
   bool HoldsBack() const { return delayed_ > 0; }
   /// Reports (`rep`, `tell`) without receiver also go to peers of these names.
@@ -64,8 +66,10 @@ class Router {
   void ToMachine(vm::SlotMachine& machine, Envelope& envelope);
   void ReportOf(const std::string& machine, vm::Message message);
   void SendCopies(const Rules::Outcome& outcome, const std::string& from, Role role);
-  /// Does it later, in the loop. `blamed`: the peer whose error it is if it throws.
-  void Delay(vm::Time delay, std::function<void()> act, PeerKey blamed);
+  /// Does it later, in the loop. `sender`: the peer whose message it is, and whose error if it
+  /// throws; `bytes`: of the message. kLimit if too much is delayed already.
+  vm::Result<void> Delay(vm::Time delay, std::function<void()> act, PeerKey sender,
+                         std::size_t bytes);
   std::string SenderOf(const Envelope& envelope) const;
   Rules::Sender RuleSenderOf(const Envelope& envelope) const;
   void Refuse(const Envelope& envelope, const vm::Error& error, const std::string& by = "AM");
@@ -88,7 +92,8 @@ class Router {
   OnMachine on_machine_;
   std::function<void(Peer&)> on_module_;
   MachineQuestions questions_;
-  std::size_t delayed_ = 0;
+  std::size_t delayed_ = 0;        // messages
+  std::size_t delayed_bytes_ = 0;  // of all peers
 };
 
 }  // namespace am

@@ -24,6 +24,8 @@ constexpr const char* kHelp[] = {
     "# quit                            end the hub and its modules (as set Run = EXIT)",
     "# docs/protocol.md has the rest"};
 
+bool IsQuit(std::string_view line) { return line == "quit" || line == "exit"; }
+
 }  // namespace
 
 Console::Console(boost::asio::io_context& io, vm::Scheduler& clock, Hub& hub, Hooks hooks)
@@ -52,13 +54,15 @@ bool Console::TakeWord(const std::string& line) {
     for (const char* const text : kHelp) hub_.SendComment(key_, text);
     return true;
   }
-  if (line != "quit" && line != "exit") return false;
+  if (!IsQuit(line)) return false;
   hooks_.on_quit();
   return true;
 }
 
 void Console::OnLine(Result<std::string_view> line) {
   if (!line) return hub_.Receive(key_, std::unexpected(line.error()));
+  // A person who wants to leave does not wait for modules that do not start.
+  if (lines_.empty() && !hooks_.started() && IsQuit(*line)) return hooks_.on_quit();
   lines_.emplace_back(*line);
   Feed();
 }

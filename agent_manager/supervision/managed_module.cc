@@ -97,7 +97,7 @@ void ManagedModule::OnEnded(const ModuleRun::Ending& ending) {
   const bool is_process = run_->is_process();
   run_.reset();
   if (monitor_) std::exchange(monitor_, nullptr)->Stop();
-  const bool at_start = state_ == State::kStarting && ending.by_itself && ending.failed;
+  const bool at_start = state_ == State::kStarting && is_process;
   failed_starts_ = at_start ? failed_starts_ + 1 : 0;
   ending_ = ending.how;
   if (is_process && (state_ != State::kStopping || ending.failed)) {

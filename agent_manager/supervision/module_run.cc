@@ -153,9 +153,11 @@ void ModuleRun::Kill(const std::string& why) {
 void ModuleRun::OnExit(int status) {
   Signal(SIGKILL);  // what it has started and left behind
   pid_ = -1;
+  // What has escaped from its group may keep stderr open; its last lines are read for a while.
+  const auto last_lines = std::make_shared<boost::asio::steady_timer>(io_, kClosedPatience);
+  last_lines->async_wait([last_lines, errors = errors_](const auto&) { errors->Close(); });
   Ending ending{.how = DescribeEnding(status),
                 .failed = !WIFEXITED(status) || WEXITSTATUS(status) != 0,
-                .by_itself = WIFEXITED(status),
                 .last_output = last_output_};
   if (!killed_for_.empty()) ending.how += " (" + killed_for_ + ")";
   End(std::move(ending));

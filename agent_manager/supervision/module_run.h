@@ -23,7 +23,6 @@ class ModuleRun : public std::enable_shared_from_this<ModuleRun> {
   struct Ending {
     std::string how;            ///< "ended with code 3 (did not exit within 5000 ms)"
     bool failed = false;        ///< anything but exit code 0 or a stop that was asked for
-    bool by_itself = false;     ///< the program has called exit
     std::string last_output{};  ///< the last line of its stderr, if there was one
   };
   struct Events {

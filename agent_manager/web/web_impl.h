@@ -33,6 +33,7 @@ struct WebServer::Impl {
   /// that connection.
   std::list<std::function<void()>> strangers;
   bool starved = false;  ///< the last accept failed
+  bool full = false;     ///< the last connection was turned away
   bool closed = false;
   bool microphone = false;  ///< a browser streams its microphone
 };

@@ -137,6 +137,11 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         !HasToken(View(request_[http::field::authorization]), ';', "Bearer "))
       return Refuse(http::status::unauthorized, "a request without the token");
     Known();
+    for (const auto& [of, module] : {std::pair("/microphone", "SRM"), {"/face.mjpg", "FSM"}}) {
+      const auto allowed = server_->hub.access().CheckReceiver(server_->role, module);
+      if (path == of && !allowed)
+        return Refuse(http::status::forbidden, path + ": " + allowed.error().text);
+    }
     if (path == "/ws" || path == "/microphone") return Upgrade(path);
     if (path == "/face.mjpg") return web::ServeVideo(server_, std::move(stream_));
     if (path == "/metrics")
@@ -238,6 +243,18 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   http::response<http::string_body> response_;
 };
 
+/// All places are taken by connections that have shown the token.
+void TurnAway(WebServer::Impl& server, asio::ip::tcp::socket& socket) {
+  constexpr string_view kAnswer =
+      "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+  error_code ignored;
+  socket.non_blocking(true, ignored);
+  socket.write_some(asio::buffer(kAnswer), ignored);
+  socket.shutdown(asio::socket_base::shutdown_send, ignored);
+  if (!std::exchange(server.full, true))
+    server.on_refusal("web page: more than " + std::to_string(kMaxConnections) + " connections");
+}
+
 void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
   server->acceptor.async_accept([server](const error_code& error, asio::ip::tcp::socket socket) {
     if (server->closed || error == asio::error::operation_aborted) return;
@@ -256,9 +273,12 @@ void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
       const auto drop = server->strangers.front();
       drop();
     }
+    fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
     if (server->connections < kMaxConnections + kBeingDropped) {
-      fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
+      server->full = false;
       std::make_shared<HttpSession>(server, std::move(socket))->Begin();
+    } else {
+      TurnAway(*server, socket);
     }
     AcceptNext(server);
   });

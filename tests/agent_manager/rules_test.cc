@@ -58,6 +58,22 @@ TEST_F(RulesTest, ACopyNamesNoFileThatItsSenderMayNotName) {
   EXPECT_EQ(b_->heard, Strings{"set Text = hello"});
 }
 
+TEST_F(RulesTest, WhatRulesDelayIsBounded) {
+  Use(R"([{"slot": "Late", "delay_ms": 60000}])");
+  world_.hub.set_limit(&Limits::backlog_bytes, 100000);
+  const std::string value(30000, 'x');
+  for (int i = 0; i < 5; ++i)
+    world_.Say(*a_, "to @B set#" + std::to_string(i) + " Late = " + value);
+  ASSERT_EQ(a_->heard.size(), 2u);
+  EXPECT_NE(a_->heard[0].find("rep#3 Late.error = LIMIT"), std::string::npos) << a_->heard[0];
+  world_.Say(*c_, "to @B set Late = " + value);
+  EXPECT_EQ(c_->heard, Strings{}) << "another peer has room of its own";
+  world_.clock.RunUntil(milliseconds(60000));
+  EXPECT_EQ(b_->heard.size(), 4u);
+  world_.Say(*a_, "to @B set Late = " + value);
+  EXPECT_EQ(a_->heard.size(), 2u) << "the room is given back";
+}
+
 TEST_F(RulesTest, RewriteChangesReceiverSlotAndValue) {
   Use(R"([{"from": "A", "to": "B", "slot": "Text", "rewrite":
           {"to": "C", "slot": "Text.loud", "value": "${from} says ${value}!"}}])");

@@ -1,5 +1,6 @@
 // Modules as processes: their order, health, limits, output, and changes of the configuration.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -179,6 +180,50 @@ TEST_F(SupervisionTest, AModuleThatLeavesItsProcessGroupIsEndedAllTheSame) {
   ASSERT_TRUE(hub.Expect("rep#1 Start = READY")) << hub.ErrorText();
   hub.WriteLine("set#2 Stop = ESCAPE");
   EXPECT_TRUE(hub.Expect("rep#2 Stop = STOPPED")) << hub.ErrorText();
+}
+
+TEST_F(SupervisionTest, AModuleThatEndsInOrderBeforeItIsReadyIsGivenUpToo) {
+  Configure(
+      "{\"name\": \"BRIEF\", \"command\": \"exit 0\", \"restart\": {\"when\": \"always\", "
+      "\"first_ms\": 1, \"tries\": 100000}}");
+  Process hub({kHub, "--config", path_});
+  EXPECT_TRUE(hub.ExpectError("@BRIEF has failed to start 3 times")) << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Module.BRIEF.state"), "FAILED") << "the console goes on";
+}
+
+TEST_F(SupervisionTest, QuitEndsAHubWhoseModulesDoNotStart) {
+  Configure(Shell("SLOW", "cat >/dev/null", ", \"ready\": \"Run = LIVE\""));
+  Process hub({kHub, "--config", path_});
+  hub.WriteLine("quit");
+  EXPECT_EQ(hub.Wait(), 0) << hub.ErrorText();
+}
+
+TEST_F(SupervisionTest, AClientThatDoesNotSayWhatItIsHoldsOnlyWhatIsSaidToIt) {
+  const std::string socket = folder_ / "hub.sock";
+  std::ofstream(path_) << "{\"listen\": [\"unix:" << socket << "\"]}";
+  Process hub({kHub, "--config", path_});
+  Ask(hub, "Clock");
+  const auto mute = support::SocketClient::Unix(socket);
+  mute->WriteLine("set#1 Name = MUTE");
+  ASSERT_TRUE(mute->Expect("rep#1 Name = MUTE"));
+  mute->WriteLine("rep Run = LIVE");
+  ASSERT_TRUE(mute->Expect("inq#")) << "it is being asked";
+  hub.WriteLine("to @MUTE set X = 1");
+  EXPECT_NE(Ask(hub, "Clock"), "");
+}
+
+TEST_F(SupervisionTest, AStderrThatNobodyReadsHoldsNobodyUp) {
+  const std::string fifo = folder_ / "stderr";
+  mkfifo(fifo.c_str(), 0600);
+  const int unread = open(fifo.c_str(), O_RDWR | O_CLOEXEC);
+  fcntl(unread, F_SETPIPE_SZ, 4096);
+  Configure("");
+  Process hub({"/bin/sh", "-c", "exec '" + kHub + "' --config '" + path_ + "' 2>'" + fifo + "'"});
+  for (int i = 0; i < 300; ++i) hub.WriteLine("to @NOBODY_" + std::to_string(i) + " nonsense");
+  EXPECT_NE(Ask(hub, "Clock"), "");
+  hub.WriteLine("set Run = EXIT");
+  EXPECT_EQ(hub.Wait(), 0);
+  close(unread);
 }
 
 /// X says under which configuration it was started, and does not exit before Release().
