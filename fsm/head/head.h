@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -188,6 +189,24 @@ class Head {
   /// "stomion", "gnathion", "trichion"; with _left or _right: "cheilion", "endocanthion",
   /// "exocanthion", "pupil", "alare", "zygion", "gonion", "tragion". Throws std::out_of_range.
   virtual glm::vec3 Landmark(std::string_view name) const;
+  /// A number that no other head of this process has or had, copies included. A head does not
+  /// change after its construction, so what is kept of it elsewhere, as on a graphics card, is that
+  /// of the same head as long as this number is the same. An address does not tell that: another
+  /// head may be made where one died.
+  std::uint64_t serial() const { return serial_.number; }
+
+ private:
+  struct Serial {
+    Serial() : number(++last) {}
+    Serial(const Serial&) : Serial() {}
+    Serial& operator=(const Serial&) {
+      number = ++last;
+      return *this;
+    }
+    std::uint64_t number;
+    static inline std::atomic<std::uint64_t> last{0};  // heads are made on several threads
+  };
+  Serial serial_;
 };
 
 }  // namespace fsm

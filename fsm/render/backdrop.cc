@@ -1,10 +1,10 @@
 #include "fsm/render/backdrop.h"
 
 #include <cassert>
+#include <cstring>
 
 #include "embedded/backdrop_fragment.h"
 #include "embedded/backdrop_vertex.h"
-#include "fsm/render/head_buffers.h"
 
 namespace fsm {
 namespace {
@@ -12,6 +12,21 @@ namespace {
 /// Whether a scene shows a picture behind the figure.
 bool IsPictured(const Scene& scene) {
   return scene.show_background && scene.background_image && !scene.background_image->rgba.empty();
+}
+
+/// FNV-1a over 8 bytes at a time; to notice a change, not to resist one made on purpose.
+std::uint64_t Checksum(const void* data, std::size_t bytes, std::uint64_t start) {
+  constexpr std::uint64_t kPrime = 0x100000001b3;
+  std::uint64_t sum = start ^ 0xcbf29ce484222325;
+  const auto* at = static_cast<const unsigned char*>(data);
+  for (; bytes >= 8; bytes -= 8, at += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, at, 8);
+    sum = (sum ^ word) * kPrime;
+    sum ^= sum >> 29;
+  }
+  for (; bytes > 0; --bytes) sum = (sum ^ *at++) * kPrime;
+  return sum;
 }
 
 }  // namespace

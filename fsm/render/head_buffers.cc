@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstring>
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -13,25 +12,6 @@
 
 namespace fsm {
 namespace {
-
-std::uint64_t ChecksumOf(const HeadTopology& topology) {
-  std::uint64_t sum = topology.parts.size();
-  const auto add = [&sum](const auto& items) {
-    sum = Checksum(items.data(), items.size() * sizeof(items[0]), sum);
-  };
-  add(topology.indices);
-  add(topology.albedo);
-  add(topology.occlusion);
-  add(topology.photo_place);
-  add(topology.photo_lender);
-  for (const auto& part : topology.parts) {
-    const std::uint64_t words[] = {static_cast<std::uint64_t>(part.material), part.first_index,
-                                   part.index_count, static_cast<std::uint64_t>(part.finish + 1),
-                                   part.two_sided ? 1U : 0U};
-    sum = Checksum(words, sizeof(words), sum);
-  }
-  return sum;
-}
 
 /// Whether nothing is seen through a triangle. `cut_out`: it is not there where the photo is not.
 bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> triangle, bool cut_out) {
@@ -59,20 +39,6 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
 
 }  // namespace
 
-std::uint64_t Checksum(const void* data, std::size_t bytes, std::uint64_t start) {
-  constexpr std::uint64_t kPrime = 0x100000001b3;
-  std::uint64_t sum = start ^ 0xcbf29ce484222325;
-  const auto* at = static_cast<const unsigned char*>(data);
-  for (; bytes >= 8; bytes -= 8, at += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, at, 8);
-    sum = (sum ^ word) * kPrime;
-    sum ^= sum >> 29;
-  }
-  for (; bytes > 0; --bytes) sum = (sum ^ *at++) * kPrime;
-  return sum;
-}
-
 HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(kAttributes + 1, buffers_);
@@ -92,12 +58,10 @@ HeadBuffers::~HeadBuffers() {
 }
 
 void HeadBuffers::Upload(const Head& head, const HeadVertices& vertices) {
-  const auto checksum = ChecksumOf(head.topology());
   gl_.BindVertexArray(array_);
-  if (&head != head_ || checksum != checksum_) {
+  if (head.serial() != head_serial_) {
     UploadTopology(head);
-    head_ = &head;
-    checksum_ = checksum;
+    head_serial_ = head.serial();
   }
   assert(vertices.position.size() == head.topology().albedo.size());
   assert(vertices.normal.size() == vertices.position.size());

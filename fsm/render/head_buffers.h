@@ -25,8 +25,8 @@ class HeadBuffers {
   HeadBuffers(const HeadBuffers&) = delete;
   HeadBuffers& operator=(const HeadBuffers&) = delete;
 
-  /// Binds the head's vertex array with these vertices in it. Heads are told apart by address and
-  /// by a checksum of their topology, so that one made where another died is noticed.
+  /// Binds the head's vertex array with these vertices in it. All else that the head brings is
+  /// uploaded when it is another one than the last time, which its serial() tells.
   void Upload(const Head& head, const HeadVertices& vertices);
   /// The head's parts in the order to draw them, what hides most first; indices as uploaded here.
   const std::vector<HeadTopology::Part>& parts() const { return parts_; }
@@ -76,8 +76,7 @@ class HeadBuffers {
   // across its lock; indices.
   static constexpr GLuint kAttributes = 11;  // the last: places in a photo, cover, rest normal
   GLuint buffers_[kAttributes + 1] = {};
-  const Head* head_ = nullptr;
-  std::uint64_t checksum_ = 0;
+  std::uint64_t head_serial_ = 0;  // of the head uploaded; no head has 0
   std::vector<HeadTopology::Part> parts_;
   std::vector<bool> soft_;
   EyeFinder eyes_;
@@ -96,8 +95,5 @@ class HeadBuffers {
   bool blends_ = false;
   int generation_ = 0;
 };
-
-/// FNV-1a over 8 bytes at a time; to notice a change, not to resist one made on purpose.
-std::uint64_t Checksum(const void* data, std::size_t bytes, std::uint64_t start);
 
 }  // namespace fsm

@@ -20,8 +20,11 @@ class BallHead : public fsm::Head {
     }
   }
 
-  /// Leaves only the first parts.
+  /// Leaves only the first parts. To be called before the head is first drawn: from then on it does
+  /// not change.
   void KeepParts(std::size_t count) { topology_.parts.resize(count); }
+  /// For everything else that a test wants otherwise, until the head is first drawn.
+  fsm::HeadTopology& change() { return topology_; }
 
   const fsm::HeadTopology& topology() const override { return topology_; }
   void Evaluate(const fsm::FaceState&, fsm::HeadVertices& out) const override { out = vertices_; }

@@ -1,6 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
 
 #include "fsm/render/camera.h"
 #include "fsm/render/gl_functions.h"
@@ -206,12 +211,96 @@ TEST_F(FrameTest, AnotherHeadIsNoticedAndTheFirstOneToo) {
   EXPECT_EQ(Draw().rgba, ball.rgba);
 }
 
+/// One thing that a head brings to the renderer, in two ways that are seen in the picture.
+struct HeadChange {
+  const char* name;
+  void (*one)(HeadTopology&);
+  void (*other)(HeadTopology&);
+};
+
+void PrintTo(const HeadChange& change, std::ostream* out) { *out << change.name; }
+
+void Wear(HeadTopology& topology, std::uint8_t red, std::uint8_t blue) {
+  topology.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {red, 80, blue, 255}});
+  topology.photo_place.assign(topology.albedo.size(), glm::vec3(0.5F, 0.5F, 1));
+}
+
+void Comb(HeadTopology& topology, float cover) {
+  topology.strands.assign(topology.albedo.size(), Strand{.cover = cover});
+}
+
+void Shine(HeadTopology& topology, glm::vec3 glow) {
+  Finish finish;
+  finish.glow = glow;
+  topology.finishes = {finish};
+  topology.parts.front().finish = 0;
+  Wear(topology, 120, 120);
+}
+
+const HeadChange kHeadChanges[] = {
+    {"photo", [](HeadTopology& t) { Wear(t, 200, 20); }, [](HeadTopology& t) { Wear(t, 20, 200); }},
+    {"strands", [](HeadTopology& t) { Comb(t, 1); }, [](HeadTopology& t) { Comb(t, 0); }},
+    {"finishes",
+     [](HeadTopology& t) {
+       Shine(t, {1, 0, 0});
+     },
+     [](HeadTopology& t) {
+       Shine(t, {0, 0, 1});
+     }},
+    {"saturation",
+     [](HeadTopology& t) {
+       Wear(t, 120, 120);
+       t.saturation = 1;
+     },
+     [](HeadTopology& t) {
+       Wear(t, 120, 120);
+       t.saturation = 0;
+     }},
+};
+
+class ChangedHeadTest : public FrameTest, public ::testing::WithParamInterface<HeadChange> {
+ protected:
+  Image Drawn(Renderer& renderer, const Head& head) {
+    Image image;
+    renderer.Draw(head, vertices_, state_, scene_);
+    renderer.Read(image);
+    return image;
+  }
+};
+
+TEST_P(ChangedHeadTest, IsNoticedWhereAnotherOneDied) {
+  // Both live at the same address and have the same triangles and colours.
+  std::optional<BallHead> head(std::in_place);
+  GetParam().one(head->change());
+  const Image one = Drawn(*renderer_, *head);
+  head.emplace();
+  GetParam().other(head->change());
+  const Image other = Drawn(*renderer_, *head);
+  EXPECT_GT(Differing(one, other), 50);
+  const auto fresh = Renderer::Make(*context_);
+  EXPECT_EQ(Differing(other, Drawn(*fresh, *head)), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryThingUploaded, ChangedHeadTest, ::testing::ValuesIn(kHeadChanges),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(HeadSerialTest, NoTwoHeadsHaveTheSameNotEvenCopies) {
+  std::optional<BallHead> head(std::in_place);
+  const std::uint64_t first = head->serial();
+  EXPECT_EQ(head->serial(), first);
+  const BallHead copy = *head;
+  EXPECT_NE(copy.serial(), first);
+  head.emplace();
+  EXPECT_NE(head->serial(), first);
+  EXPECT_NE(head->serial(), copy.serial());
+}
+
 TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
-  BallHead bare;
+  BallHead bare, nothing;
   bare.KeepParts(1);
   renderer_->Draw(bare, vertices_, state_, scene_);
-  bare.KeepParts(0);
-  renderer_->Draw(bare, vertices_, state_, scene_);
+  nothing.KeepParts(0);
+  renderer_->Draw(nothing, vertices_, state_, scene_);
   Image image;
   renderer_->Read(image);
   EXPECT_EQ(At(image, kWidth / 2, kHeight / 2), kBackground);
