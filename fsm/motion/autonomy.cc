@@ -59,7 +59,7 @@ void Autonomy::Set(vm::Time now, Life kind, std::size_t pattern) {
       kind == Life::kAsymmetry || kind == Life::kGazeBlink || kind == Life::kEndBlink;
   const vm::Time fade = at_once ? vm::Time(0) : quick ? kQuickFade : kFade;
   own.weight.MoveTo(now, own.on ? 1.0f : 0.0f, fade);
-  if (kind == Life::kBlink && own.on) blink_starts_.clear();
+  if (kind == Life::kBlink && own.on) blink_ = {};
 }
 
 double Autonomy::Random(std::uint64_t stream, std::int64_t index) const {
@@ -176,20 +176,29 @@ EyeAngles Autonomy::ThinkingAt(vm::Time t, vm::Time since) const {
           static_cast<float>(from[1] + u * (to[1] - from[1]))};
 }
 
-vm::Time Autonomy::BlinkStart(std::size_t index) const {
+vm::Time Autonomy::BlinkInterval(std::int64_t index) const {
   // Intervals between blinks are skewed: many short, some long. exp of a sum of three even numbers
   // (nearly normal) is nearly log-normal; bounded to half and one and a half of the mean.
-  const Switch& own = Of(Life::kBlink);
-  const double mean = table_.auto_blinks[own.pattern - 1].interval_ms;
-  while (blink_starts_.size() <= index) {
-    const auto n = static_cast<std::int64_t>(3 * blink_starts_.size());
-    const double normal =
-        Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
-    const double interval = mean * std::clamp(0.93 * std::exp(0.4 * normal), 0.5, 1.5);
-    const vm::Time before = blink_starts_.empty() ? own.since : blink_starts_.back();
-    blink_starts_.push_back(before + FromMs(blink_starts_.empty() ? 0.6 * interval : interval));
+  const double mean = table_.auto_blinks[Of(Life::kBlink).pattern - 1].interval_ms;
+  const std::int64_t n = 3 * index;
+  const double normal =
+      Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
+  const double interval = mean * std::clamp(0.93 * std::exp(0.4 * normal), 0.5, 1.5);
+  return FromMs(index == 0 ? 0.6 * interval : interval);
+}
+
+Autonomy::Blink Autonomy::LastBlink(vm::Time t) const {
+  // Before the first blink the switch itself stands for the one before.
+  if (blink_.index < 0) blink_ = {-1, Of(Life::kBlink).since};
+  while (blink_.index >= 0 && blink_.start > t) {
+    blink_.start -= BlinkInterval(blink_.index);
+    --blink_.index;
   }
-  return blink_starts_[index];
+  for (;;) {
+    const vm::Time next = blink_.start + BlinkInterval(blink_.index + 1);
+    if (next > t) return blink_;
+    blink_ = {blink_.index + 1, next};
+  }
 }
 
 double Autonomy::LidsShutAt(vm::Time t) const {
@@ -198,13 +207,12 @@ double Autonomy::LidsShutAt(vm::Time t) const {
   const AutoBlink& blinks = table_.auto_blinks[own.pattern - 1];
   const double weight = own.weight.At(t);
   if (weight <= 0) return 0;
-  while (blink_starts_.empty() || blink_starts_.back() <= t) (void)BlinkStart(blink_starts_.size());
-  const auto next = std::ranges::upper_bound(blink_starts_, t);
-  if (next == blink_starts_.begin()) return 0;
-  const auto k = next - blink_starts_.begin() - 1;
+  const Blink blink = LastBlink(t);
+  if (blink.index < 0) return 0;
   // Half of people's blinks do not shut the eye quite.
-  const double depth = blinks.varied ? std::min(1.0, 0.9 + 0.2 * Random(kBlinkDepth, k)) : 1;
-  return weight * depth * LidsAt(table_.blinks[blinks.blink], t - *std::prev(next));
+  const double depth =
+      blinks.varied ? std::min(1.0, 0.9 + 0.2 * Random(kBlinkDepth, blink.index)) : 1;
+  return weight * depth * LidsAt(table_.blinks[blinks.blink], t - blink.start);
 }
 
 std::optional<vm::Time> Autonomy::NextActivity(vm::Time t) const {
@@ -217,10 +225,9 @@ std::optional<vm::Time> Autonomy::NextActivity(vm::Time t) const {
   if (!On(Life::kBlink)) return next;
   const AutoBlink& blinks = table_.auto_blinks[Of(Life::kBlink).pattern - 1];
   const vm::Time length = LengthOf(table_.blinks[blinks.blink]);
-  while (blink_starts_.empty() || blink_starts_.back() <= t) (void)BlinkStart(blink_starts_.size());
-  const auto first =
-      std::ranges::find_if(blink_starts_, [&](const vm::Time start) { return t < start + length; });
-  return Earlier(next, std::max(t, *first));
+  // The earliest blink that is not over: the one that follows the last which was over by now.
+  const Blink over = LastBlink(t - length);
+  return Earlier(next, std::max(t, over.start + BlinkInterval(over.index + 1)));
 }
 
 }  // namespace fsm

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/motion_table.h"
@@ -51,13 +50,24 @@ class Autonomy {
   double Wander(std::uint64_t stream, double periods) const;      // smooth, -1..1
   void AddMove(vm::Time t, Angles& out) const;
   void AddNods(vm::Time t, double weight, Angles& out) const;
-  /// When blink `index` since the switch begins; intervals are drawn one after the other.
-  vm::Time BlinkStart(std::size_t index) const;
+  /// A blink since the switch: its number, from 0, and when it begins.
+  struct Blink {
+    std::int64_t index = -1;
+    vm::Time start{0};
+  };
+  /// From the beginning of the blink before to that of blink `index`; of the first, from the
+  /// switch.
+  vm::Time BlinkInterval(std::int64_t index) const;
+  /// The last blink that has begun by `t`; its index is -1 before the first.
+  Blink LastBlink(vm::Time t) const;
 
   const MotionTable& table_;
   std::uint64_t seed_;
   std::array<Switch, kLifeNames.size()> switches_;
-  mutable std::vector<vm::Time> blink_starts_;  // since the switch; grown as far as asked for
+  /// The blink that was asked for last. A blink's place is the sum of all intervals before it, but
+  /// each interval follows from its number alone: from here the next one asked for, before or
+  /// after, is a few steps away. What is found does not depend on where this stands.
+  mutable Blink blink_;
 };
 
 }  // namespace fsm

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <vector>
 
+#include "fsm/motion/autonomy.h"
 #include "fsm/motion/face_motion.h"
+#include "fsm/motion/random.h"
 
 namespace fsm {
 namespace {
@@ -304,6 +308,70 @@ TEST_F(LifeTest, TheSameSeedLivesTheSameLife) {
     differs = differs || a.head_rotation != c.head_rotation;
   }
   EXPECT_TRUE(differs);
+}
+
+struct BlinkTest : testing::Test {
+  static constexpr std::uint64_t kSeed = 7;
+  static constexpr vm::Time kSwitched = 1234ms;
+  const MotionTables tables{MotionTables::Load().value()};
+
+  Autonomy Blinking() const {
+    Autonomy autonomy(tables.motions, kSeed);
+    autonomy.Set(kSwitched, Life::kBlink, 1);
+    return autonomy;
+  }
+  /// When the first blinks begin: their intervals, each drawn by its number, added up one after the
+  /// other.
+  std::vector<vm::Time> Starts(std::int64_t count) const {
+    constexpr std::uint64_t kStream = 0;
+    const double mean = tables.motions.auto_blinks[0].interval_ms;
+    std::vector<vm::Time> starts;
+    for (std::int64_t k = 0; k < count; ++k) {
+      double normal = 0;
+      for (const std::int64_t n : {3 * k, 3 * k + 1, 3 * k + 2}) {
+        normal += RandomAt(kSeed, kStream, n);
+      }
+      const double ms = mean * std::clamp(0.93 * std::exp(0.4 * normal), 0.5, 1.5);
+      const vm::Time before = starts.empty() ? kSwitched : starts.back();
+      starts.push_back(before + FromMs(starts.empty() ? 0.6 * ms : ms));
+    }
+    return starts;
+  }
+};
+
+TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor) {
+  constexpr std::int64_t kCount = 2000;
+  const std::vector<vm::Time> starts = Starts(kCount);
+  const Autonomy forward = Blinking(), back = Blinking(), jumping = Blinking();
+  const auto check = [&](const Autonomy& autonomy, std::size_t k) {
+    const vm::Time start = starts[k];
+    // Long after the blink before, which takes no more than a quarter of a second.
+    ASSERT_EQ(autonomy.NextActivity(start - 1ms), start) << k;
+    ASSERT_EQ(autonomy.LidsShutAt(start - 1ms), 0) << k;
+    ASSERT_EQ(autonomy.NextActivity(start + 90ms), start + 90ms) << k;
+    ASSERT_GE(autonomy.LidsShutAt(start + 90ms), 0.7) << k;
+  };
+  for (std::size_t k = 0; k < kCount; ++k) {
+    check(forward, k);
+    check(back, kCount - 1 - k);
+    check(jumping, k * 887 % kCount);
+  }
+  EXPECT_EQ(forward.LidsShutAt(0ms), 0) << "before the switch";
+  EXPECT_EQ(forward.NextActivity(kSwitched + 100ms), starts[0]);
+}
+
+TEST_F(BlinkTest, TheNextBlinkIsFoundAsFastAfterWeeksAsAtTheStart) {
+  using Clock = std::chrono::steady_clock;
+  const Autonomy autonomy = Blinking();
+  const auto took = [&](vm::Time from) {
+    (void)autonomy.NextActivity(from);  // goes there
+    const auto begin = Clock::now();
+    for (int i = 0; i < 5000; ++i) (void)autonomy.NextActivity(from + i * 20ms);
+    return Clock::now() - begin;
+  };
+  const auto at_first = took(10s), later = took(std::chrono::hours(24 * 21));
+  // 450,000 blinks later. A shared machine may take its time for either.
+  EXPECT_LT(later, 20 * at_first + 100ms);
 }
 
 }  // namespace
