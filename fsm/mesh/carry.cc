@@ -5,10 +5,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "fsm/head/spline.h"
 #include "fsm/head/warp.h"
+#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/surface_index.h"
 
 namespace fsm {
@@ -58,6 +60,21 @@ void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<flo
   }
 }
 
+void CheckPlaces(std::span<const PlacePair> pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (WithinReach(pairs[i].from) && WithinReach(pairs[i].to)) continue;
+    throw std::runtime_error("place " + std::to_string(i + 1) +
+                             " of those that both faces have lies farther away than 10 km");
+  }
+}
+
+void CheckVertices(std::span<const glm::vec3> at, const char* whose) {
+  const auto lost = std::ranges::find_if_not(at, WithinReach);
+  if (lost == at.end()) return;
+  throw std::runtime_error("vertex " + std::to_string(lost - at.begin()) + " of " + whose +
+                           " lies farther away than 10 km");
+}
+
 /// The edges of the lids are known better than other places (where flesh ends before the eyeball),
 /// and they are what closes an eye: what a warp left undone there is made up for, a few millimetres
 /// around.
@@ -94,6 +111,9 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   if (pairs.size() < 8) {
     throw std::runtime_error("at least eight places that both faces have are needed");
   }
+  CheckPlaces(pairs);
+  CheckVertices(from.position, "the face that is carried");
+  CheckVertices(to.position, "the head it is carried to");
   const auto prepared = [&pairs](const CarrySurface& face, bool is_from) {
     WeldedSurface surface(face.position, face.triangles, face.sewn);
     MarkParts(surface, pairs, is_from);
@@ -112,6 +132,8 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   const EdgePull edges(pairs, warp);
   WeldedSurface drawn = rest;
   for (glm::vec3& p : drawn.at) p = edges.Pulled(p + warp.Motion(p));
+  // Places that lie nearly in a plane say next to nothing about what lies beside it.
+  CheckVertices(drawn.at, "the face, where the places that both faces have take it,");
   drawn.FindNormals();
 
   // Drawn onto the other surface in rounds, at first as a whole, in the end in detail. Necks and

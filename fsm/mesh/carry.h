@@ -36,7 +36,8 @@ struct CarrySurface {
 /// other. Immutable; thread: any.
 class Carry {
  public:
-  /// Throws std::runtime_error if there are fewer than eight pairs or they lie in a plane.
+  /// Throws std::runtime_error if there are fewer than eight pairs or they lie (nearly) in a plane,
+  /// if a place or a vertex lies out of kMaxMeshReach, and as WeldedSurface and SurfaceIndex.
   Carry(const CarrySurface& from, const CarrySurface& to, std::span<const PlacePair> pairs);
   /// Adds to `to_by` what `from_by` means there; both by vertex.
   void Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const;

@@ -13,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMaxElements = 4U << 20;  ///< of one accessor
-constexpr std::size_t kMaxDepth = 64;           ///< of the JSON
+constexpr std::size_t kMaxNumbers = 4U << 20;  ///< of one accessor, all its elements together
+constexpr std::size_t kMaxDepth = 64;          ///< of the JSON
 
 const json kNothing = json::object();
 
@@ -244,11 +244,12 @@ vm::Result<std::vector<double>> GltfDocument::Read(std::int64_t index, int width
   if (count < 0 || !kind || own_width == 0 || own_width != width) {
     return Wrong(place + ": " + std::to_string(width) + " numbers of a known kind expected");
   }
-  if (static_cast<std::size_t>(count) > kMaxElements) {
-    return vm::Fail(vm::Errc::kLimit, name_ + ": " + place + ": more than " +
-                                          std::to_string(kMaxElements) + " elements");
-  }
   const auto numbers = static_cast<std::size_t>(width);
+  // A few bytes can announce any count: without a bufferView all of them are zeros.
+  if (static_cast<std::size_t>(count) > kMaxNumbers / numbers) {
+    return vm::Fail(vm::Errc::kLimit, name_ + ": " + place + ": more than " +
+                                          std::to_string(kMaxNumbers) + " numbers");
+  }
   const bool normalised = accessor.value("normalized", json(false)) == json(true);
   std::vector<double> out(static_cast<std::size_t>(count) * numbers, 0.0);
   const auto fill = [&](std::int64_t view_index, std::int64_t offset, const Kind& of,

@@ -39,6 +39,7 @@ class GltfDocument {
   /// The bytes of images[index], wherever they are.
   vm::Result<std::string> ImageBytes(std::int64_t index) const;
 
+  const std::string& name() const { return name_; }
   std::unexpected<vm::Error> Wrong(const std::string& text) const;
 
  private:

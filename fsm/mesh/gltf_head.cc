@@ -9,6 +9,7 @@
 #include "fsm/mesh/gltf_nodes.h"
 #include "fsm/mesh/gltf_paint.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/mesh/vrm_avatar.h"
@@ -32,6 +33,7 @@ class GltfReader {
       : document_(std::move(document)), avatar_(ReadVrm(document_)), paint_(document_, head_) {}
 
   vm::Result<HeadFile> Read() {
+    head_.name = document_.name();
     head_.metres = true;
     auto nodes = GltfNodes::Read(document_);
     if (!nodes) return std::unexpected(nodes.error());
@@ -44,6 +46,11 @@ class GltfReader {
     if (avatar_.eye_bone[0] >= 0 && avatar_.eye_bone[1] >= 0) {
       head_.eye_pivot = {glm::vec3(nodes_.World(avatar_.eye_bone[0])[3]),
                          glm::vec3(nodes_.World(avatar_.eye_bone[1])[3])};
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (WithinReach((*head_.eye_pivot)[side])) continue;
+        return document_.Wrong("nodes[" + std::to_string(avatar_.eye_bone[side]) +
+                               "]: the eye lies farther than 10000000 metres from the origin");
+      }
     }
     if (avatar_.says_look) head_.look = avatar_.look;
     head_.look_by_shape = avatar_.look_by_shape;
@@ -155,6 +162,7 @@ class GltfReader {
     for (std::size_t i = 0; i < count; ++i) {
       const glm::vec4 p((*numbers)[3 * i], (*numbers)[3 * i + 1], (*numbers)[3 * i + 2], 1);
       head_.position.push_back(glm::vec3(stands[i] * p));
+      if (!WithinReach(head_.position.back())) return OutOfReach(place, i, "");
     }
     mirrored_[first] = count > 0 && glm::determinant(glm::mat3(stands[0])) < 0;
     if (auto read = Places(attributes, paint_.Place(WholeOf(primitive, "material")), first); !read)
@@ -217,8 +225,11 @@ class GltfReader {
       for (std::size_t i = 0; i < stands.size(); ++i) {
         const glm::vec3 d((*by)[3 * i], (*by)[3 * i + 1], (*by)[3 * i + 2]);
         if (d == glm::vec3(0)) continue;
-        deltas.push_back(
-            {static_cast<std::uint32_t>(first + i), glm::vec3(stands[i] * glm::vec4(d, 0))});
+        const glm::vec3 moved(stands[i] * glm::vec4(d, 0));
+        if (!WithinReach(moved)) {
+          return OutOfReach(place, i, " is moved by target " + std::to_string(t) + " and");
+        }
+        deltas.push_back({static_cast<std::uint32_t>(first + i), moved});
         if (++deltas_ > kMaxDeltas) return TooMany();
       }
     }
@@ -243,7 +254,9 @@ class GltfReader {
         // Targets of the same name on several meshes are one shape; only this mesh's is meant.
         if (delta.vertex < moved.first || delta.vertex >= moved.end) continue;
         if (++deltas_ > kMaxDeltas) return;
-        shape.deltas.push_back({delta.vertex, static_cast<float>(bind.weight) * delta.by});
+        // VRM has weights from 0 to 1; what is far beyond is a damaged file, not a wish.
+        const auto weight = static_cast<float>(std::clamp(bind.weight, -10.0, 10.0));
+        shape.deltas.push_back({delta.vertex, weight * delta.by});
       }
     }
   }
@@ -257,6 +270,13 @@ class GltfReader {
     for (auto& shape : head_.shapes) {
       for (auto& delta : shape.deltas) delta.by *= round;
     }
+  }
+
+  std::unexpected<vm::Error> OutOfReach(const Place& place, std::size_t vertex,
+                                        const std::string& how) const {
+    return document_.Wrong("meshes[" + std::to_string(place.mesh) + "] of nodes[" +
+                           std::to_string(place.node) + "]: vertex " + std::to_string(vertex) +
+                           how + " comes to lie farther than 10000000 metres from the origin");
   }
 
   std::unexpected<vm::Error> TooMany() const {

@@ -69,6 +69,7 @@ vm::Result<HeadFile> ReadObjHead(const std::string& path) {
     if (text) materials.merge(ParseMtl(*text));
   }
   HeadFile head;
+  head.name = path;
   std::map<std::string, int> pictures;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made;
   const bool placed = !obj->places.empty();

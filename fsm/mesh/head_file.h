@@ -42,7 +42,8 @@ struct HeadFile {
     std::string name;
     std::vector<Delta> deltas;
   };
-  std::vector<glm::vec3> position;
+  std::string name;                 ///< of the file, for messages
+  std::vector<glm::vec3> position;  ///< all within kMaxMeshReach
   std::vector<glm::vec2> place;  ///< in the part's picture, v down; of each vertex, or none at all
   std::vector<glm::vec3> tint;   ///< linear, on the part's colour; of each vertex, or none at all
   std::vector<Part> parts;
@@ -68,7 +69,8 @@ vm::Result<HeadFile> ReadGltfHead(const std::string& path);
 vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view bytes);
 
 /// The head in our frame: `place` takes it there. Parts are told by their names, and rigid ones by
-/// where they lie to the mouth, which is at `mouth_y`.
+/// where they lie to the mouth, which is at `mouth_y`. Throws std::runtime_error naming file and
+/// vertex if `place` takes one out of kMaxMeshReach, as where landmarks do not belong to the head.
 MeshModel ModelOf(const HeadFile& file, const Similarity& place, float mouth_y);
 
 /// The triangles of a built-in head's skin, lips and mouth.
@@ -78,7 +80,8 @@ std::vector<std::uint32_t> EyesOf(const HeadTopology& topology);
 
 /// Stands still, but for head, eyes and jaw.
 std::unique_ptr<MeshMotion> StillMotion();
-/// Moved as `source` would be; `pairs` in our frame. Throws as Carry.
+/// Moved as `source` would be; `pairs` in our frame. Throws as Carry, with the model's name before
+/// the sentence.
 std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
                                           std::span<const PlacePair> pairs);
 

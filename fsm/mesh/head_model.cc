@@ -5,10 +5,13 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "fsm/head/paint.h"
 #include "fsm/head/spline.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/picture_sheet.h"
 
 namespace fsm {
@@ -59,7 +62,11 @@ class HeadBuilder {
  public:
   HeadBuilder(const HeadFile& file, const Similarity& place, float mouth_y)
       : file_(file), place_(place), mouth_y_(mouth_y) {
-    for (const glm::vec3& p : file.position) at_.push_back(place(p));
+    model_.name = file.name;
+    for (const glm::vec3& p : file.position) {
+      at_.push_back(place(p));
+      if (!WithinReach(at_.back())) Refuse("vertex " + std::to_string(at_.size() - 1));
+    }
   }
 
   MeshModel Build() {
@@ -99,6 +106,12 @@ class HeadBuilder {
     model_.lights = sheet_.MakeBeside(std::move(lights), {255, 255, 255, 255});
   }
 
+  [[noreturn]] void Refuse(const std::string& what) const {
+    throw std::runtime_error(file_.name + ": " + what +
+                             " comes to lie farther than 10 km from the head: do its landmarks "
+                             "(.points) or eyes belong to it?");
+  }
+
   bool IsEye(const HeadFile::Part& part) const { return KindOf(part.name) == Kind::kEye; }
 
   /// Eyes are parts called so, or vertices the file's skeleton gives to eyes.
@@ -128,6 +141,9 @@ class HeadBuilder {
     model_.look = file_.look;
     if (file_.eye_pivot) {
       model_.eye_pivot = {place_((*file_.eye_pivot)[0]), place_((*file_.eye_pivot)[1])};
+      for (const glm::vec3& pivot : *model_.eye_pivot) {
+        if (!WithinReach(pivot)) Refuse("what an eye turns about");
+      }
     }
     for (std::size_t side = 0; side < 2; ++side) {
       // A drawn eye is a disc that turns about a place deep in the head.

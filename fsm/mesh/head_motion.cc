@@ -255,7 +255,12 @@ std::unique_ptr<MeshMotion> StillMotion() { return std::make_unique<Still>(); }
 
 std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
                                           std::span<const PlacePair> pairs) {
-  return std::make_unique<Carried>(model, std::move(source), pairs);
+  try {
+    return std::make_unique<Carried>(model, std::move(source), pairs);
+  } catch (const std::runtime_error& error) {
+    if (model.name.empty()) throw;
+    throw std::runtime_error(model.name + ": " + error.what());
+  }
 }
 
 std::unique_ptr<MeshMotion> OwnShapesMotion(const HeadFile& file, const Similarity& place,

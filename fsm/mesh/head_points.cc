@@ -9,6 +9,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "fsm/mesh/mesh_reach.h"
+
 namespace fsm {
 namespace {
 
@@ -53,15 +55,18 @@ vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view
     for (std::size_t k = 0; k < 6; ++k) {
       const std::string_view word = words[2 + k];
       const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), v[k]);
-      if (code != std::errc() || stop != word.data() + word.size() || !std::isfinite(v[k])) {
+      if (code != std::errc() || stop != word.data() + word.size()) {
         return wrong("six numbers expected after the part");
       }
+    }
+    const glm::vec3 from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
+    if (!WithinReach(from) || !WithinReach(to)) {
+      return wrong("six numbers of at most 10000000 expected after the part");
     }
     if (points.pairs.size() >= kMaxPairs) {
       return wrong("at most " + std::to_string(kMaxPairs) + " points are read");
     }
-    points.pairs.push_back(
-        {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, static_cast<FacePart>(part - kParts.begin())});
+    points.pairs.push_back({from, to, static_cast<FacePart>(part - kParts.begin())});
   }
   if (points.pairs.size() < 8) {
     return wrong("at least eight points expected, " + std::to_string(points.pairs.size()) +

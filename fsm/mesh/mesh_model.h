@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fsm/head/head.h"
@@ -40,6 +41,7 @@ glm::mat3 EyeTo(const Gaze& gaze);
 
 /// Somebody else's head at rest, in our frame and millimetres: what MeshHead shows.
 struct MeshModel {
+  std::string name;  ///< of its file, for messages; may be empty
   std::vector<glm::vec3> position;
   std::vector<Bone> bone;              ///< kFlesh moves as MeshMotion says
   std::vector<float> neck;             ///< part of the head's turn each vertex makes

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/pnt_file.h"
 
 namespace fsm {
@@ -32,7 +33,7 @@ bool NextLine(std::string_view text, std::size_t& at, std::vector<std::string_vi
 bool Real(std::string_view word, float& out) {
   const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), out);
   return code == std::errc() && end == word.data() + word.size() && std::isfinite(out) &&
-         std::abs(out) < 1e7F;
+         std::abs(out) <= kMaxMeshReach;
 }
 
 bool Reals(const std::vector<std::string_view>& words, int count, float* out) {

@@ -183,6 +183,10 @@ INSTANTIATE_TEST_SUITE_P(
                "accessors":[{"bufferView":0,"componentType":5126,"count":999999999,"type":"VEC3"}],
                "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
                "more than"},
+        Damage{R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+               "accessors":[{"componentType":5126,"count":2000000,"type":"VEC3"}],
+               "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})",
+               "accessors[0]: more than 4194304 numbers"},
         Damage{"{" BUFFER
                R"("asset":{"version":"2.0"},"nodes":[{"children":[1]},{"children":[1]}]})",
                "their own parents"}));
