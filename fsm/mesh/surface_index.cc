@@ -7,6 +7,8 @@
 #include <glm/vec2.hpp>
 #include <map>
 #include <queue>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -109,6 +111,7 @@ void WeldedSurface::FindSeen(std::span<const glm::vec3> position,
                              std::span<const std::uint32_t> eyes) {
   constexpr float kCell = 1, kClear = 0.5f, kBehind = 3;  // millimetres
   constexpr int kMost = 2000;
+  constexpr std::int64_t kMostOfTriangle = 1'000'000;
   seen.assign(at.size(), 1);
   glm::vec2 low(1e9f), high(-1e9f);
   for (const glm::vec3& p : at) {
@@ -122,6 +125,7 @@ void WeldedSurface::FindSeen(std::span<const glm::vec3> position,
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
            static_cast<std::size_t>(x);
   };
+  std::int64_t covered = 0;
   const auto draw = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
     const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
     if (area <= 1e-6f) return;  // turned away
@@ -129,6 +133,14 @@ void WeldedSurface::FindSeen(std::span<const glm::vec3> position,
     const glm::vec2 most = glm::max(glm::vec2(a), glm::max(glm::vec2(b), glm::vec2(c)));
     const glm::ivec2 from(glm::max((least - low) / kCell, 0.0f));
     const glm::ivec2 to = glm::min(glm::ivec2(glm::max(most - low, 0.0f) / kCell) + 1, size - 1);
+    if (from.x > to.x || from.y > to.y) return;
+    const std::int64_t box = std::int64_t{to.x - from.x + 1} * (to.y - from.y + 1);
+    if (box > kMostOfTriangle) return;
+    if (covered += box; covered > kMaxCovered) {
+      throw std::runtime_error(
+          "its triangles lie in too many layers: their boxes cover more than " +
+          std::to_string(kMaxCovered / 1'000'000) + " square metres");
+    }
     for (int y = from.y; y <= to.y; ++y) {
       for (int x = from.x; x <= to.x; ++x) {
         const glm::vec2 p = low + kCell * glm::vec2(x, y);
@@ -193,6 +205,7 @@ std::vector<float> WeldedSurface::WayFrom(std::span<const glm::vec3> seeds, floa
 
 SurfaceIndex::SurfaceIndex(const WeldedSurface& surface, float reach)
     : surface_(surface), reach_(reach), cell_(std::max(reach / 2, 1.0f)) {
+  std::int64_t cells = 0;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
     const auto& t = surface.triangles[i];
     const glm::vec3 low = glm::min(surface.at[t[0]], glm::min(surface.at[t[1]], surface.at[t[2]]));
@@ -200,7 +213,15 @@ SurfaceIndex::SurfaceIndex(const WeldedSurface& surface, float reach)
     low_.push_back(low);
     high_.push_back(high);
     const glm::ivec3 a(glm::floor(low / cell_)), b(glm::floor(high / cell_));
-    if ((b.x - a.x + 1) * (b.y - a.y + 1) * (b.z - a.z + 1) > 4096) continue;
+    // Each side has at most 2e7 cells; the product of three needs more than 64 bits.
+    const std::int64_t across = b.x - a.x + 1, up = b.y - a.y + 1, deep = b.z - a.z + 1;
+    if (across * up > kMaxCellsOfTriangle || across * up * deep > kMaxCellsOfTriangle) continue;
+    if (cells += across * up * deep; cells > kMaxCells) {
+      throw std::runtime_error(
+          "its triangles are too large or too many to be told apart: they lie "
+          "in more than " +
+          std::to_string(kMaxCells) + " cells of " + std::to_string(std::lround(cell_)) + " mm");
+    }
     for (int x = a.x; x <= b.x; ++x) {
       for (int y = a.y; y <= b.y; ++y) {
         for (int z = a.z; z <= b.z; ++z) cells_[Cell({x, y, z})].push_back(i);
@@ -209,7 +230,8 @@ SurfaceIndex::SurfaceIndex(const WeldedSurface& surface, float reach)
   }
 }
 
-std::int64_t SurfaceIndex::Cell(glm::ivec3 c) const {
+std::int64_t SurfaceIndex::Cell(glm::ivec3 c) {
+  // Cells farther away than 100,000 may share a number, which costs time and changes nothing.
   return ((static_cast<std::int64_t>(c.x) + 100000) * 200003 + c.y + 100000) * 200003 + c.z +
          100000;
 }

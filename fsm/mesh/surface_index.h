@@ -32,7 +32,10 @@ class WeldedSurface {
 
   void FindNormals();
   /// `eyes`: triangles of the eyeballs, which hide what lies behind them; of the vertices
-  /// `position`.
+  /// `position`. A triangle whose box covers more than a square metre hides nothing.
+  /// Throws std::runtime_error if all of them together cover more than kMaxCovered, as triangles
+  /// do that lie in hundreds of layers. REQUIRES: all lies within kMaxMeshReach.
+  static constexpr std::int64_t kMaxCovered = 1 << 28;  ///< square millimetres of their boxes
   void FindSeen(std::span<const glm::vec3> position, std::span<const std::uint32_t> eyes);
   std::uint32_t Nearest(glm::vec3 p) const;
   /// Distances along edges from the vertices nearest to the seeds, up to `reach`; beyond it
@@ -44,6 +47,13 @@ class WeldedSurface {
 /// is as well seen.
 class SurfaceIndex {
  public:
+  /// A triangle whose box lies in more cells than this (of half `reach`, at least a millimetre) is
+  /// left out: it is part of no face, and nothing comes to lie on it.
+  static constexpr std::int64_t kMaxCellsOfTriangle = 4096;
+  /// Over all triangles. A face has one or two for each.
+  static constexpr std::int64_t kMaxCells = 4 << 20;
+  /// Throws std::runtime_error if there are more than kMaxCells. REQUIRES: all of the surface,
+  /// which outlives this, lies within kMaxMeshReach.
   SurfaceIndex(const WeldedSurface& surface, float reach);
   struct Hit {
     std::uint32_t triangle;
@@ -54,7 +64,7 @@ class SurfaceIndex {
   std::optional<Hit> Find(const WeldedSurface& other, std::size_t vertex) const;
 
  private:
-  std::int64_t Cell(glm::ivec3 c) const;
+  static std::int64_t Cell(glm::ivec3 c);
   const WeldedSurface& surface_;
   float reach_, cell_;
   std::vector<glm::vec3> low_, high_;  ///< corners of each triangle's box

@@ -13,6 +13,7 @@
 #include "fsm/mesh/carry.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/mesh/surface_index.h"
 #include "tests/fsm/gltf_maker.h"
 
 namespace fsm {
@@ -124,6 +125,69 @@ TEST(MeshReachTest, NothingIsCarriedToOrFromVerticesAndPlacesOutOfReach) {
                  std::runtime_error)
         << bad;
   }
+}
+
+/// A patch of skin that faces the viewer, at z.
+void AddPatch(float x, float y, float z, float size, std::vector<glm::vec3>& place,
+              std::vector<std::uint32_t>& triangles) {
+  for (const glm::vec3 p : {glm::vec3(0, 0, 0), {size, 0, 0}, {0, size, 0}}) {
+    place.push_back(glm::vec3(x, y, z) + p);
+    triangles.push_back(static_cast<std::uint32_t>(place.size() - 1));
+  }
+}
+
+WeldedSurface Welded(const std::vector<glm::vec3>& place,
+                     const std::vector<std::uint32_t>& triangles) {
+  WeldedSurface surface(place, triangles, false);
+  surface.FindSeen(place, {});
+  return surface;
+}
+
+TEST(SurfaceIndexTest, ATriangleTenMetresLargeIsLeftOut) {
+  std::vector<glm::vec3> place;
+  std::vector<std::uint32_t> triangles;
+  AddPatch(0, 0, 0, 5, place, triangles);
+  // 1429 cells of 7 mm on each side, whose product is no int.
+  for (const glm::vec3 p :
+       {glm::vec3(-5000), glm::vec3(5000, -5000, 0), glm::vec3(0, 5000, 5000)}) {
+    place.push_back(p);
+    triangles.push_back(static_cast<std::uint32_t>(place.size() - 1));
+  }
+  const WeldedSurface surface = Welded(place, triangles);
+  const SurfaceIndex index(surface, 14);
+  const auto hit = index.Find(surface, 0);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->triangle, 0U);
+  EXPECT_EQ(index.Find(surface, 4), std::nullopt) << "a corner of the large one";
+}
+
+TEST(WeldedSurfaceTest, TrianglesInTooManyLayersAreRefused) {
+  std::vector<glm::vec3> place;
+  std::vector<std::uint32_t> triangles;
+  for (int i = 0; i < 300; ++i) {
+    AddPatch(0, 0, static_cast<float>(i), 997, place, triangles);
+  }
+  WeldedSurface many(place, triangles, false);
+  EXPECT_THROW(many.FindSeen(place, {}), std::runtime_error);
+  // Larger ones than a square metre are looked at as quickly as they are many.
+  for (glm::vec3& p : place) p *= 1000.0F;
+  WeldedSurface large(place, triangles, false);
+  EXPECT_NO_THROW(large.FindSeen(place, {}));
+}
+
+TEST(SurfaceIndexTest, TrianglesInTooManyCellsAreRefused) {
+  std::vector<glm::vec3> place;
+  std::vector<std::uint32_t> triangles;
+  // Each lies in 64 x 64 cells of a millimetre.
+  for (int i = 0; i < 1100; ++i) {
+    AddPatch(0.5F, 0.5F, 2 * static_cast<float>(i) + 0.5F, 63, place, triangles);
+  }
+  const WeldedSurface all = Welded(place, triangles);
+  EXPECT_THROW(SurfaceIndex(all, 2), std::runtime_error);
+  place.resize(300);
+  triangles.resize(300);
+  const WeldedSurface some = Welded(place, triangles);
+  EXPECT_NO_THROW(SurfaceIndex(some, 2));
 }
 
 }  // namespace
