@@ -1,95 +1,77 @@
-#include <GL/osmesa.h>
-
-#include <cstdint>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "fsm/render/context_switch.h"
+#include "fsm/render/gl_functions.h"
+#include "fsm/render/off_screen.h"
 
 namespace fsm {
 namespace {
 
-/// Software OpenGL into memory. The renderer draws into framebuffer objects of its own, so the
-/// memory OSMesa insists on is only ever bound, never looked at.
-class HeadlessContext : public OffScreenContext {
- public:
-  HeadlessContext(int width, int height) : OffScreenContext(width, height) {
-    const int attributes[] = {OSMESA_FORMAT,
-                              OSMESA_RGBA,
-                              OSMESA_DEPTH_BITS,
-                              0,
-                              OSMESA_STENCIL_BITS,
-                              0,
-                              OSMESA_PROFILE,
-                              OSMESA_CORE_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION,
-                              3,
-                              OSMESA_CONTEXT_MINOR_VERSION,
-                              3,
-                              0};
-    context_ = OSMesaCreateContextAttribs(attributes, nullptr);
-    if (!context_) {
-      throw std::runtime_error("cannot make an off-screen OpenGL 3.3 context with OSMesa");
-    }
-    pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  }
-  ~HeadlessContext() override {
-    auto* other = Leave();
-    OSMesaDestroyContext(context_);
-    Resume(other);
-  }
+using Make = std::function<std::unique_ptr<RenderContext>(int, int)>;
 
-  void* GetProcAddress(const char* name) override {
-    return reinterpret_cast<void*>(OSMesaGetProcAddress(name));
-  }
-
- private:
-  void Bind() override {
-    if (!OSMesaMakeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width(), height())) {
-      throw std::runtime_error("OSMesa refused a picture of " + std::to_string(width()) + " x " +
-                               std::to_string(height()));
-    }
-  }
-  void Release() override { OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0); }
-
-  OSMesaContext context_ = nullptr;
-  std::vector<std::uint8_t> pixels_;
-};
+/// The order in which ways to draw off screen are tried, from left to right; those that this
+/// program was built without are passed over.
+///
+/// | asked for | first                   | then                | last   |
+/// | kOsMesa   | OSMesa                  | Mesa's EGL software |        |
+/// | kEgl      | graphics cards of EGL   | EGL without surface |        |
+/// | kAny      | graphics cards of EGL   | EGL without surface | OSMesa |
+///
+/// OSMesa is gone from Mesa 25.1 on; its software device draws the same pictures.
+std::vector<Make> WaysTo(OffScreen how) {
+  [[maybe_unused]] const bool software = how == OffScreen::kOsMesa;
+  std::vector<Make> ways;
+#ifdef FSM_WITH_OSMESA
+  if (software) ways.emplace_back(MakeOsMesaContext);
+#endif
+#ifdef FSM_WITH_EGL
+  ways.emplace_back(
+      [software](int width, int height) { return MakeEglDeviceContext(width, height, software); });
+  if (!software) ways.emplace_back(MakeEglSurfacelessContext);
+#endif
+#ifdef FSM_WITH_OSMESA
+  if (how == OffScreen::kAny) ways.emplace_back(MakeOsMesaContext);
+#endif
+  return ways;
+}
 
 }  // namespace
-
-#ifdef FSM_WITH_EGL
-std::unique_ptr<RenderContext> MakeEglContext(int width, int height);  // in egl_context.cc
-#endif
 
 std::unique_ptr<RenderContext> RenderContext::MakeHeadless(int width, int height, OffScreen how) {
   if (width < 1 || height < 1 || width > kMaxImageSide || height > kMaxImageSide) {
     throw std::runtime_error("a picture must have 1 to " + std::to_string(kMaxImageSide) +
                              " pixels on each side");
   }
-  if (how == OffScreen::kEgl) {
-#ifdef FSM_WITH_EGL
-    return MakeEglContext(width, height);
-#else
-    throw std::runtime_error("this program was built without EGL (Debian's libegl-dev)");
-#endif
+  std::string reasons;
+  for (const Make& make : WaysTo(how)) {
+    try {
+      return make(width, height);
+    } catch (const std::runtime_error& error) {
+      reasons += (reasons.empty() ? "" : "; ") + std::string(error.what());
+    }
   }
-  auto context = std::make_unique<HeadlessContext>(width, height);
-  context->MakeCurrent();
-  return context;
+  throw std::runtime_error(
+      "cannot make an off-screen OpenGL 3.3 context: " +
+      (reasons.empty() ? "this program was built without it (Debian's libegl-dev, libosmesa6-dev)"
+                       : reasons));
+}
+
+std::string DescribeOffScreen(OffScreen how) {
+  try {
+    const auto context = RenderContext::MakeHeadless(16, 16, how);
+    const auto get_string =
+        reinterpret_cast<PFNGLGETSTRINGPROC>(context->GetProcAddress("glGetString"));
+    const auto text = [get_string](GLenum what) -> std::string {
+      const auto* found = get_string ? get_string(what) : nullptr;
+      return found ? reinterpret_cast<const char*>(found) : "unknown";
+    };
+    return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION) + ", by " + context->reached_by();
+  } catch (const std::runtime_error& error) {
+    return std::string("none: ") + error.what();
+  }
 }
 
 }  // namespace fsm
-
-// OSMesa keeps a few kilobytes of its own until the process ends; the leak checker of a sanitized
-// build is told so in every program that can hold such a context.
-#if defined(__has_feature)
-#define FSM_HAS_FEATURE(feature) __has_feature(feature)
-#else
-#define FSM_HAS_FEATURE(feature) 0
-#endif
-#if defined(__SANITIZE_ADDRESS__) || FSM_HAS_FEATURE(address_sanitizer)
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
-#endif

@@ -40,8 +40,12 @@ struct Scene {
   Lamp rim{{0.59f, 0.46f, -0.67f}, {1.30f, 1.36f, 1.45f}};
 };
 
-/// Ways to draw off screen: OSMesa is always software; EGL without a surface takes what there is.
-enum class OffScreen { kOsMesa, kEgl };
+/// What draws off screen. The order in which ways are tried stands in headless_context.cc.
+enum class OffScreen {
+  kOsMesa,  ///< Mesa's software: OSMesa, or its software device where a build has no OSMesa
+  kEgl,     ///< a graphics card by EGL; else what Mesa has, which may be software
+  kAny      ///< as kEgl; where EGL has nothing, OSMesa
+};
 
 /// A GL context and where its frames go. Thread: one, the one that made it; at most one is current,
 /// and a context is current when made. Destroying one leaves another current that was so.
@@ -61,6 +65,8 @@ class RenderContext {
   virtual void Resize(int /*width*/, int /*height*/) {}
   virtual void MakeCurrent() = 0;
   virtual void* GetProcAddress(const char* name) = 0;
+  /// The way that led to it, as "OSMesa" or "EGL, device 0 (/dev/dri/card0), hardware".
+  virtual std::string reached_by() const { return "unknown means"; }
   virtual int width() const = 0;  ///< of the drawable now (a window may be resized)
   virtual int height() const = 0;
   virtual bool is_window() const = 0;
@@ -68,6 +74,11 @@ class RenderContext {
   virtual void Present() = 0;
   virtual bool close_requested() const = 0;
 };
+
+/// GL_RENDERER, GL_VERSION and the way of what would draw off screen, one line: "llvmpipe (LLVM
+/// 15.0.6, 256 bits), OpenGL 4.5 (...), by OSMesa"; "none: ..." with the reason if nothing would.
+/// Makes a context and destroys it.
+std::string DescribeOffScreen(OffScreen how);
 
 /// Part of what a context draws into, in pixels from its upper left corner; width 0: all of it.
 struct Pane {

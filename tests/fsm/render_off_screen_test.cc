@@ -1,0 +1,82 @@
+// What draws off screen, and in which order ways to it are tried.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "fsm/render/off_screen.h"
+#include "tests/fsm/ball_head.h"
+
+namespace fsm {
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+
+Image Drawn(RenderContext& context) {
+  const BallHead head;
+  HeadVertices vertices;
+  head.Evaluate({}, vertices);
+  const auto renderer = Renderer::Make(context);
+  renderer->Draw(head, vertices, {}, {});
+  Image image;
+  renderer->Read(image);
+  return image;
+}
+
+/// The context, or nothing and the reason.
+template <typename Make>
+std::unique_ptr<RenderContext> Try(Make make, std::string& why) {
+  try {
+    return make();
+  } catch (const std::runtime_error& error) {
+    why = error.what();
+    return nullptr;
+  }
+}
+
+TEST(OffScreenTest, SoftwareIsWhatIsMadeWhenNothingIsSaid) {
+  const auto context = RenderContext::MakeHeadless(kWidth, kHeight);
+  const std::string way = context->reached_by();
+  EXPECT_TRUE(way == "OSMesa" || way.ends_with(", software")) << way;
+  EXPECT_NE(DescribeOffScreen(OffScreen::kOsMesa).find("by " + way), std::string::npos);
+  EXPECT_NE(DescribeOffScreen(OffScreen::kOsMesa).find("OpenGL "), std::string::npos);
+}
+
+TEST(OffScreenTest, EglIsGraphicsCardsFirstAndThenMesaWithoutASurface) {
+  std::string why, no_card;
+  const auto card = Try([] { return MakeEglDeviceContext(kWidth, kHeight, false); }, no_card);
+  const auto chosen =
+      Try([] { return RenderContext::MakeHeadless(kWidth, kHeight, OffScreen::kEgl); }, why);
+  if (!chosen) GTEST_SKIP() << "needs EGL (Debian: libegl1, libegl-dev): " << why;
+  EXPECT_EQ(chosen->reached_by(), card ? card->reached_by() : "EGL, Mesa without a surface");
+  EXPECT_TRUE(card || no_card.starts_with("EGL: ")) << no_card;
+  const auto any = RenderContext::MakeHeadless(kWidth, kHeight, OffScreen::kAny);
+  EXPECT_EQ(any->reached_by(), chosen->reached_by());
+}
+
+TEST(OffScreenTest, MesasSoftwareDeviceDrawsWhatOsMesaDraws) {
+  std::string why;
+  const auto device = Try([] { return MakeEglDeviceContext(kWidth, kHeight, true); }, why);
+  if (!device) GTEST_SKIP() << "needs Mesa's EGL (Debian: libegl-mesa0): " << why;
+  EXPECT_TRUE(device->reached_by().ends_with(", software")) << device->reached_by();
+  const Image by_device = Drawn(*device);
+  const auto software = RenderContext::MakeHeadless(kWidth, kHeight);
+  const Image image = Drawn(*software);
+  int different = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    different += std::abs(image.rgba[i] - by_device.rgba[i]) > 4;
+  }
+  EXPECT_LE(different, kWidth * kHeight / 200);
+}
+
+TEST(OffScreenTest, SizesThatNoPictureHasAreRefusedByEveryWay) {
+  EXPECT_THROW(RenderContext::MakeHeadless(0, 4, OffScreen::kAny), std::runtime_error);
+  EXPECT_THROW(RenderContext::MakeHeadless(4, kMaxImageSide + 1, OffScreen::kEgl),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace fsm
