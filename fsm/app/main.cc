@@ -64,13 +64,35 @@ bool WindowWanted(const Options& options) {
   return options.window || (!options.headless && DisplayNamed());
 }
 
+fsm::OffScreen OffScreenWanted(const Options& options) {
+  return options.context == "egl"    ? fsm::OffScreen::kEgl
+         : options.context == "auto" ? fsm::OffScreen::kAny
+                                     : fsm::OffScreen::kOsMesa;
+}
+
+/// --version says on stderr what would draw, too; the version alone is on stdout, as of every
+/// program.
+void TellRenderer(CLI::App& app, const Options& options) {
+  // The runtime adds its own flag after our options, so it is replaced when parsing begins.
+  app.preparse_callback([&app, &options](std::size_t) {
+    app.set_version_flag("--version", [&options]() -> std::string {
+      std::cerr << "fsm: renderer off screen: " << fsm::DescribeOffScreen(OffScreenWanted(options))
+                << "\n";
+      return "fsm (Galatea) " GALATEA_VERSION;
+    });
+  });
+}
+
 void AddOptions(CLI::App& app, Options& options) {
+  TellRenderer(app, options);
   app.add_flag("--headless", options.headless, "Draw without a window, only what is asked for");
   app.add_flag("--window", options.window,
                "Draw in a window (the default where there is a display)");
   app.add_option("--context", options.context,
-                 "What draws: osmesa (the default of --headless), egl (off screen) or window")
-      ->check(CLI::IsMember({"osmesa", "egl", "window"}));
+                 "What draws: osmesa (software, the default of --headless), egl (off screen: a "
+                 "graphics card, else what Mesa has), auto (egl, else osmesa) or window")
+      ->envname("GALATEA_CONTEXT")
+      ->check(CLI::IsMember({"osmesa", "egl", "auto", "window"}));
   app.add_option("--size", options.size, "Size of the view, WxH (default 640x480)");
   app.add_option("-s", options.size_pair, "The same, as the original: -s W H")->expected(2);
   app.add_option("--position", options.position, "Place of the window, X Y")->expected(2);
@@ -153,7 +175,7 @@ fsm::GlStudio::Options StudioOptions(const Options& options) {
     throw std::runtime_error("the view must be 16 to " + std::to_string(fsm::kMaxImageSide) +
                              " pixels wide and high");
   }
-  if (options.context == "egl") studio.off_screen = fsm::OffScreen::kEgl;
+  studio.off_screen = OffScreenWanted(options);
   if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};
   studio.more_faces = MoreFaces(options, options.module.config);
   studio.tables = options.module.tables;
