@@ -1,14 +1,135 @@
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "fsm/image/image_codec.h"
+#include "fsm/mesh/carry.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/head_points.h"
+#include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/pnt_file.h"
+
+namespace {
+
+/// What one run may cost is bounded by what it carries; larger heads are only read.
+constexpr std::size_t kMaxCarried = 200;  // vertices, and corners of triangles
+
+/// A face to carry from: the front of a ball, two vertices of it on each lip and lid.
+struct Ball {
+  std::vector<glm::vec3> place;
+  std::vector<std::uint32_t> triangles;
+  std::vector<fsm::PlacePair> pairs;
+
+  Ball() {
+    constexpr std::uint32_t kSide = 9;
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+      for (std::uint32_t x = 0; x < kSide; ++x) {
+        const glm::vec2 flat(20 * (static_cast<float>(x) - 4), 25 * (static_cast<float>(y) - 4));
+        place.emplace_back(flat, 100 - 0.004F * (flat.x * flat.x + flat.y * flat.y));
+        if (x == 0 || y == 0) continue;
+        const std::uint32_t v = y * kSide + x;
+        for (const std::uint32_t corner : {v - kSide - 1, v - kSide, v, v - kSide - 1, v, v - 1}) {
+          triangles.push_back(corner);
+        }
+      }
+    }
+    for (std::size_t v = 0; v < place.size(); v += 5) {
+      const auto part = static_cast<fsm::FacePart>(v % 5 == 0 ? v / 5 % 5 : 0);
+      pairs.push_back({place[v], place[v], part});
+    }
+  }
+};
+
+bool IsFinite(glm::vec3 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+/// Makes a head of the file, carries our face to it and moves it. Whatever its numbers are, it is
+/// refused, or every vertex has a place.
+void CarryOnto(const fsm::HeadFile& file, const fsm::Similarity& place,
+               std::span<const fsm::PlacePair> pairs) {
+  static const Ball ball;
+  try {
+    const fsm::MeshModel model = fsm::ModelOf(file, place, -43);
+    if (model.bone.size() != model.position.size()) __builtin_trap();
+    for (const glm::vec3& p : model.position) {
+      if (!IsFinite(p)) __builtin_trap();
+    }
+    const auto flesh = model.FleshTriangles(), eyes = model.EyeTriangles();
+    if (model.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried) return;
+    const fsm::Carry carry({.position = ball.place, .triangles = ball.triangles},
+                           {model.position, flesh, model.sewn, eyes}, pairs);
+    const std::vector<glm::vec3> by(ball.place.size(), glm::vec3(1, -2, 3));
+    std::vector<glm::vec3> moved = model.position;
+    carry.Apply(by, moved);
+    for (const glm::vec3& p : moved) {
+      if (!IsFinite(p)) __builtin_trap();
+    }
+  } catch (const std::runtime_error&) {
+    // It was refused with a sentence.
+  }
+}
+
+/// A head whose numbers are taken as they come: JSON and base64 keep a fuzzer from most of them.
+/// The second byte chooses between numbers up to 128 mm and any floats; after it stand 8 to 23
+/// landmarks, their number in the third, then vertices.
+void CarryRaw(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 2) return;
+  const bool floats = bytes[0] % 2 == 1, sewn = bytes[0] % 4 > 1;
+  const std::size_t landmarks = 8 + bytes[1] % 16;
+  std::size_t at = 2;
+  const auto number = [&]() -> float {
+    const std::size_t size = floats ? sizeof(float) : sizeof(std::int16_t);
+    if (at + size > bytes.size()) return 0;
+    float real = 0;
+    std::int16_t whole = 0;
+    std::memcpy(floats ? static_cast<void*>(&real) : &whole, &bytes[at], size);
+    at += size;
+    return floats ? real : static_cast<float>(whole) / 256;
+  };
+  const auto place = [&] {
+    const float x = number(), y = number(), z = number();
+    return glm::vec3(x, y, z);
+  };
+  static const Ball ball;
+  std::vector<fsm::PlacePair> pairs(
+      ball.pairs.begin(),
+      ball.pairs.begin() +
+          std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(landmarks), std::ssize(ball.pairs)));
+  for (fsm::PlacePair& pair : pairs) pair.to = pair.from + place();
+  fsm::HeadFile file;
+  fsm::HeadFile::Part part;
+  while (at < bytes.size() && file.position.size() < kMaxCarried) {
+    const glm::vec3 p = place();
+    if (!fsm::WithinReach(p)) return;  // no reader lets it through
+    part.indices.push_back(static_cast<std::uint32_t>(file.position.size()));
+    file.position.push_back(p);
+    if (sewn) file.place.emplace_back(0.5F, 0.5F);
+    if (part.indices.size() >= 6 && part.indices.size() % 3 == 0) {
+      // Beside the triangle the one that joins it to the one before.
+      const auto last = static_cast<std::uint32_t>(file.position.size() - 1);
+      part.indices.insert(part.indices.end(), {last - 3, last - 2, last - 1});
+    }
+  }
+  part.indices.resize(part.indices.size() / 3 * 3);
+  if (part.indices.empty()) return;
+  file.parts.push_back(std::move(part));
+  CarryOnto(file, {}, pairs);
+  if (fsm::WithinReach(pairs[0].to)) CarryOnto(file, fsm::FitSimilarity(pairs), pairs);
+}
+
+}  // namespace
 
 /// The first byte chooses the reader. Whatever follows, it must answer; what was read must hold
 /// together.
@@ -16,7 +137,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   std::string why;
-  switch (data[0] % 9) {
+  switch (data[0] % 10) {
     case 0:
       if (const auto file = fsm::ParsePnt("f", text)) {
         for (const auto& name : file->names) {
@@ -60,16 +181,26 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             if (delta.vertex >= file->position.size()) __builtin_trap();
           }
         }
-        // As a head of ours: whatever its places are, it has as many bones and colours.
-        const fsm::MeshModel model = fsm::ModelOf(*file, {}, -43);
-        if (model.bone.size() != model.position.size()) __builtin_trap();
+        for (const auto& p : file->position) {
+          if (!fsm::WithinReach(p)) __builtin_trap();
+        }
+        CarryOnto(*file, {}, Ball().pairs);
       }
       break;
     case 7:
-      (void)fsm::ParseHeadPoints("f", text);
+      if (const auto points = fsm::ParseHeadPoints("f", text)) {
+        const Ball ball;
+        fsm::HeadFile file;
+        file.position = ball.place;
+        file.parts.push_back({.name = "", .indices = ball.triangles});
+        CarryOnto(file, fsm::FitSimilarity(points->pairs), points->pairs);
+      }
+      break;
+    case 8:
+      (void)fsm::DecodeSgi(std::span(data + 1, size - 1), why);
       break;
     default:
-      (void)fsm::DecodeSgi(std::span(data + 1, size - 1), why);
+      CarryRaw(std::span(data + 1, size - 1));
   }
   return 0;
 }
