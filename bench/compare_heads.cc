@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "bench/obj_head.h"
-#include "fsm/app/sheet_font.h"
+#include "fsm/app/contact_sheet_font.h"
 #include "fsm/head/head.h"
 #include "fsm/image/image_file.h"
 #include "fsm/render/renderer.h"

@@ -211,8 +211,8 @@ void Run(const Options& options) {
   if (!sides.empty()) progress.Say("seen from the side, too");
   const Figure figure = CutOut(photo, FindFigure(networks, photo, &face));
   progress.Say("figure cut out");
-  fsm::FaceSet set;
-  const Dress dress = MakeDress(base, face, fit, photo, figure, sides, set);
+  fsm::PhotoHead set;
+  const TextureBake dress = BakeTexture(base, face, fit, photo, figure, sides, set);
   if (!options.glasses.empty()) set.glasses = options.glasses == "yes";
   progress.Say("photo put on");
 
@@ -228,7 +228,7 @@ void Run(const Options& options) {
     throw std::runtime_error(written.error().text);
   }
   write("report.txt", report);
-  write("face.txt", fsm::WriteFaceSet(set));
+  write("face.txt", fsm::WritePhotoHead(set));
   progress.Say("written");
   std::cout << report << "face_fit: wrote " << folder << "\n";
 }

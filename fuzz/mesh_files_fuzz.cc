@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fsm/image/image_codec.h"
-#include "fsm/mesh/carry.h"
+#include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/mesh_reach.h"
@@ -66,10 +66,10 @@ void CarryOnto(const fsm::HeadFile& file, const fsm::Similarity& place,
     for (const glm::vec3& p : model.position) {
       if (!IsFinite(p)) __builtin_trap();
     }
-    const auto flesh = model.FleshTriangles(), eyes = model.EyeTriangles();
+    const auto flesh = model.SkinTriangles(), eyes = model.EyeTriangles();
     if (model.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried) return;
-    const fsm::Carry carry({.position = ball.place, .triangles = ball.triangles},
-                           {model.position, flesh, model.sewn, eyes}, pairs);
+    const fsm::DeformationTransfer carry({.position = ball.place, .triangles = ball.triangles},
+                                         {model.position, flesh, model.sewn, eyes}, pairs);
     const std::vector<glm::vec3> by(ball.place.size(), glm::vec3(1, -2, 3));
     std::vector<glm::vec3> moved = model.position;
     carry.Apply(by, moved);

@@ -7,7 +7,7 @@
 
 #include "face_fit/find/hand_points.h"
 #include "face_fit/picture/photo.h"
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 
 /// The first byte chooses the reader: photos, EXIF blocks, points set by hand, face.txt.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     default:
       try {
-        const auto set = fsm::ReadFaceSet("f", text);
+        const auto set = fsm::ReadPhotoHead("f", text);
         for (const std::uint32_t i : set.sheet_triangles) {
           if (i >= set.sheet.size()) __builtin_trap();
         }

@@ -48,7 +48,7 @@ void Shapes(Ui& ui) {
   }
   const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   bool first = true;
-  for (const fsm::MouthShape& shape : ui.editor.shapes(ui.bilingual)) {
+  for (const fsm::Viseme& shape : ui.editor.shapes(ui.bilingual)) {
     if (!first && ImGui::GetItemRectMax().x + 60 < right) ImGui::SameLine();
     first = false;
     const bool chosen = ui.shape == shape.name;
@@ -61,7 +61,7 @@ void Shapes(Ui& ui) {
   }
 }
 
-bool ShapeSliders(Ui& ui, fsm::MouthShape& shape, std::string& merge) {
+bool ShapeSliders(Ui& ui, fsm::Viseme& shape, std::string& merge) {
   bool changed = false;
   const auto slider = [&](const char* label, float& value, float low, float high) {
     ImGui::SetNextItemWidth(180);
@@ -89,9 +89,9 @@ bool ShapeSliders(Ui& ui, fsm::MouthShape& shape, std::string& merge) {
 
 fsm::FaceState MouthPage(Ui& ui) {
   Shapes(ui);
-  const fsm::MouthShape* found = fsm::FindShape(ui.editor.shapes(ui.bilingual), ui.shape);
+  const fsm::Viseme* found = fsm::FindShape(ui.editor.shapes(ui.bilingual), ui.shape);
   if (!found) return {};
-  fsm::MouthShape shape = *found;
+  fsm::Viseme shape = *found;
   if (ui.stage.head()) {
     const auto m = ui.stage.head()->MeasureMouth(StateOf(shape));
     ImGui::Text("On this face: gap %.1f mm, width %.1f mm, jaw %.1f degrees",

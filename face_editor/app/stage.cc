@@ -102,7 +102,7 @@ std::vector<Stage::Touched> Stage::TouchedBy(const fsm::UnitTable& units,
   return touched;
 }
 
-void Stage::Draw(const fsm::Pane& pane, const fsm::FaceState& state) {
+void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
   if (!head_ || pane.width < 8 || pane.height < 8) return;
   fsm::FaceState turned = state;
   turned.agent_rotation = {turn[0], turn[1], 0};

@@ -45,7 +45,7 @@ class Stage {
   std::vector<Touched> TouchedBy(const fsm::UnitTable& units, const fsm::FaceState& full,
                                  const fsm::FaceState& state) const;
 
-  void Draw(const fsm::Pane& pane, const fsm::FaceState& state);
+  void Draw(const fsm::Viewport& pane, const fsm::FaceState& state);
   fsm::Scene scene;
   std::array<float, 2> turn{};  ///< of the whole figure, degrees: down, to the viewer's right
 

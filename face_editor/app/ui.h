@@ -110,7 +110,7 @@ struct Ui {
   std::string tables;                 ///< the folder whose tables heads from elsewhere are made by
   FileDialog dialog;
   PhotoView view;
-  fsm::Pane preview;  ///< where the head is drawn this frame; width 0: nowhere
+  fsm::Viewport preview;  ///< where the head is drawn this frame; width 0: nowhere
 
   /// Middles of the widgets drawn last, by their labels: what scripts click on.
   std::map<std::string, ImVec2, std::less<>> marks;

@@ -133,8 +133,8 @@ Answer SetTiming(Editor& editor, const Words& words) {
 }
 
 Answer SetMouth(Editor& editor, const Words& words, bool bilingual) {
-  const fsm::MouthShape* found = fsm::FindShape(editor.shapes(bilingual), words[0]);
-  fsm::MouthShape shape;
+  const fsm::Viseme* found = fsm::FindShape(editor.shapes(bilingual), words[0]);
+  fsm::Viseme shape;
   if (found) shape = *found;
   shape.name = words[0];
   const auto value = Number(words[2]);
@@ -253,7 +253,7 @@ Answer GetMotion(Editor& editor, const Words& words) {
 }
 
 Answer GetMouth(Editor& editor, const Words& words, bool bilingual) {
-  const fsm::MouthShape* shape = fsm::FindShape(editor.shapes(bilingual), words[0]);
+  const fsm::Viseme* shape = fsm::FindShape(editor.shapes(bilingual), words[0]);
   if (!shape) return vm::Fail(Errc::kBadValue, "there is no mouth shape '" + words[0] + "'");
   return fsm::FormatShapeValues(*shape);
 }

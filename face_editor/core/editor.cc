@@ -201,7 +201,7 @@ vm::Result<void> Editor::RemovePattern(std::string_view name, int pattern) {
   return {};
 }
 
-vm::Result<void> Editor::SetShape(bool bilingual, const fsm::MouthShape& shape,
+vm::Result<void> Editor::SetShape(bool bilingual, const fsm::Viseme& shape,
                                   std::string_view merge) {
   if (!fsm::FindShape(shapes(bilingual), shape.name)) {
     std::string names;
@@ -211,7 +211,7 @@ vm::Result<void> Editor::SetShape(bool bilingual, const fsm::MouthShape& shape,
   }
   // The same bounds as those of the table.
   const fsm::TableText table("shape", fsm::FormatShapeValues(shape));
-  fsm::MouthShape checked = shape;
+  fsm::Viseme checked = shape;
   if (auto fits = fsm::ReadShapeValues(table.lines().front().words, 0, checked); !fits) {
     return std::unexpected(fits.error());
   }

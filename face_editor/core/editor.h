@@ -68,11 +68,10 @@ class Editor {
   vm::Result<void> RemovePattern(std::string_view name, int pattern);
 
   // Mouth shapes, of the 14 or the 28.
-  const fsm::MouthShapes& shapes(bool bilingual) const {
+  const fsm::Visemes& shapes(bool bilingual) const {
     return bilingual ? state().shapes28 : state().shapes14;
   }
-  vm::Result<void> SetShape(bool bilingual, const fsm::MouthShape& shape,
-                            std::string_view merge = "");
+  vm::Result<void> SetShape(bool bilingual, const fsm::Viseme& shape, std::string_view merge = "");
 
   // Movements of the head.
   using Keys = std::vector<fsm::HeadCurve::Key>;

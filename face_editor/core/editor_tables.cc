@@ -129,8 +129,7 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
     emotions_text_ = std::move(*text);
     put("expressions read", [&](State& state) { state.emotions = std::move(*read); });
   } else if (part == Part::kMouth) {
-    auto read =
-        fsm::ReadMouthShapes(path, *text, bilingual ? fsm::kBilingualShapes : fsm::kMouthShapes);
+    auto read = fsm::ReadVisemes(path, *text, bilingual ? fsm::kBilingualShapes : fsm::kVisemes);
     if (!read) return std::unexpected(read.error());
     // Phonemes and dominances know shapes by name and place.
     for (std::size_t i = 0; i < read->size(); ++i) {
@@ -169,7 +168,7 @@ vm::Result<void> Editor::Save(Part part, const std::string& path, bool bilingual
   if (part == Part::kEmotions) {
     text = WriteEmotions(emotions_text_, state().emotions);
   } else if (part == Part::kMouth) {
-    text = WriteMouthShapes(bilingual ? shapes28_text_ : shapes14_text_, shapes(bilingual));
+    text = WriteVisemes(bilingual ? shapes28_text_ : shapes14_text_, shapes(bilingual));
   } else if (part == Part::kMotions) {
     text = WriteCurves(motions_text_, state().curves);
   } else if (part == Part::kUnits) {
@@ -180,7 +179,7 @@ vm::Result<void> Editor::Save(Part part, const std::string& path, bool bilingual
   if (auto done = WriteWhole(path, text); !done) return done;
   const std::string& other = bilingual ? shapes14_text_ : shapes28_text_;
   // The other set of mouth shapes is a file of its own.
-  if (part == Part::kMouth && WriteMouthShapes(other, shapes(!bilingual)) != other) return {};
+  if (part == Part::kMouth && WriteVisemes(other, shapes(!bilingual)) != other) return {};
   MarkSaved(part);
   return {};
 }
@@ -198,9 +197,9 @@ vm::Result<int> Editor::SaveTables(const std::string& folder) {
   const File files[] = {
       {kEmotionsFile, Part::kEmotions, false, WriteEmotions(emotions_text_, state().emotions),
        embedded::editor_emotions()},
-      {kShapes14File, Part::kMouth, false, WriteMouthShapes(shapes14_text_, state().shapes14),
+      {kShapes14File, Part::kMouth, false, WriteVisemes(shapes14_text_, state().shapes14),
        embedded::editor_mouth_shapes()},
-      {kShapes28File, Part::kMouth, true, WriteMouthShapes(shapes28_text_, state().shapes28),
+      {kShapes28File, Part::kMouth, true, WriteVisemes(shapes28_text_, state().shapes28),
        embedded::editor_mouth_shapes_28()},
       {kMotionsFile, Part::kMotions, false, WriteCurves(motions_text_, state().curves),
        embedded::editor_motions()},

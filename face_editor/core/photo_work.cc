@@ -144,13 +144,13 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
             (built->left_out.empty() ? "" : "; ") + side->path + ": " + view.error().text;
       }
     }
-    facefit::Dress dress = facefit::MakeDress(*work.base, face, built->fit, work.photo,
-                                              *work.figure, seen, built->set);
+    facefit::TextureBake dress = facefit::BakeTexture(*work.base, face, built->fit, work.photo,
+                                                      *work.figure, seen, built->set);
     built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces,
                                     built->set.glasses, work.cover);
     built->picture = std::move(dress.picture);
-    built->set.photo = std::make_shared<fsm::WornPhoto>(
-        fsm::WornPhoto{built->picture.width, built->picture.height, built->picture.rgba});
+    built->set.photo = std::make_shared<fsm::Image>(
+        fsm::Image{built->picture.width, built->picture.height, built->picture.rgba});
     built->head = fsm::Head::Make(built->set);
     return built;
   } catch (const std::exception& error) {
@@ -175,7 +175,7 @@ vm::Result<std::string> WriteFace(const BuiltFace& face, const std::string& fold
   if (auto done = WriteWhole(place + "/report.txt", face.report); !done) {
     return std::unexpected(done.error());
   }
-  if (auto done = WriteWhole(place + "/face.txt", fsm::WriteFaceSet(face.set)); !done) {
+  if (auto done = WriteWhole(place + "/face.txt", fsm::WritePhotoHead(face.set)); !done) {
     return std::unexpected(done.error());
   }
   return place;

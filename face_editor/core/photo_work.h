@@ -10,7 +10,7 @@
 #include "face_fit/find/cover.h"
 #include "face_fit/find/face_networks.h"
 #include "face_fit/fit/fit.h"
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 
 namespace editor {
 
@@ -63,7 +63,7 @@ PointMap AllPoints(const PhotoWork& work, const PointMap& known);
 /// The head of the person, fitted to points on the photo.
 struct BuiltFace {
   facefit::Fit fit;
-  fsm::FaceSet set;  ///< its picture included
+  fsm::PhotoHead set;  ///< its picture included
   fsm::Image picture;
   std::string report;
   std::shared_ptr<const fsm::Head> head;

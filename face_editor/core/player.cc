@@ -133,7 +133,7 @@ fsm::FaceState StateOf(const fsm::ActionUnits& look) {
   return state;
 }
 
-fsm::FaceState StateOf(const fsm::MouthShape& shape) {
+fsm::FaceState StateOf(const fsm::Viseme& shape) {
   fsm::FaceState state;
   state.mouth = shape.pose.mouth;
   state.lip_seal = shape.pose.seal;

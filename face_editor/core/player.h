@@ -66,6 +66,6 @@ class Player {
 /// The face with these units and nothing else.
 fsm::FaceState StateOf(const fsm::ActionUnits& look);
 /// The face with this mouth at full articulation.
-fsm::FaceState StateOf(const fsm::MouthShape& shape);
+fsm::FaceState StateOf(const fsm::Viseme& shape);
 
 }  // namespace editor

@@ -31,7 +31,7 @@ struct State {
   PointMap points;
   fsm::ActionUnits look;  ///< units as they are set on the face now
   fsm::EmotionTable emotions;
-  fsm::MouthShapes shapes14, shapes28;
+  fsm::Visemes shapes14, shapes28;
   HeadCurves curves;
   std::shared_ptr<const Units> units;  ///< how far each moves which skin; never nullptr
   std::string base = "galatea";        ///< the built-in face whose sliders are moved

@@ -112,16 +112,15 @@ bool Same(const fsm::HeadCurve& curve, const std::vector<Line>& lines, std::size
 
 }  // namespace
 
-std::string WriteMouthShapes(std::string_view text, const fsm::MouthShapes& shapes) {
+std::string WriteVisemes(std::string_view text, const fsm::Visemes& shapes) {
   std::vector<std::string> out;
   for (const Line& line : LinesOf(text)) {
-    const fsm::MouthShape* shape =
-        line.words.empty() ? nullptr : fsm::FindShape(shapes, line.words[0]);
+    const fsm::Viseme* shape = line.words.empty() ? nullptr : fsm::FindShape(shapes, line.words[0]);
     if (!shape) {
       out.push_back(line.text);
       continue;
     }
-    fsm::MouthShape old;
+    fsm::Viseme old;
     const bool same = fsm::ReadShapeValues(line.words, 1, old).has_value() &&
                       fsm::FormatShapeValues(old) == fsm::FormatShapeValues(*shape);
     out.push_back(same ? line.text

@@ -13,7 +13,7 @@ namespace editor {
 // what is read again, but for the sixth digit of a number.
 
 /// mouth_shapes.txt or mouth_shapes_28.txt. REQUIRES: the same names.
-std::string WriteMouthShapes(std::string_view text, const fsm::MouthShapes& shapes);
+std::string WriteVisemes(std::string_view text, const fsm::Visemes& shapes);
 /// emotions.txt.
 std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotions);
 /// The movements of the head in motions.txt; its other lines are not touched.

@@ -13,8 +13,8 @@ namespace facefit {
 
 SkinCover CoverWithSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& grid, float bottom,
                         std::span<const glm::vec3> motion) {
-  const Field none(grid.columns, grid.rows);
-  SkinCover out{Field(grid.columns, grid.rows, SkinCover::kNone), {none, none, none}};
+  const FloatImage none(grid.columns, grid.rows);
+  SkinCover out{FloatImage(grid.columns, grid.rows, SkinCover::kNone), {none, none, none}};
   const auto& topology = base.head->topology();
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
@@ -61,8 +61,8 @@ SkinCover CoverWithSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& g
   return out;
 }
 
-void FillHoles(Field& covered) {
-  Field outside(covered.width, covered.height);
+void FillHoles(FloatImage& covered) {
+  FloatImage outside(covered.width, covered.height);
   std::vector<std::pair<int, int>> open;
   const auto reach = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= covered.width || y >= covered.height) return;

@@ -30,7 +30,7 @@ bool InPhoto(const fsm::Image& photo, glm::vec2 p) {
 
 /// Lays a view from the side over what the first photo saw at a slant or not at all.
 void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const SkinPlaces& front,
-             fsm::Image& map, Field& seen) {
+             fsm::Image& map, FloatImage& seen) {
   const Pose& pose = side.view.pose;
   const SkinPlaces places = PlaceSkin(base, fit, pose, false);
   // What it shows is of the side towards it: the other cheek lies behind the nose.
@@ -69,21 +69,21 @@ void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const S
 }  // namespace
 
 Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
-  Field mask(photo.width, photo.height);
+  FloatImage mask(photo.width, photo.height);
   mask.at = person;
-  const Field opacity = Matte(photo, mask);
+  const FloatImage opacity = Matte(photo, mask);
   Figure figure{WithoutBackground(photo, opacity), opacity};
   return figure;
 }
 
-Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
-                const fsm::Image& photo, const Figure& figure, std::span<const SideView> sides,
-                fsm::FaceSet& set) {
+TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
+                        const fsm::Image& photo, const Figure& figure,
+                        std::span<const SideView> sides, fsm::PhotoHead& set) {
   set.base = base.name;
   set.points = fit.points;
   set.smooth = fit.smooth;
   set.eyes = EyesAtRest(base, fit);
-  Dress dress;
+  TextureBake dress;
   dress.picture.width = 2 * kMapSide;
   dress.picture.height = kMapSide;
   dress.picture.rgba.assign(static_cast<std::size_t>(8 * kMapSide) * kMapSide, 255);
@@ -92,10 +92,10 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   fsm::Image map;
   map.width = map.height = kMapSide;
   map.rgba.assign(static_cast<std::size_t>(4 * kMapSide) * kMapSide, 255);
-  Field seen(kMapSide, kMapSide), smooth(kMapSide, kMapSide);
+  FloatImage seen(kMapSide, kMapSide), smooth(kMapSide, kMapSide);
   fsm::Image colours = figure.colours;
-  const Field filled = FillSmileFolds(face, 0.8F * glm::clamp(fit.expression.smile, 0.0F, 1.0F),
-                                      fit.pose.PixelsPerMm(), colours);
+  const FloatImage filled = FillSmileFolds(
+      face, 0.8F * glm::clamp(fit.expression.smile, 0.0F, 1.0F), fit.pose.PixelsPerMm(), colours);
   const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
   const Openings openings(face, fit.pose.PixelsPerMm(), open);
   std::vector<bool> skin(places.facing.size(), true);
@@ -126,10 +126,10 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   set.saturation = Saturation(map, seen);
   dress.coverage = face_seen / std::max(face_texels, 1.0F);
   TakeFromOtherSide(skin, map, seen);
-  FillIn(map, seen);
+  PushPullInpaint(map, seen);
   EvenSmileShade(base, places, seen, 0.85F * glm::clamp(fit.expression.smile, 0.0F, 1.0F), map);
   GrainFromCheeks(smooth, map);
-  Field aside(kMapSide, kMapSide);
+  FloatImage aside(kMapSide, kMapSide);
   aside.at = places.aside;
   AddGrain(seen, aside, kMapSide / 170, map);
   if (open) {
@@ -145,7 +145,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
     }
   }
 
-  Field face_seen_at = seen;
+  FloatImage face_seen_at = seen;
   for (std::size_t i = 0; i < face_seen_at.at.size(); ++i) {
     if (!OnFront(places, i)) face_seen_at.at[i] = 0;
   }
@@ -154,7 +154,7 @@ Dress MakeDress(const BaseHead& base, const FoundFace& face, const Fit& fit,
   set.lined =
       glm::mix(kSoft, 1.0F,
                glm::clamp((Roughness(map, face_seen_at) - kSmooth) / (kOld - kSmooth), 0.0F, 1.0F));
-  Field likeness = SkinLikeness(map, face_seen_at);
+  FloatImage likeness = SkinLikeness(map, face_seen_at);
   EndAtHair(places.up, likeness);
   for (std::size_t i = 0; i < likeness.at.size(); ++i) {
     map.rgba[4 * i + 3] = static_cast<std::uint8_t>(255 * likeness.at[i] + 0.5F);

@@ -50,7 +50,7 @@ glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at) {
                     255.0F);
 }
 
-float SmoothAt(const Field& field, glm::vec2 at) {
+float SmoothAt(const FloatImage& field, glm::vec2 at) {
   return Around<float>(field.width, field.height, at, BSpline,
                        [&](std::size_t i) { return field.at[i]; });
 }

@@ -11,6 +11,6 @@ namespace facefit {
 glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at);
 
 /// A field likewise, but evened out (cubic B-splines): its contours are smooth.
-float SmoothAt(const Field& field, glm::vec2 at);
+float SmoothAt(const FloatImage& field, glm::vec2 at);
 
 }  // namespace facefit

@@ -145,7 +145,7 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
   fsm::Image white =
       Painted(kEyeSide, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });
   // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
-  Field weight(kEyeSide, kEyeSide);
+  FloatImage weight(kEyeSide, kEyeSide);
   std::size_t i = 0;
   Painted(kEyeSide, [&](glm::vec2 p) {
     const auto [at, between] = place(p);
@@ -153,7 +153,7 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
                      glm::smoothstep(1.0F, 0.85F, between);
     return glm::vec3(0);
   });
-  FillIn(white, weight);
+  PushPullInpaint(white, weight);
   i = 0;
   return Painted(kEyeSide, [&](glm::vec2 p) {
     const glm::vec2 at = place(p).first;
@@ -213,7 +213,7 @@ fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
 }  // namespace
 
 void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-               fsm::Image& picture, fsm::FaceSet& set) {
+               fsm::Image& picture, fsm::PhotoHead& set) {
   const auto shown = ShownEyes(fit);
   if (!shown) return;
   const glm::mat3 turned = fit.pose.Rotation();
@@ -223,7 +223,7 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
     const auto k = static_cast<std::size_t>(side);
     if ((*shown)[k] != k) continue;
     const fsm::EyePlace& ball = base.head->topology().eyes[k];
-    const fsm::EyeSeat seat = set.eyes ? (*set.eyes)[k] : fsm::EyeSeat();
+    const fsm::EyeTransform seat = set.eyes ? (*set.eyes)[k] : fsm::EyeTransform();
     EyePoints seen, rest;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const auto point = static_cast<std::size_t>(EyeOutline(side)[i]);

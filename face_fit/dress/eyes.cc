@@ -43,12 +43,12 @@ float Outside(const FoundFace& face, std::span<const int> outline, glm::vec2 pix
   return inside ? -nearest : nearest;
 }
 
-std::array<fsm::EyeSeat, 2> EyesAtRest(const BaseHead& base, const Fit& fit) {
+std::array<fsm::EyeTransform, 2> EyesAtRest(const BaseHead& base, const Fit& fit) {
   constexpr float kKept = 0.5F;
   constexpr std::size_t kUpper = 4, kLower = 12;  // the lids' middles in EyeOutline
   fsm::HeadVertices posed;
   base.head->Evaluate(fit.expression.State(), posed);
-  std::array<fsm::EyeSeat, 2> seats = fit.eyes;
+  std::array<fsm::EyeTransform, 2> seats = fit.eyes;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto raised = [&](std::size_t k) {
       const auto point = static_cast<std::size_t>(EyeOutline(static_cast<int>(side))[k]);
@@ -61,7 +61,8 @@ std::array<fsm::EyeSeat, 2> EyesAtRest(const BaseHead& base, const Fit& fit) {
   return seats;
 }
 
-void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, fsm::FaceSet& set) {
+void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+                fsm::PhotoHead& set) {
   std::vector<glm::vec3> iris, white;
   for (int side = 0; side < 2; ++side) {
     const auto outline = EyeOutline(side);
@@ -107,7 +108,7 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo, 
   set.iris_size = fit.iris_size;
 }
 
-void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::FaceSet& set) {
+void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead& set) {
   // Along the middle of the lower lip, where it is widest.
   constexpr std::pair<std::size_t, std::size_t> kLower[] = {
       {84, 87}, {17, 14}, {314, 317}, {181, 178}, {405, 402}};

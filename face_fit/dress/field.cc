@@ -7,7 +7,7 @@
 
 namespace facefit {
 
-float Field::Between(float x, float y) const {
+float FloatImage::Between(float x, float y) const {
   const float px = std::clamp(x - 0.5F, 0.0F, static_cast<float>(width - 1));
   const float py = std::clamp(y - 0.5F, 0.0F, static_cast<float>(height - 1));
   const int x0 = static_cast<int>(px), y0 = static_cast<int>(py);
@@ -17,7 +17,7 @@ float Field::Between(float x, float y) const {
          (at[Index(x0, y1)] * (1 - u) + at[Index(x1, y1)] * u) * v;
 }
 
-Field Blurred(const Field& field, int reach) {
+FloatImage Blurred(const FloatImage& field, int reach) {
   // Running sums along rows, then along columns; the window shrinks at the edges.
   const auto pass = [reach](const float* in, float* out, int n, std::size_t step) {
     double sum = 0;
@@ -32,7 +32,7 @@ Field Blurred(const Field& field, int reach) {
       out[static_cast<std::size_t>(i) * step] = static_cast<float>(sum / count);
     }
   };
-  Field rows(field.width, field.height), out(field.width, field.height);
+  FloatImage rows(field.width, field.height), out(field.width, field.height);
   for (int y = 0; y < field.height; ++y) {
     pass(&field.at[field.Index(0, y)], &rows.at[field.Index(0, y)], field.width, 1);
   }
@@ -43,7 +43,7 @@ Field Blurred(const Field& field, int reach) {
   return out;
 }
 
-void FillIn(fsm::Image& image, const Field& weight) {
+void PushPullInpaint(fsm::Image& image, const FloatImage& weight) {
   struct Level {
     int width, height;
     std::vector<glm::vec4> at;  // colour times weight, weight

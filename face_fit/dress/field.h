@@ -7,10 +7,10 @@
 namespace facefit {
 
 /// A number for each pixel of a picture.
-struct Field {
+struct FloatImage {
   int width = 0, height = 0;
   std::vector<float> at;
-  Field(int w, int h, float value = 0)
+  FloatImage(int w, int h, float value = 0)
       : width(w), height(h), at(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), value) {}
   std::size_t Index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -21,9 +21,9 @@ struct Field {
 };
 
 /// The mean over squares of side 2 * reach + 1.
-Field Blurred(const Field& field, int reach);
+FloatImage Blurred(const FloatImage& field, int reach);
 /// Fills what has no weight from around it, farther away from ever wider around (a pyramid of
 /// halved pictures); full weight stays as it is.
-void FillIn(fsm::Image& image, const Field& weight);
+void PushPullInpaint(fsm::Image& image, const FloatImage& weight);
 
 }  // namespace facefit

@@ -23,8 +23,8 @@ constexpr std::array<std::array<std::size_t, 5>, 2> kFolds = {
 
 /// The largest or smallest of the values up to `reach` to the sides, along rows and then columns.
 template <typename Pick>
-Field Extreme(const Field& field, int reach, Pick pick) {
-  Field rows = field, out = field;
+FloatImage Extreme(const FloatImage& field, int reach, Pick pick) {
+  FloatImage rows = field, out = field;
   for (int y = 0; y < field.height; ++y) {
     for (int x = 0; x < field.width; ++x) {
       float best = field.at[field.Index(x, y)];
@@ -58,8 +58,9 @@ float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
 
 }  // namespace
 
-Field FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fsm::Image& photo) {
-  Field smooth(photo.width, photo.height);
+FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
+                          fsm::Image& photo) {
+  FloatImage smooth(photo.width, photo.height);
   if (smile <= 0) return smooth;
   const int valley = static_cast<int>(std::lround(kValley * pixels_per_mm));
   if (valley < 1) return smooth;
@@ -82,7 +83,7 @@ Field FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fs
                      static_cast<std::size_t>(first.x + x)) +
                 channel];
     };
-    Field part(size.x, size.y);
+    FloatImage part(size.x, size.y);
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
         const float off = ToLine(line, glm::vec2(first + glm::ivec2(x, y)) + 0.5F) / pixels_per_mm;
@@ -91,12 +92,12 @@ Field FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fs
     }
     // Each colour for itself: folds are redder than the skin beside them.
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      Field light(size.x, size.y);
+      FloatImage light(size.x, size.y);
       for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) light.at[light.Index(x, y)] = value(x, y, channel);
       }
       // A closing (Serra 1982): the dark that no square of that size fits into is gone.
-      const Field filled =
+      const FloatImage filled =
           Blurred(Extreme(Extreme(light, valley, [](float a, float b) { return std::max(a, b); }),
                           valley, [](float a, float b) { return std::min(a, b); }),
                   std::max(valley / 2, 1));

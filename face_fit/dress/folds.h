@@ -9,6 +9,7 @@ namespace facefit {
 /// the corners of the mouth, whose dark would stay when the face is at rest: valleys narrower than
 /// a finger are filled by what lies beside them. `smile`: how much of them goes, 0..1. Returned:
 /// how much of each pixel is filled and so has lost its grain, 0..1.
-Field FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm, fsm::Image& photo);
+FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
+                          fsm::Image& photo);
 
 }  // namespace facefit

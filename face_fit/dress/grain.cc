@@ -12,14 +12,14 @@ namespace {
 
 constexpr float kKnown = 0.95F;
 
-glm::ivec2 PlaceOf(const Field& field, std::size_t i) {
+glm::ivec2 PlaceOf(const FloatImage& field, std::size_t i) {
   const auto width = static_cast<std::size_t>(field.width);
   return {static_cast<int>(i % width), static_cast<int>(i / width)};
 }
 
 }  // namespace
 
-std::vector<std::size_t> NearestKnown(const Field& weight) {
+std::vector<std::size_t> NearestKnown(const FloatImage& weight) {
   const std::size_t none = weight.at.size();
   std::vector<std::size_t> nearest(none, none);
   for (std::size_t i = 0; i < none; ++i) {
@@ -54,7 +54,7 @@ std::vector<std::size_t> NearestKnown(const Field& weight) {
   return nearest;
 }
 
-void AddGrain(const Field& weight, const Field& where, int reach, fsm::Image& image) {
+void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm::Image& image) {
   if (std::ranges::max(weight.at) < kKnown) return;
   const auto nearest = NearestKnown(weight);
   const float farthest = 8 * static_cast<float>(reach);
@@ -77,11 +77,11 @@ void AddGrain(const Field& weight, const Field& where, int reach, fsm::Image& im
     if (part > 0) loans.push_back({i, from, part});
   }
   for (std::size_t c = 0; c < 3; ++c) {
-    Field channel(weight.width, weight.height);
+    FloatImage channel(weight.width, weight.height);
     for (std::size_t i = 0; i < channel.at.size(); ++i) {
       channel.at[i] = static_cast<float>(image.rgba[4 * i + c]);
     }
-    const Field even = Blurred(channel, reach);
+    const FloatImage even = Blurred(channel, reach);
     for (const Loan& loan : loans) {
       const float grain = channel.at[loan.from] - even.at[loan.from];
       image.rgba[4 * loan.to + c] = static_cast<std::uint8_t>(

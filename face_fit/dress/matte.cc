@@ -90,7 +90,7 @@ class ColourLines {
 };
 
 /// Conjugate gradients on the open pixels; `pull` holds each to `x` as it is at the beginning.
-void Settle(const ColourLines& lines, const std::vector<std::uint8_t>& open,
+void Refine(const ColourLines& lines, const std::vector<std::uint8_t>& open,
             const std::vector<float>& pull, std::vector<float>& x) {
   const std::vector<float> start = x;
   const std::size_t n = x.size();
@@ -131,10 +131,10 @@ void Settle(const ColourLines& lines, const std::vector<std::uint8_t>& open,
 float Firm(float v) { return glm::smoothstep(0.08F, 0.92F, v); }
 
 /// Nothing is half there over a wide area: that is doubt, not an edge.
-void Decide(Field& opacity, int reach) {
-  Field square = opacity;
+void Decide(FloatImage& opacity, int reach) {
+  FloatImage square = opacity;
   for (float& v : square.at) v *= v;
-  const Field mean = Blurred(opacity, reach), mean_square = Blurred(square, reach);
+  const FloatImage mean = Blurred(opacity, reach), mean_square = Blurred(square, reach);
   for (std::size_t i = 0; i < opacity.at.size(); ++i) {
     const float m = mean.at[i], most = m * (1 - m);
     if (most < 1e-3F) continue;
@@ -144,13 +144,13 @@ void Decide(Field& opacity, int reach) {
   }
 }
 
-Field Solve(const fsm::Image& image, const Field& person) {
+FloatImage Solve(const fsm::Image& image, const FloatImage& person) {
   // The person's outline is right to about this many pixels.
   const int reach = std::max(image.width, image.height) / 90 + 2;
-  const Field around = Blurred(person, reach);
+  const FloatImage around = Blurred(person, reach);
   std::vector<std::uint8_t> open(person.at.size());
   std::vector<float> pull(open.size());
-  Field out(person.width, person.height);
+  FloatImage out(person.width, person.height);
   for (std::size_t i = 0; i < open.size(); ++i) {
     open[i] = around.at[i] > 0.02F && around.at[i] < 0.98F;
     out.at[i] = open[i] ? Firm(person.at[i]) : std::round(around.at[i]);
@@ -162,18 +162,18 @@ Field Solve(const fsm::Image& image, const Field& person) {
       const float sure = 2 * out.at[i] - 1;
       pull[i] = 0.003F + 0.03F * sure * sure;
     }
-    Settle(lines, open, pull, out.at);
+    Refine(lines, open, pull, out.at);
     for (float& v : out.at) v = glm::clamp(v, 0.0F, 1.0F);
     Decide(out, reach);
   }
   return out;
 }
 
-Field Scaled(const Field& field, int width, int height) {
+FloatImage Scaled(const FloatImage& field, int width, int height) {
   const float across = static_cast<float>(field.width) / static_cast<float>(width);
   const float down = static_cast<float>(field.height) / static_cast<float>(height);
-  const Field smooth = Blurred(field, static_cast<int>(std::max(across, down) / 2));
-  Field out(width, height);
+  const FloatImage smooth = Blurred(field, static_cast<int>(std::max(across, down) / 2));
+  FloatImage out(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       out.at[out.Index(x, y)] = smooth.Between((static_cast<float>(x) + 0.5F) * across,
@@ -184,11 +184,11 @@ Field Scaled(const Field& field, int width, int height) {
 }
 
 /// The small picture's opacity as a linear function of its colours, applied to the large one's.
-Field Enlarged(const fsm::Image& small, const Field& opacity, const fsm::Image& large) {
+FloatImage Enlarged(const fsm::Image& small, const FloatImage& opacity, const fsm::Image& large) {
   constexpr int kReach = 1;
-  std::array<Field, 3> mean{opacity, opacity, opacity}, with = mean, slope = mean;
-  const Field mean_opacity = Blurred(opacity, kReach);
-  std::array<std::array<Field, 3>, 3> spread{mean, mean, mean};
+  std::array<FloatImage, 3> mean{opacity, opacity, opacity}, with = mean, slope = mean;
+  const FloatImage mean_opacity = Blurred(opacity, kReach);
+  std::array<std::array<FloatImage, 3>, 3> spread{mean, mean, mean};
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t i = 0; i < opacity.at.size(); ++i) {
       const glm::vec3 c = Colour(small, i);
@@ -199,9 +199,9 @@ Field Enlarged(const fsm::Image& small, const Field& opacity, const fsm::Image& 
     }
     mean[a] = Blurred(mean[a], kReach);
     with[a] = Blurred(with[a], kReach);
-    for (Field& field : spread[a]) field = Blurred(field, kReach);
+    for (FloatImage& field : spread[a]) field = Blurred(field, kReach);
   }
-  Field base = mean_opacity;
+  FloatImage base = mean_opacity;
   for (std::size_t i = 0; i < opacity.at.size(); ++i) {
     const glm::vec3 m(mean[0].at[i], mean[1].at[i], mean[2].at[i]);
     const glm::vec3 w(with[0].at[i], with[1].at[i], with[2].at[i]);
@@ -216,9 +216,9 @@ Field Enlarged(const fsm::Image& small, const Field& opacity, const fsm::Image& 
     for (int a = 0; a < 3; ++a) slope[static_cast<std::size_t>(a)].at[i] = by[a];
     base.at[i] -= glm::dot(by, m);
   }
-  for (Field& field : slope) field = Blurred(field, kReach);
+  for (FloatImage& field : slope) field = Blurred(field, kReach);
   base = Blurred(base, kReach);
-  Field out(large.width, large.height);
+  FloatImage out(large.width, large.height);
   const float across = static_cast<float>(small.width) / static_cast<float>(large.width);
   const float down = static_cast<float>(small.height) / static_cast<float>(large.height);
   for (int y = 0; y < large.height; ++y) {
@@ -240,9 +240,9 @@ Field Enlarged(const fsm::Image& small, const Field& opacity, const fsm::Image& 
 
 }  // namespace
 
-Field Matte(const fsm::Image& photo, const Field& person) {
+FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
   const int side = std::max(photo.width, photo.height);
-  Field out(0, 0);
+  FloatImage out(0, 0);
   if (side <= kSolvedSide) {
     out = Solve(photo, person);
   } else {
@@ -255,7 +255,7 @@ Field Matte(const fsm::Image& photo, const Field& person) {
   return out;
 }
 
-fsm::Image WithoutBackground(const fsm::Image& photo, const Field& opacity) {
+fsm::Image WithoutBackground(const fsm::Image& photo, const FloatImage& opacity) {
   // Blurred figure and background mixed as the opacity says, and what then is still missing
   // (Forte, Approximate Fast Foreground Colour Estimation, 2021); first from afar, then from near.
   const int side = std::max(photo.width, photo.height);
@@ -265,18 +265,18 @@ fsm::Image WithoutBackground(const fsm::Image& photo, const Field& opacity) {
     if (opacity.at[i] > 0 && opacity.at[i] < 1) edge.push_back(i);
   }
   for (std::size_t c = 0; c < 3; ++c) {
-    Field figure(photo.width, photo.height), behind = figure;
+    FloatImage figure(photo.width, photo.height), behind = figure;
     for (std::size_t i = 0; i < figure.at.size(); ++i) {
       figure.at[i] = behind.at[i] = static_cast<float>(photo.rgba[4 * i + c]);
     }
     for (const int reach : {side / 16 + 2, side / 150 + 1}) {
-      Field with = figure, without = behind, none = opacity;
+      FloatImage with = figure, without = behind, none = opacity;
       for (std::size_t i = 0; i < with.at.size(); ++i) {
         with.at[i] *= opacity.at[i];
         none.at[i] = 1 - opacity.at[i];
         without.at[i] *= none.at[i];
       }
-      const Field share = Blurred(opacity, reach), rest = Blurred(none, reach);
+      const FloatImage share = Blurred(opacity, reach), rest = Blurred(none, reach);
       with = Blurred(with, reach);
       without = Blurred(without, reach);
       for (const std::size_t i : edge) {
@@ -293,9 +293,9 @@ fsm::Image WithoutBackground(const fsm::Image& photo, const Field& opacity) {
     }
   }
   // Of what is hardly there the colour is hardly known.
-  Field known = opacity;
+  FloatImage known = opacity;
   for (float& v : known.at) v = glm::smoothstep(0.05F, 0.6F, v);
-  FillIn(out, known);
+  PushPullInpaint(out, known);
   return out;
 }
 

@@ -6,10 +6,10 @@ namespace facefit {
 
 /// How much of each pixel a figure covers: 1 within, 0 outside, between at soft edges and strands
 /// of hair. `person` says roughly where it is, 0..1; where that is sure, it stays.
-Field Matte(const fsm::Image& photo, const Field& person);
+FloatImage Matte(const fsm::Image& photo, const FloatImage& person);
 
 /// The figure's own colours: what shines in from behind it is taken out of its edge, and they go on
 /// beyond it.
-fsm::Image WithoutBackground(const fsm::Image& photo, const Field& opacity);
+fsm::Image WithoutBackground(const fsm::Image& photo, const FloatImage& opacity);
 
 }  // namespace facefit

@@ -14,15 +14,16 @@ constexpr int kCell = 8;
 /// For each cell of a map what the light of its own side is, as part of that of the other side.
 class Light {
  public:
-  Light(const std::vector<bool>& skin, const fsm::Image& map, const Field& seen)
+  Light(const std::vector<bool>& skin, const fsm::Image& map, const FloatImage& seen)
       : width_((map.width + kCell - 1) / kCell),
         height_((map.height + kCell - 1) / kCell),
-        gain_{Field(width_, height_, 1), Field(width_, height_, 1), Field(width_, height_, 1)} {
-    std::array<Field, 3> own{gain_}, other{gain_};
+        gain_{FloatImage(width_, height_, 1), FloatImage(width_, height_, 1),
+              FloatImage(width_, height_, 1)} {
+    std::array<FloatImage, 3> own{gain_}, other{gain_};
     for (auto* fields : {&own, &other}) {
-      for (Field& field : *fields) field = Field(width_, height_);
+      for (FloatImage& field : *fields) field = FloatImage(width_, height_);
     }
-    Field both(width_, height_);
+    FloatImage both(width_, height_);
     for (int y = 0; y < map.height; ++y) {
       for (int x = 0; x < map.width; ++x) {
         const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);
@@ -39,9 +40,9 @@ class Light {
     // From wide to narrow: what lies nearest counts most, where enough of it was seen.
     for (const int part : {2, 8, 20, 40}) {
       const int reach = std::max(width_ / part, 1);
-      const Field share = Blurred(both, reach);
+      const FloatImage share = Blurred(both, reach);
       for (std::size_t c = 0; c < 3; ++c) {
-        const Field here = Blurred(own[c], reach), there = Blurred(other[c], reach);
+        const FloatImage here = Blurred(own[c], reach), there = Blurred(other[c], reach);
         for (std::size_t i = 0; i < share.at.size(); ++i) {
           if (there.at[i] <= 0) continue;
           gain_[c].at[i] =
@@ -59,20 +60,20 @@ class Light {
 
  private:
   int width_, height_;
-  std::array<Field, 3> gain_;
+  std::array<FloatImage, 3> gain_;
 };
 
 }  // namespace
 
-void TakeFromOtherSide(const std::vector<bool>& skin, fsm::Image& map, Field& seen) {
+void TakeFromOtherSide(const std::vector<bool>& skin, fsm::Image& map, FloatImage& seen) {
   const Light light(skin, map, seen);
   const fsm::Image one_side = map;
-  const Field seen_once = seen;
+  const FloatImage seen_once = seen;
   // What shines or is in the shade on the other side alone, as a wing of the nose in the sun, is
   // kept near to what lies around it here.
   fsm::Image around = map;
-  FillIn(around, seen_once);
-  const Field near = Blurred(seen_once, std::max(map.width / 50, 1));
+  PushPullInpaint(around, seen_once);
+  const FloatImage near = Blurred(seen_once, std::max(map.width / 50, 1));
   constexpr float kDarkest = 0.65F, kBrightest = 1.15F, kAny = 50;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {

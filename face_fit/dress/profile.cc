@@ -54,7 +54,7 @@ std::vector<glm::vec3> ProfileOf(const BaseHead& base, const Fit& fit, float bel
 }
 
 /// The figure's outermost column of each row, to the right (way 1) or to the left; -1: none.
-std::vector<float> Outline(const Field& opacity, int way) {
+std::vector<float> Outline(const FloatImage& opacity, int way) {
   std::vector<float> columns(static_cast<std::size_t>(opacity.height), -1);
   for (int y = 0; y < opacity.height; ++y) {
     for (int k = 0; k < opacity.width; ++k) {
@@ -156,7 +156,7 @@ Guess Refined(const std::vector<glm::vec3>& line, const std::vector<float>& colu
   return guess;
 }
 
-std::optional<Guess> Search(const std::vector<glm::vec3>& line, const Field& opacity) {
+std::optional<Guess> Search(const std::vector<glm::vec3>& line, const FloatImage& opacity) {
   int top = opacity.height, bottom = -1;
   for (int y = 0; y < opacity.height; ++y) {
     for (int x = 0; x < opacity.width; ++x) {
@@ -213,7 +213,7 @@ Pose Place(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& p
 
 /// How far before (or behind) a place of the profile the outline lies, millimetres of depth;
 /// nothing beyond reach.
-std::optional<float> Forward(const Field& opacity, const Pose& pose, glm::vec3 p) {
+std::optional<float> Forward(const FloatImage& opacity, const Pose& pose, glm::vec3 p) {
   const auto inside = [&](float by) {
     const glm::vec2 at = pose.Project(pose.ToCamera(p + glm::vec3(0, 0, by)));
     return opacity.Between(at.x, at.y) - 0.5F;
@@ -229,7 +229,7 @@ std::optional<float> Forward(const Field& opacity, const Pose& pose, glm::vec3 p
   return {};
 }
 
-float MeanForward(const Field& opacity, const Pose& pose, const std::vector<glm::vec3>& line) {
+float MeanForward(const FloatImage& opacity, const Pose& pose, const std::vector<glm::vec3>& line) {
   float sum = 0;
   for (const glm::vec3& p : line) {
     sum += std::abs(Forward(opacity, pose, p).value_or(kReach)) / static_cast<float>(line.size());
@@ -238,7 +238,7 @@ float MeanForward(const Field& opacity, const Pose& pose, const std::vector<glm:
 }
 
 /// Scale, place and lean of the profile once more, from where the outline really is.
-Pose Settle(const Field& opacity, Pose pose, const std::vector<glm::vec3>& line) {
+Pose Refine(const FloatImage& opacity, Pose pose, const std::vector<glm::vec3>& line) {
   for (int round = 0; round < 6; ++round) {
     std::vector<glm::vec3> places;
     std::vector<glm::vec2> pixels;
@@ -281,7 +281,7 @@ struct Lack {
 
 }  // namespace
 
-vm::Result<ProfileView> DeepenByProfile(const BaseHead& base, const Field& opacity, Fit& fit) {
+vm::Result<ProfileView> DeepenByProfile(const BaseHead& base, const FloatImage& opacity, Fit& fit) {
   const auto guess = Search(ProfileOf(base, fit, kThroat), opacity);
   const auto line = ProfileOf(base, fit, 1);
   const auto refused = [] {
@@ -295,12 +295,12 @@ vm::Result<ProfileView> DeepenByProfile(const BaseHead& base, const Field& opaci
   ProfileView view;
   view.pose =
       Place(line, pixels, {0, glm::radians(90.0F) * static_cast<float>(guess->way), -guess->tilt});
-  view.pose = Settle(opacity, view.pose, line);
+  view.pose = Refine(opacity, view.pose, line);
   view.residual_mm = MeanForward(opacity, view.pose, line);
   if (view.residual_mm > kMostOff) return refused();
   for (int round = 0; round < 3; ++round) {
     const auto now = ProfileOf(base, fit, 1);
-    if (round > 0) view.pose = Settle(opacity, view.pose, now);
+    if (round > 0) view.pose = Refine(opacity, view.pose, now);
     Lack lack;
     for (const glm::vec3& p : now) {
       const auto by = Forward(opacity, view.pose, p);
@@ -310,12 +310,12 @@ vm::Result<ProfileView> DeepenByProfile(const BaseHead& base, const Field& opaci
     }
     // Beside the middle the outline says less and less.
     constexpr float kWide = 24, kMost = 6;
-    for (Aim& aim : fit.aims) {
+    for (LandmarkConstraint& aim : fit.aims) {
       const glm::vec3 p = aim.place.On(fit.worn);
       const float part = std::exp(-p.x * p.x / (kWide * kWide));
       aim.z += part * std::clamp(lack.At(p.y), -kMost, kMost);
     }
-    Form(base, fit);
+    WarpToLandmarks(base, fit);
   }
   return view;
 }

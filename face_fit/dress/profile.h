@@ -16,6 +16,6 @@ struct ProfileView {
 /// fit's places near the middle of the face towards or from the first photo's camera until both
 /// lines agree, and forms the head anew. Errors (kBadValue, in words): no outline like it; then the
 /// fit is as it was.
-vm::Result<ProfileView> DeepenByProfile(const BaseHead& base, const Field& opacity, Fit& fit);
+vm::Result<ProfileView> DeepenByProfile(const BaseHead& base, const FloatImage& opacity, Fit& fit);
 
 }  // namespace facefit

@@ -29,7 +29,7 @@ float BeforeNeck(float chin, glm::vec3 p) {
 }
 
 /// Spans a skin of soap, a little rounder, over what is not fixed.
-void Span(const Field& fixed, Field& depth) {
+void SolveLaplace(const FloatImage& fixed, FloatImage& depth) {
   for (int round = 0; round < 400; ++round) {
     for (int y = 0; y < depth.height; ++y) {
       for (int x = 0; x < depth.width; ++x) {
@@ -46,8 +46,8 @@ void Span(const Field& fixed, Field& depth) {
 }
 
 /// The mean of what is covered around each point, ever less beyond its edge.
-void Spread(const Field& covered, int reach, Field& field) {
-  const Field share = Blurred(covered, reach);
+void Spread(const FloatImage& covered, int reach, FloatImage& field) {
+  const FloatImage share = Blurred(covered, reach);
   field = Blurred(field, reach);
   for (std::size_t i = 0; i < field.at.size(); ++i) {
     field.at[i] *= glm::smoothstep(0.0F, 0.3F, share.at[i]) / std::max(share.at[i], 1e-3F);
@@ -165,7 +165,7 @@ class Beyond {
     return std::clamp(static_cast<float>(edge - within) / static_cast<float>(inward), kLeast,
                       kMost);
   }
-  const Field& opacity_;
+  const FloatImage& opacity_;
   float width_, height_;
   glm::vec2 chin_;
   float mm_;
@@ -177,7 +177,7 @@ class Beyond {
 fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
   const float chin = ChinY(base, fit);
-  Field face =
+  FloatImage face =
       CoverWithSkin(base, fit, {glm::vec2(0.5F), 1, width, height}, chin - kBelowChin).depth;
   for (float& v : face.at) v = v > SkinCover::kNone ? 1.0F : 0.0F;
   FillHoles(face);
@@ -186,8 +186,8 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   // large as the skin, or the chin would be seen a second time.
   const float mm = fit.pose.PixelsPerMm();
   constexpr float kBeside = 0.42F;
-  const Field soft = Blurred(face, std::max(static_cast<int>(9 * mm), 1));
-  Field keep(width, height, 1), beside(width, height, 1), below(width, height);
+  const FloatImage soft = Blurred(face, std::max(static_cast<int>(9 * mm), 1));
+  FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
@@ -200,14 +200,14 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
     }
   }
   fsm::Image out = figure.colours;
-  FillIn(out, keep);
+  PushPullInpaint(out, keep);
   const int grain = std::max(static_cast<int>(2.5F * mm), 2);
   // Of a small photo grain is as coarse as its pixels.
-  const Field all(width, height, glm::smoothstep(0.6F, 1.6F, mm));
+  const FloatImage all(width, height, glm::smoothstep(0.6F, 1.6F, mm));
   AddGrain(keep, all, grain, out);
   // Behind the jaw lies what is below it, not what is on it.
   fsm::Image neck = figure.colours;
-  FillIn(neck, beside);
+  PushPullInpaint(neck, beside);
   AddGrain(beside, all, grain, neck);
   for (std::size_t i = 0; i < keep.at.size(); ++i) {
     const float part = below.at[i] * (1 - keep.at[i]);
@@ -219,7 +219,7 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   return out;
 }
 
-void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::FaceSet& set) {
+void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::PhotoHead& set) {
   const glm::vec2 size(figure.colours.width, figure.colours.height);
   const float mm = fit.pose.PixelsPerMm();
   constexpr float kBeyond = 90;  // millimetres
@@ -235,31 +235,31 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
   const auto opacity = [&](int x, int y) { return beyond.Opacity(pixel(x, y)); };
   SkinCover skin = CoverWithSkin(base, fit, {origin, cell, columns, rows}, chin - kBelowChin,
                                  MotionToRest(base, fit));
-  Field& depth = skin.depth;
-  Field covered(columns, rows);
+  FloatImage& depth = skin.depth;
+  FloatImage covered(columns, rows);
   for (std::size_t i = 0; i < depth.at.size(); ++i) {
     covered.at[i] = depth.at[i] > SkinCover::kNone ? 1.0F : 0.0F;
   }
   const int rim = std::max(static_cast<int>(std::lround(kRim * mm / cell)), 1);
-  const Field within_skin = Blurred(covered, rim);
+  const FloatImage within_skin = Blurred(covered, rim);
   // Not at the very edge: there the skin turns away, and each point has a depth of its own.
   constexpr float kEdge = 0.62F;
-  Field inner(columns, rows), beside(columns, rows);
+  FloatImage inner(columns, rows), beside(columns, rows);
   for (std::size_t i = 0; i < inner.at.size(); ++i) {
     if (covered.at[i] <= 0 || within_skin.at[i] <= kEdge) continue;
     inner.at[i] = 1;
     beside.at[i] = depth.at[i];
   }
-  Field shown(columns, rows);
+  FloatImage shown(columns, rows);
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) shown.at[shown.Index(x, y)] = opacity(x, y);
   }
   shown = Blurred(shown, 2);
-  const Field share = Blurred(inner, rim);
+  const FloatImage share = Blurred(inner, rim);
   beside = Blurred(beside, rim);
   // Hair and neck beside the skin go with it.
-  for (Field& axis : skin.motion) Spread(covered, rim, axis);
-  Field fixed(columns, rows);
+  for (FloatImage& axis : skin.motion) Spread(covered, rim, axis);
+  FloatImage fixed(columns, rows);
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < columns; ++x) {
       const std::size_t i = depth.Index(x, y);
@@ -286,16 +286,16 @@ void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::
       }
     }
   }
-  Span(fixed, depth);
+  SolveLaplace(fixed, depth);
   // A steep fall, as from the jaw to the neck, would fold when the head turns.
-  const Field spanned = depth;
+  const FloatImage spanned = depth;
   depth = Blurred(Blurred(depth, 1), 1);
   for (std::size_t i = 0; i < depth.at.size(); ++i) {
     if (inner.at[i] > 0) depth.at[i] = std::min(depth.at[i], spanned.at[i]);
   }
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
-  const Field within = Blurred(covered, rim);
+  const FloatImage within = Blurred(covered, rim);
   const OpeningsOfHead openings(base, fit);
   const auto about = [&](int x, int y) {
     return fit.pose.FromCamera(fit.pose.Unproject(pixel(x, y), depth.at[depth.Index(x, y)]));

@@ -10,6 +10,6 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
 
 /// The sheet of hair, neck and clothes: just behind the face, from there gently back to the
 /// outline. Also says from where the photo was taken and where the skin ends.
-void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::FaceSet& set);
+void MakeSheet(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::PhotoHead& set);
 
 }  // namespace facefit

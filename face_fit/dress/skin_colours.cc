@@ -13,7 +13,7 @@ constexpr float kSeen = 0.9F;
 
 }  // namespace
 
-float Saturation(const fsm::Image& map, const Field& seen) {
+float Saturation(const fsm::Image& map, const FloatImage& seen) {
   float sum = 0, light = 0;
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
     if (seen.at[i] < kSeen) continue;
@@ -24,13 +24,13 @@ float Saturation(const fsm::Image& map, const Field& seen) {
   return glm::smoothstep(0.04F, 0.16F, sum / std::max(light, 1.0F));
 }
 
-Field SkinLikeness(const fsm::Image& map, const Field& face_seen) {
+FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen) {
   std::array<std::vector<std::uint8_t>, 3> channels;
   for (std::size_t i = 0; i < face_seen.at.size(); ++i) {
     if (face_seen.at[i] < kSeen) continue;
     for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(map.rgba[4 * i + c]);
   }
-  Field likeness(map.width, map.height, 1);
+  FloatImage likeness(map.width, map.height, 1);
   if (channels[0].empty()) return likeness;
   std::array<float, 3> middle{};
   constexpr float kDark = 8;  // steps of brightness that make no difference
@@ -50,15 +50,15 @@ Field SkinLikeness(const fsm::Image& map, const Field& face_seen) {
   return Blurred(likeness, map.width / 170);
 }
 
-float Roughness(const fsm::Image& map, const Field& face_seen) {
-  Field light(map.width, map.height);
+float Roughness(const fsm::Image& map, const FloatImage& face_seen) {
+  FloatImage light(map.width, map.height);
   for (std::size_t i = 0; i < light.at.size(); ++i) {
     const std::uint8_t* p = &map.rgba[4 * i];
     light.at[i] = 0.3F * static_cast<float>(p[0]) + 0.6F * static_cast<float>(p[1]) +
                   0.1F * static_cast<float>(p[2]);
   }
   // The face is some 400 texels wide at a side of 1024: lines are 1 to 4 mm apart.
-  const Field fine = Blurred(light, map.width / 512), wide = Blurred(light, map.width / 100);
+  const FloatImage fine = Blurred(light, map.width / 512), wide = Blurred(light, map.width / 100);
   std::vector<float> steps;
   for (std::size_t i = 0; i < light.at.size(); ++i) {
     if (face_seen.at[i] < kSeen) continue;
@@ -70,10 +70,10 @@ float Roughness(const fsm::Image& map, const Field& face_seen) {
   return *middle;
 }
 
-void EndAtHair(const std::vector<float>& up, Field& likeness) {
+void EndAtHair(const std::vector<float>& up, FloatImage& likeness) {
   // A line of the forehead is narrower than this, a fringe is not.
-  const Field wide = Blurred(likeness, likeness.width / 100);
-  Field skin(likeness.width, likeness.height, 1);
+  const FloatImage wide = Blurred(likeness, likeness.width / 100);
+  FloatImage skin(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {

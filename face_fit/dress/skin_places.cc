@@ -39,7 +39,7 @@ class Hidden {
   static constexpr float kReach = 180;  // millimetres
   const Fit& fit_;
   PhotoGrid grid_{};
-  Field nearest_{0, 0};
+  FloatImage nearest_{0, 0};
 };
 
 /// Of a line from the person's right to left.

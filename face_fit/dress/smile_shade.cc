@@ -41,41 +41,41 @@ class Cheeks {
 /// Means of one channel over a width, of what has weight.
 class Means {
  public:
-  Means(const Field& weight, int reach) : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
+  Means(const FloatImage& weight, int reach) : weight_(weight), reach_(reach), sum_(Soft(weight)) {}
   /// How much there is to go by near a texel, 0..1.
   float Known(std::size_t i) const { return sum_.at[i]; }
-  Field Of(const Field& values) const {
-    Field weighted = values;
+  FloatImage Of(const FloatImage& values) const {
+    FloatImage weighted = values;
     for (std::size_t i = 0; i < weighted.at.size(); ++i) weighted.at[i] *= weight_.at[i];
-    Field means = Soft(weighted);
+    FloatImage means = Soft(weighted);
     for (std::size_t i = 0; i < means.at.size(); ++i) means.at[i] /= std::max(sum_.at[i], 1e-3F);
     return means;
   }
 
  private:
-  Field Soft(const Field& field) const { return Blurred(Blurred(field, reach_), reach_); }
-  const Field& weight_;
+  FloatImage Soft(const FloatImage& field) const { return Blurred(Blurred(field, reach_), reach_); }
+  const FloatImage& weight_;
   int reach_;
-  Field sum_;
+  FloatImage sum_;
 };
 
 }  // namespace
 
-void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const Field& seen, float smile,
-                    fsm::Image& map) {
+void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const FloatImage& seen,
+                    float smile, fsm::Image& map) {
   if (smile <= 0) return;
   // The map shows some 4 texels to a millimetre of the cheeks.
   constexpr int kFine = 8, kWide = 40;
   const Cheeks cheeks(base);
-  Field weight(kMapSide, kMapSide);
+  FloatImage weight(kMapSide, kMapSide);
   for (std::size_t i = 0; i < weight.at.size(); ++i) {
     weight.at[i] = cheeks.Skin(places, i) ? seen.at[i] * seen.at[i] : 0.0F;
   }
   const Means fine(weight, kFine), wide(weight, kWide);
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    Field values(kMapSide, kMapSide);
+    FloatImage values(kMapSide, kMapSide);
     for (std::size_t i = 0; i < values.at.size(); ++i) values.at[i] = map.rgba[4 * i + channel];
-    const Field near = fine.Of(values), far = wide.Of(values);
+    const FloatImage near = fine.Of(values), far = wide.Of(values);
     for (std::size_t i = 0; i < values.at.size(); ++i) {
       const float part = smile * cheeks.At(places, i) * glm::smoothstep(0.1F, 0.5F, fine.Known(i));
       if (part <= 0) continue;
@@ -86,15 +86,15 @@ void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const Field&
   }
 }
 
-void GrainFromCheeks(const Field& smooth, fsm::Image& map) {
+void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map) {
   if (std::ranges::none_of(smooth.at, [](float s) { return s > 0; })) return;
   constexpr int kUp = 48, kOut = 36;  // texels, some 12 and 9 millimetres
   constexpr int kGrain = 8;           // what varies over more is no grain
   constexpr float kMost = 0.12F;      // of the brightness: more is a line, not grain
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    Field values(kMapSide, kMapSide);
+    FloatImage values(kMapSide, kMapSide);
     for (std::size_t i = 0; i < values.at.size(); ++i) values.at[i] = map.rgba[4 * i + channel];
-    const Field means = Blurred(Blurred(values, kGrain), kGrain);
+    const FloatImage means = Blurred(Blurred(values, kGrain), kGrain);
     for (int y = kUp; y < kMapSide; ++y) {
       for (int x = kOut; x < kMapSide - kOut; ++x) {
         const std::size_t i = MapIndex(x, y);

@@ -11,11 +11,11 @@ namespace facefit {
 /// width, so what varies over 3 to 12 mm is evened out towards what varies over more; finer
 /// detail, pores and spots, stays. `smile`: how much of it, 0..1. `seen`: of each texel, how well
 /// the photo shows it.
-void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const Field& seen, float smile,
-                    fsm::Image& map);
+void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const FloatImage& seen,
+                    float smile, fsm::Image& map);
 
 /// Gives back to skin that was smoothed the grain that the cheek has above it and farther out.
 /// `smooth`: how much of its own each texel of the map lost, 0..1.
-void GrainFromCheeks(const Field& smooth, fsm::Image& map);
+void GrainFromCheeks(const FloatImage& smooth, fsm::Image& map);
 
 }  // namespace facefit

@@ -61,7 +61,7 @@ fsm::FacePart PartOf(int point) {
 struct Surface {
   const BaseHead& head;
   std::vector<std::uint32_t> flesh;
-  bool sewn;
+  bool has_uv_seams;
 
   std::optional<LipSeam> Seam() const {
     const auto places = [this](std::span<const int> points) {
@@ -71,7 +71,7 @@ struct Surface {
       }
       return at;
     };
-    return FindLipSeam(head.head->topology(), head.rest.position, flesh, sewn,
+    return FindLipSeam(head.head->topology(), head.rest.position, flesh, has_uv_seams,
                        places(UpperOuterLip()), places(LowerOuterLip()));
   }
 };
@@ -94,18 +94,18 @@ fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file
   // Where both lips meet a point of the network may come to lie on either.
   std::set<int> inner(UpperInnerLip().begin(), UpperInnerLip().end());
   inner.insert(LowerInnerLip().begin(), LowerInnerLip().end());
-  const auto own_seam = Surface{base, fsm::FleshOf(base.head->topology()), false}.Seam();
+  const auto own_seam = Surface{base, fsm::SkinTriangles(base.head->topology()), false}.Seam();
   const auto own_eyes = EyeVertices(base.head->topology(), base.rest.position.size());
   struct Seen {
     BaseHead head;
     std::vector<bool> eye;
     std::vector<std::uint32_t> flesh;
-    bool sewn;
+    bool has_uv_seams;
   };
   const auto pairs = [&](const Seen& seen, const fsm::Similarity& place) {
     std::vector<MeshPlace> ours = base.places, theirs = seen.head.places;
     OntoLidEdges({base, own_eyes}, ours, {seen.head, seen.eye}, theirs);
-    const auto seam = Surface{seen.head, seen.flesh, seen.sewn}.Seam();
+    const auto seam = Surface{seen.head, seen.flesh, seen.has_uv_seams}.Seam();
     const bool both = own_seam && seam;
     if (both) {
       OntoSeam(*own_seam, ours);
@@ -125,15 +125,15 @@ fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file
   };
   const auto see = [&](const fsm::Similarity& place) {
     fsm::MeshModel model = fsm::ModelOf(file, place, -43);
-    std::vector<std::uint32_t> flesh = model.FleshTriangles();
-    const bool sewn = model.sewn;
+    std::vector<std::uint32_t> flesh = model.SkinTriangles();
+    const bool has_uv_seams = model.has_uv_seams;
     std::vector<bool> eye;
     for (const fsm::Bone bone : model.bone) {
       eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
     return Seen{BaseHead::See(networks, fsm::MakeMeshHead(std::move(model), fsm::StillMotion()),
                               name, false),
-                std::move(eye), std::move(flesh), sewn};
+                std::move(eye), std::move(flesh), has_uv_seams};
   };
   for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
     for (const glm::mat3& turn : kTurns) {

@@ -30,11 +30,11 @@ bool IsInside(const fsm::HeadTopology& topology, std::uint32_t index) {
 
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
                                    std::span<const glm::vec3> position,
-                                   const std::vector<std::uint32_t>& flesh, bool sewn,
+                                   const std::vector<std::uint32_t>& flesh, bool has_uv_seams,
                                    std::span<const glm::vec3> upper,
                                    std::span<const glm::vec3> lower) {
   if (upper.empty() || lower.empty()) return std::nullopt;
-  const fsm::WeldedSurface surface(position, flesh, sewn);
+  const fsm::WeldedSurface surface(position, flesh, has_uv_seams);
   const auto up = surface.WayFrom(upper, kReach), down = surface.WayFrom(lower, kReach);
   glm::vec2 low(1e9F), high(-1e9F);
   for (const auto& list : {upper, lower}) {

@@ -20,12 +20,12 @@ struct LipSeam {
   std::array<MeshPlace, kBetween> upper, lower;
 };
 
-/// `flesh`: triangles of skin, lips and mouth; `sewn` as for fsm::CarrySurface; `upper`, `lower`:
-/// some places on the outer edges of both lips. The head looks to +z, millimetres. Nothing if no
-/// seam of 20 to 90 mm is there.
+/// `flesh`: triangles of skin, lips and mouth; `has_uv_seams` as for fsm::TransferSurface; `upper`,
+/// `lower`: some places on the outer edges of both lips. The head looks to +z, millimetres. Nothing
+/// if no seam of 20 to 90 mm is there.
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
                                    std::span<const glm::vec3> position,
-                                   const std::vector<std::uint32_t>& flesh, bool sewn,
+                                   const std::vector<std::uint32_t>& flesh, bool has_uv_seams,
                                    std::span<const glm::vec3> upper,
                                    std::span<const glm::vec3> lower);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kInnerCorner = 8;  // of EyeOutline; the upper lid lies before it
 
-fsm::EyeSeat FitEye(const BaseHead& base, const std::map<int, glm::vec3>& to, int side) {
+fsm::EyeTransform FitEye(const BaseHead& base, const std::map<int, glm::vec3>& to, int side) {
   const auto outline = EyeOutline(side);
   const glm::vec3 centre = base.head->topology().eyes[static_cast<std::size_t>(side)].centre;
   const auto place = [&](std::size_t k) {
@@ -37,7 +37,7 @@ fsm::EyeSeat FitEye(const BaseHead& base, const std::map<int, glm::vec3>& to, in
   }
   const auto solved = sum.Solve(1e-6);
   const auto part = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
-  fsm::EyeSeat seat;
+  fsm::EyeTransform seat;
   // What people's eyes do; beyond it a point was misjudged.
   seat.size = std::clamp(std::hypot(part(2), part(3)), 0.82F, 1.2F);
   seat.turn = std::clamp(std::atan2(part(3), part(2)), -0.25F, 0.25F);
@@ -49,7 +49,7 @@ fsm::EyeSeat FitEye(const BaseHead& base, const std::map<int, glm::vec3>& to, in
 
 }  // namespace
 
-std::array<fsm::EyeSeat, 2> FitEyes(const BaseHead& base, const std::map<int, glm::vec3>& to) {
+std::array<fsm::EyeTransform, 2> FitEyes(const BaseHead& base, const std::map<int, glm::vec3>& to) {
   return {FitEye(base, to, 0), FitEye(base, to, 1)};
 }
 
@@ -115,13 +115,14 @@ void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* p
   fit.iris_size = count > 0 ? std::clamp(size / count, 0.8F, 1.12F) : 1.0F;
 }
 
-void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<Aim>& aims) {
+void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<LandmarkConstraint>& aims) {
   for (const int side : {0, 1}) {
     const IrisRing& ring = fit.irises[static_cast<std::size_t>(side)];
     if (ring.contrast <= 0) continue;
     const auto outline = EyeOutline(side);
-    const Slit slit =
-        SlitOf(side, [&aims](int i) { return std::ranges::find(aims, i, &Aim::point)->pixel; });
+    const Slit slit = SlitOf(side, [&aims](int i) {
+      return std::ranges::find(aims, i, &LandmarkConstraint::point)->pixel;
+    });
     const Expected iris = ExpectedIris(base, slit, side);
     const glm::vec2 axis = glm::normalize(slit.inner - slit.outer);
     const glm::vec2 across(-axis.y, axis.x);
@@ -129,7 +130,7 @@ void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<Aim>& aims) {
     const float free = 0.5F * iris.scale;  // eyes rest that differently in their slits
     const float by = std::clamp(off, -3 * iris.scale, 3 * iris.scale);
     if (std::abs(by) <= free) continue;
-    for (Aim& aim : aims) {
+    for (LandmarkConstraint& aim : aims) {
       if (std::ranges::find(outline, aim.point) == outline.end()) continue;
       aim.pixel += (by - std::copysign(free, by)) * across;
     }

@@ -5,12 +5,12 @@
 #include <map>
 
 #include "face_fit/fit/base_head.h"
-#include "fsm/head/eye_seat.h"
+#include "fsm/head/eye_transform.h"
 
 namespace facefit {
 
 /// How eyes and lids must sit for the outlines of the open eyes to lie where they should. `to`: by
 /// point of the network, millimetres in the head's frame, at least those of EyeOutline.
-std::array<fsm::EyeSeat, 2> FitEyes(const BaseHead& base, const std::map<int, glm::vec3>& to);
+std::array<fsm::EyeTransform, 2> FitEyes(const BaseHead& base, const std::map<int, glm::vec3>& to);
 
 }  // namespace facefit

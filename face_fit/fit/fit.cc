@@ -65,15 +65,15 @@ std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) 
   return out;
 }
 
-Parameters Settle(const Sight& sight, const Parameters& start) {
+Parameters Refine(const Sight& sight, const Parameters& start) {
   constexpr Parameters kStep = {1e-3, 1e-3, 1e-3, 1e-3, 0.5, 0.5, 0.05, 0.05, 0.05};
-  return Descend<kParameters>([&sight](const Parameters& p) { return Residuals(sight, p); }, start,
-                              kStep, 7,
-                              [](Parameters& p) {
-                                for (std::size_t i = 6; i < kParameters; ++i) {
-                                  p[i] = std::clamp(p[i], 0.0, 1.5);
-                                }
-                              });
+  return GaussNewton<kParameters>([&sight](const Parameters& p) { return Residuals(sight, p); },
+                                  start, kStep, 7,
+                                  [](Parameters& p) {
+                                    for (std::size_t i = 6; i < kParameters; ++i) {
+                                      p[i] = std::clamp(p[i], 0.0, 1.5);
+                                    }
+                                  });
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo
   start[3] = std::log(static_cast<double>(scale * (kCameraZ - kFaceZ)));
   start[4] = nose.x - scale * root.x;
   start[5] = nose.y + scale * root.y;
-  const Parameters settled = Settle(sight, start);
+  const Parameters settled = Refine(sight, start);
 
   Fit fit;
   fit.lips_apart = sight.lips_apart;
@@ -169,7 +169,7 @@ Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo
   if (photo && !sight.lips_apart) {
     AimAtMouthLine(base, face, fit.pose, now.position, *photo, fit.aims);
   }
-  Form(base, fit);
+  WarpToLandmarks(base, fit);
   for (const int i : FitPoints()) {
     const auto k = static_cast<std::size_t>(i);
     const glm::vec2 at = fit.pose.Project(fit.pose.ToCamera(base.places[k].On(fit.worn)));

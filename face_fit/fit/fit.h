@@ -9,7 +9,7 @@
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/iris.h"
 #include "face_fit/fit/base_head.h"
-#include "fsm/head/eye_seat.h"
+#include "fsm/head/eye_transform.h"
 #include "fsm/head/warp.h"
 
 namespace facefit {
@@ -39,7 +39,7 @@ struct Expression {
 };
 
 /// Where a place of the head has to be seen in the photo, and how near to the camera it lies.
-struct Aim {
+struct LandmarkConstraint {
   int point;  ///< of the network, -1 = none
   MeshPlace place;
   glm::vec2 pixel;
@@ -50,12 +50,12 @@ struct Fit {
   Pose pose;
   Expression expression;
   bool lips_apart = false;
-  std::vector<Aim> aims;
+  std::vector<LandmarkConstraint> aims;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
   float smooth = 1;
-  std::array<fsm::EyeSeat, 2> eyes;  ///< right, left
-  std::array<IrisRing, 2> irises;    ///< likewise, in the photo
-  float iris_size = 1;               ///< of that of the built-in head, by the size of the eye
+  std::array<fsm::EyeTransform, 2> eyes;  ///< right, left
+  std::array<IrisRing, 2> irises;         ///< likewise, in the photo
+  float iris_size = 1;                    ///< of that of the built-in head, by the size of the eye
   std::vector<glm::vec3> worn;  ///< every vertex of the base as it lies in the photo, head's frame
   float residual_mm = 0;        ///< mean distance of the network's points from those of the fit
 };

@@ -7,7 +7,7 @@
 
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/eye_fit.h"
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/head/spline.h"
 
 namespace facefit {
@@ -52,12 +52,12 @@ void Wear(const BaseHead& base, Fit& fit) {
 }  // namespace
 
 std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm::FaceState& state) {
-  fsm::FaceSet set;
+  fsm::PhotoHead set;
   set.base = base.name;
   set.points = fit.points;
   set.smooth = fit.smooth;
   set.eyes = fit.eyes;
-  set.photo = std::make_shared<fsm::WornPhoto>(fsm::WornPhoto{1, 1, {0, 0, 0, 255}});
+  set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
   const auto head = base.Moved(fsm::Head::Make(set));
   fsm::HeadVertices vertices;
   head->Evaluate(state, vertices);
@@ -76,14 +76,14 @@ std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm:
 
 void AimAtMouthLine(const BaseHead& base, const FoundFace& face, const Pose& pose,
                     std::span<const glm::vec3> now, const fsm::Image& photo,
-                    std::vector<Aim>& aims) {
+                    std::vector<LandmarkConstraint>& aims) {
   const glm::vec3 right = base.head->Landmark("cheilion_right");
   const glm::vec3 left = base.head->Landmark("cheilion_left");
   const auto along = [&](const MeshPlace& place) {
     return (place.On(base.rest.position).x - right.x) / (left.x - right.x);
   };
   const auto line = FindMouthLine(photo, face, along(base.places[61]), along(base.places[291]));
-  std::erase_if(aims, [](const Aim& aim) { return OfInnerLips(aim.point); });
+  std::erase_if(aims, [](const LandmarkConstraint& aim) { return OfInnerLips(aim.point); });
   const auto on_line = [&](float part) {
     const float at = glm::clamp(part, 0.0F, 1.0F) * (kMouthLinePlaces - 1);
     const auto k = std::min(static_cast<std::size_t>(at), kMouthLinePlaces - 2);
@@ -94,7 +94,7 @@ void AimAtMouthLine(const BaseHead& base, const FoundFace& face, const Pose& pos
     const auto c = static_cast<std::size_t>(corner);
     const float corner_at = along(base.places[c]);
     const glm::vec2 off = on_line(corner_at) - glm::vec2(face.points[c]);
-    for (Aim& aim : aims) {
+    for (LandmarkConstraint& aim : aims) {
       if (aim.point != corner && !OfOuterLips(aim.point)) continue;
       aim.pixel += off * fsm::SmoothStep(0.3F, 0.05F, std::abs(along(aim.place) - corner_at));
     }
@@ -111,16 +111,16 @@ void AimAtMouthLine(const BaseHead& base, const FoundFace& face, const Pose& pos
   }
 }
 
-void Form(const BaseHead& base, Fit& fit) {
-  const std::vector<Aim>& aims = fit.aims;
+void WarpToLandmarks(const BaseHead& base, Fit& fit) {
+  const std::vector<LandmarkConstraint>& aims = fit.aims;
   fsm::HeadVertices posed;
   base.head->Evaluate(fit.expression.State(), posed);
   const std::vector<glm::vec3>& now = posed.position;
-  const auto lies = [&](const Aim& aim) {
+  const auto lies = [&](const LandmarkConstraint& aim) {
     return fit.pose.FromCamera(fit.pose.Unproject(aim.pixel, aim.z));
   };
   std::map<int, glm::vec3> eyes;
-  for (const Aim& aim : aims) {
+  for (const LandmarkConstraint& aim : aims) {
     if (EyeOf(aim.point) < 0) continue;
     eyes[aim.point] = lies(aim) - (aim.place.On(now) - aim.place.On(base.rest.position));
   }
@@ -130,7 +130,7 @@ void Form(const BaseHead& base, Fit& fit) {
   std::vector<std::size_t> bent;  // aims of fit.points that may be corrected
   std::vector<std::size_t> of;
   for (std::size_t i = 0; i < aims.size(); ++i) {
-    const Aim& aim = aims[i];
+    const LandmarkConstraint& aim = aims[i];
     // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
     if (fit.lips_apart && OfInnerLips(aim.point)) continue;
     const glm::vec3 rest = aim.place.On(base.rest.position);
@@ -142,7 +142,7 @@ void Form(const BaseHead& base, Fit& fit) {
     } else {
       // Lids go with the eye: the skin around them must, too.
       const auto side = static_cast<std::size_t>(eye);
-      const fsm::EyeSeat& seat = fit.eyes[side];
+      const fsm::EyeTransform& seat = fit.eyes[side];
       fit.points.push_back({rest, seat.Placed(seats[side].centre, rest) - rest});
     }
   }
@@ -156,7 +156,7 @@ void Form(const BaseHead& base, Fit& fit) {
   Wear(base, fit);
   constexpr float kGain = 0.8F;
   for (std::size_t k = 0; k < bent.size(); ++k) {
-    const Aim& aim = aims[of[k]];
+    const LandmarkConstraint& aim = aims[of[k]];
     const glm::vec3 q = fit.pose.ToCamera(aim.place.On(fit.worn));
     const glm::vec3 should = fit.pose.FromCamera(fit.pose.Unproject(aim.pixel, q.z));
     fit.points[bent[k]].by += kGain * (should - fit.pose.FromCamera(q));

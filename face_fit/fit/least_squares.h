@@ -46,8 +46,9 @@ class LeastSquares {
 /// Gauss and Newton with differences for derivatives: makes the squares of `residuals(row)` small.
 /// `keep(row)` brings unknowns back within their bounds.
 template <std::size_t N, typename Residuals, typename Keep>
-std::array<double, N> Descend(const Residuals& residuals, std::array<double, N> p,
-                              const std::array<double, N>& steps, int rounds, const Keep& keep) {
+std::array<double, N> GaussNewton(const Residuals& residuals, std::array<double, N> p,
+                                  const std::array<double, N>& steps, int rounds,
+                                  const Keep& keep) {
   for (int round = 0; round < rounds; ++round) {
     const std::vector<double> here = residuals(p);
     std::array<std::vector<double>, N> slopes;

@@ -36,12 +36,14 @@ Pose SettlePose(std::span<const PoseMark> marks, const Pose& start) {
     return out;
   };
   const auto d = [](float v) { return static_cast<double>(v); };
-  return PoseOf(Descend<6>(residuals,
-                           {d(start.turn.x), d(start.turn.y), d(start.turn.z),
-                            std::log(d(start.focal)), d(start.centre.x), d(start.centre.y)},
-                           {1e-3, 1e-3, 1e-3, 1e-3, 0.5, 0.5}, 10, [](std::array<double, 6>& p) {
-                             for (std::size_t i = 0; i < 3; ++i) p[i] = std::clamp(p[i], -1.6, 1.6);
-                           }));
+  return PoseOf(GaussNewton<6>(residuals,
+                               {d(start.turn.x), d(start.turn.y), d(start.turn.z),
+                                std::log(d(start.focal)), d(start.centre.x), d(start.centre.y)},
+                               {1e-3, 1e-3, 1e-3, 1e-3, 0.5, 0.5}, 10,
+                               [](std::array<double, 6>& p) {
+                                 for (std::size_t i = 0; i < 3; ++i)
+                                   p[i] = std::clamp(p[i], -1.6, 1.6);
+                               }));
 }
 
 float MeanOff(const Pose& pose, std::span<const PoseMark> marks) {

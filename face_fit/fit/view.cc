@@ -172,10 +172,10 @@ void Deepen(const BaseHead& base, const fsm::Image& front, const fsm::Image& sid
     });
     if (both.size() < 20) return;
     const fsm::Warp depth(both, kEven);
-    for (Aim& aim : fit.aims) {
+    for (LandmarkConstraint& aim : fit.aims) {
       aim.z += std::clamp(depth.Motion(aim.place.On(base.rest.position)).z, -kMost, kMost);
     }
-    Form(base, fit);
+    WarpToLandmarks(base, fit);
   }
 }
 

@@ -101,8 +101,8 @@ void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const fl
   }
 }
 
-void ConvolveByChannel(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
-                       Tensor& out) {
+void DepthwiseConv(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
+                   Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   const int rows = filter.shape.rows();
   const int columns = filter.shape.columns();
@@ -126,7 +126,7 @@ void ConvolveByChannel(const Step& step, const Tensor& in, const Tensor& filter,
   }
 }
 
-void Unfold(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out) {
+void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   const int rows = filter.shape.rows();
   const int columns = filter.shape.columns();

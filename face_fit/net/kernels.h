@@ -14,10 +14,10 @@ Padding PaddingOf(const Step& step, const Shape& in, const Shape& out, int filte
 // The operators' arithmetic. Sizes have been checked; `out` has its shape and its room.
 void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
               Tensor& out);
-void ConvolveByChannel(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
-                       Tensor& out);
+void DepthwiseConv(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
+                   Tensor& out);
 /// Each input pixel paints a block of `filter` size, side by side.
-void Unfold(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out);
+void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out);
 void Pool(const Step& step, const Tensor& in, Tensor& out);
 void ResizeBilinear(const Step& step, const Tensor& in, Tensor& out);
 void Pad(const Tensor& in, const std::vector<std::int32_t>& by, Tensor& out);

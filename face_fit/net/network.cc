@@ -182,10 +182,10 @@ void Network::Do(const Step& step) {
       Convolve(step, in, second(), bias, out);
       break;
     case Op::kDepthwiseConv:
-      ConvolveByChannel(step, in, second(), bias, out);
+      DepthwiseConv(step, in, second(), bias, out);
       break;
     case Op::kTransposeConv:
-      Unfold(in, second(), bias, out);
+      TransposeConv(in, second(), bias, out);
       break;
     case Op::kMaxPool:
     case Op::kAveragePool:

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "fsm/app/frame_series.h"
-#include "fsm/app/studio.h"
+#include "fsm/app/render_backend.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace fsm {
@@ -23,7 +23,7 @@ class Capture {
   };
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
   using OnFailure = std::function<void(const vm::Error&)>;
-  Capture(vm::Scheduler& clock, Studio& studio, Draw draw, OnFailure on_failure)
+  Capture(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnFailure on_failure)
       : clock_(clock),
         studio_(studio),
         draw_(std::move(draw)),
@@ -44,7 +44,7 @@ class Capture {
   bool WriteNext();
 
   vm::Scheduler& clock_;
-  Studio& studio_;
+  RenderBackend& studio_;
   Draw draw_;
   OnFailure on_failure_;
   Order order_;

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "fsm/head/face_folder.h"
-#include "fsm/head/face_set.h"
 #include "fsm/head/own_identity.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/image/image_file.h"
 #include "fsm/motion/table_text.h"
 #include "vm_protocol/core/text_file.h"
@@ -60,11 +60,10 @@ std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string&
   if (std::filesystem::exists(own, error)) {
     return MovedAsIn(units, MakeHead(ReadOwnIdentity(own, ReadText(own))));
   }
-  FaceSet set = ReadFaceSet(folder + "/face.txt", ReadText(folder + "/face.txt"));
+  PhotoHead set = ReadPhotoHead(folder + "/face.txt", ReadText(folder + "/face.txt"));
   auto image = ReadImage(folder + "/photo.png");
   if (!image) throw std::runtime_error(image.error().text);
-  set.photo =
-      std::make_shared<WornPhoto>(WornPhoto{image->width, image->height, std::move(image->rgba)});
+  set.photo = std::make_shared<Image>(Image{image->width, image->height, std::move(image->rgba)});
   return MovedAsIn(units, Head::Make(set));
 }
 

@@ -7,7 +7,7 @@ namespace {
 constexpr long kMostRepeatsAtOnce = 4;
 }
 
-Film::Film(vm::Scheduler& clock, Studio& studio, Draw draw, OnFailure on_failure)
+Film::Film(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnFailure on_failure)
     : clock_(clock), studio_(studio), draw_(std::move(draw)), on_failure_(std::move(on_failure)) {}
 
 Film::~Film() {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fsm/app/frame_series.h"
-#include "fsm/app/studio.h"
+#include "fsm/app/render_backend.h"
 #include "fsm/film/movie_writer.h"
 #include "vm_protocol/core/scheduler.h"
 
@@ -20,7 +20,7 @@ class Film {
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
   /// Told when recording ended by itself because of an error.
   using OnFailure = std::function<void(const vm::Error&)>;
-  Film(vm::Scheduler& clock, Studio& studio, Draw draw, OnFailure on_failure);
+  Film(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnFailure on_failure);
   ~Film();
 
   /// Errors: kBusy while recording; kUnavailable if the film cannot be opened.
@@ -43,7 +43,7 @@ class Film {
   vm::Result<void> AddUpTo(vm::Time now, long most_repeats);
 
   vm::Scheduler& clock_;
-  Studio& studio_;
+  RenderBackend& studio_;
   Draw draw_;
   OnFailure on_failure_;
   std::unique_ptr<MovieWriter> writer_;

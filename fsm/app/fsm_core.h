@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/app/studio.h"
+#include "fsm/app/render_backend.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/scheduler.h"
 #include "vm_protocol/core/slot_machine.h"
@@ -16,7 +16,7 @@ namespace fsm {
 /// What the parts of the face module share. Lifetime: owned by FsmModule, outlives the parts.
 struct FsmCore {
   vm::Scheduler& clock;
-  Studio& studio;
+  RenderBackend& studio;
   vm::SlotMachine slots{"FSM"};
   std::unique_ptr<FaceMotion> motion{};
   Scene scene{};

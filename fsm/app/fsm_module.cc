@@ -9,7 +9,7 @@
 
 #include "fsm/app/expression_slots.h"
 #include "fsm/app/face_slots.h"
-#include "fsm/app/life_slots.h"
+#include "fsm/app/idle_slots.h"
 #include "fsm/app/lip_slots.h"
 
 namespace fsm {
@@ -28,7 +28,7 @@ T OrThrow(vm::Result<T> result) {
 
 }  // namespace
 
-FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
+FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions options)
     : options_(std::move(options)), core_{.clock = clock, .studio = studio} {
   const OriginalConfig& config = options_.config;
   tables_ = OrThrow(MotionTables::Load(options_.tables));
@@ -52,7 +52,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options)
                                        .on_exit = [this] { exit_requested_ = true; }});
   DeclareFaceSlots(core_);
   DeclareExpressionSlots(core_);
-  DeclareLifeSlots(core_);
+  DeclareIdleSlots(core_);
   speech_ = std::make_unique<SpeechSlots>(
       core_, SpeechSlots::Listener{.begun = [this] { capture_->Begin(); },
                                    .ended =
@@ -97,7 +97,7 @@ void FsmModule::MakeMotion() {
 
 vm::Result<void> FsmModule::BeginLife() {
   if (options_.life.empty()) return {};
-  if (auto set = core_.motion->SetLife(core_.Now(), options_.life); !set) return set;
+  if (auto set = core_.motion->SetIdle(core_.Now(), options_.life); !set) return set;
   core_.slots.Store("Life", options_.life);
   return {};
 }

@@ -34,7 +34,7 @@ struct FsmOptions {
 class FsmModule final : public vm::Module {
  public:
   /// Throws std::runtime_error with a sentence if tables or configuration are damaged.
-  FsmModule(vm::Scheduler& clock, Studio& studio, FsmOptions options);
+  FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions options);
   ~FsmModule() override;
 
   vm::SlotMachine& slots() override { return core_.slots; }

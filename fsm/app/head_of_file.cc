@@ -42,7 +42,7 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
     meanings.push_back({PlainShapeName(shape.name), shape.state});
   }
   for (const auto& [name, mouth] : kVrmMouths) {
-    const MouthShape* shape = FindShape(tables.set14.shapes, mouth);
+    const Viseme* shape = FindShape(tables.set14.shapes, mouth);
     if (!shape) continue;
     FaceState state;
     state.mouth = shape->pose.mouth;

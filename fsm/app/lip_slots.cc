@@ -96,7 +96,7 @@ void DeclareStyle(FsmCore& core) {
 }
 
 void DeclareShapes(FsmCore& core, bool bilingual) {
-  for (const MouthShape& shape : core.motion->shapes(bilingual)) {
+  for (const Viseme& shape : core.motion->shapes(bilingual)) {
     core.Declare(
         {SlotOf(bilingual, shape.name), "<number>...",
          "Mouth shape '" + shape.name + "' of the " + (bilingual ? "28" : "14") +
@@ -104,8 +104,8 @@ void DeclareShapes(FsmCore& core, bool bilingual) {
          [&core, bilingual, name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
            std::vector<std::string> words;
            for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
-           MouthShapes shapes = core.motion->shapes(bilingual);
-           for (MouthShape& edited : shapes) {
+           Visemes shapes = core.motion->shapes(bilingual);
+           for (Viseme& edited : shapes) {
              if (edited.name != name) continue;
              if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
            }
@@ -121,9 +121,9 @@ vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
   const auto text = ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
   const bool bilingual = TableText(path, *text).lines().size() == kBilingualShapes;
-  auto shapes = ReadMouthShapes(path, *text, bilingual ? kBilingualShapes : kMouthShapes);
+  auto shapes = ReadVisemes(path, *text, bilingual ? kBilingualShapes : kVisemes);
   if (!shapes) return std::unexpected(shapes.error());
-  const MouthShapes& now = core.motion->shapes(bilingual);
+  const Visemes& now = core.motion->shapes(bilingual);
   for (std::size_t i = 0; i < now.size(); ++i) {
     if ((*shapes)[i].name != now[i].name) {
       return vm::Fail(vm::Errc::kBadValue, path + ": shape " + std::to_string(i + 1) + " is '" +
@@ -132,7 +132,7 @@ vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
     }
   }
   core.motion->SetShapes(bilingual, std::move(*shapes));
-  for (const MouthShape& shape : core.motion->shapes(bilingual)) {
+  for (const Viseme& shape : core.motion->shapes(bilingual)) {
     core.slots.Report(SlotOf(bilingual, shape.name), FormatShapeValues(shape));
   }
   return {};
@@ -142,7 +142,7 @@ vm::Result<void> SaveShapes(FsmCore& core, bool bilingual, const std::string& pa
   if (auto fit = vm::CheckWritable(path); !fit) return fit;
   std::ofstream out(path, std::ios::binary);
   out << "# Mouth shapes: name, the 17 mouth parameters, seal, tongue, hold (docs/face.md).\n";
-  for (const MouthShape& shape : core.motion->shapes(bilingual)) {
+  for (const Viseme& shape : core.motion->shapes(bilingual)) {
     out << shape.name << " " << FormatShapeValues(shape) << "\n";
   }
   out.close();

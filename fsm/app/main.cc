@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "fsm/app/contact_sheet.h"
 #include "fsm/app/face_of_name.h"
 #include "fsm/app/fsm_module.h"
-#include "fsm/app/gl_studio.h"
+#include "fsm/app/gl_render_backend.h"
 #include "fsm/app/head_of_file.h"
 #include "fsm/app/more_faces.h"
-#include "fsm/app/sheet.h"
 #include "fsm/head/face_folder.h"
 #include "vm_protocol/runtime/module_main.h"
 
@@ -40,7 +40,7 @@ struct Options {
 /// A module that owns its studio, which has to outlive it.
 class Fsm final : public vm::Module {
  public:
-  Fsm(vm::Scheduler& clock, const fsm::GlStudio::Options& studio, fsm::FsmOptions options)
+  Fsm(vm::Scheduler& clock, const fsm::GlRenderBackend::Options& studio, fsm::FsmOptions options)
       : studio_(studio), module_(clock, studio_, std::move(options)) {}
   vm::SlotMachine& slots() override { return module_.slots(); }
   std::vector<vm::Message> Greeting() override { return module_.Greeting(); }
@@ -49,7 +49,7 @@ class Fsm final : public vm::Module {
   void Shutdown() override { module_.Shutdown(); }
 
  private:
-  fsm::GlStudio studio_;
+  fsm::GlRenderBackend studio_;
   fsm::FsmModule module_;
 };
 
@@ -115,8 +115,8 @@ void AddOptions(CLI::App& app, Options& options) {
 }
 
 /// Faces beside the built-in ones, the one to be worn first of all.
-std::vector<fsm::GlStudio::Options::MoreFace> MoreFaces(const Options& options,
-                                                        const fsm::OriginalConfig& config) {
+std::vector<fsm::GlRenderBackend::Options::MoreFace> MoreFaces(const Options& options,
+                                                               const fsm::OriginalConfig& config) {
   auto faces = fsm::FacesOf(config, options.module.tables);
   if (!options.head.empty()) {
     if (!std::filesystem::is_regular_file(options.head))
@@ -156,8 +156,8 @@ int ExportIfAsked(const Options& options) {
   return 0;
 }
 
-fsm::GlStudio::Options StudioOptions(const Options& options) {
-  fsm::GlStudio::Options studio;
+fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
+  fsm::GlRenderBackend::Options studio;
   studio.width = options.module.config.width.value_or(studio.width);
   studio.height = options.module.config.height.value_or(studio.height);
   if (!options.size_pair.empty()) {
@@ -180,7 +180,7 @@ fsm::GlStudio::Options StudioOptions(const Options& options) {
   studio.more_faces = MoreFaces(options, options.module.config);
   studio.tables = options.module.tables;
   static_cast<void>(fsm::UnitsIn(studio.tables));  // a damaged one is told before the start
-  using Where = fsm::GlStudio::Options::Where;
+  using Where = fsm::GlRenderBackend::Options::Where;
   const bool must = options.window || options.context == "window";
   studio.where = must && WindowWanted(options) ? Where::kWindow
                  : WindowWanted(options)       ? Where::kWindowIfPossible
@@ -204,10 +204,10 @@ int DrawSheetIfAsked(const Options& options) {
     if (!read) return fail(read.error().text);
     config = std::move(*read);
   }
-  fsm::GlStudio studio({.width = fsm::kCellWidth,
-                        .height = fsm::kCellHeight,
-                        .more_faces = MoreFaces(options, config),
-                        .tables = options.module.tables});
+  fsm::GlRenderBackend studio({.width = fsm::kCellWidth,
+                               .height = fsm::kCellHeight,
+                               .more_faces = MoreFaces(options, config),
+                               .tables = options.module.tables});
   if (!options.module.mask.empty()) {
     if (auto worn = studio.Wear(options.module.mask); !worn) return fail(worn.error().text);
   }
@@ -245,6 +245,6 @@ int main(int argc, char** argv) {
            options.module.config = std::move(*config);
            options.module.announce_config = true;
          }
-         return std::make_unique<Fsm>(clock, StudioOptions(options), options.module);
+         return std::make_unique<Fsm>(clock, RenderBackendOptions(options), options.module);
        }});
 }

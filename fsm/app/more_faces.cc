@@ -45,10 +45,10 @@ std::string Missing(const OriginalFaceFiles& files, const OriginalSharedFiles& s
 
 }  // namespace
 
-std::vector<GlStudio::Options::MoreFace> FacesOf(const OriginalConfig& config,
-                                                 const std::string& tables,
-                                                 std::vector<std::string>* left_out) {
-  std::vector<GlStudio::Options::MoreFace> faces;
+std::vector<GlRenderBackend::Options::MoreFace> FacesOf(const OriginalConfig& config,
+                                                        const std::string& tables,
+                                                        std::vector<std::string>* left_out) {
+  std::vector<GlRenderBackend::Options::MoreFace> faces;
   const OriginalSharedFiles shared{
       config.standard_wireframe,
       config.link,

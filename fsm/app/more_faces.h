@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/app/gl_studio.h"
+#include "fsm/app/gl_render_backend.h"
 #include "fsm/app/original_config.h"
 
 namespace fsm {
@@ -11,8 +11,8 @@ namespace fsm {
 /// The faces of a configuration of the original. A face whose files are not there is left out with
 /// a notice, in `left_out` or else on stderr. `tables`: folder of tables that replace the built-in
 /// ones.
-std::vector<GlStudio::Options::MoreFace> FacesOf(const OriginalConfig& config,
-                                                 const std::string& tables,
-                                                 std::vector<std::string>* left_out = nullptr);
+std::vector<GlRenderBackend::Options::MoreFace> FacesOf(
+    const OriginalConfig& config, const std::string& tables,
+    std::vector<std::string>* left_out = nullptr);
 
 }  // namespace fsm

@@ -183,14 +183,15 @@ void SceneSlots::DeclareCamera() {
        "1 0 25 0"});
 }
 
-void SceneSlots::DeclareLight(const std::string& name, const std::string& what, Lamp Scene::*lamp) {
+void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
+                              DirectionalLight Scene::*lamp) {
   core_.Declare(
       {name, "<number 0..10> [ <number -180..180> <number -90..90> ] [ <word> ]",
        what + ": its strength (1 = as usual), where it stands (degrees to the viewer's right, "
               "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
        [this, lamp](const vm::SetValue& value) -> vm::Result<void> {
          constexpr float kRadians = 3.14159265f / 180;
-         Lamp set = Scene{}.*lamp;
+         DirectionalLight set = Scene{}.*lamp;
          set.strength = static_cast<float>(value.number(0));
          if (value.size() >= 3) {
            const float side = static_cast<float>(value.number(1)) * kRadians;

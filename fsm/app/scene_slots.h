@@ -23,7 +23,8 @@ class SceneSlots {
   void DeclareBackgrounds();
   void DeclareView();
   void DeclareCamera();
-  void DeclareLight(const std::string& name, const std::string& what, Lamp Scene::*lamp);
+  void DeclareLight(const std::string& name, const std::string& what,
+                    DirectionalLight Scene::*lamp);
   void DeclareSaveImage();
   vm::Result<void> SetBackground(const std::string& name);
   vm::Result<void> FillScreen(bool fill);

@@ -189,7 +189,7 @@ UnitEffects UnitTable::Effects(const SidedUnits& units) const {
   return sum;
 }
 
-glm::vec3 UnitTable::Motion(const Field& field, const Flesh& flesh, bool mirror) {
+glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& flesh, bool mirror) {
   const float x = mirror ? -flesh.domain.x : flesh.domain.x;
   if (std::abs(flesh.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right together make the whole.

@@ -113,7 +113,7 @@ void BuildCloth(const Palette& palette, HeadMesh& mesh) {
   const SplineBasis around(around_at);
   const SplineBasis down(down_at);
   std::vector<float> wa(around_at.size()), wd(down_at.size());
-  Flesh flesh;
+  SkinWeights flesh;
   flesh.free = flesh.neck = flesh.jaw = 0;
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const float row : kRows) {
@@ -137,7 +137,7 @@ void BuildCloth(const Palette& palette, HeadMesh& mesh) {
       if (k == 0 || k == kHalf) p.x = 0;
       if (!left) p.x = -p.x;
       mesh.Add(p, palette.cloth * (1 + 0.04f * Grain(c, static_cast<int>(10 * row))),
-               glm::clamp(open, 0.2f, 1.0f), Bone::kFlesh, flesh);
+               glm::clamp(open, 0.2f, 1.0f), Bone::kSkin, flesh);
     }
   }
   mesh.Grid(Material::kCloth, first, static_cast<int>(kRows.size()), 2 * kHalf + 1, true);

@@ -6,10 +6,10 @@
 
 namespace fsm {
 
-Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
+Deformer::Deformer(std::vector<glm::vec3> rest, std::vector<SkinWeights> flesh,
                    std::vector<std::pair<std::uint32_t, std::uint32_t>> seam,
                    const UnitTable& units, const EyeAnatomy& eye,
-                   const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
+                   const std::array<EyeTransform, 2>& seats, const MouthAnatomy& mouth,
                    const TeethPlace& teeth)
     : rest_(std::move(rest)), flesh_(std::move(flesh)), seam_(std::move(seam)), seats_(seats) {
   MoveBy(units);
@@ -62,7 +62,7 @@ void Deformer::AddMouthFields(const MouthAnatomy& mouth) {
     mouth_fields_[parameter].push_back({static_cast<std::uint32_t>(i), by});
   };
   for (std::size_t i = 0; i < rest_.size(); ++i) {
-    const Flesh& f = flesh_[i];
+    const SkinWeights& f = flesh_[i];
     const float a = std::abs(f.domain.x);
     const float line = mouth.LineY(std::min(a, corner_x));
     if (f.free <= 0 || a > 56 || f.domain.y > -14 || f.domain.y < -84) continue;
@@ -107,14 +107,14 @@ void Deformer::AddLids(const EyeAnatomy& eye) {
     widest = std::max(widest, eye.UpperY(x) - eye.LowerY(x));
   }
   for (std::size_t i = 0; i < rest_.size(); ++i) {
-    const Flesh& f = flesh_[i];
+    const SkinWeights& f = flesh_[i];
     if (f.eye == 0) continue;
     const float x = std::clamp(std::abs(f.domain.x), eye.inner_x(), eye.outer_x());
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
     const int side = f.eye > 0 ? 1 : 0;
-    const EyeSeat& seat = seats_[static_cast<std::size_t>(side)];
-    const EyeSeat back{.turn = -seat.turn, .size = 1 / seat.size};
+    const EyeTransform& seat = seats_[static_cast<std::size_t>(side)];
+    const EyeTransform back{.turn = -seat.turn, .size = 1 / seat.size};
     const glm::vec3 from_ball = back.Turned(rest_[i] - ball_[static_cast<std::size_t>(side)]);
     lids_.push_back({static_cast<std::uint32_t>(i), side, f.lid_upper, f.lid_lower, upper, lower,
                      eye.MeetAngle(x), (eye.UpperY(x) - eye.LowerY(x)) / widest, from_ball.y,
@@ -126,7 +126,7 @@ void Deformer::MoveLids(const Pose& pose, glm::vec3* out) const {
   constexpr float kRadius = 13.35f;  // turns millimetres at the lid's edge into an angle
   for (const LidVertex& lid : lids_) {
     const UnitEffects::Lids& ask = pose.lids[static_cast<std::size_t>(lid.side)];
-    const EyeSeat& seat = seats_[static_cast<std::size_t>(lid.side)];
+    const EyeTransform& seat = seats_[static_cast<std::size_t>(lid.side)];
     float upper = lid.upper_angle + lid.opening * (seat.upper_mm + ask.upper_mm) / kRadius;
     // A lower lid that is raised goes up nearly as far beside the middle, so that it stays a curve.
     const float raised = ask.lower_mm * (ask.lower_mm > 0 ? std::sqrt(lid.opening) : lid.opening);
@@ -187,7 +187,7 @@ void Deformer::CloseLips(const Pose& pose, glm::vec3* out) const {
     correction[k].y += (1 - pose.seal) * std::min(apart.y, 0.0f);
   }
   for (const std::uint32_t i : lipped_) {
-    const Flesh& f = flesh_[i];
+    const SkinWeights& f = flesh_[i];
     const glm::vec3 by = correction[static_cast<std::size_t>(f.lip_column)];
     out[i] -= (f.lip_weight > 0 ? kUpperShare : 1 - kUpperShare) * f.lip_weight * by;
   }

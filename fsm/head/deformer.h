@@ -9,7 +9,7 @@
 
 #include "fsm/head/action_units.h"
 #include "fsm/head/anatomy.h"
-#include "fsm/head/eye_seat.h"
+#include "fsm/head/eye_transform.h"
 #include "fsm/head/face_state.h"
 #include "fsm/head/rig.h"
 
@@ -47,11 +47,11 @@ glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 class Deformer {
  public:
   /// `seam` pairs index the arrays given. `seats`: of the right and the left eye; `teeth`:
-  /// from where `mouth` has them. Flesh::lip_column indexes `seam`.
-  Deformer(std::vector<glm::vec3> rest, std::vector<Flesh> flesh,
+  /// from where `mouth` has them. SkinWeights::lip_column indexes `seam`.
+  Deformer(std::vector<glm::vec3> rest, std::vector<SkinWeights> flesh,
            std::vector<std::pair<std::uint32_t, std::uint32_t>> seam, const UnitTable& units,
-           const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, const MouthAnatomy& mouth,
-           const TeethPlace& teeth);
+           const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats,
+           const MouthAnatomy& mouth, const TeethPlace& teeth);
 
   std::size_t size() const { return rest_.size(); }
   /// Takes the fields of other units.
@@ -79,11 +79,11 @@ class Deformer {
   void CloseLips(const Pose& pose, glm::vec3* out) const;
 
   std::vector<glm::vec3> rest_;
-  std::vector<Flesh> flesh_;
+  std::vector<SkinWeights> flesh_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam_;
   std::array<std::array<std::vector<Delta>, kActionUnits>, 2> unit_fields_;
   std::array<std::vector<Delta>, kMouthParameters> mouth_fields_;
-  std::array<EyeSeat, 2> seats_;
+  std::array<EyeTransform, 2> seats_;
   std::array<glm::vec3, 2> ball_{};  ///< centres, right and left
   float cornea_ = 0;                 ///< how far its centre lies before the ball's
   std::vector<LidVertex> lids_;

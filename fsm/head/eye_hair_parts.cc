@@ -55,7 +55,7 @@ class LashBuilder {
     flesh_.domain = {at_x * side_, eye_.centre().y};
     p.x *= side_;
     const glm::vec3 colour = glm::mix(palette_.skin, palette_.lash, of_photo_ ? 1.0f : dark);
-    const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kFlesh, flesh_);
+    const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kSkin, flesh_);
     if (of_photo_) mesh_.strands.back().cover = dark;
     return i;
   }
@@ -131,7 +131,7 @@ class LashBuilder {
   bool of_photo_;
   float side_;
   HeadMesh& mesh_;
-  Flesh flesh_;
+  SkinWeights flesh_;
   bool upper_ = true;
 };
 

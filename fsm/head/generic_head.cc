@@ -17,7 +17,6 @@
 #include "embedded/patches.h"
 #include "embedded/sliders.h"
 #include "fsm/head/deformer.h"
-#include "fsm/head/face_set.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/head.h"
 #include "fsm/head/head_form.h"
@@ -25,6 +24,7 @@
 #include "fsm/head/landmarks.h"
 #include "fsm/head/own_identity.h"
 #include "fsm/head/parts.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/head/photo_wear.h"
 #include "fsm/head/skin_mesh.h"
 #include "fsm/head/tongue_way.h"
@@ -37,7 +37,7 @@ namespace {
 /// parts.
 class GenericHead : public Head {
  public:
-  GenericHead(Identity identity, bool asymmetric, const FaceSet* set = nullptr)
+  GenericHead(Identity identity, bool asymmetric, const PhotoHead* set = nullptr)
       : identity_(std::move(identity)),
         units_(Table("tables/action_units.txt", embedded::action_units())),
         eye_(Table("tables/eye.txt", embedded::eye())),
@@ -46,12 +46,13 @@ class GenericHead : public Head {
       warp_.emplace(set->points, set->smooth);
       identity_.palette.iris = set->iris_colour;
       identity_.palette.sclera = set->white_colour;
-      Wash(identity_.palette, set->saturation);
+      Desaturate(identity_.palette, set->saturation);
       if (set->lip_colour) {
         // Where the lips turn inward the mouth is painted: it begins in their colour.
         constexpr float kOpen = 0.85f;
         identity_.palette.lip_inside = *set->lip_colour / kOpen;
-        identity_.palette.mouth = 0.9f * Wetter(identity_.palette.lip_inside, 0.5f * set->saturation);
+        identity_.palette.mouth =
+            0.9f * Wetter(identity_.palette.lip_inside, 0.5f * set->saturation);
       }
       lined_ = set->lined;
       eye_.ScaleIris(set->iris_size);
@@ -107,8 +108,8 @@ class GenericHead : public Head {
     base_.insert(base_.end(), mesh.position.begin() + static_cast<std::ptrdiff_t>(base_.size()),
                  mesh.position.end());
     if (set && set->glasses) HoldBehindGlasses(glm::vec2(eye_.centre()), skin_count, mesh);
-    const std::vector<Flesh> flesh(mesh.flesh.begin(),
-                                   mesh.flesh.begin() + static_cast<std::ptrdiff_t>(skin_count));
+    const std::vector<SkinWeights> flesh(
+        mesh.flesh.begin(), mesh.flesh.begin() + static_cast<std::ptrdiff_t>(skin_count));
     Finish(std::move(mesh), skin);
     if (set) {
       HeadVertices open, shut;
@@ -137,7 +138,7 @@ class GenericHead : public Head {
     for (std::size_t i = 0; i < flesh_count_; ++i) {
       out.position[i] = TurnHead(out.position[i], pose, face_->neck(i));
     }
-    FleshNormals(out);
+    SkinNormals(out);
     for (std::size_t i = flesh_count_; i < rest_.size(); ++i) MoveRigid(i, pose, tongue, out);
     out.wrinkles = CreaseDepths(pose.units, identity_.creases);
     for (auto& sides : out.wrinkles) {
@@ -173,7 +174,7 @@ class GenericHead : public Head {
 
  private:
   /// What a grey photo does not show must be grey too.
-  static void Wash(Palette& palette, float saturation) {
+  static void Desaturate(Palette& palette, float saturation) {
     for (glm::vec3* colour : {&palette.tooth, &palette.lip_inside, &palette.rim, &palette.mouth,
                               &palette.tongue, &palette.gum}) {
       *colour =
@@ -190,13 +191,13 @@ class GenericHead : public Head {
     }
     for (std::size_t i = 0; i < topology_.indices.size(); i += 3) {
       if (topology_.indices[i] >= flesh_count_) continue;
-      flesh_triangles_.insert(flesh_triangles_.end(), &topology_.indices[i],
-                              &topology_.indices[i] + 3);
+      skin_triangles_.insert(skin_triangles_.end(), &topology_.indices[i],
+                             &topology_.indices[i] + 3);
     }
     rest_ = mesh.position;
     rest_normal_ = Normals(topology_.indices, rest_, rest_.size());
     LightAsOne(std::span(rest_).subspan(hair_first_), std::span(rest_normal_).subspan(hair_first_));
-    for (const Flesh& flesh : mesh.flesh) bend_.push_back(flesh.free);
+    for (const SkinWeights& flesh : mesh.flesh) bend_.push_back(flesh.free);
 
     seam_ = skin.seam;
     topology_.mouth = {.lips = skin.seam,
@@ -210,11 +211,11 @@ class GenericHead : public Head {
     lower_teeth_ = mouth_.LowerTeeth().Moved(teeth_);
     const auto flesh_end = static_cast<std::ptrdiff_t>(flesh_count_);
     face_.emplace(std::vector<glm::vec3>(rest_.begin(), rest_.begin() + flesh_end),
-                  std::vector<Flesh>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end), skin.seam,
-                  units_, eye_, seats_, mouth_, teeth_);
+                  std::vector<SkinWeights>(mesh.flesh.begin(), mesh.flesh.begin() + flesh_end),
+                  skin.seam, units_, eye_, seats_, mouth_, teeth_);
     const auto [upper, lower] = skin.seam[skin.mid_column];
     std::vector<glm::vec3> rest;
-    std::vector<Flesh> flesh;
+    std::vector<SkinWeights> flesh;
     for (const std::uint32_t i : {upper, lower, skin.corner_left, skin.corner_right}) {
       rest.push_back(rest_[i]);
       flesh.push_back(mesh.flesh[i]);
@@ -241,9 +242,9 @@ class GenericHead : public Head {
     }
   }
 
-  void FleshNormals(HeadVertices& out) const {
+  void SkinNormals(HeadVertices& out) const {
     std::fill_n(out.normal.begin(), flesh_count_, glm::vec3(0));
-    Accumulate(flesh_triangles_, out.position, std::span(out.normal.data(), flesh_count_));
+    Accumulate(skin_triangles_, out.position, std::span(out.normal.data(), flesh_count_));
   }
 
   void MoveRigid(std::size_t i, const Pose& pose, const TongueWay& tongue,
@@ -272,7 +273,7 @@ class GenericHead : public Head {
         n = glm::normalize(TurnJaw(rest_[i] + n, pose, 1) - p);
         break;
       case Bone::kSkull:
-      case Bone::kFlesh:
+      case Bone::kSkin:
         break;
     }
     out.position[i] = TurnHead(p, pose, 1);
@@ -286,13 +287,13 @@ class GenericHead : public Head {
   float lined_ = 1;  // of a photo's skin
   EyeAnatomy eye_;
   MouthAnatomy mouth_;
-  TeethPlace teeth_;              // from the base head's
-  std::array<EyeSeat, 2> seats_;  // of the right and the left eye
-  std::vector<glm::vec3> base_;   // the base head's rest form, for texture coordinates
+  TeethPlace teeth_;                   // from the base head's
+  std::array<EyeTransform, 2> seats_;  // of the right and the left eye
+  std::vector<glm::vec3> base_;        // the base head's rest form, for texture coordinates
   HeadTopology topology_;
   std::size_t flesh_count_ = 0;
   std::size_t hair_first_ = 0;
-  std::vector<std::uint32_t> flesh_triangles_;
+  std::vector<std::uint32_t> skin_triangles_;
   std::vector<glm::vec3> rest_, rest_normal_;
   std::vector<Bone> bone_;
   std::vector<float> bend_;
@@ -314,7 +315,7 @@ std::unique_ptr<Head> Head::Make(std::string_view identity, bool asymmetric) {
   return MakeHead(BuiltInIdentity(identity), asymmetric);
 }
 
-std::unique_ptr<Head> Head::Make(const FaceSet& set) {
+std::unique_ptr<Head> Head::Make(const PhotoHead& set) {
   if (!set.photo) throw std::runtime_error("a face set without its photo");
   return std::make_unique<GenericHead>(BuiltInIdentity(set.base), true, &set);
 }

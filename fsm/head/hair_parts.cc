@@ -20,7 +20,7 @@ Scalp::Scalp(const HeadMesh& mesh) {
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 d = mesh.position[i] - kHairCentre;
     const float length = glm::length(d);
-    if (mesh.bone[i] != Bone::kFlesh || mesh.position[i].y < -70 || length < 45) continue;
+    if (mesh.bone[i] != Bone::kSkin || mesh.position[i].y < -70 || length < 45) continue;
     if (mesh.position[i].y < 5 && mesh.position[i].z > 45) continue;  // the face's features
     if (mesh.flesh[i].neck <= 0) continue;                            // cloth
     points_.push_back({d / length, length});
@@ -73,7 +73,7 @@ void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette&
                  HeadMesh& mesh) {
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
-    if (mesh.bone[i] != Bone::kFlesh || p.y < 10) continue;
+    if (mesh.bone[i] != Bone::kSkin || p.y < 10) continue;
     float nearest = 1e9f;
     for (const glm::vec3 q : edge) nearest = std::min(nearest, glm::dot(p - q, p - q));
     const float near = std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(10, 40, p.y);

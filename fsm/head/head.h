@@ -15,7 +15,8 @@
 #include <vector>
 
 #include "fsm/head/face_state.h"
-#include "fsm/head/finish.h"
+#include "fsm/head/pbr_material.h"
+#include "fsm/image/image.h"
 
 namespace fsm {
 
@@ -78,12 +79,6 @@ struct SkinHair {
   glm::vec3 tint;  ///< factor on the skin's colour
 };
 
-/// A photo worn in place of painted skin. Its own light is in it.
-struct WornPhoto {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgba;  ///< screen colours and opacity, row 0 at the top
-};
-
 /// Where the lips part, by vertices: light comes into the mouth there. Teeth bound it further in.
 struct MouthSlit {
   /// Edges of the upper and the lower lip, from -x to +x, corners excluded; may be empty.
@@ -110,17 +105,17 @@ struct HeadTopology {
   /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows.
   std::vector<glm::vec2> uv;
   std::vector<SkinHair> skin_hairs;
-  std::vector<Strand> strands;  ///< per vertex, meaningful where there is hair; may be empty
-  std::shared_ptr<const WornPhoto> photo;  ///< nothing: skin is painted and lit
-  std::vector<Finish> finishes;
+  std::vector<Strand> strands;         ///< per vertex, meaningful where there is hair; may be empty
+  std::shared_ptr<const Image> photo;  ///< nothing: skin is painted and lit
+  std::vector<PbrMaterial> finishes;
   /// Laid out as the photo; nothing where no finish needs it. Of `relief` red and green are the
   /// normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of `lights`
   /// the colour is that of what glows (toon: of the shade), alpha how open to light.
-  std::shared_ptr<const WornPhoto> relief, lights;
+  std::shared_ptr<const Image> relief, lights;
   /// Per vertex where there is a photo: its place there (0..1, v down) and the photo's part in the
   /// colour, 0..1. What exceeds 1 is lid: that part of the photo gives way to the vertex's own
   /// colour as the lid shuts, because a photo of an open eye does not show its skin.
-  std::vector<glm::vec3> photo_place;
+  std::vector<glm::vec3> photo_texcoord;
   /// Per vertex of an upper lid: the place in the photo whose brightness, times twice the square
   /// root of the vertex's colour, is the shut lid's; and how far in the photo the place of the
   /// vertex moves until then. 0 elsewhere; may be empty.
@@ -157,7 +152,7 @@ struct IdentityInfo {
   std::string_view description;  ///< one line
 };
 
-struct FaceSet;
+struct PhotoHead;
 class UnitTable;
 
 /// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,
@@ -171,7 +166,7 @@ class Head {
   static std::unique_ptr<Head> Make(std::string_view identity, bool asymmetric = true);
   /// A head made from a photo: its base face, warped and wearing the photo. Throws as Make, and
   /// std::runtime_error if the set does not fit together.
-  static std::unique_ptr<Head> Make(const FaceSet& set);
+  static std::unique_ptr<Head> Make(const PhotoHead& set);
   /// All heads there are, the default one first. Valid as long as the program runs.
   static std::span<const IdentityInfo> Identities();
   /// The first of Identities().

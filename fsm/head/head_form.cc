@@ -9,7 +9,7 @@
 namespace fsm {
 
 HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper,
-                   const Warp* warp, const std::optional<std::array<EyeSeat, 2>>& seats,
+                   const Warp* warp, const std::optional<std::array<EyeTransform, 2>>& seats,
                    const HeadMesh& base)
     : eye_(eye), mouth_(mouth), shaper_(shaper), warp_(warp) {
   if (seats) {
@@ -46,7 +46,7 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
   float most = 0;
   for (const ToothArch& arch : {mouth_.UpperTeeth(), mouth_.LowerTeeth()}) {
     for (std::size_t i = 0; i < base.position.size(); ++i) {
-      if (base.bone[i] != Bone::kFlesh || !base.flesh[i].by_teeth) continue;
+      if (base.bone[i] != Bone::kSkin || !base.flesh[i].by_teeth) continue;
       const glm::vec3 p = base.position[i], q = p + Motion(p);
       const float room = std::min(kRoom, p.z - arch.At(p.x));
       most = std::max(most, room - (q.z - arch.Moved(teeth_).At(q.x)));
@@ -73,8 +73,8 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
         p = tooth ? teeth_(p) : p + Motion(p);
         break;
       }
-      case Bone::kFlesh: {
-        const Flesh& flesh = mesh.flesh[i];
+      case Bone::kSkin: {
+        const SkinWeights& flesh = mesh.flesh[i];
         glm::vec3 by = Motion(p);
         if (flesh.eye != 0) {
           const float hold = SmoothStep(0, 0.8f, flesh.lid_upper + flesh.lid_lower);
@@ -87,7 +87,7 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
   }
 }
 
-glm::vec3 Seated(const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, std::size_t side,
+glm::vec3 Seated(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats, std::size_t side,
                  glm::vec3 p) {
   return seats[side].Placed(eye.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1), p);
 }

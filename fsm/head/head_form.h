@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/eye_seat.h"
+#include "fsm/head/eye_transform.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/rig.h"
 #include "fsm/head/warp.h"
@@ -20,12 +20,12 @@ class HeadForm {
   /// `warp`: of a face from a photo, or null. `seats`: of its right and left eye if they are known;
   /// otherwise eyes go where the skin goes. `base`: the head before it takes this form.
   HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper, const Warp* warp,
-           const std::optional<std::array<EyeSeat, 2>>& seats, const HeadMesh& base);
+           const std::optional<std::array<EyeTransform, 2>>& seats, const HeadMesh& base);
 
   /// Moves all vertices but those from `fixed_first` to before `fixed_end`.
   void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;
 
-  const std::array<EyeSeat, 2>& seats() const { return seats_; }
+  const std::array<EyeTransform, 2>& seats() const { return seats_; }
   const TeethPlace& teeth() const { return teeth_; }
 
  private:
@@ -38,12 +38,12 @@ class HeadForm {
   const MouthAnatomy& mouth_;
   const Shaper& shaper_;
   const Warp* warp_;
-  std::array<EyeSeat, 2> seats_;
+  std::array<EyeTransform, 2> seats_;
   TeethPlace teeth_;
 };
 
 /// Where a place of the table's eye lies in a face with these seats. `side`: 0 right, 1 left.
-glm::vec3 Seated(const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats, std::size_t side,
+glm::vec3 Seated(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats, std::size_t side,
                  glm::vec3 p);
 
 }  // namespace fsm

@@ -10,7 +10,7 @@
 namespace fsm {
 
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats) {
+                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats) {
   Landmarks landmarks;
   const auto pair = [&](const std::string& name, glm::vec3 p) {
     landmarks[name + "_left"] = p;

@@ -10,7 +10,7 @@
 
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"
-#include "fsm/head/eye_seat.h"
+#include "fsm/head/eye_transform.h"
 #include "fsm/head/subdivide.h"
 
 namespace fsm {
@@ -20,7 +20,7 @@ using Landmarks = std::map<std::string, glm::vec3, std::less<>>;
 /// The points of tables/landmarks.txt and those of eyes and ears at rest; `rest` begins with the
 /// vertices of `fine`. Throws std::runtime_error naming file and line if the table is damaged.
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, const std::array<EyeSeat, 2>& seats);
+                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats);
 
 /// Texture coordinates of a place of the base head, see HeadTopology::uv.
 glm::vec2 Unroll(glm::vec3 p);

@@ -171,7 +171,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
       const float lit = SmoothStep(-0.2f, 1.0f, part) * SmoothStep(0, 1, up) *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
-      Flesh flesh;
+      SkinWeights flesh;
       flesh.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));

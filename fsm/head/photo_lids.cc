@@ -109,9 +109,9 @@ PhotoPlane PhotoByFace(std::span<const Lender> all) {
 
 /// The face as the photo shows it, and its lids when they are shut.
 struct Face {
-  const WornPhoto& photo;
+  const Image& photo;
   std::span<const glm::vec3> places;
-  std::span<const Flesh> skin;
+  std::span<const SkinWeights> skin;
   const SkinPose& open;
   const SkinPose& shut;
   bool glasses;
@@ -126,7 +126,7 @@ class LidPainter {
     std::vector<SkinSample> samples;
     std::vector<glm::vec2> rims;
     for (std::size_t i = 0; i < face.skin.size(); ++i) {
-      const Flesh& f = face.skin[i];
+      const SkinWeights& f = face.skin[i];
       if (f.eye != side) continue;
       const glm::vec2 at(face.open.position[i]);
       const glm::vec3 screen = PhotoColour(face.photo, glm::vec2(face.places[i]));
@@ -168,7 +168,7 @@ class LidPainter {
 
   void Paint(std::vector<LidPaint>& lids) const {
     for (std::uint32_t i = 0; i < face_.skin.size(); ++i) {
-      const Flesh& f = face_.skin[i];
+      const SkinWeights& f = face_.skin[i];
       if (f.eye == side_) lids.push_back(f.lid_upper > 0 ? Upper(i) : Lower(i));
     }
   }
@@ -269,7 +269,7 @@ class LidPainter {
 
 }  // namespace
 
-glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place) {
+glm::vec3 PhotoColour(const Image& photo, glm::vec2 place) {
   const auto at = [](float part, int size) {
     return static_cast<std::size_t>(
         std::clamp(static_cast<int>(part * static_cast<float>(size)), 0, size - 1));
@@ -280,7 +280,7 @@ glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place) {
   return glm::vec3(p[0], p[1], p[2]) / 255.0f;
 }
 
-FaceLight LightOf(const WornPhoto& photo, std::span<const glm::vec3> places, const SkinPose& open) {
+FaceLight LightOf(const Image& photo, std::span<const glm::vec3> places, const SkinPose& open) {
   constexpr float kSquarely = 0.3f, kFront = 45;  // millimetres: no neck, no ears
   std::vector<FaceLight::Patch> seen;
   for (std::size_t i = 0; i < open.normal.size(); ++i) {
@@ -291,8 +291,8 @@ FaceLight LightOf(const WornPhoto& photo, std::span<const glm::vec3> places, con
   return FaceLight(seen);
 }
 
-std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec3> places,
-                                std::span<const Flesh> skin, const SkinPose& open,
+std::vector<LidPaint> PaintLids(const Image& photo, std::span<const glm::vec3> places,
+                                std::span<const SkinWeights> skin, const SkinPose& open,
                                 const SkinPose& shut, const FaceLight& light, bool glasses) {
   const Face face{photo, places, skin, open, shut, glasses};
   std::vector<LidPaint> lids;

@@ -17,7 +17,7 @@ struct LidPaint {
   glm::vec3 screen;  ///< colour on the screen, 0..1
   float part;        ///< how much of it is lid, 0..1: it goes over into the skin round it
   /// Skin that lends its grain: a lid's height below, or nearer behind glasses.
-  glm::vec2 lender;    ///< its place in the photo, as HeadTopology::photo_place
+  glm::vec2 lender;    ///< its place in the photo, as HeadTopology::photo_texcoord
   float lender_light;  ///< the mean brightness round it, 0..1
   /// From its place in the photo to where in the photo it comes to lie.
   glm::vec2 slide;
@@ -30,20 +30,20 @@ struct SkinPose {
 };
 
 /// What a photo shows at a place (u, v down), on the screen, 0..1.
-glm::vec3 PhotoColour(const WornPhoto& photo, glm::vec2 place);
+glm::vec3 PhotoColour(const Image& photo, glm::vec2 place);
 
 /// Lids for a face that wears a photo of open eyes. A lid that shuts comes out from under the skin
 /// above it: what the photo shows there stays where it is, but the lashes of the open eye, and the
 /// eye gives way to skin with the grain of the lower lid's. At the top the skin is coloured like
 /// that round the eye, as far as that is not darker or brighter than most of it (glasses, brows,
 /// reflections); downward it comes out into the light that falls on the face. `places` are
-/// HeadTopology::photo_place; `open` and `shut`: with lids at rest and shut. All of one length.
+/// HeadTopology::photo_texcoord; `open` and `shut`: with lids at rest and shut. All of one length.
 /// `glasses`: nothing above the eye is taken for lashes.
-std::vector<LidPaint> PaintLids(const WornPhoto& photo, std::span<const glm::vec3> places,
-                                std::span<const Flesh> skin, const SkinPose& open,
+std::vector<LidPaint> PaintLids(const Image& photo, std::span<const glm::vec3> places,
+                                std::span<const SkinWeights> skin, const SkinPose& open,
                                 const SkinPose& shut, const FaceLight& light, bool glasses);
 
 /// The light of a photo, from the front of the face that wears it.
-FaceLight LightOf(const WornPhoto& photo, std::span<const glm::vec3> places, const SkinPose& open);
+FaceLight LightOf(const Image& photo, std::span<const glm::vec3> places, const SkinPose& open);
 
 }  // namespace fsm

@@ -35,7 +35,7 @@ void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
 
 /// A photo of a closed mouth does not show where the lips roll inward: as they part, from beside
 /// the line where they met on, their own colour turns redder and darker until it is the lining's.
-void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_inside,
+void RollLips(const PhotoHead& set, std::span<const CageTag> tags, glm::vec3 lip_inside,
               HeadTopology& topology) {
   constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
   constexpr float kPhoto = 1.8f, kWet = -2.0f;  // outward of the line: all photo, all paint
@@ -57,7 +57,7 @@ void RollLips(const FaceSet& set, std::span<const CageTag> tags, glm::vec3 lip_i
     const float inside = SmoothStep(0.5f, -4.0f, outward);
     topology.albedo[i] = Wetter(Wetter(dry, set.saturation), inside * set.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
-    topology.photo_place[i].z = 1 - wet;
+    topology.photo_texcoord[i].z = 1 - wet;
   }
 }
 
@@ -67,7 +67,7 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
   constexpr float kNone = 14, kAll = 26;  // millimetres from the middle of an eye
   std::array<glm::vec3, 2> eye{};         // sums and number: right, left
   for (std::size_t i = 0; i < skin.flesh.size(); ++i) {
-    const Flesh& f = skin.flesh[i];
+    const SkinWeights& f = skin.flesh[i];
     if (f.eye == 0 || f.lid_upper + f.lid_lower < 0.95f) continue;
     eye[f.eye > 0 ? 1 : 0] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
   }
@@ -84,7 +84,7 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
 }
 
 /// Lashes grow thin and pale with age, of which creases tell.
-void ThinLashes(const FaceSet& set, HeadTopology& topology) {
+void ThinLashes(const PhotoHead& set, HeadTopology& topology) {
   constexpr float kLost = 0.5f;
   const glm::vec3 colour =
       glm::mix(glm::vec3(0.02f), glm::vec3(0.03f, 0.018f, 0.012f), set.saturation);
@@ -110,7 +110,7 @@ float JawPart(glm::vec3 p, float skin_bottom) {
 
 /// How much of the skin at a place hides the sheet, which shows the same beside it: it fades where
 /// the photo did not see it squarely.
-float SeenSkin(const FaceSet& set, glm::vec3 p, glm::vec3 normal) {
+float SeenSkin(const PhotoHead& set, glm::vec3 p, glm::vec3 normal) {
   const float above = p.y - set.skin_bottom_y;
   // Within the face all stays: lids and nostrils turn every way.
   if (p.z > 45 && above > 14) return 1;
@@ -132,15 +132,15 @@ glm::vec3 Wetter(glm::vec3 lip, float saturation) {
   return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
 }
 
-void AddSheet(const FaceSet& set, HeadMesh& mesh) {
+void AddSheet(const PhotoHead& set, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (const auto& vertex : set.sheet) {
-    Flesh flesh;
+    SkinWeights flesh;
     flesh.free = 0;
     flesh.domain = vertex.position;
     flesh.neck = SmoothStep(-166, -98, vertex.position.y);
     flesh.jaw = JawPart(vertex.position, set.skin_bottom_y);
-    mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kFlesh, flesh);
+    mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kSkin, flesh);
   }
   const auto& t = set.sheet_triangles;
   for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
@@ -152,14 +152,14 @@ void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
   // Of a large lens and its rim from the eye, millimetres.
   constexpr float kAside = 37, kUp = 19, kDown = 29;
   for (std::size_t i = 0; i < skin_count; ++i) {
-    Flesh& f = mesh.flesh[i];
+    SkinWeights& f = mesh.flesh[i];
     const float up = f.domain.y - eye.y;
     const glm::vec2 off((std::abs(f.domain.x) - eye.x) / kAside, up / (up > 0 ? kUp : kDown));
     f.free *= SmoothStep(1, 1.35f, glm::length(off));
   }
 }
 
-void LeaveOutUnseen(const FaceSet& set, std::span<const CageTag> tags, HeadMesh& mesh) {
+void LeaveOutUnseen(const PhotoHead& set, std::span<const CageTag> tags, HeadMesh& mesh) {
   DarkenNostrils(tags, mesh);
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kSkin) continue;
@@ -178,45 +178,45 @@ void LeaveOutUnseen(const FaceSet& set, std::span<const CageTag> tags, HeadMesh&
   }
 }
 
-void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
+void WearPhoto(const PhotoHead& set, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadTopology& topology) {
   const std::size_t skin_count = skin.flesh.size();
   topology.photo = set.photo;
   topology.saturation = set.saturation;
   topology.eye_pictures = set.eye_pictures;
-  topology.photo_place.resize(topology.uv.size(), glm::vec3(0));
+  topology.photo_texcoord.resize(topology.uv.size(), glm::vec3(0));
   for (std::size_t i = 0; i < skin_count; ++i) {
     const glm::vec2 at = glm::mix(set.skin_low, set.skin_high, topology.uv[i]);
-    topology.photo_place[i] = glm::vec3(at, 1);
+    topology.photo_texcoord[i] = glm::vec3(at, 1);
   }
   for (std::size_t i = 0; i < set.sheet.size(); ++i) {
-    topology.photo_place[skin_count + i] = glm::vec3(set.sheet[i].place, 1);
+    topology.photo_texcoord[skin_count + i] = glm::vec3(set.sheet[i].place, 1);
   }
   // The photo ends at the lips: what lies within the mouth is painted.
   for (const auto& part : topology.parts) {
     if (part.material != Material::kMouthInside) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      topology.photo_place[topology.indices[part.first_index + k]].z = 0;
+      topology.photo_texcoord[topology.indices[part.first_index + k]].z = 0;
     }
   }
   // Where paint begins it goes over from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
-    if (topology.photo_place[i].z <= 0) continue;
-    const glm::vec3 seen = PhotoColour(*set.photo, glm::vec2(topology.photo_place[i]));
+    if (topology.photo_texcoord[i].z <= 0) continue;
+    const glm::vec3 seen = PhotoColour(*set.photo, glm::vec2(topology.photo_texcoord[i]));
     topology.albedo[i] = seen * seen;
     topology.occlusion[i] = 1;
   }
   ThinLashes(set, topology);
   RollLips(set, skin.tags, lip_inside, topology);
   topology.photo_lender.resize(topology.uv.size(), glm::vec4(0));
-  const FaceLight light = LightOf(*set.photo, topology.photo_place, skin.open);
+  const FaceLight light = LightOf(*set.photo, topology.photo_texcoord, skin.open);
   topology.photo_light = light.coefficients();
   topology.relit = RelitParts(skin);
-  for (const LidPaint& lid : PaintLids(*set.photo, topology.photo_place, skin.flesh, skin.open,
+  for (const LidPaint& lid : PaintLids(*set.photo, topology.photo_texcoord, skin.flesh, skin.open,
                                        skin.shut, light, set.glasses)) {
     topology.albedo[lid.vertex] = lid.screen * lid.screen;
     topology.occlusion[lid.vertex] = std::max(lid.lender_light, 0.02f);
-    topology.photo_place[lid.vertex].z = 1 + lid.part;
+    topology.photo_texcoord[lid.vertex].z = 1 + lid.part;
     topology.photo_lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
   }
 }

@@ -6,21 +6,21 @@
 #include <span>
 
 #include "fsm/head/cage.h"
-#include "fsm/head/face_set.h"
 #include "fsm/head/head.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/head/photo_lids.h"
 #include "fsm/head/rig.h"
 
 namespace fsm {
 
 /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
-void AddSheet(const FaceSet& set, HeadMesh& mesh);
+void AddSheet(const PhotoHead& set, HeadMesh& mesh);
 
 /// Glasses are in the photo on the skin. It stays where they rest, or they would bend with it.
 /// `eye`: centre of the left one at rest, (x, y) of the base identity.
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
 
-/// How far forward (z, millimetres) the neck reaches at a height above FaceSet::skin_bottom_y:
+/// How far forward (z, millimetres) the neck reaches at a height above PhotoHead::skin_bottom_y:
 /// skin behind that faces the camera again, but is not the face's. What covers a photo with skin
 /// (face_fit) and what leaves skin out where the sheet is go by the same line.
 float JawLine(float above_bottom);
@@ -29,21 +29,21 @@ float JawLine(float above_bottom);
 /// and what is beside it fades (Strand::cover). The nostrils, which are lined like the mouth,
 /// become skin: the photo shows how dark they are. `tags`: of the skin's vertices, the mesh's
 /// first.
-void LeaveOutUnseen(const FaceSet& set, std::span<const CageTag> tags, HeadMesh& mesh);
+void LeaveOutUnseen(const PhotoHead& set, std::span<const CageTag> tags, HeadMesh& mesh);
 
 /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
 glm::vec3 Wetter(glm::vec3 lip, float saturation);
 
 /// The vertices of the skin, which come first: all of one length.
 struct PhotoSkin {
-  std::span<const Flesh> flesh;
+  std::span<const SkinWeights> flesh;
   std::span<const CageTag> tags;
   SkinPose open, shut;  ///< with lids at rest and shut
 };
 
 /// Gives every vertex of skin and sheet its place in the photo, lids and lips their own paint.
 /// `lip_inside`: the colour of lips that roll inward if the set has none.
-void WearPhoto(const FaceSet& set, const PhotoSkin& skin, glm::vec3 lip_inside,
+void WearPhoto(const PhotoHead& set, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadTopology& topology);
 
 }  // namespace fsm

@@ -8,7 +8,8 @@
 
 namespace fsm {
 
-std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b, const Flesh& f) {
+std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
+                            const SkinWeights& f) {
   position.push_back(p);
   albedo.push_back(colour);
   occlusion.push_back(open);
@@ -48,8 +49,8 @@ void HeadMesh::Grid(Material material, std::uint32_t first, int rows, int column
   }
 }
 
-Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y) {
-  Flesh f;
+SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
+  SkinWeights f;
   f.domain = domain;
   const float a = std::abs(domain.x);
   const float below = mouth_line_y - domain.y;  // millimetres below the line of the mouth

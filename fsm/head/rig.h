@@ -12,10 +12,10 @@ namespace fsm {
 
 /// What carries a vertex. Flesh follows the action units, the mouth, the lids and the jaw; the
 /// others move as rigid bodies (the tongue bends a little).
-enum class Bone : std::uint8_t { kFlesh, kSkull, kJaw, kTongue, kEyeLeft, kEyeRight };
+enum class Bone : std::uint8_t { kSkin, kSkull, kJaw, kTongue, kEyeLeft, kEyeRight };
 
 /// How a flesh vertex takes part in the motions; all weights 0..1.
-struct Flesh {
+struct SkinWeights {
   glm::vec2 domain{};        ///< where on the face: nearly (x, y) at rest, see FaceSurface
   float above_mouth = 0.5f;  ///< 1 = moves with the upper lip's side, 0 = with the lower's
   float jaw = 0;
@@ -35,8 +35,8 @@ struct HeadMesh {
   std::vector<glm::vec3> albedo;
   std::vector<float> occlusion;
   std::vector<Bone> bone;
-  std::vector<Flesh> flesh;     ///< meaningful where bone is kFlesh
-  std::vector<Strand> strands;  ///< meaningful where there is hair
+  std::vector<SkinWeights> flesh;  ///< meaningful where bone is kSkin
+  std::vector<Strand> strands;     ///< meaningful where there is hair
 
   struct Batch {
     Material material;
@@ -46,7 +46,7 @@ struct HeadMesh {
   };
   std::vector<Batch> batches;
 
-  std::uint32_t Add(glm::vec3 p, glm::vec3 colour, float open, Bone b, const Flesh& f = {});
+  std::uint32_t Add(glm::vec3 p, glm::vec3 colour, float open, Bone b, const SkinWeights& f = {});
   /// A quad with corners counter-clockwise from outside; degenerate halves are left out.
   void Quad(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d);
   void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);
@@ -56,7 +56,7 @@ struct HeadMesh {
 
 /// Fills the weights that follow from a place on the face alone. `side`: +1 above the mouth's slit,
 /// -1 below it, 0 where the cheek joins both.
-Flesh FleshAt(glm::vec2 domain, int side, float mouth_line_y);
+SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y);
 
 /// Adds the normals of triangles, by their areas, to those of their corners, and makes them unit.
 void Accumulate(std::span<const std::uint32_t> triangles, std::span<const glm::vec3> position,

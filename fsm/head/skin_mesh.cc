@@ -20,7 +20,7 @@ int FineColumn(const CageTag& tag, float x) {
 
 constexpr int kLastColumn = 2 * kLipColumns - 1;
 
-Flesh MakeFlesh(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth) {
+SkinWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth) {
   const float a = std::abs(p.x);
   const float corner_x = mouth.corner().x;
   const bool lips = tag.lip_hold > 0 || tag.deep > 0;
@@ -29,7 +29,7 @@ Flesh MakeFlesh(const CageTag& tag, glm::vec3 p, const MouthAnatomy& mouth) {
   const float round = a + 0.9f * std::max(0.0f, 45 - p.z);
   glm::vec2 domain(p.x < 0 ? -round : round, p.y);
   if (tag.deep > 0) domain.y = mouth.LineY(std::min(a, corner_x));
-  Flesh flesh = FleshAt(domain, side, mouth.LineY(std::min(a, corner_x)));
+  SkinWeights flesh = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)));
   flesh.free = SmoothStep(-5, 25, p.z);
   flesh.neck = SmoothStep(-166, -98, p.y - 0.35f * std::max(0.0f, -p.z - 25));
   if (tag.eye > 0) {
@@ -108,7 +108,7 @@ SkinMap BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatom
     const glm::vec3 p = skin.position[v];
     const CageTag& tag = skin.tag[v];
     const Paint paint = MakePaint(tag, p, kind[v], eye, palette);
-    mesh.Add(p, paint.albedo, paint.open, Bone::kFlesh, MakeFlesh(tag, p, mouth));
+    mesh.Add(p, paint.albedo, paint.open, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
     if (tag.seam < 1) continue;
     const int column = FineColumn(tag, p.x);
     if (std::abs(column) > kLastColumn) {

@@ -8,7 +8,7 @@
 
 #include "fsm/image/color_space.h"
 #include "fsm/image/image_codec.h"
-#include "fsm/mesh/picture_sheet.h"
+#include "fsm/mesh/texture_atlas.h"
 
 namespace fsm {
 namespace {
@@ -112,7 +112,7 @@ glm::vec2 GltfUv::operator()(glm::vec2 uv) const {
 GltfUv GltfPaint::Place(std::int64_t material) const {
   const json& base = TextureOf(document_.At("materials", material));
   if (base.contains("index")) return UvOf(base);
-  const GltfFinish finish = ReadFinish(document_, material);
+  const GltfMaterial finish = ReadMaterial(document_, material);
   for (const auto* one : {&finish.normal, &finish.surface, &finish.open, &finish.glow}) {
     if (one->index >= 0 && one->where) return UvOf(*one->where);
   }
@@ -139,7 +139,7 @@ void GltfPaint::Dress(std::int64_t index, HeadFile::Part& part) {
   const std::string mode = TextOf(material, "alphaMode");
   part.cut_out = mode == "MASK" || mode == "BLEND";
   part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
-  const GltfFinish finish = ReadFinish(document_, index);
+  const GltfMaterial finish = ReadMaterial(document_, index);
   if (finish.finish) {
     const auto [known, fresh] =
         finish_of_.try_emplace(index, static_cast<int>(head_.finishes.size()));
@@ -179,11 +179,11 @@ std::optional<Image> GltfPaint::Decode(std::int64_t image) {
     head_.notices.push_back("images[" + std::to_string(image) + "] is left out: " + why);
     return std::nullopt;
   }
-  Shrink(*picture, PictureSheet::kMaxSide);
+  Shrink(*picture, TextureAtlas::kMaxSide);
   return picture;
 }
 
-HeadFile::Detail GltfPaint::DetailOf(const GltfFinish& finish, const GltfUv& uv) {
+HeadFile::Detail GltfPaint::DetailOf(const GltfMaterial& finish, const GltfUv& uv) {
   HeadFile::Detail detail;
   if (++detailed_ > kMaxDetailed) {
     if (detailed_ == kMaxDetailed + 1) {
@@ -192,7 +192,7 @@ HeadFile::Detail GltfPaint::DetailOf(const GltfFinish& finish, const GltfUv& uv)
     }
     return detail;
   }
-  const auto read = [&](const GltfFinish::Texture& texture) -> std::optional<Image> {
+  const auto read = [&](const GltfMaterial::Texture& texture) -> std::optional<Image> {
     if (texture.index < 0) return std::nullopt;
     if (texture.where && UvOf(*texture.where) != uv) {
       head_.notices.push_back("textures[" + std::to_string(texture.index) +

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "fsm/mesh/gltf_document.h"
-#include "fsm/mesh/gltf_finish.h"
+#include "fsm/mesh/gltf_material.h"
 #include "fsm/mesh/head_file.h"
 
 namespace fsm {
@@ -25,7 +25,7 @@ struct GltfUv {
 
 /// Gives the parts of a head the colours and pictures of a glTF file's materials. What a material
 /// does to its picture (factor, cut-off, no transparency) is done to a copy, so that a part needs
-/// nothing but its picture; the pictures of light (GltfFinish) are put together to two beside it.
+/// nothing but its picture; the pictures of light (GltfMaterial) are put together to two beside it.
 class GltfPaint {
  public:
   /// Both outlive it.
@@ -42,7 +42,7 @@ class GltfPaint {
   std::int64_t ImageOf(std::int64_t texture);
   std::optional<Image> Decode(std::int64_t image);
   /// The pictures of light, where they lie on the mesh as `uv` says.
-  HeadFile::Detail DetailOf(const GltfFinish& finish, const GltfUv& uv);
+  HeadFile::Detail DetailOf(const GltfMaterial& finish, const GltfUv& uv);
 
   const GltfDocument& document_;
   HeadFile& head_;

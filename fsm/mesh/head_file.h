@@ -49,7 +49,7 @@ struct HeadFile {
   std::vector<Part> parts;
   std::vector<Image> pictures;
   std::vector<Detail> details;  ///< of the first pictures
-  std::vector<Finish> finishes;
+  std::vector<PbrMaterial> finishes;
   std::vector<Shape> shapes;
   std::vector<std::int8_t> eye;  ///< 0 none, 1 the agent's right, 2 the left; or none at all
   /// What those turn about, right and left, where the file says it.
@@ -74,9 +74,9 @@ vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view byt
 MeshModel ModelOf(const HeadFile& file, const Similarity& place, float mouth_y);
 
 /// The triangles of a built-in head's skin, lips and mouth.
-std::vector<std::uint32_t> FleshOf(const HeadTopology& topology);
+std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology);
 /// Those of its eyeballs.
-std::vector<std::uint32_t> EyesOf(const HeadTopology& topology);
+std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology);
 
 /// Stands still, but for head, eyes and jaw.
 std::unique_ptr<MeshMotion> StillMotion();

@@ -12,7 +12,7 @@
 #include "fsm/head/spline.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/mesh_reach.h"
-#include "fsm/mesh/picture_sheet.h"
+#include "fsm/mesh/texture_atlas.h"
 
 namespace fsm {
 namespace {
@@ -73,10 +73,10 @@ class HeadBuilder {
     for (const Image& picture : file_.pictures) sheet_.Add(picture);
     model_.photo = sheet_.Make();
     if (model_.photo) LayDetails();
-    model_.sewn = !file_.place.empty();
+    model_.has_uv_seams = !file_.place.empty();
     for (const glm::vec3& p : at_) {
       // The neck gives way below the chin, as ours does.
-      model_.Add(p, Bone::kFlesh, Palette().skin, {}, SmoothStep(-168, -96, p.y));
+      model_.Add(p, Bone::kSkin, Palette().skin, {}, SmoothStep(-168, -96, p.y));
     }
     FindEyes();
     for (const auto& part : file_.parts) AddPart(part);
@@ -171,10 +171,10 @@ class HeadBuilder {
       if (!pictured) continue;
       const glm::vec2 uv = file_.place[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
-      model_.photo_place[v] =
+      model_.photo_texcoord[v] =
           glm::vec3(sheet_.place(static_cast<std::size_t>(part.picture)).At(within), 1);
     }
-    const int finish = FinishOf(kind, part, pictured);
+    const int finish = MaterialOf(kind, part, pictured);
     if (finish >= 0) {
       for (const std::uint32_t v : part.indices) {
         // On a picture only the tint is left to say.
@@ -190,11 +190,11 @@ class HeadBuilder {
 
   /// The number in the model of how the part takes light. Without pictures skin and mouth are as
   /// ours, unless they are drawn in two colours.
-  int FinishOf(Kind kind, const HeadFile::Part& part, bool pictured) {
+  int MaterialOf(Kind kind, const HeadFile::Part& part, bool pictured) {
     if (part.finish < 0) return -1;
-    const Finish& finish = file_.finishes[static_cast<std::size_t>(part.finish)];
+    const PbrMaterial& finish = file_.finishes[static_cast<std::size_t>(part.finish)];
     const bool own = kind == Kind::kHair || kind == Kind::kOther || model_.photo != nullptr;
-    if (!pictured && !own && finish.kind == Finish::Kind::kLit) return -1;
+    if (!pictured && !own && finish.kind == PbrMaterial::Kind::kLit) return -1;
     const auto [known, fresh] =
         finish_.try_emplace(part.finish, static_cast<int>(model_.finishes.size()));
     if (fresh) model_.finishes.push_back(finish);
@@ -215,7 +215,7 @@ class HeadBuilder {
       case Kind::kOther:
         return Bone::kSkull;
       default:
-        return Bone::kFlesh;
+        return Bone::kSkin;
     }
   }
 
@@ -271,7 +271,7 @@ class HeadBuilder {
   float mouth_y_;
   std::vector<glm::vec3> at_;
   std::vector<std::uint8_t> eye_;  // 1 the agent's right, 2 the left
-  PictureSheet sheet_;
+  TextureAtlas sheet_;
   std::map<int, int> finish_;  // of the file's the model's
   MeshModel model_;
   bool balls_ = false;

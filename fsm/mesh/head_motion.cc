@@ -9,7 +9,7 @@
 
 #include "fsm/head/deformer.h"
 #include "fsm/mesh/head_file.h"
-#include "fsm/mesh/shape_mix.h"
+#include "fsm/mesh/nnls_solver.h"
 
 namespace fsm {
 namespace {
@@ -36,20 +36,23 @@ std::vector<std::uint32_t> TrianglesOf(const HeadTopology& topology,
   return out;
 }
 
-class Still : public MeshMotion {
+class RigidRig : public MeshMotion {
  public:
   JawMove Move(const FaceState&, const Pose& pose, std::span<glm::vec3>) const override {
     return JawOf(pose);
   }
 };
 
-class Carried : public MeshMotion {
+class TransferredRig : public MeshMotion {
  public:
-  Carried(const MeshModel& model, std::unique_ptr<Head> source, std::span<const PlacePair> pairs)
+  TransferredRig(const MeshModel& model, std::unique_ptr<Head> source,
+                 std::span<const PlacePair> pairs)
       : source_(std::move(source)),
         rest_(Rest(*source_)),
-        carry_({rest_, FleshOf(source_->topology()), false, EyesOf(source_->topology())},
-               {model.position, model.FleshTriangles(), model.sewn, model.EyeTriangles()}, pairs) {}
+        carry_({rest_, SkinTriangles(source_->topology()), false,
+                EyeballTriangles(source_->topology())},
+               {model.position, model.SkinTriangles(), model.has_uv_seams, model.EyeTriangles()},
+               pairs) {}
 
   JawMove Move(const FaceState& state, const Pose& pose,
                std::span<glm::vec3> position) const override {
@@ -61,7 +64,7 @@ class Carried : public MeshMotion {
   }
 
   std::unique_ptr<MeshMotion> WithUnits(const UnitTable& units) const override {
-    auto other = std::make_unique<Carried>(*this);
+    auto other = std::make_unique<TransferredRig>(*this);
     other->source_ = source_->WithUnits(units);
     return other;
   }
@@ -75,13 +78,13 @@ class Carried : public MeshMotion {
 
   std::shared_ptr<const Head> source_;
   std::vector<glm::vec3> rest_;
-  Carry carry_;
+  DeformationTransfer carry_;
 };
 
-class OwnShapes : public MeshMotion {
+class BlendshapeRig : public MeshMotion {
  public:
-  OwnShapes(const HeadFile& file, const Similarity& place, const MeshModel& model,
-            std::shared_ptr<const Head> source, std::span<const ShapeMeaning> meanings)
+  BlendshapeRig(const HeadFile& file, const Similarity& place, const MeshModel& model,
+                std::shared_ptr<const Head> source, std::span<const ShapeMeaning> meanings)
       : source_(std::move(source)) {
     HeadVertices vertices;
     source_->Evaluate({}, vertices);
@@ -121,7 +124,7 @@ class OwnShapes : public MeshMotion {
       if (name == "mouthclose") closes_ = shapes_.size();
       shapes_.push_back(std::move(deltas));
     }
-    mix_ = ShapeMix(std::move(keys));
+    mix_ = NnlsSolver(std::move(keys));
     if (file.look) ranges_ = *file.look;
   }
 
@@ -136,7 +139,7 @@ class OwnShapes : public MeshMotion {
     for (const auto& part : file.parts) {
       if (std::ranges::none_of(part.indices, [&](std::uint32_t v) { return moves[v]; })) continue;
       for (const std::uint32_t v : part.indices) {
-        if (!IsEye(model.bone[v])) model.bone[v] = Bone::kFlesh;
+        if (!IsEye(model.bone[v])) model.bone[v] = Bone::kSkin;
       }
     }
   }
@@ -156,7 +159,7 @@ class OwnShapes : public MeshMotion {
   /// The shapes keep the meaning they have by the built-in units, and are mixed to look as these
   /// do.
   std::unique_ptr<MeshMotion> WithUnits(const UnitTable& units) const override {
-    auto other = std::make_unique<OwnShapes>(*this);
+    auto other = std::make_unique<BlendshapeRig>(*this);
     other->source_ = source_->WithUnits(units);
     return other;
   }
@@ -209,7 +212,7 @@ class OwnShapes : public MeshMotion {
   /// Some vertices of the face, a few millimetres from each other.
   void ChooseProbes() {
     constexpr float kApart = 5;
-    for (const std::uint32_t v : FleshOf(source_->topology())) {
+    for (const std::uint32_t v : SkinTriangles(source_->topology())) {
       const glm::vec3 p = rest_[v];
       if (p.z < 30 || p.y < -105 || p.y > 75) continue;
       if (std::ranges::none_of(
@@ -238,25 +241,25 @@ class OwnShapes : public MeshMotion {
   std::optional<std::size_t> closes_;
   std::array<std::vector<HeadFile::Shape::Delta>, 4> looks_;
   LookRanges ranges_;
-  ShapeMix mix_;
+  NnlsSolver mix_;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> FleshOf(const HeadTopology& topology) {
+std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology) {
   return TrianglesOf(topology, {Material::kSkin, Material::kLip, Material::kMouthInside});
 }
 
-std::vector<std::uint32_t> EyesOf(const HeadTopology& topology) {
+std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology) {
   return TrianglesOf(topology, {Material::kSclera, Material::kIris, Material::kPupil});
 }
 
-std::unique_ptr<MeshMotion> StillMotion() { return std::make_unique<Still>(); }
+std::unique_ptr<MeshMotion> StillMotion() { return std::make_unique<RigidRig>(); }
 
 std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
                                           std::span<const PlacePair> pairs) {
   try {
-    return std::make_unique<Carried>(model, std::move(source), pairs);
+    return std::make_unique<TransferredRig>(model, std::move(source), pairs);
   } catch (const std::runtime_error& error) {
     if (model.name.empty()) throw;
     throw std::runtime_error(model.name + ": " + error.what());
@@ -266,7 +269,7 @@ std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_pt
 std::unique_ptr<MeshMotion> OwnShapesMotion(const HeadFile& file, const Similarity& place,
                                             MeshModel& model, std::shared_ptr<const Head> source,
                                             std::span<const ShapeMeaning> meanings) {
-  auto motion = std::make_unique<OwnShapes>(file, place, model, std::move(source), meanings);
+  auto motion = std::make_unique<BlendshapeRig>(file, place, model, std::move(source), meanings);
   if (motion->count() < 4) return nullptr;
   motion->FreeWhatMoves(file, model);
   return motion;

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/mesh/carry.h"
+#include "fsm/mesh/deformation_transfer.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

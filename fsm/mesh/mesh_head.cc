@@ -29,13 +29,13 @@ class MeshHead : public Head {
     topology_.occlusion.assign(model_.position.size(), 1);
     for (const glm::vec3& p : model_.position) topology_.uv.push_back(Unroll(p));
     topology_.photo = model_.photo;
-    topology_.photo_place = model_.photo_place;
+    topology_.photo_texcoord = model_.photo_texcoord;
     topology_.finishes = model_.finishes;
     topology_.relief = model_.relief;
     topology_.lights = model_.lights;
     topology_.eyes = model_.eyes;
     if (model_.has_eyes && model_.round_eyes) FindLids();
-    if (!topology_.finishes.empty()) FindSewn();
+    if (!topology_.finishes.empty()) FindUvSeams();
   }
 
   const HeadTopology& topology() const override { return topology_; }
@@ -123,7 +123,7 @@ class MeshHead : public Head {
   void FindLids() {
     constexpr float kReach = 8, kThickness = 0.6F;
     for (std::uint32_t i = 0; i < model_.position.size(); ++i) {
-      if (model_.bone[i] != Bone::kFlesh) continue;
+      if (model_.bone[i] != Bone::kSkin) continue;
       for (std::uint8_t side = 0; side < 2; ++side) {
         const EyePlace& eye = model_.eyes[side];
         const float far = glm::distance(model_.position[i], eye.centre);
@@ -136,7 +136,7 @@ class MeshHead : public Head {
 
   /// Where a texture is sewn together vertices are doubled; light must not show that. Two at one
   /// place that face the same way share a normal.
-  void FindSewn() {
+  void FindUvSeams() {
     HeadVertices rest;
     rest.position = model_.position;
     Normals(rest);
@@ -146,18 +146,18 @@ class MeshHead : public Head {
       const glm::vec3 p = rest.position[i];
       return std::tuple(p.x, p.y, p.z, i);
     });
-    sewn_.resize(order.size());
-    std::iota(sewn_.begin(), sewn_.end(), 0U);
+    seam_twin_.resize(order.size());
+    std::iota(seam_twin_.begin(), seam_twin_.end(), 0U);
     constexpr float kFacesTheSameWay = 0.5F;  // cosine
     for (std::size_t k = 0; k < order.size(); ++k) {
       for (std::size_t j = k; j-- > 0;) {
         const std::uint32_t one = order[k], other = order[j];
         if (rest.position[one] != rest.position[other]) break;
-        if (sewn_[other] != other ||
+        if (seam_twin_[other] != other ||
             glm::dot(rest.normal[one], rest.normal[other]) < kFacesTheSameWay) {
           continue;
         }
-        sewn_[one] = other;
+        seam_twin_[one] = other;
         break;
       }
     }
@@ -176,13 +176,13 @@ class MeshHead : public Head {
       const std::uint32_t* t = &topology_.indices[i];
       const glm::vec3 a = out.position[t[0]];
       const glm::vec3 n = glm::cross(out.position[t[1]] - a, out.position[t[2]] - a);
-      for (int k = 0; k < 3; ++k) out.normal[sewn_.empty() ? t[k] : sewn_[t[k]]] += n;
+      for (int k = 0; k < 3; ++k) out.normal[seam_twin_.empty() ? t[k] : seam_twin_[t[k]]] += n;
     }
     for (glm::vec3& n : out.normal) {
       const float squared = glm::dot(n, n);
       n = squared > 1e-12F ? n / std::sqrt(squared) : glm::vec3(0, 0, 1);
     }
-    for (std::size_t i = 0; i < sewn_.size(); ++i) out.normal[i] = out.normal[sewn_[i]];
+    for (std::size_t i = 0; i < seam_twin_.size(); ++i) out.normal[i] = out.normal[seam_twin_[i]];
   }
 
   MeshModel model_;
@@ -190,7 +190,8 @@ class MeshHead : public Head {
   UnitTable units_ = BuiltInUnits();
   HeadTopology topology_;
   std::vector<Lid> lids_;
-  std::vector<std::uint32_t> sewn_;  // of each vertex the one whose normal it has; or none at all
+  std::vector<std::uint32_t>
+      seam_twin_;  // of each vertex the one whose normal it has; or none at all
 };
 
 }  // namespace

@@ -13,7 +13,7 @@ std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, glm::vec3 pl
   position.push_back(p);
   bone.push_back(b);
   albedo.push_back(colour);
-  photo_place.push_back(place);
+  photo_texcoord.push_back(place);
   neck.push_back(turn);
   return static_cast<std::uint32_t>(position.size() - 1);
 }
@@ -51,8 +51,8 @@ std::vector<std::uint32_t> TrianglesOf(const MeshModel& model, Is is) {
 
 }  // namespace
 
-std::vector<std::uint32_t> MeshModel::FleshTriangles() const {
-  return TrianglesOf(*this, [](Bone b) { return b == Bone::kFlesh; });
+std::vector<std::uint32_t> MeshModel::SkinTriangles() const {
+  return TrianglesOf(*this, [](Bone b) { return b == Bone::kSkin; });
 }
 
 std::vector<std::uint32_t> MeshModel::EyeTriangles() const {

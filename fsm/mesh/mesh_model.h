@@ -43,19 +43,19 @@ glm::mat3 EyeTo(const Gaze& gaze);
 struct MeshModel {
   std::string name;  ///< of its file, for messages; may be empty
   std::vector<glm::vec3> position;
-  std::vector<Bone> bone;              ///< kFlesh moves as MeshMotion says
-  std::vector<float> neck;             ///< part of the head's turn each vertex makes
-  std::vector<glm::vec3> albedo;       ///< linear RGB
-  std::vector<glm::vec3> photo_place;  ///< see HeadTopology
-  std::shared_ptr<const WornPhoto> photo, relief, lights;
-  std::vector<Finish> finishes;
+  std::vector<Bone> bone;                 ///< kSkin moves as MeshMotion says
+  std::vector<float> neck;                ///< part of the head's turn each vertex makes
+  std::vector<glm::vec3> albedo;          ///< linear RGB
+  std::vector<glm::vec3> photo_texcoord;  ///< see HeadTopology
+  std::shared_ptr<const Image> photo, relief, lights;
+  std::vector<PbrMaterial> finishes;
   std::vector<HeadMesh::Batch> batches;
   std::array<EyePlace, 2> eyes{};  ///< right, left; meaningful where has_eyes
   bool has_eyes = false;
   std::optional<std::array<glm::vec3, 2>> eye_pivot;  ///< what they turn about, if not the centres
   std::optional<LookRanges> look;                     ///< else they turn as ours do
   bool round_eyes = true;                             ///< balls that lids must stay outside of
-  bool sewn = false;           ///< vertices are doubled where the texture is sewn together
+  bool has_uv_seams = false;   ///< vertices are doubled where the texture is sewn together
   glm::vec3 hinge{0, -4, -3};  ///< the jaw's axis goes through it, as ours does
   Landmarks landmarks;
   /// Vertices of the upper and the lower lip that meet when the mouth is closed, from the agent's
@@ -67,7 +67,7 @@ struct MeshModel {
   /// The triangles of that material which take light so.
   HeadMesh::Batch& BatchOf(Material material, int finish, bool two_sided);
   /// Every triangle of flesh, three corners each.
-  std::vector<std::uint32_t> FleshTriangles() const;
+  std::vector<std::uint32_t> SkinTriangles() const;
   std::vector<std::uint32_t> EyeTriangles() const;  ///< those of the eyeballs
   /// An eyeball with an iris about eyes[side], in our own colours.
   void AddBall(std::size_t side);

@@ -10,7 +10,7 @@
 #include "fsm/head/spline.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
-#include "fsm/mesh/picture_sheet.h"
+#include "fsm/mesh/texture_atlas.h"
 
 namespace fsm {
 namespace {
@@ -48,7 +48,7 @@ class OriginalBuilder {
       const glm::vec2 place =
           sheet_.place(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
       const glm::vec3 at = frame_.ToMm(p);
-      model_.Add(at, Bone::kFlesh, face_.mouth, {place, 1}, SmoothStep(chin - 42, chin - 4, at.y));
+      model_.Add(at, Bone::kSkin, face_.mouth, {place, 1}, SmoothStep(chin - 42, chin - 4, at.y));
     }
     for (const auto& triangle : face_.link.triangles) {
       if (!IsDrawn(triangle.group)) continue;
@@ -203,7 +203,7 @@ class OriginalBuilder {
 
   const OriginalFace& face_;
   OriginalFrame frame_;
-  PictureSheet sheet_;
+  TextureAtlas sheet_;
   MeshModel model_;
 };
 

@@ -6,9 +6,9 @@
 #include "fsm/head/deformer.h"
 #include "fsm/head/spline.h"
 #include "fsm/mesh/lip_seal.h"
+#include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
-#include "fsm/mesh/shape_mix.h"
 
 namespace fsm {
 namespace {
@@ -23,8 +23,8 @@ constexpr int kEyesClosed = 43;
 /// default, which stands for three quarters here.
 constexpr float kVisemePart = 0.4f;
 
-std::vector<ShapeMix::Row> Rows(const VisemeMouths& mouths) {
-  std::vector<ShapeMix::Row> rows;
+std::vector<NnlsSolver::Row> Rows(const VisemeMouths& mouths) {
+  std::vector<NnlsSolver::Row> rows;
   for (const auto& mouth : mouths) rows.emplace_back(mouth.begin(), mouth.end());
   return rows;
 }
@@ -85,7 +85,7 @@ class OwnMotion : public MeshMotion {
       if (weight == 0) return;
       for (const Delta& d : field) position[d.vertex] += weight * d.by;
     };
-    const ShapeMix::Parts parts = mix_.TakeApart(state.mouth);
+    const NnlsSolver::Parts parts = mix_.TakeApart(state.mouth);
     for (std::size_t k = 0; k < visemes_.size() && k < parts.weights.size(); ++k) {
       add(visemes_[k], kVisemePart * parts.weights[k]);
     }
@@ -132,7 +132,7 @@ class OwnMotion : public MeshMotion {
   std::vector<Field> units_, mouth_units_, visemes_;
   std::array<float, kMouthParameters> unit_size_{};
   std::vector<float> left_;  // part of the agent's left side in a vertex
-  ShapeMix mix_;
+  NnlsSolver mix_;
   LipSeal seal_;
   std::size_t chin_ = 0;
   glm::vec3 chin_rest_{}, hinge_{};

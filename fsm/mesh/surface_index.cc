@@ -51,7 +51,7 @@ glm::vec3 NearestPart(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
 }  // namespace
 
 WeldedSurface::WeldedSurface(std::span<const glm::vec3> position,
-                             std::span<const std::uint32_t> given, bool sewn) {
+                             std::span<const std::uint32_t> given, bool has_uv_seams) {
   // A first guess of the normals tells a seam of the texture, where both sides run on, from lips
   // that touch.
   std::vector<glm::vec3> own(position.size(), glm::vec3(0));
@@ -68,7 +68,7 @@ WeldedSurface::WeldedSurface(std::span<const glm::vec3> position,
     const glm::vec3 p = position[v];
     const glm::vec3 n = own[v] / std::max(glm::length(own[v]), 1e-12f);
     auto& same = there[{key(p.x), key(p.y), key(p.z)}];
-    for (const std::uint32_t w : sewn ? same : std::vector<std::uint32_t>()) {
+    for (const std::uint32_t w : has_uv_seams ? same : std::vector<std::uint32_t>()) {
       const glm::vec3 m = own[first[w]] / std::max(glm::length(own[first[w]]), 1e-12f);
       if (glm::dot(n, m) > 0.9f) return of[v] = w;
     }

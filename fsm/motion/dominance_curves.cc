@@ -37,8 +37,8 @@ double DominanceCurves::Contact::At(double position_ms) const {
   return std::min(part(rise, from, position_ms), 1 - part(to, fall, position_ms));
 }
 
-DominanceCurves::DominanceCurves(const LipDemands& demands, const Reach& reach) : reach_(reach) {
-  LipDemand rest;
+DominanceCurves::DominanceCurves(const VisemeTargets& demands, const Reach& reach) : reach_(reach) {
+  VisemeTarget rest;
   rest.target = demands.rest;
   rest.dominance = {.jaw = 0.8, .lips = 0.8, .round = 0.5, .tongue = 0.5};
   rest.pause = true;
@@ -46,7 +46,7 @@ DominanceCurves::DominanceCurves(const LipDemands& demands, const Reach& reach) 
   rest.start_ms = -kForever;
   sounds_.push_back({rest, 0, {}});
   longest_reach_ms_ = std::max(reach.before_ms, reach.after_ms);
-  for (const LipDemand& demand : demands.demands) {
+  for (const VisemeTarget& demand : demands.demands) {
     sounds_.push_back({demand, demand.start_ms + demand.length_ms, {}});
     longest_reach_ms_ = std::max(longest_reach_ms_, demand.dominance.early_ms);
   }
@@ -57,12 +57,12 @@ DominanceCurves::DominanceCurves(const LipDemands& demands, const Reach& reach) 
 
 void DominanceCurves::PlaceContacts() {
   const auto closes = [this](std::size_t i) {
-    const LipDemand& demand = sounds_[i].demand;
+    const VisemeTarget& demand = sounds_[i].demand;
     return demand.target.seal > 0 && !(demand.pause && demand.length_ms < kShortestPause);
   };
   for (std::size_t i = 0; i < sounds_.size(); ++i) {
     Sound& sound = sounds_[i];
-    const LipDemand& demand = sound.demand;
+    const VisemeTarget& demand = sound.demand;
     if (demand.target.contact <= 0) continue;
     if (demand.pause && demand.length_ms < kShortestPause) continue;
     const bool closed_before = i == 0 || (closes(i) && closes(i - 1));

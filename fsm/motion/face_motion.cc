@@ -24,7 +24,7 @@ FaceMotion::FaceMotion(MotionTables tables, std::uint64_t seed)
       table_emotions_(tables_.emotions),
       seed_(seed),
       side_lags_(SideLagsOf(seed)),
-      autonomy_(tables_.motions, seed),
+      idle_(tables_.motions, seed),
       emotions_(tables_.units.emotions.size()) {}
 
 // ---- eyes and head
@@ -48,7 +48,7 @@ void FaceMotion::LookSomewhere(vm::Time now, bool user, bool think) {
 }
 
 void FaceMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
-  if (!autonomy_.On(Life::kGazeBlink) || tables_.motions.blinks.empty()) return;
+  if (!idle_.On(IdleKind::kGazeBlink) || tables_.motions.blinks.empty()) return;
   const double angle = std::hypot(to[0] - from[0], to[1] - from[1]);
   // Nearly always with large shifts, seldom with small ones (Evinger et al., Not looking while
   // leaping, 1994).
@@ -116,24 +116,24 @@ void FaceMotion::StopMoves(vm::Time now) {
 }
 
 vm::Result<void> FaceMotion::Autonomous(vm::Time now, std::string_view kind, int pattern) {
-  const auto life = LifeNamed(kind);
+  const auto life = IdleKindNamed(kind);
   if (!life) {
     return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is nothing the face does by itself; {} "
                                                      "expected",
-                                                     kind, fmt::join(kLifeNames, " ")));
+                                                     kind, fmt::join(kIdleKindNames, " ")));
   }
   if (pattern != 0) {
     const std::size_t count = tables_.motions.Patterns(*life);
     if (auto fits = CheckPattern(kind, pattern, 0, count); !fits) return fits;
   }
-  autonomy_.Set(now, *life, static_cast<std::size_t>(pattern));
+  idle_.Set(now, *life, static_cast<std::size_t>(pattern));
   return {};
 }
 
-vm::Result<void> FaceMotion::SetLife(vm::Time now, std::string_view profile) {
-  LifeProfile wanted{};
+vm::Result<void> FaceMotion::SetIdle(vm::Time now, std::string_view profile) {
+  IdleProfile wanted{};
   if (profile == "OFF") {
-    wanted[static_cast<std::size_t>(Life::kAsymmetry)] = 1;
+    wanted[static_cast<std::size_t>(IdleKind::kAsymmetry)] = 1;
   } else {
     const auto found = tables_.motions.profiles.find(profile);
     if (found == tables_.motions.profiles.end()) {
@@ -143,9 +143,9 @@ vm::Result<void> FaceMotion::SetLife(vm::Time now, std::string_view profile) {
     wanted = found->second;
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const auto kind = static_cast<Life>(i);
-    if (wanted[i] == (autonomy_.On(kind) ? autonomy_.Pattern(kind) : 0)) continue;
-    autonomy_.Set(now, kind, wanted[i]);
+    const auto kind = static_cast<IdleKind>(i);
+    if (wanted[i] == (idle_.On(kind) ? idle_.Pattern(kind) : 0)) continue;
+    idle_.Set(now, kind, wanted[i]);
   }
   return {};
 }
@@ -158,15 +158,15 @@ void FaceMotion::SetPerson(std::uint64_t person) {
 
 void FaceMotion::Speak(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start) {
   const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterances_));
-  speech_.Start(now, LipTrack(phonemes, tables_, settings_.lips), start, seed);
+  speech_.Start(now, VisemeTrack(phonemes, tables_, settings_.lips), start, seed);
 }
 
 std::vector<std::string> FaceMotion::UnknownPhonemes(const vm::PhonemeList& phonemes) const {
   return MakeDemands(phonemes, tables_, settings_.lips).unknown;
 }
 
-void FaceMotion::SetShapes(bool bilingual, MouthShapes shapes) {
-  MouthShapes& own = (bilingual ? tables_.set28 : tables_.set14).shapes;
+void FaceMotion::SetShapes(bool bilingual, Visemes shapes) {
+  Visemes& own = (bilingual ? tables_.set28 : tables_.set14).shapes;
   assert(shapes.size() == own.size());
   for (std::size_t i = 0; i < own.size(); ++i) {
     const float contact = own[i].pose.contact;

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "fsm/head/face_state.h"
-#include "fsm/motion/autonomy.h"
 #include "fsm/motion/expression_motion.h"
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/head_motion.h"
+#include "fsm/motion/idle_behaviour.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/motion/person.h"
 #include "fsm/motion/speech_motion.h"
@@ -88,7 +88,7 @@ class FaceMotion {
   void StopMoves(vm::Time now);  ///< FaceMot = NOMOVE
   vm::Result<void> Autonomous(vm::Time now, std::string_view kind, int pattern);
   /// A profile of the table, or OFF: everything as it is at the start.
-  vm::Result<void> SetLife(vm::Time now, std::string_view profile);
+  vm::Result<void> SetIdle(vm::Time now, std::string_view profile);
   /// Whose face it is: which side of it is first.
   void SetPerson(std::uint64_t person);
 
@@ -104,11 +104,11 @@ class FaceMotion {
   std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const;
 
   // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.
-  const MouthShapes& shapes(bool bilingual) const {
+  const Visemes& shapes(bool bilingual) const {
     return bilingual ? tables_.set28.shapes : tables_.set14.shapes;
   }
   /// REQUIRES: the same names in the same order. How they dominate each other is kept.
-  void SetShapes(bool bilingual, MouthShapes shapes);
+  void SetShapes(bool bilingual, Visemes shapes);
 
   // Settings. Those of speech act at once, without a jump.
   const MotionSettings& settings() const { return settings_; }
@@ -159,7 +159,7 @@ class FaceMotion {
   ExpressionMotion expression_;
   HeadMotion head_;
   EyeMotion eyes_;
-  Autonomy autonomy_;
+  IdleBehaviour idle_;
   SpeechMotion speech_;
   std::int64_t utterances_ = 0;
   std::int64_t shifts_ = 0;  // of the gaze

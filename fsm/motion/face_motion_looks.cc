@@ -50,7 +50,7 @@ vm::Result<void> FaceMotion::Express(vm::Time now, std::string_view name, int pa
   const Emotion::Timing& timing =
       settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed;
   ExpressionMotion::Sides lags{};
-  if (autonomy_.On(Life::kAsymmetry)) lags = side_lags_;
+  if (idle_.On(IdleKind::kAsymmetry)) lags = side_lags_;
   expression_.Show(now, look, timing.lag_ms, lags, OnsetOf(emotion), duration);
   return {};
 }

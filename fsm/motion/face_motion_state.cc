@@ -16,7 +16,7 @@ constexpr std::size_t kNostrils = 38;  // the unit that opens them
 }  // namespace
 
 const AutoAvert* FaceMotion::Avert() const {
-  const std::size_t pattern = autonomy_.Pattern(Life::kAvert);
+  const std::size_t pattern = idle_.Pattern(IdleKind::kAvert);
   return pattern == 0 ? nullptr : &tables_.motions.auto_averts[pattern - 1];
 }
 
@@ -41,21 +41,21 @@ ActionUnits FaceMotion::UnitsAt(vm::Time t, const SpeechMotion::Mouth& speech,
     if (weight == 0 || found == tables_.emotions.end()) continue;
     add_look(found->second.patterns[0], weight);
   }
-  if (const std::size_t face = autonomy_.Pattern(Life::kFace); face > 0) {
-    add_look(tables_.motions.auto_faces[face - 1], autonomy_.Weight(Life::kFace, t));
+  if (const std::size_t face = idle_.Pattern(IdleKind::kFace); face > 0) {
+    add_look(tables_.motions.auto_faces[face - 1], idle_.Weight(IdleKind::kFace, t));
   }
   for (const auto& [name, track] : blend_shapes_) {
     AddTo(units, tables_.blend_shapes.find(name)->second, track.At(t));
   }
-  if (const std::size_t pattern = autonomy_.Pattern(Life::kSpeech); pattern > 0) {
-    const double brow = autonomy_.Weight(Life::kSpeech, t) * gesture.head.brow *
+  if (const std::size_t pattern = idle_.Pattern(IdleKind::kSpeech); pattern > 0) {
+    const double brow = idle_.Weight(IdleKind::kSpeech, t) * gesture.head.brow *
                         tables_.motions.auto_speeches[pattern - 1].brow;
     for (auto* side : {&units.left, &units.right}) {
       (*side)[1] += static_cast<float>(brow);
       (*side)[2] += static_cast<float>(0.8 * brow);
     }
   }
-  const auto breath = static_cast<float>(0.15 * autonomy_.BreathAt(t));
+  const auto breath = static_cast<float>(0.15 * idle_.BreathAt(t));
   units.left[kNostrils] += breath;
   units.right[kNostrils] += breath;
   return units;
@@ -79,9 +79,9 @@ void FaceMotion::PlaceMouth(vm::Time t, const SpeechMotion::Mouth& speech, FaceS
 }
 
 double FaceMotion::LidsShutAt(vm::Time t) const {
-  double shut = std::max(eyes_.LidsShutAt(t), autonomy_.LidsShutAt(t));
-  const bool at_end = autonomy_.On(Life::kEndBlink);
-  const bool at_shifts = autonomy_.On(Life::kGazeBlink) && autonomy_.On(Life::kAvert);
+  double shut = std::max(eyes_.LidsShutAt(t), idle_.LidsShutAt(t));
+  const bool at_end = idle_.On(IdleKind::kEndBlink);
+  const bool at_shifts = idle_.On(IdleKind::kGazeBlink) && idle_.On(IdleKind::kAvert);
   if ((!at_end && !at_shifts) || tables_.motions.blinks.empty()) return shut;
   const AutoAvert* avert = Avert();
   const auto moments = speech_.LastMoments(avert == nullptr ? 1e9 : avert->shortest_ms);
@@ -104,10 +104,10 @@ void FaceMotion::PlaceHeadAndEyes(vm::Time t, const SpeechMotion::Mouth& speech,
                                   const SpeechMotion::Gesture& gesture, const ActionUnits& units,
                                   FaceState& state) const {
   // Movement by itself and with the speech; the eyes stay where they look meanwhile.
-  Angles own = autonomy_.HeadAt(t, speech.over_emotion);
-  if (const std::size_t pattern = autonomy_.Pattern(Life::kSpeech); pattern > 0) {
+  Angles own = idle_.HeadAt(t, speech.over_emotion);
+  if (const std::size_t pattern = idle_.Pattern(IdleKind::kSpeech); pattern > 0) {
     const AutoSpeech& size = tables_.motions.auto_speeches[pattern - 1];
-    const double weight = autonomy_.Weight(Life::kSpeech, t);
+    const double weight = idle_.Weight(IdleKind::kSpeech, t);
     own[0] += static_cast<float>(weight * size.nod * gesture.head.nod);
     own[1] += static_cast<float>(weight * size.turn * gesture.head.turn);
     own[2] += static_cast<float>(weight * size.tilt * gesture.head.tilt);
@@ -115,11 +115,11 @@ void FaceMotion::PlaceHeadAndEyes(vm::Time t, const SpeechMotion::Mouth& speech,
   const Angles told = head_.At(t);
   const float on_user = on_user_.At(t);
   EyeAngles away{};
-  const EyeAngles idle = autonomy_.EyesAt(t);
+  const EyeAngles idle = idle_.EyesAt(t);
   const float thinking = thinking_.At(t);
-  const EyeAngles thought = thinking > 0 ? autonomy_.ThinkingAt(t, thinking_since_) : EyeAngles{};
+  const EyeAngles thought = thinking > 0 ? idle_.ThinkingAt(t, thinking_since_) : EyeAngles{};
   const AutoAvert* avert = Avert();
-  const double averted = avert == nullptr ? 0 : avert->angle * autonomy_.Weight(Life::kAvert, t);
+  const double averted = avert == nullptr ? 0 : avert->angle * idle_.Weight(IdleKind::kAvert, t);
   for (std::size_t i = 0; i < 2; ++i) {
     const float steady = own[i] + on_user * std::clamp(told[i], -35.0f, 35.0f);
     away[i] =
@@ -187,7 +187,7 @@ std::optional<vm::Time> FaceMotion::NextActivity(vm::Time t) const {
   next = Earlier(next, expression_.NextActivity(t));
   next = Earlier(next, head_.NextActivity(t));
   next = Earlier(next, eyes_.NextActivity(t));
-  next = Earlier(next, autonomy_.NextActivity(t));
+  next = Earlier(next, idle_.NextActivity(t));
   next = Earlier(next, mouth_scale_.NextActivity(t));
   ForEachTrack([&](const Track<float>& track) { next = Earlier(next, track.NextActivity(t)); });
   return next;

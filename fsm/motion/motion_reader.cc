@@ -133,9 +133,9 @@ vm::Result<void> MotionReader::ReadProfile(const TableLine& line) {
   if (line.words.size() < 2 || line.words.size() % 2 != 0) {
     return table_.Wrong(line.number, "LIFE NAME KIND PATTERN ... expected");
   }
-  LifeProfile profile{};
+  IdleProfile profile{};
   for (std::size_t i = 2; i < line.words.size(); i += 2) {
-    const auto kind = LifeNamed(line.words[i]);
+    const auto kind = IdleKindNamed(line.words[i]);
     if (!kind) {
       return table_.Wrong(line.number,
                           fmt::format("'{}' found, a kind of Autonomous expected", line.words[i]));

@@ -44,35 +44,35 @@ Angles HeadCurve::At(double ms) const {
   return out;
 }
 
-std::optional<Life> LifeNamed(std::string_view name) {
-  const auto found = std::ranges::find(kLifeNames, name);
-  if (found == kLifeNames.end()) return std::nullopt;
-  return static_cast<Life>(found - kLifeNames.begin());
+std::optional<IdleKind> IdleKindNamed(std::string_view name) {
+  const auto found = std::ranges::find(kIdleKindNames, name);
+  if (found == kIdleKindNames.end()) return std::nullopt;
+  return static_cast<IdleKind>(found - kIdleKindNames.begin());
 }
 
-std::size_t MotionTable::Patterns(Life kind) const {
+std::size_t MotionTable::Patterns(IdleKind kind) const {
   switch (kind) {
-    case Life::kBlink:
+    case IdleKind::kBlink:
       return auto_blinks.size();
-    case Life::kMove:
+    case IdleKind::kMove:
       return auto_move_files.empty() ? auto_moves.size() : auto_move_files.size();
-    case Life::kUserdef:
+    case IdleKind::kUserdef:
       return auto_userdef.size();
-    case Life::kGaze:
+    case IdleKind::kGaze:
       return auto_gazes.size();
-    case Life::kBreath:
+    case IdleKind::kBreath:
       return auto_breaths.size();
-    case Life::kNods:
+    case IdleKind::kNods:
       return auto_nods.size();
-    case Life::kSpeech:
+    case IdleKind::kSpeech:
       return auto_speeches.size();
-    case Life::kAvert:
+    case IdleKind::kAvert:
       return auto_averts.size();
-    case Life::kFace:
+    case IdleKind::kFace:
       return auto_faces.size();
-    case Life::kGazeBlink:
-    case Life::kEndBlink:
-    case Life::kAsymmetry:
+    case IdleKind::kGazeBlink:
+    case IdleKind::kEndBlink:
+    case IdleKind::kAsymmetry:
       return 1;
   }
   return 0;

@@ -77,7 +77,7 @@ struct AutoAvert {
 };
 
 /// What the face does by itself; each is switched by name.
-enum class Life : std::size_t {
+enum class IdleKind : std::size_t {
   kBlink,
   kMove,
   kUserdef,
@@ -91,12 +91,12 @@ enum class Life : std::size_t {
   kEndBlink,
   kAsymmetry
 };
-inline constexpr std::array<std::string_view, 12> kLifeNames = {
+inline constexpr std::array<std::string_view, 12> kIdleKindNames = {
     "BLINK",  "MOVE",  "USERDEF", "GAZE",      "BREATH",   "NODS",
     "SPEECH", "AVERT", "FACE",    "GAZEBLINK", "ENDBLINK", "ASYMMETRY"};
-std::optional<Life> LifeNamed(std::string_view name);
+std::optional<IdleKind> IdleKindNamed(std::string_view name);
 /// Patterns by kind.
-using LifeProfile = std::array<std::size_t, kLifeNames.size()>;
+using IdleProfile = std::array<std::size_t, kIdleKindNames.size()>;
 
 /// Everything the face does by pattern number; pattern n is element n - 1.
 struct MotionTable {
@@ -110,11 +110,11 @@ struct MotionTable {
   std::vector<AutoSpeech> auto_speeches;
   std::vector<AutoAvert> auto_averts;
   std::vector<ActionUnits> auto_faces;
-  std::map<std::string, LifeProfile, std::less<>> profiles;
+  std::map<std::string, IdleProfile, std::less<>> profiles;
   std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
   std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop
 
-  std::size_t Patterns(Life kind) const;  ///< how many there are
+  std::size_t Patterns(IdleKind kind) const;  ///< how many there are
 };
 vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text);
 

@@ -66,7 +66,7 @@ class Loader {
 
 void LoadMouth(Loader& loader, MotionTables& out) {
   const auto shapes28 = [](const std::string& name, std::string_view text) {
-    return ReadMouthShapes(name, text, kBilingualShapes);
+    return ReadVisemes(name, text, kBilingualShapes);
   };
   const auto phonemes_of = [](const MouthSet& set) {
     return [&set](const std::string& name, std::string_view text) {
@@ -74,7 +74,7 @@ void LoadMouth(Loader& loader, MotionTables& out) {
     };
   };
   const auto shapes14 = [](const std::string& name, std::string_view text) {
-    return ReadMouthShapes(name, text);
+    return ReadVisemes(name, text);
   };
   loader.Get(out.set14.shapes, "mouth_shapes.txt", embedded::mouth_shapes(), shapes14);
   loader.Get(out.set28.shapes, "mouth_shapes_28.txt", embedded::mouth_shapes_28(), shapes28);

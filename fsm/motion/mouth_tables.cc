@@ -20,7 +20,7 @@ MouthPose Mix(const MouthPose& a, const MouthPose& b, double share_of_b) {
 }
 
 vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::size_t first,
-                                 MouthShape& shape) {
+                                 Viseme& shape) {
   const std::size_t count = words.size() - std::min(first, words.size());
   if (count < kMouthParameters || count > kShapeValues) {
     return vm::Fail(vm::Errc::kBadValue,
@@ -28,7 +28,7 @@ vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::siz
                                 "seal, tongue and hold, expected",
                                 count));
   }
-  MouthShape out = shape;
+  Viseme out = shape;
   for (std::size_t i = 0; i < count; ++i) {
     const bool parameter = i < kMouthParameters;
     const std::string what = parameter ? fmt::format("mouth parameter {}", i + 1)
@@ -50,21 +50,20 @@ vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::siz
   return {};
 }
 
-std::string FormatShapeValues(const MouthShape& shape) {
+std::string FormatShapeValues(const Viseme& shape) {
   std::string text;
   for (const float value : shape.pose.mouth) text += fmt::format("{:g} ", value);
   return text + fmt::format("{:g} {:g} {:g}", shape.pose.seal, shape.pose.tongue, shape.hold);
 }
 
-const MouthShape* FindShape(const MouthShapes& shapes, std::string_view name) {
-  const auto found = std::ranges::find(shapes, name, &MouthShape::name);
+const Viseme* FindShape(const Visemes& shapes, std::string_view name) {
+  const auto found = std::ranges::find(shapes, name, &Viseme::name);
   return found == shapes.end() ? nullptr : &*found;
 }
 
-vm::Result<MouthShapes> ReadMouthShapes(const std::string& name, std::string_view text,
-                                        std::size_t count) {
+vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text, std::size_t count) {
   const TableText table(name, text);
-  MouthShapes shapes;
+  Visemes shapes;
   for (const TableLine& line : table.lines()) {
     if (line.words.size() != 1 + kShapeValues) {
       return table.Wrong(line.number,
@@ -72,7 +71,7 @@ vm::Result<MouthShapes> ReadMouthShapes(const std::string& name, std::string_vie
                                      "and hold expected",
                                      line.words.size()));
     }
-    MouthShape shape;
+    Viseme shape;
     shape.name = line.words[0];
     if (auto read = ReadShapeValues(line.words, 1, shape); !read) {
       return table.Wrong(line.number, read.error().text);
@@ -92,7 +91,7 @@ vm::Result<MouthShapes> ReadMouthShapes(const std::string& name, std::string_vie
 }
 
 vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_view text,
-                                          const MouthShapes& shapes) {
+                                          const Visemes& shapes) {
   const TableText table(name, text);
   PhonemeTable phonemes;
   for (const TableLine& line : table.lines()) {
@@ -126,8 +125,7 @@ vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_v
 
 namespace {
 
-vm::Result<void> ReadDominanceRow(const TableText& table, const TableLine& line,
-                                  MouthShape& shape) {
+vm::Result<void> ReadDominanceRow(const TableText& table, const TableLine& line, Viseme& shape) {
   const std::string& kind = line.words[3];
   if (kind != "vowel" && kind != "consonant" && kind != "pause") {
     return table.Wrong(line.number, "'" + kind + "' found; vowel, consonant or pause expected");
@@ -156,11 +154,11 @@ vm::Result<void> ReadDominanceRow(const TableText& table, const TableLine& line,
 
 }  // namespace
 
-vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, MouthShapes& set14,
-                                MouthShapes& set28) {
+vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, Visemes& set14,
+                                Visemes& set28) {
   const TableText table(name, text);
   Reach reach;
-  std::vector<const MouthShape*> done;
+  std::vector<const Viseme*> done;
   for (const TableLine& line : table.lines()) {
     if (line.words[0] == "reach") {
       for (const std::size_t i : {1u, 2u}) {
@@ -178,8 +176,8 @@ vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, 
     if (line.words[1] != "14" && line.words[1] != "28") {
       return table.Wrong(line.number, "'" + line.words[1] + "' found; set 14 or 28 expected");
     }
-    MouthShapes& set = line.words[1] == "14" ? set14 : set28;
-    const auto shape = std::ranges::find(set, line.words[2], &MouthShape::name);
+    Visemes& set = line.words[1] == "14" ? set14 : set28;
+    const auto shape = std::ranges::find(set, line.words[2], &Viseme::name);
     if (shape == set.end()) {
       return table.Wrong(line.number,
                          "there is no mouth shape '" + line.words[2] + "' in set " + line.words[1]);
@@ -189,8 +187,8 @@ vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, 
     }
     done.push_back(&*shape);
   }
-  for (const MouthShapes* set : {&set14, &set28}) {
-    for (const MouthShape& shape : *set) {
+  for (const Visemes* set : {&set14, &set28}) {
+    for (const Viseme& shape : *set) {
       if (std::ranges::find(done, &shape) == done.end()) {
         return table.Wrong(0, "no row for the mouth shape '" + shape.name + "'");
       }

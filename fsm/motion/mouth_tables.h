@@ -33,7 +33,7 @@ struct Dominance {
 };
 
 /// One key shape of the mouth, at full articulation.
-struct MouthShape {
+struct Viseme {
   std::string name;
   MouthPose pose;
   double hold = 0;  ///< share of a phoneme for which the shape stands before it moves on
@@ -41,25 +41,25 @@ struct MouthShape {
 };
 
 /// Shapes by their numbers. Each set has one named `rest`: the mouth of pauses.
-using MouthShapes = std::vector<MouthShape>;
-inline constexpr std::size_t kMouthShapes = 14;
+using Visemes = std::vector<Viseme>;
+inline constexpr std::size_t kVisemes = 14;
 inline constexpr std::size_t kBilingualShapes = 28;
 /// The 17 parameters, then seal, tongue and hold, which may be left out at the end (they then stay
 /// as `shape` has them). Values: finite; parameters within +-60, seal and tongue 0..1, hold 0..0.9.
 vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::size_t first,
-                                 MouthShape& shape);
+                                 Viseme& shape);
 /// As a row of the table has them, 20 numbers.
-std::string FormatShapeValues(const MouthShape& shape);
-vm::Result<MouthShapes> ReadMouthShapes(const std::string& name, std::string_view text,
-                                        std::size_t count = kMouthShapes);
+std::string FormatShapeValues(const Viseme& shape);
+vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text,
+                                std::size_t count = kVisemes);
 /// nullptr if there is none of that name.
-const MouthShape* FindShape(const MouthShapes& shapes, std::string_view name);
+const Viseme* FindShape(const Visemes& shapes, std::string_view name);
 
 /// What a phoneme looks like: one shape, or two for a diphthong.
 struct PhonemeLook {
   static constexpr int kNext = -1;  ///< takes the shape of what follows
   struct Part {
-    int shape = 0;  ///< index into MouthShapes, or kNext
+    int shape = 0;  ///< index into Visemes, or kNext
     double strength = 1;
   };
   std::vector<Part> parts;  ///< one or two
@@ -67,11 +67,11 @@ struct PhonemeLook {
 /// By phoneme name; names differ in case (N is not n).
 using PhonemeTable = std::map<std::string, PhonemeLook, std::less<>>;
 vm::Result<PhonemeTable> ReadPhonemeTable(const std::string& name, std::string_view text,
-                                          const MouthShapes& shapes);
+                                          const Visemes& shapes);
 
 /// A set of mouth shapes and what the phonemes of each language look like in it.
 struct MouthSet {
-  MouthShapes shapes;
+  Visemes shapes;
   PhonemeTable japanese;
   PhonemeTable english;
   std::size_t rest = 0;  ///< index of the shape of pauses
@@ -83,7 +83,7 @@ struct Reach {
   double before_ms = 40;
   double after_ms = 45;
 };
-vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, MouthShapes& set14,
-                                MouthShapes& set28);
+vm::Result<Reach> ReadDominance(const std::string& name, std::string_view text, Visemes& set14,
+                                Visemes& set28);
 
 }  // namespace fsm

@@ -23,11 +23,11 @@ double Bump(double ms, double peak, double rise, double fall) {
 
 }  // namespace
 
-SpeechGestures::SpeechGestures(const LipDemands& demands, std::uint64_t seed)
+SpeechGestures::SpeechGestures(const VisemeTargets& demands, std::uint64_t seed)
     : seed_(seed), length_ms_(demands.length_ms) {
   FindBeats(demands);
   bool pause = true;
-  for (const LipDemand& demand : demands.demands) {
+  for (const VisemeTarget& demand : demands.demands) {
     if (demand.pause) {
       pause = pause || demand.length_ms >= kPhrasePauseMs;
       continue;
@@ -42,17 +42,17 @@ SpeechGestures::SpeechGestures(const LipDemands& demands, std::uint64_t seed)
   }
 }
 
-void SpeechGestures::FindBeats(const LipDemands& demands) {
+void SpeechGestures::FindBeats(const VisemeTargets& demands) {
   double sum = 0;
   double count = 0;
-  for (const LipDemand& demand : demands.demands) {
+  for (const VisemeTarget& demand : demands.demands) {
     if (!demand.dominance.vowel) continue;
     sum += demand.length_ms;
     ++count;
   }
   if (count == 0) return;
   const double mean = sum / count;
-  for (const LipDemand& demand : demands.demands) {
+  for (const VisemeTarget& demand : demands.demands) {
     if (!demand.dominance.vowel) continue;
     const double open = std::clamp(demand.target.mouth[kJawY] / 9.0, 0.0, 1.0);
     const double stress = std::min(2.2, demand.length_ms / mean) * (0.7 + 0.3 * open);

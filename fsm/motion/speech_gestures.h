@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fsm/motion/eye_motion.h"
-#include "fsm/motion/lip_demand.h"
 #include "fsm/motion/motion_table.h"
+#include "fsm/motion/viseme_target.h"
 
 namespace fsm {
 
@@ -19,7 +19,7 @@ namespace fsm {
 class SpeechGestures {
  public:
   SpeechGestures() = default;
-  SpeechGestures(const LipDemands& demands, std::uint64_t seed);
+  SpeechGestures(const VisemeTargets& demands, std::uint64_t seed);
 
   /// In parts of the table's greatest angles, about -1..1.
   struct At {
@@ -47,7 +47,7 @@ class SpeechGestures {
     double start_ms;
     At pose;
   };
-  void FindBeats(const LipDemands& demands);
+  void FindBeats(const VisemeTargets& demands);
 
   std::uint64_t seed_ = 0;
   double length_ms_ = 0;

@@ -31,12 +31,12 @@ vm::Time SpeechMotion::GoneAt(const Layer& layer) const {
          std::max(kRelease, FromMs(SpeechGestures::kFadeMs));
 }
 
-void SpeechMotion::Start(vm::Time now, LipTrack track, vm::Time start, std::uint64_t seed) {
+void SpeechMotion::Start(vm::Time now, VisemeTrack track, vm::Time start, std::uint64_t seed) {
   Stop(now);
   std::erase_if(layers_, [&](const Layer& layer) { return GoneAt(layer) <= now; });
   const vm::Time ahead = FromMs(lead_ms_.At(now) + kApproachMs);
   SpeechGestures gestures(track.demands(), seed);
-  layers_.push_back({std::make_shared<const LipTrack>(std::move(track)), std::move(gestures),
+  layers_.push_back({std::make_shared<const VisemeTrack>(std::move(track)), std::move(gestures),
                      SpeechClock(start), std::max(now, start - ahead), std::nullopt});
 }
 

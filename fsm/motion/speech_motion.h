@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "fsm/motion/lip_track.h"
 #include "fsm/motion/speech_clock.h"
 #include "fsm/motion/speech_gestures.h"
 #include "fsm/motion/track.h"
+#include "fsm/motion/viseme_track.h"
 
 namespace fsm {
 
@@ -18,7 +18,7 @@ class SpeechMotion {
  public:
   /// The voice starts at `start`; the mouth begins up to 92 ms before that, and is ahead by the
   /// lead. `seed` is of what the head does with it.
-  void Start(vm::Time now, LipTrack track, vm::Time start, std::uint64_t seed);
+  void Start(vm::Time now, VisemeTrack track, vm::Time start, std::uint64_t seed);
   /// The lips are closed 110 ms later.
   void Stop(vm::Time now);
   /// The voice is at `voice_ms` now. Ignored when nothing is spoken.
@@ -58,7 +58,7 @@ class SpeechMotion {
 
  private:
   struct Layer {
-    std::shared_ptr<const LipTrack> track;
+    std::shared_ptr<const VisemeTrack> track;
     SpeechGestures gestures;
     SpeechClock clock;
     vm::Time begin;

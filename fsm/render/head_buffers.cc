@@ -18,11 +18,11 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
   glm::vec2 low(1e9F), high(-1e9F);
   for (const std::uint32_t v : triangle) {
     if (topology.strands[v].cover < 1) return false;
-    low = glm::min(low, glm::vec2(topology.photo_place[v]));
-    high = glm::max(high, glm::vec2(topology.photo_place[v]));
+    low = glm::min(low, glm::vec2(topology.photo_texcoord[v]));
+    high = glm::max(high, glm::vec2(topology.photo_texcoord[v]));
   }
   if (!cut_out) return true;
-  const WornPhoto& photo = *topology.photo;
+  const Image& photo = *topology.photo;
   const glm::ivec2 last(photo.width - 1, photo.height - 1);
   const glm::vec2 size(photo.width, photo.height);
   const auto from = glm::clamp(glm::ivec2(low * size) - 1, glm::ivec2(0), last);
@@ -125,9 +125,9 @@ void HeadBuffers::UploadTopology(const Head& head) {
   saturation_ = topology.saturation;
   photo_light_ = topology.photo_light;
   eye_pictures_ = topology.eye_pictures;
-  std::vector<glm::vec3> photo_place = topology.photo_place;
-  photo_place.resize(paint.size());
-  upload(7, photo_place);
+  std::vector<glm::vec3> photo_texcoord = topology.photo_texcoord;
+  photo_texcoord.resize(paint.size());
+  upload(7, photo_texcoord);
   std::vector<glm::vec4> photo_lender = topology.photo_lender;
   photo_lender.resize(paint.size());
   upload(8, photo_lender);

@@ -43,15 +43,15 @@ class HeadBuffers {
   /// Counts the heads uploaded so far, so that what depends on the head is noticed to be old.
   int generation() const { return generation_; }
   /// What is worn in place of painted skin, if anything.
-  const WornPhoto* photo() const { return photo_.get(); }
+  const Image* photo() const { return photo_.get(); }
   /// Whether that is laid on in layers from back to front with soft edges, and which of parts()
   /// have such edges.
   bool blends() const { return blends_; }
   bool IsSoft(std::size_t part) const { return soft_[part]; }
   /// HeadTopology::relief, lights and finishes.
-  const WornPhoto* relief() const { return relief_.get(); }
-  const WornPhoto* lights() const { return lights_.get(); }
-  const std::vector<Finish>& finishes() const { return finishes_; }
+  const Image* relief() const { return relief_.get(); }
+  const Image* lights() const { return lights_.get(); }
+  const std::vector<PbrMaterial>& finishes() const { return finishes_; }
   /// Where the photo shows eyes: HeadTopology::eye_pictures.
   const std::optional<std::array<EyePicture, 2>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
@@ -85,8 +85,8 @@ class HeadBuffers {
   EyePlace eye_place_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
-  std::shared_ptr<const WornPhoto> photo_, relief_, lights_;
-  std::vector<Finish> finishes_;
+  std::shared_ptr<const Image> photo_, relief_, lights_;
+  std::vector<PbrMaterial> finishes_;
   std::optional<std::array<EyePicture, 2>> eye_pictures_;
   std::array<EyeFrame, 2> resting_eyes_;
   float saturation_ = 1;

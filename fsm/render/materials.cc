@@ -135,7 +135,7 @@ void Materials::WearSkin(HeadBuffers& head, float samples_per_mm) {
   const bool fresh = generation_ != head.generation();
   has_photo_ = head.photo() != nullptr;
   chroma_ = head.saturation();
-  const auto wear = [this](Texture texture, const WornPhoto& picture) {
+  const auto wear = [this](Texture texture, const Image& picture) {
     Fill(texture, picture.width, picture.height, picture.rgba.data());
     for (const int filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
       gl_.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(filter), GL_LINEAR);
@@ -144,8 +144,8 @@ void Materials::WearSkin(HeadBuffers& head, float samples_per_mm) {
   if (has_photo_ && fresh) wear(kPhoto, *head.photo());
   if (fresh) finishes_ = head.finishes();
   if (fresh && !finishes_.empty()) {
-    wear(kRelief, head.relief() ? *head.relief() : WornPhoto{1, 1, {128, 128, 255, 255}});
-    wear(kLights, head.lights() ? *head.lights() : WornPhoto{1, 1, {255, 255, 255, 255}});
+    wear(kRelief, head.relief() ? *head.relief() : Image{1, 1, {128, 128, 255, 255}});
+    wear(kLights, head.lights() ? *head.lights() : Image{1, 1, {255, 255, 255, 255}});
   }
   generation_ = head.generation();
   const SkinTexture* skin = head.skin();
@@ -181,7 +181,7 @@ void Materials::Bind(Texture texture, GLenum unit) {
 
 void Materials::BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                            const Scene& scene, float alpha) {
-  const Lamp* lamps[] = {&scene.key, &scene.fill, &scene.rim};
+  const DirectionalLight* lamps[] = {&scene.key, &scene.fill, &scene.rim};
   glm::vec3 directions[3];
   glm::vec3 colors[3];
   for (int i = 0; i < 3; ++i) {
@@ -324,13 +324,13 @@ void Materials::Use(const HeadTopology::Part& part) {
   if (part.finish < 0) return Use(part.material);
   // Drawn once before its head is worn, to warm up.
   const auto index = static_cast<std::size_t>(part.finish);
-  UseFinish(index < finishes_.size() ? finishes_[index] : Finish{});
+  UseMaterial(index < finishes_.size() ? finishes_[index] : PbrMaterial{});
 }
 
-void Materials::UseFinish(const Finish& finish) {
+void Materials::UseMaterial(const PbrMaterial& finish) {
   gl_.UseProgram(finish_->id());
   gl_.Uniform1f(finish_->Uniform("ragged"), finish.cut_out ? 1.0F : 0.0F);
-  gl_.Uniform1f(finish_->Uniform("toon"), finish.kind == Finish::Kind::kToon ? 1.0F : 0.0F);
+  gl_.Uniform1f(finish_->Uniform("toon"), finish.kind == PbrMaterial::Kind::kToon ? 1.0F : 0.0F);
   gl_.Uniform1f(finish_->Uniform("metallic"), finish.metallic);
   gl_.Uniform1f(finish_->Uniform("roughness"), finish.roughness);
   gl_.Uniform1f(finish_->Uniform("shade_to"), finish.shade_to);

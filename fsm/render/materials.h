@@ -56,7 +56,7 @@ class Materials {
                 glm::vec3 key_direction);
   void Use(Material material);
   void UsePhoto(Material material);
-  void UseFinish(const Finish& finish);
+  void UseMaterial(const PbrMaterial& finish);
   void UseHair(float streaks, float shine);
 
   const GlFunctions& gl_;
@@ -67,7 +67,7 @@ class Materials {
   GlProgram line_;
   GlProgram photo_;
   std::unique_ptr<GlProgram> finish_;  // made for the first head that has any
-  std::vector<Finish> finishes_;
+  std::vector<PbrMaterial> finishes_;
   GLuint textures_[kTextures] = {};
   int generation_ = 0;  // of the head whose skin is in the textures
   bool has_skin_ = false;

@@ -34,7 +34,7 @@ class GlRenderer : public Renderer {
         head_(gl_),
         backdrop_(gl_) {}
 
-  void Place(const Pane& pane) override { pane_ = pane; }
+  void Place(const Viewport& pane) override { pane_ = pane; }
 
   void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
             const Scene& scene) override {
@@ -162,7 +162,7 @@ class GlRenderer : public Renderer {
   }
 
   RenderContext& context_;
-  Pane pane_;
+  Viewport pane_;
   GlFunctions gl_;
   Materials materials_;
   HeadBuffers head_;

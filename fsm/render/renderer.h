@@ -13,7 +13,7 @@ namespace fsm {
 enum class ViewMode { kTexture, kTextureWithWireframe, kWireframe };
 
 /// One lamp of the studio, far away.
-struct Lamp {
+struct DirectionalLight {
   glm::vec3 direction;  ///< towards the lamp: x to the viewer's right, y up, z to the viewer
   glm::vec3 color;      ///< linear RGB at strength 1
   float strength = 1;
@@ -35,9 +35,9 @@ struct Scene {
   Camera camera;
   // A portrait studio: a large warm lamp above left, a weak cool one at the right, one behind for
   // the edge of hair and shoulder.
-  Lamp key{{-1.0f, 0.88f, 0.95f}, {2.90f, 2.64f, 2.46f}};
-  Lamp fill{{0.80f, 0.10f, 0.59f}, {0.34f, 0.36f, 0.40f}};
-  Lamp rim{{0.59f, 0.46f, -0.67f}, {1.30f, 1.36f, 1.45f}};
+  DirectionalLight key{{-1.0f, 0.88f, 0.95f}, {2.90f, 2.64f, 2.46f}};
+  DirectionalLight fill{{0.80f, 0.10f, 0.59f}, {0.34f, 0.36f, 0.40f}};
+  DirectionalLight rim{{0.59f, 0.46f, -0.67f}, {1.30f, 1.36f, 1.45f}};
 };
 
 /// What draws off screen. The order in which ways are tried stands in headless_context.cc.
@@ -81,7 +81,7 @@ class RenderContext {
 std::string DescribeOffScreen(OffScreen how);
 
 /// Part of what a context draws into, in pixels from its upper left corner; width 0: all of it.
-struct Pane {
+struct Viewport {
   int x = 0, y = 0;
   int width = 0, height = 0;
 };
@@ -94,7 +94,7 @@ class Renderer {
   static std::unique_ptr<Renderer> Make(RenderContext& context);
   virtual ~Renderer() = default;
   /// Where the next frames go; at first everywhere.
-  virtual void Place(const Pane& pane) = 0;
+  virtual void Place(const Viewport& pane) = 0;
   /// `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
                     const Scene& scene) = 0;

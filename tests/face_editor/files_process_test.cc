@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "face_fit/find/face_networks.h"
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/mesh/gltf_writer.h"
 #include "tests/face_editor/editor_process.h"
 #include "tests/support/test_data.h"
@@ -201,7 +201,7 @@ TEST_F(EditorFilesTest, PhotosFromTheSideAreLookedAtAndUsed) {
   EXPECT_EQ(program_->Wait(kLong), 0) << program_->ErrorText();
   const auto set = [this](const std::string& name) {
     std::ifstream in(folder_ + "/faces/" + name + "/face.txt");
-    return fsm::ReadFaceSet(name, std::string(std::istreambuf_iterator<char>(in), {}));
+    return fsm::ReadPhotoHead(name, std::string(std::istreambuf_iterator<char>(in), {}));
   };
   EXPECT_EQ(set("plain").also_seen.size(), 0U);
   EXPECT_EQ(set("deep").also_seen.size(), 1U);

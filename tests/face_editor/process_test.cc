@@ -4,7 +4,7 @@
 
 #include "face_fit/find/face_networks.h"
 #include "face_fit/find/hand_points.h"
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/image/image_file.h"
 #include "tests/face_editor/editor_process.h"
 
@@ -91,7 +91,7 @@ TEST_F(FaceEditorTest, AFaceIsBuiltOfPointsThatWereDraggedAndWorn) {
   EXPECT_EQ(Output(), folder_ + "/faces/anna\n" + folder_ + "/faces/berta\n");
   std::ifstream file(folder_ + "/faces/anna/face.txt");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
-  EXPECT_GT(fsm::ReadFaceSet("face.txt", text).points.size(), 100U);
+  EXPECT_GT(fsm::ReadPhotoHead("face.txt", text).points.size(), 100U);
   for (const char* name : {"anna", "berta"}) {
     ASSERT_EQ(
         RunScript("wait\nscreenshot " + folder_ + "/" + name + ".png\nquit\n", {"--mask", name}), 0)

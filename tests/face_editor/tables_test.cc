@@ -40,9 +40,9 @@ TEST(TableWriterTest, UnchangedTablesAreWrittenByteForByte) {
   const auto tables = fsm::MotionTables::Load();
   ASSERT_TRUE(tables);
   EXPECT_EQ(WriteEmotions(Carried("emotions.txt"), tables->emotions), Carried("emotions.txt"));
-  EXPECT_EQ(WriteMouthShapes(Carried("mouth_shapes.txt"), tables->set14.shapes),
+  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes.txt"), tables->set14.shapes),
             Carried("mouth_shapes.txt"));
-  EXPECT_EQ(WriteMouthShapes(Carried("mouth_shapes_28.txt"), tables->set28.shapes),
+  EXPECT_EQ(WriteVisemes(Carried("mouth_shapes_28.txt"), tables->set28.shapes),
             Carried("mouth_shapes_28.txt"));
   const auto& head = tables->motions.head;
   EXPECT_EQ(WriteCurves(Carried("motions.txt"), HeadCurves(head.begin(), head.end())),
@@ -88,9 +88,9 @@ TEST(TableWriterTest, AChangedMouthShapeIsOneLine) {
   shapes[9].pose.mouth[11] = 12.5F;
   shapes[9].hold = 0.2;
   const std::string before = Carried("mouth_shapes.txt");
-  const std::string text = WriteMouthShapes(before, shapes);
+  const std::string text = WriteVisemes(before, shapes);
   EXPECT_EQ(LinesChanged(before, text), 2U);
-  const auto read = fsm::ReadMouthShapes("m", text);
+  const auto read = fsm::ReadVisemes("m", text);
   ASSERT_TRUE(read) << read.error().text;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     EXPECT_EQ(fsm::FormatShapeValues((*read)[i]), fsm::FormatShapeValues(shapes[i]));

@@ -37,8 +37,8 @@ fsm::Image Painted(F f) {
 }
 
 template <typename F>
-Field Of(F f) {
-  Field field(kSide, kSide);
+FloatImage Of(F f) {
+  FloatImage field(kSide, kSide);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) field.at[field.Index(x, y)] = f(glm::vec2(x, y) + 0.5F);
   }
@@ -55,7 +55,7 @@ constexpr glm::vec3 kHair(70, 45, 20), kSky(120, 160, 220);
 glm::vec3 Sky(glm::vec2 p) { return kSky + 12.0F * std::sin(p.x / 9) + 10.0F * std::cos(p.y / 14); }
 glm::vec3 Hair(glm::vec2 p) { return kHair + 12.0F * std::sin(p.x / 3 + p.y / 5); }
 
-float MeanDifference(const Field& a, const Field& b) {
+float MeanDifference(const FloatImage& a, const FloatImage& b) {
   float sum = 0, count = 0;
   for (std::size_t i = 0; i < a.at.size(); ++i) {
     if (b.at[i] <= 0 || b.at[i] >= 1) continue;
@@ -66,13 +66,13 @@ float MeanDifference(const Field& a, const Field& b) {
 }
 
 TEST(MatteTest, FindsTheSoftEdgeThatTheRoughOutlineMisses) {
-  const Field truth = Of([](glm::vec2 p) { return Disc(p, 50, 4); });
+  const FloatImage truth = Of([](glm::vec2 p) { return Disc(p, 50, 4); });
   const fsm::Image photo =
       Painted([](glm::vec2 p) { return glm::mix(Sky(p), Hair(p), Disc(p, 50, 4)); });
   // A pixel too large, and as blurred as a network's.
-  const Field rough = Blurred(Of([](glm::vec2 p) { return Disc(p, 51, 1); }), 1);
+  const FloatImage rough = Blurred(Of([](glm::vec2 p) { return Disc(p, 51, 1); }), 1);
   EXPECT_GT(MeanDifference(rough, truth), 0.2F);
-  const Field found = Matte(photo, rough);
+  const FloatImage found = Matte(photo, rough);
   EXPECT_LT(MeanDifference(found, truth), 0.06F);
   // What is as good as nothing or all is that, to the last bit.
   int between = 0, whole = 0;
@@ -87,10 +87,10 @@ TEST(MatteTest, FindsTheSoftEdgeThatTheRoughOutlineMisses) {
 
 TEST(MatteTest, BlackHairBeforeAWhiteWallIsParted) {
   // All colours lie on one line, as far apart as can be.
-  const Field truth = Of([](glm::vec2 p) { return Disc(p, 50, 4); });
+  const FloatImage truth = Of([](glm::vec2 p) { return Disc(p, 50, 4); });
   const fsm::Image photo =
       Painted([](glm::vec2 p) { return glm::vec3(255 * (1 - Disc(p, 50, 4))); });
-  const Field rough = Blurred(Of([](glm::vec2 p) { return Disc(p, 51, 1); }), 1);
+  const FloatImage rough = Blurred(Of([](glm::vec2 p) { return Disc(p, 51, 1); }), 1);
   EXPECT_LT(MeanDifference(Matte(photo, rough), truth), 0.06F);
 }
 
@@ -102,7 +102,7 @@ TEST(MatteTest, StrandsOfHairAreKeptAndTheSkyBetweenThemIsNot) {
   };
   const auto part = [&](glm::vec2 p) { return std::max(Disc(p, 50, 2), strand(p)); };
   const fsm::Image photo = Painted([&](glm::vec2 p) { return glm::mix(Sky(p), Hair(p), part(p)); });
-  const Field found = Matte(photo, Blurred(Of([](glm::vec2 p) { return Disc(p, 50, 1); }), 2));
+  const FloatImage found = Matte(photo, Blurred(Of([](glm::vec2 p) { return Disc(p, 50, 1); }), 2));
   float hair = 0, hairs = 0, sky = 0, skies = 0;
   for (int y = 20; y < kSide / 2 - 30; ++y) {
     for (int x = kSide / 2 - 20; x < kSide / 2 + 20; ++x) {
@@ -123,8 +123,9 @@ TEST(MatteTest, DoubtOverAWideAreaIsDecided) {
   const auto cap = [](glm::vec2 p) { return Disc(p, 50, 2); };
   const fsm::Image photo =
       Painted([&](glm::vec2 p) { return glm::mix(Sky(p), glm::vec3(235), cap(p)); });
-  const Field doubt = Of([&](glm::vec2 p) { return cap(p) * (p.x < kSide / 2 ? 0.65F : 1.0F); });
-  const Field found = Matte(photo, doubt);
+  const FloatImage doubt =
+      Of([&](glm::vec2 p) { return cap(p) * (p.x < kSide / 2 ? 0.65F : 1.0F); });
+  const FloatImage found = Matte(photo, doubt);
   float least = 1;
   for (int x = 35; x < kSide / 2; ++x) {
     least = std::min(least, found.at[found.Index(x, kSide / 2)]);
@@ -136,7 +137,7 @@ TEST(MatteTest, ALargePhotoHasTheEdgeOfItsOwnPixels) {
   // A grey picture, whose colours lie on one line, larger than what is solved.
   constexpr int kLarge = 1600, kHigh = 200;
   fsm::Image photo{.width = kLarge, .height = kHigh, .rgba = {}};
-  Field rough(kLarge, kHigh);
+  FloatImage rough(kLarge, kHigh);
   const auto part = [](int x) { return x < 400 ? 0.0F : 1.0F; };
   for (int y = 0; y < kHigh; ++y) {
     for (int x = 0; x < kLarge; ++x) {
@@ -146,14 +147,14 @@ TEST(MatteTest, ALargePhotoHasTheEdgeOfItsOwnPixels) {
       rough.at[rough.Index(x, y)] = glm::smoothstep(390.0F, 402.0F, static_cast<float>(x));
     }
   }
-  const Field found = Matte(photo, rough);
+  const FloatImage found = Matte(photo, rough);
   for (const int x : {390, 397, 399, 400, 402, 410}) {
     EXPECT_NEAR(found.at[found.Index(x, 100)], part(x), 0.15F) << x;
   }
 }
 
 TEST(MatteTest, TheEdgeLosesTheBackgroundsColour) {
-  const Field opacity = Of([](glm::vec2 p) { return Disc(p, 50, 6); });
+  const FloatImage opacity = Of([](glm::vec2 p) { return Disc(p, 50, 6); });
   const fsm::Image photo =
       Painted([](glm::vec2 p) { return glm::mix(Sky(p), kHair, Disc(p, 50, 6)); });
   const fsm::Image figure = WithoutBackground(photo, opacity);
@@ -196,7 +197,7 @@ TEST(FigureTest, WhatOnlyOneSideOfAHeadShowsIsDoubtedAndRatherThereIfItLooksAlik
 }
 
 TEST(GrainTest, TheNearestKnownPointIsFound) {
-  Field weight(40, 30);
+  FloatImage weight(40, 30);
   weight.at[weight.Index(3, 4)] = weight.at[weight.Index(30, 20)] = 1;
   const auto nearest = NearestKnown(weight);
   EXPECT_EQ(nearest[weight.Index(0, 0)], weight.Index(3, 4));
@@ -210,8 +211,8 @@ TEST(GrainTest, WhatIsFilledInIsAsRoughAsWhatLiesBesideIt) {
   const auto hole = [](glm::vec2 p) { return std::abs(p.y - kSide / 2) < 12; };
   fsm::Image image =
       Painted([](glm::vec2 p) { return glm::vec3(std::fmod(p.x, 4.0F) < 2 ? 150 : 90); });
-  const Field weight = Of([&](glm::vec2 p) { return hole(p) ? 0.0F : 1.0F; });
-  FillIn(image, weight);
+  const FloatImage weight = Of([&](glm::vec2 p) { return hole(p) ? 0.0F : 1.0F; });
+  PushPullInpaint(image, weight);
   const auto roughness = [&image] {
     float sum = 0;
     for (int x = 20; x < 140; ++x) {
@@ -228,7 +229,7 @@ TEST(GrainTest, WhatIsFilledInIsAsRoughAsWhatLiesBesideIt) {
 }
 
 TEST(GrainTest, TheNearestOfManyKnownPointsIsTheNearest) {
-  Field weight(60, 50);
+  FloatImage weight(60, 50);
   for (std::uint32_t k = 1, at = 7; k < 40; ++k) {
     at = (at * 1103515245U + 12345U) % 3000U;
     weight.at[at] = 1;
@@ -269,7 +270,7 @@ class GrainGap {
     return sum;
   }
 
-  Field weight, where;
+  FloatImage weight, where;
   fsm::Image image;
 };
 
@@ -334,7 +335,7 @@ TEST(EnlargeTest, ColoursGoThroughTheirPixelsAndContoursAreStraight) {
   EXPECT_LT(glm::distance(SharpColourAt(image, {70.5F, 30.5F}), ColourAt(image, {70.5F, 30.5F})),
             0.01F);
   // Of a slanted edge in steps of pixels the contour wavers less than between straight lines.
-  const Field steps = Of([](glm::vec2 p) { return p.y > 60 + p.x / 4 ? 1.0F : 0.0F; });
+  const FloatImage steps = Of([](glm::vec2 p) { return p.y > 60 + p.x / 4 ? 1.0F : 0.0F; });
   const auto waver = [&](auto&& value) {
     float most = 0;
     for (float x = 40; x < 120; x += 0.25F) {
@@ -373,22 +374,22 @@ class SheetTest : public NetworkTest {
     figure_.colours.rgba.assign(static_cast<std::size_t>(4 * kPhoto * kPhoto), 200);
   }
   static float Shoulder(float off) { return 240 + 0.3F * std::max(off - 40, 0.0F); }
-  fsm::FaceSet Sheet() {
-    fsm::FaceSet set;
+  fsm::PhotoHead Sheet() {
+    fsm::PhotoHead set;
     MakeSheet(Galatea(), fit_, figure_, set);
     return set;
   }
   /// The pixel over which a vertex lies.
-  glm::vec2 Over(const fsm::FaceSet::SheetVertex& vertex) const {
+  glm::vec2 Over(const fsm::PhotoHead::SheetVertex& vertex) const {
     return fit_.pose.Project(fit_.pose.ToCamera(vertex.position));
   }
 
   Fit fit_;
-  Figure figure_{{.width = kPhoto, .height = kPhoto, .rgba = {}}, Field(kPhoto, kPhoto)};
+  Figure figure_{{.width = kPhoto, .height = kPhoto, .rgba = {}}, FloatImage(kPhoto, kPhoto)};
 };
 
 TEST_F(SheetTest, ShouldersFallBeyondThePhotosSides) {
-  const fsm::FaceSet set = Sheet();
+  const fsm::PhotoHead set = Sheet();
   int above = 0, below = 0;
   for (const auto& vertex : set.sheet) {
     const glm::vec2 p = Over(vertex);
@@ -410,7 +411,7 @@ TEST_F(SheetTest, ShouldersFallBeyondThePhotosSides) {
 }
 
 TEST_F(SheetTest, IsWrittenFromBackToFront) {
-  const fsm::FaceSet set = Sheet();
+  const fsm::PhotoHead set = Sheet();
   ASSERT_GT(set.sheet_triangles.size(), 600U);
   float last = -1e9F;
   for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
@@ -422,10 +423,10 @@ TEST_F(SheetTest, IsWrittenFromBackToFront) {
 }
 
 TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
-  const fsm::FaceSet still = Sheet();
+  const fsm::PhotoHead still = Sheet();
   // In the photo the whole face is 6 mm higher than at rest.
   for (glm::vec3& p : fit_.worn) p.y += p.z > 0 ? 6.0F : 0.0F;
-  const fsm::FaceSet moved = Sheet();
+  const fsm::PhotoHead moved = Sheet();
   const glm::vec3 cheek = Galatea().places[234].On(Galatea().rest.position);
   const auto motion = [&](glm::vec2 near) {
     float nearest = 1e9F, by = 0;
@@ -447,7 +448,7 @@ TEST_F(SheetTest, GoesWithTheFaceFromItsExpressionToRest) {
 
 TEST_F(SheetTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   fit_.pose.turn.y = glm::radians(25.0F);
-  const fsm::FaceSet set = Sheet();
+  const fsm::PhotoHead set = Sheet();
   const auto at = [&](std::size_t point) {
     return Galatea().places[point].On(Galatea().rest.position);
   };
@@ -470,7 +471,7 @@ TEST_F(SheetTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
   // A head that is small in its photo: a cell is 9 mm wide.
   fit_.pose.focal = 250;
   fit_.pose.turn.y = glm::radians(15.0F);
-  const fsm::FaceSet set = Sheet();
+  const fsm::PhotoHead set = Sheet();
   const glm::vec3 right = Galatea().places[78].On(Galatea().rest.position),
                   left = Galatea().places[308].On(Galatea().rest.position);
   for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {

@@ -24,7 +24,7 @@ class EdgesTest : public testing::Test {
   }
   std::optional<LipSeam> Seam(const fsm::HeadVertices& at) const {
     // Skin above and below the lips, wherever it is now.
-    const auto flesh = fsm::FleshOf(head_->topology());
+    const auto flesh = fsm::SkinTriangles(head_->topology());
     const auto now = [&](glm::vec3 p) {
       const auto nearest = std::ranges::min_element(
           flesh, {}, [&](std::uint32_t v) { return glm::distance(rest_.position[v], p); });
@@ -36,7 +36,7 @@ class EdgesTest : public testing::Test {
       upper.push_back(now(mouth + glm::vec3(x, 7, 0)));
       lower.push_back(now(mouth + glm::vec3(x, -8, 0)));
     }
-    return FindLipSeam(head_->topology(), at.position, fsm::FleshOf(head_->topology()), false,
+    return FindLipSeam(head_->topology(), at.position, fsm::SkinTriangles(head_->topology()), false,
                        upper, lower);
   }
   fsm::HeadVertices Shown(const fsm::FaceState& state) const {
@@ -127,12 +127,12 @@ TEST_F(EdgesTest, PartedLipsHaveTwoEdges) {
 }
 
 TEST_F(EdgesTest, NoLipsNoSeam) {
-  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::FleshOf(head_->topology()),
+  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::SkinTriangles(head_->topology()),
                            false, {}, {}));
   // A forehead has none.
   const std::vector<glm::vec3> above{{-10, 70, 80}, {10, 70, 80}},
       below{{-10, 55, 85}, {10, 55, 85}};
-  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::FleshOf(head_->topology()),
+  EXPECT_FALSE(FindLipSeam(head_->topology(), rest_.position, fsm::SkinTriangles(head_->topology()),
                            false, above, below));
 }
 

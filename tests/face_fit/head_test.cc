@@ -60,7 +60,7 @@ class HeadTest : public NetworkTest {
     subject.pairs = points.pairs;
     for (auto& pair : subject.pairs) pair.to = place(pair.to);
     subject.model = fsm::ModelOf(*file, place, -43);
-    subject.flesh = subject.model.FleshTriangles();
+    subject.flesh = subject.model.SkinTriangles();
     subject.eyes = subject.model.EyeTriangles();
     // The shapes number the file's own lines; the reader keeps what its faces use, by place.
     const auto obj = fsm::ReadObj(folder + "/neutral.obj");
@@ -115,15 +115,15 @@ TEST_F(HeadTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) {
     const auto ours = fsm::Head::Make("galatea", false);
     fsm::HeadVertices rest;
     ours->Evaluate({}, rest);
-    const auto flesh = fsm::FleshOf(ours->topology());
+    const auto flesh = fsm::SkinTriangles(ours->topology());
     std::vector<fsm::PlacePair> back = subject.pairs;
     for (auto& pair : back) std::swap(pair.from, pair.to);
     // As the program does it (fsm/mesh/head_motion.cc).
-    const auto eyes = fsm::EyesOf(ours->topology());
-    const fsm::CarrySurface own{rest.position, flesh, false, eyes};
-    const fsm::CarrySurface theirs{subject.model.position, subject.flesh, subject.model.sewn,
-                                   subject.eyes};
-    const fsm::Carry there(theirs, own, back), home(own, theirs, subject.pairs);
+    const auto eyes = fsm::EyeballTriangles(ours->topology());
+    const fsm::TransferSurface own{rest.position, flesh, false, eyes};
+    const fsm::TransferSurface theirs{subject.model.position, subject.flesh,
+                                      subject.model.has_uv_seams, subject.eyes};
+    const fsm::DeformationTransfer there(theirs, own, back), home(own, theirs, subject.pairs);
     float sum = 0, worst = 0;
     int within = 0;
     for (const auto& [shape, truth] : subject.shapes) {

@@ -97,17 +97,17 @@ TEST(SkinColoursTest, AFringeIsNoSkinAndABrightForeheadIs) {
   const fsm::Image map = Drawn(400, [](glm::vec2 p) {
     return p.y < 50 ? 200 : p.y < 100 ? 60 : p.y < 200 ? 240 : 160;
   });
-  const Field likeness = SkinLikeness(map, Field(400, 400, 1));
+  const FloatImage likeness = SkinLikeness(map, FloatImage(400, 400, 1));
   const auto at = [&](int y) { return likeness.at[likeness.Index(200, y)]; };
   EXPECT_EQ(at(75), 0);
   EXPECT_EQ(at(150), 1);
   EXPECT_EQ(at(300), 1);
-  EXPECT_EQ(SkinLikeness(map, Field(400, 400)).at[75 * 400], 1) << "no face was seen";
+  EXPECT_EQ(SkinLikeness(map, FloatImage(400, 400)).at[75 * 400], 1) << "no face was seen";
 }
 
 TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
   // From the top: bright strands, dark ones, forehead with a dark line, brows, cheek.
-  Field likeness(400, 400, 1);
+  FloatImage likeness(400, 400, 1);
   std::vector<float> up(likeness.at.size());
   for (int y = 0; y < 400; ++y) {
     for (int x = 0; x < 400; ++x) {
@@ -129,7 +129,7 @@ TEST(SkinColoursTest, BrightStrandsOfAFringeAreNoSkinAndLinesOfTheForeheadAre) {
 
 TEST(SkinColoursTest, LinesMakeASkinRoughAndShadeDoesNot) {
   const auto rough = [](auto brightness, float seen) {
-    return Roughness(Drawn(512, brightness), Field(512, 512, seen));
+    return Roughness(Drawn(512, brightness), FloatImage(512, 512, seen));
   };
   const auto lined = [](glm::vec2 p) { return 160 + 14 * std::sin(p.y * 0.8F); };
   EXPECT_LT(rough([](glm::vec2 p) { return 110 + 0.2F * p.x; }, 1), 0.006F);
@@ -319,7 +319,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   });
   fsm::Image picture{.width = 1024, .height = 512, .rgba = {}};
   picture.rgba.assign(std::size_t{4} * 1024 * 512, 255);
-  fsm::FaceSet set;
+  fsm::PhotoHead set;
   PaintEyes(base, face, fit, photo, picture, set);
   ASSERT_TRUE(set.eye_pictures);
   for (const fsm::EyePicture& eye : *set.eye_pictures) {
@@ -346,7 +346,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     std::fill(row, row + 4 * 500, std::uint8_t{130});
   }
   fit.irises[1].contrast = 0.01F;
-  fsm::FaceSet one_hidden, half_shut;
+  fsm::PhotoHead one_hidden, half_shut;
   PaintEyes(base, face, fit, hidden, picture, one_hidden);
   ASSERT_TRUE(one_hidden.eye_pictures);
   const auto& [right, left] = *one_hidden.eye_pictures;

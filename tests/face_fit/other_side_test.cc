@@ -45,7 +45,7 @@ struct OtherSideTest : testing::Test {
 
   static constexpr int kLow = 150, kHigh = 170;
   fsm::Image map{.width = kSide, .height = kSide, .rgba = {}};
-  Field seen{kSide, kSide, 1};
+  FloatImage seen{kSide, kSide, 1};
   std::vector<bool> skin = std::vector<bool>(kSide * kSide, true);
 };
 

@@ -44,7 +44,7 @@ class SkinCoverTest : public testing::Test {
   Fit fit_;
   float bottom_ = 0;
   PhotoGrid grid_{.origin = {10, 10}, .cell = 2, .columns = 140, .rows = 140};
-  SkinCover cover_{Field(0, 0), {Field(0, 0), Field(0, 0), Field(0, 0)}};
+  SkinCover cover_{FloatImage(0, 0), {FloatImage(0, 0), FloatImage(0, 0), FloatImage(0, 0)}};
 };
 
 TEST_F(SkinCoverTest, EndsBelowTheChinAndAtTheLineOfTheJaw) {
@@ -73,7 +73,7 @@ TEST_F(SkinCoverTest, MotionIsThatOfThePlaceItself) {
 }
 
 TEST(FillHolesTest, WhatCannotBeReachedFromTheEdgeIsFilled) {
-  Field ring(40, 40), open = ring;
+  FloatImage ring(40, 40), open = ring;
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) {
       const float far = glm::distance(glm::vec2(x, y), glm::vec2(20));

@@ -63,7 +63,7 @@ class SmileShadeTest : public NetworkTest {
 
   static inline std::optional<SkinPlaces> placed_;
   fsm::Image map_;
-  Field seen_{kMapSide, kMapSide, 1};
+  FloatImage seen_{kMapSide, kMapSide, 1};
 };
 
 TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
@@ -111,7 +111,7 @@ TEST_F(SmileShadeTest, WhatThePhotoDoesNotShowStays) {
 
 TEST_F(SmileShadeTest, SmoothedSkinTakesTheGrainOfTheCheekAboveIt) {
   fsm::Image flat = map_;
-  Field smooth(kMapSide, kMapSide);
+  FloatImage smooth(kMapSide, kMapSide);
   const auto spot = [&](std::size_t i) {
     return std::abs(std::abs(placed_->across[i]) - 30) < 4 &&
            std::abs(Height(i) - middle() + 12) < 3;

@@ -15,7 +15,7 @@
 #include "face_fit/find/hand_points.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/fit/view.h"
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/render/renderer.h"
 #include "tests/face_fit/network_fixture.h"
@@ -47,11 +47,11 @@ fsm::Image PhotoOf(const fsm::Head& head, float turn, const fsm::Warp* warp = nu
 }
 
 std::unique_ptr<fsm::Head> HeadOf(const Fit& fit) {
-  fsm::FaceSet set;
+  fsm::PhotoHead set;
   set.points = fit.points;
   set.smooth = fit.smooth;
   set.eyes = fit.eyes;
-  set.photo = std::make_shared<fsm::WornPhoto>(fsm::WornPhoto{1, 1, {0, 0, 0, 255}});
+  set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
   return fsm::Head::Make(set);
 }
 
@@ -224,8 +224,8 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
 }
 
 /// 1 where a picture drawn on an even background shows something.
-Field FigureOf(const fsm::Image& photo) {
-  Field figure(photo.width, photo.height);
+FloatImage FigureOf(const fsm::Image& photo) {
+  FloatImage figure(photo.width, photo.height);
   for (std::size_t i = 0; i < figure.at.size(); ++i) {
     int off = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -260,14 +260,15 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
 TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
   const BaseHead& base = Galatea();
   const Fit& before = front().fit;
-  Field box(300, 400), round(300, 400);
+  FloatImage box(300, 400), round(300, 400);
   for (int y = 50; y < 350; ++y) {
     for (int x = 50; x < 250; ++x) {
       box.at[box.Index(x, y)] = 1;
       if (std::hypot(x - 150, (y - 200) * 0.7) < 95) round.at[round.Index(x, y)] = 1;
     }
   }
-  for (const Field& figure : {box, round, Field(300, 400), Field(300, 400, 1), Field(1, 1, 1)}) {
+  for (const FloatImage& figure :
+       {box, round, FloatImage(300, 400), FloatImage(300, 400, 1), FloatImage(1, 1, 1)}) {
     Fit fit = before;
     const auto view = DeepenByProfile(base, figure, fit);
     EXPECT_FALSE(view) << view->residual_mm;

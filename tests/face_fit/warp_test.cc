@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/render/renderer.h"
 
 namespace fsm {
@@ -42,8 +42,8 @@ TEST(WarpTest, RefusesPointsOfOnePlane) {
   EXPECT_THROW(Warp({}, 0), std::runtime_error);
 }
 
-TEST(FaceSetTest, ComesBackAsItWasWritten) {
-  FaceSet set;
+TEST(PhotoHeadTest, ComesBackAsItWasWritten) {
+  PhotoHead set;
   set.points = kPoints;
   set.smooth = 1.5F;
   for (int i = 0; i < 4; ++i)
@@ -58,7 +58,7 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   set.lined = 0.4F;
   set.eye_pictures.emplace();
   for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.2F, 0.3F, 0.4F}, {0.5F, 0.25F, 1, 0.75F}};
-  const FaceSet back = ReadFaceSet("face.txt", WriteFaceSet(set));
+  const PhotoHead back = ReadPhotoHead("face.txt", WritePhotoHead(set));
   ASSERT_TRUE(back.eyes && back.lip_colour);
   EXPECT_EQ((*back.eyes)[1].shift, (*set.eyes)[1].shift);
   EXPECT_NEAR((*back.eyes)[1].turn, 0.1F, 1e-3F);
@@ -78,14 +78,14 @@ TEST(FaceSetTest, ComesBackAsItWasWritten) {
   EXPECT_EQ(back.sheet_triangles, set.sheet_triangles);
 }
 
-TEST(FaceSetTest, DamageIsReportedWithItsLine) {
+TEST(PhotoHeadTest, DamageIsReportedWithItsLine) {
   for (const char* text :
        {"smooth 1\nnose 3", "base galatea\nquad 0 1 2 3", "smooth 1\npoint 1 2",
         "smooth 1\niris nan 0 0", "smooth 1\neye middle 0 0 0 0 1 0 0",
         "smooth 1\neye left 0 0 0 0 9 0 0", "smooth 1\neye_picture up 0 0 1 1 0 0 1 1",
         "smooth 1\neye_picture left 0 0 1 1 0.5 0 0.4 1", "smooth 1\nvertex 1e9 0 0 0 0"}) {
     try {
-      ReadFaceSet("face.txt", text);
+      ReadPhotoHead("face.txt", text);
       ADD_FAILURE() << text;
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find("face.txt:2"), std::string::npos) << error.what();
@@ -93,11 +93,11 @@ TEST(FaceSetTest, DamageIsReportedWithItsLine) {
   }
 }
 
-TEST(FaceSetTest, EachEyeSitsAndOpensAsTheFaceSays) {
-  FaceSet set;
+TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
+  PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {0, 0, 0, 255}});
+  set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.eyes.emplace();
   const auto plain = Head::Make(set);
   (*set.eyes)[0].shift = {-2, 1, 0};
@@ -127,13 +127,13 @@ TEST(FaceSetTest, EachEyeSitsAndOpensAsTheFaceSays) {
   EXPECT_NEAR(rim(*own, -1), rim(*plain, -1) + 1, 0.3F);
 }
 
-TEST(FaceSetTest, LidsGiveUpThePhotoAsTheyShut) {
-  FaceSet set;
+TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
+  PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {200, 150, 100, 255}});
+  set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 100, 255}});
   const auto head = Head::Make(set);
-  const auto& places = head->topology().photo_place;
+  const auto& places = head->topology().photo_texcoord;
   EXPECT_GT(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 1.7F; }), 40);
   EXPECT_EQ(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 2; }), 0);
   FaceState state;
@@ -146,10 +146,10 @@ TEST(FaceSetTest, LidsGiveUpThePhotoAsTheyShut) {
 
 /// The most any pixel of the open mouth differs from grey, of 255.
 int ColourOfTheMouth(float saturation) {
-  FaceSet set;
+  PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {0, 0, 0, 255}});
+  set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.saturation = saturation;
   const auto head = Head::Make(set);
   FaceState state;
@@ -176,7 +176,7 @@ int ColourOfTheMouth(float saturation) {
 }
 
 /// The row of upper teeth: x of the middle incisors, how far the left side stands before the right.
-std::pair<float, float> UpperTeethOf(const fsm::FaceSet& set) {
+std::pair<float, float> UpperTeethOf(const fsm::PhotoHead& set) {
   const auto head = fsm::Head::Make(set);
   fsm::HeadVertices rest;
   head->Evaluate({}, rest);
@@ -197,9 +197,9 @@ std::pair<float, float> UpperTeethOf(const fsm::FaceSet& set) {
   return {incisor.x, z[1] - z[0]};
 }
 
-TEST(FaceSetTest, TeethGoWithAMouthThatLiesAsideAndLooksToASide) {
-  fsm::FaceSet set;
-  set.photo = std::make_shared<fsm::WornPhoto>(fsm::WornPhoto{1, 1, {200, 150, 130, 255}});
+TEST(PhotoHeadTest, TeethGoWithAMouthThatLiesAsideAndLooksToASide) {
+  fsm::PhotoHead set;
+  set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {200, 150, 130, 255}});
   for (const glm::vec3 at : {glm::vec3(-70, 0, 0), glm::vec3(70, 0, 0), glm::vec3(0, 80, 60),
                              glm::vec3(0, -110, 40), glm::vec3(0, 20, -60)}) {
     set.points.push_back({at, glm::vec3(0)});
@@ -213,12 +213,12 @@ TEST(FaceSetTest, TeethGoWithAMouthThatLiesAsideAndLooksToASide) {
   EXPECT_NEAR(aside.second - straight.second, 4.5F, 1.5F);
 }
 
-TEST(FaceSetTest, ASmoothSkinCreasesLess) {
+TEST(PhotoHeadTest, ASmoothSkinCreasesLess) {
   const auto depth = [](float lined) {
-    FaceSet set;
+    PhotoHead set;
     set.points = kPoints;
     set.lined = lined;
-    set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {200, 150, 130, 255}});
+    set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 130, 255}});
     FaceState surprise;
     for (const std::size_t unit : {1U, 2U}) surprise.au_left[unit] = surprise.au_right[unit] = 1;
     HeadVertices v;
@@ -229,16 +229,16 @@ TEST(FaceSetTest, ASmoothSkinCreasesLess) {
   EXPECT_NEAR(depth(0.3F), 0.3F * depth(1), 1e-3F);
 }
 
-TEST(FaceSetTest, AGreyPhotoHasAGreyMouth) {
+TEST(PhotoHeadTest, AGreyPhotoHasAGreyMouth) {
   EXPECT_LE(ColourOfTheMouth(0), 1);
   EXPECT_GT(ColourOfTheMouth(1), 20);
 }
 
-TEST(FaceSetTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
-  FaceSet set;
+TEST(PhotoHeadTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
+  PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {0, 0, 0, 255}});
+  set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   const auto moved = [&set](glm::vec2 from_eye) {
     const auto head = Head::Make(set);
     HeadVertices rest, frown;
@@ -267,10 +267,10 @@ TEST(FaceSetTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
   EXPECT_GT(moved(kBrow), 0.5F * brow);
 }
 
-TEST(FaceSetTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
+TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
   // Green irises in blue balls, on red skin.
   constexpr int kSide = 64;
-  WornPhoto photo{kSide, kSide, {}};
+  Image photo{kSide, kSide, {}};
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
       const bool iris = y < kSide / 4, ball = !iris && y < kSide / 2;
@@ -279,10 +279,10 @@ TEST(FaceSetTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
       }
     }
   }
-  FaceSet set;
+  PhotoHead set;
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
-  set.photo = std::make_shared<WornPhoto>(photo);
+  set.photo = std::make_shared<Image>(photo);
   set.skin_low = {0.1F, 0.9F};
   set.skin_high = {0.9F, 0.6F};
   set.eye_pictures.emplace();

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fsm/app/sheet.h"
+#include "fsm/app/contact_sheet.h"
 #include "tests/fsm/app_support.h"
 
 namespace fsm {
@@ -139,7 +139,7 @@ TEST(SheetTest, EverySheetHasItsCells) {
   EXPECT_EQ(count("visemes"), 42u);
   EXPECT_EQ(count("identities"), 8u);
   EXPECT_FALSE(MakeSheet("hats", tables, {"galatea"}, ""));
-  FakeStudio studio;
+  FakeRenderBackend studio;
   const auto picture =
       DrawSheet(studio, MakeSheet("emotions", tables, {"galatea"}, "").value(), true);
   ASSERT_TRUE(picture);

@@ -45,7 +45,7 @@ struct FilmTest : testing::Test {
             [](const vm::Error&) {}) {}
 
   LateClock clock;
-  FakeStudio studio;
+  FakeRenderBackend studio;
   std::vector<std::pair<long, vm::Time>> drawn;
   vm::Time drawing_takes{0};
   Film film;

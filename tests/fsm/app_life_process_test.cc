@@ -12,13 +12,13 @@
 namespace fsm {
 namespace {
 
-struct LifeFilmTest : testing::Test {
-  LifeFilmTest() {
+struct IdleFilmTest : testing::Test {
+  IdleFilmTest() {
     char name[] = "/tmp/galatea_life_XXXXXX";
     EXPECT_NE(mkdtemp(name), nullptr);
     folder = name;
   }
-  ~LifeFilmTest() override { std::filesystem::remove_all(folder); }
+  ~IdleFilmTest() override { std::filesystem::remove_all(folder); }
 
   /// The pictures, byte by byte, of a film of what the lines make the face do.
   std::string Film(const std::string& lines, const std::string& options = "") {
@@ -50,7 +50,7 @@ struct Part {
   std::string meanwhile;  ///< in which the part has something to do
 };
 
-TEST_F(LifeFilmTest, EveryPartMovesTheFaceAloneAndSwitchedOffItDoesNot) {
+TEST_F(IdleFilmTest, EveryPartMovesTheFaceAloneAndSwitchedOffItDoesNot) {
   const std::string rest = "set Wait = 2000\n";
   const std::string long_rest = "set Wait = 7000\n";
   const std::string glances =
@@ -84,7 +84,7 @@ TEST_F(LifeFilmTest, EveryPartMovesTheFaceAloneAndSwitchedOffItDoesNot) {
   }
 }
 
-TEST_F(LifeFilmTest, ASeedsFilmIsTheSameToTheByteAndAnotherSeedsIsNot) {
+TEST_F(IdleFilmTest, ASeedsFilmIsTheSameToTheByteAndAnotherSeedsIsNot) {
   const std::string lines = std::string("set Life = LIVELY\n") + kRecord + kUtterance;
   const std::string film = Film(lines, "--seed 7");
   ASSERT_GT(film.size(), 64U * 64 * 4 * 20);

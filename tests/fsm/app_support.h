@@ -13,7 +13,7 @@
 namespace fsm {
 
 /// A studio in memory: pictures are one pixel that says how far the jaw is open.
-class FakeStudio final : public Studio {
+class FakeRenderBackend final : public RenderBackend {
  public:
   struct FakeFilm {
     std::vector<float> jaws;
@@ -50,7 +50,7 @@ class FakeStudio final : public Studio {
   }
   bool has_window() const override { return window; }
   vm::Result<void> FillScreen(bool fill) override {
-    if (!window) return Studio::FillScreen(fill);
+    if (!window) return RenderBackend::FillScreen(fill);
     fills_screen = fill;
     return {};
   }
@@ -89,7 +89,7 @@ class FakeStudio final : public Studio {
 
 class FakeMovieWriter final : public MovieWriter {
  public:
-  explicit FakeMovieWriter(FakeStudio::FakeFilm& film) : film_(film) {}
+  explicit FakeMovieWriter(FakeRenderBackend::FakeFilm& film) : film_(film) {}
   vm::Result<void> Add(const Image& frame) override {
     film_.jaws.push_back(static_cast<float>(frame.rgba[0]) / 10);
     return {};
@@ -102,11 +102,11 @@ class FakeMovieWriter final : public MovieWriter {
   int frames() const override { return static_cast<int>(film_.jaws.size()); }
 
  private:
-  FakeStudio::FakeFilm& film_;
+  FakeRenderBackend::FakeFilm& film_;
 };
 
-inline vm::Result<std::unique_ptr<MovieWriter>> FakeStudio::OpenFilm(const std::string& path, int,
-                                                                     int, int) {
+inline vm::Result<std::unique_ptr<MovieWriter>> FakeRenderBackend::OpenFilm(const std::string& path,
+                                                                            int, int, int) {
   if (!path.ends_with(".mp4")) return vm::Fail(vm::Errc::kBadValue, path + " is not .mp4");
   return std::make_unique<FakeMovieWriter>(films[path]);
 }
@@ -143,7 +143,7 @@ struct FsmStage {
   FaceState Now() { return module.motion().StateAt(clock.Now()); }
 
   vm::VirtualScheduler clock;
-  FakeStudio studio;
+  FakeRenderBackend studio;
   FsmModule module;
   std::vector<std::string> said;
   std::vector<std::string> errors;

@@ -14,16 +14,16 @@ constexpr glm::vec3 kSkin(0.8f, 0.6f, 0.5f);
 /// The agent's left eye, 30 mm wide: 20 rows of an upper lid from its socket (0) to its rim (1) in
 /// the upper half of a picture, as many of a lower lid in the other half.
 struct Eye {
-  std::vector<Flesh> skin;
+  std::vector<SkinWeights> skin;
   std::vector<glm::vec3> places, open, shut;
   std::vector<glm::vec3> open_normal, shut_normal;  // all to the front
   bool glasses = false;
-  WornPhoto photo{60, 40, std::vector<std::uint8_t>(4 * 60 * 40, 255)};
+  Image photo{60, 40, std::vector<std::uint8_t>(4 * 60 * 40, 255)};
 
   Eye() {
     for (int row = 0; row < 40; ++row) {
       for (int column = 0; column < 30; ++column) {
-        Flesh f;
+        SkinWeights f;
         f.eye = 1;
         const float way = 15 * static_cast<float>(row < 20 ? row : 39 - row) / 19;
         open.emplace_back(15.0f + static_cast<float>(column), row < 20 ? 20 - way : way - 20, 70);
@@ -112,7 +112,7 @@ TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
   for (int row = 0; row < 40; ++row) eye.Paint(row, 30, 60, 0.6f * kSkin);
   float inner = 0, outer = 0;
   for (const LidPaint& lid : eye.Lids()) {
-    const Flesh& f = eye.skin[lid.vertex];
+    const SkinWeights& f = eye.skin[lid.vertex];
     if (std::abs(f.lid_upper - 0.8f) > 0.05f) continue;
     if (eye.open[lid.vertex].x < 18) inner = lid.screen.g;
     if (eye.open[lid.vertex].x > 41) outer = lid.screen.g;
@@ -124,7 +124,7 @@ TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
   const Eye eye;
   int rims = 0;
   for (const LidPaint& lid : eye.Lids()) {
-    const Flesh& f = eye.skin[lid.vertex];
+    const SkinWeights& f = eye.skin[lid.vertex];
     if (std::max(f.lid_upper, f.lid_lower) < 0.12f) {
       EXPECT_LT(lid.part, 0.1f) << "the socket keeps the photo";
     }
@@ -258,7 +258,7 @@ TEST(PhotoLidsTest, AGreyShineAboveTheEyeDoesNotMakeTheLidGrey) {
 
 TEST(PhotoLidsTest, AHeadWithoutLidsHasNone) {
   const Eye eye;
-  EXPECT_TRUE(PaintLids(eye.photo, eye.places, std::vector<Flesh>(eye.skin.size()),
+  EXPECT_TRUE(PaintLids(eye.photo, eye.places, std::vector<SkinWeights>(eye.skin.size()),
                         {eye.open, eye.open_normal}, {eye.shut, eye.shut_normal}, FaceLight({}),
                         false)
                   .empty());

@@ -11,8 +11,8 @@
 #include "fsm/head/deformer.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/head_file.h"
-#include "tests/fsm/ball_head.h"
 #include "fsm/render/renderer.h"
+#include "tests/fsm/ball_head.h"
 #include "tests/fsm/gltf_maker.h"
 
 namespace fsm {
@@ -267,7 +267,7 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   ASSERT_EQ(model.bone[0], Bone::kJaw);
   auto motion = OwnShapesMotion(file, {}, model, Head::Make("galatea", false), meanings);
   ASSERT_TRUE(motion);
-  EXPECT_EQ(model.bone[0], Bone::kFlesh);
+  EXPECT_EQ(model.bone[0], Bone::kSkin);
   const auto head = MakeMeshHead(std::move(model), std::move(motion));
   HeadVertices moved;
   head->Evaluate(meanings[0].state, moved);

@@ -10,7 +10,7 @@
 
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/head_file.h"
-#include "fsm/mesh/picture_sheet.h"
+#include "fsm/mesh/texture_atlas.h"
 #include "fsm/render/renderer.h"
 #include "tests/fsm/gltf_maker.h"
 
@@ -31,51 +31,52 @@ HeadFile Read(GltfMaker& maker, const std::string& material, const std::string& 
   return file ? std::move(*file) : HeadFile{};
 }
 
-Finish FinishOf(const std::string& material, const std::string& more = "") {
+PbrMaterial MaterialOf(const std::string& material, const std::string& more = "") {
   GltfMaker maker;
   const HeadFile file = Read(maker, material, more);
   EXPECT_EQ(file.finishes.size(), 1U);
   EXPECT_EQ(file.parts.at(0).finish, 0);
-  return file.finishes.empty() ? Finish{} : file.finishes[0];
+  return file.finishes.empty() ? PbrMaterial{} : file.finishes[0];
 }
 
-TEST(GltfFinishTest, MetalAndRoughnessAreReadAndAreWholeIfNothingIsSaid) {
-  const Finish said = FinishOf(
+TEST(GltfMaterialTest, MetalAndRoughnessAreReadAndAreWholeIfNothingIsSaid) {
+  const PbrMaterial said = MaterialOf(
       R"({"pbrMetallicRoughness":{"metallicFactor":0.25,"roughnessFactor":0.5},"emissiveFactor":)"
       R"([0.1,0.2,0.3],"alphaMode":"MASK","extensions":{"KHR_materials_emissive_strength":)"
       R"({"emissiveStrength":2}}})");
-  EXPECT_EQ(said.kind, Finish::Kind::kLit);
+  EXPECT_EQ(said.kind, PbrMaterial::Kind::kLit);
   EXPECT_FLOAT_EQ(said.metallic, 0.25F);
   EXPECT_FLOAT_EQ(said.roughness, 0.5F);
   EXPECT_FLOAT_EQ(said.glow.b, 0.6F);
   EXPECT_TRUE(said.cut_out);
-  const Finish silent = FinishOf("{}");
+  const PbrMaterial silent = MaterialOf("{}");
   EXPECT_FLOAT_EQ(silent.metallic, 1);
   EXPECT_FLOAT_EQ(silent.roughness, 1);
 }
 
-TEST(GltfFinishTest, UnlitStaysAsItIsButNotWhereItOnlyStandsInForMToon) {
+TEST(GltfMaterialTest, UnlitStaysAsItIsButNotWhereItOnlyStandsInForMToon) {
   GltfMaker maker;
   const HeadFile plain = Read(maker, R"({"extensions":{"KHR_materials_unlit":{}}})");
   EXPECT_TRUE(plain.finishes.empty());
   EXPECT_EQ(plain.parts.at(0).finish, -1);
-  const Finish toon = FinishOf(R"({"extensions":{"KHR_materials_unlit":{},)"
-                               R"("VRMC_materials_mtoon":{"shadeColorFactor":[0.5,0.25,0.125],)"
-                               R"("shadingToonyFactor":0.75,"shadingShiftFactor":-0.25}}})");
-  EXPECT_EQ(toon.kind, Finish::Kind::kToon);
+  const PbrMaterial toon =
+      MaterialOf(R"({"extensions":{"KHR_materials_unlit":{},)"
+                 R"("VRMC_materials_mtoon":{"shadeColorFactor":[0.5,0.25,0.125],)"
+                 R"("shadingToonyFactor":0.75,"shadingShiftFactor":-0.25}}})");
+  EXPECT_EQ(toon.kind, PbrMaterial::Kind::kToon);
   EXPECT_FLOAT_EQ(toon.shade.g, 0.25F);
   EXPECT_FLOAT_EQ(toon.shade_to, 0);
   EXPECT_FLOAT_EQ(toon.light_from, 0.5F);
 }
 
-TEST(GltfFinishTest, OldAvatarsSayItInPropertiesOfTheShader) {
+TEST(GltfMaterialTest, OldAvatarsSayItInPropertiesOfTheShader) {
   const auto old = [](const char* shader) {
     return std::string(R"(,"extensions":{"VRM":{"materialProperties":[{"shader":")") + shader +
            R"(","floatProperties":{"_ShadeShift":-0.5,"_ShadeToony":0.8},)"
            R"("vectorProperties":{"_ShadeColor":[0.5,1,0,1]}}]}})";
   };
-  const Finish toon = FinishOf("{}", old("VRM/MToon"));
-  EXPECT_EQ(toon.kind, Finish::Kind::kToon);
+  const PbrMaterial toon = MaterialOf("{}", old("VRM/MToon"));
+  EXPECT_EQ(toon.kind, PbrMaterial::Kind::kToon);
   EXPECT_NEAR(toon.shade.r, 0.218F, 2e-3F) << "a colour of the screen";
   EXPECT_FLOAT_EQ(toon.shade_to, -0.5F);
   EXPECT_FLOAT_EQ(toon.light_from, -0.2F);
@@ -83,7 +84,7 @@ TEST(GltfFinishTest, OldAvatarsSayItInPropertiesOfTheShader) {
   EXPECT_TRUE(Read(maker, "{}", old("VRM/UnlitTexture")).finishes.empty());
 }
 
-TEST(GltfFinishTest, PicturesOfLightArePutTogetherBesideTheColour) {
+TEST(GltfMaterialTest, PicturesOfLightArePutTogetherBesideTheColour) {
   GltfMaker maker;
   maker.Picture(EncodePng(Image{2, 1, {10, 20, 30, 255, 40, 50, 60, 255}}));  // colour
   maker.Picture(EncodePng(Image{1, 1, {228, 78, 255, 255}}));                 // normal
@@ -99,7 +100,7 @@ TEST(GltfFinishTest, PicturesOfLightArePutTogetherBesideTheColour) {
   ASSERT_EQ(file.details[0].lights.rgba.size(), 4U);
   EXPECT_EQ(file.details[0].lights.rgba[3], 177) << "half as shut as the picture says";
 
-  PictureSheet sheet;
+  TextureAtlas sheet;
   sheet.Add(file.pictures[0]);
   ASSERT_TRUE(sheet.Make());
   const auto relief = sheet.MakeBeside({file.details[0].relief}, {128, 128, 255, 255});
@@ -111,7 +112,7 @@ TEST(GltfFinishTest, PicturesOfLightArePutTogetherBesideTheColour) {
   EXPECT_EQ(sheet.MakeBeside({Image{}}, {0, 0, 0, 0}), nullptr);
 }
 
-TEST(GltfFinishTest, APictureThatLiesOtherwiseThanTheColourIsLeftOutWithANotice) {
+TEST(GltfMaterialTest, APictureThatLiesOtherwiseThanTheColourIsLeftOutWithANotice) {
   GltfMaker maker;
   maker.Picture(EncodePng(Image{1, 1, {10, 20, 30, 255}}));
   maker.Picture(EncodePng(Image{1, 1, {228, 78, 255, 255}}));
@@ -125,7 +126,7 @@ TEST(GltfFinishTest, APictureThatLiesOtherwiseThanTheColourIsLeftOutWithANotice)
 
 /// A plate of 100 mm before the face's middle, its picture grey; it faces the viewer, or away.
 struct Plate {
-  Finish finish;
+  PbrMaterial finish;
   bool two_sided = false, faces_away = false;
   std::vector<std::uint8_t> relief = {}, lights = {};  // one pixel
 };
@@ -137,12 +138,12 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
     model.Add({50 * x, 50 * y, 80}, Bone::kSkull, glm::vec3(1),
               {0.5F + 0.5F * x, 0.5F - 0.5F * y, 1});
   }
-  model.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {188, 188, 188, 255}});
+  model.photo = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
   if (!plate.relief.empty()) {
-    model.relief = std::make_shared<WornPhoto>(WornPhoto{1, 1, plate.relief});
+    model.relief = std::make_shared<Image>(Image{1, 1, plate.relief});
   }
   if (!plate.lights.empty()) {
-    model.lights = std::make_shared<WornPhoto>(WornPhoto{1, 1, plate.lights});
+    model.lights = std::make_shared<Image>(Image{1, 1, plate.lights});
   }
   model.finishes = {plate.finish};
   auto& indices = model.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
@@ -167,7 +168,7 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
   return {p[0], p[1], p[2]};
 }
 
-TEST(FinishTest, WhatIsLitDarkensWithTheLampsAndWhatGlowsDoesNot) {
+TEST(PbrMaterialTest, WhatIsLitDarkensWithTheLampsAndWhatGlowsDoesNot) {
   Plate plate{.finish = {.metallic = 0, .roughness = 1}};
   const float bright = Seen(plate).g, dim = Seen(plate, 0).g;
   EXPECT_GT(bright, 1.6F * dim);
@@ -178,7 +179,7 @@ TEST(FinishTest, WhatIsLitDarkensWithTheLampsAndWhatGlowsDoesNot) {
   EXPECT_NEAR(glowing.g, dim, 2);
 }
 
-TEST(FinishTest, ARoughMetalMirrorsTheLampLessThanASmoothOne) {
+TEST(PbrMaterialTest, ARoughMetalMirrorsTheLampLessThanASmoothOne) {
   const float smooth = Seen({.finish = {.metallic = 1, .roughness = 0.35F}}).g;
   const float rough = Seen({.finish = {.metallic = 1, .roughness = 1}}).g;
   EXPECT_GT(smooth, rough + 30);
@@ -187,7 +188,7 @@ TEST(FinishTest, ARoughMetalMirrorsTheLampLessThanASmoothOne) {
               smooth, 3);
 }
 
-TEST(FinishTest, ANormalThatLeansToTheLampIsBrighter) {
+TEST(PbrMaterialTest, ANormalThatLeansToTheLampIsBrighter) {
   const glm::vec3 right{0.8F, 0, 0.6F}, up{0, 0.8F, 0.6F};
   const auto lit = [](std::vector<std::uint8_t> relief, glm::vec3 key) {
     return Seen({.finish = {.metallic = 0, .roughness = 1}, .relief = std::move(relief)}, 1, key).g;
@@ -199,15 +200,15 @@ TEST(FinishTest, ANormalThatLeansToTheLampIsBrighter) {
   EXPECT_LT(lit({128, 56, 255, 255}, up), flat - 10);
 }
 
-TEST(FinishTest, OccludedPlacesGetLessOfTheRoomsLightAndAllOfTheLamps) {
+TEST(PbrMaterialTest, OccludedPlacesGetLessOfTheRoomsLightAndAllOfTheLamps) {
   Plate plate{.finish = {.metallic = 0, .roughness = 1}};
   const float open = Seen(plate, 0).g;
   plate.lights = {255, 255, 255, 64};
   EXPECT_LT(Seen(plate, 0).g, 0.7F * open);
 }
 
-TEST(FinishTest, AToonHasTwoColoursWithAnEdgeBetween) {
-  Finish toon{.kind = Finish::Kind::kToon, .shade = {0.05F, 0.3F, 0.05F}};
+TEST(PbrMaterialTest, AToonHasTwoColoursWithAnEdgeBetween) {
+  PbrMaterial toon{.kind = PbrMaterial::Kind::kToon, .shade = {0.05F, 0.3F, 0.05F}};
   toon.shade_to = 0.4F;
   toon.light_from = 0.5F;
   const auto at = [&toon](float cosine) {
@@ -220,15 +221,15 @@ TEST(FinishTest, AToonHasTwoColoursWithAnEdgeBetween) {
   EXPECT_GT(shade.g, 2 * shade.r) << "the shade's green";
 }
 
-TEST(FinishTest, OfTwoSidesBothAreSeenAndLit) {
-  const Finish matt{.metallic = 0, .roughness = 1};
+TEST(PbrMaterialTest, OfTwoSidesBothAreSeenAndLit) {
+  const PbrMaterial matt{.metallic = 0, .roughness = 1};
   const glm::vec3 front = Seen({.finish = matt});
   const glm::vec3 gone = Seen({.finish = matt, .faces_away = true});
   EXPECT_LT(gone.r, 3) << "only the blue behind it";
   EXPECT_EQ(Seen({.finish = matt, .two_sided = true, .faces_away = true}), front);
 }
 
-TEST(FinishTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
+TEST(PbrMaterialTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
   // A roof: its two slopes meet in doubled vertices.
   MeshModel model;
   for (const glm::vec3 p :

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "fsm/image/image_file.h"
+#include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
-#include "fsm/mesh/shape_mix.h"
 #include "tests/support/test_data.h"
 
 namespace fsm {
@@ -109,26 +109,26 @@ TEST(SmallOriginalFaceTest, AKeyMouthIsShownByItsViseme) {
   EXPECT_NEAR(fall, 0.4F * 0.1F * OriginalFrame(face.wireframe).mm(), 0.1F);
 }
 
-TEST(ShapeMixTest, MixturesComeApartAgain) {
-  std::vector<ShapeMix::Row> keys;
+TEST(NnlsSolverTest, MixturesComeApartAgain) {
+  std::vector<NnlsSolver::Row> keys;
   keys.push_back({0.5F, 0, 0.5F, 0, -0.9F, 0, -0.7F, 0, 0, 0, 0, 9});
   keys.push_back({0.6F, -1, 0.8F, -0.9F, -1.4F, -0.9F, -1.1F, -1, 3.5F, 0.5F, -1.2F, 2});
   keys.push_back({0.3F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.5F, 5, -5, 0, 2.2F, 5});
-  ShapeMix::Row mixed(12);
+  NnlsSolver::Row mixed(12);
   for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] = 0.6F * keys[0][i] + 0.4F * keys[2][i];
-  const auto parts = ShapeMix(keys).TakeApart(mixed);
+  const auto parts = NnlsSolver(keys).TakeApart(mixed);
   EXPECT_NEAR(parts.weights[0], 0.6F, 0.03F);
   EXPECT_NEAR(parts.weights[1], 0.0F, 0.03F);
   EXPECT_NEAR(parts.weights[2], 0.4F, 0.03F);
   EXPECT_NEAR(parts.rest[11], 0, 0.2F);
 }
 
-TEST(ShapeMixTest, WhatNoKeyExplainsIsGivenBack) {
-  std::vector<ShapeMix::Row> keys(1, ShapeMix::Row(12));
+TEST(NnlsSolverTest, WhatNoKeyExplainsIsGivenBack) {
+  std::vector<NnlsSolver::Row> keys(1, NnlsSolver::Row(12));
   keys[0][11] = 9;
-  ShapeMix::Row mouth(12);
+  NnlsSolver::Row mouth(12);
   mouth[9] = 2;
-  const auto parts = ShapeMix(keys).TakeApart(mouth);
+  const auto parts = NnlsSolver(keys).TakeApart(mouth);
   EXPECT_EQ(parts.weights[0], 0);
   EXPECT_EQ(parts.rest[9], 2);
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/mesh/carry.h"
+#include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/surface_index.h"
@@ -109,20 +109,24 @@ struct Box {
 
 TEST(MeshReachTest, NothingIsCarriedToOrFromVerticesAndPlacesOutOfReach) {
   const Box good;
-  EXPECT_NO_THROW(Carry({good.place, good.triangles}, {good.place, good.triangles}, good.pairs));
+  EXPECT_NO_THROW(
+      DeformationTransfer({good.place, good.triangles}, {good.place, good.triangles}, good.pairs));
   for (const float bad : {3e38F, kInfinite, kNone}) {
     Box far;
     far.place[5].y = bad;
-    EXPECT_THROW(Carry({good.place, good.triangles}, {far.place, far.triangles}, good.pairs),
-                 std::runtime_error)
+    EXPECT_THROW(
+        DeformationTransfer({good.place, good.triangles}, {far.place, far.triangles}, good.pairs),
+        std::runtime_error)
         << bad;
-    EXPECT_THROW(Carry({far.place, far.triangles}, {good.place, good.triangles}, good.pairs),
-                 std::runtime_error)
+    EXPECT_THROW(
+        DeformationTransfer({far.place, far.triangles}, {good.place, good.triangles}, good.pairs),
+        std::runtime_error)
         << bad;
     Box lost;
     lost.pairs[3].to.x = bad;
-    EXPECT_THROW(Carry({good.place, good.triangles}, {good.place, good.triangles}, lost.pairs),
-                 std::runtime_error)
+    EXPECT_THROW(
+        DeformationTransfer({good.place, good.triangles}, {good.place, good.triangles}, lost.pairs),
+        std::runtime_error)
         << bad;
   }
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "fsm/motion/autonomy.h"
 #include "fsm/motion/face_motion.h"
+#include "fsm/motion/idle_behaviour.h"
 #include "fsm/motion/random.h"
 
 namespace fsm {
@@ -22,7 +22,7 @@ constexpr const char* kSentence =
 
 vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
 
-struct LifeTest : testing::Test {
+struct IdleBehaviourTest : testing::Test {
   FaceMotion motion{MotionTables::Load().value(), 7};
   void On(const char* kind, int pattern = 1) {
     ASSERT_TRUE(motion.Autonomous(0ms, kind, pattern)) << kind;
@@ -30,7 +30,7 @@ struct LifeTest : testing::Test {
   float Nod(vm::Time t) { return motion.StateAt(t).head_rotation[0]; }
 };
 
-TEST_F(LifeTest, NothingMovesUntilItIsSwitchedOn) {
+TEST_F(IdleBehaviourTest, NothingMovesUntilItIsSwitchedOn) {
   EXPECT_FALSE(motion.NextActivity(0ms).has_value());
   motion.Speak(0ms, List(kSentence), 1s);
   for (vm::Time t = 0ms; t < 6s; t += 40ms) {
@@ -42,7 +42,7 @@ TEST_F(LifeTest, NothingMovesUntilItIsSwitchedOn) {
   }
 }
 
-TEST_F(LifeTest, OnsetsAreSlowFastSlow) {
+TEST_F(IdleBehaviourTest, OnsetsAreSlowFastSlow) {
   ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
   const auto smile = [&](double part) {
     return motion.StateAt(FromMs(556 * part)).au_right[12] / motion.StateAt(2s).au_right[12];
@@ -52,7 +52,7 @@ TEST_F(LifeTest, OnsetsAreSlowFastSlow) {
   EXPECT_GT(smile(0.85), 0.9);
 }
 
-TEST_F(LifeTest, FeltExpressionsTakeTheElicitedTimes) {
+TEST_F(IdleBehaviourTest, FeltExpressionsTakeTheElicitedTimes) {
   auto settings = motion.settings();
   settings.onset = Onset::kElicited;
   motion.Apply(0ms, settings);
@@ -62,7 +62,7 @@ TEST_F(LifeTest, FeltExpressionsTakeTheElicitedTimes) {
   EXPECT_EQ(motion.OnsetsSettled(1s), vm::Time(1724ms));
 }
 
-TEST_F(LifeTest, OneSideBeginsALittleLaterAlwaysTheSame) {
+TEST_F(IdleBehaviourTest, OneSideBeginsALittleLaterAlwaysTheSame) {
   const auto ahead = [](FaceMotion& face) {
     EXPECT_TRUE(face.Express(0ms, "HAPPY", 1, 1, 0ms));
     const FaceState early = face.StateAt(200ms);
@@ -87,13 +87,13 @@ TEST_F(LifeTest, OneSideBeginsALittleLaterAlwaysTheSame) {
   EXPECT_EQ(same.StateAt(5200ms).au_left[12], same.StateAt(5200ms).au_right[12]);
 }
 
-TEST_F(LifeTest, LidsCloseFasterThanTheyOpen) {
+TEST_F(IdleBehaviourTest, LidsCloseFasterThanTheyOpen) {
   for (const BlinkPattern& blink : motion.tables().motions.blinks) {
     EXPECT_LT(blink.closing_ms, 0.75 * blink.opening_ms);
   }
 }
 
-TEST_F(LifeTest, BlinkIntervalsAreSkewedAndSeeded) {
+TEST_F(IdleBehaviourTest, BlinkIntervalsAreSkewedAndSeeded) {
   On("BLINK");
   std::vector<double> intervals;
   double last = -1;
@@ -114,7 +114,7 @@ TEST_F(LifeTest, BlinkIntervalsAreSkewedAndSeeded) {
   EXPECT_LT(intervals[intervals.size() / 2], mean) << "the median is below the mean";
 }
 
-TEST_F(LifeTest, LargeShiftsOfTheGazeComeWithABlinkWhichCanBeSwitchedOff) {
+TEST_F(IdleBehaviourTest, LargeShiftsOfTheGazeComeWithABlinkWhichCanBeSwitchedOff) {
   motion.Gaze(0ms, 0, 30, 0ms);
   EXPECT_EQ(motion.StateAt(90ms).blink_left, 0);
   On("GAZEBLINK");
@@ -127,7 +127,7 @@ TEST_F(LifeTest, LargeShiftsOfTheGazeComeWithABlinkWhichCanBeSwitchedOff) {
   EXPECT_GE(blinks, 16);
 }
 
-TEST_F(LifeTest, MostUtterancesEndWithABlink) {
+TEST_F(IdleBehaviourTest, MostUtterancesEndWithABlink) {
   On("ENDBLINK");
   int blinks = 0;
   for (int i = 0; i < 20; ++i) {
@@ -144,7 +144,7 @@ TEST_F(LifeTest, MostUtterancesEndWithABlink) {
   EXPECT_LE(blinks, 19);
 }
 
-TEST_F(LifeTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
+TEST_F(IdleBehaviourTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
   motion.LookAtUser(0ms);
   motion.TurnHead(100ms, {5, 20, 0});
   const FaceState state = motion.StateAt(2s);
@@ -153,7 +153,7 @@ TEST_F(LifeTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
   EXPECT_NEAR(state.eye_left.x, 5, 1e-3);  // up, as the head went down
 }
 
-TEST_F(LifeTest, TheEyesConvergeOnWhatIsNear) {
+TEST_F(IdleBehaviourTest, TheEyesConvergeOnWhatIsNear) {
   motion.LookAtUser(0ms);
   const FaceState state = motion.StateAt(1s);
   // The agent's left eye is on the viewer's right: converging, it turns to the viewer's left.
@@ -166,7 +166,7 @@ TEST_F(LifeTest, TheEyesConvergeOnWhatIsNear) {
   EXPECT_NEAR(motion.StateAt(2s).eye_left.y, 0, 1e-3);
 }
 
-TEST_F(LifeTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
+TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
   motion.LookAtUser(0ms);
   motion.Think(1s);
   float least = 90;
@@ -185,7 +185,7 @@ TEST_F(LifeTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
   EXPECT_FALSE(motion.NextActivity(13s).has_value());
 }
 
-TEST_F(LifeTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
+TEST_F(IdleBehaviourTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
   On("SPEECH");
   motion.Speak(0ms, List(kSentence), 1s);
   float most = 0, least = 0, brow = 0, before = 0;
@@ -212,7 +212,7 @@ TEST_F(LifeTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
   EXPECT_FALSE(motion.NextActivity(8s).has_value());
 }
 
-TEST_F(LifeTest, NodsFallOnStressedVowels) {
+TEST_F(IdleBehaviourTest, NodsFallOnStressedVowels) {
   On("SPEECH");
   motion.Speak(0ms, List("pau 200 t 60 ax 40 t 60 ax 40 t 60 aa 220 t 60 ax 40 t 60 ax 40 pau 200"),
                1s);
@@ -224,7 +224,7 @@ TEST_F(LifeTest, NodsFallOnStressedVowels) {
   EXPECT_NEAR(InMs(peak) - 960, 548, 60);
 }
 
-TEST_F(LifeTest, SpeakersLookAwayAtTheBeginningAndBackBeforeTheEnd) {
+TEST_F(IdleBehaviourTest, SpeakersLookAwayAtTheBeginningAndBackBeforeTheEnd) {
   On("AVERT");
   motion.Speak(0ms, List(kSentence), 1s);
   float away = 0;
@@ -237,7 +237,7 @@ TEST_F(LifeTest, SpeakersLookAwayAtTheBeginningAndBackBeforeTheEnd) {
   for (vm::Time t = 10s; t < 11s; t += 20ms) EXPECT_NEAR(motion.StateAt(t).eye_left.y, 0, 0.01);
 }
 
-TEST_F(LifeTest, BreathMovesTheHeadALittleAboutFifteenTimesAMinute) {
+TEST_F(IdleBehaviourTest, BreathMovesTheHeadALittleAboutFifteenTimesAMinute) {
   On("BREATH");
   int breaths = 0;
   bool in = false;
@@ -250,7 +250,7 @@ TEST_F(LifeTest, BreathMovesTheHeadALittleAboutFifteenTimesAMinute) {
   EXPECT_NEAR(breaths, 15, 1);
 }
 
-TEST_F(LifeTest, AListenerNodsButNotWhileSpeaking) {
+TEST_F(IdleBehaviourTest, AListenerNodsButNotWhileSpeaking) {
   On("NODS");
   float most = 0;
   for (vm::Time t = 0ms; t < 30s; t += 20ms) most = std::max(most, Nod(t));
@@ -259,7 +259,7 @@ TEST_F(LifeTest, AListenerNodsButNotWhileSpeaking) {
   for (vm::Time t = 31s; t < 49s; t += 20ms) EXPECT_LT(Nod(t), 0.01f);
 }
 
-TEST_F(LifeTest, GesturesHaveStrengthAndCount) {
+TEST_F(IdleBehaviourTest, GesturesHaveStrengthAndCount) {
   ASSERT_TRUE(motion.Move(0ms, "NOD", 1, 0.5, 3));
   EXPECT_NEAR(Nod(100ms), 5, 1e-3);
   EXPECT_NEAR(Nod(300ms), 5 * 0.85, 1e-3);
@@ -274,28 +274,28 @@ TEST_F(LifeTest, GesturesHaveStrengthAndCount) {
   EXPECT_FALSE(motion.Move(5s, "NOD", 1, 1, 1000));
 }
 
-TEST_F(LifeTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable) {
+TEST_F(IdleBehaviourTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable) {
   for (const char* profile : {"CALM", "LIVELY", "LISTENING", "STILL"}) {
-    ASSERT_TRUE(motion.SetLife(0ms, profile)) << profile;
+    ASSERT_TRUE(motion.SetIdle(0ms, profile)) << profile;
     EXPECT_TRUE(motion.NextActivity(10s).has_value());
   }
-  ASSERT_TRUE(motion.SetLife(0ms, "LISTENING"));
+  ASSERT_TRUE(motion.SetIdle(0ms, "LISTENING"));
   EXPECT_GT(motion.StateAt(2s).au_left[12], 0.05f) << "friendly";
-  for (const std::string_view kind : kLifeNames) {
+  for (const std::string_view kind : kIdleKindNames) {
     ASSERT_TRUE(motion.Autonomous(3s, kind, 0)) << kind;
   }
   EXPECT_FALSE(motion.NextActivity(10s).has_value());
   const FaceState state = motion.StateAt(10s);
   EXPECT_EQ(state.head_rotation, (std::array<float, 3>{}));
   EXPECT_EQ(state.au_left[12], 0);
-  EXPECT_FALSE(motion.SetLife(10s, "PARTY"));
+  EXPECT_FALSE(motion.SetIdle(10s, "PARTY"));
 }
 
-TEST_F(LifeTest, TheSameSeedLivesTheSameLife) {
+TEST_F(IdleBehaviourTest, TheSameSeedLivesTheSameLife) {
   FaceMotion same(MotionTables::Load().value(), 7);
   FaceMotion other(MotionTables::Load().value(), 8);
   for (FaceMotion* face : {&motion, &same, &other}) {
-    ASSERT_TRUE(face->SetLife(0ms, "LIVELY"));
+    ASSERT_TRUE(face->SetIdle(0ms, "LIVELY"));
     face->LookAtUser(0ms);
     face->Speak(1s, List(kSentence), 2s);
   }
@@ -315,9 +315,9 @@ struct BlinkTest : testing::Test {
   static constexpr vm::Time kSwitched = 1234ms;
   const MotionTables tables{MotionTables::Load().value()};
 
-  Autonomy Blinking() const {
-    Autonomy autonomy(tables.motions, kSeed);
-    autonomy.Set(kSwitched, Life::kBlink, 1);
+  IdleBehaviour Blinking() const {
+    IdleBehaviour autonomy(tables.motions, kSeed);
+    autonomy.Set(kSwitched, IdleKind::kBlink, 1);
     return autonomy;
   }
   /// When the first blinks begin: their intervals, each drawn by its number, added up one after the
@@ -342,8 +342,8 @@ struct BlinkTest : testing::Test {
 TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor) {
   constexpr std::int64_t kCount = 2000;
   const std::vector<vm::Time> starts = Starts(kCount);
-  const Autonomy forward = Blinking(), back = Blinking(), jumping = Blinking();
-  const auto check = [&](const Autonomy& autonomy, std::size_t k) {
+  const IdleBehaviour forward = Blinking(), back = Blinking(), jumping = Blinking();
+  const auto check = [&](const IdleBehaviour& autonomy, std::size_t k) {
     const vm::Time start = starts[k];
     // Long after the blink before, which takes no more than a quarter of a second.
     ASSERT_EQ(autonomy.NextActivity(start - 1ms), start) << k;
@@ -362,7 +362,7 @@ TEST_F(BlinkTest, BlinksAreTheSumOfTheirIntervalsInWhateverOrderTheyAreAskedFor)
 
 TEST_F(BlinkTest, TheNextBlinkIsFoundAsFastAfterWeeksAsAtTheStart) {
   using Clock = std::chrono::steady_clock;
-  const Autonomy autonomy = Blinking();
+  const IdleBehaviour autonomy = Blinking();
   const auto took = [&](vm::Time from) {
     (void)autonomy.NextActivity(from);  // goes there
     const auto begin = Clock::now();

@@ -24,11 +24,11 @@ const MotionTables& Tables() {
   return tables;
 }
 vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
-LipTrack Track28(const char* text) { return {List(text), Tables(), LipStyle{}}; }
+VisemeTrack Track28(const char* text) { return {List(text), Tables(), LipStyle{}}; }
 const MouthPose& Shape(const char* name) { return FindShape(Tables().set28.shapes, name)->pose; }
 
 TEST(DominanceTest, ALongVowelReachesAndHoldsItsShape) {
-  const LipTrack track = Track28("pau 200 aa 300 pau 200");
+  const VisemeTrack track = Track28("pau 200 aa 300 pau 200");
   for (const double ms : {300.0, 350.0, 400.0}) {
     EXPECT_NEAR(track.At(ms).mouth[kJaw], Shape("aa").mouth[kJaw], 0.05) << ms;
   }
@@ -36,14 +36,14 @@ TEST(DominanceTest, ALongVowelReachesAndHoldsItsShape) {
 }
 
 TEST(DominanceTest, EqualNeighboursHaveEqualSayWhereTheyMeet) {
-  const LipTrack track = Track28("aa 200 eh 200");
+  const VisemeTrack track = Track28("aa 200 eh 200");
   const double half = (Shape("aa").mouth[kJaw] + Shape("eh").mouth[kJaw]) / 2;
   EXPECT_NEAR(track.At(200).mouth[kJaw], half, 0.05);
 }
 
 TEST(DominanceTest, ShortSoundsAreUndershot) {
-  const LipTrack slow = Track28("iy 150 aa 150 iy 150");
-  const LipTrack quick = Track28("iy 30 aa 30 iy 30");
+  const VisemeTrack slow = Track28("iy 150 aa 150 iy 150");
+  const VisemeTrack quick = Track28("iy 30 aa 30 iy 30");
   EXPECT_NEAR(slow.At(225).mouth[kJaw], Shape("aa").mouth[kJaw], 0.3);
   EXPECT_LT(quick.At(45).mouth[kJaw], 0.8 * Shape("aa").mouth[kJaw]);
   EXPECT_GT(quick.At(45).mouth[kJaw], 1.3 * Shape("iy").mouth[kJaw]);
@@ -52,17 +52,17 @@ TEST(DominanceTest, ShortSoundsAreUndershot) {
 TEST(DominanceTest, RoundingIsAnticipatedFurtherThanOpening) {
   // Through the k, whose lips are its neighbours': uw rounds long before aa would open.
   const double way_uw = Shape("uw").mouth[kLowerOuterZ];
-  const LipTrack round = Track28("iy 150 t 100 uw 150");
+  const VisemeTrack round = Track28("iy 150 t 100 uw 150");
   EXPECT_GT(round.At(250 - 70).mouth[kLowerOuterZ], 0.15 * way_uw);
-  const LipTrack open = Track28("iy 150 k 100 aa 150");
+  const VisemeTrack open = Track28("iy 150 k 100 aa 150");
   const double from = open.At(250 - 70).mouth[kJaw];
   EXPECT_LT(from - Shape("k").mouth[kJaw], 0.1 * Shape("aa").mouth[kJaw]);
   EXPECT_GT(open.At(250 - 15).mouth[kJaw], from + 1);  // but it begins before its time
 }
 
 TEST(DominanceTest, TongueConsonantsTakeTheLipsOfTheirNeighbours) {
-  const LipTrack wide = Track28("iy 120 k 60 iy 120");
-  const LipTrack round = Track28("uw 120 k 60 uw 120");
+  const VisemeTrack wide = Track28("iy 120 k 60 iy 120");
+  const VisemeTrack round = Track28("uw 120 k 60 uw 120");
   EXPECT_GT(wide.At(150).mouth[kCornerX], 1.5);
   EXPECT_LT(round.At(150).mouth[kCornerX], -2);
 }
@@ -70,7 +70,7 @@ TEST(DominanceTest, TongueConsonantsTakeTheLipsOfTheirNeighbours) {
 TEST(DominanceTest, AClosureIsCompleteFromThePhonemesStartForItsHold) {
   for (const int ms : {15, 25, 40, 60, 90, 150, 250}) {
     const vm::PhonemeList list = {{"aa", 90ms}, {"m", std::chrono::milliseconds(ms)}, {"aa", 90ms}};
-    const LipTrack track(list, Tables(), LipStyle{});
+    const VisemeTrack track(list, Tables(), LipStyle{});
     const double hold = std::min(kSeenMs, 0.85 * ms);
     for (double t = 90; t <= 90 + hold; t += 0.5) {
       ASSERT_FLOAT_EQ(track.At(t).seal, 1) << ms << " at " << t;
@@ -89,7 +89,7 @@ TEST(DominanceTest, NothingJumps) {
     for (int i = 0; i < 30; ++i) {
       list.push_back({names[random() % names.size()], std::chrono::milliseconds(random() % 200)});
     }
-    const LipTrack track(list, Tables(), LipStyle{});
+    const VisemeTrack track(list, Tables(), LipStyle{});
     MouthPose before = track.At(-200);
     for (double t = -200; t < track.length_ms() + 300; t += 1) {
       const MouthPose now = track.At(t);
@@ -106,9 +106,9 @@ TEST(DominanceTest, NothingJumps) {
 }
 
 TEST(DominanceTest, LipsMeetInPausesButNotInShortStops) {
-  const LipTrack track = Track28("aa 100 pau 200 aa 100");
+  const VisemeTrack track = Track28("aa 100 pau 200 aa 100");
   EXPECT_FLOAT_EQ(track.At(200).seal, 1);
-  const LipTrack stop(List("a 100 cl 70 a 100"), Tables(), LipStyle{});
+  const VisemeTrack stop(List("a 100 cl 70 a 100"), Tables(), LipStyle{});
   EXPECT_FLOAT_EQ(stop.At(135).seal, 0);
 }
 
@@ -116,8 +116,8 @@ TEST(LipStyleTest, ScalesAreOfJawAndLipsAndLeaveClosuresClosed) {
   LipStyle shout;
   shout.jaw = 2;
   shout.lips = 0.5;
-  const LipTrack plain = Track28("uw 300 m 100 aa 300");
-  const LipTrack loud(List("uw 300 m 100 aa 300"), Tables(), shout);
+  const VisemeTrack plain = Track28("uw 300 m 100 aa 300");
+  const VisemeTrack loud(List("uw 300 m 100 aa 300"), Tables(), shout);
   EXPECT_NEAR(loud.At(550).mouth[kJaw], 2 * plain.At(550).mouth[kJaw], 0.1);
   EXPECT_NEAR(loud.At(150).mouth[kCornerX], 0.5 * plain.At(150).mouth[kCornerX], 0.1);
   EXPECT_FLOAT_EQ(loud.At(320).seal, 1);
@@ -126,7 +126,7 @@ TEST(LipStyleTest, ScalesAreOfJawAndLipsAndLeaveClosuresClosed) {
 TEST(LipStyleTest, LinearModeGoesStraight) {
   LipStyle style;
   style.mode = LipMode::kLinear;
-  const LipTrack track(List("aa 100 eh 100"), Tables(), style);
+  const VisemeTrack track(List("aa 100 eh 100"), Tables(), style);
   EXPECT_NEAR(track.At(25).mouth[kJaw],
               0.75 * Shape("aa").mouth[kJaw] + 0.25 * Shape("eh").mouth[kJaw], 1e-4);
 }
@@ -156,7 +156,7 @@ TEST(PhonemeNamesTest, EveryEnginesWordsMoveTheMouthAlike) {
 TEST(PhonemeNamesTest, EndingsAreTakenOffAndUnknownNamesAreListed) {
   EXPECT_TRUE(Track28("iː 100 ˈ 0 a 100 uːː 100 ə 10 ɹ 10").demands().unknown ==
               std::vector<std::string>{"ˈ"});
-  const LipTrack track = Track28("aa 100 xyz 300 b 50 xyz 10 ?! 10");
+  const VisemeTrack track = Track28("aa 100 xyz 300 b 50 xyz 10 ?! 10");
   EXPECT_EQ(track.demands().unknown, (std::vector<std::string>{"xyz", "?!"}));
   EXPECT_FLOAT_EQ(track.At(250).seal, 1);  // closed, as the original
 }
@@ -164,11 +164,11 @@ TEST(PhonemeNamesTest, EndingsAreTakenOffAndUnknownNamesAreListed) {
 TEST(PhonemeNamesTest, ALanguageOrAnEngineCanBeInsistedOn) {
   LipStyle style;
   style.language = Language::kEnglish;
-  EXPECT_TRUE(LipTrack(List("k 10 t 10"), Tables(), style).english());
+  EXPECT_TRUE(VisemeTrack(List("k 10 t 10"), Tables(), style).english());
   style = {};
   style.engine = "ESPEAK";
   // a of espeak-ng's English is the vowel of "cat".
-  EXPECT_TRUE(LipTrack(List("k 10 a 10 t 10"), Tables(), style).english());
+  EXPECT_TRUE(VisemeTrack(List("k 10 a 10 t 10"), Tables(), style).english());
 }
 
 TEST(PhonemeTablesTest, BothSetsKnowTheSamePhonemes) {

@@ -21,17 +21,18 @@ LipStyle Original(Language language) {
   return {.mode = LipMode::kSinusoid, .bilingual = false, .language = language};
 }
 
-TEST(LipTrackTest, TheKeyShapeStandsAtThePhonemesStart) {
+TEST(VisemeTrackTest, TheKeyShapeStandsAtThePhonemesStart) {
   const auto tables = BuiltIn();
-  const LipTrack track(List("pau 100 a 100 i 100 pau 100"), tables, Original(Language::kJapanese));
+  const VisemeTrack track(List("pau 100 a 100 i 100 pau 100"), tables,
+                          Original(Language::kJapanese));
   EXPECT_NEAR(track.At(100).mouth[kJaw], tables.set14.shapes[9].pose.mouth[kJaw], 1e-5);
   EXPECT_NEAR(track.At(200).mouth[kJaw], tables.set14.shapes[10].pose.mouth[kJaw], 1e-5);
   EXPECT_NEAR(track.At(300).mouth[kJaw], 0, 1e-5);
 }
 
-TEST(LipTrackTest, BetweenKeysItIsTheOriginalsSinusoid) {
+TEST(VisemeTrackTest, BetweenKeysItIsTheOriginalsSinusoid) {
   const auto tables = BuiltIn();
-  const LipTrack track(List("a 100 i 100"), tables, Original(Language::kJapanese));
+  const VisemeTrack track(List("a 100 i 100"), tables, Original(Language::kJapanese));
   const double v0 = tables.set14.shapes[9].pose.mouth[kJaw];
   const double v1 = tables.set14.shapes[10].pose.mouth[kJaw];
   for (double u : {0.1, 0.25, 0.5, 0.8}) {
@@ -40,23 +41,23 @@ TEST(LipTrackTest, BetweenKeysItIsTheOriginalsSinusoid) {
   }
 }
 
-TEST(LipTrackTest, ALongPhonemeHoldsAndThenMovesFor92Ms) {
+TEST(VisemeTrackTest, ALongPhonemeHoldsAndThenMovesFor92Ms) {
   const auto tables = BuiltIn();
-  const LipTrack track(List("a 200 i 100"), tables, Original(Language::kJapanese));
+  const VisemeTrack track(List("a 200 i 100"), tables, Original(Language::kJapanese));
   const float full = tables.set14.shapes[9].pose.mouth[kJaw];
   EXPECT_FLOAT_EQ(track.At(107).mouth[kJaw], full);
   EXPECT_LT(track.At(120).mouth[kJaw], full);
-  const LipTrack shorter(List("a 199 i 100"), tables, Original(Language::kJapanese));
+  const VisemeTrack shorter(List("a 199 i 100"), tables, Original(Language::kJapanese));
   EXPECT_LT(shorter.At(60).mouth[kJaw], full);
 }
 
-TEST(LipTrackTest, LipClosuresSealForAFrameEvenInFastSpeech) {
+TEST(VisemeTrackTest, LipClosuresSealForAFrameEvenInFastSpeech) {
   const auto tables = BuiltIn();
   for (const char* name : {"p", "b", "m"}) {
     for (int ms : {40, 60, 90, 150, 250}) {
       const vm::PhonemeList list = {
           {"a", 80ms}, {name, std::chrono::milliseconds(ms)}, {"a", 80ms}};
-      const LipTrack track(list, tables, Original(Language::kJapanese));
+      const VisemeTrack track(list, tables, Original(Language::kJapanese));
       for (double t = 80; t <= 80 + 34 * 0.99; t += 1) {
         EXPECT_FLOAT_EQ(track.At(t).seal, 1) << name << " of " << ms << " at " << t;
       }
@@ -65,35 +66,35 @@ TEST(LipTrackTest, LipClosuresSealForAFrameEvenInFastSpeech) {
   }
 }
 
-TEST(LipTrackTest, PausesAndUnknownPhonemesClose) {
+TEST(VisemeTrackTest, PausesAndUnknownPhonemesClose) {
   const auto tables = BuiltIn();
-  const LipTrack track(List("a 100 pau 300 a 100 xyz 300 a 100"), tables,
-                       Original(Language::kAuto));
+  const VisemeTrack track(List("a 100 pau 300 a 100 xyz 300 a 100"), tables,
+                          Original(Language::kAuto));
   EXPECT_FLOAT_EQ(track.At(150).seal, 1);
   EXPECT_FLOAT_EQ(track.At(250).mouth[kJaw], 0);
   EXPECT_FLOAT_EQ(track.At(600).seal, 1);
 }
 
-TEST(LipTrackTest, DiphthongsGoToTheirSecondShapeAfterThirtyPerCent) {
+TEST(VisemeTrackTest, DiphthongsGoToTheirSecondShapeAfterThirtyPerCent) {
   const auto tables = BuiltIn();
-  const LipTrack track(List("pau 100 ay 150 pau 100"), tables, Original(Language::kAuto));
+  const VisemeTrack track(List("pau 100 ay 150 pau 100"), tables, Original(Language::kAuto));
   EXPECT_TRUE(track.english());
   EXPECT_NEAR(track.At(100).mouth[kJaw], tables.set14.shapes[9].pose.mouth[kJaw], 1e-5);
   EXPECT_NEAR(track.At(145).mouth[kJaw], 0.8 * tables.set14.shapes[10].pose.mouth[kJaw], 1e-5);
 }
 
-TEST(LipTrackTest, HTakesTheNextVowel) {
+TEST(VisemeTrackTest, HTakesTheNextVowel) {
   const auto tables = BuiltIn();
-  const LipTrack track(List("h 80 a 100"), tables, Original(Language::kJapanese));
+  const VisemeTrack track(List("h 80 a 100"), tables, Original(Language::kJapanese));
   EXPECT_NEAR(track.At(0).mouth[kJaw], 0.7 * tables.set14.shapes[9].pose.mouth[kJaw], 1e-5);
   EXPECT_FLOAT_EQ(track.At(0).seal, 0);
 }
 
-TEST(LipTrackTest, EmptyListsAndZeroDurationsAreHarmless) {
+TEST(VisemeTrackTest, EmptyListsAndZeroDurationsAreHarmless) {
   const auto tables = BuiltIn();
-  const LipTrack nothing({}, tables, Original(Language::kAuto));
+  const VisemeTrack nothing({}, tables, Original(Language::kAuto));
   EXPECT_FLOAT_EQ(nothing.At(0).mouth[kJaw], 0);
-  const LipTrack zero({{"a", 0ms}, {"h", 0ms}}, tables, Original(Language::kAuto));
+  const VisemeTrack zero({{"a", 0ms}, {"h", 0ms}}, tables, Original(Language::kAuto));
   for (double t = -100; t < 10; t += 1) EXPECT_TRUE(std::isfinite(zero.At(t).mouth[kJaw]));
 }
 

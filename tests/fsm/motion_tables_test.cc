@@ -20,7 +20,7 @@ MotionTables BuiltIn() {
 TEST(MotionTablesTest, TheFourteenShapesStandInTheirOrder) {
   const MotionTables tables = BuiltIn();
   std::string names;
-  for (const MouthShape& shape : tables.set14.shapes) names += shape.name + " ";
+  for (const Viseme& shape : tables.set14.shapes) names += shape.name + " ";
   EXPECT_EQ(names, "rest r m t n k f s w a i u e o ");
 }
 
@@ -34,7 +34,7 @@ TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
 }
 
 TEST(MotionTablesTest, OnlyRestAndTheLipClosuresSeal) {
-  for (const MouthShape& shape : BuiltIn().set14.shapes) {
+  for (const Viseme& shape : BuiltIn().set14.shapes) {
     EXPECT_EQ(shape.pose.seal, shape.name == "rest" || shape.name == "m" ? 1 : 0) << shape.name;
   }
 }
@@ -78,7 +78,7 @@ TEST(MotionTablesTest, FaceThirtyClosesTheEyes) {
 }
 
 TEST(MotionTablesTest, AWrongShapeIsReportedWithFileAndLine) {
-  const auto shapes = ReadMouthShapes("my.txt", "# shapes\nrest 0 0 x\n");
+  const auto shapes = ReadVisemes("my.txt", "# shapes\nrest 0 0 x\n");
   ASSERT_FALSE(shapes);
   EXPECT_TRUE(shapes.error().text.starts_with("my.txt:2: 4 words found")) << shapes.error().text;
 }
@@ -113,7 +113,7 @@ TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {
   const auto tables = MotionTables::Load(folder.string());
   ASSERT_TRUE(tables) << tables.error().text;
   EXPECT_EQ(tables->emotions.size(), 1u);
-  EXPECT_EQ(tables->set14.shapes.size(), kMouthShapes);
+  EXPECT_EQ(tables->set14.shapes.size(), kVisemes);
   std::ofstream(folder / "emotions.txt") << "\nBORED\n";
   const auto wrong = MotionTables::Load(folder.string());
   ASSERT_FALSE(wrong);

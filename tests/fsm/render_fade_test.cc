@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {
@@ -13,13 +13,13 @@ constexpr int kWidth = 200, kHeight = 240;
 
 /// A head that wears a photo: its skin fades into the neck, and a sheet of hair that is seen
 /// through hangs before one of its sides.
-std::unique_ptr<Head> PhotoHead() {
-  FaceSet set;
+std::unique_ptr<Head> WearingPhoto() {
+  PhotoHead set;
   for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
     set.points.push_back({at, glm::vec3(0)});
   }
-  set.photo = std::make_shared<WornPhoto>(
-      WornPhoto{2, 1, {200, 120, 90, 255, 60, 140, 50, 115}});  // skin, hair
+  set.photo =
+      std::make_shared<Image>(Image{2, 1, {200, 120, 90, 255, 60, 140, 50, 115}});  // skin, hair
   set.skin_low = {0.24F, 0.9F};
   set.skin_high = {0.26F, 0.1F};
   for (const glm::vec3 at : {glm::vec3(-90, 120, 60), {-90, -60, 60}, {0, -60, 60}, {0, 120, 60}}) {
@@ -74,7 +74,7 @@ struct FadeTest : ::testing::Test {
 };
 
 TEST_F(FadeTest, AHeadThatWearsAPhotoDoesNotTear) {
-  const auto head = PhotoHead();
+  const auto head = WearingPhoto();
   scene_.background = {0, 0, 1};
   ExpectOnePicture(*head, "before a colour");
   scene_.show_background = false;
@@ -89,7 +89,7 @@ TEST_F(FadeTest, BuiltInHeadsDoNotShowTheirInside) {
 }
 
 TEST_F(FadeTest, WhatIsBehindMayBeAPictureOfAnySize) {
-  const auto head = PhotoHead();
+  const auto head = WearingPhoto();
   for (const int width : {kWidth, 37, 500}) {
     const Image picture = Pattern(width, kHeight);
     scene_.background_image = &picture;
@@ -98,7 +98,7 @@ TEST_F(FadeTest, WhatIsBehindMayBeAPictureOfAnySize) {
 }
 
 TEST_F(FadeTest, LinesFadeWithTheFigure) {
-  const auto head = PhotoHead();
+  const auto head = WearingPhoto();
   for (const ViewMode mode : {ViewMode::kWireframe, ViewMode::kTextureWithWireframe}) {
     scene_.view_mode = mode;
     ExpectOnePicture(*head, mode == ViewMode::kWireframe ? "lines" : "lines over the skin");

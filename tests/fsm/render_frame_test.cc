@@ -221,8 +221,8 @@ struct HeadChange {
 void PrintTo(const HeadChange& change, std::ostream* out) { *out << change.name; }
 
 void Wear(HeadTopology& topology, std::uint8_t red, std::uint8_t blue) {
-  topology.photo = std::make_shared<WornPhoto>(WornPhoto{1, 1, {red, 80, blue, 255}});
-  topology.photo_place.assign(topology.albedo.size(), glm::vec3(0.5F, 0.5F, 1));
+  topology.photo = std::make_shared<Image>(Image{1, 1, {red, 80, blue, 255}});
+  topology.photo_texcoord.assign(topology.albedo.size(), glm::vec3(0.5F, 0.5F, 1));
 }
 
 void Comb(HeadTopology& topology, float cover) {
@@ -230,7 +230,7 @@ void Comb(HeadTopology& topology, float cover) {
 }
 
 void Shine(HeadTopology& topology, glm::vec3 glow) {
-  Finish finish;
+  PbrMaterial finish;
   finish.glow = glow;
   topology.finishes = {finish};
   topology.parts.front().finish = 0;

@@ -6,7 +6,7 @@
 #include <glm/vec4.hpp>
 #include <string_view>
 
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/render/camera.h"
 #include "tests/fsm/render_support.h"
 
@@ -76,13 +76,13 @@ constexpr float kIncisor = 4;  // its middle, millimetres from the median
 constexpr glm::vec3 kPhoto(200, 150, 130);
 
 /// A photo of one colour.
-FaceSet OneColour() {
-  FaceSet set;
+PhotoHead OneColour() {
+  PhotoHead set;
   for (const glm::vec3 at : {glm::vec3(-60, 0, 0), glm::vec3(60, 0, 0), glm::vec3(0, 60, 60),
                              glm::vec3(0, -80, 60), glm::vec3(0, 0, 90)}) {
     set.points.push_back({at, glm::vec3(0)});
   }
-  auto photo = std::make_shared<WornPhoto>(WornPhoto{8, 8, {}});
+  auto photo = std::make_shared<Image>(Image{8, 8, {}});
   for (int i = 0; i < 64; ++i) {
     for (int c = 0; c < 3; ++c) photo->rgba.push_back(static_cast<std::uint8_t>(kPhoto[c]));
     photo->rgba.push_back(255);
@@ -97,7 +97,7 @@ std::unique_ptr<Head> InPhoto() { return Head::Make(OneColour()); }
 
 /// With a neck: a sheet behind the chin.
 std::unique_ptr<Head> WithNeck() {
-  FaceSet set = OneColour();
+  PhotoHead set = OneColour();
   set.skin_bottom_y = -86;
   constexpr std::uint32_t kColumns = 13;
   for (std::uint32_t i = 0; i < kColumns * kColumns; ++i) {
@@ -126,7 +126,7 @@ TEST(MouthPictureTest, UpperTeethAreDarkestUnderTheLip) {
 
 TEST(MouthPictureTest, TeethStandInTheHueThatTheWhitesOfTheEyesShow) {
   const auto tooth = [](glm::vec3 white) {
-    FaceSet set = OneColour();
+    PhotoHead set = OneColour();
     set.white_colour = white;
     const MouthPicture picture(Head::Make(set), {{10, 1.0F}, {26, 0.5F}, {25, 1.0F}});
     const glm::vec3 edge = picture.Vertex(picture.mouth().upper_incisor);

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 #include "fsm/render/camera.h"
 #include "tests/fsm/render_support.h"
 
@@ -17,17 +17,17 @@ constexpr int kSide = 400;
 constexpr glm::vec3 kSkin(200, 40, 40), kHair(40, 200, 40);
 
 /// A face of `kSkin`, and a sheet of `kHair` of some opacity across it.
-FaceSet RedFaceAndGreenSheet(int opacity, std::initializer_list<float> depths) {
-  FaceSet set;
+PhotoHead RedFaceAndGreenSheet(int opacity, std::initializer_list<float> depths) {
+  PhotoHead set;
   for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
     set.points.push_back({at, glm::vec3(0)});
   }
-  WornPhoto photo{2, 1, {}};
+  Image photo{2, 1, {}};
   for (const auto& [colour, a] : {std::pair(kSkin, 255), std::pair(kHair, opacity)}) {
     for (int c = 0; c < 3; ++c) photo.rgba.push_back(static_cast<std::uint8_t>(colour[c]));
     photo.rgba.push_back(static_cast<std::uint8_t>(a));
   }
-  set.photo = std::make_shared<WornPhoto>(photo);
+  set.photo = std::make_shared<Image>(photo);
   set.skin_low = {0.24F, 0.9F};
   set.skin_high = {0.26F, 0.1F};
   for (const float z : depths) {
@@ -41,7 +41,7 @@ FaceSet RedFaceAndGreenSheet(int opacity, std::initializer_list<float> depths) {
 }
 
 /// Screen colours 0..255 at places of the head's frame, the mean of 3 x 3 pixels.
-std::vector<glm::vec3> Drawn(const FaceSet& set, const std::vector<glm::vec3>& places,
+std::vector<glm::vec3> Drawn(const PhotoHead& set, const std::vector<glm::vec3>& places,
                              const FaceState& state = {}) {
   const auto head = Head::Make(set);
   HeadVertices vertices;
@@ -83,7 +83,7 @@ TEST(PhotoTest, WhatLiesBehindASoftEdgeIsSeenThroughIt) {
 }
 
 TEST(PhotoTest, LevelEdgesAreSoftAsThoseOfPhotos) {
-  const FaceSet set = RedFaceAndGreenSheet(255, {60});
+  const PhotoHead set = RedFaceAndGreenSheet(255, {60});
   const auto head = Head::Make(set);
   HeadVertices vertices;
   head->Evaluate({}, vertices);
@@ -126,7 +126,7 @@ TEST(PhotoTest, SkinIsSeenWhereTheSheetComesNearlyAsFar) {
 }
 
 TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
-  FaceSet set = RedFaceAndGreenSheet(255, {});
+  PhotoHead set = RedFaceAndGreenSheet(255, {});
   const glm::vec3 corner = Head::Make(set)->Landmark("exocanthion_left");
   constexpr int kRows = 9;
   std::vector<glm::vec3> places;
@@ -143,7 +143,7 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
   }
   FaceState smile;
   for (const std::size_t unit : {6U, 12U}) smile.au_left[unit] = smile.au_right[unit] = 1;
-  const auto darkest = [&](const FaceSet& s, float glm::vec3::*channel) {
+  const auto darkest = [&](const PhotoHead& s, float glm::vec3::*channel) {
     float least = 255;
     for (const glm::vec3 c : Drawn(s, places, smile)) least = std::min(least, c.*channel);
     return least;
@@ -154,8 +154,8 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
 }
 
 TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
-  FaceSet set = RedFaceAndGreenSheet(255, {});
-  auto bright = std::make_shared<WornPhoto>(*set.photo);
+  PhotoHead set = RedFaceAndGreenSheet(255, {});
+  auto bright = std::make_shared<Image>(*set.photo);
   std::ranges::fill(bright->rgba, std::uint8_t{230});
   set.photo = bright;
   set.white_colour = glm::vec3(1);
@@ -200,7 +200,7 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
 }
 
 TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
-  FaceSet set = RedFaceAndGreenSheet(255, {});
+  PhotoHead set = RedFaceAndGreenSheet(255, {});
   const glm::vec3 chin = Head::Make("galatea")->Landmark("gnathion");
   set.skin_bottom_y = chin.y - 8;
   struct At {
@@ -241,17 +241,17 @@ TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
 }
 
 TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
-  FaceSet set = RedFaceAndGreenSheet(255, {});
+  PhotoHead set = RedFaceAndGreenSheet(255, {});
   // Skin lit from above, painted round its vertices.
   constexpr int kMap = 128, kRound = 4;
-  WornPhoto lit{kMap, kMap, std::vector<std::uint8_t>(4 * kMap * kMap, 255)};
+  Image lit{kMap, kMap, std::vector<std::uint8_t>(4 * kMap * kMap, 255)};
   set.skin_low = {0, 1};
   set.skin_high = {1, 0};
   const auto plain = Head::Make(set);
   HeadVertices bare;
   plain->Evaluate({}, bare);
   for (std::size_t i = 0; i < bare.position.size(); ++i) {
-    const glm::vec2 place(plain->topology().photo_place[i]);
+    const glm::vec2 place(plain->topology().photo_texcoord[i]);
     const float light = std::max(0.4F + 0.5F * bare.normal[i].y, 0.05F);
     for (int k = 0; k < (2 * kRound + 1) * (2 * kRound + 1); ++k) {
       const int x = static_cast<int>(place.x * kMap) + k % (2 * kRound + 1) - kRound;
@@ -261,7 +261,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
                   static_cast<std::uint8_t>(255 * std::sqrt(light)));
     }
   }
-  set.photo = std::make_shared<WornPhoto>(lit);
+  set.photo = std::make_shared<Image>(lit);
   const auto head = Head::Make(set);
   const auto& topology = head->topology();
   EXPECT_GT(topology.photo_light.y, 0.2F);
@@ -284,7 +284,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   std::vector<std::size_t> turned;
   for (std::size_t i = 0; i < rest.position.size(); ++i) {
     const glm::vec3 p = rest.position[i];
-    if (topology.photo_place[i].z != 1 || topology.relit[i] < 1) continue;
+    if (topology.photo_texcoord[i].z != 1 || topology.relit[i] < 1) continue;
     const bool cheek = p.z > 50 && std::abs(p.x) > 18 && std::abs(p.x) < 45 && p.y < nasion - 25 &&
                        p.y > chin + 30;
     const float up = smiling.normal[i].y - rest.normal[i].y;

@@ -11,18 +11,19 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/eye_seat.h"
+#include "fsm/head/eye_transform.h"
 #include "fsm/head/head.h"
 #include "fsm/head/warp.h"
 
 namespace fsm {
 
 /// The face of a person from a photo: what a folder made by face_fit holds (docs/photo.md).
-struct FaceSet {
-  std::string base = "galatea";                ///< the built-in face that is warped
-  std::vector<WarpPoint> points;               ///< of the base face at rest, millimetres
-  float smooth = 0;                            ///< see Warp
-  std::optional<std::array<EyeSeat, 2>> eyes;  ///< right, left; else both go with the warp alike
+struct PhotoHead {
+  std::string base = "galatea";   ///< the built-in face that is warped
+  std::vector<WarpPoint> points;  ///< of the base face at rest, millimetres
+  float smooth = 0;               ///< see Warp
+  std::optional<std::array<EyeTransform, 2>>
+      eyes;  ///< right, left; else both go with the warp alike
   glm::vec3 iris_colour{0.1f}, white_colour{0.6f};  ///< linear RGB
   float iris_size = 1, teeth = 1;       ///< of the table's iris; brightness of the teeth
   bool glasses = false;                 ///< the photo shows some: the skin behind them stays
@@ -44,11 +45,11 @@ struct FaceSet {
   std::vector<SheetVertex> sheet;
   std::vector<std::uint32_t> sheet_triangles;
 
-  std::shared_ptr<const WornPhoto> photo;  ///< read by the caller: photo.png
+  std::shared_ptr<const Image> photo;  ///< read by the caller: photo.png
 };
 
 /// Reads face.txt; `name` is for messages. Throws std::runtime_error naming file and line.
-FaceSet ReadFaceSet(const std::string& name, std::string_view text);
-std::string WriteFaceSet(const FaceSet& set);
+PhotoHead ReadPhotoHead(const std::string& name, std::string_view text);
+std::string WritePhotoHead(const PhotoHead& set);
 
 }  // namespace fsm

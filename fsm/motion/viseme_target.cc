@@ -1,4 +1,4 @@
-#include "fsm/motion/lip_demand.h"
+#include "fsm/motion/viseme_target.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ constexpr double kLongMs = 200;          // from here on a phoneme holds and the
 constexpr double kFirstPartShare = 0.3;  // of a diphthong
 constexpr std::size_t kJawY = 11, kJawZ = 12;
 
-MouthPose Scaled(const MouthShape& shape, double strength, const LipStyle& style) {
+MouthPose Scaled(const Viseme& shape, double strength, const LipStyle& style) {
   MouthPose pose = shape.pose;
   // A contact is the same however large the movements are; a weak one is still a contact, so the
   // seal is left alone.
@@ -44,12 +44,12 @@ void ResolveNext(std::vector<Part>& parts, const MouthSet& set) {
 
 }  // namespace
 
-LipDemands MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
-                       const LipStyle& style) {
+VisemeTargets MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
+                          const LipStyle& style) {
   const MouthSet& set = style.bilingual ? tables.set28 : tables.set14;
   const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
   const PhonemeLook closed{{{static_cast<int>(set.rest), 1}}};
-  LipDemands out;
+  VisemeTargets out;
   out.english = reader.english();
   out.rest = set.shapes[set.rest].pose;
 
@@ -77,9 +77,9 @@ LipDemands MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tabl
   for (const Part& part : parts) {
     if (part.length_ms <= 0) continue;
     const auto index = static_cast<std::size_t>(part.look.shape);
-    const MouthShape& shape = set.shapes[index];
+    const Viseme& shape = set.shapes[index];
     const bool pause = index == set.rest;
-    LipDemand demand{
+    VisemeTarget demand{
         part.start_ms, part.length_ms, Scaled(shape, part.look.strength, style), 0, shape.dominance,
         pause,         part.holds};
     if (part.holds) {

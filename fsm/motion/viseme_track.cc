@@ -1,4 +1,4 @@
-#include "fsm/motion/lip_track.h"
+#include "fsm/motion/viseme_track.h"
 
 #include <algorithm>
 
@@ -6,8 +6,8 @@
 
 namespace fsm {
 
-LipTrack::LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables,
-                   const LipStyle& style)
+VisemeTrack::VisemeTrack(const vm::PhonemeList& phonemes, const MotionTables& tables,
+                         const LipStyle& style)
     : mode_(style.mode), demands_(MakeDemands(phonemes, tables, style)) {
   double start = 0;
   for (const vm::Phoneme& phoneme : phonemes) {
@@ -21,16 +21,16 @@ LipTrack::LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables,
   }
 }
 
-void LipTrack::MakeKeys() {
+void VisemeTrack::MakeKeys() {
   keys_.push_back({-kApproachMs, demands_.rest});
-  for (const LipDemand& demand : demands_.demands) {
+  for (const VisemeTarget& demand : demands_.demands) {
     keys_.push_back({demand.start_ms, demand.target});
     if (demand.hold_ms > 0) keys_.push_back({demand.start_ms + demand.hold_ms, demand.target});
   }
   keys_.push_back({demands_.length_ms, demands_.rest});
 }
 
-MouthPose LipTrack::At(double position_ms) const {
+MouthPose VisemeTrack::At(double position_ms) const {
   if (curves_) return curves_->At(position_ms);
   if (position_ms <= keys_.front().ms) return keys_.front().pose;
   if (position_ms >= keys_.back().ms) return keys_.back().pose;
@@ -40,7 +40,7 @@ MouthPose LipTrack::At(double position_ms) const {
   return Mix(a.pose, next->pose, mode_ == LipMode::kLinear ? u : Sinusoid(u));
 }
 
-const std::string& LipTrack::PhonemeAt(double position_ms) const {
+const std::string& VisemeTrack::PhonemeAt(double position_ms) const {
   static const std::string kNone;
   if (position_ms < 0 || position_ms >= length_ms()) return kNone;
   return std::prev(std::ranges::upper_bound(spans_, position_ms, {}, &Span::start_ms))->name;

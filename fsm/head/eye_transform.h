@@ -6,7 +6,7 @@
 namespace fsm {
 
 /// Where an eye with its lids sits in a face, as a change of where tables/eye.txt has it.
-struct EyeSeat {
+struct EyeTransform {
   glm::vec3 shift{0};  ///< of the ball's centre, millimetres
   float turn = 0;      ///< about the line of sight, radians, counter-clockwise to the viewer
   float size = 1;

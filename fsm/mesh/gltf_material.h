@@ -3,24 +3,25 @@
 #include <cstdint>
 #include <optional>
 
-#include "fsm/head/finish.h"
+#include "fsm/head/pbr_material.h"
 #include "fsm/mesh/gltf_document.h"
 
 namespace fsm {
 
 /// What a material of a glTF file says of light, with the pictures it says it by.
-struct GltfFinish {
+struct GltfMaterial {
   /// A texture; -1: none.
   struct Texture {
     std::int64_t index = -1;
     float strength = 1;
     const nlohmann::json* where = nullptr;  ///< the reference to it, valid as long as the document
   };
-  std::optional<Finish> finish;  ///< nothing: shown as it is (KHR_materials_unlit, or no material)
+  std::optional<PbrMaterial>
+      finish;  ///< nothing: shown as it is (KHR_materials_unlit, or no material)
   Texture normal, surface, open, glow;
 };
 
 /// Of metal and roughness, or of MToon: VRMC_materials_mtoon 1.0 and materialProperties of VRM 0.x.
-GltfFinish ReadFinish(const GltfDocument& document, std::int64_t material);
+GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material);
 
 }  // namespace fsm

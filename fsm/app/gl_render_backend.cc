@@ -1,4 +1,4 @@
-#include "fsm/app/gl_studio.h"
+#include "fsm/app/gl_render_backend.h"
 
 #include <algorithm>
 #include <future>
@@ -12,7 +12,7 @@
 
 namespace fsm {
 
-GlStudio::GlStudio(const Options& options) : options_(options) {
+GlRenderBackend::GlRenderBackend(const Options& options) : options_(options) {
   if (options_.where == Options::Where::kHeadless) return;
   try {
     context_ = RenderContext::MakeWindow(options_.width, options_.height, options_.title);
@@ -24,18 +24,18 @@ GlStudio::GlStudio(const Options& options) : options_(options) {
   }
 }
 
-GlStudio::~GlStudio() {
+GlRenderBackend::~GlRenderBackend() {
   if (context_) context_->MakeCurrent();
 }
 
-const Head& GlStudio::head() {
+const Head& GlRenderBackend::head() {
   if (!head_) head_ = MakeHead(face_);
   return *head_;
 }
 
 /// One of Options::more_faces, a built-in head, or one from a photo out of its folder; "" = the
 /// first.
-std::unique_ptr<Head> GlStudio::MakeHead(const std::string& face) const {
+std::unique_ptr<Head> GlRenderBackend::MakeHead(const std::string& face) const {
   for (const auto& more : options_.more_faces) {
     if (face.empty() || more.name == face) return more.make();
   }
@@ -43,7 +43,7 @@ std::unique_ptr<Head> GlStudio::MakeHead(const std::string& face) const {
                         options_.tables);
 }
 
-void GlStudio::MakeRenderer() {
+void GlRenderBackend::MakeRenderer() {
   if (!context_) {
     context_ = RenderContext::MakeHeadless(options_.width, options_.height, options_.off_screen);
   }
@@ -51,7 +51,7 @@ void GlStudio::MakeRenderer() {
   if (!renderer_) renderer_ = Renderer::Make(*context_);
 }
 
-vm::Result<void> GlStudio::Draw(const FaceState& state, const Scene& scene) {
+vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scene) {
   try {
     // The head is made while the driver starts; both take a good part of the first frame.
     std::future<std::unique_ptr<Head>> made;
@@ -68,14 +68,14 @@ vm::Result<void> GlStudio::Draw(const FaceState& state, const Scene& scene) {
   }
 }
 
-const Image& GlStudio::Read() {
+const Image& GlRenderBackend::Read() {
   renderer_->Read(image_);
   return image_;
 }
 
-MouthMeasure GlStudio::Measure(const FaceState& state) { return head().MeasureMouth(state); }
+MouthMeasure GlRenderBackend::Measure(const FaceState& state) { return head().MeasureMouth(state); }
 
-std::vector<std::string> GlStudio::Faces() const {
+std::vector<std::string> GlRenderBackend::Faces() const {
   std::vector<std::string> names;
   for (const auto& more : options_.more_faces) names.push_back(more.name);
   for (const IdentityInfo& face : Head::Identities()) {
@@ -87,7 +87,7 @@ std::vector<std::string> GlStudio::Faces() const {
   return names;
 }
 
-vm::Result<void> GlStudio::Wear(const std::string& face) {
+vm::Result<void> GlRenderBackend::Wear(const std::string& face) {
   const std::vector<std::string> names = Faces();
   if (std::ranges::find(names, face) == names.end()) {
     std::string list;
@@ -110,10 +110,10 @@ vm::Result<void> GlStudio::Wear(const std::string& face) {
   }
 }
 
-int GlStudio::width() const { return has_window() ? context_->width() : options_.width; }
-int GlStudio::height() const { return has_window() ? context_->height() : options_.height; }
+int GlRenderBackend::width() const { return has_window() ? context_->width() : options_.width; }
+int GlRenderBackend::height() const { return has_window() ? context_->height() : options_.height; }
 
-vm::Result<void> GlStudio::Resize(int width, int height) {
+vm::Result<void> GlRenderBackend::Resize(int width, int height) {
   options_.width = width;
   options_.height = height;
   if (!context_) return {};
@@ -128,24 +128,25 @@ vm::Result<void> GlStudio::Resize(int width, int height) {
   return {};
 }
 
-vm::Result<void> GlStudio::FillScreen(bool fill) {
-  if (!has_window()) return Studio::FillScreen(fill);
+vm::Result<void> GlRenderBackend::FillScreen(bool fill) {
+  if (!has_window()) return RenderBackend::FillScreen(fill);
   context_->SetFullScreen(fill);
   return {};
 }
 
-bool GlStudio::has_window() const { return context_ && context_->is_window(); }
-void GlStudio::Show() { context_->Present(); }
-bool GlStudio::close_requested() const { return context_ && context_->close_requested(); }
+bool GlRenderBackend::has_window() const { return context_ && context_->is_window(); }
+void GlRenderBackend::Show() { context_->Present(); }
+bool GlRenderBackend::close_requested() const { return context_ && context_->close_requested(); }
 
-vm::Result<void> GlStudio::WritePicture(const Image& image, const std::string& path) {
+vm::Result<void> GlRenderBackend::WritePicture(const Image& image, const std::string& path) {
   return WriteImage(image, path);
 }
 
-vm::Result<Image> GlStudio::ReadPicture(const std::string& path) { return ReadImage(path); }
+vm::Result<Image> GlRenderBackend::ReadPicture(const std::string& path) { return ReadImage(path); }
 
-vm::Result<std::unique_ptr<MovieWriter>> GlStudio::OpenFilm(const std::string& path, int width,
-                                                            int height, int frames_per_second) {
+vm::Result<std::unique_ptr<MovieWriter>> GlRenderBackend::OpenFilm(const std::string& path,
+                                                                   int width, int height,
+                                                                   int frames_per_second) {
   return MovieWriter::Open(path, width, height, frames_per_second);
 }
 

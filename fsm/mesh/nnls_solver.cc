@@ -1,4 +1,4 @@
-#include "fsm/mesh/shape_mix.h"
+#include "fsm/mesh/nnls_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace fsm {
 namespace {
 
-float Product(const ShapeMix::Row& a, const ShapeMix::Row& b) {
+float Product(const NnlsSolver::Row& a, const NnlsSolver::Row& b) {
   float sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
@@ -15,7 +15,7 @@ float Product(const ShapeMix::Row& a, const ShapeMix::Row& b) {
 
 }  // namespace
 
-ShapeMix::ShapeMix(std::vector<Row> keys) : keys_(std::move(keys)) {
+NnlsSolver::NnlsSolver(std::vector<Row> keys) : keys_(std::move(keys)) {
   for (const Row& a : keys_) {
     Row products;
     for (const Row& b : keys_) products.push_back(Product(a, b));
@@ -23,7 +23,7 @@ ShapeMix::ShapeMix(std::vector<Row> keys) : keys_(std::move(keys)) {
   }
 }
 
-ShapeMix::Parts ShapeMix::TakeApart(std::span<const float> row) const {
+NnlsSolver::Parts NnlsSolver::TakeApart(std::span<const float> row) const {
   // One key after another takes its best part; a small price on every part prefers few keys.
   constexpr int kRounds = 60;
   constexpr float kPrice = 0.05F, kMost = 1.5F, kLeast = 1e-3F;

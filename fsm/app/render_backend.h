@@ -14,9 +14,9 @@ namespace fsm {
 /// Where states of the face become pictures, and where pictures and films are kept: everything the
 /// module needs of graphics and files, behind one interface so that it is tested without either.
 /// Thread: the module's.
-class Studio {
+class RenderBackend {
  public:
-  virtual ~Studio() = default;
+  virtual ~RenderBackend() = default;
 
   /// Draws a state; the picture can then be read or shown. Error: kUnavailable if there is no way
   /// to draw (the first call makes the graphics context of a headless studio).

@@ -14,7 +14,7 @@ namespace fsm {
 void Shrink(Image& picture, int side);
 
 /// Puts several pictures into one, because a head wears one photo.
-class PictureSheet {
+class TextureAtlas {
  public:
   static constexpr int kMaxSide = 2048;  ///< of one picture
   /// Where a picture lies on the sheet: its corners, 0..1, v down.
@@ -25,10 +25,10 @@ class PictureSheet {
   /// The number of the picture, for place(). Pictures beyond kMaxSide are halved until they fit.
   std::size_t Add(Image picture);
   /// Lays all out. Nothing if there are none.
-  std::shared_ptr<const WornPhoto> Make();
+  std::shared_ptr<const Image> Make();
   /// Others laid out alike, half as large; `neutral` where one is missing or empty. Nothing if all
   /// are. REQUIRES: Make was called.
-  std::shared_ptr<const WornPhoto> MakeBeside(std::vector<Image> others, glm::u8vec4 neutral) const;
+  std::shared_ptr<const Image> MakeBeside(std::vector<Image> others, glm::u8vec4 neutral) const;
   /// Valid after Make.
   const Place& place(std::size_t picture) const { return places_[picture]; }
 

@@ -6,7 +6,7 @@
 namespace fsm {
 
 /// How a part of somebody else's head takes light, as its file says. Colours are linear.
-struct Finish {
+struct PbrMaterial {
   enum class Kind : std::uint8_t {
     kLit,  ///< metal and roughness, as in glTF 2.0
     kToon  ///< two colours, as in VRM's MToon

@@ -1,4 +1,4 @@
-#include "fsm/mesh/gltf_finish.h"
+#include "fsm/mesh/gltf_material.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ glm::vec3 ColourOf(const json& given, glm::vec3 otherwise) {
   return otherwise;
 }
 
-GltfFinish::Texture TextureOf(const json& of, const char* key, const char* strength = "") {
+GltfMaterial::Texture TextureOf(const json& of, const char* key, const char* strength = "") {
   const json& given = PartOf(of, key);
   return {WholeOf(given, "index"),
           static_cast<float>(std::clamp(RealOf(given, strength, 1), -4.0, 4.0)), &given};
@@ -30,14 +30,14 @@ GltfFinish::Texture TextureOf(const json& of, const char* key, const char* stren
 
 /// Between which cosines a drawn figure goes from shade to light: below -1 + toony - shift it is
 /// all shade, above 1 - toony - shift all light (VRMC_materials_mtoon 1.0, "Lighting").
-void SetEdges(double toony, double shift, Finish& finish) {
+void SetEdges(double toony, double shift, PbrMaterial& finish) {
   finish.shade_to = static_cast<float>(-1 + toony - shift);
   finish.light_from = static_cast<float>(1 - toony - shift);
 }
 
-void ReadToon(const json& toon, GltfFinish& out) {
-  Finish& finish = out.finish.emplace();
-  finish.kind = Finish::Kind::kToon;
+void ReadToon(const json& toon, GltfMaterial& out) {
+  PbrMaterial& finish = out.finish.emplace();
+  finish.kind = PbrMaterial::Kind::kToon;
   finish.shade = ColourOf(PartOf(toon, "shadeColorFactor"), glm::vec3(1));
   SetEdges(std::clamp(RealOf(toon, "shadingToonyFactor", 0.9), 0.0, 1.0),
            std::clamp(RealOf(toon, "shadingShiftFactor", 0), -1.0, 1.0), finish);
@@ -46,9 +46,9 @@ void ReadToon(const json& toon, GltfFinish& out) {
 
 /// Properties of the shader of Unity's MToon as VRM 0.x has them. Its numbers lie between the shade
 /// threshold and that moved towards 1 by what is not toony; colours are those of the screen.
-void ReadOldToon(const json& properties, GltfFinish& out) {
-  Finish& finish = out.finish.emplace();
-  finish.kind = Finish::Kind::kToon;
+void ReadOldToon(const json& properties, GltfMaterial& out) {
+  PbrMaterial& finish = out.finish.emplace();
+  finish.kind = PbrMaterial::Kind::kToon;
   const json& numbers = PartOf(properties, "floatProperties");
   const float shift = static_cast<float>(std::clamp(RealOf(numbers, "_ShadeShift", 0), -1.0, 1.0));
   finish.shade_to = shift;
@@ -69,8 +69,8 @@ const json& OldProperties(const GltfDocument& document, std::int64_t material) {
 
 }  // namespace
 
-GltfFinish ReadFinish(const GltfDocument& document, std::int64_t material) {
-  GltfFinish out;
+GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
+  GltfMaterial out;
   if (material < 0) return out;
   const json& given = document.At("materials", material);
   const json& extensions = PartOf(given, "extensions");
@@ -84,7 +84,7 @@ GltfFinish ReadFinish(const GltfDocument& document, std::int64_t material) {
   } else if (extensions.contains("KHR_materials_unlit") || shader.starts_with("VRM/Unlit")) {
     return out;
   } else {
-    Finish& finish = out.finish.emplace();
+    PbrMaterial& finish = out.finish.emplace();
     const json& metal = PartOf(given, "pbrMetallicRoughness");
     finish.metallic = Share(metal, "metallicFactor", 1);
     finish.roughness = Share(metal, "roughnessFactor", 1);

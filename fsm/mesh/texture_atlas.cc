@@ -1,4 +1,4 @@
-#include "fsm/mesh/picture_sheet.h"
+#include "fsm/mesh/texture_atlas.h"
 
 #include <algorithm>
 #include <glm/common.hpp>
@@ -27,8 +27,8 @@ Image Halved(const Image& image) {
   return half;
 }
 
-WornPhoto Blank(int width, int height, glm::u8vec4 colour) {
-  WornPhoto sheet{width, height, {}};
+Image Blank(int width, int height, glm::u8vec4 colour) {
+  Image sheet{width, height, {}};
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   sheet.rgba.reserve(4 * pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -38,7 +38,7 @@ WornPhoto Blank(int width, int height, glm::u8vec4 colour) {
 }
 
 /// Copies a picture to a place of the sheet, in the size given, its edge pixels repeated around it.
-void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, WornPhoto& sheet) {
+void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, Image& sheet) {
   for (int y = -rim; y < size.y + rim; ++y) {
     const int to_y = at.y + y;
     const int from_y = std::clamp(y, 0, size.y - 1) * picture.height / size.y;
@@ -62,13 +62,13 @@ void Shrink(Image& picture, int side) {
   while (picture.width > side || picture.height > side) picture = Halved(picture);
 }
 
-std::size_t PictureSheet::Add(Image picture) {
+std::size_t TextureAtlas::Add(Image picture) {
   Shrink(picture, kMaxSide);
   pictures_.push_back(std::move(picture));
   return pictures_.size() - 1;
 }
 
-std::shared_ptr<const WornPhoto> PictureSheet::Make() {
+std::shared_ptr<const Image> TextureAtlas::Make() {
   if (pictures_.empty()) return nullptr;
   // In rows, each as high as its highest picture; a rim of repeated edge pixels around each keeps
   // filtering from mixing neighbours.
@@ -91,7 +91,7 @@ std::shared_ptr<const WornPhoto> PictureSheet::Make() {
     if (height_ <= kMaxSheet) break;
     for (Image& picture : pictures_) picture = Halved(picture);
   }
-  WornPhoto sheet = Blank(width_, height_, glm::u8vec4(255));
+  Image sheet = Blank(width_, height_, glm::u8vec4(255));
   places_.clear();
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const Image& picture = pictures_[i];
@@ -101,15 +101,15 @@ std::shared_ptr<const WornPhoto> PictureSheet::Make() {
         {glm::vec2(spots_[i].x, spots_[i].y) / size,
          glm::vec2(spots_[i].x + picture.width, spots_[i].y + picture.height) / size});
   }
-  return std::make_shared<WornPhoto>(std::move(sheet));
+  return std::make_shared<Image>(std::move(sheet));
 }
 
-std::shared_ptr<const WornPhoto> PictureSheet::MakeBeside(std::vector<Image> others,
-                                                          glm::u8vec4 neutral) const {
+std::shared_ptr<const Image> TextureAtlas::MakeBeside(std::vector<Image> others,
+                                                      glm::u8vec4 neutral) const {
   if (std::ranges::all_of(others, [](const Image& image) { return image.rgba.empty(); })) {
     return nullptr;
   }
-  WornPhoto sheet = Blank((width_ + 1) / 2, (height_ + 1) / 2, neutral);
+  Image sheet = Blank((width_ + 1) / 2, (height_ + 1) / 2, neutral);
   for (std::size_t i = 0; i < std::min(others.size(), pictures_.size()); ++i) {
     if (others[i].rgba.empty()) continue;
     const glm::ivec2 size = glm::max(glm::ivec2(pictures_[i].width, pictures_[i].height) / 2, 1);
@@ -118,7 +118,7 @@ std::shared_ptr<const WornPhoto> PictureSheet::MakeBeside(std::vector<Image> oth
     }
     Lay(others[i], glm::ivec2(spots_[i].x, spots_[i].y) / 2, size, kRim / 2, sheet);
   }
-  return std::make_shared<WornPhoto>(std::move(sheet));
+  return std::make_shared<Image>(std::move(sheet));
 }
 
 }  // namespace fsm

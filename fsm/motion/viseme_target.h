@@ -26,7 +26,7 @@ struct LipStyle {
 };
 
 /// A mouth shape with its strength, in time: what one phoneme, or one half of a diphthong, asks.
-struct LipDemand {
+struct VisemeTarget {
   double start_ms = 0;
   double length_ms = 0;
   MouthPose target;    ///< strength and style applied
@@ -37,15 +37,15 @@ struct LipDemand {
 };
 
 /// Names of phonemes no table has, in order and once each: the lips close on them.
-struct LipDemands {
-  std::vector<LipDemand> demands;  ///< in time, without those of no length
+struct VisemeTargets {
+  std::vector<VisemeTarget> demands;  ///< in time, without those of no length
   MouthPose rest;
   double length_ms = 0;
   bool english = false;
   std::vector<std::string> unknown;
 };
-LipDemands MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
-                       const LipStyle& style);
+VisemeTargets MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
+                          const LipStyle& style);
 
 inline constexpr double kApproachMs = 92;  ///< the original's time of transition
 inline constexpr double kSeenMs = 34;      ///< just over one frame at 30 a second

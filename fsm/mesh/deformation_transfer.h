@@ -18,12 +18,12 @@ struct PlacePair {
 };
 
 /// A face to carry motion from or to. Both lie in the same frame, nearly over each other.
-struct CarrySurface {
+struct TransferSurface {
   std::span<const glm::vec3> position;       ///< all vertices, at rest
   std::span<const std::uint32_t> triangles;  ///< of flesh, outside counter-clockwise
   /// Vertices are doubled where the texture is sewn together. Else two at one place are two, as
   /// where closed lips meet.
-  bool sewn = false;
+  bool has_uv_seams = false;
   std::span<const std::uint32_t> eyes = {};  ///< triangles of the eyeballs: sockets are behind them
 };
 
@@ -34,25 +34,26 @@ struct CarrySurface {
 /// of a jaw tear, and shapes brought to another head and back came out a third smaller. Upper and
 /// lower lips and lids are told apart along the surface, so that they are never taken for each
 /// other. Immutable; thread: any.
-class Carry {
+class DeformationTransfer {
  public:
   /// Throws std::runtime_error if there are fewer than eight pairs or they lie (nearly) in a plane,
   /// if a place or a vertex lies out of kMaxMeshReach, and as WeldedSurface and SurfaceIndex.
-  Carry(const CarrySurface& from, const CarrySurface& to, std::span<const PlacePair> pairs);
+  DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
+                      std::span<const PlacePair> pairs);
   /// Adds to `to_by` what `from_by` means there; both by vertex.
   void Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const;
   /// Mean distance of the drawn surface from the other over what was matched, millimetres.
   float residual_mm() const { return residual_; }
 
  private:
-  struct Tie {
+  struct BarycentricBinding {
     std::array<std::uint32_t, 3> corner{};
     glm::vec3 part{1, 0, 0};
   };
-  std::vector<Tie> ties_;  // of the second face's vertices, doubled ones once
+  std::vector<BarycentricBinding> bindings_;  // of the second face's vertices, doubled ones once
   std::vector<std::vector<std::uint32_t>> next_;
   std::vector<float> share_;       // of its neighbours' mean that each of them takes
-  std::vector<std::uint32_t> of_;  // index into ties_ of each given vertex
+  std::vector<std::uint32_t> of_;  // index into bindings_ of each given vertex
   float residual_ = 0;
 };
 

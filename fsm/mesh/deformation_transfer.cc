@@ -1,4 +1,4 @@
-#include "fsm/mesh/carry.h"
+#include "fsm/mesh/deformation_transfer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,15 +107,16 @@ class EdgePull {
 
 }  // namespace
 
-Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const PlacePair> pairs) {
+DeformationTransfer::DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
+                                         std::span<const PlacePair> pairs) {
   if (pairs.size() < 8) {
     throw std::runtime_error("at least eight places that both faces have are needed");
   }
   CheckPlaces(pairs);
   CheckVertices(from.position, "the face that is carried");
   CheckVertices(to.position, "the head it is carried to");
-  const auto prepared = [&pairs](const CarrySurface& face, bool is_from) {
-    WeldedSurface surface(face.position, face.triangles, face.sewn);
+  const auto prepared = [&pairs](const TransferSurface& face, bool is_from) {
+    WeldedSurface surface(face.position, face.triangles, face.has_uv_seams);
     MarkParts(surface, pairs, is_from);
     surface.FindSeen(face.position, face.eyes);
     return surface;
@@ -163,14 +164,14 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
 
   constexpr float kTieReach = 20;
   const SurfaceIndex own(drawn, kTieReach);
-  ties_.resize(target.at.size());
+  bindings_.resize(target.at.size());
   std::vector<std::uint32_t> open;
   std::vector<bool> tied(target.at.size(), false);
   for (std::uint32_t w = 0; w < target.at.size(); ++w) {
     const auto hit = own.Find(target, w);
     if (!hit) continue;
     const auto& t = drawn.triangles[hit->triangle];
-    ties_[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
+    bindings_[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
     tied[w] = true;
     open.push_back(w);
   }
@@ -178,13 +179,13 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   for (std::size_t k = 0; k < open.size(); ++k) {
     for (const std::uint32_t w : target.next[open[k]]) {
       if (tied[w]) continue;
-      ties_[w] = ties_[open[k]];
+      bindings_[w] = bindings_[open[k]];
       tied[w] = true;
       open.push_back(w);
     }
   }
-  for (std::size_t w = 0; w < ties_.size(); ++w) {
-    if (!tied[w]) ties_[w].part = glm::vec3(0);
+  for (std::size_t w = 0; w < bindings_.size(); ++w) {
+    if (!tied[w]) bindings_[w].part = glm::vec3(0);
   }
   // Neighbours even out what is smaller than a few millimetres; those of a coarse mesh lie farther.
   constexpr float kMost = 0.25f, kNear = 2.5f;
@@ -199,10 +200,11 @@ Carry::Carry(const CarrySurface& from, const CarrySurface& to, std::span<const P
   of_ = std::move(target.of);
 }
 
-void Carry::Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const {
+void DeformationTransfer::Apply(std::span<const glm::vec3> from_by,
+                                std::span<glm::vec3> to_by) const {
   std::vector<glm::vec3> by;
-  by.reserve(ties_.size());
-  for (const Tie& tie : ties_) {
+  by.reserve(bindings_.size());
+  for (const BarycentricBinding& tie : bindings_) {
     by.push_back(from_by[tie.corner[0]] * tie.part.x + from_by[tie.corner[1]] * tie.part.y +
                  from_by[tie.corner[2]] * tie.part.z);
   }

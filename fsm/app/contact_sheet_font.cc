@@ -1,4 +1,4 @@
-#include "fsm/app/sheet_font.h"
+#include "fsm/app/contact_sheet_font.h"
 
 #include <array>
 #include <cstdint>

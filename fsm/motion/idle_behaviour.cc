@@ -1,4 +1,4 @@
-#include "fsm/motion/autonomy.h"
+#include "fsm/motion/idle_behaviour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,38 +43,39 @@ double Swing(double u) {
 
 }  // namespace
 
-Autonomy::Autonomy(const MotionTable& table, std::uint64_t seed) : table_(table), seed_(seed) {
-  switches_[static_cast<std::size_t>(Life::kAsymmetry)] = {1, true, vm::Time(0), Track(1.0f)};
+IdleBehaviour::IdleBehaviour(const MotionTable& table, std::uint64_t seed)
+    : table_(table), seed_(seed) {
+  switches_[static_cast<std::size_t>(IdleKind::kAsymmetry)] = {1, true, vm::Time(0), Track(1.0f)};
 }
 
-void Autonomy::Set(vm::Time now, Life kind, std::size_t pattern) {
+void IdleBehaviour::Set(vm::Time now, IdleKind kind, std::size_t pattern) {
   Switch& own = switches_[static_cast<std::size_t>(kind)];
   if (pattern > 0) {
     own.pattern = pattern;
     own.since = now;
   }
   own.on = pattern > 0;
-  const bool quick = kind == Life::kBlink || kind == Life::kGaze;
+  const bool quick = kind == IdleKind::kBlink || kind == IdleKind::kGaze;
   const bool at_once =
-      kind == Life::kAsymmetry || kind == Life::kGazeBlink || kind == Life::kEndBlink;
+      kind == IdleKind::kAsymmetry || kind == IdleKind::kGazeBlink || kind == IdleKind::kEndBlink;
   const vm::Time fade = at_once ? vm::Time(0) : quick ? kQuickFade : kFade;
   own.weight.MoveTo(now, own.on ? 1.0f : 0.0f, fade);
-  if (kind == Life::kBlink && own.on) blink_ = {};
+  if (kind == IdleKind::kBlink && own.on) blink_ = {};
 }
 
-double Autonomy::Random(std::uint64_t stream, std::int64_t index) const {
+double IdleBehaviour::Random(std::uint64_t stream, std::int64_t index) const {
   return RandomAt(seed_, stream, index);
 }
 
-double Autonomy::Wander(std::uint64_t stream, double periods) const {
+double IdleBehaviour::Wander(std::uint64_t stream, double periods) const {
   const double cell = std::floor(periods);
   const auto index = static_cast<std::int64_t>(cell);
   const double u = SmootherStep(periods - cell);
   return Random(stream, index) * (1 - u) + Random(stream, index + 1) * u;
 }
 
-void Autonomy::AddMove(vm::Time t, Angles& out) const {
-  const Switch& own = Of(Life::kMove);
+void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
+  const Switch& own = Of(IdleKind::kMove);
   if (own.pattern == 0) return;
   const double weight = own.weight.At(t);
   if (!table_.auto_move_files.empty()) {
@@ -91,8 +92,8 @@ void Autonomy::AddMove(vm::Time t, Angles& out) const {
   }
 }
 
-void Autonomy::AddNods(vm::Time t, double weight, Angles& out) const {
-  const Switch& own = Of(Life::kNods);
+void IdleBehaviour::AddNods(vm::Time t, double weight, Angles& out) const {
+  const Switch& own = Of(IdleKind::kNods);
   if (own.pattern == 0 || weight <= 0) return;
   const AutoNods& nods = table_.auto_nods[own.pattern - 1];
   const double ms = InMs(t - own.since);
@@ -106,21 +107,21 @@ void Autonomy::AddNods(vm::Time t, double weight, Angles& out) const {
   out[0] += static_cast<float>(weight * size * down);
 }
 
-Angles Autonomy::HeadAt(vm::Time t, double quiet) const {
+Angles IdleBehaviour::HeadAt(vm::Time t, double quiet) const {
   Angles out{};
   AddMove(t, out);
-  AddNods(t, Weight(Life::kNods, t) * (1 - quiet), out);
-  if (const Switch& own = Of(Life::kUserdef); own.pattern > 0) {
+  AddNods(t, Weight(IdleKind::kNods, t) * (1 - quiet), out);
+  if (const Switch& own = Of(IdleKind::kUserdef); own.pattern > 0) {
     Add(out, Looped(table_.auto_userdef[own.pattern - 1], InMs(t - own.since)), own.weight.At(t));
   }
-  if (const Switch& own = Of(Life::kBreath); own.pattern > 0) {
+  if (const Switch& own = Of(IdleKind::kBreath); own.pattern > 0) {
     out[0] -= static_cast<float>(table_.auto_breaths[own.pattern - 1].pitch * BreathAt(t));
   }
   return out;
 }
 
-double Autonomy::BreathAt(vm::Time t) const {
-  const Switch& own = Of(Life::kBreath);
+double IdleBehaviour::BreathAt(vm::Time t) const {
+  const Switch& own = Of(IdleKind::kBreath);
   if (own.pattern == 0) return 0;
   const double ms = std::max(0.0, InMs(t - own.since));
   const double u = std::fmod(ms / table_.auto_breaths[own.pattern - 1].period_ms, 1.0);
@@ -129,8 +130,8 @@ double Autonomy::BreathAt(vm::Time t) const {
   return own.weight.At(t) * in;
 }
 
-EyeAngles Autonomy::EyesAt(vm::Time t) const {
-  const Switch& own = Of(Life::kGaze);
+EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
+  const Switch& own = Of(IdleKind::kGaze);
   if (own.pattern == 0) return {};
   const AutoGaze& gaze = table_.auto_gazes[own.pattern - 1];
   const double weight = own.weight.At(t);
@@ -153,7 +154,7 @@ EyeAngles Autonomy::EyesAt(vm::Time t) const {
           static_cast<float>(weight * (x0 + u * (x1 - x0)))};
 }
 
-EyeAngles Autonomy::ThinkingAt(vm::Time t, vm::Time since) const {
+EyeAngles IdleBehaviour::ThinkingAt(vm::Time t, vm::Time since) const {
   constexpr double kStay = 1500;  // ms
   const auto jump_ms = [&](std::int64_t k) {
     return k == 0 ? 0 : kStay * (static_cast<double>(k) + 0.35 * Random(kThinkTime, k));
@@ -176,10 +177,10 @@ EyeAngles Autonomy::ThinkingAt(vm::Time t, vm::Time since) const {
           static_cast<float>(from[1] + u * (to[1] - from[1]))};
 }
 
-vm::Time Autonomy::BlinkInterval(std::int64_t index) const {
+vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
   // Intervals between blinks are skewed: many short, some long. exp of a sum of three even numbers
   // (nearly normal) is nearly log-normal; bounded to half and one and a half of the mean.
-  const double mean = table_.auto_blinks[Of(Life::kBlink).pattern - 1].interval_ms;
+  const double mean = table_.auto_blinks[Of(IdleKind::kBlink).pattern - 1].interval_ms;
   const std::int64_t n = 3 * index;
   const double normal =
       Random(kBlinkTime, n) + Random(kBlinkTime, n + 1) + Random(kBlinkTime, n + 2);
@@ -187,9 +188,9 @@ vm::Time Autonomy::BlinkInterval(std::int64_t index) const {
   return FromMs(index == 0 ? 0.6 * interval : interval);
 }
 
-Autonomy::Blink Autonomy::LastBlink(vm::Time t) const {
+IdleBehaviour::Blink IdleBehaviour::LastBlink(vm::Time t) const {
   // Before the first blink the switch itself stands for the one before.
-  if (blink_.index < 0) blink_ = {-1, Of(Life::kBlink).since};
+  if (blink_.index < 0) blink_ = {-1, Of(IdleKind::kBlink).since};
   while (blink_.index >= 0 && blink_.start > t) {
     blink_.start -= BlinkInterval(blink_.index);
     --blink_.index;
@@ -201,8 +202,8 @@ Autonomy::Blink Autonomy::LastBlink(vm::Time t) const {
   }
 }
 
-double Autonomy::LidsShutAt(vm::Time t) const {
-  const Switch& own = Of(Life::kBlink);
+double IdleBehaviour::LidsShutAt(vm::Time t) const {
+  const Switch& own = Of(IdleKind::kBlink);
   if (own.pattern == 0) return 0;
   const AutoBlink& blinks = table_.auto_blinks[own.pattern - 1];
   const double weight = own.weight.At(t);
@@ -215,15 +216,16 @@ double Autonomy::LidsShutAt(vm::Time t) const {
   return weight * depth * LidsAt(table_.blinks[blinks.blink], t - blink.start);
 }
 
-std::optional<vm::Time> Autonomy::NextActivity(vm::Time t) const {
-  for (const Life kind : {Life::kMove, Life::kUserdef, Life::kGaze, Life::kBreath, Life::kNods}) {
+std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
+  for (const IdleKind kind :
+       {IdleKind::kMove, IdleKind::kUserdef, IdleKind::kGaze, IdleKind::kBreath, IdleKind::kNods}) {
     if (On(kind)) return t;
   }
   std::optional<vm::Time> next;
   for (const Switch& own : switches_) next = Earlier(next, own.weight.NextActivity(t));
   if (next && *next <= t) return t;
-  if (!On(Life::kBlink)) return next;
-  const AutoBlink& blinks = table_.auto_blinks[Of(Life::kBlink).pattern - 1];
+  if (!On(IdleKind::kBlink)) return next;
+  const AutoBlink& blinks = table_.auto_blinks[Of(IdleKind::kBlink).pattern - 1];
   const vm::Time length = LengthOf(table_.blinks[blinks.blink]);
   // The earliest blink that is not over: the one that follows the last which was over by now.
   const Blink over = LastBlink(t - length);

@@ -7,11 +7,11 @@ namespace fsm {
 
 /// Tells of which key shapes something is mixed: the least squares with no negative part. What
 /// they cannot explain is given back. All are rows of numbers of one length and one measure.
-class ShapeMix {
+class NnlsSolver {
  public:
   using Row = std::vector<float>;
-  ShapeMix() = default;
-  explicit ShapeMix(std::vector<Row> keys);
+  NnlsSolver() = default;
+  explicit NnlsSolver(std::vector<Row> keys);
 
   struct Parts {
     std::vector<float> weights;  ///< of each key, 0..1.5

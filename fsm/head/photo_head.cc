@@ -1,4 +1,4 @@
-#include "fsm/head/face_set.h"
+#include "fsm/head/photo_head.h"
 
 #include <algorithm>
 #include <array>
@@ -28,14 +28,14 @@ void Finite(const TableRow& row, std::size_t first) {
 constexpr float kRadians = std::numbers::pi_v<float> / 180;
 
 /// eye SIDE DX DY DZ TURN SIZE UPPER LOWER
-void ReadEye(const TableRow& row, FaceSet& set) {
+void ReadEye(const TableRow& row, PhotoHead& set) {
   const std::string side = row.Word(1);
   if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
-  const EyeSeat seat{.shift = row.Vector(2),
-                     .turn = row.Number(5) * kRadians,
-                     .size = row.Number(6),
-                     .upper_mm = row.Number(7),
-                     .lower_mm = row.Number(8)};
+  const EyeTransform seat{.shift = row.Vector(2),
+                          .turn = row.Number(5) * kRadians,
+                          .size = row.Number(6),
+                          .upper_mm = row.Number(7),
+                          .lower_mm = row.Number(8)};
   if (!(seat.size >= 0.5f && seat.size <= 2)) row.Fail("a size from 0.5 to 2 expected");
   if (!set.eyes) set.eyes.emplace();
   (*set.eyes)[side == "left" ? 1 : 0] = seat;
@@ -56,8 +56,8 @@ void ReadEyePicture(const TableRow& row, std::array<std::optional<EyePicture>, 2
 
 }  // namespace
 
-FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
-  FaceSet set;
+PhotoHead ReadPhotoHead(const std::string& name, std::string_view text) {
+  PhotoHead set;
   const Table table(name, text);
   std::array<std::optional<EyePicture>, 2> pictures;
   for (const TableRow& row : table.rows()) {
@@ -122,7 +122,7 @@ FaceSet ReadFaceSet(const std::string& name, std::string_view text) {
   return set;
 }
 
-std::string WriteFaceSet(const FaceSet& set) {
+std::string WritePhotoHead(const PhotoHead& set) {
   std::string out =
       "# A face from a photo; docs/photo.md says what each line means.\nbase " + set.base + "\n";
   std::array<char, 256> line;
@@ -145,7 +145,7 @@ std::string WriteFaceSet(const FaceSet& set) {
     put("lip %.4f %.4f %.4f\n", d(c.x), d(c.y), d(c.z));
   }
   for (std::size_t i = 0; set.eyes && i < 2; ++i) {
-    const EyeSeat& eye = (*set.eyes)[i];
+    const EyeTransform& eye = (*set.eyes)[i];
     put("eye %s %.3f %.3f %.3f  %.2f %.4f  %.3f %.3f\n", i == 0 ? "right" : "left", d(eye.shift.x),
         d(eye.shift.y), d(eye.shift.z), d(eye.turn / kRadians), d(eye.size), d(eye.upper_mm),
         d(eye.lower_mm));

@@ -1,4 +1,4 @@
-#include "fsm/app/life_slots.h"
+#include "fsm/app/idle_slots.h"
 
 namespace fsm {
 namespace {
@@ -11,7 +11,7 @@ std::string Profiles(const FsmCore& core) {
 
 std::string Kinds() {
   std::string names;
-  for (const std::string_view name : kLifeNames) {
+  for (const std::string_view name : kIdleKindNames) {
     names += (names.empty() ? "" : " | ") + std::string(name);
   }
   return names;
@@ -52,7 +52,7 @@ void DeclareGaze(FsmCore& core) {
 
 }  // namespace
 
-void DeclareLifeSlots(FsmCore& core) {
+void DeclareIdleSlots(FsmCore& core) {
   core.Declare({"Autonomous", "( " + Kinds() + " ) <int 0..>",
                 "What the face does by itself, and its pattern; 0 stops it. BLINK; MOVE, the head "
                 "drifts; GAZE, small saccades; BREATH; NODS of a listener; SPEECH, head and brows "
@@ -69,7 +69,7 @@ void DeclareLifeSlots(FsmCore& core) {
                     ". What a profile does not name is "
                     "switched off; single parts can be switched afterwards.",
                 [&core](const vm::SetValue& value) {
-                  return core.motion->SetLife(core.Now(), value.word(0));
+                  return core.motion->SetIdle(core.Now(), value.word(0));
                 },
                 "OFF"});
   DeclareGaze(core);

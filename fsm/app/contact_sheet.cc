@@ -1,9 +1,9 @@
-#include "fsm/app/sheet.h"
+#include "fsm/app/contact_sheet.h"
 
 #include <algorithm>
 #include <chrono>
 
-#include "fsm/app/sheet_font.h"
+#include "fsm/app/contact_sheet_font.h"
 #include "fsm/motion/face_motion.h"
 
 namespace fsm {
@@ -69,11 +69,11 @@ Sheet Emotions(const MotionTables& tables, const std::string& face) {
   return sheet;
 }
 
-Sheet Visemes(const MotionTables& tables, const std::string& face) {
+Sheet VisemeSheet(const MotionTables& tables, const std::string& face) {
   Sheet sheet{{}, 7};
   for (const MouthSet* set : {&tables.set28, &tables.set14}) {
     const std::string prefix = set == &tables.set28 ? "28 " : "14 ";
-    for (const MouthShape& shape : set->shapes) {
+    for (const Viseme& shape : set->shapes) {
       FaceState state;
       state.mouth = shape.pose.mouth;
       state.lip_seal = shape.pose.seal;
@@ -115,13 +115,13 @@ vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
                             const std::vector<std::string>& faces, const std::string& face) {
   if (kind == "aus") return Units(tables, face);
   if (kind == "emotions") return Emotions(tables, face);
-  if (kind == "visemes") return Visemes(tables, face);
+  if (kind == "visemes") return VisemeSheet(tables, face);
   if (kind == "identities") return Identities(tables, faces);
   return vm::Fail(vm::Errc::kBadValue, "there is no sheet '" + kind +
                                            "'; aus, emotions, visemes or identities expected");
 }
 
-vm::Result<Image> DrawSheet(Studio& studio, const Sheet& sheet, bool labels) {
+vm::Result<Image> DrawSheet(RenderBackend& studio, const Sheet& sheet, bool labels) {
   if (auto sized = studio.Resize(kCellWidth, kCellHeight); !sized) {
     return std::unexpected(sized.error());
   }

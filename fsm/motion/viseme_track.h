@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fsm/motion/dominance_curves.h"
-#include "fsm/motion/lip_demand.h"
+#include "fsm/motion/viseme_target.h"
 
 namespace fsm {
 
@@ -23,9 +23,9 @@ namespace fsm {
 /// one frame at 30 a second, so that the closure is seen. LINEAR: the same with straight lines.
 ///
 /// Phonemes no table knows close the mouth.
-class LipTrack {
+class VisemeTrack {
  public:
-  LipTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, const LipStyle& style);
+  VisemeTrack(const vm::PhonemeList& phonemes, const MotionTables& tables, const LipStyle& style);
 
   /// Full articulation, times the style's scales.
   MouthPose At(double position_ms) const;
@@ -33,7 +33,7 @@ class LipTrack {
   const std::string& PhonemeAt(double position_ms) const;
   double length_ms() const { return demands_.length_ms; }
   bool english() const { return demands_.english; }
-  const LipDemands& demands() const { return demands_; }
+  const VisemeTargets& demands() const { return demands_; }
 
  private:
   struct Key {
@@ -47,7 +47,7 @@ class LipTrack {
   void MakeKeys();
 
   LipMode mode_;
-  LipDemands demands_;
+  VisemeTargets demands_;
   std::vector<Span> spans_;
   std::vector<Key> keys_;                  // of the modes with key shapes
   std::optional<DominanceCurves> curves_;  // of the other

@@ -15,18 +15,18 @@ namespace fsm {
 /// on, so any instant can be asked for in any order. The kinds that belong to commands or to speech
 /// are only switched here and used by FaceMotion. The table outlives it. Thread: none of its own;
 /// not even const calls may run at once.
-class Autonomy {
+class IdleBehaviour {
  public:
   /// ASYMMETRY is on, everything else is off.
-  Autonomy(const MotionTable& table, std::uint64_t seed);
+  IdleBehaviour(const MotionTable& table, std::uint64_t seed);
 
   /// Pattern 0 switches off. REQUIRES: pattern at most the count the table has.
-  void Set(vm::Time now, Life kind, std::size_t pattern);
-  bool On(Life kind) const { return Of(kind).on; }
+  void Set(vm::Time now, IdleKind kind, std::size_t pattern);
+  bool On(IdleKind kind) const { return Of(kind).on; }
   /// The pattern in force or switched off last, from 1; 0 = never on.
-  std::size_t Pattern(Life kind) const { return Of(kind).pattern; }
+  std::size_t Pattern(IdleKind kind) const { return Of(kind).pattern; }
   /// 0..1 while it is switched.
-  double Weight(Life kind, vm::Time t) const { return Of(kind).weight.At(t); }
+  double Weight(IdleKind kind, vm::Time t) const { return Of(kind).weight.At(t); }
 
   /// `quiet` 0..1: how far the listener's nods are held back (while speaking).
   Angles HeadAt(vm::Time t, double quiet) const;
@@ -45,7 +45,7 @@ class Autonomy {
     vm::Time since{0};
     Track<float> weight;
   };
-  const Switch& Of(Life kind) const { return switches_[static_cast<std::size_t>(kind)]; }
+  const Switch& Of(IdleKind kind) const { return switches_[static_cast<std::size_t>(kind)]; }
   double Random(std::uint64_t stream, std::int64_t index) const;  // -1..1
   double Wander(std::uint64_t stream, double periods) const;      // smooth, -1..1
   void AddMove(vm::Time t, Angles& out) const;
@@ -63,7 +63,7 @@ class Autonomy {
 
   const MotionTable& table_;
   std::uint64_t seed_;
-  std::array<Switch, kLifeNames.size()> switches_;
+  std::array<Switch, kIdleKindNames.size()> switches_;
   /// The blink that was asked for last. A blink's place is the sum of all intervals before it, but
   /// each interval follows from its number alone: from here the next one asked for, before or
   /// after, is a few steps away. What is found does not depend on where this stands.

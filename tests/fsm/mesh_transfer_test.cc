@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "fsm/head/head.h"
-#include "fsm/mesh/carry.h"
+#include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/surface_index.h"
@@ -24,21 +24,23 @@ namespace fsm {
 namespace {
 
 /// Two built-in faces: what the second does by itself is the truth for what is carried to it.
-class CarryTest : public testing::Test {
+class DeformationTransferTest : public testing::Test {
  protected:
   void SetUp() override {
     from_ = Head::Make("galatea", false);
     to_ = Head::Make(Head::Identities()[1].name, false);
     from_->Evaluate({}, from_rest_);
     to_->Evaluate({}, to_rest_);
-    flesh_ = FleshOf(from_->topology());
+    flesh_ = SkinTriangles(from_->topology());
     ChoosePairs();
   }
 
-  void MakeCarry(const std::vector<std::uint32_t>& onto) {
-    const auto from_eyes = EyesOf(from_->topology()), to_eyes = EyesOf(to_->topology());
-    carry_ = std::make_unique<Carry>(CarrySurface{from_rest_.position, flesh_, false, from_eyes},
-                                     CarrySurface{to_rest_.position, onto, false, to_eyes}, pairs_);
+  void MakeTransfer(const std::vector<std::uint32_t>& onto) {
+    const auto from_eyes = EyeballTriangles(from_->topology()),
+               to_eyes = EyeballTriangles(to_->topology());
+    carry_ = std::make_unique<DeformationTransfer>(
+        TransferSurface{from_rest_.position, flesh_, false, from_eyes},
+        TransferSurface{to_rest_.position, onto, false, to_eyes}, pairs_);
   }
 
   /// The second face's flesh as a coarse mesh has it: of the vertices in each cube that face the
@@ -54,7 +56,7 @@ class CarryTest : public testing::Test {
                        (y > mouth ? 8 : 0) + (y > eyes ? 16 : 0);
       return left.emplace(std::tuple(cube.x, cube.y, cube.z, kind), v).first->second;
     };
-    const auto fine = FleshOf(to_->topology());
+    const auto fine = SkinTriangles(to_->topology());
     std::vector<std::uint32_t> coarse;
     for (std::size_t i = 0; i + 2 < fine.size(); i += 3) {
       const std::array t{one_of(fine[i]), one_of(fine[i + 1]), one_of(fine[i + 2])};
@@ -138,33 +140,33 @@ class CarryTest : public testing::Test {
   HeadVertices from_rest_, to_rest_;
   std::vector<std::uint32_t> flesh_;
   std::vector<PlacePair> pairs_;
-  std::unique_ptr<Carry> carry_;
+  std::unique_ptr<DeformationTransfer> carry_;
 };
 
 constexpr int kUnits[] = {1, 2, 4, 6, 9, 10, 12, 15, 16, 17, 18, 20, 22, 25, 26, 27};
 
-TEST_F(CarryTest, UnitsCarriedToAnotherFaceAreNearlyItsOwn) {
-  const auto onto = FleshOf(to_->topology());
-  MakeCarry(onto);
+TEST_F(DeformationTransferTest, UnitsCarriedToAnotherFaceAreNearlyItsOwn) {
+  const auto onto = SkinTriangles(to_->topology());
+  MakeTransfer(onto);
   EXPECT_LT(MeanError(kUnits, 0.08F, onto), 0.045F);
 }
 
-TEST_F(CarryTest, ACoarseMeshWhoseLandmarksAreMillimetresOffMovesNearlyAsItShould) {
+TEST_F(DeformationTransferTest, ACoarseMeshWhoseLandmarksAreMillimetresOffMovesNearlyAsItShould) {
   // As many vertices, and errors as large, as a network finds on a head of another maker.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const auto k = static_cast<float>(i);
     pairs_[i].to += 2.0F * glm::vec3(std::sin(5 * k), std::sin(7 * k + 1), std::sin(11 * k + 2));
   }
   const auto onto = Coarse(7);
-  MakeCarry(onto);
+  MakeTransfer(onto);
   EXPECT_LT(MeanError(kUnits, 0.12F, onto), 0.07F);
   FaceState shut;
   shut.blink_left = shut.blink_right = 1;
   EXPECT_LT(ErrorOf(shut, onto), 0.2F);
 }
 
-TEST_F(CarryTest, LipsAndLidsAreNeverTakenForEachOther) {
-  MakeCarry(FleshOf(to_->topology()));
+TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
+  MakeTransfer(SkinTriangles(to_->topology()));
   // The lower lip falls with the jaw, the upper does not; the upper lid closes, the lower hardly.
   const auto upper_error = [&](const FaceState& state, auto chosen) {
     HeadVertices a, b;
@@ -174,7 +176,7 @@ TEST_F(CarryTest, LipsAndLidsAreNeverTakenForEachOther) {
     for (std::size_t i = 0; i < by.size(); ++i) by[i] = a.position[i] - from_rest_.position[i];
     carry_->Apply(by, carried);
     float worst = 0;
-    for (const std::uint32_t v : FleshOf(to_->topology())) {
+    for (const std::uint32_t v : SkinTriangles(to_->topology())) {
       if (!chosen(v)) continue;
       worst = std::max(worst, std::abs(carried[v].y - (b.position[v].y - to_rest_.position[v].y)));
     }
@@ -245,7 +247,7 @@ void ExpectEachFollowsItsOwn(FacePart upper_part, FacePart lower_part) {
     add(x, 6, upper_part);
     add(x, -6, lower_part);
   }
-  const Carry carry({from.place, from.triangles}, {to.place, to.triangles}, pairs);
+  const DeformationTransfer carry({from.place, from.triangles}, {to.place, to.triangles}, pairs);
   std::vector<glm::vec3> by, carried(to.place.size(), glm::vec3(0));
   for (const bool upper : from.is_upper) by.emplace_back(0, upper ? 0 : -30, 0);
   carry.Apply(by, carried);
@@ -254,11 +256,11 @@ void ExpectEachFollowsItsOwn(FacePart upper_part, FacePart lower_part) {
   }
 }
 
-TEST(CarryOppositesTest, EachLipFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
+TEST(TransferOppositesTest, EachLipFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
   ExpectEachFollowsItsOwn(FacePart::kUpperLip, FacePart::kLowerLip);
 }
 
-TEST(CarryOppositesTest, EachLidFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
+TEST(TransferOppositesTest, EachLidFollowsItsOwnWhereTheSlitIsNotQuiteWhereLandmarksSay) {
   ExpectEachFollowsItsOwn(FacePart::kUpperLid, FacePart::kLowerLid);
 }
 
@@ -284,11 +286,12 @@ TEST(WeldedSurfaceTest, WhatAnEyeballHidesIsNotSeen) {
   EXPECT_EQ(surface.seen[4], 1);
 }
 
-TEST(CarryRefusesTest, TooFewPlaces) {
+TEST(TransferRefusesTest, TooFewPlaces) {
   const std::vector<glm::vec3> place(3, glm::vec3(0));
   const std::vector<std::uint32_t> triangle{0, 1, 2};
   const std::vector<PlacePair> pairs(7);
-  EXPECT_THROW(Carry({place, triangle}, {place, triangle}, pairs), std::runtime_error);
+  EXPECT_THROW(DeformationTransfer({place, triangle}, {place, triangle}, pairs),
+               std::runtime_error);
 }
 
 TEST(HeadPointsTest, WhatIsWrittenIsReadAgain) {

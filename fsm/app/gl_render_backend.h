@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/app/studio.h"
+#include "fsm/app/render_backend.h"
 #include "fsm/film/movie_writer.h"
 #include "fsm/head/head.h"
 
 namespace fsm {
 
 /// Draws our head with OpenGL: in a window, or headless with a context made at the first need.
-class GlStudio final : public Studio {
+class GlRenderBackend final : public RenderBackend {
  public:
   struct Options {
     int width = 640;
@@ -33,8 +33,8 @@ class GlStudio final : public Studio {
     std::string tables = {};  ///< a folder whose units move the faces, see MakeHeadOfName
   };
   /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had.
-  explicit GlStudio(const Options& options);
-  ~GlStudio() override;
+  explicit GlRenderBackend(const Options& options);
+  ~GlRenderBackend() override;
 
   vm::Result<void> Draw(const FaceState& state, const Scene& scene) override;
   const Image& Read() override;

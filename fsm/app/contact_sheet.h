@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/app/studio.h"
+#include "fsm/app/render_backend.h"
 #include "fsm/motion/motion_tables.h"
 
 namespace fsm {
@@ -27,6 +27,6 @@ vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
 
 inline constexpr int kCellWidth = 220, kCellHeight = 260;
 /// Draws it; the studio gets the size of a cell. Errors: as the studio's.
-vm::Result<Image> DrawSheet(Studio& studio, const Sheet& sheet, bool labels);
+vm::Result<Image> DrawSheet(RenderBackend& studio, const Sheet& sheet, bool labels);
 
 }  // namespace fsm
