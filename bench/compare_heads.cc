@@ -17,9 +17,10 @@
 
 #include "bench/obj_head.h"
 #include "fsm/app/contact_sheet_font.h"
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 #include "fsm/render/renderer.h"
+#include "fsm/rig/head.h"
 
 namespace {
 
@@ -57,7 +58,7 @@ struct Row {
 
 std::vector<Row> Rows(const std::filesystem::path& folder, const std::string& face) {
   std::vector<Row> rows;
-  rows.push_back({"OURS", face.empty() ? fsm::Head::MakeGeneric() : fsm::Head::Make(face)});
+  rows.push_back({"OURS", face.empty() ? fsm::MakeGenericHead() : fsm::MakeHead(face)});
   const auto& eyes = rows.front().head->topology().eyes;
   const glm::vec3 middle = (eyes[0].centre + eyes[1].centre) / 2.0F;
   for (const auto& source : Sources(folder)) {

@@ -24,8 +24,9 @@
 #include <string>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"
+#include "fsm/rig/head.h"
 
 extern "C" char** environ;
 
@@ -170,7 +171,7 @@ void PrintFour(const Options& options, fsm::RenderContext& context, const fsm::H
 void MeasureAll(char** argv, const Options& options) {
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
   auto renderer = fsm::Renderer::Make(*context);
-  const auto head = fsm::Head::MakeGeneric();
+  const auto head = fsm::MakeGenericHead();
   fsm::HeadVertices vertices;
   fsm::Image image;
   const fsm::Scene scene;
@@ -205,7 +206,7 @@ void MeasureAll(char** argv, const Options& options) {
 void DrawFirstFrame(const Options& options) {
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
   auto renderer = fsm::Renderer::Make(*context);
-  const auto head = fsm::Head::MakeGeneric();
+  const auto head = fsm::MakeGenericHead();
   fsm::HeadVertices vertices;
   fsm::Image image;
   head->Evaluate({}, vertices);

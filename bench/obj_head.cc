@@ -59,9 +59,9 @@ bool Inside(const glm::vec3& p, const std::vector<glm::vec3>& outline) {
   return in;
 }
 
-class ObjHead : public Head {
+class ObjHeadMaker {
  public:
-  ObjHead(const ObjSource& source, const glm::vec3& eyes) {
+  ObjHeadMaker(const ObjSource& source, const glm::vec3& eyes) {
     Read(source);
     if (balls_[0].empty() || balls_[1].empty()) {
       throw std::runtime_error(source.folder.string() + " has no two eyes");
@@ -77,12 +77,10 @@ class ObjHead : public Head {
     Assemble();
   }
 
-  const HeadTopology& topology() const override { return topology_; }
-  void Evaluate(const FaceState&, HeadVertices& out) const override { out = rest_; }
-  MouthMeasure MeasureMouth(const FaceState&) const override { return {}; }
-  glm::vec3 Landmark(std::string_view name) const override {
-    const auto found = landmarks_.find(std::string(name));
-    return found == landmarks_.end() ? Head::Landmark(name) : found->second;
+  HeadAsset Asset() {
+    return {.topology = std::move(topology_),
+            .rig = StillRig(std::move(rest_.position), std::move(rest_.normal)),
+            .landmarks = std::move(landmarks_)};
   }
 
  private:
@@ -260,13 +258,13 @@ class ObjHead : public Head {
   HeadVertices rest_;
   std::map<Material, std::vector<std::uint32_t>> batches_;
   std::array<Box, 2> balls_;  // right, left
-  std::map<std::string, glm::vec3> landmarks_;
+  Landmarks landmarks_;
 };
 
 }  // namespace
 
 std::unique_ptr<Head> ReadObjHead(const ObjSource& source, const glm::vec3& eyes) {
-  return std::make_unique<ObjHead>(source, eyes);
+  return std::make_unique<Head>(ObjHeadMaker(source, eyes).Asset());
 }
 
 }  // namespace fsm::bench

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm::bench {
 

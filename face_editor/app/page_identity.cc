@@ -5,6 +5,7 @@
 
 #include "face_editor/app/ui.h"
 #include "face_editor/core/identity_head.h"
+#include "fsm/head/make_head.h"
 
 namespace editor {
 namespace {
@@ -33,7 +34,7 @@ void SliderList(Ui& ui) {
 
 fsm::FaceState IdentityPage(Ui& ui) {
   std::vector<std::string> bases;
-  for (const auto& face : fsm::Head::Identities()) bases.emplace_back(face.name);
+  for (const auto& face : fsm::Identities()) bases.emplace_back(face.name);
   std::string base = ui.editor.state().base;
   ImGui::SetNextItemWidth(160);
   if (Choice(ui, "made into somebody else", &base, bases)) ui.Check(ui.editor.SetBase(base));

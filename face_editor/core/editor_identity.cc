@@ -10,6 +10,7 @@
 #include "face_editor/core/identity_head.h"
 #include "face_editor/core/table_writer.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/head/make_head.h"
 #include "fsm/motion/table_text.h"
 
 namespace editor {
@@ -32,7 +33,7 @@ vm::Result<std::string> FolderOf(const std::string& name, const std::string& fol
 
 vm::Result<void> Editor::SetBase(std::string_view name) {
   std::string names;
-  for (const auto& face : fsm::Head::Identities()) {
+  for (const auto& face : fsm::Identities()) {
     names += (names.empty() ? "" : ", ") + std::string(face.name);
     if (face.name != name) continue;
     const std::string base(name);

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 #include "vm_protocol/core/result.h"
 
 namespace editor {

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "face_editor/core/state.h"
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
+#include "fsm/rig/head.h"
 #include "vm_protocol/core/result.h"
 
 namespace editor {
 
 /// The sliders there are, and those a built-in face has set.
 std::vector<std::string> SliderNames();
-/// REQUIRES: one of fsm::Head::Identities().
+/// REQUIRES: one of fsm::Identities().
 Sliders SlidersOf(const std::string& base);
 
 /// A face made of a built-in one, as its file says; lines that are no sliders are kept as they are.

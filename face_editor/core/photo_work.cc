@@ -12,6 +12,7 @@
 #include "face_fit/report.h"
 #include "fsm/app/face_of_name.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 
 namespace editor {
@@ -151,7 +152,7 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
     built->picture = std::move(dress.picture);
     built->set.photo = std::make_shared<fsm::Image>(
         fsm::Image{built->picture.width, built->picture.height, built->picture.rgba});
-    built->head = fsm::Head::Make(built->set);
+    built->head = fsm::MakeHead(built->set);
     return built;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue,

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "face_editor/core/editor.h"
-#include "fsm/head/face_state.h"
 #include "fsm/motion/face_motion.h"
+#include "fsm/rig/face_state.h"
 #include "vm_protocol/core/phonemes.h"
 
 namespace editor {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/action_units.h"
+#include "fsm/rig/action_units.h"
 #include "vm_protocol/core/result.h"
 
 namespace editor {

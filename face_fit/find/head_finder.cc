@@ -131,8 +131,7 @@ fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file
     for (const fsm::Bone bone : model.bone) {
       eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    return Seen{BaseHead::See(networks, fsm::MakeMeshHead(std::move(model), fsm::StillMotion()),
-                              name, false),
+    return Seen{BaseHead::See(networks, fsm::MakeMeshHead(std::move(model), nullptr), name, false),
                 std::move(eye), std::move(flesh), has_uv_seams};
   };
   for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "face_fit/fit/base_head.h"
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 
 namespace facefit {
 

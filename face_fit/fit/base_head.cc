@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fsm/head/make_head.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/renderer.h"
 
@@ -113,7 +114,7 @@ std::unique_ptr<fsm::Head> BaseHead::Moved(std::unique_ptr<fsm::Head> other) con
 }
 
 BaseHead BaseHead::See(FaceNetworks& networks, const std::string& name) {
-  return See(networks, fsm::Head::Make(name), name, true);
+  return See(networks, fsm::MakeHead(name), name, true);
 }
 
 BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "face_fit/find/face_finder.h"
-#include "fsm/head/action_units.h"
-#include "fsm/head/head.h"
+#include "fsm/rig/action_units.h"
+#include "fsm/rig/head.h"
 
 namespace facefit {
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "face_fit/fit/base_head.h"
-#include "fsm/head/eye_transform.h"
+#include "fsm/rig/eye_transform.h"
 
 namespace facefit {
 

@@ -9,8 +9,8 @@
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/iris.h"
 #include "face_fit/fit/base_head.h"
-#include "fsm/head/eye_transform.h"
 #include "fsm/head/warp.h"
+#include "fsm/rig/eye_transform.h"
 
 namespace facefit {
 

@@ -7,8 +7,9 @@
 
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/eye_fit.h"
+#include "fsm/base/spline.h"
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
-#include "fsm/head/spline.h"
 
 namespace facefit {
 namespace {
@@ -58,7 +59,7 @@ std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm:
   set.smooth = fit.smooth;
   set.eyes = fit.eyes;
   set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
-  const auto head = base.Moved(fsm::Head::Make(set));
+  const auto head = base.Moved(fsm::MakeHead(set));
   fsm::HeadVertices vertices;
   head->Evaluate(state, vertices);
   // Both begin with the same skin.

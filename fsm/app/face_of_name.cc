@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fsm/head/face_folder.h"
+#include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/image/image_file.h"
@@ -49,9 +50,8 @@ std::string UnitsFolder(const std::string& folder, const std::string& tables) {
 }
 
 std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables) {
-  if (std::ranges::find(Head::Identities(), face, &IdentityInfo::name) !=
-      Head::Identities().end()) {
-    return MovedAsIn(tables, Head::Make(face));
+  if (std::ranges::find(Identities(), face, &IdentityInfo::name) != Identities().end()) {
+    return MovedAsIn(tables, MakeHead(face));
   }
   const std::string folder = FacesFolder() + "/" + face;
   const std::string units = UnitsFolder(folder, tables);
@@ -64,7 +64,7 @@ std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string&
   auto image = ReadImage(folder + "/photo.png");
   if (!image) throw std::runtime_error(image.error().text);
   set.photo = std::make_shared<Image>(Image{image->width, image->height, std::move(image->rgba)});
-  return MovedAsIn(units, Head::Make(set));
+  return MovedAsIn(units, MakeHead(set));
 }
 
 }  // namespace fsm

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "fsm/head/action_units.h"
-#include "fsm/head/head.h"
+#include "fsm/rig/action_units.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -8,6 +8,7 @@
 #include "fsm/app/face_of_name.h"
 #include "fsm/film/movie_writer.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 
 namespace fsm {
@@ -29,17 +30,17 @@ GlRenderBackend::~GlRenderBackend() {
 }
 
 const Head& GlRenderBackend::head() {
-  if (!head_) head_ = MakeHead(face_);
+  if (!head_) head_ = MakeNamedHead(face_);
   return *head_;
 }
 
 /// One of Options::more_faces, a built-in head, or one from a photo out of its folder; "" = the
 /// first.
-std::unique_ptr<Head> GlRenderBackend::MakeHead(const std::string& face) const {
+std::unique_ptr<Head> GlRenderBackend::MakeNamedHead(const std::string& face) const {
   for (const auto& more : options_.more_faces) {
     if (face.empty() || more.name == face) return more.make();
   }
-  return MakeHeadOfName(face.empty() ? std::string(Head::Identities().front().name) : face,
+  return MakeHeadOfName(face.empty() ? std::string(Identities().front().name) : face,
                         options_.tables);
 }
 
@@ -56,7 +57,7 @@ vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scen
     // The head is made while the driver starts; both take a good part of the first frame.
     std::future<std::unique_ptr<Head>> made;
     if (!head_ && !renderer_) {
-      made = std::async(std::launch::async, [this] { return MakeHead(face_); });
+      made = std::async(std::launch::async, [this] { return MakeNamedHead(face_); });
     }
     MakeRenderer();
     if (made.valid()) head_ = made.get();
@@ -78,7 +79,7 @@ MouthMeasure GlRenderBackend::Measure(const FaceState& state) { return head().Me
 std::vector<std::string> GlRenderBackend::Faces() const {
   std::vector<std::string> names;
   for (const auto& more : options_.more_faces) names.push_back(more.name);
-  for (const IdentityInfo& face : Head::Identities()) {
+  for (const IdentityInfo& face : Identities()) {
     if (std::ranges::find(names, face.name) == names.end()) names.emplace_back(face.name);
   }
   for (const std::string& name : FacesIn(FacesFolder())) {
@@ -96,7 +97,7 @@ vm::Result<void> GlRenderBackend::Wear(const std::string& face) {
   }
   if (face == (face_.empty() ? names.front() : face_)) return {};
   try {
-    auto head = MakeHead(face);
+    auto head = MakeNamedHead(face);
     // What the renderer keeps belongs to the head it drew last.
     if (renderer_) {
       context_->MakeCurrent();

@@ -9,7 +9,8 @@
 
 #include "fsm/app/render_backend.h"
 #include "fsm/film/movie_writer.h"
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 
@@ -55,7 +56,7 @@ class GlRenderBackend final : public RenderBackend {
 
  private:
   const Head& head();
-  std::unique_ptr<Head> MakeHead(const std::string& face) const;
+  std::unique_ptr<Head> MakeNamedHead(const std::string& face) const;
   void MakeRenderer();
 
   Options options_;

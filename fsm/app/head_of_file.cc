@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fsm/app/face_of_name.h"
+#include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/face_motion.h"
@@ -152,19 +153,19 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
   }
   MeshModel model = ModelOf(file, placed.place, placed.mouth_y);
   auto own =
-      OwnShapesMotion(file, placed.place, model, Head::Make(placed.face, false), Meanings(tables));
-  const auto make = [&](std::unique_ptr<MeshMotion> motion) {
+      OwnShapesMotion(file, placed.place, model, MakeHead(placed.face, false), Meanings(tables));
+  const auto make = [&](std::unique_ptr<Deformation> motion) {
     return MovedAsIn(tables_folder, MakeMeshHead(std::move(model), std::move(motion)));
   };
   if (own) return make(std::move(own));
   if (has_points) {
-    auto carried = CarriedMotion(model, Head::Make(placed.face), placed.pairs);
+    auto carried = CarriedMotion(model, MakeHead(placed.face), placed.pairs);
     return make(std::move(carried));
   }
   tell("has no shapes with names of ARKit or VRM, and no '" + beside +
        "' says where its eyes and mouth are (face_fit --head finds out): only head, eyes and jaw "
        "move");
-  return make(StillMotion());
+  return make(nullptr);
 }
 
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path) {

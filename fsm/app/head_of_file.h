@@ -3,9 +3,9 @@
 #include <memory>
 #include <string>
 
-#include "fsm/head/head.h"
 #include "fsm/mesh/gltf_writer.h"
 #include "fsm/motion/motion_tables.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

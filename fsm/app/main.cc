@@ -17,6 +17,7 @@
 #include "fsm/app/head_of_file.h"
 #include "fsm/app/more_faces.h"
 #include "fsm/head/face_folder.h"
+#include "fsm/head/make_head.h"
 #include "vm_protocol/runtime/module_main.h"
 
 namespace {
@@ -145,8 +146,8 @@ int ExportIfAsked(const Options& options) {
   try {
     const auto head =
         fsm::MovedAsIn(options.module.tables, options.module.mask.empty()
-                                                  ? fsm::Head::MakeGeneric()
-                                                  : fsm::Head::Make(options.module.mask, false));
+                                                  ? fsm::MakeGenericHead()
+                                                  : fsm::MakeHead(options.module.mask, false));
     if (auto done = fsm::ExportHead(*head, *tables, options.export_file); !done) {
       return fail(done.error().text);
     }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fsm/film/movie_writer.h"
-#include "fsm/head/face_state.h"
 #include "fsm/render/renderer.h"
+#include "fsm/rig/face_state.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

@@ -3,13 +3,12 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "fsm/head/spline.h"
-#include "fsm/head/table_reader.h"
+#include "fsm/base/spline.h"
+#include "fsm/base/table_reader.h"
+#include "fsm/rig/lid_rig.h"
+#include "fsm/rig/tooth_arch.h"
 
 namespace fsm {
-
-/// The outer radius of the cornea, millimetres.
-inline constexpr float kCorneaRadius = 8.0f;
 
 /// The agent's left eye and its lids (tables/eye.txt); the right one is its mirror image.
 /// Angles in radians about the ball's horizontal axis, up from straight ahead.
@@ -49,43 +48,6 @@ class EyeAnatomy {
   glm::vec3 centre_{};
   float radius_ = 0, iris_ = 0, pupil_ = 0, shear_ = 0, meet_ = 0;
   Curve lid_radius_, upper_, lower_;
-};
-
-/// Where teeth and tongue lie in a face, from the base head's places: moved, and turned towards a
-/// side so far as its lips are, which for so small an angle is a shear.
-struct TeethPlace {
-  glm::vec3 shift{0};
-  float slope = 0;  ///< forward for each millimetre to the left
-  glm::vec3 operator()(glm::vec3 p) const { return p + shift + glm::vec3(0, 0, slope * p.x); }
-};
-
-/// One row of teeth: the outer faces lie on a parabola, flattened in front by a part of fourth
-/// order (dental arches are nearer to a U than to a V).
-struct ToothArch {
-  float front_z, depth, half_width;
-  float edge_y;  ///< of the middle incisors
-  float root_y;  ///< where the gum ends
-  float middle_x = 0;
-  float turn = 0;  ///< as TeethPlace::slope
-  float At(float x) const {
-    const float off = x - middle_x;
-    const float t = (off / half_width) * (off / half_width);
-    return front_z + turn * off - depth * t * (0.45f + 0.55f * t);
-  }
-  ToothArch Moved(const TeethPlace& to) const {
-    ToothArch moved = *this;
-    moved.front_z += to.shift.z;
-    moved.edge_y += to.shift.y;
-    moved.root_y += to.shift.y;
-    moved.middle_x += to.shift.x;
-    moved.turn += to.slope;
-    return moved;
-  }
-  float Slope(float x) const {
-    const float off = x - middle_x;
-    const float t = (off / half_width) * (off / half_width);
-    return depth * (0.9f + 2.2f * t) * off / (half_width * half_width) - turn;
-  }
 };
 
 /// The closed mouth (tables/mouth.txt), left half over x = 0..corner.

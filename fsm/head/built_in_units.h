@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsm/head/action_units.h"
+#include "fsm/rig/action_units.h"
 
 namespace fsm {
 

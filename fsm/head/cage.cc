@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 
 namespace fsm {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "fsm/base/table_reader.h"
 #include "fsm/head/anatomy.h"
-#include "fsm/head/table_reader.h"
 
 namespace fsm {
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "fsm/base/spline.h"
 #include "fsm/head/cage.h"
-#include "fsm/head/spline.h"
 
 namespace fsm {
 namespace {

@@ -2,6 +2,7 @@
 #include <glm/common.hpp>
 #include <vector>
 
+#include "fsm/base/grain.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "fsm/base/grain.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"

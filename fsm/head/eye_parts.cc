@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "fsm/base/grain.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"
 

@@ -6,8 +6,9 @@
 #include <numbers>
 #include <vector>
 
+#include "fsm/base/grain.h"
+#include "fsm/base/spline.h"
 #include "fsm/head/hair_parts.h"
-#include "fsm/head/spline.h"
 
 namespace fsm {
 namespace {

@@ -7,7 +7,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/grain.h"
+#include "fsm/base/spline.h"
 
 namespace fsm {
 namespace {

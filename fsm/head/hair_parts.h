@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/head/head_mesh.h"
 #include "fsm/head/paint.h"
-#include "fsm/head/rig.h"
 
 namespace fsm {
 

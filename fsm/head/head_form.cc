@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 
 namespace fsm {
 

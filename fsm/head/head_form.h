@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/eye_transform.h"
+#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
-#include "fsm/head/rig.h"
 #include "fsm/head/warp.h"
+#include "fsm/rig/eye_transform.h"
 
 namespace fsm {
 

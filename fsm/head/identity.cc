@@ -5,7 +5,8 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 namespace {
@@ -64,7 +65,7 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
   }
 }
 
-std::span<const IdentityInfo> Head::Identities() { return kIdentities; }
+std::span<const IdentityInfo> Identities() { return kIdentities; }
 
 std::size_t IdentityIndex(std::string_view name) {
   const auto found = std::ranges::find(kIdentities, name, &IdentityInfo::name);

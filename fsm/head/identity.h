@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/base/table_reader.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/paint.h"
-#include "fsm/head/table_reader.h"
 
 namespace fsm {
 
 /// What makes one face differ from the base head; a block of tables/identities.txt.
 struct Identity {
-  std::size_t index = 0;  ///< in Head::Identities()
+  std::size_t index = 0;  ///< in Identities()
   Palette palette;
   std::vector<std::pair<std::string, float>> sliders;
   std::optional<CropStyle> crop;  ///< long hair if empty
@@ -24,7 +24,7 @@ struct Identity {
   std::array<float, 4> creases{};  ///< by Wrinkle
 };
 
-/// The place of a name in Head::Identities(); throws std::invalid_argument listing the names.
+/// The place of a name in Identities(); throws std::invalid_argument listing the names.
 std::size_t IdentityIndex(std::string_view name);
 
 /// Throws std::invalid_argument for an unknown name, std::runtime_error naming file and line for a

@@ -10,12 +10,11 @@
 
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"
-#include "fsm/head/eye_transform.h"
 #include "fsm/head/subdivide.h"
+#include "fsm/rig/eye_transform.h"
+#include "fsm/rig/head_asset.h"
 
 namespace fsm {
-
-using Landmarks = std::map<std::string, glm::vec3, std::less<>>;
 
 /// The points of tables/landmarks.txt and those of eyes and ears at rest; `rest` begins with the
 /// vertices of `fine`. Throws std::runtime_error naming file and line if the table is damaged.

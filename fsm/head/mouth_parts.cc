@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "fsm/base/grain.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"
 

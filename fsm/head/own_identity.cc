@@ -9,6 +9,7 @@
 
 #include "embedded/identities.h"
 #include "embedded/sliders.h"
+#include "fsm/head/make_head.h"
 
 namespace fsm {
 
@@ -31,8 +32,8 @@ Identity ReadOwnIdentity(const std::string& name, std::string_view text) {
   std::optional<Identity> identity;
   for (const TableRow& row : table.rows()) {
     if (row.key() == "base") {
-      const auto known = std::ranges::find(Head::Identities(), row.Word(1), &IdentityInfo::name);
-      if (known == Head::Identities().end()) row.Fail("no built-in face is called " + row.Word(1));
+      const auto known = std::ranges::find(Identities(), row.Word(1), &IdentityInfo::name);
+      if (known == Identities().end()) row.Fail("no built-in face is called " + row.Word(1));
       if (identity) row.Fail("a second base");
       identity = BuiltInIdentity(row.Word(1));
       continue;

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/head.h"
 #include "fsm/head/identity.h"
 
 namespace fsm {
@@ -15,8 +14,6 @@ namespace fsm {
 Identity BuiltInIdentity(std::string_view name);
 /// The sliders there are, in the order of their table.
 std::vector<std::string> SliderNames();
-/// The head of an identity, as Head::Make. Throws std::runtime_error for an unknown slider.
-std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric = true);
 
 /// A face of one's own, the file identity.txt in its folder: `base FACE`, then lines as in
 /// tables/identities.txt that change it. `name` is for messages. Throws std::runtime_error naming

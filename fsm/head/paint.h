@@ -35,7 +35,4 @@ struct Paint {
 /// Colour and openness of the skin at a place of the base identity's face (both sides alike).
 Paint SkinPaint(glm::vec3 place, const EyeAnatomy& eye, const Palette& palette);
 
-/// A fixed pseudo-random number in -1..1 for a lattice point: the same on every machine.
-float Grain(int i, int j);
-
 }  // namespace fsm

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "fsm/head/anatomy.h"
-#include "fsm/head/head.h"
+#include "fsm/head/head_mesh.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/paint.h"
-#include "fsm/head/rig.h"
 #include "fsm/head/skin_mesh.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

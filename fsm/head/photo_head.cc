@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "fsm/head/table_reader.h"
+#include "fsm/base/table_reader.h"
 
 namespace fsm {
 namespace {

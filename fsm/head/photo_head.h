@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/eye_transform.h"
-#include "fsm/head/head.h"
 #include "fsm/head/warp.h"
+#include "fsm/rig/eye_transform.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -9,8 +9,8 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
+#include "fsm/base/spline.h"
 #include "fsm/head/skin_membrane.h"
-#include "fsm/head/spline.h"
 
 namespace fsm {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fsm/head/face_light.h"
-#include "fsm/head/head.h"
-#include "fsm/head/rig.h"
+#include "fsm/head/head_mesh.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/base/spline.h"
 #include "fsm/head/skin_mesh.h"
-#include "fsm/head/spline.h"
 
 namespace fsm {
 namespace {

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "fsm/head/cage.h"
-#include "fsm/head/head.h"
+#include "fsm/head/head_mesh.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/head/photo_lids.h"
-#include "fsm/head/rig.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "fsm/head/anatomy.h"
+#include "fsm/head/head_mesh.h"
 #include "fsm/head/paint.h"
-#include "fsm/head/rig.h"
 #include "fsm/head/subdivide.h"
 
 namespace fsm {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 #include "fsm/head/warp.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/surface_index.h"

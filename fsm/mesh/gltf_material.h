@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "fsm/head/pbr_material.h"
 #include "fsm/mesh/gltf_document.h"
+#include "fsm/rig/pbr_material.h"
 
 namespace fsm {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/face_state.h"
 #include "fsm/image/image.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/mesh_model.h"
+#include "fsm/rig/face_state.h"
 
 namespace fsm {
 
@@ -78,12 +78,10 @@ std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology);
 /// Those of its eyeballs.
 std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology);
 
-/// Stands still, but for head, eyes and jaw.
-std::unique_ptr<MeshMotion> StillMotion();
 /// Moved as `source` would be; `pairs` in our frame. Throws as Carry, with the model's name before
 /// the sentence.
-std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
-                                          std::span<const PlacePair> pairs);
+std::unique_ptr<Deformation> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
+                                           std::span<const PlacePair> pairs);
 
 /// What a shape of that name stands for, "mouthsmileleft" in small letters.
 struct ShapeMeaning {
@@ -93,9 +91,9 @@ struct ShapeMeaning {
 /// Moved by the file's own shapes, those whose names have a meaning: they are mixed so that
 /// `source` would look as it does. What they move in `model` is flesh then, teeth too. Nothing if
 /// there are fewer than four.
-std::unique_ptr<MeshMotion> OwnShapesMotion(const HeadFile& file, const Similarity& place,
-                                            MeshModel& model, std::shared_ptr<const Head> source,
-                                            std::span<const ShapeMeaning> meanings);
+std::unique_ptr<Deformation> OwnShapesMotion(const HeadFile& file, const Similarity& place,
+                                             MeshModel& model, std::shared_ptr<const Head> source,
+                                             std::span<const ShapeMeaning> meanings);
 
 /// A name in small letters without anything but letters and digits; _L and _R at its end become
 /// left and right, so that names of different makers are the same.

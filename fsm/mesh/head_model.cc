@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "fsm/base/spline.h"
 #include "fsm/head/paint.h"
-#include "fsm/head/spline.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/texture_atlas.h"

@@ -7,16 +7,12 @@
 #include <set>
 #include <stdexcept>
 
-#include "fsm/head/deformer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/nnls_solver.h"
+#include "fsm/rig/pose.h"
 
 namespace fsm {
 namespace {
-
-JawMove JawOf(const Pose& pose) {
-  return {.open_rad = pose.jaw_rad, .slide_mm = pose.jaw_slide_mm, .sway_mm = pose.jaw_sway_mm};
-}
 
 /// The state without what moves the head as a whole.
 FaceState FaceOnly(FaceState state) {
@@ -36,14 +32,7 @@ std::vector<std::uint32_t> TrianglesOf(const HeadTopology& topology,
   return out;
 }
 
-class RigidRig : public MeshMotion {
- public:
-  JawMove Move(const FaceState&, const Pose& pose, std::span<glm::vec3>) const override {
-    return JawOf(pose);
-  }
-};
-
-class TransferredRig : public MeshMotion {
+class TransferredRig : public Deformation {
  public:
   TransferredRig(const MeshModel& model, std::unique_ptr<Head> source,
                  std::span<const PlacePair> pairs)
@@ -60,10 +49,10 @@ class TransferredRig : public MeshMotion {
     source_->Evaluate(FaceOnly(state), moved);
     for (std::size_t i = 0; i < rest_.size(); ++i) moved.position[i] -= rest_[i];
     carry_.Apply(moved.position, position);
-    return JawOf(pose);
+    return pose.jaw;
   }
 
-  std::unique_ptr<MeshMotion> WithUnits(const UnitTable& units) const override {
+  std::unique_ptr<Deformation> WithUnits(const UnitTable& units) const override {
     auto other = std::make_unique<TransferredRig>(*this);
     other->source_ = source_->WithUnits(units);
     return other;
@@ -81,7 +70,7 @@ class TransferredRig : public MeshMotion {
   DeformationTransfer carry_;
 };
 
-class BlendshapeRig : public MeshMotion {
+class BlendshapeRig : public Deformation {
  public:
   BlendshapeRig(const HeadFile& file, const Similarity& place, const MeshModel& model,
                 std::shared_ptr<const Head> source, std::span<const ShapeMeaning> meanings)
@@ -153,12 +142,12 @@ class BlendshapeRig : public MeshMotion {
       for (const auto& delta : shapes_[k]) position[delta.vertex] += weights[k] * delta.by;
     }
     LookByShape(pose, position);
-    return JawOf(pose);
+    return pose.jaw;
   }
 
   /// The shapes keep the meaning they have by the built-in units, and are mixed to look as these
   /// do.
-  std::unique_ptr<MeshMotion> WithUnits(const UnitTable& units) const override {
+  std::unique_ptr<Deformation> WithUnits(const UnitTable& units) const override {
     auto other = std::make_unique<BlendshapeRig>(*this);
     other->source_ = source_->WithUnits(units);
     return other;
@@ -254,10 +243,8 @@ std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology) {
   return TrianglesOf(topology, {Material::kSclera, Material::kIris, Material::kPupil});
 }
 
-std::unique_ptr<MeshMotion> StillMotion() { return std::make_unique<RigidRig>(); }
-
-std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
-                                          std::span<const PlacePair> pairs) {
+std::unique_ptr<Deformation> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
+                                           std::span<const PlacePair> pairs) {
   try {
     return std::make_unique<TransferredRig>(model, std::move(source), pairs);
   } catch (const std::runtime_error& error) {
@@ -266,9 +253,9 @@ std::unique_ptr<MeshMotion> CarriedMotion(const MeshModel& model, std::unique_pt
   }
 }
 
-std::unique_ptr<MeshMotion> OwnShapesMotion(const HeadFile& file, const Similarity& place,
-                                            MeshModel& model, std::shared_ptr<const Head> source,
-                                            std::span<const ShapeMeaning> meanings) {
+std::unique_ptr<Deformation> OwnShapesMotion(const HeadFile& file, const Similarity& place,
+                                             MeshModel& model, std::shared_ptr<const Head> source,
+                                             std::span<const ShapeMeaning> meanings) {
   auto motion = std::make_unique<BlendshapeRig>(file, place, model, std::move(source), meanings);
   if (motion->count() < 4) return nullptr;
   motion->FreeWhatMoves(file, model);

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <queue>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 
 namespace fsm {
 

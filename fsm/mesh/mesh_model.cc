@@ -59,19 +59,6 @@ std::vector<std::uint32_t> MeshModel::EyeTriangles() const {
   return TrianglesOf(*this, [](Bone b) { return b == Bone::kEyeRight || b == Bone::kEyeLeft; });
 }
 
-Gaze GazeOf(const glm::mat3& eye) {
-  const glm::vec3 ahead = eye[2];
-  return {.right_deg = glm::degrees(std::atan2(ahead.x, ahead.z)),
-          .up_deg = glm::degrees(std::asin(std::clamp(ahead.y, -1.0F, 1.0F)))};
-}
-
-glm::mat3 EyeTo(const Gaze& gaze) {
-  const float right = glm::radians(gaze.right_deg), up = glm::radians(gaze.up_deg);
-  const float cr = std::cos(right), sr = std::sin(right), cu = std::cos(up), su = std::sin(up);
-  // Up first, then to the side: the third column is where the eye looks.
-  return {{cr, 0, -sr}, {-sr * su, cu, -cr * su}, {sr * cu, su, cr * cu}};
-}
-
 void MeshModel::AddBall(std::size_t side) {
   // Rings about the line of sight, one of them the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;

@@ -10,40 +10,22 @@
 #include <string>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/head/head_mesh.h"
 #include "fsm/head/landmarks.h"
-#include "fsm/head/rig.h"
+#include "fsm/rig/deformation.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
-
-struct Pose;
-class UnitTable;
 
 /// Where the eyes of every head from elsewhere are put: those of the built-in head
 /// (head/tables/eye.txt).
 inline constexpr glm::vec3 kEyePlace{30.5f, 22.3f, 63.6f};
 
-/// How far an eye turns for a gaze: in proportion up to `gaze_deg`, where it has turned by `turn`
-/// (degrees; where shapes do it, the weight of one). VRM 0.x and 1.0, "lookAt".
-struct LookRange {
-  float gaze_deg = 90, turn = 10;
-};
-struct LookRanges {
-  LookRange inner, outer, up, down;
-};
-
-/// Where an eye looks: to the viewer's right, and up.
-struct Gaze {
-  float right_deg = 0, up_deg = 0;
-};
-Gaze GazeOf(const glm::mat3& eye);
-glm::mat3 EyeTo(const Gaze& gaze);
-
-/// Somebody else's head at rest, in our frame and millimetres: what MeshHead shows.
+/// Somebody else's head at rest, in our frame and millimetres: what MakeMeshHead shows.
 struct MeshModel {
   std::string name;  ///< of its file, for messages; may be empty
   std::vector<glm::vec3> position;
-  std::vector<Bone> bone;                 ///< kSkin moves as MeshMotion says
+  std::vector<Bone> bone;                 ///< kSkin moves as its Deformation says
   std::vector<float> neck;                ///< part of the head's turn each vertex makes
   std::vector<glm::vec3> albedo;          ///< linear RGB
   std::vector<glm::vec3> photo_texcoord;  ///< see HeadTopology
@@ -73,27 +55,8 @@ struct MeshModel {
   void AddBall(std::size_t side);
 };
 
-/// What the lower jaw does: about the hinge, forward and to the viewer's right.
-struct JawMove {
-  float open_rad = 0, slide_mm = 0, sway_mm = 0;
-};
-
-/// How the flesh of a MeshModel follows a state. Immutable; thread: any.
-class MeshMotion {
- public:
-  virtual ~MeshMotion() = default;
-  /// `position`: of all vertices, at rest on entry; those of flesh are moved, the head's turn
-  /// apart.
-  virtual JawMove Move(const FaceState& state, const Pose& pose,
-                       std::span<glm::vec3> position) const = 0;
-  /// The same, where units move as another table says; nothing if that changes nothing here.
-  virtual std::unique_ptr<MeshMotion> WithUnits(const UnitTable& /*units*/) const {
-    return nullptr;
-  }
-};
-
-/// A head that shows `model`, moved by `motion`. Throws std::runtime_error if the model has no
-/// triangles.
-std::unique_ptr<Head> MakeMeshHead(MeshModel model, std::unique_ptr<MeshMotion> motion);
+/// A head that shows `model`, moved by `motion`; without it only head, jaw and eyes move. Throws
+/// std::runtime_error if the model has no triangles.
+std::unique_ptr<Head> MakeMeshHead(MeshModel model, std::unique_ptr<Deformation> motion);
 
 }  // namespace fsm

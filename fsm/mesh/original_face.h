@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/face_state.h"
 #include "fsm/image/image.h"
 #include "fsm/mesh/mesh_model.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
+#include "fsm/rig/face_state.h"
 
 namespace fsm {
 
@@ -71,7 +71,7 @@ using VisemeMouths = std::vector<std::array<float, kMouthParameters>>;
 MeshModel ModelOf(const OriginalFace& face);
 /// Moves it by its own units: action units by their FACS number, mouths taken apart into visemes,
 /// and what those leave into the 17 mouth units.
-std::unique_ptr<MeshMotion> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
-                                        const VisemeMouths& mouths);
+std::unique_ptr<Deformation> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
+                                         const VisemeMouths& mouths);
 
 }  // namespace fsm

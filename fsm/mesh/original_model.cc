@@ -7,7 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/mesh/texture_atlas.h"

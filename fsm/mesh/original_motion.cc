@@ -3,12 +3,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "fsm/head/deformer.h"
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 #include "fsm/mesh/lip_seal.h"
 #include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
+#include "fsm/rig/pose.h"
 
 namespace fsm {
 namespace {
@@ -29,7 +29,7 @@ std::vector<NnlsSolver::Row> Rows(const VisemeMouths& mouths) {
   return rows;
 }
 
-class OwnMotion : public MeshMotion {
+class OwnMotion : public Deformation {
  public:
   OwnMotion(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths)
       : mix_(Rows(mouths)), seal_(model, face.wireframe.at.size()) {
@@ -140,8 +140,8 @@ class OwnMotion : public MeshMotion {
 
 }  // namespace
 
-std::unique_ptr<MeshMotion> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
-                                        const VisemeMouths& mouths) {
+std::unique_ptr<Deformation> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
+                                         const VisemeMouths& mouths) {
   return std::make_unique<OwnMotion>(face, model, mouths);
 }
 

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 
 namespace fsm {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "fsm/head/head.h"
 #include "fsm/image/image.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/face_state.h"
+#include "fsm/rig/face_state.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

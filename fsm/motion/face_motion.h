@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/head/face_state.h"
 #include "fsm/motion/expression_motion.h"
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/head_motion.h"
@@ -16,6 +15,7 @@
 #include "fsm/motion/motion_tables.h"
 #include "fsm/motion/person.h"
 #include "fsm/motion/speech_motion.h"
+#include "fsm/rig/face_state.h"
 #include "vm_protocol/core/phonemes.h"
 #include "vm_protocol/core/result.h"
 #include "vm_protocol/core/scheduler.h"

@@ -3,8 +3,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "fsm/head/face_state.h"
 #include "fsm/render/renderer.h"
+#include "fsm/rig/face_state.h"
 
 namespace fsm {
 

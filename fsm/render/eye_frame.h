@@ -6,7 +6,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

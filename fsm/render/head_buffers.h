@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
-#include "fsm/head/head.h"
 #include "fsm/render/eye_frame.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/mouth_frame.h"
 #include "fsm/render/shadow_frame.h"
 #include "fsm/render/skin_texture.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -6,11 +6,11 @@
 #include <memory>
 #include <vector>
 
-#include "fsm/head/head.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/head_buffers.h"
 #include "fsm/render/renderer.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "fsm/head/face_state.h"
-#include "fsm/head/head.h"
 #include "fsm/image/image.h"
+#include "fsm/rig/face_state.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 #include "fsm/render/renderer.h"
 #include "tests/support/process.h"
@@ -79,7 +80,7 @@ class FaceEditorTest : public testing::Test {
   }
   /// A picture drawn of a built-in head: a photo whose face can be found without other people's.
   std::string DrawnPhoto(const std::string& name = "photo.png", float turned_degrees = 0) {
-    const auto head = fsm::Head::Make("pygmalion", false);
+    const auto head = fsm::MakeHead("pygmalion", false);
     fsm::HeadVertices vertices;
     head->Evaluate({}, vertices);
     const auto context = fsm::RenderContext::MakeHeadless(400, 400);

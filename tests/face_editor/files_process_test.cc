@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "face_fit/find/face_networks.h"
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/mesh/gltf_writer.h"
 #include "tests/face_editor/editor_process.h"
@@ -17,7 +18,7 @@ class EditorFilesTest : public FaceEditorTest {
  protected:
   /// A head with four shapes of its own.
   std::string WriteHead() {
-    const auto head = fsm::Head::Make("pygmalion", false);
+    const auto head = fsm::MakeHead("pygmalion", false);
     std::vector<fsm::ExportedShape> shapes;
     for (const auto& [name, unit] : {std::pair("jawOpen", 26U),
                                      {"mouthSmileLeft", 12U},

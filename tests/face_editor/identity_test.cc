@@ -7,6 +7,7 @@
 
 #include "face_editor/core/editor.h"
 #include "face_editor/core/identity_head.h"
+#include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
 
 namespace editor {
@@ -20,7 +21,7 @@ TEST(IdentityTest, ASliderMovesWhatItIsCalledAfter) {
   ASSERT_TRUE(plain && longer);
   EXPECT_LT((*longer)->Landmark("pronasale").y, (*plain)->Landmark("pronasale").y - 3);
   EXPECT_NEAR((*longer)->Landmark("gnathion").y, (*plain)->Landmark("gnathion").y, 0.5F);
-  const auto unchanged = fsm::Head::Make("galatea");
+  const auto unchanged = fsm::MakeHead("galatea");
   EXPECT_EQ(unchanged->Landmark("pronasale"), (*plain)->Landmark("pronasale"));
 }
 

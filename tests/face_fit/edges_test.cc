@@ -7,6 +7,7 @@
 
 #include "face_fit/find/lid_edges.h"
 #include "face_fit/find/lip_seam.h"
+#include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 
 namespace facefit {
@@ -15,7 +16,7 @@ namespace {
 /// The built-in head, whose own units say which lip and which lid a place belongs to.
 class EdgesTest : public testing::Test {
  protected:
-  EdgesTest() : head_(fsm::Head::Make("galatea", false)) { head_->Evaluate({}, rest_); }
+  EdgesTest() : head_(fsm::MakeHead("galatea", false)) { head_->Evaluate({}, rest_); }
 
   std::optional<LidEdges> Lids(const fsm::HeadVertices& at, std::size_t side) const {
     const auto& topology = head_->topology();

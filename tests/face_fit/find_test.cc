@@ -8,7 +8,8 @@
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/fit/fit.h"
-#include "fsm/head/table_reader.h"
+#include "fsm/base/table_reader.h"
+#include "fsm/head/make_head.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -92,7 +93,7 @@ FoundFace SeenOf(const std::vector<MeshPlace>& places, const std::vector<glm::ve
 
 /// The head as a network would see it whose depth is true.
 BaseHead Exact(const BaseHead& base) {
-  BaseHead exact{base.name, fsm::Head::Make("galatea", false), base.rest, base.places, {}};
+  BaseHead exact{base.name, fsm::MakeHead("galatea", false), base.rest, base.places, {}};
   for (const MeshPlace& place : base.places) exact.seen_z.push_back(place.On(base.rest.position).z);
   return exact;
 }

@@ -7,8 +7,9 @@
 
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"
+#include "fsm/rig/head.h"
 #include "tests/face_fit/network_fixture.h"
 
 namespace facefit {
@@ -23,7 +24,7 @@ struct Person {
 };
 
 fsm::Image Drawn(const Person& person) {
-  const auto head = fsm::Head::Make(person.face, false);
+  const auto head = fsm::MakeHead(person.face, false);
   fsm::FaceState state;
   state.agent_rotation = {0, person.turn, person.tilt};
   fsm::HeadVertices vertices;

@@ -16,6 +16,7 @@
 #include <tuple>
 
 #include "face_fit/find/head_finder.h"
+#include "fsm/head/make_head.h"
 #include "fsm/mesh/obj_file.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
@@ -112,7 +113,7 @@ float ErrorOf(const Subject& subject, const std::vector<glm::vec3>& truth,
 TEST_F(HeadTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) {
   for (const char* name : {"ict", "makehuman"}) {
     const Subject& subject = Of(name);
-    const auto ours = fsm::Head::Make("galatea", false);
+    const auto ours = fsm::MakeHead("galatea", false);
     fsm::HeadVertices rest;
     ours->Evaluate({}, rest);
     const auto flesh = fsm::SkinTriangles(ours->topology());
@@ -169,7 +170,7 @@ TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
       return y / count;
     };
     const auto head = fsm::MakeMeshHead(
-        subject.model, fsm::CarriedMotion(subject.model, fsm::Head::Make("galatea", false), pairs));
+        subject.model, fsm::CarriedMotion(subject.model, fsm::MakeHead("galatea", false), pairs));
     fsm::HeadVertices moved;
     fsm::FaceState state;
     state.au_left[27] = state.au_right[27] = 1;

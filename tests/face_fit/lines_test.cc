@@ -18,6 +18,7 @@
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/base_head.h"
 #include "face_fit/fit/fit.h"
+#include "fsm/head/make_head.h"
 
 namespace facefit {
 namespace {
@@ -279,7 +280,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   // The built-in head as it would be seen by a camera of four pixels to the millimetre, whose eyes
   // look at it and are half hidden by their upper lids.
   BaseHead base;
-  base.head = fsm::Head::Make("galatea");
+  base.head = fsm::MakeHead("galatea");
   base.head->Evaluate({}, base.rest);
   base.places.resize(kNetworkPoints);
   FoundFace face;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/dress/cover.h"
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_wear.h"
 
 namespace facefit {
@@ -15,7 +16,7 @@ namespace {
 class SkinCoverTest : public testing::Test {
  protected:
   void SetUp() override {
-    base_.head = fsm::Head::Make("galatea");
+    base_.head = fsm::MakeHead("galatea");
     base_.head->Evaluate({}, base_.rest);
     fit_.worn = base_.rest.position;
     fit_.pose.focal = 760;

@@ -15,6 +15,7 @@
 #include "face_fit/find/hand_points.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/fit/view.h"
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/render/renderer.h"
@@ -52,7 +53,7 @@ std::unique_ptr<fsm::Head> HeadOf(const Fit& fit) {
   set.smooth = fit.smooth;
   set.eyes = fit.eyes;
   set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
-  return fsm::Head::Make(set);
+  return fsm::MakeHead(set);
 }
 
 /// A head whose profile is not the built-in one's: brow and chin lie back, the nose stands forward,
@@ -103,7 +104,7 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
   }
   static const fsm::Head& truth() {
     auto& head = truths_[GetParam()];
-    if (!head) head = fsm::Head::Make(GetParam(), false);
+    if (!head) head = fsm::MakeHead(GetParam(), false);
     return *head;
   }
   static const Front& front() {

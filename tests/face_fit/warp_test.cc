@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/render/renderer.h"
 
@@ -99,10 +100,10 @@ TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
   for (auto& point : set.points) point.by = glm::vec3(0);
   set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.eyes.emplace();
-  const auto plain = Head::Make(set);
+  const auto plain = MakeHead(set);
   (*set.eyes)[0].shift = {-2, 1, 0};
   (*set.eyes)[1].upper_mm = -4;
-  const auto own = Head::Make(set);
+  const auto own = MakeHead(set);
   EXPECT_LT(glm::distance(own->Landmark("pupil_right"),
                           plain->Landmark("pupil_right") + glm::vec3(-2, 1, 0)),
             0.01F);
@@ -132,7 +133,7 @@ TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
   set.points = kPoints;
   for (auto& point : set.points) point.by = glm::vec3(0);
   set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 100, 255}});
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   const auto& places = head->topology().photo_texcoord;
   EXPECT_GT(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 1.7F; }), 40);
   EXPECT_EQ(std::ranges::count_if(places, [](glm::vec3 p) { return p.z > 2; }), 0);
@@ -151,7 +152,7 @@ int ColourOfTheMouth(float saturation) {
   for (auto& point : set.points) point.by = glm::vec3(0);
   set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.saturation = saturation;
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   FaceState state;
   state.au_right[26] = state.au_left[26] = 0.8F;
   state.au_right[25] = state.au_left[25] = 0.6F;
@@ -177,7 +178,7 @@ int ColourOfTheMouth(float saturation) {
 
 /// The row of upper teeth: x of the middle incisors, how far the left side stands before the right.
 std::pair<float, float> UpperTeethOf(const fsm::PhotoHead& set) {
-  const auto head = fsm::Head::Make(set);
+  const auto head = fsm::MakeHead(set);
   fsm::HeadVertices rest;
   head->Evaluate({}, rest);
   const auto& topology = head->topology();
@@ -222,7 +223,7 @@ TEST(PhotoHeadTest, ASmoothSkinCreasesLess) {
     FaceState surprise;
     for (const std::size_t unit : {1U, 2U}) surprise.au_left[unit] = surprise.au_right[unit] = 1;
     HeadVertices v;
-    Head::Make(set)->Evaluate(surprise, v);
+    MakeHead(set)->Evaluate(surprise, v);
     return v.wrinkles[0][0];
   };
   EXPECT_GT(depth(1), 0.5F);
@@ -240,7 +241,7 @@ TEST(PhotoHeadTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
   for (auto& point : set.points) point.by = glm::vec3(0);
   set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   const auto moved = [&set](glm::vec2 from_eye) {
-    const auto head = Head::Make(set);
+    const auto head = MakeHead(set);
     HeadVertices rest, frown;
     head->Evaluate({}, rest);
     FaceState state;
@@ -287,7 +288,7 @@ TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
   set.skin_high = {0.9F, 0.6F};
   set.eye_pictures.emplace();
   for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.05F, 0.9F, 0.2F}, {0.1F, 0.3F, 0.9F, 0.45F}};
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   const auto context = RenderContext::MakeHeadless(400, 400);
   const auto renderer = Renderer::Make(*context);
   // Sums over the picture of x where green, and of how much is green and blue.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/head/make_head.h"
 #include "tests/fsm/head_fixture.h"
 
 namespace fsm {
@@ -77,8 +78,8 @@ TEST(HeadContactTest, LipsDoNotCrossInTenThousandRandomStates) {
 }
 
 TEST(HeadContactTest, EveryIdentityClosesItsEyes) {
-  for (const IdentityInfo& identity : Head::Identities()) {
-    const auto head = Head::Make(identity.name);
+  for (const IdentityInfo& identity : Identities()) {
+    const auto head = MakeHead(identity.name);
     FaceState blink;
     blink.blink_left = blink.blink_right = 1;
     HeadVertices v;
@@ -167,7 +168,7 @@ TEST(HeadContactTest, NoTriangleOfTheFaceTurnsOver) {
   // Against its direction at rest, judged by the angle of its normal; folds of the lids may turn on
   // the ball, the inside of the mouth may not be seen.
   for (const char* name : {"galatea", "pygmalion"}) {
-    const auto head = Head::Make(name, false);
+    const auto head = MakeHead(name, false);
     const HeadTopology& topology = head->topology();
     HeadVertices rest, v;
     head->Evaluate({}, rest);

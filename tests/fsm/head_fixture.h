@@ -7,13 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
+#include "fsm/rig/head.h"
 
 namespace fsm::testing {
 
 /// Making the head takes some 50 ms, so all tests of a program share one.
 inline const Head& GenericHead() {
-  static const std::unique_ptr<Head> head = Head::Make("galatea", false);
+  static const std::unique_ptr<Head> head = MakeHead("galatea", false);
   return *head;
 }
 

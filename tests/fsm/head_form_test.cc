@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/head/make_head.h"
 #include "tests/fsm/head_fixture.h"
 
 namespace fsm {
@@ -78,10 +79,10 @@ TEST(HeadFormTest, ProfileHasItsDepths) {
 TEST(HeadFormTest, UnknownNamesAreRefused) {
   EXPECT_THROW(GenericHead().Landmark("third_eye"), std::out_of_range);
   try {
-    Head::Make("nobody");
+    MakeHead("nobody");
     FAIL();
   } catch (const std::invalid_argument& error) {
-    for (const IdentityInfo& identity : Head::Identities()) {
+    for (const IdentityInfo& identity : Identities()) {
       EXPECT_NE(std::string(error.what()).find(identity.name), std::string::npos);
     }
   }
@@ -155,20 +156,20 @@ TEST(HeadFormTest, SkinHasNoOpenEdgeButAtTheNeck) {
 }
 
 TEST(HeadFormTest, FitsTheBudget) {
-  for (const IdentityInfo& identity : Head::Identities()) {
-    const auto head = Head::Make(identity.name);
+  for (const IdentityInfo& identity : Identities()) {
+    const auto head = MakeHead(identity.name);
     EXPECT_LT(head->topology().indices.size() / 3, 18000u) << identity.name;
     EXPECT_EQ(head->topology().uv.size(), head->topology().albedo.size());
   }
 }
 
 TEST(HeadFormTest, IdentitiesDiffer) {
-  const auto names = Head::Identities();
+  const auto names = Identities();
   ASSERT_GE(names.size(), 3u);
   for (std::size_t a = 0; a < names.size(); ++a) {
     for (std::size_t b = a + 1; b < names.size(); ++b) {
-      const auto one = Head::Make(names[a].name);
-      const auto two = Head::Make(names[b].name);
+      const auto one = MakeHead(names[a].name);
+      const auto two = MakeHead(names[b].name);
       float most = 0;
       for (const char* name : {"gonion_left", "pronasale", "gnathion", "alare_left"}) {
         most = std::max(most, glm::length(one->Landmark(name) - two->Landmark(name)));

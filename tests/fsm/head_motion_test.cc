@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/head/make_head.h"
 #include "tests/fsm/head_fixture.h"
 
 namespace fsm {
@@ -238,7 +239,7 @@ TEST(HeadMotionTest, TheNeckCarriesTheHeadForwardAndTheShouldersStay) {
 }
 
 TEST(HeadMotionTest, AsymmetryIsShownAsMuchAsTheStateAsks) {
-  const auto head = Head::Make("galatea");
+  const auto head = MakeHead("galatea");
   HeadVertices v;
   const auto unlike = [&](float asymmetry) {
     FaceState smile = WithUnit(12, 1);

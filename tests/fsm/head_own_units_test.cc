@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "fsm/head/action_units.h"
 #include "fsm/head/built_in_units.h"
+#include "fsm/head/make_head.h"
+#include "fsm/rig/action_units.h"
 #include "tests/fsm/head_fixture.h"
 
 namespace fsm {
@@ -36,7 +37,7 @@ TEST(OwnUnitsTest, TheJawOpensAsFarAsTheTableSays) {
 }
 
 TEST(OwnUnitsTest, AHeadKeepsItsOwnAsymmetry) {
-  const auto head = Head::Make("galatea");
+  const auto head = MakeHead("galatea");
   const auto same = head->WithUnits(BuiltInUnits());
   HeadVertices before, after;
   head->Evaluate(WithUnit(12, 1), before);

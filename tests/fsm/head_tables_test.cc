@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "fsm/head/action_units.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"
 #include "fsm/head/identity.h"
-#include "fsm/head/table_reader.h"
+#include "fsm/rig/action_units.h"
 
 namespace fsm {
 namespace {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "fsm/head/make_head.h"
 #include "tests/fsm/head_fixture.h"
 
 namespace fsm {
@@ -174,7 +175,7 @@ TEST(HeadTopologyTest, ProportionsAreThoseOfAWoman) {
 }
 
 TEST(HeadTopologyTest, TwoHeadsAreTheSame) {
-  const auto other = Head::MakeGeneric();
+  const auto other = MakeGenericHead();
   HeadVertices a;
   other->Evaluate({}, a);
   const HeadVertices b = Vertices({});

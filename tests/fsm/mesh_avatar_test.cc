@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "fsm/head/built_in_units.h"
-#include "fsm/head/deformer.h"
+#include "fsm/head/make_head.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/render/renderer.h"
+#include "fsm/rig/pose.h"
 #include "tests/fsm/ball_head.h"
 #include "tests/fsm/gltf_maker.h"
 
@@ -241,7 +242,7 @@ TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
     model.Add(p, Bone::kEyeLeft, glm::vec3(1));
   }
   model.Triangle(Material::kSkin, 0, 1, 2);
-  const auto head = MakeMeshHead(std::move(model), StillMotion());
+  const auto head = MakeMeshHead(std::move(model), nullptr);
   FaceState state;
   state.eye_left.y = 20;  // to the viewer's right, outward for the agent's left eye
   HeadVertices moved;
@@ -265,7 +266,7 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   file.shapes[0].deltas = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
   MeshModel model = ModelOf(file, {}, -30);
   ASSERT_EQ(model.bone[0], Bone::kJaw);
-  auto motion = OwnShapesMotion(file, {}, model, Head::Make("galatea", false), meanings);
+  auto motion = OwnShapesMotion(file, {}, model, MakeHead("galatea", false), meanings);
   ASSERT_TRUE(motion);
   EXPECT_EQ(model.bone[0], Bone::kSkin);
   const auto head = MakeMeshHead(std::move(model), std::move(motion));
@@ -275,19 +276,40 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
 }
 
 /// A face whose lower half falls with unit 27; unit 24 shuts its lips, which moves nothing else.
-class FallingBall : public BallHead {
- public:
-  void Evaluate(const FaceState& state, HeadVertices& out) const override {
-    BallHead::Evaluate(state, out);
-    for (glm::vec3& p : out.position) {
-      if (p.y < -30 && p.y > -100) p.y -= 10 * state.au_left[27];
-      if (p.y > 0) p.y += 10 * (state.au_left[1] + state.au_left[2] + state.au_left[4]);
+std::shared_ptr<const Head> FallingBall() {
+  return std::make_shared<BallHead>([](HeadAsset& asset) {
+    RigData& rig = asset.rig;
+    const auto channel = [](std::uint16_t unit) {
+      return Channel{.kind = Channel::Kind::kUnit, .number = unit, .side = 1, .moves = {}};
+    };
+    Channel fall = channel(27), shut = channel(24);
+    std::vector<Displacement> rises;
+    const auto count = static_cast<std::uint32_t>(rig.rest.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const float y = rig.rest[i].y;
+      if (y < -30 && y > -100) fall.moves.push_back({i, {0, -10, 0}});
+      if (y > 0) rises.push_back({i, {0, 10, 0}});
     }
-  }
-  MouthMeasure MeasureMouth(const FaceState& state) const override {
-    return {.gap_mm = std::max(0.0F, 10 * state.au_left[27] - 10 * state.au_left[24])};
-  }
-};
+    // Two more vertices are its lips.
+    for (int k = 0; k < 2; ++k) {
+      rig.rest.emplace_back(0, -40, 100);
+      rig.rest_normal.emplace_back(0, 0, 1);
+      rig.bone.push_back(Bone::kSkin);
+      rig.weights.emplace_back();
+      asset.topology.albedo.emplace_back(0);
+      asset.topology.occlusion.push_back(1);
+    }
+    rig.lips.measured = {count, count + 1, count, count};
+    fall.moves.push_back({count + 1, {0, -10, 0}});
+    shut.moves.push_back({count + 1, {0, 10, 0}});
+    rig.channels = {fall, shut};
+    for (const std::uint16_t unit : std::initializer_list<std::uint16_t>{1, 2, 4}) {
+      rig.channels.push_back(channel(unit));
+      rig.channels.back().moves = rises;
+    }
+    rig.steps = {RigStep::kChannels};
+  });
+}
 
 TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
   HeadFile file;
@@ -302,7 +324,7 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
     file.shapes.push_back({name, {{unit == 27 ? 0U : 3U, {0, unit == 27 ? -10 : 10, 0}}}});
   }
   MeshModel model = ModelOf(file, {}, -30);
-  auto motion = OwnShapesMotion(file, {}, model, std::make_shared<FallingBall>(), meanings);
+  auto motion = OwnShapesMotion(file, {}, model, FallingBall(), meanings);
   ASSERT_TRUE(motion);
   const auto fall = [&](FaceState state) {
     std::vector<glm::vec3> position = model.position;

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "fsm/head/action_units.h"
+#include "fsm/head/make_head.h"
 #include "fsm/mesh/gltf_document.h"
 #include "fsm/mesh/gltf_writer.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/rig/action_units.h"
 #include "tests/fsm/ball_head.h"
 
 namespace fsm {
@@ -23,7 +24,7 @@ ExportedShape Shape(const char* name, std::size_t unit, bool left, bool right) {
 }
 
 TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
-  const auto head = Head::Make("galatea", false);
+  const auto head = MakeHead("galatea", false);
   const std::vector<ExportedShape> shapes = {Shape("jawOpen", 27, true, true),
                                              Shape("mouthSmileLeft", 12, true, false)};
   const auto file = ParseGltfHead("head.glb", WriteGltfHead(*head, shapes));
@@ -62,14 +63,14 @@ TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
 }
 
 TEST(GltfHeadTest, OnlyWhatMovesIsStored) {
-  const auto head = Head::Make("galatea", false);
+  const auto head = MakeHead("galatea", false);
   const auto none = WriteGltfHead(*head, {});
   const std::vector<ExportedShape> one = {Shape("browOuterUpLeft", 2, true, false)};
   EXPECT_LT(WriteGltfHead(*head, one).size() - none.size(), 150000U);
 }
 
 TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
-  const std::shared_ptr<const Head> source = Head::Make("galatea", false);
+  const std::shared_ptr<const Head> source = MakeHead("galatea", false);
   std::vector<ExportedShape> shapes;
   std::vector<ShapeMeaning> meanings;
   for (const auto& [name, unit] : {std::pair("a", 26), {"b", 12}, {"c", 2}, {"d", 4}}) {

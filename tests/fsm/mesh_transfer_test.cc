@@ -14,11 +14,12 @@
 #include <tuple>
 #include <vector>
 
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
 #include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/surface_index.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 namespace {
@@ -27,8 +28,8 @@ namespace {
 class DeformationTransferTest : public testing::Test {
  protected:
   void SetUp() override {
-    from_ = Head::Make("galatea", false);
-    to_ = Head::Make(Head::Identities()[1].name, false);
+    from_ = MakeHead("galatea", false);
+    to_ = MakeHead(Identities()[1].name, false);
     from_->Evaluate({}, from_rest_);
     to_->Evaluate({}, to_rest_);
     flesh_ = SkinTriangles(from_->topology());

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "fsm/head/head.h"
+#include "fsm/head/make_head.h"
 #include "fsm/motion/face_motion.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 namespace {
@@ -193,7 +194,7 @@ TEST(PhonemeTablesTest, JapaneseConsonantsAreSixtyPerCentOfTheEnglishShape) {
 // ---- on the head
 
 const Head& TheHead() {
-  static const auto head = Head::MakeGeneric();
+  static const auto head = MakeGenericHead();
   return *head;
 }
 

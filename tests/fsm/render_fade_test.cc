@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "tests/fsm/render_support.h"
 
@@ -26,7 +27,7 @@ std::unique_ptr<Head> WearingPhoto() {
     set.sheet.push_back({at, {0.75F, 0.5F}});
   }
   set.sheet_triangles = {0, 1, 2, 0, 2, 3};
-  return Head::Make(set);
+  return MakeHead(set);
 }
 
 struct FadeTest : ::testing::Test {
@@ -82,8 +83,8 @@ TEST_F(FadeTest, AHeadThatWearsAPhotoDoesNotTear) {
 }
 
 TEST_F(FadeTest, BuiltInHeadsDoNotShowTheirInside) {
-  for (const auto& identity : Head::Identities()) {
-    const auto head = Head::Make(identity.name);
+  for (const auto& identity : Identities()) {
+    const auto head = MakeHead(identity.name);
     ExpectOnePicture(*head, std::string(identity.name));
   }
 }

@@ -270,11 +270,12 @@ class ChangedHeadTest : public FrameTest, public ::testing::WithParamInterface<H
 
 TEST_P(ChangedHeadTest, IsNoticedWhereAnotherOneDied) {
   // Both live at the same address and have the same triangles and colours.
-  std::optional<BallHead> head(std::in_place);
-  GetParam().one(head->change());
+  const auto changed = [](void (*change)(HeadTopology&)) {
+    return [change](HeadAsset& asset) { change(asset.topology); };
+  };
+  std::optional<BallHead> head(std::in_place, changed(GetParam().one));
   const Image one = Drawn(*renderer_, *head);
-  head.emplace();
-  GetParam().other(head->change());
+  head.emplace(changed(GetParam().other));
   const Image other = Drawn(*renderer_, *head);
   EXPECT_GT(Differing(one, other), 50);
   const auto fresh = Renderer::Make(*context_);
@@ -296,10 +297,11 @@ TEST(HeadSerialTest, NoTwoHeadsHaveTheSameNotEvenCopies) {
 }
 
 TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
-  BallHead bare, nothing;
-  bare.KeepParts(1);
+  const auto with_parts = [](std::size_t count) {
+    return BallHead([count](HeadAsset& asset) { asset.topology.parts.resize(count); });
+  };
+  const BallHead bare = with_parts(1), nothing = with_parts(0);
   renderer_->Draw(bare, vertices_, state_, scene_);
-  nothing.KeepParts(0);
   renderer_->Draw(nothing, vertices_, state_, scene_);
   Image image;
   renderer_->Read(image);

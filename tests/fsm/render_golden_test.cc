@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 #include "tests/fsm/render_support.h"
 
@@ -36,7 +37,7 @@ const Golden kGoldens[] = {
 
 Image Draw(const Golden& golden) {
   constexpr int kSide = 176;
-  const auto head = Head::Make(golden.identity);
+  const auto head = MakeHead(golden.identity);
   FaceState state;
   for (const auto& [unit, strength] : golden.units) {
     state.au_left[unit] = state.au_right[unit] = strength;
@@ -108,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(All, GoldenTest, ::testing::ValuesIn(kGoldens),
 
 /// The lower corners show the shirt, on triangles the picture's edge cuts through.
 TEST(ClippedTest, ClothThatLeavesThePictureKeepsItsColour) {
-  for (const auto& identity : Head::Identities()) {
+  for (const auto& identity : Identities()) {
     const Image image = Draw(
         {"", std::string(identity.name).c_str(), {}, 0, {.distance = 0.55F, .height_mm = -40}});
     for (const int x : {1, 20, image.width - 21, image.width - 2}) {

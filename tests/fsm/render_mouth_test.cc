@@ -6,6 +6,7 @@
 #include <glm/vec4.hpp>
 #include <string_view>
 
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/render/camera.h"
 #include "tests/fsm/render_support.h"
@@ -93,7 +94,7 @@ PhotoHead OneColour() {
 }
 
 /// The base head in it.
-std::unique_ptr<Head> InPhoto() { return Head::Make(OneColour()); }
+std::unique_ptr<Head> InPhoto() { return MakeHead(OneColour()); }
 
 /// With a neck: a sheet behind the chin.
 std::unique_ptr<Head> WithNeck() {
@@ -109,7 +110,7 @@ std::unique_ptr<Head> WithNeck() {
       set.sheet_triangles.push_back(v);
     }
   }
-  return Head::Make(set);
+  return MakeHead(set);
 }
 
 TEST(MouthPictureTest, UpperTeethAreDarkestUnderTheLip) {
@@ -128,7 +129,7 @@ TEST(MouthPictureTest, TeethStandInTheHueThatTheWhitesOfTheEyesShow) {
   const auto tooth = [](glm::vec3 white) {
     PhotoHead set = OneColour();
     set.white_colour = white;
-    const MouthPicture picture(Head::Make(set), {{10, 1.0F}, {26, 0.5F}, {25, 1.0F}});
+    const MouthPicture picture(MakeHead(set), {{10, 1.0F}, {26, 0.5F}, {25, 1.0F}});
     const glm::vec3 edge = picture.Vertex(picture.mouth().upper_incisor);
     return picture.At(
         glm::mix(picture.Lip(true, kIncisor), glm::vec3(kIncisor, edge.y, edge.z), 0.6F));
@@ -143,7 +144,7 @@ TEST(MouthPictureTest, MoreOfTheUpperTeethIsSeenOfAFaceFromAPhoto) {
     const MouthPicture picture(std::move(head), {});
     return picture.Lip(true, 0).y - picture.Vertex(picture.mouth().upper_incisor).y;
   };
-  const float built_in = below_lip(Head::Make("galatea"));
+  const float built_in = below_lip(MakeHead("galatea"));
   EXPECT_NEAR(below_lip(InPhoto()) - built_in, 1, 0.3F);
 }
 
@@ -231,23 +232,15 @@ TEST(MouthPictureTest, TheChinsShadowDoesNotReachBeyondTheNeck) {
 }
 
 /// A photo with a neck that does not say where its lips part, as heads from elsewhere may not.
-class WithoutMouth : public Head {
- public:
-  WithoutMouth() : head_(WithNeck()), topology_(head_->topology()) { topology_.mouth = {}; }
-  const HeadTopology& topology() const override { return topology_; }
-  void Evaluate(const FaceState& state, HeadVertices& out) const override {
-    head_->Evaluate(state, out);
-  }
-  MouthMeasure MeasureMouth(const FaceState&) const override { return {}; }
-  glm::vec3 Landmark(std::string_view name) const override { return head_->Landmark(name); }
-
- private:
-  std::unique_ptr<Head> head_;
-  HeadTopology topology_;
-};
+Head WithoutMouth() {
+  const auto head = WithNeck();
+  HeadAsset asset{.topology = head->topology(), .rig = head->rig().data(), .landmarks = head->landmarks()};
+  asset.topology.mouth = {};
+  return Head(std::move(asset));
+}
 
 TEST(MouthPictureTest, AHeadThatSaysNothingOfItsLipsTakesNothingFromTheOneDrawnBefore) {
-  const WithoutMouth second;
+  const Head second = WithoutMouth();
   const auto first = WithNeck();
   Scene scene;
   scene.camera = {.distance = 0.4F, .height_mm = -40};

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
+#include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/render/camera.h"
 #include "tests/fsm/render_support.h"
@@ -43,7 +44,7 @@ PhotoHead RedFaceAndGreenSheet(int opacity, std::initializer_list<float> depths)
 /// Screen colours 0..255 at places of the head's frame, the mean of 3 x 3 pixels.
 std::vector<glm::vec3> Drawn(const PhotoHead& set, const std::vector<glm::vec3>& places,
                              const FaceState& state = {}) {
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   HeadVertices vertices;
   head->Evaluate(state, vertices);
   Scene scene;
@@ -84,7 +85,7 @@ TEST(PhotoTest, WhatLiesBehindASoftEdgeIsSeenThroughIt) {
 
 TEST(PhotoTest, LevelEdgesAreSoftAsThoseOfPhotos) {
   const PhotoHead set = RedFaceAndGreenSheet(255, {60});
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   HeadVertices vertices;
   head->Evaluate({}, vertices);
   Scene scene;
@@ -111,7 +112,7 @@ TEST(PhotoTest, LevelEdgesAreSoftAsThoseOfPhotos) {
 }
 
 TEST(PhotoTest, SkinIsSeenWhereTheSheetComesNearlyAsFar) {
-  const auto base = Head::Make("galatea");
+  const auto base = MakeHead("galatea");
   const glm::vec3 nasion = base->Landmark("nasion");
   const glm::vec3 forehead = nasion + glm::vec3(0, 30, 0);
   HeadVertices rest;
@@ -127,7 +128,7 @@ TEST(PhotoTest, SkinIsSeenWhereTheSheetComesNearlyAsFar) {
 
 TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
   PhotoHead set = RedFaceAndGreenSheet(255, {});
-  const glm::vec3 corner = Head::Make(set)->Landmark("exocanthion_left");
+  const glm::vec3 corner = MakeHead(set)->Landmark("exocanthion_left");
   constexpr int kRows = 9;
   std::vector<glm::vec3> places;
   for (int i = 0; i < kRows * kRows; ++i) {
@@ -160,7 +161,7 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
   set.photo = bright;
   set.white_colour = glm::vec3(1);
   set.lined = 0;
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   const auto& topology = head->topology();
   const auto cover = [](const HeadTopology& t) {
     float sum = 0;
@@ -196,12 +197,12 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
     EXPECT_LT(dark(0, side), 0.05F);
   }
   set.lined = 1;
-  EXPECT_LT(cover(Head::Make(set)->topology()), 0.6F * cover(topology)) << "old people's are thin";
+  EXPECT_LT(cover(MakeHead(set)->topology()), 0.6F * cover(topology)) << "old people's are thin";
 }
 
 TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
   PhotoHead set = RedFaceAndGreenSheet(255, {});
-  const glm::vec3 chin = Head::Make("galatea")->Landmark("gnathion");
+  const glm::vec3 chin = MakeHead("galatea")->Landmark("gnathion");
   set.skin_bottom_y = chin.y - 8;
   struct At {
     glm::vec2 from_chin;
@@ -217,7 +218,7 @@ TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
     }
     set.sheet_triangles.insert(set.sheet_triangles.end(), {first, first + 1, first + 2});
   }
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   FaceState open;
   open.au_left[26] = open.au_right[26] = 1;
   HeadVertices rest, opened;
@@ -247,7 +248,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   Image lit{kMap, kMap, std::vector<std::uint8_t>(4 * kMap * kMap, 255)};
   set.skin_low = {0, 1};
   set.skin_high = {1, 0};
-  const auto plain = Head::Make(set);
+  const auto plain = MakeHead(set);
   HeadVertices bare;
   plain->Evaluate({}, bare);
   for (std::size_t i = 0; i < bare.position.size(); ++i) {
@@ -262,7 +263,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
     }
   }
   set.photo = std::make_shared<Image>(lit);
-  const auto head = Head::Make(set);
+  const auto head = MakeHead(set);
   const auto& topology = head->topology();
   EXPECT_GT(topology.photo_light.y, 0.2F);
   FaceState smile;
@@ -305,7 +306,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
 }
 
 TEST(PhotoTest, TheSkinFadesAtItsSidesAndEndsAtTheJaw) {
-  const auto head = Head::Make(RedFaceAndGreenSheet(255, {-20}));
+  const auto head = MakeHead(RedFaceAndGreenSheet(255, {-20}));
   const auto& topology = head->topology();
   HeadVertices rest;
   head->Evaluate({}, rest);

@@ -1,4 +1,4 @@
-#include "fsm/head/table_reader.h"
+#include "fsm/base/table_reader.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fsm/head/action_units.h"
+#include "fsm/rig/action_units.h"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <string>
 
-#include "fsm/head/paint.h"
-#include "fsm/head/spline.h"
+#include "fsm/base/grain.h"
+#include "fsm/base/spline.h"
 
 namespace fsm {
 namespace {
@@ -70,8 +70,11 @@ float Acting(float strength) {
 
 }  // namespace
 
-UnitTable::UnitTable(const Table& table) {
+UnitTable::UnitTable() {
   for (auto& side : gain_) side.fill(1);
+}
+
+UnitTable::UnitTable(const Table& table) : UnitTable() {
   using enum Effect::Kind;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();

@@ -1,10 +1,10 @@
-#include "fsm/head/tongue_way.h"
+#include "fsm/rig/tongue_path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 
 namespace fsm {
 namespace {
@@ -19,9 +19,9 @@ constexpr float kInArch = 11;                  // and what goes through between 
 
 }  // namespace
 
-TongueWay::TongueWay(const Pose& pose, const ToothArch& upper, const ToothArch& lower,
-                     std::span<const std::pair<std::uint32_t, std::uint32_t>> seam,
-                     const glm::vec3* skin)
+TonguePath::TonguePath(const Pose& pose, const ToothArch& upper, const ToothArch& lower,
+                       std::span<const std::pair<std::uint32_t, std::uint32_t>> seam,
+                       std::span<const glm::vec3> skin)
     : pose_(pose), upper_(upper), lower_(lower) {
   const glm::vec3 edge = TurnJaw({0, lower.edge_y, lower.front_z}, pose, 1);
   teeth_low_ = edge.y;
@@ -40,7 +40,7 @@ TongueWay::TongueWay(const Pose& pose, const ToothArch& upper, const ToothArch& 
   part_ = SmoothStep(kNoRoom, kRoom, std::min(lips, teeth_high_ - teeth_low_));
 }
 
-TongueWay::Gap TongueWay::LipsAt(float x) const {
+TonguePath::Gap TonguePath::LipsAt(float x) const {
   const auto right = std::ranges::lower_bound(lips_, x, {}, [](const Gap& g) { return g.high.x; });
   if (right == lips_.begin()) return lips_.front();
   if (right == lips_.end()) return lips_.back();
@@ -50,9 +50,9 @@ TongueWay::Gap TongueWay::LipsAt(float x) const {
   return {glm::mix(a.high, b.high, t), glm::mix(a.low, b.low, t)};
 }
 
-glm::vec3 TongueWay::Fit(glm::vec3 p) const {
+glm::vec3 TonguePath::Fit(glm::vec3 p) const {
   if (lips_.empty()) return p;
-  const float jaw_x = p.x - pose_.jaw_sway_mm;
+  const float jaw_x = p.x - pose_.jaw.sway_mm;
   const float lower_z = TurnJaw({jaw_x, lower_.edge_y, lower_.At(jaw_x)}, pose_, 1).z;
   const glm::vec3 within(p.x, p.y, std::min(p.z, std::min(lower_z, upper_.At(p.x)) - kBehindTeeth));
   const float out = SmoothStep(0, kOut, part_ * pose_.tongue_out_mm);

@@ -1,22 +1,21 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "fsm/head/face_state.h"
-#include "fsm/head/pbr_material.h"
 #include "fsm/image/image.h"
+#include "fsm/rig/pbr_material.h"
+#include "fsm/rig/rig_data.h"
 
 namespace fsm {
 
@@ -135,73 +134,17 @@ struct HeadTopology {
 /// Where skin creases with expression; indexes HeadVertices::wrinkles.
 enum class Wrinkle { kForehead, kGlabella, kCrowsFeet, kNasolabial };
 
-/// Vertex positions and normals of one state. Reused from frame to frame by the caller.
-struct HeadVertices {
-  std::vector<glm::vec3>
-      position;  ///< N x 3 float, millimetres; x to the viewer's right, y up, z to the
-                 ///< viewer; origin midway between the two ear canals (tragi)
-  std::vector<glm::vec3> normal;  ///< N x 3 float, unit length
-  /// Depth of the creases, 0..1: [Wrinkle][0 = the agent's right (-x), 1 = left].
-  std::array<std::array<float, 2>, 4> wrinkles{};
-  std::array<float, 2> lids_shut{};  ///< right, left: 0 = as at rest, 1 = wholly
-};
+/// Where a head has what the tables call by name, at rest; millimetres. See Head::Landmark.
+using Landmarks = std::map<std::string, glm::vec3, std::less<>>;
 
-/// A face to choose: a row of tables/identities.txt.
-struct IdentityInfo {
-  std::string_view name;
-  std::string_view description;  ///< one line
-};
-
-struct PhotoHead;
-class UnitTable;
-
-/// A head with its anatomy: a pure function from FaceState to vertices, head rotation included,
-/// figure placement (agent_*) and camera not. Immutable after construction; safe to share.
-class Head {
- public:
-  virtual ~Head() = default;
-  /// The head called `identity`. Nobody's two sides move quite alike: a few percent, fixed for each
-  /// identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument listing
-  /// the names if there is none of that name, std::runtime_error if a table is damaged.
-  static std::unique_ptr<Head> Make(std::string_view identity, bool asymmetric = true);
-  /// A head made from a photo: its base face, warped and wearing the photo. Throws as Make, and
-  /// std::runtime_error if the set does not fit together.
-  static std::unique_ptr<Head> Make(const PhotoHead& set);
-  /// All heads there are, the default one first. Valid as long as the program runs.
-  static std::span<const IdentityInfo> Identities();
-  /// The first of Identities().
-  static std::unique_ptr<Head> MakeGeneric();
-
-  virtual const HeadTopology& topology() const = 0;
-  /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  virtual void Evaluate(const FaceState& state, HeadVertices& out) const = 0;
-  /// The same head, of the same topology, whose units move it as another table says
-  /// (UnitTable); nothing if it has none to replace.
-  virtual std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
-  /// The mouth of a state, measured on the vertices Evaluate would give.
-  virtual MouthMeasure MeasureMouth(const FaceState& state) const = 0;
-  /// Where a named landmark lies at rest, after Farkas: "nasion", "pronasale", "subnasale",
-  /// "stomion", "gnathion", "trichion"; with _left or _right: "cheilion", "endocanthion",
-  /// "exocanthion", "pupil", "alare", "zygion", "gonion", "tragion". Throws std::out_of_range.
-  virtual glm::vec3 Landmark(std::string_view name) const;
-  /// A number that no other head of this process has or had, copies included. A head does not
-  /// change after its construction, so what is kept of it elsewhere, as on a graphics card, is that
-  /// of the same head as long as this number is the same. An address does not tell that: another
-  /// head may be made where one died.
-  std::uint64_t serial() const { return serial_.number; }
-
- private:
-  struct Serial {
-    Serial() : number(++last) {}
-    Serial(const Serial&) : Serial() {}
-    Serial& operator=(const Serial&) {
-      number = ++last;
-      return *this;
-    }
-    std::uint64_t number;
-    static inline std::atomic<std::uint64_t> last{0};  // heads are made on several threads
-  };
-  Serial serial_;
+/// One description of any head, wherever it comes from: how it looks and how it moves. The bakers
+/// make it (head/: built-in heads and those of a photo; mesh/: heads of files); Head moves it, and
+/// the renderer draws it. Neither knows where it came from. All arrays that are said to be per
+/// vertex have the length of `rig.rest`, or are empty where that is allowed.
+struct HeadAsset {
+  HeadTopology topology;
+  RigData rig;
+  Landmarks landmarks;
 };
 
 }  // namespace fsm

@@ -1,4 +1,4 @@
-#include "fsm/head/spline.h"
+#include "fsm/base/spline.h"
 
 #include <algorithm>
 #include <cassert>

@@ -4,9 +4,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "fsm/head/face_state.h"
-#include "fsm/head/rig.h"
-#include "fsm/head/table_reader.h"
+#include "fsm/base/table_reader.h"
+#include "fsm/rig/face_state.h"
+#include "fsm/rig/skin_weights.h"
 
 namespace fsm {
 
@@ -34,6 +34,8 @@ class UnitTable {
     glm::vec3 by;
   };
 
+  /// No units at all.
+  UnitTable();
   /// Throws std::runtime_error naming file and line if the table is damaged, if a number is beyond
   /// what a face can do, or if there are more than kMostRows.
   explicit UnitTable(const Table& table);

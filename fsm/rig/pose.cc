@@ -1,8 +1,9 @@
+#include "fsm/rig/pose.h"
+
 #include <algorithm>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <numbers>
-
-#include "fsm/head/deformer.h"
 
 namespace fsm {
 namespace {
@@ -48,11 +49,9 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   pose.mouth[11] = pose.mouth[12] = 0;
   // A mandible opens 25-30 degrees and slides about a millimetre forward for every three of them.
   const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[11], -30, 30), 0, 28);
-  pose.jaw_rad = degrees * kRadians;
-  pose.jaw_cos = std::cos(pose.jaw_rad);
-  pose.jaw_sin = std::sin(pose.jaw_rad);
-  pose.jaw_slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[12], -6, 10), -4, 12);
-  pose.jaw_sway_mm = Bound(effects.jaw_sway_mm, -10, 10);
+  pose.SetJaw({.open_rad = degrees * kRadians,
+               .slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[12], -6, 10), -4, 12),
+               .sway_mm = Bound(effects.jaw_sway_mm, -10, 10)});
   pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
   pose.tongue_raise = Bound(effects.tongue_raise + Bound(state.tongue, 0, 1), 0, 1);
   pose.tongue_out_mm = Bound(effects.tongue_out_mm, 0, 30);
@@ -77,30 +76,49 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   return pose;
 }
 
+void Pose::SetJaw(const JawMove& move) {
+  jaw = move;
+  jaw_cos = std::cos(move.open_rad);
+  jaw_sin = std::sin(move.open_rad);
+}
+
 glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight) {
-  const float angle = pose.jaw_rad * weight;
+  const float angle = pose.jaw.open_rad * weight;
   const float c = weight == 1 ? pose.jaw_cos : std::cos(angle);
   const float s = weight == 1 ? pose.jaw_sin : std::sin(angle);
-  const float y = p.y - kHingeY;
-  const float z = p.z - kHingeZ;
+  const float y = p.y - pose.hinge.y;
+  const float z = p.z - pose.hinge.z;
   // Sideways the jaw takes more of the lips along: corners 5 and upper lip 1.6 mm of a chin's 8.6.
-  const float sway = pose.jaw_sway_mm == 0 ? 0.0f : std::sqrt(weight) * pose.jaw_sway_mm;
-  return {p.x + sway, kHingeY + y * c - z * s,
-          kHingeZ + z * c + y * s + weight * pose.jaw_slide_mm};
+  const float sway = pose.jaw.sway_mm == 0 ? 0.0f : std::sqrt(weight) * pose.jaw.sway_mm;
+  return {p.x + sway, pose.hinge.y + y * c - z * s,
+          pose.hinge.z + z * c + y * s + weight * pose.jaw.slide_mm};
 }
 
 glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose) {
   const float c = pose.jaw_cos;
   const float s = pose.jaw_sin;
-  const float y = p.y - kHingeY;
-  const float z = p.z - kHingeZ - pose.jaw_slide_mm;
-  return {p.x - pose.jaw_sway_mm, kHingeY + y * c + z * s, kHingeZ + z * c - y * s};
+  const float y = p.y - pose.hinge.y;
+  const float z = p.z - pose.hinge.z - pose.jaw.slide_mm;
+  return {p.x - pose.jaw.sway_mm, pose.hinge.y + y * c + z * s, pose.hinge.z + z * c - y * s};
 }
 
 glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight) {
   glm::vec3 turned = kNeckPivot + pose.head * (p - kNeckPivot);
   turned.z += pose.head_forward_mm;
   return p + weight * (turned - p);
+}
+
+Gaze GazeOf(const glm::mat3& eye) {
+  const glm::vec3 ahead = eye[2];
+  return {.right_deg = glm::degrees(std::atan2(ahead.x, ahead.z)),
+          .up_deg = glm::degrees(std::asin(std::clamp(ahead.y, -1.0F, 1.0F)))};
+}
+
+glm::mat3 EyeTo(const Gaze& gaze) {
+  const float right = glm::radians(gaze.right_deg), up = glm::radians(gaze.up_deg);
+  const float cr = std::cos(right), sr = std::sin(right), cu = std::cos(up), su = std::sin(up);
+  // Up first, then to the side: the third column is where the eye looks.
+  return {{cr, 0, -sr}, {-sr * su, cu, -cr * su}, {sr * cu, su, cr * cu}};
 }
 
 }  // namespace fsm

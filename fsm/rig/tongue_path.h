@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/head/anatomy.h"
-#include "fsm/head/deformer.h"
+#include "fsm/rig/pose.h"
+#include "fsm/rig/tooth_arch.h"
 
 namespace fsm {
 
@@ -14,12 +14,13 @@ namespace fsm {
 /// between the lips. It is soft and takes the form of what it goes through; where there is no room
 /// it stays behind the teeth. In the frame before the head's turn. Lifetime: one state;
 /// what it is made from outlives it.
-class TongueWay {
+class TonguePath {
  public:
   /// `seam` pairs upper and lower vertices of the lips, from -x to +x, in `skin` as deformed.
   /// Arches as they are at rest.
-  TongueWay(const Pose& pose, const ToothArch& upper, const ToothArch& lower,
-            std::span<const std::pair<std::uint32_t, std::uint32_t>> seam, const glm::vec3* skin);
+  TonguePath(const Pose& pose, const ToothArch& upper, const ToothArch& lower,
+             std::span<const std::pair<std::uint32_t, std::uint32_t>> seam,
+             std::span<const glm::vec3> skin);
 
   /// How much of a tongue put out comes out at all, 0..1, by how far the mouth is open.
   float Part() const { return part_; }

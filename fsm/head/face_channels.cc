@@ -1,0 +1,121 @@
+#include "fsm/head/face_channels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fsm {
+
+std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
+                                   std::span<const SkinWeights> weights) {
+  std::vector<Channel> channels;
+  for (std::uint16_t parameter = 0; parameter < kMouthParameters; ++parameter) {
+    channels.push_back({.kind = Channel::Kind::kMouth, .number = parameter, .moves = {}});
+  }
+  const float corner_x = mouth.corner().x;
+  const auto add = [&](std::size_t parameter, std::size_t i, glm::vec3 by) {
+    if (std::abs(by.x) + std::abs(by.y) + std::abs(by.z) < 1e-3f) return;
+    channels[parameter].moves.push_back({static_cast<std::uint32_t>(i), by});
+  };
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const SkinWeights& f = weights[i];
+    const float a = std::abs(f.domain.x);
+    const float line = mouth.LineY(std::min(a, corner_x));
+    if (f.free <= 0 || a > 56 || f.domain.y > -14 || f.domain.y < -84) continue;
+    const float side_x = f.domain.x < 0 ? -1.0f : 1.0f;
+
+    // The corner's field: linear along the lips, fading into the cheek.
+    const float height = std::abs(f.domain.y - line);
+    const float corner =
+        (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
+        SmoothStep(24, 0, height) * f.free;
+    add(8, i, {side_x * corner, 0, 0});
+    add(9, i, {0, corner, 0});
+    add(10, i, {0, 0, corner});
+
+    // The lips' four rings: full in the middle, nothing at the corner.
+    if (a >= corner_x || f.lip_weight == 0) continue;
+    const bool upper = f.lip_weight > 0;
+    const float along = 1 - (a / corner_x) * (a / corner_x);
+    const float quarter = 4 * (a / corner_x) * (1 - a / corner_x);
+    const float border = std::abs(mouth.BorderY(upper ? 1 : -1, a));
+    const float part = std::min(1.0f, height / std::max(border, 0.5f));
+    const float hold = std::abs(f.lip_weight);
+    const float outer = part * hold;
+    const float inner = (1 - part) * hold;
+    const std::size_t outer_y = upper ? 0 : 6;
+    const std::size_t inner_y = upper ? 2 : 4;
+    add(outer_y, i, {0, outer * along, 0});
+    add(outer_y + 1, i, {0, 0, outer * along});
+    add(inner_y, i, {0, inner * along, 0});
+    add(inner_y + 1, i, {0, 0, inner * along});
+    add(upper ? 13 : 15, i, {0, outer * quarter, 0});
+    add(upper ? 14 : 16, i, {0, inner * quarter, 0});
+  }
+  return channels;
+}
+
+LidRig BakeLids(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eyes,
+                std::span<const glm::vec3> rest, std::span<const SkinWeights> weights) {
+  constexpr float kOnBall = 12.05f;  // nearer than that lies the fold behind the lids
+  LidRig rig{.vertices = {}, .eyes = eyes, .cornea_centre = eye.CorneaCentre()};
+  const std::array<glm::vec3, 2> table = {eye.centre() * glm::vec3(-1, 1, 1), eye.centre()};
+  for (std::size_t side = 0; side < 2; ++side) rig.ball[side] = table[side] + eyes[side].shift;
+  float widest = 0;
+  for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {
+    widest = std::max(widest, eye.UpperY(x) - eye.LowerY(x));
+  }
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const SkinWeights& f = weights[i];
+    if (f.eye == 0) continue;
+    const float x = std::clamp(std::abs(f.domain.x), eye.inner_x(), eye.outer_x());
+    const float upper = eye.UpperAngle(x);
+    const float lower = eye.LowerAngle(x);
+    const std::size_t side = f.eye > 0 ? 1 : 0;
+    const EyeTransform& seat = eyes[side];
+    const EyeTransform back{.turn = -seat.turn, .size = 1 / seat.size};
+    const glm::vec3 from_ball = back.Turned(rest[i] - rig.ball[side]);
+    rig.vertices.push_back({.vertex = static_cast<std::uint32_t>(i),
+                            .side = static_cast<int>(side),
+                            .upper = f.lid_upper,
+                            .lower = f.lid_lower,
+                            .upper_angle = upper,
+                            .lower_angle = lower,
+                            .meet_angle = eye.MeetAngle(x),
+                            .opening = (eye.UpperY(x) - eye.LowerY(x)) / widest,
+                            .y = from_ball.y,
+                            .z = from_ball.z + eye.centre().z - eye.LidAxisZ(x),
+                            .proper = glm::length(rest[i] - rig.ball[side]) > seat.size * kOnBall});
+  }
+  return rig;
+}
+
+std::vector<TeethContact> BakeTeethContacts(const ToothArch& upper, const ToothArch& lower,
+                                            std::span<const glm::vec3> rest,
+                                            std::span<const SkinWeights> weights) {
+  constexpr float kLeast = 1.3f;  // the crowns bulge out of the parabola by about 0.9
+  std::vector<TeethContact> contacts;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (!weights[i].by_teeth) continue;
+    const glm::vec3 p = rest[i];
+    contacts.push_back({static_cast<std::uint32_t>(i), std::min(kLeast, p.z - upper.At(p.x)),
+                        std::min(kLeast, p.z - lower.At(p.x))});
+  }
+  return contacts;
+}
+
+LipRig BakeLips(const SkinMap& skin, std::span<const SkinWeights> weights) {
+  LipRig rig;
+  rig.seam = skin.seam;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const SkinWeights& f = weights[i];
+    if (f.lip_column < 0 || f.lip_weight == 0) continue;
+    rig.followers.push_back(
+        {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(f.lip_column), f.lip_weight});
+  }
+  const auto [upper, lower] = skin.seam[skin.mid_column];
+  rig.measured = {upper, lower, skin.corner_left, skin.corner_right};
+  return rig;
+}
+
+}  // namespace fsm

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "fsm/head/anatomy.h"
+#include "fsm/head/skin_mesh.h"
+#include "fsm/rig/rig_data.h"
+
+namespace fsm {
+
+// What the rig of a built-in head must know, from its anatomy. `weights`, and `rest` with it, begin
+// with the skin of a head and what is moved as skin.
+
+/// What each of the 17 mouth parameters displaces.
+std::vector<Channel> MouthChannels(const MouthAnatomy& mouth, std::span<const SkinWeights> weights);
+/// `eyes`: where the right and the left eye sit.
+LidRig BakeLids(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eyes,
+                std::span<const glm::vec3> rest, std::span<const SkinWeights> weights);
+/// Arches where the head has them.
+std::vector<TeethContact> BakeTeethContacts(const ToothArch& upper, const ToothArch& lower,
+                                            std::span<const glm::vec3> rest,
+                                            std::span<const SkinWeights> weights);
+LipRig BakeLips(const SkinMap& skin, std::span<const SkinWeights> weights);
+
+}  // namespace fsm

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "fsm/head/identity.h"
+#include "fsm/rig/head.h"
+
+namespace fsm {
+
+struct PhotoHead;
+
+/// A face to choose: a row of tables/identities.txt.
+struct IdentityInfo {
+  std::string_view name;
+  std::string_view description;  ///< one line
+};
+/// All built-in heads, the default one first. Valid as long as the program runs.
+std::span<const IdentityInfo> Identities();
+
+/// The built-in head called `identity`. Nobody's two sides move quite alike: a few percent, fixed
+/// for each identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument
+/// listing the names if there is none of that name, std::runtime_error if a table is damaged.
+std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric = true);
+/// Likewise of an identity of one's own. Throws std::runtime_error for an unknown slider.
+std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric = true);
+/// The first of Identities().
+std::unique_ptr<Head> MakeGenericHead();
+/// A head made from a photo: its base face, warped and wearing the photo. Throws as the first, and
+/// std::runtime_error if the set does not fit together.
+std::unique_ptr<Head> MakeHead(const PhotoHead& set);
+
+}  // namespace fsm

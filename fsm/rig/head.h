@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "fsm/rig/face_state.h"
+#include "fsm/rig/head_asset.h"
+#include "fsm/rig/rig.h"
+
+namespace fsm {
+
+/// A head: what it looks like and how it moves. A pure function from FaceState to vertices, head
+/// rotation included, figure placement (agent_*) and camera not. Immutable after construction; safe
+/// to share.
+class Head {
+ public:
+  /// REQUIRES: the arrays of `asset` fit together, as the bakers make them.
+  explicit Head(HeadAsset asset);
+
+  const HeadTopology& topology() const { return *topology_; }
+  const Rig& rig() const { return rig_; }
+  /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
+  void Evaluate(const FaceState& state, HeadVertices& out) const { rig_.Evaluate(state, out); }
+  /// The same head, of the same topology, whose units move it as another table says (UnitTable),
+  /// as far as they are not the head's own.
+  std::unique_ptr<Head> WithUnits(const UnitTable& units) const;
+  /// The mouth of a state, measured on the vertices Evaluate would give.
+  MouthMeasure MeasureMouth(const FaceState& state) const { return rig_.MeasureMouth(state); }
+  /// Where a named landmark lies at rest, after Farkas: "nasion", "pronasale", "subnasale",
+  /// "stomion", "gnathion", "trichion"; with _left or _right: "cheilion", "endocanthion",
+  /// "exocanthion", "pupil", "alare", "zygion", "gonion", "tragion". Throws std::out_of_range.
+  glm::vec3 Landmark(std::string_view name) const;
+  const Landmarks& landmarks() const { return landmarks_; }
+  /// A number that no other head of this process has or had, copies included. A head does not
+  /// change after its construction, so what is kept of it elsewhere, as on a graphics card, is that
+  /// of the same head as long as this number is the same. An address does not tell that: another
+  /// head may be made where one died.
+  std::uint64_t serial() const { return serial_.number; }
+
+ private:
+  struct Serial {
+    Serial() : number(++last) {}
+    Serial(const Serial&) : Serial() {}
+    Serial& operator=(const Serial&) {
+      number = ++last;
+      return *this;
+    }
+    std::uint64_t number;
+    static inline std::atomic<std::uint64_t> last{0};  // heads are made on several threads
+  };
+  Serial serial_;
+  std::shared_ptr<const HeadTopology> topology_;
+  Landmarks landmarks_;
+  Rig rig_;
+};
+
+}  // namespace fsm

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "fsm/rig/eye_transform.h"
+
+namespace fsm {
+
+struct Pose;
+
+/// The outer radius of the cornea, millimetres.
+inline constexpr float kCorneaRadius = 8.0f;
+
+/// Lids that turn about the axes of the eyes. Angles in radians, up from straight ahead; heights in
+/// millimetres in the frame of the eye before its EyeTransform.
+struct LidRig {
+  struct Vertex {
+    std::uint32_t vertex;
+    int side;                        ///< 0 the agent's right, 1 the left
+    float upper, lower;              ///< part in each lid's turn, 0..1
+    float upper_angle, lower_angle;  ///< of the rims at rest
+    float meet_angle;                ///< where the closed lids meet
+    float opening;                   ///< how far the lids stand apart here, of the widest place
+    float y, z;                      ///< at rest from the axis of the lids
+    bool proper;                     ///< of the lid itself, not of the fold behind it
+  };
+  std::vector<Vertex> vertices;
+  std::array<EyeTransform, 2> eyes;  ///< right, left
+  std::array<glm::vec3, 2> ball{};   ///< their centres
+  float cornea_centre = 0;           ///< how far it lies before the ball's, millimetres
+};
+
+/// Opens, closes and bulges the lids as the pose says.
+void MoveLids(const LidRig& rig, const Pose& pose, std::span<glm::vec3> position);
+
+}  // namespace fsm

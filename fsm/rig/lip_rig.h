@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace fsm {
+
+/// Lips that neither cross nor stay open when they are sealed.
+struct LipRig {
+  /// Vertices of the upper and the lower lip that meet when the mouth is closed, from -x to +x.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
+  /// How far the two of each pair lie apart in a closed mouth, millimetres; or none at all.
+  std::vector<glm::vec3> apart_at_rest;
+  struct Follower {
+    std::uint32_t vertex;
+    std::uint32_t pair;  ///< index into `seam`: the one that moves it
+    float part;          ///< -1..1: > 0 of the upper lip, < 0 of the lower
+  };
+  std::vector<Follower> followers;
+  /// By which the mouth is measured: the upper and the lower lip in the middle, the corners at the
+  /// agent's left and right.
+  std::optional<std::array<std::uint32_t, 4>> measured;
+};
+
+/// `seal`: 0 = only lips that have crossed are pushed back to touch, 1 = the gap is taken away in
+/// all directions.
+void CloseLips(const LipRig& rig, float seal, std::span<glm::vec3> position);
+
+}  // namespace fsm

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include "fsm/rig/deformation.h"
+#include "fsm/rig/face_state.h"
+#include "fsm/rig/rig_data.h"
+
+namespace fsm {
+
+/// The numbers of one state from which every vertex follows.
+struct Pose {
+  SidedUnits units;
+  std::array<float, kMouthParameters> mouth;
+  std::array<UnitEffects::Lids, 2> lids;  ///< right, left; gaze and blink included
+  JawMove jaw;
+  float jaw_cos = 1, jaw_sin = 0;  ///< of jaw.open_rad
+  glm::vec3 hinge = kJawHinge;
+  float seal = 0;
+  float tongue_raise = 0, tongue_out_mm = 0;
+  std::array<glm::mat3, 2> eye;  ///< right, left
+  glm::mat3 head;
+  float head_forward_mm = 0;
+
+  void SetJaw(const JawMove& move);
+};
+/// Clamps `state` to what anatomy allows; anything not a number counts as 0.
+Pose MakePose(const FaceState& state, const UnitTable& units);
+
+glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight);
+/// Where a point would lie in the jaw at rest.
+glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose);
+glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
+
+/// Where an eye looks: to the viewer's right, and up.
+struct Gaze {
+  float right_deg = 0, up_deg = 0;
+};
+Gaze GazeOf(const glm::mat3& eye);
+glm::mat3 EyeTo(const Gaze& gaze);
+
+}  // namespace fsm

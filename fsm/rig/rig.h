@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <string_view>
+#include <vector>
+
+#include "fsm/rig/face_state.h"
+#include "fsm/rig/rig_data.h"
+
+namespace fsm {
+
+struct Pose;
+
+/// Vertex positions and normals of one state. Reused from frame to frame by the caller.
+struct HeadVertices {
+  std::vector<glm::vec3>
+      position;  ///< N x 3 float, millimetres; x to the viewer's right, y up, z to the
+                 ///< viewer; origin midway between the two ear canals (tragi)
+  std::vector<glm::vec3> normal;  ///< N x 3 float, unit length
+  /// Depth of the creases, 0..1: [Wrinkle][0 = the agent's right (-x), 1 = left].
+  std::array<std::array<float, 2>, 4> wrinkles{};
+  std::array<float, 2> lids_shut{};  ///< right, left: 0 = as at rest, 1 = wholly
+};
+
+/// The name of a step, as `fsm --describe` shows it.
+std::string_view NameOf(RigStep step);
+
+/// Moves a head: a pure function from FaceState to vertices, which takes the steps of its RigData
+/// one after the other. Immutable; thread: any.
+class Rig {
+ public:
+  /// REQUIRES: the arrays of `data` fit together, as the bakers make them.
+  explicit Rig(RigData data);
+
+  const RigData& data() const { return data_; }
+  /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
+  void Evaluate(const FaceState& state, HeadVertices& out) const;
+  /// All 0 if the head does not say where its lips are.
+  MouthMeasure MeasureMouth(const FaceState& state) const;
+  /// The same rig whose units move as another table says.
+  Rig WithUnits(const UnitTable& units) const;
+
+ private:
+  struct Frame;
+  struct StepEntry;
+  static const StepEntry kSteps[];
+
+  Pose PoseOf(const FaceState& state) const;
+  /// How far an eye turns, which of heads from elsewhere is another angle than that of the gaze.
+  glm::mat3 EyeTurn(const Pose& pose, std::size_t side) const;
+  void TakeStep(RigStep step, Frame& frame) const;
+
+  void AddChannels(Frame& frame) const;
+  void Deform(Frame& frame) const;
+  void TurnLids(Frame& frame) const;
+  void KeepLidsOnBalls(Frame& frame) const;
+  void MoveWithJaw(Frame& frame) const;
+  void KeepOffTeeth(Frame& frame) const;
+  void SealLips(Frame& frame) const;
+  void MoveTongue(Frame& frame) const;
+  void MoveBones(Frame& frame) const;
+  void TurnNeck(Frame& frame) const;
+  void FindNormals(Frame& frame) const;
+
+  RigData data_;
+  // What follows from the data: vertices by what moves them.
+  std::vector<std::uint32_t> jawed_, rigid_, soft_;
+};
+
+}  // namespace fsm

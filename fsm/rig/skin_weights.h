@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+namespace fsm {
+
+/// What carries a vertex. Flesh follows the action units, the mouth, the lids and the jaw; the
+/// others move as rigid bodies (the tongue bends a little).
+enum class Bone : std::uint8_t { kSkin, kSkull, kJaw, kTongue, kEyeLeft, kEyeRight };
+
+/// How a flesh vertex takes part in the motions; all weights 0..1.
+struct SkinWeights {
+  glm::vec2 domain{};        ///< where on the face: nearly (x, y) at rest, see FaceSurface
+  float above_mouth = 0.5f;  ///< 1 = moves with the upper lip's side, 0 = with the lower's
+  float jaw = 0;
+  float neck = 1;       ///< part of the head's turn it makes
+  float free = 1;       ///< part of the action units' motion it takes (lid rims take none)
+  std::int8_t eye = 0;  ///< -1 right, +1 left, 0 none
+  float lid_upper = 0;
+  float lid_lower = 0;
+  std::int16_t lip_column = -1;  ///< index of the pair of seam vertices that corrects it
+  bool by_teeth = false;         ///< may touch the teeth: held off them
+  float lip_weight = 0;          ///< > 0 upper lip, < 0 lower lip
+};
+
+}  // namespace fsm
