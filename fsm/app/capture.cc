@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 namespace fsm {
 
 void Capture::Arm(Order order) {
@@ -10,52 +13,62 @@ void Capture::Arm(Order order) {
   armed_ = true;
 }
 
-void Capture::Begin() {
+void Capture::Begin(vm::Time at) {
   if (!armed_) return;
   armed_ = false;
   running_ = true;
-  series_ = {clock_.Now(), order_.per_second};
+  series_ = {at, order_.per_second};
+  end_.reset();
   next_ = 0;
+  bytes_ = 0;
   Tick();
 }
 
 void Capture::Tick() {
   timer_ = 0;
-  if (!WriteNext()) return;
+  if (auto done = WriteNext(); !done) {
+    Cancel();
+    on_end_(done);
+    return;
+  }
+  WaitOrFinish();
+}
+
+vm::Result<void> Capture::WriteNext() {
+  if (next_ >= limits_.pictures) {
+    return vm::Fail(vm::Errc::kLimit,
+                    fmt::format("Capture: more than {} pictures", limits_.pictures));
+  }
+  if (bytes_ >= limits_.bytes) {
+    return vm::Fail(vm::Errc::kLimit, fmt::format("Capture: the pictures in '{}' take more than {} "
+                                                  "MiB; fewer a second, a smaller view or PNG "
+                                                  "take less",
+                                                  order_.folder, limits_.bytes >> 20));
+  }
+  if (auto drawn = draw_(next_, series_.TimeOf(next_)); !drawn) return drawn;
+  const std::string path =
+      fmt::format("{}/{}{:05}{}", order_.folder, order_.prefix, next_ + 1, order_.ending);
+  if (auto written = studio_.WritePicture(studio_.Read(), path); !written) return written;
+  std::error_code none;
+  if (const auto size = std::filesystem::file_size(path, none); !none) bytes_ += size;
+  ++next_;
+  return {};
+}
+
+void Capture::WaitOrFinish() {
+  if (IsOver()) {
+    Cancel();
+    on_end_({});
+    return;
+  }
   timer_ = clock_.At(series_.TimeOf(next_), [this] { Tick(); });
 }
 
-bool Capture::WriteNext() {
-  if (next_ >= kMaxPictures) {
-    running_ = false;
-    on_failure_({vm::Errc::kLimit,
-                 "Capture: more than " + std::to_string(kMaxPictures) + " pictures", 0});
-    return false;
-  }
-  auto done = draw_(next_, series_.TimeOf(next_));
-  if (done) {
-    const std::string path =
-        fmt::format("{}/{}{:05}{}", order_.folder, order_.prefix, next_ + 1, order_.ending);
-    done = studio_.WritePicture(studio_.Read(), path);
-  }
-  if (!done) {
-    running_ = false;
-    on_failure_(done.error());
-    return false;
-  }
-  ++next_;
-  return true;
-}
-
-bool Capture::End() {
-  if (!running_) return false;
-  // Drawing takes time: what becomes due meanwhile is after the end.
-  const vm::Time end = clock_.Now();
-  while (series_.TimeOf(next_) <= end) {
-    if (!WriteNext()) break;
-  }
-  Cancel();
-  return true;
+void Capture::End(vm::Time at) {
+  if (!running_) return;
+  end_ = at;
+  if (timer_ != 0) clock_.Cancel(timer_);
+  WaitOrFinish();
 }
 
 void Capture::Cancel() {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "fsm/app/frame_series.h"
@@ -10,11 +12,16 @@
 namespace fsm {
 
 /// Numbered pictures of one utterance: DIR/PREFIX00001.bmp and on, from its begin to its end, at a
-/// given rate. Picture k shows the face at begin + k / rate exactly; none is left out.
-/// Limits: kMaxPictures, then it ends as a failure.
+/// given rate. Picture k shows the face at begin + k / rate exactly; none is left out, and none
+/// stands for an instant after the end, however late the machine is. Each is drawn in a turn of the
+/// scheduler of its own, so that commands and signals are heard between two of them.
+/// Limits: those of Limits, then it ends as a failure. Thread: the scheduler's.
 class Capture {
  public:
-  static constexpr long kMaxPictures = 36'000;  ///< 20 minutes at 30 a second
+  struct Limits {
+    long pictures = 36'000;             ///< 20 minutes at 30 a second
+    std::uintmax_t bytes = 8ULL << 30;  ///< on the disk: 10,000 pictures of 512 x 512
+  };
   struct Order {
     std::string folder;
     std::string prefix;
@@ -22,36 +29,45 @@ class Capture {
     std::string ending = ".bmp";
   };
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
-  using OnFailure = std::function<void(const vm::Error&)>;
-  Capture(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnFailure on_failure)
+  /// Told once all pictures of an utterance are written; by an error, if they are not.
+  using OnEnd = std::function<void(const vm::Result<void>&)>;
+  Capture(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnEnd on_end)
+      : Capture(clock, studio, std::move(draw), std::move(on_end), Limits{}) {}
+  Capture(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnEnd on_end, Limits limits)
       : clock_(clock),
         studio_(studio),
         draw_(std::move(draw)),
-        on_failure_(std::move(on_failure)) {}
+        on_end_(std::move(on_end)),
+        limits_(limits) {}
   ~Capture() { Cancel(); }
 
   void Arm(Order order);
-  void Begin();  ///< the utterance begins; nothing if not armed
-  /// The utterance is over: what is due is written, and it is armed no more. True if it was
-  /// running.
-  bool End();
-  void Cancel();
+  void Begin(vm::Time at);  ///< the utterance begins, now or just before; nothing if not armed
+  /// The utterance was over at `at`, now or before: the pictures due until then that are still
+  /// missing follow, then on_end is called. Nothing if none are being made.
+  void End(vm::Time at);
+  void Cancel();  ///< without a word
   bool armed() const { return armed_; }
   bool running() const { return running_; }
 
  private:
   void Tick();
-  bool WriteNext();
+  vm::Result<void> WriteNext();
+  void WaitOrFinish();
+  bool IsOver() const { return end_ && series_.TimeOf(next_) > *end_; }
 
   vm::Scheduler& clock_;
   RenderBackend& studio_;
   Draw draw_;
-  OnFailure on_failure_;
+  OnEnd on_end_;
+  const Limits limits_;
   Order order_;
   FrameSeries series_;
   bool armed_ = false;
   bool running_ = false;
+  std::optional<vm::Time> end_;  // of the utterance, once it is known
   long next_ = 0;
+  std::uintmax_t bytes_ = 0;  // written
   vm::TimerId timer_ = 0;
 };
 

@@ -7,9 +7,11 @@ namespace {
 
 vm::Time Ms(double ms) { return FromMs(ms); }
 
-Angles AnglesOf(const vm::SetValue& value) {
+/// Ours lean to the viewer's right with z+, those of the original to his left.
+Angles AnglesOf(const FsmCore& core, const vm::SetValue& value) {
+  const double z = core.original ? -value.number(2) : value.number(2);
   return {static_cast<float>(value.number(0)), static_cast<float>(value.number(1)),
-          static_cast<float>(value.number(2))};
+          static_cast<float>(z)};
 }
 
 // Face.12 -> 12.
@@ -110,12 +112,13 @@ void DeclareExpressions(FsmCore& core) {
 
 void DeclareHead(FsmCore& core) {
   const std::string axes =
-      "x y z in degrees, -90 to 90: x+ = down, y+ = to the viewer's right, z+ = tilt there.";
+      "x y z in degrees, -90 to 90: x+ = down, y+ = to the viewer's right, z+ = tilt there (with "
+      "-C to his left, as in the original).";
   core.Declare({.name = "HeadRotAbs.1",
                 .grammar = "<number> <number> <number>",
                 .help = "Turns the head to " + axes,
                 .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->TurnHead(core.Now(), AnglesOf(value));
+                  core.motion->TurnHead(core.Now(), AnglesOf(core, value));
                   return {};
                 },
                 .initial = "0 0 0",
@@ -125,7 +128,7 @@ void DeclareHead(FsmCore& core) {
                 .grammar = "<number> <number> <number>",
                 .help = "Turns the head further by " + axes,
                 .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->TurnHeadBy(core.Now(), AnglesOf(value));
+                  core.motion->TurnHeadBy(core.Now(), AnglesOf(core, value));
                   return {};
                 },
                 .readable = false,
@@ -199,20 +202,23 @@ void DeclareFigureSlots(FsmCore& core) {
                 },
                 "1.0"});
   core.Declare({"AgentRot", "<number -360..360> <number -360..360> <number -360..360>",
-                "Turns the whole figure: x y z in degrees, x+ = down, y+ = right.",
+                "Turns the whole figure: x y z in degrees, x+ = down, y+ = right, z+ = tilt to the "
+                "viewer's right (with -C to his left, as in the original).",
                 [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->figure().agent_rotation = AnglesOf(value);
+                  core.motion->figure().agent_rotation = AnglesOf(core, value);
                   return {};
                 },
                 "0 0 0"});
-  core.Declare({"AgentTrans", "<number -10000..10000> <number -10000..10000>",
-                "Moves the whole figure: x to the right and y up, in mm at the face.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->figure().agent_translation = {static_cast<float>(value.number(0)),
-                                                             static_cast<float>(value.number(1))};
-                  return {};
-                },
-                "0 0"});
+  core.Declare(
+      {"AgentTrans", "<number -10000..10000> <number -10000..10000>",
+       "Moves the whole figure: x to the right and y up, in mm at the face; with -C in halves of "
+       "the view's longer side, as in the original.",
+       [&core](const vm::SetValue& value) -> vm::Result<void> {
+         core.motion->figure().agent_translation = {static_cast<float>(value.number(0)),
+                                                    static_cast<float>(value.number(1))};
+         return {};
+       },
+       "0 0"});
   core.Declare({"AgentScale", "<number 0.01..100>", "Size of the whole figure, 1.0 = normal.",
                 [&core](const vm::SetValue& value) -> vm::Result<void> {
                   core.motion->figure().agent_scale = static_cast<float>(value.number(0));

@@ -17,6 +17,9 @@ namespace fsm {
 struct FsmCore {
   vm::Scheduler& clock;
   RenderBackend& studio;
+  /// A configuration of the original was given: its clients speak, so places of the figure count
+  /// half views and z+ leans to the viewer's left, as there.
+  bool original = false;
   vm::SlotMachine slots{"FSM"};
   std::unique_ptr<FaceMotion> motion{};
   Scene scene{};

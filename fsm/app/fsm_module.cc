@@ -29,7 +29,8 @@ T OrThrow(vm::Result<T> result) {
 }  // namespace
 
 FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions options)
-    : options_(std::move(options)), core_{.clock = clock, .studio = studio} {
+    : options_(std::move(options)),
+      core_{.clock = clock, .studio = studio, .original = !options_.config.path.empty()} {
   const OriginalConfig& config = options_.config;
   tables_ = OrThrow(MotionTables::Load(options_.tables));
   if (auto applied = config.ApplyTo(tables_); !applied) {
@@ -54,15 +55,17 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions opt
   DeclareExpressionSlots(core_);
   DeclareIdleSlots(core_);
   speech_ = std::make_unique<SpeechSlots>(
-      core_, SpeechSlots::Listener{.begun = [this] { capture_->Begin(); },
+      core_, SpeechSlots::Listener{.begun = [this](vm::Time start) { capture_->Begin(start); },
                                    .ended =
                                        [this] {
-                                         if (capture_->End())
-                                           core_.slots.Report("Capture", "DISABLE");
+                                         // A busy machine hears of the end late.
+                                         const vm::Time now = core_.Now();
+                                         capture_->End(std::min(
+                                             now, core_.motion->SpeechEnd().value_or(now)));
                                        }});
   DeclareLipSlots(core_);
   DeclareFigureSlots(core_);
-  mask_ = std::make_unique<MaskSlots>(core_, options_.mask);
+  mask_ = std::make_unique<MaskSlots>(core_, options_.mask, config.MaskNames());
   scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);
   film_ = std::make_unique<Film>(
       clock, studio, [this](long number, vm::Time at) { return DrawFrame(number, at); },
@@ -73,9 +76,9 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions opt
   scene_->set_size_locked([this] { return film_->recording(); });
   capture_ = std::make_unique<Capture>(
       clock, studio, [this](long number, vm::Time at) { return DrawFrame(number, at); },
-      [this](const vm::Error& error) {
+      [this](const vm::Result<void>& done) {
         core_.slots.Report("Capture", "DISABLE");
-        core_.slots.ReportError("Capture", error);
+        if (!done) core_.slots.ReportError("Capture", done.error());
       });
   DeclareRecording();
   DeclareCapture();
@@ -172,8 +175,10 @@ void FsmModule::DeclareCapture() {
       {.name = "Capture",
        .grammar = "STOP | <word> <word> <number 0.1..120> [ BMP | PNG ]",
        .initial = "DISABLE",
-       .help = "Numbered pictures of the next utterance, from Speak = NOW to its end: folder, "
-               "prefix, pictures a second. Its value is ENABLE until they are made, else DISABLE.",
+       .help =
+           "Numbered pictures of the next utterance, from Speak = NOW to its end: folder, "
+           "prefix, pictures a second. Its value is ENABLE until they are made, else DISABLE. At "
+           "most 36000 of them and 8 GiB.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
          if (value.word(0) == "STOP" && value.size() == 1) {
            capture_->Cancel();
@@ -264,7 +269,7 @@ void FsmModule::OnFrame() {
   if (core_.studio.has_window()) {
     if (auto drawn = core_.DrawAt(now); !drawn) {
       core_.slots.ReportError("", drawn.error());
-      exit_requested_ = true;
+      exit_requested_ = failed_ = true;
       return;
     }
     core_.studio.Show();
@@ -299,6 +304,11 @@ bool FsmModule::Busy() const {
 }
 
 void FsmModule::Shutdown() {
+  // Whoever runs us lets go of what is still due. Where drawing takes longer than the time between
+  // two pictures that would be one after another, without end.
+  capture_->Cancel();
+  if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
+  frame_timer_ = 0;
   if (!film_->recording()) return;
   if (auto stopped = StopFilm(); !stopped) core_.slots.ReportError("Record", stopped.error());
 }

@@ -42,6 +42,8 @@ class FsmModule final : public vm::Module {
   bool Busy() const override;
   bool ExitRequested() const override { return exit_requested_; }
   void Shutdown() override;
+  /// The window could not be drawn, which ended the module: its program has failed.
+  bool failed() const { return failed_; }
   const FaceMotion& motion() const { return *core_.motion; }
 
  private:
@@ -77,6 +79,7 @@ class FsmModule final : public vm::Module {
   vm::TimerId end_timer_ = 0;
   vm::Time end_due_{0};
   bool exit_requested_ = false;
+  bool failed_ = false;
 };
 
 }  // namespace fsm

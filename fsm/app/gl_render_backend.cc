@@ -62,7 +62,9 @@ vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scen
     MakeRenderer();
     if (made.valid()) head_ = made.get();
     head().Evaluate(state, vertices_);
-    renderer_->Draw(head(), vertices_, state, scene);
+    Scene seen = scene;
+    seen.camera.parallel = head().view();
+    renderer_->Draw(head(), vertices_, state, seen);
     return {};
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, std::string("cannot draw: ") + error.what());

@@ -60,8 +60,8 @@ class GlRenderBackend final : public RenderBackend {
   void MakeRenderer();
 
   Options options_;
-  std::string face_;            // worn; "" = the first
-  std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
+  std::string face_;                    // worn; "" = the first
+  std::unique_ptr<Head> head_;          // made at the first need, as drawing may never be asked for
   std::unique_ptr<RenderContext> context_;
   std::unique_ptr<Renderer> renderer_;  // lives in the context
   HeadVertices vertices_;

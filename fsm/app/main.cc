@@ -1,6 +1,7 @@
 // The face synthesis module: lines on stdin or a socket in, a moving face out.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fsm/app/contact_sheet.h"
@@ -36,13 +38,19 @@ struct Options {
   std::string out;
   bool no_labels = false;
   fsm::FsmOptions module;
+  bool failed = false;  // told by the module at its end
 };
 
-/// A module that owns its studio, which has to outlive it.
+/// A module that owns its studio, which has to outlive it. Says in `failed`, which outlives both,
+/// whether it ended because its window could not be drawn.
 class Fsm final : public vm::Module {
  public:
-  Fsm(vm::Scheduler& clock, const fsm::GlRenderBackend::Options& studio, fsm::FsmOptions options)
-      : studio_(studio), module_(clock, studio_, std::move(options)) {}
+  Fsm(vm::Scheduler& clock, const fsm::GlRenderBackend::Options& studio, fsm::FsmOptions options,
+      bool& failed)
+      : studio_(studio), module_(clock, studio_, std::move(options)), failed_(failed) {}
+  ~Fsm() override { failed_ = module_.failed(); }
+  Fsm(const Fsm&) = delete;
+  Fsm& operator=(const Fsm&) = delete;
   vm::SlotMachine& slots() override { return module_.slots(); }
   std::vector<vm::Message> Greeting() override { return module_.Greeting(); }
   bool Busy() const override { return module_.Busy(); }
@@ -52,7 +60,26 @@ class Fsm final : public vm::Module {
  private:
   fsm::GlRenderBackend studio_;
   fsm::FsmModule module_;
+  bool& failed_;
 };
+
+/// A whole number, as atoi of the original takes it.
+bool IsNumber(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  return !word.empty() && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The original's `-p X Y`, the place of the window, becomes --position; `-p PORT` with one number
+/// stays what it is in all modules, its socket.
+std::vector<char*> WithPlaceNamed(int argc, char** argv, std::string& position) {
+  std::vector<char*> words(argv, argv + argc);
+  for (std::size_t i = 1; i + 2 < words.size(); ++i) {
+    if (std::string_view(words[i]) == "-p" && IsNumber(words[i + 1]) && IsNumber(words[i + 2])) {
+      words[i] = position.data();
+    }
+  }
+  return words;
+}
 
 bool DisplayNamed() {
   const char* x11 = std::getenv("DISPLAY");
@@ -96,7 +123,8 @@ void AddOptions(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"osmesa", "egl", "auto", "window"}));
   app.add_option("--size", options.size, "Size of the view, WxH (default 640x480)");
   app.add_option("-s", options.size_pair, "The same, as the original: -s W H")->expected(2);
-  app.add_option("--position", options.position, "Place of the window, X Y")->expected(2);
+  app.add_option("--position", options.position, "Place of the window, X Y; -p X Y, too")
+      ->expected(2);
   app.add_option("-C", options.config, "A configuration file of the original (config.txt)");
   app.add_option(
       "--tables", options.module.tables,
@@ -177,6 +205,8 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
                              " pixels wide and high");
   }
   studio.off_screen = OffScreenWanted(options);
+  const fsm::OriginalConfig& config = options.module.config;
+  if (config.x && config.y) studio.position = {*config.x, *config.y};
   if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};
   studio.more_faces = MoreFaces(options, options.module.config);
   studio.tables = options.module.tables;
@@ -224,8 +254,10 @@ int DrawSheetIfAsked(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  return vm::RunModule(
-      argc, argv,
+  std::string position = "--position";
+  std::vector<char*> words = WithPlaceNamed(argc, argv, position);
+  const int code = vm::RunModule(
+      argc, words.data(),
       {.name = "fsm",
        .description = "Galatea's face: a talking head told what to do in lines of text",
        .module_name = "FSM",
@@ -243,9 +275,12 @@ int main(int argc, char** argv) {
          if (!options.config.empty()) {
            auto config = fsm::OriginalConfig::Read(options.config);
            if (!config) throw std::runtime_error(config.error().text);
+           fsm::TakeExpressions(*config);
            options.module.config = std::move(*config);
            options.module.announce_config = true;
          }
-         return std::make_unique<Fsm>(clock, RenderBackendOptions(options), options.module);
+         return std::make_unique<Fsm>(clock, RenderBackendOptions(options), options.module,
+                                      options.failed);
        }});
+  return code == 0 && options.failed ? 1 : code;
 }

@@ -1,5 +1,6 @@
 #include "fsm/app/mask_slots.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace fsm {
@@ -12,14 +13,23 @@ std::uint64_t PersonOf(const std::string& name) {
   return hash;
 }
 
+/// The names that are among `known`, with commas between them.
+std::string Joined(const std::vector<std::string>& names, const std::vector<std::string>& known) {
+  std::string text;
+  for (const std::string& name : names) {
+    if (std::ranges::find(known, name) != known.end()) text += (text.empty() ? "" : ",") + name;
+  }
+  return text;
+}
+
 }  // namespace
 
-MaskSlots::MaskSlots(FsmCore& core, std::string first) : core_(core), first_(std::move(first)) {
-  std::string names;
-  for (const std::string& name : core_.studio.Faces()) {
-    if (first_.empty()) first_ = name;
-    names += (names.empty() ? "" : ",") + name;
-  }
+MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::string>& listed)
+    : core_(core), first_(std::move(first)) {
+  const std::vector<std::string> all = core_.studio.Faces();
+  if (first_.empty()) first_ = all.front();
+  std::string names = Joined(listed, all);
+  if (names.empty()) names = Joined(all, all);
   core_.slots.Declare({.name = "MaskSet",
                        .grammar = "<text>",
                        .access = vm::Access::kReadOnly,

@@ -15,4 +15,9 @@ std::vector<GlRenderBackend::Options::MoreFace> FacesOf(
     const OriginalConfig& config, const std::string& tables,
     std::vector<std::string>* left_out = nullptr);
 
+/// Takes the looks of the expressions from the files beside the configuration's standard wireframe
+/// (AU31.pnt ..., user*.pnt, userdef*.pnt), so that FaceExp shows them on every face. Where they
+/// cannot be read ours stay, and a sentence says so: in `notices`, else on stderr.
+void TakeExpressions(OriginalConfig& config, std::vector<std::string>* notices = nullptr);
+
 }  // namespace fsm

@@ -27,7 +27,8 @@ const std::map<std::string, std::string OriginalConfig::*, std::less<>> kSharedF
     {"EYE_OBJ_NAME", &OriginalConfig::eye_object},
     {"M_WALL_TEXTURE", &OriginalConfig::mouth_picture}};
 
-/// The mask of that name, made if need be; nullptr if there are too many.
+/// The mask of that name, made if need be; nullptr if there are too many. Valid until the next
+/// call.
 OriginalConfig::Mask* MaskOf(OriginalConfig& config, const std::string& name) {
   const auto found = std::ranges::find(config.masks, name, &OriginalConfig::Mask::name);
   if (found != config.masks.end()) return &*found;
@@ -92,6 +93,10 @@ vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
         return table.Wrong(line.number, "at most " + std::to_string(kMaxMasks) + " faces are read");
       }
       if (key == "MaskFile") {
+        if (mask->wireframe.empty()) {  // other lines may name it before its own does
+          std::rotate(mask, mask + 1, config.masks.data() + config.masks.size());
+          mask = &config.masks.back();
+        }
         mask->picture = find_file(word(2));
         mask->wireframe = find_file(word(3));
       } else if (key == "MaskEye") {
@@ -127,7 +132,19 @@ vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
   return config;
 }
 
+std::vector<std::string> OriginalConfig::MaskNames() const {
+  std::vector<std::string> names;
+  for (const Mask& mask : masks) names.push_back(mask.name);
+  return names;
+}
+
 namespace {
+
+HeadCurve LeaningAsOurs(const HeadCurve& curve) {
+  std::vector<HeadCurve::Key> keys(curve.keys().begin(), curve.keys().end());
+  for (HeadCurve::Key& key : keys) key.angles[2] = -key.angles[2];
+  return HeadCurve(std::move(keys));
+}
 
 vm::Result<std::vector<HeadCurve>> ReadCurves(const std::vector<std::string>& files) {
   std::vector<HeadCurve> curves;
@@ -137,7 +154,7 @@ vm::Result<std::vector<HeadCurve>> ReadCurves(const std::vector<std::string>& fi
     if (!text) return std::unexpected(text.error());
     auto curve = ReadMotionFile(file, *text);
     if (!curve) return std::unexpected(curve.error());
-    curves.push_back(std::move(*curve));
+    curves.push_back(LeaningAsOurs(*curve));
   }
   return curves;
 }
@@ -157,6 +174,14 @@ vm::Result<void> OriginalConfig::ApplyTo(MotionTables& tables) const {
     auto curves = ReadCurves(*files);
     if (!curves) return std::unexpected(curves.error());
     *out = std::move(*curves);
+  }
+  for (const auto& [name, looks] : expressions) {
+    auto& patterns = tables.emotions[name].patterns;
+    for (const auto& [pattern, look] : looks) {
+      const auto index = static_cast<std::size_t>(pattern - 1);
+      patterns.resize(std::max(patterns.size(), index + 1));
+      patterns[index] = look;
+    }
   }
   if (!blinks_ms.empty()) table.blinks.clear();
   for (const double ms : blinks_ms) {

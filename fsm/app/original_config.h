@@ -25,10 +25,14 @@ struct OriginalConfig {
   struct Mask {
     std::string name, picture, wireframe, eye_picture, eye_def, teeth_def;
   };
-  std::vector<Mask> masks;  ///< in order, at most kMaxMasks
+  std::vector<Mask> masks;  ///< in the order of their MaskFile lines, at most kMaxMasks
+  std::vector<std::string> MaskNames() const;
   static constexpr std::size_t kMaxMasks = 100;
   /// Of all masks: DEF_WFM_PNT, DEF_WFM_LNK, U_TEETH_OBJ_NAME, ...; "" = not named.
   std::string standard_wireframe, link, upper_teeth, lower_teeth, eye_object, mouth_picture;
+  /// Looks of whole expressions, by FaceExp's name and pattern: those of its files, see
+  /// TakeExpressions (more_faces.h). Read leaves them out.
+  std::map<std::string, std::map<int, ActionUnits>> expressions;
 
   /// Reads the file: `KEY args`, `#` comments; keys it does not know mean nothing, as in the
   /// original. File names are looked for from the working directory, then from the file's own
@@ -36,7 +40,8 @@ struct OriginalConfig {
   /// one.
   static vm::Result<OriginalConfig> Read(const std::string& path);
 
-  /// Replaces the patterns the file names. Errors: as above, for the files it refers to.
+  /// Replaces the patterns the file names, and the looks above. In its movements z+ leans to the
+  /// viewer's left, in ours to the right. Errors: as above, for the files it refers to.
   vm::Result<void> ApplyTo(MotionTables& tables) const;
 };
 

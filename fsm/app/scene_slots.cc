@@ -44,6 +44,7 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
       backgrounds_(std::move(backgrounds)),
       start_width_(core.studio.width()),
       start_height_(core.studio.height()) {
+  core_.scene = FirstScene();
   DeclareBackgrounds();
   DeclareView();
   DeclareCamera();
@@ -63,9 +64,19 @@ SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::st
   }
 }
 
+Scene SceneSlots::FirstScene() const {
+  Scene scene;
+  scene.camera.moves_by_half_views = core_.original;
+  if (core_.original) {
+    scene.wire = glm::vec3(1);
+    scene.wire_on_black = true;
+  }
+  return scene;
+}
+
 void SceneSlots::DeclareBackgrounds() {
-  std::string names = kPlain;
-  for (const auto& [name, file] : backgrounds_) names += "," + name;
+  std::string names = core_.original && !backgrounds_.empty() ? "" : kPlain;
+  for (const auto& [name, file] : backgrounds_) names += (names.empty() ? "" : ",") + name;
   core_.slots.Declare({.name = "BackgroundSet",
                        .grammar = "<text>",
                        .access = vm::Access::kReadOnly,
@@ -171,7 +182,7 @@ void SceneSlots::DeclareCamera() {
        "degrees "
        "round the head to the viewer's right (0).",
        [this](const vm::SetValue& value) -> vm::Result<void> {
-         Camera camera;
+         Camera camera = FirstScene().camera;
          float* const fields[] = {&camera.distance, &camera.height_mm, &camera.field_degrees,
                                   &camera.angle_degrees};
          for (std::size_t i = 0; i < value.size(); ++i) {
@@ -251,7 +262,7 @@ vm::Result<void> SceneSlots::ResetSize() {
 }
 
 void SceneSlots::Reset() {
-  core_.scene = Scene{};
+  core_.scene = FirstScene();
   transparent_ = false;
   background_enabled_ = true;
   if (auto sized = ResetSize(); !sized) core_.slots.ReportError("Window", sized.error());

@@ -20,6 +20,7 @@ class SceneSlots {
   void set_size_locked(std::function<bool()> locked) { size_locked_ = std::move(locked); }
 
  private:
+  Scene FirstScene() const;  // with the original's measures and colours where they are asked for
   void DeclareBackgrounds();
   void DeclareView();
   void DeclareCamera();

@@ -212,7 +212,7 @@ void SpeechSlots::Begin() {
 
 void SpeechSlots::Speaking() {
   SetStat(Stat::kSpeaking);
-  if (listener_.begun) listener_.begun();
+  if (listener_.begun) listener_.begun(*start_);
   WaitForEnd();
   core_.changed();
 }

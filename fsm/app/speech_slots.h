@@ -18,7 +18,8 @@ namespace fsm {
 class SpeechSlots {
  public:
   struct Listener {
-    std::function<void()> begun;  ///< SPEAKING was reached
+    /// SPEAKING was reached; the utterance stands from `start` on, now or just before.
+    std::function<void(vm::Time start)> begun;
     std::function<void()> ended;  ///< IDLE was reached
   };
   /// Declares the slots. `core` outlives this.

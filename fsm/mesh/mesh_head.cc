@@ -109,7 +109,7 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology) {
 }  // namespace
 
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, std::unique_ptr<Deformation> motion) {
-  HeadAsset asset{.topology = TopologyOf(model), .rig = {}, .landmarks = {}};
+  HeadAsset asset{.topology = TopologyOf(model), .rig = {}, .landmarks = {}, .view = model.view};
   asset.rig = RigOf(model, asset.topology);
   if (motion) {
     asset.rig.steps.insert(asset.rig.steps.begin(), RigStep::kDeformation);

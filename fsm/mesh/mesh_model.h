@@ -40,6 +40,7 @@ struct MeshModel {
   bool has_uv_seams = false;   ///< vertices are doubled where the texture is sewn together
   glm::vec3 hinge{0, -4, -3};  ///< the jaw's axis goes through it, as ours does
   Landmarks landmarks;
+  std::optional<ParallelView> view;  ///< how it is meant to be seen
   /// Vertices of the upper and the lower lip that meet when the mouth is closed, from the agent's
   /// right to left.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;

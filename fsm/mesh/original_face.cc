@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "fsm/image/image_file.h"
+#include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_points.h"
 
 namespace fsm {
@@ -14,11 +15,27 @@ namespace {
 
 constexpr std::size_t kEyeDefBytes = 29 * sizeof(double);
 
+using Offsets = std::vector<std::vector<glm::vec3>>;
+
+/// What the units leave of the expressions, brought to the face's vertices.
+vm::Result<Offsets> ReadRests(const PntFile& wireframe, const OriginalSharedFiles& shared) {
+  const auto expressions = ReadOriginalExpressions(shared.offsets, shared.standard);
+  if (!expressions) return std::unexpected(expressions.error());
+  Offsets all;
+  for (const PntFile& rest : expressions->rests) {
+    std::vector<glm::vec3>& offsets = all.emplace_back();
+    for (const PointName& name : wireframe.names) {
+      const auto found = rest.index.find(name);
+      offsets.push_back(found == rest.index.end() ? glm::vec3(0) : rest.at[found->second]);
+    }
+  }
+  return all;
+}
+
 /// The offset files of one folder, over the standard wireframe, brought to the face's vertices.
-vm::Result<std::vector<std::vector<glm::vec3>>> ReadOffsets(const PntFile& wireframe,
-                                                            const std::string& stem,
-                                                            std::size_t count) {
-  std::vector<std::vector<glm::vec3>> all;
+vm::Result<Offsets> ReadOffsets(const PntFile& wireframe, const std::string& stem,
+                                std::size_t count) {
+  Offsets all;
   for (std::size_t i = 1; i <= count; ++i) {
     const std::string path = stem + (i < 10 ? "0" : "") + std::to_string(i) + ".pnt";
     const auto file = ReadPnt(path);
@@ -80,6 +97,15 @@ vm::Result<void> ReadMouth(const OriginalFaceFiles& files, const OriginalSharedF
   return {};
 }
 
+/// Little-endian. REQUIRES: eight bytes from `at` on.
+double DoubleAt(std::string_view bytes, std::size_t at) {
+  std::uint64_t bits = 0;
+  for (std::size_t k = 8; k-- > 0;) {
+    bits = bits << 8 | static_cast<std::uint8_t>(bytes[at + k]);
+  }
+  return std::bit_cast<double>(bits);
+}
+
 }  // namespace
 
 vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) {
@@ -88,30 +114,26 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) 
                                              ": it ends here, but " + std::to_string(kEyeDefBytes) +
                                              " bytes (29 doubles) are expected");
   }
-  std::array<float, 29> value{};
-  for (std::size_t i = 0; i < value.size(); ++i) {
-    std::uint64_t bits = 0;
-    for (std::size_t k = 8; k-- > 0;) {
-      bits = bits << 8 | static_cast<std::uint8_t>(bytes[8 * i + k]);
+  EyeDef def;
+  // By index among the doubles; an eye has seven of them in either half of the file.
+  std::vector<std::pair<std::size_t, float*>> used{{28, &def.picture_scale}};
+  for (std::size_t side = 0; side < 2; ++side) {
+    EyeDef::Eye& eye = def.eye[side];
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = static_cast<std::size_t>(i);
+      used.emplace_back(7 * side + axis, &eye.place[i]);
+      used.emplace_back(14 + 7 * side + 3 + axis, &eye.turn_degrees[i]);
     }
-    const auto number = std::bit_cast<double>(bits);
+    used.emplace_back(7 * side + 6, &eye.scale);
+  }
+  for (const auto& [index, to] : used) {
+    const double number = DoubleAt(bytes, 8 * index);
     if (!std::isfinite(number) || std::abs(number) > 1e4) {
-      return vm::Fail(vm::Errc::kBadValue, name + ": byte " + std::to_string(8 * i) +
+      return vm::Fail(vm::Errc::kBadValue, name + ": byte " + std::to_string(8 * index) +
                                                ": a number within +-10000 expected");
     }
-    value[i] = static_cast<float>(number);
+    *to = static_cast<float>(number);
   }
-  EyeDef def;
-  const auto eye = [&value](std::size_t first) {
-    return EyeDef::Eye{{value[first], value[first + 1], value[first + 2]},
-                       {value[first + 3], value[first + 4], value[first + 5]},
-                       value[first + 6]};
-  };
-  for (std::size_t side = 0; side < 2; ++side) {
-    def.eye[side] = eye(7 * side);
-    def.within[side] = eye(14 + 7 * side);
-  }
-  def.picture_scale = value[28];
   return def;
 }
 
@@ -160,6 +182,7 @@ vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
   for (const auto& read : {Into(offsets("_AU_Datas/AU", kOriginalUnits), face.units),
                            Into(offsets("_MU_Datas/MU", kMouthParameters), face.mouth_units),
                            Into(offsets("_VM_Datas/VISEME", kOriginalVisemes), face.visemes),
+                           Into(ReadRests(face.wireframe, shared), face.expression_rests),
                            ReadEyes(files, shared, face), ReadMouth(files, shared, face)}) {
     if (!read) return std::unexpected(read.error());
   }

@@ -29,13 +29,15 @@ struct OriginalSharedFiles {
 };
 
 /// Where eyeballs sit, a .def_e file: 29 little-endian doubles, for the right and the left eye
-/// place, turn and scale, the same again within the ball, and the scale of the picture on it.
+/// place, turn and scale, the same again within the ball, and the scale of the picture on it. The
+/// original draws by the first place and scale, the second turn and the picture's scale; the other
+/// numbers are left over from its editor, which did not initialise all of them, and are not read.
 struct EyeDef {
   struct Eye {
     glm::vec3 place{0}, turn_degrees{0};
     float scale = 1;
   };
-  std::array<Eye, 2> eye, within;
+  std::array<Eye, 2> eye;
   float picture_scale = 1;
 };
 vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes);
@@ -43,6 +45,10 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes);
 vm::Result<glm::vec3> ParseTeethDef(const std::string& name, std::string_view text);
 
 inline constexpr std::size_t kOriginalUnits = 30;
+/// FACS numbers of the original's units, in its order (its manual's list; action_unit_list.txt).
+inline constexpr std::array<int, kOriginalUnits> kUnitNumbers{
+    1,  2,  4,  5,  6,  7,  9,  10, 11, 12, 13, 14, 15, 16, 17,
+    18, 20, 22, 23, 24, 25, 26, 27, 28, 29, 30, 35, 41, 42, 43};
 inline constexpr std::size_t kOriginalVisemes = 27;
 
 /// A face of the original, read.
@@ -58,6 +64,7 @@ struct OriginalFace {
   std::optional<ObjFile> upper_teeth, lower_teeth, eye;
   /// Offsets at full strength in the wireframe's units, by its vertices.
   std::vector<std::vector<glm::vec3>> units, mouth_units, visemes;
+  std::vector<std::vector<glm::vec3>> expression_rests;  ///< by channel, see OriginalExpressions
 };
 /// Errors: kUnavailable, kBadValue and kLimit naming the file, and the line or byte where there is
 /// one. A file "" is left out; wireframe, picture, standard, link and offsets must be there.
@@ -66,12 +73,19 @@ vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
 
 /// The mouth of each viseme 1..27 at full articulation, in FaceState's parameters.
 using VisemeMouths = std::vector<std::array<float, kMouthParameters>>;
+/// What Mouth.N asks of its parameter at 100 per cent; 0 = that it moves nothing.
+using MouthUnitSizes = std::array<float, kMouthParameters>;
 
-/// The face as a mesh of our frame; vertex i of the wireframe is vertex i of the model.
+/// The face as a mesh of our frame; vertex i of the wireframe is vertex i of the model. Its
+/// view is the window the original shows a face through, without
+/// perspective: its middle is the origin of the wireframe, and half its longer side is one of the
+/// wireframe's units.
 MeshModel ModelOf(const OriginalFace& face);
-/// Moves it by its own units: action units by their FACS number, mouths taken apart into visemes,
-/// and what those leave into the 17 mouth units.
+/// Moves it by its own units: action units by their FACS number, mouths of speech taken apart into
+/// visemes. A mouth of which at most three parameters are not 0 comes from Mouth.N: each shows the
+/// mouth unit of its number, whatever that is (in the data of the original, mostly vowels).
 std::unique_ptr<Deformation> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
-                                         const VisemeMouths& mouths);
+                                        const VisemeMouths& mouths,
+                                        const MouthUnitSizes& unit_sizes = {});
 
 }  // namespace fsm

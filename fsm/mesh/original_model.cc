@@ -6,14 +6,17 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
+#include <stdexcept>
 
 #include "fsm/base/spline.h"
+#include "fsm/image/color_space.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/mesh/texture_atlas.h"
 
 namespace fsm {
 namespace {
+
 
 /// Builds the model part by part; `mm` takes wireframe units to our frame.
 class OriginalBuilder {
@@ -57,7 +60,18 @@ class OriginalBuilder {
     }
     for (const auto& [upper, lower] : kLipPairs) {
       model_.seam.emplace_back(Vertex(upper), Vertex(lower));
+      ShutAtRest(model_.position[Vertex(upper)], model_.position[Vertex(lower)]);
     }
+  }
+
+  /// Wireframes leave a slit of a hair between lips that are shut, or let them cross by one; teeth
+  /// would be seen through it.
+  static void ShutAtRest(glm::vec3& upper, glm::vec3& lower) {
+    constexpr float kHairMm = 0.8F;
+    if (std::abs(upper.y - lower.y) > kHairMm) return;
+    const glm::vec2 middle = 0.5F * (glm::vec2(upper) + glm::vec2(lower));
+    upper = glm::vec3(middle, upper.z);
+    lower = glm::vec3(middle, lower.z);
   }
 
   /// A bag behind the lips' rim, its upper half of the skull, its lower half of the jaw.
@@ -117,7 +131,7 @@ class OriginalBuilder {
     // Right and left are told apart by where they lie, not by what the file calls them.
     const std::size_t of = (def.eye[0].place.x < def.eye[1].place.x) == (side == 0) ? 0 : 1;
     const EyeDef::Eye& eye = def.eye[of];
-    const glm::vec3 turn = glm::radians(def.within[of].turn_degrees);
+    const glm::vec3 turn = glm::radians(eye.turn_degrees);
     glm::mat4 turned(1.0F);
     turned = glm::rotate(turned, turn.x, {1, 0, 0});
     turned = glm::rotate(turned, turn.y, {0, 1, 0});
@@ -168,25 +182,31 @@ class OriginalBuilder {
     }
   }
 
-  /// Teeth come in the place they have in the standard wireframe's mouth.
+  /// Teeth fill the mouth as in the original: an arch as wide as the jaw, each row as high as the
+  /// gum behind its lip has room, front teeth at the depth of the mouth's corners, and both rows
+  /// meet just above the upper lip's edge. The original leaves the arch as deep as its object is,
+  /// which no face shows; here it shrinks with the width, so that it stays within narrow jaws.
   void AddTeeth(const ObjFile& teeth, Bone bone) {
-    const auto mouth = [](const PntFile& file, glm::vec3& middle) {
-      const glm::vec3 a = file.at[file.index.at(kLipCorners[0])];
-      const glm::vec3 b = file.at[file.index.at(kLipCorners[1])];
-      const glm::vec3 front = file.at[file.index.at(kLipMiddle)];
-      middle = {0.5F * (a.x + b.x), front.y, front.z};
-      return glm::distance(a, b);
+    const auto at = [this](PointName name) {
+      return face_.wireframe.at[face_.wireframe.index.at(name)];
     };
-    glm::vec3 here, there;
-    const float scale =
-        mouth(face_.wireframe, here) / std::max(mouth(face_.standard, there), 1e-6F);
+    const bool upper = bone == Bone::kSkull;
+    const TeethPlaces& places = upper ? kUpperTeeth : kLowerTeeth;
+    glm::vec3 low(1e9F), high(-1e9F);
+    for (const glm::vec3& p : teeth.positions) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    const glm::vec3 size = glm::max(high - low, 1e-6F);
+    const float wide = std::abs(at(kJawAtTeeth[1]).x - at(kJawAtTeeth[0]).x) / size.x;
+    const float tall = std::abs(at(places.top).y - at(places.bottom).y) / size.y;
+    const float edge = 0.5F * (at(kUpperLipFront).y + at(kLipMiddle).y);
+    const glm::vec3 from(0.5F * (low.x + high.x), upper ? low.y : high.y, high.z);
+    const glm::vec3 to(at(kUpperLipFront).x, edge, at(places.front).z);
     const auto first = static_cast<std::uint32_t>(model_.position.size());
     for (const glm::vec3& p : teeth.positions) {
-      // A little smaller and farther back, so that lips which are pressed or drawn stay before
-      // them.
-      constexpr float kSmaller = 0.93F, kBackMm = 3.5F;
-      const glm::vec3 at = frame_.ToMm(here + kSmaller * scale * (p - there));
-      model_.Add(at - glm::vec3(0, 0, kBackMm), bone, 0.85F * face_.teeth * face_.teeth);
+      const glm::vec3 place = to + glm::vec3(wide, tall, wide) * (p - from);
+      model_.Add(frame_.ToMm(place), bone, ShownTeeth());
     }
     for (const auto& group : teeth.groups) {
       for (const auto& t : group.triangles) {
@@ -196,9 +216,21 @@ class OriginalBuilder {
     }
   }
 
+  /// The original's lamp shows four fifths of the teeth's colour at three quarters of its distance,
+  /// and a little of its own (GL's default material), as values of the screen; ours is linear.
+  glm::vec3 ShownTeeth() const {
+    glm::vec3 shown;
+    for (int i = 0; i < 3; ++i) {
+      shown[i] = SrgbToLinear(std::min(0.8F / 0.75F * face_.teeth[i] + 0.04F, 1.0F));
+    }
+    return shown;
+  }
+
   void NamePlaces() {
     for (const auto& [name, point] : kNamedPoints) model_.landmarks[name] = Place(point);
     model_.landmarks["stomion"] = 0.5F * (Place(kLipMiddle) + Place({1, 37}));
+    const glm::vec3 middle = frame_.ToMm(glm::vec3(0));
+    model_.view = ParallelView{middle, frame_.ToMm(glm::vec3(1, 0, 0)).x - middle.x};
   }
 
   const OriginalFace& face_;

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "fsm/base/spline.h"
 #include "fsm/mesh/lip_seal.h"
 #include "fsm/mesh/nnls_solver.h"
+#include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/rig/pose.h"
@@ -13,57 +15,65 @@
 namespace fsm {
 namespace {
 
-/// FACS numbers of the original's units, in its order (its manual's list; action_unit_list.txt).
-constexpr std::array<int, kOriginalUnits> kUnitNumbers{1,  2,  4,  5,  6,  7,  9,  10, 11, 12,
-                                                       13, 14, 15, 16, 17, 18, 20, 22, 23, 24,
-                                                       25, 26, 27, 28, 29, 30, 35, 41, 42, 43};
 constexpr int kEyesClosed = 43;
 
 /// Of a viseme's offsets that the original shows for a full articulation: its MouthScale is 30 by
-/// default, which stands for three quarters here.
+/// default, which stands for three quarters here. All of them are shown at 100.
 constexpr float kVisemePart = 0.4f;
 
+/// Mouths that show all of a viseme's offsets.
 std::vector<NnlsSolver::Row> Rows(const VisemeMouths& mouths) {
   std::vector<NnlsSolver::Row> rows;
-  for (const auto& mouth : mouths) rows.emplace_back(mouth.begin(), mouth.end());
+  for (const auto& mouth : mouths) {
+    rows.emplace_back(mouth.begin(), mouth.end());
+    for (float& value : rows.back()) value /= kVisemePart;
+  }
   return rows;
+}
+
+/// Sounds move more parameters than this; Mouth.N moves one each.
+constexpr std::ptrdiff_t kMostSetByHand = 3;
+bool IsSetByHand(const std::array<float, kMouthParameters>& mouth) {
+  return std::ranges::count_if(mouth, [](float v) { return v != 0; }) <= kMostSetByHand;
 }
 
 class OwnMotion : public Deformation {
  public:
-  OwnMotion(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths)
-      : mix_(Rows(mouths)), seal_(model, face.wireframe.at.size()) {
-    // Offsets belong to the standard wireframe and grow with the face: across with the distance of
-    // the eyes, up and down with the height from eyes to mouth.
+  OwnMotion(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
+            const MouthUnitSizes& unit_sizes)
+      : mix_(Rows(mouths)), unit_sizes_(unit_sizes), seal_(model, face.wireframe.at.size()) {
+    // Units belong to the standard wireframe and grow with the face, so that its lids meet: across
+    // with the distance of the eyes, up and down with the height from eyes to mouth. Mouths are
+    // added as they are, as in the original: those of small faces move more.
     const OriginalFrame own(face.wireframe), standard(face.standard);
     const auto height = [](const OriginalFrame& frame, const PntFile& file) {
       return frame.EyeOpening(file, 0).y - frame.Place(file, kLipMiddle).y;
     };
     const float tall = height(own, face.wireframe) / height(standard, face.standard);
     const glm::vec3 mm = standard.mm() * glm::vec3(1, std::clamp(tall, 0.5f, 2.0f), 1);
-    const auto fields = [&mm](const std::vector<std::vector<glm::vec3>>& from,
-                              std::vector<Field>& to) {
+    const auto fields = [](const std::vector<std::vector<glm::vec3>>& from, const glm::vec3& scale,
+                           std::vector<Field>& to) {
       for (const auto& offsets : from) {
         Field field;
         for (std::uint32_t i = 0; i < offsets.size(); ++i) {
-          const glm::vec3 by = offsets[i] * mm;
+          const glm::vec3 by = offsets[i] * scale;
           if (glm::length(by) > 0.02f) field.push_back({i, by});
         }
         to.push_back(std::move(field));
       }
     };
-    fields(face.units, units_);
-    fields(face.mouth_units, mouth_units_);
-    fields(face.visemes, visemes_);
+    fields(face.units, mm, units_);
+    fields(face.expression_rests, mm, expression_rests_);
+    fields(face.mouth_units, glm::vec3(own.mm()), mouth_units_);
+    fields(face.visemes, glm::vec3(own.mm()), visemes_);
     const float middle = 0.5f * (own.Place(face.wireframe, kLipCorners[0]).x +
                                  own.Place(face.wireframe, kLipCorners[1]).x);
     for (std::size_t i = 0; i < face.wireframe.at.size(); ++i) {
-      left_.push_back(SmoothStep(middle - 7, middle + 7, model.position[i].x));
+      left_.push_back(LeftPartAt(model.position[i].x - middle));
     }
     chin_ = face.wireframe.index.at(kChin);
     chin_rest_ = model.position[chin_];
     hinge_ = model.hinge;
-    MeasureMouthUnits();
   }
 
   JawMove Move(const FaceState& state, const Pose& pose,
@@ -71,7 +81,9 @@ class OwnMotion : public Deformation {
     const std::array<float, 2> blink = {state.blink_right, state.blink_left};
     for (std::size_t k = 0; k < units_.size(); ++k) {
       const auto number = static_cast<std::size_t>(kUnitNumbers[k]);
-      float right = pose.units[0][number], left = pose.units[1][number];
+      // As they are asked for: the original's units add up, ours damp and oppose each other.
+      float right = Bound(state.au_right[number], 0, 2);
+      float left = Bound(state.au_left[number], 0, 2);
       if (number == kEyesClosed) {
         right = std::max(right, Bound(blink[0], 0, 1));
         left = std::max(left, Bound(blink[1], 0, 1));
@@ -85,13 +97,19 @@ class OwnMotion : public Deformation {
       if (weight == 0) return;
       for (const Delta& d : field) position[d.vertex] += weight * d.by;
     };
-    const NnlsSolver::Parts parts = mix_.TakeApart(state.mouth);
-    for (std::size_t k = 0; k < visemes_.size() && k < parts.weights.size(); ++k) {
-      add(visemes_[k], kVisemePart * parts.weights[k]);
+    for (std::size_t k = 0; k < expression_rests_.size(); ++k) {
+      const auto [unit, is_left] = kExpressionChannels[k];
+      add(expression_rests_[k], Bound(is_left ? state.au_left[unit] : state.au_right[unit], 0, 2));
     }
-    for (std::size_t k = 0; k < mouth_units_.size(); ++k) {
-      if (unit_size_[k] != 0) {
-        add(mouth_units_[k], Bound(parts.rest[k] / unit_size_[k], -1.5f, 1.5f));
+    if (IsSetByHand(state.mouth)) {
+      for (std::size_t k = 0; k < mouth_units_.size(); ++k) {
+        if (unit_sizes_[k] == 0) continue;
+        add(mouth_units_[k], Bound(state.mouth[k] / unit_sizes_[k], 0, 2));
+      }
+    } else {
+      const NnlsSolver::Parts parts = mix_.TakeApart(state.mouth);
+      for (std::size_t k = 0; k < visemes_.size() && k < parts.weights.size(); ++k) {
+        add(visemes_[k], parts.weights[k]);
       }
     }
     seal_.Close(pose.seal, position);
@@ -111,28 +129,10 @@ class OwnMotion : public Deformation {
     return std::isfinite(value) ? std::clamp(value, low, high) : 0.0f;
   }
 
-  /// How far each mouth unit goes at full strength in the parameter's own measure: millimetres
-  /// along its axis; of the jaw's opening degrees about the hinge.
-  void MeasureMouthUnits() {
-    constexpr std::array<int, kMouthParameters> kAxis{1, 2, 1, 2, 1, 2, 1, 2, 0,
-                                                      1, 2, 1, 2, 1, 1, 1, 1};
-    constexpr std::size_t kJaw = 11;
-    for (std::size_t k = 0; k < mouth_units_.size(); ++k) {
-      float most = 0;
-      for (const Delta& d : mouth_units_[k]) {
-        float along = d.by[kAxis[k]];
-        if (k == 8 && left_[d.vertex] < 0.5f) along = -along;  // the corners part
-        if (std::abs(along) > std::abs(most)) most = along;
-      }
-      if (k == kJaw) most = -most / 1.4f;  // millimetres of lip for a degree, see mouth_shapes.txt
-      unit_size_[k] = std::abs(most) > 0.1f ? most : 0;
-    }
-  }
-
-  std::vector<Field> units_, mouth_units_, visemes_;
-  std::array<float, kMouthParameters> unit_size_{};
+  std::vector<Field> units_, expression_rests_, mouth_units_, visemes_;
   std::vector<float> left_;  // part of the agent's left side in a vertex
   NnlsSolver mix_;
+  MouthUnitSizes unit_sizes_;
   LipSeal seal_;
   std::size_t chin_ = 0;
   glm::vec3 chin_rest_{}, hinge_{};
@@ -141,8 +141,9 @@ class OwnMotion : public Deformation {
 }  // namespace
 
 std::unique_ptr<Deformation> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
-                                         const VisemeMouths& mouths) {
-  return std::make_unique<OwnMotion>(face, model, mouths);
+                                        const VisemeMouths& mouths,
+                                        const MouthUnitSizes& unit_sizes) {
+  return std::make_unique<OwnMotion>(face, model, mouths, unit_sizes);
 }
 
 }  // namespace fsm

@@ -70,6 +70,10 @@ vm::Result<void> CheckPoints(const std::string& name, const PntFile& file) {
   for (const auto& named : kNamedPoints) {
     if (auto there = check(named.second); !there) return there;
   }
+  for (const auto& point : {kJawAtTeeth[0], kJawAtTeeth[1], kUpperLipFront, kUpperTeeth.top,
+                            kUpperTeeth.front, kLowerTeeth.bottom, kLowerTeeth.front}) {
+    if (auto there = check(point); !there) return there;
+  }
   return {};
 }
 

@@ -18,6 +18,16 @@ inline constexpr std::array<PointName, 2> kLipCorners{{{1, 33}, {2, 33}}};  ///<
 inline constexpr std::array<PointName, 20> kLipRim{
     {{1, 33}, {1, 14}, {1, 13}, {1, 12}, {1, 11}, {1, 36}, {2, 11}, {2, 12}, {2, 13}, {2, 14},
      {2, 33}, {2, 18}, {2, 17}, {2, 16}, {2, 15}, {1, 37}, {1, 15}, {1, 16}, {1, 17}, {1, 18}}};
+/// What bounds the teeth: the jaw right and left of them, the upper lip's front above its edge, and
+/// of each row the top, the bottom and how far forward its front is.
+inline constexpr std::array<PointName, 2> kJawAtTeeth{{{12, 15}, {13, 15}}};
+inline constexpr PointName kUpperLipFront{1, 35};
+struct TeethPlaces {
+  PointName top, bottom, front;
+};
+inline constexpr TeethPlaces kUpperTeeth{{12, 17}, kLipMiddle, {1, 10}};
+inline constexpr TeethPlaces kLowerTeeth{{1, 37}, {1, 40}, {1, 22}};
+
 /// Points of upper and lower lip that meet, from the agent's right corner to the left.
 inline constexpr std::array<std::pair<PointName, PointName>, 11> kLipPairs{{{{1, 33}, {1, 33}},
                                                                             {{1, 14}, {1, 18}},

@@ -17,8 +17,17 @@
 namespace fsm {
 namespace {
 
-constexpr glm::vec4 kLineColor{0.10F, 0.55F, 0.42F, 1.0F};
-constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 1.0F};
+constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 0.35F};
+
+/// What stands behind the figure.
+Scene Behind(const Scene& scene) {
+  Scene behind = scene;
+  if (scene.view_mode == ViewMode::kWireframe && scene.wire_on_black) {
+    behind.background = glm::vec3(0);
+    behind.background_image = nullptr;
+  }
+  return behind;
+}
 
 bool IsSheet(const HeadTopology::Part& part) {
   return part.two_sided || part.material == Material::kLash ||
@@ -46,12 +55,13 @@ class GlRenderer : public Renderer {
     }
     target_->Bind();
     transparent_ = !scene.show_background;
-    backdrop_.Draw(scene, width, height);
+    const Scene behind = Behind(scene);
+    backdrop_.Draw(behind, width, height);
     const float alpha = std::clamp(state.agent_alpha, 0.0F, 1.0F);
     if (state.agent_enabled && alpha > 0) {
       DrawFigure(head, vertices, state, scene);
       // It fades as one picture. Each of its layers drawn in part would show what is behind them.
-      if (alpha < 1) backdrop_.Veil(scene, 1 - alpha);
+      if (alpha < 1) backdrop_.Veil(behind, 1 - alpha);
     }
     if (context_.is_window()) {
       gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
@@ -101,7 +111,7 @@ class GlRenderer : public Renderer {
       gl_.Disable(GL_CULL_FACE);
       gl_.Disable(GL_POLYGON_OFFSET_FILL);
     }
-    if (scene.view_mode != ViewMode::kTexture) DrawLines(parts, scene.view_mode);
+    if (scene.view_mode != ViewMode::kTexture) DrawLines(parts, scene);
     gl_.Disable(GL_BLEND);
     gl_.Disable(GL_DEPTH_TEST);
   }
@@ -122,9 +132,9 @@ class GlRenderer : public Renderer {
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
   }
 
-  void DrawLines(const std::vector<HeadTopology::Part>& parts, ViewMode mode) {
-    glm::vec4 color = mode == ViewMode::kWireframe ? kLineColor : kLineOverTexture;
-    color.a = mode == ViewMode::kWireframe ? 1.0F : 0.35F;
+  void DrawLines(const std::vector<HeadTopology::Part>& parts, const Scene& scene) {
+    const bool alone = scene.view_mode == ViewMode::kWireframe;
+    const glm::vec4 color = alone ? glm::vec4(scene.wire, 1.0F) : kLineOverTexture;
     BeginBlending();
     gl_.DepthFunc(GL_LEQUAL);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);

@@ -2,6 +2,7 @@
 
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "fsm/image/image.h"
@@ -25,6 +26,10 @@ struct Camera {
   float height_mm = 0;       ///< above the middle of the portrait, of viewer and aim
   float field_degrees = 25;  ///< seen from below to above; the head stays as large
   float angle_degrees = 0;   ///< round the head, positive = to the viewer's right
+  std::optional<ParallelView> parallel =
+      {};  ///< instead of the portrait; the field means nothing then
+  /// FaceState::agent_translation counts half the longer side of the view, not millimetres.
+  bool moves_by_half_views = false;
 };
 
 struct Scene {
@@ -33,6 +38,8 @@ struct Scene {
   bool show_background = true;                ///< off: transparent black
   ViewMode view_mode = ViewMode::kTexture;
   Camera camera;
+  glm::vec3 wire{0.10f, 0.55f, 0.42f};  ///< sRGB, of the lines of ViewMode::kWireframe
+  bool wire_on_black = false;           ///< which have no background then
   // A portrait studio: a large warm lamp above left, a weak cool one at the right, one behind for
   // the edge of hair and shoulder.
   DirectionalLight key{{-1.0f, 0.88f, 0.95f}, {2.90f, 2.64f, 2.46f}};

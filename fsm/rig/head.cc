@@ -8,6 +8,7 @@ namespace fsm {
 Head::Head(HeadAsset asset)
     : topology_(std::make_shared<const HeadTopology>(std::move(asset.topology))),
       landmarks_(std::move(asset.landmarks)),
+      view_(asset.view),
       rig_(std::move(asset.rig)) {}
 
 std::unique_ptr<Head> Head::WithUnits(const UnitTable& units) const {

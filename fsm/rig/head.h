@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -35,6 +36,8 @@ class Head {
   /// "exocanthion", "pupil", "alare", "zygion", "gonion", "tragion". Throws std::out_of_range.
   glm::vec3 Landmark(std::string_view name) const;
   const Landmarks& landmarks() const { return landmarks_; }
+  /// HeadAsset::view.
+  const std::optional<ParallelView>& view() const { return view_; }
   /// A number that no other head of this process has or had, copies included. A head does not
   /// change after its construction, so what is kept of it elsewhere, as on a graphics card, is that
   /// of the same head as long as this number is the same. An address does not tell that: another
@@ -55,6 +58,7 @@ class Head {
   Serial serial_;
   std::shared_ptr<const HeadTopology> topology_;
   Landmarks landmarks_;
+  std::optional<ParallelView> view_;
   Rig rig_;
 };
 

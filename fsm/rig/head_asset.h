@@ -134,6 +134,14 @@ struct HeadTopology {
 /// Where skin creases with expression; indexes HeadVertices::wrinkles.
 enum class Wrinkle { kForehead, kGlabella, kCrowsFeet, kNasolabial };
 
+/// A window onto a face that is meant to be seen without perspective, as those of the original:
+/// what its middle shows, and how far it is from there to the edges of its longer side.
+/// Millimetres.
+struct ParallelView {
+  glm::vec3 centre{0};
+  float half_mm = 100;
+};
+
 /// Where a head has what the tables call by name, at rest; millimetres. See Head::Landmark.
 using Landmarks = std::map<std::string, glm::vec3, std::less<>>;
 
@@ -145,6 +153,8 @@ struct HeadAsset {
   HeadTopology topology;
   RigData rig;
   Landmarks landmarks;
+  /// How the head is meant to be seen; nothing: in perspective, as the camera stands.
+  std::optional<ParallelView> view;
 };
 
 }  // namespace fsm

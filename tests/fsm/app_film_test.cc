@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "fsm/app/capture.h"
 #include "tests/fsm/app_support.h"
 
 namespace fsm {
@@ -83,6 +88,109 @@ TEST_F(FilmTest, AFilmStoppedAtOnceHasOneFrame) {
   ASSERT_TRUE(film.Start("a.mp4", 30));
   EXPECT_EQ(film.Stop("")->frames, 1);
   EXPECT_EQ(film.Stop("").error().code, vm::Errc::kBadValue);
+}
+
+/// Writes pictures of 1000 bytes.
+class PictureFiles final : public FakeRenderBackend {
+ public:
+  vm::Result<void> WritePicture(const Image&, const std::string& path) override {
+    std::ofstream(path) << std::string(1000, 'x');
+    return {};
+  }
+};
+
+struct CaptureTest : testing::Test {
+  CaptureTest() {
+    folder = std::filesystem::path(testing::TempDir()) / "capture_test";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+  }
+  ~CaptureTest() override { std::filesystem::remove_all(folder); }
+
+  Capture Make(Capture::Limits limits = {}) {
+    return Capture(
+        clock, studio,
+        [this](long, vm::Time at) {
+          drawn.push_back(at);
+          clock.now += drawing_takes;
+          return studio.Draw(FaceState{}, Scene{});
+        },
+        [this](const vm::Result<void>& done) {
+          ends.push_back(done ? "" : vm::FormatError(done.error()));
+        },
+        limits);
+  }
+  long Files() const {
+    return std::distance(std::filesystem::directory_iterator(folder),
+                         std::filesystem::directory_iterator());
+  }
+
+  LateClock clock;
+  PictureFiles studio;
+  std::filesystem::path folder;
+  std::vector<vm::Time> drawn;
+  std::vector<std::string> ends;
+  vm::Time drawing_takes{0};
+};
+
+TEST_F(CaptureTest, ALateMachineMakesThePicturesOfTheUtteranceAndNoMore) {
+  // Drawing takes longer than the time between two pictures: whoever waits for the clock to pass
+  // the last of them, or draws on to the time it is by now, makes too many or never ends.
+  drawing_takes = 700ms;
+  Capture capture = Make();
+  capture.Arm({folder.string(), "a", 10});
+  capture.Begin(clock.now);
+  clock.RunNext();
+  clock.now += 5s;
+  capture.End(1200ms);
+  const std::size_t before = drawn.size();
+  clock.RunNext();
+  EXPECT_EQ(drawn.size(), before + 1) << "one a turn, so that others have theirs";
+  while (capture.running()) clock.RunNext();
+  EXPECT_EQ(drawn.size(), 13u);
+  EXPECT_EQ(drawn.back(), vm::Time(1200ms));
+  EXPECT_EQ(Files(), 13);
+  EXPECT_EQ(ends, std::vector<std::string>{""});
+}
+
+TEST_F(CaptureTest, TheLastPictureIsNotLostToALateBegin) {
+  Capture capture = Make();
+  capture.Arm({folder.string(), "a", 10});
+  clock.now = 3ms;
+  capture.Begin(0ms);
+  capture.End(200ms);
+  while (capture.running()) clock.RunNext();
+  EXPECT_EQ(drawn, (std::vector<vm::Time>{0ms, 100ms, 200ms}));
+}
+
+TEST_F(CaptureTest, TheNumberOfPicturesIsBounded) {
+  Capture capture = Make({.pictures = 5});
+  capture.Arm({folder.string(), "a", 10});
+  capture.Begin(clock.now);
+  while (capture.running()) clock.RunNext();
+  EXPECT_EQ(Files(), 5);
+  EXPECT_EQ(ends, std::vector<std::string>{"LIMIT Capture: more than 5 pictures"});
+}
+
+TEST_F(CaptureTest, WhatTheyTakeOnTheDiskIsBounded) {
+  Capture capture = Make({.bytes = 3500});
+  capture.Arm({folder.string(), "a", 10});
+  capture.Begin(clock.now);
+  while (capture.running()) clock.RunNext();
+  EXPECT_EQ(Files(), 4);
+  ASSERT_EQ(ends.size(), 1u);
+  EXPECT_TRUE(ends[0].starts_with("LIMIT Capture: the pictures in '" + folder.string())) << ends[0];
+}
+
+TEST_F(CaptureTest, CancelStopsItWithoutAWord) {
+  Capture capture = Make();
+  capture.Arm({folder.string(), "a", 10});
+  capture.Begin(clock.now);
+  clock.RunNext();
+  capture.Cancel();
+  EXPECT_FALSE(capture.running());
+  EXPECT_EQ(Files(), 2);
+  EXPECT_TRUE(ends.empty());
 }
 
 }  // namespace

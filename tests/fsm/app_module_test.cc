@@ -233,6 +233,21 @@ TEST(FsmModuleTest, CaptureWritesNumberedPicturesOfOneUtterance) {
   std::filesystem::remove_all(name);
 }
 
+TEST(FsmModuleTest, NothingIsCapturedOrDrawnAfterTheEnd) {
+  FsmStage fsm({}, true);
+  fsm.Say("set Capture = " + testing::TempDir() + "/end_of_capture frame 10");
+  fsm.Say("set LipSync.pho = a 60000");
+  fsm.Say("set Speak = NOW");
+  fsm.Until(1000);
+  const int drawn = fsm.studio.draws;
+  EXPECT_EQ(fsm.studio.pictures.size(), 11u);
+  fsm.module.Shutdown();
+  fsm.Until(2000);
+  EXPECT_EQ(fsm.studio.pictures.size(), 11u);
+  EXPECT_EQ(fsm.studio.draws, drawn);
+  std::filesystem::remove_all(testing::TempDir() + "/end_of_capture");
+}
+
 TEST(FsmModuleTest, InitResetsEverythingWithoutAWord) {
   FsmStage fsm;
   fsm.Say("set FaceExp = HAPPY 1 100 0");
@@ -267,11 +282,22 @@ TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
   EXPECT_TRUE(fsm.module.ExitRequested());
 }
 
+TEST(FsmModuleTest, AWindowThatCannotBeDrawnIsAFailure) {
+  FsmStage fsm({}, true);
+  fsm.Until(300);
+  EXPECT_FALSE(fsm.module.failed());
+  fsm.studio.no_drawing = "cannot draw: face 'man01': there is none";
+  fsm.Until(1000);
+  EXPECT_TRUE(fsm.module.ExitRequested());
+  EXPECT_TRUE(fsm.module.failed());
+  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.studio.no_drawing});
+}
+
 TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   char name[] = "/tmp/galatea_config_XXXXXX";
   ASSERT_NE(mkdtemp(name), nullptr);
   const std::filesystem::path folder = name;
-  std::ofstream(folder / "nod.dat") << "// a\n1\n// b\n// c\n300 20 0 0\n";
+  std::ofstream(folder / "nod.dat") << "// a\n1\n// b\n// c\n300 20 0 8\n";
   std::ofstream(folder / "config.txt")
       << "# faces\nMaskFile man01 a.rgb a.pnt\nMaskEye man01 a b\nBackgroundFile bg1 x.png\n"
          "BackgroundFile bg2 y.png\nFaceMotNod nod.dat\nFaceMotBlink 100\nFaceMotBlink 200\n"
@@ -286,13 +312,14 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   FsmStage fsm(options);
   EXPECT_EQ(vm::FormatMessage(fsm.module.Greeting().at(1)),
             "tell detected: -C flag: " + (folder / "config.txt").string());
-  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"plain,bg1,bg2\"");
+  EXPECT_EQ(fsm.Say("inq BackgroundSet"), "rep BackgroundSet = \"bg1,bg2\"");
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"bg1\"");
   EXPECT_EQ(fsm.Say("inq LipSync.language"), "rep LipSync.language = EN");
   EXPECT_TRUE(fsm.Say("set#1 FaceMot = NOD 2").find("NOD has no pattern 2") != std::string::npos);
   fsm.Say("set FaceMot = NOD 1");
   fsm.Until(299);
   EXPECT_NEAR(fsm.Now().head_rotation[0], 20, 0.1);
+  EXPECT_NEAR(fsm.Now().head_rotation[2], -8, 0.1) << "its z+ leans to the viewer's left";
   fsm.Say("set Autonomous = ASYMMETRY 0");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
   fsm.Until(498);
@@ -306,6 +333,77 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   EXPECT_NE(bad.error().text.find("bad.txt:1: 'soon' found"), std::string::npos);
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(OriginalConfig::Read((folder / "config.txt").string()));
+}
+
+/// As with -C: a configuration that names faces and is otherwise empty.
+FsmOptions WithOriginalFaces(const std::vector<std::string>& names) {
+  FsmOptions options;
+  options.config.path = "config.txt";
+  for (const std::string& name : names) options.config.masks.push_back({name, "", "", "", "", ""});
+  return options;
+}
+
+TEST(FsmModuleTest, AConfigurationsFacesAloneAreListedInItsOrder) {
+  FsmStage fsm(WithOriginalFaces({"pygmalion", "gone", "galatea"}));
+  EXPECT_EQ(fsm.Say("inq MaskSet"), "rep MaskSet = \"pygmalion,galatea\"");
+  FsmStage one(WithOriginalFaces({"pygmalion"}));
+  EXPECT_EQ(one.Say("inq MaskSet"), "rep MaskSet = \"pygmalion\"");
+  EXPECT_EQ(one.Say("set#1 Mask = galatea"), "rep#1 Mask = galatea") << "worn all the same";
+  FsmStage none(WithOriginalFaces({}));
+  EXPECT_EQ(none.Say("inq MaskSet"), "rep MaskSet = \"galatea,pygmalion\"");
+}
+
+TEST(FsmModuleTest, FacesHaveTheOrderOfTheirMaskFileLines) {
+  const std::string path = testing::TempDir() + "/mask_order_config.txt";
+  std::ofstream(path) << "MaskEye b x y\nMaskFile a p w\nMaskFile b p w\nMaskTeeth c t\n";
+  const auto config = OriginalConfig::Read(path);
+  std::filesystem::remove(path);
+  ASSERT_TRUE(config) << config.error().text;
+  EXPECT_EQ(config->MaskNames(), (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(config->masks[1].eye_picture.ends_with("x"));
+}
+
+TEST(FsmModuleTest, ClientsOfTheOriginalLeanAndMoveByItsMeasures) {
+  FsmStage fsm(WithOriginalFaces({})), ours;
+  for (FsmStage* stage : {&fsm, &ours}) {
+    for (const char* line :
+         {"set HeadRotAbs.1 = 1 2 15", "set HeadRotRel.1 = 0 0 3", "set AgentRot = 4 5 6",
+          "set AgentTrans = 1.0 0.2", "set Camera = 2", "set SaveImage = a.png"}) {
+      stage->Say(line);
+    }
+  }
+  const FaceState there = fsm.studio.last_state, here = ours.studio.last_state;
+  EXPECT_EQ(here.head_rotation, (std::array<float, 3>{1, 2, 18}));
+  EXPECT_EQ(there.head_rotation, (std::array<float, 3>{1, 2, -18}));
+  EXPECT_EQ(here.agent_rotation, (std::array<float, 3>{4, 5, 6}));
+  EXPECT_EQ(there.agent_rotation, (std::array<float, 3>{4, 5, -6}));
+  EXPECT_EQ(there.agent_translation, here.agent_translation);
+  EXPECT_FALSE(ours.studio.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.studio.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.studio.last_scene.wire_on_black);
+  fsm.Say("set Run = INIT");
+  fsm.Say("set SaveImage = a.png");
+  EXPECT_TRUE(fsm.studio.last_scene.camera.moves_by_half_views);
+  EXPECT_EQ(fsm.Say("inq HeadRotAbs.1"), "rep HeadRotAbs.1 = 0 0 0");
+}
+
+TEST(FsmModuleTest, AConfigurationsExpressionsAreShown) {
+  FsmOptions options = WithOriginalFaces({});
+  options.config.expression_ms = 100;
+  options.config.expressions["HAPPY"][1].left[14] = 0.5F;
+  options.config.expressions["USERDEF"][7].right[3] = 1;
+  FsmStage fsm(options);
+  fsm.Say("set Autonomous = ASYMMETRY 0");
+  fsm.Say("set FaceExp = HAPPY 1 200 0");
+  fsm.Until(1000);
+  EXPECT_FLOAT_EQ(fsm.Now().au_left[14], 1);
+  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 0) << "and not ours";
+  fsm.Say("set FaceExp = HAPPY 2 100 0");
+  fsm.Until(2000);
+  EXPECT_GT(fsm.Now().au_left[12], 0.4F) << "ours, where it has none";
+  fsm.Say("set FaceExp = USERDEF 7 100 0");
+  fsm.Until(3000);
+  EXPECT_FLOAT_EQ(fsm.Now().au_right[3], 1);
 }
 
 TEST(FsmModuleTest, AConfiguredBackgroundThatIsGoneLeavesThePlainOne) {

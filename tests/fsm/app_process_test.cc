@@ -257,5 +257,10 @@ TEST_F(FsmProcessTest, SizeAndPositionAreTakenAsOptions) {
   EXPECT_EQ(out, "rep Run = LIVE\nrep Window = 200 100\n");
 }
 
+TEST_F(FsmProcessTest, TwoNumbersAfterPAreThePlaceOfTheWindow) {
+  EXPECT_EQ(Run("--headless -p 10 -20 -s 200 100", "inq Window\n"), 0) << err;
+  EXPECT_EQ(out, "rep Run = LIVE\nrep Window = 200 100\n");
+}
+
 }  // namespace
 }  // namespace fsm

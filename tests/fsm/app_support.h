@@ -13,7 +13,7 @@
 namespace fsm {
 
 /// A studio in memory: pictures are one pixel that says how far the jaw is open.
-class FakeRenderBackend final : public RenderBackend {
+class FakeRenderBackend : public RenderBackend {
  public:
   struct FakeFilm {
     std::vector<float> jaws;
@@ -21,9 +21,11 @@ class FakeRenderBackend final : public RenderBackend {
     bool finished = false;
   };
 
-  vm::Result<void> Draw(const FaceState& state, const Scene&) override {
+  vm::Result<void> Draw(const FaceState& state, const Scene& scene) override {
+    if (!no_drawing.empty()) return vm::Fail(vm::Errc::kUnavailable, no_drawing);
     ++draws;
     last_state = state;
+    last_scene = scene;
     image_.width = image_.height = 1;
     image_.rgba = {static_cast<std::uint8_t>(std::lround(state.mouth[11] * 10)), 0, 0, 255};
     return {};
@@ -74,12 +76,14 @@ class FakeRenderBackend final : public RenderBackend {
   std::map<std::string, FaceState> pictures;
   std::map<std::string, FakeFilm> films;
   FaceState last_state;
+  Scene last_scene;
   std::string face;
   int draws = 0;
   int shown = 0;
   bool window = false;
   bool fills_screen = false;
   bool closed = false;
+  std::string no_drawing;  ///< the reason why nothing can be drawn, "" = all can
 
  private:
   Image image_;

@@ -90,9 +90,25 @@ TEST(EyeDefTest, TwentyNineDoublesSayWhereBothEyesAre) {
   const auto def = ParseEyeDef("a.def_e", Doubles(values));
   ASSERT_TRUE(def) << def.error().text;
   EXPECT_EQ(def->eye[1].place, glm::vec3(7, 8, 9));
-  EXPECT_EQ(def->within[0].turn_degrees, glm::vec3(17, 18, 19));
-  EXPECT_EQ(def->within[1].scale, 27);
+  EXPECT_EQ(def->eye[1].scale, 13);
+  EXPECT_EQ(def->eye[0].turn_degrees, glm::vec3(17, 18, 19));
+  EXPECT_EQ(def->eye[1].turn_degrees, glm::vec3(24, 25, 26));
   EXPECT_EQ(def->picture_scale, 28);
+}
+
+TEST(EyeDefTest, NumbersTheOriginalNeverDrawsByMayBeAnything) {
+  // man01_eye.def_e has -6e66 in byte 216, the scale of the left eye within its ball.
+  for (const std::size_t unused : {3U, 5U, 10U, 12U, 14U, 16U, 20U, 21U, 23U, 27U}) {
+    std::array<double, 29> values{};
+    values[unused] = -6e66;
+    const auto def = ParseEyeDef("a.def_e", Doubles(values));
+    EXPECT_TRUE(def) << unused << ": " << def.error().text;
+  }
+  for (const std::size_t used : {0U, 6U, 9U, 13U, 17U, 26U, 28U}) {
+    std::array<double, 29> values{};
+    values[used] = 1e277;
+    EXPECT_FALSE(ParseEyeDef("a.def_e", Doubles(values))) << used;
+  }
 }
 
 TEST(EyeDefTest, ShortFilesAndNumbersThatAreNoneAreRefusedWithTheByte) {
@@ -101,10 +117,10 @@ TEST(EyeDefTest, ShortFilesAndNumbersThatAreNoneAreRefusedWithTheByte) {
   const auto cut = ParseEyeDef("a.def_e", std::string_view(whole).substr(0, 231));
   ASSERT_FALSE(cut);
   EXPECT_NE(cut.error().text.find("a.def_e: byte 231"), std::string::npos) << cut.error().text;
-  values[3] = std::numeric_limits<double>::quiet_NaN();
+  values[2] = std::numeric_limits<double>::quiet_NaN();
   const auto none = ParseEyeDef("a.def_e", Doubles(values));
   ASSERT_FALSE(none);
-  EXPECT_NE(none.error().text.find("byte 24"), std::string::npos) << none.error().text;
+  EXPECT_NE(none.error().text.find("byte 16"), std::string::npos) << none.error().text;
 }
 
 TEST(TeethDefTest, ThreeNumbersAreAColour) {

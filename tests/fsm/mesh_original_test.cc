@@ -1,12 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <string>
 
+#include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/nnls_solver.h"
+#include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 #include "tests/support/test_data.h"
@@ -66,6 +72,16 @@ TEST(SmallOriginalFaceTest, EyesComeToWhereOursAre) {
   EXPECT_LT(glm::distance(frame.EyeOpening(face.wireframe, 1), {29.9F, 21.5F, 74}), 0.1F);
 }
 
+TEST(SmallOriginalFaceTest, TheWindowShowsOneUnitOfTheWireframeToEitherSide) {
+  const OriginalFace face = SmallFace();
+  const OriginalFrame frame(face.wireframe);
+  const auto window = HeadOf(face)->view();
+  ASSERT_TRUE(window);
+  EXPECT_LT(glm::distance(window->centre, frame.ToMm(glm::vec3(0))), 1e-3F);
+  EXPECT_NEAR(window->half_mm, frame.mm(), 1e-3F);
+  EXPECT_FALSE(MakeGenericHead()->view());
+}
+
 TEST(SmallOriginalFaceTest, OnlyTheGroupsTheOriginalDrawsAreShown) {
   const auto head = HeadOf(SmallFace());
   std::size_t skin = 0;
@@ -97,7 +113,7 @@ TEST(SmallOriginalFaceTest, AKeyMouthIsShownByItsViseme) {
   const auto lower = face.wireframe.index.at({1, 37});
   face.visemes[2][lower] = {0, -0.1F, 0};
   VisemeMouths mouths(kOriginalVisemes);
-  mouths[2][11] = 9;    // jaw
+  mouths[2] = {0.4F, 0, 0.5F, 0, -0.9F, 0, -0.8F, 0, 0, 0, 0, 9};
   mouths[5][9] = 3.5F;  // corners
   const auto head = HeadOf(face, mouths);
   HeadVertices rest, moved;
@@ -107,6 +123,58 @@ TEST(SmallOriginalFaceTest, AKeyMouthIsShownByItsViseme) {
   head->Evaluate(state, moved);
   const float fall = rest.position[lower].y - moved.position[lower].y;
   EXPECT_NEAR(fall, 0.4F * 0.1F * OriginalFrame(face.wireframe).mm(), 0.1F);
+}
+
+TEST(SmallOriginalFaceTest, AllOfAVisemeIsShownAtAMouthScaleOf100) {
+  OriginalFace face = SmallFace();
+  const auto lower = face.wireframe.index.at({1, 37});
+  face.visemes[2][lower] = {0, -0.1F, 0};
+  VisemeMouths mouths(kOriginalVisemes);
+  mouths[2] = {0.4F, 0, 0.5F, 0, -0.9F, 0, -0.8F, 0, 0, 0, 0, 9};
+  const auto head = HeadOf(face, mouths);
+  HeadVertices rest, moved;
+  head->Evaluate({}, rest);
+  FaceState state;
+  for (std::size_t i = 0; i < kMouthParameters; ++i) state.mouth[i] = mouths[2][i] * 100 / 40;
+  head->Evaluate(state, moved);
+  EXPECT_NEAR(rest.position[lower].y - moved.position[lower].y,
+              0.1F * OriginalFrame(face.wireframe).mm(), 0.1F);
+}
+
+TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
+  OriginalFace face = SmallFace();
+  const auto lower = face.wireframe.index.at({1, 37});
+  face.mouth_units[11][lower] = {0, -0.06F, 0};
+  face.visemes[2][lower] = {0, -0.1F, 0};
+  VisemeMouths mouths(kOriginalVisemes);
+  mouths[2] = {0.4F, 0, 0.5F, 0, -0.9F, 0, -0.8F, 0, 0, 0, 0, 9};
+  MouthUnitSizes sizes{};
+  sizes[11] = 15;
+  MeshModel model = ModelOf(face);
+  auto motion = OwnMotionOf(face, model, mouths, sizes);
+  const auto head = MakeMeshHead(std::move(model), std::move(motion));
+  HeadVertices rest, moved;
+  head->Evaluate({}, rest);
+  FaceState state;
+  state.mouth[11] = 15;  // Mouth.12 = 100
+  head->Evaluate(state, moved);
+  EXPECT_NEAR(rest.position[lower].y - moved.position[lower].y,
+              0.06F * OriginalFrame(face.wireframe).mm(), 0.05F);
+}
+
+TEST(SmallOriginalFaceTest, WhatUnitsLeaveOfAnExpressionComesByItsChannel) {
+  OriginalFace face = SmallFace();
+  const auto nose = face.wireframe.index.at({3, 15});
+  face.expression_rests.assign(4, std::vector<glm::vec3>(face.wireframe.at.size(), glm::vec3(0)));
+  face.expression_rests[3][nose] = {0, 0.02F, 0};
+  const auto head = HeadOf(face);
+  HeadVertices rest, moved;
+  head->Evaluate({}, rest);
+  FaceState state;
+  state.au_left[kExpressionChannels[3].unit] = 2;
+  head->Evaluate(state, moved);
+  EXPECT_NEAR(moved.position[nose].y - rest.position[nose].y,
+              0.04F * OriginalFrame(face.wireframe).mm(), 0.05F);
 }
 
 TEST(NnlsSolverTest, MixturesComeApartAgain) {
@@ -187,6 +255,111 @@ TEST_F(StandardFaceTest, ASealClosesAnOpenMouth) {
   ASSERT_GT(head_->MeasureMouth(state).gap_mm, 4);
   state.lip_seal = 1;
   EXPECT_LT(head_->MeasureMouth(state).gap_mm, 1.2F);
+}
+
+TEST_F(StandardFaceTest, TeethFillTheMouthAsInTheOriginalAndStayWithinNarrowJaws) {
+  const OriginalFrame frame(face_.wireframe);
+  const auto at = [&](PointName name) { return frame.Place(face_.wireframe, name); };
+  std::vector<glm::vec3> teeth;
+  for (const auto& part : head_->topology().parts) {
+    if (part.material != Material::kTeeth) continue;
+    for (std::uint32_t i = 0; i < part.index_count; ++i) {
+      teeth.push_back(rest_.position[head_->topology().indices[part.first_index + i]]);
+    }
+  }
+  ASSERT_GT(teeth.size(), 1000U);
+  glm::vec3 low(1e9F), high(-1e9F);
+  for (const glm::vec3& p : teeth) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  EXPECT_NEAR(high.x - low.x, at({13, 15}).x - at({12, 15}).x, 0.1F);
+  EXPECT_NEAR(high.y - low.y, at({12, 17}).y - at({1, 36}).y + at({1, 37}).y - at({1, 40}).y, 0.1F);
+  EXPECT_NEAR(high.z, std::max(at({1, 10}).z, at({1, 22}).z), 0.1F);
+}
+
+TEST_F(StandardFaceTest, NoToothComesThroughASmallerChin) {
+  // As woman01: her chin is nearer to her mouth, and her face is flatter.
+  OriginalFace face = face_;
+  const float mouth = face.wireframe.at[face.wireframe.index.at(kLipMiddle)].y;
+  for (glm::vec3& p : face.wireframe.at) {
+    if (p.y < mouth) p.y = mouth + 0.72F * (p.y - mouth);
+    p.z = 0.66F + 0.75F * (p.z - 0.66F);
+  }
+  const auto head = HeadOf(face);
+  HeadVertices rest;
+  head->Evaluate({}, rest);
+  const HeadTopology& topology = head->topology();
+  const auto part = [&topology](Material material) {
+    std::vector<std::uint32_t> corners;
+    for (const auto& one : topology.parts) {
+      if (one.material != material) continue;
+      const auto first = topology.indices.begin() + one.first_index;
+      corners.insert(corners.end(), first, first + one.index_count);
+    }
+    return corners;
+  };
+  const auto skin = part(Material::kSkin);
+  int seen = 0;
+  for (const std::uint32_t corner : part(Material::kTeeth)) {
+    const glm::vec3 tooth = rest.position[corner];
+    float front = -1e9F;  // of the skin before the tooth
+    for (std::size_t i = 0; i + 2 < skin.size(); i += 3) {
+      const glm::vec3 a = rest.position[skin[i]], b = rest.position[skin[i + 1]],
+                      c = rest.position[skin[i + 2]];
+      const glm::mat3 corners({a.x, a.y, 1}, {b.x, b.y, 1}, {c.x, c.y, 1});
+      if (std::abs(glm::determinant(corners)) < 1e-6F) continue;
+      const glm::vec3 parts = glm::inverse(corners) * glm::vec3(tooth.x, tooth.y, 1);
+      if (std::min({parts.x, parts.y, parts.z}) < 0) continue;
+      front = std::max(front, parts.x * a.z + parts.y * b.z + parts.z * c.z);
+    }
+    // The lips are open by a hair at rest: nothing is before a tooth there.
+    if (front > -1e8F && tooth.z > front) ++seen;
+  }
+  EXPECT_EQ(seen, 0);
+}
+
+TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
+  const auto read = ReadOriginalExpressions(Data(), Data() + "/fheadv2.pnt");
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->all.size(), 6U + 6 * 4 + 5);
+  EXPECT_EQ(read->rests.size(), 3U) << "DISGUSTED, SURPRISED and FEARED are no mixture of units";
+  EXPECT_TRUE(read->without_rest.empty());
+  const OriginalFrame frame(face_.standard);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const OriginalExpression& one = read->all[k];
+    FaceState state;
+    for (std::size_t i = 0; i < kOriginalUnits; ++i) {
+      state.au_right[static_cast<std::size_t>(kUnitNumbers[i])] = one.right[i];
+      state.au_left[static_cast<std::size_t>(kUnitNumbers[i])] = one.left[i];
+    }
+    if (one.channel != kNoChannel) {
+      const auto [unit, left] = kExpressionChannels[one.channel];
+      (left ? state.au_left : state.au_right)[unit] = 1;
+    }
+    const auto file = ReadPnt(Data() + "/_AU_Datas/AU" + std::to_string(31 + k) + ".pnt");
+    ASSERT_TRUE(file);
+    HeadVertices moved;
+    head_->Evaluate(state, moved);
+    float most = 0, worst = 0;
+    for (std::size_t i = 0; i < face_.wireframe.names.size(); ++i) {
+      const int group = face_.wireframe.names[i].first;
+      // Lips are kept from crossing, and lids out of the eyes: there ours differs on purpose.
+      if (group < 6 || group > 15) continue;
+      const glm::vec3 by = frame.mm() * file->at[file->index.at(face_.wireframe.names[i])];
+      most = std::max(most, glm::length(by));
+      worst = std::max(worst, glm::distance(by, moved.position[i] - rest_.position[i]));
+    }
+    EXPECT_GT(most, 2) << one.name;
+    EXPECT_LT(worst, 0.5F) << one.name;
+  }
+}
+
+TEST_F(StandardFaceTest, LipsAreShutAtRest) {
+  for (const auto& [upper, lower] : kLipPairs) {
+    const auto at = [&](PointName name) { return rest_.position[face_.wireframe.index.at(name)]; };
+    EXPECT_NEAR(at(upper).y, at(lower).y, 1e-3F) << upper.second;
+  }
 }
 
 TEST_F(StandardFaceTest, MissingPointsAreNamed) {

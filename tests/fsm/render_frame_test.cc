@@ -530,5 +530,55 @@ TEST(ContextTest, TwoContextsTakeTurns) {
   EXPECT_EQ(image.rgba, before.rgba);
 }
 
+/// Where a place of the figure comes out, -1..1 in both directions.
+glm::vec2 Seen(const View& view, glm::vec3 place) {
+  const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(place, 1);
+  return glm::vec2(clip) / clip.w;
+}
+
+Camera Parallel() {
+  Camera camera;
+  camera.parallel = ParallelView{{10, -20, 30}, 100};
+  camera.moves_by_half_views = true;
+  return camera;
+}
+
+void ExpectSeen(const View& view, glm::vec3 place, glm::vec2 expected) {
+  const glm::vec2 seen = Seen(view, place);
+  EXPECT_NEAR(seen.x, expected.x, 1e-4F);
+  EXPECT_NEAR(seen.y, expected.y, 1e-4F);
+}
+
+TEST(ParallelViewTest, ItsLongerSideFillsThePictureAtAnyDepth) {
+  // As glOrtho in the original: of a picture that is wider than high top and bottom are cut.
+  for (const float z : {-100.0F, 30.0F, 100.0F}) {
+    ExpectSeen(FramePortrait({}, Parallel(), 200, 200), {110, 80, z}, {1, 1});
+    ExpectSeen(FramePortrait({}, Parallel(), 200, 100), {110, 30, z}, {1, 1});
+    ExpectSeen(FramePortrait({}, Parallel(), 100, 200), {60, 80, z}, {1, 1});
+  }
+  EXPECT_NEAR(FramePortrait({}, Parallel(), 200, 100).samples_per_mm, 2.0F, 1e-4F);
+}
+
+TEST(ParallelViewTest, ATranslationOfOneIsHalfTheLongerSide) {
+  FaceState state;
+  state.agent_translation = {1.0F, 0.2F};
+  ExpectSeen(FramePortrait(state, Parallel(), 200, 200), {10, -20, 30}, {1, 0.2F});
+  ExpectSeen(FramePortrait(state, Parallel(), 200, 100), {10, -20, 30}, {1, 0.4F});
+  Camera portrait;
+  portrait.moves_by_half_views = true;
+  const glm::vec2 moved = Seen(FramePortrait(state, portrait, 300, 200), {0, -7, 50});
+  EXPECT_NEAR(moved.x, 1, 1e-4F);
+  EXPECT_NEAR(moved.y, 0.3F, 1e-4F);
+}
+
+TEST(ParallelViewTest, TheFigureTurnsByZThenYThenXAndGrowsAboutTheMiddle) {
+  FaceState state;
+  state.agent_scale = 0.5F;
+  state.agent_rotation = {90, 0, 90};
+  // z+ brings up to the viewer's right; then x+ would bring up to the viewer, which right is not.
+  ExpectSeen(FramePortrait(state, Parallel(), 200, 200), {10, 80, 30}, {0.5F, 0});
+  ExpectSeen(FramePortrait(state, Parallel(), 200, 200), {10, -20, 80}, {0, -0.25F});
+}
+
 }  // namespace
 }  // namespace fsm

@@ -234,7 +234,10 @@ TEST(MouthPictureTest, TheChinsShadowDoesNotReachBeyondTheNeck) {
 /// A photo with a neck that does not say where its lips part, as heads from elsewhere may not.
 Head WithoutMouth() {
   const auto head = WithNeck();
-  HeadAsset asset{.topology = head->topology(), .rig = head->rig().data(), .landmarks = head->landmarks()};
+  HeadAsset asset{.topology = head->topology(),
+                  .rig = head->rig().data(),
+                  .landmarks = head->landmarks(),
+                  .view = head->view()};
   asset.topology.mouth = {};
   return Head(std::move(asset));
 }

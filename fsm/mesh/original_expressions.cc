@@ -1,0 +1,168 @@
+#include "fsm/mesh/original_expressions.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <map>
+#include <utility>
+
+#include "fsm/base/spline.h"
+#include "fsm/mesh/nnls_solver.h"
+#include "fsm/mesh/original_points.h"
+
+namespace fsm {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = 4U << 20;
+/// A rest that moves no vertex so far is not worth a channel.
+constexpr float kLeastRestMm = 0.4F;
+
+/// FaceExp's name, and how the files of its patterns begin and are numbered.
+struct Files {
+  const char* name;
+  const char* stem;
+  int first_number, first_pattern, count;
+};
+constexpr Files kFiles[] = {
+    {"HAPPY", "AU", 31, 1, 1},         {"ANGRY", "AU", 32, 1, 1},
+    {"DISGUSTED", "AU", 33, 1, 1},     {"SAD", "AU", 34, 1, 1},
+    {"SURPRISED", "AU", 35, 1, 1},     {"FEARED", "AU", 36, 1, 1},
+    {"HAPPY", "userHap", 2, 2, 4},     {"ANGRY", "userAng", 2, 2, 4},
+    {"DISGUSTED", "userDis", 2, 2, 4}, {"SAD", "userSad", 2, 2, 4},
+    {"SURPRISED", "userSur", 2, 2, 4}, {"FEARED", "userFea", 2, 2, 4},
+    {"USERDEF", "userdef", 1, 1, 5},
+};
+
+std::string PathOf(const std::string& folder, const std::string& stem, int number) {
+  return folder + "/_AU_Datas/" + stem + (number < 10 ? "0" : "") + std::to_string(number) + ".pnt";
+}
+
+class Reader {
+ public:
+  Reader(const std::string& folder, const std::string& path, PntFile standard)
+      : folder_(folder), path_(path), standard_(std::move(standard)), frame_(standard_) {}
+
+  vm::Result<OriginalExpressions> Read() {
+    if (auto read = ReadUnits(); !read) return std::unexpected(read.error());
+    for (const Files& files : kFiles) {
+      for (int i = 0; i < files.count; ++i) {
+        const std::string path = PathOf(folder_, files.stem, files.first_number + i);
+        std::error_code none;
+        if (!std::filesystem::exists(path, none)) continue;
+        if (auto read = ReadOne(files.name, files.first_pattern + i, path); !read) {
+          return std::unexpected(read.error());
+        }
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// Offsets by the standard wireframe's points, three millimetres each.
+  vm::Result<NnlsSolver::Row> Offsets(const std::string& path, const PntFile& file) const {
+    NnlsSolver::Row row;
+    row.reserve(3 * standard_.names.size());
+    for (const PointName& name : standard_.names) {
+      const auto found = file.index.find(name);
+      if (found == file.index.end()) {
+        return vm::Fail(vm::Errc::kBadValue, path + ": point " + std::to_string(name.second) +
+                                                 " of group " + std::to_string(name.first) +
+                                                 " of '" + path_ + "' is missing");
+      }
+      const glm::vec3 by = frame_.mm() * file.at[found->second];
+      row.insert(row.end(), {by.x, by.y, by.z});
+    }
+    return row;
+  }
+
+  vm::Result<void> ReadUnits() {
+    const float middle = 0.5F * (frame_.Place(standard_, kLipCorners[0]).x +
+                                 frame_.Place(standard_, kLipCorners[1]).x);
+    std::vector<float> left;
+    for (const glm::vec3& p : standard_.at) left.push_back(LeftPartAt(frame_.ToMm(p).x - middle));
+    std::vector<NnlsSolver::Row> halves;
+    for (int unit = 1; unit <= static_cast<int>(kOriginalUnits); ++unit) {
+      const std::string path = PathOf(folder_, "AU", unit);
+      const auto file = ReadPnt(path);
+      if (!file) return std::unexpected(file.error());
+      const auto whole = Offsets(path, *file);
+      if (!whole) return std::unexpected(whole.error());
+      for (const bool is_left : {false, true}) {
+        halves.push_back(*whole);
+        for (std::size_t i = 0; i < halves.back().size(); ++i) {
+          halves.back()[i] *= is_left ? left[i / 3] : 1 - left[i / 3];
+        }
+      }
+    }
+    units_ = NnlsSolver(std::move(halves));
+    return {};
+  }
+
+  vm::Result<void> ReadOne(const char* name, int pattern, const std::string& path) {
+    auto text = ReadWhole(path, kMaxFileBytes);
+    if (!text) return std::unexpected(text.error());
+    // Those of users are at first copies of the standard ones.
+    auto known = seen_.find(*text);
+    if (known == seen_.end()) {
+      const auto file = ParsePnt(path, *text);
+      if (!file) return std::unexpected(file.error());
+      const auto offsets = Offsets(path, *file);
+      if (!offsets) return std::unexpected(offsets.error());
+      known = seen_.emplace(std::move(*text), TakeApart(*offsets, path)).first;
+    }
+    OriginalExpression& made = out_.all.emplace_back(known->second);
+    made.name = name;
+    made.pattern = pattern;
+    return {};
+  }
+
+  OriginalExpression TakeApart(const NnlsSolver::Row& offsets, const std::string& path) {
+    const NnlsSolver::Parts parts = units_.TakeApart(offsets);
+    OriginalExpression made;
+    for (std::size_t i = 0; i < kOriginalUnits; ++i) {
+      made.right[i] = parts.weights[2 * i];
+      made.left[i] = parts.weights[2 * i + 1];
+    }
+    PntFile rest;
+    float most = 0;
+    for (std::size_t i = 0; i < standard_.names.size(); ++i) {
+      const glm::vec3 by(parts.rest[3 * i], parts.rest[3 * i + 1], parts.rest[3 * i + 2]);
+      most = std::max(most, glm::length(by));
+      rest.index.emplace(standard_.names[i], i);
+      rest.at.push_back(by / frame_.mm());
+    }
+    rest.names = standard_.names;
+    if (most < kLeastRestMm) return made;
+    if (out_.rests.size() == kExpressionChannels.size()) {
+      out_.without_rest.push_back(path);
+      return made;
+    }
+    made.channel = out_.rests.size();
+    out_.rests.push_back(std::move(rest));
+    return made;
+  }
+
+  const std::string& folder_;
+  const std::string& path_;
+  const PntFile standard_;
+  const OriginalFrame frame_;
+  NnlsSolver units_;                                // right and left half of each
+  std::map<std::string, OriginalExpression> seen_;  // by the content of their file
+  OriginalExpressions out_;
+};
+
+}  // namespace
+
+float LeftPartAt(float x_mm) { return SmoothStep(-7, 7, x_mm); }
+
+vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folder,
+                                                        const std::string& standard) {
+  auto wireframe = ReadPnt(standard);
+  if (!wireframe) return std::unexpected(wireframe.error());
+  if (auto there = CheckPoints(standard, *wireframe); !there) {
+    return std::unexpected(there.error());
+  }
+  return Reader(folder, standard, std::move(*wireframe)).Read();
+}
+
+}  // namespace fsm

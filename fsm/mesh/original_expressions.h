@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fsm/rig/face_state.h"
+#include "fsm/mesh/original_face.h"
+
+namespace fsm {
+
+/// Whole expressions are files of offsets in the original, AU31.pnt to AU36.pnt and those of users,
+/// but action units here. Each file is taken apart into units of the agent's right and left side;
+/// what they leave is kept, as "rest", and shown with it.
+///
+/// An expression comes to the face as a look of FaceState::au_left and au_right alone, so a rest
+/// has a number there that FACS does not use, on one side, and so does nothing to other heads.
+struct ExpressionChannel {
+  std::size_t unit;
+  bool left;
+};
+inline constexpr std::array<ExpressionChannel, 6> kExpressionChannels{
+    {{3, false}, {3, true}, {40, false}, {40, true}, {0, false}, {0, true}}};
+inline constexpr std::size_t kNoChannel = kExpressionChannels.size();
+
+struct OriginalExpression {
+  std::string name;                                   ///< of FaceExp
+  int pattern = 1;                                    ///< from 1
+  std::array<float, kOriginalUnits> right{}, left{};  ///< by the original's list of units
+  std::size_t channel = kNoChannel;                   ///< of its rest
+};
+
+struct OriginalExpressions {
+  std::vector<OriginalExpression> all;
+  std::vector<PntFile> rests;  ///< by channel, at most so many; offsets as the files have them
+  /// Expressions whose rest found no channel left: their units alone are shown.
+  std::vector<std::string> without_rest;
+};
+
+/// Reads those of the folder that holds _AU_Datas; a file that is not there is passed over.
+/// `standard`: the wireframe they belong to. Errors: as ReadOriginalFace.
+vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folder,
+                                                        const std::string& standard);
+
+/// How much a vertex `x_mm` to the viewer's right of the mouth's middle goes with units of the
+/// agent's left side.
+float LeftPartAt(float x_mm);
+
+}  // namespace fsm
