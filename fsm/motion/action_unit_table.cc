@@ -9,19 +9,35 @@
 
 namespace fsm {
 
+namespace {
+
+/// Calls `change(a's strength, b's strength)` for every unit that either has, the highest first: so
+/// `a` grows no more than once.
+template <typename Change>
+void ForEachUnit(UnitValues& a, const UnitValues& b, const Change& change) {
+  for (std::size_t unit = std::max(a.size(), b.size()); unit-- > 0;) change(a[unit], b[unit]);
+}
+
+}  // namespace
+
 ActionUnits Mix(const ActionUnits& a, const ActionUnits& b, double share_of_b) {
-  return {Mix(a.left, b.left, share_of_b), Mix(a.right, b.right, share_of_b),
-          Mix(a.gaze_left, b.gaze_left, share_of_b), Mix(a.gaze_right, b.gaze_right, share_of_b)};
+  ActionUnits out = a;
+  const auto mix = [share_of_b](float& to, float from) { to = Mix(to, from, share_of_b); };
+  ForEachUnit(out.left, b.left, mix);
+  ForEachUnit(out.right, b.right, mix);
+  out.gaze_left = Mix(a.gaze_left, b.gaze_left, share_of_b);
+  out.gaze_right = Mix(a.gaze_right, b.gaze_right, share_of_b);
+  return out;
 }
 
 void AddTo(ActionUnits& a, const ActionUnits& b, double weight) {
-  const auto add = [weight](auto& to, const auto& from) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] += static_cast<float>(weight * from[i]);
-  };
-  add(a.left, b.left);
-  add(a.right, b.right);
-  add(a.gaze_left, b.gaze_left);
-  add(a.gaze_right, b.gaze_right);
+  const auto add = [weight](float& to, float from) { to += static_cast<float>(weight * from); };
+  ForEachUnit(a.left, b.left, add);
+  ForEachUnit(a.right, b.right, add);
+  for (std::size_t i = 0; i < 2; ++i) {
+    add(a.gaze_left[i], b.gaze_left[i]);
+    add(a.gaze_right[i], b.gaze_right[i]);
+  }
 }
 
 bool IsActionUnit(int number) {

@@ -17,8 +17,8 @@ struct TableLine;
 /// Weights of all action units, left and right, and where the eyes go with them (degrees, x+ =
 /// down, y+ = to the viewer's right, each eye).
 struct ActionUnits {
-  std::array<float, kActionUnits> left{};
-  std::array<float, kActionUnits> right{};
+  UnitValues left;
+  UnitValues right;
   std::array<float, 2> gaze_left{};
   std::array<float, 2> gaze_right{};
 };

@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 
+#include "fsm/head/unit_values.h"
+
 namespace fsm {
 
-/// FACS numbers 1..46 (3 and 40 unused) index the arrays below directly.
-inline constexpr std::size_t kActionUnits = 47;
 inline constexpr std::size_t kMouthParameters = 17;
 
 /// Everything that decides how the face looks, at one instant. A plain value: motion makes it,
@@ -15,8 +15,8 @@ inline constexpr std::size_t kMouthParameters = 17;
 struct FaceState {
   /// Action units by FACS number, the agent's left and right side; 0 = rest, 1 = full strength,
   /// up to 2 (the original's 200 %). Emotions arrive here as sums of their AUs.
-  std::array<float, kActionUnits> au_left{};
-  std::array<float, kActionUnits> au_right{};
+  UnitValues au_left;
+  UnitValues au_right;
 
   /// Speech, in the 17 mouth parameters of the original editor (DESIGN.md section 7), 1-based
   /// there, 0-based here; 1 = the parameter's unit displacement (see the mouth shape table), may be
