@@ -33,7 +33,7 @@ bool SliderRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
     if (!one) continue;
     const float value = std::round(percent) / 100;
     (left ? look.left : look.right)[i] = value;
-    const bool both = ui.linked && !fsm::IsOneSided(unit);
+    const bool both = ui.linked && !ui.editor.unit_names().IsOneSided(unit);
     if (both) look.left[i] = look.right[i] = value;
     if (merge) *merge = id;
     changed = true;
@@ -41,13 +41,14 @@ bool SliderRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
   return changed;
 }
 
-std::vector<int> UnitOrder(const fsm::ActionUnits& look, bool used_first) {
+std::vector<int> UnitOrder(const fsm::UnitNames& names, const fsm::ActionUnits& look,
+                           bool used_first) {
   std::vector<int> order;
   for (const bool used : {true, false}) {
-    for (int unit = 1; unit < static_cast<int>(fsm::kActionUnits); ++unit) {
+    for (const auto& [unit, name] : names.names) {
       const auto i = static_cast<std::size_t>(unit);
       const bool acts = look.left[i] != 0 || look.right[i] != 0;
-      if (fsm::IsActionUnit(unit) && (used_first ? acts == used : used)) order.push_back(unit);
+      if (names.IsUnit(unit) && (used_first ? acts == used : used)) order.push_back(unit);
     }
   }
   return order;
@@ -97,11 +98,11 @@ bool LookSliders(Ui& ui, fsm::ActionUnits& look, bool used_first, std::string* m
     ImGui::TableHeadersRow();
     // They keep their places while one is dragged.
     if (!ImGui::IsAnyItemActive() || ui.unit_order.empty()) {
-      ui.unit_order = UnitOrder(look, used_first);
+      ui.unit_order = UnitOrder(ui.editor.unit_names(), look, used_first);
     }
     for (const int unit : ui.unit_order) {
       const auto i = static_cast<std::size_t>(unit);
-      if (!ui.regions[static_cast<std::size_t>(ui.editor.unit_list().region[i])]) continue;
+      if (!ui.regions[static_cast<std::size_t>(ui.editor.unit_list().RegionOf(i))]) continue;
       if (SliderRow(ui, unit, look, merge)) changed = true;
     }
     ImGui::EndTable();
@@ -117,7 +118,7 @@ fsm::FaceState UnitsPage(Ui& ui) {
     ui.player.Stop();
   }
   Heading("This look");
-  ImGui::TextWrapped("%s", fsm::FormatLook(look).c_str());
+  ImGui::TextWrapped("%s", fsm::FormatLook(look, ui.editor.unit_names()).c_str());
   if (Button(ui, "Clear")) ui.editor.SetLook({}, "clear units");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(130);

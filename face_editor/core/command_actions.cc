@@ -98,7 +98,8 @@ Answer DragPoints(Editor& editor, const Words& words) {
 }
 
 Answer SetUnit(Editor& editor, const Words& words) {
-  const auto unit = fsm::ParseUnitName(words[0] + (words.size() == 3 ? words[1] : ""));
+  const auto unit =
+      fsm::ParseUnitName(words[0] + (words.size() == 3 ? words[1] : ""), editor.unit_names());
   if (!unit) return std::unexpected(unit.error());
   const auto percent = Number(words.back());
   if (!percent) return std::unexpected(percent.error());
@@ -236,7 +237,8 @@ Answer GetExpression(Editor& editor, const Words& words) {
       *pattern > static_cast<int>(found->second.patterns.size())) {
     return vm::Fail(Errc::kBadValue, "there is no expression " + words[0] + " " + words[1]);
   }
-  return fsm::FormatLook(found->second.patterns[static_cast<std::size_t>(*pattern - 1)]);
+  return fsm::FormatLook(found->second.patterns[static_cast<std::size_t>(*pattern - 1)],
+                         editor.unit_names());
 }
 
 Answer GetMotion(Editor& editor, const Words& words) {

@@ -124,7 +124,7 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
     MarkSaved(part);
   };
   if (part == Part::kEmotions) {
-    auto read = fsm::ReadEmotions(path, *text);
+    auto read = fsm::ReadEmotions(path, *text, unit_names());
     if (!read) return std::unexpected(read.error());
     emotions_text_ = std::move(*text);
     put("expressions read", [&](State& state) { state.emotions = std::move(*read); });
@@ -145,7 +145,7 @@ vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual
     put("mouth shapes read",
         [&](State& state) { (bilingual ? state.shapes28 : state.shapes14) = std::move(*read); });
   } else if (part == Part::kMotions) {
-    auto read = fsm::ReadMotions(path, *text);
+    auto read = fsm::ReadMotions(path, *text, unit_names());
     if (!read) return std::unexpected(read.error());
     motions_text_ = std::move(*text);
     tables_.motions = *read;

@@ -48,7 +48,7 @@ std::string LookOf(const FsmCore& core, const Name& name) {
   const auto found = emotions.find(name.expression);
   const auto index = static_cast<std::size_t>(name.pattern - 1);
   if (found == emotions.end() || index >= found->second.patterns.size()) return "";
-  return FormatLook(found->second.patterns[index]);
+  return FormatLook(found->second.patterns[index], core.motion->tables().unit_names);
 }
 
 vm::Result<std::string> Define(FsmCore& core, const Name& name, const std::string& look) {
@@ -79,7 +79,8 @@ void Forget(FsmCore& core, const std::string& expression) {
 void DeclareExpressionSlots(FsmCore& core) {
   for (const auto& [expression, emotion] : core.motion->tables().emotions) {
     for (std::size_t i = 0; i < emotion.patterns.size(); ++i) {
-      DeclareOne(core, {expression, static_cast<int>(i) + 1}, FormatLook(emotion.patterns[i]));
+      DeclareOne(core, {expression, static_cast<int>(i) + 1},
+                 FormatLook(emotion.patterns[i], core.motion->tables().unit_names));
     }
   }
   core.slots.set_definition_hook([&core](const vm::Message& message, vm::PeerId,

@@ -13,6 +13,9 @@ namespace fsm {
 
 class TableText;
 struct TableLine;
+struct UnitNames;
+/// Of the table the program carries, see unit_names.h.
+const UnitNames& BuiltInUnitNames();
 
 /// Weights of all action units, left and right, and where the eyes go with them (degrees, x+ =
 /// down, y+ = to the viewer's right, each eye).
@@ -23,26 +26,23 @@ struct ActionUnits {
   std::array<float, 2> gaze_right{};
 };
 ActionUnits Mix(const ActionUnits& a, const ActionUnits& b, double share_of_b);
+/// Calls `change(strength in to, strength in other)` for every number that either of them has.
+template <typename Change>
+void Combine(UnitValues& to, const UnitValues& other, const Change& change) {
+  const std::size_t others = other.size();
+  if (others > to.size()) to[others - 1] = 0;  // it grows
+  const std::size_t all = to.size();
+  float* const own = &to[0];
+  const float* const from = other.begin();
+  for (std::size_t unit = 0; unit < others; ++unit) change(own[unit], from[unit]);
+  for (std::size_t unit = others; unit < all; ++unit) change(own[unit], 0.0f);
+}
 /// a + weight * b.
 void AddTo(ActionUnits& a, const ActionUnits& b, double weight);
 
-/// True for the 44 numbers of FACS that FaceState has room for.
-bool IsActionUnit(int number);
-
-/// Units that are of one side by what they are: the jaw sideways (30), a wink (46). Asked for
-/// without a side they are of the agent's left; taken back without one they go on both.
-bool IsOneSided(int number);
-
-/// "12", "12L" or "12R".
-struct UnitName {
-  int number = 0;
-  bool left = true;
-  bool right = true;
-};
-vm::Result<UnitName> ParseUnitName(std::string_view word);
-
 /// Reads words from `first` on: AU[L|R]:WEIGHT, gaze[L|R]:DOWN,RIGHT.
-vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line, std::size_t first);
+vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line, std::size_t first,
+                                  const UnitNames& names = BuiltInUnitNames());
 
 enum class Region { kEye, kBrow, kMouth };
 inline constexpr std::size_t kRegions = 3;
@@ -51,13 +51,22 @@ inline constexpr std::size_t kRegions = 3;
 struct UnitList {
   std::vector<int> units;             ///< Face.1 is units[0]; 0 = not an action unit
   std::vector<std::string> emotions;  ///< by position as well; "" = not an emotion
-  std::array<Region, kActionUnits> region{};
-  std::array<bool, kActionUnits> opens{};  ///< parts the lips: gives way to contacts of speech
+  std::vector<Region> regions;        ///< by number, see RegionOf
+  std::vector<bool> opening;          ///< by number, see Opens
+
+  /// A unit that the table gives no region belongs to the mouth.
+  Region RegionOf(std::size_t unit) const {
+    return unit < regions.size() ? regions[unit] : Region::kMouth;
+  }
+  /// Parts the lips: gives way to contacts of speech.
+  bool Opens(std::size_t unit) const { return unit < opening.size() && opening[unit]; }
 };
-vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text);
+vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text,
+                                  const UnitNames& names = BuiltInUnitNames());
 
 /// Blend shapes by name.
 using BlendShapes = std::map<std::string, ActionUnits, std::less<>>;
-vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_view text);
+vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_view text,
+                                        const UnitNames& names = BuiltInUnitNames());
 
 }  // namespace fsm

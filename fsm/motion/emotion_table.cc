@@ -6,7 +6,8 @@
 
 namespace fsm {
 
-vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text) {
+vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
+                                      const UnitNames& names) {
   const TableText table(name, text);
   EmotionTable emotions;
   for (const TableLine& line : table.lines()) {
@@ -39,7 +40,7 @@ vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view 
       return table.Wrong(line.number, fmt::format("pattern {:g} found, {} expected next", *pattern,
                                                   emotion.patterns.size() + 1));
     }
-    auto units = ReadUnits(table, line, 2);
+    auto units = ReadUnits(table, line, 2, names);
     if (!units) return std::unexpected(units.error());
     emotion.patterns.push_back(*units);
   }

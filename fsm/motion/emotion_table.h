@@ -25,6 +25,7 @@ struct Emotion {
 using EmotionTable = std::map<std::string, Emotion, std::less<>>;
 
 /// Every emotion needs its patterns numbered from 1 without gaps.
-vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text);
+vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
+                                      const UnitNames& names = BuiltInUnitNames());
 
 }  // namespace fsm

@@ -1,17 +1,77 @@
 #include "fsm/motion/expression_motion.h"
 
-namespace fsm {
+#include <algorithm>
 
-void ExpressionMotion::Show(vm::Time now, const ActionUnits& look,
-                            const std::array<double, kRegions>& lag_ms, const Sides& side_lag_ms,
+#include "fsm/motion/motion_errors.h"
+#include "fsm/motion/random.h"
+
+namespace fsm {
+namespace {
+
+constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // of an expression, natural
+constexpr int kMostPatterns = 20;
+constexpr std::size_t kMostExpressions = 200;
+enum Stream : std::uint64_t { kLateSide = 200, kLag };
+
+}  // namespace
+
+ExpressionMotion::ExpressionMotion(MotionTables& tables, const MotionSettings& settings,
+                                   const IdleBehaviour& idle, std::uint64_t seed)
+    : tables_(tables),
+      table_emotions_(tables.emotions),
+      settings_(settings),
+      idle_(idle),
+      emotions_(tables.units.emotions.size()) {
+  SetPerson(seed);
+}
+
+void ExpressionMotion::SetPerson(std::uint64_t seed) {
+  side_lags_ms_ = {};
+  side_lags_ms_[RandomAt(seed, kLateSide, 0) < 0 ? 0 : 1] = 30 + 10 * RandomAt(seed, kLag, 0);
+}
+
+// ---- commands
+
+vm::Time ExpressionMotion::OnsetOf(const Emotion& emotion) const {
+  switch (settings_.onset) {
+    case Onset::kPosed:
+      return FromMs(emotion.posed.onset_ms);
+    case Onset::kElicited:
+      return FromMs(emotion.elicited.onset_ms);
+    case Onset::kFixed:
+      break;
+  }
+  return settings_.expression;
+}
+
+vm::Result<void> ExpressionMotion::Show(vm::Time now, std::string_view name, int pattern,
+                                        double strength, vm::Time duration) {
+  const auto found = tables_.emotions.find(name);
+  if (found == tables_.emotions.end()) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    fmt::format("'{}' is no expression; {} or NEUTRAL expected", name,
+                                KeysOf(tables_.emotions)));
+  }
+  const Emotion& emotion = found->second;
+  if (auto fits = CheckPattern(name, pattern, 1, emotion.patterns.size()); !fits) return fits;
+  if (auto fits = CheckStrength(strength); !fits) return fits;
+  ActionUnits look;
+  AddTo(look, emotion.patterns[static_cast<std::size_t>(pattern - 1)], strength);
+  Plan(now, look, settings_.onset == Onset::kElicited ? emotion.elicited : emotion.posed,
+       OnsetOf(emotion), duration);
+  return {};
+}
+
+void ExpressionMotion::Plan(vm::Time now, const ActionUnits& look, const Emotion::Timing& timing,
                             vm::Time onset, vm::Time duration) {
   const bool timed = duration > vm::Time(0);
   if (timed) onset = std::min(onset, duration / 2);
   for (std::size_t side = 0; side < 2; ++side) {
+    const double side_lag_ms = idle_.On(IdleKind::kAsymmetry) ? side_lags_ms_[side] : 0;
     for (std::size_t part = 0; part < kRegions; ++part) {
       auto& track = parts_[side][part];
       // A part that begins late is as quick as the rest of the time allows.
-      const vm::Time lag = std::min(FromMs(lag_ms[part] + side_lag_ms[side]), onset / 2);
+      const vm::Time lag = std::min(FromMs(timing.lag_ms[part] + side_lag_ms), onset / 2);
       track.Plan(now, look, now + lag, onset - lag);
       if (timed) track.Plan(now, ActionUnits{}, now + duration - onset, onset);
     }
@@ -20,7 +80,8 @@ void ExpressionMotion::Show(vm::Time now, const ActionUnits& look,
   end_ = timed ? std::optional(now + duration) : std::nullopt;
 }
 
-void ExpressionMotion::Neutral(vm::Time now, vm::Time offset) {
+void ExpressionMotion::Neutral(vm::Time now) {
+  const vm::Time offset = settings_.onset == Onset::kFixed ? settings_.expression : kOffset;
   for (auto& side : parts_) {
     for (auto& part : side) part.Plan(now, ActionUnits{}, now, offset);
   }
@@ -28,31 +89,92 @@ void ExpressionMotion::Neutral(vm::Time now, vm::Time offset) {
   end_.reset();
 }
 
-ActionUnits ExpressionMotion::At(vm::Time t, const UnitList& list, double mouth_share) const {
-  ActionUnits out;
-  for (std::size_t part = 0; part < kRegions; ++part) {
-    const ActionUnits left = parts_[0][part].At(t);
-    const ActionUnits right = parts_[1][part].At(t);
-    for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
-      if (static_cast<std::size_t>(list.region[unit]) != part) continue;
-      const double share = list.region[unit] == Region::kMouth ? mouth_share : 1;
-      out.left[unit] = static_cast<float>(share * left.left[unit]);
-      out.right[unit] = static_cast<float>(share * right.right[unit]);
-    }
-    if (part != static_cast<std::size_t>(Region::kEye)) continue;
-    // Eyes move together, whichever side of the face is first.
-    out.gaze_left = left.gaze_left;
-    out.gaze_right = left.gaze_right;
-  }
-  return out;
+void ExpressionMotion::SetEmotion(vm::Time now, std::size_t index, double strength) {
+  const Emotion& emotion = tables_.emotions.find(tables_.units.emotions[index])->second;
+  emotions_[index].MoveTo(now, static_cast<float>(strength), OnsetOf(emotion));
 }
 
-std::optional<vm::Time> ExpressionMotion::NextActivity(vm::Time t) const {
-  std::optional<vm::Time> next;
-  for (const auto& side : parts_) {
-    for (const auto& part : side) next = Earlier(next, part.NextActivity(t));
+// ---- definitions
+
+vm::Result<void> ExpressionMotion::Define(std::string_view name, int pattern,
+                                          std::string_view look) {
+  const bool plain = !name.empty() && name.size() <= 40 && std::ranges::all_of(name, [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!plain || name == "NEUTRAL") {
+    return vm::Fail(
+        vm::Errc::kBadValue,
+        fmt::format("'{}' cannot be the name of an expression; up to 40 letters, digits "
+                    "and _ expected, and not NEUTRAL",
+                    name.substr(0, 60)));
   }
-  return next;
+  auto units = ParseLook(look, tables_.unit_names);
+  if (!units) return std::unexpected(units.error());
+  const auto found = tables_.emotions.find(name);
+  const std::size_t have = found == tables_.emotions.end() ? 0 : found->second.patterns.size();
+  if (pattern < 1 || static_cast<std::size_t>(pattern) > have + 1 || pattern > kMostPatterns) {
+    return vm::Fail(vm::Errc::kBadValue, fmt::format("{} has {} patterns; pattern 1 to {} expected",
+                                                     name, have, have + 1));
+  }
+  if (have == 0 && tables_.emotions.size() >= kMostExpressions) {
+    return vm::Fail(vm::Errc::kLimit, fmt::format("more than {} expressions", kMostExpressions));
+  }
+  auto& patterns = tables_.emotions[std::string(name)].patterns;
+  patterns.resize(std::max(have, static_cast<std::size_t>(pattern)));
+  patterns[static_cast<std::size_t>(pattern - 1)] = *units;
+  return {};
+}
+
+void ExpressionMotion::Forget(std::string_view name) {
+  if (const auto built_in = table_emotions_.find(name); built_in != table_emotions_.end()) {
+    tables_.emotions[built_in->first] = built_in->second;
+  } else if (const auto own = tables_.emotions.find(name); own != tables_.emotions.end()) {
+    tables_.emotions.erase(own);
+  }
+}
+
+// ---- as a source
+
+void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+  std::array<std::array<ActionUnits, kRegions>, 2> now;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t part = 0; part < kRegions; ++part) now[side][part] = parts_[side][part].At(t);
+  }
+  ActionUnits& out = frame.Layer("expression").units;
+  const auto collect = [&](UnitValues& to, const auto& parts, UnitValues ActionUnits::*side) {
+    std::size_t size = 0;
+    for (const ActionUnits& part : parts) size = std::max(size, (part.*side).size());
+    for (std::size_t unit = size; unit-- > 0;) {
+      const UnitValues& part = parts[static_cast<std::size_t>(tables_.units.RegionOf(unit))].*side;
+      to[unit] = part[unit];
+    }
+  };
+  collect(out.left, now[0], &ActionUnits::left);
+  collect(out.right, now[1], &ActionUnits::right);
+  // Eyes move together, whichever side of the face is first.
+  const ActionUnits& eyes = now[0][static_cast<std::size_t>(Region::kEye)];
+  out.gaze_left = eyes.gaze_left;
+  out.gaze_right = eyes.gaze_right;
+  for (std::size_t i = 0; i < emotions_.size(); ++i) {
+    const float weight = emotions_[i].At(t);
+    if (weight == 0) continue;
+    const auto found = tables_.emotions.find(tables_.units.emotions[i]);
+    if (found == tables_.emotions.end()) continue;
+    AddTo(frame.Layer("emotions").units, found->second.patterns[0], weight);
+  }
+}
+
+void ExpressionMotion::ForEachTrack(const TrackVisitor& visit) const {
+  for (const auto& side : parts_) {
+    for (const auto& part : side) visit(part);
+  }
+  for (const auto& emotion : emotions_) visit(emotion);
+}
+
+vm::Time ExpressionMotion::SettledAt(vm::Time t) const {
+  vm::Time settled = std::max(t, onset_end_);
+  for (const auto& emotion : emotions_) settled = std::max(settled, emotion.SettledAt(t));
+  return settled;
 }
 
 }  // namespace fsm

@@ -1,39 +1,65 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <string_view>
+#include <vector>
 
-#include "fsm/motion/emotion_table.h"
-#include "fsm/motion/track.h"
+#include "fsm/motion/idle_behaviour.h"
+#include "fsm/motion/motion_settings.h"
+#include "fsm/motion/motion_source.h"
+#include "fsm/motion/motion_tables.h"
 
 namespace fsm {
 
-/// One emotion at a time on the face, crossfaded into the next; each part of the face begins by
-/// its own lag, and one side of it may begin later than the other. Commands come in order of time;
-/// queries are for now or later.
-class ExpressionMotion {
+/// Expressions, on the layer `expression`: one at a time, crossfaded into the next; each part of
+/// the face begins by its own lag, and one side of it may begin later than the other. And the
+/// emotions of the list of units (Face.31 and on), on the layer `emotions`: each by itself.
+/// It also keeps the expressions that are defined while running, in the tables.
+/// Lifetime: what it is made with outlives it. Commands come in order of time.
+/// Errors: kBadValue with what there is; kLimit for too many expressions.
+class ExpressionMotion : public MotionSource {
  public:
-  using Sides = std::array<double, 2>;  ///< the agent's left, right
+  ExpressionMotion(MotionTables& tables, const MotionSettings& settings, const IdleBehaviour& idle,
+                   std::uint64_t seed);
 
-  /// `look` is the whole target. The onset takes `onset` including the lags. With a `duration` (not
-  /// zero) the expression is gone `duration` after now: for short ones onset and offset take half
-  /// of it each. `side_lag_ms`: how much later each side begins.
-  void Show(vm::Time now, const ActionUnits& look, const std::array<double, kRegions>& lag_ms,
-            const Sides& side_lag_ms, vm::Time onset, vm::Time duration);
-  void Neutral(vm::Time now, vm::Time offset);
+  /// With a `duration` (not zero) the expression is gone `duration` after now: for short ones onset
+  /// and offset take half of it each.
+  vm::Result<void> Show(vm::Time now, std::string_view name, int pattern, double strength,
+                        vm::Time duration);
+  void Neutral(vm::Time now);
+  /// REQUIRES: the list of units has an emotion there, from 0.
+  void SetEmotion(vm::Time now, std::size_t index, double strength);
+  /// See FaceMotion.
+  vm::Result<void> Define(std::string_view name, int pattern, std::string_view look);
+  void Forget(std::string_view name);
+  /// Whose face it is: by how much one side of it begins later than the other, always the same: 20
+  /// to 40 ms (research notes on the face, 4.4). How much weaker one side is belongs to the head.
+  void SetPerson(std::uint64_t seed);
 
-  /// `mouth_share` multiplies the units of the mouth.
-  ActionUnits At(vm::Time t, const UnitList& list, double mouth_share) const;
-  vm::Time SettledAt(vm::Time t) const { return std::max(t, onset_end_); }
-  std::optional<vm::Time> NextActivity(vm::Time t) const;
-  /// When the timed expression will be gone; none if it holds or there is none.
-  std::optional<vm::Time> End() const { return end_; }
+  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  vm::Time SettledAt(vm::Time t) const override;
+  vm::Time FiniteEnd(vm::Time t) const override { return end_.value_or(t); }
+
+ protected:
+  void ForEachTrack(const TrackVisitor& visit) const override;
 
  private:
+  vm::Time OnsetOf(const Emotion& emotion) const;
+  void Plan(vm::Time now, const ActionUnits& look, const Emotion::Timing& timing, vm::Time onset,
+            vm::Time duration);
+
+  MotionTables& tables_;
+  const EmotionTable table_emotions_;  // as they were at the start
+  const MotionSettings& settings_;
+  const IdleBehaviour& idle_;
+  std::array<double, 2> side_lags_ms_{};  // the agent's left, right
   // By side, then by part; of each only its side's units are used.
   std::array<std::array<Track<ActionUnits>, kRegions>, 2> parts_;
+  std::vector<Track<float>> emotions_;  // by position in the list of units
   vm::Time onset_end_{0};
-  std::optional<vm::Time> end_;
+  std::optional<vm::Time> end_;  // of a timed expression
 };
 
 }  // namespace fsm

@@ -1,13 +1,19 @@
 #include "fsm/motion/eye_motion.h"
 
 #include <cmath>
+#include <numbers>
+
+#include "fsm/motion/random.h"
 
 namespace fsm {
 namespace {
 
 constexpr vm::Time kHeadFollows = std::chrono::milliseconds(320);
-constexpr double kEyesAlone = 12;   // degrees the eyes turn without the head
-constexpr double kHeadShare = 0.6;  // of what is beyond
+constexpr double kEyesAlone = 12;          // degrees the eyes turn without the head
+constexpr double kHeadShare = 0.6;         // of what is beyond
+constexpr EyeAngles kThinking = {-5, 11};  // about where a thinker looks
+constexpr double kHalfPupilsMm = 31;       // half the distance between the pupils
+enum Stream : std::uint64_t { kThinkTime = 7, kThinkSide, kThinkHeight, kShiftBlink = 300 };
 
 // There within `move`, and if timed, back when `duration` is over.
 void ThereAndBack(Track<EyeAngles>& track, vm::Time now, const EyeAngles& there, vm::Time move,
@@ -25,58 +31,111 @@ float Beyond(float angle) {
 
 }  // namespace
 
-vm::Time LengthOf(const BlinkPattern& pattern) {
-  return FromMs(pattern.closing_ms + pattern.shut_ms + pattern.opening_ms);
-}
+// ---- commands
 
-double LidsAt(const BlinkPattern& pattern, vm::Time since) {
-  const double ms = InMs(since);
-  if (ms <= 0) return 0;
-  if (ms < pattern.closing_ms) return SmoothStep(ms / pattern.closing_ms);
-  const double opening = ms - pattern.closing_ms - pattern.shut_ms;
-  if (opening <= 0) return 1;
-  if (opening >= pattern.opening_ms) return 0;
-  return 1 - SmoothStep(opening / pattern.opening_ms);
-}
-
-void EyeMotion::Turn(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time move,
+void EyeMotion::Turn(vm::Time now, bool left, bool right, const EyeAngles& angles,
                      vm::Time duration) {
-  if (left) ThereAndBack(left_, now, angles, move, duration);
-  if (right) ThereAndBack(right_, now, angles, move, duration);
+  if (left) ThereAndBack(left_, now, angles, settings_.eye_move, duration);
+  if (right) ThereAndBack(right_, now, angles, settings_.eye_move, duration);
   end_ = duration > vm::Time(0) ? std::optional(now + duration) : std::nullopt;
 }
 
-void EyeMotion::Gaze(vm::Time now, const EyeAngles& angles, vm::Time move, vm::Time duration) {
-  ThereAndBack(gaze_, now, angles, move, duration);
+void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration) {
+  on_user_.MoveTo(now, aim == Aim::kUser ? 1.0f : 0.0f, 2 * settings_.eye_move);
+  thinking_.MoveTo(now, aim == Aim::kNothing ? 1.0f : 0.0f, settings_.eye_move);
+  if (aim == Aim::kNothing) thinking_since_ = now;
+  const double near = settings_.gaze_distance_mm;
+  const double angle = aim == Aim::kNothing || near <= 0
+                           ? 0
+                           : std::atan2(kHalfPupilsMm, near) * 180 / std::numbers::pi;
+  vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
+  ThereAndBack(gaze_, now, angles, settings_.eye_move, duration);
   ThereAndBack(head_share_, now, {Beyond(angles[0]), Beyond(angles[1])}, kHeadFollows, duration);
   end_ = duration > vm::Time(0) ? std::optional(now + duration) : std::nullopt;
 }
 
-void EyeMotion::Blink(vm::Time now, const BlinkPattern& pattern) {
-  std::erase_if(blinks_, [&](const Blinking& b) { return b.start + LengthOf(b.pattern) <= now; });
-  blinks_.push_back({pattern, now});
+void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
+  if (!idle_.On(IdleKind::kGazeBlink) || table_.blinks.empty()) return;
+  const double angle = std::hypot(to[0] - from[0], to[1] - from[1]);
+  // Nearly always with large shifts, seldom with small ones (Evinger et al., Not looking while
+  // leaping, 1994).
+  const double chance = std::clamp(angle / 20, 0.0, 0.95);
+  if ((RandomAt(seed_, kShiftBlink, ++shifts_) + 1) / 2 < chance) Blink(now, 1);
 }
 
-EyeAngles EyeMotion::LeftAt(vm::Time t) const {
-  const EyeAngles turn = left_.At(t), gaze = gaze_.At(t), head = head_share_.At(t);
-  return {turn[0] + gaze[0] - head[0], turn[1] + gaze[1] - head[1]};
+void EyeMotion::Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration) {
+  BlinkAtShift(now, gaze_.TargetAt(now), angles);
+  LookAt(now, Aim::kPlace, angles, duration);
 }
 
-EyeAngles EyeMotion::RightAt(vm::Time t) const {
-  const EyeAngles turn = right_.At(t), gaze = gaze_.At(t), head = head_share_.At(t);
-  return {turn[0] + gaze[0] - head[0], turn[1] + gaze[1] - head[1]};
+void EyeMotion::LookAtUser(vm::Time now) {
+  BlinkAtShift(now, thinking_.TargetAt(now) > 0 ? kThinking : gaze_.TargetAt(now), {0, 0});
+  LookAt(now, Aim::kUser, {0, 0}, vm::Time(0));
+}
+
+void EyeMotion::Think(vm::Time now) {
+  BlinkAtShift(now, gaze_.TargetAt(now), kThinking);
+  LookAt(now, Aim::kNothing, {0, 0}, vm::Time(0));
+}
+
+void EyeMotion::Blink(vm::Time now, std::size_t pattern, int count) {
+  const BlinkPattern& blink = table_.blinks[pattern - 1];
+  for (int i = 0; i < count; ++i) {
+    const vm::Time start = now + i * LengthOf(blink);
+    std::erase_if(blinks_,
+                  [&](const Blinking& b) { return b.start + LengthOf(b.pattern) <= start; });
+    blinks_.push_back({blink, start});
+  }
+}
+
+// ---- as a source
+
+EyeAngles EyeMotion::ThinkingAt(vm::Time t) const {
+  constexpr double kStay = 1500;  // ms
+  const auto jump_ms = [&](std::int64_t k) {
+    return k == 0 ? 0 : kStay * (static_cast<double>(k) + 0.35 * RandomAt(seed_, kThinkTime, k));
+  };
+  const double ms = std::max(0.0, InMs(t - thinking_since_));
+  auto k = static_cast<std::int64_t>(std::floor(ms / kStay));
+  if (ms < jump_ms(k)) --k;
+  if (ms >= jump_ms(k + 1)) ++k;
+  // Mostly up and to one side; which side is the person's own and changes now and then.
+  const double habit = RandomAt(seed_, kThinkSide, 0);
+  const auto place = [&](std::int64_t index) -> std::array<double, 2> {
+    if (index < 0) return {0, 0};
+    const double side = std::copysign(1, habit + 0.8 * RandomAt(seed_, kThinkSide, index + 1));
+    return {-5 + 7 * RandomAt(seed_, kThinkHeight, index),
+            side * (11 + 4 * RandomAt(seed_, kThinkHeight, index + 50))};
+  };
+  const auto from = place(k - 1), to = place(k);
+  const double u = SmootherStep((ms - jump_ms(k)) / 55);
+  return {static_cast<float>(from[0] + u * (to[0] - from[0])),
+          static_cast<float>(from[1] + u * (to[1] - from[1]))};
 }
 
 double EyeMotion::LidsShutAt(vm::Time t) const {
   double shut = 0;
-  for (const Blinking& blink : blinks_)
+  for (const Blinking& blink : blinks_) {
     shut = std::max(shut, LidsAt(blink.pattern, t - blink.start));
+  }
   return shut;
 }
 
-vm::Time EyeMotion::SettledAt(vm::Time t) const {
-  return std::max(
-      {left_.SettledAt(t), right_.SettledAt(t), gaze_.SettledAt(t), head_share_.SettledAt(t)});
+void EyeMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+  MotionLayer& layer = frame.Layer("eyes");
+  const float thinking = thinking_.At(t), vergence = vergence_deg_.At(t);
+  const EyeAngles thought = thinking > 0 ? ThinkingAt(t) : EyeAngles{};
+  const EyeAngles left = left_.At(t), right = right_.At(t);
+  const EyeAngles gaze = gaze_.At(t), head = head_share_.At(t);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const float both = gaze[i] - head[i] + thinking * thought[i];
+    const float inwards = i == 1 ? vergence : 0;
+    layer.units.gaze_left[i] = left[i] + both - inwards;
+    layer.units.gaze_right[i] = right[i] + both + inwards;
+    layer.head[i] = head[i];
+  }
+  layer.lids_shut = static_cast<float>(LidsShutAt(t));
+  frame.Give("at_user", on_user_.At(t));
 }
 
 vm::Time EyeMotion::BlinksEnd(vm::Time t) const {
@@ -85,10 +144,16 @@ vm::Time EyeMotion::BlinksEnd(vm::Time t) const {
   return end;
 }
 
+vm::Time EyeMotion::FiniteEnd(vm::Time t) const { return std::max(BlinksEnd(t), end_.value_or(t)); }
+
 std::optional<vm::Time> EyeMotion::NextActivity(vm::Time t) const {
-  if (BlinksEnd(t) > t) return t;
-  return Earlier(Earlier(left_.NextActivity(t), right_.NextActivity(t)),
-                 Earlier(gaze_.NextActivity(t), head_share_.NextActivity(t)));
+  if (BlinksEnd(t) > t || thinking_.At(t) > 0) return t;
+  return MotionSource::NextActivity(t);
+}
+
+void EyeMotion::ForEachTrack(const TrackVisitor& visit) const {
+  for (const auto* track : {&left_, &right_, &gaze_, &head_share_}) visit(*track);
+  for (const auto* track : {&on_user_, &thinking_, &vergence_deg_}) visit(*track);
 }
 
 }  // namespace fsm

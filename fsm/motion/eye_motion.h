@@ -1,56 +1,67 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "fsm/motion/idle_behaviour.h"
+#include "fsm/motion/motion_settings.h"
+#include "fsm/motion/motion_source.h"
 #include "fsm/motion/motion_table.h"
-#include "fsm/motion/track.h"
 
 namespace fsm {
 
-using EyeAngles = std::array<float, 2>;  ///< degrees: down, to the viewer's right
-
-/// How far lids are shut `since` after a blink of that pattern began, 0..1.
-double LidsAt(const BlinkPattern& pattern, vm::Time since);
-vm::Time LengthOf(const BlinkPattern& pattern);
-
-/// Where the eyes are turned, and blinks on demand.
-class EyeMotion {
+/// Where the eyes are turned, and blinks on demand, on the layer `eyes`. The signal `at_user` says
+/// how far the eyes are kept on the viewer. Lifetime: what it is made with outlives it.
+class EyeMotion : public MotionSource {
  public:
-  /// The eyes that are true turn there within `move`, and with a `duration` (not zero) are back
-  /// after it.
-  void Turn(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time move,
-            vm::Time duration);
+  EyeMotion(const MotionTable& table, const MotionSettings& settings, const IdleBehaviour& idle,
+            std::uint64_t seed)
+      : table_(table), settings_(settings), idle_(idle), seed_(seed) {}
+
+  /// The eyes that are true turn there, and with a `duration` (not zero) are back after it.
+  void Turn(vm::Time now, bool left, bool right, const EyeAngles& angles, vm::Time duration);
   /// Looks somewhere with eyes and head: the eyes are there at once, the head takes its share of a
   /// large angle more slowly and the eyes give it back meanwhile.
-  void Gaze(vm::Time now, const EyeAngles& angles, vm::Time move, vm::Time duration);
-  void Blink(vm::Time now, const BlinkPattern& pattern);
+  void Gaze(vm::Time now, const EyeAngles& angles, vm::Time duration);
+  void LookAtUser(vm::Time now);
+  void Think(vm::Time now);
+  /// `count` blinks, one after the other. REQUIRES: the table has the pattern, from 1.
+  void Blink(vm::Time now, std::size_t pattern, int count = 1);
   void StopBlinks() { blinks_.clear(); }
 
-  EyeAngles LeftAt(vm::Time t) const;
-  EyeAngles RightAt(vm::Time t) const;
-  /// Where the gaze leads that was told last.
-  EyeAngles GazeTarget(vm::Time t) const { return gaze_.TargetAt(t); }
-  EyeAngles HeadShareAt(vm::Time t) const { return head_share_.At(t); }
-  double LidsShutAt(vm::Time t) const;
-  vm::Time SettledAt(vm::Time t) const;
-  std::optional<vm::Time> NextActivity(vm::Time t) const;
-  vm::Time BlinksEnd(vm::Time t) const;
-  /// When a timed turn will be back; none if it holds.
-  std::optional<vm::Time> End() const { return end_; }
+  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  vm::Time FiniteEnd(vm::Time t) const override;
+
+ protected:
+  void ForEachTrack(const TrackVisitor& visit) const override;
 
  private:
+  enum class Aim { kPlace, kUser, kNothing };  // of the gaze; a thinker looks at nothing
+  void LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration);
+  void BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to);
+  EyeAngles ThinkingAt(vm::Time t) const;
+  double LidsShutAt(vm::Time t) const;
+  vm::Time BlinksEnd(vm::Time t) const;
+
   struct Blinking {
     BlinkPattern pattern;
     vm::Time start;
   };
+  const MotionTable& table_;
+  const MotionSettings& settings_;
+  const IdleBehaviour& idle_;
+  std::uint64_t seed_;
   Track<EyeAngles> left_;
   Track<EyeAngles> right_;
   Track<EyeAngles> gaze_;        // both eyes, in space
   Track<EyeAngles> head_share_;  // of the gaze
+  Track<float> on_user_, thinking_, vergence_deg_;
+  vm::Time thinking_since_{0};
+  std::int64_t shifts_ = 0;  // of the gaze
   std::vector<Blinking> blinks_;
-  std::optional<vm::Time> end_;
+  std::optional<vm::Time> end_;  // of a timed turn
 };
 
 }  // namespace fsm

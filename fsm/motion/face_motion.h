@@ -1,107 +1,116 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "fsm/motion/blend_shape_motion.h"
 #include "fsm/motion/expression_motion.h"
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/head_motion.h"
 #include "fsm/motion/idle_behaviour.h"
+#include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_tables.h"
-#include "fsm/motion/person.h"
+#include "fsm/motion/mouth_motion.h"
 #include "fsm/motion/speech_motion.h"
 #include "fsm/rig/face_state.h"
+#include "fsm/motion/unit_motion.h"
 #include "vm_protocol/core/phonemes.h"
 #include "vm_protocol/core/result.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace fsm {
 
-/// How expressions come about: as measured on people, shown or felt, or in a fixed time.
-enum class Onset { kPosed, kElicited, kFixed };
-
-/// Times of movements which the original keeps in its configuration, and settings of speech.
-struct MotionSettings {
-  Onset onset = Onset::kPosed;
-  vm::Time expression = std::chrono::milliseconds(100);  ///< EXPRESSION_DURATION, of kFixed
-  vm::Time eye_move = std::chrono::milliseconds(70);     ///< EYEMOVE_DURATION
-  double lead_ms = 40;                                   ///< the mouth is ahead of the voice
-  double offset_ms = 0;                                  ///< delays the mouth
-  double sync_offset_ms = 0;                             ///< added to what the voice reports
-  double sync_rate = 0.25;  ///< how fast a difference is worked off, ms a ms
-  /// The original's unit for the size of mouth movements; kFullMouthScale gives the full
-  /// articulation of the shape table, the default 30 the three quarters of natural speech.
-  double mouth_scale = 30;
-  double gaze_distance_mm = 700;  ///< of what the eyes look at; 0 = far, the eyes are parallel
-  LipStyle lips;
-};
-inline constexpr double kFullMouthScale = 40;
-
 /// The face in time: takes commands with the instant they are given, and yields the state of the
 /// face at any instant from the last command on. Pure in time: the same commands with the same
 /// times give the same states, on any clock, however often and in whatever order it is asked.
-/// Speech owns the mouth, so the emotions' mouth units count 0.4 while it speaks; brows and lids
-/// stay whole. Head directions, movements and autonomous movement add up. The eyes stay on what
-/// they look at while the head moves by itself or with the speech.
+/// Each kind of movement is a MotionSource; tables/mixing.txt says how they become one face.
 /// Errors: kBadValue with what there is, for names and patterns the tables do not have, and for
-/// strengths that are no numbers or out of range. Thread: none of its own.
+/// strengths that are no numbers or out of range. Thread: none of its own; not even const calls may
+/// run at once.
 class FaceMotion {
  public:
-  FaceMotion(MotionTables tables, std::uint64_t seed);
-  FaceMotion(const FaceMotion&) = delete;  // parts refer to the tables
+  FaceMotion(MotionTables tables, std::uint64_t seed) : tables_(std::move(tables)), seed_(seed) {}
+  FaceMotion(const FaceMotion&) = delete;  // sources refer to the tables
+
+  /// Another source of movement, mixed with those there are; see docs/extending.md.
+  void Add(std::unique_ptr<MotionSource> source) { sources_.push_back(std::move(source)); }
 
   // Expressions. Strength 1 is full, up to 2. A duration of zero holds until the next.
   vm::Result<void> Express(vm::Time now, std::string_view name, int pattern, double strength,
-                           vm::Time duration);
-  void Neutral(vm::Time now);
+                           vm::Time duration) {
+    return expression_.Show(now, name, pattern, strength, duration);
+  }
+  void Neutral(vm::Time now) { expression_.Neutral(now); }
   /// Makes or changes one pattern of an expression; a new expression begins with pattern 1, a new
   /// pattern is the next. The name: letters, digits and _.
-  vm::Result<void> DefineExpression(std::string_view name, int pattern, std::string_view look);
+  vm::Result<void> DefineExpression(std::string_view name, int pattern, std::string_view look) {
+    return expression_.Define(name, pattern, look);
+  }
   /// Back to what the tables say: a changed expression is what it was, an own one is gone.
-  void ForgetExpression(std::string_view name);
+  void ForgetExpression(std::string_view name) { expression_.Forget(name); }
 
   // Units. A strength of 1 is full, up to 2.
-  vm::Result<void> SetFace(vm::Time now, int position, double strength);    ///< Face.N
-  vm::Result<void> SetMouth(vm::Time now, int parameter, double strength);  ///< Mouth.N, from 1
+  vm::Result<void> SetFace(vm::Time now, int position, double strength);  ///< Face.N
+  /// Mouth.N, from 1.
+  vm::Result<void> SetMouth(vm::Time now, int parameter, double strength) {
+    return mouth_.Set(now, parameter, strength);
+  }
   /// One unit, `12L`, and one text of several, see ParseUnitCommand; codes of head and eyes too.
-  vm::Result<void> SetUnit(vm::Time now, std::string_view unit, double strength, vm::Time move);
-  vm::Result<void> SetUnits(vm::Time now, std::string_view text);
-  vm::Result<void> CheckBlendShape(std::string_view name) const;
-  vm::Result<void> SetBlendShape(vm::Time now, std::string_view name, double weight, vm::Time move);
+  vm::Result<void> SetUnit(vm::Time now, std::string_view unit, double strength, vm::Time move) {
+    return units_.Set(now, unit, strength, move);
+  }
+  vm::Result<void> SetUnits(vm::Time now, std::string_view text) { return units_.Set(now, text); }
+  vm::Result<void> CheckBlendShape(std::string_view name) const { return shapes_.Check(name); }
+  vm::Result<void> SetBlendShape(vm::Time now, std::string_view name, double weight,
+                                 vm::Time move) {
+    return shapes_.Set(now, name, weight, move);
+  }
 
   // Eyes and head. Degrees; x+ = down, y+ = to the viewer's right, z+ = tilt to the viewer's right.
-  void TurnEyes(vm::Time now, bool left, bool right, double x, double y, vm::Time duration);
-  void Gaze(vm::Time now, double x, double y, vm::Time duration);
-  void LookAtUser(vm::Time now);  ///< and keeps looking there while the head turns
-  void Think(vm::Time now);       ///< looks away, here and there, until the next Gaze
-  void TurnHead(vm::Time now, const Angles& angles);
-  void TurnHeadBy(vm::Time now, const Angles& angles);
+  void TurnEyes(vm::Time now, bool left, bool right, double x, double y, vm::Time duration) {
+    eyes_.Turn(now, left, right, {static_cast<float>(x), static_cast<float>(y)}, duration);
+  }
+  void Gaze(vm::Time now, double x, double y, vm::Time duration) {
+    eyes_.Gaze(now, {static_cast<float>(x), static_cast<float>(y)}, duration);
+  }
+  void LookAtUser(vm::Time now) { eyes_.LookAtUser(now); }  ///< also while the head turns
+  void Think(vm::Time now) { eyes_.Think(now); }  ///< looks away, here and there, until the next
+  void TurnHead(vm::Time now, const Angles& angles) { head_.TurnTo(now, angles); }
+  void TurnHeadBy(vm::Time now, const Angles& angles) { head_.TurnBy(now, angles); }
   Angles HeadTarget(vm::Time now) const { return head_.TargetAt(now); }
   /// FaceMot: SHAKE is another name for REFUSE, TILT for LISTEN. `count` times (1..20).
   vm::Result<void> Move(vm::Time now, std::string_view kind, int pattern, double strength = 1,
                         int count = 1);
   void StopMoves(vm::Time now);  ///< FaceMot = NOMOVE
-  vm::Result<void> Autonomous(vm::Time now, std::string_view kind, int pattern);
+  vm::Result<void> Autonomous(vm::Time now, std::string_view kind, int pattern) {
+    return idle_.Set(now, kind, pattern);
+  }
   /// A profile of the table, or OFF: everything as it is at the start.
-  vm::Result<void> SetIdle(vm::Time now, std::string_view profile);
+  vm::Result<void> SetIdle(vm::Time now, std::string_view profile) {
+    return idle_.SetProfile(now, profile);
+  }
   /// Whose face it is: which side of it is first.
   void SetPerson(std::uint64_t person);
 
   // Speech.
-  void Speak(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start);
-  void StopSpeaking(vm::Time now);
-  void Sync(vm::Time now, double voice_ms);
+  void Speak(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start) {
+    speech_.Start(now, phonemes, start);
+  }
+  void StopSpeaking(vm::Time now) { speech_.Stop(now); }
+  void Sync(vm::Time now, double voice_ms) { speech_.Sync(now, voice_ms); }
   bool speaking() const { return speech_.active(); }
   std::optional<vm::Time> SpeechEnd() const { return speech_.End(); }
   double VoicePosition(vm::Time t) const { return speech_.VoicePositionAt(t); }
   const std::string& PhonemeAt(vm::Time t) const { return speech_.PhonemeAt(t); }
   /// Phonemes no table has, once each: the mouth closes on them.
-  std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const;
+  std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const {
+    return MakeDemands(phonemes, tables_, settings_.lips).unknown;
+  }
 
   // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.
   const Visemes& shapes(bool bilingual) const {
@@ -129,48 +138,28 @@ class FaceMotion {
   const MotionTables& tables() const { return tables_; }
 
  private:
-  static constexpr float kEmotionWhileSpeaking = 0.4f;
-  using Tracks = std::array<Track<float>, kActionUnits>;
-
-  void SetOne(vm::Time now, const UnitSetting& unit, vm::Time move);
-  void LookSomewhere(vm::Time now, bool user, bool think);
-  void BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to);
-  vm::Time OnsetOf(const Emotion& emotion) const;
-  const AutoAvert* Avert() const;  // nullptr while it is off
-
-  // Parts of StateAt.
-  ActionUnits UnitsAt(vm::Time t, const SpeechMotion::Mouth& speech,
-                      const SpeechMotion::Gesture& gesture) const;
-  void PlaceMouth(vm::Time t, const SpeechMotion::Mouth& speech, FaceState& state) const;
-  void PlaceHeadAndEyes(vm::Time t, const SpeechMotion::Mouth& speech,
-                        const SpeechMotion::Gesture& gesture, const ActionUnits& units,
-                        FaceState& state) const;
-  double LidsShutAt(vm::Time t) const;
-  /// Calls `visit` with every plain track (units, codes, mouth, emotions, shapes, gaze).
-  template <typename Visit>
-  void ForEachTrack(const Visit& visit) const;
+  template <typename Source, typename... With>
+  Source& Make(With&&... with) {
+    auto source = std::make_unique<Source>(std::forward<With>(with)...);
+    Source& made = *source;
+    Add(std::move(source));
+    return made;
+  }
 
   MotionTables tables_;
-  const EmotionTable table_emotions_;  // as they were at the start
   MotionSettings settings_;
   FaceState figure_;
   std::uint64_t seed_;
-  ExpressionMotion::Sides side_lags_;
-  ExpressionMotion expression_;
-  HeadMotion head_;
-  EyeMotion eyes_;
-  IdleBehaviour idle_;
-  SpeechMotion speech_;
-  std::int64_t utterances_ = 0;
-  std::int64_t shifts_ = 0;  // of the gaze
-  Track<float> mouth_scale_{30.0f};
-  Tracks units_left_, units_right_;
-  std::map<int, Track<float>> codes_;  // those ever set
-  std::array<Track<float>, kMouthParameters> mouth_;
-  std::vector<Track<float>> emotions_;                             // Face.31 and on, by position
-  std::map<std::string, Track<float>, std::less<>> blend_shapes_;  // those ever set
-  Track<float> on_user_, thinking_, vergence_deg_;
-  vm::Time thinking_since_{0};
+  std::vector<std::unique_ptr<MotionSource>> sources_;
+  // The sources the face has from the start. They take what they need as references to the above.
+  IdleBehaviour& idle_ = Make<IdleBehaviour>(tables_.motions, seed_);
+  ExpressionMotion& expression_ = Make<ExpressionMotion>(tables_, settings_, idle_, seed_);
+  UnitMotion& units_ = Make<UnitMotion>(tables_.unit_names);
+  MouthMotion& mouth_ = Make<MouthMotion>();
+  BlendShapeMotion& shapes_ = Make<BlendShapeMotion>(tables_.blend_shapes);
+  EyeMotion& eyes_ = Make<EyeMotion>(tables_.motions, settings_, idle_, seed_);
+  HeadMotion& head_ = Make<HeadMotion>(tables_.motions);
+  SpeechMotion& speech_ = Make<SpeechMotion>(tables_, settings_, idle_, seed_);
 };
 
 }  // namespace fsm

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsm/motion/motion_errors.h"
+
 namespace fsm {
 namespace {
+constexpr vm::Time kTurn = std::chrono::milliseconds(120);  // quick, but not at once
 constexpr vm::Time kFade = std::chrono::milliseconds(80);
 constexpr double kSmaller = 0.85;  // a movement repeated, against the one before
 }  // namespace
 
-void HeadMotion::TurnTo(vm::Time now, const Angles& angles, vm::Time duration) {
-  turn_.MoveTo(now, angles, duration);
-}
+void HeadMotion::TurnTo(vm::Time now, const Angles& angles) { turn_.MoveTo(now, angles, kTurn); }
 
-void HeadMotion::TurnBy(vm::Time now, const Angles& angles, vm::Time duration) {
+void HeadMotion::TurnBy(vm::Time now, const Angles& angles) {
   Angles target = turn_.TargetAt(now);
   for (std::size_t i = 0; i < 3; ++i) target[i] = std::clamp(target[i] + angles[i], -90.0f, 90.0f);
-  TurnTo(now, target, duration);
+  TurnTo(now, target);
 }
 
 vm::Time HeadMotion::EndOf(const Move& move) {
@@ -24,9 +25,15 @@ vm::Time HeadMotion::EndOf(const Move& move) {
   return move.stopped ? std::min(end, *move.stopped + kFade) : end;
 }
 
-void HeadMotion::Play(vm::Time now, const HeadCurve& curve, double strength, int count) {
+vm::Result<void> HeadMotion::Play(vm::Time now, std::string_view kind, int pattern, double strength,
+                                  int count) {
+  const auto found = table_.head.find(kind);
+  const std::size_t patterns = found == table_.head.end() ? 0 : found->second.size();
+  if (auto fits = CheckPattern(kind, pattern, 1, patterns); !fits) return fits;
   StopMoves(now);
+  const HeadCurve& curve = found->second[static_cast<std::size_t>(pattern - 1)];
   moves_.push_back({&curve, strength, count, now, std::nullopt});
+  return {};
 }
 
 void HeadMotion::StopMoves(vm::Time now) {
@@ -36,8 +43,9 @@ void HeadMotion::StopMoves(vm::Time now) {
   }
 }
 
-Angles HeadMotion::At(vm::Time t) const {
-  Angles angles = turn_.At(t);
+void HeadMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+  Angles& angles = frame.Layer("head").head;
+  angles = turn_.At(t);
   for (const Move& move : moves_) {
     if (t >= EndOf(move)) continue;
     const double ms = std::max(0.0, InMs(t - move.start));
@@ -47,15 +55,13 @@ Angles HeadMotion::At(vm::Time t) const {
     const double weight = stays * move.strength * std::pow(kSmaller, times);
     for (std::size_t i = 0; i < 3; ++i) angles[i] += static_cast<float>(weight * more[i]);
   }
-  return angles;
 }
 
 std::optional<vm::Time> HeadMotion::NextActivity(vm::Time t) const {
-  if (MovesEnd(t) > t) return t;
-  return turn_.NextActivity(t);
+  return FiniteEnd(t) > t ? t : turn_.NextActivity(t);
 }
 
-vm::Time HeadMotion::MovesEnd(vm::Time t) const {
+vm::Time HeadMotion::FiniteEnd(vm::Time t) const {
   vm::Time end = t;
   for (const Move& move : moves_) end = std::max(end, EndOf(move));
   return end;

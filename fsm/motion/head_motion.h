@@ -1,31 +1,37 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include "fsm/motion/motion_source.h"
 #include "fsm/motion/motion_table.h"
-#include "fsm/motion/track.h"
+#include "vm_protocol/core/result.h"
 
 namespace fsm {
 
-/// Where the head is turned: a direction it was told, and movements (nods) added to it.
-class HeadMotion {
+/// Where the head is turned, on the layer `head`: a direction it was told, and movements (nods)
+/// added to it. The table outlives it.
+class HeadMotion : public MotionSource {
  public:
-  void TurnTo(vm::Time now, const Angles& angles, vm::Time duration);
+  explicit HeadMotion(const MotionTable& table) : table_(table) {}
+
+  void TurnTo(vm::Time now, const Angles& angles);
   /// From where the last turn leads; each angle stays within +-90 degrees.
-  void TurnBy(vm::Time now, const Angles& angles, vm::Time duration);
+  void TurnBy(vm::Time now, const Angles& angles);
   Angles TargetAt(vm::Time t) const { return turn_.TargetAt(t); }
-  /// A movement once. It takes the place of the one in hand, which fades within 80 ms. The curve
-  /// outlives the motion.
-  /// `strength` multiplies its angles (1 = as it is); played `count` times, each time 15 % smaller.
-  void Play(vm::Time now, const HeadCurve& curve, double strength = 1, int count = 1);
+  /// A movement `count` times, each time 15 % smaller; `strength` multiplies its angles. It takes
+  /// the place of the one in hand, which fades within 80 ms. kBadValue for a pattern there is not.
+  vm::Result<void> Play(vm::Time now, std::string_view kind, int pattern, double strength,
+                        int count);
   void StopMoves(vm::Time now);
 
-  Angles At(vm::Time t) const;
-  vm::Time SettledAt(vm::Time t) const { return turn_.SettledAt(t); }
-  std::optional<vm::Time> NextActivity(vm::Time t) const;
-  /// When the movements in hand will be over; `t` if they are.
-  vm::Time MovesEnd(vm::Time t) const;
+  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  vm::Time FiniteEnd(vm::Time t) const override;
+
+ protected:
+  void ForEachTrack(const TrackVisitor& visit) const override { visit(turn_); }
 
  private:
   struct Move {
@@ -37,6 +43,7 @@ class HeadMotion {
   };
   static vm::Time EndOf(const Move& move);
 
+  const MotionTable& table_;
   Track<Angles> turn_;
   std::vector<Move> moves_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fsm/motion/motion_errors.h"
 #include "fsm/motion/random.h"
 
 namespace fsm {
@@ -12,6 +13,8 @@ namespace {
 using namespace std::chrono_literals;
 constexpr vm::Time kFade = 400ms;
 constexpr vm::Time kQuickFade = 60ms;
+constexpr std::size_t kNostrils = 38;     // the unit that opens them
+constexpr double kNostrilsAtFull = 0.15;  // with the lungs full
 
 // Streams of random numbers, one for each thing that varies.
 enum Stream : std::uint64_t {
@@ -22,10 +25,7 @@ enum Stream : std::uint64_t {
   kGazeY,
   kNodTime,
   kNodSize,
-  kThinkTime,
-  kThinkSide,
-  kThinkHeight,
-  kHead
+  kHead = 10  // and the five that follow
 };
 
 Angles Looped(const HeadCurve& curve, double ms) {
@@ -63,6 +63,44 @@ void IdleBehaviour::Set(vm::Time now, IdleKind kind, std::size_t pattern) {
   if (kind == IdleKind::kBlink && own.on) blink_ = {};
 }
 
+vm::Result<void> IdleBehaviour::Set(vm::Time now, std::string_view kind, int pattern) {
+  const auto named = IdleKindNamed(kind);
+  if (!named) {
+    return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is nothing the face does by itself; {} "
+                                                     "expected",
+                                                     kind, fmt::join(kIdleKindNames, " ")));
+  }
+  if (pattern != 0) {
+    const std::size_t count = table_.Patterns(*named);
+    if (auto fits = CheckPattern(kind, pattern, 0, count); !fits) return fits;
+  }
+  Set(now, *named, static_cast<std::size_t>(pattern));
+  return {};
+}
+
+vm::Result<void> IdleBehaviour::SetProfile(vm::Time now, std::string_view profile) {
+  IdleProfile wanted{};
+  if (profile == "OFF") {
+    wanted[static_cast<std::size_t>(IdleKind::kAsymmetry)] = 1;
+  } else {
+    const auto found = table_.profiles.find(profile);
+    if (found == table_.profiles.end()) {
+      return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is no way to live; {} or OFF expected",
+                                                       profile, KeysOf(table_.profiles)));
+    }
+    wanted = found->second;
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto kind = static_cast<IdleKind>(i);
+    if (wanted[i] != (On(kind) ? Pattern(kind) : 0)) Set(now, kind, wanted[i]);
+  }
+  return {};
+}
+
+void IdleBehaviour::ForEachTrack(const TrackVisitor& visit) const {
+  for (const Switch& own : switches_) visit(own.weight);
+}
+
 double IdleBehaviour::Random(std::uint64_t stream, std::int64_t index) const {
   return RandomAt(seed_, stream, index);
 }
@@ -92,8 +130,9 @@ void IdleBehaviour::AddMove(vm::Time t, Angles& out) const {
   }
 }
 
-void IdleBehaviour::AddNods(vm::Time t, double weight, Angles& out) const {
+void IdleBehaviour::AddNods(vm::Time t, Angles& out) const {
   const Switch& own = Of(IdleKind::kNods);
+  const double weight = own.weight.At(t);
   if (own.pattern == 0 || weight <= 0) return;
   const AutoNods& nods = table_.auto_nods[own.pattern - 1];
   const double ms = InMs(t - own.since);
@@ -107,17 +146,25 @@ void IdleBehaviour::AddNods(vm::Time t, double weight, Angles& out) const {
   out[0] += static_cast<float>(weight * size * down);
 }
 
-Angles IdleBehaviour::HeadAt(vm::Time t, double quiet) const {
-  Angles out{};
-  AddMove(t, out);
-  AddNods(t, Weight(IdleKind::kNods, t) * (1 - quiet), out);
+void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
+  MotionLayer& layer = frame.Layer("idle");
+  AddMove(t, layer.head);
   if (const Switch& own = Of(IdleKind::kUserdef); own.pattern > 0) {
-    Add(out, Looped(table_.auto_userdef[own.pattern - 1], InMs(t - own.since)), own.weight.At(t));
+    Add(layer.head, Looped(table_.auto_userdef[own.pattern - 1], InMs(t - own.since)),
+        own.weight.At(t));
   }
   if (const Switch& own = Of(IdleKind::kBreath); own.pattern > 0) {
-    out[0] -= static_cast<float>(table_.auto_breaths[own.pattern - 1].pitch * BreathAt(t));
+    const double breath = BreathAt(t);
+    layer.head[0] -= static_cast<float>(table_.auto_breaths[own.pattern - 1].pitch * breath);
+    const auto nostrils = static_cast<float>(kNostrilsAtFull * breath);
+    layer.units.left[kNostrils] = layer.units.right[kNostrils] = nostrils;
   }
-  return out;
+  layer.units.gaze_left = layer.units.gaze_right = EyesAt(t);
+  layer.lids_shut = static_cast<float>(LidsShutAt(t));
+  AddNods(t, frame.Layer("nods").head);
+  if (const Switch& own = Of(IdleKind::kFace); own.pattern > 0) {
+    AddTo(frame.Layer("idle_face").units, table_.auto_faces[own.pattern - 1], own.weight.At(t));
+  }
 }
 
 double IdleBehaviour::BreathAt(vm::Time t) const {
@@ -152,29 +199,6 @@ EyeAngles IdleBehaviour::EyesAt(vm::Time t) const {
   const double u = SmootherStep((now_ms - jump_ms(k)) / (21 + 2.2 * std::hypot(x1 - x0, y1 - y0)));
   return {static_cast<float>(weight * (y0 + u * (y1 - y0))),
           static_cast<float>(weight * (x0 + u * (x1 - x0)))};
-}
-
-EyeAngles IdleBehaviour::ThinkingAt(vm::Time t, vm::Time since) const {
-  constexpr double kStay = 1500;  // ms
-  const auto jump_ms = [&](std::int64_t k) {
-    return k == 0 ? 0 : kStay * (static_cast<double>(k) + 0.35 * Random(kThinkTime, k));
-  };
-  const double ms = std::max(0.0, InMs(t - since));
-  auto k = static_cast<std::int64_t>(std::floor(ms / kStay));
-  if (ms < jump_ms(k)) --k;
-  if (ms >= jump_ms(k + 1)) ++k;
-  // Mostly up and to one side; which side is the person's own and changes now and then.
-  const double habit = Random(kThinkSide, 0);
-  const auto place = [&](std::int64_t index) -> std::array<double, 2> {
-    if (index < 0) return {0, 0};
-    const double side = std::copysign(1, habit + 0.8 * Random(kThinkSide, index + 1));
-    return {-5 + 7 * Random(kThinkHeight, index),
-            side * (11 + 4 * Random(kThinkHeight, index + 50))};
-  };
-  const auto from = place(k - 1), to = place(k);
-  const double u = SmootherStep((ms - jump_ms(k)) / 55);
-  return {static_cast<float>(from[0] + u * (to[0] - from[0])),
-          static_cast<float>(from[1] + u * (to[1] - from[1]))};
 }
 
 vm::Time IdleBehaviour::BlinkInterval(std::int64_t index) const {
@@ -221,8 +245,7 @@ std::optional<vm::Time> IdleBehaviour::NextActivity(vm::Time t) const {
        {IdleKind::kMove, IdleKind::kUserdef, IdleKind::kGaze, IdleKind::kBreath, IdleKind::kNods}) {
     if (On(kind)) return t;
   }
-  std::optional<vm::Time> next;
-  for (const Switch& own : switches_) next = Earlier(next, own.weight.NextActivity(t));
+  const std::optional<vm::Time> next = MotionSource::NextActivity(t);
   if (next && *next <= t) return t;
   if (!On(IdleKind::kBlink)) return next;
   const AutoBlink& blinks = table_.auto_blinks[Of(IdleKind::kBlink).pattern - 1];

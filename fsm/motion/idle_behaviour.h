@@ -4,22 +4,26 @@
 #include <cstdint>
 #include <optional>
 
-#include "fsm/motion/eye_motion.h"
+#include "fsm/motion/motion_source.h"
 #include "fsm/motion/motion_table.h"
-#include "fsm/motion/track.h"
+#include "vm_protocol/core/result.h"
 
 namespace fsm {
 
-/// What a face does by itself: blinks, small movements of head and eyes, breath, nods of a
-/// listener. Everything is a function of the seed and the time, with no state but what is switched
-/// on, so any instant can be asked for in any order. The kinds that belong to commands or to speech
-/// are only switched here and used by FaceMotion. The table outlives it. Thread: none of its own;
-/// not even const calls may run at once.
-class IdleBehaviour {
+/// What a face does by itself: small movements of head and eyes, breath and blinks on the layer
+/// `idle`, a listener's nods on `nods`, a slight look that stays on `idle_face`. Everything is a
+/// function of the seed and the time, with no state but what is switched on, so any instant can be
+/// asked for in any order. The kinds that belong to commands or to speech are only switched here;
+/// other sources ask for them. The table outlives it. Errors: kBadValue with what there is.
+class IdleBehaviour : public MotionSource {
  public:
   /// ASYMMETRY is on, everything else is off.
   IdleBehaviour(const MotionTable& table, std::uint64_t seed);
 
+  /// A kind by its name; pattern 0 switches off.
+  vm::Result<void> Set(vm::Time now, std::string_view kind, int pattern);
+  /// Everything as a profile of the table says; OFF is as it is at the start.
+  vm::Result<void> SetProfile(vm::Time now, std::string_view profile);
   /// Pattern 0 switches off. REQUIRES: pattern at most the count the table has.
   void Set(vm::Time now, IdleKind kind, std::size_t pattern);
   bool On(IdleKind kind) const { return Of(kind).on; }
@@ -28,15 +32,13 @@ class IdleBehaviour {
   /// 0..1 while it is switched.
   double Weight(IdleKind kind, vm::Time t) const { return Of(kind).weight.At(t); }
 
-  /// `quiet` 0..1: how far the listener's nods are held back (while speaking).
-  Angles HeadAt(vm::Time t, double quiet) const;
-  EyeAngles EyesAt(vm::Time t) const;
   double LidsShutAt(vm::Time t) const;
-  double BreathAt(vm::Time t) const;  ///< 0 = out, 1 = in; times the switch's weight
-  /// Where the eyes wander of one who thinks: up or aside, for a second or two each. `since` is
-  /// when the thinking began.
-  EyeAngles ThinkingAt(vm::Time t, vm::Time since) const;
-  std::optional<vm::Time> NextActivity(vm::Time t) const;
+  void Contribute(vm::Time t, MotionFrame& frame) const override;
+  std::optional<vm::Time> NextActivity(vm::Time t) const override;
+  vm::Time SettledAt(vm::Time t) const override { return t; }
+
+ protected:
+  void ForEachTrack(const TrackVisitor& visit) const override;
 
  private:
   struct Switch {
@@ -49,7 +51,9 @@ class IdleBehaviour {
   double Random(std::uint64_t stream, std::int64_t index) const;  // -1..1
   double Wander(std::uint64_t stream, double periods) const;      // smooth, -1..1
   void AddMove(vm::Time t, Angles& out) const;
-  void AddNods(vm::Time t, double weight, Angles& out) const;
+  void AddNods(vm::Time t, Angles& out) const;
+  double BreathAt(vm::Time t) const;  // 0 = out, 1 = in; times the switch's weight
+  EyeAngles EyesAt(vm::Time t) const;
   /// A blink since the switch: its number, from 0, and when it begins.
   struct Blink {
     std::int64_t index = -1;

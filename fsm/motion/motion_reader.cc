@@ -54,7 +54,8 @@ namespace {
 /// Reads the lines of a table of motions, one after the other.
 class MotionReader {
  public:
-  MotionReader(const std::string& name, std::string_view text) : table_(name, text) {}
+  MotionReader(const std::string& name, std::string_view text, const UnitNames& units)
+      : table_(name, text), units_(units) {}
   vm::Result<MotionTable> Read();
 
  private:
@@ -66,9 +67,16 @@ class MotionReader {
   /// The numbers after the pattern's, which must be the next; from 0 on, the last at least `least`.
   vm::Result<Numbers> ReadNumbers(const TableLine& line, std::size_t have, std::size_t count,
                                   const std::string& expected, double least = 0);
+  /// A pattern of which each number is one field.
+  template <typename Pattern, typename... Fields>
+  vm::Result<void> ReadPattern(const TableLine& line, std::vector<Pattern>& patterns,
+                               const std::string& expected, double least, Fields... fields);
+  vm::Result<void> ReadBlinks(const TableLine& line);
+  vm::Result<void> ReadMove(const TableLine& line);
   vm::Result<void> CheckPattern(const TableLine& line, std::size_t have);
 
   TableText table_;
+  const UnitNames& units_;
   std::size_t at_ = 0;  // the line in hand
   MotionTable out_;
 };
@@ -123,7 +131,7 @@ vm::Result<void> MotionReader::ReadCurve(const TableLine& line) {
 
 vm::Result<void> MotionReader::ReadFace(const TableLine& line) {
   if (auto fits = CheckPattern(line, out_.auto_faces.size()); !fits) return fits;
-  auto units = ReadUnits(table_, line, 2);
+  auto units = ReadUnits(table_, line, 2, units_);
   if (!units) return std::unexpected(units.error());
   out_.auto_faces.push_back(*units);
   return {};
@@ -149,71 +157,71 @@ vm::Result<void> MotionReader::ReadProfile(const TableLine& line) {
   return {};
 }
 
+template <typename Pattern, typename... Fields>
+vm::Result<void> MotionReader::ReadPattern(const TableLine& line, std::vector<Pattern>& patterns,
+                                           const std::string& expected, double least,
+                                           Fields... fields) {
+  const auto numbers = ReadNumbers(line, patterns.size(), sizeof...(fields), expected, least);
+  if (!numbers) return std::unexpected(numbers.error());
+  Pattern pattern;
+  auto next = numbers->begin();
+  ((pattern.*fields = *next++), ...);
+  patterns.push_back(pattern);
+  return {};
+}
+
+vm::Result<void> MotionReader::ReadBlinks(const TableLine& line) {
+  const auto v = ReadNumbers(line, out_.auto_blinks.size(), 2, "AUTOBLINK PATTERN INTERVAL BLINK");
+  if (!v) return std::unexpected(v.error());
+  if ((*v)[0] < 500 || (*v)[1] < 1 || (*v)[1] > static_cast<double>(out_.blinks.size())) {
+    return table_.Wrong(line.number, "an interval of at least 500 ms and a blink above expected");
+  }
+  out_.auto_blinks.push_back({(*v)[0], static_cast<std::size_t>((*v)[1]) - 1, true});
+  return {};
+}
+
+vm::Result<void> MotionReader::ReadMove(const TableLine& line) {
+  const auto v = ReadNumbers(line, out_.auto_moves.size(), 4,
+                             "AUTOMOVE PATTERN X Y Z PERIOD, at least 100 ms,", 100);
+  if (!v) return std::unexpected(v.error());
+  AutoMove move{.period_ms = (*v)[3]};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    move.amplitude[axis] = static_cast<float>((*v)[axis]);
+  out_.auto_moves.push_back(move);
+  return {};
+}
+
 vm::Result<void> MotionReader::ReadLine(const TableLine& line) {
   const std::string& kind = line.words[0];
-  const auto numbers = [&](auto& patterns, std::size_t count, const char* expected, double least,
-                           auto make) -> vm::Result<void> {
-    const auto v = ReadNumbers(line, patterns.size(), count, expected, least);
-    if (!v) return std::unexpected(v.error());
-    patterns.push_back(make(*v));
-    return {};
-  };
   if (kind == "NOD" || kind == "REFUSE" || kind == "LISTEN" || kind == "USERDEF") {
     return ReadCurve(line);
   }
   if (kind == "BLINK") {
-    return numbers(out_.blinks, 3, "BLINK PATTERN CLOSING SHUT OPENING, ms,", 1,
-                   [](const Numbers& v) {
-                     return BlinkPattern{v[0], v[1], v[2]};
-                   });
+    return ReadPattern(line, out_.blinks, "BLINK PATTERN CLOSING SHUT OPENING, ms,", 1,
+                       &BlinkPattern::closing_ms, &BlinkPattern::shut_ms,
+                       &BlinkPattern::opening_ms);
   }
-  if (kind == "AUTOBLINK") {
-    const auto v =
-        ReadNumbers(line, out_.auto_blinks.size(), 2, "AUTOBLINK PATTERN INTERVAL BLINK");
-    if (!v) return std::unexpected(v.error());
-    if ((*v)[0] < 500 || (*v)[1] < 1 || (*v)[1] > static_cast<double>(out_.blinks.size())) {
-      return table_.Wrong(line.number, "an interval of at least 500 ms and a blink above expected");
-    }
-    out_.auto_blinks.push_back({(*v)[0], static_cast<std::size_t>((*v)[1]) - 1, true});
-    return {};
-  }
-  if (kind == "AUTOMOVE") {
-    return numbers(
-        out_.auto_moves, 4, "AUTOMOVE PATTERN X Y Z PERIOD, at least 100 ms,", 100,
-        [](const Numbers& v) {
-          return AutoMove{
-              {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])}, v[3]};
-        });
-  }
+  if (kind == "AUTOBLINK") return ReadBlinks(line);
+  if (kind == "AUTOMOVE") return ReadMove(line);
   if (kind == "AUTOGAZE") {
-    return numbers(out_.auto_gazes, 2, "AUTOGAZE PATTERN ANGLE INTERVAL, at least 200 ms,", 200,
-                   [](const Numbers& v) {
-                     return AutoGaze{v[0], v[1]};
-                   });
+    return ReadPattern(line, out_.auto_gazes, "AUTOGAZE PATTERN ANGLE INTERVAL, at least 200 ms,",
+                       200, &AutoGaze::amplitude, &AutoGaze::interval_ms);
   }
   if (kind == "AUTOBREATH") {
-    return numbers(out_.auto_breaths, 2, "AUTOBREATH PATTERN PITCH PERIOD, at least 500 ms,", 500,
-                   [](const Numbers& v) {
-                     return AutoBreath{v[0], v[1]};
-                   });
+    return ReadPattern(line, out_.auto_breaths, "AUTOBREATH PATTERN PITCH PERIOD, at least 500 ms,",
+                       500, &AutoBreath::pitch, &AutoBreath::period_ms);
   }
   if (kind == "AUTONODS") {
-    return numbers(out_.auto_nods, 2, "AUTONODS PATTERN ANGLE INTERVAL, at least 2000 ms,", 2000,
-                   [](const Numbers& v) {
-                     return AutoNods{v[0], v[1]};
-                   });
+    return ReadPattern(line, out_.auto_nods, "AUTONODS PATTERN ANGLE INTERVAL, at least 2000 ms,",
+                       2000, &AutoNods::angle, &AutoNods::interval_ms);
   }
   if (kind == "AUTOSPEECH") {
-    return numbers(out_.auto_speeches, 4, "AUTOSPEECH PATTERN NOD TURN TILT BROW", 0,
-                   [](const Numbers& v) {
-                     return AutoSpeech{v[0], v[1], v[2], v[3]};
-                   });
+    return ReadPattern(line, out_.auto_speeches, "AUTOSPEECH PATTERN NOD TURN TILT BROW", 0,
+                       &AutoSpeech::nod, &AutoSpeech::turn, &AutoSpeech::tilt, &AutoSpeech::brow);
   }
   if (kind == "AUTOAVERT") {
-    return numbers(out_.auto_averts, 2, "AUTOAVERT PATTERN ANGLE SHORTEST", 0,
-                   [](const Numbers& v) {
-                     return AutoAvert{v[0], v[1]};
-                   });
+    return ReadPattern(line, out_.auto_averts, "AUTOAVERT PATTERN ANGLE SHORTEST", 0,
+                       &AutoAvert::angle, &AutoAvert::shortest_ms);
   }
   if (kind == "AUTOFACE") return ReadFace(line);
   if (kind == "LIFE") return ReadProfile(line);
@@ -225,8 +233,9 @@ vm::Result<void> MotionReader::ReadLine(const TableLine& line) {
 
 }  // namespace
 
-vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text) {
-  return MotionReader(name, text).Read();
+vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text,
+                                    const UnitNames& units) {
+  return MotionReader(name, text, units).Read();
 }
 
 }  // namespace fsm

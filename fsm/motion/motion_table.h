@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "fsm/motion/action_unit_table.h"
+#include "fsm/motion/motion_source.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {
-
-using Angles = std::array<float, 3>;  ///< degrees about x, y, z; signs as FaceState::head_rotation
 
 /// A movement of the head through key frames, from 0 0 0 at 0 ms. Between keys it follows a cubic
 /// that never overshoots and stands still at turning points (Fritsch and Carlson, SIAM J. Numer.
@@ -44,6 +43,9 @@ struct BlinkPattern {
   double shut_ms = 20;
   double opening_ms = 140;
 };
+/// How far lids are shut `since` after a blink of that pattern began, 0..1.
+double LidsAt(const BlinkPattern& pattern, vm::Time since);
+vm::Time LengthOf(const BlinkPattern& pattern);
 struct AutoBlink {
   double interval_ms = 4000;
   std::size_t blink = 0;  ///< index of the blink pattern
@@ -116,6 +118,7 @@ struct MotionTable {
 
   std::size_t Patterns(IdleKind kind) const;  ///< how many there are
 };
-vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text);
+vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text,
+                                    const UnitNames& units = BuiltInUnitNames());
 
 }  // namespace fsm

@@ -8,6 +8,7 @@
 #include "embedded/arkit.h"
 #include "embedded/dominance.h"
 #include "embedded/emotions.h"
+#include "embedded/mixing.h"
 #include "embedded/motions.h"
 #include "embedded/mouth_shapes.h"
 #include "embedded/mouth_shapes_28.h"
@@ -105,11 +106,18 @@ vm::Result<MotionTables> MotionTables::Load(const std::string& folder) {
   MotionTables out;
   Loader loader(folder);
   LoadMouth(loader, out);
-  loader.Get(out.emotions, "emotions.txt", embedded::emotions(), ReadEmotions);
-  loader.Get(out.motions, "motions.txt", embedded::motions(), ReadMotions);
-  loader.Get(out.units, "action_unit_list.txt", embedded::action_unit_list(), ReadUnitList);
   loader.Get(out.unit_names, "action_unit_names.txt", embedded::action_unit_names(), ReadUnitNames);
-  loader.Get(out.blend_shapes, "arkit.txt", embedded::arkit(), ReadBlendShapes);
+  const auto with_names = [&out](const auto& read) {
+    return [&out, &read](const std::string& name, std::string_view text) {
+      return read(name, text, out.unit_names);
+    };
+  };
+  loader.Get(out.emotions, "emotions.txt", embedded::emotions(), with_names(ReadEmotions));
+  loader.Get(out.motions, "motions.txt", embedded::motions(), with_names(ReadMotions));
+  loader.Get(out.units, "action_unit_list.txt", embedded::action_unit_list(),
+             with_names(ReadUnitList));
+  loader.Get(out.blend_shapes, "arkit.txt", embedded::arkit(), with_names(ReadBlendShapes));
+  loader.Get(out.mixer, "mixing.txt", embedded::mixing(), Mixer::Read);
   if (loader.error()) return std::unexpected(*loader.error());
   return out;
 }

@@ -5,6 +5,7 @@
 
 #include "fsm/motion/action_unit_table.h"
 #include "fsm/motion/emotion_table.h"
+#include "fsm/motion/mixer.h"
 #include "fsm/motion/motion_table.h"
 #include "fsm/motion/mouth_tables.h"
 #include "fsm/motion/phoneme_names.h"
@@ -23,6 +24,7 @@ struct MotionTables {
   UnitList units;
   UnitNames unit_names;
   BlendShapes blend_shapes;
+  Mixer mixer;
 
   /// The tables the program carries; with a `folder`, each file found there replaces its own.
   /// Errors: kBadValue with file and line; kUnavailable if the folder or a file cannot be read.

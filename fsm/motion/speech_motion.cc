@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "fsm/motion/random.h"
+
 namespace fsm {
 namespace {
 
@@ -13,125 +15,201 @@ constexpr vm::Time kClose = 110ms;      // after STOP; the promise is 120
 constexpr vm::Time kClosedFor = 120ms;  // before emotion may part the lips again
 constexpr vm::Time kRelease = 300ms;
 constexpr vm::Time kHeadStops = 400ms;  // movement with the speech, after STOP
+constexpr vm::Time kScaleMove = 100ms;
+constexpr double kInnerBrow = 1, kOuterBrow = 0.8;  // of units 1 and 2, with the stress
+enum Stream : std::uint64_t { kEndBlink = 310, kEndBlinkTime, kAvertBlink };
 
 }  // namespace
 
-double SpeechMotion::MouthPosition(const Layer& layer, vm::Time t) const {
-  return layer.clock.PositionAt(t) + lead_ms_.At(t);
+double SpeechMotion::MouthPosition(const Utterance& one, vm::Time t) const {
+  return one.clock.PositionAt(t) + lead_ms_.At(t);
 }
 
-vm::Time SpeechMotion::EndOf(const Layer& layer) const {
+vm::Time SpeechMotion::EndOf(const Utterance& one) const {
   // The voice's end, or the mouth's if that is later because the mouth is told to lag.
-  const double lead = lead_ms_.At(layer.clock.WhenAt(layer.track->length_ms()));
-  return layer.clock.WhenAt(layer.track->length_ms() + std::max(0.0, -lead));
+  const double lead = lead_ms_.At(one.clock.WhenAt(one.track->length_ms()));
+  return one.clock.WhenAt(one.track->length_ms() + std::max(0.0, -lead));
 }
 
-vm::Time SpeechMotion::GoneAt(const Layer& layer) const {
-  return (layer.stopped ? *layer.stopped + kClosedFor : EndOf(layer)) +
+vm::Time SpeechMotion::GoneAt(const Utterance& one) const {
+  return (one.stopped ? *one.stopped + kClosedFor : EndOf(one)) +
          std::max(kRelease, FromMs(SpeechGestures::kFadeMs));
 }
 
-void SpeechMotion::Start(vm::Time now, VisemeTrack track, vm::Time start, std::uint64_t seed) {
+void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start) {
   Stop(now);
-  std::erase_if(layers_, [&](const Layer& layer) { return GoneAt(layer) <= now; });
+  std::erase_if(said_, [&](const Utterance& one) { return GoneAt(one) <= now; });
+  auto track = std::make_shared<const VisemeTrack>(phonemes, tables_, settings_.lips);
+  const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterances_));
+  SpeechGestures gestures(track->demands(), seed);
   const vm::Time ahead = FromMs(lead_ms_.At(now) + kApproachMs);
-  SpeechGestures gestures(track.demands(), seed);
-  layers_.push_back({std::make_shared<const VisemeTrack>(std::move(track)), std::move(gestures),
-                     SpeechClock(start), std::max(now, start - ahead), std::nullopt});
+  said_.push_back({std::move(track), std::move(gestures), SpeechClock(start),
+                   std::max(now, start - ahead), std::nullopt});
 }
 
 void SpeechMotion::Stop(vm::Time now) {
   if (!active()) return;
-  if (now >= EndOf(layers_.back())) return;
-  layers_.back().stopped = now;
+  if (now >= EndOf(said_.back())) return;
+  said_.back().stopped = now;
 }
 
-void SpeechMotion::Sync(vm::Time now, double voice_ms, double max_rate) {
-  if (active()) layers_.back().clock.Correct(now, voice_ms, max_rate);
+void SpeechMotion::Sync(vm::Time now, double voice_ms) {
+  if (!active()) return;
+  said_.back().clock.Correct(now, voice_ms + settings_.sync_offset_ms, settings_.sync_rate);
 }
 
-void SpeechMotion::SetLead(vm::Time now, double lead_ms) {
-  const double way = std::abs(lead_ms - lead_ms_.At(now));
-  // At most a fifth faster or slower than time, so that the phonemes never run backwards.
-  lead_ms_.MoveTo(now, static_cast<float>(lead_ms), active() ? FromMs(way * 10) : vm::Time(0));
+void SpeechMotion::Adjust(vm::Time now, const MotionSettings& next) {
+  const double lead_ms = next.lead_ms - next.offset_ms;
+  if (lead_ms != settings_.lead_ms - settings_.offset_ms) {
+    const double way = std::abs(lead_ms - lead_ms_.At(now));
+    // At most a fifth faster or slower than time, so that the phonemes never run backwards.
+    lead_ms_.MoveTo(now, static_cast<float>(lead_ms), active() ? FromMs(way * 10) : vm::Time(0));
+  }
+  if (next.mouth_scale != settings_.mouth_scale) {
+    mouth_scale_.MoveTo(now, static_cast<float>(next.mouth_scale), kScaleMove);
+  }
 }
 
-SpeechMotion::Mouth SpeechMotion::At(vm::Time t) const {
+SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
   Mouth mouth;
-  for (const Layer& layer : layers_) {
-    const vm::Time release = layer.stopped ? *layer.stopped + kClosedFor : EndOf(layer);
+  for (const Utterance& one : said_) {
+    const vm::Time release = one.stopped ? *one.stopped + kClosedFor : EndOf(one);
     const double stays = 1 - SmoothStep(Progress(t, release, kRelease));
-    const double share = SmoothStep(Progress(t, layer.begin, kTakeOver)) * stays;
+    const double share = SmoothStep(Progress(t, one.begin, kTakeOver)) * stays;
     if (share <= 0) continue;
-    MouthPose pose = layer.track->At(MouthPosition(layer, t));
-    if (layer.stopped) {
+    MouthPose pose = one.track->At(MouthPosition(one, t));
+    if (one.stopped) {
       MouthPose closed;
       closed.seal = 1;
       closed.contact = 1;
-      pose = Mix(pose, closed, SmoothStep(Progress(t, *layer.stopped, kClose)));
+      pose = Mix(pose, closed, SmoothStep(Progress(t, *one.stopped, kClose)));
     }
     mouth.pose = Mix(mouth.pose, pose, share);
     mouth.share = 1 - (1 - mouth.share) * (1 - share);
-    const double yields = SmoothStep(Progress(t, layer.begin, kEmotionYields)) * stays;
+    const double yields = SmoothStep(Progress(t, one.begin, kEmotionYields)) * stays;
     mouth.over_emotion = 1 - (1 - mouth.over_emotion) * (1 - yields);
   }
   return mouth;
 }
 
-SpeechMotion::Gesture SpeechMotion::GestureAt(vm::Time t, double shortest_avert_ms) const {
-  Gesture out;
-  for (const Layer& layer : layers_) {
-    if (t < layer.begin || t >= GoneAt(layer)) continue;
-    const double position = MouthPosition(layer, t);
-    const double stays =
-        layer.stopped ? 1 - SmoothStep(Progress(t, *layer.stopped, kHeadStops)) : 1;
-    const SpeechGestures::At head = layer.gestures.HeadAt(position);
-    const auto avert = layer.gestures.AvertAt(position, shortest_avert_ms);
-    out.head.nod += stays * head.nod;
-    out.head.turn += stays * head.turn;
-    out.head.tilt += stays * head.tilt;
-    out.head.brow = std::max(out.head.brow, stays * head.brow);
-    for (std::size_t i = 0; i < 2; ++i) out.avert[i] += stays * avert[i];
-  }
-  return out;
+// ---- gestures
+
+const AutoAvert* SpeechMotion::Avert() const {
+  const std::size_t pattern = idle_.Pattern(IdleKind::kAvert);
+  return pattern == 0 ? nullptr : &tables_.motions.auto_averts[pattern - 1];
 }
 
-std::optional<SpeechMotion::Moments> SpeechMotion::LastMoments(double shortest_avert_ms) const {
-  if (layers_.empty()) return std::nullopt;
-  const Layer& layer = layers_.back();
-  Moments moments{{}, {}, layer.stopped.value_or(EndOf(layer))};
-  const auto [away, back] = layer.gestures.AvertTimes(shortest_avert_ms);
-  if (back > away) {
-    const double lead = lead_ms_.At(layer.begin);
-    moments.away = layer.clock.WhenAt(away - lead);
-    moments.back = layer.clock.WhenAt(back - lead);
-  }
-  return moments;
+double SpeechMotion::GesturesOf(const Utterance& one, vm::Time t) const {
+  if (t < one.begin || t >= GoneAt(one)) return 0;
+  return one.stopped ? 1 - SmoothStep(Progress(t, *one.stopped, kHeadStops)) : 1;
 }
+
+void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
+  const std::size_t pattern = idle_.Pattern(IdleKind::kSpeech);
+  if (pattern == 0) return;
+  const AutoSpeech& size = tables_.motions.auto_speeches[pattern - 1];
+  const double weight = idle_.Weight(IdleKind::kSpeech, t);
+  double brow = 0;
+  for (const Utterance& one : said_) {
+    const double stays = weight * GesturesOf(one, t);
+    if (stays <= 0) continue;
+    const SpeechGestures::At head = one.gestures.HeadAt(MouthPosition(one, t));
+    layer.head[0] += static_cast<float>(stays * size.nod * head.nod);
+    layer.head[1] += static_cast<float>(stays * size.turn * head.turn);
+    layer.head[2] += static_cast<float>(stays * size.tilt * head.tilt);
+    brow = std::max(brow, stays * size.brow * head.brow);
+  }
+  for (UnitValues* side : {&layer.units.left, &layer.units.right}) {
+    (*side)[1] = static_cast<float>(kInnerBrow * brow);
+    (*side)[2] = static_cast<float>(kOuterBrow * brow);
+  }
+}
+
+void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
+  const AutoAvert* avert = Avert();
+  if (avert == nullptr) return;
+  const double angle = avert->angle * idle_.Weight(IdleKind::kAvert, t);
+  for (const Utterance& one : said_) {
+    const double stays = angle * GesturesOf(one, t);
+    if (stays == 0) continue;
+    const auto away = one.gestures.AvertAt(MouthPosition(one, t), avert->shortest_ms);
+    for (std::size_t i = 0; i < 2; ++i) {
+      layer.units.gaze_left[i] += static_cast<float>(stays * away[i]);
+    }
+  }
+  layer.units.gaze_right = layer.units.gaze_left;
+}
+
+double SpeechMotion::LidsShutAt(vm::Time t) const {
+  const bool at_end = idle_.On(IdleKind::kEndBlink);
+  const bool at_shifts = idle_.On(IdleKind::kGazeBlink) && idle_.On(IdleKind::kAvert);
+  if ((!at_end && !at_shifts) || tables_.motions.blinks.empty() || said_.empty()) return 0;
+  double shut = 0;
+  const auto blink = [&](vm::Time start) {
+    shut = std::max(shut, LidsAt(tables_.motions.blinks.front(), t - start));
+  };
+  const Utterance& last = said_.back();
+  // Most utterances end with a blink, just before or after the last sound.
+  if (at_end && RandomAt(seed_, kEndBlink, utterances_) < 0.6) {
+    blink(last.stopped.value_or(EndOf(last)) +
+          FromMs(20 + 90 * RandomAt(seed_, kEndBlinkTime, utterances_)));
+  }
+  if (!at_shifts) return shut;
+  const auto [away, back] = last.gestures.AvertTimes(Avert()->shortest_ms);
+  if (back <= away) return shut;
+  const double lead = lead_ms_.At(last.begin);
+  if (RandomAt(seed_, kAvertBlink, 2 * utterances_) < 0) blink(last.clock.WhenAt(away - lead));
+  if (RandomAt(seed_, kAvertBlink, 2 * utterances_ + 1) < 0) blink(last.clock.WhenAt(back - lead));
+  return shut;
+}
+
+// ---- as a source
+
+void SpeechMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+  const Mouth mouth = MouthAt(t);
+  const double contact = mouth.share * mouth.pose.contact;
+  frame.Give("speaking", mouth.over_emotion);
+  frame.Give("lips_taken", mouth.share);
+  frame.Give("contact", contact);
+  MotionLayer& speech = frame.Layer("speech");
+  double scale = mouth_scale_.At(t) / kFullMouthScale;
+  if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is no larger than it is
+  for (std::size_t i = 0; i < kMouthParameters; ++i) {
+    speech.mouth[i] = static_cast<float>(mouth.share * scale * mouth.pose.mouth[i]);
+  }
+  speech.seal = static_cast<float>(mouth.share * mouth.pose.seal);
+  speech.tongue = static_cast<float>(mouth.share * mouth.pose.tongue);
+  MotionLayer& gestures = frame.Layer("gestures");
+  MoveHeadAndBrows(t, gestures);
+  AvertEyes(t, gestures);
+  gestures.lids_shut = static_cast<float>(LidsShutAt(t));
+}
+
+// ---- where it is
 
 std::optional<vm::Time> SpeechMotion::End() const {
   if (!active()) return std::nullopt;
-  return EndOf(layers_.back());
+  return EndOf(said_.back());
 }
 
 double SpeechMotion::VoicePositionAt(vm::Time t) const {
-  if (layers_.empty()) return 0;
-  const Layer& layer = layers_.back();
-  const double position = layer.clock.PositionAt(std::min(t, layer.stopped.value_or(t)));
-  return std::clamp(position, 0.0, layer.track->length_ms());
+  if (said_.empty()) return 0;
+  const Utterance& one = said_.back();
+  const double position = one.clock.PositionAt(std::min(t, one.stopped.value_or(t)));
+  return std::clamp(position, 0.0, one.track->length_ms());
 }
 
 const std::string& SpeechMotion::PhonemeAt(vm::Time t) const {
   static const std::string kNone;
   if (!active()) return kNone;
-  return layers_.back().track->PhonemeAt(MouthPosition(layers_.back(), t));
+  return said_.back().track->PhonemeAt(MouthPosition(said_.back(), t));
 }
 
 std::optional<vm::Time> SpeechMotion::NextActivity(vm::Time t) const {
-  std::optional<vm::Time> next;
-  for (const Layer& layer : layers_) {
-    if (t >= GoneAt(layer)) continue;
-    next = Earlier(next, std::max(t, layer.begin));
+  std::optional<vm::Time> next = mouth_scale_.NextActivity(t);
+  for (const Utterance& one : said_) {
+    if (t >= GoneAt(one)) continue;
+    next = Earlier(next, std::max(t, one.begin));
   }
   return next;
 }

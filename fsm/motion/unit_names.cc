@@ -4,44 +4,10 @@
 
 #include <charconv>
 
+#include "embedded/action_unit_names.h"
 #include "fsm/motion/table_text.h"
 
 namespace fsm {
-
-vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text) {
-  const TableText table(name, text);
-  UnitNames out;
-  for (const TableLine& line : table.lines()) {
-    const bool code = line.words[0] == "code";
-    if ((!code && line.words[0] != "unit") || line.words.size() != (code ? 11u : 3u)) {
-      return table.Wrong(line.number,
-                         "unit NUMBER NAME, or code NUMBER NAME and 8 numbers expected");
-    }
-    const auto number = table.Number(line, 1, "a number of FACS", 1, 99);
-    if (!number) return std::unexpected(number.error());
-    const int unit = static_cast<int>(*number);
-    if (IsActionUnit(unit) == code) {
-      return table.Wrong(line.number,
-                         fmt::format("{} is {}an action unit", unit, code ? "" : "not "));
-    }
-    if (!out.by_name.emplace(line.words[2], unit).second || out.names.contains(unit)) {
-      return table.Wrong(line.number, "'" + line.words[2] + "' or its number is here twice");
-    }
-    out.names[unit] = line.words[2];
-    if (!code) continue;
-    std::array<float, 8> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto value = table.Number(line, 3 + i, "an angle or a part", -60, 60);
-      if (!value) return std::unexpected(value.error());
-      values[i] = static_cast<float>(*value);
-    }
-    out.codes[unit] = {{values[0], values[1], values[2]},
-                       {values[3], values[4]},
-                       {values[5], values[6]},
-                       values[7]};
-  }
-  return out;
-}
 
 namespace {
 
@@ -90,12 +56,16 @@ struct Named {
 std::optional<Named> ByName(std::string_view word, const UnitNames& names) {
   Named out;
   std::string_view name = word;
-  if (word.ends_with(".L") || word.ends_with(".R")) {
-    out.unit.left = word.ends_with('L');
+  auto found = names.by_name.find(name);
+  if (found == names.by_name.end() && (name.ends_with('L') || name.ends_with('R'))) {
+    out.unit.left = name.ends_with('L');
     out.unit.right = !out.unit.left;
-    name.remove_suffix(2);
+    name.remove_suffix(1);
+    const bool numbered = !name.empty() && name.front() >= '0' && name.front() <= '9';
+    if (!numbered && !name.ends_with('.')) return std::nullopt;
+    if (name.ends_with('.')) name.remove_suffix(1);
+    found = names.by_name.find(name);
   }
-  const auto found = names.by_name.find(name);
   if (found == names.by_name.end()) return std::nullopt;
   out.unit.number = found->second;
   return out;
@@ -129,16 +99,22 @@ std::optional<Named> ByNumber(std::string_view word) {
   return out;
 }
 
+std::optional<Named> FindUnit(std::string_view word, const UnitNames& names) {
+  auto unit = ByName(word, names);
+  if (!unit) unit = ByNumber(word);
+  if (unit && !names.names.contains(unit->unit.number)) return std::nullopt;
+  return unit;
+}
+
 vm::Result<Named> ParseUnit(const Word& word, const UnitNames& names) {
-  auto unit = ByName(word.text, names);
-  if (!unit) unit = ByNumber(word.text);
-  const bool code = unit && names.codes.contains(unit->unit.number);
-  if (!unit || (!code && !IsActionUnit(unit->unit.number))) {
+  const auto unit = FindUnit(word.text, names);
+  if (!unit) {
     return Wrong(word,
-                 "not an action unit; a number (1 to 46 without 3 and 40; 51-58 head, 61-66 eyes) "
-                 "with L or R for one side, or a name such as LipCornerPuller, expected");
+                 "not an action unit; a number (1 to 46 without 3 and 40; 51-58 head, 61-66 eyes; "
+                 "others of action_unit_names.txt) with L or R for one side, or a name such as "
+                 "LipCornerPuller, expected");
   }
-  if (code && !(unit->unit.left && unit->unit.right)) {
+  if (names.codes.contains(unit->unit.number) && !(unit->unit.left && unit->unit.right)) {
     return Wrong(word, "a code of head or eyes, which has no sides");
   }
   return *unit;
@@ -154,6 +130,58 @@ vm::Result<double> ParseStrength(const Word& word) {
 }
 
 }  // namespace
+
+vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text) {
+  const TableText table(name, text);
+  UnitNames out;
+  for (const TableLine& line : table.lines()) {
+    const bool code = line.words[0] == "code";
+    const bool one_sided = !code && line.words.back() == "one-sided";
+    const std::size_t count = line.words.size() - (one_sided ? 1 : 0);
+    if ((!code && line.words[0] != "unit") || count != (code ? 11u : 3u)) {
+      return table.Wrong(
+          line.number, "unit NUMBER NAME [one-sided], or code NUMBER NAME and 8 numbers expected");
+    }
+    const auto number = table.Number(line, 1, "a number of a unit", 1, UnitValues::kMost);
+    if (!number) return std::unexpected(number.error());
+    const int unit = static_cast<int>(*number);
+    if (ByNumber(line.words[2])) {
+      return table.Wrong(line.number, "'" + line.words[2] + "' reads as a number, not as a name");
+    }
+    if (!out.by_name.emplace(line.words[2], unit).second || out.names.contains(unit)) {
+      return table.Wrong(line.number, "'" + line.words[2] + "' or its number is here twice");
+    }
+    out.names[unit] = line.words[2];
+    if (one_sided) out.one_sided.insert(unit);
+    if (!code) continue;
+    std::array<float, 8> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto value = table.Number(line, 3 + i, "an angle or a part", -60, 60);
+      if (!value) return std::unexpected(value.error());
+      values[i] = static_cast<float>(*value);
+    }
+    out.codes[unit] = {{values[0], values[1], values[2]},
+                       {values[3], values[4]},
+                       {values[5], values[6]},
+                       values[7]};
+  }
+  return out;
+}
+
+const UnitNames& BuiltInUnitNames() {
+  static const UnitNames names =
+      ReadUnitNames("action_unit_names.txt", embedded::action_unit_names()).value();
+  return names;
+}
+
+vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names) {
+  const auto unit = FindUnit(word, names);
+  if (unit && !unit->strength_given && names.IsUnit(unit->unit.number)) return unit->unit;
+  return vm::Fail(vm::Errc::kBadValue,
+                  fmt::format("'{}' is not an action unit; a number or name of "
+                              "action_unit_names.txt expected, with L or R for one side",
+                              word));
+}
 
 vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
                                          bool with_ms) {
@@ -179,7 +207,7 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
       unit->unit.strength = *strength;
     }
     UnitSetting& set = unit->unit;
-    if (set.left && IsOneSided(set.number) && set.strength > 0) set.right = false;
+    if (set.left && names.IsOneSided(set.number) && set.strength > 0) set.right = false;
     out.units.push_back(unit->unit);
   }
   if (out.units.empty()) {
@@ -189,12 +217,12 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
   return out;
 }
 
-std::string FormatLook(const ActionUnits& look) {
+std::string FormatLook(const ActionUnits& look, const UnitNames& names) {
   std::string text;
   const auto add = [&text](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
-  for (std::size_t unit = 0; unit < kActionUnits; ++unit) {
+  for (std::size_t unit = 0; unit < std::max(look.left.size(), look.right.size()); ++unit) {
     const float left = look.left[unit], right = look.right[unit];
-    if (left == right && left != 0 && !IsOneSided(static_cast<int>(unit))) {
+    if (left == right && left != 0 && !names.IsOneSided(static_cast<int>(unit))) {
       add(fmt::format("{}:{:g}", unit, left));
       continue;
     }
@@ -218,7 +246,7 @@ vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names)
   for (const Word& word : WordsOf(text)) {
     if (word.text.starts_with("gaze")) {
       const TableText line("gaze", word.text);
-      const auto gaze = ReadUnits(line, line.lines().front(), 0);
+      const auto gaze = ReadUnits(line, line.lines().front(), 0, names);
       if (!gaze) return Wrong(word, "no direction; gaze:DOWN,RIGHT in degrees expected");
       AddTo(look, *gaze, 1);
       continue;
@@ -231,7 +259,7 @@ vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names)
   const auto command = ParseUnitCommand(units, names, false);
   if (!command) return std::unexpected(command.error());
   for (const UnitSetting& unit : command->units) {
-    if (!IsActionUnit(unit.number)) {
+    if (!names.IsUnit(unit.number)) {
       return vm::Fail(vm::Errc::kBadValue,
                       fmt::format("{} is a code of head or eyes, which an expression cannot hold; "
                                   "action units and gaze:DOWN,RIGHT expected",

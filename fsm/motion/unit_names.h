@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,19 +20,34 @@ struct UnitCode {
   float forward_mm = 0;  ///< of the head on the neck
 };
 
-/// Action units and codes as people name them.
+/// The action units and codes there are, as people name them.
 struct UnitNames {
   std::map<std::string, int, std::less<>> by_name;
   std::map<int, std::string> names;
   std::map<int, UnitCode> codes;
+  std::set<int> one_sided;
+
+  bool IsUnit(int number) const { return names.contains(number) && !codes.contains(number); }
+  /// Units that are of one side by what they are: the jaw sideways (30), a wink (46). Asked for
+  /// without a side they are of the agent's left; taken back without one they go on both.
+  bool IsOneSided(int number) const { return one_sided.contains(number); }
 };
 vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text);
+inline bool IsActionUnit(int number) { return BuiltInUnitNames().IsUnit(number); }
+inline bool IsOneSided(int number) { return BuiltInUnitNames().IsOneSided(number); }
 
-/// One unit or code to be set. Codes have no sides.
-struct UnitSetting {
+/// A unit by number or by name, "12", "12L", "R12", "LipCornerPuller.R".
+struct UnitName {
   int number = 0;
   bool left = true;
   bool right = true;
+};
+/// kBadValue for what is no unit; codes are none.
+vm::Result<UnitName> ParseUnitName(std::string_view word,
+                                   const UnitNames& names = BuiltInUnitNames());
+
+/// One unit or code to be set. Codes have no sides.
+struct UnitSetting : UnitName {
   double strength = 1;  ///< 0..2
 };
 /// How strong the letters of FACS are: A trace .. E maximum (research notes on the face, 3.1).
@@ -49,6 +65,6 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
 /// The same as one look (an expression): action units only, and `gaze:DOWN,RIGHT` in degrees.
 vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names);
 /// As ParseLook reads it: `6:0.7 12L:0.8 gaze:6,0`.
-std::string FormatLook(const ActionUnits& look);
+std::string FormatLook(const ActionUnits& look, const UnitNames& names = BuiltInUnitNames());
 
 }  // namespace fsm

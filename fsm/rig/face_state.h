@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "fsm/head/unit_values.h"
+#include "fsm/rig/unit_values.h"
 
 namespace fsm {
 

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fsm/rig/face_state.h"
+#include "fsm/motion/motion_source.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// Makes one face of what all sources ask at an instant, by the rules of tables/mixing.txt.
+/// A value, constant once it is read; const calls may run at once.
+class Mixer {
+ public:
+  /// kBadValue "NAME:LINE: ..." for a row that is none, and for names that no row above declares.
+  static vm::Result<Mixer> Read(const std::string& name, std::string_view text);
+
+  /// Sets the units, mouth, head, eyes and lids of `state`; the rest stays as it is. `units` says
+  /// which group a unit belongs to.
+  void Mix(const MotionFrame& frame, const UnitList& units, FaceState& state) const;
+
+ private:
+  class Reader;
+  /// What can be weighed: the channels, then groups within the units.
+  enum Part { kUnits, kMouth, kHead, kGaze, kLids, kEye, kBrow, kLips, kOpening, kParts };
+  static constexpr std::array<std::string_view, kParts> kPartNames = {
+      "units",     "mouth",      "head",        "gaze",         "lids",
+      "eye_units", "brow_units", "mouth_units", "opening_units"};
+  static constexpr std::size_t kChannels = kEye;
+
+  struct Channel {
+    bool greatest = false;  // else the sum
+    float lowest = -std::numeric_limits<float>::infinity();
+    float highest = std::numeric_limits<float>::infinity();
+
+    void Join(float& total, double asked) const {
+      const auto more = static_cast<float>(asked);
+      total = greatest ? std::max(total, more) : total + more;
+    }
+    float Limited(float total) const { return std::clamp(total, lowest, highest); }
+  };
+  struct Weight {
+    Part part;
+    std::string signal;
+    double factor;
+  };
+  struct Steady {
+    float limit_deg;
+    std::string signal;  // "" = always
+  };
+  struct Rules {
+    std::vector<Weight> weights;
+    std::optional<Steady> steady;
+  };
+  using Weights = std::array<double, kParts>;
+
+  const Rules& RulesOf(std::string_view layer) const;
+  static Weights WeightsOf(const Rules& rules, const MotionFrame& frame);
+  static double OfUnit(const Weights& weights, const UnitList& units, std::size_t unit);
+  void Add(const MotionLayer& layer, const Rules& rules, const Weights& weights,
+           const UnitList& units, MotionLayer& total) const;
+  void Place(const MotionLayer& total, const Weights& weights, const UnitList& units,
+             FaceState& state) const;
+
+  std::array<Channel, kChannels> channels_;
+  std::vector<std::pair<std::string, Rules>> layers_;
+  Rules result_;
+};
+
+}  // namespace fsm

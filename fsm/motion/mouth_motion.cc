@@ -1,0 +1,36 @@
+#include "fsm/motion/mouth_motion.h"
+
+#include "fsm/motion/motion_errors.h"
+
+namespace fsm {
+namespace {
+
+constexpr vm::Time kMove = std::chrono::milliseconds(60);
+
+// What one unit of Mouth.N at 100 % means, mm or (jaw Y) degrees.
+constexpr std::array<float, kMouthParameters> kFull = {4, 4, 4,  4, -6, 4, -6, 4, 5,
+                                                       5, 5, 15, 4, 1,  1, 1,  1};
+
+}  // namespace
+
+vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) {
+  if (auto fits = CheckStrength(strength); !fits) return fits;
+  const auto index = static_cast<std::size_t>(parameter - 1);
+  if (parameter < 1 || index >= kMouthParameters) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    fmt::format("{} is no mouth parameter; 1 to 17 expected", parameter));
+  }
+  parameters_[index].MoveTo(now, static_cast<float>(strength) * kFull[index], kMove);
+  return {};
+}
+
+void MouthMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+  auto& mouth = frame.Layer("mouth").mouth;
+  for (std::size_t i = 0; i < kMouthParameters; ++i) mouth[i] = parameters_[i].At(t);
+}
+
+void MouthMotion::ForEachTrack(const TrackVisitor& visit) const {
+  for (const auto& track : parameters_) visit(track);
+}
+
+}  // namespace fsm

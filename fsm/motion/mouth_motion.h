@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+
+#include "fsm/motion/motion_source.h"
+#include "vm_protocol/core/result.h"
+
+namespace fsm {
+
+/// The mouth parameters as commands set them (Mouth.N), on the layer `mouth`.
+class MouthMotion : public MotionSource {
+ public:
+  /// `parameter` from 1. kBadValue for one there is not, and for a strength outside 0..2.
+  vm::Result<void> Set(vm::Time now, int parameter, double strength);
+
+  void Contribute(vm::Time t, MotionFrame& frame) const override;
+
+ protected:
+  void ForEachTrack(const TrackVisitor& visit) const override;
+
+ private:
+  std::array<Track<float>, kMouthParameters> parameters_;
+};
+
+}  // namespace fsm

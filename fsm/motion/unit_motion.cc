@@ -1,0 +1,74 @@
+#include "fsm/motion/unit_motion.h"
+
+#include "fsm/motion/motion_errors.h"
+
+namespace fsm {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr vm::Time kUnitMove = 60ms;   // units that are just set
+constexpr vm::Time kCodeMove = 120ms;  // heads and eyes take longer than skin
+
+}  // namespace
+
+void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
+  auto& [left, right] = units_[unit.number];
+  if (unit.left) left.MoveTo(now, static_cast<float>(unit.strength), move);
+  if (unit.right) right.MoveTo(now, static_cast<float>(unit.strength), move);
+}
+
+vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view unit, double strength,
+                                 vm::Time move) {
+  if (auto fits = CheckStrength(strength); !fits) return fits;
+  const auto command = ParseUnitCommand(fmt::format("{} {:.6f}", unit, strength), names_, false);
+  if (!command) return std::unexpected(command.error());
+  for (const UnitSetting& one : command->units) SetOne(now, one, move);
+  return {};
+}
+
+vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view text) {
+  const auto command = ParseUnitCommand(text, names_, true);
+  if (!command) return std::unexpected(command.error());
+  for (const UnitSetting& one : command->units) {
+    const vm::Time usual = names_.IsUnit(one.number) ? kUnitMove : kCodeMove;
+    SetOne(now, one, command->ms ? FromMs(*command->ms) : usual);
+  }
+  return {};
+}
+
+void UnitMotion::Set(vm::Time now, int unit, double strength) {
+  UnitSetting setting;
+  setting.number = unit;
+  setting.right = !names_.IsOneSided(unit) || strength == 0;
+  setting.strength = strength;
+  SetOne(now, setting, kUnitMove);
+}
+
+void UnitMotion::Contribute(vm::Time t, MotionFrame& frame) const {
+  MotionLayer& layer = frame.Layer("units");
+  for (const auto& [number, sides] : units_) {
+    const float left = sides[0].At(t);
+    const auto found = names_.codes.find(number);
+    if (found == names_.codes.end()) {
+      layer.units.left[static_cast<std::size_t>(number)] = left;
+      layer.units.right[static_cast<std::size_t>(number)] = sides[1].At(t);
+      continue;
+    }
+    const UnitCode& code = found->second;
+    for (std::size_t i = 0; i < 3; ++i) layer.head[i] += left * code.head[i];
+    for (std::size_t i = 0; i < 2; ++i) {
+      layer.units.gaze_left[i] += left * code.left_eye[i];
+      layer.units.gaze_right[i] += left * code.right_eye[i];
+    }
+    layer.head_forward_mm += left * code.forward_mm;
+  }
+}
+
+void UnitMotion::ForEachTrack(const TrackVisitor& visit) const {
+  for (const auto& [number, sides] : units_) {
+    for (const auto& track : sides) visit(track);
+  }
+}
+
+}  // namespace fsm

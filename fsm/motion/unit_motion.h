@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string_view>
+
+#include "fsm/motion/motion_source.h"
+#include "fsm/motion/unit_names.h"
+
+namespace fsm {
+
+/// Action units, and codes of head and eyes, as commands set them, on the layer `units`.
+/// Lifetime: the names outlive it. Errors: kBadValue, see ParseUnitCommand.
+class UnitMotion : public MotionSource {
+ public:
+  explicit UnitMotion(const UnitNames& names) : names_(names) {}
+
+  /// One unit, `12L`; strength 0..2.
+  vm::Result<void> Set(vm::Time now, std::string_view unit, double strength, vm::Time move);
+  /// One text of several, see ParseUnitCommand.
+  vm::Result<void> Set(vm::Time now, std::string_view text);
+  /// As Face.N does: without a side, within 60 ms.
+  void Set(vm::Time now, int unit, double strength);
+
+  void Contribute(vm::Time t, MotionFrame& frame) const override;
+
+ protected:
+  void ForEachTrack(const TrackVisitor& visit) const override;
+
+ private:
+  void SetOne(vm::Time now, const UnitSetting& unit, vm::Time move);
+
+  const UnitNames& names_;
+  // By number, those ever set: the agent's left and right side. Of a code both are the same.
+  std::map<int, std::array<Track<float>, 2>> units_;
+};
+
+}  // namespace fsm
