@@ -15,14 +15,16 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/dress/dress.h"
-#include "face_fit/dress/side_view.h"
+#include "face_fit/bake/side_view.h"
+#include "face_fit/bake/texture_bake.h"
 #include "face_fit/find/around_face.h"
-#include "face_fit/find/cover.h"
 #include "face_fit/find/figure_finder.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/head_finder.h"
+#include "face_fit/find/occlusion_detector.h"
 #include "face_fit/find/upright.h"
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
 #include "fsm/app/face_of_name.h"
 #include "fsm/app/original_config.h"
@@ -166,9 +168,8 @@ std::string Place(const facefit::FoundFace& face, const fsm::Image& whole) {
          "\n";
 }
 
-void Run(const Options& options) {
-  using namespace facefit;
-  if (!options.head.empty()) return FindPointsOfHead(options);
+/// Throws std::runtime_error that says what is missing.
+void CheckOptions(const Options& options) {
   if (options.photo.empty() == options.galatea.empty() || options.name.empty()) {
     throw std::runtime_error(
         "a photo and --name, --galatea and --name, or --head expected; --help tells more");
@@ -177,6 +178,25 @@ void Run(const Options& options) {
     throw std::runtime_error("--name '" + options.name +
                              "': letters, digits, - and _ expected, as anna");
   }
+}
+
+void WriteFolder(const std::string& folder, const fsm::Image& picture, const fsm::PhotoHead& set,
+                 const std::string& report) {
+  std::filesystem::create_directories(folder);
+  if (auto written = fsm::WriteImage(picture, folder + "/photo.png"); !written) {
+    throw std::runtime_error(written.error().text);
+  }
+  for (const auto& [name, text] :
+       {std::pair("/report.txt", report), {"/face.txt", fsm::WritePhotoHead(set)}}) {
+    std::ofstream file(folder + name);
+    if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + name);
+  }
+}
+
+void Run(const Options& options) {
+  using namespace facefit;
+  if (!options.head.empty()) return FindPointsOfHead(options);
+  CheckOptions(options);
   Progress progress(options.quiet);
   const std::string folder =
       (options.out.empty() ? fsm::FacesFolder() : options.out) + "/" + options.name;
@@ -189,9 +209,9 @@ void Run(const Options& options) {
   const bool by_hand = original || !options.points.empty();
   FaceNetworks networks = Get(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");
-  if (const int way = by_hand ? 1 : UprightWay(networks, photo); way != 1) {
-    photo = Turned(photo, way);
-    finest = Turned(finest, way);
+  if (const int orientation = by_hand ? 1 : UprightOrientation(networks, photo); orientation != 1) {
+    photo = Turned(photo, orientation);
+    finest = Turned(finest, orientation);
     std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
                  "was set upright\n";
   }
@@ -204,31 +224,20 @@ void Run(const Options& options) {
                                     : FindFace(options, networks, photo, faces);
   progress.Say("face and its points found");
   const auto [near, face] = original ? AroundFace{photo, found} : CutToFace(photo, finest, found);
-  const fsm::Image whole = std::exchange(photo, near);
-  Fit fit = FitFace(base, face, &photo);
+  Fit fit = FitFace(base, face, &near);
   progress.Say("head fitted");
-  const auto sides = LookFromTheSide(options, networks, base, photo, fit);
+  const auto sides = LookFromTheSide(options, networks, base, near, fit);
   if (!sides.empty()) progress.Say("seen from the side, too");
-  const Figure figure = CutOut(photo, FindFigure(networks, photo, &face));
+  const Figure figure = CutOut(near, FindFigure(networks, near, &face));
   progress.Say("figure cut out");
   fsm::PhotoHead set;
-  const TextureBake dress = BakeTexture(base, face, fit, photo, figure, sides, set);
+  const TextureBake bake = BakeTexture(base, face, fit, near, figure, sides, set);
   if (!options.glasses.empty()) set.glasses = options.glasses == "yes";
   progress.Say("photo put on");
-
-  std::filesystem::create_directories(folder);
   const std::string report =
-      Place(found, whole) + Report(face, fit, photo, dress.coverage, faces, set.glasses,
-                                   FindCover(networks, base, face, photo));
-  const auto write = [&folder](const char* name, const std::string& text) {
-    std::ofstream file(folder + "/" + name);
-    if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + "/" + name);
-  };
-  if (auto written = fsm::WriteImage(dress.picture, folder + "/photo.png"); !written) {
-    throw std::runtime_error(written.error().text);
-  }
-  write("report.txt", report);
-  write("face.txt", fsm::WritePhotoHead(set));
+      Place(found, photo) + Report(face, fit, near, bake.coverage, faces, set.glasses,
+                                   DetectOcclusion(networks, base, face, near));
+  WriteFolder(folder, bake.picture, set, report);
   progress.Say("written");
   std::cout << report << "face_fit: wrote " << folder << "\n";
 }

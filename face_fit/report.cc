@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "face_fit/picture/resample.h"
+
 namespace facefit {
 namespace {
 
@@ -68,20 +70,20 @@ std::string WarnOfEyes(const Fit& fit) {
 
 /// Of 21 faces of people the limits were not set on two of three beyond 1.5 had hair before them;
 /// below, paint, hard light and turned heads were taken for something.
-std::string WarnOfCover(const Cover& cover) {
+std::string WarnOfOcclusion(const Occlusion& occlusion) {
   constexpr float kSurely = 1.5F;
-  if (cover.measure < 1) return "";
-  return cover.measure < kSurely
-             ? "warning: something may be before the face at " + cover.where +
+  if (occlusion.measure < 1) return "";
+  return occlusion.measure < kSurely
+             ? "warning: something may be before the face at " + occlusion.where +
                    "; hard light, shut eyes or a turned head look like that, too\n"
-             : "warning: covered by something that is no face: " + cover.where +
+             : "warning: covered by something that is no face: " + occlusion.where +
                    "; what is before the face becomes part of it\n";
 }
 
 }  // namespace
 
 std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& photo, float coverage,
-                   int faces, bool glasses, const Cover& cover) {
+                   int faces, bool glasses, const Occlusion& occlusion) {
   std::string out;
   std::array<char, 200> line;
   const auto put = [&](const char* format, auto... values) {
@@ -89,7 +91,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
     out += line.data();
   };
   const glm::vec3 turn = glm::degrees(fit.pose.turn);
-  const float eyes = glm::distance(glm::vec2(face.points[33]), glm::vec2(face.points[263]));
+  const float eyes = glm::distance(face.At(33), face.At(263));
   const float side = SideLight(face, photo);
   const float sharp = Sharpness(face, photo);
   const auto d = [](float v) { return static_cast<double>(v); };
@@ -105,9 +107,9 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
   put("glasses     %s\n", glasses ? "yes" : "no");
-  if (!cover.where.empty()) {
-    put("covered     %.2f (from 1 on something is before the face), most at %s\n", d(cover.measure),
-        cover.where.c_str());
+  if (!occlusion.where.empty()) {
+    put("covered     %.2f (from 1 on something is before the face), most at %s\n",
+        d(occlusion.measure), occlusion.where.c_str());
   }
   if (eyes < 80) out += "warning: the face is small; details will be soft\n";
   out += WarnOfTurn(turn) + WarnOfEyes(fit);
@@ -122,7 +124,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
         "warning: glasses stay as they are, and so does the skin round the eyes; --glasses no if "
         "there are none\n";
   }
-  out += WarnOfCover(cover);
+  out += WarnOfOcclusion(occlusion);
   if (faces > 1) out += "warning: several faces; --face N takes another\n";
   return out;
 }

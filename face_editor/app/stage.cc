@@ -115,7 +115,7 @@ std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& 
                                                        const facefit::Fit& fit) {
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fit.worn) camera.push_back(fit.pose.ToCamera(p));
+  for (const glm::vec3& p : fit.posed_vertices) camera.push_back(fit.pose.ToCamera(p));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
@@ -124,7 +124,7 @@ std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& 
       const glm::vec3 n = glm::cross(camera[t[1]] - camera[t[0]], camera[t[2]] - camera[t[0]]);
       // The neck is not fitted, what lies behind is not seen.
       const bool face = std::all_of(t, t + 3, [&](std::uint32_t v) {
-        return fit.worn[v].z > 10 && base.rest.position[v].y > -95;
+        return fit.posed_vertices[v].z > 10 && base.rest.position[v].y > -95;
       });
       if (!face || n.z <= 0.1F * glm::length(n)) continue;
       for (int c = 0; c < 3; ++c) {

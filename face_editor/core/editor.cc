@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "face_editor/core/table_writer.h"
-#include "face_fit/dress/side_view.h"
+#include "face_fit/bake/side_view.h"
 #include "face_fit/find/hand_points.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/motion_errors.h"

@@ -5,10 +5,12 @@
 #include <glm/geometric.hpp>
 
 #include "face_editor/core/table_writer.h"
-#include "face_fit/dress/side_view.h"
+#include "face_fit/bake/side_view.h"
 #include "face_fit/find/figure_finder.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/find/upright.h"
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
 #include "fsm/app/face_of_name.h"
 #include "fsm/head/face_folder.h"
@@ -79,8 +81,9 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
     return work;
   }
   try {
-    if (const int way = facefit::UprightWay(sight->networks, work->photo); way != 1) {
-      work->photo = facefit::Turned(work->photo, way);
+    if (const int orientation = facefit::UprightOrientation(sight->networks, work->photo);
+        orientation != 1) {
+      work->photo = facefit::Turned(work->photo, orientation);
       work->notice = "The photo was lying; it was set upright";
     }
     work->base = sight->base;
@@ -99,7 +102,7 @@ vm::Result<std::shared_ptr<const PhotoWork>> OpenPhoto(FaceSight* sight, const s
       const facefit::FoundFace found = facefit::FindPoints(
           sight->networks, work->photo, boxes[static_cast<std::size_t>(face - 1)]);
       work->found = PointsOf(found);
-      work->cover = facefit::FindCover(sight->networks, *work->base, found, work->photo);
+      work->cover = facefit::DetectOcclusion(sight->networks, *work->base, found, work->photo);
     }
     const facefit::FoundFace seen = FoundFrom(work->found);
     work->figure = facefit::CutOut(
@@ -118,7 +121,7 @@ vm::Result<std::shared_ptr<const SidePhoto>> OpenSidePhoto(FaceSight& sight, con
     auto photo = facefit::ReadUpright(sight.networks, path);
     if (!photo) return std::unexpected(photo.error());
     const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.photo);
-    if (auto placed = facefit::PlaceView(sight.networks, *work.base, fit, *photo); !placed) {
+    if (auto placed = facefit::FitSideView(sight.networks, *work.base, fit, *photo); !placed) {
       return vm::Fail(placed.error().code, path + ": " + placed.error().text);
     }
     return std::make_shared<const SidePhoto>(SidePhoto{path, std::move(*photo)});
@@ -145,11 +148,11 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
             (built->left_out.empty() ? "" : "; ") + side->path + ": " + view.error().text;
       }
     }
-    facefit::TextureBake dress = facefit::BakeTexture(*work.base, face, built->fit, work.photo,
-                                                      *work.figure, seen, built->set);
-    built->report = facefit::Report(face, built->fit, work.photo, dress.coverage, work.faces,
+    facefit::TextureBake bake = facefit::BakeTexture(*work.base, face, built->fit, work.photo,
+                                                     *work.figure, seen, built->set);
+    built->report = facefit::Report(face, built->fit, work.photo, bake.coverage, work.faces,
                                     built->set.glasses, work.cover);
-    built->picture = std::move(dress.picture);
+    built->picture = std::move(bake.picture);
     built->set.photo = std::make_shared<fsm::Image>(
         fsm::Image{built->picture.width, built->picture.height, built->picture.rgba});
     built->head = fsm::MakeHead(built->set);

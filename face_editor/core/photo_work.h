@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "face_editor/core/face_points.h"
-#include "face_fit/dress/dress.h"
-#include "face_fit/find/cover.h"
+#include "face_fit/bake/texture_bake.h"
 #include "face_fit/find/face_networks.h"
+#include "face_fit/find/occlusion_detector.h"
 #include "face_fit/fit/fit.h"
 #include "fsm/head/photo_head.h"
 
@@ -37,7 +37,7 @@ struct PhotoWork {
   // Not there without the networks: then points can be set, but no face be made of them.
   std::shared_ptr<const facefit::BaseHead> base;
   std::optional<facefit::Figure> figure;
-  facefit::Cover cover;  ///< of the face that was found
+  facefit::Occlusion cover;  ///< of the face that was found
 };
 /// `sight` may be nullptr; `face` counts from 1, the largest. Errors: as facefit::ReadPhoto;
 /// kBadValue if there are fewer faces.

@@ -5,6 +5,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/photo.h"
+
 namespace facefit {
 namespace {
 
@@ -15,16 +18,6 @@ float PixelsPerMm(const FoundFace& face) {
   constexpr float kEyes = 90, kHeight = 132;  // millimetres, of the built-in head
   return std::max(glm::distance(face.points[33], face.points[263]) / kEyes,
                   glm::distance(face.points[10], face.points[152]) / kHeight);
-}
-
-fsm::Image Cut(const fsm::Image& image, glm::ivec2 low, glm::ivec2 high) {
-  fsm::Image out{.width = high.x - low.x, .height = high.y - low.y, .rgba = {}};
-  for (int y = low.y; y < high.y; ++y) {
-    const auto from =
-        image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width + low.x);
-    out.rgba.insert(out.rgba.end(), from, from + 4 * static_cast<std::ptrdiff_t>(out.width));
-  }
-  return out;
 }
 
 }  // namespace
@@ -41,7 +34,7 @@ AroundFace CutToFace(const fsm::Image& photo, const fsm::Image& finest, const Fo
   const glm::vec2 share = glm::vec2(part) / all;
   const bool whole = std::min(share.x, share.y) > 0.95F;
   if (whole || std::min(part.x, part.y) < 1) return {photo, face};
-  AroundFace out{Cut(finest, from, to), face};
+  AroundFace out{Cropped(finest, from.x, from.y, part.x, part.y), face};
   if (const int longer = std::max(part.x, part.y); longer > kWorkingSide) {
     const glm::vec2 scaled =
         glm::round(glm::vec2(part) * float{kWorkingSide} / static_cast<float>(longer));

@@ -4,8 +4,8 @@
 
 namespace facefit {
 
-/// The part of a photo that can be seen when one of its faces is worn: that face, its hair, neck and
-/// shoulders.
+/// The part of a photo that a head made from one of its faces shows: the face, its hair, neck
+/// and shoulders.
 struct AroundFace {
   fsm::Image photo;
   FoundFace face;  ///< in pixels of that part

@@ -3,11 +3,11 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "face_fit/picture/photo.h"
+#include "face_fit/picture/resample.h"
 
 namespace facefit {
 
-/// A square of a picture, turned: what a network is shown.
+/// A turned square of a picture, as a network is shown it. Pure; thread: any.
 struct Crop {
   glm::vec2 centre;
   float side = 0;

@@ -6,6 +6,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/pixels.h"
+
 namespace facefit {
 namespace {
 
@@ -66,24 +69,10 @@ float Within(const FaceBox& a, const FaceBox& b) {
   return both / std::max(std::min(a.size.x * a.size.y, b.size.x * b.size.y), 1e-6F);
 }
 
-/// Each pixel the mean of four.
+/// Each pixel the mean of four; an odd last row or column is left out.
 fsm::Image Halved(const fsm::Image& image) {
-  fsm::Image half{.width = image.width / 2, .height = image.height / 2, .rgba = {}};
-  half.rgba.reserve(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height) *
-                    4);
-  const auto row = static_cast<std::size_t>(image.width) * 4;
-  for (int y = 0; y < half.height; ++y) {
-    for (int x = 0; x < half.width; ++x) {
-      const std::size_t at =
-          static_cast<std::size_t>(2 * y) * row + static_cast<std::size_t>(8 * x);
-      for (std::size_t c = at; c < at + 4; ++c) {
-        const int sum =
-            image.rgba[c] + image.rgba[c + 4] + image.rgba[c + row] + image.rgba[c + row + 4];
-        half.rgba.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
-      }
-    }
-  }
-  return half;
+  const int width = image.width / 2, height = image.height / 2;
+  return ScaledDown(Cropped(image, 0, 0, 2 * width, 2 * height), width, height);
 }
 
 /// What was taken for a face, and how much rather it is believed than another of the same face.
@@ -195,19 +184,18 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
     const float logit = networks.landmarks.output(1)[0];
     face.certainty = 1 / (1 + std::exp(-logit));
     face.points.clear();
-    glm::vec2 low(1e9F), high(-1e9F);
+    Box2 seen;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       const glm::vec2 at =
           glm::vec2(raw[3 * i], raw[3 * i + 1]) / static_cast<float>(kPointsPixels);
       const glm::vec2 p = face.crop.ToPicture(at);
-      low = glm::min(low, at);
-      high = glm::max(high, at);
+      seen.Add(at);
       face.points.emplace_back(p, -raw[3 * i + 2] / kPointsPixels * face.crop.side);
     }
     if (look == 2) break;
-    const glm::vec2 eyes = glm::vec2(face.points[kEyes[1]]) - glm::vec2(face.points[kEyes[0]]);
-    const glm::vec2 extent = (high - low) * face.crop.side;
-    face.crop = {face.crop.ToPicture((low + high) * 0.5F), kRoom * std::max(extent.x, extent.y),
+    const glm::vec2 eyes = face.At(kEyes[1]) - face.At(kEyes[0]);
+    const glm::vec2 extent = seen.Size() * face.crop.side;
+    face.crop = {face.crop.ToPicture(seen.Middle()), kRoom * std::max(extent.x, extent.y),
                  std::atan2(eyes.y, eyes.x)};
   }
   return face;

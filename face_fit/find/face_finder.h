@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
@@ -27,10 +28,14 @@ struct FoundFace {
   std::vector<glm::vec3> points;  ///< kNetworkPoints
   float certainty = 0;            ///< 0..1 that there is a face
   Crop crop;                      ///< what the network saw last
+  template <std::integral I>
+  glm::vec2 At(I point) const {
+    return glm::vec2(points[static_cast<std::size_t>(point)]);
+  }
 };
 
-/// Below that certainty there is no face: of pictures of all kinds a few reach 0.66, people and drawn
-/// heads hardly less than 0.9.
+/// Below that certainty there is no face: of pictures of all kinds a few reach 0.66, people and
+/// drawn heads hardly less than 0.9.
 inline constexpr float kCertainFace = 0.75F;
 
 /// All faces, largest first. Looks at the whole picture, and if nothing is found at its parts.

@@ -6,13 +6,16 @@
 
 namespace facefit {
 
-/// How much each pixel belongs to a person, 0..1, as large as the picture; blurred to the network's
-/// 256 x 256. Round `face` it looks a second time, from nearer, and doubts what is one-sided.
+/// How much each pixel belongs to a person: width * height numbers of 0..1, as fine as the
+/// network's 256 x 256. If `face` is given, the surroundings of the head are looked at a second
+/// time from nearer, and DoubtOneSided corrects the result.
 std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image,
                               const FoundFace* face = nullptr);
 
-/// A head is alike on both sides: where one shows what the other does not, as an ear or half a hat,
-/// the network may have missed it. Nothing is said there, or rather yes if the colours are alike.
+/// Heads are nearly symmetric: where one side of the face belongs to the person and its mirror
+/// image does not, as with an ear or half a hat, the network may have missed the latter. Such
+/// pixels of `person` are set to doubt, 0.5, or to 0.85 of the other side where both have one
+/// colour.
 void DoubtOneSided(const FoundFace& face, const fsm::Image& image, std::vector<float>& person);
 
 }  // namespace facefit

@@ -1,7 +1,8 @@
 #include "face_fit/find/front_view.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "face_fit/find/rasterizer.h"
 
 namespace facefit {
 
@@ -28,40 +29,21 @@ std::uint32_t FrontView::Triangle(int column, int row) const {
 MeshPlace FrontView::Place(int column, int row) const {
   const std::uint32_t first = first_[At(column, row)];
   const std::uint32_t* t = &topology_.indices[first];
-  return {{t[0], t[1], t[2]}, Part(first, Centre(column, row))};
-}
-
-glm::vec3 FrontView::Part(std::uint32_t first, glm::vec2 at) const {
-  const std::uint32_t* t = &topology_.indices[first];
-  const glm::vec3 a = position_[t[0]], b = position_[t[1]], c = position_[t[2]];
-  const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-  const float u = ((at.x - a.x) * (c.y - a.y) - (c.x - a.x) * (at.y - a.y)) / area;
-  const float v = ((b.x - a.x) * (at.y - a.y) - (at.x - a.x) * (b.y - a.y)) / area;
-  return {1 - u - v, u, v};
+  const Triangle2 seen{position_[t[0]], position_[t[1]], position_[t[2]]};
+  return {{t[0], t[1], t[2]}, seen.WeightsAt(Centre(column, row))};
 }
 
 void FrontView::Draw(std::uint32_t first) {
   const std::uint32_t* t = &topology_.indices[first];
-  const glm::vec3 a = position_[t[0]], b = position_[t[1]], c = position_[t[2]];
-  if ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y) < 1e-7F) return;  // seen from behind
-  const auto cell = [](float from, float to, float most) {
-    return static_cast<int>(std::ceil(std::clamp((to - from) / kCell - 0.5F, 0.0F, most)));
-  };
-  const auto columns = static_cast<float>(columns_), rows = static_cast<float>(rows_);
-  const int left = cell(low_.x, std::min({a.x, b.x, c.x}), columns),
-            right = cell(low_.x, std::max({a.x, b.x, c.x}), columns),
-            under = cell(low_.y, std::min({a.y, b.y, c.y}), rows),
-            above = cell(low_.y, std::max({a.y, b.y, c.y}), rows);
-  for (int row = under; row < above; ++row) {
-    for (int column = left; column < right; ++column) {
-      const glm::vec3 part = Part(first, Centre(column, row));
-      if (std::min({part.x, part.y, part.z}) < 0) continue;
-      const float z = a.z * part.x + b.z * part.y + c.z * part.z;
-      if (z <= z_[At(column, row)]) continue;
-      z_[At(column, row)] = z;
-      first_[At(column, row)] = first;
-    }
-  }
+  const auto cell = [this](glm::vec3 p) { return (glm::vec2(p) - low_) / kCell - 0.5F; };
+  const Triangle2 seen{cell(position_[t[0]]), cell(position_[t[1]]), cell(position_[t[2]])};
+  if (seen.SignedArea() <= 0) return;  // from behind
+  Rasterize(seen, columns_, rows_, 0, [&](int column, int row, glm::vec3 weights) {
+    const float z = Interpolated(position_, t, weights).z;
+    if (z <= z_[At(column, row)]) return;
+    z_[At(column, row)] = z;
+    first_[At(column, row)] = first;
+  });
 }
 
 }  // namespace facefit

@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/fit/base_head.h"
+#include "face_fit/find/mesh_place.h"
+#include "fsm/rig/head.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {
@@ -34,7 +35,6 @@ class FrontView {
 
  private:
   void Draw(std::uint32_t first);
-  glm::vec3 Part(std::uint32_t first, glm::vec2 at) const;
   std::size_t At(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);

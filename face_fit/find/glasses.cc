@@ -7,13 +7,16 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
+
 namespace facefit {
 namespace {
 
 /// The same, looked for so many millimetres to the left of the middle and turned by so many
 /// radians.
 float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, float turn) {
-  const auto point = [&face](std::size_t i) { return glm::vec2(face.points[i]); };
+  const auto point = [&face](std::size_t i) { return face.At(i); };
   // Between the inner corners of the eyes, which lie some 32 mm apart.
   const glm::vec2 right = point(133), left = point(362), middle = 0.5F * (right + left);
   const float mm = std::max(glm::distance(right, left) / 32, 1e-3F);
@@ -68,9 +71,7 @@ float BarOnNose(const FoundFace& face, const fsm::Image& photo) {
       seen.push_back(BarAcross(face, photo, aside, turn));
     }
   }
-  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
-  std::ranges::nth_element(seen, middle);
-  return *middle;
+  return Median(std::move(seen));
 }
 
 }  // namespace facefit

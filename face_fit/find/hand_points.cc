@@ -1,5 +1,6 @@
 #include "face_fit/find/hand_points.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "face_fit/picture/pixels.h"
 #include "fsm/head/warp.h"
 #include "fsm/mesh/original_points.h"
 
@@ -37,6 +39,34 @@ constexpr HandPointName kNames[] = {{"right_eye_outer", 33, true},
                                     {"cheek_right", 234, false},
                                     {"cheek_left", 454, false},
                                     {"forehead", 10, false}};
+
+/// From the front of the base head, millimetres with y up, to pixels: size, tilt and place by least
+/// squares (Umeyama 1991).
+class ToPhoto {
+ public:
+  ToPhoto(const BaseHead& base, const HandPoints& points) {
+    const auto count = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd from(2, count), to(2, count);
+    Eigen::Index column = 0;
+    for (const auto& [i, at] : points) {
+      const glm::vec3 p = base.AtRest(i);
+      from.col(column) << p.x, -p.y;
+      to.col(column++) << at.x, at.y;
+    }
+    map_ = Eigen::umeyama(from, to);
+  }
+  glm::vec2 operator()(glm::vec2 mm) const {
+    const Eigen::Vector3d p = map_ * Eigen::Vector3d(mm.x, -mm.y, 1);
+    return {static_cast<float>(p.x()), static_cast<float>(p.y())};
+  }
+  float scale() const { return std::max(std::hypot(cosine(), sine()), 1e-6F); }
+  float angle_rad() const { return std::atan2(sine(), cosine()); }
+
+ private:
+  float cosine() const { return static_cast<float>(map_(0, 0)); }  // times the scale
+  float sine() const { return static_cast<float>(map_(1, 0)); }
+  Eigen::Matrix3d map_;
+};
 
 }  // namespace
 
@@ -106,44 +136,24 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
 }
 
 FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
-  const auto on_base = [&base](std::size_t i) { return base.places[i].On(base.rest.position); };
-  // From the head's millimetres to pixels: size, tilt and place by least squares, as complex
-  // numbers; the picture's y runs down.
-  glm::vec2 head_mean(0), photo_mean(0);
-  for (const auto& [i, at] : points) {
-    head_mean += glm::vec2(on_base(i)) * glm::vec2(1, -1) / static_cast<float>(points.size());
-    photo_mean += at / static_cast<float>(points.size());
-  }
-  glm::vec2 turn(0);
-  float size = 0;
-  for (const auto& [i, at] : points) {
-    const glm::vec2 h = glm::vec2(on_base(i)) * glm::vec2(1, -1) - head_mean, p = at - photo_mean;
-    turn += glm::vec2(h.x * p.x + h.y * p.y, h.x * p.y - h.y * p.x);
-    size += glm::dot(h, h);
-  }
-  turn /= std::max(size, 1e-6F);
-  const float scale = std::max(glm::length(turn), 1e-6F);
-  const auto to_photo = [&](glm::vec2 mm) {
-    const glm::vec2 h = mm * glm::vec2(1, -1) - head_mean;
-    return photo_mean + glm::vec2(turn.x * h.x - turn.y * h.y, turn.y * h.x + turn.x * h.y);
-  };
+  const auto on_base = [&base](std::size_t i) { return base.AtRest(i); };
+  const ToPhoto to_photo(base, points);
   std::vector<fsm::WarpPoint> bends;
   for (const auto& [i, at] : points) {
-    bends.push_back({on_base(i), glm::vec3((at - to_photo(glm::vec2(on_base(i)))) / scale, 0)});
+    bends.push_back(
+        {on_base(i), glm::vec3((at - to_photo(glm::vec2(on_base(i)))) / to_photo.scale(), 0)});
   }
   const fsm::Warp warp(bends, 0.5F);
   FoundFace face;
   face.certainty = 1;
-  glm::vec2 low(1e9F), high(-1e9F);
+  Box2 box;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
     const glm::vec3 p = on_base(i);
-    const glm::vec2 at = to_photo(glm::vec2(p)) + scale * glm::vec2(warp.Motion(p));
-    face.points.emplace_back(at, scale * base.seen_z[i]);
-    low = glm::min(low, at);
-    high = glm::max(high, at);
+    const glm::vec2 at = to_photo(glm::vec2(p)) + to_photo.scale() * glm::vec2(warp.Motion(p));
+    face.points.emplace_back(at, to_photo.scale() * base.seen_z[i]);
+    box.Add(at);
   }
-  face.crop = {(low + high) * 0.5F, 1.5F * std::max(high.x - low.x, high.y - low.y),
-               std::atan2(turn.y, turn.x)};
+  face.crop = {box.Middle(), 1.5F * std::max(box.Size().x, box.Size().y), to_photo.angle_rad()};
   return face;
 }
 

@@ -5,14 +5,14 @@
 #include <string>
 #include <string_view>
 
+#include "face_fit/find/base_head.h"
 #include "face_fit/find/face_finder.h"
-#include "face_fit/fit/base_head.h"
 #include "fsm/mesh/pnt_file.h"
 
 namespace facefit {
 
-/// Points set by hand: of the landmark network, by number, in pixels of the photo as it is worked
-/// on (upright, at most kWorkingSide on a side).
+/// Points set by hand: by number of the landmark network, in pixels of the upright photo scaled to
+/// at most kWorkingSide.
 using HandPoints = std::map<std::size_t, glm::vec2>;
 
 /// A table of lines `NAME X Y`, NAME one of HandPointNames() or a number of MediaPipe's face mesh;
@@ -34,7 +34,8 @@ std::string HandPointNames();
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
                                          int width, int height);
 
-/// All points of a face of which some are known: the others lie to them as on the built-in head.
+/// Completes a face of which some points are known: the others lie relative to them as on the
+/// built-in head. REQUIRES: at least the points that ParseHandPoints needs.
 FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points);
 
 }  // namespace facefit

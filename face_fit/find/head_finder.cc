@@ -8,10 +8,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "face_fit/find/base_head.h"
 #include "face_fit/find/lid_edges.h"
 #include "face_fit/find/lip_seam.h"
 #include "face_fit/find/symmetry.h"
-#include "face_fit/fit/base_head.h"
 
 namespace facefit {
 namespace {
@@ -46,14 +46,14 @@ fsm::FacePart PartOf(int point) {
   const auto among = [point](std::span<const int> list) {
     return std::ranges::find(list, point) != list.end();
   };
-  constexpr int kUpperLids[] = {246, 161, 160, 159, 158, 157, 173,
-                                466, 388, 387, 386, 385, 384, 398};
-  constexpr int kLowerLids[] = {7, 163, 144, 145, 153, 154, 155, 249, 390, 373, 374, 380, 381, 382};
   // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
   if (among(UpperOuterLip())) return fsm::FacePart::kUpperLip;
   if (among(LowerOuterLip())) return fsm::FacePart::kLowerLip;
-  if (among(kUpperLids)) return fsm::FacePart::kUpperLid;
-  if (among(kLowerLids)) return fsm::FacePart::kLowerLid;
+  for (const int side : {0, 1}) {
+    const auto outline = EyeOutline(side);
+    if (among(outline.subspan(1, kInnerCorner - 1))) return fsm::FacePart::kUpperLid;
+    if (among(outline.subspan(kInnerCorner + 1))) return fsm::FacePart::kLowerLid;
+  }
   return fsm::FacePart::kPlain;
 }
 
@@ -67,7 +67,7 @@ struct Surface {
     const auto places = [this](std::span<const int> points) {
       std::vector<glm::vec3> at;
       for (const int point : points) {
-        at.push_back(head.places[static_cast<std::size_t>(point)].On(head.rest.position));
+        at.push_back(head.AtRest(point));
       }
       return at;
     };
@@ -86,67 +86,91 @@ void OntoSeam(const LipSeam& seam, std::vector<MeshPlace>& places) {
   }
 }
 
-}  // namespace
+/// Somebody else's head, standing somehow, as the network sees it.
+struct SeenHead {
+  BaseHead head;
+  std::vector<bool> eye;
+  std::vector<std::uint32_t> flesh;
+  bool has_uv_seams;
+};
 
-fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
-                               const std::string& name, const std::string& face) {
-  const BaseHead base = BaseHead::See(networks, face);
-  // Where both lips meet a point of the network may come to lie on either.
-  std::set<int> inner(UpperInnerLip().begin(), UpperInnerLip().end());
-  inner.insert(LowerInnerLip().begin(), LowerInnerLip().end());
-  const auto own_seam = Surface{base, fsm::SkinTriangles(base.head->topology()), false}.Seam();
-  const auto own_eyes = EyeVertices(base.head->topology(), base.rest.position.size());
-  struct Seen {
-    BaseHead head;
-    std::vector<bool> eye;
-    std::vector<std::uint32_t> flesh;
-    bool has_uv_seams;
-  };
-  const auto pairs = [&](const Seen& seen, const fsm::Similarity& place) {
-    std::vector<MeshPlace> ours = base.places, theirs = seen.head.places;
-    OntoLidEdges({base, own_eyes}, ours, {seen.head, seen.eye}, theirs);
+/// Looks at a head and pairs its places with those of the built-in one.
+class HeadPairer {
+ public:
+  HeadPairer(FaceNetworks& networks, const fsm::HeadFile& file, std::string name,
+             const std::string& face)
+      : networks_(networks),
+        file_(file),
+        name_(std::move(name)),
+        base_(BaseHead::See(networks, face)),
+        own_seam_(Surface{base_, fsm::SkinTriangles(base_.head->topology()), false}.Seam()),
+        own_eyes_(EyeVertices(base_.head->topology(), base_.rest.position.size())),
+        inner_lips_(UpperInnerLip().begin(), UpperInnerLip().end()) {
+    inner_lips_.insert(LowerInnerLip().begin(), LowerInnerLip().end());
+  }
+  /// Throws std::runtime_error if no face is seen on the head as `place` has it stand.
+  std::vector<fsm::PlacePair> PairsAt(const fsm::Similarity& place) {
+    const SeenHead seen = See(place);
+    std::vector<MeshPlace> ours = base_.places, theirs = seen.head.places;
+    OntoLidEdges({base_, own_eyes_}, ours, {seen.head, seen.eye}, theirs);
     const auto seam = Surface{seen.head, seen.flesh, seen.has_uv_seams}.Seam();
-    const bool both = own_seam && seam;
+    const bool both = own_seam_ && seam;
     if (both) {
-      OntoSeam(*own_seam, ours);
+      OntoSeam(*own_seam_, ours);
       OntoSeam(*seam, theirs);
     }
     std::vector<fsm::PlacePair> found;
     for (const int point : FitPoints()) {
       const auto k = static_cast<std::size_t>(point);
-      if (inner.contains(point) ? !both : both && (point == kOuterRight || point == kOuterLeft)) {
-        continue;
-      }
+      // Where both lips meet a point of the network may come to lie on either.
+      const bool corner = point == kOuterRight || point == kOuterLeft;
+      if (inner_lips_.contains(point) ? !both : both && corner) continue;
       const glm::vec3 at = theirs[k].On(seen.head.rest.position);
       const glm::vec3 raw = glm::transpose(place.turn) * ((at - place.move) / place.scale);
-      found.push_back({ours[k].On(base.rest.position), raw, PartOf(point)});
+      found.push_back({ours[k].On(base_.rest.position), raw, PartOf(point)});
     }
     return found;
-  };
-  const auto see = [&](const fsm::Similarity& place) {
-    fsm::MeshModel model = fsm::ModelOf(file, place, -43);
+  }
+
+ private:
+  SeenHead See(const fsm::Similarity& place) {
+    fsm::MeshModel model = fsm::ModelOf(file_, place, -43);
     std::vector<std::uint32_t> flesh = model.SkinTriangles();
     const bool has_uv_seams = model.has_uv_seams;
     std::vector<bool> eye;
     for (const fsm::Bone bone : model.bone) {
       eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    return Seen{BaseHead::See(networks, fsm::MakeMeshHead(std::move(model), nullptr), name, false),
-                std::move(eye), std::move(flesh), has_uv_seams};
-  };
+    auto head = fsm::MakeMeshHead(std::move(model), nullptr);
+    return {BaseHead::See(networks_, std::move(head), name_, false), std::move(eye),
+            std::move(flesh), has_uv_seams};
+  }
+
+  FaceNetworks& networks_;
+  const fsm::HeadFile& file_;
+  std::string name_;
+  BaseHead base_;
+  std::optional<LipSeam> own_seam_;
+  std::vector<bool> own_eyes_;
+  std::set<int> inner_lips_;
+};
+
+}  // namespace
+
+fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
+                               const std::string& name, const std::string& face) {
+  HeadPairer pairer(networks, file, name, face);
   for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
     for (const glm::mat3& turn : kTurns) {
       std::optional<std::vector<fsm::PlacePair>> first;
-      const fsm::Similarity guess = Guess(file, turn, part);
       try {
-        first = pairs(see(guess), guess);
+        first = pairer.PairsAt(Guess(file, turn, part));
       } catch (const std::runtime_error&) {
         continue;  // nothing is seen from there
       }
       // Once more, as large and straight as our own head was looked at.
       LeaveOutStrays(*first);
-      const fsm::Similarity straight = fsm::FitSimilarity(*first);
-      fsm::HeadPoints points{face, pairs(see(straight), straight)};
+      fsm::HeadPoints points{face, pairer.PairsAt(fsm::FitSimilarity(*first))};
       LeaveOutStrays(points.pairs);
       Balance(fsm::FitSimilarity(points.pairs), points.pairs);
       return points;

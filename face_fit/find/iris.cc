@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "face_fit/picture/resample.h"
+
 namespace facefit {
 namespace {
 
@@ -13,9 +15,10 @@ constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0
 constexpr std::array<float, 7> kSizes = {0.68F, 0.76F, 0.84F, 0.92F, 1.0F, 1.08F, 1.16F};
 
 /// What is seen between the lids.
-class Opening {
+class EyeOpening {
  public:
-  Opening(const fsm::Image& photo, const OpenEye& eye) : photo_(photo), eye_(eye), lids_(eye.lids) {
+  EyeOpening(const fsm::Image& photo, const OpenEye& eye)
+      : photo_(photo), eye_(eye), lids_(eye.lids) {
     std::vector<float> all;
     for (float x = 0.06F; x < 0.95F; x += 0.03F) {
       const auto [upper, lower] = lids_.At(x);
@@ -116,7 +119,7 @@ class Opening {
 }  // namespace
 
 std::vector<IrisRing> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes) {
-  std::vector<Opening> openings;
+  std::vector<EyeOpening> openings;
   for (const OpenEye& eye : eyes) openings.emplace_back(photo, eye);
   std::vector<IrisRing> best;
   float most = -1;

@@ -24,9 +24,9 @@ struct OpenEye {
   float expected = 0;  ///< its radius by the head's form
 };
 
-/// Looks between the lids for the circle that parts dark from bright best and whose sides to the
-/// right and left are darkest within and brightest without. Irises of one person are of one size:
-/// the eyes given are looked at together. A ring for each, in their order.
+/// Finds the irises of the eyes given: the circle that best separates dark from bright between the
+/// lids, and whose left and right sides have the strongest edge. Irises of one person have one
+/// size, so all eyes are searched together. Returns a ring for each eye, in their order.
 std::vector<IrisRing> FindIrises(const fsm::Image& photo, std::span<const OpenEye> eyes);
 
 }  // namespace facefit

@@ -42,6 +42,23 @@ std::vector<bool> Opening(const FrontView& view, const std::vector<bool>& is_eye
   return open;
 }
 
+/// The rows of each column in which an opening lies; low > high where it has none.
+struct RowSpan {
+  int low, high;
+};
+std::vector<RowSpan> RowsOf(const FrontView& view, const std::vector<bool>& open) {
+  std::vector<RowSpan> rows(static_cast<std::size_t>(view.columns()), {view.rows(), -1});
+  for (int row = 0; row < view.rows(); ++row) {
+    for (int column = 0; column < view.columns(); ++column) {
+      if (!open[static_cast<std::size_t>(row * view.columns() + column)]) continue;
+      RowSpan& span = rows[static_cast<std::size_t>(column)];
+      span.low = std::min(span.low, row);
+      span.high = row;
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
@@ -49,30 +66,19 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
                                      const std::vector<bool>& eye, glm::vec3 centre,
                                      float outward) {
   const FrontView view(topology, position, glm::vec2(centre) - kHalf, glm::vec2(centre) + kHalf);
-  std::vector<bool> is_eye;
-  for (int row = 0; row < view.rows(); ++row) {
-    for (int column = 0; column < view.columns(); ++column) {
-      const std::uint32_t k = view.Triangle(column, row);
-      is_eye.push_back(k != FrontView::kNone && eye[topology.indices[k]]);
-    }
-  }
-  const std::vector<bool> open = Opening(view, is_eye, centre);
-  const auto at = [&view](int column, int row) {
-    return static_cast<std::size_t>(row * view.columns() + column);
+  const auto is_eye = [&](int column, int row) {
+    const std::uint32_t k = view.Triangle(column, row);
+    return k != FrontView::kNone && eye[topology.indices[k]];
   };
-  int first = view.columns(), last = -1;
-  std::vector<std::pair<int, int>> span;
-  for (int column = 0; column < view.columns(); ++column) {
-    auto& [low, high] = span.emplace_back(view.rows(), -1);
-    for (int row = 0; row < view.rows(); ++row) {
-      if (!open[at(column, row)]) continue;
-      low = std::min(low, row);
-      high = row;
-    }
-    if (high < 0) continue;
-    first = std::min(first, column);
-    last = column;
+  std::vector<bool> eyes;
+  for (int row = 0; row < view.rows(); ++row) {
+    for (int column = 0; column < view.columns(); ++column) eyes.push_back(is_eye(column, row));
   }
+  const std::vector<RowSpan> rows = RowsOf(view, Opening(view, eyes, centre));
+  const auto has_rows = [](const RowSpan& span) { return span.high >= 0; };
+  const auto first = static_cast<int>(std::ranges::find_if(rows, has_rows) - rows.begin());
+  int last = view.columns() - 1;
+  while (last >= 0 && !has_rows(rows[static_cast<std::size_t>(last)])) --last;
   const float width = FrontView::kCell * static_cast<float>(last - first + 1);
   if (last < 0 || width < 10 || width > 60) return std::nullopt;
   // A cell or two of gap between eyeball and lid may show what lies behind.
@@ -80,13 +86,13 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
   const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPlace> {
     for (int k = 1; k <= kGap; ++k) {
       const int x = column + k * right, y = row + k * up;
-      if (view.Triangle(x, y) != FrontView::kNone && !is_eye[at(x, y)]) return view.Place(x, y);
+      if (view.Triangle(x, y) != FrontView::kNone && !is_eye(x, y)) return view.Place(x, y);
     }
     return std::nullopt;
   };
   const auto corner = [&](int column, int right) {
-    const auto& [low, high] = span[static_cast<std::size_t>(column)];
-    return beyond(column, (low + high) / 2, right, 0);
+    const RowSpan& span = rows[static_cast<std::size_t>(column)];
+    return beyond(column, (span.low + span.high) / 2, right, 0);
   };
   LidEdges edges;
   const int out = outward > 0 ? last : first, in = outward > 0 ? first : last;
@@ -98,9 +104,9 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
     const float part = static_cast<float>(k + 1) / (LidEdges::kBetween + 1);
     const int column = static_cast<int>(
         std::lround(static_cast<float>(out) + part * static_cast<float>(in - out)));
-    const auto& [low, high] = span[static_cast<std::size_t>(column)];
-    const auto upper = beyond(column, high, 0, 1), lower = beyond(column, low, 0, -1);
-    if (high < 0 || !upper || !lower) return std::nullopt;
+    const RowSpan& span = rows[static_cast<std::size_t>(column)];
+    const auto upper = beyond(column, span.high, 0, 1), lower = beyond(column, span.low, 0, -1);
+    if (!has_rows(span) || !upper || !lower) return std::nullopt;
     edges.upper[k] = *upper;
     edges.lower[k] = *lower;
   }
@@ -123,14 +129,6 @@ std::vector<bool> EyeVertices(const fsm::HeadTopology& topology, std::size_t cou
 
 void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPlace>& our_places,
                   const EyeSurface& theirs, std::vector<MeshPlace>& their_places) {
-  // Of the network's points: outer corner, upper lid, inner corner, lower lid; outer ones first.
-  struct Outline {
-    int outer, inner;
-    std::array<int, LidEdges::kBetween> upper, lower;
-  };
-  constexpr Outline kOutlines[] = {
-      {33, 133, {246, 161, 160, 159, 158, 157, 173}, {7, 163, 144, 145, 153, 154, 155}},
-      {263, 362, {466, 388, 387, 386, 385, 384, 398}, {249, 390, 373, 374, 380, 381, 382}}};
   for (std::size_t side = 0; side < 2; ++side) {
     const auto find = [side](const EyeSurface& surface) {
       const auto& topology = surface.head.head->topology();
@@ -139,15 +137,16 @@ void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPlace>& our_places,
     };
     const auto a = find(ours), b = find(theirs);
     if (!a || !b) continue;
+    const auto outline = EyeOutline(static_cast<int>(side));
     for (const auto& [edges, places] : {std::pair(&*a, &our_places), {&*b, &their_places}}) {
-      const auto set = [&](int point, const MeshPlace& place) {
-        (*places)[static_cast<std::size_t>(point)] = place;
+      const auto set = [&, list = places](std::size_t of_outline, const MeshPlace& place) {
+        (*list)[static_cast<std::size_t>(outline[of_outline])] = place;
       };
-      set(kOutlines[side].outer, edges->outer);
-      set(kOutlines[side].inner, edges->inner);
+      set(0, edges->outer);
+      set(kInnerCorner, edges->inner);
       for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
-        set(kOutlines[side].upper[k], edges->upper[k]);
-        set(kOutlines[side].lower[k], edges->lower[k]);
+        set(1 + k, edges->upper[k]);
+        set(outline.size() - 1 - k, edges->lower[k]);
       }
     }
   }

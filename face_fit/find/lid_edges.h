@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/fit/base_head.h"
+#include "face_fit/find/base_head.h"
+#include "fsm/rig/head.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {

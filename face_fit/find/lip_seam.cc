@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "face_fit/find/front_view.h"
+#include "face_fit/picture/pixels.h"
 #include "fsm/mesh/surface_index.h"
 
 namespace facefit {
 namespace {
 
-constexpr float kReach = 40;  ///< of ways along the surface, millimetres
+constexpr float kReach = 40;                        // of ways along the surface, millimetres
+constexpr float kLeastWidth = 20, kMostWidth = 90;  // of a mouth, millimetres
 
 /// Where a column of the view goes over from the upper lip to the lower.
 struct Crossing {
@@ -26,24 +29,11 @@ bool IsInside(const fsm::HeadTopology& topology, std::uint32_t index) {
   });
 }
 
-}  // namespace
-
-std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
-                                   std::span<const glm::vec3> position,
-                                   const std::vector<std::uint32_t>& flesh, bool has_uv_seams,
-                                   std::span<const glm::vec3> upper,
-                                   std::span<const glm::vec3> lower) {
-  if (upper.empty() || lower.empty()) return std::nullopt;
-  const fsm::WeldedSurface surface(position, flesh, has_uv_seams);
-  const auto up = surface.WayFrom(upper, kReach), down = surface.WayFrom(lower, kReach);
-  glm::vec2 low(1e9F), high(-1e9F);
-  for (const auto& list : {upper, lower}) {
-    for (const glm::vec3& p : list) {
-      low = glm::min(low, glm::vec2(p));
-      high = glm::max(high, glm::vec2(p));
-    }
-  }
-  const FrontView view(topology, position, low - glm::vec2(15, 3), high + glm::vec2(15, 3));
+/// For each column of the view the row where the surface goes over from the upper to the lower lip.
+/// `up`, `down`: ways along the surface from both lips to each of its places, millimetres.
+std::vector<Crossing> FindCrossings(const fsm::HeadTopology& topology, const FrontView& view,
+                                    const fsm::WeldedSurface& surface, std::span<const float> up,
+                                    std::span<const float> down) {
   // Of the flesh in a cell, the ways from both lips; nothing where teeth or the mouth's lining are.
   const auto ways = [&](int column, int row) -> std::optional<glm::vec2> {
     const std::uint32_t triangle = view.Triangle(column, row);
@@ -57,9 +47,9 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
     }
     return sum;
   };
-  std::vector<Crossing> steps;
+  std::vector<Crossing> crossings;
   for (int column = 0; column < view.columns(); ++column) {
-    Crossing step;
+    Crossing crossing;
     std::optional<glm::vec2> before;
     int row_before = -1;
     for (int row = view.rows(); row-- > 0;) {
@@ -68,19 +58,24 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
       if (before && before->x < before->y && here->x >= here->y) {
         const float apart = FrontView::kCell * static_cast<float>(row_before - row);
         const float jump = std::min(here->x - before->x, before->y - here->y) - apart;
-        if (jump > step.jump) step = {row_before, row, jump};
+        if (jump > crossing.jump) crossing = {row_before, row, jump};
       }
       before = here;
       row_before = row;
     }
-    steps.push_back(step);
+    crossings.push_back(crossing);
   }
-  // Near a corner the way round it is short; the jump ends there. The longest run is the mouth.
-  constexpr float kLeastJump = 2;
-  constexpr int kHole = 8;
+  return crossings;
+}
+
+/// First and last column of the mouth, the longest run of columns whose surface jumps: near a
+/// corner the way round it is short, and the jump ends there. (0, -1) if there is none.
+std::pair<int, int> MouthColumns(const std::vector<Crossing>& crossings) {
+  constexpr float kLeastJump = 2;  // millimetres
+  constexpr int kHole = 8;         // columns
   int first = 0, last = -1, begin = -1, end = -1;
-  for (int column = 0; column < view.columns(); ++column) {
-    if (steps[static_cast<std::size_t>(column)].jump < kLeastJump) continue;
+  for (int column = 0; column < static_cast<int>(crossings.size()); ++column) {
+    if (crossings[static_cast<std::size_t>(column)].jump < kLeastJump) continue;
     if (begin < 0 || column - end > kHole) begin = column;
     end = column;
     if (end - begin > last - first) {
@@ -88,24 +83,45 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
       last = end;
     }
   }
+  return {first, last};
+}
+
+}  // namespace
+
+std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
+                                   std::span<const glm::vec3> position,
+                                   const std::vector<std::uint32_t>& flesh, bool has_uv_seams,
+                                   std::span<const glm::vec3> upper,
+                                   std::span<const glm::vec3> lower) {
+  if (upper.empty() || lower.empty()) return std::nullopt;
+  const fsm::WeldedSurface surface(position, flesh, has_uv_seams);
+  Box2 lips;
+  for (const auto& list : {upper, lower}) {
+    for (const glm::vec3& p : list) lips.Add(p);
+  }
+  const glm::vec2 margin(15, 3);  // millimetres
+  const FrontView view(topology, position, lips.low - margin, lips.high + margin);
+  const auto crossings = FindCrossings(topology, view, surface, surface.WayFrom(upper, kReach),
+                                       surface.WayFrom(lower, kReach));
+  const auto [first, last] = MouthColumns(crossings);
   const float width = FrontView::kCell * static_cast<float>(last - first);
-  if (width < 20 || width > 90) return std::nullopt;
-  const auto step_at = [&](float part) {
+  if (width < kLeastWidth || width > kMostWidth) return std::nullopt;
+  const auto crossing_at = [&, first = first, last = last](float part) {
     int column = static_cast<int>(
         std::lround(static_cast<float>(first) + part * static_cast<float>(last - first)));
-    while (column < last && steps[static_cast<std::size_t>(column)].above < 0) ++column;
-    return std::pair(column, steps[static_cast<std::size_t>(column)]);
+    while (column < last && crossings[static_cast<std::size_t>(column)].above < 0) ++column;
+    return std::pair(column, crossings[static_cast<std::size_t>(column)]);
   };
   LipSeam seam;
-  const auto [c0, s0] = step_at(0);
-  const auto [c1, s1] = step_at(1);
+  const auto [c0, s0] = crossing_at(0);
+  const auto [c1, s1] = crossing_at(1);
   seam.right = view.Place(c0, s0.above);
   seam.left = view.Place(c1, s1.above);
   for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
-    const auto [column, step] =
-        step_at(static_cast<float>(k + 1) / static_cast<float>(LipSeam::kBetween + 1));
-    seam.upper[k] = view.Place(column, step.above);
-    seam.lower[k] = view.Place(column, step.below);
+    const auto [column, crossing] =
+        crossing_at(static_cast<float>(k + 1) / static_cast<float>(LipSeam::kBetween + 1));
+    seam.upper[k] = view.Place(column, crossing.above);
+    seam.lower[k] = view.Place(column, crossing.below);
   }
   return seam;
 }

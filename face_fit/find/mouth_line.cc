@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "face_fit/picture/resample.h"
+
 namespace facefit {
 namespace {
 
@@ -24,12 +26,70 @@ constexpr int kOffsets = 25;  // looked at on the line across each place, half o
 /// As far as it is looked, by the mouth's width: a tenth of 50 mm.
 constexpr float kReach = 0.08F;
 
+/// A value for each place along the mouth and each offset across it.
+template <typename T>
+using Strip = std::array<std::array<T, kOffsets>, kMouthLinePlaces>;
+
+/// How far below the straight line between the corners the network sees the lips meet, pixels.
+class ExpectedLine {
+ public:
+  /// `begin`: the right corner; `along`, `down`: unit; `width`: of the mouth, pixels.
+  ExpectedLine(const FoundFace& face, glm::vec2 begin, glm::vec2 along, glm::vec2 down,
+               float width) {
+    knots_.front() = {0, 0};
+    knots_.back() = {1, 0};
+    for (std::size_t k = 0; k < kInner.size(); ++k) {
+      const glm::vec2 upper(face.points[kInner[k].first]), lower(face.points[kInner[k].second]);
+      const glm::vec2 middle = 0.5F * (upper + lower) - begin;
+      knots_[k + 1] = {glm::dot(middle, along) / width, glm::dot(middle, down)};
+    }
+  }
+  /// `t`: of the way from the right to the left corner.
+  float At(float t) const {
+    std::size_t k = 1;
+    while (k + 1 < knots_.size() && knots_[k].first < t) ++k;
+    const float span = std::max(knots_[k].first - knots_[k - 1].first, 1e-3F);
+    const float part = glm::clamp((t - knots_[k - 1].first) / span, 0.0F, 1.0F);
+    return glm::mix(knots_[k - 1].second, knots_[k].second, part);
+  }
+
+ private:
+  std::array<std::pair<float, float>, kInner.size() + 2> knots_;
+};
+
+/// Of all ways along a strip the one with the least sum, in which each step across costs by its
+/// square (dynamic programming): an offset for each place. `cost` is used up.
+std::array<int, kMouthLinePlaces> CheapestWay(Strip<float>& cost) {
+  constexpr int kMostStep = 3;
+  constexpr float kBend = 0.03F;
+  Strip<int> from{};
+  for (std::size_t i = 1; i < kMouthLinePlaces; ++i) {
+    for (int o = 0; o < kOffsets; ++o) {
+      const auto k = static_cast<std::size_t>(o);
+      float best = std::numeric_limits<float>::max();
+      for (int b = std::max(o - kMostStep, 0); b <= std::min(o + kMostStep, kOffsets - 1); ++b) {
+        const float bend = static_cast<float>(o - b);
+        const float sum = cost[i - 1][static_cast<std::size_t>(b)] + kBend * bend * bend;
+        if (sum >= best) continue;
+        best = sum;
+        from[i][k] = b;
+      }
+      cost[i][k] += best;
+    }
+  }
+  std::array<int, kMouthLinePlaces> way{};
+  auto at = static_cast<int>(std::ranges::min_element(cost.back()) - cost.back().begin());
+  for (std::size_t i = kMouthLinePlaces; i-- > 0;) {
+    way[i] = at;
+    at = from[i][static_cast<std::size_t>(at)];
+  }
+  return way;
+}
+
 }  // namespace
 
 bool LipsApart(const FoundFace& face) {
-  const auto apart = [&face](std::size_t a, std::size_t b) {
-    return glm::distance(glm::vec2(face.points[a]), glm::vec2(face.points[b]));
-  };
+  const auto apart = [&face](int a, int b) { return glm::distance(face.At(a), face.At(b)); };
   // Between the middles of the inner lips, by the width of the mouth.
   constexpr float kLeastGap = 0.06F;
   return apart(13, 14) > kLeastGap * apart(61, 291);
@@ -37,78 +97,46 @@ bool LipsApart(const FoundFace& face) {
 
 std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& face, float first,
                                      float last) {
-  const auto point = [&face](std::size_t i) { return glm::vec2(face.points[i]); };
-  const glm::vec2 axis = (point(291) - point(61)) / (last - first);
-  const glm::vec2 begin = point(61) - first * axis;
+  const glm::vec2 right(face.points[61]), left(face.points[291]);
+  const glm::vec2 axis = (left - right) / (last - first);
+  const glm::vec2 begin = right - first * axis;
   const float width = glm::length(axis);
   const glm::vec2 along = axis / width;
   const glm::vec2 down(-along.y, along.x);
-  // What the network says, as offsets below the straight line between the corners.
-  std::array<std::pair<float, float>, kInner.size() + 2> said;
-  said.front() = {0, 0};
-  said.back() = {1, 0};
-  for (std::size_t k = 0; k < kInner.size(); ++k) {
-    const glm::vec2 middle = 0.5F * (point(kInner[k].first) + point(kInner[k].second)) - begin;
-    said[k + 1] = {glm::dot(middle, along) / width, glm::dot(middle, down)};
-  }
-  const auto expected = [&](float t) {
-    std::size_t k = 1;
-    while (k + 1 < said.size() && said[k].first < t) ++k;
-    const float span = std::max(said[k].first - said[k - 1].first, 1e-3F);
-    const float part = glm::clamp((t - said[k - 1].first) / span, 0.0F, 1.0F);
-    return glm::mix(said[k - 1].second, said[k].second, part);
-  };
-  // Of all ways from corner to corner the darkest that is smooth and near to what was said.
+  const ExpectedLine expected(face, begin, along, down, width);
   const float step = 2 * kReach * width / (kOffsets - 1);
-  std::array<std::array<float, kOffsets>, kMouthLinePlaces> dark{};
-  std::array<float, kMouthLinePlaces> middle{};
+  const auto place = [&](std::size_t i, int offset) {
+    const float t = static_cast<float>(i) / (kMouthLinePlaces - 1);
+    const float below = expected.At(t) + step * static_cast<float>(offset - kOffsets / 2);
+    return begin + t * axis + below * down;
+  };
+  // Of all ways from corner to corner the darkest that is smooth and near to what was expected.
+  Strip<float> cost{};
   float least = 1e9F, most = 0;
-  for (std::size_t i = 0; i < kMouthLinePlaces; ++i) {
-    const float t = static_cast<float>(i) / (kMouthLinePlaces - 1);
-    middle[i] = expected(t);
-    for (int o = 0; o < kOffsets; ++o) {
-      const float below = middle[i] + step * static_cast<float>(o - kOffsets / 2);
-      const glm::vec2 at = begin + t * axis + below * down;
-      const glm::vec2 beside = along * (0.012F * width);
-      dark[i][static_cast<std::size_t>(o)] =
-          (Brightness(ColourAt(photo, at)) + Brightness(ColourAt(photo, at - beside)) +
-           Brightness(ColourAt(photo, at + beside))) /
-          3;
-      least = std::min(least, dark[i][static_cast<std::size_t>(o)]);
-      most = std::max(most, dark[i][static_cast<std::size_t>(o)]);
-    }
-  }
-  const float range = std::max(most - least, 8.0F);
-  std::array<std::array<float, kOffsets>, kMouthLinePlaces> cost{};
-  std::array<std::array<int, kOffsets>, kMouthLinePlaces> from{};
+  const glm::vec2 beside = along * (0.012F * width);
   for (std::size_t i = 0; i < kMouthLinePlaces; ++i) {
     for (int o = 0; o < kOffsets; ++o) {
-      const auto k = static_cast<std::size_t>(o);
-      const float off = static_cast<float>(o - kOffsets / 2) / (kOffsets / 2);
-      float best = 0;
-      if (i > 0) {
-        best = std::numeric_limits<float>::max();
-        for (int b = std::max(o - 3, 0); b <= std::min(o + 3, kOffsets - 1); ++b) {
-          // A step of the line by itself costs nothing if what was said takes it too.
-          const float bend = static_cast<float>(o - b);
-          const float sum = cost[i - 1][static_cast<std::size_t>(b)] + 0.03F * bend * bend;
-          if (sum < best) {
-            best = sum;
-            from[i][k] = b;
-          }
-        }
+      const glm::vec2 at = place(i, o);
+      float& dark = cost[i][static_cast<std::size_t>(o)];
+      for (const glm::vec2 p : {at, at - beside, at + beside}) {
+        dark += Brightness(ColourAt(photo, p)) / 3;
       }
-      cost[i][k] = best + (dark[i][k] - least) / range + 0.25F * off * off;
+      least = std::min(least, dark);
+      most = std::max(most, dark);
     }
   }
-  std::vector<glm::vec2> line(kMouthLinePlaces);
-  auto at = static_cast<int>(std::ranges::min_element(cost.back()) - cost.back().begin());
-  for (std::size_t i = kMouthLinePlaces; i-- > 0;) {
-    const float t = static_cast<float>(i) / (kMouthLinePlaces - 1);
-    const float below = middle[i] + step * static_cast<float>(at - kOffsets / 2);
-    line[i] = begin + t * axis + below * down;
-    at = from[i][static_cast<std::size_t>(at)];
+  constexpr float kLeastRange = 8, kStray = 0.25F;  // of 255; what the farthest offset costs
+  const float range = std::max(most - least, kLeastRange);
+  for (auto& column : cost) {
+    for (int o = 0; o < kOffsets; ++o) {
+      float& value = column[static_cast<std::size_t>(o)];
+      const float off = static_cast<float>(o - kOffsets / 2) / (kOffsets / 2);
+      value = (value - least) / range + kStray * off * off;
+    }
   }
+  const auto way = CheapestWay(cost);
+  std::vector<glm::vec2> line;
+  for (std::size_t i = 0; i < kMouthLinePlaces; ++i) line.push_back(place(i, way[i]));
   return line;
 }
 

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <span>
 
+#include "face_fit/picture/pixels.h"
+
 namespace facefit {
 namespace {
 
@@ -27,12 +29,6 @@ struct MirrorPlane {
   glm::vec3 at, normal;
   glm::vec3 Mirrored(glm::vec3 p) const { return p - 2 * glm::dot(p - at, normal) * normal; }
 };
-
-float Median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// By the ways across from one side to the other and by their middles, which a few points that are
 /// off do not turn.

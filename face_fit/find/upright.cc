@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "face_fit/picture/filters.h"
+
 namespace facefit {
 namespace {
 
@@ -17,7 +19,7 @@ Seen Look(FaceNetworks& networks, const fsm::Image& photo) {
   Seen seen;
   for (const FaceBox& box : FindFaces(networks, photo)) {
     const FoundFace face = FindPoints(networks, photo, box);
-    const glm::vec2 eyes = glm::vec2(face.points[263]) - glm::vec2(face.points[33]);
+    const glm::vec2 eyes = face.At(263) - face.At(33);
     const float tilt = std::atan2(eyes.y, eyes.x);
     seen.faces += 1;
     const float upright = face.certainty * std::max(std::cos(tilt), 0.0F);
@@ -29,22 +31,22 @@ Seen Look(FaceNetworks& networks, const fsm::Image& photo) {
 
 }  // namespace
 
-int UprightWay(FaceNetworks& networks, const fsm::Image& photo) {
+int UprightOrientation(FaceNetworks& networks, const fsm::Image& photo) {
   const Seen seen = Look(networks, photo);
   // Of several people some may lean, but not all to the same side.
   const float most = seen.faces > 1 ? 0.75F : 0.93F;
   float best = seen.clear;
-  int way = 1;
-  if (seen.faces > 0 && seen.upright > most * seen.faces) return way;
+  int orientation = 1;
+  if (seen.faces > 0 && seen.upright > most * seen.faces) return orientation;
   for (const int other : {6, 8, 3}) {
-    // A photo that lies is rare, so another way must be clearly better.
+    // A photo that lies is rare, so another orientation must be clearly better.
     const float clear = Look(networks, Turned(photo, other)).clear;
     if (clear > best + 0.04F * std::max(seen.faces, 1.0F)) {
       best = clear;
-      way = other;
+      orientation = other;
     }
   }
-  return way;
+  return orientation;
 }
 
 }  // namespace facefit

@@ -4,9 +4,8 @@
 
 namespace facefit {
 
-/// How a photo has to be turned so that the person stands upright, whatever the file says of it:
-/// an EXIF orientation, 1 = as it is, 3, 6 or 8. Other ways are only tried if nobody is seen
-/// clearly and upright as it is.
-int UprightWay(FaceNetworks& networks, const fsm::Image& photo);
+/// The EXIF orientation that sets the people in a photo upright, whatever its file says: 1 = as it
+/// is, 3, 6 or 8. Turned copies are looked at only if nobody is seen clearly and upright as it is.
+int UprightOrientation(FaceNetworks& networks, const fsm::Image& photo);
 
 }  // namespace facefit

@@ -6,23 +6,19 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "face_fit/fit/form.h"
+#include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
 
 namespace facefit {
 namespace {
 
-constexpr std::size_t kInnerCorner = 8;  // of EyeOutline; the upper lid lies before it
-
 fsm::EyeTransform FitEye(const BaseHead& base, const std::map<int, glm::vec3>& to, int side) {
   const auto outline = EyeOutline(side);
   const glm::vec3 centre = base.head->topology().eyes[static_cast<std::size_t>(side)].centre;
-  const auto place = [&](std::size_t k) {
-    return base.places[static_cast<std::size_t>(outline[k])].On(base.rest.position);
-  };
+  const auto place = [&](std::size_t k) { return base.AtRest(outline[k]); };
   const float inner = place(kInnerCorner).x, outer = place(0).x;
   // Unknown: shift x and y, size times cosine and sine of the turn, raise of upper and lower lid.
-  LeastSquares<6> sum;
+  LinearLeastSquares sum;
   float forward = 0;
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const glm::vec3 p = place(k) - centre;
@@ -68,7 +64,7 @@ Slit SlitOf(int side, Place place) {
 }
 Slit SlitOfBase(const BaseHead& base, int side) {
   return SlitOf(side, [&base](int i) {
-    const glm::vec3 p = base.places[static_cast<std::size_t>(i)].On(base.rest.position);
+    const glm::vec3 p = base.AtRest(i);
     return glm::vec2(p.x, -p.y);
   });
 }
@@ -93,9 +89,7 @@ Expected ExpectedIris(const BaseHead& base, const Slit& seen, int side) {
 void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
   std::array<OpenEye, 2> eyes;
   for (const int side : {0, 1}) {
-    const auto place = [&face](int i) {
-      return glm::vec2(face.points[static_cast<std::size_t>(i)]);
-    };
+    const auto place = [&face](int i) { return face.At(i); };
     const Expected iris = ExpectedIris(base, SlitOf(side, place), side);
     const auto k = static_cast<std::size_t>(side);
     std::ranges::transform(EyeOutline(side), eyes[k].lids.begin(), place);
@@ -115,13 +109,14 @@ void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* p
   fit.iris_size = count > 0 ? std::clamp(size / count, 0.8F, 1.12F) : 1.0F;
 }
 
-void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<LandmarkConstraint>& aims) {
+void CentreEyes(const BaseHead& base, const Fit& fit,
+                std::vector<LandmarkConstraint>& constraints) {
   for (const int side : {0, 1}) {
     const IrisRing& ring = fit.irises[static_cast<std::size_t>(side)];
     if (ring.contrast <= 0) continue;
     const auto outline = EyeOutline(side);
-    const Slit slit = SlitOf(side, [&aims](int i) {
-      return std::ranges::find(aims, i, &LandmarkConstraint::point)->pixel;
+    const Slit slit = SlitOf(side, [&constraints](int i) {
+      return std::ranges::find(constraints, i, &LandmarkConstraint::point)->pixel;
     });
     const Expected iris = ExpectedIris(base, slit, side);
     const glm::vec2 axis = glm::normalize(slit.inner - slit.outer);
@@ -130,9 +125,9 @@ void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<LandmarkConstr
     const float free = 0.5F * iris.scale;  // eyes rest that differently in their slits
     const float by = std::clamp(off, -3 * iris.scale, 3 * iris.scale);
     if (std::abs(by) <= free) continue;
-    for (LandmarkConstraint& aim : aims) {
-      if (std::ranges::find(outline, aim.point) == outline.end()) continue;
-      aim.pixel += (by - std::copysign(free, by)) * across;
+    for (LandmarkConstraint& constraint : constraints) {
+      if (std::ranges::find(outline, constraint.point) == outline.end()) continue;
+      constraint.pixel += (by - std::copysign(free, by)) * across;
     }
   }
 }

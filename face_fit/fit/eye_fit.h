@@ -4,13 +4,15 @@
 #include <glm/vec3.hpp>
 #include <map>
 
-#include "face_fit/fit/base_head.h"
+#include "face_fit/find/base_head.h"
+#include "fsm/rig/eye_transform.h"
 #include "fsm/rig/eye_transform.h"
 
 namespace facefit {
 
-/// How eyes and lids must sit for the outlines of the open eyes to lie where they should. `to`: by
-/// point of the network, millimetres in the head's frame, at least those of EyeOutline.
+/// How both eyes must be moved, turned and sized, and their lids raised, so that the outlines of
+/// the open eyes lie as in the photo. `to`: by point of the network, millimetres in the head's
+/// frame. REQUIRES: it has the points of both EyeOutlines.
 std::array<fsm::EyeTransform, 2> FitEyes(const BaseHead& base, const std::map<int, glm::vec3>& to);
 
 }  // namespace facefit

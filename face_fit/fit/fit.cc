@@ -1,34 +1,35 @@
 #include "face_fit/fit/fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "face_fit/find/mouth_line.h"
-#include "face_fit/fit/form.h"
+#include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
 
 namespace facefit {
 namespace {
 
-/// The renderer's camera stands 744 mm before the plane z = 50 (a portrait 330 mm high through a
-/// lens of 25 degrees).
-constexpr float kCameraZ = 794;
 constexpr float kFaceZ = 50;
 constexpr glm::vec3 kMiddle{0, -10, 20};  ///< the head is turned about it
 
+/// Turn about x, y and z; logarithm of the focal length; centre x and y; smile, jaw, parted.
 constexpr std::size_t kParameters = 9;
-using Parameters = std::array<double, kParameters>;
+constexpr double kMostExpression = 1.5;
+constexpr int kRounds = 20;
+using Parameters = std::vector<double>;
 
-Pose PoseOf(const Parameters& p) {
+CameraPose PoseOf(const Parameters& p) {
   const auto f = [&p](std::size_t i) { return static_cast<float>(p[i]); };
   return {{f(0), f(1), f(2)}, std::exp(f(3)), {f(4), f(5)}};
 }
 
 Expression ExpressionOf(const Parameters& p) {
-  const auto part = [&p](std::size_t i) { return static_cast<float>(std::clamp(p[i], 0.0, 1.5)); };
+  const auto part = [&p](std::size_t i) {
+    return static_cast<float>(std::clamp(p[i], 0.0, kMostExpression));
+  };
   return {part(6), part(7), part(8)};
 }
 
@@ -39,8 +40,8 @@ struct Sight {
   bool lips_apart;
 };
 
-std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) {
-  const Pose pose = PoseOf(parameters);
+std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters) {
+  const CameraPose pose = PoseOf(parameters);
   fsm::HeadVertices vertices;
   sight.base.head->Evaluate(ExpressionOf(parameters).State(), vertices);
   const float mm = 1 / pose.PixelsPerMm();
@@ -50,7 +51,7 @@ std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) 
   for (const int i : FitPoints()) {
     const auto k = static_cast<std::size_t>(i);
     const glm::vec3 q = pose.ToCamera(sight.base.places[k].On(vertices.position));
-    const glm::vec2 miss = (pose.Project(q) - glm::vec2(sight.face.points[k])) * mm;
+    const glm::vec2 miss = (pose.Project(q) - sight.face.At(k)) * mm;
     out.push_back(static_cast<double>(miss.x));
     out.push_back(static_cast<double>(miss.y));
     depth.push_back(q.z - sight.face.points[k].z * mm - sight.depth_bias[k]);
@@ -66,19 +67,19 @@ std::vector<double> Residuals(const Sight& sight, const Parameters& parameters) 
 }
 
 Parameters Refine(const Sight& sight, const Parameters& start) {
-  constexpr Parameters kStep = {1e-3, 1e-3, 1e-3, 1e-3, 0.5, 0.5, 0.05, 0.05, 0.05};
-  return GaussNewton<kParameters>([&sight](const Parameters& p) { return Residuals(sight, p); },
-                                  start, kStep, 7,
-                                  [](Parameters& p) {
-                                    for (std::size_t i = 6; i < kParameters; ++i) {
-                                      p[i] = std::clamp(p[i], 0.0, 1.5);
-                                    }
-                                  });
+  std::vector<Unknown> unknowns;
+  for (std::size_t i = 0; i < 4; ++i) unknowns.push_back({.start = start[i], .step = 1e-3});
+  for (std::size_t i = 4; i < 6; ++i) unknowns.push_back({.start = start[i], .step = 0.5});
+  for (std::size_t i = 6; i < kParameters; ++i) {
+    unknowns.push_back({.start = start[i], .step = 0.05, .low = 0, .high = kMostExpression});
+  }
+  return LevenbergMarquardt([&sight](const Parameters& p) { return ResidualsOf(sight, p); },
+                            unknowns, kRounds);
 }
 
 }  // namespace
 
-glm::mat3 Pose::Rotation() const {
+glm::mat3 CameraPose::Rotation() const {
   const float cx = std::cos(turn.x), sx = std::sin(turn.x);
   const float cy = std::cos(turn.y), sy = std::sin(turn.y);
   const float cz = std::cos(turn.z), sz = std::sin(turn.z);
@@ -87,18 +88,18 @@ glm::mat3 Pose::Rotation() const {
   const glm::mat3 z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);
   return z * x * y;
 }
-glm::vec3 Pose::ToCamera(glm::vec3 p) const { return Rotation() * (p - kMiddle) + kMiddle; }
-glm::vec3 Pose::FromCamera(glm::vec3 q) const {
+glm::vec3 CameraPose::ToCamera(glm::vec3 p) const { return Rotation() * (p - kMiddle) + kMiddle; }
+glm::vec3 CameraPose::FromCamera(glm::vec3 q) const {
   return glm::transpose(Rotation()) * (q - kMiddle) + kMiddle;
 }
-glm::vec2 Pose::Project(glm::vec3 q) const {
+glm::vec2 CameraPose::Project(glm::vec3 q) const {
   return centre + focal / (kCameraZ - q.z) * glm::vec2(q.x, -q.y);
 }
-glm::vec3 Pose::Unproject(glm::vec2 pixel, float z) const {
+glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
   const glm::vec2 d = (pixel - centre) * ((kCameraZ - z) / focal);
   return {d.x, -d.y, z};
 }
-float Pose::PixelsPerMm() const { return focal / (kCameraZ - kFaceZ); }
+float CameraPose::PixelsPerMm() const { return focal / (kCameraZ - kFaceZ); }
 
 fsm::FaceState Expression::State() const {
   fsm::FaceState state;
@@ -113,69 +114,94 @@ fsm::FaceState Expression::State() const {
   return state;
 }
 
-Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
-  Sight sight{base, face, {}, LipsApart(face)};
+namespace {
+
+/// What the network sees of depth too much or too little on the base head; mean 0, millimetres.
+std::vector<float> DepthBias(const BaseHead& base) {
+  std::vector<float> bias;
   float mean = 0;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    sight.depth_bias.push_back(base.places[i].On(base.rest.position).z - base.seen_z[i]);
-    mean += sight.depth_bias.back() / static_cast<float>(kNetworkPoints);
+    bias.push_back(base.AtRest(i).z - base.seen_z[i]);
+    mean += bias.back() / static_cast<float>(kNetworkPoints);
   }
-  for (float& bias : sight.depth_bias) bias -= mean;
+  for (float& b : bias) b -= mean;
+  return bias;
+}
 
-  // A first guess from the outer corners of the eyes and the chin.
+/// Size, place and tilt by the outer corners of the eyes and the root of the nose.
+Parameters FirstGuess(const BaseHead& base, const FoundFace& face) {
   const glm::vec2 right(face.points[33]), left(face.points[263]), nose(face.points[6]);
-  const float wide = glm::distance(base.places[33].On(base.rest.position),
-                                   base.places[263].On(base.rest.position));
+  const float wide = glm::distance(base.AtRest(33), base.AtRest(263));
   const float scale = glm::distance(right, left) / wide;
-  const float roll = -std::atan2(left.y - right.y, left.x - right.x);
-  const glm::vec3 root = base.places[6].On(base.rest.position);
-  Parameters start{};
-  start[2] = roll;
+  const glm::vec3 root = base.AtRest(6);
+  Parameters start(kParameters);
+  start[2] = -std::atan2(left.y - right.y, left.x - right.x);
   start[3] = std::log(static_cast<double>(scale * (kCameraZ - kFaceZ)));
   start[4] = nose.x - scale * root.x;
   start[5] = nose.y + scale * root.y;
-  const Parameters settled = Refine(sight, start);
+  return start;
+}
 
+/// How mouths at rest differ from the built-in one looks like that much of a smile; taken away from
+/// a closed mouth it would leave a grim face.
+float SmileBeyondUsual(float smile, bool lips_apart) {
+  constexpr float kUsualApart = 0.12F, kUsualClosed = 0.45F;
+  if (lips_apart) return smile < kUsualApart ? 0 : smile;
+  return std::max(smile - kUsualClosed, 0.0F);
+}
+
+/// Where the network sees the points of the face, their depth mostly as the head's own form has it.
+std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPose& pose,
+                                              const std::vector<glm::vec3>& now) {
+  constexpr float kTrustDepth = 0.3F, kMostDepth = 15;  // millimetres
+  const float mm = 1 / pose.PixelsPerMm();
+  std::vector<LandmarkConstraint> constraints;
+  std::vector<float> lacks;
+  float mean = 0;
+  for (const int i : FitPoints()) {
+    const auto k = static_cast<std::size_t>(i);
+    const glm::vec3 q = pose.ToCamera(sight.base.places[k].On(now));
+    lacks.push_back(sight.face.points[k].z * mm + sight.depth_bias[k] - q.z);
+    mean += lacks.back() / static_cast<float>(FitPoints().size());
+    constraints.push_back({i, sight.base.places[k], sight.face.At(k), q.z});
+  }
+  for (std::size_t i = 0; i < lacks.size(); ++i) {
+    constraints[i].z += kTrustDepth * std::clamp(lacks[i] - mean, -kMostDepth, kMostDepth);
+  }
+  return constraints;
+}
+
+/// Mean distance of the network's points from those of the fitted head, millimetres.
+float ResidualMm(const BaseHead& base, const FoundFace& face, const Fit& fit) {
+  float sum = 0;
+  for (const int i : FitPoints()) {
+    const auto k = static_cast<std::size_t>(i);
+    const glm::vec3 q = fit.pose.ToCamera(base.places[k].On(fit.posed_vertices));
+    sum += glm::distance(fit.pose.Project(q), face.At(k));
+  }
+  return sum / fit.pose.PixelsPerMm() / static_cast<float>(FitPoints().size());
+}
+
+}  // namespace
+
+Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
+  const Sight sight{base, face, DepthBias(base), LipsApart(face)};
+  const Parameters settled = Refine(sight, FirstGuess(base, face));
   Fit fit;
   fit.lips_apart = sight.lips_apart;
   fit.pose = PoseOf(settled);
   fit.expression = ExpressionOf(settled);
-  // How mouths at rest differ from the built-in one looks like that much of a smile; taken away
-  // from a closed mouth it would leave a grim face.
-  const float own = sight.lips_apart ? 0.12F : 0.45F;
-  fit.expression.smile = fit.expression.smile < own ? 0
-                         : sight.lips_apart         ? fit.expression.smile
-                                                    : fit.expression.smile - own;
+  fit.expression.smile = SmileBeyondUsual(fit.expression.smile, sight.lips_apart);
   fsm::HeadVertices now;
   base.head->Evaluate(fit.expression.State(), now);
-  const float mm = 1 / fit.pose.PixelsPerMm();
-  float offset = 0;
-  for (const int i : FitPoints()) {
-    const auto k = static_cast<std::size_t>(i);
-    const glm::vec3 q = fit.pose.ToCamera(base.places[k].On(now.position));
-    offset += (q.z - face.points[k].z * mm - sight.depth_bias[k]) /
-              static_cast<float>(FitPoints().size());
-  }
-  constexpr float kTrustDepth = 0.3F;
-  for (const int i : FitPoints()) {
-    const auto k = static_cast<std::size_t>(i);
-    const glm::vec3 q = fit.pose.ToCamera(base.places[k].On(now.position));
-    const float seen = face.points[k].z * mm + sight.depth_bias[k] + offset;
-    const float z = q.z + kTrustDepth * std::clamp(seen - q.z, -15.0F, 15.0F);
-    fit.aims.push_back({i, base.places[k], glm::vec2(face.points[k]), z});
-  }
+  fit.constraints = ConstraintsOf(sight, fit.pose, now.position);
   FindIrises(base, face, photo, fit);
-  CentreEyes(base, fit, fit.aims);
+  CentreEyes(base, fit, fit.constraints);
   if (photo && !sight.lips_apart) {
-    AimAtMouthLine(base, face, fit.pose, now.position, *photo, fit.aims);
+    ConstrainToMouthLine(base, face, fit.pose, now.position, *photo, fit.constraints);
   }
   WarpToLandmarks(base, fit);
-  for (const int i : FitPoints()) {
-    const auto k = static_cast<std::size_t>(i);
-    const glm::vec2 at = fit.pose.Project(fit.pose.ToCamera(base.places[k].On(fit.worn)));
-    fit.residual_mm +=
-        glm::distance(at, glm::vec2(face.points[k])) * mm / static_cast<float>(FitPoints().size());
-  }
+  fit.residual_mm = ResidualMm(base, face, fit);
   return fit;
 }
 

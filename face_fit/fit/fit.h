@@ -6,17 +6,22 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "face_fit/find/base_head.h"
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/iris.h"
-#include "face_fit/fit/base_head.h"
+#include "fsm/rig/eye_transform.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
 
 namespace facefit {
 
+/// The renderer's camera stands 744 mm before the plane z = 50 (a portrait 330 mm high through a
+/// lens of 25 degrees).
+inline constexpr float kCameraZ = 794;
+
 /// How the photo was taken: a head turned about its middle before a camera as far away as that of
 /// the renderer, so that what is fitted looks the same there.
-struct Pose {
+struct CameraPose {
   glm::vec3 turn{};  ///< radians about x, y, z
   float focal = 1;   ///< pixels
   glm::vec2 centre;  ///< pixel on the camera's axis
@@ -30,7 +35,7 @@ struct Pose {
   float PixelsPerMm() const;                            ///< at the depth of the face
 };
 
-/// What the face in the photo does, 0..1.
+/// What the face in the photo does: strengths of action units, 0 to 1.5.
 struct Expression {
   float smile = 0;   ///< AU 12 with 6
   float jaw = 0;     ///< AU 26
@@ -38,30 +43,32 @@ struct Expression {
   fsm::FaceState State() const;
 };
 
-/// Where a place of the head has to be seen in the photo, and how near to the camera it lies.
+/// A place of the head, where the photo shows it, and its depth.
 struct LandmarkConstraint {
   int point;  ///< of the network, -1 = none
   MeshPlace place;
   glm::vec2 pixel;
-  float z;  ///< in the camera's frame
+  float z;  ///< in the camera's frame, millimetres towards it
 };
 
 struct Fit {
-  Pose pose;
+  CameraPose pose;
   Expression expression;
   bool lips_apart = false;
-  std::vector<LandmarkConstraint> aims;
+  std::vector<LandmarkConstraint> constraints;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
   float smooth = 1;
   std::array<fsm::EyeTransform, 2> eyes;  ///< right, left
   std::array<IrisRing, 2> irises;         ///< likewise, in the photo
   float iris_size = 1;                    ///< of that of the built-in head, by the size of the eye
-  std::vector<glm::vec3> worn;  ///< every vertex of the base as it lies in the photo, head's frame
-  float residual_mm = 0;        ///< mean distance of the network's points from those of the fit
+  std::vector<glm::vec3>
+      posed_vertices;     ///< every vertex of the base as it lies in the photo, head's frame
+  float residual_mm = 0;  ///< mean distance of the network's points from those of the fit
 };
 
-/// Pose and expression by least squares, then the form. With the photo closed lips are parted where
-/// they are seen to meet.
+/// Fits the base head to the points of a face: pose and expression by least squares, then the form
+/// by a warp. `photo`, if given, shows the irises and the line where closed lips meet, which the
+/// points miss by some pixels. Pure; thread: any. REQUIRES: face.points has kNetworkPoints.
 Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo = nullptr);
 
 }  // namespace facefit

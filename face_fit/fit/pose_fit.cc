@@ -1,7 +1,6 @@
 #include "face_fit/fit/pose_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -10,20 +9,20 @@
 namespace facefit {
 namespace {
 
-Pose PoseOf(const std::array<double, 6>& p) {
+CameraPose PoseOf(const std::vector<double>& p) {
   const auto f = [&p](std::size_t i) { return static_cast<float>(p[i]); };
   return {{f(0), f(1), f(2)}, std::exp(f(3)), {f(4), f(5)}};
 }
 
-glm::vec2 Off(const Pose& pose, const PoseMark& mark) {
+glm::vec2 Off(const CameraPose& pose, const PoseMark& mark) {
   return (pose.Project(pose.ToCamera(mark.at)) - mark.pixel) / pose.PixelsPerMm();
 }
 
 }  // namespace
 
-Pose SettlePose(std::span<const PoseMark> marks, const Pose& start) {
-  const auto residuals = [&](const std::array<double, 6>& p) {
-    const Pose pose = PoseOf(p);
+CameraPose RefinePose(std::span<const PoseMark> marks, const CameraPose& start) {
+  const auto residuals = [&](const std::vector<double>& p) {
+    const CameraPose pose = PoseOf(p);
     std::vector<double> out;
     for (const PoseMark& mark : marks) {
       const glm::vec2 by = Off(pose, mark);
@@ -35,18 +34,19 @@ Pose SettlePose(std::span<const PoseMark> marks, const Pose& start) {
     }
     return out;
   };
-  const auto d = [](float v) { return static_cast<double>(v); };
-  return PoseOf(GaussNewton<6>(residuals,
-                               {d(start.turn.x), d(start.turn.y), d(start.turn.z),
-                                std::log(d(start.focal)), d(start.centre.x), d(start.centre.y)},
-                               {1e-3, 1e-3, 1e-3, 1e-3, 0.5, 0.5}, 10,
-                               [](std::array<double, 6>& p) {
-                                 for (std::size_t i = 0; i < 3; ++i)
-                                   p[i] = std::clamp(p[i], -1.6, 1.6);
-                               }));
+  constexpr double kMostTurn = 1.6;  // radians
+  std::vector<Unknown> unknowns;
+  for (int i = 0; i < 3; ++i) {
+    unknowns.push_back(
+        {.start = start.turn[i], .step = 1e-3, .low = -kMostTurn, .high = kMostTurn});
+  }
+  unknowns.push_back({.start = std::log(static_cast<double>(start.focal)), .step = 1e-3});
+  unknowns.push_back({.start = start.centre.x, .step = 0.5});
+  unknowns.push_back({.start = start.centre.y, .step = 0.5});
+  return PoseOf(LevenbergMarquardt(residuals, unknowns, 20));
 }
 
-float MeanOff(const Pose& pose, std::span<const PoseMark> marks) {
+float MeanDistance(const CameraPose& pose, std::span<const PoseMark> marks) {
   float sum = 0, weight = 0;
   for (const PoseMark& mark : marks) {
     sum += mark.weight * glm::length(Off(pose, mark));

@@ -13,10 +13,10 @@ struct PoseMark {
   float weight = 1;
 };
 
-/// The pose nearest to `start` in which the marks lie where they are shown; marks far off count by
-/// their distance, not by its square.
-Pose SettlePose(std::span<const PoseMark> marks, const Pose& start);
+/// The pose that shows the marks nearest to where the photo shows them, starting from `start`.
+/// Marks more than 3 mm off count by their distance, not by its square.
+CameraPose RefinePose(std::span<const PoseMark> marks, const CameraPose& start);
 /// Mean distance of marks from where they are shown, millimetres.
-float MeanOff(const Pose& pose, std::span<const PoseMark> marks);
+float MeanDistance(const CameraPose& pose, std::span<const PoseMark> marks);
 
 }  // namespace facefit

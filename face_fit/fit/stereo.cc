@@ -4,8 +4,12 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
+#include "face_fit/find/rasterizer.h"
 #include "face_fit/fit/pose_fit.h"
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
 
 namespace facefit {
 namespace {
@@ -30,20 +34,17 @@ struct Seen {
   }
 };
 
-Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const Pose& side) {
+Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const CameraPose& side) {
   Seen seen;
   seen.step = kCell * fit.pose.PixelsPerMm();
-  std::vector<glm::vec3> camera;
-  glm::vec2 low(1e9F), high(-1e9F);
+  Box2 box;
   for (const int i : FitPoints()) {
-    const glm::vec2 p =
-        fit.pose.Project(fit.pose.ToCamera(base.places[static_cast<std::size_t>(i)].On(fit.worn)));
-    low = glm::min(low, p);
-    high = glm::max(high, p);
+    const MeshPlace& place = base.places[static_cast<std::size_t>(i)];
+    box.Add(fit.pose.Project(fit.pose.ToCamera(place.On(fit.posed_vertices))));
   }
-  seen.origin = low;
-  seen.columns = std::clamp(static_cast<int>((high.x - low.x) / seen.step), 1, 400);
-  seen.rows = std::clamp(static_cast<int>((high.y - low.y) / seen.step), 1, 400);
+  seen.origin = box.low;
+  seen.columns = std::clamp(static_cast<int>(box.Size().x / seen.step), 1, 400);
+  seen.rows = std::clamp(static_cast<int>(box.Size().y / seen.step), 1, 400);
   const auto count = static_cast<std::size_t>(seen.columns) * static_cast<std::size_t>(seen.rows);
   seen.camera.assign(count, glm::vec3(0, 0, -1e9F));
   seen.rest.assign(count, glm::vec3(0));
@@ -51,44 +52,29 @@ Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const
   seen.facing.assign(count, -1);
   seen.side.assign(count, -1);
   const glm::vec3 to_side = glm::transpose(side.Rotation()) * glm::vec3(0, 0, 1);
-  for (const glm::vec3& p : fit.worn) camera.push_back(fit.pose.ToCamera(p));
-  const auto& topology = base.head->topology();
-  for (const auto& part : topology.parts) {
-    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
-    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
-      const std::uint32_t* t = &topology.indices[part.first_index + k];
-      const auto grid = [&](std::uint32_t v) {
-        return (fit.pose.Project(camera[v]) - seen.origin) / seen.step;
-      };
-      const glm::vec2 a = grid(t[0]), b = grid(t[1]), c = grid(t[2]);
-      const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-      if (area > -1e-6F) continue;  // seen from behind: y runs down
-      const glm::vec3 n = glm::normalize(
-          glm::cross(fit.worn[t[1]] - fit.worn[t[0]], fit.worn[t[2]] - fit.worn[t[0]]));
-      const glm::vec2 from = glm::max(glm::ceil(glm::min(a, glm::min(b, c))), 0.0F);
-      const glm::vec2 to = glm::min(glm::floor(glm::max(a, glm::max(b, c))),
-                                    glm::vec2(seen.columns - 1, seen.rows - 1));
-      for (int y = static_cast<int>(from.y); y <= static_cast<int>(to.y); ++y) {
-        for (int x = static_cast<int>(from.x); x <= static_cast<int>(to.x); ++x) {
-          const glm::vec2 p(x, y);
-          const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
-          const float v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
-          if (u < -1e-3F || v < -1e-3F || u + v > 1.001F) continue;
-          const auto between = [&](const auto& of) {
-            return of[t[0]] * (1 - u - v) + of[t[1]] * u + of[t[2]] * v;
-          };
-          const glm::vec3 q = between(camera);
-          const std::size_t i = seen.Index(x, y);
-          if (q.z <= seen.camera[i].z) continue;
-          seen.camera[i] = q;
-          seen.rest[i] = between(base.rest.position);
-          seen.facing[i] = (fit.pose.Rotation() * n).z;
-          seen.side[i] = glm::dot(n, to_side);
-          seen.light[i] = Brightness(ColourAt(front, seen.origin + p * seen.step));
-        }
-      }
-    }
-  }
+  const glm::mat3 rotation = fit.pose.Rotation();
+  const auto& posed = fit.posed_vertices;
+  std::vector<glm::vec3> camera;
+  for (const glm::vec3& p : posed) camera.push_back(fit.pose.ToCamera(p));
+  ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
+    const auto grid = [&](std::uint32_t v) {
+      return (fit.pose.Project(camera[v]) - seen.origin) / seen.step;
+    };
+    const Triangle2 triangle{grid(t[0]), grid(t[1]), grid(t[2])};
+    if (triangle.SignedArea() > 0) return;  // seen from behind: y runs down
+    const glm::vec3 n =
+        glm::normalize(glm::cross(posed[t[1]] - posed[t[0]], posed[t[2]] - posed[t[0]]));
+    Rasterize(triangle, seen.columns, seen.rows, 1e-3F, [&](int x, int y, glm::vec3 weights) {
+      const glm::vec3 q = Interpolated(camera, t, weights);
+      const std::size_t i = seen.Index(x, y);
+      if (q.z <= seen.camera[i].z) return;
+      seen.camera[i] = q;
+      seen.rest[i] = Interpolated(base.rest.position, t, weights);
+      seen.facing[i] = (rotation * n).z;
+      seen.side[i] = glm::dot(n, to_side);
+      seen.light[i] = Brightness(ColourAt(front, seen.origin + glm::vec2(x, y) * seen.step));
+    });
+  });
   return seen;
 }
 
@@ -114,7 +100,7 @@ void Flatten(std::vector<float>& patch) {
 }
 
 /// Correlation of two flattened patches, -1..1; 0 where one shows hardly anything.
-float Alike(std::span<const float> a, std::span<const float> b) {
+float Correlation(std::span<const float> a, std::span<const float> b) {
   constexpr float kLeast = 1.5F;  // of 255, root of the mean square
   float aa = 0, bb = 0, ab = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -180,50 +166,68 @@ Peak FindPeak(int reach, F value) {
   return {at, most};
 }
 
+/// Compares patches with what lies at some pixels of the second photo.
+class SideMatcher {
+ public:
+  explicit SideMatcher(const fsm::Image& side) : side_(side) {}
+  /// `pixel(i)`: where the i-th sample of the patch would lie.
+  template <typename Pixel>
+  float Match(const Patch& patch, Pixel pixel) {
+    light_.clear();
+    for (std::size_t i = 0; i < patch.camera.size(); ++i) {
+      light_.push_back(Brightness(ColourAt(side_, pixel(i))));
+    }
+    Flatten(light_);
+    return Correlation(patch.light, light_);
+  }
+
+ private:
+  const fsm::Image& side_;
+  std::vector<float> light_;  // of one patch, kept for its memory
+};
+
+/// Where whole patches lie in the second photo, whatever their depth.
+std::vector<PoseMark> FindPatches(const Seen& seen, const CameraPose& front, const CameraPose& side,
+                                  SideMatcher& matcher) {
+  std::vector<PoseMark> marks;
+  std::vector<glm::vec2> pixels;
+  const float mm = side.PixelsPerMm();
+  const auto shown = [&](const glm::vec3& q) {
+    return side.Project(side.ToCamera(front.FromCamera(q)));
+  };
+  for (const Patch& patch : PatchesOf(seen)) {
+    // Projected once: turning a head takes longer than looking up a pixel.
+    pixels.clear();
+    for (const glm::vec3& q : patch.camera) pixels.push_back(shown(q));
+    float best = kAlike;
+    glm::vec2 by(0);
+    for (int y = -4; y <= 4; ++y) {
+      for (int x = -6; x <= 6; ++x) {
+        const glm::vec2 off = glm::vec2(x, y) * mm;
+        const float alike = matcher.Match(patch, [&](std::size_t i) { return pixels[i] + off; });
+        if (alike <= best) continue;
+        best = alike;
+        by = off;
+      }
+    }
+    if (best <= kAlike) continue;
+    const glm::vec3 q = seen.camera[patch.middle];
+    marks.push_back({front.FromCamera(q), shown(q) + by, 1});
+  }
+  return marks;
+}
+
 }  // namespace
 
 std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
                                          const fsm::Image& front, const fsm::Image& side,
-                                         View& view) {
-  std::vector<float> light;  // of one patch, kept for its memory
-  const auto sample = [&](const Patch& patch, auto&& pixel) {
-    light.clear();
-    for (std::size_t i = 0; i < patch.camera.size(); ++i) {
-      light.push_back(Brightness(ColourAt(side, pixel(i))));
-    }
-    Flatten(light);
-    return Alike(patch.light, light);
-  };
-  // First where whole patches lie in the second photo, whatever their depth: that settles the pose.
+                                         SideFit& view) {
+  SideMatcher matcher(side);
   for (int round = 0; round < 2; ++round) {
-    const Seen seen = LookAt(base, fit, front, view.pose);
-    std::vector<PoseMark> marks;
-    std::vector<glm::vec2> pixels;
-    const float mm = view.pose.PixelsPerMm();
-    for (const Patch& patch : PatchesOf(seen)) {
-      const auto shown = [&](const glm::vec3& q) {
-        return view.pose.Project(view.pose.ToCamera(fit.pose.FromCamera(q)));
-      };
-      // Projected once: turning a head takes longer than looking up a pixel.
-      pixels.clear();
-      for (const glm::vec3& q : patch.camera) pixels.push_back(shown(q));
-      float best = kAlike;
-      glm::vec2 by(0);
-      for (int y = -4; y <= 4; ++y) {
-        for (int x = -6; x <= 6; ++x) {
-          const glm::vec2 off = glm::vec2(x, y) * mm;
-          const float alike = sample(patch, [&](std::size_t i) { return pixels[i] + off; });
-          if (alike <= best) continue;
-          best = alike;
-          by = off;
-        }
-      }
-      if (best <= kAlike) continue;
-      const glm::vec3 q = seen.camera[patch.middle];
-      marks.push_back({fit.pose.FromCamera(q), shown(q) + by, 1});
-    }
+    const auto marks =
+        FindPatches(LookAt(base, fit, front, view.pose), fit.pose, view.pose, matcher);
     if (marks.size() < kFewest) return {};
-    view.pose = SettlePose(marks, view.pose);
+    view.pose = RefinePose(marks, view.pose);
   }
   // Then along the line of sight of the first photo.
   constexpr float kStep = 0.75F;  // millimetres
@@ -233,7 +237,7 @@ std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
   for (const Patch& patch : PatchesOf(seen)) {
     const Peak peak = FindPeak(kReach, [&](int k) {
       const float by = kStep * static_cast<float>(k);
-      const float alike = sample(patch, [&](std::size_t i) {
+      const float alike = matcher.Match(patch, [&](std::size_t i) {
         const glm::vec3& q = patch.camera[i];
         const glm::vec3 moved = fit.pose.Unproject(fit.pose.Project(q), q.z + by);
         return view.pose.Project(view.pose.ToCamera(fit.pose.FromCamera(moved)));

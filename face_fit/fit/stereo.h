@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "face_fit/fit/fit.h"
-#include "face_fit/fit/view.h"
+#include "face_fit/fit/side_fit.h"
 
 namespace facefit {
 
-/// Looks for the same skin in both photos: small patches of the first, laid on the fitted head, are
-/// looked for in the second. What the network says of turned faces is mostly what faces are like;
-/// patches tell how far this one stands forward. Makes the view's pose better.
-/// Returns places of the base head at rest and by how many millimetres each lies nearer to the
-/// first photo's camera than the fit has it; empty if too few patches are found.
+/// Measures depth by finding small patches of skin of the first photo in the second: of a turned
+/// face the network mostly tells what faces are like in general, patches tell how far this one
+/// stands forward. Refines the pose of `view`. Returns places of the base head at rest and by how
+/// many millimetres each lies nearer to the first photo's camera than the fit has it; empty if
+/// fewer than 25 patches are found.
 std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
                                          const fsm::Image& front, const fsm::Image& side,
-                                         View& view);
+                                         SideFit& view);
 
 }  // namespace facefit

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <system_error>
 #include <utility>
 
+#include "face_fit/picture/filters.h"
 #include "fsm/image/image_codec.h"
 
 namespace facefit {
@@ -149,94 +149,6 @@ int ExifOrientation(std::span<const std::uint8_t> block) {
     return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
   }
   return 1;
-}
-
-fsm::Image Turned(const fsm::Image& image, int exif_orientation) {
-  const bool swaps = exif_orientation >= 5;
-  fsm::Image out;
-  out.width = swaps ? image.height : image.width;
-  out.height = swaps ? image.width : image.height;
-  out.rgba.resize(image.rgba.size());
-  for (int y = 0; y < out.height; ++y) {
-    for (int x = 0; x < out.width; ++x) {
-      int from_x = swaps ? y : x;
-      int from_y = swaps ? x : y;
-      // 2 and 3 and 7 and 8 run from right to left, 3 and 4 and 6 and 7 from below.
-      const int o = exif_orientation;
-      if (o == 2 || o == 3 || o == 7 || o == 8) from_x = image.width - 1 - from_x;
-      if (o == 3 || o == 4 || o == 6 || o == 7) from_y = image.height - 1 - from_y;
-      std::memcpy(
-          &out.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) +
-                         static_cast<std::size_t>(x))],
-          &image
-               .rgba[4 * (static_cast<std::size_t>(from_y) * static_cast<std::size_t>(image.width) +
-                          static_cast<std::size_t>(from_x))],
-          4);
-    }
-  }
-  return out;
-}
-
-fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {
-  // First across, then down; weights are the lengths by which pixels overlap.
-  const auto each = [](double ratio, int k, int from, auto&& add) {
-    const double begin = k * ratio, end = (k + 1) * ratio;
-    for (int i = static_cast<int>(begin); i < from && i < end; ++i) {
-      add(i, std::min<double>(i + 1, end) - std::max<double>(i, begin));
-    }
-  };
-  const double across = static_cast<double>(image.width) / width;
-  const double down = static_cast<double>(image.height) / height;
-  const auto row_size = static_cast<std::size_t>(width) * 3;
-  std::vector<float> row(row_size);
-  int shrunk = -1;  // which line of the picture `row` is
-  const auto shrink = [&](int line) {
-    const std::uint8_t* from =
-        &image.rgba[static_cast<std::size_t>(line) * 4 * static_cast<std::size_t>(image.width)];
-    for (int x = 0; x < width; ++x) {
-      double sum[3] = {};
-      each(across, x, image.width, [&](int i, double weight) {
-        for (int c = 0; c < 3; ++c) sum[c] += weight * from[4 * i + c];
-      });
-      for (int c = 0; c < 3; ++c)
-        row[static_cast<std::size_t>(3 * x + c)] = static_cast<float>(sum[c] / across);
-    }
-    shrunk = line;
-  };
-  fsm::Image out;
-  out.width = width;
-  out.height = height;
-  out.rgba.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  std::vector<double> sum(row_size);
-  for (int y = 0; y < height; ++y) {
-    std::ranges::fill(sum, 0);
-    each(down, y, image.height, [&](int i, double weight) {
-      if (i != shrunk) shrink(i);  // a line on the border counts for two
-      for (std::size_t k = 0; k < row_size; ++k) sum[k] += weight * static_cast<double>(row[k]);
-    });
-    for (std::size_t k = 0; k < row_size; ++k) {
-      const auto v = static_cast<float>(sum[k] / down);
-      out.rgba.push_back(static_cast<std::uint8_t>(std::clamp(v + 0.5F, 0.0F, 255.0F)));
-      if (k % 3 == 2) out.rgba.push_back(255);
-    }
-  }
-  return out;
-}
-
-glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at) {
-  const float x = std::clamp(at.x - 0.5F, 0.0F, static_cast<float>(image.width - 1));
-  const float y = std::clamp(at.y - 0.5F, 0.0F, static_cast<float>(image.height - 1));
-  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
-  const float u = x - static_cast<float>(x0), v = y - static_cast<float>(y0);
-  const auto pixel = [&image](int px, int py) {
-    const std::uint8_t* p =
-        &image.rgba[4 * (static_cast<std::size_t>(py) * static_cast<std::size_t>(image.width) +
-                         static_cast<std::size_t>(px))];
-    return glm::vec3(p[0], p[1], p[2]);
-  };
-  return (pixel(x0, y0) * (1 - u) + pixel(x1, y0) * u) * (1 - v) +
-         (pixel(x0, y1) * (1 - u) + pixel(x1, y1) * u) * v;
 }
 
 }  // namespace facefit

@@ -1,11 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "fsm/image/image.h"
 #include "vm_protocol/core/result.h"
@@ -29,14 +26,5 @@ fsm::Image AtWorkingSide(const fsm::Image& photo);
 /// The orientation 1..8 in an EXIF block ("Exif\0\0" and a TIFF file); 1 if it says nothing or is
 /// damaged.
 int ExifOrientation(std::span<const std::uint8_t> block);
-fsm::Image Turned(const fsm::Image& image, int exif_orientation);
-/// Each pixel the mean of those it covers. At most as large as `image`.
-fsm::Image ScaledDown(const fsm::Image& image, int width, int height);
-
-/// Colour at a place (pixel centres at .5), between the pixels; the edge goes on outside. 0..255.
-glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at);
-
-/// How bright a colour is, in its own unit: of a face's reds more is counted than eyes would.
-inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
 
 }  // namespace facefit

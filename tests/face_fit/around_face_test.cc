@@ -6,6 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "face_fit/picture/photo.h"
+#include "face_fit/picture/resample.h"
+
 namespace facefit {
 namespace {
 

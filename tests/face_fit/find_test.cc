@@ -8,6 +8,9 @@
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/fit/fit.h"
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/photo.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/head/make_head.h"
 #include "tests/face_fit/network_fixture.h"
@@ -48,10 +51,10 @@ TEST_F(FindTest, APhotoThatLiesIsSetUpright) {
   const std::string path = photos / "collins_nasa.png";
   const auto photo = ReadPhoto(path);
   ASSERT_TRUE(photo) << photo.error().text;
-  EXPECT_EQ(UprightWay(*networks_, *photo), 1);
-  EXPECT_EQ(UprightWay(*networks_, Turned(*photo, 6)), 8);
-  EXPECT_EQ(UprightWay(*networks_, Turned(*photo, 8)), 6);
-  EXPECT_EQ(UprightWay(*networks_, Turned(*photo, 3)), 3);
+  EXPECT_EQ(UprightOrientation(*networks_, *photo), 1);
+  EXPECT_EQ(UprightOrientation(*networks_, Turned(*photo, 6)), 8);
+  EXPECT_EQ(UprightOrientation(*networks_, Turned(*photo, 8)), 6);
+  EXPECT_EQ(UprightOrientation(*networks_, Turned(*photo, 3)), 3);
 }
 
 TEST_F(FindTest, InAGroupEveryFaceIsFound) {
@@ -72,8 +75,8 @@ TEST_F(FindTest, InAGroupEveryFaceIsFound) {
   EXPECT_EQ(FindFaces(*networks_, group).size(), 10U);
 }
 
-Pose SomePose() {
-  Pose pose;
+CameraPose SomePose() {
+  CameraPose pose;
   pose.focal = 1500;
   pose.centre = {400, 380};
   pose.turn = {0.05F, -0.1F, 0.07F};
@@ -83,7 +86,7 @@ Pose SomePose() {
 /// What the network saw of a head, as if it were a photo.
 FoundFace SeenOf(const std::vector<MeshPlace>& places, const std::vector<glm::vec3>& vertices) {
   FoundFace face;
-  const Pose pose = SomePose();
+  const CameraPose pose = SomePose();
   for (const MeshPlace& place : places) {
     const glm::vec3 q = pose.ToCamera(place.On(vertices));
     face.points.emplace_back(pose.Project(q), q.z * pose.PixelsPerMm());
@@ -133,9 +136,9 @@ TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   EXPECT_GT(most(FitFace(built_in, face)), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
   const std::size_t corner = 291;
-  EXPECT_LT(
-      glm::distance(base.places[corner].On(fit.worn), base.places[corner].On(vertices.position)),
-      2);
+  EXPECT_LT(glm::distance(base.places[corner].On(fit.posed_vertices),
+                          base.places[corner].On(vertices.position)),
+            2);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
+#include "face_fit/picture/filters.h"
+#include "fsm/rig/head.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/head.h"
@@ -79,8 +81,8 @@ TEST_F(GroupTest, AGroupWhoseLargestFaceLeansToOneSideStaysAsItIs) {
                                  {{"galatea", 0, 58, 600, 300, 500},
                                   {"pygmalion", 10, 0, 100, 200, 380},
                                   {"baucis", -10, -5, 1150, 200, 380}});
-  EXPECT_EQ(UprightWay(*networks_, photo), 1);
-  EXPECT_EQ(UprightWay(*networks_, Turned(photo, 6)), 8);
+  EXPECT_EQ(UprightOrientation(*networks_, photo), 1);
+  EXPECT_EQ(UprightOrientation(*networks_, Turned(photo, 6)), 8);
 }
 
 }  // namespace

@@ -8,16 +8,17 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/dress/dress.h"
-#include "face_fit/dress/folds.h"
-#include "face_fit/dress/openings.h"
-#include "face_fit/dress/red_eye.h"
-#include "face_fit/dress/skin_colours.h"
+#include "face_fit/bake/eyes.h"
+#include "face_fit/bake/openings.h"
+#include "face_fit/bake/red_eye.h"
+#include "face_fit/bake/skin_colours.h"
+#include "face_fit/bake/smile_folds.h"
+#include "face_fit/find/base_head.h"
 #include "face_fit/find/glasses.h"
 #include "face_fit/find/iris.h"
 #include "face_fit/find/mouth_line.h"
-#include "face_fit/fit/base_head.h"
 #include "face_fit/fit/fit.h"
+#include "face_fit/picture/resample.h"
 #include "fsm/head/make_head.h"
 
 namespace facefit {

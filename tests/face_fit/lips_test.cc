@@ -1,6 +1,6 @@
 // Lips that a smile had drawn thin.
 
-#include "face_fit/dress/lips.h"
+#include "face_fit/bake/lips.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "face_fit/find/base_head.h"
 #include "face_fit/find/face_networks.h"
-#include "face_fit/fit/base_head.h"
 
 namespace facefit {
 

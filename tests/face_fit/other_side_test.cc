@@ -1,12 +1,14 @@
 // The side of a face that the photo does not show.
 
-#include "face_fit/dress/other_side.h"
+#include "face_fit/bake/other_side.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
 
 namespace facefit {
 namespace {

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "face_fit/picture/filters.h"
+
 // Only after the standard's headers, whose names it uses.
 #include <jpeglib.h>
 

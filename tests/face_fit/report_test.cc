@@ -19,13 +19,13 @@ struct ReportTest : testing::Test {
     photo.rgba.assign(200 * 200 * 4, 128);
   }
   bool Says(const std::string& what) const {
-    return Report(face, fit, photo, 0.6F, 1, false, cover).find(what) != std::string::npos;
+    return Report(face, fit, photo, 0.6F, 1, false, occlusion).find(what) != std::string::npos;
   }
 
   FoundFace face;
   Fit fit;
   fsm::Image photo{.width = 200, .height = 200, .rgba = {}};
-  Cover cover{0.5F, "the nose"};
+  Occlusion occlusion{0.5F, "the nose"};
 };
 
 TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
@@ -47,10 +47,10 @@ TEST_F(ReportTest, EyesThatAreShutOrInTheShadeAreSpokenOf) {
 
 TEST_F(ReportTest, WhatMayBeBeforeAFaceIsToldApartFromWhatSurelyIs) {
   EXPECT_FALSE(Says("before the face at"));
-  cover.measure = 1.2F;
+  occlusion.measure = 1.2F;
   EXPECT_TRUE(Says("may be before the face at the nose"));
   EXPECT_FALSE(Says("covered by"));
-  cover.measure = 1.6F;
+  occlusion.measure = 1.6F;
   EXPECT_TRUE(Says("covered by something that is no face: the nose"));
 }
 

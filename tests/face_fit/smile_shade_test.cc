@@ -1,6 +1,6 @@
 // A photo of a smile brought to rest: the light on its cheeks.
 
-#include "face_fit/dress/smile_shade.h"
+#include "face_fit/bake/smile_shade.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ class SmileShadeTest : public NetworkTest {
       Fit fit;
       fit.pose.focal = 760;
       fit.pose.centre = {kPhoto / 2, kPhoto / 2};
-      fit.worn = Galatea().rest.position;
+      fit.posed_vertices = Galatea().rest.position;
       placed_.emplace(PlaceSkin(Galatea(), fit, fit.pose, true));
     }
     map_ = {.width = kMapSide, .height = kMapSide, .rgba = {}};

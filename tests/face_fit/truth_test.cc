@@ -11,10 +11,10 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/dress/profile.h"
 #include "face_fit/find/hand_points.h"
 #include "face_fit/fit/fit.h"
-#include "face_fit/fit/view.h"
+#include "face_fit/fit/profile_fit.h"
+#include "face_fit/fit/side_fit.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/mesh/head_points.h"
@@ -165,7 +165,8 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
 TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
   const BaseHead& base = Galatea();
   const auto corners = [&](const Fit& fit) {
-    return std::pair(base.places[61].On(fit.worn).y, base.places[291].On(fit.worn).y);
+    return std::pair(base.places[61].On(fit.posed_vertices).y,
+                     base.places[291].On(fit.posed_vertices).y);
   };
   const auto said = corners(front().fit);
   FoundFace face = front().face;
@@ -205,9 +206,9 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
     for (const float turn : {-40.0F, 25.0F, 40.0F, 55.0F}) {
       Fit fit = front;
       const fsm::Image side = truth.Photo(turn);
-      auto view = PlaceView(*networks_, base, fit, side);
+      auto view = FitSideView(*networks_, base, fit, side);
       ASSERT_TRUE(view) << turn << ": " << view.error().text;
-      Deepen(base, photo, side, *view, fit);
+      RefineDepthBySide(base, photo, side, *view, fit);
       const float with = DepthError(truth, fit);
       std::printf("%-9s %+.0f turned %+.0f (found %+.0f): depth %.2f mm off, front alone %.2f\n",
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
@@ -245,7 +246,7 @@ TEST_P(TruthTest, TheOutlineOfAProfileBringsDepthNearer) {
     const float without = DepthError(truth, front);
     for (const float turn : {-90.0F, 90.0F}) {
       Fit fit = front;
-      const auto view = DeepenByProfile(base, FigureOf(truth.Photo(turn)), fit);
+      const auto view = RefineDepthByProfile(base, FigureOf(truth.Photo(turn)), fit);
       ASSERT_TRUE(view) << turn << ": " << view.error().text;
       EXPECT_EQ(view->pose.turn.y > 0, turn > 0);
       const float with = DepthError(truth, fit);
@@ -271,16 +272,16 @@ TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
   for (const FloatImage& figure :
        {box, round, FloatImage(300, 400), FloatImage(300, 400, 1), FloatImage(1, 1, 1)}) {
     Fit fit = before;
-    const auto view = DeepenByProfile(base, figure, fit);
+    const auto view = RefineDepthByProfile(base, figure, fit);
     EXPECT_FALSE(view) << view->residual_mm;
-    EXPECT_EQ(fit.worn, before.worn);
+    EXPECT_EQ(fit.posed_vertices, before.posed_vertices);
   }
 }
 
 TEST_P(TruthTest, APhotoThatDoesNotHelpIsRefusedInWords) {
   const BaseHead& base = Galatea();
   const auto refusal = [&](const fsm::Image& photo) {
-    const auto view = PlaceView(*networks_, base, front().fit, photo);
+    const auto view = FitSideView(*networks_, base, front().fit, photo);
     return view ? "points " + std::to_string(view->residual_mm) : view.error().text;
   };
   const fsm::Image grey{

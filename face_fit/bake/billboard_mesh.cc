@@ -1,0 +1,399 @@
+#include "face_fit/bake/billboard_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
+
+#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/grain.h"
+#include "face_fit/bake/skin_rasterizer.h"
+#include "face_fit/fit/landmark_warp.h"
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/inpaint.h"
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+/// Below it the neck of the photo's own takes over from the skin.
+float SkinBottom(float chin) { return chin - BuiltInAppearance().skin_below_chin; }
+
+float ChinY(const BaseHead& base, const Fit& fit) {
+  return base.places[152].On(fit.posed_vertices).y;
+}
+
+/// 1 well below the chin, 0 above it. `p`: in the head's frame.
+float BelowChin(float chin, glm::vec3 p) { return glm::smoothstep(chin + 45, chin + 12, p.y); }
+
+/// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
+/// `p`: in the head's frame.
+float BeforeNeck(float chin, glm::vec3 p) {
+  return BelowChin(chin, p) * glm::smoothstep(40.0F, 22.0F, std::abs(p.x));
+}
+
+/// Fills what is not fixed with the solution of Poisson's equation for an even, slight curvature:
+/// as a skin of soap would span it, but a little rounder. By Gauss and Seidel, not to the end.
+void SolveLaplace(const FloatImage& fixed, FloatImage& depth) {
+  for (int round = 0; round < 400; ++round) {
+    for (int y = 0; y < depth.height; ++y) {
+      for (int x = 0; x < depth.width; ++x) {
+        const std::size_t i = depth.Index(x, y);
+        if (fixed.at[i] > 0) continue;
+        const auto next = [&](int dx, int dy) {
+          return depth.at[depth.Index(std::clamp(x + dx, 0, depth.width - 1),
+                                      std::clamp(y + dy, 0, depth.height - 1))];
+        };
+        depth.at[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + 0.12F;
+      }
+    }
+  }
+}
+
+/// The mean of what is covered around each point, ever less beyond its edge.
+void Spread(const FloatImage& covered, int reach, FloatImage& field) {
+  const FloatImage share = Blurred(covered, reach);
+  field = Blurred(field, reach);
+  for (std::size_t i = 0; i < field.at.size(); ++i) {
+    field.at[i] *= glm::smoothstep(0.0F, 0.3F, share.at[i]) / std::max(share.at[i], 1e-3F);
+  }
+}
+
+/// How the skin moves from the photo's expression to rest, at each vertex of the base head.
+std::vector<glm::vec3> MotionToRest(const BaseHead& base, const Fit& fit) {
+  const std::vector<glm::vec3> rest = SkinWith(base, fit, {});
+  std::vector<glm::vec3> motion(fit.posed_vertices.size(), glm::vec3(0));
+  for (std::size_t i = 0; i < std::min(rest.size(), motion.size()); ++i) {
+    motion[i] = rest[i] - fit.posed_vertices[i];
+  }
+  return motion;
+}
+
+/// The eyes and the mouth, which open: no part of the sheet may lie behind them. Of a turned head
+/// one eye and one corner of the mouth are near the edge of what the photo shows, where the sheet
+/// goes on from just under the skin.
+class OpeningsOfHead {
+ public:
+  OpeningsOfHead(const BaseHead& base, const Fit& fit) {
+    const auto at = [&](std::size_t point) { return base.places[point].On(fit.posed_vertices); };
+    constexpr std::array<std::pair<std::size_t, std::size_t>, 2> kEyes = {std::pair(33U, 133U),
+                                                                          std::pair(362U, 263U)};
+    // Millimetres that lids and lips go beyond their corners, and above and below.
+    constexpr float kLids = 3, kLips = 5;
+    for (std::size_t i = 0; i < kEyes.size(); ++i) {
+      const glm::vec3 right = at(kEyes[i].first), left = at(kEyes[i].second);
+      const float half = 0.5F * std::abs(left.x - right.x) + kLids;
+      ovals_[i] = {0.5F * (left + right), half, half, half};
+    }
+    const glm::vec3 right = at(78), left = at(308);
+    constexpr float kJawFalls = 34;
+    ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + kLips, 10, kJawFalls};
+  }
+  /// `p`: in the head's frame.
+  bool BehindMouth(glm::vec3 p) const { return Behind(ovals_[2], p); }
+  bool Behind(glm::vec3 p) const {
+    return std::ranges::any_of(ovals_, [p](const Oval& oval) { return Behind(oval, p); });
+  }
+
+ private:
+  struct Oval {
+    glm::vec3 middle{0};
+    float half = 1, above = 1, below = 1;
+  };
+  static bool Behind(const Oval& oval, glm::vec3 p) {
+    // Further back there is the hair at the nape.
+    constexpr float kBehind = 90;
+    if (p.z < oval.middle.z - kBehind) return false;
+    const glm::vec2 off = glm::vec2(p - oval.middle);
+    const glm::vec2 part = off / glm::vec2(oval.half, off.y > 0 ? oval.above : oval.below);
+    return glm::dot(part, part) < 1;
+  }
+  std::array<Oval, 3> ovals_{};
+};
+
+/// The figure with what goes on beyond the photo's edges: clothes are mirrored there to and fro,
+/// and pulled down as the shoulders fall. Hair that the photo cuts off ends softly.
+class ExtendedFigure {
+ public:
+  /// `chin`: its pixel; `mm`: pixels to a millimetre.
+  ExtendedFigure(const Figure& figure, glm::vec2 chin, float mm)
+      : opacity_(figure.opacity),
+        width_(static_cast<float>(opacity_.width)),
+        height_(static_cast<float>(opacity_.height)),
+        chin_(chin),
+        mm_(mm) {
+    constexpr float kHalfHead = 80;  // millimetres, with hair
+    for (const int side : {0, 1}) {
+      fall_[side] = Fall(side);
+      const float aside = side == 0 ? chin.x : width_ - chin.x;
+      strip_[side] = std::max(0.35F * (aside - kHalfHead * mm), 0.04F * width_);
+    }
+    lower_ = std::max(0.6F * (height_ - chin.y), 0.04F * height_);
+  }
+  /// The pixel shown at a place in the photo's plane.
+  glm::vec2 Pixel(glm::vec2 p) const {
+    const int side = p.x < 0 ? 0 : 1;
+    if (const float out = Out(p); out > 0) {
+      const float in = ToAndFro(out, strip_[side]);
+      // A shoulder bends down into the arm.
+      const float round_mm = BuiltInAppearance().shoulder_round;
+      p.y -= fall_[side] * (out + in) + out * out / (2 * round_mm * mm_);
+      p.x = side == 0 ? in : width_ - in;
+    }
+    if (p.y > height_) p.y = height_ - ToAndFro(p.y - height_, lower_);
+    return glm::clamp(p, glm::vec2(0), glm::vec2(width_, height_));
+  }
+  float Opacity(glm::vec2 p) const {
+    const glm::vec2 at = Pixel(p);
+    const float shown = opacity_.Between(at.x, at.y);
+    return p.y < chin_.y && Out(p) > 4 * mm_ ? 0 : shown;
+  }
+
+ private:
+  float Out(glm::vec2 p) const { return std::max({-p.x, p.x - width_, 0.0F}); }
+  static float ToAndFro(float way, float length) {
+    const float rest = std::fmod(way, 2 * length);
+    return std::min(rest, 2 * length - rest);
+  }
+  /// How many pixels the outline falls for each that it comes nearer to the edge.
+  float Fall(int side) const {
+    const auto top = [&](int inward) {
+      const int x = side == 0 ? inward : opacity_.width - 1 - inward;
+      int y = 0;
+      while (y < opacity_.height && opacity_.at[opacity_.Index(x, y)] < 0.5F) ++y;
+      return y;
+    };
+    const int inward = std::max(opacity_.width / 16, 1);
+    const int edge = top(0), within = top(inward);
+    const glm::vec2 limit = BuiltInAppearance().shoulder_fall;
+    if (edge >= opacity_.height || within >= opacity_.height) return limit.x;
+    return std::clamp(static_cast<float>(edge - within) / static_cast<float>(inward), limit.x,
+                      limit.y);
+  }
+  const FloatImage& opacity_;
+  float width_, height_;
+  glm::vec2 chin_;
+  float mm_;
+  float fall_[2] = {}, strip_[2] = {}, lower_ = 1;
+};
+
+/// The grid of the sheet: the photo with what goes on beside and below it.
+PhotoGrid GridOver(const Figure& figure, float mm) {
+  const float beyond = BuiltInAppearance().beyond_photo;
+  constexpr float kLeastCell = 4.5F, kMostPoints = 14000;  // millimetres; count
+  const glm::vec2 size(figure.colours.width, figure.colours.height);
+  const glm::vec2 extent = size + glm::vec2(2 * beyond, beyond) * mm;
+  const float cell = std::max(kLeastCell * mm, std::sqrt(extent.x * extent.y / kMostPoints));
+  return {{-beyond * mm, 0},
+          cell,
+          static_cast<int>(extent.x / cell) + 2,
+          static_cast<int>(extent.y / cell) + 2};
+}
+
+/// The skin on the sheet's grid.
+struct GridSkin {
+  GridSkin(const FloatImage& skin_depth, int rim_cells)
+      : rim(rim_cells),
+        depth(skin_depth),
+        covered(depth.width, depth.height),
+        inner(covered),
+        within(covered) {
+    for (std::size_t i = 0; i < depth.at.size(); ++i) {
+      covered.at[i] = depth.at[i] > SkinRaster::kNone ? 1.0F : 0.0F;
+    }
+    within = Blurred(covered, rim);
+    for (std::size_t i = 0; i < depth.at.size(); ++i) {
+      inner.at[i] = covered.at[i] > 0 && within.at[i] > kEdge ? 1.0F : 0.0F;
+    }
+  }
+  /// From here on skin is inner: at the very edge it turns away, and each point has a depth of its
+  /// own.
+  static constexpr float kEdge = 0.62F;
+  int rim;             ///< cells
+  FloatImage depth;    ///< towards the camera, millimetres
+  FloatImage covered;  ///< 1 where there is skin
+  FloatImage inner;    ///< 1 where it is inner skin
+  FloatImage within;   ///< how much of what is nearer than the rim is skin, 0..1
+};
+
+/// Depth of the sheet, millimetres towards the camera: just under the skin, from there gently back
+/// to the outline. `shown`: the figure's opacity, 0..1.
+FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, float chin, const GridSkin& skin,
+                      const FloatImage& shown) {
+  const Appearance& look = BuiltInAppearance();
+  FloatImage depth(grid.columns, grid.rows), fixed(depth), beside(skin.depth);
+  for (std::size_t i = 0; i < beside.at.size(); ++i) beside.at[i] *= skin.inner.at[i];
+  beside = Blurred(beside, skin.rim);
+  const FloatImage share = Blurred(skin.inner, skin.rim);
+  for (int y = 0; y < grid.rows; ++y) {
+    for (int x = 0; x < grid.columns; ++x) {
+      const std::size_t i = depth.Index(x, y);
+      const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(grid.Pixel(x, y), 20));
+      if (skin.inner.at[i] > 0) {
+        fixed.at[i] = 1;
+        // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
+        const float inward = glm::smoothstep(GridSkin::kEdge, 0.95F, skin.within.at[i]);
+        const float under = skin.depth.at[i] - glm::mix(0.6F, 5.0F, inward);
+        // Behind the lower face lies the neck; the jaw has room to open.
+        depth.at[i] = glm::mix(under, std::min(under, 30.0F), BeforeNeck(chin, about)) -
+                      2 * BelowChin(chin, about);
+      } else if (skin.covered.at[i] <= 0 && shown.at[i] < 0.12F) {
+        // Somewhat beyond the outline, which would waver as the grid's points lie within it or not.
+        // Hair stands before the ears, shoulders lie in their plane. Beside the cheek the sheet
+        // stays near the cheek's depth, or its last pixels would be drawn long.
+        constexpr float kTurns = 8;
+        const float far = glm::mix(look.hair_depth, look.shoulder_depth,
+                                   glm::smoothstep(chin, chin - 70, about.y));
+        const float near = std::max(beside.at[i] / std::max(share.at[i], 1e-3F) - kTurns, far);
+        depth.at[i] = glm::mix(far, near, glm::smoothstep(0.0F, 0.25F, share.at[i]));
+        fixed.at[i] = 1;
+      }
+    }
+  }
+  SolveLaplace(fixed, depth);
+  // A steep fall, as from the jaw to the neck, would fold when the head turns.
+  const FloatImage spanned = depth;
+  depth = Blurred(Blurred(depth, 1), 1);
+  for (std::size_t i = 0; i < depth.at.size(); ++i) {
+    if (skin.inner.at[i] > 0) depth.at[i] = std::min(depth.at[i], spanned.at[i]);
+  }
+  return depth;
+}
+
+/// Corners of the cells of the sheet that are drawn, counter-clockwise.
+using Quads = std::vector<std::array<std::uint32_t, 4>>;
+Quads DrawnCells(const BaseHead& base, const Fit& fit, const PhotoGrid& grid,
+                 const ExtendedFigure& figure, FloatImage covered, int rim,
+                 const FloatImage& depth) {
+  FillHoles(covered);
+  // Nothing behind the middle of the face: there are the mouth and the eyes.
+  const FloatImage within = Blurred(covered, rim);
+  const OpeningsOfHead openings(base, fit);
+  const auto about = [&](int x, int y) {
+    return fit.pose.FromCamera(fit.pose.Unproject(grid.Pixel(x, y), depth.at[depth.Index(x, y)]));
+  };
+  const auto hidden = [&](int x, int y) {
+    return within.at[depth.Index(x, y)] > 0.999F || openings.Behind(about(x, y));
+  };
+  // Of a photo of few pixels a cell is wider than what is left between lips and cheek.
+  const auto in_mouth = [&](int x, int y) {
+    int corners = 0;
+    for (int k = 0; k < 4; ++k) corners += openings.BehindMouth(about(x + k % 2, y + k / 2));
+    return corners >= 2;
+  };
+  const auto opacity = [&](int x, int y) {
+    return figure.Opacity(grid.Pixel(std::max(x, 0), std::max(y, 0)));
+  };
+  Quads quads;
+  for (int y = 0; y + 1 < grid.rows; ++y) {
+    for (int x = 0; x + 1 < grid.columns; ++x) {
+      if (std::max({opacity(x, y), opacity(x + 1, y), opacity(x, y + 1), opacity(x + 1, y + 1),
+                    opacity(x - 1, y), opacity(x, y - 1)}) <= 0) {
+        continue;
+      }
+      if (hidden(x, y) && hidden(x + 1, y) && hidden(x, y + 1) && hidden(x + 1, y + 1)) continue;
+      if (in_mouth(x, y)) continue;
+      const auto at = [&](int dx, int dy) {
+        return static_cast<std::uint32_t>(depth.Index(x + dx, y + dy));
+      };
+      quads.push_back({at(0, 0), at(0, 1), at(1, 1), at(1, 0)});
+    }
+  }
+  return quads;
+}
+
+}  // namespace
+
+fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure) {
+  const int width = figure.colours.width, height = figure.colours.height;
+  const float chin = ChinY(base, fit);
+  FloatImage face =
+      RasterizeSkin(base, fit, {glm::vec2(0.5F), 1, width, height}, SkinBottom(chin)).depth;
+  for (float& v : face.at) v = v > SkinRaster::kNone ? 1.0F : 0.0F;
+  FillHoles(face);
+  // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
+  // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
+  // large as the skin, or the chin would be seen a second time.
+  const float mm = fit.pose.PixelsPerMm();
+  const float face_hole = BuiltInAppearance().hole_face, neck_hole = BuiltInAppearance().hole_neck;
+  const FloatImage soft = Blurred(face, std::max(static_cast<int>(9 * mm), 1));
+  FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
+      const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(pixel, 20));
+      const std::size_t i = keep.Index(x, y);
+      const float most = glm::mix(face_hole, neck_hole, BeforeNeck(chin, about));
+      keep.at[i] = glm::smoothstep(most + 0.08F, most - 0.12F, soft.at[i]);
+      beside.at[i] = glm::smoothstep(neck_hole + 0.1F, neck_hole - 0.1F, soft.at[i]);
+      below.at[i] = BelowChin(chin, about);
+    }
+  }
+  fsm::Image out = figure.colours;
+  PushPullInpaint(out, keep);
+  const int grain = std::max(static_cast<int>(2.5F * mm), 2);
+  // Of a small photo grain is as coarse as its pixels.
+  const FloatImage all(width, height, glm::smoothstep(0.6F, 1.6F, mm));
+  AddGrain(keep, all, grain, out);
+  // Behind the jaw lies what is below it, not what is on it.
+  fsm::Image neck = figure.colours;
+  PushPullInpaint(neck, beside);
+  AddGrain(beside, all, grain, neck);
+  for (std::size_t i = 0; i < keep.at.size(); ++i) {
+    const float part = below.at[i] * (1 - keep.at[i]);
+    if (part > 0) SetRgb(out, i, glm::mix(Rgb(out, i), Rgb(neck, i), part));
+  }
+  return out;
+}
+
+void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
+                   fsm::PhotoHead& set) {
+  const float mm = fit.pose.PixelsPerMm();
+  const float chin = ChinY(base, fit);
+  const PhotoGrid grid = GridOver(figure, mm);
+  const glm::vec3 chin_place = base.places[152].On(fit.posed_vertices);
+  const ExtendedFigure extended(figure, fit.pose.Project(fit.pose.ToCamera(chin_place)), mm);
+  SkinRaster raster = RasterizeSkin(base, fit, grid, SkinBottom(chin), MotionToRest(base, fit));
+  const GridSkin skin(
+      raster.depth,
+      std::max(static_cast<int>(std::lround(BuiltInAppearance().sheet_rim * mm / grid.cell)), 1));
+  // Hair and neck beside the skin go with it.
+  for (FloatImage& axis : raster.motion) Spread(skin.covered, skin.rim, axis);
+  FloatImage shown(grid.columns, grid.rows);
+  for (int y = 0; y < grid.rows; ++y) {
+    for (int x = 0; x < grid.columns; ++x) {
+      shown.at[shown.Index(x, y)] = extended.Opacity(grid.Pixel(x, y));
+    }
+  }
+  const FloatImage depth = SheetDepth(fit, grid, chin, skin, Blurred(shown, 2));
+  const glm::vec2 size(figure.colours.width, figure.colours.height);
+  set.sheet.clear();
+  set.sheet_triangles.clear();
+  for (int y = 0; y < grid.rows; ++y) {
+    for (int x = 0; x < grid.columns; ++x) {
+      const glm::vec2 pixel = grid.Pixel(x, y);
+      const std::size_t i = depth.Index(x, y);
+      const glm::vec2 at =
+          glm::clamp(extended.Pixel(pixel) / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
+      const glm::vec3 by(raster.motion[0].at[i], raster.motion[1].at[i], raster.motion[2].at[i]);
+      const glm::vec3 place =
+          fit.pose.FromCamera(fit.pose.Unproject(pixel, std::min(depth.at[i], 60.0F)));
+      set.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
+    }
+  }
+  Quads quads = DrawnCells(base, fit, grid, extended, skin.covered, skin.rim, depth);
+  // From back to front: soft edges show what lies behind them.
+  std::ranges::sort(quads, {}, [&](const auto& quad) {
+    return std::pair(set.sheet[quad[0]].position.z + set.sheet[quad[2]].position.z, quad);
+  });
+  for (const auto& quad : quads) {
+    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) set.sheet_triangles.push_back(quad[k]);
+  }
+  set.seen_from = glm::transpose(fit.pose.Rotation()) * glm::vec3(0, 0, 1);
+  set.skin_bottom_y = SkinBottom(chin);
+}
+
+}  // namespace facefit

@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/eyes.h"
+#include "face_fit/bake/red_eye.h"
+#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/inpaint.h"
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
+
+namespace facefit {
+namespace {
+
+// Squares side by side in the lower left corner of the picture: below the neck the skin's map is
+// not looked at. Texels between them, so that they do not run into each other.
+constexpr int kIrisSide = 64;
+constexpr int kEyeSide = 128;
+constexpr int kMargin = 4;
+constexpr int kRings = 24;
+
+struct Texel {
+  glm::vec3 colour{0};
+  float seen = 0;    ///< 0..1, not hidden by a lid
+  float radius = 0;  ///< in radii of the iris
+};
+
+/// The usual colour at each distance from the middle, from where it is seen.
+std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
+  std::array<std::vector<glm::vec3>, kRings> rings;
+  const auto ring_of = [](float radius) {
+    return std::min(static_cast<int>(radius / fsm::kIrisSpan * kRings), kRings - 1);
+  };
+  for (const Texel& t : texels) {
+    if (t.seen > 0.9F) rings[static_cast<std::size_t>(ring_of(t.radius))].push_back(t.colour);
+  }
+  const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
+  std::array<glm::vec3, kRings> usual;
+  // Of an iris all hidden there is nothing better than what is hidden least.
+  usual.fill(std::ranges::max_element(texels, {}, &Texel::seen)->colour);
+  int last = -1;
+  for (int k = 0; k < kRings; ++k) {
+    auto& ring = rings[static_cast<std::size_t>(k)];
+    if (ring.empty()) continue;
+    const auto middle = ring.begin() + static_cast<std::ptrdiff_t>(ring.size() / 2);
+    std::ranges::nth_element(ring, middle, {}, light);
+    // Rings that are nowhere seen are as those within them, the innermost as those round them.
+    for (int empty = last < 0 ? 0 : last + 1; empty < k; ++empty) {
+      usual[static_cast<std::size_t>(empty)] =
+          last < 0 ? *middle : usual[static_cast<std::size_t>(last)];
+    }
+    usual[static_cast<std::size_t>(k)] = *middle;
+    last = k;
+  }
+  for (int k = last + 1; k < kRings && last >= 0; ++k) {
+    usual[static_cast<std::size_t>(k)] = usual[static_cast<std::size_t>(last)];
+  }
+  return usual;
+}
+
+/// A square of texels; (-1, 1) is its upper left corner.
+template <typename Colour>
+fsm::Image Painted(int side, Colour colour_at) {
+  fsm::Image out = BlankImage(side, side);
+  std::size_t i = 0;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x, ++i) {
+      const glm::vec2 p = 2.0F * (glm::vec2(x, y) + 0.5F) / static_cast<float>(side) - 1.0F;
+      SetRgb(out, i, colour_at(glm::vec2(p.x, -p.y)));
+    }
+  }
+  return out;
+}
+
+/// Its place in the picture: left, top, right, bottom.
+glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
+  const int side = square.width;
+  const int top = picture.height - kMargin - side;
+  for (int y = 0; y < side; ++y) {
+    std::copy_n(&square.rgba[static_cast<std::size_t>(4 * y * side)], 4 * side,
+                &picture.rgba[4 * (static_cast<std::size_t>(top + y) *
+                                       static_cast<std::size_t>(picture.width) +
+                                   static_cast<std::size_t>(left))]);
+  }
+  const glm::vec2 size(picture.width, picture.height);
+  return {glm::vec2(left, top) / size, glm::vec2(left + side, top + side) / size};
+}
+
+struct SeenEye {
+  const IrisRing& ring;
+  LidLines lids;        ///< in the photo
+  glm::vec2 right, up;  ///< the head's axes there, unit
+};
+
+/// `skin`: its colour below the eye.
+fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& photo) {
+  // The shade of the lid's edge and its lashes.
+  const float edge = std::max(BuiltInAppearance().lid_shade * eye.ring.radius, 0.7F);
+  const auto texel_at = [&](glm::vec2 p) {
+    p *= fsm::kIrisSpan;
+    const glm::vec2 at = eye.ring.centre + eye.ring.radius * (p.x * eye.right + p.y * eye.up);
+    const auto [upper, lower] = eye.lids.At(eye.lids.Part(at));
+    const float within = std::min(eye.lids.Down(at) - upper, lower - eye.lids.Down(at));
+    float red = 0;
+    for (int k = 0; k < 9; ++k) {
+      const glm::vec2 beside = at + 0.22F * eye.ring.radius * (glm::vec2(k % 3, k / 3) - 1.0F);
+      red = std::max(red, RedEye(ColourAt(photo, beside), skin));
+    }
+    return Texel{WithoutRedEye(ColourAt(photo, at), skin, red),
+                 glm::smoothstep(0.5F * edge, edge, within), glm::length(p)};
+  };
+  std::vector<Texel> texels;
+  Painted(kIrisSide, [&](glm::vec2 p) { return texels.emplace_back(texel_at(p)).colour; });
+  const auto usual = UsualByRing(texels);
+  return Painted(kIrisSide, [&, next = texels.begin()](glm::vec2) mutable {
+    const Texel& t = *next++;
+    const float ring = std::clamp(t.radius / fsm::kIrisSpan * kRings - 0.5F, 0.0F, kRings - 1.001F);
+    const auto k = static_cast<std::size_t>(ring);
+    return glm::mix(glm::mix(usual[k], usual[k + 1], ring - static_cast<float>(k)), t.colour,
+                    t.seen);
+  });
+}
+
+/// `rest`: the lids of the eye at rest; `radius`: of its ball; both in millimetres round its
+/// centre.
+fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
+                       const fsm::Image& photo) {
+  const auto place = [&](glm::vec2 p) {
+    p *= fsm::kBallSpan * radius;
+    const float part = glm::clamp(rest.Part(p), 0.0F, 1.0F);
+    const auto [upper, lower] = rest.At(part);
+    const float between = (rest.Down(p) - upper) / std::max(lower - upper, 0.05F);
+    const auto [upper_seen, lower_seen] = eye.lids.At(part);
+    return std::pair(
+        eye.lids.Place(part, glm::mix(upper_seen, lower_seen, glm::clamp(between, 0.0F, 1.0F))),
+        between);
+  };
+  const auto beside_iris = [&eye](glm::vec2 at) {
+    return Ramp(BuiltInAppearance().beside_iris,
+                glm::distance(at, eye.ring.centre) / eye.ring.radius);
+  };
+  fsm::Image white =
+      Painted(kEyeSide, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });
+  // Behind the iris lies what is seen beside it, but not the lids' shade and lashes.
+  FloatImage weight(kEyeSide, kEyeSide);
+  std::size_t i = 0;
+  Painted(kEyeSide, [&](glm::vec2 p) {
+    const auto [at, between] = place(p);
+    weight.at[i++] = beside_iris(at) * glm::smoothstep(0.15F, 0.35F, between) *
+                     glm::smoothstep(1.0F, 0.85F, between);
+    return glm::vec3(0);
+  });
+  PushPullInpaint(white, weight);
+  i = 0;
+  return Painted(kEyeSide, [&](glm::vec2 p) {
+    const glm::vec2 at = place(p).first;
+    return glm::mix(Rgb(white, i++), ColourAt(photo, at), beside_iris(at));
+  });
+}
+
+struct EyeSquares {
+  fsm::Image iris, ball;
+};
+
+/// Whose picture each eye shows: its own, or that of the other where it is not seen. None where
+/// neither is seen well enough.
+std::optional<std::array<std::size_t, 2>> ShownEyes(const Fit& fit) {
+  // What stands for both is no half shut eye.
+  constexpr float kForBoth = 0.1F;
+  const auto seen = [&fit](std::size_t k, float contrast) {
+    return fit.irises[k].contrast >= contrast && fit.irises[k].radius >= kLeastIris;
+  };
+  if (seen(0, kClearRing) && seen(1, kClearRing)) return {{0, 1}};
+  for (const std::size_t k : {0U, 1U}) {
+    if (seen(k, kForBoth)) return {{k, k}};
+  }
+  return std::nullopt;
+}
+
+/// The skin below an eye and beside it.
+glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, std::size_t side) {
+  constexpr std::array<std::array<std::size_t, 4>, 2> kSkin = {
+      {{119, 118, 117, 101}, {348, 347, 346, 330}}};
+  glm::vec3 light(1);
+  for (const std::size_t point : kSkin[side]) light += ColourAt(photo, face.points[point]) / 4.0F;
+  return light;
+}
+
+/// Right and left exchanged, in another light.
+fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
+  gain = glm::clamp(gain, BuiltInAppearance().light_gain.x, BuiltInAppearance().light_gain.y);
+  fsm::Image out = square;
+  const auto width = static_cast<std::size_t>(square.width);
+  for (std::size_t i = 0; i < out.rgba.size() / 4; ++i) {
+    const std::size_t mirrored = i - i % width + (width - 1 - i % width);
+    SetRgb(out, i, Rgb(square, mirrored) * gain);
+  }
+  return out;
+}
+
+}  // namespace
+
+void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, const fsm::Image& photo,
+               fsm::Image& picture, fsm::PhotoHead& set) {
+  const auto shown = ShownEyes(fit);
+  if (!shown) return;
+  const glm::mat3 turned = fit.pose.Rotation();
+  const glm::vec2 right = glm::normalize(glm::vec2(turned[0].x, -turned[0].y));
+  std::array<EyeSquares, 2> squares;
+  for (const int side : {0, 1}) {
+    const auto k = static_cast<std::size_t>(side);
+    if ((*shown)[k] != k) continue;
+    const fsm::EyePlace& ball = base.head->topology().eyes[k];
+    const fsm::EyeTransform seat = set.eyes ? (*set.eyes)[k] : fsm::EyeTransform();
+    EyePoints seen, rest;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const auto point = static_cast<std::size_t>(EyeOutline(side)[i]);
+      seen[i] = face.At(point);
+      rest[i] = glm::vec2(base.AtRest(point) - ball.centre);
+    }
+    const float inner = rest[8].x, outer = rest[0].x;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      const float along = 2 * (rest[i].x - inner) / (outer - inner) - 1;
+      const float open = std::max(1 - along * along, 0.0F);
+      const float raised = i % 8 == 0 ? 0 : i < 8 ? seat.upper_mm : seat.lower_mm;
+      rest[i] = glm::vec2(seat.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
+    }
+    const SeenEye eye{fit.irises[k], LidLines(seen), right, {right.y, -right.x}};
+    squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
+                  BallPicture(eye, LidLines(rest), seat.size * ball.ball_radius, photo)};
+  }
+  int left = kMargin;
+  set.eye_pictures.emplace();
+  for (std::size_t k = 0; k < 2; ++k) {
+    if ((*shown)[k] != k) {
+      const glm::vec3 gain = LightBeside(face, photo, k) / LightBeside(face, photo, 1 - k);
+      squares[k] = {Mirrored(squares[1 - k].iris, gain), Mirrored(squares[1 - k].ball, gain)};
+    }
+    fsm::EyePicture& places = (*set.eye_pictures)[k];
+    places.iris = Insert(squares[k].iris, left, picture);
+    left += kIrisSide + kMargin;
+    places.ball = Insert(squares[k].ball, left, picture);
+    left += kEyeSide + kMargin;
+  }
+}
+
+}  // namespace facefit

@@ -1,0 +1,57 @@
+#include "face_fit/bake/grain.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+constexpr float kKnown = 0.95F;
+
+glm::ivec2 PlaceOf(const FloatImage& field, std::size_t i) {
+  const auto width = static_cast<std::size_t>(field.width);
+  return {static_cast<int>(i % width), static_cast<int>(i / width)};
+}
+
+}  // namespace
+
+void AddGrain(const FloatImage& weight, const FloatImage& where, int reach, fsm::Image& image) {
+  if (std::ranges::max(weight.at) < kKnown) return;
+  const auto nearest = NearestAbove(weight, kKnown);
+  const float farthest = 8 * static_cast<float>(reach);
+  struct Loan {
+    std::size_t to, from;
+    float part;
+  };
+  std::vector<Loan> loans;
+  for (std::size_t i = 0; i < weight.at.size(); ++i) {
+    if (weight.at[i] >= kKnown || where.at[i] <= 0) continue;
+    const glm::ivec2 here = PlaceOf(weight, i), edge = PlaceOf(weight, nearest[i]);
+    const glm::ivec2 beyond = 2 * edge - here;
+    if (beyond.x < 0 || beyond.y < 0 || beyond.x >= weight.width || beyond.y >= weight.height) {
+      continue;
+    }
+    const std::size_t from = weight.Index(beyond.x, beyond.y);
+    const float off = glm::length(glm::vec2(edge - here));
+    const float part = where.at[i] * weight.at[from] * (1 - weight.at[i]) *
+                       glm::smoothstep(farthest, 0.5F * farthest, off);
+    if (part > 0) loans.push_back({i, from, part});
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    const FloatImage channel = Channel(image, c);
+    const FloatImage even = Blurred(channel, reach);
+    for (const Loan& loan : loans) {
+      const float grain = channel.at[loan.from] - even.at[loan.from];
+      image.rgba[4 * loan.to + c] = Byte(channel.at[loan.to] + loan.part * grain);
+    }
+  }
+}
+
+}  // namespace facefit

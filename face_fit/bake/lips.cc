@@ -1,0 +1,68 @@
+#include "face_fit/bake/lips.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include "face_fit/bake/appearance.h"
+#include "face_fit/picture/photo.h"
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
+
+namespace facefit {
+namespace {
+
+float Redness(glm::vec3 c) { return std::log((c.r + 4) / (c.g + 4)); }
+
+/// The texels `which` of the map says, as the mean of those whose redness is `from` to `to` of the
+/// way from the least to the most.
+struct Kind {
+  glm::vec3 colour{0};
+  float redness = 0, brightness = 0;
+};
+
+Kind MeanOf(std::vector<glm::vec3>& texels, float from, float to) {
+  Kind kind;
+  std::ranges::sort(texels, {}, Redness);
+  const auto at = [&](float part) {
+    return static_cast<std::size_t>(part * static_cast<float>(texels.size() - 1));
+  };
+  for (std::size_t i = at(from); i <= at(to); ++i) kind.colour += texels[i];
+  kind.colour /= static_cast<float>(at(to) - at(from) + 1);
+  kind.redness = Redness(kind.colour);
+  kind.brightness = Brightness(kind.colour);
+  return kind;
+}
+
+}  // namespace
+
+void RedLips(const std::vector<float>& within, fsm::Image& map) {
+  const Appearance& look = BuiltInAppearance();
+  constexpr float kLeast = 0.05F;  // between lips and skin, of redness
+  std::vector<glm::vec3> lips, beside;
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    if (within[i] > look.lip_inside) lips.push_back(Rgb(map, i));
+    if (within[i] > look.lip_beside.x && within[i] < look.lip_beside.y)
+      beside.push_back(Rgb(map, i));
+  }
+  if (lips.empty() || beside.empty()) return;
+  const Kind lip = MeanOf(lips, 0.7F, 0.95F), skin = MeanOf(beside, 0.3F, 0.7F);
+  if (lip.redness - skin.redness < kLeast) return;
+  const glm::vec3 hue = lip.colour / lip.brightness;
+  const float darker = glm::clamp(lip.brightness / skin.brightness, 0.5F, 1.0F);
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    if (within[i] <= 0) continue;
+    const glm::vec3 c = Rgb(map, i);
+    const float bright = Brightness(c);
+    const float lacks =
+        glm::clamp((lip.redness - Redness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
+    // What shines, and what is dark between the lips, has a colour of its own.
+    const float part = look.lip_reddened * lacks * glm::smoothstep(0.0F, look.lip_soft, within[i]) *
+                       glm::smoothstep(1.2F, 1.05F, bright / skin.brightness) *
+                       glm::smoothstep(0.2F, 0.5F, bright / skin.brightness);
+    SetRgb(map, i, glm::mix(c, hue * bright * darker, part));
+  }
+}
+
+}  // namespace facefit

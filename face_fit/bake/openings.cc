@@ -1,0 +1,64 @@
+#include "face_fit/bake/openings.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/bake/appearance.h"
+#include "face_fit/find/landmark_lists.h"
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+
+Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) : face_(face) {
+  const Appearance& look = BuiltInAppearance();
+  // The dark line of the lashes stays on the rims of the lids.
+  const float lash = look.lash_rim * pixels_per_mm;
+  for (const int side : {0, 1}) {
+    const auto outline = EyeOutline(side);
+    openings_.push_back({{outline.begin(), outline.end()}, -lash, -lash});
+  }
+  if (lips_apart) {
+    std::vector<int> mouth(UpperInnerLip().begin(), UpperInnerLip().end());
+    mouth.insert(mouth.end(), LowerInnerLip().rbegin(), LowerInnerLip().rend());
+    // Teeth shine through the blurred edge of the lips, in a small photo over more of them.
+    const float rim = std::max(look.mouth_rim.x * pixels_per_mm, 0.8F);
+    openings_.push_back({mouth, rim, rim + std::max(look.mouth_rim.y * pixels_per_mm, 1.0F)});
+  }
+  for (Opening& opening : openings_) {
+    Box2 box;
+    for (const int i : opening.outline) box.Add(face.At(i));
+    opening.middle = box.Middle();
+    opening.radius = 0.5F * glm::distance(box.low, box.high) + std::max(opening.all, 0.0F);
+  }
+}
+
+float Openings::Skin(glm::vec2 pixel) const {
+  float part = 1;
+  for (const Opening& opening : openings_) {
+    if (glm::distance(pixel, opening.middle) >= opening.radius) continue;
+    const float outside = Outside(face_, opening.outline, pixel);
+    const float here = opening.all > opening.none
+                           ? glm::smoothstep(opening.none, opening.all, outside)
+                           : static_cast<float>(outside >= opening.none);
+    part = std::min(part, here);
+  }
+  return part;
+}
+
+float Outside(const FoundFace& face, std::span<const int> outline, glm::vec2 pixel) {
+  bool inside = false;
+  float nearest = 1e9F;
+  const auto at = [&](std::size_t k) { return face.At(outline[k]); };
+  for (std::size_t k = 0, j = outline.size() - 1; k < outline.size(); j = k++) {
+    const glm::vec2 a = at(k), b = at(j), way = b - a;
+    const float part =
+        glm::clamp(glm::dot(pixel - a, way) / std::max(glm::dot(way, way), 1e-6F), 0.0F, 1.0F);
+    nearest = std::min(nearest, glm::distance(pixel, a + part * way));
+    if ((a.y > pixel.y) == (b.y > pixel.y)) continue;
+    if (pixel.x < way.x * (pixel.y - a.y) / way.y + a.x) inside = !inside;
+  }
+  return inside ? -nearest : nearest;
+}
+
+}  // namespace facefit

@@ -1,0 +1,161 @@
+#include "face_fit/bake/skin_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <span>
+
+#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/skin_rasterizer.h"
+#include "face_fit/find/rasterizer.h"
+
+namespace facefit {
+namespace {
+
+/// Whether the head itself hides a place of its skin from the camera, as the jaw does the throat.
+class Hidden {
+ public:
+  Hidden(const BaseHead& base, const Fit& fit) : fit_(fit) {
+    const glm::vec2 middle = fit.pose.Project({0, 0, 0});
+    const float reach = kReach * fit.pose.PixelsPerMm();
+    const float cell = 2 * reach / kCells;
+    grid_ = {middle - reach, cell, kCells, kCells};
+    nearest_ = RasterizeSkin(base, fit, grid_, -1e9F).depth;
+  }
+  bool operator()(glm::vec3 camera) const {
+    const glm::vec2 at = (fit_.pose.Project(camera) - grid_.origin) / grid_.cell + 0.5F;
+    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+    if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
+    constexpr float kBehind = 5;  // millimetres
+    for (int k = 0; k < 9; ++k) {
+      const float z = nearest_.at[nearest_.Index(x + k % 3 - 1, y + k / 3 - 1)];
+      if (z < camera.z + kBehind) return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int kCells = 256;
+  static constexpr float kReach = 180;  // millimetres
+  const Fit& fit_;
+  PhotoGrid grid_{};
+  FloatImage nearest_{0, 0};
+};
+
+/// The height of a line from the person's right to left.
+float HeightAt(std::span<const glm::vec3> line, float x) {
+  std::size_t k = 1;
+  while (k + 1 < line.size() && line[k].x < x) ++k;
+  const float part = (x - line[k - 1].x) / std::max(line[k].x - line[k - 1].x, 1e-3F);
+  return glm::mix(line[k - 1].y, line[k].y, glm::clamp(part, 0.0F, 1.0F));
+}
+
+/// Where the lips of the base head at rest meet and end, in millimetres.
+class LipLines {
+ public:
+  explicit LipLines(const BaseHead& base)
+      : seam_(Line(base, UpperInnerLip(), {})),
+        upper_(Line(base, UpperOuterLip(), kCorners)),
+        lower_(Line(base, LowerOuterLip(), kCorners)) {}
+  float OffSeam(glm::vec3 p) const {
+    if (!Spans(seam_, p)) return 1e9F;
+    const float off = std::abs(p.y - HeightAt(seam_, p.x));
+    // Towards its ends the line grows thin.
+    const float to_end = std::min(p.x - seam_.front().x, seam_.back().x - p.x);
+    return off + 0.2F * std::max(7 - to_end, 0.0F);
+  }
+  float Within(glm::vec3 p) const {
+    if (!Spans(upper_, p)) return -1e9F;
+    return std::min(HeightAt(upper_, p.x) - p.y, p.y - HeightAt(lower_, p.x));
+  }
+
+ private:
+  static constexpr std::array kCorners = {61, 291};
+  static bool Spans(std::span<const glm::vec3> line, glm::vec3 p) {
+    constexpr float kFront = 60;  // behind it lies the mouth's inside
+    return p.x >= line.front().x && p.x <= line.back().x && p.z >= kFront;
+  }
+  static std::vector<glm::vec3> Line(const BaseHead& base, std::span<const int> points,
+                                     std::span<const int> ends) {
+    std::vector<int> all(points.begin(), points.end());
+    if (!ends.empty()) {
+      all.insert(all.begin(), ends.front());
+      all.push_back(ends.back());
+    }
+    std::vector<glm::vec3> line;
+    for (const int i : all) {
+      line.push_back(base.AtRest(i));
+    }
+    return line;
+  }
+  std::vector<glm::vec3> seam_, upper_, lower_;
+};
+
+/// Normals of the vertices of the skin, their lengths by the areas around.
+std::vector<glm::vec3> SkinNormals(const fsm::HeadTopology& topology,
+                                   const std::vector<glm::vec3>& position) {
+  std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
+  ForSkinTriangles(topology, [&](const std::uint32_t* t) {
+    const glm::vec3 n =
+        glm::cross(position[t[1]] - position[t[0]], position[t[2]] - position[t[0]]);
+    for (int c = 0; c < 3; ++c) normal[t[c]] += n;
+  });
+  return normal;
+}
+
+/// A triangle of the skin in texels of its map; nothing if it runs across the seam of the map.
+std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const std::uint32_t* t) {
+  const auto texel = [&](std::uint32_t v) {
+    return glm::vec2(topology.uv[v].x, 1 - topology.uv[v].y) * static_cast<float>(kMapSide) - 0.5F;
+  };
+  const Triangle2 out{texel(t[0]), texel(t[1]), texel(t[2])};
+  const float wide = std::max({out.a.x, out.b.x, out.c.x}) - std::min({out.a.x, out.b.x, out.c.x});
+  if (wide > kMapSide / 4.0F) return std::nullopt;
+  return out;
+}
+
+}  // namespace
+
+SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose, bool hidden) {
+  const Appearance& look = BuiltInAppearance();
+  constexpr float kSlack = 0.02F;
+  constexpr glm::vec3 kEye(0, 0, kCameraZ);
+  std::optional<Hidden> hides;
+  if (hidden) hides.emplace(base, fit);
+  const auto& topology = base.head->topology();
+  std::vector<glm::vec3> camera;
+  for (const glm::vec3& p : fit.posed_vertices) camera.push_back(pose.ToCamera(p));
+  const std::vector<glm::vec3> normal = SkinNormals(topology, camera);
+  const float brows = base.head->Landmark("nasion").y + kBrowsEnd;
+  const float chin = base.AtRest(152).y;
+  const LipLines lips(base);
+  SkinPlaces out;
+  ForSkinTriangles(topology, [&](const std::uint32_t* t) {
+    const auto triangle = OnMap(topology, t);
+    if (!triangle) return;
+    Rasterize(*triangle, kMapSide, kMapSide, kSlack, [&](int x, int y, glm::vec3 weights) {
+      const glm::vec3 rest = Interpolated(base.rest.position, t, weights);
+      const float outward = rest.x * rest.x + rest.z * rest.z;
+      const std::size_t i = MapIndex(x, y);
+      if (outward <= out.outward[i]) return;
+      const glm::vec3 q = Interpolated(camera, t, weights);
+      const glm::vec3 n = Interpolated(normal, t, weights) + glm::vec3(0, 0, 1e-9F);
+      out.outward[i] = outward;
+      out.pixel[i] = pose.Project(q);
+      out.across[i] = rest.x;
+      out.up[i] = rest.y - brows;
+      out.off_seam[i] = lips.OffSeam(rest);
+      out.red[i] = lips.Within(rest);
+      out.aside[i] = std::max(Ramp(look.aside_across, std::abs(rest.x)),
+                              Ramp(look.aside_above_chin, rest.y - chin));
+      out.facing[i] =
+          hides && (*hides)(q) ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q));
+    });
+  });
+  return out;
+}
+
+}  // namespace facefit

@@ -1,0 +1,91 @@
+#include "face_fit/bake/smile_folds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "face_fit/bake/appearance.h"
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/float_image.h"
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+// Along the fold, from the wing of the nose to beside the chin; points of the network.
+constexpr std::array<std::array<std::size_t, 5>, 2> kFolds = {
+    {{129, 203, 206, 216, 212}, {358, 423, 426, 436, 432}}};
+
+float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
+  float nearest = 1e9F;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const glm::vec2 way = line[k] - line[k - 1];
+    const float part = glm::dot(p - line[k - 1], way) / std::max(glm::dot(way, way), 1e-6F);
+    nearest = std::min(nearest, glm::distance(p, line[k - 1] + glm::clamp(part, 0.0F, 1.0F) * way));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
+                          fsm::Image& photo) {
+  const Appearance& look = BuiltInAppearance();
+  FloatImage smooth(photo.width, photo.height);
+  if (smile <= 0) return smooth;
+  const int valley = static_cast<int>(std::lround(look.fold_half_width * pixels_per_mm));
+  if (valley < 1) return smooth;
+  for (const auto& fold : kFolds) {
+    std::array<glm::vec2, 5> line;
+    Box2 box;
+    for (std::size_t k = 0; k < fold.size(); ++k) {
+      line[k] = face.At(fold[k]);
+      box.Add(line[k]);
+    }
+    const float margin = look.fold_reach * pixels_per_mm + 2 * static_cast<float>(valley);
+    const glm::ivec2 first = glm::max(glm::ivec2(box.low - margin), 0);
+    const glm::ivec2 last =
+        glm::min(glm::ivec2(box.high + margin) + 1, {photo.width, photo.height});
+    if (last.x <= first.x || last.y <= first.y) continue;
+    const glm::ivec2 size = last - first;
+    const auto value = [&](int x, int y, std::size_t channel) -> std::uint8_t& {
+      return photo
+          .rgba[4 * (static_cast<std::size_t>(first.y + y) * static_cast<std::size_t>(photo.width) +
+                     static_cast<std::size_t>(first.x + x)) +
+                channel];
+    };
+    FloatImage part(size.x, size.y);
+    for (int y = 0; y < size.y; ++y) {
+      for (int x = 0; x < size.x; ++x) {
+        const float off = ToLine(line, glm::vec2(first + glm::ivec2(x, y)) + 0.5F) / pixels_per_mm;
+        part.at[part.Index(x, y)] =
+            smile * glm::smoothstep(look.fold_reach, 0.5F * look.fold_reach, off);
+      }
+    }
+    // Each colour for itself: folds are redder than the skin beside them.
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      FloatImage light(size.x, size.y);
+      for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) light.at[light.Index(x, y)] = value(x, y, channel);
+      }
+      const FloatImage filled = Blurred(Closed(light, valley), std::max(valley / 2, 1));
+      for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+          const std::size_t i = light.Index(x, y);
+          const float lit = std::max(filled.at[i], light.at[i]);
+          float& lost = smooth.at[smooth.Index(first.x + x, first.y + y)];
+          if (lit > light.at[i]) lost = std::max(lost, part.at[i]);
+          value(x, y, channel) = Byte(glm::mix(light.at[i], lit, part.at[i]));
+        }
+      }
+    }
+  }
+  return smooth;
+}
+
+}  // namespace facefit

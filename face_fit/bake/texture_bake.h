@@ -1,0 +1,36 @@
+#pragma once
+
+#include "face_fit/bake/matte.h"
+#include "face_fit/find/face_finder.h"
+#include "face_fit/fit/fit.h"
+#include "face_fit/fit/side_fit.h"
+#include "fsm/head/photo_head.h"
+
+namespace facefit {
+
+/// The texture of a head made from a photo. Left half: the skin, laid out by the head's texture
+/// coordinates, alpha = how much is skin. Right half: the figure with hair, neck and clothes, and
+/// its opacity.
+struct TextureBake {
+  fsm::Image picture;
+  float coverage = 0;  ///< part of the face's map that the photo shows
+};
+
+inline constexpr int kMapSide = 1024;  ///< of each half
+
+/// A photo of the person from the side.
+struct SideView {
+  SideFit fit;
+  Figure figure;
+  /// A full profile: only its outline is used. Front and profile show too little of the same skin
+  /// to bring both photos into one light.
+  bool outline_only = false;
+};
+
+/// Paints both halves and fills in the rest of `set`, all but `set.photo`. `figure`: of `photo`;
+/// `sides`: photos of the same person from the side, may be empty. Pure; thread: any.
+TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
+                        const fsm::Image& photo, const Figure& figure,
+                        std::span<const SideView> sides, fsm::PhotoHead& set);
+
+}  // namespace facefit

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "fsm/rig/head.h"
+#include "fsm/image/image.h"
+#include "fsm/render/camera.h"
+
+namespace facefit {
+
+/// A head as the renderer shows it from the front, in a square picture, for networks to look at.
+class PortraitView {
+ public:
+  explicit PortraitView(int side_pixels);
+  /// Throws std::runtime_error if nothing can be drawn with.
+  fsm::Image Draw(const fsm::Head& head, const fsm::HeadVertices& vertices,
+                  const fsm::FaceState& state) const;
+  /// Where a place of the head's frame, in millimetres, is seen; y runs down.
+  glm::vec2 Pixel(glm::vec3 place) const;
+  float mm_per_pixel() const { return 2 / view_.samples_per_mm; }  // two samples to a pixel
+
+ private:
+  int side_;
+  fsm::View view_;
+};
+
+}  // namespace facefit

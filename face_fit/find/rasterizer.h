@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "fsm/rig/head.h"
+
+namespace facefit {
+
+/// A triangle in a plane, in any unit. Pure.
+struct Triangle2 {
+  glm::vec2 a, b, c;
+
+  /// Twice the area; its sign says which way round the corners go.
+  float SignedArea() const { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); }
+  /// Barycentric coordinates of a point: of a, b and c, sum 1, negative beyond the opposite edge.
+  /// REQUIRES: SignedArea() is not 0.
+  glm::vec3 WeightsAt(glm::vec2 p) const {
+    const float area = SignedArea();
+    const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
+    const float v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
+    return {1 - u - v, u, v};
+  }
+};
+
+/// Calls `f(x, y, weights)` for each point with whole coordinates 0 <= x < columns, 0 <= y < rows
+/// in a triangle, whichever way round it goes. `slack`: by how much weights may fall short of 0, so
+/// that no point on an edge between two triangles is lost. Triangles without area have no points.
+template <typename F>
+void Rasterize(const Triangle2& triangle, int columns, int rows, float slack, F f) {
+  constexpr float kLeastArea = 1e-7F;
+  if (!(std::abs(triangle.SignedArea()) >= kLeastArea)) return;
+  const auto& [a, b, c] = triangle;
+  const glm::vec2 from = glm::max(glm::floor(glm::min(a, glm::min(b, c))), 0.0F);
+  const glm::vec2 to =
+      glm::min(glm::ceil(glm::max(a, glm::max(b, c))), glm::vec2(columns - 1, rows - 1));
+  for (int y = static_cast<int>(from.y); y <= static_cast<int>(to.y); ++y) {
+    for (int x = static_cast<int>(from.x); x <= static_cast<int>(to.x); ++x) {
+      const glm::vec3 weights = triangle.WeightsAt(glm::vec2(x, y));
+      if (std::min({weights.x, weights.y, weights.z}) >= -slack) f(x, y, weights);
+    }
+  }
+}
+
+/// The mean of the values of a triangle's vertices by barycentric weights; `t`: their indices.
+template <typename Values>
+auto Interpolated(const Values& values, const std::uint32_t* t, glm::vec3 weights) {
+  return values[t[0]] * weights.x + values[t[1]] * weights.y + values[t[2]] * weights.z;
+}
+
+/// Calls `f(indices)` with the three vertices of each triangle of skin and lips.
+template <typename F>
+void ForSkinTriangles(const fsm::HeadTopology& topology, F f) {
+  for (const auto& part : topology.parts) {
+    if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
+    for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
+      f(&topology.indices[part.first_index + k]);
+    }
+  }
+}
+
+}  // namespace facefit

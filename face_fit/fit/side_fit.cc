@@ -1,0 +1,172 @@
+#include "face_fit/fit/side_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+
+#include "face_fit/find/portrait_view.h"
+#include "face_fit/fit/landmark_warp.h"
+#include "face_fit/fit/pose_fit.h"
+#include "face_fit/fit/stereo.h"
+
+namespace facefit {
+namespace {
+
+constexpr int kSide = 640;
+/// Below it a photo tells no more of depth than the first one did; beyond it the network guesses.
+constexpr float kLeastTurn = 12, kMostTurn = 80;  // degrees
+/// Points of the same face drawn and seen lie nearer than that, those of another mostly do not.
+constexpr float kMostResidual = 2.6F;  // millimetres
+
+/// What can be compared: points of the network with the place of the posed head, and how far beside
+/// it the network sees them (millimetres to the right and down, as the camera has it).
+struct Mark {
+  std::size_t point;
+  glm::vec3 at;
+  glm::vec2 bias{0};
+  float weight = 1;
+};
+
+std::vector<Mark> MarksOf(const BaseHead& base, const Fit& fit) {
+  std::vector<Mark> marks;
+  for (const int i : FitPoints()) {
+    const auto k = static_cast<std::size_t>(i);
+    marks.push_back({k, base.places[k].On(fit.posed_vertices)});
+  }
+  return marks;
+}
+
+/// As marks of a pose: the bias belongs to what is seen.
+std::vector<PoseMark> Shown(const std::vector<Mark>& marks, const FoundFace& face,
+                            const CameraPose& pose) {
+  std::vector<PoseMark> shown;
+  for (const Mark& mark : marks) {
+    const glm::vec2 seen(face.points[mark.point]);
+    shown.push_back({mark.at, seen - mark.bias * pose.PixelsPerMm(), mark.weight});
+  }
+  return shown;
+}
+
+std::vector<glm::vec3> NormalsOf(const fsm::HeadTopology& topology,
+                                 const std::vector<glm::vec3>& position) {
+  std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
+  for (std::size_t i = 0; i + 2 < topology.indices.size(); i += 3) {
+    const std::uint32_t* t = &topology.indices[i];
+    const glm::vec3 n =
+        glm::cross(position[t[1]] - position[t[0]], position[t[2]] - position[t[0]]);
+    for (int c = 0; c < 3; ++c) normal[t[c]] += n;
+  }
+  for (glm::vec3& n : normal) n = glm::normalize(n + glm::vec3(0, 0, 1e-12F));
+  return normal;
+}
+
+/// Draws the posed head turned as in the pose, lets the network look at it, and notes in the marks
+/// how far beside their places it sees them, and which of them are turned away. False if it sees no
+/// face.
+bool NoteBias(FaceNetworks& networks, const BaseHead& base, const Fit& fit, const CameraPose& pose,
+              std::vector<Mark>& marks) {
+  fsm::HeadVertices turned;
+  for (const glm::vec3& p : fit.posed_vertices) turned.position.push_back(pose.ToCamera(p));
+  turned.normal = NormalsOf(base.head->topology(), turned.position);
+  const PortraitView portrait(kSide);
+  const fsm::Image picture = portrait.Draw(*base.head, turned, {});
+  const auto boxes = FindFaces(networks, picture);
+  if (boxes.empty()) return false;
+  const FoundFace seen = FindPoints(networks, picture, boxes.front());
+  for (Mark& mark : marks) {
+    const auto& place = base.places[mark.point];
+    mark.bias =
+        (seen.At(mark.point) - portrait.Pixel(place.On(turned.position))) * portrait.mm_per_pixel();
+    const float facing = place.On(turned.normal).z;
+    mark.weight = facing > 0.1F ? 1.0F : 0.15F;
+  }
+  return true;
+}
+
+}  // namespace
+
+vm::Result<SideFit> FitSideView(FaceNetworks& networks, const BaseHead& base, const Fit& fit,
+                                const fsm::Image& photo) {
+  const auto boxes = FindFaces(networks, photo);
+  if (boxes.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
+  SideFit view;
+  view.face = FindPoints(networks, photo, boxes.front());
+  if (view.face.certainty < 0.5F) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "
+                    "they can");
+  }
+  std::vector<Mark> marks = MarksOf(base, fit);
+  const glm::vec2 top(view.face.points[168]), chin(view.face.points[152]);
+  const float tall = glm::distance(base.places[168].On(fit.posed_vertices),
+                                   base.places[152].On(fit.posed_vertices));
+  CameraPose start = fit.pose;
+  start.focal = fit.pose.focal / fit.pose.PixelsPerMm() * glm::distance(top, chin) / tall;
+  const glm::vec2 down = chin - top;
+  start.turn.z = std::atan2(-down.x, -down.y) + (down.y > 0 ? glm::radians(180.0F) : 0);
+  if (start.turn.z > glm::radians(180.0F)) start.turn.z -= glm::radians(360.0F);
+  std::optional<CameraPose> best;
+  for (const float turn : {-60.0F, -30.0F, 0.0F, 30.0F, 60.0F}) {
+    CameraPose from = start;
+    from.turn = {0, glm::radians(turn), start.turn.z};
+    from.centre = {0, 0};
+    from.centre =
+        view.face.At(6) - from.Project(from.ToCamera(base.places[6].On(fit.posed_vertices)));
+    const auto shown = Shown(marks, view.face, from);
+    const CameraPose pose = RefinePose(shown, from);
+    if (!best || MeanDistance(pose, shown) < MeanDistance(*best, shown)) best = pose;
+  }
+  view.pose = *best;
+  const float turn = std::abs(glm::degrees(view.pose.turn.y - fit.pose.turn.y));
+  if (turn < kLeastTurn) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "it shows the face from the front like the first; 20 to 60 degrees help");
+  }
+  if (turn > kMostTurn || !NoteBias(networks, base, fit, view.pose, marks)) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "the face is turned too far to be compared; 20 to 60 degrees can be");
+  }
+  const auto shown = Shown(marks, view.face, view.pose);
+  view.pose = RefinePose(shown, view.pose);
+  view.residual_mm = MeanDistance(view.pose, shown);
+  if (view.residual_mm > kMostResidual) {
+    std::string mm = std::to_string(view.residual_mm);
+    mm.resize(3);
+    return vm::Fail(vm::Errc::kBadValue, "its face does not fit the first photo's (points lie " +
+                                             mm + " mm apart); is it the same person?");
+  }
+  return view;
+}
+
+void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm::Image& side,
+                       SideFit& view, Fit& fit) {
+  for (int round = 0; round < 2; ++round) {
+    const auto said = CompareDepth(base, fit, front, side, view);
+    if (said.empty()) return;
+    // What the far cheek hides is taken to be as the near one.
+    std::vector<fsm::WarpPoint> both = said;
+    const glm::vec3 towards = glm::transpose(view.pose.Rotation()) * glm::vec3(0, 0, 1);
+    for (const fsm::WarpPoint& point : said) {
+      if (point.at.x * towards.x > 0 && std::abs(point.at.x) > 12) {
+        both.push_back({point.at * glm::vec3(-1, 1, 1), point.by});
+      }
+    }
+    // Of single patches some are mistaken: those far from what their neighbours say are left out.
+    constexpr float kSmooth = 60, kEven = 12, kFar = 2, kMost = 10;
+    const fsm::Warp rough(both, kSmooth);
+    std::erase_if(both, [&](const fsm::WarpPoint& point) {
+      return std::abs(rough.Motion(point.at).z - point.by.z) > kFar;
+    });
+    if (both.size() < 20) return;
+    const fsm::Warp depth(both, kEven);
+    for (LandmarkConstraint& constraint : fit.constraints) {
+      constraint.z +=
+          std::clamp(depth.Motion(constraint.place.On(base.rest.position)).z, -kMost, kMost);
+    }
+    WarpToLandmarks(base, fit);
+  }
+}
+
+}  // namespace facefit

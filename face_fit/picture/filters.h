@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "face_fit/picture/float_image.h"
+#include "fsm/image/image.h"
+
+namespace facefit {
+
+// Filters of pictures. OpenCV (core and imgproc) does the work; only filters.cc includes it.
+// All are pure and run on the caller's thread. REQUIRES: pictures of at least one pixel.
+
+/// The mean over squares of `2 * reach + 1` pixels, at the edges over what lies in the picture.
+FloatImage Blurred(const FloatImage& image, int reach);
+
+/// A morphological closing by squares of `2 * reach + 1` pixels (Serra 1982): dark places that no
+/// such square fits into are filled.
+FloatImage Closed(const FloatImage& image, int reach);
+
+/// Sets to 1 what is greater than 0 and every hole in it, that is every 0 that is not connected to
+/// the picture's edge by its four neighbours; the rest becomes 0.
+void FillHoles(FloatImage& image);
+
+/// For each pixel the index of the nearest one that is at least `threshold`, its own included.
+/// Distances are right to about 2 %, so of two at nearly the same distance either is returned.
+/// REQUIRES: there is such a pixel.
+std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold);
+
+/// Each pixel is the mean of those it covers. REQUIRES: 1 <= width <= image.width, likewise height.
+fsm::Image ScaledDown(const fsm::Image& image, int width, int height);
+FloatImage ScaledDown(const FloatImage& image, int width, int height);
+
+/// A copy of `width` x `height` pixels from (left, top). REQUIRES: they lie within the picture.
+fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height);
+
+/// The picture set upright; `orientation` as in EXIF, 1..8, where 1 is as it is.
+fsm::Image Turned(const fsm::Image& image, int orientation);
+
+}  // namespace facefit

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "face_fit/picture/float_image.h"
+#include "fsm/image/image.h"
+
+namespace facefit {
+
+// Pixels by their number, row by row from the top, and small sums over lists. Pure; thread: any.
+
+inline glm::vec3 Rgb(const fsm::Image& image, std::size_t i) {
+  const std::uint8_t* p = &image.rgba[4 * i];
+  return {p[0], p[1], p[2]};
+}
+
+/// A channel as it is stored: 0..255, rounded; what lies beyond is cut off.
+inline std::uint8_t Byte(float v) {
+  return static_cast<std::uint8_t>(std::clamp(v, 0.0F, 255.0F) + 0.5F);
+}
+inline void SetRgb(fsm::Image& image, std::size_t i, glm::vec3 colour) {
+  for (int c = 0; c < 3; ++c) image.rgba[4 * i + static_cast<std::size_t>(c)] = Byte(colour[c]);
+}
+
+/// One channel, 0..2, as numbers of 0..255.
+inline FloatImage Channel(const fsm::Image& image, std::size_t channel) {
+  FloatImage out(image.width, image.height);
+  for (std::size_t i = 0; i < out.at.size(); ++i) out.at[i] = image.rgba[4 * i + channel];
+  return out;
+}
+
+/// A picture of opaque white.
+inline fsm::Image BlankImage(int width, int height) {
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  return {.width = width, .height = height, .rgba = std::vector<std::uint8_t>(4 * pixels, 255)};
+}
+
+/// The upper of the two middle ones of an even number. REQUIRES: values are not empty.
+inline float Median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The smallest rectangle around points; low > high as long as there is none.
+struct Box2 {
+  glm::vec2 low{1e9F}, high{-1e9F};
+  void Add(glm::vec2 p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  glm::vec2 Middle() const { return 0.5F * (low + high); }
+  glm::vec2 Size() const { return high - low; }
+};
+
+}  // namespace facefit

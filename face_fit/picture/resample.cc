@@ -1,0 +1,96 @@
+#include "face_fit/picture/resample.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+std::array<float, 4> CatmullRom(float t) {
+  return {((-0.5F * t + 1) * t - 0.5F) * t, (1.5F * t - 2.5F) * t * t + 1,
+          ((-1.5F * t + 2) * t + 0.5F) * t, (0.5F * t - 0.5F) * t * t};
+}
+
+std::array<float, 4> BSpline(float t) {
+  const float s = 1 - t;
+  return {s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6,
+          t * t * t / 6};
+}
+
+/// Sums `get(index)` over 4 x 4 pixels round a place; the edge goes on outside.
+template <typename Value, typename Weights, typename Get>
+Value Around(int width, int height, glm::vec2 at, Weights weights, Get get) {
+  const glm::vec2 p = glm::clamp(at, glm::vec2(0), glm::vec2(width, height)) - 0.5F;
+  const glm::vec2 first = glm::floor(p);
+  const auto across = weights(p.x - first.x), down = weights(p.y - first.y);
+  Value sum(0);
+  for (std::size_t j = 0; j < 4; ++j) {
+    const int y = std::clamp(static_cast<int>(first.y + static_cast<float>(j)) - 1, 0, height - 1);
+    Value row(0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int x = std::clamp(static_cast<int>(first.x + static_cast<float>(i)) - 1, 0, width - 1);
+      row += across[i] * get(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                             static_cast<std::size_t>(x));
+    }
+    sum += down[j] * row;
+  }
+  return sum;
+}
+
+}  // namespace
+
+glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at) {
+  const float x = std::clamp(at.x - 0.5F, 0.0F, static_cast<float>(image.width - 1));
+  const float y = std::clamp(at.y - 0.5F, 0.0F, static_cast<float>(image.height - 1));
+  const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
+  const float u = x - static_cast<float>(x0), v = y - static_cast<float>(y0);
+  const auto pixel = [&image](int px, int py) {
+    return Rgb(image, static_cast<std::size_t>(py) * static_cast<std::size_t>(image.width) +
+                          static_cast<std::size_t>(px));
+  };
+  return (pixel(x0, y0) * (1 - u) + pixel(x1, y0) * u) * (1 - v) +
+         (pixel(x0, y1) * (1 - u) + pixel(x1, y1) * u) * v;
+}
+
+glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at) {
+  const auto colour = [&](std::size_t i) { return Rgb(image, i); };
+  return glm::clamp(Around<glm::vec3>(image.width, image.height, at, CatmullRom, colour), 0.0F,
+                    255.0F);
+}
+
+float SmoothAt(const FloatImage& field, glm::vec2 at) {
+  return Around<float>(field.width, field.height, at, BSpline,
+                       [&](std::size_t i) { return field.at[i]; });
+}
+
+std::vector<float> Resampled(const fsm::Image& image, glm::vec2 corner, const glm::mat2& axes,
+                             int pixels, float low, float high) {
+  const float longer = std::max(glm::length(axes[0]), glm::length(axes[1]));
+  const int n = std::clamp(static_cast<int>(std::ceil(longer / static_cast<float>(pixels))), 1, 8);
+  const glm::vec2 size(image.width, image.height);
+  std::vector<float> out;
+  out.reserve(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels) * 3);
+  for (int y = 0; y < pixels; ++y) {
+    for (int x = 0; x < pixels; ++x) {
+      glm::vec3 sum(0);
+      for (int k = 0; k < n * n; ++k) {
+        const glm::vec2 within = (glm::vec2(k % n, k / n) + 0.5F) / static_cast<float>(n);
+        const glm::vec2 p =
+            corner + axes * ((glm::vec2(x, y) + within) / static_cast<float>(pixels));
+        if (p.x < 0 || p.y < 0 || p.x >= size.x || p.y >= size.y) continue;
+        sum += ColourAt(image, p);
+      }
+      sum = low + sum * (high - low) / (255.0F * static_cast<float>(n * n));
+      for (int c = 0; c < 3; ++c) out.push_back(sum[c]);
+    }
+  }
+  return out;
+}
+
+}  // namespace facefit

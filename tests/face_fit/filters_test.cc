@@ -1,0 +1,67 @@
+#include "face_fit/picture/filters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace facefit {
+namespace {
+
+FloatImage Of(int width, int height, std::initializer_list<float> values) {
+  FloatImage image(width, height);
+  image.at = values;
+  return image;
+}
+
+TEST(FiltersTest, AtTheEdgesTheMeanIsOfWhatLiesInThePicture) {
+  const FloatImage out = Blurred(Of(3, 2, {1, 2, 3, 4, 5, 6}), 1);
+  EXPECT_FLOAT_EQ(out.at[0], 3);
+  EXPECT_FLOAT_EQ(out.at[1], 3.5F);
+  EXPECT_FLOAT_EQ(out.at[5], 4);
+  for (const float v : Blurred(Of(3, 2, {1, 2, 3, 4, 5, 6}), 9).at) EXPECT_FLOAT_EQ(v, 3.5F);
+}
+
+TEST(FiltersTest, AClosingFillsWhatIsNarrowAndDarkAndKeepsWhatIsBright) {
+  const FloatImage out = Closed(Of(7, 1, {5, 5, 1, 5, 9, 5, 5}), 1);
+  EXPECT_EQ(out.at, (std::vector<float>{5, 5, 5, 5, 9, 5, 5}));
+  EXPECT_EQ(Closed(Of(7, 1, {5, 1, 1, 1, 1, 1, 5}), 1).at[3], 1) << "wider than the square";
+}
+
+TEST(FiltersTest, AWholePictureThatIsKnownIsNearestToItself) {
+  const auto nearest = NearestAbove(FloatImage(5, 4, 1), 0.5F);
+  for (std::size_t i = 0; i < nearest.size(); ++i) EXPECT_EQ(nearest[i], i);
+}
+
+TEST(FiltersTest, ScalingDownTakesTheMeanByArea) {
+  // Three pixels become two: each is one and a half wide.
+  const FloatImage out = ScaledDown(Of(3, 1, {0, 6, 12}), 2, 1);
+  EXPECT_NEAR(out.at[0], 2, 1e-4F);
+  EXPECT_NEAR(out.at[1], 10, 1e-4F);
+  const FloatImage same = ScaledDown(Of(2, 2, {1, 2, 3, 4}), 2, 2);
+  EXPECT_EQ(same.at, (std::vector<float>{1, 2, 3, 4}));
+}
+
+TEST(FiltersTest, OrientationsOfExifAreSetUpright) {
+  // 1 2 3
+  // 4 5 6   as stored; EXIF 2.32, tag 0x0112, says at which side row and column 0 are to be seen.
+  fsm::Image image{.width = 3, .height = 2, .rgba = {}};
+  for (std::uint8_t v = 1; v <= 6; ++v) image.rgba.insert(image.rgba.end(), {v, v, v, 255});
+  const auto reds = [&](int orientation) {
+    std::vector<int> out;
+    const fsm::Image turned = Turned(image, orientation);
+    EXPECT_EQ(turned.width, orientation < 5 ? 3 : 2);
+    for (std::size_t i = 0; i < turned.rgba.size(); i += 4) out.push_back(turned.rgba[i]);
+    return out;
+  };
+  EXPECT_EQ(reds(1), (std::vector<int>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(reds(2), (std::vector<int>{3, 2, 1, 6, 5, 4}));
+  EXPECT_EQ(reds(3), (std::vector<int>{6, 5, 4, 3, 2, 1}));
+  EXPECT_EQ(reds(4), (std::vector<int>{4, 5, 6, 1, 2, 3}));
+  EXPECT_EQ(reds(5), (std::vector<int>{1, 4, 2, 5, 3, 6}));
+  EXPECT_EQ(reds(6), (std::vector<int>{4, 1, 5, 2, 6, 3}));
+  EXPECT_EQ(reds(7), (std::vector<int>{6, 3, 5, 2, 4, 1}));
+  EXPECT_EQ(reds(8), (std::vector<int>{3, 6, 2, 5, 1, 4}));
+}
+
+}  // namespace
+}  // namespace facefit
