@@ -193,7 +193,9 @@ void AgentManager::OnSlotError(PeerKey peer, const std::string& line, const vm::
 
 void AgentManager::OnModuleOutput(const std::string& module, const OutputLine& line) {
   Say(module + " " + line.level + ": " + line.text);
-  slots_.Report("Module." + module + ".output", line.level + " " + line.text);
+  // A module that a reload has taken out writes on until it has gone.
+  const std::string slot = "Module." + module + ".output";
+  if (slots_.Has(slot)) slots_.Report(slot, line.level + " " + line.text);
 }
 
 void AgentManager::OnModuleWithoutClock(PeerKey module, const std::string& why) {

@@ -22,6 +22,9 @@ std::string Joined(const List& list, const char* between, const Word& word) {
   return text;
 }
 
+/// What the names of the slots of configured modules begin with.
+constexpr const char* kModuleSlots = "Module.";
+
 std::string_view KindName(PeerKind kind) {
   switch (kind) {
     case PeerKind::kConsole:
@@ -60,6 +63,7 @@ HubSlots::HubSlots(vm::Scheduler& clock, Hub& hub, Supervisor& supervisor, vm::S
   DeclareOverviews();
   DeclareProcesses();
   DeclareLimits();
+  slots_.Reserve(kModuleSlots);
 }
 
 void HubSlots::DeclareForPeers() {
@@ -208,7 +212,7 @@ void HubSlots::DeclareModules(const std::set<std::string>& names) {
   for (const std::string& name : modules_) {
     if (names.contains(name)) continue;
     for (const char* const slot : {".state", ".pid", ".starts", ".ending", ".output", ".log"})
-      slots_.Remove("Module." + name + slot);
+      slots_.Remove(kModuleSlots + name + slot);
   }
   for (const std::string& name : names) {
     if (!modules_.contains(name)) DeclareModule(name);
@@ -225,7 +229,7 @@ void HubSlots::DeclareModule(const std::string& module) {
   };
   const auto declare = [&](const std::string& name, const std::string& help,
                            std::function<std::string()> inq) {
-    slots_.Declare({.name = "Module." + module + name,
+    slots_.Declare({.name = kModuleSlots + module + name,
                     .grammar = "<text>",
                     .access = Access::kReadOnly,
                     .help = help,

@@ -273,6 +273,28 @@ TEST_F(ReloadWhileStoppingTest, AModuleTakenOutAndPutBackIsStartedOnceItHasGone)
   EXPECT_EQ(Ask(hub, "Module.X.starts"), "2") << "no start while the old one ran";
 }
 
+TEST_F(SupervisionTest, AModuleTakenOutMayWriteUntilItHasGone) {
+  Configure(Shell("X", "echo up >&2; read a; echo late >&2; read b"));
+  Process hub({kHub, "--config", path_});
+  ASSERT_TRUE(hub.ExpectError("X INFO: up")) << hub.ErrorText();
+  Configure("");
+  hub.WriteLine("set#reload Reload = NOW");
+  ASSERT_TRUE(hub.Expect("rep#reload Reload = NOW")) << hub.ErrorText();
+  EXPECT_TRUE(hub.ExpectError("X INFO: late")) << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Run"), "LIVE") << hub.ErrorText();
+}
+
+TEST_F(SupervisionTest, NobodyDefinesTheSlotsOfAModuleThatIsYetToBeConfigured) {
+  Configure("");
+  Process hub({kHub, "--config", path_});
+  hub.WriteLine("def#def Module.NEW.state = x");
+  EXPECT_TRUE(hub.Expect("rep#def Module.NEW.state.error = ACCESS")) << hub.Seen();
+  Configure(Module("NEW"));
+  hub.WriteLine("set#reload Reload = NOW");
+  ASSERT_TRUE(hub.Expect("rep#reload Reload = NOW")) << hub.ErrorText();
+  EXPECT_EQ(Ask(hub, "Module.NEW.starts"), "1");
+}
+
 TEST_F(SupervisionTest, AModuleIsTriedAgainWhileDescriptorsAreLacking) {
   if (support::kSanitized) GTEST_SKIP() << "the sanitizers need descriptors of their own";
   const std::string socket = folder_ / "hub.sock";

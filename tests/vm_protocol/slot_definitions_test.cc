@@ -47,6 +47,15 @@ class DefinitionsTest : public testing::Test {
   std::vector<Error> errors_;
 };
 
+TEST_F(DefinitionsTest, NamesThatAreReservedAreLeftToTheModule) {
+  slots_.Reserve("Module.");
+  EXPECT_EQ(Say("def#1 Module.X.state = y"),
+            (Strings{"rep#1 Module.X.state.error = ACCESS slot 'Module.X.state' cannot be defined: "
+                     "names that begin with 'Module.' are the module's own"}));
+  slots_.Declare({.name = "Module.X.state", .grammar = "<text>"});
+  EXPECT_EQ(Say("def#2 Modules = y"), (Strings{"rep#2 Modules = y"}));
+}
+
 TEST_F(DefinitionsTest, SaveKeepsAndRestBringsBack) {
   EXPECT_EQ(Say("save#1 calm"), Strings{"rep#1 calm = 2 slots"});
   Say("set A = 5");

@@ -146,6 +146,12 @@ Result<void> SlotMachine::DefineUserSlot(const Message& message) {
     slot->value = message.value;
     return {};
   }
+  for (const std::string& beginning : reserved_) {
+    if (message.slot.starts_with(beginning))
+      return Fail(Errc::kAccess, "slot '" + message.slot +
+                                     "' cannot be defined: names that begin " + "with '" +
+                                     beginning + "' are the module's own");
+  }
   if (user_slots_ >= kMaxUserSlots) {
     return Fail(Errc::kLimit, "more than " + std::to_string(kMaxUserSlots) + " user slots");
   }

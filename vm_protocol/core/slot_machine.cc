@@ -105,6 +105,8 @@ void SlotMachine::Declare(SlotSpec spec) {
   by_name_[slots_.back()->spec.name] = slots_.back().get();
 }
 
+void SlotMachine::Reserve(std::string beginning) { reserved_.push_back(std::move(beginning)); }
+
 void SlotMachine::Remove(std::string_view name) {
   const auto found = by_name_.find(name);
   if (found == by_name_.end()) return;

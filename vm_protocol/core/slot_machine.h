@@ -114,6 +114,8 @@ class SlotMachine {
 
   /// REQUIRES: the name is new and valid; the grammar is well-formed.
   void Declare(SlotSpec spec);
+  /// Names that begin so are for later Declare calls: `def` makes no user slot of such a name.
+  void Reserve(std::string beginning);
   /// Takes a slot back. Not from within one of its own callbacks.
   void Remove(std::string_view slot);
   bool Has(std::string_view slot) const;
@@ -181,7 +183,8 @@ class SlotMachine {
   std::map<std::string, Slot*, std::less<>> by_name_;
   std::map<std::string, std::vector<std::pair<std::string, std::string>>, std::less<>> saved_;
   std::map<std::string, std::vector<std::string>, std::less<>> macros_;
-  std::vector<PeerId> error_peers_;  // peers that asked for untagged error reports
+  std::vector<std::string> reserved_;  // beginnings of names
+  std::vector<PeerId> error_peers_;    // peers that asked for untagged error reports
   std::size_t user_slots_ = 0;
   std::size_t kept_bytes_ = 0;  // of user slots, macros and saved sets
   std::size_t depth_ = 0;       // `do` within `do`
