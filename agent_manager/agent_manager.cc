@@ -397,11 +397,12 @@ void AgentManager::Shutdown() {
   while (hub_.Drain()) {
   }
   hub_.FailRequests({vm::Errc::kStopped, "the hub ends", 0});
-  bool flushed = false;
+  // Shared: a peer that does not read lets go of it only when the hub is taken apart.
+  const auto flushed = std::make_shared<bool>(false);
   boost::asio::steady_timer limit(io_, kFlushPatience);
-  limit.async_wait([&flushed](const auto&) { flushed = true; });
-  hub_.WhenAllSent([&flushed] { flushed = true; });
-  while (!flushed) RunSome();
+  limit.async_wait([flushed](const auto&) { *flushed = true; });
+  hub_.WhenAllSent([flushed] { *flushed = true; });
+  while (!*flushed) RunSome();
 }
 
 void AgentManager::EnableLog() {

@@ -42,7 +42,8 @@ class Hub {
   void EndInput(PeerKey peer);
   /// Nobody will answer what has been asked of peers.
   void FailRequests(const vm::Error& error);
-  /// Calls `done` once every peer's system has taken what the peer was sent.
+  /// Calls `done` once every peer's system has taken what the peer was sent, or while the hub is
+  /// taken apart: it may outlive its caller.
   void WhenAllSent(std::function<void()> done);
   /// As Leave, at once. REQUIRES: no message is being dealt with (use Post).
   void Evict(PeerKey peer, const std::string& reason);

@@ -296,6 +296,19 @@ TEST_F(HubFaultsTest, WhatIsUnansweredAtTheEndIsAnsweredStopped) {
   EXPECT_TRUE(client->Expect("rep#1 Long.error = STOPPED the hub ends"));
 }
 
+TEST_F(HubFaultsTest, WhoDoesNotReadAtTheEndIsLeftBehindInOrder) {
+  Process& hub = Start("");
+  const auto client = SocketClient::Unix(Socket());
+  std::string questions;
+  for (int i = 0; i < 500; ++i) questions += "inq#x Slots\n";
+  for (int i = 0; i < 20; ++i) client->Write(questions);  // more answers than the socket holds
+  hub.WriteLine("set Subscribe = NONE");
+  ExpectAlive();
+  hub.WriteLine("quit");
+  EXPECT_EQ(hub.Wait(), 0) << hub.ErrorText();
+  EXPECT_EQ(hub.ErrorText().find("Sanitizer"), std::string::npos) << hub.ErrorText();
+}
+
 TEST_F(HubFaultsTest, AHundredThousandReportsLeaveNothingBehind) {
   Start("").WriteLine("set Subscribe = NONE");  // nobody reads what the console would hear
   ExpectAlive();
