@@ -181,7 +181,7 @@ void AgentManager::OnPresence(const std::string& name, bool present, const std::
   if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
   for (BuiltInModule* const machine : built_in_modules_) machine->OnPresence(name, present, reason);
   if (auto* const bridge = config_.bridge()) bridge->OnPresence(name, present, reason);
-  if (!present) return;
+  if (!present) return lockstep_.ForgetGone();
   lockstep_.Forget();
   supervisor_.OnPresent(name);
 }

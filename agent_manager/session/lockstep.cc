@@ -48,6 +48,13 @@ void Lockstep::OnAnswer(PeerKey module, const Result<std::string>& answer) {
   on_lost_(module, "names " + next + " as its next event at " + vm::FormatMs(granted_) + " ms");
 }
 
+void Lockstep::ForgetGone() {
+  const auto there = hub_.clocks().WithClock();
+  std::erase_if(next_, [&there](const auto& entry) {
+    return std::ranges::find(there, entry.first) == there.end();
+  });
+}
+
 bool Lockstep::StepNow() {
   if (clock_.Next() && *clock_.Next() <= clock_.Now()) {
     clock_.Advance(clock_.Now());

@@ -33,8 +33,10 @@ class Lockstep {
   bool StepOn();
   /// True if a module says that it has something to do.
   bool Busy() const;
-  /// Modules have come or gone: what they said of their next events is old.
+  /// A module has come: what the others said of their next events is old.
   void Forget() { next_.clear(); }
+  /// Those that have gone have no next event, and are not busy.
+  void ForgetGone();
 
  private:
   struct NextEvent {

@@ -70,6 +70,34 @@ TEST(HubProcessTest, OnTheVirtualClockTenSecondsOfWorkTakeNoTimeAndAreExact) {
   EXPECT_EQ(hub.Wait(), 0);
 }
 
+TEST(HubProcessTest, AModuleThatLeavesTakesItsNextEventAlong) {
+  const support::TempDir folder;
+  const std::string leaver = folder / "leaver.py";
+  // Names an event every half a second.
+  std::ofstream(leaver) << R"(import sys
+for line in sys.stdin:
+    words = line.split()
+    command, _, tag = words[0].partition("#")
+    if tag and words[1] == "Clock":
+        now = words[3] if command == "set" else "0"
+        print(f"rep#{tag} Clock = {now} {float(now) // 500 * 500 + 500:.0f}", flush=True)
+    elif tag:
+        print(f"rep#{tag} {words[1]}.error = UNKNOWN_SLOT none", flush=True)
+)";
+  Process hub(
+      {kHub, "--config",
+       WriteConfig(folder, R"({"clock": "virtual", "modules": [{"name": "LEAVER", "restart": )"
+                           R"("never", "command": ["python3", ")" +
+                               leaver + "\"]}]}")});
+  hub.Write("set Wait = 700\ninq#1 Module.LEAVER.pid\n");
+  const auto pid = hub.Expect("rep#1 Module.LEAVER.pid = ");
+  ASSERT_TRUE(pid) << hub.Seen() << hub.ErrorText();
+  kill(std::stoi(pid->substr(pid->rfind(' ') + 1)), SIGKILL);
+  ASSERT_TRUE(hub.Expect("tell @LEAVER has gone")) << hub.Seen() << hub.ErrorText();
+  hub.Write("set Wait = 1000\ninq#2 Clock\n");
+  EXPECT_TRUE(hub.Expect("rep#2 Clock = 11700")) << hub.Seen() << hub.ErrorText();
+}
+
 TEST(HubProcessTest, AKilledModuleIsReportedAndStartedAgain) {
   const support::TempDir folder;
   Process hub(
