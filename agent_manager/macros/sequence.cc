@@ -95,8 +95,9 @@ std::optional<std::string> Sequence::Expanded(const Template& text) {
 }
 
 bool Sequence::Let(const std::string& name, std::string value) {
-  std::string& variable = variables_[name];
-  run_.variable_bytes += value.size();
+  const auto [entry, is_new] = variables_.try_emplace(name);
+  std::string& variable = entry->second;
+  run_.variable_bytes += (is_new ? name.size() : 0) + value.size();
   run_.variable_bytes -= variable.size();
   variable = std::move(value);
   if (run_.variable_bytes <= kMaxVariableBytes) return true;

@@ -54,6 +54,17 @@ TEST_F(MacroBranchesTest, BranchesGoOnSideBySideAndTheRunWaitsForAll) {
   EXPECT_FALSE(mcl_.Busy());
 }
 
+TEST_F(MacroBranchesTest, NamesOfVariablesAreCountedAsOftenAsTheyAreForgotten) {
+  const std::string name(500, 'n');
+  const std::string let = R"({"let": {")" + name + R"(": "x"}})";
+  Define(R"([{"parallel": [[)" + let + "],[" + let + R"(]]},
+             {"let": {"after": "counted"}},
+             {"send": "to @LAMP set X = ${after}"}])");
+  Run("x", milliseconds(10));
+  EXPECT_EQ(lamp_->heard, (Strings{"set X = counted"}));
+  EXPECT_EQ(client_->heard.back(), "From @AM-MCL rep#1 M = x");
+}
+
 TEST_F(MacroBranchesTest, ConditionsChooseBetweenStepsAndElse) {
   Define(R"([{"when_is": {"value": "on"}, "steps": [{"send": "to @LAMP set X = 1"}],
               "else": [{"send": "to @LAMP set X = 0"}, {"pause_ms": 5}]},
