@@ -1,8 +1,9 @@
 #include "agent_manager/routing/hub.h"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
+
+#include "vm_protocol/core/guarded.h"
 
 namespace am {
 
@@ -203,25 +204,46 @@ bool Hub::Drain() {
 }
 
 void Hub::DealWith(WorkQueue::Item& item) {
-  auto* const envelope = std::get_if<Envelope>(&item);
-  const PeerKey blamed = envelope ? envelope->origin.peer : std::get<Work>(item).blamed;
-  try {
-    if (envelope) {
-      router_.Route(*envelope);
-    } else {
-      std::get<Work>(item).act();
-    }
-  } catch (const std::exception& error) {
-    ReportFailure(blamed, error.what());
+  if (const auto* const work = std::get_if<Work>(&item)) {
+    if (const auto done = vm::Guarded(work->act); !done)
+      ReportFailure(work->blamed, done.error().text, nullptr);
+    return;
   }
+  // Routing takes the envelope apart; whoever waits for an answer has one all the same.
+  Envelope& envelope = std::get<Envelope>(item);
+  Asked asked;
+  asked.asker = envelope.machine.empty() ? envelope.origin.peer : kHub;
+  asked.request.command = envelope.message.command;
+  asked.request.tag = envelope.message.tag;
+  asked.request.slot = envelope.message.slot;
+  const PeerKey blamed = envelope.origin.peer;
+  if (envelope.done) {
+    const vm::Reply once(std::move(envelope.done));
+    asked.done = [once](const Result<std::string>& answer) {
+      answer ? once.Ok(*answer) : once.Fail(answer.error());
+    };
+    envelope.done = asked.done;
+  }
+  if (const auto routed = vm::Guarded([&] { router_.Route(envelope); }); !routed)
+    ReportFailure(blamed, routed.error().text, &asked);
 }
 
-void Hub::ReportFailure(PeerKey key, const char* what) {
-  const vm::Error error{Errc::kInternal, std::string("a message could not be dealt with: ") + what,
-                        0};
+void Hub::ReportFailure(PeerKey key, const std::string& what, const Asked* asked) {
+  const vm::Error error{Errc::kInternal, "a message could not be dealt with: " + what, 0};
+  // The tag of a report is that of somebody else's question.
+  const bool waits =
+      asked != nullptr &&
+      (asked->done || (!asked->request.tag.empty() && asked->request.command != vm::Command::kRep));
   Peer* const peer = directory_.ByKey(key);
-  if (peer == nullptr) return outbox_.Notice(vm::FormatError(error));
-  outbox_.Complain(*peer, error);
+  if (peer == nullptr) {
+    outbox_.Notice(vm::FormatError(error));
+  } else if (waits) {
+    outbox_.CountComplaint(*peer, error);
+  } else {
+    outbox_.Complain(*peer, error);
+  }
+  if (waits)
+    outbox_.Answer(asked->asker, "AM", asked->request, std::unexpected(error), asked->done);
 }
 
 void Hub::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases, bool replaceable) {

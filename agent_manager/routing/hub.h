@@ -135,8 +135,15 @@ class Hub {
   void DealWith(WorkQueue::Item& item);
   void ReleaseHalfClosed();
   std::uint64_t GuestsThere() const;
-  /// What dealing with an item has thrown is the error of the peer that caused it.
-  void ReportFailure(PeerKey peer, const char* what);
+  /// Who waits for the answer to a message, and what it has to name.
+  struct Asked {
+    PeerKey asker = kHub;
+    vm::Message request;  ///< without its value
+    OnAnswer done;
+  };
+  /// What dealing with an item has thrown is the error of the peer that caused it, and the answer
+  /// to what was asked. `asked`: null for what is no message.
+  void ReportFailure(PeerKey peer, const std::string& what, const Asked* asked);
 
   vm::Scheduler& clock_;
   Limits limits_;

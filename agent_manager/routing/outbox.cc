@@ -75,7 +75,7 @@ void Outbox::Answer(PeerKey asker, const std::string& from, const Message& reque
   Send(*peer, rep, kHub);
 }
 
-void Outbox::Complain(Peer& sender, const vm::Error& error, const std::string& tag) {
+bool Outbox::CountComplaint(Peer& sender, const vm::Error& error) {
   ++sender.traffic.refused;
   if (clock_.Now() - sender.complaints_since > std::chrono::seconds(1)) {
     sender.complaints_since = clock_.Now();
@@ -83,6 +83,11 @@ void Outbox::Complain(Peer& sender, const vm::Error& error, const std::string& t
   }
   const bool flood = ++sender.complaints > kComplaintsPerSecond;
   if (!flood) Notice("@" + sender.name + ": " + vm::FormatError(error), sender.key);
+  return flood;
+}
+
+void Outbox::Complain(Peer& sender, const vm::Error& error, const std::string& tag) {
+  const bool flood = CountComplaint(sender, error);
   if (sender.kind == PeerKind::kModule || sender.kind == PeerKind::kRemote) return;
   if (flood && tag.empty()) return;  // who asked with a tag waits for an answer
   Message rep = vm::Rep("Error", vm::FormatError(error));

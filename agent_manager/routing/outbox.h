@@ -35,6 +35,9 @@ class Outbox {
   /// `tag`: the request's, if it could be read.
   void Complain(Peer& sender, const vm::Error& error, const std::string& tag = "");
 
+  /// As Complain, to people only. True if it is one of a flood.
+  bool CountComplaint(Peer& sender, const vm::Error& error);
+
   void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
   void Notice(const std::string& text, PeerKey about = kHub) const;
 

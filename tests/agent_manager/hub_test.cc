@@ -57,6 +57,32 @@ TEST(HubTest, WhatManyHearStandsOnceInTheLog) {
   EXPECT_TRUE(lines.back().ends_with("AM\tA,B\tFrom @AM tell hello")) << lines.back();
 }
 
+TEST(HubTest, WhoeverAskedIsAnsweredAlsoWhereTheAnsweringThrows) {
+  World world;
+  vm::SlotMachine machine("AM");
+  world.hub.AddMachine(machine);
+  world.hub.set_on_machine([](vm::SlotMachine&, const Envelope&) -> vm::Result<Router::Taken> {
+    throw std::runtime_error("thrown");
+  });
+  const std::string why = " = INTERNAL a message could not be dealt with: thrown";
+  const auto client = world.Join(PeerKind::kClient, "A");
+  world.Say(*client, "set#1 X = 1");
+  EXPECT_EQ(client->heard, Strings{"From @AM rep#1 X.error" + why});
+  world.Say(*client, "set X = 1");
+  EXPECT_EQ(client->heard.back(), "From @AM rep Error" + why);
+  const auto module = world.Join(PeerKind::kModule, "M", Dialect::kOriginal);
+  world.Say(*module, "set#2 X = 1");
+  EXPECT_EQ(module->heard, Strings{"From @AM rep#2 X.error" + why});
+  int answers = 0;
+  world.hub.Ask("AM", vm::To("AM", vm::Inq("X")), [&](const vm::Result<std::string>& answer) {
+    ++answers;
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().code, vm::Errc::kInternal);
+  });
+  world.clock.Settle();
+  EXPECT_EQ(answers, 1);
+}
+
 TEST(HubTest, AnUnknownReceiverIsAnsweredWithAnError) {
   World world;
   const auto a = world.Join(PeerKind::kClient, "A");
