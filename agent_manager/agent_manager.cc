@@ -12,6 +12,7 @@
 #include "agent_manager/macros/speak.h"
 #include "agent_manager/slots/metrics.h"
 #include "agent_manager/supervision/service_notify.h"
+#include "vm_protocol/core/guarded.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/core/utf8.h"
 #include "vm_protocol/runtime/stream_peer.h"
@@ -292,18 +293,7 @@ int AgentManager::Run() {
       Say("no configuration (--config FILE), so no modules are started; type help or quit");
     console_.Start(options_.first_lines);
   }
-  while (!Over()) {
-    if (!started_once_ && Started()) OnStarted();
-    // Also the lines held back while a module that was started again is being asked what it knows.
-    if (console_.has_lines()) console_.Feed();
-    if (!clock_.real()) {
-      StepVirtual();
-      continue;
-    }
-    if (IdleIsWanted()) quiet_.Ask();
-    if (console_.waits_for_idle() && !SomethingGoesOn()) console_.OnIdle();
-    if (!Over()) RunSome();
-  }
+  while (!Over()) Guarded([this] { Step(); });
   Shutdown();
   return console_lost_ || (options_.strict && errors_ > 0) ? 1 : 0;
 }
@@ -314,6 +304,21 @@ void AgentManager::OnStarted() {
   if (const auto period = WatchdogPeriod()) {
     NotifyService("WATCHDOG=1");
     feed_watchdog_.Start(std::chrono::duration_cast<milliseconds>(*period / 2),
+void AgentManager::Step() {
+  if (!started_once_ && Started()) OnStarted();
+  // Also the lines held back while a module that was started again is being asked what it knows.
+  if (console_.has_lines()) console_.Feed();
+  if (!clock_.real()) return StepVirtual();
+  if (IdleIsWanted()) quiet_.Ask();
+  if (console_.waits_for_idle() && !SomethingGoesOn()) console_.OnIdle();
+  if (!Over()) RunSome();
+}
+
+template <typename Act>
+void AgentManager::Guarded(const Act& act) {
+  if (const auto done = vm::Guarded(act); !done) SayError("internal error: " + done.error().text);
+}
+
                          [] { NotifyService("WATCHDOG=1"); });
   }
   if (replay_) replay_->Start([this] { quiet_.Disturb(); });
@@ -322,7 +327,7 @@ void AgentManager::OnStarted() {
 void AgentManager::RunSome() {
   // What parts have said to each other meanwhile is dealt with before anybody waits.
   const vm::WriteBatch batch;  // everything said in one round goes out in one write each
-  try {
+  Guarded([this] {
     std::size_t done = 0;
     if (!hub_.idle()) {
       done = io_.poll_one();
@@ -333,9 +338,7 @@ void AgentManager::RunSome() {
       } while (done == 0 && std::chrono::steady_clock::now() < until);
     }
     if (done == 0 && hub_.idle()) io_.run_one();
-  } catch (const std::exception& error) {
-    SayError(std::string("internal error: ") + error.what());
-  }
+  });
   hub_.Drain();
 }
 

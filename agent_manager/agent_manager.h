@@ -67,6 +67,7 @@ class AgentManager {
   void LoadBuiltInMacros();
   void StartReplay();
   // The loop.
+  void Step();
   void RunSome();
   void StepVirtual();
   bool Started() const;
@@ -84,6 +85,9 @@ class AgentManager {
   void Say(const std::string& text);
   void SayError(const std::string& text, PeerKey about = kHub);
   void Refused(const std::string& text);
+  /// What `act` throws is said; the session goes on.
+  template <typename Act>
+  void Guarded(const Act& act);
   void OnModuleOutput(const std::string& module, const OutputLine& line);
   void OnModuleWithoutClock(PeerKey module, const std::string& why);
   void OnPresence(const std::string& name, bool present, const std::string& reason);

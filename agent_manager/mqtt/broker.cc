@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "agent_manager/mqtt/mosquitto_client.h"
+#include "vm_protocol/core/guarded.h"
 #include "vm_protocol/runtime/credentials.h"
 #include "vm_protocol/runtime/endpoint.h"
 
@@ -123,6 +124,13 @@ class MosquittoBroker final : public Broker {
 
   // The thread.
   void Work() {
+    // What comes up to here is no connection's end: there is none from then on.
+    if (const auto worked = vm::Guarded([this] { WorkOn(); }); !worked)
+      static_cast<void>(vm::Guarded(
+          [&] { Post([this, text = worked.error().text] { events_.on_lost(text); }); }));
+  }
+
+  void WorkOn() {
     milliseconds wait = kFirstWait / 2;
     while (true) {
       const auto start = steady_clock::now();
@@ -154,8 +162,12 @@ class MosquittoBroker final : public Broker {
       connected_ = false;
       unacknowledged_ = 0;
     }
-    std::string reason = client.Connect();
-    if (reason.empty()) reason = Serve(client);
+    std::string reason;
+    const auto served = vm::Guarded([&] {
+      reason = client.Connect();
+      if (reason.empty()) reason = Serve(client);
+    });
+    if (!served) reason = served.error().text;
     const std::lock_guard lock(mutex_);
     client_ = nullptr;
     return {std::exchange(connected_, false), reason};
@@ -206,8 +218,6 @@ class MosquittoBroker final : public Broker {
     });
     if (ending_) return;
     const std::size_t bytes = packet.payload.size() + packet.topic.size();
-    ++waiting_;
-    waiting_bytes_ += bytes;
     Post([this, packet = std::move(packet), bytes] {
       {
         const std::lock_guard lock(mutex_);
@@ -217,6 +227,8 @@ class MosquittoBroker final : public Broker {
       changed_.notify_all();
       events_.on_packet(packet);
     });
+    ++waiting_;  // before the other thread can count it out, which takes the lock
+    waiting_bytes_ += bytes;
   }
 
   void OnReceipt(const Events::Receipt& receipt) {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <utility>
 
+#include "vm_protocol/core/guarded.h"
 #include "vm_protocol/core/limits.h"
 
 namespace am::mqtt {
@@ -69,24 +70,36 @@ std::string TextOf(int failed) {
 
 }  // namespace
 
-/// What the library calls.
+/// What the library calls. It is C: what is thrown here ends the connection instead.
 struct MosquittoClient::Callbacks {
-  static void OnConnect(mosquitto*, void* self, int code, int, const mosquitto_property*) {
+  template <typename Act>
+  static void Do(void* self, const Act& act) {
     auto& client = *static_cast<MosquittoClient*>(self);
-    if (code == MQTT_RC_SUCCESS) return client.events_.on_connected();
-    client.fault_ = "refused: " + std::string(mosquitto_reason_string(code));
+    if (auto done = vm::Guarded([&] { act(client); }); !done)
+      client.fault_ = std::move(done.error().text);
+  }
+  static void OnConnect(mosquitto*, void* self, int code, int, const mosquitto_property*) {
+    Do(self, [code](MosquittoClient& client) {
+      if (code == MQTT_RC_SUCCESS) return client.events_.on_connected();
+      client.fault_ = "refused: " + std::string(mosquitto_reason_string(code));
+    });
   }
   static void OnDisconnect(mosquitto*, void* self, int code, const mosquitto_property*) {
-    if (code >= 128) static_cast<MosquittoClient*>(self)->fault_ = mosquitto_reason_string(code);
+    Do(self, [code](MosquittoClient& client) {
+      if (code >= 128) client.fault_ = mosquitto_reason_string(code);
+    });
   }
   static void OnMessage(mosquitto*, void* self, const mosquitto_message* message,
                         const mosquitto_property* properties) {
-    static_cast<MosquittoClient*>(self)->events_.on_packet(PacketOf(*message, properties));
+    Do(self,
+       [=](MosquittoClient& client) { client.events_.on_packet(PacketOf(*message, properties)); });
   }
   static void OnPublish(mosquitto*, void* self, int number, int code, const mosquitto_property*) {
-    Broker::Events::Receipt receipt{number, code == MQTT_RC_NO_MATCHING_SUBSCRIBERS, ""};
-    if (code >= 128) receipt.refusal = mosquitto_reason_string(code);
-    static_cast<MosquittoClient*>(self)->events_.on_receipt(receipt);
+    Do(self, [=](MosquittoClient& client) {
+      Broker::Events::Receipt receipt{number, code == MQTT_RC_NO_MATCHING_SUBSCRIBERS, ""};
+      if (code >= 128) receipt.refusal = mosquitto_reason_string(code);
+      client.events_.on_receipt(receipt);
+    });
   }
 };
 

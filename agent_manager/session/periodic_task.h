@@ -7,7 +7,8 @@
 
 namespace am {
 
-/// Does something again and again on the real clock. Thread: the context's.
+/// Does something again and again on the real clock, also after it has thrown. Thread: the
+/// context's.
 class PeriodicTask {
  public:
   explicit PeriodicTask(boost::asio::io_context& io) : timer_(io) {}
@@ -23,8 +24,8 @@ class PeriodicTask {
     timer_.expires_after(every_);
     timer_.async_wait([this](const auto& error) {
       if (error) return;
-      act_();
       Wait();
+      act_();
     });
   }
 

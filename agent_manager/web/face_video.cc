@@ -20,6 +20,8 @@
 #include <utility>
 #include <vector>
 
+#include "vm_protocol/core/guarded.h"
+
 namespace am {
 namespace {
 
@@ -162,36 +164,41 @@ void FaceVideo::Open(int width, int height) {
               if (!begun) return give_up();
               recording_ = true;
               beginning_ = false;
-              thread_ = std::thread([this, width, height] { ReadFrames(width, height); });
+              thread_ = std::thread([this, width, height] {
+                // A thread's errors end the film, as a face that writes no more does.
+                if (!vm::Guarded([&] { ReadFrames(width, height); }))
+                  static_cast<void>(vm::Guarded([this] { Post(""); }));
+              });
               if (viewers_.empty()) Stop();
             });
+      });
+}
+
+void FaceVideo::Post(std::string picture) {
+  boost::asio::post(
+      io_, [this, alive = alive_, done = std::make_shared<const std::string>(std::move(picture))] {
+        if (*alive) Deliver(done);
       });
 }
 
 void FaceVideo::ReadFrames(int width, int height) {
   std::vector<unsigned char> frame(static_cast<std::size_t>(width) *
                                    static_cast<std::size_t>(height) * 4);
-  const auto post = [this](std::string picture) {
-    boost::asio::post(io_, [this, alive = alive_,
-                            done = std::make_shared<const std::string>(std::move(picture))] {
-      if (*alive) Deliver(done);
-    });
-  };
   std::size_t filled = 0;
   while (true) {
     std::array<pollfd, 2> waits{{{frames_fd_, POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
     poll(waits.data(), waits.size(), -1);
     if (waits[1].revents != 0) return;
     const ssize_t n = read(frames_fd_, frame.data() + filled, frame.size() - filled);
-    if (n < 0 && errno != EAGAIN && errno != EINTR) return post("");
+    if (n < 0 && errno != EAGAIN && errno != EINTR) return Post("");
     if (n < 0) continue;          // spurious wake-up
-    if (n == 0) return post("");  // the face has stopped writing, or has gone
+    if (n == 0) return Post("");  // the face has stopped writing, or has gone
     filled += static_cast<std::size_t>(n);
     if (filled < frame.size()) continue;
     filled = 0;
     std::string picture = Compress(frame, width, height);
-    if (picture.empty()) return post("");
-    post(std::move(picture));
+    if (picture.empty()) return Post("");
+    Post(std::move(picture));
   }
 }
 

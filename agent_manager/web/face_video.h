@@ -40,6 +40,7 @@ class FaceVideo {
            std::function<void(const vm::Result<std::string>&)> next);
   void Open(int width, int height);
   void ReadFrames(int width, int height);  // runs on thread_
+  void Post(std::string picture);          // Deliver, from there
   void Deliver(const Picture& picture);
   /// Asks the face to stop, and goes on reading until it has: a pipe closed before that would be an
   /// error in the face.

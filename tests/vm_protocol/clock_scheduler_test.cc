@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "vm_protocol/runtime/asio_scheduler.h"
@@ -38,6 +39,21 @@ TEST(ClockSchedulerTest, OnTheRealClockTimersRunInOrderFromTheContext) {
   clock.Cancel(never);
   io.run();
   EXPECT_EQ(order, "abc");
+}
+
+TEST(ClockSchedulerTest, ATimerThatThrowsLeavesTheOthersGoing) {
+  boost::asio::io_context io;
+  ClockScheduler clock(io, true);
+  std::string order;
+  clock.At(milliseconds(0), [] { throw std::runtime_error("thrown"); });
+  clock.At(milliseconds(0), [&] { order += 'a'; });
+  EXPECT_THROW(io.run(), std::runtime_error);
+  io.run();
+  EXPECT_EQ(order, "a");
+  io.restart();
+  clock.After(milliseconds(1), [&] { order += 'b'; });
+  io.run();
+  EXPECT_EQ(order, "ab");
 }
 
 TEST(ClockSchedulerTest, SwitchingGoesOnFromTheTimeReached) {

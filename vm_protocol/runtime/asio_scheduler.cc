@@ -62,9 +62,17 @@ void ClockScheduler::Drive() {
   // One instant at a time: a module that has fallen behind (frames to draw, say) must still hear
   // what is said to it between two of them.
   driving_ = true;
-  if (const auto next = timers_.Next(); next && *next <= Now()) timers_.RunUntil(*next);
-  driving_ = false;
-  if (real_) Arm();
+  const auto go_on = [this] {
+    driving_ = false;
+    if (real_) Arm();
+  };
+  try {
+    if (const auto next = timers_.Next(); next && *next <= Now()) timers_.RunUntil(*next);
+  } catch (...) {  // is the one timer's error: the others run all the same
+    go_on();
+    throw;
+  }
+  go_on();
 }
 
 }  // namespace vm
