@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -23,7 +24,7 @@ LogWriter::LogWriter(const LogConfig& config, OnTrouble on_trouble)
   std::error_code none;
   const auto old = std::filesystem::file_size(config_.file, none);
   if (!none && old > 0 && config_.rotate_mb > 0) Rotate();  // what was kept before stays
-  if (file_ == nullptr && !Open())
+  if (file_ == nullptr && !Open(stuck_ ? "ae" : "we"))
     throw std::runtime_error("cannot write the session log '" + config_.file +
                              "': " + std::strerror(errno));
 }
@@ -34,11 +35,14 @@ LogWriter::~LogWriter() {
   if (file_ != nullptr) std::fclose(file_);
 }
 
-bool LogWriter::Open() {
-  file_ = std::fopen(config_.file.c_str(), "we");
+bool LogWriter::Open(const char* mode) {
+  file_ = std::fopen(config_.file.c_str(), mode);
   size_ = 0;
-  if (file_ != nullptr) std::setvbuf(file_, nullptr, _IONBF, 0);  // the buffer is ours
-  return file_ != nullptr;
+  if (file_ == nullptr) return false;
+  std::setvbuf(file_, nullptr, _IONBF, 0);  // the buffer is ours
+  if (std::fseek(file_, 0, SEEK_END) == 0)
+    size_ = static_cast<std::uint64_t>(std::max(std::ftell(file_), 0L));
+  return true;
 }
 
 void LogWriter::Write(std::string_view line) {
@@ -74,22 +78,40 @@ void LogWriter::Put() {
   if (config_.rotate_mb > 0 && size_ > config_.rotate_mb << 20 && aside_ == nullptr) Rotate();
 }
 
+/// The file has gone to where it is compressed from. What is open stays open.
+bool LogWriter::PutAside() {
+  const bool done = std::rename(config_.file.c_str(), Aside().c_str()) == 0;
+  if (!done && !stuck_ && on_trouble_)
+    on_trouble_("the session log '" + config_.file +
+                "' cannot be put aside: " + std::strerror(errno));
+  stuck_ = !done;
+  return done;
+}
+
+/// Makes room for a new first one. False: it is where it was, and has to stay.
+bool LogWriter::ShiftOld() {
+  std::remove(Packed(config_.keep).c_str());
+  for (unsigned i = config_.keep; i > 1; --i) {
+    if (std::rename(Packed(i - 1).c_str(), Packed(i).c_str()) == 0 || errno == ENOENT) continue;
+    if (on_trouble_)
+      on_trouble_("cannot rename '" + Packed(i - 1) + "': " + std::strerror(errno) + "; '" +
+                  Aside() + "' is not compressed");
+    return false;
+  }
+  return true;
+}
+
 void LogWriter::Rotate() {
+  if (!PutAside()) return;  // it grows on
   if (file_ != nullptr) std::fclose(std::exchange(file_, nullptr));
-  const auto name = [this](unsigned number) {
-    return config_.file + "." + std::to_string(number) + ".gz";
-  };
-  std::remove(name(config_.keep).c_str());
-  for (unsigned i = config_.keep; i > 1; --i)
-    std::rename(name(i - 1).c_str(), name(i).c_str());  // those that do not exist do not matter
-  std::rename(config_.file.c_str(), Aside().c_str());
   Open();
   if (config_.keep == 0) {
     std::remove(Aside().c_str());
     return;
   }
+  if (!ShiftOld()) return;
   aside_ = std::fopen(Aside().c_str(), "re");
-  packed_ = gzopen(name(1).c_str(), "wbe6");
+  packed_ = gzopen(Packed(1).c_str(), "wbe6");
   if (aside_ == nullptr || packed_ == nullptr) {
     if (on_trouble_) on_trouble_("cannot compress '" + Aside() + "': " + std::strerror(errno));
     EndCompressing();

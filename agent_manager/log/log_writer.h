@@ -14,7 +14,8 @@ namespace am {
 
 /// Writes lines to a file that is put aside and compressed when it has grown too large. The
 /// compressing is done along with the writing, a piece for each line, so no line waits long for it.
-/// A full disk loses lines, never the session: it is said once, and the log says how many.
+/// A full disk loses lines, never the session: it is said once, and the log says how many. A file
+/// that cannot be put aside grows on; that is said once, too.
 /// Thread: one.
 class LogWriter {
  public:
@@ -30,12 +31,17 @@ class LogWriter {
   std::uint64_t lost() const { return lost_; }
 
  private:
-  bool Open();
+  bool Open(const char* mode = "we");
   void Put();
   void Rotate();
+  bool PutAside();
+  bool ShiftOld();
   void CompressSome(std::size_t bytes);
   void EndCompressing();
   std::string Aside() const { return config_.file + ".1"; }
+  std::string Packed(unsigned number) const {
+    return config_.file + "." + std::to_string(number) + ".gz";
+  }
 
   LogConfig config_;
   OnTrouble on_trouble_;
@@ -43,6 +49,7 @@ class LogWriter {
   std::string buffer_;
   std::uint64_t size_ = 0;  // of the file
   std::uint64_t lost_ = 0, lost_since_ = 0;
+  bool stuck_ = false;          // the file could not be put aside the last time
   std::FILE* aside_ = nullptr;  // being compressed
   gzFile packed_ = nullptr;
 };

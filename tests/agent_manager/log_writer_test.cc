@@ -63,6 +63,33 @@ TEST_F(LogWriterTest, ANewStartKeepsWhatWasThereWhereFilesArePutAside) {
   EXPECT_EQ(ReadLog(path_), "third\n");
 }
 
+TEST_F(LogWriterTest, WhatCannotBePutAsideGrowsOnAndThatIsSaidOnce) {
+  std::filesystem::create_directories(path_ + ".1/in the way");
+  std::string said = "from before\n";
+  std::ofstream(path_) << said;
+  {
+    LogWriter log({.file = path_, .rotate_mb = 1, .keep = 2}, note_);
+    for (int i = 0; i < 300000; ++i) {
+      log.Write(Line(i));
+      said += Line(i) + "\n";
+    }
+  }
+  EXPECT_EQ(ReadLog(path_), said);
+  EXPECT_EQ(std::ranges::count(trouble_, '\n'), 1) << trouble_;
+  EXPECT_NE(trouble_.find("cannot be put aside: "), std::string::npos) << trouble_;
+  EXPECT_FALSE(std::filesystem::exists(path_ + ".1.gz"));
+}
+
+TEST_F(LogWriterTest, AnOldFileThatCannotMoveOnIsNotWrittenOver) {
+  std::filesystem::create_directories(path_ + ".2.gz/in the way");
+  LogWriter({.file = path_, .rotate_mb = 1, .keep = 2}, note_).Write("first");
+  LogWriter({.file = path_, .rotate_mb = 1, .keep = 2}, note_).Write("second");
+  LogWriter({.file = path_, .rotate_mb = 1, .keep = 2}, note_).Write("third");
+  EXPECT_EQ(ReadLog(path_ + ".1.gz"), "first\n");
+  EXPECT_EQ(ReadLog(path_ + ".1"), "second\n");
+  EXPECT_NE(trouble_.find("cannot rename '"), std::string::npos) << trouble_;
+}
+
 TEST_F(LogWriterTest, AFullDiskLosesLinesAndSaysSo) {
   // A device that is always full.
   LogWriter log({.file = "/dev/full"}, note_);
