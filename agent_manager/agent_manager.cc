@@ -240,7 +240,9 @@ void AgentManager::Refused(const std::string& text) {
 
 Result<std::string> AgentManager::Reload() {
   NotifyService("RELOADING=1");
+  const milliseconds start_limit = config_.config().start_limit;
   auto reloaded = config_.Reload();
+  if (config_.config().start_limit != start_limit) EndProbesInTime();
   NotifyService("READY=1");
   return reloaded;
 }
@@ -263,12 +265,16 @@ void AgentManager::OpenPage() {
   Say("the page is at " + web_->Address());
 }
 
-void AgentManager::StartTasks() {
+void AgentManager::EndProbesInTime() {
   probed_ = hub_.clocks().Probing();
   end_probes_.Start(config_.config().start_limit, [this] {
     hub_.EndProbes(probed_);
     probed_ = hub_.clocks().Probing();
   });
+}
+
+void AgentManager::StartTasks() {
+  EndProbesInTime();
   if (!clock_.real()) return;
   measure_clocks_.Start(kMeasureEvery, [this] { hub_.MeasureClocks(); });
   if (log_writer_) {
@@ -298,12 +304,6 @@ int AgentManager::Run() {
   return console_lost_ || (options_.strict && errors_ > 0) ? 1 : 0;
 }
 
-void AgentManager::OnStarted() {
-  started_once_ = true;
-  NotifyService("READY=1");
-  if (const auto period = WatchdogPeriod()) {
-    NotifyService("WATCHDOG=1");
-    feed_watchdog_.Start(std::chrono::duration_cast<milliseconds>(*period / 2),
 void AgentManager::Step() {
   if (!started_once_ && Started()) OnStarted();
   // Also the lines held back while a module that was started again is being asked what it knows.
@@ -319,6 +319,12 @@ void AgentManager::Guarded(const Act& act) {
   if (const auto done = vm::Guarded(act); !done) SayError("internal error: " + done.error().text);
 }
 
+void AgentManager::OnStarted() {
+  started_once_ = true;
+  NotifyService("READY=1");
+  if (const auto period = WatchdogPeriod()) {
+    NotifyService("WATCHDOG=1");
+    feed_watchdog_.Start(std::chrono::duration_cast<milliseconds>(*period / 2),
                          [] { NotifyService("WATCHDOG=1"); });
   }
   if (replay_) replay_->Start([this] { quiet_.Disturb(); });

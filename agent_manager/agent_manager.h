@@ -78,16 +78,17 @@ class AgentManager {
   void Shutdown();
   // What begins with Run and goes on beside it.
   void StartTasks();
+  void EndProbesInTime();
   void OpenPage();
   void ReloadOnSignal();
   vm::Result<std::string> Reload();
   // What parts say to people and to each other.
   void Say(const std::string& text);
   void SayError(const std::string& text, PeerKey about = kHub);
-  void Refused(const std::string& text);
   /// What `act` throws is said; the session goes on.
   template <typename Act>
   void Guarded(const Act& act);
+  void Refused(const std::string& text);
   void OnModuleOutput(const std::string& module, const OutputLine& line);
   void OnModuleWithoutClock(PeerKey module, const std::string& why);
   void OnPresence(const std::string& name, bool present, const std::string& reason);

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "vm_protocol/core/guarded.h"
+
 namespace am {
 
 using vm::Errc;
@@ -90,8 +92,12 @@ Result<std::string> LiveConfig::Reload() {
   try {
     Apply(*read);
   } catch (const std::exception& error) {
-    if (bridge_ == nullptr && !config_.mqtt.broker.empty()) JoinBroker(config_.mqtt);
-    return vm::Fail(Errc::kBadValue, std::string(error.what()) + "; nothing was changed");
+    std::string rest = "nothing was changed";
+    if (bridge_ == nullptr && !config_.mqtt.broker.empty()) {
+      if (const auto joined = vm::Guarded([this] { JoinBroker(config_.mqtt); }); !joined)
+        rest = "and the broker of before cannot be joined again: " + joined.error().text;
+    }
+    return vm::Fail(Errc::kBadValue, std::string(error.what()) + "; " + rest);
   }
   config_ = std::move(*read);
   parts_.say("the configuration was read again");

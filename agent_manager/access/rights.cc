@@ -112,6 +112,7 @@ bool LiesWithin(const std::string& file, const std::string& folder,
                                                      : std::filesystem::path(folder) / file);
   return std::ranges::any_of(folders, [&](const std::string& allowed) {
     const auto within = Resolved(allowed);
+    if (within.empty()) return false;  // no path, and so not the beginning of every one
     return std::ranges::mismatch(within, path).in1 == within.end();
   });
 }

@@ -6,6 +6,15 @@
 namespace am {
 namespace {
 
+std::vector<std::string> Folders(const json& value, const std::string& key) {
+  std::vector<std::string> folders = Texts(value, key);
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    if (folders[i].empty())
+      Wrong(key + "[" + std::to_string(i) + "]", value[i], "a folder, or \"/\" for all files");
+  }
+  return folders;
+}
+
 void ReadRow(const json& value, const std::string& key, Rights& rights) {
   const auto into = [](std::vector<std::string>& target) -> Readers::mapped_type {
     return [&target](const json& v, const std::string& k) { target = Texts(v, k); };
@@ -18,7 +27,7 @@ void ReadRow(const json& value, const std::string& key, Rights& rights) {
               {"to", into(rights.to)},
               {"slots", into(rights.slots)},
               {"names", into(rights.names)},
-              {"files", into(rights.files)},
+              {"files", Into(rights.files, Folders)},
               {"may", [&](const json& v, const std::string& k) {
                  rights.may.clear();
                  ReadList(v, k, "a list of permissions",

@@ -12,7 +12,7 @@ namespace am {
 class PeriodicTask {
  public:
   explicit PeriodicTask(boost::asio::io_context& io) : timer_(io) {}
-  /// The first time after `every`. Call once.
+  /// The first time after `every`. If it goes on already, it goes on like this instead.
   void Start(std::chrono::milliseconds every, std::function<void()> act) {
     every_ = every;
     act_ = std::move(act);

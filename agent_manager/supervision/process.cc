@@ -36,6 +36,14 @@ struct Pipe {
   int TakeWrite() { return std::exchange(ends[1], -1); }
 };
 
+/// A system call, once more if a signal came in between.
+template <typename Call>
+auto Again(const Call& call) {
+  auto result = call();
+  while (result == -1 && errno == EINTR) result = call();
+  return result;
+}
+
 bool Limit(__rlimit_resource what, unsigned long most) {
   if (most == 0) return true;
   const rlimit limit{most, most};
@@ -94,8 +102,8 @@ vm::Result<Spawned> SpawnProcess(const ModuleConfig& module) {
   if (pid < 0) return refuse(errno);
   close(failure.TakeWrite());
   int why = 0;
-  if (read(failure.ends[0], &why, sizeof(why)) == sizeof(why)) {
-    waitpid(pid, nullptr, 0);
+  if (Again([&] { return read(failure.ends[0], &why, sizeof(why)); }) == sizeof(why)) {
+    Again([&] { return waitpid(pid, nullptr, 0); });
     return refuse(why);
   }
   return Spawned{pid, input.TakeWrite(), output.TakeRead(), errors.TakeRead()};

@@ -30,6 +30,7 @@ TEST(LiesWithinTest, ComparesNamesAndNotBeginnings) {
   EXPECT_FALSE(LiesWithin(d + "/../x.wav", "", {d}));
   EXPECT_FALSE(LiesWithin("../x.wav", d, {d}));
   EXPECT_FALSE(LiesWithin(d + "/x.wav", "", {}));
+  EXPECT_FALSE(LiesWithin(d + "/x.wav", "", {""}));
   EXPECT_TRUE(LiesWithin("/etc/passwd", "", {"/"}));
 }
 
@@ -269,7 +270,9 @@ TEST(RightsConfigTest, FaultsNameTheRow) {
            {R"({"king": {}})", "rights.king: unknown key"},
            {R"({"owner": {}})", "rights.owner: unknown key"},
            {R"({"guest": {"may": ["fly"]}})", "rights.guest.may[0]: found \"fly\""},
-           {R"({"guest": {"files": "x"}})", "rights.guest.files: found \"x\""}}) {
+           {R"({"guest": {"files": "x"}})", "rights.guest.files: found \"x\""},
+           {R"({"guest": {"files": ["/srv", ""]}})",
+            "rights.guest.files[1]: found \"\", expected a folder, or \"/\" for all files"}}) {
     const auto config = ParseConfig(std::string("{\"rights\": ") + text + "}", "am.json", ".");
     ASSERT_FALSE(config) << text;
     EXPECT_NE(config.error().text.find(part), std::string::npos) << config.error().text;

@@ -295,6 +295,44 @@ TEST_F(SupervisionTest, NobodyDefinesTheSlotsOfAModuleThatIsYetToBeConfigured) {
   EXPECT_EQ(Ask(hub, "Module.NEW.starts"), "1");
 }
 
+TEST_F(SupervisionTest, ABrokerThatCannotBeJoinedAgainLeavesNoReloadUnanswered) {
+  const std::string password = folder_ / "password";
+  const auto configure = [this](const std::string& file) {
+    std::ofstream(path_)
+        << R"({"mqtt": {"broker": "tcp:127.0.0.1:1", "agent": "HERE", "user": "u", )"
+        << R"("password_file": ")" << file << "\"}}";
+  };
+  std::ofstream(password) << "secret\n";
+  chmod(password.c_str(), 0600);
+  configure(password);
+  Process hub({kHub, "--config", path_});
+  ASSERT_EQ(Ask(hub, "Run"), "LIVE") << hub.ErrorText();
+  unlink(password.c_str());
+  configure(folder_ / "none");
+  hub.WriteLine("set#reload Reload = NOW");
+  const auto answer = hub.Expect("rep#reload Reload.error = BAD_VALUE");
+  ASSERT_TRUE(answer) << hub.Seen() << hub.ErrorText();
+  EXPECT_NE(answer->find("the broker of before cannot be joined again"), std::string::npos)
+      << *answer;
+}
+
+TEST_F(SupervisionTest, ALimitOfStartingThatIsConfiguredAnewCounts) {
+  const std::string socket = folder_ / "hub.sock";
+  const auto configure = [&](const std::string& limit_ms) {
+    std::ofstream(path_) << R"({"modules": [{"name": "MUTE", "command": "cat >/dev/null"}], )"
+                         << R"("listen": ["unix:)" << socket << R"("], "start_limit_ms": )"
+                         << limit_ms << "}";
+  };
+  configure("600000");
+  Process hub({kHub, "--config", path_});
+  const auto client = support::SocketClient::Unix(socket);
+  client->WriteLine("inq#1 Run");
+  ASSERT_TRUE(client->Expect("rep#1 Run = LIVE")) << hub.ErrorText();
+  configure("100");
+  hub.Signal(SIGHUP);  // the console waits for MUTE
+  EXPECT_TRUE(hub.ExpectError("@MUTE does not know the slot Clock")) << hub.ErrorText();
+}
+
 TEST_F(SupervisionTest, AModuleIsTriedAgainWhileDescriptorsAreLacking) {
   if (support::kSanitized) GTEST_SKIP() << "the sanitizers need descriptors of their own";
   const std::string socket = folder_ / "hub.sock";
