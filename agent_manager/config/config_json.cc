@@ -6,13 +6,14 @@
 #include <set>
 
 #include "vm_protocol/core/text_file.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace am {
 namespace {
 
 std::string Shown(const json& value) {
   std::string text = value.dump();
-  return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+  return text.size() > 60 ? std::string(vm::CutUtf8(text, 57)) + "..." : text;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "vm_protocol/core/utf8.h"
+
 namespace am {
 
 std::string FormatLogEntry(const LogEntry& entry) {
@@ -17,7 +19,7 @@ vm::Result<LogEntry> ParseLogEntry(std::string_view line) {
     const std::size_t tab = line.find('\t');
     if (tab == std::string_view::npos) {
       return vm::Fail(vm::Errc::kSyntax,
-                      "found '" + std::string(line.substr(0, 40)) +
+                      "found '" + std::string(vm::CutUtf8(line, 40)) +
                           "', expected time, sender, receivers and line, with tabs between");
     }
     field = line.substr(0, tab);

@@ -5,6 +5,7 @@
 
 #include "vm_protocol/core/limits.h"
 #include "vm_protocol/core/phonemes.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace am {
 
@@ -91,7 +92,7 @@ Result<Message> MessageTemplate::Expand(const Template::Lookup& lookup) const {
   message.value = std::move(*value);
   if (!vm::IsValid(message))
     return Fail(Errc::kBadValue, "no message comes of '" + message_.slot + "' with the value '" +
-                                     message.value.substr(0, 60) + "'");
+                                     std::string(vm::CutUtf8(message.value, 60)) + "'");
   return message;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "vm_protocol/core/message.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace am::mqtt {
 
@@ -59,7 +60,7 @@ std::string FormatTopic(std::string_view root, const Topic& topic) {
 
 Result<Topic> ParseTopic(std::string_view root, std::string_view text) {
   const auto wrong = [&](const std::string& expected) {
-    return Fail(Errc::kSyntax, "found the topic '" + std::string(text.substr(0, kShownBytes)) +
+    return Fail(Errc::kSyntax, "found the topic '" + vm::ShownUtf8(vm::CutUtf8(text, kShownBytes)) +
                                    "', expected " + expected);
   };
   if (!text.starts_with(root) || text.substr(root.size()).empty() || text[root.size()] != '/')

@@ -9,6 +9,7 @@
 
 #include "agent_manager/web/private_folder.h"
 #include "agent_manager/web/web_impl.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace am::web {
 namespace {
@@ -76,7 +77,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   void Refuse(const std::string& why) {
     server_->on_refusal("web page: no microphone: " + why);
     // Beast takes at most 123 bytes of reason.
-    socket_.async_close({websocket::close_code::try_again_later, why.substr(0, 120)},
+    socket_.async_close({websocket::close_code::try_again_later, vm::CutUtf8(why, 120)},
                         [self = shared_from_this()](const error_code&) { self->End(); });
   }
 

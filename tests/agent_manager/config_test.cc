@@ -86,6 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadConfig{R"({"clock": "virtual", "mqtt": {"broker": "tcp:localhost:1", "agent": "A"}})",
                   "mqtt: other agents do not follow a virtual clock"},
         BadConfig{R"({"spin_us": 20000})", "spin_us: found 20000, expected a whole number"},
+        BadConfig{"{\"clock\": \"0123456789012345678901234567890123456789012345678901234\u3042 and "
+                  "more\"}",
+                  "78901234..., expected one of"},
         BadConfig{"[]", "line 1: (top): found [], expected an object"},
         BadConfig{"{\n\"clok\": 1}",
                   "am.json line 2: clok: unknown key, expected one of broadcast, clock"},

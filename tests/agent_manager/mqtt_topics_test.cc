@@ -57,6 +57,13 @@ TEST(MqttTopicsTest, WhatIsNoneOfOursIsRefusedWithWhatWasExpected) {
   }
 }
 
+TEST(MqttTopicsTest, ALongTopicIsShownWithoutHalfASign) {
+  const std::string whole = "other/" + std::string(93, 'x');
+  const auto topic = ParseTopic("galatea", whole + "\xE3\x81\x82");
+  ASSERT_FALSE(topic);
+  EXPECT_NE(topic.error().text.find("'" + whole + "'"), std::string::npos) << topic.error().text;
+}
+
 TEST(MqttTopicsTest, AModuleOfAnotherAgentIsNamedWithASlash) {
   EXPECT_EQ(SplitRemoteName("LOBBY/FSM").agent, "LOBBY");
   EXPECT_EQ(SplitRemoteName("LOBBY/FSM").module, "FSM");
