@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "fsm/base/grain.h"
 #include "fsm/base/spline.h"
@@ -16,8 +17,8 @@ std::size_t At(int unit) { return static_cast<std::size_t>(unit); }
 
 int ReadUnit(const TableRow& row, std::size_t index) {
   const int unit = row.Integer(index);
-  if (unit < 1 || unit >= static_cast<int>(kActionUnits) || unit == 3 || unit == 40) {
-    row.Fail("'" + row.Word(index) + "' is no action unit (1, 2, 4-39, 41-46)");
+  if (unit < 1 || unit > static_cast<int>(UnitValues::kMost) || unit == 3 || unit == 40) {
+    row.Fail("'" + row.Word(index) + "' is no action unit (1, 2, 4-39, 41-999)");
   }
   return unit;
 }
@@ -70,11 +71,7 @@ float Acting(float strength) {
 
 }  // namespace
 
-UnitTable::UnitTable() {
-  for (auto& side : gain_) side.fill(1);
-}
-
-UnitTable::UnitTable(const Table& table) : UnitTable() {
+UnitTable::UnitTable(const Table& table) {
   using enum Effect::Kind;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();
@@ -123,17 +120,21 @@ void UnitTable::MakeAsymmetric(int seed) {
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
     if (unit >= 41 || unit == 26 || unit == 27) continue;
     const float lean = kPart * Grain(static_cast<int>(unit), 90 + seed);
-    gain_[0][unit] = 1 + lean;
-    gain_[1][unit] = 1 - lean;
+    lean_[0][unit] = lean;
+    lean_[1][unit] = -lean;
   }
 }
 
 SidedUnits UnitTable::Combine(const FaceState& state) const {
   SidedUnits units{};
   const float shown = std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, 5.0f) : 0;
-  for (std::size_t i = 1; i < kActionUnits; ++i) {
-    units[0][i] = (1 + shown * (gain_[0][i] - 1)) * Acting(state.au_right[i]);
-    units[1][i] = (1 + shown * (gain_[1][i] - 1)) * Acting(state.au_left[i]);
+  const std::array<const UnitValues*, 2> asked{&state.au_right, &state.au_left};
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t i = 1; i < asked[side]->size(); ++i) {
+      const float acting = Acting((*asked[side])[i]);
+      const float lean = std::as_const(lean_[side])[i];
+      if (acting > 0) units[side][i] = (1 + shown * lean) * acting;
+    }
   }
   for (auto& side : units) {
     const auto before = side;  // rules look at what was asked, so their order does not matter

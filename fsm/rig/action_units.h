@@ -7,11 +7,12 @@
 #include "fsm/base/table_reader.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/skin_weights.h"
+#include "fsm/rig/unit_values.h"
 
 namespace fsm {
 
 /// Action units by side: [0] the agent's right, [1] its left; FACS number as index.
-using SidedUnits = std::array<std::array<float, kActionUnits>, 2>;
+using SidedUnits = std::array<UnitValues, 2>;
 
 /// What units do beside moving skin, summed over all that act.
 struct UnitEffects {
@@ -35,7 +36,7 @@ class UnitTable {
   };
 
   /// No units at all.
-  UnitTable();
+  UnitTable() = default;
   /// Throws std::runtime_error naming file and line if the table is damaged, if a number is beyond
   /// what a face can do, or if there are more than kMostRows.
   explicit UnitTable(const Table& table);
@@ -64,7 +65,7 @@ class UnitTable {
     int unit;
     float first, second;
   };
-  SidedUnits gain_;
+  SidedUnits lean_;  // by how much a unit is stronger on that side than the table says, as a part
   std::vector<Field> fields_;
   std::vector<Rule> rules_;
   std::vector<Effect> effects_;

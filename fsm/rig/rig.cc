@@ -118,10 +118,11 @@ Rig Rig::WithUnits(const UnitTable& units) const {
 }
 
 void Rig::AddChannels(Frame& frame) const {
+  const Pose& pose = frame.pose;
   for (const Channel& channel : data_.channels) {
     const float weight = channel.kind == Channel::Kind::kUnit
-                             ? frame.pose.units[channel.side][channel.number]
-                             : frame.pose.mouth[channel.number];
+                             ? pose.units[channel.side][channel.number]
+                             : pose.mouth[channel.number];
     if (weight == 0) continue;
     for (const Displacement& d : channel.moves) frame.position[d.vertex] += weight * d.by;
   }

@@ -30,6 +30,23 @@ TEST(OwnUnitsTest, AUnitMovesTheSkinAsItsOwnTableSays) {
   EXPECT_EQ(moved.position, rest.position) << "what the table does not say does not happen";
 }
 
+TEST(OwnUnitsTest, AUnitBeyondFacsMovesTheSkinToo) {
+  const auto own = GenericHead().WithUnits(
+      TableOf("field 151 43 47 20 20 both 0 3 0\nfield 2 43 47 20 20 both 0 3 0\n"
+              "damp 151 2 0.5\n"));
+  HeadVertices rest, moved;
+  own->Evaluate({}, rest);
+  FaceState twitch;
+  twitch.au_left[151] = 1;
+  own->Evaluate(twitch, moved);
+  const std::size_t left = SkinAt(43, 47), right = SkinAt(-43, 47);
+  EXPECT_NEAR(moved.position[left].y - rest.position[left].y, 3, 0.4F);
+  EXPECT_EQ(moved.position[right], rest.position[right]);
+  twitch.au_left[2] = 1;
+  own->Evaluate(twitch, moved);
+  EXPECT_NEAR(moved.position[left].y - rest.position[left].y, 4.5F, 0.6F) << "rules know it";
+}
+
 TEST(OwnUnitsTest, TheJawOpensAsFarAsTheTableSays) {
   const auto own = GenericHead().WithUnits(TableOf("jaw 26 20 0\n"));
   EXPECT_NEAR(own->MeasureMouth(WithUnit(26, 1)).jaw_degrees, 20, 0.01F);

@@ -45,7 +45,7 @@ TEST(HeadTablesTest, ActionUnitTableRefusesNonsense) {
     return Complaint([&] { UnitTable(Table("au.txt", text)); });
   };
   EXPECT_EQ(complain("field 3 1 1 1 1 both 0 0 0\n"),
-            "au.txt:1: '3' is no action unit (1, 2, 4-39, 41-46)");
+            "au.txt:1: '3' is no action unit (1, 2, 4-39, 41-999)");
   EXPECT_EQ(complain("field 1 1 1 0 1 both 0 0 0\n"), "au.txt:1: a radius must be positive");
   EXPECT_EQ(complain("field 1 1 1 1 1 left 0 0 0\n"),
             "au.txt:1: 'left' found where above, below or both was expected");
