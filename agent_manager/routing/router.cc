@@ -46,7 +46,8 @@ std::string Router::SenderOf(const Envelope& envelope) const {
 
 Rules::Sender Router::RuleSenderOf(const Envelope& envelope) const {
   const Peer* const starter = directory_.ByKey(envelope.origin.peer);
-  return {SenderOf(envelope), starter == nullptr ? "" : starter->name, envelope.origin.role};
+  return {SenderOf(envelope), starter == nullptr ? "" : starter->name, envelope.origin.role,
+          envelope.machine.empty() ? envelope.origin.peer : kHub};
 }
 
 void Router::Refuse(const Envelope& envelope, const vm::Error& error, const std::string& by) {
@@ -244,7 +245,7 @@ void Router::ApplyRulesToReport(Peer& sender, Message message) {
   std::string to = message.to.size() == 1 ? message.to.front() : "";
   const std::string before = to;
   const Rules::Outcome outcome =
-      rules_.Apply({sender.name, "", sender.role}, to, message, clock_.Now());
+      rules_.Apply({sender.name, "", sender.role, sender.key}, to, message, clock_.Now());
   SendCopies(outcome, sender.name, sender.role);
   if (outcome.dropped) return;
   if (to != before) message.to = {to};

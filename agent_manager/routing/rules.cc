@@ -56,7 +56,7 @@ std::string Fill(std::string_view text, const std::string& from, const std::stri
 
 void Rules::set_rules(std::vector<Rule> rules) {
   rules_.clear();
-  for (Rule& rule : rules) rules_.push_back({std::move(rule), {}});
+  for (Rule& rule : rules) rules_.push_back({std::move(rule), {}, {}});
 }
 
 Rules::Outcome Rules::Apply(const Sender& sender, std::string& to, vm::Message& message,
@@ -90,8 +90,10 @@ Rules::Outcome Rules::Apply(const Sender& sender, std::string& to, vm::Message& 
       return outcome;
     }
     if (rule.per_s > 0) {
-      if (live.meters.size() >= kMaxMeters && !live.meters.contains(from)) live.meters.clear();
-      RateMeter& meter = live.meters[from];
+      if (live.peer_meters.size() >= kMaxMeters && !live.peer_meters.contains(sender.peer))
+        live.peer_meters.clear();
+      RateMeter& meter =
+          sender.peer == kHub ? live.machine_meters[from] : live.peer_meters[sender.peer];
       const RateMeter before = meter;
       if (meter.Take(1, rule.per_s, now) > vm::Time(0)) {
         meter = before;  // what is dropped does not count

@@ -8,6 +8,7 @@
 
 #include "agent_manager/access/pattern.h"
 #include "agent_manager/access/role.h"
+#include "agent_manager/routing/envelope.h"
 #include "agent_manager/routing/limits.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/scheduler.h"
@@ -53,6 +54,7 @@ class Rules {
     std::string name;
     std::string starter;  ///< of the macro that says it; empty: it is no macro
     Role role = Role::kOwner;
+    PeerKey peer = kHub;  ///< a peer is counted by this, whatever it calls itself; machines by name
   };
   /// Applies the rules in order to a message on its way to `to` (empty: a report to whoever hears
   /// it), and changes both as the rules say. A value that is read from a file or appended to what
@@ -62,7 +64,8 @@ class Rules {
  private:
   struct Live {
     Rule rule;
-    std::map<std::string, RateMeter> meters;  // by sender
+    std::map<std::string, RateMeter> machine_meters;  // by name
+    std::map<PeerKey, RateMeter> peer_meters;
   };
   std::vector<Live> rules_;
 };

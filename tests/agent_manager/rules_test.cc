@@ -137,6 +137,15 @@ TEST_F(RulesTest, ThrottleCountsEachSenderOnItsOwn) {
   EXPECT_EQ(std::ranges::count(b_->heard, "set X = a"), 11);
 }
 
+TEST_F(RulesTest, ThrottleCountsASenderOnWhateverItCallsItself) {
+  Use(R"([{"to": "B", "per_second": 10}])");
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(world_.hub.Rename(a_->key, "N" + std::to_string(i)));
+    world_.Say(*a_, "to @B set X = a");
+  }
+  EXPECT_EQ(b_->heard.size(), 10U);
+}
+
 TEST_F(RulesTest, LastEndsTheRulesAndNotesAreForPeople) {
   std::string noted;
   world_.hub.set_on_notice([&](const std::string& text, PeerKey) { noted += text; });
