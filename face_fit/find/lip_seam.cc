@@ -103,10 +103,11 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
   const FrontView view(topology, position, lips.low - margin, lips.high + margin);
   const auto crossings = FindCrossings(topology, view, surface, surface.WayFrom(upper, kReach),
                                        surface.WayFrom(lower, kReach));
-  const auto [first, last] = MouthColumns(crossings);
+  const std::pair<int, int> columns = MouthColumns(crossings);
+  const int first = columns.first, last = columns.second;
   const float width = FrontView::kCell * static_cast<float>(last - first);
   if (width < kLeastWidth || width > kMostWidth) return std::nullopt;
-  const auto crossing_at = [&, first = first, last = last](float part) {
+  const auto crossing_at = [&](float part) {
     int column = static_cast<int>(
         std::lround(static_cast<float>(first) + part * static_cast<float>(last - first)));
     while (column < last && crossings[static_cast<std::size_t>(column)].above < 0) ++column;
