@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "agent_manager/macros/speak.h"
+#include "agent_manager/routing/own_names.h"
 #include "agent_manager/slots/metrics.h"
 #include "agent_manager/supervision/service_notify.h"
 #include "vm_protocol/core/guarded.h"
@@ -58,7 +59,7 @@ AgentManager::AgentManager(Config config, Options options)
         EnableLog();
       }),
       hub_(clock_, log_),
-      slots_("AM"),
+      slots_(own_name::kHub),
       macros_(clock_, hub_, ReadFile, [](const std::string& path) { unlink(path.c_str()); }),
       parallel_(clock_, hub_),
       sounds_(hub_),
@@ -167,7 +168,7 @@ void AgentManager::ConnectParts() {
     return config_.bridge() != nullptr ? config_.bridge()->Open(name) : Result<bool>(false);
   });
   hub_.AddMachine(slots_);
-  hub_.AddMachine(macros_.slots(), {"FS-MCL"});
+  hub_.AddMachine(macros_.slots(), {own_name::kMacrosOfTheOriginal});
   hub_.AddMachine(parallel_.slots(), {}, true);
   hub_.AddMachine(sounds_.slots(), {}, true);
   for (auto* const machine : {&slots_, &macros_.slots(), &parallel_.slots(), &sounds_.slots()}) {

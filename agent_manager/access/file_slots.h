@@ -12,9 +12,9 @@ namespace am {
 /// Which slots of one module take file names, and where in their values: from what the module
 /// answers to `inq Slots.files`, and for slots it does not tell of from a table of names the
 /// original's modules and ours have (file_slots.txt). Pure.
-/// Limits: kMaxSlots slots are kept of what a module tells; beyond, every value of every slot
-/// counts
-///         as a file name.
+///
+/// Limits: kMaxSlots slots of what a module declares. If it declares more, every value of every
+/// slot counts as a file name.
 class FileSlots {
  public:
   static constexpr std::size_t kMaxSlots = 1024;

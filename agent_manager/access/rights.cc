@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "agent_manager/access/pattern.h"
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace am {
@@ -17,7 +18,7 @@ using vm::Result;
 
 namespace {
 
-constexpr std::string_view kHubName = "AM";
+constexpr std::string_view kHubName = own_name::kHub;
 
 std::unexpected<vm::Error> Refuse(Role role, std::string_view member, std::string_view deed) {
   return vm::Fail(Errc::kAccess, "a " + std::string(RoleName(role)) + " may not " +

@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/utf8.h"
@@ -11,7 +12,8 @@
 namespace am {
 namespace {
 
-constexpr std::array<std::string_view, 4> kPartsOfTheHub{"AM", "AM-MCL", "FS-MCL", "PAR"};
+constexpr std::array<std::string_view, 4> kPartsOfTheHub{
+    own_name::kHub, own_name::kMacros, own_name::kMacrosOfTheOriginal, own_name::kParallel};
 
 /// Takes the first line, without its end and the blanks around it. REQUIRES: text is not empty.
 std::string_view TakeLine(std::string_view& text) {

@@ -1,6 +1,7 @@
 // Reads one module from the configuration.
 
 #include "agent_manager/config/config_json.h"
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/message.h"
 
 namespace am {
@@ -87,9 +88,7 @@ std::vector<std::string> ReadEnvironment(const json& value, const std::string& k
 std::string ReadName(const json& value, const std::string& key) {
   std::string name = Text(value, key);
   if (!vm::IsModuleName(name)) Wrong(key, value, "letters, digits, '_' or '-'");
-  for (const char* const own : {"AM", "AM-MCL", "FS-MCL", "CONSOLE", "MQTT"}) {
-    if (name == own) throw ConfigFault{key, "found '" + name + "', a name of the hub's own"};
-  }
+  if (IsReservedName(name)) throw ConfigFault{key, "found '" + name + "', a name of the hub's own"};
   return name;
 }
 

@@ -13,12 +13,15 @@ namespace am {
 
 /// One line of a session log: what was said, when, by whom, to whom. Fields are separated by tabs:
 ///   TIME_MS <tab> SENDER <tab> RECEIVER[,RECEIVER...] or - <tab> LINE
-/// Lines starting with '#' are comments; the first names the format.
+/// Lines starting with '#' are comments; the first names the format. Of a line that somebody had
+/// said by `do FILE` the sender is NAME:do.
 struct LogEntry {
+  static constexpr std::string_view kByScript = ":do";
   vm::Time time{0};
   std::string sender;
   std::string receivers;  ///< "-": nobody heard it
   std::string line;       ///< as it came in, `to` included
+  bool IsOfScript() const { return sender.ends_with(kByScript); }
   bool operator==(const LogEntry&) const = default;
 };
 

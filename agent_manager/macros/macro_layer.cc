@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "agent_manager/routing/own_names.h"
+
 namespace am {
 
 using vm::Command;
@@ -13,7 +15,7 @@ using vm::Result;
 
 namespace {
 
-constexpr const char* kName = "AM-MCL";
+constexpr const char* kName = own_name::kMacros;
 constexpr std::size_t kMaxWords = 64;  // words of a value that become variables
 
 }  // namespace

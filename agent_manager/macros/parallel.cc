@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "agent_manager/routing/own_names.h"
+
 namespace am {
 
 using vm::Errc;
@@ -17,7 +19,8 @@ constexpr double kLongestSleepS = 60;
 
 }  // namespace
 
-Parallel::Parallel(vm::Scheduler& clock, Hub& hub) : clock_(clock), hub_(hub), slots_("PAR") {
+Parallel::Parallel(vm::Scheduler& clock, Hub& hub)
+    : clock_(clock), hub_(hub), slots_(own_name::kParallel) {
   slots_.Declare({.name = "Init",
                   .grammar = "<number>",
                   .access = vm::Access::kWriteOnly,

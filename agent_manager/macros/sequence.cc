@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/phonemes.h"
 
 namespace am {
@@ -14,7 +15,7 @@ using vm::Result;
 
 namespace {
 
-constexpr const char* kName = "AM-MCL";
+constexpr const char* kName = own_name::kMacros;
 /// Added to the common start time: lets the mouth move first, and allows for a busy computer.
 constexpr vm::Time kStartMargin = milliseconds(60);
 

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/xml_text.h"
 
 namespace am {
@@ -14,7 +15,7 @@ using vm::Result;
 
 namespace {
 
-constexpr const char* kName = "SND";
+constexpr const char* kName = own_name::kSound;
 constexpr const char* kVoice = "SSM";
 
 }  // namespace
@@ -69,27 +70,38 @@ void SoundPlayer::Prepare() {
 }
 
 void SoundPlayer::Speak() {
-  const File& file = files_.front();
+  File& file = files_.front();
+  file.state = File::State::kAsked;
   hub_.Ask(
       kName, vm::To(kVoice, vm::Set("Speak", "NOW")),
       [this, reply = file.reply](const Result<std::string>& begun) {
         if (reply.done()) return;
-        if (!begun) {
-          reply.Fail(begun.error());
-          return End();
-        }
-        files_.front().playing = true;
-        slots_.TellAll("start " + files_.front().name);
-        reply.Ok(files_.front().name);
+        if (begun) return Begun();
+        reply.Fail(begun.error());
+        End();
       },
       file.origin);
 }
 
+void SoundPlayer::Begun() {
+  File& file = files_.front();
+  const bool over = std::exchange(file.state, File::State::kPlaying) == File::State::kOver;
+  slots_.TellAll("start " + file.name);
+  file.reply.Ok(file.name);
+  if (!over) return;
+  slots_.TellAll("end " + file.name);
+  End();
+}
+
 void SoundPlayer::OnReport(const std::string& from, const vm::Message& message) {
-  if (from != kVoice || message.slot != "Speak.stat" || message.value != "IDLE" || files_.empty() ||
-      !files_.front().playing)
-    return;
-  slots_.TellAll("end " + files_.front().name);
+  using enum File::State;
+  if (from != kVoice || message.slot != "Speak.stat" || files_.empty()) return;
+  File& file = files_.front();
+  if (message.value == "SPEAKING" && file.state == kAsked) file.state = kHeard;
+  if (message.value != "IDLE") return;
+  if (file.state == kHeard) file.state = kOver;
+  if (file.state != kPlaying) return;  // of its own speech before
+  slots_.TellAll("end " + file.name);
   End();
 }
 
@@ -110,7 +122,7 @@ void SoundPlayer::End() {
 void SoundPlayer::Drop(const vm::Error& error) {
   auto files = std::exchange(files_, {});
   for (const File& file : files) {
-    if (file.playing) slots_.TellAll("end " + file.name);
+    if (file.state == File::State::kPlaying) slots_.TellAll("end " + file.name);
     file.reply.Fail(error);
   }
   if (!files.empty() && hub_.IsPresent(kVoice))

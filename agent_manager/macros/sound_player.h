@@ -32,11 +32,13 @@ class SoundPlayer final : public BuiltInModule {
     std::string name, path;
     vm::Reply reply;
     Origin origin;
-    bool playing = false;
+    /// The voice's messages can come together, the end of the sound with the answer to our request.
+    enum class State { kWaits, kAsked, kHeard, kOver, kPlaying } state = State::kWaits;
   };
   void Add(const std::string& name, const vm::Reply& reply);
   void Prepare();
   void Speak();
+  void Begun();
   void End();
   void Drop(const vm::Error& error);
 

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "agent_manager/access/pattern.h"
+#include "agent_manager/routing/own_names.h"
+#include "agent_manager/routing/tag.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace am::mqtt {
@@ -19,7 +21,9 @@ using Kind = Topic::Kind;
 
 namespace {
 
-const std::set<std::string> kInside{"AM", "AM-MCL", "FS-MCL"};
+constexpr char kTagLetter = 'q';
+const std::set<std::string> kInside{own_name::kHub, own_name::kMacros,
+                                    own_name::kMacrosOfTheOriginal};
 /// Slots of @AM about the connection they are said on, which here is everybody's.
 const std::set<std::string> kOfTheConnection{"Name", "Subscribe", "Flow", "Wait"};
 
@@ -71,7 +75,10 @@ void LocalGateway::OnPresence(const std::string& name, bool present, const std::
   if (name.find('/') != std::string::npos) return;
   if (present ? !live_.insert(name).second : live_.erase(name) == 0) return;
   if (!Shows(name)) return;
-  publisher_.SetValue(topics_.Path(Kind::kModuleState, name), present ? "LIVE" : "GONE " + reason);
+  // What it has reported was true of the one that is gone.
+  const std::string state = topics_.Path(Kind::kModuleState, name);
+  if (!present) publisher_.ForgetValues(topics_.Path(Kind::kSlot, name, ""), state);
+  publisher_.SetValue(state, present ? "LIVE" : "GONE " + reason);
   PublishModules();
 }
 
@@ -99,7 +106,9 @@ void LocalGateway::OnOurMessage(const Message& said) {
   if ((!kInside.contains(from) && !hub_.IsModule(from)) || !Shows(from)) return;
   const bool error = said.slot == "Error" || said.slot.ends_with(".error");
   if (said.command == Command::kRep && !error)
-    return publisher_.SetValue(topics_.Path(Kind::kSlot, from, said.slot), said.value);
+    return publisher_.SetValue(
+        topics_.Path(Kind::kSlot, from, said.slot), said.value,
+        hub_.IsGuest(from) ? Publisher::Whose::kGuests : Publisher::Whose::kOurs);
   Message bare = said;
   bare.from.clear();
   publisher_.PublishEvent({.topic = topics_.Path(error ? Kind::kError : Kind::kTell, from),
@@ -107,15 +116,16 @@ void LocalGateway::OnOurMessage(const Message& said) {
 }
 
 void LocalGateway::Answer(const Message& rep) {
-  const auto found = requests_.find(rep.tag);
+  const auto found = requests_.find(NumberOfTag(kTagLetter, rep.tag));
   if (found == requests_.end()) return;
-  const Request& request = found->second;
+  Request& request = found->second;
   Message bare = rep;
   bare.tag.clear();
   bare.from.clear();
-  // Members of a group come before the answer itself.
-  const bool last =
-      rep.slot == request.slot || rep.slot == request.slot + ".error" || rep.slot == "Error";
+  // Members of a group come before the answer itself. Where a rule has renamed the slot the answer
+  // looks like a member; such requests go when there are too many.
+  const bool last = rep.slot == request.slot || rep.slot.ends_with(".error") || rep.slot == "Error";
+  request.answered = true;
   publisher_.PublishAnswer({.topic = request.response_topic,
                             .payload = vm::FormatMessage(bare),
                             .correlation = request.correlation});
@@ -160,7 +170,7 @@ Result<void> LocalGateway::CheckCommand(const std::string& module, const Message
     return Fail(Errc::kBadValue, "the payload is not one line of UTF-8 text");
   if (!Shows(module) || module == kName)
     return Fail(Errc::kAccess, "@" + module + " is not to be spoken to from here");
-  if (module == "AM" && kOfTheConnection.contains(message.slot))
+  if (module == own_name::kHub && kOfTheConnection.contains(message.slot))
     return Fail(Errc::kAccess, message.slot + " is for clients of the hub itself");
   return {};
 }
@@ -178,12 +188,18 @@ void LocalGateway::Ask(const Packet& packet, const std::string& slot, Message me
   if (packet.correlation.size() > kMaxCorrelationBytes)
     return refuse(Errc::kLimit,
                   "correlation data over " + std::to_string(kMaxCorrelationBytes) + " bytes");
-  if (requests_.size() >= kMaxRequests)
-    return refuse(Errc::kLimit,
-                  "more than " + std::to_string(kMaxRequests) + " requests are unanswered");
-  message.tag = "q" + std::to_string(++last_tag_);
-  requests_[message.tag] = {packet.response_topic, packet.correlation, slot};
+  if (requests_.size() >= kMaxRequests) ForgetOldest();
+  message.tag = FormatTag(kTagLetter, ++last_number_);
+  requests_[last_number_] = {packet.response_topic, packet.correlation, slot};
   hub_.Receive(peer_, std::move(message));
+}
+
+void LocalGateway::ForgetOldest() {
+  const Request oldest = std::move(requests_.extract(requests_.begin()).mapped());
+  if (oldest.answered) return;
+  const vm::Error error{
+      Errc::kLimit, "more than " + std::to_string(kMaxRequests) + " requests are unanswered", 0};
+  PublishRefusal(oldest, error);
 }
 
 /// We may be allowed to publish where the one who asks is not: below the root, answers and refusals
@@ -198,10 +214,15 @@ void LocalGateway::Refuse(const Packet& packet, const std::string& slot, const v
   const std::string text = vm::FormatError(error);
   on_notice_("refused '" + std::string(vm::CutUtf8(packet.topic, 200)) + "': " + text);
   if (packet.response_topic.empty() || !MayAnswerTo(packet.response_topic)) return;
-  publisher_.PublishAnswer(
-      {.topic = packet.response_topic,
-       .payload = "rep " + slot + (slot == "Error" ? "" : ".error") + " = " + text,
-       .correlation = packet.correlation});
+  PublishRefusal({packet.response_topic, packet.correlation, slot}, error);
+}
+
+void LocalGateway::PublishRefusal(const Request& request, const vm::Error& error) {
+  publisher_.PublishAnswer({.topic = request.response_topic,
+                            .payload = "rep " + request.slot +
+                                       (request.slot == "Error" ? "" : ".error") + " = " +
+                                       vm::FormatError(error),
+                            .correlation = request.correlation});
 }
 
 }  // namespace am::mqtt

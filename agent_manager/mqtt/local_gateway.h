@@ -7,6 +7,7 @@
 #include "agent_manager/mqtt/publisher.h"
 #include "agent_manager/mqtt/topics.h"
 #include "agent_manager/routing/hub.h"
+#include "agent_manager/routing/own_names.h"
 
 namespace am::mqtt {
 
@@ -21,8 +22,9 @@ namespace am::mqtt {
 ///         that may be answered to, one answer.
 class LocalGateway {
  public:
-  static constexpr const char* kName = "MQTT";
-  static constexpr std::size_t kMaxRequests = 4096;  ///< from the broker, unanswered
+  static constexpr const char* kName = own_name::kBroker;
+  /// From the broker, unanswered; beyond them the oldest is answered LIMIT.
+  static constexpr std::size_t kMaxRequests = 4096;
   static constexpr std::size_t kMaxResponseTopicBytes = 1024;
   static constexpr std::size_t kMaxCorrelationBytes = 1024;
 
@@ -46,12 +48,15 @@ class LocalGateway {
   class GatewayLink;
   struct Request {
     std::string response_topic, correlation, slot;
+    bool answered = false;  ///< something has come, if only a member of a group
   };
   void OnOurMessage(const vm::Message& said);
   void Answer(const vm::Message& rep);
   vm::Result<vm::Message> CommandOf(const Topic& topic, const Packet& packet) const;
   vm::Result<void> CheckCommand(const std::string& module, const vm::Message& message) const;
   void Ask(const Packet& packet, const std::string& slot, vm::Message message);
+  void ForgetOldest();
+  void PublishRefusal(const Request& request, const vm::Error& error);
   bool MayAnswerTo(const std::string& topic) const;
   bool Shows(const std::string& module) const;
   void PublishModules();
@@ -63,9 +68,9 @@ class LocalGateway {
   Publisher& publisher_;
   const OnNotice on_notice_;
   PeerKey peer_ = 0;
-  std::set<std::string> live_;               // our modules that can be spoken to
-  std::map<std::string, Request> requests_;  // by our tag
-  unsigned long last_tag_ = 0;
+  std::set<std::string> live_;                 // our modules that can be spoken to
+  std::map<unsigned long, Request> requests_;  // by our tag's number, so the oldest first
+  unsigned long last_number_ = 0;
 };
 
 }  // namespace am::mqtt

@@ -31,13 +31,17 @@ class Publisher {
  public:
   static constexpr std::size_t kMaxValues = 16384;  ///< remembered for the broker
   static constexpr std::size_t kMaxValueBytes = 32u << 20;
+  static constexpr std::size_t kShareOfGuests = 4;  ///< a quarter of either
+  enum class Whose { kOurs, kGuests };
   static constexpr std::size_t kMaxInFlightBytes = 1u << 20;
   static constexpr std::size_t kMaxInFlightBytesOfAnswers = 4u << 20;
 
   Publisher(Broker& broker, const AgentClaim& claim, OnNotice on_notice);
   Publisher(const Publisher&) = delete;
 
-  void SetValue(const std::string& topic, const std::string& value);
+  void SetValue(const std::string& topic, const std::string& value, Whose whose = Whose::kOurs);
+  /// The broker keeps no more values of topics that begin so, but for one.
+  void ForgetValues(const std::string& prefix, const std::string& kept);
   void PublishEvent(const Packet& packet);
   void PublishAnswer(const Packet& packet);
   /// `receiver`: comes back with the receipt. False: the broker is away.
@@ -63,13 +67,21 @@ class Publisher {
   bool Publish(const Packet& packet, PeerKey receiver = 0);
   void PublishBelow(std::size_t limit, const Packet& packet);
   void PublishChanged();
+  struct Value {
+    std::string text;
+    Whose whose = Whose::kOurs;
+  };
+  struct Room {
+    std::size_t values = 0, bytes = 0;
+  };
+  void Count(const std::string& topic, const Value& value, int sign);
 
   Broker& broker_;
   const AgentClaim& claim_;
   const OnNotice on_notice_;
-  std::map<std::string, std::string> values_;  // by topic
-  std::size_t value_bytes_ = 0;
-  std::set<std::string> changed_;  // topics whose value the broker does not have yet
+  std::map<std::string, Value> values_;  // by topic
+  Room all_, guests_;                    // what the values take
+  std::set<std::string> changed_;  // topics of which the broker does not know yet what we know
   // By the number of the receipt. Numbers are 16 bits wide, so one can be on its way twice.
   std::multimap<int, InFlight> in_flight_;
   std::size_t in_flight_bytes_ = 0;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "agent_manager/routing/outbox.h"
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/runtime/credentials.h"
 
 namespace am::mqtt {
@@ -33,18 +34,24 @@ RequestWindow::RequestWindow(vm::Scheduler& clock, Publisher& publisher, const A
       secret_(vm::MakeNonce().substr(0, 16)) {}
 
 bool RequestWindow::Send(const Message& message) {
-  std::erase_if(unanswered_, [&](const auto& entry) {
-    return clock_.Now() - entry.second.asked > kForgetAfter;
-  });
-  if (message.tag.empty() || (waiting_.empty() && unanswered_.size() < kMaxUnanswered))
+  ForgetOld();
+  if (message.tag.empty() || (waiting_.empty() && silent_ < kMaxUnanswered))
     return Publish(message);
   bytes_ += BytesOf(message);
   waiting_.push_back(message);
   return true;
 }
 
+void RequestWindow::ForgetOld() {
+  std::erase_if(requests_, [this](const auto& entry) {
+    const bool old = clock_.Now() - entry.second.asked > kForgetAfter;
+    if (old && !entry.second.answered) --silent_;
+    return old;
+  });
+}
+
 bool RequestWindow::SendWaiting() {
-  while (!waiting_.empty() && unanswered_.size() < kMaxUnanswered) {
+  while (!waiting_.empty() && silent_ < kMaxUnanswered) {
     Message message = std::move(waiting_.front());
     waiting_.pop_front();
     bytes_ -= BytesOf(message);
@@ -56,7 +63,7 @@ bool RequestWindow::SendWaiting() {
 bool RequestWindow::Publish(Message message) {
   auto [agent, module] = SplitRemoteName(name_);
   // A start time (@T) counts on the clock of the hub there, which passes it on to the module.
-  if (message.command == Command::kInq && message.slot == "Clock") module = "AM";
+  if (message.command == Command::kInq && message.slot == "Clock") module = own_name::kHub;
   const std::string tag = std::exchange(message.tag, {});
   message.from.clear();
   Packet packet{.topic = AgentTopics{ours_.root, agent}.Path(Kind::kDo, module),
@@ -64,7 +71,7 @@ bool RequestWindow::Publish(Message message) {
   if (!tag.empty()) {
     packet.response_topic = ours_.Path(Kind::kReply);
     packet.correlation = secret_ + " " + name_ + " " + tag;
-    unanswered_[tag] = {SlotOf(message), clock_.Now()};
+    if (requests_.insert_or_assign(tag, Request{SlotOf(message), clock_.Now()}).second) ++silent_;
   }
   if (!publisher_.PublishCommand(packet, receiver_)) return false;
   bytes_ += Publisher::BytesOf(packet);
@@ -72,11 +79,12 @@ bool RequestWindow::Publish(Message message) {
 }
 
 std::optional<Message> RequestWindow::TakeAnswer(const std::string& tag, Message rep) {
-  const auto asked = unanswered_.find(tag);
-  if (asked == unanswered_.end()) return std::nullopt;
-  const std::string& slot = asked->second.slot;
-  if (rep.slot == slot || rep.slot == slot + ".error" || rep.slot == "Error")
-    unanswered_.erase(asked);  // not a member of a group, before the answer itself
+  const auto asked = requests_.find(tag);
+  if (asked == requests_.end()) return std::nullopt;
+  if (!std::exchange(asked->second.answered, true)) --silent_;
+  // Members of a group come before the answer itself.
+  if (rep.slot == asked->second.slot || rep.slot.ends_with(".error") || rep.slot == "Error")
+    requests_.erase(asked);
   rep.tag = tag;
   rep.to.clear();
   rep.from.clear();

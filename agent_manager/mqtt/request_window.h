@@ -13,12 +13,17 @@
 namespace am::mqtt {
 
 /// Publishes what is said to one module of another agent. Brokers drop what they cannot queue, so
-/// at most kMaxUnanswered requests are on their way and the rest waits here, in order.
+/// at most kMaxUnanswered requests are on their way and the rest waits here, in order. A request
+/// whose first answer has come, if only a member of a group, is no longer on its way.
+///
 /// Ownership: borrows the clock and the publisher; lives as long as the module's peer.
+///
 /// Thread: the scheduler's.
+///
 /// Limits: bytes() is the peer's backlog, by which the hub holds the senders.
+///
 /// Errors: false from Send and SendWaiting means that the broker is away; the window is then of no
-///         more use.
+/// more use.
 class RequestWindow {
  public:
   static constexpr std::size_t kMaxUnanswered = 64;
@@ -42,10 +47,12 @@ class RequestWindow {
   std::size_t bytes() const { return bytes_; }
 
  private:
-  struct Unanswered {
+  struct Request {
     std::string slot;
     vm::Time asked{0};
+    bool answered = false;  ///< something has come, if only a member of a group
   };
+  void ForgetOld();
   bool Publish(vm::Message message);
 
   vm::Scheduler& clock_;
@@ -54,7 +61,8 @@ class RequestWindow {
   const std::string name_;
   const PeerKey receiver_;
   const std::string secret_;
-  std::map<std::string, Unanswered> unanswered_;  // by the hub's tag
+  std::map<std::string, Request> requests_;  // by the hub's tag
+  std::size_t silent_ = 0;                   // of them, not answered at all
   std::deque<vm::Message> waiting_;
   std::size_t bytes_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace am {
@@ -11,13 +12,6 @@ namespace am {
 using vm::Errc;
 using vm::Fail;
 using vm::Result;
-
-namespace {
-
-/// Names the hub itself speaks under, or lends to parts of its own.
-constexpr std::array<std::string_view, 4> kOwnNames{"AM", "CONSOLE", "REPLAY", "MQTT"};
-
-}  // namespace
 
 bool IsPlainName(std::string_view name) {
   // Unicode general categories Cc, Cf, Zl, Zp and the wider blanks, as far as they hide a name or
@@ -76,7 +70,7 @@ Result<void> Directory::Rename(PeerKey key, const std::string& name) {
                     "', expected letters, digits, '_' or '-', none of them hidden");
   if (name == peer->name) return {};
   if (names_.contains(name) || machines_.contains(name) || reserved_.contains(name) ||
-      std::ranges::find(kOwnNames, name) != kOwnNames.end())
+      IsReservedName(name))
     return Fail(Errc::kBusy, "the name @" + name + " is taken");
   names_.erase(peer->name);
   names_.emplace(name, peer);

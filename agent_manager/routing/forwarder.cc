@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
+
 namespace am {
 
 using vm::Command;
@@ -16,7 +18,8 @@ bool IsProbe(const Message& message, const Origin& origin) {
   return origin.peer == kHub && (message.slot == "Clock" || message.slot == "Slots.files");
 }
 
-/// What its answer is made of; values can be long, and modules can be slow.
+/// What is kept of a request until its answer comes. The value is not needed for that, and can be
+/// 64 KiB long.
 Message WithoutValue(const Message& message) {
   return {message.to, message.from, message.command, message.tag, message.slot, message.relation,
           ""};
@@ -71,7 +74,8 @@ void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAns
   if (MustWait(peer, message, origin))
     return KeepWaiting(peer, std::move(message), origin, std::move(done));
   if (const auto checked = files_.Check(peer, message, origin.role); !checked)
-    return outbox_.Answer(origin.peer, "AM", message, std::unexpected(checked.error()), done);
+    return outbox_.Answer(origin.peer, own_name::kHub, message, std::unexpected(checked.error()),
+                          done);
   if (peer.dialect == Dialect::kOriginal)
     return ForwardOriginal(peer, std::move(message), origin, done);
   const bool modern = peer.dialect == Dialect::kModern;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/guarded.h"
 
 namespace am {
@@ -243,7 +244,8 @@ void Hub::ReportFailure(PeerKey key, const std::string& what, const Asked* asked
     outbox_.Complain(*peer, error);
   }
   if (waits)
-    outbox_.Answer(asked->asker, "AM", asked->request, std::unexpected(error), asked->done);
+    outbox_.Answer(asked->asker, own_name::kHub, asked->request, std::unexpected(error),
+                   asked->done);
 }
 
 void Hub::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases, bool replaceable) {
@@ -263,6 +265,10 @@ bool Hub::IsModule(std::string_view name) const {
   const Peer* const peer = directory_.Find(name);
   return peer != nullptr && peer->kind == PeerKind::kModule;
 }
+bool Hub::IsGuest(std::string_view name) const {
+  const Peer* const peer = directory_.Find(name);
+  return peer != nullptr && peer->role == Role::kGuest;
+}
 bool Hub::IsReady(std::string_view name) const {
   const Peer* const peer = directory_.Find(name);
   return peer != nullptr && !peer->module.probing;
@@ -281,7 +287,16 @@ Role Hub::RoleOf(PeerKey key) const {
 
 Result<void> Hub::Rename(PeerKey key, const std::string& name) {
   if (const auto checked = access_.CheckName(RoleOf(key), name); !checked) return checked;
-  return directory_.Rename(key, name);
+  const std::string before = NameOf(key);
+  const auto renamed = directory_.Rename(key, name);
+  if (renamed && name != before && IsModule(name) && IsReady(name)) {
+    queue_.Post([this, before, name] {
+      if (!on_presence_) return;
+      on_presence_(before, false, "it is called @" + name + " now");
+      if (IsPresent(name)) on_presence_(name, true, "");
+    });
+  }
+  return renamed;
 }
 
 void Hub::Grant(PeerKey key, vm::Time until, OnAnswer done) {

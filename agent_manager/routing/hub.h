@@ -40,7 +40,7 @@ class Hub {
   void Leave(PeerKey peer, const std::string& reason);
   /// The peer has said all it will say; it leaves when its questions have been answered.
   void EndInput(PeerKey peer);
-  /// Nobody will answer what has been asked of peers.
+  /// Answers every open request with the error: the hub ends before its peers can.
   void FailRequests(const vm::Error& error);
   /// Calls `done` once every peer's system has taken what the peer was sent, or while the hub is
   /// taken apart: it may outlive its caller.
@@ -73,6 +73,7 @@ class Hub {
   bool IsPresent(std::string_view name) const { return directory_.Find(name) != nullptr; }
   /// One of this hub's own modules: from the configuration, or a client that has become one.
   bool IsModule(std::string_view name) const;
+  bool IsGuest(std::string_view name) const;
   /// True once a module has said what it is (or was declared original) and can be spoken to.
   bool IsReady(std::string_view name) const;
   std::vector<std::string> Names() const { return directory_.Names(); }

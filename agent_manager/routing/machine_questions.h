@@ -16,7 +16,8 @@ class MachineQuestions {
   MachineQuestions(WorkQueue& queue, const Limits& limits) : queue_(queue), limits_(limits) {}
   /// Returns the tag of the question. `done` is called from the queue.
   std::string Add(OnAnswer done);
-  /// REQUIRES: the message was said to nobody's peer, so its tag is one of ours.
+  /// Calls the `done` of the question that this answers. REQUIRES: the machine has said it to the
+  /// hub (kHub) and not to a peer, so that the tag is one that Add has made.
   void Resolve(const vm::Message& answer);
 
  private:

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
+
 namespace am {
 
 using vm::Message;
@@ -44,7 +46,7 @@ void Outbox::Write(Peer& receiver, const Message& message, PeerKey commander) {
 void Outbox::Send(Peer& receiver, const Message& message, PeerKey commander) {
   const Outgoing outgoing(message);
   if (log_.enabled())
-    log_.Write(clock_.Now(), message.from.empty() ? "AM" : message.from, receiver.name,
+    log_.Write(clock_.Now(), message.from.empty() ? own_name::kHub : message.from, receiver.name,
                outgoing.line());
   Deliver(receiver, outgoing, commander);
 }
@@ -92,7 +94,7 @@ void Outbox::Complain(Peer& sender, const vm::Error& error, const std::string& t
   if (flood && tag.empty()) return;  // who asked with a tag waits for an answer
   Message rep = vm::Rep("Error", vm::FormatError(error));
   rep.tag = tag;
-  rep.from = "AM";
+  rep.from = own_name::kHub;
   Send(sender, rep, kHub);
 }
 

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "agent_manager/routing/own_names.h"
+
 namespace am {
 
 using vm::Command;
@@ -41,7 +43,7 @@ Router::Router(vm::Scheduler& clock, SessionLog& log, Directory& directory, Outb
 std::string Router::SenderOf(const Envelope& envelope) const {
   if (!envelope.machine.empty()) return envelope.machine;
   const Peer* const peer = directory_.ByKey(envelope.origin.peer);
-  return peer == nullptr ? "AM" : peer->name;
+  return peer == nullptr ? own_name::kHub : peer->name;
 }
 
 Rules::Sender Router::RuleSenderOf(const Envelope& envelope) const {
@@ -71,7 +73,7 @@ void Router::Route(Envelope& envelope) {
                                  std::to_string(kMaxOriginDepth) + " times without a pause",
                              0});
   std::vector<std::string> receivers = std::exchange(envelope.message.to, {});
-  if (receivers.empty()) receivers.emplace_back("AM");
+  if (receivers.empty()) receivers.emplace_back(own_name::kHub);
   for (std::size_t i = 0; i + 1 < receivers.size(); ++i) {
     Envelope copy = envelope;
     RouteTo(receivers[i], copy);
@@ -149,8 +151,9 @@ void Router::SendCopies(const Rules::Outcome& outcome, const std::string& from, 
 
 void Router::LogTo(const Envelope& envelope, const std::string& receiver) {
   if (!log_.enabled()) return;
-  log_.Write(clock_.Now(), SenderOf(envelope), receiver,
-             vm::FormatMessage(vm::To(receiver, envelope.message)));
+  std::string sender = SenderOf(envelope);
+  if (envelope.machine.empty() && envelope.origin.lines_left) sender += LogEntry::kByScript;
+  log_.Write(clock_.Now(), sender, receiver, vm::FormatMessage(vm::To(receiver, envelope.message)));
 }
 
 void Router::HandOver(Envelope& envelope, const std::string& receiver) {

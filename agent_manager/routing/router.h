@@ -9,6 +9,7 @@
 #include "agent_manager/access/rights.h"
 #include "agent_manager/routing/forwarder.h"
 #include "agent_manager/routing/machine_questions.h"
+#include "agent_manager/routing/own_names.h"
 #include "agent_manager/routing/rules.h"
 
 namespace am {
@@ -72,7 +73,8 @@ class Router {
                          std::size_t bytes);
   std::string SenderOf(const Envelope& envelope) const;
   Rules::Sender RuleSenderOf(const Envelope& envelope) const;
-  void Refuse(const Envelope& envelope, const vm::Error& error, const std::string& by = "AM");
+  void Refuse(const Envelope& envelope, const vm::Error& error,
+              const std::string& by = own_name::kHub);
   vm::Result<void> CountDefinition(const Envelope& envelope);
   void LogTo(const Envelope& envelope, const std::string& receiver);
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
 #include "agent_manager/session/stream_link.h"
 
 namespace am {
@@ -34,9 +35,9 @@ Console::Console(boost::asio::io_context& io, vm::Scheduler& clock, Hub& hub, Ho
 void Console::Start(const std::vector<std::string>& first_lines) {
   stream_ = vm::StreamPeer::Make(io_, STDIN_FILENO, STDOUT_FILENO, vm::Framing::kLf);
   key_ = hub_.Attach(std::make_unique<StreamLink>(stream_), PeerKind::kConsole, Role::kOwner,
-                     "CONSOLE", Dialect::kAuto)
+                     own_name::kConsole, Dialect::kAuto)
              .value();
-  for (const char* const machine : {"AM", "AM-MCL"})
+  for (const char* const machine : {own_name::kHub, own_name::kMacros})
     hub_.SayAs(
         {.peer = key_, .role = Role::kOwner},
         vm::To(machine,

@@ -2,6 +2,9 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
+
+#include "agent_manager/routing/own_names.h"
 
 namespace am {
 
@@ -21,7 +24,8 @@ void QuietWatch::Ask() {
     std::size_t open;
     bool busy = false;
   };
-  const auto modules = hub_.clocks().WithClock();
+  auto modules = hub_.clocks().WithClock();
+  std::erase_if(modules, [this](PeerKey module) { return hub_.RoleOf(module) == Role::kGuest; });
   const auto round = std::make_shared<Round>(Round{modules.size() + 1});
   const auto answered = [this, round](const vm::Result<std::string>& answer) {
     round->busy = round->busy || (answer && *answer == "BUSY");
@@ -33,7 +37,7 @@ void QuietWatch::Ask() {
     });
   };
   for (const PeerKey module : modules)
-    hub_.Ask("AM", vm::To(hub_.NameOf(module), vm::Inq("Clock.busy")), answered);
+    hub_.Ask(own_name::kHub, vm::To(hub_.NameOf(module), vm::Inq("Clock.busy")), answered);
   answered("IDLE");
 }
 

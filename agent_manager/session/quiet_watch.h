@@ -7,7 +7,8 @@
 namespace am {
 
 /// On the real clock: whether the modules have nothing to do, found out by asking them while
-/// somebody wants to know. Each module answers after all that was said to it before.
+/// somebody wants to know. Each module answers after all that was said to it before; guests are not
+/// asked, so that none of them keeps the session from its end.
 /// Thread: the scheduler's.
 class QuietWatch {
  public:

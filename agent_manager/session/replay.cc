@@ -5,13 +5,15 @@
 #include <utility>
 
 #include "agent_manager/log/log_writer.h"
+#include "agent_manager/routing/own_names.h"
 
 namespace am {
 
 Replay::Replay(vm::Scheduler& clock, Hub& hub, const std::string& path,
                std::set<std::string> modules, double speed)
     : clock_(clock), hub_(hub), speed_(speed) {
-  modules.insert({"AM", "AM-MCL", "FS-MCL"});
+  modules.insert({own_name::kHub, own_name::kMacros, own_name::kMacrosOfTheOriginal,
+                  own_name::kParallel, own_name::kSound});
   std::istringstream text(ReadLog(path));
   std::size_t number = 0;
   for (std::string line; std::getline(text, line);) {
@@ -22,11 +24,12 @@ Replay::Replay(vm::Scheduler& clock, Hub& hub, const std::string& path,
       throw std::runtime_error(path + " line " + std::to_string(number) + ": " +
                                entry.error().text);
     const auto message = vm::ParseMessage(entry->line);
-    // What people and clients said is said again; what modules answered then, they answer now.
+    // What people and clients said is said again. What modules answered then, they answer now, and
+    // `do FILE`, which is said again, says the lines of the file.
     const bool about_the_client = message && (message->slot == "Wait" || message->slot == "Name" ||
                                               message->slot == "Subscribe");
-    if (message && !modules.contains(entry->sender) && message->command != vm::Command::kRep &&
-        !about_the_client)
+    if (message && !modules.contains(entry->sender) && !entry->IsOfScript() &&
+        message->command != vm::Command::kRep && !about_the_client)
       entries_.push_back(*entry);
   }
   pending_ = entries_.size();
@@ -39,7 +42,7 @@ void Replay::Start(std::function<void()> on_said) {
     void Close() override {}
   };
   const auto key = hub_.Attach(std::make_unique<Nowhere>(), PeerKind::kClient, Role::kOwner,
-                               "REPLAY", Dialect::kAuto);
+                               own_name::kReplay, Dialect::kAuto);
   if (!key) throw std::runtime_error("replay: " + key.error().text);
   const vm::Time first = entries_.front().time;
   for (const LogEntry& entry : entries_) {

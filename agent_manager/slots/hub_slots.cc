@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/module.h"
 
 namespace am {
@@ -28,7 +29,7 @@ constexpr const char* kModuleSlots = "Module.";
 std::string_view KindName(PeerKind kind) {
   switch (kind) {
     case PeerKind::kConsole:
-      return "CONSOLE";
+      return own_name::kConsole;
     case PeerKind::kModule:
       return "MODULE";
     case PeerKind::kRemote:

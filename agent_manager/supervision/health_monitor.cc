@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
+
 namespace am {
 
 namespace {
@@ -48,7 +50,7 @@ void HealthMonitor::After(std::chrono::milliseconds delay, void (HealthMonitor::
 
 void HealthMonitor::AskReady() {
   if (config_.ready_slot.empty()) return BecomeReady();
-  hub_.Ask("AM", vm::To(config_.name, vm::Inq(config_.ready_slot)),
+  hub_.Ask(own_name::kHub, vm::To(config_.name, vm::Inq(config_.ready_slot)),
            [self = weak_from_this()](const vm::Result<std::string>& value) {
              const auto monitor = self.lock();
              if (!monitor || monitor->phase_ != Phase::kAskingReady) return;
@@ -69,7 +71,7 @@ void HealthMonitor::WaitForNextCheck() { After(config_.health.every, &HealthMoni
 void HealthMonitor::Check() {
   answered_ = false;
   // A refusal is an answer too.
-  hub_.Ask("AM", vm::To(config_.name, vm::Inq("Run")),
+  hub_.Ask(own_name::kHub, vm::To(config_.name, vm::Inq("Run")),
            [self = weak_from_this()](const vm::Result<std::string>&) {
              const auto monitor = self.lock();
              if (!monitor) return;

@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "agent_manager/routing/own_names.h"
 #include "vm_protocol/core/guarded.h"
 
 namespace am {
@@ -116,7 +117,7 @@ void FaceVideo::Stop() {
 void FaceVideo::Ask(const std::string& slot, const std::string& value,
                     std::function<void(const vm::Result<std::string>&)> next) {
   const vm::Message message = value.empty() ? vm::Inq(slot) : vm::Set(slot, value);
-  hub_.Ask("AM", vm::To(kFace, message),
+  hub_.Ask(own_name::kHub, vm::To(kFace, message),
            [alive = alive_, next = std::move(next)](const vm::Result<std::string>& answer) {
              if (*alive) next(answer);
            });
@@ -219,9 +220,9 @@ void FaceVideo::End() {
     thread_.join();
   }
   if (std::exchange(recording_, false) && hub_.IsPresent(kFace)) {
-    hub_.Ask("AM", vm::To(kFace, vm::Set("Record", "STOP")), IgnoreAnswer);
+    hub_.Ask(own_name::kHub, vm::To(kFace, vm::Set("Record", "STOP")), IgnoreAnswer);
     if (!old_fps_.empty())
-      hub_.Ask("AM", vm::To(kFace, vm::Set("Record.fps", old_fps_)), IgnoreAnswer);
+      hub_.Ask(own_name::kHub, vm::To(kFace, vm::Set("Record.fps", old_fps_)), IgnoreAnswer);
   }
   for (int* fd : {&frames_fd_, &stop_fd_}) {
     if (*fd >= 0) close(std::exchange(*fd, -1));

@@ -7,6 +7,7 @@
 #include <boost/beast/websocket.hpp>
 #include <utility>
 
+#include "agent_manager/routing/own_names.h"
 #include "agent_manager/web/private_folder.h"
 #include "agent_manager/web/web_impl.h"
 #include "vm_protocol/core/utf8.h"
@@ -51,7 +52,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
  private:
   void Ask(const vm::Message& message, std::function<void(const vm::Result<std::string>&)> next) {
     server_->hub.Ask(
-        "AM", vm::To(kEar, message),
+        own_name::kHub, vm::To(kEar, message),
         [self = shared_from_this(), next = std::move(next)](const vm::Result<std::string>& answer) {
           if (!self->server_->closed) next(answer);
         });

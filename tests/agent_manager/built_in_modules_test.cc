@@ -115,6 +115,25 @@ TEST_F(SoundPlayerTest, TheVoicePlaysOneFileAfterTheOtherAndTheirBeginningAndEnd
   EXPECT_EQ(client_->heard.size(), 6u) << "what the voice says of its own speech is none of ours";
 }
 
+TEST_F(SoundPlayerTest, ASoundThatIsOverBeforeItsRequestIsDealtWithEnds) {
+  world_.answers = false;
+  Say(*client_, "to @SND set#1 Play = " + file_);
+  const auto tag_of_last = [this] { return vm::TagOf(voice_->heard.back()); };
+  Say(*voice_, "rep#" + tag_of_last() + " Text = x");
+  const std::string speak = tag_of_last();
+  for (const std::string line :
+       {"rep Speak.stat = IDLE", "rep Speak.stat = SPEAKING", "rep Speak.stat = IDLE"}) {
+    if (line.ends_with("SPEAKING"))
+      world_.hub.Receive(voice_->key, std::string_view("rep#" + speak + " Speak = NOW"));
+    world_.hub.Receive(voice_->key, std::string_view(line));
+  }
+  world_.clock.RunReady();
+  EXPECT_EQ(client_->heard,
+            (Strings{"From @SND tell start " + file_, "From @SND rep#1 Play = " + file_,
+                     "From @SND tell end " + file_}));
+  EXPECT_FALSE(player_.Busy());
+}
+
 TEST_F(SoundPlayerTest, StopEndsAllOfThemAndTheVoice) {
   Say(*client_, "to @SND set Play = " + file_);
   Say(*client_, "to @SND set#2 Play = " + file_);

@@ -199,6 +199,35 @@ TEST(HubProcessTest, ASessionLogIsPlayedAgain) {
   EXPECT_EQ(logs[0], logs[1]) << "the same lines at the same times";
 }
 
+TEST(HubProcessTest, LinesOfAScriptArePlayedAgainOnce) {
+  const support::TempDir folder;
+  const std::string script = folder / "script";
+  std::ofstream(script) << "to @TEST set X = 2\nto @TEST set X = 3\n";
+  const std::string config =
+      WriteConfig(folder, "{\"clock\": \"virtual\", \"modules\": [" + ModuleJson() + "]}");
+  std::ptrdiff_t said[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::string log = folder / ("session" + std::to_string(i) + ".log");
+    std::vector<std::string> command{kHub, "--config", config, "--log", log};
+    if (i == 1) command.insert(command.end(), {"--replay", folder / "session0.log"});
+    Process hub(command);
+    if (i == 0) hub.Write("do " + script + "\nset Wait = 100\n");
+    hub.CloseInput();
+    hub.ReadAll();
+    EXPECT_EQ(hub.Wait(), 0) << hub.ErrorText();
+    std::ifstream file(log);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    said[i] = 0;
+    for (std::size_t at = 0; (at = text.find("\tto @TEST set X = ", at)) != std::string::npos; ++at)
+      ++said[i];
+    const std::string sender = i == 0 ? "CONSOLE" : "REPLAY";
+    EXPECT_NE(text.find("\t" + sender + ":do\tTEST\tto @TEST set X = 2"), std::string::npos)
+        << text;
+  }
+  EXPECT_EQ(said[0], 2);
+  EXPECT_EQ(said[0], said[1]) << "each line once, not again by who had caused it";
+}
+
 TEST(HubProcessTest, AWorldThatRefusesIsOneSentence) {
   const support::TempDir folder;
   Process missing(

@@ -151,6 +151,22 @@ TEST(HubTest, NamesCannotBeTakenTwice) {
   EXPECT_TRUE(world.hub.Rename(b->key, "A")) << "a name is free when its holder has gone";
 }
 
+TEST(HubTest, AModuleThatTakesAnotherNameGoesAndComes) {
+  World world;
+  Strings seen;
+  world.hub.set_on_presence([&](const auto& name, bool present, const auto& reason) {
+    seen.push_back(name + (present ? " comes" : " goes: " + reason));
+  });
+  const auto module = world.JoinAs(Role::kClient, "ARM");
+  world.Say(*module, "rep Run = LIVE");
+  world.hub.EndProbes(world.hub.clocks().Probing());
+  world.clock.RunReady();
+  seen.clear();
+  EXPECT_TRUE(world.hub.Rename(module->key, "ARM2"));
+  world.clock.RunReady();
+  EXPECT_EQ(seen, (Strings{"ARM goes: it is called @ARM2 now", "ARM2 comes"}));
+}
+
 TEST(HubTest, TheDeathOfAModuleAnswersWhatWasAskedOfIt) {
   World world;
   const auto m = world.JoinModern("SSM");

@@ -115,6 +115,72 @@ TEST_F(BridgeTest, ReportsAreRetainedAndEventsAreNot) {
                      "galatea/HALL/SSM/$error = rep Text.error = BAD_VALUE nothing to say"}));
 }
 
+TEST_F(BridgeTest, WhatAModuleHasReportedGoesWithIt) {
+  const auto ssm = world.JoinModern("SSM");
+  world.Say(*ssm, "rep Speak.stat = READY");
+  Acknowledge();
+  world.Leave(*ssm, "killed by signal 9");
+  EXPECT_EQ(Texts(Acknowledge()),
+            (Strings{"galatea/HALL/SSM/Speak.stat =  retained",
+                     "galatea/HALL/SSM/$state = GONE killed by signal 9 retained",
+                     "galatea/HALL/$modules = AM AM-MCL FS-MCL retained"}));
+  broker->events.on_lost("the network is away");
+  GoOnline();
+  for (const std::string& text : Texts(Acknowledge()))
+    EXPECT_EQ(text.find("Speak.stat"), std::string::npos) << text;
+}
+
+TEST_F(BridgeTest, GuestsThatAreModulesLeaveRoomForTheOthers) {
+  const auto ssm = world.JoinModern("SSM");
+  const auto guest = world.JoinAs(Role::kGuest, "ROBOT");
+  world.Say(*guest, "rep Run = LIVE");
+  world.hub.EndProbes(world.hub.clocks().Probing());
+  world.clock.RunReady();
+  constexpr std::size_t kShare = Publisher::kMaxValues / Publisher::kShareOfGuests;
+  for (std::size_t i = 0; i < kShare + 10; ++i) {
+    world.Say(*guest, "rep X" + std::to_string(i) + " = 1");
+    Acknowledge();
+  }
+  ASSERT_FALSE(notices.empty());
+  EXPECT_NE(notices.front().find("more than 4096 slots or 8388608 bytes of guests"),
+            std::string::npos)
+      << notices.front();
+  world.Say(*guest, "rep X1 = 2");
+  world.Say(*ssm, "rep Speak.stat = READY");
+  EXPECT_EQ(Texts(Acknowledge()), (Strings{"galatea/HALL/ROBOT/X1 = 2 retained",
+                                           "galatea/HALL/SSM/Speak.stat = READY retained"}));
+}
+
+TEST_F(BridgeTest, RequestsWhoseSlotARuleRenamesDoNotFillTheTable) {
+  Rule rename;
+  rename.slot = {"Text"};
+  rename.new_slot = "Caption";
+  world.hub.set_rules({rename});
+  world.JoinModern("SSM");
+  Acknowledge();
+  for (std::size_t i = 0; i < LocalGateway::kMaxRequests + 10; ++i) {
+    Come("galatea/HALL/SSM/Text/set", "hello", "me/answers");
+    ASSERT_EQ(Texts(Acknowledge()), Strings{"me/answers = rep Caption = hello"}) << i;
+  }
+}
+
+TEST_F(BridgeTest, BeyondTheLimitTheOldestRequestIsAnswered) {
+  world.JoinModern("SSM");
+  Acknowledge();
+  world.answers = false;
+  Limits limits = world.hub.limits();
+  limits.pending = 100000;
+  world.hub.set_limits(limits);
+  for (std::size_t i = 0; i < LocalGateway::kMaxRequests; ++i)
+    Come("galatea/HALL/SSM/Text/inq", "", "me/answers", std::to_string(i));
+  EXPECT_EQ(Acknowledge().size(), 0u);
+  Come("galatea/HALL/SSM/Text/inq", "", "me/answers", "one more");
+  const auto answers = Acknowledge();
+  ASSERT_EQ(Texts(answers),
+            Strings{"me/answers = rep Text.error = LIMIT more than 4096 requests are unanswered"});
+  EXPECT_EQ(answers[0].correlation, "0");
+}
+
 TEST_F(BridgeTest, WhatClientsReportIsNotShown) {
   const auto client = world.Join(PeerKind::kClient, "A");
   world.Say(*client, "rep X = 1");
