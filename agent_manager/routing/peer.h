@@ -111,9 +111,9 @@ struct Peer {
   int complaints = 0;
 };
 
-/// The peer that is no longer read from while a hearer of `sender`'s reports has a full backlog: the
-/// sender itself. kHub, which means no peer, if the sender is the owner or a module that the hub has
-/// started: one slow hearer must not hold these back from all the others.
+/// The peer that is no longer read from while a hearer of `sender`'s reports has a full backlog:
+/// the sender itself. kHub, which means no peer, if the sender is the owner or a module that the
+/// hub has started: one slow hearer must not hold these back from all the others.
 inline PeerKey WaitsForHearers(const Peer& sender) {
   const bool trusted = sender.role == Role::kOwner || sender.role == Role::kModule;
   return trusted ? kHub : sender.key;
