@@ -20,6 +20,7 @@ class TestData {
   const std::string& path() const { return path_; }
   std::string operator/(const std::string& name) const { return path_ + "/" + name; }
   bool Has() const { return std::filesystem::exists(path_); }
+  bool Has(const std::string& name) const { return std::filesystem::exists(*this / name); }
 
   /// What a test that is skipped without them says.
   std::string Missing() const {
