@@ -10,6 +10,7 @@
 #include "fsm/app/face_of_name.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/face_motion.h"
 
@@ -61,6 +62,14 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
     meanings.push_back({name, state});
   }
   return meanings;
+}
+
+/// The head of a file that ExportHead has written; null if it is of another kind.
+std::unique_ptr<Head> AssetOfFile(const std::string& path) {
+  if (!path.ends_with(".glb")) return nullptr;
+  const auto bytes = ReadWhole(path, kMaxMeshBytes);
+  if (!bytes || !IsAsset(*bytes)) return nullptr;
+  return std::make_unique<Head>(OrThrow(ParseAsset(path, *bytes)));
 }
 
 struct Placed {
@@ -124,12 +133,14 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
     motion.Apply(0ms, settings);
     if (!motion.SetBlendShape(0ms, name, 1, 0ms)) continue;
     shapes.push_back({name, motion.StateAt(5s)});
+    shapes.back().state.asymmetry = 0;  // left and right shapes are each other's image
   }
   return shapes;
 }
 
 std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
                                      std::string* notice) {
+  if (auto own = AssetOfFile(path)) return MovedAsIn(tables_folder, std::move(own));
   const HeadFile file = OrThrow(ReadHeadFile(path));
   const auto tell = [&](const std::string& what) {
     const std::string told = "'" + path + "': " + what;
@@ -171,7 +182,7 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path) {
   std::ofstream file(path, std::ios::binary);
   const auto shapes = ArkitShapes(tables);
-  if (!(file << WriteGltfHead(head, shapes)).flush()) {
+  if (!(file << WriteAsset(head, shapes)).flush()) {
     return vm::Fail(vm::Errc::kUnavailable, "cannot write '" + path + "'");
   }
   return {};

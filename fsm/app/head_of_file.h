@@ -3,13 +3,14 @@
 #include <memory>
 #include <string>
 
-#include "fsm/mesh/gltf_writer.h"
+#include "fsm/asset/asset_file.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
-/// Somebody else's head out of .obj, .glb, .gltf or .vrm. It is moved by its own shapes where their
+/// A head out of .obj, .glb, .gltf or .vrm. One that ExportHead has written is what it was. Any
+/// other is moved by its own shapes where their
 /// names are ARKit's or VRM's, else by ours carried over with the points of `path`.points; without
 /// either only head, eyes and jaw move, and a notice says so: in `notice`, else on stderr. Throws
 /// std::runtime_error.
@@ -19,7 +20,7 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
 /// Every ARKit shape of the tables as a state of the face.
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables);
 
-/// Writes a built-in head with all ARKit shapes; see WriteGltfHead. Errors: kUnavailable.
+/// Writes a head with all ARKit shapes; see WriteAsset. Errors: kUnavailable.
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path);
 
 }  // namespace fsm

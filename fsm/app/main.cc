@@ -18,6 +18,7 @@
 #include "fsm/app/gl_render_backend.h"
 #include "fsm/app/head_of_file.h"
 #include "fsm/app/more_faces.h"
+#include "fsm/asset/describe.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "vm_protocol/runtime/module_main.h"
@@ -34,6 +35,7 @@ struct Options {
   std::string config;
   std::string head;
   std::string export_file;
+  bool describe = false;
   std::string sheet;
   std::string out;
   bool no_labels = false;
@@ -133,7 +135,9 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--head", options.head,
                  "A head from elsewhere, .obj, .glb, .gltf or .vrm, worn at the start");
   app.add_option("--export", options.export_file,
-                 "Writes the face named by --mask with ARKit's shapes as .glb and ends");
+                 "Writes the face named by --mask or --head with ARKit's shapes as .glb and ends");
+  app.add_flag("--describe", options.describe,
+               "Tells what the face named by --mask or --head is made of, and ends");
   app.add_option("--life", options.module.life,
                  "What the face does by itself from the start: OFF (default), CALM, LIVELY, ...");
   app.add_option("--sheet", options.sheet,
@@ -162,9 +166,17 @@ std::vector<fsm::GlRenderBackend::Options::MoreFace> MoreFaces(const Options& op
   return faces;
 }
 
-/// Exit code of a run that only writes a head; -1 if none is asked for.
+/// The face named by --head or --mask. Throws as MakeHeadOfFile and MakeHeadOfName.
+std::unique_ptr<fsm::Head> HeadAsked(const Options& options) {
+  const std::string& tables = options.module.tables;
+  if (!options.head.empty()) return fsm::MakeHeadOfFile(options.head, tables);
+  const std::string& name = options.module.mask;
+  return fsm::MakeHeadOfName(name.empty() ? std::string(fsm::Identities()[0].name) : name, tables);
+}
+
+/// Exit code of a run that only writes or describes a head; -1 if neither is asked for.
 int ExportIfAsked(const Options& options) {
-  if (options.export_file.empty()) return -1;
+  if (options.export_file.empty() && !options.describe) return -1;
   const auto fail = [](const std::string& text) {
     std::cerr << "fsm: " << text << "\n";
     return 1;
@@ -172,10 +184,9 @@ int ExportIfAsked(const Options& options) {
   const auto tables = fsm::MotionTables::Load(options.module.tables);
   if (!tables) return fail(tables.error().text);
   try {
-    const auto head =
-        fsm::MovedAsIn(options.module.tables, options.module.mask.empty()
-                                                  ? fsm::MakeGenericHead()
-                                                  : fsm::MakeHead(options.module.mask, false));
+    const auto head = HeadAsked(options);
+    if (options.describe) std::cout << fsm::Describe(*head) << std::flush;
+    if (options.export_file.empty()) return 0;
     if (auto done = fsm::ExportHead(*head, *tables, options.export_file); !done) {
       return fail(done.error().text);
     }

@@ -212,6 +212,7 @@ void WearPhoto(const PhotoHead& set, const PhotoSkin& skin, glm::vec3 lip_inside
   const FaceLight light = LightOf(*set.photo, topology.photo_texcoord, skin.open);
   topology.photo_light = light.coefficients();
   topology.relit = RelitParts(skin);
+  topology.relit.resize(topology.uv.size());
   for (const LidPaint& lid : PaintLids(*set.photo, topology.photo_texcoord, skin.flesh, skin.open,
                                        skin.shut, light, set.glasses)) {
     topology.albedo[lid.vertex] = lid.screen * lid.screen;

@@ -234,7 +234,7 @@ vm::Result<GltfDocument::View> GltfDocument::ViewOf(std::int64_t index) const {
   return View{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
 }
 
-vm::Result<std::vector<double>> GltfDocument::Read(std::int64_t index, int width) const {
+vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int width) const {
   const json& accessor = At("accessors", index);
   const std::string place = "accessors[" + std::to_string(index) + "]";
   const std::int64_t count = WholeOf(accessor, "count", -1);
@@ -304,13 +304,13 @@ vm::Result<std::vector<double>> GltfDocument::Read(std::int64_t index, int width
 }
 
 vm::Result<std::vector<float>> GltfDocument::Numbers(std::int64_t accessor, int width) const {
-  const auto read = Read(accessor, width);
+  const auto read = Values(accessor, width);
   if (!read) return std::unexpected(read.error());
   return std::vector<float>(read->begin(), read->end());
 }
 
 vm::Result<std::vector<std::uint32_t>> GltfDocument::Indices(std::int64_t accessor) const {
-  const auto read = Read(accessor, 1);
+  const auto read = Values(accessor, 1);
   if (!read) return std::unexpected(read.error());
   std::vector<std::uint32_t> out;
   out.reserve(read->size());

@@ -32,6 +32,8 @@ class GltfDocument {
   const nlohmann::json& At(const char* key, std::int64_t index) const;
   std::size_t Count(const char* key) const;
 
+  /// As Numbers, without loss for integers of 32 bits.
+  vm::Result<std::vector<double>> Values(std::int64_t accessor, int width) const;
   /// Numbers of an accessor: `width` for each of its elements, normalised integers as 0..1, sparse
   /// ones filled in. Errors: kBadValue "NAME: accessors[I]: ...", kLimit.
   vm::Result<std::vector<float>> Numbers(std::int64_t accessor, int width) const;
@@ -50,7 +52,6 @@ class GltfDocument {
   GltfDocument();
   vm::Result<View> ViewOf(std::int64_t view) const;
   vm::Result<std::string> Resolve(const std::string& uri) const;
-  vm::Result<std::vector<double>> Read(std::int64_t accessor, int width) const;
 
   std::string name_;
   std::unique_ptr<nlohmann::json> json_;

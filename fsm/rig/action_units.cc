@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -63,6 +64,12 @@ UnitTable::Field ReadField(const TableRow& row) {
   return field;
 }
 
+std::string Digits(float number) {
+  std::array<char, 32> digits;
+  std::snprintf(digits.data(), digits.size(), " %.9g", static_cast<double>(number));
+  return digits.data();
+}
+
 float Acting(float strength) {
   if (!(strength > 0)) return 0;
   strength = std::min(strength, 2.0f);
@@ -113,6 +120,36 @@ UnitTable::UnitTable(const Table& table) {
       row.Fail("unknown word '" + key + "'");
     }
   }
+}
+
+std::string UnitTable::Text() const {
+  std::string text;
+  const auto row = [&text](const char* key, std::initializer_list<float> numbers) {
+    text += (text.empty() ? "" : "\n") + std::string(key);
+    for (const float number : numbers) text += Digits(number);
+  };
+  const auto number = [](int unit) { return static_cast<float>(unit); };
+  for (const Field& field : fields_) {
+    static constexpr std::array<const char*, 3> kParts{" above", " below", " both"};
+    row("field",
+        {number(field.unit), field.at.x, field.at.y, field.radius.x, field.radius.y});
+    text += kParts[static_cast<std::size_t>(field.part)];
+    for (int k = 0; k < 3; ++k) text += Digits(field.by[k]);
+  }
+  for (const Effect& effect : effects_) {
+    static constexpr std::array<const char*, 6> kKeys{"lid", "close", "jaw",
+                                                      "sway", "seal", "tongue"};
+    using enum Effect::Kind;
+    const bool two = effect.kind == kLid || effect.kind == kJaw || effect.kind == kTongue;
+    row(kKeys[static_cast<std::size_t>(effect.kind)], {number(effect.unit), effect.first});
+    if (two) text += Digits(effect.second);
+  }
+  for (const Rule& rule : rules_) {
+    static constexpr std::array<const char*, 3> kKeys{"damp", "oppose", "strongest"};
+    row(kKeys[static_cast<std::size_t>(rule.kind)], {number(rule.a), number(rule.b)});
+    if (rule.kind == Rule::Kind::kDamp) text += Digits(rule.part);
+  }
+  return text;
 }
 
 void UnitTable::MakeAsymmetric(int seed) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "fsm/base/table_reader.h"
@@ -45,6 +46,9 @@ class UnitTable {
   /// Gives every unit but those of the lids a slightly different strength on either side, the same
   /// for the same `seed`.
   void MakeAsymmetric(int seed);
+
+  /// The rows of the table, one a line, as the constructor reads them; without asymmetry.
+  std::string Text() const;
 
   const std::vector<Field>& fields() const { return fields_; }
   /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops

@@ -101,7 +101,8 @@ struct HeadTopology {
   std::vector<glm::vec3> albedo;  ///< per vertex, linear RGB 0..1
   std::vector<float> occlusion;   ///< per vertex, 0 = fully shut off from light, 1 = open
   /// Per vertex, 0..1, v up: the base identity's rest form unrolled about a vertical axis, with the
-  /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows.
+  /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows; may
+  /// be empty.
   std::vector<glm::vec2> uv;
   std::vector<SkinHair> skin_hairs;
   std::vector<Strand> strands;         ///< per vertex, meaningful where there is hair; may be empty

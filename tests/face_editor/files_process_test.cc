@@ -4,9 +4,9 @@
 #include <cstdlib>
 
 #include "face_fit/find/face_networks.h"
+#include "fsm/asset/asset_file.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
-#include "fsm/mesh/gltf_writer.h"
 #include "tests/face_editor/editor_process.h"
 #include "tests/support/test_data.h"
 
@@ -29,7 +29,7 @@ class EditorFilesTest : public FaceEditorTest {
       shapes.back().state.au_left[unit] = 1;
       if (unit == 26) shapes.back().state.au_right[unit] = 1;
     }
-    std::ofstream(folder_ + "/head.glb", std::ios::binary) << fsm::WriteGltfHead(*head, shapes);
+    std::ofstream(folder_ + "/head.glb", std::ios::binary) << fsm::WriteAsset(*head, shapes);
     return folder_ + "/head.glb";
   }
   std::string Lines(std::initializer_list<std::string> lines) {

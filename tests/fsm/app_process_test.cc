@@ -132,6 +132,20 @@ TEST_F(FsmProcessTest, UnitsOfOnesOwnMoveTheFace) {
   EXPECT_EQ(err, "fsm: tables/action_units.txt:2: 'far' found where a number was expected\n");
 }
 
+TEST_F(FsmProcessTest, AnExportedFaceIsDescribedAndDrawnAsItWas) {
+  ASSERT_EQ(Run("--mask galatea --export face.glb", ""), 0) << err;
+  ASSERT_EQ(Run("--mask galatea --describe", ""), 0) << err;
+  const std::string described = out;
+  EXPECT_NE(described.find("steps       channels, lids, "), std::string::npos) << described;
+  ASSERT_EQ(Run("--head face.glb --describe", ""), 0) << err;
+  EXPECT_EQ(out, described);
+  const std::string batch = "set FaceExp = HAPPY 1 100 0\nset Wait = 200\nset SaveImage = face";
+  ASSERT_EQ(Run("--headless --size 160x160 --mask galatea", batch + "1.png\n"), 0) << err;
+  ASSERT_EQ(Run("--headless --size 160x160 --head face.glb", batch + "2.png\n"), 0) << err;
+  EXPECT_FALSE(ReadAll(folder / "face1.png").empty());
+  EXPECT_EQ(ReadAll(folder / "face1.png"), ReadAll(folder / "face2.png"));
+}
+
 TEST_F(FsmProcessTest, AFacesOwnUnitsGoBeforeThoseOfTheTables) {
   std::filesystem::create_directories(folder / "faces/berta");
   std::ofstream(folder / "faces/berta/identity.txt") << "base galatea\n";

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "fsm/asset/asset_file.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/gltf_document.h"
-#include "fsm/mesh/gltf_writer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/rig/action_units.h"
 #include "tests/fsm/ball_head.h"
@@ -27,7 +27,7 @@ TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
   const auto head = MakeHead("galatea", false);
   const std::vector<ExportedShape> shapes = {Shape("jawOpen", 27, true, true),
                                              Shape("mouthSmileLeft", 12, true, false)};
-  const auto file = ParseGltfHead("head.glb", WriteGltfHead(*head, shapes));
+  const auto file = ParseGltfHead("head.glb", WriteAsset(*head, shapes));
   ASSERT_TRUE(file) << file.error().text;
   EXPECT_TRUE(file->metres);
   ASSERT_EQ(file->shapes.size(), 2U);
@@ -64,9 +64,9 @@ TEST(GltfHeadTest, OurHeadWrittenIsReadAgainWithItsShapes) {
 
 TEST(GltfHeadTest, OnlyWhatMovesIsStored) {
   const auto head = MakeHead("galatea", false);
-  const auto none = WriteGltfHead(*head, {});
+  const auto none = WriteAsset(*head, {});
   const std::vector<ExportedShape> one = {Shape("browOuterUpLeft", 2, true, false)};
-  EXPECT_LT(WriteGltfHead(*head, one).size() - none.size(), 150000U);
+  EXPECT_LT(WriteAsset(*head, one).size() - none.size(), 150000U);
 }
 
 TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
@@ -77,7 +77,7 @@ TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
     shapes.push_back(Shape(name, static_cast<std::size_t>(unit), true, true));
     meanings.push_back({name, shapes.back().state});
   }
-  const auto file = ParseGltfHead("head.glb", WriteGltfHead(*source, shapes));
+  const auto file = ParseGltfHead("head.glb", WriteAsset(*source, shapes));
   ASSERT_TRUE(file) << file.error().text;
   const Similarity place{.scale = 1000};
   MeshModel model = ModelOf(*file, place, -43);
@@ -130,7 +130,7 @@ TEST(GltfHeadTest, PicturesMayBeJpeg) {
 TEST(GltfHeadTest, EveryCutFileIsRefusedInWords) {
   const BallHead ball;
   const std::vector<ExportedShape> shapes = {Shape("jawOpen", 26, true, true)};
-  const std::string whole = WriteGltfHead(ball, shapes);
+  const std::string whole = WriteAsset(ball, shapes);
   for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 97) {
     const auto file = ParseGltfHead("cut.glb", std::string_view(whole).substr(0, size));
     ASSERT_FALSE(file) << size;

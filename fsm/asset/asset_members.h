@@ -1,0 +1,272 @@
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "fsm/rig/head_asset.h"
+
+namespace fsm {
+
+/// Names every member of a head's description once; what writes, reads and checks an asset file
+/// walks these lists, so that a new member is one line here. `v` is called as
+/// `v("name", object.member)`, in the order of the lists, for a const object or one to be filled.
+
+template <typename T, typename U>
+concept Like = std::same_as<std::remove_const_t<T>, U>;
+
+template <typename V>
+void Members(V& v, Like<HeadTopology::Part> auto& part) {
+  v("material", part.material);
+  v("first_index", part.first_index);
+  v("index_count", part.index_count);
+  v("finish", part.finish);
+  v("two_sided", part.two_sided);
+}
+
+template <typename V>
+void Members(V& v, Like<SkinHair> auto& hair) {
+  v("root", hair.root);
+  v("middle", hair.middle);
+  v("tip", hair.tip);
+  v("width_mm", hair.width_mm);
+  v("tint", hair.tint);
+}
+
+template <typename V>
+void Members(V& v, Like<Strand> auto& strand) {
+  v("along", strand.along);
+  v("cover", strand.cover);
+  v("across", strand.across);
+  v("place", strand.place);
+}
+
+template <typename V>
+void Members(V& v, Like<PbrMaterial> auto& material) {
+  v("kind", material.kind);
+  v("metallic", material.metallic);
+  v("roughness", material.roughness);
+  v("glow", material.glow);
+  v("shade", material.shade);
+  v("shade_to", material.shade_to);
+  v("light_from", material.light_from);
+  v("cut_out", material.cut_out);
+}
+
+template <typename V>
+void Members(V& v, Like<EyePicture> auto& picture) {
+  v("iris", picture.iris);
+  v("ball", picture.ball);
+}
+
+template <typename V>
+void Members(V& v, Like<EyePlace> auto& eye) {
+  v("centre", eye.centre);
+  v("ball_radius", eye.ball_radius);
+  v("iris_radius", eye.iris_radius);
+  v("pupil_radius", eye.pupil_radius);
+  v("iris_colour", eye.iris_colour);
+  v("white_colour", eye.white_colour);
+}
+
+template <typename V>
+void Members(V& v, Like<MouthSlit> auto& mouth) {
+  v("lips", mouth.lips);
+  v("corner_right", mouth.corner_right);
+  v("corner_left", mouth.corner_left);
+  v("upper_incisor", mouth.upper_incisor);
+  v("lower_incisor", mouth.lower_incisor);
+  v("upper_root", mouth.upper_root);
+}
+
+template <typename V>
+void Members(V& v, Like<HeadTopology> auto& topology) {
+  v("indices", topology.indices);
+  v("parts", topology.parts);
+  v("albedo", topology.albedo);
+  v("occlusion", topology.occlusion);
+  v("uv", topology.uv);
+  v("skin_hairs", topology.skin_hairs);
+  v("strands", topology.strands);
+  v("photo", topology.photo);
+  v("finishes", topology.finishes);
+  v("relief", topology.relief);
+  v("lights", topology.lights);
+  v("photo_texcoord", topology.photo_texcoord);
+  v("photo_lender", topology.photo_lender);
+  v("photo_light", topology.photo_light);
+  v("relit", topology.relit);
+  v("eye_pictures", topology.eye_pictures);
+  v("mouth", topology.mouth);
+  v("saturation", topology.saturation);
+  v("eyes", topology.eyes);
+}
+
+template <typename V>
+void Members(V& v, Like<SkinWeights> auto& weights) {
+  v("domain", weights.domain);
+  v("above_mouth", weights.above_mouth);
+  v("jaw", weights.jaw);
+  v("neck", weights.neck);
+  v("free", weights.free);
+  v("eye", weights.eye);
+  v("lid_upper", weights.lid_upper);
+  v("lid_lower", weights.lid_lower);
+  v("lip_column", weights.lip_column);
+  v("by_teeth", weights.by_teeth);
+  v("lip_weight", weights.lip_weight);
+}
+
+template <typename V>
+void Members(V& v, Like<Displacement> auto& displacement) {
+  v("vertex", displacement.vertex);
+  v("by", displacement.by);
+}
+
+template <typename V>
+void Members(V& v, Like<Channel> auto& channel) {
+  v("kind", channel.kind);
+  v("number", channel.number);
+  v("side", channel.side);
+  v("moves", channel.moves);
+}
+
+template <typename V>
+void Members(V& v, Like<LookRange> auto& range) {
+  v("gaze_deg", range.gaze_deg);
+  v("turn", range.turn);
+}
+
+template <typename V>
+void Members(V& v, Like<LookRanges> auto& look) {
+  v("inner", look.inner);
+  v("outer", look.outer);
+  v("up", look.up);
+  v("down", look.down);
+}
+
+template <typename V>
+void Members(V& v, Like<EyeTransform> auto& eye) {
+  v("shift", eye.shift);
+  v("turn", eye.turn);
+  v("size", eye.size);
+  v("upper_mm", eye.upper_mm);
+  v("lower_mm", eye.lower_mm);
+}
+
+template <typename V>
+void Members(V& v, Like<LidRig::Vertex> auto& lid) {
+  v("vertex", lid.vertex);
+  v("side", lid.side);
+  v("upper", lid.upper);
+  v("lower", lid.lower);
+  v("upper_angle", lid.upper_angle);
+  v("lower_angle", lid.lower_angle);
+  v("meet_angle", lid.meet_angle);
+  v("opening", lid.opening);
+  v("y", lid.y);
+  v("z", lid.z);
+  v("proper", lid.proper);
+}
+
+template <typename V>
+void Members(V& v, Like<LidRig> auto& lids) {
+  v("vertices", lids.vertices);
+  v("eyes", lids.eyes);
+  v("ball", lids.ball);
+  v("cornea_centre", lids.cornea_centre);
+}
+
+template <typename V>
+void Members(V& v, Like<LipRig::Follower> auto& follower) {
+  v("vertex", follower.vertex);
+  v("pair", follower.pair);
+  v("part", follower.part);
+}
+
+template <typename V>
+void Members(V& v, Like<LipRig> auto& lips) {
+  v("seam", lips.seam);
+  v("apart_at_rest", lips.apart_at_rest);
+  v("followers", lips.followers);
+  v("measured", lips.measured);
+}
+
+template <typename V>
+void Members(V& v, Like<BallLid> auto& lid) {
+  v("vertex", lid.vertex);
+  v("side", lid.side);
+  v("least", lid.least);
+}
+
+template <typename V>
+void Members(V& v, Like<ToothArch> auto& arch) {
+  v("front_z", arch.front_z);
+  v("depth", arch.depth);
+  v("half_width", arch.half_width);
+  v("edge_y", arch.edge_y);
+  v("root_y", arch.root_y);
+  v("middle_x", arch.middle_x);
+  v("turn", arch.turn);
+}
+
+template <typename V>
+void Members(V& v, Like<TeethContact> auto& contact) {
+  v("vertex", contact.vertex);
+  v("upper_gap", contact.upper_gap);
+  v("lower_gap", contact.lower_gap);
+}
+
+/// All but `units`, which stand as the text of their table.
+template <typename V>
+void Members(V& v, Like<RigData> auto& rig) {
+  v("steps", rig.steps);
+  v("rest", rig.rest);
+  v("rest_normal", rig.rest_normal);
+  v("bone", rig.bone);
+  v("weights", rig.weights);
+  v("soft_triangles", rig.soft_triangles);
+  v("normal_twin", rig.normal_twin);
+  v("person", rig.person);
+  v("units_by_place", rig.units_by_place);
+  v("channels", rig.channels);
+  v("lids", rig.lids);
+  v("ball_lids", rig.ball_lids);
+  v("lips", rig.lips);
+  v("upper_teeth", rig.upper_teeth);
+  v("lower_teeth", rig.lower_teeth);
+  v("teeth_contacts", rig.teeth_contacts);
+  v("jaw_hinge", rig.jaw_hinge);
+  v("eye_pivot", rig.eye_pivot);
+  v("ball_centre", rig.ball_centre);
+  v("look", rig.look);
+  v("creases", rig.creases);
+  v("crease_depth", rig.crease_depth);
+}
+
+template <typename V>
+void Members(V& v, Like<ParallelView> auto& view) {
+  v("centre", view.centre);
+  v("half_mm", view.half_mm);
+}
+
+/// What stands in a file as one column for each member rather than as one object for each element.
+template <typename T>
+concept Tabular = Like<T, SkinHair> || Like<T, Strand> || Like<T, SkinWeights> ||
+    Like<T, Displacement> || Like<T, LidRig::Vertex> || Like<T, LipRig::Follower> ||
+    Like<T, BallLid> || Like<T, TeethContact>;
+
+/// The number of an enumeration's values, which go from 0 on.
+template <typename E>
+inline constexpr int kValuesOf = 0;
+template <>
+inline constexpr int kValuesOf<Material> = static_cast<int>(Material::kShutLash) + 1;
+template <>
+inline constexpr int kValuesOf<Bone> = static_cast<int>(Bone::kEyeRight) + 1;
+template <>
+inline constexpr int kValuesOf<RigStep> = static_cast<int>(RigStep::kNormals) + 1;
+template <>
+inline constexpr int kValuesOf<Channel::Kind> = static_cast<int>(Channel::Kind::kMouth) + 1;
+template <>
+inline constexpr int kValuesOf<PbrMaterial::Kind> = static_cast<int>(PbrMaterial::Kind::kToon) + 1;
+
+}  // namespace fsm

@@ -1,0 +1,242 @@
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_members.h"
+#include "fsm/asset/check_asset.h"
+#include "fsm/image/image_codec.h"
+#include "fsm/mesh/gltf_document.h"
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+struct Fault : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Reads what asset_writer.cc has written, by the same lists of members.
+class Reader {
+ public:
+  explicit Reader(const GltfDocument& gltf) : gltf_(gltf) {}
+
+  template <typename T>
+  void Read(const std::string& place, const json& from, T& value) {
+    if constexpr (std::is_enum_v<T>) {
+      value = static_cast<T>(Whole(place, from, 0, kValuesOf<T> - 1));
+    } else if constexpr (std::is_same_v<T, bool>) {
+      if (!from.is_boolean()) throw Fault(place + ": true or false expected");
+      value = from.get<bool>();
+    } else if constexpr (std::is_integral_v<T>) {
+      value = static_cast<T>(
+          Whole(place, from, std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
+    } else if constexpr (std::is_same_v<T, float>) {
+      value = Real(place, from);
+    } else {
+      ReadObject(place, from, value);
+    }
+  }
+
+ private:
+  static std::int64_t Whole(const std::string& place, const json& from, std::int64_t least,
+                            std::int64_t most) {
+    if (!from.is_number_integer()) throw Fault(place + ": a whole number expected");
+    const auto value = from.get<std::int64_t>();
+    if (value < least || value > most) {
+      throw Fault(place + ": " + std::to_string(value) + " found, " + std::to_string(least) +
+                  " to " + std::to_string(most) + " expected");
+    }
+    return value;
+  }
+  static float Real(const std::string& place, const json& from) {
+    const float value = from.is_number() ? from.get<float>() : NAN;
+    if (!std::isfinite(value)) throw Fault(place + ": a number expected");
+    return value;
+  }
+  static void NeedList(const std::string& place, const json& from, std::size_t size) {
+    if (!from.is_array() || from.size() != size) {
+      throw Fault(place + ": a list of " + std::to_string(size) + " expected");
+    }
+  }
+  /// The document's errors begin with the name of the file, which ParseAsset says, too.
+  template <typename T>
+  T OrFault(const std::string& place, vm::Result<T> read) const {
+    if (!read) throw Fault(place + read.error().text.substr(gltf_.name().size()));
+    return std::move(*read);
+  }
+
+  template <glm::length_t L>
+  void ReadObject(const std::string& place, const json& from, glm::vec<L, float>& v) {
+    NeedList(place, from, static_cast<std::size_t>(L));
+    for (glm::length_t k = 0; k < L; ++k) v[k] = Real(place, from[static_cast<std::size_t>(k)]);
+  }
+  template <typename T, std::size_t N>
+  void ReadObject(const std::string& place, const json& from, std::array<T, N>& items) {
+    NeedList(place, from, N);
+    for (std::size_t i = 0; i < N; ++i) Read(place, from[i], items[i]);
+  }
+  template <typename T>
+  void ReadObject(const std::string& place, const json& from, std::optional<T>& value) {
+    if (!from.is_null()) Read(place, from, value.emplace());
+  }
+  void ReadObject(const std::string& place, const json& from, Landmarks& landmarks) {
+    if (!from.is_object()) throw Fault(place + ": an object of places expected");
+    for (const auto& [name, at] : from.items()) Read(place + "." + name, at, landmarks[name]);
+  }
+  void ReadObject(const std::string& place, const json& from, std::shared_ptr<const Image>& image) {
+    if (from.is_null()) return;
+    const auto bytes =
+        OrFault(place, gltf_.ImageBytes(Whole(place, from, 0, std::numeric_limits<int>::max())));
+    std::string why;
+    auto decoded =
+        DecodePng({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, why);
+    if (!decoded) throw Fault(place + ": " + why);
+    image = std::make_shared<const Image>(std::move(*decoded));
+  }
+  template <typename T>
+  void ReadObject(const std::string& place, const json& from, std::vector<T>& items) {
+    if (from.is_array() && from.empty()) return;
+    if constexpr (Tabular<T>) {
+      ReadTable(place, from, items);
+    } else if constexpr (std::is_same_v<T, std::pair<std::uint32_t, std::uint32_t>>) {
+      const auto numbers = Column(place, from, 2);
+      for (std::size_t i = 0; i < numbers.size(); i += 2)
+        items.emplace_back(Narrow<std::uint32_t>(place, numbers[i]),
+                           Narrow<std::uint32_t>(place, numbers[i + 1]));
+    } else if constexpr (requires { T::length(); }) {
+      const auto numbers = Column(place, from, T::length());
+      items.resize(numbers.size() / static_cast<std::size_t>(T::length()));
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto width = static_cast<std::size_t>(T::length());
+        items[i / width][static_cast<glm::length_t>(i % width)] = static_cast<float>(numbers[i]);
+      }
+    } else if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
+      for (const double number : Column(place, from, 1)) items.push_back(Narrow<T>(place, number));
+    } else {
+      if (!from.is_array()) throw Fault(place + ": a list expected");
+      for (std::size_t i = 0; i < from.size(); ++i)
+        Read(place + "[" + std::to_string(i) + "]", from[i], items.emplace_back());
+    }
+  }
+  template <typename T>
+  void ReadObject(const std::string& place, const json& from, T& object) {
+    const auto member = [&](const char* name, auto& value) {
+      Read(place + "." + name, MemberOf(place, from, name), value);
+    };
+    Members(member, object);
+  }
+
+  static const json& MemberOf(const std::string& place, const json& from, const char* name) {
+    const auto found = from.is_object() ? from.find(name) : from.end();
+    if (!from.is_object() || found == from.end()) {
+      throw Fault(place + ": no member \"" + name + "\"");
+    }
+    return *found;
+  }
+
+  /// The numbers of an accessor.
+  std::vector<double> Column(const std::string& place, const json& from, int width) const {
+    return OrFault(place,
+                   gltf_.Values(Whole(place, from, 0, std::numeric_limits<int>::max()), width));
+  }
+  template <typename T>
+  static T Narrow(const std::string& place, double number) {
+    if constexpr (std::is_floating_point_v<T>) {
+      return static_cast<T>(number);
+    } else {
+      double least = 0, most = 1;
+      if constexpr (std::is_enum_v<T>) {
+        most = kValuesOf<T> - 1;
+      } else if constexpr (!std::is_same_v<T, bool>) {
+        least = std::numeric_limits<T>::min();
+        most = std::numeric_limits<T>::max();
+      }
+      if (!(number >= least && number <= most)) {
+        throw Fault(place + ": " + std::to_string(number) + " is out of range");
+      }
+      return static_cast<T>(static_cast<std::int64_t>(number));
+    }
+  }
+
+  template <typename T>
+  void ReadTable(const std::string& place, const json& from, std::vector<T>& items) {
+    std::size_t column = 0;
+    T sample{};
+    const auto member = [&]<typename M>(const char* name, M&) {
+      const std::string where = place + "." + name;
+      constexpr int kWidth = [] {
+        if constexpr (requires { M::length(); }) return static_cast<int>(M::length());
+        return 1;
+      }();
+      const auto numbers = Column(where, MemberOf(place, from, name), kWidth);
+      const std::size_t count = numbers.size() / kWidth;
+      if (column == 0) items.resize(count);
+      if (items.size() != count) throw Fault(where + ": as many as in the first column expected");
+      for (std::size_t i = 0; i < count; ++i) {
+        std::size_t at = 0;
+        const auto fill = [&]<typename Other>(const char*, Other& value) {
+          if constexpr (std::is_same_v<M, Other>) {
+            if (at == column) Fill(where, &numbers[i * kWidth], value);
+          }
+          ++at;
+        };
+        Members(fill, items[i]);
+      }
+      ++column;
+    };
+    Members(member, sample);
+  }
+  template <typename M>
+  static void Fill(const std::string& place, const double* numbers, M& value) {
+    if constexpr (requires { M::length(); }) {
+      for (glm::length_t k = 0; k < M::length(); ++k) value[k] = static_cast<float>(numbers[k]);
+    } else {
+      value = Narrow<M>(place, *numbers);
+    }
+  }
+
+  const GltfDocument& gltf_;
+};
+
+HeadAsset ReadAsset(const GltfDocument& gltf, const json& from) {
+  if (WholeOf(from, "version") != 1) throw Fault("version: 1 expected");
+  Reader reader(gltf);
+  HeadAsset asset;
+  const auto read = [&](const char* name, auto& part) {
+    const auto found = from.find(name);
+    if (found == from.end()) throw Fault("no member \"" + std::string(name) + "\"");
+    reader.Read(name, *found, part);
+  };
+  read("topology", asset.topology);
+  read("rig", asset.rig);
+  read("landmarks", asset.landmarks);
+  read("view", asset.view);
+  asset.rig.units = UnitTable(Table("rig.units", TextOf(from["rig"], "units")));
+  if (asset.rig.person) asset.rig.units.MakeAsymmetric(*asset.rig.person);
+  if (const auto checked = CheckAsset(asset); !checked) throw Fault(checked.error().text);
+  return asset;
+}
+
+}  // namespace
+
+bool IsAsset(std::string_view bytes) {
+  const std::string quoted = "\"" + std::string(kAssetExtension) + "\"";
+  return bytes.starts_with("glTF") && bytes.find(quoted) != std::string_view::npos;
+}
+
+vm::Result<HeadAsset> ParseAsset(const std::string& name, std::string_view bytes) {
+  const auto gltf = GltfDocument::Parse(name, bytes, nullptr);
+  if (!gltf) return std::unexpected(gltf.error());
+  const json& extension = PartOf(PartOf(gltf->root(), "extensions"), kAssetExtension);
+  try {
+    return ReadAsset(*gltf, extension);
+  } catch (const std::runtime_error& fault) {
+    return gltf->Wrong(std::string(kAssetExtension) + ": " + fault.what());
+  }
+}
+
+}  // namespace fsm

@@ -1,0 +1,321 @@
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+
+#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_members.h"
+#include "fsm/asset/gltf_builder.h"
+#include "fsm/asset/material_name.h"
+#include "fsm/image/image_codec.h"
+
+namespace fsm {
+namespace {
+
+using nlohmann::json;
+
+constexpr float kMetres = 0.001F;
+constexpr float kLeastMm = 0.01F;  ///< what a shape moves by less does not move
+
+template <typename T>
+constexpr GltfType TypeOf() {
+  if constexpr (std::is_same_v<T, float>) return GltfType::kFloat;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return GltfType::kUint32;
+  if constexpr (std::is_same_v<T, std::int8_t>) return GltfType::kInt8;
+  if constexpr (std::is_same_v<T, std::int16_t>) return GltfType::kInt16;
+  return GltfType::kUint8;
+}
+
+/// How a number stands in a column, where that is not its own type.
+template <typename T>
+struct Stored {
+  using Type = std::conditional_t<std::is_same_v<T, bool> || std::is_enum_v<T>, std::uint8_t,
+                                  std::conditional_t<std::is_same_v<T, int>, std::int16_t, T>>;
+};
+
+template <glm::length_t L>
+std::array<float, L> NumbersOf(const glm::vec<L, float>& v) {
+  std::array<float, L> numbers;
+  for (glm::length_t k = 0; k < L; ++k) numbers[static_cast<std::size_t>(k)] = v[k];
+  return numbers;
+}
+
+/// Writes members as JSON, and arrays of numbers as accessors that the JSON names by index.
+class Writer {
+ public:
+  explicit Writer(GltfBuilder& gltf) : gltf_(gltf) {}
+
+  /// The JSON of anything that Members knows, or of a part of it.
+  template <typename T>
+  json Write(const T& value) {
+    if constexpr (std::is_enum_v<T>) {
+      return static_cast<int>(value);
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      return value;
+    } else {
+      return WriteObject(value);
+    }
+  }
+
+ private:
+  template <glm::length_t L>
+  json WriteObject(const glm::vec<L, float>& v) {
+    return NumbersOf(v);
+  }
+  template <typename T, std::size_t N>
+  json WriteObject(const std::array<T, N>& items) {
+    json list = json::array();
+    for (const T& item : items) list.push_back(Write(item));
+    return list;
+  }
+  template <typename T>
+  json WriteObject(const std::optional<T>& value) {
+    return value ? Write(*value) : json();
+  }
+  json WriteObject(const Landmarks& landmarks) {
+    json object = json::object();
+    for (const auto& [name, place] : landmarks) object[name] = NumbersOf(place);
+    return object;
+  }
+  json WriteObject(const std::shared_ptr<const Image>& image) {
+    if (!image) return {};
+    const auto [known, added] = images_.try_emplace(image.get(), gltf_.document["images"].size());
+    if (added) {
+      const auto png = EncodePng(*image);
+      gltf_.document["images"].push_back(
+          {{"mimeType", "image/png"},
+           {"bufferView", gltf_.AddView(std::as_bytes(std::span(png)))}});
+    }
+    return known->second;
+  }
+  template <typename T>
+  json WriteObject(const std::vector<T>& items) {
+    if (items.empty()) return json::array();
+    if constexpr (Tabular<T>) {
+      return WriteTable(items);
+    } else if constexpr (std::is_enum_v<T> || std::is_arithmetic_v<T>) {
+      return WriteColumn<typename Stored<T>::Type, 1>(items, [](const T& item) {
+        return std::array{static_cast<typename Stored<T>::Type>(item)};
+      });
+    } else if constexpr (std::is_same_v<T, std::pair<std::uint32_t, std::uint32_t>>) {
+      return WriteColumn<std::uint32_t, 2>(items, [](const T& pair) {
+        return std::array{pair.first, pair.second};
+      });
+    } else if constexpr (requires { T::length(); }) {
+      return WriteColumn<float, T::length()>(items, [](const T& item) { return NumbersOf(item); });
+    } else {
+      json list = json::array();
+      for (const T& item : items) list.push_back(Write(item));
+      return list;
+    }
+  }
+  template <typename T>
+  json WriteObject(const T& object) {
+    json members = json::object();
+    const auto member = [&](const char* name, const auto& value) { members[name] = Write(value); };
+    Members(member, object);
+    return members;
+  }
+
+  /// One column for each member.
+  template <typename T>
+  json WriteTable(const std::vector<T>& items) {
+    json columns = json::object();
+    std::size_t column = 0;
+    const auto member = [&]<typename M>(const char* name, const M&) {
+      const auto nth = [column](const T& item) {
+        const M* found = nullptr;
+        std::size_t at = 0;
+        const auto look = [&]<typename Other>(const char*, const Other& value) {
+          if constexpr (std::is_same_v<M, Other>) {
+            if (at == column) found = &value;
+          }
+          ++at;
+        };
+        Members(look, item);
+        return *found;
+      };
+      std::vector<M> values;
+      values.reserve(items.size());
+      for (const T& item : items) values.push_back(nth(item));
+      if constexpr (std::is_same_v<M, bool>) {
+        columns[name] = Write(std::vector<std::uint8_t>(values.begin(), values.end()));
+      } else {
+        columns[name] = Write(values);
+      }
+      ++column;
+    };
+    Members(member, items.front());
+    return columns;
+  }
+
+  /// An accessor; `numbers` gives those of one item.
+  template <typename Number, int Width, typename T, typename Numbers>
+  json WriteColumn(const std::vector<T>& items, const Numbers& numbers) {
+    std::vector<Number> all;
+    all.reserve(items.size() * Width);
+    for (const T& item : items) {
+      const auto each = numbers(item);
+      all.insert(all.end(), each.begin(), each.end());
+    }
+    const std::size_t view = gltf_.AddView(std::span<const Number>(all));
+    return gltf_.AddAccessor(view, items.size(), Width, TypeOf<Number>());
+  }
+
+  GltfBuilder& gltf_;
+  std::map<const Image*, std::size_t> images_;
+};
+
+/// What other programs draw.
+class ForeignView {
+ public:
+  ForeignView(GltfBuilder& gltf, const Head& head, const json& extension)
+      : gltf_(gltf), head_(head), topology_(head.topology()), extension_(extension) {}
+
+  void Write(std::span<const ExportedShape> shapes) {
+    const json &rig = extension_["rig"], &topology = extension_["topology"];
+    position_ = rig["rest"];
+    MarkBounds(head_.rig().data().rest, gltf_.document["accessors"][position_]);
+    normal_ = rig["rest_normal"];
+    colour_ = topology["albedo"];
+    if (topology_.photo) WriteTexture(topology["photo"]);
+    json names = json::array(), targets = json::array();
+    HeadVertices rest, moved;
+    head_.Evaluate({}, rest);
+    for (const ExportedShape& shape : shapes) {
+      head_.Evaluate(shape.state, moved);
+      names.push_back(shape.name);
+      targets.push_back({{"POSITION", Target(rest, moved)}});
+    }
+    json& document = gltf_.document;
+    json primitives = json::array();
+    for (const HeadTopology::Part& part : topology_.parts) {
+      // A shut lid's lashes are seen by no one who cannot fade them in.
+      if (part.material == Material::kShutLash || part.index_count == 0) continue;
+      primitives.push_back(Primitive(part, topology["indices"]));
+      if (!targets.empty()) primitives.back()["targets"] = targets;
+    }
+    json& mesh = document["meshes"][0];
+    mesh["name"] = "head";
+    mesh["primitives"] = std::move(primitives);
+    if (!shapes.empty()) {
+      mesh["extras"]["targetNames"] = std::move(names);
+      mesh["weights"] = std::vector<int>(shapes.size(), 0);
+    }
+    document["nodes"] =
+        json::array({{{"mesh", 0}, {"name", "head"}, {"scale", {kMetres, kMetres, kMetres}}}});
+    document["scenes"] = json::array({{{"nodes", {0}}}});
+    document["scene"] = 0;
+  }
+
+ private:
+  static void MarkBounds(std::span<const glm::vec3> places, json& accessor) {
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& place : places) {
+      low = glm::min(low, place);
+      high = glm::max(high, place);
+    }
+    accessor["min"] = NumbersOf(low);
+    accessor["max"] = NumbersOf(high);
+  }
+
+  void WriteTexture(const json& image) {
+    std::vector<glm::vec2> places;
+    for (const glm::vec3& texcoord : topology_.photo_texcoord) places.emplace_back(texcoord);
+    texcoord_ = gltf_.AddAccessor(gltf_.AddView(std::span<const glm::vec2>(places)), places.size(),
+                                  2, GltfType::kFloat);
+    gltf_.document["textures"] = json::array({{{"source", image}}});
+  }
+
+  /// Whether a part shows the photo, in most of its vertices.
+  bool ShowsPhoto(const HeadTopology::Part& part) const {
+    if (!topology_.photo) return false;
+    std::uint32_t shown = 0;
+    for (std::uint32_t k = 0; k < part.index_count; ++k) {
+      const std::uint32_t vertex = topology_.indices[part.first_index + k];
+      if (topology_.photo_texcoord[vertex].z > 0.5F) ++shown;
+    }
+    return 2 * shown > part.index_count;
+  }
+
+  json Primitive(const HeadTopology::Part& part, const json& indices) {
+    const json& all = gltf_.document["accessors"][indices.get<std::size_t>()];
+    const std::size_t triangles =
+        gltf_.AddAccessor(all["bufferView"], part.index_count, 1, GltfType::kUint32,
+                          sizeof(std::uint32_t) * part.first_index);
+    const bool photo = ShowsPhoto(part);
+    json material = {{"name", NameOf(part.material)},
+                     {"doubleSided", part.two_sided || IsHair(part.material) ||
+                                         part.material == Material::kMouthInside},
+                     {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 0.7}}}};
+    json attributes = {{"POSITION", position_}, {"NORMAL", normal_}};
+    if (photo) {
+      attributes["TEXCOORD_0"] = texcoord_;
+      material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+    } else {
+      attributes["COLOR_0"] = colour_;
+    }
+    gltf_.document["materials"].push_back(std::move(material));
+    return {{"attributes", std::move(attributes)},
+            {"indices", triangles},
+            {"material", gltf_.document["materials"].size() - 1}};
+  }
+
+  /// A sparse accessor of what a state moves.
+  std::size_t Target(const HeadVertices& rest, const HeadVertices& moved) {
+    std::vector<std::uint32_t> which;
+    std::vector<glm::vec3> by;
+    for (std::uint32_t i = 0; i < rest.position.size(); ++i) {
+      const glm::vec3 d = moved.position[i] - rest.position[i];
+      if (glm::length(d) < kLeastMm) continue;
+      which.push_back(i);
+      by.push_back(d);
+    }
+    if (which.empty()) {  // a sparse accessor has one element at least
+      which.push_back(0);
+      by.emplace_back(0.0F);
+    }
+    json accessor = {{"componentType", static_cast<int>(GltfType::kFloat)},
+                     {"count", rest.position.size()},
+                     {"type", "VEC3"}};
+    const std::size_t indices = gltf_.AddView(std::span<const std::uint32_t>(which)),
+                      values = gltf_.AddView(std::span<const glm::vec3>(by));
+    accessor["sparse"] = {
+        {"count", which.size()},
+        {"indices",
+         {{"bufferView", indices}, {"componentType", static_cast<int>(GltfType::kUint32)}}},
+        {"values", {{"bufferView", values}}}};
+    by.emplace_back(0.0F);  // where it does not move
+    MarkBounds(by, accessor);
+    gltf_.document["accessors"].push_back(std::move(accessor));
+    return gltf_.document["accessors"].size() - 1;
+  }
+
+  GltfBuilder& gltf_;
+  const Head& head_;
+  const HeadTopology& topology_;
+  const json& extension_;
+  std::size_t position_ = 0, normal_ = 0, colour_ = 0, texcoord_ = 0;
+};
+
+}  // namespace
+
+std::string WriteAsset(const Head& head, std::span<const ExportedShape> shapes) {
+  GltfBuilder gltf;
+  Writer writer(gltf);
+  json extension = {{"version", 1}};
+  extension["topology"] = writer.Write(head.topology());
+  extension["rig"] = writer.Write(head.rig().data());
+  extension["rig"]["units"] = head.rig().data().units.Text();
+  extension["landmarks"] = writer.Write(head.landmarks());
+  extension["view"] = writer.Write(head.view());
+  ForeignView(gltf, head, extension).Write(shapes);
+  gltf.document["asset"] = {{"version", "2.0"}, {"generator", "Galatea " GALATEA_VERSION}};
+  gltf.document["extensionsUsed"] = {kAssetExtension};
+  gltf.document["extensions"][kAssetExtension] = std::move(extension);
+  return gltf.Finish();
+}
+
+}  // namespace fsm

@@ -1,0 +1,160 @@
+#include "fsm/asset/check_asset.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "fsm/mesh/mesh_reach.h"
+
+namespace fsm {
+namespace {
+
+struct Fault : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+std::string Place(const char* member, std::size_t at) {
+  return std::string(member) + "[" + std::to_string(at) + "]";
+}
+
+class Checker {
+ public:
+  explicit Checker(const HeadAsset& asset) : asset_(asset), vertices_(asset.rig.rest.size()) {}
+
+  void Check() const {
+    if (vertices_ == 0) throw Fault("rig.rest: no vertices");
+    CheckTopology(asset_.topology);
+    CheckRig(asset_.rig);
+    CheckLips(asset_.rig.lips);
+  }
+
+ private:
+  void Vertex(std::size_t vertex, const std::string& place) const {
+    if (vertex < vertices_) return;
+    throw Fault(place + ": vertex " + std::to_string(vertex) + " of " + std::to_string(vertices_));
+  }
+  template <typename List>
+  void PerVertex(const List& list, const char* member, bool may_be_empty) const {
+    if (list.size() == vertices_ || (may_be_empty && list.empty())) return;
+    throw Fault(std::string(member) + ": " + std::to_string(list.size()) + " elements for " +
+                std::to_string(vertices_) + " vertices");
+  }
+  template <typename List>
+  void Vertices(const List& list, const char* member) const {
+    for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i], Place(member, i));
+  }
+  /// Of elements that name a vertex.
+  template <typename List>
+  void VerticesOf(const List& list, const char* member) const {
+    for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i].vertex, Place(member, i));
+  }
+  template <typename List>
+  void Sides(const List& list, const char* member) const {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (list[i].side != 0 && list[i].side != 1) {
+        throw Fault(Place(member, i) + ": side " + std::to_string(list[i].side) + " of 0 and 1");
+      }
+    }
+  }
+  template <typename List>
+  void Triangles(const List& list, const char* member) const {
+    if (list.size() % 3 != 0) throw Fault(std::string(member) + ": not three for each triangle");
+    Vertices(list, member);
+  }
+
+  void CheckTopology(const HeadTopology& topology) const {
+    Triangles(topology.indices, "topology.indices");
+    for (std::size_t i = 0; i < topology.parts.size(); ++i) {
+      const HeadTopology::Part& part = topology.parts[i];
+      const std::string place = Place("topology.parts", i);
+      if (part.index_count % 3 != 0 || part.first_index > topology.indices.size() ||
+          part.index_count > topology.indices.size() - part.first_index) {
+        throw Fault(place + ": its triangles are not among the indices");
+      }
+      if (part.finish < -1 || part.finish >= static_cast<int>(topology.finishes.size())) {
+        throw Fault(place + ": finish " + std::to_string(part.finish) + " of " +
+                    std::to_string(topology.finishes.size()));
+      }
+    }
+    PerVertex(topology.albedo, "topology.albedo", false);
+    PerVertex(topology.occlusion, "topology.occlusion", false);
+    PerVertex(topology.uv, "topology.uv", true);
+    PerVertex(topology.strands, "topology.strands", true);
+    PerVertex(topology.photo_texcoord, "topology.photo_texcoord", !topology.photo);
+    PerVertex(topology.photo_lender, "topology.photo_lender", true);
+    PerVertex(topology.relit, "topology.relit", true);
+    const MouthSlit& mouth = topology.mouth;
+    for (std::size_t i = 0; i < mouth.lips.size(); ++i) {
+      Vertex(mouth.lips[i].first, Place("topology.mouth.lips", i));
+      Vertex(mouth.lips[i].second, Place("topology.mouth.lips", i));
+    }
+    for (const auto vertex : {mouth.corner_right, mouth.corner_left, mouth.upper_incisor,
+                              mouth.lower_incisor, mouth.upper_root}) {
+      Vertex(vertex, "topology.mouth");
+    }
+  }
+
+  void CheckRig(const RigData& rig) const {
+    for (std::size_t i = 0; i < vertices_; ++i) {
+      if (!WithinReach(rig.rest[i])) throw Fault(Place("rig.rest", i) + ": too far away");
+    }
+    PerVertex(rig.rest_normal, "rig.rest_normal", false);
+    PerVertex(rig.bone, "rig.bone", false);
+    PerVertex(rig.weights, "rig.weights", false);
+    PerVertex(rig.normal_twin, "rig.normal_twin", true);
+    Vertices(rig.normal_twin, "rig.normal_twin");
+    Triangles(rig.soft_triangles, "rig.soft_triangles");
+    for (std::size_t i = 0; i < rig.channels.size(); ++i) CheckChannel(rig.channels[i], i);
+    VerticesOf(rig.lids.vertices, "rig.lids.vertices");
+    Sides(rig.lids.vertices, "rig.lids.vertices");
+    VerticesOf(rig.ball_lids, "rig.ball_lids");
+    Sides(rig.ball_lids, "rig.ball_lids");
+    VerticesOf(rig.teeth_contacts, "rig.teeth_contacts");
+  }
+
+  void CheckChannel(const Channel& channel, std::size_t at) const {
+    const std::string place = Place("rig.channels", at);
+    const std::size_t most =
+        channel.kind == Channel::Kind::kUnit ? UnitValues::kMost : FaceState{}.mouth.size() - 1;
+    if (channel.number > most) {
+      throw Fault(place + ": number " + std::to_string(channel.number) + " above " +
+                  std::to_string(most));
+    }
+    if (channel.side > 1) throw Fault(place + ": a side other than 0 and 1");
+    VerticesOf(channel.moves, (place + ".moves").c_str());
+  }
+
+  void CheckLips(const LipRig& lips) const {
+    for (std::size_t i = 0; i < lips.seam.size(); ++i) {
+      Vertex(lips.seam[i].first, Place("rig.lips.seam", i));
+      Vertex(lips.seam[i].second, Place("rig.lips.seam", i));
+    }
+    if (!lips.apart_at_rest.empty() && lips.apart_at_rest.size() != lips.seam.size()) {
+      throw Fault("rig.lips.apart_at_rest: not one for each pair of the seam");
+    }
+    VerticesOf(lips.followers, "rig.lips.followers");
+    for (std::size_t i = 0; i < lips.followers.size(); ++i) {
+      if (lips.followers[i].pair >= lips.seam.size()) {
+        throw Fault(Place("rig.lips.followers", i) + ": pair " +
+                    std::to_string(lips.followers[i].pair) + " of " +
+                    std::to_string(lips.seam.size()));
+      }
+    }
+    if (lips.measured) Vertices(*lips.measured, "rig.lips.measured");
+  }
+
+  const HeadAsset& asset_;
+  const std::size_t vertices_;
+};
+
+}  // namespace
+
+vm::Result<void> CheckAsset(const HeadAsset& asset) {
+  try {
+    Checker(asset).Check();
+  } catch (const Fault& fault) {
+    return vm::Fail(vm::Errc::kBadValue, fault.what());
+  }
+  return {};
+}
+
+}  // namespace fsm

@@ -1,0 +1,145 @@
+#include "fsm/asset/describe.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "fsm/asset/asset_members.h"
+#include "fsm/asset/material_name.h"
+
+namespace fsm {
+namespace {
+
+/// Adds up what the arrays of a head take.
+class MemorySum {
+ public:
+  template <typename T>
+  void operator()(const char*, const T& value) {
+    Add(value);
+  }
+  std::size_t bytes = 0;
+
+ private:
+  template <typename T>
+  void Add(const std::vector<T>& items) {
+    bytes += items.size() * sizeof(T);
+    if constexpr (std::is_same_v<T, Channel>) {
+      for (const Channel& channel : items) Add(channel.moves);
+    }
+  }
+  void Add(const std::shared_ptr<const Image>& image) {
+    if (image) bytes += image->rgba.size();
+  }
+  template <typename T>
+  void Add(const T& value) {
+    if constexpr (requires { Members(*this, value); }) Members(*this, value);
+  }
+};
+
+class Description {
+ public:
+  explicit Description(const Head& head)
+      : head_(head), topology_(head.topology()), rig_(head.rig().data()) {}
+
+  std::string Text() {
+    Line("mesh", std::to_string(rig_.rest.size()) + " vertices, " +
+                     std::to_string(topology_.indices.size() / 3) + " triangles");
+    Parts();
+    Pictures();
+    Bones();
+    Channels();
+    Steps();
+    DescribeLandmarks();
+    MemorySum sum;
+    Members(sum, topology_);
+    Members(sum, rig_);
+    Line("memory", std::to_string(sum.bytes / 1024) + " KiB");
+    return std::move(text_);
+  }
+
+ private:
+  void Line(const std::string& what, const std::string& value) {
+    std::array<char, 16> column;
+    std::snprintf(column.data(), column.size(), "%-12s", what.c_str());
+    text_ += column.data() + value + "\n";
+  }
+
+  void Parts() {
+    std::map<Material, std::size_t> triangles;
+    for (const auto& part : topology_.parts) triangles[part.material] += part.index_count / 3;
+    for (const auto& [material, count] : triangles)
+      Line("part", std::string(NameOf(material)) + ", " + std::to_string(count) + " triangles");
+  }
+
+  void Pictures() {
+    const std::pair<const char*, const std::shared_ptr<const Image>&> pictures[] = {
+        {"photo, sRGB", topology_.photo},
+        {"relief, linear", topology_.relief},
+        {"lights, sRGB", topology_.lights}};
+    for (const auto& [name, image] : pictures) {
+      if (!image) continue;
+      Line("texture", std::string(name) + ", " + std::to_string(image->width) + " x " +
+                          std::to_string(image->height));
+    }
+    if (!topology_.finishes.empty())
+      Line("materials", std::to_string(topology_.finishes.size()) + " of its own");
+  }
+
+  void Bones() {
+    static constexpr std::array<const char*, kValuesOf<Bone>> kNames{
+        "skin", "skull", "jaw", "tongue", "eye_left", "eye_right"};
+    std::array<std::size_t, kNames.size()> vertices{};
+    for (const Bone bone : rig_.bone) ++vertices[static_cast<std::size_t>(bone)];
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+      if (vertices[i] > 0)
+        Line("bone", std::string(kNames[i]) + ", " + std::to_string(vertices[i]) + " vertices");
+    }
+  }
+
+  void Channels() {
+    std::map<Channel::Kind, std::set<int>> numbers;
+    std::map<Channel::Kind, std::size_t> moves;
+    for (const Channel& channel : rig_.channels) {
+      numbers[channel.kind].insert(channel.number);
+      moves[channel.kind] += channel.moves.size();
+    }
+    for (const auto& [kind, of_kind] : numbers) {
+      std::string listed;
+      for (const int number : of_kind)
+        listed += (listed.empty() ? "" : " ") +
+                  std::to_string(number + (kind == Channel::Kind::kMouth ? 1 : 0));
+      Line("channels", std::string(kind == Channel::Kind::kUnit ? "units " : "mouth ") + listed +
+                           ", " + std::to_string(moves[kind]) + " displacements");
+    }
+  }
+
+  void Steps() {
+    std::string listed;
+    for (const RigStep step : rig_.steps)
+      listed += (listed.empty() ? "" : ", ") + std::string(NameOf(step));
+    Line("steps", listed);
+  }
+
+  void DescribeLandmarks() {
+    for (const auto& [name, place] : head_.landmarks()) {
+      std::array<char, 96> numbers;
+      std::snprintf(numbers.data(), numbers.size(), " %.1f %.1f %.1f mm",
+                    static_cast<double>(place.x), static_cast<double>(place.y),
+                    static_cast<double>(place.z));
+      Line("landmark", name + numbers.data());
+    }
+  }
+
+  const Head& head_;
+  const HeadTopology& topology_;
+  const RigData& rig_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string Describe(const Head& head) { return Description(head).Text(); }
+
+}  // namespace fsm

@@ -1,0 +1,84 @@
+// The file of a small head with bytes changed: what is read moves without harm, the rest is
+// refused. Input: changes of five bytes each, where (four bytes, wrapped round) and what then
+// stands there.
+
+#include <cstdint>
+#include <string>
+
+#include "fsm/asset/asset_file.h"
+#include "fsm/asset/describe.h"
+
+namespace {
+
+/// Some vertices, and one element of everything that an asset can have.
+fsm::Head SmallHead() {
+  constexpr std::uint32_t kVertices = 12;
+  fsm::HeadAsset asset;
+  std::vector<glm::vec3> rest, normal;
+  for (std::uint32_t i = 0; i < kVertices; ++i) {
+    const auto t = static_cast<float>(i);
+    rest.emplace_back(10 * t - 50, t * t - 60, 80 - t);
+    normal.emplace_back(0, 0, 1);
+  }
+  fsm::RigData& rig = asset.rig = fsm::StillRig(std::move(rest), std::move(normal));
+  rig.steps.clear();
+  for (int step = 0; step <= static_cast<int>(fsm::RigStep::kNormals); ++step)
+    rig.steps.push_back(static_cast<fsm::RigStep>(step));
+  rig.weights.resize(kVertices);
+  for (std::uint32_t i = 0; i < kVertices; ++i) {
+    rig.bone[i] = static_cast<fsm::Bone>(i % 6);
+    rig.weights[i].jaw = 0.1F * static_cast<float>(i);
+  }
+  rig.soft_triangles = {0, 1, 2, 3, 4, 5};
+  rig.units = fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
+  rig.units_by_place = true;
+  rig.channels = {{fsm::Channel::Kind::kUnit, 4, 1, {{2, {1, 2, 3}}}},
+                  {fsm::Channel::Kind::kMouth, 3, 0, {{5, {0, -2, 1}}}}};
+  rig.lids.vertices = {{1, 0, 1, 0, 0.2F, -0.2F, -0.1F, 1, 12, 2, true}};
+  rig.ball_lids = {{1, 1, 12}};
+  rig.lips.seam = {{2, 3}};
+  rig.lips.apart_at_rest = {{0, 0.1F, 0}};
+  rig.lips.followers = {{4, 0, 0.5F}};
+  rig.lips.measured = {{2, 3, 1, 4}};
+  rig.upper_teeth = rig.lower_teeth = {70, 20, 25, -40, -30};
+  rig.teeth_contacts = {{4, 1, 1}};
+  rig.look.emplace();
+  rig.creases = {{0, 0.1F, 0, 0}};
+  asset.topology.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+  asset.topology.parts = {{fsm::Material::kSkin, 0, 6}, {fsm::Material::kHair, 6, 3, 0, true}};
+  asset.topology.albedo.resize(kVertices);
+  asset.topology.occlusion.resize(kVertices);
+  asset.topology.strands.resize(kVertices);
+  asset.topology.skin_hairs.resize(2);
+  asset.topology.finishes.resize(1);
+  asset.topology.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
+  asset.topology.photo_texcoord.resize(kVertices);
+  asset.topology.eye_pictures.emplace();
+  asset.topology.mouth.lips = {{2, 3}};
+  asset.landmarks["nasion"] = {0, 20, 90};
+  asset.view.emplace();
+  return fsm::Head(std::move(asset));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::string kWhole = fsm::WriteAsset(SmallHead(), {});
+  std::string file = kWhole;
+  for (; size >= 5; data += 5, size -= 5) {
+    const std::size_t at = data[0] | data[1] << 8 | data[2] << 16;
+    file[at % file.size()] = static_cast<char>(data[4]);
+  }
+  auto asset = fsm::ParseAsset("head.glb", file);
+  if (!asset) return 0;
+  const fsm::Head head(std::move(*asset));
+  fsm::HeadVertices vertices;
+  fsm::FaceState state;
+  head.Evaluate(state, vertices);
+  state.au_left[4] = state.au_right[43] = state.blink_left = 1;
+  state.mouth.fill(0.5F);
+  state.head_rotation = {10, 20, 30};
+  head.Evaluate(state, vertices);
+  fsm::Describe(head);
+  return 0;
+}

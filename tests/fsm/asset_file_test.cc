@@ -1,0 +1,217 @@
+// A head written as one file and read again.
+
+#include "fsm/asset/asset_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fsm/asset/check_asset.h"
+#include "fsm/asset/describe.h"
+#include "fsm/head/make_head.h"
+#include "fsm/head/photo_head.h"
+#include "fsm/mesh/gltf_document.h"
+#include "tests/fsm/ball_head.h"
+
+namespace fsm {
+namespace {
+
+/// States that use every part of a rig.
+std::vector<FaceState> States() {
+  std::vector<FaceState> states(5);
+  for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
+    states[1].au_left[unit] = unit % 3 == 0 ? 0.7F : 0;
+    states[1].au_right[unit] = unit % 4 == 0 ? 0.9F : 0;
+  }
+  for (std::size_t k = 0; k < states[2].mouth.size(); ++k)
+    states[2].mouth[k] = 0.4F * std::sin(static_cast<float>(k));
+  states[3].blink_left = 1;
+  states[3].head_rotation = {10, 20, 5};
+  states[4].au_left[12] = states[4].au_right[26] = 1;
+  states[4].mouth[0] = 1;
+  return states;
+}
+
+void ExpectSameHead(const Head& read, const Head& written) {
+  HeadVertices a, b;
+  for (const FaceState& state : States()) {
+    written.Evaluate(state, a);
+    read.Evaluate(state, b);
+    ASSERT_EQ(a.position, b.position);
+    ASSERT_EQ(a.normal, b.normal);
+    EXPECT_EQ(a.wrinkles, b.wrinkles);
+    EXPECT_EQ(a.lids_shut, b.lids_shut);
+    EXPECT_EQ(written.MeasureMouth(state).gap_mm, read.MeasureMouth(state).gap_mm);
+  }
+  EXPECT_EQ(written.landmarks(), read.landmarks());
+  // Whatever else there is of a head is in the file, and comes out of it the same.
+  EXPECT_EQ(WriteAsset(written, {}), WriteAsset(read, {}));
+}
+
+Head ReadAgain(const Head& head) {
+  auto asset = ParseAsset("head.glb", WriteAsset(head, {}));
+  if (!asset) throw std::runtime_error(asset.error().text);
+  return Head(std::move(*asset));
+}
+
+/// A face of one colour, worn by the built-in head.
+PhotoHead OneColour() {
+  PhotoHead set;
+  for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
+    set.points.push_back({at, glm::vec3(0)});
+  }
+  set.photo = std::make_shared<Image>(Image{2, 1, {200, 40, 40, 255, 40, 200, 40, 255}});
+  set.skin_low = {0.24F, 0.9F};
+  set.skin_high = {0.26F, 0.1F};
+  return set;
+}
+
+TEST(AssetFileTest, EveryBuiltInHeadComesBackAsItWas) {
+  for (const IdentityInfo& identity : Identities()) {
+    SCOPED_TRACE(identity.name);
+    const auto head = MakeHead(identity.name);
+    ExpectSameHead(ReadAgain(*head), *head);
+  }
+}
+
+TEST(AssetFileTest, AHeadThatWearsAPhotoComesBackAsItWas) {
+  const auto head = MakeHead(OneColour());
+  const Head read = ReadAgain(*head);
+  ExpectSameHead(read, *head);
+  ASSERT_TRUE(read.topology().photo);
+  EXPECT_EQ(read.topology().photo->rgba, head->topology().photo->rgba);
+}
+
+TEST(AssetFileTest, AParallelViewAndAMaterialComeBack) {
+  const BallHead ball([](HeadAsset& asset) {
+    asset.view = ParallelView{{1, 2, 3}, 44};
+    asset.topology.finishes.push_back({.kind = PbrMaterial::Kind::kToon, .roughness = 0.3F});
+    asset.topology.parts[0].finish = 0;
+  });
+  const Head read = ReadAgain(ball);
+  ASSERT_TRUE(read.view());
+  EXPECT_EQ(read.view()->half_mm, 44);
+  ASSERT_EQ(read.topology().finishes.size(), 1U);
+  EXPECT_EQ(read.topology().finishes[0].kind, PbrMaterial::Kind::kToon);
+  EXPECT_EQ(read.topology().parts[0].finish, 0);
+}
+
+TEST(AssetFileTest, TheUnitsTableStandsInItAsText) {
+  const auto head = MakeGenericHead();
+  const std::string text = head->rig().data().units.Text();
+  EXPECT_NE(text.find("\nlid 5 "), std::string::npos);
+  EXPECT_EQ(UnitTable(Table("units", text)).Text(), text);
+}
+
+/// The file with a changed JSON.
+std::string Changed(const std::string& file,
+                    const std::function<void(nlohmann::json& extension)>& change) {
+  const auto word = [&](std::size_t at) {
+    std::size_t value = 0;
+    for (std::size_t k = 4; k-- > 0;) value = value << 8 | static_cast<std::uint8_t>(file[at + k]);
+    return value;
+  };
+  auto json = nlohmann::json::parse(file.substr(20, word(12)));
+  change(json["extensions"][kAssetExtension]);
+  std::string text = json.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const auto bytes = [](std::size_t value) {
+    std::string out;
+    for (int k = 0; k < 4; ++k) out += static_cast<char>(value >> (8 * k) & 0xff);
+    return out;
+  };
+  const std::string rest = file.substr(20 + word(12));
+  return file.substr(0, 8) + bytes(20 + text.size() + rest.size()) + bytes(text.size()) +
+         file.substr(16, 4) + text + rest;
+}
+
+TEST(AssetFileTest, ADamagedFileIsRefusedByFileAndMember) {
+  using nlohmann::json;
+  const std::string whole = WriteAsset(*MakeGenericHead(), {});
+  ASSERT_TRUE(ParseAsset("head.glb", Changed(whole, [](json&) {})));
+  const std::pair<std::function<void(json&)>, const char*> faults[] = {
+      {[](json& e) { e["version"] = 2; }, "version: 1 expected"},
+      {[](json& e) { e.erase("rig"); }, "no member \"rig\""},
+      {[](json& e) { e["rig"]["steps"] = 7000000; }, "rig.steps"},
+      {[](json& e) { e["rig"]["bone"] = e["rig"]["rest"]; }, "rig.bone: accessors["},
+      {[](json& e) { e["rig"]["rest"] = json::array(); }, "rig.rest: no vertices"},
+      {[](json& e) { e["rig"]["rest_normal"] = json::array(); }, "rig.rest_normal: 0 elements for"},
+      {[](json& e) { e["rig"]["weights"].erase("jaw"); }, "rig.weights: no member \"jaw\""},
+      {[](json& e) { e["rig"]["weights"]["jaw"] = e["rig"]["lids"]["vertices"]["upper"]; },
+       "rig.weights.jaw: as many as in the first column expected"},
+      {[](json& e) { e["rig"]["channels"][0]["number"] = 4000; }, "rig.channels[0]: number 4000"},
+      {[](json& e) { e["rig"]["channels"][0]["kind"] = 9; }, "rig.channels[0].kind: 9 found"},
+      {[](json& e) { e["rig"]["units"] = "field 1 2"; }, "rig.units:1:"},
+      {[](json& e) {
+         e["rig"]["jaw_hinge"] = {1, 2};
+       },
+       "rig.jaw_hinge: a list of 3 expected"},
+      {[](json& e) {
+         e["rig"]["lips"]["measured"] = {1, 2, 3, 900000};
+       },
+       "rig.lips.measured[3]: vertex 900000 of"},
+      {[](json& e) { e["topology"]["parts"][0]["index_count"] = 300000000; },
+       "topology.parts[0]: its triangles are not among the indices"},
+      {[](json& e) { e["topology"]["parts"][0]["material"] = "skin"; },
+       "topology.parts[0].material: a whole number expected"},
+      {[](json& e) { e["topology"]["photo"] = 3; }, "topology.photo:"},
+      {[](json& e) {
+         e["landmarks"] = {{"nasion", "here"}};
+       },
+       "landmarks.nasion: a list of 3"}};
+  for (const auto& [change, expected] : faults) {
+    const auto read = ParseAsset("head.glb", Changed(whole, change));
+    ASSERT_FALSE(read) << expected;
+    EXPECT_NE(read.error().text.find("head.glb: GALATEA_head: "), std::string::npos)
+        << read.error().text;
+    EXPECT_NE(read.error().text.find(expected), std::string::npos) << read.error().text;
+  }
+  EXPECT_FALSE(ParseAsset("head.glb", whole.substr(0, whole.size() / 2)));
+  EXPECT_FALSE(ParseAsset("head.glb", "glTF"));
+}
+
+TEST(AssetFileTest, OtherProgramsSeeAMeshWithShapes) {
+  const auto head = MakeHead("galatea", false);
+  ExportedShape smile{"mouthSmileLeft", {}};
+  smile.state.au_left[12] = 1;
+  const auto gltf = GltfDocument::Parse("head.glb", WriteAsset(*head, std::vector{smile}), nullptr);
+  ASSERT_TRUE(gltf) << gltf.error().text;
+  const auto& mesh = gltf->At("meshes", 0);
+  EXPECT_EQ(mesh["extras"]["targetNames"][0], "mouthSmileLeft");
+  ASSERT_GT(mesh["primitives"].size(), 5U);
+  const auto moved = gltf->Numbers(mesh["primitives"][0]["targets"][0]["POSITION"], 3);
+  ASSERT_TRUE(moved) << moved.error().text;
+  HeadVertices rest, state;
+  head->Evaluate({}, rest);
+  head->Evaluate(smile.state, state);
+  ASSERT_EQ(moved->size(), 3 * rest.position.size());
+  for (std::size_t i = 0; i < rest.position.size(); ++i) {
+    const glm::vec3 by = state.position[i] - rest.position[i];
+    for (int k = 0; k < 3; ++k)
+      ASSERT_NEAR((*moved)[3 * i + static_cast<std::size_t>(k)], by[k], 0.011F);
+  }
+}
+
+TEST(CheckAssetTest, WhatTheBakersMakeFitsTogether) {
+  for (const auto& head : {MakeGenericHead(), MakeHead(OneColour())}) {
+    HeadAsset asset{head->topology(), head->rig().data(), head->landmarks(), head->view()};
+    const auto checked = CheckAsset(asset);
+    EXPECT_TRUE(checked) << checked.error().text;
+    asset.rig.lips.followers.push_back({3, 10000, 1});
+    EXPECT_FALSE(CheckAsset(asset));
+  }
+}
+
+TEST(DescribeTest, NamesWhatAHeadIsMadeOf) {
+  const std::string text = Describe(*MakeGenericHead());
+  for (const char* expected :
+       {"mesh        ", "part        skin, ", "bone        jaw, ", "channels    units 1 2 4 6 ",
+        "channels    mouth 1 ", "steps       ", "landmark    pronasale ", "memory      "})
+    EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
+}
+
+}  // namespace
+}  // namespace fsm
