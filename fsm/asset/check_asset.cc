@@ -94,6 +94,10 @@ class Checker {
   }
 
   void CheckRig(const RigData& rig) const {
+    for (const RigStep step : rig.steps) {
+      if (step == RigStep::kDeformation && !rig.deformation)
+        throw Fault("rig.steps: a deformation, which is not in the file");
+    }
     for (std::size_t i = 0; i < vertices_; ++i) {
       if (!WithinReach(rig.rest[i])) throw Fault(Place("rig.rest", i) + ": too far away");
     }
