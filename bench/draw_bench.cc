@@ -148,21 +148,18 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
 
 /// Four people in one picture, each in a quarter of it, as a window would show them.
 void PrintFour(const Options& options, fsm::RenderContext& context, const fsm::Head& head) {
-  std::vector<std::unique_ptr<fsm::Renderer>> renderers;
+  const auto renderer = fsm::Renderer::Make(context);
   const int width = options.width / 2, height = options.height / 2;
-  for (int i = 0; i < 4; ++i) {
-    renderers.push_back(fsm::Renderer::Make(context));
-    renderers.back()->Place({i % 2 * width, i / 2 * height, width, height});
-  }
   fsm::HeadVertices vertices;
   fsm::Image image;
   const fsm::Scene scene;
   Print("four moving faces in one picture", Measure(options, [&](int i) {
-          for (std::size_t k = 0; k < 4; ++k) {
-            const fsm::FaceState state = Moving(i + 31 * static_cast<int>(k));
+          for (int k = 0; k < 4; ++k) {
+            const fsm::FaceState state = Moving(i + 31 * k);
             head.Evaluate(state, vertices);
-            renderers[k]->Draw(head, vertices, state, scene);
-            renderers[k]->Read(image);
+            renderer->Place({k % 2 * width, k / 2 * height, width, height});
+            renderer->Draw(head, vertices, state, scene);
+            renderer->Read(image);
           }
         }));
   PrintMemory();

@@ -49,7 +49,7 @@ void GlRenderBackend::MakeRenderer() {
     context_ = RenderContext::MakeHeadless(options_.width, options_.height, options_.off_screen);
   }
   context_->MakeCurrent();
-  if (!renderer_) renderer_ = Renderer::Make(*context_);
+  if (!renderer_) renderer_ = Renderer::Make(*context_, 1);
 }
 
 vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scene) {
@@ -99,13 +99,7 @@ vm::Result<void> GlRenderBackend::Wear(const std::string& face) {
   }
   if (face == (face_.empty() ? names.front() : face_)) return {};
   try {
-    auto head = MakeNamedHead(face);
-    // What the renderer keeps belongs to the head it drew last.
-    if (renderer_) {
-      context_->MakeCurrent();
-      renderer_.reset();
-    }
-    head_ = std::move(head);
+    head_ = MakeNamedHead(face);
     face_ = face;
     return {};
   } catch (const std::exception& error) {

@@ -39,7 +39,7 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
 
 }  // namespace
 
-HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
+HeadBuffers::HeadBuffers(const GlFunctions& gl, const Head& head) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(kAttributes + 1, buffers_);
   gl_.BindVertexArray(array_);
@@ -50,6 +50,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl) : gl_(gl) {
     gl_.EnableVertexAttribArray(i);
   }
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers_[kAttributes]);
+  UploadTopology(head);
 }
 
 HeadBuffers::~HeadBuffers() {
@@ -57,13 +58,9 @@ HeadBuffers::~HeadBuffers() {
   gl_.DeleteBuffers(kAttributes + 1, buffers_);
 }
 
-void HeadBuffers::Upload(const Head& head, const HeadVertices& vertices) {
+void HeadBuffers::Upload(const HeadVertices& vertices) {
   gl_.BindVertexArray(array_);
-  if (head.serial() != head_serial_) {
-    UploadTopology(head);
-    head_serial_ = head.serial();
-  }
-  assert(vertices.position.size() == head.topology().albedo.size());
+  assert(vertices.position.size() == vertex_count_);
   assert(vertices.normal.size() == vertices.position.size());
   const auto bytes = static_cast<GLsizeiptr>(vertices.position.size() * sizeof(glm::vec3));
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[0]);
@@ -86,8 +83,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   unrolled.resize(paint.size());
   const auto marks = FaceMarks::Of(head);
   CreaseWeights creases;
-  skin_.reset();
-  painting_ = {};
+  vertex_count_ = rest.position.size();
   chin_y_ = marks ? marks->gnathion.y : kNoChin;
   if (marks && topology.uv.size() == paint.size()) {
     creases = WeighCreases(rest, *marks);
@@ -132,7 +128,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   photo_lender.resize(paint.size());
   upload(8, photo_lender);
   // What wears a photo thins out as hair does; a mesh from elsewhere has cut-outs in any order.
-  blends_ = photo_ && !topology.strands.empty();
+  blends_ = Blends(topology);
   std::vector<float> cover(paint.size(), 1.0F);
   for (std::size_t i = 0; i < std::min(cover.size(), topology.strands.size()); ++i) {
     cover[i] = topology.strands[i].cover;
@@ -150,7 +146,6 @@ void HeadBuffers::UploadTopology(const Head& head) {
   shadows_ = ShadowFinder(topology, rest);
   mouth_ = MouthFinder(topology);
   eye_place_ = topology.eyes[0];
-  ++generation_;
 }
 
 const SkinTexture* HeadBuffers::skin() {
@@ -166,8 +161,6 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
   using Triangle = std::array<std::uint32_t, 3>;
   std::vector<Triangle> hair;
   std::vector<std::uint32_t> indices;
-  parts_.clear();
-  soft_.clear();
   const auto depth = [&rest](const Triangle& t) {
     return rest.position[t[0]].z + rest.position[t[1]].z + rest.position[t[2]].z;
   };

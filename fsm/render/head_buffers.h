@@ -16,18 +16,17 @@
 
 namespace fsm {
 
-/// One head on the GL side: what never changes is uploaded once, vertices every frame.
+/// One head on the GL side: what never changes is uploaded at the beginning, vertices every frame.
 /// Destroy while its context is current.
 class HeadBuffers {
  public:
-  explicit HeadBuffers(const GlFunctions& gl);
+  HeadBuffers(const GlFunctions& gl, const Head& head);
   ~HeadBuffers();
   HeadBuffers(const HeadBuffers&) = delete;
   HeadBuffers& operator=(const HeadBuffers&) = delete;
 
-  /// Binds the head's vertex array with these vertices in it. All else that the head brings is
-  /// uploaded when it is another one than the last time, which its serial() tells.
-  void Upload(const Head& head, const HeadVertices& vertices);
+  /// Binds the head's vertex array with these vertices, which are the head's, in it.
+  void Upload(const HeadVertices& vertices);
   /// The head's parts in the order to draw them, what hides most first; indices as uploaded here.
   const std::vector<HeadTopology::Part>& parts() const { return parts_; }
   const EyeFinder& eyes() const { return eyes_; }
@@ -40,13 +39,14 @@ class HeadBuffers {
   const SkinTexture* skin();
   /// What is the same of both eyes: sizes and colour.
   const EyePlace& eye_place() const { return eye_place_; }
-  /// Counts the heads uploaded so far, so that what depends on the head is noticed to be old.
-  int generation() const { return generation_; }
   /// What is worn in place of painted skin, if anything.
   const Image* photo() const { return photo_.get(); }
   /// Whether that is laid on in layers from back to front with soft edges, and which of parts()
   /// have such edges.
   bool blends() const { return blends_; }
+  static bool Blends(const HeadTopology& topology) {
+    return topology.photo && !topology.strands.empty();
+  }
   bool IsSoft(std::size_t part) const { return soft_[part]; }
   /// HeadTopology::relief, lights and finishes.
   const Image* relief() const { return relief_.get(); }
@@ -76,7 +76,7 @@ class HeadBuffers {
   // across its lock; indices.
   static constexpr GLuint kAttributes = 11;  // the last: places in a photo, cover, rest normal
   GLuint buffers_[kAttributes + 1] = {};
-  std::uint64_t head_serial_ = 0;  // of the head uploaded; no head has 0
+  std::size_t vertex_count_ = 0;
   std::vector<HeadTopology::Part> parts_;
   std::vector<bool> soft_;
   EyeFinder eyes_;
@@ -93,7 +93,6 @@ class HeadBuffers {
   glm::vec4 photo_light_{0, 0, 0, 1};
   float chin_y_ = kNoChin;
   bool blends_ = false;
-  int generation_ = 0;
 };
 
 }  // namespace fsm

@@ -27,7 +27,6 @@
 #include "embedded/surface_vertex.h"
 #include "embedded/transform.h"
 #include "fsm/render/noise_tile.h"
-#include "fsm/render/skin_texture.h"
 
 namespace fsm {
 namespace {
@@ -64,23 +63,6 @@ constexpr bool IsOfMouth(Material material) {
          material == Material::kTongue || material == Material::kMouthInside;
 }
 
-/// A square RGBA picture at half its size.
-std::vector<std::uint8_t> Halve(const std::uint8_t* rgba, int side) {
-  const auto row = static_cast<std::size_t>(side) * 4;
-  std::vector<std::uint8_t> half;
-  half.reserve(row * static_cast<std::size_t>(side) / 4);
-  for (std::size_t y = 0; y + 1 < static_cast<std::size_t>(side); y += 2) {
-    const std::uint8_t* a = rgba + y * row;
-    for (std::size_t x = 0; x + 7 < row; x += 8) {
-      for (std::size_t c = x; c < x + 4; ++c) {
-        half.push_back(
-            static_cast<std::uint8_t>((a[c] + a[c + 4] + a[c + row] + a[c + row + 4] + 2U) / 4U));
-      }
-    }
-  }
-  return half;
-}
-
 /// A shader is made of texts, shared ones first.
 std::string Join(std::initializer_list<std::string_view> texts) {
   std::string whole;
@@ -106,81 +88,30 @@ Materials::Materials(const GlFunctions& gl)
       line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()),
       photo_(gl, "photo", Vertex(embedded::photo_vertex()), Fragment(embedded::photo_fragment())) {
   gl_.GenTextures(kTextures, textures_);
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   const auto noise = MakeNoiseTile();
   const auto strands = MakeStrandTile();
   const std::uint8_t plain[] = {128, 128, 128, 128};
-  Fill(kNoise, kNoiseCells, kNoiseCells, noise.data());
-  Fill(kWeave, kNoiseCells, kNoiseCells, noise.data());
-  Fill(kStrands, kStrandsAcross, kStrandsAlong, strands.data());
-  Fill(kPlain, 1, 1, plain);
+  FillTexture(gl_, textures_[kNoise], kNoiseCells, kNoiseCells, noise.data(), GL_LINEAR);
+  FillTexture(gl_, textures_[kWeave], kNoiseCells, kNoiseCells, noise.data(), GL_NEAREST);
+  FillTexture(gl_, textures_[kStrands], kStrandsAcross, kStrandsAlong, strands.data(), GL_NEAREST);
+  FillTexture(gl_, textures_[kPlain], 1, 1, plain, GL_NEAREST);
 }
 
 Materials::~Materials() { gl_.DeleteTextures(kTextures, textures_); }
 
-void Materials::Fill(Texture texture, int width, int height, const std::uint8_t* rgba) {
-  gl_.BindTexture(GL_TEXTURE_2D, textures_[texture]);
-  for (const int axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
-    gl_.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(axis), GL_REPEAT);
-  }
-  // The nearest texel, of a level chosen for the whole figure: with four samples to a pixel that is
-  // smooth, and in software a filtered fetch costs as much as everything else of a pixel.
-  const GLint filter = texture == kNoise ? GL_LINEAR : GL_NEAREST;
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
-}
-
-void Materials::WearSkin(HeadBuffers& head, float samples_per_mm) {
-  const bool fresh = generation_ != head.generation();
-  has_photo_ = head.photo() != nullptr;
-  chroma_ = head.saturation();
-  const auto wear = [this](Texture texture, const Image& picture) {
-    Fill(texture, picture.width, picture.height, picture.rgba.data());
-    for (const int filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER}) {
-      gl_.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(filter), GL_LINEAR);
-    }
-  };
-  if (has_photo_ && fresh) wear(kPhoto, *head.photo());
-  if (fresh) finishes_ = head.finishes();
-  if (fresh && !finishes_.empty()) {
-    wear(kRelief, head.relief() ? *head.relief() : Image{1, 1, {128, 128, 255, 255}});
-    wear(kLights, head.lights() ? *head.lights() : Image{1, 1, {255, 255, 255, 255}});
-  }
-  generation_ = head.generation();
-  const SkinTexture* skin = head.skin();
-  has_skin_ = skin != nullptr;
-  if (!skin) return;
-  // Halved until a texel is about a sample; a face so near that texels show is filtered.
-  const float texels_per_sample = SkinTexture::kTexelsPerMm / std::max(samples_per_mm, 1e-3F);
-  const int level = std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5);
-  const GLint filter = texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST;
-  if (!fresh && level == skin_level_ && filter == skin_filter_) return;
-  skin_level_ = level;
-  skin_filter_ = filter;
-  for (const auto& [texture, picture] :
-       {std::pair(kSkinTint, &skin->tint), std::pair(kSkinRelief, &skin->relief)}) {
-    int side = SkinTexture::kSide;
-    std::vector<std::uint8_t> halved;
-    const std::uint8_t* rgba = picture->data();
-    for (int k = 0; k < level; ++k) {
-      halved = Halve(rgba, side);
-      side /= 2;
-      rgba = halved.data();
-    }
-    Fill(texture, side, side, rgba);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  }
-}
-
-void Materials::Bind(Texture texture, GLenum unit) {
+void Materials::Bind(GLuint texture, GLenum unit) {
   gl_.ActiveTexture(unit);
-  gl_.BindTexture(GL_TEXTURE_2D, textures_[texture]);
+  gl_.BindTexture(GL_TEXTURE_2D, texture);
 }
 
-void Materials::BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
-                           const Scene& scene, float alpha) {
+void Materials::BindOrPlain(GLuint texture, GLenum unit) {
+  Bind(texture != 0 ? texture : textures_[kPlain], unit);
+}
+
+void Materials::BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
+                           const HeadVertices& vertices, const Scene& scene, float alpha) {
+  head_ = &head;
+  worn_ = &textures;
   const DirectionalLight* lamps[] = {&scene.key, &scene.fill, &scene.rim};
   glm::vec3 directions[3];
   glm::vec3 colors[3];
@@ -194,9 +125,8 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   glm::vec3 lights[2];
   for (int i = 0; i < 2; ++i) lights[i] = glm::normalize(glm::mat3(occluders[i]) * directions[0]);
 
-  if (generation_ != head.generation()) has_skin_ = false;
-  Bind(kNoise, GL_TEXTURE0);
-  Bind(kStrands, GL_TEXTURE3);
+  Bind(textures_[kNoise], GL_TEXTURE0);
+  Bind(textures_[kStrands], GL_TEXTURE3);
   std::vector<const GlProgram*> programs{&surface_, &mouth_, &eye_, &hair_, &line_, &photo_};
   if (!head.finishes().empty()) {
     if (!finish_) {
@@ -239,8 +169,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.Uniform4fv(photo_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
   gl_.Uniform1fv(photo_.Uniform("lids_shut"), 2, vertices.lids_shut.data());
   gl_.Uniform1i(photo_.Uniform("photo"), 1);
-  blends_ = head.blends();
-  gl_.Uniform1f(photo_.Uniform("blends"), blends_ ? 1.0F : 0.0F);
+  gl_.Uniform1f(photo_.Uniform("blends"), head.blends() ? 1.0F : 0.0F);
   gl_.Uniform1i(photo_.Uniform("relief"), 2);
   // The photo's light stands for the lamps as they are by default.
   const Scene studio;
@@ -281,7 +210,7 @@ void Materials::Use(Material material) {
     case Material::kSclera:
     case Material::kIris:
     case Material::kPupil:
-      Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
+      BindOrPlain(worn_->photo(), GL_TEXTURE1);
       return gl_.UseProgram(eye_.id());
     case Material::kHair:
       return UseHair(1.0F, 1.0F);
@@ -293,7 +222,7 @@ void Materials::Use(Material material) {
       break;
   }
   if (material == Material::kPhoto ||
-      (has_photo_ && (material == Material::kSkin || material == Material::kLip))) {
+      (head_->photo() && (material == Material::kSkin || material == Material::kLip))) {
     return UsePhoto(material);
   }
   for (const auto& surface : kSurfaces) {
@@ -313,18 +242,16 @@ void Materials::Use(Material material) {
     gl_.Uniform1f(program.Uniform("saturation"), surface.saturation);
     gl_.Uniform1f(program.Uniform("bump"), surface.bump);
     gl_.Uniform1f(program.Uniform("planar"), surface.planar);
-    gl_.Uniform1f(program.Uniform("chroma"), chroma_);
-    const bool skin = surface.planar == 0 && has_skin_;
-    Bind(skin ? kSkinTint : kPlain, GL_TEXTURE1);
-    Bind(skin ? kSkinRelief : surface.planar > 0 ? kWeave : kPlain, GL_TEXTURE2);
+    gl_.Uniform1f(program.Uniform("chroma"), head_->saturation());
+    const bool planar = surface.planar > 0;
+    BindOrPlain(planar ? 0 : worn_->tint(), GL_TEXTURE1);
+    BindOrPlain(planar ? textures_[kWeave] : worn_->skin_relief(), GL_TEXTURE2);
   }
 }
 
 void Materials::Use(const HeadTopology::Part& part) {
   if (part.finish < 0) return Use(part.material);
-  // Drawn once before its head is worn, to warm up.
-  const auto index = static_cast<std::size_t>(part.finish);
-  UseMaterial(index < finishes_.size() ? finishes_[index] : PbrMaterial{});
+  UseMaterial(head_->finishes()[static_cast<std::size_t>(part.finish)]);
 }
 
 void Materials::UseMaterial(const PbrMaterial& finish) {
@@ -337,9 +264,9 @@ void Materials::UseMaterial(const PbrMaterial& finish) {
   gl_.Uniform1f(finish_->Uniform("light_from"), finish.light_from);
   gl_.Uniform3fv(finish_->Uniform("glow"), 1, glm::value_ptr(finish.glow));
   gl_.Uniform3fv(finish_->Uniform("shade"), 1, glm::value_ptr(finish.shade));
-  Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
-  Bind(kRelief, GL_TEXTURE4);
-  Bind(kLights, GL_TEXTURE5);
+  BindOrPlain(worn_->photo(), GL_TEXTURE1);
+  Bind(worn_->relief(), GL_TEXTURE4);
+  Bind(worn_->lights(), GL_TEXTURE5);
 }
 
 void Materials::UsePhoto(Material material) {
@@ -349,9 +276,9 @@ void Materials::UsePhoto(Material material) {
   gl_.Uniform1f(photo_.Uniform("ragged"), ragged ? 1.0F : 0.0F);
   // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
   constexpr float kYields = 5;
-  gl_.Uniform1f(photo_.Uniform("yields"), ragged && blends_ ? kYields : 0.0F);
-  Bind(has_photo_ ? kPhoto : kPlain, GL_TEXTURE1);
-  Bind(has_skin_ ? kSkinRelief : kPlain, GL_TEXTURE2);
+  gl_.Uniform1f(photo_.Uniform("yields"), ragged && head_->blends() ? kYields : 0.0F);
+  BindOrPlain(worn_->photo(), GL_TEXTURE1);
+  BindOrPlain(worn_->skin_relief(), GL_TEXTURE2);
 }
 
 void Materials::UseHair(float streaks, float shine) {

@@ -9,12 +9,14 @@
 #include "fsm/render/camera.h"
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/head_buffers.h"
+#include "fsm/render/head_textures.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
-/// The shader programs and which of them, with which numbers, draws which material.
+/// The shader programs and which of them, with which numbers, draws which material; the same for
+/// all heads that are drawn in a context.
 /// Destroy while its context is current.
 class Materials {
  public:
@@ -23,32 +25,20 @@ class Materials {
   Materials(const Materials&) = delete;
   Materials& operator=(const Materials&) = delete;
 
-  /// Hands camera, eyes and the like to every program. `vertices` are in the head's own frame.
-  void BeginFrame(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
-                  const Scene& scene, float alpha);
+  /// Hands camera, eyes and the like to every program. `vertices` are in the head's own frame;
+  /// `head` and `textures` are that head's, until the next call.
+  void BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
+                  const HeadVertices& vertices, const Scene& scene, float alpha);
   void Use(const HeadTopology::Part& part);
-  /// Gives the head of the last BeginFrame its skin, which is plain until then, in the detail that
-  /// the picture can show. Waits until it is painted.
-  void WearSkin(HeadBuffers& head, float samples_per_mm);
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
 
  private:
-  enum Texture {
-    kNoise,
-    kWeave,
-    kStrands,
-    kPlain,
-    kSkinTint,
-    kSkinRelief,
-    kPhoto,
-    kRelief,
-    kLights,
-    kTextures
-  };
+  enum Texture { kNoise, kWeave, kStrands, kPlain, kTextures };
 
-  void Fill(Texture texture, int width, int height, const std::uint8_t* rgba);
-  void Bind(Texture texture, GLenum unit);
+  void Bind(GLuint texture, GLenum unit);
+  /// 0: of one colour.
+  void BindOrPlain(GLuint texture, GLenum unit);
   void SetEyes(const View& view, const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes);
   void SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
                       const glm::mat3& rest_to_world);
@@ -67,15 +57,10 @@ class Materials {
   GlProgram line_;
   GlProgram photo_;
   std::unique_ptr<GlProgram> finish_;  // made for the first head that has any
-  std::vector<PbrMaterial> finishes_;
   GLuint textures_[kTextures] = {};
-  int generation_ = 0;  // of the head whose skin is in the textures
-  bool has_skin_ = false;
-  bool has_photo_ = false, blends_ = false;
+  const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
+  const HeadTextures* worn_ = nullptr;
   bool has_mouth_ = false;  // of which is known how light comes in
-  float chroma_ = 1;        // of the picture, 0 beside a grey photo
-  int skin_level_ = 0;
-  GLint skin_filter_ = 0;
 };
 
 }  // namespace fsm

@@ -5,7 +5,8 @@
 #include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat4x4.hpp>
-#include <optional>
+#include <map>
+#include <vector>
 
 #include "fsm/render/backdrop.h"
 #include "fsm/render/camera.h"
@@ -36,11 +37,11 @@ bool IsSheet(const HeadTopology::Part& part) {
 
 class GlRenderer : public Renderer {
  public:
-  explicit GlRenderer(RenderContext& context)
+  GlRenderer(RenderContext& context, std::size_t heads)
       : context_(context),
+        most_heads_(heads),
         gl_(GlFunctions::Load(context)),
         materials_(gl_),
-        head_(gl_),
         backdrop_(gl_) {}
 
   void Place(const Viewport& pane) override { pane_ = pane; }
@@ -49,11 +50,9 @@ class GlRenderer : public Renderer {
             const Scene& scene) override {
     const int width = pane_.width > 0 ? pane_.width : context_.width();
     const int height = pane_.width > 0 ? pane_.height : context_.height();
-    if (!target_ || target_->width() != width || target_->height() != height) {
-      target_.reset();
-      target_.emplace(gl_, width, height);
-    }
+    FindTarget(width, height);
     target_->Bind();
+    soft_ = HeadBuffers::Blends(head.topology());
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
@@ -75,21 +74,61 @@ class GlRenderer : public Renderer {
     out.height = target_->height();
     out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
     // Beside a photo's own softness hard edges are seen.
-    target_->Read(out.rgba.data(), head_.blends());
+    target_->Read(out.rgba.data(), soft_);
     if (transparent_) Unmultiply(out);
   }
 
  private:
+  /// What the card holds of a head.
+  struct HeadOnCard {
+    HeadOnCard(const GlFunctions& gl, const Head& head)
+        : buffers(gl, head), textures(gl, buffers) {}
+    HeadBuffers buffers;
+    HeadTextures textures;
+    std::uint64_t drawn = 0;  ///< the number of the last frame with it
+  };
+
+  HeadOnCard& Find(const Head& head) {
+    auto found = heads_.find(head.serial());
+    if (found == heads_.end()) {
+      if (heads_.size() >= most_heads_) {
+        heads_.erase(std::ranges::min_element(
+            heads_, {}, [](const auto& entry) { return entry.second->drawn; }));
+      }
+      found = heads_.emplace(head.serial(), std::make_unique<HeadOnCard>(gl_, head)).first;
+    }
+    found->second->drawn = ++frames_;
+    return *found->second;
+  }
+
+  /// Panes of several sizes take turns, so the targets of the last few sizes are kept.
+  void FindTarget(int width, int height) {
+    constexpr std::size_t kMost = 4;
+    const auto fits = [&](const auto& target) {
+      return target->width() == width && target->height() == height;
+    };
+    auto found = std::ranges::find_if(targets_, fits);
+    if (found == targets_.end()) {
+      if (targets_.size() >= kMost) targets_.pop_back();
+      targets_.push_back(std::make_unique<GlTarget>(gl_, width, height));
+      found = std::prev(targets_.end());
+    }
+    std::rotate(targets_.begin(), found, std::next(found));
+    target_ = targets_.front().get();
+  }
+
   void DrawFigure(const Head& head, const HeadVertices& vertices, const FaceState& state,
                   const Scene& scene) {
     const View view = FramePortrait(state, scene.camera, target_->width(), target_->height());
-    head_.Upload(head, vertices);
+    HeadOnCard& on_card = Find(head);
+    HeadBuffers& buffers = on_card.buffers;
+    buffers.Upload(vertices);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    materials_.BeginFrame(view, head_, vertices, scene, 1);
-    if (head_.painting()) WarmUp();
-    materials_.WearSkin(head_, view.samples_per_mm);
-    const auto& parts = head_.parts();
+    materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene, 1);
+    if (buffers.painting()) WarmUp(buffers.parts());
+    on_card.textures.WearSkin(buffers, view.samples_per_mm);
+    const auto& parts = buffers.parts();
     if (scene.view_mode != ViewMode::kWireframe) {
       if (scene.view_mode == ViewMode::kTextureWithWireframe) {
         gl_.Enable(GL_POLYGON_OFFSET_FILL);
@@ -101,7 +140,7 @@ class GlRenderer : public Renderer {
         // has an inside of its own where it hangs.
         (IsSheet(part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part);
-        const bool soft = head_.IsSoft(static_cast<std::size_t>(&part - parts.data()));
+        const bool soft = buffers.IsSoft(static_cast<std::size_t>(&part - parts.data()));
         if (soft) BeginBlending();
         DrawPart(part);
         if (soft) gl_.Disable(GL_BLEND);
@@ -118,10 +157,10 @@ class GlRenderer : public Renderer {
 
   /// A software driver compiles a shader when it first draws with it, which takes far longer than a
   /// frame. So that is done while the skin is being painted: one triangle of each part, unseen.
-  void WarmUp() {
+  void WarmUp(const std::vector<HeadTopology::Part>& parts) {
     gl_.Viewport(0, 0, 0, 0);
     gl_.CullFace(GL_BACK);
-    for (auto part : head_.parts()) {
+    for (auto part : parts) {
       part.index_count = 3;
       (IsSheet(part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
       materials_.Use(part);
@@ -172,19 +211,24 @@ class GlRenderer : public Renderer {
   }
 
   RenderContext& context_;
+  const std::size_t most_heads_;
   Viewport pane_;
   GlFunctions gl_;
   Materials materials_;
-  HeadBuffers head_;
   Backdrop backdrop_;
-  std::optional<GlTarget> target_;
+  std::map<std::uint64_t, std::unique_ptr<HeadOnCard>> heads_;  // by Head::serial
+  std::uint64_t frames_ = 0;
+  std::vector<std::unique_ptr<GlTarget>> targets_;  // the one used last first
+  // Of the frame drawn last.
+  GlTarget* target_ = nullptr;
+  bool soft_ = false;
   bool transparent_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Renderer> Renderer::Make(RenderContext& context) {
-  return std::make_unique<GlRenderer>(context);
+std::unique_ptr<Renderer> Renderer::Make(RenderContext& context, std::size_t heads) {
+  return std::make_unique<GlRenderer>(context, std::max<std::size_t>(heads, 1));
 }
 
 }  // namespace fsm

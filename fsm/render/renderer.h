@@ -93,12 +93,16 @@ struct Viewport {
   int width = 0, height = 0;
 };
 
-/// Draws heads. Owns its GL objects; the context outlives it and is current in every call.
-/// 4x antialiased. The same head, state, scene and size give the same picture. Several may share a
-/// context, each in a pane of its own: so one window shows several faces.
+/// Draws heads, any number of them one after the other, each where Place says: so one window shows
+/// several faces. Programs and targets are shared by all of them; of the heads drawn last it keeps
+/// what never changes. Owns its GL objects; the context outlives it and is current in every call.
+/// 4x antialiased. The same head, state, scene and size give the same picture, whatever was drawn
+/// before.
 class Renderer {
  public:
-  static std::unique_ptr<Renderer> Make(RenderContext& context);
+  /// `heads`: how many are kept at most, 1 or more, each with some 20 MB of textures; one more
+  /// takes the place of the one that was not drawn for longest.
+  static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads = 8);
   virtual ~Renderer() = default;
   /// Where the next frames go; at first everywhere.
   virtual void Place(const Viewport& pane) = 0;

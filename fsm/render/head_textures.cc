@@ -1,0 +1,84 @@
+#include "fsm/render/head_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace fsm {
+namespace {
+
+/// A square RGBA picture at half its size.
+std::vector<std::uint8_t> Halve(const std::uint8_t* rgba, int side) {
+  const auto row = static_cast<std::size_t>(side) * 4;
+  std::vector<std::uint8_t> half;
+  half.reserve(row * static_cast<std::size_t>(side) / 4);
+  for (std::size_t y = 0; y + 1 < static_cast<std::size_t>(side); y += 2) {
+    const std::uint8_t* a = rgba + y * row;
+    for (std::size_t x = 0; x + 7 < row; x += 8) {
+      for (std::size_t c = x; c < x + 4; ++c) {
+        half.push_back(
+            static_cast<std::uint8_t>((a[c] + a[c + 4] + a[c + row] + a[c + row + 4] + 2U) / 4U));
+      }
+    }
+  }
+  return half;
+}
+
+}  // namespace
+
+void FillTexture(const GlFunctions& gl, GLuint texture, int width, int height,
+                 const std::uint8_t* rgba, GLint filter) {
+  gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl.ActiveTexture(GL_TEXTURE6);  // which no shader reads: those of the frame stay bound
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  for (const int axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) {
+    gl.TexParameteri(GL_TEXTURE_2D, static_cast<GLenum>(axis), GL_REPEAT);
+  }
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+}
+
+HeadTextures::HeadTextures(const GlFunctions& gl, const HeadBuffers& head)
+    : gl_(gl), has_photo_(head.photo() != nullptr) {
+  gl_.GenTextures(kTextures, textures_);
+  const auto wear = [this](Texture texture, const Image& picture) {
+    FillTexture(gl_, textures_[texture], picture.width, picture.height, picture.rgba.data(),
+                GL_LINEAR);
+  };
+  if (has_photo_) wear(kPhoto, *head.photo());
+  if (head.finishes().empty()) return;
+  wear(kRelief, head.relief() ? *head.relief() : Image{1, 1, {128, 128, 255, 255}});
+  wear(kLights, head.lights() ? *head.lights() : Image{1, 1, {255, 255, 255, 255}});
+}
+
+HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
+
+void HeadTextures::WearSkin(HeadBuffers& head, float samples_per_mm) {
+  const SkinTexture* skin = head.skin();
+  if (!skin) return;
+  // Halved until a texel is about a sample; a face so near that texels show is filtered. Else the
+  // nearest texel is taken: with four samples to a pixel that is smooth, and in software a filtered
+  // fetch costs as much as everything else of a pixel.
+  const float texels_per_sample = SkinTexture::kTexelsPerMm / std::max(samples_per_mm, 1e-3F);
+  const int level = std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5);
+  const GLint filter = texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST;
+  if (std::exchange(has_skin_, true) && level == skin_level_ && filter == skin_filter_) return;
+  skin_level_ = level;
+  skin_filter_ = filter;
+  for (const auto& [texture, picture] :
+       {std::pair(kTint, &skin->tint), std::pair(kSkinRelief, &skin->relief)}) {
+    int side = SkinTexture::kSide;
+    std::vector<std::uint8_t> halved;
+    const std::uint8_t* rgba = picture->data();
+    for (int k = 0; k < level; ++k) {
+      halved = Halve(rgba, side);
+      side /= 2;
+      rgba = halved.data();
+    }
+    FillTexture(gl_, textures_[texture], side, side, rgba, filter);
+  }
+}
+
+}  // namespace fsm
