@@ -23,8 +23,7 @@ fsm::Head SmallHead() {
   fsm::RigData& rig = asset.rig = fsm::StillRig(std::move(rest), std::move(normal));
   rig.steps.clear();
   for (int step = 0; step <= static_cast<int>(fsm::RigStep::kNormals); ++step)
-    if (static_cast<fsm::RigStep>(step) != fsm::RigStep::kDeformation)
-      rig.steps.push_back(static_cast<fsm::RigStep>(step));
+    rig.steps.push_back(static_cast<fsm::RigStep>(step));
   rig.weights.resize(kVertices);
   for (std::uint32_t i = 0; i < kVertices; ++i) {
     rig.bone[i] = static_cast<fsm::Bone>(i % 6);
@@ -33,8 +32,15 @@ fsm::Head SmallHead() {
   rig.soft_triangles = {0, 1, 2, 3, 4, 5};
   rig.units = fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
   rig.units_by_place = true;
-  rig.channels = {{fsm::Channel::Kind::kUnit, 4, 1, {{2, {1, 2, 3}}}},
-                  {fsm::Channel::Kind::kMouth, 3, 0, {{5, {0, -2, 1}}}}};
+  using Kind = fsm::Drive::Kind;
+  for (int kind = 0; kind <= static_cast<int>(Kind::kGazeRight); ++kind) {
+    fsm::Channel& channel = rig.channels.emplace_back();
+    channel.drivers = {{{static_cast<Kind>(kind), 0, fsm::Drive::Side::kStronger}, 0.5F}};
+    channel.most = 2;
+    channel.moves = {{2, {1, 2, 3}}};
+  }
+  rig.proxy_rest.resize(kVertices);
+  rig.own_form.resize(kVertices);
   rig.lids.vertices = {{1, 0, 1, 0, 0.2F, -0.2F, -0.1F, 1, 12, 2, true}};
   rig.ball_lids = {{1, 1, 12}};
   rig.lips.seam = {{2, 3}};

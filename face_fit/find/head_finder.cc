@@ -141,7 +141,7 @@ class HeadPairer {
     for (const fsm::Bone bone : model.bone) {
       eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    auto head = fsm::MakeMeshHead(std::move(model), nullptr);
+    auto head = fsm::MakeMeshHead(std::move(model));
     return {BaseHead::See(networks_, std::move(head), name_, false), std::move(eye),
             std::move(flesh), has_uv_seams};
   }

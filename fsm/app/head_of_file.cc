@@ -72,6 +72,19 @@ std::unique_ptr<Head> AssetOfFile(const std::string& path) {
   return std::make_unique<Head>(OrThrow(ParseAsset(path, *bytes)));
 }
 
+/// The mouths of both sets at full articulation.
+std::vector<FaceState> VisemeStates(const MotionTables& tables) {
+  std::vector<FaceState> states;
+  for (const Visemes* shapes : {&tables.set14.shapes, &tables.set28.shapes}) {
+    for (const Viseme& viseme : *shapes) {
+      FaceState& state = states.emplace_back();
+      state.mouth = viseme.pose.mouth;
+      state.lip_seal = viseme.pose.seal;
+    }
+  }
+  return states;
+}
+
 struct Placed {
   Similarity place;
   float mouth_y = -43;
@@ -163,20 +176,25 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
     placed = PlaceByLook(file);
   }
   MeshModel model = ModelOf(file, placed.place, placed.mouth_y);
-  auto own =
-      OwnShapesMotion(file, placed.place, model, MakeHead(placed.face, false), Meanings(tables));
-  const auto make = [&](std::unique_ptr<Deformation> motion) {
-    return MovedAsIn(tables_folder, MakeMeshHead(std::move(model), std::move(motion)));
-  };
-  if (own) return make(std::move(own));
+  if (!file.shapes.empty()) {
+    const auto source = MakeHead(placed.face, false);
+    const auto units = UnitsIn(tables_folder);
+    const auto moved = units ? source->WithUnits(*units) : nullptr;
+    const std::vector<ShapeMeaning> shapes = Meanings(tables);
+    if (auto skin = BlendshapeRig(file, placed.place, model, {*source, shapes},
+                                  moved ? *moved : *source, VisemeStates(tables))) {
+      return MakeMeshHead(std::move(model), std::move(*skin));
+    }
+  }
   if (has_points) {
-    auto carried = CarriedMotion(model, MakeHead(placed.face), placed.pairs);
-    return make(std::move(carried));
+    RigData skin =
+        TransferredRig(model, *MovedAsIn(tables_folder, MakeHead(placed.face)), placed.pairs);
+    return MakeMeshHead(std::move(model), std::move(skin));
   }
   tell("has no shapes with names of ARKit or VRM, and no '" + beside +
        "' says where its eyes and mouth are (face_fit --head finds out): only head, eyes and jaw "
        "move");
-  return make(nullptr);
+  return MovedAsIn(tables_folder, MakeMeshHead(std::move(model)));
 }
 
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path) {

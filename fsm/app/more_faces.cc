@@ -40,9 +40,10 @@ std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
   for (std::size_t i = 0; i < kOriginalVisemes && i < motion->set28.shapes.size(); ++i) {
     mouths.push_back(motion->set28.shapes[i].pose.mouth);
   }
+  for (const Viseme& viseme : motion->set14.shapes) mouths.push_back(viseme.pose.mouth);
   MeshModel model = ModelOf(*face);
-  auto moved = OwnMotionOf(*face, model, mouths, UnitSizes(*motion));
-  return MovedAsIn(tables, MakeMeshHead(std::move(model), std::move(moved)));
+  RigData skin = RigOf(*face, model, mouths, UnitSizes(*motion));
+  return MovedAsIn(tables, MakeMeshHead(std::move(model), std::move(skin)));
 }
 
 /// The first of the files that is not there; "" if all are.

@@ -24,7 +24,7 @@ inline constexpr const char* kAssetExtension = "GALATEA_head";
 /// vertices or the photo as texture, and each of `shapes` as a morph target named in
 /// extras.targetNames. We read back from the extension exactly the head that was written; it refers
 /// to the same accessors, and numbers of every array are in the unit of the member of that name
-/// (head_asset.h, rig_data.h).
+/// (head_asset.h, rig_data.h); null stands for a limit that there is not.
 std::string WriteAsset(const Head& head, std::span<const ExportedShape> shapes);
 
 /// True if the file is glTF with our extension; nothing else about it is looked at.

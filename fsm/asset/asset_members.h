@@ -123,10 +123,26 @@ void Members(V& v, Like<Displacement> auto& displacement) {
 }
 
 template <typename V>
+void Members(V& v, Like<Drive> auto& drive) {
+  v("kind", drive.kind);
+  v("number", drive.number);
+  v("side", drive.side);
+  v("half", drive.half);
+}
+
+template <typename V>
+void Members(V& v, Like<Channel::Driver> auto& driver) {
+  v("drive", driver.drive);
+  v("gain", driver.gain);
+}
+
+template <typename V>
 void Members(V& v, Like<Channel> auto& channel) {
-  v("kind", channel.kind);
-  v("number", channel.number);
-  v("side", channel.side);
+  v("drivers", channel.drivers);
+  v("least", channel.least);
+  v("most", channel.most);
+  v("open_factor", channel.open_factor);
+  v("sealed_factor", channel.sealed_factor);
   v("moves", channel.moves);
 }
 
@@ -222,6 +238,8 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("steps", rig.steps);
   v("rest", rig.rest);
   v("rest_normal", rig.rest_normal);
+  v("proxy_rest", rig.proxy_rest);
+  v("own_form", rig.own_form);
   v("bone", rig.bone);
   v("weights", rig.weights);
   v("soft_triangles", rig.soft_triangles);
@@ -236,6 +254,7 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("lower_teeth", rig.lower_teeth);
   v("teeth_contacts", rig.teeth_contacts);
   v("jaw_hinge", rig.jaw_hinge);
+  v("chin", rig.chin);
   v("eye_pivot", rig.eye_pivot);
   v("ball_centre", rig.ball_centre);
   v("look", rig.look);
@@ -265,7 +284,11 @@ inline constexpr int kValuesOf<Bone> = static_cast<int>(Bone::kEyeRight) + 1;
 template <>
 inline constexpr int kValuesOf<RigStep> = static_cast<int>(RigStep::kNormals) + 1;
 template <>
-inline constexpr int kValuesOf<Channel::Kind> = static_cast<int>(Channel::Kind::kMouth) + 1;
+inline constexpr int kValuesOf<Drive::Kind> = static_cast<int>(Drive::Kind::kGazeRight) + 1;
+template <>
+inline constexpr int kValuesOf<Drive::Side> = static_cast<int>(Drive::Side::kStronger) + 1;
+template <>
+inline constexpr int kValuesOf<Drive::Half> = static_cast<int>(Drive::Half::kNegative) + 1;
 template <>
 inline constexpr int kValuesOf<PbrMaterial::Kind> = static_cast<int>(PbrMaterial::Kind::kToon) + 1;
 

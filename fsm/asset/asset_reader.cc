@@ -35,6 +35,7 @@ class Reader {
       value = static_cast<T>(
           Whole(place, from, std::numeric_limits<T>::min(), std::numeric_limits<T>::max()));
     } else if constexpr (std::is_same_v<T, float>) {
+      if (from.is_null() && !std::isfinite(value)) return;
       value = Real(place, from);
     } else {
       ReadObject(place, from, value);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -52,6 +53,8 @@ class Writer {
   json Write(const T& value) {
     if constexpr (std::is_enum_v<T>) {
       return static_cast<int>(value);
+    } else if constexpr (std::is_same_v<T, float>) {
+      return std::isfinite(value) ? json(value) : json();
     } else if constexpr (std::is_arithmetic_v<T>) {
       return value;
     } else {

@@ -94,14 +94,15 @@ class Checker {
   }
 
   void CheckRig(const RigData& rig) const {
-    for (const RigStep step : rig.steps) {
-      if (step == RigStep::kDeformation && !rig.deformation)
-        throw Fault("rig.steps: a deformation, which is not in the file");
-    }
     for (std::size_t i = 0; i < vertices_; ++i) {
       if (!WithinReach(rig.rest[i])) throw Fault(Place("rig.rest", i) + ": too far away");
     }
     PerVertex(rig.rest_normal, "rig.rest_normal", false);
+    PerVertex(rig.proxy_rest, "rig.proxy_rest", true);
+    if (rig.own_form.size() != rig.proxy_rest.size()) {
+      throw Fault("rig.own_form: not one for each of rig.proxy_rest");
+    }
+    Vertex(rig.chin, "rig.chin");
     PerVertex(rig.bone, "rig.bone", false);
     PerVertex(rig.weights, "rig.weights", false);
     PerVertex(rig.normal_twin, "rig.normal_twin", true);
@@ -117,13 +118,18 @@ class Checker {
 
   void CheckChannel(const Channel& channel, std::size_t at) const {
     const std::string place = Place("rig.channels", at);
-    const std::size_t most =
-        channel.kind == Channel::Kind::kUnit ? UnitValues::kMost : FaceState{}.mouth.size() - 1;
-    if (channel.number > most) {
-      throw Fault(place + ": number " + std::to_string(channel.number) + " above " +
-                  std::to_string(most));
+    for (const Channel::Driver& driver : channel.drivers) {
+      using enum Drive::Kind;
+      const Drive::Kind kind = driver.drive.kind;
+      const std::size_t most = kind == kUnit || kind == kAskedUnit ? UnitValues::kMost
+                               : kind == kBlink || kind == kGazeUp || kind == kGazeRight
+                                   ? 0
+                                   : FaceState{}.mouth.size() - 1;
+      if (driver.drive.number > most) {
+        throw Fault(place + ": number " + std::to_string(driver.drive.number) + " above " +
+                    std::to_string(most));
+      }
     }
-    if (channel.side > 1) throw Fault(place + ": a side other than 0 and 1");
     VerticesOf(channel.moves, (place + ".moves").c_str());
   }
 

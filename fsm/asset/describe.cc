@@ -26,7 +26,10 @@ class MemorySum {
   void Add(const std::vector<T>& items) {
     bytes += items.size() * sizeof(T);
     if constexpr (std::is_same_v<T, Channel>) {
-      for (const Channel& channel : items) Add(channel.moves);
+      for (const Channel& channel : items) {
+        Add(channel.drivers);
+        Add(channel.moves);
+      }
     }
   }
   void Add(const std::shared_ptr<const Image>& image) {
@@ -99,20 +102,32 @@ class Description {
   }
 
   void Channels() {
-    std::map<Channel::Kind, std::set<int>> numbers;
-    std::map<Channel::Kind, std::size_t> moves;
+    std::map<std::string, std::set<int>> drives;  // numbers of each kind
+    std::size_t moves = 0;
     for (const Channel& channel : rig_.channels) {
-      numbers[channel.kind].insert(channel.number);
-      moves[channel.kind] += channel.moves.size();
+      for (const Channel::Driver& driver : channel.drivers) {
+        const bool mouth = driver.drive.kind == Drive::Kind::kMouth ||
+                           driver.drive.kind == Drive::Kind::kSpokenMouth ||
+                           driver.drive.kind == Drive::Kind::kHandMouth;
+        drives[KindName(driver.drive.kind)].insert(driver.drive.number + (mouth ? 1 : 0));
+      }
+      moves += channel.moves.size();
     }
-    for (const auto& [kind, of_kind] : numbers) {
+    Line("channels",
+         std::to_string(rig_.channels.size()) + ", " + std::to_string(moves) + " displacements");
+    for (const auto& [kind, numbers] : drives) {
       std::string listed;
-      for (const int number : of_kind)
-        listed += (listed.empty() ? "" : " ") +
-                  std::to_string(number + (kind == Channel::Kind::kMouth ? 1 : 0));
-      Line("channels", std::string(kind == Channel::Kind::kUnit ? "units " : "mouth ") + listed +
-                           ", " + std::to_string(moves[kind]) + " displacements");
+      if (numbers != std::set{0}) {
+        for (const int number : numbers) listed += " " + std::to_string(number);
+      }
+      Line("driven by", kind + listed);
     }
+  }
+  static std::string KindName(Drive::Kind kind) {
+    static constexpr std::array<const char*, kValuesOf<Drive::Kind>> kNames{
+        "units",         "units as asked", "mouth",   "mouth of speech",
+        "mouth by hand", "blink",          "gaze up", "gaze right"};
+    return kNames[static_cast<std::size_t>(kind)];
   }
 
   void Steps() {

@@ -10,7 +10,8 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
                                    std::span<const SkinWeights> weights) {
   std::vector<Channel> channels;
   for (std::uint16_t parameter = 0; parameter < kMouthParameters; ++parameter) {
-    channels.push_back({.kind = Channel::Kind::kMouth, .number = parameter, .moves = {}});
+    Channel& channel = channels.emplace_back();
+    channel.drivers.push_back({{.kind = Drive::Kind::kMouth, .number = parameter}});
   }
   const float corner_x = mouth.corner().x;
   const auto add = [&](std::size_t parameter, std::size_t i, glm::vec3 by) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -162,16 +163,21 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
     drawn.FindNormals();
   }
 
+  MakeRows(Bind(rest, drawn, target), target);
+}
+
+std::vector<DeformationTransfer::BarycentricBinding> DeformationTransfer::Bind(
+    const WeldedSurface& rest, const WeldedSurface& drawn, const WeldedSurface& target) {
   constexpr float kTieReach = 20;
   const SurfaceIndex own(drawn, kTieReach);
-  bindings_.resize(target.at.size());
+  std::vector<BarycentricBinding> bindings(target.at.size());
   std::vector<std::uint32_t> open;
   std::vector<bool> tied(target.at.size(), false);
   for (std::uint32_t w = 0; w < target.at.size(); ++w) {
     const auto hit = own.Find(target, w);
     if (!hit) continue;
     const auto& t = drawn.triangles[hit->triangle];
-    bindings_[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
+    bindings[w] = {{rest.first[t[0]], rest.first[t[1]], rest.first[t[2]]}, hit->part};
     tied[w] = true;
     open.push_back(w);
   }
@@ -179,45 +185,50 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   for (std::size_t k = 0; k < open.size(); ++k) {
     for (const std::uint32_t w : target.next[open[k]]) {
       if (tied[w]) continue;
-      bindings_[w] = bindings_[open[k]];
+      bindings[w] = bindings[open[k]];
       tied[w] = true;
       open.push_back(w);
     }
   }
-  for (std::size_t w = 0; w < bindings_.size(); ++w) {
-    if (!tied[w]) bindings_[w].part = glm::vec3(0);
+  for (std::size_t w = 0; w < bindings.size(); ++w) {
+    if (!tied[w]) bindings[w].part = glm::vec3(0);
   }
-  // Neighbours even out what is smaller than a few millimetres; those of a coarse mesh lie farther.
+  return bindings;
+}
+
+void DeformationTransfer::MakeRows(std::span<const BarycentricBinding> bindings,
+                                   const WeldedSurface& target) {
+  // Neighbours may be tied to places that lie apart: each takes a share of its neighbours' mean.
+  // That evens out what is smaller than a few millimetres; those of a coarse mesh lie farther.
   constexpr float kMost = 0.25f, kNear = 2.5f;
-  for (std::size_t w = 0; w < target.at.size(); ++w) {
+  rows_.resize(target.of.size());
+  std::map<std::uint32_t, float> row;
+  const auto add = [&](const BarycentricBinding& tie, float share) {
+    for (int c = 0; c < 3; ++c) {
+      const float part = share * tie.part[c];
+      if (part != 0) row[tie.corner[static_cast<std::size_t>(c)]] += part;
+    }
+  };
+  for (std::size_t v = 0; v < target.of.size(); ++v) {
+    const std::uint32_t w = target.of[v];
+    if (w == WeldedSurface::kNone) continue;
+    const auto& next = target.next[w];
+    const float count = std::max(static_cast<float>(next.size()), 1.0f);
     float edge = 0;
-    for (const std::uint32_t n : target.next[w]) edge += glm::distance(target.at[w], target.at[n]);
-    edge /= std::max(static_cast<float>(target.next[w].size()), 1.0f);
+    for (const std::uint32_t n : next) edge += glm::distance(target.at[w], target.at[n]) / count;
     const float part = std::min(1.0f, kNear / std::max(edge, 1e-6f));
-    share_.push_back(kMost * part * part);
+    const float share = next.empty() ? 0 : kMost * part * part;
+    row.clear();
+    add(bindings[w], 1 - share);
+    for (const std::uint32_t n : next) add(bindings[n], share / count);
+    rows_[v].assign(row.begin(), row.end());
   }
-  next_ = std::move(target.next);
-  of_ = std::move(target.of);
 }
 
 void DeformationTransfer::Apply(std::span<const glm::vec3> from_by,
                                 std::span<glm::vec3> to_by) const {
-  std::vector<glm::vec3> by;
-  by.reserve(bindings_.size());
-  for (const BarycentricBinding& tie : bindings_) {
-    by.push_back(from_by[tie.corner[0]] * tie.part.x + from_by[tie.corner[1]] * tie.part.y +
-                 from_by[tie.corner[2]] * tie.part.z);
-  }
-  // Neighbours may be tied to places that lie apart: each takes a share of its neighbours' mean.
-  std::vector<glm::vec3> even = by;
-  for (std::size_t w = 0; w < by.size(); ++w) {
-    if (next_[w].empty()) continue;
-    glm::vec3 sum(0);
-    for (const std::uint32_t n : next_[w]) sum += by[n];
-    even[w] = (1 - share_[w]) * by[w] + share_[w] * sum / static_cast<float>(next_[w].size());
-  }
-  for (std::size_t v = 0; v < of_.size(); ++v) {
-    if (of_[v] != WeldedSurface::kNone) to_by[v] += even[of_[v]];
+  for (std::size_t v = 0; v < rows_.size(); ++v) {
+    for (const auto& [from, part] : rows_[v]) to_by[v] += part * from_by[from];
   }
 }
 

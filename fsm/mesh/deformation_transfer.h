@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace fsm {
+
+class WeldedSurface;
 
 /// What lies so near to its opposite that the nearest place may be the wrong one.
 enum class FacePart : std::uint8_t { kPlain, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
@@ -40,6 +43,10 @@ class DeformationTransfer {
   /// if a place or a vertex lies out of kMaxMeshReach, and as WeldedSurface and SurfaceIndex.
   DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
                       std::span<const PlacePair> pairs);
+  /// Of each vertex of the second face whose motions of the first it takes, and what part of them;
+  /// parts add up to 1, where nothing moves it there are none.
+  using Row = std::vector<std::pair<std::uint32_t, float>>;
+  std::span<const Row> rows() const { return rows_; }
   /// Adds to `to_by` what `from_by` means there; both by vertex.
   void Apply(std::span<const glm::vec3> from_by, std::span<glm::vec3> to_by) const;
   /// Mean distance of the drawn surface from the other over what was matched, millimetres.
@@ -50,10 +57,12 @@ class DeformationTransfer {
     std::array<std::uint32_t, 3> corner{};
     glm::vec3 part{1, 0, 0};
   };
-  std::vector<BarycentricBinding> bindings_;  // of the second face's vertices, doubled ones once
-  std::vector<std::vector<std::uint32_t>> next_;
-  std::vector<float> share_;       // of its neighbours' mean that each of them takes
-  std::vector<std::uint32_t> of_;  // index into bindings_ of each given vertex
+  /// Of the second face's vertices, doubled ones once.
+  static std::vector<BarycentricBinding> Bind(const WeldedSurface& rest, const WeldedSurface& drawn,
+                                              const WeldedSurface& target);
+  void MakeRows(std::span<const BarycentricBinding> bindings, const WeldedSurface& target);
+
+  std::vector<Row> rows_;
   float residual_ = 0;
 };
 

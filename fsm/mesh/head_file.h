@@ -78,22 +78,28 @@ std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology);
 /// Those of its eyeballs.
 std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology);
 
-/// Moved as `source` would be; `pairs` in our frame. Throws as Carry, with the model's name before
-/// the sentence.
-std::unique_ptr<Deformation> CarriedMotion(const MeshModel& model, std::unique_ptr<Head> source,
-                                           std::span<const PlacePair> pairs);
+/// The rig of skin that moves as `source`, a built-in head, would; `pairs` in our frame. Adds
+/// unseen vertices to `model`, the source's lips. Throws as DeformationTransfer, with the model's
+/// name before the sentence.
+RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PlacePair> pairs);
 
 /// What a shape of that name stands for, "mouthsmileleft" in small letters.
 struct ShapeMeaning {
   std::string name;
   FaceState state;
 };
-/// Moved by the file's own shapes, those whose names have a meaning: they are mixed so that
-/// `source` would look as it does. What they move in `model` is flesh then, teeth too. Nothing if
-/// there are fewer than four.
-std::unique_ptr<Deformation> OwnShapesMotion(const HeadFile& file, const Similarity& place,
-                                             MeshModel& model, std::shared_ptr<const Head> source,
-                                             std::span<const ShapeMeaning> meanings);
+/// Shapes look as `source` does in their states.
+struct ShapeMeanings {
+  const Head& source;
+  std::span<const ShapeMeaning> shapes;
+};
+/// The rig of skin that is moved by the file's own shapes, those whose names have a meaning: units,
+/// the mouth's parameters and the rest drive them as is needed to look like `moved` where they act
+/// alone, and in `visemes`. `moved` is the source of the meanings, with other units perhaps. What
+/// the shapes move in `model` is flesh then, teeth too. Nothing if there are fewer than four.
+std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& place,
+                                     MeshModel& model, const ShapeMeanings& meanings,
+                                     const Head& moved, std::span<const FaceState> visemes = {});
 
 /// A name in small letters without anything but letters and digits; _L and _R at its end become
 /// left and right, so that names of different makers are the same.

@@ -9,10 +9,12 @@
 
 namespace fsm {
 
-LipSeal::LipSeal(const MeshModel& model, std::size_t count) : seam_(model.seam) {
-  if (seam_.empty()) return;
-  for (const auto& [upper, lower] : seam_) {
-    apart_at_rest_.push_back(model.position[upper] - model.position[lower]);
+LipRig LipsOf(const MeshModel& model, std::size_t count) {
+  LipRig rig;
+  rig.seam = model.seam;
+  if (rig.seam.empty()) return rig;
+  for (const auto& [upper, lower] : rig.seam) {
+    rig.apart_at_rest.push_back(model.position[upper] - model.position[lower]);
   }
   // Along the surface, because across the slit the other lip is as near.
   std::vector<std::vector<std::uint32_t>> next(model.position.size());
@@ -34,9 +36,9 @@ LipSeal::LipSeal(const MeshModel& model, std::size_t count) : seam_(model.seam) 
     };
     std::priority_queue<Way> open;
     std::vector<float> far(model.position.size(), 1e9f);
-    for (std::uint32_t k = 0; k < seam_.size(); ++k) {
-      if (seam_[k].first == seam_[k].second) continue;  // a corner
-      open.push({0, upper ? seam_[k].first : seam_[k].second, k});
+    for (std::uint32_t k = 0; k < rig.seam.size(); ++k) {
+      if (rig.seam[k].first == rig.seam[k].second) continue;  // a corner
+      open.push({0, upper ? rig.seam[k].first : rig.seam[k].second, k});
     }
     while (!open.empty()) {
       const Way way = open.top();
@@ -45,7 +47,7 @@ LipSeal::LipSeal(const MeshModel& model, std::size_t count) : seam_(model.seam) 
       far[way.vertex] = way.far;
       const float part = SmoothStep(kReach, 0, way.far);
       if (way.vertex < count && part > 0) {
-        followers_.push_back({way.vertex, way.pair, upper ? part : -part});
+        rig.followers.push_back({way.vertex, way.pair, upper ? part : -part});
       }
       for (const std::uint32_t v : next[way.vertex]) {
         open.push(
@@ -53,24 +55,7 @@ LipSeal::LipSeal(const MeshModel& model, std::size_t count) : seam_(model.seam) 
       }
     }
   }
-}
-
-void LipSeal::Close(float seal, std::span<glm::vec3> position) const {
-  // Upper and lower lip share the way to each other as in Deformer.
-  constexpr float kUpperShare = 0.4f;
-  std::vector<glm::vec3> correction;
-  correction.reserve(seam_.size());
-  for (std::size_t k = 0; k < seam_.size(); ++k) {
-    const glm::vec3 apart =
-        position[seam_[k].first] - position[seam_[k].second] - apart_at_rest_[k];
-    glm::vec3 by = seal * apart;
-    by.y += (1 - seal) * std::min(apart.y, 0.0f);
-    correction.push_back(by);
-  }
-  for (const Follower& f : followers_) {
-    position[f.vertex] -=
-        (f.part > 0 ? kUpperShare : 1 - kUpperShare) * f.part * correction[f.pair];
-  }
+  return rig;
 }
 
 }  // namespace fsm

@@ -77,10 +77,9 @@ std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
   return twin;
 }
 
-RigData RigOf(const MeshModel& model, const HeadTopology& topology) {
+RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig) {
   using enum RigStep;
-  RigData rig;
-  rig.steps = {kLidsOnBalls, kBones, kNeck, kNormals};
+  for (const RigStep step : {kLidsOnBalls, kBones, kNeck, kNormals}) rig.steps.push_back(step);
   rig.rest = model.position;
   rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
   rig.bone = model.bone;
@@ -91,7 +90,6 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology) {
   }
   rig.soft_triangles = topology.indices;
   if (!topology.finishes.empty()) rig.normal_twin = NormalTwins(rig.rest, rig.rest_normal);
-  rig.units = BuiltInUnits();
   rig.jaw_hinge = model.hinge;
   for (std::size_t side = 0; side < 2; ++side) {
     rig.ball_centre[side] = model.eyes[side].centre;
@@ -99,7 +97,7 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology) {
   }
   rig.look = model.look;
   if (model.has_eyes && model.round_eyes) rig.ball_lids = LidsOf(model);
-  if (!model.seam.empty()) {
+  if (!rig.lips.measured && !model.seam.empty()) {
     const auto [upper, lower] = model.seam[model.seam.size() / 2];
     rig.lips.measured = {upper, lower, model.seam.back().first, model.seam.front().first};
   }
@@ -108,13 +106,15 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology) {
 
 }  // namespace
 
-std::unique_ptr<Head> MakeMeshHead(MeshModel model, std::unique_ptr<Deformation> motion) {
+RigData StillSkin() {
+  RigData rig;
+  rig.units = BuiltInUnits();
+  return rig;
+}
+
+std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin) {
   HeadAsset asset{.topology = TopologyOf(model), .rig = {}, .landmarks = {}, .view = model.view};
-  asset.rig = RigOf(model, asset.topology);
-  if (motion) {
-    asset.rig.steps.insert(asset.rig.steps.begin(), RigStep::kDeformation);
-    asset.rig.deformation = std::move(motion);
-  }
+  asset.rig = RigOf(model, asset.topology, std::move(skin));
   asset.landmarks = std::move(model.landmarks);
   return std::make_unique<Head>(std::move(asset));
 }

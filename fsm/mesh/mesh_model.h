@@ -12,7 +12,6 @@
 
 #include "fsm/head/head_mesh.h"
 #include "fsm/head/landmarks.h"
-#include "fsm/rig/deformation.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -25,7 +24,7 @@ inline constexpr glm::vec3 kEyePlace{30.5f, 22.3f, 63.6f};
 struct MeshModel {
   std::string name;  ///< of its file, for messages; may be empty
   std::vector<glm::vec3> position;
-  std::vector<Bone> bone;                 ///< kSkin moves as its Deformation says
+  std::vector<Bone> bone;                 ///< kSkin moves as MakeMeshHead is told
   std::vector<float> neck;                ///< part of the head's turn each vertex makes
   std::vector<glm::vec3> albedo;          ///< linear RGB
   std::vector<glm::vec3> photo_texcoord;  ///< see HeadTopology
@@ -56,8 +55,11 @@ struct MeshModel {
   void AddBall(std::size_t side);
 };
 
-/// A head that shows `model`, moved by `motion`; without it only head, jaw and eyes move. Throws
-/// std::runtime_error if the model has no triangles.
-std::unique_ptr<Head> MakeMeshHead(MeshModel model, std::unique_ptr<Deformation> motion);
+/// Skin that nothing but the head's turn moves; with the units of built-in heads.
+RigData StillSkin();
+/// A head that shows `model`, whose skin moves as `skin` says: steps and what they need, by the
+/// model's vertices. Eyes, jaw, neck and light are added. Throws std::runtime_error if the model
+/// has no triangles.
+std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin = StillSkin());
 
 }  // namespace fsm

@@ -71,7 +71,8 @@ struct OriginalFace {
 vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
                                           const OriginalSharedFiles& shared);
 
-/// The mouth of each viseme 1..27 at full articulation, in FaceState's parameters.
+/// The mouth of each viseme 1..27 at full articulation, in FaceState's parameters, and then those
+/// that speech shows by other sets of visemes: mixed of these.
 using VisemeMouths = std::vector<std::array<float, kMouthParameters>>;
 /// What Mouth.N asks of its parameter at 100 per cent; 0 = that it moves nothing.
 using MouthUnitSizes = std::array<float, kMouthParameters>;
@@ -81,11 +82,10 @@ using MouthUnitSizes = std::array<float, kMouthParameters>;
 /// perspective: its middle is the origin of the wireframe, and half its longer side is one of the
 /// wireframe's units.
 MeshModel ModelOf(const OriginalFace& face);
-/// Moves it by its own units: action units by their FACS number, mouths of speech taken apart into
-/// visemes. A mouth of which at most three parameters are not 0 comes from Mouth.N: each shows the
-/// mouth unit of its number, whatever that is (in the data of the original, mostly vowels).
-std::unique_ptr<Deformation> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
-                                        const VisemeMouths& mouths,
-                                        const MouthUnitSizes& unit_sizes = {});
+/// Its rig of its own shapes: action units by their FACS number, visemes by what speech asks of the
+/// mouth, and mouth units by what is asked by hand (Mouth.N): each shows the one of its number,
+/// whatever that is (in the data of the original, mostly vowels).
+RigData RigOf(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
+              const MouthUnitSizes& unit_sizes = {});
 
 }  // namespace fsm

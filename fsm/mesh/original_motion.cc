@@ -4,146 +4,147 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "fsm/base/spline.h"
+#include "fsm/mesh/drive_fit.h"
 #include "fsm/mesh/lip_seal.h"
 #include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
-#include "fsm/rig/pose.h"
 
 namespace fsm {
 namespace {
 
-constexpr int kEyesClosed = 43;
+constexpr std::size_t kEyesClosed = 43;
 
 /// Of a viseme's offsets that the original shows for a full articulation: its MouthScale is 30 by
 /// default, which stands for three quarters here. All of them are shown at 100.
 constexpr float kVisemePart = 0.4f;
 
-/// Mouths that show all of a viseme's offsets.
-std::vector<NnlsSolver::Row> Rows(const VisemeMouths& mouths) {
-  std::vector<NnlsSolver::Row> rows;
-  for (const auto& mouth : mouths) {
-    rows.emplace_back(mouth.begin(), mouth.end());
-    for (float& value : rows.back()) value /= kVisemePart;
-  }
-  return rows;
-}
-
-/// Sounds move more parameters than this; Mouth.N moves one each.
-constexpr std::ptrdiff_t kMostSetByHand = 3;
-bool IsSetByHand(const std::array<float, kMouthParameters>& mouth) {
-  return std::ranges::count_if(mouth, [](float v) { return v != 0; }) <= kMostSetByHand;
-}
-
-class OwnMotion : public Deformation {
+class OriginalRigBaker {
  public:
-  OwnMotion(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
-            const MouthUnitSizes& unit_sizes)
-      : mix_(Rows(mouths)), unit_sizes_(unit_sizes), seal_(model, face.wireframe.at.size()) {
+  OriginalRigBaker(const OriginalFace& face, const MeshModel& model)
+      : face_(face), model_(model), own_(face.wireframe) {
     // Units belong to the standard wireframe and grow with the face, so that its lids meet: across
     // with the distance of the eyes, up and down with the height from eyes to mouth. Mouths are
     // added as they are, as in the original: those of small faces move more.
-    const OriginalFrame own(face.wireframe), standard(face.standard);
+    const OriginalFrame standard(face.standard);
     const auto height = [](const OriginalFrame& frame, const PntFile& file) {
       return frame.EyeOpening(file, 0).y - frame.Place(file, kLipMiddle).y;
     };
-    const float tall = height(own, face.wireframe) / height(standard, face.standard);
-    const glm::vec3 mm = standard.mm() * glm::vec3(1, std::clamp(tall, 0.5f, 2.0f), 1);
-    const auto fields = [](const std::vector<std::vector<glm::vec3>>& from, const glm::vec3& scale,
-                           std::vector<Field>& to) {
-      for (const auto& offsets : from) {
-        Field field;
-        for (std::uint32_t i = 0; i < offsets.size(); ++i) {
-          const glm::vec3 by = offsets[i] * scale;
-          if (glm::length(by) > 0.02f) field.push_back({i, by});
-        }
-        to.push_back(std::move(field));
-      }
-    };
-    fields(face.units, mm, units_);
-    fields(face.expression_rests, mm, expression_rests_);
-    fields(face.mouth_units, glm::vec3(own.mm()), mouth_units_);
-    fields(face.visemes, glm::vec3(own.mm()), visemes_);
-    const float middle = 0.5f * (own.Place(face.wireframe, kLipCorners[0]).x +
-                                 own.Place(face.wireframe, kLipCorners[1]).x);
-    for (std::size_t i = 0; i < face.wireframe.at.size(); ++i) {
-      left_.push_back(LeftPartAt(model.position[i].x - middle));
-    }
-    chin_ = face.wireframe.index.at(kChin);
-    chin_rest_ = model.position[chin_];
-    hinge_ = model.hinge;
+    const float tall = height(own_, face.wireframe) / height(standard, face.standard);
+    unit_scale_ = standard.mm() * glm::vec3(1, std::clamp(tall, 0.5f, 2.0f), 1);
   }
 
-  JawMove Move(const FaceState& state, const Pose& pose,
-               std::span<glm::vec3> position) const override {
-    const std::array<float, 2> blink = {state.blink_right, state.blink_left};
-    for (std::size_t k = 0; k < units_.size(); ++k) {
-      const auto number = static_cast<std::size_t>(kUnitNumbers[k]);
-      // As they are asked for: the original's units add up, ours damp and oppose each other.
-      float right = Bound(state.au_right[number], 0, 2);
-      float left = Bound(state.au_left[number], 0, 2);
-      if (number == kEyesClosed) {
-        right = std::max(right, Bound(blink[0], 0, 1));
-        left = std::max(left, Bound(blink[1], 0, 1));
-      }
-      if (right == 0 && left == 0) continue;
-      for (const Delta& d : units_[k]) {
-        position[d.vertex] += (right + (left - right) * left_[d.vertex]) * d.by;
-      }
-    }
-    const auto add = [&position](const Field& field, float weight) {
-      if (weight == 0) return;
-      for (const Delta& d : field) position[d.vertex] += weight * d.by;
-    };
-    for (std::size_t k = 0; k < expression_rests_.size(); ++k) {
+  RigData Bake(const VisemeMouths& mouths, const MouthUnitSizes& unit_sizes) {
+    rig_ = StillSkin();
+    rig_.steps = {RigStep::kChannels, RigStep::kLips, RigStep::kJawByChin};
+    rig_.lips = LipsOf(model_, face_.wireframe.at.size());
+    rig_.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
+    AddUnits();
+    for (std::size_t k = 0; k < face_.expression_rests.size(); ++k) {
       const auto [unit, is_left] = kExpressionChannels[k];
-      add(expression_rests_[k], Bound(is_left ? state.au_left[unit] : state.au_right[unit], 0, 2));
+      Add(Moves(face_.expression_rests[k], unit_scale_), {{Asked(unit, is_left)}});
     }
-    if (IsSetByHand(state.mouth)) {
-      for (std::size_t k = 0; k < mouth_units_.size(); ++k) {
-        if (unit_sizes_[k] == 0) continue;
-        add(mouth_units_[k], Bound(state.mouth[k] / unit_sizes_[k], 0, 2));
-      }
-    } else {
-      const NnlsSolver::Parts parts = mix_.TakeApart(state.mouth);
-      for (std::size_t k = 0; k < visemes_.size() && k < parts.weights.size(); ++k) {
-        add(visemes_[k], parts.weights[k]);
-      }
+    AddVisemes(mouths);
+    for (std::size_t k = 0; k < face_.mouth_units.size(); ++k) {
+      if (unit_sizes[k] == 0) continue;
+      Channel& channel =
+          Add(Moves(face_.mouth_units[k], glm::vec3(own_.mm())),
+              {{{.kind = Drive::Kind::kHandMouth, .number = static_cast<std::uint16_t>(k)},
+                1 / unit_sizes[k]}});
+      channel.least = 0;
+      channel.most = 2;
     }
-    seal_.Close(pose.seal, position);
-    const glm::vec3 before = chin_rest_ - hinge_, after = position[chin_] - hinge_;
-    const float angle = std::atan2(-after.y, after.z) - std::atan2(-before.y, before.z);
-    return {.open_rad = Bound(angle, 0, 0.5f), .slide_mm = 0, .sway_mm = after.x - before.x};
+    return std::move(rig_);
   }
 
  private:
-  struct Delta {
-    std::uint32_t vertex;
-    glm::vec3 by;
-  };
-  using Field = std::vector<Delta>;
-
-  static float Bound(float value, float low, float high) {
-    return std::isfinite(value) ? std::clamp(value, low, high) : 0.0f;
+  static Drive Asked(std::size_t unit, bool left) {
+    return {.kind = Drive::Kind::kAskedUnit,
+            .number = static_cast<std::uint16_t>(unit),
+            .side = left ? Drive::Side::kLeft : Drive::Side::kRight};
   }
 
-  std::vector<Field> units_, expression_rests_, mouth_units_, visemes_;
-  std::vector<float> left_;  // part of the agent's left side in a vertex
-  NnlsSolver mix_;
-  MouthUnitSizes unit_sizes_;
-  LipSeal seal_;
-  std::size_t chin_ = 0;
-  glm::vec3 chin_rest_{}, hinge_{};
+  static std::vector<Displacement> Moves(const std::vector<glm::vec3>& offsets,
+                                         const glm::vec3& scale) {
+    constexpr float kLeast = 0.02f;  // millimetres
+    std::vector<Displacement> moves;
+    for (std::uint32_t i = 0; i < offsets.size(); ++i) {
+      const glm::vec3 by = offsets[i] * scale;
+      if (glm::length(by) > kLeast) moves.push_back({i, by});
+    }
+    return moves;
+  }
+
+  Channel& Add(std::vector<Displacement> moves, std::vector<Channel::Driver> drivers) {
+    Channel& channel = rig_.channels.emplace_back();
+    channel.drivers = std::move(drivers);
+    channel.moves = std::move(moves);
+    return channel;
+  }
+
+  /// Units as they are asked for: the original's add up, ours damp and oppose each other.
+  void AddUnits() {
+    const float middle = 0.5f * (own_.Place(face_.wireframe, kLipCorners[0]).x +
+                                 own_.Place(face_.wireframe, kLipCorners[1]).x);
+    for (std::size_t k = 0; k < face_.units.size(); ++k) {
+      const std::vector<Displacement> both = Moves(face_.units[k], unit_scale_);
+      for (const bool left : {false, true}) {
+        std::vector<Displacement> moves = both;
+        for (Displacement& d : moves) {
+          const float part = LeftPartAt(model_.position[d.vertex].x - middle);
+          d.by *= left ? part : 1 - part;
+        }
+        const auto number = static_cast<std::size_t>(kUnitNumbers[k]);
+        Channel& channel = Add(std::move(moves), {{Asked(number, left)}});
+        if (number != kEyesClosed) continue;
+        channel.drivers.push_back({{.kind = Drive::Kind::kBlink,
+                                    .side = left ? Drive::Side::kLeft : Drive::Side::kRight}});
+      }
+    }
+  }
+
+  void AddVisemes(const VisemeMouths& mouths) {
+    constexpr float kMostOfViseme = 1.5f;
+    const std::size_t count = std::min(face_.visemes.size(), mouths.size());
+    MouthFit mouth(count);
+    std::vector<NnlsSolver::Row> keys;
+    for (std::size_t k = 0; k < count; ++k) {
+      MouthFit::Weights weights(count, 0.0f);
+      weights[k] = kVisemePart;
+      mouth.AddViseme(mouths[k], std::move(weights));
+      for (float& value : keys.emplace_back(mouths[k].begin(), mouths[k].end())) {
+        value /= kVisemePart;
+      }
+    }
+    const NnlsSolver mix(std::move(keys));
+    mouth.AddParameters(
+        [&mix](const FaceState& state) { return mix.TakeApart(state.mouth).weights; });
+    for (std::size_t i = count; i < mouths.size(); ++i) {
+      mouth.AddViseme(mouths[i], mix.TakeApart(mouths[i]).weights);
+    }
+    DriveFit fit(count);
+    mouth.AddTo(fit, Drive::Kind::kSpokenMouth);
+    const auto drivers = fit.Take();
+    for (std::size_t k = 0; k < count; ++k) {
+      Channel& channel = Add(Moves(face_.visemes[k], glm::vec3(own_.mm())), drivers[k]);
+      channel.least = 0;
+      channel.most = kMostOfViseme;
+    }
+  }
+
+  const OriginalFace& face_;
+  const MeshModel& model_;
+  OriginalFrame own_;
+  glm::vec3 unit_scale_{1};
+  RigData rig_;
 };
 
 }  // namespace
 
-std::unique_ptr<Deformation> OwnMotionOf(const OriginalFace& face, const MeshModel& model,
-                                        const VisemeMouths& mouths,
-                                        const MouthUnitSizes& unit_sizes) {
-  return std::make_unique<OwnMotion>(face, model, mouths, unit_sizes);
+RigData RigOf(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
+              const MouthUnitSizes& unit_sizes) {
+  return OriginalRigBaker(face, model).Bake(mouths, unit_sizes);
 }
 
 }  // namespace fsm

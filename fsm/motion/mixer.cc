@@ -181,6 +181,7 @@ void Mixer::Add(const MotionLayer& layer, const Rules& rules, const Weights& wei
   join(kGaze, total.units.gaze_left, layer.units.gaze_left);
   join(kGaze, total.units.gaze_right, layer.units.gaze_right);
   join(kMouth, total.mouth, layer.mouth);
+  join(kMouth, total.mouth_by_hand, layer.mouth_by_hand);
   channels_[kMouth].Join(total.seal, weights[kMouth] * layer.seal);
   channels_[kMouth].Join(total.tongue, weights[kMouth] * layer.tongue);
   join(kHead, total.head, layer.head);
@@ -228,6 +229,7 @@ void Mixer::Place(const MotionLayer& total, const Weights& weights, const UnitLi
   place_units(state.au_left, total.units.left);
   place_units(state.au_right, total.units.right);
   place(kMouth, state.mouth, total.mouth);
+  place(kMouth, state.mouth_by_hand, total.mouth_by_hand);
   state.lip_seal = result(kMouth, total.seal);
   state.tongue = result(kMouth, total.tongue);
   place(kHead, state.head_rotation, total.head);

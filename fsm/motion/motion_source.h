@@ -20,8 +20,9 @@ using EyeAngles = std::array<float, 2>;  ///< degrees: down, to the viewer's rig
 struct MotionLayer {
   ActionUnits units;                            ///< 1 = full strength, and where the eyes go
   std::array<float, kMouthParameters> mouth{};  ///< as FaceState::mouth
-  float seal = 0;                               ///< of the lips, 0..1
-  float tongue = 0;                             ///< height of its tip, 0..1
+  std::array<float, kMouthParameters> mouth_by_hand{};  ///< as FaceState::mouth_by_hand
+  float seal = 0;                                       ///< of the lips, 0..1
+  float tongue = 0;                                     ///< height of its tip, 0..1
   Angles head{};
   float head_forward_mm = 0;
   float lids_shut = 0;  ///< 0..1

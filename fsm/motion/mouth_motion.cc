@@ -25,8 +25,9 @@ vm::Result<void> MouthMotion::Set(vm::Time now, int parameter, double strength) 
 }
 
 void MouthMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  auto& mouth = frame.Layer("mouth").mouth;
-  for (std::size_t i = 0; i < kMouthParameters; ++i) mouth[i] = parameters_[i].At(t);
+  MotionLayer& layer = frame.Layer("mouth");
+  for (std::size_t i = 0; i < kMouthParameters; ++i) layer.mouth[i] = parameters_[i].At(t);
+  layer.mouth_by_hand = layer.mouth;
 }
 
 void MouthMotion::ForEachTrack(const TrackVisitor& visit) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -160,6 +161,13 @@ void UnitTable::MakeAsymmetric(int seed) {
     lean_[0][unit] = lean;
     lean_[1][unit] = -lean;
   }
+}
+
+std::vector<int> UnitTable::Numbers() const {
+  std::set<int> numbers;
+  for (const Field& field : fields_) numbers.insert(field.unit);
+  for (const Effect& effect : effects_) numbers.insert(effect.unit);
+  return {numbers.begin(), numbers.end()};
 }
 
 SidedUnits UnitTable::Combine(const FaceState& state) const {

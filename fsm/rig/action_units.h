@@ -51,6 +51,8 @@ class UnitTable {
   std::string Text() const;
 
   const std::vector<Field>& fields() const { return fields_; }
+  /// The units that do anything, in ascending order.
+  std::vector<int> Numbers() const;
   /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
   /// stretching), and corrected for units that act together. Not-a-number counts as 0.
   SidedUnits Combine(const FaceState& state) const;

@@ -24,6 +24,9 @@ struct FaceState {
   /// outer Y, outer Z; 8-10 corner X, Y, Z; 11-12 jaw Y, Z; 13-16 outer and inner adjust of the
   /// upper and of the lower lip. Units: millimetres on a 50 mm mouth, jaw Y in degrees of opening.
   std::array<float, kMouthParameters> mouth{};
+  /// What of `mouth` was asked for parameter by parameter (Mouth.N), the rest being speech: faces
+  /// of the original have shapes of their own for it.
+  std::array<float, kMouthParameters> mouth_by_hand{};
   /// 0 = lips follow the parameters, 1 = lips are sealed whatever else acts on them (p, b, m,
   /// rest).
   float lip_seal = 0;

@@ -46,11 +46,13 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   const UnitEffects effects = table.Effects(pose.units);
   // Limits of the 17 mouth parameters: what lips can do, in millimetres; jaw apart.
   for (std::size_t p = 0; p < kMouthParameters; ++p) pose.mouth[p] = Bound(state.mouth[p], -14, 14);
-  pose.mouth[11] = pose.mouth[12] = 0;
   // A mandible opens 25-30 degrees and slides about a millimetre forward for every three of them.
   const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[11], -30, 30), 0, 28);
+  const float slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[12], -6, 10), -4, 12);
+  pose.mouth[11] = degrees - Bound(effects.jaw_degrees, 0, 28);
+  pose.mouth[12] = slide_mm - Bound(effects.jaw_slide_mm, -4, 12);
   pose.SetJaw({.open_rad = degrees * kRadians,
-               .slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[12], -6, 10), -4, 12),
+               .slide_mm = slide_mm,
                .sway_mm = Bound(effects.jaw_sway_mm, -10, 10)});
   pose.seal = Bound(std::max(effects.seal, Bound(state.lip_seal, 0, 1)), 0, 1);
   pose.tongue_raise = Bound(effects.tongue_raise + Bound(state.tongue, 0, 1), 0, 1);
@@ -66,8 +68,9 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
     FollowGaze(up, pose.lids[s]);
     pose.lids[s].upper_mm = std::clamp(pose.lids[s].upper_mm, -11.0f, 4.0f);
     pose.lids[s].lower_mm = std::clamp(pose.lids[s].lower_mm, -3.0f, 4.0f);
-    const float open = (1 - Bound(blink[s], 0, 1)) * (1 - std::min(1.0f, effects.lids[s].close));
-    pose.lids[s].close = 1 - open;
+    const float open = 1 - std::min(1.0f, effects.lids[s].close);
+    pose.blink[s] = open * Bound(blink[s], 0, 1);
+    pose.lids[s].close = 1 - open + pose.blink[s];
   }
   pose.head = TurnY(Bound(state.head_rotation[1], -80, 80) * kRadians) *
               TurnX(Bound(state.head_rotation[0], -60, 60) * kRadians) *

@@ -4,17 +4,22 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "fsm/rig/deformation.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/rig_data.h"
 
 namespace fsm {
 
+/// What the lower jaw does: about the hinge, forward and to the viewer's right.
+struct JawMove {
+  float open_rad = 0, slide_mm = 0, sway_mm = 0;
+};
+
 /// The numbers of one state from which every vertex follows.
 struct Pose {
   SidedUnits units;
-  std::array<float, kMouthParameters> mouth;
-  std::array<UnitEffects::Lids, 2> lids;  ///< right, left; gaze and blink included
+  std::array<float, kMouthParameters> mouth;  ///< of the jaw what units leave to it
+  std::array<float, 2> blink;                 ///< right, left: lids close by it beyond the units
+  std::array<UnitEffects::Lids, 2> lids;      ///< right, left; gaze and blink included
   JawMove jaw;
   float jaw_cos = 1, jaw_sin = 0;  ///< of jaw.open_rad
   glm::vec3 hinge = kJawHinge;

@@ -5,11 +5,11 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <iterator>
+#include <map>
 #include <span>
 #include <utility>
 
 #include "fsm/base/spline.h"
-#include "fsm/rig/deformation.h"
 #include "fsm/rig/pose.h"
 #include "fsm/rig/tongue_path.h"
 
@@ -31,12 +31,13 @@ struct Rig::StepEntry {
 
 constexpr Rig::StepEntry Rig::kSteps[] = {
     {RigStep::kChannels, "channels", &Rig::AddChannels},
-    {RigStep::kDeformation, "deformation", &Rig::Deform},
     {RigStep::kLids, "lids", &Rig::TurnLids},
     {RigStep::kLidsOnBalls, "lids_on_balls", &Rig::KeepLidsOnBalls},
     {RigStep::kJaw, "jaw", &Rig::MoveWithJaw},
+    {RigStep::kJawByChin, "jaw_by_chin", &Rig::FollowChin},
     {RigStep::kTeeth, "teeth", &Rig::KeepOffTeeth},
     {RigStep::kLips, "lips", &Rig::SealLips},
+    {RigStep::kOwnForm, "own_form", &Rig::TakeOwnForm},
     {RigStep::kTongue, "tongue", &Rig::MoveTongue},
     {RigStep::kBones, "bones", &Rig::MoveBones},
     {RigStep::kNeck, "neck", &Rig::TurnNeck},
@@ -44,9 +45,9 @@ constexpr Rig::StepEntry Rig::kSteps[] = {
 };
 
 std::string_view NameOf(RigStep step) {
-  constexpr std::string_view kNames[] = {"channels", "deformation", "lids",   "lids_on_balls",
-                                         "jaw",      "teeth",       "lips",   "tongue",
-                                         "bones",    "neck",        "normals"};
+  constexpr std::string_view kNames[] = {"channels",    "lids",  "lids_on_balls", "jaw",
+                                         "jaw_by_chin", "teeth", "lips",          "own_form",
+                                         "tongue",      "bones", "neck",          "normals"};
   return kNames[static_cast<std::size_t>(step)];
 }
 
@@ -61,6 +62,20 @@ Rig::Rig(RigData data) : data_(std::move(data)) {
     }
     if (soft[i]) soft_.push_back(i);
   }
+  FindDrives();
+}
+
+void Rig::FindDrives() {
+  std::map<std::array<int, 4>, std::uint32_t> known;
+  for (const Channel& channel : data_.channels) {
+    for (const auto& [drive, gain] : channel.drivers) {
+      const std::array key{static_cast<int>(drive.kind), static_cast<int>(drive.number),
+                           static_cast<int>(drive.side), static_cast<int>(drive.half)};
+      const auto [at, fresh] = known.try_emplace(key, static_cast<std::uint32_t>(drives_.size()));
+      if (fresh) drives_.push_back(drive);
+      driver_from_.push_back(at->second);
+    }
+  }
 }
 
 Pose Rig::PoseOf(const FaceState& state) const {
@@ -74,7 +89,7 @@ void Rig::TakeStep(RigStep step, Frame& frame) const {
 }
 
 void Rig::Evaluate(const FaceState& state, HeadVertices& out) const {
-  out.position = data_.rest;
+  out.position = data_.proxy_rest.empty() ? data_.rest : data_.proxy_rest;
   out.normal = data_.rest_normal;
   Frame frame{state, PoseOf(state), out.position, out.normal};
   for (const RigStep step : data_.steps) TakeStep(step, frame);
@@ -90,7 +105,7 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out) const {
 
 MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
   if (!data_.lips.measured) return {};
-  std::vector<glm::vec3> position = data_.rest;
+  std::vector<glm::vec3> position = data_.proxy_rest.empty() ? data_.rest : data_.proxy_rest;
   Frame frame{state, PoseOf(state), position, {}};
   for (const RigStep step : data_.steps) {
     if (step == RigStep::kTongue || step == RigStep::kBones) break;
@@ -107,29 +122,67 @@ Rig Rig::WithUnits(const UnitTable& units) const {
   data.units = units;
   if (data.person) data.units.MakeAsymmetric(*data.person);
   if (data.units_by_place) {
-    std::erase_if(data.channels, [](const Channel& c) { return c.kind == Channel::Kind::kUnit; });
+    std::erase_if(data.channels, [](const Channel& channel) {
+      return channel.drivers.front().drive.kind == Drive::Kind::kUnit;
+    });
     std::ranges::move(UnitChannels(data.units, data.bone, data.weights),
                       std::back_inserter(data.channels));
-  }
-  if (data.deformation) {
-    if (auto other = data.deformation->WithUnits(data.units)) data.deformation = std::move(other);
   }
   return Rig(std::move(data));
 }
 
-void Rig::AddChannels(Frame& frame) const {
+float Rig::ValueOf(const Drive& drive, const Frame& frame) {
+  using enum Drive::Kind;
+  const FaceState& state = frame.state;
   const Pose& pose = frame.pose;
-  for (const Channel& channel : data_.channels) {
-    const float weight = channel.kind == Channel::Kind::kUnit
-                             ? pose.units[channel.side][channel.number]
-                             : pose.mouth[channel.number];
-    if (weight == 0) continue;
-    for (const Displacement& d : channel.moves) frame.position[d.vertex] += weight * d.by;
-  }
+  const std::size_t number = drive.number;
+  const auto bound = [](float value, float low, float high) {
+    return std::isfinite(value) ? std::clamp(value, low, high) : 0.0f;
+  };
+  constexpr float kMostMouth = 30;  // millimetres, of the jaw degrees
+  const auto whole = [&](std::size_t side) {
+    switch (drive.kind) {
+      case kUnit:
+        return pose.units[side][number];
+      case kAskedUnit:
+        return bound(side == 0 ? state.au_right[number] : state.au_left[number], 0, 2);
+      case kMouth:
+        return pose.mouth[number];
+      case kSpokenMouth:
+        return bound(state.mouth[number] - state.mouth_by_hand[number], -kMostMouth, kMostMouth);
+      case kHandMouth:
+        return bound(state.mouth_by_hand[number], -kMostMouth, kMostMouth);
+      case kBlink:
+        return pose.blink[side];
+      case kGazeUp:
+        return GazeOf(pose.eye[side]).up_deg;
+      case kGazeRight:
+        return GazeOf(pose.eye[side]).right_deg;
+    }
+    return 0.0f;
+  };
+  const auto value = [&](std::size_t side) {
+    if (drive.half == Drive::Half::kWhole) return whole(side);
+    return std::max(drive.half == Drive::Half::kPositive ? whole(side) : -whole(side), 0.0f);
+  };
+  if (drive.side == Drive::Side::kStronger) return std::max(value(0), value(1));
+  return value(static_cast<std::size_t>(drive.side));
 }
 
-void Rig::Deform(Frame& frame) const {
-  frame.pose.SetJaw(data_.deformation->Move(frame.state, frame.pose, frame.position));
+void Rig::AddChannels(Frame& frame) const {
+  thread_local std::vector<float> values;  // of the drives; kept from frame to frame
+  values.clear();
+  for (const Drive& drive : drives_) values.push_back(ValueOf(drive, frame));
+  const float seal = frame.pose.seal;
+  auto from = driver_from_.begin();
+  for (const Channel& channel : data_.channels) {
+    float strength = 0;
+    for (const Channel::Driver& driver : channel.drivers) strength += driver.gain * values[*from++];
+    strength = std::clamp(strength, channel.least, channel.most) *
+               ((1 - seal) * channel.open_factor + seal * channel.sealed_factor);
+    if (strength == 0) continue;
+    for (const Displacement& d : channel.moves) frame.position[d.vertex] += strength * d.by;
+  }
 }
 
 void Rig::TurnLids(Frame& frame) const { MoveLids(data_.lids, frame.pose, frame.position); }
@@ -149,6 +202,16 @@ void Rig::MoveWithJaw(Frame& frame) const {
   for (const std::uint32_t i : jawed_) {
     frame.position[i] = TurnJaw(frame.position[i], frame.pose, data_.weights[i].jaw);
   }
+}
+
+void Rig::FollowChin(Frame& frame) const {
+  constexpr float kMostOpen = 0.5f;  // radians
+  const glm::vec3 before = data_.rest[data_.chin] - data_.jaw_hinge;
+  const glm::vec3 after = frame.position[data_.chin] - data_.jaw_hinge;
+  const float angle = std::atan2(-after.y, after.z) - std::atan2(-before.y, before.z);
+  frame.pose.SetJaw({.open_rad = std::clamp(angle, 0.0f, kMostOpen),
+                     .slide_mm = 0,
+                     .sway_mm = after.x - before.x});
 }
 
 void Rig::KeepOffTeeth(Frame& frame) const {
@@ -171,6 +234,12 @@ void Rig::KeepOffTeeth(Frame& frame) const {
 }
 
 void Rig::SealLips(Frame& frame) const { CloseLips(data_.lips, frame.pose.seal, frame.position); }
+
+void Rig::TakeOwnForm(Frame& frame) const {
+  for (std::size_t i = 0; i < frame.position.size(); ++i) {
+    frame.position[i] += data_.own_form[i];
+  }
+}
 
 void Rig::MoveTongue(Frame& frame) const {
   constexpr float kRaise = 11;  // millimetres of the tip

@@ -49,17 +49,20 @@ class Rig {
   static const StepEntry kSteps[];
 
   Pose PoseOf(const FaceState& state) const;
+  static float ValueOf(const Drive& drive, const Frame& frame);
   /// How far an eye turns, which of heads from elsewhere is another angle than that of the gaze.
   glm::mat3 EyeTurn(const Pose& pose, std::size_t side) const;
+  void FindDrives();
   void TakeStep(RigStep step, Frame& frame) const;
 
   void AddChannels(Frame& frame) const;
-  void Deform(Frame& frame) const;
   void TurnLids(Frame& frame) const;
   void KeepLidsOnBalls(Frame& frame) const;
   void MoveWithJaw(Frame& frame) const;
+  void FollowChin(Frame& frame) const;
   void KeepOffTeeth(Frame& frame) const;
   void SealLips(Frame& frame) const;
+  void TakeOwnForm(Frame& frame) const;
   void MoveTongue(Frame& frame) const;
   void MoveBones(Frame& frame) const;
   void TurnNeck(Frame& frame) const;
@@ -68,6 +71,8 @@ class Rig {
   RigData data_;
   // What follows from the data: vertices by what moves them.
   std::vector<std::uint32_t> jawed_, rigid_, soft_;
+  std::vector<Drive> drives_;               // of all channels, each once
+  std::vector<std::uint32_t> driver_from_;  // of each driver of each channel the index of its drive
 };
 
 }  // namespace fsm

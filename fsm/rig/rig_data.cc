@@ -20,7 +20,10 @@ std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> 
       }
     }
     for (const auto& [unit, sum] : sums) {
-      Channel channel{Channel::Kind::kUnit, static_cast<std::uint16_t>(unit), side, {}};
+      Channel channel;
+      channel.drivers.push_back({{.kind = Drive::Kind::kUnit,
+                                  .number = static_cast<std::uint16_t>(unit),
+                                  .side = static_cast<Drive::Side>(side)}});
       for (std::uint32_t i = 0; i < sum.size(); ++i) {
         if (glm::length(sum[i]) > kLeast) channel.moves.push_back({i, sum[i]});
       }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,8 +19,6 @@
 
 namespace fsm {
 
-class Deformation;
-
 /// The hinge of the built-in heads' jaw: an axis along x.
 inline constexpr glm::vec3 kJawHinge{0, -4, -3};
 /// The point the head turns about, in the upper neck.
@@ -31,15 +30,45 @@ struct Displacement {
   glm::vec3 by;
 };
 
-/// One thing that can be asked of a face, and what it displaces. Channels add up.
-struct Channel {
+/// A number of a state by which a face moves.
+struct Drive {
   enum class Kind : std::uint8_t {
-    kUnit,  ///< `number`: of FACS
-    kMouth  ///< `number`: index into FaceState::mouth
+    kUnit,         ///< `number`: of FACS; its strength beside the others (UnitTable::Combine)
+    kAskedUnit,    ///< the same as the state asks for it, 0..2, whatever else is asked
+    kMouth,        ///< `number`: index into FaceState::mouth; of the jaw what units leave to it
+    kSpokenMouth,  ///< what FaceState::mouth asks beyond FaceState::mouth_by_hand
+    kHandMouth,    ///< `number`: index into FaceState::mouth_by_hand
+    kBlink,        ///< how far lids close beyond what units ask, 0..1
+    kGazeUp,       ///< of an eye, degrees
+    kGazeRight     ///< of an eye, to the viewer's right, degrees
+  };
+  enum class Side : std::uint8_t {
+    kRight,
+    kLeft,
+    kStronger
+  };  ///< the agent's; the greater of both
+  enum class Half : std::uint8_t {
+    kWhole,
+    kPositive,  ///< the value where it is above 0, else 0
+    kNegative   ///< what it is below 0, as a positive number, else 0
   };
   Kind kind;
-  std::uint16_t number;
-  std::uint8_t side = 0;  ///< of a unit: 0 the agent's right, 1 the left
+  std::uint16_t number = 0;
+  Side side = Side::kRight;  ///< of units, blinks and gazes
+  Half half = Half::kWhole;
+};
+
+/// What moves together, and how strongly in which state: as much as its drivers say in sum, within
+/// limits, and by whether the lips are sealed. Channels add up.
+struct Channel {
+  struct Driver {
+    Drive drive;
+    float gain = 1;
+  };
+  std::vector<Driver> drivers;
+  float least = -std::numeric_limits<float>::infinity();
+  float most = std::numeric_limits<float>::infinity();
+  float open_factor = 1, sealed_factor = 1;  ///< on the strength, while lips are open and sealed
   std::vector<Displacement> moves;
 };
 
@@ -69,12 +98,13 @@ struct TeethContact {
 /// those before it made.
 enum class RigStep : std::uint8_t {
   kChannels,     ///< what units and mouth parameters displace
-  kDeformation,  ///< what RigData::deformation does
   kLids,         ///< lids turn about the eyes, over the cornea
   kLidsOnBalls,  ///< what was outside an eyeball stays outside
   kJaw,          ///< skin goes with the jaw, by its weights
+  kJawByChin,    ///< the jaw opens and sways as far as RigData::chin has gone
   kTeeth,        ///< lips are held off the teeth
   kLips,         ///< lips that would cross meet, and close as far as they are sealed
+  kOwnForm,      ///< vertices go by RigData::own_form
   kTongue,       ///< the tongue finds its way between teeth and lips
   kBones,        ///< jaw and eyes, with what is fixed to them
   kNeck,         ///< the head turns and goes forward
@@ -85,8 +115,12 @@ enum class RigStep : std::uint8_t {
 struct RigData {
   std::vector<RigStep> steps;
   std::vector<glm::vec3> rest, rest_normal;  ///< per vertex
-  std::vector<Bone> bone;                    ///< per vertex
-  std::vector<SkinWeights> weights;          ///< per vertex
+  /// Where this rig was taken over from another head: per vertex its place on that one, where the
+  /// steps before kOwnForm move it among the other's lids, lips and teeth, and what leads from
+  /// there, moved to where nothing is asked, to `rest`. Else both are empty.
+  std::vector<glm::vec3> proxy_rest, own_form;
+  std::vector<Bone> bone;            ///< per vertex
+  std::vector<SkinWeights> weights;  ///< per vertex
   /// Triangles whose corners take their normals from what they become, three indices each; all
   /// other vertices keep theirs, turned with their bone.
   std::vector<std::uint32_t> soft_triangles;
@@ -99,7 +133,6 @@ struct RigData {
   /// they are the head's own.
   bool units_by_place = false;
   std::vector<Channel> channels;
-  std::shared_ptr<const Deformation> deformation;
 
   LidRig lids;
   std::vector<BallLid> ball_lids;
@@ -107,6 +140,7 @@ struct RigData {
   ToothArch upper_teeth{}, lower_teeth{};
   std::vector<TeethContact> teeth_contacts;
   glm::vec3 jaw_hinge = kJawHinge;         ///< the jaw's axis goes through it along x
+  std::uint32_t chin = 0;                  ///< the vertex that kJawByChin looks at
   std::array<glm::vec3, 2> eye_pivot{};    ///< what the eyes turn about: right, left
   std::array<glm::vec3, 2> ball_centre{};  ///< of what `ball_lids` stay outside of
   std::optional<LookRanges> look;          ///< else eyes turn as far as the gaze does

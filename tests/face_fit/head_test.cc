@@ -119,7 +119,7 @@ TEST_F(HeadTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) {
     const auto flesh = fsm::SkinTriangles(ours->topology());
     std::vector<fsm::PlacePair> back = subject.pairs;
     for (auto& pair : back) std::swap(pair.from, pair.to);
-    // As the program does it (fsm/mesh/head_motion.cc).
+    // As the program does it (fsm/mesh/transferred_rig.cc).
     const auto eyes = fsm::EyeballTriangles(ours->topology());
     const fsm::TransferSurface own{rest.position, flesh, false, eyes};
     const fsm::TransferSurface theirs{subject.model.position, subject.flesh,
@@ -169,8 +169,9 @@ TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
       }
       return y / count;
     };
-    const auto head = fsm::MakeMeshHead(
-        subject.model, fsm::CarriedMotion(subject.model, fsm::MakeHead("galatea", false), pairs));
+    fsm::MeshModel model = subject.model;
+    fsm::RigData skin = fsm::TransferredRig(model, *fsm::MakeHead("galatea", false), pairs);
+    const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::HeadVertices moved;
     fsm::FaceState state;
     state.au_left[27] = state.au_right[27] = 1;

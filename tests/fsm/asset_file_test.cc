@@ -142,8 +142,10 @@ TEST(AssetFileTest, ADamagedFileIsRefusedByFileAndMember) {
       {[](json& e) { e["rig"]["weights"].erase("jaw"); }, "rig.weights: no member \"jaw\""},
       {[](json& e) { e["rig"]["weights"]["jaw"] = e["rig"]["lids"]["vertices"]["upper"]; },
        "rig.weights.jaw: as many as in the first column expected"},
-      {[](json& e) { e["rig"]["channels"][0]["number"] = 4000; }, "rig.channels[0]: number 4000"},
-      {[](json& e) { e["rig"]["channels"][0]["kind"] = 9; }, "rig.channels[0].kind: 9 found"},
+      {[](json& e) { e["rig"]["channels"][0]["drivers"][0]["drive"]["number"] = 4000; },
+       "rig.channels[0]: number 4000"},
+      {[](json& e) { e["rig"]["channels"][0]["drivers"][0]["drive"]["kind"] = 9; },
+       "rig.channels[0].drivers[0].drive.kind: 9 found"},
       {[](json& e) { e["rig"]["units"] = "field 1 2"; }, "rig.units:1:"},
       {[](json& e) {
          e["rig"]["jaw_hinge"] = {1, 2};
@@ -208,8 +210,8 @@ TEST(CheckAssetTest, WhatTheBakersMakeFitsTogether) {
 TEST(DescribeTest, NamesWhatAHeadIsMadeOf) {
   const std::string text = Describe(*MakeGenericHead());
   for (const char* expected :
-       {"mesh        ", "part        skin, ", "bone        jaw, ", "channels    units 1 2 4 6 ",
-        "channels    mouth 1 ", "steps       ", "landmark    pronasale ", "memory      "})
+       {"mesh        ", "part        skin, ", "bone        jaw, ", "driven by   units 1 2 4 6 ",
+        "driven by   mouth 1 ", "steps       ", "landmark    pronasale ", "memory      "})
     EXPECT_NE(text.find(expected), std::string::npos) << expected << "\n" << text;
 }
 

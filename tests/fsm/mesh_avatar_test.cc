@@ -242,7 +242,7 @@ TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
     model.Add(p, Bone::kEyeLeft, glm::vec3(1));
   }
   model.Triangle(Material::kSkin, 0, 1, 2);
-  const auto head = MakeMeshHead(std::move(model), nullptr);
+  const auto head = MakeMeshHead(std::move(model));
   FaceState state;
   state.eye_left.y = 20;  // to the viewer's right, outward for the agent's left eye
   HeadVertices moved;
@@ -266,23 +266,26 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   file.shapes[0].deltas = {{0, {0, -10, 0}}, {1, {0, -10, 0}}, {2, {0, -10, 0}}};
   MeshModel model = ModelOf(file, {}, -30);
   ASSERT_EQ(model.bone[0], Bone::kJaw);
-  auto motion = OwnShapesMotion(file, {}, model, MakeHead("galatea", false), meanings);
-  ASSERT_TRUE(motion);
+  const auto source = MakeHead("galatea", false);
+  auto skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source);
+  ASSERT_TRUE(skin);
   EXPECT_EQ(model.bone[0], Bone::kSkin);
-  const auto head = MakeMeshHead(std::move(model), std::move(motion));
+  const auto head = MakeMeshHead(std::move(model), std::move(*skin));
   HeadVertices moved;
   head->Evaluate(meanings[0].state, moved);
   EXPECT_NEAR(moved.position[0].y, -50, 0.5F);
 }
 
-/// A face whose lower half falls with unit 27; unit 24 shuts its lips, which moves nothing else.
+/// A face whose lower half falls with unit 27.
 std::shared_ptr<const Head> FallingBall() {
   return std::make_shared<BallHead>([](HeadAsset& asset) {
     RigData& rig = asset.rig;
     const auto channel = [](std::uint16_t unit) {
-      return Channel{.kind = Channel::Kind::kUnit, .number = unit, .side = 1, .moves = {}};
+      Channel made;
+      made.drivers = {{{.kind = Drive::Kind::kUnit, .number = unit, .side = Drive::Side::kLeft}}};
+      return made;
     };
-    Channel fall = channel(27), shut = channel(24);
+    Channel fall = channel(27);
     std::vector<Displacement> rises;
     const auto count = static_cast<std::uint32_t>(rig.rest.size());
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -301,8 +304,8 @@ std::shared_ptr<const Head> FallingBall() {
     }
     rig.lips.measured = {count, count + 1, count, count};
     fall.moves.push_back({count + 1, {0, -10, 0}});
-    shut.moves.push_back({count + 1, {0, 10, 0}});
-    rig.channels = {fall, shut};
+    rig.channels = {fall};
+    rig.units = BuiltInUnits();
     for (const std::uint16_t unit : std::initializer_list<std::uint16_t>{1, 2, 4}) {
       rig.channels.push_back(channel(unit));
       rig.channels.back().moves = rises;
@@ -324,18 +327,21 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
     file.shapes.push_back({name, {{unit == 27 ? 0U : 3U, {0, unit == 27 ? -10 : 10, 0}}}});
   }
   MeshModel model = ModelOf(file, {}, -30);
-  auto motion = OwnShapesMotion(file, {}, model, FallingBall(), meanings);
-  ASSERT_TRUE(motion);
-  const auto fall = [&](FaceState state) {
-    std::vector<glm::vec3> position = model.position;
-    motion->Move(state, MakePose(state, BuiltInUnits()), position);
-    return model.position[0].y - position[0].y;
+  const auto source = FallingBall();
+  auto skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source);
+  ASSERT_TRUE(skin);
+  const float rest = model.position[0].y;
+  const auto head = MakeMeshHead(std::move(model), std::move(*skin));
+  const auto fall = [&](const FaceState& state) {
+    HeadVertices moved;
+    head->Evaluate(state, moved);
+    return rest - moved.position[0].y;
   };
   FaceState state = meanings[0].state;
   EXPECT_NEAR(fall(state), 10, 0.5F);
-  state.au_left[24] = 0.5F;
+  state.lip_seal = 0.5F;
   EXPECT_NEAR(fall(state), 5, 0.5F) << "no wider than ours";
-  state.au_left[24] = 1;
+  state.lip_seal = 1;
   EXPECT_NEAR(fall(state), 0, 0.1F);
 }
 

@@ -149,7 +149,7 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
   auto& indices = model.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
   indices = plate.faces_away ? std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2}
                              : std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3};
-  const auto head = MakeMeshHead(std::move(model), nullptr);
+  const auto head = MakeMeshHead(std::move(model));
   HeadVertices vertices;
   head->Evaluate({}, vertices);
   constexpr int kSide = 64;
@@ -238,7 +238,7 @@ TEST(PbrMaterialTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
   }
   model.finishes.emplace_back();
   model.BatchOf(Material::kSkin, 0, false).indices = {0, 1, 2, 3, 4, 5};
-  const auto head = MakeMeshHead(std::move(model), nullptr);
+  const auto head = MakeMeshHead(std::move(model));
   HeadVertices vertices;
   head->Evaluate({}, vertices);
   EXPECT_EQ(vertices.normal[1], vertices.normal[3]);

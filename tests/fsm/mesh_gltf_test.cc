@@ -80,13 +80,14 @@ TEST(GltfHeadTest, UnitsOfOnesOwnMoveAHeadByItsOwnShapes) {
   const auto file = ParseGltfHead("head.glb", WriteAsset(*source, shapes));
   ASSERT_TRUE(file) << file.error().text;
   const Similarity place{.scale = 1000};
-  MeshModel model = ModelOf(*file, place, -43);
-  auto motion = OwnShapesMotion(*file, place, model, source, meanings);
-  ASSERT_NE(motion, nullptr);
-  const auto head = MakeMeshHead(std::move(model), std::move(motion));
+  const auto moved_as = [&](const Head& moved) -> std::unique_ptr<Head> {
+    MeshModel model = ModelOf(*file, place, -43);
+    auto skin = BlendshapeRig(*file, place, model, {*source, meanings}, moved);
+    return skin ? MakeMeshHead(std::move(model), std::move(*skin)) : nullptr;
+  };
   const UnitTable units(Table("u", "jaw 26 6 0.75\nfield 2 43 47 20 20 both 0 5 0\n"));
-  const auto own = head->WithUnits(units);
-  ASSERT_NE(own, nullptr);
+  const auto head = moved_as(*source), own = moved_as(*source->WithUnits(units));
+  ASSERT_TRUE(head && own);
   const auto farthest = [](const Head& moved, const FaceState& state) {
     HeadVertices rest, now;
     moved.Evaluate({}, rest);

@@ -62,8 +62,8 @@ OriginalFace SmallFace() {
 
 std::unique_ptr<Head> HeadOf(const OriginalFace& face, const VisemeMouths& mouths = {}) {
   MeshModel model = ModelOf(face);
-  auto motion = OwnMotionOf(face, model, mouths);
-  return MakeMeshHead(std::move(model), std::move(motion));
+  RigData skin = RigOf(face, model, mouths);
+  return MakeMeshHead(std::move(model), std::move(skin));
 }
 
 TEST(SmallOriginalFaceTest, EyesComeToWhereOursAre) {
@@ -151,12 +151,12 @@ TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
   MouthUnitSizes sizes{};
   sizes[11] = 15;
   MeshModel model = ModelOf(face);
-  auto motion = OwnMotionOf(face, model, mouths, sizes);
-  const auto head = MakeMeshHead(std::move(model), std::move(motion));
+  RigData skin = RigOf(face, model, mouths, sizes);
+  const auto head = MakeMeshHead(std::move(model), std::move(skin));
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
   FaceState state;
-  state.mouth[11] = 15;  // Mouth.12 = 100
+  state.mouth[11] = state.mouth_by_hand[11] = 15;  // Mouth.12 = 100
   head->Evaluate(state, moved);
   EXPECT_NEAR(rest.position[lower].y - moved.position[lower].y,
               0.06F * OriginalFrame(face.wireframe).mm(), 0.05F);

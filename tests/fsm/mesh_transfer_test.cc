@@ -11,6 +11,7 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -202,6 +203,47 @@ TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
     return std::abs(d.x) < 8 && std::abs(d.y) < 9 && d.z > 8;
   });
   EXPECT_LT(lid, 3.5F);
+}
+
+/// The second face's skin as a mesh of another maker, moved by the rig of the first.
+TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEveryStateWould) {
+  const auto onto = SkinTriangles(to_->topology());
+  MeshModel model;
+  for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(1));
+  model.BatchOf(Material::kSkin, -1, false).indices = onto;
+  carry_ = std::make_unique<DeformationTransfer>(
+      TransferSurface{from_rest_.position, flesh_, false, EyeballTriangles(from_->topology())},
+      TransferSurface{to_rest_.position, onto, false, {}}, pairs_);
+  RigData skin = TransferredRig(model, *from_, pairs_);
+  const auto head = MakeMeshHead(std::move(model), std::move(skin));
+  const auto expect_carried = [&](const char* what, const FaceState& state) {
+    HeadVertices a, b;
+    from_->Evaluate(state, a);
+    head->Evaluate(state, b);
+    std::vector<glm::vec3> by(a.position.size()), carried(to_rest_.position.size(), glm::vec3(0));
+    for (std::size_t i = 0; i < by.size(); ++i) by[i] = a.position[i] - from_rest_.position[i];
+    carry_->Apply(by, carried);
+    std::vector<float> errors;
+    for (const std::uint32_t v : std::set(onto.begin(), onto.end())) {
+      errors.push_back(glm::distance(b.position[v] - to_rest_.position[v], carried[v]));
+    }
+    std::ranges::sort(errors);
+    EXPECT_LT(errors[errors.size() * 95 / 100], 0.2F) << what;
+    EXPECT_LT(errors[errors.size() * 99 / 100], 0.7F) << what;
+  };
+  expect_carried("rest", {});
+  for (const std::size_t unit : {1U, 4U, 9U, 12U, 18U, 27U, 28U, 43U}) {
+    FaceState state;
+    state.au_left[unit] = state.au_right[unit] = 1;
+    expect_carried(("unit " + std::to_string(unit)).c_str(), state);
+  }
+  FaceState state;
+  state.blink_left = 0.5F;
+  state.eye_left.x = state.eye_right.x = -15;
+  state.mouth = {0.32F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.48F, 5, -5, 0, 2.25F, 5};
+  expect_carried("a half blink, eyes down and an o", state);
+  state.lip_seal = 1;
+  expect_carried("sealed", state);
 }
 
 /// Two lips of flat skin that meet at a height, as a coarse head has them: nothing but the slit

@@ -97,6 +97,13 @@ TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
   EXPECT_FALSE(motion.SetBlendShape(0ms, "jawSideways", 1, 0ms));
 }
 
+TEST_F(FaceMotionTest, WhatMouthNAsksIsKnownFromWhatSpeechAsks) {
+  ASSERT_TRUE(motion.SetMouth(0ms, 12, 0.5));
+  const FaceState state = motion.StateAt(1s);
+  EXPECT_FLOAT_EQ(state.mouth[11], 7.5F);
+  EXPECT_EQ(state.mouth_by_hand, state.mouth);
+}
+
 TEST_F(FaceMotionTest, UnitsCanBeMovedOnOneSide) {
   ASSERT_TRUE(motion.SetUnit(0ms, "12L", 0.7, 200ms));
   EXPECT_NEAR(motion.StateAt(100ms).au_left[12], 0.35f, 1e-5);

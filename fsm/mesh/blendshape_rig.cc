@@ -1,0 +1,297 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "fsm/mesh/drive_fit.h"
+#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/nnls_solver.h"
+
+namespace fsm {
+namespace {
+
+using Moves = std::vector<Displacement>;
+
+constexpr float kMostOfShape = 1.5f;
+
+bool IsEye(Bone bone) { return bone == Bone::kEyeRight || bone == Bone::kEyeLeft; }
+
+/// What moves the face's skin.
+Rig FaceOnly(const Head& head) {
+  using enum RigStep;
+  RigData rig = head.rig().data();
+  std::erase_if(rig.steps, [](RigStep step) {
+    return step == kTongue || step == kBones || step == kNeck || step == kNormals;
+  });
+  return Rig(std::move(rig));
+}
+
+/// Says how strong each shape must be to look like a head in a state. For baking: this is slow.
+class ShapeSolver {
+ public:
+  /// `source` says what the shapes look like, `moved`, of the same form, what the states do.
+  ShapeSolver(const Head& source, const Head& moved)
+      : source_(FaceOnly(source)), moved_(FaceOnly(moved)) {
+    HeadVertices vertices;
+    source_.Evaluate({}, vertices);
+    rest_ = std::move(vertices.position);
+    ChooseProbes(SkinTriangles(source.topology()));
+  }
+
+  /// The next shape looks as the source does in this state.
+  void Add(const FaceState& meaning) {
+    Look look = LookOf(source_, meaning);
+    opens_mm_.push_back(OpensOnlyMouth(look.moves) ? look.gap_mm : 0.0f);
+    keys_.push_back(std::move(look.moves));
+    mix_.reset();
+  }
+  std::size_t count() const { return keys_.size(); }
+  /// Whether the shape opens the mouth and moves nothing else.
+  bool Opens(std::size_t shape) const { return opens_mm_[shape] > 0; }
+
+  std::vector<float> Solve(const FaceState& state) {
+    if (!mix_) mix_.emplace(keys_);
+    const Look look = LookOf(moved_, state);
+    std::vector<float> weights = mix_->TakeApart(look.moves).weights;
+    HoldShut(look.gap_mm, weights);
+    return weights;
+  }
+
+ private:
+  struct Look {
+    NnlsSolver::Row moves;  ///< of the probes
+    float gap_mm;           ///< between the lips
+  };
+
+  /// Some vertices of the face, a few millimetres from each other.
+  void ChooseProbes(std::span<const std::uint32_t> skin) {
+    constexpr float kApart = 5;
+    for (const std::uint32_t v : skin) {
+      const glm::vec3 p = rest_[v];
+      if (p.z < 30 || p.y < -105 || p.y > 75) continue;
+      if (std::ranges::none_of(
+              probes_, [&](std::uint32_t w) { return glm::distance(rest_[w], p) < kApart; })) {
+        probes_.push_back(v);
+      }
+    }
+  }
+
+  Look LookOf(const Rig& face, const FaceState& state) {
+    face.Evaluate(state, vertices_);
+    Look look{.moves = {}, .gap_mm = 0};
+    look.moves.reserve(3 * probes_.size());
+    for (const std::uint32_t v : probes_) {
+      for (int c = 0; c < 3; ++c) look.moves.push_back(vertices_.position[v][c] - rest_[v][c]);
+    }
+    if (const auto& lips = face.data().lips.measured) {
+      look.gap_mm =
+          std::max(vertices_.position[(*lips)[0]].y - vertices_.position[(*lips)[1]].y, 0.0f);
+    }
+    return look;
+  }
+
+  /// Whether what a look moves lies below the nose.
+  bool OpensOnlyMouth(const NnlsSolver::Row& look) const {
+    constexpr float kBelow = -10, kRest = 0.1f;
+    float above = 0, all = 0;
+    for (std::size_t i = 0; i < look.size(); ++i) {
+      all += look[i] * look[i];
+      if (rest_[probes_[i / 3]].y > kBelow) above += look[i] * look[i];
+    }
+    return above < kRest * all;
+  }
+
+  /// Few shapes mixed to a mouth that is shut are as near to it a little open, but p, b and m must
+  /// shut: what opens nothing but the mouth opens it no wider than ours.
+  void HoldShut(float wanted_mm, std::vector<float>& weights) const {
+    float open = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) open += weights[k] * opens_mm_[k];
+    if (open <= std::max(wanted_mm, 1e-3f)) return;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      if (opens_mm_[k] > 0) weights[k] *= wanted_mm / open;
+    }
+  }
+
+  Rig source_, moved_;
+  HeadVertices vertices_;  // of the state looked at last
+  std::vector<glm::vec3> rest_;
+  std::vector<std::uint32_t> probes_;
+  std::vector<NnlsSolver::Row> keys_;
+  std::vector<float> opens_mm_;  // of each shape that moves only the mouth, else 0
+  std::optional<NnlsSolver> mix_;
+};
+
+/// The shapes of a file whose names have a meaning.
+struct KnownShapes {
+  std::vector<std::string> names;
+  std::vector<Moves> moves;
+  std::map<std::string, Moves, std::less<>> looks;  ///< those by which eyes are turned
+};
+
+constexpr const char* kLooks[] = {"vrmlookleft", "vrmlookright", "vrmlookup", "vrmlookdown"};
+
+KnownShapes Recognise(const HeadFile& file, const Similarity& place, const MeshModel& model,
+                      std::span<const ShapeMeaning> meanings, ShapeSolver& solver) {
+  std::map<std::string, const FaceState*> states;
+  for (const ShapeMeaning& meaning : meanings) states.emplace(meaning.name, &meaning.state);
+  std::set<std::string> given;
+  for (const auto& shape : file.shapes) given.insert(PlainShapeName(shape.name));
+  KnownShapes known;
+  for (const auto& shape : file.shapes) {
+    std::string name = PlainShapeName(shape.name);
+    // Eyes turn by themselves.
+    const bool but_eyes = name.find("eyelook") != std::string::npos && model.has_eyes;
+    Moves moves;
+    for (const auto& [vertex, by] : shape.deltas) {
+      if (but_eyes && IsEye(model.bone[vertex])) continue;
+      moves.push_back({vertex, place.scale * (place.turn * by)});
+    }
+    if (file.look_by_shape && std::ranges::find(kLooks, name) != std::end(kLooks)) {
+      known.looks[name] = std::move(moves);
+      continue;
+    }
+    auto found = states.find(name);
+    // Avatars made for face tracking have expressions called as ARKit's shapes.
+    if (found == states.end() && name.starts_with("vrm") && !given.contains(name.substr(3))) {
+      found = states.find(name.substr(3));
+    }
+    if (found == states.end()) continue;
+    solver.Add(*found->second);
+    known.names.push_back(std::move(name));
+    known.moves.push_back(std::move(moves));
+  }
+  return known;
+}
+
+/// Teeth and tongues that the shapes move are not moved with the jaw as well.
+void FreeWhatMoves(const HeadFile& file, const KnownShapes& known, MeshModel& model) {
+  std::vector<bool> moves(model.position.size(), false);
+  for (const Moves& shape : known.moves) {
+    for (const Displacement& d : shape) moves[d.vertex] = true;
+  }
+  for (const auto& part : file.parts) {
+    if (std::ranges::none_of(part.indices, [&](std::uint32_t v) { return moves[v]; })) continue;
+    for (const std::uint32_t v : part.indices) {
+      if (!IsEye(model.bone[v])) model.bone[v] = Bone::kSkin;
+    }
+  }
+}
+
+/// The drivers of every shape, by the states in which one number alone is not 0, and by visemes.
+std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const UnitTable& units,
+                                                     std::span<const FaceState> visemes) {
+  const auto solve = [&solver](const FaceState& state) { return solver.Solve(state); };
+  DriveFit fit(solver.count());
+  for (const int unit : units.Numbers()) {
+    const auto number = static_cast<std::uint16_t>(unit);
+    fit.AddSided({.kind = Drive::Kind::kUnit, .number = number}, 1, [&](bool right, bool left) {
+      FaceState state;
+      state.au_right[number] = right ? 1 : 0;
+      state.au_left[number] = left ? 1 : 0;
+      return solve(state);
+    });
+  }
+  fit.AddSided({.kind = Drive::Kind::kBlink}, 1, [&](bool right, bool left) {
+    FaceState state;
+    state.blink_right = right ? 1 : 0;
+    state.blink_left = left ? 1 : 0;
+    return solve(state);
+  });
+  constexpr float kGaze = 25;  // degrees
+  for (const Drive::Kind kind : {Drive::Kind::kGazeUp, Drive::Kind::kGazeRight}) {
+    for (const Drive::Half half : {Drive::Half::kPositive, Drive::Half::kNegative}) {
+      const float angle = half == Drive::Half::kPositive ? kGaze : -kGaze;
+      fit.AddSided({.kind = kind, .half = half}, kGaze, [&](bool right, bool left) {
+        FaceState state;
+        float FaceState::Eye::*const axis =
+            kind == Drive::Kind::kGazeUp ? &FaceState::Eye::x : &FaceState::Eye::y;
+        state.eye_right.*axis = right ? angle : 0;
+        state.eye_left.*axis = left ? angle : 0;
+        return solve(state);
+      });
+    }
+  }
+  MouthFit mouth(solver.count());
+  mouth.AddParameters(solve);
+  for (FaceState state : visemes) {
+    state.lip_seal = 0;  // what seals does so by the channels' factors
+    mouth.AddViseme(state.mouth, solve(state));
+  }
+  mouth.AddTo(fit, Drive::Kind::kMouth);
+  return fit.Take();
+}
+
+/// Eyes that turn by shapes: both go with one, half by either; the agent's left is to the viewer's
+/// right.
+void AddLooks(const KnownShapes& known, const LookRanges& ranges, std::vector<Channel>& channels) {
+  using enum Drive::Kind;
+  using enum Drive::Half;
+  struct Look {
+    const char* name;
+    Drive::Kind kind;
+    Drive::Half half;
+    LookRange range;
+  };
+  for (const Look& look : {Look{kLooks[0], kGazeRight, kPositive, ranges.outer},
+                           Look{kLooks[1], kGazeRight, kNegative, ranges.outer},
+                           Look{kLooks[2], kGazeUp, kPositive, ranges.up},
+                           Look{kLooks[3], kGazeUp, kNegative, ranges.down}}) {
+    const auto found = known.looks.find(look.name);
+    if (found == known.looks.end()) continue;
+    Channel& channel = channels.emplace_back();
+    for (const Drive::Side side : {Drive::Side::kRight, Drive::Side::kLeft}) {
+      channel.drivers.push_back({{.kind = look.kind, .side = side, .half = look.half},
+                                 0.5f / std::max(look.range.gaze_deg, 1e-3f)});
+    }
+    channel.least = 0;
+    channel.most = 1;
+    channel.moves = found->second;
+    for (Displacement& d : channel.moves) d.by *= std::min(look.range.turn, 1.0f);
+  }
+}
+
+}  // namespace
+
+std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& place,
+                                     MeshModel& model, const ShapeMeanings& meanings,
+                                     const Head& moved, std::span<const FaceState> visemes) {
+  constexpr std::size_t kFewest = 4;
+  if (file.shapes.size() < kFewest) return std::nullopt;
+  ShapeSolver solver(meanings.source, moved);
+  KnownShapes known = Recognise(file, place, model, meanings.shapes, solver);
+  if (known.names.size() < kFewest) return std::nullopt;
+  FreeWhatMoves(file, known, model);
+  RigData rig = StillSkin();
+  rig.steps = {RigStep::kChannels};
+  rig.units = moved.rig().data().units;
+  auto drivers = FitDrivers(solver, rig.units, visemes);
+  // ARKit's mouthClose closes what jawOpen opens, and means nothing without it; where it is there,
+  // lips are sealed by it, else by not opening them.
+  const auto shape_of = [&known](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(known.names, name) - known.names.begin());
+  };
+  const std::size_t close = shape_of("mouthclose"), jaw = shape_of("jawopen");
+  const bool closes = std::max(close, jaw) < known.names.size();
+  const auto add = [&rig](std::vector<Channel::Driver> by, Moves moves) -> Channel& {
+    Channel& channel = rig.channels.emplace_back();
+    channel.drivers = std::move(by);
+    channel.least = 0;
+    channel.most = kMostOfShape;
+    channel.moves = std::move(moves);
+    return channel;
+  };
+  if (closes) add(drivers[jaw], known.moves[close]).open_factor = 0;
+  for (std::size_t k = 0; k < known.moves.size(); ++k) {
+    const bool kept = closes && k == jaw;
+    Channel& channel = add(std::move(drivers[k]), std::move(known.moves[k]));
+    if (solver.Opens(k) && !kept) channel.sealed_factor = 0;
+  }
+  std::erase_if(rig.channels, [](const Channel& channel) { return channel.drivers.empty(); });
+  AddLooks(known, file.look.value_or(LookRanges{}), rig.channels);
+  return rig;
+}
+
+}  // namespace fsm

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <initializer_list>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "fsm/mesh/head_file.h"
+
+namespace fsm {
+namespace {
+
+std::vector<std::uint32_t> TrianglesOf(const HeadTopology& topology,
+                                       std::initializer_list<Material> materials) {
+  std::vector<std::uint32_t> out;
+  for (const auto& part : topology.parts) {
+    if (std::ranges::find(materials, part.material) == materials.end()) continue;
+    const auto first = topology.indices.begin() + part.first_index;
+    out.insert(out.end(), first, first + part.index_count);
+  }
+  return out;
+}
+
+using Row = DeformationTransfer::Row;
+
+/// Lays the rig of one head on the vertices of another: each has the attributes of the place of the
+/// first head that it follows.
+class RigResampler {
+ public:
+  /// `rows`: of all vertices. `rig` and `rows` outlive this.
+  RigResampler(const RigData& source, std::span<const Row> rows, RigData& rig)
+      : source_(source), rows_(rows), rig_(rig) {}
+
+  /// The steps' data but for the seam of the lips, whose vertices are others.
+  void Resample(std::span<const glm::vec3> rest) {
+    rig_.weights.resize(rows_.size(), Still());
+    rig_.proxy_rest.assign(rest.begin(), rest.end());
+    for (std::size_t v = 0; v < rows_.size(); ++v) ResampleVertex(v);
+    ResampleMouthChannels();
+    ResampleLids();
+    ResampleFollowers();
+    ResampleContacts();
+  }
+
+ private:
+  static SkinWeights Still() {
+    SkinWeights weights;
+    weights.free = 0;
+    return weights;
+  }
+
+  /// What the source says of a vertex, by the vertex; nothing for most.
+  template <typename T>
+  std::vector<const T*> ByVertex(const std::vector<T>& all) const {
+    std::vector<const T*> by(source_.rest.size(), nullptr);
+    for (const T& one : all) by[one.vertex] = &one;
+    return by;
+  }
+
+  void ResampleVertex(std::size_t v) {
+    float sum = 0;
+    for (const auto& [from, part] : rows_[v]) sum += part;
+    if (sum <= 0) return;
+    SkinWeights& mean = rig_.weights[v];
+    glm::vec3 place(0);
+    mean.above_mouth = 0;
+    for (const auto& [from, part] : rows_[v]) {
+      const SkinWeights& one = source_.weights[from];
+      place += part / sum * source_.rest[from];
+      mean.domain += part / sum * one.domain;
+      mean.above_mouth += part / sum * one.above_mouth;
+      mean.jaw += part * one.jaw;
+      mean.free += part * one.free;
+    }
+    rig_.proxy_rest[v] = place;
+  }
+
+  void ResampleMouthChannels() {
+    constexpr float kLeast = 1e-3f;  // millimetres
+    std::vector<glm::vec3> by(source_.rest.size());
+    for (const Channel& channel : source_.channels) {
+      if (channel.drivers.front().drive.kind != Drive::Kind::kMouth) continue;
+      std::ranges::fill(by, glm::vec3(0));
+      for (const Displacement& d : channel.moves) by[d.vertex] = d.by;
+      Channel& own = rig_.channels.emplace_back(channel);
+      own.moves.clear();
+      for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+        glm::vec3 sum(0);
+        for (const auto& [from, part] : rows_[v]) sum += part * by[from];
+        if (glm::length(sum) > kLeast) own.moves.push_back({v, sum});
+      }
+    }
+  }
+
+  void ResampleLids() {
+    rig_.lids = {.vertices = {},
+                 .eyes = source_.lids.eyes,
+                 .ball = source_.lids.ball,
+                 .cornea_centre = source_.lids.cornea_centre};
+    const auto lids = ByVertex(source_.lids.vertices);
+    for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+      LidRig::Vertex mean{.vertex = v,
+                          .side = 0,
+                          .upper = 0,
+                          .lower = 0,
+                          .upper_angle = 0,
+                          .lower_angle = 0,
+                          .meet_angle = 0,
+                          .opening = 0,
+                          .y = 0,
+                          .z = 0,
+                          .proper = false};
+      float sum = 0, left = 0, proper = 0;
+      for (const auto& [from, part] : rows_[v]) sum += lids[from] ? part : 0;
+      if (sum <= 0) continue;
+      for (const auto& [from, part] : rows_[v]) {
+        const LidRig::Vertex* one = lids[from];
+        if (!one) continue;
+        const float share = part / sum;
+        mean.upper += part * one->upper;
+        mean.lower += part * one->lower;
+        mean.upper_angle += share * one->upper_angle;
+        mean.lower_angle += share * one->lower_angle;
+        mean.meet_angle += share * one->meet_angle;
+        mean.opening += share * one->opening;
+        mean.y += share * one->y;
+        mean.z += share * one->z;
+        left += one->side == 1 ? share : 0;
+        proper += one->proper ? part : 0;
+      }
+      mean.side = left > 0.5f ? 1 : 0;
+      mean.proper = proper > 0.5f;
+      rig_.lids.vertices.push_back(mean);
+    }
+  }
+
+  void ResampleFollowers() {
+    std::map<std::uint32_t, std::vector<LipRig::Follower>> followers;
+    for (const LipRig::Follower& f : source_.lips.followers) followers[f.vertex].push_back(f);
+    for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+      std::map<std::pair<std::uint32_t, bool>, float> parts;  // by pair, of the upper lip or not
+      for (const auto& [from, part] : rows_[v]) {
+        const auto found = followers.find(from);
+        if (found == followers.end()) continue;
+        for (const auto& f : found->second) parts[{f.pair, f.part > 0}] += part * f.part;
+      }
+      for (const auto& [of, part] : parts) rig_.lips.followers.push_back({v, of.first, part});
+    }
+  }
+
+  void ResampleContacts() {
+    rig_.upper_teeth = source_.upper_teeth;
+    rig_.lower_teeth = source_.lower_teeth;
+    const auto contacts = ByVertex(source_.teeth_contacts);
+    for (std::uint32_t v = 0; v < rows_.size(); ++v) {
+      float sum = 0, upper = 0, lower = 0;
+      for (const auto& [from, part] : rows_[v]) {
+        if (!contacts[from]) continue;
+        sum += part;
+        upper += part * contacts[from]->upper_gap;
+        lower += part * contacts[from]->lower_gap;
+      }
+      if (sum > 0.5f) rig_.teeth_contacts.push_back({v, upper / sum, lower / sum});
+    }
+  }
+
+  const RigData& source_;
+  std::span<const Row> rows_;
+  RigData& rig_;
+};
+
+/// The source's lips are among the model's vertices, unseen: they say where lips cross.
+std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshModel& model,
+                         LipRig& lips) {
+  std::vector<Row> all(rows.begin(), rows.end());
+  std::map<std::uint32_t, std::uint32_t> known;
+  const auto own = [&](std::uint32_t v) {
+    const auto [at, fresh] = known.try_emplace(v, 0);
+    if (fresh) {
+      at->second = model.Add(source.rest[v], Bone::kSkin, glm::vec3(0));
+      all.push_back({{v, 1.0f}});
+    }
+    return at->second;
+  };
+  for (const auto& [upper, lower] : source.lips.seam) {
+    const std::uint32_t own_upper = own(upper);
+    lips.seam.emplace_back(own_upper, own(lower));
+  }
+  lips.apart_at_rest = source.lips.apart_at_rest;
+  lips.measured = source.lips.measured;
+  if (lips.measured) {
+    for (std::uint32_t& v : *lips.measured) v = own(v);
+  }
+  return all;
+}
+
+/// From where the rig leaves the vertices while nothing is asked to where they are.
+std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
+                               std::span<const Row> rows) {
+  RigData proxy = rig;
+  proxy.rest = rig.proxy_rest;
+  proxy.proxy_rest.clear();
+  proxy.rest_normal.assign(proxy.rest.size(), glm::vec3(0, 0, 1));
+  proxy.bone = model.bone;
+  HeadVertices still;
+  Rig(std::move(proxy)).Evaluate({}, still);
+  std::vector<glm::vec3> form(rows.size(), glm::vec3(0));
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    if (!rows[v].empty()) form[v] = model.position[v] - still.position[v];
+  }
+  return form;
+}
+
+DeformationTransfer TransferBetween(const Head& source, const MeshModel& model,
+                                    std::span<const PlacePair> pairs) {
+  HeadVertices rest;
+  source.Evaluate({}, rest);
+  try {
+    return {{rest.position, SkinTriangles(source.topology()), false,
+             EyeballTriangles(source.topology())},
+            {model.position, model.SkinTriangles(), model.has_uv_seams, model.EyeTriangles()},
+            pairs};
+  } catch (const std::runtime_error& error) {
+    if (model.name.empty()) throw;
+    throw std::runtime_error(model.name + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology) {
+  return TrianglesOf(topology, {Material::kSkin, Material::kLip, Material::kMouthInside});
+}
+
+std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology) {
+  return TrianglesOf(topology, {Material::kSclera, Material::kIris, Material::kPupil});
+}
+
+RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PlacePair> pairs) {
+  using enum RigStep;
+  const RigData& from = source.rig().data();
+  const DeformationTransfer transfer = TransferBetween(source, model, pairs);
+  RigData rig;
+  const std::vector<Row> rows = AddLips(from, transfer.rows(), model, rig.lips);
+  RigResampler(from, rows, rig).Resample(model.position);
+  rig.units = from.units;
+  rig.person = from.person;
+  rig.units_by_place = true;
+  std::ranges::move(UnitChannels(rig.units, model.bone, rig.weights),
+                    std::back_inserter(rig.channels));
+  rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};
+  rig.own_form = OwnForm(rig, model, rows);
+  rig.steps.push_back(kOwnForm);
+  return rig;
+}
+
+}  // namespace fsm
