@@ -7,7 +7,7 @@
 namespace fsm {
 namespace {
 
-constexpr float kLeastGain = 1e-3f;  // of a target at full strength
+constexpr float kLeastGain = 5e-3f;  // of a target at full strength
 
 /// How far a parameter goes in speech: millimetres, of the jaw's opening degrees.
 constexpr float FullOf(std::size_t parameter) { return parameter == 11 ? 10.0f : 4.0f; }
