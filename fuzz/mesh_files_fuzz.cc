@@ -4,6 +4,7 @@
 #include <cstring>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -12,7 +13,6 @@
 #include <vector>
 
 #include "fsm/image/image_codec.h"
-#include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/mesh_reach.h"
@@ -55,25 +55,43 @@ bool IsFinite(glm::vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Makes a head of the file, carries our face to it and moves it. Whatever its numbers are, it is
-/// refused, or every vertex has a place.
+/// The ball as a head whose lower half a mouth parameter pulls down.
+std::unique_ptr<fsm::Head> HeadOf(const Ball& ball) {
+  fsm::MeshModel model;
+  fsm::RigData skin = fsm::StillSkin();
+  skin.steps = {fsm::RigStep::kChannels};
+  fsm::Channel fall;
+  fall.drivers = {{{.kind = fsm::Drive::Kind::kMouth, .number = 4}}};
+  for (const glm::vec3& p : ball.place) {
+    const std::uint32_t v = model.Add(p, fsm::Bone::kSkin, glm::vec3(1));
+    if (p.y < 0) fall.moves.push_back({v, glm::vec3(1, -2, 3)});
+  }
+  skin.channels = {fall};
+  model.BatchOf(fsm::Material::kSkin, -1, false).indices = ball.triangles;
+  return fsm::MakeMeshHead(std::move(model), std::move(skin));
+}
+
+/// Makes a head of the file, lays the rig of the ball on it and moves it. Whatever its numbers are,
+/// it is refused, or every vertex has a place.
 void CarryOnto(const fsm::HeadFile& file, const fsm::Similarity& place,
                std::span<const fsm::PlacePair> pairs) {
-  static const Ball ball;
+  static const std::unique_ptr<fsm::Head> source = HeadOf(Ball());
   try {
-    const fsm::MeshModel model = fsm::ModelOf(file, place, -43);
+    fsm::MeshModel model = fsm::ModelOf(file, place, -43);
     if (model.bone.size() != model.position.size()) __builtin_trap();
     for (const glm::vec3& p : model.position) {
       if (!IsFinite(p)) __builtin_trap();
     }
     const auto flesh = model.SkinTriangles(), eyes = model.EyeTriangles();
     if (model.position.size() > kMaxCarried || flesh.size() + eyes.size() > kMaxCarried) return;
-    const fsm::DeformationTransfer carry({.position = ball.place, .triangles = ball.triangles},
-                                         {model.position, flesh, model.sewn, eyes}, pairs);
-    const std::vector<glm::vec3> by(ball.place.size(), glm::vec3(1, -2, 3));
-    std::vector<glm::vec3> moved = model.position;
-    carry.Apply(by, moved);
-    for (const glm::vec3& p : moved) {
+    fsm::RigData skin = fsm::TransferredRig(model, *source, pairs);
+    const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
+    fsm::FaceState state;
+    state.mouth[4] = 3;
+    state.au_left[27] = state.au_right[12] = state.lip_seal = state.blink_left = 1;
+    fsm::HeadVertices moved;
+    head->Evaluate(state, moved);
+    for (const glm::vec3& p : moved.position) {
       if (!IsFinite(p)) __builtin_trap();
     }
   } catch (const std::runtime_error&) {
