@@ -128,8 +128,8 @@ HubSlots::Hooks AgentManager::SlotHooks() {
                 });
               },
           .on_want =
-              [this](const std::string& name) {
-                if (auto* const bridge = config_.bridge()) bridge->Want(name);
+              [this](const std::string& name, Role role) {
+                if (auto* const bridge = config_.bridge()) bridge->Want(name, role);
               },
           .on_flow =
               [this](PeerKey peer, bool on) {
@@ -164,8 +164,8 @@ void AgentManager::ConnectParts() {
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
     OnPresence(name, present, reason);
   });
-  hub_.set_on_unknown([this](const std::string& name) -> Result<bool> {
-    return config_.bridge() != nullptr ? config_.bridge()->Open(name) : Result<bool>(false);
+  hub_.set_on_unknown([this](const std::string& name, Role asker) -> Result<bool> {
+    return config_.bridge() != nullptr ? config_.bridge()->Open(name, asker) : Result<bool>(false);
   });
   hub_.AddMachine(slots_);
   hub_.AddMachine(macros_.slots(), {own_name::kMacrosOfTheOriginal});

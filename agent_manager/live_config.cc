@@ -38,7 +38,7 @@ void LiveConfig::Apply(const Config& config) {
   parts_.hub_slots.DeclareModules(names);
   names.insert(mqtt::Bridge::kName);
   Hub& hub = parts_.hub;
-  hub.Reserve(std::move(names));
+  hub.Reserve(names);
   hub.set_limits(config.limits);
   hub.set_rights(config.rights);
   hub.set_rules(config.rules);

@@ -45,6 +45,8 @@ std::optional<Deed> DeedOf(std::string_view receiver, const Message& message) {
   if (sets && slot == "Run" &&
       (unseen || IsWord(message.value, "EXIT") || IsWord(message.value, "CLOSE")))
     return Deed{Permission::kStop, "end programs"};
+  if (message.command == Command::kProp && message.value != "AutoOutput")
+    return Deed{Permission::kMute, "have a module no longer report"};
   if (at_hub) {
     if (sets && (slot == "Start" || slot == "Stop" || slot == "Restart"))
       return Deed{Permission::kStop, "start and stop modules"};
@@ -56,8 +58,6 @@ std::optional<Deed> DeedOf(std::string_view receiver, const Message& message) {
   }
   if (sets && (slot == "Clock" || slot == "Clock.mode" || slot == "Wait"))
     return Deed{Permission::kClock, "hold or set the clock and input of a module"};
-  if (message.command == Command::kProp && message.value != "AutoOutput")
-    return Deed{Permission::kMute, "have a module no longer report"};
   return std::nullopt;
 }
 

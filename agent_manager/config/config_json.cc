@@ -200,10 +200,15 @@ class LineCounter {
   std::size_t* line_;
 };
 
-/// Refuses an object with the same key twice; nlohmann-json would silently keep the last.
-class DuplicateKeys {
+/// Refuses an object with the same key twice, of which nlohmann-json would silently keep the last,
+/// and what is nested so deeply that writing it out again would need more stack than there is.
+class StructureCheck {
  public:
+  static constexpr int kMaxDepth = 64;
   bool operator()(int depth, json::parse_event_t event, json& parsed) {
+    if (depth > kMaxDepth)
+      throw ConfigFault{"(here)",
+                        "more than " + std::to_string(kMaxDepth) + " brackets in each other"};
     const auto level = static_cast<std::size_t>(depth);
     if (event == json::parse_event_t::object_start) {
       seen_.resize(level + 1);
@@ -226,7 +231,7 @@ json ParseJson(std::string_view text, const std::string& origin) {
   std::size_t line = 1;
   try {
     const char* const end = text.data() + text.size();
-    return json::parse(LineCounter(text.data(), &line), LineCounter(end, &line), DuplicateKeys(),
+    return json::parse(LineCounter(text.data(), &line), LineCounter(end, &line), StructureCheck(),
                        true, true);
   } catch (const ConfigFault& fault) {
     throw ConfigFault{

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBuffer = 64u << 10;
 constexpr std::size_t kPiece = 64u << 10;           // compressed along with kBuffer written
-constexpr std::uint64_t kMaxLogBytes = 4ull << 30;  // read into memory by ReadLog
+constexpr std::uint64_t kMaxLogBytes = 256u << 20;  // read into memory by ReadLog
 
 }  // namespace
 
@@ -143,6 +143,9 @@ void LogWriter::EndCompressing() {
 }
 
 std::string ReadLog(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw std::runtime_error("'" + path + "' is no regular file");
   const gzFile file = gzopen(path.c_str(), "rbe");  // reads plain files as they are
   if (file == nullptr)
     throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno));
@@ -150,12 +153,15 @@ std::string ReadLog(const std::string& path) {
   std::array<char, kPiece> piece;
   int n = 0;
   while ((n = gzread(file, piece.data(), static_cast<unsigned>(piece.size()))) > 0 &&
-         text.size() < kMaxLogBytes)
+         text.size() <= kMaxLogBytes)
     text.append(piece.data(), static_cast<std::size_t>(n));
   int code = Z_OK;
   const std::string why = gzerror(file, &code);
   gzclose(file);
   if (n < 0) throw std::runtime_error("cannot read '" + path + "': " + why);
+  if (text.size() > kMaxLogBytes)
+    throw std::runtime_error("'" + path + "' holds more than " + std::to_string(kMaxLogBytes) +
+                             " bytes");
   return text;
 }
 

@@ -58,6 +58,7 @@ Result<void> MacroLayer::Define(Macro macro) {
   if (bytes_ - replaced + macro.bytes > kMaxMacroBytes)
     return vm::Fail(Errc::kLimit,
                     "macros hold more than " + std::to_string(kMaxMacroBytes) + " bytes");
+  if (const auto checked = CheckAwaited(macro); !checked) return checked;
   const bool same_slot = before != macros_.end() && before->second->grammar == macro.grammar &&
                          before->second->help == macro.help;
   if (before != macros_.end() && !same_slot) slots_.Remove(name);
@@ -88,33 +89,53 @@ Result<void> MacroLayer::Remove(const std::string& name) {
   return {};
 }
 
-void MacroLayer::CollectAwaited() {
-  awaited_.clear();
-  const auto collect = [this](const MacroStep& step) {
-    if (const auto* const wait = std::get_if<WaitStep>(&step.action))
-      awaited_[{wait->from, wait->slot}] = true;
+void MacroLayer::CollectFrom(const Macro& macro, std::map<Place, Awaited>& awaited) {
+  const auto collect = [&awaited](const MacroStep& step) {
+    if (const auto* const wait = std::get_if<WaitStep>(&step.action)) {
+      Awaited& place = awaited[{wait->from, wait->slot}];
+      place.is_value = true;
+      if (wait->last) place.remembered = std::max(place.remembered.value_or(0), wait->value.size());
+    }
     if (const auto* const follow = std::get_if<FollowStep>(&step.action))
-      awaited_.try_emplace({follow->from, follow->tell}, false);
+      awaited.try_emplace({follow->from, follow->tell});
     if (const auto* const mirror = std::get_if<MirrorStep>(&step.action)) {
-      for (const std::string& slot : mirror->slots) awaited_[{mirror->from, slot}] = true;
+      for (const std::string& slot : mirror->slots) awaited[{mirror->from, slot}].is_value = true;
     }
   };
-  for (const auto& [name, macro] : macros_) {
-    for (const auto& steps : {macro->steps, macro->on_stop, macro->finally})
-      ForEachStep(steps, collect);
+  for (const auto& steps : {macro.steps, macro.on_stop, macro.finally}) ForEachStep(steps, collect);
+}
+
+Result<void> MacroLayer::CheckAwaited(const Macro& macro) const {
+  std::map<Place, Awaited> own;
+  CollectFrom(macro, own);
+  std::erase_if(own, [this](const auto& entry) { return awaited_.contains(entry.first); });
+  if (awaited_.size() + own.size() <= kMaxAwaited) return {};
+  return vm::Fail(Errc::kLimit,
+                  "macros wait for more than " + std::to_string(kMaxAwaited) + " slots and events");
+}
+
+void MacroLayer::CollectAwaited() {
+  const auto before = std::exchange(awaited_, {});
+  for (const auto& [name, macro] : macros_) CollectFrom(*macro, awaited_);
+  for (auto& [place, awaited] : awaited_) {
+    const auto known = before.find(place);
+    awaited.switched_on = known != before.end() && known->second.switched_on;
   }
-  std::erase_if(services_.last,
-                [this](const auto& entry) { return !awaited_.contains(entry.first); });
+  std::erase_if(services_.last, [this](const auto& entry) {
+    const auto found = awaited_.find(entry.first);
+    return found == awaited_.end() || !found->second.remembered;
+  });
 }
 
 void MacroLayer::SwitchOn(const std::string& module) {
   // The original's face reports a slot only if AutoOutput is set; set it for each awaited slot.
-  for (const auto& [place, is_value] : awaited_) {
-    const auto& [from, slot] = place;
-    if (from != module || !is_value) continue;
+  for (auto at = awaited_.lower_bound({module, ""});
+       at != awaited_.end() && at->first.first == module; ++at) {
+    if (!at->second.is_value || std::exchange(at->second.switched_on, true)) continue;
     hub_.Ask(
         kName,
-        vm::To(module, {{}, "", Command::kProp, "", slot, vm::Relation::kAssign, "AutoOutput"}),
+        vm::To(module,
+               {{}, "", Command::kProp, "", at->first.second, vm::Relation::kAssign, "AutoOutput"}),
         IgnoreAnswer);
   }
 }
@@ -244,14 +265,24 @@ void MacroLayer::OnReport(const std::string& from, const Message& message) {
     slot = value.substr(0, equals);
     value.erase(0, equals + 3);
   }
-  if (!awaited_.contains({from, slot})) return;
-  if (!told) services_.last[{from, slot}] = value;
+  const auto awaited = awaited_.find({from, slot});
+  if (awaited == awaited_.end()) return;
+  if (!told && awaited->second.remembered) {
+    if (value.size() <= *awaited->second.remembered) {
+      services_.last[{from, slot}] = value;
+    } else {
+      services_.last.erase({from, slot});  // none that a step compares it to
+    }
+  }
   for (const auto& [name, run] : runs_) run->OnReport(from, slot, value, told);
 }
 
 void MacroLayer::OnPresence(const std::string& name, bool present, const std::string& reason) {
   if (present) return SwitchOn(name);
   std::erase_if(services_.last, [&](const auto& entry) { return entry.first.first == name; });
+  for (auto& [place, awaited] : awaited_) {
+    if (place.first == name) awaited.switched_on = false;
+  }
   for (const auto& [macro, run] : runs_) run->OnGone(name, reason);
 }
 

@@ -20,6 +20,7 @@ namespace am {
 class MacroLayer final : public BuiltInModule {
  public:
   static constexpr std::size_t kMaxMacros = 1024;
+  static constexpr std::size_t kMaxAwaited = 8192;  ///< slots and events that macros wait for
   static constexpr std::size_t kMaxMacroBytes = 8u << 20;
   using ReadFile = std::function<vm::Result<std::string>(const std::string& path)>;
   MacroLayer(vm::Scheduler& clock, Hub& hub, ReadFile read_file,
@@ -56,6 +57,16 @@ class MacroLayer final : public BuiltInModule {
   void Begin(const std::string& name, MacroRun::Successor start);
   void Finish(const std::string& name);
   void StopWithoutRun(const Macro& macro);
+  /// What is known of a slot or event that some macro waits for.
+  struct Awaited {
+    bool is_value = false;     ///< a slot's value, whose reports may have to be switched on
+    bool switched_on = false;  ///< they have been, since its module came
+    /// The last value is remembered if it is no longer than the longest that a step compares it to.
+    std::optional<std::size_t> remembered{};
+  };
+  using Place = std::pair<std::string, std::string>;  // module, slot or event
+  vm::Result<void> CheckAwaited(const Macro& macro) const;
+  static void CollectFrom(const Macro& macro, std::map<Place, Awaited>& awaited);
   void CollectAwaited();
   void SwitchOn(const std::string& module);
 
@@ -66,9 +77,7 @@ class MacroLayer final : public BuiltInModule {
   std::map<std::string, std::shared_ptr<const Macro>> macros_;
   std::map<std::string, Reader> readers_;
   std::map<std::string, std::unique_ptr<MacroRun>> runs_;  // by macro
-  /// (module, slot) that some macro waits for -> true for a slot's value, whose reports may have to
-  /// be switched on; false for an event.
-  std::map<std::pair<std::string, std::string>, bool> awaited_;
+  std::map<Place, Awaited> awaited_;
   std::size_t bytes_ = 0;
   Origin origin_;  // of the message being handled
 };

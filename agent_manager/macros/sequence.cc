@@ -217,6 +217,10 @@ void Sequence::OnReport(const std::string& from, const std::string& slot, const 
     if (follower->from != from || follower->tell != slot) continue;
     const Message& sent = follower->send.message();
     if (!services_.hub.IsPresent(sent.to.front())) continue;
+    if (services_.hub.queued() > kMaxQueued) {
+      Fail({Errc::kLimit, "@" + from + " tells " + slot + " faster than it can be passed on", 0});
+      return Advance();
+    }
     const auto lookup = [&](const std::string& name) {
       return name == "told" ? value : Value(name);
     };

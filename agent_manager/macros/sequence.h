@@ -22,7 +22,8 @@ struct MacroServices {
   vm::SlotMachine& slots;  ///< of @AM-MCL
   std::function<void(const std::string& path)> remove_file;
   Variables kept{};  ///< variables that outlive runs
-  /// The last report of each slot that some macro waits for, by module and slot.
+  /// The last report of each slot whose last value counts for some macro, by module and slot; none
+  /// is longer than what it is compared to.
   std::map<std::pair<std::string, std::string>, std::string> last{};
   bool lockstep = false;
 };
@@ -48,6 +49,8 @@ class Sequence : public std::enable_shared_from_this<Sequence> {
   static constexpr std::size_t kMaxVariableBytes = 1u << 20;
   static constexpr std::size_t kMaxHeardBytes = 256u << 10;
   static constexpr std::size_t kMaxBranches = 64;
+  /// Events that followers pass on wait for the hub; beyond so many items the run fails.
+  static constexpr std::size_t kMaxQueued = 16384;
   /// Called once, from the hub's queue. `error` is the failure of a step.
   using OnEnd = std::function<void(const std::optional<vm::Error>& error)>;
   /// `lenient`: a step that fails is skipped.

@@ -40,9 +40,9 @@ class Bridge {
   Bridge(const Bridge&) = delete;
 
   /// Attaches @AGENT/MODULE if it can be. False: the name is none of another agent.
-  vm::Result<bool> Open(const std::string& name) { return remotes_.Open(name); }
+  vm::Result<bool> Open(const std::string& name, Role asker) { return remotes_.Open(name, asker); }
   /// Somebody wants to hear this module of another agent, now and whenever it is there.
-  void Want(const std::string& name) { remotes_.Want(name); }
+  void Want(const std::string& name, Role role) { remotes_.Want(name, role); }
   /// A module of ours has come or gone.
   void OnPresence(const std::string& name, bool present, const std::string& reason) {
     gateway_.OnPresence(name, present, reason);

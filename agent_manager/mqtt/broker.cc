@@ -17,6 +17,7 @@
 
 #include "agent_manager/mqtt/mosquitto_client.h"
 #include "vm_protocol/core/guarded.h"
+#include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/credentials.h"
 #include "vm_protocol/runtime/endpoint.h"
 
@@ -27,6 +28,7 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kFirstWait{500}, kLongestWait{30000};
+constexpr std::size_t kMaxCertificateBytes = 4U << 20;
 constexpr milliseconds kConnectLimit{10000}, kGoodbyeLimit{1000}, kLookAround{500};
 
 /// One connection after another. Its own thread connects, reads and waits; the context's thread
@@ -50,8 +52,9 @@ class MosquittoBroker final : public Broker {
     }
     for (const std::string& file : {config_.credentials.authority, config_.credentials.certificate,
                                     config_.credentials.key}) {
-      if (!file.empty() && access(file.c_str(), R_OK) != 0)
-        throw std::runtime_error("mqtt: cannot read '" + file + "'");
+      if (file.empty()) continue;
+      if (const auto text = vm::ReadTextFile(file, kMaxCertificateBytes); !text)
+        throw std::runtime_error("mqtt: " + text.error().text);
     }
     wake_fd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (wake_fd_ < 0) throw std::runtime_error("mqtt: no event descriptor is left");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -54,65 +55,90 @@ RemoteModules::RemoteModules(vm::Scheduler& clock, Hub& hub, const MqttConfig& c
       on_notice_(std::move(on_notice)) {}
 
 RemoteModules::~RemoteModules() {
-  for (const auto& [name, window] : std::exchange(windows_, {})) {
-    if (window) hub_.Evict(window->receiver(), "the bridge to the broker has ended");
+  for (const auto& [name, remote] : std::exchange(remotes_, {})) {
+    if (remote.window) hub_.Evict(remote.window->receiver(), "the bridge to the broker has ended");
   }
 }
 
 RequestWindow* RemoteModules::WindowOf(const std::string& name) const {
-  const auto found = windows_.find(name);
-  return found == windows_.end() ? nullptr : found->second.get();
+  const auto found = remotes_.find(name);
+  return found == remotes_.end() ? nullptr : found->second.window.get();
 }
 
-/// True if no other module than those there are can be spoken to or followed.
-bool RemoteModules::Full(const std::string& name) {
-  if (windows_.contains(name) || windows_.size() < kMaxRemotes) return false;
-  const auto idle = std::ranges::find_if(windows_, [this](const auto& entry) {
-    return entry.second == nullptr && !hub_.HasSubscriber(entry.first);
-  });
-  if (idle == windows_.end()) return true;
-  const std::string forgotten = idle->first;
-  windows_.erase(idle);
-  Unfollow(forgotten);
-  return false;
+/// False if no other module than those there are can be spoken to or followed.
+bool RemoteModules::MakeRoom(const std::string& name, Role role) {
+  if (remotes_.contains(name)) return true;
+  const bool guest = role == Role::kGuest;
+  const auto in_share = [guest](const auto& entry) { return !guest || entry.second.of_guest; };
+  const auto there = static_cast<std::size_t>(std::ranges::count_if(remotes_, in_share));
+  if (there < kMaxRemotes / (guest ? kShareOfGuests : 1)) return true;
+  const auto rank = [](const Remote& remote) {
+    return std::tuple(remote.window != nullptr, remote.heard, remote.since);
+  };
+  auto least = remotes_.end();
+  for (auto at = remotes_.begin(); at != remotes_.end(); ++at) {
+    if (!in_share(*at) || hub_.HasSubscriber(at->first)) continue;
+    if (least == remotes_.end() || rank(at->second) < rank(least->second)) least = at;
+  }
+  if (least == remotes_.end()) return false;
+  Forget(std::string(least->first));
+  return true;
 }
 
-Result<bool> RemoteModules::Open(const std::string& name) {
+void RemoteModules::Forget(const std::string& name) {
+  const auto gone = remotes_.extract(name);
+  if (gone.mapped().window)
+    hub_.Leave(gone.mapped().window->receiver(), "others are spoken to in its place");
+  Unfollow(name);
+}
+
+/// Whether such a module can be anywhere. REQUIRES: the name is AGENT/MODULE.
+Result<void> RemoteModules::Check(const std::string& name) const {
   const auto [agent, module] = SplitRemoteName(name);
-  if (agent.empty()) return false;
   if (agent == config_.agent)
     return Fail(Errc::kUnknownModule, "@" + name + " is one of our own: to @" + module);
+  return {};
+}
+
+Result<bool> RemoteModules::Open(const std::string& name, Role asker) {
+  if (SplitRemoteName(name).agent.empty()) return false;
+  if (const auto checked = Check(name); !checked) return std::unexpected(checked.error());
   if (!claim_.held())
     return Fail(Errc::kUnavailable,
                 "@" + name + " cannot be reached, the broker is " + claim_.state());
   if (WindowOf(name) != nullptr) return true;
-  if (Full(name))
+  if (!MakeRoom(name, asker))
     return Fail(Errc::kLimit,
                 "more than " + std::to_string(kMaxRemotes) + " modules of other agents");
   const auto peer = hub_.Attach(std::make_unique<RemoteLink>(*this, name), PeerKind::kRemote,
                                 config_.role, name, Dialect::kModern);
   if (!peer) return std::unexpected(peer.error());
-  Add(name) =
+  Add(name, asker).window =
       std::make_unique<RequestWindow>(clock_, publisher_, TopicsOf(config_.agent), name, *peer);
   return true;
 }
 
-void RemoteModules::Want(const std::string& name) {
-  const auto opened = Open(name);
-  if (opened && !*opened) return;
-  if (!opened && (SplitRemoteName(name).agent == config_.agent || Full(name)))
-    return on_notice_("@" + name + " is not heard: " + opened.error().text);
-  Add(name);
+void RemoteModules::Want(const std::string& name, Role role) {
+  if (SplitRemoteName(name).agent.empty()) return;
+  auto wanted = Check(name);
+  if (wanted && !MakeRoom(name, role))
+    wanted = Fail(Errc::kLimit, "too many modules of other agents are");
+  if (!wanted) return on_notice_("@" + name + " is not heard: " + wanted.error().text);
+  Add(name, role);  // what the broker keeps of its presence attaches it
 }
 
-RemoteModules::WindowPtr& RemoteModules::Add(const std::string& name) {
-  const auto [entry, added] = windows_.try_emplace(name);
-  if (added && claim_.held()) Follow(name);
+RemoteModules::Remote& RemoteModules::Add(const std::string& name, Role role) {
+  const auto [entry, added] = remotes_.try_emplace(name);
+  if (added) {
+    entry->second.of_guest = role == Role::kGuest;
+    entry->second.since = clock_.Now();
+    if (claim_.held()) Follow(name);
+  }
   return entry->second;
 }
 
 void RemoteModules::Follow() {
-  for (const auto& [name, window] : windows_) Follow(name);
+  for (const auto& [name, remote] : remotes_) Follow(name);
 }
 
 void RemoteModules::Follow(const std::string& name) {
@@ -128,18 +154,18 @@ void RemoteModules::Unfollow(const std::string& name) {
   const AgentTopics topics = TopicsOf(agent);
   broker_.Unsubscribe(topics.Path(Kind::kSlot, module, "+"));
   broker_.Unsubscribe(topics.Path(Kind::kModuleState, module));
-  const bool last = std::ranges::none_of(windows_, [&, ours = agent](const auto& other) {
+  const bool last = std::ranges::none_of(remotes_, [&, ours = agent](const auto& other) {
     return SplitRemoteName(other.first).agent == ours;
   });
   if (last) broker_.Unsubscribe(topics.Path(Kind::kState));
 }
 
 void RemoteModules::OnGone(const std::string& name) {
-  const auto found = windows_.find(name);
-  if (found == windows_.end()) return;
-  found->second.reset();
+  const auto found = remotes_.find(name);
+  if (found == remotes_.end()) return;
+  found->second.window.reset();
   if (hub_.HasSubscriber(name)) return;
-  windows_.erase(found);
+  remotes_.erase(found);
   Unfollow(name);
 }
 
@@ -149,7 +175,7 @@ void RemoteModules::Close(const std::string& name, const std::string& reason) {
 }
 
 void RemoteModules::Lost(const std::string& reason) {
-  for (const auto& [name, window] : windows_) Close(name, "the broker is away: " + reason);
+  for (const auto& [name, remote] : remotes_) Close(name, "the broker is away: " + reason);
 }
 
 void RemoteModules::Send(const std::string& name, const Message& message) {
@@ -195,20 +221,21 @@ void RemoteModules::OnReply(const Packet& packet) {
   if (window == nullptr) return;  // too late
   auto answer = window->TakeAnswer(tag, std::move(*rep));
   if (!answer) return;
+  remotes_.at(name).heard = true;
   hub_.Receive(window->receiver(), std::move(*answer));
   CloseIfAway(*window, window->SendWaiting());
 }
 
 void RemoteModules::OnAgentState(const std::string& agent, const std::string& state) {
   std::vector<std::string> names;
-  for (const auto& [name, window] : windows_) {
+  for (const auto& [name, remote] : remotes_) {
     if (SplitRemoteName(name).agent == agent) names.push_back(name);
   }
   for (const std::string& name : names) {
     if (state != AgentClaim::kOnline) {
       Close(name, "the agent " + agent + " is " + Shown(state, 40));
     } else if (hub_.HasSubscriber(name)) {
-      static_cast<void>(Open(name));
+      static_cast<void>(Open(name, config_.role));
     }
   }
 }
@@ -216,22 +243,27 @@ void RemoteModules::OnAgentState(const std::string& agent, const std::string& st
 void RemoteModules::OnPacket(const Topic& topic, const Packet& packet) {
   if (topic.kind == Kind::kState) return OnAgentState(topic.agent, packet.payload);
   const std::string name = topic.agent + "/" + topic.module;
-  const auto found = windows_.find(name);
-  if (found == windows_.end()) return;
+  const auto found = remotes_.find(name);
+  if (found == remotes_.end()) return;
   if (topic.kind == Kind::kModuleState) {
     if (packet.payload != "LIVE") {
       Close(name, Shown(packet.payload, 200));
     } else if (hub_.HasSubscriber(name)) {
-      static_cast<void>(Open(name));
+      static_cast<void>(Open(name, config_.role));
     }
     return;
   }
-  const RequestWindow* const window = found->second.get();
-  if (window == nullptr || (topic.kind != Kind::kSlot && topic.kind != Kind::kTell)) return;
+  if (topic.kind != Kind::kSlot && topic.kind != Kind::kTell) return;
+  // What speaks is there.
+  if (WindowOf(name) == nullptr && hub_.HasSubscriber(name))
+    static_cast<void>(Open(name, config_.role));
+  const RequestWindow* const window = WindowOf(name);
+  if (window == nullptr) return;
   const Message said =
       topic.kind == Kind::kSlot ? vm::Rep(topic.slot, packet.payload) : vm::Tell(packet.payload);
   if (!vm::IsValid(said))
     return on_notice_("'" + packet.topic + "' is not one line of UTF-8 text, it is not passed on");
+  found->second.heard = true;
   hub_.Receive(window->receiver(), said);
 }
 

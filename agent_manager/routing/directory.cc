@@ -16,7 +16,7 @@ using vm::Result;
 bool IsPlainName(std::string_view name) {
   // Unicode general categories Cc, Cf, Zl, Zp and the wider blanks, as far as they hide a name or
   // turn its direction (Unicode Technical Report 36, "Unicode Security Considerations").
-  static constexpr std::array<std::pair<char32_t, char32_t>, 13> kHidden{{{0x00, 0x20},
+  static constexpr std::array<std::pair<char32_t, char32_t>, 16> kHidden{{{0x00, 0x20},
                                                                           {0x7F, 0xA0},
                                                                           {0xAD, 0xAD},
                                                                           {0x34F, 0x34F},
@@ -27,7 +27,10 @@ bool IsPlainName(std::string_view name) {
                                                                           {0x2000, 0x200F},
                                                                           {0x2028, 0x202F},
                                                                           {0x205F, 0x206F},
+                                                                          {0x2800, 0x2800},
+                                                                          {0x3164, 0x3164},
                                                                           {0xFE00, 0xFEFF},
+                                                                          {0xFFA0, 0xFFA0},
                                                                           {0xE0000, 0xE0FFF}}};
   for (std::size_t at = 0; at < name.size();) {
     const auto sign = vm::DecodeUtf8(name, at);

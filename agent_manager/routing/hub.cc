@@ -48,28 +48,31 @@ void Hub::set_lockstep(bool lockstep) {
 }
 
 Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
-  if (directory_.peers().size() >= limits_.peers) {
+  // Modules of other agents are bounded by the bridge that brings them.
+  const bool remote = peer->kind == PeerKind::kRemote;
+  const auto there_now =
+      static_cast<std::uint64_t>(std::ranges::count_if(directory_.peers(), [](const auto& entry) {
+        return entry.second->kind != PeerKind::kRemote;
+      }));
+  if (!remote && there_now >= limits_.peers) {
     peer->link->Close();
     return Fail(Errc::kLimit, "more than " + std::to_string(limits_.peers) + " peers");
   }
   // Guests leave room for those who may more.
   const std::uint64_t most_guests = limits_.peers - limits_.peers / kShareForOthers;
-  if (peer->role == Role::kGuest && GuestsThere() >= most_guests) {
+  if (!remote && peer->role == Role::kGuest && GuestsThere() >= most_guests) {
     peer->link->Close();
     return Fail(Errc::kLimit, "more than " + std::to_string(most_guests) + " guests");
   }
   peer->key = ++last_key_;
-  if (peer->name.empty()) {  // others may have taken such names
-    do peer->name = "CLIENT" + std::to_string(++last_name_);
-    while (directory_.Find(peer->name) != nullptr);
-  }
+  if (peer->name.empty()) peer->name = FreeName();
   const auto added = directory_.Add(peer);
   if (!added) {
     peer->link->Close();
     return std::unexpected(added.error());
   }
   Peer& there = **added;
-  if (there.kind == PeerKind::kConsole) there.subscriptions = {"*"};
+  if (there.kind == PeerKind::kConsole) Subscribe(there.key, {"*"});
   if (there.kind == PeerKind::kModule && there.dialect != Dialect::kOriginal) {
     clocks_.Probe(there);
   } else if (there.kind == PeerKind::kModule) {
@@ -80,9 +83,33 @@ Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
   return there.key;
 }
 
+std::string Hub::FreeName() {
+  std::string name;
+  do name = "CLIENT" + std::to_string(++last_name_);
+  while (directory_.Find(name) != nullptr);  // others may have taken such names
+  return name;
+}
+
+void Hub::Reserve(const std::set<std::string>& names) {
+  directory_.Reserve({});
+  for (const std::string& name : names) {
+    Peer* const holder = directory_.Find(name);
+    if (holder == nullptr || holder->configured) continue;
+    const std::string other = FreeName();
+    if (!directory_.Rename(holder->key, other)) continue;
+    AnnounceRename(name, other);
+    outbox_.Complain(
+        *holder,
+        {Errc::kBusy, "the name @" + name + " is that of a module now, you are @" + other, 0});
+  }
+  directory_.Reserve(names);
+}
+
 std::uint64_t Hub::GuestsThere() const {
-  return static_cast<std::uint64_t>(std::ranges::count_if(
-      directory_.peers(), [](const auto& entry) { return entry.second->role == Role::kGuest; }));
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(directory_.peers(), [](const auto& entry) {
+        return entry.second->role == Role::kGuest && entry.second->kind != PeerKind::kRemote;
+      }));
 }
 
 Result<PeerKey> Hub::Attach(std::unique_ptr<Link> link, PeerKind kind, Role role,
@@ -187,6 +214,7 @@ void Hub::WhenAllSent(std::function<void()> done) {
 void Hub::Evict(PeerKey key, const std::string& reason) {
   const std::unique_ptr<Peer> peer = directory_.Remove(key);
   if (peer == nullptr) return;
+  CountSubscriptions(*peer, -1);
   back_pressure_.Release(*peer);
   peer->link->Close();
   requests_.FailAll(*peer,
@@ -289,14 +317,17 @@ Result<void> Hub::Rename(PeerKey key, const std::string& name) {
   if (const auto checked = access_.CheckName(RoleOf(key), name); !checked) return checked;
   const std::string before = NameOf(key);
   const auto renamed = directory_.Rename(key, name);
-  if (renamed && name != before && IsModule(name) && IsReady(name)) {
-    queue_.Post([this, before, name] {
-      if (!on_presence_) return;
-      on_presence_(before, false, "it is called @" + name + " now");
-      if (IsPresent(name)) on_presence_(name, true, "");
-    });
-  }
+  if (renamed && name != before) AnnounceRename(before, name);
   return renamed;
+}
+
+void Hub::AnnounceRename(const std::string& before, const std::string& name) {
+  if (!IsModule(name) || !IsReady(name)) return;
+  queue_.Post([this, before, name] {
+    if (!on_presence_) return;
+    on_presence_(before, false, "it is called @" + name + " now");
+    if (IsPresent(name)) on_presence_(name, true, "");
+  });
 }
 
 void Hub::Grant(PeerKey key, vm::Time until, OnAnswer done) {
@@ -304,13 +335,19 @@ void Hub::Grant(PeerKey key, vm::Time until, OnAnswer done) {
 }
 
 void Hub::Subscribe(PeerKey key, const std::set<std::string>& modules) {
-  if (Peer* const peer = directory_.ByKey(key)) peer->subscriptions = modules;
+  Peer* const peer = directory_.ByKey(key);
+  if (peer == nullptr) return;
+  CountSubscriptions(*peer, -1);
+  peer->subscriptions = modules;
+  CountSubscriptions(*peer, 1);
 }
 
-bool Hub::HasSubscriber(const std::string& module) const {
-  return std::ranges::any_of(directory_.peers(), [&](const auto& entry) {
-    return entry.second->subscriptions.contains(module);
-  });
+void Hub::CountSubscriptions(const Peer& peer, int sign) {
+  for (const std::string& name : peer.subscriptions) {
+    std::size_t& count = subscribers_[name];
+    count += static_cast<std::size_t>(sign);
+    if (count == 0) subscribers_.erase(name);
+  }
 }
 
 bool Hub::SendComment(PeerKey key, std::string_view text) {

@@ -51,6 +51,7 @@ class Hub {
   /// Deals with what has been said by now. False if there was nothing to do.
   bool Drain();
   bool idle() const { return queue_.empty(); }
+  std::size_t queued() const { return queue_.size(); }  ///< items to be dealt with
   /// Does something in the loop, between two messages.
   void Post(std::function<void()> act) { queue_.Post(std::move(act)); }
 
@@ -82,10 +83,11 @@ class Hub {
   Role RoleOf(PeerKey peer) const;
   vm::Result<void> Rename(PeerKey peer, const std::string& name);
   /// Names of the configuration: kept for their modules, also while those are away.
-  void Reserve(std::set<std::string> names) { directory_.Reserve(std::move(names)); }
+  /// A client that has one of them gets another name.
+  void Reserve(const std::set<std::string>& names);
   void Subscribe(PeerKey peer, const std::set<std::string>& modules);  ///< "*" = all
   /// True if a peer has subscribed to this name; "*" does not count.
-  bool HasSubscriber(const std::string& module) const;
+  bool HasSubscriber(std::string_view module) const { return subscribers_.contains(module); }
   std::vector<PeerStatus> Status() const;
 
   void set_broadcast(std::set<std::string> names) { router_.set_broadcast(std::move(names)); }
@@ -135,6 +137,9 @@ class Hub {
   void Take(Peer& sender, vm::Message message, std::size_t bytes);
   void DealWith(WorkQueue::Item& item);
   void ReleaseHalfClosed();
+  void CountSubscriptions(const Peer& peer, int sign);
+  std::string FreeName();
+  void AnnounceRename(const std::string& before, const std::string& name);
   std::uint64_t GuestsThere() const;
   /// Who waits for the answer to a message, and what it has to name.
   struct Asked {
@@ -161,6 +166,7 @@ class Hub {
   std::map<PeerKey, vm::TimerId> half_closed_;  // and what ends their waiting
   std::function<bool(PeerKey)> awaited_by_;
   OnPresence on_presence_;
+  std::map<std::string, std::size_t, std::less<>> subscribers_;  // how many, by name
   PeerKey last_key_ = 0;
   unsigned long last_name_ = 0;  // of those who have none
 };

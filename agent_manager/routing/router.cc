@@ -169,7 +169,8 @@ void Router::HandOver(Envelope& envelope, const std::string& receiver) {
     LogTo(envelope, receiver);
     return ToMachine(*machine, envelope);
   }
-  const Result<bool> attached = on_unknown_ ? on_unknown_(receiver) : Result<bool>(false);
+  const Result<bool> attached =
+      on_unknown_ ? on_unknown_(receiver, envelope.origin.role) : Result<bool>(false);
   if (!attached) return Refuse(envelope, attached.error());
   if (*attached && directory_.Find(receiver) != nullptr) return HandOver(envelope, receiver);
   Refuse(envelope,

@@ -44,7 +44,7 @@ class Router {
   void set_on_module(std::function<void(Peer&)> on_module) { on_module_ = std::move(on_module); }
   /// Asked about a receiver that is not there: true if it has been attached meanwhile, false if it
   /// is nobody, an error if there is more to say about it.
-  using OnUnknown = std::function<vm::Result<bool>(const std::string& name)>;
+  using OnUnknown = std::function<vm::Result<bool>(const std::string& name, Role asker)>;
   void set_on_unknown(OnUnknown on_unknown) { on_unknown_ = std::move(on_unknown); }
   /// Asked before a message reaches one of the hub's machines: whether it may (else the error is
   /// the answer), and whether it has been dealt with already.

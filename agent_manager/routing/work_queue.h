@@ -44,6 +44,7 @@ class WorkQueue {
     return count;
   }
   bool empty() const { return items_.empty(); }
+  std::size_t size() const { return items_.size(); }
 
  private:
   static constexpr std::size_t kKeptItems = 16384;

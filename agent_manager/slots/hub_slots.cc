@@ -108,7 +108,7 @@ Result<std::string> HubSlots::Subscribe(const SetValue& value) {
     return vm::Fail(vm::Errc::kLimit,
                     "more than " + std::to_string(hub_.limits().slots) + " names (Limit.slots)");
   hub_.Subscribe(value.peer, names);
-  for (const std::string& name : names) hooks_.on_want(name);
+  for (const std::string& name : names) hooks_.on_want(name, hub_.RoleOf(value.peer));
   return value.text;
 }
 

@@ -19,7 +19,7 @@ class HubSlots {
     std::function<void(const vm::SetValue&, const vm::Reply&)> on_wait;
     std::function<void(const vm::Reply&)> on_reload;
     /// A peer subscribes to a module, which may be another hub's.
-    std::function<void(const std::string& name)> on_want;
+    std::function<void(const std::string& name, Role role)> on_want;
     std::function<void(PeerKey peer, bool on)> on_flow;
   };
   HubSlots(vm::Scheduler& clock, Hub& hub, Supervisor& supervisor, vm::SlotMachine& slots,

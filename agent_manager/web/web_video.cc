@@ -29,6 +29,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
     viewer_ = server_->video->Watch([self = shared_from_this()](const FaceVideo::Picture& picture) {
       self->OnPicture(picture);
     });
+    WaitForClose();
   }
 
  private:
@@ -52,6 +53,14 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
     text_ += "--picture\r\nContent-Type: image/jpeg\r\nContent-Length: " +
              std::to_string(picture->size()) + "\r\n\r\n" + *picture + "\r\n";
     Write();
+  }
+
+  /// A browser that watches says nothing more: whatever comes is its end, even if no picture does.
+  void WaitForClose() {
+    stream_.socket().async_wait(asio::socket_base::wait_read,
+                                [self = shared_from_this()](const error_code& error) {
+                                  if (!error) self->Leave();
+                                });
   }
 
   void Write() {

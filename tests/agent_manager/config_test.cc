@@ -32,6 +32,20 @@ TEST(ConfigTest, ReadsEveryKey) {
   EXPECT_TRUE(config->macros.contains("Wave"));
 }
 
+TEST(ConfigTest, WhatIsNestedTooDeeplyIsRefused) {
+  const std::string open(1'000'000, '['), close(1'000'000, ']');
+  for (const std::string& text :
+       {"{\"macros\": {\"A\": " + open + close + "}}",
+        "{\"limits\": {\"peers\": " + open + close + "}}",
+        "{\"rules\": [{\"slot\": " + open + close + "}]}", open, "{\"log\": " + open}) {
+    const auto config = Parse(text);
+    ASSERT_FALSE(config);
+    EXPECT_NE(config.error().text.find("am.json line 1: "), std::string::npos);
+    EXPECT_NE(config.error().text.find("more than 64 brackets in each other"), std::string::npos)
+        << config.error().text;
+  }
+}
+
 TEST(ConfigTest, MacroFilesAreRelativeToTheConfigurationOrAbsolute) {
   const std::string folder = GALATEA_SOURCE_DIR "/examples/agents";
   for (const std::string& file : {std::string("../macros/greet.json"),

@@ -1,4 +1,5 @@
-# A face of 16 x 16 pixels, all red: answers what the page's video asks, and writes raw frames.
+# A face of 16 x 16 pixels, all red: answers what the page's video asks, and writes raw frames; after
+# `set Frames = OFF` it only says so.
 import sys
 import threading
 
@@ -11,14 +12,15 @@ def write_frames(path):
     try:
         with open(path, "wb", buffering=0) as pipe:
             while recording.is_set():
-                pipe.write(FRAME)
+                if values["Frames"] == "ON":
+                    pipe.write(FRAME)
                 recording_changed.wait(0.02)
     except BrokenPipeError:
         pass
 
 
 recording_changed = threading.Event()
-values = {"Window": f"{WIDTH} {HEIGHT}", "Record": "STOP", "Record.fps": "30", "Run": "LIVE"}
+values = {"Window": f"{WIDTH} {HEIGHT}", "Record": "STOP", "Record.fps": "30", "Run": "LIVE", "Frames": "ON"}
 for line in sys.stdin:
     words = line.rstrip("\n").split(" ", 3)
     command, _, tag = words[0].partition("#")

@@ -151,6 +151,21 @@ TEST(HubTest, NamesCannotBeTakenTwice) {
   EXPECT_TRUE(world.hub.Rename(b->key, "A")) << "a name is free when its holder has gone";
 }
 
+TEST(HubTest, WhoHasTheNameOfANewModuleGetsAnotherOne) {
+  World world;
+  const auto guest = world.JoinAs(Role::kGuest, "ROBOT");
+  world.hub.Reserve({"ROBOT", "ARM"});
+  world.clock.Settle();
+  EXPECT_FALSE(world.hub.IsPresent("ROBOT"));
+  ASSERT_FALSE(guest->heard.empty());
+  EXPECT_NE(guest->heard.back().find("rep Error = BUSY the name @ROBOT is that of a module now"),
+            std::string::npos)
+      << guest->heard.back();
+  EXPECT_FALSE(world.hub.Rename(guest->key, "ROBOT"));
+  const auto module = world.JoinModern("ROBOT");
+  EXPECT_TRUE(world.hub.IsModule("ROBOT"));
+}
+
 TEST(HubTest, AModuleThatTakesAnotherNameGoesAndComes) {
   World world;
   Strings seen;

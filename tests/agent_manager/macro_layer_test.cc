@@ -106,6 +106,58 @@ TEST_F(MacroLayerTest, SpeakingPreparesBothStartsBothAtOneInstantAndFollowsTheVo
   EXPECT_FALSE(mcl_.Busy());
 }
 
+TEST_F(MacroLayerTest, AModuleIsAskedOnceToReportWhatMacrosWaitFor) {
+  const auto arm = world_.JoinModern("ARM");
+  world_.Say(*client_, "to @AM-MCL def W = [{\"wait\": {\"from\": \"ARM\", \"slot\": \"A\"}}]");
+  Run();
+  EXPECT_EQ(std::ranges::count_if(arm->heard, [](const auto& l) { return l.starts_with("prop"); }),
+            2)
+      << "its errors and A";
+  arm->heard.clear();
+  for (int i = 0; i < 3; ++i)
+    world_.Say(*client_, "to @AM-MCL def Z" + std::to_string(i) + " = []");
+  Run();
+  EXPECT_EQ(arm->heard, Strings{});
+}
+
+TEST_F(MacroLayerTest, WhatMacrosWaitForIsBounded) {
+  std::string waits;
+  std::string answer;
+  for (std::size_t i = 0; i < MacroLayer::kMaxAwaited + 500 && answer.empty(); ++i) {
+    waits += (waits.empty() ? "" : ", ") +
+             std::string("{\"wait\": {\"from\": \"ARM\", \"slot\": \"A") + std::to_string(i) +
+             "\"}}";
+    if (i % 500 != 499) continue;
+    client_->heard.clear();
+    world_.Say(*client_, "to @AM-MCL def#1 W" + std::to_string(i) + " = [" + waits + "]");
+    Run();
+    waits.clear();
+    if (Contains(client_->heard, "LIMIT")) answer = client_->heard.back();
+  }
+  EXPECT_NE(answer.find("LIMIT macros wait for more than 8192 slots and events"),
+            std::string::npos);
+}
+
+TEST_F(MacroLayerTest, AFloodOfToldEventsEndsTheMacroThatPassesThemOn) {
+  const auto arm = world_.JoinModern("ARM");
+  std::string steps;
+  for (int i = 0; i < 200; ++i)
+    steps +=
+        "{\"follow\": {\"from\": \"ARM\", \"tell\": \"a\", \"send\": \"to @ARM set X = "
+        "${told}\"}}, ";
+  world_.Say(*client_,
+             "to @AM-MCL def F = [" + steps +
+                 "{\"wait\": {\"from\": \"ARM\", \"slot\": \"Never\"}, \"limit_ms\": 60000}]");
+  world_.Say(*client_, "to @AM-MCL set#1 F = 1");
+  world_.clock.RunReady();
+  for (int i = 0; i < 4000; ++i) world_.hub.Receive(arm->key, std::string_view("tell a = 1"));
+  ASSERT_TRUE(world_.hub.Drain());
+  EXPECT_LT(world_.hub.queued(), Sequence::kMaxQueued + 1000);
+  Run();
+  EXPECT_TRUE(Contains(client_->heard, "rep#1 F.error = LIMIT @ARM tells a faster than"))
+      << client_->heard.back();
+}
+
 TEST_F(MacroLayerTest, WithoutAFaceItStillSpeaksAndWithoutAVoiceItSaysSo) {
   world_.Say(*client_, "to @AM-MCL set#1 Speak = pa");
   EXPECT_EQ(Run(),

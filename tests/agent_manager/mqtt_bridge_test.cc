@@ -47,7 +47,8 @@ struct BridgeTest : testing::Test {
     world.hub.set_on_presence([this](const auto& name, bool present, const auto& reason) {
       if (bridge) bridge->OnPresence(name, present, reason);
     });
-    world.hub.set_on_unknown([this](const std::string& name) { return bridge->Open(name); });
+    world.hub.set_on_unknown(
+        [this](const std::string& name, Role asker) { return bridge->Open(name, asker); });
     GoOnline();
     Acknowledge();
   }
@@ -339,7 +340,7 @@ TEST_F(BridgeTest, WhoSubscribesHearsAnotherAgentsModuleAlsoAfterItHasBeenAway) 
   const auto dm = world.Join(PeerKind::kClient, "DM");
   world.hub.set_broadcast({"DM"});
   world.hub.Subscribe(a->key, {"LOBBY/SRM"});
-  bridge->Want("LOBBY/SRM");
+  bridge->Want("LOBBY/SRM", Role::kOwner);
   Come("galatea/LOBBY/SRM/Result", "yes");
   Come("galatea/LOBBY/SRM/$tell", "a door");
   EXPECT_EQ(a->heard, (Strings{"From @LOBBY/SRM rep Result = yes", "From @LOBBY/SRM tell a door"}));
@@ -564,7 +565,7 @@ TEST_F(BridgeTest, WhatAnotherAgentSaysOfItselfStaysOneLine) {
 TEST_F(BridgeTest, OnlyModulesOfOtherAgentsAreFollowedAtTheBroker) {
   const auto filters = broker->filters;
   for (const char* name : {"HALL/SSM", "LOBBY/#", "+/+", "LOBBY/", "/SSM", "LOBBY/a/b"})
-    bridge->Want(name);
+    bridge->Want(name, Role::kOwner);
   EXPECT_EQ(broker->filters, filters);
   broker->events.on_lost("gone");
   world.clock.Settle();
@@ -579,7 +580,7 @@ TEST_F(BridgeTest, WhoIsWantedWhileTheHubIsFullIsHeardLater) {
   const auto a = world.Join(PeerKind::kClient, "A");
   world.hub.Subscribe(a->key, {"LOBBY/SRM"});
   world.hub.set_limit(&Limits::peers, 1);
-  bridge->Want("LOBBY/SRM");
+  bridge->Want("LOBBY/SRM", Role::kOwner);
   EXPECT_FALSE(world.hub.IsPresent("LOBBY/SRM"));
   EXPECT_EQ(std::ranges::count(broker->filters, "galatea/LOBBY/SRM/+"), 1);
   world.hub.set_limit(&Limits::peers, peers);
@@ -590,9 +591,33 @@ TEST_F(BridgeTest, WhoIsWantedWhileTheHubIsFullIsHeardLater) {
 TEST_F(BridgeTest, NamesThatNobodyIsSubscribedToAnyMoreMakeRoomForOthers) {
   world.hub.set_limit(&Limits::peers, 1);  // none of them can be attached
   for (std::size_t i = 0; i < RemoteModules::kMaxRemotes; ++i)
-    bridge->Want("LOBBY/M" + std::to_string(i));
-  bridge->Want("LOBBY/SRM");
+    bridge->Want("LOBBY/M" + std::to_string(i), Role::kOwner);
+  bridge->Want("LOBBY/SRM", Role::kOwner);
   EXPECT_EQ(std::ranges::count(broker->filters, "galatea/LOBBY/SRM/+"), 1);
+}
+
+TEST_F(BridgeTest, NamesOfNobodyTakeNoPlaceOfOthers) {
+  const auto guest = world.JoinAs(Role::kGuest, "GUEST");
+  std::set<std::string> names;
+  for (int i = 0; i < 200; ++i) names.insert("NOBODY" + std::to_string(i) + "/X");
+  world.hub.Subscribe(guest->key, names);
+  for (const std::string& name : names) bridge->Want(name, Role::kGuest);
+  EXPECT_EQ(world.hub.Names(), (Strings{"GUEST", "MQTT"})) << "nobody has said that they are there";
+  EXPECT_TRUE(world.hub.HasSubscriber("NOBODY7/X"));
+  // Nor do those who are asked for take the places of guests, or all that there are.
+  world.hub.set_limit(&Limits::peers, 16);
+  constexpr std::size_t kShare = RemoteModules::kMaxRemotes / RemoteModules::kShareOfGuests;
+  for (std::size_t i = 0; i < kShare + 100; ++i)
+    world.Say(*guest, "to @LOBBY/M" + std::to_string(i) + " set X = 1");
+  world.clock.Settle();
+  EXPECT_LE(world.hub.Names().size(), kShare + 2);
+  const auto other = world.JoinAs(Role::kGuest, "OTHER");
+  EXPECT_NE(other->key, 0u);
+  const auto client = world.JoinAs(Role::kClient, "A");
+  world.Say(*client, "to @LOBBY/SSM set#1 Text = x");
+  EXPECT_EQ(client->heard, Strings{}) << "it waits for its answer";
+  world.Leave(*guest, "it goes");
+  EXPECT_FALSE(world.hub.HasSubscriber("NOBODY7/X"));
 }
 
 TEST_F(BridgeTest, QuestionsThatWaitCountForTheBacklog) {

@@ -103,6 +103,15 @@ TEST_F(RightsTest, AGuestNamesNoFileInWhateverWay) {
   EXPECT_EQ(Say(Role::kGuest, "to @SSM set#1 Text = hello"), "From @SSM rep#1 Text = hello");
 }
 
+TEST_F(RightsTest, NobodyMutesWhatAllHear) {
+  for (const char* line :
+       {"prop#1 Refused = NoAutoOutput", "to @SSM prop#1 Speak.stat = NoAutoOutput",
+        "to @AM-MCL prop#1 Speak = NoAutoOutput"}) {
+    EXPECT_TRUE(Refused(Say(Role::kGuest, line))) << line;
+    EXPECT_TRUE(Refused(Say(Role::kClient, line))) << line;
+  }
+}
+
 TEST_F(RightsTest, ARefusalNamesTheRule) {
   EXPECT_EQ(Say(Role::kGuest, "to @SSM set#1 SaveWAV = x.wav"),
             "From @AM rep#1 SaveWAV.error = ACCESS a guest may not name the file 'x.wav' "
@@ -224,6 +233,8 @@ TEST_F(RightsTest, NamesAreThoseThatTheRoleMayHaveAndThatShow) {
   for (const char* name : {"CONSOLE", "AM", "MQTT", "A\u202eB", "A\u200bB", "SSM"})
     EXPECT_FALSE(world_.hub.Rename(client, name)) << name;
   EXPECT_TRUE(world_.hub.Rename(client, "花子"));
+  for (const char* name : {"A\u3164", "\uFFA0", "B\u2800"})
+    EXPECT_FALSE(world_.hub.Rename(client, name)) << "it is seen as nothing";
 }
 
 TEST_F(RightsTest, TheLinesOfDoGoThroughTheHubAsWhoeverDoesIt) {

@@ -156,6 +156,16 @@ TEST_F(WebTest, TheFaceComesAsPicturesWhileSomebodyLooks) {
   EXPECT_NE(rate.value_or("").find("Record.fps = 30"), std::string::npos) << "as it was before";
 }
 
+TEST_F(WebTest, ViewersWhoHaveClosedTakeNoPlaceWhileAFaceDrawsNothing) {
+  hub_->WriteLine("to @FSM set#off Frames = OFF");
+  ASSERT_TRUE(hub_->Expect("rep#off Frames = OFF"));
+  constexpr int kMoreThanThereArePlaces = 80;
+  for (int i = 0; i < kMoreThanThereArePlaces; ++i) {
+    Open("/face.mjpg", Host() + Cookie());
+    EXPECT_EQ(StatusOf("/", Host() + Cookie()), "200") << i;
+  }
+}
+
 TEST_F(WebTest, AFaceOfImpossibleSizeHasNoPicturesAndTheHubGoesOn) {
   int tag = 0;
   for (const char* size : {"70000 1", "8192 8192", "0 0", "-5 7", "99999999999 1", "x", ""}) {

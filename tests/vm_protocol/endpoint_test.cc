@@ -15,6 +15,7 @@
 #include "tests/support/process.h"
 #include "tests/support/sanitized.h"
 #include "vm_protocol/runtime/acceptor.h"
+#include "vm_protocol/runtime/tls.h"
 
 namespace vm {
 namespace {
@@ -176,6 +177,21 @@ TEST(ListenerTroubleTest, RunningOutOfDescriptorsIsSaidOnceAndPasses) {
   EXPECT_LT(turns, 20u) << "it does not spin";
   while (accepted == 0) io.run_one();
   EXPECT_EQ(accepted, 1);
+}
+
+TEST(CredentialsTest, NamedPipesAreRefusedAndNotWaitedFor) {
+  const support::TempDir folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto token = ReadToken({.token_file = pipe, .certificate = "", .key = "", .authority = ""});
+  ASSERT_FALSE(token);
+  EXPECT_NE(token.error().text.find(pipe), std::string::npos) << token.error().text;
+  boost::asio::io_context io;
+  for (const Credentials& credentials :
+       {Credentials{.token_file = "", .certificate = pipe, .key = pipe, .authority = ""},
+        Credentials{.token_file = "", .certificate = "", .key = "", .authority = pipe}}) {
+    EXPECT_THROW(Tls::ForListener(credentials), std::runtime_error);
+  }
 }
 
 TEST(AcceptorTest, SilentStrangersDoNotLockOutWhoHasTheToken) {

@@ -10,13 +10,15 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
+#include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/endpoint.h"
 
 namespace vm {
 namespace {
+
+constexpr std::size_t kMaxSecretBytes = 64U << 10;
 
 std::string Hex(const unsigned char* bytes, std::size_t count) {
   static constexpr char kDigits[] = "0123456789abcdef";
@@ -32,16 +34,15 @@ std::string Hex(const unsigned char* bytes, std::size_t count) {
 
 Result<std::string> ReadSecret(const std::string& path, const std::string& what,
                                std::size_t least_bytes) {
+  const auto text = ReadTextFile(path, kMaxSecretBytes);
   struct stat info {};
-  std::ifstream file(path);
-  if (!file || stat(path.c_str(), &info) != 0)
+  if (!text || stat(path.c_str(), &info) != 0)
     return Fail(Errc::kUnavailable,
-                "cannot read the " + what + " file '" + path + "': " + std::strerror(errno));
+                "the " + what + " file: " + (text ? std::strerror(errno) : text.error().text));
   if ((info.st_mode & (S_IRWXG | S_IRWXO)) != 0)
     return Fail(Errc::kUnavailable,
                 "the " + what + " file '" + path + "' is open to others, expected mode 600");
-  std::string secret;
-  std::getline(file, secret);
+  std::string secret = text->substr(0, text->find('\n'));
   while (!secret.empty() && (secret.back() == '\r' || secret.back() == ' ')) secret.pop_back();
   if (secret.size() < least_bytes)
     return Fail(Errc::kUnavailable, "the " + what + " in '" + path + "' is shorter than " +

@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "vm_protocol/core/text_file.h"
+
 namespace vm {
 namespace {
 
@@ -134,6 +136,14 @@ class Tunnel : public std::enable_shared_from_this<Tunnel> {
   std::array<char, kChunk> inward_{}, outward_{};
 };
 
+/// OpenSSL would wait for somebody to write into a named pipe. Throws std::runtime_error.
+void CheckFile(const std::string& path) {
+  constexpr std::size_t kMaxBytes = 4U << 20;
+  if (path.empty()) return;
+  if (const auto text = ReadTextFile(path, kMaxBytes); !text)
+    throw std::runtime_error(text.error().text);
+}
+
 class TlsImpl final : public Tls {
  public:
   TlsImpl(const Credentials& credentials, bool listener)
@@ -142,6 +152,9 @@ class TlsImpl final : public Tls {
         listener_(listener) {
     SSL_CTX_set_min_proto_version(context_->native_handle(), TLS1_2_VERSION);
     try {
+      for (const std::string& file :
+           {credentials.certificate, credentials.key, credentials.authority})
+        CheckFile(file);
       what_ = "the certificate '" + credentials.certificate + "'";
       if (!credentials.certificate.empty())
         context_->use_certificate_chain_file(credentials.certificate);
