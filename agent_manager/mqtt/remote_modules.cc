@@ -130,6 +130,7 @@ void RemoteModules::Want(const std::string& name, Role role) {
 RemoteModules::Remote& RemoteModules::Add(const std::string& name, Role role) {
   const auto [entry, added] = remotes_.try_emplace(name);
   if (added) {
+    ++agents_[SplitRemoteName(name).agent];
     entry->second.of_guest = role == Role::kGuest;
     entry->second.since = clock_.Now();
     if (claim_.held()) Follow(name);
@@ -154,10 +155,9 @@ void RemoteModules::Unfollow(const std::string& name) {
   const AgentTopics topics = TopicsOf(agent);
   broker_.Unsubscribe(topics.Path(Kind::kSlot, module, "+"));
   broker_.Unsubscribe(topics.Path(Kind::kModuleState, module));
-  const bool last = std::ranges::none_of(remotes_, [&, ours = agent](const auto& other) {
-    return SplitRemoteName(other.first).agent == ours;
-  });
-  if (last) broker_.Unsubscribe(topics.Path(Kind::kState));
+  if (--agents_[agent] > 0) return;
+  agents_.erase(agent);
+  broker_.Unsubscribe(topics.Path(Kind::kState));
 }
 
 void RemoteModules::OnGone(const std::string& name) {

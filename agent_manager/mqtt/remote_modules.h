@@ -78,7 +78,8 @@ class RemoteModules {
   const AgentClaim& claim_;
   Publisher& publisher_;
   const OnNotice on_notice_;
-  std::map<std::string, Remote> remotes_;  // by AGENT/MODULE
+  std::map<std::string, Remote> remotes_;      // by AGENT/MODULE
+  std::map<std::string, std::size_t> agents_;  // how many of them are of each agent
 };
 
 }  // namespace am::mqtt

@@ -94,7 +94,7 @@ void Hub::Reserve(const std::set<std::string>& names) {
   directory_.Reserve({});
   for (const std::string& name : names) {
     Peer* const holder = directory_.Find(name);
-    if (holder == nullptr || holder->configured) continue;
+    if (holder == nullptr || holder->configured || IsReservedName(name)) continue;
     const std::string other = FreeName();
     if (!directory_.Rename(holder->key, other)) continue;
     AnnounceRename(name, other);

@@ -26,6 +26,8 @@ std::string Joined(const List& list, const char* between, const Word& word) {
 /// What the names of the slots of configured modules begin with.
 constexpr const char* kModuleSlots = "Module.";
 
+constexpr std::size_t kMaxRemotesOfGuest = 32;  // modules of other agents it is subscribed to
+
 std::string_view KindName(PeerKind kind) {
   switch (kind) {
     case PeerKind::kConsole:
@@ -107,6 +109,12 @@ Result<std::string> HubSlots::Subscribe(const SetValue& value) {
   if (names.size() > hub_.limits().slots)
     return vm::Fail(vm::Errc::kLimit,
                     "more than " + std::to_string(hub_.limits().slots) + " names (Limit.slots)");
+  // Each of those is looked for at the broker.
+  const auto remote = static_cast<std::size_t>(std::ranges::count_if(
+      names, [](const std::string& name) { return name.find('/') != std::string::npos; }));
+  if (hub_.RoleOf(value.peer) == Role::kGuest && remote > kMaxRemotesOfGuest)
+    return vm::Fail(vm::Errc::kLimit,
+                    "more than " + std::to_string(kMaxRemotesOfGuest) + " modules of other agents");
   hub_.Subscribe(value.peer, names);
   for (const std::string& name : names) hooks_.on_want(name, hub_.RoleOf(value.peer));
   return value.text;

@@ -154,8 +154,10 @@ TEST(HubTest, NamesCannotBeTakenTwice) {
 TEST(HubTest, WhoHasTheNameOfANewModuleGetsAnotherOne) {
   World world;
   const auto guest = world.JoinAs(Role::kGuest, "ROBOT");
-  world.hub.Reserve({"ROBOT", "ARM"});
+  const auto bridge = world.Join(PeerKind::kClient, "MQTT");
+  world.hub.Reserve({"ROBOT", "ARM", "MQTT"});
   world.clock.Settle();
+  EXPECT_TRUE(world.hub.IsPresent("MQTT")) << "one of the hub's own parts";
   EXPECT_FALSE(world.hub.IsPresent("ROBOT"));
   ASSERT_FALSE(guest->heard.empty());
   EXPECT_NE(guest->heard.back().find("rep Error = BUSY the name @ROBOT is that of a module now"),
