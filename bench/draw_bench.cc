@@ -1,11 +1,15 @@
 // What a frame of the face costs, with software OpenGL off screen. Prints one line for each figure:
 //
-//   draw_bench [--frames N] [--runs R] [--size WxH]
+//   draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]
+//
+// --face: another head, one made from a photo for example, measured beside the built-in one;
+// --config: a configuration of the original (config.txt), whose first face is measured, too.
 //
 // Every figure is the best of R runs (default 5) of N frames (default 120), because other work on
 // the machine only ever adds to it. "moving" frames change expression, mouth, lids, gaze and head
-// turn from frame to frame; wall time runs from the state to the pixels read. "still" frames draw
-// the same vertices again: the bare cost of the triangles.
+// turn from frame to frame; wall time runs from the state to the pixels read; "in a film" two more
+// are drawn before a picture is read. "still" frames draw the same vertices again: the bare cost of
+// the triangles.
 
 #include <spawn.h>
 #include <sys/resource.h>
@@ -13,17 +17,23 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <deque>
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "fsm/app/face_of_name.h"
+#include "fsm/app/more_faces.h"
+#include "fsm/app/original_config.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/head.h"
@@ -39,6 +49,7 @@ struct Options {
   int runs = 5;
   int width = 640;
   int height = 480;
+  std::string face, config;
 };
 
 struct Cost {
@@ -138,6 +149,10 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
       options.frames = std::atoi(value);
     } else if (word == "--runs") {
       options.runs = std::atoi(value);
+    } else if (word == "--face") {
+      options.face = value;
+    } else if (word == "--config") {
+      options.config = value;
     } else if (word != "--size" ||
                std::sscanf(value, "%dx%d%c", &options.width, &options.height, &end) != 2) {
       return false;
@@ -146,23 +161,62 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
   return options.frames > 0 && options.runs > 0;
 }
 
+/// Pictures of one head, each read when two more are drawn, as films are made.
+void PrintFilm(const char* name, const Options& options, int width, int height,
+               fsm::Renderer& renderer, const fsm::Head& head) {
+  fsm::HeadVertices vertices;
+  fsm::Image image;
+  fsm::Scene scene;
+  scene.camera.parallel = head.view();
+  std::deque<std::uint64_t> begun;
+  renderer.Place({0, 0, width, height});
+  Print(name, Measure(options, [&](int i) {
+          const fsm::FaceState state = Moving(i);
+          head.Evaluate(state, vertices);
+          renderer.Draw(head, vertices, state, scene);
+          begun.push_back(renderer.BeginRead());
+          if (begun.size() <= 2) return;
+          renderer.EndRead(begun.front(), image);
+          begun.pop_front();
+        }));
+  for (const std::uint64_t frame : begun) renderer.DropRead(frame);
+  renderer.Place({});
+}
+
 /// Four people in one picture, each in a quarter of it, as a window would show them.
-void PrintFour(const Options& options, fsm::RenderContext& context, const fsm::Head& head) {
-  const auto renderer = fsm::Renderer::Make(context);
+void PrintFour(const Options& options, fsm::Renderer& renderer, const fsm::Head& head) {
   const int width = options.width / 2, height = options.height / 2;
   fsm::HeadVertices vertices;
   fsm::Image image;
   const fsm::Scene scene;
+  std::array<std::uint64_t, 4> begun;
   Print("four moving faces in one picture", Measure(options, [&](int i) {
-          for (int k = 0; k < 4; ++k) {
-            const fsm::FaceState state = Moving(i + 31 * k);
+          for (std::size_t k = 0; k < 4; ++k) {
+            const int pane = static_cast<int>(k);
+            const fsm::FaceState state = Moving(i + 31 * pane);
             head.Evaluate(state, vertices);
-            renderer->Place({k % 2 * width, k / 2 * height, width, height});
-            renderer->Draw(head, vertices, state, scene);
-            renderer->Read(image);
+            renderer.Place({pane % 2 * width, pane / 2 * height, width, height});
+            renderer.Draw(head, vertices, state, scene);
+            begun[k] = renderer.BeginRead();
           }
+          for (const std::uint64_t frame : begun) renderer.EndRead(frame, image);
         }));
+  renderer.Place({});
   PrintMemory();
+}
+
+/// The head of --face in the size asked for, the portrait of --config at 512 x 512.
+void PrintOthers(const Options& options, fsm::Renderer& renderer) {
+  if (!options.face.empty()) {
+    const auto head = fsm::MakeHeadOfName(options.face);
+    PrintFilm(options.face.c_str(), options, 0, 0, renderer, *head);
+  }
+  if (options.config.empty()) return;
+  const auto config = fsm::OriginalConfig::Read(options.config);
+  if (!config) throw std::runtime_error(config.error().text);
+  const auto faces = fsm::FacesOf(*config, "");
+  if (faces.empty()) throw std::runtime_error(options.config + " has no face");
+  PrintFilm("portrait at 512 x 512 in a film", options, 512, 512, renderer, *faces.front().make());
 }
 
 void MeasureAll(char** argv, const Options& options) {
@@ -195,7 +249,10 @@ void MeasureAll(char** argv, const Options& options) {
         }));
   Print("state to vertices", Measure(options, [&](int i) { head->Evaluate(Moving(i), vertices); }));
   PrintMemory();
-  PrintFour(options, *context, *head);
+  PrintFilm("moving face in a film", options, 0, 0, *renderer, *head);
+  PrintFilm("256 x 256 in a film", options, 256, 256, *renderer, *head);
+  PrintFour(options, *renderer, *head);
+  PrintOthers(options, *renderer);
   std::printf("%-34s %8.0f ms wall\n", "process start to first pixels",
               FirstFrameMs(argv, options));
 }
@@ -219,7 +276,9 @@ int main(int argc, char** argv) {
   Options options;
   bool first_frame = false;
   if (!ReadOptions(argc, argv, options, first_frame)) {
-    std::fprintf(stderr, "usage: draw_bench [--frames N] [--runs R] [--size WxH]\n");
+    std::fprintf(
+        stderr,
+        "usage: draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]\n");
     return 2;
   }
   try {

@@ -80,7 +80,8 @@ class ObjHeadMaker {
   HeadAsset Asset() {
     return {.topology = std::move(topology_),
             .rig = StillRig(std::move(rest_.position), std::move(rest_.normal)),
-            .landmarks = std::move(landmarks_)};
+            .landmarks = std::move(landmarks_),
+            .view = {}};
   }
 
  private:

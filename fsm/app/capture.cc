@@ -20,13 +20,14 @@ void Capture::Begin(vm::Time at) {
   series_ = {at, order_.per_second};
   end_.reset();
   next_ = 0;
+  written_ = 0;
   bytes_ = 0;
   Tick();
 }
 
 void Capture::Tick() {
   timer_ = 0;
-  if (auto done = WriteNext(); !done) {
+  if (auto done = DrawNext(); !done) {
     Cancel();
     on_end_(done);
     return;
@@ -34,31 +35,37 @@ void Capture::Tick() {
   WaitOrFinish();
 }
 
-vm::Result<void> Capture::WriteNext() {
+vm::Result<void> Capture::DrawNext() {
   if (next_ >= limits_.pictures) {
     return vm::Fail(vm::Errc::kLimit,
                     fmt::format("Capture: more than {} pictures", limits_.pictures));
   }
+  if (auto drawn = draw_(next_, series_.TimeOf(next_)); !drawn) return drawn;
+  ++next_;
+  return queue_.Add();
+}
+
+vm::Result<void> Capture::Write(const Image& picture) {
   if (bytes_ >= limits_.bytes) {
     return vm::Fail(vm::Errc::kLimit, fmt::format("Capture: the pictures in '{}' take more than {} "
                                                   "MiB; fewer a second, a smaller view or PNG "
                                                   "take less",
                                                   order_.folder, limits_.bytes >> 20));
   }
-  if (auto drawn = draw_(next_, series_.TimeOf(next_)); !drawn) return drawn;
   const std::string path =
-      fmt::format("{}/{}{:05}{}", order_.folder, order_.prefix, next_ + 1, order_.ending);
-  if (auto written = studio_.WritePicture(studio_.Read(), path); !written) return written;
+      fmt::format("{}/{}{:05}{}", order_.folder, order_.prefix, written_ + 1, order_.ending);
+  if (auto written = studio_.WritePicture(picture, path); !written) return written;
   std::error_code none;
   if (const auto size = std::filesystem::file_size(path, none); !none) bytes_ += size;
-  ++next_;
+  ++written_;
   return {};
 }
 
 void Capture::WaitOrFinish() {
   if (IsOver()) {
+    const auto written = queue_.Flush();
     Cancel();
-    on_end_({});
+    on_end_(written);
     return;
   }
   timer_ = clock_.At(series_.TimeOf(next_), [this] { Tick(); });
@@ -74,6 +81,7 @@ void Capture::End(vm::Time at) {
 void Capture::Cancel() {
   if (timer_ != 0) clock_.Cancel(timer_);
   timer_ = 0;
+  static_cast<void>(queue_.Flush());
   armed_ = false;
   running_ = false;
 }

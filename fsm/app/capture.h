@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "fsm/app/frame_queue.h"
 #include "fsm/app/frame_series.h"
 #include "fsm/app/render_backend.h"
 #include "vm_protocol/core/scheduler.h"
@@ -38,6 +39,7 @@ class Capture {
         studio_(studio),
         draw_(std::move(draw)),
         on_end_(std::move(on_end)),
+        queue_(studio, [this](const Image& picture, long) { return Write(picture); }),
         limits_(limits) {}
   ~Capture() { Cancel(); }
 
@@ -46,13 +48,14 @@ class Capture {
   /// The utterance was over at `at`, now or before: the pictures due until then that are still
   /// missing follow, then on_end is called. Nothing if none are being made.
   void End(vm::Time at);
-  void Cancel();  ///< without a word
+  void Cancel();  ///< without a word; the pictures drawn until then are written
   bool armed() const { return armed_; }
   bool running() const { return running_; }
 
  private:
   void Tick();
-  vm::Result<void> WriteNext();
+  vm::Result<void> DrawNext();
+  vm::Result<void> Write(const Image& picture);
   void WaitOrFinish();
   bool IsOver() const { return end_ && series_.TimeOf(next_) > *end_; }
 
@@ -60,14 +63,16 @@ class Capture {
   RenderBackend& studio_;
   Draw draw_;
   OnEnd on_end_;
+  FrameQueue queue_;
   const Limits limits_;
   Order order_;
   FrameSeries series_;
   bool armed_ = false;
   bool running_ = false;
   std::optional<vm::Time> end_;  // of the utterance, once it is known
-  long next_ = 0;
-  std::uintmax_t bytes_ = 0;  // written
+  long next_ = 0;                // to be drawn
+  long written_ = 0;             // and what they take
+  std::uintmax_t bytes_ = 0;
   vm::TimerId timer_ = 0;
 };
 

@@ -8,7 +8,11 @@ constexpr long kMostRepeatsAtOnce = 4;
 }
 
 Film::Film(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnFailure on_failure)
-    : clock_(clock), studio_(studio), draw_(std::move(draw)), on_failure_(std::move(on_failure)) {}
+    : clock_(clock),
+      studio_(studio),
+      draw_(std::move(draw)),
+      on_failure_(std::move(on_failure)),
+      queue_(studio, [this](const Image& frame, long times) { return Write(frame, times); }) {}
 
 Film::~Film() {
   if (timer_ != 0) clock_.Cancel(timer_);
@@ -25,7 +29,6 @@ vm::Result<void> Film::Start(const std::string& path, int frames_per_second) {
   series_ = {clock_.Now(), static_cast<double>(frames_per_second)};
   next_ = 0;
   repeated_ = 0;
-  last_ = {};
   Arm();
   return {};
 }
@@ -38,6 +41,7 @@ void Film::Tick() {
   timer_ = 0;
   // A slow encoder must not keep the module from its input: the rest comes right after that.
   if (auto added = AddUpTo(clock_.Now(), kMostRepeatsAtOnce); !added) {
+    queue_.Clear();
     writer_.reset();
     on_failure_(added.error());
     return;
@@ -50,14 +54,19 @@ vm::Result<void> Film::AddUpTo(vm::Time now, long most_repeats) {
   const long first = next_;
   while (next_ > 0 && series_.TimeOf(next_ + 1) <= now) {
     if (next_ - first == most_repeats) break;
-    if (auto added = writer_->Add(last_); !added) return added;
+    if (auto added = queue_.Repeat(); !added) return added;
     ++next_;
     ++repeated_;
   }
   if (auto drawn = draw_(next_, series_.TimeOf(next_)); !drawn) return drawn;
-  last_ = studio_.Read();
   ++next_;
-  return writer_->Add(last_);
+  return queue_.Add(!writer_->is_live());
+}
+
+vm::Result<void> Film::Write(const Image& frame, long times) {
+  vm::Result<void> added;
+  for (; added && times > 0; --times) added = writer_->Add(frame);
+  return added;
 }
 
 vm::Result<Film::Report> Film::Stop(const std::string& sound) {
@@ -71,6 +80,7 @@ vm::Result<Film::Report> Film::Stop(const std::string& sound) {
   while (added && (next_ == 0 || series_.TimeOf(next_) < stop)) {
     added = AddUpTo(stop - vm::Time(1), std::numeric_limits<long>::max());
   }
+  if (added) added = queue_.Flush();
   Report report{path_, next_, repeated_};
   const auto writer = std::move(writer_);
   if (!added) return std::unexpected(added.error());

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "fsm/app/frame_queue.h"
 #include "fsm/app/frame_series.h"
 #include "fsm/app/render_backend.h"
 #include "fsm/film/movie_writer.h"
@@ -41,17 +42,19 @@ class Film {
   void Arm();
   void Tick();
   vm::Result<void> AddUpTo(vm::Time now, long most_repeats);
+  /// To the writer.
+  vm::Result<void> Write(const Image& frame, long times);
 
   vm::Scheduler& clock_;
   RenderBackend& studio_;
   Draw draw_;
   OnFailure on_failure_;
   std::unique_ptr<MovieWriter> writer_;
+  FrameQueue queue_;
   std::string path_;
   FrameSeries series_;
   long next_ = 0;
   long repeated_ = 0;
-  Image last_;
   vm::TimerId timer_ = 0;
 };
 

@@ -76,6 +76,34 @@ const Image& GlRenderBackend::Read() {
   return image_;
 }
 
+std::uint64_t GlRenderBackend::BeginRead() {
+  context_->MakeCurrent();
+  readings_[++last_reading_].in_renderer = renderer_->BeginRead();
+  return last_reading_;
+}
+
+vm::Result<void> GlRenderBackend::EndRead(std::uint64_t frame, Image& out) {
+  auto reading = readings_.extract(frame);
+  if (reading.mapped().image) {
+    out = *std::move(reading.mapped().image);
+    return {};
+  }
+  try {
+    context_->MakeCurrent();
+    renderer_->EndRead(reading.mapped().in_renderer, out);
+    return {};
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, error.what());
+  }
+}
+
+void GlRenderBackend::DropRead(std::uint64_t frame) {
+  const auto reading = readings_.extract(frame);
+  if (reading.mapped().image) return;
+  context_->MakeCurrent();
+  renderer_->DropRead(reading.mapped().in_renderer);
+}
+
 MouthMeasure GlRenderBackend::Measure(const FaceState& state) { return head().MeasureMouth(state); }
 
 std::vector<std::string> GlRenderBackend::Faces() const {
@@ -120,6 +148,13 @@ vm::Result<void> GlRenderBackend::Resize(int width, int height) {
   }
   // GL objects first: they live in the context. The next frame makes another.
   context_->MakeCurrent();
+  try {
+    for (auto& [number, reading] : readings_) {
+      if (!reading.image) renderer_->EndRead(reading.in_renderer, reading.image.emplace());
+    }
+  } catch (const std::exception& error) {
+    return vm::Fail(vm::Errc::kUnavailable, error.what());
+  }
   renderer_.reset();
   context_.reset();
   return {};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,9 @@ class GlRenderBackend final : public RenderBackend {
 
   vm::Result<void> Draw(const FaceState& state, const Scene& scene) override;
   const Image& Read() override;
+  std::uint64_t BeginRead() override;
+  vm::Result<void> EndRead(std::uint64_t frame, Image& out) override;
+  void DropRead(std::uint64_t frame) override;
   MouthMeasure Measure(const FaceState& state) override;
   std::vector<std::string> Faces() const override;
   vm::Result<void> Wear(const std::string& face) override;
@@ -60,12 +64,20 @@ class GlRenderBackend final : public RenderBackend {
   void MakeRenderer();
 
   Options options_;
-  std::string face_;                    // worn; "" = the first
-  std::unique_ptr<Head> head_;          // made at the first need, as drawing may never be asked for
+  std::string face_;            // worn; "" = the first
+  std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
   std::unique_ptr<RenderContext> context_;
   std::unique_ptr<Renderer> renderer_;  // lives in the context
   HeadVertices vertices_;
   Image image_;
+  // Frames begun and not ended, by their number here; each is in the renderer or, when that went,
+  // here.
+  struct Reading {
+    std::uint64_t in_renderer = 0;
+    std::optional<Image> image;
+  };
+  std::map<std::uint64_t, Reading> readings_;
+  std::uint64_t last_reading_ = 0;
 };
 
 }  // namespace fsm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,13 @@ class RenderBackend {
   virtual vm::Result<void> Draw(const FaceState& state, const Scene& scene) = 0;
   /// The frame drawn last; valid until the next call. REQUIRES: one was drawn.
   virtual const Image& Read() = 0;
+  /// Begins to bring the frame drawn last to memory while others are drawn. Returns what EndRead
+  /// and DropRead know it by. REQUIRES: as Read.
+  virtual std::uint64_t BeginRead() = 0;
+  /// The same picture as Read; waits until it is there. Frames may end in any order. Error:
+  /// kUnavailable if the graphics context lost it.
+  virtual vm::Result<void> EndRead(std::uint64_t frame, Image& out) = 0;
+  virtual void DropRead(std::uint64_t frame) = 0;
   /// What the mouth of a state measures. Needs no drawing.
   virtual MouthMeasure Measure(const FaceState& state) = 0;
 

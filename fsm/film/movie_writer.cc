@@ -157,7 +157,8 @@ class FfmpegMovieWriter : public MovieWriter {
 /// Raw frames, as they come, into a file or a pipe.
 class RawMovieWriter : public MovieWriter {
  public:
-  RawMovieWriter(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
+  RawMovieWriter(std::string path, int fd, bool is_pipe)
+      : path_(std::move(path)), fd_(fd), is_pipe_(is_pipe) {}
   ~RawMovieWriter() override { Close(); }
 
   vm::Result<void> Add(const Image& frame) override {
@@ -184,6 +185,7 @@ class RawMovieWriter : public MovieWriter {
                     "raw frames carry no sound; '" + path_ + "' is without '" + sound_wav + "'");
   }
   int frames() const override { return frames_; }
+  bool is_live() const override { return is_pipe_; }
 
  private:
   static constexpr int kReaderLimitMs = 5000;
@@ -198,12 +200,14 @@ class RawMovieWriter : public MovieWriter {
 
   std::string path_;
   int fd_;
+  bool is_pipe_;
   int frames_ = 0;
 };
 
 vm::Result<std::unique_ptr<MovieWriter>> OpenRaw(const std::string& path) {
   struct stat state {};
-  if (stat(path.c_str(), &state) != 0 || !S_ISFIFO(state.st_mode)) {
+  const bool is_pipe = stat(path.c_str(), &state) == 0 && S_ISFIFO(state.st_mode);
+  if (!is_pipe) {
     if (auto fit = vm::CheckWritable(path); !fit) return std::unexpected(std::move(fit.error()));
   }
   // Without waiting: a pipe that nobody reads is an error at once.
@@ -214,7 +218,7 @@ vm::Result<std::unique_ptr<MovieWriter>> OpenRaw(const std::string& path) {
         "cannot write frames to '" + path + "': " +
             (errno == ENXIO ? "nobody reads that pipe" : std::generic_category().message(errno)));
   }
-  return std::make_unique<RawMovieWriter>(path, fd);
+  return std::make_unique<RawMovieWriter>(path, fd, is_pipe);
 }
 
 /// An empty file beside the film's place, under a name nobody else has; made before the first

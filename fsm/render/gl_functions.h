@@ -58,6 +58,7 @@ class RenderContext;
   X(PFNGLGETSTRINGPROC, GetString)                             \
   X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
   X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
+  X(PFNGLMAPBUFFERRANGEPROC, MapBufferRange)                   \
   X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
   X(PFNGLPOLYGONMODEPROC, PolygonMode)                         \
   X(PFNGLPOLYGONOFFSETPROC, PolygonOffset)                     \
@@ -76,6 +77,7 @@ class RenderContext;
   X(PFNGLUNIFORM4FVPROC, Uniform4fv)                           \
   X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)               \
   X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)               \
+  X(PFNGLUNMAPBUFFERPROC, UnmapBuffer)                         \
   X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
   X(PFNGLVIEWPORTPROC, Viewport)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fsm/render/gl_functions.h"
+#include "fsm/render/samples.h"
 
 namespace fsm {
 
@@ -44,10 +45,12 @@ class GlTarget {
   int height() const { return height_; }
   /// Makes it the one drawn into, all of it.
   void Bind() const;
-  /// The averaged picture, `rgba` width * height * 4 bytes, row 0 at the top. `soft`: over 4 x 4
-  /// samples, the outer ones in part, as a camera would; edges that are nearly level then do not
-  /// look like stairs.
-  void Read(std::uint8_t* rgba, bool soft);
+  std::size_t samples_in_row() const { return static_cast<std::size_t>(width_) * kSamplesAlong; }
+  /// The averaged picture; `soft` as of AverageSamples.
+  void Read(Image& out, bool soft);
+  /// RGBA8 samples of the rows from .. to, the lowest first: into memory, or where a
+  /// GL_PIXEL_PACK_BUFFER is bound into that.
+  void ReadRows(int from, int to, void* samples) const;
   /// Averages into the framebuffer bound as GL_DRAW_FRAMEBUFFER, its lower left corner at (x, y).
   void Show(int x, int y) const;
 
@@ -58,7 +61,6 @@ class GlTarget {
   GLuint frame_ = 0;
   GLuint buffers_[2] = {};              // colour, depth
   std::vector<std::uint32_t> samples_;  // some rows of RGBA8, as they are read
-  std::vector<std::uint32_t> sums_;     // of one row
 };
 
 }  // namespace fsm

@@ -6,10 +6,12 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat4x4.hpp>
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "fsm/render/backdrop.h"
 #include "fsm/render/camera.h"
+#include "fsm/render/frame_reader.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/head_buffers.h"
@@ -35,6 +37,13 @@ bool IsSheet(const HeadTopology::Part& part) {
          part.material == Material::kShutLash || part.material == Material::kMouthInside;
 }
 
+/// Whether the processor draws: Mesa's drivers for that.
+bool IsSoftware(const GlFunctions& gl) {
+  const auto* renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+  const std::string_view name = renderer ? renderer : "";
+  return name.starts_with("llvmpipe") || name.starts_with("softpipe");
+}
+
 class GlRenderer : public Renderer {
  public:
   GlRenderer(RenderContext& context, std::size_t heads)
@@ -42,7 +51,8 @@ class GlRenderer : public Renderer {
         most_heads_(heads),
         gl_(GlFunctions::Load(context)),
         materials_(gl_),
-        backdrop_(gl_) {}
+        backdrop_(gl_),
+        reader_(gl_, !IsSoftware(gl_)) {}
 
   void Place(const Viewport& pane) override { pane_ = pane; }
 
@@ -52,6 +62,7 @@ class GlRenderer : public Renderer {
     const int height = pane_.width > 0 ? pane_.height : context_.height();
     FindTarget(width, height);
     target_->Bind();
+    // Beside a photo's own softness hard edges are seen.
     soft_ = HeadBuffers::Blends(head.topology());
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
@@ -70,13 +81,16 @@ class GlRenderer : public Renderer {
 
   void Read(Image& out) override {
     assert(target_ && "Read before the first Draw");
-    out.width = target_->width();
-    out.height = target_->height();
-    out.rgba.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
-    // Beside a photo's own softness hard edges are seen.
-    target_->Read(out.rgba.data(), soft_);
+    target_->Read(out, soft_);
     if (transparent_) Unmultiply(out);
   }
+
+  std::uint64_t BeginRead() override {
+    assert(target_ && "BeginRead before the first Draw");
+    return reader_.Begin(*target_, soft_, transparent_);
+  }
+  void EndRead(std::uint64_t frame, Image& out) override { reader_.End(frame, out); }
+  void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
 
  private:
   /// What the card holds of a head.
@@ -197,19 +211,6 @@ class GlRenderer : public Renderer {
                      reinterpret_cast<const void*>(offset));
   }
 
-  /// Blending and averaging over transparent black leave colours already multiplied by their
-  /// opacity; picture files want them whole.
-  static void Unmultiply(Image& image) {
-    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-      const unsigned a = image.rgba[i + 3];
-      if (a == 0 || a == 255) continue;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const unsigned whole = (image.rgba[i + c] * 255U + a / 2) / a;
-        image.rgba[i + c] = static_cast<std::uint8_t>(std::min(whole, 255U));
-      }
-    }
-  }
-
   RenderContext& context_;
   const std::size_t most_heads_;
   Viewport pane_;
@@ -219,6 +220,7 @@ class GlRenderer : public Renderer {
   std::map<std::uint64_t, std::unique_ptr<HeadOnCard>> heads_;  // by Head::serial
   std::uint64_t frames_ = 0;
   std::vector<std::unique_ptr<GlTarget>> targets_;  // the one used last first
+  FrameReader reader_;
   // Of the frame drawn last.
   GlTarget* target_ = nullptr;
   bool soft_ = false;

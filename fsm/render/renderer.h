@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -111,6 +112,13 @@ class Renderer {
                     const Scene& scene) = 0;
   /// The frame drawn last, of the pane's size.
   virtual void Read(Image& out) = 0;
+  /// Begins to bring the frame drawn last to memory while others are drawn, which a graphics card
+  /// does by itself; each frame under way holds 16 bytes a pixel there. Two or three keep it busy.
+  /// Returns what EndRead and DropRead know the frame by.
+  virtual std::uint64_t BeginRead() = 0;
+  /// The same bytes as Read; waits until they are there. Frames may end in any order.
+  virtual void EndRead(std::uint64_t frame, Image& out) = 0;
+  virtual void DropRead(std::uint64_t frame) = 0;
 };
 
 }  // namespace fsm

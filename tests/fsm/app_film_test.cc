@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -88,6 +89,37 @@ TEST_F(FilmTest, AFilmStoppedAtOnceHasOneFrame) {
   ASSERT_TRUE(film.Start("a.mp4", 30));
   EXPECT_EQ(film.Stop("")->frames, 1);
   EXPECT_EQ(film.Stop("").error().code, vm::Errc::kBadValue);
+}
+
+TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
+  std::vector<float> expected;
+  FaceState state;
+  Film moving(
+      clock, studio,
+      [&](long number, vm::Time) {
+        expected.resize(static_cast<std::size_t>(number), expected.empty() ? 0 : expected.back());
+        state.mouth[11] = static_cast<float>(number % 20);
+        expected.push_back(state.mouth[11]);
+        clock.now += number % 7 == 3 ? 150ms : 10ms;
+        return studio.Draw(state, Scene{});
+      },
+      [](const vm::Error&) {});
+  ASSERT_TRUE(moving.Start("a.mp4", 30));
+  while (clock.now < 2s) clock.RunNext();
+  const auto report = moving.Stop("");
+  ASSERT_TRUE(report);
+  EXPECT_GT(report->repeated, 5);
+  EXPECT_EQ(studio.films["a.mp4"].jaws, expected);
+  EXPECT_TRUE(std::ranges::all_of(studio.readings, [](auto& image) { return image.rgba.empty(); }));
+}
+
+TEST_F(FilmTest, AFilmThatFailsLeavesNoFrameBehind) {
+  ASSERT_TRUE(film.Start("a.mp4", 30));
+  clock.RunNext();
+  studio.no_drawing = "lost";
+  clock.RunNext();
+  EXPECT_FALSE(film.recording());
+  EXPECT_TRUE(studio.readings.at(0).rgba.empty());
 }
 
 /// Writes pictures of 1000 bytes.

@@ -240,8 +240,8 @@ TEST(FsmModuleTest, NothingIsCapturedOrDrawnAfterTheEnd) {
   fsm.Say("set Speak = NOW");
   fsm.Until(1000);
   const int drawn = fsm.studio.draws;
-  EXPECT_EQ(fsm.studio.pictures.size(), 11u);
   fsm.module.Shutdown();
+  EXPECT_EQ(fsm.studio.pictures.size(), 11u) << "0 100 .. 1000, those still being read among them";
   fsm.Until(2000);
   EXPECT_EQ(fsm.studio.pictures.size(), 11u);
   EXPECT_EQ(fsm.studio.draws, drawn);

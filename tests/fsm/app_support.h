@@ -31,6 +31,15 @@ class FakeRenderBackend : public RenderBackend {
     return {};
   }
   const Image& Read() override { return image_; }
+  std::uint64_t BeginRead() override {
+    readings.push_back(image_);
+    return readings.size() - 1;
+  }
+  vm::Result<void> EndRead(std::uint64_t frame, Image& out) override {
+    out = std::exchange(readings.at(frame), {});
+    return {};
+  }
+  void DropRead(std::uint64_t frame) override { readings.at(frame) = {}; }
   MouthMeasure Measure(const FaceState& state) override {
     return {state.mouth[2] - state.mouth[4], 50 + 2 * state.mouth[8], state.mouth[11]};
   }
@@ -78,6 +87,7 @@ class FakeRenderBackend : public RenderBackend {
   FaceState last_state;
   Scene last_scene;
   std::string face;
+  std::vector<Image> readings;  ///< of BeginRead, emptied by EndRead and DropRead
   int draws = 0;
   int shown = 0;
   bool window = false;

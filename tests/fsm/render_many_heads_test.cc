@@ -1,12 +1,17 @@
-// Several heads drawn by one renderer.
+// Several heads and several frames in one renderer.
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "fsm/render/backdrop.h"
+#include "fsm/render/frame_reader.h"
 #include "fsm/render/renderer.h"
 #include "tests/fsm/ball_head.h"
+#include "tests/fsm/render_support.h"
 #include "tests/fsm/wearing_photo.h"
 
 namespace fsm {
@@ -41,6 +46,119 @@ TEST(ManyHeadsTest, DrawnInTurnsTheyLookAsAlone) {
       }
     }
   }
+}
+
+/// Frames of two sizes, on a background and on none, of a head that is read softly and one that is
+/// not.
+struct Frame {
+  const Head& head;
+  int size;
+  bool transparent;
+  float smile;
+};
+
+void Draw(Renderer& renderer, const Frame& frame) {
+  FaceState state;
+  state.au_left[12] = state.au_right[12] = frame.smile;
+  HeadVertices vertices;
+  frame.head.Evaluate(state, vertices);
+  Scene scene;
+  scene.show_background = !frame.transparent;
+  renderer.Place({0, 0, frame.size, frame.size});
+  renderer.Draw(frame.head, vertices, state, scene);
+}
+
+TEST(FrameReaderTest, FramesReadWhileOthersAreDrawnAreThoseReadAtOnce) {
+  const auto context = RenderContext::MakeHeadless(96, 96);
+  const auto renderer = Renderer::Make(*context);
+  const auto plain = MakeGenericHead();
+  const auto photo = WearingPhoto();
+  const Frame frames[] = {{*plain, 96, false, 0.0F}, {*photo, 96, false, 0.5F},
+                          {*plain, 96, true, 0.5F},  {*plain, 63, false, 1.0F},
+                          {*photo, 96, true, 1.0F},  {*plain, 96, false, 1.0F}};
+  std::vector<Image> expected;
+  for (const Frame& frame : frames) {
+    Draw(*renderer, frame);
+    renderer->Read(expected.emplace_back());
+  }
+  for (const std::size_t behind : {0U, 1U, 2U, 5U}) {
+    SCOPED_TRACE(behind);
+    std::vector<std::uint64_t> begun;
+    std::vector<Image> read;
+    const auto end_first = [&] {
+      const std::uint64_t first = begun[read.size()];
+      renderer->EndRead(first, read.emplace_back());
+    };
+    for (const Frame& frame : frames) {
+      Draw(*renderer, frame);
+      begun.push_back(renderer->BeginRead());
+      if (begun.size() > read.size() + behind) end_first();
+    }
+    while (read.size() < begun.size()) end_first();
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      EXPECT_EQ(read[i].width, frames[i].size);
+      EXPECT_EQ(read[i].rgba, expected[i].rgba) << i;
+    }
+  }
+}
+
+TEST(FrameReaderTest, BuffersHandOutWhatIsReadAtOnce) {
+  const auto context = RenderContext::MakeHeadless(40, 30);
+  const GlFunctions gl = GlFunctions::Load(*context);
+  Backdrop backdrop(gl);
+  FrameReader buffered(gl, true), at_once(gl, false);
+  GlTarget target(gl, 40, 30);
+  std::vector<std::array<std::uint64_t, 2>> begun;
+  std::vector<Image> expected;
+  for (int i = 0; i < 5; ++i) {
+    const Image picture = Pattern(53, 37, 11 * i);  // stretched, so that every sample is another
+    Scene scene;
+    scene.background_image = &picture;
+    target.Bind();
+    backdrop.Draw(scene, 40, 30);
+    const bool soft = i % 2 == 1;
+    target.Read(expected.emplace_back(), soft);
+    begun.push_back({buffered.Begin(target, soft, false), at_once.Begin(target, soft, false)});
+  }
+  EXPECT_NE(expected[0].rgba, expected[2].rgba);
+  buffered.Drop(begun[1][0]);
+  Image image;
+  for (const std::size_t i : {2U, 0U, 4U, 3U}) {
+    buffered.End(begun[i][0], image);
+    EXPECT_EQ(image.rgba, expected[i].rgba) << i;
+    at_once.End(begun[i][1], image);
+    EXPECT_EQ(image.rgba, expected[i].rgba) << i;
+    EXPECT_EQ(image.width, 40);
+  }
+  EXPECT_EQ(gl.GetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST(FrameReaderTest, FramesEndInAnyOrderOrAreDroppedAndAPictureBetweenThemIsItsOwn) {
+  const auto context = RenderContext::MakeHeadless(64, 64);
+  const auto renderer = Renderer::Make(*context);
+  const BallHead ball;
+  const auto photo = WearingPhoto();
+  Image of_ball, of_photo, image;
+  Draw(*renderer, {ball, 64, false, 0});
+  renderer->Read(of_ball);
+  Draw(*renderer, {*photo, 64, false, 0});
+  renderer->Read(of_photo);
+  Draw(*renderer, {ball, 64, false, 0});
+  const auto first = renderer->BeginRead();
+  Draw(*renderer, {*photo, 64, false, 0});
+  const auto second = renderer->BeginRead();
+  Draw(*renderer, {ball, 64, false, 0});
+  const auto dropped = renderer->BeginRead();
+  Draw(*renderer, {*photo, 64, false, 0});
+  renderer->Read(image);
+  EXPECT_EQ(image.rgba, of_photo.rgba);
+  renderer->DropRead(dropped);
+  renderer->EndRead(second, image);
+  EXPECT_EQ(image.rgba, of_photo.rgba);
+  renderer->EndRead(first, image);
+  EXPECT_EQ(image.rgba, of_ball.rgba);
+  Draw(*renderer, {ball, 64, false, 0});
+  renderer->BeginRead();  // one that is never ended goes with the renderer
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+#include "fsm/app/frame_queue.h"
+
+namespace fsm {
+
+vm::Result<void> FrameQueue::Add(bool wait) {
+  waiting_.push_back({studio_.BeginRead(), 1});
+  if (!wait) return Flush();
+  return waiting_.size() > kMostWaiting ? HandOnFirst() : vm::Result<void>{};
+}
+
+vm::Result<void> FrameQueue::Repeat() {
+  if (waiting_.empty()) return take_(last_, 1);
+  ++waiting_.back().times;
+  return {};
+}
+
+vm::Result<void> FrameQueue::Flush() {
+  vm::Result<void> taken;
+  while (taken && !waiting_.empty()) taken = HandOnFirst();
+  return taken;
+}
+
+void FrameQueue::Clear() {
+  for (const Waiting& one : waiting_) studio_.DropRead(one.frame);
+  waiting_.clear();
+}
+
+vm::Result<void> FrameQueue::HandOnFirst() {
+  const Waiting first = waiting_.front();
+  waiting_.pop_front();
+  auto taken = studio_.EndRead(first.frame, last_);
+  if (taken) taken = take_(last_, first.times);
+  if (!taken) Clear();
+  return taken;
+}
+
+}  // namespace fsm
