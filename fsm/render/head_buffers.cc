@@ -140,7 +140,12 @@ void HeadBuffers::UploadTopology(const Head& head) {
     rest_normal[i] *= i < topology.relit.size() ? topology.relit[i] : 0.0F;
   }
   upload(10, rest_normal);
-  Order(topology, rest);
+  std::vector<bool> detailed(paint.size());
+  for (std::size_t i = 0; i < detailed.size(); ++i) {
+    detailed[i] = cover[i] < 1 || photo_lender[i].x > 0 || creases.right[i] != glm::vec4(0) ||
+                  creases.left[i] != glm::vec4(0);
+  }
+  Order(topology, rest, detailed);
   eyes_ = EyeFinder(topology, rest);
   if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
   shadows_ = ShadowFinder(topology, rest);
@@ -156,7 +161,8 @@ const SkinTexture* HeadBuffers::skin() {
 // Pixels found to be hidden cost nearly nothing, so the hair before the ears comes first, then the
 // face, then the hair behind it, each from the front to the back of a head that looks at the
 // viewer. Which is right most of the time, and where it is not only time is lost.
-void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) {
+void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest,
+                        const std::vector<bool>& detailed) {
   constexpr float kBehind = 0.0F;  // the plane of the ears
   using Triangle = std::array<std::uint32_t, 3>;
   std::vector<Triangle> hair;
@@ -165,13 +171,23 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
     return rest.position[t[0]].z + rest.position[t[1]].z + rest.position[t[2]].z;
   };
   const auto add = [&](HeadTopology::Part part, std::span<const std::uint32_t> corners,
-                       bool soft = false) {
+                       bool soft = false, bool is_detailed = true) {
     if (corners.empty()) return;
-    soft_.push_back(soft);
     part.first_index = static_cast<std::uint32_t>(indices.size());
     part.index_count = static_cast<std::uint32_t>(corners.size());
-    parts_.push_back(part);
+    parts_.push_back({part, soft, is_detailed});
     indices.insert(indices.end(), corners.begin(), corners.end());
+  };
+  const auto add_worn = [&](const HeadTopology::Part& part,
+                            std::span<const std::uint32_t> corners) {
+    std::array<std::vector<std::uint32_t>, 2> lists;
+    for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+      const auto t = corners.subspan(k, 3);
+      auto& list = lists[std::ranges::any_of(t, [&](std::uint32_t i) { return detailed[i]; })];
+      list.insert(list.end(), t.begin(), t.end());
+    }
+    add(part, lists[0], false, false);
+    add(part, lists[1]);
   };
   const auto flat = [](std::span<const Triangle> triangles) {
     std::vector<std::uint32_t> corners;
@@ -211,7 +227,9 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
       continue;
     }
     if (!blends_ || (part.material != Material::kSkin && !of_sheet)) {
-      add(part, corners);
+      const bool worn = photo_ && part.finish < 0 &&
+                        (part.material == Material::kSkin || part.material == Material::kLip);
+      worn ? add_worn(part, corners) : add(part, corners);
       continue;
     }
     (of_sheet ? sheet : skin) = part;
@@ -222,7 +240,7 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest) 
       auto& list = HidesAll(topology, triangle, of_sheet) ? whole : of_sheet ? soft_sheet : fading;
       list.insert(list.end(), triangle.begin(), triangle.end());
     }
-    add(part, whole);
+    add_worn(part, whole);
   }
   add(sheet, soft_sheet, true);
   add(skin, fading, true);

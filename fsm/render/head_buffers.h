@@ -16,6 +16,15 @@
 
 namespace fsm {
 
+/// A part as it is drawn.
+struct DrawnPart {
+  HeadTopology::Part part;  ///< indices as uploaded
+  bool soft = false;        ///< mixed with what is behind it
+  /// Of what wears a photo: off, it is the photo and nothing else, without a crease, grain from
+  /// elsewhere or anything that is left out, which costs a fraction of a pixel.
+  bool detailed = true;
+};
+
 /// One head on the GL side: what never changes is uploaded at the beginning, vertices every frame.
 /// Destroy while its context is current.
 class HeadBuffers {
@@ -27,8 +36,8 @@ class HeadBuffers {
 
   /// Binds the head's vertex array with these vertices, which are the head's, in it.
   void Upload(const HeadVertices& vertices);
-  /// The head's parts in the order to draw them, what hides most first; indices as uploaded here.
-  const std::vector<HeadTopology::Part>& parts() const { return parts_; }
+  /// The head's parts in the order to draw them, what hides most first.
+  const std::vector<DrawnPart>& parts() const { return parts_; }
   const EyeFinder& eyes() const { return eyes_; }
   const ShadowFinder& shadows() const { return shadows_; }
   const MouthFinder& mouth() const { return mouth_; }
@@ -41,13 +50,11 @@ class HeadBuffers {
   const EyePlace& eye_place() const { return eye_place_; }
   /// What is worn in place of painted skin, if anything.
   const Image* photo() const { return photo_.get(); }
-  /// Whether that is laid on in layers from back to front with soft edges, and which of parts()
-  /// have such edges.
+  /// Whether that is laid on in layers from back to front with soft edges.
   bool blends() const { return blends_; }
   static bool Blends(const HeadTopology& topology) {
     return topology.photo && !topology.strands.empty();
   }
-  bool IsSoft(std::size_t part) const { return soft_[part]; }
   /// HeadTopology::relief, lights and finishes.
   const Image* relief() const { return relief_.get(); }
   const Image* lights() const { return lights_.get(); }
@@ -67,7 +74,9 @@ class HeadBuffers {
   static constexpr float kNoChin = -1e4F;
 
   void UploadTopology(const Head& head);
-  void Order(const HeadTopology& topology, const HeadVertices& rest);
+  /// `detailed`: of every vertex, what DrawnPart says of parts.
+  void Order(const HeadTopology& topology, const HeadVertices& rest,
+             const std::vector<bool>& detailed);
 
   const GlFunctions& gl_;
   GLuint array_ = 0;
@@ -77,8 +86,7 @@ class HeadBuffers {
   static constexpr GLuint kAttributes = 11;  // the last: places in a photo, cover, rest normal
   GLuint buffers_[kAttributes + 1] = {};
   std::size_t vertex_count_ = 0;
-  std::vector<HeadTopology::Part> parts_;
-  std::vector<bool> soft_;
+  std::vector<DrawnPart> parts_;
   EyeFinder eyes_;
   ShadowFinder shadows_;
   MouthFinder mouth_;

@@ -85,8 +85,7 @@ Materials::Materials(const GlFunctions& gl)
       mouth_(gl, "mouth", Vertex(embedded::mouth_vertex()), Fragment(embedded::surface_fragment())),
       eye_(gl, "eye", Vertex(embedded::eye_vertex()), Fragment(embedded::eye_fragment())),
       hair_(gl, "hair", Vertex(embedded::hair_vertex()), Fragment(embedded::hair_fragment())),
-      line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()),
-      photo_(gl, "photo", Vertex(embedded::photo_vertex()), Fragment(embedded::photo_fragment())) {
+      line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()) {
   gl_.GenTextures(kTextures, textures_);
   const auto noise = MakeNoiseTile();
   const auto strands = MakeStrandTile();
@@ -127,15 +126,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
 
   Bind(textures_[kNoise], GL_TEXTURE0);
   Bind(textures_[kStrands], GL_TEXTURE3);
-  std::vector<const GlProgram*> programs{&surface_, &mouth_, &eye_, &hair_, &line_, &photo_};
-  if (!head.finishes().empty()) {
-    if (!finish_) {
-      finish_ = std::make_unique<GlProgram>(gl_, "finish", Vertex(embedded::finish_vertex()),
-                                            Fragment(embedded::finish_fragment()));
-    }
-    programs.push_back(finish_.get());
-  }
-  for (const GlProgram* program : programs) {
+  for (const GlProgram* program : ProgramsOf(head)) {
     gl_.UseProgram(program->id());
     gl_.UniformMatrix4fv(program->Uniform("figure_to_world"), 1, GL_FALSE,
                          glm::value_ptr(view.figure_to_world));
@@ -165,19 +156,12 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
     }
   }
   gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
-  gl_.UseProgram(photo_.id());
-  gl_.Uniform4fv(photo_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
-  gl_.Uniform1fv(photo_.Uniform("lids_shut"), 2, vertices.lids_shut.data());
-  gl_.Uniform1i(photo_.Uniform("photo"), 1);
-  gl_.Uniform1f(photo_.Uniform("blends"), head.blends() ? 1.0F : 0.0F);
-  gl_.Uniform1i(photo_.Uniform("relief"), 2);
   // The photo's light stands for the lamps as they are by default.
   const Scene studio;
   const auto light = [](const Scene& s) {
     return s.key.strength * s.key.color.g + s.fill.strength * s.fill.color.g + 0.8F;
   };
   const float brightness = std::sqrt(light(scene) / light(studio));
-  gl_.Uniform1f(photo_.Uniform("brightness"), brightness);
   if (finish_) {
     gl_.UseProgram(finish_->id());
     gl_.Uniform1f(finish_->Uniform("brightness"), brightness);
@@ -188,9 +172,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   gl_.UseProgram(hair_.id());
   const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
   gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
-  gl_.UseProgram(photo_.id());
-  gl_.UniformMatrix3fv(photo_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
-  gl_.Uniform4fv(photo_.Uniform("photo_light"), 1, glm::value_ptr(head.photo_light()));
+  SetPhoto(head, vertices, depths, rest_to_world, brightness);
   SetMouth(view, head, vertices, directions[0]);
   if (!head.eyes().found()) return;
   const auto eyes = head.eyes().Measure(vertices);
@@ -205,7 +187,52 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   if (shown) SetEyePictures(head, eyes, rest_to_world);
 }
 
-void Materials::Use(Material material) {
+std::vector<const GlProgram*> Materials::ProgramsOf(const HeadBuffers& head) {
+  std::vector<const GlProgram*> programs{&surface_, &mouth_, &eye_, &hair_, &line_};
+  for (const DrawnPart& part : head.parts()) {
+    auto& photo = photo_[part.detailed];
+    if (photo || !WearsPhoto(part.part.material)) continue;
+    const char* detailed =
+        part.detailed ? "const bool kDetailed = true;\n" : "const bool kDetailed = false;\n";
+    photo = std::make_unique<GlProgram>(
+        gl_, "photo", Vertex(embedded::photo_vertex()),
+        Join({embedded::lighting(), detailed, embedded::photo_fragment()}));
+  }
+  if (!head.finishes().empty() && !finish_) {
+    finish_ = std::make_unique<GlProgram>(gl_, "finish", Vertex(embedded::finish_vertex()),
+                                          Fragment(embedded::finish_fragment()));
+  }
+  for (const auto* program : {&photo_[0], &photo_[1], &finish_}) {
+    if (*program) programs.push_back(program->get());
+  }
+  return programs;
+}
+
+void Materials::SetPhoto(const HeadBuffers& head, const HeadVertices& vertices,
+                         const glm::vec4* crease_depths, const glm::mat3& rest_to_world,
+                         float brightness) {
+  for (const auto& photo : photo_) {
+    if (!photo) continue;
+    gl_.UseProgram(photo->id());
+    gl_.Uniform4fv(photo->Uniform("crease_depths"), 2, glm::value_ptr(crease_depths[0]));
+    gl_.Uniform1fv(photo->Uniform("lids_shut"), 2, vertices.lids_shut.data());
+    gl_.Uniform1i(photo->Uniform("photo"), 1);
+    gl_.Uniform1f(photo->Uniform("blends"), head.blends() ? 1.0F : 0.0F);
+    gl_.Uniform1i(photo->Uniform("relief"), 2);
+    gl_.Uniform1f(photo->Uniform("brightness"), brightness);
+    gl_.UniformMatrix3fv(photo->Uniform("rest_to_world"), 1, GL_FALSE,
+                         glm::value_ptr(rest_to_world));
+    gl_.Uniform4fv(photo->Uniform("photo_light"), 1, glm::value_ptr(head.photo_light()));
+  }
+}
+
+bool Materials::WearsPhoto(Material material) const {
+  return material == Material::kPhoto || material == Material::kShutLash ||
+         (head_->photo() && (material == Material::kSkin || material == Material::kLip));
+}
+
+void Materials::Use(Material material, bool detailed) {
+  if (WearsPhoto(material)) return UsePhoto(material, detailed);
   switch (material) {
     case Material::kSclera:
     case Material::kIris:
@@ -216,14 +243,8 @@ void Materials::Use(Material material) {
       return UseHair(1.0F, 1.0F);
     case Material::kLash:
       return UseHair(0.0F, 0.0F);
-    case Material::kShutLash:
-      return UsePhoto(material);
     default:
       break;
-  }
-  if (material == Material::kPhoto ||
-      (head_->photo() && (material == Material::kSkin || material == Material::kLip))) {
-    return UsePhoto(material);
   }
   for (const auto& surface : kSurfaces) {
     if (surface.material != material) continue;
@@ -249,8 +270,9 @@ void Materials::Use(Material material) {
   }
 }
 
-void Materials::Use(const HeadTopology::Part& part) {
-  if (part.finish < 0) return Use(part.material);
+void Materials::Use(const DrawnPart& drawn) {
+  const auto& part = drawn.part;
+  if (part.finish < 0) return Use(part.material, drawn.detailed);
   UseMaterial(head_->finishes()[static_cast<std::size_t>(part.finish)]);
 }
 
@@ -269,14 +291,15 @@ void Materials::UseMaterial(const PbrMaterial& finish) {
   Bind(worn_->lights(), GL_TEXTURE5);
 }
 
-void Materials::UsePhoto(Material material) {
+void Materials::UsePhoto(Material material, bool detailed) {
+  const GlProgram& photo = *photo_[detailed];
   const bool ragged = material == Material::kPhoto;
-  gl_.UseProgram(photo_.id());
-  gl_.Uniform1f(photo_.Uniform("lashes"), material == Material::kShutLash ? 1.0F : 0.0F);
-  gl_.Uniform1f(photo_.Uniform("ragged"), ragged ? 1.0F : 0.0F);
+  gl_.UseProgram(photo.id());
+  gl_.Uniform1f(photo.Uniform("lashes"), material == Material::kShutLash ? 1.0F : 0.0F);
+  gl_.Uniform1f(photo.Uniform("ragged"), ragged ? 1.0F : 0.0F);
   // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
   constexpr float kYields = 5;
-  gl_.Uniform1f(photo_.Uniform("yields"), ragged && head_->blends() ? kYields : 0.0F);
+  gl_.Uniform1f(photo.Uniform("yields"), ragged && head_->blends() ? kYields : 0.0F);
   BindOrPlain(worn_->photo(), GL_TEXTURE1);
   BindOrPlain(worn_->skin_relief(), GL_TEXTURE2);
 }

@@ -29,7 +29,7 @@ class Materials {
   /// `head` and `textures` are that head's, until the next call.
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
                   const HeadVertices& vertices, const Scene& scene, float alpha);
-  void Use(const HeadTopology::Part& part);
+  void Use(const DrawnPart& part);
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
 
@@ -39,13 +39,18 @@ class Materials {
   void Bind(GLuint texture, GLenum unit);
   /// 0: of one colour.
   void BindOrPlain(GLuint texture, GLenum unit);
+  /// The programs that the parts of the head need, made if they are not there yet.
+  std::vector<const GlProgram*> ProgramsOf(const HeadBuffers& head);
+  void SetPhoto(const HeadBuffers& head, const HeadVertices& vertices,
+                const glm::vec4* crease_depths, const glm::mat3& rest_to_world, float brightness);
   void SetEyes(const View& view, const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes);
   void SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
                       const glm::mat3& rest_to_world);
   void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                 glm::vec3 key_direction);
-  void Use(Material material);
-  void UsePhoto(Material material);
+  void Use(Material material, bool detailed);
+  bool WearsPhoto(Material material) const;
+  void UsePhoto(Material material, bool detailed);
   void UseMaterial(const PbrMaterial& finish);
   void UseHair(float streaks, float shine);
 
@@ -55,8 +60,9 @@ class Materials {
   GlProgram eye_;
   GlProgram hair_;
   GlProgram line_;
-  GlProgram photo_;
-  std::unique_ptr<GlProgram> finish_;  // made for the first head that has any
+  // Made for the first head that has any. Of those for photos, the second draws what is detailed.
+  std::array<std::unique_ptr<GlProgram>, 2> photo_;
+  std::unique_ptr<GlProgram> finish_;
   GLuint textures_[kTextures] = {};
   const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
   const HeadTextures* worn_ = nullptr;

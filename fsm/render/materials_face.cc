@@ -41,10 +41,13 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
     dropped = std::max(opening->teeth.x - opening->teeth.y + kOverlap, 0.0F);
   }
   // Said of every head: the one drawn before it may have had its mouth open.
-  gl_.UseProgram(photo_.id());
-  gl_.Uniform1f(photo_.Uniform("lips_apart"), glm::smoothstep(0.4F, 2.5F, gap));
-  gl_.Uniform1f(photo_.Uniform("chin_y"), head.chin_y());
-  gl_.Uniform1f(photo_.Uniform("chin_drop"), dropped);
+  for (const auto& photo : photo_) {
+    if (!photo) continue;
+    gl_.UseProgram(photo->id());
+    gl_.Uniform1f(photo->Uniform("lips_apart"), glm::smoothstep(0.4F, 2.5F, gap));
+    gl_.Uniform1f(photo->Uniform("chin_y"), head.chin_y());
+    gl_.Uniform1f(photo->Uniform("chin_drop"), dropped);
+  }
   if (!opening) return;
   const glm::mat3 turn(view.figure_to_world);
   const glm::mat3 to_world =

@@ -149,15 +149,14 @@ class GlRenderer : public Renderer {
         gl_.PolygonOffset(1.5F, 2.0F);
       }
       gl_.CullFace(GL_BACK);
-      for (const auto& part : parts) {
+      for (const DrawnPart& part : parts) {
         // Lashes have two sides; everything else is the skin of something closed, or of hair, which
         // has an inside of its own where it hangs.
-        (IsSheet(part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+        (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
         materials_.Use(part);
-        const bool soft = buffers.IsSoft(static_cast<std::size_t>(&part - parts.data()));
-        if (soft) BeginBlending();
-        DrawPart(part);
-        if (soft) gl_.Disable(GL_BLEND);
+        if (part.soft) BeginBlending();
+        DrawPart(part.part);
+        if (part.soft) gl_.Disable(GL_BLEND);
         // A software driver draws on threads of its own, but begins when told to.
         if (&part == &parts.front()) gl_.Flush();
       }
@@ -171,21 +170,21 @@ class GlRenderer : public Renderer {
 
   /// A software driver compiles a shader when it first draws with it, which takes far longer than a
   /// frame. So that is done while the skin is being painted: one triangle of each part, unseen.
-  void WarmUp(const std::vector<HeadTopology::Part>& parts) {
+  void WarmUp(const std::vector<DrawnPart>& parts) {
     gl_.Viewport(0, 0, 0, 0);
     gl_.CullFace(GL_BACK);
     for (auto part : parts) {
-      part.index_count = 3;
-      (IsSheet(part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
+      part.part.index_count = 3;
+      (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
       materials_.Use(part);
-      DrawPart(part);
+      DrawPart(part.part);
     }
     gl_.Disable(GL_CULL_FACE);
     target_->Bind();
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
   }
 
-  void DrawLines(const std::vector<HeadTopology::Part>& parts, const Scene& scene) {
+  void DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene) {
     const bool alone = scene.view_mode == ViewMode::kWireframe;
     const glm::vec4 color = alone ? glm::vec4(scene.wire, 1.0F) : kLineOverTexture;
     BeginBlending();
@@ -194,7 +193,7 @@ class GlRenderer : public Renderer {
     gl_.Enable(GL_CULL_FACE);
     gl_.CullFace(GL_BACK);
     materials_.UseLine(color);
-    for (const auto& part : parts) DrawPart(part);
+    for (const auto& part : parts) DrawPart(part.part);
     gl_.Disable(GL_CULL_FACE);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     gl_.DepthFunc(GL_LESS);

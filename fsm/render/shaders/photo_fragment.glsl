@@ -1,4 +1,5 @@
 // The photo brought its own light: it is shown as it is, but for creases that the face makes now.
+// kDetailed, which stands before this text: as DrawnPart::detailed.
 in vec2 place;
 in vec3 worn;
 in vec3 paint;
@@ -20,20 +21,23 @@ const float kGrain = 0.75;  // of what lends it: lids are smoother than what lie
 
 void main() {
   vec4 p = texture(photo, worn.xy);
-  float opacity = covering * mix(1.0, p.a, ragged);
-  if (opacity < 0.98) {
+  float opacity = kDetailed ? covering * mix(1.0, p.a, ragged) : 1.0;
+  if (kDetailed && opacity < 0.98) {
     // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
     ivec2 s = ivec2(gl_FragCoord.xy) & 1;
     float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
     if (1.0 - opacity > mix(step, 0.99, blends)) discard;
   }
-  vec2 slope = texture(relief, place).zw - 0.5;
-  // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
-  float shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.03 + 0.32 * dot(slope, vec2(-0.5, 0.85)));
-  // Furrows are seen by their shadows; their rims hardly shine.
-  shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, 0.6, 1.15);
+  float shade = 1.0;
+  if (kDetailed) {
+    vec2 slope = texture(relief, place).zw - 0.5;
+    // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
+    shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.03 + 0.32 * dot(slope, vec2(-0.5, 0.85)));
+    // Furrows are seen by their shadows; their rims hardly shine.
+    shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, 0.6, 1.15);
+  }
   vec3 painted = paint;
-  if (lender.z > 0.0) {
+  if (kDetailed && lender.z > 0.0) {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
     painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), kGrain * lender.z);
   }
