@@ -24,18 +24,32 @@ std::string ReadText(const std::string& path) {
   return std::move(*text);
 }
 
-}  // namespace
-
-std::optional<UnitTable> UnitsIn(const std::string& folder) {
-  const std::string path = folder + "/" + kUnitsFile;
+/// A table of a folder; nothing if it has none of that name. Throws as UnitsIn.
+std::optional<std::string> TableIn(const std::string& folder, const char* file) {
+  const std::string path = folder + "/" + file;
   std::error_code error;
   if (folder.empty() || !std::filesystem::exists(path, error)) return std::nullopt;
-  const auto text = ReadTableFile(path);
+  auto text = ReadTableFile(path);
   if (!text) throw std::runtime_error(text.error().text);
   if (auto encoded = CheckTableEncoding(path, *text); !encoded) {
     throw std::runtime_error(encoded.error().text);
   }
-  return UnitTable(Table(path, *text));
+  return *std::move(text);
+}
+
+}  // namespace
+
+std::optional<UnitTable> UnitsIn(const std::string& folder) {
+  const auto text = TableIn(folder, kUnitsFile);
+  if (!text) return std::nullopt;
+  return UnitTable(Table(folder + "/" + kUnitsFile, *text));
+}
+
+std::optional<Appearance> AppearanceIn(const std::string& folder) {
+  constexpr const char* kFile = "appearance.txt";
+  const auto text = TableIn(folder, kFile);
+  if (!text) return std::nullopt;
+  return Appearance(folder + "/" + kFile, *text);
 }
 
 std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fsm/render/appearance.h"
 #include "fsm/rig/action_units.h"
 #include "fsm/rig/head.h"
 
@@ -14,6 +15,9 @@ namespace fsm {
 /// std::runtime_error naming file and line.
 std::optional<UnitTable> UnitsIn(const std::string& folder);
 inline constexpr const char* kUnitsFile = "action_units.txt";
+/// How things look, in place of fsm/render/tables/appearance.txt: the file of that name in a folder
+/// of tables; nothing if there is none. Throws as UnitsIn.
+std::optional<Appearance> AppearanceIn(const std::string& folder);
 /// The same head, moved by the units of a folder of tables if that has any. Throws as UnitsIn.
 std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head);
 

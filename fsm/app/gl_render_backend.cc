@@ -13,7 +13,8 @@
 
 namespace fsm {
 
-GlRenderBackend::GlRenderBackend(const Options& options) : options_(options) {
+GlRenderBackend::GlRenderBackend(const Options& options)
+    : options_(options), appearance_(AppearanceIn(options.tables)) {
   if (options_.where == Options::Where::kHeadless) return;
   try {
     context_ = RenderContext::MakeWindow(options_.width, options_.height, options_.title);
@@ -49,7 +50,9 @@ void GlRenderBackend::MakeRenderer() {
     context_ = RenderContext::MakeHeadless(options_.width, options_.height, options_.off_screen);
   }
   context_->MakeCurrent();
-  if (!renderer_) renderer_ = Renderer::Make(*context_, 1);
+  if (!renderer_) {
+    renderer_ = Renderer::Make(*context_, 1, appearance_ ? *appearance_ : Appearance::BuiltIn());
+  }
 }
 
 vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scene) {

@@ -11,6 +11,7 @@
 #include "fsm/app/render_backend.h"
 #include "fsm/film/movie_writer.h"
 #include "fsm/head/make_head.h"
+#include "fsm/render/appearance.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -32,9 +33,11 @@ class GlRenderBackend final : public RenderBackend {
       std::function<std::unique_ptr<Head>()> make;
     };
     std::vector<MoreFace> more_faces = {};
-    std::string tables = {};  ///< a folder whose units move the faces, see MakeHeadOfName
+    /// A folder whose units move the faces, see MakeHeadOfName, and which may have appearance.txt.
+    std::string tables = {};
   };
-  /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had.
+  /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had, or if
+  /// appearance.txt is wrong.
   explicit GlRenderBackend(const Options& options);
   ~GlRenderBackend() override;
 
@@ -64,7 +67,8 @@ class GlRenderBackend final : public RenderBackend {
   void MakeRenderer();
 
   Options options_;
-  std::string face_;            // worn; "" = the first
+  std::optional<Appearance> appearance_;  // in place of the built-in one
+  std::string face_;                      // worn; "" = the first
   std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
   std::unique_ptr<RenderContext> context_;
   std::unique_ptr<Renderer> renderer_;  // lives in the context

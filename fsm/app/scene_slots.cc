@@ -202,13 +202,13 @@ void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
               "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
        [this, lamp](const vm::SetValue& value) -> vm::Result<void> {
          constexpr float kRadians = 3.14159265f / 180;
-         DirectionalLight set = Scene{}.*lamp;
+         DirectionalLight set;
          set.strength = static_cast<float>(value.number(0));
          if (value.size() >= 3) {
            const float side = static_cast<float>(value.number(1)) * kRadians;
            const float up = static_cast<float>(value.number(2)) * kRadians;
-           set.direction = {std::sin(side) * std::cos(up), std::sin(up),
-                            std::cos(side) * std::cos(up)};
+           set.direction = glm::vec3(std::sin(side) * std::cos(up), std::sin(up),
+                                     std::cos(side) * std::cos(up));
          }
          if (value.size() == 2 || value.size() == 4) {
            const std::string& text = value.word(value.size() - 1);
@@ -216,8 +216,7 @@ void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
            if (!colour) {
              return vm::Fail(vm::Errc::kBadValue, "'" + text + "' is no colour; #rrggbb expected");
            }
-           // White is as bright as the lamp is without a colour.
-           set.color = Linear(*colour) * (set.color.r + set.color.g + set.color.b) / 3.0f;
+           set.tint = Linear(*colour);
          }
          core_.scene.*lamp = set;
          return {};

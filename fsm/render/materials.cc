@@ -7,7 +7,6 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,61 +30,34 @@
 namespace fsm {
 namespace {
 
-/// How a surface takes light; the names are those of the uniforms in surface_*.glsl.
-struct Surface {
-  Material material;
-  glm::vec3 wrap;   // how far light goes round under the surface
-  glm::vec3 lobes;  // broad, middle, tight highlight
-  float key_through;
-  float sheen;
-  float saturation;
-  float bump;
-  float planar;  // repeats of the detail per millimetre, 0 for the skin's own
-};
-
-// Skin scatters red farthest and is dull; wet things mirror in a small spot; enamel scatters
-// evenly; cloth only scatters.
-constexpr Surface kSurfaces[] = {
-    // clang-format off
-    // material             wrap                   lobes               through sheen saturation bump planar
-    {Material::kSkin,        {0.54F, 0.44F, 0.39F}, {1.5F, 1.9F, 0.0F}, 0.35F, 1.0F, 1.12F, 1.0F, 0.0F},
-    {Material::kLip,         {0.52F, 0.40F, 0.34F}, {1.2F, 1.4F, 3.0F}, 0.35F, 1.0F, 1.10F, 1.0F, 0.0F},
-    {Material::kTeeth,       {0.30F, 0.26F, 0.22F}, {0.0F, 3.0F, 3.0F}, 0.0F,  0.2F, 1.0F,  0.0F, 0.02F},
-    {Material::kGum,         {0.40F, 0.20F, 0.15F}, {0.0F, 3.5F, 2.0F}, 0.0F,  0.2F, 1.0F,  0.1F, 0.01F},
-    {Material::kTongue,      {0.40F, 0.20F, 0.15F}, {1.0F, 2.0F, 0.0F}, 0.0F,  0.2F, 1.0F,  0.4F, 0.01F},
-    {Material::kMouthInside, {0.40F, 0.20F, 0.15F}, {0.5F, 0.5F, 0.0F}, 0.0F,  0.0F, 1.0F,  0.0F, 0.01F},
-    {Material::kCloth,       {0.25F, 0.25F, 0.25F}, {0.1F, 0.0F, 0.0F}, 0.0F,  0.6F, 1.0F,  0.5F, 0.012F},
-    // clang-format on
-};
+/// A lamp of the studio as a scene wants it.
+Appearance::Lamp LampOf(const Appearance& appearance, const char* name,
+                        const DirectionalLight& wanted) {
+  Appearance::Lamp lamp = appearance.lamp(name);
+  if (wanted.direction) lamp.direction = *wanted.direction;
+  // White is as bright as the lamp is by itself.
+  if (wanted.tint) {
+    lamp.color = *wanted.tint * (lamp.color.r + lamp.color.g + lamp.color.b) / 3.0F;
+  }
+  lamp.color *= wanted.strength;
+  return lamp;
+}
 
 constexpr bool IsOfMouth(Material material) {
   return material == Material::kTeeth || material == Material::kGum ||
          material == Material::kTongue || material == Material::kMouthInside;
 }
 
-/// A shader is made of texts, shared ones first.
-std::string Join(std::initializer_list<std::string_view> texts) {
-  std::string whole;
-  for (const auto text : texts) whole += text;
-  return whole;
-}
-
-std::string Vertex(std::string_view own) {
-  return Join({embedded::lighting(), embedded::transform(), own});
-}
-
-std::string Fragment(std::string_view own) { return Join({embedded::lighting(), own}); }
-
 }  // namespace
 
-Materials::Materials(const GlFunctions& gl)
+Materials::Materials(const GlFunctions& gl, const Appearance& appearance)
     : gl_(gl),
-      surface_(gl, "surface", Vertex(embedded::surface_vertex()),
-               Fragment(embedded::surface_fragment())),
-      mouth_(gl, "mouth", Vertex(embedded::mouth_vertex()), Fragment(embedded::surface_fragment())),
-      eye_(gl, "eye", Vertex(embedded::eye_vertex()), Fragment(embedded::eye_fragment())),
-      hair_(gl, "hair", Vertex(embedded::hair_vertex()), Fragment(embedded::hair_fragment())),
-      line_(gl, "line", Vertex(embedded::eye_vertex()), embedded::line_fragment()) {
+      appearance_(appearance),
+      surface_(Compile("surface", embedded::surface_vertex(), embedded::surface_fragment())),
+      mouth_(Compile("mouth", embedded::mouth_vertex(), embedded::surface_fragment())),
+      eye_(Compile("eye", embedded::eye_vertex(), embedded::eye_fragment())),
+      hair_(Compile("hair", embedded::hair_vertex(), embedded::hair_fragment())),
+      line_(Compile("line", embedded::eye_vertex(), embedded::line_fragment())) {
   gl_.GenTextures(kTextures, textures_);
   const auto noise = MakeNoiseTile();
   const auto strands = MakeStrandTile();
@@ -94,6 +66,17 @@ Materials::Materials(const GlFunctions& gl)
   FillTexture(gl_, textures_[kWeave], kNoiseCells, kNoiseCells, noise.data(), GL_NEAREST);
   FillTexture(gl_, textures_[kStrands], kStrandsAcross, kStrandsAlong, strands.data(), GL_NEAREST);
   FillTexture(gl_, textures_[kPlain], 1, 1, plain, GL_NEAREST);
+}
+
+GlProgram Materials::Compile(const char* name, std::string_view vertex, std::string_view fragment,
+                             std::string_view more) const {
+  const std::string common = "#version 330 core\n" + appearance_.constants() + std::string(more) +
+                             std::string(embedded::lighting());
+  std::string vertex_text = common, fragment_text = common;
+  vertex_text += embedded::transform();
+  vertex_text += vertex;
+  fragment_text += fragment;
+  return {gl_, name, vertex_text, fragment_text};
 }
 
 Materials::~Materials() { gl_.DeleteTextures(kTextures, textures_); }
@@ -111,12 +94,14 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
                            const HeadVertices& vertices, const Scene& scene, float alpha) {
   head_ = &head;
   worn_ = &textures;
-  const DirectionalLight* lamps[] = {&scene.key, &scene.fill, &scene.rim};
+  const std::array lamps = {LampOf(appearance_, "key", scene.key),
+                            LampOf(appearance_, "fill", scene.fill),
+                            LampOf(appearance_, "rim", scene.rim)};
   glm::vec3 directions[3];
   glm::vec3 colors[3];
-  for (int i = 0; i < 3; ++i) {
-    directions[i] = glm::normalize(lamps[i]->direction);
-    colors[i] = lamps[i]->color * lamps[i]->strength;
+  for (std::size_t i = 0; i < 3; ++i) {
+    directions[i] = glm::normalize(lamps[i].direction);
+    colors[i] = lamps[i].color;
   }
   const glm::mat4 world_to_figure = glm::inverse(view.figure_to_world);
   const auto shadows = head.shadows().Measure(vertices);
@@ -157,11 +142,9 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
   }
   gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
   // The photo's light stands for the lamps as they are by default.
-  const Scene studio;
-  const auto light = [](const Scene& s) {
-    return s.key.strength * s.key.color.g + s.fill.strength * s.fill.color.g + 0.8F;
-  };
-  const float brightness = std::sqrt(light(scene) / light(studio));
+  const float room = appearance_.Number("photo_room_light");
+  const float usual = appearance_.lamp("key").color.g + appearance_.lamp("fill").color.g + room;
+  const float brightness = std::sqrt((colors[0].g + colors[1].g + room) / usual);
   if (finish_) {
     gl_.UseProgram(finish_->id());
     gl_.Uniform1f(finish_->Uniform("brightness"), brightness);
@@ -194,13 +177,12 @@ std::vector<const GlProgram*> Materials::ProgramsOf(const HeadBuffers& head) {
     if (photo || !WearsPhoto(part.part.material)) continue;
     const char* detailed =
         part.detailed ? "const bool kDetailed = true;\n" : "const bool kDetailed = false;\n";
-    photo = std::make_unique<GlProgram>(
-        gl_, "photo", Vertex(embedded::photo_vertex()),
-        Join({embedded::lighting(), detailed, embedded::photo_fragment()}));
+    photo.reset(new GlProgram(
+        Compile("photo", embedded::photo_vertex(), embedded::photo_fragment(), detailed)));
   }
   if (!head.finishes().empty() && !finish_) {
-    finish_ = std::make_unique<GlProgram>(gl_, "finish", Vertex(embedded::finish_vertex()),
-                                          Fragment(embedded::finish_fragment()));
+    finish_.reset(
+        new GlProgram(Compile("finish", embedded::finish_vertex(), embedded::finish_fragment())));
   }
   for (const auto* program : {&photo_[0], &photo_[1], &finish_}) {
     if (*program) programs.push_back(program->get());
@@ -246,28 +228,26 @@ void Materials::Use(Material material, bool detailed) {
     default:
       break;
   }
-  for (const auto& surface : kSurfaces) {
-    if (surface.material != material) continue;
-    const bool inside = has_mouth_ && IsOfMouth(material);
-    const GlProgram& program = inside ? mouth_ : surface_;
-    gl_.UseProgram(program.id());
-    gl_.Uniform3fv(program.Uniform("wrap"), 1, glm::value_ptr(surface.wrap));
-    const glm::vec3 lobes = 2.0F * surface.lobes;  // of a texture in which one half stands for 1
-    gl_.Uniform3fv(program.Uniform("lobes"), 1, glm::value_ptr(lobes));
-    if (inside) {
-      gl_.Uniform1f(program.Uniform("lining"), material == Material::kMouthInside ? 1.0F : 0.0F);
-    } else {
-      gl_.Uniform1f(program.Uniform("key_through"), surface.key_through);
-      gl_.Uniform1f(program.Uniform("sheen"), surface.sheen);
-    }
-    gl_.Uniform1f(program.Uniform("saturation"), surface.saturation);
-    gl_.Uniform1f(program.Uniform("bump"), surface.bump);
-    gl_.Uniform1f(program.Uniform("planar"), surface.planar);
-    gl_.Uniform1f(program.Uniform("chroma"), head_->saturation());
-    const bool planar = surface.planar > 0;
-    BindOrPlain(planar ? 0 : worn_->tint(), GL_TEXTURE1);
-    BindOrPlain(planar ? textures_[kWeave] : worn_->skin_relief(), GL_TEXTURE2);
+  const Appearance::Surface& surface = appearance_.surface(material);
+  const bool inside = has_mouth_ && IsOfMouth(material);
+  const GlProgram& program = inside ? mouth_ : surface_;
+  gl_.UseProgram(program.id());
+  gl_.Uniform3fv(program.Uniform("wrap"), 1, glm::value_ptr(surface.wrap));
+  const glm::vec3 lobes = 2.0F * surface.lobes;  // of a texture in which one half stands for 1
+  gl_.Uniform3fv(program.Uniform("lobes"), 1, glm::value_ptr(lobes));
+  if (inside) {
+    gl_.Uniform1f(program.Uniform("lining"), material == Material::kMouthInside ? 1.0F : 0.0F);
+  } else {
+    gl_.Uniform1f(program.Uniform("key_through"), surface.key_through);
+    gl_.Uniform1f(program.Uniform("sheen"), surface.sheen);
   }
+  gl_.Uniform1f(program.Uniform("saturation"), surface.saturation);
+  gl_.Uniform1f(program.Uniform("bump"), surface.bump);
+  gl_.Uniform1f(program.Uniform("planar"), surface.planar);
+  gl_.Uniform1f(program.Uniform("chroma"), head_->saturation());
+  const bool planar = surface.planar > 0;
+  BindOrPlain(planar ? 0 : worn_->tint(), GL_TEXTURE1);
+  BindOrPlain(planar ? textures_[kWeave] : worn_->skin_relief(), GL_TEXTURE2);
 }
 
 void Materials::Use(const DrawnPart& drawn) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "fsm/render/appearance.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/head_buffers.h"
@@ -20,7 +21,8 @@ namespace fsm {
 /// Destroy while its context is current.
 class Materials {
  public:
-  explicit Materials(const GlFunctions& gl);
+  /// `appearance` outlives it.
+  Materials(const GlFunctions& gl, const Appearance& appearance);
   ~Materials();
   Materials(const Materials&) = delete;
   Materials& operator=(const Materials&) = delete;
@@ -36,6 +38,9 @@ class Materials {
  private:
   enum Texture { kNoise, kWeave, kStrands, kPlain, kTextures };
 
+  /// A program of the parts that all have and its own; `more` stands before it in both.
+  GlProgram Compile(const char* name, std::string_view vertex, std::string_view fragment,
+                    std::string_view more = "") const;
   void Bind(GLuint texture, GLenum unit);
   /// 0: of one colour.
   void BindOrPlain(GLuint texture, GLenum unit);
@@ -55,6 +60,7 @@ class Materials {
   void UseHair(float streaks, float shine);
 
   const GlFunctions& gl_;
+  const Appearance& appearance_;
   GlProgram surface_;
   GlProgram mouth_;
   GlProgram eye_;

@@ -55,7 +55,12 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
   glm::vec3 key = glm::transpose(to_world) * key_direction;
   // The lamp is large, so most of what lips leave of its light comes from straight ahead; photos
   // are taken with the light behind the camera, more or less.
-  key = glm::normalize(glm::mix(key, glm::vec3(0, 0.55F, 1), head.photo() ? 0.9F : 0.5F));
+  const bool photo = head.photo() != nullptr;
+  const auto number = [this, photo](const char* of_photo, const char* of_paint) {
+    return appearance_.Number(photo ? of_photo : of_paint);
+  };
+  key = glm::normalize(glm::mix(key, appearance_.Color("mouth_key_from"),
+                                number("photo_mouth_ahead", "mouth_key_ahead")));
   gl_.UseProgram(mouth_.id());
   gl_.UniformMatrix4fv(mouth_.Uniform("to_mouth"), 1, GL_FALSE, glm::value_ptr(opening->to_mouth));
   gl_.UniformMatrix3fv(mouth_.Uniform("mouth_to_world"), 1, GL_FALSE, glm::value_ptr(to_world));
@@ -63,8 +68,8 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
                  glm::value_ptr(opening->lips[0]));
   gl_.Uniform4f(mouth_.Uniform("mouth_edges"), opening->corners.x, opening->corners.y,
                 opening->teeth.x, opening->teeth.y);
-  gl_.Uniform1f(mouth_.Uniform("front_gain"), head.photo() ? 1.0F : 1.35F);
-  gl_.Uniform1f(mouth_.Uniform("deep_gain"), head.photo() ? 2.0F : 1.7F);
+  gl_.Uniform1f(mouth_.Uniform("front_gain"), number("photo_mouth_front", "mouth_front"));
+  gl_.Uniform1f(mouth_.Uniform("deep_gain"), number("photo_mouth_deep", "mouth_deep"));
   gl_.Uniform3fv(mouth_.Uniform("mouth_key"), 1, glm::value_ptr(key));
 }
 

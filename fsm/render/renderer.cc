@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/render/appearance.h"
 #include "fsm/render/backdrop.h"
 #include "fsm/render/camera.h"
 #include "fsm/render/frame_reader.h"
@@ -19,8 +20,6 @@
 
 namespace fsm {
 namespace {
-
-constexpr glm::vec4 kLineOverTexture{0.02F, 0.05F, 0.08F, 0.35F};
 
 /// What stands behind the figure.
 Scene Behind(const Scene& scene) {
@@ -46,11 +45,12 @@ bool IsSoftware(const GlFunctions& gl) {
 
 class GlRenderer : public Renderer {
  public:
-  GlRenderer(RenderContext& context, std::size_t heads)
+  GlRenderer(RenderContext& context, std::size_t heads, const Appearance& appearance)
       : context_(context),
         most_heads_(heads),
         gl_(GlFunctions::Load(context)),
-        materials_(gl_),
+        line_over_texture_(appearance.ColorAndOpacity("line_over_texture")),
+        materials_(gl_, appearance),
         backdrop_(gl_),
         reader_(gl_, !IsSoftware(gl_)) {}
 
@@ -186,7 +186,7 @@ class GlRenderer : public Renderer {
 
   void DrawLines(const std::vector<DrawnPart>& parts, const Scene& scene) {
     const bool alone = scene.view_mode == ViewMode::kWireframe;
-    const glm::vec4 color = alone ? glm::vec4(scene.wire, 1.0F) : kLineOverTexture;
+    const glm::vec4 color = alone ? glm::vec4(scene.wire, 1.0F) : line_over_texture_;
     BeginBlending();
     gl_.DepthFunc(GL_LEQUAL);
     gl_.PolygonMode(GL_FRONT_AND_BACK, GL_LINE);
@@ -214,6 +214,7 @@ class GlRenderer : public Renderer {
   const std::size_t most_heads_;
   Viewport pane_;
   GlFunctions gl_;
+  const glm::vec4 line_over_texture_;
   Materials materials_;
   Backdrop backdrop_;
   std::map<std::uint64_t, std::unique_ptr<HeadOnCard>> heads_;  // by Head::serial
@@ -229,7 +230,12 @@ class GlRenderer : public Renderer {
 }  // namespace
 
 std::unique_ptr<Renderer> Renderer::Make(RenderContext& context, std::size_t heads) {
-  return std::make_unique<GlRenderer>(context, std::max<std::size_t>(heads, 1));
+  return Make(context, heads, Appearance::BuiltIn());
+}
+
+std::unique_ptr<Renderer> Renderer::Make(RenderContext& context, std::size_t heads,
+                                         const Appearance& appearance) {
+  return std::make_unique<GlRenderer>(context, std::max<std::size_t>(heads, 1), appearance);
 }
 
 }  // namespace fsm

@@ -12,12 +12,15 @@
 
 namespace fsm {
 
+class Appearance;
+
 enum class ViewMode { kTexture, kTextureWithWireframe, kWireframe };
 
-/// One lamp of the studio, far away.
+/// One lamp of the studio, far away. What is not said is as tables/appearance.txt has it.
 struct DirectionalLight {
-  glm::vec3 direction;  ///< towards the lamp: x to the viewer's right, y up, z to the viewer
-  glm::vec3 color;      ///< linear RGB at strength 1
+  /// Towards the lamp: x to the viewer's right, y up, z to the viewer.
+  std::optional<glm::vec3> direction = {};
+  std::optional<glm::vec3> tint = {};  ///< linear RGB; white is as bright as the studio's lamp
   float strength = 1;
 };
 
@@ -41,11 +44,7 @@ struct Scene {
   Camera camera;
   glm::vec3 wire{0.10f, 0.55f, 0.42f};  ///< sRGB, of the lines of ViewMode::kWireframe
   bool wire_on_black = false;           ///< which have no background then
-  // A portrait studio: a large warm lamp above left, a weak cool one at the right, one behind for
-  // the edge of hair and shoulder.
-  DirectionalLight key{{-1.0f, 0.88f, 0.95f}, {2.90f, 2.64f, 2.46f}};
-  DirectionalLight fill{{0.80f, 0.10f, 0.59f}, {0.34f, 0.36f, 0.40f}};
-  DirectionalLight rim{{0.59f, 0.46f, -0.67f}, {1.30f, 1.36f, 1.45f}};
+  DirectionalLight key, fill, rim;
 };
 
 /// What draws off screen. The order in which ways are tried stands in headless_context.cc.
@@ -104,6 +103,9 @@ class Renderer {
   /// `heads`: how many are kept at most, 1 or more, each with some 20 MB of textures; one more
   /// takes the place of the one that was not drawn for longest.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads = 8);
+  /// `appearance` in place of the built-in one; it outlives the renderer.
+  static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads,
+                                        const Appearance& appearance);
   virtual ~Renderer() = default;
   /// Where the next frames go; at first everywhere.
   virtual void Place(const Viewport& pane) = 0;

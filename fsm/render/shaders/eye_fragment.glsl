@@ -32,13 +32,13 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   float turn = atan(p.y, p.x) / 6.2831853;
   float fibre = textureLod(noise, vec2(turn * 0.25, r * 0.010), 0.0).b * 0.6 +
                 textureLod(noise, vec2(turn * 0.75, r * 0.024 + 0.4), 0.0).a * 0.5;
-  vec3 base = iris_color * (0.30 + 0.90 * fibre);
+  vec3 base = iris_color * (iris_between + iris_fibre * fibre);
   float collar = smoothstep(0.66, 0.40, r + 0.12 * (fibre - 0.5));
-  base = mix(base, base * vec3(1.40, 1.10, 0.75) + 0.008, collar * 0.6);
+  base = mix(base, base * iris_collar + 0.008, collar * iris_collar_part);
   // Light falls in through the cornea and gathers on the far side.
-  base *= 0.85 + 0.75 * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
-  base *= mix(1.0, worn.x > 0.0 ? 0.55 : 0.16, smoothstep(0.78, 1.0, r));
-  return mix(vec3(0.003), base, smoothstep(iris.y - 0.05, iris.y + 0.04, r + 0.03 * (fibre - 0.5)));
+  base *= 0.85 + iris_gathered * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
+  base *= mix(1.0, worn.x > 0.0 ? photo_iris_rim : iris_rim, smoothstep(0.78, 1.0, r));
+  return mix(vec3(pupil_color), base, smoothstep(iris.y - 0.05, iris.y + 0.04, r + 0.03 * (fibre - 0.5)));
 }
 
 vec3 Photographed(vec4 square, vec2 from_middle) {
@@ -65,13 +65,13 @@ void main() {
   // Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
   float corner = smoothstep(0.30, 1.0, abs(n.x - axis.x));
   float red = worn.y;
-  vec3 base = white_color * mix(vec3(1.0), mix(vec3(0.80), vec3(0.95, 0.76, 0.70), red), corner);
-  base *= mix(0.60, 1.0, smoothstep(1.0, 1.18, r_surface));
+  vec3 base = white_color * mix(vec3(1.0), mix(vec3(white_corner_grey), white_corner, red), corner);
+  base *= mix(white_at_iris, 1.0, smoothstep(1.0, 1.18, r_surface));
   // The flesh of the tear corner.
   float inward = side == 0 ? n.x - axis.x : axis.x - n.x;
-  base = mix(base, white_color * mix(vec3(0.6), vec3(0.92, 0.50, 0.46), red), 0.85 * smoothstep(0.66, 0.80, inward));
+  base = mix(base, white_color * mix(vec3(tear_flesh_grey), tear_flesh, red), 0.85 * smoothstep(0.66, 0.80, inward));
   float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
-  base *= 1.0 - red * vec3(0.0, 0.30, 0.30) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
+  base *= 1.0 - red * vec3(0.0, vessel_redness, vessel_redness) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
   bool shown = worn.z > 0.0;
   if (shown) {
     // The shade of the lid goes with it where the eye opens wider.
@@ -103,8 +103,8 @@ void main() {
   // The upper lid and its lashes shade the ball below them.
   float below_lid = (lids[side].x - world_position.y) / figure_scale;
   float above_lower = (world_position.y - lids[side].y) / figure_scale;
-  float shade = mix(0.36, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
-                mix(0.72, 1.0, smoothstep(-0.5, 1.2, above_lower));
+  float shade = mix(upper_lid_shade, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
+                mix(lower_lid_shade, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
   shade = worn.x > 0.0 ? 0.1 + 0.9 * shade : shade;
   if (shown) {
@@ -132,7 +132,7 @@ void main() {
   // What a photographed eye mirrors is seen in it.
   // One drawn into a photo mirrors as little light as there is.
   float bright = clamp(dot(white_color, vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
-  float gloss = worn.x > 0.0 ? (shown ? 0.0 : 0.3 * bright) : 1.0;
+  float gloss = worn.x > 0.0 ? (shown ? 0.0 : photo_gloss * bright) : 1.0;
   vec3 mirrored = reflect(-v, wet);
   // A window of two panes, above left.
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
@@ -140,13 +140,13 @@ void main() {
   vec2 pane = vec2(dot(mirrored, kAcross), dot(mirrored, cross(kWindow, kAcross)));
   vec2 inside = smoothstep(vec2(0.235, 0.275), vec2(0.165, 0.205), abs(pane));
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
-                 mix(0.45, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
+                 mix(mirrored_bar, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   // A photographer's lamp is smaller and round.
-  if (worn.x > 0.0) window = 1.1 * smoothstep(0.24, 0.04, length(pane)) * step(0.0, dot(mirrored, kWindow));
+  if (worn.x > 0.0) window = photo_lamp * smoothstep(0.24, 0.04, length(pane)) * step(0.0, dot(mirrored, kWindow));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
-  result += gloss * 0.5 * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
-  result += gloss * lamp_colors[1] * 0.16 * soft_box * shade;
-  result += gloss * Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * 0.6;
+  result += gloss * mirrored_window * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
+  result += gloss * lamp_colors[1] * mirrored_box * soft_box * shade;
+  result += gloss * Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * mirrored_room;
   result = max(result, 0.0);
   color = vec4(worn.x > 0.0 ? worn.x * pow(result, vec3(0.4545)) : ToScreen(result), alpha);
 }

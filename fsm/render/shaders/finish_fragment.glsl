@@ -93,6 +93,6 @@ void main() {
   vec3 room = f0 * (-1.04 * e + q.z) + (1.04 * e + q.w);
   light += l.a * (Ambient(n) * scatters + Ambient(reflect(-v, n)) * room);
   light *= kPlate;
-  light += glow * Linear(l.rgb) / kExposure;
+  light += glow * Linear(l.rgb) / exposure;
   color = vec4(ToScreen(light), alpha);
 }

@@ -16,16 +16,16 @@ void main() {
   // Where hair thins out some hairs are gone and some are left.
   float cover = fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
   if (cover < 0.5 - fine.a) discard;
-  float streak = (0.8 * fine.a + 1.1 * fine.b) * streaks;
+  float streak = (hair_differs * fine.a + lock_differs * fine.b) * streaks;
   // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
   // surface towards the root, light that went through and took its colour towards the tip.
-  float a = tilt.x + tilt.y * (0.12 + 0.25 * streak);
-  float b = tilt.x - tilt.y * (0.18 - 0.25 * streak);
-  vec2 lobe = max(1.0 - vec2(a * a * 6.0, b * b * 2.2), 0.0);
+  float a = tilt.x + tilt.y * (hair_mirrored.x + 0.25 * streak);
+  float b = tilt.x - tilt.y * (hair_through.x - 0.25 * streak);
+  vec2 lobe = max(1.0 - vec2(a * a * hair_mirrored.y, b * b * hair_through.y), 0.0);
   lobe *= lobe;
   lobe *= lobe;
   lobe.x *= lobe.x;
-  vec3 seen = light * (1.0 + 0.9 * streak) +
-              shine * (key_light * (0.9 * lobe.y) + lamp_colors[0] * (tilt.z * lobe.x));
+  vec3 seen = light * (1.0 + streaks_seen * streak) +
+              shine * (key_light * (hair_through_part * lobe.y) + lamp_colors[0] * (tilt.z * lobe.x));
   color = vec4(ToScreen(max(seen, 0.0)), alpha);
 }

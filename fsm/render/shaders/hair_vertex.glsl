@@ -34,11 +34,11 @@ void main() {
   float rim = clamp(dot(n, lamp_directions[2]) * 0.8 + 0.3, 0.0, 1.0);
   float away = 1.0 - max(dot(n, v), 0.0);
   // Dark hairs (lashes) must not glitter where seen edgewise.
-  vec3 sheen = min(vec3(0.10), albedo) * away * away;
-  soft += lamp_colors[2] * occlusion * rim * (albedo * 0.7 + sheen);
+  vec3 sheen = min(vec3(hair_rim_sheen), albedo) * away * away;
+  soft += lamp_colors[2] * occlusion * rim * (albedo * hair_rim + sheen);
   float n_dot_l = dot(n, lamp_directions[0]);
   key_light = lamp_colors[0] * shadow * albedo * max((n_dot_l + 0.35) / 1.82, 0.0) * across;
   light = soft + key_light;
   vec3 h = normalize(lamp_directions[0] + v);
-  tilt = vec3(dot(strand, h), dot(n, h), 0.035 * shadow * clamp(n_dot_l * 1.7 + 0.3, 0.0, 1.0));
+  tilt = vec3(dot(strand, h), dot(n, h), hair_mirrored_part * shadow * clamp(n_dot_l * 1.7 + 0.3, 0.0, 1.0));
 }

@@ -1,6 +1,6 @@
-#version 330 core
 // The head of every shader that lights something: lamps, shadows, and the way to the screen. World
-// coordinates in millimetres, linear light.
+// coordinates in millimetres, linear light. Before it stand the version and, as constants, the numbers
+// of tables/appearance.txt: sky_color, exposure, ...
 uniform vec3 eye;
 
 // Two ellipsoids that stand in for shadows the head throws on itself: the head, on neck and
@@ -13,11 +13,7 @@ uniform vec3 occluder_lights[2];
 uniform vec3 lamp_directions[3];
 uniform vec3 lamp_colors[3];
 
-// The room itself is brighter above than below.
-const vec3 kSkyColor = vec3(0.32, 0.34, 0.37);
-const vec3 kGroundColor = vec3(0.20, 0.155, 0.13);
-const float kShadowDepth[2] = float[2](0.92, 0.32);
-const float kExposure = 0.44;
+const float kShadowDepth[2] = float[2](head_shadow, nose_shadow);
 
 // How much of the key light comes past the ellipsoids: the nearer the ray to one, the less, with
 // the broad edge of a large lamp's shadow.
@@ -28,12 +24,12 @@ float KeyShadow(vec3 world) {
     float ahead = -dot(p, occluder_lights[i]);
     float nearest = sqrt(max(dot(p, p) - ahead * ahead, 0.0));
     lit *= 1.0 - kShadowDepth[i] * smoothstep(0.05, 0.5, ahead) *
-                     (1.0 - smoothstep(0.6, 1.25, nearest));
+                     (1.0 - smoothstep(shadow_edge.y, shadow_edge.x, nearest));
   }
   return lit;
 }
 
-vec3 Ambient(vec3 n) { return mix(kGroundColor, kSkyColor, 0.5 + 0.5 * n.y); }
+vec3 Ambient(vec3 n) { return mix(ground_color, sky_color, 0.5 + 0.5 * n.y); }
 
 // Light that has gone round under the surface, further for red than for blue; `wrap` says how far.
 // Divided by the sum, so that softer does not mean brighter. It fades out softly: an edge in its slope
@@ -55,7 +51,7 @@ float Fresnel(float cosine) {
 // Linear light to the screen. A filmic curve (Narkowicz's fit of ACES) followed by sRGB's, fitted
 // together by one ratio over the square root of light; within 0.006 of the two, at a fifth of the cost.
 vec3 ToScreen(vec3 light) {
-  vec3 x = light * kExposure;
+  vec3 x = light * exposure;
   vec3 s = sqrt(x);
   return (5.547 * x - 0.0477 * s) / (1.0 - 0.6045 * s + 5.653 * x);
 }

@@ -25,11 +25,6 @@ out vec4 slopes;
 out vec3 shine;
 
 const float kBehindTeeth = 9.0;  // behind the lips
-const float kRoom = 0.27;   // the lamps' part in it
-const float kBounced = 0.8;   // of light on the walls, how much they give back to each other
-
-const float kSeeps = 0.03;  // through cheeks and lips: a mouth that is hardly open is not black
-const vec3 kThroughFlesh = vec3(1.0, 0.5, 0.42);
 
 vec3 RingAt(int i, float deep) {
   if (i == 0) return vec3(mouth_edges.x, 0.0, 0.0);
@@ -92,10 +87,10 @@ void main() {
   float amount = length(flow);
   vec3 from = amount > 1e-4 ? flow / amount : vec3(0.0, 0.0, 1.0);
   // The room before the mouth, lit by the lamps as the face is.
-  vec3 sky = Ambient(mouth_to_world * from) + kRoom * (lamp_colors[0] + lamp_colors[1]);
+  vec3 sky = Ambient(mouth_to_world * from) + mouth_room * (lamp_colors[0] + lamp_colors[1]);
   vec3 soft = sky * amount * Wrapped(dot(from, n), wrap);
   // What goes round between the walls is red.
-  vec3 bounced = sky * kThroughFlesh * sqrt(amount + kSeeps) * kBounced *
+  vec3 bounced = sky * through_flesh * sqrt(amount + mouth_seeps) * mouth_bounced *
                  mix(0.35, 1.0, smoothstep(3.0, 12.0, inward)) *
                  mix(1.0, 0.5, smoothstep(14.0, 40.0, inward)) * (1.0 - out_of_mouth);
 

@@ -17,8 +17,6 @@ uniform sampler2D relief;
 
 out vec4 color;
 
-const float kGrain = 0.75;  // of what lends it: lids are smoother than what lies below an eye
-
 void main() {
   vec4 p = texture(photo, worn.xy);
   float opacity = kDetailed ? covering * mix(1.0, p.a, ragged) : 1.0;
@@ -32,18 +30,18 @@ void main() {
   if (kDetailed) {
     vec2 slope = texture(relief, place).zw - 0.5;
     // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
-    shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (0.03 + 0.32 * dot(slope, vec2(-0.5, 0.85)));
+    shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (photo_crease.x + photo_crease.y * dot(slope, vec2(-0.5, 0.85)));
     // Furrows are seen by their shadows; their rims hardly shine.
-    shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, 0.6, 1.15);
+    shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, photo_crease_range.x, photo_crease_range.y);
   }
   vec3 painted = paint;
   if (kDetailed && lender.z > 0.0) {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
-    painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), kGrain * lender.z);
+    painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), photo_grain * lender.z);
   }
   vec3 seen = mix(painted, p.rgb, worn.z);
   // Light that reaches skin in the shade has gone through skin.
-  float skin = 0.6 * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
+  float skin = photo_shade_redness * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
   vec3 shaded = vec3(shadow) + skin * shadow * (1.0 - shadow) * vec3(1.0, 0.0, -0.4);
   color = vec4(seen * shade * shaded * brightness, alpha * mix(1.0, opacity, blends));
 }

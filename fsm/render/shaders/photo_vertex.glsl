@@ -48,7 +48,7 @@ void main() {
   if (photo_place.z > 0.0 && roll > 0.0) worn.z = mix(1.0, worn.z, lips_apart);
   // The shadow that a dropped chin throws on the neck, which goes with it. The jaw's line rises to the sides.
   float below = chin_y + 0.012 * rest_position.x * rest_position.x - rest_position.y;
-  shadow = 1.0 - 0.45 * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
+  shadow = 1.0 - chin_shadow * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *
                      exp(-max(below, 0.0) / 14.0) * smoothstep(59.0, 36.0, abs(rest_position.x));
   // The photo has the light on the face at rest; what turns with an expression is lit as it faces then
   // (an expression ratio image, Liu, Shan and Zhang 2001).

@@ -30,7 +30,7 @@ void main() {
 
   // Corners shut off from light glow red, because what light there is came through skin.
   float root = sqrt(occlusion);
-  vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), 0.6) * occlusion;
+  vec3 open = mix(vec3(1.0), vec3(1.0, sqrt(root), root), occlusion_redness) * occlusion;
   vec3 shadow = vec3(KeyShadow(world));
   shadow.gb *= shadow.gb * 0.08 + 0.92;
 
@@ -41,7 +41,7 @@ void main() {
   // The lamp behind only reaches the outline: folds that face it are shut off by the head.
   float away = 1.0 - max(dot(n, v), 0.0);
   vec3 soft = Ambient(n) + lamp_colors[1] * Wrapped(dot(n, lamp_directions[1]), wrap) +
-              lamp_colors[2] * vec3(1.0, 0.9, 0.82) * mix(0.10, 0.34, smoothstep(0.25, 0.85, away)) *
+              lamp_colors[2] * rim_on_skin * mix(rim_facing, rim_at_outline, smoothstep(0.25, 0.85, away)) *
                   Wrapped(dot(n, lamp_directions[2]), wrap * 0.6);
   vec3 total = soft * open + key;
 
@@ -58,10 +58,10 @@ void main() {
 
   float g = max(dot(n, normalize(lamp_directions[1] + v)), 0.0);
   float g4 = g * g * g * g;
-  shine.z = (lamp_colors[1].g * 0.03 * g4 * g4 * g4 * g4 +
-             (lamp_colors[2].g * 0.05 + Ambient(n).g * 0.09) * away * away * away) *
+  shine.z = (lamp_colors[1].g * down_fill * g4 * g4 * g4 * g4 +
+             (lamp_colors[2].g * down_rim + Ambient(n).g * down_room) * away * away * away) *
             occlusion * occlusion * sheen;
 
-  light = albedo * total * (1.0 - 0.12 * crease);
+  light = albedo * total * (1.0 - crease_darkens * crease);
   place = planar > 0.0 ? rest_position.xy * planar : unrolled;
 }

@@ -1,0 +1,105 @@
+// The table that says how things look.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "fsm/render/appearance.h"
+#include "fsm/render/renderer.h"
+#include "tests/fsm/ball_head.h"
+#include "tests/fsm/render_support.h"
+
+namespace fsm {
+namespace {
+
+std::string BuiltInText() {
+  const auto bytes = FileBytes(GALATEA_SOURCE_DIR "/fsm/render/tables/appearance.txt");
+  return {bytes.begin(), bytes.end()};
+}
+
+/// The built-in table with the first `old_text` in it replaced.
+std::string Changed(const std::string& old_text, const std::string& new_text) {
+  std::string text = BuiltInText();
+  const auto at = text.find(old_text);
+  EXPECT_NE(at, std::string::npos) << old_text;
+  return text.replace(at, old_text.size(), new_text);
+}
+
+int LineOf(const std::string& word) {
+  const std::string text = BuiltInText();
+  const auto before = text.substr(0, text.find(word));
+  return 1 + static_cast<int>(std::ranges::count(before, '\n'));
+}
+
+std::string Refusal(const std::string& text) {
+  try {
+    Appearance("mine/appearance.txt", text);
+    return "";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
+  struct Case {
+    std::string row, instead, why;
+  };
+  const std::string skin = "surface skin         0.54 0.44 0.39   1.5 1.9 0.0  0.35    1.0  1.12";
+  const Case cases[] = {
+      {"\nexposure            0.44", "\nexposure bright", "'bright' found where a number"},
+      {"\nexposure            0.44", "\nexposure", "'exposure' needs 1 numbers after it, found 0"},
+      {"\nexposure            0.44", "\nexposure 0.4 0.5", "'exposure' needs 1 numbers"},
+      {"\nexposure            0.44", "\nexposure nan", "'nan' found where a number"},
+      {"\nexposure            0.44", "\nexposure 1e9", "a number beyond -1000 to 1000"},
+      {"\nexposure            0.44", "\nexposures 0.44", "'exposures' is not known"},
+      {"\nexposure            0.44", "\nsky_color 1 1 1", "'sky_color' is there twice"},
+      {"\n" + skin, "\nsurface wood 1 2 3", "'surface wood' is not known"},
+      {"\n" + skin, "\n" + skin.substr(0, 30), "'surface skin' needs 11 numbers"},
+      {"\nlamp key   -1.0  0.88  0.95 ", "\nlamp key 0 0 0 ", "a lamp that stands nowhere"},
+  };
+  for (const Case& one : cases) {
+    const std::string refused = Refusal(Changed(one.row, one.instead));
+    const std::string where = "mine/appearance.txt:" + std::to_string(LineOf(one.row.substr(1)));
+    EXPECT_TRUE(refused.starts_with(where + ": ")) << refused << "\n" << one.instead;
+    EXPECT_NE(refused.find(one.why), std::string::npos) << refused;
+  }
+  EXPECT_EQ(Refusal(Changed("\nexposure            0.44", "")),
+            "mine/appearance.txt: 'exposure' is missing");
+  EXPECT_EQ(Refusal(""), "mine/appearance.txt: 'chin_shadow' is missing");
+}
+
+TEST(AppearanceTest, NumbersReachSurfacesAndShaders) {
+  const Appearance mine("mine", Changed("surface cloth        0.25", "surface cloth 0.75"));
+  EXPECT_EQ(mine.surface(Material::kCloth).wrap, glm::vec3(0.75F, 0.25F, 0.25F));
+  EXPECT_EQ(Appearance::BuiltIn().surface(Material::kCloth).wrap, glm::vec3(0.25F));
+  EXPECT_NE(mine.constants().find("const vec3 sky_color = vec3(0.32, 0.34, 0.37);\n"),
+            std::string::npos);
+  EXPECT_NE(mine.constants().find("const float exposure = float(0.44);\n"), std::string::npos);
+}
+
+TEST(AppearanceTest, ATableOfOnesOwnChangesThePicture) {
+  const auto context = RenderContext::MakeHeadless(64, 64);
+  const BallHead head;
+  HeadVertices vertices;
+  head.Evaluate({}, vertices);
+  const auto brightness = [&](const Appearance& appearance) {
+    const auto renderer = Renderer::Make(*context, 1, appearance);
+    renderer->Draw(head, vertices, {}, {});
+    Image image;
+    renderer->Read(image);
+    long sum = 0;
+    for (const std::uint8_t byte : image.rgba) sum += byte;
+    return sum;
+  };
+  const long usual = brightness(Appearance::BuiltIn());
+  EXPECT_EQ(brightness(Appearance("same", BuiltInText())), usual);
+  const Appearance dark("dark", Changed("\nexposure            0.44", "\nexposure 0.2"));
+  EXPECT_LT(brightness(dark), usual);
+  const Appearance unlit("unlit", Changed("2.90 2.64 2.46", "0 0 0"));
+  EXPECT_LT(brightness(unlit), usual);
+}
+
+}  // namespace
+}  // namespace fsm
