@@ -20,14 +20,20 @@ BuiltInDispatcher::BuiltInDispatcher(Hub& hub, vm::SlotMachine& am, const MacroL
 }
 
 Result<void> BuiltInDispatcher::CheckFiles(const vm::SlotMachine& machine,
-                                           const Envelope& envelope) const {
+                                           const Envelope& envelope) {
   if (hub_.access().AllFiles(envelope.origin.role)) return {};
   const Message& message = envelope.message;
   const bool kept =
       message.command == Command::kDo && (scripts_.Has(message.slot) || macros_.Has(message.slot));
   if (kept) return {};
-  return hub_.access().CheckFiles(envelope.origin.role, message,
-                                  FileSlots(machine.Value("Slots.files")), "");
+  return hub_.access().CheckFiles(envelope.origin.role, message, SlotsOf(machine), "");
+}
+
+const FileSlots& BuiltInDispatcher::SlotsOf(const vm::SlotMachine& machine) {
+  DeclaredFiles& known = files_[&machine];
+  if (std::string declared = machine.Value("Slots.files"); declared != known.text)
+    known = {declared, FileSlots(declared)};
+  return known.slots;
 }
 
 Result<Router::Taken> BuiltInDispatcher::Take(vm::SlotMachine& machine, const Envelope& envelope) {

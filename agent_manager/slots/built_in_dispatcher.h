@@ -3,6 +3,7 @@
 #include <map>
 #include <span>
 
+#include "agent_manager/access/file_slots.h"
 #include "agent_manager/macros/built_in_module.h"
 #include "agent_manager/macros/line_scripts.h"
 #include "agent_manager/macros/macro_layer.h"
@@ -20,13 +21,20 @@ class BuiltInDispatcher {
 
  private:
   vm::Result<Router::Taken> Take(vm::SlotMachine& machine, const Envelope& envelope);
-  vm::Result<void> CheckFiles(const vm::SlotMachine& machine, const Envelope& envelope) const;
+  vm::Result<void> CheckFiles(const vm::SlotMachine& machine, const Envelope& envelope);
+  /// Which of its slots take file names; read anew only when the machine declares others.
+  const FileSlots& SlotsOf(const vm::SlotMachine& machine);
   vm::Result<std::string> Script(const Envelope& envelope);
 
   Hub& hub_;
   vm::SlotMachine& am_;
   const MacroLayer& macros_;
   std::map<const vm::SlotMachine*, BuiltInModule*> machines_;
+  struct DeclaredFiles {
+    std::string text;
+    FileSlots slots;
+  };
+  std::map<const vm::SlotMachine*, DeclaredFiles> files_;
   LineScripts scripts_;
 };
 
