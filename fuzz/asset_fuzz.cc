@@ -2,11 +2,13 @@
 // refused. Input: changes of five bytes each: where (three bytes, wrapped round), one that is not
 // used, and what stands there then.
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
 #include "fsm/asset/asset_file.h"
 #include "fsm/asset/describe.h"
+#include "fsm/rig/simulation.h"
 
 namespace {
 
@@ -50,16 +52,21 @@ fsm::Head SmallHead() {
   rig.upper_teeth = rig.lower_teeth = {70, 20, 25, -40, -30};
   rig.teeth_contacts = {{4, 1, 1}};
   rig.look.emplace();
+  rig.springs.resize(1);
+  rig.spring_weights = {{8, 0, 0.5F}};
   rig.creases = {{0, 0.1F, 0, 0}};
   asset.topology.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   asset.topology.parts = {{fsm::Material::kSkin, 0, 6}, {fsm::Material::kHair, 6, 3, 0, true}};
   asset.topology.albedo.resize(kVertices);
   asset.topology.occlusion.resize(kVertices);
   asset.topology.strands.resize(kVertices);
+  asset.topology.opacity.assign(kVertices, 0.5F);
+  asset.topology.shut_lids.resize(1);
   asset.topology.skin_hairs.resize(2);
   asset.topology.finishes.resize(1);
   asset.topology.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
-  asset.topology.photo_texcoord.resize(kVertices);
+  asset.topology.texcoord.resize(kVertices);
+  asset.topology.texture_weight.resize(kVertices);
   asset.topology.eye_pictures.emplace();
   asset.topology.mouth.lips = {{2, 3}};
   asset.landmarks["nasion"] = {0, 20, 90};
@@ -85,7 +92,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   state.au_left[4] = state.au_right[43] = state.blink_left = 1;
   state.mouth.fill(0.5F);
   state.head_rotation = {10, 20, 30};
-  head.Evaluate(state, vertices);
+  fsm::Simulation simulation(head.rig().data().springs);
+  for (const int ms : {0, 500, 530}) {
+    simulation.RunTo(std::chrono::milliseconds(ms), [&state](auto) { return state; });
+  }
+  head.Evaluate(state, vertices, simulation.offsets());
   fsm::Describe(head);
   return 0;
 }

@@ -141,7 +141,7 @@ vm::Result<Image> DrawSheet(RenderBackend& studio, const Sheet& sheet, bool labe
     if (!cell.face.empty()) {
       if (auto worn = studio.Wear(cell.face); !worn) return std::unexpected(worn.error());
     }
-    if (auto drawn = studio.Draw(cell.state, Scene{}); !drawn) {
+    if (auto drawn = studio.Draw(cell.state, Scene{}, nullptr); !drawn) {
       return std::unexpected(drawn.error());
     }
     const int x = kGap + (i % sheet.columns) * (kCellWidth + kGap);

@@ -23,6 +23,7 @@ struct FsmCore {
   vm::SlotMachine slots{"FSM"};
   std::unique_ptr<FaceMotion> motion{};
   Scene scene{};
+  bool simulates = true;  ///< what hangs on springs swings
   /// To be called after every command: something may move now, or look different.
   std::function<void()> changed{};
   /// Every slot declared with Declare, with its value at start, for `Run = INIT`.
@@ -32,7 +33,10 @@ struct FsmCore {
   vm::Time Now() const { return clock.Now(); }
 
   /// Draws the face as it is at `t`.
-  vm::Result<void> DrawAt(vm::Time t) { return studio.Draw(motion->StateAt(t), scene); }
+  vm::Result<void> DrawAt(vm::Time t) {
+    const RenderBackend::Course course{t, [this](vm::Time at) { return motion->StateAt(at); }};
+    return studio.Draw(motion->StateAt(t), scene, simulates ? &course : nullptr);
+  }
 
   using Action = std::function<vm::Result<void>(const vm::SetValue&)>;
   struct Declaration {

@@ -251,7 +251,7 @@ void FsmModule::ArmFrames() {
   std::optional<vm::Time> due;
   if (wanted) {
     // What has just been said is shown at the next frame, even if it moves nothing by itself.
-    const auto active = core_.motion->NextActivity(now);
+    const auto active = core_.studio.Swings() ? now : core_.motion->NextActivity(now);
     if (active) due = FrameAfter(std::max(now, *active));
     if (window) due = std::min(due.value_or(now + kWindowEvents), now + kWindowEvents);
   }

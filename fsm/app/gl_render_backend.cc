@@ -55,7 +55,22 @@ void GlRenderBackend::MakeRenderer() {
   }
 }
 
-vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scene) {
+/// How far springs are from where the head carries them.
+std::span<const glm::vec3> GlRenderBackend::Swing(const Course* course) {
+  if (course == nullptr || head().rig().data().springs.empty()) {
+    simulation_.reset();
+    return {};
+  }
+  if (!simulation_ || simulated_ != head().serial()) {
+    simulation_.emplace(head().rig().data().springs);
+    simulated_ = head().serial();
+  }
+  simulation_->RunTo(course->now, course->state_at);
+  return simulation_->offsets();
+}
+
+vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scene,
+                                       const Course* course) {
   try {
     // The head is made while the driver starts; both take a good part of the first frame.
     std::future<std::unique_ptr<Head>> made;
@@ -64,7 +79,7 @@ vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scen
     }
     MakeRenderer();
     if (made.valid()) head_ = made.get();
-    head().Evaluate(state, vertices_);
+    head().Evaluate(state, vertices_, Swing(course));
     Scene seen = scene;
     seen.camera.parallel = head().view();
     renderer_->Draw(head(), vertices_, state, seen);

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +42,8 @@ class GlRenderBackend final : public RenderBackend {
   explicit GlRenderBackend(const Options& options);
   ~GlRenderBackend() override;
 
-  vm::Result<void> Draw(const FaceState& state, const Scene& scene) override;
+  vm::Result<void> Draw(const FaceState& state, const Scene& scene, const Course* course) override;
+  bool Swings() const override { return simulation_ && !simulation_->Still(); }
   const Image& Read() override;
   std::uint64_t BeginRead() override;
   vm::Result<void> EndRead(std::uint64_t frame, Image& out) override;
@@ -65,6 +67,7 @@ class GlRenderBackend final : public RenderBackend {
   const Head& head();
   std::unique_ptr<Head> MakeNamedHead(const std::string& face) const;
   void MakeRenderer();
+  std::span<const glm::vec3> Swing(const Course* course);
 
   Options options_;
   std::optional<Appearance> appearance_;  // in place of the built-in one
@@ -72,6 +75,9 @@ class GlRenderBackend final : public RenderBackend {
   std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
   std::unique_ptr<RenderContext> context_;
   std::unique_ptr<Renderer> renderer_;  // lives in the context
+  /// Of the springs of the head drawn last; none if nothing is to swing.
+  std::optional<Simulation> simulation_;
+  std::uint64_t simulated_ = 0;  // serial of that head
   HeadVertices vertices_;
   Image image_;
   // Frames begun and not ended, by their number here; each is in the renderer or, when that went,

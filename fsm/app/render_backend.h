@@ -8,7 +8,9 @@
 #include "fsm/film/movie_writer.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/face_state.h"
+#include "fsm/rig/simulation.h"
 #include "vm_protocol/core/result.h"
+#include "vm_protocol/core/scheduler.h"
 
 namespace fsm {
 
@@ -19,9 +21,18 @@ class RenderBackend {
  public:
   virtual ~RenderBackend() = default;
 
-  /// Draws a state; the picture can then be read or shown. Error: kUnavailable if there is no way
-  /// to draw (the first call makes the graphics context of a headless studio).
-  virtual vm::Result<void> Draw(const FaceState& state, const Scene& scene) = 0;
+  /// How the face came to where it is: what it looked like at earlier times.
+  struct Course {
+    vm::Time now;
+    Simulation::StateAt state_at;
+  };
+  /// Draws a state; the picture can then be read or shown. `course`: by it swings what hangs on
+  /// springs, if it is given. Error: kUnavailable if there is no way to draw (the first call makes
+  /// the graphics context of a headless studio).
+  virtual vm::Result<void> Draw(const FaceState& state, const Scene& scene,
+                                const Course* course) = 0;
+  /// Something still swings, though the face may stand still.
+  virtual bool Swings() const { return false; }
   /// The frame drawn last; valid until the next call. REQUIRES: one was drawn.
   virtual const Image& Read() = 0;
   /// Begins to bring the frame drawn last to memory while others are drawn. Returns what EndRead

@@ -158,6 +158,13 @@ void SceneSlots::DeclareView() {
                    return {};
                  },
                  "ENABLE"});
+  core_.Declare({"Simulation", "ENABLE | DISABLE",
+                 "Whether what is soft swings as the head moves, as long hair does.",
+                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                   core_.simulates = value.word(0) == "ENABLE";
+                   return {};
+                 },
+                 "ENABLE"});
   core_.Declare(
       {"Window", "FULLSCREEN | WINDOWED | <int 16..8192> <int 16..8192>",
        "Width and height of the view in pixels; or the window fills the screen, or no more.",
@@ -264,6 +271,7 @@ void SceneSlots::Reset() {
   core_.scene = FirstScene();
   transparent_ = false;
   background_enabled_ = true;
+  core_.simulates = true;
   if (auto sized = ResetSize(); !sized) core_.slots.ReportError("Window", sized.error());
   const std::string first = backgrounds_.empty() ? kPlain : backgrounds_.front().first;
   if (auto set = SetBackground(first); !set) {

@@ -24,6 +24,16 @@ void Members(V& v, Like<HeadTopology::Part> auto& part) {
 }
 
 template <typename V>
+void Members(V& v, Like<ShutLid> auto& lid) {
+  v("vertex", lid.vertex);
+  v("colour", lid.colour);
+  v("weight", lid.weight);
+  v("lender", lid.lender);
+  v("lender_light", lid.lender_light);
+  v("slide", lid.slide);
+}
+
+template <typename V>
 void Members(V& v, Like<SkinHair> auto& hair) {
   v("root", hair.root);
   v("middle", hair.middle);
@@ -35,7 +45,7 @@ void Members(V& v, Like<SkinHair> auto& hair) {
 template <typename V>
 void Members(V& v, Like<Strand> auto& strand) {
   v("along", strand.along);
-  v("cover", strand.cover);
+  v("density", strand.density);
   v("across", strand.across);
   v("place", strand.place);
 }
@@ -84,6 +94,7 @@ void Members(V& v, Like<HeadTopology> auto& topology) {
   v("parts", topology.parts);
   v("albedo", topology.albedo);
   v("occlusion", topology.occlusion);
+  v("opacity", topology.opacity);
   v("uv", topology.uv);
   v("skin_hairs", topology.skin_hairs);
   v("strands", topology.strands);
@@ -91,8 +102,9 @@ void Members(V& v, Like<HeadTopology> auto& topology) {
   v("finishes", topology.finishes);
   v("relief", topology.relief);
   v("lights", topology.lights);
-  v("photo_texcoord", topology.photo_texcoord);
-  v("photo_lender", topology.photo_lender);
+  v("texcoord", topology.texcoord);
+  v("texture_weight", topology.texture_weight);
+  v("shut_lids", topology.shut_lids);
   v("photo_light", topology.photo_light);
   v("relit", topology.relit);
   v("eye_pictures", topology.eye_pictures);
@@ -232,6 +244,24 @@ void Members(V& v, Like<TeethContact> auto& contact) {
   v("lower_gap", contact.lower_gap);
 }
 
+template <typename V>
+void Members(V& v, Like<Spring> auto& spring) {
+  v("rest", spring.rest);
+  v("root", spring.root);
+  v("outward", spring.outward);
+  v("frequency_hz", spring.frequency_hz);
+  v("damping", spring.damping);
+  v("hang", spring.hang);
+  v("most_mm", spring.most_mm);
+}
+
+template <typename V>
+void Members(V& v, Like<SpringWeight> auto& weight) {
+  v("vertex", weight.vertex);
+  v("spring", weight.spring);
+  v("weight", weight.weight);
+}
+
 /// All but `units`, which stand as the text of their table.
 template <typename V>
 void Members(V& v, Like<RigData> auto& rig) {
@@ -260,6 +290,8 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("look", rig.look);
   v("creases", rig.creases);
   v("crease_depth", rig.crease_depth);
+  v("springs", rig.springs);
+  v("spring_weights", rig.spring_weights);
 }
 
 template <typename V>
@@ -270,9 +302,10 @@ void Members(V& v, Like<ParallelView> auto& view) {
 
 /// What stands in a file as one column for each member rather than as one object for each element.
 template <typename T>
-concept Tabular = Like<T, SkinHair> || Like<T, Strand> || Like<T, SkinWeights> ||
+concept Tabular =
+    Like<T, SkinHair> || Like<T, ShutLid> || Like<T, Strand> || Like<T, SkinWeights> ||
     Like<T, Displacement> || Like<T, LidRig::Vertex> || Like<T, LipRig::Follower> ||
-    Like<T, BallLid> || Like<T, TeethContact>;
+    Like<T, BallLid> || Like<T, TeethContact> || Like<T, Spring> || Like<T, SpringWeight>;
 
 /// The number of an enumeration's values, which go from 0 on.
 template <typename E>

@@ -225,10 +225,8 @@ class ForeignView {
   }
 
   void WriteTexture(const json& image) {
-    std::vector<glm::vec2> places;
-    for (const glm::vec3& texcoord : topology_.photo_texcoord) places.emplace_back(texcoord);
-    texcoord_ = gltf_.AddAccessor(gltf_.AddView(std::span<const glm::vec2>(places)), places.size(),
-                                  2, GltfType::kFloat);
+    const std::span<const glm::vec2> places(topology_.texcoord);
+    texcoord_ = gltf_.AddAccessor(gltf_.AddView(places), places.size(), 2, GltfType::kFloat);
     gltf_.document["textures"] = json::array({{{"source", image}}});
   }
 
@@ -238,7 +236,7 @@ class ForeignView {
     std::uint32_t shown = 0;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const std::uint32_t vertex = topology_.indices[part.first_index + k];
-      if (topology_.photo_texcoord[vertex].z > 0.5F) ++shown;
+      if (topology_.texture_weight[vertex] > 0.5F) ++shown;
     }
     return 2 * shown > part.index_count;
   }

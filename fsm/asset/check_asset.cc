@@ -1,5 +1,6 @@
 #include "fsm/asset/check_asset.h"
 
+#include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -77,10 +78,12 @@ class Checker {
     }
     PerVertex(topology.albedo, "topology.albedo", false);
     PerVertex(topology.occlusion, "topology.occlusion", false);
+    PerVertex(topology.opacity, "topology.opacity", true);
     PerVertex(topology.uv, "topology.uv", true);
     PerVertex(topology.strands, "topology.strands", true);
-    PerVertex(topology.photo_texcoord, "topology.photo_texcoord", !topology.photo);
-    PerVertex(topology.photo_lender, "topology.photo_lender", true);
+    PerVertex(topology.texcoord, "topology.texcoord", !topology.photo);
+    PerVertex(topology.texture_weight, "topology.texture_weight", !topology.photo);
+    VerticesOf(topology.shut_lids, "topology.shut_lids");
     PerVertex(topology.relit, "topology.relit", true);
     const MouthSlit& mouth = topology.mouth;
     for (std::size_t i = 0; i < mouth.lips.size(); ++i) {
@@ -114,6 +117,35 @@ class Checker {
     VerticesOf(rig.ball_lids, "rig.ball_lids");
     Sides(rig.ball_lids, "rig.ball_lids");
     VerticesOf(rig.teeth_contacts, "rig.teeth_contacts");
+    CheckSprings(rig);
+  }
+
+  void CheckSprings(const RigData& rig) const {
+    const auto within = [](float value, float least, float most) {
+      return value >= least && value <= most;  // false of what is not a number
+    };
+    for (std::size_t i = 0; i < rig.springs.size(); ++i) {
+      const Spring& spring = rig.springs[i];
+      const std::string place = Place("rig.springs", i);
+      if (!WithinReach(spring.rest) || !WithinReach(spring.root))
+        throw Fault(place + ": too far away");
+      if (!within(spring.frequency_hz, Spring::kLeastHz, Spring::kMostHz))
+        throw Fault(place + ": a frequency outside 0.1..30 Hz");
+      if (!within(spring.damping, Spring::kLeastDamping, Spring::kMostDamping))
+        throw Fault(place + ": a damping outside 0.01..0.99");
+      if (!within(spring.hang, 0, 1)) throw Fault(place + ": hang outside 0..1");
+      if (!within(spring.most_mm, 0.01f, 1000)) throw Fault(place + ": most_mm outside 0.01..1000");
+      if (!within(glm::dot(spring.outward, spring.outward), 0, 1.01f))
+        throw Fault(place + ": outward is longer than 1");
+    }
+    VerticesOf(rig.spring_weights, "rig.spring_weights");
+    for (std::size_t i = 0; i < rig.spring_weights.size(); ++i) {
+      const std::uint32_t spring = rig.spring_weights[i].spring;
+      if (spring >= rig.springs.size()) {
+        throw Fault(Place("rig.spring_weights", i) + ": spring " + std::to_string(spring) + " of " +
+                    std::to_string(rig.springs.size()));
+      }
+    }
   }
 
   void CheckChannel(const Channel& channel, std::size_t at) const {

@@ -53,6 +53,7 @@ class Description {
     Pictures();
     Bones();
     Channels();
+    Springs();
     Steps();
     DescribeLandmarks();
     MemorySum sum;
@@ -128,6 +129,12 @@ class Description {
         "units",         "units as asked", "mouth",   "mouth of speech",
         "mouth by hand", "blink",          "gaze up", "gaze right"};
     return kNames[static_cast<std::size_t>(kind)];
+  }
+
+  void Springs() {
+    if (rig_.springs.empty()) return;
+    Line("springs", std::to_string(rig_.springs.size()) + ", moving vertices by " +
+                        std::to_string(rig_.spring_weights.size()) + " weights");
   }
 
   void Steps() {

@@ -1,7 +1,9 @@
 #include "fsm/base/table_reader.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace fsm {
@@ -28,6 +30,21 @@ float TableRow::Number(std::size_t index) const {
     Fail("'" + word + "' found where a number was expected");
   }
   return value;
+}
+
+float TableRow::Within(std::size_t index, float low, float high) const {
+  const float value = Number(index);
+  if (!(value >= low && value <= high)) {
+    std::array<char, 48> bounds;
+    std::snprintf(bounds.data(), bounds.size(), "%g to %g", static_cast<double>(low),
+                  static_cast<double>(high));
+    Fail("'" + Word(index) + "' found where " + bounds.data() + " was expected");
+  }
+  return value;
+}
+
+void TableRow::EndsAt(std::size_t count) const {
+  if (size() > count) Fail("'" + Word(count) + "' is one word too many");
 }
 
 int TableRow::Integer(std::size_t index) const {

@@ -19,10 +19,14 @@ class TableRow {
   /// Throws std::runtime_error naming file and line if word `index` is missing or of another kind.
   const std::string& Word(std::size_t index) const;
   float Number(std::size_t index) const;
+  /// A number in low..high.
+  float Within(std::size_t index, float low, float high) const;
   int Integer(std::size_t index) const;
   glm::vec3 Vector(std::size_t index) const;  ///< words index .. index + 2
   /// All words from `index` on, as numbers.
   std::vector<float> Numbers(std::size_t index) const;
+  /// Throws if more than `count` words stand in the row: a word too many stands in a wrong place.
+  void EndsAt(std::size_t count) const;
   [[noreturn]] void Fail(const std::string& what) const;
 
  private:

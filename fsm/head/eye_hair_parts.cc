@@ -57,7 +57,7 @@ class LashBuilder {
     p.x *= side_;
     const glm::vec3 colour = glm::mix(palette_.skin, palette_.lash, of_photo_ ? 1.0f : dark);
     const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kSkin, flesh_);
-    if (of_photo_) mesh_.strands.back().cover = dark;
+    if (of_photo_) mesh_.opacity.back() = dark;
     return i;
   }
   void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {

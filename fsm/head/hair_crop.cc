@@ -97,9 +97,9 @@ class CroppedHair {
         mesh_.Add(p, glm::mix(palette_.skin * 0.85f, colour, thin), r < 3 ? 0.8f : 0.92f,
                   Bone::kSkull);
         mesh_.strands.back() = {.along = Flow(d, Forehead(azimuth, kUp[r])),
-                                .cover = r == 0   ? 0.1f
-                                         : r == 1 ? 0.75f
-                                                  : 1.0f,
+                                .density = r == 0   ? 0.1f
+                                           : r == 1 ? 0.75f
+                                                    : 1.0f,
                                 .place = {1.49f * azimuth, -140 * kUp[r]}};
       }
     }

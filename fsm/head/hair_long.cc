@@ -130,7 +130,7 @@ class LongHair {
                   Bone::kSkull);
         const float edge = k == 0 ? 0.1f : k == 1 ? 0.8f : 1.0f;
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .cover = edge * SmoothStep(1.04f, 0.86f, t),
+                                .density = edge * SmoothStep(1.04f, 0.86f, t),
                                 .place = {side * 215 * i, 260 * t}};
       }
     }
@@ -154,7 +154,7 @@ class LongHair {
         const float inset = glm::mix(-0.6f, kInset[static_cast<std::size_t>(row)], behind);
         mesh_.Add(Point(i, side, t, inset), palette_.hair, 0.5f, Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
-                                .cover = SmoothStep(1.04f, 0.86f, t),
+                                .density = SmoothStep(1.04f, 0.86f, t),
                                 .place = {215 * i, 260 * t}};
       }
     }
@@ -259,7 +259,7 @@ class LongHair {
               {.width_mm = 15.0f + 3 * Grain(seed, 6) - 9 * strand,
                .root_part = 0.4f,
                .fray_from = 0.5f,
-               .root_cover = 0.3f},
+               .root_density = 0.3f},
               palette_, seed, mesh_);
     }
   }

@@ -104,15 +104,15 @@ void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Pale
     const glm::vec3 colour = glm::mix(palette.hair, StrandColour(palette, seed, k), 0.5f) *
                              glm::mix(1.0f, style.tip_light, t);
     const float shade = style.open * glm::mix(0.85f, 1.0f, SmoothStep(0, 0.25f, t));
-    const float cover = glm::mix(style.root_cover, 1.0f, SmoothStep(0, 0.16f, t)) *
-                        SmoothStep(1.0f, style.fray_from, t);
+    const float density = glm::mix(style.root_density, 1.0f, SmoothStep(0, 0.16f, t)) *
+                          SmoothStep(1.0f, style.fray_from, t);
     std::array<std::uint32_t, 2> now{};
     for (std::size_t edge = 0; edge < 2; ++edge) {
       const float side = edge == 0 ? -1.0f : 1.0f;
       const float half = 0.5f * style.width_mm * taper;
       now[edge] = mesh.Add(path[i] + side * half * across, colour, shade, Bone::kSkull);
       mesh.strands.back() = {.along = glm::normalize(step + glm::vec3(0, -1e-4f, 0)),
-                             .cover = cover,
+                             .density = density,
                              .across = side,
                              .place = {across_mm + side * half, along_mm}};
     }

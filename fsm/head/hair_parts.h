@@ -38,7 +38,7 @@ struct LockStyle {
   float root_part = 1;     ///< width at the root, as part of the whole
   float tip_part = 0.5f;   ///< width at the tip
   float fray_from = 0.6f;  ///< part of the way from which hairs end
-  float root_cover = 0;    ///< how dense the hairs are at the root, 0..1
+  float root_density = 0;  ///< how dense the hairs are at the root, 0..1
   float open = 1;          ///< to the light, 0..1
   float tip_light = 1.1f;  ///< colour at the tip over that at the root
 };

@@ -9,11 +9,13 @@
 #include "embedded/action_units.h"
 #include "embedded/curves.h"
 #include "embedded/eye.h"
+#include "embedded/hair_springs.h"
 #include "embedded/mouth.h"
 #include "embedded/patches.h"
 #include "embedded/sliders.h"
 #include "fsm/head/face_channels.h"
 #include "fsm/head/hair_parts.h"
+#include "fsm/head/hair_springs.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
@@ -105,6 +107,9 @@ void HeadBaker::BakeTopology(HeadTopology& topology) {
   topology.mouth.corner_left = skin_.corner_left;
   topology.albedo = std::move(mesh_.albedo);
   topology.occlusion = std::move(mesh_.occlusion);
+  if (std::ranges::any_of(mesh_.opacity, [](float opacity) { return opacity < 1; })) {
+    topology.opacity = std::move(mesh_.opacity);
+  }
   topology.strands = std::move(mesh_.strands);
   for (glm::vec3& colour : topology.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
   for (const glm::vec3 p : base_) topology.uv.push_back(Unroll(p));
@@ -126,7 +131,8 @@ void HeadBaker::BakeEyes(HeadTopology& topology) const {
 
 void HeadBaker::BakeRig(const HeadTopology& topology, RigData& rig) {
   using enum RigStep;
-  rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth, kTongue, kBones, kNeck, kNormals};
+  rig.steps = {kChannels, kLids,  kJaw,  kTeeth,   kLips,   kTeeth,
+               kTongue,   kBones, kNeck, kSprings, kNormals};
   rig.rest = std::move(mesh_.position);
   rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
   LightAsOne(std::span(rig.rest).subspan(hair_first_),
@@ -156,6 +162,9 @@ void HeadBaker::BakeRig(const HeadTopology& topology, RigData& rig) {
     rig.eye_pivot[side] = rig.ball_centre[side] = topology.eyes[side].centre;
   }
   rig.creases = identity_.creases;
+  if (!identity_.crop) {
+    AddHairSprings(Table("tables/hair_springs.txt", embedded::hair_springs()), hair_first_, rig);
+  }
 }
 
 std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric) {

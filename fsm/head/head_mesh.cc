@@ -14,6 +14,7 @@ std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
   occlusion.push_back(open);
   bone.push_back(b);
   flesh.push_back(f);
+  opacity.push_back(1);
   strands.push_back({});
   return static_cast<std::uint32_t>(position.size() - 1);
 }

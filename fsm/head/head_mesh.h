@@ -16,6 +16,7 @@ struct HeadMesh {
   std::vector<glm::vec3> position;
   std::vector<glm::vec3> albedo;
   std::vector<float> occlusion;
+  std::vector<float> opacity;
   std::vector<Bone> bone;
   std::vector<SkinWeights> flesh;  ///< meaningful where bone is kSkin
   std::vector<Strand> strands;     ///< meaningful where there is hair

@@ -21,7 +21,7 @@ void BuildCloth(const Palette& palette, HeadMesh& mesh);
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
 /// The furrow over each upper lid, as strokes painted on the skin.
 std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye);
-/// `of_photo`: those of the upper lids alone, with how dark they are in Strand::cover.
+/// `of_photo`: those of the upper lids alone, with how dark they are in HeadMesh::opacity.
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh);
 
 void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);

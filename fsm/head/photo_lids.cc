@@ -109,8 +109,7 @@ PhotoPlane PhotoByFace(std::span<const Lender> all) {
 
 /// The face as the photo shows it, and its lids when they are shut.
 struct Face {
-  const Image& photo;
-  std::span<const glm::vec3> places;
+  const PhotoSight& sight;
   std::span<const SkinWeights> skin;
   const SkinPose& open;
   const SkinPose& shut;
@@ -129,13 +128,13 @@ class LidPainter {
       const SkinWeights& f = face.skin[i];
       if (f.eye != side) continue;
       const glm::vec2 at(face.open.position[i]);
-      const glm::vec3 screen = PhotoColour(face.photo, glm::vec2(face.places[i]));
+      const glm::vec3 screen = PhotoColour(face.sight.photo, face.sight.texcoord[i]);
       const bool above = f.lid_upper >= f.lid_lower;
       samples.push_back({at, screen, above, 1, false});
       if (f.lid_upper + f.lid_lower > 0.95f) rims.push_back(at);
       if (f.lid_upper > 0.95f) upper_rim_.push_back(at);
       if (f.lid_lower > 0.95f) lower_rim_.push_back(at);
-      around_.push_back({at, glm::vec2(face.places[i]), screen, light.On(face.open.normal[i])});
+      around_.push_back({at, face.sight.texcoord[i], screen, light.On(face.open.normal[i])});
     }
     if (!HasLids()) return;
     const auto [first, last] = std::ranges::minmax(upper_rim_, {}, &glm::vec2::x);
@@ -166,7 +165,7 @@ class LidPainter {
 
   bool HasLids() const { return !upper_rim_.empty() && !lower_rim_.empty(); }
 
-  void Paint(std::vector<LidPaint>& lids) const {
+  void Paint(std::vector<ShutLid>& lids) const {
     for (std::uint32_t i = 0; i < face_.skin.size(); ++i) {
       const SkinWeights& f = face_.skin[i];
       if (f.eye == side_) lids.push_back(f.lid_upper > 0 ? Upper(i) : Lower(i));
@@ -202,7 +201,12 @@ class LidPainter {
     return glm::mix(deep, lit, out * glm::mix(0.15f, 0.7f, down));
   }
 
-  LidPaint Lower(std::uint32_t i) const {
+  static glm::vec3 Linear(glm::vec3 screen) { return screen * screen; }
+  static float LightOfLender(const Lender& lender) {
+    return std::max(ScreenBrightness(lender.screen), 0.02f);
+  }
+
+  ShutLid Lower(std::uint32_t i) const {
     // The lashes of the upper lid lie over the rim of the lower.
     const glm::vec2 at(face_.shut.position[i]);
     const float outward = Outward(at);
@@ -210,15 +214,15 @@ class LidPainter {
     const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, held);
     // The wet rim of the open eye is hidden.
     const float rim = SmoothStep(0.92f, 0.97f, held);
-    return {i,
-            Lashed(Skin(i, at), 0.5f * lashes),
-            std::max(0.8f * rim, (0.3f + 0.4f * outward) * lashes),
-            glm::vec2(face_.places[i]),
-            ScreenBrightness(Around(around_, at, 2).screen),
-            glm::vec2(0)};
+    return {.vertex = i,
+            .colour = Linear(Lashed(Skin(i, at), 0.5f * lashes)),
+            .weight = std::max(0.8f * rim, (0.3f + 0.4f * outward) * lashes),
+            .lender = face_.sight.texcoord[i],
+            .lender_light = LightOfLender(Around(around_, at, 2)),
+            .slide = glm::vec2(0)};
   }
 
-  LidPaint Upper(std::uint32_t i) const {
+  ShutLid Upper(std::uint32_t i) const {
     const glm::vec2 at(face_.shut.position[i]);
     const float held = face_.skin[i].lid_upper;
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
@@ -235,12 +239,12 @@ class LidPainter {
     const glm::vec2 lender(at.x, lowest_ - 1.5f - down);
     // Near a rim of glasses skin darkens within millimetres: that is no grain.
     const Lender wide = Around(below_, lender, face_.glasses ? 1.2f : 4.0f);
-    return {i,
-            glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f),
-            Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
-            grain_by_face_(lender),
-            ScreenBrightness(wide.screen),
-            photo_by_face_.slope * (at - glm::vec2(face_.open.position[i]))};
+    return {.vertex = i,
+            .colour = Linear(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
+            .weight = Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
+            .lender = grain_by_face_(lender),
+            .lender_light = LightOfLender(wide),
+            .slide = photo_by_face_.slope * (at - glm::vec2(face_.open.position[i]))};
   }
 
   /// How much is lid: from a little above the eye's rim on, and where its lashes were.
@@ -280,22 +284,22 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 place) {
   return glm::vec3(p[0], p[1], p[2]) / 255.0f;
 }
 
-FaceLight LightOf(const Image& photo, std::span<const glm::vec3> places, const SkinPose& open) {
+FaceLight LightOf(const PhotoSight& sight, const SkinPose& open) {
   constexpr float kSquarely = 0.3f, kFront = 45;  // millimetres: no neck, no ears
   std::vector<FaceLight::Patch> seen;
   for (std::size_t i = 0; i < open.normal.size(); ++i) {
     const bool squarely = open.normal[i].z > kSquarely && open.position[i].z > kFront;
-    if (places[i].z <= 0 || !squarely) continue;
-    seen.push_back({open.normal[i], PhotoColour(photo, glm::vec2(places[i]))});
+    if (sight.weight[i] <= 0 || !squarely) continue;
+    seen.push_back({open.normal[i], PhotoColour(sight.photo, sight.texcoord[i])});
   }
   return FaceLight(seen);
 }
 
-std::vector<LidPaint> PaintLids(const Image& photo, std::span<const glm::vec3> places,
-                                std::span<const SkinWeights> skin, const SkinPose& open,
-                                const SkinPose& shut, const FaceLight& light, bool glasses) {
-  const Face face{photo, places, skin, open, shut, glasses};
-  std::vector<LidPaint> lids;
+std::vector<ShutLid> PaintLids(const PhotoSight& sight, std::span<const SkinWeights> skin,
+                               const SkinPose& open, const SkinPose& shut, const FaceLight& light,
+                               bool glasses) {
+  const Face face{sight, skin, open, shut, glasses};
+  std::vector<ShutLid> lids;
   for (const int side : {-1, 1}) {
     const LidPainter painter(face, light, side);
     if (painter.HasLids()) painter.Paint(lids);

@@ -11,22 +11,17 @@
 
 namespace fsm {
 
-/// What a vertex of an upper lid looks like when the lid is shut.
-struct LidPaint {
-  std::uint32_t vertex;
-  glm::vec3 screen;  ///< colour on the screen, 0..1
-  float part;        ///< how much of it is lid, 0..1: it goes over into the skin round it
-  /// Skin that lends its grain: a lid's height below, or nearer behind glasses.
-  glm::vec2 lender;    ///< its place in the photo, as HeadTopology::photo_texcoord
-  float lender_light;  ///< the mean brightness round it, 0..1
-  /// From its place in the photo to where in the photo it comes to lie.
-  glm::vec2 slide;
-};
-
 /// Where vertices of the skin lie and which way they face.
 struct SkinPose {
   std::span<const glm::vec3> position;  ///< millimetres
   std::span<const glm::vec3> normal;    ///< unit
+};
+
+/// A photo, and where it shows the skin: HeadTopology::texcoord and texture_weight.
+struct PhotoSight {
+  const Image& photo;
+  std::span<const glm::vec2> texcoord;
+  std::span<const float> weight;
 };
 
 /// What a photo shows at a place (u, v down), on the screen, 0..1.
@@ -36,14 +31,14 @@ glm::vec3 PhotoColour(const Image& photo, glm::vec2 place);
 /// above it: what the photo shows there stays where it is, but the lashes of the open eye, and the
 /// eye gives way to skin with the grain of the lower lid's. At the top the skin is coloured like
 /// that round the eye, as far as that is not darker or brighter than most of it (glasses, brows,
-/// reflections); downward it comes out into the light that falls on the face. `places` are
-/// HeadTopology::photo_texcoord; `open` and `shut`: with lids at rest and shut. All of one length.
-/// `glasses`: nothing above the eye is taken for lashes.
-std::vector<LidPaint> PaintLids(const Image& photo, std::span<const glm::vec3> places,
-                                std::span<const SkinWeights> skin, const SkinPose& open,
-                                const SkinPose& shut, const FaceLight& light, bool glasses);
+/// reflections); downward it comes out into the light that falls on the face. `open` and `shut`:
+/// with lids at rest and shut, of the length of `skin`. `glasses`: nothing above the eye is taken
+/// for lashes.
+std::vector<ShutLid> PaintLids(const PhotoSight& sight, std::span<const SkinWeights> skin,
+                               const SkinPose& open, const SkinPose& shut, const FaceLight& light,
+                               bool glasses);
 
 /// The light of a photo, from the front of the face that wears it.
-FaceLight LightOf(const Image& photo, std::span<const glm::vec3> places, const SkinPose& open);
+FaceLight LightOf(const PhotoSight& sight, const SkinPose& open);
 
 }  // namespace fsm

@@ -57,7 +57,7 @@ void RollLips(const PhotoHead& set, std::span<const CageTag> tags, glm::vec3 lip
     const float inside = SmoothStep(0.5f, -4.0f, outward);
     topology.albedo[i] = Wetter(Wetter(dry, set.saturation), inside * set.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
-    topology.photo_texcoord[i].z = 1 - wet;
+    topology.texture_weight[i] = 1 - wet;
   }
 }
 
@@ -92,7 +92,7 @@ void ThinLashes(const PhotoHead& set, HeadTopology& topology) {
     if (part.material != Material::kShutLash) continue;
     const auto first = topology.indices.begin() + part.first_index;
     for (const std::uint32_t v : std::set<std::uint32_t>(first, first + part.index_count)) {
-      topology.strands[v].cover *= 1 - kLost * set.lined;
+      topology.opacity[v] *= 1 - kLost * set.lined;
       topology.albedo[v] = colour;
     }
   }
@@ -165,13 +165,13 @@ void LeaveOutUnseen(const PhotoHead& set, std::span<const CageTag> tags, HeadMes
     if (batch.material != Material::kSkin) continue;
     const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
     for (const std::uint32_t v : batch.indices) {
-      mesh.strands[v].cover = SeenSkin(set, mesh.position[v], normal[v]);
+      mesh.opacity[v] = SeenSkin(set, mesh.position[v], normal[v]);
     }
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
       const std::uint32_t* corner = &batch.indices[i];
-      const bool seen = std::any_of(corner, corner + 3,
-                                    [&](std::uint32_t v) { return mesh.strands[v].cover > 0; });
+      const bool seen =
+          std::any_of(corner, corner + 3, [&](std::uint32_t v) { return mesh.opacity[v] > 0; });
       if (seen) kept.insert(kept.end(), corner, corner + 3);
     }
     batch.indices = std::move(kept);
@@ -184,42 +184,38 @@ void WearPhoto(const PhotoHead& set, const PhotoSkin& skin, glm::vec3 lip_inside
   topology.photo = set.photo;
   topology.saturation = set.saturation;
   topology.eye_pictures = set.eye_pictures;
-  topology.photo_texcoord.resize(topology.uv.size(), glm::vec3(0));
+  topology.texcoord.resize(topology.uv.size());
+  topology.texture_weight.resize(topology.uv.size());
   for (std::size_t i = 0; i < skin_count; ++i) {
-    const glm::vec2 at = glm::mix(set.skin_low, set.skin_high, topology.uv[i]);
-    topology.photo_texcoord[i] = glm::vec3(at, 1);
+    topology.texcoord[i] = glm::mix(set.skin_low, set.skin_high, topology.uv[i]);
   }
   for (std::size_t i = 0; i < set.sheet.size(); ++i) {
-    topology.photo_texcoord[skin_count + i] = glm::vec3(set.sheet[i].place, 1);
+    topology.texcoord[skin_count + i] = set.sheet[i].place;
   }
+  std::fill_n(topology.texture_weight.begin(), skin_count + set.sheet.size(), 1.0f);
   // The photo ends at the lips: what lies within the mouth is painted.
   for (const auto& part : topology.parts) {
     if (part.material != Material::kMouthInside) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      topology.photo_texcoord[topology.indices[part.first_index + k]].z = 0;
+      topology.texture_weight[topology.indices[part.first_index + k]] = 0;
     }
   }
   // Where paint begins it goes over from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
-    if (topology.photo_texcoord[i].z <= 0) continue;
-    const glm::vec3 seen = PhotoColour(*set.photo, glm::vec2(topology.photo_texcoord[i]));
+    if (topology.texture_weight[i] <= 0) continue;
+    const glm::vec3 seen = PhotoColour(*set.photo, topology.texcoord[i]);
     topology.albedo[i] = seen * seen;
     topology.occlusion[i] = 1;
   }
   ThinLashes(set, topology);
   RollLips(set, skin.tags, lip_inside, topology);
-  topology.photo_lender.resize(topology.uv.size(), glm::vec4(0));
-  const FaceLight light = LightOf(*set.photo, topology.photo_texcoord, skin.open);
+  const PhotoSight sight{*set.photo, topology.texcoord, topology.texture_weight};
+  const FaceLight light = LightOf(sight, skin.open);
   topology.photo_light = light.coefficients();
   topology.relit = RelitParts(skin);
   topology.relit.resize(topology.uv.size());
-  for (const LidPaint& lid : PaintLids(*set.photo, topology.photo_texcoord, skin.flesh, skin.open,
-                                       skin.shut, light, set.glasses)) {
-    topology.albedo[lid.vertex] = lid.screen * lid.screen;
-    topology.occlusion[lid.vertex] = std::max(lid.lender_light, 0.02f);
-    topology.photo_texcoord[lid.vertex].z = 1 + lid.part;
-    topology.photo_lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
-  }
+  topology.shut_lids = PaintLids(sight, skin.flesh, skin.open, skin.shut, light, set.glasses);
+  for (const ShutLid& lid : topology.shut_lids) topology.texture_weight[lid.vertex] = 1;
 }
 
 }  // namespace fsm

@@ -26,7 +26,7 @@ void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh);
 float JawLine(float above_bottom);
 
 /// Skin the photo does not show, behind the outline and below the jaw, where the sheet is: it goes,
-/// and what is beside it fades (Strand::cover). The nostrils, which are lined like the mouth,
+/// and what is beside it fades (HeadMesh::opacity). The nostrils, which are lined like the mouth,
 /// become skin: the photo shows how dark they are. `tags`: of the skin's vertices, the mesh's
 /// first.
 void LeaveOutUnseen(const PhotoHead& set, std::span<const CageTag> tags, HeadMesh& mesh);

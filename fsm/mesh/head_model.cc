@@ -171,8 +171,8 @@ class HeadBuilder {
       if (!pictured) continue;
       const glm::vec2 uv = file_.place[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
-      model_.photo_texcoord[v] =
-          glm::vec3(sheet_.place(static_cast<std::size_t>(part.picture)).At(within), 1);
+      model_.texcoord[v] = sheet_.place(static_cast<std::size_t>(part.picture)).At(within);
+      model_.texture_weight[v] = 1;
     }
     const int finish = MaterialOf(kind, part, pictured);
     if (finish >= 0) {

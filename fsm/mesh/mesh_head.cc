@@ -27,7 +27,8 @@ HeadTopology TopologyOf(const MeshModel& model) {
   topology.occlusion.assign(model.position.size(), 1);
   for (const glm::vec3& p : model.position) topology.uv.push_back(Unroll(p));
   topology.photo = model.photo;
-  topology.photo_texcoord = model.photo_texcoord;
+  topology.texcoord = model.texcoord;
+  topology.texture_weight = model.texture_weight;
   topology.finishes = model.finishes;
   topology.relief = model.relief;
   topology.lights = model.lights;
@@ -79,7 +80,8 @@ std::vector<std::uint32_t> NormalTwins(const std::vector<glm::vec3>& position,
 
 RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig) {
   using enum RigStep;
-  for (const RigStep step : {kLidsOnBalls, kBones, kNeck, kNormals}) rig.steps.push_back(step);
+  for (const RigStep step : {kLidsOnBalls, kBones, kNeck, kSprings, kNormals})
+    rig.steps.push_back(step);
   rig.rest = model.position;
   rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
   rig.bone = model.bone;

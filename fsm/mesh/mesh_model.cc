@@ -9,11 +9,13 @@
 
 namespace fsm {
 
-std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, glm::vec3 place, float turn) {
+std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at,
+                             float turn) {
   position.push_back(p);
   bone.push_back(b);
   albedo.push_back(colour);
-  photo_texcoord.push_back(place);
+  texcoord.push_back(at.value_or(glm::vec2(0)));
+  texture_weight.push_back(at ? 1.0f : 0.0f);
   neck.push_back(turn);
   return static_cast<std::uint32_t>(position.size() - 1);
 }

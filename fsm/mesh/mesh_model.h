@@ -24,10 +24,11 @@ inline constexpr glm::vec3 kEyePlace{30.5f, 22.3f, 63.6f};
 struct MeshModel {
   std::string name;  ///< of its file, for messages; may be empty
   std::vector<glm::vec3> position;
-  std::vector<Bone> bone;                 ///< kSkin moves as MakeMeshHead is told
-  std::vector<float> neck;                ///< part of the head's turn each vertex makes
-  std::vector<glm::vec3> albedo;          ///< linear RGB
-  std::vector<glm::vec3> photo_texcoord;  ///< see HeadTopology
+  std::vector<Bone> bone;           ///< kSkin moves as MakeMeshHead is told
+  std::vector<float> neck;          ///< part of the head's turn each vertex makes
+  std::vector<glm::vec3> albedo;    ///< linear RGB
+  std::vector<glm::vec2> texcoord;  ///< see HeadTopology, texture_weight too
+  std::vector<float> texture_weight;
   std::shared_ptr<const Image> photo, relief, lights;
   std::vector<PbrMaterial> finishes;
   std::vector<HeadMesh::Batch> batches;
@@ -44,7 +45,9 @@ struct MeshModel {
   /// right to left.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
 
-  std::uint32_t Add(glm::vec3 p, Bone b, glm::vec3 colour, glm::vec3 place = {}, float turn = 1);
+  /// `at`: where in the photo it is shown; else it has its own colour.
+  std::uint32_t Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optional<glm::vec2> at = {},
+                    float turn = 1);
   void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);
   /// The triangles of that material which take light so.
   HeadMesh::Batch& BatchOf(Material material, int finish, bool two_sided);

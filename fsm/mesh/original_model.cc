@@ -17,7 +17,6 @@
 namespace fsm {
 namespace {
 
-
 /// Builds the model part by part; `mm` takes wireframe units to our frame.
 class OriginalBuilder {
  public:
@@ -51,7 +50,7 @@ class OriginalBuilder {
       const glm::vec2 place =
           sheet_.place(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
       const glm::vec3 at = frame_.ToMm(p);
-      model_.Add(at, Bone::kSkin, face_.mouth, {place, 1}, SmoothStep(chin - 42, chin - 4, at.y));
+      model_.Add(at, Bone::kSkin, face_.mouth, place, SmoothStep(chin - 42, chin - 4, at.y));
     }
     for (const auto& triangle : face_.link.triangles) {
       if (!IsDrawn(triangle.group)) continue;
@@ -152,7 +151,7 @@ class OriginalBuilder {
       const glm::vec2 place =
           sheet_.place(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
       const glm::vec3 at = eye.place + eye.scale * glm::vec3(turned * glm::vec4(p, 1));
-      model_.Add(frame_.ToMm(at), carrier, glm::vec3(0.5F), {place, 1});
+      model_.Add(frame_.ToMm(at), carrier, glm::vec3(0.5F), place);
     }
     for (const auto& group : face_.eye->groups) {
       for (const auto& t : group.triangles) {

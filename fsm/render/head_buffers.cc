@@ -17,9 +17,9 @@ namespace {
 bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> triangle, bool cut_out) {
   glm::vec2 low(1e9F), high(-1e9F);
   for (const std::uint32_t v : triangle) {
-    if (topology.strands[v].cover < 1) return false;
-    low = glm::min(low, glm::vec2(topology.photo_texcoord[v]));
-    high = glm::max(high, glm::vec2(topology.photo_texcoord[v]));
+    if (topology.opacity[v] < 1) return false;
+    low = glm::min(low, topology.texcoord[v]);
+    high = glm::max(high, topology.texcoord[v]);
   }
   if (!cut_out) return true;
   const Image& photo = *topology.photo;
@@ -43,7 +43,7 @@ HeadBuffers::HeadBuffers(const GlFunctions& gl, const Head& head) : gl_(gl) {
   gl_.GenVertexArrays(1, &array_);
   gl_.GenBuffers(kAttributes + 1, buffers_);
   gl_.BindVertexArray(array_);
-  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 3, 4, 1, 3};
+  constexpr GLint sizes[kAttributes] = {3, 3, 3, 4, 2, 4, 4, 4, 4, 1, 3};
   for (GLuint i = 0; i < kAttributes; ++i) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[i]);
     gl_.VertexAttribPointer(i, sizes[i], GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -100,7 +100,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
       const auto i = topology.indices[k];
       const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
       unrolled[i] = strand.place;
-      creases.right[i] = glm::vec4(strand.along, strand.cover);
+      creases.right[i] = glm::vec4(strand.along, strand.density);
       creases.left[i] = glm::vec4(strand.across, 0, 0, 0);
     }
   }
@@ -110,7 +110,6 @@ void HeadBuffers::UploadTopology(const Head& head) {
                    items.data(), GL_STATIC_DRAW);
   };
   upload(2, rest.position);
-  upload(3, paint);
   upload(4, unrolled);
   upload(5, creases.right);
   upload(6, creases.left);
@@ -121,19 +120,23 @@ void HeadBuffers::UploadTopology(const Head& head) {
   saturation_ = topology.saturation;
   photo_light_ = topology.photo_light;
   eye_pictures_ = topology.eye_pictures;
-  std::vector<glm::vec3> photo_texcoord = topology.photo_texcoord;
-  photo_texcoord.resize(paint.size());
-  upload(7, photo_texcoord);
-  std::vector<glm::vec4> photo_lender = topology.photo_lender;
-  photo_lender.resize(paint.size());
-  upload(8, photo_lender);
+  std::vector<glm::vec4> worn(paint.size(), glm::vec4(0)), lender(worn);
+  for (std::size_t i = 0; i < topology.texcoord.size(); ++i) {
+    worn[i] = glm::vec4(topology.texcoord[i], topology.texture_weight[i], 0);
+  }
+  for (const ShutLid& lid : topology.shut_lids) {
+    paint[lid.vertex] = glm::vec4(lid.colour, lid.lender_light);
+    worn[lid.vertex].w = lid.weight;
+    lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
+  }
+  upload(3, paint);
+  upload(7, worn);
+  upload(8, lender);
   // What wears a photo thins out as hair does; a mesh from elsewhere has cut-outs in any order.
   blends_ = Blends(topology);
-  std::vector<float> cover(paint.size(), 1.0F);
-  for (std::size_t i = 0; i < std::min(cover.size(), topology.strands.size()); ++i) {
-    cover[i] = topology.strands[i].cover;
-  }
-  upload(9, cover);
+  std::vector<float> opacity = topology.opacity;
+  opacity.resize(paint.size(), 1.0F);
+  upload(9, opacity);
   // As long as the light on it changes.
   std::vector<glm::vec3> rest_normal = rest.normal;
   for (std::size_t i = 0; i < rest_normal.size(); ++i) {
@@ -142,7 +145,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(10, rest_normal);
   std::vector<bool> detailed(paint.size());
   for (std::size_t i = 0; i < detailed.size(); ++i) {
-    detailed[i] = cover[i] < 1 || photo_lender[i].x > 0 || creases.right[i] != glm::vec4(0) ||
+    detailed[i] = opacity[i] < 1 || lender[i].x > 0 || creases.right[i] != glm::vec4(0) ||
                   creases.left[i] != glm::vec4(0);
   }
   Order(topology, rest, detailed);

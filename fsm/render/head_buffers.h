@@ -53,7 +53,7 @@ class HeadBuffers {
   /// Whether that is laid on in layers from back to front with soft edges.
   bool blends() const { return blends_; }
   static bool Blends(const HeadTopology& topology) {
-    return topology.photo && !topology.strands.empty();
+    return topology.photo && !topology.opacity.empty();
   }
   /// HeadTopology::relief, lights and finishes.
   const Image* relief() const { return relief_.get(); }
@@ -81,9 +81,10 @@ class HeadBuffers {
   const GlFunctions& gl_;
   GLuint array_ = 0;
   // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
-  // the right and of the left side; of hair its place among hairs, direction and cover, place
-  // across its lock; indices.
-  static constexpr GLuint kAttributes = 11;  // the last: places in a photo, cover, rest normal
+  // the right and of the left side; of hair its place among hairs, direction and density,
+  // place across its lock; place in the photo with the photo's part in the colour and how much is
+  // lid, the lid's ShutLid::lender and slide, opacity, rest normal; indices.
+  static constexpr GLuint kAttributes = 11;
   GLuint buffers_[kAttributes + 1] = {};
   std::size_t vertex_count_ = 0;
   std::vector<DrawnPart> parts_;

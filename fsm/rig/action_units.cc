@@ -25,28 +25,12 @@ int ReadUnit(const TableRow& row, std::size_t index) {
   return unit;
 }
 
-float Within(const TableRow& row, std::size_t index, float low, float high) {
-  const float value = row.Number(index);
-  if (!(value >= low && value <= high)) {
-    std::array<char, 48> bounds;
-    std::snprintf(bounds.data(), bounds.size(), "%g to %g", static_cast<double>(low),
-                  static_cast<double>(high));
-    row.Fail("'" + row.Word(index) + "' found where " + bounds.data() + " was expected");
-  }
-  return value;
-}
-
-/// Nothing may follow what was read: a number too many is one that stands in the wrong place.
-void EndsAt(const TableRow& row, std::size_t count) {
-  if (row.size() > count) row.Fail("'" + row.Word(count) + "' is one word too many");
-}
-
 UnitTable::Field ReadField(const TableRow& row) {
   constexpr float kFace = 300, kMost = 100;  // millimetres
   UnitTable::Field field{};
   field.unit = ReadUnit(row, 1);
-  field.at = {Within(row, 2, -kFace, kFace), Within(row, 3, -kFace, kFace)};
-  field.radius = {Within(row, 4, -kFace, kFace), Within(row, 5, -kFace, kFace)};
+  field.at = {row.Within(2, -kFace, kFace), row.Within(3, -kFace, kFace)};
+  field.radius = {row.Within(4, -kFace, kFace), row.Within(5, -kFace, kFace)};
   if (field.radius.x <= 0 || field.radius.y <= 0) row.Fail("a radius must be positive");
   const std::string& part = row.Word(6);
   using Part = UnitTable::Field::Part;
@@ -59,9 +43,9 @@ UnitTable::Field ReadField(const TableRow& row) {
   } else {
     row.Fail("'" + part + "' found where above, below or both was expected");
   }
-  field.by = {Within(row, 7, -kMost, kMost), Within(row, 8, -kMost, kMost),
-              Within(row, 9, -kMost, kMost)};
-  EndsAt(row, 10);
+  field.by = {row.Within(7, -kMost, kMost), row.Within(8, -kMost, kMost),
+              row.Within(9, -kMost, kMost)};
+  row.EndsAt(10);
   return field;
 }
 
@@ -86,13 +70,13 @@ UnitTable::UnitTable(const Table& table) {
     // What follows the unit: one number of -most to most, or two.
     const auto effect = [&](Effect::Kind kind, float most, float most_second = 0) {
       const bool two = most_second > 0;
-      effects_.push_back({kind, ReadUnit(row, 1), Within(row, 2, -most, most),
-                          two ? Within(row, 3, -most_second, most_second) : 0});
-      EndsAt(row, two ? 4 : 3);
+      effects_.push_back({kind, ReadUnit(row, 1), row.Within(2, -most, most),
+                          two ? row.Within(3, -most_second, most_second) : 0});
+      row.EndsAt(two ? 4 : 3);
     };
     const auto rule = [&](Rule::Kind kind, bool part) {
-      rules_.push_back({kind, ReadUnit(row, 1), ReadUnit(row, 2), part ? Within(row, 3, 0, 1) : 0});
-      EndsAt(row, part ? 4 : 3);
+      rules_.push_back({kind, ReadUnit(row, 1), ReadUnit(row, 2), part ? row.Within(3, 0, 1) : 0});
+      row.EndsAt(part ? 4 : 3);
     };
     if (fields_.size() + effects_.size() + rules_.size() >= kMostRows) {
       row.Fail("more rows than are read (" + std::to_string(kMostRows) + ")");
@@ -132,14 +116,13 @@ std::string UnitTable::Text() const {
   const auto number = [](int unit) { return static_cast<float>(unit); };
   for (const Field& field : fields_) {
     static constexpr std::array<const char*, 3> kParts{" above", " below", " both"};
-    row("field",
-        {number(field.unit), field.at.x, field.at.y, field.radius.x, field.radius.y});
+    row("field", {number(field.unit), field.at.x, field.at.y, field.radius.x, field.radius.y});
     text += kParts[static_cast<std::size_t>(field.part)];
     for (int k = 0; k < 3; ++k) text += Digits(field.by[k]);
   }
   for (const Effect& effect : effects_) {
-    static constexpr std::array<const char*, 6> kKeys{"lid", "close", "jaw",
-                                                      "sway", "seal", "tongue"};
+    static constexpr std::array<const char*, 6> kKeys{"lid",  "close", "jaw",
+                                                      "sway", "seal",  "tongue"};
     using enum Effect::Kind;
     const bool two = effect.kind == kLid || effect.kind == kJaw || effect.kind == kTongue;
     row(kKeys[static_cast<std::size_t>(effect.kind)], {number(effect.unit), effect.first});

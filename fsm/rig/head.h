@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -25,7 +26,11 @@ class Head {
   const HeadTopology& topology() const { return *topology_; }
   const Rig& rig() const { return rig_; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  void Evaluate(const FaceState& state, HeadVertices& out) const { rig_.Evaluate(state, out); }
+  /// `swings`: as of Rig::Evaluate.
+  void Evaluate(const FaceState& state, HeadVertices& out,
+                std::span<const glm::vec3> swings = {}) const {
+    rig_.Evaluate(state, out, swings);
+  }
   /// The same head, of the same topology, whose units move it as another table says (UnitTable),
   /// as far as they are not the head's own.
   std::unique_ptr<Head> WithUnits(const UnitTable& units) const;

@@ -65,9 +65,22 @@ inline constexpr float kBallSpan = 1.4f;
 /// How hairs run at a vertex of hair, brows or lashes.
 struct Strand {
   glm::vec3 along{0, -1, 0};  ///< from root to tip at rest, unit
-  float cover = 1;            ///< 1 = dense, 0 = none: hairs thin out where a lock ends
+  float density = 1;          ///< 1 = dense, 0 = none: hairs thin out where a lock ends
   float across = 0;           ///< -1..1 over the width of a lock whose sides fray, 0 elsewhere
   glm::vec2 place{};  ///< millimetres across and along the hairs: which of them are seen here
+};
+
+/// What a vertex of a lid looks like when the lid is shut, on a head that wears a photo of open
+/// eyes: what the photo shows at HeadTopology::texcoord gives way to it as the lid shuts.
+struct ShutLid {
+  std::uint32_t vertex;
+  glm::vec3 colour;  ///< linear RGB
+  float weight;      ///< how much of it is lid, 0..1: it goes over into the skin round it
+  /// Skin that lends its grain, a lid's height below or nearer behind glasses: its texcoord, and
+  /// the mean brightness round it on the screen, 0..1.
+  glm::vec2 lender;
+  float lender_light;
+  glm::vec2 slide;  ///< from the vertex's texcoord to where in the photo it comes to lie
 };
 
 /// A fine hair that lies on the skin and is painted into its texture: of the brows. Places are
@@ -100,6 +113,7 @@ struct HeadTopology {
   std::vector<Part> parts;
   std::vector<glm::vec3> albedo;  ///< per vertex, linear RGB 0..1
   std::vector<float> occlusion;   ///< per vertex, 0 = fully shut off from light, 1 = open
+  std::vector<float> opacity;     ///< per vertex, 0..1: how much it hides; empty: all
   /// Per vertex, 0..1, v up: the base identity's rest form unrolled about a vertical axis, with the
   /// front (60 degrees to either side) widened to 60 % of the width. For skin, lips and brows; may
   /// be empty.
@@ -112,14 +126,11 @@ struct HeadTopology {
   /// normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of `lights`
   /// the colour is that of what glows (toon: of the shade), alpha how open to light.
   std::shared_ptr<const Image> relief, lights;
-  /// Per vertex where there is a photo: its place there (0..1, v down) and the photo's part in the
-  /// colour, 0..1. What exceeds 1 is lid: that part of the photo gives way to the vertex's own
-  /// colour as the lid shuts, because a photo of an open eye does not show its skin.
-  std::vector<glm::vec3> photo_texcoord;
-  /// Per vertex of an upper lid: the place in the photo whose brightness, times twice the square
-  /// root of the vertex's colour, is the shut lid's; and how far in the photo the place of the
-  /// vertex moves until then. 0 elsewhere; may be empty.
-  std::vector<glm::vec4> photo_lender;
+  /// Per vertex where there is a photo: its place there, 0..1, v down, and the photo's part in the
+  /// colour, 0..1.
+  std::vector<glm::vec2> texcoord;
+  std::vector<float> texture_weight;
+  std::vector<ShutLid> shut_lids;
   /// The light in the photo, as FaceLight::coefficients().
   glm::vec4 photo_light{0, 0, 0, 1};
   /// Per vertex: how much that light follows it as it turns with an expression, 0..1. May be empty.

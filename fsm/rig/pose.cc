@@ -40,6 +40,14 @@ void FollowGaze(float up_degrees, UnitEffects::Lids& lids) {
 
 }  // namespace
 
+glm::mat3 HeadTurn(const FaceState& state) {
+  return TurnY(Bound(state.head_rotation[1], -80, 80) * kRadians) *
+         TurnX(Bound(state.head_rotation[0], -60, 60) * kRadians) *
+         TurnZ(-Bound(state.head_rotation[2], -50, 50) * kRadians);
+}
+
+float HeadForward(const FaceState& state) { return Bound(state.head_forward, -30, 45); }
+
 Pose MakePose(const FaceState& state, const UnitTable& table) {
   Pose pose{};
   pose.units = table.Combine(state);
@@ -72,10 +80,8 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
     pose.blink[s] = open * Bound(blink[s], 0, 1);
     pose.lids[s].close = 1 - open + pose.blink[s];
   }
-  pose.head = TurnY(Bound(state.head_rotation[1], -80, 80) * kRadians) *
-              TurnX(Bound(state.head_rotation[0], -60, 60) * kRadians) *
-              TurnZ(-Bound(state.head_rotation[2], -50, 50) * kRadians);
-  pose.head_forward_mm = Bound(state.head_forward, -30, 45);
+  pose.head = HeadTurn(state);
+  pose.head_forward_mm = HeadForward(state);
   return pose;
 }
 

@@ -31,6 +31,9 @@ struct Pose {
 
   void SetJaw(const JawMove& move);
 };
+/// How the head turns about kNeckPivot, and how far the neck carries it forward, millimetres.
+glm::mat3 HeadTurn(const FaceState& state);
+float HeadForward(const FaceState& state);
 /// Clamps `state` to what anatomy allows; anything not a number counts as 0.
 Pose MakePose(const FaceState& state, const UnitTable& units);
 

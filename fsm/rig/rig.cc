@@ -21,6 +21,7 @@ struct Rig::Frame {
   Pose pose;
   std::span<glm::vec3> position;
   std::span<glm::vec3> normal;  ///< none where only the mouth is measured
+  std::span<const glm::vec3> swings{};
 };
 
 struct Rig::StepEntry {
@@ -41,13 +42,14 @@ constexpr Rig::StepEntry Rig::kSteps[] = {
     {RigStep::kTongue, "tongue", &Rig::MoveTongue},
     {RigStep::kBones, "bones", &Rig::MoveBones},
     {RigStep::kNeck, "neck", &Rig::TurnNeck},
+    {RigStep::kSprings, "springs", &Rig::Swing},
     {RigStep::kNormals, "normals", &Rig::FindNormals},
 };
 
 std::string_view NameOf(RigStep step) {
-  constexpr std::string_view kNames[] = {"channels",    "lids",  "lids_on_balls", "jaw",
-                                         "jaw_by_chin", "teeth", "lips",          "own_form",
-                                         "tongue",      "bones", "neck",          "normals"};
+  constexpr std::string_view kNames[] = {
+      "channels", "lids",   "lids_on_balls", "jaw",  "jaw_by_chin", "teeth",  "lips",
+      "own_form", "tongue", "bones",         "neck", "springs",     "normals"};
   return kNames[static_cast<std::size_t>(step)];
 }
 
@@ -88,10 +90,11 @@ void Rig::TakeStep(RigStep step, Frame& frame) const {
   (this->*kSteps[static_cast<std::size_t>(step)].take)(frame);
 }
 
-void Rig::Evaluate(const FaceState& state, HeadVertices& out) const {
+void Rig::Evaluate(const FaceState& state, HeadVertices& out,
+                   std::span<const glm::vec3> swings) const {
   out.position = data_.proxy_rest.empty() ? data_.rest : data_.proxy_rest;
   out.normal = data_.rest_normal;
-  Frame frame{state, PoseOf(state), out.position, out.normal};
+  Frame frame{state, PoseOf(state), out.position, out.normal, swings};
   for (const RigStep step : data_.steps) TakeStep(step, frame);
   out.wrinkles = {};
   if (data_.creases) {
@@ -295,6 +298,13 @@ void Rig::TurnNeck(Frame& frame) const {
     frame.position[i] = TurnHead(frame.position[i], frame.pose, data_.weights[i].neck);
   }
   for (const std::uint32_t i : rigid_) frame.normal[i] = frame.pose.head * frame.normal[i];
+}
+
+void Rig::Swing(Frame& frame) const {
+  if (frame.swings.empty()) return;
+  for (const auto& [vertex, spring, weight] : data_.spring_weights) {
+    frame.position[vertex] += weight * frame.swings[spring];
+  }
 }
 
 void Rig::FindNormals(Frame& frame) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -37,7 +38,9 @@ class Rig {
 
   const RigData& data() const { return data_; }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  void Evaluate(const FaceState& state, HeadVertices& out) const;
+  /// `swings`: Simulation::offsets() of RigData::springs, or none where nothing swings.
+  void Evaluate(const FaceState& state, HeadVertices& out,
+                std::span<const glm::vec3> swings = {}) const;
   /// All 0 if the head does not say where its lips are.
   MouthMeasure MeasureMouth(const FaceState& state) const;
   /// The same rig whose units move as another table says.
@@ -66,6 +69,7 @@ class Rig {
   void MoveTongue(Frame& frame) const;
   void MoveBones(Frame& frame) const;
   void TurnNeck(Frame& frame) const;
+  void Swing(Frame& frame) const;
   void FindNormals(Frame& frame) const;
 
   RigData data_;

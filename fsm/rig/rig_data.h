@@ -15,6 +15,7 @@
 #include "fsm/rig/lid_rig.h"
 #include "fsm/rig/lip_rig.h"
 #include "fsm/rig/skin_weights.h"
+#include "fsm/rig/spring.h"
 #include "fsm/rig/tooth_arch.h"
 
 namespace fsm {
@@ -108,6 +109,7 @@ enum class RigStep : std::uint8_t {
   kTongue,       ///< the tongue finds its way between teeth and lips
   kBones,        ///< jaw and eyes, with what is fixed to them
   kNeck,         ///< the head turns and goes forward
+  kSprings,      ///< what is soft swings, where a simulation says how far
   kNormals       ///< the skin's light follows its form
 };
 
@@ -148,6 +150,8 @@ struct RigData {
   /// all creases; nothing where the head shows none.
   std::optional<std::array<float, 4>> creases;
   float crease_depth = 1;
+  std::vector<Spring> springs;
+  std::vector<SpringWeight> spring_weights;  ///< of vertices of Bone::kSkull or kSkin
 };
 
 /// The channels of the units' table for vertices of skin with these weights.

@@ -46,7 +46,7 @@ struct FilmTest : testing::Test {
             [this](long number, vm::Time at) {
               drawn.emplace_back(number, at);
               clock.now += drawing_takes;
-              return studio.Draw(FaceState{}, Scene{});
+              return studio.Draw(FaceState{}, Scene{}, nullptr);
             },
             [](const vm::Error&) {}) {}
 
@@ -101,7 +101,7 @@ TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
         state.mouth[11] = static_cast<float>(number % 20);
         expected.push_back(state.mouth[11]);
         clock.now += number % 7 == 3 ? 150ms : 10ms;
-        return studio.Draw(state, Scene{});
+        return studio.Draw(state, Scene{}, nullptr);
       },
       [](const vm::Error&) {});
   ASSERT_TRUE(moving.Start("a.mp4", 30));
@@ -145,7 +145,7 @@ struct CaptureTest : testing::Test {
         [this](long, vm::Time at) {
           drawn.push_back(at);
           clock.now += drawing_takes;
-          return studio.Draw(FaceState{}, Scene{});
+          return studio.Draw(FaceState{}, Scene{}, nullptr);
         },
         [this](const vm::Result<void>& done) {
           ends.push_back(done ? "" : vm::FormatError(done.error()));

@@ -98,6 +98,7 @@ std::string Another(const std::string& slot, const TemporaryFolder& files) {
       {"Background", "transparent"},
       {"ViewMode", "WIREFRAME"},
       {"ViewBackground", "DISABLE"},
+      {"Simulation", "DISABLE"},
       {"Window", "320 240"},
       {"Camera", "0.5 10 40 20"},
       {"Light.key", "3 90 10 #ff0000"},

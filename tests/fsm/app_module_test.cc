@@ -282,6 +282,31 @@ TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
   EXPECT_TRUE(fsm.module.ExitRequested());
 }
 
+TEST(FsmModuleTest, AWindowIsDrawnUntilNothingSwings) {
+  FsmStage fsm({}, true);
+  fsm.Until(1000);
+  EXPECT_TRUE(fsm.studio.simulated);
+  fsm.studio.swings = true;
+  const int before = fsm.studio.shown;
+  fsm.Until(2000);
+  EXPECT_GE(fsm.studio.shown - before, 45);
+  fsm.studio.swings = false;
+  fsm.Until(2100);
+  const int still = fsm.studio.shown;
+  fsm.Until(3100);
+  EXPECT_LE(fsm.studio.shown - still, 6);
+}
+
+TEST(FsmModuleTest, SimulationCanBeSwitchedOff) {
+  FsmStage fsm({}, true);
+  fsm.Say("set Simulation = DISABLE");
+  fsm.Until(500);
+  EXPECT_FALSE(fsm.studio.simulated);
+  fsm.Say("set Run = INIT");
+  fsm.Until(1000);
+  EXPECT_TRUE(fsm.studio.simulated);
+}
+
 TEST(FsmModuleTest, AWindowThatCannotBeDrawnIsAFailure) {
   FsmStage fsm({}, true);
   fsm.Until(300);

@@ -21,11 +21,12 @@ class FakeRenderBackend : public RenderBackend {
     bool finished = false;
   };
 
-  vm::Result<void> Draw(const FaceState& state, const Scene& scene) override {
+  vm::Result<void> Draw(const FaceState& state, const Scene& scene, const Course* course) override {
     if (!no_drawing.empty()) return vm::Fail(vm::Errc::kUnavailable, no_drawing);
     ++draws;
     last_state = state;
     last_scene = scene;
+    simulated = course != nullptr;
     image_.width = image_.height = 1;
     image_.rgba = {static_cast<std::uint8_t>(std::lround(state.mouth[11] * 10)), 0, 0, 255};
     return {};
@@ -59,6 +60,7 @@ class FakeRenderBackend : public RenderBackend {
     height_ = height;
     return {};
   }
+  bool Swings() const override { return swings; }
   bool has_window() const override { return window; }
   vm::Result<void> FillScreen(bool fill) override {
     if (!window) return RenderBackend::FillScreen(fill);
@@ -91,6 +93,8 @@ class FakeRenderBackend : public RenderBackend {
   int draws = 0;
   int shown = 0;
   bool window = false;
+  bool simulated = false;  ///< the picture drawn last
+  bool swings = false;
   bool fills_screen = false;
   bool closed = false;
   std::string no_drawing;  ///< the reason why nothing can be drawn, "" = all can

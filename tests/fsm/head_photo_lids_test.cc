@@ -15,7 +15,8 @@ constexpr glm::vec3 kSkin(0.8f, 0.6f, 0.5f);
 /// the upper half of a picture, as many of a lower lid in the other half.
 struct Eye {
   std::vector<SkinWeights> skin;
-  std::vector<glm::vec3> places, open, shut;
+  std::vector<glm::vec2> places;
+  std::vector<glm::vec3> open, shut;
   std::vector<glm::vec3> open_normal, shut_normal;  // all to the front
   bool glasses = false;
   Image photo{60, 40, std::vector<std::uint8_t>(4 * 60 * 40, 255)};
@@ -33,7 +34,7 @@ struct Eye {
         (row < 20 ? f.lid_upper : f.lid_lower) = held;
         skin.push_back(f);
         places.emplace_back((static_cast<float>(column) + 0.5f) / 30,
-                            (static_cast<float>(row) + 0.5f) / 40, 1);
+                            (static_cast<float>(row) + 0.5f) / 40);
       }
     }
     open_normal.assign(open.size(), glm::vec3(0, 0, 1));
@@ -48,21 +49,23 @@ struct Eye {
       }
     }
   }
-  std::vector<LidPaint> Lids() const {
+  std::vector<ShutLid> Lids() const {
     const SkinPose seen{open, open_normal};
-    return PaintLids(photo, places, skin, seen, {shut, shut_normal}, LightOf(photo, places, seen),
-                     glasses);
+    const std::vector<float> weight(places.size(), 1);
+    const PhotoSight sight{photo, places, weight};
+    return PaintLids(sight, skin, seen, {shut, shut_normal}, LightOf(sight, seen), glasses);
   }
 };
 
 void ExpectSkinInTheMiddle(const Eye& eye, float tolerance) {
   int checked = 0;
-  for (const LidPaint& lid : eye.Lids()) {
+  for (const ShutLid& lid : eye.Lids()) {
     const float held = eye.skin[lid.vertex].lid_upper;
     if (held < 0.75f || held > 0.92f) continue;
     if (std::abs(eye.open[lid.vertex].x - 30) > 7) continue;  // darker to the corners
-    for (int c = 0; c < 3; ++c) EXPECT_NEAR(lid.screen[c] / kSkin[c], 1, tolerance) << held;
-    EXPECT_GT(lid.part, 0.7f) << "most of it is no photo";
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(std::sqrt(lid.colour[c]) / kSkin[c], 1, tolerance) << held;
+    EXPECT_GT(lid.weight, 0.7f) << "most of it is no photo";
     ++checked;
   }
   EXPECT_GE(checked, 28);
@@ -71,9 +74,10 @@ void ExpectSkinInTheMiddle(const Eye& eye, float tolerance) {
 /// Where the lid takes part in the turn as `held` says.
 float GreenInTheMiddle(const Eye& eye, float held) {
   float green = 0;
-  for (const LidPaint& lid : eye.Lids()) {
+  for (const ShutLid& lid : eye.Lids()) {
     const bool middle = std::abs(eye.open[lid.vertex].x - 30) <= 3;
-    if (middle && std::abs(eye.skin[lid.vertex].lid_upper - held) < 0.03f) green = lid.screen.g;
+    if (middle && std::abs(eye.skin[lid.vertex].lid_upper - held) < 0.03f)
+      green = std::sqrt(lid.colour.g);
   }
   return green;
 }
@@ -82,11 +86,11 @@ float GreenInTheMiddle(const Eye& eye, float held) {
 float MeanPart(const Eye& eye, float from, float to) {
   float part = 0;
   int count = 0;
-  for (const LidPaint& lid : eye.Lids()) {
+  for (const ShutLid& lid : eye.Lids()) {
     const glm::vec3 at = eye.shut[lid.vertex];
     if (eye.skin[lid.vertex].lid_upper <= 0 || std::abs(at.x - 30) > 8) continue;
     if (at.y < from || at.y > to) continue;
-    part += lid.part;
+    part += lid.weight;
     ++count;
   }
   return part / static_cast<float>(std::max(count, 1));
@@ -111,11 +115,11 @@ TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
   Eye eye;
   for (int row = 0; row < 40; ++row) eye.Paint(row, 30, 60, 0.6f * kSkin);
   float inner = 0, outer = 0;
-  for (const LidPaint& lid : eye.Lids()) {
+  for (const ShutLid& lid : eye.Lids()) {
     const SkinWeights& f = eye.skin[lid.vertex];
     if (std::abs(f.lid_upper - 0.8f) > 0.05f) continue;
-    if (eye.open[lid.vertex].x < 18) inner = lid.screen.g;
-    if (eye.open[lid.vertex].x > 41) outer = lid.screen.g;
+    if (eye.open[lid.vertex].x < 18) inner = std::sqrt(lid.colour.g);
+    if (eye.open[lid.vertex].x > 41) outer = std::sqrt(lid.colour.g);
   }
   EXPECT_NEAR(outer / inner, 0.6f, 0.1f);
 }
@@ -123,17 +127,17 @@ TEST(PhotoLidsTest, EachEndOfTheLidIsAsBrightAsTheSkinBesideIt) {
 TEST(PhotoLidsTest, LidsGoOverIntoTheSocketAndEndInDarkLashes) {
   const Eye eye;
   int rims = 0;
-  for (const LidPaint& lid : eye.Lids()) {
+  for (const ShutLid& lid : eye.Lids()) {
     const SkinWeights& f = eye.skin[lid.vertex];
     if (std::max(f.lid_upper, f.lid_lower) < 0.12f) {
-      EXPECT_LT(lid.part, 0.1f) << "the socket keeps the photo";
+      EXPECT_LT(lid.weight, 0.1f) << "the socket keeps the photo";
     }
     if (f.lid_upper == 0 && f.lid_lower < 0.85f) {
-      EXPECT_EQ(lid.part, 0) << "the lower lid keeps it up to its rim";
+      EXPECT_EQ(lid.weight, 0) << "the lower lid keeps it up to its rim";
     }
     if (f.lid_upper == 1 || f.lid_lower == 1) {
-      EXPECT_LT(lid.screen.g, 0.7f * kSkin.g);
-      EXPECT_GT(lid.part, 0.25f);
+      EXPECT_LT(std::sqrt(lid.colour.g), 0.7f * kSkin.g);
+      EXPECT_GT(lid.weight, 0.25f);
       ++rims;
     }
   }
@@ -160,7 +164,7 @@ TEST(PhotoLidsTest, InADarkSocketTheLidBeginsDarkAndGrowsLightDownward) {
 TEST(PhotoLidsTest, WhatIsAboveTheEyeStaysInItsPlaceWhileALidComesDown) {
   const Eye eye;
   int stays = 0;
-  for (const LidPaint& lid : eye.Lids()) {
+  for (const ShutLid& lid : eye.Lids()) {
     const auto i = lid.vertex;
     // 35 millimetres of the face, 30 of which are seen in the picture's height less the gap.
     const float way = eye.open[i].y - eye.shut[i].y;
@@ -171,7 +175,7 @@ TEST(PhotoLidsTest, WhatIsAboveTheEyeStaysInItsPlaceWhileALidComesDown) {
       EXPECT_GT(lid.slide.y, 0.5f * way / 40);
     }
     if (eye.shut[i].y > 9) {
-      EXPECT_LT(lid.part, 0.1f) << "the photo is seen there";
+      EXPECT_LT(lid.weight, 0.1f) << "the photo is seen there";
       EXPECT_LT(slid.y, 0.5f);
       ++stays;
     }
@@ -224,8 +228,8 @@ TEST(PhotoLidsTest, WhatALensMirrorsStaysBeforeTheLid) {
 
 TEST(PhotoLidsTest, TheGrainComesFromBelowTheEye) {
   const Eye eye;
-  for (const LidPaint& lid : eye.Lids()) {
-    if (lid.part > 0.5f) {
+  for (const ShutLid& lid : eye.Lids()) {
+    if (lid.weight > 0.5f) {
       EXPECT_GT(lid.lender.y, 0.5f);
     }
   }
@@ -234,8 +238,8 @@ TEST(PhotoLidsTest, TheGrainComesFromBelowTheEye) {
 TEST(PhotoLidsTest, TheGrainComesFromASkinThatIsNearTheEye) {
   const Eye eye;
   int checked = 0;
-  for (const LidPaint& lid : eye.Lids()) {
-    if (lid.part < 0.5f || eye.skin[lid.vertex].lid_upper == 0) continue;
+  for (const ShutLid& lid : eye.Lids()) {
+    if (lid.weight < 0.5f || eye.skin[lid.vertex].lid_upper == 0) continue;
     // The lower rim is at half the picture's height, 15 millimetres below it is the end.
     EXPECT_LT(lid.lender.y, 0.5f + 0.5f * 15.6f / 15) << eye.skin[lid.vertex].lid_upper;
     ++checked;
@@ -247,21 +251,20 @@ TEST(PhotoLidsTest, AGreyShineAboveTheEyeDoesNotMakeTheLidGrey) {
   Eye eye;
   for (int row = 0; row < 20; ++row) eye.Paint(row, 0, 60, glm::vec3(0.63f));  // grey of a shine
   int checked = 0;
-  for (const LidPaint& lid : eye.Lids()) {
+  for (const ShutLid& lid : eye.Lids()) {
     const float held = eye.skin[lid.vertex].lid_upper;
     if (held < 0.5f || held > 0.9f) continue;
-    EXPECT_LT(lid.screen.b / lid.screen.r, 0.5f * (1 + kSkin.b / kSkin.r)) << held;
+    EXPECT_LT(std::sqrt(lid.colour.b) / std::sqrt(lid.colour.r), 0.5f * (1 + kSkin.b / kSkin.r))
+        << held;
     ++checked;
   }
   EXPECT_GT(checked, 100);
 }
 
 TEST(PhotoLidsTest, AHeadWithoutLidsHasNone) {
-  const Eye eye;
-  EXPECT_TRUE(PaintLids(eye.photo, eye.places, std::vector<SkinWeights>(eye.skin.size()),
-                        {eye.open, eye.open_normal}, {eye.shut, eye.shut_normal}, FaceLight({}),
-                        false)
-                  .empty());
+  Eye eye;
+  eye.skin.assign(eye.skin.size(), SkinWeights{});
+  EXPECT_TRUE(eye.Lids().empty());
 }
 
 }  // namespace

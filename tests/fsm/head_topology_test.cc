@@ -66,10 +66,10 @@ TEST(HeadTopologyTest, HairThinsOutOnlyWhereLocksEnd) {
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const Strand& strand = topology.strands[topology.indices[part.first_index + k]];
       ASSERT_NEAR(glm::length(strand.along), 1, 1e-3);
-      ASSERT_TRUE(strand.cover >= 0 && strand.cover <= 1) << strand.cover;
+      ASSERT_TRUE(strand.density >= 0 && strand.density <= 1) << strand.density;
       ++all;
-      dense += strand.cover > 0.95f ? 1 : 0;
-      gone += strand.cover < 0.2f ? 1 : 0;
+      dense += strand.density > 0.95f ? 1 : 0;
+      gone += strand.density < 0.2f ? 1 : 0;
     }
   }
   EXPECT_GT(dense, all / 2);

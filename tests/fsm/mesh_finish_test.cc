@@ -136,7 +136,7 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
   MeshModel model;
   for (const auto& [x, y] : {std::pair(-1.0F, -1.0F), {1, -1}, {1, 1}, {-1, 1}}) {
     model.Add({50 * x, 50 * y, 80}, Bone::kSkull, glm::vec3(1),
-              {0.5F + 0.5F * x, 0.5F - 0.5F * y, 1});
+              glm::vec2(0.5F + 0.5F * x, 0.5F - 0.5F * y));
   }
   model.photo = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
   if (!plate.relief.empty()) {

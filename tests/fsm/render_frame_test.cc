@@ -222,11 +222,12 @@ void PrintTo(const HeadChange& change, std::ostream* out) { *out << change.name;
 
 void Wear(HeadTopology& topology, std::uint8_t red, std::uint8_t blue) {
   topology.photo = std::make_shared<Image>(Image{1, 1, {red, 80, blue, 255}});
-  topology.photo_texcoord.assign(topology.albedo.size(), glm::vec3(0.5F, 0.5F, 1));
+  topology.texcoord.assign(topology.albedo.size(), glm::vec2(0.5F));
+  topology.texture_weight.assign(topology.albedo.size(), 1);
 }
 
-void Comb(HeadTopology& topology, float cover) {
-  topology.strands.assign(topology.albedo.size(), Strand{.cover = cover});
+void Comb(HeadTopology& topology, float density) {
+  topology.strands.assign(topology.albedo.size(), Strand{.density = density});
 }
 
 void Shine(HeadTopology& topology, glm::vec3 glow) {

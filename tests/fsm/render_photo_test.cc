@@ -168,7 +168,7 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
     for (const auto& part : t.parts) {
       if (part.material != Material::kShutLash) continue;
       for (std::uint32_t k = 0; k < part.index_count; ++k) {
-        sum += t.strands[t.indices[part.first_index + k]].cover;
+        sum += t.opacity[t.indices[part.first_index + k]];
       }
     }
     return sum;
@@ -185,7 +185,7 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
       for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
         const std::uint32_t v = topology.indices[k];
         const glm::vec3 p = vertices.position[v];
-        if (topology.strands[v].cover > 0.5F && p.x * side > 0) places.push_back(p);
+        if (topology.opacity[v] > 0.5F && p.x * side > 0) places.push_back(p);
       }
     }
     float sum = 0;
@@ -252,7 +252,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   HeadVertices bare;
   plain->Evaluate({}, bare);
   for (std::size_t i = 0; i < bare.position.size(); ++i) {
-    const glm::vec2 place(plain->topology().photo_texcoord[i]);
+    const glm::vec2 place = plain->topology().texcoord[i];
     const float light = std::max(0.4F + 0.5F * bare.normal[i].y, 0.05F);
     for (int k = 0; k < (2 * kRound + 1) * (2 * kRound + 1); ++k) {
       const int x = static_cast<int>(place.x * kMap) + k % (2 * kRound + 1) - kRound;
@@ -285,7 +285,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   std::vector<std::size_t> turned;
   for (std::size_t i = 0; i < rest.position.size(); ++i) {
     const glm::vec3 p = rest.position[i];
-    if (topology.photo_texcoord[i].z != 1 || topology.relit[i] < 1) continue;
+    if (topology.texture_weight[i] != 1 || topology.relit[i] < 1) continue;
     const bool cheek = p.z > 50 && std::abs(p.x) > 18 && std::abs(p.x) < 45 && p.y < nasion - 25 &&
                        p.y > chin + 30;
     const float up = smiling.normal[i].y - rest.normal[i].y;
@@ -317,7 +317,7 @@ TEST(PhotoTest, TheSkinFadesAtItsSidesAndEndsAtTheJaw) {
     for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
       const std::uint32_t v = topology.indices[k];
       const glm::vec3 p = rest.position[v];
-      const float cover = topology.strands[v].cover;
+      const float cover = topology.opacity[v];
       if (p.z > 60 && p.y > chin.y + 8) {
         EXPECT_EQ(cover, 1) << p.x << " " << p.y;
       }

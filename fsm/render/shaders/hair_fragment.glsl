@@ -14,8 +14,8 @@ out vec4 color;
 void main() {
   vec4 fine = texture(strands, streak_place) - 0.5;
   // Where hair thins out some hairs are gone and some are left.
-  float cover = fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
-  if (cover < 0.5 - fine.a) discard;
+  float density = fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
+  if (density < 0.5 - fine.a) discard;
   float streak = (hair_differs * fine.a + lock_differs * fine.b) * streaks;
   // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
   // surface towards the root, light that went through and took its colour towards the tip.

@@ -1,12 +1,12 @@
 // Hair, brows and lashes.
 layout(location = 4) in vec2 among_hairs;       // millimetres across and along
-layout(location = 5) in vec4 along_and_cover;   // direction at rest, 1 = dense .. 0 = none
+layout(location = 5) in vec4 along_and_density;   // direction at rest, 1 = dense .. 0 = none
 layout(location = 6) in float across_lock;      // -1..1
 
 uniform mat3 rest_to_world;  // how the head is turned
 
 out vec2 streak_place;
-out vec2 fray;      // cover, place across the lock
+out vec2 fray;      // density, place across the lock
 out vec3 light;     // scattered, with the hair's colour
 out vec3 key_light; // of the key lamp alone, with the hair's colour
 out vec3 tilt;      // of the half vector along the strand and along the normal; light gone through
@@ -20,10 +20,10 @@ void main() {
   vec3 albedo = albedo_occlusion.rgb;
   float occlusion = albedo_occlusion.a;
 
-  vec3 strand = rest_to_world * along_and_cover.xyz;
+  vec3 strand = rest_to_world * along_and_density.xyz;
   strand = normalize(strand - n * dot(strand, n) + n * 1e-4);
   streak_place = among_hairs * vec2(1.0 / 268.0, 1.0 / 256.0);
-  fray = vec2(along_and_cover.w, across_lock);
+  fray = vec2(along_and_density.w, across_lock);
 
   // Light falls on a strand by the sine of its angle to it (Kajiya and Kay 1989).
   float shadow = mix(occlusion, 1.0, 0.25) * mix(KeyShadow(world), 1.0, 0.3);

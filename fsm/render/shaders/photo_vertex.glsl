@@ -2,10 +2,9 @@
 layout(location = 4) in vec2 unrolled;
 layout(location = 5) in vec4 creases_right;
 layout(location = 6) in vec4 creases_left;
-layout(location = 7) in vec3 photo_place;  // u, v down; the photo's part in the colour, beyond 1: lid
-
-layout(location = 8) in vec4 photo_lender;  // of a lid: the place whose grain it takes; its way
-layout(location = 9) in float cover;        // 1: hides what is behind, 0: is not there
+layout(location = 7) in vec4 photo_place;  // u, v down; the photo's part in the colour; how much is lid
+layout(location = 8) in vec4 lid_lender;   // of a lid: the place whose grain it takes; its way
+layout(location = 9) in float opacity;     // 1: hides what is behind, 0: is not there
 layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
 
 uniform vec4 crease_depths[2];
@@ -34,13 +33,13 @@ void main() {
     gl_Position.z = farther.z / farther.w * gl_Position.w;
   }
   place = unrolled;
-  float lid = max(photo_place.z - 1.0, 0.0);
+  float lid = photo_place.w;
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
   // The rim of the lower lid, which has no way to go, is reached last.
-  float shut = photo_lender.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
-  worn = vec3(photo_place.xy + closed * photo_lender.zw, min(photo_place.z, 1.0) * (1.0 - lid * shut));
-  bool lent = photo_lender.x > 0.0;
-  lender = lent ? vec4(photo_lender.xy, 1.0, albedo_occlusion.a) : vec4(photo_place.xy, 0.0, 1.0);
+  float shut = lid_lender.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
+  worn = vec3(photo_place.xy + closed * lid_lender.zw, photo_place.z * (1.0 - lid * shut));
+  bool lent = lid_lender.x > 0.0;
+  lender = lent ? vec4(lid_lender.xy, 1.0, albedo_occlusion.a) : vec4(photo_place.xy, 0.0, 1.0);
   // A lip that rolls inward is paint in part, and the more so as it turns away.
   float roll = smoothstep(0.0, 0.3, 1.0 - photo_place.z);
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
@@ -60,7 +59,7 @@ void main() {
     float change = sqrt(light.x / light.y) - 1.0;
     shadow *= 1.0 + follows * change / (1.0 + 3.0 * abs(change));
   }
-  covering = cover * mix(1.0, smoothstep(0.4, 0.9, closed), lashes);
+  covering = opacity * mix(1.0, smoothstep(0.4, 0.9, closed), lashes);
   // The sheet shows what is beside the face.
   crease = (1.0 - ragged) *
            (dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]));

@@ -1,0 +1,116 @@
+#include "fsm/head/hair_springs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fsm/base/spline.h"
+
+namespace fsm {
+namespace {
+
+struct SpringRow {
+  float y;
+  Spring spring;  // but for its places
+};
+
+class HairSprings {
+ public:
+  explicit HairSprings(const Table& table) {
+    const TableRow& axis = table.Only("axis");
+    axis_ = {axis.Number(1), 0, axis.Number(2)};
+    around_ = static_cast<int>(table.Only("around").Within(1, 3, 64));
+    still_ = table.Only("still").Number(1);
+    float above = still_;
+    for (const TableRow& row : table.RowsOf("row")) {
+      rows_.push_back(RowOf(row, above));
+      above = rows_.back().y;
+    }
+  }
+
+  void Hang(std::size_t first, RigData& rig) {
+    for (std::size_t v = first; v < rig.rest.size(); ++v) {
+      HangVertex(static_cast<std::uint32_t>(v), rig);
+    }
+    for (const auto& [vertex, spring, weight] : rig.spring_weights) {
+      rig.springs[spring].rest += weight * rig.rest[vertex];
+      hung_[spring] += weight;
+    }
+    for (std::size_t i = 0; i < rig.springs.size(); ++i) {
+      Spring& spring = rig.springs[i];
+      spring.rest /= hung_[i];
+      const glm::vec3 beside = (spring.rest - axis_) * glm::vec3(1, 0, 1);
+      spring.outward = glm::normalize(beside + glm::vec3(0, 0, 1e-3f));
+      spring.root = glm::vec3(spring.rest.x, still_, spring.rest.z);
+    }
+  }
+
+ private:
+  static constexpr float kLeastWeight = 0.01f;
+
+  static SpringRow RowOf(const TableRow& row, float above) {
+    constexpr float kLeastApart = 1, kLowest = -1000;
+    SpringRow made{.y = row.Within(1, kLowest, above - kLeastApart), .spring = {}};
+    made.spring.frequency_hz = row.Within(2, Spring::kLeastHz, Spring::kMostHz);
+    made.spring.damping = row.Within(3, Spring::kLeastDamping, Spring::kMostDamping);
+    made.spring.hang = row.Within(4, 0, 1);
+    made.spring.most_mm = row.Within(5, 0.01f, 200);
+    row.EndsAt(6);
+    return made;
+  }
+
+  void HangVertex(std::uint32_t v, RigData& rig) {
+    const glm::vec3 p = rig.rest[v];
+    if (p.y >= still_ || rows_.empty()) return;
+    // From the row above, or from where hair stands still, to the row below.
+    std::size_t below = 0;
+    while (below + 1 < rows_.size() && p.y < rows_[below].y) ++below;
+    const float above_y = below == 0 ? still_ : rows_[below - 1].y;
+    const float part = SmoothStep(above_y, rows_[below].y, p.y);
+    HangOnRow(v, below, part, rig);
+    if (below > 0) HangOnRow(v, below - 1, 1 - part, rig);
+  }
+
+  void HangOnRow(std::uint32_t v, std::size_t row, float weight, RigData& rig) {
+    const glm::vec3 beside = rig.rest[v] - axis_;
+    const float turn = std::atan2(beside.x, beside.z) / (2 * std::numbers::pi_v<float>)+0.5f;
+    const float place = turn * static_cast<float>(around_);
+    const float part = place - std::floor(place);
+    const int one = static_cast<int>(std::floor(place)) % around_;
+    for (const auto& [column, share] :
+         {std::pair(one, 1 - part), std::pair((one + 1) % around_, part)}) {
+      if (weight * share < kLeastWeight) continue;
+      rig.spring_weights.push_back({v, SpringAt(row, column, rig), weight * share});
+    }
+  }
+
+  std::uint32_t SpringAt(std::size_t row, int column, RigData& rig) {
+    const auto next = static_cast<std::uint32_t>(rig.springs.size());
+    const auto [at, fresh] = at_.try_emplace({row, column}, next);
+    if (fresh) {
+      rig.springs.push_back(rows_[row].spring);
+      hung_.push_back(0);
+    }
+    return at->second;
+  }
+
+  glm::vec3 axis_{0};
+  int around_ = 0;
+  float still_ = 0;
+  std::vector<SpringRow> rows_;
+  std::map<std::pair<std::size_t, int>, std::uint32_t> at_;
+  std::vector<float> hung_;  // on each spring, the sum of weights
+};
+
+}  // namespace
+
+void AddHairSprings(const Table& table, std::size_t first, RigData& rig) {
+  HairSprings(table).Hang(first, rig);
+}
+
+}  // namespace fsm

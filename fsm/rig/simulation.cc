@@ -1,0 +1,120 @@
+#include "fsm/rig/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+#include "fsm/rig/pose.h"
+
+namespace fsm {
+namespace {
+
+constexpr float kStepSeconds = 1.0f / Simulation::kStepsPerSecond;
+
+std::int64_t StepAt(Simulation::Time t) {
+  return t.count() * Simulation::kStepsPerSecond / 1'000'000;
+}
+
+/// How the head carries things in one state.
+struct Carrier {
+  explicit Carrier(const FaceState& state) : turn(HeadTurn(state)), by(HeadForward(state)) {
+    // Of the turn only what is about the vertical.
+    const glm::vec3 ahead = turn[2];
+    const float length = std::hypot(ahead.x, ahead.z);
+    const float c = length > 1e-3f ? ahead.z / length : 1,
+                s = length > 1e-3f ? ahead.x / length : 0;
+    upright = {c, 0, -s, 0, 1, 0, s, 0, c};
+  }
+  glm::vec3 Carried(glm::vec3 p) const {
+    return kNeckPivot + turn * (p - kNeckPivot) + glm::vec3(0, 0, by);
+  }
+  /// Where the spring would come to rest, from where the head carries it.
+  glm::vec3 Hanging(const Spring& spring) const {
+    const glm::vec3 below = spring.rest - spring.root;
+    return spring.hang * (upright * below - turn * below);
+  }
+  glm::mat3 turn, upright{};
+  float by;
+};
+
+}  // namespace
+
+Simulation::Simulation(std::vector<Spring> springs)
+    : springs_(std::move(springs)), swings_(springs_.size()) {
+  for (const Spring& spring : springs_) steps_.push_back(StepOf(spring, kStepSeconds));
+}
+
+Simulation::Step Simulation::StepOf(const Spring& spring, float seconds) {
+  const float w = 2 * std::numbers::pi_v<float> * spring.frequency_hz;
+  const float decay = spring.damping * w;
+  const float damped = w * std::sqrt(1 - spring.damping * spring.damping);
+  const float e = std::exp(-decay * seconds);
+  const float c = e * std::cos(damped * seconds);
+  const float s = e * std::sin(damped * seconds) / damped;
+  return {.a = c + decay * s, .b = s, .c = -w * w * s, .d = c - decay * s};
+}
+
+void Simulation::RunTo(Time now, const StateAt& state_at) {
+  if (springs_.empty()) return;
+  now = std::max(now, Time(0));
+  const std::int64_t last = StepAt(now);
+  if (!taken_ || *taken_ > last || *taken_ < StepAt(now - kMemory)) {
+    Begin(std::max<std::int64_t>(StepAt(now - kMemory), 0), state_at);
+  }
+  while (*taken_ < last) TakeStep(*taken_ + 1, state_at);
+  const double ahead = static_cast<double>(now.count()) / 1e6 -
+                       static_cast<double>(last) / Simulation::kStepsPerSecond;
+  FindOffsets(state_at(now), static_cast<float>(ahead));
+}
+
+void Simulation::Begin(std::int64_t step, const StateAt& state_at) {
+  std::ranges::fill(swings_, Swing{});
+  taken_ = step - 1;
+  TakeStep(step, state_at);
+  for (Swing& swing : swings_) {
+    swing.away = swing.speed = swing.goal_speed = glm::vec3(0);
+  }
+}
+
+void Simulation::TakeStep(std::int64_t step, const StateAt& state_at) {
+  const Carrier carrier(state_at(Time(step * 1'000'000 / kStepsPerSecond)));
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    Swing& swing = swings_[i];
+    const glm::vec3 goal = carrier.Carried(springs_[i].rest) + carrier.Hanging(springs_[i]);
+    const glm::vec3 goal_speed = (goal - swing.goal) / kStepSeconds;
+    const glm::vec3 away = swing.away, speed = swing.speed - (goal_speed - swing.goal_speed);
+    const auto [a, b, c, d] = steps_[i];
+    swing = {.away = a * away + b * speed,
+             .speed = c * away + d * speed,
+             .goal = goal,
+             .goal_speed = goal_speed};
+  }
+  taken_ = step;
+}
+
+void Simulation::FindOffsets(const FaceState& state, float ahead_s) {
+  const Carrier carrier(state);
+  offsets_.resize(springs_.size());
+  for (std::size_t i = 0; i < springs_.size(); ++i) {
+    const Spring& spring = springs_[i];
+    const auto [a, b, c, d] = StepOf(spring, ahead_s);
+    const glm::vec3 away = a * swings_[i].away + b * swings_[i].speed;
+    glm::vec3 offset = carrier.Hanging(spring) + away;
+    const glm::vec3 outward = carrier.turn * spring.outward;
+    offset -= std::min(glm::dot(offset, outward), 0.0f) * outward;
+    // Towards its limit it goes ever more slowly.
+    const float length = glm::length(offset);
+    offsets_[i] = offset * (spring.most_mm / std::hypot(spring.most_mm, length));
+  }
+}
+
+bool Simulation::Still() const {
+  constexpr float kSeenMm = 0.05f;
+  return std::ranges::all_of(swings_, [](const Swing& swing) {
+    return glm::length(swing.away) < kSeenMm && glm::length(swing.speed) < 10 * kSeenMm;
+  });
+}
+
+}  // namespace fsm
