@@ -134,7 +134,8 @@ class Checker {
       if (!within(spring.damping, Spring::kLeastDamping, Spring::kMostDamping))
         throw Fault(place + ": a damping outside 0.01..0.99");
       if (!within(spring.hang, 0, 1)) throw Fault(place + ": hang outside 0..1");
-      if (!within(spring.most_mm, 0.01f, 1000)) throw Fault(place + ": most_mm outside 0.01..1000");
+      if (!within(spring.most_mm, Spring::kLeastMost, Spring::kMostMost))
+        throw Fault(place + ": most_mm outside 0.01..1000");
       if (!within(glm::dot(spring.outward, spring.outward), 0, 1.01f))
         throw Fault(place + ": outward is longer than 1");
     }

@@ -59,7 +59,7 @@ class HairSprings {
     made.spring.frequency_hz = row.Within(2, Spring::kLeastHz, Spring::kMostHz);
     made.spring.damping = row.Within(3, Spring::kLeastDamping, Spring::kMostDamping);
     made.spring.hang = row.Within(4, 0, 1);
-    made.spring.most_mm = row.Within(5, 0.01f, 200);
+    made.spring.most_mm = row.Within(5, Spring::kLeastMost, Spring::kMostMost);
     row.EndsAt(6);
     return made;
   }

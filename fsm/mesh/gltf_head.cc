@@ -13,6 +13,7 @@
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/mesh/vrm_avatar.h"
+#include "fsm/mesh/vrm_springs.h"
 
 namespace fsm {
 namespace {
@@ -38,6 +39,9 @@ class GltfReader {
     auto nodes = GltfNodes::Read(document_);
     if (!nodes) return std::unexpected(nodes.error());
     nodes_ = std::move(*nodes);
+    const VrmSprings springs(document_, nodes_);
+    springs_ = &springs;
+    head_.springs = springs.springs();
     for (const std::int64_t node : nodes_.shown()) {
       if (auto read = Mesh(node); !read) return std::unexpected(read.error());
     }
@@ -146,12 +150,15 @@ class GltfReader {
     if (first + count > kMaxMeshVertices) return TooMany();
     count_of_[{place.node, position}] = count;
     std::vector<glm::mat4> stands(count, nodes_.World(place.node));
+    std::vector<GltfSkin::Held::Hold> watched;
     head_.eye.resize(first, 0);
     if (place.skin >= 0) {
-      auto held =
-          skins_.at(place.skin).Hold(document_, attributes, count, nodes_.World(place.node));
+      auto held = skins_.at(place.skin)
+                      .Hold(document_, attributes, count, nodes_.World(place.node),
+                            [this](std::int64_t bone) { return springs_->Has(bone); });
       if (!held) return std::unexpected(held.error());
       stands = std::move(held->place);
+      watched = std::move(held->watched);
       for (const std::int64_t bone : held->main) {
         head_.eye.push_back(bone < 0                      ? 0
                             : bone == avatar_.eye_bone[0] ? 1
@@ -163,6 +170,10 @@ class GltfReader {
       const glm::vec4 p((*numbers)[3 * i], (*numbers)[3 * i + 1], (*numbers)[3 * i + 2], 1);
       head_.position.push_back(glm::vec3(stands[i] * p));
       if (!WithinReach(head_.position.back())) return OutOfReach(place, i, "");
+    }
+    for (const auto& [vertex, node, weight] : watched) {
+      springs_->Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
+                     node, weight, head_.spring_weights);
     }
     mirrored_[first] = count > 0 && glm::determinant(glm::mat3(stands[0])) < 0;
     if (auto read = Places(attributes, paint_.Place(WholeOf(primitive, "material")), first); !read)
@@ -267,6 +278,10 @@ class GltfReader {
     if (head_.eye_pivot) {
       for (glm::vec3& p : *head_.eye_pivot) p *= round;
     }
+    for (Spring& spring : head_.springs) {
+      spring.rest *= round;
+      spring.root *= round;
+    }
     for (auto& shape : head_.shapes) {
       for (auto& delta : shape.deltas) delta.by *= round;
     }
@@ -297,6 +312,7 @@ class GltfReader {
   VrmAvatar avatar_;
   GltfPaint paint_;
   GltfNodes nodes_;
+  const VrmSprings* springs_ = nullptr;  // while it is read
   std::map<std::int64_t, GltfSkin> skins_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> first_of_, count_of_;
   std::map<std::size_t, bool> mirrored_;  // by first vertex

@@ -120,7 +120,7 @@ void GltfNodes::Show(const GltfDocument& document, std::int64_t node, std::vecto
 }
 
 const glm::mat4& GltfNodes::World(std::int64_t node) const {
-  if (node < 0 || static_cast<std::size_t>(node) >= world_.size()) return kIdentity;
+  if (!Has(node)) return kIdentity;
   return world_[static_cast<std::size_t>(node)];
 }
 
@@ -148,7 +148,8 @@ vm::Result<GltfSkin> GltfSkin::Read(const GltfDocument& document, const GltfNode
 }
 
 vm::Result<GltfSkin::Held> GltfSkin::Hold(const GltfDocument& document, const json& attributes,
-                                          std::size_t count, const glm::mat4& place) const {
+                                          std::size_t count, const glm::mat4& place,
+                                          const std::function<bool(std::int64_t)>& watched) const {
   Held held;
   held.place.assign(count, glm::mat4(0.0f));
   held.main.assign(count, -1);
@@ -167,6 +168,7 @@ vm::Result<GltfSkin::Held> GltfSkin::Hold(const GltfDocument& document, const js
       const auto joint = static_cast<std::size_t>(number);
       held.place[i / 4] += weight * takes_[joint];
       total[i / 4] += weight;
+      if (watched(node_[joint])) held.watched.push_back({i / 4, node_[joint], weight});
       if (weight > most[i / 4]) {
         most[i / 4] = weight;
         held.main[i / 4] = node_[joint];
@@ -176,6 +178,8 @@ vm::Result<GltfSkin::Held> GltfSkin::Hold(const GltfDocument& document, const js
   for (std::size_t i = 0; i < count; ++i) {
     held.place[i] = total[i] > 1e-4f ? (1 / total[i]) * held.place[i] : place;
   }
+  std::erase_if(held.watched, [&](const Held::Hold& hold) { return total[hold.vertex] <= 1e-4f; });
+  for (Held::Hold& hold : held.watched) hold.weight /= total[hold.vertex];
   return held;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/mat4x4.hpp>
 #include <span>
 #include <vector>
@@ -15,6 +16,9 @@ class GltfNodes {
  public:
   /// Errors: kBadValue "NAME: nodes[I]: nodes that are their own parents".
   static vm::Result<GltfNodes> Read(const GltfDocument& document);
+  bool Has(std::int64_t node) const {
+    return node >= 0 && static_cast<std::size_t>(node) < world_.size();
+  }
   /// Of a node that there is not: the identity.
   const glm::mat4& World(std::int64_t node) const;
   /// The nodes of the file's scene, parents before children; all there are if it has no scene.
@@ -39,11 +43,18 @@ class GltfSkin {
   /// The matrix of every vertex of a primitive; those without weights stand in `place`. `main`: the
   /// node of the bone with the largest part, -1 for none.
   struct Held {
+    struct Hold {
+      std::size_t vertex;
+      std::int64_t node;
+      float weight;
+    };
     std::vector<glm::mat4> place;
     std::vector<std::int64_t> main;
+    std::vector<Hold> watched;  ///< all holds of the nodes that were asked for
   };
   vm::Result<Held> Hold(const GltfDocument& document, const nlohmann::json& attributes,
-                        std::size_t count, const glm::mat4& place) const;
+                        std::size_t count, const glm::mat4& place,
+                        const std::function<bool(std::int64_t node)>& watched) const;
 
  private:
   std::vector<glm::mat4> takes_;

@@ -54,7 +54,9 @@ struct HeadFile {
   std::vector<std::int8_t> eye;  ///< 0 none, 1 the agent's right, 2 the left; or none at all
   /// What those turn about, right and left, where the file says it.
   std::optional<std::array<glm::vec3, 2>> eye_pivot;
-  std::optional<LookRanges> look;    ///< how the eyes follow a gaze, where the file says it
+  std::optional<LookRanges> look;  ///< how the eyes follow a gaze, where the file says it
+  std::vector<Spring> springs;     ///< what swings: see VrmSprings
+  std::vector<SpringWeight> spring_weights;
   bool look_by_shape = false;        ///< not by turning, but by shapes vrmlookleft and so on
   std::vector<std::string> notices;  ///< what was left out
   bool metres = false;               ///< the file's kind says so

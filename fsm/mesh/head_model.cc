@@ -76,8 +76,9 @@ class HeadBuilder {
     model_.has_uv_seams = !file_.place.empty();
     for (const glm::vec3& p : at_) {
       // The neck gives way below the chin, as ours does.
-      model_.Add(p, Bone::kSkin, Palette().skin, {}, SmoothStep(-168, -96, p.y));
+      model_.Add(p, Bone::kSkin, Palette().skin, {}, NeckWeight(p));
     }
+    HangSprings();
     FindEyes();
     for (const auto& part : file_.parts) AddPart(part);
     return std::move(model_);
@@ -104,6 +105,34 @@ class HeadBuilder {
     }
     model_.relief = sheet_.MakeBeside(std::move(reliefs), {128, 128, 255, 255});
     model_.lights = sheet_.MakeBeside(std::move(lights), {255, 255, 255, 255});
+  }
+
+  static float NeckWeight(glm::vec3 p) { return SmoothStep(-168, -96, p.y); }
+
+  /// Springs of the head; those of the body, which does not turn, are left out.
+  void HangSprings() {
+    constexpr glm::vec3 kAxis{0, 0, -14};  // of head and neck
+    std::vector<std::int64_t> number;
+    for (Spring spring : file_.springs) {
+      spring.rest = place_(spring.rest);
+      spring.root = place_(spring.root);
+      spring.most_mm *= place_.scale;
+      if (spring.outward != glm::vec3(0)) {
+        const glm::vec3 beside = (spring.rest - kAxis) * glm::vec3(1, 0, 1);
+        spring.outward = glm::normalize(beside + glm::vec3(0, 0, 1e-3f));
+      }
+      const bool of_head = WithinReach(spring.rest) && WithinReach(spring.root) &&
+                           NeckWeight(spring.root) > 0.5f && spring.most_mm >= Spring::kLeastMost &&
+                           spring.most_mm <= Spring::kMostMost;
+      number.push_back(of_head ? static_cast<std::int64_t>(model_.springs.size()) : -1);
+      if (of_head) model_.springs.push_back(spring);
+    }
+    for (SpringWeight weight : file_.spring_weights) {
+      const std::int64_t spring = number[weight.spring];
+      if (spring < 0) continue;
+      weight.spring = static_cast<std::uint32_t>(spring);
+      model_.spring_weights.push_back(weight);
+    }
   }
 
   [[noreturn]] void Refuse(const std::string& what) const {

@@ -98,6 +98,8 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
     rig.eye_pivot[side] = model.eye_pivot ? (*model.eye_pivot)[side] : rig.ball_centre[side];
   }
   rig.look = model.look;
+  rig.springs = model.springs;
+  rig.spring_weights = model.spring_weights;
   if (model.has_eyes && model.round_eyes) rig.ball_lids = LidsOf(model);
   if (!rig.lips.measured && !model.seam.empty()) {
     const auto [upper, lower] = model.seam[model.seam.size() / 2];

@@ -37,8 +37,10 @@ struct MeshModel {
   std::optional<std::array<glm::vec3, 2>> eye_pivot;  ///< what they turn about, if not the centres
   std::optional<LookRanges> look;                     ///< else they turn as ours do
   bool round_eyes = true;                             ///< balls that lids must stay outside of
-  bool has_uv_seams = false;   ///< vertices are doubled where the texture is sewn together
-  glm::vec3 hinge{0, -4, -3};  ///< the jaw's axis goes through it, as ours does
+  bool has_uv_seams = false;    ///< vertices are doubled where the texture is sewn together
+  glm::vec3 hinge{0, -4, -3};   ///< the jaw's axis goes through it, as ours does
+  std::vector<Spring> springs;  ///< see RigData
+  std::vector<SpringWeight> spring_weights;
   Landmarks landmarks;
   std::optional<ParallelView> view;  ///< how it is meant to be seen
   /// Vertices of the upper and the lower lip that meet when the mouth is closed, from the agent's

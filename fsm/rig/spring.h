@@ -18,6 +18,7 @@ struct Spring {
 
   static constexpr float kLeastHz = 0.1f, kMostHz = 30;
   static constexpr float kLeastDamping = 0.01f, kMostDamping = 0.99f;
+  static constexpr float kLeastMost = 0.01f, kMostMost = 1000;  ///< of most_mm
 };
 
 /// How far a vertex goes along with a spring, 0..1.

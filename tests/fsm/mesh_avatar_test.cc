@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -13,6 +15,7 @@
 #include "fsm/mesh/head_file.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/pose.h"
+#include "fsm/rig/simulation.h"
 #include "tests/fsm/ball_head.h"
 #include "tests/fsm/gltf_maker.h"
 
@@ -229,6 +232,101 @@ TEST(VrmTest, NewAvatarsLookWithShapesAndHaveExpressionsOfTheirOwn) {
   ASSERT_EQ(file.shapes.size(), 6U) << "what no node has is no shape";
   EXPECT_EQ(file.shapes[4].name, "vrmaa");
   EXPECT_EQ(file.shapes[5].name, "vrmJawOpen");
+}
+
+/// A chain of three joints of hair, 10 cm long each, hanging beside the head, and a strip of flesh
+/// on it: two vertices at each joint and two between the first and the second.
+std::string HairAvatar(const std::string& extensions) {
+  GltfMaker maker;
+  // Nothing says how it was bound: places are from the joint that holds them.
+  const int place = maker.Places({0, 0, 0, 0, 0, 0.02F, 0, -0.05F, 0, 0, -0.05F, 0.02F,
+                                  0, 0, 0, 0, 0, 0.02F, 0, 0,      0, 0, 0,      0.02F});
+  const int joints = maker.Bytes({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0,
+                                  2, 0, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 3, 0, 0, 0},
+                                 "VEC4", 4);
+  std::vector<float> held;
+  for (int i = 0; i < 8; ++i) held.insert(held.end(), {1, 0, 0, 0});
+  const int weights = maker.Floats(held, "VEC4", 4);
+  return maker.File(
+      R"("nodes":[{"children":[1],"translation":[0,1.5,0]},)"
+      R"({"children":[2],"translation":[0.1,0.1,0]},{"children":[3],"translation":[0,-0.1,0]},)"
+      R"({"translation":[0,-0.1,0]},{"mesh":0,"skin":0,"name":"Hair"}],)"
+      R"("skins":[{"joints":[0,1,2,3]}],"meshes":[{"primitives":[{"attributes":{"POSITION":)" +
+      Number(place) + R"(,"JOINTS_0":)" + Number(joints) + R"(,"WEIGHTS_0":)" + Number(weights) +
+      R"(}}]}],"extensions":{)" + extensions + "}");
+}
+
+/// By how much the springs of a file carry each of its vertices, in sum: 0, 1 and 2.
+std::vector<std::array<float, 3>> Hung(const HeadFile& file) {
+  std::vector<std::array<float, 3>> hung(file.position.size());
+  for (const auto& [vertex, spring, weight] : file.spring_weights)
+    hung.at(vertex).at(spring) += weight;
+  return hung;
+}
+
+TEST(VrmTest, HairOfOldAvatarsSwingsByItsSecondaryAnimation) {
+  const HeadFile file = Read(
+      HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"gravityPower":0,)"
+                 R"("dragForce":0.4,"bones":[1],"colliderGroups":[0]}]}})"));
+  ASSERT_EQ(file.springs.size(), 3U);
+  ExpectPlace(file.springs[0].rest, {-0.1F, 1.5F, 0});
+  ExpectPlace(file.springs[1].rest, {-0.1F, 1.4F, 0});
+  ExpectPlace(file.springs[2].rest, {-0.1F, 1.33F, 0});
+  ExpectPlace(file.springs[2].root, {-0.1F, 1.6F, 0});
+  EXPECT_NEAR(file.springs[0].frequency_hz, 3.90F, 0.01F);  // sqrt(60 / 0.1) / 2 pi
+  EXPECT_NEAR(file.springs[0].damping, 0.626F, 0.001F);     // 30 ln(1 / 0.6) / sqrt(60 / 0.1)
+  EXPECT_NEAR(file.springs[1].frequency_hz, 3.90F / std::sqrt(2.0F), 0.01F);
+  EXPECT_EQ(file.springs[0].hang, 0);
+  const auto hung = Hung(file);
+  EXPECT_EQ(hung[0], (std::array<float, 3>{0, 0, 0})) << "where the chain begins";
+  EXPECT_NEAR(hung[2][0], 0.5F, 1e-3F) << "between";
+  EXPECT_NEAR(hung[4][0], 1, 1e-3F);
+  EXPECT_NEAR(hung[6][1], 1, 1e-3F);
+}
+
+TEST(VrmTest, HairOfNewAvatarsSwingsByItsSpringBones) {
+  const HeadFile file = Read(HairAvatar(
+      R"("VRMC_vrm":{"specVersion":"1.0"},"VRMC_springBone":{"specVersion":"1.0","springs":[)"
+      R"({"joints":[{"node":1,"stiffness":0.5,"gravityPower":0.5,"dragForce":0.3},)"
+      R"({"node":2,"stiffness":0.5,"dragForce":0.3},{"node":3}]},)"
+      R"({"joints":[{"node":99},{"node":-5}]},{"joints":"none"}]})"));
+  ASSERT_EQ(file.springs.size(), 2U) << "the last joint only says where the one before ends";
+  ExpectPlace(file.springs[1].rest, {0.1F, 1.4F, 0});
+  EXPECT_EQ(file.springs[0].hang, 0.5F);
+  EXPECT_EQ(file.springs[1].hang, 0);
+  EXPECT_EQ(file.springs[0].outward, glm::vec3(0)) << "nothing is in its way";
+  EXPECT_NEAR(Hung(file)[6][1], 1, 1e-3F) << "the end of the chain";
+}
+
+TEST(VrmTest, HairOfAnAvatarSwingsAsItsHeadTurns) {
+  const HeadFile file = Read(HairAvatar(
+      R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":0.3,"dragForce":0.1,"bones":[1]},)"
+      R"({"bones":[0]}]}})"));
+  constexpr float kMillimetres = 1000;
+  const Similarity place{.scale = kMillimetres, .move = {0, -1500, 0}};
+  const auto head = MakeMeshHead(ModelOf(file, place, -43));
+  const RigData& rig = head->rig().data();
+  ASSERT_EQ(rig.springs.size(), 4U);
+  Simulation simulation(rig.springs);
+  const auto turning = [](Simulation::Time t) {
+    FaceState state;
+    state.head_rotation[1] = 30 * std::clamp(static_cast<float>(t.count()) / 2e5F, 0.0F, 1.0F);
+    return state;
+  };
+  const Simulation::Time now = std::chrono::milliseconds(150);
+  simulation.RunTo(now, turning);
+  HeadVertices still, swung;
+  head->Evaluate(turning(now), still);
+  head->Evaluate(turning(now), swung, simulation.offsets());
+  EXPECT_GT(glm::distance(still.position[6], swung.position[6]), 3);
+  EXPECT_LT(glm::distance(still.position[0], swung.position[0]), 0.01F);
+}
+
+TEST(VrmTest, SpringsOfTheBodyAreLeftOut) {
+  const HeadFile file = Read(
+      HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"bones":[1]}]}})"));
+  const Similarity place{.scale = 1000, .move = {0, -2500, 0}};
+  EXPECT_TRUE(MakeMeshHead(ModelOf(file, place, -43))->rig().data().springs.empty());
 }
 
 TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
