@@ -15,14 +15,18 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr glm::vec3 kVolume{81.5f, 103.0f, 103};  // half axes of the hair over the skull
-constexpr float kPartX = 0.17f;  // sideways place of the parting, as part of the volume
 constexpr float kEnd = 1.0f;
 
 // Strands start along the parting, sweep over the skull and hang. Those at the face's edge are the
 // fringe: they come down over the forehead slantwise, a little off the skin, towards the temples.
 class LongHair {
  public:
-  LongHair(const Palette& palette, HeadMesh& mesh) : palette_(palette), scalp_(mesh), mesh_(mesh) {}
+  LongHair(const LongStyle& style, const Palette& palette, HeadMesh& mesh)
+      : style_(style),
+        volume_(kVolume + style.full_mm),
+        palette_(palette),
+        scalp_(mesh),
+        mesh_(mesh) {}
 
   void Build() {
     Shade();
@@ -42,7 +46,8 @@ class LongHair {
 
   glm::vec3 Direction(float i, float side, float t) const {
     const float along = glm::mix(31.0f, 158.0f, std::pow(i, 0.9f)) * kPi / 180;
-    const glm::vec3 start = glm::normalize(glm::vec3(kPartX, std::sin(along), std::cos(along)));
+    const glm::vec3 start =
+        glm::normalize(glm::vec3(style_.parting, std::sin(along), std::cos(along)));
     const float azimuth = glm::mix(56.0f, 180.0f, std::pow(i, 0.85f));
     const float edge = SmoothStep(0.25f, 0, i);
     // The side away from the parting has the longer way round the forehead.
@@ -55,14 +60,14 @@ class LongHair {
   }
 
   float EndY(float i, float side) const {
-    return glm::mix(-84.0f, -112.0f, std::sqrt(SmoothStep(0, 0.8f, i))) +
+    return glm::mix(style_.front_y, style_.back_y, std::sqrt(SmoothStep(0, 0.8f, i))) +
            2.0f * std::sin(17 * i + side);
   }
 
   glm::vec3 Point(float i, float side, float t, float out_mm) const {
     const float cap = std::min(1.0f, t / kCap);
     const glm::vec3 d = Direction(i, side, cap);
-    const glm::vec3 scaled = d / kVolume;
+    const glm::vec3 scaled = d / volume_;
     const float volume = 1 / std::sqrt(glm::dot(scaled, scaled));
     const float skin = scalp_.Distance(d);
     const float part = SmoothStep(0, 0.17f, i) * (0.8f + 0.2f * SmoothStep(0, 0.3f, cap));
@@ -79,7 +84,8 @@ class LongHair {
       const float front = SmoothStep(0.35f, 0, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
       const float full = glm::mix(5.0f, 1.0f, front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
-      const float wave = 2.2f * std::sin(7 * hang + 9 * i + side) * SmoothStep(0.1f, 0.6f, hang);
+      const float wave =
+          style_.wave_mm * std::sin(7 * hang + 9 * i + side) * SmoothStep(0.1f, 0.6f, hang);
       p +=
           out * (full + wave - glm::mix(17.0f, 30.0f, SmoothStep(0, 0.6f, i)) * hang * hang * hang);
       p.z += front * 8 * hang * (1 - 0.4f * hang);
@@ -236,7 +242,8 @@ class LongHair {
       // Some are thin strands that come further down.
       const float strand = k % 3 == 1 && u < 0.7f ? 1.0f : 0.0f;
       const float along = glm::mix(32.0f, 64.0f, u) * kPi / 180;
-      const glm::vec3 start = glm::normalize(glm::vec3(kPartX, std::sin(along), std::cos(along)));
+      const glm::vec3 start =
+          glm::normalize(glm::vec3(style_.parting, std::sin(along), std::cos(along)));
       const glm::vec3 bend =
           HairDirection(side * (glm::mix(16.0f, 44.0f, u) + 5 * Grain(seed, 2)),
                         glm::mix(side < 0 ? 19.0f : 22.0f, 33.0f, u) - 3.5f * strand);
@@ -249,7 +256,7 @@ class LongHair {
         const float v = static_cast<float>(s) / kSteps;
         const glm::vec3 d =
             glm::normalize((1 - v) * (1 - v) * start + 2 * v * (1 - v) * bend + v * v * end);
-        const glm::vec3 scaled = d / kVolume;
+        const glm::vec3 scaled = d / volume_;
         const float skin = scalp_.Distance(d);
         const float full = 0.5f * (1 / std::sqrt(glm::dot(scaled, scaled)) - skin);
         const float lift = glm::mix(full + 2.2f, 8.0f + Grain(seed, 5), SmoothStep(0, 0.55f, v));
@@ -264,6 +271,8 @@ class LongHair {
     }
   }
 
+  const LongStyle style_;
+  const glm::vec3 volume_;
   const Palette& palette_;
   Scalp scalp_;
   HeadMesh& mesh_;
@@ -271,6 +280,8 @@ class LongHair {
 
 }  // namespace
 
-void BuildLongHair(const Palette& palette, HeadMesh& mesh) { LongHair(palette, mesh).Build(); }
+void BuildLongHair(const LongStyle& style, const Palette& palette, HeadMesh& mesh) {
+  LongHair(style, palette, mesh).Build();
+}
 
 }  // namespace fsm

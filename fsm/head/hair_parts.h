@@ -63,8 +63,15 @@ struct CropStyle {
   float front_up;  ///< how far locks over the forehead stand up, 0..1
   float recede;    ///< degrees the hairline is drawn back at the temples
 };
-/// Parted on one side and hanging to below the jaw.
-void BuildLongHair(const Palette& palette, HeadMesh& mesh);
+struct LongStyle {
+  float parting = 0.17f;  ///< to the agent's left, as part of the hair's half width
+  float full_mm = 0;      ///< more volume over the skull than usual
+  float front_y = -84;    ///< height of the ends beside the face, millimetres
+  float back_y = -112;    ///< of those behind
+  float wave_mm = 2.2f;   ///< sideways swing of what hangs
+};
+/// Parted and hanging.
+void BuildLongHair(const LongStyle& style, const Palette& palette, HeadMesh& mesh);
 /// Short hair all round.
 void BuildCroppedHair(const CropStyle& style, const Palette& palette, HeadMesh& mesh);
 

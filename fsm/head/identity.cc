@@ -48,7 +48,12 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
       identity.crop = CropStyle{row.Number(2), row.Number(3), row.Integer(4), row.Number(5),
                                 row.Number(6), row.Number(7), row.Number(8),  row.Number(9)};
       if (identity.crop->locks < 0 || identity.crop->locks > 500) row.Fail("0 to 500 locks");
-    } else if (row.Word(1) != "long") {
+    } else if (row.Word(1) == "long") {
+      identity.crop.reset();
+      identity.long_hair = {row.Within(2, -0.6f, 0.6f), row.Within(3, -5, 30),
+                            row.Within(4, -160, -20), row.Within(5, -160, -20),
+                            row.Within(6, 0, 12)};
+    } else {
       row.Fail("long or crop expected");
     }
   } else if (key == "beard") {

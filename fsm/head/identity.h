@@ -19,6 +19,7 @@ struct Identity {
   Palette palette;
   std::vector<std::pair<std::string, float>> sliders;
   std::optional<CropStyle> crop;  ///< long hair if empty
+  LongStyle long_hair;
   float lashes = 1;
   float brow_thickness = 1, brow_height = 0;
   std::array<float, 4> creases{};  ///< by Wrinkle

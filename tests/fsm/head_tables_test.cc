@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "fsm/base/table_reader.h"
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"
 #include "fsm/head/identity.h"
+#include "fsm/head/make_head.h"
+#include "fsm/head/own_identity.h"
 #include "fsm/rig/action_units.h"
 
 namespace fsm {
@@ -144,6 +147,33 @@ TEST(HeadTablesTest, IdentitiesAndSlidersAreChecked) {
               Shaper(Table("s.txt", "slider a 0 0 0 1 1 1 1 1 1\n"), {{"b", 1.0f}});
             }),
             "s.txt: no slider 'b'");
+}
+
+TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
+  const auto lowest = [](const char* row) {
+    Identity identity = BuiltInIdentity("galatea");
+    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
+    const auto head = MakeHead(identity, false);
+    float low = 0;
+    for (const auto& part : head->topology().parts) {
+      if (part.material != Material::kHair) continue;
+      for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k)
+        low = std::min(low, head->rig().data().rest[head->topology().indices[k]].y);
+    }
+    return low;
+  };
+  // Single locks come a little lower than the rest.
+  const float usual = lowest("hair long 0 0 -84 -112 0"),
+              longer = lowest("hair long 0 0 -84 -150 0");
+  EXPECT_NEAR(usual, -120, 8);
+  EXPECT_NEAR(usual - longer, 150 - 112, 5);
+  Identity cropped = BuiltInIdentity("pygmalion");
+  ReadIdentityRow(Table("i.txt", "hair long 0 0 -84 -112 0").rows()[0], cropped);
+  EXPECT_FALSE(cropped.crop) << "who had short hair has it long";
+  EXPECT_EQ(Complaint([&] {
+              ReadIdentityRow(Table("i.txt", "hair long 0.7 0 -84 -112 0").rows()[0], cropped);
+            }),
+            "i.txt:1: '0.7' found where -0.6 to 0.6 was expected");
 }
 
 TEST(HeadTablesTest, SplineGoesThroughItsPoints) {
