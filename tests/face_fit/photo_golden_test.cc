@@ -1,0 +1,69 @@
+// A kept picture of the whole way from a photo to a head that wears it and moves.
+
+#include <gtest/gtest.h>
+
+#include "face_fit/bake/texture_bake.h"
+#include "face_fit/find/around_face.h"
+#include "face_fit/find/figure_finder.h"
+#include "face_fit/fit/fit.h"
+#include "face_fit/picture/photo.h"
+#include "fsm/head/make_head.h"
+#include "fsm/head/photo_head.h"
+#include "fsm/render/renderer.h"
+#include "tests/face_fit/network_fixture.h"
+#include "tests/fsm/golden_picture.h"
+
+namespace facefit {
+namespace {
+
+/// The head that the program makes of a photo of one person.
+std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const BaseHead& base,
+                                  const fsm::Image& photo) {
+  const auto boxes = FindFaces(networks, photo);
+  const auto [near, face] = CutToFace(photo, photo, FindPoints(networks, photo, boxes.at(0)));
+  const Fit fit = FitFace(base, face, &near);
+  fsm::PhotoHead set;
+  TextureBake bake =
+      BakeTexture(base, face, fit, near, CutOut(near, FindFigure(networks, near, &face)), {}, set);
+  set.photo = std::make_shared<fsm::Image>(std::move(bake.picture));
+  return fsm::MakeHead(set);
+}
+
+fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::Scene& scene,
+                 int width, int height) {
+  const auto context = fsm::RenderContext::MakeHeadless(width, height);
+  const auto renderer = fsm::Renderer::Make(*context);
+  fsm::HeadVertices vertices;
+  head.Evaluate(state, vertices);
+  renderer->Draw(head, vertices, state, scene);
+  fsm::Image image;
+  renderer->Read(image);
+  return image;
+}
+
+/// A picture of a built-in head, taken for a photo.
+fsm::Image PhotoOf(const char* name) {
+  fsm::Scene scene;
+  scene.camera.distance = 0.9F;
+  scene.camera.height_mm = -20;
+  return Drawn(*fsm::MakeHead(name), {}, scene, 640, 800);
+}
+
+using PhotoGoldenTest = NetworkTest;
+
+TEST_F(PhotoGoldenTest, APhotoIsFittedAndWornAsKept) {
+  const auto head = WornBy(*networks_, Galatea(), PhotoOf("baucis"));
+  fsm::FaceState state;
+  state.au_left[26] = state.au_right[26] = 0.6F;
+  state.au_left[1] = state.au_right[1] = 0.6F;
+  state.blink_left = 0.5F;
+  state.head_rotation[1] = -10;
+  fsm::Scene scene;
+  scene.camera.distance = 0.65F;
+  constexpr int kSide = 176;
+  fsm::ExpectGolden(Drawn(*head, state, scene, kSide, kSide),
+                    GALATEA_SOURCE_DIR "/tests/face_fit/data/golden/photo.png", scene.background);
+}
+
+}  // namespace
+}  // namespace facefit
