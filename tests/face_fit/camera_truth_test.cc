@@ -1,7 +1,7 @@
 // Photos whose truth was not made by what is tested: heads of other makers or of a form that no
 // built-in head has, seen by other cameras than the one that the fit takes for granted, from a
-// phone held near to a portrait lens. The camera of the truth is written here once more, apart from
-// those of fit and renderer.
+// phone held near to a portrait lens. Camera and drawing of the truth are written here once more,
+// apart from those of fit and renderer.
 
 #include <gtest/gtest.h>
 
@@ -17,11 +17,11 @@
 #include <string>
 
 #include "face_fit/find/head_finder.h"
+#include "face_fit/find/rasterizer.h"
 #include "face_fit/fit/fit.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
-#include "fsm/render/renderer.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -71,6 +71,24 @@ struct TrueHead {
   std::array<glm::vec3, 2> ears;  ///< the agent's right and left
 };
 
+/// A picture of kFine x kFine colours, linear, as one of kSide x kSide.
+constexpr int kFine = 2 * kSide;
+fsm::Image Halved(const std::vector<glm::vec3>& fine) {
+  fsm::Image photo{kSide, kSide, {}};
+  for (std::size_t y = 0; y < kSide; ++y) {
+    for (std::size_t x = 0; x < kSide; ++x) {
+      const std::size_t i = 2 * (y * kFine + x);
+      const glm::vec3 mean = (fine[i] + fine[i + 1] + fine[i + kFine] + fine[i + kFine + 1]) / 4.0F;
+      for (int c = 0; c < 3; ++c) {
+        const float level = std::pow(glm::clamp(mean[c], 0.0F, 1.0F), 1 / 2.2F);
+        photo.rgba.push_back(static_cast<std::uint8_t>(255 * level + 0.5F));
+      }
+      photo.rgba.push_back(255);
+    }
+  }
+  return photo;
+}
+
 /// A camera upright before a head that turns about the root of its neck. Millimetres.
 struct TrueCamera {
   float distance;      ///< from the plane of the face, z = 50
@@ -91,17 +109,38 @@ struct TrueCamera {
     const float scale = focal() / (kFaceZ + distance - q.z);
     return {kSide / 2.0F + scale * q.x, kSide / 2.0F - scale * (q.y - kMiddleY)};
   }
+  /// Drawn plainly, by other means than the renderer's: the nearest triangle at each of four
+  /// samples of a pixel, in the colours of its vertices, under one lamp above the camera.
   fsm::Image Photo(const TrueHead& truth) const {
-    fsm::FaceState state;
-    state.agent_rotation = {0, turn_degrees, 0};
-    fsm::Scene scene;
-    scene.camera.field_degrees = 2 * glm::degrees(std::atan(kHalfHeight / distance));
-    const auto context = fsm::RenderContext::MakeHeadless(kSide, kSide);
-    const auto renderer = fsm::Renderer::Make(*context);
-    renderer->Draw(*truth.head, truth.rest, state, scene);
-    fsm::Image photo;
-    renderer->Read(photo);
-    return photo;
+    constexpr glm::vec3 kBackground(0.1F, 0.15F, 0.2F);
+    const glm::vec3 lamp = glm::normalize(glm::vec3(-0.35F, 0.5F, 0.8F));
+    const auto& topology = truth.head->topology();
+    std::vector<glm::vec3> at, light;
+    for (std::size_t i = 0; i < truth.rest.position.size(); ++i) {
+      const glm::vec3 q = Placed(truth.rest.position[i]);
+      at.emplace_back(2.0F * Pixel(truth.rest.position[i]) - 0.5F,
+                      1 / (kFaceZ + distance - q.z));  // linear on the screen
+      const float lit = std::max(glm::dot(Turn() * truth.rest.normal[i], lamp), 0.0F);
+      light.push_back(topology.albedo[i] * (0.35F + 0.9F * lit));
+    }
+    std::vector<float> nearness(static_cast<std::size_t>(kFine) * kFine, 0);
+    std::vector<glm::vec3> colour(nearness.size(), kBackground);
+    for (const auto& part : topology.parts) {
+      if (part.material == fsm::Material::kLash || part.material == fsm::Material::kShutLash) {
+        continue;
+      }
+      for (std::uint32_t k = 0; k + 2 < part.index_count; k += 3) {
+        const std::uint32_t* t = &topology.indices[part.first_index + k];
+        Rasterize({at[t[0]], at[t[1]], at[t[2]]}, kFine, kFine, 0, [&](int x, int y, glm::vec3 w) {
+          const auto i = static_cast<std::size_t>(y) * kFine + static_cast<std::size_t>(x);
+          const float near = Interpolated(at, t, w).z;
+          if (near <= nearness[i]) return;
+          nearness[i] = near;
+          colour[i] = Interpolated(light, t, w);
+        });
+      }
+    }
+    return Halved(colour);
   }
 };
 constexpr float kPhone = 300, kRenderer = 744, kPortraitLens = 2000;
@@ -293,9 +332,10 @@ TEST_P(CameraTruthTest, WhatTheNetworkFindsIsFollowedWhateverTheCamera) {
     const FoundFace face = FindPoints(*networks_, photo, boxes[0]);
     const FitError error = ErrorOf(camera, FitFace(Galatea(), face, &photo));
     Tell(camera, "network", error);
-    // Missed by turned heads, of which the network itself says places 1.4 to 2.7 % off.
+    // Missed: the fit follows the network's points, which are up to 2 % off on a face from the
+    // front and up to 3 % on a turned one.
     const bool turned = camera.turn_degrees > 0;
-    ExpectWithin(error, GetParam(), turned ? 0.032F : 0.018F, turned ? 8.5F : 5.5F);
+    ExpectWithin(error, GetParam(), turned ? 0.033F : 0.023F, turned ? 6.5F : 5);
   }
 }
 
