@@ -27,109 +27,147 @@ const std::map<std::string, std::string OriginalConfig::*, std::less<>> kSharedF
     {"EYE_OBJ_NAME", &OriginalConfig::eye_object},
     {"M_WALL_TEXTURE", &OriginalConfig::mouth_picture}};
 
-/// The mask of that name, made if need be; nullptr if there are too many. Valid until the next
-/// call.
-OriginalConfig::Mask* MaskOf(OriginalConfig& config, const std::string& name) {
-  const auto found = std::ranges::find(config.masks, name, &OriginalConfig::Mask::name);
-  if (found != config.masks.end()) return &*found;
-  if (config.masks.size() >= OriginalConfig::kMaxMasks) return nullptr;
-  config.masks.push_back({name, "", "", "", "", ""});
-  return &config.masks.back();
-}
+/// Keys with one number: its bounds, and where it goes.
+struct NumberKey {
+  double lowest, highest;
+  void (*take)(OriginalConfig&, double);
+};
+const std::map<std::string, NumberKey, std::less<>> kNumbers = {
+    {"DEF_WINDOW_WIDTH",
+     {16, 8192, [](OriginalConfig& c, double v) { c.width = static_cast<int>(v); }}},
+    {"DEF_WINDOW_HEIGHT",
+     {16, 8192, [](OriginalConfig& c, double v) { c.height = static_cast<int>(v); }}},
+    {"DEF_WINDOW_POS_X",
+     {-100000, 100000, [](OriginalConfig& c, double v) { c.x = static_cast<int>(v); }}},
+    {"DEF_WINDOW_POS_Y",
+     {-100000, 100000, [](OriginalConfig& c, double v) { c.y = static_cast<int>(v); }}},
+    {"EXPRESSION_DURATION", {0, 60000, [](OriginalConfig& c, double v) { c.expression_ms = v; }}},
+    {"EYEMOVE_DURATION", {0, 60000, [](OriginalConfig& c, double v) { c.eye_move_ms = v; }}},
+    {"MaxFrameRate", {1, 240, [](OriginalConfig& c, double v) { c.max_frame_rate = v; }}},
+    {"FaceMotBlink", {1, 60000, [](OriginalConfig& c, double v) { c.blinks_ms.push_back(v); }}}};
+
+/// Movement files, by their key: what FaceMot calls them.
+const std::map<std::string, std::string, std::less<>> kMotions = {{"FaceMotNod", "NOD"},
+                                                                  {"FaceMotRefuse", "REFUSE"},
+                                                                  {"FaceMotListen", "LISTEN"},
+                                                                  {"FaceMotUserDef", "USERDEF"}};
+
+/// Takes the lines of a configuration one by one.
+class ConfigReader {
+ public:
+  ConfigReader(const std::string& path, const std::string& text)
+      : table_(path, text), folder_(std::filesystem::path(path).parent_path()) {
+    config_.path = path;
+  }
+
+  vm::Result<OriginalConfig> Read() {
+    for (const TableLine& line : table_.lines()) {
+      if (auto taken = Take(line); !taken) return std::unexpected(taken.error());
+    }
+    std::erase_if(config_.masks, [](const auto& mask) { return mask.wireframe.empty(); });
+    return std::move(config_);
+  }
+
+ private:
+  vm::Result<void> Take(const TableLine& line) {
+    const std::string& key = line.words[0];
+    if (const auto known = kNumbers.find(key); known != kNumbers.end()) {
+      const auto value = Number(line, 1, known->second.lowest, known->second.highest);
+      if (!value) return std::unexpected(value.error());
+      known->second.take(config_, *value);
+    } else if (key == "SetViseme") {
+      const std::string word = Word(line, 1);
+      if (word != "JP" && word != "EN") return table_.Wrong(line.number, "JP or EN expected");
+      config_.language = word == "JP" ? Language::kJapanese : Language::kEnglish;
+    } else if (key == "BackgroundFile") {
+      if (line.words.size() < 3) return table_.Wrong(line.number, "a name and a file expected");
+      config_.backgrounds.emplace_back(Word(line, 1), File(line, 2));
+    } else if (key == "MaskFile" || key == "MaskEye" || key == "MaskTeeth") {
+      return TakeMask(line);
+    } else if (const auto shared = kSharedFiles.find(key); shared != kSharedFiles.end()) {
+      if (line.words.size() < 2) return table_.Wrong(line.number, "a file expected");
+      config_.*shared->second = File(line, 1);
+    } else if (const auto motion = kMotions.find(key); motion != kMotions.end()) {
+      config_.motions[motion->second].push_back(File(line, 1));
+    } else if (key == "AutonomousBlink") {
+      const auto per_cent = Number(line, 1, 0.01, 100);
+      const auto pattern = Number(line, 2, 1, 1000);
+      for (const auto& value : {per_cent, pattern}) {
+        if (!value) return std::unexpected(value.error());
+      }
+      config_.auto_blinks.emplace_back(*per_cent, static_cast<int>(*pattern));
+    } else if (key == "AutonomousMove") {
+      config_.auto_moves.push_back(File(line, 1));
+    } else if (key == "AutonomousUserdef") {
+      config_.auto_userdefs.push_back(File(line, 1));
+    }
+    return {};
+  }
+
+  vm::Result<void> TakeMask(const TableLine& line) {
+    const std::string& key = line.words[0];
+    const std::size_t files = key == "MaskTeeth" ? 1 : 2;
+    if (line.words.size() < files + 2) {
+      return table_.Wrong(
+          line.number, files == 1 ? "a name and a file expected" : "a name and two files expected");
+    }
+    OriginalConfig::Mask* mask = MaskOf(Word(line, 1));
+    if (mask == nullptr) {
+      return table_.Wrong(
+          line.number, "at most " + std::to_string(OriginalConfig::kMaxMasks) + " faces are read");
+    }
+    if (key == "MaskFile") {
+      if (mask->wireframe.empty()) {  // other lines may name it before its own does
+        std::rotate(mask, mask + 1, config_.masks.data() + config_.masks.size());
+        mask = &config_.masks.back();
+      }
+      mask->picture = File(line, 2);
+      mask->wireframe = File(line, 3);
+    } else if (key == "MaskEye") {
+      mask->eye_picture = File(line, 2);
+      mask->eye_def = File(line, 3);
+    } else {
+      mask->teeth_def = File(line, 2);
+    }
+    return {};
+  }
+
+  /// The mask of that name, made if need be; nullptr if there are too many. Valid until the next
+  /// call.
+  OriginalConfig::Mask* MaskOf(const std::string& name) {
+    const auto found = std::ranges::find(config_.masks, name, &OriginalConfig::Mask::name);
+    if (found != config_.masks.end()) return &*found;
+    if (config_.masks.size() >= OriginalConfig::kMaxMasks) return nullptr;
+    config_.masks.push_back({name, "", "", "", "", ""});
+    return &config_.masks.back();
+  }
+
+  static std::string Word(const TableLine& line, std::size_t i) {
+    return i < line.words.size() ? line.words[i] : std::string();
+  }
+  vm::Result<double> Number(const TableLine& line, std::size_t i, double lowest,
+                            double highest) const {
+    return table_.Number(line, i, "a value of " + line.words[0], lowest, highest);
+  }
+  /// A file as named, if it is there, else from the folder of the configuration.
+  std::string File(const TableLine& line, std::size_t i) const {
+    const std::string name = Word(line, i);
+    std::error_code code;
+    if (std::filesystem::exists(name, code)) return name;
+    return (folder_ / name).string();
+  }
+
+  TableText table_;
+  std::filesystem::path folder_;
+  OriginalConfig config_;
+};
 
 }  // namespace
 
 vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
   const auto text = ReadAll(path);
   if (!text) return std::unexpected(text.error());
-  const TableText table(path, *text);
-  OriginalConfig config;
-  config.path = path;
-
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const auto find_file = [&folder](const std::string& name) {
-    std::error_code code;
-    if (std::filesystem::exists(name, code)) return name;
-    return (folder / name).string();
-  };
-  for (const TableLine& line : table.lines()) {
-    const std::string& key = line.words[0];
-    const auto word = [&line](std::size_t i) {
-      return i < line.words.size() ? line.words[i] : std::string();
-    };
-    const auto number = [&](std::size_t i, double lowest, double highest) {
-      return table.Number(line, i, "a value of " + key, lowest, highest);
-    };
-    vm::Result<double> value = 0.0;
-    if (key == "DEF_WINDOW_WIDTH" || key == "DEF_WINDOW_HEIGHT") {
-      value = number(1, 16, 8192);
-      if (value) (key.ends_with("WIDTH") ? config.width : config.height) = static_cast<int>(*value);
-    } else if (key == "DEF_WINDOW_POS_X" || key == "DEF_WINDOW_POS_Y") {
-      value = number(1, -100000, 100000);
-      if (value) (key.ends_with("X") ? config.x : config.y) = static_cast<int>(*value);
-    } else if (key == "EXPRESSION_DURATION") {
-      value = number(1, 0, 60000);
-      if (value) config.expression_ms = *value;
-    } else if (key == "EYEMOVE_DURATION") {
-      value = number(1, 0, 60000);
-      if (value) config.eye_move_ms = *value;
-    } else if (key == "MaxFrameRate") {
-      value = number(1, 1, 240);
-      if (value) config.max_frame_rate = *value;
-    } else if (key == "SetViseme") {
-      if (word(1) != "JP" && word(1) != "EN") return table.Wrong(line.number, "JP or EN expected");
-      config.language = word(1) == "JP" ? Language::kJapanese : Language::kEnglish;
-    } else if (key == "BackgroundFile") {
-      if (line.words.size() < 3) return table.Wrong(line.number, "a name and a file expected");
-      config.backgrounds.emplace_back(word(1), find_file(word(2)));
-    } else if (key == "MaskFile" || key == "MaskEye" || key == "MaskTeeth") {
-      const std::size_t files = key == "MaskTeeth" ? 1 : 2;
-      if (line.words.size() < files + 2) {
-        return table.Wrong(line.number, files == 1 ? "a name and a file expected"
-                                                   : "a name and two files expected");
-      }
-      OriginalConfig::Mask* mask = MaskOf(config, word(1));
-      if (!mask) {
-        return table.Wrong(line.number, "at most " + std::to_string(kMaxMasks) + " faces are read");
-      }
-      if (key == "MaskFile") {
-        if (mask->wireframe.empty()) {  // other lines may name it before its own does
-          std::rotate(mask, mask + 1, config.masks.data() + config.masks.size());
-          mask = &config.masks.back();
-        }
-        mask->picture = find_file(word(2));
-        mask->wireframe = find_file(word(3));
-      } else if (key == "MaskEye") {
-        mask->eye_picture = find_file(word(2));
-        mask->eye_def = find_file(word(3));
-      } else {
-        mask->teeth_def = find_file(word(2));
-      }
-    } else if (const auto shared = kSharedFiles.find(key); shared != kSharedFiles.end()) {
-      if (line.words.size() < 2) return table.Wrong(line.number, "a file expected");
-      config.*shared->second = find_file(word(1));
-    } else if (key == "FaceMotNod" || key == "FaceMotRefuse" || key == "FaceMotListen" ||
-               key == "FaceMotUserDef") {
-      std::string kind = key.substr(std::string("FaceMot").size());
-      for (char& c : kind) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-      config.motions[kind].push_back(find_file(word(1)));
-    } else if (key == "FaceMotBlink") {
-      value = number(1, 1, 60000);
-      if (value) config.blinks_ms.push_back(*value);
-    } else if (key == "AutonomousBlink") {
-      value = number(1, 0.01, 100);
-      const auto pattern = number(2, 1, 1000);
-      if (!pattern) return std::unexpected(pattern.error());
-      if (value) config.auto_blinks.emplace_back(*value, static_cast<int>(*pattern));
-    } else if (key == "AutonomousMove") {
-      config.auto_moves.push_back(find_file(word(1)));
-    } else if (key == "AutonomousUserdef") {
-      config.auto_userdefs.push_back(find_file(word(1)));
-    }
-    if (!value) return std::unexpected(value.error());
-  }
-  std::erase_if(config.masks, [](const Mask& mask) { return mask.wireframe.empty(); });
-  return config;
+  return ConfigReader(path, *text).Read();
 }
 
 std::vector<std::string> OriginalConfig::MaskNames() const {

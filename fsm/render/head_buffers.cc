@@ -37,6 +37,59 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
   return true;
 }
 
+const glm::vec4 kNone(0);
+
+/// Of every vertex: of skin its unrolled place and how much creases of the right and of the left
+/// side show there; of hair its place among hairs, direction with density, and place across a lock.
+struct Detail {
+  std::vector<glm::vec2> place;
+  std::vector<glm::vec4> right, left;
+};
+
+Detail DetailOf(const HeadTopology& topology, CreaseWeights creases, std::size_t count) {
+  Detail detail{topology.uv, std::move(creases.right), std::move(creases.left)};
+  detail.place.resize(count);
+  detail.right.resize(count);
+  detail.left.resize(count);
+  for (const auto& part : topology.parts) {
+    if (!IsHair(part.material)) continue;
+    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+      const auto i = topology.indices[k];
+      const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
+      detail.place[i] = strand.place;
+      detail.right[i] = glm::vec4(strand.along, strand.density);
+      detail.left[i] = glm::vec4(strand.across, 0, 0, 0);
+    }
+  }
+  return detail;
+}
+
+/// Of every vertex: colour and openness to light; where in the photo it is, the photo's part in the
+/// colour and how much is lid; of lids what ShutLid says of the lender and its way; opacity.
+struct Paint {
+  std::vector<glm::vec4> colour, worn, lender;
+  std::vector<float> opacity;
+};
+
+Paint PaintOf(const HeadTopology& topology) {
+  const std::size_t count = topology.albedo.size();
+  Paint paint{std::vector<glm::vec4>(count), std::vector<glm::vec4>(count, kNone),
+              std::vector<glm::vec4>(count, kNone), topology.opacity};
+  paint.opacity.resize(count, 1.0F);
+  for (std::size_t i = 0; i < count; ++i) {
+    paint.colour[i] = glm::vec4(topology.albedo[i], topology.occlusion[i]);
+  }
+  for (std::size_t i = 0; i < topology.texcoord.size(); ++i) {
+    paint.worn[i] = glm::vec4(topology.texcoord[i], topology.texture_weight[i], 0);
+  }
+  for (const ShutLid& lid : topology.shut_lids) {
+    paint.colour[lid.vertex] = glm::vec4(lid.colour, lid.lender_light);
+    paint.worn[lid.vertex].w = lid.weight;
+    paint.lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
+  }
+  return paint;
+}
+
 }  // namespace
 
 HeadBuffers::HeadBuffers(const GlFunctions& gl, const Head& head) : gl_(gl) {
@@ -75,34 +128,23 @@ void HeadBuffers::UploadTopology(const Head& head) {
   head.Evaluate(FaceState{}, rest);
   assert(topology.occlusion.size() == topology.albedo.size());
   assert(rest.position.size() == topology.albedo.size());
-  std::vector<glm::vec4> paint(topology.albedo.size());
-  for (std::size_t i = 0; i < paint.size(); ++i) {
-    paint[i] = glm::vec4(topology.albedo[i], topology.occlusion[i]);
-  }
-  std::vector<glm::vec2> unrolled = topology.uv;
-  unrolled.resize(paint.size());
+  vertex_count_ = rest.position.size();
+  TakeOver(topology);
   const auto marks = FaceMarks::Of(head);
   CreaseWeights creases;
-  vertex_count_ = rest.position.size();
   chin_y_ = marks ? marks->gnathion.y : kNoChin;
-  if (marks && topology.uv.size() == paint.size()) {
+  if (marks && topology.uv.size() == vertex_count_) {
     creases = WeighCreases(rest, *marks);
     painting_ = std::async(std::launch::async, [topology, rest, marks = *marks] {
       return PaintSkin(topology, rest, marks);
     });
   }
-  creases.right.resize(paint.size());
-  creases.left.resize(paint.size());
-  // Hair has strands where skin has its place and creases.
-  for (const auto& part : topology.parts) {
-    if (!IsHair(part.material)) continue;
-    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
-      const auto i = topology.indices[k];
-      const Strand strand = i < topology.strands.size() ? topology.strands[i] : Strand{};
-      unrolled[i] = strand.place;
-      creases.right[i] = glm::vec4(strand.along, strand.density);
-      creases.left[i] = glm::vec4(strand.across, 0, 0, 0);
-    }
+  const Detail detail = DetailOf(topology, std::move(creases), vertex_count_);
+  const Paint paint = PaintOf(topology);
+  // As long as the light on it changes.
+  std::vector<glm::vec3> rest_normal = rest.normal;
+  for (std::size_t i = 0; i < rest_normal.size(); ++i) {
+    rest_normal[i] *= i < topology.relit.size() ? topology.relit[i] : 0.0F;
   }
   const auto upload = [this](GLuint attribute, const auto& items) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[attribute]);
@@ -110,9 +152,27 @@ void HeadBuffers::UploadTopology(const Head& head) {
                    items.data(), GL_STATIC_DRAW);
   };
   upload(2, rest.position);
-  upload(4, unrolled);
-  upload(5, creases.right);
-  upload(6, creases.left);
+  upload(3, paint.colour);
+  upload(4, detail.place);
+  upload(5, detail.right);
+  upload(6, detail.left);
+  upload(7, paint.worn);
+  upload(8, paint.lender);
+  upload(9, paint.opacity);
+  upload(10, rest_normal);
+  std::vector<bool> detailed(vertex_count_);
+  for (std::size_t i = 0; i < detailed.size(); ++i) {
+    detailed[i] = paint.opacity[i] < 1 || paint.lender[i].x > 0 || detail.right[i] != kNone ||
+                  detail.left[i] != kNone;
+  }
+  Order(topology, rest, detailed);
+  eyes_ = EyeFinder(topology, rest);
+  if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
+  shadows_ = ShadowFinder(topology, rest);
+  mouth_ = MouthFinder(topology);
+}
+
+void HeadBuffers::TakeOver(const HeadTopology& topology) {
   photo_ = topology.photo;
   relief_ = topology.relief;
   lights_ = topology.lights;
@@ -120,40 +180,9 @@ void HeadBuffers::UploadTopology(const Head& head) {
   saturation_ = topology.saturation;
   photo_light_ = topology.photo_light;
   eye_pictures_ = topology.eye_pictures;
-  std::vector<glm::vec4> worn(paint.size(), glm::vec4(0)), lender(worn);
-  for (std::size_t i = 0; i < topology.texcoord.size(); ++i) {
-    worn[i] = glm::vec4(topology.texcoord[i], topology.texture_weight[i], 0);
-  }
-  for (const ShutLid& lid : topology.shut_lids) {
-    paint[lid.vertex] = glm::vec4(lid.colour, lid.lender_light);
-    worn[lid.vertex].w = lid.weight;
-    lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
-  }
-  upload(3, paint);
-  upload(7, worn);
-  upload(8, lender);
+  eye_place_ = topology.eyes[0];
   // What wears a photo thins out as hair does; a mesh from elsewhere has cut-outs in any order.
   blends_ = Blends(topology);
-  std::vector<float> opacity = topology.opacity;
-  opacity.resize(paint.size(), 1.0F);
-  upload(9, opacity);
-  // As long as the light on it changes.
-  std::vector<glm::vec3> rest_normal = rest.normal;
-  for (std::size_t i = 0; i < rest_normal.size(); ++i) {
-    rest_normal[i] *= i < topology.relit.size() ? topology.relit[i] : 0.0F;
-  }
-  upload(10, rest_normal);
-  std::vector<bool> detailed(paint.size());
-  for (std::size_t i = 0; i < detailed.size(); ++i) {
-    detailed[i] = opacity[i] < 1 || lender[i].x > 0 || creases.right[i] != glm::vec4(0) ||
-                  creases.left[i] != glm::vec4(0);
-  }
-  Order(topology, rest, detailed);
-  eyes_ = EyeFinder(topology, rest);
-  if (eyes_.found()) resting_eyes_ = eyes_.Measure(rest);
-  shadows_ = ShadowFinder(topology, rest);
-  mouth_ = MouthFinder(topology);
-  eye_place_ = topology.eyes[0];
 }
 
 const SkinTexture* HeadBuffers::skin() {

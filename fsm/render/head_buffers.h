@@ -74,6 +74,7 @@ class HeadBuffers {
   static constexpr float kNoChin = -1e4F;
 
   void UploadTopology(const Head& head);
+  void TakeOver(const HeadTopology& topology);
   /// `detailed`: of every vertex, what DrawnPart says of parts.
   void Order(const HeadTopology& topology, const HeadVertices& rest,
              const std::vector<bool>& detailed);
