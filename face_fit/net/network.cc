@@ -20,6 +20,118 @@ int SizeAfter(const Step& step, int in, int stride, int filter) {
 /// More multiplications than any of the networks needs, by some margin.
 constexpr double kMostWork = 4e9;
 
+/// Whether an operator's inputs, weights and output fit together. What does not throws BadModel.
+class StepChecker {
+ public:
+  StepChecker(const Model& model, const Step& step)
+      : model_(model), step_(step), in_(Of(step.inputs[0])), out_(Of(step.output).shape) {}
+
+  void Check() const {
+    Require(in_.counts.empty(), "an operator works on whole numbers");
+    Require(in_.shape.size[0] == 1 || step_.op == Op::kDequantize,
+            "more than one picture at a time");
+    switch (step_.op) {
+      case Op::kConv:
+      case Op::kDepthwiseConv:
+      case Op::kTransposeConv:
+        return CheckConvolution();
+      case Op::kMaxPool:
+      case Op::kAveragePool:
+        Require(out_.channels() == in_.shape.channels(), "pooling changes the channels");
+        return CheckWindow(step_.filter_rows, step_.filter_columns);
+      case Op::kAdd:
+      case Op::kMul:
+      case Op::kPrelu:
+        return CheckOperands();
+      case Op::kConcatenation:
+        return CheckConcatenation();
+      case Op::kPad:
+        return CheckPadding();
+      case Op::kResizeBilinear:
+        return Require(out_.channels() == in_.shape.channels(), "resizing changes the channels");
+      case Op::kDequantize:
+      case Op::kHardSwish:
+      case Op::kLogistic:
+      case Op::kRelu:
+      case Op::kReshape:
+        return Require(in_.shape.count() == out_.count(), "an operator changes the size");
+    }
+  }
+
+ private:
+  const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
+  const Tensor& Argument(std::size_t i) const {
+    Require(i < step_.inputs.size() && step_.inputs[i] >= 0, "an operator lacks an input");
+    return Of(step_.inputs[i]);
+  }
+  const Shape& Numbers(std::size_t i) const {
+    Require(Argument(i).counts.empty(), "an operator works on whole numbers");
+    return Argument(i).shape;
+  }
+
+  void CheckConvolution() const {
+    const Shape& filter = Numbers(1);
+    const bool each = step_.op == Op::kDepthwiseConv;
+    Require(filter.channels() == in_.shape.channels() &&
+                filter.size[0] == (each ? 1 : out_.channels()) &&
+                (!each || out_.channels() == in_.shape.channels()),
+            "a filter does not match its input");
+    if (step_.op == Op::kTransposeConv) {
+      Require(out_.rows() == in_.shape.rows() * filter.rows() &&
+                  out_.columns() == in_.shape.columns() * filter.columns(),
+              "an unfolding convolution of overlapping blocks");
+    } else {
+      CheckWindow(filter.rows(), filter.columns());
+    }
+    if (step_.inputs.size() < 3 || step_.inputs[2] < 0) return;
+    Require(Numbers(2).count() == static_cast<std::size_t>(out_.channels()),
+            "a bias of another size than the channels");
+  }
+
+  void CheckWindow(int rows, int columns) const {
+    const Shape& in = in_.shape;
+    Require(step_.same_padding || (rows <= in.rows() && columns <= in.columns()),
+            "a filter larger than its input");
+    Require(out_.rows() == SizeAfter(step_, in.rows(), step_.stride_rows, rows) &&
+                out_.columns() == SizeAfter(step_, in.columns(), step_.stride_columns, columns),
+            "a convolution's output has another size");
+  }
+
+  void CheckOperands() const {
+    const std::size_t n = Numbers(1).count();
+    const bool fits =
+        Numbers(1) == in_.shape || n == 1 || n == static_cast<std::size_t>(in_.shape.channels());
+    Require(out_ == in_.shape && fits, "operands of different sizes");
+  }
+
+  // Along the second axis of three, which is the third of four: whole blocks after each other.
+  void CheckConcatenation() const {
+    std::size_t sum = 0;
+    for (std::size_t i = 0; i < step_.inputs.size(); ++i) {
+      Require(Numbers(i).rows() == 1 && Numbers(i).channels() == out_.channels(),
+              "a concatenation of another kind");
+      sum += Numbers(i).count();
+    }
+    Require(step_.axis == 1 && out_.rows() == 1 && sum == out_.count(),
+            "a concatenation of another kind");
+  }
+
+  void CheckPadding() const {
+    const auto& by = Argument(1).counts;
+    Require(by.size() == 8, "a padding of other than four axes");
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      const std::int64_t before = by[2 * axis], after = by[2 * axis + 1];
+      Require(before >= 0 && after >= 0 && in_.shape.size[axis] + before + after == out_.size[axis],
+              "a padding of another size");
+    }
+  }
+
+  const Model& model_;
+  const Step& step_;
+  const Tensor& in_;
+  const Shape& out_;
+};
+
 }  // namespace
 
 Network::Network(Model model) : model_(std::move(model)) {
@@ -35,7 +147,7 @@ Network::Network(Model model) : model_(std::move(model)) {
     for (const int i : step.inputs) {
       Require(i < 0 || known[static_cast<std::size_t>(i)], "an operator comes before its input");
     }
-    Check(step);
+    StepChecker(model_, step).Check();
     const auto out = static_cast<std::size_t>(step.output);
     Require(!known[out], "two operators write one tensor");
     known[out] = true;
@@ -63,103 +175,6 @@ Network::Network(Model model) : model_(std::move(model)) {
   for (const Step& step : model_.steps) {
     if (step.op != Op::kDequantize || !Of(step.inputs[0]).constant) continue;
     Of(step.output).values = Of(step.inputs[0]).values;
-  }
-}
-
-void Network::Check(const Step& step) const {
-  const Tensor& in = Of(step.inputs[0]);
-  const Shape& out = Of(step.output).shape;
-  Require(in.counts.empty(), "an operator works on whole numbers");
-  const auto argument = [&](std::size_t i) -> const Tensor& {
-    Require(i < step.inputs.size() && step.inputs[i] >= 0, "an operator lacks an input");
-    return Of(step.inputs[i]);
-  };
-  const auto numbers = [&](std::size_t i) -> const Tensor& {
-    Require(argument(i).counts.empty(), "an operator works on whole numbers");
-    return argument(i);
-  };
-  const auto bias = [&] {
-    if (step.inputs.size() < 3 || step.inputs[2] < 0) return;
-    Require(numbers(2).shape.count() == static_cast<std::size_t>(out.channels()),
-            "a bias of another size than the channels");
-  };
-  const auto window = [&](int rows, int columns) {
-    Require(step.same_padding || (rows <= in.shape.rows() && columns <= in.shape.columns()),
-            "a filter larger than its input");
-    Require(out.rows() == SizeAfter(step, in.shape.rows(), step.stride_rows, rows) &&
-                out.columns() == SizeAfter(step, in.shape.columns(), step.stride_columns, columns),
-            "a convolution's output has another size");
-  };
-  Require(in.shape.size[0] == 1 || step.op == Op::kDequantize, "more than one picture at a time");
-  switch (step.op) {
-    case Op::kConv: {
-      const Shape& filter = numbers(1).shape;
-      Require(filter.channels() == in.shape.channels() && filter.size[0] == out.channels(),
-              "a filter does not match its input");
-      window(filter.rows(), filter.columns());
-      return bias();
-    }
-    case Op::kDepthwiseConv: {
-      const Shape& filter = numbers(1).shape;
-      Require(filter.size[0] == 1 && filter.channels() == in.shape.channels() &&
-                  out.channels() == in.shape.channels(),
-              "a filter does not match its input");
-      window(filter.rows(), filter.columns());
-      return bias();
-    }
-    case Op::kTransposeConv: {
-      const Shape& filter = numbers(1).shape;
-      Require(filter.channels() == in.shape.channels() && filter.size[0] == out.channels() &&
-                  out.rows() == in.shape.rows() * filter.rows() &&
-                  out.columns() == in.shape.columns() * filter.columns(),
-              "an unfolding convolution of overlapping blocks");
-      return bias();
-    }
-    case Op::kMaxPool:
-    case Op::kAveragePool:
-      Require(out.channels() == in.shape.channels(), "pooling changes the channels");
-      return window(step.filter_rows, step.filter_columns);
-    case Op::kAdd:
-    case Op::kMul:
-    case Op::kPrelu: {
-      const std::size_t n = numbers(1).shape.count();
-      const bool fits = numbers(1).shape == in.shape || n == 1 ||
-                        n == static_cast<std::size_t>(in.shape.channels());
-      Require(out == in.shape && fits, "operands of different sizes");
-      return;
-    }
-    case Op::kConcatenation: {
-      // Along the second axis of three, which is the third of four: whole blocks after each other.
-      std::size_t sum = 0;
-      for (std::size_t i = 0; i < step.inputs.size(); ++i) {
-        Require(numbers(i).shape.rows() == 1 && numbers(i).shape.channels() == out.channels(),
-                "a concatenation of another kind");
-        sum += numbers(i).shape.count();
-      }
-      Require(step.axis == 1 && out.rows() == 1 && sum == out.count(),
-              "a concatenation of another kind");
-      return;
-    }
-    case Op::kPad: {
-      const auto& by = argument(1).counts;
-      Require(by.size() == 8, "a padding of other than four axes");
-      for (std::size_t axis = 0; axis < 4; ++axis) {
-        const std::int64_t before = by[2 * axis], after = by[2 * axis + 1];
-        Require(before >= 0 && after >= 0 && in.shape.size[axis] + before + after == out.size[axis],
-                "a padding of another size");
-      }
-      return;
-    }
-    case Op::kResizeBilinear:
-      Require(out.channels() == in.shape.channels(), "resizing changes the channels");
-      return;
-    case Op::kDequantize:
-    case Op::kHardSwish:
-    case Op::kLogistic:
-    case Op::kRelu:
-    case Op::kReshape:
-      Require(in.shape.count() == out.count(), "an operator changes the size");
-      return;
   }
 }
 

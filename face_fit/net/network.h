@@ -25,7 +25,6 @@ class Network {
  private:
   const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
   Tensor& Of(int i) { return model_.tensors[static_cast<std::size_t>(i)]; }
-  void Check(const Step& step) const;
   void Do(const Step& step);
 
   Model model_;
