@@ -1,6 +1,7 @@
 #include "vm_protocol/runtime/tls.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include "vm_protocol/core/text_file.h"
+#include "vm_protocol/runtime/turns.h"
 
 namespace vm {
 namespace {
@@ -27,17 +29,59 @@ using boost::system::error_code;
 constexpr auto kTlsHandshakeLimit = std::chrono::seconds(10);
 constexpr std::size_t kChunk = 16u * 1024;  // one TLS record
 
+/// A connected socket whose input is only read in turn with that of others, until it is admitted:
+/// what a handshake costs is spent when its input is read. An asynchronous stream for Asio.
+class PacedSocket {
+ public:
+  using Socket = asio::generic::stream_protocol::socket;
+  using lowest_layer_type = Socket::lowest_layer_type;
+  using executor_type = Socket::executor_type;
+  PacedSocket(Socket socket, std::shared_ptr<Turns> turns)
+      : socket_(std::move(socket)), turns_(std::move(turns)) {}
+  lowest_layer_type& lowest_layer() { return socket_.lowest_layer(); }
+  executor_type get_executor() { return socket_.get_executor(); }
+  void Admit() { turns_ = nullptr; }
+
+  template <typename Buffers, typename Token>
+  void async_read_some(const Buffers& buffers, Token&& token) {
+    if (turns_ == nullptr) return socket_.async_read_some(buffers, std::forward<Token>(token));
+    socket_.async_wait(Socket::wait_read, [this, buffers, token = std::forward<Token>(token)](
+                                              const error_code& error) mutable {
+      if (error) return std::move(token)(error, std::size_t{0});
+      turns_->Wait([this, buffers, token = std::move(token)](const error_code&) mutable {
+        if (HasEnded()) return std::move(token)(asio::error::eof, std::size_t{0});
+        socket_.async_read_some(buffers, std::move(token));
+      });
+    });
+  }
+  template <typename Buffers, typename Token>
+  void async_write_some(const Buffers& buffers, Token&& token) {
+    socket_.async_write_some(buffers, std::forward<Token>(token));
+  }
+
+ private:
+  /// Nothing is spent on those who have gone, or were shut out, while they waited.
+  bool HasEnded() {
+    pollfd state{socket_.native_handle(), POLLRDHUP, 0};
+    return poll(&state, 1, 0) == 1 && (state.revents & (POLLRDHUP | POLLHUP)) != 0;
+  }
+
+  Socket socket_;
+  std::shared_ptr<Turns> turns_;
+};
+
 /// A TLS stream on one side, one end of a local pair of sockets on the other, and bytes between
 /// them. Kept alive by its operations; both ends close together. Reads only what has been passed
 /// on, so a slow reader is felt at the far end as on a plain socket.
 class Tunnel : public std::enable_shared_from_this<Tunnel> {
  public:
-  using Socket = asio::generic::stream_protocol::socket;
-  Tunnel(asio::io_context& io, std::shared_ptr<ssl::context> context, Socket socket)
+  Tunnel(asio::io_context& io, std::shared_ptr<ssl::context> context, PacedSocket socket,
+         std::chrono::milliseconds close_limit)
       : context_(std::move(context)),
         remote_(std::move(socket), *context_),
         local_(io),
-        limit_(io) {}
+        limit_(io),
+        close_limit_(close_limit) {}
 
   void Start(bool listener, const std::string& host, Tls::Done done) {
     done_ = std::move(done);
@@ -71,8 +115,14 @@ class Tunnel : public std::enable_shared_from_this<Tunnel> {
       return done(Fail(Errc::kUnavailable, "cannot make a pair of sockets"));
     }
     local_.assign(asio::local::stream_protocol(), ends[0]);
+    remote_.next_layer().Admit();
     FromRemote();
     FromLocal();
+    // Also noticed while the far side takes nothing, when nobody reads from our side.
+    local_.async_wait(asio::socket_base::wait_error,
+                      [self = shared_from_this()](const error_code& stopped) {
+                        if (!stopped) self->CloseRemoteInTime();
+                      });
     done(Tls::Plain{ends[1], NameOfOther()});
   }
 
@@ -114,13 +164,18 @@ class Tunnel : public std::enable_shared_from_this<Tunnel> {
   }
   /// Our side has closed: the far side is told so.
   void EndRemote() {
-    limit_.expires_after(kTlsHandshakeLimit);
-    limit_.async_wait([self = shared_from_this()](const error_code& error) {
-      if (!error) self->CloseRemote();
-    });
+    CloseRemoteInTime();
     remote_.async_shutdown([self = shared_from_this()](const error_code&) {
       self->limit_.cancel();
       self->CloseRemote();
+    });
+  }
+  /// The far side has so long to take what is left.
+  void CloseRemoteInTime() {
+    if (!remote_.lowest_layer().is_open()) return;
+    limit_.expires_after(close_limit_);
+    limit_.async_wait([self = shared_from_this()](const error_code& error) {
+      if (!error) self->CloseRemote();
     });
   }
   void CloseRemote() {
@@ -129,9 +184,10 @@ class Tunnel : public std::enable_shared_from_this<Tunnel> {
   }
 
   std::shared_ptr<ssl::context> context_;
-  ssl::stream<Socket> remote_;
+  ssl::stream<PacedSocket> remote_;
   asio::local::stream_protocol::socket local_;
   asio::steady_timer limit_;
+  const std::chrono::milliseconds close_limit_;
   Tls::Done done_;
   std::array<char, kChunk> inward_{}, outward_{};
 };
@@ -146,9 +202,10 @@ void CheckFile(const std::string& path) {
 
 class TlsImpl final : public Tls {
  public:
-  TlsImpl(const Credentials& credentials, bool listener)
+  TlsImpl(const Credentials& credentials, bool listener, std::chrono::milliseconds close_limit)
       : context_(std::make_shared<ssl::context>(listener ? ssl::context::tls_server
                                                          : ssl::context::tls_client)),
+        close_limit_(close_limit),
         listener_(listener) {
     SSL_CTX_set_min_proto_version(context_->native_handle(), TLS1_2_VERSION);
     try {
@@ -179,29 +236,35 @@ class TlsImpl final : public Tls {
     sockaddr_storage address{};
     socklen_t size = sizeof(address);
     getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-    Tunnel::Socket socket(io);
+    PacedSocket::Socket socket(io);
     error_code error;
     socket.assign(asio::generic::stream_protocol(address.ss_family, 0), fd, error);
     if (error) {
       close(fd);
       return done(Fail(Errc::kUnavailable, error.message()));
     }
-    std::make_shared<Tunnel>(io, context_, std::move(socket))->Start(listener_, host, done);
+    if (turns_ == nullptr) turns_ = std::make_shared<Turns>(io);
+    std::make_shared<Tunnel>(io, context_, PacedSocket(std::move(socket), turns_), close_limit_)
+        ->Start(listener_, host, done);
   }
 
  private:
   std::shared_ptr<ssl::context> context_;
-  bool listener_;
+  std::shared_ptr<Turns> turns_;  // of those who have not agreed yet
+  const std::chrono::milliseconds close_limit_;
+  const bool listener_;
   std::string what_;
 };
 
 }  // namespace
 
-std::shared_ptr<Tls> Tls::ForListener(const Credentials& credentials) {
-  return std::make_shared<TlsImpl>(credentials, true);
+std::shared_ptr<Tls> Tls::ForListener(const Credentials& credentials,
+                                      std::chrono::milliseconds close_limit) {
+  return std::make_shared<TlsImpl>(credentials, true, close_limit);
 }
-std::shared_ptr<Tls> Tls::ForCaller(const Credentials& credentials) {
-  return std::make_shared<TlsImpl>(credentials, false);
+std::shared_ptr<Tls> Tls::ForCaller(const Credentials& credentials,
+                                    std::chrono::milliseconds close_limit) {
+  return std::make_shared<TlsImpl>(credentials, false, close_limit);
 }
 
 }  // namespace vm
