@@ -79,6 +79,8 @@ void LineScripts::Delete(const std::string& name) {
 }
 
 Result<std::size_t> LineScripts::Do(const std::string& name_or_path, const Origin& origin) {
+  if (const auto checked = hub_.CheckCaused(origin, vm::kMaxDoLines); !checked)
+    return std::unexpected(checked.error());
   Script from_file;
   const auto kept = scripts_.find(name_or_path);
   if (kept == scripts_.end()) {

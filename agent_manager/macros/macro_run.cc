@@ -49,7 +49,7 @@ void MacroRun::OnPhaseEnd(const std::optional<Error>& error) {
   if (phase_ == Phase::kSteps && error) return Fail(*error);
   if (phase_ != Phase::kFinally) return Enter(Phase::kFinally);
   variables_ = sequence_->variables();
-  services_.hub.Post(on_end_);
+  services_.hub.Post(on_end_, state_.origin.peer);
 }
 
 void MacroRun::Fail(const Error& error) {

@@ -64,9 +64,11 @@ void Sequence::End(std::optional<Error> error) {
   if (std::exchange(ended_, true)) return;
   services_.clock.Cancel(std::exchange(timer_, 0));
   branches_.clear();
-  services_.hub.Post([weak = weak_from_this(), error = std::move(error)] {
-    if (const auto self = weak.lock()) self->on_end_(error);
-  });
+  services_.hub.Post(
+      [weak = weak_from_this(), error = std::move(error)] {
+        if (const auto self = weak.lock()) self->on_end_(error);
+      },
+      origin_.peer);
 }
 
 void Sequence::Fail(Error error) {
@@ -116,6 +118,8 @@ bool Sequence::Holds(const MacroStep& step) const {
 }
 
 void Sequence::Say(const MessageTemplate& said, const Template::Lookup& lookup, OnAnswer done) {
+  if (const auto checked = services_.hub.CheckCaused(origin_, kMaxSaid); !checked)
+    return End(checked.error());
   auto message = said.Expand(lookup);
   if (!message) return Fail(message.error());
   for (const std::string& name : message->to) run_.involved.insert(name);
@@ -151,9 +155,11 @@ void Sequence::Answered(unsigned number, const std::string& where,
   asking_.reset();
   services_.clock.Cancel(std::exchange(timer_, 0));
   if (!answer) Fail({answer.error().code, where + ": " + answer.error().text, 0});
-  services_.hub.Post([weak = weak_from_this()] {
-    if (const auto self = weak.lock()) self->Advance();
-  });
+  services_.hub.Post(
+      [weak = weak_from_this()] {
+        if (const auto self = weak.lock()) self->Advance();
+      },
+      origin_.peer);
 }
 
 bool Sequence::Meets(const WaitStep& step, const Heard& heard) {
@@ -217,14 +223,11 @@ void Sequence::OnReport(const std::string& from, const std::string& slot, const 
     if (follower->from != from || follower->tell != slot) continue;
     const Message& sent = follower->send.message();
     if (!services_.hub.IsPresent(sent.to.front())) continue;
-    if (services_.hub.queued() > kMaxQueued) {
-      Fail({Errc::kLimit, "@" + from + " tells " + slot + " faster than it can be passed on", 0});
-      return Advance();
-    }
     const auto lookup = [&](const std::string& name) {
       return name == "told" ? value : Value(name);
     };
     Say(follower->send, lookup, IgnoreAnswer);
+    if (ended_) return;
   }
   for (const auto& branch : branches_) branch->OnReport(from, slot, value, told);
   const Heard heard{from, slot, value};

@@ -49,8 +49,9 @@ class Sequence : public std::enable_shared_from_this<Sequence> {
   static constexpr std::size_t kMaxVariableBytes = 1u << 20;
   static constexpr std::size_t kMaxHeardBytes = 256u << 10;
   static constexpr std::size_t kMaxBranches = 64;
-  /// Events that followers pass on wait for the hub; beyond so many items the run fails.
-  static constexpr std::size_t kMaxQueued = 16384;
+  /// Messages of all runs that one peer has started, and that the hub has not dealt with; beyond
+  /// them the run fails.
+  static constexpr std::size_t kMaxSaid = 4096;
   /// Called once, from the hub's queue. `error` is the failure of a step.
   using OnEnd = std::function<void(const std::optional<vm::Error>& error)>;
   /// `lenient`: a step that fails is skipped.

@@ -23,6 +23,7 @@ constexpr std::uint64_t kShareForOthers = 8;  // of limits.peers, which guests c
 
 Hub::Hub(vm::Scheduler& clock, SessionLog& log)
     : clock_(clock),
+      queue_([this](PeerKey peer, bool begins) { HoldWhileInLane(peer, begins); }),
       back_pressure_(clock, directory_, limits_,
                      [this](PeerKey peer, const std::string& why) {
                        outbox_.Notice("@" + NameOf(peer) + ": " + why + ", it is cut off");
@@ -43,8 +44,19 @@ Hub::Hub(vm::Scheduler& clock, SessionLog& log)
 Hub::~Hub() = default;
 
 void Hub::set_lockstep(bool lockstep) {
+  queue_.set_lockstep(lockstep);
   back_pressure_.set_lockstep(lockstep);
   grants_.set_lockstep(lockstep);
+}
+
+void Hub::HoldWhileInLane(PeerKey key, bool begins) {
+  Peer* const peer = directory_.ByKey(key);
+  if (peer == nullptr) return;
+  if (begins) {
+    peer->flow.in_lane = back_pressure_.Hold(*peer);
+  } else if (std::exchange(peer->flow.in_lane, false)) {
+    BackPressure::LetGo(*peer);
+  }
 }
 
 Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
@@ -174,13 +186,15 @@ void Hub::Take(Peer& sender, Message message, std::size_t bytes) {
 }
 
 void Hub::Leave(PeerKey key, const std::string& reason) {
-  queue_.Post([this, key, reason] { Evict(key, reason); });
+  queue_.Post([this, key, reason] { Evict(key, reason); }, key);
 }
 
 void Hub::EndInput(PeerKey key) {
-  queue_.Post([this, key] {
-    if (directory_.ByKey(key) != nullptr) half_closed_.try_emplace(key);
-  });
+  queue_.Post(
+      [this, key] {
+        if (directory_.ByKey(key) != nullptr) half_closed_.try_emplace(key);
+      },
+      key);
 }
 
 /// Those who speak no more go once they have heard what they asked for.
@@ -227,7 +241,7 @@ void Hub::Evict(PeerKey key, const std::string& reason) {
 bool Hub::Drain() {
   // What comes while these are dealt with waits for the next time: the loop looks at its
   // descriptors and timers in between, whatever the hub's parts say to each other.
-  const bool any = queue_.Drain([this](WorkQueue::Item& item) { DealWith(item); }) > 0;
+  const bool any = queue_.Drain([this](WorkQueue::Item& item) { DealWith(item); });
   if (!half_closed_.empty()) ReleaseHalfClosed();
   return any || !queue_.empty();
 }
@@ -235,7 +249,7 @@ bool Hub::Drain() {
 void Hub::DealWith(WorkQueue::Item& item) {
   if (const auto* const work = std::get_if<Work>(&item)) {
     if (const auto done = vm::Guarded(work->act); !done)
-      ReportFailure(work->blamed, done.error().text, nullptr);
+      ReportFailure(work->cause, done.error().text, nullptr);
     return;
   }
   // Routing takes the envelope apart; whoever waits for an answer has one all the same.
@@ -284,10 +298,18 @@ void Hub::AddMachine(vm::SlotMachine& machine, std::vector<std::string> aliases,
 }
 
 void Hub::Ask(const std::string& sender, Message message, OnAnswer done, const Origin& origin) {
-  queue_.Push(Envelope{std::move(message), origin, sender, std::move(done)});
+  queue_.PushCaused({std::move(message), origin, sender, std::move(done)});
 }
 
-void Hub::SayAs(const Origin& origin, Message message) { queue_.Push(std::move(message), origin); }
+void Hub::SayAs(const Origin& origin, Message message) {
+  queue_.PushCaused({.message = std::move(message), .origin = origin});
+}
+
+Result<void> Hub::CheckCaused(const Origin& origin, std::size_t most_items) const {
+  const auto caused = queue_.CausedBy(origin.peer);
+  if (caused.items <= most_items && caused.bytes <= WorkQueue::kMaxCausedBytes) return {};
+  return Fail(Errc::kLimit, "macros and scripts say more for this peer than can be passed on");
+}
 
 bool Hub::IsModule(std::string_view name) const {
   const Peer* const peer = directory_.Find(name);

@@ -51,9 +51,8 @@ class Hub {
   /// Deals with what has been said by now. False if there was nothing to do.
   bool Drain();
   bool idle() const { return queue_.empty(); }
-  std::size_t queued() const { return queue_.size(); }  ///< items to be dealt with
-  /// Does something in the loop, between two messages.
-  void Post(std::function<void()> act) { queue_.Post(std::move(act)); }
+  /// Does something in the loop, between two messages, after what `cause` has said before.
+  void Post(std::function<void()> act, PeerKey cause = kHub) { queue_.Post(std::move(act), cause); }
 
   /// A machine inside the hub that is addressed like a module. Borrowed; outlives the hub's use.
   /// `replaceable`: a module of that name may take its place.
@@ -65,6 +64,9 @@ class Hub {
            const Origin& origin = Origin::OfHub());
   /// Says something as a peer, as if it had come by its link: the lines of `do`.
   void SayAs(const Origin& origin, vm::Message message);
+  /// kLimit if more than `most_items` messages, or WorkQueue::kMaxCausedBytes, that Ask and SayAs
+  /// were given for this origin have not been dealt with.
+  vm::Result<void> CheckCaused(const Origin& origin, std::size_t most_items) const;
 
   /// Asked whether a peer still waits for an answer of one of the hub's own parts.
   void set_awaited_by(std::function<bool(PeerKey peer)> awaited_by) {
@@ -131,6 +133,7 @@ class Hub {
   bool HoldsBack() const { return router_.HoldsBack() || forwarder_.HoldsBack(); }
 
  private:
+  void HoldWhileInLane(PeerKey peer, bool begins);
   vm::Result<PeerKey> Add(std::unique_ptr<Peer> peer);
   /// Counts what a peer has sent. Null if the peer is gone or is being cut off.
   Peer* CountInput(PeerKey peer, std::size_t bytes);

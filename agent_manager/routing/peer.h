@@ -48,6 +48,7 @@ struct FlowState {
   RateMeter messages, bytes;
   bool throttled = false;
   int held_by = 0;          ///< reasons why it is not read from
+  bool in_lane = false;     ///< it is held since what it has caused waits in a lane of the queue
   std::set<PeerKey> holds;  ///< senders that wait until it has read what they said
   vm::TimerId timer = 0;
   vm::Time full_since{0};
