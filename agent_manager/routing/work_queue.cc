@@ -4,7 +4,7 @@ namespace am {
 namespace {
 
 constexpr std::size_t kKeptItems = 16384;  // what a flood needed beyond this is given back
-constexpr std::size_t kLookAtClock = 4;    // items: a cheap message takes not ten times as long
+constexpr std::size_t kLookAtClock = 4;  // items: cheap ones shall not pay for it
 
 std::size_t BytesOf(const Envelope& envelope) {
   return envelope.message.value.size() + envelope.message.slot.size();
@@ -71,11 +71,13 @@ bool WorkQueue::Drain(const std::function<void(Item& item)>& take) {
   std::size_t until_look = kLookAtClock;
   taken_.swap(items_);
   for (Item& item : taken_) {
-    const PeerKey cause = CauseOf(item);
-    // The hub's own is short, and everybody's: it waits for nobody.
-    if (cause != kHub && (late || (!lanes_.empty() && lanes_.contains(cause)))) {
-      PutIntoLane(cause, std::move(item));
-      continue;
+    if (late || !lanes_.empty()) {
+      // The hub's own is short, and everybody's: it waits for nobody.
+      const PeerKey cause = CauseOf(item);
+      if (cause != kHub && (late || lanes_.contains(cause))) {
+        PutIntoLane(cause, std::move(item));
+        continue;
+      }
     }
     Take(item, take);
     if (--until_look > 0 || lockstep_) continue;
