@@ -70,7 +70,7 @@ AgentManager::AgentManager(Config config, Options options)
           }),
       console_(io_, clock_, hub_, ConsoleHooks()),
       hub_slots_(clock_, hub_, supervisor_, slots_, SlotHooks()),
-      dispatcher_(hub_, slots_, macros_, built_in_modules_, ReadFile),
+      dispatcher_(hub_, slots_, macros_, built_in_machines_, ReadFile),
       listeners_(
           io_, hub_, [this](const std::string& text) { Say(text); },
           [this](const std::string& text) { Refused(text); }),
@@ -155,10 +155,10 @@ LiveConfig::Parts AgentManager::ConfigParts() {
 void AgentManager::ConnectParts() {
   hub_.set_on_notice([this](const std::string& text, PeerKey about) { SayError(text, about); });
   hub_.set_on_report([this](const std::string& from, const vm::Message& message) {
-    for (BuiltInModule* const machine : built_in_modules_) machine->OnReport(from, message);
+    for (BuiltInMachine* const machine : built_in_machines_) machine->OnReport(from, message);
   });
   hub_.set_awaited_by([this](PeerKey peer) {
-    return std::ranges::any_of(built_in_modules_,
+    return std::ranges::any_of(built_in_machines_,
                                [peer](const auto* m) { return m->IsAwaitedBy(peer); });
   });
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
@@ -181,7 +181,8 @@ void AgentManager::ConnectParts() {
 
 void AgentManager::OnPresence(const std::string& name, bool present, const std::string& reason) {
   if (!present) slots_.TellAll("@" + name + " has gone: " + reason);
-  for (BuiltInModule* const machine : built_in_modules_) machine->OnPresence(name, present, reason);
+  for (BuiltInMachine* const machine : built_in_machines_)
+    machine->OnPresence(name, present, reason);
   if (auto* const bridge = config_.bridge()) bridge->OnPresence(name, present, reason);
   if (!present) return lockstep_.ForgetGone();
   lockstep_.Forget();
@@ -374,8 +375,8 @@ bool AgentManager::Started() const {
 }
 
 bool AgentManager::SomethingGoesOn() const {
-  const auto busy = [](const BuiltInModule* machine) { return machine->Busy(); };
-  if (std::ranges::any_of(built_in_modules_, busy) || hub_.HoldsBack() || !hub_.idle() ||
+  const auto busy = [](const BuiltInMachine* machine) { return machine->Busy(); };
+  if (std::ranges::any_of(built_in_machines_, busy) || hub_.HoldsBack() || !hub_.idle() ||
       (replay_ && replay_->pending() > 0))
     return true;
   return clock_.real() ? !quiet_.quiet() : lockstep_.Busy();
@@ -397,7 +398,7 @@ bool AgentManager::Over() const {
 void AgentManager::Shutdown() {
   NotifyService("STOPPING=1");
   listeners_.CloseAll();
-  for (BuiltInModule* const machine : built_in_modules_)
+  for (BuiltInMachine* const machine : built_in_machines_)
     machine->Abandon({vm::Errc::kStopped, "the hub ends", 0});
   bool done = false;
   supervisor_.StopAll([&done] { done = true; });

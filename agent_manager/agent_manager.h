@@ -108,7 +108,7 @@ class AgentManager {
   MacroLayer macros_;
   Parallel parallel_;
   SoundPlayer sounds_;
-  const std::array<BuiltInModule*, 3> built_in_modules_{&macros_, &parallel_, &sounds_};
+  const std::array<BuiltInMachine*, 3> built_in_machines_{&macros_, &parallel_, &sounds_};
   Supervisor supervisor_;
   Console console_;
   HubSlots hub_slots_;

@@ -27,7 +27,7 @@ struct Session {
         macros(world.clock, world.hub, ReadFile, [](const std::string&) {}),
         parallel(world.clock, world.hub),
         sounds(world.hub),
-        machines(world.hub, am, macros, built_in_modules, ReadFile) {
+        machines(world.hub, am, macros, built_in_machines, ReadFile) {
     world.hub.AddMachine(parallel.slots(), {}, true);
     world.hub.AddMachine(sounds.slots(), {}, true);
     world.hub.AddMachine(am);
@@ -57,11 +57,11 @@ struct Session {
                   return value.text;
                 }});
     world.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
-      for (am::BuiltInModule* machine : built_in_modules) machine->OnReport(from, message);
+      for (am::BuiltInMachine* machine : built_in_machines) machine->OnReport(from, message);
     });
     world.hub.set_on_presence(
         [this](const std::string& name, bool present, const std::string& reason) {
-          for (am::BuiltInModule* machine : built_in_modules)
+          for (am::BuiltInMachine* machine : built_in_machines)
             machine->OnPresence(name, present, reason);
         });
     peers = {world.Join(am::PeerKind::kConsole, "CONSOLE"),
@@ -75,7 +75,7 @@ struct Session {
   am::MacroLayer macros;
   am::Parallel parallel;
   am::SoundPlayer sounds;
-  const std::array<am::BuiltInModule*, 3> built_in_modules{&macros, &parallel, &sounds};
+  const std::array<am::BuiltInMachine*, 3> built_in_machines{&macros, &parallel, &sounds};
   am::BuiltInDispatcher machines;
   std::vector<std::shared_ptr<am::World::Peer>> peers;
 };

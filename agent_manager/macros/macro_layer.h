@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "agent_manager/macros/built_in_module.h"
+#include "agent_manager/macros/built_in_machine.h"
 #include "agent_manager/macros/macro_run.h"
 
 namespace am {
@@ -17,7 +17,7 @@ namespace am {
 /// which starts only when the modules have reported that they are idle, or after a time limit.
 /// Lifetime: the clock and the hub outlive it. Thread: the scheduler's.
 /// Limits: kMaxMacros macros with kMaxMacroBytes of text; Sequence has those of one run.
-class MacroLayer final : public BuiltInModule {
+class MacroLayer final : public BuiltInMachine {
  public:
   static constexpr std::size_t kMaxMacros = 1024;
   static constexpr std::size_t kMaxAwaited = 8192;  ///< slots and events that macros wait for

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "agent_manager/macros/built_in_module.h"
+#include "agent_manager/macros/built_in_machine.h"
 #include "agent_manager/routing/hub.h"
 
 namespace am {
@@ -14,7 +14,7 @@ namespace am {
 /// with a receiver, and all lists begin when the voice reports that it speaks. Lines are sent on
 /// behalf of the peer that appended them; a peer's list is deleted when it leaves. Thread: the
 /// scheduler's. Limits: kMaxCommands and kMaxBytes for each peer.
-class Parallel final : public BuiltInModule {
+class Parallel final : public BuiltInMachine {
  public:
   static constexpr std::size_t kMaxCommands = 256;
   static constexpr std::size_t kMaxBytes = 64u << 10;

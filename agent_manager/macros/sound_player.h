@@ -3,7 +3,7 @@
 #include <deque>
 #include <string>
 
-#include "agent_manager/macros/built_in_module.h"
+#include "agent_manager/macros/built_in_machine.h"
 #include "agent_manager/routing/hub.h"
 
 namespace am {
@@ -14,7 +14,7 @@ namespace am {
 /// behalf of the peer that set Play.
 /// Lifetime: the hub outlives it. Thread: the scheduler's. Limits: kMaxFiles.
 /// Errors, answered to that peer: kUnavailable (no voice, no such file), kLimit, the voice's own.
-class SoundPlayer final : public BuiltInModule {
+class SoundPlayer final : public BuiltInMachine {
  public:
   static constexpr std::size_t kMaxFiles = 64;
   explicit SoundPlayer(Hub& hub);

@@ -10,23 +10,23 @@ using vm::Relation;
 using vm::Result;
 
 bool FileGuard::MustAsk(const Peer& peer, Role role) const {
-  return !access_.AllFiles(role) && !peer.module.files && peer.dialect == Dialect::kModern &&
+  return !access_.AllFiles(role) && !peer.files.slots && peer.dialect == Dialect::kModern &&
          peer.kind == PeerKind::kModule;
 }
 
 void FileGuard::AskSlots(Peer& peer, const Ask& ask, std::function<void(Peer& peer)> known) {
-  if (peer.module.files_timer != 0) return;
+  if (peer.files.timer != 0) return;
   const auto learn = [this, key = peer.key,
                       known = std::move(known)](const Result<std::string>& declared) {
     Peer* const module = directory_.ByKey(key);
-    if (module == nullptr || module->module.files) return;
-    clock_.Cancel(std::exchange(module->module.files_timer, 0));
+    if (module == nullptr || module->files.slots) return;
+    clock_.Cancel(std::exchange(module->files.timer, 0));
     --count_;
-    module->module.files = declared ? FileSlots(*declared) : FileSlots();
+    module->files.slots = declared ? FileSlots(*declared) : FileSlots();
     known(*module);
   };
   ++count_;
-  peer.module.files_timer =
+  peer.files.timer =
       clock_.After(kDeclareLimit, [learn] { learn(vm::Fail(vm::Errc::kTimeout, "")); });
   ask(peer, vm::Inq("Slots.files"), learn);
 }
@@ -45,13 +45,13 @@ Result<void> FileGuard::CheckFiles(const Peer& peer, const Message& message, Rol
   const bool unseen = message.command == Command::kDo ||
                       (message.command == Command::kDef && message.relation == Relation::kFromFile);
   if (unseen) return access_.CheckUnseenLines(role, peer.name);
-  return access_.CheckFiles(role, message, peer.module.files ? *peer.module.files : kUndeclared,
+  return access_.CheckFiles(role, message, peer.files.slots ? *peer.files.slots : kUndeclared,
                             peer.folder);
 }
 
 void FileGuard::Forget(Peer& peer) {
-  if (peer.module.files_timer == 0) return;
-  clock_.Cancel(std::exchange(peer.module.files_timer, 0));
+  if (peer.files.timer == 0) return;
+  clock_.Cancel(std::exchange(peer.files.timer, 0));
   --count_;
 }
 

@@ -38,10 +38,10 @@ Forwarder::Forwarder(vm::Scheduler& clock, Directory& directory, Outbox& outbox,
               [this](Peer& module, const Message& start) { Send(module, start, kHub); }) {}
 
 bool Forwarder::MustWait(Peer& peer, const Message& message, const Origin& origin) {
-  ModuleState& module = peer.module;
-  if (module.probing) return true;
+  ProbeState& probe = peer.probe;
+  if (probe.probing) return true;
   if (IsProbe(message, origin)) return false;
-  if (module.measuring) return true;
+  if (probe.measuring) return true;
   if (files_.MustAsk(peer, origin.role)) {
     files_.AskSlots(
         peer,
@@ -51,23 +51,23 @@ bool Forwarder::MustWait(Peer& peer, const Message& message, const Origin& origi
         [this](Peer& known) { FlushWaiting(known); });
     return true;
   }
-  if (peer.kind != PeerKind::kRemote || module.asked_clock || !StartTimeOf(message)) return false;
-  module.asked_clock = module.measuring = true;
+  if (peer.kind != PeerKind::kRemote || probe.asked_clock || !StartTimeOf(message)) return false;
+  probe.asked_clock = probe.measuring = true;
   clock_needed_(peer.key);
   return true;
 }
 
 void Forwarder::KeepWaiting(Peer& peer, Message message, const Origin& origin, OnAnswer done) {
-  ModuleState& module = peer.module;
-  if (module.waiting.size() >= limits_.waiting ||
-      module.waiting_bytes + message.value.size() > limits_.backlog_bytes)
+  WaitingList& waiting = peer.waiting;
+  if (waiting.messages.size() >= limits_.waiting ||
+      waiting.bytes + message.value.size() > limits_.backlog_bytes)
     return outbox_.Answer(
         origin.peer, peer.name, message,
         vm::Fail(Errc::kLimit, "@" + peer.name + " is still being asked, too much waits for it"),
         done);
   requests_.CountUnanswered(origin.peer);
-  module.waiting_bytes += message.value.size();
-  module.waiting.push_back({std::move(message), origin, std::move(done)});
+  waiting.bytes += message.value.size();
+  waiting.messages.push_back({std::move(message), origin, std::move(done)});
 }
 
 void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAnswer done) {
@@ -81,19 +81,19 @@ void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAns
   const bool modern = peer.dialect == Dialect::kModern;
   if (!modern && message.tag.empty() && !done && message.command != Command::kInq)
     return Send(peer, message, origin.peer);
-  if (modern && !peer.module.clock.known && starts_.Hold(peer, message))
+  if (modern && !peer.probe.clock.known && starts_.Hold(peer, message))
     return outbox_.Answer(origin.peer, peer.name, message, message.value, done);
   Request request{origin.peer, WithoutValue(message), std::move(done), vm::Time(0)};
   if (const auto start = modern ? StartTimeOf(message) : std::nullopt)
     message.value =
-        "@" + vm::FormatMs(*start + (grants_.lockstep() ? vm::Time(0) : peer.module.clock.offset));
+        "@" + vm::FormatMs(*start + (grants_.lockstep() ? vm::Time(0) : peer.probe.clock.offset));
   message.tag = requests_.Add(peer, std::move(request));
   Send(peer, message, origin.peer);
 }
 
 void Forwarder::FlushWaiting(Peer& peer) {
-  peer.module.waiting_bytes = 0;
-  for (WaitingMessage& waiting : std::exchange(peer.module.waiting, {})) {
+  peer.waiting.bytes = 0;
+  for (WaitingMessage& waiting : std::exchange(peer.waiting.messages, {})) {
     requests_.UncountUnanswered(waiting.origin.peer);
     Forward(peer, std::move(waiting.message), waiting.origin, std::move(waiting.done));
   }
@@ -123,7 +123,7 @@ void Forwarder::Forget(Peer& peer) {
   files_.Forget(peer);
   starts_.Forget(peer);
   const vm::Error gone{Errc::kUnavailable, "@" + peer.name + " has gone", 0};
-  for (const WaitingMessage& waiting : std::exchange(peer.module.waiting, {})) {
+  for (const WaitingMessage& waiting : std::exchange(peer.waiting.messages, {})) {
     requests_.UncountUnanswered(waiting.origin.peer);
     outbox_.Answer(waiting.origin.peer, peer.name, waiting.message, std::unexpected(gone),
                    waiting.done);

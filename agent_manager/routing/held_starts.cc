@@ -13,7 +13,7 @@ std::optional<vm::Time> StartTimeOf(const vm::Message& message) {
 
 bool HeldStarts::Hold(Peer& module, const vm::Message& message) {
   if (message.command != vm::Command::kSet) return false;
-  auto& held = module.module.held_starts;
+  auto& held = module.held_starts;
   if (const auto before = held.find(message.slot); before != held.end()) {
     clock_.Cancel(before->second);
     held.erase(before);
@@ -30,15 +30,15 @@ bool HeldStarts::Hold(Peer& module, const vm::Message& message) {
 void HeldStarts::Start(PeerKey key, const std::string& slot) {
   Peer* const module = directory_.ByKey(key);
   if (module == nullptr) return;
-  module->module.held_starts.erase(slot);
+  module->held_starts.erase(slot);
   --count_;
   send_(*module, vm::Set(slot, "NOW"));
 }
 
 void HeldStarts::Forget(Peer& module) {
-  for (const auto& [slot, timer] : module.module.held_starts) clock_.Cancel(timer);
-  count_ -= module.module.held_starts.size();
-  module.module.held_starts.clear();
+  for (const auto& [slot, timer] : module.held_starts) clock_.Cancel(timer);
+  count_ -= module.held_starts.size();
+  module.held_starts.clear();
 }
 
 }  // namespace am

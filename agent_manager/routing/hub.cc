@@ -321,7 +321,7 @@ bool Hub::IsGuest(std::string_view name) const {
 }
 bool Hub::IsReady(std::string_view name) const {
   const Peer* const peer = directory_.Find(name);
-  return peer != nullptr && !peer->module.probing;
+  return peer != nullptr && !peer->probe.probing;
 }
 
 std::string Hub::NameOf(PeerKey key) const {
@@ -384,7 +384,7 @@ std::vector<PeerStatus> Hub::Status() const {
   std::vector<PeerStatus> all;
   for (const auto& [key, peer] : directory_.peers()) {
     all.push_back({peer->name, peer->kind, peer->role, peer->traffic, peer->link->backlog_bytes(),
-                   peer->requests.open.size() + peer->module.waiting.size(), peer->defined.size(),
+                   peer->requests.open.size() + peer->waiting.messages.size(), peer->defined.size(),
                    peer->flow.held_by > 0});
   }
   return all;

@@ -32,13 +32,13 @@ ModuleClocks::ModuleClocks(vm::Scheduler& clock, Directory& directory, Outbox& o
 }
 
 void ModuleClocks::Probe(Peer& module) {
-  module.module.probing = true;
+  module.probe.probing = true;
   Message question = vm::Inq("Clock");
   question.tag = requests_.Add(
       module, {kHub, question,
                [this, key = module.key, asked_at = clock_.Now()](const Result<std::string>& value) {
                  Peer* const answering = directory_.ByKey(key);
-                 if (answering != nullptr && answering->module.probing)
+                 if (answering != nullptr && answering->probe.probing)
                    BecomeModern(*answering, asked_at, value);
                },
                vm::Time(0)});
@@ -48,15 +48,15 @@ void ModuleClocks::Probe(Peer& module) {
 void ModuleClocks::BecomeModern(Peer& module, vm::Time asked_at, const Result<std::string>& clock) {
   // A refusal with our tag is an answer too: such a module knows tags, but has no clock.
   module.dialect = Dialect::kModern;
-  module.module.probing = false;
-  module.module.granted = clock_.Now();
+  module.probe.probing = false;
+  module.probe.granted = clock_.Now();
   // In lockstep time waits for every clock that is known: never for a guest's.
   const bool kept_out = grants_.lockstep() && module.role == Role::kGuest;
   if (clock && !kept_out) Sample(module, asked_at, *clock);
   outbox_.Write(
       module, Message{{}, "", vm::Command::kProp, "", "Error", vm::Relation::kAssign, "AutoOutput"},
       kHub);
-  if (module.module.clock.known) {
+  if (module.probe.clock.known) {
     forwarder_.Forward(module, vm::Set("Clock.mode", grants_.lockstep() ? "HUB" : "REAL"),
                        Origin::OfHub(), IgnoreAnswer);
     if (grants_.lockstep()) {
@@ -72,13 +72,13 @@ void ModuleClocks::BecomeModern(Peer& module, vm::Time asked_at, const Result<st
 void ModuleClocks::Sample(Peer& peer, vm::Time asked_at, const std::string& value) {
   const auto theirs = vm::ParseMs(value.substr(0, value.find(' ')));
   if (!theirs) return;
-  peer.module.estimate.Add(asked_at, clock_.Now(), *theirs);
-  peer.module.clock = {true, peer.module.estimate.offset(), peer.module.estimate.delay()};
+  peer.probe.estimate.Add(asked_at, clock_.Now(), *theirs);
+  peer.probe.clock = {true, peer.probe.estimate.offset(), peer.probe.estimate.delay()};
 }
 
 void ModuleClocks::Measure(Peer& peer, int exchanges) {
   if (exchanges <= 0) {
-    if (std::exchange(peer.module.measuring, false)) forwarder_.FlushWaiting(peer);
+    if (std::exchange(peer.probe.measuring, false)) forwarder_.FlushWaiting(peer);
     return;
   }
   forwarder_.Forward(
@@ -101,24 +101,24 @@ void ModuleClocks::MeasureAll() {
   for (const PeerKey key : WithClock()) Measure(*directory_.ByKey(key), 2);
   if (++rounds_ % kRemoteEvery != 0) return;
   for (const auto& [key, peer] : directory_.peers()) {
-    if (peer->kind == PeerKind::kRemote && peer->module.asked_clock) Measure(*peer, 2);
+    if (peer->kind == PeerKind::kRemote && peer->probe.asked_clock) Measure(*peer, 2);
   }
 }
 
 ClockState ModuleClocks::ClockOf(std::string_view name) const {
   const Peer* const peer = directory_.Find(name);
-  return peer == nullptr ? ClockState{} : peer->module.clock;
+  return peer == nullptr ? ClockState{} : peer->probe.clock;
 }
 
 void ModuleClocks::EndProbes(const std::set<PeerKey>& modules) {
   for (const PeerKey key : modules) {
     Peer* const peer = directory_.ByKey(key);
-    if (peer == nullptr || !peer->module.probing) continue;
+    if (peer == nullptr || !peer->probe.probing) continue;
     // One that has said nothing at all yet may still be starting, on a busy machine.
-    if (!peer->spoken && ++peer->module.silent_rounds < kSilentRounds) continue;
+    if (!peer->spoken && ++peer->probe.silent_rounds < kSilentRounds) continue;
     outbox_.Notice("@" + peer->name +
                    " does not know the slot Clock: it is spoken to as a module of the original");
-    peer->module.probing = false;
+    peer->probe.probing = false;
     peer->dialect = Dialect::kOriginal;
     requests_.Forget(*peer);
     forwarder_.FlushWaiting(*peer);
@@ -129,14 +129,14 @@ void ModuleClocks::EndProbes(const std::set<PeerKey>& modules) {
 std::set<PeerKey> ModuleClocks::Probing() const {
   std::set<PeerKey> keys;
   for (const auto& [key, peer] : directory_.peers()) {
-    if (peer->module.probing) keys.insert(key);
+    if (peer->probe.probing) keys.insert(key);
   }
   return keys;
 }
 
 bool ModuleClocks::ProbingConfigured() const {
   return std::ranges::any_of(directory_.peers(), [](const auto& entry) {
-    return entry.second->module.probing && entry.second->configured;
+    return entry.second->probe.probing && entry.second->configured;
   });
 }
 
@@ -144,7 +144,7 @@ std::vector<PeerKey> ModuleClocks::WithClock() const {
   std::vector<PeerKey> keys;
   for (const auto& [key, peer] : directory_.peers()) {
     if (peer->kind == PeerKind::kModule && peer->dialect == Dialect::kModern &&
-        peer->module.clock.known)
+        peer->probe.clock.known)
       keys.push_back(key);
   }
   return keys;

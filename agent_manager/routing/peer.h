@@ -70,21 +70,28 @@ struct WaitingMessage {
   OnAnswer done{};
 };
 
-/// What is known of a module, and the messages that wait until it is. Changed by Forwarder and its
-/// parts, ClockGrants and ModuleClocks only.
-struct ModuleState {
+/// What the hub finds out about a peer's dialect and clock. Only ModuleClocks changes it; Forwarder
+/// sets that a clock is wanted, ClockGrants where it stands.
+struct ProbeState {
   bool probing = false;      ///< it is being asked whether it knows Clock
   int silent_rounds = 0;     ///< EndProbes has passed over it
   bool measuring = false;    ///< a start time waits for its clock to be known
   bool asked_clock = false;  ///< another hub's clock is measured once a start time needs it
-  std::size_t waiting_bytes = 0;
-  std::deque<WaitingMessage> waiting{};              ///< until it is no longer being asked
-  std::map<std::string, vm::TimerId> held_starts{};  ///< `set SLOT = @T` for those that lack `@T`
   ClockState clock{};
   ClockEstimate estimate{};
-  vm::Time granted{0};               ///< lockstep: where its clock stands
-  std::optional<FileSlots> files{};  ///< which of its slots take file names; none: not known yet
-  vm::TimerId files_timer = 0;
+  vm::Time granted{0};  ///< lockstep: where its clock stands
+};
+
+/// The messages that wait until the peer is no longer being asked. Only Forwarder changes it.
+struct WaitingList {
+  std::size_t bytes = 0;
+  std::deque<WaitingMessage> messages{};
+};
+
+/// Which of a peer's slots take file names. Only FileGuard changes it.
+struct FileKnowledge {
+  std::optional<FileSlots> slots{};  ///< none: not known yet
+  vm::TimerId timer = 0;
 };
 
 /// Everything the hub keeps of one peer. Owned by the Directory; it goes only between two items of
@@ -107,7 +114,10 @@ struct Peer {
   std::size_t asked = 0;           ///< its own requests that no module has answered yet
   std::size_t delayed_bytes = 0;   ///< of its messages that rules delay
   bool waits_for_answers = false;  ///< it is not read from until most of them are
-  ModuleState module{};
+  ProbeState probe{};
+  WaitingList waiting{};
+  FileKnowledge files{};
+  std::map<std::string, vm::TimerId> held_starts{};  ///< `set SLOT = @T` without `@T`: HeldStarts
   vm::Time complaints_since{0};
   int complaints = 0;
 };

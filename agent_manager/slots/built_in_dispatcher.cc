@@ -10,10 +10,10 @@ using vm::Relation;
 using vm::Result;
 
 BuiltInDispatcher::BuiltInDispatcher(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
-                                     std::span<BuiltInModule* const> machines,
+                                     std::span<BuiltInMachine* const> machines,
                                      LineScripts::ReadFile read_file)
     : hub_(hub), am_(am), macros_(macros), scripts_(hub, std::move(read_file)) {
-  for (BuiltInModule* const machine : machines) machines_[&machine->slots()] = machine;
+  for (BuiltInMachine* const machine : machines) machines_[&machine->slots()] = machine;
   hub_.set_on_machine([this](vm::SlotMachine& machine, const Envelope& envelope) {
     return Take(machine, envelope);
   });

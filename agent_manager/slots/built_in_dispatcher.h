@@ -4,7 +4,7 @@
 #include <span>
 
 #include "agent_manager/access/file_slots.h"
-#include "agent_manager/macros/built_in_module.h"
+#include "agent_manager/macros/built_in_machine.h"
 #include "agent_manager/macros/line_scripts.h"
 #include "agent_manager/macros/macro_layer.h"
 #include "agent_manager/routing/hub.h"
@@ -17,7 +17,7 @@ namespace am {
 class BuiltInDispatcher {
  public:
   BuiltInDispatcher(Hub& hub, vm::SlotMachine& am, const MacroLayer& macros,
-                    std::span<BuiltInModule* const> machines, LineScripts::ReadFile read_file);
+                    std::span<BuiltInMachine* const> machines, LineScripts::ReadFile read_file);
 
  private:
   vm::Result<Router::Taken> Take(vm::SlotMachine& machine, const Envelope& envelope);
@@ -29,7 +29,7 @@ class BuiltInDispatcher {
   Hub& hub_;
   vm::SlotMachine& am_;
   const MacroLayer& macros_;
-  std::map<const vm::SlotMachine*, BuiltInModule*> machines_;
+  std::map<const vm::SlotMachine*, BuiltInMachine*> machines_;
   struct DeclaredFiles {
     std::string text;
     FileSlots slots;

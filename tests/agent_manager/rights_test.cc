@@ -53,7 +53,7 @@ class RightsTest : public testing::Test {
       : am_("AM"),
         macros_(world_.clock, world_.hub, Read,
                 [this](const std::string& path) { removed_.push_back(path); }),
-        machines_(world_.hub, am_, macros_, built_in_modules_, Read) {
+        machines_(world_.hub, am_, macros_, built_in_machines_, Read) {
     world_.hub.AddMachine(am_);
     world_.hub.AddMachine(macros_.slots(), {"FS-MCL"});
     world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
@@ -82,7 +82,7 @@ class RightsTest : public testing::Test {
   World world_;
   vm::SlotMachine am_;
   MacroLayer macros_;
-  const std::array<BuiltInModule*, 1> built_in_modules_{&macros_};
+  const std::array<BuiltInMachine*, 1> built_in_machines_{&macros_};
   BuiltInDispatcher machines_;
   std::shared_ptr<World::Peer> module_;
   std::map<Role, std::shared_ptr<World::Peer>> peers_;

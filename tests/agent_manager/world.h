@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "agent_manager/macros/built_in_module.h"
+#include "agent_manager/macros/built_in_machine.h"
 #include "agent_manager/routing/hub.h"
 #include "vm_protocol/core/message.h"
 #include "vm_protocol/core/scheduler.h"
@@ -138,7 +138,7 @@ struct World {
   }
 
   /// One of the hub's own machines deals with its messages and hears what modules say.
-  void Connect(BuiltInModule& machine, std::vector<std::string> aliases = {},
+  void Connect(BuiltInMachine& machine, std::vector<std::string> aliases = {},
                bool replaceable = false) {
     hub.AddMachine(machine.slots(), std::move(aliases), replaceable);
     hub.set_on_machine([&machine](vm::SlotMachine&, const Envelope& envelope) {

@@ -7,11 +7,11 @@
 
 namespace am {
 
-/// A module that is part of the hub's own program: @AM-MCL, @PAR, @SND. It answers messages to it
-/// and hears every report of the other modules. Thread: the scheduler's.
-class BuiltInModule {
+/// A part of the hub that is addressed like a module and has work under way: @AM-MCL, @PAR, @SND.
+/// It answers messages to it and hears every report of modules. Thread: the scheduler's.
+class BuiltInMachine {
  public:
-  virtual ~BuiltInModule() = default;
+  virtual ~BuiltInMachine() = default;
 
   virtual vm::SlotMachine& slots() = 0;
   /// Handles a message addressed to it.
