@@ -37,7 +37,7 @@ struct Deed {
   std::string_view name;
 };
 std::optional<Deed> DeedOf(std::string_view receiver, const Message& message) {
-  const std::string& slot = message.slot;
+  const std::string_view slot = message.slot;
   const bool at_hub = receiver == kHubName;
   const bool sets = message.command == Command::kSet;
   // Where the value is not in the message, it may be any.

@@ -51,7 +51,8 @@ class Directory {
   };
   std::map<PeerKey, std::unique_ptr<Peer>> peers_;
   std::unordered_map<std::string, Peer*, Hash, std::equal_to<>> names_;
-  std::map<std::string, vm::SlotMachine*, std::less<>> machines_;  // by every name of theirs
+  // By every name of theirs.
+  std::unordered_map<std::string, vm::SlotMachine*, Hash, std::equal_to<>> machines_;
   std::set<std::string, std::less<>> replaceable_;
   std::set<std::string> reserved_;
 };

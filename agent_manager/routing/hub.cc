@@ -249,17 +249,27 @@ bool Hub::Drain() {
 void Hub::DealWith(WorkQueue::Item& item) {
   if (const auto* const work = std::get_if<Work>(&item)) {
     if (const auto done = vm::Guarded(work->act); !done)
-      ReportFailure(work->cause, done.error().text, nullptr);
+      ReportFailure(work->cause, done.error().text, std::nullopt);
     return;
   }
   // Routing takes the envelope apart; whoever waits for an answer has one all the same.
   Envelope& envelope = std::get<Envelope>(item);
+  const PeerKey blamed = envelope.origin.peer;
+  const std::optional<Asked> asked = AskedBy(envelope);
+  if (const auto routed = vm::Guarded([&] { router_.Route(envelope); }); !routed)
+    ReportFailure(blamed, routed.error().text, asked);
+}
+
+std::optional<Hub::Asked> Hub::AskedBy(Envelope& envelope) {
+  const Message& message = envelope.message;
+  // The tag of a report is that of somebody else's question.
+  const bool tagged = !message.tag.empty() && message.command != vm::Command::kRep;
+  if (!tagged && !envelope.done) return std::nullopt;
   Asked asked;
   asked.asker = envelope.machine.empty() ? envelope.origin.peer : kHub;
-  asked.request.command = envelope.message.command;
-  asked.request.tag = envelope.message.tag;
-  asked.request.slot = envelope.message.slot;
-  const PeerKey blamed = envelope.origin.peer;
+  asked.request.command = message.command;
+  asked.request.tag = message.tag;
+  asked.request.slot = message.slot;
   if (envelope.done) {
     const vm::Reply once(std::move(envelope.done));
     asked.done = [once](const Result<std::string>& answer) {
@@ -267,25 +277,20 @@ void Hub::DealWith(WorkQueue::Item& item) {
     };
     envelope.done = asked.done;
   }
-  if (const auto routed = vm::Guarded([&] { router_.Route(envelope); }); !routed)
-    ReportFailure(blamed, routed.error().text, &asked);
+  return asked;
 }
 
-void Hub::ReportFailure(PeerKey key, const std::string& what, const Asked* asked) {
+void Hub::ReportFailure(PeerKey key, const std::string& what, const std::optional<Asked>& asked) {
   const vm::Error error{Errc::kInternal, "a message could not be dealt with: " + what, 0};
-  // The tag of a report is that of somebody else's question.
-  const bool waits =
-      asked != nullptr &&
-      (asked->done || (!asked->request.tag.empty() && asked->request.command != vm::Command::kRep));
   Peer* const peer = directory_.ByKey(key);
   if (peer == nullptr) {
     outbox_.Notice(vm::FormatError(error));
-  } else if (waits) {
+  } else if (asked) {
     outbox_.CountComplaint(*peer, error);
   } else {
     outbox_.Complain(*peer, error);
   }
-  if (waits)
+  if (asked)
     outbox_.Answer(asked->asker, own_name::kHub, asked->request, std::unexpected(error),
                    asked->done);
 }

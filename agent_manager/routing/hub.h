@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -150,9 +151,11 @@ class Hub {
     vm::Message request;  ///< without its value
     OnAnswer done;
   };
+  /// Null if nobody waits for an answer. `done` of both may be called: the first call counts.
+  static std::optional<Asked> AskedBy(Envelope& envelope);
   /// What dealing with an item has thrown is the error of the peer that caused it, and the answer
-  /// to what was asked. `asked`: null for what is no message.
-  void ReportFailure(PeerKey peer, const std::string& what, const Asked* asked);
+  /// to what was asked.
+  void ReportFailure(PeerKey peer, const std::string& what, const std::optional<Asked>& asked);
 
   vm::Scheduler& clock_;
   Limits limits_;

@@ -40,12 +40,20 @@ ValueRule RuleFor(Command command) {
 
 bool IsBlank(char c) { return c == ' ' || c == '\t'; }
 
-bool IsAlnum(char c) {
+constexpr bool IsAlnum(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
 bool IsNameByte(char c) {
-  return IsAlnum(c) || c == '_' || c == '-' || static_cast<unsigned char>(c) >= 0x80;
+  static constexpr auto kIsNameByte = [] {
+    std::array<bool, 256> known{};
+    for (std::size_t byte = 0; byte < known.size(); ++byte) {
+      const char sign = static_cast<char>(byte);
+      known[byte] = IsAlnum(sign) || sign == '_' || sign == '-' || byte >= 0x80;
+    }
+    return known;
+  }();
+  return kIsNameByte[static_cast<unsigned char>(c)];
 }
 
 /// A module's name, or AGENT/MODULE: one of another agent.
@@ -343,10 +351,8 @@ Result<Message> ParseMessage(std::string_view line) {
   if (const auto bad = FirstBadUtf8(line)) {
     return Fail(Errc::kBadUtf8, "found a byte that is not UTF-8, expected UTF-8 text", *bad + 1);
   }
-  // A loop of comparisons; find_first_of would look each byte up in the set.
-  const auto is_control = [](char c) { return c == '\0' || c == '\r' || c == '\n'; };
-  const auto control =
-      static_cast<std::size_t>(std::ranges::find_if(line, is_control) - line.begin());
+  // Three searches of the system's, each of many bytes at once, take less than one of our own.
+  const std::size_t control = std::min({line.find('\0'), line.find('\r'), line.find('\n')});
   if (control < line.size()) {
     return Fail(Errc::kSyntax, "found a NUL, CR or LF inside the line, expected text", control + 1);
   }
