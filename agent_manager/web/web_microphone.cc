@@ -36,16 +36,15 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
     ++server_->connections;
     server_->microphone = true;
   }
-  ~MicrophoneSession() {
-    --server_->connections;
-    server_->microphone = false;
-  }
+  ~MicrophoneSession() { --server_->connections; }
 
   void Start(const Request& request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     socket_.read_message_max(kMaxMessageBytes);
     socket_.async_accept(request, [self = shared_from_this()](const error_code& error) {
-      if (!error) self->AskEar();
+      if (error) return self->End();
+      self->Read();  // from now on, so that it is seen to go while the ear is still being asked
+      self->AskEar();
     });
   }
 
@@ -54,7 +53,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
     server_->hub.Ask(
         own_name::kHub, vm::To(kEar, message),
         [self = shared_from_this(), next = std::move(next)](const vm::Result<std::string>& answer) {
-          if (!self->server_->closed) next(answer);
+          if (!self->server_->closed && !self->ended_) next(answer);
         });
   }
 
@@ -68,8 +67,10 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
             if (!set) return Refuse(set.error().text);
             ear_.async_connect(
                 folder_.file(), [self = shared_from_this()](const error_code& error) {
+                  if (self->ended_) return;
                   if (error) return self->Refuse("the ear does not take sound: " + error.message());
-                  self->Read();
+                  self->connected_ = true;
+                  self->Write();
                 });
           });
     });
@@ -95,11 +96,11 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
     if (socket_.got_binary() && waiting_.size() + bytes.size() <= kMaxWaitingBytes)
       waiting_.append(static_cast<const char*>(bytes.data()), bytes.size());
     buffer_.consume(buffer_.size());
-    if (!writing_) Write();
+    Write();
   }
 
   void Write() {
-    if (waiting_.empty()) return;
+    if (!connected_ || writing_ || waiting_.empty()) return;
     writing_ = true;
     going_ = std::exchange(waiting_, {});
     asio::async_write(ear_, asio::buffer(going_),
@@ -112,6 +113,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
 
   void End() {
     if (std::exchange(ended_, true)) return;
+    server_->microphone = false;  // another may come while the ear still owes us an answer
     error_code ignored;
     ear_.close(ignored);
     beast::get_lowest_layer(socket_).socket().close(ignored);
@@ -125,7 +127,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   beast::flat_buffer buffer_;
   PrivateFolder folder_;  // of the socket
   std::string before_, waiting_, going_;
-  bool writing_ = false, ended_ = false;
+  bool connected_ = false, writing_ = false, ended_ = false;
 };
 
 }  // namespace

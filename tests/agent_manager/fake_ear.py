@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """An ear that says which tone it hears: a stand-in for srm where only the sound's way matters.
 
-Slots: Input (unix@RATE:PATH, or NONE), Listen. Once it has half a second of sound that is not
+Slots: Input (unix@RATE:PATH, or NONE), Listen, Deaf (YES: it answers no question for Input). Once it has half a second of sound that is not
 silence, it reports  Result = FREQUENCY  in Hz, from the crossings of zero.
 """
 import array
@@ -60,6 +60,8 @@ def obey(line):
         slots[slot] = value
         if slot == "Input":
             open_input(value)
+    if slot == "Input" and slots.get("Deaf") == "YES":
+        return
     if tag or command == "inq":
         say(f"rep{tag} {slot} = {slots.get(slot, value)}")
 

@@ -223,6 +223,20 @@ TEST_F(WebTest, AMicrophoneBecomesTheEarsInputAndThenNoMore) {
   EXPECT_EQ(StatusOf("/microphone", Host() + Cookie() + Socket("http://evil.example")), "403");
 }
 
+TEST_F(WebTest, AMicrophoneThatGoesWhileTheEarIsSilentLeavesItsPlaceToTheNext) {
+  const std::string headers = Host() + Cookie() + Socket("http://" + host_);
+  hub_->WriteLine("to @SRM set#1 Deaf = YES");
+  ASSERT_TRUE(hub_->Expect("rep#1 Deaf = YES"));
+  {
+    const auto microphone = Open("/microphone", headers);
+    ASSERT_TRUE(microphone->Expect("101 Switching")) << hub_->ErrorText();
+    EXPECT_EQ(StatusOf("/microphone", headers), "409");
+  }
+  std::string status = "409";
+  for (int i = 0; i < 100 && status == "409"; ++i) status = StatusOf("/microphone", headers);
+  EXPECT_EQ(status, "101");
+}
+
 const char* Chromium() {
   for (const char* name : {"chromium", "chromium-headless-shell"}) {
     if (std::system(("command -v " + std::string(name) + " >/dev/null").c_str()) == 0) return name;

@@ -15,6 +15,7 @@
 #include <boost/asio/steady_timer.hpp>
 #include <charconv>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -27,6 +28,7 @@ using asio::local::stream_protocol;
 using boost::system::error_code;
 
 constexpr auto kAcceptPause = std::chrono::milliseconds(200);
+constexpr auto kTroubleOver = std::chrono::seconds(10);  // without any; the next is told of again
 
 std::unexpected<Error> BadEndpoint(std::string_view text) {
   return Fail(Errc::kBadValue, "found '" + std::string(text) +
@@ -82,7 +84,6 @@ class ListenerImpl final : public Listener {
       if (error == asio::error::operation_aborted) return;
       if (error == asio::error::no_descriptors && spare_ >= 0) return TurnAway(error);
       if (error && error != asio::error::connection_aborted) return Pause(error);
-      in_trouble_ = in_trouble_ && error;
       if (!error) {
         if constexpr (std::is_same_v<Protocol, tcp>) NoDelay(socket.native_handle());
         fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
@@ -106,7 +107,9 @@ class ListenerImpl final : public Listener {
   }
 
   void Tell(const error_code& error) {
-    if (!std::exchange(in_trouble_, true) && on_trouble_)
+    const auto now = std::chrono::steady_clock::now();
+    const auto before = std::exchange(trouble_at_, now);
+    if (on_trouble_ && (!before || now - *before > kTroubleOver))
       on_trouble_(FormatEndpoint(endpoint_) + ": cannot accept: " + error.message());
   }
 
@@ -125,7 +128,7 @@ class ListenerImpl final : public Listener {
   OnAccept on_accept_;
   OnTrouble on_trouble_;
   const std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
-  bool in_trouble_ = false;  // and on_trouble_ knows
+  std::optional<std::chrono::steady_clock::time_point> trouble_at_;  // the last, told of or not
   int spare_ = open("/dev/null", O_RDONLY | O_CLOEXEC);
 };
 
