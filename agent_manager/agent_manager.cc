@@ -154,7 +154,7 @@ LiveConfig::Parts AgentManager::ConfigParts() {
 
 void AgentManager::ConnectParts() {
   hub_.set_on_notice([this](const std::string& text, PeerKey about) { SayError(text, about); });
-  hub_.set_on_report([this](const std::string& from, const vm::Message& message) {
+  hub_.router().set_on_report([this](const std::string& from, const vm::Message& message) {
     for (BuiltInMachine* const machine : built_in_machines_) machine->OnReport(from, message);
   });
   hub_.set_awaited_by([this](PeerKey peer) {
@@ -164,7 +164,7 @@ void AgentManager::ConnectParts() {
   hub_.set_on_presence([this](const std::string& name, bool present, const std::string& reason) {
     OnPresence(name, present, reason);
   });
-  hub_.set_on_unknown([this](const std::string& name, Role asker) -> Result<bool> {
+  hub_.router().set_on_unknown([this](const std::string& name, Role asker) -> Result<bool> {
     return config_.bridge() != nullptr ? config_.bridge()->Open(name, asker) : Result<bool>(false);
   });
   hub_.AddMachine(slots_);
@@ -202,7 +202,7 @@ void AgentManager::OnModuleOutput(const std::string& module, const OutputLine& l
 }
 
 void AgentManager::OnModuleWithoutClock(PeerKey module, const std::string& why) {
-  const std::string name = hub_.NameOf(module);
+  const std::string name = hub_.directory().NameOf(module);
   SayError("@" + name + " does not follow the clock: it " + why + "; it is ended");
   if (!supervisor_.Kill(name, "does not follow the clock"))
     hub_.Leave(module, "does not follow the clock");
@@ -270,7 +270,7 @@ void AgentManager::OpenPage() {
 void AgentManager::EndProbesInTime() {
   probed_ = hub_.clocks().Probing();
   end_probes_.Start(config_.config().start_limit, [this] {
-    hub_.EndProbes(probed_);
+    hub_.clocks().EndProbes(probed_);
     probed_ = hub_.clocks().Probing();
   });
 }
@@ -278,7 +278,7 @@ void AgentManager::EndProbesInTime() {
 void AgentManager::StartTasks() {
   EndProbesInTime();
   if (!clock_.real()) return;
-  measure_clocks_.Start(kMeasureEvery, [this] { hub_.MeasureClocks(); });
+  measure_clocks_.Start(kMeasureEvery, [this] { hub_.clocks().MeasureAll(); });
   if (log_writer_) {
     log_writer_->Flush();
     flush_log_.Start(kFlushLogEvery, [this] { log_writer_->Flush(); });

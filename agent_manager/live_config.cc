@@ -41,8 +41,8 @@ void LiveConfig::Apply(const Config& config) {
   hub.Reserve(names);
   hub.set_limits(config.limits);
   hub.set_rights(config.rights);
-  hub.set_rules(config.rules);
-  hub.set_broadcast({config.broadcast.begin(), config.broadcast.end()});
+  hub.router().set_rules(config.rules);
+  hub.router().set_broadcast({config.broadcast.begin(), config.broadcast.end()});
   parts_.listeners.Commit(config.listen, std::move(opened));
   DefineMacros(config, std::move(macros));
   parts_.supervisor.Apply(config.modules);

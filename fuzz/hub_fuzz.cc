@@ -56,7 +56,7 @@ struct Session {
                   world.hub.Subscribe(value.peer, {value.word(0)});
                   return value.text;
                 }});
-    world.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
+    world.hub.router().set_on_report([this](const std::string& from, const vm::Message& message) {
       for (am::BuiltInMachine* machine : built_in_machines) machine->OnReport(from, message);
     });
     world.hub.set_on_presence(
@@ -99,7 +99,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     } else if (who == 6) {
       session.world.Leave(*session.peers[line.size() % session.peers.size()], "it goes");
     } else {
-      session.world.hub.EndProbes(session.world.hub.clocks().Probing());
+      session.world.hub.clocks().EndProbes(session.world.hub.clocks().Probing());
     }
   }
   session.world.clock.RunUntil(session.world.clock.Now() + std::chrono::minutes(3));

@@ -74,7 +74,7 @@ Result<void> MacroLayer::Define(Macro macro) {
   bytes_ += macro.bytes - replaced;
   macros_[name] = std::make_shared<const Macro>(std::move(macro));
   CollectAwaited();
-  for (const std::string& module : hub_.Names()) SwitchOn(module);
+  for (const std::string& module : hub_.directory().Names()) SwitchOn(module);
   return {};
 }
 
@@ -214,7 +214,7 @@ void MacroLayer::StopWithoutRun(const Macro& macro) {
     auto message = (send ? send->message : request->message).Expand([](const std::string&) {
       return std::string();
     });
-    if (message && hub_.IsPresent(message->to.front()))
+    if (message && hub_.directory().IsPresent(message->to.front()))
       hub_.Ask(kName, std::move(*message), IgnoreAnswer, origin_);
   }
 }

@@ -47,7 +47,7 @@ bool Parallel::Busy() const {
 
 void Parallel::ForgetGone() {
   std::erase_if(lists_, [this](const auto& entry) {
-    const bool gone = entry.first != kHub && hub_.NameOf(entry.first).empty();
+    const bool gone = entry.first != kHub && hub_.directory().NameOf(entry.first).empty();
     if (gone) clock_.Cancel(entry.second.timer);
     return gone;
   });

@@ -111,7 +111,8 @@ bool Sequence::Let(const std::string& name, std::string value) {
 }
 
 bool Sequence::Holds(const MacroStep& step) const {
-  if (!step.if_present.empty() && !services_.hub.IsPresent(step.if_present)) return false;
+  if (!step.if_present.empty() && !services_.hub.directory().IsPresent(step.if_present))
+    return false;
   if (!step.when.empty() && Value(step.when).empty()) return false;
   const auto is = [this](const auto& entry) { return Value(entry.first) == entry.second; };
   return std::ranges::all_of(step.when_is, is) && std::ranges::none_of(step.unless_is, is);
@@ -222,7 +223,7 @@ void Sequence::OnReport(const std::string& from, const std::string& slot, const 
   for (const FollowStep* const follower : followers_) {
     if (follower->from != from || follower->tell != slot) continue;
     const Message& sent = follower->send.message();
-    if (!services_.hub.IsPresent(sent.to.front())) continue;
+    if (!services_.hub.directory().IsPresent(sent.to.front())) continue;
     const auto lookup = [&](const std::string& name) {
       return name == "told" ? value : Value(name);
     };
@@ -274,7 +275,7 @@ void Sequence::Do(const StartStep& step) {
 }
 
 void Sequence::Do(const NeedStep& step) {
-  if (!services_.hub.IsPresent(step.module))
+  if (!services_.hub.directory().IsPresent(step.module))
     Fail({Errc::kUnavailable,
           (step.called.empty() ? "" : step.called + " ") + "@" + step.module + " is not there", 0});
 }

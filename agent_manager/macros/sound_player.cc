@@ -46,7 +46,7 @@ void SoundPlayer::Add(const std::string& name, const vm::Reply& reply) {
   const auto path = std::filesystem::absolute(name, error);
   if (error || !std::filesystem::is_regular_file(path, error))
     return reply.Fail({Errc::kUnavailable, "there is no sound file '" + name + "'", 0});
-  if (!hub_.IsPresent(kVoice))
+  if (!hub_.directory().IsPresent(kVoice))
     return reply.Fail({Errc::kUnavailable, "there is no voice (@SSM) to play it", 0});
   if (files_.size() >= kMaxFiles)
     return reply.Fail(
@@ -125,7 +125,7 @@ void SoundPlayer::Drop(const vm::Error& error) {
     if (file.state == File::State::kPlaying) slots_.TellAll("end " + file.name);
     file.reply.Fail(error);
   }
-  if (!files.empty() && hub_.IsPresent(kVoice))
+  if (!files.empty() && hub_.directory().IsPresent(kVoice))
     hub_.Ask(kName, vm::To(kVoice, vm::Set("Speak", "STOP")), IgnoreAnswer, files.front().origin);
 }
 

@@ -66,7 +66,8 @@ bool LocalGateway::Shows(const std::string& module) const {
 
 void LocalGateway::ShowModules() {
   for (const PeerStatus& peer : hub_.Status()) {
-    if (peer.kind == PeerKind::kModule && hub_.IsReady(peer.name)) live_.insert(peer.name);
+    if (peer.kind == PeerKind::kModule && hub_.directory().IsReady(peer.name))
+      live_.insert(peer.name);
   }
   PublishModules();
 }
@@ -103,12 +104,12 @@ void LocalGateway::OnOurMessage(const Message& said) {
   }
   if (!said.tag.empty()) return Answer(said);
   const std::string& from = said.from;
-  if ((!kInside.contains(from) && !hub_.IsModule(from)) || !Shows(from)) return;
+  if ((!kInside.contains(from) && !hub_.directory().IsModule(from)) || !Shows(from)) return;
   const bool error = said.slot == "Error" || said.slot.ends_with(".error");
   if (said.command == Command::kRep && !error)
     return publisher_.SetValue(
         topics_.Path(Kind::kSlot, from, said.slot), said.value,
-        hub_.IsGuest(from) ? Publisher::Whose::kGuests : Publisher::Whose::kOurs);
+        hub_.directory().IsGuest(from) ? Publisher::Whose::kGuests : Publisher::Whose::kOurs);
   Message bare = said;
   bare.from.clear();
   publisher_.PublishEvent({.topic = topics_.Path(error ? Kind::kError : Kind::kTell, from),

@@ -193,7 +193,7 @@ void RemoteModules::CloseIfAway(const RequestWindow& window, bool sent) {
 
 void RemoteModules::OnReceipt(PeerKey receiver, std::size_t bytes,
                               const Broker::Events::Receipt& receipt) {
-  RequestWindow* const window = WindowOf(hub_.NameOf(receiver));
+  RequestWindow* const window = WindowOf(hub_.directory().NameOf(receiver));
   if (window == nullptr || window->receiver() != receiver) return;  // it has gone meanwhile
   window->Acknowledged(bytes);
   if (receipt.nobody) {

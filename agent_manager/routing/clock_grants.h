@@ -16,6 +16,8 @@ class ClockGrants {
 
   void set_lockstep(bool lockstep) { lockstep_ = lockstep; }
   bool lockstep() const { return lockstep_; }
+  /// The module's clock stands where ours does.
+  void Begin(Peer& module) { module.granted = clock_.Now(); }
   /// Says `set Clock = UNTIL`; the answer tells the module's next event.
   void Grant(Peer& module, vm::Time until, OnAnswer done);
   /// To be called before a message is sent to a module.

@@ -94,6 +94,32 @@ const Peer* Directory::Find(std::string_view name) const {
   return found == names_.end() ? nullptr : found->second;
 }
 
+bool Directory::IsModule(std::string_view name) const {
+  const Peer* const peer = Find(name);
+  return peer != nullptr && peer->kind == PeerKind::kModule;
+}
+
+bool Directory::IsGuest(std::string_view name) const {
+  const Peer* const peer = Find(name);
+  return peer != nullptr && peer->role == Role::kGuest;
+}
+
+bool Directory::IsReady(std::string_view name) const {
+  const Peer* const peer = Find(name);
+  return peer != nullptr && !peer->probe.probing;
+}
+
+std::string Directory::NameOf(PeerKey key) const {
+  const Peer* const peer = ByKey(key);
+  return peer == nullptr ? "" : peer->name;
+}
+
+Role Directory::RoleOf(PeerKey key) const {
+  if (key == kHub) return Role::kOwner;
+  const Peer* const peer = ByKey(key);
+  return peer == nullptr ? Role::kGuest : peer->role;
+}
+
 std::vector<std::string> Directory::Names() const {
   std::vector<std::string> names;
   for (const auto& [name, peer] : names_) names.push_back(name);

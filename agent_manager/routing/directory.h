@@ -31,6 +31,15 @@ class Directory {
   Peer* Find(std::string_view name);
   const Peer* Find(std::string_view name) const;
   const std::map<PeerKey, std::unique_ptr<Peer>>& peers() const { return peers_; }
+  bool IsPresent(std::string_view name) const { return Find(name) != nullptr; }
+  /// One of this hub's own modules: from the configuration, or a client that has become one.
+  bool IsModule(std::string_view name) const;
+  bool IsGuest(std::string_view name) const;
+  /// True once a module has said what it is (or was declared original) and can be spoken to.
+  bool IsReady(std::string_view name) const;
+  std::string NameOf(PeerKey key) const;  ///< empty if it is not there
+  /// kHub's is the owner's, that of one who is not there a guest's.
+  Role RoleOf(PeerKey key) const;
   std::vector<std::string> Names() const;  ///< of peers, sorted
 
   /// `replaceable`: a peer may take its name, and then its place.

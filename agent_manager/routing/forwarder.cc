@@ -38,10 +38,9 @@ Forwarder::Forwarder(vm::Scheduler& clock, Directory& directory, Outbox& outbox,
               [this](Peer& module, const Message& start) { Send(module, start, kHub); }) {}
 
 bool Forwarder::MustWait(Peer& peer, const Message& message, const Origin& origin) {
-  ProbeState& probe = peer.probe;
-  if (probe.probing) return true;
+  if (peer.probe.probing) return true;
   if (IsProbe(message, origin)) return false;
-  if (probe.measuring) return true;
+  if (peer.probe.measuring) return true;
   if (files_.MustAsk(peer, origin.role)) {
     files_.AskSlots(
         peer,
@@ -51,10 +50,7 @@ bool Forwarder::MustWait(Peer& peer, const Message& message, const Origin& origi
         [this](Peer& known) { FlushWaiting(known); });
     return true;
   }
-  if (peer.kind != PeerKind::kRemote || probe.asked_clock || !StartTimeOf(message)) return false;
-  probe.asked_clock = probe.measuring = true;
-  clock_needed_(peer.key);
-  return true;
+  return peer.kind == PeerKind::kRemote && StartTimeOf(message) && clock_wanted_(peer);
 }
 
 void Forwarder::KeepWaiting(Peer& peer, Message message, const Origin& origin, OnAnswer done) {

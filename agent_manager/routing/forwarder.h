@@ -22,9 +22,10 @@ class Forwarder {
   void Forward(Peer& peer, vm::Message message, const Origin& origin, OnAnswer done);
   /// The module is known now: what has waited for that is said.
   void FlushWaiting(Peer& peer);
-  /// Called when a start time has to wait until a remote peer's clock has been measured.
-  void set_on_clock_needed(std::function<void(PeerKey)> needed) {
-    clock_needed_ = std::move(needed);
+  /// Called when a start time is to be said to a peer of another hub: true if it has to wait until
+  /// the peer's clock has been measured.
+  void set_on_clock_wanted(std::function<bool(Peer& peer)> wanted) {
+    clock_wanted_ = std::move(wanted);
   }
   /// True while messages wait for their time.
   bool HoldsBack() const { return starts_.count() > 0 || files_.count() > 0; }
@@ -44,7 +45,7 @@ class Forwarder {
   const Limits& limits_;
   FileGuard files_;
   HeldStarts starts_;
-  std::function<void(PeerKey)> clock_needed_;
+  std::function<bool(Peer& peer)> clock_wanted_;
 };
 
 }  // namespace am

@@ -24,11 +24,12 @@ constexpr std::uint64_t kShareForOthers = 8;  // of limits.peers, which guests c
 Hub::Hub(vm::Scheduler& clock, SessionLog& log)
     : clock_(clock),
       queue_([this](PeerKey peer, bool begins) { HoldWhileInLane(peer, begins); }),
-      back_pressure_(clock, directory_, limits_,
-                     [this](PeerKey peer, const std::string& why) {
-                       outbox_.Notice("@" + NameOf(peer) + ": " + why + ", it is cut off");
-                       Leave(peer, why);
-                     }),
+      back_pressure_(
+          clock, directory_, limits_,
+          [this](PeerKey peer, const std::string& why) {
+            outbox_.Notice("@" + directory_.NameOf(peer) + ": " + why + ", it is cut off");
+            Leave(peer, why);
+          }),
       outbox_(clock, log, directory_, back_pressure_, queue_),
       requests_(clock, directory_, outbox_, back_pressure_, limits_),
       grants_(clock, outbox_, requests_),
@@ -89,7 +90,7 @@ Result<PeerKey> Hub::Add(std::unique_ptr<Peer> peer) {
     clocks_.Probe(there);
   } else if (there.kind == PeerKind::kModule) {
     queue_.Post([this, name = there.name] {
-      if (on_presence_ && IsPresent(name)) on_presence_(name, true, "");
+      if (on_presence_ && directory_.IsPresent(name)) on_presence_(name, true, "");
     });
   }
   return there.key;
@@ -203,7 +204,8 @@ void Hub::ReleaseHalfClosed() {
     const PeerKey key = at->first;
     const Peer* const peer = directory_.ByKey(key);
     const auto leave = [this, key] { Leave(key, "end of input"); };
-    const bool awaited = peer != nullptr && (peer->asked > 0 || (awaited_by_ && awaited_by_(key)));
+    const bool awaited =
+        peer != nullptr && (peer->asked.open > 0 || (awaited_by_ && awaited_by_(key)));
     if (awaited || (peer != nullptr && peer->link->backlog_bytes() > 0)) {
       if (at->second == 0) at->second = clock_.After(kHalfClosedLimit, leave);
       ++at;
@@ -316,44 +318,21 @@ Result<void> Hub::CheckCaused(const Origin& origin, std::size_t most_items) cons
   return Fail(Errc::kLimit, "macros and scripts say more for this peer than can be passed on");
 }
 
-bool Hub::IsModule(std::string_view name) const {
-  const Peer* const peer = directory_.Find(name);
-  return peer != nullptr && peer->kind == PeerKind::kModule;
-}
-bool Hub::IsGuest(std::string_view name) const {
-  const Peer* const peer = directory_.Find(name);
-  return peer != nullptr && peer->role == Role::kGuest;
-}
-bool Hub::IsReady(std::string_view name) const {
-  const Peer* const peer = directory_.Find(name);
-  return peer != nullptr && !peer->probe.probing;
-}
-
-std::string Hub::NameOf(PeerKey key) const {
-  const Peer* const peer = directory_.ByKey(key);
-  return peer == nullptr ? "" : peer->name;
-}
-
-Role Hub::RoleOf(PeerKey key) const {
-  if (key == kHub) return Role::kOwner;
-  const Peer* const peer = directory_.ByKey(key);
-  return peer == nullptr ? Role::kGuest : peer->role;
-}
-
 Result<void> Hub::Rename(PeerKey key, const std::string& name) {
-  if (const auto checked = access_.CheckName(RoleOf(key), name); !checked) return checked;
-  const std::string before = NameOf(key);
+  if (const auto checked = access_.CheckName(directory_.RoleOf(key), name); !checked)
+    return checked;
+  const std::string before = directory_.NameOf(key);
   const auto renamed = directory_.Rename(key, name);
   if (renamed && name != before) AnnounceRename(before, name);
   return renamed;
 }
 
 void Hub::AnnounceRename(const std::string& before, const std::string& name) {
-  if (!IsModule(name) || !IsReady(name)) return;
+  if (!directory_.IsModule(name) || !directory_.IsReady(name)) return;
   queue_.Post([this, before, name] {
     if (!on_presence_) return;
     on_presence_(before, false, "it is called @" + name + " now");
-    if (IsPresent(name)) on_presence_(name, true, "");
+    if (directory_.IsPresent(name)) on_presence_(name, true, "");
   });
 }
 

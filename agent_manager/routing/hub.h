@@ -74,16 +74,8 @@ class Hub {
     awaited_by_ = std::move(awaited_by);
   }
 
-  bool IsPresent(std::string_view name) const { return directory_.Find(name) != nullptr; }
-  /// One of this hub's own modules: from the configuration, or a client that has become one.
-  bool IsModule(std::string_view name) const;
-  bool IsGuest(std::string_view name) const;
-  /// True once a module has said what it is (or was declared original) and can be spoken to.
-  bool IsReady(std::string_view name) const;
-  std::vector<std::string> Names() const { return directory_.Names(); }
-  std::string NameOf(PeerKey peer) const;
-  /// kHub's is the owner's.
-  Role RoleOf(PeerKey peer) const;
+  /// Who is there.
+  const Directory& directory() const { return directory_; }
   vm::Result<void> Rename(PeerKey peer, const std::string& name);
   /// Names of the configuration: kept for their modules, also while those are away.
   /// A client that has one of them gets another name.
@@ -93,25 +85,18 @@ class Hub {
   bool HasSubscriber(std::string_view module) const { return subscribers_.contains(module); }
   std::vector<PeerStatus> Status() const;
 
-  void set_broadcast(std::set<std::string> names) { router_.set_broadcast(std::move(names)); }
-  /// Told of every report a module makes, and of comings and goings.
-  void set_on_report(Router::OnReport on_report) { router_.set_on_report(std::move(on_report)); }
+  /// For its settings.
+  Router& router() { return router_; }
+  /// Told of comings and goings.
   using OnPresence =
       std::function<void(const std::string& name, bool present, const std::string& reason)>;
   void set_on_presence(OnPresence on_presence) { on_presence_ = std::move(on_presence); }
   /// Diagnostics for people.
   void set_on_notice(Outbox::OnNotice on_notice) { outbox_.set_on_notice(std::move(on_notice)); }
-  void set_on_unknown(Router::OnUnknown on_unknown) {
-    router_.set_on_unknown(std::move(on_unknown));
-  }
-  void set_on_machine(Router::OnMachine on_machine) {
-    router_.set_on_machine(std::move(on_machine));
-  }
 
   /// A comment, for what is no message of the session; false if the peer is gone.
   bool SendComment(PeerKey peer, std::string_view text);
 
-  void set_rules(std::vector<Rule> rules) { router_.set_rules(std::move(rules)); }
   void set_rights(RightsTable rights) { access_.set_table(std::move(rights)); }
   const AccessControl& access() const { return access_; }
   void set_limits(const Limits& limits) { limits_ = limits; }
@@ -119,10 +104,8 @@ class Hub {
   const Limits& limits() const { return limits_; }
 
   /// What is known of the modules' clocks.
+  ModuleClocks& clocks() { return clocks_; }
   const ModuleClocks& clocks() const { return clocks_; }
-  void MeasureClocks() { clocks_.MeasureAll(); }
-  /// As ModuleClocks::EndProbes.
-  void EndProbes(const std::set<PeerKey>& modules) { clocks_.EndProbes(modules); }
 
   /// Modules on the virtual clock follow ours exactly; nothing is measured.
   void set_lockstep(bool lockstep);

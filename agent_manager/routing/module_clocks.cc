@@ -28,7 +28,7 @@ ModuleClocks::ModuleClocks(vm::Scheduler& clock, Directory& directory, Outbox& o
       grants_(grants),
       forwarder_(forwarder),
       on_known_(std::move(on_known)) {
-  forwarder_.set_on_clock_needed([this](PeerKey key) { MeasureSoon(key); });
+  forwarder_.set_on_clock_wanted([this](Peer& peer) { return WantClock(peer); });
 }
 
 void ModuleClocks::Probe(Peer& module) {
@@ -49,7 +49,7 @@ void ModuleClocks::BecomeModern(Peer& module, vm::Time asked_at, const Result<st
   // A refusal with our tag is an answer too: such a module knows tags, but has no clock.
   module.dialect = Dialect::kModern;
   module.probe.probing = false;
-  module.probe.granted = clock_.Now();
+  grants_.Begin(module);
   // In lockstep time waits for every clock that is known: never for a guest's.
   const bool kept_out = grants_.lockstep() && module.role == Role::kGuest;
   if (clock && !kept_out) Sample(module, asked_at, *clock);
@@ -91,10 +91,13 @@ void ModuleClocks::Measure(Peer& peer, int exchanges) {
       });
 }
 
-void ModuleClocks::MeasureSoon(PeerKey key) {
-  clock_.Post([this, key] {
-    if (Peer* const peer = directory_.ByKey(key)) Measure(*peer, kExchanges);
+bool ModuleClocks::WantClock(Peer& peer) {
+  if (std::exchange(peer.probe.asked_clock, true)) return false;
+  peer.probe.measuring = true;
+  clock_.Post([this, key = peer.key] {
+    if (Peer* const there = directory_.ByKey(key)) Measure(*there, kExchanges);
   });
+  return true;
 }
 
 void ModuleClocks::MeasureAll() {

@@ -30,8 +30,8 @@ class ModuleClocks {
 
   /// Asks every module with a clock for it again (real clock only).
   void MeasureAll();
-  /// A start time waits for this peer's clock.
-  void MeasureSoon(PeerKey key);
+  /// A start time is to be said to this peer of another hub: true if its clock is measured first.
+  bool WantClock(Peer& peer);
   ClockState ClockOf(std::string_view name) const;
   /// Modules of ours that have a clock.
   std::vector<PeerKey> WithClock() const;

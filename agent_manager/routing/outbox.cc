@@ -79,11 +79,9 @@ void Outbox::Answer(PeerKey asker, const std::string& from, const Message& reque
 
 bool Outbox::CountComplaint(Peer& sender, const vm::Error& error) {
   ++sender.traffic.refused;
-  if (clock_.Now() - sender.complaints_since > std::chrono::seconds(1)) {
-    sender.complaints_since = clock_.Now();
-    sender.complaints = 0;
-  }
-  const bool flood = ++sender.complaints > kComplaintsPerSecond;
+  ComplaintCount& complaints = sender.complaints;
+  if (clock_.Now() - complaints.since > std::chrono::seconds(1)) complaints = {clock_.Now(), 0};
+  const bool flood = ++complaints.count > kComplaintsPerSecond;
   if (!flood) Notice("@" + sender.name + ": " + vm::FormatError(error), sender.key);
   return flood;
 }

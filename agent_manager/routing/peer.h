@@ -43,6 +43,18 @@ struct RequestTable {
   vm::TimerId timer = 0;
 };
 
+/// A peer's own requests that no module has answered yet. Only Requests changes it.
+struct AskedCount {
+  std::size_t open = 0;
+  bool holds = false;  ///< the peer is not read from until most of them are answered
+};
+
+/// Errors of a peer in the second that began at `since`. Only Outbox changes it.
+struct ComplaintCount {
+  vm::Time since{0};
+  int count = 0;
+};
+
 /// How a peer reads and is read. Only BackPressure changes it.
 struct FlowState {
   RateMeter messages, bytes;
@@ -70,8 +82,7 @@ struct WaitingMessage {
   OnAnswer done{};
 };
 
-/// What the hub finds out about a peer's dialect and clock. Only ModuleClocks changes it; Forwarder
-/// sets that a clock is wanted, ClockGrants where it stands.
+/// What the hub finds out about a peer's dialect and clock. Only ModuleClocks changes it.
 struct ProbeState {
   bool probing = false;      ///< it is being asked whether it knows Clock
   int silent_rounds = 0;     ///< EndProbes has passed over it
@@ -79,7 +90,6 @@ struct ProbeState {
   bool asked_clock = false;  ///< another hub's clock is measured once a start time needs it
   ClockState clock{};
   ClockEstimate estimate{};
-  vm::Time granted{0};  ///< lockstep: where its clock stands
 };
 
 /// The messages that wait until the peer is no longer being asked. Only Forwarder changes it.
@@ -107,19 +117,18 @@ struct Peer {
   std::string folder{};     ///< where it runs, for the files it is told of; empty: as the hub
   bool spoken = false;      ///< anything at all
   std::set<std::string> subscriptions{};
-  std::set<std::string> defined{};  ///< its slots and macros at the hub
+  std::set<std::string> defined{};  ///< its slots and macros at the hub: Router
   Traffic traffic{};
   FlowState flow{};
   RequestTable requests{};
-  std::size_t asked = 0;           ///< its own requests that no module has answered yet
-  std::size_t delayed_bytes = 0;   ///< of its messages that rules delay
-  bool waits_for_answers = false;  ///< it is not read from until most of them are
+  AskedCount asked{};
+  std::size_t delayed_bytes = 0;  ///< of its messages that rules delay: Router
   ProbeState probe{};
   WaitingList waiting{};
   FileKnowledge files{};
   std::map<std::string, vm::TimerId> held_starts{};  ///< `set SLOT = @T` without `@T`: HeldStarts
-  vm::Time complaints_since{0};
-  int complaints = 0;
+  vm::Time granted{0};  ///< lockstep, where its clock stands: ClockGrants
+  ComplaintCount complaints{};
 };
 
 /// The peer that is no longer read from while a hearer of `sender`'s reports has a full backlog:

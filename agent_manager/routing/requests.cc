@@ -51,20 +51,20 @@ Request Requests::Take(Peer& module, unsigned long number) {
 
 void Requests::CountUnanswered(PeerKey asker) {
   Peer* const peer = directory_.ByKey(asker);
-  if (peer == nullptr || ++peer->asked <= limits_.pending / 2 || peer->waits_for_answers) return;
+  if (peer == nullptr || ++peer->asked.open <= limits_.pending / 2 || peer->asked.holds) return;
   if (!peer->requests.open.empty()) return;  // others wait for what it says
-  peer->waits_for_answers = back_pressure_.Hold(*peer);
+  peer->asked.holds = back_pressure_.Hold(*peer);
 }
 
 void Requests::UncountUnanswered(PeerKey asker) {
   Peer* const peer = directory_.ByKey(asker);
   if (peer == nullptr) return;
-  --peer->asked;
-  if (peer->asked <= limits_.pending / 4) GoOnReading(*peer);
+  --peer->asked.open;
+  if (peer->asked.open <= limits_.pending / 4) GoOnReading(*peer);
 }
 
 void Requests::GoOnReading(Peer& peer) {
-  if (std::exchange(peer.waits_for_answers, false)) BackPressure::LetGo(peer);
+  if (std::exchange(peer.asked.holds, false)) BackPressure::LetGo(peer);
 }
 
 void Requests::Refuse(Peer& module, PeerKey asker) {

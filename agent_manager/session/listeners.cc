@@ -49,7 +49,7 @@ void Listeners::OnConnection(const vm::Acceptor::Connection& connection, Role ro
                     vm::Result<std::string_view> line) { hub_.Receive(peer, std::move(line)); },
                 [this, peer = *key](const vm::StreamEnd& end) {
                   if (end.orderly) return hub_.EndInput(peer);
-                  on_notice_("@" + hub_.NameOf(peer) + ": " + end.reason);
+                  on_notice_("@" + hub_.directory().NameOf(peer) + ": " + end.reason);
                   hub_.Leave(peer, end.reason);
                 });
   stream->ResumeReading();

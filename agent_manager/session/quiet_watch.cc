@@ -25,7 +25,8 @@ void QuietWatch::Ask() {
     bool busy = false;
   };
   auto modules = hub_.clocks().WithClock();
-  std::erase_if(modules, [this](PeerKey module) { return hub_.RoleOf(module) == Role::kGuest; });
+  std::erase_if(modules,
+                [this](PeerKey module) { return hub_.directory().RoleOf(module) == Role::kGuest; });
   const auto round = std::make_shared<Round>(Round{modules.size() + 1});
   const auto answered = [this, round](const vm::Result<std::string>& answer) {
     round->busy = round->busy || (answer && *answer == "BUSY");
@@ -37,7 +38,8 @@ void QuietWatch::Ask() {
     });
   };
   for (const PeerKey module : modules)
-    hub_.Ask(own_name::kHub, vm::To(hub_.NameOf(module), vm::Inq("Clock.busy")), answered);
+    hub_.Ask(own_name::kHub, vm::To(hub_.directory().NameOf(module), vm::Inq("Clock.busy")),
+             answered);
   answered("IDLE");
 }
 

@@ -14,7 +14,7 @@ BuiltInDispatcher::BuiltInDispatcher(Hub& hub, vm::SlotMachine& am, const MacroL
                                      LineScripts::ReadFile read_file)
     : hub_(hub), am_(am), macros_(macros), scripts_(hub, std::move(read_file)) {
   for (BuiltInMachine* const machine : machines) machines_[&machine->slots()] = machine;
-  hub_.set_on_machine([this](vm::SlotMachine& machine, const Envelope& envelope) {
+  hub_.router().set_on_machine([this](vm::SlotMachine& machine, const Envelope& envelope) {
     return Take(machine, envelope);
   });
 }

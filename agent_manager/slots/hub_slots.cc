@@ -112,11 +112,11 @@ Result<std::string> HubSlots::Subscribe(const SetValue& value) {
   // Each of those is looked for at the broker.
   const auto remote = static_cast<std::size_t>(std::ranges::count_if(
       names, [](const std::string& name) { return name.find('/') != std::string::npos; }));
-  if (hub_.RoleOf(value.peer) == Role::kGuest && remote > kMaxRemotesOfGuest)
+  if (hub_.directory().RoleOf(value.peer) == Role::kGuest && remote > kMaxRemotesOfGuest)
     return vm::Fail(vm::Errc::kLimit,
                     "more than " + std::to_string(kMaxRemotesOfGuest) + " modules of other agents");
   hub_.Subscribe(value.peer, names);
-  for (const std::string& name : names) hooks_.on_want(name, hub_.RoleOf(value.peer));
+  for (const std::string& name : names) hooks_.on_want(name, hub_.directory().RoleOf(value.peer));
   return value.text;
 }
 
@@ -129,14 +129,14 @@ void HubSlots::DeclareOverviews() {
                     .on_inq = std::move(inq)});
   };
   report("Modules", "The names of all that can be spoken to now.", [this] {
-    return Joined(hub_.Names(), " ", [](const std::string& name) { return name; });
+    return Joined(hub_.directory().Names(), " ", [](const std::string& name) { return name; });
   });
   report("Clock", "The session's clock in ms.", [this] { return vm::FormatMs(clock_.Now()); });
   report("Clocks",
          "Of each module: NAME OFFSET DELAY in ms; its clock minus the session's, and the time "
          "there and back.",
          [this] {
-           auto names = hub_.Names();
+           auto names = hub_.directory().Names();
            std::erase_if(names, [this](const std::string& name) {
              return !hub_.clocks().ClockOf(name).known;
            });

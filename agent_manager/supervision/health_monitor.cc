@@ -25,7 +25,7 @@ void HealthMonitor::Start(bool watch) {
     if (!error && monitor && monitor->phase_ < Phase::kReady)
       monitor->Fail("not ready within " + vm::FormatMs(monitor->config_.ready_within) + " ms");
   });
-  if (hub_.IsReady(config_.name)) OnPresent();
+  if (hub_.directory().IsReady(config_.name)) OnPresent();
 }
 
 void HealthMonitor::OnPresent() {

@@ -219,7 +219,7 @@ void FaceVideo::End() {
     static_cast<void>(!write(stop_fd_, &one, sizeof(one)));
     thread_.join();
   }
-  if (std::exchange(recording_, false) && hub_.IsPresent(kFace)) {
+  if (std::exchange(recording_, false) && hub_.directory().IsPresent(kFace)) {
     hub_.Ask(own_name::kHub, vm::To(kFace, vm::Set("Record", "STOP")), IgnoreAnswer);
     if (!old_fps_.empty())
       hub_.Ask(own_name::kHub, vm::To(kFace, vm::Set("Record.fps", old_fps_)), IgnoreAnswer);

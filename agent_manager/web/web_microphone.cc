@@ -117,7 +117,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
     error_code ignored;
     ear_.close(ignored);
     beast::get_lowest_layer(socket_).socket().close(ignored);
-    if (before_.empty() || server_->closed || !server_->hub.IsPresent(kEar)) return;
+    if (before_.empty() || server_->closed || !server_->hub.directory().IsPresent(kEar)) return;
     Ask(vm::Set("Input", before_), IgnoreAnswer);
   }
 

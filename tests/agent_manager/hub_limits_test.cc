@@ -80,7 +80,7 @@ TEST_F(HubLimitsTest, AReaderThatTakesNothingIsCutOffAfterTheStatedTime) {
   EXPECT_FALSE(slow->closed);
   world_.clock.RunUntil(world_.clock.Now() + milliseconds(200));
   EXPECT_TRUE(slow->closed);
-  EXPECT_FALSE(world_.hub.IsPresent("SLOW"));
+  EXPECT_FALSE(world_.hub.directory().IsPresent("SLOW"));
   EXPECT_FALSE(loud->paused);
 }
 

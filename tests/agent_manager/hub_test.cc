@@ -61,9 +61,10 @@ TEST(HubTest, WhoeverAskedIsAnsweredAlsoWhereTheAnsweringThrows) {
   World world;
   vm::SlotMachine machine("AM");
   world.hub.AddMachine(machine);
-  world.hub.set_on_machine([](vm::SlotMachine&, const Envelope&) -> vm::Result<Router::Taken> {
-    throw std::runtime_error("thrown");
-  });
+  world.hub.router().set_on_machine(
+      [](vm::SlotMachine&, const Envelope&) -> vm::Result<Router::Taken> {
+        throw std::runtime_error("thrown");
+      });
   const std::string why = " = INTERNAL a message could not be dealt with: thrown";
   const auto client = world.Join(PeerKind::kClient, "A");
   world.Say(*client, "set#1 X = 1");
@@ -101,7 +102,7 @@ TEST(HubTest, ReportsWithoutReceiverGoToThoseWhoSubscribedAndToTheBroadcastList)
   const auto a = world.Join(PeerKind::kClient, "A");
   const auto dm = world.Join(PeerKind::kClient, "DM");
   const auto other = world.Join(PeerKind::kClient, "OTHER");
-  world.hub.set_broadcast({"DM"});
+  world.hub.router().set_broadcast({"DM"});
   world.hub.Subscribe(a->key, {"SSM"});
   world.Say(*m, "rep Speak.stat = IDLE");
   EXPECT_EQ(a->heard, Strings{"From @SSM rep Speak.stat = IDLE"});
@@ -157,15 +158,15 @@ TEST(HubTest, WhoHasTheNameOfANewModuleGetsAnotherOne) {
   const auto bridge = world.Join(PeerKind::kClient, "MQTT");
   world.hub.Reserve({"ROBOT", "ARM", "MQTT"});
   world.clock.Settle();
-  EXPECT_TRUE(world.hub.IsPresent("MQTT")) << "one of the hub's own parts";
-  EXPECT_FALSE(world.hub.IsPresent("ROBOT"));
+  EXPECT_TRUE(world.hub.directory().IsPresent("MQTT")) << "one of the hub's own parts";
+  EXPECT_FALSE(world.hub.directory().IsPresent("ROBOT"));
   ASSERT_FALSE(guest->heard.empty());
   EXPECT_NE(guest->heard.back().find("rep Error = BUSY the name @ROBOT is that of a module now"),
             std::string::npos)
       << guest->heard.back();
   EXPECT_FALSE(world.hub.Rename(guest->key, "ROBOT"));
   const auto module = world.JoinModern("ROBOT");
-  EXPECT_TRUE(world.hub.IsModule("ROBOT"));
+  EXPECT_TRUE(world.hub.directory().IsModule("ROBOT"));
 }
 
 TEST(HubTest, AModuleThatTakesAnotherNameGoesAndComes) {
@@ -176,7 +177,7 @@ TEST(HubTest, AModuleThatTakesAnotherNameGoesAndComes) {
   });
   const auto module = world.JoinAs(Role::kClient, "ARM");
   world.Say(*module, "rep Run = LIVE");
-  world.hub.EndProbes(world.hub.clocks().Probing());
+  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
   world.clock.RunReady();
   seen.clear();
   EXPECT_TRUE(world.hub.Rename(module->key, "ARM2"));
@@ -237,10 +238,10 @@ TEST(HubTest, WhatIsSaidToAModuleThatIsStillStartingWaitsInOrder) {
   world.Say(*a, "to @SSM set Text = one");
   world.Say(*a, "to @SSM set Speak = NOW");
   EXPECT_EQ(m->heard.size(), 1u) << "only the probe";
-  world.hub.EndProbes(world.hub.clocks().Probing());
+  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
   EXPECT_EQ(m->heard.size(), 1u) << "it has not said a word: it may still be starting";
   world.Say(*m, "rep Run = LIVE");
-  world.hub.EndProbes(world.hub.clocks().Probing());
+  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
   EXPECT_EQ(m->heard[1], "set Text = one");
   EXPECT_EQ(m->heard[2], "set Speak = NOW");
 }
@@ -296,7 +297,7 @@ TEST(HubTest, ARuleForOneOfTwoReceiversHoldsForThatOne) {
   Rule rule;
   rule.to = {"B"};
   rule.drop = true;
-  world.hub.set_rules({rule});
+  world.hub.router().set_rules({rule});
   const auto a = world.Join(PeerKind::kClient, "A"), b = world.Join(PeerKind::kClient, "B"),
              c = world.Join(PeerKind::kClient, "C");
   world.Say(*a, "to @B,@C tell hello");
@@ -337,7 +338,7 @@ TEST(HubTest, NamesThatOthersHaveTakenKeepNobodyOut) {
     EXPECT_TRUE(world.hub.Rename(world.JoinAs(Role::kGuest, "x" + std::to_string(i))->key,
                                  "CLIENT" + std::to_string(i)));
   const auto b = world.JoinAs(Role::kClient, "");
-  EXPECT_EQ(world.hub.NameOf(b->key), "CLIENT9");
+  EXPECT_EQ(world.hub.directory().NameOf(b->key), "CLIENT9");
 }
 
 TEST(HubTest, AllTogetherHaveALimitAndWhoeverHasMostLosesOne) {
@@ -410,7 +411,7 @@ TEST(HubTest, WhatAConsumerThrowsIsThatPeersErrorAndNothingElse) {
   World world;
   const auto a = world.Join(PeerKind::kClient, "A");
   const auto b = world.Join(PeerKind::kClient, "B");
-  world.hub.set_on_report([](const std::string&, const vm::Message& message) {
+  world.hub.router().set_on_report([](const std::string&, const vm::Message& message) {
     if (message.value == "boom") throw std::runtime_error("a consumer's fault");
   });
   world.Say(*a, "to @B rep X = boom");
@@ -426,7 +427,7 @@ TEST(HubTest, AConsumerThatSpeaksIsHeardAfterTheMessageItHeard) {
   const auto a = world.Join(PeerKind::kClient, "A");
   const auto b = world.Join(PeerKind::kClient, "B");
   const auto c = world.Join(PeerKind::kClient, "C");
-  world.hub.set_on_report([&](const std::string&, const vm::Message&) {
+  world.hub.router().set_on_report([&](const std::string&, const vm::Message&) {
     world.hub.Ask("AM", vm::To("C", vm::Set("Y", "1")), nullptr);
     world.hub.Leave(a->key, "in the middle of its own message");
   });

@@ -47,7 +47,7 @@ struct BridgeTest : testing::Test {
     world.hub.set_on_presence([this](const auto& name, bool present, const auto& reason) {
       if (bridge) bridge->OnPresence(name, present, reason);
     });
-    world.hub.set_on_unknown(
+    world.hub.router().set_on_unknown(
         [this](const std::string& name, Role asker) { return bridge->Open(name, asker); });
     GoOnline();
     Acknowledge();
@@ -135,7 +135,7 @@ TEST_F(BridgeTest, GuestsThatAreModulesLeaveRoomForTheOthers) {
   const auto ssm = world.JoinModern("SSM");
   const auto guest = world.JoinAs(Role::kGuest, "ROBOT");
   world.Say(*guest, "rep Run = LIVE");
-  world.hub.EndProbes(world.hub.clocks().Probing());
+  world.hub.clocks().EndProbes(world.hub.clocks().Probing());
   world.clock.RunReady();
   constexpr std::size_t kShare = Publisher::kMaxValues / Publisher::kShareOfGuests;
   for (std::size_t i = 0; i < kShare + 10; ++i) {
@@ -156,7 +156,7 @@ TEST_F(BridgeTest, RequestsWhoseSlotARuleRenamesDoNotFillTheTable) {
   Rule rename;
   rename.slot = {"Text"};
   rename.new_slot = "Caption";
-  world.hub.set_rules({rename});
+  world.hub.router().set_rules({rename});
   world.JoinModern("SSM");
   Acknowledge();
   for (std::size_t i = 0; i < LocalGateway::kMaxRequests + 10; ++i) {
@@ -308,7 +308,7 @@ TEST_F(BridgeTest, WithoutSuchAnAgentTheRequestIsAnsweredAtOnce) {
   ASSERT_EQ(a->heard.size(), 1u);
   EXPECT_TRUE(a->heard[0].starts_with("From @NOWHERE/FSM rep#1 Gaze.error = UNAVAILABLE"))
       << a->heard[0];
-  EXPECT_FALSE(world.hub.IsPresent("NOWHERE/FSM"));
+  EXPECT_FALSE(world.hub.directory().IsPresent("NOWHERE/FSM"));
   EXPECT_EQ(std::ranges::count_if(broker->filters,
                                   [](const auto& f) { return f.starts_with("galatea/NOWHERE"); }),
             0);
@@ -338,14 +338,14 @@ TEST_F(BridgeTest, OneOfOurOwnIsNotReachedByTheBroker) {
 TEST_F(BridgeTest, WhoSubscribesHearsAnotherAgentsModuleAlsoAfterItHasBeenAway) {
   const auto a = world.Join(PeerKind::kClient, "A");
   const auto dm = world.Join(PeerKind::kClient, "DM");
-  world.hub.set_broadcast({"DM"});
+  world.hub.router().set_broadcast({"DM"});
   world.hub.Subscribe(a->key, {"LOBBY/SRM"});
   bridge->Want("LOBBY/SRM", Role::kOwner);
   Come("galatea/LOBBY/SRM/Result", "yes");
   Come("galatea/LOBBY/SRM/$tell", "a door");
   EXPECT_EQ(a->heard, (Strings{"From @LOBBY/SRM rep Result = yes", "From @LOBBY/SRM tell a door"}));
   Come("galatea/LOBBY/$state", "LOST");
-  EXPECT_FALSE(world.hub.IsPresent("LOBBY/SRM"));
+  EXPECT_FALSE(world.hub.directory().IsPresent("LOBBY/SRM"));
   Come("galatea/LOBBY/$state", "ONLINE");
   Come("galatea/LOBBY/SRM/Result", "no");
   EXPECT_EQ(a->heard.back(), "From @LOBBY/SRM rep Result = no");
@@ -581,11 +581,11 @@ TEST_F(BridgeTest, WhoIsWantedWhileTheHubIsFullIsHeardLater) {
   world.hub.Subscribe(a->key, {"LOBBY/SRM"});
   world.hub.set_limit(&Limits::peers, 1);
   bridge->Want("LOBBY/SRM", Role::kOwner);
-  EXPECT_FALSE(world.hub.IsPresent("LOBBY/SRM"));
+  EXPECT_FALSE(world.hub.directory().IsPresent("LOBBY/SRM"));
   EXPECT_EQ(std::ranges::count(broker->filters, "galatea/LOBBY/SRM/+"), 1);
   world.hub.set_limit(&Limits::peers, peers);
   Come("galatea/LOBBY/SRM/$state", "LIVE");
-  EXPECT_TRUE(world.hub.IsPresent("LOBBY/SRM"));
+  EXPECT_TRUE(world.hub.directory().IsPresent("LOBBY/SRM"));
 }
 
 TEST_F(BridgeTest, NamesThatNobodyIsSubscribedToAnyMoreMakeRoomForOthers) {
@@ -602,7 +602,8 @@ TEST_F(BridgeTest, NamesOfNobodyTakeNoPlaceOfOthers) {
   for (int i = 0; i < 200; ++i) names.insert("NOBODY" + std::to_string(i) + "/X");
   world.hub.Subscribe(guest->key, names);
   for (const std::string& name : names) bridge->Want(name, Role::kGuest);
-  EXPECT_EQ(world.hub.Names(), (Strings{"GUEST", "MQTT"})) << "nobody has said that they are there";
+  EXPECT_EQ(world.hub.directory().Names(), (Strings{"GUEST", "MQTT"}))
+      << "nobody has said that they are there";
   EXPECT_TRUE(world.hub.HasSubscriber("NOBODY7/X"));
   // Nor do those who are asked for take the places of guests, or all that there are.
   world.hub.set_limit(&Limits::peers, 16);
@@ -610,7 +611,7 @@ TEST_F(BridgeTest, NamesOfNobodyTakeNoPlaceOfOthers) {
   for (std::size_t i = 0; i < kShare + 100; ++i)
     world.Say(*guest, "to @LOBBY/M" + std::to_string(i) + " set X = 1");
   world.clock.Settle();
-  EXPECT_LE(world.hub.Names().size(), kShare + 2);
+  EXPECT_LE(world.hub.directory().Names().size(), kShare + 2);
   const auto other = world.JoinAs(Role::kGuest, "OTHER");
   EXPECT_NE(other->key, 0u);
   const auto client = world.JoinAs(Role::kClient, "A");

@@ -56,7 +56,7 @@ class RightsTest : public testing::Test {
         machines_(world_.hub, am_, macros_, built_in_machines_, Read) {
     world_.hub.AddMachine(am_);
     world_.hub.AddMachine(macros_.slots(), {"FS-MCL"});
-    world_.hub.set_on_report([this](const std::string& from, const vm::Message& message) {
+    world_.hub.router().set_on_report([this](const std::string& from, const vm::Message& message) {
       macros_.OnReport(from, message);
     });
     module_ = world_.JoinModern("SSM", vm::Time(0), [this](World::Peer&, const vm::Message& said) {

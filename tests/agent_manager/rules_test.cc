@@ -22,7 +22,7 @@ class RulesTest : public testing::Test {
   void Use(const std::string& rules) {
     const auto config = ParseConfig("{\"rules\": " + rules + "}", "am.json", ".");
     ASSERT_TRUE(config) << config.error().text;
-    world_.hub.set_rules(config->rules);
+    world_.hub.router().set_rules(config->rules);
   }
   World world_;
   std::shared_ptr<World::Peer> a_, b_, c_;

@@ -141,11 +141,11 @@ struct World {
   void Connect(BuiltInMachine& machine, std::vector<std::string> aliases = {},
                bool replaceable = false) {
     hub.AddMachine(machine.slots(), std::move(aliases), replaceable);
-    hub.set_on_machine([&machine](vm::SlotMachine&, const Envelope& envelope) {
+    hub.router().set_on_machine([&machine](vm::SlotMachine&, const Envelope& envelope) {
       machine.Handle(envelope);
       return vm::Result<Router::Taken>(Router::Taken{.taken = true});
     });
-    hub.set_on_report([&machine](const std::string& from, const vm::Message& message) {
+    hub.router().set_on_report([&machine](const std::string& from, const vm::Message& message) {
       machine.OnReport(from, message);
     });
     hub.set_on_presence(
