@@ -1,9 +1,12 @@
 // What a frame of the face costs, with software OpenGL off screen. Prints one line for each figure:
 //
 //   draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]
+//              [--context osmesa|egl] [--rig best|processor|card] [--faces N]
 //
 // --face: another head, one made from a photo for example, measured beside the built-in one;
-// --config: a configuration of the original (config.txt), whose first face is measured, too.
+// --config: a configuration of the original (config.txt), whose first face is measured, too;
+// --context and --rig: as of fsm; --faces: how many are drawn in one picture at 256 x 256 each,
+// default 16.
 //
 // Every figure is the best of R runs (default 5) of N frames (default 120), because other work on
 // the machine only ever adds to it. "moving" frames change expression, mouth, lids, gaze and head
@@ -17,7 +20,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -29,12 +31,14 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fsm/app/face_of_name.h"
 #include "fsm/app/more_faces.h"
 #include "fsm/app/original_config.h"
 #include "fsm/head/make_head.h"
+#include "fsm/render/appearance.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/head.h"
 
@@ -49,6 +53,9 @@ struct Options {
   int runs = 5;
   int width = 640;
   int height = 480;
+  int faces = 16;
+  fsm::OffScreen context = fsm::OffScreen::kOsMesa;
+  fsm::RigOn rig = fsm::RigOn::kBest;
   std::string face, config;
 };
 
@@ -153,27 +160,33 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
       options.face = value;
     } else if (word == "--config") {
       options.config = value;
+    } else if (word == "--faces") {
+      options.faces = std::atoi(value);
+    } else if (word == "--context") {
+      options.context =
+          std::string_view(value) == "egl" ? fsm::OffScreen::kEgl : fsm::OffScreen::kOsMesa;
+    } else if (word == "--rig") {
+      options.rig = std::string_view(value) == "card"        ? fsm::RigOn::kCard
+                    : std::string_view(value) == "processor" ? fsm::RigOn::kProcessor
+                                                             : fsm::RigOn::kBest;
     } else if (word != "--size" ||
                std::sscanf(value, "%dx%d%c", &options.width, &options.height, &end) != 2) {
       return false;
     }
   }
-  return options.frames > 0 && options.runs > 0;
+  return options.frames > 0 && options.runs > 0 && options.faces > 0;
 }
 
 /// Pictures of one head, each read when two more are drawn, as films are made.
 void PrintFilm(const char* name, const Options& options, int width, int height,
                fsm::Renderer& renderer, const fsm::Head& head) {
-  fsm::HeadVertices vertices;
   fsm::Image image;
   fsm::Scene scene;
   scene.camera.parallel = head.view();
   std::deque<std::uint64_t> begun;
   renderer.Place({0, 0, width, height});
   Print(name, Measure(options, [&](int i) {
-          const fsm::FaceState state = Moving(i);
-          head.Evaluate(state, vertices);
-          renderer.Draw(head, vertices, state, scene);
+          renderer.Draw(head, Moving(i), {}, scene);
           begun.push_back(renderer.BeginRead());
           if (begun.size() <= 2) return;
           renderer.EndRead(begun.front(), image);
@@ -183,23 +196,26 @@ void PrintFilm(const char* name, const Options& options, int width, int height,
   renderer.Place({});
 }
 
-/// Four people in one picture, each in a quarter of it, as a window would show them.
-void PrintFour(const Options& options, fsm::Renderer& renderer, const fsm::Head& head) {
-  const int width = options.width / 2, height = options.height / 2;
-  fsm::HeadVertices vertices;
+/// `count` people in one picture of rows of `across`, each of this size, as a window would show
+/// them.
+void PrintMany(const char* name, const Options& options, int count, int across, int width,
+               int height, fsm::Renderer& renderer, const fsm::Head& head) {
+  constexpr std::size_t kUnderWay = 8;  // frames that are read while others are drawn
   fsm::Image image;
   const fsm::Scene scene;
-  std::array<std::uint64_t, 4> begun;
-  Print("four moving faces in one picture", Measure(options, [&](int i) {
-          for (std::size_t k = 0; k < 4; ++k) {
-            const int pane = static_cast<int>(k);
-            const fsm::FaceState state = Moving(i + 31 * pane);
-            head.Evaluate(state, vertices);
-            renderer.Place({pane % 2 * width, pane / 2 * height, width, height});
-            renderer.Draw(head, vertices, state, scene);
-            begun[k] = renderer.BeginRead();
+  std::deque<std::uint64_t> begun;
+  const auto end_oldest = [&] {
+    renderer.EndRead(begun.front(), image);
+    begun.pop_front();
+  };
+  Print(name, Measure(options, [&](int i) {
+          for (int k = 0; k < count; ++k) {
+            renderer.Place({k % across * width, k / across * height, width, height});
+            renderer.Draw(head, Moving(i + 31 * k), {}, scene);
+            begun.push_back(renderer.BeginRead());
+            if (begun.size() > kUnderWay) end_oldest();
           }
-          for (const std::uint64_t frame : begun) renderer.EndRead(frame, image);
+          while (!begun.empty()) end_oldest();
         }));
   renderer.Place({});
   PrintMemory();
@@ -220,19 +236,18 @@ void PrintOthers(const Options& options, fsm::Renderer& renderer) {
 }
 
 void MeasureAll(char** argv, const Options& options) {
-  auto context = fsm::RenderContext::MakeHeadless(options.width, options.height);
-  auto renderer = fsm::Renderer::Make(*context);
+  auto context = fsm::RenderContext::MakeHeadless(options.width, options.height, options.context);
+  auto renderer = fsm::Renderer::Make(*context, 8, fsm::Appearance::BuiltIn(), options.rig);
   const auto head = fsm::MakeGenericHead();
   fsm::HeadVertices vertices;
   fsm::Image image;
   const fsm::Scene scene;
+  std::printf("%s\n", fsm::DescribeOffScreen(options.context).c_str());
   std::printf("%d x %d, 4 samples; head: %zu triangles, %zu vertices\n", options.width,
               options.height, head->topology().indices.size() / 3, head->topology().albedo.size());
 
   Print("moving face, state to pixels", Measure(options, [&](int i) {
-          const fsm::FaceState state = Moving(i);
-          head->Evaluate(state, vertices);
-          renderer->Draw(*head, vertices, state, scene);
+          renderer->Draw(*head, Moving(i), {}, scene);
           renderer->Read(image);
         }));
   const fsm::FaceState rest;
@@ -251,7 +266,10 @@ void MeasureAll(char** argv, const Options& options) {
   PrintMemory();
   PrintFilm("moving face in a film", options, 0, 0, *renderer, *head);
   PrintFilm("256 x 256 in a film", options, 256, 256, *renderer, *head);
-  PrintFour(options, *renderer, *head);
+  PrintMany("four moving faces in one picture", options, 4, 2, options.width / 2,
+            options.height / 2, *renderer, *head);
+  PrintMany((std::to_string(options.faces) + " faces at 256 x 256").c_str(), options, options.faces,
+            16, 256, 256, *renderer, *head);
   PrintOthers(options, *renderer);
   std::printf("%-34s %8.0f ms wall\n", "process start to first pixels",
               FirstFrameMs(argv, options));
@@ -278,7 +296,8 @@ int main(int argc, char** argv) {
   if (!ReadOptions(argc, argv, options, first_frame)) {
     std::fprintf(
         stderr,
-        "usage: draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]\n");
+        "usage: draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]\n"
+        "                  [--context osmesa|egl] [--rig best|processor|card] [--faces N]\n");
     return 2;
   }
   try {

@@ -51,7 +51,8 @@ void GlRenderBackend::MakeRenderer() {
   }
   context_->MakeCurrent();
   if (!renderer_) {
-    renderer_ = Renderer::Make(*context_, 1, appearance_ ? *appearance_ : Appearance::BuiltIn());
+    renderer_ = Renderer::Make(*context_, 1, appearance_ ? *appearance_ : Appearance::BuiltIn(),
+                               options_.rig);
   }
 }
 
@@ -79,10 +80,9 @@ vm::Result<void> GlRenderBackend::Draw(const FaceState& state, const Scene& scen
     }
     MakeRenderer();
     if (made.valid()) head_ = made.get();
-    head().Evaluate(state, vertices_, Swing(course));
     Scene seen = scene;
     seen.camera.parallel = head().view();
-    renderer_->Draw(head(), vertices_, state, seen);
+    renderer_->Draw(head(), state, Swing(course), seen);
     return {};
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kUnavailable, std::string("cannot draw: ") + error.what());

@@ -25,7 +25,8 @@ class GlRenderBackend final : public RenderBackend {
     int height = 480;
     enum class Where { kHeadless, kWindow, kWindowIfPossible } where = Where::kHeadless;
     std::string title = "Galatea";
-    OffScreen off_screen = OffScreen::kOsMesa;         ///< of the context without a window
+    OffScreen off_screen = OffScreen::kOsMesa;  ///< of the context without a window
+    RigOn rig = RigOn::kBest;
     std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
     /// Faces beside the built-in ones and those of the faces folder, listed before them. `make`
     /// throws std::runtime_error with a sentence; it may be called on another thread.
@@ -78,7 +79,6 @@ class GlRenderBackend final : public RenderBackend {
   /// Of the springs of the head drawn last; none if nothing is to swing.
   std::optional<Simulation> simulation_;
   std::uint64_t simulated_ = 0;  // serial of that head
-  HeadVertices vertices_;
   Image image_;
   // Frames begun and not ended, by their number here; each is in the renderer or, when that went,
   // here.

@@ -29,6 +29,7 @@ struct Options {
   bool headless = false;
   bool window = false;
   std::string context;
+  std::string rig = "best";
   std::string size;
   std::vector<int> size_pair;
   std::vector<int> position;
@@ -100,6 +101,12 @@ fsm::OffScreen OffScreenWanted(const Options& options) {
                                      : fsm::OffScreen::kOsMesa;
 }
 
+fsm::RigOn RigWanted(const Options& options) {
+  return options.rig == "card"        ? fsm::RigOn::kCard
+         : options.rig == "processor" ? fsm::RigOn::kProcessor
+                                      : fsm::RigOn::kBest;
+}
+
 /// --version says on stderr what would draw, too; the version alone is on stdout, as of every
 /// program.
 void TellRenderer(CLI::App& app, const Options& options) {
@@ -123,6 +130,10 @@ void AddOptions(CLI::App& app, Options& options) {
                  "graphics card, else what Mesa has), auto (egl, else osmesa) or window")
       ->envname("GALATEA_CONTEXT")
       ->check(CLI::IsMember({"osmesa", "egl", "auto", "window"}));
+  app.add_option("--rig", options.rig,
+                 "What moves the face's vertices: processor, card (needs OpenGL 4.3) or best (the "
+                 "default: a graphics card where one draws)")
+      ->check(CLI::IsMember({"best", "processor", "card"}));
   app.add_option("--size", options.size, "Size of the view, WxH (default 640x480)");
   app.add_option("-s", options.size_pair, "The same, as the original: -s W H")->expected(2);
   app.add_option("--position", options.position, "Place of the window, X Y; -p X Y, too")
@@ -216,6 +227,7 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
                              " pixels wide and high");
   }
   studio.off_screen = OffScreenWanted(options);
+  studio.rig = RigWanted(options);
   const fsm::OriginalConfig& config = options.module.config;
   if (config.x && config.y) studio.position = {*config.x, *config.y};
   if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};

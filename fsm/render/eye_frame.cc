@@ -85,6 +85,12 @@ EyeFinder::EyeFinder(const HeadTopology& topology, const HeadVertices& rest) {
   }
 }
 
+void EyeFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
+  for (const auto* sides : {&white_, &iris_, &upper_rim_, &lower_rim_}) {
+    for (const auto& side : *sides) out.insert(out.end(), side.begin(), side.end());
+  }
+}
+
 std::array<EyeFrame, 2> EyeFinder::Measure(const HeadVertices& vertices) const {
   std::array<EyeFrame, 2> eyes;
   for (std::size_t side = 0; side < 2; ++side) {

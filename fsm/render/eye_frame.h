@@ -30,6 +30,8 @@ class EyeFinder {
   bool found() const { return !white_[0].empty() && !white_[1].empty(); }
   /// Of the eye at the viewer's left [0] and right [1]. REQUIRES: found().
   std::array<EyeFrame, 2> Measure(const HeadVertices& vertices) const;
+  /// The vertices that Measure looks at.
+  void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:
   std::array<std::vector<std::uint32_t>, 2> white_;

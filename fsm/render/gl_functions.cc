@@ -1,12 +1,22 @@
 #include "fsm/render/gl_functions.h"
 
+#include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "fsm/render/renderer.h"
 
 namespace fsm {
 namespace {
+
+/// As "4.5 (Core Profile) Mesa 22.3.6".
+bool IsAtLeast(const GlFunctions& gl, int major, int minor) {
+  const auto* version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
+  int found_major = 0, found_minor = 0;
+  return version != nullptr && std::sscanf(version, "%d.%d", &found_major, &found_minor) == 2 &&
+         std::pair(found_major, found_minor) >= std::pair(major, minor);
+}
 
 template <typename Function>
 void Fetch(RenderContext& context, const char* name, Function& function) {
@@ -23,6 +33,10 @@ GlFunctions GlFunctions::Load(RenderContext& context) {
   GlFunctions gl;
 #define FSM_GL_FETCH(type, name) Fetch(context, "gl" #name, gl.name);
   FSM_GL_FUNCTIONS(FSM_GL_FETCH)
+  gl.has_compute = IsAtLeast(gl, 4, 3);
+  if (gl.has_compute) {
+    FSM_GL_COMPUTE_FUNCTIONS(FSM_GL_FETCH)
+  }
 #undef FSM_GL_FETCH
   return gl;
 }

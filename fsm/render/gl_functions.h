@@ -82,10 +82,20 @@ class RenderContext;
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
   X(PFNGLVIEWPORTPROC, Viewport)
 
+/// Of OpenGL 4.3, which not every driver has.
+#define FSM_GL_COMPUTE_FUNCTIONS(X)              \
+  X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)     \
+  X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)   \
+  X(PFNGLGETBUFFERSUBDATAPROC, GetBufferSubData) \
+  X(PFNGLMEMORYBARRIERPROC, MemoryBarrier)       \
+  X(PFNGLUNIFORM1UIPROC, Uniform1ui)
+
 struct GlFunctions {
 #define FSM_GL_MEMBER(type, name) type name = nullptr;
   FSM_GL_FUNCTIONS(FSM_GL_MEMBER)
+  FSM_GL_COMPUTE_FUNCTIONS(FSM_GL_MEMBER)
 #undef FSM_GL_MEMBER
+  bool has_compute = false;  ///< whether FSM_GL_COMPUTE_FUNCTIONS are there
 
   /// REQUIRES: `context` is current. Throws std::runtime_error naming the function that is missing.
   static GlFunctions Load(RenderContext& context);

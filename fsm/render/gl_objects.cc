@@ -36,7 +36,7 @@ GLuint Compile(const GlFunctions& gl, const char* name, GLenum kind, std::string
 
 GlProgram::GlProgram(const GlFunctions& gl, const char* name, std::string_view vertex,
                      std::string_view fragment)
-    : gl_(gl) {
+    : gl_(gl), id_(0) {
   const GLuint vertex_shader = Compile(gl, name, GL_VERTEX_SHADER, vertex);
   GLuint fragment_shader = 0;
   try {
@@ -45,17 +45,24 @@ GlProgram::GlProgram(const GlFunctions& gl, const char* name, std::string_view v
     gl.DeleteShader(vertex_shader);
     throw;
   }
-  id_ = gl.CreateProgram();
-  gl.AttachShader(id_, vertex_shader);
-  gl.AttachShader(id_, fragment_shader);
-  gl.LinkProgram(id_);
-  gl.DeleteShader(vertex_shader);
-  gl.DeleteShader(fragment_shader);
+  Link(name, {vertex_shader, fragment_shader});
+}
+
+GlProgram::GlProgram(const GlFunctions& gl, const char* name, std::string_view compute)
+    : gl_(gl), id_(0) {
+  Link(name, {Compile(gl, name, GL_COMPUTE_SHADER, compute)});
+}
+
+void GlProgram::Link(const char* name, std::initializer_list<GLuint> shaders) {
+  id_ = gl_.CreateProgram();
+  for (const GLuint shader : shaders) gl_.AttachShader(id_, shader);
+  gl_.LinkProgram(id_);
+  for (const GLuint shader : shaders) gl_.DeleteShader(shader);
   GLint linked = 0;
-  gl.GetProgramiv(id_, GL_LINK_STATUS, &linked);
+  gl_.GetProgramiv(id_, GL_LINK_STATUS, &linked);
   if (!linked) {
-    const std::string log = Log(id_, gl.GetProgramiv, gl.GetProgramInfoLog);
-    gl.DeleteProgram(id_);
+    const std::string log = Log(id_, gl_.GetProgramiv, gl_.GetProgramInfoLog);
+    gl_.DeleteProgram(id_);
     throw std::runtime_error(std::string("shader ") + name + " does not link: " + log);
   }
 }

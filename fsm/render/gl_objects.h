@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@ class GlProgram {
   /// Throws std::runtime_error with the compiler's words if a source is wrong; `name` is for them.
   GlProgram(const GlFunctions& gl, const char* name, std::string_view vertex,
             std::string_view fragment);
+  /// Of a compute shader. REQUIRES: GlFunctions::has_compute.
+  GlProgram(const GlFunctions& gl, const char* name, std::string_view compute);
   ~GlProgram() { gl_.DeleteProgram(id_); }
   GlProgram(const GlProgram&) = delete;
   GlProgram& operator=(const GlProgram&) = delete;
@@ -25,6 +28,9 @@ class GlProgram {
   GLint Uniform(const char* name) const { return gl_.GetUniformLocation(id_, name); }
 
  private:
+  /// Links what has been attached and lets the shaders go.
+  void Link(const char* name, std::initializer_list<GLuint> shaders);
+
   const GlFunctions& gl_;
   GLuint id_;
 };

@@ -120,6 +120,23 @@ void HeadBuffers::Upload(const HeadVertices& vertices) {
   gl_.BufferData(GL_ARRAY_BUFFER, bytes, vertices.position.data(), GL_STREAM_DRAW);
   gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[1]);
   gl_.BufferData(GL_ARRAY_BUFFER, bytes, vertices.normal.data(), GL_STREAM_DRAW);
+  Use(buffers_[0], buffers_[1]);
+}
+
+void HeadBuffers::Use(GLuint positions, GLuint normals) {
+  gl_.BindVertexArray(array_);
+  for (GLuint i = 0; i < 2; ++i) {
+    gl_.BindBuffer(GL_ARRAY_BUFFER, i == 0 ? positions : normals);
+    gl_.VertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  }
+}
+
+std::vector<std::uint32_t> HeadBuffers::MeasuredVertices() const {
+  std::vector<std::uint32_t> vertices;
+  eyes_.AppendVertices(vertices);
+  shadows_.AppendVertices(vertices);
+  mouth_.AppendVertices(vertices);
+  return vertices;
 }
 
 void HeadBuffers::UploadTopology(const Head& head) {

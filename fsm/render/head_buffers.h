@@ -36,6 +36,10 @@ class HeadBuffers {
 
   /// Binds the head's vertex array with these vertices, which are the head's, in it.
   void Upload(const HeadVertices& vertices);
+  /// The same with buffers of places and of normals that are on the card already.
+  void Use(GLuint positions, GLuint normals);
+  /// Those at which eyes(), shadows() and mouth() look.
+  std::vector<std::uint32_t> MeasuredVertices() const;
   /// The head's parts in the order to draw them, what hides most first.
   const std::vector<DrawnPart>& parts() const { return parts_; }
   const EyeFinder& eyes() const { return eyes_; }

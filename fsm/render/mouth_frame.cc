@@ -9,6 +9,13 @@ MouthFinder::MouthFinder(const HeadTopology& topology) {
   if (topology.mouth.lips.size() >= kColumns) slit_ = topology.mouth;
 }
 
+void MouthFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
+  if (!slit_) return;
+  out.insert(out.end(), {slit_->corner_right, slit_->corner_left, slit_->upper_root,
+                         slit_->upper_incisor, slit_->lower_incisor});
+  for (const auto& [upper, lower] : slit_->lips) out.insert(out.end(), {upper, lower});
+}
+
 std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& vertices) const {
   if (!slit_) return std::nullopt;
   const auto at = [&vertices](std::uint32_t i) { return vertices.position[i]; };

@@ -32,6 +32,8 @@ class MouthFinder {
   };
   /// Nothing where the head does not say where its lips part.
   std::optional<Opening> Measure(const HeadVertices& vertices) const;
+  /// The vertices that Measure looks at.
+  void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:
   std::optional<MouthSlit> slit_;

@@ -6,7 +6,12 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat4x4.hpp>
 #include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fsm/render/appearance.h"
@@ -15,8 +20,10 @@
 #include "fsm/render/frame_reader.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/gl_objects.h"
+#include "fsm/render/gpu_rig.h"
 #include "fsm/render/head_buffers.h"
 #include "fsm/render/materials.h"
+#include "fsm/rig/partial_rig.h"
 
 namespace fsm {
 namespace {
@@ -43,21 +50,86 @@ bool IsSoftware(const GlFunctions& gl) {
   return name.starts_with("llvmpipe") || name.starts_with("softpipe");
 }
 
+/// A head that a graphics card moves. What the frame must know of its vertices is found on the
+/// processor, which is faster than to read it back.
+class CardRig {
+ public:
+  CardRig(const GlFunctions& gl, RigPrograms& programs, const Head& head,
+          std::vector<std::uint32_t> measured)
+      : rig_(gl, programs, head.rig()), partial_(head.rig(), std::move(measured)) {}
+  const GpuRig& rig() const { return rig_; }
+  /// The places that are measured.
+  const HeadVertices& Move(const Head& head, const FaceState& state,
+                           std::span<const glm::vec3> swings) {
+    const GpuRig::Face face{&state, swings};
+    rig_.Evaluate(head.rig(), {&face, 1});
+    partial_.Evaluate(state, seen_, swings);
+    return seen_;
+  }
+
+ private:
+  GpuRig rig_;
+  PartialRig partial_;
+  HeadVertices seen_;
+};
+
 class GlRenderer : public Renderer {
  public:
-  GlRenderer(RenderContext& context, std::size_t heads, const Appearance& appearance)
+  GlRenderer(RenderContext& context, std::size_t heads, const Appearance& appearance, RigOn rig)
       : context_(context),
         most_heads_(heads),
         gl_(GlFunctions::Load(context)),
         line_over_texture_(appearance.ColorAndOpacity("line_over_texture")),
         materials_(gl_, appearance),
         backdrop_(gl_),
-        reader_(gl_, !IsSoftware(gl_)) {}
+        reader_(gl_, !IsSoftware(gl_)),
+        rig_programs_(gl_),
+        rig_on_card_(rig == RigOn::kCard ||
+                     (rig == RigOn::kBest && RigPrograms::Supported(gl_) && !IsSoftware(gl_))) {
+    if (rig_on_card_ && !RigPrograms::Supported(gl_))
+      throw std::runtime_error(
+          "OpenGL 4.3 is needed to move faces on the card, this driver has " +
+          std::string(reinterpret_cast<const char*>(gl_.GetString(GL_VERSION))));
+  }
 
   void Place(const Viewport& pane) override { pane_ = pane; }
 
   void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
             const Scene& scene) override {
+    Draw(head, state, scene, [&vertices](HeadOnCard& on_card) -> const HeadVertices& {
+      on_card.buffers.Upload(vertices);
+      return vertices;
+    });
+  }
+
+  void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> swings,
+            const Scene& scene) override {
+    if (!rig_on_card_) {
+      head.Evaluate(state, vertices_, swings);
+      return Draw(head, vertices_, state, scene);
+    }
+    Draw(head, state, scene, [&](HeadOnCard& on_card) -> const HeadVertices& {
+      auto& rig = on_card.rig;
+      if (!rig) rig.emplace(gl_, rig_programs_, head, on_card.buffers.MeasuredVertices());
+      const HeadVertices& seen = rig->Move(head, state, swings);
+      on_card.buffers.Use(rig->rig().positions(), rig->rig().normals());
+      return seen;
+    });
+  }
+
+ private:
+  /// What the card holds of a head.
+  struct HeadOnCard {
+    HeadOnCard(const GlFunctions& gl, const Head& head)
+        : buffers(gl, head), textures(gl, buffers) {}
+    HeadBuffers buffers;
+    HeadTextures textures;
+    std::optional<CardRig> rig;
+    std::uint64_t drawn = 0;  ///< the number of the last frame with it
+  };
+
+  /// `move`: has the buffers use the vertices of the frame, and gives those that are measured.
+  void Draw(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
     const int width = pane_.width > 0 ? pane_.width : context_.width();
     const int height = pane_.width > 0 ? pane_.height : context_.height();
     FindTarget(width, height);
@@ -69,7 +141,7 @@ class GlRenderer : public Renderer {
     backdrop_.Draw(behind, width, height);
     const float alpha = std::clamp(state.agent_alpha, 0.0F, 1.0F);
     if (state.agent_enabled && alpha > 0) {
-      DrawFigure(head, vertices, state, scene);
+      DrawFigure(head, state, scene, move);
       // It fades as one picture. Each of its layers drawn in part would show what is behind them.
       if (alpha < 1) backdrop_.Veil(behind, 1 - alpha);
     }
@@ -91,16 +163,6 @@ class GlRenderer : public Renderer {
   }
   void EndRead(std::uint64_t frame, Image& out) override { reader_.End(frame, out); }
   void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
-
- private:
-  /// What the card holds of a head.
-  struct HeadOnCard {
-    HeadOnCard(const GlFunctions& gl, const Head& head)
-        : buffers(gl, head), textures(gl, buffers) {}
-    HeadBuffers buffers;
-    HeadTextures textures;
-    std::uint64_t drawn = 0;  ///< the number of the last frame with it
-  };
 
   HeadOnCard& Find(const Head& head) {
     auto found = heads_.find(head.serial());
@@ -131,12 +193,11 @@ class GlRenderer : public Renderer {
     target_ = targets_.front().get();
   }
 
-  void DrawFigure(const Head& head, const HeadVertices& vertices, const FaceState& state,
-                  const Scene& scene) {
+  void DrawFigure(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
     const View view = FramePortrait(state, scene.camera, target_->width(), target_->height());
     HeadOnCard& on_card = Find(head);
     HeadBuffers& buffers = on_card.buffers;
-    buffers.Upload(vertices);
+    const HeadVertices& vertices = move(on_card);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene, 1);
@@ -221,6 +282,9 @@ class GlRenderer : public Renderer {
   std::uint64_t frames_ = 0;
   std::vector<std::unique_ptr<GlTarget>> targets_;  // the one used last first
   FrameReader reader_;
+  RigPrograms rig_programs_;
+  const bool rig_on_card_;
+  HeadVertices vertices_;  // where the processor makes them; reused
   // Of the frame drawn last.
   GlTarget* target_ = nullptr;
   bool soft_ = false;
@@ -234,8 +298,8 @@ std::unique_ptr<Renderer> Renderer::Make(RenderContext& context, std::size_t hea
 }
 
 std::unique_ptr<Renderer> Renderer::Make(RenderContext& context, std::size_t heads,
-                                         const Appearance& appearance) {
-  return std::make_unique<GlRenderer>(context, std::max<std::size_t>(heads, 1), appearance);
+                                         const Appearance& appearance, RigOn rig) {
+  return std::make_unique<GlRenderer>(context, std::max<std::size_t>(heads, 1), appearance, rig);
 }
 
 }  // namespace fsm

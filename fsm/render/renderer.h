@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fsm/image/image.h"
@@ -87,6 +88,13 @@ class RenderContext {
 /// Makes a context and destroys it.
 std::string DescribeOffScreen(OffScreen how);
 
+/// What moves the vertices of a head that is drawn by its state.
+enum class RigOn {
+  kBest,       ///< the graphics card where one draws and has compute shaders (OpenGL 4.3)
+  kProcessor,
+  kCard        ///< also where a card is only software's
+};
+
 /// Part of what a context draws into, in pixels from its upper left corner; width 0: all of it.
 struct Viewport {
   int x = 0, y = 0;
@@ -103,14 +111,19 @@ class Renderer {
   /// `heads`: how many are kept at most, 1 or more, each with some 20 MB of textures; one more
   /// takes the place of the one that was not drawn for longest.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads = 8);
-  /// `appearance` in place of the built-in one; it outlives the renderer.
+  /// `appearance` in place of the built-in one; it outlives the renderer. Throws std::runtime_error
+  /// if `rig` is kCard and the driver cannot do it.
   static std::unique_ptr<Renderer> Make(RenderContext& context, std::size_t heads,
-                                        const Appearance& appearance);
+                                        const Appearance& appearance, RigOn rig = RigOn::kBest);
   virtual ~Renderer() = default;
   /// Where the next frames go; at first everywhere.
   virtual void Place(const Viewport& pane) = 0;
   /// `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
+                    const Scene& scene) = 0;
+  /// The same of the vertices that the head's rig makes of `state` and `swings` (Rig::Evaluate),
+  /// which a card makes itself (GpuRig), and within what GpuRig says they are the same.
+  virtual void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> swings,
                     const Scene& scene) = 0;
   /// The frame drawn last, of the pane's size.
   virtual void Read(Image& out) = 0;

@@ -61,6 +61,10 @@ glm::mat4 ShadowFinder::Frame(const HeadVertices& vertices) const {
   return {glm::vec4(x, 0.0F), glm::vec4(y, 0.0F), glm::vec4(z, 0.0F), glm::vec4(middle, 1.0F)};
 }
 
+void ShadowFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
+  if (anchors_) out.insert(out.end(), {anchors_->nose, anchors_->left, anchors_->right});
+}
+
 ShadowFinder::Occluders ShadowFinder::Measure(const HeadVertices& vertices) const {
   constexpr glm::vec3 kNowhere{0.0F, 0.0F, -1e6F};
   if (!anchors_) {

@@ -26,6 +26,8 @@ class ShadowFinder {
     glm::mat3 turn;  ///< how the head has turned since the rest
   };
   Occluders Measure(const HeadVertices& vertices) const;
+  /// The vertices that Measure looks at.
+  void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:
   /// Vertices that move with the skull alone, at least nearly: the tip of the nose and the

@@ -5,7 +5,6 @@
 namespace fsm {
 
 void CloseLips(const LipRig& rig, float seal, std::span<glm::vec3> position) {
-  constexpr float kUpperShare = 0.4f;              // of the way to each other
   thread_local std::vector<glm::vec3> correction;  // kept from frame to frame
   correction.clear();
   for (std::size_t k = 0; k < rig.seam.size(); ++k) {
@@ -16,8 +15,7 @@ void CloseLips(const LipRig& rig, float seal, std::span<glm::vec3> position) {
     correction.push_back(by);
   }
   for (const LipRig::Follower& f : rig.followers) {
-    position[f.vertex] -=
-        (f.part > 0 ? kUpperShare : 1 - kUpperShare) * f.part * correction[f.pair];
+    position[f.vertex] -= LipRig::ShareOf(f) * correction[f.pair];
   }
 }
 

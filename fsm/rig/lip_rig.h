@@ -21,6 +21,11 @@ struct LipRig {
     std::uint32_t pair;  ///< index into `seam`: the one that moves it
     float part;          ///< -1..1: > 0 of the upper lip, < 0 of the lower
   };
+  /// By how much of its pair's gap a follower goes.
+  static float ShareOf(const Follower& f) {
+    constexpr float kUpperShare = 0.4f;  // of the way to each other
+    return (f.part > 0 ? kUpperShare : 1 - kUpperShare) * f.part;
+  }
   std::vector<Follower> followers;
   /// By which the mouth is measured: the upper and the lower lip in the middle, the corners at the
   /// agent's left and right.

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "fsm/base/spline.h"
-#include "fsm/rig/pose.h"
 #include "fsm/rig/tongue_path.h"
 
 namespace fsm {
@@ -57,11 +56,8 @@ Rig::Rig(RigData data) : data_(std::move(data)) {
   std::vector<bool> soft(data_.rest.size(), false);
   for (const std::uint32_t i : data_.soft_triangles) soft[i] = true;
   for (std::uint32_t i = 0; i < data_.rest.size(); ++i) {
-    if (data_.bone[i] != Bone::kSkin) {
-      rigid_.push_back(i);
-    } else if (data_.weights[i].jaw > 0.001f) {
-      jawed_.push_back(i);
-    }
+    if (data_.bone[i] != Bone::kSkin) rigid_.push_back(i);
+    if (MovesWithJaw(data_, i)) jawed_.push_back(i);
     if (soft[i]) soft_.push_back(i);
   }
   FindDrives();
@@ -96,14 +92,25 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
   out.normal = data_.rest_normal;
   Frame frame{state, PoseOf(state), out.position, out.normal, swings};
   for (const RigStep step : data_.steps) TakeStep(step, frame);
+  FindMarks(frame.pose, out);
+}
+
+void Rig::FindMarks(const Pose& pose, HeadVertices& out) const {
   out.wrinkles = {};
   if (data_.creases) {
-    out.wrinkles = CreaseDepths(frame.pose.units, *data_.creases);
+    out.wrinkles = CreaseDepths(pose.units, *data_.creases);
     for (auto& sides : out.wrinkles) {
       for (float& depth : sides) depth *= data_.crease_depth;
     }
   }
-  for (std::size_t side = 0; side < 2; ++side) out.lids_shut[side] = frame.pose.lids[side].close;
+  for (std::size_t side = 0; side < 2; ++side) out.lids_shut[side] = pose.lids[side].close;
+}
+
+RigInputs Rig::InputsOf(const FaceState& state) const {
+  RigInputs inputs{.pose = PoseOf(state), .strengths = {}, .eye_turn = {}};
+  FindStrengths(state, inputs.pose, inputs.strengths);
+  for (std::size_t side = 0; side < 2; ++side) inputs.eye_turn[side] = EyeTurn(inputs.pose, side);
+  return inputs;
 }
 
 MouthMeasure Rig::MeasureMouth(const FaceState& state) const {
@@ -134,10 +141,8 @@ Rig Rig::WithUnits(const UnitTable& units) const {
   return Rig(std::move(data));
 }
 
-float Rig::ValueOf(const Drive& drive, const Frame& frame) {
+float Rig::ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
   using enum Drive::Kind;
-  const FaceState& state = frame.state;
-  const Pose& pose = frame.pose;
   const std::size_t number = drive.number;
   const auto bound = [](float value, float low, float high) {
     return std::isfinite(value) ? std::clamp(value, low, high) : 0.0f;
@@ -172,19 +177,28 @@ float Rig::ValueOf(const Drive& drive, const Frame& frame) {
   return value(static_cast<std::size_t>(drive.side));
 }
 
-void Rig::AddChannels(Frame& frame) const {
+void Rig::FindStrengths(const FaceState& state, const Pose& pose, std::vector<float>& out) const {
   thread_local std::vector<float> values;  // of the drives; kept from frame to frame
   values.clear();
-  for (const Drive& drive : drives_) values.push_back(ValueOf(drive, frame));
-  const float seal = frame.pose.seal;
+  for (const Drive& drive : drives_) values.push_back(ValueOf(drive, state, pose));
   auto from = driver_from_.begin();
   for (const Channel& channel : data_.channels) {
     float strength = 0;
     for (const Channel::Driver& driver : channel.drivers) strength += driver.gain * values[*from++];
-    strength = std::clamp(strength, channel.least, channel.most) *
-               ((1 - seal) * channel.open_factor + seal * channel.sealed_factor);
-    if (strength == 0) continue;
-    for (const Displacement& d : channel.moves) frame.position[d.vertex] += strength * d.by;
+    out.push_back(std::clamp(strength, channel.least, channel.most) *
+                  ((1 - pose.seal) * channel.open_factor + pose.seal * channel.sealed_factor));
+  }
+}
+
+void Rig::AddChannels(Frame& frame) const {
+  thread_local std::vector<float> strengths;  // kept from frame to frame
+  strengths.clear();
+  FindStrengths(frame.state, frame.pose, strengths);
+  for (std::size_t k = 0; k < strengths.size(); ++k) {
+    if (strengths[k] == 0) continue;
+    for (const Displacement& d : data_.channels[k].moves) {
+      frame.position[d.vertex] += strengths[k] * d.by;
+    }
   }
 }
 

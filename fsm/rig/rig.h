@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "fsm/rig/face_state.h"
+#include "fsm/rig/pose.h"
 #include "fsm/rig/rig_data.h"
 
 namespace fsm {
-
-struct Pose;
 
 /// Vertex positions and normals of one state. Reused from frame to frame by the caller.
 struct HeadVertices {
@@ -24,6 +23,13 @@ struct HeadVertices {
   /// Depth of the creases, 0..1: [Wrinkle][0 = the agent's right (-x), 1 = left].
   std::array<std::array<float, 2>, 4> wrinkles{};
   std::array<float, 2> lids_shut{};  ///< right, left: 0 = as at rest, 1 = wholly
+};
+
+/// The numbers of one state by which the steps move vertices, the same for all of them.
+struct RigInputs {
+  Pose pose;
+  std::vector<float> strengths;       ///< of each channel
+  std::array<glm::mat3, 2> eye_turn;  ///< right, left: of what eyes carry, about RigData::eye_pivot
 };
 
 /// The name of a step, as `fsm --describe` shows it.
@@ -37,10 +43,17 @@ class Rig {
   explicit Rig(RigData data);
 
   const RigData& data() const { return data_; }
+  /// Whether the jaw carries a vertex as skin.
+  static bool MovesWithJaw(const RigData& data, std::uint32_t vertex) {
+    return data.bone[vertex] == Bone::kSkin && data.weights[vertex].jaw > 0.001f;
+  }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
   /// `swings`: Simulation::offsets() of RigData::springs, or none where nothing swings.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> swings = {}) const;
+  RigInputs InputsOf(const FaceState& state) const;
+  /// What HeadVertices says beside places and normals.
+  void FindMarks(const Pose& pose, HeadVertices& out) const;
   /// All 0 if the head does not say where its lips are.
   MouthMeasure MeasureMouth(const FaceState& state) const;
   /// The same rig whose units move as another table says.
@@ -52,7 +65,8 @@ class Rig {
   static const StepEntry kSteps[];
 
   Pose PoseOf(const FaceState& state) const;
-  static float ValueOf(const Drive& drive, const Frame& frame);
+  static float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose);
+  void FindStrengths(const FaceState& state, const Pose& pose, std::vector<float>& out) const;
   /// How far an eye turns, which of heads from elsewhere is another angle than that of the gaze.
   glm::mat3 EyeTurn(const Pose& pose, std::size_t side) const;
   void FindDrives();

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 namespace fsm {
@@ -31,6 +32,52 @@ std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> 
     }
   }
   return channels;
+}
+
+std::vector<std::uint32_t> StepVertices(const RigData& data) {
+  std::vector<std::uint32_t> vertices;
+  for (const auto& [upper, lower] : data.lips.seam) vertices.insert(vertices.end(), {upper, lower});
+  if (data.lips.measured)
+    vertices.insert(vertices.end(), data.lips.measured->begin(), data.lips.measured->end());
+  if (!data.rest.empty()) vertices.push_back(data.chin);
+  return vertices;
+}
+
+RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices) {
+  constexpr std::uint32_t kLeftOut = ~0u;
+  std::vector<std::uint32_t> now(data.rest.size(), kLeftOut);  // by the vertex before
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) now[vertices[i]] = i;
+  const auto chosen = [&](const auto& all) {
+    std::remove_cvref_t<decltype(all)> some;
+    if (all.empty()) return some;
+    for (const std::uint32_t vertex : vertices) some.push_back(all[vertex]);
+    return some;
+  };
+  const auto keep = [&now](auto& items) {
+    std::erase_if(items, [&](const auto& item) { return now[item.vertex] == kLeftOut; });
+    for (auto& item : items) item.vertex = now[item.vertex];
+  };
+  RigData some = data;
+  some.rest = chosen(data.rest);
+  some.rest_normal = chosen(data.rest_normal);
+  some.proxy_rest = chosen(data.proxy_rest);
+  some.own_form = chosen(data.own_form);
+  some.bone = chosen(data.bone);
+  some.weights = chosen(data.weights);
+  some.soft_triangles.clear();
+  some.normal_twin.clear();
+  for (Channel& channel : some.channels) keep(channel.moves);
+  keep(some.lids.vertices);
+  keep(some.ball_lids);
+  keep(some.lips.followers);
+  keep(some.teeth_contacts);
+  keep(some.spring_weights);
+  for (auto& [upper, lower] : some.lips.seam) upper = now[upper], lower = now[lower];
+  if (some.lips.measured) {
+    for (std::uint32_t& vertex : *some.lips.measured) vertex = now[vertex];
+  }
+  if (!data.rest.empty()) some.chin = now[data.chin];
+  return some;
 }
 
 RigData StillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal) {

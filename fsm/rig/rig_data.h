@@ -158,6 +158,12 @@ struct RigData {
 std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> bones,
                                   std::span<const SkinWeights> weights);
 
+/// The same for some of the vertices, numbered as in `vertices`, which holds those that steps look
+/// at (StepVertices). Normals of soft triangles are left at rest.
+RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertices);
+/// Vertices on whose places the steps found those of others: where lips meet, the chin.
+std::vector<std::uint32_t> StepVertices(const RigData& data);
+
 /// Of vertices that stay where they are.
 RigData StillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal);
 

@@ -1,0 +1,341 @@
+#include "fsm/render/gpu_rig.h"
+
+#include <bit>
+#include <cassert>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "embedded/rig_steps.h"
+
+namespace fsm {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+std::uint32_t Word(float number) { return std::bit_cast<std::uint32_t>(number); }
+void Put(Words& words, std::initializer_list<std::uint32_t> more) {
+  words.insert(words.end(), more);
+}
+void Put(Words& words, glm::vec3 p) { Put(words, {Word(p.x), Word(p.y), Word(p.z)}); }
+
+/// What acts on vertices, several on one: records of a vertex and where its entries are, then
+/// these. Entries keep their order, so sums are taken in that of the processor.
+class Lists {
+ public:
+  explicit Lists(std::size_t vertices) : entries_(vertices) {}
+  Words& operator[](std::uint32_t vertex) { return entries_[vertex]; }
+  std::size_t count() const { return count_; }
+  /// As the shader reads it.
+  Words Flat() {
+    for (const Words& entry : entries_) count_ += entry.empty() ? 0 : 1;
+    Words records, behind;
+    for (std::uint32_t vertex = 0; vertex < entries_.size(); ++vertex) {
+      const Words& entry = entries_[vertex];
+      if (entry.empty()) continue;
+      const auto from = static_cast<std::uint32_t>(3 * count_ + behind.size());
+      Put(records, {vertex, from, from + static_cast<std::uint32_t>(entry.size())});
+      behind.insert(behind.end(), entry.begin(), entry.end());
+    }
+    records.insert(records.end(), behind.begin(), behind.end());
+    return records;
+  }
+
+ private:
+  std::vector<Words> entries_;  // by vertex
+  std::size_t count_ = 0;
+};
+
+/// A pose as the shaders read it, and where its members begin.
+class PoseBlock {
+ public:
+  PoseBlock(const RigData& rig, const RigInputs& inputs) {
+    const Pose& pose = inputs.pose;
+    Mark("JAW");
+    Add({pose.jaw.open_rad, pose.jaw.slide_mm, pose.jaw.sway_mm, pose.jaw_cos, pose.jaw_sin});
+    Mark("HINGE");
+    Add({pose.hinge.y, pose.hinge.z});
+    Mark("SEAL");
+    Add({pose.seal});
+    Mark("TONGUE");
+    Add({pose.tongue_raise, pose.tongue_out_mm});
+    Mark("HEAD");
+    Add(pose.head);
+    Add({pose.head_forward_mm});
+    Mark("EYE_TURN");
+    for (const glm::mat3& turn : inputs.eye_turn) Add(turn);
+    Mark("EYE_PIVOT");
+    for (const glm::vec3 pivot : rig.eye_pivot) Add(pivot);
+    Mark("BALL_CENTRE");
+    for (const glm::vec3 centre : rig.ball_centre) Add(centre);
+    Mark("LIDS");
+    for (std::size_t side = 0; side < 2; ++side) {
+      const EyeTransform& eye = rig.lids.eyes[side];
+      const UnitEffects::Lids& ask = pose.lids[side];
+      const glm::vec3 across = eye.Turned({0, 1, 0});  // -sin, cos
+      Add({across.y, -across.x, eye.size, eye.upper_mm + ask.upper_mm, eye.lower_mm, ask.close,
+           ask.lower_mm});
+      Add(rig.lids.ball[side] + eye.size * rig.lids.cornea_centre * pose.eye[side][2]);
+    }
+    Mark("UPPER_ARCH");
+    Add(rig.upper_teeth);
+    Mark("LOWER_ARCH");
+    Add(rig.lower_teeth);
+    Mark("STRENGTHS");
+    Add(inputs.strengths);
+  }
+  void Add(std::span<const float> more) {
+    numbers_.insert(numbers_.end(), more.begin(), more.end());
+  }
+  void Add(std::initializer_list<float> more) { numbers_.insert(numbers_.end(), more); }
+  void Add(glm::vec3 p) { Add({p.x, p.y, p.z}); }
+  void Add(const glm::mat3& m) {
+    for (int column = 0; column < 3; ++column) Add(m[column]);
+  }
+
+  const std::vector<float>& numbers() const { return numbers_; }
+  /// For the shaders: "const uint JAW = 0u;" and so on.
+  const std::string& constants() const { return constants_; }
+
+ private:
+  void Mark(const char* name) {
+    constants_ +=
+        "const uint " + std::string(name) + " = " + std::to_string(numbers_.size()) + "u;\n";
+  }
+  void Add(const ToothArch& arch) {
+    Add({arch.front_z, arch.depth, arch.half_width, arch.edge_y, arch.root_y, arch.middle_x,
+         arch.turn});
+  }
+
+  std::vector<float> numbers_;
+  std::string constants_;
+};
+
+Words BeginItems(const RigData& data) {
+  const auto& place = data.proxy_rest.empty() ? data.rest : data.proxy_rest;
+  Words items;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    Put(items, place[i]);
+    Put(items, data.rest_normal[i]);
+  }
+  return items;
+}
+
+Words LidItems(const LidRig& lids) {
+  Words items;
+  for (const LidRig::Vertex& lid : lids.vertices) {
+    Put(items, {lid.vertex, static_cast<std::uint32_t>(lid.side), Word(lid.upper), Word(lid.lower),
+                Word(lid.upper_angle), Word(lid.lower_angle), Word(lid.meet_angle),
+                Word(lid.opening), Word(lid.y), Word(lid.z), lid.proper ? 1u : 0u});
+  }
+  return items;
+}
+
+Words GapItems(const LipRig& lips) {
+  Words items;
+  for (std::size_t k = 0; k < lips.seam.size(); ++k) {
+    Put(items, {lips.seam[k].first, lips.seam[k].second});
+    Put(items, lips.apart_at_rest.empty() ? glm::vec3(0) : lips.apart_at_rest[k]);
+  }
+  return items;
+}
+
+Words TongueItems(const RigData& data) {
+  Words items;
+  for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
+    if (data.bone[i] != Bone::kTongue) continue;
+    Put(items, {i});
+    Put(items, data.rest[i]);
+    Put(items, data.rest_normal[i]);
+    Put(items, {Word(data.weights[i].free)});
+  }
+  Put(items, {static_cast<std::uint32_t>(data.lips.seam.size())});
+  for (const auto& [upper, lower] : data.lips.seam) Put(items, {upper, lower});
+  return items;
+}
+
+Words BoneItems(const RigData& data) {
+  Words items;
+  for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
+    if (data.bone[i] == Bone::kJaw) Put(items, {i, 0});
+    if (data.bone[i] == Bone::kEyeRight) Put(items, {i, 1});
+    if (data.bone[i] == Bone::kEyeLeft) Put(items, {i, 2});
+  }
+  return items;
+}
+
+/// A vertex gathers from all triangles about it, and about those it shares its normal with.
+Lists NormalLists(const RigData& data) {
+  const auto owner = [&data](std::uint32_t i) {
+    return data.normal_twin.empty() ? i : data.normal_twin[i];
+  };
+  const Words& t = data.soft_triangles;
+  Lists lists(data.rest.size());
+  for (std::size_t k = 0; k + 2 < t.size(); k += 3) {
+    for (std::size_t c = 0; c < 3; ++c) Put(lists[owner(t[k + c])], {t[k], t[k + 1], t[k + 2]});
+  }
+  for (const std::uint32_t i : t) {
+    if (owner(i) != i) lists[i] = lists[owner(i)];
+  }
+  return lists;
+}
+
+}  // namespace
+
+const GlProgram& RigPrograms::Of(const char* kernel) {
+  auto& program = programs_[kernel];
+  if (!program) {
+    static const std::string constants = PoseBlock({}, {}).constants();  // places depend on no rig
+    const std::string source = "#version 430\n#define STEP_" + std::string(kernel) + "\n" +
+                               constants + std::string(embedded::rig_steps());
+    program = std::make_unique<GlProgram>(gl_, kernel, source);
+  }
+  return *program;
+}
+
+GpuRig::GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig)
+    : gl_(gl),
+      programs_(programs),
+      vertex_count_(rig.data().rest.size()),
+      spring_count_(rig.data().springs.size()),
+      seam_count_(rig.data().lips.seam.size()) {
+  gl_.GenBuffers(kBuffers, buffers_.data());
+  Add("begin", BeginItems(rig.data()), vertex_count_);
+  for (const RigStep step : rig.data().steps) AddStep(step, rig.data());
+}
+
+GpuRig::~GpuRig() {
+  gl_.DeleteBuffers(kBuffers, buffers_.data());
+  for (const Kernel& kernel : kernels_) gl_.DeleteBuffers(1, &kernel.items);
+}
+
+void GpuRig::Add(const char* kernel, std::span<const std::uint32_t> items, std::size_t count) {
+  if (count == 0) return;
+  kernels_.push_back({&programs_.Of(kernel), 0, static_cast<std::uint32_t>(count)});
+  gl_.GenBuffers(1, &kernels_.back().items);
+  gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, kernels_.back().items);
+  gl_.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(items.size_bytes()),
+                 items.data(), GL_STATIC_DRAW);
+}
+
+void GpuRig::AddStep(RigStep step, const RigData& data) {
+  const auto add_lists = [this](const char* kernel, Lists lists) {
+    const Words items = lists.Flat();
+    Add(kernel, items, lists.count());
+  };
+  Lists lists(data.rest.size());
+  Words items;
+  switch (step) {
+    case RigStep::kChannels:
+      for (std::uint32_t k = 0; k < data.channels.size(); ++k) {
+        for (const Displacement& move : data.channels[k].moves) {
+          Put(lists[move.vertex], {k});
+          Put(lists[move.vertex], move.by);
+        }
+      }
+      return add_lists("channels", std::move(lists));
+    case RigStep::kLids:
+      return Add("lids", LidItems(data.lids), data.lids.vertices.size());
+    case RigStep::kLidsOnBalls:
+      for (const BallLid& lid : data.ball_lids) Put(items, {lid.vertex, lid.side, Word(lid.least)});
+      return Add("lids_on_balls", items, data.ball_lids.size());
+    case RigStep::kJaw:
+      for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
+        if (Rig::MovesWithJaw(data, i)) Put(items, {i, Word(data.weights[i].jaw)});
+      }
+      return Add("jaw", items, items.size() / 2);
+    case RigStep::kJawByChin:
+      Put(items, {data.chin});
+      Put(items, data.rest[data.chin] - data.jaw_hinge);
+      return Add("jaw_by_chin", items, 1);
+    case RigStep::kTeeth:
+      for (const TeethContact& contact : data.teeth_contacts)
+        Put(items, {contact.vertex, Word(contact.upper_gap), Word(contact.lower_gap)});
+      return Add("teeth", items, data.teeth_contacts.size());
+    case RigStep::kLips:
+      for (const LipRig::Follower& f : data.lips.followers)
+        Put(lists[f.vertex], {f.pair, Word(LipRig::ShareOf(f))});
+      Add("lip_gaps", GapItems(data.lips), data.lips.seam.size());
+      return add_lists("lips", std::move(lists));
+    case RigStep::kOwnForm:
+      for (const glm::vec3 by : data.own_form) Put(items, by);
+      return Add("own_form", items, data.own_form.size());
+    case RigStep::kTongue:
+      items = TongueItems(data);
+      return Add("tongue", items, (items.size() - 1 - 2 * data.lips.seam.size()) / 8);
+    case RigStep::kBones:
+      items = BoneItems(data);
+      return Add("bones", items, items.size() / 2);
+    case RigStep::kNeck:
+      for (std::size_t i = 0; i < data.rest.size(); ++i)
+        Put(items, {Word(data.weights[i].neck), data.bone[i] != Bone::kSkin ? 1u : 0u});
+      return Add("neck", items, data.rest.size());
+    case RigStep::kSprings:
+      for (const auto& [vertex, spring, weight] : data.spring_weights)
+        Put(lists[vertex], {spring, Word(weight)});
+      return add_lists("springs", std::move(lists));
+    case RigStep::kNormals:
+      return add_lists("normals", NormalLists(data));
+  }
+}
+
+void GpuRig::Evaluate(const Rig& rig, std::span<const Face> faces) {
+  std::vector<float> poses;
+  std::size_t swings_at = 0;
+  for (const Face& face : faces) {
+    PoseBlock block(rig.data(), rig.InputsOf(*face.state));
+    swings_at = block.numbers().size();
+    // Where nothing swings, and the gaps of the lips, which a step fills in.
+    poses.insert(poses.end(), block.numbers().begin(), block.numbers().end());
+    assert(face.swings.empty() || face.swings.size() == spring_count_);
+    for (std::size_t k = 0; k < spring_count_; ++k) {
+      const glm::vec3 by = face.swings.empty() ? glm::vec3(0) : face.swings[k];
+      poses.insert(poses.end(), {by.x, by.y, by.z});
+    }
+    poses.resize(poses.size() + 3 * seam_count_, 0.0F);
+  }
+  if (faces.empty()) return;
+  const auto bind = [this](Buffer which) {
+    gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffers_[which]);
+  };
+  if (room_ < faces.size()) {
+    room_ = faces.size();
+    for (const Buffer which : {kPositions, kNormals}) {
+      bind(which);
+      gl_.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(OffsetBytes(room_)), nullptr,
+                     GL_DYNAMIC_COPY);
+    }
+  }
+  bind(kPoses);
+  gl_.BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(poses.size() * sizeof(float)),
+                 poses.data(), GL_STREAM_DRAW);
+  for (const Buffer which : {kPositions, kNormals, kPoses})
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, which, buffers_[which]);
+  const auto number = [](std::size_t n) { return static_cast<GLuint>(n); };
+  for (const Kernel& kernel : kernels_) {
+    gl_.UseProgram(kernel.program->id());
+    gl_.Uniform1ui(kernel.program->Uniform("item_count"), kernel.count);
+    gl_.Uniform1ui(kernel.program->Uniform("vertex_count"), number(vertex_count_));
+    gl_.Uniform1ui(kernel.program->Uniform("pose_size"), number(poses.size() / faces.size()));
+    gl_.Uniform1ui(kernel.program->Uniform("swings_at"), number(swings_at));
+    gl_.Uniform1ui(kernel.program->Uniform("seam_at"), number(swings_at + 3 * spring_count_));
+    gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kBuffers, kernel.items);
+    constexpr std::uint32_t kGroup = 64;  // local_size_x
+    gl_.DispatchCompute((kernel.count + kGroup - 1) / kGroup, number(faces.size()), 1);
+    gl_.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
+  gl_.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void GpuRig::Read(std::size_t face, HeadVertices& out) const {
+  const auto read = [&](Buffer which, std::vector<glm::vec3>& into) {
+    into.resize(vertex_count_);
+    gl_.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffers_[which]);
+    gl_.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(OffsetBytes(face)),
+                         static_cast<GLsizeiptr>(OffsetBytes(1)), into.data());
+  };
+  read(kPositions, out.position);
+  read(kNormals, out.normal);
+}
+
+}  // namespace fsm

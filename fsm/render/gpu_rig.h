@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fsm/render/gl_objects.h"
+#include "fsm/rig/rig.h"
+
+namespace fsm {
+
+/// The programs of shaders/rig_steps.glsl, compiled when a head first needs them and shared by all
+/// heads of a context. Destroy while it is current.
+class RigPrograms {
+ public:
+  explicit RigPrograms(const GlFunctions& gl) : gl_(gl) {}
+  /// Whether the driver has what they need: compute shaders and buffers for them, OpenGL 4.3.
+  static bool Supported(const GlFunctions& gl) { return gl.has_compute; }
+  /// `kernel`: the name after STEP_. Throws std::runtime_error with the compiler's words.
+  const GlProgram& Of(const char* kernel);
+
+ private:
+  const GlFunctions& gl_;
+  std::map<std::string_view, std::unique_ptr<GlProgram>> programs_;
+};
+
+/// Moves a head on a graphics card by the steps of its Rig, any number of its faces in one call:
+/// what never changes lies in buffers there, a frame brings a pose for each face, and places and
+/// normals stay where they are drawn from. Equal to Rig::Evaluate within 0.05 mm
+/// (tests/fsm/render_gpu_rig_test.cc; a card may fuse a multiplication with an addition). Destroy
+/// while its context is current.
+class GpuRig {
+ public:
+  /// `rig` is copied from; `programs` outlives this. REQUIRES: RigPrograms::Supported.
+  GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig);
+  ~GpuRig();
+  GpuRig(const GpuRig&) = delete;
+  GpuRig& operator=(const GpuRig&) = delete;
+
+  struct Face {
+    const FaceState* state;  ///< borrowed for the call
+    std::span<const glm::vec3> swings = {};
+  };
+  /// REQUIRES: `rig` is that of construction.
+  void Evaluate(const Rig& rig, std::span<const Face> faces);
+  /// The buffers of all faces' places and normals, three floats each, and where a face's begin.
+  GLuint positions() const { return buffers_[kPositions]; }
+  GLuint normals() const { return buffers_[kNormals]; }
+  std::size_t OffsetBytes(std::size_t face) const {
+    return face * vertex_count_ * sizeof(glm::vec3);
+  }
+  /// Waits for the card and reads back places and normals.
+  void Read(std::size_t face, HeadVertices& out) const;
+
+ private:
+  enum Buffer { kPositions, kNormals, kPoses, kBuffers };
+  struct Kernel {
+    const GlProgram* program;
+    GLuint items;
+    std::uint32_t count;
+  };
+  void Add(const char* kernel, std::span<const std::uint32_t> items, std::size_t count);
+  void AddStep(RigStep step, const RigData& data);
+
+  const GlFunctions& gl_;
+  RigPrograms& programs_;
+  const std::size_t vertex_count_, spring_count_, seam_count_;
+  std::vector<Kernel> kernels_;  // in the order of the steps
+  std::array<GLuint, kBuffers> buffers_{};
+  std::size_t room_ = 0;  // faces that the buffers hold
+};
+
+}  // namespace fsm

@@ -1,0 +1,341 @@
+// The steps of fsm/rig/rig.cc on a graphics card, one program for each: gpu_rig.cc puts the version,
+// the places of the members of a pose (JAW ...) and which step it is before this. An invocation
+// moves one vertex of one face. `items` holds what a step knows of its vertices, as gpu_rig.cc lays
+// it out; every list of several things that act on one vertex stands behind the records of fixed
+// size, and a record says from where to where.
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) buffer Positions { float positions[]; };
+layout(std430, binding = 1) buffer Normals { float normals[]; };
+layout(std430, binding = 2) buffer Poses { float poses[]; };
+layout(std430, binding = 3) readonly buffer Items { uint items[]; };
+uniform uint item_count;
+uniform uint vertex_count;
+uniform uint pose_size;
+uniform uint swings_at;  // in a pose
+uniform uint seam_at;
+
+uint Face() { return gl_GlobalInvocationID.y; }
+uint At(uint vertex) { return 3u * (Face() * vertex_count + vertex); }
+vec3 Position(uint vertex) {
+  uint i = At(vertex);
+  return vec3(positions[i], positions[i + 1u], positions[i + 2u]);
+}
+void SetPosition(uint vertex, vec3 p) {
+  uint i = At(vertex);
+  positions[i] = p.x;
+  positions[i + 1u] = p.y;
+  positions[i + 2u] = p.z;
+}
+vec3 Normal(uint vertex) {
+  uint i = At(vertex);
+  return vec3(normals[i], normals[i + 1u], normals[i + 2u]);
+}
+void SetNormal(uint vertex, vec3 n) {
+  uint i = At(vertex);
+  normals[i] = n.x;
+  normals[i + 1u] = n.y;
+  normals[i + 2u] = n.z;
+}
+float Number(uint i) { return uintBitsToFloat(items[i]); }
+vec3 Place(uint i) { return vec3(Number(i), Number(i + 1u), Number(i + 2u)); }
+float Pose(uint i) { return poses[Face() * pose_size + i]; }
+vec3 Pose3(uint i) { return vec3(Pose(i), Pose(i + 1u), Pose(i + 2u)); }
+mat3 PoseMatrix(uint i) { return mat3(Pose3(i), Pose3(i + 3u), Pose3(i + 6u)); }
+void SetPose(uint i, float value) { poses[Face() * pose_size + i] = value; }
+
+float SmoothStep(float from, float to, float x) {
+  float t = clamp((x - from) / (to - from), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+// The jaw: JAW is its angle, how far it slides and sways, cosine and sine; HINGE y and z.
+vec3 TurnJaw(vec3 p, float weight) {
+  float angle = Pose(JAW) * weight;
+  float c = weight == 1.0 ? Pose(JAW + 3u) : cos(angle);
+  float s = weight == 1.0 ? Pose(JAW + 4u) : sin(angle);
+  float y = p.y - Pose(HINGE);
+  float z = p.z - Pose(HINGE + 1u);
+  return vec3(p.x + sqrt(weight) * Pose(JAW + 2u), Pose(HINGE) + y * c - z * s,
+              Pose(HINGE + 1u) + z * c + y * s + weight * Pose(JAW + 1u));
+}
+vec3 IntoJaw(vec3 p) {
+  float c = Pose(JAW + 3u);
+  float s = Pose(JAW + 4u);
+  float y = p.y - Pose(HINGE);
+  float z = p.z - Pose(HINGE + 1u) - Pose(JAW + 1u);
+  return vec3(p.x - Pose(JAW + 2u), Pose(HINGE) + y * c + z * s, Pose(HINGE + 1u) + z * c - y * s);
+}
+
+// A row of teeth (ToothArch): front_z, depth, half_width, edge_y, root_y, middle_x, turn.
+float ArchAt(uint arch, float x) {
+  float off = x - Pose(arch + 5u);
+  float t = (off / Pose(arch + 2u)) * (off / Pose(arch + 2u));
+  return Pose(arch) + Pose(arch + 6u) * off - Pose(arch + 1u) * t * (0.45 + 0.55 * t);
+}
+
+#ifdef STEP_begin  // item: a vertex; its place and normal at rest
+void Take(uint item) {
+  SetPosition(item, Place(6u * item));
+  SetNormal(item, Place(6u * item + 3u));
+}
+#endif
+
+#ifdef STEP_channels  // record: vertex, from, to; entry: channel, displacement
+void Take(uint item) {
+  uint vertex = items[3u * item];
+  vec3 p = Position(vertex);
+  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 4u) {
+    p += Pose(STRENGTHS + items[i]) * Place(i + 1u);
+  }
+  SetPosition(vertex, p);
+}
+#endif
+
+#ifdef STEP_lids  // record: as LidRig::Vertex; LIDS has ten numbers of each side
+const float kRadius = 13.35;    // as in lid_rig.cc
+const float kThickness = 0.35;
+const float kCorneaRadius = 8.0;
+float TurnOf(uint r, uint side) {
+  float opening = Number(r + 7u);
+  float lower_mm = Pose(side + 6u);
+  float upper = Number(r + 4u) + opening * Pose(side + 3u) / kRadius;
+  float raised = lower_mm * (lower_mm > 0.0 ? sqrt(opening) : opening);
+  float lower = Number(r + 5u) + (opening * Pose(side + 4u) + raised) / kRadius;
+  if (upper < lower) upper = lower = 0.5 * (upper + lower);
+  upper += Pose(side + 5u) * (Number(r + 6u) - upper);
+  lower += Pose(side + 5u) * (Number(r + 6u) - lower);
+  return Number(r + 2u) * (upper - Number(r + 4u)) + Number(r + 3u) * (lower - Number(r + 5u));
+}
+void Take(uint item) {
+  uint r = 11u * item;
+  uint side = LIDS + 10u * (items[r + 1u] & 1u);
+  float size = Pose(side + 2u);
+  vec3 p = Position(items[r]);
+  float turn = TurnOf(r, side);
+  if (turn != 0.0) {
+    float c = cos(turn);
+    float s = sin(turn);
+    float y = Number(r + 8u);
+    float z = Number(r + 9u);
+    vec3 d = vec3(0.0, y * c + z * s - y, z * c - y * s - z);
+    p += vec3(-Pose(side + 1u) * d.y, Pose(side) * d.y, size * d.z);
+  }
+  if (items[r + 10u] != 0u) {
+    vec3 middle = Pose3(side + 7u);
+    vec3 off = p - middle;
+    float distance = length(off);
+    float least = size * (kCorneaRadius + kThickness);
+    if (distance < least && distance > 1.0) p = middle + off * (least / distance);
+  }
+  SetPosition(items[r], p);
+}
+#endif
+
+#ifdef STEP_lids_on_balls  // record: vertex, side, least distance
+void Take(uint item) {
+  uint vertex = items[3u * item];
+  vec3 p = Position(vertex);
+  vec3 off = p - Pose3(BALL_CENTRE + 3u * items[3u * item + 1u]);
+  float far = length(off);
+  float least = Number(3u * item + 2u);
+  if (far < least && far > 1.0) SetPosition(vertex, p + off * (least / far - 1.0));
+}
+#endif
+
+#ifdef STEP_jaw  // record: vertex, weight
+void Take(uint item) {
+  uint vertex = items[2u * item];
+  SetPosition(vertex, TurnJaw(Position(vertex), Number(2u * item + 1u)));
+}
+#endif
+
+#ifdef STEP_jaw_by_chin  // the chin: vertex, its place at rest from the hinge
+void Take(uint item) {
+  const float kMostOpen = 0.5;
+  vec3 before = Place(1u);
+  vec3 after = Position(items[0]) - vec3(0.0, Pose(HINGE), Pose(HINGE + 1u));
+  float angle = clamp(atan(-after.y, after.z) - atan(-before.y, before.z), 0.0, kMostOpen);
+  SetPose(JAW, angle);
+  SetPose(JAW + 1u, 0.0);
+  SetPose(JAW + 2u, after.x - before.x);
+  SetPose(JAW + 3u, cos(angle));
+  SetPose(JAW + 4u, sin(angle));
+}
+#endif
+
+#ifdef STEP_teeth  // record: vertex, gaps from the upper and the lower arch
+float Beside(uint arch, float y) {
+  float down = Pose(arch + 4u) > Pose(arch + 3u) ? 1.0 : -1.0;
+  return SmoothStep(-2.2, 0.2, down * (y - Pose(arch + 3u)));
+}
+void Take(uint item) {
+  uint vertex = items[3u * item];
+  vec3 p = Position(vertex);
+  float upper = ArchAt(UPPER_ARCH, p.x) + Number(3u * item + 1u) - p.z;
+  if (upper > 0.0) p.z += upper * Beside(UPPER_ARCH, p.y);
+  vec3 q = IntoJaw(p);
+  float lower = ArchAt(LOWER_ARCH, q.x) + Number(3u * item + 2u) - q.z;
+  if (lower > 0.0) {
+    q.z += lower * Beside(LOWER_ARCH, q.y);
+    p = TurnJaw(q, 1.0);
+  }
+  SetPosition(vertex, p);
+}
+#endif
+
+#ifdef STEP_lip_gaps  // record: upper and lower vertex of the seam, how far apart at rest
+void Take(uint item) {
+  uint r = 5u * item;
+  float seal = Pose(SEAL);
+  vec3 apart = Position(items[r]) - Position(items[r + 1u]) - Place(r + 2u);
+  vec3 by = seal * apart;
+  by.y += (1.0 - seal) * min(apart.y, 0.0);
+  SetPose(seam_at + 3u * item, by.x);
+  SetPose(seam_at + 3u * item + 1u, by.y);
+  SetPose(seam_at + 3u * item + 2u, by.z);
+}
+#endif
+
+#ifdef STEP_lips  // record: vertex, from, to; entry: pair of the seam, part of its gap
+void Take(uint item) {
+  uint vertex = items[3u * item];
+  vec3 p = Position(vertex);
+  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 2u) {
+    p -= Number(i + 1u) * Pose3(seam_at + 3u * items[i]);
+  }
+  SetPosition(vertex, p);
+}
+#endif
+
+#ifdef STEP_own_form  // item: a vertex; by how much it goes
+void Take(uint item) { SetPosition(item, Position(item) + Place(3u * item)); }
+#endif
+
+#ifdef STEP_tongue  // record: vertex, place and normal at rest, how near to the tip; then the seam
+// As in tongue_path.cc and Rig::MoveTongue.
+const float kRaise = 11.0;
+const float kNoRoom = 2.5, kRoom = 5.5, kSkin = 0.6, kEdges = 0.9, kBehindTeeth = 3.5, kOut = 1.5;
+const float kWidest = 17.0, kInArch = 11.0;
+uint Seam() { return 8u * item_count; }
+vec3 High(uint k) { return Position(items[Seam() + 1u + 2u * k]); }
+vec3 Low(uint k) { return Position(items[Seam() + 2u + 2u * k]); }
+void LipsAt(float x, out vec3 high, out vec3 low) {
+  uint count = items[Seam()];
+  uint right = 0u;
+  while (right < count && High(right).x < x) ++right;
+  uint b = min(right, count - 1u);
+  uint a = right == 0u ? 0u : right - 1u;
+  float t = a == b ? 0.0 : (x - High(a).x) / max(High(b).x - High(a).x, 1e-3);
+  high = mix(High(a), High(b), t);
+  low = mix(Low(a), Low(b), t);
+}
+float Held(float p, float z) { return SmoothStep(z - 15.0, z - 9.0, p) * SmoothStep(z + 15.0, z + 9.0, p); }
+void Take(uint item) {
+  uint r = 8u * item;
+  vec3 rest = Place(r + 1u);
+  float tip = Number(r + 7u);
+  float raise = Pose(TONGUE);
+  uint count = items[Seam()];
+  vec3 edge = TurnJaw(vec3(0.0, Pose(LOWER_ARCH + 3u), Pose(LOWER_ARCH)), 1.0);
+  float teeth_low = edge.y;
+  float teeth_high = Pose(UPPER_ARCH + 3u);
+  float front_z = max(Pose(UPPER_ARCH), edge.z);
+  float room = 0.0;
+  float open_from = 0.0;
+  float open_to = 0.0;
+  for (uint k = 0u; k < count; ++k) {
+    vec3 high = High(k);
+    float low = Low(k).y;
+    float gap = high.y - low;
+    room = max(room, min(gap, min(high.y - teeth_low, teeth_high - low)));
+    if (gap <= kNoRoom) continue;
+    open_from = min(open_from, high.x);
+    open_to = max(open_to, high.x);
+  }
+  float part = SmoothStep(kNoRoom, kRoom, min(room, teeth_high - teeth_low));
+  vec3 turned = rest + vec3(0.0, raise * kRaise * tip * tip, part * Pose(TONGUE + 1u) * tip);
+  vec3 p = TurnJaw(turned, 1.0 - 0.25 * raise * tip);
+  SetNormal(items[r], normalize(TurnJaw(rest + Place(r + 4u), 1.0) - TurnJaw(rest, 1.0)));
+  if (count > 0u) {
+    float jaw_x = p.x - Pose(JAW + 2u);
+    float lower_z = TurnJaw(vec3(jaw_x, Pose(LOWER_ARCH + 3u), ArchAt(LOWER_ARCH, jaw_x)), 1.0).z;
+    vec3 within = vec3(p.xy, min(p.z, min(lower_z, ArchAt(UPPER_ARCH, p.x)) - kBehindTeeth));
+    float outside = SmoothStep(0.0, kOut, part * Pose(TONGUE + 1u));
+    if (outside > 0.0) {
+      float middle_x = 0.5 * (open_from + open_to);
+      float width = min(kInArch, 0.35 * (open_to - open_from)) / kWidest;
+      p.x += SmoothStep(front_z - 16.0, front_z - 5.0, p.z) *
+             (middle_x + min(1.0, width) * p.x - p.x);
+      vec3 high, low;
+      LipsAt(p.x, high, low);
+      p.y += Held(p.z, lower_z) * max(0.0, teeth_low + kEdges - p.y);
+      float upper_z = ArchAt(UPPER_ARCH, p.x);
+      p.y += Held(p.z, upper_z) * min(0.0, teeth_high - kEdges - p.y);
+      float middle_y = 0.5 * (low.y + high.y);
+      p.y += Held(p.z, low.z) * max(0.0, min(low.y + kSkin, middle_y) - p.y);
+      p.y += Held(p.z, high.z) * min(0.0, max(high.y - kSkin, middle_y) - p.y);
+    }
+    p = mix(within, p, max(outside, 0.0));
+  }
+  SetPosition(items[r], p);
+}
+#endif
+
+#ifdef STEP_bones  // record: vertex; 0 the jaw's, 1 the right eye's, 2 the left eye's
+void Take(uint item) {
+  uint vertex = items[2u * item];
+  uint bone = items[2u * item + 1u];
+  vec3 p = Position(vertex);
+  vec3 n = Normal(vertex);
+  if (bone == 0u) {
+    vec3 tip = TurnJaw(p + n, 1.0);
+    p = TurnJaw(p, 1.0);
+    n = normalize(tip - p);
+  } else {
+    mat3 eye = PoseMatrix(EYE_TURN + 9u * (bone - 1u));
+    vec3 pivot = Pose3(EYE_PIVOT + 3u * (bone - 1u));
+    p = pivot + eye * (p - pivot);
+    n = eye * n;
+  }
+  SetPosition(vertex, p);
+  SetNormal(vertex, n);
+}
+#endif
+
+#ifdef STEP_neck  // item: a vertex; its weight, whether its normal turns
+void Take(uint item) {
+  const vec3 kPivot = vec3(0.0, -85.0, -28.0);  // kNeckPivot
+  mat3 head = PoseMatrix(HEAD);
+  vec3 p = Position(item);
+  vec3 turned = kPivot + head * (p - kPivot) + vec3(0.0, 0.0, Pose(HEAD + 9u));
+  SetPosition(item, p + Number(2u * item) * (turned - p));
+  if (items[2u * item + 1u] != 0u) SetNormal(item, head * Normal(item));
+}
+#endif
+
+#ifdef STEP_springs  // record: vertex, from, to; entry: spring, weight
+void Take(uint item) {
+  uint vertex = items[3u * item];
+  vec3 p = Position(vertex);
+  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 2u) {
+    p += Number(i + 1u) * Pose3(swings_at + 3u * items[i]);
+  }
+  SetPosition(vertex, p);
+}
+#endif
+
+#ifdef STEP_normals  // record: vertex, from, to; entry: the corners of a triangle
+void Take(uint item) {
+  vec3 sum = vec3(0.0);
+  for (uint i = items[3u * item + 1u]; i < items[3u * item + 2u]; i += 3u) {
+    vec3 a = Position(items[i]);
+    sum += cross(Position(items[i + 1u]) - a, Position(items[i + 2u]) - a);
+  }
+  float squared = dot(sum, sum);
+  SetNormal(items[3u * item], squared > 1e-12 ? sum * inversesqrt(squared) : vec3(0.0, 0.0, 1.0));
+}
+#endif
+
+void main() {
+  if (gl_GlobalInvocationID.x < item_count) Take(gl_GlobalInvocationID.x);
+}
