@@ -52,6 +52,12 @@ std::optional<Appearance> AppearanceIn(const std::string& folder) {
   return Appearance(folder + "/" + kFile, *text);
 }
 
+std::shared_ptr<const Features> FeaturesIn(const std::string& folder) {
+  constexpr const char* kFile = "features.txt";
+  const auto text = TableIn(folder, kFile);
+  return text ? std::make_shared<Features>(folder + "/" + kFile, *text) : nullptr;
+}
+
 std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head) {
   const auto units = UnitsIn(tables);
   auto moved = units ? head->WithUnits(*units) : nullptr;
@@ -64,17 +70,22 @@ std::string UnitsFolder(const std::string& folder, const std::string& tables) {
 }
 
 std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables) {
+  const auto make = [features = FeaturesIn(tables)](Identity identity) {
+    identity.features = features;
+    return MakeHead(std::move(identity));
+  };
   if (std::ranges::find(Identities(), face, &IdentityInfo::name) != Identities().end()) {
-    return MovedAsIn(tables, MakeHead(face));
+    return MovedAsIn(tables, make(BuiltInIdentity(face)));
   }
   const std::string folder = FacesFolder() + "/" + face;
   const std::string units = UnitsFolder(folder, tables);
   const std::string own = folder + "/identity.txt";
   std::error_code error;
   if (std::filesystem::exists(own, error)) {
-    return MovedAsIn(units, MakeHead(ReadOwnIdentity(own, ReadText(own))));
+    return MovedAsIn(units, make(ReadOwnIdentity(own, ReadText(own))));
   }
   PhotoHead set = ReadPhotoHead(folder + "/face.txt", ReadText(folder + "/face.txt"));
+  set.features = FeaturesIn(tables);
   auto image = ReadImage(folder + "/photo.png");
   if (!image) throw std::runtime_error(image.error().text);
   set.photo = std::make_shared<Image>(Image{image->width, image->height, std::move(image->rgba)});

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "fsm/head/features.h"
 #include "fsm/render/appearance.h"
 #include "fsm/rig/action_units.h"
 #include "fsm/rig/head.h"
@@ -18,6 +19,9 @@ inline constexpr const char* kUnitsFile = "action_units.txt";
 /// How things look, in place of fsm/render/tables/appearance.txt: the file of that name in a folder
 /// of tables; nothing if there is none. Throws as UnitsIn.
 std::optional<Appearance> AppearanceIn(const std::string& folder);
+/// What teeth, ears, lashes and the like are like, in place of fsm/head/tables/features.txt: the
+/// file of that name in a folder of tables; null if there is none. Throws as UnitsIn.
+std::shared_ptr<const Features> FeaturesIn(const std::string& folder);
 /// The same head, moved by the units of a folder of tables if that has any. Throws as UnitsIn.
 std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head> head);
 
@@ -25,8 +29,9 @@ std::unique_ptr<Head> MovedAsIn(const std::string& tables, std::unique_ptr<Head>
 std::string UnitsFolder(const std::string& folder, const std::string& tables);
 
 /// A built-in head, or one out of the folder of faces (FacesFolder). Its units are those of its own
-/// folder, else those of the folder `tables`, else the built-in ones. Throws std::runtime_error or
-/// std::invalid_argument with a sentence.
+/// folder, else those of the folder `tables`, else the built-in ones; its features those of
+/// `tables`, else the built-in ones. Throws std::runtime_error or std::invalid_argument with a
+/// sentence.
 std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string& tables = "");
 
 }  // namespace fsm

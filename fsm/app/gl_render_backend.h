@@ -35,7 +35,7 @@ class GlRenderBackend final : public RenderBackend {
       std::function<std::unique_ptr<Head>()> make;
     };
     std::vector<MoreFace> more_faces = {};
-    /// A folder whose units move the faces, see MakeHeadOfName, and which may have appearance.txt.
+    /// A folder that may have units, features (see MakeHeadOfName) and an appearance of one's own.
     std::string tables = {};
   };
   /// Throws std::runtime_error with a sentence if a window is asked for and cannot be had, or if

@@ -233,7 +233,9 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
   if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};
   studio.more_faces = MoreFaces(options, options.module.config);
   studio.tables = options.module.tables;
-  static_cast<void>(fsm::UnitsIn(studio.tables));  // a damaged one is told before the start
+  // Damaged ones are told before the start.
+  static_cast<void>(fsm::UnitsIn(studio.tables));
+  static_cast<void>(fsm::FeaturesIn(studio.tables));
   using Where = fsm::GlRenderBackend::Options::Where;
   const bool must = options.window || options.context == "window";
   studio.where = must && WindowWanted(options) ? Where::kWindow

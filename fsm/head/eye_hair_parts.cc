@@ -15,19 +15,12 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-struct LashRow {
-  bool upper;
-  int hairs;
-  float from, to;  // along the lid, 0 inner corner .. 1 outer
-};
-constexpr std::array kLashRows = {LashRow{true, 40, 0.10f, 0.99f},
-                                  LashRow{false, 14, 0.45f, 0.97f}};
-
 class LashBuilder {
  public:
   LashBuilder(const EyeAnatomy& eye, const Identity& identity, bool of_photo, int side,
               HeadMesh& mesh)
       : eye_(eye),
+        features_(identity.Look()),
         palette_(identity.palette),
         size_(identity.lashes),
         of_photo_(of_photo),
@@ -37,19 +30,26 @@ class LashBuilder {
     flesh_.free = 0;
   }
 
-  void Row(const LashRow& row) {
-    upper_ = row.upper;
-    flesh_.lid_upper = row.upper ? 1.0f : 0.0f;
+  void Row(bool upper) {
+    upper_ = upper;
+    flesh_.lid_upper = upper ? 1.0f : 0.0f;
     flesh_.lid_lower = 1 - flesh_.lid_upper;
-    if (row.upper) Line();
-    for (int i = 0; i < row.hairs; ++i) {
-      const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(row.hairs);
-      Hair(glm::mix(row.from, row.to, part) + 0.008f * Grain(i, 71), i);
+    if (upper) Line();
+    const auto& row = features_[upper ? "upper_lashes" : "lower_lashes"];
+    const int hairs = static_cast<int>(row[0]);
+    for (int i = 0; i < hairs; ++i) {
+      const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
+      Hair(glm::mix(row[1], row[2], part) + 0.008f * Grain(i, 71), i);
     }
   }
 
  private:
   float X(float along) const { return glm::mix(eye_.inner_x(), eye_.outer_x(), along); }
+  /// Of a row of the table for the upper and the lower lid and for those of a photo.
+  float ByLid(const char* name) const {
+    const auto& n = features_[name];
+    return of_photo_ ? n[2] : upper_ ? n[0] : n[1];
+  }
   float Angle(float x) const { return upper_ ? eye_.UpperAngle(x) : eye_.LowerAngle(x); }
 
   std::uint32_t Add(glm::vec3 p, float at_x, float dark) {
@@ -72,12 +72,15 @@ class LashBuilder {
   // The roots together: a thin dark line on the upper rim, thickening outward.
   void Line() {
     constexpr int kSteps = 14;
+    const auto& ends_at = features_["lash_line"];
+    const auto& thickness = features_["lash_line_thickness"];
     std::array<std::uint32_t, 2> before{};
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
-      const float x = X(glm::mix(0.06f, 0.99f, part));
-      const float thick = (0.35f + 0.65f * size_) *
-                          (0.40f + 0.70f * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
+      const float x = X(glm::mix(ends_at[0], ends_at[1], part));
+      const float thick =
+          (0.35f + 0.65f * size_) *
+          (thickness[0] + thickness[1] * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
       const float soft = of_photo_ ? 0.65f * SmoothStep(0, 0.5f, part) : 1.0f;
@@ -101,17 +104,19 @@ class LashBuilder {
     // Neighbours lean together in threes.
     const float clump = 0.16f * (static_cast<float>(1 - i % 3)) + 0.10f * Grain(i, 5) +
                         (of_photo_ ? 0.35f * Grain(i, 6) : 0.0f);
-    const float fan = 1.9f * (along - 0.40f) + clump;
+    const auto& fans = features_["lash_fan"];
+    const auto& long_by = features_["upper_lash_length"];
+    const float fan = fans[1] * (along - fans[0]) + clump;
     const float length =
-        size_ * (upper_ ? (1.6f + 2.8f * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
+        size_ * (upper_ ? (long_by[0] +
+                           long_by[1] * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
                               (0.94f + (of_photo_ ? 0.6f : 0.34f) * Grain(i, 9))
-                        : 1.3f * (1 + 0.2f * Grain(i, 9)));
+                        : features_("lower_lash_length") * (1 + 0.2f * Grain(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
-    const float width = of_photo_ ? 0.15f : upper_ ? 0.19f : 0.09f;
+    const float width = ByLid("lash_width");
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark = of_photo_ ? 0.45f + 0.2f * Grain(i, 4) : upper_ ? 0.9f : 0.12f;
-    // Those of a photo are seen on a shut lid, where they hang over the cheek.
-    const float rise = of_photo_ ? -0.35f : upper_ ? 0.44f : -0.40f;
+    const float dark = ByLid("lash_darkness") + (of_photo_ ? 0.2f * Grain(i, 4) : 0.0f);
+    const float rise = ByLid("lash_rise");
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
     const glm::vec3 middle = root + length * (0.5f * out + glm::vec3(0, 0.06f * up, 0));
@@ -127,6 +132,7 @@ class LashBuilder {
   }
 
   const EyeAnatomy& eye_;
+  const Features& features_;
   const Palette& palette_;
   float size_;
   bool of_photo_;
@@ -141,9 +147,8 @@ class LashBuilder {
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh) {
   for (const int side : {-1, 1}) {
     LashBuilder builder(eye, identity, of_photo, side, mesh);
-    for (const LashRow& row : kLashRows) {
-      if (row.upper || !of_photo) builder.Row(row);
-    }
+    builder.Row(true);
+    if (!of_photo) builder.Row(false);
   }
 }
 
@@ -153,7 +158,10 @@ namespace {
 class BrowPlace {
  public:
   explicit BrowPlace(const Identity& identity)
-      : thickness_(identity.brow_thickness), height_(identity.brow_height) {}
+      : thickness_(identity.brow_thickness),
+        height_(identity.brow_height),
+        middle_(identity.Look().CurveOf("brow_middle")),
+        half_(identity.Look().CurveOf("brow_half_height")) {}
 
   // `level` -1 at the lower edge .. 1 at the upper.
   float Y(float x, float level) const {
@@ -170,23 +178,19 @@ class BrowPlace {
 
  private:
   float thickness_, height_;
-  Curve middle_{{9, 16, 26, 36, 43, 50, 56}, {39.6f, 41.2f, 43.4f, 45.0f, 44.6f, 42.0f, 38.6f}};
-  Curve half_{{9, 13, 20, 32, 42, 50, 56}, {2.0f, 2.9f, 3.1f, 2.6f, 1.9f, 1.2f, 0.6f}};
+  Curve middle_, half_;
 };
 
 }  // namespace
 
-std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye) {
-  struct Stroke {
-    float width_mm, tint;
-  };
-  // From soft to sharp.
-  constexpr std::array kStrokes = {Stroke{2.6f, 0.88f}, Stroke{1.5f, 0.72f}, Stroke{0.7f, 0.52f}};
+std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
+                                    const Features& features) {
   constexpr int kSteps = 26;
-  // Height over the lid's margin, over the way from the inner to the outer corner.
-  const Curve height({0, 0.15f, 0.5f, 0.8f, 1}, {2.6f, 4.6f, 6.6f, 6.3f, 4.6f});
+  const auto& widths = features["lid_fold_widths"];
+  const auto& tints = features["lid_fold_tints"];
+  const Curve height = features.CurveOf("lid_fold_height");
   std::vector<SkinHair> folds;
-  folds.reserve(2 * kStrokes.size() * kSteps);
+  folds.reserve(2 * widths.size() * kSteps);
   for (const float side : {-1.0f, 1.0f}) {
     const auto at = [&](float part) {
       const float along = std::clamp(part, 0.0f, 1.0f);
@@ -196,16 +200,17 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
       p.x *= side;
       return Unroll(p);
     };
-    for (const Stroke& stroke : kStrokes) {
+    for (std::size_t stroke = 0; stroke < widths.size(); ++stroke) {
       for (int k = 0; k < kSteps; ++k) {
         const float part = static_cast<float>(k) / kSteps;
         const float ends = SmoothStep(0, 0.25f, part) * SmoothStep(1, 0.85f, part);
-        folds.push_back({.root = at(part),
-                         .middle = at(part + 0.5f / kSteps),
-                         .tip = at(part + 1.0f / kSteps),
-                         .width_mm = stroke.width_mm * (0.35f + 0.65f * ends),
-                         .tint = glm::mix(glm::vec3(1), glm::vec3(1, 0.9f, 0.86f) * stroke.tint,
-                                          0.25f + 0.75f * ends)});
+        folds.push_back(
+            {.root = at(part),
+             .middle = at(part + 0.5f / kSteps),
+             .tip = at(part + 1.0f / kSteps),
+             .width_mm = widths[stroke] * (0.35f + 0.65f * ends),
+             .tint = glm::mix(glm::vec3(1), features.Vector("lid_fold_colour") * tints[stroke],
+                              0.25f + 0.75f * ends)});
       }
     }
   }
@@ -214,27 +219,30 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
 
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
   const Palette& palette = identity.palette;
+  const Features& features = identity.Look();
   const BrowPlace place(identity);
   // The soft tone between the hairs.
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
-    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette.brow, 0.30f * place.Cover({p.x, p.y}));
+    mesh.albedo[i] =
+        glm::mix(mesh.albedo[i], palette.brow, features("brow_tone") * place.Cover({p.x, p.y}));
   }
-  // Which way the hairs grow, degrees from outward to up, over x.
-  const Curve grow({9, 14, 22, 36, 48, 56}, {86, 62, 36, 16, -12, -32});
-  constexpr int kColumns = 54;
-  constexpr int kRows = 6;
+  const Curve grow = features.CurveOf("brow_growth");
+  const int columns = static_cast<int>(features["brow_hairs"][0]);
+  const int rows = static_cast<int>(features["brow_hairs"][1]);
+  const auto& across = features["brow_width"];
+  const auto& long_by = features["brow_hair_length"];
+  const auto& wide_by = features["brow_hair_width"];
   std::vector<SkinHair> hairs;
-  hairs.reserve(2 * kColumns * kRows);
   for (const int side : {-1, 1}) {
-    for (int i = 0; i < kColumns * kRows; ++i) {
-      const int row = i % kRows;
+    for (int i = 0; i < columns * rows; ++i) {
+      const int row = i % rows;
       const int seed = 2 * i + (side > 0 ? 1 : 0);
-      const float column = static_cast<float>(i / kRows) + 0.5f + 0.9f * Grain(seed, 21);
-      const float x = 9.0f + 46.0f * column / kColumns;
-      const float level =
-          -1 + 2 * (static_cast<float>(row) + 0.5f + 0.7f * Grain(seed, 22)) / kRows;
+      const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * Grain(seed, 21);
+      const float x = across[0] + across[1] * column / static_cast<float>(columns);
+      const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.7f * Grain(seed, 22)) /
+                                   static_cast<float>(rows);
       const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
       // Sparse where it begins.
       if (0.5f + 0.5f * Grain(seed, 26) > 0.35f + 0.65f * ends) continue;
@@ -242,7 +250,7 @@ std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identit
       // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
       const float angle = (grow(x) - 20 * level + 9 * Grain(seed, 23)) * kPi / 180;
       const float bend = (-14 - 8 * level) * kPi / 180;
-      const float length = (5.6f + 1.6f * Grain(seed, 24)) * (0.6f + 0.4f * ends);
+      const float length = (long_by[0] + long_by[1] * Grain(seed, 24)) * (0.6f + 0.4f * ends);
       const auto on_skin = [&](glm::vec2 at) {
         glm::vec3 normal;
         glm::vec3 p = front.PointAt(at, normal);
@@ -253,11 +261,12 @@ std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identit
         return 0.5f * length * glm::vec2(std::cos(a), std::sin(a));
       };
       const glm::vec2 middle = root + step(angle);
-      hairs.push_back({.root = on_skin(root),
-                       .middle = on_skin(middle),
-                       .tip = on_skin(middle + step(angle + bend)),
-                       .width_mm = (0.44f + 0.10f * Grain(seed, 27)) * (0.7f + 0.3f * ends),
-                       .tint = 1.5f * palette.brow / palette.skin * (1 + 0.35f * Grain(seed, 25))});
+      hairs.push_back(
+          {.root = on_skin(root),
+           .middle = on_skin(middle),
+           .tip = on_skin(middle + step(angle + bend)),
+           .width_mm = (wide_by[0] + wide_by[1] * Grain(seed, 27)) * (0.7f + 0.3f * ends),
+           .tint = 1.5f * palette.brow / palette.skin * (1 + 0.35f * Grain(seed, 25))});
     }
   }
   return hairs;

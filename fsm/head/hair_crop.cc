@@ -17,8 +17,9 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 class CroppedHair {
  public:
-  CroppedHair(const CropStyle& style, const Palette& palette, HeadMesh& mesh)
-      : style_(style), palette_(palette), scalp_(mesh), mesh_(mesh) {}
+  CroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
+              HeadMesh& mesh)
+      : style_(style), features_(features), palette_(palette), scalp_(mesh), mesh_(mesh) {}
 
   void Build() {
     std::vector<glm::vec3> edge;
@@ -33,25 +34,25 @@ class CroppedHair {
  private:
   // Azimuth -180..180; `up` 0 at the hairline .. 1 at the crown, which lies behind the top.
   glm::vec3 Direction(float azimuth, float up) const {
-    const float recede = style_.recede * SmoothStep(14, 30, std::abs(azimuth)) *
-                         SmoothStep(62, 44, std::abs(azimuth));
+    const auto& recess = features_["crop_recess"];
+    const float recede = style_.recede * SmoothStep(recess[0], recess[1], std::abs(azimuth)) *
+                         SmoothStep(recess[2], recess[3], std::abs(azimuth));
+    const auto& waves = features_["crop_wander"];
     const float wander =
-        0.9f * std::sin(0.23f * azimuth + 1) + 0.6f * std::sin(0.61f * azimuth);  // degrees
+        waves[0] * std::sin(0.23f * azimuth + 1) + waves[1] * std::sin(0.61f * azimuth);
     const float line = HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
-    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
     // Along the great circle from the hairline to the crown.
-    const float angle = std::acos(std::clamp(glm::dot(low, crown), -1.0f, 1.0f));
-    return (std::sin((1 - up) * angle) * low + std::sin(up * angle) * crown) /
+    const float angle = std::acos(std::clamp(glm::dot(low, crown_), -1.0f, 1.0f));
+    return (std::sin((1 - up) * angle) * low + std::sin(up * angle) * crown_) /
            std::max(std::sin(angle), 1e-3f);
   }
 
   /// `up` of a direction.
   float Up(glm::vec3 d) const {
-    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
     const glm::vec3 low = Direction(std::atan2(d.x, d.z) * 180 / kPi, 0);
-    const auto angle = [&crown](glm::vec3 v) {
-      return std::acos(std::clamp(glm::dot(v, crown), -1.0f, 1.0f));
+    const auto angle = [this](glm::vec3 v) {
+      return std::acos(std::clamp(glm::dot(v, crown_), -1.0f, 1.0f));
     };
     return std::clamp(1 - angle(d) / std::max(angle(low), 1e-3f), 0.0f, 1.0f);
   }
@@ -62,12 +63,11 @@ class CroppedHair {
 
   /// Which way hair lies: away from the crown, forward on top, down at the sides and behind; over
   /// the forehead it is combed back.
-  static glm::vec3 Flow(glm::vec3 root, float forehead) {
-    const glm::vec3 crown = glm::normalize(glm::vec3(0.08f, 1, -0.28f));
-    glm::vec3 away = root - crown;
+  glm::vec3 Flow(glm::vec3 root, float forehead) const {
+    glm::vec3 away = root - crown_;
     away -= root * glm::dot(away, root);
     glm::vec3 along = away / std::max(glm::length(away), 1e-3f) * (1 - forehead) +
-                      forehead * glm::vec3(-0.3f, 0.5f, -0.8f);
+                      forehead * features_.Vector("crop_combed");
     along -= root * glm::dot(along, root);
     return glm::normalize(along + glm::vec3(0, -1e-3f, 0));
   }
@@ -75,7 +75,8 @@ class CroppedHair {
   float Depth(glm::vec3 d, float up) const {
     const float top = SmoothStep(0.2f, 0.85f, d.y);
     const float body = glm::mix(style_.side_mm, style_.top_mm, top);
-    return 0.6f + body * SmoothStep(-0.02f, 0.34f, up);
+    const auto& thickens = features_["crop_thickens"];
+    return features_("crop_edge") + body * SmoothStep(thickens[0], thickens[1], up);
   }
 
   void Shell() {
@@ -113,17 +114,20 @@ class CroppedHair {
     const float azimuth = turn - 180;
     const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(style_.locks);
     const float up = 0.015f + 0.85f * share * share;
-    const bool by_ear = std::abs(azimuth) > 45 && std::abs(azimuth) < 150;
-    if (by_ear && up < 0.12f) return;
+    const auto& ear = features_["crop_ear"];
+    const bool by_ear = std::abs(azimuth) > ear[0] && std::abs(azimuth) < ear[1];
+    if (by_ear && up < ear[2]) return;
+    const auto& uneven = features_["crop_uneven"];
     const glm::vec3 root = Direction(azimuth, up);
     const float forehead = Forehead(azimuth, up);
     glm::vec3 along =
-        Flow(root, forehead) + glm::vec3(0.12f * Grain(k, 31), 0, 0.12f * Grain(k, 32));
+        Flow(root, forehead) + glm::vec3(uneven[0] * Grain(k, 31), 0, uneven[0] * Grain(k, 32));
     along = glm::normalize(along - root * glm::dot(along, root));
-    const float length = style_.lock_mm * (1 + 0.3f * Grain(k, 33)) *
+    const float length = style_.lock_mm * (1 + uneven[1] * Grain(k, 33)) *
                          (0.5f + 0.5f * SmoothStep(-0.3f, 0.5f, root.y)) *
                          (0.55f + 0.45f * SmoothStep(0, 0.2f, up));
-    const float lift = style_.lift_mm * (1 + 0.5f * Grain(k, 34)) + forehead * style_.front_up * 7;
+    const float lift = style_.lift_mm * (1 + uneven[2] * Grain(k, 34)) +
+                       forehead * style_.front_up * features_("crop_front_lift");
     std::vector<glm::vec3> path;
     constexpr int kSteps = 4;
     const glm::vec3 side = glm::cross(root, along);
@@ -134,9 +138,11 @@ class CroppedHair {
       const float over = Depth(d, Up(d));  // along the shell
       path.push_back(scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + 0.3f));
     }
-    const float width = glm::mix(2.4f, 2.0f + 0.11f * style_.lock_mm, SmoothStep(0, 0.28f, up));
+    const auto& wide = features_["crop_lock_width"];
+    const float width =
+        glm::mix(wide[0], wide[1] + wide[2] * style_.lock_mm, SmoothStep(0, 0.28f, up));
     AddLock(path,
-            {.width_mm = 1.6f * width * (1 + 0.3f * Grain(k, 35)),
+            {.width_mm = wide[3] * width * (1 + uneven[3] * Grain(k, 35)),
              .root_part = 0.6f,
              .fray_from = 0.45f,
              .open = 0.95f},
@@ -144,15 +150,18 @@ class CroppedHair {
   }
 
   const CropStyle& style_;
+  const Features& features_;
   const Palette& palette_;
+  const glm::vec3 crown_ = glm::normalize(features_.Vector("crop_crown"));
   Scalp scalp_;
   HeadMesh& mesh_;
 };
 
 }  // namespace
 
-void BuildCroppedHair(const CropStyle& style, const Palette& palette, HeadMesh& mesh) {
-  CroppedHair(style, palette, mesh).Build();
+void BuildCroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
+                      HeadMesh& mesh) {
+  CroppedHair(style, features, palette, mesh).Build();
 }
 
 }  // namespace fsm

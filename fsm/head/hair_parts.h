@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
 #include "fsm/head/paint.h"
 
@@ -73,6 +74,7 @@ struct LongStyle {
 /// Parted and hanging.
 void BuildLongHair(const LongStyle& style, const Palette& palette, HeadMesh& mesh);
 /// Short hair all round.
-void BuildCroppedHair(const CropStyle& style, const Palette& palette, HeadMesh& mesh);
+void BuildCroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
+                      HeadMesh& mesh);
 
 }  // namespace fsm

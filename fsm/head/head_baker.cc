@@ -41,7 +41,7 @@ HeadAsset HeadBaker::Bake() {
   BakeRig(asset.topology, asset.rig);
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
   Complete(asset);
-  asset.landmarks = NameLandmarks(cage_, fine_, asset.rig.rest, eye_, seats_);
+  asset.landmarks = NameLandmarks(cage_, fine_, asset.rig.rest, eye_, seats_, identity_.Look());
   return asset;
 }
 
@@ -49,14 +49,15 @@ void HeadBaker::AddFigure() { BuildCloth(identity_.palette, mesh_); }
 
 void HeadBaker::AddHair() {
   if (identity_.crop) {
-    BuildCroppedHair(*identity_.crop, identity_.palette, mesh_);
+    BuildCroppedHair(*identity_.crop, identity_.Look(), identity_.palette, mesh_);
   } else {
     BuildLongHair(identity_.long_hair, identity_.palette, mesh_);
   }
 }
 
 void HeadBaker::AddEars() {
-  if (identity_.crop) BuildEars(identity_.palette, mesh_);  // long hair covers them
+  if (identity_.crop)
+    BuildEars(identity_.Look(), identity_.palette, mesh_);  // long hair covers them
 }
 
 void HeadBaker::AddLashes() { BuildLashes(eye_, identity_, false, mesh_); }
@@ -73,13 +74,13 @@ void HeadBaker::AddParts() {
   figure_end_ = mesh_.position.size();
   const SkinFront front(fine_);
   skin_hairs_ = BuildBrows(front, identity_, mesh_);
-  const auto folds = BuildLidFolds(front, eye_);
+  const auto folds = BuildLidFolds(front, eye_, identity_.Look());
   skin_hairs_.insert(skin_hairs_.end(), folds.begin(), folds.end());
   AddLashes();
   soft_count_ = mesh_.position.size();
   BuildEyes(eye_, palette, mesh_);
-  BuildTeeth(mouth_, palette, mesh_);
-  BuildTongue(mouth_, palette, mesh_);
+  BuildTeeth(mouth_, identity_.Look(), palette, mesh_);
+  BuildTongue(mouth_, identity_.Look(), palette, mesh_);
   AddEars();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "fsm/base/table_reader.h"
+#include "fsm/head/features.h"
 #include "fsm/head/hair_parts.h"
 #include "fsm/head/paint.h"
 
@@ -22,7 +24,10 @@ struct Identity {
   LongStyle long_hair;
   float lashes = 1;
   float brow_thickness = 1, brow_height = 0;
-  std::array<float, 4> creases{};  ///< by Wrinkle
+  std::array<float, 4> creases{};              ///< by Wrinkle
+  std::shared_ptr<const Features> features{};  ///< in place of the built-in ones
+
+  const Features& Look() const { return features ? *features : Features::BuiltIn(); }
 };
 
 /// The place of a name in Identities(); throws std::invalid_argument listing the names.

@@ -10,7 +10,8 @@
 namespace fsm {
 
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats) {
+                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats,
+                        const Features& features) {
   Landmarks landmarks;
   const auto pair = [&](const std::string& name, glm::vec3 p) {
     landmarks[name + "_left"] = p;
@@ -44,7 +45,7 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
     put("pupil", eye.centre() + glm::vec3(0, 0, eye.radius()));
   }
   pair("tragion", {65.7f, 0, 0});
-  for (const auto& [name, place] : EarLandmarks()) pair(name, place);
+  for (const auto& [name, place] : EarLandmarks(features)) pair(name, place);
   return landmarks;
 }
 

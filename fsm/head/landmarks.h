@@ -10,6 +10,7 @@
 
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"
+#include "fsm/head/features.h"
 #include "fsm/head/subdivide.h"
 #include "fsm/rig/eye_transform.h"
 #include "fsm/rig/head_asset.h"
@@ -19,7 +20,8 @@ namespace fsm {
 /// The points of tables/landmarks.txt and those of eyes and ears at rest; `rest` begins with the
 /// vertices of `fine`. Throws std::runtime_error naming file and line if the table is damaged.
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats);
+                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats,
+                        const Features& features);
 
 /// Texture coordinates of a place of the base head, see HeadTopology::uv.
 glm::vec2 Unroll(glm::vec3 p);

@@ -4,6 +4,8 @@
 #include <glm/common.hpp>
 #include <numbers>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "fsm/base/grain.h"
@@ -14,15 +16,6 @@ namespace fsm {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-
-// Widths of the teeth from the median outward, upper and lower, and heights of the crowns.
-constexpr std::array kUpperWidth = {8.4f, 6.6f, 7.5f, 6.8f, 6.6f, 9.6f};
-constexpr std::array kUpperHeight = {10.2f, 9.2f, 9.9f, 8.6f, 8.0f, 7.4f};
-constexpr std::array kLowerWidth = {5.3f, 5.8f, 6.8f, 7.0f, 7.2f, 10.4f};
-constexpr std::array kLowerHeight = {8.8f, 9.0f, 9.6f, 8.4f, 8.0f, 7.4f};
-// How far their edges stay behind those of the longest, which makes a row look grown.
-constexpr std::array kUpperShort = {0.0f, 0.45f, 0.1f, 0.6f, 0.9f, 1.0f};
-constexpr std::array kLowerShort = {0.1f, 0.0f, 0.1f, 0.5f, 0.8f, 0.9f};
 
 /// The point of an arch at an arc length from the median, followed in small steps.
 glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
@@ -37,137 +30,182 @@ glm::vec3 AlongArch(const ToothArch& arch, float arc, float y) {
   return {side * x, y, arch.At(x)};
 }
 
-struct Jaw {
-  ToothArch arch;
-  float upward;  // +1: crowns grow upwards from the edge (upper jaw)
-  Bone bone;
-};
+/// Draws one row of teeth and its gum.
+class ToothRow {
+ public:
+  struct Jaw {
+    ToothArch arch;
+    float upward;  // +1: crowns grow upwards from the edge (upper jaw)
+    Bone bone;
+    std::string name;  // of its rows in the table
+    float light;       // on the teeth in the middle
+  };
+  ToothRow(Jaw jaw, const Features& features, const Palette& palette, HeadMesh& mesh)
+      : jaw_(std::move(jaw)), features_(features), palette_(palette), mesh_(mesh) {
+    for (int c = -half(); c <= half(); ++c) columns_.push_back(ColumnAt(c));
+  }
 
-struct Crowns {
-  std::span<const float> widths, heights, shorts;
-};
+  void AddCrowns() {
+    // Rows from behind the chewing edge over the front of the crown to the gum.
+    constexpr std::array kRows = {-0.5f, -0.15f, 0.0f, 0.1f, 0.3f, 0.55f, 0.8f, 1.0f};
+    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+    for (const float row : kRows) {
+      for (const Column& column : columns_) AddCrown(column, row);
+    }
+    mesh_.Grid(Material::kTeeth, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
+  }
 
-/// Enamel is thin and grey at the edge and lets the warm dentine through towards the gum, most in a
-/// canine; no two teeth are of one shade.
-glm::vec3 Enamel(const Palette& palette, int tooth, float shade, float row) {
-  const float warm = 0.25f + 0.1f * static_cast<float>(tooth) + (tooth == 2 ? 0.25f : 0.0f) +
-                     0.6f * SmoothStep(0.35f, 1.0f, row);
-  const glm::vec3 edge = glm::mix(glm::vec3(1), glm::vec3(0.86f, 0.90f, 0.94f),
-                                  tooth < 2 ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
-  return palette.tooth * edge * (0.97f + 0.03f * shade) *
-         glm::mix(glm::vec3(1), glm::vec3(0.96f, 0.90f, 0.78f), std::min(warm, 1.0f));
-}
+  void AddGum() {
+    constexpr std::array kRows = {0.96f, 1.1f, 1.6f};
+    const auto& light = features_["gum_light"];
+    const auto& bulge = features_["gum_bulge"];
+    const auto first = static_cast<std::uint32_t>(mesh_.position.size());
+    for (const float row : kRows) {
+      for (const Column& column : columns_) {
+        const float back = std::abs(column.arc);
+        const float scallop = row < 1 ? features_("gum_scallop") * (1 - column.bump) : 0.0f;
+        glm::vec3 p = Place(column, row * column.height - scallop);
+        p.z += row < 1 ? bulge[0] : row < 1.2f ? bulge[1] : 0.0f;
+        mesh_.Add(p, palette_.gum, glm::mix(light[0], light[1], SmoothStep(6, 34, back)),
+                  jaw_.bone);
+      }
+    }
+    mesh_.Grid(Material::kGum, first, static_cast<int>(kRows.size()), Columns(), jaw_.upward > 0);
+  }
 
-void AddArch(const Jaw& jaw, const Crowns& crowns, const Palette& palette, HeadMesh& mesh) {
+ private:
   // Closer together where two teeth meet.
-  constexpr std::array kWithin = {0.0f, 0.12f, 0.31f, 0.5f, 0.69f, 0.88f};
-  constexpr int kPerTooth = kWithin.size();
-  const auto [widths, heights, shorts] = crowns;
-  const int count = static_cast<int>(widths.size());
-  const int columns = 2 * count * kPerTooth + 1;
-  // Rows from behind the chewing edge over the front of the crown to the gum, and a lip of gum
-  // above.
-  constexpr std::array kRows = {-0.5f, -0.15f, 0.0f, 0.1f, 0.3f, 0.55f, 0.8f, 1.0f};
-  const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  std::vector<float> arc_at, bump_at, height_at, short_at;
-  std::vector<int> tooth_at;
-  for (int c = 0; c < columns; ++c) {
-    const int signed_c = c - count * kPerTooth;
+  static constexpr std::array kWithin = {0.0f, 0.12f, 0.31f, 0.5f, 0.69f, 0.88f};
+  static constexpr int kPerTooth = kWithin.size();
+  static constexpr int kCanine = 2;
+
+  struct Column {
+    int tooth;
+    float arc, bump, height, shorter;
+  };
+
+  const std::vector<float>& Of(const char* what) const {
+    return features_[jaw_.name + "_tooth_" + what];
+  }
+  int count() const { return static_cast<int>(Of("widths").size()); }
+  int half() const { return count() * kPerTooth; }
+  int Columns() const { return static_cast<int>(columns_.size()); }
+
+  Column ColumnAt(int signed_c) const {
     const int step = std::abs(signed_c);
-    const int tooth = std::min(step / kPerTooth, count - 1);
+    const int tooth = std::min(step / kPerTooth, count() - 1);
+    const auto t = static_cast<std::size_t>(tooth);
     float arc = 0;
-    for (int t = 0; t < tooth; ++t) arc += widths[static_cast<std::size_t>(t)];
+    for (std::size_t inner = 0; inner < t; ++inner) arc += Of("widths")[inner];
     const int place = step - tooth * kPerTooth;
     const float within = place < kPerTooth ? kWithin[static_cast<std::size_t>(place)] : 1.0f;
-    arc += within * widths[static_cast<std::size_t>(tooth)];
-    arc_at.push_back(signed_c < 0 ? -arc : arc);
-    bump_at.push_back(std::sqrt(std::max(0.0f, std::sin(kPi * within))));
-    height_at.push_back(heights[static_cast<std::size_t>(tooth)]);
+    arc += within * Of("widths")[t];
     // Canines come to a point, the others are round at their corners.
+    const auto& corners = features_["tooth_corners"];
     const float off_middle = std::abs(2 * within - 1);
-    const float corner = tooth == 2 ? 1.1f * off_middle : 0.5f * std::pow(off_middle, 4.0f);
-    tooth_at.push_back(tooth);
-    short_at.push_back(shorts[static_cast<std::size_t>(tooth)] + corner +
-                       0.1f * (1 + Grain(tooth_at.back(), static_cast<int>(jaw.upward))));
+    const float corner =
+        tooth == kCanine ? corners[0] * off_middle : corners[1] * std::pow(off_middle, 4.0f);
+    return {
+        .tooth = tooth,
+        .arc = signed_c < 0 ? -arc : arc,
+        .bump = std::sqrt(std::max(0.0f, std::sin(kPi * within))),
+        .height = Of("heights")[t],
+        .shorter = Of("short")[t] + corner +
+                   features_("tooth_uneven") * (1 + Grain(tooth, static_cast<int>(jaw_.upward)))};
   }
-  for (const float row : kRows) {
-    for (int c = 0; c < columns; ++c) {
-      const auto i = static_cast<std::size_t>(c);
-      const float back = std::abs(arc_at[i]);
-      const float shorter = short_at[i] * SmoothStep(0.6f, 0.0f, row);
-      const float up = row < -0.3f ? 0.6f * height_at[i]
-                       : row < 0   ? 0.3f + short_at[i]
-                                   : row * height_at[i] + shorter;
-      glm::vec3 p =
-          AlongArch(jaw.arch, arc_at[i], jaw.arch.edge_y + jaw.upward * (up + 0.02f * back));
-      const float thin = row < -0.3f    ? 4.6f
-                         : row < -0.15f ? 3.2f
-                         : row < 0      ? 2.2f
-                         : row == 0     ? 0.9f
-                                        : 0.0f;
-      const float curve =
-          0.5f * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
-      p.z += curve - thin - 0.75f * (1 - bump_at[i]);
-      p.x *= 1 - 0.012f * thin;
-      // Deep between the teeth and in the corners of the mouth there is little light.
-      const float crevice = 0.6f + 0.4f * SmoothStep(0.0f, 0.75f, bump_at[i]);
-      const glm::vec3 colour = Enamel(palette, tooth_at[i], Grain(tooth_at[i], 7), row);
-      const float dark = glm::mix(jaw.upward > 0 ? 0.95f : 0.52f, 0.16f, SmoothStep(6, 32, back));
-      mesh.Add(p, colour, crevice * dark * (row < -0.3f ? 0.4f : 1.0f), jaw.bone);
-    }
-  }
-  const bool flip = jaw.upward > 0;
-  mesh.Grid(Material::kTeeth, first, static_cast<int>(kRows.size()), columns, flip);
 
-  constexpr std::array kGumRows = {0.96f, 1.1f, 1.6f};
-  const auto gum = static_cast<std::uint32_t>(mesh.position.size());
-  for (const float row : kGumRows) {
-    for (int c = 0; c < columns; ++c) {
-      const auto i = static_cast<std::size_t>(c);
-      const float back = std::abs(arc_at[i]);
-      const float scallop = row < 1 ? 1.1f * (1 - bump_at[i]) : 0.0f;
-      glm::vec3 p =
-          AlongArch(jaw.arch, arc_at[i],
-                    jaw.arch.edge_y + jaw.upward * (row * height_at[i] - scallop + 0.02f * back));
-      p.z += row < 1 ? 0.2f : row < 1.2f ? 0.9f : 0.0f;
-      mesh.Add(p, palette.gum, glm::mix(0.6f, 0.2f, SmoothStep(6, 34, back)), jaw.bone);
-    }
+  glm::vec3 Place(const Column& column, float up) const {
+    const float rise = features_("teeth_rise") * std::abs(column.arc);
+    return AlongArch(jaw_.arch, column.arc, jaw_.arch.edge_y + jaw_.upward * (up + rise));
   }
-  mesh.Grid(Material::kGum, gum, static_cast<int>(kGumRows.size()), columns, flip);
-}
+
+  void AddCrown(const Column& column, float row) {
+    const float up = row < -0.3f ? 0.6f * column.height
+                     : row < 0   ? 0.3f + column.shorter
+                               : row * column.height + column.shorter * SmoothStep(0.6f, 0.0f, row);
+    glm::vec3 p = Place(column, up);
+    const auto& depths = features_["crown_depths"];
+    const float thin = row < -0.3f    ? depths[0]
+                       : row < -0.15f ? depths[1]
+                       : row < 0      ? depths[2]
+                       : row == 0     ? depths[3]
+                                      : 0.0f;
+    const auto& bulge = features_["tooth_bulge"];
+    const float curve =
+        bulge[0] * std::sin(kPi * std::min(1.0f, 0.25f + std::max(row, 0.0f) * 0.75f));
+    p.z += curve - thin - bulge[1] * (1 - column.bump);
+    p.x *= 1 - 0.012f * thin;
+    // Deep between the teeth and in the corners of the mouth there is little light.
+    const float between = features_("light_between_teeth");
+    const float crevice = between + (1 - between) * SmoothStep(0.0f, 0.75f, column.bump);
+    const float dark =
+        glm::mix(jaw_.light, features_["teeth_light"][2], SmoothStep(6, 32, std::abs(column.arc)));
+    mesh_.Add(p, Enamel(column.tooth, row), crevice * dark * (row < -0.3f ? 0.4f : 1.0f),
+              jaw_.bone);
+  }
+
+  /// Enamel is thin and grey at the edge and lets the warm dentine through towards the gum, most in
+  /// a canine; no two teeth are of one shade.
+  glm::vec3 Enamel(int tooth, float row) const {
+    const auto& shows = features_["dentine_shows"];
+    const float warm = shows[0] + shows[1] * static_cast<float>(tooth) +
+                       (tooth == kCanine ? shows[2] : 0.0f) +
+                       shows[3] * SmoothStep(0.35f, 1.0f, row);
+    const glm::vec3 edge = glm::mix(glm::vec3(1), features_.Vector("enamel_edge_colour"),
+                                    tooth < kCanine ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
+    const float darkest = features_("tooth_shades");
+    return palette_.tooth * edge * (darkest + (1 - darkest) * Grain(tooth, 7)) *
+           glm::mix(glm::vec3(1), features_.Vector("dentine_colour"), std::min(warm, 1.0f));
+  }
+
+  const Jaw jaw_;
+  const Features& features_;
+  const Palette& palette_;
+  HeadMesh& mesh_;
+  std::vector<Column> columns_;  // from the agent's right to the left
+};
 
 }  // namespace
 
-void BuildTeeth(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
-  AddArch({mouth.UpperTeeth(), 1, Bone::kSkull}, {kUpperWidth, kUpperHeight, kUpperShort}, palette,
-          mesh);
+void BuildTeeth(const MouthAnatomy& mouth, const Features& features, const Palette& palette,
+                HeadMesh& mesh) {
+  const auto& light = features["teeth_light"];
+  const auto add = [&](ToothRow::Jaw jaw, const Palette& colours) {
+    ToothRow row(std::move(jaw), features, colours, mesh);
+    row.AddCrowns();
+    row.AddGum();
+  };
+  add({mouth.UpperTeeth(), 1, Bone::kSkull, "upper", light[0]}, palette);
   // The lower ones stand farther back, in the shade of lip and upper row.
   Palette shaded = palette;
-  // What light they get comes from between red walls.
-  shaded.tooth *= glm::vec3(0.30f, 0.235f, 0.20f);
-  AddArch({mouth.LowerTeeth(), -1, Bone::kJaw}, {kLowerWidth, kLowerHeight, kLowerShort}, shaded,
-          mesh);
+  shaded.tooth *= features.Vector("lower_teeth_colour");
+  add({mouth.LowerTeeth(), -1, Bone::kJaw, "lower", light[1]}, shaded);
 }
 
-void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& mesh) {
+void BuildTongue(const MouthAnatomy& mouth, const Features& features, const Palette& palette,
+                 HeadMesh& mesh) {
   // A rounded back over a flat belly along the floor of the mouth; its row number is its way to the
   // tip, which lies low behind the lower teeth.
   constexpr int kAlong = 17;
   constexpr int kAround = 20;
-  const float tip_z = mouth.LineZ(0) - 12.5f;
-  const float base_y = mouth.LineY(0) - 12.5f;
+  const auto& width = features["tongue_half_width"];
+  const auto& flat = features["tongue_half_height"];
+  const auto& rises = features["tongue_rise"];
+  const auto& light = features["tongue_light"];
+  const float tip_z = mouth.LineZ(0) - features["tongue_place"][0];
+  const float base_y = mouth.LineY(0) - features["tongue_place"][1];
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
   for (int i = 0; i < kAlong; ++i) {
     const float part = static_cast<float>(i) / (kAlong - 1);  // 0 = root, 1 = tip
     const float taper = std::sqrt(std::max(0.0f, 1 - std::pow(part, 2.2f)));
-    const float half_width = 17 * taper * (0.86f + 0.14f * part) + 0.2f;
-    const float height = 7.0f * taper * (1 - 0.35f * part * part) + 0.1f;
-    const float z = glm::mix(tip_z - 46, tip_z, std::sin(part * kPi / 2));
-    const float rise = 5.0f * (1 - part) + 3.0f * std::sin(kPi * part);
+    const float half_width = width[0] * taper * (width[1] + (1 - width[1]) * part) + 0.2f;
+    const float height = flat[0] * taper * (1 - flat[1] * part * part) + 0.1f;
+    const float z = glm::mix(tip_z - features("tongue_length"), tip_z, std::sin(part * kPi / 2));
+    const float rise = rises[0] * (1 - part) + rises[1] * std::sin(kPi * part);
     for (int k = 0; k <= kAround; ++k) {
       const float around = 2 * kPi * static_cast<float>(k) / kAround;
       const float up = std::sin(around);
-      const float groove = 1.6f * taper * std::pow(std::max(0.0f, up), 12.0f);
+      const float groove = features("tongue_groove") * taper * std::pow(std::max(0.0f, up), 12.0f);
       const glm::vec3 p(half_width * std::cos(around), base_y + rise + height * up - groove, z);
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
       const float lit = SmoothStep(-0.2f, 1.0f, part) * SmoothStep(0, 1, up) *
@@ -176,7 +214,7 @@ void BuildTongue(const MouthAnatomy& mouth, const Palette& palette, HeadMesh& me
       flesh.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, 0.2f + 0.46f * lit, Bone::kTongue, flesh);
+      mesh.Add(p, colour, light[0] + light[1] * lit, Bone::kTongue, flesh);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/head/features.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
 #include "fsm/rig/head.h"
@@ -45,7 +46,8 @@ struct PhotoHead {
   std::vector<SheetVertex> sheet;
   std::vector<std::uint32_t> sheet_triangles;
 
-  std::shared_ptr<const Image> photo;  ///< read by the caller: photo.png
+  std::shared_ptr<const Image> photo;          ///< read by the caller: photo.png
+  std::shared_ptr<const Features> features{};  ///< in place of the built-in ones
 };
 
 /// Reads face.txt; `name` is for messages. Throws std::runtime_error naming file and line.

@@ -51,6 +51,7 @@ class PhotoHeadBaker : public HeadBaker {
  public:
   explicit PhotoHeadBaker(const PhotoHead& set)
       : HeadBaker(BuiltInIdentity(set.base), true), set_(set), warp_(set.points, set.smooth) {
+    identity_.features = set.features;
     TakeColours(set, identity_.palette);
     eye_.ScaleIris(set.iris_size);
   }

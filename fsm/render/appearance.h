@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/base/number_table.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -43,9 +44,11 @@ class Appearance {
   const std::string& constants() const { return constants_; }
 
  private:
+  explicit Appearance(NumberTable numbers);
+
+  NumberTable numbers_;
   std::map<Material, Surface> surfaces_;
   std::map<std::string, Lamp> lamps_;
-  std::map<std::string, std::vector<float>> numbers_;
   std::string constants_;
 };
 

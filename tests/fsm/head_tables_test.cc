@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <memory>
 #include <string>
 
 #include "fsm/base/table_reader.h"
 #include "fsm/head/anatomy.h"
 #include "fsm/head/cage.h"
+#include "fsm/head/features.h"
 #include "fsm/head/identity.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
@@ -174,6 +178,68 @@ TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
               ReadIdentityRow(Table("i.txt", "hair long 0.7 0 -84 -112 0").rows()[0], cropped);
             }),
             "i.txt:1: '0.7' found where -0.6 to 0.6 was expected");
+}
+
+std::string FeaturesText() {
+  std::ifstream file(GALATEA_SOURCE_DIR "/fsm/head/tables/features.txt");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The built-in features with one row replaced.
+std::string WithRow(const std::string& name, const std::string& row) {
+  std::string text = FeaturesText();
+  const std::size_t at = text.find("\n" + name + " ") + 1;
+  EXPECT_NE(at, 0u) << name;
+  return text.replace(at, text.find('\n', at) - at, row);
+}
+
+TEST(HeadTablesTest, FeaturesAreChecked) {
+  const std::string built_in = FeaturesText();
+  const struct {
+    const char *name, *row, *why;
+  } cases[] = {
+      {"gum_light", "gum_light 0.6", "'gum_light' needs 2 numbers after it, found 1"},
+      {"gum_light", "gum_light 0.6 2000", "a number beyond -1000 to 1000"},
+      {"gum_light", "gum_lights 0.6 0.2", "'gum_lights' is not known"},
+      {"gum_light", "gum_scallop 1", "'gum_scallop' is there twice"},
+      {"brow_growth", "brow_growth 9 86 9 62 22 36 36 16 48 -12 56 -32", "do not ascend"},
+      {"upper_lashes", "upper_lashes 0 0.1 0.9", "'0' found where 1 to 200 was expected"},
+      {"brow_hairs", "brow_hairs 9 1e2 7", "'brow_hairs' needs 2 numbers"},
+      {"brow_hairs", "brow_hairs 9 999", "'999' found where 1 to 200 was expected"},
+      {"upper_tooth_widths", "upper_tooth_widths 8 7 0 7 7 7", "less than half a millimetre"},
+      {"ear_bowl", "ear_bowl 1 2 0 4 5", "'0' found where 0.01 to 100 was expected"},
+      {"ear_fork_ridge", "ear_fork_ridge 0 1", "'0' found where 0.01 to 100 was expected"},
+      {"crop_crown", "crop_crown 0 0 0", "a crown that is nowhere"},
+  };
+  for (const auto& [name, row, why] : cases) {
+    const auto said = Complaint([&] { Features("mine.txt", WithRow(name, row)); });
+    EXPECT_TRUE(said.starts_with("mine.txt:")) << said << " for " << row;
+    EXPECT_NE(said.find(why), std::string::npos) << said << " for " << row;
+  }
+  EXPECT_EQ(Complaint([&] { Features("mine.txt", WithRow("tongue_groove", "")); }),
+            "mine.txt: 'tongue_groove' is missing");
+  EXPECT_EQ(Complaint([&] { Features("mine.txt", built_in); }), "no complaint");
+}
+
+TEST(HeadTablesTest, FeaturesOfOnesOwnChangeTheHeads) {
+  const auto places = [](const char* face, std::shared_ptr<const Features> features) {
+    Identity identity = BuiltInIdentity(face);
+    identity.features = std::move(features);
+    return MakeHead(std::move(identity))->rig().data().rest;
+  };
+  const auto with = [](const char* name, const char* row) {
+    return std::make_shared<const Features>("mine.txt", WithRow(name, row));
+  };
+  const auto as_ever = places("pygmalion", nullptr);
+  EXPECT_EQ(places("pygmalion", std::make_shared<const Features>("mine.txt", FeaturesText())),
+            as_ever);
+  for (const auto& [name, row] : {std::pair{"lower_tooth_widths", "lower_tooth_widths 5 5 6 7 7 9"},
+                                  {"tongue_length", "tongue_length 40"},
+                                  {"ear_place", "ear_place 66.2 1.05 0.05 2 0.16"},
+                                  {"upper_lash_length", "upper_lash_length 2 3"},
+                                  {"crop_crown", "crop_crown 0 1 0"}}) {
+    EXPECT_NE(places("pygmalion", with(name, row)), as_ever) << row;
+  }
 }
 
 TEST(HeadTablesTest, SplineGoesThroughItsPoints) {

@@ -48,10 +48,10 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
   };
   const std::string skin = "surface skin         0.54 0.44 0.39   1.5 1.9 0.0  0.35    1.0  1.12";
   const Case cases[] = {
-      {"\nexposure            0.44", "\nexposure bright", "'bright' found where a number"},
+      {"\nexposure            0.44", "\nexposure bright", "'exposure bright' is not known"},
       {"\nexposure            0.44", "\nexposure", "'exposure' needs 1 numbers after it, found 0"},
       {"\nexposure            0.44", "\nexposure 0.4 0.5", "'exposure' needs 1 numbers"},
-      {"\nexposure            0.44", "\nexposure nan", "'nan' found where a number"},
+      {"\nexposure            0.44", "\nexposure 1 nan", "'nan' found where a number"},
       {"\nexposure            0.44", "\nexposure 1e9", "a number beyond -1000 to 1000"},
       {"\nexposure            0.44", "\nexposures 0.44", "'exposures' is not known"},
       {"\nexposure            0.44", "\nsky_color 1 1 1", "'sky_color' is there twice"},

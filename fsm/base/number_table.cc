@@ -1,0 +1,61 @@
+#include "fsm/base/number_table.h"
+
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+
+namespace fsm {
+namespace {
+
+constexpr float kMost = 1000;
+
+/// Words before the first that could be a number.
+std::size_t WordsOf(const TableRow& row) {
+  constexpr std::string_view kNumberBegins = "+-.0123456789";
+  std::size_t words = 1;
+  while (words < row.size() && kNumberBegins.find(row.Word(words)[0]) == std::string_view::npos)
+    ++words;
+  return words;
+}
+
+}  // namespace
+
+std::string NumberTable::NameOf(const TableRow& row) {
+  std::string name = row.key();
+  for (std::size_t i = 1; i < WordsOf(row); ++i) name += " " + row.Word(i);
+  return name;
+}
+
+NumberTable::NumberTable(const std::string& file, std::string_view text,
+                         const NumberTable* built_in)
+    : table_(file, text) {
+  for (const TableRow& row : table_.rows()) {
+    const std::string name = NameOf(row);
+    std::vector<float> numbers = row.Numbers(WordsOf(row));
+    if (built_in != nullptr) {
+      const auto like = built_in->numbers_.find(name);
+      if (like == built_in->numbers_.end()) row.Fail("'" + name + "' is not known");
+      if (numbers.size() != like->second.size()) {
+        row.Fail("'" + name + "' needs " + std::to_string(like->second.size()) +
+                 " numbers after it, found " + std::to_string(numbers.size()));
+      }
+    }
+    for (const float number : numbers) {
+      if (std::abs(number) > kMost) row.Fail("a number beyond -1000 to 1000");
+    }
+    if (!numbers_.try_emplace(name, std::move(numbers)).second)
+      row.Fail("'" + name + "' is there twice");
+  }
+  if (built_in == nullptr) return;
+  for (const auto& [name, unused] : built_in->numbers_) {
+    if (!numbers_.contains(name)) throw std::runtime_error(file + ": '" + name + "' is missing");
+  }
+}
+
+const std::vector<float>& NumberTable::operator[](std::string_view name) const {
+  const auto found = numbers_.find(name);
+  assert(found != numbers_.end());
+  return found->second;
+}
+
+}  // namespace fsm

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/base/table_reader.h"
+
+namespace fsm {
+
+/// Numbers by name, to be edited without compiling: rows of a name, which is one word or more, and
+/// as many numbers as the built-in table of that kind has there, each name once. Constant after
+/// construction; thread: any.
+class NumberTable {
+ public:
+  /// In place of `built_in`; a built-in table itself without it. Throws std::runtime_error naming
+  /// file and line where a name is there twice, unknown or missing, or has another count of numbers
+  /// or numbers beyond -1000..1000.
+  NumberTable(const std::string& file, std::string_view text,
+              const NumberTable* built_in = nullptr);
+
+  /// All numbers behind a name. REQUIRES of both: the built-in table has it.
+  const std::vector<float>& operator[](std::string_view name) const;
+  /// The only one.
+  float operator()(std::string_view name) const { return (*this)[name].at(0); }
+
+  const std::vector<TableRow>& rows() const { return table_.rows(); }
+  static std::string NameOf(const TableRow& row);
+
+ private:
+  Table table_;
+  std::map<std::string, std::vector<float>, std::less<>> numbers_;
+};
+
+}  // namespace fsm

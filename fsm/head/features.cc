@@ -1,0 +1,75 @@
+#include "fsm/head/features.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "embedded/features.h"
+
+namespace fsm {
+namespace {
+
+constexpr std::string_view kCurves[] = {"brow_middle", "brow_half_height", "brow_growth",
+                                        "lid_fold_height"};
+// By how many things are made, or divided.
+constexpr std::string_view kCounts[] = {"upper_lashes", "lower_lashes", "brow_hairs"};
+constexpr float kMostHairs = 200;  // in one row
+
+bool Ascends(const std::vector<float>& pairs) {
+  for (std::size_t i = 2; i < pairs.size(); i += 2) {
+    if (!(pairs[i] > pairs[i - 2])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Features::Features(NumberTable numbers) : numbers_(std::move(numbers)) {
+  for (const TableRow& row : numbers_.rows()) {
+    const auto& n = numbers_[row.key()];
+    const auto is = [&row](std::string_view name) { return row.key() == name; };
+    if (std::ranges::any_of(kCurves, is) && !Ascends(n))
+      row.Fail("numbers of x that do not ascend");
+    if (std::ranges::any_of(kCounts, is)) row.Within(1, 1, kMostHairs);
+    if (is("brow_hairs")) row.Within(2, 1, kMostHairs);
+    if (is("crop_crown") && n[0] == 0 && n[1] == 0 && n[2] == 0)
+      row.Fail("a crown that is nowhere");
+    const bool of_tooth = row.key().ends_with("_tooth_widths");
+    if (of_tooth && std::ranges::any_of(n, [](float width) { return !(width > 0.5f); }))
+      row.Fail("a tooth of less than half a millimetre");
+    // Half widths are divided by.
+    constexpr float kLeast = 0.01f, kMost = 100;
+    if (row.key().ends_with("_ridge")) row.Within(1, kLeast, kMost);
+    if (is("ear_bowl") || is("ear_upper_bowl") || is("ear_tragus") || is("ear_notch")) {
+      row.Within(3, kLeast, kMost);
+      row.Within(4, kLeast, kMost);
+    }
+  }
+}
+
+const Features& Features::BuiltIn() {
+  static const Features features(NumberTable("tables/features.txt", embedded::features()));
+  return features;
+}
+
+glm::vec3 Features::Vector(std::string_view name) const {
+  const auto& n = numbers_[name];
+  return {n.at(0), n.at(1), n.at(2)};
+}
+
+std::vector<glm::vec2> Features::Places(std::string_view name) const {
+  const auto& n = numbers_[name];
+  std::vector<glm::vec2> places;
+  for (std::size_t i = 0; i + 1 < n.size(); i += 2) places.emplace_back(n[i], n[i + 1]);
+  return places;
+}
+
+Curve Features::CurveOf(std::string_view name) const {
+  std::vector<float> x, y;
+  for (const glm::vec2 place : Places(name)) {
+    x.push_back(place.x);
+    y.push_back(place.y);
+  }
+  return {std::move(x), std::move(y)};
+}
+
+}  // namespace fsm

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fsm/base/number_table.h"
+#include "fsm/base/spline.h"
+
+namespace fsm {
+
+/// What teeth, tongue, ears, lashes, brows and cropped hair are like: tables/features.txt, where
+/// each number is explained. Constant after construction; thread: any.
+class Features {
+ public:
+  /// In place of the built-in table. Throws as NumberTable.
+  Features(const std::string& file, std::string_view text)
+      : Features(NumberTable(file, text, &BuiltIn().numbers_)) {}
+  static const Features& BuiltIn();
+
+  /// REQUIRES of all below: the built-in table has as many numbers of that name.
+  const std::vector<float>& operator[](std::string_view name) const { return numbers_[name]; }
+  float operator()(std::string_view name) const { return numbers_(name); }
+  glm::vec3 Vector(std::string_view name) const;
+  std::vector<glm::vec2> Places(std::string_view name) const;  ///< of pairs
+  Curve CurveOf(std::string_view name) const;                  ///< of pairs of x and y
+
+ private:
+  /// Throws if the x of a curve do not ascend, or there are no hairs where there must be some.
+  explicit Features(NumberTable numbers);
+
+  NumberTable numbers_;
+};
+
+}  // namespace fsm
