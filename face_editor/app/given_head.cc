@@ -42,7 +42,9 @@ vm::Result<MadeHead> OpenHead(const std::string& path, const std::string& face,
   try {
     if (path.ends_with(".txt")) return OpenOriginal(path, face, tables);
     MadeHead made;
-    made.head = fsm::MakeHeadOfFile(path, tables, &made.notice);
+    fsm::HeadTelling telling;
+    made.head = fsm::MakeHeadOfFile(path, tables, &telling);
+    made.notice = telling.notice;
     if (made.notice.empty()) made.notice = "Head of " + path;
     return made;
   } catch (const std::exception& error) {

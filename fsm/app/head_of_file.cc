@@ -152,18 +152,19 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
 }
 
 std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
-                                     std::string* notice) {
+                                     HeadTelling* telling) {
   if (auto own = AssetOfFile(path)) return MovedAsIn(tables_folder, std::move(own));
   const HeadFile file = OrThrow(ReadHeadFile(path));
   const auto tell = [&](const std::string& what) {
     const std::string told = "'" + path + "': " + what;
-    if (notice) {
-      *notice += (notice->empty() ? "" : "; ") + told;
+    if (telling) {
+      telling->notice += (telling->notice.empty() ? "" : "; ") + told;
     } else {
       std::cerr << "fsm: notice: " << told << "\n";
     }
   };
   for (const std::string& what : file.notices) tell(what);
+  if (telling) telling->beside = file.beside;
   const MotionTables tables = OrThrow(MotionTables::Load(tables_folder));
   const std::string beside = path + ".points";
   std::error_code code;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "fsm/asset/asset_file.h"
 #include "fsm/motion/motion_tables.h"
@@ -9,13 +10,19 @@
 
 namespace fsm {
 
+/// What there is to say of a head that was made.
+struct HeadTelling {
+  std::string notice;               ///< what it lacks; or nothing
+  std::vector<std::string> beside;  ///< HeadFile::beside
+};
+
 /// A head out of .obj, .glb, .gltf or .vrm. One that ExportHead has written is what it was. Any
 /// other is moved by its own shapes where their
 /// names are ARKit's or VRM's, else by ours carried over with the points of `path`.points; without
-/// either only head, eyes and jaw move, and a notice says so: in `notice`, else on stderr. Throws
+/// either only head, eyes and jaw move, and a notice says so: in `telling`, else on stderr. Throws
 /// std::runtime_error.
 std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables,
-                                     std::string* notice = nullptr);
+                                     HeadTelling* telling = nullptr);
 
 /// Every ARKit shape of the tables as a state of the face.
 std::vector<ExportedShape> ArkitShapes(const MotionTables& tables);

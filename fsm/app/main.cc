@@ -16,6 +16,7 @@
 #include "fsm/app/face_of_name.h"
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_render_backend.h"
+#include "fsm/app/head_cache.h"
 #include "fsm/app/head_of_file.h"
 #include "fsm/app/more_faces.h"
 #include "fsm/asset/describe.h"
@@ -35,6 +36,7 @@ struct Options {
   std::vector<int> position;
   std::string config;
   std::string head;
+  std::string cache;
   std::string export_file;
   bool describe = false;
   std::string sheet;
@@ -145,6 +147,11 @@ void AddOptions(CLI::App& app, Options& options) {
   app.add_option("--mask", options.module.mask, "The face worn at the start (default galatea)");
   app.add_option("--head", options.head,
                  "A head from elsewhere, .obj, .glb, .gltf or .vrm, worn at the start");
+  app.add_option(
+         "--cache", options.cache,
+         "A folder that keeps the heads of files once they are baked, so that they start at "
+         "once the next time")
+      ->envname("GALATEA_HEAD_CACHE");
   app.add_option("--export", options.export_file,
                  "Writes the face named by --mask or --head with ARKit's shapes as .glb and ends");
   app.add_flag("--describe", options.describe,
@@ -170,8 +177,9 @@ std::vector<fsm::GlRenderBackend::Options::MoreFace> MoreFaces(const Options& op
       if (!fsm::IsFaceName(std::string_view(&c, 1))) c = '_';
     }
     faces.insert(faces.begin(), {name.empty() ? "head" : name,
-                                 [file = options.head, tables = options.module.tables] {
-                                   return fsm::MakeHeadOfFile(file, tables);
+                                 [file = options.head, tables = options.module.tables,
+                                  cache = fsm::HeadCache(options.cache)] {
+                                   return cache.HeadOfFile(file, tables);
                                  }});
   }
   return faces;
@@ -180,7 +188,7 @@ std::vector<fsm::GlRenderBackend::Options::MoreFace> MoreFaces(const Options& op
 /// The face named by --head or --mask. Throws as MakeHeadOfFile and MakeHeadOfName.
 std::unique_ptr<fsm::Head> HeadAsked(const Options& options) {
   const std::string& tables = options.module.tables;
-  if (!options.head.empty()) return fsm::MakeHeadOfFile(options.head, tables);
+  if (!options.head.empty()) return fsm::HeadCache(options.cache).HeadOfFile(options.head, tables);
   const std::string& name = options.module.mask;
   return fsm::MakeHeadOfName(name.empty() ? std::string(fsm::Identities()[0].name) : name, tables);
 }

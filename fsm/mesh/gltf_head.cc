@@ -335,18 +335,21 @@ vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view byt
 vm::Result<HeadFile> ReadGltfHead(const std::string& path) {
   const auto bytes = ReadWhole(path, kMaxMeshBytes);
   if (!bytes) return std::unexpected(bytes.error());
-  const auto beside = [&path](const std::string& uri) -> std::optional<std::string> {
+  std::vector<std::string> asked;
+  const auto beside = [&](const std::string& uri) -> std::optional<std::string> {
     const std::filesystem::path given(uri);
     if (given.is_absolute() || uri.find(':') != std::string::npos) return std::nullopt;
     for (const auto& step : given) {
       if (step == "..") return std::nullopt;
     }
-    auto read =
-        ReadWhole((std::filesystem::path(path).parent_path() / given).string(), kMaxMeshBytes);
+    asked.push_back((std::filesystem::path(path).parent_path() / given).string());
+    auto read = ReadWhole(asked.back(), kMaxMeshBytes);
     if (!read) return std::nullopt;
     return std::move(*read);
   };
-  return ReadDocument(GltfDocument::Parse(path, *bytes, beside));
+  auto file = ReadDocument(GltfDocument::Parse(path, *bytes, beside));
+  if (file) file->beside = std::move(asked);
+  return file;
 }
 
 }  // namespace fsm

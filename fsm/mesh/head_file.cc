@@ -60,16 +60,17 @@ vm::Result<HeadFile> ReadHeadFile(const std::string& path) {
 vm::Result<HeadFile> ReadObjHead(const std::string& path) {
   const auto obj = ReadObj(path);
   if (!obj) return std::unexpected(obj.error());
+  HeadFile head;
+  head.name = path;
   std::map<std::string, ObjMaterial> materials;
   for (const std::string& library : obj->libraries) {
     const auto beside = Beside(path, library);
+    if (beside) head.beside.push_back(*beside);
     const auto text = beside ? ReadWhole(*beside, 1U << 22)
                              : vm::Result<std::string>(vm::Fail(vm::Errc::kBadValue, ""));
     // A head without its library still has its form.
     if (text) materials.merge(ParseMtl(*text));
   }
-  HeadFile head;
-  head.name = path;
   std::map<std::string, int> pictures;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made;
   const bool placed = !obj->places.empty();
@@ -82,6 +83,7 @@ vm::Result<HeadFile> ReadObjHead(const std::string& path) {
       if (file && placed) {
         const auto [known, fresh] = pictures.try_emplace(*file, -1);
         if (fresh && pictures.size() <= 64) {
+          head.beside.push_back(*file);
           if (auto picture = ReadImage(*file)) {
             known->second = static_cast<int>(head.pictures.size());
             head.pictures.push_back(std::move(*picture));

@@ -59,6 +59,7 @@ struct HeadFile {
   std::vector<SpringWeight> spring_weights;
   bool look_by_shape = false;        ///< not by turning, but by shapes vrmlookleft and so on
   std::vector<std::string> notices;  ///< what was left out
+  std::vector<std::string> beside;   ///< paths of other files it names, there or not
   bool metres = false;               ///< the file's kind says so
 };
 

@@ -1,0 +1,148 @@
+#include "fsm/app/head_cache.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fsm/app/head_of_file.h"
+#include "fsm/asset/asset_file.h"
+
+namespace fsm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostTables = 1000;  // files in a folder of tables
+constexpr std::string_view kNoticesFollow = "notices:\n";
+
+std::string LineOf(const fs::path& path) {
+  std::error_code code;
+  const auto size = fs::file_size(path, code);
+  const auto time = fs::last_write_time(path, code).time_since_epoch().count();
+  return std::to_string(size) + " " + std::to_string(time) + " " + path.string() + "\n";
+}
+
+/// What every head of this file is made from, by size and time; "" if that cannot be said.
+std::string SourcesOf(const std::string& path, const std::string& tables) {
+  std::error_code code;
+  const fs::path file = fs::canonical(path, code);
+  if (code) return "";
+  std::vector<std::string> lines{LineOf("/proc/self/exe"), LineOf(file),
+                                 LineOf(file.string() + ".points")};
+  if (!tables.empty()) {
+    for (fs::directory_iterator at(tables, code), end; !code && at != end; at.increment(code)) {
+      if (lines.size() > kMostTables) return "";
+      if (at->is_regular_file(code)) lines.push_back(LineOf(at->path()));
+    }
+  }
+  std::ranges::sort(lines);
+  std::string sources;
+  for (const std::string& line : lines) sources += line;
+  return code ? "" : sources;
+}
+
+/// Whether all files of these lines are as they were.
+bool Stand(std::string_view lines) {
+  while (!lines.empty()) {
+    const std::string line(lines.substr(0, lines.find('\n') + 1));
+    lines.remove_prefix(line.size());
+    const std::size_t path = line.find(' ', line.find(' ') + 1) + 1;
+    if (path == 0 || line.size() < path + 1 ||
+        line != LineOf(line.substr(path, line.size() - path - 1)))
+      return false;
+  }
+  return true;
+}
+
+std::string NameOf(const std::string& sources) {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  for (const char c : sources) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  char name[17];
+  std::snprintf(name, sizeof name, "%016llx", static_cast<unsigned long long>(hash));
+  return name;
+}
+
+std::string ReadAll(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Whole or not at all, also while others read it.
+void WriteWhole(const std::string& path, const std::string& bytes) {
+  const std::string unfinished = path + "." + std::to_string(getpid());
+  if (!(std::ofstream(unfinished, std::ios::binary) << bytes).flush())
+    throw std::runtime_error("cannot write '" + unfinished + "'");
+  fs::rename(unfinished, path);
+}
+
+void Tell(const std::string& what) { std::cerr << "fsm: notice: " << what << "\n"; }
+
+}  // namespace
+
+std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
+                                            const std::string& tables) const {
+  const std::string sources = folder_.empty() ? "" : SourcesOf(path, tables);
+  if (sources.empty()) return MakeHeadOfFile(path, tables);
+  const std::string entry = folder_ + "/" + NameOf(sources);
+  if (auto kept = Find(entry, sources)) return kept;
+  HeadTelling telling;
+  auto head = MakeHeadOfFile(path, tables, &telling);
+  if (!telling.notice.empty()) Tell(telling.notice);
+  std::string made_from = sources;
+  for (const std::string& beside : telling.beside) made_from += LineOf(beside);
+  Keep(entry, made_from + std::string(kNoticesFollow) + telling.notice, *head);
+  return head;
+}
+
+std::unique_ptr<Head> HeadCache::Find(const std::string& entry, const std::string& sources) {
+  const std::string made_from = ReadAll(entry + ".txt");
+  const std::size_t notices = made_from.find(kNoticesFollow);
+  if (!made_from.starts_with(sources) || notices == std::string::npos ||
+      !Stand(std::string_view(made_from).substr(sources.size(), notices - sources.size())))
+    return nullptr;
+  auto asset = ParseAsset(entry + ".glb", ReadAll(entry + ".glb"));
+  if (!asset) {
+    Tell("the head is baked anew, " + asset.error().text);
+    return nullptr;
+  }
+  const std::string notice = made_from.substr(notices + kNoticesFollow.size());
+  if (!notice.empty()) Tell(notice);
+  return std::make_unique<Head>(std::move(*asset));
+}
+
+void HeadCache::Keep(const std::string& entry, const std::string& made_from,
+                     const Head& head) const {
+  try {
+    fs::create_directories(folder_);
+    DropOldest();
+    WriteWhole(entry + ".glb", WriteAsset(head, {}));
+    WriteWhole(entry + ".txt", made_from);
+  } catch (const std::exception& error) {
+    Tell(std::string("the head is not kept: ") + error.what());
+  }
+}
+
+void HeadCache::DropOldest() const {
+  std::vector<std::pair<fs::file_time_type, fs::path>> kept;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
+    if (file.path().extension() == ".txt") kept.emplace_back(file.last_write_time(), file.path());
+  }
+  if (kept.size() < kMostHeads) return;
+  std::ranges::sort(kept);
+  for (std::size_t i = 0; i + kMostHeads <= kept.size(); ++i) {
+    fs::remove(kept[i].second);
+    fs::remove(kept[i].second.replace_extension(".glb"));
+  }
+}
+
+}  // namespace fsm
