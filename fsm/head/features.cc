@@ -11,7 +11,8 @@ namespace {
 constexpr std::string_view kCurves[] = {"brow_middle", "brow_half_height", "brow_growth",
                                         "lid_fold_height"};
 // By how many things are made, or divided.
-constexpr std::string_view kCounts[] = {"upper_lashes", "lower_lashes", "brow_hairs"};
+constexpr std::string_view kCounts[] = {"upper_lashes", "lower_lashes", "brow_hairs",
+                                        "long_locks",   "long_wisps",   "long_fringe_locks"};
 constexpr float kMostHairs = 200;  // in one row
 
 bool Ascends(const std::vector<float>& pairs) {
@@ -30,7 +31,11 @@ Features::Features(NumberTable numbers) : numbers_(std::move(numbers)) {
     if (std::ranges::any_of(kCurves, is) && !Ascends(n))
       row.Fail("numbers of x that do not ascend");
     if (std::ranges::any_of(kCounts, is)) row.Within(1, 1, kMostHairs);
-    if (is("brow_hairs")) row.Within(2, 1, kMostHairs);
+    if (is("brow_hairs") || is("long_fringe_locks")) row.Within(2, 1, kMostHairs);
+    if (is("long_locks") && !(n[1] < n[0])) row.Fail("no lock that is not at the edge");
+    if (is("long_volume")) {
+      for (std::size_t i = 1; i <= 3; ++i) row.Within(i, 10, 1000);
+    }
     if (is("crop_crown") && n[0] == 0 && n[1] == 0 && n[2] == 0)
       row.Fail("a crown that is nowhere");
     const bool of_tooth = row.key().ends_with("_tooth_widths");

@@ -11,7 +11,7 @@
 
 namespace fsm {
 
-/// What teeth, tongue, ears, lashes, brows and cropped hair are like: tables/features.txt, where
+/// What teeth, tongue, ears, lashes, brows and hair are like: tables/features.txt, where
 /// each number is explained. Constant after construction; thread: any.
 class Features {
  public:

@@ -14,16 +14,16 @@ namespace fsm {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr glm::vec3 kVolume{81.5f, 103.0f, 103};  // half axes of the hair over the skull
 constexpr float kEnd = 1.0f;
 
 // Strands start along the parting, sweep over the skull and hang. Those at the face's edge are the
 // fringe: they come down over the forehead slantwise, a little off the skin, towards the temples.
 class LongHair {
  public:
-  LongHair(const LongStyle& style, const Palette& palette, HeadMesh& mesh)
+  LongHair(const LongStyle& style, const Features& features, const Palette& palette, HeadMesh& mesh)
       : style_(style),
-        volume_(kVolume + style.full_mm),
+        features_(features),
+        volume_(features.Vector("long_volume") + style.full_mm),
         palette_(palette),
         scalp_(mesh),
         mesh_(mesh) {}
@@ -44,24 +44,35 @@ class LongHair {
   // the end of the skull (kCap) to the ends (1).
   static constexpr float kCap = 0.58f;
 
+  /// Between the two numbers of that name.
+  float Mix(const char* name, float part) const {
+    return glm::mix(features_[name][0], features_[name][1], part);
+  }
+  int Count(const char* name, std::size_t which) const {
+    return static_cast<int>(features_[name][which]);
+  }
+  glm::vec3 OnParting(float degrees) const {
+    const float along = degrees * kPi / 180;
+    return glm::normalize(glm::vec3(style_.parting, std::sin(along), std::cos(along)));
+  }
+
   glm::vec3 Direction(float i, float side, float t) const {
-    const float along = glm::mix(31.0f, 158.0f, std::pow(i, 0.9f)) * kPi / 180;
-    const glm::vec3 start =
-        glm::normalize(glm::vec3(style_.parting, std::sin(along), std::cos(along)));
-    const float azimuth = glm::mix(56.0f, 180.0f, std::pow(i, 0.85f));
+    const glm::vec3 start = OnParting(Mix("long_parting", std::pow(i, 0.9f)));
+    const float azimuth = Mix("long_round", std::pow(i, 0.85f));
+    const auto& bends = features_["long_bend"];
     const float edge = SmoothStep(0.25f, 0, i);
     // The side away from the parting has the longer way round the forehead.
     const float away = side < 0 ? 1.0f : 0.0f;
     const glm::vec3 bend =
         HairDirection(side * azimuth * glm::mix(1.0f, 0.78f - 0.02f * away, edge),
-                      glm::mix(38.0f, 14.0f - 2.0f * away, edge));
-    const glm::vec3 end = HairDirection(side * azimuth, glm::mix(-8.0f, -14.0f, edge));
+                      glm::mix(bends[0], bends[1] - bends[2] * away, edge));
+    const glm::vec3 end = HairDirection(side * azimuth, Mix("long_skull_end", edge));
     return glm::normalize((1 - t) * (1 - t) * start + 2 * t * (1 - t) * bend + t * t * end);
   }
 
   float EndY(float i, float side) const {
     return glm::mix(style_.front_y, style_.back_y, std::sqrt(SmoothStep(0, 0.8f, i))) +
-           2.0f * std::sin(17 * i + side);
+           features_("long_ends") * std::sin(17 * i + side);
   }
 
   glm::vec3 Point(float i, float side, float t, float out_mm) const {
@@ -71,26 +82,29 @@ class LongHair {
     const float volume = 1 / std::sqrt(glm::dot(scaled, scaled));
     const float skin = scalp_.Distance(d);
     const float part = SmoothStep(0, 0.17f, i) * (0.8f + 0.2f * SmoothStep(0, 0.3f, cap));
-    const float fringe = 1.2f + 4.0f * std::sin(kPi * SmoothStep(0, 1, cap));
-    const float least = skin + glm::mix(fringe, 7.5f, SmoothStep(0, 0.12f, i));
+    const auto& off = features_["long_fringe_off"];
+    const float fringe = off[0] + off[1] * std::sin(kPi * SmoothStep(0, 1, cap));
+    const float least =
+        skin + glm::mix(fringe, features_("long_least_off"), SmoothStep(0, 0.12f, i));
     float radius =
-        std::max(least, glm::mix(skin + 1.2f + 4.5f * SmoothStep(0.3f, 1, cap), volume, part));
+        std::max(least, glm::mix(skin + off[0] + 4.5f * SmoothStep(0.3f, 1, cap), volume, part));
     // The parting is a furrow in the hair.
-    radius = glm::mix(skin + 0.55f * (radius - skin), radius, SmoothStep(-0.1f, 0.28f, cap));
+    radius = glm::mix(skin + features_("long_furrow") * (radius - skin), radius,
+                      SmoothStep(-0.1f, 0.28f, cap));
     glm::vec3 p = kHairCentre + d * (radius + out_mm);
     if (t > kCap) {
       const float hang = (t - kCap) / (kEnd - kCap);
       const glm::vec3 out = glm::normalize(glm::vec3(d.x, 0, d.z));
       const float front = SmoothStep(0.35f, 0, i);
       p.y = glm::mix(p.y, EndY(i, side), hang);
-      const float full = glm::mix(5.0f, 1.0f, front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
+      const float full = Mix("long_full", front) * std::sin(std::min(1.0f, 1.2f * hang) * kPi);
       const float wave =
           style_.wave_mm * std::sin(7 * hang + 9 * i + side) * SmoothStep(0.1f, 0.6f, hang);
-      p +=
-          out * (full + wave - glm::mix(17.0f, 30.0f, SmoothStep(0, 0.6f, i)) * hang * hang * hang);
-      p.z += front * 8 * hang * (1 - 0.4f * hang);
+      p += out * (full + wave - Mix("long_inward", SmoothStep(0, 0.6f, i)) * hang * hang * hang);
+      p.z += front * features_("long_forward") * hang * (1 - 0.4f * hang);
       // At the face it follows the cheek.
-      p.x -= side * front * 6.5f * std::sin(std::min(1.0f, 1.5f * hang) * kPi * 0.5f);
+      p.x -= side * front * features_("long_cheek") *
+             std::sin(std::min(1.0f, 1.5f * hang) * kPi * 0.5f);
     }
     return p;
   }
@@ -100,9 +114,10 @@ class LongHair {
                           glm::vec3(0, -1e-3f, 0));
   }
 
-  static float Ridge(float i, float t) {
+  float Ridge(float i, float t) const {
+    const auto& deep = features_["long_ridges"];
     const float phase = 52 * i + 2.0f * std::sin(3 * t + 9 * i);
-    return (1.0f * std::sin(phase) + 0.6f * std::sin(2.3f * phase + 1)) *
+    return (deep[0] * std::sin(phase) + deep[1] * std::sin(2.3f * phase + 1)) *
            SmoothStep(0.02f, 0.3f, t) * (0.6f + 0.7f * t) * SmoothStep(0, 0.08f, i);
   }
 
@@ -168,19 +183,20 @@ class LongHair {
   }
 
   void Locks(float side) {
-    constexpr int kEdge = 9;
-    constexpr int kLocks = 34;
-    for (int k = 0; k < kLocks; ++k) {
+    const int locks = Count("long_locks", 0), at_edge = Count("long_locks", 1);
+    const auto& wide = features_["long_lock_width"];
+    const auto& lifts = features_["long_lock_lift"];
+    for (int k = 0; k < locks; ++k) {
       const int seed = k + (side > 0 ? 500 : 0);
-      const float u =
-          (static_cast<float>(k - kEdge) + 0.5f + 0.4f * Grain(seed, 1)) / (kLocks - kEdge);
-      const bool edge = k < kEdge;
+      const float u = (static_cast<float>(k - at_edge) + 0.5f + 0.4f * Grain(seed, 1)) /
+                      static_cast<float>(locks - at_edge);
+      const bool edge = k < at_edge;
       const float i = edge ? 0.005f * static_cast<float>(k) : u;
       const float from =
           edge ? 0.02f + 0.028f * static_cast<float>(k) : 0.18f + 0.14f * (Grain(seed, 2) + 1);
       const float to =
           edge ? 0.52f + 0.03f * static_cast<float>(k % 5) : 1.01f + 0.03f * Grain(seed, 3);
-      const float lift = edge ? 0.8f : 2.2f + 0.9f * Grain(seed, 4);
+      const float lift = edge ? lifts[0] : lifts[1] + lifts[2] * Grain(seed, 4);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 6;
       for (int s = 0; s <= kSteps; ++s) {
@@ -192,7 +208,7 @@ class LongHair {
                              lift * std::sin(kPi * (0.12f + 0.8f * v))));
       }
       AddLock(path,
-              {.width_mm = edge ? 9.0f : 15.0f + 4 * Grain(seed, 6),
+              {.width_mm = edge ? wide[0] : wide[1] + wide[2] * Grain(seed, 6),
                .root_part = edge ? 0.4f : 0.5f,
                .tip_part = 0.6f,
                .fray_from = 0.66f},
@@ -203,13 +219,16 @@ class LongHair {
   // Thin locks that leave the edge of the hair towards the face and end there, so that the edge is
   // no drawn line.
   void Wisps(float side) {
-    constexpr int kWisps = 24;
-    for (int k = 0; k < kWisps; ++k) {
+    const int wisps = Count("long_wisps", 0);
+    const auto& reaches = features_["long_wisp_reach"];
+    const auto& wide = features_["long_wisp_width"];
+    for (int k = 0; k < wisps; ++k) {
       const int seed = k + (side > 0 ? 900 : 700);
-      const float from = 0.06f + 0.74f * (static_cast<float>(k) + 0.4f * Grain(seed, 1)) / kWisps;
-      const float long_part = 0.17f * (1 + 0.45f * Grain(seed, 3));
+      const float from = 0.06f + 0.74f * (static_cast<float>(k) + 0.4f * Grain(seed, 1)) /
+                                     static_cast<float>(wisps);
+      const float long_part = features_("long_wisp_length") * (1 + 0.45f * Grain(seed, 3));
       const float reach =
-          (2.2f + 1.5f * Grain(seed, 2)) * (1 + 1.8f * SmoothStep(0.45f, 0.25f, from));
+          (reaches[0] + reaches[1] * Grain(seed, 2)) * (1 + 1.8f * SmoothStep(0.45f, 0.25f, from));
       std::vector<glm::vec3> path;
       constexpr int kSteps = 3;
       for (int s = 0; s <= kSteps; ++s) {
@@ -223,7 +242,7 @@ class LongHair {
         path.push_back(p + face * (reach * v * v) - outward * (1.0f * v * v));
       }
       AddLock(path,
-              {.width_mm = 6.5f + 2 * Grain(seed, 4),
+              {.width_mm = wide[0] + wide[1] * Grain(seed, 4),
                .root_part = 0.6f,
                .fray_from = 0.3f,
                .open = 0.95f},
@@ -234,22 +253,22 @@ class LongHair {
   // Locks from the parting over the upper forehead to the temple. The foremost end first, those
   // from farther back reach lower.
   void Fringe(float side) {
-    const int locks = side < 0 ? 16 : 11;
+    const std::size_t which = side < 0 ? 0 : 1;
+    const int locks = Count("long_fringe_locks", which);
+    const auto& rises = features_["long_fringe_rise"];
+    const auto& wide = features_["long_fringe_width"];
     for (int k = 0; k < locks; ++k) {
       const int seed = k + (side > 0 ? 1300 : 1100);
       const float u =
           (static_cast<float>(k) + 0.5f + 0.5f * Grain(seed, 1)) / static_cast<float>(locks);
       // Some are thin strands that come further down.
       const float strand = k % 3 == 1 && u < 0.7f ? 1.0f : 0.0f;
-      const float along = glm::mix(32.0f, 64.0f, u) * kPi / 180;
-      const glm::vec3 start =
-          glm::normalize(glm::vec3(style_.parting, std::sin(along), std::cos(along)));
-      const glm::vec3 bend =
-          HairDirection(side * (glm::mix(16.0f, 44.0f, u) + 5 * Grain(seed, 2)),
-                        glm::mix(side < 0 ? 19.0f : 22.0f, 33.0f, u) - 3.5f * strand);
+      const glm::vec3 start = OnParting(Mix("long_fringe_start", u));
+      const glm::vec3 bend = HairDirection(side * (Mix("long_fringe_bend", u) + 5 * Grain(seed, 2)),
+                                           glm::mix(rises[which], rises[2], u) - 3.5f * strand);
       const glm::vec3 end =
-          HairDirection(side * (glm::mix(33.0f, 74.0f, u) + 4 * Grain(seed, 3)),
-                        glm::mix(9.0f, -9.0f, u) + 5.0f * Grain(seed, 4) - 3.0f * strand);
+          HairDirection(side * (Mix("long_fringe_end", u) + 4 * Grain(seed, 3)),
+                        Mix("long_fringe_fall", u) + 5.0f * Grain(seed, 4) - 3.0f * strand);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 7;
       for (int s = 0; s <= kSteps; ++s) {
@@ -263,7 +282,7 @@ class LongHair {
         path.push_back(kHairCentre + d * (skin + lift - 4.5f * v * v));
       }
       AddLock(path,
-              {.width_mm = 15.0f + 3 * Grain(seed, 6) - 9 * strand,
+              {.width_mm = wide[0] + wide[1] * Grain(seed, 6) - wide[2] * strand,
                .root_part = 0.4f,
                .fray_from = 0.5f,
                .root_density = 0.3f},
@@ -272,6 +291,7 @@ class LongHair {
   }
 
   const LongStyle style_;
+  const Features& features_;
   const glm::vec3 volume_;
   const Palette& palette_;
   Scalp scalp_;
@@ -280,8 +300,9 @@ class LongHair {
 
 }  // namespace
 
-void BuildLongHair(const LongStyle& style, const Palette& palette, HeadMesh& mesh) {
-  LongHair(style, palette, mesh).Build();
+void BuildLongHair(const LongStyle& style, const Features& features, const Palette& palette,
+                   HeadMesh& mesh) {
+  LongHair(style, features, palette, mesh).Build();
 }
 
 }  // namespace fsm

@@ -72,7 +72,8 @@ struct LongStyle {
   float wave_mm = 2.2f;   ///< sideways swing of what hangs
 };
 /// Parted and hanging.
-void BuildLongHair(const LongStyle& style, const Palette& palette, HeadMesh& mesh);
+void BuildLongHair(const LongStyle& style, const Features& features, const Palette& palette,
+                   HeadMesh& mesh);
 /// Short hair all round.
 void BuildCroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
                       HeadMesh& mesh);

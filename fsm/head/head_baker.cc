@@ -51,7 +51,7 @@ void HeadBaker::AddHair() {
   if (identity_.crop) {
     BuildCroppedHair(*identity_.crop, identity_.Look(), identity_.palette, mesh_);
   } else {
-    BuildLongHair(identity_.long_hair, identity_.palette, mesh_);
+    BuildLongHair(identity_.long_hair, identity_.Look(), identity_.palette, mesh_);
   }
 }
 
