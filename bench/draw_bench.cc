@@ -236,13 +236,13 @@ void PrintOthers(const Options& options, fsm::Renderer& renderer) {
 }
 
 void MeasureAll(char** argv, const Options& options) {
+  std::printf("%s\n", fsm::DescribeOffScreen(options.context).c_str());
   auto context = fsm::RenderContext::MakeHeadless(options.width, options.height, options.context);
   auto renderer = fsm::Renderer::Make(*context, 8, fsm::Appearance::BuiltIn(), options.rig);
   const auto head = fsm::MakeGenericHead();
   fsm::HeadVertices vertices;
   fsm::Image image;
   const fsm::Scene scene;
-  std::printf("%s\n", fsm::DescribeOffScreen(options.context).c_str());
   std::printf("%d x %d, 4 samples; head: %zu triangles, %zu vertices\n", options.width,
               options.height, head->topology().indices.size() / 3, head->topology().albedo.size());
 
