@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 #include <span>
 #include <tuple>
+#include <utility>
 
 namespace fsm {
 namespace {
@@ -125,8 +126,10 @@ void HeadBuffers::Upload(const HeadVertices& vertices) {
 
 void HeadBuffers::Use(GLuint positions, GLuint normals) {
   gl_.BindVertexArray(array_);
+  const std::array wanted{positions, normals};
+  if (std::exchange(used_, wanted) == wanted) return;
   for (GLuint i = 0; i < 2; ++i) {
-    gl_.BindBuffer(GL_ARRAY_BUFFER, i == 0 ? positions : normals);
+    gl_.BindBuffer(GL_ARRAY_BUFFER, wanted[i]);
     gl_.VertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <future>
 #include <glm/vec3.hpp>
@@ -91,6 +92,7 @@ class HeadBuffers {
   // lid, the lid's ShutLid::lender and slide, opacity, rest normal; indices.
   static constexpr GLuint kAttributes = 11;
   GLuint buffers_[kAttributes + 1] = {};
+  std::array<GLuint, 2> used_{};  // for the first two of them
   std::size_t vertex_count_ = 0;
   std::vector<DrawnPart> parts_;
   EyeFinder eyes_;
