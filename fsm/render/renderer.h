@@ -90,9 +90,9 @@ std::string DescribeOffScreen(OffScreen how);
 
 /// What moves the vertices of a head that is drawn by its state.
 enum class RigOn {
-  kBest,       ///< the graphics card where one draws and has compute shaders (OpenGL 4.3)
+  kBest,  ///< the graphics card where one draws and has compute shaders (OpenGL 4.3)
   kProcessor,
-  kCard        ///< also where a card is only software's
+  kCard  ///< also where a card is only software's
 };
 
 /// Part of what a context draws into, in pixels from its upper left corner; width 0: all of it.
