@@ -2,11 +2,15 @@
 
 #include <bit>
 #include <cassert>
+#include <iomanip>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "embedded/rig_steps.h"
+#include "fsm/rig/step_constants.h"
 
 namespace fsm {
 namespace {
@@ -111,6 +115,21 @@ class PoseBlock {
   std::string constants_;
 };
 
+/// "const float kMostOpen = 0.5;" and so on.
+std::string StepConstants() {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(9) << std::showpoint;
+  const auto add = [&text](std::string_view name, float value) {
+    text << "const float " << name << " = " << value << ";\n";
+  };
+  for (const step::Named& constant : step::kAll) add(constant.name, constant.value);
+  add("kCorneaRadius", kCorneaRadius);
+  text << "const vec3 kPivot = vec3(" << kNeckPivot.x << ", " << kNeckPivot.y << ", "
+       << kNeckPivot.z << ");\n";
+  return text.str();
+}
+
 Words BeginItems(const RigData& data) {
   const auto& place = data.proxy_rest.empty() ? data.rest : data.proxy_rest;
   Words items;
@@ -185,7 +204,8 @@ Lists NormalLists(const RigData& data) {
 const GlProgram& RigPrograms::Of(const char* kernel) {
   auto& program = programs_[kernel];
   if (!program) {
-    static const std::string constants = PoseBlock({}, {}).constants();  // places depend on no rig
+    static const std::string constants = PoseBlock({}, {}).constants() +  // places depend on no rig
+                                         StepConstants();
     const std::string source = "#version 430\n#define STEP_" + std::string(kernel) + "\n" +
                                constants + std::string(embedded::rig_steps());
     program = std::make_unique<GlProgram>(gl_, kernel, source);

@@ -4,17 +4,17 @@
 #include <glm/geometric.hpp>
 
 #include "fsm/rig/pose.h"
+#include "fsm/rig/step_constants.h"
 
 namespace fsm {
 namespace {
 
 /// By which angle a vertex turns about the axis of the lids.
 float TurnOf(const LidRig::Vertex& lid, const EyeTransform& eye, const UnitEffects::Lids& ask) {
-  constexpr float kRadius = 13.35f;  // turns millimetres at the lid's edge into an angle
-  float upper = lid.upper_angle + lid.opening * (eye.upper_mm + ask.upper_mm) / kRadius;
+  float upper = lid.upper_angle + lid.opening * (eye.upper_mm + ask.upper_mm) / step::kLidRadius;
   // A lower lid that is raised goes up nearly as far beside the middle, so that it stays a curve.
   const float raised = ask.lower_mm * (ask.lower_mm > 0 ? std::sqrt(lid.opening) : lid.opening);
-  float lower = lid.lower_angle + (lid.opening * eye.lower_mm + raised) / kRadius;
+  float lower = lid.lower_angle + (lid.opening * eye.lower_mm + raised) / step::kLidRadius;
   if (upper < lower) upper = lower = 0.5f * (upper + lower);
   upper += ask.close * (lid.meet_angle - upper);
   lower += ask.close * (lid.meet_angle - lower);
@@ -24,7 +24,6 @@ float TurnOf(const LidRig::Vertex& lid, const EyeTransform& eye, const UnitEffec
 }  // namespace
 
 void MoveLids(const LidRig& rig, const Pose& pose, std::span<glm::vec3> position) {
-  constexpr float kThickness = 0.35f;  // of a lid over the cornea
   for (const LidRig::Vertex& lid : rig.vertices) {
     const auto side = static_cast<std::size_t>(lid.side);
     const EyeTransform& eye = rig.eyes[side];
@@ -39,7 +38,7 @@ void MoveLids(const LidRig& rig, const Pose& pose, std::span<glm::vec3> position
     const glm::vec3 middle = rig.ball[side] + eye.size * rig.cornea_centre * pose.eye[side][2];
     const glm::vec3 off = p - middle;
     const float distance = glm::length(off);
-    const float least = eye.size * (kCorneaRadius + kThickness);
+    const float least = eye.size * (kCorneaRadius + step::kLidThickness);
     if (distance < least && distance > 1) p = middle + off * (least / distance);
   }
 }

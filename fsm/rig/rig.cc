@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fsm/base/spline.h"
+#include "fsm/rig/step_constants.h"
 #include "fsm/rig/tongue_path.h"
 
 namespace fsm {
@@ -222,11 +223,10 @@ void Rig::MoveWithJaw(Frame& frame) const {
 }
 
 void Rig::FollowChin(Frame& frame) const {
-  constexpr float kMostOpen = 0.5f;  // radians
   const glm::vec3 before = data_.rest[data_.chin] - data_.jaw_hinge;
   const glm::vec3 after = frame.position[data_.chin] - data_.jaw_hinge;
   const float angle = std::atan2(-after.y, after.z) - std::atan2(-before.y, before.z);
-  frame.pose.SetJaw({.open_rad = std::clamp(angle, 0.0f, kMostOpen),
+  frame.pose.SetJaw({.open_rad = std::clamp(angle, 0.0f, step::kMostOpen),
                      .slide_mm = 0,
                      .sway_mm = after.x - before.x});
 }
@@ -235,7 +235,7 @@ void Rig::KeepOffTeeth(Frame& frame) const {
   // How much of a push counts, by height: all beside the crowns, fading past the edge.
   const auto beside = [](const ToothArch& arch, float y) {
     const float down = arch.root_y > arch.edge_y ? 1.0f : -1.0f;
-    return SmoothStep(-2.2f, 0.2f, down * (y - arch.edge_y));
+    return SmoothStep(step::kPastTeeth, step::kBesideTeeth, down * (y - arch.edge_y));
   };
   for (const TeethContact& contact : data_.teeth_contacts) {
     glm::vec3& p = frame.position[contact.vertex];
@@ -259,7 +259,6 @@ void Rig::TakeOwnForm(Frame& frame) const {
 }
 
 void Rig::MoveTongue(Frame& frame) const {
-  constexpr float kRaise = 11;  // millimetres of the tip
   const Pose& pose = frame.pose;
   const TonguePath path(pose, data_.upper_teeth, data_.lower_teeth, data_.lips.seam,
                         frame.position);
@@ -269,7 +268,7 @@ void Rig::MoveTongue(Frame& frame) const {
     const float tip = data_.weights[i].free;
     glm::vec3 p = rest;
     p.z += path.Part() * pose.tongue_out_mm * tip;
-    p.y += pose.tongue_raise * kRaise * tip * tip;
+    p.y += pose.tongue_raise * step::kTongueRaise * tip * tip;
     frame.position[i] = path.Fit(TurnJaw(p, pose, 1 - 0.25f * pose.tongue_raise * tip));
     frame.normal[i] = glm::normalize(TurnJaw(rest + rest_normal, pose, 1) - TurnJaw(rest, pose, 1));
   }

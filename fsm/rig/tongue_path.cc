@@ -5,19 +5,10 @@
 #include <glm/common.hpp>
 
 #include "fsm/base/spline.h"
+#include "fsm/rig/step_constants.h"
 
 namespace fsm {
-namespace {
-
-constexpr float kNoRoom = 2.5f, kRoom = 5.5f;  // between teeth and lips, millimetres
-constexpr float kSkin = 0.6f;                  // kept between the tongue and what it touches
-constexpr float kEdges = 0.9f;                 // teeth are not all of one height
-constexpr float kBehindTeeth = 3.5f;           // of the arch, which is their outer face
-constexpr float kOut = 1.5f;                   // put out this far it goes over the teeth
-constexpr float kWidest = 17;                  // half the tongue's width at rest
-constexpr float kInArch = 11;                  // and what goes through between the canines
-
-}  // namespace
+using namespace step;
 
 TonguePath::TonguePath(const Pose& pose, const ToothArch& upper, const ToothArch& lower,
                        std::span<const std::pair<std::uint32_t, std::uint32_t>> seam,
@@ -33,11 +24,11 @@ TonguePath::TonguePath(const Pose& pose, const ToothArch& upper, const ToothArch
     const float gap = skin[above].y - skin[below].y;
     lips = std::max(
         lips, std::min(gap, std::min(skin[above].y - teeth_low_, teeth_high_ - skin[below].y)));
-    if (gap <= kNoRoom) continue;
+    if (gap <= kTongueNoRoom) continue;
     open_from_ = std::min(open_from_, skin[above].x);
     open_to_ = std::max(open_to_, skin[above].x);
   }
-  part_ = SmoothStep(kNoRoom, kRoom, std::min(lips, teeth_high_ - teeth_low_));
+  part_ = SmoothStep(kTongueNoRoom, kTongueRoom, std::min(lips, teeth_high_ - teeth_low_));
 }
 
 TonguePath::Gap TonguePath::LipsAt(float x) const {
@@ -55,10 +46,10 @@ glm::vec3 TonguePath::Fit(glm::vec3 p) const {
   const float jaw_x = p.x - pose_.jaw.sway_mm;
   const float lower_z = TurnJaw({jaw_x, lower_.edge_y, lower_.At(jaw_x)}, pose_, 1).z;
   const glm::vec3 within(p.x, p.y, std::min(p.z, std::min(lower_z, upper_.At(p.x)) - kBehindTeeth));
-  const float out = SmoothStep(0, kOut, part_ * pose_.tongue_out_mm);
+  const float out = SmoothStep(0, kTongueOut, part_ * pose_.tongue_out_mm);
   if (out <= 0) return within;
   const float middle_x = 0.5f * (open_from_ + open_to_);
-  const float width = std::min(kInArch, 0.35f * (open_to_ - open_from_)) / kWidest;
+  const float width = std::min(kTongueInArch, 0.35f * (open_to_ - open_from_)) / kTongueWidest;
   const float squeezed = SmoothStep(front_z_ - 16, front_z_ - 5, p.z);
   p.x += squeezed * (middle_x + std::min(1.0f, width) * p.x - p.x);
   const Gap lips = LipsAt(p.x);
@@ -69,11 +60,11 @@ glm::vec3 TonguePath::Fit(glm::vec3 p) const {
   };
   const auto above = [&](float z, float y) { p.y += held(z) * std::max(0.0f, y - p.y); };
   const auto below = [&](float z, float y) { p.y += held(z) * std::min(0.0f, y - p.y); };
-  above(lower_z, teeth_low_ + kEdges);
-  below(upper_.At(p.x), teeth_high_ - kEdges);
+  above(lower_z, teeth_low_ + kTongueEdges);
+  below(upper_.At(p.x), teeth_high_ - kTongueEdges);
   const float middle_y = 0.5f * (lips.low.y + lips.high.y);
-  above(lips.low.z, std::min(lips.low.y + kSkin, middle_y));
-  below(lips.high.z, std::max(lips.high.y - kSkin, middle_y));
+  above(lips.low.z, std::min(lips.low.y + kTongueSkin, middle_y));
+  below(lips.high.z, std::max(lips.high.y - kTongueSkin, middle_y));
   return glm::mix(within, p, out);
 }
 

@@ -1,5 +1,6 @@
 // The steps of fsm/rig/rig.cc on a graphics card, one program for each: gpu_rig.cc puts the version,
-// the places of the members of a pose (JAW ...) and which step it is before this. An invocation
+// the places of the members of a pose (JAW ...), the numbers of step_constants.h, kCorneaRadius,
+// kPivot (kNeckPivot) and which step it is before this. An invocation
 // moves one vertex of one face. `items` holds what a step knows of its vertices, as gpu_rig.cc lays
 // it out; every list of several things that act on one vertex stands behind the records of fixed
 // size, and a record says from where to where.
@@ -92,15 +93,12 @@ void Take(uint item) {
 #endif
 
 #ifdef STEP_lids  // record: as LidRig::Vertex; LIDS has ten numbers of each side
-const float kRadius = 13.35;    // as in lid_rig.cc
-const float kThickness = 0.35;
-const float kCorneaRadius = 8.0;
 float TurnOf(uint r, uint side) {
   float opening = Number(r + 7u);
   float lower_mm = Pose(side + 6u);
-  float upper = Number(r + 4u) + opening * Pose(side + 3u) / kRadius;
+  float upper = Number(r + 4u) + opening * Pose(side + 3u) / kLidRadius;
   float raised = lower_mm * (lower_mm > 0.0 ? sqrt(opening) : opening);
-  float lower = Number(r + 5u) + (opening * Pose(side + 4u) + raised) / kRadius;
+  float lower = Number(r + 5u) + (opening * Pose(side + 4u) + raised) / kLidRadius;
   if (upper < lower) upper = lower = 0.5 * (upper + lower);
   upper += Pose(side + 5u) * (Number(r + 6u) - upper);
   lower += Pose(side + 5u) * (Number(r + 6u) - lower);
@@ -124,7 +122,7 @@ void Take(uint item) {
     vec3 middle = Pose3(side + 7u);
     vec3 off = p - middle;
     float distance = length(off);
-    float least = size * (kCorneaRadius + kThickness);
+    float least = size * (kCorneaRadius + kLidThickness);
     if (distance < least && distance > 1.0) p = middle + off * (least / distance);
   }
   SetPosition(items[r], p);
@@ -151,7 +149,6 @@ void Take(uint item) {
 
 #ifdef STEP_jaw_by_chin  // the chin: vertex, its place at rest from the hinge
 void Take(uint item) {
-  const float kMostOpen = 0.5;
   vec3 before = Place(1u);
   vec3 after = Position(items[0]) - vec3(0.0, Pose(HINGE), Pose(HINGE + 1u));
   float angle = clamp(atan(-after.y, after.z) - atan(-before.y, before.z), 0.0, kMostOpen);
@@ -166,7 +163,7 @@ void Take(uint item) {
 #ifdef STEP_teeth  // record: vertex, gaps from the upper and the lower arch
 float Beside(uint arch, float y) {
   float down = Pose(arch + 4u) > Pose(arch + 3u) ? 1.0 : -1.0;
-  return SmoothStep(-2.2, 0.2, down * (y - Pose(arch + 3u)));
+  return SmoothStep(kPastTeeth, kBesideTeeth, down * (y - Pose(arch + 3u)));
 }
 void Take(uint item) {
   uint vertex = items[3u * item];
@@ -213,9 +210,6 @@ void Take(uint item) { SetPosition(item, Position(item) + Place(3u * item)); }
 
 #ifdef STEP_tongue  // record: vertex, place and normal at rest, how near to the tip; then the seam
 // As in tongue_path.cc and Rig::MoveTongue.
-const float kRaise = 11.0;
-const float kNoRoom = 2.5, kRoom = 5.5, kSkin = 0.6, kEdges = 0.9, kBehindTeeth = 3.5, kOut = 1.5;
-const float kWidest = 17.0, kInArch = 11.0;
 uint Seam() { return 8u * item_count; }
 vec3 High(uint k) { return Position(items[Seam() + 1u + 2u * k]); }
 vec3 Low(uint k) { return Position(items[Seam() + 2u + 2u * k]); }
@@ -248,32 +242,32 @@ void Take(uint item) {
     float low = Low(k).y;
     float gap = high.y - low;
     room = max(room, min(gap, min(high.y - teeth_low, teeth_high - low)));
-    if (gap <= kNoRoom) continue;
+    if (gap <= kTongueNoRoom) continue;
     open_from = min(open_from, high.x);
     open_to = max(open_to, high.x);
   }
-  float part = SmoothStep(kNoRoom, kRoom, min(room, teeth_high - teeth_low));
-  vec3 turned = rest + vec3(0.0, raise * kRaise * tip * tip, part * Pose(TONGUE + 1u) * tip);
+  float part = SmoothStep(kTongueNoRoom, kTongueRoom, min(room, teeth_high - teeth_low));
+  vec3 turned = rest + vec3(0.0, raise * kTongueRaise * tip * tip, part * Pose(TONGUE + 1u) * tip);
   vec3 p = TurnJaw(turned, 1.0 - 0.25 * raise * tip);
   SetNormal(items[r], normalize(TurnJaw(rest + Place(r + 4u), 1.0) - TurnJaw(rest, 1.0)));
   if (count > 0u) {
     float jaw_x = p.x - Pose(JAW + 2u);
     float lower_z = TurnJaw(vec3(jaw_x, Pose(LOWER_ARCH + 3u), ArchAt(LOWER_ARCH, jaw_x)), 1.0).z;
     vec3 within = vec3(p.xy, min(p.z, min(lower_z, ArchAt(UPPER_ARCH, p.x)) - kBehindTeeth));
-    float outside = SmoothStep(0.0, kOut, part * Pose(TONGUE + 1u));
+    float outside = SmoothStep(0.0, kTongueOut, part * Pose(TONGUE + 1u));
     if (outside > 0.0) {
       float middle_x = 0.5 * (open_from + open_to);
-      float width = min(kInArch, 0.35 * (open_to - open_from)) / kWidest;
+      float width = min(kTongueInArch, 0.35 * (open_to - open_from)) / kTongueWidest;
       p.x += SmoothStep(front_z - 16.0, front_z - 5.0, p.z) *
              (middle_x + min(1.0, width) * p.x - p.x);
       vec3 high, low;
       LipsAt(p.x, high, low);
-      p.y += Held(p.z, lower_z) * max(0.0, teeth_low + kEdges - p.y);
+      p.y += Held(p.z, lower_z) * max(0.0, teeth_low + kTongueEdges - p.y);
       float upper_z = ArchAt(UPPER_ARCH, p.x);
-      p.y += Held(p.z, upper_z) * min(0.0, teeth_high - kEdges - p.y);
+      p.y += Held(p.z, upper_z) * min(0.0, teeth_high - kTongueEdges - p.y);
       float middle_y = 0.5 * (low.y + high.y);
-      p.y += Held(p.z, low.z) * max(0.0, min(low.y + kSkin, middle_y) - p.y);
-      p.y += Held(p.z, high.z) * min(0.0, max(high.y - kSkin, middle_y) - p.y);
+      p.y += Held(p.z, low.z) * max(0.0, min(low.y + kTongueSkin, middle_y) - p.y);
+      p.y += Held(p.z, high.z) * min(0.0, max(high.y - kTongueSkin, middle_y) - p.y);
     }
     p = mix(within, p, max(outside, 0.0));
   }
@@ -304,7 +298,6 @@ void Take(uint item) {
 
 #ifdef STEP_neck  // item: a vertex; its weight, whether its normal turns
 void Take(uint item) {
-  const vec3 kPivot = vec3(0.0, -85.0, -28.0);  // kNeckPivot
   mat3 head = PoseMatrix(HEAD);
   vec3 p = Position(item);
   vec3 turned = kPivot + head * (p - kPivot) + vec3(0.0, 0.0, Pose(HEAD + 9u));
