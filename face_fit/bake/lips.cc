@@ -15,8 +15,8 @@ namespace {
 
 float Redness(glm::vec3 c) { return std::log((c.r + 4) / (c.g + 4)); }
 
-/// The texels `which` of the map says, as the mean of those whose redness is `from` to `to` of the
-/// way from the least to the most.
+/// The mean of some texels: those whose redness is `from` to `to` of the way from the least to the
+/// most.
 struct Kind {
   glm::vec3 colour{0};
   float redness = 0, brightness = 0;

@@ -24,6 +24,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostTables = 1000;  // files in a folder of tables
 constexpr std::string_view kNoticesFollow = "notices:\n";
+/// Ours are told by it from what else lies in the folder.
+constexpr const char* kEntry = ".galatea_head";
 
 std::string LineOf(const fs::path& path) {
   std::error_code code;
@@ -93,7 +95,7 @@ std::unique_ptr<Head> HeadCache::HeadOfFile(const std::string& path,
                                             const std::string& tables) const {
   const std::string sources = folder_.empty() ? "" : SourcesOf(path, tables);
   if (sources.empty()) return MakeHeadOfFile(path, tables);
-  const std::string entry = folder_ + "/" + NameOf(sources);
+  const std::string entry = folder_ + "/" + NameOf(sources) + kEntry;
   if (auto kept = Find(entry, sources)) return kept;
   HeadTelling telling;
   auto head = MakeHeadOfFile(path, tables, &telling);
@@ -135,7 +137,8 @@ void HeadCache::Keep(const std::string& entry, const std::string& made_from,
 void HeadCache::DropOldest() const {
   std::vector<std::pair<fs::file_time_type, fs::path>> kept;
   for (const fs::directory_entry& file : fs::directory_iterator(folder_)) {
-    if (file.path().extension() == ".txt") kept.emplace_back(file.last_write_time(), file.path());
+    if (file.path().filename().string().ends_with(std::string(kEntry) + ".txt"))
+      kept.emplace_back(file.last_write_time(), file.path());
   }
   if (kept.size() < kMostHeads) return;
   std::ranges::sort(kept);

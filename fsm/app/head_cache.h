@@ -13,7 +13,8 @@ namespace fsm {
 /// them: of each a .glb (WriteAsset) and a .txt with what it was made from. A head is baked anew
 /// when that has another size or time: its file, its .points, the files it names, the tables, this
 /// program.
-/// Programs may share a folder. Limit: kMostHeads, the oldest go first.
+/// Programs may share a folder; whatever else lies in it is left alone. Limit: kMostHeads, the
+/// oldest go first.
 class HeadCache {
  public:
   static constexpr std::size_t kMostHeads = 32;

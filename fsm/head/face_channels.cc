@@ -105,7 +105,7 @@ std::vector<TeethContact> BakeTeethContacts(const ToothArch& upper, const ToothA
   return contacts;
 }
 
-LipRig BakeLips(const SkinMap& skin, std::span<const SkinWeights> weights) {
+LipRig BakeLips(const MouthSeam& skin, std::span<const SkinWeights> weights) {
   LipRig rig;
   rig.seam = skin.seam;
   for (std::size_t i = 0; i < weights.size(); ++i) {

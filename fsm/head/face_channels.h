@@ -23,6 +23,6 @@ LidRig BakeLids(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eyes,
 std::vector<TeethContact> BakeTeethContacts(const ToothArch& upper, const ToothArch& lower,
                                             std::span<const glm::vec3> rest,
                                             std::span<const SkinWeights> weights);
-LipRig BakeLips(const SkinMap& skin, std::span<const SkinWeights> weights);
+LipRig BakeLips(const MouthSeam& skin, std::span<const SkinWeights> weights);
 
 }  // namespace fsm

@@ -48,7 +48,7 @@ class HeadBaker {
   Cage cage_;
   FineSkin fine_;
   HeadMesh mesh_;
-  SkinMap skin_;
+  MouthSeam skin_;
   std::size_t skin_count_ = 0;   ///< vertices of skin, which come first
   std::size_t figure_end_ = 0;   ///< then those of AddFigure
   std::vector<glm::vec3> base_;  ///< the base head's rest form, for texture coordinates

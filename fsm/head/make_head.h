@@ -11,7 +11,7 @@ namespace fsm {
 
 struct PhotoHead;
 
-/// A face to choose: a row of tables/identities.txt.
+/// A face to choose: a block of tables/identities.txt.
 struct IdentityInfo {
   std::string_view name;
   std::string_view description;  ///< one line

@@ -28,7 +28,7 @@ struct PhotoHead {
   glm::vec3 iris_colour{0.1f}, white_colour{0.6f};  ///< linear RGB
   float iris_size = 1, teeth = 1;       ///< of the table's iris; brightness of the teeth
   bool glasses = false;                 ///< the photo shows some: the skin behind them stays
-  std::optional<glm::vec3> lip_colour;  ///< likewise, where the lips turn inward
+  std::optional<glm::vec3> lip_colour;  ///< linear RGB, where the lips turn inward
   std::optional<std::array<EyePicture, 2>> eye_pictures;  ///< right, left: in the photo
   float saturation = 1;  ///< of what is painted beside the photo: 0 for a grey one
   float lined = 1;  ///< how deep the skin creases with expression, 0..1: less where it is smooth

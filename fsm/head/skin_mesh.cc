@@ -95,13 +95,13 @@ bool HairCovers(glm::vec3 p) {
 
 }  // namespace
 
-SkinMap BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                  const Palette& palette, HeadMesh& mesh) {
+MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+                    const Palette& palette, HeadMesh& mesh) {
   std::vector<SkinKind> kind(skin.position.size(), SkinKind::kSkin);
   for (const FineSkin::Triangle& t : skin.triangles) {
     for (const std::uint32_t v : t.corner) kind[v] = std::max(kind[v], t.kind);
   }
-  SkinMap map;
+  MouthSeam map;
   map.seam.resize(2 * kLastColumn + 1);
   map.mid_column = kLastColumn;
   for (std::uint32_t v = 0; v < skin.position.size(); ++v) {

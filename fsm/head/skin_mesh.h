@@ -11,8 +11,8 @@
 
 namespace fsm {
 
-/// What later parts and the deformer must know about the skin.
-struct SkinMap {
+/// Where the lips part, in vertices of the skin.
+struct MouthSeam {
   /// Seam vertices, upper and lower, of every column of the mouth's slit, from the viewer's left to
   /// right, corners excluded.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;
@@ -22,8 +22,8 @@ struct SkinMap {
 
 /// Adds the subdivided skin to an empty mesh with paint and rig; vertex i of the skin becomes
 /// vertex i of the mesh.
-SkinMap BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                  const Palette& palette, HeadMesh& mesh);
+MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
+                    const Palette& palette, HeadMesh& mesh);
 
 /// The skin's front as seen from the viewer, for what is laid on it.
 class SkinFront {

@@ -36,13 +36,13 @@ struct VisemeTarget {
   bool holds = false;  ///< belongs to a phoneme of 200 ms or more
 };
 
-/// Names of phonemes no table has, in order and once each: the lips close on them.
+/// What a sentence asks of the mouth.
 struct VisemeTargets {
   std::vector<VisemeTarget> demands;  ///< in time, without those of no length
   MouthPose rest;
   double length_ms = 0;
   bool english = false;
-  std::vector<std::string> unknown;
+  std::vector<std::string> unknown;  ///< phonemes no table has, once each: lips close on them
 };
 VisemeTargets MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
                           const LipStyle& style);

@@ -49,7 +49,7 @@ struct FaceState {
   /// How far the neck carries the head forward (+, chin first) or back, in millimetres.
   float head_forward = 0;
   /// How much of what makes the two sides of this head unlike is shown: 0 = both move alike, 1 = as
-  /// the head is (Head::Make).
+  /// the head is (MakeHead).
   float asymmetry = 1;
   /// The whole figure.
   std::array<float, 3> agent_rotation{};

@@ -11,7 +11,7 @@ enum class Bone : std::uint8_t { kSkin, kSkull, kJaw, kTongue, kEyeLeft, kEyeRig
 
 /// How a flesh vertex takes part in the motions; all weights 0..1.
 struct SkinWeights {
-  glm::vec2 domain{};        ///< where on the face: nearly (x, y) at rest, see FaceSurface
+  glm::vec2 domain{};        ///< where on the face: nearly (x, y) at rest
   float above_mouth = 0.5f;  ///< 1 = moves with the upper lip's side, 0 = with the lower's
   float jaw = 0;
   float neck = 1;       ///< part of the head's turn it makes

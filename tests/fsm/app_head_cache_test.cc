@@ -129,14 +129,22 @@ TEST_F(HeadCacheTest, ADamagedOneIsToldAndBakedAnew) {
 }
 
 TEST_F(HeadCacheTest, OnlyTheLastHeadsAreKept) {
+  // What is somebody's own in the folder stays.
+  std::filesystem::create_directories(cache_);
+  for (int i = 0; i < 40; ++i) {
+    const std::string own = cache_ + "/0123456789abcd" + std::to_string(10 + i);
+    std::ofstream(own + ".txt") << "mine";
+    std::ofstream(own + ".glb") << "mine";
+    std::filesystem::last_write_time(own + ".txt", std::filesystem::file_time_type::min());
+  }
   for (std::size_t i = 0; i < HeadCache::kMostHeads + 3; ++i) {
     WriteHead("a.obj", static_cast<int>(1000 + i));
     std::filesystem::last_write_time(folder_ / "heads/a.obj",
                                      std::filesystem::file_time_type(std::chrono::seconds(i)));
     Make();
   }
-  EXPECT_EQ(Kept(".glb"), HeadCache::kMostHeads);
-  EXPECT_EQ(Kept(".txt"), HeadCache::kMostHeads);
+  EXPECT_EQ(Kept(".glb"), HeadCache::kMostHeads + 40);
+  EXPECT_EQ(Kept(".txt"), HeadCache::kMostHeads + 40);
 }
 
 TEST_F(HeadCacheTest, WhereNothingCanBeKeptTheHeadIsThereAllTheSame) {
