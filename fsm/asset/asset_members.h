@@ -19,7 +19,7 @@ void Members(V& v, Like<HeadTopology::Part> auto& part) {
   v("material", part.material);
   v("first_index", part.first_index);
   v("index_count", part.index_count);
-  v("finish", part.finish);
+  v("pbr", part.pbr);
   v("two_sided", part.two_sided);
 }
 
@@ -99,9 +99,9 @@ void Members(V& v, Like<HeadTopology> auto& topology) {
   v("skin_hairs", topology.skin_hairs);
   v("strands", topology.strands);
   v("photo", topology.photo);
-  v("finishes", topology.finishes);
-  v("relief", topology.relief);
-  v("lights", topology.lights);
+  v("pbr_materials", topology.pbr_materials);
+  v("normal_map", topology.normal_map);
+  v("emissive_map", topology.emissive_map);
   v("texcoord", topology.texcoord);
   v("texture_weight", topology.texture_weight);
   v("shut_lids", topology.shut_lids);

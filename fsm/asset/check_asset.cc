@@ -71,9 +71,9 @@ class Checker {
           part.index_count > topology.indices.size() - part.first_index) {
         throw Fault(place + ": its triangles are not among the indices");
       }
-      if (part.finish < -1 || part.finish >= static_cast<int>(topology.finishes.size())) {
-        throw Fault(place + ": finish " + std::to_string(part.finish) + " of " +
-                    std::to_string(topology.finishes.size()));
+      if (part.pbr < -1 || part.pbr >= static_cast<int>(topology.pbr_materials.size())) {
+        throw Fault(place + ": PBR material " + std::to_string(part.pbr) + " of " +
+                    std::to_string(topology.pbr_materials.size()));
       }
     }
     PerVertex(topology.albedo, "topology.albedo", false);

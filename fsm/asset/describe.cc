@@ -80,15 +80,15 @@ class Description {
   void Pictures() {
     const std::pair<const char*, const std::shared_ptr<const Image>&> pictures[] = {
         {"photo, sRGB", topology_.photo},
-        {"relief, linear", topology_.relief},
-        {"lights, sRGB", topology_.lights}};
+        {"normal_map, linear", topology_.normal_map},
+        {"emissive_map, sRGB", topology_.emissive_map}};
     for (const auto& [name, image] : pictures) {
       if (!image) continue;
       Line("texture", std::string(name) + ", " + std::to_string(image->width) + " x " +
                           std::to_string(image->height));
     }
-    if (!topology_.finishes.empty())
-      Line("materials", std::to_string(topology_.finishes.size()) + " of its own");
+    if (!topology_.pbr_materials.empty())
+      Line("materials", std::to_string(topology_.pbr_materials.size()) + " of its own");
   }
 
   void Bones() {

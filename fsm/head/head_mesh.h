@@ -24,7 +24,7 @@ struct HeadMesh {
   struct Batch {
     Material material;
     std::vector<std::uint32_t> indices;
-    int finish = -1;  ///< see HeadTopology::Part, two_sided too
+    int pbr = -1;  ///< see HeadTopology::Part, two_sided too
     bool two_sided = false;
   };
   std::vector<Batch> batches;

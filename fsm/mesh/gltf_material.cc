@@ -30,32 +30,32 @@ GltfMaterial::Texture TextureOf(const json& of, const char* key, const char* str
 
 /// Between which cosines a drawn figure goes from shade to light: below -1 + toony - shift it is
 /// all shade, above 1 - toony - shift all light (VRMC_materials_mtoon 1.0, "Lighting").
-void SetEdges(double toony, double shift, PbrMaterial& finish) {
-  finish.shade_to = static_cast<float>(-1 + toony - shift);
-  finish.light_from = static_cast<float>(1 - toony - shift);
+void SetEdges(double toony, double shift, PbrMaterial& pbr) {
+  pbr.shade_to = static_cast<float>(-1 + toony - shift);
+  pbr.light_from = static_cast<float>(1 - toony - shift);
 }
 
 void ReadToon(const json& toon, GltfMaterial& out) {
-  PbrMaterial& finish = out.finish.emplace();
-  finish.kind = PbrMaterial::Kind::kToon;
-  finish.shade = ColourOf(PartOf(toon, "shadeColorFactor"), glm::vec3(1));
+  PbrMaterial& pbr = out.pbr.emplace();
+  pbr.kind = PbrMaterial::Kind::kToon;
+  pbr.shade = ColourOf(PartOf(toon, "shadeColorFactor"), glm::vec3(1));
   SetEdges(std::clamp(RealOf(toon, "shadingToonyFactor", 0.9), 0.0, 1.0),
-           std::clamp(RealOf(toon, "shadingShiftFactor", 0), -1.0, 1.0), finish);
+           std::clamp(RealOf(toon, "shadingShiftFactor", 0), -1.0, 1.0), pbr);
   out.glow = TextureOf(toon, "shadeMultiplyTexture");
 }
 
 /// Properties of the shader of Unity's MToon as VRM 0.x has them. Its numbers lie between the shade
 /// threshold and that moved towards 1 by what is not toony; colours are those of the screen.
 void ReadOldToon(const json& properties, GltfMaterial& out) {
-  PbrMaterial& finish = out.finish.emplace();
-  finish.kind = PbrMaterial::Kind::kToon;
+  PbrMaterial& pbr = out.pbr.emplace();
+  pbr.kind = PbrMaterial::Kind::kToon;
   const json& numbers = PartOf(properties, "floatProperties");
   const float shift = static_cast<float>(std::clamp(RealOf(numbers, "_ShadeShift", 0), -1.0, 1.0));
-  finish.shade_to = shift;
-  finish.light_from = shift + (1 - shift) * (1 - Share(numbers, "_ShadeToony", 0.9));
+  pbr.shade_to = shift;
+  pbr.light_from = shift + (1 - shift) * (1 - Share(numbers, "_ShadeToony", 0.9));
   const glm::vec3 shown =
       ColourOf(PartOf(PartOf(properties, "vectorProperties"), "_ShadeColor"), glm::vec3(1));
-  for (int k = 0; k < 3; ++k) finish.shade[k] = std::pow(shown[k], 2.2F);
+  for (int k = 0; k < 3; ++k) pbr.shade[k] = std::pow(shown[k], 2.2F);
   out.glow.index = WholeOf(PartOf(properties, "textureProperties"), "_ShadeTexture");
 }
 
@@ -84,21 +84,21 @@ GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
   } else if (extensions.contains("KHR_materials_unlit") || shader.starts_with("VRM/Unlit")) {
     return out;
   } else {
-    PbrMaterial& finish = out.finish.emplace();
+    PbrMaterial& pbr = out.pbr.emplace();
     const json& metal = PartOf(given, "pbrMetallicRoughness");
-    finish.metallic = Share(metal, "metallicFactor", 1);
-    finish.roughness = Share(metal, "roughnessFactor", 1);
+    pbr.metallic = Share(metal, "metallicFactor", 1);
+    pbr.roughness = Share(metal, "roughnessFactor", 1);
     out.surface = TextureOf(metal, "metallicRoughnessTexture");
     out.open = TextureOf(given, "occlusionTexture", "strength");
     out.glow = TextureOf(given, "emissiveTexture");
   }
   out.normal = TextureOf(given, "normalTexture", "scale");
-  out.finish->glow = ColourOf(PartOf(given, "emissiveFactor"), glm::vec3(0));
+  out.pbr->glow = ColourOf(PartOf(given, "emissiveFactor"), glm::vec3(0));
   const double strength =
       RealOf(PartOf(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
-  out.finish->glow *= static_cast<float>(std::clamp(strength, 0.0, 16.0));
+  out.pbr->glow *= static_cast<float>(std::clamp(strength, 0.0, 16.0));
   const std::string mode = TextOf(given, "alphaMode");
-  out.finish->cut_out = mode == "MASK" || mode == "BLEND";
+  out.pbr->cut_out = mode == "MASK" || mode == "BLEND";
   return out;
 }
 

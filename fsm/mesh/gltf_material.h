@@ -17,7 +17,7 @@ struct GltfMaterial {
     const nlohmann::json* where = nullptr;  ///< the reference to it, valid as long as the document
   };
   std::optional<PbrMaterial>
-      finish;  ///< nothing: shown as it is (KHR_materials_unlit, or no material)
+      pbr;  ///< nothing: shown as it is (KHR_materials_unlit, or no material)
   Texture normal, surface, open, glow;
 };
 

@@ -112,8 +112,8 @@ glm::vec2 GltfUv::operator()(glm::vec2 uv) const {
 GltfUv GltfPaint::Place(std::int64_t material) const {
   const json& base = TextureOf(document_.At("materials", material));
   if (base.contains("index")) return UvOf(base);
-  const GltfMaterial finish = ReadMaterial(document_, material);
-  for (const auto* one : {&finish.normal, &finish.surface, &finish.open, &finish.glow}) {
+  const GltfMaterial given = ReadMaterial(document_, material);
+  for (const auto* one : {&given.normal, &given.surface, &given.open, &given.glow}) {
     if (one->index >= 0 && one->where) return UvOf(*one->where);
   }
   return {};
@@ -139,16 +139,16 @@ void GltfPaint::Dress(std::int64_t index, HeadFile::Part& part) {
   const std::string mode = TextOf(material, "alphaMode");
   part.cut_out = mode == "MASK" || mode == "BLEND";
   part.two_sided = material.contains("doubleSided") && material["doubleSided"] == json(true);
-  const GltfMaterial finish = ReadMaterial(document_, index);
-  if (finish.finish) {
+  const GltfMaterial given = ReadMaterial(document_, index);
+  if (given.pbr) {
     const auto [known, fresh] =
-        finish_of_.try_emplace(index, static_cast<int>(head_.finishes.size()));
-    if (fresh) head_.finishes.push_back(*finish.finish);
-    part.finish = known->second;
+        pbr_index_.try_emplace(index, static_cast<int>(head_.pbr_materials.size()));
+    if (fresh) head_.pbr_materials.push_back(*given.pbr);
+    part.pbr = known->second;
   }
   const std::int64_t texture = WholeOf(TextureOf(material), "index");
-  const bool detailed = finish.normal.index >= 0 || finish.surface.index >= 0 ||
-                        finish.open.index >= 0 || finish.glow.index >= 0;
+  const bool detailed = given.normal.index >= 0 || given.surface.index >= 0 ||
+                        given.open.index >= 0 || given.glow.index >= 0;
   if (texture < 0 && !detailed) return;
   const double cut_off = std::clamp(RealOf(material, "alphaCutoff", 0.5), 0.0, 1.0);
   const int cut = mode == "MASK"    ? static_cast<int>(std::lround(255 * cut_off))
@@ -164,7 +164,7 @@ void GltfPaint::Dress(std::int64_t index, HeadFile::Part& part) {
     return;
   }
   part.picture =
-      Picture(key, factor, detailed ? DetailOf(finish, Place(index)) : HeadFile::Detail{});
+      Picture(key, factor, detailed ? DetailOf(given, Place(index)) : HeadFile::Detail{});
 }
 
 std::optional<Image> GltfPaint::Decode(std::int64_t image) {
@@ -183,7 +183,7 @@ std::optional<Image> GltfPaint::Decode(std::int64_t image) {
   return picture;
 }
 
-HeadFile::Detail GltfPaint::DetailOf(const GltfMaterial& finish, const GltfUv& uv) {
+HeadFile::Detail GltfPaint::DetailOf(const GltfMaterial& given, const GltfUv& uv) {
   HeadFile::Detail detail;
   if (++detailed_ > kMaxDetailed) {
     if (detailed_ == kMaxDetailed + 1) {
@@ -201,10 +201,10 @@ HeadFile::Detail GltfPaint::DetailOf(const GltfMaterial& finish, const GltfUv& u
     }
     return Decode(ImageOf(texture.index));
   };
-  auto normal = read(finish.normal), surface = read(finish.surface);
+  auto normal = read(given.normal), surface = read(given.surface);
   if (Pair(normal, surface, {128, 128, 255, 255}, {255, 255, 255, 255})) {
     const auto bent = [&](std::uint8_t byte) {
-      const float off = finish.normal.strength * (static_cast<float>(byte) - 128);
+      const float off = given.normal.strength * (static_cast<float>(byte) - 128);
       return static_cast<std::uint8_t>(std::clamp(128 + off, 1.0f, 255.0f));
     };
     for (std::size_t i = 0; i < normal->rgba.size(); i += 4) {
@@ -214,15 +214,15 @@ HeadFile::Detail GltfPaint::DetailOf(const GltfMaterial& finish, const GltfUv& u
       n[2] = surface->rgba[i + 1];
       n[3] = surface->rgba[i + 2];
     }
-    detail.relief = std::move(*normal);
+    detail.normal_map = std::move(*normal);
   }
-  auto glow = read(finish.glow), open = read(finish.open);
+  auto glow = read(given.glow), open = read(given.open);
   if (Pair(glow, open, {255, 255, 255, 255}, {255, 255, 255, 255})) {
     for (std::size_t i = 0; i < glow->rgba.size(); i += 4) {
-      const float shut = finish.open.strength * static_cast<float>(255 - open->rgba[i]);
+      const float shut = given.open.strength * static_cast<float>(255 - open->rgba[i]);
       glow->rgba[i + 3] = static_cast<std::uint8_t>(std::clamp(255 - shut, 0.0f, 255.0f));
     }
-    detail.lights = std::move(*glow);
+    detail.emissive_map = std::move(*glow);
   }
   return detail;
 }
@@ -235,7 +235,8 @@ int GltfPaint::Picture(const Key& key, glm::vec4 factor, HeadFile::Detail detail
   if (const std::int64_t image = std::get<0>(key); image >= 0) {
     picture = Decode(image);
   } else {
-    const Image& larger = detail.relief.width > detail.lights.width ? detail.relief : detail.lights;
+    const Image& larger = detail.normal_map.width > detail.emissive_map.width ? detail.normal_map
+                                                                              : detail.emissive_map;
     if (larger.width > 0) {
       picture =
           Image{larger.width, larger.height, std::vector<std::uint8_t>(larger.rgba.size(), 255)};
@@ -245,7 +246,7 @@ int GltfPaint::Picture(const Key& key, glm::vec4 factor, HeadFile::Detail detail
   Paint(*picture, factor, std::get<2>(key));
   known = static_cast<int>(head_.pictures.size());
   head_.pictures.push_back(std::move(*picture));
-  if (!detail.relief.rgba.empty() || !detail.lights.rgba.empty()) {
+  if (!detail.normal_map.rgba.empty() || !detail.emissive_map.rgba.empty()) {
     head_.details.resize(head_.pictures.size());
     head_.details.back() = std::move(detail);
   }

@@ -42,12 +42,12 @@ class GltfPaint {
   std::int64_t ImageOf(std::int64_t texture);
   std::optional<Image> Decode(std::int64_t image);
   /// The pictures of light, where they lie on the mesh as `uv` says.
-  HeadFile::Detail DetailOf(const GltfMaterial& finish, const GltfUv& uv);
+  HeadFile::Detail DetailOf(const GltfMaterial& given, const GltfUv& uv);
 
   const GltfDocument& document_;
   HeadFile& head_;
   std::map<Key, int> picture_of_;
-  std::map<std::int64_t, int> finish_of_;  // of materials
+  std::map<std::int64_t, int> pbr_index_;  // of materials
   std::size_t detailed_ = 0;
 };
 

@@ -27,11 +27,11 @@ struct HeadFile {
     int picture = -1;                      ///< index into pictures
     bool cut_out = false;                  ///< what is transparent in the picture is left out
     bool two_sided = false;
-    int finish = -1;  ///< index into finishes; -1: shown as it is
+    int pbr = -1;  ///< index into pbr_materials; -1: shown as it is
   };
-  /// How the light on a picture differs from place to place: see HeadTopology::relief.
+  /// How the light on a picture differs from place to place: see HeadTopology::normal_map.
   struct Detail {
-    Image relief, lights;  ///< either may be empty
+    Image normal_map, emissive_map;  ///< either may be empty
   };
   /// A shape of its own: what it is called there, and by how much it moves which vertices.
   struct Shape {
@@ -49,7 +49,7 @@ struct HeadFile {
   std::vector<Part> parts;
   std::vector<Image> pictures;
   std::vector<Detail> details;  ///< of the first pictures
-  std::vector<PbrMaterial> finishes;
+  std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
   std::vector<std::int8_t> eye;  ///< 0 none, 1 the agent's right, 2 the left; or none at all
   /// What those turn about, right and left, where the file says it.

@@ -98,13 +98,13 @@ class HeadBuilder {
   };
 
   void LayDetails() {
-    std::vector<Image> reliefs, lights;
+    std::vector<Image> normal_maps, emissive_map;
     for (const auto& detail : file_.details) {
-      reliefs.push_back(detail.relief);
-      lights.push_back(detail.lights);
+      normal_maps.push_back(detail.normal_map);
+      emissive_map.push_back(detail.emissive_map);
     }
-    model_.relief = sheet_.MakeBeside(std::move(reliefs), {128, 128, 255, 255});
-    model_.lights = sheet_.MakeBeside(std::move(lights), {255, 255, 255, 255});
+    model_.normal_map = sheet_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
+    model_.emissive_map = sheet_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
   }
 
   static float NeckWeight(glm::vec3 p) { return SmoothStep(-168, -96, p.y); }
@@ -203,8 +203,8 @@ class HeadBuilder {
       model_.texcoord[v] = sheet_.place(static_cast<std::size_t>(part.picture)).At(within);
       model_.texture_weight[v] = 1;
     }
-    const int finish = MaterialOf(kind, part, pictured);
-    if (finish >= 0) {
+    const int pbr = MaterialOf(kind, part, pictured);
+    if (pbr >= 0) {
       for (const std::uint32_t v : part.indices) {
         // On a picture only the tint is left to say.
         const glm::vec3 tint = file_.tint.empty() ? glm::vec3(1) : file_.tint[v];
@@ -212,7 +212,7 @@ class HeadBuilder {
       }
     }
     const Material material = MaterialOf(kind, pictured, part.cut_out);
-    auto& indices = model_.BatchOf(material, finish, part.two_sided).indices;
+    auto& indices = model_.BatchOf(material, pbr, part.two_sided).indices;
     indices.insert(indices.end(), part.indices.begin(),
                    part.indices.begin() + static_cast<std::ptrdiff_t>(part.indices.size() / 3 * 3));
   }
@@ -220,13 +220,13 @@ class HeadBuilder {
   /// The number in the model of how the part takes light. Without pictures skin and mouth are as
   /// ours, unless they are drawn in two colours.
   int MaterialOf(Kind kind, const HeadFile::Part& part, bool pictured) {
-    if (part.finish < 0) return -1;
-    const PbrMaterial& finish = file_.finishes[static_cast<std::size_t>(part.finish)];
+    if (part.pbr < 0) return -1;
+    const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
     const bool own = kind == Kind::kHair || kind == Kind::kOther || model_.photo != nullptr;
-    if (!pictured && !own && finish.kind == PbrMaterial::Kind::kLit) return -1;
+    if (!pictured && !own && pbr.kind == PbrMaterial::Kind::kLit) return -1;
     const auto [known, fresh] =
-        finish_.try_emplace(part.finish, static_cast<int>(model_.finishes.size()));
-    if (fresh) model_.finishes.push_back(finish);
+        pbr_index_.try_emplace(part.pbr, static_cast<int>(model_.pbr_materials.size()));
+    if (fresh) model_.pbr_materials.push_back(pbr);
     return known->second;
   }
 
@@ -301,7 +301,7 @@ class HeadBuilder {
   std::vector<glm::vec3> at_;
   std::vector<std::uint8_t> eye_;  // 1 the agent's right, 2 the left
   TextureAtlas sheet_;
-  std::map<int, int> finish_;  // of the file's the model's
+  std::map<int, int> pbr_index_;  // of the file's the model's
   MeshModel model_;
   bool balls_ = false;
 };

@@ -18,7 +18,7 @@ HeadTopology TopologyOf(const MeshModel& model) {
   HeadTopology topology;
   for (const auto& batch : model.batches) {
     topology.parts.push_back({batch.material, static_cast<std::uint32_t>(topology.indices.size()),
-                              static_cast<std::uint32_t>(batch.indices.size()), batch.finish,
+                              static_cast<std::uint32_t>(batch.indices.size()), batch.pbr,
                               batch.two_sided});
     topology.indices.insert(topology.indices.end(), batch.indices.begin(), batch.indices.end());
   }
@@ -29,9 +29,9 @@ HeadTopology TopologyOf(const MeshModel& model) {
   topology.photo = model.photo;
   topology.texcoord = model.texcoord;
   topology.texture_weight = model.texture_weight;
-  topology.finishes = model.finishes;
-  topology.relief = model.relief;
-  topology.lights = model.lights;
+  topology.pbr_materials = model.pbr_materials;
+  topology.normal_map = model.normal_map;
+  topology.emissive_map = model.emissive_map;
   topology.eyes = model.eyes;
   return topology;
 }
@@ -91,7 +91,7 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
     if (rig.bone[i] == Bone::kTongue) rig.bone[i] = Bone::kJaw;
   }
   rig.soft_triangles = topology.indices;
-  if (!topology.finishes.empty()) rig.normal_twin = NormalTwins(rig.rest, rig.rest_normal);
+  if (!topology.pbr_materials.empty()) rig.normal_twin = NormalTwins(rig.rest, rig.rest_normal);
   rig.jaw_hinge = model.hinge;
   for (std::size_t side = 0; side < 2; ++side) {
     rig.ball_centre[side] = model.eyes[side].centre;

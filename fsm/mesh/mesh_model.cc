@@ -25,13 +25,13 @@ void MeshModel::Triangle(Material material, std::uint32_t a, std::uint32_t b, st
   indices.insert(indices.end(), {a, b, c});
 }
 
-HeadMesh::Batch& MeshModel::BatchOf(Material material, int finish, bool two_sided) {
+HeadMesh::Batch& MeshModel::BatchOf(Material material, int pbr, bool two_sided) {
   const auto same = [&](const HeadMesh::Batch& batch) {
-    return batch.material == material && batch.finish == finish && batch.two_sided == two_sided;
+    return batch.material == material && batch.pbr == pbr && batch.two_sided == two_sided;
   };
   const auto found = std::ranges::find_if(batches, same);
   if (found != batches.end()) return *found;
-  return batches.emplace_back(HeadMesh::Batch{material, {}, finish, two_sided});
+  return batches.emplace_back(HeadMesh::Batch{material, {}, pbr, two_sided});
 }
 
 namespace {

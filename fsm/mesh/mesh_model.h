@@ -29,8 +29,8 @@ struct MeshModel {
   std::vector<glm::vec3> albedo;    ///< linear RGB
   std::vector<glm::vec2> texcoord;  ///< see HeadTopology, texture_weight too
   std::vector<float> texture_weight;
-  std::shared_ptr<const Image> photo, relief, lights;
-  std::vector<PbrMaterial> finishes;
+  std::shared_ptr<const Image> photo, normal_map, emissive_map;
+  std::vector<PbrMaterial> pbr_materials;
   std::vector<HeadMesh::Batch> batches;
   std::array<EyePlace, 2> eyes{};  ///< right, left; meaningful where has_eyes
   bool has_eyes = false;
@@ -52,7 +52,7 @@ struct MeshModel {
                     float turn = 1);
   void Triangle(Material material, std::uint32_t a, std::uint32_t b, std::uint32_t c);
   /// The triangles of that material which take light so.
-  HeadMesh::Batch& BatchOf(Material material, int finish, bool two_sided);
+  HeadMesh::Batch& BatchOf(Material material, int pbr, bool two_sided);
   /// Every triangle of flesh, three corners each.
   std::vector<std::uint32_t> SkinTriangles() const;
   std::vector<std::uint32_t> EyeTriangles() const;  ///< those of the eyeballs

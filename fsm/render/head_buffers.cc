@@ -194,9 +194,9 @@ void HeadBuffers::UploadTopology(const Head& head) {
 
 void HeadBuffers::TakeOver(const HeadTopology& topology) {
   photo_ = topology.photo;
-  relief_ = topology.relief;
-  lights_ = topology.lights;
-  finishes_ = topology.finishes;
+  normal_map_ = topology.normal_map;
+  emissive_map_ = topology.emissive_map;
+  pbr_materials_ = topology.pbr_materials;
   saturation_ = topology.saturation;
   photo_light_ = topology.photo_light;
   eye_pictures_ = topology.eye_pictures;
@@ -279,7 +279,7 @@ void HeadBuffers::Order(const HeadTopology& topology, const HeadVertices& rest,
       continue;
     }
     if (!blends_ || (part.material != Material::kSkin && !of_sheet)) {
-      const bool worn = photo_ && part.finish < 0 &&
+      const bool worn = photo_ && part.pbr < 0 &&
                         (part.material == Material::kSkin || part.material == Material::kLip);
       worn ? add_worn(part, corners) : add(part, corners);
       continue;

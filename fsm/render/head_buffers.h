@@ -60,10 +60,10 @@ class HeadBuffers {
   static bool Blends(const HeadTopology& topology) {
     return topology.photo && !topology.opacity.empty();
   }
-  /// HeadTopology::relief, lights and finishes.
-  const Image* relief() const { return relief_.get(); }
-  const Image* lights() const { return lights_.get(); }
-  const std::vector<PbrMaterial>& finishes() const { return finishes_; }
+  /// HeadTopology::normal_map, emissive_map and pbr_materials.
+  const Image* normal_map() const { return normal_map_.get(); }
+  const Image* emissive_map() const { return emissive_map_.get(); }
+  const std::vector<PbrMaterial>& pbr_materials() const { return pbr_materials_; }
   /// Where the photo shows eyes: HeadTopology::eye_pictures.
   const std::optional<std::array<EyePicture, 2>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
@@ -101,8 +101,8 @@ class HeadBuffers {
   EyePlace eye_place_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
-  std::shared_ptr<const Image> photo_, relief_, lights_;
-  std::vector<PbrMaterial> finishes_;
+  std::shared_ptr<const Image> photo_, normal_map_, emissive_map_;
+  std::vector<PbrMaterial> pbr_materials_;
   std::optional<std::array<EyePicture, 2>> eye_pictures_;
   std::array<EyeFrame, 2> resting_eyes_;
   float saturation_ = 1;

@@ -48,9 +48,9 @@ HeadTextures::HeadTextures(const GlFunctions& gl, const HeadBuffers& head)
                 GL_LINEAR);
   };
   if (has_photo_) wear(kPhoto, *head.photo());
-  if (head.finishes().empty()) return;
-  wear(kRelief, head.relief() ? *head.relief() : Image{1, 1, {128, 128, 255, 255}});
-  wear(kLights, head.lights() ? *head.lights() : Image{1, 1, {255, 255, 255, 255}});
+  if (head.pbr_materials().empty()) return;
+  wear(kNormal, head.normal_map() ? *head.normal_map() : Image{1, 1, {128, 128, 255, 255}});
+  wear(kEmissive, head.emissive_map() ? *head.emissive_map() : Image{1, 1, {255, 255, 255, 255}});
 }
 
 HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }

@@ -21,11 +21,11 @@ class HeadTextures {
   GLuint tint() const { return has_skin_ ? textures_[kTint] : 0; }
   GLuint skin_relief() const { return has_skin_ ? textures_[kSkinRelief] : 0; }
   GLuint photo() const { return has_photo_ ? textures_[kPhoto] : 0; }
-  GLuint relief() const { return textures_[kRelief]; }
-  GLuint lights() const { return textures_[kLights]; }
+  GLuint normal_map() const { return textures_[kNormal]; }
+  GLuint emissive_map() const { return textures_[kEmissive]; }
 
  private:
-  enum Texture { kTint, kSkinRelief, kPhoto, kRelief, kLights, kTextures };
+  enum Texture { kTint, kSkinRelief, kPhoto, kNormal, kEmissive, kTextures };
 
   const GlFunctions& gl_;
   GLuint textures_[kTextures] = {};

@@ -13,13 +13,13 @@
 
 #include "embedded/eye_fragment.h"
 #include "embedded/eye_vertex.h"
-#include "embedded/finish_fragment.h"
-#include "embedded/finish_vertex.h"
 #include "embedded/hair_fragment.h"
 #include "embedded/hair_vertex.h"
 #include "embedded/lighting.h"
 #include "embedded/line_fragment.h"
 #include "embedded/mouth_vertex.h"
+#include "embedded/pbr_fragment.h"
+#include "embedded/pbr_vertex.h"
 #include "embedded/photo_fragment.h"
 #include "embedded/photo_vertex.h"
 #include "embedded/surface_fragment.h"
@@ -30,7 +30,7 @@
 namespace fsm {
 namespace {
 
-/// A lamp of the studio as a scene wants it.
+/// A lamp of the table as a scene wants it.
 Appearance::Lamp LampOf(const Appearance& appearance, const char* name,
                         const DirectionalLight& wanted) {
   Appearance::Lamp lamp = appearance.lamp(name);
@@ -41,6 +41,28 @@ Appearance::Lamp LampOf(const Appearance& appearance, const char* name,
   }
   lamp.color *= wanted.strength;
   return lamp;
+}
+
+Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
+  const std::array lamps = {LampOf(appearance, "key", scene.key),
+                            LampOf(appearance, "fill", scene.fill),
+                            LampOf(appearance, "rim", scene.rim)};
+  Lamps out;
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    out.directions[i] = glm::normalize(lamps[i].direction);
+    out.colors[i] = lamps[i].color;
+  }
+  return out;
+}
+
+SideDepths DepthsOf(const HeadVertices& vertices) {
+  SideDepths depths;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (int k = 0; k < 4; ++k) {
+      depths[side][k] = vertices.wrinkles[static_cast<std::size_t>(k)][side];
+    }
+  }
+  return depths;
 }
 
 constexpr bool IsOfMouth(Material material) {
@@ -58,14 +80,15 @@ Materials::Materials(const GlFunctions& gl, const Appearance& appearance)
       eye_(Compile("eye", embedded::eye_vertex(), embedded::eye_fragment())),
       hair_(Compile("hair", embedded::hair_vertex(), embedded::hair_fragment())),
       line_(Compile("line", embedded::eye_vertex(), embedded::line_fragment())) {
-  gl_.GenTextures(kTextures, textures_);
+  gl_.GenTextures(kTextures, shared_textures_);
   const auto noise = MakeNoiseTile();
   const auto strands = MakeStrandTile();
   const std::uint8_t plain[] = {128, 128, 128, 128};
-  FillTexture(gl_, textures_[kNoise], kNoiseCells, kNoiseCells, noise.data(), GL_LINEAR);
-  FillTexture(gl_, textures_[kWeave], kNoiseCells, kNoiseCells, noise.data(), GL_NEAREST);
-  FillTexture(gl_, textures_[kStrands], kStrandsAcross, kStrandsAlong, strands.data(), GL_NEAREST);
-  FillTexture(gl_, textures_[kPlain], 1, 1, plain, GL_NEAREST);
+  FillTexture(gl_, shared_textures_[kNoise], kNoiseCells, kNoiseCells, noise.data(), GL_LINEAR);
+  FillTexture(gl_, shared_textures_[kWeave], kNoiseCells, kNoiseCells, noise.data(), GL_NEAREST);
+  FillTexture(gl_, shared_textures_[kStrands], kStrandsAcross, kStrandsAlong, strands.data(),
+              GL_NEAREST);
+  FillTexture(gl_, shared_textures_[kPlain], 1, 1, plain, GL_NEAREST);
 }
 
 GlProgram Materials::Compile(const char* name, std::string_view vertex, std::string_view fragment,
@@ -79,7 +102,7 @@ GlProgram Materials::Compile(const char* name, std::string_view vertex, std::str
   return {gl_, name, vertex_text, fragment_text};
 }
 
-Materials::~Materials() { gl_.DeleteTextures(kTextures, textures_); }
+Materials::~Materials() { gl_.DeleteTextures(kTextures, shared_textures_); }
 
 void Materials::Bind(GLuint texture, GLenum unit) {
   gl_.ActiveTexture(unit);
@@ -87,87 +110,80 @@ void Materials::Bind(GLuint texture, GLenum unit) {
 }
 
 void Materials::BindOrPlain(GLuint texture, GLenum unit) {
-  Bind(texture != 0 ? texture : textures_[kPlain], unit);
+  Bind(texture != 0 ? texture : shared_textures_[kPlain], unit);
 }
 
 void Materials::BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
-                           const HeadVertices& vertices, const Scene& scene, float alpha) {
+                           const HeadVertices& vertices, const Scene& scene) {
   head_ = &head;
-  worn_ = &textures;
-  const std::array lamps = {LampOf(appearance_, "key", scene.key),
-                            LampOf(appearance_, "fill", scene.fill),
-                            LampOf(appearance_, "rim", scene.rim)};
-  glm::vec3 directions[3];
-  glm::vec3 colors[3];
-  for (std::size_t i = 0; i < 3; ++i) {
-    directions[i] = glm::normalize(lamps[i].direction);
-    colors[i] = lamps[i].color;
-  }
-  const glm::mat4 world_to_figure = glm::inverse(view.figure_to_world);
+  head_textures_ = &textures;
+  const Lamps lamps = LampsOf(appearance_, scene);
   const auto shadows = head.shadows().Measure(vertices);
-  const glm::mat4 occluders[] = {shadows.skull * world_to_figure, shadows.nose * world_to_figure};
-  glm::vec3 lights[2];
-  for (int i = 0; i < 2; ++i) lights[i] = glm::normalize(glm::mat3(occluders[i]) * directions[0]);
-
-  Bind(textures_[kNoise], GL_TEXTURE0);
-  Bind(textures_[kStrands], GL_TEXTURE3);
+  const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
+  Bind(shared_textures_[kNoise], GL_TEXTURE0);
+  Bind(shared_textures_[kStrands], GL_TEXTURE3);
   for (const GlProgram* program : ProgramsOf(head)) {
     gl_.UseProgram(program->id());
-    gl_.UniformMatrix4fv(program->Uniform("figure_to_world"), 1, GL_FALSE,
-                         glm::value_ptr(view.figure_to_world));
-    gl_.UniformMatrix4fv(program->Uniform("world_to_clip"), 1, GL_FALSE,
-                         glm::value_ptr(view.world_to_clip));
-    gl_.Uniform3fv(program->Uniform("eye"), 1, glm::value_ptr(view.eye));
-    gl_.Uniform1f(program->Uniform("alpha"), alpha);
     gl_.Uniform1i(program->Uniform("noise"), 0);
     gl_.Uniform1i(program->Uniform("strands"), 3);
-    gl_.Uniform3fv(program->Uniform("lamp_directions"), 3, glm::value_ptr(directions[0]));
-    gl_.Uniform3fv(program->Uniform("lamp_colors"), 3, glm::value_ptr(colors[0]));
-    gl_.UniformMatrix4fv(program->Uniform("occluders"), 2, GL_FALSE, glm::value_ptr(occluders[0]));
-    gl_.Uniform3fv(program->Uniform("occluder_lights"), 2, glm::value_ptr(lights[0]));
+    SetView(*program, view);
+    SetLight(*program, lamps, shadows, glm::inverse(view.figure_to_world));
   }
-  const glm::vec3 head_up = glm::normalize(glm::mat3(view.figure_to_world) * shadows.turn[1]);
+  const SideDepths depths = DepthsOf(vertices);
+  const float brightness = PhotoBrightness(lamps);
+  SetSurface(glm::normalize(rest_to_world[1]), depths);
+  SetPbr(brightness);
+  gl_.UseProgram(hair_.id());
+  gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
+  SetPhoto(head, vertices, depths, rest_to_world, brightness);
+  SetMouth(view, head, vertices, lamps.directions[0]);
+  if (head.eyes().found()) SetEyes(view, head, vertices, rest_to_world, brightness);
+}
+
+void Materials::SetView(const GlProgram& program, const View& view) {
+  gl_.UniformMatrix4fv(program.Uniform("figure_to_world"), 1, GL_FALSE,
+                       glm::value_ptr(view.figure_to_world));
+  gl_.UniformMatrix4fv(program.Uniform("world_to_clip"), 1, GL_FALSE,
+                       glm::value_ptr(view.world_to_clip));
+  gl_.Uniform3fv(program.Uniform("eye"), 1, glm::value_ptr(view.eye));
+}
+
+void Materials::SetLight(const GlProgram& program, const Lamps& lamps,
+                         const ShadowFinder::Occluders& shadows, const glm::mat4& world_to_figure) {
+  const glm::mat4 occluders[] = {shadows.skull * world_to_figure, shadows.nose * world_to_figure};
+  glm::vec3 keys[2];
+  for (int i = 0; i < 2; ++i) {
+    keys[i] = glm::normalize(glm::mat3(occluders[i]) * lamps.directions[0]);
+  }
+  gl_.Uniform3fv(program.Uniform("lamp_directions"), 3, glm::value_ptr(lamps.directions[0]));
+  gl_.Uniform3fv(program.Uniform("lamp_colors"), 3, glm::value_ptr(lamps.colors[0]));
+  gl_.UniformMatrix4fv(program.Uniform("occluders"), 2, GL_FALSE, glm::value_ptr(occluders[0]));
+  gl_.Uniform3fv(program.Uniform("occluder_lights"), 2, glm::value_ptr(keys[0]));
+}
+
+void Materials::SetSurface(glm::vec3 head_up, const SideDepths& depths) {
   for (const GlProgram* program : {&mouth_, &surface_}) {
     gl_.UseProgram(program->id());
     gl_.Uniform1i(program->Uniform("tint"), 1);
     gl_.Uniform1i(program->Uniform("relief"), 2);
     gl_.Uniform3fv(program->Uniform("head_up"), 1, glm::value_ptr(head_up));
   }
-  glm::vec4 depths[2];
-  for (int side = 0; side < 2; ++side) {
-    for (int k = 0; k < 4; ++k) {
-      depths[side][k] =
-          vertices.wrinkles[static_cast<std::size_t>(k)][static_cast<std::size_t>(side)];
-    }
-  }
   gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
-  // The photo's light stands for the lamps as they are by default.
+}
+
+void Materials::SetPbr(float brightness) {
+  if (!pbr_) return;
+  gl_.UseProgram(pbr_->id());
+  gl_.Uniform1f(pbr_->Uniform("brightness"), brightness);
+  gl_.Uniform1i(pbr_->Uniform("photo"), 1);
+  gl_.Uniform1i(pbr_->Uniform("normal_map"), 4);
+  gl_.Uniform1i(pbr_->Uniform("emissive_map"), 5);
+}
+
+float Materials::PhotoBrightness(const Lamps& lamps) const {
   const float room = appearance_.Number("photo_room_light");
   const float usual = appearance_.lamp("key").color.g + appearance_.lamp("fill").color.g + room;
-  const float brightness = std::sqrt((colors[0].g + colors[1].g + room) / usual);
-  if (finish_) {
-    gl_.UseProgram(finish_->id());
-    gl_.Uniform1f(finish_->Uniform("brightness"), brightness);
-    gl_.Uniform1i(finish_->Uniform("photo"), 1);
-    gl_.Uniform1i(finish_->Uniform("relief"), 4);
-    gl_.Uniform1i(finish_->Uniform("lights"), 5);
-  }
-  gl_.UseProgram(hair_.id());
-  const glm::mat3 rest_to_world = glm::mat3(view.figure_to_world) * shadows.turn;
-  gl_.UniformMatrix3fv(hair_.Uniform("rest_to_world"), 1, GL_FALSE, glm::value_ptr(rest_to_world));
-  SetPhoto(head, vertices, depths, rest_to_world, brightness);
-  SetMouth(view, head, vertices, directions[0]);
-  if (!head.eyes().found()) return;
-  const auto eyes = head.eyes().Measure(vertices);
-  SetEyes(view, head, eyes);
-  // The white of a grey photo is grey, and so is the flesh beside it.
-  const glm::vec3 white = head.eye_place().white_colour;
-  const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
-  const bool shown = head.photo() && head.eye_pictures();
-  const glm::vec3 worn(head.photo() ? brightness : 0, grey ? 0 : 1, shown ? kIrisSpan : 0);
-  gl_.Uniform3fv(eye_.Uniform("worn"), 1, glm::value_ptr(worn));
-  gl_.Uniform1i(eye_.Uniform("photo"), 1);
-  if (shown) SetEyePictures(head, eyes, rest_to_world);
+  return std::sqrt((lamps.colors[0].g + lamps.colors[1].g + room) / usual);
 }
 
 std::vector<const GlProgram*> Materials::ProgramsOf(const HeadBuffers& head) {
@@ -180,18 +196,17 @@ std::vector<const GlProgram*> Materials::ProgramsOf(const HeadBuffers& head) {
     photo.reset(new GlProgram(
         Compile("photo", embedded::photo_vertex(), embedded::photo_fragment(), detailed)));
   }
-  if (!head.finishes().empty() && !finish_) {
-    finish_.reset(
-        new GlProgram(Compile("finish", embedded::finish_vertex(), embedded::finish_fragment())));
+  if (!head.pbr_materials().empty() && !pbr_) {
+    pbr_.reset(new GlProgram(Compile("pbr", embedded::pbr_vertex(), embedded::pbr_fragment())));
   }
-  for (const auto* program : {&photo_[0], &photo_[1], &finish_}) {
+  for (const auto* program : {&photo_[0], &photo_[1], &pbr_}) {
     if (*program) programs.push_back(program->get());
   }
   return programs;
 }
 
 void Materials::SetPhoto(const HeadBuffers& head, const HeadVertices& vertices,
-                         const glm::vec4* crease_depths, const glm::mat3& rest_to_world,
+                         const SideDepths& crease_depths, const glm::mat3& rest_to_world,
                          float brightness) {
   for (const auto& photo : photo_) {
     if (!photo) continue;
@@ -219,7 +234,7 @@ void Materials::Use(Material material, bool detailed) {
     case Material::kSclera:
     case Material::kIris:
     case Material::kPupil:
-      BindOrPlain(worn_->photo(), GL_TEXTURE1);
+      BindOrPlain(head_textures_->photo(), GL_TEXTURE1);
       return gl_.UseProgram(eye_.id());
     case Material::kHair:
       return UseHair(1.0F, 1.0F);
@@ -246,29 +261,29 @@ void Materials::Use(Material material, bool detailed) {
   gl_.Uniform1f(program.Uniform("planar"), surface.planar);
   gl_.Uniform1f(program.Uniform("chroma"), head_->saturation());
   const bool planar = surface.planar > 0;
-  BindOrPlain(planar ? 0 : worn_->tint(), GL_TEXTURE1);
-  BindOrPlain(planar ? textures_[kWeave] : worn_->skin_relief(), GL_TEXTURE2);
+  BindOrPlain(planar ? 0 : head_textures_->tint(), GL_TEXTURE1);
+  BindOrPlain(planar ? shared_textures_[kWeave] : head_textures_->skin_relief(), GL_TEXTURE2);
 }
 
 void Materials::Use(const DrawnPart& drawn) {
   const auto& part = drawn.part;
-  if (part.finish < 0) return Use(part.material, drawn.detailed);
-  UseMaterial(head_->finishes()[static_cast<std::size_t>(part.finish)]);
+  if (part.pbr < 0) return Use(part.material, drawn.detailed);
+  UsePbr(head_->pbr_materials()[static_cast<std::size_t>(part.pbr)]);
 }
 
-void Materials::UseMaterial(const PbrMaterial& finish) {
-  gl_.UseProgram(finish_->id());
-  gl_.Uniform1f(finish_->Uniform("ragged"), finish.cut_out ? 1.0F : 0.0F);
-  gl_.Uniform1f(finish_->Uniform("toon"), finish.kind == PbrMaterial::Kind::kToon ? 1.0F : 0.0F);
-  gl_.Uniform1f(finish_->Uniform("metallic"), finish.metallic);
-  gl_.Uniform1f(finish_->Uniform("roughness"), finish.roughness);
-  gl_.Uniform1f(finish_->Uniform("shade_to"), finish.shade_to);
-  gl_.Uniform1f(finish_->Uniform("light_from"), finish.light_from);
-  gl_.Uniform3fv(finish_->Uniform("glow"), 1, glm::value_ptr(finish.glow));
-  gl_.Uniform3fv(finish_->Uniform("shade"), 1, glm::value_ptr(finish.shade));
-  BindOrPlain(worn_->photo(), GL_TEXTURE1);
-  Bind(worn_->relief(), GL_TEXTURE4);
-  Bind(worn_->lights(), GL_TEXTURE5);
+void Materials::UsePbr(const PbrMaterial& pbr) {
+  gl_.UseProgram(pbr_->id());
+  gl_.Uniform1f(pbr_->Uniform("ragged"), pbr.cut_out ? 1.0F : 0.0F);
+  gl_.Uniform1f(pbr_->Uniform("toon"), pbr.kind == PbrMaterial::Kind::kToon ? 1.0F : 0.0F);
+  gl_.Uniform1f(pbr_->Uniform("metallic"), pbr.metallic);
+  gl_.Uniform1f(pbr_->Uniform("roughness"), pbr.roughness);
+  gl_.Uniform1f(pbr_->Uniform("shade_to"), pbr.shade_to);
+  gl_.Uniform1f(pbr_->Uniform("light_from"), pbr.light_from);
+  gl_.Uniform3fv(pbr_->Uniform("glow"), 1, glm::value_ptr(pbr.glow));
+  gl_.Uniform3fv(pbr_->Uniform("shade"), 1, glm::value_ptr(pbr.shade));
+  BindOrPlain(head_textures_->photo(), GL_TEXTURE1);
+  Bind(head_textures_->normal_map(), GL_TEXTURE4);
+  Bind(head_textures_->emissive_map(), GL_TEXTURE5);
 }
 
 void Materials::UsePhoto(Material material, bool detailed) {
@@ -280,8 +295,8 @@ void Materials::UsePhoto(Material material, bool detailed) {
   // Where the sheet goes on from the skin the skin is seen, however coarse the sheet.
   constexpr float kYields = 5;
   gl_.Uniform1f(photo.Uniform("yields"), ragged && head_->blends() ? kYields : 0.0F);
-  BindOrPlain(worn_->photo(), GL_TEXTURE1);
-  BindOrPlain(worn_->skin_relief(), GL_TEXTURE2);
+  BindOrPlain(head_textures_->photo(), GL_TEXTURE1);
+  BindOrPlain(head_textures_->skin_relief(), GL_TEXTURE2);
 }
 
 void Materials::UseHair(float streaks, float shine) {

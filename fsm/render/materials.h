@@ -16,6 +16,14 @@
 
 namespace fsm {
 
+/// Key, fill and rim: unit vectors towards them, in the world, and their light, linear.
+struct Lamps {
+  std::array<glm::vec3, 3> directions, colors;
+};
+
+/// How deep creases are, 0..1: right and left, each of forehead, glabella, crow's feet, nasolabial.
+using SideDepths = std::array<glm::vec4, 2>;
+
 /// The shader programs and which of them, with which numbers, draws which material; the same for
 /// all heads that are drawn in a context.
 /// Destroy while its context is current.
@@ -30,7 +38,7 @@ class Materials {
   /// Hands camera, eyes and the like to every program. `vertices` are in the head's own frame;
   /// `head` and `textures` are that head's, until the next call.
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
-                  const HeadVertices& vertices, const Scene& scene, float alpha);
+                  const HeadVertices& vertices, const Scene& scene);
   void Use(const DrawnPart& part);
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
@@ -46,17 +54,27 @@ class Materials {
   void BindOrPlain(GLuint texture, GLenum unit);
   /// The programs that the parts of the head need, made if they are not there yet.
   std::vector<const GlProgram*> ProgramsOf(const HeadBuffers& head);
+  // The following hand uniforms to programs; the first two to the one in use.
+  void SetView(const GlProgram& program, const View& view);
+  void SetLight(const GlProgram& program, const Lamps& lamps,
+                const ShadowFinder::Occluders& shadows, const glm::mat4& world_to_figure);
+  void SetSurface(glm::vec3 head_up, const SideDepths& depths);
+  void SetPbr(float brightness);
   void SetPhoto(const HeadBuffers& head, const HeadVertices& vertices,
-                const glm::vec4* crease_depths, const glm::mat3& rest_to_world, float brightness);
-  void SetEyes(const View& view, const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes);
+                const SideDepths& crease_depths, const glm::mat3& rest_to_world, float brightness);
+  void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
+               const glm::mat3& rest_to_world, float brightness);
+  void SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eyes, const EyePlace& place);
   void SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
                       const glm::mat3& rest_to_world);
   void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                 glm::vec3 key_direction);
+  /// Of a photo: its light stands for the lamps as they are by default.
+  float PhotoBrightness(const Lamps& lamps) const;
   void Use(Material material, bool detailed);
   bool WearsPhoto(Material material) const;
   void UsePhoto(Material material, bool detailed);
-  void UseMaterial(const PbrMaterial& finish);
+  void UsePbr(const PbrMaterial& pbr);
   void UseHair(float streaks, float shine);
 
   const GlFunctions& gl_;
@@ -68,10 +86,10 @@ class Materials {
   GlProgram line_;
   // Made for the first head that has any. Of those for photos, the second draws what is detailed.
   std::array<std::unique_ptr<GlProgram>, 2> photo_;
-  std::unique_ptr<GlProgram> finish_;
-  GLuint textures_[kTextures] = {};
+  std::unique_ptr<GlProgram> pbr_;
+  GLuint shared_textures_[kTextures] = {};
   const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
-  const HeadTextures* worn_ = nullptr;
+  const HeadTextures* head_textures_ = nullptr;
   bool has_mouth_ = false;  // of which is known how light comes in
 };
 

@@ -1,5 +1,6 @@
 // What of the materials follows eyes and mouth, frame by frame.
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>
@@ -73,8 +74,23 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
   gl_.Uniform3fv(mouth_.Uniform("mouth_key"), 1, glm::value_ptr(key));
 }
 
-void Materials::SetEyes(const View& view, const HeadBuffers& head,
-                        const std::array<EyeFrame, 2>& eyes) {
+void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
+                        const glm::mat3& rest_to_world, float brightness) {
+  const auto eyes = head.eyes().Measure(vertices);
+  SetEyeballs(view, eyes, head.eye_place());
+  // The white of a grey photo is grey, and so is the flesh beside it.
+  const glm::vec3 white = head.eye_place().white_colour;
+  const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
+  const bool pictured = head.photo() && head.eye_pictures();
+  gl_.Uniform1f(eye_.Uniform("flesh_red"), grey ? 0.0F : 1.0F);
+  gl_.Uniform1f(eye_.Uniform("photo_brightness"), head.photo() ? brightness : 0.0F);
+  gl_.Uniform1f(eye_.Uniform("iris_span"), pictured ? kIrisSpan : 0.0F);
+  gl_.Uniform1i(eye_.Uniform("photo"), 1);
+  if (pictured) SetEyePictures(head, eyes, rest_to_world);
+}
+
+void Materials::SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eyes,
+                            const EyePlace& place) {
   const glm::mat3 turn(view.figure_to_world);
   const float scale = glm::length(turn[0]);
   glm::vec4 balls[2];
@@ -82,20 +98,19 @@ void Materials::SetEyes(const View& view, const HeadBuffers& head,
   glm::vec4 lids[2];
   for (int i = 0; i < 2; ++i) {
     const auto& eye = eyes[static_cast<std::size_t>(i)];
-    const auto place = [&view](const glm::vec3& p) {
+    const auto to_world = [&view](const glm::vec3& p) {
       return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0F));
     };
-    balls[i] = glm::vec4(place(eye.centre), eye.radius * scale);
+    balls[i] = glm::vec4(to_world(eye.centre), eye.radius * scale);
     gazes[i] = turn * eye.gaze / scale;
     const glm::vec3 front = eye.centre + eye.gaze * eye.radius;
-    lids[i].x = place({front.x, eye.upper_lid_y, front.z}).y;
-    lids[i].y = place({front.x, eye.lower_lid_y, front.z}).y;
+    lids[i].x = to_world({front.x, eye.upper_lid_y, front.z}).y;
+    lids[i].y = to_world({front.x, eye.lower_lid_y, front.z}).y;
   }
   gl_.UseProgram(eye_.id());
   gl_.Uniform4fv(eye_.Uniform("ball"), 2, glm::value_ptr(balls[0]));
   gl_.Uniform3fv(eye_.Uniform("gaze"), 2, glm::value_ptr(gazes[0]));
   gl_.Uniform4fv(eye_.Uniform("lids"), 2, glm::value_ptr(lids[0]));
-  const EyePlace& place = head.eye_place();
   const float plane = std::sqrt(
       std::max(eyes[0].radius * eyes[0].radius - eyes[0].iris_radius * eyes[0].iris_radius, 1.0F));
   const glm::vec4 iris(eyes[0].iris_radius * scale, place.pupil_radius / place.iris_radius,

@@ -200,7 +200,7 @@ class GlRenderer : public Renderer {
     const HeadVertices& vertices = move(on_card);
     gl_.Enable(GL_DEPTH_TEST);
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene, 1);
+    materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene);
     if (buffers.painting()) WarmUp(buffers.parts());
     on_card.textures.WearSkin(buffers, view.samples_per_mm);
     const auto& parts = buffers.parts();

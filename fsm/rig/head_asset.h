@@ -106,7 +106,7 @@ struct HeadTopology {
     Material material;
     std::uint32_t first_index;  ///< into `indices`
     std::uint32_t index_count;  ///< multiple of 3
-    int finish = -1;            ///< into `finishes`; -1: as its material is
+    int pbr = -1;               ///< into `pbr_materials`; -1: as its material is
     bool two_sided = false;
   };
   std::vector<std::uint32_t> indices;  ///< triangles, counter-clockwise seen from outside
@@ -121,11 +121,11 @@ struct HeadTopology {
   std::vector<SkinHair> skin_hairs;
   std::vector<Strand> strands;         ///< per vertex, meaningful where there is hair; may be empty
   std::shared_ptr<const Image> photo;  ///< nothing: skin is painted and lit
-  std::vector<PbrMaterial> finishes;
-  /// Laid out as the photo; nothing where no finish needs it. Of `relief` red and green are the
-  /// normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of `lights`
-  /// the colour is that of what glows (toon: of the shade), alpha how open to light.
-  std::shared_ptr<const Image> relief, lights;
+  std::vector<PbrMaterial> pbr_materials;
+  /// Laid out as the photo; nothing where no material needs it. Of `normal_map` red and green are
+  /// the normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of
+  /// `emissive_map` the colour is that of what glows (toon: of the shade), alpha how open to light.
+  std::shared_ptr<const Image> normal_map, emissive_map;
   /// Per vertex where there is a photo: its place there, 0..1, v down, and the photo's part in the
   /// colour, 0..1.
   std::vector<glm::vec2> texcoord;

@@ -88,15 +88,15 @@ TEST(AssetFileTest, AHeadThatWearsAPhotoComesBackAsItWas) {
 TEST(AssetFileTest, AParallelViewAndAMaterialComeBack) {
   const BallHead ball([](HeadAsset& asset) {
     asset.view = ParallelView{{1, 2, 3}, 44};
-    asset.topology.finishes.push_back({.kind = PbrMaterial::Kind::kToon, .roughness = 0.3F});
-    asset.topology.parts[0].finish = 0;
+    asset.topology.pbr_materials.push_back({.kind = PbrMaterial::Kind::kToon, .roughness = 0.3F});
+    asset.topology.parts[0].pbr = 0;
   });
   const Head read = ReadAgain(ball);
   ASSERT_TRUE(read.view());
   EXPECT_EQ(read.view()->half_mm, 44);
-  ASSERT_EQ(read.topology().finishes.size(), 1U);
-  EXPECT_EQ(read.topology().finishes[0].kind, PbrMaterial::Kind::kToon);
-  EXPECT_EQ(read.topology().parts[0].finish, 0);
+  ASSERT_EQ(read.topology().pbr_materials.size(), 1U);
+  EXPECT_EQ(read.topology().pbr_materials[0].kind, PbrMaterial::Kind::kToon);
+  EXPECT_EQ(read.topology().parts[0].pbr, 0);
 }
 
 TEST(AssetFileTest, TheUnitsTableStandsInItAsText) {

@@ -231,17 +231,17 @@ void Comb(HeadTopology& topology, float density) {
 }
 
 void Shine(HeadTopology& topology, glm::vec3 glow) {
-  PbrMaterial finish;
-  finish.glow = glow;
-  topology.finishes = {finish};
-  topology.parts.front().finish = 0;
+  PbrMaterial pbr;
+  pbr.glow = glow;
+  topology.pbr_materials = {pbr};
+  topology.parts.front().pbr = 0;
   Wear(topology, 120, 120);
 }
 
 const HeadChange kHeadChanges[] = {
     {"photo", [](HeadTopology& t) { Wear(t, 200, 20); }, [](HeadTopology& t) { Wear(t, 20, 200); }},
     {"strands", [](HeadTopology& t) { Comb(t, 1); }, [](HeadTopology& t) { Comb(t, 0); }},
-    {"finishes",
+    {"pbr_materials",
      [](HeadTopology& t) {
        Shine(t, {1, 0, 0});
      },

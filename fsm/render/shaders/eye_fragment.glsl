@@ -3,7 +3,6 @@
 in vec3 world_position;
 in float occlusion;
 
-uniform float alpha;
 uniform sampler2D noise;
 uniform vec4 ball[2];    // centre in world coordinates, radius; left of the picture, right
 uniform vec3 gaze[2];    // unit, from the ball's centre through the pupil
@@ -12,10 +11,10 @@ uniform vec4 iris;       // radius, pupil's part of it, how far its plane lies b
 uniform vec3 iris_color;
 uniform vec3 white_color;
 uniform float figure_scale;
-// Colours are as a photo shows them: its brightness, else 0; redness of flesh; if it shows the eyes, too,
-// how far their pictures of the iris reach, in radii. The squares of iris and ball: left, top, right, bottom.
-uniform vec3 worn;
-uniform vec4 irises[2];
+uniform float flesh_red;         // 0: flesh and vessels are grey, as in a grey photo
+uniform float photo_brightness;  // beside a photo, whose colours are shown as they are; else 0
+uniform float iris_span;         // a photo of the eyes: its picture of the iris reaches so many radii; else 0
+uniform vec4 irises[2];          // left, top, right, bottom in the photo
 uniform vec4 balls[2];
 uniform vec4 open[2];        // heights of the lids over the centre: upper and lower at rest, upper now;
                              // how far the picture of the ball reaches
@@ -37,7 +36,7 @@ vec3 Iris(vec2 p, float r, float toward_light) {
   base = mix(base, base * iris_collar + 0.008, collar * iris_collar_part);
   // Light falls in through the cornea and gathers on the far side.
   base *= 0.85 + iris_gathered * max(-toward_light, 0.0) * smoothstep(0.3, 0.9, r);
-  base *= mix(1.0, worn.x > 0.0 ? photo_iris_rim : iris_rim, smoothstep(0.78, 1.0, r));
+  base *= mix(1.0, photo_brightness > 0.0 ? photo_iris_rim : iris_rim, smoothstep(0.78, 1.0, r));
   return mix(vec3(pupil_color), base, smoothstep(iris.y - 0.05, iris.y + 0.04, r + 0.03 * (fibre - 0.5)));
 }
 
@@ -64,7 +63,7 @@ void main() {
   vec3 across_up = cross(axis, across_right);
   // Reddish towards the corners, shaded at the edge of the iris, with a few fine vessels.
   float corner = smoothstep(0.30, 1.0, abs(n.x - axis.x));
-  float red = worn.y;
+  float red = flesh_red;
   vec3 base = white_color * mix(vec3(1.0), mix(vec3(white_corner_grey), white_corner, red), corner);
   base *= mix(white_at_iris, 1.0, smoothstep(1.0, 1.18, r_surface));
   // The flesh of the tear corner.
@@ -72,7 +71,7 @@ void main() {
   base = mix(base, white_color * mix(vec3(tear_flesh_grey), tear_flesh, red), 0.85 * smoothstep(0.66, 0.80, inward));
   float vessel = texture(noise, vec2(n.y * 0.11, n.x * 0.025) + axis.xy * 0.01).b - 0.5;
   base *= 1.0 - red * vec3(0.0, vessel_redness, vessel_redness) * smoothstep(0.10, 0.26, vessel) * smoothstep(1.3, 2.0, r_surface);
-  bool shown = worn.z > 0.0;
+  bool shown = iris_span > 0.0;
   if (shown) {
     // The shade of the lid goes with it where the eye opens wider.
     vec4 lid = open[side];
@@ -92,7 +91,7 @@ void main() {
     vec3 l = lamp_directions[0];
     vec3 inner = Iris(p, r, dot(p / max(r, 1e-3), vec2(dot(l, across_right), dot(l, across_up))));
     if (shown) {
-      inner = Photographed(irises[side], p / worn.z);
+      inner = Photographed(irises[side], p / iris_span);
     } else {
       // Where the line of sight misses the iris it meets the white beside it, in the rim's shadow.
       inner = mix(inner, white_color * 0.3, smoothstep(1.0, 1.12, r));
@@ -106,7 +105,7 @@ void main() {
   float shade = mix(upper_lid_shade, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
                 mix(lower_lid_shade, 1.0, smoothstep(-0.5, 1.2, above_lower));
 
-  shade = worn.x > 0.0 ? 0.1 + 0.9 * shade : shade;
+  shade = photo_brightness > 0.0 ? 0.1 + 0.9 * shade : shade;
   if (shown) {
     // The photo has its shade, but not where it was completed and where the eye opens wider than in it.
     vec2 q = (world_to_head * from_centre).xy;
@@ -126,13 +125,13 @@ void main() {
   vec3 light = Ambient(n) * 0.9;
   light += lamp_colors[0] * Wrapped(dot(n, lamp_directions[0]), vec3(0.35)) * 0.8;
   light += lamp_colors[1] * Wrapped(dot(n, lamp_directions[1]), vec3(0.35));
-  light = worn.x > 0.0 ? vec3(1.0) : light;
+  light = photo_brightness > 0.0 ? vec3(1.0) : light;
   vec3 result = base * light * shade * mix(occlusion, 1.0, 0.3);
 
   // What a photographed eye mirrors is seen in it.
   // One drawn into a photo mirrors as little light as there is.
   float bright = clamp(dot(white_color, vec3(0.3, 0.5, 0.2)) / 0.4, 0.15, 1.0);
-  float gloss = worn.x > 0.0 ? (shown ? 0.0 : photo_gloss * bright) : 1.0;
+  float gloss = photo_brightness > 0.0 ? (shown ? 0.0 : photo_gloss * bright) : 1.0;
   vec3 mirrored = reflect(-v, wet);
   // A window of two panes, above left.
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
@@ -142,11 +141,11 @@ void main() {
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
                  mix(mirrored_bar, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   // A photographer's lamp is smaller and round.
-  if (worn.x > 0.0) window = photo_lamp * smoothstep(0.24, 0.04, length(pane)) * step(0.0, dot(mirrored, kWindow));
+  if (photo_brightness > 0.0) window = photo_lamp * smoothstep(0.24, 0.04, length(pane)) * step(0.0, dot(mirrored, kWindow));
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
   result += gloss * mirrored_window * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
   result += gloss * lamp_colors[1] * mirrored_box * soft_box * shade;
   result += gloss * Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * mirrored_room;
   result = max(result, 0.0);
-  color = vec4(worn.x > 0.0 ? worn.x * pow(result, vec3(0.4545)) : ToScreen(result), alpha);
+  color = vec4(photo_brightness > 0.0 ? photo_brightness * pow(result, vec3(0.4545)) : ToScreen(result), 1.0);
 }

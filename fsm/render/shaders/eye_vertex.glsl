@@ -3,6 +3,6 @@ out vec3 world_position;
 out float occlusion;
 
 void main() {
-  world_position = Place();
+  world_position = TransformVertex();
   occlusion = albedo_occlusion.a;
 }

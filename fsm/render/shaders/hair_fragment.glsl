@@ -4,7 +4,6 @@ in vec3 light;
 in vec3 key_light;
 in vec3 tilt;
 
-uniform float alpha;
 uniform float streaks;   // how strongly strands differ, 0 for lashes
 uniform float shine;
 uniform sampler2D strands;  // locks in b, hairs in a
@@ -27,5 +26,5 @@ void main() {
   lobe.x *= lobe.x;
   vec3 seen = light * (1.0 + streaks_seen * streak) +
               shine * (key_light * (hair_through_part * lobe.y) + lamp_colors[0] * (tilt.z * lobe.x));
-  color = vec4(ToScreen(max(seen, 0.0)), alpha);
+  color = vec4(ToScreen(max(seen, 0.0)), 1.0);
 }

@@ -12,7 +12,7 @@ out vec3 key_light; // of the key lamp alone, with the hair's colour
 out vec3 tilt;      // of the half vector along the strand and along the normal; light gone through
 
 void main() {
-  vec3 world = Place();
+  vec3 world = TransformVertex();
   vec3 n = WorldNormal();
   vec3 v = normalize(eye - world);
   // Sheets are seen from both sides; at the outline they keep the side they face.

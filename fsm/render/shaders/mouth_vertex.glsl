@@ -66,7 +66,7 @@ vec3 EdgeAt(int first, float x) {
 }
 
 void main() {
-  vec3 world = Place();
+  vec3 world = TransformVertex();
   vec3 n_world = WorldNormal();
   vec3 v = normalize(eye - world);
   vec3 p = (to_mouth * vec4(position, 1.0)).xyz;

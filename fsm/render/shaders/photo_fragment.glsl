@@ -1,14 +1,13 @@
 // The photo brought its own light: it is shown as it is, but for creases that the face makes now.
 // kDetailed, which stands before this text: as DrawnPart::detailed.
 in vec2 place;
-in vec3 worn;
+in vec3 texcoord;
 in vec3 paint;
 in vec4 lender;
 in float crease;
 in float shadow;
 in float covering;
 
-uniform float alpha;
 uniform float brightness;
 uniform float ragged;     // 1: what is transparent in the photo is left out
 uniform float blends;     // 1: in part, over what is drawn already; 0: sample by sample
@@ -18,7 +17,7 @@ uniform sampler2D relief;
 out vec4 color;
 
 void main() {
-  vec4 p = texture(photo, worn.xy);
+  vec4 p = texture(photo, texcoord.xy);
   float opacity = kDetailed ? covering * mix(1.0, p.a, ragged) : 1.0;
   if (kDetailed && opacity < 0.98) {
     // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
@@ -39,9 +38,9 @@ void main() {
     float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
     painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), photo_grain * lender.z);
   }
-  vec3 seen = mix(painted, p.rgb, worn.z);
+  vec3 seen = mix(painted, p.rgb, texcoord.z);
   // Light that reaches skin in the shade has gone through skin.
   float skin = photo_shade_redness * clamp(1.0 - seen.b / max(seen.r, 0.05), 0.0, 1.0);
   vec3 shaded = vec3(shadow) + skin * shadow * (1.0 - shadow) * vec3(1.0, 0.0, -0.4);
-  color = vec4(seen * shade * shaded * brightness, alpha * mix(1.0, opacity, blends));
+  color = vec4(seen * shade * shaded * brightness, mix(1.0, opacity, blends));
 }

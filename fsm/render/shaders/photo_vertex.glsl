@@ -2,7 +2,7 @@
 layout(location = 4) in vec2 unrolled;
 layout(location = 5) in vec4 creases_right;
 layout(location = 6) in vec4 creases_left;
-layout(location = 7) in vec4 photo_place;  // u, v down; the photo's part in the colour; how much is lid
+layout(location = 7) in vec4 photo_texcoord;  // u, v down; the photo's part in the colour; how much is lid
 layout(location = 8) in vec4 lid_lender;   // of a lid: the place whose grain it takes; its way
 layout(location = 9) in float opacity;     // 1: hides what is behind, 0: is not there
 layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
@@ -19,7 +19,7 @@ uniform float lashes;        // 1: seen on shut lids; those of open ones are in 
 uniform float yields;        // millimetres by which it lies behind what is as near
 
 out vec2 place;
-out vec3 worn;
+out vec3 texcoord;
 out vec3 paint;
 out vec4 lender;  // place, whether there is one, how bright it is round it
 out float crease;
@@ -27,24 +27,24 @@ out float shadow;
 out float covering;
 
 void main() {
-  vec3 world = Place();
+  vec3 world = TransformVertex();
   if (yields > 0.0) {
     vec4 farther = world_to_clip * vec4(world + yields * normalize(world - eye), 1.0);
     gl_Position.z = farther.z / farther.w * gl_Position.w;
   }
   place = unrolled;
-  float lid = photo_place.w;
+  float lid = photo_texcoord.w;
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
   // The rim of the lower lid, which has no way to go, is reached last.
   float shut = lid_lender.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
-  worn = vec3(photo_place.xy + closed * lid_lender.zw, photo_place.z * (1.0 - lid * shut));
+  texcoord = vec3(photo_texcoord.xy + closed * lid_lender.zw, photo_texcoord.z * (1.0 - lid * shut));
   bool lent = lid_lender.x > 0.0;
-  lender = lent ? vec4(lid_lender.xy, 1.0, albedo_occlusion.a) : vec4(photo_place.xy, 0.0, 1.0);
+  lender = lent ? vec4(lid_lender.xy, 1.0, albedo_occlusion.a) : vec4(photo_texcoord.xy, 0.0, 1.0);
   // A lip that rolls inward is paint in part, and the more so as it turns away.
-  float roll = smoothstep(0.0, 0.3, 1.0 - photo_place.z);
+  float roll = smoothstep(0.0, 0.3, 1.0 - photo_texcoord.z);
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
-  worn.z *= mix(1.0, facing, roll);
-  if (photo_place.z > 0.0 && roll > 0.0) worn.z = mix(1.0, worn.z, lips_apart);
+  texcoord.z *= mix(1.0, facing, roll);
+  if (photo_texcoord.z > 0.0 && roll > 0.0) texcoord.z = mix(1.0, texcoord.z, lips_apart);
   // The shadow that a dropped chin throws on the neck, which goes with it. The jaw's line rises to the sides.
   float below = chin_y + 0.012 * rest_position.x * rest_position.x - rest_position.y;
   shadow = 1.0 - chin_shadow * ragged * smoothstep(0.0, 12.0, chin_drop) * smoothstep(-6.0, 2.0, below) *

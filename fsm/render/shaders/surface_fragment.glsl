@@ -3,7 +3,6 @@ in vec3 light;
 in vec4 slopes;
 in vec3 shine;
 
-uniform float alpha;
 uniform float chroma;     // of the colour on the screen, less than 1 beside a faded photo
 uniform float bump;       // of pores or threads
 uniform vec3 lobes;       // strengths of a broad, a middle and a tight highlight
@@ -26,5 +25,5 @@ void main() {
   float highlight = shine.x * t.a * dot(lobe, lobes) + shine.z;
   vec3 seen = ToScreen(t.rgb * (light * (2.0 + 2.0 * dot(slope, slopes.xy))) +
                        lamp_colors[0] * highlight);
-  color = vec4(mix(vec3(dot(seen, vec3(0.3, 0.6, 0.1))), seen, chroma), alpha);
+  color = vec4(mix(vec3(dot(seen, vec3(0.3, 0.6, 0.1))), seen, chroma), 1.0);
 }

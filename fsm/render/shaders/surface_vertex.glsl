@@ -19,7 +19,7 @@ out vec4 slopes;  // what a slope to the right and up adds to light; the half ve
 out vec3 shine;   // strength of highlights, depth of creases, light at the edge
 
 void main() {
-  vec3 world = Place();
+  vec3 world = TransformVertex();
   vec3 n = WorldNormal();
   vec3 v = normalize(eye - world);
   float occlusion = albedo_occlusion.a;

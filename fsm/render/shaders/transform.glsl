@@ -1,4 +1,4 @@
-// The head's vertices, and their place: shared by all vertex shaders, because depth is compared for
+// The head's vertices, and where they are: shared by all vertex shaders, because depth is compared for
 // equality between passes and every program must place a vertex alike.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -11,7 +11,7 @@ uniform mat4 world_to_clip;
 invariant gl_Position;
 
 // Sets gl_Position and returns the place in the world.
-vec3 Place() {
+vec3 TransformVertex() {
   vec4 world = figure_to_world * vec4(position, 1.0);
   gl_Position = world_to_clip * world;
   return world.xyz;

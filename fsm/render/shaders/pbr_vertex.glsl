@@ -1,14 +1,14 @@
 // Parts of heads from elsewhere that say themselves how they take light.
-layout(location = 7) in vec3 photo_place;  // u, v down; z > 0: the colour is there
+layout(location = 7) in vec3 photo_texcoord;  // u, v down; z > 0: the colour is there
 
 out vec3 at;
 out vec3 facing;
-out vec3 worn;
+out vec3 texcoord;
 out vec3 tint;
 
 void main() {
-  at = Place();
+  at = TransformVertex();
   facing = WorldNormal();
-  worn = photo_place;
+  texcoord = photo_texcoord;
   tint = albedo_occlusion.rgb;
 }

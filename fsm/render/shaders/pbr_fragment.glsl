@@ -2,10 +2,9 @@
 // (VRMC_materials_mtoon 1.0, "Lighting").
 in vec3 at;
 in vec3 facing;
-in vec3 worn;
+in vec3 texcoord;  // u, v down; z > 0: the colour is there
 in vec3 tint;  // on the picture, or the colour where there is none
 
-uniform float alpha;
 uniform float brightness;
 uniform float ragged;      // 1: what is transparent is left out
 uniform float toon;        // 1: two colours
@@ -16,8 +15,8 @@ uniform float light_from;  // light from here
 uniform vec3 glow;
 uniform vec3 shade;
 uniform sampler2D photo;
-uniform sampler2D relief;  // normal's x and y, roughness, metallic
-uniform sampler2D lights;  // what glows, or the picture of the shade; a: open to light
+uniform sampler2D normal_map;   // normal's x and y, roughness, metallic
+uniform sampler2D emissive_map; // what glows, or the picture of the shade; a: open to light
 
 out vec4 color;
 
@@ -27,12 +26,12 @@ const float kPlate = 0.52;
 
 vec3 Linear(vec3 shown) { return pow(shown, vec3(2.2)); }
 
-// The normal bent as the relief says, in the frame in which the picture lies on the surface: found
+// The normal bent as the map says, in the frame in which the picture lies on the surface: found
 // from how both change from pixel to pixel (Schueler, "Followup: Normal Mapping Without Precomputed
 // Tangents", 2013).
 vec3 Bent(vec3 n, vec2 slope) {
   vec3 dx = dFdx(at), dy = dFdy(at);
-  vec2 ux = dFdx(worn.xy), uy = dFdy(worn.xy);
+  vec2 ux = dFdx(texcoord.xy), uy = dFdy(texcoord.xy);
   vec3 across = cross(dy, n), along = cross(n, dx);
   vec3 right = across * ux.x + along * uy.x;
   vec3 down = across * ux.y + along * uy.y;
@@ -49,14 +48,14 @@ float Mirrored(float n_h, float n_l, float n_v, float a2) {
 }
 
 void main() {
-  vec4 p = texture(photo, worn.xy);
+  vec4 p = texture(photo, texcoord.xy);
   // Four samples make a pixel, so four steps of opacity come out as the share of those kept.
   ivec2 s = ivec2(gl_FragCoord.xy) & 1;
   float step = (float(s.x ^ s.y) * 2.0 + float(s.y) + 0.5) / 4.0;
-  if (worn.z > 0.0 && ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
-  vec3 base = worn.z > 0.0 ? Linear(p.rgb) * tint : tint;
-  vec4 r = worn.z > 0.0 ? texture(relief, worn.xy) : vec4(0.5, 0.5, 1.0, 1.0);
-  vec4 l = worn.z > 0.0 ? texture(lights, worn.xy) : vec4(1.0);
+  if (texcoord.z > 0.0 && ragged * (1.0 - p.a) > step && p.a < 0.98) discard;
+  vec3 base = texcoord.z > 0.0 ? Linear(p.rgb) * tint : tint;
+  vec4 r = texcoord.z > 0.0 ? texture(normal_map, texcoord.xy) : vec4(0.5, 0.5, 1.0, 1.0);
+  vec4 l = texcoord.z > 0.0 ? texture(emissive_map, texcoord.xy) : vec4(1.0);
 
   vec3 n = normalize(facing);
   if (!gl_FrontFacing) n = -n;
@@ -66,7 +65,7 @@ void main() {
     float lit = clamp((dot(n, lamp_directions[0]) - shade_to) / max(light_from - shade_to, 1e-3),
                       0.0, 1.0);
     vec3 drawn = mix(shade * Linear(l.rgb) * tint, base, lit) + glow;
-    color = vec4(pow(drawn, vec3(1.0 / 2.2)) * brightness, alpha);
+    color = vec4(pow(drawn, vec3(1.0 / 2.2)) * brightness, 1.0);
     return;
   }
   vec3 v = normalize(eye - at);
@@ -94,5 +93,5 @@ void main() {
   light += l.a * (Ambient(n) * scatters + Ambient(reflect(-v, n)) * room);
   light *= kPlate;
   light += glow * Linear(l.rgb) / exposure;
-  color = vec4(ToScreen(light), alpha);
+  color = vec4(ToScreen(light), 1.0);
 }

@@ -34,9 +34,9 @@ HeadFile Read(GltfMaker& maker, const std::string& material, const std::string& 
 PbrMaterial MaterialOf(const std::string& material, const std::string& more = "") {
   GltfMaker maker;
   const HeadFile file = Read(maker, material, more);
-  EXPECT_EQ(file.finishes.size(), 1U);
-  EXPECT_EQ(file.parts.at(0).finish, 0);
-  return file.finishes.empty() ? PbrMaterial{} : file.finishes[0];
+  EXPECT_EQ(file.pbr_materials.size(), 1U);
+  EXPECT_EQ(file.parts.at(0).pbr, 0);
+  return file.pbr_materials.empty() ? PbrMaterial{} : file.pbr_materials[0];
 }
 
 TEST(GltfMaterialTest, MetalAndRoughnessAreReadAndAreWholeIfNothingIsSaid) {
@@ -57,8 +57,8 @@ TEST(GltfMaterialTest, MetalAndRoughnessAreReadAndAreWholeIfNothingIsSaid) {
 TEST(GltfMaterialTest, UnlitStaysAsItIsButNotWhereItOnlyStandsInForMToon) {
   GltfMaker maker;
   const HeadFile plain = Read(maker, R"({"extensions":{"KHR_materials_unlit":{}}})");
-  EXPECT_TRUE(plain.finishes.empty());
-  EXPECT_EQ(plain.parts.at(0).finish, -1);
+  EXPECT_TRUE(plain.pbr_materials.empty());
+  EXPECT_EQ(plain.parts.at(0).pbr, -1);
   const PbrMaterial toon =
       MaterialOf(R"({"extensions":{"KHR_materials_unlit":{},)"
                  R"("VRMC_materials_mtoon":{"shadeColorFactor":[0.5,0.25,0.125],)"
@@ -81,7 +81,7 @@ TEST(GltfMaterialTest, OldAvatarsSayItInPropertiesOfTheShader) {
   EXPECT_FLOAT_EQ(toon.shade_to, -0.5F);
   EXPECT_FLOAT_EQ(toon.light_from, -0.2F);
   GltfMaker maker;
-  EXPECT_TRUE(Read(maker, "{}", old("VRM/UnlitTexture")).finishes.empty());
+  EXPECT_TRUE(Read(maker, "{}", old("VRM/UnlitTexture")).pbr_materials.empty());
 }
 
 TEST(GltfMaterialTest, PicturesOfLightArePutTogetherBesideTheColour) {
@@ -96,19 +96,20 @@ TEST(GltfMaterialTest, PicturesOfLightArePutTogetherBesideTheColour) {
            R"("strength":0.5}})");
   ASSERT_EQ(file.pictures.size(), 1U);
   ASSERT_EQ(file.details.size(), 1U);
-  EXPECT_EQ(file.details[0].relief.rgba, (std::vector<std::uint8_t>{178, 103, 150, 200}));
-  ASSERT_EQ(file.details[0].lights.rgba.size(), 4U);
-  EXPECT_EQ(file.details[0].lights.rgba[3], 177) << "half as shut as the picture says";
+  EXPECT_EQ(file.details[0].normal_map.rgba, (std::vector<std::uint8_t>{178, 103, 150, 200}));
+  ASSERT_EQ(file.details[0].emissive_map.rgba.size(), 4U);
+  EXPECT_EQ(file.details[0].emissive_map.rgba[3], 177) << "half as shut as the picture says";
 
   TextureAtlas sheet;
   sheet.Add(file.pictures[0]);
   ASSERT_TRUE(sheet.Make());
-  const auto relief = sheet.MakeBeside({file.details[0].relief}, {128, 128, 255, 255});
-  ASSERT_TRUE(relief);
-  const glm::vec2 at = sheet.place(0).At({0.5F, 0.5F}) * glm::vec2(relief->width, relief->height);
+  const auto normal_map = sheet.MakeBeside({file.details[0].normal_map}, {128, 128, 255, 255});
+  ASSERT_TRUE(normal_map);
+  const glm::vec2 at =
+      sheet.place(0).At({0.5F, 0.5F}) * glm::vec2(normal_map->width, normal_map->height);
   const auto texel = static_cast<std::size_t>(
-      4 * (static_cast<int>(at.y) * relief->width + static_cast<int>(at.x)));
-  EXPECT_EQ(relief->rgba[texel], 178);
+      4 * (static_cast<int>(at.y) * normal_map->width + static_cast<int>(at.x)));
+  EXPECT_EQ(normal_map->rgba[texel], 178);
   EXPECT_EQ(sheet.MakeBeside({Image{}}, {0, 0, 0, 0}), nullptr);
 }
 
@@ -126,9 +127,9 @@ TEST(GltfMaterialTest, APictureThatLiesOtherwiseThanTheColourIsLeftOutWithANotic
 
 /// A plate of 100 mm before the face's middle, its picture grey; it faces the viewer, or away.
 struct Plate {
-  PbrMaterial finish;
+  PbrMaterial pbr;
   bool two_sided = false, faces_away = false;
-  std::vector<std::uint8_t> relief = {}, lights = {};  // one pixel
+  std::vector<std::uint8_t> normal_map = {}, emissive_map = {};  // one pixel
 };
 
 /// The colour on the screen in the middle of the plate. `front` light only comes from the viewer.
@@ -139,13 +140,13 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
               glm::vec2(0.5F + 0.5F * x, 0.5F - 0.5F * y));
   }
   model.photo = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
-  if (!plate.relief.empty()) {
-    model.relief = std::make_shared<Image>(Image{1, 1, plate.relief});
+  if (!plate.normal_map.empty()) {
+    model.normal_map = std::make_shared<Image>(Image{1, 1, plate.normal_map});
   }
-  if (!plate.lights.empty()) {
-    model.lights = std::make_shared<Image>(Image{1, 1, plate.lights});
+  if (!plate.emissive_map.empty()) {
+    model.emissive_map = std::make_shared<Image>(Image{1, 1, plate.emissive_map});
   }
-  model.finishes = {plate.finish};
+  model.pbr_materials = {plate.pbr};
   auto& indices = model.BatchOf(Material::kSkin, 0, plate.two_sided).indices;
   indices = plate.faces_away ? std::vector<std::uint32_t>{0, 2, 1, 0, 3, 2}
                              : std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3};
@@ -169,29 +170,31 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
 }
 
 TEST(PbrMaterialTest, WhatIsLitDarkensWithTheLampsAndWhatGlowsDoesNot) {
-  Plate plate{.finish = {.metallic = 0, .roughness = 1}};
+  Plate plate{.pbr = {.metallic = 0, .roughness = 1}};
   const float bright = Seen(plate).g, dim = Seen(plate, 0).g;
   EXPECT_GT(bright, 1.6F * dim);
   EXPECT_GT(dim, 10) << "the room has some light";
-  plate.finish.glow = glm::vec3(0.5F, 0, 0);
+  plate.pbr.glow = glm::vec3(0.5F, 0, 0);
   const glm::vec3 glowing = Seen(plate, 0);
   EXPECT_GT(glowing.r, dim + 40);
   EXPECT_NEAR(glowing.g, dim, 2);
 }
 
 TEST(PbrMaterialTest, ARoughMetalMirrorsTheLampLessThanASmoothOne) {
-  const float smooth = Seen({.finish = {.metallic = 1, .roughness = 0.35F}}).g;
-  const float rough = Seen({.finish = {.metallic = 1, .roughness = 1}}).g;
+  const float smooth = Seen({.pbr = {.metallic = 1, .roughness = 0.35F}}).g;
+  const float rough = Seen({.pbr = {.metallic = 1, .roughness = 1}}).g;
   EXPECT_GT(smooth, rough + 30);
   // Roughness and metal may lie in a picture: blue is rough, alpha metal.
-  EXPECT_NEAR(Seen({.finish = {.metallic = 1, .roughness = 1}, .relief = {128, 128, 89, 255}}).g,
+  EXPECT_NEAR(Seen({.pbr = {.metallic = 1, .roughness = 1}, .normal_map = {128, 128, 89, 255}}).g,
               smooth, 3);
 }
 
 TEST(PbrMaterialTest, ANormalThatLeansToTheLampIsBrighter) {
   const glm::vec3 right{0.8F, 0, 0.6F}, up{0, 0.8F, 0.6F};
-  const auto lit = [](std::vector<std::uint8_t> relief, glm::vec3 key) {
-    return Seen({.finish = {.metallic = 0, .roughness = 1}, .relief = std::move(relief)}, 1, key).g;
+  const auto lit = [](std::vector<std::uint8_t> normal_map, glm::vec3 key) {
+    return Seen({.pbr = {.metallic = 0, .roughness = 1}, .normal_map = std::move(normal_map)}, 1,
+                key)
+        .g;
   };
   const float flat = lit({128, 128, 255, 255}, right);
   EXPECT_GT(lit({200, 128, 255, 255}, right), flat + 10) << "red is to the right of the picture";
@@ -201,9 +204,9 @@ TEST(PbrMaterialTest, ANormalThatLeansToTheLampIsBrighter) {
 }
 
 TEST(PbrMaterialTest, OccludedPlacesGetLessOfTheRoomsLightAndAllOfTheLamps) {
-  Plate plate{.finish = {.metallic = 0, .roughness = 1}};
+  Plate plate{.pbr = {.metallic = 0, .roughness = 1}};
   const float open = Seen(plate, 0).g;
-  plate.lights = {255, 255, 255, 64};
+  plate.emissive_map = {255, 255, 255, 64};
   EXPECT_LT(Seen(plate, 0).g, 0.7F * open);
 }
 
@@ -212,7 +215,7 @@ TEST(PbrMaterialTest, AToonHasTwoColoursWithAnEdgeBetween) {
   toon.shade_to = 0.4F;
   toon.light_from = 0.5F;
   const auto at = [&toon](float cosine) {
-    return Seen({.finish = toon}, 1, {std::sqrt(1 - cosine * cosine), 0, cosine});
+    return Seen({.pbr = toon}, 1, {std::sqrt(1 - cosine * cosine), 0, cosine});
   };
   const glm::vec3 light = at(0.9F), shade = at(0.2F);
   EXPECT_EQ(at(0.55F), light);
@@ -223,10 +226,10 @@ TEST(PbrMaterialTest, AToonHasTwoColoursWithAnEdgeBetween) {
 
 TEST(PbrMaterialTest, OfTwoSidesBothAreSeenAndLit) {
   const PbrMaterial matt{.metallic = 0, .roughness = 1};
-  const glm::vec3 front = Seen({.finish = matt});
-  const glm::vec3 gone = Seen({.finish = matt, .faces_away = true});
+  const glm::vec3 front = Seen({.pbr = matt});
+  const glm::vec3 gone = Seen({.pbr = matt, .faces_away = true});
   EXPECT_LT(gone.r, 3) << "only the blue behind it";
-  EXPECT_EQ(Seen({.finish = matt, .two_sided = true, .faces_away = true}), front);
+  EXPECT_EQ(Seen({.pbr = matt, .two_sided = true, .faces_away = true}), front);
 }
 
 TEST(PbrMaterialTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
@@ -236,7 +239,7 @@ TEST(PbrMaterialTest, WhereATextureIsSewnTogetherTheNormalIsOne) {
        {glm::vec3(-10, 0, 0), {0, 0, 5}, {0, 10, 5}, {0, 0, 5}, {10, 0, 0}, {0, 10, 5}}) {
     model.Add(p, Bone::kSkull, glm::vec3(1));
   }
-  model.finishes.emplace_back();
+  model.pbr_materials.emplace_back();
   model.BatchOf(Material::kSkin, 0, false).indices = {0, 1, 2, 3, 4, 5};
   const auto head = MakeMeshHead(std::move(model));
   HeadVertices vertices;
