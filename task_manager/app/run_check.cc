@@ -8,7 +8,6 @@
 #include "task_manager/fetch/uri.h"
 #include "task_manager/grammar/builtin.h"
 #include "task_manager/grammar/store.h"
-#include "task_manager/script/rewriter.h"
 #include "task_manager/xml/parser.h"
 
 namespace vxml {
@@ -59,19 +58,16 @@ class DeepChecker {
   }
 
   void Expression(const xml::Node& node, const std::string& name, const std::string& text) {
-    // Evaluated in an empty world: only what is no expression at all is found.
-    auto value = engine_.Evaluate({engine_.NewScope()}, text);
-    if (!value && value.error().code == vm::Errc::kSyntax) {
-      Say(node, name + "=\"" + text + "\": " + value.error().text, "");
+    if (auto fit = engine_.CheckExpression(text); !fit) {
+      Say(node, name + "=\"" + text + "\": " + fit.error().text, "");
     }
   }
 
   void Script(const xml::Node& node) {
     if (node.Has("src") || node.Has("srcexpr")) return;
-    auto rewritten = script::Rewrite(node.Text(), script::SourceKind::kScript);
-    if (!rewritten) return Say(node, "script: " + rewritten.error().text, "");
-    auto ran = engine_.Run({engine_.NewScope()}, "function __check(){" + node.Text() + "\n}");
-    if (!ran && ran.error().code == vm::Errc::kSyntax) Say(node, "script: " + ran.error().text, "");
+    if (auto fit = engine_.CheckScript(node.Text()); !fit) {
+      Say(node, "script: " + fit.error().text, "");
+    }
   }
 
   void Target(const xml::Node& node, const std::string& target) {

@@ -1,6 +1,6 @@
 #include "task_manager/grammar/semantics.h"
 
-#include "task_manager/script/rewriter.h"
+#include "task_manager/script/engine.h"
 #include "task_manager/xml/node.h"
 
 namespace vxml::srgs {
@@ -25,26 +25,6 @@ bool LooksLikeScript(std::string_view tag) {
     return false;
   }
   return tag.find('=') != std::string_view::npos || tag.find('.') != std::string_view::npos;
-}
-
-/// Drafts of SISR wrote $ for out, $$ for rules.latest() and $name for rules.name.
-std::string FromDraft(const std::string& tag) {
-  auto tokens = script::Tokenize(tag);
-  if (!tokens) return tag;
-  std::string code;
-  for (const script::Token& token : *tokens) {
-    code += token.before;
-    if (token.text == "$") {
-      code += "out";
-    } else if (token.text == "$$") {
-      code += "rules.latest()";
-    } else if (token.type == script::Token::Type::kWord && token.text.starts_with("$")) {
-      code += "rules." + std::string(token.text.substr(1));
-    } else {
-      code += token.text;
-    }
-  }
-  return code;
 }
 
 class Interpreter {
@@ -80,8 +60,7 @@ class Interpreter {
           scope = MakeScope(parse);
           for (const auto& rule : rules) Publish(scope, rule);
         }
-        const std::string code = style == TagStyle::kGuess ? FromDraft(item.text) : item.text;
-        if (auto ran = engine_.Run({*globals, scope}, code); !ran) {
+        if (auto ran = engine_.Run({*globals, scope}, item.text); !ran) {
           return vm::Fail(ran.error().code, "tag '" + item.text + "': " + ran.error().text);
         }
         result = engine_.Get(scope, "out");
@@ -111,35 +90,33 @@ class Interpreter {
   Value MakeScope(const Parse& parse) {
     Value scope = engine_.NewScope();
     engine_.Set(scope, "out", engine_.Object());
-    engine_.Set(scope, "__text", engine_.String(parse.Text()));
-    const Value helpers =
-        engine_
-            .Evaluate({scope},
-                      "(function(text){return {"
-                      "rules:{latest:function(){}},"
-                      "meta:{latest:function(){},current:function(){return {text:text,score:1};}}"
-                      "};})(__text)")
-            .value_or(Value());
-    engine_.Remove(scope, "__text");
-    engine_.Set(scope, "rules", engine_.Get(helpers, "rules"));
-    engine_.Set(scope, "meta", engine_.Get(helpers, "meta"));
+    Value arguments = engine_.NewScope();
+    engine_.Set(arguments, "scope", scope);
+    engine_.Set(arguments, "spoken", engine_.String(parse.Text()));
+    // Drafts of SISR wrote $ for out, $$ for rules.latest() and $name for rules.name.
+    static_cast<void>(engine_.Run({arguments}, R"js(
+      scope.rules = { latest() {} };
+      scope.meta = { latest() {}, current: (text => () => ({ text, score: 1 }))(spoken) };
+      Object.defineProperties(scope, {
+        $: { get() { return this.out; }, set(value) { this.out = value; } },
+        $$: { get() { return this.rules.latest(); } } });)js"));
     return scope;
   }
 
   void Publish(const Value& scope,
                const std::pair<std::string, std::pair<Value, std::string>>& rule) {
     Value arguments = engine_.NewScope();
-    engine_.Set(arguments, "__r", engine_.Get(scope, "rules"));
-    engine_.Set(arguments, "__m", engine_.Get(scope, "meta"));
-    engine_.Set(arguments, "__n", engine_.String(rule.first));
-    engine_.Set(arguments, "__o", rule.second.first);
-    engine_.Set(arguments, "__t2", engine_.String(rule.second.second));
-    auto done = engine_.Evaluate(
-        {arguments},
-        "(__r[__n]=__o, __m[__n]={text:__t2,score:1},"
-        "(function(o,m){__r.latest=function(){return o;};__m.latest=function(){return m;};})"
-        "(__o,__m[__n]))");
-    static_cast<void>(done);
+    engine_.Set(arguments, "scope", scope);
+    engine_.Set(arguments, "name", engine_.String(rule.first));
+    engine_.Set(arguments, "value", rule.second.first);
+    engine_.Set(arguments, "text", engine_.String(rule.second.second));
+    static_cast<void>(engine_.Run({arguments}, R"js(
+      ((value, meta) => {
+        scope.rules[name] = scope['$' + name] = value;
+        scope.rules.latest = () => value;
+        scope.meta[name] = meta;
+        scope.meta.latest = () => meta;
+      })(value, { text, score: 1 });)js"));
   }
 
   Engine& engine_;

@@ -2,7 +2,6 @@
 #include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/scope_guard.h"
-#include "task_manager/script/rewriter.h"
 #include "task_manager/xml/parser.h"
 #include "vm_protocol/core/charset.h"
 #include "vm_protocol/core/utf8.h"
@@ -146,7 +145,7 @@ void DialogSession::RunAssign(const xml::Node& node) {
   }
   auto assigned = engine_.Assign(CurrentChain(), name, value);
   if (!assigned) {
-    ThrowSemantic(*context_->document, node, "'" + name + "': " + assigned.error().text);
+    ThrowScript(node, "'" + name + "'", assigned.error());
   }
 }
 
@@ -197,7 +196,7 @@ void DialogSession::RunScript(const xml::Node& node) {
     }
   }
   auto ran = engine_.Run(CurrentChain(), text);
-  if (!ran) ThrowSemantic(*context_->document, node, "script: " + ran.error().text);
+  if (!ran) ThrowScript(node, "script", ran.error());
 }
 
 void DialogSession::RunLog(const xml::Node& node) {

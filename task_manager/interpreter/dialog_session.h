@@ -87,7 +87,6 @@ class DialogSession {
   DialogSession& operator=(const DialogSession&) = delete;
 
   SessionResult Run();
-  std::size_t heap_bytes() const { return engine_.heap_bytes(); }
   /// True once the first document was loaded.
   bool started() const { return !parsed_.empty(); }
 
@@ -218,6 +217,9 @@ class DialogSession {
 
   // evaluation.cc
   script::Chain CurrentChain() const;
+  /// error.noresource for what went over a limit, else error.semantic.
+  [[noreturn]] void ThrowScript(const xml::Node& node, const std::string& code,
+                                const vm::Error& error);
   script::Value Evaluate(const xml::Node& node, const std::string& expression);
   bool Condition(const xml::Node& node, const std::string& attribute = "cond");
   std::string TextOf(const xml::Node& node, const std::string& expression);

@@ -4,7 +4,6 @@
 #include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/languages.h"
 #include "task_manager/interpreter/properties.h"
-#include "task_manager/script/rewriter.h"
 
 namespace vxml {
 
@@ -28,6 +27,12 @@ void ThrowSemantic(const VxmlDocument& document, const xml::Node& node, const st
                                    std::to_string(node.column) + ": " + what);
 }
 
+void DialogSession::ThrowScript(const xml::Node& node, const std::string& code,
+                                const vm::Error& error) {
+  if (error.code == vm::Errc::kLimit) ThrowEvent("error.noresource", code + ": " + error.text);
+  ThrowSemantic(*context_->document, node, code + ": " + error.text);
+}
+
 script::Chain DialogSession::CurrentChain() const {
   script::Chain chain{context_->names, session_scope_, context_->application, context_->variables};
   if (dialog_) chain.push_back(dialog_->scope);
@@ -37,9 +42,7 @@ script::Chain DialogSession::CurrentChain() const {
 
 Value DialogSession::Evaluate(const xml::Node& node, const std::string& expression) {
   auto value = engine_.Evaluate(CurrentChain(), expression);
-  if (!value) {
-    ThrowSemantic(*context_->document, node, "'" + expression + "': " + value.error().text);
-  }
+  if (!value) ThrowScript(node, "'" + expression + "'", value.error());
   return *value;
 }
 
@@ -54,7 +57,7 @@ std::string DialogSession::TextOf(const xml::Node& node, const std::string& expr
 
 /// Into the innermost scope, or the one named in front of a dot, which is not allowed.
 void DialogSession::Declare(const xml::Node& node, const std::string& name, const Value& value) {
-  if (!script::IsIdentifier(name)) {
+  if (!engine_.IsIdentifier(name)) {
     ThrowSemantic(*context_->document, node, "'" + name + "' cannot be declared");
   }
   const script::Chain chain = CurrentChain();
@@ -74,7 +77,7 @@ bool DialogSession::IsDeclared(const std::string& name) {
   for (std::size_t i = chain.size(); i-- > 1;) {
     if (engine_.Has(chain[i], base)) return true;
   }
-  if (!engine_.Has(chain[0], base)) return engine_.HasOwnGlobal(base);
+  if (!engine_.Has(chain[0], base)) return engine_.IsDeclared(chain, base);
   if (dot == std::string::npos) return true;
   const std::string rest = name.substr(dot + 1);
   return engine_.Has(engine_.Get(chain[0], base), rest.substr(0, rest.find_first_of(".[ ")));

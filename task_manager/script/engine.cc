@@ -1,209 +1,548 @@
 #include "task_manager/script/engine.h"
 
-#include <ctime>
+#include <js/Array.h>
+#include <js/CallAndConstruct.h>
+#include <js/CharacterEncoding.h>
+#include <js/CompilationAndEvaluation.h>
+#include <js/Conversions.h>
+#include <js/Exception.h>
+#include <js/GCAPI.h>
+#include <js/GCVector.h>
+#include <js/JSON.h>
+#include <js/SourceText.h>
+#include <jsfriendapi.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <unordered_map>
 
 #include "embedded/prelude.h"
-#include "embedded/regexps.h"
-#include "task_manager/script/engine_impl.h"
-#include "task_manager/script/rewriter.h"
+#include "embedded/self_hosted_code.h"
+#include "task_manager/script/context.h"
 
 namespace vxml::script {
-
 namespace {
 
-std::chrono::nanoseconds RealTime() { return std::chrono::steady_clock::now().time_since_epoch(); }
+constexpr std::size_t kMaxCompiled = 1000;  // expressions kept
+/// When variables hold the whole heap, handlers get this much more to let go of them, each time it
+/// is not enough, up to so many times the whole heap.
+constexpr std::size_t kAllowance = std::size_t{1} << 20;
+constexpr std::size_t kMostOverrun = 4;
 
-std::chrono::nanoseconds ThreadTime() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+const JSClass kGlobalClass = {
+    "global", JSCLASS_GLOBAL_FLAGS, &JS::DefaultGlobalClassOps, nullptr, nullptr, nullptr};
+
+JSString* ToScript(JSContext* js, std::string_view text) {
+  const JS::UTF8Chars utf8(text.data(), text.size());
+  if (JSString* made = JS_NewStringCopyUTF8N(js, utf8)) return made;
+  JS_ClearPendingException(js);
+  std::size_t size = 0;
+  const JS::UniqueTwoByteChars wide(
+      JS::LossyUTF8CharsToNewTwoByteCharsZ(js, utf8, &size, js::MallocArena).get());
+  return wide ? JS_NewUCStringCopyN(js, wide.get(), size) : nullptr;
+}
+
+bool ToId(JSContext* js, const std::string& name, JS::MutableHandleId id) {
+  const JS::RootedString text(js, ToScript(js, name));
+  return text && JS_StringToId(js, text, id);
+}
+
+bool FromScript(JSContext* js, JS::HandleString text, std::string& out) {
+  JSLinearString* linear = JS_EnsureLinearString(js, text);
+  if (!linear) return false;
+  out.resize(JS::GetDeflatedUTF8StringLength(linear));
+  const std::size_t written = JS::DeflateStringToUTF8Buffer(linear, mozilla::Span(out));
+  out.resize(written);
+  return true;
+}
+
+bool TextOf(JSContext* js, JS::HandleValue value, std::string& out) {
+  const JS::RootedString text(js, JS::ToString(js, value));
+  return text && FromScript(js, text, out);
+}
+
+double NumberOf(JSContext* js, JS::HandleObject object, const char* name) {
+  JS::RootedValue value(js);
+  return JS_GetProperty(js, object, name, &value) && value.isNumber() ? value.toNumber() : 0;
+}
+
+JSScript* Compile(JSContext* js, std::string_view source) {
+  JS::CompileOptions options(js);
+  options.setFileAndLine("script", 1).setNonSyntacticScope(true);
+  JS::SourceText<mozilla::Utf8Unit> text;
+  if (!text.init(js, source.data(), source.size(), JS::SourceOwnership::Borrowed)) return nullptr;
+  return JS::Compile(js, options, text);
+}
+
+/// Text that is no expression by itself may still become one between some brackets, as `a);(b`
+/// does, but not between two kinds of them.
+JSScript* CompileExpression(JSContext* js, const std::string& expression) {
+  if (!Compile(js, "[" + expression + "\n]")) return nullptr;
+  return Compile(js, "(" + expression + "\n)");
 }
 
 }  // namespace
+
+struct Value::Slot {
+  Slot(JSContext* js, JS::HandleValue given) : value(js, given) {}
+  JS::PersistentRootedValue value;
+};
+
+struct Engine::Impl {
+  explicit Impl(const Limits& given);
+
+  const JS::Value& Of(const Value& value) const {
+    return value.slot_ ? value.slot_->value.get() : JS::UndefinedHandleValue.get();
+  }
+  Value Wrap(JS::HandleValue value) const {
+    return Value(std::make_shared<Value::Slot>(js, value));
+  }
+
+  /// Runs `action`, which does what SpiderMonkey's functions do (false: an exception is pending or
+  /// the script was stopped), within the realm and the limits, and then what promises wait for.
+  template <typename Action>
+  vm::Result<void> Within(Action action, vm::Errc thrown = vm::Errc::kBadValue);
+  template <typename Action>
+  vm::Result<Value> Make(Action action);
+  /// Like Within, where `object` is an object; else nothing.
+  template <typename Action>
+  void WithObject(const Value& object, Action action);
+
+  /// Takes the pending exception.
+  vm::Error Failure(vm::Errc thrown);
+  vm::Error Starved();
+  vm::Result<void> CheckSize(const std::string& source) const;
+  vm::Result<void> CheckHeap();
+  /// Objects of the scripts of this thread, their texts and buffers.
+  std::size_t HeapBytes() const {
+    if (!memory) return 0;
+    return static_cast<std::size_t>(NumberOf(js, memory, "gcBytes") +
+                                    NumberOf(js, memory, "mallocBytes"));
+  }
+  vm::Result<JS::PersistentRootedScript*> Compiled(const std::string& expression);
+  vm::Result<Value> Execute(const Chain& chain, JS::HandleScript script);
+  /// Lets inner scopes see what `let`, `const` and `class` have declared in the innermost of the
+  /// chain: SpiderMonkey keeps that beside the scope object, for scripts of that very scope.
+  vm::Result<void> PublishLexicals(const Chain& chain);
+  bool Scopes(const Chain& chain, JS::MutableHandleObjectVector out) const;
+
+  std::shared_ptr<Context> context = Context::OfThread(embedded::self_hosted_code());
+  JSContext* js = context->js();
+  Limits limits;
+  std::size_t most_heap_bytes = limits.heap_bytes;
+  JS::PersistentRootedObject global{js};
+  JS::PersistentRootedObject helpers{js};
+  JS::PersistentRootedObject memory{js};  // SpiderMonkey's numbers of it
+  std::unordered_map<std::string, JS::PersistentRootedScript> compiled;
+};
 
 Engine::Impl::Impl(const Limits& given) : limits(given) {
-  if (!limits.clocks.real) limits.clocks.real = RealTime;
-  if (!limits.clocks.processor) limits.clocks.processor = ThreadTime;
-  context = duk_create_heap(&Allocate, &Reallocate, &Release, this, &Fatal);
-  if (!context) std::abort();
-  Protect([](duk_context* c) {
-    duk_push_heap_stash(c);
-    duk_push_array(c);
-    duk_put_prop_string(c, -2, kValues);
-    duk_push_object(c);
-    duk_put_prop_string(c, -2, kCache);
-    duk_push_c_function(c, &Tick, 1);
-    duk_put_global_string(c, "__t");
-    duk_push_c_function(c, &Eval, 1);
-    duk_put_global_string(c, "__eval");
-    duk_push_c_function(c, &MatchPattern, 4);
-    duk_put_global_string(c, "__match");
+  context->set_most_heap_bytes(limits.heap_bytes);
+  JS::RealmOptions options;
+  options.creationOptions().setSharedMemoryAndAtomicsEnabled(false);
+  if (JS_GetGCParameter(js, JSGC_BYTES) > limits.heap_bytes / 2)
+    JS_GC(js);  // what former engines left
+  global = JS_NewGlobalObject(js, &kGlobalClass, nullptr, JS::FireOnNewGlobalHook, options);
+  const auto made = !global ? vm::Fail(vm::Errc::kLimit, "no memory") : Within([&] {
+    if (!JS::InitRealmStandardClasses(js)) return false;
+    const JS::RootedScript script(js, Compile(js, embedded::prelude()));
+    JS::RootedValue value(js);
+    if (!script || !JS_ExecuteScript(js, script, &value)) return false;
+    helpers = &value.toObject();
+    memory = js::gc::NewMemoryInfoObject(js);
+    return memory != nullptr;
   });
-  ok = true;
-  for (const std::string_view source : {embedded::prelude(), embedded::regexps()}) {
-    ok = ok && Protect([&](duk_context* c) { duk_eval_lstring(c, source.data(), source.size()); });
-  }
-}
-
-/// __match(source, flags, text, from): beginnings and ends, or null.
-duk_ret_t Engine::Impl::MatchPattern(duk_context* c) {
-  Impl& impl = From(c);
-  if (impl.steps_left == 0 || impl.Late()) return impl.RunOut(c);
-  duk_size_t source_size = 0;
-  duk_size_t flags_size = 0;
-  duk_size_t text_size = 0;
-  const char* source = duk_require_lstring(c, 0, &source_size);
-  const char* flags = duk_require_lstring(c, 1, &flags_size);
-  const char* text = duk_require_lstring(c, 2, &text_size);
-  const double from = duk_require_number(c, 3);
-  if (text_size > Regexps::kMaxTextBytes) {
-    return duk_error(c, DUK_ERR_RANGE_ERROR, "the text is too long for a regular expression");
-  }
-  // One text is mostly searched many times over: it is kept, alive and in characters.
-  if (impl.searched_in != duk_get_heapptr(c, 2)) {
-    duk_push_heap_stash(c);
-    duk_dup(c, 2);
-    duk_put_prop_string(c, -2, kText);
-    duk_pop(c);
-    impl.searched = Characters({text, text_size});
-    impl.searched_in = duk_get_heapptr(c, 2);
-  }
-  Regexps::Outcome outcome = Regexps::Outcome::kNoMatch;
-  if (from >= 0 && from <= static_cast<double>(impl.searched.size())) {
-    outcome = impl.regexps.Match({source, source_size}, {flags, flags_size}, impl.searched,
-                                 static_cast<std::size_t>(from), impl.spans);
-  }
-  if (outcome == Regexps::Outcome::kOverLimit || impl.Late()) return impl.RunOut(c);
-  if (outcome == Regexps::Outcome::kRefused) {
-    return duk_error(c, DUK_ERR_RANGE_ERROR, "the regular expression is too large");
-  }
-  if (outcome == Regexps::Outcome::kNoMatch) {
-    duk_push_null(c);
-    return 1;
-  }
-  const duk_idx_t result = duk_push_array(c);
-  for (std::size_t i = 0; i < impl.spans.size(); ++i) {
-    duk_push_number(c, static_cast<double>(impl.spans[i]));
-    duk_put_prop_index(c, result, static_cast<duk_uarridx_t>(i));
-  }
-  return 1;
-}
-
-void Engine::Impl::Push(duk_context* c, const Value& value) const {
-  if (value.slot_) {
-    PushSlot(c, value.slot_->index);
-  } else {
-    duk_push_undefined(c);
-  }
-}
-
-namespace {
-
-/// (function(__s0,..,__v){with(__s0)..{BODY}})
-std::string Wrap(std::size_t scopes, const std::string& body) {
-  std::string code = "(function(";
-  for (std::size_t i = 0; i < scopes; ++i) code += "__s" + std::to_string(i) + ",";
-  code += "__v){";
-  for (std::size_t i = 0; i < scopes; ++i) code += "with(__s" + std::to_string(i) + ")";
-  return code + "{" + body + "}})";
-}
-
-}  // namespace
-
-vm::Result<Value> Engine::Impl::Call(const Chain& chain, const std::string& body, bool keep,
-                                     const Value* argument) {
-  const std::string code = Wrap(chain.size(), body);
-  const Chain* outer = std::exchange(current, &chain);
-  auto result = Make([&](duk_context* c) {
-    duk_push_heap_stash(c);
-    duk_get_prop_string(c, -1, kCache);
-    if (!duk_get_prop_lstring(c, -1, code.data(), code.size())) {
-      duk_pop(c);
-      duk_push_lstring(c, code.data(), code.size());
-      duk_push_string(c, "script");
-      duk_compile(c, DUK_COMPILE_EVAL);
-      duk_call(c, 0);
-      if (keep && cached < kMaxCached) {
-        ++cached;
-        duk_dup_top(c);
-        duk_put_prop_lstring(c, -3, code.data(), code.size());
-      }
-    }
-    for (const Value& scope : chain) Push(c, scope);
-    if (argument) {
-      Push(c, *argument);
-    } else {
-      duk_push_undefined(c);
-    }
-    duk_call(c, static_cast<duk_idx_t>(chain.size()) + 1);
-  });
-  current = outer;
-  return result;
-}
-
-/// eval(code): as an expression of the scopes it is called from, or as a script.
-duk_ret_t Engine::Impl::Eval(duk_context* c) {
-  Impl& impl = From(c);
-  if (!duk_is_string(c, 0)) return 1;
-  if (!impl.current || impl.nesting > 8) return duk_error(c, DUK_ERR_EVAL_ERROR, "eval refused");
-  bool failed = false;
-  {
-    const std::string code = duk_get_string(c, 0);
-    const Chain chain = *impl.current;
-    auto value = impl.owner->Evaluate(chain, code);
-    if (!value && value.error().code == vm::Errc::kSyntax) {
-      auto ran = impl.owner->Run(chain, code);
-      if (ran) value = impl.owner->Undefined();
-    }
-    failed = !value;
-    if (value) impl.Push(c, *value);
-  }
-  if (failed) return duk_error(c, DUK_ERR_EVAL_ERROR, "%s", impl.error_text.c_str());
-  return 1;
-}
-
-Engine::Engine(const Limits& limits) : impl_(std::make_unique<Impl>(limits)) {
-  impl_->owner = this;
-  if (!impl_->ok) {
-    std::fprintf(stderr, "script prelude: %s\n", impl_->error_text.c_str());
+  if (!made) {
+    std::fprintf(stderr, "script prelude: %s\n", made.error().text.c_str());
     std::abort();
   }
 }
-Engine::~Engine() = default;
 
-vm::Result<Value> Engine::Evaluate(const Chain& chain, const std::string& expression) {
-  if (expression.size() > impl_->limits.source_bytes) {
-    return vm::Fail(vm::Errc::kLimit,
-                    "an expression over " + std::to_string(impl_->limits.source_bytes) + " bytes");
+template <typename Action>
+vm::Result<void> Engine::Impl::Within(Action action, vm::Errc thrown) {
+  const JSAutoRealm realm(js, global);
+  context->watch().Begin(limits.time, 2 * limits.heap_bytes);
+  const bool done = action();
+  std::optional<vm::Error> error;
+  if (!done) error = Failure(thrown);
+  done ? context->jobs().runJobs(js) : context->jobs().Drop();
+  JS_ClearPendingException(js);
+  const auto verdict = context->watch().End();
+  if (verdict == Watch::Verdict::kLate) {
+    return vm::Fail(vm::Errc::kLimit, "the script runs too long");
   }
-  auto rewritten = Rewrite(expression, SourceKind::kExpression);
-  if (!rewritten) return std::unexpected(rewritten.error());
-  return impl_->Call(chain, "return (" + rewritten->code + "\n);", true, nullptr);
+  if (verdict == Watch::Verdict::kStarved) return std::unexpected(Starved());
+  if (error) return std::unexpected(*error);
+  return {};
 }
 
-vm::Result<void> Engine::Run(const Chain& chain, const std::string& script) {
-  if (script.size() > impl_->limits.source_bytes) {
-    return vm::Fail(vm::Errc::kLimit,
-                    "a script over " + std::to_string(impl_->limits.source_bytes) + " bytes");
+template <typename Action>
+vm::Result<Value> Engine::Impl::Make(Action action) {
+  JS::RootedValue value(js);
+  if (auto done = Within([&] { return action(&value); }); !done) {
+    return std::unexpected(done.error());
   }
-  auto rewritten = Rewrite(script, SourceKind::kScript);
-  if (!rewritten) return std::unexpected(rewritten.error());
-  if (!chain.empty()) {
-    for (const std::string& name : rewritten->declared) {
-      if (!Has(chain.back(), name)) Set(chain.back(), name, Undefined());
+  return Wrap(value);
+}
+
+template <typename Action>
+void Engine::Impl::WithObject(const Value& object, Action action) {
+  if (!Of(object).isObject()) return;
+  static_cast<void>(Within([&] {
+    const JS::RootedObject inner(js, &Of(object).toObject());
+    return action(inner);
+  }));
+}
+
+vm::Error Engine::Impl::Failure(vm::Errc thrown) {
+  if (!JS_IsExceptionPending(js)) return {vm::Errc::kLimit, "the script was stopped", 0};
+  if (JS_IsThrowingOutOfMemory(js)) return Starved();
+  JS::RootedValue exception(js);
+  if (!JS_GetPendingException(js, &exception)) return Starved();
+  JS_ClearPendingException(js);
+  std::string text;
+  if (!TextOf(js, exception, text)) text = "an exception that has no text";
+  JS_ClearPendingException(js);
+  if (exception.isObject()) {
+    const JS::RootedObject object(js, &exception.toObject());
+    const JSErrorReport* report = JS_ErrorFromException(js, object);
+    if (report && report->lineno > 1) text += " (line " + std::to_string(report->lineno) + ")";
+  }
+  return {thrown, text, 0};
+}
+
+vm::Error Engine::Impl::Starved() {
+  const JSAutoRealm realm(js, global);
+  JS_ClearPendingException(js);
+  JS_GC(js);
+  most_heap_bytes =
+      std::clamp(HeapBytes() + kAllowance, limits.heap_bytes, kMostOverrun * limits.heap_bytes);
+  context->set_most_heap_bytes(most_heap_bytes);
+  return {vm::Errc::kLimit,
+          "the script needs more than " + std::to_string(limits.heap_bytes >> 20) + " MiB", 0};
+}
+
+vm::Result<void> Engine::Impl::CheckHeap() {
+  const JSAutoRealm realm(js, global);
+  if (HeapBytes() <= most_heap_bytes) return {};
+  JS_GC(js);
+  if (HeapBytes() <= most_heap_bytes) return {};
+  return std::unexpected(Starved());
+}
+
+vm::Result<void> Engine::Impl::CheckSize(const std::string& source) const {
+  if (source.size() <= limits.source_bytes) return {};
+  return vm::Fail(vm::Errc::kLimit,
+                  "a script over " + std::to_string(limits.source_bytes) + " bytes");
+}
+
+vm::Result<JS::PersistentRootedScript*> Engine::Impl::Compiled(const std::string& expression) {
+  const auto known = compiled.find(expression);
+  if (known != compiled.end()) return &known->second;
+  if (auto small = CheckSize(expression); !small) return std::unexpected(small.error());
+  JS::RootedScript script(js);
+  const auto done = Within(
+      [&] {
+        script = CompileExpression(js, expression);
+        return script != nullptr;
+      },
+      vm::Errc::kSyntax);
+  if (!done) return std::unexpected(done.error());
+  if (compiled.size() >= kMaxCompiled) compiled.clear();
+  return &compiled.try_emplace(expression, js, script).first->second;
+}
+
+bool Engine::Impl::Scopes(const Chain& chain, JS::MutableHandleObjectVector out) const {
+  for (auto scope = chain.rbegin(); scope != chain.rend(); ++scope) {  // the innermost is first
+    if (Of(*scope).isObject() && !out.append(&Of(*scope).toObject())) return false;
+  }
+  return true;
+}
+
+vm::Result<Value> Engine::Impl::Execute(const Chain& chain, JS::HandleScript script) {
+  auto result = Make([&](JS::MutableHandleValue value) {
+    JS::RootedObjectVector scopes(js);
+    return Scopes(chain, &scopes) && JS_ExecuteScript(js, scopes, script, value);
+  });
+  if (auto within = CheckHeap(); !within) return std::unexpected(within.error());
+  return result;
+}
+
+vm::Result<void> Engine::Impl::PublishLexicals(const Chain& chain) {
+  if (chain.empty() || !Of(chain.back()).isObject()) return {};
+  const JS::RootedObject scope(js, &Of(chain.back()).toObject());
+  if (!JS_HasExtensibleLexicalEnvironment(scope)) return {};
+  return Within([&] {
+    const JS::RootedObject lexicals(js, JS_ExtensibleLexicalEnvironment(scope));
+    JS::Rooted<JS::IdVector> ids(js, JS::IdVector(js));
+    if (!JS_Enumerate(js, lexicals, &ids)) return false;
+    JS::RootedObjectVector scopes(js);
+    if (!Scopes(chain, &scopes)) return false;
+    for (std::size_t i = 0; i < ids.length(); ++i) {
+      bool known = false;
+      if (!JS_HasOwnPropertyById(js, scope, ids[i], &known)) return false;
+      if (known) continue;
+      JS::RootedValue name(js), pair(js), get(js), set(js);
+      std::string text;
+      if (!JS_IdToValue(js, ids[i], &name) || !TextOf(js, name, text)) return false;
+      const JS::RootedScript script(
+          js, Compile(js, "({get: () => " + text + ", set() { " + text + " = arguments[0]; }})"));
+      if (!script || !JS_ExecuteScript(js, scopes, script, &pair)) return false;
+      const JS::RootedObject accessors(js, &pair.toObject());
+      if (!JS_GetProperty(js, accessors, "get", &get) ||
+          !JS_GetProperty(js, accessors, "set", &set)) {
+        return false;
+      }
+      const JS::RootedObject getter(js, &get.toObject()), setter(js, &set.toObject());
+      if (!JS_DefinePropertyById(js, scope, ids[i], getter, setter, 0)) return false;
     }
-  }
-  auto result = impl_->Call(chain, rewritten->code + "\n", false, nullptr);
+    return true;
+  });
+}
+
+Engine::Engine(const Limits& limits) : impl_(std::make_unique<Impl>(limits)) {}
+Engine::~Engine() = default;
+
+// --- running
+
+vm::Result<Value> Engine::Evaluate(const Chain& chain, const std::string& expression) {
+  auto script = impl_->Compiled(expression);
+  if (!script) return std::unexpected(script.error());
+  return impl_->Execute(chain, **script);
+}
+
+vm::Result<void> Engine::Run(const Chain& chain, const std::string& source) {
+  if (auto small = impl_->CheckSize(source); !small) return small;
+  JSContext* js = impl_->js;
+  JS::RootedScript script(js);
+  const auto compile = [&] { return (script = Compile(js, source)) != nullptr; };
+  if (auto done = impl_->Within(compile, vm::Errc::kSyntax); !done) return done;
+  auto result = impl_->Execute(chain, script);
+  auto published = impl_->PublishLexicals(chain);  // what was declared before an error, too
   if (!result) return std::unexpected(result.error());
-  return {};
+  return published;
 }
 
 vm::Result<void> Engine::Assign(const Chain& chain, const std::string& path, const Value& value) {
-  auto rewritten = Rewrite(path, SourceKind::kExpression);
-  if (!rewritten) return std::unexpected(rewritten.error());
-  auto result = impl_->Call(chain, rewritten->code + "\n=__v;", true, &value);
-  if (!result) return std::unexpected(result.error());
+  if (auto fit = CheckExpression(path); !fit) return fit;
+  JSContext* js = impl_->js;
+  const std::string body = "'use strict';(" + path + "\n)=assigned";
+  return impl_->Within([&] {
+    JS::CompileOptions options(js);
+    options.setFileAndLine("script", 1);
+    const char* const parameters[] = {"assigned"};
+    JS::SourceText<mozilla::Utf8Unit> text;
+    JS::RootedObjectVector scopes(js);
+    if (!impl_->Scopes(chain, &scopes) ||
+        !text.init(js, body.data(), body.size(), JS::SourceOwnership::Borrowed)) {
+      return false;
+    }
+    const JS::RootedFunction function(
+        js, JS::CompileFunction(js, scopes, options, "assign", 1, parameters, text));
+    JS::RootedValueVector arguments(js);
+    JS::RootedValue result(js);
+    return function && arguments.append(impl_->Of(value)) &&
+           JS_CallFunction(js, nullptr, function, arguments, &result);
+  });
+}
+
+vm::Result<void> Engine::CheckExpression(const std::string& expression) {
+  auto script = impl_->Compiled(expression);
+  if (!script) return std::unexpected(script.error());
   return {};
+}
+
+vm::Result<void> Engine::CheckScript(const std::string& script) {
+  if (auto small = impl_->CheckSize(script); !small) return small;
+  return impl_->Within([&] { return Compile(impl_->js, script) != nullptr; }, vm::Errc::kSyntax);
+}
+
+bool Engine::IsIdentifier(const std::string& text) {
+  bool is = false;
+  static_cast<void>(impl_->Within([&] {
+    const JS::RootedString name(impl_->js, ToScript(impl_->js, text));
+    return name && JS_IsIdentifier(impl_->js, name, &is);
+  }));
+  return is && CheckScript("var " + text);
+}
+
+bool Engine::IsDeclared(const Chain& chain, const std::string& identifier) {
+  for (const Value& scope : chain) {
+    if (Has(scope, identifier)) return true;
+  }
+  bool built_in = false;
+  JSContext* js = impl_->js;
+  static_cast<void>(impl_->Within([&] {
+    JS::RootedId id(js);
+    JS::Rooted<mozilla::Maybe<JS::PropertyDescriptor>> found(js);
+    if (!ToId(js, identifier, &id) ||
+        !JS_GetOwnPropertyDescriptorById(js, impl_->global, id, &found)) {
+      return false;
+    }
+    built_in = found.isSome() && !found->enumerable();
+    return true;
+  }));
+  return !built_in && IsIdentifier(identifier) && Evaluate(chain, identifier).has_value();
+}
+
+// --- making values
+
+Value Engine::NewScope() {
+  return impl_
+      ->Make([&](JS::MutableHandleValue value) {
+        JSObject* made = JS_NewObjectWithGivenProto(impl_->js, nullptr, nullptr);
+        if (made) value.setObject(*made);
+        return made != nullptr;
+      })
+      .value_or(Value());
+}
+Value Engine::Undefined() { return impl_->Wrap(JS::UndefinedHandleValue); }
+Value Engine::Null() { return impl_->Wrap(JS::NullHandleValue); }
+Value Engine::String(std::string_view text) {
+  return impl_
+      ->Make([&](JS::MutableHandleValue value) {
+        JSString* made = ToScript(impl_->js, text);
+        if (made) value.setString(made);
+        return made != nullptr;
+      })
+      .value_or(Value());
+}
+Value Engine::Number(double number) {
+  return impl_->Wrap(JS::RootedValue(impl_->js, JS::NumberValue(number)));
+}
+Value Engine::Boolean(bool truth) {
+  return impl_->Wrap(truth ? JS::TrueHandleValue : JS::FalseHandleValue);
+}
+vm::Result<Value> Engine::Json(const std::string& json) {
+  return impl_->Make([&](JS::MutableHandleValue value) {
+    const JS::RootedString text(impl_->js, ToScript(impl_->js, json));
+    return text && JS_ParseJSON(impl_->js, text, value);
+  });
+}
+vm::Result<Value> Engine::Dom(const std::string& json) {
+  return impl_->Make([&](JS::MutableHandleValue value) {
+    const JS::RootedString text(impl_->js, ToScript(impl_->js, json));
+    JS::RootedValue parsed(impl_->js);
+    return text && JS_ParseJSON(impl_->js, text, &parsed) &&
+           JS_CallFunctionName(impl_->js, impl_->helpers, "dom", JS::HandleValueArray(parsed),
+                               value);
+  });
+}
+Value Engine::Copy(const Value& array) {
+  auto made = impl_->Make([&](JS::MutableHandleValue value) {
+    value.setUndefined();
+    if (!impl_->Of(array).isObject()) return true;
+    const JS::RootedObject object(impl_->js, &impl_->Of(array).toObject());
+    return JS_CallFunctionName(impl_->js, object, "slice", JS::HandleValueArray::empty(), value);
+  });
+  return made ? *made : Array();
+}
+
+// --- looking into values
+
+bool Engine::Has(const Value& object, const std::string& name) {
+  bool has = false;
+  impl_->WithObject(object, [&](JS::HandleObject inner) {
+    JS::RootedId id(impl_->js);
+    return ToId(impl_->js, name, &id) && JS_HasPropertyById(impl_->js, inner, id, &has);
+  });
+  return has;
+}
+Value Engine::Get(const Value& object, const std::string& name) {
+  const JS::Value& from = impl_->Of(object);
+  if (from.isNullOrUndefined()) return Undefined();
+  return impl_
+      ->Make([&](JS::MutableHandleValue value) {
+        const JS::RootedValue rooted(impl_->js, from);
+        const JS::RootedObject inner(impl_->js, JS::ToObject(impl_->js, rooted));
+        JS::RootedId id(impl_->js);
+        return inner && ToId(impl_->js, name, &id) &&
+               JS_GetPropertyById(impl_->js, inner, id, value);
+      })
+      .value_or(Value());
+}
+void Engine::Set(const Value& object, const std::string& name, const Value& value) {
+  impl_->WithObject(object, [&](JS::HandleObject inner) {
+    JS::RootedId id(impl_->js);
+    const JS::RootedValue rooted(impl_->js, impl_->Of(value));
+    return ToId(impl_->js, name, &id) && JS_SetPropertyById(impl_->js, inner, id, rooted);
+  });
+}
+void Engine::SetReadOnly(const Value& object, const std::string& name, const Value& value) {
+  impl_->WithObject(object, [&](JS::HandleObject inner) {
+    JS::RootedId id(impl_->js);
+    const JS::RootedValue rooted(impl_->js, impl_->Of(value));
+    return ToId(impl_->js, name, &id) &&
+           JS_DefinePropertyById(impl_->js, inner, id, rooted,
+                                 JSPROP_ENUMERATE | JSPROP_READONLY | JSPROP_PERMANENT);
+  });
+}
+void Engine::Remove(const Value& object, const std::string& name) {
+  impl_->WithObject(object, [&](JS::HandleObject inner) {
+    JS::RootedId id(impl_->js);
+    JS::ObjectOpResult removed;
+    return ToId(impl_->js, name, &id) && JS_DeletePropertyById(impl_->js, inner, id, removed);
+  });
+}
+void Engine::Freeze(const Value& object) {
+  impl_->WithObject(object,
+                    [&](JS::HandleObject inner) { return JS_FreezeObject(impl_->js, inner); });
+}
+std::vector<std::string> Engine::Keys(const Value& object) {
+  std::vector<std::string> keys;
+  impl_->WithObject(object, [&](JS::HandleObject inner) {
+    JS::Rooted<JS::IdVector> ids(impl_->js, JS::IdVector(impl_->js));
+    if (!JS_Enumerate(impl_->js, inner, &ids)) return false;
+    for (std::size_t i = 0; i < ids.length(); ++i) {
+      JS::RootedValue name(impl_->js);
+      if (!JS_IdToValue(impl_->js, ids[i], &name) ||
+          !TextOf(impl_->js, name, keys.emplace_back())) {
+        return false;
+      }
+    }
+    return true;
+  });
+  return keys;
+}
+std::size_t Engine::Length(const Value& array) {
+  const Value length = Get(array, "length");
+  const JS::Value& value = impl_->Of(length);
+  const double number = value.isNumber() && IsObject(array) ? value.toNumber() : 0;
+  return number > 0 && number <= UINT32_MAX ? static_cast<std::size_t>(number) : 0;
+}
+
+bool Engine::IsUndefined(const Value& value) { return impl_->Of(value).isUndefined(); }
+bool Engine::IsObject(const Value& value) { return impl_->Of(value).isObject(); }
+bool Engine::IsArray(const Value& value) {
+  bool is = false;
+  impl_->WithObject(
+      value, [&](JS::HandleObject inner) { return JS::IsArrayObject(impl_->js, inner, &is); });
+  return is;
+}
+bool Engine::IsBoolean(const Value& value) { return impl_->Of(value).isBoolean(); }
+bool Engine::IsNumber(const Value& value) { return impl_->Of(value).isNumber(); }
+bool Engine::IsString(const Value& value) { return impl_->Of(value).isString(); }
+bool Engine::ToBoolean(const Value& value) {
+  return JS::ToBoolean(JS::RootedValue(impl_->js, impl_->Of(value)));
+}
+std::string Engine::ToString(const Value& value) {
+  std::string text;
+  const auto done = impl_->Within(
+      [&] { return TextOf(impl_->js, JS::RootedValue(impl_->js, impl_->Of(value)), text); });
+  return done ? text : done.error().text;
+}
+std::string Engine::ToJson(const Value& value) {
+  std::string text;
+  const auto done = impl_->Within([&] {
+    const JS::RootedValue given(impl_->js, impl_->Of(value));
+    JS::RootedValue made(impl_->js);
+    return JS_CallFunctionName(impl_->js, impl_->helpers, "json", JS::HandleValueArray(given),
+                               &made) &&
+           TextOf(impl_->js, made, text);
+  });
+  return done ? text : "\"[object]\"";
 }
 
 }  // namespace vxml::script

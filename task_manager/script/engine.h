@@ -1,8 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -32,24 +30,16 @@ class Value {
 /// Scope objects from the outermost to the innermost one.
 using Chain = std::vector<Value>;
 
-/// What the time of scripts is measured on, since a moment that does not matter. Each is asked at
-/// every loop turn, call and large block of memory. Empty: the machine's.
-struct Clocks {
-  std::function<std::chrono::nanoseconds()> real{};
-  std::function<std::chrono::nanoseconds()> processor{};  ///< of this thread
-};
-
 struct Limits {
-  std::size_t heap_bytes = std::size_t{32} << 20;  ///< and up to a quarter more to recover
-  std::uint64_t steps = 20'000'000;      ///< loop turns and function calls of one evaluation
-  std::chrono::milliseconds time{1000};  ///< real time, then as much again of the processor's
+  std::size_t heap_bytes = std::size_t{32} << 20;  ///< and more to recover
+  std::chrono::milliseconds time{1000};            ///< of the processor, for one evaluation
   std::size_t source_bytes = std::size_t{1} << 20;
-  Clocks clocks{};
 };
 
-/// The data model: ECMAScript (Duktape) with scopes that are ordinary objects on a `with` chain.
-/// Thread: one instance, one thread. Errors: kBadValue (the script threw; the text is the
-/// exception's), kSyntax, kLimit (heap, steps, time). After any error the engine goes on working.
+/// The data model: ECMAScript 2022 (SpiderMonkey) with scopes that are ordinary objects.
+/// Thread: one instance, one thread; those of a thread share its memory limit. Errors: kBadValue
+/// (the script threw; the text is the exception's), kSyntax, kLimit (heap, time). After any error
+/// the engine goes on working.
 class Engine {
  public:
   explicit Engine(const Limits& limits = {});
@@ -58,10 +48,18 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
 
   vm::Result<Value> Evaluate(const Chain& chain, const std::string& expression);
-  /// Runs statements; `var`s and functions of the top level go to the innermost scope.
+  /// Runs statements. `var`s and functions of the top level become properties of the innermost
+  /// scope; `let`, `const` and classes live as long as that scope, in it, without being properties.
   vm::Result<void> Run(const Chain& chain, const std::string& script);
-  /// `path = value`, where path is a name or a member expression. REQUIRES: its base exists.
+  /// `path = value`, where path is a name or a member expression. What does not exist or is
+  /// read-only is an error.
   vm::Result<void> Assign(const Chain& chain, const std::string& path, const Value& value);
+  /// Whether the text is an expression, or statements. Runs nothing.
+  vm::Result<void> CheckExpression(const std::string& expression);
+  vm::Result<void> CheckScript(const std::string& script);
+  bool IsIdentifier(const std::string& text);  ///< and no reserved word
+  /// Whether a script or a scope of the chain has declared that identifier.
+  bool IsDeclared(const Chain& chain, const std::string& identifier);
 
   Value NewScope();  ///< an object without prototype
   Value Undefined();
@@ -74,8 +72,6 @@ class Engine {
   Value Array() { return Json("[]").value_or(Value()); }
 
   bool Has(const Value& object, const std::string& name);
-  /// A name some script assigned to without declaring it (ECMA-262 makes it global).
-  bool HasOwnGlobal(const std::string& name);
   Value Get(const Value& object, const std::string& name);
   void Set(const Value& object, const std::string& name, const Value& value);
   void Remove(const Value& object, const std::string& name);
@@ -95,10 +91,10 @@ class Engine {
   std::string ToJson(const Value& value);
   /// A copy as a shallow array (for iterating while it may change).
   Value Copy(const Value& array);
+  /// Makes the property one that scripts can neither change nor remove.
+  void SetReadOnly(const Value& object, const std::string& name, const Value& value);
   /// Read-only DOM of an XML document given as prelude.js wants it.
   vm::Result<Value> Dom(const std::string& json);
-
-  std::size_t heap_bytes() const;
 
  private:
   friend class Value;

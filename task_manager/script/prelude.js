@@ -1,98 +1,25 @@
-// Run once in every new script engine: helpers of engine.cc, a safe eval and Function, and the
-// read-only DOM (Level 2 Core, the part VoiceXML 2.1 section 5 and appendix D ask for).
+// Evaluated once in every new script engine; its value is the helpers of engine.cc: JSON text of any
+// value, and the read-only DOM (Level 2 Core, the part VoiceXML 2.1 section 5 and appendix D ask for).
 (function (global) {
   'use strict';
-  var tick = global.__t, evaluate = global.__eval;
   function hide(name, value) {
     Object.defineProperty(global, name, { value: value, writable: false, enumerable: false });
   }
-  delete global.__t;
-  delete global.__eval;
-  hide('__t', tick);
-  // Scripts made from strings pass the same rewriting (step counting) as those of documents.
-  Object.defineProperty(global, 'eval', { value: function (code) { return evaluate(code); } });
-  function NoFunction() { throw new EvalError('Function() from text is not available'); }
-  NoFunction.prototype = Function.prototype;
-  Object.defineProperty(Function.prototype, 'constructor', { value: NoFunction });
-  Object.defineProperty(global, 'Function', { value: NoFunction });
-  delete global.Duktape;
+  // Scripts may replace these later.
+  const stringify = JSON.stringify;
 
-  // The loops of the engine's own functions cannot be counted one by one: what they are going to
-  // cost is charged beforehand, in steps. Called through `apply`, so scripts cannot get at them.
-  var apply = Function.prototype.call.bind(Function.prototype.apply);
-  function lengthOf(value) {
-    return value === undefined || value === null ? 0 : value.length >>> 0;
-  }
-  function charge(owner, names, cost) {
-    names.split(' ').forEach(function (name) {
-      var inner = owner[name];
-      if (typeof inner !== 'function') return;
-      Object.defineProperty(owner, name, { writable: true, configurable: true, value: function () {
-        tick(cost(this, arguments));
-        return apply(inner, this, arguments);
-      } });
-    });
-  }
-  charge(Array.prototype, 'join reverse shift slice splice unshift indexOf lastIndexOf every some ' +
-    'forEach map filter reduce reduceRight toString toLocaleString', lengthOf);
-  charge(Array.prototype, 'sort', function (array) { return lengthOf(array) * 20; });
-  charge(Array.prototype, 'concat', function (array, others) {
-    var sum = lengthOf(array);
-    for (var i = 0; i < others.length; ++i) sum += typeof others[i] === 'object' ? lengthOf(others[i]) : 1;
-    return sum;
-  });
-  charge(String.prototype, 'indexOf lastIndexOf split replace includes startsWith endsWith', function (text, args) {
-    return lengthOf(text) * (1 + (typeof args[0] === 'string' ? args[0].length / 16 : 0));
-  });
-  charge(String.prototype, 'toUpperCase toLowerCase toLocaleUpperCase toLocaleLowerCase trim ' +
-    'localeCompare concat repeat', lengthOf);
-  charge(JSON, 'parse', function (owner, args) { return lengthOf(args[0]); });
-  charge(global, 'encodeURIComponent decodeURIComponent encodeURI decodeURI escape unescape parseInt parseFloat',
-    function (owner, args) { return lengthOf(args[0]); });
-  delete global.Proxy;
-
-  // for (name in __f(object)): the names are charged for before the loop begins.
-  var keys = Object.keys, prototypeOf = Object.getPrototypeOf, define = Object.defineProperty;
-  hide('__f', function (object) {
-    var count = 1;
-    if (typeof object === 'string') count += object.length;
-    for (var at = object; at && (typeof at === 'object' || typeof at === 'function'); at = prototypeOf(at)) {
-      count += keys(at).length;
-    }
-    tick(count);
-    return object;
-  });
-  // with (__w(object)): what the rewriter put in keeps its meaning inside.
-  hide('__w', function (object) {
-    tick();
-    if (object && (typeof object === 'object' || typeof object === 'function')) {
-      ['__t', '__f', '__w'].forEach(function (name) {
-        if (name in object && object[name] !== global[name]) throw new TypeError('with: ' + name + ' is taken');
-        if (Object.isExtensible(object)) {
-          define(object, name, { value: global[name], writable: false, enumerable: false, configurable: false });
-        }
-      });
-    }
-    return object;
-  });
-
-  hide('__keys', function (o) { return (o && typeof o === 'object') ? Object.keys(o).join('\n') : ''; });
-  hide('__json', function (v) {
-    var seen = [];
-    var text = JSON.stringify(v, function (key, value) {
-      if (value instanceof Node) return '[' + value.nodeName + ']';
-      if (typeof value === 'function') return String(value);
-      if (value && typeof value === 'object') {
-        if (seen.length > 10000) return '[...]';
-        if (seen.indexOf(value) >= 0 && key !== '' && isCycle(value)) return '[cycle]';
-        seen.push(value);
-      }
-      return value;
+  function json(value) {
+    const open = [];
+    const text = stringify(value, function (key, inner) {
+      if (inner instanceof Node) return '[' + inner.nodeName + ']';
+      if (typeof inner === 'function' || typeof inner === 'symbol' || typeof inner === 'bigint') return String(inner);
+      if (inner === null || typeof inner !== 'object') return inner;
+      while (open.length > 0 && open[open.length - 1] !== this) open.pop();
+      if (open.includes(inner)) return '[cycle]';
+      open.push(inner);
+      return inner;
     });
     return text === undefined ? 'undefined' : text;
-  });
-  function isCycle(value) {
-    try { JSON.stringify(value); return false; } catch (e) { return true; }
   }
 
   // --- DOM
@@ -228,8 +155,8 @@
     Object.freeze(node.childNodes);
     return Object.freeze(node);
   }
-  hide('__dom', function (spec) {
-    var doc = new Node();
+  function dom(spec) {
+    const doc = new Node();
     doc.nodeType = 9;
     doc.nodeName = '#document';
     doc.nodeValue = null;
@@ -240,7 +167,8 @@
     doc.childNodes.push(doc.documentElement);
     Object.freeze(doc.childNodes);
     return Object.freeze(doc);
-  });
+  }
   hide('Node', Node);
   hide('DOMException', DOMException);
-})(this);
+  return { json: json, dom: dom };
+})(globalThis)

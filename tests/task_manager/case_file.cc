@@ -12,7 +12,6 @@
 #include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/platform/text_platform.h"
 #include "task_manager/xml/node.h"
-#include "tests/task_manager/ticking_clock.h"
 
 namespace vxml_test {
 namespace {
@@ -165,7 +164,6 @@ Outcome RunCase(const Case& the_case) {
       [&](const std::string& line) { lines.push_back(line); });
   vxml::SessionOptions options;
   options.uri = vxml::fetch::FromPath((folder / "main.vxml").string());
-  options.script.clocks = TickingClocks();
   vxml::DialogSession session(options, platform);
   session.Run();
   fs::remove_all(folder);
