@@ -159,13 +159,17 @@ bool DialogSession::IsDeclaredBeforeSession(const std::string& base) {
 
 void DialogSession::RunClear(const xml::Node& node) {
   const std::string namelist = node.Get("namelist");
-  std::vector<std::string> names;
-  for (const std::string_view word : SplitWords(namelist)) names.emplace_back(word);
+  const auto names = SplitWords(namelist);
   if (names.empty()) {
-    for (const Item& item : dialog_->items) names.push_back(item.name);
+    for (Item& item : dialog_->items) {
+      Store(item.name, engine_.Undefined());
+      item.prompt_count = 1;
+      item.events.clear();
+      item.over = false;
+    }
   }
-  for (const std::string& name : names) {
-    if (name.empty()) continue;
+  for (const std::string_view word : names) {
+    const std::string name(word);
     if (!IsDeclared(name)) {
       ThrowSemantic(*context_->document, node, "'" + name + "' was never declared");
     }

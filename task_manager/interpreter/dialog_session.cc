@@ -10,7 +10,8 @@ DialogSession::DialogSession(SessionOptions options, Platform& platform)
     : options_(std::move(options)),
       platform_(platform),
       fetcher_(options_.fetch),
-      engine_(options_.script) {
+      engine_(options_.script),
+      budget_(options_.max_steps_between_inputs, options_.max_time_between_inputs) {
   grammars_ = std::make_unique<srgs::GrammarStore>(
       [this](const std::string& uri) -> vm::Result<std::string> {
         fetch::Request request = FetchOptions(Here(), "grammar");
@@ -35,6 +36,7 @@ SessionResult DialogSession::Run() {
   nowhere.names = engine_.NewScope();
   try {
     context_ = &nowhere;
+    budget_.Renew();
     MakeSessionScope();
     Transition start = Locate(*nowhere.document->root, options_.uri, "document");
     start.same_document = false;
@@ -132,7 +134,6 @@ void DialogSession::RunContext(Transition start) {
       scope_item_ = nullptr;
       active_node_ = nullptr;
       anonymous_.clear();
-      Step();
       try {
         Enter(next);
       } catch (const EventThrown& event) {
@@ -184,8 +185,8 @@ void DialogSession::EnterApplication(const Transition& transition) {
   context_->names = engine_.NewScope();
   context_->application = engine_.NewScope();
   context_->variables = context_->application;
-  engine_.Set(context_->names, "session", session_scope_);
-  engine_.Set(context_->names, "application", context_->application);
+  engine_.SetReadOnly(context_->names, "session", session_scope_);
+  engine_.SetReadOnly(context_->names, "application", context_->application);
   engine_.Set(context_->names, "document", context_->application);
   InitDocument(*transition.root, context_->application);
 }

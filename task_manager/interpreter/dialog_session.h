@@ -11,6 +11,7 @@
 #include "task_manager/document/vxml_document.h"
 #include "task_manager/fetch/fetcher.h"
 #include "task_manager/grammar/store.h"
+#include "task_manager/interpreter/budget.h"
 #include "task_manager/interpreter/signals.h"
 #include "task_manager/platform/platform.h"
 #include "task_manager/script/engine.h"
@@ -21,10 +22,11 @@ struct SessionOptions {
   std::string uri;
   fetch::Options fetch{};
   script::Limits script{};
-  std::map<std::string, std::string> properties{};         ///< platform defaults to change
-  std::map<std::string, std::string> session_variables{};  ///< "connection.remote.uri" -> value
-  std::size_t max_steps_between_inputs = 100'000;          ///< elements executed
-  std::size_t max_subdialogs = 40;                         ///< one inside the other
+  std::map<std::string, std::string> properties{};          ///< platform defaults to change
+  std::map<std::string, std::string> session_variables{};   ///< "connection.remote.uri" -> value
+  std::size_t max_steps_between_inputs = 100'000;           ///< elements and items executed
+  std::chrono::milliseconds max_time_between_inputs{2500};  ///< of the processor
+  std::size_t max_subdialogs = 40;                          ///< one inside the other
   bool strict_markup = false;  ///< unknown emotions are error.unsupported.emotion
   /// Languages (en, ja-JP, ...) there is a voice and an ear for; empty = every language there is.
   std::vector<std::string> languages{};
@@ -57,6 +59,7 @@ struct Item {
   std::string name;  ///< generated if the document gives none
   int prompt_count = 1;
   std::map<std::string, int> events;
+  bool over = false;  ///< a block that only <clear/> of all items lets run again
   bool IsInput() const { return kind != ItemKind::kBlock && kind != ItemKind::kInitial; }
 };
 
@@ -66,6 +69,9 @@ struct Dialog {
   std::vector<Item> items;
   std::map<std::string, int> events;
   std::string next_item;
+  /// While no script has run since, the items before this one are not to be visited.
+  std::size_t first_open = 0;
+  std::uint64_t first_open_at = 0;  ///< Engine::changes() then
 };
 
 /// A grammar that listens, and what its match means.
@@ -123,7 +129,8 @@ class DialogSession {
   void InitForm(Dialog& dialog);
   void InitItem(Dialog& dialog, const xml::Node& node);
   Item* Select();
-  bool ItemReady(const Item& item);
+  /// Its variable has a value, or it is a block that has run.
+  bool IsDone(const Item& item);
   void QueuePrompts(Item& item);
   void Visit(Item& item);
   void VisitInput(Item& item);
@@ -233,7 +240,7 @@ class DialogSession {
   std::string LanguageAt(const xml::Node& node) const;
   void RequireLanguage(const std::string& language);
   const xml::Node& Here() const;
-  /// Counts against max_steps_between_inputs: an element is one, what it writes or says is more.
+  /// Counts against the budget: an element is one, what it writes or says is more.
   void Step(std::size_t cost = 1);
   static constexpr std::size_t kBytesOfAStep = 256;
   void Trace(std::string_view kind, const JsonLine& fields);
@@ -261,7 +268,7 @@ class DialogSession {
   const xml::Node* active_node_ = nullptr;
   std::vector<script::Value> anonymous_;
   std::vector<Prompt> queue_;
-  std::size_t steps_ = 0;
+  Budget budget_;
   std::size_t subdialogs_ = 0;
   int handler_depth_ = 0;
   bool in_handler_ = false;

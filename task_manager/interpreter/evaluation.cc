@@ -131,17 +131,17 @@ void DialogSession::RequireLanguage(const std::string& language) {
 }
 
 void DialogSession::Step(std::size_t cost) {
-  const std::size_t most = options_.max_steps_between_inputs;
-  const bool over = steps_ > most;
-  steps_ += cost;
-  if (steps_ <= most) return;
-  if (over && steps_ > most + 2000) {
-    throw ExitSession{"error.noresource"};  // its handlers run on and on as well
-  }
-  if (!over) {
-    steps_ = most + 1;
-    ThrowEvent("error.noresource", "more than " + std::to_string(most) +
-                                       " elements executed without waiting for input");
+  switch (budget_.Spend(cost)) {
+    case Budget::Left::kEnough:
+      return;
+    case Budget::Left::kUsedUp:
+      ThrowEvent("error.noresource", "more than " +
+                                         std::to_string(options_.max_steps_between_inputs) +
+                                         " elements executed or more than " +
+                                         std::to_string(options_.max_time_between_inputs.count()) +
+                                         " ms of the processor used without waiting for input");
+    case Budget::Left::kNothing:
+      throw ExitSession{"error.noresource"};  // its handlers run on and on as well
   }
 }
 

@@ -115,10 +115,9 @@ void DialogSession::InitItem(Dialog& dialog, const xml::Node& node) {
   dialog.items.push_back(std::move(item));
 }
 
-bool DialogSession::ItemReady(const Item& item) {
-  if (item.kind == ItemKind::kMenu) return true;
-  if (!engine_.IsUndefined(Variable(item.name))) return false;
-  return Condition(*item.node);
+bool DialogSession::IsDone(const Item& item) {
+  if (item.kind == ItemKind::kMenu) return false;
+  return item.over || !engine_.IsUndefined(Variable(item.name));
 }
 
 Item* DialogSession::Select() {
@@ -129,10 +128,18 @@ Item* DialogSession::Select() {
     }
     ThrowEvent("error.badfetch", "the form has no item '" + wanted + "'");
   }
-  for (Item& item : dialog_->items) {
-    if (ItemReady(item)) return &item;
+  Dialog& dialog = *dialog_;
+  std::size_t at = dialog.first_open_at == engine_.changes() ? dialog.first_open : 0;
+  std::optional<std::size_t> open;
+  for (; at < dialog.items.size(); ++at) {
+    const Item& item = dialog.items[at];
+    if (IsDone(item)) continue;
+    if (!open) open = at;
+    if (item.kind == ItemKind::kMenu || Condition(*item.node)) break;
   }
-  return nullptr;
+  dialog.first_open = open.value_or(at);
+  dialog.first_open_at = engine_.changes();
+  return at < dialog.items.size() ? &dialog.items[at] : nullptr;
 }
 
 /// The prompts of the highest count not above the item's counter (VoiceXML 2.0 section 4.1.6).
@@ -186,6 +193,8 @@ void DialogSession::Visit(Item& item) {
   switch (item.kind) {
     case ItemKind::kBlock: {
       Store(item.name, engine_.Boolean(true));
+      item.over = !item.node->Has("name");  // nobody knows the name it was given
+      dialog_->first_open_at = engine_.changes();
       const ScopeGuard guard(*this);
       return RunContent(*item.node);
     }
@@ -214,7 +223,7 @@ void DialogSession::VisitInput(Item& item) {
   const Listen listen = MakeListen(item, active);
   std::vector<Prompt> queue = std::exchange(queue_, {});
   const Input input = platform_.Collect(queue, listen);
-  steps_ = 0;
+  budget_.Renew();
   TakeMatch(HandleInput(input, active), &item);
 }
 

@@ -95,7 +95,7 @@ void DialogSession::VisitRecord(Item& item) {
   }
   std::vector<Prompt> queue = std::exchange(queue_, {});
   const RecordResult result = platform_.Record(queue, request);
-  steps_ = 0;
+  budget_.Renew();
   if (result.kind == RecordResult::Kind::kSilence) ThrowEvent("noinput");
   if (result.kind == RecordResult::Kind::kUnsupported) ThrowEvent("error.unsupported.record");
   if (result.kind == RecordResult::Kind::kBadFormat) {
@@ -157,7 +157,7 @@ void DialogSession::VisitTransfer(Item& item) {
   request.listen = MakeListen(item, active);
   std::vector<Prompt> queue = std::exchange(queue_, {});
   const TransferResult result = platform_.Transfer(queue, request);
-  steps_ = 0;
+  budget_.Renew();
   if (result.outcome.starts_with("connection.") || result.outcome.starts_with("error.")) {
     if (result.outcome.starts_with("connection.disconnect")) hung_up_ = true;
     ThrowEvent(result.outcome);

@@ -25,6 +25,7 @@
 namespace vxml::script {
 namespace {
 
+constexpr const char* kScriptFile = "script";
 constexpr std::size_t kMaxCompiled = 1000;  // expressions kept
 /// When variables hold the whole heap, handlers get this much more to let go of them, each time it
 /// is not enough, up to so many times the whole heap.
@@ -70,7 +71,7 @@ double NumberOf(JSContext* js, JS::HandleObject object, const char* name) {
 
 JSScript* Compile(JSContext* js, std::string_view source) {
   JS::CompileOptions options(js);
-  options.setFileAndLine("script", 1).setNonSyntacticScope(true);
+  options.setFileAndLine(kScriptFile, 1).setNonSyntacticScope(true);
   JS::SourceText<mozilla::Utf8Unit> text;
   if (!text.init(js, source.data(), source.size(), JS::SourceOwnership::Borrowed)) return nullptr;
   return JS::Compile(js, options, text);
@@ -132,6 +133,7 @@ struct Engine::Impl {
   JSContext* js = context->js();
   Limits limits;
   std::size_t most_heap_bytes = limits.heap_bytes;
+  std::uint64_t changes = 1;
   JS::PersistentRootedObject global{js};
   JS::PersistentRootedObject helpers{js};
   JS::PersistentRootedObject memory{js};  // SpiderMonkey's numbers of it
@@ -208,7 +210,8 @@ vm::Error Engine::Impl::Failure(vm::Errc thrown) {
   if (exception.isObject()) {
     const JS::RootedObject object(js, &exception.toObject());
     const JSErrorReport* report = JS_ErrorFromException(js, object);
-    if (report && report->lineno > 1) text += " (line " + std::to_string(report->lineno) + ")";
+    if (report && report->lineno > 1 && std::string_view(report->filename) == kScriptFile)
+      text += " (line " + std::to_string(report->lineno) + ")";
   }
   return {thrown, text, 0};
 }
@@ -262,6 +265,7 @@ bool Engine::Impl::Scopes(const Chain& chain, JS::MutableHandleObjectVector out)
 }
 
 vm::Result<Value> Engine::Impl::Execute(const Chain& chain, JS::HandleScript script) {
+  ++changes;
   auto result = Make([&](JS::MutableHandleValue value) {
     JS::RootedObjectVector scopes(js);
     return Scopes(chain, &scopes) && JS_ExecuteScript(js, scopes, script, value);
@@ -326,12 +330,13 @@ vm::Result<void> Engine::Run(const Chain& chain, const std::string& source) {
 }
 
 vm::Result<void> Engine::Assign(const Chain& chain, const std::string& path, const Value& value) {
+  ++impl_->changes;
   if (auto fit = CheckExpression(path); !fit) return fit;
   JSContext* js = impl_->js;
   const std::string body = "'use strict';(" + path + "\n)=assigned";
   return impl_->Within([&] {
     JS::CompileOptions options(js);
-    options.setFileAndLine("script", 1);
+    options.setFileAndLine("assign", 1);
     const char* const parameters[] = {"assigned"};
     JS::SourceText<mozilla::Utf8Unit> text;
     JS::RootedObjectVector scopes(js);
@@ -464,6 +469,7 @@ Value Engine::Get(const Value& object, const std::string& name) {
       .value_or(Value());
 }
 void Engine::Set(const Value& object, const std::string& name, const Value& value) {
+  ++impl_->changes;
   impl_->WithObject(object, [&](JS::HandleObject inner) {
     JS::RootedId id(impl_->js);
     const JS::RootedValue rooted(impl_->js, impl_->Of(value));
@@ -512,6 +518,8 @@ std::size_t Engine::Length(const Value& array) {
   const double number = value.isNumber() && IsObject(array) ? value.toNumber() : 0;
   return number > 0 && number <= UINT32_MAX ? static_cast<std::size_t>(number) : 0;
 }
+
+std::uint64_t Engine::changes() const { return impl_->changes; }
 
 bool Engine::IsUndefined(const Value& value) { return impl_->Of(value).isUndefined(); }
 bool Engine::IsObject(const Value& value) { return impl_->Of(value).isObject(); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -78,6 +79,9 @@ class Engine {
   void Freeze(const Value& object);
   std::vector<std::string> Keys(const Value& object);
   std::size_t Length(const Value& array);
+
+  /// Grows whenever a script has run or a property was set: what was seen may be different now.
+  std::uint64_t changes() const;
 
   bool IsUndefined(const Value& value);
   bool IsObject(const Value& value);

@@ -162,6 +162,34 @@ TEST(HostileDialogTest, AHandlerCanEndAnEndlessLoop) {
   EXPECT_TRUE(outcome.pass) << outcome.why;
 }
 
+TEST(HostileDialogTest, ScriptsAndItemsTogetherAreBounded) {
+  const auto outcome = RunDoc(
+      "<form><block name=\"b\"><script>for (let i = 0; i &lt; 200000; i++);</script>"
+      "<clear namelist=\"b\"/></block></form>",
+      {"reason: error.noresource"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, ManyItemsAreGoneThroughOnce) {
+  // Each choice began at the first item: 10,000 blocks took more than a minute.
+  std::string named;
+  for (int i = 0; i < 10'000; ++i) named += "<block name=\"b" + std::to_string(i) + "\"/>";
+  for (const std::string& blocks : {Times("<block/>", 10'000), named,
+                                    Times("<block><var name=\"x\" expr=\"1\"/></block>", 10'000)}) {
+    const auto outcome =
+        RunDoc("<form>" + blocks + "<block><pass/></block></form>", {"exit: pass"});
+    EXPECT_TRUE(outcome.pass) << outcome.why;
+  }
+}
+
+TEST(HostileDialogTest, AConditionOfAnEarlierItemIsLookedAtAgain) {
+  const auto outcome = RunDoc(
+      "<var name=\"n\" expr=\"0\"/><form><block cond=\"n++ == 2\"><pass/></block><block/><block/>"
+      "<block/><block/></form>",
+      {"exit: pass"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
 TEST(HostileDialogTest, WhatALoopLogsAndQueuesIsBounded) {
   const std::string text = "<var name=\"s\" expr=\"new Array(30000).join('x')\"/>";
   for (const char* element :
