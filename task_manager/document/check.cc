@@ -31,18 +31,10 @@ class Checker {
 
  private:
   void Say(const xml::Node& at, std::string text, std::string advice,
-           Finding::Severity severity = Finding::Severity::kError,
-           const xml::Node* thrown_at = nullptr) {
+           Finding::Severity severity = Finding::Severity::kError) {
     if (findings_.size() < 200) {
-      findings_.push_back(
-          {severity, at.line, at.column, std::move(text), std::move(advice), thrown_at});
+      findings_.push_back({severity, at.line, at.column, std::move(text), std::move(advice)});
     }
-  }
-  /// As Say, for what the recommendation lets the element itself throw.
-  void SayThrown(const xml::Node& at, std::string text, std::string advice) {
-    const bool initialises = at.parent && at.parent->name == "vxml" && at.name != "link";
-    Say(at, std::move(text), std::move(advice), Finding::Severity::kError,
-        initialises ? nullptr : &at);
   }
   void Warn(const xml::Node& at, std::string text, std::string advice) {
     Say(at, std::move(text), std::move(advice), Finding::Severity::kWarning);
@@ -122,10 +114,10 @@ class Checker {
       for (const std::string_view name : SplitWords(choice.names)) count += node.Has(name) ? 1 : 0;
       if (count >= choice.min && count <= choice.max) continue;
       const std::string how = choice.min == choice.max ? "exactly one" : "at most one";
-      SayThrown(node,
-                "<" + node.name + "> with " + std::to_string(count) + " of the attributes " +
-                    std::string(choice.names),
-                "give " + how);
+      Say(node,
+          "<" + node.name + "> with " + std::to_string(count) + " of the attributes " +
+              std::string(choice.names),
+          "give " + how);
     }
   }
 
@@ -136,9 +128,8 @@ class Checker {
     const int sources =
         (node.Has("src") ? 1 : 0) + (node.Has("srcexpr") ? 1 : 0) + (inline_text ? 1 : 0);
     if (sources != 1) {
-      SayThrown(node,
-                "<grammar> with " + std::to_string(sources) + " of src, srcexpr and own rules",
-                "give exactly one");
+      Say(node, "<grammar> with " + std::to_string(sources) + " of src, srcexpr and own rules",
+          "give exactly one");
     }
     if (node.Has("scope") && parent.name != "form") {
       Say(node, "<grammar scope> in <" + parent.name + ">",
@@ -154,13 +145,14 @@ class Checker {
     const int sources = (node.Has("src") ? 1 : 0) + (node.Has("srcexpr") ? 1 : 0) +
                         (xml::IsBlank(node.Text()) ? 0 : 1);
     if (sources == 1) return;
-    SayThrown(node, "<script> with " + std::to_string(sources) + " of src, srcexpr and own text",
-              "give exactly one");
+    Say(node, "<script> with " + std::to_string(sources) + " of src, srcexpr and own text",
+        "give exactly one");
   }
 
   void Audio(const xml::Node& node) {
-    if (node.Has("src") && node.Has("expr"))
-      SayThrown(node, "<audio> with src and expr", "give one");
+    if (node.Has("src") != node.Has("expr")) return;
+    Say(node, node.Has("src") ? "<audio> with src and expr" : "<audio> without src or expr",
+        "give exactly one");
   }
 
   static bool IsInput(const std::string& name) {

@@ -1,8 +1,5 @@
 #include "task_manager/document/vxml_document.h"
 
-#include <algorithm>
-
-#include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/xml/parser.h"
 
@@ -10,33 +7,6 @@ namespace vxml {
 namespace {
 
 constexpr std::string_view kSpace = "http://www.w3.org/2001/vxml";
-
-bool NamesBadFetch(const xml::Node& handler) {
-  if (handler.IsElement("error")) return true;
-  if (!handler.IsElement("catch")) return false;
-  const std::string events = handler.Get("event");
-  const auto words = SplitWords(events);
-  return std::any_of(words.begin(), words.end(), [](std::string_view event) {
-    return event == "error" || event == "error.badfetch";
-  });
-}
-
-bool HasHandler(const xml::Node& parent) {
-  return std::any_of(parent.children.begin(), parent.children.end(),
-                     [](const auto& child) { return NamesBadFetch(*child); });
-}
-
-/// True if the element would find a handler for error.badfetch in its own document. What stands
-/// outside of dialogs (links, handlers) acts in each of them.
-bool HandlesBadFetch(const xml::Node& node, const VxmlDocument& document) {
-  const xml::Node* dialog = nullptr;
-  for (const xml::Node* at = node.parent; at; at = at->parent) {
-    if (HasHandler(*at)) return true;
-    if (at->IsElement("form") || at->IsElement("menu")) dialog = at;
-  }
-  return !dialog && std::any_of(document.dialogs.begin(), document.dialogs.end(),
-                                [](const xml::Node* each) { return HasHandler(*each); });
-}
 
 void CollectProperties(const xml::Node& node, VxmlDocument& into) {
   for (const auto& child : node.children) {
@@ -93,11 +63,9 @@ vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
   }
   CollectProperties(root, *document);
   for (const Finding& finding : CheckDocument(*document)) {
-    if (finding.severity != Finding::Severity::kError) continue;
-    if (!finding.thrown_at || !HandlesBadFetch(*finding.thrown_at, *document)) {
+    if (finding.severity == Finding::Severity::kError) {
       return vm::Fail(vm::Errc::kSyntax, FormatFinding(uri, finding));
     }
-    document->thrown_at.emplace(finding.thrown_at, FormatFinding(uri, finding));
   }
   return document;
 }

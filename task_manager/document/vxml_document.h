@@ -18,9 +18,6 @@ struct Finding {
   std::size_t column = 0;
   std::string text;    ///< what is wrong
   std::string advice;  ///< what to do about it, "" if that is plain
-  /// The element that throws error.badfetch when it is reached, null if the document as a whole is
-  /// unfit.
-  const xml::Node* thrown_at = nullptr;
 };
 /// "URI:LINE:COLUMN: error: text (advice)"
 std::string FormatFinding(const std::string& uri, const Finding& finding);
@@ -34,10 +31,6 @@ struct VxmlDocument {
   std::string version;
   std::unique_ptr<xml::Node> root;
   std::vector<const xml::Node*> dialogs;  ///< forms and menus in document order
-  /// Elements whose attributes exclude each other, in documents that themselves handle
-  /// error.badfetch: what is wrong, thrown when the element is reached. A document without such a
-  /// handler is refused as a whole, so that who refers to it may handle the event.
-  std::map<const xml::Node*, std::string> thrown_at;
 
   /// The last value of each <property>, by the element it stands in.
   std::map<const xml::Node*, std::map<std::string, std::string>> properties;

@@ -58,7 +58,6 @@ void DialogSession::RunElement(const xml::Node& node) {
   };
   Step();
   const xml::Node* before = std::exchange(active_node_, &node);
-  ThrowIfUnfit(node);
   if (node.name == "prompt") {
     if (Condition(node)) QueuePrompt(node);
   } else if (node.name == "reprompt") {

@@ -121,8 +121,6 @@ class DialogSession {
   /// The document the element was written in: its origin decides what the element may do.
   const VxmlDocument& OriginOf(const xml::Node& node) const;
   void RequireLocal(const xml::Node& node) const;
-  /// error.badfetch if the element's attributes exclude each other (VxmlDocument::thrown_at).
-  void ThrowIfUnfit(const xml::Node& node) const;
 
   // form.cc: the form interpretation algorithm
   void RunDialog(const xml::Node& node, std::shared_ptr<Match> carried);

@@ -189,7 +189,6 @@ void DialogSession::QueuePrompts(Item& item) {
 }
 
 void DialogSession::Visit(Item& item) {
-  ThrowIfUnfit(*item.node);
   switch (item.kind) {
     case ItemKind::kBlock: {
       Store(item.name, engine_.Boolean(true));
@@ -262,7 +261,6 @@ void DialogSession::TransitTo(const Match& match, const xml::Node* dialog) {
 
 /// A link or choice that was chosen: on to its document, or its event.
 void DialogSession::FollowTarget(const xml::Node& node, const VxmlDocument& document) {
-  ThrowIfUnfit(node);
   std::string event = node.Get("event");
   if (const std::string* expression = node.Find("eventexpr")) event = TextOf(node, *expression);
   if (!event.empty()) {

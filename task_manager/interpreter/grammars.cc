@@ -113,7 +113,6 @@ void DialogSession::AddBuiltin(const std::string& name, const xml::Node& node,
 
 const srgs::Rule* DialogSession::CompileGrammar(const xml::Node& node,
                                                 const VxmlDocument& document) {
-  ThrowIfUnfit(node);
   const std::string type = node.Get("type");
   static constexpr std::string_view kTypes =
       "application/srgs+xml application/srgs application/grammar+xml application/grammar text/xml "

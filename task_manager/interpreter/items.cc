@@ -23,7 +23,6 @@ void DialogSession::VisitSubdialog(Item& item) {
   std::vector<std::pair<std::string, Value>> parameters;
   for (const auto& child : node.children) {
     if (!child->IsElement("param")) continue;
-    ThrowIfUnfit(*child);
     const std::string* expression = child->Find("expr");
     parameters.emplace_back(child->Get("name"), expression ? Evaluate(*child, *expression)
                                                            : engine_.String(child->Get("value")));

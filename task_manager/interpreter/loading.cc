@@ -12,14 +12,6 @@ void DialogSession::ThrowFetch(const fetch::Failure& failure) {
   ThrowEvent(event, failure.text);
 }
 
-void DialogSession::ThrowIfUnfit(const xml::Node& node) const {
-  for (const auto& document : {context_->document, context_->root}) {
-    if (!document) continue;
-    const auto found = document->thrown_at.find(&node);
-    if (found != document->thrown_at.end()) ThrowEvent("error.badfetch", found->second);
-  }
-}
-
 std::string DialogSession::BaseOf(const xml::Node& node) const {
   // Handlers act as if copied into the active dialog: its document's base counts, unless an
   // element between them says otherwise.

@@ -15,7 +15,6 @@ void PromptBuilder::Add(const xml::Node& node) {
   if (node.IsText()) return Words(node.text);
   if (!node.IsElement()) return;
   s_.Step();
-  s_.ThrowIfUnfit(node);
   const std::string& name = node.name;
   if (name == "prompt") return AddChildren(node);
   if (name == "value") {
