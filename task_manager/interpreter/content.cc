@@ -251,6 +251,7 @@ void DialogSession::RunNative(const xml::Node& node) {
   Prompt prompt;
   prompt.segments.push_back(
       {Segment::Kind::kCommand, xml::Collapse(line), Millis(0), "", false, ""});
+  prompt.segments.back().native = true;
   prompt.language = LanguageAt(node);
   prompt.ssml = "<speak version=\"1.0\"/>";
   Step(line.size() / kBytesOfAStep);

@@ -27,7 +27,11 @@ void PromptBuilder::Add(const xml::Node& node) {
   if (name == "break") return Pause(node);
   if (name == "mark" || name == "sync") return Mark(node);
   if (name == "emotion") return Emotion(node);
-  if (name == "native") return Command(LineOf(node), Millis(0), false);
+  if (name == "native") {
+    Command(LineOf(node), Millis(0), false);
+    prompt_.segments.back().native = true;
+    return;
+  }
   if (name == "media") return Media(node);
   if (IsBehaviour(name)) return Behaviour(node);
   if (name == "desc" || name == "meta" || name == "metadata" || name == "lexicon" ||

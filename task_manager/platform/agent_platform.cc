@@ -250,11 +250,18 @@ void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
 }
 
 bool AgentPlatform::Speaks(const std::vector<Prompt>& prompts, bool listening) {
+  bool silent = false;
   for (const Prompt& prompt : prompts) {
+    if (silent) {
+      for (const Segment& segment : prompt.segments) {
+        if (segment.native) Native(segment.text);
+      }
+      continue;
+    }
     if (!prompt.bargein || !listening) heard_.clear();
     Say(prompt, listening && prompt.bargein);
     if (!prompt.bargein) heard_.clear();
-    if (listening && (hearing_ || !heard_.empty())) break;
+    silent = listening && (hearing_ || !heard_.empty());
     if (hub_.gone()) return false;
   }
   return !hub_.gone();

@@ -26,6 +26,8 @@ struct Segment {
   std::string emotion;  ///< kText: the voice follows this feeling; "" = it does not
   /// kAudio: the sound itself where it lies on no disk here (http, data); null otherwise.
   std::shared_ptr<const std::string> sound = nullptr;
+  /// kCommand: the author's own (<native>), which is sent even if its words are cut off.
+  bool native = false;
 };
 
 /// One <prompt> ready to be rendered. Its expressions have been evaluated.

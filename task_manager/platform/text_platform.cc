@@ -77,11 +77,26 @@ const Prompt* TextPlatform::PromptAt(const std::vector<Prompt>& prompts, Millis 
   return nullptr;
 }
 
+void TextPlatform::ReportCommand(const std::string& text, Millis wait, bool parallel) {
+  JsonLine command;
+  command.Text("line", text);
+  if (parallel || wait.count() > 0) {
+    command.Number("after_ms", static_cast<double>(wait.count()));
+  }
+  Report("command", command);
+}
+
 void TextPlatform::PlayUntil(const std::vector<Prompt>& prompts, Millis until) {
   const Millis start = now_;
   const Millis end = start + until;
+  bool silent = false;
   for (const Prompt& prompt : prompts) {
-    if (now_ > end) break;
+    if (silent || now_ > end) {
+      for (const Segment& segment : prompt.segments) {
+        if (segment.native) ReportCommand(segment.text, Millis(0), false);
+      }
+      continue;
+    }
     const Millis length = DurationOf(prompt);
     const bool cut = now_ + length > end;
     JsonLine line;
@@ -95,16 +110,16 @@ void TextPlatform::PlayUntil(const std::vector<Prompt>& prompts, Millis until) {
     const Millis prompt_start = now_;
     Millis parallel(0);
     for (const Segment& segment : prompt.segments) {
+      if (silent) {  // the face comes to rest, but no mark is reached
+        if (segment.kind == Segment::Kind::kCommand && segment.pause.count() == 0) {
+          ReportCommand(segment.text, Millis(0), false);
+        }
+        continue;
+      }
       const Millis after = now_ + DurationOf(segment);
       if (segment.kind == Segment::Kind::kCommand) {
         parallel += segment.pause;
-        JsonLine command;
-        command.Text("line", segment.text);
-        const Millis wait = segment.parallel ? parallel : segment.pause;
-        if (segment.parallel || wait.count() > 0) {
-          command.Number("after_ms", static_cast<double>(wait.count()));
-        }
-        Report("command", command);
+        ReportCommand(segment.text, segment.parallel ? parallel : segment.pause, segment.parallel);
       } else if (segment.kind == Segment::Kind::kMark) {
         mark_ = segment.text;
         mark_at_ = now_;
@@ -112,13 +127,10 @@ void TextPlatform::PlayUntil(const std::vector<Prompt>& prompts, Millis until) {
         mark.Text("name", segment.text);
         Report("mark", mark);
       }
-      if (after > end) {
-        now_ = end;
-        return;
-      }
-      now_ = after;
+      silent = after > end;
+      now_ = std::min(after, end);
     }
-    now_ = prompt_start + length;
+    if (!silent) now_ = prompt_start + length;
   }
 }
 
