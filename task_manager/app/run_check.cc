@@ -92,7 +92,8 @@ class DeepChecker {
         Say(node, "type '" + *type + "' is not built in",
             "boolean, currency, date, digits, number, phone, time are");
       }
-    } else if (!node.FirstElement("grammar") && !node.FirstElement("option")) {
+    } else if (!node.FirstElement("grammar") && !node.FirstElement("option") &&
+               !(node.parent && node.parent->FirstElement("grammar"))) {
       Say(node, "<field> without grammar, type or option",
           "it can only be filled by a grammar of the form", Finding::Severity::kWarning);
     }
