@@ -7,7 +7,7 @@ packages=(
   g++ cmake ninja-build pkg-config ccache python3
   libboost1.81-dev libcli11-dev nlohmann-json3-dev libfmt-dev libglm-dev
   libssl-dev zlib1g-dev libmosquitto-dev
-  libmozjs-102-dev libexpat1-dev libcurl4-openssl-dev
+  libmozjs-102-dev libexpat1-dev libcurl4-openssl-dev libutf8proc-dev
   libeigen3-dev libopencv-imgproc-dev
   libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev fonts-dejavu-core libgl-dev libpng-dev libjpeg-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev

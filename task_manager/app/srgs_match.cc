@@ -74,7 +74,8 @@ int Run(const Options& options) {
   } else {
     std::string uri = vxml::fetch::FromPath(options.grammar);
     if (!options.rule.empty()) uri += "#" + options.rule;
-    grammar = store.Load(uri, context, &rule);
+    const bool needs_rule = !options.check || !options.rule.empty();
+    grammar = store.Load(uri, context, needs_rule ? &rule : nullptr);
   }
   if (!grammar) {
     std::cout << "ERROR\n";

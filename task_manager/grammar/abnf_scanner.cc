@@ -13,17 +13,27 @@ constexpr std::string_view kTokenEnds = " \t\r\n;=|*+<>(){}[]/!$\"";
 
 }  // namespace
 
-std::size_t AbnfScanner::LineOf(std::size_t at) const {
-  const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(at, text_.size()));
-  return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
+/// Counts on from the place asked for last, so that a whole grammar is counted once.
+AbnfScanner::Place AbnfScanner::PlaceOf(std::size_t at) const {
+  at = std::min(at, text_.size());
+  if (at < counted_to_) {
+    counted_to_ = line_start_ = 0;
+    line_ = 1;
+  }
+  while (true) {
+    const std::size_t newline = text_.substr(0, at).find('\n', counted_to_);
+    if (newline == std::string_view::npos) break;
+    counted_to_ = line_start_ = newline + 1;
+    ++line_;
+  }
+  counted_to_ = at;
+  return {line_, at - line_start_ + 1};
 }
 
 std::unexpected<vm::Error> AbnfScanner::Bad(const std::string& what) const {
-  const std::size_t at = std::min(at_, text_.size());
-  const std::size_t newline = at == 0 ? std::string_view::npos : text_.rfind('\n', at - 1);
-  const std::size_t start = newline == std::string_view::npos ? 0 : newline + 1;
-  return vm::Fail(vm::Errc::kSyntax, std::string(uri_) + ":" + std::to_string(LineOf(at)) + ":" +
-                                         std::to_string(at - start + 1) + ": " + what);
+  const Place place = PlaceOf(at_);
+  return vm::Fail(vm::Errc::kSyntax, std::string(uri_) + ":" + std::to_string(place.line) + ":" +
+                                         std::to_string(place.column) + ": " + what);
 }
 
 bool AbnfScanner::Looks(std::string_view sign) const {

@@ -17,7 +17,8 @@ class AbnfScanner {
   std::unexpected<vm::Error> Bad(const std::string& what) const;
   bool AtEnd() const { return at_ >= text_.size(); }
   bool OpenComment() const { return open_comment_; }  ///< a comment had no end
-  std::size_t line() const { return LineOf(at_); }
+  std::size_t line() const { return PlaceOf(at_).line; }
+  std::size_t column() const { return PlaceOf(at_).column; }
 
   bool Looks(std::string_view sign) const;
   char Peek() const { return AtEnd() ? '\0' : text_[at_]; }
@@ -39,12 +40,19 @@ class AbnfScanner {
   vm::Result<double> Slashed();
 
  private:
-  std::size_t LineOf(std::size_t at) const;
+  struct Place {
+    std::size_t line;    ///< from 1
+    std::size_t column;  ///< in bytes, from 1
+  };
+  Place PlaceOf(std::size_t at) const;
 
   std::string_view text_;
   std::string_view uri_;
   std::size_t at_ = 0;
   bool open_comment_ = false;
+  mutable std::size_t counted_to_ = 0;  ///< lines have been counted up to here
+  mutable std::size_t line_ = 1;
+  mutable std::size_t line_start_ = 0;
 };
 
 }  // namespace vxml::srgs

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -35,10 +36,14 @@ vm::Result<std::unique_ptr<Grammar>> CompileXml(const xml::Node& grammar,
 /// The ABNF form; the header "#ABNF 1.0 CHARSET;" may be missing in inline grammars.
 vm::Result<std::unique_ptr<Grammar>> CompileAbnf(std::string_view text,
                                                  const GrammarContext& context);
-/// Either form, told apart by the first character; XML in any encoding.
+/// Either form, told apart by the first character, in any encoding.
 vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
                                                   const GrammarContext& context,
                                                   const std::string& charset = "");
+
+/// The form that a media type names: application/srgs, application/srgs+xml and their older names,
+/// with or without parameters. None: no grammar's type.
+std::optional<Form> FormOfType(std::string_view type);
 
 /// A number as weights and probabilities are written: "1", "2.", ".5", "1.0".
 bool ParseWeight(std::string_view text, double& value);
@@ -52,13 +57,16 @@ std::unique_ptr<Grammar> MakeGrammar(const GrammarContext& context);
 /// The root is there (one rule alone needs no naming, unless the grammar is `alone`), and so is the
 /// language of a voice grammar. Errors: kSyntax, without place.
 vm::Result<void> CheckHeader(Grammar& grammar, const GrammarContext& context);
-/// In a dtmf grammar every token is made of keys (SRGS 1.0 appendix E); "star" and "pound" are
-/// made '*' and '#'.
+/// In a dtmf grammar every token is made of keys (SRGS 1.0 appendix E); the words "star" and
+/// "pound" become '*' and '#'.
 vm::Result<void> CheckTokens(Grammar& grammar);
 
-/// "2", "0-1", "3-" -> min, max. False if it is none of these.
-bool ParseRepeat(std::string_view text, int& min, int& max);
-/// What ABNF writes between '<' and '>': a repeat, and perhaps /its probability/.
+std::unique_ptr<Expansion> MakeRepeat(std::unique_ptr<Expansion> what);
+/// Sets how often; what holds nothing but tags is taken once at most (SRGS 1.0 section 2.5).
+void SetTurns(Expansion& repeat, int min, int max);
+/// Sets the turns to what "2", "0-1", "3-" say. False if it is none of these.
+bool ParseRepeat(std::string_view text, Expansion& repeat);
+/// The same for what ABNF writes between '<' and '>': a repeat, and perhaps /its probability/.
 vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat);
 std::unique_ptr<Expansion> MakeToken(std::string_view text);
 /// "grammar.xml#rule" -> the reference's uri and rule.

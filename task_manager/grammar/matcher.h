@@ -39,11 +39,15 @@ struct MatchResult {
   bool over_limit = false;       ///< given up: the grammar is too ambiguous or recursive
 };
 
-/// Matches whole inputs against a linked grammar. Recursion of any kind is allowed; of several
-/// parses the one that takes alternatives by weight, then in document order, and repeats greedily,
-/// is returned. Limits: kMaxInputBytes, kMaxSteps.
+/// Matches whole inputs against a linked grammar, in time cubic in the input whatever the grammar.
+/// Recursion of any kind is allowed. Of several parses the one is returned that takes alternatives
+/// by weight, then in document order, the most turns of repeats, and lets each part take as much as
+/// the rest allows; in a cyclic grammar, of those parses that end.
+/// Limits: kMaxInputBytes of input; kMaxSteps machine words of sets of places looked at;
+/// kMaxParseDepth expansions inside each other in a parse.
 inline constexpr std::size_t kMaxInputBytes = 4096;
-inline constexpr std::size_t kMaxSteps = 2'000'000;
+inline constexpr std::size_t kMaxSteps = 60'000'000;
+inline constexpr int kMaxParseDepth = 4000;
 MatchResult Match(const Rule& root, const std::string& input);
 
 }  // namespace vxml::srgs

@@ -57,6 +57,7 @@ struct Rule {
 };
 
 enum class Mode { kVoice, kDtmf };
+enum class Form { kXml, kAbnf };
 
 /// A compiled grammar. Immutable once linked. References point into grammars kept by `imports`;
 /// grammars that import each other are kept alive by their GrammarStore.
@@ -67,6 +68,7 @@ struct Grammar {
   std::string language;
   std::string tag_format;
   Mode mode = Mode::kVoice;
+  Form form = Form::kXml;
   bool alone = false;         ///< a document judged by the recommendation alone
   bool split_digits = false;  ///< typed figures need no blanks between them (built-in types)
   std::vector<std::string> header_tags;

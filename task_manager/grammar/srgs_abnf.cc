@@ -18,6 +18,7 @@ class AbnfCompiler {
   vm::Result<std::unique_ptr<Grammar>> Run() {
     grammar_ = MakeGrammar(context_);
     grammar_->base = context_.base;
+    grammar_->form = Form::kAbnf;
     if (in_.Looks("#ABNF")) {
       if (auto done = Header(); !done) return std::unexpected(done.error());
     } else if (context_.alone) {
@@ -46,7 +47,10 @@ class AbnfCompiler {
     if (!header.starts_with("#ABNF 1.0") || (!rest.empty() && !charset)) {
       return start.Bad("'" + *line + ";', expected '#ABNF 1.0;' or '#ABNF 1.0 CHARSET;'");
     }
-    return {};
+    if (!context_.alone) return {};
+    while (in_.Peek() == ' ' || in_.Peek() == '\t') in_.Skip(1);
+    if (in_.AtEnd() || in_.Peek() == '\n' || in_.Peek() == '\r') return {};
+    return in_.Bad("a new line expected behind the header");
   }
 
   vm::Result<void> Statement() {
@@ -110,6 +114,7 @@ class AbnfCompiler {
     rule->is_public = is_public;
     rule->grammar = grammar_.get();
     rule->line = in_.line();
+    rule->column = in_.column();
     if (!IsRuleName(rule->name)) return in_.Bad("'" + rule->name + "' is no name of a rule");
     if (IsSpecialRule(rule->name)) {
       return in_.Bad("'$" + rule->name + "' is a special rule and cannot be defined");
@@ -205,11 +210,8 @@ class AbnfCompiler {
     if (!inner) return inner;
     if (!in_.Take(close)) return in_.Bad(std::string("'") + close + "' expected");
     if (close == ')') return inner;
-    auto optional = std::make_unique<Expansion>();
-    optional->kind = Kind::kRepeat;
-    optional->min = 0;
-    optional->max = 1;
-    optional->children.push_back(std::move(*inner));
+    auto optional = MakeRepeat(std::move(*inner));
+    SetTurns(*optional, 0, 1);
     return optional;
   }
 
@@ -225,10 +227,11 @@ class AbnfCompiler {
   }
 
   Made Reference() {
-    in_.Skip(1);
     auto reference = std::make_unique<Expansion>();
     reference->kind = Kind::kReference;
     reference->line = in_.line();
+    reference->column = in_.column();
+    in_.Skip(1);
     if (in_.Peek() == '<') {
       auto uri = in_.Uri(true, &reference->type);
       if (!uri) return std::unexpected(uri.error());
@@ -248,7 +251,7 @@ class AbnfCompiler {
 
   /// !language and <m-n /probability/> behind an expansion.
   vm::Result<void> Suffixes(std::unique_ptr<Expansion>& part) {
-    if (in_.Peek() == '!') {
+    if (in_.SkipBlank(), in_.Peek() == '!') {
       if (part->kind == Kind::kTag || part->kind == Kind::kReference || part->kind == Kind::kVoid ||
           part->kind == Kind::kGarbage) {
         return in_.Bad("a language belongs to tokens and groups, not to this");
@@ -259,18 +262,15 @@ class AbnfCompiler {
         return in_.Bad("'" + part->language + "' behind '!' is no language");
       }
     }
-    while (in_.SkipBlank(), in_.Peek() == '<') {
-      in_.Skip(1);
-      auto given = in_.Until(">", "'>' expected");
-      if (!given) return std::unexpected(given.error());
-      auto repeat = std::make_unique<Expansion>();
-      repeat->kind = Kind::kRepeat;
-      if (auto done = ParseRepeatOperator(*given, *repeat); !done) {
-        return in_.Bad(done.error().text);
-      }
-      repeat->children.push_back(std::move(part));
-      part = std::move(repeat);
+    if (!in_.Take('<')) return {};
+    auto given = in_.Until(">", "'>' expected");
+    if (!given) return std::unexpected(given.error());
+    auto repeat = MakeRepeat(std::move(part));
+    if (auto done = ParseRepeatOperator(*given, *repeat); !done) {
+      return in_.Bad(done.error().text);
     }
+    part = std::move(repeat);
+    if (in_.SkipBlank(), in_.Peek() == '<') return in_.Bad("a second repeat of one expansion");
     return {};
   }
 

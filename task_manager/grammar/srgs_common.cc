@@ -17,6 +17,19 @@ bool ReadCount(std::string_view text, int& value) {
 
 }  // namespace
 
+std::optional<Form> FormOfType(std::string_view type) {
+  type = xml::Trim(type.substr(0, type.find(';')));
+  for (const std::string_view abnf :
+       {"application/srgs", "application/grammar", "application/x-abnf"}) {
+    if (type == abnf) return Form::kAbnf;
+  }
+  for (const std::string_view xml :
+       {"application/srgs+xml", "application/grammar+xml", "text/xml", "application/xml"}) {
+    if (type == xml) return Form::kXml;
+  }
+  return {};
+}
+
 bool ParseWeight(std::string_view text, double& value) {
   text = xml::Trim(text);
   if (text.empty() || text.find_first_not_of("0123456789.") != std::string_view::npos) return false;
@@ -78,9 +91,23 @@ vm::Result<void> CheckHeader(Grammar& grammar, const GrammarContext& context) {
 
 namespace {
 
+/// "1 star" -> "1 *"
+std::string KeysNamed(const std::string& text) {
+  std::string keys;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+    if (!keys.empty()) keys += ' ';
+    const std::string key = FoldKeys(Fold(word));
+    keys += key == "*" || key == "#" ? key : word;
+  }
+  return keys;
+}
+
 bool CheckKeys(Expansion& node, std::string& wrong) {
   if (node.kind == Expansion::Kind::kToken) {
     node.folded = FoldKeys(node.folded);
+    node.text = KeysNamed(node.text);
     if (node.folded.find_first_not_of("0123456789*#abcd") != std::string::npos) {
       wrong = node.text;
       return false;
@@ -105,19 +132,44 @@ vm::Result<void> CheckTokens(Grammar& grammar) {
   return {};
 }
 
-bool ParseRepeat(std::string_view text, int& min, int& max) {
+namespace {
+
+bool HoldsOnlyTags(const Expansion& node) {
+  return node.kind == Expansion::Kind::kTag ||
+         (node.kind == Expansion::Kind::kSequence && !node.children.empty() &&
+          std::ranges::all_of(node.children, [](const auto& it) { return HoldsOnlyTags(*it); }));
+}
+
+}  // namespace
+
+std::unique_ptr<Expansion> MakeRepeat(std::unique_ptr<Expansion> what) {
+  auto repeat = std::make_unique<Expansion>();
+  repeat->kind = Expansion::Kind::kRepeat;
+  repeat->children.push_back(std::move(what));
+  return repeat;
+}
+
+void SetTurns(Expansion& repeat, int min, int max) {
+  if (HoldsOnlyTags(*repeat.children[0])) {
+    min = std::min(min, 1);
+    max = max == 0 ? 0 : 1;
+  }
+  repeat.min = min;
+  repeat.max = max;
+}
+
+bool ParseRepeat(std::string_view text, Expansion& repeat) {
   const std::size_t dash = text.find('-');
-  if (dash == std::string_view::npos) {
-    if (!ReadCount(text, min)) return false;
-    max = min;
-    return true;
-  }
+  int min = 0;
   if (!ReadCount(text.substr(0, dash), min)) return false;
-  if (dash + 1 == text.size()) {
+  int max = min;
+  if (dash != std::string_view::npos) {
+    const std::string_view rest = text.substr(dash + 1);
     max = Expansion::kUnbounded;
-    return true;
+    if (!rest.empty() && (!ReadCount(rest, max) || max < min)) return false;
   }
-  return ReadCount(text.substr(dash + 1), max) && max >= min;
+  SetTurns(repeat, min, max);
+  return true;
 }
 
 vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat) {
@@ -134,7 +186,7 @@ vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat)
     }
     inside = inside.substr(0, slash);
   }
-  if (!ParseRepeat(xml::Trim(inside), repeat.min, repeat.max)) {
+  if (!ParseRepeat(xml::Trim(inside), repeat)) {
     return vm::Fail(
         vm::Errc::kSyntax,
         "repeat <" + given + ">, expected <N>, <N-M> or <N-> up to " + std::to_string(kMaxRepeat));
@@ -164,12 +216,18 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
     return vm::Fail(vm::Errc::kTooLong,
                     context.uri + ": over " + std::to_string(kMaxGrammarBytes) + " bytes");
   }
+  std::string decoded;
   std::string_view start = bytes;
+  const bool utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
+  if (utf16) {
+    auto utf8 = vm::DecodeCharset(bytes, "UTF-16");
+    if (!utf8) return vm::Fail(utf8.error().code, context.uri + ":1:1: " + utf8.error().text);
+    start = decoded = std::move(*utf8);
+  }
   if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);
   const std::string_view unmarked = start;
   start = xml::Trim(start);
-  const bool utf16 = bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
-  if (!start.starts_with("<") && !utf16) {
+  if (!start.starts_with("<")) {
     if (!start.starts_with("#ABNF") || (context.alone && !unmarked.starts_with("#ABNF"))) {
       return vm::Fail(vm::Errc::kSyntax, context.uri + ":1:1: neither XML nor '#ABNF 1.0'");
     }
@@ -178,13 +236,11 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
     const std::string header = xml::Collapse(start.substr(0, start.find(';')));
     const std::size_t blank = header.find(' ', 6);  // #ABNF 1.0 ISO-8859-1;
     if (blank != std::string::npos) encoding = header.substr(blank + 1);
-    if (!encoding.empty()) {
-      for (char& c : encoding) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-      if (encoding != "utf-8") {
-        auto utf8 = vm::DecodeCharset(start, encoding);
-        if (!utf8) return vm::Fail(utf8.error().code, context.uri + ":1:1: " + utf8.error().text);
-        text = std::move(*utf8);
-      }
+    for (char& c : encoding) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+    if (!utf16 && !encoding.empty() && encoding != "utf-8") {
+      auto utf8 = vm::DecodeCharset(start, encoding);
+      if (!utf8) return vm::Fail(utf8.error().code, context.uri + ":1:1: " + utf8.error().text);
+      text = std::move(*utf8);
     }
     return CompileAbnf(text, context);
   }

@@ -18,6 +18,7 @@ vm::Result<const Grammar*> GrammarStore::Load(const std::string& uri, const Gram
                                               const Rule** rule) {
   auto grammar = Fetched(fetch::WithoutFragment(uri), context);
   if (!grammar) return std::unexpected(grammar.error());
+  if (!rule) return *grammar;
   const std::string name = fetch::Fragment(uri);
   *rule = name.empty() ? (*grammar)->RootRule() : (*grammar)->Find(name);
   if (!*rule) {
@@ -85,6 +86,11 @@ vm::Result<void> GrammarStore::LinkReference(Grammar& grammar, Expansion& node) 
     }
     return {};
   }
+  const auto form = FormOfType(node.type);
+  if (!form && !node.type.empty()) {
+    return vm::Fail(vm::Errc::kUnavailable,
+                    place + ": grammars of type '" + node.type + "' are not known");
+  }
   GrammarContext context;
   context.uri = grammar.uri;
   context.language = grammar.language;
@@ -98,6 +104,9 @@ vm::Result<void> GrammarStore::LinkReference(Grammar& grammar, Expansion& node) 
   const Rule* rule = nullptr;
   auto loaded = Load(uri, context, &rule);
   if (!loaded) return vm::Fail(loaded.error().code, place + ": " + loaded.error().text);
+  if (form && rule->grammar->form != *form) {
+    return vm::Fail(vm::Errc::kBadValue, place + ": " + uri + " is not of the type " + node.type);
+  }
   if (rule->grammar->mode != grammar.mode) {
     return vm::Fail(vm::Errc::kBadValue, place + ": a voice and a dtmf grammar cannot be mixed");
   }

@@ -24,7 +24,8 @@ class GrammarStore {
   /// Links a grammar compiled by the caller and keeps it. Errors: as CompileBytes, kUnavailable
   /// (not fetched), kBadValue (no such rule, or a private one of another grammar).
   vm::Result<const Grammar*> Add(std::unique_ptr<Grammar> grammar);
-  /// The grammar at `uri` (with #rule or without), linked; `rule` gets the rule to start at.
+  /// The grammar at `uri` (with #rule or without), linked; `rule`, if it is not null, gets the rule
+  /// to start at, which must be there then.
   /// context.uri is who refers to it. Errors besides: kAccess (fetch::MayRead).
   vm::Result<const Grammar*> Load(const std::string& uri, const GrammarContext& context,
                                   const Rule** rule);

@@ -1,22 +1,36 @@
 #include "task_manager/grammar/text.h"
 
+#include <utf8proc.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 namespace vxml::srgs {
 namespace {
 
-char32_t Lower(char32_t c) {
+/// Composed and without case, by Unicode's full case folding ("Straße" and "STRASSE" become one).
+/// Text that utf8proc refuses stays as it is.
+std::string WithoutCase(std::string_view text) {
+  constexpr auto kOptions =
+      static_cast<utf8proc_option_t>(UTF8PROC_STABLE | UTF8PROC_COMPOSE | UTF8PROC_CASEFOLD);
+  utf8proc_uint8_t* made = nullptr;
+  const utf8proc_ssize_t length =
+      utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                   static_cast<utf8proc_ssize_t>(text.size()), &made, kOptions);
+  const std::unique_ptr<utf8proc_uint8_t, decltype(&std::free)> owner(made, &std::free);
+  if (length < 0) return std::string(text);
+  return std::string(reinterpret_cast<const char*>(made), static_cast<std::size_t>(length));
+}
+
+/// Full-width letters and figures, and other blanks and apostrophes, as ASCII has them.
+char32_t Plain(char32_t c) {
   if (c >= U'A' && c <= U'Z') return c + 32;
-  if ((c >= 0xC0 && c <= 0xDE && c != 0xD7) || (c >= 0x391 && c <= 0x3A9)) return c + 32;
-  if (c >= 0x410 && c <= 0x42F) return c + 32;
-  if (c >= 0x400 && c <= 0x40F) return c + 80;
-  if (c >= 0xFF21 && c <= 0xFF3A) return c - 0xFF21 + U'a';  // full-width letters
   if (c >= 0xFF41 && c <= 0xFF5A) return c - 0xFF41 + U'a';
-  if (c >= 0xFF10 && c <= 0xFF19) return c - 0xFF10 + U'0';  // full-width digits
+  if (c >= 0xFF10 && c <= 0xFF19) return c - 0xFF10 + U'0';
   if (c == 0x3000 || c == 0xA0) return U' ';
   if (c == 0x2019) return U'\'';
-  if (c >= 0x100 && c <= 0x17F && (c % 2) == 0) return c + 1;
   return c;
 }
 
@@ -41,8 +55,9 @@ char32_t DecodeBefore(std::string_view text, std::size_t end) {
 
 std::string Fold(std::string_view text) {
   std::vector<std::u32string> words(1);
-  for (const char32_t sign : vm::SignsOf(text)) {
-    const char32_t c = Lower(sign);
+  const bool ascii = std::ranges::all_of(text, [](char c) { return (c & 0x80) == 0; });
+  for (const char32_t sign : vm::SignsOf(ascii ? text : WithoutCase(text))) {
+    const char32_t c = Plain(sign);
     if (c == U' ' || (c >= U'\t' && c <= U'\r')) {
       if (!words.back().empty()) words.emplace_back();
     } else {

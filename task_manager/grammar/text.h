@@ -7,8 +7,9 @@
 
 namespace vxml::srgs {
 
-/// What tokens and input are compared by: blanks collapsed to one, letters without case (ASCII,
-/// Latin-1, Greek, Cyrillic, full-width), punctuation at the ends of words dropped.
+/// What tokens and input are compared by: blanks collapsed to one, letters composed and without
+/// case (Unicode's full case folding), full-width letters and figures as ASCII's, punctuation at
+/// the ends of words dropped.
 std::string Fold(std::string_view text);
 /// The keys that folded text names, without blanks: "1 star pound" -> "1*#" (SRGS 1.0 appendix E).
 std::string FoldKeys(std::string_view folded);

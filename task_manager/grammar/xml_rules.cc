@@ -149,13 +149,11 @@ XmlRules::Made XmlRules::Item(const Node& node, std::size_t depth) const {
     }
   }
   if (!repeat) return inner;
-  auto outer = std::make_unique<Expansion>();
-  outer->kind = Kind::kRepeat;
-  if (!ParseRepeat(xml::Trim(*repeat), outer->min, outer->max)) {
+  auto outer = MakeRepeat(std::move(*inner));
+  if (!ParseRepeat(xml::Trim(*repeat), *outer)) {
     return Bad(node, "repeat '" + *repeat + "', expected N, N-M or N- up to " +
                          std::to_string(kMaxRepeat));
   }
-  outer->children.push_back(std::move(*inner));
   return outer;
 }
 

@@ -114,12 +114,8 @@ void DialogSession::AddBuiltin(const std::string& name, const xml::Node& node,
 const srgs::Rule* DialogSession::CompileGrammar(const xml::Node& node,
                                                 const VxmlDocument& document) {
   const std::string type = node.Get("type");
-  static constexpr std::string_view kTypes =
-      "application/srgs+xml application/srgs application/grammar+xml application/grammar text/xml "
-      "application/xml application/x-abnf";
-  const auto known = SplitWords(kTypes);
-  if (!type.empty() && std::find(known.begin(), known.end(),
-                                 std::string_view(type).substr(0, type.find(';'))) == known.end()) {
+  const auto form = srgs::FormOfType(type);
+  if (!form && !type.empty()) {
     ThrowEvent("error.unsupported.format", "grammars of type '" + type + "' are not known");
   }
   if (const std::string* expression = node.Find("srcexpr")) {
@@ -139,9 +135,8 @@ const srgs::Rule* DialogSession::CompileGrammar(const xml::Node& node,
     for (const auto& child : node.children) elements = elements || child->IsElement();
     const std::string text(xml::Trim(node.Text()));
     const bool abnf =
-        !elements &&
-        (text.starts_with("#ABNF") || type == "application/srgs" || type == "application/x-abnf" ||
-         (text.find('$') != std::string::npos && text.find(';') != std::string::npos));
+        !elements && (text.starts_with("#ABNF") || form == srgs::Form::kAbnf ||
+                      (text.find('$') != std::string::npos && text.find(';') != std::string::npos));
     auto made = abnf ? srgs::CompileAbnf(text, context) : srgs::CompileXml(node, context);
     if (!made) ThrowEvent("error.badfetch", made.error().text);
     if ((*made)->mode == Mode::kVoice) RequireLanguage((*made)->language);

@@ -50,6 +50,13 @@ TEST_P(SrgsDocument, IsJudgedByTheRecommendation) {
 
 const std::string kRule = "<rule id=\"r\">a</rule>";
 
+/// With the byte order mark, low byte first.
+std::string InUtf16(const std::string& ascii) {
+  std::string bytes = "\xff\xfe";
+  for (const char c : ascii) bytes += {c, '\0'};
+  return bytes;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Xml, SrgsDocument,
     ::testing::Values(
@@ -145,6 +152,9 @@ INSTANTIATE_TEST_SUITE_P(
         Judged{"S4_1_OtherVersion", "#ABNF 1.1;\nlanguage en;\n$r = a;", false},
         Judged{"S4_1_TwoCharsets", "#ABNF 1.0 UTF-8 UTF-8;\nlanguage en;\n$r = a;", false},
         Judged{"S4_1_NoSemicolon", "#ABNF 1.0\nlanguage en", false},
+        Judged{"S4_1_NoNewLine", "#ABNF 1.0;/* */\nlanguage en;\n$r = a;", false},
+        Judged{"S4_1_Utf16", InUtf16("#ABNF 1.0 UTF-16;\nlanguage en;\n$r = a;"), true},
+        Judged{"S4_1_Utf16Xml", InUtf16(InXml(kRule)), true},
         Judged{"S4_1_UnknownCharset", "#ABNF 1.0 KLINGON;\nlanguage en;\n$r = a;", false},
         Judged{"S4_5_NoLanguage", "#ABNF 1.0;\n$r = a;", false},
         Judged{"S4_5_DtmfNeedsNoLanguage", "#ABNF 1.0;\nmode dtmf;\n$r = 1 \"*\";", true},
@@ -167,10 +177,12 @@ INSTANTIATE_TEST_SUITE_P(
         Judged{"S2_4_1_WeightNegative", InAbnf("$r = /-1/ a | b;"), false},
         Judged{"S2_5_RepeatWithProbability", InAbnf("$r = a<0-2 /0.5/>;"), true},
         Judged{"S2_5_RepeatBackwards", InAbnf("$r = a<2-1>;"), false},
+        Judged{"S2_5_RepeatTwice", InAbnf("$r = (a)<2><3>;"), false},
         Judged{"S2_5_RepeatWithoutNumber", InAbnf("$r = a<->;"), false},
         Judged{"S2_6_LongTag", InAbnf("$r = a {!{ if (x) { y } }!};"), true},
         Judged{"S2_6_TagOpen", InAbnf("$r = a {b;"), false},
         Judged{"S2_7_Language", InAbnf("$r = \"oui\"!fr-CA | (a b)!en-GB<2>;"), true},
+        Judged{"S2_7_LanguageBehindBlank", InAbnf("$r = a !en-US (oui | bien sur) !fr <2>;"), true},
         Judged{"S2_7_LanguageOfReference", InAbnf("$r = $b!fr; $b = a;"), false},
         Judged{"S2_7_LanguageOfTag", InAbnf("$r = a {b}!fr;"), false},
         Judged{"S2_7_LanguageMissing", InAbnf("$r = a!;"), false},
@@ -228,11 +240,25 @@ INSTANTIATE_TEST_SUITE_P(
                "$r[\"a\", {t}, \"a\", {t}]"},
         Parsed{"LeftRecursion", InAbnf("$r = $r a | a;"), "a a a",
                "$r[$r[$r[\"a\"], \"a\"], \"a\"]"},
+        Parsed{"RightRecursion", InAbnf("$r = a $r | a;"), "a a a",
+               "$r[\"a\", $r[\"a\", $r[\"a\"]]]"},
+        Parsed{"TwoSidedRecursion", InAbnf("$r = $r $r | a;"), "a a a",
+               "$r[$r[$r[\"a\"], $r[\"a\"]], $r[\"a\"]]"},
+        Parsed{"CyclicRecursion", InAbnf("$r = $r | a;"), "a", "$r[\"a\"]"},
+        Parsed{"CycleThroughEmptyParts", InAbnf("$r = $s $s | a; $s = [$r];"), "a", "$r[\"a\"]"},
+        Parsed{"RepeatedTagOnce", InAbnf("$r = a {t}<2-3> ({u} {v})<4>;"), "a",
+               "$r[\"a\", {t}, {u}, {v}]"},
+        Parsed{"CaseOfGreek", InAbnf("$r = ΤΈΛΟΣ;"), "τέλος", "$r[\"ΤΈΛΟΣ\"]"},
+        Parsed{"CaseOfCyrillic", InAbnf("$r = Ѐ Ѡ Ӂ;"), "ѐ ѡ ӂ", "$r[\"Ѐ\", \"Ѡ\", \"Ӂ\"]"},
+        Parsed{"CaseOfLatinExtended", InAbnf("$r = Ĺ Ň Ÿ Ź;"), "ĺ ň ÿ ź",
+               "$r[\"Ĺ\", \"Ň\", \"Ÿ\", \"Ź\"]"},
+        Parsed{"CaseOfVietnamese", InAbnf("$r = \"Ơ Ế\";"), "ơ e\u0302\u0301", "$r[\"Ơ Ế\"]"},
+        Parsed{"FullCaseFolding", InAbnf("$r = Straße;"), "STRASSE", "$r[\"Straße\"]"},
         Parsed{"CaseDoesNotCount", InAbnf("$r = New York;"), "new YORK", "$r[\"New\", \"York\"]"},
         Parsed{"Keys", "#ABNF 1.0;\nmode dtmf;\nroot $r;\n$r = 1 pound \"*\";", "1 # *",
-               "$r[\"1\", \"pound\", \"*\"]"},
+               "$r[\"1\", \"#\", \"*\"]"},
         Parsed{"NamedKeys", "#ABNF 1.0;\nmode dtmf;\nroot $r;\n$r = 1 pound \"*\";", "1 pound star",
-               "$r[\"1\", \"pound\", \"*\"]"},
+               "$r[\"1\", \"#\", \"*\"]"},
         Parsed{"TheWholeInput", InAbnf("$r = a;"), "a b", ""}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
@@ -240,6 +266,50 @@ TEST(SrgsAloneTest, AGrammarWithoutRootHasNoneEvenIfItHasOneRule) {
   auto made = CompileBytes(Xml("version=\"1.0\" xml:lang=\"en\"", kRule), Alone());
   ASSERT_TRUE(made);
   EXPECT_EQ((*made)->RootRule(), nullptr);
+}
+
+TEST(SrgsAloneTest, TheTypeOfAReferenceCounts) {
+  GrammarStore store(
+      [](const std::string&) -> vm::Result<std::string> { return InAbnf("public $r = b;"); });
+  const auto link = [&store](const std::string& type) {
+    auto made = CompileBytes(InAbnf("$r = a $<other.gram>" + type + ";"), Alone());
+    return made && store.Add(std::move(*made));
+  };
+  EXPECT_TRUE(link(""));
+  EXPECT_TRUE(link("~<application/srgs>"));
+  EXPECT_FALSE(link("~<application/srgs+xml>"));
+  EXPECT_FALSE(link("~<audio/basic>"));
+}
+
+TEST(SrgsAloneTest, ErrorsOfReferencesNameTheirPlace) {
+  auto made = CompileBytes(InAbnf("$r = a\n  b $nowhere;"), Alone());
+  ASSERT_TRUE(made);
+  auto store = NoFetch();
+  const auto linked = store.Add(std::move(*made));
+  ASSERT_FALSE(linked);
+  EXPECT_TRUE(linked.error().text.starts_with("g:5:5: ")) << linked.error().text;
+}
+
+TEST(SrgsAloneTest, AGrammarWithoutRootLoads) {
+  GrammarStore store([](const std::string&) -> vm::Result<std::string> {
+    return std::string("#ABNF 1.0;\nlanguage en;\n$r = a;");
+  });
+  EXPECT_TRUE(store.Load("http://host/g", Alone(), nullptr));
+}
+
+TEST(SrgsLimitsTest, AmbiguousAndCountedRepeatsOfHundredsOfWordsAreMatched) {
+  std::string input;
+  for (int i = 0; i < 320; ++i) input += "x ";
+  for (const char* rule :
+       {"$r = $r $r | x;", "$r = ((x<0->)<0->)<0->;", "$r = ((x<0-100>)<3-100>)<0-200>;",
+        "$r = ([x] $s)<5->; $s = [x] [$s];"}) {
+    auto made = CompileBytes(InAbnf(rule), Alone());
+    ASSERT_TRUE(made);
+    auto store = NoFetch();
+    auto linked = store.Add(std::move(*made));
+    ASSERT_TRUE(linked);
+    EXPECT_NE(Match(*(*linked)->RootRule(), input).parse, nullptr) << rule;
+  }
 }
 
 TEST(SrgsAloneTest, GrammarsReferredToAreJudgedAsStrictly) {
