@@ -137,6 +137,9 @@ vm::Result<Loose> ReadLoosely(const std::string& uri, fetch::Fetcher& fetcher) {
   Loose loose;
   loose.document.uri = loose.document.base = fetch::WithoutFragment(uri);
   loose.document.root = std::move(parsed->root);
+  if (!IsEmotionMl(*loose.document.root)) {
+    loose.document.passed_over = DropForeign(*loose.document.root);
+  }
   for (const auto& child : loose.document.root->children) {
     if (child->IsElement("form") || child->IsElement("menu")) {
       loose.document.dialogs.push_back(child.get());

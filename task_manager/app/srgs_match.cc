@@ -36,7 +36,7 @@ int Judge(const vxml::srgs::Rule& rule, const std::string& input) {
   }
   std::cout << "ACCEPT\n" << match.parse->Format() << "\n";
   vxml::script::Engine engine;
-  auto value = vxml::srgs::Interpret(engine, *match.parse);
+  auto value = vxml::srgs::Interpret(engine, *match.parse, input);
   if (value) {
     std::cout << "value " << engine.ToJson(*value) << "\n";
   } else {

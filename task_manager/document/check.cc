@@ -1,8 +1,10 @@
 #include <map>
 
+#include "task_manager/document/emotionml.h"
 #include "task_manager/document/schema.h"
 #include "task_manager/document/values.h"
 #include "task_manager/document/vxml_document.h"
+#include "task_manager/grammar/xml_rules.h"
 #include "task_manager/xml/parser.h"
 
 namespace vxml {
@@ -14,6 +16,12 @@ class Checker {
 
   std::vector<Finding> Run() {
     const xml::Node& root = *document_.root;
+    findings_ = document_.passed_over;
+    if (!IsVoiceXml(root)) {
+      Say(root, "<" + root.name + "> of the namespace '" + root.space + "'",
+          "expected http://www.w3.org/2001/vxml");
+      return std::move(findings_);
+    }
     if (!root.IsElement("vxml")) {
       Say(root, "found <" + root.name + ">, expected <vxml>", "");
       return std::move(findings_);
@@ -51,18 +59,12 @@ class Checker {
         }
         continue;
       }
-      if (!child->IsElement() || !IsVoiceXml(*child)) continue;
-      if (!Allows(*rule, child->name) && child->name != "grammar") {
+      if (!child->IsElement()) continue;
+      if (!Allows(*rule, child->name) || !IsOfItsSpace(*child)) {
         Misplaced(node, *child);
-        continue;
-      }
-      if (child->name == "grammar" && !Allows(*rule, "grammar")) {
-        Misplaced(node, *child);
-        continue;
-      }
-      if (child->name == "grammar") {
+      } else if (child->name == "grammar") {
         Grammar(*child, node);
-      } else {
+      } else if (child->space != kEmotionMlSpace) {
         Element(*child);
       }
     }
@@ -82,6 +84,13 @@ class Checker {
     for (const auto& child : node.children) {
       if (child->IsElement() && IsVoiceXml(*child)) Element(*child);
     }
+  }
+
+  /// Whether the element's namespace has such an element that may stand in a dialogue.
+  static bool IsOfItsSpace(const xml::Node& node) {
+    if (node.space == kEmotionMlSpace) return node.name == "emotion";
+    if (node.space == srgs::kSrgsSpace) return node.name == "grammar";
+    return !IsSpeechMarkup(node) || IsSpeechName(node.name);
   }
 
   void Misplaced(const xml::Node& parent, const xml::Node& child) {

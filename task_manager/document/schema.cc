@@ -15,7 +15,8 @@ constexpr NameSet kSets[] = {
     {"@audio", "audio enumerate value"},
     // SSML 1.0, and the face and voice markup of docs/dialogs.md.
     {"@speech",
-     "audio enumerate value break desc emphasis lexicon mark metadata meta p paragraph s sentence "
+     "audio enumerate value break desc emphasis lexicon lookup mark metadata meta p paragraph s "
+     "sentence "
      "phoneme "
      "prosody say-as sub voice foreach emotion all-of media native head gaze gazeShift face "
      "faceFacs "
@@ -131,6 +132,13 @@ const ElementRule* FindElementRule(std::string_view name) {
     if (rule.name == name) return &rule;
   }
   return nullptr;
+}
+
+bool IsSpeechName(std::string_view name) {
+  static const auto kNames = SplitWords(
+      "speak audio break desc emphasis lang lexicon lookup mark meta metadata p s phoneme prosody "
+      "say-as sub token voice w");
+  return std::ranges::find(kNames, name) != kNames.end();
 }
 
 bool Allows(const ElementRule& rule, std::string_view child) {

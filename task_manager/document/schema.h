@@ -18,6 +18,8 @@ const ElementRule* FindElementRule(std::string_view name);
 /// True if `child` may stand in `rule`'s element.
 bool Allows(const ElementRule& rule, std::string_view child);
 
+/// True if SSML 1.1 has an element of that name.
+bool IsSpeechName(std::string_view name);
 /// True if the element knows the attribute (those of fetching included).
 bool KnowsAttribute(const ElementRule& rule, std::string_view name);
 

@@ -1,12 +1,32 @@
 #include "task_manager/document/vxml_document.h"
 
+#include "task_manager/document/emotionml.h"
 #include "task_manager/fetch/uri.h"
+#include "task_manager/grammar/xml_rules.h"
 #include "task_manager/xml/parser.h"
 
 namespace vxml {
 namespace {
 
 constexpr std::string_view kSpace = "http://www.w3.org/2001/vxml";
+constexpr std::size_t kMaxPassedOver = 100;
+
+void DropForeign(xml::Node& node, std::vector<Finding>& dropped) {
+  std::erase_if(node.children, [&](const std::unique_ptr<xml::Node>& child) {
+    if (!child->IsElement()) return false;
+    if (IsVoiceXml(*child) || IsSpeechMarkup(*child) || child->space == kEmotionMlSpace ||
+        child->space == srgs::kSrgsSpace) {
+      return false;
+    }
+    if (node.name != "metadata" && dropped.size() < kMaxPassedOver) {
+      dropped.push_back({Finding::Severity::kWarning, child->line, child->column,
+                         "<" + child->name + "> of the namespace '" + child->space + "'",
+                         "it is passed over"});
+    }
+    return true;
+  });
+  for (const auto& child : node.children) DropForeign(*child, dropped);
+}
 
 void CollectProperties(const xml::Node& node, VxmlDocument& into) {
   for (const auto& child : node.children) {
@@ -20,9 +40,15 @@ void CollectProperties(const xml::Node& node, VxmlDocument& into) {
 
 }  // namespace
 
-bool IsVoiceXml(const xml::Node& node) {
-  return node.space.empty() || node.space == kSpace ||
-         node.space.find("/vxml") != std::string::npos;
+bool IsVoiceXml(const xml::Node& node) { return node.space.empty() || node.space == kSpace; }
+bool IsSpeechMarkup(const xml::Node& node) {
+  return node.space == "http://www.w3.org/2001/10/synthesis";
+}
+
+std::vector<Finding> DropForeign(xml::Node& root) {
+  std::vector<Finding> dropped;
+  DropForeign(root, dropped);
+  return dropped;
 }
 
 const std::string* VxmlDocument::FindProperty(const xml::Node& element,
@@ -48,6 +74,7 @@ vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
   auto document = std::make_shared<VxmlDocument>();
   document->uri = fetch::WithoutFragment(uri);
   document->root = std::move(parsed->root);
+  document->passed_over = DropForeign(*document->root);
   const xml::Node& root = *document->root;
   const std::string base = root.Get("xml:base");
   document->base = base.empty() ? document->uri : fetch::Resolve(document->uri, base);

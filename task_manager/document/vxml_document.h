@@ -31,6 +31,7 @@ struct VxmlDocument {
   std::string version;
   std::unique_ptr<xml::Node> root;
   std::vector<const xml::Node*> dialogs;  ///< forms and menus in document order
+  std::vector<Finding> passed_over;       ///< elements of foreign namespaces, which root has not
 
   /// The last value of each <property>, by the element it stands in.
   std::map<const xml::Node*, std::map<std::string, std::string>> properties;
@@ -52,5 +53,10 @@ std::vector<Finding> CheckDocument(const VxmlDocument& document);
 
 /// A VoiceXML element, of its namespace or of none (the original wrote none).
 bool IsVoiceXml(const xml::Node& node);
+/// An element of SSML's namespace.
+bool IsSpeechMarkup(const xml::Node& node);
+/// Takes elements that are of no namespace a dialogue is made of out of the tree (VoiceXML's,
+/// SSML's, SRGS's, EmotionML's), the root aside, and says of each that it was passed over.
+std::vector<Finding> DropForeign(xml::Node& root);
 
 }  // namespace vxml

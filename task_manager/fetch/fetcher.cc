@@ -79,7 +79,9 @@ std::string FormEncode(const std::vector<Field>& fields) {
 }
 
 Fetcher::Fetcher(Options options)
-    : options_(std::move(options)), cache_(std::make_unique<Cache>(options_.cache_bytes)) {
+    : options_(std::move(options)),
+      cache_(std::make_unique<Cache>(options_.cache_bytes)),
+      cookies_(std::make_unique<Cookies>()) {
   if (!options_.now) {
     options_.now = [] {
       return std::chrono::duration_cast<std::chrono::seconds>(
@@ -214,7 +216,7 @@ std::expected<Response, Failure> Fetcher::FetchHttp(const Request& request) {
         http.headers.push_back("If-Modified-Since: " + date->second);
       }
     }
-    auto got = Exchange(http);
+    auto got = Exchange(http, *cookies_);
     if (!got) return std::unexpected(got.error());
     if (got->status == 304 && stored) {
       return answer(cache_->Refresh(uri, *got, options_.now())->response, true);

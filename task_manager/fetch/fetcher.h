@@ -13,6 +13,8 @@
 
 namespace vxml::fetch {
 
+class Cookies;
+
 /// What the configuration allows and how much one fetch may cost.
 struct Options {
   /// Places that may be fetched with all below them ("file:///srv/dialogs/",
@@ -61,7 +63,7 @@ struct Failure : vm::Error {
 
 /// Gets resources by file, http, https and data URIs. http is cached by RFC 9111's rules as far
 /// as a private cache of GET answers needs: max-age, Expires, no-store, no-cache, must-revalidate,
-/// ETag, Last-Modified, Age.
+/// ETag, Last-Modified, Age. Cookies are kept as long as the fetcher lives.
 /// Thread: one instance, one thread. Blocks up to the timeout.
 class Fetcher {
  public:
@@ -84,6 +86,7 @@ class Fetcher {
   Options options_;
   std::vector<Place> roots_;
   std::unique_ptr<Cache> cache_;
+  std::unique_ptr<Cookies> cookies_;
 };
 
 /// name=value&... in UTF-8 (application/x-www-form-urlencoded).

@@ -50,10 +50,25 @@ struct CurlFree {
   void operator()(curl_mime* mime) const { curl_mime_free(mime); }
 };
 
+void ForgetTooMany(CURL* handle) {
+  curl_slist* known = nullptr;
+  curl_easy_getinfo(handle, CURLINFO_COOKIELIST, &known);
+  const std::unique_ptr<curl_slist, CurlFree> owner(known);
+  std::size_t count = 0;
+  for (const curl_slist* at = known; at; at = at->next) ++count;
+  if (count > Cookies::kMaxCookies) curl_easy_setopt(handle, CURLOPT_COOKIELIST, "ALL");
+}
+
 }  // namespace
 
-std::expected<HttpResponse, Failure> Exchange(const HttpRequest& request) {
+Cookies::Cookies() {
   StartOnce();
+  share_ = curl_share_init();
+  curl_share_setopt(share_, CURLSHOPT_SHARE, CURL_LOCK_DATA_COOKIE);
+}
+Cookies::~Cookies() { curl_share_cleanup(share_); }
+
+std::expected<HttpResponse, Failure> Exchange(const HttpRequest& request, Cookies& cookies) {
   const std::unique_ptr<CURL, CurlFree> curl(curl_easy_init());
   Transfer transfer;
   transfer.max_bytes = request.max_bytes;
@@ -69,6 +84,8 @@ std::expected<HttpResponse, Failure> Exchange(const HttpRequest& request) {
   curl_easy_setopt(handle, CURLOPT_HEADERFUNCTION, &OnHeader);
   curl_easy_setopt(handle, CURLOPT_HEADERDATA, &transfer);
   curl_easy_setopt(handle, CURLOPT_ACCEPT_ENCODING, "");
+  curl_easy_setopt(handle, CURLOPT_SHARE, cookies.share_);
+  curl_easy_setopt(handle, CURLOPT_COOKIEFILE, "");  // no file, but the engine
   std::unique_ptr<curl_slist, CurlFree> headers;
   for (const std::string& line : request.headers) {
     headers.reset(curl_slist_append(headers.release(), line.c_str()));
@@ -92,6 +109,7 @@ std::expected<HttpResponse, Failure> Exchange(const HttpRequest& request) {
     curl_easy_setopt(handle, CURLOPT_POSTFIELDS, form.c_str());
   }
   const CURLcode done = curl_easy_perform(handle);
+  ForgetTooMany(handle);
   if (done != CURLE_OK) {
     Failure failure;
     failure.code = done == CURLE_OPERATION_TIMEDOUT ? vm::Errc::kTimeout : vm::Errc::kUnavailable;

@@ -29,7 +29,8 @@ bool LooksLikeScript(std::string_view tag) {
 
 class Interpreter {
  public:
-  explicit Interpreter(Engine& engine) : engine_(engine) {}
+  Interpreter(Engine& engine, const Parse& whole, const std::string& spoken)
+      : engine_(engine), whole_(whole), spoken_(spoken) {}
 
   vm::Result<Value> Run(const Parse& parse, int depth) {
     if (depth > 500) return vm::Fail(vm::Errc::kLimit, "rules nested deeper than 500");
@@ -45,7 +46,7 @@ class Interpreter {
       if (item.kind == ParseItem::Kind::kRule) {
         auto value = Run(*item.rule, depth + 1);
         if (!value) return value;
-        rules.push_back({item.rule->name, {*value, item.rule->Text()}});
+        rules.push_back({item.rule->name, {*value, TextOf(*item.rule)}});
         if (scope.valid()) Publish(scope, rules.back());
       } else if (item.kind == ParseItem::Kind::kTag) {
         const bool script =
@@ -69,10 +70,14 @@ class Interpreter {
     }
     if (tagged) return result;
     if (!rules.empty()) return rules.back().second.first;
-    return engine_.String(parse.Text());
+    return engine_.String(TextOf(parse));
   }
 
  private:
+  std::string TextOf(const Parse& parse) const {
+    return parse.begin == whole_.begin && parse.end == whole_.end ? spoken_ : parse.Text();
+  }
+
   vm::Result<Value> GlobalsOf(const Rule& rule) {
     const auto found = globals_.find(rule.grammar);
     if (found != globals_.end()) return found->second;
@@ -92,7 +97,7 @@ class Interpreter {
     engine_.Set(scope, "out", engine_.Object());
     Value arguments = engine_.NewScope();
     engine_.Set(arguments, "scope", scope);
-    engine_.Set(arguments, "spoken", engine_.String(parse.Text()));
+    engine_.Set(arguments, "spoken", engine_.String(TextOf(parse)));
     // Drafts of SISR wrote $ for out, $$ for rules.latest() and $name for rules.name.
     static_cast<void>(engine_.Run({arguments}, R"js(
       scope.rules = { latest() {} };
@@ -120,13 +125,15 @@ class Interpreter {
   }
 
   Engine& engine_;
+  const Parse& whole_;
+  const std::string& spoken_;
   std::map<const Grammar*, Value> globals_;
 };
 
 }  // namespace
 
-vm::Result<Value> Interpret(Engine& engine, const Parse& parse) {
-  return Interpreter(engine).Run(parse, 0);
+vm::Result<Value> Interpret(Engine& engine, const Parse& parse, const std::string& spoken) {
+  return Interpreter(engine, parse, spoken).Run(parse, 0);
 }
 
 }  // namespace vxml::srgs

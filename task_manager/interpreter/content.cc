@@ -1,3 +1,5 @@
+#include <ranges>
+
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/dialog_session.h"
@@ -113,12 +115,7 @@ void DialogSession::RunForeach(const xml::Node& node) {
   for (std::size_t i = 0; i < length; ++i) {
     Step();
     const Value element = engine_.Get(copy, std::to_string(i));
-    if (!item.empty()) {
-      if (!IsDeclared(item)) Declare(node, item, element);
-      if (!engine_.Assign(CurrentChain(), item, element)) {
-        ThrowSemantic(*context_->document, node, "'" + item + "' cannot be assigned to");
-      }
-    }
+    if (!item.empty()) Declare(node, item, element);
     RunContent(node);
   }
 }
@@ -236,25 +233,36 @@ void DialogSession::RunThrow(const xml::Node& node) {
   throw event;
 }
 
-/// <native>: a line of the module protocol, in its place among the words.
-void DialogSession::RunNative(const xml::Node& node) {
+/// The lines of the module protocol that a <native> holds.
+std::vector<std::string> DialogSession::NativeLines(const xml::Node& node) {
   RequireLocal(node);
-  std::string line;
+  std::string text;
   if (const std::string* expression = node.Find("expr")) {
-    line = TextOf(node, *expression);
+    text = TextOf(node, *expression);
   } else {
     for (const auto& child : node.children) {
-      if (child->IsText()) line += child->text;
-      if (child->IsElement("value")) line += TextOf(*child, child->Get("expr"));
+      if (child->IsText()) text += child->text;
+      if (child->IsElement("value")) text += TextOf(*child, child->Get("expr"));
     }
   }
+  Step(text.size() / kBytesOfAStep);
+  std::vector<std::string> lines;
+  for (const auto& line : std::views::split(text, '\n')) {
+    std::string plain = xml::Collapse(std::string_view(line.begin(), line.end()));
+    if (!plain.empty()) lines.push_back(std::move(plain));
+  }
+  return lines;
+}
+
+/// <native>: commands of the author's own, in their place among the words.
+void DialogSession::RunNative(const xml::Node& node) {
   Prompt prompt;
-  prompt.segments.push_back(
-      {Segment::Kind::kCommand, xml::Collapse(line), Millis(0), "", false, ""});
-  prompt.segments.back().native = true;
+  for (const std::string& line : NativeLines(node)) {
+    prompt.segments.push_back({Segment::Kind::kCommand, line, Millis(0), "", false, ""});
+    prompt.segments.back().native = true;
+  }
   prompt.language = LanguageAt(node);
   prompt.ssml = "<speak version=\"1.0\"/>";
-  Step(line.size() / kBytesOfAStep);
   queue_.push_back(std::move(prompt));
 }
 

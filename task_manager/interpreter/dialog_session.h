@@ -208,6 +208,7 @@ class DialogSession {
   void RunLog(const xml::Node& node);
   void RunThrow(const xml::Node& node);
   void RunNative(const xml::Node& node);
+  std::vector<std::string> NativeLines(const xml::Node& node);
 
   // transfer_of_control.cc
   void RunGoto(const xml::Node& node);

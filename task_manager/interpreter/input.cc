@@ -79,7 +79,7 @@ std::optional<Match> DialogSession::MatchText(const std::string& text, bool dtmf
     if (IsDtmf(grammar) != dtmf) continue;
     const srgs::MatchResult found = srgs::Match(*grammar.rule, text);
     if (!found.parse) continue;
-    auto value = srgs::Interpret(engine_, *found.parse);
+    auto value = srgs::Interpret(engine_, *found.parse, text);
     JsonLine line;
     line.Text("input", text).Text("parse", found.parse->Format());
     line.Text("owner", grammar.node ? grammar.node->name : "platform");

@@ -28,17 +28,6 @@ void PromptBuilder::Emotion(const xml::Node& node) {
   Command(FaceCommand(feelings_.empty() ? Feeling{} : feelings_.back()), Millis(0), false);
 }
 
-std::string PromptBuilder::LineOf(const xml::Node& node) {
-  s_.RequireLocal(node);
-  if (const std::string* expression = node.Find("expr")) return s_.TextOf(node, *expression);
-  std::string line;
-  for (const auto& child : node.children) {
-    if (child->IsText()) line += child->text;
-    if (child->IsElement("value")) line += s_.TextOf(*child, child->Get("expr"));
-  }
-  return xml::Collapse(line);
-}
-
 /// <media type="face">: commands and sleeps beside the words (the original's PAR).
 void PromptBuilder::Media(const xml::Node& node) {
   if (node.Get("type") != "face") return AddChildren(node);
@@ -47,20 +36,19 @@ void PromptBuilder::Media(const xml::Node& node) {
     if (!child->IsElement()) continue;
     std::vector<std::string> lines;
     if (child->name == "native") {
-      const std::string line = LineOf(*child);
-      if (line.starts_with("sleep ")) {
-        double seconds = 0;
-        std::from_chars(line.data() + 6, line.data() + line.size(), seconds);
-        wait += Millis(static_cast<long long>(seconds * 1000));
-        continue;
-      }
-      lines.push_back(line);
+      lines = s_.NativeLines(*child);
     } else if (child->name == "emotion") {
       lines.push_back(FaceCommand(ReadFeeling(*child).value_or(Feeling{})));
     } else {
       lines = BehaviourCommands(*child);
     }
     for (const std::string& line : lines) {
+      if (child->name == "native" && line.starts_with("sleep ")) {
+        double seconds = 0;
+        std::from_chars(line.data() + 6, line.data() + line.size(), seconds);
+        wait += Millis(static_cast<long long>(seconds * 1000));
+        continue;
+      }
       EndWords();
       // Parallel commands come before the words they run beside.
       prompt_.segments.push_back(

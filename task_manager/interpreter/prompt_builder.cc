@@ -28,8 +28,10 @@ void PromptBuilder::Add(const xml::Node& node) {
   if (name == "mark" || name == "sync") return Mark(node);
   if (name == "emotion") return Emotion(node);
   if (name == "native") {
-    Command(LineOf(node), Millis(0), false);
-    prompt_.segments.back().native = true;
+    for (const std::string& line : s_.NativeLines(node)) {
+      Command(line, Millis(0), false);
+      prompt_.segments.back().native = true;
+    }
     return;
   }
   if (name == "media") return Media(node);

@@ -38,7 +38,6 @@ class PromptBuilder {
   void Mark(const xml::Node& node);
 
   void Emotion(const xml::Node& node);
-  std::string LineOf(const xml::Node& node);
   void Media(const xml::Node& node);
   void Behaviour(const xml::Node& node);
   void Anchor(const std::string& name);

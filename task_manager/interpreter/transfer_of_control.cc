@@ -205,7 +205,11 @@ void DialogSession::RunData(const xml::Node& node) {
   if (!MayRead(*data, host)) {
     ThrowEvent("error.noauthorization", got.uri + ": access-control does not allow " + host);
   }
-  auto dom = engine_.Dom(JsonText(SpecOf(*data->root)));
+  auto nodes = nlohmann::json::array();
+  for (const auto& before : data->prolog) nodes.push_back(SpecOf(*before));
+  nodes.push_back(SpecOf(*data->root));
+  for (const auto& behind : data->epilog) nodes.push_back(SpecOf(*behind));
+  auto dom = engine_.Dom(JsonText(nodes));
   if (!dom) ThrowSemantic(*context_->document, node, dom.error().text);
   Declare(node, node.Get("name"), *dom);
 }

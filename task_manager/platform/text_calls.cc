@@ -4,17 +4,33 @@
 #include "task_manager/platform/text_platform.h"
 
 namespace vxml {
+namespace {
+
+/// tel:, sip: and sips: URIs (RFC 3966, RFC 3261), and numbers without a scheme.
+bool IsTelephoneUri(const std::string& uri) {
+  std::string scheme = uri.substr(0, uri.find(':'));
+  if (scheme == uri) return true;
+  std::ranges::transform(scheme, scheme.begin(), [](char c) {
+    return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  });
+  return scheme == "tel" || scheme == "sip" || scheme == "sips";
+}
+
+}  // namespace
 
 RecordResult TextPlatform::Record(const std::vector<Prompt>& prompts,
                                   const RecordRequest& request) {
   RecordResult result;
+  const Millis start = now_;
   Play(prompts);
   const std::optional<Command> command = Next();
+  Millis length(0);
   if (!command || command->kind == Command::Kind::kHangup) {
     result.kind = RecordResult::Kind::kHangup;
+    if (command && command->at) length = *command->at - (now_ - start);
+    if (length.count() > 0) Keep(length, request, result);
     return result;
   }
-  Millis length(0);
   switch (command->kind) {
     case Command::Kind::kRecord:
       length = command->duration;
@@ -53,6 +69,12 @@ RecordResult TextPlatform::Record(const std::vector<Prompt>& prompts,
       result.termchar.clear();
     }
   }
+  Keep(length, request, result);
+  return result;
+}
+
+/// What was recorded lasts `length`, or as long as may be recorded.
+void TextPlatform::Keep(Millis length, const RecordRequest& request, RecordResult& result) {
   result.reached_max = length >= request.max_time;
   result.duration = std::min(length, request.max_time);
   if (result.reached_max) result.termchar.clear();
@@ -61,13 +83,16 @@ RecordResult TextPlatform::Record(const std::vector<Prompt>& prompts,
   JsonLine line;
   line.Number("ms", static_cast<double>(result.duration.count())).Text("termchar", result.termchar);
   Report("recorded", line);
-  return result;
 }
 
 TransferResult TextPlatform::Transfer(const std::vector<Prompt>& prompts,
                                       const TransferRequest& request) {
-  Play(prompts);
   TransferResult result;
+  if (!IsTelephoneUri(request.destination)) {
+    result.outcome = "error.unsupported.uri";
+    return result;
+  }
+  Play(prompts);
   std::optional<Command> command = Next();
   JsonLine line;
   line.Text("dest", request.destination).Text("kind", request.type);

@@ -42,6 +42,7 @@ class TextPlatform final : public Platform {
   std::optional<Command> Next();
   /// Plays until `until` after the start (or the end), reporting what was heard.
   void PlayUntil(const std::vector<Prompt>& prompts, Millis until);
+  void Keep(Millis length, const RecordRequest& request, RecordResult& result);
   void ReportCommand(const std::string& text, Millis wait, bool parallel);
   /// The prompt that plays at that time; null after the end.
   static const Prompt* PromptAt(const std::vector<Prompt>& prompts, Millis time);

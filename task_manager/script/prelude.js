@@ -155,16 +155,15 @@
     Object.freeze(node.childNodes);
     return Object.freeze(node);
   }
-  function dom(spec) {
+  function dom(specs) {
     const doc = new Node();
     doc.nodeType = 9;
     doc.nodeName = '#document';
     doc.nodeValue = null;
     doc.namespaceURI = doc.localName = doc.prefix = doc.parentNode = doc.ownerDocument = doc.attributes = doc.doctype = null;
     doc.implementation = Object.freeze({ hasFeature: function (f) { return /^(core|xml)$/i.test(f); } });
-    doc.childNodes = list([]);
-    doc.documentElement = build(spec, doc, doc);
-    doc.childNodes.push(doc.documentElement);
+    doc.childNodes = list(specs.map(function (spec) { return build(spec, doc, doc); }));
+    doc.documentElement = doc.childNodes.find(function (c) { return c.nodeType === 1; });
     Object.freeze(doc.childNodes);
     return Object.freeze(doc);
   }

@@ -169,8 +169,8 @@ class Builder {
     node->text = data;
     if (!open_.empty()) {
       open_.back()->Add(std::move(node));
-    } else if (kind == Node::Kind::kInstruction) {
-      document_.prolog.push_back(std::move(node));
+    } else {
+      (document_.root ? document_.epilog : document_.prolog).push_back(std::move(node));
     }
   }
 

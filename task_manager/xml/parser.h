@@ -21,7 +21,8 @@ struct Limits {
 
 struct XmlDocument {
   std::unique_ptr<Node> root;
-  std::vector<std::unique_ptr<Node>> prolog;  ///< instructions before the root element
+  std::vector<std::unique_ptr<Node>> prolog;  ///< comments and instructions before the root
+  std::vector<std::unique_ptr<Node>> epilog;  ///< and behind it
   std::string encoding;                       ///< as declared, lower case; "utf-8" otherwise
 };
 

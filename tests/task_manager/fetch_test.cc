@@ -76,6 +76,44 @@ TEST_F(FetcherTest, FreshAnswersComeFromTheCache) {
   EXPECT_EQ(server.requests().size(), 2U);
 }
 
+TEST_F(FetcherTest, CookiesLastAsLongAsTheSession) {
+  HttpServer server([](const HttpServer::Request& request) {
+    if (request.target == "/login") {
+      return Answer("", "Set-Cookie: id=7; Path=/in\r\nLocation: /in/a\r\n", "302 Found");
+    }
+    return Answer("x", "Cache-Control: no-store\r\n");
+  });
+  Fetcher fetcher(WithClock());
+  EXPECT_TRUE(fetcher.Fetch(For(server.Url("/login"))));
+  EXPECT_TRUE(fetcher.Fetch(For(server.Url("/in/b"))));
+  EXPECT_TRUE(fetcher.Fetch(For(server.Url("/out"))));
+  Fetcher other(WithClock());
+  EXPECT_TRUE(other.Fetch(For(server.Url("/in/c"))));
+  const auto requests = server.requests();
+  ASSERT_EQ(requests.size(), 5U);
+  const auto has_cookie = [&](std::size_t i) {
+    return requests[i].headers.find("\r\ncookie: id=7") != std::string::npos;
+  };
+  EXPECT_TRUE(has_cookie(1));
+  EXPECT_TRUE(has_cookie(2));
+  EXPECT_FALSE(has_cookie(3));
+  EXPECT_FALSE(has_cookie(4));
+}
+
+TEST_F(FetcherTest, AServerCannotFattenTheSessionWithCookies) {
+  int made = 0;
+  HttpServer server([&made](const HttpServer::Request& request) {
+    if (request.target == "/last") return Answer("x");
+    std::string lines;
+    for (int i = 0; i < 40; ++i) lines += "Set-Cookie: c" + std::to_string(made++) + "=1\r\n";
+    return Answer("x", lines + "Cache-Control: no-store\r\n");
+  });
+  Fetcher fetcher(WithClock());
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(fetcher.Fetch(For(server.Url("/more"))));
+  EXPECT_TRUE(fetcher.Fetch(For(server.Url("/last"))));
+  EXPECT_EQ(server.requests().back().headers.find("cookie:"), std::string::npos);
+}
+
 TEST_F(FetcherTest, MaxageRefusesWhatIsOlder) {
   HttpServer server([](const auto&) { return Answer("x", "Cache-Control: max-age=600\r\n"); });
   Fetcher fetcher(WithClock());
