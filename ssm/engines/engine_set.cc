@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "ssm/engines/language_runs.h"
 #include "ssm/engines/wav_piece.h"
+#include "ssm/voice/resample.h"
 
 namespace ssm {
 namespace {
@@ -34,6 +36,15 @@ bool EndsInSign(std::string_view text) {
     if (text.ends_with(sign)) return true;
   }
   return false;
+}
+
+/// "en-GB" -> "en"
+std::string Primary(std::string_view language) {
+  std::string primary(language.substr(0, language.find_first_of("-_")));
+  std::ranges::transform(primary, primary.begin(), [](char c) {
+    return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  });
+  return primary;
 }
 
 /// The engine's silence at the end, beyond the joint, is left out.
@@ -72,9 +83,34 @@ void Join(SpeechPlan& whole, const Part& part, const SpeechPlan& plan, Millis st
   }
 }
 
+/// The file's sound as the clip wants it.
+std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSpan::Clip& clip) {
+  const std::size_t begin = std::min(ToFrames(clip.begin), file.size());
+  const std::size_t end =
+      clip.end.count() > 0 ? std::min(ToFrames(clip.end), file.size()) : file.size();
+  std::vector<std::int16_t> once(file.begin() + static_cast<std::ptrdiff_t>(begin),
+                                 file.begin() + static_cast<std::ptrdiff_t>(std::max(begin, end)));
+  if (clip.speed != 1 && !once.empty()) {
+    once = Resample(once, std::llround(kSampleRateHz * clip.speed), kSampleRateHz);
+  }
+  constexpr Millis kMost{600'000};
+  const std::size_t most = ToFrames(clip.most.count() > 0 ? std::min(clip.most, kMost) : kMost);
+  const auto wanted = static_cast<double>(once.size()) * clip.repeats;
+  std::vector<std::int16_t> sound;
+  const auto length = static_cast<std::size_t>(std::min(
+      wanted,
+      static_cast<double>(clip.repeats == 1 && clip.most.count() == 0 ? once.size() : most)));
+  while (sound.size() < length && !once.empty()) {
+    const std::size_t more = std::min(once.size(), length - sound.size());
+    sound.insert(sound.end(), once.begin(), once.begin() + static_cast<std::ptrdiff_t>(more));
+  }
+  return sound;
+}
+
 vm::Result<Part> PlayedFile(const SpeechSpan& span) {
   auto samples = ReadSoundFile(span.audio);
   if (!samples) return std::unexpected(samples.error());
+  *samples = Clipped(std::move(*samples), span.clip);
   Part part;
   ScaleSamples(*samples, span.volume);
   const Millis sound = ToMs(samples->size());
@@ -141,15 +177,19 @@ std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans
     }
     runs.back().spans.push_back(std::move(span));
   };
+  std::string before;  // what was said last, if nothing parts it from what follows
   for (const SpeechSpan& span : spans) {
     const std::size_t base = IndexOf(span.voice);
-    auto pieces = SplitLanguages(span.text, voices_[base].language);
+    std::vector<LanguageRun> pieces = span.language.empty()
+                                          ? SplitLanguages(span.text, voices_[base].language)
+                                          : SplitAsked(span.text, Primary(span.language));
+    if (span.pause_before.count() > 0) before.clear();
     if (!span.audio.empty() || pieces.empty()) {
       add(span, base, false);
+      before.clear();
       continue;
     }
     SpeechSpan part = span;
-    std::string_view before;
     for (const LanguageRun& piece : pieces) {
       part.text = piece.text;
       const bool own = piece.language == voices_[base].language;

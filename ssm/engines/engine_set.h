@@ -12,9 +12,9 @@
 namespace ssm {
 
 /// Several engines as one. A span goes to the engine that has its voice; runs in another language
-/// (SplitLanguages) to the voice of that language: the one chosen, else one of the speaker's sex,
-/// else the first. Sound files (SpeechSpan::audio) are played here. Where the language changes
-/// inside a sentence, the engines' silences there are cut to kJoint.
+/// (SplitLanguages, or the span's own word for it) to the voice of that language: the one chosen,
+/// else one of the speaker's sex, else the first. Sound files (SpeechSpan::audio) are played here.
+/// Where the language changes inside a sentence, the engines' silences there are cut to kJoint.
 /// Thread: as the engines; ChooseVoice may be called at any time.
 class EngineSet final : public SpeechEngine {
  public:

@@ -129,4 +129,13 @@ std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view 
   return runs;
 }
 
+std::vector<LanguageRun> SplitAsked(std::string_view text, const std::string& language) {
+  const std::u32string signs = vm::SignsOf(text);
+  const bool other = std::ranges::any_of(signs, [](char32_t c) {
+    return ScriptOf(c) != Script::kNone && ScriptOf(c) != Script::kLatin;
+  });
+  if (other) return SplitLanguages(text, language);
+  return {{language, std::string(text)}};
+}
+
 }  // namespace ssm

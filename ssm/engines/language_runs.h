@@ -21,4 +21,8 @@ struct LanguageRun {
 /// three capitals alone (AI, TV) stay Japanese. Pure.
 std::vector<LanguageRun> SplitLanguages(std::string_view text, std::string_view base);
 
+/// The same where somebody has said what language it is: Latin letters and figures are of it, too,
+/// where nothing else is written.
+std::vector<LanguageRun> SplitAsked(std::string_view text, const std::string& language);
+
 }  // namespace ssm

@@ -7,6 +7,7 @@
 #include "ssm/engines/wav_piece.h"
 #include "ssm/flite/ascii_text.h"
 #include "ssm/voice/pronounced_text.h"
+#include "ssm/voice/sentences.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace ssm {
@@ -75,10 +76,10 @@ class Joiner {
   std::shared_ptr<PieceDetail> detail_ = std::make_shared<PieceDetail>();
 };
 
-bool IsWideStop(std::string_view c) { return c == "。" || c == "！" || c == "？" || c == "．"; }
 bool IsWideSign(std::string_view c) {
-  return IsWideStop(c) || c == "、" || c == "，" || c == "　" || c == "「" || c == "」" ||
-         c == "・" || c == "…" || c == "—" || c == "–" || c == "“" || c == "”";
+  return c == "。" || c == "！" || c == "？" || c == "．" || c == "、" || c == "，" || c == "　" ||
+         c == "「" || c == "」" || c == "・" || c == "…" || c == "—" || c == "–" || c == "“" ||
+         c == "”";
 }
 
 bool HasSomethingToSay(std::string_view text) {
@@ -169,9 +170,7 @@ std::vector<std::string> SplitUtf8Sentences(std::string_view raw) {
     const std::string_view c = std::string_view(text).substr(at, bytes);
     if (at - begin + bytes > kMaxSentenceBytes) cut(room > begin ? room : at);
     at += bytes;
-    const bool blank_next = at >= text.size() || text[at] == ' ' || text[at] == '\n';
-    const bool stop = c == "." || c == "!" || c == "?";
-    if (IsWideStop(c) || c == "\n" || (stop && blank_next)) {
+    if (c == "\n" || EndsSentence(text, at - bytes)) {
       cut(at);
     } else if (c == " " || c == "、" || c == "，" || c == ",") {
       room = at;

@@ -45,7 +45,7 @@ class PieceEngine : public SpeechEngine {
   virtual std::vector<std::string> Sentences(const std::string& text) const;
 };
 
-/// Cuts after . ! ? and a blank, after their wide forms, and at line ends; pieces of over
+/// Cuts behind sentences (EndsSentence) and at line ends; pieces of over
 /// kMaxSentenceBytes are cut at a comma or blank, else at a character. Pieces without a letter or
 /// digit are left out. Control characters become blanks, what is no UTF-8 is dropped.
 std::vector<std::string> SplitUtf8Sentences(std::string_view text);

@@ -68,7 +68,7 @@ TemporaryFolder::~TemporaryFolder() {
 void ScaleSamples(std::vector<std::int16_t>& samples, double volume) {
   if (volume == 1) return;
   for (std::int16_t& sample : samples) {
-    const double loud = std::clamp(sample * volume, -32768.0, 32767.0);
+    const double loud = volume > 1 ? Limited(sample * volume) : sample * volume;
     sample = static_cast<std::int16_t>(std::lround(loud));
   }
 }

@@ -25,7 +25,7 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// Louder by a factor; what is beyond 16 bit is cut.
+/// Louder by a factor; what would be beyond 16 bit is bent (Limited).
 void ScaleSamples(std::vector<std::int16_t>& samples, double volume);
 
 /// Makes phonemes and sound agree: the phonemes are lengthened by a pause, or their last ones cut,

@@ -8,11 +8,16 @@
 //   error TEXT                       instead of sound
 //
 // VOICE is a voice of espeak-ng ("de", "ja+f2"), WPM 80 to 450, PITCH 0 to 99. Ends at end of
-// input.
+// input. Each text is spoken by a child of its own: the library's sound depends on what it said
+// before, by some ms, and the same text shall sound the same.
 
 #include <espeak-ng/speak_lib.h>
 #include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
@@ -81,6 +86,21 @@ std::string Say(const std::string& voice, int wpm, int pitch, const std::string&
   return said == EE_OK ? "" : "espeak-ng could not speak the text";
 }
 
+/// Synthesises the text and answers.
+void Speak(int rate, const std::string& voice, int wpm, int pitch, const std::string& text) {
+  Sound sound;
+  const std::string error = Say(voice, wpm, pitch, text, sound);
+  if (!error.empty()) {
+    std::cout << "error " << error << std::endl;
+    return;
+  }
+  std::cout << "sound " << rate << " " << sound.samples.size() << " " << sound.count << "\n"
+            << sound.lines;
+  std::cout.write(reinterpret_cast<const char*>(sound.samples.data()),
+                  static_cast<std::streamsize>(sound.samples.size() * sizeof(short)));
+  std::cout.flush();
+}
+
 /// One request; false at the end of input.
 bool Answer(int rate) {
   std::string line;
@@ -96,17 +116,16 @@ bool Answer(int rate) {
   }
   std::string text(bytes, '\0');
   if (!std::cin.read(text.data(), static_cast<std::streamsize>(bytes))) return false;
-  Sound sound;
-  const std::string error = Say(voice, wpm, pitch, text, sound);
-  if (!error.empty()) {
-    std::cout << "error " << error << std::endl;
-    return true;
+  const pid_t child = fork();
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    Speak(rate, voice, wpm, pitch, text);
+    _exit(0);
   }
-  std::cout << "sound " << rate << " " << sound.samples.size() << " " << sound.count << "\n"
-            << sound.lines;
-  std::cout.write(reinterpret_cast<const char*>(sound.samples.data()),
-                  static_cast<std::streamsize>(sound.samples.size() * sizeof(short)));
-  std::cout.flush();
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) != child || status != 0) {
+    std::cout << "error espeak-ng ended in the middle of the text" << std::endl;
+  }
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "ssm/voice/sentences.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace ssm {
@@ -26,26 +27,6 @@ constexpr Spelling kSpellings[] = {
 constexpr std::string_view kLatin1 =
     "AAAAAA CEEEEIIIIDNOOOOO  UUUUYT aaaaaa ceeeeiiiidnooooo  uuuuyty";
 static_assert(kLatin1.size() == 64);
-
-/// True if the word before the full stop at `stop` is one that takes a full stop by itself.
-bool IsTitle(std::string_view text, std::size_t stop) {
-  static constexpr std::array<std::string_view, 14> kTitles = {
-      "Mr", "Mrs", "Ms", "Dr", "St", "Prof", "Jr", "Sr", "vs", "etc", "No", "e.g", "i.e", "cf"};
-  std::size_t begin = stop;
-  while (begin > 0 && text[begin - 1] != ' ') --begin;
-  const std::string_view word = text.substr(begin, stop - begin);
-  return word.size() == 1 || std::find(kTitles.begin(), kTitles.end(), word) != kTitles.end();
-}
-
-bool EndsSentence(std::string_view text, std::size_t at) {
-  if (text[at] != '.' && text[at] != '!' && text[at] != '?') return false;
-  const std::size_t after = text.find_first_not_of("\"')", at + 1);
-  if (after == std::string_view::npos || text[after] != ' ') return false;
-  const std::size_t next = text.find_first_not_of(" \"'(", after);
-  if (next == std::string_view::npos) return false;
-  if (std::islower(static_cast<unsigned char>(text[next])) != 0) return false;
-  return !(text[at] == '.' && IsTitle(text, at));
-}
 
 }  // namespace
 

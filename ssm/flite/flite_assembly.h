@@ -34,11 +34,12 @@ class FliteAssembly {
   void Mark(const std::string& name) {
     if (!name.empty()) plan_.marks.push_back({name, at_});
   }
-  /// `same_span`: the unit before is the sentence before it; else it may have been cut anywhere.
-  void Sentence(FliteUnit unit, FliteAnalysis analysis, bool same_span) {
+  /// `goes_on`: the unit before is of the same span, cut where sentences or commas end; else it may
+  /// have been cut anywhere.
+  void Sentence(FliteUnit unit, FliteAnalysis analysis, bool goes_on) {
     auto& phonemes = analysis.phonemes;
-    if (spoke_ && !same_span) {
-      // The manner changes inside a sentence: the engine's pauses there are none of the text's.
+    if (spoke_ && !goes_on && !ended_) {
+      // The voice changes inside a sentence: the engine's pauses there are none of the text's.
       if (phonemes.size() > 1 && IsPause(phonemes.front())) {
         unit.skip = phonemes.front().duration;
         phonemes.erase(phonemes.begin());
@@ -54,6 +55,8 @@ class FliteAssembly {
     const std::size_t last = unit.sentence.text.find_last_not_of(" \"')");
     punctuated_ =
         last != std::string::npos && std::string_view(".,;:!?").contains(unit.sentence.text[last]);
+    ended_ =
+        last != std::string::npos && std::string_view(".!?").contains(unit.sentence.text[last]);
     spoke_ = true;
     for (vm::Phoneme& phoneme : phonemes) Add(std::move(phoneme));
     units_.push_back(std::move(unit));
@@ -94,7 +97,8 @@ class FliteAssembly {
   std::vector<FliteUnit> units_;
   Millis at_{0};
   bool spoke_ = false;
-  bool punctuated_ = false;
+  bool punctuated_ = false;  ///< the last sentence ends in a sign
+  bool ended_ = false;       ///< in one that ends a sentence
 };
 
 }  // namespace ssm

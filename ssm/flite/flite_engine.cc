@@ -34,7 +34,7 @@ class Receiver {
     while (!heard.empty()) {
       const std::size_t count = std::min(heard.size(), scaled.size());
       for (std::size_t i = 0; i < count; ++i) {
-        const double value = std::clamp(heard[i] * volume_, -32768.0, 32767.0);
+        const double value = volume_ > 1 ? Limited(heard[i] * volume_) : heard[i] * volume_;
         scaled[i] = static_cast<std::int16_t>(std::lround(value));
       }
       samples_.Append(std::span(scaled).first(count));
@@ -93,7 +93,7 @@ vm::Result<SpeechPlan> FliteEngine::Plan(const std::vector<SpeechSpan>& spans,
     const EnglishText english = NamePronounced(span.text);
     const AsciiText ascii = ToAscii(english.text);
     if (left_out.empty()) left_out = ascii.left_out;
-    bool same_span = false;
+    bool goes_on = false;
     for (std::string& sentence : SplitSentences(ascii.text)) {
       if (cancelled) return vm::Fail(vm::Errc::kStopped, "stopped while the text was prepared");
       FliteUnit unit{.sentence = {.text = std::move(sentence),
@@ -111,8 +111,8 @@ vm::Result<SpeechPlan> FliteEngine::Plan(const std::vector<SpeechSpan>& spans,
       if (!analysis) return vm::Fail(vm::Errc::kUnavailable, "flite could not read the text");
       if (analysis->words.empty()) continue;  // signs that are not spoken
       RestoreWords(*analysis, english);
-      assembly.Sentence(std::move(unit), std::move(*analysis), same_span);
-      same_span = true;
+      assembly.Sentence(std::move(unit), std::move(*analysis), goes_on);
+      goes_on = true;
     }
   }
   SpeechPlan plan = assembly.Finish();

@@ -1,55 +1,51 @@
 #include "ssm/voice/parsed_text.h"
 
-#include <tinyxml2.h>
-
 #include "ssm/voice/span_builder.h"
 #include "vm_protocol/core/xml_text.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace ssm {
 namespace {
 
-using tinyxml2::XMLElement;
+constexpr std::size_t kMaxDepth = 64;
 
-constexpr int kMaxDepth = 64;
-
-void Write(const XMLElement& element, int depth, std::string& text) {
-  if (depth > kMaxDepth) return;
-  const std::string_view name = element.Name();
-  const char* written = element.Attribute("orth");
+void Write(const vm::xml::Node& element, std::string& text) {
+  const std::string& name = element.name;
+  const std::string* written = element.Find("orth");
   if ((name == "W2" || name == "PRON") && written != nullptr) {
-    const char* reading = element.Attribute("pron");
-    const bool kana = reading != nullptr && IsKanaReading(reading);
-    text += kana
-                ? "<PRON SYM=\"" + std::string(reading) + "\">" + vm::EscapeXml(written) + "</PRON>"
-                : vm::EscapeXml(written);
+    const std::string reading = element.Get("pron");
+    text += IsKanaReading(reading)
+                ? "<PRON SYM=\"" + reading + "\">" + vm::EscapeXml(*written) + "</PRON>"
+                : vm::EscapeXml(*written);
     return;  // what a word is made of says the same again
   }
-  const bool tag = name != "S" && name != "AP" && name != "W1" && depth > 0;
+  const bool tag = name != "S" && name != "AP" && name != "W1" && element.parent != nullptr;
   if (tag) {
-    text += "<" + std::string(name);
-    for (auto* a = element.FirstAttribute(); a != nullptr; a = a->Next()) {
-      text += " " + std::string(a->Name()) + "=\"" + vm::EscapeXml(a->Value()) + "\"";
+    text += "<" + name;
+    for (const auto& attribute : element.attributes) {
+      text += " " + attribute.name + "=\"" + vm::EscapeXml(attribute.value) + "\"";
     }
-    text += element.NoChildren() ? "/>" : ">";
+    text += element.children.empty() ? "/>" : ">";
   }
-  for (auto* child = element.FirstChildElement(); child; child = child->NextSiblingElement()) {
-    Write(*child, depth + 1, text);
+  for (const auto& child : element.children) {
+    if (child->IsElement()) Write(*child, text);
   }
-  if (tag && !element.NoChildren()) text += "</" + std::string(name) + ">";
+  if (tag && !element.children.empty()) text += "</" + name + ">";
 }
 
 }  // namespace
 
 vm::Result<std::string> TextOfParsed(std::string_view xml) {
-  const std::string whole = "<parsed>" + std::string(xml) + "</parsed>";
-  tinyxml2::XMLDocument document;
-  if (xml.contains("<!") || xml.contains("<?") ||
-      document.Parse(whole.data(), whole.size()) != tinyxml2::XML_SUCCESS) {
-    return vm::Fail(vm::Errc::kSyntax,
-                    "line " + std::to_string(document.ErrorLineNum()) + ": the XML is broken");
+  if (xml.contains("<!") || xml.contains("<?")) {
+    return vm::Fail(vm::Errc::kSyntax, "declarations and instructions are not read");
   }
+  vm::xml::Limits limits;
+  limits.depth = kMaxDepth;
+  const auto document =
+      vm::xml::Parse("<parsed>" + std::string(xml) + "</parsed>", "parsed text", "", limits);
+  if (!document) return std::unexpected(document.error());
   std::string text;
-  Write(*document.RootElement(), 0, text);
+  Write(*document->root, text);
   if (text.empty()) return vm::Fail(vm::Errc::kBadValue, "there is no <W2 orth=... pron=...>");
   return text;
 }

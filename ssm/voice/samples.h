@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,6 +32,14 @@ constexpr vm::Time ToTime(std::size_t frames) {
 /// Frames that have passed after `time`, rounded down; 0 for a negative time.
 constexpr std::size_t FramesIn(vm::Time time) {
   return time.count() <= 0 ? 0 : static_cast<std::size_t>(time.count() * kSampleRateHz / 1'000'000);
+}
+
+/// A sample made louder: what is beyond 3/4 of full scale is bent instead of cut.
+inline double Limited(double value) {
+  constexpr double kKnee = 24576, kRoom = 32767 - kKnee;
+  const double size = std::abs(value);
+  if (size <= kKnee) return value;
+  return std::copysign(kKnee + kRoom * std::tanh((size - kKnee) / kRoom), value);
 }
 
 /// The sound of one utterance. Its length is known from the start (the phonemes say it); the engine

@@ -14,8 +14,21 @@ constexpr std::string_view kAccentMark = "’";
 
 }  // namespace
 
+void SpanBuilder::Note(std::string note) {
+  constexpr std::size_t kMostNotes = 20;
+  if (result_.notes.size() < kMostNotes &&
+      std::ranges::find(result_.notes, note) == result_.notes.end()) {
+    result_.notes.push_back(std::move(note));
+  }
+}
+
 void SpanBuilder::Pause(Millis length) {
   Cut();
+  if (!mark_.empty()) {  // it stands before the pause
+    const SpeechSpan next = manner();
+    Begin();
+    result_.spans.push_back(std::exchange(span_, next));
+  }
   pause_ = std::min(pause_ + length, kLongestPause);
 }
 
@@ -29,11 +42,13 @@ void SpanBuilder::Mark(const std::string& name) {
   mark_ = name;
 }
 
-void SpanBuilder::Audio(const std::string& path) {
+void SpanBuilder::Audio(const std::string& path, const SpeechSpan::Clip& clip, double volume) {
   Cut();
   const SpeechSpan before = manner();
   Begin();
   span_.audio = path;
+  span_.clip = clip;
+  span_.volume *= volume;
   result_.spans.push_back(std::exchange(span_, before));
 }
 
@@ -43,6 +58,7 @@ SpeechSpan SpanBuilder::manner() const {
   manner.pause_before = Millis{0};
   manner.mark.clear();
   manner.audio.clear();
+  manner.clip = {};
   return manner;
 }
 

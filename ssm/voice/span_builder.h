@@ -19,9 +19,12 @@ class SpanBuilder {
     result_.plain += written;
     has_text_ = true;
   }
+  /// Written and not spoken: a blank between sentences.
+  void Written(std::string_view text) { result_.plain += text; }
+  void Note(std::string note);
   void Pause(Millis length);
   void Mark(const std::string& name);
-  void Audio(const std::string& path);
+  void Audio(const std::string& path, const SpeechSpan::Clip& clip = {}, double volume = 1);
   /// The manner in force, without text. What is changed in it counts for the text that follows.
   SpeechSpan manner() const;
   void SetManner(SpeechSpan manner);

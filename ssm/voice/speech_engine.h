@@ -16,6 +16,23 @@ namespace ssm {
 
 using Millis = std::chrono::milliseconds;
 
+/// Intonation beyond a factor for the pitch. Laid over the sound (LayeredEngine): engines need not
+/// know it.
+struct Intonation {
+  struct Target {
+    double at01 = 0;  ///< of the element's time, from 0 to 1
+    double factor = 1;
+    double shift_hz = 0;
+    double hz = 0;  ///< not 0: that very pitch
+    bool operator==(const Target&) const = default;
+  };
+  double hz = 0;                  ///< not 0: the mean pitch
+  double shift_hz = 0;            ///< added to the mean pitch
+  double range = 1;               ///< factor of how far the pitch goes from its mean, in log Hz
+  std::vector<Target> contour{};  ///< by at01; between them straight, before and behind as at them
+  bool operator==(const Intonation&) const = default;
+};
+
 /// A piece of text spoken in one manner.
 struct SpeechSpan {
   std::string text{};
@@ -27,6 +44,20 @@ struct SpeechSpan {
   double volume = 1;    ///< relative loudness of the samples
   std::string audio{};  ///< a sound file played instead of `text` where an engine can; else empty
   Feeling feeling{};
+  /// How the sound file is played.
+  struct Clip {
+    Millis begin{0}, end{0};  ///< of the file; end 0 = to its end
+    double repeats = 1;       ///< so many times
+    Millis most{0};           ///< no longer than that altogether; 0 = no limit
+    double speed = 1;
+  };
+  Clip clip{};
+  std::string gender{};    ///< "male" or "female": a speaker of that kind, where `voice` names none
+  std::string language{};  ///< the markup's word for it ("en", "ja-JP"); empty = by its script
+  Intonation intonation{};
+  unsigned depth = 0;    ///< how many elements of the markup set this manner, one in the other
+  Millis lasts{0};       ///< all spans of the same `element` together; 0 = as long as they take
+  unsigned element = 0;  ///< which element `lasts` and a contour belong to
 };
 
 struct WordTime {

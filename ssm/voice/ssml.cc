@@ -1,30 +1,33 @@
 #include "ssm/voice/ssml.h"
 
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "ssm/voice/lexicon.h"
 #include "ssm/voice/pronounced_text.h"
 #include "ssm/voice/span_builder.h"
+#include "ssm/voice/spoken_forms.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace ssm {
 namespace {
 
-using tinyxml2::XMLElement;
-using tinyxml2::XMLNode;
+using vm::xml::Node;
 
-constexpr int kMaxDepth = 64;
+constexpr std::size_t kMaxDepth = 64;
+constexpr std::size_t kMaxLexicons = 8;
+constexpr std::size_t kMaxTargets = 100;
+constexpr Millis kLongest{60'000};
 
 struct Named {
   std::string_view name;
-  double factor;
+  double value;
 };
 // The words of the standard; their values are left to the implementation.
 constexpr std::array<Named, 7> kRates = {{{"x-slow", 0.5},
@@ -41,6 +44,13 @@ constexpr std::array<Named, 7> kPitches = {{{"x-low", 0.7},
                                             {"x-high", 1.4},
                                             {"default", 1},
                                             {"", 1}}};
+constexpr std::array<Named, 7> kRanges = {{{"x-low", 0.4},
+                                           {"low", 0.7},
+                                           {"medium", 1},
+                                           {"high", 1.4},
+                                           {"x-high", 1.8},
+                                           {"default", 1},
+                                           {"", 1}}};
 constexpr std::array<Named, 8> kVolumes = {{{"silent", 0},
                                             {"x-soft", 0.25},
                                             {"soft", 0.5},
@@ -59,190 +69,392 @@ constexpr std::array<Named, 6> kBreaks = {{{"none", 0},
 template <std::size_t N>
 std::optional<double> Lookup(const std::array<Named, N>& table, std::string_view name) {
   for (const Named& row : table) {
-    if (row.name == name) return row.factor;
+    if (row.name == name) return row.value;
   }
   return std::nullopt;
 }
 
-/// "120%" and "1.2" are factors, "+20%" is added to one, "+6dB" and "+2st" are relative.
-std::optional<double> Factor(const std::string& text) {
+struct Quantity {
+  double number = 0;
+  std::string unit{};
+  bool relative = false;  ///< written with a sign
+};
+std::optional<Quantity> ReadQuantity(const std::string& text) {
   char* rest = nullptr;
   const double number = std::strtod(text.c_str(), &rest);
   if (rest == text.c_str() || !std::isfinite(number)) return std::nullopt;
-  const std::string_view unit = rest;
-  const bool relative = text[0] == '+' || text[0] == '-';
-  if (unit == "%") return relative ? 1 + number / 100 : number / 100;
-  if (unit == "dB") return std::pow(10, number / 20);
-  if (unit == "st") return std::pow(2, number / 12);
-  if (unit.empty() && !relative) return number;
-  return std::nullopt;
+  return Quantity{number, std::string(vm::xml::Trim(rest)), text[0] == '+' || text[0] == '-'};
 }
 
 std::optional<Millis> Duration(const std::string& text) {
-  char* rest = nullptr;
-  const double number = std::strtod(text.c_str(), &rest);
-  if (rest == text.c_str() || !std::isfinite(number)) return std::nullopt;
-  const std::string_view unit = rest;
-  if (unit != "s" && unit != "ms") return std::nullopt;
-  const double ms = unit == "s" ? number * 1000 : number;
-  return Millis(std::lround(std::clamp(ms, 0.0, 60'000.0)));
+  const auto read = ReadQuantity(text);
+  if (!read || (read->unit != "s" && read->unit != "ms")) return std::nullopt;
+  const double ms = read->unit == "s" ? read->number * 1000 : read->number;
+  return Millis(std::lround(std::clamp(ms, 0.0, static_cast<double>(kLongest.count()))));
 }
 
-std::string Attribute(const XMLElement& element, const char* name) {
-  const char* value = element.Attribute(name);
-  return value == nullptr ? "" : value;
+/// "120%" and "1.2" are factors, "+20%" is added to one.
+std::optional<double> RateFactor(const Quantity& rate) {
+  if (rate.unit == "%") return rate.relative ? 1 + rate.number / 100 : rate.number / 100;
+  if (rate.unit.empty() && !rate.relative) return rate.number;
+  return std::nullopt;
+}
+/// 0 to 100 (SSML 1.0), changes of that, percent, dB.
+std::optional<double> VolumeFactor(const Quantity& volume) {
+  if (volume.unit == "dB") return std::pow(10, volume.number / 20);
+  if (volume.unit != "%" && !volume.unit.empty()) return std::nullopt;
+  return volume.relative ? 1 + volume.number / 100 : volume.number / 100;
+}
+std::optional<double> PitchFactor(const Quantity& pitch) {
+  if (pitch.unit == "st") return std::pow(2, pitch.number / 12);
+  return RateFactor(pitch);
+}
+
+/// "(0%,+20Hz) (50%,+10%)"
+std::optional<std::vector<Intonation::Target>> ReadContour(std::string_view text) {
+  std::vector<Intonation::Target> contour;
+  while (!vm::xml::IsBlank(text)) {
+    text = vm::xml::Trim(text);
+    const std::size_t comma = text.find(','), end = text.find(')');
+    if (text[0] != '(' || end == text.npos || comma > end || contour.size() >= kMaxTargets) {
+      return std::nullopt;
+    }
+    const auto place = ReadQuantity(std::string(vm::xml::Trim(text.substr(1, comma - 1))));
+    const auto pitch =
+        ReadQuantity(std::string(vm::xml::Trim(text.substr(comma + 1, end - comma - 1))));
+    if (!place || place->unit != "%" || !pitch) return std::nullopt;
+    Intonation::Target target{.at01 = std::clamp(place->number / 100, 0.0, 1.0)};
+    if (pitch->unit == "Hz") {
+      (pitch->relative ? target.shift_hz : target.hz) = pitch->number;
+    } else if (const auto factor = PitchFactor(*pitch)) {
+      target.factor = *factor;
+    } else {
+      return std::nullopt;
+    }
+    if (contour.empty() || target.at01 > contour.back().at01) contour.push_back(target);
+    text.remove_prefix(end + 1);
+  }
+  return contour;
 }
 
 class Reader {
  public:
-  vm::Result<TaggedText> Read(const XMLElement& root) {
-    Children(root, 0);
-    if (!error_.text.empty()) return std::unexpected(error_);
+  explicit Reader(const MarkupOptions& options) : options_(options) {}
+
+  TaggedText Read(const Node& root) {
+    everywhere_ = root.Get("version") == "1.0";  // lexicons count without <lookup>
+    for (const char* part : {"startmark", "endmark"}) {
+      if (root.Has(part)) Note(std::string(part) + " of <speak> is not obeyed");
+    }
+    language_ = root.Get("xml:lang", options_.language);
+    Children(root);
     return builder_.Finish();
   }
 
  private:
-  void Children(const XMLElement& element, int depth) {
-    if (depth > kMaxDepth) {
-      error_ = {vm::Errc::kSyntax,
-                "line " + std::to_string(element.GetLineNum()) + ": elements are nested too deep",
-                0};
-      return;
-    }
-    for (const XMLNode* child = element.FirstChild(); child != nullptr && error_.text.empty();
-         child = child->NextSibling()) {
-      if (child->ToText() != nullptr) {
-        Text(child->Value());
-      } else if (const XMLElement* inner = child->ToElement()) {
-        Element(*inner, depth + 1);
+  void Note(const std::string& what) { builder_.Note("SSML: " + what); }
+  void NoteValue(const Node& element, const char* attribute) {
+    Note("<" + element.name + " " + attribute + "=\"" + element.Get(attribute).substr(0, 60) +
+         "\"> is not understood");
+  }
+
+  void Children(const Node& element) {
+    for (const auto& child : element.children) {
+      if (child->IsText()) {
+        Text(child->text);
+      } else if (child->IsElement()) {
+        Element(*child);
       }
     }
   }
 
   /// Line ends and runs of blanks in a document are one blank.
   void Text(std::string_view text) {
-    for (const char c : text) {
+    for (std::size_t at = 0; at < text.size();) {
+      const char c = text[at];
       const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
-      if (!blank)
+      if (blank) {
+        if (!blank_) builder_.Text(" ");
+        ++at;
+      } else if (const std::size_t taken = Known(text, at); taken > 0) {
+        at += taken;
+      } else {
         builder_.Text(std::string_view(&c, 1));
-      else if (!blank_)
-        builder_.Text(" ");
+        ++at;
+      }
       blank_ = blank;
     }
   }
 
-  void Element(const XMLElement& element, int depth) {
-    const std::string_view name = element.Name();
+  /// Says a word of a lexicon; how many bytes it has.
+  std::size_t Known(std::string_view text, std::size_t at) {
+    for (auto lexicon = active_.rbegin(); lexicon != active_.rend(); ++lexicon) {
+      const Lexicon::Entry* entry = (*lexicon)->Find(text, at);
+      if (entry == nullptr) continue;
+      const std::string& word = entry->grapheme;
+      builder_.Text(word, entry->alias.empty() ? Pronunciation(entry->ipa, word) : entry->alias);
+      return word.size();
+    }
+    return 0;
+  }
+
+  void Element(const Node& element) {
+    const std::string& name = element.name;
     if (name == "break") return Break(element);
-    if (name == "mark") return builder_.Mark(Attribute(element, "name"));
-    if (name == "sub" && element.Attribute("alias")) return Text(Attribute(element, "alias"));
-    if (name == "metadata" || name == "meta" || name == "lexicon") return;
-    if (name == "p" || name == "s") return Paragraph(element, name == "p" ? 400 : 200, depth);
-    if (name == "audio" && element.Attribute("src"))
-      return builder_.Audio(Attribute(element, "src"));
-    if (name == "phoneme" && Phoneme(element)) return;
-    if (name == "say-as") return SayAs(element, depth);
+    if (name == "mark") return builder_.Mark(element.Get("name"));
+    if (name == "metadata" || name == "meta" || name == "desc") return;
+    if (name == "lexicon") return LoadLexicon(element);
+    if (name == "audio" && Audio(element)) return;
     const SpeechSpan before = builder_.manner();
+    const std::string language_before = language_;
     SpeechSpan manner = before;
+    if (const std::string* language = element.Find("xml:lang")) {
+      manner.language = language_ = *language;
+    }
     if (name == "prosody") Prosody(element, manner);
-    if (name == "emphasis") Emphasis(Attribute(element, "level"), manner);
-    if (name == "voice" && element.Attribute("name")) manner.voice = Attribute(element, "name");
+    if (name == "emphasis") Emphasis(element, manner);
+    if (name == "voice") Voice(element, manner);
+    if (name == "prosody" || name == "emphasis" || name == "voice") ++manner.depth;
     builder_.SetManner(manner);
-    Children(element, depth);
+    Content(element);
     builder_.SetManner(before);
+    language_ = language_before;
+  }
+
+  void Content(const Node& element) {
+    const std::string& name = element.name;
+    if (name == "sub" && element.Has("alias")) return Text(element.Get("alias"));
+    if (name == "phoneme" && Phoneme(element)) return;
+    if (name == "say-as" && SayAs(element)) return;
+    if (name == "lookup") return Looked(element);
+    if (name == "p" || name == "s") return Paragraph(element, name == "p" ? 400 : 200);
+    Children(element);
+  }
+
+  std::string Pronunciation(const std::string& ipa, const std::string& written) {
+    if (IsKanaReading(ipa)) return ipa;
+    return IpaForFlite(ipa) ? Pronounced(ipa, written) : written;
   }
 
   /// False if its pronunciation cannot be read: then what it holds is spoken.
-  bool Phoneme(const XMLElement& element) {
-    const std::string ph = Attribute(element, "ph"), alphabet = Attribute(element, "alphabet");
-    const char* text = element.GetText();
+  bool Phoneme(const Node& element) {
+    const std::string ph = element.Get("ph"), alphabet = element.Get("alphabet");
+    const std::string text = vm::xml::Collapse(element.Text());
     if (IsKanaReading(ph)) {
-      Text(ph);
+      builder_.Text(text.empty() ? ph : text, ph);
+      blank_ = false;
       return true;
     }
     vm::Result<std::string> ipa = ph;
     if (alphabet == "x-sampa") ipa = IpaOfSampa(ph);
     if (alphabet == "x-arpabet" || alphabet == "x-cmu") ipa = IpaOfArpabet(ph);
-    if (!ipa || !IpaForFlite(*ipa) || text == nullptr) return false;
-    builder_.Text(text, Pronounced(*ipa, text));
+    if (!ipa || !IpaForFlite(*ipa)) {
+      NoteValue(element, "ph");
+      return false;
+    }
+    const std::string written = text.empty() ? ph : text;
+    builder_.Text(written, Pronounced(*ipa, written));
     blank_ = false;
     return true;
   }
 
-  void Break(const XMLElement& element) {
-    const auto time = Duration(Attribute(element, "time"));
-    const auto strength = Lookup(kBreaks, Attribute(element, "strength"));
-    builder_.Pause(time ? *time : Millis(static_cast<std::int64_t>(strength.value_or(300))));
+  void Break(const Node& element) {
+    const std::string strength = element.Get("strength", "medium");
+    auto time = Duration(element.Get("time"));
+    if (element.Has("time") && !time) NoteValue(element, "time");
+    const auto named = Lookup(kBreaks, strength);
+    if (!named) NoteValue(element, "strength");
+    builder_.Pause(time ? *time : Millis(static_cast<std::int64_t>(named.value_or(300))));
   }
 
-  void Paragraph(const XMLElement& element, int pause_ms, int depth) {
-    if (builder_.has_text()) builder_.Pause(Millis(pause_ms));
+  void Paragraph(const Node& element, int pause_ms) {
+    if (builder_.has_text()) {
+      builder_.Pause(Millis(pause_ms));
+      if (!blank_) builder_.Written(" ");
+    }
     blank_ = true;
-    Children(element, depth);
+    Children(element);
     builder_.SetManner(builder_.manner());  // what follows is another sentence
   }
 
-  void SayAs(const XMLElement& element, int depth) {
-    const std::string how = Attribute(element, "interpret-as");
-    const char* text = element.GetText();
-    if (text != nullptr && (how == "characters" || how == "spell-out")) return Text(SpellOut(text));
-    if (text != nullptr && (how == "digits" || how == "telephone")) return Text(SpacedDigits(text));
-    Children(element, depth);
+  bool SayAs(const Node& element) {
+    const std::string how = element.Get("interpret-as"), text = element.Text();
+    auto spoken = SpokenForm(how, element.Get("format"), text, language_);
+    if (!spoken) {
+      if (!vm::xml::IsBlank(text)) NoteValue(element, "interpret-as");
+      return false;
+    }
+    builder_.Text(vm::xml::Collapse(text), *spoken);
+    blank_ = false;
+    return true;
   }
 
-  static void Prosody(const XMLElement& element, SpeechSpan& manner) {
-    const auto value = [&](const char* name, const auto& table, double least, double most) {
-      const std::string text = Attribute(element, name);
-      auto factor = Lookup(table, text);
-      if (!factor) factor = Factor(text);
-      return std::clamp(factor.value_or(1), least, most);
-    };
-    manner.stretch /= value("rate", kRates, 0.2, 5);
-    manner.pitch *= value("pitch", kPitches, 0.5, 2);
-    manner.volume *= value("volume", kVolumes, 0, 4);
+  void LoadLexicon(const Node& element) {
+    const std::string uri = element.Get("uri");
+    if (lexicons_.size() >= kMaxLexicons) {
+      return Note("more than " + std::to_string(kMaxLexicons) + " lexicons");
+    }
+    if (!options_.read_file) return NoteValue(element, "uri");
+    auto bytes = options_.read_file(uri);
+    if (!bytes) return Note("lexicon: " + bytes.error().text);
+    auto lexicon = Lexicon::Parse(*bytes, uri);
+    if (!lexicon) return Note("lexicon " + lexicon.error().text);
+    const auto [at, is_new] = lexicons_.emplace(element.Get("xml:id", uri), std::move(*lexicon));
+    if (is_new && everywhere_) active_.push_back(&at->second);
   }
 
-  static void Emphasis(const std::string& level, SpeechSpan& manner) {
+  void Looked(const Node& element) {
+    const auto found = lexicons_.find(element.Get("ref"));
+    if (found == lexicons_.end()) {
+      NoteValue(element, "ref");
+      return Children(element);
+    }
+    active_.push_back(&found->second);
+    Children(element);
+    active_.pop_back();
+  }
+
+  /// False if the file cannot be played: then what the element holds is spoken.
+  bool Audio(const Node& element) {
+    std::string path = element.Get("src");
+    if (path.starts_with("file://")) path.erase(0, 7);
+    if (path.empty() || (options_.is_sound && !options_.is_sound(path))) {
+      if (!path.empty()) Note("'" + path.substr(0, 200) + "' cannot be played");
+      return false;
+    }
+    SpeechSpan::Clip clip;
+    clip.begin = Duration(element.Get("clipBegin")).value_or(Millis{0});
+    clip.end = Duration(element.Get("clipEnd")).value_or(Millis{0});
+    clip.most = Duration(element.Get("repeatDur")).value_or(Millis{0});
+    if (const auto count = ReadQuantity(element.Get("repeatCount"))) {
+      clip.repeats = std::clamp(count->number, 0.0, 1000.0);
+    } else if (clip.most.count() > 0) {
+      clip.repeats = 1000;
+    }
+    if (const auto speed = ReadQuantity(element.Get("speed"))) {
+      clip.speed = std::clamp(RateFactor(*speed).value_or(1), 0.25, 4.0);
+    }
+    double volume = 1;
+    if (const auto level = ReadQuantity(element.Get("soundLevel"))) {
+      volume = std::clamp(VolumeFactor(*level).value_or(1), 0.0, 4.0);
+    }
+    builder_.Audio(path, clip, volume);
+    return true;
+  }
+
+  void Voice(const Node& element, SpeechSpan& manner) {
+    if (element.Has("name")) manner.voice = element.Get("name");
+    const std::string gender = element.Get("gender");
+    if (gender == "male" || gender == "female") {
+      manner.gender = gender;
+      if (!element.Has("name")) manner.voice.clear();
+    } else if (!gender.empty() && gender != "neutral") {
+      NoteValue(element, "gender");
+    }
+    if (element.Has("age")) Note("no voice here has an age; <voice age> is not obeyed");
+    if (element.Has("languages") && !element.Has("xml:lang")) {
+      const std::string first = element.Get("languages");
+      manner.language = language_ = first.substr(0, first.find_first_of(" :"));
+    }
+  }
+
+  /// The attribute's value by its table, else by `read` of a number with a unit.
+  template <typename Table, typename Convert>
+  double Value(const Node& element, const char* name, const Table& table, Convert convert,
+               double least, double most) {
+    const std::string text(vm::xml::Trim(element.Get(name)));
+    auto value = Lookup(table, text);
+    if (const auto quantity = ReadQuantity(text); !value && quantity) value = convert(*quantity);
+    if (!value) NoteValue(element, name);
+    return std::clamp(value.value_or(1), least, most);
+  }
+
+  void Prosody(const Node& element, SpeechSpan& manner) {
+    manner.stretch /= Value(element, "rate", kRates, RateFactor, 0.2, 5);
+    manner.volume *= Value(element, "volume", kVolumes, VolumeFactor, 0, 4);
+    Intonation& tone = manner.intonation;
+    const auto pitch = ReadQuantity(std::string(vm::xml::Trim(element.Get("pitch"))));
+    if (pitch && pitch->unit == "Hz") {
+      (pitch->relative ? tone.shift_hz : tone.hz) = std::clamp(pitch->number, -400.0, 800.0);
+    } else {
+      const double factor = Value(element, "pitch", kPitches, PitchFactor, 0.5, 2);
+      manner.pitch *= factor;
+      tone.hz *= factor;
+    }
+    tone.range *= Value(element, "range", kRanges, PitchFactor, 0.1, 4);
+    if (element.Has("contour")) {
+      if (auto contour = ReadContour(element.Get("contour"))) {
+        tone.contour = std::move(*contour);
+        manner.element = ++elements_;
+      } else {
+        NoteValue(element, "contour");
+      }
+    }
+    if (element.Has("duration")) {
+      if (const auto lasts = Duration(element.Get("duration")); lasts && lasts->count() > 0) {
+        manner.lasts = *lasts;
+        manner.element = elements_ += element.Has("contour") ? 0 : 1;
+      } else {
+        NoteValue(element, "duration");
+      }
+    }
+  }
+
+  void Emphasis(const Node& element, SpeechSpan& manner) {
+    const std::string level = element.Get("level", "moderate");
     if (level == "none") return;
-    const double amount = level == "strong" ? 1.5 : level == "reduced" ? -1 : 1;
-    Emphasize(manner, amount);
+    if (level != "strong" && level != "moderate" && level != "reduced") {
+      return NoteValue(element, "level");
+    }
+    Emphasize(manner, level == "strong" ? 1.5 : level == "reduced" ? -1 : 1);
   }
 
+  const MarkupOptions& options_;
   SpanBuilder builder_;
+  std::string language_;
+  std::map<std::string, Lexicon> lexicons_;
+  std::vector<const Lexicon*> active_;  ///< the innermost last
+  bool everywhere_ = false;
   bool blank_ = true;
-  vm::Error error_{};
+  unsigned elements_ = 0;
 };
 
 }  // namespace
 
 bool IsSsml(std::string_view text) {
-  std::size_t at = text.find_first_not_of(" \t\r\n");
-  if (at != std::string_view::npos && text.substr(at).starts_with("<?xml")) {
-    at = text.find("?>", at);
-    if (at != std::string_view::npos) at = text.find_first_not_of(" \t\r\n", at + 2);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const auto skip = [&text](std::string_view begin, std::string_view end) {
+    if (!text.starts_with(begin)) return false;
+    const std::size_t at = text.find(end, begin.size());
+    text.remove_prefix(at == text.npos ? text.size() : at + end.size());
+    return true;
+  };
+  while (true) {
+    text = vm::xml::Trim(text);
+    if (skip("<!--", "-->") || skip("<?", "?>")) continue;
+    if (!text.starts_with("<!DOCTYPE")) break;
+    const std::size_t subset = text.find_first_of("[>");
+    const bool has_subset = subset != text.npos && text[subset] == '[';
+    if (!skip("<!DOCTYPE", has_subset ? "]" : ">")) break;
+    if (has_subset) skip("", ">");
   }
-  if (at == std::string_view::npos || !text.substr(at).starts_with("<speak")) return false;
-  const std::string_view rest = text.substr(at + 6);
-  return !rest.empty() && std::strchr(" \t\r\n/>", rest[0]) != nullptr;
+  if (!text.starts_with('<')) return false;
+  std::string_view name = text.substr(1, text.find_first_of(" \t\r\n/>", 1) - 1);
+  if (const std::size_t colon = name.find(':'); colon != name.npos) name.remove_prefix(colon + 1);
+  return name == "speak";
 }
 
-vm::Result<TaggedText> ParseSsml(std::string_view text) {
-  if (text.find("<!ENTITY") != std::string_view::npos) {
-    return vm::Fail(vm::Errc::kSyntax, "SSML with ENTITY declarations is not read");
-  }
-  tinyxml2::XMLDocument document(true, tinyxml2::PRESERVE_WHITESPACE);
-  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-    return vm::Fail(vm::Errc::kSyntax,
-                    "SSML line " + std::to_string(document.ErrorLineNum()) +
-                        ": the XML is broken (" +
-                        tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID()) + ")");
-  }
-  return Reader().Read(*document.RootElement());
+vm::Result<TaggedText> ParseSsml(std::string_view text, const MarkupOptions& options) {
+  vm::xml::Limits limits;
+  limits.depth = kMaxDepth;
+  const auto document = vm::xml::Parse(vm::xml::Trim(text), "SSML", "utf-8", limits);
+  if (!document) return std::unexpected(document.error());
+  return Reader(options).Read(*document->root);
 }
 
-vm::Result<TaggedText> ReadMarkup(std::string_view raw) {
+vm::Result<TaggedText> ReadMarkup(std::string_view raw, const MarkupOptions& options) {
   const std::string text = WithoutPronunciationMarks(raw);
-  if (IsSsml(text)) return ParseSsml(text);
+  if (IsSsml(text)) return ParseSsml(text, options);
   return ParseTaggedText(text);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <string>
 #include <string_view>
 
 #include "ssm/voice/text_tags.h"
@@ -7,26 +9,44 @@
 
 namespace ssm {
 
-/// True for a text that is SSML: its first element is <speak ...>.
+/// True for a text that is SSML: its root element is <speak>, whatever its prefix, and whatever
+/// comes before it (declaration, comments, instructions, a document type).
 bool IsSsml(std::string_view text);
 
-/// Reads the W3C's Speech Synthesis Markup Language 1.1 into manners of speaking:
+/// What a markup's reader may ask of the world.
+struct MarkupOptions {
+  std::string language = "en";  ///< of the speaker: how <say-as> is read where nothing else is said
+  /// Whether a file can be played; else what <audio> holds is spoken. Empty: every file can.
+  std::function<bool(const std::string& path)> is_sound{};
+  /// The content of a lexicon. Empty: there is none.
+  std::function<vm::Result<std::string>(const std::string& path)> read_file{};
+};
+
+/// Reads the W3C's Speech Synthesis Markup Language 1.1 (and 1.0) into manners of speaking:
 ///   mark name    reported by Speak.mark         break time, strength (none to x-strong)
-///   prosody rate pitch volume: words (slow, x-high, loud...), percent, factors ("120%", "+10%",
-///                "1.2"), volume also in dB ("+6dB"), pitch also in semitones ("+2st")
+///   prosody      rate: words, "80%", "+10%", "1.2"; volume: words, "+6dB", 0 to 100, "+10";
+///                pitch: words, "+10%", "+2st", "+60Hz", "250Hz"; range: words, "+20%";
+///                contour "(0%,+20Hz) (50%,+10%)"; duration "2s"
 ///   emphasis level        sub alias             p, s: pauses of 400 and 200 ms
-///   say-as interpret-as: characters, spell-out, digits, telephone; others are read as they are
-///   audio src    the file is played; what it holds is spoken if there is no src
-///   voice name   a speaker; voice and lang xml:lang are obeyed by script only
+///   say-as       spoken_forms.h: characters, digits, telephone, cardinal, ordinal, date, time,
+///                currency, in English and Japanese
+///   audio src    the file is played: soundLevel, speed, clipBegin, clipEnd, repeatCount,
+///   repeatDur;
+///                what it holds is spoken if it cannot be; desc is silent
+///   voice        name (several: the first there is), gender; xml:lang of voice, lang, p, s, token
+///                and w is the language of what they hold
 ///   phoneme ph in IPA (alphabet ipa or none), x-sampa, x-arpabet, or kana: that pronunciation
 ///                where the engine can (flite, espeak-ng; kana: Japanese); what cannot be read is
 ///                spoken as it is written
+///   lexicon uri, lookup ref   a file of the Pronunciation Lexicon Specification 1.0
 /// Unknown elements are left out, what they hold is spoken; metadata is not. Numbers beyond the
-/// ranges of TaggedText are taken to their end.
-/// Errors: kSyntax with line and reason for broken XML, entities declared, depth over 64.
-vm::Result<TaggedText> ParseSsml(std::string_view text);
+/// ranges of TaggedText are taken to their end. What is understood and cannot be done, and values
+/// that are none, are told in TaggedText::notes.
+/// Errors: kSyntax "SSML:LINE:COLUMN: reason" for broken XML, entities that grow beyond measure,
+/// depth over 64.
+vm::Result<TaggedText> ParseSsml(std::string_view text, const MarkupOptions& options = {});
 
 /// Either of the two markups, told apart by IsSsml.
-vm::Result<TaggedText> ReadMarkup(std::string_view text);
+vm::Result<TaggedText> ReadMarkup(std::string_view text, const MarkupOptions& options = {});
 
 }  // namespace ssm

@@ -167,7 +167,10 @@ class Parser {
       return;
     }
     SpeechSpan manner = builder_.manner();
-    if (!tag.alone) open_.push_back({tag.name, manner});
+    if (!tag.alone) {
+      open_.push_back({tag.name, manner});
+      ++manner.depth;
+    }
     if (tag.name == "EMPH" && !tag.alone) Emphasize(manner, 1);
     if (const auto speed = tag.Number("SPEED", 0.2, 5); speed && tag.name == "RATE") {
       manner.stretch *= *speed;

@@ -10,8 +10,9 @@ namespace ssm {
 
 /// A text with its tags taken out and turned into manners of speaking.
 struct TaggedText {
-  std::string plain;              ///< the text to be spoken
-  std::vector<SpeechSpan> spans;  ///< voice "" = the current speaker; numbers are factors
+  std::string plain;               ///< the text to be spoken
+  std::vector<SpeechSpan> spans;   ///< voice "" = the current speaker; numbers are factors
+  std::vector<std::string> notes;  ///< what was asked for and is not done, a sentence each
 };
 
 /// Reads the tags of JEIDA-62-2000 as the original voice module knew them. Upper case, attributes

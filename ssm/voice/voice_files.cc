@@ -104,7 +104,7 @@ void VoiceModule::LoadParsed(const std::string& path, SoundFormat, const vm::Rep
 void VoiceModule::SetNext(const std::string& text, const vm::Reply& reply) {
   if (!player_.active() && state_ != State::kPaused) return SetText(text, reply);
   if (text.size() > kMaxTextBytes) return reply.Fail(TooLong(text));
-  auto read = ReadMarkup(text);
+  auto read = ReadText(text);
   if (!read) return reply.Fail(read.error());
   DropNext("another text came to be the next");
   auto next = std::make_shared<Preparation>(

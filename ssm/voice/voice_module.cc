@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ssm/voice/layered_engine.h"
+
 namespace ssm {
 VoiceModule::VoiceModule(vm::Scheduler& scheduler, Parts parts, Options options)
     : scheduler_(scheduler),
       options_(std::move(options)),
       slots_("SSM"),
-      engine_(std::move(parts.engine)),
+      engine_(std::make_unique<LayeredEngine>(std::move(parts.engine))),
       sink_(std::move(parts.sink)),
       worker_(std::move(parts.worker)),
       player_(scheduler, *sink_,

@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,8 @@ class VoiceModule final : public vm::Module {
   void Prepare(const std::string& text, const vm::Reply& reply,
                std::shared_ptr<const Prosody> prosody = nullptr);
   vm::Result<void> Render(const Preparation& preparation);
+  vm::Result<TaggedText> ReadText(const std::string& text);
+  const VoiceInfo& SpeakerOf(const SpeechSpan& span);
   std::vector<SpeechSpan> Manners(std::vector<SpeechSpan> spans);
   void OnPlanned(const std::shared_ptr<Preparation>& preparation);
   void OnRendered(const std::shared_ptr<Utterance>& utterance, const vm::Result<void>& result);
@@ -153,6 +156,7 @@ class VoiceModule final : public vm::Module {
   Player player_;
   const SpeakerTable speakers_;
 
+  std::set<std::string> noted_;  // what markup asked for and is not done, told already
   VoiceInfo voice_;
   double rate_ = 1;
   double pitch_ = 1;

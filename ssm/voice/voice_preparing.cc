@@ -6,13 +6,17 @@
 #include "ssm/voice/prosody.h"
 #include "ssm/voice/ssml.h"
 #include "ssm/voice/voice_module.h"
+#include "ssm/voice/wav_file.h"
 #include "vm_protocol/core/limits.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace ssm {
 namespace {
 
 // Room for "rep#TAG Speak.pho = " and the hub's "From @SSM " within one line.
 constexpr std::size_t kMaxPhonemeText = vm::kMaxLineBytes - 1024;
+constexpr std::size_t kMaxLexiconBytes = std::size_t{4} << 20;
+constexpr std::size_t kMostNotes = 200;
 
 vm::Result<void> CheckSize(const SpeechPlan& plan) {
   if (plan.phonemes.size() <= vm::kMaxPhonemes &&
@@ -56,7 +60,7 @@ void VoiceModule::Prepare(const std::string& text, const vm::Reply& reply,
   if (utterance_) utterance_->samples->Cancel();
   utterance_.reset();
   SetState(State::kProcessing);
-  auto read = ReadMarkup(text);
+  auto read = ReadText(text);
   if (!read) {
     SetState(State::kError);
     reply.Fail(read.error());
@@ -92,15 +96,53 @@ void VoiceModule::Prepare(const std::string& text, const vm::Reply& reply,
   });
 }
 
+vm::Result<TaggedText> VoiceModule::ReadText(const std::string& text) {
+  auto read = ReadMarkup(text, {.language = voice_.language,
+                                .is_sound = IsSoundFile,
+                                .read_file = [](const std::string& path) {
+                                  return vm::ReadTextFile(path, kMaxLexiconBytes);
+                                }});
+  if (!read) return read;
+  for (const std::string& note : read->notes) {
+    if (noted_.size() < kMostNotes && noted_.insert(note).second) {
+      Fault("Text", {vm::Errc::kUnavailable, note, 0});
+    }
+  }
+  return read;
+}
+
+/// The speaker a span asks for: the first known of its names, else one of its gender, if possible
+/// of its language; else the present one.
+const VoiceInfo& VoiceModule::SpeakerOf(const SpeechSpan& span) {
+  for (std::string_view names = span.voice; !names.empty();) {
+    const std::string_view name = names.substr(0, names.find(' '));
+    names.remove_prefix(std::min(name.size() + 1, names.size()));
+    if (const VoiceInfo* voice = speakers_.Find(name)) return *voice;
+  }
+  if (const VoiceInfo* whole = speakers_.Find(span.voice)) return *whole;
+  if (!span.voice.empty()) {
+    Fault("Text",
+          {vm::Errc::kBadValue,
+           "unknown speaker '" + span.voice + "' in a VOICE tag, the present one goes on", 0});
+    return voice_;
+  }
+  if (span.gender.empty()) return voice_;
+  const std::string language = span.language.empty()
+                                   ? voice_.language
+                                   : span.language.substr(0, span.language.find_first_of("-_"));
+  const bool female = span.gender == "female";
+  const VoiceInfo* found = nullptr;
+  for (const VoiceInfo& voice : engine_->voices()) {
+    if (voice.female != female || !voice.listed) continue;
+    if (voice.language == language) return voice.name == voice_.name ? voice_ : voice;
+    if (found == nullptr) found = &voice;
+  }
+  return found != nullptr && span.language.empty() && voice_.female != female ? *found : voice_;
+}
+
 std::vector<SpeechSpan> VoiceModule::Manners(std::vector<SpeechSpan> spans) {
   for (SpeechSpan& span : spans) {
-    const VoiceInfo* voice = span.voice.empty() ? &voice_ : speakers_.Find(span.voice);
-    if (voice == nullptr) {
-      Fault("Text",
-            {vm::Errc::kBadValue,
-             "unknown speaker '" + span.voice + "' in a VOICE tag, the present one goes on", 0});
-      voice = &voice_;
-    }
+    const VoiceInfo* voice = &SpeakerOf(span);
     span.voice = voice->name;
     span.feeling = feeling_;
     Manner& manner = span.feeling.manner;

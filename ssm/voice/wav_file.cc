@@ -138,4 +138,13 @@ vm::Result<std::vector<std::int16_t>> ReadRaw(const std::string& path) {
   return samples;
 }
 
+bool IsSoundFile(const std::string& path) {
+  if (!vm::CheckReadable(path)) return false;
+  SF_INFO info{};
+  SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
+  if (file == nullptr) return false;
+  sf_close(file);
+  return info.frames > 0;
+}
+
 }  // namespace ssm

@@ -33,6 +33,8 @@ class WavWriter {
 };
 
 vm::Result<void> WriteWav(const std::string& path, std::span<const std::int16_t> samples);
+/// Whether a file can be read as sound, of any kind libsndfile knows.
+bool IsSoundFile(const std::string& path);
 /// 16 bit big endian without a header, as the original's SaveRAW.
 vm::Result<void> WriteRaw(const std::string& path, std::span<const std::int16_t> samples);
 /// At most kMaxLoadedFrames. Errors: kUnavailable (cannot be read), kBadValue (not 16 kHz mono),

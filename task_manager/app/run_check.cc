@@ -8,7 +8,7 @@
 #include "task_manager/fetch/uri.h"
 #include "task_manager/grammar/builtin.h"
 #include "task_manager/grammar/store.h"
-#include "task_manager/xml/parser.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml {
 namespace {
@@ -36,12 +36,12 @@ class DeepChecker {
   }
 
  private:
-  void Say(const xml::Node& at, std::string text, std::string advice,
+  void Say(const vm::xml::Node& at, std::string text, std::string advice,
            Finding::Severity severity = Finding::Severity::kError) {
     findings_.push_back({severity, at.line, at.column, std::move(text), std::move(advice)});
   }
 
-  void Visit(const xml::Node& node) {
+  void Visit(const vm::xml::Node& node) {
     if (!node.IsElement()) return;
     if (node.name == "grammar") return Grammar(node);
     for (const char* name : {"cond", "expr", "nextexpr", "eventexpr", "messageexpr", "srcexpr",
@@ -57,20 +57,20 @@ class DeepChecker {
     for (const auto& child : node.children) Visit(*child);
   }
 
-  void Expression(const xml::Node& node, const std::string& name, const std::string& text) {
+  void Expression(const vm::xml::Node& node, const std::string& name, const std::string& text) {
     if (auto fit = engine_.CheckExpression(text); !fit) {
       Say(node, name + "=\"" + text + "\": " + fit.error().text, "");
     }
   }
 
-  void Script(const xml::Node& node) {
+  void Script(const vm::xml::Node& node) {
     if (node.Has("src") || node.Has("srcexpr")) return;
     if (auto fit = engine_.CheckScript(node.Text()); !fit) {
       Say(node, "script: " + fit.error().text, "");
     }
   }
 
-  void Target(const xml::Node& node, const std::string& target) {
+  void Target(const vm::xml::Node& node, const std::string& target) {
     if (target.starts_with("#")) {
       if (!document_.FindDialog(target.substr(1))) {
         Say(node, "there is no dialog '" + target.substr(1) + "' in this document",
@@ -86,7 +86,7 @@ class DeepChecker {
     }
   }
 
-  void Field(const xml::Node& node) {
+  void Field(const vm::xml::Node& node) {
     if (const std::string* type = node.Find("type")) {
       if (!srgs::IsBuiltinType(srgs::ParseBuiltin(*type).type)) {
         Say(node, "type '" + *type + "' is not built in",
@@ -99,7 +99,7 @@ class DeepChecker {
     }
   }
 
-  void Grammar(const xml::Node& node) {
+  void Grammar(const vm::xml::Node& node) {
     if (const std::string* source = node.Find("src")) {
       if (source->starts_with("builtin:") || source->starts_with("http")) return;
       const srgs::Rule* rule = nullptr;
@@ -113,7 +113,7 @@ class DeepChecker {
     context.base = document_.base;
     bool elements = false;
     for (const auto& child : node.children) elements = elements || child->IsElement();
-    const std::string text(xml::Trim(node.Text()));
+    const std::string text(vm::xml::Trim(node.Text()));
     auto made = !elements && text.find('$') != std::string::npos ? srgs::CompileAbnf(text, context)
                                                                  : srgs::CompileXml(node, context);
     if (!made) return Say(node, "grammar: " + made.error().text, "");
@@ -132,7 +132,7 @@ class DeepChecker {
 vm::Result<Loose> ReadLoosely(const std::string& uri, fetch::Fetcher& fetcher) {
   auto got = fetcher.Get(uri);
   if (!got) return std::unexpected(got.error());
-  auto parsed = xml::Parse(got->body, uri, got->charset);
+  auto parsed = vm::xml::Parse(got->body, uri, got->charset);
   if (!parsed) return std::unexpected(parsed.error());
   Loose loose;
   loose.document.uri = loose.document.base = fetch::WithoutFragment(uri);
@@ -145,7 +145,7 @@ vm::Result<Loose> ReadLoosely(const std::string& uri, fetch::Fetcher& fetcher) {
       loose.document.dialogs.push_back(child.get());
     }
   }
-  const xml::Node& root = *loose.document.root;
+  const vm::xml::Node& root = *loose.document.root;
   loose.findings = IsEmotionMl(root) ? CheckEmotionMl(root) : CheckDocument(loose.document);
   return loose;
 }
@@ -180,12 +180,12 @@ namespace {
 
 std::string DotId(const std::string& text) { return JsonText(text); }
 
-void Edges(const xml::Node& node, const std::string& from) {
+void Edges(const vm::xml::Node& node, const std::string& from) {
   const auto edge = [&](const std::string& to, const std::string& label) {
     std::cout << "  " << DotId(from) << " -> " << DotId(to) << " [label=" << DotId(label) << "];\n";
   };
   std::string label = node.name;
-  if (node.name == "choice" || node.name == "option") label = xml::Collapse(node.Text());
+  if (node.name == "choice" || node.name == "option") label = vm::xml::Collapse(node.Text());
   if (node.name == "catch") label = node.Get("event", "catch");
   if (const std::string* next = node.Find("next")) edge(*next, label);
   if (const std::string* expression = node.Find("expr"); expression && node.name == "goto") {
@@ -215,7 +215,7 @@ int RunGraph(const Options& options) {
   }
   std::cout << "digraph dialogue {\n  rankdir=LR;\n  node [shape=box];\n";
   int number = 0;
-  for (const xml::Node* dialog : loose->document.dialogs) {
+  for (const vm::xml::Node* dialog : loose->document.dialogs) {
     std::string id = dialog->Get("id");
     id = id.empty() ? dialog->name + std::to_string(++number) : "#" + id;
     std::string items;

@@ -37,7 +37,7 @@ CommandSource FromScript(const std::string& path) {
 std::optional<Command> FromTerminal() {
   std::string line;
   while (std::cout.flush(), std::getline(std::cin, line)) {
-    if (xml::IsBlank(line)) {
+    if (vm::xml::IsBlank(line)) {
       Command silence;
       silence.kind = Command::Kind::kSilence;
       return silence;

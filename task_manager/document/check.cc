@@ -5,7 +5,7 @@
 #include "task_manager/document/values.h"
 #include "task_manager/document/vxml_document.h"
 #include "task_manager/grammar/xml_rules.h"
-#include "task_manager/xml/parser.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml {
 namespace {
@@ -15,7 +15,7 @@ class Checker {
   explicit Checker(const VxmlDocument& document) : document_(document) {}
 
   std::vector<Finding> Run() {
-    const xml::Node& root = *document_.root;
+    const vm::xml::Node& root = *document_.root;
     findings_ = document_.passed_over;
     if (!IsVoiceXml(root)) {
       Say(root, "<" + root.name + "> of the namespace '" + root.space + "'",
@@ -38,23 +38,23 @@ class Checker {
   }
 
  private:
-  void Say(const xml::Node& at, std::string text, std::string advice,
+  void Say(const vm::xml::Node& at, std::string text, std::string advice,
            Finding::Severity severity = Finding::Severity::kError) {
     if (findings_.size() < 200) {
       findings_.push_back({severity, at.line, at.column, std::move(text), std::move(advice)});
     }
   }
-  void Warn(const xml::Node& at, std::string text, std::string advice) {
+  void Warn(const vm::xml::Node& at, std::string text, std::string advice) {
     Say(at, std::move(text), std::move(advice), Finding::Severity::kWarning);
   }
 
-  void Element(const xml::Node& node) {
+  void Element(const vm::xml::Node& node) {
     const ElementRule* rule = FindElementRule(node.name);
     if (!rule) return Speech(node);
     Attributes(node, *rule);
     for (const auto& child : node.children) {
       if (child->IsText()) {
-        if (!rule->text && !xml::IsBlank(child->text)) {
+        if (!rule->text && !vm::xml::IsBlank(child->text)) {
           Say(*child, "text in <" + node.name + ">", "put it into a <prompt>");
         }
         continue;
@@ -79,7 +79,7 @@ class Checker {
   }
 
   /// SSML has its own reader; here only what VoiceXML says of the elements in it.
-  void Speech(const xml::Node& node) {
+  void Speech(const vm::xml::Node& node) {
     if (node.name == "audio") Audio(node);
     for (const auto& child : node.children) {
       if (child->IsElement() && IsVoiceXml(*child)) Element(*child);
@@ -87,13 +87,13 @@ class Checker {
   }
 
   /// Whether the element's namespace has such an element that may stand in a dialogue.
-  static bool IsOfItsSpace(const xml::Node& node) {
+  static bool IsOfItsSpace(const vm::xml::Node& node) {
     if (node.space == kEmotionMlSpace) return node.name == "emotion";
     if (node.space == srgs::kSrgsSpace) return node.name == "grammar";
     return !IsSpeechMarkup(node) || IsSpeechName(node.name);
   }
 
-  void Misplaced(const xml::Node& parent, const xml::Node& child) {
+  void Misplaced(const vm::xml::Node& parent, const vm::xml::Node& child) {
     const bool known = FindElementRule(child.name) != nullptr;
     Say(child,
         known ? "<" + child.name + "> may not stand in <" + parent.name + ">"
@@ -101,13 +101,13 @@ class Checker {
         "");
   }
 
-  void Attributes(const xml::Node& node, const ElementRule& rule) {
+  void Attributes(const vm::xml::Node& node, const ElementRule& rule) {
     for (const std::string_view word : SplitWords(rule.attributes)) {
       if (word.starts_with("!") && !node.Has(word.substr(1))) {
         Say(node, "<" + node.name + "> without " + std::string(word.substr(1)), "");
       }
     }
-    for (const xml::Attribute& attribute : node.attributes) {
+    for (const vm::xml::Attribute& attribute : node.attributes) {
       if (attribute.name.find(':') != std::string::npos || attribute.name == "xmlns") continue;
       if (!KnowsAttribute(rule, attribute.name)) {
         Warn(node, "<" + node.name + "> has no attribute '" + attribute.name + "'",
@@ -130,10 +130,10 @@ class Checker {
     }
   }
 
-  void Grammar(const xml::Node& node, const xml::Node& parent) {
+  void Grammar(const vm::xml::Node& node, const vm::xml::Node& parent) {
     const bool inline_text = node.FirstElement("rule") || node.FirstElement("token") ||
                              node.FirstElement("item") || node.FirstElement("one-of") ||
-                             !xml::IsBlank(node.Text());
+                             !vm::xml::IsBlank(node.Text());
     const int sources =
         (node.Has("src") ? 1 : 0) + (node.Has("srcexpr") ? 1 : 0) + (inline_text ? 1 : 0);
     if (sources != 1) {
@@ -150,15 +150,15 @@ class Checker {
     }
   }
 
-  void Script(const xml::Node& node) {
+  void Script(const vm::xml::Node& node) {
     const int sources = (node.Has("src") ? 1 : 0) + (node.Has("srcexpr") ? 1 : 0) +
-                        (xml::IsBlank(node.Text()) ? 0 : 1);
+                        (vm::xml::IsBlank(node.Text()) ? 0 : 1);
     if (sources == 1) return;
     Say(node, "<script> with " + std::to_string(sources) + " of src, srcexpr and own text",
         "give exactly one");
   }
 
-  void Audio(const xml::Node& node) {
+  void Audio(const vm::xml::Node& node) {
     if (node.Has("src") != node.Has("expr")) return;
     Say(node, node.Has("src") ? "<audio> with src and expr" : "<audio> without src or expr",
         "give exactly one");
@@ -169,8 +169,8 @@ class Checker {
            name == "object";
   }
 
-  void Form(const xml::Node& form) {
-    std::map<std::string, const xml::Node*> names;
+  void Form(const vm::xml::Node& form) {
+    std::map<std::string, const vm::xml::Node*> names;
     for (const auto& child : form.children) {
       const std::string& kind = child->name;
       if (!child->IsElement() || (!IsInput(kind) && kind != "block" && kind != "initial")) continue;
@@ -195,7 +195,7 @@ class Checker {
     }
   }
 
-  void Menu(const xml::Node& menu) {
+  void Menu(const vm::xml::Node& menu) {
     if (menu.Get("dtmf", "false") != "true") return;
     for (const auto& child : menu.children) {
       const std::string dtmf = child->IsElement("choice") ? child->Get("dtmf") : "";
@@ -207,8 +207,8 @@ class Checker {
   }
 
   void UniqueIds() {
-    std::map<std::string, const xml::Node*> ids;
-    for (const xml::Node* dialog : document_.dialogs) {
+    std::map<std::string, const vm::xml::Node*> ids;
+    for (const vm::xml::Node* dialog : document_.dialogs) {
       const std::string id = dialog->Get("id");
       if (!id.empty() && !ids.emplace(id, dialog).second) {
         Say(*dialog, "two dialogs with the id '" + id + "'", "ids are unique in a document");

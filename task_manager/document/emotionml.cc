@@ -17,7 +17,7 @@ constexpr std::string_view kTypes = "category dimension appraisal action-tendenc
 
 class Checker {
  public:
-  explicit Checker(const xml::Node& root) : root_(root) {}
+  explicit Checker(const vm::xml::Node& root) : root_(root) {}
 
   std::vector<Finding> Run() {
     if (root_.name == "emotion") {
@@ -29,13 +29,13 @@ class Checker {
   }
 
  private:
-  void Say(const xml::Node& at, std::string text, std::string advice = "",
+  void Say(const vm::xml::Node& at, std::string text, std::string advice = "",
            Finding::Severity severity = Finding::Severity::kError) {
     findings_.push_back({severity, at.line, at.column, std::move(text), std::move(advice)});
   }
 
-  void Attributes(const xml::Node& node, std::string_view known, std::string_view required) {
-    for (const xml::Attribute& attribute : node.attributes) {
+  void Attributes(const vm::xml::Node& node, std::string_view known, std::string_view required) {
+    for (const vm::xml::Attribute& attribute : node.attributes) {
       if (attribute.name.starts_with("xml") || !attribute.space.empty()) continue;
       if (attribute.name.find(':') == std::string::npos && !Contains(known, attribute.name)) {
         Say(node, "<" + node.name + "> has no attribute '" + attribute.name + "'");
@@ -65,7 +65,7 @@ class Checker {
       if (++infos > 1) Say(*child, "a second <info>");
     }
     for (const auto& child : root_.children) {
-      if (child->IsText() && !xml::IsBlank(child->text)) Say(*child, "text in <emotionml>");
+      if (child->IsText() && !vm::xml::IsBlank(child->text)) Say(*child, "text in <emotionml>");
       if (!child->IsElement() || child->name == "vocabulary" || child->name == "info") continue;
       if (child->name == "emotion" && child->space == kEmotionMlSpace) {
         Emotion(*child);
@@ -76,12 +76,12 @@ class Checker {
     Sets(root_);
   }
 
-  void Version(const xml::Node& node) {
+  void Version(const vm::xml::Node& node) {
     const std::string* version = node.Find("version");
     if (version && *version != "1.0") Say(node, "version '" + *version + "', expected 1.0");
   }
 
-  void Declare(const xml::Node& node) {
+  void Declare(const vm::xml::Node& node) {
     Attributes(node, "type id", "type id");
     if (!Contains(kTypes, node.Get("type", "category"))) {
       Say(node, "vocabulary type '" + node.Get("type") + "'",
@@ -103,7 +103,7 @@ class Checker {
     own_[node.Get("id")] = {node.Get("type"), names};
   }
 
-  void Emotion(const xml::Node& node) {
+  void Emotion(const vm::xml::Node& node) {
     Attributes(node,
                std::string("version id start end duration time-ref-uri time-ref-anchor-point "
                            "offset-to-start expressed-through ") +
@@ -136,7 +136,7 @@ class Checker {
       Say(node, "an <emotion> that describes nothing", "one of " + std::string(kTypes));
   }
 
-  void Times(const xml::Node& node) {
+  void Times(const vm::xml::Node& node) {
     for (const char* name : {"start", "end", "duration"}) {
       const std::string* value = node.Find(name);
       if (value && !IsWhole(*value, false)) {
@@ -156,12 +156,12 @@ class Checker {
   }
 
   /// The declared set of a type: on the emotion, or on the root.
-  std::string SetOf(const xml::Node& emotion, const std::string& type) const {
+  std::string SetOf(const vm::xml::Node& emotion, const std::string& type) const {
     const std::string name = type + "-set";
     return emotion.Get(name, root_.Get(name));
   }
 
-  void Sets(const xml::Node& node) {
+  void Sets(const vm::xml::Node& node) {
     for (const std::string_view type : SplitWords(kTypes)) {
       const std::string* uri = node.Find(std::string(type) + "-set");
       if (!uri) continue;
@@ -196,7 +196,7 @@ class Checker {
     }
   }
 
-  void Describe(const xml::Node& emotion, const xml::Node& node) {
+  void Describe(const vm::xml::Node& emotion, const vm::xml::Node& node) {
     Attributes(node, "name value confidence", "name");
     const std::string set = SetOf(emotion, node.name);
     if (set.empty()) {
@@ -210,7 +210,8 @@ class Checker {
     }
     int traces = 0;
     for (const auto& child : node.children) {
-      if (child->IsText() && !xml::IsBlank(child->text)) Say(*child, "text in <" + node.name + ">");
+      if (child->IsText() && !vm::xml::IsBlank(child->text))
+        Say(*child, "text in <" + node.name + ">");
       if (!child->IsElement()) continue;
       if (child->name != "trace") {
         Say(*child, "<" + child->name + "> may not stand in <" + node.name + ">");
@@ -225,7 +226,7 @@ class Checker {
     }
   }
 
-  void Name(const xml::Node& node, const std::string& set) {
+  void Name(const vm::xml::Node& node, const std::string& set) {
     const std::size_t hash = set.find('#');
     if (hash == std::string::npos) return;
     const std::string id = set.substr(hash + 1);
@@ -241,19 +242,19 @@ class Checker {
     if (!known) Say(node, "'" + name + "' is not in the vocabulary " + set);
   }
 
-  void Range(const xml::Node& node, const std::string& what, std::string_view text) {
+  void Range(const vm::xml::Node& node, const std::string& what, std::string_view text) {
     const auto value = Number(text);
     if (!value || *value < 0 || *value > 1) {
       Say(node, what + " '" + std::string(text) + "'", "expected 0.0 to 1.0");
     }
   }
 
-  void Trace(const xml::Node& node) {
+  void Trace(const vm::xml::Node& node) {
     Attributes(node, "freq samples", "freq samples");
     const std::string frequency = node.Get("freq");
-    const std::string number(xml::Trim(frequency.substr(0, frequency.find("Hz"))));
+    const std::string number(vm::xml::Trim(frequency.substr(0, frequency.find("Hz"))));
     const auto value = Number(number);
-    if (node.Has("freq") && (!value || *value <= 0 || !xml::Trim(frequency).ends_with("Hz"))) {
+    if (node.Has("freq") && (!value || *value <= 0 || !vm::xml::Trim(frequency).ends_with("Hz"))) {
       Say(node, "freq '" + frequency + "'", "expected a number above 0 and Hz, as 10Hz");
     }
     const std::string samples = node.Get("samples");
@@ -262,7 +263,7 @@ class Checker {
     for (const std::string_view word : words) Range(node, "sample", word);
   }
 
-  void Reference(const xml::Node& node) {
+  void Reference(const vm::xml::Node& node) {
     Attributes(node, "uri role media-type", "uri");
     const std::string role = node.Get("role", "expressedBy");
     if (!Contains("expressedBy experiencedBy triggeredBy targetedAt", role)) {
@@ -271,7 +272,7 @@ class Checker {
     }
   }
 
-  const xml::Node& root_;
+  const vm::xml::Node& root_;
   std::vector<Finding> findings_;
   std::set<std::string> ids_;
   std::map<std::string, std::pair<std::string, std::set<std::string>>> own_;
@@ -279,11 +280,11 @@ class Checker {
 
 }  // namespace
 
-bool IsEmotionMl(const xml::Node& root) {
+bool IsEmotionMl(const vm::xml::Node& root) {
   return root.IsElement("emotionml") ||
          (root.IsElement("emotion") && root.space == kEmotionMlSpace);
 }
 
-std::vector<Finding> CheckEmotionMl(const xml::Node& root) { return Checker(root).Run(); }
+std::vector<Finding> CheckEmotionMl(const vm::xml::Node& root) { return Checker(root).Run(); }
 
 }  // namespace vxml

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "task_manager/document/schema.h"
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml {
 
@@ -15,7 +15,7 @@ bool Contains(std::string_view list, std::string_view word) {
 }
 
 std::optional<double> Number(std::string_view text) {
-  text = xml::Trim(text);
+  text = vm::xml::Trim(text);
   double value = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   if (read.ec != std::errc() || read.ptr != text.data() + text.size() || !std::isfinite(value)) {
@@ -25,7 +25,7 @@ std::optional<double> Number(std::string_view text) {
 }
 
 bool IsWhole(std::string_view text, bool may_be_negative) {
-  text = xml::Trim(text);
+  text = vm::xml::Trim(text);
   if (may_be_negative && text.starts_with("-")) text.remove_prefix(1);
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }

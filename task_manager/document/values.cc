@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "task_manager/document/schema.h"
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml {
 namespace {
@@ -59,7 +59,7 @@ bool IsTimeDesignation(std::string_view text) {
 
 std::string WrongValue(std::string_view element, std::string_view attribute,
                        std::string_view value) {
-  value = xml::Trim(value);
+  value = vm::xml::Trim(value);
   for (const ValueRule& rule : kRules) {
     if (rule.attribute != attribute) continue;
     if (!rule.elements.empty() && !Contains(rule.elements, element)) continue;

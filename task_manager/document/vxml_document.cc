@@ -3,7 +3,7 @@
 #include "task_manager/document/emotionml.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/grammar/xml_rules.h"
-#include "task_manager/xml/parser.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml {
 namespace {
@@ -11,8 +11,8 @@ namespace {
 constexpr std::string_view kSpace = "http://www.w3.org/2001/vxml";
 constexpr std::size_t kMaxPassedOver = 100;
 
-void DropForeign(xml::Node& node, std::vector<Finding>& dropped) {
-  std::erase_if(node.children, [&](const std::unique_ptr<xml::Node>& child) {
+void DropForeign(vm::xml::Node& node, std::vector<Finding>& dropped) {
+  std::erase_if(node.children, [&](const std::unique_ptr<vm::xml::Node>& child) {
     if (!child->IsElement()) return false;
     if (IsVoiceXml(*child) || IsSpeechMarkup(*child) || child->space == kEmotionMlSpace ||
         child->space == srgs::kSrgsSpace) {
@@ -28,7 +28,7 @@ void DropForeign(xml::Node& node, std::vector<Finding>& dropped) {
   for (const auto& child : node.children) DropForeign(*child, dropped);
 }
 
-void CollectProperties(const xml::Node& node, VxmlDocument& into) {
+void CollectProperties(const vm::xml::Node& node, VxmlDocument& into) {
   for (const auto& child : node.children) {
     if (!child->IsElement()) continue;
     if (child->name == "property" && child->Has("value")) {
@@ -40,18 +40,18 @@ void CollectProperties(const xml::Node& node, VxmlDocument& into) {
 
 }  // namespace
 
-bool IsVoiceXml(const xml::Node& node) { return node.space.empty() || node.space == kSpace; }
-bool IsSpeechMarkup(const xml::Node& node) {
+bool IsVoiceXml(const vm::xml::Node& node) { return node.space.empty() || node.space == kSpace; }
+bool IsSpeechMarkup(const vm::xml::Node& node) {
   return node.space == "http://www.w3.org/2001/10/synthesis";
 }
 
-std::vector<Finding> DropForeign(xml::Node& root) {
+std::vector<Finding> DropForeign(vm::xml::Node& root) {
   std::vector<Finding> dropped;
   DropForeign(root, dropped);
   return dropped;
 }
 
-const std::string* VxmlDocument::FindProperty(const xml::Node& element,
+const std::string* VxmlDocument::FindProperty(const vm::xml::Node& element,
                                               const std::string& name) const {
   const auto of_element = properties.find(&element);
   if (of_element == properties.end()) return nullptr;
@@ -59,8 +59,8 @@ const std::string* VxmlDocument::FindProperty(const xml::Node& element,
   return found == of_element->second.end() ? nullptr : &found->second;
 }
 
-const xml::Node* VxmlDocument::FindDialog(const std::string& id) const {
-  for (const xml::Node* dialog : dialogs) {
+const vm::xml::Node* VxmlDocument::FindDialog(const std::string& id) const {
+  for (const vm::xml::Node* dialog : dialogs) {
     if (dialog->Get("id") == id) return dialog;
   }
   return nullptr;
@@ -69,13 +69,13 @@ const xml::Node* VxmlDocument::FindDialog(const std::string& id) const {
 vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
                                                        const std::string& uri,
                                                        const std::string& charset) {
-  auto parsed = xml::Parse(bytes, uri, charset);
+  auto parsed = vm::xml::Parse(bytes, uri, charset);
   if (!parsed) return std::unexpected(parsed.error());
   auto document = std::make_shared<VxmlDocument>();
   document->uri = fetch::WithoutFragment(uri);
   document->root = std::move(parsed->root);
   document->passed_over = DropForeign(*document->root);
-  const xml::Node& root = *document->root;
+  const vm::xml::Node& root = *document->root;
   const std::string base = root.Get("xml:base");
   document->base = base.empty() ? document->uri : fetch::Resolve(document->uri, base);
   document->language = root.Get("xml:lang");

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "task_manager/xml/node.h"
 #include "vm_protocol/core/result.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml {
 
@@ -29,17 +29,17 @@ struct VxmlDocument {
   std::string application;  ///< absolute URI of the application root, "" if it is its own root
   std::string language;
   std::string version;
-  std::unique_ptr<xml::Node> root;
-  std::vector<const xml::Node*> dialogs;  ///< forms and menus in document order
-  std::vector<Finding> passed_over;       ///< elements of foreign namespaces, which root has not
+  std::unique_ptr<vm::xml::Node> root;
+  std::vector<const vm::xml::Node*> dialogs;  ///< forms and menus in document order
+  std::vector<Finding> passed_over;  ///< elements of foreign namespaces, which root has not
 
   /// The last value of each <property>, by the element it stands in.
-  std::map<const xml::Node*, std::map<std::string, std::string>> properties;
+  std::map<const vm::xml::Node*, std::map<std::string, std::string>> properties;
 
   /// What a <property> directly inside the element says, or null.
-  const std::string* FindProperty(const xml::Node& element, const std::string& name) const;
+  const std::string* FindProperty(const vm::xml::Node& element, const std::string& name) const;
   /// The form or menu of that id, or null.
-  const xml::Node* FindDialog(const std::string& id) const;
+  const vm::xml::Node* FindDialog(const std::string& id) const;
 };
 
 /// Reads and checks a document. Errors: kSyntax, kLimit, kTooLong, kBadUtf8; the text is the first
@@ -52,11 +52,11 @@ vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
 std::vector<Finding> CheckDocument(const VxmlDocument& document);
 
 /// A VoiceXML element, of its namespace or of none (the original wrote none).
-bool IsVoiceXml(const xml::Node& node);
+bool IsVoiceXml(const vm::xml::Node& node);
 /// An element of SSML's namespace.
-bool IsSpeechMarkup(const xml::Node& node);
+bool IsSpeechMarkup(const vm::xml::Node& node);
 /// Takes elements that are of no namespace a dialogue is made of out of the tree (VoiceXML's,
 /// SSML's, SRGS's, EmotionML's), the root aside, and says of each that it was passed over.
-std::vector<Finding> DropForeign(xml::Node& root);
+std::vector<Finding> DropForeign(vm::xml::Node& root);
 
 }  // namespace vxml

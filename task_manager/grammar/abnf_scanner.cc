@@ -96,7 +96,7 @@ vm::Result<std::string> AbnfScanner::Uri(bool brackets, std::string* type) {
   ++at_;
   auto inside = Until(">", "'>' expected");
   if (!inside) return inside;
-  std::string uri(xml::Trim(*inside));
+  std::string uri(vm::xml::Trim(*inside));
   if (Peek() == '~') {
     ++at_;
     auto media = Uri(brackets);

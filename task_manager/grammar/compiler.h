@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "task_manager/grammar/model.h"
-#include "task_manager/xml/node.h"
 #include "vm_protocol/core/result.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml::srgs {
 
@@ -31,7 +31,7 @@ struct GrammarContext {
 /// and text directly in <grammar> become the rule "#main" when there is no rule; root="#name";
 /// token attributes phoneme and sym).
 /// Errors "URI:LINE:COLUMN: ..." with kSyntax, kBadValue, kLimit.
-vm::Result<std::unique_ptr<Grammar>> CompileXml(const xml::Node& grammar,
+vm::Result<std::unique_ptr<Grammar>> CompileXml(const vm::xml::Node& grammar,
                                                 const GrammarContext& context);
 /// The ABNF form; the header "#ABNF 1.0 CHARSET;" may be missing in inline grammars.
 vm::Result<std::unique_ptr<Grammar>> CompileAbnf(std::string_view text,

@@ -1,7 +1,7 @@
 #include "task_manager/grammar/semantics.h"
 
 #include "task_manager/script/engine.h"
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml::srgs {
 namespace {
@@ -52,8 +52,8 @@ class Interpreter {
         const bool script =
             style == TagStyle::kScript || (style == TagStyle::kGuess && LooksLikeScript(item.text));
         if (!script) {
-          result = engine_.String(style == TagStyle::kLiteral ? item.text
-                                                              : std::string(xml::Trim(item.text)));
+          result = engine_.String(
+              style == TagStyle::kLiteral ? item.text : std::string(vm::xml::Trim(item.text)));
           tagged = true;
           continue;
         }

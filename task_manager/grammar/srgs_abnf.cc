@@ -39,7 +39,7 @@ class AbnfCompiler {
     const AbnfScanner start = in_;
     auto line = in_.Until(";", "';' expected after the header");
     if (!line) return std::unexpected(line.error());
-    const std::string header = context_.alone ? *line : xml::Collapse(*line);
+    const std::string header = context_.alone ? *line : vm::xml::Collapse(*line);
     const std::string_view rest =
         std::string_view(header).substr(std::min<std::size_t>(9, header.size()));
     const bool charset = rest.size() > 1 && rest[0] == ' ' &&

@@ -3,8 +3,8 @@
 
 #include "task_manager/grammar/compiler.h"
 #include "task_manager/grammar/text.h"
-#include "task_manager/xml/parser.h"
 #include "vm_protocol/core/charset.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml::srgs {
 namespace {
@@ -18,7 +18,7 @@ bool ReadCount(std::string_view text, int& value) {
 }  // namespace
 
 std::optional<Form> FormOfType(std::string_view type) {
-  type = xml::Trim(type.substr(0, type.find(';')));
+  type = vm::xml::Trim(type.substr(0, type.find(';')));
   for (const std::string_view abnf :
        {"application/srgs", "application/grammar", "application/x-abnf"}) {
     if (type == abnf) return Form::kAbnf;
@@ -31,7 +31,7 @@ std::optional<Form> FormOfType(std::string_view type) {
 }
 
 bool ParseWeight(std::string_view text, double& value) {
-  text = xml::Trim(text);
+  text = vm::xml::Trim(text);
   if (text.empty() || text.find_first_not_of("0123456789.") != std::string_view::npos) return false;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
   if (read.ec != std::errc()) return false;
@@ -175,7 +175,7 @@ bool ParseRepeat(std::string_view text, Expansion& repeat) {
 vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat) {
   const std::string given(inside);
   if (const std::size_t slash = inside.find('/'); slash != std::string_view::npos) {
-    std::string_view chance = xml::Trim(inside.substr(slash + 1));
+    std::string_view chance = vm::xml::Trim(inside.substr(slash + 1));
     double value = 0;
     if (!chance.ends_with('/')) {
       return vm::Fail(vm::Errc::kSyntax, "'/' expected after the probability");
@@ -186,7 +186,7 @@ vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat)
     }
     inside = inside.substr(0, slash);
   }
-  if (!ParseRepeat(xml::Trim(inside), repeat)) {
+  if (!ParseRepeat(vm::xml::Trim(inside), repeat)) {
     return vm::Fail(
         vm::Errc::kSyntax,
         "repeat <" + given + ">, expected <N>, <N-M> or <N-> up to " + std::to_string(kMaxRepeat));
@@ -197,7 +197,7 @@ vm::Result<void> ParseRepeatOperator(std::string_view inside, Expansion& repeat)
 std::unique_ptr<Expansion> MakeToken(std::string_view text) {
   auto token = std::make_unique<Expansion>();
   token->kind = Expansion::Kind::kToken;
-  token->text = xml::Collapse(text);
+  token->text = vm::xml::Collapse(text);
   token->folded = Fold(token->text);
   return token;
 }
@@ -226,14 +226,14 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
   }
   if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);
   const std::string_view unmarked = start;
-  start = xml::Trim(start);
+  start = vm::xml::Trim(start);
   if (!start.starts_with("<")) {
     if (!start.starts_with("#ABNF") || (context.alone && !unmarked.starts_with("#ABNF"))) {
       return vm::Fail(vm::Errc::kSyntax, context.uri + ":1:1: neither XML nor '#ABNF 1.0'");
     }
     std::string text(start);
     std::string encoding = charset;
-    const std::string header = xml::Collapse(start.substr(0, start.find(';')));
+    const std::string header = vm::xml::Collapse(start.substr(0, start.find(';')));
     const std::size_t blank = header.find(' ', 6);  // #ABNF 1.0 ISO-8859-1;
     if (blank != std::string::npos) encoding = header.substr(blank + 1);
     for (char& c : encoding) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
@@ -244,10 +244,10 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
     }
     return CompileAbnf(text, context);
   }
-  xml::Limits limits;
+  vm::xml::Limits limits;
   limits.document_bytes = kMaxGrammarBytes;
   limits.depth = kMaxGrammarDepth;
-  auto document = xml::Parse(bytes, context.uri, charset, limits);
+  auto document = vm::xml::Parse(bytes, context.uri, charset, limits);
   if (!document) return std::unexpected(document.error());
   if (!document->root->IsElement("grammar")) {
     return vm::Fail(vm::Errc::kSyntax, context.uri + ":" + std::to_string(document->root->line) +

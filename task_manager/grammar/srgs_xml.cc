@@ -4,7 +4,7 @@
 namespace vxml::srgs {
 namespace {
 
-using xml::Node;
+using vm::xml::Node;
 
 class XmlCompiler {
  public:
@@ -52,7 +52,7 @@ class XmlCompiler {
 
   vm::Result<void> TopLevel(const Node& child, Expansion& loose) {
     if (child.IsText()) {
-      if (xml::IsBlank(child.text)) return {};
+      if (vm::xml::IsBlank(child.text)) return {};
       if (context_.alone) return rules_.Bad(child, "text in <grammar>");
       if (!rules_.AddTokens(child.text, loose))
         return rules_.Bad(child, "a quotation mark without end");
@@ -148,7 +148,7 @@ class XmlCompiler {
 
 }  // namespace
 
-vm::Result<std::unique_ptr<Grammar>> CompileXml(const xml::Node& grammar,
+vm::Result<std::unique_ptr<Grammar>> CompileXml(const vm::xml::Node& grammar,
                                                 const GrammarContext& context) {
   return XmlCompiler(context, grammar.space).Run(grammar);
 }

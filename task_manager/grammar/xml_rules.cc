@@ -6,7 +6,7 @@
 
 namespace vxml::srgs {
 
-using xml::Node;
+using vm::xml::Node;
 using Kind = Expansion::Kind;
 
 std::unexpected<vm::Error> XmlRules::Bad(const Node& at, const std::string& what,
@@ -23,7 +23,7 @@ vm::Result<void> XmlRules::CheckContent(const Node& node, bool text) const {
     if (child->IsElement() && !IsForeign(*child)) {
       return Bad(*child, "<" + child->name + "> in <" + node.name + ">");
     }
-    if (!text && child->IsText() && !xml::IsBlank(child->text)) {
+    if (!text && child->IsText() && !vm::xml::IsBlank(child->text)) {
       return Bad(*child, "text in <" + node.name + ">");
     }
   }
@@ -51,7 +51,7 @@ XmlRules::Made XmlRules::Sequence(const Node& node, std::size_t depth) const {
 }
 
 bool XmlRules::AddTokens(std::string_view text, Expansion& into) const {
-  while (!xml::IsBlank(text)) {
+  while (!vm::xml::IsBlank(text)) {
     text.remove_prefix(text.find_first_not_of(" \t\r\n"));
     std::size_t end = 0;
     if (text[0] == '"') {
@@ -150,7 +150,7 @@ XmlRules::Made XmlRules::Item(const Node& node, std::size_t depth) const {
   }
   if (!repeat) return inner;
   auto outer = MakeRepeat(std::move(*inner));
-  if (!ParseRepeat(xml::Trim(*repeat), *outer)) {
+  if (!ParseRepeat(vm::xml::Trim(*repeat), *outer)) {
     return Bad(node, "repeat '" + *repeat + "', expected N, N-M or N- up to " +
                          std::to_string(kMaxRepeat));
   }
@@ -161,7 +161,7 @@ XmlRules::Made XmlRules::OneOf(const Node& node, std::size_t depth) const {
   auto choice = std::make_unique<Expansion>();
   choice->kind = Kind::kAlternatives;
   for (const auto& child : node.children) {
-    if (child->IsText() && !xml::IsBlank(child->text)) {
+    if (child->IsText() && !vm::xml::IsBlank(child->text)) {
       return Bad(*child, "text in <one-of>, expected <item>");
     }
     if (!child->IsElement() || IsForeign(*child)) continue;

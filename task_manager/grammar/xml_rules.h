@@ -21,24 +21,24 @@ class XmlRules {
   XmlRules(const GrammarContext& context, std::string space)
       : context_(context), space_(std::move(space)) {}
 
-  std::unexpected<vm::Error> Bad(const xml::Node& at, const std::string& what,
+  std::unexpected<vm::Error> Bad(const vm::xml::Node& at, const std::string& what,
                                  vm::Errc code = vm::Errc::kSyntax) const;
   /// Elements of other namespaces may stand anywhere and say nothing here (SRGS 1.0 appendix F).
-  bool IsForeign(const xml::Node& node) const;
+  bool IsForeign(const vm::xml::Node& node) const;
   /// For elements whose content is nothing but text, or nothing at all.
-  vm::Result<void> CheckContent(const xml::Node& node, bool text) const;
+  vm::Result<void> CheckContent(const vm::xml::Node& node, bool text) const;
   /// Text: tokens between blanks; "several words" in quotes are one token. False: a quotation mark
   /// has no partner.
   bool AddTokens(std::string_view text, Expansion& into) const;
   /// All children of `node`, one after the other.
-  Made Sequence(const xml::Node& node, std::size_t depth) const;
-  Made Expand(const xml::Node& node, std::size_t depth) const;
+  Made Sequence(const vm::xml::Node& node, std::size_t depth) const;
+  Made Expand(const vm::xml::Node& node, std::size_t depth) const;
 
  private:
-  Made Token(const xml::Node& node) const;
-  Made Reference(const xml::Node& node) const;
-  Made Item(const xml::Node& node, std::size_t depth) const;
-  Made OneOf(const xml::Node& node, std::size_t depth) const;
+  Made Token(const vm::xml::Node& node) const;
+  Made Reference(const vm::xml::Node& node) const;
+  Made Item(const vm::xml::Node& node, std::size_t depth) const;
+  Made OneOf(const vm::xml::Node& node, std::size_t depth) const;
 
   const GrammarContext& context_;
   std::string space_;

@@ -4,9 +4,9 @@
 #include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/scope_guard.h"
-#include "task_manager/xml/parser.h"
 #include "vm_protocol/core/charset.h"
 #include "vm_protocol/core/utf8.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml {
 
@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMaxLogBytes = 8192;
 
 /// Prompt markup that stands in executable content without its <prompt>.
-bool IsSpeech(const xml::Node& node) {
+bool IsSpeech(const vm::xml::Node& node) {
   static const ElementRule* const kPrompt = FindElementRule("prompt");
   return node.IsElement() && node.name != "foreach" && node.name != "native" &&
          Allows(*kPrompt, node.name);
@@ -25,12 +25,12 @@ bool IsSpeech(const xml::Node& node) {
 
 }  // namespace
 
-void DialogSession::RunContent(const xml::Node& parent) {
-  std::vector<const xml::Node*> speech;
+void DialogSession::RunContent(const vm::xml::Node& parent) {
+  std::vector<const vm::xml::Node*> speech;
   const auto end_speech = [&] {
     bool something = false;
-    for (const xml::Node* node : speech) {
-      something = something || node->IsElement() || !xml::IsBlank(node->text);
+    for (const vm::xml::Node* node : speech) {
+      something = something || node->IsElement() || !vm::xml::IsBlank(node->text);
     }
     if (something) QueueImplicit(speech);
     speech.clear();
@@ -46,8 +46,8 @@ void DialogSession::RunContent(const xml::Node& parent) {
   end_speech();
 }
 
-void DialogSession::RunElement(const xml::Node& node) {
-  using Action = void (DialogSession::*)(const xml::Node&);
+void DialogSession::RunElement(const vm::xml::Node& node) {
+  using Action = void (DialogSession::*)(const vm::xml::Node&);
   static const std::map<std::string_view, Action> kTable = {
       {"assign", &DialogSession::RunAssign}, {"clear", &DialogSession::RunClear},
       {"data", &DialogSession::RunData},     {"disconnect", &DialogSession::RunDisconnect},
@@ -59,7 +59,7 @@ void DialogSession::RunElement(const xml::Node& node) {
       {"var", &DialogSession::RunVar},
   };
   Step();
-  const xml::Node* before = std::exchange(active_node_, &node);
+  const vm::xml::Node* before = std::exchange(active_node_, &node);
   if (node.name == "prompt") {
     if (Condition(node)) QueuePrompt(node);
   } else if (node.name == "reprompt") {
@@ -70,15 +70,15 @@ void DialogSession::RunElement(const xml::Node& node) {
   active_node_ = before;
 }
 
-void DialogSession::RunIf(const xml::Node& node) {
+void DialogSession::RunIf(const vm::xml::Node& node) {
   bool done = false;
   bool active = Condition(node);
   done = active;
-  std::vector<const xml::Node*> speech;
+  std::vector<const vm::xml::Node*> speech;
   const auto end_speech = [&] {
     bool something = false;
-    for (const xml::Node* part : speech) {
-      something = something || part->IsElement() || !xml::IsBlank(part->text);
+    for (const vm::xml::Node* part : speech) {
+      something = something || part->IsElement() || !vm::xml::IsBlank(part->text);
     }
     if (something) QueueImplicit(speech);
     speech.clear();
@@ -100,7 +100,7 @@ void DialogSession::RunIf(const xml::Node& node) {
   end_speech();
 }
 
-void DialogSession::RunForeach(const xml::Node& node) {
+void DialogSession::RunForeach(const vm::xml::Node& node) {
   const Value array = Evaluate(node, node.Get("array"));
   if (!engine_.IsArray(array)) {
     ThrowSemantic(*context_->document, node, "'" + node.Get("array") + "' is not an array");
@@ -120,15 +120,15 @@ void DialogSession::RunForeach(const xml::Node& node) {
   }
 }
 
-void DialogSession::RunVar(const xml::Node& node) {
+void DialogSession::RunVar(const vm::xml::Node& node) {
   const std::string* expression = node.Find("expr");
   // Declared again in the same scope without a value it keeps the one it has (section 5.3.1).
   if (!expression && engine_.Has(CurrentChain().back(), node.Get("name"))) return;
   Declare(node, node.Get("name"), expression ? Evaluate(node, *expression) : engine_.Undefined());
 }
 
-void DialogSession::RunAssign(const xml::Node& node) {
-  const std::string name(xml::Trim(node.Get("name")));
+void DialogSession::RunAssign(const vm::xml::Node& node) {
+  const std::string name(vm::xml::Trim(node.Get("name")));
   const std::string* expression = node.Find("expr");
   const Value value = expression ? Evaluate(node, *expression) : engine_.Undefined();
   if (!IsDeclared(name)) {
@@ -153,7 +153,7 @@ bool DialogSession::IsDeclaredBeforeSession(const std::string& base) {
   return false;
 }
 
-void DialogSession::RunClear(const xml::Node& node) {
+void DialogSession::RunClear(const vm::xml::Node& node) {
   const std::string namelist = node.Get("namelist");
   const auto names = SplitWords(namelist);
   if (names.empty()) {
@@ -178,7 +178,7 @@ void DialogSession::RunClear(const xml::Node& node) {
   }
 }
 
-void DialogSession::RunScript(const xml::Node& node) {
+void DialogSession::RunScript(const vm::xml::Node& node) {
   std::string source = node.Get("src");
   if (const std::string* expression = node.Find("srcexpr")) source = TextOf(node, *expression);
   std::string text = node.Text();
@@ -199,13 +199,13 @@ void DialogSession::RunScript(const xml::Node& node) {
   if (!ran) ThrowScript(node, "script", ran.error());
 }
 
-void DialogSession::RunLog(const xml::Node& node) {
+void DialogSession::RunLog(const vm::xml::Node& node) {
   std::string text;
   for (const auto& child : node.children) {
     if (child->IsText()) text += child->text;
     if (child->IsElement("value")) text += TextOf(*child, child->Get("expr"));
   }
-  text = xml::Collapse(text);
+  text = vm::xml::Collapse(text);
   if (const std::string* expression = node.Find("expr")) {
     const std::string value = TextOf(node, *expression);
     text += (text.empty() || value.empty() ? "" : " ") + value;
@@ -217,7 +217,7 @@ void DialogSession::RunLog(const xml::Node& node) {
   platform_.Report("log", line);
 }
 
-void DialogSession::RunThrow(const xml::Node& node) {
+void DialogSession::RunThrow(const vm::xml::Node& node) {
   EventThrown event;
   event.name = node.Get("event");
   if (const std::string* expression = node.Find("eventexpr"))
@@ -234,7 +234,7 @@ void DialogSession::RunThrow(const xml::Node& node) {
 }
 
 /// The lines of the module protocol that a <native> holds.
-std::vector<std::string> DialogSession::NativeLines(const xml::Node& node) {
+std::vector<std::string> DialogSession::NativeLines(const vm::xml::Node& node) {
   RequireLocal(node);
   std::string text;
   if (const std::string* expression = node.Find("expr")) {
@@ -248,14 +248,14 @@ std::vector<std::string> DialogSession::NativeLines(const xml::Node& node) {
   Step(text.size() / kBytesOfAStep);
   std::vector<std::string> lines;
   for (const auto& line : std::views::split(text, '\n')) {
-    std::string plain = xml::Collapse(std::string_view(line.begin(), line.end()));
+    std::string plain = vm::xml::Collapse(std::string_view(line.begin(), line.end()));
     if (!plain.empty()) lines.push_back(std::move(plain));
   }
   return lines;
 }
 
 /// <native>: commands of the author's own, in their place among the words.
-void DialogSession::RunNative(const xml::Node& node) {
+void DialogSession::RunNative(const vm::xml::Node& node) {
   Prompt prompt;
   for (const std::string& line : NativeLines(node)) {
     prompt.segments.push_back({Segment::Kind::kCommand, line, Millis(0), "", false, ""});

@@ -29,7 +29,7 @@ SessionResult DialogSession::Run() {
   SessionResult result;
   Context nowhere;
   nowhere.document = std::make_shared<VxmlDocument>();
-  nowhere.document->root = std::make_unique<xml::Node>();
+  nowhere.document->root = std::make_unique<vm::xml::Node>();
   nowhere.document->uri = nowhere.document->base = options_.uri;
   nowhere.root = nowhere.document;
   nowhere.application = nowhere.variables = engine_.NewScope();
@@ -112,7 +112,7 @@ void DialogSession::RunContext(Transition start) {
   }
   Dialog* outer_dialog = std::exchange(dialog_, nullptr);
   Item* outer_item = std::exchange(scope_item_, nullptr);
-  const xml::Node* outer_node = std::exchange(active_node_, nullptr);
+  const vm::xml::Node* outer_node = std::exchange(active_node_, nullptr);
   auto outer_anonymous = std::exchange(anonymous_, {});
   const bool outer_in_handler = std::exchange(in_handler_, false);
   struct Restore {

@@ -54,7 +54,7 @@ struct Context {
 enum class ItemKind { kBlock, kInitial, kField, kRecord, kTransfer, kSubdialog, kObject, kMenu };
 
 struct Item {
-  const xml::Node* node = nullptr;
+  const vm::xml::Node* node = nullptr;
   ItemKind kind = ItemKind::kBlock;
   std::string name;  ///< generated if the document gives none
   int prompt_count = 1;
@@ -64,7 +64,7 @@ struct Item {
 };
 
 struct Dialog {
-  const xml::Node* node = nullptr;
+  const vm::xml::Node* node = nullptr;
   script::Value scope;
   std::vector<Item> items;
   std::map<std::string, int> events;
@@ -78,7 +78,7 @@ struct Dialog {
 struct ActiveGrammar {
   const srgs::Rule* rule = nullptr;
   Match::Owner owner = Match::Owner::kForm;
-  const xml::Node* node = nullptr;
+  const vm::xml::Node* node = nullptr;
   const VxmlDocument* document = nullptr;
 };
 
@@ -111,21 +111,21 @@ class DialogSession {
   // loading.cc
   std::shared_ptr<VxmlDocument> Load(const fetch::Request& request);
   std::shared_ptr<VxmlDocument> LoadRoot(const VxmlDocument& document);
-  fetch::Response FetchFor(const xml::Node& node, fetch::Request request, const char* kind);
+  fetch::Response FetchFor(const vm::xml::Node& node, fetch::Request request, const char* kind);
   [[noreturn]] void ThrowFetch(const fetch::Failure& failure);
-  Transition Locate(const xml::Node& node, const std::string& uri, const char* kind,
+  Transition Locate(const vm::xml::Node& node, const std::string& uri, const char* kind,
                     std::vector<fetch::Field> fields = {}, bool post = false,
                     bool multipart = false, bool is_submit = false);
-  fetch::Request FetchOptions(const xml::Node& node, const char* kind);
-  std::string BaseOf(const xml::Node& node) const;
+  fetch::Request FetchOptions(const vm::xml::Node& node, const char* kind);
+  std::string BaseOf(const vm::xml::Node& node) const;
   /// The document the element was written in: its origin decides what the element may do.
-  const VxmlDocument& OriginOf(const xml::Node& node) const;
-  void RequireLocal(const xml::Node& node) const;
+  const VxmlDocument& OriginOf(const vm::xml::Node& node) const;
+  void RequireLocal(const vm::xml::Node& node) const;
 
   // form.cc: the form interpretation algorithm
-  void RunDialog(const xml::Node& node, std::shared_ptr<Match> carried);
+  void RunDialog(const vm::xml::Node& node, std::shared_ptr<Match> carried);
   void InitForm(Dialog& dialog);
-  void InitItem(Dialog& dialog, const xml::Node& node);
+  void InitItem(Dialog& dialog, const vm::xml::Node& node);
   Item* Select();
   /// Its variable has a value, or it is a block that has run.
   bool IsDone(const Item& item);
@@ -135,10 +135,10 @@ class DialogSession {
   void Fill(const Match& match, Item* current, std::set<std::string>& filled);
   void SetShadow(const std::string& name, const Match& match);
   void RunFilled(const std::set<std::string>& filled);
-  bool FormFilledApplies(const xml::Node& node, const std::set<std::string>& filled);
+  bool FormFilledApplies(const vm::xml::Node& node, const std::set<std::string>& filled);
   void TakeMatch(const Match& match, Item* current);
-  void FollowTarget(const xml::Node& node, const VxmlDocument& document);
-  void TransitTo(const Match& match, const xml::Node* dialog);
+  void FollowTarget(const vm::xml::Node& node, const VxmlDocument& document);
+  void TransitTo(const Match& match, const vm::xml::Node* dialog);
 
   // items.cc
   void VisitSubdialog(Item& item);
@@ -161,21 +161,21 @@ class DialogSession {
   // grammars.cc: which grammars listen
   std::vector<ActiveGrammar> ActiveGrammars(const Item& item, bool modal);
   void AddItemGrammars(const Item& item, std::vector<ActiveGrammar>& active);
-  void AddDialogGrammars(const xml::Node& dialog, const VxmlDocument& document, bool only_document,
-                         std::vector<ActiveGrammar>& active);
-  void AddLinks(const xml::Node& parent, const VxmlDocument& document,
+  void AddDialogGrammars(const vm::xml::Node& dialog, const VxmlDocument& document,
+                         bool only_document, std::vector<ActiveGrammar>& active);
+  void AddLinks(const vm::xml::Node& parent, const VxmlDocument& document,
                 std::vector<ActiveGrammar>& active);
-  void AddGrammar(const xml::Node& grammar, const VxmlDocument& document, Match::Owner owner,
-                  const xml::Node& target, std::vector<ActiveGrammar>& active);
-  void AddChoices(const xml::Node& menu, const VxmlDocument& document,
+  void AddGrammar(const vm::xml::Node& grammar, const VxmlDocument& document, Match::Owner owner,
+                  const vm::xml::Node& target, std::vector<ActiveGrammar>& active);
+  void AddChoices(const vm::xml::Node& menu, const VxmlDocument& document,
                   std::vector<ActiveGrammar>& active);
-  void AddOptions(const xml::Node& field, const VxmlDocument& document,
+  void AddOptions(const vm::xml::Node& field, const VxmlDocument& document,
                   std::vector<ActiveGrammar>& active);
   void AddUniversals(std::vector<ActiveGrammar>& active);
-  void AddBuiltin(const std::string& name, const xml::Node& node, const VxmlDocument& document,
+  void AddBuiltin(const std::string& name, const vm::xml::Node& node, const VxmlDocument& document,
                   std::vector<ActiveGrammar>& active);
-  const srgs::Rule* CompileGrammar(const xml::Node& node, const VxmlDocument& document);
-  const srgs::Rule* CompileExternal(const xml::Node& node, const VxmlDocument& document,
+  const srgs::Rule* CompileGrammar(const vm::xml::Node& node, const VxmlDocument& document);
+  const srgs::Rule* CompileExternal(const vm::xml::Node& node, const VxmlDocument& document,
                                     const std::string& reference);
   const srgs::Rule* MakePhrase(const std::string& key, const std::string& text, bool approximate,
                                bool dtmf, const std::string& value, bool has_value);
@@ -184,69 +184,69 @@ class DialogSession {
   bool HandleEvent(EventThrown event, Item* item);
   void CountEvent(const std::string& name, Item* item);
   struct Handler {
-    const xml::Node* node = nullptr;
+    const vm::xml::Node* node = nullptr;
     int count = 1;
     int counter = 1;
     std::string default_action;  ///< of the platform's own handlers
   };
   std::optional<Handler> FindHandler(const EventThrown& event, Item* item);
-  void CollectHandlers(const xml::Node& scope, const EventThrown& event, Item* item,
+  void CollectHandlers(const vm::xml::Node& scope, const EventThrown& event, Item* item,
                        std::vector<Handler>& into);
   int CounterOf(const std::string& prefix, Item* item) const;
   bool RunHandler(const Handler& handler, const EventThrown& event);
   void RunDefault(const std::string& action, const EventThrown& event);
 
   // content.cc: executable content
-  void RunContent(const xml::Node& parent);
-  void RunElement(const xml::Node& node);
-  void RunIf(const xml::Node& node);
-  void RunForeach(const xml::Node& node);
-  void RunVar(const xml::Node& node);
-  void RunAssign(const xml::Node& node);
-  void RunClear(const xml::Node& node);
-  void RunScript(const xml::Node& node);
-  void RunLog(const xml::Node& node);
-  void RunThrow(const xml::Node& node);
-  void RunNative(const xml::Node& node);
-  std::vector<std::string> NativeLines(const xml::Node& node);
+  void RunContent(const vm::xml::Node& parent);
+  void RunElement(const vm::xml::Node& node);
+  void RunIf(const vm::xml::Node& node);
+  void RunForeach(const vm::xml::Node& node);
+  void RunVar(const vm::xml::Node& node);
+  void RunAssign(const vm::xml::Node& node);
+  void RunClear(const vm::xml::Node& node);
+  void RunScript(const vm::xml::Node& node);
+  void RunLog(const vm::xml::Node& node);
+  void RunThrow(const vm::xml::Node& node);
+  void RunNative(const vm::xml::Node& node);
+  std::vector<std::string> NativeLines(const vm::xml::Node& node);
 
   // transfer_of_control.cc
-  void RunGoto(const xml::Node& node);
-  void RunSubmit(const xml::Node& node);
-  void RunExit(const xml::Node& node);
-  void RunReturn(const xml::Node& node);
-  void RunDisconnect(const xml::Node& node);
-  void RunData(const xml::Node& node);
-  std::vector<fetch::Field> SubmitFields(const xml::Node& node, const std::string& namelist);
+  void RunGoto(const vm::xml::Node& node);
+  void RunSubmit(const vm::xml::Node& node);
+  void RunExit(const vm::xml::Node& node);
+  void RunReturn(const vm::xml::Node& node);
+  void RunDisconnect(const vm::xml::Node& node);
+  void RunData(const vm::xml::Node& node);
+  std::vector<fetch::Field> SubmitFields(const vm::xml::Node& node, const std::string& namelist);
   void Flatten(const std::string& name, const script::Value& value,
                std::vector<fetch::Field>& fields, int depth);
 
   // evaluation.cc
   script::Chain CurrentChain() const;
   /// error.noresource for what went over a limit, else error.semantic.
-  [[noreturn]] void ThrowScript(const xml::Node& node, const std::string& code,
+  [[noreturn]] void ThrowScript(const vm::xml::Node& node, const std::string& code,
                                 const vm::Error& error);
-  script::Value Evaluate(const xml::Node& node, const std::string& expression);
-  bool Condition(const xml::Node& node, const std::string& attribute = "cond");
-  std::string TextOf(const xml::Node& node, const std::string& expression);
-  void Declare(const xml::Node& node, const std::string& name, const script::Value& value);
+  script::Value Evaluate(const vm::xml::Node& node, const std::string& expression);
+  bool Condition(const vm::xml::Node& node, const std::string& attribute = "cond");
+  std::string TextOf(const vm::xml::Node& node, const std::string& expression);
+  void Declare(const vm::xml::Node& node, const std::string& name, const script::Value& value);
   void Store(const std::string& name, const script::Value& value);  ///< dialog scope
   script::Value Variable(const std::string& name);
   bool IsDeclared(const std::string& name);
   bool IsDeclaredBeforeSession(const std::string& base);
-  std::string Property(const std::string& name, const xml::Node* from = nullptr);
+  std::string Property(const std::string& name, const vm::xml::Node* from = nullptr);
   Millis TimeProperty(const std::string& name, Millis otherwise);
-  std::string LanguageAt(const xml::Node& node) const;
+  std::string LanguageAt(const vm::xml::Node& node) const;
   void RequireLanguage(const std::string& language);
-  const xml::Node& Here() const;
+  const vm::xml::Node& Here() const;
   /// Counts against the budget: an element is one, what it writes or says is more.
   void Step(std::size_t cost = 1);
   static constexpr std::size_t kBytesOfAStep = 256;
   void Trace(std::string_view kind, const JsonLine& fields);
 
   // prompts.cc
-  void QueuePrompt(const xml::Node& node);
-  void QueueImplicit(const std::vector<const xml::Node*>& nodes);
+  void QueuePrompt(const vm::xml::Node& node);
+  void QueueImplicit(const std::vector<const vm::xml::Node*>& nodes);
   void Flush();
 
   SessionOptions options_;
@@ -254,7 +254,7 @@ class DialogSession {
   fetch::Fetcher fetcher_;
   script::Engine engine_;
   std::unique_ptr<srgs::GrammarStore> grammars_;
-  std::map<const xml::Node*, const srgs::Rule*> compiled_;
+  std::map<const vm::xml::Node*, const srgs::Rule*> compiled_;
   std::map<std::string, const srgs::Rule*> phrases_;
   /// By URI and hash of the bytes; kept, since compiled_ names their nodes.
   std::vector<std::pair<std::pair<std::string, std::size_t>, std::shared_ptr<VxmlDocument>>>
@@ -264,7 +264,7 @@ class DialogSession {
   Context* context_ = nullptr;
   Dialog* dialog_ = nullptr;
   Item* scope_item_ = nullptr;  ///< whose handlers come first
-  const xml::Node* active_node_ = nullptr;
+  const vm::xml::Node* active_node_ = nullptr;
   std::vector<script::Value> anonymous_;
   std::vector<Prompt> queue_;
   Budget budget_;

@@ -10,7 +10,7 @@ namespace vxml {
 using script::Value;
 
 std::optional<Millis> ParseTime(std::string_view text) {
-  text = xml::Trim(text);
+  text = vm::xml::Trim(text);
   if (text.starts_with("+")) text.remove_prefix(1);
   double number = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -22,12 +22,13 @@ std::optional<Millis> ParseTime(std::string_view text) {
   return {};
 }
 
-void ThrowSemantic(const VxmlDocument& document, const xml::Node& node, const std::string& what) {
+void ThrowSemantic(const VxmlDocument& document, const vm::xml::Node& node,
+                   const std::string& what) {
   ThrowEvent("error.semantic", document.uri + ":" + std::to_string(node.line) + ":" +
                                    std::to_string(node.column) + ": " + what);
 }
 
-void DialogSession::ThrowScript(const xml::Node& node, const std::string& code,
+void DialogSession::ThrowScript(const vm::xml::Node& node, const std::string& code,
                                 const vm::Error& error) {
   if (error.code == vm::Errc::kLimit) ThrowEvent("error.noresource", code + ": " + error.text);
   ThrowSemantic(*context_->document, node, code + ": " + error.text);
@@ -40,23 +41,24 @@ script::Chain DialogSession::CurrentChain() const {
   return chain;
 }
 
-Value DialogSession::Evaluate(const xml::Node& node, const std::string& expression) {
+Value DialogSession::Evaluate(const vm::xml::Node& node, const std::string& expression) {
   auto value = engine_.Evaluate(CurrentChain(), expression);
   if (!value) ThrowScript(node, "'" + expression + "'", value.error());
   return *value;
 }
 
-bool DialogSession::Condition(const xml::Node& node, const std::string& attribute) {
+bool DialogSession::Condition(const vm::xml::Node& node, const std::string& attribute) {
   const std::string* expression = node.Find(attribute);
   return !expression || engine_.ToBoolean(Evaluate(node, *expression));
 }
 
-std::string DialogSession::TextOf(const xml::Node& node, const std::string& expression) {
+std::string DialogSession::TextOf(const vm::xml::Node& node, const std::string& expression) {
   return engine_.ToString(Evaluate(node, expression));
 }
 
 /// Into the innermost scope, or the one named in front of a dot, which is not allowed.
-void DialogSession::Declare(const xml::Node& node, const std::string& name, const Value& value) {
+void DialogSession::Declare(const vm::xml::Node& node, const std::string& name,
+                            const Value& value) {
   if (!engine_.IsIdentifier(name)) {
     ThrowSemantic(*context_->document, node, "'" + name + "' cannot be declared");
   }
@@ -83,15 +85,15 @@ bool DialogSession::IsDeclared(const std::string& name) {
   return engine_.Has(engine_.Get(chain[0], base), rest.substr(0, rest.find_first_of(".[ ")));
 }
 
-const xml::Node& DialogSession::Here() const {
+const vm::xml::Node& DialogSession::Here() const {
   if (active_node_) return *active_node_;
   if (dialog_) return *dialog_->node;
   return *context_->document->root;
 }
 
-std::string DialogSession::Property(const std::string& name, const xml::Node* from) {
+std::string DialogSession::Property(const std::string& name, const vm::xml::Node* from) {
   // Handlers act as if copied into the active item: its properties count, not those around them.
-  const xml::Node* node = scope_item_ ? scope_item_->node : dialog_ ? dialog_->node : nullptr;
+  const vm::xml::Node* node = scope_item_ ? scope_item_->node : dialog_ ? dialog_->node : nullptr;
   if (!node) node = from ? from : &Here();
   for (; node && context_; node = node->parent) {
     for (const auto& document : {context_->document, context_->root}) {
@@ -118,7 +120,7 @@ Millis DialogSession::TimeProperty(const std::string& name, Millis otherwise) {
   return *time;
 }
 
-std::string DialogSession::LanguageAt(const xml::Node& node) const {
+std::string DialogSession::LanguageAt(const vm::xml::Node& node) const {
   const std::string language = node.Inherited("xml:lang");
   if (!language.empty()) return language;
   if (context_->root) return context_->root->language;

@@ -20,7 +20,7 @@ bool IsPrefix(const std::string& prefix, const std::string& event) {
 }
 
 /// The events a handler element names; the short forms have their own.
-std::vector<std::string> EventsOf(const xml::Node& node) {
+std::vector<std::string> EventsOf(const vm::xml::Node& node) {
   if (node.name != "catch") return {node.name};
   std::vector<std::string> events;
   const std::string list = node.Get("event");
@@ -31,7 +31,7 @@ std::vector<std::string> EventsOf(const xml::Node& node) {
   return events;
 }
 
-bool IsHandler(const xml::Node& node) {
+bool IsHandler(const vm::xml::Node& node) {
   return node.IsElement("catch") || node.IsElement("help") || node.IsElement("noinput") ||
          node.IsElement("nomatch") || node.IsElement("error");
 }
@@ -71,8 +71,8 @@ int DialogSession::CounterOf(const std::string& prefix, Item* item) const {
   return found == counters.end() ? 0 : found->second;
 }
 
-void DialogSession::CollectHandlers(const xml::Node& scope, const EventThrown& event, Item* item,
-                                    std::vector<Handler>& into) {
+void DialogSession::CollectHandlers(const vm::xml::Node& scope, const EventThrown& event,
+                                    Item* item, std::vector<Handler>& into) {
   for (const auto& child : scope.children) {
     if (!IsHandler(*child)) continue;
     int counter = -1;
@@ -191,7 +191,7 @@ void DialogSession::RunDefault(const std::string& action, const EventThrown& eve
     prompt.text = DefaultMessage(std::string(word), prompt.language);
     prompt.segments.push_back(
         {Segment::Kind::kText, prompt.text, Millis(0), prompt.language, false, ""});
-    prompt.ssml = "<speak version=\"1.0\">" + xml::Escape(prompt.text) + "</speak>";
+    prompt.ssml = "<speak version=\"1.0\">" + vm::xml::Escape(prompt.text) + "</speak>";
     queue_.push_back(std::move(prompt));
   }
 }

@@ -96,7 +96,8 @@ void DialogSession::RunFilled(const std::set<std::string>& filled) {
   }
 }
 
-bool DialogSession::FormFilledApplies(const xml::Node& node, const std::set<std::string>& filled) {
+bool DialogSession::FormFilledApplies(const vm::xml::Node& node,
+                                      const std::set<std::string>& filled) {
   std::vector<std::string> names;
   const std::string namelist = node.Get("namelist");
   for (const std::string_view word : SplitWords(namelist)) names.emplace_back(word);

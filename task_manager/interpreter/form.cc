@@ -9,7 +9,7 @@ using script::Value;
 
 namespace {
 
-std::optional<ItemKind> KindOf(const xml::Node& node) {
+std::optional<ItemKind> KindOf(const vm::xml::Node& node) {
   static const std::map<std::string, ItemKind> kKinds = {
       {"block", ItemKind::kBlock},       {"initial", ItemKind::kInitial},
       {"field", ItemKind::kField},       {"record", ItemKind::kRecord},
@@ -22,7 +22,7 @@ std::optional<ItemKind> KindOf(const xml::Node& node) {
 
 }  // namespace
 
-void DialogSession::RunDialog(const xml::Node& node, std::shared_ptr<Match> carried) {
+void DialogSession::RunDialog(const vm::xml::Node& node, std::shared_ptr<Match> carried) {
   Dialog dialog;
   dialog.node = &node;
   dialog.scope = engine_.NewScope();
@@ -101,7 +101,7 @@ void DialogSession::InitForm(Dialog& dialog) {
   }
 }
 
-void DialogSession::InitItem(Dialog& dialog, const xml::Node& node) {
+void DialogSession::InitItem(Dialog& dialog, const vm::xml::Node& node) {
   Item item;
   item.node = &node;
   item.kind = *KindOf(node);
@@ -146,21 +146,21 @@ Item* DialogSession::Select() {
 void DialogSession::QueuePrompts(Item& item) {
   if (item.kind == ItemKind::kBlock) return;
   struct Candidate {
-    std::vector<const xml::Node*> nodes;
+    std::vector<const vm::xml::Node*> nodes;
     int count;
   };
   std::vector<Candidate> candidates;
   int best = 0;
-  const auto consider = [&](std::vector<const xml::Node*> nodes, int count) {
+  const auto consider = [&](std::vector<const vm::xml::Node*> nodes, int count) {
     if (nodes.empty() || count > item.prompt_count) return;
     best = std::max(best, count);
     candidates.push_back({std::move(nodes), count});
   };
-  std::vector<const xml::Node*> loose;
+  std::vector<const vm::xml::Node*> loose;
   const auto end_loose = [&] {
     bool something = false;
-    for (const xml::Node* node : loose)
-      something = something || node->IsElement() || !xml::IsBlank(node->text);
+    for (const vm::xml::Node* node : loose)
+      something = something || node->IsElement() || !vm::xml::IsBlank(node->text);
     if (something) consider(loose, 1);
     loose.clear();
   };
@@ -249,7 +249,7 @@ void DialogSession::TakeMatch(const Match& match, Item* current) {
   RunFilled(filled);
 }
 
-void DialogSession::TransitTo(const Match& match, const xml::Node* dialog) {
+void DialogSession::TransitTo(const Match& match, const vm::xml::Node* dialog) {
   Transition to;
   to.root = context_->root;
   to.document = match.document == context_->document.get() ? context_->document : context_->root;
@@ -260,7 +260,7 @@ void DialogSession::TransitTo(const Match& match, const xml::Node* dialog) {
 }
 
 /// A link or choice that was chosen: on to its document, or its event.
-void DialogSession::FollowTarget(const xml::Node& node, const VxmlDocument& document) {
+void DialogSession::FollowTarget(const vm::xml::Node& node, const VxmlDocument& document) {
   std::string event = node.Get("event");
   if (const std::string* expression = node.Find("eventexpr")) event = TextOf(node, *expression);
   if (!event.empty()) {

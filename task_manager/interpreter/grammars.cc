@@ -16,7 +16,7 @@ std::vector<ActiveGrammar> DialogSession::ActiveGrammars(const Item& item, bool 
   AddDialogGrammars(*dialog_->node, *context_->document, false, active);
   const auto add_document = [&](const VxmlDocument& document) {
     AddLinks(*document.root, document, active);
-    for (const xml::Node* dialog : document.dialogs) {
+    for (const vm::xml::Node* dialog : document.dialogs) {
       if (dialog != dialog_->node) AddDialogGrammars(*dialog, document, true, active);
     }
   };
@@ -47,7 +47,7 @@ void DialogSession::AddItemGrammars(const Item& item, std::vector<ActiveGrammar>
 }
 
 /// A form's or menu's own grammars; of other dialogs only those with document scope.
-void DialogSession::AddDialogGrammars(const xml::Node& dialog, const VxmlDocument& document,
+void DialogSession::AddDialogGrammars(const vm::xml::Node& dialog, const VxmlDocument& document,
                                       bool only_document, std::vector<ActiveGrammar>& active) {
   const bool wide = dialog.Get("scope") == "document";
   if (dialog.name == "menu") {
@@ -64,7 +64,7 @@ void DialogSession::AddDialogGrammars(const xml::Node& dialog, const VxmlDocumen
   if (!only_document) AddLinks(dialog, document, active);
 }
 
-void DialogSession::AddLinks(const xml::Node& parent, const VxmlDocument& document,
+void DialogSession::AddLinks(const vm::xml::Node& parent, const VxmlDocument& document,
                              std::vector<ActiveGrammar>& active) {
   for (const auto& child : parent.children) {
     if (!child->IsElement("link")) continue;
@@ -80,15 +80,15 @@ void DialogSession::AddLinks(const xml::Node& parent, const VxmlDocument& docume
   }
 }
 
-void DialogSession::AddGrammar(const xml::Node& grammar, const VxmlDocument& document,
-                               Match::Owner owner, const xml::Node& target,
+void DialogSession::AddGrammar(const vm::xml::Node& grammar, const VxmlDocument& document,
+                               Match::Owner owner, const vm::xml::Node& target,
                                std::vector<ActiveGrammar>& active) {
   if (const srgs::Rule* rule = CompileGrammar(grammar, document)) {
     active.push_back({rule, owner, &target, &document});
   }
 }
 
-void DialogSession::AddBuiltin(const std::string& name, const xml::Node& node,
+void DialogSession::AddBuiltin(const std::string& name, const vm::xml::Node& node,
                                const VxmlDocument& document, std::vector<ActiveGrammar>& active) {
   const std::string language = LanguageAt(node);
   for (const Mode mode : {Mode::kVoice, Mode::kDtmf}) {
@@ -111,7 +111,7 @@ void DialogSession::AddBuiltin(const std::string& name, const xml::Node& node,
   }
 }
 
-const srgs::Rule* DialogSession::CompileGrammar(const xml::Node& node,
+const srgs::Rule* DialogSession::CompileGrammar(const vm::xml::Node& node,
                                                 const VxmlDocument& document) {
   const std::string type = node.Get("type");
   const auto form = srgs::FormOfType(type);
@@ -133,7 +133,7 @@ const srgs::Rule* DialogSession::CompileGrammar(const xml::Node& node,
     context.mode = node.Get("mode") == "dtmf" ? Mode::kDtmf : Mode::kVoice;
     bool elements = false;
     for (const auto& child : node.children) elements = elements || child->IsElement();
-    const std::string text(xml::Trim(node.Text()));
+    const std::string text(vm::xml::Trim(node.Text()));
     const bool abnf =
         !elements && (text.starts_with("#ABNF") || form == srgs::Form::kAbnf ||
                       (text.find('$') != std::string::npos && text.find(';') != std::string::npos));
@@ -152,7 +152,7 @@ const srgs::Rule* DialogSession::CompileGrammar(const xml::Node& node,
   return rule;
 }
 
-const srgs::Rule* DialogSession::CompileExternal(const xml::Node& node,
+const srgs::Rule* DialogSession::CompileExternal(const vm::xml::Node& node,
                                                  const VxmlDocument& document,
                                                  const std::string& reference) {
   if (reference.starts_with("builtin:")) {

@@ -108,7 +108,7 @@ std::vector<Match> DialogSession::Recognize(const Input& input,
   std::vector<Match> matches;
   for (const Hypothesis& hypothesis : input.hypotheses) {
     if (matches.size() >= most) break;
-    auto match = MatchText(xml::Collapse(hypothesis.text), dtmf, active);
+    auto match = MatchText(vm::xml::Collapse(hypothesis.text), dtmf, active);
     if (!match) continue;
     match->confidence = hypothesis.confidence;
     if (hypothesis.confidence < threshold) {

@@ -15,7 +15,7 @@ void DialogSession::FillPlain(Item& item, const Value& value) {
 }
 
 void DialogSession::VisitSubdialog(Item& item) {
-  const xml::Node& node = *item.node;
+  const vm::xml::Node& node = *item.node;
   if (subdialogs_ >= options_.max_subdialogs) {
     ThrowEvent("error.noresource",
                "subdialogs nested deeper than " + std::to_string(options_.max_subdialogs));
@@ -74,7 +74,7 @@ bool DialogSession::IsRecording(const Value& value) {
 }
 
 void DialogSession::VisitRecord(Item& item) {
-  const xml::Node& node = *item.node;
+  const vm::xml::Node& node = *item.node;
   if (hung_up_ || disconnected_) throw ExitSession{"hangup"};
   const bool modal = node.Get("modal", "true") == "true";
   const std::vector<ActiveGrammar> active = ActiveGrammars(item, modal);
@@ -130,7 +130,7 @@ void DialogSession::VisitRecord(Item& item) {
 }
 
 void DialogSession::VisitTransfer(Item& item) {
-  const xml::Node& node = *item.node;
+  const vm::xml::Node& node = *item.node;
   if (hung_up_ || disconnected_) throw ExitSession{"hangup"};
   TransferRequest request;
   request.destination = node.Get("dest");

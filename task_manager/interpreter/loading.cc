@@ -12,10 +12,10 @@ void DialogSession::ThrowFetch(const fetch::Failure& failure) {
   ThrowEvent(event, failure.text);
 }
 
-std::string DialogSession::BaseOf(const xml::Node& node) const {
+std::string DialogSession::BaseOf(const vm::xml::Node& node) const {
   // Handlers act as if copied into the active dialog: its document's base counts, unless an
   // element between them says otherwise.
-  for (const xml::Node* at = &node; at && at->parent; at = at->parent) {
+  for (const vm::xml::Node* at = &node; at && at->parent; at = at->parent) {
     if (const std::string* base = at->Find("xml:base")) {
       return fetch::Resolve(context_->document->base, *base);
     }
@@ -23,15 +23,15 @@ std::string DialogSession::BaseOf(const xml::Node& node) const {
   return context_->document->base;
 }
 
-const VxmlDocument& DialogSession::OriginOf(const xml::Node& node) const {
-  const xml::Node* top = &node;
+const VxmlDocument& DialogSession::OriginOf(const vm::xml::Node& node) const {
+  const vm::xml::Node* top = &node;
   while (top->parent) top = top->parent;
   const bool of_root = context_->root && top == context_->root->root.get();
   return of_root ? *context_->root : *context_->document;
 }
 
 /// error.noauthorization unless the element came from a file of this machine.
-void DialogSession::RequireLocal(const xml::Node& node) const {
+void DialogSession::RequireLocal(const vm::xml::Node& node) const {
   const std::string& uri = OriginOf(node).uri;
   if (fetch::IsLocal(uri)) return;
   ThrowEvent("error.noauthorization",
@@ -39,7 +39,7 @@ void DialogSession::RequireLocal(const xml::Node& node) const {
 }
 
 /// maxage, maxstale and fetchtimeout of the element, or of the properties for its kind of fetch.
-fetch::Request DialogSession::FetchOptions(const xml::Node& node, const char* kind) {
+fetch::Request DialogSession::FetchOptions(const vm::xml::Node& node, const char* kind) {
   fetch::Request request;
   request.from = OriginOf(node).uri;
   const auto seconds = [&](const char* name) -> std::optional<long long> {
@@ -60,7 +60,7 @@ fetch::Request DialogSession::FetchOptions(const xml::Node& node, const char* ki
   return request;
 }
 
-fetch::Response DialogSession::FetchFor(const xml::Node& node, fetch::Request request,
+fetch::Response DialogSession::FetchFor(const vm::xml::Node& node, fetch::Request request,
                                         const char* kind) {
   std::string audio = node.Get("fetchaudio");
   if (audio.empty()) audio = Property("fetchaudio", &node);
@@ -113,7 +113,7 @@ std::shared_ptr<VxmlDocument> DialogSession::LoadRoot(const VxmlDocument& docume
 }
 
 /// Where a reference leads: loads what has to be loaded, so that a failure is the referrer's.
-Transition DialogSession::Locate(const xml::Node& node, const std::string& reference,
+Transition DialogSession::Locate(const vm::xml::Node& node, const std::string& reference,
                                  const char* kind, std::vector<fetch::Field> fields, bool post,
                                  bool multipart, bool is_submit) {
   Transition to;

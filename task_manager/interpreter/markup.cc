@@ -132,7 +132,7 @@ std::string_view TypeOf(const std::string& name) {
 }
 
 /// Pleasure, arousal, dominance (0..1, 0.5 = neither) to the nearest expression.
-Feeling FromDimensions(const xml::Node& emotion) {
+Feeling FromDimensions(const vm::xml::Node& emotion) {
   double pleasure = 0.5;
   double arousal = 0.5;
   double dominance = 0.5;
@@ -170,7 +170,7 @@ std::vector<std::string> Units(std::string_view units, double amount) {
   return lines;
 }
 
-std::vector<std::string> Head(const xml::Node& node) {
+std::vector<std::string> Head(const vm::xml::Node& node) {
   const std::string lexeme = Upper(node.Get("lexeme", node.Get("type", "NOD")));
   const char* motion = lexeme == "SHAKE" ? "REFUSE" : lexeme == "TILT" ? "LISTEN" : "NOD";
   const int turns =
@@ -179,7 +179,7 @@ std::vector<std::string> Head(const xml::Node& node) {
                                   std::string("to @FSM set FaceMot = ") + motion + " 1");
 }
 
-std::vector<std::string> Gaze(const xml::Node& node) {
+std::vector<std::string> Gaze(const vm::xml::Node& node) {
   double down = Number(node.Get("x"), 0);
   double right = Number(node.Get("y"), 0);
   const double angle = Number(node.Get("offsetAngle"), 0);
@@ -192,7 +192,7 @@ std::vector<std::string> Gaze(const xml::Node& node) {
           Short(std::clamp(right, -60.0, 60.0))};
 }
 
-std::vector<std::string> Face(const xml::Node& node) {
+std::vector<std::string> Face(const vm::xml::Node& node) {
   const double amount = std::clamp(Number(node.Get("amount"), 1), 0.0, 1.0);
   if (const std::string unit = node.Get("au"); !unit.empty()) {
     const std::string side = Upper(node.Get("side", "BOTH"));
@@ -211,7 +211,7 @@ std::vector<std::string> Face(const xml::Node& node) {
 
 }  // namespace
 
-std::optional<Feeling> ReadFeeling(const xml::Node& emotion) {
+std::optional<Feeling> ReadFeeling(const vm::xml::Node& emotion) {
   Feeling feeling;
   std::string name = emotion.Get("type", emotion.Get("name"));
   double value = 100;
@@ -252,7 +252,7 @@ bool IsBehaviour(const std::string& name) {
   return std::find(std::begin(kBehaviours), std::end(kBehaviours), name) != std::end(kBehaviours);
 }
 
-std::vector<std::string> BehaviourCommands(const xml::Node& node) {
+std::vector<std::string> BehaviourCommands(const vm::xml::Node& node) {
   if (node.name == "head") return Head(node);
   if (node.name == "gaze" || node.name == "gazeShift") return Gaze(node);
   if (node.name == "faceShift") {

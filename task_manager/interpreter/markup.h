@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml {
 
@@ -17,12 +17,12 @@ struct Feeling {
 
 /// Reads <emotion type value pattern> or EmotionML (category, dimension). None: a name no table
 /// knows; the caller takes NEUTRAL or refuses.
-std::optional<Feeling> ReadFeeling(const xml::Node& emotion);
+std::optional<Feeling> ReadFeeling(const vm::xml::Node& emotion);
 /// "to @FSM set FaceExp = HAPPY 1 50 0"
 std::string FaceCommand(const Feeling& feeling);
 
 /// Lines for head, gaze, gazeShift, face, faceFacs, faceLexeme, faceShift (BML 1.0 core).
-std::vector<std::string> BehaviourCommands(const xml::Node& node);
+std::vector<std::string> BehaviourCommands(const vm::xml::Node& node);
 bool IsBehaviour(const std::string& name);
 
 }  // namespace vxml

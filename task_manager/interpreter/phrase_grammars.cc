@@ -7,19 +7,19 @@ namespace vxml {
 namespace {
 
 /// The text of a choice or option without what belongs to its grammar.
-std::string PhraseOf(const xml::Node& node) {
+std::string PhraseOf(const vm::xml::Node& node) {
   std::string text;
   for (const auto& child : node.children) {
     if (child->IsElement("grammar")) continue;
     text += child->IsText() ? child->text : child->IsElement() ? " " + child->Text() + " " : "";
   }
-  return xml::Collapse(text);
+  return vm::xml::Collapse(text);
 }
 
 }  // namespace
 
-std::map<const xml::Node*, std::string> ChoiceKeys(const xml::Node& menu) {
-  std::map<const xml::Node*, std::string> keys;
+std::map<const vm::xml::Node*, std::string> ChoiceKeys(const vm::xml::Node& menu) {
+  std::map<const vm::xml::Node*, std::string> keys;
   const bool numbered = menu.Get("dtmf", "false") == "true";
   int number = 0;
   for (const auto& child : menu.children) {
@@ -33,7 +33,7 @@ std::map<const xml::Node*, std::string> ChoiceKeys(const xml::Node& menu) {
   return keys;
 }
 
-void DialogSession::AddChoices(const xml::Node& menu, const VxmlDocument& document,
+void DialogSession::AddChoices(const vm::xml::Node& menu, const VxmlDocument& document,
                                std::vector<ActiveGrammar>& active) {
   const auto keys = ChoiceKeys(menu);
   for (const auto& child : menu.children) {
@@ -58,7 +58,7 @@ void DialogSession::AddChoices(const xml::Node& menu, const VxmlDocument& docume
   }
 }
 
-void DialogSession::AddOptions(const xml::Node& field, const VxmlDocument& document,
+void DialogSession::AddOptions(const vm::xml::Node& field, const VxmlDocument& document,
                                std::vector<ActiveGrammar>& active) {
   for (const auto& child : field.children) {
     if (!child->IsElement("option")) continue;

@@ -8,7 +8,7 @@
 namespace vxml {
 
 /// A feeling for the time of the words inside; afterwards the one around it.
-void PromptBuilder::Emotion(const xml::Node& node) {
+void PromptBuilder::Emotion(const vm::xml::Node& node) {
   std::optional<Feeling> feeling = ReadFeeling(node);
   if (!feeling) {
     if (s_.options_.strict_markup) {
@@ -29,7 +29,7 @@ void PromptBuilder::Emotion(const xml::Node& node) {
 }
 
 /// <media type="face">: commands and sleeps beside the words (the original's PAR).
-void PromptBuilder::Media(const xml::Node& node) {
+void PromptBuilder::Media(const vm::xml::Node& node) {
   if (node.Get("type") != "face") return AddChildren(node);
   Millis wait(0);
   for (const auto& child : node.children) {
@@ -58,8 +58,8 @@ void PromptBuilder::Media(const xml::Node& node) {
 }
 
 /// A behaviour runs where it stands, or where its start="ID:POINT+SECONDS" says (BML 1.0).
-void PromptBuilder::Behaviour(const xml::Node& node) {
-  const std::string start(xml::Trim(node.Get("start")));
+void PromptBuilder::Behaviour(const vm::xml::Node& node) {
+  const std::string start(vm::xml::Trim(node.Get("start")));
   for (const std::string& line : BehaviourCommands(node)) {
     if (start.empty()) {
       Command(line, Millis(0), false);

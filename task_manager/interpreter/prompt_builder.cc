@@ -11,7 +11,7 @@ namespace vxml {
 
 using script::Value;
 
-void PromptBuilder::Add(const xml::Node& node) {
+void PromptBuilder::Add(const vm::xml::Node& node) {
   if (node.IsText()) return Words(node.text);
   if (!node.IsElement()) return;
   s_.Step();
@@ -47,13 +47,13 @@ void PromptBuilder::Add(const xml::Node& node) {
 void PromptBuilder::Finish() {
   EndWords();
   PlaceDeferred();
-  prompt_.text = xml::Collapse(prompt_.text);
+  prompt_.text = vm::xml::Collapse(prompt_.text);
   std::string head = "<speak version=\"1.0\" xmlns=\"http://www.w3.org/2001/10/synthesis\"";
-  if (!prompt_.language.empty()) head += " xml:lang=\"" + xml::Escape(prompt_.language) + "\"";
+  if (!prompt_.language.empty()) head += " xml:lang=\"" + vm::xml::Escape(prompt_.language) + "\"";
   prompt_.ssml = head + ">" + ssml_ + "</speak>";
 }
 
-void PromptBuilder::AddChildren(const xml::Node& node) {
+void PromptBuilder::AddChildren(const vm::xml::Node& node) {
   for (const auto& child : node.children) Add(*child);
 }
 
@@ -61,11 +61,11 @@ void PromptBuilder::Words(const std::string& text) {
   if (text.empty()) return;
   words_ += text;
   prompt_.text += text;
-  ssml_ += xml::Escape(text);
+  ssml_ += vm::xml::Escape(text);
 }
 
 void PromptBuilder::EndWords() {
-  const std::string text = xml::Collapse(words_);
+  const std::string text = vm::xml::Collapse(words_);
   words_.clear();
   if (text.empty()) return;
   Segment segment;
@@ -83,10 +83,10 @@ void PromptBuilder::Command(const std::string& line, Millis wait, bool parallel)
 }
 
 /// SSML passes through; of <sub> the words are its alias.
-void PromptBuilder::Speech(const xml::Node& node) {
+void PromptBuilder::Speech(const vm::xml::Node& node) {
   std::string open = "<" + node.name;
-  for (const xml::Attribute& attribute : node.attributes) {
-    open += " " + attribute.name + "=\"" + xml::Escape(attribute.value) + "\"";
+  for (const vm::xml::Attribute& attribute : node.attributes) {
+    open += " " + attribute.name + "=\"" + vm::xml::Escape(attribute.value) + "\"";
   }
   ssml_ += open + ">";
   const std::string id = node.Get("id");
@@ -97,7 +97,7 @@ void PromptBuilder::Speech(const xml::Node& node) {
   if (node.name == "sub" && node.Has("alias")) {
     const std::string before = ssml_;
     Words(node.Get("alias"));
-    ssml_ = before + xml::Escape(node.Text());
+    ssml_ = before + vm::xml::Escape(node.Text());
   } else {
     const std::string outer = std::exchange(speech_, id.empty() ? speech_ : id);
     AddChildren(node);
@@ -111,7 +111,7 @@ void PromptBuilder::Speech(const xml::Node& node) {
   if (!id.empty()) Anchor(id + ":end");
 }
 
-void PromptBuilder::Audio(const xml::Node& node) {
+void PromptBuilder::Audio(const vm::xml::Node& node) {
   if (const std::string* expression = node.Find("expr")) {
     const Value value = s_.Evaluate(node, *expression);
     if (s_.engine_.IsUndefined(value)) return;  // section 4.1.3: nothing at all
@@ -120,13 +120,13 @@ void PromptBuilder::Audio(const xml::Node& node) {
   Audio(node, node.Get("src"));
 }
 
-void PromptBuilder::Audio(const xml::Node& node, const Value& value) {
+void PromptBuilder::Audio(const vm::xml::Node& node, const Value& value) {
   if (!s_.engine_.IsObject(value)) return Audio(node, s_.engine_.ToString(value));
   const std::string uri = s_.engine_.ToString(s_.engine_.Get(value, "uri"));
   Audio(node, uri.empty() ? "recording:" : uri);
 }
 
-void PromptBuilder::Audio(const xml::Node& node, const std::string& source) {
+void PromptBuilder::Audio(const vm::xml::Node& node, const std::string& source) {
   if (source.empty()) return AddChildren(node);
   const std::string uri =
       source.starts_with("recording:") ? source : fetch::Resolve(s_.BaseOf(node), source);
@@ -134,10 +134,10 @@ void PromptBuilder::Audio(const xml::Node& node, const std::string& source) {
   if (!Exists(node, uri, sound)) return AddChildren(node);
   EndWords();
   prompt_.segments.push_back({Segment::Kind::kAudio, uri, Millis(0), "", false, "", sound});
-  ssml_ += "<audio src=\"" + xml::Escape(uri) + "\"/>";
+  ssml_ += "<audio src=\"" + vm::xml::Escape(uri) + "\"/>";
 }
 
-bool PromptBuilder::Exists(const xml::Node& node, const std::string& uri,
+bool PromptBuilder::Exists(const vm::xml::Node& node, const std::string& uri,
                            std::shared_ptr<const std::string>& sound) {
   if (uri.starts_with("recording:") || uri.starts_with("builtin:")) return true;
   fetch::Request request = s_.FetchOptions(node, "audio");
@@ -154,17 +154,17 @@ bool PromptBuilder::Exists(const xml::Node& node, const std::string& uri,
 }
 
 /// The choices of the menu or the options of the field, with their keys.
-void PromptBuilder::Enumerate(const xml::Node& node) {
-  const xml::Node* owner = s_.scope_item_ ? s_.scope_item_->node : nullptr;
+void PromptBuilder::Enumerate(const vm::xml::Node& node) {
+  const vm::xml::Node* owner = s_.scope_item_ ? s_.scope_item_->node : nullptr;
   const bool menu = owner && owner->name == "menu";
   const bool field = owner && owner->name == "field" && owner->FirstElement("option");
   if (!menu && !field) {
     ThrowSemantic(*s_.context_->document, node, "<enumerate> without choices or options");
   }
-  const auto keys = menu ? ChoiceKeys(*owner) : std::map<const xml::Node*, std::string>{};
+  const auto keys = menu ? ChoiceKeys(*owner) : std::map<const vm::xml::Node*, std::string>{};
   bool own_template = false;
   for (const auto& child : node.children) {
-    own_template = own_template || child->IsElement() || !xml::IsBlank(child->text);
+    own_template = own_template || child->IsElement() || !vm::xml::IsBlank(child->text);
   }
   for (const auto& child : owner->children) {
     if (!child->IsElement(menu ? "choice" : "option")) continue;
@@ -172,7 +172,7 @@ void PromptBuilder::Enumerate(const xml::Node& node) {
     for (const auto& part : child->children) {
       if (!part->IsElement("grammar")) phrase += part->IsText() ? part->text : part->Text();
     }
-    phrase = xml::Collapse(phrase);
+    phrase = vm::xml::Collapse(phrase);
     const auto key = keys.find(child.get());
     const std::string dtmf = menu ? (key == keys.end() ? "" : key->second) : child->Get("dtmf");
     if (!own_template) {
@@ -186,7 +186,7 @@ void PromptBuilder::Enumerate(const xml::Node& node) {
   }
 }
 
-void PromptBuilder::Foreach(const xml::Node& node) {
+void PromptBuilder::Foreach(const vm::xml::Node& node) {
   const Value array = s_.Evaluate(node, node.Get("array"));
   if (!s_.engine_.IsArray(array)) {
     ThrowSemantic(*s_.context_->document, node, "'" + node.Get("array") + "' is not an array");
@@ -207,7 +207,7 @@ void PromptBuilder::Foreach(const xml::Node& node) {
   }
 }
 
-void PromptBuilder::Pause(const xml::Node& node) {
+void PromptBuilder::Pause(const vm::xml::Node& node) {
   static const std::map<std::string, int> kStrengths = {
       {"none", 0},     {"x-weak", 100},    {"weak", 200},  {"medium", 400},
       {"strong", 700}, {"x-strong", 1000}, {"small", 200}, {"large", 1000}};
@@ -223,13 +223,13 @@ void PromptBuilder::Pause(const xml::Node& node) {
   ssml_ += "<break time=\"" + std::to_string(time.count()) + "ms\"/>";
 }
 
-void PromptBuilder::Mark(const xml::Node& node) {
+void PromptBuilder::Mark(const vm::xml::Node& node) {
   std::string name = node.Get("name", node.Get("id"));
   if (const std::string* expression = node.Find("nameexpr")) name = s_.TextOf(node, *expression);
   Anchor(name);
   if (!speech_.empty()) Anchor(speech_ + ":" + name);
   prompt_.segments.push_back({Segment::Kind::kMark, name, Millis(0), "", false, ""});
-  ssml_ += "<mark name=\"" + xml::Escape(name) + "\"/>";
+  ssml_ += "<mark name=\"" + vm::xml::Escape(name) + "\"/>";
 }
 
 }  // namespace vxml

@@ -18,28 +18,28 @@ class PromptBuilder {
  public:
   PromptBuilder(DialogSession& session, Prompt& prompt) : s_(session), prompt_(prompt) {}
 
-  void Add(const xml::Node& node);
+  void Add(const vm::xml::Node& node);
   void Finish();
 
  private:
-  void AddChildren(const xml::Node& node);
+  void AddChildren(const vm::xml::Node& node);
   void Words(const std::string& text);
   void EndWords();
   void Command(const std::string& line, Millis wait, bool parallel);
-  void Speech(const xml::Node& node);
-  void Audio(const xml::Node& node);
-  void Audio(const xml::Node& node, const script::Value& value);
-  void Audio(const xml::Node& node, const std::string& source);
-  bool Exists(const xml::Node& node, const std::string& uri,
+  void Speech(const vm::xml::Node& node);
+  void Audio(const vm::xml::Node& node);
+  void Audio(const vm::xml::Node& node, const script::Value& value);
+  void Audio(const vm::xml::Node& node, const std::string& source);
+  bool Exists(const vm::xml::Node& node, const std::string& uri,
               std::shared_ptr<const std::string>& sound);
-  void Enumerate(const xml::Node& node);
-  void Foreach(const xml::Node& node);
-  void Pause(const xml::Node& node);
-  void Mark(const xml::Node& node);
+  void Enumerate(const vm::xml::Node& node);
+  void Foreach(const vm::xml::Node& node);
+  void Pause(const vm::xml::Node& node);
+  void Mark(const vm::xml::Node& node);
 
-  void Emotion(const xml::Node& node);
-  void Media(const xml::Node& node);
-  void Behaviour(const xml::Node& node);
+  void Emotion(const vm::xml::Node& node);
+  void Media(const vm::xml::Node& node);
+  void Behaviour(const vm::xml::Node& node);
   void Anchor(const std::string& name);
   void PlaceDeferred();
 

@@ -3,7 +3,7 @@
 
 namespace vxml {
 
-void DialogSession::QueuePrompt(const xml::Node& node) {
+void DialogSession::QueuePrompt(const vm::xml::Node& node) {
   if (hung_up_ || disconnected_) return;
   Prompt prompt;
   prompt.language = LanguageAt(node);
@@ -23,7 +23,7 @@ void DialogSession::QueuePrompt(const xml::Node& node) {
   queue_.push_back(std::move(prompt));
 }
 
-void DialogSession::QueueImplicit(const std::vector<const xml::Node*>& nodes) {
+void DialogSession::QueueImplicit(const std::vector<const vm::xml::Node*>& nodes) {
   if (hung_up_ || disconnected_) return;
   Prompt prompt;
   prompt.language = LanguageAt(*nodes.front()->parent);
@@ -31,7 +31,7 @@ void DialogSession::QueueImplicit(const std::vector<const xml::Node*>& nodes) {
   prompt.bargein = Property("bargein") != "false";
   prompt.hotword = Property("bargeintype") == "hotword";
   PromptBuilder builder(*this, prompt);
-  for (const xml::Node* node : nodes) builder.Add(*node);
+  for (const vm::xml::Node* node : nodes) builder.Add(*node);
   builder.Finish();
   Step((prompt.text.size() + prompt.ssml.size()) / kBytesOfAStep);
   queue_.push_back(std::move(prompt));

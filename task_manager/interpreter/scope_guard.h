@@ -21,7 +21,7 @@ class DialogSession::ScopeGuard {
 
  private:
   DialogSession& session_;
-  const xml::Node* node_;
+  const vm::xml::Node* node_;
   std::size_t depth_;
 };
 

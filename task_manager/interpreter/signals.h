@@ -25,7 +25,7 @@ struct EventThrown {
   throw EventThrown{std::move(name), std::move(message), has};
 }
 /// A failure of a script as error.semantic at a place.
-[[noreturn]] void ThrowSemantic(const VxmlDocument& document, const xml::Node& node,
+[[noreturn]] void ThrowSemantic(const VxmlDocument& document, const vm::xml::Node& node,
                                 const std::string& what);
 
 /// <goto nextitem>.
@@ -37,7 +37,7 @@ struct GoToItem {
 struct Match {
   enum class Owner { kItem, kForm, kLink, kChoice, kUniversal };
   Owner owner = Owner::kForm;
-  const xml::Node* node = nullptr;  ///< the form, link, choice or item the grammar belongs to
+  const vm::xml::Node* node = nullptr;  ///< the form, link, choice or item the grammar belongs to
   const VxmlDocument* document = nullptr;  ///< where that is
   script::Value value;
   std::string utterance;
@@ -49,7 +49,7 @@ struct Match {
 struct Transition {
   std::shared_ptr<VxmlDocument> document;
   std::shared_ptr<VxmlDocument> root;  ///< equal to document if it is its own root
-  const xml::Node* dialog = nullptr;
+  const vm::xml::Node* dialog = nullptr;
   bool same_document = false;      ///< the document's variables stay
   bool fresh_application = false;  ///< a submit to the root document starts it anew
   std::shared_ptr<Match> carried;

@@ -3,13 +3,13 @@
 #include "task_manager/document/schema.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/dialog_session.h"
-#include "task_manager/xml/parser.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml {
 
 using script::Value;
 
-void DialogSession::RunGoto(const xml::Node& node) {
+void DialogSession::RunGoto(const vm::xml::Node& node) {
   if (node.Has("nextitem") || node.Has("expritem")) {
     const std::string* expression = node.Find("expritem");
     const std::string item = expression ? TextOf(node, *expression) : node.Get("nextitem");
@@ -25,7 +25,7 @@ void DialogSession::RunGoto(const xml::Node& node) {
   throw Locate(node, next, "document");
 }
 
-void DialogSession::RunSubmit(const xml::Node& node) {
+void DialogSession::RunSubmit(const vm::xml::Node& node) {
   std::string next = node.Get("next");
   if (const std::string* expression = node.Find("expr")) next = TextOf(node, *expression);
   std::string namelist = node.Get("namelist");
@@ -43,7 +43,7 @@ void DialogSession::RunSubmit(const xml::Node& node) {
                enctype == "multipart/form-data", true);
 }
 
-std::vector<fetch::Field> DialogSession::SubmitFields(const xml::Node& node,
+std::vector<fetch::Field> DialogSession::SubmitFields(const vm::xml::Node& node,
                                                       const std::string& namelist) {
   std::vector<fetch::Field> fields;
   for (const std::string_view word : SplitWords(namelist)) {
@@ -75,7 +75,7 @@ void DialogSession::Flatten(const std::string& name, const Value& value,
   fields.push_back({name, engine_.IsUndefined(value) ? "" : engine_.ToString(value), "", ""});
 }
 
-void DialogSession::RunExit(const xml::Node& node) {
+void DialogSession::RunExit(const vm::xml::Node& node) {
   std::string json = "undefined";
   if (const std::string* expression = node.Find("expr")) {
     json = engine_.ToJson(Evaluate(node, *expression));
@@ -89,7 +89,7 @@ void DialogSession::RunExit(const xml::Node& node) {
   throw ExitSession{"exit", json};
 }
 
-void DialogSession::RunReturn(const xml::Node& node) {
+void DialogSession::RunReturn(const vm::xml::Node& node) {
   if (!context_->is_subdialog) {
     ThrowSemantic(*context_->document, node, "<return> outside of a subdialog");
   }
@@ -116,7 +116,7 @@ void DialogSession::RunReturn(const xml::Node& node) {
   throw back;
 }
 
-void DialogSession::RunDisconnect(const xml::Node& node) {
+void DialogSession::RunDisconnect(const vm::xml::Node& node) {
   std::string json = "undefined";
   if (const std::string* namelist = node.Find("namelist")) {
     const Value values = engine_.Object();
@@ -137,8 +137,8 @@ void DialogSession::RunDisconnect(const xml::Node& node) {
 namespace {
 
 /// A node as prelude.js wants it: [type, name, text, namespace, [attribute...], [child...]].
-nlohmann::json SpecOf(const xml::Node& node) {
-  using Kind = xml::Node::Kind;
+nlohmann::json SpecOf(const vm::xml::Node& node) {
+  using Kind = vm::xml::Node::Kind;
   using nlohmann::json;
   const auto none = json::array();
   const auto space = [](const std::string& uri) { return uri.empty() ? json() : json(uri); };
@@ -158,7 +158,7 @@ nlohmann::json SpecOf(const xml::Node& node) {
       break;
   }
   auto attributes = none;
-  for (const xml::Attribute& attribute : node.attributes) {
+  for (const vm::xml::Attribute& attribute : node.attributes) {
     attributes.push_back({attribute.name, space(attribute.space), attribute.value});
   }
   auto children = none;
@@ -169,7 +169,7 @@ nlohmann::json SpecOf(const xml::Node& node) {
 }
 
 /// <?access-control allow="HOST ..."?> (VoiceXML 2.1 section 5, appendix E).
-bool MayRead(const xml::XmlDocument& data, const std::string& host) {
+bool MayRead(const vm::xml::XmlDocument& data, const std::string& host) {
   for (const auto& instruction : data.prolog) {
     if (instruction->name != "access-control") continue;
     const std::string& text = instruction->text;
@@ -189,7 +189,7 @@ bool MayRead(const xml::XmlDocument& data, const std::string& host) {
 
 }  // namespace
 
-void DialogSession::RunData(const xml::Node& node) {
+void DialogSession::RunData(const vm::xml::Node& node) {
   std::string source = node.Get("src");
   if (const std::string* expression = node.Find("srcexpr")) source = TextOf(node, *expression);
   fetch::Request request = FetchOptions(node, "data");
@@ -199,7 +199,7 @@ void DialogSession::RunData(const xml::Node& node) {
   request.multipart = node.Get("enctype") == "multipart/form-data";
   const fetch::Response got = FetchFor(node, request, "data");
   if (!node.Has("name")) return;
-  auto data = xml::Parse(got.body, got.uri, got.charset);
+  auto data = vm::xml::Parse(got.body, got.uri, got.charset);
   if (!data) ThrowEvent("error.badfetch", data.error().text);
   const std::string host = fetch::Host(OriginOf(node).uri);
   if (!MayRead(*data, host)) {

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "task_manager/platform/agent_platform.h"
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml {
 namespace {
@@ -24,7 +24,7 @@ void EndKeys(Input& input, const Listen& listen) {
 }  // namespace
 
 bool AgentPlatform::OnTyped(const std::string& line) {
-  if (xml::IsBlank(line)) return false;
+  if (vm::xml::IsBlank(line)) return false;
   if (line[0] != '/') {
     auto message = vm::ParseMessage("to @" + options_.ear + " set Input.text = " + line);
     if (!message) return false;

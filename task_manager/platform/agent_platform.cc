@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "task_manager/fetch/uri.h"
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml {
 namespace {
@@ -203,7 +203,7 @@ void AgentPlatform::PlayFile(const std::string& file, bool may_be_stopped) {
   const std::string path = fetch::PathOf(file).value_or(file);
   if (!path.starts_with("/")) return;  // builtin: has none
   hub_.Send("tell start " + path);
-  Utter("<speak><audio src=\"" + xml::Escape(path) + "\"/></speak>", may_be_stopped);
+  Utter("<speak><audio src=\"" + vm::xml::Escape(path) + "\"/></speak>", may_be_stopped);
   hub_.Send("tell end " + path);
 }
 

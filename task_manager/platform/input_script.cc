@@ -4,7 +4,7 @@
 #include <map>
 
 #include "task_manager/interpreter/dialog_session.h"
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml {
 namespace {
@@ -12,11 +12,11 @@ namespace {
 constexpr std::size_t kMaxCommands = 100'000;
 
 std::string TakeWord(std::string_view& rest) {
-  rest = xml::Trim(rest);
+  rest = vm::xml::Trim(rest);
   const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
   std::string word(rest.substr(0, end));
   rest.remove_prefix(end);
-  rest = xml::Trim(rest);
+  rest = vm::xml::Trim(rest);
   return word;
 }
 
@@ -58,8 +58,8 @@ vm::Result<void> Say(std::string_view rest, Command& command) {
     std::string_view part = rest.substr(0, bar);
     double confidence = 1.0;
     if (auto done = TakeOptions(part, command, confidence); !done) return done;
-    if (xml::IsBlank(part)) return vm::Fail(vm::Errc::kSyntax, "say: words expected");
-    command.hypotheses.push_back({std::string(xml::Trim(part)), confidence});
+    if (vm::xml::IsBlank(part)) return vm::Fail(vm::Errc::kSyntax, "say: words expected");
+    command.hypotheses.push_back({std::string(vm::xml::Trim(part)), confidence});
     if (bar == std::string_view::npos) return {};
     rest.remove_prefix(bar + 2);
   }
@@ -109,7 +109,7 @@ vm::Result<Command> ParseCommand(std::string_view line) {
       {"say", Kind::kSay},         {"dtmf", Kind::kDtmf},        {"silence", Kind::kSilence},
       {"nomatch", Kind::kNoMatch}, {"toolong", Kind::kTooLong},  {"hangup", Kind::kHangup},
       {"record", Kind::kRecord},   {"transfer", Kind::kTransfer}};
-  std::string_view rest = xml::Trim(line);
+  std::string_view rest = vm::xml::Trim(line);
   if (rest.empty() || rest[0] == '#') return vm::Fail(vm::Errc::kEmpty, "");
   const std::string word = TakeWord(rest);
   const auto found = kKinds.find(word);

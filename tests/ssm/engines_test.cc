@@ -62,8 +62,10 @@ TEST(LanguageRunsTest, CutWhereTheScriptSaysSo) {
 
 TEST(SentencesTest, AreCutInEveryScriptAndSignsAloneAreNone) {
   using Sentences = std::vector<std::string>;
-  EXPECT_EQ(ssm::SplitUtf8Sentences("一つ。二つ！three. four?"),
-            (Sentences{"一つ。", "二つ！", "three.", " four?"}));
+  EXPECT_EQ(ssm::SplitUtf8Sentences("一つ。二つ！three. Four?"),
+            (Sentences{"一つ。", "二つ！", "three.", " Four?"}));
+  EXPECT_EQ(ssm::SplitUtf8Sentences("Dr. Watson came at 9 a.m. on foot."),
+            (Sentences{"Dr. Watson came at 9 a.m. on foot."}));
   EXPECT_EQ(ssm::SplitUtf8Sentences("3.14 is pi\n...\n"), (Sentences{"3.14 is pi\n"}));
   EXPECT_EQ(ssm::SplitUtf8Sentences("\x01 a\xFF b"), (Sentences{"  a b"}));
   for (const std::string& piece : ssm::SplitUtf8Sentences(std::string(5000, 'x'))) {

@@ -148,7 +148,7 @@ TEST_P(VoicePauseTest, BrokenSsmlIsAnErrorAndTheNextTextWorks) {
   const Lines said = world_.Lines();
   ASSERT_EQ(said.size(), 3u);
   EXPECT_EQ(said[1], "rep Speak.stat = ERROR");
-  EXPECT_TRUE(said[2].starts_with("rep#1 Text.error = SYNTAX SSML line 1: ")) << said[2];
+  EXPECT_TRUE(said[2].starts_with("rep#1 Text.error = SYNTAX SSML:1:")) << said[2];
   Prepare("<speak>Hello <mark name='here'/> you</speak>");
   EXPECT_EQ(world_.Ask("Speak.stat"), "READY");
   EXPECT_EQ(world_.Ask("Speak.text"), "Hello you");

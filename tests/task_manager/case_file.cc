@@ -11,7 +11,7 @@
 #include "task_manager/fetch/uri.h"
 #include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/platform/text_platform.h"
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vxml_test {
 namespace {
@@ -27,7 +27,7 @@ std::string Whole(std::string body, const std::string& name) {
   if (!name.ends_with(".vxml")) return body;
   Replace(body, "<pass/>", "<exit expr=\"'pass'\"/>");
   Replace(body, "<fail/>", "<exit expr=\"'fail'\"/>");
-  const std::string start(vxml::xml::Trim(body));
+  const std::string start(vm::xml::Trim(body));
   if (start.starts_with("<?xml") || start.starts_with("<vxml")) return start;
   return "<vxml version=\"2.1\" xmlns=\"http://www.w3.org/2001/vxml\" xml:lang=\"en-US\">\n" +
          body + "</vxml>\n";

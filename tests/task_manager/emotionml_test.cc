@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "task_manager/xml/parser.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml_test {
 namespace {
@@ -22,7 +22,7 @@ TEST_P(EmotionMl, IsJudgedByItsRules) {
           "category-set=\"http://www.w3.org/TR/emotion-voc/xml#big6\" "
           "dimension-set=\"http://www.w3.org/TR/emotion-voc/xml#pad-dimensions\">") +
       GetParam().text + "</emotionml>";
-  auto parsed = vxml::xml::Parse(text, "e");
+  auto parsed = vm::xml::Parse(text, "e");
   ASSERT_TRUE(parsed) << parsed.error().text;
   ASSERT_TRUE(vxml::IsEmotionMl(*parsed->root));
   const auto findings = vxml::CheckEmotionMl(*parsed->root);

@@ -7,8 +7,8 @@
 #include "task_manager/grammar/matcher.h"
 #include "task_manager/grammar/store.h"
 #include "task_manager/script/engine.h"
-#include "task_manager/xml/parser.h"
 #include "tests/task_manager/case_file.h"
+#include "vm_protocol/xml/parser.h"
 
 namespace vxml_test {
 namespace {
@@ -71,27 +71,27 @@ TEST(HostileXmlTest, AVeryLargeDocumentIsRefused) {
 }
 
 TEST(HostileXmlTest, BadEncodingsAreRefusedWithAPlace) {
-  auto parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"euc-jp\"?><a>\xff\xff</a>", "d");
+  auto parsed = vm::xml::Parse("<?xml version=\"1.0\" encoding=\"euc-jp\"?><a>\xff\xff</a>", "d");
   ASSERT_FALSE(parsed);
   EXPECT_NE(parsed.error().text.find("euc-jp"), std::string::npos);
-  parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"klingon\"?><a/>", "d");
+  parsed = vm::xml::Parse("<?xml version=\"1.0\" encoding=\"klingon\"?><a/>", "d");
   ASSERT_FALSE(parsed);
   EXPECT_NE(parsed.error().text.find("klingon"), std::string::npos);
 }
 
 TEST(HostileXmlTest, EucJpAndShiftJisAreRead) {
-  auto parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"euc-jp\"?><a>\xa4\xa2</a>", "d");
+  auto parsed = vm::xml::Parse("<?xml version=\"1.0\" encoding=\"euc-jp\"?><a>\xa4\xa2</a>", "d");
   ASSERT_TRUE(parsed) << parsed.error().text;
   EXPECT_EQ(parsed->root->Text(), "\u3042");
-  parsed = vxml::xml::Parse("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?><a>\x82\xa0</a>", "d");
+  parsed = vm::xml::Parse("<?xml version=\"1.0\" encoding=\"Shift_JIS\"?><a>\x82\xa0</a>", "d");
   ASSERT_TRUE(parsed) << parsed.error().text;
   EXPECT_EQ(parsed->root->Text(), "\u3042");
 }
 
 TEST(HostileXmlTest, ShiftJisIsWhatPcsWriteUnderEachOfItsNames) {
   for (const std::string name : {"Shift_JIS", "shift-jis", "SJIS", "CP932"}) {
-    auto parsed = vxml::xml::Parse(
-        "<?xml version=\"1.0\" encoding=\"" + name + "\"?><a>\x87\x40\\~</a>", "d");
+    auto parsed =
+        vm::xml::Parse("<?xml version=\"1.0\" encoding=\"" + name + "\"?><a>\x87\x40\\~</a>", "d");
     ASSERT_TRUE(parsed) << parsed.error().text;
     EXPECT_EQ(parsed->root->Text(), "\u2460\\~") << name;  // a sign of NEC, and no yen
   }

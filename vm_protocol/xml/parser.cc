@@ -1,4 +1,4 @@
-#include "task_manager/xml/parser.h"
+#include "vm_protocol/xml/parser.h"
 
 #include "vm_protocol/core/charset.h"
 
@@ -10,7 +10,7 @@
 #include <cctype>
 #include <map>
 
-namespace vxml::xml {
+namespace vm::xml {
 namespace {
 
 constexpr std::string_view kXmlSpace = "http://www.w3.org/XML/1998/namespace";
@@ -237,4 +237,4 @@ vm::Result<XmlDocument> Parse(std::string_view bytes, const std::string& name,
   return document;
 }
 
-}  // namespace vxml::xml
+}  // namespace vm::xml

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vxml::xml {
+namespace vm::xml {
 
 struct Attribute {
   std::string name;   ///< as written, with its prefix
@@ -57,4 +57,4 @@ std::string Write(const Node& node);
 /// A copy without its parent.
 std::unique_ptr<Node> Clone(const Node& node);
 
-}  // namespace vxml::xml
+}  // namespace vm::xml

@@ -1,9 +1,9 @@
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 
 #include "vm_protocol/core/blanks.h"
 #include "vm_protocol/core/xml_text.h"
 
-namespace vxml::xml {
+namespace vm::xml {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
@@ -119,4 +119,4 @@ std::unique_ptr<Node> Clone(const Node& node) {
   return copy;
 }
 
-}  // namespace vxml::xml
+}  // namespace vm::xml

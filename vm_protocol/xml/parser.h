@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "task_manager/xml/node.h"
+#include "vm_protocol/xml/node.h"
 #include "vm_protocol/core/result.h"
 
-namespace vxml::xml {
+namespace vm::xml {
 
 /// What a document may cost at most. Over a limit the document is refused as a whole.
 struct Limits {
@@ -34,4 +34,4 @@ struct XmlDocument {
 vm::Result<XmlDocument> Parse(std::string_view bytes, const std::string& name,
                               const std::string& charset = "", const Limits& limits = {});
 
-}  // namespace vxml::xml
+}  // namespace vm::xml
