@@ -1,5 +1,6 @@
 #include "task_manager/document/emotionml.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -50,29 +51,59 @@ class Checker {
     if (!ids_.insert(*id).second) Say(node, "the id '" + *id + "' is given twice");
   }
 
+  /// What may stand in an element: its own elements in that order, `info` first, and text or not.
+  /// Elements of other namespaces have a place in <info> alone.
+  void Content(const vm::xml::Node& node, std::string_view elements, bool text) {
+    bool first = true;
+    for (const auto& child : node.children) {
+      if (child->IsText() && !text && !vm::xml::IsBlank(child->text)) {
+        Say(*child, "text in <" + node.name + ">");
+      }
+      if (!child->IsElement()) continue;
+      const bool own = child->space == kEmotionMlSpace;
+      if (!own || !Contains(elements, child->name)) {
+        Say(*child, "<" + child->name + ">" +
+                        (own ? "" : " of the namespace '" + child->space + "'") +
+                        " may not stand in <" + node.name + ">");
+      } else if (child->name == "info") {
+        if (!first)
+          Say(*child, "<info> behind other elements", "it is the first, and the only one");
+        Info(*child);
+      }
+      first = false;
+    }
+  }
+  static std::vector<const vm::xml::Node*> Own(const vm::xml::Node& node, std::string_view names) {
+    std::vector<const vm::xml::Node*> found;
+    for (const auto& child : node.children) {
+      if (child->IsElement() && child->space == kEmotionMlSpace && Contains(names, child->name)) {
+        found.push_back(child.get());
+      }
+    }
+    return found;
+  }
+
+  /// Text and elements of others.
+  void Info(const vm::xml::Node& node) {
+    Attributes(node, "id", "");
+    for (const auto& child : node.children) {
+      if (child->IsElement() && child->space == kEmotionMlSpace) {
+        Say(*child, "<" + child->name + "> in <info>", "elements of other namespaces stand there");
+      }
+    }
+  }
+
   void Root() {
     if (root_.space != kEmotionMlSpace) {
       Say(root_, "<emotionml> outside of its namespace",
           "xmlns=\"" + std::string(kEmotionMlSpace) + "\"");
+      return;
     }
     Attributes(root_, std::string("version ") + std::string(kSets), "version");
     Version(root_);
-    int infos = 0;
-    for (const auto& child : root_.children) {
-      if (child->IsElement("vocabulary")) Declare(*child);
-      if (!child->IsElement("info")) continue;
-      Attributes(*child, "id", "");
-      if (++infos > 1) Say(*child, "a second <info>");
-    }
-    for (const auto& child : root_.children) {
-      if (child->IsText() && !vm::xml::IsBlank(child->text)) Say(*child, "text in <emotionml>");
-      if (!child->IsElement() || child->name == "vocabulary" || child->name == "info") continue;
-      if (child->name == "emotion" && child->space == kEmotionMlSpace) {
-        Emotion(*child);
-      } else {
-        Say(*child, "<" + child->name + "> may not stand in <emotionml>");
-      }
-    }
+    Content(root_, "info vocabulary emotion", true);
+    for (const auto* vocabulary : Own(root_, "vocabulary")) Declare(*vocabulary);
+    for (const auto* emotion : Own(root_, "emotion")) Emotion(*emotion);
     Sets(root_);
   }
 
@@ -87,16 +118,14 @@ class Checker {
       Say(node, "vocabulary type '" + node.Get("type") + "'",
           "expected one of " + std::string(kTypes));
     }
+    Content(node, "info item", false);
     std::set<std::string> names;
-    for (const auto& child : node.children) {
-      if (!child->IsElement() || child->name == "info") continue;
-      if (child->name != "item") {
-        Say(*child, "<" + child->name + "> may not stand in <vocabulary>");
-        continue;
-      }
-      Attributes(*child, "name", "name");
-      if (!names.insert(child->Get("name")).second) {
-        Say(*child, "the vocabulary has '" + child->Get("name") + "' twice");
+    for (const auto* item : Own(node, "item")) {
+      Attributes(*item, "name", "name");
+      Token(*item, "name");
+      Content(*item, "info", false);
+      if (!names.insert(item->Get("name")).second) {
+        Say(*item, "the vocabulary has '" + item->Get("name") + "' twice");
       }
     }
     if (names.empty()) Say(node, "a <vocabulary> without <item>");
@@ -112,31 +141,28 @@ class Checker {
     Version(node);
     Times(node);
     Sets(node);
-    int described = 0;
-    int infos = 0;
+    Content(node, "info reference " + std::string(kTypes), true);
+    const auto described = Own(node, kTypes);
     std::map<std::string, std::set<std::string>> names;
-    for (const auto& child : node.children) {
-      if (!child->IsElement()) continue;
-      if (Contains(kTypes, child->name)) {
-        ++described;
-        Describe(node, *child);
-        if (!names[child->name].insert(child->Get("name")).second) {
-          Say(*child, "two <" + child->name + "> of the name '" + child->Get("name") + "'");
-        }
-      } else if (child->name == "reference") {
-        Reference(*child);
-      } else if (child->name == "info") {
-        Attributes(*child, "id", "");
-        if (++infos > 1) Say(*child, "a second <info>");
-      } else {
-        Say(*child, "<" + child->name + "> may not stand in <emotion>");
+    for (const auto* part : described) {
+      Describe(node, *part);
+      if (!names[part->name].insert(part->Get("name")).second) {
+        Say(*part, "two <" + part->name + "> of the name '" + part->Get("name") + "'");
       }
     }
-    if (described == 0)
+    for (const auto* reference : Own(node, "reference")) Reference(*reference);
+    if (described.empty())
       Say(node, "an <emotion> that describes nothing", "one of " + std::string(kTypes));
   }
 
   void Times(const vm::xml::Node& node) {
+    Uri(node, "time-ref-uri");
+    if (const std::string* through = node.Find("expressed-through")) {
+      const auto words = SplitWords(*through);
+      if (words.empty() || !std::ranges::all_of(words, IsToken)) {
+        Say(node, "expressed-through '" + *through + "'", "expected names with blanks between");
+      }
+    }
     for (const char* name : {"start", "end", "duration"}) {
       const std::string* value = node.Find(name);
       if (value && !IsWhole(*value, false)) {
@@ -165,8 +191,9 @@ class Checker {
     for (const std::string_view type : SplitWords(kTypes)) {
       const std::string* uri = node.Find(std::string(type) + "-set");
       if (!uri) continue;
+      Uri(node, (std::string(type) + "-set").c_str());
       const std::size_t hash = uri->find('#');
-      if (hash == std::string::npos) {
+      if (hash == std::string::npos || hash + 1 == uri->size()) {
         Say(node, std::string(type) + "-set '" + *uri + "' names no vocabulary", "URI#id");
         continue;
       }
@@ -198,6 +225,7 @@ class Checker {
 
   void Describe(const vm::xml::Node& emotion, const vm::xml::Node& node) {
     Attributes(node, "name value confidence", "name");
+    Token(node, "name");
     const std::string set = SetOf(emotion, node.name);
     if (set.empty()) {
       Say(node, "<" + node.name + "> without a " + node.name + "-set",
@@ -208,17 +236,12 @@ class Checker {
     for (const char* name : {"value", "confidence"}) {
       if (const std::string* value = node.Find(name)) Range(node, name, *value);
     }
-    int traces = 0;
-    for (const auto& child : node.children) {
-      if (child->IsText() && !vm::xml::IsBlank(child->text))
-        Say(*child, "text in <" + node.name + ">");
-      if (!child->IsElement()) continue;
-      if (child->name != "trace") {
-        Say(*child, "<" + child->name + "> may not stand in <" + node.name + ">");
-        continue;
-      }
-      if (++traces > 1) Say(*child, "a second <trace>");
-      Trace(*child);
+    Content(node, "trace", false);
+    const auto found = Own(node, "trace");
+    const std::size_t traces = found.size();
+    for (std::size_t i = 0; i < traces; ++i) {
+      if (i > 0) Say(*found[i], "a second <trace>");
+      Trace(*found[i]);
     }
     if (traces > 0 && node.Has("value")) Say(node, "value and <trace> together", "give one");
     if (node.name == "dimension" && traces == 0 && !node.Has("value")) {
@@ -242,6 +265,19 @@ class Checker {
     if (!known) Say(node, "'" + name + "' is not in the vocabulary " + set);
   }
 
+  void Token(const vm::xml::Node& node, const char* attribute) {
+    const std::string* value = node.Find(attribute);
+    if (value && !IsToken(*value)) {
+      Say(node, std::string(attribute) + " '" + *value + "'", "expected a name without blanks");
+    }
+  }
+  void Uri(const vm::xml::Node& node, const char* attribute) {
+    const std::string* value = node.Find(attribute);
+    if (value && !IsUri(*value)) {
+      Say(node, std::string(attribute) + " '" + *value + "'", "expected a URI");
+    }
+  }
+
   void Range(const vm::xml::Node& node, const std::string& what, std::string_view text) {
     const auto value = Number(text);
     if (!value || *value < 0 || *value > 1) {
@@ -251,6 +287,7 @@ class Checker {
 
   void Trace(const vm::xml::Node& node) {
     Attributes(node, "freq samples", "freq samples");
+    Content(node, "", false);
     const std::string frequency = node.Get("freq");
     const std::string number(vm::xml::Trim(frequency.substr(0, frequency.find("Hz"))));
     const auto value = Number(number);
@@ -265,6 +302,11 @@ class Checker {
 
   void Reference(const vm::xml::Node& node) {
     Attributes(node, "uri role media-type", "uri");
+    Content(node, "", false);
+    Uri(node, "uri");
+    if (const std::string* type = node.Find("media-type"); type && !IsMediaType(*type)) {
+      Say(node, "media-type '" + *type + "'", "expected TYPE/SUBTYPE");
+    }
     const std::string role = node.Get("role", "expressedBy");
     if (!Contains("expressedBy experiencedBy triggeredBy targetedAt", role)) {
       Say(node, "role '" + role + "'",

@@ -20,12 +20,15 @@ void PromptBuilder::Emotion(const vm::xml::Node& node) {
     s_.Trace("warning", line);
     feeling = Feeling{};
   }
-  Command(FaceCommand(*feeling), Millis(0), false);
+  if (feeling->on_face) Command(FaceCommand(*feeling), Millis(0), false);
   feelings_.push_back(*feeling);
   AddChildren(node);
   EndWords();
   feelings_.pop_back();
-  Command(FaceCommand(feelings_.empty() ? Feeling{} : feelings_.back()), Millis(0), false);
+  if (!feeling->on_face) return;
+  const auto around = std::find_if(feelings_.rbegin(), feelings_.rend(),
+                                   [](const Feeling& it) { return it.on_face; });
+  Command(FaceCommand(around == feelings_.rend() ? Feeling{} : *around), Millis(0), false);
 }
 
 /// <media type="face">: commands and sleeps beside the words (the original's PAR).

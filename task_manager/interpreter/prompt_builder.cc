@@ -71,8 +71,10 @@ void PromptBuilder::EndWords() {
   Segment segment;
   segment.text = text;
   segment.language = prompt_.language;
-  if (!feelings_.empty() && s_.Property("emotionspeak") == "true") {
-    segment.emotion = feelings_.back().type;
+  if (s_.Property("emotionspeak") == "true") {
+    const auto felt = std::find_if(feelings_.rbegin(), feelings_.rend(),
+                                   [](const Feeling& it) { return it.in_voice; });
+    if (felt != feelings_.rend()) segment.emotion = felt->type;
   }
   prompt_.segments.push_back(std::move(segment));
 }

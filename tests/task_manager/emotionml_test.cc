@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "task_manager/document/emotion_vocabularies.h"
+#include "task_manager/document/schema.h"
+#include "task_manager/interpreter/feelings.h"
 #include "vm_protocol/xml/parser.h"
 
 namespace vxml_test {
@@ -112,8 +115,100 @@ INSTANTIATE_TEST_SUITE_P(
         Sample{"UnknownElement", "<emotion><category name=\"fear\"/><mood/></emotion>", false},
         Sample{"UnknownAttribute", "<emotion mood=\"bad\"><category name=\"fear\"/></emotion>",
                false},
-        Sample{"TextInRoot", "hello", false}),
+        Sample{"TextInRoot", "hello", true},
+        Sample{"ForeignElement",
+               "<emotion><category name=\"fear\"/><x:y xmlns:x=\"urn:x\"/></emotion>", false},
+        Sample{"ForeignCategoryDescribesNothing",
+               "<emotion><x:category xmlns:x=\"urn:x\" name=\"fear\"/></emotion>", false},
+        Sample{"LateInfo", "<emotion><category name=\"fear\"/><info/></emotion>", false},
+        Sample{"LateInfoOfRoot", "<emotion><category name=\"fear\"/></emotion><info/>", false},
+        Sample{"InfoOfItsOwn", "<info><emotion><category name=\"fear\"/></emotion></info>", false},
+        Sample{"InfoWithText", "<info>by <b xmlns=\"urn:x\">me</b></info>", true},
+        Sample{"ItemWithInfo",
+               "<vocabulary type=\"category\" id=\"v\"><info/><item name=\"x\"><info/></item>"
+               "</vocabulary>",
+               true},
+        Sample{"ItemWithText",
+               "<vocabulary type=\"category\" id=\"v\"><item name=\"x\">y</item></vocabulary>",
+               false},
+        Sample{"ItemWithElement",
+               "<vocabulary type=\"category\" id=\"v\"><item name=\"x\"><item name=\"y\"/></item>"
+               "</vocabulary>",
+               false},
+        Sample{"TextInVocabulary",
+               "<vocabulary type=\"category\" id=\"v\">a<item name=\"x\"/></vocabulary>", false},
+        Sample{"TraceWithContent",
+               "<emotion><dimension name=\"arousal\"><trace freq=\"1Hz\" samples=\"1\">x</trace>"
+               "</dimension></emotion>",
+               false},
+        Sample{"NameEmpty", "<vocabulary type=\"category\" id=\"v\"><item name=\"\"/></vocabulary>",
+               false},
+        Sample{"NameWithBlank",
+               "<vocabulary type=\"category\" id=\"v\"><item name=\"a b\"/></vocabulary>", false},
+        Sample{"UriBad", "<emotion><category name=\"fear\"/><reference uri=\";:\"/></emotion>",
+               false},
+        Sample{"UriEscaped",
+               "<emotion><category name=\"fear\"/><reference uri=\"http://a/%zz\"/></emotion>",
+               false},
+        Sample{"UriOfSetBad", "<emotion category-set=\"a b#c\"><category name=\"x\"/></emotion>",
+               false},
+        Sample{"MediaTypeBad",
+               "<emotion><category name=\"fear\"/><reference uri=\"a\" media-type=\"sound\"/>"
+               "</emotion>",
+               false},
+        Sample{"ReferenceWithContent",
+               "<emotion><category name=\"fear\"/><reference uri=\"a\">b</reference></emotion>",
+               false},
+        Sample{"SignedNumbers",
+               "<emotion start=\"+5\" offset-to-start=\"-3\"><category name=\"fear\" value=\"+1\"/>"
+               "</emotion>",
+               true},
+        Sample{"ExpressedThroughNothing",
+               "<emotion expressed-through=\" \"><category name=\"fear\"/></emotion>", false}),
     [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(FeelingsTest, EveryNameOfTheStandardsVocabulariesIsShown) {
+  int names = 0;
+  for (const char* id :
+       {"big6", "everyday-categories", "occ-categories", "fsre-categories", "frijda-categories",
+        "occ-appraisals", "scherer-appraisals", "ema-appraisals", "frijda-action-tendencies"}) {
+    const auto* vocabulary = vxml::FindEmotionVocabulary(id);
+    ASSERT_NE(vocabulary, nullptr) << id;
+    for (const auto name : vxml::SplitWords(vocabulary->names)) {
+      ++names;
+      EXPECT_NE(vxml::FindFeeling(vocabulary->type, std::string(name)), nullptr)
+          << id << " " << name;
+    }
+  }
+  EXPECT_GT(names, 120);
+}
+
+std::optional<vxml::Feeling> Felt(const std::string& emotion) {
+  auto parsed = vm::xml::Parse(emotion, "e");
+  EXPECT_TRUE(parsed) << emotion;
+  return vxml::ReadFeeling(*parsed->root);
+}
+
+TEST(FeelingsTest, AnEmotionIsShownByItsTable) {
+  EXPECT_EQ(Felt("<emotion type='disappointed'/>")->type, "SAD");
+  EXPECT_EQ(Felt("<emotion><category name='shock' value='0.5'/></emotion>")->type, "SURPRISED");
+  EXPECT_EQ(Felt("<emotion><category name='shock' value='0.5'/></emotion>")->strength, 50);
+  EXPECT_EQ(Felt("<emotion><category name='worried'/></emotion>")->strength, 50);
+  EXPECT_EQ(Felt("<emotion><action-tendency name='agonistic' value='1'/></emotion>")->type,
+            "ANGRY");
+  EXPECT_EQ(Felt("<emotion><dimension name='unpredictability' value='0.9'/></emotion>")->type,
+            "SURPRISED");
+  EXPECT_FALSE(Felt("<emotion><category name='hunger'/></emotion>"));
+}
+
+TEST(FeelingsTest, ATableWithAFaultIsRefusedWithItsLine) {
+  EXPECT_EQ(vxml::ParseFeelings("# x\ncategory joy HAPPY\n", "t").error().text,
+            "t:2: expected KIND NAME EXPRESSION STRENGTH");
+  EXPECT_EQ(vxml::ParseFeelings("category joy GLAD 100", "t").error().text,
+            "t:1: 'GLAD', expected one of HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED NEUTRAL");
+  EXPECT_FALSE(vxml::ParseFeelings("mood joy HAPPY 100", "t"));
+  EXPECT_FALSE(vxml::ParseFeelings("category joy HAPPY 999", "t"));
+}
 
 }  // namespace
 }  // namespace vxml_test
