@@ -12,7 +12,7 @@ packages=(
   libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev fonts-dejavu-core libgl-dev libpng-dev libjpeg-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev
   libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic libhtsengine-dev
-  libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev libtinyxml2-dev
+  libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev
 )
 # The framework, servers, screens, a browser and recordings for the tests.
 [ "${1:-}" != --tests ] || packages+=(

@@ -65,8 +65,10 @@ class Expansion {
       }
       auto sequence = Sequence(depth);
       if (!sequence) return sequence;
+      // What never is said is as if it were not there (JSGF, weights).
+      if (weight == 0) *sequence = Node{.kind = Kind::kVoid, .line = line_};
       choice.parts.push_back(std::move(*sequence));
-      choice.weights.push_back(weight);
+      choice.weights.push_back(weight == 0 ? 1 : weight);
       if (Peek() != '|') break;
       ++at_;
     }
@@ -80,8 +82,8 @@ class Expansion {
     const std::string number(text_.substr(at_ + 1, end - at_ - 1));
     char* rest = nullptr;
     const double weight = std::strtod(number.c_str(), &rest);
-    if (number.empty() || *rest != '\0' || !(weight > 0) || weight > 1e6) {
-      return Expected("/NUMBER/ above 0");
+    if (number.empty() || *rest != '\0' || !(weight >= 0) || weight > 1e6) {
+      return Expected("/NUMBER/ of 0 or more");
     }
     at_ = end + 1;
     return weight;
@@ -167,7 +169,7 @@ class Expansion {
     }
     if (name == "NULL") return Node{.line = line_};
     if (name == "VOID") return Node{.kind = Kind::kVoid, .line = line_};
-    if (name == "GARBAGE") return Node{.kind = Kind::kAny, .line = line_};
+    if (name == "GARBAGE") return GarbageNode(line_);
     return Node{.kind = Kind::kRule, .text = std::move(name), .line = line_};
   }
 
@@ -218,6 +220,12 @@ class Expansion {
 vm::Result<Node> ParseExpansion(std::string_view text, Form form, std::string_view rule,
                                 std::size_t line, std::size_t& parts) {
   return Expansion(text, form, rule, line, parts).Whole();
+}
+
+Node GarbageNode(std::size_t line) {
+  Node garbage{.kind = Kind::kRepeat, .least = 0, .most = 1, .line = line};
+  garbage.parts.push_back({.kind = Kind::kAny, .line = line});
+  return garbage;
 }
 
 std::string AtLine(std::size_t line) {

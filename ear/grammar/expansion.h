@@ -16,6 +16,8 @@ enum class Form { kOwn, kJsgf };
 vm::Result<Node> ParseExpansion(std::string_view text, Form form, std::string_view rule,
                                 std::size_t line, std::size_t& parts);
 
+/// GARBAGE of SRGS: any words or none.
+Node GarbageNode(std::size_t line);
 /// "line 3: "; nothing if it is not known (0).
 std::string AtLine(std::size_t line);
 std::string NestedTooDeep();

@@ -17,7 +17,7 @@ namespace ear {
 struct Node {
   enum class Kind {
     kWord,      ///< `text`, lower case
-    kAny,       ///< any one word
+    kAny,       ///< any words, one or more
     kSequence,  ///< all `parts` in order; empty = nothing
     kChoice,    ///< one of `parts`, with `weights` beside them (1 = usual)
     kRepeat,    ///< parts[0], `least` to `most` times

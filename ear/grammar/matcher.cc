@@ -183,11 +183,13 @@ class Walk {
     }
   }
 
-  /// The rest of a word; of one without blanks around its parts (Japanese) also less.
+  /// The rest of a word, and as many more as are needed, the fewest first; of one without blanks
+  /// around its parts (Japanese) also less.
   void Any(const Place& place, Id next, std::vector<Place>& left) {
     const auto stop = std::upper_bound(starts_.begin(), starts_.end(), place.at);
     if (stop == starts_.end()) return;
     left.push_back({next, *stop, place.tags});
+    left.push_back({place.state, *stop, place.tags});
     // One stand-in can be several words that were not understood.
     if (text_.compare(place.at, *stop - place.at, kNotUnderstood) == 0) {
       left.push_back({next, place.at, place.tags});

@@ -35,7 +35,7 @@ class Writer {
       case Kind::kVoid:
         return {};
       case Kind::kGarbage:
-        return Optional("*", kMostTurns);
+        return "[*]";
       case Kind::kReference:
         return node.target ? Of(*node.target) : Text{};
       case Kind::kSequence: {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include "srm/align/phone_aligner.h"
 #include "srm/engine/pronunciation.h"
@@ -19,6 +21,25 @@ constexpr const char* kPhrases[] = {
     "good morning",         "good night",       "call my mother",       "send a message",
     "play some music",      "stop the music",   "where is the station", "i want two apples",
     "three pounds of fish", "how much is it",   "that is all",          "start again"};
+
+TEST_F(RecognitionTest, AnyWordsAreHeardForAsLongAsTheyLast) {
+  Use("call * {CALL} | $GARBAGE weather $GARBAGE {WEATHER} | stop {STOP}");
+  const auto meaning = [&](const std::string& text, const std::string& voice) {
+    std::istringstream heard(Hear(Say(text, voice).samples).text);
+    const std::vector<std::string> words{std::istream_iterator<std::string>(heard), {}};
+    const auto match = grammar_->Match(words);
+    return match ? match->Joined() : "-";
+  };
+  int right = 0;
+  for (const char* voice : {"slt", "rms", "awb", "kal16"}) {
+    right += meaning("call margaret", voice) == "CALL";
+    right += meaning("call my brother in the city of london", voice) == "CALL";
+    right += meaning("tell me about the weather in paris tomorrow", voice) == "WEATHER";
+    right += meaning("weather", voice) == "WEATHER";
+    EXPECT_EQ(meaning("stop", voice), "STOP") << voice;
+  }
+  EXPECT_GE(right, 14);
+}
 
 TEST_F(RecognitionTest, PhrasesOfThreeVoicesAreHeardAsTheyWereSaid) {
   std::string grammar;
