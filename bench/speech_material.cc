@@ -72,6 +72,47 @@ const std::vector<std::string>& OtherSentences() {
   return sentences;
 }
 
+const std::vector<SmallGrammar>& SmallGrammars() {
+  static const std::vector<SmallGrammar> grammars = {
+      {{"yes", "no", "maybe"},
+       {"hello", "banana", "seven", "what time is it", "i do not know", "perhaps", "never", "guess",
+        "snow", "next"}},
+      {{"red", "green", "blue", "yellow", "black"},
+       {"orange", "bread", "window", "two", "i like purple", "nothing at all", "fellow",
+        "show me the list", "back", "grey"}},
+      {{"one", "two", "three", "four", "five", "six"},
+       {"seven", "nine", "hundred", "fish", "a dozen", "i want more", "tea", "open the door",
+        "free", "door"}},
+      {{"stop", "go", "left", "right", "turn around"},
+       {"start", "slow down", "jump", "light", "top", "what is this", "come back here", "up",
+        "around the house", "music"}},
+      {{"tea please", "a cup of coffee", "water", "orange juice", "nothing thanks"},
+       {"beer", "a glass of wine", "where is the station", "something else", "milk", "later please",
+        "coffee table", "apple pie", "thank you", "quarter"}},
+      {{"call anna", "call peter", "hang up", "play music", "volume up"},
+       {"call the police", "send a message", "hello", "turn on the light", "stop music",
+        "how are you", "volume down", "read my mail", "cancel", "anna"}},
+      {{"open", "close", "lock", "unlock"},
+       {"hope", "clothes", "look", "hello there", "what did you say", "paint it", "never mind",
+        "clock", "good evening", "fifteen"}},
+      {{"monday", "tuesday", "wednesday", "thursday", "friday"},
+       {"saturday", "sunday", "someday", "tomorrow", "next week", "february", "not today",
+        "i have no idea", "thirsty", "where are you"}},
+      {{"small", "medium", "large"},
+       {"tall", "huge", "the biggest one", "mall", "march", "pizza", "a little bit", "many",
+        "whatever", "excuse me"}},
+      {{"first page", "last page", "next", "previous", "exit"},
+       {"second page", "text", "exercise", "the end", "please wait", "go home", "fist", "nest",
+        "print it", "one more time"}},
+      {{"london", "paris", "berlin", "madrid", "rome"},
+       {"boston", "vienna", "room", "new york", "i am hungry", "how far is it", "merlin", "parents",
+        "tokyo", "good bye"}},
+      {{"pizza", "salad", "soup of the day", "fish and chips", "the bill please"},
+       {"pasta", "steak", "soap", "ship", "a table for two", "is it ready", "ballad", "piece",
+        "chicken and rice", "hurry up"}}};
+  return grammars;
+}
+
 const std::vector<std::string>& JapanesePhrases() {
   static const std::vector<std::string> phrases = {"おはよう ございます",
                                                    "こんにちは",

@@ -21,6 +21,13 @@ struct Speech {
 /// then but are not in it.
 const std::vector<std::string>& Phrases();
 const std::vector<std::string>& OtherSentences();
+/// What may be said at some place of a dialogue, and what else somebody says there: near misses and
+/// everyday words.
+struct SmallGrammar {
+  std::vector<std::string> inside{}, outside{};
+};
+/// 12 grammars of three to six phrases; by the first six the threshold of rejection was set.
+const std::vector<SmallGrammar>& SmallGrammars();
 /// 20 polite phrases of Japanese, written in kana, one word between blanks.
 const std::vector<std::string>& JapanesePhrases();
 

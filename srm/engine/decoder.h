@@ -33,8 +33,8 @@ struct Alternative {
 struct Hypothesis {
   std::string text{};  ///< words with blanks between; empty = nothing fits
   std::vector<HeardWord> words{};
-  /// How much worse than free phonemes the grammar fits, per 10 ms frame, in the engine's units;
-  /// above -20 where it is right, below -22 where something else was said.
+  /// How much worse than free phonemes the grammar fits, per 10 ms frame of speech, in the engine's
+  /// units, with an allowance for noise and length; mostly above kFitThreshold where it is right.
   double fit = 0;
   double confidence = 0;              ///< 0 to 1, from `fit`; 0.5 at the threshold
   std::vector<Alternative> others{};  ///< next best first; only if they were asked for
@@ -65,7 +65,7 @@ class SpeechDecoder {
 };
 inline constexpr std::size_t kMostAlternatives = 10;
 
-inline constexpr double kFitThreshold = -21.5;
+inline constexpr double kFitThreshold = -12;
 double ConfidenceOf(double fit);
 
 /// Hears single phrases in all that is said ("stop"), for interruptions.

@@ -15,6 +15,10 @@ Segment ReadSegment(ps_seg_t* seg) {
   return part;
 }
 
+bool IsFiller(const std::string& word) {
+  return word.empty() || word[0] == '<' || word[0] == '[' || word[0] == '+' || word == "SIL";
+}
+
 FreePhonemes::FreePhonemes(DecoderPtr decoder)
     : decoder_(std::move(decoder)), mean_(decoder_.get()) {}
 
@@ -45,12 +49,14 @@ bool FreePhonemes::Again(const std::vector<std::int16_t>& samples) {
 bool FreePhonemes::Read() {
   total_ = 0;
   by_frame_.clear();
+  silent_.clear();
   if (ps_get_hyp(decoder_.get(), &total_) == nullptr) return false;
   for (ps_seg_t* seg = ps_seg_iter(decoder_.get()); seg != nullptr; seg = ps_seg_next(seg)) {
     const Segment part = ReadSegment(seg);
     if (part.frames() <= 0) continue;
     const double each = part.score / part.frames();
     by_frame_.resize(static_cast<std::size_t>(part.last) + 1, each);
+    silent_.resize(by_frame_.size(), IsFiller(ps_seg_word(seg)));
   }
   return true;
 }
@@ -62,6 +68,11 @@ double FreePhonemes::Score(int first, int last) const {
     if (at < by_frame_.size()) sum += by_frame_[at];
   }
   return sum;
+}
+
+bool FreePhonemes::Silent(int frame) const {
+  const auto at = static_cast<std::size_t>(std::max(frame, 0));
+  return at >= silent_.size() || silent_[at];
 }
 
 }  // namespace srm

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "srm/engine/feature_mean.h"
@@ -17,6 +18,8 @@ struct Segment {
 };
 
 Segment ReadSegment(ps_seg_t* seg);
+/// A pause or a noise: what the engine puts between words.
+bool IsFiller(const std::string& word);
 
 /// The phonemes that fit best, whatever is said: what a grammar's fit is measured against. Its
 /// scores are told by frame.
@@ -33,6 +36,8 @@ class FreePhonemes {
   std::int32_t total() const { return total_; }
   /// The score of some frames, the last one included.
   double Score(int first, int last) const;
+  /// Whether a frame is taken for a pause or a noise.
+  bool Silent(int frame) const;
 
  private:
   bool Read();
@@ -41,6 +46,7 @@ class FreePhonemes {
   FeatureMean mean_;
   std::int32_t total_ = 0;
   std::vector<double> by_frame_;
+  std::vector<bool> silent_;  // as long
 };
 
 }  // namespace srm

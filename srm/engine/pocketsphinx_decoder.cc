@@ -5,6 +5,7 @@
 #include "ear/grammar/grammar_limits.h"
 #include "srm/engine/decoder.h"
 #include "srm/engine/feature_mean.h"
+#include "srm/engine/fit_allowance.h"
 #include "srm/engine/free_phonemes.h"
 #include "srm/engine/pocketsphinx_handle.h"
 #include "srm/engine/pronunciation.h"
@@ -100,11 +101,12 @@ class PocketsphinxDecoder final : public SpeechDecoder {
   }
 
   void Feed(std::span<const std::int16_t> samples) override {
-    const std::vector<std::int16_t> noisy = dither_.Add(samples);
+    const bool grammar = using_ == grammar_.get();
+    const std::vector<std::int16_t> noisy = (grammar ? room_ : dither_).Add(samples);
     ps_process_raw(using_, noisy.data(), noisy.size(), FALSE, FALSE);
     if (free_) free_->Feed(noisy);
     fed_ += samples.size();
-    if (using_ == grammar_.get() && fed_ <= kMostAgainFrames) {
+    if (grammar && fed_ <= kMostAgainFrames) {
       utterance_.insert(utterance_.end(), noisy.begin(), noisy.end());
     }
   }
@@ -119,6 +121,8 @@ class PocketsphinxDecoder final : public SpeechDecoder {
     ps_end_utt(using_);
     const bool free = free_ && free_->End();
     mean_.End();
+    const bool grammar = using_ == grammar_.get();
+    noise_ = grammar ? NoiseAllowance(Clearness(utterance_)) : kDictationAllowance;
     Hypothesis heard = Read(free);
     const double above = heard.fit - kFitThreshold;
     const bool doubtful = heard.text.empty() || (above < kDoubt && above > -kHopeless);
@@ -142,9 +146,12 @@ class PocketsphinxDecoder final : public SpeechDecoder {
   }
 
  private:
+  static constexpr double kLatticeScale = 1024;
+  static constexpr double kDictationAllowance = 15;  // its words are less than the best phonemes
+  static constexpr double kRoom = 1.0 / 290;         // 40 dB below speech
   static constexpr std::size_t kMostAgainFrames = 30u * 1000 * kFramesPerMs;
   /// What is looked at again: fits from so much below the threshold to so little above it.
-  static constexpr double kHopeless = 11, kDoubt = 4;
+  static constexpr double kHopeless = 12, kDoubt = 10;
   /// The better of two looks fits better by chance as well, also what is not in the grammar: that
   /// is taken off the second (docs/speech.md).
   static constexpr double kSecondLook = 5;
@@ -167,12 +174,29 @@ class PocketsphinxDecoder final : public SpeechDecoder {
     std::int32_t score = 0;
     const char* text = ps_get_hyp(using_, &score);
     if (text != nullptr) heard.text = Cleaned(text);
-    const double frames = std::max(1.0, static_cast<double>(fed_) / (kFramesPerMs * kFrameMs));
-    heard.fit = free ? (static_cast<double>(score) - free_->total()) / frames : 0;
+    heard.fit = free ? FitOfSpeech() : 0;
     heard.confidence = heard.text.empty() ? 0 : ConfidenceOf(heard.fit);
     ReadWords(heard, free);
+    const double frames = std::max(1.0, static_cast<double>(fed_) / (kFramesPerMs * kFrameMs));
     if (most_ > 1 && !heard.text.empty()) ReadOthers(heard, score, frames);
     return heard;
+  }
+
+  /// By frame, over those that one of the two takes for speech: pauses fit whatever is said. What
+  /// noise and brevity do to it is evened out.
+  double FitOfSpeech() {
+    double fit = 0;
+    int frames = 0;
+    for (ps_seg_t* seg = ps_seg_iter(using_); seg != nullptr; seg = ps_seg_next(seg)) {
+      const Segment part = ReadPart(seg);
+      const bool filler = IsFiller(ps_seg_word(seg));
+      for (int i = part.first; i <= part.last; ++i) {
+        if (filler && free_->Silent(i)) continue;
+        fit += part.score / part.frames() - free_->Score(i, i);
+        ++frames;
+      }
+    }
+    return fit / std::max(1, frames) + LengthAllowance(frames) + noise_;
   }
 
   /// The language model needs beams of its own: with those of a grammar it takes ten times as long.
@@ -229,13 +253,20 @@ class PocketsphinxDecoder final : public SpeechDecoder {
     return clean;
   }
 
+  /// The engine tells scores out of a lattice, which only dictation makes, 1024 times as large.
+  Segment ReadPart(ps_seg_t* seg) const {
+    Segment part = ReadSegment(seg);
+    if (using_ == dictation_.get()) part.score /= kLatticeScale;
+    return part;
+  }
+
   void ReadWords(Hypothesis& heard, bool free) {
     for (ps_seg_t* seg = ps_seg_iter(using_); seg != nullptr; seg = ps_seg_next(seg)) {
-      const Segment part = ReadSegment(seg);
+      const Segment part = ReadPart(seg);
       const std::string word = Cleaned(ps_seg_word(seg));
       if (word.empty() || word == ear::kNotUnderstood || part.frames() <= 0) continue;
       const double fit =
-          free ? (part.score - free_->Score(part.first, part.last)) / part.frames() : 0;
+          free ? (part.score - free_->Score(part.first, part.last)) / part.frames() + noise_ : 0;
       heard.words.push_back({word, Millis(part.first * kFrameMs),
                              Millis((part.last + 1) * kFrameMs), free ? ConfidenceOf(fit) : 1});
     }
@@ -264,9 +295,11 @@ class PocketsphinxDecoder final : public SpeechDecoder {
   const std::unique_ptr<FreePhonemes> free_;  // null = no rejection
   FeatureMean mean_;                          // of grammar_
   ps_decoder_t* using_ = nullptr;             // one of the two
+  Dither room_{kRoom};                        // for grammars; dictation hears worse with it
   Dither dither_;
   std::size_t fed_ = 0;
   std::vector<std::int16_t> utterance_;  // as it was fed; up to kMostAgainFrames
+  double noise_ = 0;                     // what is allowed to it
   std::size_t most_ = 1;
 };
 
@@ -287,7 +320,7 @@ vm::Result<std::unique_ptr<SpeechDecoder>> OpenPocketsphinx(const PocketsphinxOp
   if (options.rejection) {
     auto opened = OpenDecoder(
         options.model,
-        {{"-allphone_ci", "yes"}, {"-beam", "1e-10"}, {"-pbeam", "1e-10"}, {"-ds", "3"}});
+        {{"-allphone_ci", "yes"}, {"-beam", "1e-20"}, {"-pbeam", "1e-20"}, {"-ds", "1"}});
     if (!opened) return std::unexpected(opened.error());
     if (ps_set_allphone_file(opened->get(), kSearch, nullptr) != 0 ||
         ps_set_search(opened->get(), kSearch) != 0) {

@@ -5,6 +5,7 @@
 #include <sphinxbase/jsgf.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace srm {
 
@@ -52,11 +53,16 @@ void AddPhonemeWords(ps_decoder_t* decoder) {
 }
 
 std::vector<std::int16_t> Dither::Add(std::span<const std::int16_t> samples) {
+  constexpr double kLeast = 3;             // of 32768
+  constexpr double kForgetting = 0.99997;  // by sample: to a third within two seconds
   std::vector<std::int16_t> noisy(samples.begin(), samples.end());
   for (std::int16_t& sample : noisy) {
     state_ = state_ * 1664525u + 1013904223u;
-    const int noise = static_cast<int>(state_ >> 24) % 7 - 3;
-    sample = static_cast<std::int16_t>(std::clamp(sample + noise, -32768, 32767));
+    loudest_ = std::max(loudest_ * kForgetting, std::abs(static_cast<double>(sample)));
+    const double most = std::max(kLeast, room_ * loudest_);
+    const double noise = (static_cast<double>(state_ >> 8) / (1 << 23) - 1) * most;
+    const long sum = std::lround(sample + noise);
+    sample = static_cast<std::int16_t>(std::clamp(sum, -32768l, 32767l));
   }
   return noisy;
 }

@@ -37,9 +37,15 @@ void AddPhonemeWords(ps_decoder_t* decoder);
 /// A little noise over exact zeros, which the model's features cannot stand. Deterministic.
 class Dither {
  public:
+  /// `room`: the noise goes with the loudest of the last seconds, as its part of that. The model
+  /// has learned from people in rooms; sound from a program or a telephone may have none between
+  /// its words.
+  explicit Dither(double room = 0) : room_(room) {}
   std::vector<std::int16_t> Add(std::span<const std::int16_t> samples);
 
  private:
+  const double room_;
+  double loudest_ = 0;
   std::uint32_t state_ = 1;
 };
 

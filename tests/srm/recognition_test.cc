@@ -111,6 +111,47 @@ TEST_F(RecognitionTest, WhatIsNotInTheGrammarHasLittleConfidence) {
   EXPECT_LE(accepted, 1) << which;
 }
 
+TEST_F(RecognitionTest, NearMissesOfASmallGrammarAreRejected) {
+  const struct {
+    const char* grammar;
+    std::vector<const char*> inside, outside;
+  } cases[] = {
+      {"open | close | lock | unlock",
+       {"open", "close", "lock", "unlock"},
+       {"hope", "look", "hello there", "what did you say", "good evening", "fifteen"}},
+      {"small | medium | large",
+       {"small", "medium", "large"},
+       {"huge", "the biggest one", "pizza", "a little bit", "many", "excuse me"}},
+      {"pizza | salad | soup of the day | fish and chips | the bill please",
+       {"pizza", "salad", "soup of the day", "fish and chips", "the bill please"},
+       {"pasta", "steak", "a table for two", "is it ready", "chicken and rice", "hurry up"}}};
+  int lost = 0, rejected = 0, outside = 0;
+  std::string wrong;
+  for (const char* voice : {"rms", "kal16"}) {
+    for (const auto& each : cases) {
+      Use(each.grammar);
+      const auto accepted = [&](const char* phrase) {
+        const auto heard = Hear(Say(phrase, voice).samples);
+        const bool taken = !heard.text.empty() && heard.confidence >= 0.5;
+        wrong += std::string(voice) + ": " + phrase + (taken ? " taken for " : " rejected as ") +
+                 heard.text + " " + std::to_string(heard.fit) + "\n";
+        return taken;
+      };
+      for (const char* phrase : each.inside) lost += !accepted(phrase);
+      for (const char* phrase : each.outside) rejected += !accepted(phrase), ++outside;
+    }
+  }
+  EXPECT_EQ(lost, 0) << wrong;
+  EXPECT_GE(rejected * 10, outside * 8) << wrong;
+}
+
+TEST_F(RecognitionTest, WhatIsDictatedIsBelieved) {
+  ASSERT_TRUE(decoder_->Use({}));
+  const auto heard = Hear(Say("the doctor will be back soon").samples);
+  EXPECT_EQ(heard.text, "the doctor will be back soon");
+  EXPECT_GT(heard.confidence, 0.5);
+}
+
 TEST_F(RecognitionTest, WordsOutsideTheDictionaryArePronouncedByRule) {
   Use("hello galatea\nhello vocaloid\nhello 15");
   EXPECT_EQ(Hear(Say("hello vocaloid").samples).text, "hello vocaloid");
