@@ -13,6 +13,8 @@ usage: scripts/run_agent.sh [options]
   --script FILE      with --dialog: take the user's part from FILE instead of the keyboard; by default
                      DOC.txt beside DOC.vxml where a film is made
   --out FILE.mp4     make a film with sound instead of opening a window
+  --subtitles        with --dialog and --out: show what both say in the film; FILE.srt and FILE.vtt
+                     lie beside it in any case
   --photo PHOTO      wear the face of the person in PHOTO (docs/photo.md)
   --stub             use the voice without sound and engine (ssm_stub)
   --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
@@ -23,7 +25,7 @@ TEXT
 }
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script=""
+photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles=""
 fail() {
   echo "run_agent: $1" >&2
   exit 2
@@ -45,6 +47,7 @@ while [ $# -gt 0 ]; do
       shift 2
       ;;
     --stub) voice=ssm_stub; shift ;;
+    --subtitles) subtitles=1; shift ;;
     --help | -h) usage; exit 0 ;;
     *) usage >&2; fail "unknown option '$1'" ;;
   esac
@@ -60,6 +63,7 @@ case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in 
 [ -z "$script" ] || [ -r "$script" ] || fail "--script: cannot read '$script'"
 [ -z "$dialog" ] || [ -z "$say" ] || fail "--dialog and --say exclude each other"
 [ -z "$script" ] || [ -n "$dialog" ] || fail "--script needs --dialog"
+if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog and --out"; fi
 if [ -n "$dialog" ] && [ -n "$out" ] && [ -z "$script" ]; then
   script=${dialog%.*}.txt
   [ -r "$script" ] || fail "--out with --dialog needs the user's part: --script FILE (there is no '$script')"
@@ -182,6 +186,12 @@ if [ -n "$dialog" ]; then
   [ -z "$script" ] || options+=(--script "$script" --transcript text)
   [ -z "$out" ] || options+=(--out "$out")
   "$root/build/bin/task_manager" "$dialog" --connect "unix:$work/hub" "${options[@]}" || { cat "$work/hub.log" >&2; exit 1; }
+  if [ -n "$subtitles" ]; then
+    mv "$out" "$work/film.mp4"
+    cp "${out%.mp4}.srt" "$work/film.srt"
+    (cd "$work" && ffmpeg -v error -y -i film.mp4 -vf "subtitles=film.srt:force_style='Fontsize=16,MarginV=12'" \
+      -c:v libx264 -crf 16 -pix_fmt yuv420p -c:a copy -movflags +faststart "$out") </dev/null || fail "the subtitles could not be put into the film"
+  fi
   [ -z "$out" ] || echo "run_agent: wrote $out"
   exit 0
 fi

@@ -9,7 +9,7 @@ packages=(
   libssl-dev zlib1g-dev libmosquitto-dev
   libmozjs-102-dev libexpat1-dev libcurl4-openssl-dev libutf8proc-dev
   libeigen3-dev libopencv-imgproc-dev
-  libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev fonts-dejavu-core libgl-dev libpng-dev libjpeg-dev ffmpeg
+  libosmesa6-dev libegl-dev libglfw3-dev libimgui-dev fonts-dejavu-core fonts-vlgothic libgl-dev libpng-dev libjpeg-dev ffmpeg
   flite1-dev portaudio19-dev libsndfile1-dev
   libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic libhtsengine-dev
   libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev

@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "with a hub: a film of the whole dialogue, FILE.mp4");
   app.add_option("--sessions", options.sessions, "independent sessions of the same document")
       ->check(CLI::Range(1, 1000));
-  app.add_option("--allow", options.allow, "only fetch from these files, folders or URIs and what lies below");
+  app.add_option("--allow", options.allow,
+                 "only fetch from these files, folders or URIs and what lies below");
   app.add_option("--property", options.properties, "platform property, NAME=VALUE");
   app.add_option("--session-variable", options.variables, "e.g. connection.remote.uri=tel:123");
   app.add_option("--languages", options.languages,

@@ -9,6 +9,7 @@
 
 #include "task_manager/app/options.h"
 #include "task_manager/app/readable.h"
+#include "task_manager/app/subtitles.h"
 #include "task_manager/platform/agent_platform.h"
 
 namespace vxml {
@@ -41,9 +42,12 @@ int RunOne(const Options& options, int number, std::mutex& out) {
   }
   const bool json =
       options.transcript == "json" || (options.transcript == "auto" && !options.scripts.empty());
+  const Sides sides = options.scripts.empty() ? Sides::kAgent : Sides::kBoth;
+  Subtitles subtitles;
   platform_options.write = [&](const std::string& line) {
+    if (!options.out.empty()) subtitles.Add(line);
     if (options.transcript == "none") return;
-    const std::string text = json ? line : Readable(line);
+    const std::string text = json ? line : Readable(line, sides);
     const std::scoped_lock lock(out);
     if (!text.empty()) std::cout << text << std::endl;
   };
@@ -51,6 +55,7 @@ int RunOne(const Options& options, int number, std::mutex& out) {
   if (!options.out.empty()) {
     auto begun = hub.Ask("to @AM-MCL set Record = " + options.out, Millis(10'000));
     if (!begun) throw std::runtime_error("--out " + options.out + ": " + begun.error().text);
+    platform.StartTime();
   }
   SessionOptions session_options = MakeSessionOptions(options);
   if (!options.trace.empty() && options.sessions == 1) {
@@ -64,6 +69,10 @@ int RunOne(const Options& options, int number, std::mutex& out) {
   if (!options.out.empty()) {
     platform.Pause(Millis(700));
     auto made = hub.Ask("to @AM-MCL set Record = STOP", Millis(180'000));
+    if (made) {
+      if (auto written = subtitles.WriteBeside(options.out); !written)
+        made = std::unexpected(written.error());
+    }
     if (!made) throw std::runtime_error("--out " + options.out + ": " + made.error().text);
   }
   if (result.failed) return session.started() ? kFailed : kNotStarted;

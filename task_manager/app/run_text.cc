@@ -51,7 +51,9 @@ std::optional<Command> FromTerminal() {
 
 class Output {
  public:
-  explicit Output(const Options& options) : json_(options.transcript == "json") {
+  explicit Output(const Options& options)
+      : json_(options.transcript == "json"),
+        sides_(options.scripts.empty() ? Sides::kAgent : Sides::kBoth) {
     if (options.transcript == "auto") json_ = !options.scripts.empty();
     silent_ = options.transcript == "none";
     if (!options.transcript_file.empty()) {
@@ -68,13 +70,14 @@ class Output {
     if (json_) {
       out << line << "\n";
     } else {
-      const std::string text = Readable(line);
+      const std::string text = Readable(line, sides_);
       if (!text.empty()) out << text << "\n";
     }
   }
 
  private:
   bool json_;
+  Sides sides_;
   bool silent_ = false;
   std::ofstream file_;
 };

@@ -29,7 +29,10 @@ bool AgentPlatform::OnTyped(const std::string& line) {
     auto message = vm::ParseMessage("to @" + options_.ear + " set Input.text = " + line);
     if (!message) return false;
     ++typed_waiting_;
-    hub_.client().Request(*message, [this](const vm::Result<std::string>&) { --typed_waiting_; });
+    hub_.client().Request(*message, [this](const vm::Result<std::string>& taken) {
+      --typed_waiting_;
+      if (!taken) hub_.LetCutIn(HubLink::CutIn::kNext);
+    });
     return true;
   }
   auto command = ParseCommand(std::string_view(line).substr(1));
@@ -147,8 +150,7 @@ std::optional<Input> AgentPlatform::Taken() {
   heard_.pop_front();
   if (!mark_.empty()) {
     input.mark = mark_;
-    input.mark_time =
-        std::chrono::duration_cast<Millis>(std::chrono::steady_clock::now() - mark_at_);
+    input.mark_time = Now() - mark_at_;
   }
   return input;
 }
@@ -163,6 +165,7 @@ Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& l
   if (interrupts) Interrupt(*command, prompts, listen);
   Input input;
   input.kind = Input::Kind::kHangup;
+  hub_.LetCutIn(HubLink::CutIn::kNext);
   if (!Speaks(prompts, true)) return input;
   if (attends_) hub_.Send("to @" + options_.face + " set Gaze = 0 0");  // at the user
   if (interrupts && !interrupting_ && heard_.empty() && !hearing_) {    // a prompt without bargein
@@ -187,6 +190,7 @@ Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& l
     if (!hub_.WaitFor([&] { return ready() || hearing_; }, listen.timeout)) break;
     if (!ready()) hub_.WaitFor(ready, listen.max_speech);
   }
+  hub_.LetCutIn(HubLink::CutIn::kNone);
   if (auto taken = Taken()) {
     EndKeys(*taken, listen);
     return *taken;

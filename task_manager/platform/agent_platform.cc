@@ -68,6 +68,11 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
     std::from_chars(name.data() + 1, name.data() + name.size(), index);
     while (acted_ <= index && acted_ < actions_.size()) Act(acted_++);
   });
+  hub_.client().On("Speak.stat", [this](const vm::Message& m) {
+    if (m.from != options_.voice) return;
+    if (m.value == "SPEAKING" && !spoken_from_) spoken_from_ = Now();
+    if (m.value == "IDLE") spoken_to_ = Now();
+  });
   hub_.on_typed = [this](const std::string& line) { return OnTyped(line); };
   static_cast<void>(
       hub_.Ask("to @AM set Subscribe = " + ear + " " + options_.voice + " AM-MCL", kAnswer));
@@ -75,17 +80,41 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
   hub_.Send("to @" + ear + " set Grammar = NONE");
   static_cast<void>(hub_.Ask("to @" + ear + " set Run = START", kAnswer));
   has_sound_module_ = hub_.Ask("to @SND inq Slots", kSoundModule).has_value();
+  if (options_.script) hub_.WatchTime();
+  StartTime();
 }
 
 Millis AgentPlatform::Now() const {
-  return std::chrono::duration_cast<Millis>(std::chrono::steady_clock::now() - start_);
+  const auto machine = std::chrono::steady_clock::now().time_since_epoch();
+  return hub_.hub_time().value_or(std::chrono::duration_cast<Millis>(machine)) - zero_;
 }
 
+void AgentPlatform::StartTime() { zero_ += Now(); }
+
 void AgentPlatform::Report(std::string_view type, const JsonLine& fields) {
+  ReportAt(Now(), type, fields);
+}
+
+void AgentPlatform::ReportAt(Millis time, std::string_view type, const JsonLine& fields) {
   if (!options_.write) return;
   JsonLine head;
-  head.Number("t", static_cast<double>(Now().count())).Text("type", type).Add(fields);
+  head.Number("t", static_cast<double>(time.count())).Text("type", type).Add(fields);
+  if (saying_) return held_.push_back(head.str());
   options_.write(head.str());
+}
+
+void AgentPlatform::ReportSaid(const Prompt& prompt, bool cut) {
+  saying_ = false;
+  auto held = std::exchange(held_, {});
+  JsonLine line;
+  line.Text("text", prompt.text).Bool("bargein", prompt.bargein);
+  if (const auto feelings = prompt.Feelings(); !feelings.empty()) line.List("feelings", feelings);
+  if (options_.script && spoken_from_) {
+    line.Number(cut ? "heard_ms" : "ms", static_cast<double>((spoken_to_ - *spoken_from_).count()));
+  }
+  if (!prompt.text.empty()) ReportAt(spoken_from_.value_or(Now()), "prompt", line);
+  if (!options_.write) return;
+  for (const std::string& each : held) options_.write(each);
 }
 
 /// The prompt as one utterance: bookmarks where something else has to happen.
@@ -135,7 +164,7 @@ void AgentPlatform::Act(std::size_t index) {
   const std::string& action = actions_[index];
   if (action.starts_with("mark ")) {
     mark_ = action.substr(5);
-    mark_at_ = std::chrono::steady_clock::now();
+    mark_at_ = Now();
     JsonLine line;
     line.Text("name", mark_);
     return Report("mark", line);
@@ -218,9 +247,9 @@ void AgentPlatform::PlaySound(const Segment& segment, bool may_be_stopped) {
 
 /// Words in one utterance as far as no sound file stands between them.
 void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
-  JsonLine line;
-  line.Text("text", prompt.text).Bool("bargein", prompt.bargein);
-  if (!prompt.text.empty()) Report("prompt", line);
+  spoken_from_.reset();
+  saying_ = options_.script != nullptr;
+  if (!saying_) ReportSaid(prompt, false);
   StartParallel(prompt);
   bool cut = false;
   const auto stopped = [&] { return cut || (may_be_stopped && (hearing_ || !heard_.empty())); };
@@ -247,6 +276,7 @@ void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
     if (!stopped()) PlaySound(segment, may_be_stopped);
   }
   end_piece();
+  if (saying_) ReportSaid(prompt, cut);
 }
 
 bool AgentPlatform::Speaks(const std::vector<Prompt>& prompts, bool listening) {

@@ -22,8 +22,8 @@ namespace vxml {
 /// While listening the agent looks at the user and nods to what it hears; on long fetches it looks
 /// aside (property attention). Sound files are played by the voice. The ear keeps what is recorded,
 /// in a folder of the session's, so both have to see the same disk. There is no telephone:
-/// error.unsupported.transfer. Time is the hub's where a script drives the dialogue (films), else
-/// the machine's. Thread: the session's.
+/// error.unsupported.transfer. Time is the hub's where a script drives the dialogue (films) and the
+/// hub lets it be watched, else the machine's. Thread: the session's.
 class AgentPlatform final : public Platform {
  public:
   struct Options {
@@ -48,12 +48,16 @@ class AgentPlatform final : public Platform {
   void Fetching(const std::string& uri, bool begins) override;
   Millis Now() const override;
   void Report(std::string_view type, const JsonLine& fields) override;
+  /// From now on times are counted from this instant.
+  void StartTime();
   bool ran_out() const { return ran_out_; }
   /// Lets so much of the hub's time pass.
   void Pause(Millis time);
 
  private:
   void Say(const Prompt& prompt, bool may_be_stopped);
+  void ReportAt(Millis time, std::string_view type, const JsonLine& fields);
+  void ReportSaid(const Prompt& prompt, bool cut);
   bool Utter(const std::string& text, bool may_be_stopped);
   void PlaySound(const Segment& segment, bool may_be_stopped);
   void PlayFile(const std::string& file, bool may_be_stopped);
@@ -122,9 +126,14 @@ class AgentPlatform final : public Platform {
   bool hearing_ = false;           ///< somebody speaks
   bool ran_out_ = false;
   std::string mark_;
-  std::chrono::steady_clock::time_point mark_at_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point last_nod_ = start_;
+  Millis mark_at_{0};
+  /// With a script a prompt is reported when it was said, before what came meanwhile (held_).
+  std::optional<Millis> spoken_from_;
+  Millis spoken_to_{0};
+  bool saying_ = false;
+  std::vector<std::string> held_;
+  Millis zero_{0};  ///< where times are counted from
+  std::chrono::steady_clock::time_point last_nod_{};
 };
 
 }  // namespace vxml

@@ -161,11 +161,13 @@ void AgentPlatform::AwaitRecording(const RecordRequest& request) {
     }
     return !heard_.empty() || TypedOver();
   };
+  hub_.LetCutIn(HubLink::CutIn::kAll);
   if (heard_.empty() && !hearing_) hub_.TakeTyped();
   if (hub_.WaitFor([&] { return ready() || hearing_; }, request.listen.timeout) && !ready()) {
     const Millis most = request.max_time + request.final_silence + kAnswer;
     if (!hub_.WaitFor(ready, most)) EndUtterance();
   }
+  hub_.LetCutIn(HubLink::CutIn::kNone);
 }
 
 /// A key ends the recording if a grammar takes it, and any does with dtmfterm.

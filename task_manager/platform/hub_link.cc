@@ -6,6 +6,8 @@
 #include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
+#include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -36,9 +38,9 @@ struct HubLink::Channel {
     if (!endpoint) throw std::runtime_error("--connect: " + endpoint.error().text);
     std::optional<vm::Result<std::shared_ptr<vm::StreamPeer>>> called;
     vm::Connect(io, *endpoint, hub.credentials, vm::Framing::kLf, vm::Encoding::kUtf8,
-             [&called](vm::Result<std::shared_ptr<vm::StreamPeer>> given) {
-               called = std::move(given);
-             });
+                [&called](vm::Result<std::shared_ptr<vm::StreamPeer>> given) {
+                  called = std::move(given);
+                });
     while (!called && io.run_one() > 0) {
     }
     if (!called || !*called) {
@@ -59,7 +61,7 @@ HubLink::HubLink(const HubAddress& hub, const std::string& name, bool keyboard)
       std::make_unique<vm::Client>([this](std::string_view line) { Send(std::string(line)); });
   channel_->stream->Start(
       [this](vm::Result<std::string_view> line) {
-        if (line && listening_) client_->HandleLine(*line);
+        if (line && listening_) OnLine(*line);
       },
       [this](const vm::StreamEnd&) { gone_ = true; });
   channel_->stream->ResumeReading();
@@ -124,45 +126,77 @@ void HubLink::Pump(Millis limit) {
 
 /// A file cannot be waited for and never has to be.
 void HubLink::WaitForKeys() {
+  if (waits_for_keys_ || typed_lines_.size() >= kMostTyped) return;
   if (!channel_->keys.is_open()) {
     struct stat about {};
     keys_from_file_ = ::fstat(STDIN_FILENO, &about) == 0 && S_ISREG(about.st_mode);
     if (keys_from_file_) return;
     channel_->keys.assign(::dup(STDIN_FILENO));
   }
+  waits_for_keys_ = true;
   channel_->keys.async_wait(boost::asio::posix::stream_descriptor::wait_read,
                             [this](const boost::system::error_code& error) {
+                              waits_for_keys_ = false;
+                              const std::size_t waiting = typed_lines_.size();
                               // /dev/null cannot be waited for: nobody types.
-                              if (!error && ReadKeys()) WaitForKeys();
+                              const bool more = !error && ReadTyped();
+                              while (cut_in_ == CutIn::kAll && typed_lines_.size() > waiting)
+                                HandOver(waiting);
+                              if (cut_in_ == CutIn::kNext && waiting == 0) TakeTyped();
+                              if (more) WaitForKeys();
                             });
 }
 
-/// False at the end.
-bool HubLink::ReadMore() {
+bool HubLink::ReadTyped() {
   std::array<char, 65536> bytes{};
   const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-  if (n <= 0) return false;
-  typed_.append(bytes.data(), static_cast<std::size_t>(n));
-  typed_any_ = true;
-  return true;
+  if (n > 0) {
+    typed_.append(bytes.data(), static_cast<std::size_t>(n));
+    typed_any_ = true;
+  } else {
+    typed_end_ = typed_any_ || keys_from_file_ || ::isatty(STDIN_FILENO) == 1;
+    if (!typed_.empty()) typed_ += '\n';  // the last line may have no end
+  }
+  while (auto line = TakeLine(typed_)) typed_lines_.push_back(std::move(*line));
+  return n > 0;
 }
 
-bool HubLink::ReadKeys() {
-  const bool more = ReadMore();
-  if (!more) typed_end_ = typed_any_ || ::isatty(STDIN_FILENO) == 1;
-  while (auto line = TakeLine(typed_)) {
-    if (on_typed) on_typed(*line);
-  }
-  return more;
+bool HubLink::HandOver(std::size_t index) {
+  const std::string line = std::move(typed_lines_[index]);
+  typed_lines_.erase(typed_lines_.begin() + static_cast<std::ptrdiff_t>(index));
+  return on_typed && on_typed(line);
 }
 
 void HubLink::TakeTyped() {
-  while (keys_from_file_ && !typed_end_) {
-    auto line = TakeLine(typed_);
-    if (!line && ReadMore()) continue;
-    typed_end_ = !line && typed_.empty();
-    if (!line) line = std::exchange(typed_, "");  // the last one may have no end
-    if (on_typed && on_typed(*line)) return;
+  bool taken = false;
+  while (!taken && (!typed_lines_.empty() || (keys_from_file_ && !typed_end_))) {
+    if (typed_lines_.empty()) {
+      ReadTyped();
+    } else {
+      taken = HandOver(0);
+    }
+  }
+  if (taken && cut_in_ == CutIn::kNext) cut_in_ = CutIn::kNone;
+  while (cut_in_ == CutIn::kAll && !typed_lines_.empty() && typed_lines_[0].starts_with('/')) {
+    HandOver(0);
+  }
+  if (keyboard_ && channel_->keys.is_open() && !typed_end_) WaitForKeys();
+}
+
+bool HubLink::WatchTime() {
+  if (!Ask("to @AM set Flow = ON", Millis(5000))) return false;
+  if (!hub_time_) hub_time_ = Millis(0);
+  return true;
+}
+
+/// "# flow MS<tab>..." says when what comes next was said.
+void HubLink::OnLine(std::string_view line) {
+  constexpr std::string_view kFlow = "# flow ";
+  if (!line.starts_with(kFlow)) return client_->HandleLine(line);
+  double ms = 0;
+  const char* const end = line.data() + line.size();
+  if (std::from_chars(line.data() + kFlow.size(), end, ms).ec == std::errc()) {
+    hub_time_ = Millis(std::llround(ms));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -41,30 +42,51 @@ class HubLink {
   /// Nothing that comes is handed over any more: who asked for it goes before this link.
   void StopListening();
 
-  /// A typed line as it comes. False: there is nothing in it.
+  /// From now on hub_time() is known: the hub shows all that is said with its time. False if it
+  /// does not allow that.
+  bool WatchTime();
+  /// On the hub's clock, of what came last; nothing without WatchTime.
+  std::optional<Millis> hub_time() const { return hub_time_; }
+
+  /// A typed line. False: there is nothing in it.
   std::function<bool(const std::string& line)> on_typed;
-  /// Where standard input is a file, hands over its next line with something in it. A file has all
-  /// its lines at once, so they wait until somebody listens.
+  enum class CutIn {
+    kNone,  ///< what is typed waits
+    kNext,  ///< the next line typed is handed over at once; further ones wait
+    kAll,   ///< whatever is typed is handed over at once: what is said and keyed while recording
+  };
+  /// Lines that came before wait in any case.
+  void LetCutIn(CutIn may) { cut_in_ = may; }
+  /// Somebody listens: the line typed first of those that wait is handed over, if it has something
+  /// in it, with kAll also the commands (/...) right behind it. A file has all its lines at once,
+  /// typing ahead some; at most kMostTyped wait here.
   void TakeTyped();
   /// Typing is over: the file is read, a terminal's user ended it, or a pipe that had lines. From
   /// an empty standard input nothing was to be expected, the ear alone counts.
-  bool typed_end() const { return typed_end_; }
+  bool typed_end() const { return typed_end_ && typed_lines_.empty(); }
 
  private:
   void Pump(Millis limit);
+  void OnLine(std::string_view line);
   void WaitForKeys();
-  bool ReadKeys();  ///< false at the end
-  bool ReadMore();
+  bool ReadTyped();  ///< false at the end
+  /// Takes that line out of those that wait. False: there was nothing in it.
+  bool HandOver(std::size_t index);
 
   struct Channel;
+  static constexpr std::size_t kMostTyped = 1000;
   bool keyboard_;
   std::unique_ptr<Channel> channel_;
   bool keys_from_file_ = false;
+  bool waits_for_keys_ = false;
+  CutIn cut_in_ = CutIn::kNone;
   bool typed_any_ = false;
   bool typed_end_ = false;
   bool gone_ = false;
   bool listening_ = true;
-  std::string typed_;
+  std::string typed_;  ///< of a line that has no end yet
+  std::deque<std::string> typed_lines_;
+  std::optional<Millis> hub_time_;
   std::unique_ptr<vm::Client> client_;
 };
 

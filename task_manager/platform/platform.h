@@ -39,6 +39,8 @@ struct Prompt {
   bool bargein = true;
   bool hotword = false;
   std::optional<Millis> timeout;
+  /// What the face shows meanwhile (HAPPY, ...), each once, in order; without NEUTRAL.
+  std::vector<std::string> Feelings() const;
   /// True if there is more in it than commands and marks.
   bool Plays() const {
     for (const Segment& segment : segments) {

@@ -104,6 +104,9 @@ void TextPlatform::PlayUntil(const std::vector<Prompt>& prompts, Millis until) {
     line.Number("ms", static_cast<double>(length.count()));
     if (cut) line.Number("heard_ms", static_cast<double>((end - now_).count()));
     if (!prompt.language.empty()) line.Text("lang", prompt.language);
+    if (const auto feelings = prompt.Feelings(); !feelings.empty()) {
+      line.List("feelings", feelings);
+    }
     if (const auto audio = AudioList(prompt); !audio.empty()) line.List("audio", audio);
     line.Text("ssml", prompt.ssml);
     if (!prompt.text.empty() || length.count() > 0) Report("prompt", line);

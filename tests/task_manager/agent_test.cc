@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include "tests/support/certificates.h"
@@ -56,6 +58,21 @@ class AgentTest : public ::testing::Test {
 
 std::string Form(const std::string& content) {
   return "<vxml version=\"2.1\"><form>" + content + "</form></vxml>";
+}
+
+TEST(ExamplesTest, AreFoundWithoutFault) {
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(GALATEA_SOURCE_DIR "/examples/dialogs")) {
+    if (entry.path().extension() != ".vxml") continue;
+    ++count;
+    support::Process check({GALATEA_BIN_DIR "/task_manager", "--check", entry.path()});
+    const auto lines = check.ReadAll();
+    EXPECT_EQ(check.Wait(), 0) << entry.path();
+    ASSERT_EQ(lines.size(), 1U) << entry.path() << ": " << lines[0];
+    EXPECT_TRUE(lines[0].ends_with(": 0 errors, 0 warnings")) << lines[0];
+  }
+  EXPECT_GE(count, 6);
 }
 
 TEST_F(AgentTest, SpeaksHearsAndMovesTheFaceThroughTheHub) {
@@ -368,6 +385,44 @@ TEST_F(AgentTest, AFileOfTypedLinesIsTakenLineByLineAsTheDialogueListens) {
                                  (folder_ / "d.vxml") + "' --transcript json --connect 'unix:" +
                                  (folder_ / "hub") + "' < '" + (folder_ / "typed.txt") + "'"});
   EXPECT_TRUE(dialogue.Expect("true 42 false")) << dialogue.Seen() << dialogue.ErrorText();
+}
+
+TEST_F(AgentTest, LinesTypedBeforeTheDialogueListensWaitForIt) {
+  std::ofstream(folder_ / "d.vxml") << Form(
+      "<field name=\"a\" type=\"boolean\"><prompt bargein=\"false\">One?</prompt></field>"
+      "<field name=\"b\" type=\"digits\"><prompt>Two?</prompt></field>"
+      "<field name=\"c\" type=\"boolean\"><prompt>Three?</prompt></field>"
+      "<block><exit expr=\"a+' '+b+' '+c\"/></block>");
+  support::Process dialogue({GALATEA_BIN_DIR "/task_manager", folder_ / "d.vxml", "--connect",
+                             "unix:" + (folder_ / "hub"), "--transcript", "json"});
+  dialogue.WriteLine("yes");
+  dialogue.WriteLine("/dtmf 42#");
+  dialogue.WriteLine("no");
+  EXPECT_TRUE(dialogue.Expect("true 42 false")) << dialogue.Seen() << dialogue.ErrorText();
+}
+
+TEST_F(AgentTest, AScriptedDialogueIsToldOnTheHubsClock) {
+  const auto lines =
+      Talk(Form("<field name=\"f\" type=\"boolean\"><prompt>Do you <emotion type=\"HAPPY\">like"
+                "</emotion> it?</prompt></field>"),
+           "say yes\n");
+  ASSERT_GE(lines.size(), 3U);
+  const auto number = [](const std::string& line, const std::string& name) {
+    const std::size_t at = line.find("\"" + name + "\":");
+    return at == std::string::npos ? -1.0 : std::atof(line.c_str() + at + name.size() + 3);
+  };
+  const auto line_of = [&](const std::string& type) {
+    const auto found = std::ranges::find_if(lines, [&](const std::string& line) {
+      return line.find("\"type\":\"" + type + "\"") != std::string::npos;
+    });
+    return found == lines.end() ? std::string() : *found;
+  };
+  const std::string prompt = line_of("prompt"), result = line_of("result");
+  EXPECT_NE(prompt.find("\"feelings\":[\"HAPPY\"]"), std::string::npos) << prompt;
+  EXPECT_GT(number(prompt, "ms"), 300) << prompt;
+  // The ear's stand-in answers half a second after the prompt, and speaks a quarter of a second.
+  EXPECT_GE(number(result, "t"), number(prompt, "t") + number(prompt, "ms") + 500) << result;
+  EXPECT_LE(number(result, "t"), number(prompt, "t") + number(prompt, "ms") + 3000) << result;
 }
 
 TEST_F(AgentTest, AKeyEndsARecordingInTheMiddle) {
