@@ -140,11 +140,7 @@ vm::Result<Loose> ReadLoosely(const std::string& uri, fetch::Fetcher& fetcher) {
   if (!IsEmotionMl(*loose.document.root)) {
     loose.document.passed_over = DropForeign(*loose.document.root);
   }
-  for (const auto& child : loose.document.root->children) {
-    if (child->IsElement("form") || child->IsElement("menu")) {
-      loose.document.dialogs.push_back(child.get());
-    }
-  }
+  loose.document.FindDialogs();
   const vm::xml::Node& root = *loose.document.root;
   loose.findings = IsEmotionMl(root) ? CheckEmotionMl(root) : CheckDocument(loose.document);
   return loose;

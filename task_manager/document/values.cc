@@ -1,6 +1,7 @@
 #include "task_manager/document/values.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "task_manager/document/schema.h"
 #include "vm_protocol/xml/node.h"
@@ -55,6 +56,20 @@ bool IsTimeDesignation(std::string_view text) {
   const std::string_view number = text.substr(0, unit);
   if (number == "." || std::count(number.begin(), number.end(), '.') > 1) return false;
   return text.substr(unit) == "s" || text.substr(unit) == "ms";
+}
+
+std::optional<std::chrono::milliseconds> ParseTime(std::string_view text) {
+  using std::chrono::milliseconds;
+  text = vm::xml::Trim(text);
+  if (text.starts_with("+")) text.remove_prefix(1);
+  double number = 0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc() || number < 0 || number > 1e9) return {};
+  const std::string_view unit(read.ptr,
+                              static_cast<std::size_t>(text.data() + text.size() - read.ptr));
+  if (unit == "s") return milliseconds(static_cast<long long>(number * 1000 + 0.5));
+  if (unit == "ms") return milliseconds(static_cast<long long>(number + 0.5));
+  return {};
 }
 
 std::string WrongValue(std::string_view element, std::string_view attribute,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,5 +14,8 @@ std::string WrongValue(std::string_view element, std::string_view attribute,
 
 /// Digits, perhaps with a fraction, then "s" or "ms" (VoiceXML 2.0 section 6.5).
 bool IsTimeDesignation(std::string_view text);
+
+/// What a time designation says ("5s", "250ms", "1.5s", "+2s"); none if it is none.
+std::optional<std::chrono::milliseconds> ParseTime(std::string_view text);
 
 }  // namespace vxml

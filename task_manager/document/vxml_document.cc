@@ -1,5 +1,7 @@
 #include "task_manager/document/vxml_document.h"
 
+#include <algorithm>
+
 #include "task_manager/document/emotionml.h"
 #include "task_manager/fetch/uri.h"
 #include "task_manager/grammar/xml_rules.h"
@@ -26,6 +28,14 @@ void DropForeign(vm::xml::Node& node, std::vector<Finding>& dropped) {
     return true;
   });
   for (const auto& child : node.children) DropForeign(*child, dropped);
+}
+
+/// Whether a form or menu has grammars that are active in the whole document.
+bool ReachesDocument(const vm::xml::Node& dialog) {
+  return dialog.Get("scope") == "document" ||
+         std::ranges::any_of(dialog.children, [](const auto& child) {
+           return child->IsElement("grammar") && child->Get("scope") == "document";
+         });
 }
 
 void CollectProperties(const vm::xml::Node& node, VxmlDocument& into) {
@@ -59,11 +69,18 @@ const std::string* VxmlDocument::FindProperty(const vm::xml::Node& element,
   return found == of_element->second.end() ? nullptr : &found->second;
 }
 
-const vm::xml::Node* VxmlDocument::FindDialog(const std::string& id) const {
-  for (const vm::xml::Node* dialog : dialogs) {
-    if (dialog->Get("id") == id) return dialog;
+void VxmlDocument::FindDialogs() {
+  for (const auto& child : root->children) {
+    if (!child->IsElement("form") && !child->IsElement("menu")) continue;
+    dialogs.push_back(child.get());
+    dialogs_by_id.emplace(child->Get("id"), child.get());
+    if (ReachesDocument(*child)) dialogs_of_document_scope.push_back(child.get());
   }
-  return nullptr;
+}
+
+const vm::xml::Node* VxmlDocument::FindDialog(const std::string& id) const {
+  const auto found = dialogs_by_id.find(id);
+  return found == dialogs_by_id.end() ? nullptr : found->second;
 }
 
 vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
@@ -84,10 +101,7 @@ vm::Result<std::shared_ptr<VxmlDocument>> LoadDocument(std::string_view bytes,
       application && !application->empty()) {
     document->application = fetch::WithoutFragment(fetch::Resolve(document->base, *application));
   }
-  for (const auto& child : root.children) {
-    if (child->IsElement("form") || child->IsElement("menu"))
-      document->dialogs.push_back(child.get());
-  }
+  document->FindDialogs();
   CollectProperties(root, *document);
   for (const Finding& finding : CheckDocument(*document)) {
     if (finding.severity == Finding::Severity::kError) {

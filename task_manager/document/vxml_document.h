@@ -30,12 +30,17 @@ struct VxmlDocument {
   std::string language;
   std::string version;
   std::unique_ptr<vm::xml::Node> root;
-  std::vector<const vm::xml::Node*> dialogs;  ///< forms and menus in document order
+  std::vector<const vm::xml::Node*> dialogs;                  ///< forms and menus in document order
+  std::map<std::string, const vm::xml::Node*> dialogs_by_id;  ///< the first of each id
+  /// Those with grammars that are active in the whole document.
+  std::vector<const vm::xml::Node*> dialogs_of_document_scope;
   std::vector<Finding> passed_over;  ///< elements of foreign namespaces, which root has not
 
   /// The last value of each <property>, by the element it stands in.
   std::map<const vm::xml::Node*, std::map<std::string, std::string>> properties;
 
+  /// Sets the three lists of dialogs by what is in `root`.
+  void FindDialogs();
   /// What a <property> directly inside the element says, or null.
   const std::string* FindProperty(const vm::xml::Node& element, const std::string& name) const;
   /// The form or menu of that id, or null.

@@ -1,51 +1,32 @@
 #include "task_manager/interpreter/dialog_session.h"
 
-#include "task_manager/interpreter/scope_guard.h"
+#include <map>
+#include <utility>
 
 namespace vxml {
 
-using script::Value;
-
 DialogSession::DialogSession(SessionOptions options, Platform& platform)
-    : options_(std::move(options)),
-      platform_(platform),
-      fetcher_(options_.fetch),
-      engine_(options_.script),
-      budget_(options_.max_steps_between_inputs, options_.max_time_between_inputs) {
-  grammars_ = std::make_unique<srgs::GrammarStore>(
-      [this](const std::string& uri) -> vm::Result<std::string> {
-        fetch::Request request = FetchOptions(Here(), "grammar");
-        request.uri = uri;
-        request.from.clear();  // the store has judged who asks
-        auto got = fetcher_.Fetch(request);
-        if (!got) return std::unexpected(static_cast<vm::Error>(got.error()));
-        return std::move(got->body);
-      });
-}
-
-DialogSession::~DialogSession() = default;
+    : rt_(std::move(options), platform),
+      queue_(rt_),
+      documents_(rt_, queue_),
+      grammars_(rt_, documents_),
+      prompts_(rt_, documents_, queue_),
+      recognition_(rt_, queue_),
+      content_(rt_, documents_, queue_, prompts_),
+      events_(rt_, content_, prompts_),
+      process_(rt_, documents_, recognition_, content_),
+      collect_(rt_, documents_, grammars_, queue_, recognition_, content_, process_,
+               [this](Transition start) { RunSubdialog(std::move(start)); }),
+      forms_(rt_, prompts_, content_, events_, collect_, process_) {}
 
 SessionResult DialogSession::Run() {
   SessionResult result;
-  Context nowhere;
-  nowhere.document = std::make_shared<VxmlDocument>();
-  nowhere.document->root = std::make_unique<vm::xml::Node>();
-  nowhere.document->uri = nowhere.document->base = options_.uri;
-  nowhere.root = nowhere.document;
-  nowhere.application = nowhere.variables = engine_.NewScope();
-  nowhere.names = engine_.NewScope();
   try {
-    context_ = &nowhere;
-    budget_.Renew();
-    MakeSessionScope();
-    Transition start = Locate(*nowhere.document->root, options_.uri, "document");
-    start.same_document = false;
-    RunContext(std::move(start));
-    FinishPrompts();
+    Start();
+    queue_.Finish();
     result.reason = "end";
   } catch (const ExitSession& exit) {
-    context_ = context_ ? context_ : &nowhere;
-    FinishPrompts();
+    queue_.Finish();
     result.reason = exit.reason;
     result.value_json = exit.value_json;
     result.failed = exit.reason.starts_with("error");
@@ -54,25 +35,15 @@ SessionResult DialogSession::Run() {
     result.failed = true;
     JsonLine line;
     line.Text("name", event.name).Text("message", event.message);
-    platform_.Report("event", line);
+    rt_.platform.Report("event", line);
   }
   JsonLine line;
   line.Text("reason", result.reason).Raw("value", result.value_json);
-  platform_.Report("exit", line);
+  rt_.platform.Report("exit", line);
   return result;
 }
 
-/// At the end what is still queued is played (VoiceXML 2.0 section 4.1.8).
-void DialogSession::FinishPrompts() {
-  try {
-    if (!hung_up_ && !disconnected_) Flush();
-  } catch (const EventThrown&) {
-    queue_.clear();
-  }
-}
-
-void DialogSession::MakeSessionScope() {
-  session_scope_ = engine_.NewScope();
+void DialogSession::Start() {
   std::map<std::string, std::string> variables = {{"connection.local.uri", "galatea:agent"},
                                                   {"connection.remote.uri", "galatea:user"},
                                                   {"connection.protocol.name", "galatea"},
@@ -80,67 +51,52 @@ void DialogSession::MakeSessionScope() {
                                                   {"connection.originator", "connection.remote"},
                                                   {"connection.aai", ""},
                                                   {"connection.redirect", ""}};
-  for (const auto& [name, value] : options_.session_variables) variables[name] = value;
-  for (const auto& [path, text] : variables) {
-    Value at = session_scope_;
-    std::size_t from = 0;
-    for (std::size_t dot; (dot = path.find('.', from)) != std::string::npos; from = dot + 1) {
-      const std::string part = path.substr(from, dot - from);
-      if (!engine_.Has(at, part)) engine_.Set(at, part, engine_.Object());
-      at = engine_.Get(at, part);
-    }
-    engine_.Set(at, path.substr(from), engine_.String(text));
-  }
-  const Value connection = engine_.Get(session_scope_, "connection");
-  if (engine_.ToString(engine_.Get(connection, "originator")) == "connection.remote") {
-    engine_.Set(connection, "originator", engine_.Get(connection, "remote"));
-  }
-  if (engine_.ToString(engine_.Get(connection, "redirect")).empty()) {
-    engine_.Set(connection, "redirect", engine_.Undefined());
-  }
-  engine_.Freeze(connection);
-  engine_.Freeze(session_scope_);
+  for (const auto& [name, value] : rt_.options.session_variables) variables[name] = value;
+  rt_.budget.Renew();
+  rt_.scopes.MakeSession(variables);
+  // The first document is referred to from an empty one that stands at its place.
+  auto nowhere = std::make_shared<VxmlDocument>();
+  nowhere->root = std::make_unique<vm::xml::Node>();
+  nowhere->uri = nowhere->base = rt_.options.uri;
+  rt_.position.document = rt_.position.root = nowhere;
+  Transition start = documents_.Locate(*nowhere->root, rt_.options.uri);
+  start.same_document = false;
+  RunDialogs(std::move(start));
 }
 
-/// Runs dialogs until one ends without naming the next.
-void DialogSession::RunContext(Transition start) {
-  Context context;
-  Context* outer = context_;
-  if (outer) {
-    context.is_subdialog = subdialogs_ > 0;
-    if (context.is_subdialog) context.parameters = std::move(outer->parameters);
+void DialogSession::RunSubdialog(Transition start) {
+  if (subdialogs_ >= rt_.options.max_subdialogs) {
+    ThrowEvent("error.noresource",
+               "subdialogs nested deeper than " + std::to_string(rt_.options.max_subdialogs));
   }
-  Dialog* outer_dialog = std::exchange(dialog_, nullptr);
-  Item* outer_item = std::exchange(scope_item_, nullptr);
-  const vm::xml::Node* outer_node = std::exchange(active_node_, nullptr);
-  auto outer_anonymous = std::exchange(anonymous_, {});
-  const bool outer_in_handler = std::exchange(in_handler_, false);
-  struct Restore {
-    std::function<void()> back;
-    ~Restore() { back(); }
-  } restore{[&] {
-    context_ = outer;
-    dialog_ = outer_dialog;
-    scope_item_ = outer_item;
-    active_node_ = outer_node;
-    anonymous_ = std::move(outer_anonymous);
-    in_handler_ = outer_in_handler;
-  }};
-  context_ = &context;
-  Transition next = std::move(start);
+  struct Context {
+    DialogSession& session;
+    Position position = std::exchange(session.rt_.position, {});
+    Scopes::Frame scopes = session.rt_.scopes.Exchange({});
+    explicit Context(DialogSession& its) : session(its) { ++session.subdialogs_; }
+    ~Context() {
+      session.rt_.position = std::move(position);
+      session.rt_.scopes.Exchange(std::move(scopes));
+      --session.subdialogs_;
+    }
+  } const context(*this);
+  rt_.position.in_subdialog = true;
+  RunDialogs(std::move(start));
+}
+
+void DialogSession::RunDialogs(Transition next) {
   while (true) {
     try {
-      dialog_ = nullptr;
-      scope_item_ = nullptr;
-      active_node_ = nullptr;
-      anonymous_.clear();
+      rt_.position.dialog = nullptr;
+      rt_.position.item = nullptr;
+      rt_.position.element = nullptr;
+      rt_.scopes.LeaveDialog();
       try {
         Enter(next);
       } catch (const EventThrown& event) {
-        HandleEvent(event, nullptr);
+        events_.Handle(event, nullptr);
       }
-      if (!next.dialog) return;
-      RunDialog(*next.dialog, next.carried);
+      if (next.dialog) forms_.Run(next);
       return;
     } catch (Transition& transition) {
       next = std::move(transition);
@@ -151,56 +107,35 @@ void DialogSession::RunContext(Transition start) {
   }
 }
 
-void DialogSession::Enter(Transition& transition) {
+void DialogSession::Enter(const Transition& to) {
   JsonLine line;
-  line.Text("document", transition.document->uri)
-      .Text("dialog", transition.dialog ? transition.dialog->Get("id") : "")
-      .Bool("same_document", transition.same_document);
-  Trace("enter", line);
-  if (transition.same_document && context_->document == transition.document) return;
-  EnterApplication(transition);
-  const bool is_root = transition.document == transition.root;
-  context_->document = transition.document;
-  if (is_root) {
-    context_->variables = context_->application;
-    engine_.Set(context_->names, "document", context_->variables);
-    return;
-  }
-  context_->variables = engine_.NewScope();
-  engine_.Set(context_->names, "document", context_->variables);
-  InitDocument(*context_->document, context_->variables);
+  line.Text("document", to.document->uri)
+      .Text("dialog", to.dialog ? to.dialog->Get("id") : "")
+      .Bool("same_document", to.same_document);
+  rt_.Trace("enter", line);
+  if (!to.same_document || rt_.position.document != to.document) EnterDocument(to);
 }
 
-/// The application's variables stay while its root stays (VoiceXML 2.0 section 1.5.2).
-void DialogSession::EnterApplication(const Transition& transition) {
-  const bool stays =
-      context_->root && context_->root->uri == transition.root->uri &&
-      context_->application.valid() && !transition.fresh_application &&
-      (context_->document != context_->root || transition.document != transition.root);
-  if (stays) {
-    return;
+void DialogSession::EnterDocument(const Transition& to) {
+  Position& at = rt_.position;
+  // The application's variables stay while its root stays (VoiceXML 2.0 section 1.5.2).
+  const bool stays = at.root && at.root->uri == to.root->uri && rt_.scopes.HasApplication() &&
+                     !to.fresh_application && (at.document != at.root || to.document != to.root);
+  if (!stays) {
+    at.root = at.document = to.root;
+    rt_.scopes.EnterApplication();
+    InitDocument(*to.root);
   }
-  context_->root = transition.root;
-  context_->document = transition.root;
-  context_->names = engine_.NewScope();
-  context_->application = engine_.NewScope();
-  context_->variables = context_->application;
-  engine_.SetReadOnly(context_->names, "session", session_scope_);
-  engine_.SetReadOnly(context_->names, "application", context_->application);
-  engine_.Set(context_->names, "document", context_->application);
-  InitDocument(*transition.root, context_->application);
+  at.document = to.document;
+  const bool is_root = to.document == to.root;
+  rt_.scopes.EnterDocument(is_root);
+  if (!is_root) InitDocument(*to.document);
 }
 
-void DialogSession::InitDocument(const VxmlDocument& document, const Value& scope) {
-  static_cast<void>(scope);  // the innermost scope while no dialog runs
+void DialogSession::InitDocument(const VxmlDocument& document) {
   for (const auto& child : document.root->children) {
-    if (!child->IsElement()) continue;
-    if (child->name == "var" || child->name == "script" || child->name == "data") {
-      active_node_ = child.get();
-      RunElement(*child);
-    }
+    if (ExecutableContent::IsInitial(*child)) content_.RunElement(*child);
   }
-  active_node_ = nullptr;
 }
 
 }  // namespace vxml

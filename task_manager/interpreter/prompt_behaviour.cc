@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "task_manager/interpreter/dialog_session.h"
 #include "task_manager/interpreter/prompt_builder.h"
+#include "task_manager/interpreter/prompt_writer.h"
 
 namespace vxml {
 
@@ -11,13 +11,10 @@ namespace vxml {
 void PromptBuilder::Emotion(const vm::xml::Node& node) {
   std::optional<Feeling> feeling = ReadFeeling(node);
   if (!feeling) {
-    if (s_.options_.strict_markup) {
+    if (rt_.options.strict_markup) {
       ThrowEvent("error.unsupported.emotion", "emotion '" + node.Get("type") + "' is not known");
     }
-    JsonLine line;
-    line.Text("text", "unknown emotion, NEUTRAL is shown")
-        .Number("line", static_cast<double>(node.line));
-    s_.Trace("warning", line);
+    rt_.Warn("unknown emotion, NEUTRAL is shown", node.line);
     feeling = Feeling{};
   }
   if (feeling->on_face) Command(FaceCommand(*feeling), Millis(0), false);
@@ -39,7 +36,7 @@ void PromptBuilder::Media(const vm::xml::Node& node) {
     if (!child->IsElement()) continue;
     std::vector<std::string> lines;
     if (child->name == "native") {
-      lines = s_.NativeLines(*child);
+      lines = NativeLines(rt_, *child);
     } else if (child->name == "emotion") {
       lines.push_back(FaceCommand(ReadFeeling(*child).value_or(Feeling{})));
     } else {
@@ -104,10 +101,7 @@ void PromptBuilder::PlaceDeferred() {
     } else if (number(each.start)) {
       at = 0;  // seconds from the beginning of the prompt
     } else {
-      JsonLine line;
-      line.Text("text", "start '" + each.start + "' refers to nothing in the prompt");
-      line.Number("line", static_cast<double>(each.line));
-      s_.Trace("warning", line);
+      rt_.Warn("start '" + each.start + "' refers to nothing in the prompt", each.line);
     }
     const Millis wait(static_cast<long long>(std::clamp(seconds, 0.0, 600.0) * 1000));
     placed.push_back({at, {Segment::Kind::kCommand, each.command, wait, "", false, ""}});

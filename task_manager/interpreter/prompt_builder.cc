@@ -1,11 +1,12 @@
 #include "task_manager/interpreter/prompt_builder.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "task_manager/document/values.h"
 #include "task_manager/fetch/uri.h"
-#include "task_manager/interpreter/choice_keys.h"
-#include "task_manager/interpreter/dialog_session.h"
-#include "task_manager/interpreter/scope_guard.h"
+#include "task_manager/interpreter/choices.h"
+#include "task_manager/interpreter/prompt_writer.h"
 
 namespace vxml {
 
@@ -14,12 +15,12 @@ using script::Value;
 void PromptBuilder::Add(const vm::xml::Node& node) {
   if (node.IsText()) return Words(node.text);
   if (!node.IsElement()) return;
-  s_.Step();
+  rt_.budget.Step();
   const std::string& name = node.name;
   if (name == "prompt") return AddChildren(node);
   if (name == "value") {
-    const Value value = s_.Evaluate(node, node.Get("expr"));
-    return s_.IsRecording(value) ? Audio(node, value) : Words(s_.engine_.ToString(value));
+    const Value value = rt_.scopes.Evaluate(node, node.Get("expr"));
+    return IsRecording(rt_.engine, value) ? Audio(node, value) : Words(rt_.engine.ToString(value));
   }
   if (name == "audio") return Audio(node);
   if (name == "enumerate") return Enumerate(node);
@@ -28,7 +29,7 @@ void PromptBuilder::Add(const vm::xml::Node& node) {
   if (name == "mark" || name == "sync") return Mark(node);
   if (name == "emotion") return Emotion(node);
   if (name == "native") {
-    for (const std::string& line : s_.NativeLines(node)) {
+    for (const std::string& line : NativeLines(rt_, node)) {
       Command(line, Millis(0), false);
       prompt_.segments.back().native = true;
     }
@@ -40,7 +41,7 @@ void PromptBuilder::Add(const vm::xml::Node& node) {
       name == "category" || name == "dimension" || name == "intensity" || name == "lookup") {
     return;
   }
-  if (const std::string* language = node.Find("xml:lang")) s_.RequireLanguage(*language);
+  if (const std::string* language = node.Find("xml:lang")) rt_.RequireLanguage(*language);
   Speech(node);
 }
 
@@ -71,7 +72,7 @@ void PromptBuilder::EndWords() {
   Segment segment;
   segment.text = text;
   segment.language = prompt_.language;
-  if (s_.Property("emotionspeak") == "true") {
+  if (rt_.properties.Is("emotionspeak", "true")) {
     const auto felt = std::find_if(feelings_.rbegin(), feelings_.rend(),
                                    [](const Feeling& it) { return it.in_voice; });
     if (felt != feelings_.rend()) segment.emotion = felt->type;
@@ -115,23 +116,23 @@ void PromptBuilder::Speech(const vm::xml::Node& node) {
 
 void PromptBuilder::Audio(const vm::xml::Node& node) {
   if (const std::string* expression = node.Find("expr")) {
-    const Value value = s_.Evaluate(node, *expression);
-    if (s_.engine_.IsUndefined(value)) return;  // section 4.1.3: nothing at all
+    const Value value = rt_.scopes.Evaluate(node, *expression);
+    if (rt_.engine.IsUndefined(value)) return;  // section 4.1.3: nothing at all
     return Audio(node, value);
   }
   Audio(node, node.Get("src"));
 }
 
 void PromptBuilder::Audio(const vm::xml::Node& node, const Value& value) {
-  if (!s_.engine_.IsObject(value)) return Audio(node, s_.engine_.ToString(value));
-  const std::string uri = s_.engine_.ToString(s_.engine_.Get(value, "uri"));
+  if (!rt_.engine.IsObject(value)) return Audio(node, rt_.engine.ToString(value));
+  const std::string uri = rt_.engine.ToString(rt_.engine.Get(value, "uri"));
   Audio(node, uri.empty() ? "recording:" : uri);
 }
 
 void PromptBuilder::Audio(const vm::xml::Node& node, const std::string& source) {
   if (source.empty()) return AddChildren(node);
   const std::string uri =
-      source.starts_with("recording:") ? source : fetch::Resolve(s_.BaseOf(node), source);
+      source.starts_with("recording:") ? source : fetch::Resolve(rt_.position.BaseOf(node), source);
   std::shared_ptr<const std::string> sound;
   if (!Exists(node, uri, sound)) return AddChildren(node);
   EndWords();
@@ -142,13 +143,9 @@ void PromptBuilder::Audio(const vm::xml::Node& node, const std::string& source) 
 bool PromptBuilder::Exists(const vm::xml::Node& node, const std::string& uri,
                            std::shared_ptr<const std::string>& sound) {
   if (uri.starts_with("recording:") || uri.starts_with("builtin:")) return true;
-  fetch::Request request = s_.FetchOptions(node, "audio");
+  fetch::Request request = documents_.RequestFor(node, "audio");
   request.uri = uri;
-  auto got = s_.fetcher_.Fetch(request);
-  JsonLine line;
-  line.Text("uri", uri).Text("kind", "audio").Bool("ok", got.has_value());
-  if (!got) line.Text("error", got.error().text);
-  s_.Trace("fetch", line);
+  auto got = documents_.FetchSilently(request, "audio");
   if (got && !uri.starts_with("file:")) {
     sound = std::make_shared<const std::string>(std::move(got->body));
   }
@@ -157,53 +154,34 @@ bool PromptBuilder::Exists(const vm::xml::Node& node, const std::string& uri,
 
 /// The choices of the menu or the options of the field, with their keys.
 void PromptBuilder::Enumerate(const vm::xml::Node& node) {
-  const vm::xml::Node* owner = s_.scope_item_ ? s_.scope_item_->node : nullptr;
-  const bool menu = owner && owner->name == "menu";
-  const bool field = owner && owner->name == "field" && owner->FirstElement("option");
-  if (!menu && !field) {
-    ThrowSemantic(*s_.context_->document, node, "<enumerate> without choices or options");
-  }
-  const auto keys = menu ? ChoiceKeys(*owner) : std::map<const vm::xml::Node*, std::string>{};
-  bool own_template = false;
-  for (const auto& child : node.children) {
-    own_template = own_template || child->IsElement() || !vm::xml::IsBlank(child->text);
-  }
-  for (const auto& child : owner->children) {
-    if (!child->IsElement(menu ? "choice" : "option")) continue;
-    std::string phrase;
-    for (const auto& part : child->children) {
-      if (!part->IsElement("grammar")) phrase += part->IsText() ? part->text : part->Text();
-    }
-    phrase = vm::xml::Collapse(phrase);
-    const auto key = keys.find(child.get());
-    const std::string dtmf = menu ? (key == keys.end() ? "" : key->second) : child->Get("dtmf");
+  const vm::xml::Node* owner = rt_.position.item ? rt_.position.item->node : nullptr;
+  const bool known =
+      owner && (owner->name == "menu" || (owner->name == "field" && owner->FirstElement("option")));
+  if (!known) rt_.position.ThrowSemantic(node, "<enumerate> without choices or options");
+  const bool own_template = std::ranges::any_of(node.children, [](const auto& child) {
+    return child->IsElement() || !vm::xml::IsBlank(child->text);
+  });
+  for (const Choice& choice : ChoicesOf(*owner)) {
     if (!own_template) {
-      Words(" " + phrase + (dtmf.empty() ? "" : ", " + dtmf) + ";");
+      Words(" " + choice.phrase + (choice.keys.empty() ? "" : ", " + choice.keys) + ";");
       continue;
     }
-    DialogSession::ScopeGuard guard(s_);
-    s_.engine_.Set(guard.scope(), "_prompt", s_.engine_.String(phrase));
-    s_.engine_.Set(guard.scope(), "_dtmf", s_.engine_.String(dtmf));
+    Scopes::Block block(rt_.scopes);
+    block.Set("_prompt", rt_.engine.String(choice.phrase));
+    block.Set("_dtmf", rt_.engine.String(choice.keys));
     AddChildren(node);
   }
 }
 
 void PromptBuilder::Foreach(const vm::xml::Node& node) {
-  const Value array = s_.Evaluate(node, node.Get("array"));
-  if (!s_.engine_.IsArray(array)) {
-    ThrowSemantic(*s_.context_->document, node, "'" + node.Get("array") + "' is not an array");
-  }
-  if (s_.engine_.Length(array) > s_.options_.max_steps_between_inputs) {
-    ThrowEvent("error.noresource", "<foreach> over too many elements");
-  }
-  const Value copy = s_.engine_.Copy(array);
+  const Value array = rt_.ArrayOf(node);
   const std::string item = node.Get("item");
-  const std::size_t length = s_.engine_.Length(copy);
-  DialogSession::ScopeGuard guard(s_);
+  const std::size_t length = rt_.engine.Length(array);
+  const Scopes::Block block(rt_.scopes);
   for (std::size_t i = 0; i < length; ++i) {
-    s_.Step();
+    rt_.budget.Step();
     if (!item.empty()) {
-      s_.Declare(node, item, s_.engine_.Get(copy, std::to_string(i)));
+      rt_.scopes.Declare(node, item, rt_.engine.Get(array, std::to_string(i)));
     }
     AddChildren(node);
   }
@@ -226,8 +204,7 @@ void PromptBuilder::Pause(const vm::xml::Node& node) {
 }
 
 void PromptBuilder::Mark(const vm::xml::Node& node) {
-  std::string name = node.Get("name", node.Get("id"));
-  if (const std::string* expression = node.Find("nameexpr")) name = s_.TextOf(node, *expression);
+  const std::string name = rt_.scopes.Text(node, node.Has("name") ? "name" : "id", "nameexpr");
   Anchor(name);
   if (!speech_.empty()) Anchor(speech_ + ":" + name);
   prompt_.segments.push_back({Segment::Kind::kMark, name, Millis(0), "", false, ""});

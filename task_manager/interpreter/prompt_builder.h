@@ -4,19 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "task_manager/interpreter/document_set.h"
 #include "task_manager/interpreter/markup.h"
 #include "task_manager/platform/platform.h"
-#include "task_manager/script/engine.h"
 
 namespace vxml {
-
-class DialogSession;
 
 /// Turns prompt markup into segments, words and SSML, evaluating what has to be evaluated. One for
 /// each prompt; errors are thrown as events.
 class PromptBuilder {
  public:
-  PromptBuilder(DialogSession& session, Prompt& prompt) : s_(session), prompt_(prompt) {}
+  PromptBuilder(Runtime& runtime, DocumentSet& documents, Prompt& prompt)
+      : rt_(runtime), documents_(documents), prompt_(prompt) {}
 
   void Add(const vm::xml::Node& node);
   void Finish();
@@ -51,7 +50,8 @@ class PromptBuilder {
     std::size_t line;
   };
 
-  DialogSession& s_;
+  Runtime& rt_;
+  DocumentSet& documents_;
   Prompt& prompt_;
   std::string words_;
   std::string ssml_;

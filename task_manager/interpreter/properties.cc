@@ -1,6 +1,9 @@
 #include "task_manager/interpreter/properties.h"
 
+#include <charconv>
 #include <string_view>
+
+#include "task_manager/document/values.h"
 
 namespace vxml {
 namespace {
@@ -72,13 +75,51 @@ constexpr Message kMessages[] = {
     {"other", "I am sorry, I cannot go on. Goodbye.", "すみません、続けられません。終了します。"},
 };
 
-}  // namespace
-
-std::string DefaultProperty(const std::string& name) {
+/// The platform's own value of a property, "" for unknown ones.
+std::string DefaultOf(const std::string& name) {
   for (const Property& property : kDefaults) {
     if (property.name == name) return std::string(property.value);
   }
   return "";
+}
+
+}  // namespace
+
+std::string Properties::Get(const std::string& name, const vm::xml::Node* from) const {
+  const vm::xml::Node* node = position_.item     ? position_.item->node
+                              : position_.dialog ? position_.dialog->node
+                              : from             ? from
+                                                 : &position_.Here();
+  for (; node; node = node->parent) {
+    for (const auto& document : {position_.document, position_.root}) {
+      const std::string* value = document ? document->FindProperty(*node, name) : nullptr;
+      if (value) return *value;
+    }
+  }
+  if (position_.root) {
+    const std::string* value = position_.root->FindProperty(*position_.root->root, name);
+    if (value) return *value;
+  }
+  const auto given = given_.find(name);
+  return given != given_.end() ? given->second : DefaultOf(name);
+}
+
+Millis Properties::Time(const std::string& name, Millis otherwise) const {
+  const std::string text = Get(name);
+  if (text.empty()) return otherwise;
+  const auto time = ParseTime(text);
+  if (!time) {
+    position_.ThrowSemantic(position_.Here(),
+                            "property " + name + " '" + text + "', expected a time as 5s or 300ms");
+  }
+  return *time;
+}
+
+double Properties::Number(const std::string& name, double otherwise) const {
+  const std::string text = Get(name);
+  double value = otherwise;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  return read.ec == std::errc() ? value : otherwise;
 }
 
 std::string DefaultMessage(const std::string& key, const std::string& language) {

@@ -2,10 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "task_manager/document/vxml_document.h"
-#include "task_manager/fetch/fetcher.h"
 #include "task_manager/script/engine.h"
 
 namespace vxml {
@@ -24,9 +24,6 @@ struct EventThrown {
   const bool has = !message.empty();
   throw EventThrown{std::move(name), std::move(message), has};
 }
-/// A failure of a script as error.semantic at a place.
-[[noreturn]] void ThrowSemantic(const VxmlDocument& document, const vm::xml::Node& node,
-                                const std::string& what);
 
 /// <goto nextitem>.
 struct GoToItem {
@@ -45,6 +42,8 @@ struct Match {
   bool dtmf = false;
 };
 
+using NamedValues = std::vector<std::pair<std::string, script::Value>>;
+
 /// On to a dialog of the same or another document; everything is loaded already.
 struct Transition {
   std::shared_ptr<VxmlDocument> document;
@@ -53,6 +52,7 @@ struct Transition {
   bool same_document = false;      ///< the document's variables stay
   bool fresh_application = false;  ///< a submit to the root document starts it anew
   std::shared_ptr<Match> carried;
+  NamedValues parameters;  ///< of a <subdialog>, for the variables of its form
 };
 
 /// <exit>, a hang-up's end, a failure nobody handled.
@@ -63,7 +63,7 @@ struct ExitSession {
 
 /// <return>: values by name, or an event for the caller.
 struct ReturnToCaller {
-  std::vector<std::pair<std::string, script::Value>> values;
+  NamedValues values;
   bool is_event = false;
   EventThrown event;
 };

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <map>
 
-#include "task_manager/interpreter/dialog_session.h"
+#include "task_manager/document/values.h"
 #include "vm_protocol/xml/node.h"
 
 namespace vxml {

@@ -84,6 +84,31 @@ JSScript* CompileExpression(JSContext* js, const std::string& expression) {
   return Compile(js, "(" + expression + "\n)");
 }
 
+// A watched variable is a property with an accessor: the getter keeps the value, the setter knows
+// the getter and the count of variables that became undefined.
+constexpr std::size_t kWatchedValue = 0;   // of the getter
+constexpr std::size_t kWatchedGetter = 0;  // of the setter
+constexpr std::size_t kWatchedCount = 1;
+
+bool GetWatched(JSContext*, unsigned count, JS::Value* values) {
+  const JS::CallArgs arguments = JS::CallArgsFromVp(count, values);
+  arguments.rval().set(js::GetFunctionNativeReserved(&arguments.callee(), kWatchedValue));
+  return true;
+}
+
+bool SetWatchedValue(JSContext*, unsigned count, JS::Value* values) {
+  const JS::CallArgs arguments = JS::CallArgsFromVp(count, values);
+  JSObject* const setter = &arguments.callee();
+  JSObject* const getter = &js::GetFunctionNativeReserved(setter, kWatchedGetter).toObject();
+  js::SetFunctionNativeReserved(getter, kWatchedValue, arguments.get(0));
+  if (arguments.get(0).isUndefined()) {
+    ++*static_cast<std::uint64_t*>(
+        js::GetFunctionNativeReserved(setter, kWatchedCount).toPrivate());
+  }
+  arguments.rval().setUndefined();
+  return true;
+}
+
 }  // namespace
 
 struct Value::Slot {
@@ -133,7 +158,7 @@ struct Engine::Impl {
   JSContext* js = context->js();
   Limits limits;
   std::size_t most_heap_bytes = limits.heap_bytes;
-  std::uint64_t changes = 1;
+  std::uint64_t cleared = 0;
   JS::PersistentRootedObject global{js};
   JS::PersistentRootedObject helpers{js};
   JS::PersistentRootedObject memory{js};  // SpiderMonkey's numbers of it
@@ -265,7 +290,6 @@ bool Engine::Impl::Scopes(const Chain& chain, JS::MutableHandleObjectVector out)
 }
 
 vm::Result<Value> Engine::Impl::Execute(const Chain& chain, JS::HandleScript script) {
-  ++changes;
   auto result = Make([&](JS::MutableHandleValue value) {
     JS::RootedObjectVector scopes(js);
     return Scopes(chain, &scopes) && JS_ExecuteScript(js, scopes, script, value);
@@ -330,7 +354,6 @@ vm::Result<void> Engine::Run(const Chain& chain, const std::string& source) {
 }
 
 vm::Result<void> Engine::Assign(const Chain& chain, const std::string& path, const Value& value) {
-  ++impl_->changes;
   if (auto fit = CheckExpression(path); !fit) return fit;
   JSContext* js = impl_->js;
   const std::string body = "'use strict';(" + path + "\n)=assigned";
@@ -469,7 +492,6 @@ Value Engine::Get(const Value& object, const std::string& name) {
       .value_or(Value());
 }
 void Engine::Set(const Value& object, const std::string& name, const Value& value) {
-  ++impl_->changes;
   impl_->WithObject(object, [&](JS::HandleObject inner) {
     JS::RootedId id(impl_->js);
     const JS::RootedValue rooted(impl_->js, impl_->Of(value));
@@ -519,7 +541,23 @@ std::size_t Engine::Length(const Value& array) {
   return number > 0 && number <= UINT32_MAX ? static_cast<std::size_t>(number) : 0;
 }
 
-std::uint64_t Engine::changes() const { return impl_->changes; }
+void Engine::SetWatched(const Value& scope, const std::string& name, const Value& value) {
+  impl_->WithObject(scope, [&](JS::HandleObject inner) {
+    JSContext* js = impl_->js;
+    JS::RootedId id(js);
+    const JS::RootedFunction get(js, js::NewFunctionWithReserved(js, GetWatched, 0, 0, "get"));
+    const JS::RootedFunction set(js, js::NewFunctionWithReserved(js, SetWatchedValue, 1, 0, "set"));
+    if (!get || !set || !ToId(js, name, &id)) return false;
+    const JS::RootedObject getter(js, JS_GetFunctionObject(get));
+    const JS::RootedObject setter(js, JS_GetFunctionObject(set));
+    js::SetFunctionNativeReserved(getter, kWatchedValue, impl_->Of(value));
+    js::SetFunctionNativeReserved(setter, kWatchedGetter, JS::ObjectValue(*getter));
+    js::SetFunctionNativeReserved(setter, kWatchedCount, JS::PrivateValue(&impl_->cleared));
+    return JS_DefinePropertyById(js, inner, id, getter, setter,
+                                 JSPROP_ENUMERATE | JSPROP_PERMANENT);
+  });
+}
+std::uint64_t Engine::cleared() const { return impl_->cleared; }
 
 bool Engine::IsUndefined(const Value& value) { return impl_->Of(value).isUndefined(); }
 bool Engine::IsObject(const Value& value) { return impl_->Of(value).isObject(); }

@@ -80,8 +80,10 @@ class Engine {
   std::vector<std::string> Keys(const Value& object);
   std::size_t Length(const Value& array);
 
-  /// Grows whenever a script has run or a property was set: what was seen may be different now.
-  std::uint64_t changes() const;
+  /// Defines a variable that counts in cleared() whenever it becomes undefined. It cannot be
+  /// deleted.
+  void SetWatched(const Value& scope, const std::string& name, const Value& value);
+  std::uint64_t cleared() const;
 
   bool IsUndefined(const Value& value);
   bool IsObject(const Value& value);

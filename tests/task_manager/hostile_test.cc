@@ -172,10 +172,16 @@ TEST(HostileDialogTest, ScriptsAndItemsTogetherAreBounded) {
 
 TEST(HostileDialogTest, ManyItemsAreGoneThroughOnce) {
   // Each choice began at the first item: 10,000 blocks took more than a minute.
-  std::string named;
-  for (int i = 0; i < 10'000; ++i) named += "<block name=\"b" + std::to_string(i) + "\"/>";
-  for (const std::string& blocks : {Times("<block/>", 10'000), named,
-                                    Times("<block><var name=\"x\" expr=\"1\"/></block>", 10'000)}) {
+  const auto named = [](const std::string& content) {
+    std::string blocks;
+    for (int i = 0; i < 10'000; ++i) {
+      blocks += "<block name=\"b" + std::to_string(i) + "\">" + content + "</block>";
+    }
+    return blocks;
+  };
+  for (const std::string& blocks :
+       {Times("<block/>", 10'000), named(""), named("<script>1</script>"),
+        Times("<block><var name=\"x\" expr=\"1\"/></block>", 10'000)}) {
     const auto outcome =
         RunDoc("<form>" + blocks + "<block><pass/></block></form>", {"exit: pass"});
     EXPECT_TRUE(outcome.pass) << outcome.why;
@@ -187,6 +193,32 @@ TEST(HostileDialogTest, AConditionOfAnEarlierItemIsLookedAtAgain) {
       "<var name=\"n\" expr=\"0\"/><form><block cond=\"n++ == 2\"><pass/></block><block/><block/>"
       "<block/><block/></form>",
       {"exit: pass"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, AnItemThatAScriptClearsIsVisitedAgain) {
+  for (const char* clear : {"<script>a = undefined</script>", "<script>dialog.a = void 0</script>",
+                            "<assign name=\"a\" expr=\"undefined\"/>", "<clear namelist=\"a\"/>",
+                            "<script>with (dialog) a = undefined</script>"}) {
+    const auto outcome = RunDoc(
+        "<var name=\"n\" expr=\"0\"/><form><block name=\"a\"><assign "
+        "name=\"n\" expr=\"n + 1\"/><if cond=\"n == 2\"><pass/></if>"
+        "</block><block>" +
+            std::string(clear) + "</block></form>",
+        {"exit: pass"});
+    EXPECT_TRUE(outcome.pass) << clear << outcome.why;
+  }
+}
+
+TEST(HostileDialogTest, ManyFormsCostATurnNothing) {
+  std::string forms;
+  for (int i = 0; i < 10'000; ++i) {
+    forms += "<form id=\"f" + std::to_string(i) + "\"><block><goto next=\"#g" +
+             std::to_string(i + 1) + "\"/></block></form><form id=\"g" + std::to_string(i) +
+             "\"><block><goto next=\"#f" + std::to_string(i) + "\"/></block></form>";
+  }
+  const auto outcome =
+      RunDoc(forms + "<form id=\"g10000\"><block><pass/></block></form>", {"exit: pass"});
   EXPECT_TRUE(outcome.pass) << outcome.why;
 }
 
