@@ -41,13 +41,41 @@ begin=$(now)
 took=$((($(now) - begin) / 1000000))
 echo "turns per second, $sessions sessions: $((sessions * 50 * 1000 / took))"
 
-# One session, two seconds after its first answer: what its process has used at the most.
+# What sessions that wait for their users take, a process each; pages they share count in parts.
+memory_kib() {  # of a process and its children
+  local all=0 each kib
+  for each in "$1" $(cat "/proc/$1/task/$1/children"); do
+    kib=$(awk '/^Pss:/ {print $2}' "/proc/$each/smaps_rollup")
+    all=$((all + kib))
+  done
+  echo "$all"
+}
 mkfifo "$work/typed"
 "$bin/task_manager" "$work/turns.vxml" <"$work/typed" >"$work/said" &
 process=$!
 exec 3>"$work/typed"
 echo "to kyoto" >&3
 read -r -t 2 <> <(:) || true
-echo "memory of a process with one session: $(awk '/VmHWM/ {print $2}' "/proc/$process/status") KiB"
+echo "memory of one session and the process that watches it: $(memory_kib "$process") KiB"
 exec 3>&-
 wait "$process" || true
+
+cat >"$work/hub.json" <<JSON
+{"listen": [{"role": "owner", "at": "unix:$work/hub"}],
+ "modules": [{"name": "SSM", "command": ["$bin/ssm_stub"]}, {"name": "SRM", "command": ["$bin/srm_stub"]}]}
+JSON
+"$bin/agent_manager" --config "$work/hub.json" </dev/zero >"$work/hub.log" 2>&1 &
+hub=$!
+trap 'kill "$hub" 2>/dev/null; rm -rf "$work"' EXIT
+for _ in $(seq 100); do [ -S "$work/hub" ] && break; read -r -t 0.1 <> <(:) || true; done
+few=0
+for count in 11 51; do
+  "$bin/task_manager" "$work/turns.vxml" --connect "unix:$work/hub" --sessions $count </dev/null >/dev/null 2>&1 &
+  process=$!
+  read -r -t 15 <> <(:) || true
+  many=$(memory_kib "$process")
+  kill "$process" 2>/dev/null || true
+  wait "$process" 2>/dev/null || true
+  [ "$few" -eq 0 ] || echo "memory of each further session at a hub: $(((many - few) / 40)) KiB"
+  few=$many
+done

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "task_manager/app/options.h"
+#include "task_manager/app/session_processes.h"
 #include "task_manager/fetch/uri.h"
 
 namespace vxml {
@@ -26,7 +27,13 @@ SessionOptions MakeSessionOptions(const Options& options) {
   };
   put(options.properties, session.properties);
   put(options.variables, session.session_variables);
+  session.script.on_stuck = SessionProcesses::EndStuck;
   return session;
+}
+
+int CodeOf(const SessionResult& result, bool started, bool ran_out) {
+  if (result.failed) return started ? kFailed : kNotStarted;
+  return ran_out ? kRanOut : kEnded;
 }
 
 }  // namespace vxml
@@ -85,8 +92,7 @@ int main(int argc, char** argv) {
     if (app.count("--trace") > 0 && options.trace.empty()) options.trace = "-";
     if (options.check) return vxml::RunCheck(options);
     if (options.graph) return vxml::RunGraph(options);
-    if (options.platform == "agent" || !options.connect.empty()) return vxml::RunAgent(options);
-    return vxml::RunText(options);
+    return vxml::RunSessions(options);
   } catch (const std::exception& error) {
     std::cerr << "task_manager: " << error.what() << "\n";
     return vxml::kUsage;

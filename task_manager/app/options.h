@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "task_manager/interpreter/dialog_session.h"
+#include "task_manager/platform/input_script.h"
 #include "vm_protocol/runtime/credentials.h"
 
 namespace vxml {
@@ -41,8 +43,18 @@ enum ExitCode {
 };
 
 SessionOptions MakeSessionOptions(const Options& options);
-int RunText(const Options& options);
-int RunAgent(const Options& options);
+/// The exit code of a session; `ran_out` of input.
+int CodeOf(const SessionResult& result, bool started, bool ran_out);
+
+/// Takes a line of the transcript (JSON).
+using WriteLine = std::function<void(const std::string& line)>;
+/// One session in text, or with voice, ear and face at a hub; without a source the user types.
+/// Errors: std::runtime_error.
+int RunTextSession(const Options& options, const CommandSource& source, const WriteLine& write);
+int RunAgentSession(const Options& options, int number, const CommandSource& source,
+                    const WriteLine& write);
+/// All sessions, each in a process of its own.
+int RunSessions(const Options& options);
 int RunCheck(const Options& options);
 int RunGraph(const Options& options);
 

@@ -190,7 +190,7 @@ Engine::Impl::Impl(const Limits& given) : limits(given) {
 template <typename Action>
 vm::Result<void> Engine::Impl::Within(Action action, vm::Errc thrown) {
   const JSAutoRealm realm(js, global);
-  context->watch().Begin(limits.time, 2 * limits.heap_bytes);
+  context->watch().Begin(limits.time, 2 * limits.heap_bytes, limits.on_stuck);
   const bool done = action();
   std::optional<vm::Error> error;
   if (!done) error = Failure(thrown);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -35,6 +36,9 @@ struct Limits {
   std::size_t heap_bytes = std::size_t{32} << 20;  ///< and more to recover
   std::chrono::milliseconds time{1000};            ///< of the processor, for one evaluation
   std::size_t source_bytes = std::size_t{1} << 20;
+  /// Called, from another thread, when a script used up its time but cannot be stopped, since a
+  /// single call of the library goes on and on: it may end the process. Null: it is waited for.
+  std::function<void()> on_stuck{};
 };
 
 /// The data model: ECMAScript 2022 (SpiderMonkey) with scopes that are ordinary objects.

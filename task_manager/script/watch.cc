@@ -5,13 +5,8 @@
 
 #include <utility>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GALATEA_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define GALATEA_SANITIZED 1
-#endif
-#endif
+#include "task_manager/script/sanitized.h"
+
 #ifdef GALATEA_SANITIZED
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
 #endif
@@ -53,13 +48,15 @@ Watch::~Watch() {
   thread_.join();
 }
 
-void Watch::Begin(std::chrono::nanoseconds time, std::size_t bytes) {
+void Watch::Begin(std::chrono::nanoseconds time, std::size_t bytes,
+                  const std::function<void()>& on_stuck) {
   const std::lock_guard lock(mutex_);
   running_ = true;
   verdict_ = Verdict::kWell;
   latest_ = TimeOn(clock_) + time;
   bytes_ = bytes;
   most_bytes_ = 0;
+  on_stuck_ = &on_stuck;
   if (asleep_) wake_.notify_one();
 }
 
@@ -92,8 +89,13 @@ void Watch::Run() {
     }
     wake_.wait_for(lock, kBetweenLooks, [this] { return stop_; });
     if (!running_) continue;
-    if (verdict_ == Verdict::kWell) verdict_ = Look();
-    if (verdict_ != Verdict::kWell) interrupt_();
+    if (verdict_ == Verdict::kWell) {
+      verdict_ = Look();
+      stuck_from_ = TimeOn(clock_) + kGrace;
+    }
+    if (verdict_ == Verdict::kWell) continue;
+    interrupt_();
+    if (*on_stuck_ && TimeOn(clock_) > stuck_from_) (*on_stuck_)();
   }
 }
 

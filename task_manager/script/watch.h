@@ -15,6 +15,8 @@ namespace vxml::script {
 class Watch {
  public:
   enum class Verdict { kWell, kLate, kStarved };
+  /// Of the script's processor time.
+  static constexpr std::chrono::milliseconds kGrace{1000};
 
   /// `interrupt` is called on the watch's thread, again and again until End.
   explicit Watch(std::function<void()> interrupt);
@@ -23,7 +25,10 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
 
   /// From now on this thread may use `time` of the processor, and the process `bytes` more memory.
-  void Begin(std::chrono::nanoseconds time, std::size_t bytes);
+  /// If that is too much, and kGrace later the script still has not let itself be interrupted,
+  /// `on_stuck` is called on the watch's thread, if it is not empty; it lives until End.
+  void Begin(std::chrono::nanoseconds time, std::size_t bytes,
+             const std::function<void()>& on_stuck);
   Verdict End();
   /// What the watch has found so far since Begin.
   Verdict verdict();
@@ -42,6 +47,8 @@ class Watch {
   bool running_ = false;
   Verdict verdict_ = Verdict::kWell;
   std::chrono::nanoseconds latest_{};
+  std::chrono::nanoseconds stuck_from_{};
+  const std::function<void()>* on_stuck_ = nullptr;
   std::size_t bytes_ = 0;       // given by Begin
   std::size_t most_bytes_ = 0;  // 0: before the first look
   std::thread thread_;

@@ -75,6 +75,38 @@ TEST(ExamplesTest, AreFoundWithoutFault) {
   EXPECT_GE(count, 6);
 }
 
+TEST(SessionsTest, AScriptThatCannotBeStoppedEndsItsSessionAndTheOthersGoOn) {
+  // Nothing can interrupt this comparison of texts, which would take minutes.
+  support::TempDir folder;
+  std::ofstream(folder / "d.vxml") << Form(
+      "<field name=\"f\" type=\"digits\"><filled><if cond=\"f == 2\"><script>"
+      "'a'.repeat(1e7).indexOf('a'.repeat(5e6) + 'b')</script></if><exit expr=\"f\"/></filled>"
+      "</field>");
+  for (const char* digit : {"1", "2", "3"}) {
+    std::ofstream(folder / digit) << "dtmf " << digit << "#\n";
+  }
+  const std::string document = folder / "d.vxml";
+  support::Process one({GALATEA_BIN_DIR "/task_manager", document, "--script", folder / "2"});
+  const auto lines = one.ReadAll();
+  EXPECT_EQ(one.Wait(), 1);
+  ASSERT_GE(lines.size(), 2U) << one.ErrorText();
+  EXPECT_NE(lines[lines.size() - 2].find("a script could not be stopped"), std::string::npos);
+  EXPECT_EQ(lines.back(), R"({"type":"exit","reason":"error.noresource","value":null})");
+
+  support::Process three({GALATEA_BIN_DIR "/task_manager", document, "--sessions", "3", "--script",
+                          folder / "1", "--script", folder / "2", "--script", folder / "3"});
+  std::vector<std::string> ends;
+  for (const std::string& line : three.ReadAll()) {
+    if (line.find("\"exit\"") != std::string::npos) ends.push_back(line);
+  }
+  EXPECT_EQ(three.Wait(), 1);
+  ASSERT_EQ(ends.size(), 3U) << three.ErrorText();
+  EXPECT_NE(ends[0].find("\"session\":1,"), std::string::npos) << ends[0];
+  EXPECT_NE(ends[0].find("\"value\":\"1\""), std::string::npos) << ends[0];
+  EXPECT_NE(ends[1].find("error.noresource"), std::string::npos) << ends[1];
+  EXPECT_NE(ends[2].find("\"value\":\"3\""), std::string::npos) << ends[2];
+}
+
 TEST_F(AgentTest, SpeaksHearsAndMovesTheFaceThroughTheHub) {
   const auto lines = Talk(
       "<vxml version=\"2.1\"><form><field name=\"f\" type=\"boolean\"><prompt>Do you <emotion "
