@@ -63,9 +63,7 @@ std::string UserDid(const Json& line, const std::string& type) {
 
 }  // namespace
 
-bool IsUnknown(const std::string& utterance) {
-  return utterance.empty() || utterance == "?" || utterance.starts_with('\x1a');
-}
+bool IsUnknown(const std::string& utterance) { return utterance.empty() || utterance == "?"; }
 
 std::string Readable(const std::string& json_line, Sides sides) {
   const auto line = Json::parse(json_line, nullptr, false);

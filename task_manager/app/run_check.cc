@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -49,6 +50,7 @@ class DeepChecker {
       if (const std::string* expression = node.Find(name)) Expression(node, name, *expression);
     }
     if (node.name == "script") Script(node);
+    if (const std::string* name = node.Find("name")) Name(node, *name);
     if (const std::string* next = node.Find("next")) Target(node, *next);
     if (node.name == "subdialog") {
       if (const std::string* source = node.Find("src")) Target(node, *source);
@@ -61,6 +63,15 @@ class DeepChecker {
     if (auto fit = engine_.CheckExpression(text); !fit) {
       Say(node, name + "=\"" + text + "\": " + fit.error().text, "");
     }
+  }
+
+  void Name(const vm::xml::Node& node, const std::string& name) {
+    static constexpr std::string_view kDeclare =
+        "var data block initial field record transfer subdialog object";
+    const auto elements = SplitWords(kDeclare);
+    if (std::ranges::find(elements, node.name) == elements.end() || !IsVoiceXml(node)) return;
+    if (name.empty() || engine_.IsIdentifier(name)) return;
+    Say(node, "'" + name + "' cannot be declared", "expected a name as ECMAScript has it");
   }
 
   void Script(const vm::xml::Node& node) {

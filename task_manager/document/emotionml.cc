@@ -22,6 +22,8 @@ class Checker {
 
   std::vector<Finding> Run() {
     if (root_.name == "emotion") {
+      Say(root_, "<emotion> is no document by itself",
+          "put it into <emotionml> (EmotionML 1.0 section 2.1.1)");
       Emotion(root_);
     } else {
       Root();

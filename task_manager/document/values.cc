@@ -12,7 +12,7 @@ namespace {
 struct ValueRule {
   std::string_view attribute;
   std::string_view elements;  ///< "" = wherever the attribute stands
-  std::string_view values;    ///< one of these; @time, @count
+  std::string_view values;    ///< one of these, or @KIND
 };
 
 constexpr ValueRule kRules[] = {
@@ -22,6 +22,10 @@ constexpr ValueRule kRules[] = {
     {"dtmfterm", "", "true false"},
     {"bridge", "", "true false"},
     {"dtmf", "menu", "true false"},
+    {"dtmf", "choice option link", "@keys"},
+    {"maxage", "", "@seconds"},
+    {"maxstale", "", "@seconds"},
+    {"id", "form menu", "@id"},
     {"bargein", "", "true false"},
     {"bargeintype", "", "speech hotword"},
     {"accept", "", "exact approximate"},
@@ -42,10 +46,17 @@ bool Contains(std::string_view list, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool IsCount(std::string_view text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos &&
-         text.find_first_not_of('0') != std::string_view::npos;
+constexpr std::string_view kDigits = "0123456789";
+
+bool IsOf(std::string_view text, std::string_view signs) {
+  return !text.empty() && text.find_first_not_of(signs) == std::string_view::npos;
 }
+
+bool IsCount(std::string_view text) {
+  return IsOf(text, kDigits) && text.find_first_not_of('0') != std::string_view::npos;
+}
+
+bool IsKeys(std::string_view text) { return IsOf(text, "0123456789*#ABCD \t\r\n"); }
 
 }  // namespace
 
@@ -82,6 +93,11 @@ std::string WrongValue(std::string_view element, std::string_view attribute,
       return IsTimeDesignation(value) ? "" : "expected a time as 5s or 300ms";
     }
     if (rule.values == "@count") return IsCount(value) ? "" : "expected 1 or more";
+    if (rule.values == "@keys") return IsKeys(value) ? "" : "expected keys 0-9 * # A-D";
+    if (rule.values == "@seconds") return IsOf(value, kDigits) ? "" : "expected whole seconds";
+    if (rule.values == "@id") {
+      return value.find_first_of(" \t\r\n") == std::string_view::npos ? "" : "expected one word";
+    }
     if (Contains(rule.values, value)) return "";
     return "expected one of " + std::string(rule.values);
   }

@@ -40,6 +40,10 @@ bool AbnfScanner::Looks(std::string_view sign) const {
   return text_.substr(std::min(at_, text_.size())).starts_with(sign);
 }
 
+bool AbnfScanner::AtBlank() const {
+  return !AtEnd() && kBlanks.find(text_[at_]) != std::string_view::npos;
+}
+
 void AbnfScanner::SkipBlank() {
   while (at_ < text_.size()) {
     if (kBlanks.find(text_[at_]) != std::string_view::npos) {

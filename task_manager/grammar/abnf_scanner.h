@@ -22,6 +22,7 @@ class AbnfScanner {
 
   bool Looks(std::string_view sign) const;
   char Peek() const { return AtEnd() ? '\0' : text_[at_]; }
+  bool AtBlank() const;
   void Skip(std::size_t bytes) { at_ += bytes; }
   /// Blanks and comments.
   void SkipBlank();

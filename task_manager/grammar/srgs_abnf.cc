@@ -84,8 +84,9 @@ class AbnfCompiler {
       if (mode != "voice" && mode != "dtmf") return in_.Bad("mode '" + mode + "'");
       grammar_->mode = mode == "dtmf" ? Mode::kDtmf : Mode::kVoice;
     } else if (word == "root") {
-      if (!in_.Take('$')) return in_.Bad("expected '$' and the root rule's name");
-      grammar_->root = in_.Word();
+      auto root = RuleName();
+      if (!root) return std::unexpected(root.error());
+      grammar_->root = *root;
     } else if (word == "tag-format" || word == "base" || word == "lexicon") {
       auto uri = in_.Uri(context_.alone);
       if (!uri) return std::unexpected(uri.error());
@@ -107,10 +108,18 @@ class AbnfCompiler {
     return {};
   }
 
-  vm::Result<void> RuleDefinition(bool is_public) {
+  /// "$name", which is one token: without a blank inside (SRGS 1.0 appendix D).
+  vm::Result<std::string> RuleName() {
     if (!in_.Take('$')) return in_.Bad("'$' and the rule's name expected");
+    if (context_.alone && in_.AtBlank()) return in_.Bad("a blank behind '$'");
+    return in_.Word();
+  }
+
+  vm::Result<void> RuleDefinition(bool is_public) {
+    auto written = RuleName();
+    if (!written) return std::unexpected(written.error());
     auto rule = std::make_unique<Rule>();
-    rule->name = in_.Word();
+    rule->name = *written;
     rule->is_public = is_public;
     rule->grammar = grammar_.get();
     rule->line = in_.line();
@@ -239,6 +248,7 @@ class AbnfCompiler {
       SplitReference(*uri, *reference);
       return reference;
     }
+    if (context_.alone && in_.AtBlank()) return in_.Bad("a blank behind '$'");
     const std::string name = in_.Word();
     if (!IsRuleName(name)) return in_.Bad("'$" + name + "' is no reference to a rule");
     if (name == "NULL") reference->kind = Kind::kNull;

@@ -4,6 +4,7 @@
 #include "task_manager/grammar/compiler.h"
 #include "task_manager/grammar/text.h"
 #include "vm_protocol/core/charset.h"
+#include "vm_protocol/core/utf8.h"
 #include "vm_protocol/xml/parser.h"
 
 namespace vxml::srgs {
@@ -241,6 +242,12 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
       auto utf8 = vm::DecodeCharset(start, encoding);
       if (!utf8) return vm::Fail(utf8.error().code, context.uri + ":1:1: " + utf8.error().text);
       text = std::move(*utf8);
+    }
+    if (const auto bad = vm::FirstBadUtf8(text)) {
+      const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(*bad), '\n');
+      return vm::Fail(vm::Errc::kBadUtf8, context.uri + ":" + std::to_string(line) +
+                                              ":1: bytes that are no UTF-8 (the header names "
+                                              "another encoding: #ABNF 1.0 ISO-8859-1;)");
     }
     return CompileAbnf(text, context);
   }

@@ -42,6 +42,7 @@ void CollectPhase::VisitInput(FormItem& item) {
   }
   rt_.connection.Require();
   const Listen listen = recognition_.MakeListen(item, active);
+  recognition_.Forget();
   const Input input = rt_.platform.Collect(queue_.Take(), listen);
   rt_.budget.Renew();
   process_.Take(recognition_.Interpret(input, active), &item);
@@ -117,6 +118,7 @@ void CollectPhase::VisitRecord(FormItem& item) {
   rt_.connection.Require();
   const auto active = GrammarsOf(item, item.node->Get("modal") != "false");
   const RecordRequest request = MakeRecordRequest(item, active);
+  recognition_.Forget();
   const RecordResult result = rt_.platform.Record(queue_.Take(), request);
   rt_.budget.Renew();
   switch (result.kind) {
@@ -167,6 +169,7 @@ void CollectPhase::VisitTransfer(FormItem& item) {
   const std::vector<ActiveGrammar> active =
       request.type == "blind" ? std::vector<ActiveGrammar>{} : GrammarsOf(item, true);
   request.listen = recognition_.MakeListen(item, active);
+  recognition_.Forget();
   const TransferResult result = rt_.platform.Transfer(queue_.Take(), request);
   rt_.budget.Renew();
   if (result.outcome.starts_with("connection.disconnect")) rt_.connection.Close();
@@ -175,8 +178,11 @@ void CollectPhase::VisitTransfer(FormItem& item) {
   }
   script::Engine& engine = rt_.engine;
   const Value shadow = engine.Object();
+  static constexpr std::string_view kNeverConnected = "busy noanswer network_busy";
+  const auto failures = SplitWords(kNeverConnected);
+  const bool connected = std::ranges::find(failures, result.outcome) == failures.end();
   engine.Set(shadow, "duration",
-             engine.Number(static_cast<double>(result.duration.count()) / 1000.0));
+             engine.Number(connected ? static_cast<double>(result.duration.count()) / 1000.0 : 0));
   engine.Set(shadow, "inputmode", engine.Undefined());
   engine.Set(shadow, "utterance", engine.Undefined());
   if (result.ended_by_input) {

@@ -80,7 +80,7 @@ void ExecutableContent::RunData(const vm::xml::Node& node) {
   nodes.push_back(SpecOf(*data->root));
   for (const auto& behind : data->epilog) nodes.push_back(SpecOf(*behind));
   auto dom = rt_.engine.Dom(JsonText(nodes));
-  if (!dom) rt_.position.ThrowSemantic(node, dom.error().text);
+  if (!dom) rt_.scopes.Throw(node, got.uri, dom.error());
   rt_.scopes.Declare(node, node.Get("name"), *dom);
 }
 

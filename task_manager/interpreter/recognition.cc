@@ -47,7 +47,7 @@ Listen Recognition::MakeListen(const FormItem& item, const ActiveList& active) c
   listen.timeout = properties.Time("timeout", Millis(5000));
   listen.hotword = properties.Is("bargeintype", "hotword");
   for (const Prompt& prompt : prompts_.prompts()) {  // the last one counts
-    if (prompt.text.empty() && !prompt.Plays()) continue;
+    if (prompt.IsNative()) continue;
     listen.timeout = prompt.timeout.value_or(properties.Time("timeout", Millis(5000)));
     listen.hotword = prompt.hotword;
   }
@@ -115,6 +115,18 @@ std::vector<Match> Recognition::MatchesOf(const Input& input, const ActiveList& 
   return matches;
 }
 
+std::vector<Match> Recognition::HeardIn(const Input& input) const {
+  std::vector<Match> heard;
+  for (const Hypothesis& hypothesis : input.hypotheses) {
+    Match& match = heard.emplace_back();
+    match.utterance = vm::xml::Collapse(hypothesis.text);
+    match.confidence = hypothesis.confidence;
+  }
+  if (heard.empty()) heard.emplace_back().confidence = 0;
+  for (Match& match : heard) match.dtmf = input.kind == Input::Kind::kDtmf;
+  return heard;
+}
+
 void Recognition::Describe(const Value& into, const Match& match) const {
   script::Engine& engine = rt_.engine;
   engine.Set(into, "utterance", engine.String(match.utterance));
@@ -163,6 +175,7 @@ Match Recognition::Interpret(const Input& input, const ActiveList& active) {
   if (matches.empty()) {
     if (below) line.Bool("below_confidencelevel", true);
     rt_.platform.Report("result", line);
+    SetLastResult(HeardIn(input), input);  // a nomatch counts as a recognition
     ThrowEvent("nomatch");
   }
   line.Number("confidence", matches.front().confidence);

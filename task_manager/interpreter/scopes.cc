@@ -60,10 +60,10 @@ script::Chain Scopes::Chain() const {
   return chain;
 }
 
-void Scopes::Throw(const vm::xml::Node& node, const std::string& code,
+void Scopes::Throw(const vm::xml::Node& node, const std::string& what,
                    const vm::Error& error) const {
-  if (error.code == vm::Errc::kLimit) ThrowEvent("error.noresource", code + ": " + error.text);
-  position_.ThrowSemantic(node, code + ": " + error.text);
+  if (error.code == vm::Errc::kLimit) ThrowEvent("error.noresource", what + ": " + error.text);
+  position_.ThrowSemantic(node, what + ": " + error.text);
 }
 
 Value Scopes::Evaluate(const vm::xml::Node& node, const std::string& expression) {

@@ -40,6 +40,9 @@ class Scopes {
   bool HasApplication() const { return frame_.application.valid(); }
 
   script::Value Evaluate(const vm::xml::Node& node, const std::string& expression);
+  /// Throws what a failure of the engine is: error.noresource over a limit, else error.semantic.
+  [[noreturn]] void Throw(const vm::xml::Node& node, const std::string& what,
+                          const vm::Error& error) const;
   /// The attribute's expression as a truth; true without one.
   bool Condition(const vm::xml::Node& node, const std::string& attribute = "cond");
   std::string Text(const vm::xml::Node& node, const std::string& expression);
@@ -75,8 +78,6 @@ class Scopes {
   bool IsOfSession(const std::string& name);
   void RequireDeclared(const vm::xml::Node& node, const std::string& name);
   void RequireIdentifier(const vm::xml::Node& node, const std::string& name);
-  [[noreturn]] void Throw(const vm::xml::Node& node, const std::string& code,
-                          const vm::Error& error) const;
 
   script::Engine& engine_;
   const Position& position_;

@@ -18,4 +18,9 @@ std::vector<std::string> Prompt::Feelings() const {
   return shown;
 }
 
+bool Prompt::IsNative() const {
+  return !timeout && !segments.empty() &&
+         std::ranges::all_of(segments, [](const Segment& segment) { return segment.native; });
+}
+
 }  // namespace vxml

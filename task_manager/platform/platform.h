@@ -41,6 +41,8 @@ struct Prompt {
   std::optional<Millis> timeout;
   /// What the face shows meanwhile (HAPPY, ...), each once, in order; without NEUTRAL.
   std::vector<std::string> Feelings() const;
+  /// True of a <native> that stands by itself: no prompt of the author's.
+  bool IsNative() const;
   /// True if there is more in it than commands and marks.
   bool Plays() const {
     for (const Segment& segment : segments) {

@@ -226,7 +226,6 @@ Input TextPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& li
       break;
     case Command::Kind::kNoMatch:
       input.kind = Input::Kind::kSpeech;
-      input.hypotheses = {{"\x1anomatch", 1.0}};  // no grammar has this word
       break;
     case Command::Kind::kDtmf: {
       const Input keys = TakeKeys(*command, listen);

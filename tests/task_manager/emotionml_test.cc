@@ -167,6 +167,18 @@ INSTANTIATE_TEST_SUITE_P(
                "<emotion expressed-through=\" \"><category name=\"fear\"/></emotion>", false}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
+TEST(EmotionMlTest, AnEmotionAloneIsNoDocument) {
+  auto parsed = vm::xml::Parse(
+      "<emotion xmlns=\"http://www.w3.org/2009/10/emotionml\" category-set=\""
+      "http://www.w3.org/TR/emotion-voc/xml#big6\"><category name=\"anger\"/></emotion>",
+      "e");
+  ASSERT_TRUE(parsed);
+  ASSERT_TRUE(vxml::IsEmotionMl(*parsed->root));
+  const auto findings = vxml::CheckEmotionMl(*parsed->root);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_NE(findings[0].advice.find("emotionml"), std::string::npos);
+}
+
 TEST(FeelingsTest, EveryNameOfTheStandardsVocabulariesIsShown) {
   int names = 0;
   for (const char* id :
