@@ -13,7 +13,8 @@ SessionOptions MakeSessionOptions(const Options& options) {
   for (const std::string& root : options.allow) {
     session.fetch.allowed_roots.push_back(fetch::FromPath(root));
   }
-  session.fetch.default_timeout = Millis(options.fetch_timeout_ms);
+  session.properties["fetchtimeout"] = std::to_string(options.fetch_timeout_ms) + "ms";
+  session.fetch.default_timeout = Millis(options.fetch_timeout_ms);  // of --check
   session.strict_markup = options.strict;
   session.languages = options.languages;
   const auto put = [](const std::vector<std::string>& pairs, auto& into) {

@@ -95,6 +95,13 @@ int RunSessions(const Options& options) {
   if (!at_hub && options.sessions > 1 && options.scripts.empty()) {
     throw std::runtime_error("--sessions needs --script");
   }
+  if (!options.out.empty() && !at_hub) throw std::runtime_error("--out needs --connect");
+  if (!options.trace.empty() && options.sessions > 1) {
+    throw std::runtime_error("--trace is for one session");
+  }
+  if (options.sessions > 1 && std::ranges::find(options.scripts, "-") != options.scripts.end()) {
+    throw std::runtime_error("--script - is for one session");
+  }
   static_cast<void>(MakeSessionOptions(options));  // says what is wrong before anything runs
   std::vector<CommandSource> sources;
   for (int i = 0; i < options.sessions && !options.scripts.empty(); ++i) {

@@ -17,7 +17,13 @@ std::optional<Command> FromTerminal() {
       silence.kind = Command::Kind::kSilence;
       return silence;
     }
-    auto command = ParseCommand(line[0] == '/' ? line.substr(1) : "say " + line);
+    if (line[0] != '/') {
+      Command said;
+      said.kind = Command::Kind::kSay;
+      said.hypotheses = {{line, 1.0}};
+      return said;
+    }
+    auto command = ParseCommand(line.substr(1));
     if (command) return *command;
     std::cerr << "task_manager: " << command.error().text << "\n";
   }

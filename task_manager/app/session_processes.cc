@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstring>
 #include <iostream>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -55,6 +56,7 @@ void WriteAll(int to, std::string_view bytes) {
     const std::string which = all.count > 1 ? "session " + std::to_string(session + 1) + ": " : "";
     std::cerr << "task_manager: " << which << error.what() << std::endl;
     if (all.count == 1) code = kUsage;
+    if (dynamic_cast<const std::bad_alloc*>(&error)) code = SessionProcesses::kStuck;
   }
   std::cout.flush();
   std::_Exit(code);
@@ -105,9 +107,10 @@ int Finish(const Process& process, const SessionProcesses& all) {
   }
   JsonLine event, exit;
   event.Text("type", "event").Text("name", "error.noresource");
-  event.Text("message", WIFSIGNALED(status) ? "the session's process ended by signal " +
-                                                  std::to_string(WTERMSIG(status))
-                                            : std::string("a script could not be stopped"));
+  event.Text("message",
+             WIFSIGNALED(status)
+                 ? "the session's process ended by signal " + std::to_string(WTERMSIG(status))
+                 : std::string("a script could not be stopped, or memory ran out"));
   exit.Text("type", "exit").Text("reason", "error.noresource").Raw("value", "null");
   all.on_line(process.session, event.str());
   all.on_line(process.session, exit.str());
@@ -123,7 +126,11 @@ int SessionProcesses::Run() const {
     while (next < count && std::ssize(running) < at_once) running.push_back(Start(next++, *this));
     std::vector<pollfd> waiting;
     for (const Process& process : running) waiting.push_back({process.from, POLLIN, 0});
-    if (::poll(waiting.data(), waiting.size(), -1) < 0) continue;
+    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
+      if (errno == EINTR) continue;
+      throw std::runtime_error(std::string("sessions cannot be waited for: ") +
+                               std::strerror(errno));
+    }
     for (std::size_t i = waiting.size(); i-- > 0;) {
       if (waiting[i].revents == 0 || Read(running[i], *this)) continue;
       worst = std::max(worst, Finish(running[i], *this));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "task_manager/document/schema.h"
 #include "vm_protocol/xml/node.h"
@@ -75,12 +76,21 @@ std::optional<std::chrono::milliseconds> ParseTime(std::string_view text) {
   if (text.starts_with("+")) text.remove_prefix(1);
   double number = 0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (read.ec != std::errc() || number < 0 || number > 1e9) return {};
+  if (read.ec != std::errc() || !(number >= 0 && number <= 1e9)) return {};  // nor NaN
   const std::string_view unit(read.ptr,
                               static_cast<std::size_t>(text.data() + text.size() - read.ptr));
   if (unit == "s") return milliseconds(static_cast<long long>(number * 1000 + 0.5));
   if (unit == "ms") return milliseconds(static_cast<long long>(number + 0.5));
   return {};
+}
+
+double NumberIn(std::string_view text, double min, double max, double otherwise) {
+  text = vm::xml::Trim(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = otherwise;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (read.ec != std::errc() || std::isnan(number)) return otherwise;
+  return std::clamp(number, min, max);
 }
 
 std::string WrongValue(std::string_view element, std::string_view attribute,

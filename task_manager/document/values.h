@@ -18,4 +18,7 @@ bool IsTimeDesignation(std::string_view text);
 /// What a time designation says ("5s", "250ms", "1.5s", "+2s"); none if it is none.
 std::optional<std::chrono::milliseconds> ParseTime(std::string_view text);
 
+/// The number a text begins with, brought between `min` and `max`; `otherwise` if it is none.
+double NumberIn(std::string_view text, double min, double max, double otherwise);
+
 }  // namespace vxml

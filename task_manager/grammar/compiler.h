@@ -14,6 +14,7 @@ namespace vxml::srgs {
 /// Limits of one grammar; over them it is refused.
 inline constexpr std::size_t kMaxGrammarBytes = std::size_t{4} << 20;
 inline constexpr std::size_t kMaxGrammarDepth = 250;
+inline constexpr std::size_t kMaxExpansions = 500'000;  ///< words and other parts, of all together
 inline constexpr int kMaxRepeat = 100'000;
 
 /// What surrounds a grammar: its place, and what it inherits where it does not say itself.

@@ -181,6 +181,7 @@ class AbnfCompiler {
   }
 
   Made Sub(std::size_t depth) {
+    if (++expansions_ > kMaxExpansions) return in_.Bad("too many words and parts");
     switch (in_.Peek()) {
       case '(':
         return Group(depth, ')');
@@ -285,6 +286,7 @@ class AbnfCompiler {
   }
 
   const GrammarContext& context_;
+  std::size_t expansions_ = 0;
   AbnfScanner in_;
   std::unique_ptr<Grammar> grammar_;
   std::set<std::string> declared_;

@@ -68,6 +68,10 @@ vm::Result<void> GrammarStore::Link(Grammar& grammar) {
 }
 
 vm::Result<void> GrammarStore::LinkExpansion(Grammar& grammar, Expansion& node) {
+  if (++expansions_ > kMaxExpansions) {
+    return vm::Fail(vm::Errc::kLimit, grammar.uri + ": grammars of more than " +
+                                          std::to_string(kMaxExpansions) + " words and parts");
+  }
   if (node.kind == Expansion::Kind::kReference) return LinkReference(grammar, node);
   for (auto& child : node.children) {
     if (auto linked = LinkExpansion(grammar, *child); !linked) return linked;

@@ -12,7 +12,7 @@ namespace vxml::srgs {
 
 /// Owns compiled grammars and links their references, fetching other grammars on the way (each URI
 /// once, so grammars may refer to each other in circles).
-/// Limits: kMaxGrammars fetched for one store. Thread: one.
+/// Limits: kMaxGrammars fetched for one store, kMaxExpansions in all. Thread: one.
 class GrammarStore {
  public:
   static constexpr std::size_t kMaxGrammars = 200;
@@ -39,6 +39,7 @@ class GrammarStore {
   Fetch fetch_;
   std::map<std::string, std::unique_ptr<Grammar>> by_uri_;
   std::vector<std::unique_ptr<Grammar>> others_;
+  std::size_t expansions_ = 0;
 };
 
 }  // namespace vxml::srgs

@@ -36,6 +36,7 @@ XmlRules::Made XmlRules::Sequence(const Node& node, std::size_t depth) const {
   for (const auto& child : node.children) {
     if (child->IsText()) {
       if (!AddTokens(child->text, *sequence)) return Bad(*child, "a quotation mark without end");
+      if (sequence->children.size() > kMaxExpansions) return Bad(*child, "too many words");
       continue;
     }
     if (!child->IsElement() || IsForeign(*child)) continue;

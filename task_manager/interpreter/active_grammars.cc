@@ -111,7 +111,8 @@ void ActiveGrammars::AddUniversals() {
   for (const char* word : {"help", "cancel", "exit"}) {
     const bool on = std::ranges::any_of(
         names, [&](std::string_view name) { return name == "all" || name == word; });
-    if (on) Add(grammars_.Compile(Phrase{.words = word}), Owner::kUniversal, nullptr);
+    if (on)
+      Add(grammars_.Compile(Phrase{.words = word, .value = word}), Owner::kUniversal, nullptr);
   }
 }
 

@@ -91,11 +91,7 @@ void DialogSession::RunDialogs(Transition next) {
       rt_.position.item = nullptr;
       rt_.position.element = nullptr;
       rt_.scopes.LeaveDialog();
-      try {
-        Enter(next);
-      } catch (const EventThrown& event) {
-        events_.Handle(event, nullptr);
-      }
+      Enter(next);
       if (next.dialog) forms_.Run(next);
       return;
     } catch (Transition& transition) {
@@ -132,9 +128,14 @@ void DialogSession::EnterDocument(const Transition& to) {
   if (!is_root) InitDocument(*to.document);
 }
 
+/// An event ends the initialisation, not the entering: the document's handler may go on from there.
 void DialogSession::InitDocument(const VxmlDocument& document) {
-  for (const auto& child : document.root->children) {
-    if (ExecutableContent::IsInitial(*child)) content_.RunElement(*child);
+  try {
+    for (const auto& child : document.root->children) {
+      if (ExecutableContent::IsInitial(*child)) content_.RunElement(*child);
+    }
+  } catch (const EventThrown& event) {
+    events_.Handle(event, nullptr);
   }
 }
 

@@ -68,8 +68,9 @@ fetch::Response DocumentSet::Fetch(const vm::xml::Node& node, const fetch::Reque
   ThrowEvent(event, failure.text);
 }
 
-std::shared_ptr<VxmlDocument> DocumentSet::Load(const fetch::Request& request) {
-  const fetch::Response got = Fetch(rt_.position.Here(), request, "document");
+std::shared_ptr<VxmlDocument> DocumentSet::Load(const vm::xml::Node& node,
+                                                const fetch::Request& request) {
+  const fetch::Response got = Fetch(node, request, "document");
   const std::string uri = fetch::WithoutFragment(got.uri);
   // The same bytes of the same place are parsed once: long sessions do not grow by going round.
   const std::size_t hash = std::hash<std::string>()(got.body);
@@ -87,15 +88,16 @@ bool DocumentSet::IsRoot(const std::string& uri) const {
   return root && root->uri == uri && root->root->IsElement("vxml");
 }
 
-std::shared_ptr<VxmlDocument> DocumentSet::LoadRoot(const VxmlDocument& document) {
+std::shared_ptr<VxmlDocument> DocumentSet::LoadRoot(const vm::xml::Node& node,
+                                                    const VxmlDocument& document) {
   if (!fetch::MayRead(document.uri, document.application)) {  // nor share a root that is here
     ThrowEvent("error.noauthorization",
                document.uri + ": its application root " + document.application + " is a file");
   }
   if (IsRoot(document.application)) return rt_.position.root;
-  fetch::Request request = RequestFor(rt_.position.Here(), "document");
+  fetch::Request request = RequestFor(node, "document");
   request.uri = document.application;
-  auto root = Load(request);
+  auto root = Load(node, request);
   if (!root->application.empty()) {
     ThrowEvent("error.semantic",
                document.application + ": an application root with a root of its own");
@@ -133,8 +135,8 @@ Transition DocumentSet::Submit(const vm::xml::Node& node, const std::string& ref
   request.post = submission.post;
   request.multipart = submission.multipart;
   Transition to;
-  to.document = Load(request);
-  to.root = to.document->application.empty() ? to.document : LoadRoot(*to.document);
+  to.document = Load(node, request);
+  to.root = to.document->application.empty() ? to.document : LoadRoot(node, *to.document);
   if (to.root == to.document && IsRoot(to.document->uri)) {
     to.fresh_application = is_submit || fetch::HasQuery(request.uri);
   }

@@ -47,8 +47,8 @@ class DocumentSet {
   std::vector<fetch::Field> FieldsOf(const vm::xml::Node& node, const std::string& namelist);
 
  private:
-  std::shared_ptr<VxmlDocument> Load(const fetch::Request& request);
-  std::shared_ptr<VxmlDocument> LoadRoot(const VxmlDocument& document);
+  std::shared_ptr<VxmlDocument> Load(const vm::xml::Node& node, const fetch::Request& request);
+  std::shared_ptr<VxmlDocument> LoadRoot(const vm::xml::Node& node, const VxmlDocument& document);
   /// True if an application root is loaded and is the one of that URI.
   bool IsRoot(const std::string& uri) const;
   Transition At(Transition to, const std::string& uri) const;

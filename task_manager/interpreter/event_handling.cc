@@ -101,6 +101,7 @@ bool EventHandling::Handle(EventThrown event, FormItem* item) {
   for (int turn = 0; turn <= kMaxHandlerDepth; ++turn) {
     rt_.scopes.LeaveBlocks();
     rt_.position.element = item ? item->node : nullptr;
+    rt_.budget.StepForBytes(event.message.size());
     EventCounters& counters = CountersOf(item);
     ++counters[""];
     for (std::size_t at = 0; at < event.name.size();) {

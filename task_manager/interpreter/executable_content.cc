@@ -136,7 +136,8 @@ void ExecutableContent::RunAssign(const vm::xml::Node& node) {
 }
 
 void ExecutableContent::RunClear(const vm::xml::Node& node) {
-  auto& items = rt_.position.dialog->items;
+  std::vector<FormItem> none;  // while a document is initialised
+  auto& items = rt_.position.dialog ? rt_.position.dialog->items : none;
   const std::string namelist = node.Get("namelist");
   const auto names = SplitWords(namelist);
   if (names.empty()) {
@@ -148,6 +149,7 @@ void ExecutableContent::RunClear(const vm::xml::Node& node) {
   }
   for (const std::string_view word : names) {
     const std::string name(word);
+    rt_.budget.Step();
     rt_.scopes.Clear(node, name);
     for (FormItem& item : items) {
       if (item.name == name || "dialog." + item.name == name) item.ResetCounters();

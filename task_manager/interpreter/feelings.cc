@@ -1,13 +1,13 @@
 #include "task_manager/interpreter/feelings.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 
 #include "embedded/feelings.h"
+#include "task_manager/document/values.h"
 
 namespace vxml {
 namespace {
@@ -27,12 +27,6 @@ std::string Upper(std::string_view text) {
   std::string upper(text);
   for (char& c : upper) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 32 : c);
   return upper;
-}
-
-double Number(const std::string& text, double otherwise) {
-  double value = otherwise;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc() && std::isfinite(value) ? value : otherwise;
 }
 
 using Table = std::map<std::pair<std::string, std::string>, NamedFeeling>;
@@ -57,7 +51,7 @@ Feeling FromDimensions(const vm::xml::Node& emotion) {
   for (const auto& child : emotion.children) {
     if (!child->IsElement("dimension")) continue;
     const std::string name = child->Get("name");
-    const double value = Number(child->Get("value"), 0.5);
+    const double value = NumberIn(child->Get("value"), 0, 1, 0.5);
     if (name == "pleasure" || name == "valence") pleasure = value;
     if (name == "arousal") arousal = value;
     if (name == "dominance" || name == "potency") dominance = value;
@@ -93,7 +87,7 @@ std::optional<Named> Strongest(const vm::xml::Node& emotion, std::string_view ki
   std::optional<Named> best;
   for (const auto& child : emotion.children) {
     if (!child->IsElement() || !IsOneOf(kinds, child->name)) continue;
-    const double amount = Number(child->Get("value"), 1);
+    const double amount = NumberIn(child->Get("value"), 0, 1, 1);
     if (!best || amount > best->amount) best = Named{child->name, child->Get("name"), amount};
   }
   return best;
@@ -104,7 +98,7 @@ std::optional<Named> Own(const vm::xml::Node& emotion) {
   Named named{.name = emotion.Get("type", emotion.Get("name"))};
   if (named.name.empty()) return {};
   if (const std::string* given = emotion.Find("value")) {
-    const double value = Number(*given, 100);
+    const double value = NumberIn(*given, -1000, 1000, 100);
     // EmotionML's 0..1 is told from the original's per cent by its point.
     const bool share = value <= 1 && given->find('.') != std::string::npos;
     named.amount = share ? value : value / 100;
@@ -154,7 +148,7 @@ std::optional<Feeling> ReadFeeling(const vm::xml::Node& emotion) {
   std::optional<Named> named = Strongest(emotion, "category");
   if (!named) named = Own(emotion);
   const vm::xml::Node* intensity = emotion.FirstElement("intensity");
-  if (named && intensity) named->amount = Number(intensity->Get("value"), 1);
+  if (named && intensity) named->amount = NumberIn(intensity->Get("value"), 0, 1, 1);
   if (!named && emotion.FirstElement("dimension")) {
     feeling = FromDimensions(emotion);
   } else if (!named) {
@@ -168,7 +162,7 @@ std::optional<Feeling> ReadFeeling(const vm::xml::Node& emotion) {
         static_cast<int>(std::lround(std::clamp(named->amount * shown->strength, 0.0, 200.0)));
     if (feeling.strength == 0) feeling.type = "NEUTRAL";
   }
-  feeling.pattern = std::clamp(static_cast<int>(Number(emotion.Get("pattern"), 1)), 1, 5);
+  feeling.pattern = static_cast<int>(NumberIn(emotion.Get("pattern"), 1, 5, 1));
   if (const std::string* through = emotion.Find("expressed-through")) {
     feeling.on_face = IsOneOf(*through, "face");
     feeling.in_voice = IsOneOf(*through, "voice");

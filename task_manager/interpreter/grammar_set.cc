@@ -42,6 +42,7 @@ const srgs::Grammar& GrammarSet::Add(std::unique_ptr<srgs::Grammar> grammar, con
 }
 
 const srgs::Rule* GrammarSet::Compile(const vm::xml::Node& grammar, const VxmlDocument& document) {
+  rt_.budget.Step(0);
   const std::string type = grammar.Get("type");
   if (!type.empty() && !srgs::FormOfType(type)) {
     ThrowEvent("error.unsupported.format", "grammars of type '" + type + "' are not known");
@@ -104,7 +105,7 @@ const srgs::Rule* GrammarSet::CompileExternal(const vm::xml::Node& grammar,
   if (grammar.Has("mode") && rule->grammar->mode != context.mode) {
     ThrowEvent("error.badfetch", uri + ": the grammar is not of mode " + grammar.Get("mode"));
   }
-  rt_.RequireLanguage(rule->grammar->language);
+  if (rule->grammar->mode == Mode::kVoice) rt_.RequireLanguage(rule->grammar->language);
   return rule;
 }
 

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "task_manager/document/values.h"
+
 namespace vxml {
 namespace {
 
@@ -39,12 +41,6 @@ std::string Upper(std::string text) {
   return text;
 }
 
-double Number(const std::string& text, double otherwise) {
-  double value = otherwise;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc() && std::isfinite(value) ? value : otherwise;
-}
-
 std::string Short(double value) {
   char digits[40];
   const double rounded = std::round(value * 1000) / 1000;
@@ -66,15 +62,15 @@ std::vector<std::string> Head(const vm::xml::Node& node) {
   const std::string lexeme = Upper(node.Get("lexeme", node.Get("type", "NOD")));
   const char* motion = lexeme == "SHAKE" ? "REFUSE" : lexeme == "TILT" ? "LISTEN" : "NOD";
   const int turns =
-      std::clamp(static_cast<int>(Number(node.Get("repetition", node.Get("repeats")), 1)), 1, 10);
+      static_cast<int>(NumberIn(node.Get("repetition", node.Get("repeats")), 1, 10, 1));
   return std::vector<std::string>(static_cast<std::size_t>(turns),
                                   std::string("to @FSM set FaceMot = ") + motion + " 1");
 }
 
 std::vector<std::string> Gaze(const vm::xml::Node& node) {
-  double down = Number(node.Get("x"), 0);
-  double right = Number(node.Get("y"), 0);
-  const double angle = Number(node.Get("offsetAngle"), 0);
+  double down = NumberIn(node.Get("x"), -180, 180, 0);
+  double right = NumberIn(node.Get("y"), -180, 180, 0);
+  const double angle = NumberIn(node.Get("offsetAngle"), -180, 180, 0);
   const std::string direction = Upper(node.Get("offsetDirection"));
   if (direction.find("LEFT") != std::string::npos) right = -angle;
   if (direction.find("RIGHT") != std::string::npos) right = angle;
@@ -85,7 +81,7 @@ std::vector<std::string> Gaze(const vm::xml::Node& node) {
 }
 
 std::vector<std::string> Face(const vm::xml::Node& node) {
-  const double amount = std::clamp(Number(node.Get("amount"), 1), 0.0, 1.0);
+  const double amount = NumberIn(node.Get("amount"), 0, 1, 1);
   if (const std::string unit = node.Get("au"); !unit.empty()) {
     const std::string side = Upper(node.Get("side", "BOTH"));
     const std::string letter = side == "LEFT" ? "L" : side == "RIGHT" ? "R" : "";

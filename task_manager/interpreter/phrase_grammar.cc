@@ -62,7 +62,7 @@ std::unique_ptr<srgs::Grammar> MakeGrammar(const Phrase& phrase) {
   rule->expansion = std::make_unique<Expansion>();
   auto& parts = rule->expansion->children;
   parts = TokensOf(phrase);
-  if (phrase.approximate && parts.size() > 1) {
+  if (phrase.approximate && parts.size() > 1 && parts.size() <= Phrase::kMostApproximate) {
     auto any = AnyOf(parts);
     parts.clear();
     parts.push_back(std::move(any));

@@ -10,9 +10,13 @@ namespace vxml {
 
 /// A grammar that nobody wrote out: of a choice, an option, keys or the platform's own words.
 struct Phrase {
+  static constexpr std::size_t kMostApproximate = 50;
+
   std::string words{};  ///< or keys
   bool dtmf = false;
-  bool approximate = false;            ///< any of the words, in order, at least one
+  /// Any of the words, in order, at least one. Of more than kMostApproximate words all are wanted:
+  /// such a grammar grows with the square of their number.
+  bool approximate = false;
   std::optional<std::string> value{};  ///< what it means, if that is not the words
 
   /// The same for phrases that make the same grammar, different for others.

@@ -13,7 +13,7 @@ void ProcessPhase::Take(const Match& match, FormItem* current) {
   const vm::xml::Node* dialog = rt_.position.dialog->node;
   switch (match.owner) {
     case Match::Owner::kUniversal:
-      ThrowEvent(match.utterance);
+      ThrowEvent(rt_.engine.ToString(match.value));
     case Match::Owner::kChoice:
       // A menu with document scope is entered first: what its choice throws is the menu's to
       // handle.
@@ -58,6 +58,7 @@ void ProcessPhase::FillPlain(const FormItem& item, const Value& value) {
 }
 
 Value ProcessPhase::Slot(Value value, const std::string& path) {
+  rt_.budget.Step(0);
   for (std::size_t at = 0; rt_.engine.IsObject(value);) {
     const std::size_t end = std::min(path.find('.', at), path.size());
     value = rt_.engine.Get(value, path.substr(at, end - at));

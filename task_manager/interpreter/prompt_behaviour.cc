@@ -2,27 +2,36 @@
 #include <algorithm>
 #include <charconv>
 
+#include "task_manager/document/values.h"
 #include "task_manager/interpreter/prompt_builder.h"
 #include "task_manager/interpreter/prompt_writer.h"
 
 namespace vxml {
+namespace {
+
+constexpr double kLongestSleep = 600;  ///< seconds
+
+}  // namespace
+
+/// NEUTRAL for names that no table knows, or error.unsupported.emotion if the markup is strict.
+Feeling PromptBuilder::FeelingOf(const vm::xml::Node& emotion) const {
+  if (const auto feeling = ReadFeeling(emotion)) return *feeling;
+  if (rt_.options.strict_markup) {
+    ThrowEvent("error.unsupported.emotion", "emotion '" + emotion.Get("type") + "' is not known");
+  }
+  rt_.Warn("unknown emotion, NEUTRAL is shown", emotion.line);
+  return {};
+}
 
 /// A feeling for the time of the words inside; afterwards the one around it.
 void PromptBuilder::Emotion(const vm::xml::Node& node) {
-  std::optional<Feeling> feeling = ReadFeeling(node);
-  if (!feeling) {
-    if (rt_.options.strict_markup) {
-      ThrowEvent("error.unsupported.emotion", "emotion '" + node.Get("type") + "' is not known");
-    }
-    rt_.Warn("unknown emotion, NEUTRAL is shown", node.line);
-    feeling = Feeling{};
-  }
-  if (feeling->on_face) Command(FaceCommand(*feeling), Millis(0), false);
-  feelings_.push_back(*feeling);
+  const Feeling feeling = FeelingOf(node);
+  if (feeling.on_face) Command(FaceCommand(feeling), Millis(0), false);
+  feelings_.push_back(feeling);
   AddChildren(node);
   EndWords();
   feelings_.pop_back();
-  if (!feeling->on_face) return;
+  if (!feeling.on_face) return;
   const auto around = std::find_if(feelings_.rbegin(), feelings_.rend(),
                                    [](const Feeling& it) { return it.on_face; });
   Command(FaceCommand(around == feelings_.rend() ? Feeling{} : *around), Millis(0), false);
@@ -38,14 +47,13 @@ void PromptBuilder::Media(const vm::xml::Node& node) {
     if (child->name == "native") {
       lines = NativeLines(rt_, *child);
     } else if (child->name == "emotion") {
-      lines.push_back(FaceCommand(ReadFeeling(*child).value_or(Feeling{})));
+      lines.push_back(FaceCommand(FeelingOf(*child)));
     } else {
       lines = BehaviourCommands(*child);
     }
     for (const std::string& line : lines) {
       if (child->name == "native" && line.starts_with("sleep ")) {
-        double seconds = 0;
-        std::from_chars(line.data() + 6, line.data() + line.size(), seconds);
+        const double seconds = NumberIn(line.substr(6), 0, kLongestSleep, 0);
         wait += Millis(static_cast<long long>(seconds * 1000));
         continue;
       }

@@ -60,6 +60,7 @@ void PromptBuilder::AddChildren(const vm::xml::Node& node) {
 
 void PromptBuilder::Words(const std::string& text) {
   if (text.empty()) return;
+  rt_.budget.StepForBytes(text.size());
   words_ += text;
   prompt_.text += text;
   ssml_ += vm::xml::Escape(text);

@@ -36,6 +36,7 @@ class PromptBuilder {
   void Pause(const vm::xml::Node& node);
   void Mark(const vm::xml::Node& node);
 
+  Feeling FeelingOf(const vm::xml::Node& emotion) const;
   void Emotion(const vm::xml::Node& node);
   void Media(const vm::xml::Node& node);
   void Behaviour(const vm::xml::Node& node);

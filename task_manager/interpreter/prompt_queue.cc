@@ -8,6 +8,11 @@ void PromptQueue::Add(Prompt prompt) {
   queue_.push_back(std::move(prompt));
 }
 
+void PromptQueue::AddCommands(Prompt prompt) {
+  if (rt_.connection.is_open()) return queue_.push_back(std::move(prompt));
+  for (const Segment& segment : prompt.segments) rt_.platform.Native(segment.text);
+}
+
 void PromptQueue::Flush() {
   if (queue_.empty()) return;
   if (!rt_.platform.Play(Take())) rt_.connection.HangUp();

@@ -15,8 +15,9 @@ class PromptQueue {
 
   /// Counts what it says against the budget.
   void Add(Prompt prompt);
-  /// Adds it without asking whether the line is open: commands are carried out in any case.
-  void AddCommands(Prompt prompt) { queue_.push_back(std::move(prompt)); }
+  /// A <native> by itself: its commands wait for their turn, or are carried out at once if the line
+  /// is closed.
+  void AddCommands(Prompt prompt);
   /// For the platform, which plays them.
   std::vector<Prompt> Take() { return std::exchange(queue_, {}); }
   /// Plays what is queued, to its end. Throws connection.disconnect.hangup.

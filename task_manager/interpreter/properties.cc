@@ -1,6 +1,5 @@
 #include "task_manager/interpreter/properties.h"
 
-#include <charconv>
 #include <string_view>
 
 #include "task_manager/document/values.h"
@@ -115,11 +114,8 @@ Millis Properties::Time(const std::string& name, Millis otherwise) const {
   return *time;
 }
 
-double Properties::Number(const std::string& name, double otherwise) const {
-  const std::string text = Get(name);
-  double value = otherwise;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc() ? value : otherwise;
+double Properties::Number(const std::string& name, double min, double max, double otherwise) const {
+  return NumberIn(Get(name), min, max, otherwise);
 }
 
 std::string DefaultMessage(const std::string& key, const std::string& language) {

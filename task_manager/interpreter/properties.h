@@ -25,8 +25,8 @@ class Properties {
   }
   /// Throws error.semantic if the property has a value that is no time.
   Millis Time(const std::string& name, Millis otherwise) const;
-  /// Throws nothing: what is no number is `otherwise`.
-  double Number(const std::string& name, double otherwise) const;
+  /// Between `min` and `max`; what is no number is `otherwise`.
+  double Number(const std::string& name, double min, double max, double otherwise) const;
 
  private:
   const Position& position_;

@@ -73,6 +73,7 @@ std::optional<Match> Recognition::MatchText(const std::string& text, bool dtmf,
                                             const ActiveList& active) {
   for (const ActiveGrammar& grammar : active) {
     if (grammar.IsDtmf() != dtmf) continue;
+    rt_.budget.Step(0);
     const srgs::MatchResult found = srgs::Match(*grammar.rule, text);
     if (!found.parse) continue;
     auto value = srgs::Interpret(rt_.engine, *found.parse, text);
@@ -82,7 +83,11 @@ std::optional<Match> Recognition::MatchText(const std::string& text, bool dtmf,
     line.Number("line", grammar.node ? static_cast<double>(grammar.node->line) : 0);
     if (!value) line.Text("error", value.error().text);
     rt_.Trace("match", line);
-    if (!value) ThrowEvent("error.semantic", value.error().text);
+    rt_.budget.Step(0);
+    if (!value) {
+      const bool limit = value.error().code == vm::Errc::kLimit;
+      ThrowEvent(limit ? "error.noresource" : "error.semantic", value.error().text);
+    }
     Match match;
     match.owner = grammar.owner;
     match.node = grammar.node;
@@ -98,8 +103,8 @@ std::optional<Match> Recognition::MatchText(const std::string& text, bool dtmf,
 std::vector<Match> Recognition::MatchesOf(const Input& input, const ActiveList& active,
                                           bool& below_confidence) {
   const bool dtmf = input.kind == Input::Kind::kDtmf;
-  const double threshold = dtmf ? 0 : rt_.properties.Number("confidencelevel", 0.5);
-  const auto most = static_cast<std::size_t>(std::max(1.0, rt_.properties.Number("maxnbest", 1)));
+  const double threshold = dtmf ? 0 : rt_.properties.Number("confidencelevel", 0, 1, 0.5);
+  const auto most = static_cast<std::size_t>(rt_.properties.Number("maxnbest", 1, 1000, 1));
   std::vector<Match> matches;
   for (const Hypothesis& hypothesis : input.hypotheses) {
     if (matches.size() >= most) break;

@@ -12,7 +12,7 @@ Runtime::Runtime(SessionOptions given, Platform& its_platform)
       engine(options.script),
       budget(options.max_steps_between_inputs, options.max_time_between_inputs),
       properties(position, options.properties),
-      scopes(engine, position) {}
+      scopes(engine, position, budget) {}
 
 void Runtime::Trace(std::string_view kind, const JsonLine& fields) const {
   if (options.trace) options.trace(kind, fields);

@@ -67,6 +67,7 @@ void Scopes::Throw(const vm::xml::Node& node, const std::string& what,
 }
 
 Value Scopes::Evaluate(const vm::xml::Node& node, const std::string& expression) {
+  budget_.Step(0);
   auto value = engine_.Evaluate(Chain(), expression);
   if (!value) Throw(node, "'" + expression + "'", value.error());
   return *value;
@@ -78,7 +79,9 @@ bool Scopes::Condition(const vm::xml::Node& node, const std::string& attribute) 
 }
 
 std::string Scopes::Text(const vm::xml::Node& node, const std::string& expression) {
-  return engine_.ToString(Evaluate(node, expression));
+  auto text = engine_.Text(Evaluate(node, expression));
+  if (!text) Throw(node, "'" + expression + "'", text.error());
+  return *text;
 }
 
 std::string Scopes::Text(const vm::xml::Node& node, const char* attribute, const char* twin) {
@@ -97,6 +100,10 @@ std::string Scopes::ContentText(const vm::xml::Node& node) {
 
 EventThrown Scopes::Event(const vm::xml::Node& node) {
   EventThrown event{Text(node, "event", "eventexpr"), "", false};
+  if (event.name.size() > kMaxEventName) {
+    position_.ThrowSemantic(node, "an event's name of " + std::to_string(event.name.size()) +
+                                      " bytes, at most " + std::to_string(kMaxEventName));
+  }
   event.has_message = node.Has("message") || node.Has("messageexpr");
   // Of these two the plain one wins.
   event.message = node.Has("message") ? node.Get("message") : Text(node, "message", "messageexpr");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "task_manager/interpreter/budget.h"
 #include "task_manager/interpreter/position.h"
 #include "task_manager/interpreter/signals.h"
 #include "task_manager/script/engine.h"
@@ -26,7 +27,10 @@ class Scopes {
     std::vector<script::Value> blocks;
   };
 
-  Scopes(script::Engine& engine, const Position& position) : engine_(engine), position_(position) {}
+  static constexpr std::size_t kMaxEventName = 1000;  ///< bytes
+
+  Scopes(script::Engine& engine, const Position& position, Budget& budget)
+      : engine_(engine), position_(position), budget_(budget) {}
 
   /// Makes the read-only session scope of variables by their paths ("connection.remote.uri").
   void MakeSession(const std::map<std::string, std::string>& variables);
@@ -81,6 +85,7 @@ class Scopes {
 
   script::Engine& engine_;
   const Position& position_;
+  Budget& budget_;  ///< each evaluation may take long, so it is looked at before
   script::Value session_;
   Frame frame_;
 };

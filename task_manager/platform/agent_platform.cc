@@ -4,7 +4,9 @@
 #include <charconv>
 #include <utility>
 
+#include "task_manager/document/values.h"
 #include "task_manager/fetch/uri.h"
+#include "vm_protocol/core/utf8.h"
 #include "vm_protocol/xml/node.h"
 
 namespace vxml {
@@ -12,9 +14,27 @@ namespace {
 
 constexpr Millis kAnswer{5000};
 constexpr Millis kLongestSpeech{300'000};
-constexpr Millis kSoundModule{500};     // the hub refuses at once what it does not know
-constexpr std::size_t kMaxText = 7000;  // the voice takes 8192 bytes
+constexpr Millis kSoundModule{500};  // the hub refuses at once what it does not know
 constexpr std::chrono::seconds kNodPause{2};
+/// Bytes of one utterance's words: the voice takes 8192 with the tags between them.
+constexpr std::size_t kMaxWords = 3000;
+
+/// Words of more than kMaxWords in parts, at blanks if there are some.
+std::vector<Segment> PartsOf(const Segment& segment) {
+  std::vector<Segment> parts{segment};
+  while (segment.kind == Segment::Kind::kText && parts.back().text.size() > kMaxWords) {
+    std::string& text = parts.back().text;
+    std::size_t end = vm::CutUtf8(text, kMaxWords).size();
+    if (const std::size_t blank = text.rfind(' ', end); blank != std::string::npos && blank > 0) {
+      end = blank;
+    }
+    Segment rest = segment;
+    rest.text = text.substr(end);
+    text.erase(end);
+    parts.push_back(std::move(rest));
+  }
+  return parts;
+}
 
 /// How a voice follows a feeling (property emotionspeak): JEIDA tags around the words.
 struct Tone {
@@ -143,10 +163,7 @@ std::string AgentPlatform::Tagged(const std::vector<Segment>& segments) {
       case Segment::Kind::kMark:
       case Segment::Kind::kCommand:
         if (segment.parallel) break;
-        actions_.push_back((segment.kind == Segment::Kind::kMark ? "mark " : "") + segment.text);
-        if (segment.pause.count() > 0) {
-          actions_.back() = "after " + std::to_string(segment.pause.count()) + " " + segment.text;
-        }
+        actions_.push_back({segment.kind == Segment::Kind::kMark, segment.text, segment.pause});
         if (words) {
           text += "<BOOKMARK MARK=\"d" + std::to_string(actions_.size() - 1) + "\"/>";
         } else {
@@ -157,27 +174,25 @@ std::string AgentPlatform::Tagged(const std::vector<Segment>& segments) {
         break;
     }
   }
-  return words ? text.substr(0, kMaxText) : "";
+  return words ? text : "";
 }
 
 void AgentPlatform::Act(std::size_t index) {
-  const std::string& action = actions_[index];
-  if (action.starts_with("mark ")) {
-    mark_ = action.substr(5);
+  const Action& action = actions_[index];
+  if (action.is_mark) {
+    mark_ = action.text;
     mark_at_ = Now();
     JsonLine line;
     line.Text("name", mark_);
     return Report("mark", line);
   }
-  if (action.starts_with("after ")) {  // so much later than the bookmark, by the hub's clock
-    const std::size_t blank = action.find(' ', 6);
+  if (action.delay.count() > 0) {
     const std::string macro = Macro("Later" + std::to_string(index));
     hub_.Send("to @AM-MCL def " + macro + " = " +
-              JsonText({PauseStep(Millis(std::stoll(action.substr(6, blank - 6)))),
-                        SendStep(action.substr(blank + 1))}));
+              JsonText({PauseStep(action.delay), SendStep(action.text)}));
     return hub_.Send("to @AM-MCL do " + macro);
   }
-  Native(action);
+  Native(action.text);
 }
 
 nlohmann::json AgentPlatform::PauseStep(Millis time) { return {{"pause_ms", time.count()}}; }
@@ -258,8 +273,9 @@ void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
     const std::string text = Tagged(std::exchange(piece, {}));
     if (!text.empty() && !stopped()) cut = !Utter(text, may_be_stopped);
     for (; acted_ < actions_.size(); ++acted_) {
-      // Of what was not spoken any more the face still comes to rest, but no mark was reached.
-      if (!stopped() || actions_[acted_].starts_with("to ")) Act(acted_);
+      // Of what was not spoken any more commands are still carried out, so that the face comes to
+      // rest, but no mark was reached.
+      if (!stopped() || !actions_[acted_].is_mark) Act(acted_);
     }
     while (!sounds_.empty() && !stopped()) {
       const std::string file = std::move(sounds_.front());
@@ -267,13 +283,22 @@ void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
       PlayFile(file, may_be_stopped);
     }
   };
+  std::size_t bytes = 0;
   for (const Segment& segment : prompt.segments) {
-    if (segment.kind != Segment::Kind::kAudio) {
-      piece.push_back(segment);
+    if (segment.kind == Segment::Kind::kAudio) {
+      end_piece();
+      bytes = 0;
+      if (!stopped()) PlaySound(segment, may_be_stopped);
       continue;
     }
-    end_piece();
-    if (!stopped()) PlaySound(segment, may_be_stopped);
+    for (Segment& part : PartsOf(segment)) {
+      if (bytes + part.text.size() > kMaxWords) {
+        end_piece();
+        bytes = 0;
+      }
+      bytes += part.text.size();
+      piece.push_back(std::move(part));
+    }
   }
   end_piece();
   if (saying_) ReportSaid(prompt, cut);
@@ -320,12 +345,11 @@ void AgentPlatform::Native(const std::string& line) {
   }
   // The original's module PAR: a list of commands and sleeps that starts with the next speech.
   if (message->to.size() == 1 && message->to[0] == "PAR") {
-    double seconds = 0;
     const std::string& value = message->value;
     if (message->slot == "Init") {
       beside_ = nlohmann::json::array();
     } else if (value.starts_with("sleep ")) {
-      std::from_chars(value.data() + 6, value.data() + value.size(), seconds);
+      const double seconds = NumberIn(value.substr(6), 0, 600, 0);
       beside_.push_back(PauseStep(Millis(static_cast<long long>(seconds * 1000))));
     } else {
       beside_.push_back(SendStep(value));

@@ -96,7 +96,13 @@ class AgentPlatform final : public Platform {
 
   HubLink& hub_;
   Options options_;
-  std::vector<std::string> actions_;  ///< of the prompt being spoken, by bookmark; "mark NAME"
+  /// What happens at a bookmark of the prompt being spoken.
+  struct Action {
+    bool is_mark = false;
+    std::string text;  ///< the mark's name, or the line
+    Millis delay{0};   ///< so much later than the bookmark, by the hub's clock
+  };
+  std::vector<Action> actions_;
   std::size_t acted_ = 0;
   std::deque<std::string> sounds_;  ///< files @SND was told to play
   bool has_sound_module_ = false;

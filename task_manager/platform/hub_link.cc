@@ -98,9 +98,9 @@ vm::Result<std::string> HubLink::Ask(const std::string& line, Millis limit) {
   const std::string tag = client_->Request(
       *message, [&answer](vm::Result<std::string> value) { answer = std::move(value); });
   if (!WaitFor([&] { return answer.has_value(); }, limit)) {
-    client_->Abandon(tag, {vm::Errc::kTimeout, "no answer to: " + line, 0});
+    client_->Abandon(tag, gone_ ? vm::Error{vm::Errc::kUnavailable, "the hub is gone", 0}
+                                : vm::Error{vm::Errc::kTimeout, "no answer to: " + line, 0});
   }
-  if (!answer) return vm::Fail(vm::Errc::kUnavailable, "the hub is gone");
   return *answer;
 }
 
@@ -151,6 +151,7 @@ bool HubLink::ReadTyped() {
   std::array<char, 65536> bytes{};
   const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
   if (n > 0) {
+    if (typed_.size() > kMostTypedBytes) typed_.clear();  // a line that nobody types
     typed_.append(bytes.data(), static_cast<std::size_t>(n));
     typed_any_ = true;
   } else {

@@ -75,6 +75,7 @@ class HubLink {
 
   struct Channel;
   static constexpr std::size_t kMostTyped = 1000;
+  static constexpr std::size_t kMostTypedBytes = std::size_t{64} << 10;  ///< of one line
   bool keyboard_;
   std::unique_ptr<Channel> channel_;
   bool keys_from_file_ = false;

@@ -52,6 +52,10 @@ vm::Result<std::string> SoundKeeper::FileOf(const std::string& uri, const std::s
     return found->second.first;
   }
   if (auto folder = Folder(); !folder) return folder;
+  if (const auto old = kept_.find(uri); old != kept_.end()) {  // the same place, another sound
+    std::error_code ignored;
+    std::filesystem::remove(old->second.first, ignored);
+  }
   if (kept_.size() >= kMaxFiles || bytes_ + bytes.size() > kMaxBytes) Clear();
   const std::string path = folder_ + "/" + std::to_string(++count_) + EndingOf(uri);
   std::ofstream file(path, std::ios::binary);

@@ -8,8 +8,8 @@
 namespace vxml {
 
 /// Keeps sounds that came over the net in files of a folder of its own, for the voice to play. The
-/// voice has to see the same disk. Limits: kMaxBytes and kMaxFiles; over them the older ones go.
-/// The folder goes with it. Thread: the session's.
+/// voice has to see the same disk. Limits: kMaxBytes and kMaxFiles; over them all kept so far
+/// go. The folder goes with it. Thread: the session's.
 class SoundKeeper {
  public:
   static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;

@@ -99,7 +99,7 @@ TransferResult TextPlatform::Transfer(const std::vector<Prompt>& prompts,
   Report("transfer", line);
   if (!command) {
     result.outcome =
-        request.type == "blind" ? "connection.disconnect.transfer" : "far_end_disconnect";
+        request.type == "blind" ? "connection.disconnect.transfer" : "connection.disconnect.hangup";
     return result;
   }
   result.duration = command->duration;

@@ -27,9 +27,9 @@ namespace {
 
 constexpr const char* kScriptFile = "script";
 constexpr std::size_t kMaxCompiled = 1000;  // expressions kept
-/// When variables hold the whole heap, handlers get this much more to let go of them, each time it
-/// is not enough, up to so many times the whole heap.
-constexpr std::size_t kAllowance = std::size_t{1} << 20;
+/// When variables hold the whole heap, handlers get this part of it more to let go of them, each
+/// time it is not enough, up to so many times the whole heap. What a heap holds is known no better.
+constexpr std::size_t kAllowancePart = 4;
 constexpr std::size_t kMostOverrun = 4;
 
 const JSClass kGlobalClass = {
@@ -245,8 +245,8 @@ vm::Error Engine::Impl::Starved() {
   const JSAutoRealm realm(js, global);
   JS_ClearPendingException(js);
   JS_GC(js);
-  most_heap_bytes =
-      std::clamp(HeapBytes() + kAllowance, limits.heap_bytes, kMostOverrun * limits.heap_bytes);
+  most_heap_bytes = std::clamp(HeapBytes() + limits.heap_bytes / kAllowancePart, limits.heap_bytes,
+                               kMostOverrun * limits.heap_bytes);
   context->set_most_heap_bytes(most_heap_bytes);
   return {vm::Errc::kLimit,
           "the script needs more than " + std::to_string(limits.heap_bytes >> 20) + " MiB", 0};
@@ -254,8 +254,11 @@ vm::Error Engine::Impl::Starved() {
 
 vm::Result<void> Engine::Impl::CheckHeap() {
   const JSAutoRealm realm(js, global);
-  if (HeapBytes() <= most_heap_bytes) return {};
-  JS_GC(js);
+  // Texts are freed beside the collection that finds them; the next one waits for that.
+  for (int turn = 0; turn < 2; ++turn) {
+    if (HeapBytes() <= most_heap_bytes) return {};
+    JS_GC(js);
+  }
   if (HeapBytes() <= most_heap_bytes) return {};
   return std::unexpected(Starved());
 }
@@ -573,11 +576,16 @@ bool Engine::IsString(const Value& value) { return impl_->Of(value).isString(); 
 bool Engine::ToBoolean(const Value& value) {
   return JS::ToBoolean(JS::RootedValue(impl_->js, impl_->Of(value)));
 }
-std::string Engine::ToString(const Value& value) {
+vm::Result<std::string> Engine::Text(const Value& value) {
   std::string text;
   const auto done = impl_->Within(
       [&] { return TextOf(impl_->js, JS::RootedValue(impl_->js, impl_->Of(value)), text); });
-  return done ? text : done.error().text;
+  if (!done) return std::unexpected(done.error());
+  return text;
+}
+std::string Engine::ToString(const Value& value) {
+  auto text = Text(value);
+  return text ? *text : text.error().text;
 }
 std::string Engine::ToJson(const Value& value) {
   std::string text;

@@ -97,6 +97,8 @@ class Engine {
   bool IsString(const Value& value);
   bool ToBoolean(const Value& value);
   std::string ToString(const Value& value);
+  /// The same, where a toString of the script's own may fail.
+  vm::Result<std::string> Text(const Value& value);
   /// JSON text; functions and cycles become their string; undefined is "undefined".
   std::string ToJson(const Value& value);
   /// A copy as a shallow array (for iterating while it may change).

@@ -249,6 +249,53 @@ TEST(HostileDialogTest, ManyPromptsAreQueuedInTimeThatGrowsWithTheirNumber) {
   EXPECT_LT((static_cast<double>(std::clock()) - before) / CLOCKS_PER_SEC, 15);
 }
 
+TEST(HostileDialogTest, SlowExpressionsTogetherAreBounded) {
+  const std::string slow = "(() => { for (let i = 0; i &lt; 2e6; i++); return 'a' })()";
+  std::string names;
+  for (int i = 0; i < 200; ++i)
+    names += "<param name=\"p" + std::to_string(i) + "\" expr=\"" + slow + "\"/>";
+  const double before = static_cast<double>(std::clock());
+  const auto outcome = RunDoc("<form><subdialog name=\"s\" src=\"#a\">" + names +
+                                  "</subdialog></form><form id=\"a\"><block/></form>",
+                              {"reason: error.noresource"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+  EXPECT_LT((static_cast<double>(std::clock()) - before) / CLOCKS_PER_SEC, 30);
+}
+
+TEST(HostileDialogTest, TransfersWithoutEndOfTheScriptEnd) {
+  const auto outcome = RunDoc(
+      "<form><transfer name=\"t\" dest=\"tel:+1\" type=\"consultation\"><filled><clear/></filled>"
+      "</transfer></form>",
+      {"reason: hangup"});
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileDialogTest, AVeryLongApproximateChoiceIsExact) {
+  std::string words;
+  for (int i = 0; i < 3000; ++i) words += "w" + std::to_string(i) + " ";
+  const auto outcome = RunDoc("<menu accept=\"approximate\"><choice event=\"x\">" + words +
+                                  "</choice><nomatch><pass/></nomatch></menu>",
+                              {"exit: pass"}, "say w17");
+  EXPECT_TRUE(outcome.pass) << outcome.why;
+}
+
+TEST(HostileXmlTest, AttributesAndNamespacesAreCounted) {
+  std::string defaults, elements;
+  for (int i = 0; i < 500; ++i) defaults += " a" + std::to_string(i) + " CDATA 'x'";
+  EXPECT_EQ(
+      vm::xml::Parse(
+          "<!DOCTYPE r [<!ATTLIST e" + defaults + ">]><r>" + Times("<e/>", 2000) + "</r>", "d")
+          .error()
+          .code,
+      vm::Errc::kLimit);
+  std::string spaces;
+  for (int i = 0; i < 50'000; ++i) spaces += " xmlns:n" + std::to_string(i) + "='u'";
+  const auto many =
+      vm::xml::Parse("<r" + spaces + ">" + Times("<n7:e><n9:f/></n7:e>", 50'000) + "</r>", "d");
+  ASSERT_TRUE(many) << many.error().text;
+  EXPECT_EQ(many->root->children[0]->children[0]->space, "u");
+}
+
 TEST(HostileDialogTest, RecursiveSubdialogsEnd) {
   const auto outcome = RunDoc("<form id=\"a\"><subdialog name=\"s\" src=\"#a\"/></form>",
                               {"reason: error.noresource"});

@@ -88,9 +88,7 @@ std::string Collapse(std::string_view text) {
   return result;
 }
 
-std::string_view Trim(std::string_view text) {
-  return vm::Trimmed(text, kBlanks);
-}
+std::string_view Trim(std::string_view text) { return vm::Trimmed(text, kBlanks); }
 
 bool IsBlank(std::string_view text) {
   return text.find_first_not_of(kBlanks) == std::string_view::npos;

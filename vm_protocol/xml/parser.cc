@@ -88,10 +88,20 @@ class Builder {
     node->kind = kind;
     node->line = XML_GetCurrentLineNumber(parser_);
     node->column = XML_GetCurrentColumnNumber(parser_) + 1;
-    if (++nodes_ > limits_.nodes) {
-      FailAt(vm::Errc::kLimit, "more than " + std::to_string(limits_.nodes) + " nodes");
-    }
+    CountNode();
     return node;
+  }
+
+  /// Elements, attributes, runs of text, comments and instructions. False: there are too many.
+  bool CountNode() {
+    if (++nodes_ <= limits_.nodes) return true;
+    FailAt(vm::Errc::kLimit, "more than " + std::to_string(limits_.nodes) + " nodes");
+    return false;
+  }
+
+  void Declare(const std::string& prefix, const std::string& space) {
+    spaces_[prefix].push_back(space);
+    declared_.back().push_back(prefix);
   }
 
   void Start(const char* name, const char** attributes) {
@@ -104,12 +114,13 @@ class Builder {
     for (; *attributes; attributes += 2) {
       const std::string_view value = attributes[1];
       if (value.size() > limits_.text_bytes) return TooLong("attribute value");
+      if (!CountNode()) return;
       node->attributes.push_back({attributes[0], "", std::string(value)});
     }
-    spaces_.push_back(spaces_.empty() ? std::map<std::string, std::string>{} : spaces_.back());
+    declared_.emplace_back();
     for (const Attribute& a : node->attributes) {
-      if (a.name == "xmlns") spaces_.back()[""] = a.value;
-      if (a.name.starts_with("xmlns:")) spaces_.back()[a.name.substr(6)] = a.value;
+      if (a.name == "xmlns") Declare("", a.value);
+      if (a.name.starts_with("xmlns:")) Declare(a.name.substr(6), a.value);
     }
     SplitName(name, *node);
     for (Attribute& a : node->attributes) {
@@ -138,14 +149,15 @@ class Builder {
 
   std::string SpaceOf(const std::string& prefix) const {
     if (prefix == "xml") return std::string(kXmlSpace);
-    const auto found = spaces_.back().find(prefix);
-    return found == spaces_.back().end() ? "" : found->second;
+    const auto found = spaces_.find(prefix);
+    return found == spaces_.end() || found->second.empty() ? "" : found->second.back();
   }
 
   void End() {
     if (failed_ || open_.empty()) return;
     --depth_;
-    spaces_.pop_back();
+    for (const std::string& prefix : declared_.back()) spaces_[prefix].pop_back();
+    declared_.pop_back();
     open_.pop_back();
   }
 
@@ -183,7 +195,8 @@ class Builder {
   Limits limits_;
   XmlDocument document_;
   std::vector<Node*> open_;
-  std::vector<std::map<std::string, std::string>> spaces_;
+  std::map<std::string, std::vector<std::string>> spaces_;  ///< by prefix, the innermost last
+  std::vector<std::vector<std::string>> declared_;          ///< prefixes, by open element
   std::size_t depth_ = 0;
   std::size_t nodes_ = 0;
   bool in_cdata_ = false;

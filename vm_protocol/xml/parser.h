@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "vm_protocol/xml/node.h"
 #include "vm_protocol/core/result.h"
+#include "vm_protocol/xml/node.h"
 
 namespace vm::xml {
 
@@ -15,7 +15,7 @@ struct Limits {
   std::size_t document_bytes = std::size_t{8} << 20;
   std::size_t text_bytes = std::size_t{1} << 20;  ///< one run of text or one attribute value
   std::size_t depth = 256;
-  std::size_t nodes = 500'000;
+  std::size_t nodes = 500'000;  ///< elements, attributes, runs of text, ...
   double entity_growth = 20.0;  ///< expanded bytes over bytes read, beyond the first 64 KiB
 };
 
