@@ -78,7 +78,7 @@ vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view
 std::string FormatHeadPoints(const HeadPoints& points) {
   std::string out = "face " + points.face + "\n";
   std::array<char, 200> line{};
-  for (const PlacePair& pair : points.pairs) {
+  for (const PointPair& pair : points.pairs) {
     const auto d = [](float v) { return static_cast<double>(v); };
     std::snprintf(line.data(), line.size(), "point %s %.3f %.3f %.3f  %.7g %.7g %.7g\n",
                   kParts[static_cast<std::size_t>(pair.part)], d(pair.from.x), d(pair.from.y),
@@ -88,11 +88,11 @@ std::string FormatHeadPoints(const HeadPoints& points) {
   return out;
 }
 
-Similarity FitSimilarity(std::span<const PlacePair> pairs) {
+Similarity FitSimilarity(std::span<const PointPair> pairs) {
   // Horn, "Closed-form solution of absolute orientation using unit quaternions", 1987: the turn is
   // the eigenvector of the largest eigenvalue of a 4 x 4 matrix, here found by squaring it.
   glm::dvec3 from_mean(0), to_mean(0);
-  for (const PlacePair& pair : pairs) {
+  for (const PointPair& pair : pairs) {
     from_mean += glm::dvec3(pair.from);
     to_mean += glm::dvec3(pair.to);
   }
@@ -100,7 +100,7 @@ Similarity FitSimilarity(std::span<const PlacePair> pairs) {
   to_mean /= static_cast<double>(pairs.size());
   glm::dmat3 s(0.0);
   double from_size = 0, to_size = 0;
-  for (const PlacePair& pair : pairs) {
+  for (const PointPair& pair : pairs) {
     const glm::dvec3 f = glm::dvec3(pair.from) - from_mean, t = glm::dvec3(pair.to) - to_mean;
     s += glm::outerProduct(f, t);  // s[c][r] = f_r t_c
     from_size += glm::dot(f, f);
