@@ -354,7 +354,7 @@ TEST(HeadPointsTest, DamageIsToldWithItsLine) {
   const auto text = [](const char* bad) { return std::string("face galatea\n") + bad; };
   for (const auto& [bad, words] : {std::pair("point plain 1 2 3 4 5\n", "p:2: face NAME"),
                                    std::pair("point nose 1 2 3 4 5 6\n", "p:2: plain, upper_lip"),
-                                   std::pair("point plain 1 2 3 4 5 nan\n", "p:2: six numbers"),
+                                   std::pair("point plain 1 2 3 4 5 nan\n", "p:2: 'nan' found"),
                                    std::pair("", "at least eight")}) {
     const auto read = ParseHeadPoints("p", text(bad));
     ASSERT_FALSE(read);
