@@ -61,18 +61,18 @@ const Features& Features::BuiltIn() {
   return features;
 }
 
-std::vector<glm::vec2> Features::Places(std::string_view name) const {
+std::vector<glm::vec2> Features::Points(std::string_view name) const {
   const auto& n = (*this)[name];
-  std::vector<glm::vec2> places;
-  for (std::size_t i = 0; i + 1 < n.size(); i += 2) places.emplace_back(n[i], n[i + 1]);
-  return places;
+  std::vector<glm::vec2> points;
+  for (std::size_t i = 0; i + 1 < n.size(); i += 2) points.emplace_back(n[i], n[i + 1]);
+  return points;
 }
 
 Curve Features::CurveOf(std::string_view name) const {
   std::vector<float> x, y;
-  for (const glm::vec2 place : Places(name)) {
-    x.push_back(place.x);
-    y.push_back(place.y);
+  for (const glm::vec2 point : Points(name)) {
+    x.push_back(point.x);
+    y.push_back(point.y);
   }
   return {std::move(x), std::move(y)};
 }

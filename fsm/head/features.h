@@ -21,7 +21,7 @@ class Features : public NumberTable {
   static const Features& BuiltIn();
 
   /// REQUIRES: as NumberTable, pairs of numbers.
-  std::vector<glm::vec2> Places(std::string_view name) const;
+  std::vector<glm::vec2> Points(std::string_view name) const;
   Curve CurveOf(std::string_view name) const;  ///< of x and y
 
  private:
