@@ -34,13 +34,14 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/app/face_of_name.h"
-#include "fsm/app/more_faces.h"
 #include "fsm/app/original_config.h"
+#include "fsm/faces/face_of_name.h"
+#include "fsm/faces/original_faces.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/appearance.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/head.h"
+#include "vm_protocol/core/or_throw.h"
 
 extern "C" char** environ;
 
@@ -184,7 +185,7 @@ void PrintFilm(const char* name, const Options& options, int width, int height,
   fsm::Scene scene;
   scene.camera.parallel = head.view();
   std::deque<std::uint64_t> begun;
-  renderer.Place({0, 0, width, height});
+  renderer.SetViewport({0, 0, width, height});
   Print(name, Measure(options, [&](int i) {
           renderer.Draw(head, Moving(i), {}, scene);
           begun.push_back(renderer.BeginRead());
@@ -193,7 +194,7 @@ void PrintFilm(const char* name, const Options& options, int width, int height,
           begun.pop_front();
         }));
   for (const std::uint64_t frame : begun) renderer.DropRead(frame);
-  renderer.Place({});
+  renderer.SetViewport({});
 }
 
 /// `count` people in one picture of rows of `across`, each of this size, as a window would show
@@ -210,14 +211,14 @@ void PrintMany(const char* name, const Options& options, int count, int across, 
   };
   Print(name, Measure(options, [&](int i) {
           for (int k = 0; k < count; ++k) {
-            renderer.Place({k % across * width, k / across * height, width, height});
+            renderer.SetViewport({k % across * width, k / across * height, width, height});
             renderer.Draw(head, Moving(i + 31 * k), {}, scene);
             begun.push_back(renderer.BeginRead());
             if (begun.size() > kUnderWay) end_oldest();
           }
           while (!begun.empty()) end_oldest();
         }));
-  renderer.Place({});
+  renderer.SetViewport({});
   PrintMemory();
 }
 
@@ -228,9 +229,8 @@ void PrintOthers(const Options& options, fsm::Renderer& renderer) {
     PrintFilm(options.face.c_str(), options, 0, 0, renderer, *head);
   }
   if (options.config.empty()) return;
-  const auto config = fsm::OriginalConfig::Read(options.config);
-  if (!config) throw std::runtime_error(config.error().text);
-  const auto faces = fsm::FacesOf(*config, "");
+  const auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
+  const auto faces = fsm::OriginalFaces(config.masks, config.shared, "");
   if (faces.empty()) throw std::runtime_error(options.config + " has no face");
   PrintFilm("portrait at 512 x 512 in a film", options, 512, 512, renderer, *faces.front().make());
 }

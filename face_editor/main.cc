@@ -15,8 +15,9 @@
 
 #include "face_editor/app/given_head.h"
 #include "face_editor/app/script.h"
-#include "fsm/app/face_of_name.h"
+#include "fsm/faces/face_of_name.h"
 #include "fsm/head/face_folder.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace {
 
@@ -28,19 +29,13 @@ struct Options {
   std::string size;
 };
 
-template <typename T>
-T Get(vm::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text);
-  return std::move(*result);
-}
-
 /// With --head, --mask names a face of a configuration.
 editor::MadeHead GivenHead(const Options& options) {
   if (!options.head.empty()) {
-    return Get(editor::OpenHead(options.head, options.mask, options.tables));
+    return vm::OrThrow(editor::OpenHead(options.head, options.mask, options.tables));
   }
   if (options.mask.empty()) return {};
-  return {fsm::MakeHeadOfName(options.mask, options.tables), nullptr, ""};
+  return {fsm::MakeHeadOfName(options.mask, options.tables), nullptr, "", nullptr};
 }
 
 /// A descriptor of a script; -1 = none. Closed at the end, unless it is stdin.
@@ -70,10 +65,10 @@ class Run {
       : options_(options),
         file_(options.script),
         lines_(file_.descriptor()),
-        editor_(Get(editor::Editor::Make(options.tables))),
+        editor_(vm::OrThrow(editor::Editor::Make(options.tables))),
         window_(options.width, options.height),
         given_(GivenHead(options)),
-        stage_(window_.context(), given_.head),
+        stage_(window_.context(), given_),
         player_(*editor_),
         ui_{*editor_, player_, stage_, window_} {
     ui_.folder = ui_.tables = options.tables;
@@ -125,8 +120,8 @@ class Run {
       if (head) ui_.page = editor::Page::kExpressions;
       return;
     }
-    Get(editor_->OpenPhoto(options_.photo));
-    if (!options_.points.empty()) Get(editor_->LoadPoints(options_.points));
+    vm::OrThrow(editor_->OpenPhoto(options_.photo));
+    if (!options_.points.empty()) vm::OrThrow(editor_->LoadPoints(options_.points));
     ui_.photo_path = options_.photo;
     ui_.Tell(editor_->work()->notice);
   }
@@ -137,16 +132,8 @@ class Run {
     const std::string path = fsm::FacesFolder() + "/" + options_.mask + "/" + fsm::kUnitsFile;
     std::error_code code;
     if (!fsm::IsFaceName(options_.mask) || !std::filesystem::exists(path, code)) return;
-    Get(editor_->Load(editor::Part::kUnits, path));
+    vm::OrThrow(editor_->Load(editor::Part::kUnits, path));
     ui_.paths[editor::Part::kUnits] = path;
-  }
-
-  static void Get(vm::Result<void> result) {
-    if (!result) throw std::runtime_error(result.error().text);
-  }
-  template <typename T>
-  static T Get(vm::Result<T> result) {
-    return ::Get(std::move(result));
   }
 
   vm::Result<void> Frame(const std::string& picture) {

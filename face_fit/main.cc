@@ -26,11 +26,12 @@
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
-#include "fsm/app/face_of_name.h"
 #include "fsm/app/original_config.h"
+#include "fsm/faces/face_of_name.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/pnt_file.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace {
 
@@ -61,17 +62,11 @@ struct Options {
   bool quiet = false;
 };
 
-template <typename T>
-T Get(vm::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text);
-  return std::move(*result);
-}
-
 /// Looks for eyes, nose and mouth of a head from elsewhere and writes them beside it.
 void FindPointsOfHead(const Options& options) {
   Progress progress(options.quiet);
-  const fsm::HeadFile file = Get(fsm::ReadHeadFile(options.head));
-  facefit::FaceNetworks networks = Get(facefit::FaceNetworks::Load(options.networks));
+  const fsm::HeadFile file = vm::OrThrow(fsm::ReadHeadFile(options.head));
+  facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
   progress.Say("head and networks read");
   const auto points = facefit::FindHeadPoints(networks, file, options.head, options.base);
   progress.Say("points found");
@@ -109,8 +104,8 @@ facefit::FoundFace FindFace(const Options& options, facefit::FaceNetworks& netwo
 }
 
 facefit::FoundFace FaceFromPoints(const Options& options, const facefit::BaseHead& base) {
-  const std::string text = Get(fsm::ReadWhole(options.points, 1U << 20));
-  return facefit::FaceFromHand(base, Get(facefit::ParseHandPoints(options.points, text)));
+  const std::string text = vm::OrThrow(fsm::ReadWhole(options.points, 1U << 20));
+  return facefit::FaceFromHand(base, vm::OrThrow(facefit::ParseHandPoints(options.points, text)));
 }
 
 /// A face of a configuration of the original, with the points its wireframe was fitted to.
@@ -120,8 +115,8 @@ struct OriginalFace {
 };
 
 OriginalFace ReadOriginal(const Options& options) {
-  const auto config = Get(fsm::OriginalConfig::Read(options.galatea));
-  const auto mask = std::ranges::find(config.masks, options.name, &fsm::OriginalConfig::Mask::name);
+  const auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.galatea));
+  const auto mask = std::ranges::find(config.masks, options.name, &fsm::OriginalFaceFiles::name);
   if (mask == config.masks.end()) {
     std::string names;
     for (const auto& other : config.masks) names += " " + other.name;
@@ -129,9 +124,9 @@ OriginalFace ReadOriginal(const Options& options) {
                              (names.empty() ? " none" : ":" + names));
   }
   OriginalFace face;
-  face.photo = Get(fsm::ReadImage(mask->picture));
-  const auto wireframe = Get(fsm::ReadPnt(mask->wireframe));
-  face.points = Get(
+  face.photo = vm::OrThrow(fsm::ReadImage(mask->picture));
+  const auto wireframe = vm::OrThrow(fsm::ReadPnt(mask->wireframe));
+  face.points = vm::OrThrow(
       facefit::PointsOfWireframe(mask->wireframe, wireframe, face.photo.width, face.photo.height));
   return face;
 }
@@ -160,9 +155,9 @@ std::vector<facefit::SideView> LookFromTheSide(const Options& options,
 }
 
 /// Where in the whole photo the face lies, in the pixels of --points.
-std::string Place(const facefit::FoundFace& face, const fsm::Image& whole) {
+std::string PlaceInPhoto(const facefit::FoundFace& face, const fsm::Image& whole) {
   const auto pixel = [](float v) { return std::to_string(std::lround(v)); };
-  const glm::vec3 nose = face.points[1];
+  const glm::vec3 nose = face.points[facefit::point::kNoseTip];
   return "place       nose " + pixel(nose.x) + " pixels from the left, " + pixel(nose.y) +
          " from the top, of " + std::to_string(whole.width) + " x " + std::to_string(whole.height) +
          "\n";
@@ -180,14 +175,12 @@ void CheckOptions(const Options& options) {
   }
 }
 
-void WriteFolder(const std::string& folder, const fsm::Image& picture, const fsm::PhotoHead& set,
+void WriteFolder(const std::string& folder, const fsm::Image& picture, const fsm::PhotoHead& head,
                  const std::string& report) {
   std::filesystem::create_directories(folder);
-  if (auto written = fsm::WriteImage(picture, folder + "/photo.png"); !written) {
-    throw std::runtime_error(written.error().text);
-  }
+  vm::OrThrow(fsm::WriteImage(picture, folder + "/photo.png"));
   for (const auto& [name, text] :
-       {std::pair("/report.txt", report), {"/face.txt", fsm::WritePhotoHead(set)}}) {
+       {std::pair("/report.txt", report), {"/face.txt", fsm::WritePhotoHead(head)}}) {
     std::ofstream file(folder + name);
     if (!(file << text).flush()) throw std::runtime_error("cannot write " + folder + name);
   }
@@ -204,10 +197,10 @@ void Run(const Options& options) {
   std::optional<OriginalFace> original;
   if (!options.galatea.empty()) original = ReadOriginal(options);
   fsm::Image finest =
-      original ? std::move(original->photo) : Get(ReadPhoto(options.photo, kFineSide));
+      original ? std::move(original->photo) : vm::OrThrow(ReadPhoto(options.photo, kFineSide));
   fsm::Image photo = original ? finest : AtWorkingSide(finest);
   const bool by_hand = original || !options.points.empty();
-  FaceNetworks networks = Get(FaceNetworks::Load(options.networks));
+  FaceNetworks networks = vm::OrThrow(FaceNetworks::Load(options.networks));
   progress.Say("photo and networks read");
   if (const int orientation = by_hand ? 1 : UprightOrientation(networks, photo); orientation != 1) {
     photo = Turned(photo, orientation);
@@ -230,14 +223,14 @@ void Run(const Options& options) {
   if (!sides.empty()) progress.Say("seen from the side, too");
   const Figure figure = CutOut(near, FindFigure(networks, near, &face));
   progress.Say("figure cut out");
-  fsm::PhotoHead set;
-  const TextureBake bake = BakeTexture(base, face, fit, near, figure, sides, set);
-  if (!options.glasses.empty()) set.glasses = options.glasses == "yes";
+  fsm::PhotoHead head;
+  const TextureBake bake = BakeTexture(base, face, fit, near, figure, sides, head);
+  if (!options.glasses.empty()) head.glasses = options.glasses == "yes";
   progress.Say("photo put on");
   const std::string report =
-      Place(found, photo) + Report(face, fit, near, bake.coverage, faces, set.glasses,
-                                   DetectOcclusion(networks, base, face, near));
-  WriteFolder(folder, bake.picture, set, report);
+      PlaceInPhoto(found, photo) + Report(face, fit, near, bake.coverage, faces, head.glasses,
+                                          DetectOcclusion(networks, base, face, near));
+  WriteFolder(folder, bake.picture, head, report);
   progress.Say("written");
   std::cout << report << "face_fit: wrote " << folder << "\n";
 }

@@ -68,8 +68,8 @@ std::string WarnOfEyes(const Fit& fit) {
                      : "";
 }
 
-/// Of 21 faces of people the limits were not set on two of three beyond 1.5 had hair before them;
-/// below, paint, hard light and turned heads were taken for something.
+/// Among 21 faces of people that the limits were not set on, two of three beyond 1.5 had hair
+/// before them; below, paint, hard light and turned heads were taken for something.
 std::string WarnOfOcclusion(const Occlusion& occlusion) {
   constexpr float kSurely = 1.5F;
   if (occlusion.measure < 1) return "";
@@ -91,7 +91,7 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
     out += line.data();
   };
   const glm::vec3 turn = glm::degrees(fit.pose.turn);
-  const float eyes = glm::distance(face.At(33), face.At(263));
+  const float eyes = glm::distance(face.At(point::kEyeOuterRight), face.At(point::kEyeOuterLeft));
   const float side = SideLight(face, photo);
   const float sharp = Sharpness(face, photo);
   const auto d = [](float v) { return static_cast<double>(v); };

@@ -63,7 +63,7 @@ fsm::Head SmallHead() {
   asset.topology.opacity.assign(kVertices, 0.5F);
   asset.topology.shut_lids.resize(1);
   asset.topology.skin_hairs.resize(2);
-  asset.topology.finishes.resize(1);
+  asset.topology.pbr_materials.resize(1);
   asset.topology.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
   asset.topology.texcoord.resize(kVertices);
   asset.topology.texture_weight.resize(kVertices);

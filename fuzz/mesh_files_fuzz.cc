@@ -29,7 +29,7 @@ constexpr std::size_t kMaxCarried = 200;  // vertices, and corners of triangles
 struct Ball {
   std::vector<glm::vec3> place;
   std::vector<std::uint32_t> triangles;
-  std::vector<fsm::PlacePair> pairs;
+  std::vector<fsm::PointPair> pairs;
 
   Ball() {
     constexpr std::uint32_t kSide = 9;
@@ -74,7 +74,7 @@ std::unique_ptr<fsm::Head> HeadOf(const Ball& ball) {
 /// Makes a head of the file, lays the rig of the ball on it and moves it. Whatever its numbers are,
 /// it is refused, or every vertex has a place.
 void CarryOnto(const fsm::HeadFile& file, const fsm::Similarity& place,
-               std::span<const fsm::PlacePair> pairs) {
+               std::span<const fsm::PointPair> pairs) {
   static const std::unique_ptr<fsm::Head> source = HeadOf(Ball());
   try {
     fsm::MeshModel model = fsm::ModelOf(file, place, -43);
@@ -121,11 +121,11 @@ void CarryRaw(std::span<const std::uint8_t> bytes) {
     return glm::vec3(x, y, z);
   };
   static const Ball ball;
-  std::vector<fsm::PlacePair> pairs(
+  std::vector<fsm::PointPair> pairs(
       ball.pairs.begin(),
       ball.pairs.begin() +
           std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(landmarks), std::ssize(ball.pairs)));
-  for (fsm::PlacePair& pair : pairs) pair.to = pair.from + place();
+  for (fsm::PointPair& pair : pairs) pair.to = pair.from + place();
   fsm::HeadFile file;
   fsm::HeadFile::Part part;
   while (at < bytes.size() && file.position.size() < kMaxCarried) {
@@ -133,7 +133,7 @@ void CarryRaw(std::span<const std::uint8_t> bytes) {
     if (!fsm::WithinReach(p)) return;  // no reader lets it through
     part.indices.push_back(static_cast<std::uint32_t>(file.position.size()));
     file.position.push_back(p);
-    if (sewn) file.place.emplace_back(0.5F, 0.5F);
+    if (sewn) file.texcoord.emplace_back(0.5F, 0.5F);
     if (part.indices.size() >= 6 && part.indices.size() % 3 == 0) {
       // Beside the triangle the one that joins it to the one before.
       const auto last = static_cast<std::uint32_t>(file.position.size() - 1);

@@ -4,8 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "fsm/app/head_of_file.h"
-#include "fsm/app/more_faces.h"
+#include "fsm/app/original_config.h"
+#include "fsm/faces/head_of_file.h"
+#include "fsm/faces/original_faces.h"
 
 namespace editor {
 namespace {
@@ -16,7 +17,7 @@ vm::Result<MadeHead> OpenOriginal(const std::string& path, const std::string& fa
   if (!config) return std::unexpected(config.error());
   std::vector<std::string> left_out;
   std::string names;
-  for (const auto& one : fsm::FacesOf(*config, tables, &left_out)) {
+  for (const auto& one : fsm::OriginalFaces(config->masks, config->shared, tables, &left_out)) {
     names += (names.empty() ? "" : ", ") + one.name;
     if (!face.empty() && one.name != face) continue;
     MadeHead made;
@@ -46,6 +47,12 @@ vm::Result<MadeHead> OpenHead(const std::string& path, const std::string& face,
     made.head = fsm::MakeHeadOfFile(path, tables, &telling);
     made.notice = telling.notice;
     if (made.notice.empty()) made.notice = "Head of " + path;
+    if (telling.by_shapes) {
+      made.remake = [path, tables](const fsm::UnitTable& units) {
+        fsm::HeadTelling known;
+        return fsm::MakeHeadOfFile(path, tables, &known, units);
+      };
+    }
     return made;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue, error.what());

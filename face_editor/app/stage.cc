@@ -8,16 +8,29 @@
 
 namespace editor {
 
-Stage::Stage(fsm::RenderContext& context, std::shared_ptr<const fsm::Head> given)
+Stage::Stage(fsm::RenderContext& context, MadeHead given)
     : renderer_(fsm::Renderer::Make(context)), given_(std::move(given)) {}
 
 void Stage::TakeUnits(const Editor& editor) {
+  const auto remade = remaker_.Take();
+  if (remade && *remade && moved_of_ == head_) moved_ = (*remade)->head;
   const auto& units = editor.state().units;
   if (moved_of_ == head_ && moved_by_ == units) return;
+  const bool same_head = moved_of_ == head_;
   moved_of_ = head_;
   moved_by_ = units;
+  scene.camera.parallel = head_ ? head_->view() : std::nullopt;
+  const bool given = head_ && head_ == given_.head;
+  if (given && given_.remake) {
+    if (!same_head) moved_ = nullptr;
+    if (!same_head && units == editor.built_in_units()) return;
+    remaker_.Ask([remake = given_.remake, units] {
+      return MadeHead{remake(units->table), nullptr, "", nullptr};
+    });
+    return;
+  }
   // A head that was given may have units of its own.
-  const bool own = units != editor.built_in_units() || (head_ && head_ == given_);
+  const bool own = units != editor.built_in_units() || given;
   moved_ = head_ && own ? head_->WithUnits(units->table) : nullptr;
 }
 
@@ -25,8 +38,8 @@ vm::Result<void> Stage::TakeOpened() {
   auto opened = opener_.Take();
   if (!opened) return {};
   if (!*opened) return std::unexpected(opened->error());
-  given_ = (*opened)->head;
-  notice = (*opened)->notice;
+  given_ = **opened;
+  notice = given_.notice;
   given_last_ = true;
   return {};
 }
@@ -45,31 +58,31 @@ vm::Result<void> Stage::Take(const Editor& editor, Wanted wanted) {
   const bool photo = work && work->base && (wanted == Wanted::kPhoto || !given_last_);
   const Source source = wanted == Wanted::kIdentity ? Source::kIdentity
                         : photo                     ? Source::kPhoto
-                        : given_                    ? Source::kGiven
+                        : given_.head               ? Source::kGiven
                                                     : Source::kIdentity;
   const Part part = source == Source::kPhoto ? Part::kPoints : Part::kIdentity;
   const std::uint64_t version = editor.state().version[static_cast<std::size_t>(part)];
   const bool other = source != source_ || (source == Source::kPhoto && work != work_) ||
-                     (source == Source::kGiven && head_ != given_);
+                     (source == Source::kGiven && head_ != given_.head);
   if (other || (version != version_ && source != Source::kGiven)) {
     source_ = source;
     work_ = work;
     version_ = version;
     if (other) built_ = nullptr;
     if (source == Source::kGiven) {
-      head_ = given_;
+      head_ = given_.head;
     } else if (source == Source::kPhoto) {
       maker_.Ask([work, points = editor.state().points]() -> vm::Result<MadeHead> {
         auto built = BuildFace(*work, points);
         if (!built) return std::unexpected(built.error());
-        return MadeHead{(*built)->head, *built, ""};
+        return MadeHead{(*built)->head, *built, "", nullptr};
       });
     } else {
       maker_.Ask(
           [base = editor.state().base, sliders = editor.state().sliders]() -> vm::Result<MadeHead> {
             auto head = MakeIdentityHead(base, sliders);
             if (!head) return std::unexpected(head.error());
-            return MadeHead{*head, nullptr, ""};
+            return MadeHead{*head, nullptr, "", nullptr};
           });
     }
   }
@@ -107,7 +120,7 @@ void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
   fsm::FaceState turned = state;
   turned.agent_rotation = {turn[0], turn[1], 0};
   head()->Evaluate(turned, vertices_);
-  renderer_->Place(pane);
+  renderer_->SetViewport(pane);
   renderer_->Draw(*head_, vertices_, turned, scene);
 }
 

@@ -17,8 +17,8 @@ namespace editor {
 /// drawn.
 class Stage {
  public:
-  /// `given`: worn while no photo is open; may be nullptr.
-  Stage(fsm::RenderContext& context, std::shared_ptr<const fsm::Head> given);
+  /// `given`: worn while no photo is open; may have no head.
+  Stage(fsm::RenderContext& context, MadeHead given);
 
   /// Which head is shown: of the photo and a head from elsewhere the one opened last, the photo's
   /// if there is one, or the built-in face with its sliders.
@@ -28,7 +28,7 @@ class Stage {
   vm::Result<void> Update(const Editor& editor, Wanted wanted);
   /// Makes a head from elsewhere that is then shown; what was shown before stays until it is made.
   void Open(HeadMaker::Job job) { opener_.Ask(std::move(job)); }
-  bool busy() const { return maker_.busy() || opener_.busy(); }
+  bool busy() const { return maker_.busy() || opener_.busy() || remaker_.busy(); }
   /// What is to be known of a head that was opened; "" once it is taken.
   std::string notice;
   /// The head as its units move it now; nullptr while the first one is being made.
@@ -55,7 +55,8 @@ class Stage {
   void TakeUnits(const Editor& editor);
 
   std::unique_ptr<fsm::Renderer> renderer_;
-  std::shared_ptr<const fsm::Head> given_, head_;
+  MadeHead given_;
+  std::shared_ptr<const fsm::Head> head_;
   // head_ by the units that are edited, made anew with either; nullptr: as it is.
   std::shared_ptr<const fsm::Head> moved_, moved_of_;
   std::shared_ptr<const Units> moved_by_;
@@ -66,7 +67,7 @@ class Stage {
   bool given_last_ = false;                     // given_ was opened after it
   std::uint64_t version_ = 0;                   // of what the head worn or asked for is made of
   fsm::HeadVertices vertices_;
-  HeadMaker maker_, opener_;
+  HeadMaker maker_, opener_, remaker_;
 };
 
 /// The lines of the fitted mesh over the photo, in its pixels: what faces the viewer.

@@ -14,19 +14,22 @@ namespace editor {
 namespace {
 
 constexpr int kPoints = static_cast<int>(facefit::kNetworkPoints);
-constexpr int kEyeRight = 33, kEyeLeft = 263;
+using facefit::PointIndex;
+constexpr int kEyeRight = facefit::point::kEyeOuterRight, kEyeLeft = facefit::point::kEyeOuterLeft;
 
 // Numbers of MediaPipe's face mesh.
-constexpr std::array kRightBrow = {70, 63, 105, 66, 107, 46, 53, 52, 65, 55};
-constexpr std::array kLeftBrow = {300, 293, 334, 296, 336, 276, 283, 282, 295, 285};
-constexpr std::array kNose = {168, 6,  197, 195, 5,   4,   1,  19,  94, 2,
-                              98,  97, 326, 327, 129, 358, 64, 294, 48, 278};
-constexpr std::array kJaw = {234, 93,  132, 58,  172, 136, 150, 149, 176, 148, 152,
-                             377, 400, 378, 379, 365, 397, 288, 361, 323, 454};
+constexpr PointIndex kRightBrow[] = {70, 63, 105, 66, 107, 46, 53, 52, 65, 55};
+constexpr PointIndex kLeftBrow[] = {300, 293, 334, 296, 336, 276, 283, 282, 295, 285};
+constexpr PointIndex kNose[] = {168, 6,  197, 195, 5,   4,   1,  19,  94, 2,
+                                98,  97, 326, 327, 129, 358, 64, 294, 48, 278};
+constexpr PointIndex kJaw[] = {234, 93,  132, 58,  172, 136, 150, 149, 176, 148, 152,
+                               377, 400, 378, 379, 365, 397, 288, 361, 323, 454};
 
-std::vector<int> Joined(std::initializer_list<std::span<const int>> lists) {
+std::vector<int> Joined(std::initializer_list<std::span<const PointIndex>> lists) {
   std::vector<int> all;
-  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  for (const auto& list : lists) {
+    for (const PointIndex i : list) all.push_back(static_cast<int>(i));
+  }
   std::ranges::sort(all);
   const auto rest = std::ranges::unique(all);
   all.erase(rest.begin(), rest.end());
@@ -35,7 +38,7 @@ std::vector<int> Joined(std::initializer_list<std::span<const int>> lists) {
 
 std::vector<PointGroup> MakeGroups() {
   using namespace facefit;
-  constexpr std::array kCorners = {61, 291};
+  constexpr PointIndex kCorners[] = {point::kMouthRight, point::kMouthLeft};
   std::vector<int> all(static_cast<std::size_t>(kPoints));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
   return {{"right_eye", "Right eye", Joined({EyeOutline(0)})},

@@ -1,19 +1,19 @@
 #include "face_editor/core/file_list.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
 #include <string_view>
 #include <system_error>
 
+#include "vm_protocol/core/lower_case.h"
+
 namespace editor {
 namespace {
 
 bool EndsIn(const std::string& path, std::initializer_list<std::string_view> endings) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string ending = vm::LowerCase(std::filesystem::path(path).extension().string());
   return std::ranges::find(endings, ending) != endings.end();
 }
 

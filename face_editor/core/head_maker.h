@@ -20,6 +20,8 @@ struct MadeHead {
   std::shared_ptr<const fsm::Head> head;
   std::shared_ptr<const BuiltFace> built;
   std::string notice;  ///< what the user should know; may be empty
+  /// Makes it anew with other units, where it is not Head::WithUnits that does so; takes seconds.
+  std::function<std::shared_ptr<const fsm::Head>(const fsm::UnitTable&)> remake = nullptr;
 };
 
 /// Makes heads aside, so that dragging never waits. Owns one thread, joined in the destructor; of

@@ -12,7 +12,7 @@
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
-#include "fsm/app/face_of_name.h"
+#include "fsm/faces/face_of_name.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
@@ -46,7 +46,7 @@ vm::Result<std::shared_ptr<FaceSight>> LoadSight(const std::string& folder,
     auto base = facefit::BaseHead::See(sight->networks, "galatea");
     if (const auto units = fsm::UnitsIn(tables)) base.MoveBy(*units);
     std::vector<glm::vec3> places;
-    for (const auto& place : base.places) places.push_back(place.On(base.rest.position));
+    for (const auto& place : base.points) places.push_back(place.On(base.rest.position));
     sight->mirror = MirrorOf(places);
     sight->base = std::make_shared<const facefit::BaseHead>(std::move(base));
   } catch (const std::exception& error) {
@@ -149,13 +149,13 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
       }
     }
     facefit::TextureBake bake = facefit::BakeTexture(*work.base, face, built->fit, work.photo,
-                                                     *work.figure, seen, built->set);
+                                                     *work.figure, seen, built->photo_head);
     built->report = facefit::Report(face, built->fit, work.photo, bake.coverage, work.faces,
-                                    built->set.glasses, work.cover);
+                                    built->photo_head.glasses, work.cover);
     built->picture = std::move(bake.picture);
-    built->set.photo = std::make_shared<fsm::Image>(
+    built->photo_head.photo = std::make_shared<fsm::Image>(
         fsm::Image{built->picture.width, built->picture.height, built->picture.rgba});
-    built->head = fsm::MakeHead(built->set);
+    built->head = fsm::MakeHead(built->photo_head);
     return built;
   } catch (const std::exception& error) {
     return vm::Fail(vm::Errc::kBadValue,
@@ -179,7 +179,7 @@ vm::Result<std::string> WriteFace(const BuiltFace& face, const std::string& fold
   if (auto done = WriteWhole(place + "/report.txt", face.report); !done) {
     return std::unexpected(done.error());
   }
-  if (auto done = WriteWhole(place + "/face.txt", fsm::WritePhotoHead(face.set)); !done) {
+  if (auto done = WriteWhole(place + "/face.txt", fsm::WritePhotoHead(face.photo_head)); !done) {
     return std::unexpected(done.error());
   }
   return place;

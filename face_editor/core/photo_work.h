@@ -63,7 +63,7 @@ PointMap AllPoints(const PhotoWork& work, const PointMap& known);
 /// The head of the person, fitted to points on the photo.
 struct BuiltFace {
   facefit::Fit fit;
-  fsm::PhotoHead set;  ///< its picture included
+  fsm::PhotoHead photo_head;  ///< its picture included
   fsm::Image picture;
   std::string report;
   std::shared_ptr<const fsm::Head> head;

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/appearance.h"
 #include "face_fit/bake/grain.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/skin_rasterizer.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/picture/filters.h"
@@ -19,26 +19,29 @@
 namespace facefit {
 namespace {
 
-/// Below it the neck of the photo's own takes over from the skin.
-float SkinBottom(float chin) { return chin - BuiltInAppearance().skin_below_chin; }
+/// The chin of the fitted head, and what lies about it, in the head's frame.
+class Chin {
+ public:
+  Chin(const BaseHead& base, const Fit& fit)
+      : at_(base.points[point::kChin].On(fit.posed_vertices)) {}
+  glm::vec3 at() const { return at_; }
+  /// Below it the neck of the photo takes over from the skin.
+  float SkinBottom() const { return at_.y - PhotoLook()("skin_below_chin"); }
+  /// 1 well below the chin, 0 above it.
+  float Below(glm::vec3 p) const { return Ramp(at_.y + below_, p.y); }
+  /// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
+  float BeforeNeck(glm::vec3 p) const { return Below(p) * Ramp(before_neck_, std::abs(p.x)); }
 
-float ChinY(const BaseHead& base, const Fit& fit) {
-  return base.places[152].On(fit.posed_vertices).y;
-}
-
-/// 1 well below the chin, 0 above it. `p`: in the head's frame.
-float BelowChin(float chin, glm::vec3 p) { return glm::smoothstep(chin + 45, chin + 12, p.y); }
-
-/// 1 below the chin, behind which the neck lies, 0 where the skin goes on to neck, ear and hair.
-/// `p`: in the head's frame.
-float BeforeNeck(float chin, glm::vec3 p) {
-  return BelowChin(chin, p) * glm::smoothstep(40.0F, 22.0F, std::abs(p.x));
-}
+ private:
+  glm::vec3 at_;
+  glm::vec2 below_ = PhotoLook().Pair("below_chin"), before_neck_ = PhotoLook().Pair("before_neck");
+};
 
 /// Fills what is not fixed with the solution of Poisson's equation for an even, slight curvature:
 /// as a skin of soap would span it, but a little rounder. By Gauss and Seidel, not to the end.
 void SolveLaplace(const FloatImage& fixed, FloatImage& depth) {
-  for (int round = 0; round < 400; ++round) {
+  const float round = PhotoLook()("sheet_round");
+  for (int step = 0; step < 400; ++step) {
     for (int y = 0; y < depth.height; ++y) {
       for (int x = 0; x < depth.width; ++x) {
         const std::size_t i = depth.Index(x, y);
@@ -47,7 +50,7 @@ void SolveLaplace(const FloatImage& fixed, FloatImage& depth) {
           return depth.at[depth.Index(std::clamp(x + dx, 0, depth.width - 1),
                                       std::clamp(y + dy, 0, depth.height - 1))];
         };
-        depth.at[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + 0.12F;
+        depth.at[i] = 0.25F * (next(1, 0) + next(-1, 0) + next(0, 1) + next(0, -1)) + round;
       }
     }
   }
@@ -78,19 +81,20 @@ std::vector<glm::vec3> MotionToRest(const BaseHead& base, const Fit& fit) {
 class OpeningsOfHead {
  public:
   OpeningsOfHead(const BaseHead& base, const Fit& fit) {
-    const auto at = [&](std::size_t point) { return base.places[point].On(fit.posed_vertices); };
-    constexpr std::array<std::pair<std::size_t, std::size_t>, 2> kEyes = {std::pair(33U, 133U),
-                                                                          std::pair(362U, 263U)};
-    // Millimetres that lids and lips go beyond their corners, and above and below.
-    constexpr float kLids = 3, kLips = 5;
+    const auto at = [&](PointIndex i) { return base.points[i].On(fit.posed_vertices); };
+    using namespace point;
+    constexpr std::array<std::pair<PointIndex, PointIndex>, 2> kEyes = {
+        std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
+    const glm::vec2 beyond = PhotoLook().Pair("opening_beyond_corner");
+    const glm::vec2 mouth = PhotoLook().Pair("opening_mouth");
     for (std::size_t i = 0; i < kEyes.size(); ++i) {
       const glm::vec3 right = at(kEyes[i].first), left = at(kEyes[i].second);
-      const float half = 0.5F * std::abs(left.x - right.x) + kLids;
+      const float half = 0.5F * std::abs(left.x - right.x) + beyond.x;
       ovals_[i] = {0.5F * (left + right), half, half, half};
     }
-    const glm::vec3 right = at(78), left = at(308);
-    constexpr float kJawFalls = 34;
-    ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + kLips, 10, kJawFalls};
+    const glm::vec3 right = at(kInnerMouthRight), left = at(kInnerMouthLeft);
+    ovals_[2] = {0.5F * (left + right), 0.5F * std::abs(left.x - right.x) + beyond.y, mouth.x,
+                 mouth.y};
   }
   /// `p`: in the head's frame.
   bool BehindMouth(glm::vec3 p) const { return Behind(ovals_[2], p); }
@@ -125,13 +129,14 @@ class ExtendedFigure {
         height_(static_cast<float>(opacity_.height)),
         chin_(chin),
         mm_(mm) {
-    constexpr float kHalfHead = 80;  // millimetres, with hair
+    const float half_head = PhotoLook()("half_head");
+    const glm::vec3 mirrored = PhotoLook().Vector("mirrored_strip");
     for (const int side : {0, 1}) {
       fall_[side] = Fall(side);
       const float aside = side == 0 ? chin.x : width_ - chin.x;
-      strip_[side] = std::max(0.35F * (aside - kHalfHead * mm), 0.04F * width_);
+      strip_[side] = std::max(mirrored.x * (aside - half_head * mm), mirrored.z * width_);
     }
-    lower_ = std::max(0.6F * (height_ - chin.y), 0.04F * height_);
+    lower_ = std::max(mirrored.y * (height_ - chin.y), mirrored.z * height_);
   }
   /// The pixel shown at a place in the photo's plane.
   glm::vec2 Pixel(glm::vec2 p) const {
@@ -139,7 +144,7 @@ class ExtendedFigure {
     if (const float out = Out(p); out > 0) {
       const float in = ToAndFro(out, strip_[side]);
       // A shoulder bends down into the arm.
-      const float round_mm = BuiltInAppearance().shoulder_round;
+      const float round_mm = PhotoLook()("shoulder_round");
       p.y -= fall_[side] * (out + in) + out * out / (2 * round_mm * mm_);
       p.x = side == 0 ? in : width_ - in;
     }
@@ -168,7 +173,7 @@ class ExtendedFigure {
     };
     const int inward = std::max(opacity_.width / 16, 1);
     const int edge = top(0), within = top(inward);
-    const glm::vec2 limit = BuiltInAppearance().shoulder_fall;
+    const glm::vec2 limit = PhotoLook().Pair("shoulder_fall");
     if (edge >= opacity_.height || within >= opacity_.height) return limit.x;
     return std::clamp(static_cast<float>(edge - within) / static_cast<float>(inward), limit.x,
                       limit.y);
@@ -182,7 +187,7 @@ class ExtendedFigure {
 
 /// The grid of the sheet: the photo with what goes on beside and below it.
 PhotoGrid GridOver(const Figure& figure, float mm) {
-  const float beyond = BuiltInAppearance().beyond_photo;
+  const float beyond = PhotoLook()("beyond_photo");
   constexpr float kLeastCell = 4.5F, kMostPoints = 14000;  // millimetres; count
   const glm::vec2 size(figure.colours.width, figure.colours.height);
   const glm::vec2 extent = size + glm::vec2(2 * beyond, beyond) * mm;
@@ -221,9 +226,12 @@ struct GridSkin {
 
 /// Depth of the sheet, millimetres towards the camera: just under the skin, from there gently back
 /// to the outline. `shown`: the figure's opacity, 0..1.
-FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, float chin, const GridSkin& skin,
+FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, const Chin& chin, const GridSkin& skin,
                       const FloatImage& shown) {
-  const Appearance& look = BuiltInAppearance();
+  const fsm::NumberTable& look = PhotoLook();
+  const glm::vec2 under_skin = look.Pair("sheet_under_skin");
+  const glm::vec2 before_neck = look.Pair("sheet_at_neck");
+  const float turns = look("sheet_turns");
   FloatImage depth(grid.columns, grid.rows), fixed(depth), beside(skin.depth);
   for (std::size_t i = 0; i < beside.at.size(); ++i) beside.at[i] *= skin.inner.at[i];
   beside = Blurred(beside, skin.rim);
@@ -236,18 +244,17 @@ FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, float chin, const G
         fixed.at[i] = 1;
         // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
         const float inward = glm::smoothstep(GridSkin::kEdge, 0.95F, skin.within.at[i]);
-        const float under = skin.depth.at[i] - glm::mix(0.6F, 5.0F, inward);
+        const float under = skin.depth.at[i] - glm::mix(under_skin.x, under_skin.y, inward);
         // Behind the lower face lies the neck; the jaw has room to open.
-        depth.at[i] = glm::mix(under, std::min(under, 30.0F), BeforeNeck(chin, about)) -
-                      2 * BelowChin(chin, about);
+        depth.at[i] = glm::mix(under, std::min(under, before_neck.x), chin.BeforeNeck(about)) -
+                      before_neck.y * chin.Below(about);
       } else if (skin.covered.at[i] <= 0 && shown.at[i] < 0.12F) {
         // Somewhat beyond the outline, which would waver as the grid's points lie within it or not.
         // Hair stands before the ears, shoulders lie in their plane. Beside the cheek the sheet
         // stays near the cheek's depth, or its last pixels would be drawn long.
-        constexpr float kTurns = 8;
-        const float far = glm::mix(look.hair_depth, look.shoulder_depth,
-                                   glm::smoothstep(chin, chin - 70, about.y));
-        const float near = std::max(beside.at[i] / std::max(share.at[i], 1e-3F) - kTurns, far);
+        const float far = glm::mix(look("hair_depth"), look("shoulder_depth"),
+                                   glm::smoothstep(chin.at().y, chin.at().y - 70, about.y));
+        const float near = std::max(beside.at[i] / std::max(share.at[i], 1e-3F) - turns, far);
         depth.at[i] = glm::mix(far, near, glm::smoothstep(0.0F, 0.25F, share.at[i]));
         fixed.at[i] = 1;
       }
@@ -278,7 +285,7 @@ Quads DrawnCells(const BaseHead& base, const Fit& fit, const PhotoGrid& grid,
   const auto hidden = [&](int x, int y) {
     return within.at[depth.Index(x, y)] > 0.999F || openings.Behind(about(x, y));
   };
-  // Of a photo of few pixels a cell is wider than what is left between lips and cheek.
+  // In a photo of few pixels a cell may be wider than what is left between lips and cheek.
   const auto in_mouth = [&](int x, int y) {
     int corners = 0;
     for (int k = 0; k < 4; ++k) corners += openings.BehindMouth(about(x + k % 2, y + k / 2));
@@ -309,33 +316,35 @@ Quads DrawnCells(const BaseHead& base, const Fit& fit, const PhotoGrid& grid,
 
 fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
-  const float chin = ChinY(base, fit);
+  const Chin chin(base, fit);
   FloatImage face =
-      RasterizeSkin(base, fit, {glm::vec2(0.5F), 1, width, height}, SkinBottom(chin)).depth;
+      RasterizeSkin(base, fit, fit.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom())
+          .depth;
   for (float& v : face.at) v = v > SkinRaster::kNone ? 1.0F : 0.0F;
   FillHoles(face);
   // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
   // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
   // large as the skin, or the chin would be seen a second time.
   const float mm = fit.pose.PixelsPerMm();
-  const float face_hole = BuiltInAppearance().hole_face, neck_hole = BuiltInAppearance().hole_neck;
-  const FloatImage soft = Blurred(face, std::max(static_cast<int>(9 * mm), 1));
+  const float face_hole = PhotoLook()("hole_face"), neck_hole = PhotoLook()("hole_neck");
+  const FloatImage soft =
+      Blurred(face, std::max(static_cast<int>(PhotoLook()("hole_soft") * mm), 1));
   FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
       const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(pixel, 20));
       const std::size_t i = keep.Index(x, y);
-      const float most = glm::mix(face_hole, neck_hole, BeforeNeck(chin, about));
+      const float most = glm::mix(face_hole, neck_hole, chin.BeforeNeck(about));
       keep.at[i] = glm::smoothstep(most + 0.08F, most - 0.12F, soft.at[i]);
       beside.at[i] = glm::smoothstep(neck_hole + 0.1F, neck_hole - 0.1F, soft.at[i]);
-      below.at[i] = BelowChin(chin, about);
+      below.at[i] = chin.Below(about);
     }
   }
   fsm::Image out = figure.colours;
   PushPullInpaint(out, keep);
-  const int grain = std::max(static_cast<int>(2.5F * mm), 2);
-  // Of a small photo grain is as coarse as its pixels.
+  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * mm), 2);
+  // In a small photo a pixel is as coarse as grain: none is added.
   const FloatImage all(width, height, glm::smoothstep(0.6F, 1.6F, mm));
   AddGrain(keep, all, grain, out);
   // Behind the jaw lies what is below it, not what is on it.
@@ -350,16 +359,16 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
 }
 
 void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
-                   fsm::PhotoHead& set) {
+                   fsm::PhotoHead& head) {
   const float mm = fit.pose.PixelsPerMm();
-  const float chin = ChinY(base, fit);
+  const Chin chin(base, fit);
   const PhotoGrid grid = GridOver(figure, mm);
-  const glm::vec3 chin_place = base.places[152].On(fit.posed_vertices);
-  const ExtendedFigure extended(figure, fit.pose.Project(fit.pose.ToCamera(chin_place)), mm);
-  SkinRaster raster = RasterizeSkin(base, fit, grid, SkinBottom(chin), MotionToRest(base, fit));
+  const ExtendedFigure extended(figure, fit.pose.Project(fit.pose.ToCamera(chin.at())), mm);
+  SkinRaster raster =
+      RasterizeSkin(base, fit, fit.pose, grid, chin.SkinBottom(), MotionToRest(base, fit));
   const GridSkin skin(
       raster.depth,
-      std::max(static_cast<int>(std::lround(BuiltInAppearance().sheet_rim * mm / grid.cell)), 1));
+      std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * mm / grid.cell)), 1));
   // Hair and neck beside the skin go with it.
   for (FloatImage& axis : raster.motion) Spread(skin.covered, skin.rim, axis);
   FloatImage shown(grid.columns, grid.rows);
@@ -370,8 +379,8 @@ void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
   }
   const FloatImage depth = SheetDepth(fit, grid, chin, skin, Blurred(shown, 2));
   const glm::vec2 size(figure.colours.width, figure.colours.height);
-  set.sheet.clear();
-  set.sheet_triangles.clear();
+  head.sheet.clear();
+  head.sheet_triangles.clear();
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
       const glm::vec2 pixel = grid.Pixel(x, y);
@@ -381,19 +390,19 @@ void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
       const glm::vec3 by(raster.motion[0].at[i], raster.motion[1].at[i], raster.motion[2].at[i]);
       const glm::vec3 place =
           fit.pose.FromCamera(fit.pose.Unproject(pixel, std::min(depth.at[i], 60.0F)));
-      set.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
+      head.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
     }
   }
   Quads quads = DrawnCells(base, fit, grid, extended, skin.covered, skin.rim, depth);
   // From back to front: soft edges show what lies behind them.
   std::ranges::sort(quads, {}, [&](const auto& quad) {
-    return std::pair(set.sheet[quad[0]].position.z + set.sheet[quad[2]].position.z, quad);
+    return std::pair(head.sheet[quad[0]].position.z + head.sheet[quad[2]].position.z, quad);
   });
   for (const auto& quad : quads) {
-    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) set.sheet_triangles.push_back(quad[k]);
+    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) head.sheet_triangles.push_back(quad[k]);
   }
-  set.seen_from = glm::transpose(fit.pose.Rotation()) * glm::vec3(0, 0, 1);
-  set.skin_bottom_y = SkinBottom(chin);
+  head.seen_from = glm::transpose(fit.pose.Rotation()) * glm::vec3(0, 0, 1);
+  head.skin_bottom_y = chin.SkinBottom();
 }
 
 }  // namespace facefit

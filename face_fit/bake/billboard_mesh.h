@@ -9,8 +9,9 @@ namespace facefit {
 fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure);
 
 /// Makes the mesh that carries hair, neck and clothes: a sheet just behind the face, from there
-/// gently back to the outline, its triangles sorted from back to front. Fills set.sheet,
-/// set.sheet_triangles, set.seen_from and set.skin_bottom_y.
-void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure, fsm::PhotoHead& set);
+/// gently back to the outline, its triangles sorted from back to front. Fills head.sheet,
+/// head.sheet_triangles, head.seen_from and head.skin_bottom_y.
+void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
+                   fsm::PhotoHead& head);
 
 }  // namespace facefit

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/appearance.h"
 #include "face_fit/bake/eyes.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/picture/float_image.h"
 #include "face_fit/picture/inpaint.h"
@@ -43,7 +43,7 @@ std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
   }
   const auto light = [](glm::vec3 c) { return c.r + c.g + c.b; };
   std::array<glm::vec3, kRings> usual;
-  // Of an iris all hidden there is nothing better than what is hidden least.
+  // Where all of an iris is hidden, the texel that is hidden least is the best there is.
   usual.fill(std::ranges::max_element(texels, {}, &Texel::seen)->colour);
   int last = -1;
   for (int k = 0; k < kRings; ++k) {
@@ -68,7 +68,7 @@ std::array<glm::vec3, kRings> UsualByRing(const std::vector<Texel>& texels) {
 /// A square of texels; (-1, 1) is its upper left corner.
 template <typename Colour>
 fsm::Image Painted(int side, Colour colour_at) {
-  fsm::Image out = BlankImage(side, side);
+  fsm::Image out = fsm::FilledImage(side, side);
   std::size_t i = 0;
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x, ++i) {
@@ -84,10 +84,8 @@ glm::vec4 Insert(const fsm::Image& square, int left, fsm::Image& picture) {
   const int side = square.width;
   const int top = picture.height - kMargin - side;
   for (int y = 0; y < side; ++y) {
-    std::copy_n(&square.rgba[static_cast<std::size_t>(4 * y * side)], 4 * side,
-                &picture.rgba[4 * (static_cast<std::size_t>(top + y) *
-                                       static_cast<std::size_t>(picture.width) +
-                                   static_cast<std::size_t>(left))]);
+    std::copy_n(&square.rgba[4 * square.Index(0, y)], 4 * side,
+                &picture.rgba[4 * picture.Index(left, top + y)]);
   }
   const glm::vec2 size(picture.width, picture.height);
   return {glm::vec2(left, top) / size, glm::vec2(left + side, top + side) / size};
@@ -102,7 +100,7 @@ struct SeenEye {
 /// `skin`: its colour below the eye.
 fsm::Image IrisPicture(const SeenEye& eye, glm::vec3 skin, const fsm::Image& photo) {
   // The shade of the lid's edge and its lashes.
-  const float edge = std::max(BuiltInAppearance().lid_shade * eye.ring.radius, 0.7F);
+  const float edge = std::max(PhotoLook()("lid_shade") * eye.ring.radius, 0.7F);
   const auto texel_at = [&](glm::vec2 p) {
     p *= fsm::kIrisSpan;
     const glm::vec2 at = eye.ring.centre + eye.ring.radius * (p.x * eye.right + p.y * eye.up);
@@ -139,12 +137,11 @@ fsm::Image BallPicture(const SeenEye& eye, const LidLines& rest, float radius,
     const float between = (rest.Down(p) - upper) / std::max(lower - upper, 0.05F);
     const auto [upper_seen, lower_seen] = eye.lids.At(part);
     return std::pair(
-        eye.lids.Place(part, glm::mix(upper_seen, lower_seen, glm::clamp(between, 0.0F, 1.0F))),
+        eye.lids.PointAt(part, glm::mix(upper_seen, lower_seen, glm::clamp(between, 0.0F, 1.0F))),
         between);
   };
-  const auto beside_iris = [&eye](glm::vec2 at) {
-    return Ramp(BuiltInAppearance().beside_iris,
-                glm::distance(at, eye.ring.centre) / eye.ring.radius);
+  const auto beside_iris = [&eye, range = PhotoLook().Pair("beside_iris")](glm::vec2 at) {
+    return Ramp(range, glm::distance(at, eye.ring.centre) / eye.ring.radius);
   };
   fsm::Image white =
       Painted(kEyeSide, [&](glm::vec2 p) { return ColourAt(photo, place(p).first); });
@@ -186,16 +183,17 @@ std::optional<std::array<std::size_t, 2>> ShownEyes(const Fit& fit) {
 
 /// The skin below an eye and beside it.
 glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, std::size_t side) {
-  constexpr std::array<std::array<std::size_t, 4>, 2> kSkin = {
+  constexpr std::array<std::array<PointIndex, 4>, 2> kSkin = {
       {{119, 118, 117, 101}, {348, 347, 346, 330}}};
   glm::vec3 light(1);
-  for (const std::size_t point : kSkin[side]) light += ColourAt(photo, face.points[point]) / 4.0F;
+  for (const PointIndex i : kSkin[side]) light += ColourAt(photo, face.At(i)) / 4.0F;
   return light;
 }
 
 /// Right and left exchanged, in another light.
 fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
-  gain = glm::clamp(gain, BuiltInAppearance().light_gain.x, BuiltInAppearance().light_gain.y);
+  const glm::vec2 limit = PhotoLook().Pair("light_gain");
+  gain = glm::clamp(gain, limit.x, limit.y);
   fsm::Image out = square;
   const auto width = static_cast<std::size_t>(square.width);
   for (std::size_t i = 0; i < out.rgba.size() / 4; ++i) {
@@ -208,28 +206,29 @@ fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
 }  // namespace
 
 void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-               fsm::Image& picture, fsm::PhotoHead& set) {
+               fsm::Image& picture, fsm::PhotoHead& head) {
   const auto shown = ShownEyes(fit);
   if (!shown) return;
   const glm::mat3 turned = fit.pose.Rotation();
   const glm::vec2 right = glm::normalize(glm::vec2(turned[0].x, -turned[0].y));
   std::array<EyeSquares, 2> squares;
-  for (const int side : {0, 1}) {
-    const auto k = static_cast<std::size_t>(side);
+  for (const std::size_t k : {0U, 1U}) {
     if ((*shown)[k] != k) continue;
-    const fsm::EyePlace& ball = base.head->topology().eyes[k];
-    const fsm::EyeTransform seat = set.eyes ? (*set.eyes)[k] : fsm::EyeTransform();
+    const fsm::EyeGeometry& ball = base.head->topology().eyes[k];
+    const fsm::EyeTransform seat = head.eyes ? (*head.eyes)[k] : fsm::EyeTransform();
     EyePoints seen, rest;
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      const auto point = static_cast<std::size_t>(EyeOutline(side)[i]);
+      const PointIndex point = EyeOutline(k)[i];
       seen[i] = face.At(point);
       rest[i] = glm::vec2(base.AtRest(point) - ball.centre);
     }
-    const float inner = rest[8].x, outer = rest[0].x;
+    const float inner = rest[kInnerCorner].x, outer = rest[kOuterCorner].x;
     for (std::size_t i = 0; i < rest.size(); ++i) {
       const float along = 2 * (rest[i].x - inner) / (outer - inner) - 1;
       const float open = std::max(1 - along * along, 0.0F);
-      const float raised = i % 8 == 0 ? 0 : i < 8 ? seat.upper_mm : seat.lower_mm;
+      const float raised = i % kInnerCorner == 0 ? 0
+                           : i < kInnerCorner    ? seat.upper_mm
+                                                 : seat.lower_mm;
       rest[i] = glm::vec2(seat.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
     }
     const SeenEye eye{fit.irises[k], LidLines(seen), right, {right.y, -right.x}};
@@ -237,13 +236,13 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
                   BallPicture(eye, LidLines(rest), seat.size * ball.ball_radius, photo)};
   }
   int left = kMargin;
-  set.eye_pictures.emplace();
+  head.eye_pictures.emplace();
   for (std::size_t k = 0; k < 2; ++k) {
     if ((*shown)[k] != k) {
       const glm::vec3 gain = LightBeside(face, photo, k) / LightBeside(face, photo, 1 - k);
       squares[k] = {Mirrored(squares[1 - k].iris, gain), Mirrored(squares[1 - k].ball, gain)};
     }
-    fsm::EyePicture& places = (*set.eye_pictures)[k];
+    fsm::EyePicture& places = (*head.eye_pictures)[k];
     places.iris = Insert(squares[k].iris, left, picture);
     left += kIrisSide + kMargin;
     places.ball = Insert(squares[k].ball, left, picture);

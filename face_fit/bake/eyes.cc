@@ -6,26 +6,26 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/bake/appearance.h"
 #include "face_fit/bake/openings.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/resample.h"
 #include "fsm/image/color_space.h"
 
 namespace facefit {
 namespace {
 
-/// Of a colour as the photo has it, 0..255.
+/// Linear RGB of a colour of the photo, which is sRGB 0..255.
 glm::vec3 Linear(glm::vec3 encoded) {
   const auto linear = [](float v) { return fsm::SrgbToLinear(v / 255); };
   return {linear(encoded.r), linear(encoded.g), linear(encoded.b)};
 }
 
-/// Of cheeks, upper lip, forehead and chin: linear.
+/// Mean brightness of cheeks, upper lip, forehead and chin, linear.
 float SkinLight(const FoundFace& face, const fsm::Image& photo) {
-  constexpr std::size_t kSkin[] = {50, 280, 205, 425, 151, 9, 199};
+  constexpr PointIndex kSkin[] = {50, 280, 205, 425, 151, 9, 199};
   float light = 0;
-  for (const std::size_t i : kSkin) {
-    light += Brightness(Linear(ColourAt(photo, face.points[i]))) / std::size(kSkin);
+  for (const PointIndex i : kSkin) {
+    light += Brightness(Linear(ColourAt(photo, face.At(i)))) / std::size(kSkin);
   }
   return light;
 }
@@ -33,33 +33,30 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 }  // namespace
 
 std::array<fsm::EyeTransform, 2> EyesAtRest(const BaseHead& base, const Fit& fit) {
-  const float kept = BuiltInAppearance().squint_kept;
-  constexpr std::size_t kUpper = 4, kLower = 12;  // the lids' middles in EyeOutline
+  const float kept = PhotoLook()("squint_kept");
   fsm::HeadVertices posed;
   base.head->Evaluate(fit.expression.State(), posed);
   std::array<fsm::EyeTransform, 2> seats = fit.eyes;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto raised = [&](std::size_t k) {
-      const auto point = static_cast<std::size_t>(EyeOutline(static_cast<int>(side))[k]);
-      const MeshPlace& lid = base.places[point];
+      const MeshPoint& lid = base.points[EyeOutline(side)[k]];
       return lid.On(posed.position).y - lid.On(base.rest.position).y;
     };
-    seats[side].upper_mm += kept * std::min(raised(kUpper), 0.0F);
-    seats[side].lower_mm += kept * std::max(raised(kLower), 0.0F);
+    seats[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
+    seats[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);
   }
   return seats;
 }
 
 void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                fsm::PhotoHead& set) {
-  const Appearance& look = BuiltInAppearance();
+                fsm::PhotoHead& head) {
+  const fsm::NumberTable& look = PhotoLook();
   std::vector<glm::vec3> iris, white;
-  for (int side = 0; side < 2; ++side) {
+  for (std::size_t side = 0; side < 2; ++side) {
     const auto outline = EyeOutline(side);
-    const glm::vec2 a(face.points[static_cast<std::size_t>(outline[0])]);
-    const glm::vec2 b(face.points[static_cast<std::size_t>(outline[8])]);
+    const glm::vec2 a = face.At(outline[kOuterCorner]), b = face.At(outline[kInnerCorner]);
     const float wide = glm::distance(a, b);
-    const IrisRing& ring = fit.irises[static_cast<std::size_t>(side)];
+    const IrisRing& ring = fit.irises[side];
     const float radius = ring.radius;
     const glm::vec2 centre = ring.centre;
     for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
@@ -84,33 +81,35 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
   };
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   // In weak light it keeps its hue: brightened channel by channel a brown one would turn grey.
-  const glm::vec3 tint = Linear(pick(iris, 0.5F, look.iris_unseen)) * look.iris_gain;
-  set.iris_colour = glm::clamp(
-      tint * std::max(1.0F, look.iris_darkest / std::max(Brightness(tint), 1e-4F)), 0.0005F, 0.6F);
+  const glm::vec3 tint = Linear(pick(iris, 0.5F, look.Vector("iris_unseen"))) * look("iris_gain");
+  head.iris_colour =
+      glm::clamp(tint * std::max(1.0F, look("iris_darkest") / std::max(Brightness(tint), 1e-4F)),
+                 0.0005F, 0.6F);
   // Whites are paler than what is seen of them, but have the hue of the light; and in whatever
   // shade they are not darker than a third of the skin beside them.
-  glm::vec3 ball = Linear(pick(white, 0.6F, look.white_unseen));
-  const float least = look.white_least * SkinLight(face, photo);
-  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look.white_greyed);
+  glm::vec3 ball = Linear(pick(white, 0.6F, look.Vector("white_unseen")));
+  const float least = look("white_least") * SkinLight(face, photo);
+  ball = glm::mix(ball, glm::vec3(Brightness(ball)), look("white_greyed"));
   ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
-  set.white_colour = glm::clamp(ball, 0.04F, 0.8F);
-  set.iris_size = fit.iris_size;
+  head.white_colour = glm::clamp(ball, 0.04F, 0.8F);
+  head.iris_size = fit.iris_size;
 }
 
-void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead& set) {
-  const Appearance& look = BuiltInAppearance();
+void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead& head) {
+  const fsm::NumberTable& look = PhotoLook();
   // Along the middle of the lower lip, where it is widest.
-  constexpr std::pair<std::size_t, std::size_t> kLower[] = {
+  constexpr std::pair<PointIndex, PointIndex> kLower[] = {
       {84, 87}, {17, 14}, {314, 317}, {181, 178}, {405, 402}};
   glm::vec3 lip(0);
-  for (const auto& [outer, inner] : kLower) {
-    const glm::vec2 at = 0.5F * (face.At(outer) + face.At(inner));
+  for (const auto& [below, above] : kLower) {
+    const glm::vec2 at = 0.5F * (face.At(below) + face.At(above));
     lip += Linear(ColourAt(photo, at)) / static_cast<float>(std::size(kLower));
   }
   // Screen colours are squares of it there; the inner rim lies in shade.
-  set.lip_colour = look.lip_inner.x * glm::pow(lip, glm::vec3(look.lip_inner.y));
-  const float light = SkinLight(face, photo);
-  set.teeth = std::min(look.teeth_light.x + look.teeth_light.y * light, look.teeth_light.z);
+  const glm::vec2 inner = look.Pair("lip_inner");
+  head.lip_colour = inner.x * glm::pow(lip, glm::vec3(inner.y));
+  const glm::vec3 teeth = look.Vector("teeth_light");
+  head.teeth = std::min(teeth.x + teeth.y * SkinLight(face, photo), teeth.z);
 }
 
 }  // namespace facefit

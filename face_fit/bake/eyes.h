@@ -10,16 +10,16 @@ namespace facefit {
 /// The eyes at rest. Half of a smile's squint is kept: the photo does not show how wide the eyes
 /// would be without it, and eyes that are too wide stare.
 std::array<fsm::EyeTransform, 2> EyesAtRest(const BaseHead& base, const Fit& fit);
-/// Fills set.iris_colour, set.white_colour and set.iris_size from the photo.
+/// Fills head.iris_colour, head.white_colour and head.iris_size from the photo.
 void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                fsm::PhotoHead& set);
+                fsm::PhotoHead& head);
 /// Paints the irises and the white beside them into a corner of `picture` that shows nothing else,
-/// and fills set.eye_pictures. What lids and irises hide is completed from around it. Does nothing
+/// and fills head.eye_pictures. What lids and irises hide is completed from around it. Does nothing
 /// if no iris is seen clearly.
 void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-               fsm::Image& picture, fsm::PhotoHead& set);
+               fsm::Image& picture, fsm::PhotoHead& head);
 inline constexpr float kLeastIris = 3;  ///< radius in pixels of what is worth showing
-/// Fills set.lip_colour, for where the lips turn inward, and set.teeth, by the light on the skin.
-void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead& set);
+/// Fills head.lip_colour, for where the lips turn inward, and head.teeth, by the light on the skin.
+void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead& head);
 
 }  // namespace facefit

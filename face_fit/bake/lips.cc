@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
@@ -38,13 +38,14 @@ Kind MeanOf(std::vector<glm::vec3>& texels, float from, float to) {
 }  // namespace
 
 void RedLips(const std::vector<float>& within, fsm::Image& map) {
-  const Appearance& look = BuiltInAppearance();
+  const fsm::NumberTable& look = PhotoLook();
+  const float sure = look("lip_inside"), soft = look("lip_soft"), most = look("lip_reddened");
+  const glm::vec2 skin_from = look.Pair("lip_beside");
   constexpr float kLeast = 0.05F;  // between lips and skin, of redness
   std::vector<glm::vec3> lips, beside;
   for (std::size_t i = 0; i < within.size(); ++i) {
-    if (within[i] > look.lip_inside) lips.push_back(Rgb(map, i));
-    if (within[i] > look.lip_beside.x && within[i] < look.lip_beside.y)
-      beside.push_back(Rgb(map, i));
+    if (within[i] > sure) lips.push_back(Rgb(map, i));
+    if (within[i] > skin_from.x && within[i] < skin_from.y) beside.push_back(Rgb(map, i));
   }
   if (lips.empty() || beside.empty()) return;
   const Kind lip = MeanOf(lips, 0.7F, 0.95F), skin = MeanOf(beside, 0.3F, 0.7F);
@@ -58,7 +59,7 @@ void RedLips(const std::vector<float>& within, fsm::Image& map) {
     const float lacks =
         glm::clamp((lip.redness - Redness(c)) / (lip.redness - skin.redness), 0.0F, 1.0F);
     // What shines, and what is dark between the lips, has a colour of its own.
-    const float part = look.lip_reddened * lacks * glm::smoothstep(0.0F, look.lip_soft, within[i]) *
+    const float part = most * lacks * glm::smoothstep(0.0F, soft, within[i]) *
                        glm::smoothstep(1.2F, 1.05F, bright / skin.brightness) *
                        glm::smoothstep(0.2F, 0.5F, bright / skin.brightness);
     SetRgb(map, i, glm::mix(c, hue * bright * darker, part));

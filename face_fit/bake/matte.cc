@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
@@ -27,8 +27,8 @@ using Numbers = Eigen::ArrayXf;  // of each pixel
 /// 0..1.
 glm::vec3 Colour(const fsm::Image& image, std::size_t i) { return Rgb(image, i) / 255.0F; }
 
-/// Of a spread of colours, with noise added. Grey pictures have them all on one line, where single
-/// precision does not reach.
+/// The inverse of a covariance of colours with noise added. Grey pictures have them all on one
+/// line, where single precision does not reach.
 glm::mat3 Inverse(const glm::mat3& spread, float noise) {
   return glm::mat3(glm::inverse(glm::dmat3(spread) + glm::dmat3(static_cast<double>(noise))));
 }
@@ -133,7 +133,7 @@ void Decide(FloatImage& opacity, int reach) {
 }
 
 FloatImage Solve(const fsm::Image& image, const FloatImage& person) {
-  const glm::vec2 sure = BuiltInAppearance().outline_doubt;
+  const glm::vec2 sure = PhotoLook().Pair("outline_doubt");
   // The person's outline is right to about this many pixels.
   const int reach = std::max(image.width, image.height) / 90 + 2;
   const FloatImage around = Blurred(person, reach);
@@ -224,7 +224,7 @@ FloatImage Matte(const fsm::Image& photo, const FloatImage& person) {
                                         std::max(photo.height * kSolvedSide / side, 1));
     out = Enlarged(small, Solve(small, ScaledDown(person, small.width, small.height)), photo);
   }
-  // What is as good as nothing or all is that.
+  // Opacities very near to 0 and 1 become 0 and 1.
   for (float& v : out.at) v = glm::clamp((v - 0.04F) / 0.92F, 0.0F, 1.0F);
   return out;
 }
@@ -263,7 +263,7 @@ fsm::Image WithoutBackground(const fsm::Image& photo, const FloatImage& opacity)
       out.rgba[4 * i + c] = Byte(figure.at[i]);
     }
   }
-  // Of what is hardly there the colour is hardly known.
+  // Where the figure is nearly transparent its colour is hardly known and is taken from around.
   FloatImage known = opacity;
   for (float& v : known.at) v = glm::smoothstep(0.05F, 0.6F, v);
   PushPullInpaint(out, known);

@@ -4,30 +4,30 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/bake/appearance.h"
-#include "face_fit/find/landmark_lists.h"
+#include "face_fit/bake/photo_look.h"
+#include "face_fit/find/network_points.h"
 #include "face_fit/picture/pixels.h"
 
 namespace facefit {
 
 Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) : face_(face) {
-  const Appearance& look = BuiltInAppearance();
+  const fsm::NumberTable& look = PhotoLook();
   // The dark line of the lashes stays on the rims of the lids.
-  const float lash = look.lash_rim * pixels_per_mm;
-  for (const int side : {0, 1}) {
+  const float lash = look("lash_rim") * pixels_per_mm;
+  for (const std::size_t side : {0U, 1U}) {
     const auto outline = EyeOutline(side);
     openings_.push_back({{outline.begin(), outline.end()}, -lash, -lash});
   }
   if (lips_apart) {
-    std::vector<int> mouth(UpperInnerLip().begin(), UpperInnerLip().end());
+    std::vector<PointIndex> mouth(UpperInnerLip().begin(), UpperInnerLip().end());
     mouth.insert(mouth.end(), LowerInnerLip().rbegin(), LowerInnerLip().rend());
     // Teeth shine through the blurred edge of the lips, in a small photo over more of them.
-    const float rim = std::max(look.mouth_rim.x * pixels_per_mm, 0.8F);
-    openings_.push_back({mouth, rim, rim + std::max(look.mouth_rim.y * pixels_per_mm, 1.0F)});
+    const glm::vec2 rim = glm::max(look.Pair("mouth_rim") * pixels_per_mm, glm::vec2(0.8F, 1));
+    openings_.push_back({mouth, rim.x, rim.x + rim.y});
   }
   for (Opening& opening : openings_) {
     Box2 box;
-    for (const int i : opening.outline) box.Add(face.At(i));
+    for (const PointIndex i : opening.outline) box.Add(face.At(i));
     opening.middle = box.Middle();
     opening.radius = 0.5F * glm::distance(box.low, box.high) + std::max(opening.all, 0.0F);
   }
@@ -46,7 +46,7 @@ float Openings::Skin(glm::vec2 pixel) const {
   return part;
 }
 
-float Outside(const FoundFace& face, std::span<const int> outline, glm::vec2 pixel) {
+float Outside(const FoundFace& face, std::span<const PointIndex> outline, glm::vec2 pixel) {
   bool inside = false;
   float nearest = 1e9F;
   const auto at = [&](std::size_t k) { return face.At(outline[k]); };

@@ -19,7 +19,7 @@ class Openings {
 
  private:
   struct Opening {
-    std::vector<int> outline;
+    std::vector<PointIndex> outline;
     float none, all;  ///< pixels outside the outline up to which there is no skin, from which only
     glm::vec2 middle{};
     float radius = 0;  ///< everything beyond is skin
@@ -29,6 +29,6 @@ class Openings {
 };
 
 /// How many pixels outside (negative: within) a closed line through points of the face `pixel` is.
-float Outside(const FoundFace& face, std::span<const int> outline, glm::vec2 pixel);
+float Outside(const FoundFace& face, std::span<const PointIndex> outline, glm::vec2 pixel);
 
 }  // namespace facefit

@@ -5,7 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
@@ -42,7 +42,7 @@ class Light {
         }
       }
     }
-    const glm::vec2 limit = BuiltInAppearance().light_gain;
+    const glm::vec2 limit = PhotoLook().Pair("light_gain");
     // From wide to narrow: what lies nearest counts most, where enough of it was seen.
     for (const int part : {2, 8, 20, 40}) {
       const int reach = std::max(width_ / part, 1);
@@ -81,7 +81,7 @@ void TakeFromOtherSide(const std::vector<bool>& skin, fsm::Image& map, FloatImag
   PushPullInpaint(around, seen_once);
   const FloatImage near = Blurred(seen_once, std::max(map.width / 50, 1));
   constexpr float kAny = 50;
-  const glm::vec2 near_light = BuiltInAppearance().other_side_light;
+  const glm::vec2 near_light = PhotoLook().Pair("other_side_light");
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = seen.Index(x, y), j = seen.Index(map.width - 1 - x, y);

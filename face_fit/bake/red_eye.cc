@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 
 namespace facefit {
 
@@ -18,17 +18,17 @@ float Redder(glm::vec3 colour, glm::vec3 skin) {
 }  // namespace
 
 float RedEye(glm::vec3 colour, glm::vec3 skin) {
-  const Appearance& look = BuiltInAppearance();
+  const fsm::NumberTable& look = PhotoLook();
   const float bluer = Blueness(colour) / std::max(Blueness(skin), 0.1F);
   const float bright = colour.r / std::max(skin.r, 1.0F);
-  return Ramp(look.flash_redder, Redder(colour, skin)) * Ramp(look.flash_bluer, bluer) *
-         Ramp(look.flash_bright, bright);
+  return Ramp(look.Pair("flash_redder"), Redder(colour, skin)) *
+         Ramp(look.Pair("flash_bluer"), bluer) * Ramp(look.Pair("flash_bright"), bright);
 }
 
 glm::vec3 WithoutRedEye(glm::vec3 colour, glm::vec3 skin, float near) {
   // A pupil is dark; what else shines in it is left a little brighter.
   const float part = near * glm::smoothstep(1.0F, 1.15F, Redder(colour, skin));
-  return glm::mix(colour, glm::vec3(BuiltInAppearance().flash_pupil * 0.5F * (colour.g + colour.b)),
+  return glm::mix(colour, glm::vec3(PhotoLook()("flash_pupil") * 0.5F * (colour.g + colour.b)),
                   part);
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 
@@ -28,7 +28,7 @@ float Saturation(const fsm::Image& map, const FloatImage& seen) {
     sum += brightest - std::min({c.r, c.g, c.b});
     light += brightest;
   }
-  return Ramp(BuiltInAppearance().colour_difference, sum / std::max(light, 1.0F));
+  return Ramp(PhotoLook().Pair("colour_difference"), sum / std::max(light, 1.0F));
 }
 
 FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen) {
@@ -40,6 +40,7 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen) {
   FloatImage likeness(map.width, map.height, 1);
   if (channels[0].empty()) return likeness;
   std::array<float, 3> middle{};
+  const glm::vec2 hair = PhotoLook().Pair("hair_darker");
   constexpr float kDark = 8;  // steps of brightness that make no difference
   for (std::size_t c = 0; c < 3; ++c) {
     middle[c] = Median(std::move(channels[c])) + kDark;
@@ -50,7 +51,7 @@ FloatImage SkinLikeness(const fsm::Image& map, const FloatImage& face_seen) {
       darker =
           std::max(darker, std::log(middle[c] / (static_cast<float>(map.rgba[4 * i + c]) + kDark)));
     }
-    likeness.at[i] = Ramp(BuiltInAppearance().hair_darker, darker);
+    likeness.at[i] = Ramp(hair, darker);
   }
   return Blurred(likeness, map.width / 170);
 }
@@ -73,12 +74,13 @@ float Roughness(const fsm::Image& map, const FloatImage& face_seen) {
 void EndAtHair(const std::vector<float>& up, FloatImage& likeness) {
   // A line of the forehead is narrower than this, a fringe is not.
   const FloatImage wide = Blurred(likeness, likeness.width / 100);
+  const glm::vec2 edge = PhotoLook().Pair("hair_edge");
   FloatImage skin(likeness.width, likeness.height, 1);
   for (int x = 0; x < likeness.width; ++x) {
     float least = 1;
     for (int y = likeness.height - 1; y >= 0; --y) {
       const auto i = static_cast<std::size_t>(y * likeness.width + x);
-      if (up[i] > 0) least = std::min(least, Ramp(BuiltInAppearance().hair_edge, wide.at[i]));
+      if (up[i] > 0) least = std::min(least, Ramp(edge, wide.at[i]));
       skin.at[i] = least;
     }
   }

@@ -7,8 +7,8 @@
 
 namespace facefit {
 
-SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& grid, float bottom,
-                         std::span<const glm::vec3> motion) {
+SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose,
+                         const PhotoGrid& grid, float bottom, std::span<const glm::vec3> motion) {
   const FloatImage none(grid.columns, grid.rows);
   SkinRaster out{FloatImage(grid.columns, grid.rows, SkinRaster::kNone), {none, none, none}};
   ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
@@ -17,8 +17,8 @@ SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& 
     for (int c = 0; c < 3; ++c) {
       const glm::vec3 v = fit.posed_vertices[t[c]];
       if (v.y < bottom || v.z < fsm::JawLine(v.y - bottom)) return;
-      q[c] = fit.pose.ToCamera(v);
-      p[c] = (fit.pose.Project(q[c]) - grid.origin) / grid.cell;
+      q[c] = pose.ToCamera(v);
+      p[c] = (pose.Project(q[c]) - grid.origin) / grid.cell;
     }
     const glm::vec3 n = glm::cross(q[1] - q[0], q[2] - q[0]);
     if (n.z <= 0.1F * glm::length(n)) return;

@@ -22,9 +22,11 @@ struct SkinRaster {
   std::array<FloatImage, 3> motion;  ///< of the skin there by `motion`, 0 where no skin is
 };
 
-/// Rasterises the skin of the fitted head above `bottom` (height in the head's frame, millimetres)
-/// and in front of ears and neck. `motion`: of each vertex of the base head, millimetres, or empty.
-SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const PhotoGrid& grid, float bottom,
+/// Rasterises the skin of the fitted head, as a camera in `pose` sees it, above `bottom` (height in
+/// the head's frame, millimetres) and in front of ears and neck. `motion`: of each vertex of the
+/// base head, millimetres, or empty.
+SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose,
+                         const PhotoGrid& grid, float bottom,
                          std::span<const glm::vec3> motion = {});
 
 }  // namespace facefit

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/float_image.h"
 #include "face_fit/picture/pixels.h"
@@ -18,7 +18,7 @@ namespace facefit {
 namespace {
 
 // Along the fold, from the wing of the nose to beside the chin; points of the network.
-constexpr std::array<std::array<std::size_t, 5>, 2> kFolds = {
+constexpr std::array<std::array<PointIndex, 5>, 2> kFolds = {
     {{129, 203, 206, 216, 212}, {358, 423, 426, 436, 432}}};
 
 float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
@@ -35,10 +35,10 @@ float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
 
 FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
                           fsm::Image& photo) {
-  const Appearance& look = BuiltInAppearance();
+  const float reach = PhotoLook()("fold_reach");
   FloatImage smooth(photo.width, photo.height);
   if (smile <= 0) return smooth;
-  const int valley = static_cast<int>(std::lround(look.fold_half_width * pixels_per_mm));
+  const int valley = static_cast<int>(std::lround(PhotoLook()("fold_half_width") * pixels_per_mm));
   if (valley < 1) return smooth;
   for (const auto& fold : kFolds) {
     std::array<glm::vec2, 5> line;
@@ -47,24 +47,20 @@ FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_m
       line[k] = face.At(fold[k]);
       box.Add(line[k]);
     }
-    const float margin = look.fold_reach * pixels_per_mm + 2 * static_cast<float>(valley);
+    const float margin = reach * pixels_per_mm + 2 * static_cast<float>(valley);
     const glm::ivec2 first = glm::max(glm::ivec2(box.low - margin), 0);
     const glm::ivec2 last =
         glm::min(glm::ivec2(box.high + margin) + 1, {photo.width, photo.height});
     if (last.x <= first.x || last.y <= first.y) continue;
     const glm::ivec2 size = last - first;
     const auto value = [&](int x, int y, std::size_t channel) -> std::uint8_t& {
-      return photo
-          .rgba[4 * (static_cast<std::size_t>(first.y + y) * static_cast<std::size_t>(photo.width) +
-                     static_cast<std::size_t>(first.x + x)) +
-                channel];
+      return photo.rgba[4 * photo.Index(first.x + x, first.y + y) + channel];
     };
     FloatImage part(size.x, size.y);
     for (int y = 0; y < size.y; ++y) {
       for (int x = 0; x < size.x; ++x) {
         const float off = ToLine(line, glm::vec2(first + glm::ivec2(x, y)) + 0.5F) / pixels_per_mm;
-        part.at[part.Index(x, y)] =
-            smile * glm::smoothstep(look.fold_reach, 0.5F * look.fold_reach, off);
+        part.at[part.Index(x, y)] = smile * glm::smoothstep(reach, 0.5F * reach, off);
       }
     }
     // Each colour for itself: folds are redder than the skin beside them.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
 
@@ -15,28 +15,29 @@ namespace {
 class Cheeks {
  public:
   explicit Cheeks(const BaseHead& base) : brows_(base.head->Landmark("nasion").y + kBrowsEnd) {
-    const auto at = [&base](std::size_t point) { return base.AtRest(point); };
-    eyes_ = 0.5F * (at(145).y + at(374).y);
-    wing_ = 0.5F * std::abs(at(129).x - at(358).x);
-    nose_ = at(2).y;
-    chin_ = at(152).y;
+    using namespace point;
+    const auto at = [&base](PointIndex i) { return base.AtRest(i); };
+    eyes_ = 0.5F * (at(kEyeBottomRight).y + at(kEyeBottomLeft).y);
+    wing_ = 0.5F * std::abs(at(kNoseRight).x - at(kNoseLeft).x);
+    nose_ = at(kNoseBottom).y;
+    chin_ = at(kChin).y;
   }
-  float At(const SkinPlaces& places, std::size_t i) const {
-    const float y = Y(places, i), x = std::abs(places.across[i]);
+  float At(const SkinTexels& texels, std::size_t i) const {
+    const float y = Y(texels, i), x = std::abs(texels.across[i]);
     return glm::smoothstep(eyes_ - 10, eyes_ - 22, y) * glm::smoothstep(chin_ + 8, chin_ + 20, y) *
            glm::smoothstep(58.0F, 44.0F, x) *
            std::max(glm::smoothstep(wing_ + 1, wing_ + 7, x),
                     0.7F * glm::smoothstep(nose_ - 3, nose_ - 7, y)) *
-           glm::smoothstep(-1.5F, -4.0F, places.red[i]);
+           glm::smoothstep(-1.5F, -4.0F, texels.red[i]);
   }
   /// Whether it is skin that can stand for the cheeks: no lips, no nose.
-  bool Skin(const SkinPlaces& places, std::size_t i) const {
-    const float y = Y(places, i), x = std::abs(places.across[i]);
-    return places.red[i] < -2 && y < eyes_ - 8 && (x > wing_ || y < nose_ - 2);
+  bool Skin(const SkinTexels& texels, std::size_t i) const {
+    const float y = Y(texels, i), x = std::abs(texels.across[i]);
+    return texels.red[i] < -2 && y < eyes_ - 8 && (x > wing_ || y < nose_ - 2);
   }
 
  private:
-  float Y(const SkinPlaces& places, std::size_t i) const { return places.up[i] + brows_; }
+  float Y(const SkinTexels& texels, std::size_t i) const { return texels.up[i] + brows_; }
   float brows_, eyes_ = 0, wing_ = 0, nose_ = 0, chin_ = 0;
 };
 
@@ -63,21 +64,21 @@ class Means {
 
 }  // namespace
 
-void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const FloatImage& seen,
+void EvenSmileShade(const BaseHead& base, const SkinTexels& texels, const FloatImage& seen,
                     float smile, fsm::Image& map) {
   if (smile <= 0) return;
-  const glm::ivec2 reach(BuiltInAppearance().shade_texels);
+  const glm::ivec2 reach(PhotoLook().Pair("shade_texels"));
   const Cheeks cheeks(base);
   FloatImage weight(kMapSide, kMapSide);
   for (std::size_t i = 0; i < weight.at.size(); ++i) {
-    weight.at[i] = cheeks.Skin(places, i) ? seen.at[i] * seen.at[i] : 0.0F;
+    weight.at[i] = cheeks.Skin(texels, i) ? seen.at[i] * seen.at[i] : 0.0F;
   }
   const Means fine(weight, reach.x), wide(weight, reach.y);
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const FloatImage values = Channel(map, channel);
     const FloatImage near = fine.Of(values), far = wide.Of(values);
     for (std::size_t i = 0; i < values.at.size(); ++i) {
-      const float part = smile * cheeks.At(places, i) * glm::smoothstep(0.1F, 0.5F, fine.Known(i));
+      const float part = smile * cheeks.At(texels, i) * glm::smoothstep(0.1F, 0.5F, fine.Known(i));
       if (part <= 0) continue;
       const float even = (far.at[i] + 1) / (near.at[i] + 1);
       map.rgba[4 * i + channel] = Byte(values.at[i] * glm::mix(1.0F, even, part));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "face_fit/bake/skin_places.h"
+#include "face_fit/bake/skin_texels.h"
 #include "face_fit/find/base_head.h"
 #include "face_fit/picture/float_image.h"
 
@@ -10,7 +10,7 @@ namespace facefit {
 /// beside the chin. Cheeks that bulge shine, and the skin below them lies in shade: brightness that
 /// varies over 2 to 10 mm is replaced by what varies over more. Pores and spots are finer and stay.
 /// `smile`: how much of it, 0..1. `seen`: of each texel, how well the photo shows it.
-void EvenSmileShade(const BaseHead& base, const SkinPlaces& places, const FloatImage& seen,
+void EvenSmileShade(const BaseHead& base, const SkinTexels& texels, const FloatImage& seen,
                     float smile, fsm::Image& map);
 
 /// Gives back to skin that was smoothed the grain that the cheek has above it and farther out.

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "face_fit/bake/appearance.h"
 #include "face_fit/bake/billboard_mesh.h"
 #include "face_fit/bake/eyes.h"
 #include "face_fit/bake/grain.h"
@@ -14,8 +13,9 @@
 #include "face_fit/bake/matte.h"
 #include "face_fit/bake/openings.h"
 #include "face_fit/bake/other_side.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/skin_colours.h"
-#include "face_fit/bake/skin_places.h"
+#include "face_fit/bake/skin_texels.h"
 #include "face_fit/bake/smile_folds.h"
 #include "face_fit/bake/smile_shade.h"
 #include "face_fit/find/glasses.h"
@@ -34,34 +34,34 @@ bool InPhoto(const fsm::Image& photo, glm::vec2 p) {
 }
 
 /// Lays a view from the side over what the first photo saw at a slant or not at all.
-void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const SkinPlaces& front,
+void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const SkinTexels& front,
              fsm::Image& map, FloatImage& seen) {
   const CameraPose& pose = side.fit.pose;
-  const SkinPlaces places = PlaceSkin(base, fit, pose, false);
+  const SkinTexels texels = ProjectSkin(base, fit, pose, false);
   // What it shows is of the side towards it: the other cheek lies behind the nose.
   const float towards = (glm::transpose(pose.Rotation()) * glm::vec3(0, 0, 1)).x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = side.figure.colours;
   // The same skin in another light: a gain for each channel makes it match.
   glm::vec3 here(1), there(1);
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (seen.at[i] < 0.9F || front.facing[i] < 0.4F || places.facing[i] < 0.5F ||
-        towards * front.across[i] < 5 || !InPhoto(colours, places.pixel[i])) {
+    if (seen.at[i] < 0.9F || front.facing[i] < 0.4F || texels.facing[i] < 0.5F ||
+        towards * front.across[i] < 5 || !InPhoto(colours, texels.pixel[i])) {
       continue;
     }
     here += Rgb(map, i);
-    there += ColourAt(colours, places.pixel[i]);
+    there += ColourAt(colours, texels.pixel[i]);
   }
-  const glm::vec3 gain =
-      glm::clamp(here / there, BuiltInAppearance().light_gain.x, BuiltInAppearance().light_gain.y);
+  const glm::vec2 limit = PhotoLook().Pair("light_gain");
+  const glm::vec3 gain = glm::clamp(here / there, limit.x, limit.y);
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (places.facing[i] < 0.15F || !InPhoto(colours, places.pixel[i])) continue;
-    const float can = glm::smoothstep(0.15F, 0.45F, places.facing[i]) *
+    if (texels.facing[i] < 0.15F || !InPhoto(colours, texels.pixel[i])) continue;
+    const float can = glm::smoothstep(0.15F, 0.45F, texels.facing[i]) *
                       glm::smoothstep(-4.0F, 12.0F, towards * front.across[i]);
     const float known = seen.at[i] * glm::smoothstep(0.2F, 0.5F, front.facing[i]);
     const float sum = known + (1 - known) * can;
     if (sum <= seen.at[i] * 0.01F || can <= 0) continue;
     const float part = (1 - known) * can / std::max(sum, 1e-4F);
-    const glm::vec3 colour = glm::min(gain * ColourAt(colours, places.pixel[i]), 255.0F);
+    const glm::vec3 colour = glm::min(gain * ColourAt(colours, texels.pixel[i]), 255.0F);
     SetRgb(map, i, glm::mix(Rgb(map, i), colour, part));
     seen.at[i] = std::max(seen.at[i], sum);
   }
@@ -69,28 +69,31 @@ void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const S
 
 /// The skin's map while it is painted.
 struct SkinMap {
-  fsm::Image image = BlankImage(kMapSide, kMapSide);
+  fsm::Image image = fsm::FilledImage(kMapSide, kMapSide);
   FloatImage seen{kMapSide, kMapSide};    ///< how well each texel was seen, 0..1
   FloatImage smooth{kMapSide, kMapSide};  ///< how much of its grain it lost, 0..1
   std::vector<bool> skin = std::vector<bool>(seen.at.size(), true);  ///< not within eyes or mouth
 };
 
 /// What the photo shows, but not what is between lids and lips.
-SkinMap PaintPhoto(const FoundFace& face, const Fit& fit, const SkinPlaces& places, bool open,
+SkinMap PaintPhoto(const FoundFace& face, const Fit& fit, const SkinTexels& texels, bool open,
                    fsm::Image colours) {
-  const Appearance& look = BuiltInAppearance();
+  const fsm::NumberTable& look = PhotoLook();
+  const float least_on_face = look("facing_least"), least_aside = look("facing_least_aside");
+  const float soft = look("facing_soft");
   const float mm = fit.pose.PixelsPerMm();
-  const FloatImage filled = FillSmileFolds(face, look.smile_folds_filled * Smile(fit), mm, colours);
+  const FloatImage filled =
+      FillSmileFolds(face, look("smile_folds_filled") * Smile(fit), mm, colours);
   const Openings openings(face, mm, open);
   SkinMap map;
-  for (std::size_t i = 0; i < places.facing.size(); ++i) {
-    const glm::vec2 p = places.pixel[i];
+  for (std::size_t i = 0; i < texels.facing.size(); ++i) {
+    const glm::vec2 p = texels.pixel[i];
     // Near the head's outline the photo shows more of what lies beside it than of its skin.
-    const float least = glm::mix(look.facing_least, look.facing_least_aside, places.aside[i]);
-    if (!InPhoto(colours, p) || places.facing[i] < least) continue;
+    const float least = glm::mix(least_on_face, least_aside, texels.aside[i]);
+    if (!InPhoto(colours, p) || texels.facing[i] < least) continue;
     const float part = openings.Skin(p);
     map.skin[i] = part >= 1;
-    map.seen.at[i] = part * glm::smoothstep(least, least + look.facing_soft, places.facing[i]);
+    map.seen.at[i] = part * glm::smoothstep(least, least + soft, texels.facing[i]);
     map.smooth.at[i] = filled.Between(p.x, p.y);
     SetRgb(map.image, i, SharpColourAt(colours, p));
   }
@@ -98,56 +101,57 @@ SkinMap PaintPhoto(const FoundFace& face, const Fit& fit, const SkinPlaces& plac
 }
 
 /// Where lips that were apart now meet there is a dark line, reddish where the photo has colour.
-void DrawMouthLine(const SkinPlaces& places, float saturation, fsm::Image& map) {
-  const Appearance& look = BuiltInAppearance();
-  const glm::vec3 dark = glm::mix(look.mouth_line_grey, look.mouth_line_colour, saturation);
-  for (std::size_t i = 0; i < places.off_seam.size(); ++i) {
-    const float line = glm::smoothstep(1.0F, 0.1F, places.off_seam[i]);
+void DrawMouthLine(const SkinTexels& texels, float saturation, fsm::Image& map) {
+  const fsm::NumberTable& look = PhotoLook();
+  const glm::vec3 dark =
+      glm::mix(look.Vector("mouth_line_grey"), look.Vector("mouth_line_colour"), saturation);
+  for (std::size_t i = 0; i < texels.off_seam.size(); ++i) {
+    const float line = glm::smoothstep(1.0F, 0.1F, texels.off_seam[i]);
     if (line > 0) SetRgb(map, i, Rgb(map, i) * (1.0F - dark * line));
   }
 }
 
 /// The same, 0 where no face is but the sides and the back of the head.
-FloatImage OnFace(const SkinPlaces& places, FloatImage seen) {
+FloatImage OnFace(const SkinTexels& texels, FloatImage seen) {
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (!OnFront(places, i)) seen.at[i] = 0;
+    if (!OnFront(texels, i)) seen.at[i] = 0;
   }
   return seen;
 }
 
 /// How much of the face's part of the map was seen, 0..1.
-float Coverage(const SkinPlaces& places, const FloatImage& seen) {
-  float texels = 0, sum = 0;
+float Coverage(const SkinTexels& texels, const FloatImage& seen) {
+  float count = 0, sum = 0;
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (!OnFront(places, i)) continue;
-    texels += 1;
+    if (!OnFront(texels, i)) continue;
+    count += 1;
     sum += seen.at[i];
   }
-  return sum / std::max(texels, 1.0F);
+  return sum / std::max(count, 1.0F);
 }
 
 /// Completes the map where the photo does not show it, and says in its alpha what is skin.
-void FinishMap(const BaseHead& base, const Fit& fit, const SkinPlaces& places, bool open,
-               SkinMap& map, fsm::PhotoHead& set) {
-  const Appearance& look = BuiltInAppearance();
-  set.saturation = Saturation(map.image, map.seen);
+void FinishMap(const BaseHead& base, const Fit& fit, const SkinTexels& texels, bool open,
+               SkinMap& map, fsm::PhotoHead& head) {
+  const fsm::NumberTable& look = PhotoLook();
+  head.saturation = Saturation(map.image, map.seen);
   TakeFromOtherSide(map.skin, map.image, map.seen);
   PushPullInpaint(map.image, map.seen);
-  EvenSmileShade(base, places, map.seen, look.smile_shade_evened * Smile(fit), map.image);
+  EvenSmileShade(base, texels, map.seen, look("smile_shade_evened") * Smile(fit), map.image);
   GrainFromCheeks(map.smooth, map.image);
   FloatImage aside(kMapSide, kMapSide);
-  aside.at = places.aside;
+  aside.at = texels.aside;
   AddGrain(map.seen, aside, kMapSide / 170, map.image);
   if (open) {
-    RedLips(places.red, map.image);
-    DrawMouthLine(places, set.saturation, map.image);
+    RedLips(texels.red, map.image);
+    DrawMouthLine(texels, head.saturation, map.image);
   }
-  const FloatImage face_seen = OnFace(places, map.seen);
-  const float rough =
-      (Roughness(map.image, face_seen) - look.roughness.x) / (look.roughness.y - look.roughness.x);
-  set.lined = glm::mix(look.crease_smooth, 1.0F, glm::clamp(rough, 0.0F, 1.0F));
+  const FloatImage face_seen = OnFace(texels, map.seen);
+  const glm::vec2 range = look.Pair("roughness");
+  const float rough = (Roughness(map.image, face_seen) - range.x) / (range.y - range.x);
+  head.lined = glm::mix(look("crease_smooth"), 1.0F, glm::clamp(rough, 0.0F, 1.0F));
   FloatImage likeness = SkinLikeness(map.image, face_seen);
-  EndAtHair(places.up, likeness);
+  EndAtHair(texels.up, likeness);
   for (std::size_t i = 0; i < likeness.at.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness.at[i]);
   }
@@ -161,12 +165,11 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
   constexpr float kShown = 2;
   const float steep = glm::clamp(kShown / pixels_per_mm, 1.0F, 3.0F);
   const glm::vec2 scale = glm::vec2(back.width, back.height) / static_cast<float>(kMapSide);
-  fsm::Image out = BlankImage(2 * kMapSide, kMapSide);
+  fsm::Image out = fsm::FilledImage(2 * kMapSide, kMapSide);
   for (int y = 0; y < kMapSide; ++y) {
     for (int x = 0; x < kMapSide; ++x) {
       const glm::vec2 p = (glm::vec2(x, y) + 0.5F) * scale;
-      const std::size_t left =
-          static_cast<std::size_t>(y) * 2 * kMapSide + static_cast<std::size_t>(x);
+      const std::size_t left = out.Index(x, y);
       std::copy_n(&map.rgba[4 * MapIndex(x, y)], 4, &out.rgba[4 * left]);
       SetRgb(out, left + kMapSide, SharpColourAt(back, p));
       out.rgba[4 * (left + kMapSide) + 3] =
@@ -180,33 +183,33 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
 
 TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
                         const fsm::Image& photo, const Figure& figure,
-                        std::span<const SideView> sides, fsm::PhotoHead& set) {
-  set.base = base.name;
-  set.points = fit.points;
-  set.smooth = fit.smooth;
-  set.eyes = EyesAtRest(base, fit);
-  const SkinPlaces places = PlaceSkin(base, fit, fit.pose, true);
+                        std::span<const SideView> sides, fsm::PhotoHead& head) {
+  head.base = base.name;
+  head.points = fit.points;
+  head.smooth = fit.smooth;
+  head.eyes = EyesAtRest(base, fit);
+  const SkinTexels texels = ProjectSkin(base, fit, fit.pose, true);
   const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
-  SkinMap map = PaintPhoto(face, fit, places, open, figure.colours);
+  SkinMap map = PaintPhoto(face, fit, texels, open, figure.colours);
   for (const SideView& side : sides) {
     if (side.outline_only) continue;
-    LayOver(base, fit, side, places, map.image, map.seen);
-    set.also_seen.push_back(glm::transpose(side.fit.pose.Rotation()) * glm::vec3(0, 0, 1));
+    LayOver(base, fit, side, texels, map.image, map.seen);
+    head.also_seen.push_back(glm::transpose(side.fit.pose.Rotation()) * glm::vec3(0, 0, 1));
   }
   TextureBake bake;
-  bake.coverage = Coverage(places, map.seen);
-  FinishMap(base, fit, places, open, map, set);
+  bake.coverage = Coverage(texels, map.seen);
+  FinishMap(base, fit, texels, open, map, head);
   bake.picture =
       SideBySide(map.image, BehindFace(base, fit, figure), figure.opacity, fit.pose.PixelsPerMm());
   // Half a texel within, so that the halves do not run into each other.
   constexpr float kHalf = 0.25F / kMapSide;
-  set.skin_low = {kHalf, 1};
-  set.skin_high = {0.5F - kHalf, 0};
-  MakeBillboard(base, fit, figure, set);
-  SampleEyes(face, fit, photo, set);
-  PaintEyes(base, face, fit, photo, bake.picture, set);
-  SampleMouth(face, photo, set);
-  set.glasses = BarOnNose(face, photo) > kGlasses;
+  head.skin_low = {kHalf, 1};
+  head.skin_high = {0.5F - kHalf, 0};
+  MakeBillboard(base, fit, figure, head);
+  SampleEyes(face, fit, photo, head);
+  PaintEyes(base, face, fit, photo, bake.picture, head);
+  SampleMouth(face, photo, head);
+  head.glasses = BarOnNose(face, photo) > kGlasses;
   return bake;
 }
 

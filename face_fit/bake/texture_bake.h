@@ -27,10 +27,10 @@ struct SideView {
   bool outline_only = false;
 };
 
-/// Paints both halves and fills in the rest of `set`, all but `set.photo`. `figure`: of `photo`;
+/// Paints both halves and fills in the rest of `head`, all but `head.photo`. `figure`: of `photo`;
 /// `sides`: photos of the same person from the side, may be empty. Pure; thread: any.
 TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
                         const fsm::Image& photo, const Figure& figure,
-                        std::span<const SideView> sides, fsm::PhotoHead& set);
+                        std::span<const SideView> sides, fsm::PhotoHead& head);
 
 }  // namespace facefit

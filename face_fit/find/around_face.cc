@@ -13,11 +13,13 @@ namespace {
 
 constexpr float kAside = 330, kAbove = 300, kBelow = 430;  // millimetres from the nose
 
-/// By the outer corners of the eyes and by forehead and chin, whichever is seen less at a slant.
+/// Measured between the outer corners of the eyes and from forehead to chin; the larger of the two
+/// is seen less at a slant.
 float PixelsPerMm(const FoundFace& face) {
   constexpr float kEyes = 90, kHeight = 132;  // millimetres, of the built-in head
-  return std::max(glm::distance(face.points[33], face.points[263]) / kEyes,
-                  glm::distance(face.points[10], face.points[152]) / kHeight);
+  return std::max(
+      glm::distance(face.points[point::kEyeOuterRight], face.points[point::kEyeOuterLeft]) / kEyes,
+      glm::distance(face.points[point::kForehead], face.points[point::kChin]) / kHeight);
 }
 
 }  // namespace
@@ -26,7 +28,7 @@ AroundFace CutToFace(const fsm::Image& photo, const fsm::Image& finest, const Fo
   const glm::vec2 size(photo.width, photo.height), all(finest.width, finest.height);
   const glm::vec2 finer = all / size;
   const float mm = PixelsPerMm(face);
-  const glm::vec2 nose(face.points[1]);
+  const glm::vec2 nose = face.At(point::kNoseTip);
   const glm::vec2 low = glm::clamp(nose - mm * glm::vec2(kAside, kAbove), glm::vec2(0), size);
   const glm::vec2 high = glm::clamp(nose + mm * glm::vec2(kAside, kBelow), glm::vec2(0), size);
   const glm::ivec2 from = glm::floor(low * finer), to = glm::ceil(high * finer);

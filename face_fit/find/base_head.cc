@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kSide = 720;
 
-/// Of the inner lips, the point of the seam: both lips meet there at rest, so they are told apart
-/// by how they move when the mouth opens.
-void OntoSeam(const BaseHead& base, std::vector<MeshPlace>& places) {
+/// Moves the points of the inner lips onto the seam. Both lips meet there at rest, so they are told
+/// apart by how they move when the mouth opens.
+void OntoSeam(const BaseHead& base, std::vector<MeshPoint>& points) {
   fsm::FaceState open;
   open.asymmetry = 0;
   open.au_left[27] = open.au_right[27] = 1;
@@ -30,8 +30,8 @@ void OntoSeam(const BaseHead& base, std::vector<MeshPlace>& places) {
     lips.insert(lips.end(), topology.indices.begin() + part.first_index,
                 topology.indices.begin() + part.first_index + part.index_count);
   }
-  const auto snap = [&](int point, bool upper) {
-    MeshPlace& place = places[static_cast<std::size_t>(point)];
+  const auto snap = [&](PointIndex i, bool upper) {
+    MeshPoint& place = points[i];
     const glm::vec3 at = place.On(base.rest.position);
     const auto near = [&](std::uint32_t v) {
       const glm::vec3 d = base.rest.position[v] - at;
@@ -59,20 +59,19 @@ void OntoSeam(const BaseHead& base, std::vector<MeshPlace>& places) {
       }
     }
   };
-  for (const int point : UpperInnerLip()) {
-    if (point != 78 && point != 308) snap(point, true);
-  }
-  for (const int point : LowerInnerLip()) snap(point, false);
+  const auto upper = UpperInnerLip();
+  for (const PointIndex i : upper.subspan(1, upper.size() - 2)) snap(i, true);
+  for (const PointIndex i : LowerInnerLip()) snap(i, false);
 }
 
 /// The place of the skin that is seen foremost at a pixel; beside the skin its nearest vertex.
 /// `screen`: of each vertex, pixels with y down, and depth towards the viewer in millimetres.
-MeshPlace PlaceUnder(const fsm::HeadTopology& topology, const std::vector<glm::vec3>& screen,
+MeshPoint PlaceUnder(const fsm::HeadTopology& topology, const std::vector<glm::vec3>& screen,
                      glm::vec2 at) {
   constexpr float kNear = 40, kBack = -20;  // pixels; millimetres
   constexpr float kLeastArea = 1e-4F;       // pixels
   float foremost = -1e9F, nearest = 1e9F;
-  MeshPlace place, beside;
+  MeshPoint place, beside;
   ForSkinTriangles(topology, [&](const std::uint32_t* t) {
     const float far = glm::distance(glm::vec2(screen[t[0]]), at);
     if (far > kNear || screen[t[0]].z < kBack) return;
@@ -96,12 +95,7 @@ MeshPlace PlaceUnder(const fsm::HeadTopology& topology, const std::vector<glm::v
 
 void BaseHead::MoveBy(const fsm::UnitTable& own) {
   units = own;
-  head = Moved(std::move(head));
-}
-
-std::unique_ptr<fsm::Head> BaseHead::Moved(std::unique_ptr<fsm::Head> other) const {
-  auto moved = units ? other->WithUnits(*units) : nullptr;
-  return moved ? std::move(moved) : std::move(other);
+  head = head->WithUnits(own);
 }
 
 BaseHead BaseHead::See(FaceNetworks& networks, const std::string& name) {
@@ -124,7 +118,7 @@ BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
   std::vector<glm::vec3> screen;
   for (const glm::vec3& p : base.rest.position) screen.emplace_back(portrait.Pixel(p), p.z);
   for (const glm::vec3& p : face.points) {
-    base.places.push_back(PlaceUnder(base.head->topology(), screen, glm::vec2(p)));
+    base.points.push_back(PlaceUnder(base.head->topology(), screen, glm::vec2(p)));
   }
   const float mm = portrait.mm_per_pixel();
   for (const glm::vec3& p : face.points) {
@@ -132,7 +126,7 @@ BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
     base.seen.emplace_back(p);
   }
   base.picture = std::move(picture);
-  if (own_seam) OntoSeam(base, base.places);
+  if (own_seam) OntoSeam(base, base.points);
   return base;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <concepts>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -10,10 +9,8 @@
 #include <vector>
 
 #include "face_fit/find/face_finder.h"
-#include "face_fit/find/landmark_lists.h"
-#include "face_fit/find/mesh_place.h"
-#include "fsm/rig/action_units.h"
-#include "fsm/rig/head.h"
+#include "face_fit/find/mesh_point.h"
+#include "face_fit/find/network_points.h"
 #include "fsm/rig/action_units.h"
 #include "fsm/rig/head.h"
 
@@ -26,21 +23,16 @@ struct BaseHead {
   std::string name;
   std::unique_ptr<fsm::Head> head;
   fsm::HeadVertices rest;
-  std::vector<MeshPlace> places;             ///< of the kNetworkPoints
+  std::vector<MeshPoint> points;             ///< where the network's points lie on it
   std::vector<float> seen_z;                 ///< the depth the network gave each, millimetres
   fsm::Image picture = {};                   ///< what the network was shown
   std::vector<glm::vec2> seen = {};          ///< where it found the points there, pixels
   std::optional<fsm::UnitTable> units = {};  ///< of one's own, that move it
 
   /// Where a point of the network lies on the head at rest.
-  template <std::integral I>
-  glm::vec3 AtRest(I point) const {
-    return places[static_cast<std::size_t>(point)].On(rest.position);
-  }
-  /// From now on moved by these units. Its places stay: they were seen at rest.
+  glm::vec3 AtRest(PointIndex i) const { return points[i].On(rest.position); }
+  /// From now on moved by these units. Its points stay: they were seen at rest.
   void MoveBy(const fsm::UnitTable& own);
-  /// A head of the same base face, moved by the same units.
-  std::unique_ptr<fsm::Head> Moved(std::unique_ptr<fsm::Head> other) const;
 
   /// Throws std::runtime_error if it cannot be drawn or no face is seen.
   static BaseHead See(FaceNetworks& networks, const std::string& name);

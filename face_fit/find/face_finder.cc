@@ -117,8 +117,8 @@ class Scan {
   std::vector<fsm::Image> copies_;
 };
 
-/// Of boxes of one face the surest, those of the first look before others nearly as sure; where
-/// there are several faces, those with eyes, nose and mouth.
+/// Keeps one box of each face, that of the highest rank; where there are several faces, only those
+/// with eyes, nose and mouth.
 std::vector<FaceBox> Apart(FaceNetworks& networks, const fsm::Image& image,
                            std::vector<Sighting> found) {
   std::ranges::sort(found, std::greater<>(), &Sighting::rank);
@@ -176,7 +176,6 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
   FoundFace face;
   const glm::vec2 line = box.eyes[1] - box.eyes[0];
   face.crop = {box.centre, kRoom * std::max(box.size.x, box.size.y), std::atan2(line.y, line.x)};
-  constexpr std::size_t kEyes[] = {33, 263};  // outer corners
   // The first look says where the face is, the second sees it upright and as large as in training.
   for (int look = 0; look < 3; ++look) {
     networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
@@ -193,7 +192,7 @@ FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const Face
       face.points.emplace_back(p, -raw[3 * i + 2] / kPointsPixels * face.crop.side);
     }
     if (look == 2) break;
-    const glm::vec2 eyes = face.At(kEyes[1]) - face.At(kEyes[0]);
+    const glm::vec2 eyes = face.At(point::kEyeOuterLeft) - face.At(point::kEyeOuterRight);
     const glm::vec2 extent = seen.Size() * face.crop.side;
     face.crop = {face.crop.ToPicture(seen.Middle()), kRoom * std::max(extent.x, extent.y),
                  std::atan2(eyes.y, eyes.x)};

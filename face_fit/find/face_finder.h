@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
-#include <concepts>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
 #include "face_fit/find/crop.h"
 #include "face_fit/find/face_networks.h"
+#include "face_fit/find/network_points.h"
 
 namespace facefit {
 
@@ -19,7 +19,6 @@ struct FaceBox {
   std::array<glm::vec2, 2> eyes;  ///< the person's right and left
 };
 
-inline constexpr std::size_t kNetworkPoints = 468;
 inline constexpr int kPointsPixels = 192;  ///< the side of what the landmark network is shown
 
 /// A face with its points: x and y in pixels of the picture, y down, z in the same unit towards
@@ -28,10 +27,7 @@ struct FoundFace {
   std::vector<glm::vec3> points;  ///< kNetworkPoints
   float certainty = 0;            ///< 0..1 that there is a face
   Crop crop;                      ///< what the network saw last
-  template <std::integral I>
-  glm::vec2 At(I point) const {
-    return glm::vec2(points[static_cast<std::size_t>(point)]);
-  }
+  glm::vec2 At(PointIndex i) const { return glm::vec2(points[i]); }
 };
 
 /// Below that certainty there is no face: of pictures of all kinds a few reach 0.66, people and

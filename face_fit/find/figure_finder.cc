@@ -29,8 +29,7 @@ float PersonAt(const FloatImage& figure, glm::vec2 place) {
 
 void DoubtOneSided(const FoundFace& face, const fsm::Image& image, std::vector<float>& person) {
   const int width = image.width, height = image.height;
-  constexpr std::size_t kForehead = 10, kChin = 152;
-  const glm::vec2 top(face.points[kForehead]), chin(face.points[kChin]);
+  const glm::vec2 top = face.At(point::kForehead), chin = face.At(point::kChin);
   if (glm::distance(top, chin) < 1) return;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
   const float near = 0.03F * glm::distance(top, chin);
@@ -52,9 +51,8 @@ void DoubtOneSided(const FoundFace& face, const fsm::Image& image, std::vector<f
           q.y >= static_cast<float>(height)) {
         continue;
       }
-      const auto at = [width](glm::vec2 v) {
-        return static_cast<std::size_t>(v.y) * static_cast<std::size_t>(width) +
-               static_cast<std::size_t>(v.x);
+      const auto at = [&image](glm::vec2 v) {
+        return image.Index(static_cast<int>(v.x), static_cast<int>(v.y));
       };
       if (seen[at(p)] > 0.8F * seen[at(q)]) continue;
       const float alike = glm::smoothstep(0.3F, 0.05F, unlike(p, q));

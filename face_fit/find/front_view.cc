@@ -26,7 +26,7 @@ std::uint32_t FrontView::Triangle(int column, int row) const {
   return first_[At(column, row)];
 }
 
-MeshPlace FrontView::Place(int column, int row) const {
+MeshPoint FrontView::Place(int column, int row) const {
   const std::uint32_t first = first_[At(column, row)];
   const std::uint32_t* t = &topology_.indices[first];
   const Triangle2 seen{position_[t[0]], position_[t[1]], position_[t[2]]};

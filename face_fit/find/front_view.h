@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/mesh_place.h"
-#include "fsm/rig/head.h"
+#include "face_fit/find/mesh_point.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {
@@ -31,7 +30,7 @@ class FrontView {
     return low_ + kCell * (glm::vec2(column, row) + 0.5F);
   }
   /// REQUIRES: a triangle there.
-  MeshPlace Place(int column, int row) const;
+  MeshPoint Place(int column, int row) const;
 
  private:
   void Draw(std::uint32_t first);

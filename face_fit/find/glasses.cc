@@ -16,9 +16,9 @@ namespace {
 /// The same, looked for so many millimetres to the left of the middle and turned by so many
 /// radians.
 float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, float turn) {
-  const auto point = [&face](std::size_t i) { return face.At(i); };
   // Between the inner corners of the eyes, which lie some 32 mm apart.
-  const glm::vec2 right = point(133), left = point(362), middle = 0.5F * (right + left);
+  const glm::vec2 right = face.At(point::kEyeInnerRight), left = face.At(point::kEyeInnerLeft),
+                  middle = 0.5F * (right + left);
   const float mm = std::max(glm::distance(right, left) / 32, 1e-3F);
   const glm::vec2 level = (left - right) / (32 * mm);
   const glm::vec2 across = std::cos(turn) * level + std::sin(turn) * glm::vec2(-level.y, level.x);

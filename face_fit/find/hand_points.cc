@@ -15,30 +15,30 @@
 namespace facefit {
 namespace {
 
-constexpr HandPointName kNames[] = {{"right_eye_outer", 33, true},
-                                    {"left_eye_outer", 263, true},
-                                    {"nose_tip", 1, true},
-                                    {"mouth_right", 61, true},
-                                    {"mouth_left", 291, true},
-                                    {"chin", 152, true},
-                                    {"right_eye_inner", 133, false},
-                                    {"left_eye_inner", 362, false},
-                                    {"right_eye_top", 159, false},
-                                    {"left_eye_top", 386, false},
-                                    {"right_eye_bottom", 145, false},
-                                    {"left_eye_bottom", 374, false},
-                                    {"right_brow", 105, false},
-                                    {"left_brow", 334, false},
-                                    {"nose_bottom", 2, false},
-                                    {"nose_right", 129, false},
-                                    {"nose_left", 358, false},
-                                    {"lip_top", 0, false},
-                                    {"lip_bottom", 17, false},
-                                    {"jaw_right", 172, false},
-                                    {"jaw_left", 397, false},
-                                    {"cheek_right", 234, false},
-                                    {"cheek_left", 454, false},
-                                    {"forehead", 10, false}};
+constexpr HandPointName kNames[] = {{"right_eye_outer", point::kEyeOuterRight, true},
+                                    {"left_eye_outer", point::kEyeOuterLeft, true},
+                                    {"nose_tip", point::kNoseTip, true},
+                                    {"mouth_right", point::kMouthRight, true},
+                                    {"mouth_left", point::kMouthLeft, true},
+                                    {"chin", point::kChin, true},
+                                    {"right_eye_inner", point::kEyeInnerRight, false},
+                                    {"left_eye_inner", point::kEyeInnerLeft, false},
+                                    {"right_eye_top", point::kEyeTopRight, false},
+                                    {"left_eye_top", point::kEyeTopLeft, false},
+                                    {"right_eye_bottom", point::kEyeBottomRight, false},
+                                    {"left_eye_bottom", point::kEyeBottomLeft, false},
+                                    {"right_brow", point::kBrowRight, false},
+                                    {"left_brow", point::kBrowLeft, false},
+                                    {"nose_bottom", point::kNoseBottom, false},
+                                    {"nose_right", point::kNoseRight, false},
+                                    {"nose_left", point::kNoseLeft, false},
+                                    {"lip_top", point::kLipTop, false},
+                                    {"lip_bottom", point::kLipBottom, false},
+                                    {"jaw_right", point::kJawRight, false},
+                                    {"jaw_left", point::kJawLeft, false},
+                                    {"cheek_right", point::kCheekRight, false},
+                                    {"cheek_left", point::kCheekLeft, false},
+                                    {"forehead", point::kForehead, false}};
 
 /// From the front of the base head, millimetres with y up, to pixels: size, tilt and place by least
 /// squares (Umeyama 1991).
@@ -97,7 +97,7 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
       return wrong("NAME X Y expected, as: chin 320 455");
     }
     const auto found = std::ranges::find(kNames, key, &HandPointName::name);
-    std::size_t point = kNetworkPoints;
+    PointIndex point = kNoPoint;
     if (found != std::end(kNames)) {
       point = found->point;
     } else if (key.size() <= 3 &&
@@ -121,10 +121,15 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
                                          int width, int height) {
   // What lies where on the original's standard head: see fsm/mesh/original_points.h.
-  constexpr std::pair<std::size_t, fsm::PointName> kSame[] = {
-      {33, {4, 23}},  {133, {4, 17}}, {159, {4, 20}}, {145, {4, 26}}, {263, {5, 23}},
-      {362, {5, 17}}, {386, {5, 20}}, {374, {5, 26}}, {1, {3, 15}},   {2, {3, 25}},
-      {129, {3, 18}}, {358, {3, 22}}, {61, {1, 33}},  {291, {2, 33}}, {152, fsm::kChin}};
+  constexpr std::pair<PointIndex, fsm::PointName> kSame[] = {
+      {point::kEyeOuterRight, {4, 23}}, {point::kEyeInnerRight, {4, 17}},
+      {point::kEyeTopRight, {4, 20}},   {point::kEyeBottomRight, {4, 26}},
+      {point::kEyeOuterLeft, {5, 23}},  {point::kEyeInnerLeft, {5, 17}},
+      {point::kEyeTopLeft, {5, 20}},    {point::kEyeBottomLeft, {5, 26}},
+      {point::kNoseTip, {3, 15}},       {point::kNoseBottom, {3, 25}},
+      {point::kNoseRight, {3, 18}},     {point::kNoseLeft, {3, 22}},
+      {point::kMouthRight, {1, 33}},    {point::kMouthLeft, {2, 33}},
+      {point::kChin, fsm::kChin}};
   if (auto there = fsm::CheckPoints(name, wireframe); !there) return std::unexpected(there.error());
   HandPoints points;
   for (const auto& [point, of] : kSame) {
@@ -136,19 +141,18 @@ vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::Pnt
 }
 
 FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
-  const auto on_base = [&base](std::size_t i) { return base.AtRest(i); };
   const ToPhoto to_photo(base, points);
   std::vector<fsm::WarpPoint> bends;
   for (const auto& [i, at] : points) {
-    bends.push_back(
-        {on_base(i), glm::vec3((at - to_photo(glm::vec2(on_base(i)))) / to_photo.scale(), 0)});
+    bends.push_back({base.AtRest(i),
+                     glm::vec3((at - to_photo(glm::vec2(base.AtRest(i)))) / to_photo.scale(), 0)});
   }
   const fsm::Warp warp(bends, 0.5F);
   FoundFace face;
   face.certainty = 1;
   Box2 box;
   for (std::size_t i = 0; i < kNetworkPoints; ++i) {
-    const glm::vec3 p = on_base(i);
+    const glm::vec3 p = base.AtRest(i);
     const glm::vec2 at = to_photo(glm::vec2(p)) + to_photo.scale() * glm::vec2(warp.Motion(p));
     face.points.emplace_back(at, to_photo.scale() * base.seen_z[i]);
     box.Add(at);

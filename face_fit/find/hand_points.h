@@ -13,7 +13,7 @@ namespace facefit {
 
 /// Points set by hand: by number of the landmark network, in pixels of the upright photo scaled to
 /// at most kWorkingSide.
-using HandPoints = std::map<std::size_t, glm::vec2>;
+using HandPoints = std::map<PointIndex, glm::vec2>;
 
 /// A table of lines `NAME X Y`, NAME one of HandPointNames() or a number of MediaPipe's face mesh;
 /// `#` begins a comment. Needed are both outer eye corners, nose_tip, both mouth corners and chin.
@@ -22,7 +22,7 @@ vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view
 /// A point people can name; `needed`: a file of points must have it.
 struct HandPointName {
   std::string_view name;
-  std::size_t point;
+  PointIndex point;
   bool needed;
 };
 std::span<const HandPointName> HandPointList();

@@ -39,17 +39,14 @@ fsm::Similarity Guess(const fsm::HeadFile& file, const glm::mat3& turn, float pa
   return guess;
 }
 
-/// Where the inner lips end, and the outer.
-constexpr int kRightCorner = 78, kLeftCorner = 308, kOuterRight = 61, kOuterLeft = 291;
-
-fsm::FacePart PartOf(int point) {
-  const auto among = [point](std::span<const int> list) {
-    return std::ranges::find(list, point) != list.end();
+fsm::FacePart PartOf(PointIndex i) {
+  const auto among = [i](std::span<const PointIndex> list) {
+    return std::ranges::find(list, i) != list.end();
   };
   // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
   if (among(UpperOuterLip())) return fsm::FacePart::kUpperLip;
   if (among(LowerOuterLip())) return fsm::FacePart::kLowerLip;
-  for (const int side : {0, 1}) {
+  for (const std::size_t side : {0U, 1U}) {
     const auto outline = EyeOutline(side);
     if (among(outline.subspan(1, kInnerCorner - 1))) return fsm::FacePart::kUpperLid;
     if (among(outline.subspan(kInnerCorner + 1))) return fsm::FacePart::kLowerLid;
@@ -60,29 +57,27 @@ fsm::FacePart PartOf(int point) {
 /// A head with what its surface is made of.
 struct Surface {
   const BaseHead& head;
-  std::vector<std::uint32_t> flesh;
+  std::vector<std::uint32_t> skin_triangles;
   bool has_uv_seams;
 
   std::optional<LipSeam> Seam() const {
-    const auto places = [this](std::span<const int> points) {
+    const auto places = [this](std::span<const PointIndex> points) {
       std::vector<glm::vec3> at;
-      for (const int point : points) {
-        at.push_back(head.AtRest(point));
-      }
+      for (const PointIndex i : points) at.push_back(head.AtRest(i));
       return at;
     };
-    return FindLipSeam(head.head->topology(), head.rest.position, flesh, has_uv_seams,
+    return FindLipSeam(head.head->topology(), head.rest.position, skin_triangles, has_uv_seams,
                        places(UpperOuterLip()), places(LowerOuterLip()));
   }
 };
 
 /// Moves the points of the inner lips onto a seam.
-void OntoSeam(const LipSeam& seam, std::vector<MeshPlace>& places) {
-  places[kRightCorner] = seam.right;
-  places[kLeftCorner] = seam.left;
+void OntoSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
+  points[point::kInnerMouthRight] = seam.right;
+  points[point::kInnerMouthLeft] = seam.left;
   for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
-    places[static_cast<std::size_t>(UpperInnerLip()[k + 1])] = seam.upper[k];
-    places[static_cast<std::size_t>(LowerInnerLip()[k])] = seam.lower[k];
+    points[UpperInnerLip()[k + 1]] = seam.upper[k];
+    points[LowerInnerLip()[k]] = seam.lower[k];
   }
 }
 
@@ -90,7 +85,7 @@ void OntoSeam(const LipSeam& seam, std::vector<MeshPlace>& places) {
 struct SeenHead {
   BaseHead head;
   std::vector<bool> eye;
-  std::vector<std::uint32_t> flesh;
+  std::vector<std::uint32_t> skin_triangles;
   bool has_uv_seams;
 };
 
@@ -108,34 +103,33 @@ class HeadPairer {
         inner_lips_(UpperInnerLip().begin(), UpperInnerLip().end()) {
     inner_lips_.insert(LowerInnerLip().begin(), LowerInnerLip().end());
   }
-  /// Throws std::runtime_error if no face is seen on the head as `place` has it stand.
-  std::vector<fsm::PlacePair> PairsAt(const fsm::Similarity& place) {
-    const SeenHead seen = See(place);
-    std::vector<MeshPlace> ours = base_.places, theirs = seen.head.places;
+  /// Throws std::runtime_error if no face is seen on the head as `to_ours` has it stand.
+  std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
+    const SeenHead seen = See(to_ours);
+    std::vector<MeshPoint> ours = base_.points, theirs = seen.head.points;
     OntoLidEdges({base_, own_eyes_}, ours, {seen.head, seen.eye}, theirs);
-    const auto seam = Surface{seen.head, seen.flesh, seen.has_uv_seams}.Seam();
+    const auto seam = Surface{seen.head, seen.skin_triangles, seen.has_uv_seams}.Seam();
     const bool both = own_seam_ && seam;
     if (both) {
       OntoSeam(*own_seam_, ours);
       OntoSeam(*seam, theirs);
     }
-    std::vector<fsm::PlacePair> found;
-    for (const int point : FitPoints()) {
-      const auto k = static_cast<std::size_t>(point);
+    std::vector<fsm::PointPair> found;
+    for (const PointIndex i : FitPoints()) {
       // Where both lips meet a point of the network may come to lie on either.
-      const bool corner = point == kOuterRight || point == kOuterLeft;
-      if (inner_lips_.contains(point) ? !both : both && corner) continue;
-      const glm::vec3 at = theirs[k].On(seen.head.rest.position);
-      const glm::vec3 raw = glm::transpose(place.turn) * ((at - place.move) / place.scale);
-      found.push_back({ours[k].On(base_.rest.position), raw, PartOf(point)});
+      const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
+      if (inner_lips_.contains(i) ? !both : both && corner) continue;
+      const glm::vec3 at = theirs[i].On(seen.head.rest.position);
+      const glm::vec3 raw = to_ours.Inverse(at);
+      found.push_back({ours[i].On(base_.rest.position), raw, PartOf(i)});
     }
     return found;
   }
 
  private:
-  SeenHead See(const fsm::Similarity& place) {
-    fsm::MeshModel model = fsm::ModelOf(file_, place, -43);
-    std::vector<std::uint32_t> flesh = model.SkinTriangles();
+  SeenHead See(const fsm::Similarity& to_ours) {
+    fsm::MeshModel model = fsm::ModelOf(file_, to_ours, fsm::kUsualMouthY);
+    std::vector<std::uint32_t> skin_triangles = model.SkinTriangles();
     const bool has_uv_seams = model.has_uv_seams;
     std::vector<bool> eye;
     for (const fsm::Bone bone : model.bone) {
@@ -143,7 +137,7 @@ class HeadPairer {
     }
     auto head = fsm::MakeMeshHead(std::move(model));
     return {BaseHead::See(networks_, std::move(head), name_, false), std::move(eye),
-            std::move(flesh), has_uv_seams};
+            std::move(skin_triangles), has_uv_seams};
   }
 
   FaceNetworks& networks_;
@@ -152,7 +146,7 @@ class HeadPairer {
   BaseHead base_;
   std::optional<LipSeam> own_seam_;
   std::vector<bool> own_eyes_;
-  std::set<int> inner_lips_;
+  std::set<PointIndex> inner_lips_;
 };
 
 }  // namespace
@@ -162,7 +156,7 @@ fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file
   HeadPairer pairer(networks, file, name, face);
   for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
     for (const glm::mat3& turn : kTurns) {
-      std::optional<std::vector<fsm::PlacePair>> first;
+      std::optional<std::vector<fsm::PointPair>> first;
       try {
         first = pairer.PairsAt(Guess(file, turn, part));
       } catch (const std::runtime_error&) {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<float, 9> kAngles = {-0.8F, -0.6F, -0.4F, -0.2F, 0, 0.2F, 0.4F, 0.6F, 0.8F};
 constexpr std::array<float, 7> kSizes = {0.68F, 0.76F, 0.84F, 0.92F, 1.0F, 1.08F, 1.16F};
 
-/// What is seen between the lids.
+/// The part of a photo between the lids of an eye.
 class EyeOpening {
  public:
   EyeOpening(const fsm::Image& photo, const OpenEye& eye)
@@ -24,7 +24,7 @@ class EyeOpening {
       const auto [upper, lower] = lids_.At(x);
       // The rims' shade and the lashes are left out.
       for (float part = 0.22F; part < 0.9F; part += 0.095F) {
-        const glm::vec2 at = lids_.Place(x, glm::mix(upper, lower, part));
+        const glm::vec2 at = lids_.PointAt(x, glm::mix(upper, lower, part));
         samples_.push_back({at, Brightness(ColourAt(photo, at)) / 255, std::abs(lower - upper)});
         all.push_back(samples_.back().light);
       }
@@ -46,7 +46,7 @@ class EyeOpening {
         const glm::vec2 at =
             eye_.middle + lids_.wide() * (off.x * lids_.along() + off.y * lids_.down());
         const float edge = Edge(at, radius);
-        // Of rings as clear the one that lies where eyes look into the camera.
+        // Among equally clear rings the one of an eye that looks into the camera is preferred.
         const float merit =
             (edge + 1.5F * Apart(at, radius)) * (1 - 5 * off.x * off.x - 40 * off.y * off.y);
         if (merit <= most) continue;

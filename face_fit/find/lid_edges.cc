@@ -83,7 +83,7 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
   if (last < 0 || width < 10 || width > 60) return std::nullopt;
   // A cell or two of gap between eyeball and lid may show what lies behind.
   constexpr int kGap = 8;
-  const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPlace> {
+  const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPoint> {
     for (int k = 1; k <= kGap; ++k) {
       const int x = column + k * right, y = row + k * up;
       if (view.Triangle(x, y) != FrontView::kNone && !is_eye(x, y)) return view.Place(x, y);
@@ -127,8 +127,8 @@ std::vector<bool> EyeVertices(const fsm::HeadTopology& topology, std::size_t cou
   return eye;
 }
 
-void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPlace>& our_places,
-                  const EyeSurface& theirs, std::vector<MeshPlace>& their_places) {
+void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPoint>& our_places,
+                  const EyeSurface& theirs, std::vector<MeshPoint>& their_places) {
   for (std::size_t side = 0; side < 2; ++side) {
     const auto find = [side](const EyeSurface& surface) {
       const auto& topology = surface.head.head->topology();
@@ -137,16 +137,16 @@ void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPlace>& our_places,
     };
     const auto a = find(ours), b = find(theirs);
     if (!a || !b) continue;
-    const auto outline = EyeOutline(static_cast<int>(side));
+    const auto outline = EyeOutline(side);
     for (const auto& [edges, places] : {std::pair(&*a, &our_places), {&*b, &their_places}}) {
-      const auto set = [&, list = places](std::size_t of_outline, const MeshPlace& place) {
-        (*list)[static_cast<std::size_t>(outline[of_outline])] = place;
+      const auto put = [&, list = places](std::size_t of_outline, const MeshPoint& place) {
+        (*list)[outline[of_outline]] = place;
       };
-      set(0, edges->outer);
-      set(kInnerCorner, edges->inner);
+      put(kOuterCorner, edges->outer);
+      put(kInnerCorner, edges->inner);
       for (std::size_t k = 0; k < LidEdges::kBetween; ++k) {
-        set(1 + k, edges->upper[k]);
-        set(outline.size() - 1 - k, edges->lower[k]);
+        put(1 + k, edges->upper[k]);
+        put(outline.size() - 1 - k, edges->lower[k]);
       }
     }
   }

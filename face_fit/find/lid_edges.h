@@ -9,7 +9,6 @@
 
 #include "face_fit/find/base_head.h"
 #include "fsm/rig/head.h"
-#include "fsm/rig/head.h"
 
 namespace facefit {
 
@@ -18,9 +17,9 @@ namespace facefit {
 /// picture and is off by a good part of a lid.
 struct LidEdges {
   static constexpr std::size_t kBetween = 7;
-  MeshPlace outer, inner;  ///< corners
+  MeshPoint outer, inner;  ///< corners
   /// At equal parts of the way from the outer to the inner corner.
-  std::array<MeshPlace, kBetween> upper, lower;
+  std::array<MeshPoint, kBetween> upper, lower;
 };
 
 /// `eye`: of each vertex, whether it is an eyeball's; `centre`: of that eye, `outward`: -1 for the
@@ -38,7 +37,7 @@ struct EyeSurface {
   const BaseHead& head;
   std::vector<bool> eye;
 };
-void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPlace>& our_places,
-                  const EyeSurface& theirs, std::vector<MeshPlace>& their_places);
+void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPoint>& our_places,
+                  const EyeSurface& theirs, std::vector<MeshPoint>& their_places);
 
 }  // namespace facefit

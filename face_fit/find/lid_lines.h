@@ -7,6 +7,8 @@
 #include <glm/vec2.hpp>
 #include <utility>
 
+#include "face_fit/find/network_points.h"
+
 namespace facefit {
 
 /// The points of EyeOutline: from the outer corner along the upper lid to the inner one, and back
@@ -18,11 +20,11 @@ using EyePoints = std::array<glm::vec2, 16>;
 class LidLines {
  public:
   explicit LidLines(const EyePoints& points) : points_(points) {
-    const glm::vec2 axis = points[kInner] - points[0];
+    const glm::vec2 axis = points[kInnerCorner] - points[0];
     wide_ = std::max(glm::length(axis), 1e-3F);
     along_ = axis / wide_;
     down_ = {-along_.y, along_.x};
-    if (glm::dot(points[12] - points[4], down_) < 0) down_ = -down_;
+    if (glm::dot(points[kLowerMiddle] - points[kUpperMiddle], down_) < 0) down_ = -down_;
   }
   float wide() const { return wide_; }
   glm::vec2 along() const { return along_; }  ///< unit
@@ -30,7 +32,7 @@ class LidLines {
 
   float Part(glm::vec2 p) const { return glm::dot(p - points_[0], along_) / wide_; }
   float Down(glm::vec2 p) const { return glm::dot(p - points_[0], down_); }
-  glm::vec2 Place(float part, float down) const {
+  glm::vec2 PointAt(float part, float down) const {
     return points_[0] + part * wide_ * along_ + down * down_;
   }
   /// How far down upper and lower lid lie.
@@ -41,14 +43,13 @@ class LidLines {
       return glm::mix(Down(points_[a]), Down(points_[b % points_.size()]), way);
     };
     std::size_t upper = 1, lower = points_.size() - 1;
-    while (upper < kInner && Part(points_[upper]) < part) ++upper;
-    while (lower > kInner && Part(points_[lower]) < part) --lower;
+    while (upper < kInnerCorner && Part(points_[upper]) < part) ++upper;
+    while (lower > kInnerCorner && Part(points_[lower]) < part) --lower;
     return {between(upper - 1, upper),
             lower + 1 == points_.size() ? between(0, lower) : between(lower + 1, lower)};
   }
 
  private:
-  static constexpr std::size_t kInner = 8;
   EyePoints points_;
   float wide_ = 1;
   glm::vec2 along_, down_;

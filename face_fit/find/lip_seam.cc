@@ -34,11 +34,11 @@ bool IsInside(const fsm::HeadTopology& topology, std::uint32_t index) {
 std::vector<Crossing> FindCrossings(const fsm::HeadTopology& topology, const FrontView& view,
                                     const fsm::WeldedSurface& surface, std::span<const float> up,
                                     std::span<const float> down) {
-  // Of the flesh in a cell, the ways from both lips; nothing where teeth or the mouth's lining are.
+  // The distances of a cell's skin from both lips; nothing where teeth or the mouth's lining are.
   const auto ways = [&](int column, int row) -> std::optional<glm::vec2> {
     const std::uint32_t triangle = view.Triangle(column, row);
     if (triangle == FrontView::kNone || IsInside(topology, triangle)) return std::nullopt;
-    const MeshPlace place = view.Place(column, row);
+    const MeshPoint place = view.Place(column, row);
     glm::vec2 sum(0);
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t v = surface.of[place.corner[static_cast<std::size_t>(k)]];
@@ -90,11 +90,11 @@ std::pair<int, int> MouthColumns(const std::vector<Crossing>& crossings) {
 
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
                                    std::span<const glm::vec3> position,
-                                   const std::vector<std::uint32_t>& flesh, bool has_uv_seams,
-                                   std::span<const glm::vec3> upper,
+                                   const std::vector<std::uint32_t>& skin_triangles,
+                                   bool has_uv_seams, std::span<const glm::vec3> upper,
                                    std::span<const glm::vec3> lower) {
   if (upper.empty() || lower.empty()) return std::nullopt;
-  const fsm::WeldedSurface surface(position, flesh, has_uv_seams);
+  const fsm::WeldedSurface surface(position, skin_triangles, has_uv_seams);
   Box2 lips;
   for (const auto& list : {upper, lower}) {
     for (const glm::vec3& p : list) lips.Add(p);

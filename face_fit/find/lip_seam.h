@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/mesh_place.h"
-#include "fsm/rig/head.h"
+#include "face_fit/find/mesh_point.h"
 #include "fsm/rig/head.h"
 
 namespace facefit {
@@ -16,18 +15,18 @@ namespace facefit {
 /// view that lie far apart along the surface. Parted lips have an upper and a lower edge.
 struct LipSeam {
   static constexpr std::size_t kBetween = 9;
-  MeshPlace right, left;  ///< corners, the agent's
+  MeshPoint right, left;  ///< corners, the agent's
   /// At equal parts of the way from the right to the left corner.
-  std::array<MeshPlace, kBetween> upper, lower;
+  std::array<MeshPoint, kBetween> upper, lower;
 };
 
-/// `flesh`: triangles of skin, lips and mouth; `has_uv_seams` as for fsm::TransferSurface; `upper`,
-/// `lower`: some places on the outer edges of both lips. The head looks to +z, millimetres. Nothing
-/// if no seam of 20 to 90 mm is there.
+/// `skin_triangles`: those of skin, lips and mouth; `has_uv_seams` as for fsm::TransferSurface;
+/// `upper`, `lower`: some places on the outer edges of both lips. The head looks to +z,
+/// millimetres. Nothing if no seam of 20 to 90 mm is there.
 std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
                                    std::span<const glm::vec3> position,
-                                   const std::vector<std::uint32_t>& flesh, bool has_uv_seams,
-                                   std::span<const glm::vec3> upper,
+                                   const std::vector<std::uint32_t>& skin_triangles,
+                                   bool has_uv_seams, std::span<const glm::vec3> upper,
                                    std::span<const glm::vec3> lower);
 
 }  // namespace facefit

@@ -12,23 +12,14 @@
 namespace facefit {
 namespace {
 
-/// Of the inner lips from the person's right to left, the upper one and what is under it.
-constexpr std::array<std::pair<std::size_t, std::size_t>, 9> kInner = {{{191, 95},
-                                                                        {80, 88},
-                                                                        {81, 178},
-                                                                        {82, 87},
-                                                                        {13, 14},
-                                                                        {312, 317},
-                                                                        {311, 402},
-                                                                        {310, 318},
-                                                                        {415, 324}}};
+constexpr std::size_t kInnerPoints = 9;  // of either inner lip, without corners
 constexpr int kOffsets = 25;  // looked at on the line across each place, half of them to each side
-/// As far as it is looked, by the mouth's width: a tenth of 50 mm.
+/// How far to each side the line is looked for, as part of the mouth's width.
 constexpr float kReach = 0.08F;
 
 /// A value for each place along the mouth and each offset across it.
 template <typename T>
-using Strip = std::array<std::array<T, kOffsets>, kMouthLinePlaces>;
+using Strip = std::array<std::array<T, kOffsets>, kMouthLinePoints>;
 
 /// How far below the straight line between the corners the network sees the lips meet, pixels.
 class ExpectedLine {
@@ -38,8 +29,8 @@ class ExpectedLine {
                float width) {
     knots_.front() = {0, 0};
     knots_.back() = {1, 0};
-    for (std::size_t k = 0; k < kInner.size(); ++k) {
-      const glm::vec2 upper(face.points[kInner[k].first]), lower(face.points[kInner[k].second]);
+    for (std::size_t k = 0; k < kInnerPoints; ++k) {
+      const glm::vec2 upper = face.At(UpperInnerLip()[k + 1]), lower = face.At(LowerInnerLip()[k]);
       const glm::vec2 middle = 0.5F * (upper + lower) - begin;
       knots_[k + 1] = {glm::dot(middle, along) / width, glm::dot(middle, down)};
     }
@@ -54,16 +45,16 @@ class ExpectedLine {
   }
 
  private:
-  std::array<std::pair<float, float>, kInner.size() + 2> knots_;
+  std::array<std::pair<float, float>, kInnerPoints + 2> knots_;
 };
 
-/// Of all ways along a strip the one with the least sum, in which each step across costs by its
+/// Among all paths along a strip the one with the least sum, in which each step across costs by its
 /// square (dynamic programming): an offset for each place. `cost` is used up.
-std::array<int, kMouthLinePlaces> CheapestWay(Strip<float>& cost) {
+std::array<int, kMouthLinePoints> CheapestWay(Strip<float>& cost) {
   constexpr int kMostStep = 3;
   constexpr float kBend = 0.03F;
   Strip<int> from{};
-  for (std::size_t i = 1; i < kMouthLinePlaces; ++i) {
+  for (std::size_t i = 1; i < kMouthLinePoints; ++i) {
     for (int o = 0; o < kOffsets; ++o) {
       const auto k = static_cast<std::size_t>(o);
       float best = std::numeric_limits<float>::max();
@@ -77,9 +68,9 @@ std::array<int, kMouthLinePlaces> CheapestWay(Strip<float>& cost) {
       cost[i][k] += best;
     }
   }
-  std::array<int, kMouthLinePlaces> way{};
+  std::array<int, kMouthLinePoints> way{};
   auto at = static_cast<int>(std::ranges::min_element(cost.back()) - cost.back().begin());
-  for (std::size_t i = kMouthLinePlaces; i-- > 0;) {
+  for (std::size_t i = kMouthLinePoints; i-- > 0;) {
     way[i] = at;
     at = from[i][static_cast<std::size_t>(at)];
   }
@@ -89,15 +80,18 @@ std::array<int, kMouthLinePlaces> CheapestWay(Strip<float>& cost) {
 }  // namespace
 
 bool LipsApart(const FoundFace& face) {
-  const auto apart = [&face](int a, int b) { return glm::distance(face.At(a), face.At(b)); };
+  const auto apart = [&face](PointIndex a, PointIndex b) {
+    return glm::distance(face.At(a), face.At(b));
+  };
   // Between the middles of the inner lips, by the width of the mouth.
   constexpr float kLeastGap = 0.06F;
-  return apart(13, 14) > kLeastGap * apart(61, 291);
+  return apart(point::kInnerLipTop, point::kInnerLipBottom) >
+         kLeastGap * apart(point::kMouthRight, point::kMouthLeft);
 }
 
 std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& face, float first,
                                      float last) {
-  const glm::vec2 right(face.points[61]), left(face.points[291]);
+  const glm::vec2 right = face.At(point::kMouthRight), left = face.At(point::kMouthLeft);
   const glm::vec2 axis = (left - right) / (last - first);
   const glm::vec2 begin = right - first * axis;
   const float width = glm::length(axis);
@@ -106,15 +100,15 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   const ExpectedLine expected(face, begin, along, down, width);
   const float step = 2 * kReach * width / (kOffsets - 1);
   const auto place = [&](std::size_t i, int offset) {
-    const float t = static_cast<float>(i) / (kMouthLinePlaces - 1);
+    const float t = static_cast<float>(i) / (kMouthLinePoints - 1);
     const float below = expected.At(t) + step * static_cast<float>(offset - kOffsets / 2);
     return begin + t * axis + below * down;
   };
-  // Of all ways from corner to corner the darkest that is smooth and near to what was expected.
+  // The path from corner to corner that is dark, smooth and near to what was expected.
   Strip<float> cost{};
   float least = 1e9F, most = 0;
   const glm::vec2 beside = along * (0.012F * width);
-  for (std::size_t i = 0; i < kMouthLinePlaces; ++i) {
+  for (std::size_t i = 0; i < kMouthLinePoints; ++i) {
     for (int o = 0; o < kOffsets; ++o) {
       const glm::vec2 at = place(i, o);
       float& dark = cost[i][static_cast<std::size_t>(o)];
@@ -136,7 +130,7 @@ std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& f
   }
   const auto way = CheapestWay(cost);
   std::vector<glm::vec2> line;
-  for (std::size_t i = 0; i < kMouthLinePlaces; ++i) line.push_back(place(i, way[i]));
+  for (std::size_t i = 0; i < kMouthLinePoints; ++i) line.push_back(place(i, way[i]));
   return line;
 }
 

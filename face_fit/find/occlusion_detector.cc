@@ -48,7 +48,7 @@ constexpr Part kParts[] = {
     {"the left side of the face",   7.4F, {{{{36, -5}, {32, 70}}, kNone, kNone}}},
     // clang-format on
 };
-/// Of the same pictures the least sure one had 15.7.
+/// The least certain of the same pictures had 15.7.
 constexpr float kSure = 14;
 
 /// Takes pixels of what the network sees of the photo to the picture of the built-in head: near
@@ -57,8 +57,7 @@ constexpr float kSure = 14;
 class OntoBase {
  public:
   OntoBase(const FoundFace& face, const BaseHead& base) {
-    for (const int point : FitPoints()) {
-      const auto i = static_cast<std::size_t>(point);
+    for (const PointIndex i : FitPoints()) {
       pairs_.push_back({face.crop.FromPicture(face.At(i)) * float{kSide}, base.seen[i]});
     }
   }
@@ -110,10 +109,9 @@ Stand StandIn(const BaseHead& base, const FoundFace& face) {
     for (int x = 0; x < kCells; ++x) coarse.push_back(onto(float{kStep} * glm::vec2(x, y)));
   }
   // From pixels of the head's picture to millimetres, about the root of the nose.
-  constexpr std::size_t kRoot = 168, kRight = 33, kLeft = 263;
-  const auto on_face = [&](std::size_t i) { return glm::vec2(base.AtRest(i)); };
-  const float mm = glm::distance(on_face(kRight), on_face(kLeft)) /
-                   glm::distance(base.seen[kRight], base.seen[kLeft]);
+  const auto on_face = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
+  const float mm = glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
+                   glm::distance(base.seen[point::kEyeOuterRight], base.seen[point::kEyeOuterLeft]);
   Stand stand;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
@@ -123,8 +121,8 @@ Stand StandIn(const BaseHead& base, const FoundFace& face) {
       const glm::vec2 there =
           glm::mix(glm::mix(coarse[k], coarse[k + 1], t.x),
                    glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
-      const glm::vec2 off = mm * (there - base.seen[kRoot]);
-      stand.place.push_back(on_face(kRoot) + glm::vec2(off.x, -off.y));
+      const glm::vec2 off = mm * (there - base.seen[point::kNasion]);
+      stand.place.push_back(on_face(point::kNasion) + glm::vec2(off.x, -off.y));
       stand.colour.push_back(ColourAt(base.picture, there) / 255.0F);
     }
   }
@@ -185,7 +183,7 @@ Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const Fo
     }
     const float surer = sure(changed) - before, measure = surer / part.limit;
     occlusion.measure = std::max(occlusion.measure, measure);
-    // Of parts beyond their limits the one that explains most, else the one nearest to its own.
+    // Among parts beyond their limits the one farthest beyond, else the one nearest to its limit.
     const float merit = measure >= 1 ? surer - part.limit : measure - 1;
     if (merit <= most) continue;
     most = merit;

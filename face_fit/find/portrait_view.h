@@ -3,9 +3,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "fsm/rig/head.h"
 #include "fsm/image/image.h"
 #include "fsm/render/camera.h"
+#include "fsm/rig/head.h"
 
 namespace facefit {
 

@@ -16,9 +16,9 @@ namespace {
 constexpr glm::vec3 kMirror(-1, 1, 1);
 
 /// The pair on the other side of our face, or none.
-const fsm::PlacePair* Opposite(const fsm::PlacePair& pair, std::span<const fsm::PlacePair> pairs) {
+const fsm::PointPair* Opposite(const fsm::PointPair& pair, std::span<const fsm::PointPair> pairs) {
   constexpr float kSame = 5;  // millimetres
-  const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PlacePair& other) {
+  const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PointPair& other) {
     return other.part == pair.part ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
   });
   return glm::distance(kMirror * nearest->from, pair.from) > kSame ? nullptr : &*nearest;
@@ -30,9 +30,9 @@ struct MirrorPlane {
   glm::vec3 Mirrored(glm::vec3 p) const { return p - 2 * glm::dot(p - at, normal) * normal; }
 };
 
-/// By the ways across from one side to the other and by their middles, which a few points that are
-/// off do not turn.
-MirrorPlane FindMirror(std::span<const fsm::PlacePair> pairs) {
+/// Found from the medians of the directions from one side to the other and of their middles: a few
+/// points that are off do not change those.
+MirrorPlane FindMirror(std::span<const fsm::PointPair> pairs) {
   constexpr float kApart = 20;  // millimetres
   std::vector<float> up, ahead, middles;
   for (const auto& pair : pairs) {
@@ -53,14 +53,14 @@ MirrorPlane FindMirror(std::span<const fsm::PlacePair> pairs) {
 
 }  // namespace
 
-void LeaveOutStrays(std::vector<fsm::PlacePair>& pairs) {
+void LeaveOutStrays(std::vector<fsm::PointPair>& pairs) {
   constexpr float kLeast = 8, kTimes = 3;  // millimetres; of the middle of all distances
   constexpr int kRounds = 6;
-  std::vector<fsm::PlacePair> kept = pairs;
+  std::vector<fsm::PointPair> kept = pairs;
   for (int round = 0; round < kRounds; ++round) {
-    const auto place = fsm::FitSimilarity(kept);
-    const auto off = [&place](const fsm::PlacePair& pair) {
-      return glm::distance(place(pair.to), pair.from);
+    const auto to_ours = fsm::FitSimilarity(kept);
+    const auto off = [&to_ours](const fsm::PointPair& pair) {
+      return glm::distance(to_ours(pair.to), pair.from);
     };
     std::vector<float> sorted;
     for (const auto& pair : pairs) sorted.push_back(off(pair));
@@ -73,10 +73,10 @@ void LeaveOutStrays(std::vector<fsm::PlacePair>& pairs) {
   pairs = std::move(kept);
 }
 
-void Balance(const fsm::Similarity& place, std::vector<fsm::PlacePair>& pairs) {
+void Balance(const fsm::Similarity& to_ours, std::vector<fsm::PointPair>& pairs) {
   constexpr float kNear = 7;  // millimetres
-  std::vector<fsm::PlacePair> seen = pairs;
-  for (auto& pair : seen) pair.to = place(pair.to);
+  std::vector<fsm::PointPair> seen = pairs;
+  for (auto& pair : seen) pair.to = to_ours(pair.to);
   const MirrorPlane mirror = FindMirror(seen);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto* opposite = Opposite(seen[i], seen);
@@ -85,7 +85,7 @@ void Balance(const fsm::Similarity& place, std::vector<fsm::PlacePair>& pairs) {
     if (glm::distance(there, seen[i].to) > kNear) continue;
     pairs[i].from = 0.5F * (seen[i].from + kMirror * opposite->from);
     const glm::vec3 to = 0.5F * (seen[i].to + there);
-    pairs[i].to = glm::transpose(place.turn) * ((to - place.move) / place.scale);
+    pairs[i].to = to_ours.Inverse(to);
   }
 }
 

@@ -19,7 +19,7 @@ Seen Look(FaceNetworks& networks, const fsm::Image& photo) {
   Seen seen;
   for (const FaceBox& box : FindFaces(networks, photo)) {
     const FoundFace face = FindPoints(networks, photo, box);
-    const glm::vec2 eyes = face.At(263) - face.At(33);
+    const glm::vec2 eyes = face.At(point::kEyeOuterLeft) - face.At(point::kEyeOuterRight);
     const float tilt = std::atan2(eyes.y, eyes.x);
     seen.faces += 1;
     const float upright = face.certainty * std::max(std::cos(tilt), 0.0F);
@@ -33,7 +33,7 @@ Seen Look(FaceNetworks& networks, const fsm::Image& photo) {
 
 int UprightOrientation(FaceNetworks& networks, const fsm::Image& photo) {
   const Seen seen = Look(networks, photo);
-  // Of several people some may lean, but not all to the same side.
+  // Some of several people may lean, but not all to the same side.
   const float most = seen.faces > 1 ? 0.75F : 0.93F;
   float best = seen.clear;
   int orientation = 1;

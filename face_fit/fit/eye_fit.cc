@@ -12,11 +12,12 @@
 namespace facefit {
 namespace {
 
-fsm::EyeTransform FitEye(const BaseHead& base, const std::map<int, glm::vec3>& to, int side) {
+fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::vec3>& to,
+                         std::size_t side) {
   const auto outline = EyeOutline(side);
-  const glm::vec3 centre = base.head->topology().eyes[static_cast<std::size_t>(side)].centre;
+  const glm::vec3 centre = base.head->topology().eyes[side].centre;
   const auto place = [&](std::size_t k) { return base.AtRest(outline[k]); };
-  const float inner = place(kInnerCorner).x, outer = place(0).x;
+  const float inner = place(kInnerCorner).x, outer = place(kOuterCorner).x;
   // Unknown: shift x and y, size times cosine and sine of the turn, raise of upper and lower lid.
   LinearLeastSquares sum;
   float forward = 0;
@@ -45,7 +46,8 @@ fsm::EyeTransform FitEye(const BaseHead& base, const std::map<int, glm::vec3>& t
 
 }  // namespace
 
-std::array<fsm::EyeTransform, 2> FitEyes(const BaseHead& base, const std::map<int, glm::vec3>& to) {
+std::array<fsm::EyeTransform, 2> FitEyes(const BaseHead& base,
+                                         const std::map<PointIndex, glm::vec3>& to) {
   return {FitEye(base, to, 0), FitEye(base, to, 1)};
 }
 
@@ -56,14 +58,14 @@ struct Slit {
   glm::vec2 outer, inner, middle;
 };
 template <typename Place>
-Slit SlitOf(int side, Place place) {
+Slit SlitOf(std::size_t side, Place place) {
   const auto outline = EyeOutline(side);
   // The lids' middles lie as far from the corner on either side.
-  return {place(outline[0]), place(outline[kInnerCorner]),
-          0.5F * (place(outline[4]) + place(outline[12]))};
+  return {place(outline[kOuterCorner]), place(outline[kInnerCorner]),
+          0.5F * (place(outline[kUpperMiddle]) + place(outline[kLowerMiddle]))};
 }
-Slit SlitOfBase(const BaseHead& base, int side) {
-  return SlitOf(side, [&base](int i) {
+Slit SlitOfBase(const BaseHead& base, std::size_t side) {
+  return SlitOf(side, [&base](PointIndex i) {
     const glm::vec3 p = base.AtRest(i);
     return glm::vec2(p.x, -p.y);
   });
@@ -73,9 +75,9 @@ struct Expected {
   glm::vec2 centre;
   float scale;
 };
-Expected ExpectedIris(const BaseHead& base, const Slit& seen, int side) {
+Expected ExpectedIris(const BaseHead& base, const Slit& seen, std::size_t side) {
   const Slit own = SlitOfBase(base, side);
-  const glm::vec3 ball = base.head->topology().eyes[static_cast<std::size_t>(side)].centre;
+  const glm::vec3 ball = base.head->topology().eyes[side].centre;
   const glm::vec2 from = own.inner - own.outer, to = seen.inner - seen.outer;
   const float scale = glm::length(to) / std::max(glm::length(from), 1e-3F);
   const float turn = std::atan2(to.y, to.x) - std::atan2(from.y, from.x);
@@ -88,14 +90,13 @@ Expected ExpectedIris(const BaseHead& base, const Slit& seen, int side) {
 
 void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
   std::array<OpenEye, 2> eyes;
-  for (const int side : {0, 1}) {
-    const auto place = [&face](int i) { return face.At(i); };
+  for (const std::size_t side : {0U, 1U}) {
+    const auto place = [&face](PointIndex i) { return face.At(i); };
     const Expected iris = ExpectedIris(base, SlitOf(side, place), side);
-    const auto k = static_cast<std::size_t>(side);
-    std::ranges::transform(EyeOutline(side), eyes[k].lids.begin(), place);
-    eyes[k].middle = iris.centre;
-    eyes[k].expected = iris.scale * base.head->topology().eyes[k].iris_radius;
-    fit.irises[k] = {.centre = iris.centre, .radius = eyes[k].expected, .contrast = 0};
+    std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), place);
+    eyes[side].middle = iris.centre;
+    eyes[side].expected = iris.scale * base.head->topology().eyes[side].iris_radius;
+    fit.irises[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
   }
   if (!photo) return;
   const auto rings = FindIrises(*photo, eyes);
@@ -111,11 +112,11 @@ void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* p
 
 void CentreEyes(const BaseHead& base, const Fit& fit,
                 std::vector<LandmarkConstraint>& constraints) {
-  for (const int side : {0, 1}) {
-    const IrisRing& ring = fit.irises[static_cast<std::size_t>(side)];
+  for (const std::size_t side : {0U, 1U}) {
+    const IrisRing& ring = fit.irises[side];
     if (ring.contrast <= 0) continue;
     const auto outline = EyeOutline(side);
-    const Slit slit = SlitOf(side, [&constraints](int i) {
+    const Slit slit = SlitOf(side, [&constraints](PointIndex i) {
       return std::ranges::find(constraints, i, &LandmarkConstraint::point)->pixel;
     });
     const Expected iris = ExpectedIris(base, slit, side);

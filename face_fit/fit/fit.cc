@@ -8,6 +8,7 @@
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
+#include "face_fit/fit/pose_fit.h"
 
 namespace facefit {
 namespace {
@@ -15,22 +16,17 @@ namespace {
 constexpr float kFaceZ = 50;
 constexpr glm::vec3 kMiddle{0, -10, 20};  ///< the head is turned about it
 
-/// Turn about x, y and z; logarithm of the focal length; centre x and y; smile, jaw, parted.
-constexpr std::size_t kParameters = 9;
+/// Unknowns of the fit: those of the pose, and the strengths of Expression.
+enum FitParameter : std::size_t { kSmile = kPoseParameters, kJaw, kParted, kFitParameters };
 constexpr double kMostExpression = 1.5;
 constexpr int kRounds = 20;
 using Parameters = std::vector<double>;
 
-CameraPose PoseOf(const Parameters& p) {
-  const auto f = [&p](std::size_t i) { return static_cast<float>(p[i]); };
-  return {{f(0), f(1), f(2)}, std::exp(f(3)), {f(4), f(5)}};
-}
-
 Expression ExpressionOf(const Parameters& p) {
-  const auto part = [&p](std::size_t i) {
+  const auto strength = [&p](FitParameter i) {
     return static_cast<float>(std::clamp(p[i], 0.0, kMostExpression));
   };
-  return {part(6), part(7), part(8)};
+  return {.smile = strength(kSmile), .jaw = strength(kJaw), .parted = strength(kParted)};
 }
 
 struct Sight {
@@ -48,9 +44,8 @@ std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters
   std::vector<double> out;
   std::vector<float> depth;
   float mean = 0;
-  for (const int i : FitPoints()) {
-    const auto k = static_cast<std::size_t>(i);
-    const glm::vec3 q = pose.ToCamera(sight.base.places[k].On(vertices.position));
+  for (const PointIndex k : FitPoints()) {
+    const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(vertices.position));
     const glm::vec2 miss = (pose.Project(q) - sight.face.At(k)) * mm;
     out.push_back(static_cast<double>(miss.x));
     out.push_back(static_cast<double>(miss.y));
@@ -61,16 +56,22 @@ std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters
   for (const float d : depth) out.push_back(0.4 * static_cast<double>(d - mean));
   // People mostly hold still for a photo: what is not clearly seen is not assumed. Without teeth to
   // see a mouth's form is taken for the person's own rather than for a smile.
-  out.push_back((sight.lips_apart ? 6 : 40) * parameters[6]);
-  for (const std::size_t i : {7U, 8U}) out.push_back((sight.lips_apart ? 6 : 1e4) * parameters[i]);
+  out.push_back((sight.lips_apart ? 6 : 40) * parameters[kSmile]);
+  for (const FitParameter i : {kJaw, kParted}) {
+    out.push_back((sight.lips_apart ? 6 : 1e4) * parameters[i]);
+  }
   return out;
 }
 
 Parameters Refine(const Sight& sight, const Parameters& start) {
   std::vector<Unknown> unknowns;
-  for (std::size_t i = 0; i < 4; ++i) unknowns.push_back({.start = start[i], .step = 1e-3});
-  for (std::size_t i = 4; i < 6; ++i) unknowns.push_back({.start = start[i], .step = 0.5});
-  for (std::size_t i = 6; i < kParameters; ++i) {
+  for (std::size_t i = kTurnX; i <= kLogFocal; ++i) {
+    unknowns.push_back({.start = start[i], .step = 1e-3});
+  }
+  for (const std::size_t i : {kCentreX, kCentreY}) {
+    unknowns.push_back({.start = start[i], .step = 0.5});
+  }
+  for (std::size_t i = kSmile; i < kFitParameters; ++i) {
     unknowns.push_back({.start = start[i], .step = 0.05, .low = 0, .high = kMostExpression});
   }
   return LevenbergMarquardt([&sight](const Parameters& p) { return ResidualsOf(sight, p); },
@@ -128,17 +129,19 @@ std::vector<float> DepthBias(const BaseHead& base) {
   return bias;
 }
 
-/// Size, place and tilt by the outer corners of the eyes and the root of the nose.
+/// Size, position and tilt by the outer corners of the eyes and the root of the nose.
 Parameters FirstGuess(const BaseHead& base, const FoundFace& face) {
-  const glm::vec2 right(face.points[33]), left(face.points[263]), nose(face.points[6]);
-  const float wide = glm::distance(base.AtRest(33), base.AtRest(263));
+  using namespace point;
+  const glm::vec2 right = face.At(kEyeOuterRight), left = face.At(kEyeOuterLeft),
+                  nose = face.At(kNoseBridge);
+  const float wide = glm::distance(base.AtRest(kEyeOuterRight), base.AtRest(kEyeOuterLeft));
   const float scale = glm::distance(right, left) / wide;
-  const glm::vec3 root = base.AtRest(6);
-  Parameters start(kParameters);
-  start[2] = -std::atan2(left.y - right.y, left.x - right.x);
-  start[3] = std::log(static_cast<double>(scale * (kCameraZ - kFaceZ)));
-  start[4] = nose.x - scale * root.x;
-  start[5] = nose.y + scale * root.y;
+  const glm::vec3 root = base.AtRest(kNoseBridge);
+  Parameters start(kFitParameters);
+  start[kTurnZ] = -std::atan2(left.y - right.y, left.x - right.x);
+  start[kLogFocal] = std::log(static_cast<double>(scale * (kCameraZ - kFaceZ)));
+  start[kCentreX] = nose.x - scale * root.x;
+  start[kCentreY] = nose.y + scale * root.y;
   return start;
 }
 
@@ -158,12 +161,11 @@ std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPo
   std::vector<LandmarkConstraint> constraints;
   std::vector<float> lacks;
   float mean = 0;
-  for (const int i : FitPoints()) {
-    const auto k = static_cast<std::size_t>(i);
-    const glm::vec3 q = pose.ToCamera(sight.base.places[k].On(now));
+  for (const PointIndex k : FitPoints()) {
+    const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(now));
     lacks.push_back(sight.face.points[k].z * mm + sight.depth_bias[k] - q.z);
     mean += lacks.back() / static_cast<float>(FitPoints().size());
-    constraints.push_back({i, sight.base.places[k], sight.face.At(k), q.z});
+    constraints.push_back({k, sight.base.points[k], sight.face.At(k), q.z});
   }
   for (std::size_t i = 0; i < lacks.size(); ++i) {
     constraints[i].z += kTrustDepth * std::clamp(lacks[i] - mean, -kMostDepth, kMostDepth);
@@ -174,9 +176,8 @@ std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPo
 /// Mean distance of the network's points from those of the fitted head, millimetres.
 float ResidualMm(const BaseHead& base, const FoundFace& face, const Fit& fit) {
   float sum = 0;
-  for (const int i : FitPoints()) {
-    const auto k = static_cast<std::size_t>(i);
-    const glm::vec3 q = fit.pose.ToCamera(base.places[k].On(fit.posed_vertices));
+  for (const PointIndex k : FitPoints()) {
+    const glm::vec3 q = fit.pose.ToCamera(base.points[k].On(fit.posed_vertices));
     sum += glm::distance(fit.pose.Project(q), face.At(k));
   }
   return sum / fit.pose.PixelsPerMm() / static_cast<float>(FitPoints().size());

@@ -9,7 +9,6 @@
 #include "face_fit/find/base_head.h"
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/iris.h"
-#include "fsm/rig/eye_transform.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
 
@@ -43,10 +42,10 @@ struct Expression {
   fsm::FaceState State() const;
 };
 
-/// A place of the head, where the photo shows it, and its depth.
+/// A point of the head, where the photo shows it, and its depth.
 struct LandmarkConstraint {
-  int point;  ///< of the network, -1 = none
-  MeshPlace place;
+  PointIndex point;  ///< of the network, or kNoPoint
+  MeshPoint on_head;
   glm::vec2 pixel;
   float z;  ///< in the camera's frame, millimetres towards it
 };

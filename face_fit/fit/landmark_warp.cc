@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 
 #include "face_fit/find/mouth_line.h"
 #include "face_fit/find/rasterizer.h"
@@ -15,17 +16,21 @@
 namespace facefit {
 namespace {
 
-bool Among(std::span<const int> list, int point) {
-  return std::ranges::find(list, point) != list.end();
+bool Among(std::span<const PointIndex> list, PointIndex i) {
+  return std::ranges::find(list, i) != list.end();
 }
-bool OfInnerLips(int point) {
-  return Among(UpperInnerLip(), point) || Among(LowerInnerLip(), point);
+bool OfInnerLips(const LandmarkConstraint& c) {
+  return Among(UpperInnerLip(), c.point) || Among(LowerInnerLip(), c.point);
 }
-bool OfOuterLips(int point) {
-  return Among(UpperOuterLip(), point) || Among(LowerOuterLip(), point);
+bool OfOuterLips(const LandmarkConstraint& c) {
+  return Among(UpperOuterLip(), c.point) || Among(LowerOuterLip(), c.point);
 }
-int EyeOf(int point) {
-  return Among(EyeOutline(0), point) ? 0 : Among(EyeOutline(1), point) ? 1 : -1;
+/// Whose outline has the point; none if it is no eye's.
+std::optional<std::size_t> EyeOf(const LandmarkConstraint& c) {
+  for (const std::size_t side : {0U, 1U}) {
+    if (Among(EyeOutline(side), c.point)) return side;
+  }
+  return std::nullopt;
 }
 
 std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
@@ -44,9 +49,9 @@ std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
   return nearest;
 }
 
-/// The fitted head's skin in the photo's expression takes the place of the base head's in
-/// `posed_vertices`.
-void Wear(const BaseHead& base, Fit& fit) {
+/// Replaces the base head's skin in `posed_vertices` by the fitted head's in the photo's
+/// expression.
+void PoseSkin(const BaseHead& base, Fit& fit) {
   const auto skin = SkinWith(base, fit, fit.expression.State());
   std::ranges::copy(std::span(skin).first(std::min(skin.size(), fit.posed_vertices.size())),
                     fit.posed_vertices.begin());
@@ -55,21 +60,14 @@ void Wear(const BaseHead& base, Fit& fit) {
 }  // namespace
 
 std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm::FaceState& state) {
-  fsm::PhotoHead set;
-  set.base = base.name;
-  set.points = fit.points;
-  set.smooth = fit.smooth;
-  set.eyes = fit.eyes;
-  set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
-  const auto head = base.Moved(fsm::MakeHead(set));
+  fsm::PhotoHead head;
+  head.base = base.name;
+  head.points = fit.points;
+  head.smooth = fit.smooth;
+  head.eyes = fit.eyes;
+  const fsm::Rig skin = fsm::MakeSkinRig(head);
   fsm::HeadVertices vertices;
-  head->Evaluate(state, vertices);
-  // Both begin with the same skin.
-  std::uint32_t end = 0;
-  ForSkinTriangles(head->topology(), [&end](const std::uint32_t* t) {
-    end = std::max({end, t[0] + 1, t[1] + 1, t[2] + 1});
-  });
-  vertices.position.resize(end);
+  (base.units ? skin.WithUnits(*base.units) : skin).Evaluate(state, vertices);
   return vertices.position;
 }
 
@@ -78,34 +76,32 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
                           std::vector<LandmarkConstraint>& constraints) {
   const glm::vec3 right = base.head->Landmark("cheilion_right");
   const glm::vec3 left = base.head->Landmark("cheilion_left");
-  const auto along = [&](const MeshPlace& place) {
-    return (place.On(base.rest.position).x - right.x) / (left.x - right.x);
+  const auto along = [&](const MeshPoint& p) {
+    return (p.On(base.rest.position).x - right.x) / (left.x - right.x);
   };
-  const auto line = FindMouthLine(photo, face, along(base.places[61]), along(base.places[291]));
-  std::erase_if(constraints,
-                [](const LandmarkConstraint& constraint) { return OfInnerLips(constraint.point); });
+  const auto line = FindMouthLine(photo, face, along(base.points[point::kMouthRight]),
+                                  along(base.points[point::kMouthLeft]));
+  std::erase_if(constraints, OfInnerLips);
   const auto on_line = [&](float part) {
-    const float at = glm::clamp(part, 0.0F, 1.0F) * (kMouthLinePlaces - 1);
-    const auto k = std::min(static_cast<std::size_t>(at), kMouthLinePlaces - 2);
+    const float at = glm::clamp(part, 0.0F, 1.0F) * (kMouthLinePoints - 1);
+    const auto k = std::min(static_cast<std::size_t>(at), kMouthLinePoints - 2);
     return glm::mix(line[k], line[k + 1], at - static_cast<float>(k));
   };
   // Where the network misplaced a corner it misplaced the outer lips beside it, too.
-  for (const int corner : {61, 291}) {
-    const auto c = static_cast<std::size_t>(corner);
-    const float corner_at = along(base.places[c]);
-    const glm::vec2 off = on_line(corner_at) - face.At(c);
+  for (const PointIndex corner : {point::kMouthRight, point::kMouthLeft}) {
+    const float corner_at = along(base.points[corner]);
+    const glm::vec2 off = on_line(corner_at) - face.At(corner);
     for (LandmarkConstraint& constraint : constraints) {
-      if (constraint.point != corner && !OfOuterLips(constraint.point)) continue;
+      if (constraint.point != corner && !OfOuterLips(constraint)) continue;
       constraint.pixel +=
-          off * fsm::SmoothStep(0.3F, 0.05F, std::abs(along(constraint.place) - corner_at));
+          off * fsm::SmoothStep(0.3F, 0.05F, std::abs(along(constraint.on_head) - corner_at));
     }
   }
-  const auto constrain = [&](const MeshPlace& place) {
-    constraints.push_back({-1, place, on_line(along(place)), pose.ToCamera(place.On(now)).z});
+  const auto constrain = [&](const MeshPoint& p) {
+    constraints.push_back({kNoPoint, p, on_line(along(p)), pose.ToCamera(p.On(now)).z});
   };
-  for (const int point : UpperInnerLip()) {
-    if (point != 78 && point != 308) constrain(base.places[static_cast<std::size_t>(point)]);
-  }
+  const auto upper = UpperInnerLip();
+  for (const PointIndex i : upper.subspan(1, upper.size() - 2)) constrain(base.points[i]);
   for (const glm::vec3 corner : {right, left}) {
     const std::uint32_t v = NearestLip(base, corner);
     constrain({{v, v, v}, {1, 0, 0}});
@@ -120,32 +116,30 @@ void WarpToLandmarks(const BaseHead& base, Fit& fit) {
   const auto lies = [&](const LandmarkConstraint& constraint) {
     return fit.pose.FromCamera(fit.pose.Unproject(constraint.pixel, constraint.z));
   };
-  std::map<int, glm::vec3> eyes;
+  std::map<PointIndex, glm::vec3> eyes;
   for (const LandmarkConstraint& constraint : constraints) {
-    if (EyeOf(constraint.point) < 0) continue;
+    if (!EyeOf(constraint)) continue;
     eyes[constraint.point] =
-        lies(constraint) - (constraint.place.On(now) - constraint.place.On(base.rest.position));
+        lies(constraint) - (constraint.on_head.On(now) - constraint.on_head.On(base.rest.position));
   }
   fit.eyes = FitEyes(base, eyes);
-  const auto& seats = base.head->topology().eyes;
   fit.points.clear();
-  std::vector<std::size_t> bent;  // constraints of fit.points that may be corrected
-  std::vector<std::size_t> of;
+  struct Correctable {
+    std::size_t warp_point, constraint;
+  };
+  std::vector<Correctable> correctable;
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     const LandmarkConstraint& constraint = constraints[i];
     // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
-    if (fit.lips_apart && OfInnerLips(constraint.point)) continue;
-    const glm::vec3 rest = constraint.place.On(base.rest.position);
-    const int eye = EyeOf(constraint.point);
-    if (eye < 0) {
-      bent.push_back(fit.points.size());
-      of.push_back(i);
-      fit.points.push_back({rest, lies(constraint) - constraint.place.On(now)});
-    } else {
+    if (fit.lips_apart && OfInnerLips(constraint)) continue;
+    const glm::vec3 rest = constraint.on_head.On(base.rest.position);
+    if (const auto side = EyeOf(constraint)) {
       // Lids go with the eye: the skin around them must, too.
-      const auto side = static_cast<std::size_t>(eye);
-      const fsm::EyeTransform& seat = fit.eyes[side];
-      fit.points.push_back({rest, seat.Placed(seats[side].centre, rest) - rest});
+      const glm::vec3 centre = base.head->topology().eyes[*side].centre;
+      fit.points.push_back({rest, fit.eyes[*side].Placed(centre, rest) - rest});
+    } else {
+      correctable.push_back({fit.points.size(), i});
+      fit.points.push_back({rest, lies(constraint) - constraint.on_head.On(now)});
     }
   }
   const fsm::Warp warp(fit.points, fit.smooth);
@@ -153,17 +147,17 @@ void WarpToLandmarks(const BaseHead& base, Fit& fit) {
   for (std::size_t i = 0; i < now.size(); ++i) {
     fit.posed_vertices.push_back(now[i] + warp.Motion(base.rest.position[i]));
   }
-  // What the head then makes of its units, lids and lips moves places a little off; once more with
+  // What the head then makes of its units, lids and lips moves points a little off; once more with
   // that taken into account.
-  Wear(base, fit);
+  PoseSkin(base, fit);
   constexpr float kGain = 0.8F;
-  for (std::size_t k = 0; k < bent.size(); ++k) {
-    const LandmarkConstraint& constraint = constraints[of[k]];
-    const glm::vec3 q = fit.pose.ToCamera(constraint.place.On(fit.posed_vertices));
+  for (const auto& [warp_point, of] : correctable) {
+    const LandmarkConstraint& constraint = constraints[of];
+    const glm::vec3 q = fit.pose.ToCamera(constraint.on_head.On(fit.posed_vertices));
     const glm::vec3 should = fit.pose.FromCamera(fit.pose.Unproject(constraint.pixel, q.z));
-    fit.points[bent[k]].by += kGain * (should - fit.pose.FromCamera(q));
+    fit.points[warp_point].by += kGain * (should - fit.pose.FromCamera(q));
   }
-  Wear(base, fit);
+  PoseSkin(base, fit);
 }
 
 }  // namespace facefit

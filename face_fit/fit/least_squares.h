@@ -29,7 +29,7 @@ struct Unknown {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
-/// What is to become small, for values of the unknowns. REQUIRES: always of one length.
+/// The numbers to be made small, for values of the unknowns. REQUIRES: always of one length.
 using Residuals = std::function<std::vector<double>(const std::vector<double>&)>;
 
 /// Makes the sum of the squares of the residuals small by Levenberg's and Marquardt's method

@@ -9,16 +9,18 @@
 namespace facefit {
 namespace {
 
-CameraPose PoseOf(const std::vector<double>& p) {
-  const auto f = [&p](std::size_t i) { return static_cast<float>(p[i]); };
-  return {{f(0), f(1), f(2)}, std::exp(f(3)), {f(4), f(5)}};
-}
-
 glm::vec2 Off(const CameraPose& pose, const PoseMark& mark) {
   return (pose.Project(pose.ToCamera(mark.at)) - mark.pixel) / pose.PixelsPerMm();
 }
 
 }  // namespace
+
+CameraPose PoseOf(std::span<const double> parameters) {
+  const auto value = [&](PoseParameter p) { return static_cast<float>(parameters[p]); };
+  return {.turn = {value(kTurnX), value(kTurnY), value(kTurnZ)},
+          .focal = std::exp(value(kLogFocal)),
+          .centre = {value(kCentreX), value(kCentreY)}};
+}
 
 CameraPose RefinePose(std::span<const PoseMark> marks, const CameraPose& start) {
   const auto residuals = [&](const std::vector<double>& p) {

@@ -6,12 +6,26 @@
 
 namespace facefit {
 
-/// A place in the head's frame and where a photo shows it.
+/// A point in the head's frame and where a photo shows it.
 struct PoseMark {
   glm::vec3 at;
   glm::vec2 pixel;
   float weight = 1;
 };
+
+/// A pose as unknowns of a least-squares fit. Of the focal length the logarithm is taken, so that
+/// it stays above 0.
+enum PoseParameter : std::size_t {
+  kTurnX,
+  kTurnY,
+  kTurnZ,
+  kLogFocal,
+  kCentreX,
+  kCentreY,
+  kPoseParameters
+};
+/// REQUIRES: kPoseParameters numbers or more.
+CameraPose PoseOf(std::span<const double> parameters);
 
 /// The pose that shows the marks nearest to where the photo shows them, starting from `start`.
 /// Marks more than 3 mm off count by their distance, not by its square.

@@ -27,8 +27,8 @@ constexpr float kMostOff = 4;  // a mean beyond it is no face's, or another one'
 
 /// The profile of the fitted head from the chin up: heights in even steps, and how far forward.
 std::vector<glm::vec3> ProfileOf(const BaseHead& base, const Fit& fit, float below_chin) {
-  const float low = base.places[152].On(fit.posed_vertices).y - below_chin;
-  const float high = base.places[168].On(fit.posed_vertices).y + kAboveNasion;
+  const float low = base.points[point::kChin].On(fit.posed_vertices).y - below_chin;
+  const float high = base.points[point::kNasion].On(fit.posed_vertices).y + kAboveNasion;
   const auto count = static_cast<std::size_t>(std::max(high - low, kBin) / kBin) + 1;
   std::vector<float> z(count, -1e9F);
   ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
@@ -188,8 +188,8 @@ std::optional<Guess> Search(const std::vector<glm::vec3>& line, const FloatImage
 }
 
 /// The pose that shows places nearest to pixels, with the turn as given.
-CameraPose Place(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
-                 glm::vec3 turn) {
+CameraPose PoseWithTurn(const std::vector<glm::vec3>& places, const std::vector<glm::vec2>& pixels,
+                        glm::vec3 turn) {
   CameraPose pose;
   pose.turn = turn;
   pose.focal = 1;
@@ -249,7 +249,7 @@ CameraPose Refine(const FloatImage& opacity, CameraPose pose, const std::vector<
     float off = MeanForward(opacity, pose, line);
     for (const float lean : {-2.0F, -1.0F, -0.4F, 0.0F, 0.4F, 1.0F, 2.0F}) {
       const CameraPose next =
-          Place(places, pixels, pose.turn + glm::vec3(0, 0, glm::radians(lean)));
+          PoseWithTurn(places, pixels, pose.turn + glm::vec3(0, 0, glm::radians(lean)));
       const float at = MeanForward(opacity, next, line);
       if (at >= off) continue;
       off = at;
@@ -291,8 +291,8 @@ vm::Result<ProfileFit> RefineDepthByProfile(const BaseHead& base, const FloatIma
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& p : line) pixels.push_back(guess->At(p));
   ProfileFit view;
-  view.pose = Place(line, pixels,
-                    {0, glm::radians(90.0F) * static_cast<float>(guess->direction), -guess->tilt});
+  view.pose = PoseWithTurn(
+      line, pixels, {0, glm::radians(90.0F) * static_cast<float>(guess->direction), -guess->tilt});
   view.pose = Refine(opacity, view.pose, line);
   view.residual_mm = MeanForward(opacity, view.pose, line);
   if (view.residual_mm > kMostOff) return refused();
@@ -309,7 +309,7 @@ vm::Result<ProfileFit> RefineDepthByProfile(const BaseHead& base, const FloatIma
     // Beside the middle the outline says less and less.
     constexpr float kWide = 24, kMost = 6;
     for (LandmarkConstraint& constraint : fit.constraints) {
-      const glm::vec3 p = constraint.place.On(fit.posed_vertices);
+      const glm::vec3 p = constraint.on_head.On(fit.posed_vertices);
       const float part = std::exp(-p.x * p.x / (kWide * kWide));
       constraint.z += part * std::clamp(gaps.At(p.y), -kMost, kMost);
     }

@@ -10,6 +10,7 @@
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/pose_fit.h"
 #include "face_fit/fit/stereo.h"
+#include "fsm/rig/normals.h"
 
 namespace facefit {
 namespace {
@@ -23,7 +24,7 @@ constexpr float kMostResidual = 2.6F;  // millimetres
 /// What can be compared: points of the network with the place of the posed head, and how far beside
 /// it the network sees them (millimetres to the right and down, as the camera has it).
 struct Mark {
-  std::size_t point;
+  PointIndex point;
   glm::vec3 at;
   glm::vec2 bias{0};
   float weight = 1;
@@ -31,9 +32,8 @@ struct Mark {
 
 std::vector<Mark> MarksOf(const BaseHead& base, const Fit& fit) {
   std::vector<Mark> marks;
-  for (const int i : FitPoints()) {
-    const auto k = static_cast<std::size_t>(i);
-    marks.push_back({k, base.places[k].On(fit.posed_vertices)});
+  for (const PointIndex i : FitPoints()) {
+    marks.push_back({i, base.points[i].On(fit.posed_vertices)});
   }
   return marks;
 }
@@ -43,23 +43,10 @@ std::vector<PoseMark> Shown(const std::vector<Mark>& marks, const FoundFace& fac
                             const CameraPose& pose) {
   std::vector<PoseMark> shown;
   for (const Mark& mark : marks) {
-    const glm::vec2 seen(face.points[mark.point]);
+    const glm::vec2 seen = face.At(mark.point);
     shown.push_back({mark.at, seen - mark.bias * pose.PixelsPerMm(), mark.weight});
   }
   return shown;
-}
-
-std::vector<glm::vec3> NormalsOf(const fsm::HeadTopology& topology,
-                                 const std::vector<glm::vec3>& position) {
-  std::vector<glm::vec3> normal(position.size(), glm::vec3(0));
-  for (std::size_t i = 0; i + 2 < topology.indices.size(); i += 3) {
-    const std::uint32_t* t = &topology.indices[i];
-    const glm::vec3 n =
-        glm::cross(position[t[1]] - position[t[0]], position[t[2]] - position[t[0]]);
-    for (int c = 0; c < 3; ++c) normal[t[c]] += n;
-  }
-  for (glm::vec3& n : normal) n = glm::normalize(n + glm::vec3(0, 0, 1e-12F));
-  return normal;
 }
 
 /// Draws the posed head turned as in the pose, lets the network look at it, and notes in the marks
@@ -69,17 +56,18 @@ bool NoteBias(FaceNetworks& networks, const BaseHead& base, const Fit& fit, cons
               std::vector<Mark>& marks) {
   fsm::HeadVertices turned;
   for (const glm::vec3& p : fit.posed_vertices) turned.position.push_back(pose.ToCamera(p));
-  turned.normal = NormalsOf(base.head->topology(), turned.position);
+  turned.normal =
+      fsm::Normals(base.head->topology().indices, turned.position, turned.position.size());
   const PortraitView portrait(kSide);
   const fsm::Image picture = portrait.Draw(*base.head, turned, {});
   const auto boxes = FindFaces(networks, picture);
   if (boxes.empty()) return false;
   const FoundFace seen = FindPoints(networks, picture, boxes.front());
   for (Mark& mark : marks) {
-    const auto& place = base.places[mark.point];
-    mark.bias =
-        (seen.At(mark.point) - portrait.Pixel(place.On(turned.position))) * portrait.mm_per_pixel();
-    const float facing = place.On(turned.normal).z;
+    const MeshPoint& on_head = base.points[mark.point];
+    mark.bias = (seen.At(mark.point) - portrait.Pixel(on_head.On(turned.position))) *
+                portrait.mm_per_pixel();
+    const float facing = on_head.On(turned.normal).z;
     mark.weight = facing > 0.1F ? 1.0F : 0.15F;
   }
   return true;
@@ -99,9 +87,9 @@ vm::Result<SideFit> FitSideView(FaceNetworks& networks, const BaseHead& base, co
                     "they can");
   }
   std::vector<Mark> marks = MarksOf(base, fit);
-  const glm::vec2 top(view.face.points[168]), chin(view.face.points[152]);
-  const float tall = glm::distance(base.places[168].On(fit.posed_vertices),
-                                   base.places[152].On(fit.posed_vertices));
+  const glm::vec2 top = view.face.At(point::kNasion), chin = view.face.At(point::kChin);
+  const float tall = glm::distance(base.points[point::kNasion].On(fit.posed_vertices),
+                                   base.points[point::kChin].On(fit.posed_vertices));
   CameraPose start = fit.pose;
   start.focal = fit.pose.focal / fit.pose.PixelsPerMm() * glm::distance(top, chin) / tall;
   const glm::vec2 down = chin - top;
@@ -113,7 +101,8 @@ vm::Result<SideFit> FitSideView(FaceNetworks& networks, const BaseHead& base, co
     from.turn = {0, glm::radians(turn), start.turn.z};
     from.centre = {0, 0};
     from.centre =
-        view.face.At(6) - from.Project(from.ToCamera(base.places[6].On(fit.posed_vertices)));
+        view.face.At(point::kNoseBridge) -
+        from.Project(from.ToCamera(base.points[point::kNoseBridge].On(fit.posed_vertices)));
     const auto shown = Shown(marks, view.face, from);
     const CameraPose pose = RefinePose(shown, from);
     if (!best || MeanDistance(pose, shown) < MeanDistance(*best, shown)) best = pose;
@@ -153,7 +142,7 @@ void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm:
         both.push_back({point.at * glm::vec3(-1, 1, 1), point.by});
       }
     }
-    // Of single patches some are mistaken: those far from what their neighbours say are left out.
+    // Some single patches are mistaken: those far from what their neighbours say are left out.
     constexpr float kSmooth = 60, kEven = 12, kFar = 2, kMost = 10;
     const fsm::Warp rough(both, kSmooth);
     std::erase_if(both, [&](const fsm::WarpPoint& point) {
@@ -163,7 +152,7 @@ void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm:
     const fsm::Warp depth(both, kEven);
     for (LandmarkConstraint& constraint : fit.constraints) {
       constraint.z +=
-          std::clamp(depth.Motion(constraint.place.On(base.rest.position)).z, -kMost, kMost);
+          std::clamp(depth.Motion(constraint.on_head.On(base.rest.position)).z, -kMost, kMost);
     }
     WarpToLandmarks(base, fit);
   }

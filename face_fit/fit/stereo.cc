@@ -38,9 +38,8 @@ Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const
   Seen seen;
   seen.step = kCell * fit.pose.PixelsPerMm();
   Box2 box;
-  for (const int i : FitPoints()) {
-    const MeshPlace& place = base.places[static_cast<std::size_t>(i)];
-    box.Add(fit.pose.Project(fit.pose.ToCamera(place.On(fit.posed_vertices))));
+  for (const PointIndex i : FitPoints()) {
+    box.Add(fit.pose.Project(fit.pose.ToCamera(base.points[i].On(fit.posed_vertices))));
   }
   seen.origin = box.low;
   seen.columns = std::clamp(static_cast<int>(box.Size().x / seen.step), 1, 400);

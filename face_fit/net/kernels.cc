@@ -22,7 +22,7 @@ Four Load(const float* from) {
   return four;
 }
 
-/// Of `kFours` x 4 outputs, which stay in registers from the first input to the last.
+/// Sums `kFours` x 4 outputs, which stay in registers from the first input to the last.
 template <std::size_t kFours>
 void MultiplyBlock(const float* in, std::size_t channels, const float* turned, std::size_t outs,
                    float* sums) {
@@ -49,6 +49,33 @@ void Multiply(const float* in, std::size_t pixels, std::size_t channels, const f
   }
 }
 
+void FillWithBias(const float* bias, Tensor& out) {
+  const auto channels = static_cast<std::size_t>(out.shape.channels());
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    out.values[i] = bias ? bias[i % channels] : 0;
+  }
+}
+
+/// Calls f(to, from, row, column) for every pixel of the output and every tap (row and column) of
+/// the filter that lies within the input: where the channels of both pixels begin.
+template <typename F>
+void ForEachTap(const Step& step, const Shape& in, const Shape& out, const Shape& filter, F f) {
+  const Padding pad = PaddingOf(step, in, out, filter.rows(), filter.columns());
+  for (int y = 0; y < out.rows(); ++y) {
+    for (int x = 0; x < out.columns(); ++x) {
+      for (int r = 0; r < filter.rows(); ++r) {
+        const int in_y = y * step.stride_rows + r - pad.rows;
+        if (in_y < 0 || in_y >= in.rows()) continue;
+        for (int c = 0; c < filter.columns(); ++c) {
+          const int in_x = x * step.stride_columns + c - pad.columns;
+          if (in_x < 0 || in_x >= in.columns()) continue;
+          f(At(out, y, x), At(in, in_y, in_x), r, c);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Padding PaddingOf(const Step& step, const Shape& in, const Shape& out, int filter_rows,
@@ -65,65 +92,37 @@ void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const fl
               Tensor& out) {
   const auto outs = static_cast<std::size_t>(out.shape.channels());
   const auto channels = static_cast<std::size_t>(in.shape.channels());
-  const int rows = filter.shape.rows();
-  const int columns = filter.shape.columns();
-  const auto taps = static_cast<std::size_t>(rows * columns);
   // Weights come output by output; here they are wanted tap by tap, input by input.
+  const std::size_t weights = filter.values.size() / outs;
   std::vector<float> turned(filter.values.size());
   for (std::size_t o = 0; o < outs; ++o) {
-    for (std::size_t k = 0; k < taps * channels; ++k) {
-      turned[k * outs + o] = filter.values[o * taps * channels + k];
-    }
+    for (std::size_t k = 0; k < weights; ++k) turned[k * outs + o] = filter.values[o * weights + k];
   }
-  for (std::size_t i = 0; i < out.values.size(); i += outs) {
-    for (std::size_t o = 0; o < outs; ++o) out.values[i + o] = bias ? bias[o] : 0;
-  }
-  const Padding pad = PaddingOf(step, in.shape, out.shape, rows, columns);
-  if (rows == 1 && columns == 1 && step.stride_rows == 1 && step.stride_columns == 1) {
+  FillWithBias(bias, out);
+  if (weights == channels && step.stride_rows == 1 && step.stride_columns == 1) {
     Multiply(in.values.data(), in.values.size() / channels, channels, turned.data(), outs,
              out.values.data());
     return;
   }
-  for (int y = 0; y < out.shape.rows(); ++y) {
-    for (int x = 0; x < out.shape.columns(); ++x) {
-      float* to = &out.values[At(out.shape, y, x)];
-      for (int r = 0; r < rows; ++r) {
-        const int in_y = y * step.stride_rows + r - pad.rows;
-        if (in_y < 0 || in_y >= in.shape.rows()) continue;
-        for (int c = 0; c < columns; ++c) {
-          const int in_x = x * step.stride_columns + c - pad.columns;
-          if (in_x < 0 || in_x >= in.shape.columns()) continue;
-          Multiply(&in.values[At(in.shape, in_y, in_x)], 1, channels,
-                   &turned[static_cast<std::size_t>(r * columns + c) * channels * outs], outs, to);
-        }
-      }
-    }
-  }
+  ForEachTap(step, in.shape, out.shape, filter.shape,
+             [&](std::size_t to, std::size_t from, int row, int column) {
+               const auto tap = static_cast<std::size_t>(row * filter.shape.columns() + column);
+               Multiply(&in.values[from], 1, channels, &turned[tap * channels * outs], outs,
+                        &out.values[to]);
+             });
 }
 
 void DepthwiseConv(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
                    Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
-  const int rows = filter.shape.rows();
-  const int columns = filter.shape.columns();
-  const Padding pad = PaddingOf(step, in.shape, out.shape, rows, columns);
-  for (int y = 0; y < out.shape.rows(); ++y) {
-    for (int x = 0; x < out.shape.columns(); ++x) {
-      float* to = &out.values[At(out.shape, y, x)];
-      for (std::size_t k = 0; k < channels; ++k) to[k] = bias ? bias[k] : 0;
-      for (int r = 0; r < rows; ++r) {
-        const int in_y = y * step.stride_rows + r - pad.rows;
-        if (in_y < 0 || in_y >= in.shape.rows()) continue;
-        for (int c = 0; c < columns; ++c) {
-          const int in_x = x * step.stride_columns + c - pad.columns;
-          if (in_x < 0 || in_x >= in.shape.columns()) continue;
-          const float* from = &in.values[At(in.shape, in_y, in_x)];
-          const float* w = &filter.values[At(filter.shape, r, c)];
-          for (std::size_t k = 0; k < channels; ++k) to[k] += from[k] * w[k];
-        }
-      }
-    }
-  }
+  FillWithBias(bias, out);
+  ForEachTap(step, in.shape, out.shape, filter.shape,
+             [&](std::size_t to, std::size_t from, int row, int column) {
+               float* sum = &out.values[to];
+               const float* pixel = &in.values[from];
+               const float* w = &filter.values[At(filter.shape, row, column)];
+               for (std::size_t k = 0; k < channels; ++k) sum[k] += pixel[k] * w[k];
+             });
 }
 
 void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out) {

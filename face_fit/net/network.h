@@ -19,7 +19,7 @@ class Network {
   std::size_t outputs() const { return model_.outputs.size(); }
   /// `input` holds input_shape().count() numbers.
   void Run(std::span<const float> input);
-  /// Of the last run.
+  /// The output of the last run.
   std::span<const float> output(std::size_t i) const { return Of(model_.outputs[i]).values; }
 
  private:

@@ -15,11 +15,6 @@ cv::Mat View(const fsm::Image& image) {
   return {image.height, image.width, CV_8UC4, const_cast<std::uint8_t*>(image.rgba.data())};
 }
 
-fsm::Image Blank(int width, int height) {
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  return {.width = width, .height = height, .rgba = std::vector<std::uint8_t>(4 * pixels)};
-}
-
 /// OpenCV would otherwise start threads of its own.
 void StayOnThisThread() {
   static const bool done = (cv::setNumThreads(1), true);
@@ -87,7 +82,7 @@ std::vector<std::size_t> NearestAbove(const FloatImage& image, float threshold) 
 
 fsm::Image ScaledDown(const fsm::Image& image, int width, int height) {
   StayOnThisThread();
-  fsm::Image out = Blank(width, height);
+  fsm::Image out = fsm::FilledImage(width, height);
   cv::Mat scaled = View(out);
   cv::resize(View(image), scaled, scaled.size(), 0, 0, cv::INTER_AREA);
   return out;
@@ -102,7 +97,7 @@ FloatImage ScaledDown(const FloatImage& image, int width, int height) {
 }
 
 fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int height) {
-  fsm::Image out = Blank(width, height);
+  fsm::Image out = fsm::FilledImage(width, height);
   cv::Mat part = View(out);
   View(image)(cv::Rect(left, top, width, height)).copyTo(part);
   return out;
@@ -110,7 +105,8 @@ fsm::Image Cropped(const fsm::Image& image, int left, int top, int width, int he
 
 fsm::Image Turned(const fsm::Image& image, int orientation) {
   const bool swaps = orientation >= 5;
-  fsm::Image out = Blank(swaps ? image.height : image.width, swaps ? image.width : image.height);
+  fsm::Image out =
+      fsm::FilledImage(swaps ? image.height : image.width, swaps ? image.width : image.height);
   cv::Mat turned = View(out);
   swaps ? cv::transpose(View(image), turned) : View(image).copyTo(turned);
   // 2, 3, 7 and 8 run from right to left, 3, 4, 6 and 7 from below; for 5 to 8 as transposed.

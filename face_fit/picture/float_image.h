@@ -15,7 +15,7 @@ struct FloatImage {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(x);
   }
-  /// By straight lines between the pixels, whose centres lie at .5; the edge goes on outside.
+  /// Bilinear interpolation; pixel centres lie at .5, outside the edge is repeated.
   float Between(float x, float y) const;
 };
 

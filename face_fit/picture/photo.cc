@@ -23,7 +23,7 @@ bool StartsWith(std::span<const std::uint8_t> bytes, std::span<const std::uint8_
   return bytes.size() >= start.size() && std::ranges::equal(bytes.first(start.size()), start);
 }
 
-/// Of several EXIF blocks the last that says something counts.
+/// If there are several EXIF blocks the last one with an orientation counts.
 vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int most_side,
                                        int& orientation) {
   fsm::JpegWish wish{.most_pixels = kMaxPixels, .enough_side = most_side, .exif = {}};
@@ -54,7 +54,7 @@ vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   std::string why;
   auto image = fsm::DecodePng(bytes, why);
   if (!image) return vm::Fail(vm::Errc::kBadValue, "the PNG file cannot be read: " + why);
-  // What is transparent lies before white.
+  // Transparent pixels show white behind them.
   for (std::size_t i = 0; i < image->rgba.size(); i += 4) {
     const unsigned a = image->rgba[i + 3];
     for (std::size_t c = 0; c < 3; ++c) {

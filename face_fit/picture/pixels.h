@@ -35,12 +35,6 @@ inline FloatImage Channel(const fsm::Image& image, std::size_t channel) {
   return out;
 }
 
-/// A picture of opaque white.
-inline fsm::Image BlankImage(int width, int height) {
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  return {.width = width, .height = height, .rgba = std::vector<std::uint8_t>(4 * pixels, 255)};
-}
-
 /// The upper of the two middle ones of an even number. REQUIRES: values are not empty.
 inline float Median(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

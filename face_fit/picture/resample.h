@@ -10,17 +10,17 @@
 
 namespace facefit {
 
-// Colours between the pixels of a picture, whose centres lie at .5; the edge goes on outside.
+// Colours between the pixels of a picture, whose centres lie at .5; outside the edge is repeated.
 // Colours are 0..255. Pure; thread: any.
 
-/// By straight lines between the pixels.
+/// Bilinear interpolation.
 glm::vec3 ColourAt(const fsm::Image& image, glm::vec2 at);
 
-/// For a picture that is shown larger: through the pixels by cubics (Catmull and Rom), because
-/// straight lines would show as steps.
+/// Bicubic interpolation through the pixels (Catmull and Rom), for a picture that is shown larger:
+/// the bilinear kind would show as steps.
 glm::vec3 SharpColourAt(const fsm::Image& image, glm::vec2 at);
 
-/// Likewise, but evened out (cubic B-splines): its contours are smooth.
+/// By cubic B-splines, which smooth: contours have no steps.
 float SmoothAt(const FloatImage& image, glm::vec2 at);
 
 /// A parallelogram of a picture as networks take it: `pixels` x `pixels` RGB, each low..high, `low`
@@ -29,7 +29,7 @@ float SmoothAt(const FloatImage& image, glm::vec2 at);
 std::vector<float> Resampled(const fsm::Image& image, glm::vec2 corner, const glm::mat2& axes,
                              int pixels, float low, float high);
 
-/// How bright a colour is, in its own unit: of a face's reds more is counted than eyes would.
+/// How bright a colour is, in its own unit; red weighs more than in human vision, as faces are red.
 inline float Brightness(glm::vec3 c) { return 0.3F * c.r + 0.5F * c.g + 0.2F * c.b; }
 
 }  // namespace facefit

@@ -32,14 +32,14 @@ class Capture {
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
   /// Told once all pictures of an utterance are written; by an error, if they are not.
   using OnEnd = std::function<void(const vm::Result<void>&)>;
-  Capture(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnEnd on_end)
-      : Capture(clock, studio, std::move(draw), std::move(on_end), Limits{}) {}
-  Capture(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnEnd on_end, Limits limits)
+  Capture(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnEnd on_end)
+      : Capture(clock, backend, std::move(draw), std::move(on_end), Limits{}) {}
+  Capture(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnEnd on_end, Limits limits)
       : clock_(clock),
-        studio_(studio),
+        backend_(backend),
         draw_(std::move(draw)),
         on_end_(std::move(on_end)),
-        queue_(studio, [this](const Image& picture, long) { return Write(picture); }),
+        queue_(backend, [this](const Image& picture, long) { return Write(picture); }),
         limits_(limits) {}
   ~Capture() { Cancel(); }
 
@@ -60,7 +60,7 @@ class Capture {
   bool IsOver() const { return end_ && series_.TimeOf(next_) > *end_; }
 
   vm::Scheduler& clock_;
-  RenderBackend& studio_;
+  RenderBackend& backend_;
   Draw draw_;
   OnEnd on_end_;
   FrameQueue queue_;

@@ -12,7 +12,7 @@ namespace fsm {
 struct SheetCell {
   std::string label;
   FaceState state;
-  std::string face;  ///< "" = the studio's first
+  std::string face;  ///< "" = the backend's first
 };
 struct Sheet {
   std::vector<SheetCell> cells;
@@ -26,7 +26,7 @@ vm::Result<Sheet> MakeSheet(const std::string& kind, const MotionTables& tables,
                             const std::vector<std::string>& faces, const std::string& face);
 
 inline constexpr int kCellWidth = 220, kCellHeight = 260;
-/// Draws it; the studio gets the size of a cell. Errors: as the studio's.
-vm::Result<Image> DrawSheet(RenderBackend& studio, const Sheet& sheet, bool labels);
+/// Draws it; the backend gets the size of a cell. Errors: as the backend's.
+vm::Result<Image> DrawSheet(RenderBackend& backend, const Sheet& sheet, bool labels);
 
 }  // namespace fsm

@@ -7,12 +7,12 @@ namespace {
 constexpr long kMostRepeatsAtOnce = 4;
 }
 
-Film::Film(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnFailure on_failure)
+Film::Film(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on_failure)
     : clock_(clock),
-      studio_(studio),
+      backend_(backend),
       draw_(std::move(draw)),
       on_failure_(std::move(on_failure)),
-      queue_(studio, [this](const Image& frame, long times) { return Write(frame, times); }) {}
+      queue_(backend, [this](const Image& frame, long times) { return Write(frame, times); }) {}
 
 Film::~Film() {
   if (timer_ != 0) clock_.Cancel(timer_);
@@ -22,7 +22,7 @@ vm::Result<void> Film::Start(const std::string& path, int frames_per_second) {
   if (recording()) {
     return vm::Fail(vm::Errc::kBusy, "recording " + path_ + "; set Record = STOP first");
   }
-  auto writer = studio_.OpenFilm(path, studio_.width(), studio_.height(), frames_per_second);
+  auto writer = backend_.OpenFilm(path, backend_.width(), backend_.height(), frames_per_second);
   if (!writer) return std::unexpected(writer.error());
   writer_ = std::move(*writer);
   path_ = path;

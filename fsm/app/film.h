@@ -17,11 +17,11 @@ namespace fsm {
 /// virtual clock that never happens. Thread: the scheduler's; a timer is pending while recording.
 class Film {
  public:
-  /// Draws frame `number` as the face is at `at`; the picture is then read from the studio.
+  /// Draws frame `number` as the face is at `at`; the picture is then read from the backend.
   using Draw = std::function<vm::Result<void>(long number, vm::Time at)>;
   /// Told when recording ended by itself because of an error.
   using OnFailure = std::function<void(const vm::Error&)>;
-  Film(vm::Scheduler& clock, RenderBackend& studio, Draw draw, OnFailure on_failure);
+  Film(vm::Scheduler& clock, RenderBackend& backend, Draw draw, OnFailure on_failure);
   ~Film();
 
   /// Errors: kBusy while recording; kUnavailable if the film cannot be opened.
@@ -46,7 +46,7 @@ class Film {
   vm::Result<void> Write(const Image& frame, long times);
 
   vm::Scheduler& clock_;
-  RenderBackend& studio_;
+  RenderBackend& backend_;
   Draw draw_;
   OnFailure on_failure_;
   std::unique_ptr<MovieWriter> writer_;

@@ -16,7 +16,7 @@ namespace fsm {
 /// What the parts of the face module share. Lifetime: owned by FsmModule, outlives the parts.
 struct FsmCore {
   vm::Scheduler& clock;
-  RenderBackend& studio;
+  RenderBackend& backend;
   /// A configuration of the original was given: its clients speak, so places of the figure count
   /// half views and z+ leans to the viewer's left, as there.
   bool original = false;
@@ -35,7 +35,7 @@ struct FsmCore {
   /// Draws the face as it is at `t`.
   vm::Result<void> DrawAt(vm::Time t) {
     const RenderBackend::Course course{t, [this](vm::Time at) { return motion->StateAt(at); }};
-    return studio.Draw(motion->StateAt(t), scene, simulates ? &course : nullptr);
+    return backend.Draw(motion->StateAt(t), scene, simulates ? &course : nullptr);
   }
 
   using Action = std::function<vm::Result<void>(const vm::SetValue&)>;
@@ -69,6 +69,17 @@ struct FsmCore {
            return told != nullptr ? told(value) : value.text;
          },
          .quoted = slot.quoted});
+  }
+
+  /// A slot that tells what the module knows, with SlotMachine::Report or Store.
+  void DeclareReadOnly(std::string name, std::string initial, std::string help,
+                       bool quoted = false) {
+    slots.Declare({.name = std::move(name),
+                   .grammar = "<text>",
+                   .access = vm::Access::kReadOnly,
+                   .initial = std::move(initial),
+                   .help = std::move(help),
+                   .quoted = quoted});
   }
 
   /// Takes back the slots declared after the module's own, for `Run = INIT`. Not from within one of

@@ -11,6 +11,7 @@
 #include "fsm/app/face_slots.h"
 #include "fsm/app/idle_slots.h"
 #include "fsm/app/lip_slots.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
@@ -20,22 +21,14 @@ constexpr const char* kModuleVersion = "Module Ver. Galatea FSM " GALATEA_VERSIO
 constexpr const char* kProtocolVersion =
     "Protocol Ver. 2.06";  // the original's last, which this one contains
 
-template <typename T>
-T OrThrow(vm::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text);
-  return std::move(*result);
-}
-
 }  // namespace
 
-FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions options)
+FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions options)
     : options_(std::move(options)),
-      core_{.clock = clock, .studio = studio, .original = !options_.config.path.empty()} {
+      core_{.clock = clock, .backend = backend, .original = !options_.config.path.empty()} {
   const OriginalConfig& config = options_.config;
-  tables_ = OrThrow(MotionTables::Load(options_.tables));
-  if (auto applied = config.ApplyTo(tables_); !applied) {
-    throw std::runtime_error(applied.error().text);
-  }
+  tables_ = vm::OrThrow(MotionTables::Load(options_.tables));
+  vm::OrThrow(config.ApplyTo(tables_));
   if (config.expression_ms) {
     start_settings_.onset = Onset::kFixed;
     start_settings_.expression = FromMs(*config.expression_ms);
@@ -68,14 +61,14 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions opt
   mask_ = std::make_unique<MaskSlots>(core_, options_.mask, config.MaskNames());
   scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);
   film_ = std::make_unique<Film>(
-      clock, studio, [this](long number, vm::Time at) { return DrawFrame(number, at); },
+      clock, backend, [this](long number, vm::Time at) { return DrawFrame(number, at); },
       [this](const vm::Error& error) {
         core_.slots.Report("Record", "STOP");
         core_.slots.ReportError("Record", error);
       });
   scene_->set_size_locked([this] { return film_->recording(); });
   capture_ = std::make_unique<Capture>(
-      clock, studio, [this](long number, vm::Time at) { return DrawFrame(number, at); },
+      clock, backend, [this](long number, vm::Time at) { return DrawFrame(number, at); },
       [this](const vm::Result<void>& done) {
         core_.slots.Report("Capture", "DISABLE");
         if (!done) core_.slots.ReportError("Capture", done.error());
@@ -83,7 +76,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions opt
   DeclareRecording();
   DeclareCapture();
   DeclareFrame();
-  if (auto set = BeginLife(); !set) throw std::runtime_error(set.error().text);
+  vm::OrThrow(BeginLife());
   core_.declared_at_start = core_.initial_values.size();
   Changed();
 }
@@ -213,7 +206,7 @@ void FsmModule::DeclareFrame() {
 void FsmModule::ReportFrame(long number, vm::Time at) {
   if (!core_.slots.AutoOutput("Frame")) return;
   const FaceState state = core_.motion->StateAt(at);
-  const MouthMeasure mouth = core_.studio.Measure(state);
+  const MouthMeasure mouth = core_.backend.Measure(state);
   const std::string& phoneme = core_.motion->PhonemeAt(at);
   core_.slots.Report("Frame", fmt::format("{} {} {} {:.2f} {:.2f} {:.2f}", number, vm::FormatMs(at),
                                           phoneme.empty() ? "-" : phoneme, mouth.jaw_degrees,
@@ -236,7 +229,7 @@ void FsmModule::Changed() {
 vm::Time FsmModule::FrameAfter(vm::Time t) const {
   // Frames without a film stand on a grid of the clock, so the same input gives the same reports.
   const double rate =
-      core_.studio.has_window() ? frame_rate_ : std::stod(core_.slots.Value("Record.fps"));
+      core_.backend.has_window() ? frame_rate_ : std::stod(core_.slots.Value("Record.fps"));
   const FrameSeries grid{vm::Time(0), rate};
   auto k = static_cast<long>(std::floor(static_cast<double>(t.count()) * rate / 1e6));
   while (grid.TimeOf(k) <= t) ++k;
@@ -244,14 +237,14 @@ vm::Time FsmModule::FrameAfter(vm::Time t) const {
 }
 
 void FsmModule::ArmFrames() {
-  const bool window = core_.studio.has_window();
+  const bool window = core_.backend.has_window();
   const bool wanted = window || (core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") &&
                                  !film_->recording());
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {
     // What has just been said is shown at the next frame, even if it moves nothing by itself.
-    const auto active = core_.studio.Swings() ? now : core_.motion->NextActivity(now);
+    const auto active = core_.backend.Swings() ? now : core_.motion->NextActivity(now);
     if (active) due = FrameAfter(std::max(now, *active));
     if (window) due = std::min(due.value_or(now + kWindowEvents), now + kWindowEvents);
   }
@@ -266,14 +259,14 @@ void FsmModule::ArmFrames() {
 void FsmModule::OnFrame() {
   frame_timer_ = 0;
   const vm::Time now = core_.Now();
-  if (core_.studio.has_window()) {
+  if (core_.backend.has_window()) {
     if (auto drawn = core_.DrawAt(now); !drawn) {
       core_.slots.ReportError("", drawn.error());
       exit_requested_ = failed_ = true;
       return;
     }
-    core_.studio.Show();
-    if (core_.studio.close_requested()) exit_requested_ = true;
+    core_.backend.Show();
+    if (core_.backend.close_requested()) exit_requested_ = true;
   }
   if (!film_->recording()) ReportFrame(frames_shown_++, now);
   ArmFrames();

@@ -20,21 +20,21 @@ namespace fsm {
 struct FsmOptions {
   std::uint64_t seed = 1;        ///< of everything the face does by itself
   std::string tables;            ///< folder of tables that replace the built-in ones
-  std::string mask;              ///< face worn at the start, "" = the studio's first
+  std::string mask;              ///< face worn at the start, "" = the backend's first
   std::string life;              ///< profile of Life at the start, "" = OFF
   OriginalConfig config;         ///< path "" = none
   bool announce_config = false;  ///< greet as the original does: tell detected: -C flag: FILE
 };
 
-/// The face synthesis module: all its slots over FaceMotion and a Studio.
+/// The face synthesis module: all its slots over FaceMotion and a Backend.
 /// Drawing: with a window, whenever something moves (at most at the frame rate) and a few times a
 /// second otherwise; without one, only for pictures, films and Frame reports. No timer is pending
 /// while nothing moves and nothing is recorded (but for the window's events).
-/// Lifetime: scheduler and studio outlive it. Thread: the scheduler's.
+/// Lifetime: scheduler and backend outlive it. Thread: the scheduler's.
 class FsmModule final : public vm::Module {
  public:
   /// Throws std::runtime_error with a sentence if tables or configuration are damaged.
-  FsmModule(vm::Scheduler& clock, RenderBackend& studio, FsmOptions options);
+  FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions options);
   ~FsmModule() override;
 
   vm::SlotMachine& slots() override { return core_.slots; }

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "fsm/app/face_of_name.h"
+#include "fsm/faces/face_of_name.h"
 #include "fsm/film/movie_writer.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,9 +9,11 @@
 #include <vector>
 
 #include "fsm/app/render_backend.h"
+#include "fsm/faces/original_faces.h"
 #include "fsm/film/movie_writer.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/appearance.h"
+#include "fsm/render/renderer.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -28,13 +29,8 @@ class GlRenderBackend final : public RenderBackend {
     OffScreen off_screen = OffScreen::kOsMesa;  ///< of the context without a window
     RigOn rig = RigOn::kBest;
     std::optional<std::pair<int, int>> position = {};  ///< of the window's upper left corner
-    /// Faces beside the built-in ones and those of the faces folder, listed before them. `make`
-    /// throws std::runtime_error with a sentence; it may be called on another thread.
-    struct MoreFace {
-      std::string name;
-      std::function<std::unique_ptr<Head>()> make;
-    };
-    std::vector<MoreFace> more_faces = {};
+    /// Faces beside the built-in ones and those of the faces folder, listed before them.
+    std::vector<NamedFace> more_faces = {};
     /// A folder that may have units, features (see MakeHeadOfName) and an appearance of one's own.
     std::string tables = {};
   };
@@ -76,7 +72,7 @@ class GlRenderBackend final : public RenderBackend {
   std::unique_ptr<Head> head_;  // made at the first need, as drawing may never be asked for
   std::unique_ptr<RenderContext> context_;
   std::unique_ptr<Renderer> renderer_;  // lives in the context
-  /// Of the springs of the head drawn last; none if nothing is to swing.
+  /// Moves the springs of the head drawn last; none if nothing is to swing.
   std::optional<Simulation> simulation_;
   std::uint64_t simulated_ = 0;  // serial of that head
   Image image_;

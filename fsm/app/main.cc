@@ -13,15 +13,16 @@
 #include <vector>
 
 #include "fsm/app/contact_sheet.h"
-#include "fsm/app/face_of_name.h"
 #include "fsm/app/fsm_module.h"
 #include "fsm/app/gl_render_backend.h"
-#include "fsm/app/head_cache.h"
-#include "fsm/app/head_of_file.h"
-#include "fsm/app/more_faces.h"
 #include "fsm/asset/describe.h"
+#include "fsm/faces/face_of_name.h"
+#include "fsm/faces/head_cache.h"
+#include "fsm/faces/head_of_file.h"
+#include "fsm/faces/original_faces.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
+#include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/runtime/module_main.h"
 
 namespace {
@@ -46,13 +47,13 @@ struct Options {
   bool failed = false;  // told by the module at its end
 };
 
-/// A module that owns its studio, which has to outlive it. Says in `failed`, which outlives both,
+/// A module that owns its backend, which has to outlive it. Says in `failed`, which outlives both,
 /// whether it ended because its window could not be drawn.
 class Fsm final : public vm::Module {
  public:
-  Fsm(vm::Scheduler& clock, const fsm::GlRenderBackend::Options& studio, fsm::FsmOptions options,
+  Fsm(vm::Scheduler& clock, const fsm::GlRenderBackend::Options& backend, fsm::FsmOptions options,
       bool& failed)
-      : studio_(studio), module_(clock, studio_, std::move(options)), failed_(failed) {}
+      : backend_(backend), module_(clock, backend_, std::move(options)), failed_(failed) {}
   ~Fsm() override { failed_ = module_.failed(); }
   Fsm(const Fsm&) = delete;
   Fsm& operator=(const Fsm&) = delete;
@@ -63,7 +64,7 @@ class Fsm final : public vm::Module {
   void Shutdown() override { module_.Shutdown(); }
 
  private:
-  fsm::GlRenderBackend studio_;
+  fsm::GlRenderBackend backend_;
   fsm::FsmModule module_;
   bool& failed_;
 };
@@ -166,9 +167,8 @@ void AddOptions(CLI::App& app, Options& options) {
 }
 
 /// Faces beside the built-in ones, the one to be worn first of all.
-std::vector<fsm::GlRenderBackend::Options::MoreFace> MoreFaces(const Options& options,
-                                                               const fsm::OriginalConfig& config) {
-  auto faces = fsm::FacesOf(config, options.module.tables);
+std::vector<fsm::NamedFace> MoreFaces(const Options& options, const fsm::OriginalConfig& config) {
+  auto faces = fsm::OriginalFaces(config.masks, config.shared, options.module.tables);
   if (!options.head.empty()) {
     if (!std::filesystem::is_regular_file(options.head))
       throw std::runtime_error("--head: there is no file '" + options.head + "'");
@@ -216,40 +216,40 @@ int ExportIfAsked(const Options& options) {
 }
 
 fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
-  fsm::GlRenderBackend::Options studio;
-  studio.width = options.module.config.width.value_or(studio.width);
-  studio.height = options.module.config.height.value_or(studio.height);
+  fsm::GlRenderBackend::Options backend;
+  backend.width = options.module.config.width.value_or(backend.width);
+  backend.height = options.module.config.height.value_or(backend.height);
   if (!options.size_pair.empty()) {
-    studio.width = options.size_pair[0];
-    studio.height = options.size_pair[1];
+    backend.width = options.size_pair[0];
+    backend.height = options.size_pair[1];
   }
   if (!options.size.empty()) {
     char end = '\0';
-    if (std::sscanf(options.size.c_str(), "%dx%d%c", &studio.width, &studio.height, &end) != 2) {
+    if (std::sscanf(options.size.c_str(), "%dx%d%c", &backend.width, &backend.height, &end) != 2) {
       throw std::runtime_error("--size " + options.size + " is not WIDTHxHEIGHT, as 640x480");
     }
   }
   const auto fits = [](int side) { return side >= 16 && side <= fsm::kMaxImageSide; };
-  if (!fits(studio.width) || !fits(studio.height)) {
+  if (!fits(backend.width) || !fits(backend.height)) {
     throw std::runtime_error("the view must be 16 to " + std::to_string(fsm::kMaxImageSide) +
                              " pixels wide and high");
   }
-  studio.off_screen = OffScreenWanted(options);
-  studio.rig = RigWanted(options);
+  backend.off_screen = OffScreenWanted(options);
+  backend.rig = RigWanted(options);
   const fsm::OriginalConfig& config = options.module.config;
-  if (config.x && config.y) studio.position = {*config.x, *config.y};
-  if (!options.position.empty()) studio.position = {options.position[0], options.position[1]};
-  studio.more_faces = MoreFaces(options, options.module.config);
-  studio.tables = options.module.tables;
+  if (config.x && config.y) backend.position = {*config.x, *config.y};
+  if (!options.position.empty()) backend.position = {options.position[0], options.position[1]};
+  backend.more_faces = MoreFaces(options, options.module.config);
+  backend.tables = options.module.tables;
   // Damaged ones are told before the start.
-  static_cast<void>(fsm::UnitsIn(studio.tables));
-  static_cast<void>(fsm::FeaturesIn(studio.tables));
+  static_cast<void>(fsm::UnitsIn(backend.tables));
+  static_cast<void>(fsm::FeaturesIn(backend.tables));
   using Where = fsm::GlRenderBackend::Options::Where;
   const bool must = options.window || options.context == "window";
-  studio.where = must && WindowWanted(options) ? Where::kWindow
-                 : WindowWanted(options)       ? Where::kWindowIfPossible
-                                               : Where::kHeadless;
-  return studio;
+  backend.where = must && WindowWanted(options) ? Where::kWindow
+                  : WindowWanted(options)       ? Where::kWindowIfPossible
+                                                : Where::kHeadless;
+  return backend;
 }
 
 /// Exit code of a run that only draws a sheet; -1 if none is asked for.
@@ -268,18 +268,19 @@ int DrawSheetIfAsked(const Options& options) {
     if (!read) return fail(read.error().text);
     config = std::move(*read);
   }
-  fsm::GlRenderBackend studio({.width = fsm::kCellWidth,
-                               .height = fsm::kCellHeight,
-                               .more_faces = MoreFaces(options, config),
-                               .tables = options.module.tables});
+  fsm::GlRenderBackend backend({.width = fsm::kCellWidth,
+                                .height = fsm::kCellHeight,
+                                .more_faces = MoreFaces(options, config),
+                                .tables = options.module.tables});
   if (!options.module.mask.empty()) {
-    if (auto worn = studio.Wear(options.module.mask); !worn) return fail(worn.error().text);
+    if (auto worn = backend.Wear(options.module.mask); !worn) return fail(worn.error().text);
   }
-  const auto sheet = fsm::MakeSheet(options.sheet, *tables, studio.Faces(), options.module.mask);
+  const auto sheet = fsm::MakeSheet(options.sheet, *tables, backend.Faces(), options.module.mask);
   if (!sheet) return fail(sheet.error().text);
-  const auto picture = fsm::DrawSheet(studio, *sheet, !options.no_labels);
+  const auto picture = fsm::DrawSheet(backend, *sheet, !options.no_labels);
   if (!picture) return fail(picture.error().text);
-  if (auto done = studio.WritePicture(*picture, options.out); !done) return fail(done.error().text);
+  if (auto done = backend.WritePicture(*picture, options.out); !done)
+    return fail(done.error().text);
   return 0;
 }
 
@@ -306,10 +307,9 @@ int main(int argc, char** argv) {
        .make = [&options](vm::Scheduler& clock,
                           boost::asio::io_context&) -> std::unique_ptr<vm::Module> {
          if (!options.config.empty()) {
-           auto config = fsm::OriginalConfig::Read(options.config);
-           if (!config) throw std::runtime_error(config.error().text);
-           fsm::TakeExpressions(*config);
-           options.module.config = std::move(*config);
+           auto config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
+           config.expressions = fsm::LooksOfExpressions(config.shared);
+           options.module.config = std::move(config);
            options.module.announce_config = true;
          }
          return std::make_unique<Fsm>(clock, RenderBackendOptions(options), options.module,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "vm_protocol/core/or_throw.h"
+
 namespace fsm {
 namespace {
 
@@ -26,22 +28,12 @@ std::string Joined(const std::vector<std::string>& names, const std::vector<std:
 
 MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::string>& listed)
     : core_(core), first_(std::move(first)) {
-  const std::vector<std::string> all = core_.studio.Faces();
+  const std::vector<std::string> all = core_.backend.Faces();
   if (first_.empty()) first_ = all.front();
   std::string names = Joined(listed, all);
   if (names.empty()) names = Joined(all, all);
-  core_.slots.Declare({.name = "MaskSet",
-                       .grammar = "<text>",
-                       .access = vm::Access::kReadOnly,
-                       .initial = names,
-                       .help = "The faces there are, with commas between them.",
-                       .quoted = true});
-  core_.slots.Declare({.name = "NowMask",
-                       .grammar = "<text>",
-                       .access = vm::Access::kReadOnly,
-                       .initial = first_,
-                       .help = "The face worn now.",
-                       .quoted = true});
+  core_.DeclareReadOnly("MaskSet", names, "The faces there are, with commas between them.", true);
+  core_.DeclareReadOnly("NowMask", first_, "The face worn now.", true);
   core_.Declare({"Mask", "<text>", "Wears one of the faces of MaskSet.",
                  [this](const vm::SetValue& value) -> vm::Result<void> {
                    // Names may hold blanks; at the end, as the original's clients send them, not.
@@ -52,11 +44,11 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
                    return {};
                  },
                  first_});
-  if (auto worn = Wear(first_); !worn) throw std::runtime_error(worn.error().text);
+  vm::OrThrow(Wear(first_));
 }
 
 vm::Result<void> MaskSlots::Wear(const std::string& face) {
-  if (auto worn = core_.studio.Wear(face); !worn) return worn;
+  if (auto worn = core_.backend.Wear(face); !worn) return worn;
   core_.motion->SetPerson(PersonOf(face));
   return {};
 }

@@ -19,13 +19,13 @@ vm::Result<std::string> ReadAll(const std::string& path) {
 }
 
 /// Files of all faces, by their key.
-const std::map<std::string, std::string OriginalConfig::*, std::less<>> kSharedFiles = {
-    {"DEF_WFM_PNT", &OriginalConfig::standard_wireframe},
-    {"DEF_WFM_LNK", &OriginalConfig::link},
-    {"U_TEETH_OBJ_NAME", &OriginalConfig::upper_teeth},
-    {"L_TEETH_OBJ_NAME", &OriginalConfig::lower_teeth},
-    {"EYE_OBJ_NAME", &OriginalConfig::eye_object},
-    {"M_WALL_TEXTURE", &OriginalConfig::mouth_picture}};
+const std::map<std::string, std::string OriginalSharedFiles::*, std::less<>> kSharedFiles = {
+    {"DEF_WFM_PNT", &OriginalSharedFiles::standard},
+    {"DEF_WFM_LNK", &OriginalSharedFiles::link},
+    {"U_TEETH_OBJ_NAME", &OriginalSharedFiles::upper_teeth},
+    {"L_TEETH_OBJ_NAME", &OriginalSharedFiles::lower_teeth},
+    {"EYE_OBJ_NAME", &OriginalSharedFiles::eye},
+    {"M_WALL_TEXTURE", &OriginalSharedFiles::mouth_picture}};
 
 /// Keys with one number: its bounds, and where it goes.
 struct NumberKey {
@@ -57,7 +57,7 @@ class ConfigReader {
  public:
   ConfigReader(const std::string& path, const std::string& text)
       : table_(path, text), folder_(std::filesystem::path(path).parent_path()) {
-    config_.path = path;
+    config_.path = config_.shared.config = path;
   }
 
   vm::Result<OriginalConfig> Read() {
@@ -65,6 +65,7 @@ class ConfigReader {
       if (auto taken = Take(line); !taken) return std::unexpected(taken.error());
     }
     std::erase_if(config_.masks, [](const auto& mask) { return mask.wireframe.empty(); });
+    config_.shared.offsets = std::filesystem::path(config_.shared.standard).parent_path().string();
     return std::move(config_);
   }
 
@@ -86,7 +87,7 @@ class ConfigReader {
       return TakeMask(line);
     } else if (const auto shared = kSharedFiles.find(key); shared != kSharedFiles.end()) {
       if (line.words.size() < 2) return table_.Wrong(line.number, "a file expected");
-      config_.*shared->second = File(line, 1);
+      config_.shared.*shared->second = File(line, 1);
     } else if (const auto motion = kMotions.find(key); motion != kMotions.end()) {
       config_.motions[motion->second].push_back(File(line, 1));
     } else if (key == "AutonomousBlink") {
@@ -111,7 +112,7 @@ class ConfigReader {
       return table_.Wrong(
           line.number, files == 1 ? "a name and a file expected" : "a name and two files expected");
     }
-    OriginalConfig::Mask* mask = MaskOf(Word(line, 1));
+    OriginalFaceFiles* mask = MaskOf(Word(line, 1));
     if (mask == nullptr) {
       return table_.Wrong(
           line.number, "at most " + std::to_string(OriginalConfig::kMaxMasks) + " faces are read");
@@ -134,8 +135,8 @@ class ConfigReader {
 
   /// The mask of that name, made if need be; nullptr if there are too many. Valid until the next
   /// call.
-  OriginalConfig::Mask* MaskOf(const std::string& name) {
-    const auto found = std::ranges::find(config_.masks, name, &OriginalConfig::Mask::name);
+  OriginalFaceFiles* MaskOf(const std::string& name) {
+    const auto found = std::ranges::find(config_.masks, name, &OriginalFaceFiles::name);
     if (found != config_.masks.end()) return &*found;
     if (config_.masks.size() >= OriginalConfig::kMaxMasks) return nullptr;
     config_.masks.push_back({name, "", "", "", "", ""});
@@ -172,7 +173,7 @@ vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
 
 std::vector<std::string> OriginalConfig::MaskNames() const {
   std::vector<std::string> names;
-  for (const Mask& mask : masks) names.push_back(mask.name);
+  for (const OriginalFaceFiles& mask : masks) names.push_back(mask.name);
   return names;
 }
 

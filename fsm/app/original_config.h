@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fsm/mesh/original_files.h"
 #include "fsm/motion/face_motion.h"
 
 namespace fsm {
@@ -21,18 +22,14 @@ struct OriginalConfig {
   std::vector<std::pair<double, int>> auto_blinks;  ///< per cent a frame, blink pattern
   std::vector<std::string> auto_moves, auto_userdefs;
 
-  /// A face of a person: MaskFile, with MaskEye and MaskTeeth of the same name; files, "" = none.
-  struct Mask {
-    std::string name, picture, wireframe, eye_picture, eye_def, teeth_def;
-  };
-  std::vector<Mask> masks;  ///< in the order of their MaskFile lines, at most kMaxMasks
+  std::vector<OriginalFaceFiles>
+      masks;  ///< in the order of their MaskFile lines, at most kMaxMasks
   std::vector<std::string> MaskNames() const;
   static constexpr std::size_t kMaxMasks = 100;
-  /// Of all masks: DEF_WFM_PNT, DEF_WFM_LNK, U_TEETH_OBJ_NAME, ...; "" = not named.
-  std::string standard_wireframe, link, upper_teeth, lower_teeth, eye_object, mouth_picture;
-  /// Looks of whole expressions, by FaceExp's name and pattern: those of its files, see
-  /// TakeExpressions (more_faces.h). Read leaves them out.
-  std::map<std::string, std::map<int, ActionUnits>> expressions;
+  OriginalSharedFiles shared;
+  /// Looks of whole expressions, by FaceExp's name and pattern: those of its files
+  /// (LooksOfExpressions in fsm/faces/original_faces.h). Read leaves them out.
+  ExpressionLooks expressions;
 
   /// Reads the file: `KEY args`, `#` comments; keys it does not know mean nothing, as in the
   /// original. File names are looked for from the working directory, then from the file's own

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsm/film/movie_writer.h"
-#include "fsm/render/renderer.h"
+#include "fsm/render/scene.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/simulation.h"
 #include "vm_protocol/core/result.h"
@@ -28,7 +28,7 @@ class RenderBackend {
   };
   /// Draws a state; the picture can then be read or shown. `course`: by it swings what hangs on
   /// springs, if it is given. Error: kUnavailable if there is no way to draw (the first call makes
-  /// the graphics context of a headless studio).
+  /// the graphics context of a headless backend).
   virtual vm::Result<void> Draw(const FaceState& state, const Scene& scene,
                                 const Course* course) = 0;
   /// Something still swings, though the face may stand still.

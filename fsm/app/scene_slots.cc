@@ -42,8 +42,8 @@ bool IsPictureName(const std::string& name) {
 SceneSlots::SceneSlots(FsmCore& core, std::vector<std::pair<std::string, std::string>> backgrounds)
     : core_(core),
       backgrounds_(std::move(backgrounds)),
-      start_width_(core.studio.width()),
-      start_height_(core.studio.height()) {
+      start_width_(core.backend.width()),
+      start_height_(core.backend.height()) {
   core_.scene = FirstScene();
   DeclareBackgrounds();
   DeclareView();
@@ -77,18 +77,9 @@ Scene SceneSlots::FirstScene() const {
 void SceneSlots::DeclareBackgrounds() {
   std::string names = core_.original && !backgrounds_.empty() ? "" : kPlain;
   for (const auto& [name, file] : backgrounds_) names += (names.empty() ? "" : ",") + name;
-  core_.slots.Declare({.name = "BackgroundSet",
-                       .grammar = "<text>",
-                       .access = vm::Access::kReadOnly,
-                       .initial = names,
-                       .help = "The backgrounds that have names, with commas between them.",
-                       .quoted = true});
-  core_.slots.Declare({.name = "NowBackground",
-                       .grammar = "<text>",
-                       .access = vm::Access::kReadOnly,
-                       .initial = kPlain,
-                       .help = "The background shown now.",
-                       .quoted = true});
+  core_.DeclareReadOnly("BackgroundSet", names,
+                        "The backgrounds that have names, with commas between them.", true);
+  core_.DeclareReadOnly("NowBackground", kPlain, "The background shown now.", true);
   core_.Declare({"Background", "<file>",
                  "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb), a "
                  "colour, #rrggbb, or transparent: pictures then have an alpha channel, 0 there.",
@@ -101,25 +92,18 @@ void SceneSlots::DeclareBackgrounds() {
 }
 
 vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
+  const auto show_colour = [this](glm::vec3 colour) {
+    core_.scene.background = colour;
+    core_.scene.background_image = nullptr;
+    ShowBackground(false);
+    return vm::Result<void>{};
+  };
   if (name == kTransparent) {
-    transparent_ = true;
-    ShowBackground();
+    ShowBackground(true);
     return {};
   }
-  if (name == kPlain) {
-    transparent_ = false;
-    ShowBackground();
-    core_.scene.background = Scene{}.background;
-    core_.scene.background_image = nullptr;
-    return {};
-  }
-  if (const auto colour = ParseColour(name)) {
-    transparent_ = false;
-    ShowBackground();
-    core_.scene.background = *colour;
-    core_.scene.background_image = nullptr;
-    return {};
-  }
+  if (name == kPlain) return show_colour(Scene{}.background);
+  if (const auto colour = ParseColour(name)) return show_colour(*colour);
   const auto named =
       std::ranges::find(backgrounds_, name, &std::pair<std::string, std::string>::first);
   if (named == backgrounds_.end() && !IsPictureName(name)) {
@@ -127,16 +111,16 @@ vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
                     "there is no background '" + name + "'; " + core_.slots.Value("BackgroundSet") +
                         ", transparent, a .png, .bmp or .rgb file or #rrggbb expected");
   }
-  auto picture = core_.studio.ReadPicture(named == backgrounds_.end() ? name : named->second);
+  auto picture = core_.backend.ReadPicture(named == backgrounds_.end() ? name : named->second);
   if (!picture) return std::unexpected(picture.error());
   picture_ = std::move(*picture);
   core_.scene.background_image = &picture_;
-  transparent_ = false;
-  ShowBackground();
+  ShowBackground(false);
   return {};
 }
 
-void SceneSlots::ShowBackground() {
+void SceneSlots::ShowBackground(bool transparent) {
+  transparent_ = transparent;
   core_.scene.show_background = background_enabled_ && !transparent_;
 }
 
@@ -154,7 +138,7 @@ void SceneSlots::DeclareView() {
                  "Whether the background is drawn; without it pictures are transparent there.",
                  [this](const vm::SetValue& value) -> vm::Result<void> {
                    background_enabled_ = value.word(0) == "ENABLE";
-                   ShowBackground();
+                   ShowBackground(transparent_);
                    return {};
                  },
                  "ENABLE"});
@@ -174,8 +158,8 @@ void SceneSlots::DeclareView() {
                            "a film of this size is recorded; set Record = STOP first");
          }
          if (value.size() == 1) return FillScreen(value.word(0) == "FULLSCREEN");
-         return core_.studio.Resize(static_cast<int>(value.number(0)),
-                                    static_cast<int>(value.number(1)));
+         return core_.backend.Resize(static_cast<int>(value.number(0)),
+                                     static_cast<int>(value.number(1)));
        },
        std::to_string(start_width_) + " " + std::to_string(start_height_)});
 }
@@ -245,7 +229,7 @@ void SceneSlots::DeclareSaveImage() {
          const vm::Time now = core_.Now();
          const vm::Time at = std::min(core_.motion->OnsetsSettled(now), now + kLongestSettling);
          auto done = core_.DrawAt(at);
-         if (done) done = core_.studio.WritePicture(core_.studio.Read(), value.word(0));
+         if (done) done = core_.backend.WritePicture(core_.backend.Read(), value.word(0));
          core_.changed();
          if (!done) return reply.Fail(done.error());
          reply.Ok(value.word(0));
@@ -253,7 +237,7 @@ void SceneSlots::DeclareSaveImage() {
 }
 
 vm::Result<void> SceneSlots::FillScreen(bool fill) {
-  auto done = core_.studio.FillScreen(fill);
+  auto done = core_.backend.FillScreen(fill);
   if (done) fills_screen_ = fill;
   return done;
 }
@@ -262,9 +246,9 @@ vm::Result<void> SceneSlots::ResetSize() {
   if (fills_screen_) {
     if (auto done = FillScreen(false); !done) return done;
   }
-  // Another size costs a headless studio its context.
-  if (core_.studio.width() == start_width_ && core_.studio.height() == start_height_) return {};
-  return core_.studio.Resize(start_width_, start_height_);
+  // Another size costs a headless backend its context.
+  if (core_.backend.width() == start_width_ && core_.backend.height() == start_height_) return {};
+  return core_.backend.Resize(start_width_, start_height_);
 }
 
 void SceneSlots::Reset() {

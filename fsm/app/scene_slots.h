@@ -33,7 +33,7 @@ class SceneSlots {
 
   FsmCore& core_;
   std::vector<std::pair<std::string, std::string>> backgrounds_;
-  void ShowBackground();
+  void ShowBackground(bool transparent);
 
   Image picture_;
   bool transparent_ = false;

@@ -54,19 +54,13 @@ void SpeechSlots::DeclareListSlots() {
 }
 
 void SpeechSlots::DeclareSpeakSlots() {
-  const auto read_only = [this](const char* name, const char* initial, const char* help) {
-    core_.slots.Declare({.name = name,
-                         .grammar = "<text>",
-                         .access = vm::Access::kReadOnly,
-                         .initial = initial,
-                         .help = help});
-  };
-  read_only("Speak.text", kNothing, "The names of the phonemes to speak.");
-  read_only("Speak.pho", kNothing, "The phonemes to speak with their ms.");
-  read_only("Speak.dur", "0", "Their duration in ms.");
-  read_only("Speak.utt", kNothing, "The phonemes spoken before, as far as they were spoken.");
-  read_only("Speak.len", "0", "How many ms of them were spoken.");
-  read_only("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
+  core_.DeclareReadOnly("Speak.text", kNothing, "The names of the phonemes to speak.");
+  core_.DeclareReadOnly("Speak.pho", kNothing, "The phonemes to speak with their ms.");
+  core_.DeclareReadOnly("Speak.dur", "0", "Their duration in ms.");
+  core_.DeclareReadOnly("Speak.utt", kNothing,
+                        "The phonemes spoken before, as far as they were spoken.");
+  core_.DeclareReadOnly("Speak.len", "0", "How many ms of them were spoken.");
+  core_.DeclareReadOnly("Speak.stat", "IDLE", "IDLE, PROCESSING, READY or SPEAKING.");
   core_.slots.Declare(
       {.name = "Speak",
        .grammar = "NOW | STOP | <time>",

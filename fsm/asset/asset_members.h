@@ -47,7 +47,7 @@ void Members(V& v, Like<Strand> auto& strand) {
   v("along", strand.along);
   v("density", strand.density);
   v("across", strand.across);
-  v("place", strand.place);
+  v("place", strand.tile_mm);
 }
 
 template <typename V>
@@ -69,7 +69,7 @@ void Members(V& v, Like<EyePicture> auto& picture) {
 }
 
 template <typename V>
-void Members(V& v, Like<EyePlace> auto& eye) {
+void Members(V& v, Like<EyeGeometry> auto& eye) {
   v("centre", eye.centre);
   v("ball_radius", eye.ball_radius);
   v("iris_radius", eye.iris_radius);

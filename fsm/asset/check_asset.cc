@@ -43,7 +43,7 @@ class Checker {
   void Vertices(const List& list, const char* member) const {
     for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i], Place(member, i));
   }
-  /// Of elements that name a vertex.
+  /// Every element must name a vertex that there is.
   template <typename List>
   void VerticesOf(const List& list, const char* member) const {
     for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i].vertex, Place(member, i));

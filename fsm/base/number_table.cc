@@ -58,4 +58,14 @@ const std::vector<float>& NumberTable::operator[](std::string_view name) const {
   return found->second;
 }
 
+glm::vec2 NumberTable::Pair(std::string_view name) const {
+  const auto& n = (*this)[name];
+  return {n.at(0), n.at(1)};
+}
+
+glm::vec3 NumberTable::Vector(std::string_view name) const {
+  const auto& n = (*this)[name];
+  return {n.at(0), n.at(1), n.at(2)};
+}
+
 }  // namespace fsm

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <map>
 #include <string>
 #include <string_view>
@@ -20,10 +22,14 @@ class NumberTable {
   NumberTable(const std::string& file, std::string_view text,
               const NumberTable* built_in = nullptr);
 
-  /// All numbers behind a name. REQUIRES of both: the built-in table has it.
+  /// All numbers behind a name. REQUIRES of all below: the built-in table has it,
+  /// and as many numbers.
   const std::vector<float>& operator[](std::string_view name) const;
   /// The only one.
   float operator()(std::string_view name) const { return (*this)[name].at(0); }
+  /// The first two, and the first three.
+  glm::vec2 Pair(std::string_view name) const;
+  glm::vec3 Vector(std::string_view name) const;
 
   const std::vector<TableRow>& rows() const { return table_.rows(); }
   static std::string NameOf(const TableRow& row);

@@ -35,8 +35,8 @@ class TableRow {
   std::vector<std::string> words_;
 };
 
-/// Splits an embedded table into rows. `table` is the name used in messages. The tables are part
-/// of the program, so damage is a start-up failure: std::runtime_error, "tables/x.txt:12: ...".
+/// Splits a table into rows. `table` is the name used in messages. What its rows throw,
+/// std::runtime_error "tables/x.txt:12: ...", is a failure at start for tables of the program.
 class Table {
  public:
   Table(std::string table, std::string_view text);

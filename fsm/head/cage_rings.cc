@@ -17,14 +17,14 @@ void Add(Cage& cage, const std::string& curve, glm::vec3 p, const CageTag& tag) 
   cage.tag.push_back(tag);
 }
 
-/// Where lid point i lies: x, and whether on the upper lid; corners count as both.
-struct LidPlace {
+/// Where point i of a lid curve lies: x, and on which lid; corners count as the upper one.
+struct LidPoint {
   float x;
   bool upper;
   bool corner;
 };
 
-LidPlace PlaceOnLid(const EyeAnatomy& eye, int i) {
+LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
   constexpr int kHalf = kLidPoints / 2;
   const bool upper = i <= kHalf;
   const int along = upper ? i : kLidPoints - i;  // 0 inner corner .. kHalf outer corner
@@ -36,119 +36,143 @@ LidPlace PlaceOnLid(const EyeAnatomy& eye, int i) {
   return {x, upper, along == 0 || along == kHalf};
 }
 
+/// A curve around the eye: millimetres from the margin on each lid, part of the lid's turn that it
+/// shares, part of the way to the socket's edge, and millimetres that it is lifted.
+struct LidRing {
+  float upper_mm, lower_mm, upper_hold, lower_hold, to_orbit, lift;
+};
+constexpr std::array kLidRings = {
+    LidRing{0.1f, 0.1f, 1, 1, 0, 0}, LidRing{3.4f, 3.2f, 0.94f, 0.85f, 0, 0},
+    LidRing{6.3f, 6.6f, 0.6f, 0.5f, 0.04f, -0.5f}, LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 0.9f}};
+
+/// `edge`: the point of the socket's edge there.
+glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& ring,
+                      glm::vec3 edge) {
+  const float margin = at.upper ? eye.UpperAngle(at.x) : eye.LowerAngle(at.x);
+  const float mm = at.upper ? ring.upper_mm : -ring.lower_mm;
+  const float radius = eye.LidRadius(at.x);
+  const float reach = std::min(1.0f, radius / 9);
+  glm::vec3 p = eye.OnLid(at.x, margin + mm * reach / std::max(radius, 5.0f), radius);
+  if (at.corner || radius < 7) {
+    // Beside the ball the rings simply walk out to the socket's edge.
+    const glm::vec3 walked = glm::mix(eye.OnLid(at.x, margin, radius), edge, std::abs(mm) / 13.0f);
+    p = glm::mix(p, walked, at.corner ? 1.0f : SmoothStep(7, 3, radius));
+  }
+  p = glm::mix(p, edge, ring.to_orbit);
+  const float along = (at.x - eye.inner_x()) / (eye.outer_x() - eye.inner_x());
+  p.z += ring.lift * SmoothStep(0.02f, 0.4f, along) * SmoothStep(1.0f, 0.8f, along) *
+         (at.upper ? 1.0f : 0.45f);
+  return p;
+}
+
+/// Where point k of a mouth curve lies: from the middle of the upper lip round the corner to the
+/// middle of the lower lip; the corner counts as the upper lip.
+struct LipPoint {
+  int column;
+  float x;  ///< millimetres from the middle
+  bool upper;
+  float side;  ///< 1 upper, -1 lower lip, 0 corner
+};
+
+LipPoint PointOnLips(int k) {
+  constexpr std::array<float, kLipColumns + 1> kX = {0, 3.8f, 8.0f, 12.8f, 17.6f, 22.0f, 25.0f};
+  const bool upper = k <= kLipColumns;
+  const int column = upper ? k : 2 * kLipColumns - k;
+  const float side = column == kLipColumns ? 0.0f : upper ? 1.0f : -1.0f;
+  return {column, kX[static_cast<std::size_t>(column)], upper, side};
+}
+
+/// `red`: 0 at the seam, 1 at the border.
+glm::vec3 PointOfRed(const MouthAnatomy& mouth, const LipPoint& at, float red) {
+  glm::vec3 p = mouth.Red(at.upper ? 1 : -1, at.x, red);
+  // Rings go round the corner, side by side.
+  p += glm::vec3(1.0f, 0, -0.7f) * (red * 2.0f * SmoothStep(17, 25, at.x));
+  p.y += at.side * 0.5f * red * SmoothStep(14, 22, at.x);
+  return p;
+}
+
+/// A ring of the bag behind the lips: how high it is above and below, how far back, how wide
+/// against the lips, how much nearer to the middle the skin in an open mouth's corners is, and how
+/// much of the lips' closing it shares.
+struct BagRing {
+  float height, back, widen, web, lip_hold;
+};
+constexpr std::array<BagRing, kSeamRing> kBagRings = {
+    BagRing{0, 62, 0.5f, 0, 0},         BagRing{12, 48, 1.08f, 0, 0},
+    BagRing{15, 26, 1.2f, 0, 0},        BagRing{11.5f, 11, 1.1f, 0.12f, 0.6f},
+    BagRing{4.6f, 5.2f, 1.0f, 0.2f, 1}, BagRing{1.2f, 2.4f, 1.0f, 0.13f, 1}};
+
+glm::vec3 PointOfBag(const MouthAnatomy& mouth, const LipPoint& at, const BagRing& bag) {
+  const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (25.0f * 25.0f)));
+  const float web = bag.web * SmoothStep(14, 24, at.x);
+  glm::vec3 p = mouth.Red(1, at.x, 0);
+  p.x *= glm::mix(std::min(bag.widen, 1.0f), bag.widen, std::min(1.0f, 2 * open));
+  p.x *= 1 - web;
+  p.y += at.side * bag.height * (0.15f + 0.85f * open);
+  p.z -= bag.back * (0.85f + 0.15f * open) * (1 - 3 * web);
+  return p;
+}
+
 }  // namespace
 
 void AddLidCurves(const EyeAnatomy& eye, Cage& cage) {
-  // Distance from the margin on the lid's surface, part of the turn, and how far the ring has gone
-  // over from the lids' own surface towards the socket's edge.
-  struct Ring {
-    float upper_mm, lower_mm, hold_upper, hold_lower, to_orbit, lift;
-  };
-  constexpr std::array kRings = {Ring{0.1f, 0.1f, 1, 1, 0, 0}, Ring{3.4f, 3.2f, 0.94f, 0.85f, 0, 0},
-                                 Ring{6.3f, 6.6f, 0.6f, 0.5f, 0.04f, -0.5f},
-                                 Ring{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 0.9f}};
   const auto orbit = cage.curves.find("orbit");
   if (orbit == cage.curves.end() || orbit->second.size() != kLidPoints) {
     throw std::runtime_error("tables/curves.txt: curve 'orbit' must have 18 points");
   }
   for (int i = 0; i < kLidPoints; ++i) {
-    const LidPlace at = PlaceOnLid(eye, i);
+    const LidPoint at = PointOnLid(eye, i);
     const float margin = at.upper ? eye.UpperAngle(at.x) : eye.LowerAngle(at.x);
-    const float side = at.upper ? 1.0f : -1.0f;
     CageTag tag;
     tag.eye = 1;
     tag.margin = 0;
     tag.lid_upper = at.corner ? 0.5f : at.upper ? 1.0f : 0.0f;
     tag.lid_lower = 1 - tag.lid_upper;
     // The wet edge behind the rim, then back onto the ball.
-    glm::vec3 behind = eye.OnLid(at.x, margin + 0.35f * side, eye.InnerRadius(at.x) - 0.2f);
+    const float inside = eye.InnerRadius(at.x);
+    const glm::vec3 behind = eye.OnLid(at.x, margin + (at.upper ? 0.35f : -0.35f), inside - 0.2f);
     glm::vec3 from_ball = behind - eye.centre();
     from_ball.x = std::clamp(from_ball.x, -10.2f, 10.2f);
-    behind = eye.centre() + (eye.radius() - 0.15f) * glm::normalize(from_ball);
-    Add(cage, "eye0", behind, tag);
-    // Corners turn by both lids' means, which is nothing at all.
+    Add(cage, "eye0", eye.centre() + (eye.radius() - 0.15f) * glm::normalize(from_ball), tag);
+    Add(cage, "eye1", eye.OnLid(at.x, margin, inside), tag);
     const glm::vec3 edge = cage.position[orbit->second[static_cast<std::size_t>(i)]];
-    const glm::vec3 wet = eye.OnLid(at.x, margin, eye.InnerRadius(at.x));
-    tag.margin = 0;
-    Add(cage, "eye1", wet, tag);
-    for (std::size_t r = 0; r < kRings.size(); ++r) {
-      const Ring& ring = kRings[r];
-      const float mm = at.upper ? ring.upper_mm : ring.lower_mm;
-      const float radius = eye.LidRadius(at.x);
-      const float reach = std::min(1.0f, radius / 9);
-      glm::vec3 p = eye.OnLid(at.x, margin + side * mm * reach / std::max(radius, 5.0f), radius);
-      glm::vec3 direct = eye.OnLid(at.x, margin, radius);
-      if (at.corner || radius < 7) {
-        // Beside the ball the rings simply walk out to the socket's edge.
-        const float walk = mm / 13.0f;
-        const float corner = at.corner ? 1.0f : SmoothStep(7, 3, radius);
-        p = glm::mix(p, glm::mix(direct, edge, walk), corner);
-      }
-      p = glm::mix(p, edge, ring.to_orbit);
-      const float along = (at.x - eye.inner_x()) / (eye.outer_x() - eye.inner_x());
-      p.z += ring.lift * SmoothStep(0.02f, 0.4f, along) * SmoothStep(1.0f, 0.8f, along) *
-             (at.upper ? 1.0f : 0.45f);
+    for (std::size_t r = 0; r < kLidRings.size(); ++r) {
+      const LidRing& ring = kLidRings[r];
       CageTag lid = tag;
-      lid.margin = mm;
-      const float hold = at.upper ? ring.hold_upper : ring.hold_lower;
-      lid.eye = hold;
-      lid.lid_upper *= hold;
-      lid.lid_lower *= hold;
-      Add(cage, "eye" + std::to_string(r + 2), p, lid);
+      lid.margin = at.upper ? ring.upper_mm : ring.lower_mm;
+      lid.eye = at.upper ? ring.upper_hold : ring.lower_hold;
+      lid.lid_upper *= lid.eye;
+      lid.lid_lower *= lid.eye;
+      Add(cage, "eye" + std::to_string(r + 2), PointOfRing(eye, at, ring, edge), lid);
     }
   }
 }
 
 void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage) {
-  constexpr std::array<float, kLipColumns + 1> kX = {0, 3.8f, 8.0f, 12.8f, 17.6f, 22.0f, 25.0f};
-  struct Bag {
-    float height, back, widen;
-    // Flesh closes the corners of an open mouth: how much nearer to the middle than the lips.
-    float web;
-  };
-  // From the deepest ring to the inside of the lips.
-  constexpr std::array<Bag, kSeamRing> kBag = {
-      Bag{0, 62, 0.5f, 0},         Bag{12, 48, 1.08f, 0},       Bag{15, 26, 1.2f, 0},
-      Bag{11.5f, 11, 1.1f, 0.12f}, Bag{4.6f, 5.2f, 1.0f, 0.2f}, Bag{1.2f, 2.4f, 1.0f, 0.13f}};
   constexpr std::array<float, kMouthRings - kSeamRing> kRed = {0, 0.3f, 0.66f, 1};
   for (int ring = 0; ring < kMouthRings; ++ring) {
     const std::string name = "mouth" + std::to_string(ring);
     for (int k = 0; k <= 2 * kLipColumns; ++k) {
-      const bool upper = k <= kLipColumns;
-      const int column = upper ? k : 2 * kLipColumns - k;
-      const float x = kX[static_cast<std::size_t>(column)];
-      const bool corner = column == kLipColumns;
-      const float side = corner ? 0.0f : upper ? 1.0f : -1.0f;
-      if (ring == 0 && !upper) {  // the bag's end: both halves meet
-        cage.curves[name].push_back(cage.curves[name][static_cast<std::size_t>(column)]);
+      const LipPoint at = PointOnLips(k);
+      if (ring == 0 && !at.upper) {  // the bag's end: both halves meet
+        cage.curves[name].push_back(cage.curves[name][static_cast<std::size_t>(at.column)]);
         continue;
       }
       CageTag tag;
-      tag.lip_side = side;
-      tag.lip_column = static_cast<float>(column);
-      const float open = std::sqrt(std::max(0.0f, 1 - x * x / (25.0f * 25.0f)));
-      glm::vec3 p;
+      tag.lip_side = at.side;
+      tag.lip_column = static_cast<float>(at.column);
       if (ring >= kSeamRing) {
         tag.red = kRed[static_cast<std::size_t>(ring - kSeamRing)];
         tag.lip_hold = 1;
         tag.seam = ring == kSeamRing ? 1.0f : 0.0f;
-        p = mouth.Red(upper ? 1 : -1, x, tag.red);
-        // Rings go round the corner, side by side.
-        p += glm::vec3(1.0f, 0, -0.7f) * (tag.red * 2.0f * SmoothStep(17, 25, x));
-        p.y += (upper ? 0.5f : -0.5f) * tag.red * SmoothStep(14, 22, x) * (corner ? 0.0f : 1.0f);
+        Add(cage, name, PointOfRed(mouth, at, tag.red), tag);
       } else {
-        const Bag& bag = kBag[static_cast<std::size_t>(ring)];
+        const BagRing& bag = kBagRings[static_cast<std::size_t>(ring)];
         tag.red = 0;
         tag.deep = static_cast<float>(kSeamRing - ring) / kSeamRing;
-        tag.lip_hold = ring >= 4 ? 1.0f : ring == 3 ? 0.6f : 0.0f;
-        p = mouth.Red(1, x, 0);
-        p.x *= glm::mix(std::min(bag.widen, 1.0f), bag.widen, std::min(1.0f, 2 * open));
-        const float web = bag.web * SmoothStep(14, 24, x);
-        p.x *= 1 - web;
-        p.y += side * bag.height * (0.15f + 0.85f * open);
-        p.z -= bag.back * (0.85f + 0.15f * open) * (1 - 3 * web);
+        tag.lip_hold = bag.lip_hold;
+        Add(cage, name, PointOfBag(mouth, at, bag), tag);
       }
-      Add(cage, name, p, tag);
     }
   }
 }

@@ -92,7 +92,7 @@ class Ear {
   }
   float Height(const char* ridge) const { return features_[ridge][1]; }
   float RidgeAt(const std::string& line, glm::vec2 p) const {
-    return Ridge(DistanceToLine(p, features_.Places(line)), features_[line + "_ridge"][0]);
+    return Ridge(DistanceToLine(p, features_.Points(line)), features_[line + "_ridge"][0]);
   }
   float BumpAt(const char* name, glm::vec2 p) const {
     const auto& n = features_[name];
@@ -100,8 +100,8 @@ class Ear {
   }
 
   const Features& features_;
-  const std::vector<glm::vec2> outline_ = features_.Places("ear_outline");
-  const glm::vec2 middle_ = features_.Places("ear_middle")[0];
+  const std::vector<glm::vec2> outline_ = features_.Points("ear_outline");
+  const glm::vec2 middle_ = features_.Points("ear_middle")[0];
   SplineBasis around_{{0, 1}};
 };
 
@@ -114,7 +114,7 @@ std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& fe
   const auto by_depth = [](glm::vec2 p) { return p.x; };
   return {{{"superaurale", at(std::ranges::max(ear.corners(), {}, by_height))},
            {"subaurale", at(std::ranges::min(ear.corners(), {}, by_height))},
-           {"preaurale", at(features.Places("ear_front")[0])},
+           {"preaurale", at(features.Points("ear_front")[0])},
            {"postaurale", at(std::ranges::max(ear.corners(), {}, by_depth))}}};
 }
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "fsm/base/grain.h"
+#include "fsm/base/random.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"
@@ -26,26 +26,26 @@ class LashBuilder {
         of_photo_(of_photo),
         side_(static_cast<float>(side)),
         mesh_(mesh) {
-    flesh_.eye = static_cast<std::int8_t>(side);
-    flesh_.free = 0;
+    weights_.eye = static_cast<std::int8_t>(side);
+    weights_.free = 0;
   }
 
   void Row(bool upper) {
     upper_ = upper;
-    flesh_.lid_upper = upper ? 1.0f : 0.0f;
-    flesh_.lid_lower = 1 - flesh_.lid_upper;
+    weights_.lid_upper = upper ? 1.0f : 0.0f;
+    weights_.lid_lower = 1 - weights_.lid_upper;
     if (upper) Line();
     const auto& row = features_[upper ? "upper_lashes" : "lower_lashes"];
     const int hairs = static_cast<int>(row[0]);
     for (int i = 0; i < hairs; ++i) {
       const float part = (static_cast<float>(i) + 0.5f) / static_cast<float>(hairs);
-      Hair(glm::mix(row[1], row[2], part) + 0.008f * Grain(i, 71), i);
+      Hair(glm::mix(row[1], row[2], part) + 0.008f * NoiseAt(i, 71), i);
     }
   }
 
  private:
   float X(float along) const { return glm::mix(eye_.inner_x(), eye_.outer_x(), along); }
-  /// Of a row of the table for the upper and the lower lid and for those of a photo.
+  /// One of the three numbers of a row: for the upper lid, the lower lid, or lids of a photo.
   float ByLid(const char* name) const {
     const auto& n = features_[name];
     return of_photo_ ? n[2] : upper_ ? n[0] : n[1];
@@ -53,10 +53,10 @@ class LashBuilder {
   float Angle(float x) const { return upper_ ? eye_.UpperAngle(x) : eye_.LowerAngle(x); }
 
   std::uint32_t Add(glm::vec3 p, float at_x, float dark) {
-    flesh_.domain = {at_x * side_, eye_.centre().y};
+    weights_.domain = {at_x * side_, eye_.centre().y};
     p.x *= side_;
     const glm::vec3 colour = glm::mix(palette_.skin, palette_.lash, of_photo_ ? 1.0f : dark);
-    const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kSkin, flesh_);
+    const std::uint32_t i = mesh_.Add(p, colour, 1, Bone::kSkin, weights_);
     if (of_photo_) mesh_.opacity.back() = dark;
     return i;
   }
@@ -102,20 +102,20 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     // Neighbours lean together in threes.
-    const float clump = 0.16f * (static_cast<float>(1 - i % 3)) + 0.10f * Grain(i, 5) +
-                        (of_photo_ ? 0.35f * Grain(i, 6) : 0.0f);
+    const float clump = 0.16f * (static_cast<float>(1 - i % 3)) + 0.10f * NoiseAt(i, 5) +
+                        (of_photo_ ? 0.35f * NoiseAt(i, 6) : 0.0f);
     const auto& fans = features_["lash_fan"];
     const auto& long_by = features_["upper_lash_length"];
     const float fan = fans[1] * (along - fans[0]) + clump;
     const float length =
         size_ * (upper_ ? (long_by[0] +
                            long_by[1] * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
-                              (0.94f + (of_photo_ ? 0.6f : 0.34f) * Grain(i, 9))
-                        : features_("lower_lash_length") * (1 + 0.2f * Grain(i, 9)));
+                              (0.94f + (of_photo_ ? 0.6f : 0.34f) * NoiseAt(i, 9))
+                        : features_("lower_lash_length") * (1 + 0.2f * NoiseAt(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = ByLid("lash_width");
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark = ByLid("lash_darkness") + (of_photo_ ? 0.2f * Grain(i, 4) : 0.0f);
+    const float dark = ByLid("lash_darkness") + (of_photo_ ? 0.2f * NoiseAt(i, 4) : 0.0f);
     const float rise = ByLid("lash_rise");
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
@@ -138,7 +138,7 @@ class LashBuilder {
   bool of_photo_;
   float side_;
   HeadMesh& mesh_;
-  SkinWeights flesh_;
+  SkinWeights weights_;
   bool upper_ = true;
 };
 
@@ -239,18 +239,18 @@ std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identit
     for (int i = 0; i < columns * rows; ++i) {
       const int row = i % rows;
       const int seed = 2 * i + (side > 0 ? 1 : 0);
-      const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * Grain(seed, 21);
+      const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * NoiseAt(seed, 21);
       const float x = across[0] + across[1] * column / static_cast<float>(columns);
-      const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.7f * Grain(seed, 22)) /
+      const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.7f * NoiseAt(seed, 22)) /
                                    static_cast<float>(rows);
       const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
       // Sparse where it begins.
-      if (0.5f + 0.5f * Grain(seed, 26) > 0.35f + 0.65f * ends) continue;
+      if (0.5f + 0.5f * NoiseAt(seed, 26) > 0.35f + 0.65f * ends) continue;
       const glm::vec2 root(x, place.Y(x, 0.9f * level - 0.1f));
       // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
-      const float angle = (grow(x) - 20 * level + 9 * Grain(seed, 23)) * kPi / 180;
+      const float angle = (grow(x) - 20 * level + 9 * NoiseAt(seed, 23)) * kPi / 180;
       const float bend = (-14 - 8 * level) * kPi / 180;
-      const float length = (long_by[0] + long_by[1] * Grain(seed, 24)) * (0.6f + 0.4f * ends);
+      const float length = (long_by[0] + long_by[1] * NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
       const auto on_skin = [&](glm::vec2 at) {
         glm::vec3 normal;
         glm::vec3 p = front.PointAt(at, normal);
@@ -265,8 +265,8 @@ std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identit
           {.root = on_skin(root),
            .middle = on_skin(middle),
            .tip = on_skin(middle + step(angle + bend)),
-           .width_mm = (wide_by[0] + wide_by[1] * Grain(seed, 27)) * (0.7f + 0.3f * ends),
-           .tint = 1.5f * palette.brow / palette.skin * (1 + 0.35f * Grain(seed, 25))});
+           .width_mm = (wide_by[0] + wide_by[1] * NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
+           .tint = 1.5f * palette.brow / palette.skin * (1 + 0.35f * NoiseAt(seed, 25))});
     }
   }
   return hairs;

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "fsm/base/grain.h"
+#include "fsm/base/random.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"
 
@@ -70,7 +70,7 @@ void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh) {
         const float around = 2 * kPi * static_cast<float>(s) / kSegments;
         glm::vec3 colour = rings[k].colour;
         // Fibres of the iris: light and dark rays.
-        if (k >= 2 && k <= 4) colour *= 1 + 0.28f * Grain(s * side, static_cast<int>(k / 2));
+        if (k >= 2 && k <= 4) colour *= 1 + 0.28f * NoiseAt(s * side, static_cast<int>(k / 2));
         now[static_cast<std::size_t>(s)] =
             mesh.Add(point(rings[k].angle, around), colour, 0.95f, bone);
       }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kCurves[] = {"brow_middle", "brow_half_height", "brow_growth",
                                         "lid_fold_height"};
-// By how many things are made, or divided.
+// How many things are made.
 constexpr std::string_view kCounts[] = {"upper_lashes", "lower_lashes", "brow_hairs",
                                         "long_locks",   "long_wisps",   "long_fringe_locks"};
 constexpr float kMostHairs = 200;  // in one row
@@ -24,9 +24,9 @@ bool Ascends(const std::vector<float>& pairs) {
 
 }  // namespace
 
-Features::Features(NumberTable numbers) : numbers_(std::move(numbers)) {
-  for (const TableRow& row : numbers_.rows()) {
-    const auto& n = numbers_[row.key()];
+Features::Features(NumberTable numbers) : NumberTable(std::move(numbers)) {
+  for (const TableRow& row : rows()) {
+    const auto& n = (*this)[NameOf(row)];
     const auto is = [&row](std::string_view name) { return row.key() == name; };
     if (std::ranges::any_of(kCurves, is) && !Ascends(n))
       row.Fail("numbers of x that do not ascend");
@@ -48,6 +48,11 @@ Features::Features(NumberTable numbers) : numbers_(std::move(numbers)) {
       row.Within(3, kLeast, kMost);
       row.Within(4, kLeast, kMost);
     }
+    if (is("photo_lid_furrow")) row.Within(3, kLeast, kMost);
+    if (is("spot") || is("beard_thin_cheek")) {
+      row.Within(4, kLeast, kMost);
+      row.Within(5, kLeast, kMost);
+    }
   }
 }
 
@@ -56,23 +61,18 @@ const Features& Features::BuiltIn() {
   return features;
 }
 
-glm::vec3 Features::Vector(std::string_view name) const {
-  const auto& n = numbers_[name];
-  return {n.at(0), n.at(1), n.at(2)};
-}
-
-std::vector<glm::vec2> Features::Places(std::string_view name) const {
-  const auto& n = numbers_[name];
-  std::vector<glm::vec2> places;
-  for (std::size_t i = 0; i + 1 < n.size(); i += 2) places.emplace_back(n[i], n[i + 1]);
-  return places;
+std::vector<glm::vec2> Features::Points(std::string_view name) const {
+  const auto& n = (*this)[name];
+  std::vector<glm::vec2> points;
+  for (std::size_t i = 0; i + 1 < n.size(); i += 2) points.emplace_back(n[i], n[i + 1]);
+  return points;
 }
 
 Curve Features::CurveOf(std::string_view name) const {
   std::vector<float> x, y;
-  for (const glm::vec2 place : Places(name)) {
-    x.push_back(place.x);
-    y.push_back(place.y);
+  for (const glm::vec2 point : Points(name)) {
+    x.push_back(point.x);
+    y.push_back(point.y);
   }
   return {std::move(x), std::move(y)};
 }

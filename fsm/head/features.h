@@ -11,27 +11,22 @@
 
 namespace fsm {
 
-/// What teeth, tongue, ears, lashes, brows and hair are like: tables/features.txt, where
+/// What teeth, tongue, ears, lashes, brows, hair and shirt are like: tables/features.txt, where
 /// each number is explained. Constant after construction; thread: any.
-class Features {
+class Features : public NumberTable {
  public:
   /// In place of the built-in table. Throws as NumberTable.
   Features(const std::string& file, std::string_view text)
-      : Features(NumberTable(file, text, &BuiltIn().numbers_)) {}
+      : Features(NumberTable(file, text, &BuiltIn())) {}
   static const Features& BuiltIn();
 
-  /// REQUIRES of all below: the built-in table has as many numbers of that name.
-  const std::vector<float>& operator[](std::string_view name) const { return numbers_[name]; }
-  float operator()(std::string_view name) const { return numbers_(name); }
-  glm::vec3 Vector(std::string_view name) const;
-  std::vector<glm::vec2> Places(std::string_view name) const;  ///< of pairs
-  Curve CurveOf(std::string_view name) const;                  ///< of pairs of x and y
+  /// REQUIRES: as NumberTable, pairs of numbers.
+  std::vector<glm::vec2> Points(std::string_view name) const;
+  Curve CurveOf(std::string_view name) const;  ///< of x and y
 
  private:
   /// Throws if the x of a curve do not ascend, or there are no hairs where there must be some.
   explicit Features(NumberTable numbers);
-
-  NumberTable numbers_;
 };
 
 }  // namespace fsm

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "fsm/base/grain.h"
+#include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/hair_parts.h"
 
@@ -88,9 +88,9 @@ class CroppedHair {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
         // An uneven edge: hair does not end on a drawn line.
-        const float ragged = r == 0 ? 0.05f * Grain(k % kAround, 61) : 0.0f;
+        const float ragged = r == 0 ? 0.05f * NoiseAt(k % kAround, 61) : 0.0f;
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
-        const float uneven = 1 + 0.05f * Grain(k % kAround, static_cast<int>(r) + 62);
+        const float uneven = 1 + 0.05f * NoiseAt(k % kAround, static_cast<int>(r) + 62);
         const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
         const glm::vec3 colour = glm::mix(
             palette_.hair, StrandColour(palette_, 3 * (k % kAround), static_cast<int>(r)), 0.4f);
@@ -101,7 +101,7 @@ class CroppedHair {
                                 .density = r == 0   ? 0.1f
                                            : r == 1 ? 0.75f
                                                     : 1.0f,
-                                .place = {1.49f * azimuth, -140 * kUp[r]}};
+                                .tile_mm = {1.49f * azimuth, -140 * kUp[r]}};
       }
     }
     mesh_.Grid(Material::kHair, first, static_cast<int>(kUp.size()), kAround + 1, true);
@@ -121,12 +121,12 @@ class CroppedHair {
     const glm::vec3 root = Direction(azimuth, up);
     const float forehead = Forehead(azimuth, up);
     glm::vec3 along =
-        Flow(root, forehead) + glm::vec3(uneven[0] * Grain(k, 31), 0, uneven[0] * Grain(k, 32));
+        Flow(root, forehead) + glm::vec3(uneven[0] * NoiseAt(k, 31), 0, uneven[0] * NoiseAt(k, 32));
     along = glm::normalize(along - root * glm::dot(along, root));
-    const float length = style_.lock_mm * (1 + uneven[1] * Grain(k, 33)) *
+    const float length = style_.lock_mm * (1 + uneven[1] * NoiseAt(k, 33)) *
                          (0.5f + 0.5f * SmoothStep(-0.3f, 0.5f, root.y)) *
                          (0.55f + 0.45f * SmoothStep(0, 0.2f, up));
-    const float lift = style_.lift_mm * (1 + uneven[2] * Grain(k, 34)) +
+    const float lift = style_.lift_mm * (1 + uneven[2] * NoiseAt(k, 34)) +
                        forehead * style_.front_up * features_("crop_front_lift");
     std::vector<glm::vec3> path;
     constexpr int kSteps = 4;
@@ -142,7 +142,7 @@ class CroppedHair {
     const float width =
         glm::mix(wide[0], wide[1] + wide[2] * style_.lock_mm, SmoothStep(0, 0.28f, up));
     AddLock(path,
-            {.width_mm = wide[3] * width * (1 + uneven[3] * Grain(k, 35)),
+            {.width_mm = wide[3] * width * (1 + uneven[3] * NoiseAt(k, 35)),
              .root_part = 0.6f,
              .fray_from = 0.45f,
              .open = 0.95f},

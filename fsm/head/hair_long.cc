@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "fsm/base/grain.h"
+#include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/hair_parts.h"
 
@@ -57,14 +57,16 @@ class LongHair {
   }
 
   glm::vec3 Direction(float i, float side, float t) const {
-    const glm::vec3 start = OnParting(Mix("long_parting", std::pow(i, 0.9f)));
-    const float azimuth = Mix("long_round", std::pow(i, 0.85f));
+    const auto& crowd = features_["long_crowd"];
+    const glm::vec3 start = OnParting(Mix("long_parting", std::pow(i, crowd[0])));
+    const float azimuth = Mix("long_round", std::pow(i, crowd[1]));
+    const auto& nearer = features_["long_edge_nearer"];
     const auto& bends = features_["long_bend"];
     const float edge = SmoothStep(0.25f, 0, i);
     // The side away from the parting has the longer way round the forehead.
     const float away = side < 0 ? 1.0f : 0.0f;
     const glm::vec3 bend =
-        HairDirection(side * azimuth * glm::mix(1.0f, 0.78f - 0.02f * away, edge),
+        HairDirection(side * azimuth * glm::mix(1.0f, nearer[0] - nearer[1] * away, edge),
                       glm::mix(bends[0], bends[1] - bends[2] * away, edge));
     const glm::vec3 end = HairDirection(side * azimuth, Mix("long_skull_end", edge));
     return glm::normalize((1 - t) * (1 - t) * start + 2 * t * (1 - t) * bend + t * t * end);
@@ -87,7 +89,7 @@ class LongHair {
     const float least =
         skin + glm::mix(fringe, features_("long_least_off"), SmoothStep(0, 0.12f, i));
     float radius =
-        std::max(least, glm::mix(skin + off[0] + 4.5f * SmoothStep(0.3f, 1, cap), volume, part));
+        std::max(least, glm::mix(skin + off[0] + off[2] * SmoothStep(0.3f, 1, cap), volume, part));
     // The parting is a furrow in the hair.
     radius = glm::mix(skin + features_("long_furrow") * (radius - skin), radius,
                       SmoothStep(-0.1f, 0.28f, cap));
@@ -116,8 +118,8 @@ class LongHair {
 
   float Ridge(float i, float t) const {
     const auto& deep = features_["long_ridges"];
-    const float phase = 52 * i + 2.0f * std::sin(3 * t + 9 * i);
-    return (deep[0] * std::sin(phase) + deep[1] * std::sin(2.3f * phase + 1)) *
+    const float phase = deep[2] * i + 2.0f * std::sin(3 * t + 9 * i);
+    return (deep[0] * std::sin(phase) + deep[1] * std::sin(deep[3] * phase + 1)) *
            SmoothStep(0.02f, 0.3f, t) * (0.6f + 0.7f * t) * SmoothStep(0, 0.08f, i);
   }
 
@@ -127,13 +129,15 @@ class LongHair {
       for (int k = 0; k <= 32; ++k)
         edge.push_back(Point(0, side, 0.02f * static_cast<float>(k), 0));
     }
-    ShadeByHair(edge, 17, palette_, mesh_);
+    ShadeByHair(edge, features_("long_shade"), palette_, mesh_);
   }
 
   void Shell(float side) {
     constexpr int kStrands = 30;
     constexpr int kCapRows = 13;  // the skull is round, what hangs nearly straight
     constexpr int kRows = 19;
+    const auto& light = features_["long_light"];
+    const auto& tile = features_["long_tile"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Closer together at the face, where the edge is seen.
@@ -145,14 +149,13 @@ class LongHair {
                 ? kCap * static_cast<float>(row) / kCapRows
                 : glm::mix(kCap, kEnd, static_cast<float>(row - kCapRows) / (kRows - kCapRows));
         const glm::vec3 p = Point(i, side, t, Ridge(i, t));
-        const float open = glm::mix(0.6f, 1.0f, SmoothStep(0, 0.12f, t)) *
-                           glm::mix(0.7f, 1.0f, SmoothStep(0, 0.1f, i));
-        mesh_.Add(p, StrandColour(palette_, k * 3, row) * glm::mix(0.85f, 1.1f, t), open,
-                  Bone::kSkull);
+        const float open = glm::mix(light[0], 1.0f, SmoothStep(0, 0.12f, t)) *
+                           glm::mix(light[1], 1.0f, SmoothStep(0, 0.1f, i));
+        mesh_.Add(p, StrandColour(palette_, k * 3, row) * Mix("long_fade", t), open, Bone::kSkull);
         const float edge = k == 0 ? 0.1f : k == 1 ? 0.8f : 1.0f;
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = edge * SmoothStep(1.04f, 0.86f, t),
-                                .place = {side * 215 * i, 260 * t}};
+                                .tile_mm = {side * tile[0] * i, tile[1] * t}};
       }
     }
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side > 0);
@@ -162,7 +165,8 @@ class LongHair {
   void Lining(float side) {
     constexpr int kStrands = 12;
     constexpr int kRows = 6;
-    constexpr std::array kInset{-14.0f, -10.0f, -7.0f, -4.5f, -2.5f, -1.2f, -0.5f};
+    const auto& insets = features_["long_lining"];
+    const auto& tile = features_["long_tile"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (int k = 0; k <= kStrands; ++k) {
       // Beside the face it reaches up to the forehead: there one looks under the hair.
@@ -172,11 +176,12 @@ class LongHair {
       for (int row = 0; row <= kRows; ++row) {
         const float t =
             glm::mix(kCap * glm::mix(0.1f, 0.6f, behind), kEnd, static_cast<float>(row) / kRows);
-        const float inset = glm::mix(-0.6f, kInset[static_cast<std::size_t>(row)], behind);
-        mesh_.Add(Point(i, side, t, inset), palette_.hair, 0.5f, Bone::kSkull);
+        const float inset = glm::mix(insets.back(), insets[static_cast<std::size_t>(row)], behind);
+        mesh_.Add(Point(i, side, t, inset), palette_.hair, features_["long_light"][2],
+                  Bone::kSkull);
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = SmoothStep(1.04f, 0.86f, t),
-                                .place = {215 * i, 260 * t}};
+                                .tile_mm = {tile[0] * i, tile[1] * t}};
       }
     }
     mesh_.Grid(Material::kHair, first, kStrands + 1, kRows + 1, side < 0);
@@ -186,32 +191,36 @@ class LongHair {
     const int locks = Count("long_locks", 0), at_edge = Count("long_locks", 1);
     const auto& wide = features_["long_lock_width"];
     const auto& lifts = features_["long_lock_lift"];
+    const auto& starts = features_["long_lock_from"];
+    const auto& ends = features_["long_lock_to"];
+    const auto& drifts = features_["long_lock_drift"];
+    const auto& taper = features_["long_lock_taper"];
     for (int k = 0; k < locks; ++k) {
       const int seed = k + (side > 0 ? 500 : 0);
-      const float u = (static_cast<float>(k - at_edge) + 0.5f + 0.4f * Grain(seed, 1)) /
+      const float u = (static_cast<float>(k - at_edge) + 0.5f + 0.4f * NoiseAt(seed, 1)) /
                       static_cast<float>(locks - at_edge);
       const bool edge = k < at_edge;
       const float i = edge ? 0.005f * static_cast<float>(k) : u;
-      const float from =
-          edge ? 0.02f + 0.028f * static_cast<float>(k) : 0.18f + 0.14f * (Grain(seed, 2) + 1);
-      const float to =
-          edge ? 0.52f + 0.03f * static_cast<float>(k % 5) : 1.01f + 0.03f * Grain(seed, 3);
-      const float lift = edge ? lifts[0] : lifts[1] + lifts[2] * Grain(seed, 4);
+      const float from = edge ? starts[0] + starts[1] * static_cast<float>(k)
+                              : starts[2] + starts[3] * (NoiseAt(seed, 2) + 1);
+      const float to = edge ? ends[0] + ends[1] * static_cast<float>(k % 5)
+                            : ends[2] + ends[3] * NoiseAt(seed, 3);
+      const float lift = edge ? lifts[0] : lifts[1] + lifts[2] * NoiseAt(seed, 4);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 6;
       for (int s = 0; s <= kSteps; ++s) {
         const float v = static_cast<float>(s) / kSteps;
         const float t = glm::mix(from, to, v);
-        const float drift = edge ? 0.10f * v * v * (1 + 0.4f * Grain(seed, 5))
-                                 : 0.018f * std::sin(4 * v + static_cast<float>(k));
+        const float drift = edge ? drifts[0] * v * v * (1 + 0.4f * NoiseAt(seed, 5))
+                                 : drifts[1] * std::sin(4 * v + static_cast<float>(k));
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, t,
                              lift * std::sin(kPi * (0.12f + 0.8f * v))));
       }
       AddLock(path,
-              {.width_mm = edge ? wide[0] : wide[1] + wide[2] * Grain(seed, 6),
-               .root_part = edge ? 0.4f : 0.5f,
-               .tip_part = 0.6f,
-               .fray_from = 0.66f},
+              {.width_mm = edge ? wide[0] : wide[1] + wide[2] * NoiseAt(seed, 6),
+               .root_part = edge ? taper[0] : taper[1],
+               .tip_part = taper[2],
+               .fray_from = taper[3]},
               palette_, seed, mesh_);
     }
   }
@@ -222,13 +231,16 @@ class LongHair {
     const int wisps = Count("long_wisps", 0);
     const auto& reaches = features_["long_wisp_reach"];
     const auto& wide = features_["long_wisp_width"];
+    const auto& along = features_["long_wisp_from"];
+    const auto& lengths = features_["long_wisp_length"];
+    const auto& taper = features_["long_wisp_taper"];
     for (int k = 0; k < wisps; ++k) {
       const int seed = k + (side > 0 ? 900 : 700);
-      const float from = 0.06f + 0.74f * (static_cast<float>(k) + 0.4f * Grain(seed, 1)) /
-                                     static_cast<float>(wisps);
-      const float long_part = features_("long_wisp_length") * (1 + 0.45f * Grain(seed, 3));
-      const float reach =
-          (reaches[0] + reaches[1] * Grain(seed, 2)) * (1 + 1.8f * SmoothStep(0.45f, 0.25f, from));
+      const float from = along[0] + along[1] * (static_cast<float>(k) + 0.4f * NoiseAt(seed, 1)) /
+                                        static_cast<float>(wisps);
+      const float long_part = lengths[0] * (1 + lengths[1] * NoiseAt(seed, 3));
+      const float reach = (reaches[0] + reaches[1] * NoiseAt(seed, 2)) *
+                          (1 + reaches[2] * SmoothStep(0.45f, 0.25f, from));
       std::vector<glm::vec3> path;
       constexpr int kSteps = 3;
       for (int s = 0; s <= kSteps; ++s) {
@@ -242,10 +254,10 @@ class LongHair {
         path.push_back(p + face * (reach * v * v) - outward * (1.0f * v * v));
       }
       AddLock(path,
-              {.width_mm = wide[0] + wide[1] * Grain(seed, 4),
-               .root_part = 0.6f,
-               .fray_from = 0.3f,
-               .open = 0.95f},
+              {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 4),
+               .root_part = taper[0],
+               .fray_from = taper[1],
+               .open = taper[2]},
               palette_, seed, mesh_);
     }
   }
@@ -257,18 +269,23 @@ class LongHair {
     const int locks = Count("long_fringe_locks", which);
     const auto& rises = features_["long_fringe_rise"];
     const auto& wide = features_["long_fringe_width"];
+    const auto& uneven = features_["long_fringe_uneven"];
+    const auto& thin = features_["long_fringe_thin"];
+    const auto& lifts = features_["long_fringe_lift"];
+    const auto& taper = features_["long_fringe_taper"];
     for (int k = 0; k < locks; ++k) {
       const int seed = k + (side > 0 ? 1300 : 1100);
       const float u =
-          (static_cast<float>(k) + 0.5f + 0.5f * Grain(seed, 1)) / static_cast<float>(locks);
+          (static_cast<float>(k) + 0.5f + 0.5f * NoiseAt(seed, 1)) / static_cast<float>(locks);
       // Some are thin strands that come further down.
       const float strand = k % 3 == 1 && u < 0.7f ? 1.0f : 0.0f;
       const glm::vec3 start = OnParting(Mix("long_fringe_start", u));
-      const glm::vec3 bend = HairDirection(side * (Mix("long_fringe_bend", u) + 5 * Grain(seed, 2)),
-                                           glm::mix(rises[which], rises[2], u) - 3.5f * strand);
-      const glm::vec3 end =
-          HairDirection(side * (Mix("long_fringe_end", u) + 4 * Grain(seed, 3)),
-                        Mix("long_fringe_fall", u) + 5.0f * Grain(seed, 4) - 3.0f * strand);
+      const glm::vec3 bend =
+          HairDirection(side * (Mix("long_fringe_bend", u) + uneven[0] * NoiseAt(seed, 2)),
+                        glm::mix(rises[which], rises[2], u) - thin[0] * strand);
+      const glm::vec3 end = HairDirection(
+          side * (Mix("long_fringe_end", u) + uneven[1] * NoiseAt(seed, 3)),
+          Mix("long_fringe_fall", u) + uneven[2] * NoiseAt(seed, 4) - thin[1] * strand);
       std::vector<glm::vec3> path;
       constexpr int kSteps = 7;
       for (int s = 0; s <= kSteps; ++s) {
@@ -278,14 +295,15 @@ class LongHair {
         const glm::vec3 scaled = d / volume_;
         const float skin = scalp_.Distance(d);
         const float full = 0.5f * (1 / std::sqrt(glm::dot(scaled, scaled)) - skin);
-        const float lift = glm::mix(full + 2.2f, 8.0f + Grain(seed, 5), SmoothStep(0, 0.55f, v));
-        path.push_back(kHairCentre + d * (skin + lift - 4.5f * v * v));
+        const float lift =
+            glm::mix(full + lifts[0], lifts[1] + NoiseAt(seed, 5), SmoothStep(0, 0.55f, v));
+        path.push_back(kHairCentre + d * (skin + lift - lifts[2] * v * v));
       }
       AddLock(path,
-              {.width_mm = wide[0] + wide[1] * Grain(seed, 6) - wide[2] * strand,
-               .root_part = 0.4f,
-               .fray_from = 0.5f,
-               .root_density = 0.3f},
+              {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 6) - thin[2] * strand,
+               .root_part = taper[0],
+               .fray_from = taper[1],
+               .root_density = taper[2]},
               palette_, seed, mesh_);
     }
   }

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "fsm/base/grain.h"
+#include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 
 namespace fsm {
@@ -23,7 +23,7 @@ Scalp::Scalp(const HeadMesh& mesh) {
     const float length = glm::length(d);
     if (mesh.bone[i] != Bone::kSkin || mesh.position[i].y < -70 || length < 45) continue;
     if (mesh.position[i].y < 5 && mesh.position[i].z > 45) continue;  // the face's features
-    if (mesh.flesh[i].neck <= 0) continue;                            // cloth
+    if (mesh.weights[i].neck <= 0) continue;                          // cloth
     points_.push_back({d / length, length});
   }
 }
@@ -60,9 +60,9 @@ float HairlineElevation(float azimuth) {
 }
 
 glm::vec3 StrandColour(const Palette& palette, int strand, int row) {
-  const float fine = Grain(strand * 7, 3);
-  const float broad = Grain(strand / 4, 11);
-  const float along = 0.05f * Grain(strand, row + 40);
+  const float fine = NoiseAt(strand * 7, 3);
+  const float broad = NoiseAt(strand / 4, 11);
+  const float along = 0.05f * NoiseAt(strand, row + 40);
   // Dark hair shows its streaks, light hair is more even.
   const float strength = 1 - 0.6f * SmoothStep(0.1f, 0.3f, palette.hair.g);
   const float light = 1 + strength * (0.28f * fine + 0.16f * broad + along);
@@ -87,8 +87,8 @@ void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Pale
              int seed, HeadMesh& mesh) {
   std::array<std::uint32_t, 2> before{};
   const int last = static_cast<int>(path.size()) - 1;
-  float along_mm = 90 * (1 + Grain(seed, 71));
-  const float across_mm = 130 * (1 + Grain(seed, 72));
+  float along_mm = 90 * (1 + NoiseAt(seed, 71));
+  const float across_mm = 130 * (1 + NoiseAt(seed, 72));
   for (int k = 0; k <= last; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const float t = static_cast<float>(k) / static_cast<float>(last);
@@ -114,7 +114,7 @@ void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Pale
       mesh.strands.back() = {.along = glm::normalize(step + glm::vec3(0, -1e-4f, 0)),
                              .density = density,
                              .across = side,
-                             .place = {across_mm + side * half, along_mm}};
+                             .tile_mm = {across_mm + side * half, along_mm}};
     }
     if (k > 0) mesh.Quad(Material::kHair, before[0], before[1], now[1], now[0]);
     before = now;

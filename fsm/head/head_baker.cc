@@ -31,9 +31,7 @@ HeadBaker::HeadBaker(Identity identity, bool asymmetric)
       asymmetric_(asymmetric) {}
 
 HeadAsset HeadBaker::Bake() {
-  cage_ = ReadCage(Table("tables/curves.txt", embedded::curves()),
-                   Table("tables/patches.txt", embedded::patches()), eye_, mouth_);
-  fine_ = Subdivide(cage_);
+  AddSkin();
   AddParts();
   TakeForm();
   HeadAsset asset;
@@ -45,7 +43,18 @@ HeadAsset HeadBaker::Bake() {
   return asset;
 }
 
-void HeadBaker::AddFigure() { BuildCloth(identity_.palette, mesh_); }
+RigData HeadBaker::BakeSkin() {
+  AddSkin();
+  figure_end_ = soft_count_ = skin_count_;
+  TakeForm();
+  HeadTopology topology;
+  RigData rig;
+  BakeTopology(topology);
+  BakeRig(topology, rig);
+  return rig;
+}
+
+void HeadBaker::AddFigure() { BuildCloth(identity_.Look(), identity_.palette, mesh_); }
 
 void HeadBaker::AddHair() {
   if (identity_.crop) {
@@ -66,10 +75,16 @@ HeadForm HeadBaker::Form() const {
   return HeadForm(eye_, mouth_, shaper_, nullptr, std::nullopt, mesh_);
 }
 
+void HeadBaker::AddSkin() {
+  cage_ = ReadCage(Table("tables/curves.txt", embedded::curves()),
+                   Table("tables/patches.txt", embedded::patches()), eye_, mouth_);
+  fine_ = Subdivide(cage_);
+  skin_ = BuildSkin(fine_, eye_, mouth_, identity_, mesh_);
+  skin_count_ = mesh_.position.size();
+}
+
 void HeadBaker::AddParts() {
   const Palette& palette = identity_.palette;
-  skin_ = BuildSkin(fine_, eye_, mouth_, palette, mesh_);
-  skin_count_ = mesh_.position.size();
   AddFigure();
   figure_end_ = mesh_.position.size();
   const SkinFront front(fine_);
@@ -139,7 +154,7 @@ void HeadBaker::BakeRig(const HeadTopology& topology, RigData& rig) {
   LightAsOne(std::span(rig.rest).subspan(hair_first_),
              std::span(rig.rest_normal).subspan(hair_first_));
   rig.bone = std::move(mesh_.bone);
-  rig.weights = std::move(mesh_.flesh);
+  rig.weights = std::move(mesh_.weights);
   for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
     if (topology.indices[i] >= soft_count_) continue;
     rig.soft_triangles.insert(rig.soft_triangles.end(), &topology.indices[i],

@@ -27,6 +27,8 @@ class HeadBaker {
   HeadBaker(Identity identity, bool asymmetric);
   virtual ~HeadBaker() = default;
   HeadAsset Bake();
+  /// The rig of the skin alone, in its form: what it looks like is left out.
+  RigData BakeSkin();
 
  protected:
   /// Adds the shoulders, which move as skin does.
@@ -54,6 +56,7 @@ class HeadBaker {
   std::vector<glm::vec3> base_;  ///< the base head's rest form, for texture coordinates
 
  private:
+  void AddSkin();
   void AddParts();
   void TakeForm();
   void BakeTopology(HeadTopology& topology);
@@ -65,7 +68,7 @@ class HeadBaker {
   std::size_t soft_count_ = 0;  // vertices that move as skin, which come first
   std::size_t hair_first_ = 0;
   std::array<EyeTransform, 2> seats_;  // of the right and the left eye
-  TeethPlace teeth_;                   // from the base head's
+  TeethTransform teeth_;               // from the base head's
 };
 
 }  // namespace fsm

@@ -46,7 +46,7 @@ float HeadForm::TeethTooFar(const HeadMesh& base) const {
   float most = 0;
   for (const ToothArch& arch : {mouth_.UpperTeeth(), mouth_.LowerTeeth()}) {
     for (std::size_t i = 0; i < base.position.size(); ++i) {
-      if (base.bone[i] != Bone::kSkin || !base.flesh[i].by_teeth) continue;
+      if (base.bone[i] != Bone::kSkin || !base.weights[i].by_teeth) continue;
       const glm::vec3 p = base.position[i], q = p + Motion(p);
       const float room = std::min(kRoom, p.z - arch.At(p.x));
       most = std::max(most, room - (q.z - arch.Moved(teeth_).At(q.x)));
@@ -74,11 +74,11 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
         break;
       }
       case Bone::kSkin: {
-        const SkinWeights& flesh = mesh.flesh[i];
+        const SkinWeights& weights = mesh.weights[i];
         glm::vec3 by = Motion(p);
-        if (flesh.eye != 0) {
-          const float hold = SmoothStep(0, 0.8f, flesh.lid_upper + flesh.lid_lower);
-          by = glm::mix(by, Seated(eye_, seats_, flesh.eye > 0 ? 1 : 0, p) - p, hold);
+        if (weights.eye != 0) {
+          const float hold = SmoothStep(0, 0.8f, weights.lid_upper + weights.lid_lower);
+          by = glm::mix(by, Seated(eye_, seats_, weights.eye > 0 ? 1 : 0, p) - p, hold);
         }
         p += by;
         break;

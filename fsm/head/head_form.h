@@ -26,7 +26,7 @@ class HeadForm {
   void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;
 
   const std::array<EyeTransform, 2>& seats() const { return seats_; }
-  const TeethPlace& teeth() const { return teeth_; }
+  const TeethTransform& teeth() const { return teeth_; }
 
  private:
   glm::vec3 Motion(glm::vec3 p) const;
@@ -39,7 +39,7 @@ class HeadForm {
   const Shaper& shaper_;
   const Warp* warp_;
   std::array<EyeTransform, 2> seats_;
-  TeethPlace teeth_;
+  TeethTransform teeth_;
 };
 
 /// Where a place of the table's eye lies in a face with these seats. `side`: 0 right, 1 left.

@@ -13,7 +13,7 @@ std::uint32_t HeadMesh::Add(glm::vec3 p, glm::vec3 colour, float open, Bone b,
   albedo.push_back(colour);
   occlusion.push_back(open);
   bone.push_back(b);
-  flesh.push_back(f);
+  weights.push_back(f);
   opacity.push_back(1);
   strands.push_back({});
   return static_cast<std::uint32_t>(position.size() - 1);

@@ -18,8 +18,8 @@ struct HeadMesh {
   std::vector<float> occlusion;
   std::vector<float> opacity;
   std::vector<Bone> bone;
-  std::vector<SkinWeights> flesh;  ///< meaningful where bone is kSkin
-  std::vector<Strand> strands;     ///< meaningful where there is hair
+  std::vector<SkinWeights> weights;  ///< meaningful where bone is kSkin
+  std::vector<Strand> strands;       ///< meaningful where there is hair
 
   struct Batch {
     Material material;

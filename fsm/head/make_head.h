@@ -28,7 +28,10 @@ std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric = true);
 /// The first of Identities().
 std::unique_ptr<Head> MakeGenericHead();
 /// A head made from a photo: its base face, warped and wearing the photo. Throws as the first, and
-/// std::runtime_error if the set does not fit together.
-std::unique_ptr<Head> MakeHead(const PhotoHead& set);
+/// std::runtime_error if `head` does not fit together.
+std::unique_ptr<Head> MakeHead(const PhotoHead& head);
+/// How the skin of such a head moves: its vertices, which are the first of that head, alone. The
+/// photo is not needed.
+Rig MakeSkinRig(const PhotoHead& head);
 
 }  // namespace fsm

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/base/grain.h"
+#include "fsm/base/random.h"
 #include "fsm/head/paint.h"
 #include "fsm/head/parts.h"
 
@@ -111,7 +111,7 @@ class ToothRow {
         .bump = std::sqrt(std::max(0.0f, std::sin(kPi * within))),
         .height = Of("heights")[t],
         .shorter = Of("short")[t] + corner +
-                   features_("tooth_uneven") * (1 + Grain(tooth, static_cast<int>(jaw_.upward)))};
+                   features_("tooth_uneven") * (1 + NoiseAt(tooth, static_cast<int>(jaw_.upward)))};
   }
 
   glm::vec3 Place(const Column& column, float up) const {
@@ -154,7 +154,7 @@ class ToothRow {
     const glm::vec3 edge = glm::mix(glm::vec3(1), features_.Vector("enamel_edge_colour"),
                                     tooth < kCanine ? SmoothStep(0.22f, 0.0f, row) : 0.0f);
     const float darkest = features_("tooth_shades");
-    return palette_.tooth * edge * (darkest + (1 - darkest) * Grain(tooth, 7)) *
+    return palette_.tooth * edge * (darkest + (1 - darkest) * NoiseAt(tooth, 7)) *
            glm::mix(glm::vec3(1), features_.Vector("dentine_colour"), std::min(warm, 1.0f));
   }
 
@@ -210,11 +210,11 @@ void BuildTongue(const MouthAnatomy& mouth, const Features& features, const Pale
       // The sides lie in the shade of the teeth beside them, the root in that of the palate.
       const float lit = SmoothStep(-0.2f, 1.0f, part) * SmoothStep(0, 1, up) *
                         SmoothStep(0.8f, 0.2f, std::abs(std::cos(around)));
-      SkinWeights flesh;
-      flesh.free = part;  // the tip bends, the root stays
+      SkinWeights weights;
+      weights.free = part;  // the tip bends, the root stays
       // Its outline is lost in the dark of the mouth.
       const glm::vec3 colour = glm::mix(palette.mouth, palette.tongue, SmoothStep(0, 0.5f, lit));
-      mesh.Add(p, colour, light[0] + light[1] * lit, Bone::kTongue, flesh);
+      mesh.Add(p, colour, light[0] + light[1] * lit, Bone::kTongue, weights);
     }
   }
   mesh.Grid(Material::kTongue, first, kAlong, kAround + 1, true);

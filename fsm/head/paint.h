@@ -2,8 +2,10 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "fsm/head/anatomy.h"
+#include "fsm/head/features.h"
 
 namespace fsm {
 
@@ -32,7 +34,25 @@ struct Paint {
   float open;  ///< occlusion: 1 = open to the light
 };
 
-/// Colour and openness of the skin at a place of the base identity's face (both sides alike).
-Paint SkinPaint(glm::vec3 place, const EyeAnatomy& eye, const Palette& palette);
+/// Paints the skin of the base identity's face (both sides alike). What it is made of outlives it.
+class SkinPainter {
+ public:
+  SkinPainter(const Features& features, const EyeAnatomy& eye, const Palette& palette);
+  Paint At(glm::vec3 place) const;
+
+ private:
+  struct Spot {
+    glm::vec2 at, size;
+    float blush, shade;
+  };
+  void AddSpots(glm::vec2 at, Paint& paint) const;
+  void AddBeard(glm::vec2 at, float z, Paint& paint) const;
+  void AddLid(glm::vec2 at, Paint& paint) const;
+
+  const Features& features_;
+  const EyeAnatomy& eye_;
+  const Palette& palette_;
+  std::vector<Spot> spots_;
+};
 
 }  // namespace fsm

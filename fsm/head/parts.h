@@ -15,9 +15,9 @@
 
 namespace fsm {
 
-/// The parts beside the skin. Each adds its vertices for both sides. Cloth and lashes are
-/// flesh and must be added before the rigid parts, so that flesh stays one run of vertices.
-void BuildCloth(const Palette& palette, HeadMesh& mesh);
+/// The parts beside the skin. Each adds its vertices for both sides. Cloth and lashes move
+/// as skin and must be added before the rigid parts, so that such vertices stay one run.
+void BuildCloth(const Features& features, const Palette& palette, HeadMesh& mesh);
 /// Tones the skin under the brows and returns their hairs, which are painted on it.
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
 /// The furrow over each upper lid, as strokes painted on the skin.

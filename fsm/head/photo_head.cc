@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <numbers>
 
 #include "fsm/base/table_reader.h"
@@ -27,154 +28,179 @@ void Finite(const TableRow& row, std::size_t first) {
 
 constexpr float kRadians = std::numbers::pi_v<float> / 180;
 
-/// eye SIDE DX DY DZ TURN SIZE UPPER LOWER
-void ReadEye(const TableRow& row, PhotoHead& set) {
-  const std::string side = row.Word(1);
+/// 0 = right, 1 = left.
+std::size_t SideOf(const TableRow& row) {
+  const std::string& side = row.Word(1);
   if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
-  const EyeTransform seat{.shift = row.Vector(2),
-                          .turn = row.Number(5) * kRadians,
-                          .size = row.Number(6),
-                          .upper_mm = row.Number(7),
-                          .lower_mm = row.Number(8)};
-  if (!(seat.size >= 0.5f && seat.size <= 2)) row.Fail("a size from 0.5 to 2 expected");
-  if (!set.eyes) set.eyes.emplace();
-  (*set.eyes)[side == "left" ? 1 : 0] = seat;
+  return side == "left" ? 1 : 0;
+}
+
+/// eye SIDE DX DY DZ TURN SIZE UPPER LOWER
+void ReadEye(const TableRow& row, PhotoHead& head) {
+  const EyeTransform eye{.shift = row.Vector(2),
+                         .turn = row.Number(5) * kRadians,
+                         .size = row.Number(6),
+                         .upper_mm = row.Number(7),
+                         .lower_mm = row.Number(8)};
+  if (!(eye.size >= 0.5f && eye.size <= 2)) row.Fail("a size from 0.5 to 2 expected");
+  if (!head.eyes) head.eyes.emplace();
+  (*head.eyes)[SideOf(row)] = eye;
 }
 
 /// eye_picture SIDE, then left, top, right and bottom of iris and ball
-void ReadEyePicture(const TableRow& row, std::array<std::optional<EyePicture>, 2>& eyes) {
-  const std::string side = row.Word(1);
-  if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
+EyePicture ReadEyePicture(const TableRow& row) {
   const EyePicture eye{{Pair(row, 2), Pair(row, 4)}, {Pair(row, 6), Pair(row, 8)}};
   for (const glm::vec4& p : {eye.iris, eye.ball}) {
     if (p.x < 0 || p.y < 0 || p.z > 1 || p.w > 1 || p.x >= p.z || p.y >= p.w) {
       row.Fail("left, top, right and bottom within 0 to 1 expected");
     }
   }
-  eyes[side == "left" ? 1 : 0] = eye;
+  return eye;
 }
+
+void ReadIris(const TableRow& row, PhotoHead& head) {
+  head.iris_colour = row.Vector(1);
+  if (row.size() > 4) head.iris_size = std::clamp(row.Number(4), 0.7f, 1.3f);
+}
+
+void ReadSkin(const TableRow& row, PhotoHead& head) {
+  head.skin_low = Pair(row, 1);
+  head.skin_high = Pair(row, 3);
+  head.skin_bottom_y = row.Number(5);
+}
+
+/// quad A B C D, numbers of vertices before it
+void ReadQuad(const TableRow& row, PhotoHead& head) {
+  std::array<std::uint32_t, 4> corner{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int i = row.Integer(k + 1);
+    if (i < 0 || static_cast<std::size_t>(i) >= head.sheet.size()) {
+      row.Fail("a corner that is no vertex before it");
+    }
+    corner[k] = static_cast<std::uint32_t>(i);
+  }
+  for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) head.sheet_triangles.push_back(corner[k]);
+}
+
+void CheckRoom(const TableRow& row, std::size_t count, std::size_t most, const char* what) {
+  if (count >= most) row.Fail(std::string("more ") + what + " than are read");
+}
+
+float Clamped(const TableRow& row, float least, float most) {
+  return std::clamp(row.Number(1), least, most);
+}
+
+/// What each row does to a head, by its first word.
+const std::map<std::string_view, void (*)(const TableRow&, PhotoHead&)> kRows = {
+    {"smooth", [](auto& row, auto& head) { head.smooth = std::max(row.Number(1), 0.0f); }},
+    {"iris", ReadIris},
+    {"glasses", [](auto& row, auto& head) { head.glasses = row.Number(1) != 0; }},
+    {"teeth", [](auto& row, auto& head) { head.teeth = Clamped(row, 0, 2); }},
+    {"lip", [](auto& row, auto& head) { head.lip_colour = row.Vector(1); }},
+    {"eye", ReadEye},
+    {"saturation", [](auto& row, auto& head) { head.saturation = Clamped(row, 0, 1); }},
+    {"lined", [](auto& row, auto& head) { head.lined = Clamped(row, 0, 1); }},
+    {"white", [](auto& row, auto& head) { head.white_colour = row.Vector(1); }},
+    {"skin", ReadSkin},
+    {"seen_from", [](auto& row, auto& head) { head.seen_from = row.Vector(1); }},
+    {"also_seen",
+     [](auto& row, auto& head) {
+       CheckRoom(row, head.also_seen.size(), kMostViews, "views");
+       head.also_seen.push_back(row.Vector(1));
+     }},
+    {"point",
+     [](auto& row, auto& head) {
+       CheckRoom(row, head.points.size(), kMostPoints, "points");
+       head.points.push_back({row.Vector(1), row.Vector(4)});
+     }},
+    {"vertex",
+     [](auto& row, auto& head) {
+       CheckRoom(row, head.sheet.size(), kMostVertices, "vertices");
+       head.sheet.push_back({row.Vector(1), Pair(row, 4)});
+     }},
+    {"quad", [](auto& row, auto& head) {
+       CheckRoom(row, head.sheet_triangles.size(), 6 * kMostVertices + 1, "quads");
+       ReadQuad(row, head);
+     }}};
 
 }  // namespace
 
 PhotoHead ReadPhotoHead(const std::string& name, std::string_view text) {
-  PhotoHead set;
+  PhotoHead head;
   const Table table(name, text);
   std::array<std::optional<EyePicture>, 2> pictures;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();
     if (key == "base") {
-      set.base = row.Word(1);
+      head.base = row.Word(1);
       continue;
     }
     Finite(row, key == "eye" || key == "eye_picture" ? 2 : 1);
-    if (key == "smooth") {
-      set.smooth = std::max(row.Number(1), 0.0f);
-    } else if (key == "iris") {
-      set.iris_colour = row.Vector(1);
-      if (row.size() > 4) set.iris_size = std::clamp(row.Number(4), 0.7f, 1.3f);
-    } else if (key == "glasses") {
-      set.glasses = row.Number(1) != 0;
-    } else if (key == "teeth") {
-      set.teeth = std::clamp(row.Number(1), 0.0f, 2.0f);
-    } else if (key == "lip") {
-      set.lip_colour = row.Vector(1);
-    } else if (key == "eye") {
-      ReadEye(row, set);
-    } else if (key == "eye_picture") {
-      ReadEyePicture(row, pictures);
-    } else if (key == "saturation") {
-      set.saturation = std::clamp(row.Number(1), 0.0f, 1.0f);
-    } else if (key == "lined") {
-      set.lined = std::clamp(row.Number(1), 0.0f, 1.0f);
-    } else if (key == "white") {
-      set.white_colour = row.Vector(1);
-    } else if (key == "skin") {
-      set.skin_low = Pair(row, 1);
-      set.skin_high = Pair(row, 3);
-      set.skin_bottom_y = row.Number(5);
-    } else if (key == "seen_from") {
-      set.seen_from = row.Vector(1);
-    } else if (key == "also_seen") {
-      if (set.also_seen.size() == kMostViews) row.Fail("more views than are read");
-      set.also_seen.push_back(row.Vector(1));
-    } else if (key == "point") {
-      if (set.points.size() == kMostPoints) row.Fail("more points than are read");
-      set.points.push_back({row.Vector(1), row.Vector(4)});
-    } else if (key == "vertex") {
-      if (set.sheet.size() == kMostVertices) row.Fail("more vertices than are read");
-      set.sheet.push_back({row.Vector(1), Pair(row, 4)});
-    } else if (key == "quad") {
-      std::array<std::uint32_t, 4> corner{};
-      for (std::size_t k = 0; k < 4; ++k) {
-        const int i = row.Integer(k + 1);
-        if (i < 0 || static_cast<std::size_t>(i) >= set.sheet.size()) {
-          row.Fail("a corner that is no vertex before it");
-        }
-        corner[k] = static_cast<std::uint32_t>(i);
-      }
-      if (set.sheet_triangles.size() > 6 * kMostVertices) row.Fail("more quads than are read");
-      for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) set.sheet_triangles.push_back(corner[k]);
+    if (key == "eye_picture") {
+      pictures[SideOf(row)] = ReadEyePicture(row);
+    } else if (const auto known = kRows.find(key); known != kRows.end()) {
+      known->second(row, head);
     } else {
       row.Fail("unknown word '" + key + "'");
     }
   }
-  if (pictures[0] && pictures[1]) set.eye_pictures = {*pictures[0], *pictures[1]};
-  return set;
+  if (pictures[0] && pictures[1]) head.eye_pictures = {*pictures[0], *pictures[1]};
+  return head;
 }
 
-std::string WritePhotoHead(const PhotoHead& set) {
+std::string WritePhotoHead(const PhotoHead& head) {
   std::string out =
-      "# A face from a photo; docs/photo.md says what each line means.\nbase " + set.base + "\n";
+      "# A face from a photo; docs/photo.md says what each line means.\nbase " + head.base + "\n";
   std::array<char, 256> line;
   const auto put = [&](const char* format, auto... values) {
     std::snprintf(line.data(), line.size(), format, values...);
     out += line.data();
   };
   const auto d = [](float v) { return static_cast<double>(v); };
-  put("smooth %.3f\n", d(set.smooth));
-  put("saturation %.2f\n", d(set.saturation));
-  put("lined %.2f\n", d(set.lined));
-  put("iris %.4f %.4f %.4f %.3f\n", d(set.iris_colour.x), d(set.iris_colour.y),
-      d(set.iris_colour.z), d(set.iris_size));
-  if (set.glasses) put("glasses %d\n", 1);
-  put("teeth %.2f\n", d(set.teeth));
-  put("white %.4f %.4f %.4f\n", d(set.white_colour.x), d(set.white_colour.y),
-      d(set.white_colour.z));
-  if (set.lip_colour) {
-    const glm::vec3 c = *set.lip_colour;
+  put("smooth %.3f\n", d(head.smooth));
+  put("saturation %.2f\n", d(head.saturation));
+  put("lined %.2f\n", d(head.lined));
+  put("iris %.4f %.4f %.4f %.3f\n", d(head.iris_colour.x), d(head.iris_colour.y),
+      d(head.iris_colour.z), d(head.iris_size));
+  if (head.glasses) put("glasses %d\n", 1);
+  put("teeth %.2f\n", d(head.teeth));
+  put("white %.4f %.4f %.4f\n", d(head.white_colour.x), d(head.white_colour.y),
+      d(head.white_colour.z));
+  if (head.lip_colour) {
+    const glm::vec3 c = *head.lip_colour;
     put("lip %.4f %.4f %.4f\n", d(c.x), d(c.y), d(c.z));
   }
-  for (std::size_t i = 0; set.eyes && i < 2; ++i) {
-    const EyeTransform& eye = (*set.eyes)[i];
+  for (std::size_t i = 0; head.eyes && i < 2; ++i) {
+    const EyeTransform& eye = (*head.eyes)[i];
     put("eye %s %.3f %.3f %.3f  %.2f %.4f  %.3f %.3f\n", i == 0 ? "right" : "left", d(eye.shift.x),
         d(eye.shift.y), d(eye.shift.z), d(eye.turn / kRadians), d(eye.size), d(eye.upper_mm),
         d(eye.lower_mm));
   }
-  for (std::size_t i = 0; set.eye_pictures && i < 2; ++i) {
+  for (std::size_t i = 0; head.eye_pictures && i < 2; ++i) {
     put("eye_picture %s", i == 0 ? "right" : "left");
-    for (const glm::vec4& p : {(*set.eye_pictures)[i].iris, (*set.eye_pictures)[i].ball}) {
+    for (const glm::vec4& p : {(*head.eye_pictures)[i].iris, (*head.eye_pictures)[i].ball}) {
       put("  %.6f %.6f %.6f %.6f", d(p.x), d(p.y), d(p.z), d(p.w));
     }
     out += '\n';
   }
-  put("skin %.5f %.5f %.5f %.5f %.2f\n", d(set.skin_low.x), d(set.skin_low.y), d(set.skin_high.x),
-      d(set.skin_high.y), d(set.skin_bottom_y));
-  put("seen_from %.4f %.4f %.4f\n", d(set.seen_from.x), d(set.seen_from.y), d(set.seen_from.z));
-  for (const glm::vec3& v : set.also_seen)
+  put("skin %.5f %.5f %.5f %.5f %.2f\n", d(head.skin_low.x), d(head.skin_low.y),
+      d(head.skin_high.x), d(head.skin_high.y), d(head.skin_bottom_y));
+  put("seen_from %.4f %.4f %.4f\n", d(head.seen_from.x), d(head.seen_from.y), d(head.seen_from.z));
+  for (const glm::vec3& v : head.also_seen)
     put("also_seen %.4f %.4f %.4f\n", d(v.x), d(v.y), d(v.z));
   out += "# point: of the base face at rest, and how it moves, millimetres\n";
-  for (const WarpPoint& p : set.points) {
+  for (const WarpPoint& p : head.points) {
     put("point %.3f %.3f %.3f  %.3f %.3f %.3f\n", d(p.at.x), d(p.at.y), d(p.at.z), d(p.by.x),
         d(p.by.y), d(p.by.z));
   }
   out += "# the sheet of hair, neck and clothes: place in millimetres, place in photo.png\n";
-  for (const auto& v : set.sheet) {
+  for (const auto& v : head.sheet) {
     put("vertex %.2f %.2f %.2f  %.5f %.5f\n", d(v.position.x), d(v.position.y), d(v.position.z),
-        d(v.place.x), d(v.place.y));
+        d(v.texcoord.x), d(v.texcoord.y));
   }
-  for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
-    put("quad %u %u %u %u\n", set.sheet_triangles[i], set.sheet_triangles[i + 1],
-        set.sheet_triangles[i + 2], set.sheet_triangles[i + 5]);
+  for (std::size_t i = 0; i + 5 < head.sheet_triangles.size(); i += 6) {
+    put("quad %u %u %u %u\n", head.sheet_triangles[i], head.sheet_triangles[i + 1],
+        head.sheet_triangles[i + 2], head.sheet_triangles[i + 5]);
   }
   return out;
 }

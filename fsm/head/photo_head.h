@@ -41,7 +41,7 @@ struct PhotoHead {
   /// Hair, neck and clothes: a sheet with gentle depth.
   struct SheetVertex {
     glm::vec3 position;
-    glm::vec2 place;  ///< in the photo, 0..1, v down
+    glm::vec2 texcoord;  ///< in the photo, 0..1, v down
   };
   std::vector<SheetVertex> sheet;
   std::vector<std::uint32_t> sheet_triangles;
@@ -52,6 +52,6 @@ struct PhotoHead {
 
 /// Reads face.txt; `name` is for messages. Throws std::runtime_error naming file and line.
 PhotoHead ReadPhotoHead(const std::string& name, std::string_view text);
-std::string WritePhotoHead(const PhotoHead& set);
+std::string WritePhotoHead(const PhotoHead& head);
 
 }  // namespace fsm

@@ -17,8 +17,8 @@ namespace {
 
 /// Skin near an eye: what the photo shows of it.
 struct Lender {
-  glm::vec2 at;     ///< on the face, millimetres
-  glm::vec2 place;  ///< in the photo
+  glm::vec2 at;        ///< on the face, millimetres
+  glm::vec2 texcoord;  ///< in the photo
   glm::vec3 screen;
   float lit;  ///< how bright usual skin is that faces as this does
 };
@@ -30,42 +30,18 @@ Lender Around(std::span<const Lender> lenders, glm::vec2 at, float reach) {
   for (const Lender& l : lenders) {
     const glm::vec2 off = (l.at - at) / reach;
     const float w = std::exp(-glm::dot(off, off)) + 1e-8f;
-    mean.place += w * l.place;
+    mean.texcoord += w * l.texcoord;
     mean.screen += w * l.screen;
     mean.lit += w * l.lit;
     weight += w;
   }
-  mean.place /= weight;
+  mean.texcoord /= weight;
   mean.screen /= weight;
   mean.lit /= weight;
   return mean;
 }
 
-/// Skin under lashes that take `dark` of its light, 0..1: they are brown where there is colour.
-glm::vec3 Lashed(glm::vec3 skin, float dark) {
-  const float chroma = std::max(skin.r - skin.b, 0.0f) / std::max(skin.r, 0.01f);
-  const glm::vec3 brown = glm::vec3(1) + std::min(2 * chroma, 1.0f) * glm::vec3(0, 0.3f, 0.6f);
-  return skin * glm::pow(glm::vec3(1 - dark), brown);
-}
-
-/// Skin that gets less light: what reaches it has gone through skin.
-glm::vec3 Shaded(glm::vec3 skin, float light) {
-  const float chroma = std::clamp(1 - skin.b / std::max(skin.r, 0.05f), 0.0f, 1.0f);
-  return skin * light * (1.0f + (1 - light) * chroma * glm::vec3(0.8f, 0, -0.3f));
-}
-
-/// A lid is of one skin with what lies below the eye; what it takes from above may be the shine of
-/// glasses, a rim, or lashes. Skin in the shade is redder: light has gone through it.
-glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) {
-  constexpr float kPart = 0.85f, kThrough = 0.15f;
-  const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
-  const float red = kThrough * (skin.r - skin.b) / std::max(skin.r, 0.01f);
-  const glm::vec3 shaded =
-      skin * glm::pow(glm::vec3(dim), glm::vec3(1 - red, 1 + 0.4f * red, 1 + 0.4f * red));
-  return glm::mix(colour, shaded, kPart);
-}
-
-/// Of a line of places by x; 0 without any.
+/// The height of a line of places at x; 0 if there are none.
 float HeightAt(std::span<const glm::vec2> line, float x) {
   float sum = 0, weight = 1e-9f;
   for (const glm::vec2 p : line) {
@@ -86,41 +62,32 @@ float Folded(float away) {
   return kThere - std::abs(part - kThere);
 }
 
-/// How places in the photo go with places on the face: the plane through them.
+/// How texture coordinates go with places on the face: the plane through them.
 struct PhotoPlane {
-  glm::vec2 at{0}, place{0};  ///< the middle
+  glm::vec2 at{0}, texcoord{0};  ///< the middle
   glm::mat2 slope{0};
-  glm::vec2 operator()(glm::vec2 p) const { return place + slope * (p - at); }
+  glm::vec2 operator()(glm::vec2 p) const { return texcoord + slope * (p - at); }
 };
 
 PhotoPlane PhotoByFace(std::span<const Lender> all) {
   Lender mean{glm::vec2(0), glm::vec2(0), glm::vec3(0), 0};
   for (const Lender& l : all) {
     mean.at += l.at / static_cast<float>(all.size());
-    mean.place += l.place / static_cast<float>(all.size());
+    mean.texcoord += l.texcoord / static_cast<float>(all.size());
   }
   glm::mat2 spread(1e-6f), both(0);
   for (const Lender& l : all) {
     spread += glm::outerProduct(l.at - mean.at, l.at - mean.at);
-    both += glm::outerProduct(l.place - mean.place, l.at - mean.at);
+    both += glm::outerProduct(l.texcoord - mean.texcoord, l.at - mean.at);
   }
-  return {mean.at, mean.place, both * glm::inverse(spread)};
+  return {mean.at, mean.texcoord, both * glm::inverse(spread)};
 }
-
-/// The face as the photo shows it, and its lids when they are shut.
-struct Face {
-  const PhotoSight& sight;
-  std::span<const SkinWeights> skin;
-  const SkinPose& open;
-  const SkinPose& shut;
-  bool glasses;
-};
 
 /// The lids of one eye.
 class LidPainter {
  public:
-  LidPainter(const Face& face, const FaceLight& light, int side)
-      : face_(face), light_(light), side_(side) {
+  LidPainter(const PhotoFace& face, const FaceLight& light, int side)
+      : face_(face), features_(face.features), light_(light), side_(side) {
     // How far a place goes with a lid: 1 at the rim, a third where the lid ends, 0 at the socket's.
     std::vector<SkinSample> samples;
     std::vector<glm::vec2> rims;
@@ -159,7 +126,7 @@ class LidPainter {
     skin_below_ = MeanBelow(samples);
     const glm::vec3 face_hue = light.skin() / ScreenBrightness(light.skin());
     skin_below_ = glm::mix(skin_below_, ScreenBrightness(skin_below_) * face_hue,
-                           face.glasses ? 0.15f : 0.5f);
+                           features_["photo_lid_face_hue"][face.glasses ? 1 : 0]);
     eyeless_.emplace(samples);
   }
 
@@ -182,23 +149,50 @@ class LidPainter {
     return SmoothStep(-0.8f, 0.7f, Along(at) * static_cast<float>(side_));
   }
 
+  /// Skin under lashes that take `dark` of its light, 0..1: they are brown where there is colour.
+  glm::vec3 Lashed(glm::vec3 skin, float dark) const {
+    const float chroma = std::max(skin.r - skin.b, 0.0f) / std::max(skin.r, 0.01f);
+    const glm::vec3 brown =
+        glm::vec3(1) + std::min(2 * chroma, 1.0f) * features_.Vector("photo_lash_brown");
+    return skin * glm::pow(glm::vec3(1 - dark), brown);
+  }
+
+  /// Skin that gets less light: what reaches it has gone through skin.
+  glm::vec3 Shaded(glm::vec3 skin, float light) const {
+    const float chroma = std::clamp(1 - skin.b / std::max(skin.r, 0.05f), 0.0f, 1.0f);
+    return skin * light * (1.0f + (1 - light) * chroma * features_.Vector("photo_lid_shade_hue"));
+  }
+
+  /// A lid is of one skin with what lies below the eye; what it takes from above may be the shine
+  /// of glasses, a rim, or lashes. Skin in the shade is redder: light has gone through it.
+  glm::vec3 OfHue(glm::vec3 colour, glm::vec3 skin) const {
+    const auto& hue = features_["photo_lid_hue"];
+    const float dim = ScreenBrightness(colour) / ScreenBrightness(skin);
+    const float red = hue[1] * (skin.r - skin.b) / std::max(skin.r, 0.01f);
+    const glm::vec3 shaded =
+        skin * glm::pow(glm::vec3(dim), glm::vec3(1 - red, 1 + 0.4f * red, 1 + 0.4f * red));
+    return glm::mix(colour, shaded, hue[0]);
+  }
+
   /// Where the lid begins it lies as deep as the skin round it; downward the ball bulges it into
   /// the light.
   glm::vec3 Skin(std::uint32_t i, glm::vec2 at) const {
     const glm::vec3 deep = OfHue(eyeless_->At(at), skin_below_);
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const glm::vec2 below(at.x, meet - 3);
-    // A socket lies in the shade of the brow.
-    constexpr float kSheltered = 0.92f;
+    const auto& in_socket = features_["photo_lid_in_socket"];
     const float turned = light_.On(face_.shut.normal[i]) / Around(below_, below, 4).lit;
-    const glm::vec3 lit = kSheltered * turned * OfHue(eyeless_->At(below), skin_below_);
+    const glm::vec3 lit = in_socket[0] * turned * OfHue(eyeless_->At(below), skin_below_);
     const float down = SmoothStep(rim + 2, meet, at.y);
     // The frame of glasses shades what lies behind it.
-    if (face_.glasses) return glm::mix(0.92f * glm::mix(deep, skin_below_, 0.5f), lit, 0.4f * down);
+    if (face_.glasses) {
+      const auto& behind = features_["photo_lid_behind_glasses"];
+      return glm::mix(behind[0] * glm::mix(deep, skin_below_, behind[1]), lit, behind[2] * down);
+    }
     // Out of a deep socket, which is dark, it does not come all the way.
     const float out = glm::mix(
-        0.5f, 1.0f, SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
-    return glm::mix(deep, lit, out * glm::mix(0.15f, 0.7f, down));
+        in_socket[1], 1.0f, SmoothStep(0.4f, 0.8f, ScreenBrightness(deep) / ScreenBrightness(lit)));
+    return glm::mix(deep, lit, out * glm::mix(in_socket[2], in_socket[3], down));
   }
 
   static glm::vec3 Linear(glm::vec3 screen) { return screen * screen; }
@@ -212,11 +206,12 @@ class LidPainter {
     const float outward = Outward(at);
     const float held = face_.skin[i].lid_lower;
     const float lashes = SmoothStep(0.96f - 0.08f * outward, 1.0f, held);
+    const auto& dark = features_["photo_lower_lashes"];
     // The wet rim of the open eye is hidden.
     const float rim = SmoothStep(0.92f, 0.97f, held);
     return {.vertex = i,
-            .colour = Linear(Lashed(Skin(i, at), 0.5f * lashes)),
-            .weight = std::max(0.8f * rim, (0.3f + 0.4f * outward) * lashes),
+            .colour = Linear(Lashed(Skin(i, at), dark[0] * lashes)),
+            .weight = std::max(dark[1] * rim, (dark[2] + dark[3] * outward) * lashes),
             .lender = face_.sight.texcoord[i],
             .lender_light = LightOfLender(Around(around_, at, 2)),
             .slide = glm::vec2(0)};
@@ -228,12 +223,15 @@ class LidPainter {
     const float rim = HeightAt(upper_rim_, at.x), meet = HeightAt(lower_rim_, at.x);
     const float inside = std::min(Along(at) * Along(at), 1.0f);
     // A soft furrow where the lid slips under the skin.
-    const float deep = (at.y - rim - 0.6f) / 1.1f;
-    const float furrow = 1 - 0.16f * (1 - inside) * std::exp(-deep * deep);
+    const auto& furrows = features_["photo_lid_furrow"];
+    const float deep = (at.y - rim - furrows[1]) / furrows[2];
+    const float furrow = 1 - furrows[0] * (1 - inside) * std::exp(-deep * deep);
     // It turns away at its ends, and its lashes shade it.
-    const float shade = (1 - 0.07f * inside) * (1 - 0.14f * SmoothStep(2.0f, 0.0f, at.y - meet));
+    const auto& shades = features_["photo_lid_shade"];
+    const float shade = (1 - shades[0] * inside) * (1 - shades[1] * SmoothStep(2, 0, at.y - meet));
     const glm::vec3 skin = Shaded(Skin(i, at), furrow * shade);
-    const float lashes = (0.42f + 0.28f * Outward(at)) * SmoothStep(0.96f, 1.0f, held);
+    const auto& dark = features_["photo_upper_lashes"];
+    const float lashes = (dark[0] + dark[1] * Outward(at)) * SmoothStep(0.96f, 1.0f, held);
     const float height = std::max(at.y - lowest_, 0.0f);
     const float down = face_.glasses ? Folded(height) : std::abs(kHighest - height);
     const glm::vec2 lender(at.x, lowest_ - 1.5f - down);
@@ -250,17 +248,18 @@ class LidPainter {
   /// How much is lid: from a little above the eye's rim on, and where its lashes were.
   float Part(glm::vec2 at, float rim, glm::vec3 skin) const {
     const float beyond = std::max(rim_from_ - at.x, at.x - rim_to_);  // the corners, millimetres
-    const float lid = SmoothStep(rim + 4.6f, rim + 2.2f, at.y) * SmoothStep(3, 0, beyond);
+    const auto& above = features_["photo_lid_above"];
+    const float lid = SmoothStep(rim + above[0], rim + above[1], at.y) * SmoothStep(3, 0, beyond);
     const float shown = ScreenBrightness(Around(around_, at, 1.5f).screen) / ScreenBrightness(skin);
     // What a lens mirrors lies before the lid.
     if (face_.glasses) return lid * SmoothStep(1.7f, 1.3f, shown);
-    constexpr float kLashes = 0.75f;  // some shade is left of them
     const float dark = SmoothStep(0.05f, 0.2f, 1 - shown);
-    return std::max(
-        lid, kLashes * dark * SmoothStep(rim + 7.5f, rim + 5.5f, at.y) * SmoothStep(6, 3, beyond));
+    return std::max(lid, features_("photo_lashes_hidden") * dark *
+                             SmoothStep(rim + 7.5f, rim + 5.5f, at.y) * SmoothStep(6, 3, beyond));
   }
 
-  const Face& face_;
+  const PhotoFace& face_;
+  const Features& features_;
   const FaceLight& light_;
   int side_;
   std::vector<Lender> around_, below_;
@@ -275,12 +274,10 @@ class LidPainter {
 
 glm::vec3 PhotoColour(const Image& photo, glm::vec2 place) {
   const auto at = [](float part, int size) {
-    return static_cast<std::size_t>(
-        std::clamp(static_cast<int>(part * static_cast<float>(size)), 0, size - 1));
+    return std::clamp(static_cast<int>(part * static_cast<float>(size)), 0, size - 1);
   };
   const std::uint8_t* p =
-      &photo.rgba[4 * (at(place.y, photo.height) * static_cast<std::size_t>(photo.width) +
-                       at(place.x, photo.width))];
+      &photo.rgba[4 * photo.Index(at(place.x, photo.width), at(place.y, photo.height))];
   return glm::vec3(p[0], p[1], p[2]) / 255.0f;
 }
 
@@ -295,10 +292,7 @@ FaceLight LightOf(const PhotoSight& sight, const SkinPose& open) {
   return FaceLight(seen);
 }
 
-std::vector<ShutLid> PaintLids(const PhotoSight& sight, std::span<const SkinWeights> skin,
-                               const SkinPose& open, const SkinPose& shut, const FaceLight& light,
-                               bool glasses) {
-  const Face face{sight, skin, open, shut, glasses};
+std::vector<ShutLid> PaintLids(const PhotoFace& face, const FaceLight& light) {
   std::vector<ShutLid> lids;
   for (const int side : {-1, 1}) {
     const LidPainter painter(face, light, side);

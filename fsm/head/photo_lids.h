@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fsm/head/face_light.h"
+#include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
 #include "fsm/rig/head.h"
 
@@ -27,16 +28,22 @@ struct PhotoSight {
 /// What a photo shows at a place (u, v down), on the screen, 0..1.
 glm::vec3 PhotoColour(const Image& photo, glm::vec2 place);
 
-/// Lids for a face that wears a photo of open eyes. A lid that shuts comes out from under the skin
-/// above it: what the photo shows there stays where it is, but the lashes of the open eye, and the
-/// eye gives way to skin with the grain of the lower lid's. At the top the skin is coloured like
-/// that round the eye, as far as that is not darker or brighter than most of it (glasses, brows,
-/// reflections); downward it comes out into the light that falls on the face. `open` and `shut`:
-/// with lids at rest and shut, of the length of `skin`. `glasses`: nothing above the eye is taken
-/// for lashes.
-std::vector<ShutLid> PaintLids(const PhotoSight& sight, std::span<const SkinWeights> skin,
-                               const SkinPose& open, const SkinPose& shut, const FaceLight& light,
-                               bool glasses);
+/// The skin of a face as a photo of open eyes shows it, with lids at rest and shut: all of one
+/// length.
+struct PhotoFace {
+  const PhotoSight& sight;
+  std::span<const SkinWeights> skin;
+  SkinPose open, shut;
+  bool glasses;              ///< nothing above the eye is taken for lashes
+  const Features& features;  ///< says how lids look
+};
+
+/// Lids for a face that wears such a photo. A lid that shuts comes out from under the skin above
+/// it: what the photo shows there stays where it is, but the lashes of the open eye, and the eye
+/// gives way to skin with the grain of the lower lid's. At the top the skin is coloured like that
+/// round the eye, as far as that is not darker or brighter than most of it (glasses, brows,
+/// reflections); downward it comes out into the light that falls on the face.
+std::vector<ShutLid> PaintLids(const PhotoFace& face, const FaceLight& light);
 
 /// The light of a photo, from the front of the face that wears it.
 FaceLight LightOf(const PhotoSight& sight, const SkinPose& open);

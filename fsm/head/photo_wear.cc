@@ -35,11 +35,11 @@ void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
 
 /// A photo of a closed mouth does not show where the lips roll inward: as they part, from beside
 /// the line where they met on, their own colour turns redder and darker until it is the lining's.
-void RollLips(const PhotoHead& set, std::span<const CageTag> tags, glm::vec3 lip_inside,
+void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 lip_inside,
               HeadTopology& topology) {
   constexpr float kRed = 8, kDeep = 14;         // millimetres of what the tags count
   constexpr float kPhoto = 1.8f, kWet = -2.0f;  // outward of the line: all photo, all paint
-  const glm::vec3 lip = set.lip_colour.value_or(lip_inside);
+  const glm::vec3 lip = head.lip_colour.value_or(lip_inside);
   for (std::size_t i = 0; i < tags.size(); ++i) {
     const CageTag& tag = tags[i];
     if (tag.red < 0 || tag.deep > 0.4f) continue;
@@ -55,7 +55,7 @@ void RollLips(const PhotoHead& set, std::span<const CageTag> tags, glm::vec3 lip
     const glm::vec3 dry = glm::mix(topology.albedo[i], lip, 0.3f + 0.7f * wet);
     // Within the mouth what light there is has gone through flesh.
     const float inside = SmoothStep(0.5f, -4.0f, outward);
-    topology.albedo[i] = Wetter(Wetter(dry, set.saturation), inside * set.saturation);
+    topology.albedo[i] = Wetter(Wetter(dry, head.saturation), inside * head.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
     topology.texture_weight[i] = 1 - wet;
   }
@@ -66,12 +66,12 @@ void RollLips(const PhotoHead& set, std::span<const CageTag> tags, glm::vec3 lip
 std::vector<float> RelitParts(const PhotoSkin& skin) {
   constexpr float kNone = 14, kAll = 26;  // millimetres from the middle of an eye
   std::array<glm::vec3, 2> eye{};         // sums and number: right, left
-  for (std::size_t i = 0; i < skin.flesh.size(); ++i) {
-    const SkinWeights& f = skin.flesh[i];
+  for (std::size_t i = 0; i < skin.weights.size(); ++i) {
+    const SkinWeights& f = skin.weights[i];
     if (f.eye == 0 || f.lid_upper + f.lid_lower < 0.95f) continue;
     eye[f.eye > 0 ? 1 : 0] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
   }
-  std::vector<float> parts(skin.flesh.size());
+  std::vector<float> parts(skin.weights.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     float nearest = 1e9f;
     for (const glm::vec3 e : eye) {
@@ -84,15 +84,15 @@ std::vector<float> RelitParts(const PhotoSkin& skin) {
 }
 
 /// Lashes grow thin and pale with age, of which creases tell.
-void ThinLashes(const PhotoHead& set, HeadTopology& topology) {
+void ThinLashes(const PhotoHead& head, HeadTopology& topology) {
   constexpr float kLost = 0.5f;
   const glm::vec3 colour =
-      glm::mix(glm::vec3(0.02f), glm::vec3(0.03f, 0.018f, 0.012f), set.saturation);
+      glm::mix(glm::vec3(0.02f), glm::vec3(0.03f, 0.018f, 0.012f), head.saturation);
   for (const auto& part : topology.parts) {
     if (part.material != Material::kShutLash) continue;
     const auto first = topology.indices.begin() + part.first_index;
     for (const std::uint32_t v : std::set<std::uint32_t>(first, first + part.index_count)) {
-      topology.opacity[v] *= 1 - kLost * set.lined;
+      topology.opacity[v] *= 1 - kLost * head.lined;
       topology.albedo[v] = colour;
     }
   }
@@ -110,12 +110,12 @@ float JawPart(glm::vec3 p, float skin_bottom) {
 
 /// How much of the skin at a place hides the sheet, which shows the same beside it: it fades where
 /// the photo did not see it squarely.
-float SeenSkin(const PhotoHead& set, glm::vec3 p, glm::vec3 normal) {
-  const float above = p.y - set.skin_bottom_y;
+float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
+  const float above = p.y - head.skin_bottom_y;
   // Within the face all stays: lids and nostrils turn every way.
   if (p.z > 45 && above > 14) return 1;
-  float faces = glm::dot(normal, set.seen_from);
-  for (const glm::vec3 camera : set.also_seen) faces = std::max(faces, glm::dot(normal, camera));
+  float faces = glm::dot(normal, head.seen_from);
+  for (const glm::vec3 camera : head.also_seen) faces = std::max(faces, glm::dot(normal, camera));
   // Behind the chin the sheet keeps off: what it hides of its own underside is seen from the side.
   const float chin = SmoothStep(60, 45, above) * SmoothStep(40, 25, std::abs(p.x)) *
                      SmoothStep(0.0f, -0.25f, normal.y);
@@ -132,40 +132,40 @@ glm::vec3 Wetter(glm::vec3 lip, float saturation) {
   return lip * glm::mix(glm::vec3(1), glm::vec3(1, 0.56f, 0.52f), saturation);
 }
 
-void AddSheet(const PhotoHead& set, HeadMesh& mesh) {
+void AddSheet(const PhotoHead& head, HeadMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  for (const auto& vertex : set.sheet) {
-    SkinWeights flesh;
-    flesh.free = 0;
-    flesh.domain = vertex.position;
-    flesh.neck = SmoothStep(-166, -98, vertex.position.y);
-    flesh.jaw = JawPart(vertex.position, set.skin_bottom_y);
-    mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kSkin, flesh);
+  for (const auto& vertex : head.sheet) {
+    SkinWeights weights;
+    weights.free = 0;
+    weights.domain = vertex.position;
+    weights.neck = SmoothStep(-166, -98, vertex.position.y);
+    weights.jaw = JawPart(vertex.position, head.skin_bottom_y);
+    mesh.Add(vertex.position, glm::vec3(0.3f), 1, Bone::kSkin, weights);
   }
-  const auto& t = set.sheet_triangles;
+  const auto& t = head.sheet_triangles;
   for (std::size_t i = 0; i + 2 < t.size(); i += 3) {
     mesh.Triangle(Material::kPhoto, first + t[i], first + t[i + 1], first + t[i + 2]);
   }
 }
 
 void HoldBehindGlasses(glm::vec2 eye, std::size_t skin_count, HeadMesh& mesh) {
-  // Of a large lens and its rim from the eye, millimetres.
+  // How far a large lens with its rim reaches from the eye, millimetres.
   constexpr float kAside = 37, kUp = 19, kDown = 29;
   for (std::size_t i = 0; i < skin_count; ++i) {
-    SkinWeights& f = mesh.flesh[i];
+    SkinWeights& f = mesh.weights[i];
     const float up = f.domain.y - eye.y;
     const glm::vec2 off((std::abs(f.domain.x) - eye.x) / kAside, up / (up > 0 ? kUp : kDown));
     f.free *= SmoothStep(1, 1.35f, glm::length(off));
   }
 }
 
-void LeaveOutUnseen(const PhotoHead& set, std::span<const CageTag> tags, HeadMesh& mesh) {
+void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMesh& mesh) {
   DarkenNostrils(tags, mesh);
   for (auto& batch : mesh.batches) {
     if (batch.material != Material::kSkin) continue;
     const auto normal = Normals(batch.indices, mesh.position, mesh.position.size());
     for (const std::uint32_t v : batch.indices) {
-      mesh.opacity[v] = SeenSkin(set, mesh.position[v], normal[v]);
+      mesh.opacity[v] = SeenSkin(head, mesh.position[v], normal[v]);
     }
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < batch.indices.size(); i += 3) {
@@ -178,21 +178,21 @@ void LeaveOutUnseen(const PhotoHead& set, std::span<const CageTag> tags, HeadMes
   }
 }
 
-void WearPhoto(const PhotoHead& set, const PhotoSkin& skin, glm::vec3 lip_inside,
+void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadTopology& topology) {
-  const std::size_t skin_count = skin.flesh.size();
-  topology.photo = set.photo;
-  topology.saturation = set.saturation;
-  topology.eye_pictures = set.eye_pictures;
+  const std::size_t skin_count = skin.weights.size();
+  topology.photo = head.photo;
+  topology.saturation = head.saturation;
+  topology.eye_pictures = head.eye_pictures;
   topology.texcoord.resize(topology.uv.size());
   topology.texture_weight.resize(topology.uv.size());
   for (std::size_t i = 0; i < skin_count; ++i) {
-    topology.texcoord[i] = glm::mix(set.skin_low, set.skin_high, topology.uv[i]);
+    topology.texcoord[i] = glm::mix(head.skin_low, head.skin_high, topology.uv[i]);
   }
-  for (std::size_t i = 0; i < set.sheet.size(); ++i) {
-    topology.texcoord[skin_count + i] = set.sheet[i].place;
+  for (std::size_t i = 0; i < head.sheet.size(); ++i) {
+    topology.texcoord[skin_count + i] = head.sheet[i].texcoord;
   }
-  std::fill_n(topology.texture_weight.begin(), skin_count + set.sheet.size(), 1.0f);
+  std::fill_n(topology.texture_weight.begin(), skin_count + head.sheet.size(), 1.0f);
   // The photo ends at the lips: what lies within the mouth is painted.
   for (const auto& part : topology.parts) {
     if (part.material != Material::kMouthInside) continue;
@@ -203,18 +203,20 @@ void WearPhoto(const PhotoHead& set, const PhotoSkin& skin, glm::vec3 lip_inside
   // Where paint begins it goes over from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
     if (topology.texture_weight[i] <= 0) continue;
-    const glm::vec3 seen = PhotoColour(*set.photo, topology.texcoord[i]);
+    const glm::vec3 seen = PhotoColour(*head.photo, topology.texcoord[i]);
     topology.albedo[i] = seen * seen;
     topology.occlusion[i] = 1;
   }
-  ThinLashes(set, topology);
-  RollLips(set, skin.tags, lip_inside, topology);
-  const PhotoSight sight{*set.photo, topology.texcoord, topology.texture_weight};
+  ThinLashes(head, topology);
+  RollLips(head, skin.tags, lip_inside, topology);
+  const PhotoSight sight{*head.photo, topology.texcoord, topology.texture_weight};
   const FaceLight light = LightOf(sight, skin.open);
   topology.photo_light = light.coefficients();
   topology.relit = RelitParts(skin);
   topology.relit.resize(topology.uv.size());
-  topology.shut_lids = PaintLids(sight, skin.flesh, skin.open, skin.shut, light, set.glasses);
+  topology.shut_lids = PaintLids({sight, skin.weights, skin.open, skin.shut, head.glasses,
+                                  head.features ? *head.features : Features::BuiltIn()},
+                                 light);
   for (const ShutLid& lid : topology.shut_lids) topology.texture_weight[lid.vertex] = 1;
 }
 

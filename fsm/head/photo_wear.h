@@ -14,7 +14,7 @@
 namespace fsm {
 
 /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
-void AddSheet(const PhotoHead& set, HeadMesh& mesh);
+void AddSheet(const PhotoHead& head, HeadMesh& mesh);
 
 /// Glasses are in the photo on the skin. It stays where they rest, or they would bend with it.
 /// `eye`: centre of the left one at rest, (x, y) of the base identity.
@@ -29,21 +29,21 @@ float JawLine(float above_bottom);
 /// and what is beside it fades (HeadMesh::opacity). The nostrils, which are lined like the mouth,
 /// become skin: the photo shows how dark they are. `tags`: of the skin's vertices, the mesh's
 /// first.
-void LeaveOutUnseen(const PhotoHead& set, std::span<const CageTag> tags, HeadMesh& mesh);
+void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMesh& mesh);
 
 /// Lips redden where they are wet and thin-skinned, as far as the photo has colours.
 glm::vec3 Wetter(glm::vec3 lip, float saturation);
 
 /// The vertices of the skin, which come first: all of one length.
 struct PhotoSkin {
-  std::span<const SkinWeights> flesh;
+  std::span<const SkinWeights> weights;
   std::span<const CageTag> tags;
   SkinPose open, shut;  ///< with lids at rest and shut
 };
 
 /// Gives every vertex of skin and sheet its place in the photo, lids and lips their own paint.
-/// `lip_inside`: the colour of lips that roll inward if the set has none.
-void WearPhoto(const PhotoHead& set, const PhotoSkin& skin, glm::vec3 lip_inside,
+/// `lip_inside`: the colour of lips that roll inward if `head` has none.
+void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadTopology& topology);
 
 }  // namespace fsm

@@ -12,7 +12,8 @@ namespace {
 
 constexpr float kStep = 0.75f;  // of the membrane's cells, millimetres
 
-/// The brightness below which `part` of those lie that are chosen; of none, that of a half.
+/// The quantile `part` of the brightness of the samples that `which` accepts; 0.5 if it accepts
+/// none.
 template <typename Which>
 float UsualBrightness(std::span<const SkinSample> samples, float part, Which which) {
   std::vector<float> all;
@@ -29,7 +30,7 @@ float UsualBrightness(std::span<const SkinSample> samples, float part, Which whi
 }  // namespace
 
 void DoubtOddSkin(std::span<SkinSample> samples, float usual_above) {
-  // Of the logarithm of brightness. Above the eye there are lashes, and the shade of the brow.
+  // Spreads of the logarithm of brightness. Above the eye lie lashes and the shade of the brow.
   constexpr float kSpreadAbove = 0.3f, kSpreadBelow = 0.6f;
   constexpr float kDarkest = 3;  // times darker than most a socket may be, unlike lashes
   constexpr float kOwn = 0.85f;  // how far either side's own brightness is believed

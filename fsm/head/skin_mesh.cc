@@ -29,35 +29,35 @@ SkinWeights MakeSkinWeights(const CageTag& tag, glm::vec3 p, const MouthAnatomy&
   const float round = a + 0.9f * std::max(0.0f, 45 - p.z);
   glm::vec2 domain(p.x < 0 ? -round : round, p.y);
   if (tag.deep > 0) domain.y = mouth.LineY(std::min(a, corner_x));
-  SkinWeights flesh = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)));
-  flesh.free = SmoothStep(-5, 25, p.z);
-  flesh.neck = SmoothStep(-166, -98, p.y - 0.35f * std::max(0.0f, -p.z - 25));
+  SkinWeights weights = SkinWeightsAt(domain, side, mouth.LineY(std::min(a, corner_x)));
+  weights.free = SmoothStep(-5, 25, p.z);
+  weights.neck = SmoothStep(-166, -98, p.y - 0.35f * std::max(0.0f, -p.z - 25));
   if (tag.eye > 0) {
-    flesh.eye = p.x < 0 ? std::int8_t{-1} : std::int8_t{1};
-    flesh.lid_upper = tag.lid_upper;
-    flesh.lid_lower = tag.lid_lower;
-    flesh.free = std::max(0.0f, 1 - 1.1f * tag.eye);
+    weights.eye = p.x < 0 ? std::int8_t{-1} : std::int8_t{1};
+    weights.lid_upper = tag.lid_upper;
+    weights.lid_lower = tag.lid_lower;
+    weights.free = std::max(0.0f, 1 - 1.1f * tag.eye);
   }
   const int column = FineColumn(tag, p.x);
   if (tag.lip_hold > 0 && std::abs(column) <= kLastColumn && tag.lip_side != 0) {
-    flesh.lip_column = static_cast<std::int16_t>(column + kLastColumn);
-    flesh.lip_weight = tag.lip_hold * Sign(tag.lip_side);
+    weights.lip_column = static_cast<std::int16_t>(column + kLastColumn);
+    weights.lip_weight = tag.lip_hold * Sign(tag.lip_side);
   }
-  flesh.by_teeth = (tag.red >= 0 || tag.lip_hold >= 0.6f) && tag.deep < 0.4f;
+  weights.by_teeth = (tag.red >= 0 || tag.lip_hold >= 0.6f) && tag.deep < 0.4f;
   if (tag.deep > 0) {
     const float open = std::sqrt(std::max(0.0f, 1 - a * a / (corner_x * corner_x)));
-    flesh.free *= std::max(0.0f, 1 - (2.2f - 1.4f * (1 - open)) * tag.deep);
+    weights.free *= std::max(0.0f, 1 - (2.2f - 1.4f * (1 - open)) * tag.deep);
     const float rigid = tag.lip_side >= 0 ? 0.0f : 0.9f;
-    flesh.jaw =
-        glm::mix(flesh.jaw, rigid, SmoothStep(0.2f, 0.7f, tag.deep) * std::abs(Sign(tag.lip_side)));
-    if (tag.deep > 0.95f) flesh.jaw = 0.4f;
+    weights.jaw = glm::mix(weights.jaw, rigid,
+                           SmoothStep(0.2f, 0.7f, tag.deep) * std::abs(Sign(tag.lip_side)));
+    if (tag.deep > 0.95f) weights.jaw = 0.4f;
   }
-  return flesh;
+  return weights;
 }
 
-Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const EyeAnatomy& eye,
+Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainter& painter,
                 const Palette& palette) {
-  Paint paint = SkinPaint(p, eye, palette);
+  Paint paint = painter.At(p);
   if (tag.deep > 0) {
     paint.albedo = glm::mix(palette.lip_inside, palette.mouth, SmoothStep(0.15f, 0.8f, tag.deep));
     const float out = 1 - tag.deep;
@@ -96,7 +96,8 @@ bool HairCovers(glm::vec3 p) {
 }  // namespace
 
 MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                    const Palette& palette, HeadMesh& mesh) {
+                    const Identity& identity, HeadMesh& mesh) {
+  const SkinPainter painter(identity.Look(), eye, identity.palette);
   std::vector<SkinKind> kind(skin.position.size(), SkinKind::kSkin);
   for (const FineSkin::Triangle& t : skin.triangles) {
     for (const std::uint32_t v : t.corner) kind[v] = std::max(kind[v], t.kind);
@@ -107,7 +108,7 @@ MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
   for (std::uint32_t v = 0; v < skin.position.size(); ++v) {
     const glm::vec3 p = skin.position[v];
     const CageTag& tag = skin.tag[v];
-    const Paint paint = MakePaint(tag, p, kind[v], eye, palette);
+    const Paint paint = MakePaint(tag, p, kind[v], painter, identity.palette);
     mesh.Add(p, paint.albedo, paint.open, Bone::kSkin, MakeSkinWeights(tag, p, mouth));
     if (tag.seam < 1) continue;
     const int column = FineColumn(tag, p.x);

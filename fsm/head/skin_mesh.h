@@ -6,7 +6,7 @@
 
 #include "fsm/head/anatomy.h"
 #include "fsm/head/head_mesh.h"
-#include "fsm/head/paint.h"
+#include "fsm/head/identity.h"
 #include "fsm/head/subdivide.h"
 
 namespace fsm {
@@ -23,7 +23,7 @@ struct MouthSeam {
 /// Adds the subdivided skin to an empty mesh with paint and rig; vertex i of the skin becomes
 /// vertex i of the mesh.
 MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
-                    const Palette& palette, HeadMesh& mesh);
+                    const Identity& identity, HeadMesh& mesh);
 
 /// The skin's front as seen from the viewer, for what is laid on it.
 class SkinFront {

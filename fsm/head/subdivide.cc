@@ -148,77 +148,102 @@ CageTag Mean(const std::vector<CageTag>& tags, const std::vector<std::uint32_t>&
   return mean;
 }
 
+/// Makes the fine skin of a cage: its vertices first, then those on edges, then those in faces.
+class Subdivider {
+ public:
+  explicit Subdivider(const Cage& half)
+      : mesh_(Mirrored(half)), first_mirrored_(half.faces.size()), cage_(half.position.size()) {
+    FindEdges(mesh_);
+    p_ = Corrected(mesh_);
+  }
+
+  FineSkin Build() {
+    vertex_id_.assign(p_.size(), kNone);
+    for (std::uint32_t v = 0; v < p_.size(); ++v) {
+      if (!mesh_.vertex_edges[v].empty()) {
+        vertex_id_[v] = Add(VertexPoint(mesh_, p_, v), mesh_.tag[v]);
+      }
+    }
+    AddEdgePoints();
+    for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+      mesh_.faces[f].fine ? AddFine(f) : AddPlain(f);
+    }
+    out_.of_cage.assign(vertex_id_.begin(),
+                        vertex_id_.begin() + static_cast<std::ptrdiff_t>(cage_));
+    return std::move(out_);
+  }
+
+ private:
+  std::uint32_t Add(glm::vec3 at, const CageTag& tag) {
+    out_.position.push_back(at);
+    out_.tag.push_back(tag);
+    return static_cast<std::uint32_t>(out_.position.size() - 1);
+  }
+  void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, SkinKind kind) {
+    out_.triangles.push_back({{a, b, c}, kind});
+  }
+
+  void AddEdgePoints() {
+    edge_id_.assign(mesh_.edges.size(), kNone);
+    const auto fine = [&](std::uint32_t f) { return f != kNone && mesh_.faces[f].fine; };
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
+      const Edge& edge = mesh_.edges[e];
+      if (!fine(edge.face[0]) && !fine(edge.face[1])) continue;
+      glm::vec3 at = 0.5f * (p_[edge.a] + p_[edge.b]);
+      if (!edge.sharp) {
+        at = 0.5f * at +
+             0.25f * (FacePoint(mesh_, p_, edge.face[0]) + FacePoint(mesh_, p_, edge.face[1]));
+      }
+      edge_id_[e] = Add(at, Mean(mesh_.tag, {edge.a, edge.b}));
+    }
+  }
+
+  void AddPlain(std::uint32_t f) {
+    const Cage::Face& face = mesh_.faces[f];
+    std::vector<std::uint32_t> outline;
+    for (std::size_t k = 0; k < face.corner.size(); ++k) {
+      outline.push_back(vertex_id_[face.corner[k]]);
+      const std::uint32_t middle = edge_id_[mesh_.face_edges[f][k]];
+      if (middle != kNone) outline.push_back(middle);
+    }
+    if (face.corner.size() == 4 && outline.size() == 4) {
+      // The mirrored half runs the other way round: its diagonal is the image of the first half's.
+      const std::size_t from = f < first_mirrored_ ? 0 : 1;
+      AddTriangle(outline[from], outline[from + 1], outline[from + 2], face.kind);
+      AddTriangle(outline[from], outline[from + 2], outline[(from + 3) % 4], face.kind);
+      return;
+    }
+    glm::vec3 middle(0);
+    for (const std::uint32_t v : outline) middle += out_.position[v];
+    const std::uint32_t centre =
+        Add(middle / static_cast<float>(outline.size()), Mean(mesh_.tag, face.corner));
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      AddTriangle(centre, outline[k], outline[(k + 1) % outline.size()], face.kind);
+    }
+  }
+
+  void AddFine(std::uint32_t f) {
+    const Cage::Face& face = mesh_.faces[f];
+    const std::size_t n = face.corner.size();
+    const std::uint32_t centre = Add(FacePoint(mesh_, p_, f), Mean(mesh_.tag, face.corner));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::uint32_t before = edge_id_[mesh_.face_edges[f][(k + n - 1) % n]];
+      const std::uint32_t after = edge_id_[mesh_.face_edges[f][k]];
+      const std::uint32_t corner = vertex_id_[face.corner[k]];
+      AddTriangle(centre, before, corner, face.kind);
+      AddTriangle(centre, corner, after, face.kind);
+    }
+  }
+
+  Mesh mesh_;
+  std::size_t first_mirrored_, cage_;  // faces of the first half, points of the cage
+  std::vector<glm::vec3> p_;           // of the mesh, corrected
+  std::vector<std::uint32_t> vertex_id_, edge_id_;
+  FineSkin out_;
+};
+
 }  // namespace
 
-FineSkin Subdivide(const Cage& half) {
-  Mesh mesh = Mirrored(half);
-  FindEdges(mesh);
-  const std::vector<glm::vec3> p = Corrected(mesh);
-
-  FineSkin out;
-  const auto add = [&](glm::vec3 at, const CageTag& tag) {
-    out.position.push_back(at);
-    out.tag.push_back(tag);
-    return static_cast<std::uint32_t>(out.position.size() - 1);
-  };
-  std::vector<std::uint32_t> vertex_id(p.size(), kNone);
-  std::vector<std::uint32_t> edge_id(mesh.edges.size(), kNone);
-  for (std::uint32_t v = 0; v < p.size(); ++v) {
-    if (!mesh.vertex_edges[v].empty()) vertex_id[v] = add(VertexPoint(mesh, p, v), mesh.tag[v]);
-  }
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const Edge& edge = mesh.edges[e];
-    const auto fine = [&](std::uint32_t f) { return f != kNone && mesh.faces[f].fine; };
-    if (!fine(edge.face[0]) && !fine(edge.face[1])) continue;
-    glm::vec3 at = 0.5f * (p[edge.a] + p[edge.b]);
-    if (!edge.sharp) {
-      at =
-          0.5f * at + 0.25f * (FacePoint(mesh, p, edge.face[0]) + FacePoint(mesh, p, edge.face[1]));
-    }
-    edge_id[e] = add(at, Mean(mesh.tag, {edge.a, edge.b}));
-  }
-  const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, SkinKind kind) {
-    out.triangles.push_back({{a, b, c}, kind});
-  };
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    const Cage::Face& face = mesh.faces[f];
-    const std::size_t n = face.corner.size();
-    if (!face.fine) {
-      std::vector<std::uint32_t> outline;
-      for (std::size_t k = 0; k < n; ++k) {
-        outline.push_back(vertex_id[face.corner[k]]);
-        if (edge_id[mesh.face_edges[f][k]] != kNone)
-          outline.push_back(edge_id[mesh.face_edges[f][k]]);
-      }
-      if (n == 4 && outline.size() == 4) {
-        // The mirrored half runs the other way round: its diagonal is the image of the first
-        // half's.
-        const std::size_t from = f < half.faces.size() ? 0 : 1;
-        triangle(outline[from], outline[from + 1], outline[from + 2], face.kind);
-        triangle(outline[from], outline[from + 2], outline[(from + 3) % 4], face.kind);
-        continue;
-      }
-      glm::vec3 middle(0);
-      for (const std::uint32_t v : outline) middle += out.position[v];
-      const std::uint32_t centre =
-          add(middle / static_cast<float>(outline.size()), Mean(mesh.tag, face.corner));
-      for (std::size_t k = 0; k < outline.size(); ++k) {
-        triangle(centre, outline[k], outline[(k + 1) % outline.size()], face.kind);
-      }
-      continue;
-    }
-    const std::uint32_t centre = add(FacePoint(mesh, p, f), Mean(mesh.tag, face.corner));
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::uint32_t before = edge_id[mesh.face_edges[f][(k + n - 1) % n]];
-      const std::uint32_t after = edge_id[mesh.face_edges[f][k]];
-      const std::uint32_t corner = vertex_id[face.corner[k]];
-      triangle(centre, before, corner, face.kind);
-      triangle(centre, corner, after, face.kind);
-    }
-  }
-  out.of_cage.assign(vertex_id.begin(),
-                     vertex_id.begin() + static_cast<std::ptrdiff_t>(half.position.size()));
-  return out;
-}
+FineSkin Subdivide(const Cage& half) { return Subdivider(half).Build(); }
 
 }  // namespace fsm

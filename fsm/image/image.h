@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +12,22 @@ struct Image {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> rgba;  ///< width * height * 4
+
+  /// The number of a pixel; its bytes begin at four times that.
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
 };
+
+/// A picture of one colour, by default opaque white.
+inline Image FilledImage(int width, int height,
+                         std::array<std::uint8_t, 4> colour = {255, 255, 255, 255}) {
+  Image image{width, height, {}};
+  image.rgba.resize(4 * image.Index(0, height));
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) image.rgba[i] = colour[i % 4];
+  return image;
+}
 
 /// The longest side of a picture read, written or drawn.
 inline constexpr int kMaxImageSide = 8192;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -14,6 +13,7 @@
 
 #include "fsm/image/image_codec.h"
 #include "vm_protocol/core/file_kind.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
 namespace {
@@ -34,18 +34,10 @@ constexpr Format kFormats[] = {{".png", EncodePng, DecodePng},
                                {".jpeg", nullptr, DecodeJpeg}};
 
 const Format* FormatOf(const std::string& path) {
-  for (const auto& format : kFormats) {
-    const std::size_t length = std::strlen(format.ending);
-    if (path.size() < length) continue;
-    const auto same = [](char a, char b) {
-      return std::tolower(static_cast<unsigned char>(a)) == b;
-    };
-    if (std::equal(path.end() - static_cast<std::ptrdiff_t>(length), path.end(), format.ending,
-                   format.ending + length, same)) {
-      return &format;
-    }
-  }
-  return nullptr;
+  const std::string lower = vm::LowerCase(path);
+  const auto found = std::ranges::find_if(
+      kFormats, [&lower](const Format& format) { return lower.ends_with(format.ending); });
+  return found == std::end(kFormats) ? nullptr : found;
 }
 
 std::unexpected<vm::Error> BadEnding(const std::string& path, const char* more = "") {

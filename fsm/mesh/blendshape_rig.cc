@@ -133,7 +133,7 @@ struct KnownShapes {
 
 constexpr const char* kLooks[] = {"vrmlookleft", "vrmlookright", "vrmlookup", "vrmlookdown"};
 
-KnownShapes Recognise(const HeadFile& file, const Similarity& place, const MeshModel& model,
+KnownShapes Recognise(const HeadFile& file, const Similarity& to_ours, const MeshModel& model,
                       std::span<const ShapeMeaning> meanings, ShapeSolver& solver) {
   std::map<std::string, const FaceState*> states;
   for (const ShapeMeaning& meaning : meanings) states.emplace(meaning.name, &meaning.state);
@@ -147,7 +147,7 @@ KnownShapes Recognise(const HeadFile& file, const Similarity& place, const MeshM
     Moves moves;
     for (const auto& [vertex, by] : shape.deltas) {
       if (but_eyes && IsEye(model.bone[vertex])) continue;
-      moves.push_back({vertex, place.scale * (place.turn * by)});
+      moves.push_back({vertex, to_ours.scale * (to_ours.turn * by)});
     }
     if (file.look_by_shape && std::ranges::find(kLooks, name) != std::end(kLooks)) {
       known.looks[name] = std::move(moves);
@@ -255,13 +255,13 @@ void AddLooks(const KnownShapes& known, const LookRanges& ranges, std::vector<Ch
 
 }  // namespace
 
-std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& place,
+std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_ours,
                                      MeshModel& model, const ShapeMeanings& meanings,
                                      const Head& moved, std::span<const FaceState> visemes) {
   constexpr std::size_t kFewest = 4;
   if (file.shapes.size() < kFewest) return std::nullopt;
   ShapeSolver solver(meanings.source, moved);
-  KnownShapes known = Recognise(file, place, model, meanings.shapes, solver);
+  KnownShapes known = Recognise(file, to_ours, model, meanings.shapes, solver);
   if (known.names.size() < kFewest) return std::nullopt;
   FreeWhatMoves(file, known, model);
   RigData rig = StillSkin();

@@ -18,10 +18,10 @@ namespace fsm {
 namespace {
 
 /// Marks a surface's lips and lids by the ways from those of the pairs that lie on them.
-void MarkParts(WeldedSurface& surface, std::span<const PlacePair> pairs, bool from) {
+void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool from) {
   const auto seeds = [&](FacePart part) {
     std::vector<glm::vec3> places;
-    for (const PlacePair& pair : pairs) {
+    for (const PointPair& pair : pairs) {
       if (pair.part == part) places.push_back(from ? pair.from : pair.to);
     }
     return places;
@@ -61,7 +61,7 @@ void Spread(const WeldedSurface& surface, std::vector<T>& value, std::vector<flo
   }
 }
 
-void CheckPlaces(std::span<const PlacePair> pairs) {
+void CheckPlaces(std::span<const PointPair> pairs) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (WithinReach(pairs[i].from) && WithinReach(pairs[i].to)) continue;
     throw std::runtime_error("place " + std::to_string(i + 1) +
@@ -81,8 +81,8 @@ void CheckVertices(std::span<const glm::vec3> at, const char* whose) {
 /// around.
 class EdgePull {
  public:
-  EdgePull(std::span<const PlacePair> pairs, const Warp& warp) {
-    for (const PlacePair& pair : pairs) {
+  EdgePull(std::span<const PointPair> pairs, const Warp& warp) {
+    for (const PointPair& pair : pairs) {
       if (pair.part != FacePart::kUpperLid && pair.part != FacePart::kLowerLid) continue;
       const glm::vec3 at = pair.from + warp.Motion(pair.from);
       left_.push_back({at, pair.to - at});
@@ -109,7 +109,7 @@ class EdgePull {
 }  // namespace
 
 DeformationTransfer::DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
-                                         std::span<const PlacePair> pairs) {
+                                         std::span<const PointPair> pairs) {
   if (pairs.size() < 8) {
     throw std::runtime_error("at least eight places that both faces have are needed");
   }
@@ -126,7 +126,7 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   WeldedSurface target = prepared(to, false);
 
   std::vector<WarpPoint> points;
-  for (const PlacePair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
+  for (const PointPair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
   // Landmarks lie a millimetre or two off; a warp that goes through each of them tears lids and
   // lips. What it leaves undone the drawing below does.
   constexpr float kSmooth = 80;

@@ -15,7 +15,7 @@ class WeldedSurface;
 enum class FacePart : std::uint8_t { kPlain, kUpperLip, kLowerLip, kUpperLid, kLowerLid };
 
 /// The same place on two faces, millimetres.
-struct PlacePair {
+struct PointPair {
   glm::vec3 from, to;
   FacePart part = FacePart::kPlain;
 };
@@ -42,9 +42,9 @@ class DeformationTransfer {
   /// Throws std::runtime_error if there are fewer than eight pairs or they lie (nearly) in a plane,
   /// if a place or a vertex lies out of kMaxMeshReach, and as WeldedSurface and SurfaceIndex.
   DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
-                      std::span<const PlacePair> pairs);
-  /// Of each vertex of the second face whose motions of the first it takes, and what part of them;
-  /// parts add up to 1, where nothing moves it there are none.
+                      std::span<const PointPair> pairs);
+  /// For each vertex of the second face the vertices of the first whose motions it takes, and the
+  /// part of each; parts add up to 1, where nothing moves it there are none.
   using Row = std::vector<std::pair<std::uint32_t, float>>;
   std::span<const Row> rows() const { return rows_; }
   /// Adds to `to_by` what `from_by` means there; both by vertex.
@@ -57,7 +57,7 @@ class DeformationTransfer {
     std::array<std::uint32_t, 3> corner{};
     glm::vec3 part{1, 0, 0};
   };
-  /// Of the second face's vertices, doubled ones once.
+  /// For each vertex of the second face, doubled ones counted once.
   static std::vector<BarycentricBinding> Bind(const WeldedSurface& rest, const WeldedSurface& drawn,
                                               const WeldedSurface& target);
   void MakeRows(std::span<const BarycentricBinding> bindings, const WeldedSurface& target);

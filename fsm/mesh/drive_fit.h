@@ -27,7 +27,7 @@ class DriveFit {
                 const std::function<Weights(bool right, bool left)>& weights);
   void Add(std::size_t target, const Drive& drive, float gain);
 
-  /// By target. Leaves none.
+  /// The drivers of every target; they are moved out.
   std::vector<std::vector<Channel::Driver>> Take() { return std::move(drivers_); }
 
  private:

@@ -102,84 +102,93 @@ std::unexpected<vm::Error> GltfDocument::Wrong(const std::string& text) const {
   return vm::Fail(vm::Errc::kBadValue, name_ + ": " + text);
 }
 
-vm::Result<GltfDocument> GltfDocument::Parse(
-    const std::string& name, std::string_view bytes,
-    const std::function<std::optional<std::string>(const std::string&)>& beside) {
-  GltfDocument document;
-  document.name_ = name;
-  document.beside_ = beside;
-  std::string_view text = bytes;
-  std::string_view own_buffer;
-  bool has_own = false;
-  if (bytes.starts_with("glTF")) {
-    if (bytes.size() < 20 || Word(bytes, 4) != 2) {
-      return document.Wrong("byte 4: version 2 of binary glTF expected");
-    }
-    if (Word(bytes, 8) > bytes.size()) {
-      return document.Wrong("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
-                            std::to_string(Word(bytes, 8)) + " bytes are announced");
-    }
-    std::size_t at = 12;
-    for (int chunk = 0; at + 8 <= bytes.size(); ++chunk) {
-      const std::size_t length = Word(bytes, at), kind = Word(bytes, at + 4);
-      if (length > bytes.size() - at - 8) {
-        return document.Wrong("byte " + std::to_string(at) + ": a chunk of " +
-                              std::to_string(length) + " bytes is cut off");
-      }
-      const std::string_view body = bytes.substr(at + 8, length);
-      if (chunk == 0) {
-        if (kind != 0x4E4F534A) return document.Wrong("byte 16: a chunk of JSON expected");
-        text = body;
-      } else if (chunk == 1 && kind == 0x004E4942) {
-        own_buffer = body;
-        has_own = true;
-      }
-      at += 8 + length + (4 - length % 4) % 4;
-    }
-    if (text.data() == bytes.data()) return document.Wrong("byte 12: a chunk of JSON expected");
+vm::Result<GltfDocument::Chunks> GltfDocument::SplitBinary(std::string_view bytes) const {
+  constexpr std::size_t kJson = 0x4E4F534A, kBuffer = 0x004E4942;
+  if (bytes.size() < 20 || Word(bytes, 4) != 2) {
+    return Wrong("byte 4: version 2 of binary glTF expected");
   }
+  if (Word(bytes, 8) > bytes.size()) {
+    return Wrong("byte " + std::to_string(bytes.size()) + ": it ends here, but " +
+                 std::to_string(Word(bytes, 8)) + " bytes are announced");
+  }
+  Chunks chunks;
+  std::size_t at = 12;
+  for (int chunk = 0; at + 8 <= bytes.size(); ++chunk) {
+    const std::size_t length = Word(bytes, at), kind = Word(bytes, at + 4);
+    if (length > bytes.size() - at - 8) {
+      return Wrong("byte " + std::to_string(at) + ": a chunk of " + std::to_string(length) +
+                   " bytes is cut off");
+    }
+    const std::string_view body = bytes.substr(at + 8, length);
+    if (chunk == 0 && kind != kJson) return Wrong("byte 16: a chunk of JSON expected");
+    if (chunk == 0) chunks.json = body;
+    if (chunk == 1 && kind == kBuffer) chunks.buffer = body;
+    at += 8 + length + (4 - length % 4) % 4;
+  }
+  if (chunks.json.data() == nullptr) return Wrong("byte 12: a chunk of JSON expected");
+  return chunks;
+}
+
+vm::Result<void> GltfDocument::ParseJson(std::string_view text) {
   // Deep nesting is the one way JSON can cost more than its length.
   const auto shallow = [](int depth, json::parse_event_t, json&) {
     return depth <= static_cast<int>(kMaxDepth);
   };
   auto parsed = json::parse(text.begin(), text.end(), shallow, false);
   if (parsed.is_discarded() || !parsed.is_object() || !parsed.contains("asset")) {
-    return document.Wrong("no glTF: JSON with an \"asset\" expected");
+    return Wrong("no glTF: JSON with an \"asset\" expected");
   }
-  document.json_ = std::make_unique<json>(std::move(parsed));
-  if (!TextOf(PartOf(document.root(), "asset"), "version").starts_with("2")) {
-    return document.Wrong("asset: version 2 expected");
+  json_ = std::make_unique<json>(std::move(parsed));
+  if (!TextOf(PartOf(root(), "asset"), "version").starts_with("2")) {
+    return Wrong("asset: version 2 expected");
   }
-  for (const json& needed : PartOf(document.root(), "extensionsRequired")) {
+  for (const json& needed : PartOf(root(), "extensionsRequired")) {
     for (const char* packed :
          {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
       if (needed == json(packed)) {
-        return document.Wrong(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
+        return Wrong(std::string("extensionsRequired: ") + packed + ": " + kPackedMesh);
       }
     }
   }
+  return {};
+}
+
+vm::Result<void> GltfDocument::ReadBuffers(std::optional<std::string_view> own) {
   std::size_t total = 0;
-  for (std::size_t i = 0; i < document.Count("buffers"); ++i) {
-    const json& buffer = document.At("buffers", static_cast<std::int64_t>(i));
-    const std::string uri = TextOf(buffer, "uri");
-    if (uri.empty() && i == 0 && has_own) {
-      document.buffers_.emplace_back(own_buffer);
+  for (std::size_t i = 0; i < Count("buffers"); ++i) {
+    const json& buffer = At("buffers", static_cast<std::int64_t>(i));
+    const std::string uri = TextOf(buffer, "uri"), place = "buffers[" + std::to_string(i) + "]: ";
+    if (uri.empty() && i == 0 && own) {
+      buffers_.emplace_back(*own);
     } else {
-      auto read = document.Resolve(uri);
-      if (!read) {
-        return document.Wrong("buffers[" + std::to_string(i) + "]: " + read.error().text);
-      }
-      document.buffers_.push_back(std::move(*read));
+      auto read = Resolve(uri);
+      if (!read) return Wrong(place + read.error().text);
+      buffers_.push_back(std::move(*read));
     }
-    if (total += document.buffers_.back().size(); total > kMaxMeshBytes) {
-      return vm::Fail(vm::Errc::kLimit, name + ": its buffers hold more than " +
+    const std::size_t size = buffers_.back().size();
+    if (total += size; total > kMaxMeshBytes) {
+      return vm::Fail(vm::Errc::kLimit, name_ + ": its buffers hold more than " +
                                             std::to_string(kMaxMeshBytes) + " bytes");
     }
-    if (WholeOf(buffer, "byteLength", 0) >
-        static_cast<std::int64_t>(document.buffers_.back().size())) {
-      return document.Wrong("buffers[" + std::to_string(i) +
-                            "]: it is shorter than its byteLength");
+    if (WholeOf(buffer, "byteLength", 0) > static_cast<std::int64_t>(size)) {
+      return Wrong(place + "it is shorter than its byteLength");
     }
+  }
+  return {};
+}
+
+vm::Result<GltfDocument> GltfDocument::Parse(
+    const std::string& name, std::string_view bytes,
+    const std::function<std::optional<std::string>(const std::string&)>& beside) {
+  GltfDocument document;
+  document.name_ = name;
+  document.beside_ = beside;
+  auto chunks =
+      bytes.starts_with("glTF") ? document.SplitBinary(bytes) : Chunks{bytes, std::nullopt};
+  if (!chunks) return std::unexpected(chunks.error());
+  if (auto done = document.ParseJson(chunks->json); !done) return std::unexpected(done.error());
+  if (auto done = document.ReadBuffers(chunks->buffer); !done) {
+    return std::unexpected(done.error());
   }
   return document;
 }
@@ -234,14 +243,37 @@ vm::Result<GltfDocument::View> GltfDocument::ViewOf(std::int64_t index) const {
   return View{{first, static_cast<std::size_t>(length)}, static_cast<std::size_t>(stride)};
 }
 
+vm::Result<void> GltfDocument::ReadElements(const Elements& elements, const std::string& place,
+                                            const Take& take) const {
+  const json& where = elements.where;
+  const auto view = ViewOf(WholeOf(where, "bufferView"));
+  if (!view) return std::unexpected(view.error());
+  const std::int64_t offset = WholeOf(where, "byteOffset", 0);
+  const auto kind = KindOf(elements.component);
+  const std::size_t tight = kind->bytes * elements.width;
+  const std::size_t stride = view->stride == 0 ? tight : view->stride;
+  if (offset < 0 ||
+      (elements.count > 0 &&
+       (stride < tight || static_cast<std::size_t>(offset) + stride * (elements.count - 1) + tight >
+                              view->bytes.size()))) {
+    return Wrong(place + ": its elements are not in its bufferView");
+  }
+  for (std::size_t i = 0; i < elements.count; ++i) {
+    const std::uint8_t* at = view->bytes.data() + static_cast<std::size_t>(offset) + i * stride;
+    for (std::size_t k = 0; k < elements.width; ++k) {
+      take(i, k, Value(at + k * kind->bytes, elements.component, *kind, elements.normalised));
+    }
+  }
+  return {};
+}
+
 vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int width) const {
   const json& accessor = At("accessors", index);
   const std::string place = "accessors[" + std::to_string(index) + "]";
   const std::int64_t count = WholeOf(accessor, "count", -1);
   const std::int64_t component = WholeOf(accessor, "componentType");
-  const auto kind = KindOf(component);
   const int own_width = WidthOf(TextOf(accessor, "type"));
-  if (count < 0 || !kind || own_width == 0 || own_width != width) {
+  if (count < 0 || !KindOf(component) || own_width == 0 || own_width != width) {
     return Wrong(place + ": " + std::to_string(width) + " numbers of a known kind expected");
   }
   const auto numbers = static_cast<std::size_t>(width);
@@ -250,57 +282,39 @@ vm::Result<std::vector<double>> GltfDocument::Values(std::int64_t index, int wid
     return vm::Fail(vm::Errc::kLimit, name_ + ": " + place + ": more than " +
                                           std::to_string(kMaxNumbers) + " numbers");
   }
-  const bool normalised = accessor.value("normalized", json(false)) == json(true);
   std::vector<double> out(static_cast<std::size_t>(count) * numbers, 0.0);
-  const auto fill = [&](std::int64_t view_index, std::int64_t offset, const Kind& of,
-                        std::int64_t type, std::size_t elements, std::size_t each, bool fraction,
-                        const auto& take) -> vm::Result<void> {
-    const auto view = ViewOf(view_index);
-    if (!view) return std::unexpected(view.error());
-    const std::size_t tight = of.bytes * each;
-    const std::size_t stride = view->stride == 0 ? tight : view->stride;
-    if (offset < 0 || (elements > 0 && (stride < tight || static_cast<std::size_t>(offset) +
-                                                                  stride * (elements - 1) + tight >
-                                                              view->bytes.size()))) {
-      return Wrong(place + ": its elements are not in its bufferView");
-    }
-    for (std::size_t i = 0; i < elements; ++i) {
-      const std::uint8_t* at = view->bytes.data() + static_cast<std::size_t>(offset) + i * stride;
-      for (std::size_t k = 0; k < each; ++k) {
-        take(i, k, Value(at + k * of.bytes, type, of, fraction));
-      }
-    }
-    return {};
-  };
+  const Elements own{accessor, component, static_cast<std::size_t>(count), numbers,
+                     accessor.value("normalized", json(false)) == json(true)};
   if (accessor.contains("bufferView")) {
-    auto done = fill(WholeOf(accessor, "bufferView"), WholeOf(accessor, "byteOffset", 0), *kind,
-                     component, static_cast<std::size_t>(count), numbers, normalised,
-                     [&](std::size_t i, std::size_t k, double v) { out[i * numbers + k] = v; });
-    if (!done) return std::unexpected(done.error());
+    const auto take = [&](std::size_t i, std::size_t k, double v) { out[i * numbers + k] = v; };
+    if (auto done = ReadElements(own, place, take); !done) return std::unexpected(done.error());
   }
-  const json& sparse = PartOf(accessor, "sparse");
-  if (sparse.empty()) return out;
+  if (auto done = FillSparse(own, place, out); !done) return std::unexpected(done.error());
+  return out;
+}
+
+vm::Result<void> GltfDocument::FillSparse(const Elements& own, const std::string& place,
+                                          std::vector<double>& out) const {
+  const json& sparse = PartOf(own.where, "sparse");
+  if (sparse.empty()) return {};
   const std::int64_t changed = WholeOf(sparse, "count", -1);
-  const json &where = PartOf(sparse, "indices"), &what = PartOf(sparse, "values");
-  const std::int64_t where_type = WholeOf(where, "componentType");
-  const auto where_kind = KindOf(where_type);
-  if (changed < 0 || changed > count || !where_kind)
+  const json& indices = PartOf(sparse, "indices");
+  const std::int64_t index_type = WholeOf(indices, "componentType");
+  if (changed < 0 || static_cast<std::size_t>(changed) > own.count || !KindOf(index_type)) {
     return Wrong(place + ": sparse: a damaged list");
+  }
   std::vector<std::size_t> vertex(static_cast<std::size_t>(changed));
   bool inside = true;
-  auto done = fill(WholeOf(where, "bufferView"), WholeOf(where, "byteOffset", 0), *where_kind,
-                   where_type, vertex.size(), 1, false, [&](std::size_t i, std::size_t, double v) {
-                     inside = inside && v >= 0 && v < static_cast<double>(count);
-                     vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
-                   });
-  if (done && !inside) return Wrong(place + ": sparse: an index beyond its elements");
-  if (done) {
-    done = fill(WholeOf(what, "bufferView"), WholeOf(what, "byteOffset", 0), *kind, component,
-                vertex.size(), numbers, normalised,
-                [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * numbers + k] = v; });
-  }
-  if (!done) return std::unexpected(done.error());
-  return out;
+  auto done = ReadElements({indices, index_type, vertex.size(), 1, false}, place,
+                           [&](std::size_t i, std::size_t, double v) {
+                             inside = inside && v >= 0 && v < static_cast<double>(own.count);
+                             vertex[i] = inside ? static_cast<std::size_t>(v) : 0;
+                           });
+  if (!done) return done;
+  if (!inside) return Wrong(place + ": sparse: an index beyond its elements");
+  return ReadElements(
+      {PartOf(sparse, "values"), own.component, vertex.size(), own.width, own.normalised}, place,
+      [&](std::size_t i, std::size_t k, double v) { out[vertex[i] * own.width + k] = v; });
 }
 
 vm::Result<std::vector<float>> GltfDocument::Numbers(std::int64_t accessor, int width) const {

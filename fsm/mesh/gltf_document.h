@@ -49,7 +49,31 @@ class GltfDocument {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0;  // 0 = tight
   };
+  /// The JSON of a binary file and the buffer it carries, if any.
+  struct Chunks {
+    std::string_view json;
+    std::optional<std::string_view> buffer;
+  };
+  /// Elements of `width` numbers each, where `where` names a bufferView and a byteOffset.
+  /// REQUIRES: a known component type.
+  struct Elements {
+    const nlohmann::json& where;
+    std::int64_t component;
+    std::size_t count, width;
+    bool normalised;
+  };
+  using Take = std::function<void(std::size_t element, std::size_t k, double value)>;
+
   GltfDocument();
+  vm::Result<Chunks> SplitBinary(std::string_view bytes) const;
+  vm::Result<void> ParseJson(std::string_view text);
+  vm::Result<void> ReadBuffers(std::optional<std::string_view> own);
+  /// `place`: in the document, for messages.
+  vm::Result<void> ReadElements(const Elements& elements, const std::string& place,
+                                const Take& take) const;
+  /// Puts the sparse numbers of an accessor in place.
+  vm::Result<void> FillSparse(const Elements& own, const std::string& place,
+                              std::vector<double>& out) const;
   vm::Result<View> ViewOf(std::int64_t view) const;
   vm::Result<std::string> Resolve(const std::string& uri) const;
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <glm/matrix.hpp>
 #include <map>
@@ -14,6 +13,7 @@
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/mesh/vrm_avatar.h"
 #include "fsm/mesh/vrm_springs.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
 namespace {
@@ -22,11 +22,6 @@ using nlohmann::json;
 
 constexpr std::size_t kMaxShapes = 400;
 constexpr std::size_t kMaxDeltas = 20'000'000;
-
-std::string Small(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 class GltfReader {
  public:
@@ -59,7 +54,7 @@ class GltfReader {
     if (avatar_.says_look) head_.look = avatar_.look;
     head_.look_by_shape = avatar_.look_by_shape;
     if (avatar_.looks_back) TurnRound();
-    if (!head_.place.empty()) head_.place.resize(head_.position.size(), glm::vec2(0));
+    if (!head_.texcoord.empty()) head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     if (!head_.tint.empty()) head_.tint.resize(head_.position.size(), glm::vec3(1));
     head_.eye.resize(head_.position.size(), 0);
     if (std::ranges::all_of(head_.eye, [](std::int8_t e) { return e == 0; })) head_.eye.clear();
@@ -85,7 +80,7 @@ class GltfReader {
       if (WholeOf(primitive, "mode", 4) != 4) continue;
       const Place place{.mesh = index, .node = node, .skin = skin};
       auto read = Primitive(primitive, place,
-                            Small(TextOf(of, "name") + " " + TextOf(mesh, "name")), names);
+                            vm::LowerCase(TextOf(of, "name") + " " + TextOf(mesh, "name")), names);
       if (!read) return read;
     }
     return {};
@@ -134,7 +129,7 @@ class GltfReader {
         std::swap(part.indices[i + 1], part.indices[i + 2]);
     }
     if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles) return TooMany();
-    paint_.Dress(WholeOf(primitive, "material"), part);
+    paint_.ApplyMaterial(WholeOf(primitive, "material"), part);
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
     return {};
   }
@@ -157,7 +152,7 @@ class GltfReader {
                       .Hold(document_, attributes, count, nodes_.World(place.node),
                             [this](std::int64_t bone) { return springs_->Has(bone); });
       if (!held) return std::unexpected(held.error());
-      stands = std::move(held->place);
+      stands = std::move(held->transform);
       watched = std::move(held->watched);
       for (const std::int64_t bone : held->main) {
         head_.eye.push_back(bone < 0                      ? 0
@@ -176,7 +171,9 @@ class GltfReader {
                      node, weight, head_.spring_weights);
     }
     mirrored_[first] = count > 0 && glm::determinant(glm::mat3(stands[0])) < 0;
-    if (auto read = Places(attributes, paint_.Place(WholeOf(primitive, "material")), first); !read)
+    if (auto read =
+            ReadTexcoords(attributes, paint_.UvOfMaterial(WholeOf(primitive, "material")), first);
+        !read)
       return read;
     if (attributes.contains("COLOR_0")) {
       if (auto read = Tints(WholeOf(attributes, "COLOR_0"), first, count); !read) return read;
@@ -184,14 +181,14 @@ class GltfReader {
     return Targets(primitive, place, stands, first, names);
   }
 
-  vm::Result<void> Places(const json& attributes, const GltfUv& to, std::size_t first) {
+  vm::Result<void> ReadTexcoords(const json& attributes, const GltfUv& to, std::size_t first) {
     const std::string set = "TEXCOORD_" + std::to_string(to.set);
     if (!attributes.contains(set)) return {};
     const auto uv = document_.Numbers(WholeOf(attributes, set.c_str()), 2);
     if (!uv) return std::unexpected(uv.error());
-    head_.place.resize(head_.position.size(), glm::vec2(0));
+    head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     for (std::size_t i = 0; i < std::min(head_.position.size() - first, uv->size() / 2); ++i) {
-      head_.place[first + i] = to({(*uv)[2 * i], (*uv)[2 * i + 1]});
+      head_.texcoord[first + i] = to({(*uv)[2 * i], (*uv)[2 * i + 1]});
     }
     return {};
   }

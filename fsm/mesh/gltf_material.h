@@ -21,7 +21,8 @@ struct GltfMaterial {
   Texture normal, surface, open, glow;
 };
 
-/// Of metal and roughness, or of MToon: VRMC_materials_mtoon 1.0 and materialProperties of VRM 0.x.
+/// A material of metal and roughness, or of MToon: VRMC_materials_mtoon 1.0 and
+/// materialProperties of VRM 0.x.
 GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material);
 
 }  // namespace fsm

@@ -148,10 +148,10 @@ vm::Result<GltfSkin> GltfSkin::Read(const GltfDocument& document, const GltfNode
 }
 
 vm::Result<GltfSkin::Held> GltfSkin::Hold(const GltfDocument& document, const json& attributes,
-                                          std::size_t count, const glm::mat4& place,
+                                          std::size_t count, const glm::mat4& transform,
                                           const std::function<bool(std::int64_t)>& watched) const {
   Held held;
-  held.place.assign(count, glm::mat4(0.0f));
+  held.transform.assign(count, glm::mat4(0.0f));
   held.main.assign(count, -1);
   std::vector<float> total(count, 0), most(count, 0);
   for (const char* set : {"0", "1"}) {
@@ -166,7 +166,7 @@ vm::Result<GltfSkin::Held> GltfSkin::Hold(const GltfDocument& document, const js
       const float weight = (*part)[i], number = (*which)[i];
       if (!(weight > 0) || !(number >= 0) || number >= static_cast<float>(takes_.size())) continue;
       const auto joint = static_cast<std::size_t>(number);
-      held.place[i / 4] += weight * takes_[joint];
+      held.transform[i / 4] += weight * takes_[joint];
       total[i / 4] += weight;
       if (watched(node_[joint])) held.watched.push_back({i / 4, node_[joint], weight});
       if (weight > most[i / 4]) {
@@ -176,7 +176,7 @@ vm::Result<GltfSkin::Held> GltfSkin::Hold(const GltfDocument& document, const js
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
-    held.place[i] = total[i] > 1e-4f ? (1 / total[i]) * held.place[i] : place;
+    held.transform[i] = total[i] > 1e-4f ? (1 / total[i]) * held.transform[i] : transform;
   }
   std::erase_if(held.watched, [&](const Held::Hold& hold) { return total[hold.vertex] <= 1e-4f; });
   for (Held::Hold& hold : held.watched) hold.weight /= total[hold.vertex];

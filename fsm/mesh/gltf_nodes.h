@@ -19,7 +19,7 @@ class GltfNodes {
   bool Has(std::int64_t node) const {
     return node >= 0 && static_cast<std::size_t>(node) < world_.size();
   }
-  /// Of a node that there is not: the identity.
+  /// The identity if there is no such node.
   const glm::mat4& World(std::int64_t node) const;
   /// The nodes of the file's scene, parents before children; all there are if it has no scene.
   std::span<const std::int64_t> shown() const { return shown_; }
@@ -40,20 +40,20 @@ class GltfSkin {
   /// Errors: as GltfDocument's, of the inverse bind matrices.
   static vm::Result<GltfSkin> Read(const GltfDocument& document, const GltfNodes& nodes,
                                    std::int64_t skin);
-  /// The matrix of every vertex of a primitive; those without weights stand in `place`. `main`: the
-  /// node of the bone with the largest part, -1 for none.
+  /// The matrix of every vertex of a primitive; those without weights stand by `transform`. `main`:
+  /// the node of the bone with the largest part, -1 for none.
   struct Held {
     struct Hold {
       std::size_t vertex;
       std::int64_t node;
       float weight;
     };
-    std::vector<glm::mat4> place;
+    std::vector<glm::mat4> transform;
     std::vector<std::int64_t> main;
     std::vector<Hold> watched;  ///< all holds of the nodes that were asked for
   };
   vm::Result<Held> Hold(const GltfDocument& document, const nlohmann::json& attributes,
-                        std::size_t count, const glm::mat4& place,
+                        std::size_t count, const glm::mat4& transform,
                         const std::function<bool(std::int64_t node)>& watched) const;
 
  private:

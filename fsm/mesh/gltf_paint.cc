@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fsm/image/color_space.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/texture_atlas.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
 namespace {
@@ -109,7 +109,7 @@ glm::vec2 GltfUv::operator()(glm::vec2 uv) const {
   return move + glm::vec2(c * at.x + s * at.y, c * at.y - s * at.x);
 }
 
-GltfUv GltfPaint::Place(std::int64_t material) const {
+GltfUv GltfPaint::UvOfMaterial(std::int64_t material) const {
   const json& base = TextureOf(document_.At("materials", material));
   if (base.contains("index")) return UvOf(base);
   const GltfMaterial given = ReadMaterial(document_, material);
@@ -129,11 +129,9 @@ std::int64_t GltfPaint::ImageOf(std::int64_t texture) {
   return -1;
 }
 
-void GltfPaint::Dress(std::int64_t index, HeadFile::Part& part) {
+void GltfPaint::ApplyMaterial(std::int64_t index, HeadFile::Part& part) {
   const json& material = document_.At("materials", index);
-  std::string name = TextOf(material, "name");
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  part.name += " " + name;
+  part.name += " " + vm::LowerCase(TextOf(material, "name"));
   const glm::vec4 factor = FactorOf(material);
   if (index >= 0) part.colour = glm::vec3(factor);
   const std::string mode = TextOf(material, "alphaMode");
@@ -164,7 +162,7 @@ void GltfPaint::Dress(std::int64_t index, HeadFile::Part& part) {
     return;
   }
   part.picture =
-      Picture(key, factor, detailed ? DetailOf(given, Place(index)) : HeadFile::Detail{});
+      Picture(key, factor, detailed ? DetailOf(given, UvOfMaterial(index)) : HeadFile::Detail{});
 }
 
 std::optional<Image> GltfPaint::Decode(std::int64_t image) {

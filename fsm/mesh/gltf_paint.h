@@ -30,9 +30,9 @@ class GltfPaint {
  public:
   /// Both outlive it.
   GltfPaint(const GltfDocument& document, HeadFile& head) : document_(document), head_(head) {}
-  void Dress(std::int64_t material, HeadFile::Part& part);
-  /// Of a material's picture.
-  GltfUv Place(std::int64_t material) const;
+  void ApplyMaterial(std::int64_t material, HeadFile::Part& part);
+  /// The settings of a material's picture.
+  GltfUv UvOfMaterial(std::int64_t material) const;
 
  private:
   /// Image, factor in steps of 1/255, cut-off (-1 opaque, 256 smooth), material if its light has

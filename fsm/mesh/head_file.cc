@@ -1,7 +1,6 @@
 #include "fsm/mesh/head_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -9,17 +8,10 @@
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
 namespace {
-
-std::string Small(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return out;
-}
 
 /// A file beside `path`; nothing if the name leads out of its folder.
 std::optional<std::string> Beside(const std::string& path, const std::string& name) {
@@ -38,7 +30,7 @@ glm::vec3 Linear(glm::vec3 screen) {
 }  // namespace
 
 std::string PlainShapeName(std::string_view name) {
-  std::string out = Small(name);
+  std::string out = vm::LowerCase(name);
   if (const auto dot = out.find_last_of(".:"); dot != std::string::npos && dot + 2 < out.size()) {
     out = out.substr(dot + 1);  // node.shape, namespace:shape
   }
@@ -50,7 +42,7 @@ std::string PlainShapeName(std::string_view name) {
 }
 
 vm::Result<HeadFile> ReadHeadFile(const std::string& path) {
-  const std::string ending = Small(std::filesystem::path(path).extension().string());
+  const std::string ending = vm::LowerCase(std::filesystem::path(path).extension().string());
   if (ending == ".obj") return ReadObjHead(path);
   if (ending == ".glb" || ending == ".gltf" || ending == ".vrm") return ReadGltfHead(path);
   return vm::Fail(vm::Errc::kBadValue,
@@ -73,10 +65,10 @@ vm::Result<HeadFile> ReadObjHead(const std::string& path) {
   }
   std::map<std::string, int> pictures;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made;
-  const bool placed = !obj->places.empty();
+  const bool placed = !obj->texcoords.empty();
   for (const auto& group : obj->groups) {
     HeadFile::Part part;
-    part.name = Small(group.name + " " + group.material);
+    part.name = vm::LowerCase(group.name + " " + group.material);
     if (const auto found = materials.find(group.material); found != materials.end()) {
       part.colour = Linear(found->second.colour);
       const auto file = Beside(path, found->second.picture);
@@ -95,14 +87,14 @@ vm::Result<HeadFile> ReadObjHead(const std::string& path) {
     for (const auto& t : group.triangles) {
       for (const auto& corner : t) {
         const auto [found, fresh] =
-            made.try_emplace({corner.position, placed ? corner.place : ObjFile::kNone},
+            made.try_emplace({corner.position, placed ? corner.texcoord : ObjFile::kNone},
                              static_cast<std::uint32_t>(head.position.size()));
         if (fresh) {
           head.position.push_back(obj->positions[corner.position]);
           if (placed) {
             const glm::vec2 at =
-                corner.place == ObjFile::kNone ? glm::vec2(0) : obj->places[corner.place];
-            head.place.emplace_back(at.x, 1 - at.y);
+                corner.texcoord == ObjFile::kNone ? glm::vec2(0) : obj->texcoords[corner.texcoord];
+            head.texcoord.emplace_back(at.x, 1 - at.y);
           }
         }
         part.indices.push_back(found->second);

@@ -44,8 +44,9 @@ struct HeadFile {
   };
   std::string name;                 ///< of the file, for messages
   std::vector<glm::vec3> position;  ///< all within kMaxMeshReach
-  std::vector<glm::vec2> place;  ///< in the part's picture, v down; of each vertex, or none at all
-  std::vector<glm::vec3> tint;   ///< linear, on the part's colour; of each vertex, or none at all
+  std::vector<glm::vec2>
+      texcoord;                 ///< in the part's picture, v down; of each vertex, or none at all
+  std::vector<glm::vec3> tint;  ///< linear, on the part's colour; of each vertex, or none at all
   std::vector<Part> parts;
   std::vector<Image> pictures;
   std::vector<Detail> details;  ///< of the first pictures
@@ -71,20 +72,23 @@ vm::Result<HeadFile> ReadGltfHead(const std::string& path);
 /// From memory; nothing outside it is read. `name` is for messages.
 vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view bytes);
 
-/// The head in our frame: `place` takes it there. Parts are told by their names, and rigid ones by
-/// where they lie to the mouth, which is at `mouth_y`. Throws std::runtime_error naming file and
-/// vertex if `place` takes one out of kMaxMeshReach, as where landmarks do not belong to the head.
-MeshModel ModelOf(const HeadFile& file, const Similarity& place, float mouth_y);
+/// The height of the mouth of built-in heads, millimetres.
+inline constexpr float kUsualMouthY = -43;
+/// The head in our frame: `to_ours` takes it there. Parts are told by their names, and rigid ones
+/// by where they lie to the mouth, which is at `mouth_y`. Throws std::runtime_error naming file and
+/// vertex if `to_ours` takes one out of kMaxMeshReach, as where landmarks do not belong to the
+/// head.
+MeshModel ModelOf(const HeadFile& file, const Similarity& to_ours, float mouth_y);
 
 /// The triangles of a built-in head's skin, lips and mouth.
 std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology);
-/// Those of its eyeballs.
+/// The triangles of its eyeballs.
 std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology);
 
 /// The rig of skin that moves as `source`, a built-in head, would; `pairs` in our frame. Adds
 /// unseen vertices to `model`, the source's lips. Throws as DeformationTransfer, with the model's
 /// name before the sentence.
-RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PlacePair> pairs);
+RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs);
 
 /// What a shape of that name stands for, "mouthsmileleft" in small letters.
 struct ShapeMeaning {
@@ -100,7 +104,7 @@ struct ShapeMeanings {
 /// the mouth's parameters and the rest drive them as is needed to look like `moved` where they act
 /// alone, and in `visemes`. `moved` is the source of the meanings, with other units perhaps. What
 /// the shapes move in `model` is flesh then, teeth too. Nothing if there are fewer than four.
-std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& place,
+std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_ours,
                                      MeshModel& model, const ShapeMeanings& meanings,
                                      const Head& moved, std::span<const FaceState> visemes = {});
 

@@ -60,20 +60,20 @@ std::vector<std::uint32_t> Pieces(std::size_t count, std::span<const std::uint32
 
 class HeadBuilder {
  public:
-  HeadBuilder(const HeadFile& file, const Similarity& place, float mouth_y)
-      : file_(file), place_(place), mouth_y_(mouth_y) {
+  HeadBuilder(const HeadFile& file, const Similarity& to_ours, float mouth_y)
+      : file_(file), to_ours_(to_ours), mouth_y_(mouth_y) {
     model_.name = file.name;
     for (const glm::vec3& p : file.position) {
-      at_.push_back(place(p));
+      at_.push_back(to_ours(p));
       if (!WithinReach(at_.back())) Refuse("vertex " + std::to_string(at_.size() - 1));
     }
   }
 
   MeshModel Build() {
-    for (const Image& picture : file_.pictures) sheet_.Add(picture);
-    model_.photo = sheet_.Make();
+    for (const Image& picture : file_.pictures) atlas_.Add(picture);
+    model_.photo = atlas_.Make();
     if (model_.photo) LayDetails();
-    model_.has_uv_seams = !file_.place.empty();
+    model_.has_uv_seams = !file_.texcoord.empty();
     for (const glm::vec3& p : at_) {
       // The neck gives way below the chin, as ours does.
       model_.Add(p, Bone::kSkin, Palette().skin, {}, NeckWeight(p));
@@ -103,8 +103,8 @@ class HeadBuilder {
       normal_maps.push_back(detail.normal_map);
       emissive_map.push_back(detail.emissive_map);
     }
-    model_.normal_map = sheet_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
-    model_.emissive_map = sheet_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
+    model_.normal_map = atlas_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
+    model_.emissive_map = atlas_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
   }
 
   static float NeckWeight(glm::vec3 p) { return SmoothStep(-168, -96, p.y); }
@@ -114,9 +114,9 @@ class HeadBuilder {
     constexpr glm::vec3 kAxis{0, 0, -14};  // of head and neck
     std::vector<std::int64_t> number;
     for (Spring spring : file_.springs) {
-      spring.rest = place_(spring.rest);
-      spring.root = place_(spring.root);
-      spring.most_mm *= place_.scale;
+      spring.rest = to_ours_(spring.rest);
+      spring.root = to_ours_(spring.root);
+      spring.most_mm *= to_ours_.scale;
       if (spring.outward != glm::vec3(0)) {
         const glm::vec3 beside = (spring.rest - kAxis) * glm::vec3(1, 0, 1);
         spring.outward = glm::normalize(beside + glm::vec3(0, 0, 1e-3f));
@@ -157,19 +157,19 @@ class HeadBuilder {
     if (box[0].count == 0 || box[1].count == 0) return;
     for (std::size_t side = 0; side < 2; ++side) {
       const glm::vec3 radii = box[side].radii();
-      EyePlace& eye = model_.eyes[side];
+      EyeGeometry& eye = model_.eyes[side];
       eye.ball_radius = std::max(0.5f * (radii.x + radii.y), 1e-6f);
-      // Of half a ball only the front is there.
+      // Some files have only the front half of a ball.
       eye.centre = box[side].centre();
       eye.centre.z = box[side].high.z - eye.ball_radius;
       eye.iris_radius = 0.5f * eye.ball_radius;
       eye.iris_colour = Palette().iris;
     }
-    model_.has_eyes =
-        std::ranges::all_of(model_.eyes, [](const EyePlace& eye) { return eye.ball_radius < 40; });
+    model_.has_eyes = std::ranges::all_of(
+        model_.eyes, [](const EyeGeometry& eye) { return eye.ball_radius < 40; });
     model_.look = file_.look;
     if (file_.eye_pivot) {
-      model_.eye_pivot = {place_((*file_.eye_pivot)[0]), place_((*file_.eye_pivot)[1])};
+      model_.eye_pivot = {to_ours_((*file_.eye_pivot)[0]), to_ours_((*file_.eye_pivot)[1])};
       for (const glm::vec3& pivot : *model_.eye_pivot) {
         if (!WithinReach(pivot)) Refuse("what an eye turns about");
       }
@@ -182,7 +182,7 @@ class HeadBuilder {
 
   void AddPart(const HeadFile::Part& part) {
     const Kind kind = KindOf(part.name);
-    const bool pictured = part.picture >= 0 && !file_.place.empty();
+    const bool pictured = part.picture >= 0 && !file_.texcoord.empty();
     if (kind == Kind::kEye && !pictured && model_.has_eyes) {
       AddBalls(part);
       return;
@@ -198,9 +198,9 @@ class HeadBuilder {
       model_.bone[v] = BoneOf(kind, v, pieces.empty() ? nullptr : &piece[pieces[v]]);
       model_.albedo[v] = ColourOf(kind, part, v);
       if (!pictured) continue;
-      const glm::vec2 uv = file_.place[v];
+      const glm::vec2 uv = file_.texcoord[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
-      model_.texcoord[v] = sheet_.place(static_cast<std::size_t>(part.picture)).At(within);
+      model_.texcoord[v] = atlas_.rect(static_cast<std::size_t>(part.picture)).At(within);
       model_.texture_weight[v] = 1;
     }
     const int pbr = MaterialOf(kind, part, pictured);
@@ -296,11 +296,11 @@ class HeadBuilder {
   }
 
   const HeadFile& file_;
-  const Similarity& place_;
+  const Similarity& to_ours_;
   float mouth_y_;
   std::vector<glm::vec3> at_;
   std::vector<std::uint8_t> eye_;  // 1 the agent's right, 2 the left
-  TextureAtlas sheet_;
+  TextureAtlas atlas_;
   std::map<int, int> pbr_index_;  // of the file's the model's
   MeshModel model_;
   bool balls_ = false;
@@ -308,8 +308,8 @@ class HeadBuilder {
 
 }  // namespace
 
-MeshModel ModelOf(const HeadFile& file, const Similarity& place, float mouth_y) {
-  return HeadBuilder(file, place, mouth_y).Build();
+MeshModel ModelOf(const HeadFile& file, const Similarity& to_ours, float mouth_y) {
+  return HeadBuilder(file, to_ours, mouth_y).Build();
 }
 
 }  // namespace fsm

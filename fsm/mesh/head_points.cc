@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <stdexcept>
 
+#include "fsm/base/table_reader.h"
 #include "fsm/mesh/mesh_reach.h"
 
 namespace fsm {
@@ -20,65 +21,43 @@ constexpr std::size_t kMaxPairs = 2000;
 
 }  // namespace
 
-vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view text) {
+vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view text) try {
   HeadPoints points;
-  int number = 0;
-  const auto wrong = [&](const std::string& what) {
-    return vm::Fail(vm::Errc::kBadValue, name + ":" + std::to_string(number) + ": " + what);
-  };
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string_view line = text.substr(at, end - at);
-    at = end + 1;
-    ++number;
-    line = line.substr(0, line.find('#'));
-    std::vector<std::string_view> words;
-    for (std::size_t i = 0; i < line.size() && words.size() < 10;) {
-      const std::size_t begin = line.find_first_not_of(" \t\r", i);
-      if (begin == std::string_view::npos) break;
-      i = std::min(line.find_first_of(" \t\r", begin), line.size());
-      words.push_back(line.substr(begin, i - begin));
-    }
-    if (words.empty()) continue;
-    if (words[0] == "face" && words.size() == 2) {
-      points.face = std::string(words[1]);
+  const Table table(name, text);
+  for (const TableRow& row : table.rows()) {
+    if (row.key() == "face" && row.size() == 2) {
+      points.face = row.Word(1);
       continue;
     }
-    if (words[0] != "point" || words.size() != 8) {
-      return wrong("face NAME or point PART X Y Z X Y Z expected");
+    if (row.key() != "point" || row.size() != 8) {
+      row.Fail("face NAME or point PART X Y Z X Y Z expected");
     }
-    const auto part = std::ranges::find(kParts, words[1]);
+    const auto part = std::ranges::find(kParts, row.Word(1));
     if (part == kParts.end()) {
-      return wrong("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
+      row.Fail("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
     }
-    std::array<float, 6> v{};
-    for (std::size_t k = 0; k < 6; ++k) {
-      const std::string_view word = words[2 + k];
-      const auto [stop, code] = std::from_chars(word.data(), word.data() + word.size(), v[k]);
-      if (code != std::errc() || stop != word.data() + word.size()) {
-        return wrong("six numbers expected after the part");
-      }
-    }
-    const glm::vec3 from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
+    const glm::vec3 from = row.Vector(2), to = row.Vector(5);
     if (!WithinReach(from) || !WithinReach(to)) {
-      return wrong("six numbers of at most 10000000 expected after the part");
+      row.Fail("six numbers of at most 10000000 expected after the part");
     }
     if (points.pairs.size() >= kMaxPairs) {
-      return wrong("at most " + std::to_string(kMaxPairs) + " points are read");
+      row.Fail("at most " + std::to_string(kMaxPairs) + " points are read");
     }
     points.pairs.push_back({from, to, static_cast<FacePart>(part - kParts.begin())});
   }
   if (points.pairs.size() < 8) {
-    return wrong("at least eight points expected, " + std::to_string(points.pairs.size()) +
-                 " are there");
+    throw std::runtime_error(name + ": at least eight points expected, " +
+                             std::to_string(points.pairs.size()) + " are there");
   }
   return points;
+} catch (const std::runtime_error& error) {
+  return vm::Fail(vm::Errc::kBadValue, error.what());
 }
 
 std::string FormatHeadPoints(const HeadPoints& points) {
   std::string out = "face " + points.face + "\n";
   std::array<char, 200> line{};
-  for (const PlacePair& pair : points.pairs) {
+  for (const PointPair& pair : points.pairs) {
     const auto d = [](float v) { return static_cast<double>(v); };
     std::snprintf(line.data(), line.size(), "point %s %.3f %.3f %.3f  %.7g %.7g %.7g\n",
                   kParts[static_cast<std::size_t>(pair.part)], d(pair.from.x), d(pair.from.y),
@@ -88,11 +67,11 @@ std::string FormatHeadPoints(const HeadPoints& points) {
   return out;
 }
 
-Similarity FitSimilarity(std::span<const PlacePair> pairs) {
+Similarity FitSimilarity(std::span<const PointPair> pairs) {
   // Horn, "Closed-form solution of absolute orientation using unit quaternions", 1987: the turn is
   // the eigenvector of the largest eigenvalue of a 4 x 4 matrix, here found by squaring it.
   glm::dvec3 from_mean(0), to_mean(0);
-  for (const PlacePair& pair : pairs) {
+  for (const PointPair& pair : pairs) {
     from_mean += glm::dvec3(pair.from);
     to_mean += glm::dvec3(pair.to);
   }
@@ -100,7 +79,7 @@ Similarity FitSimilarity(std::span<const PlacePair> pairs) {
   to_mean /= static_cast<double>(pairs.size());
   glm::dmat3 s(0.0);
   double from_size = 0, to_size = 0;
-  for (const PlacePair& pair : pairs) {
+  for (const PointPair& pair : pairs) {
     const glm::dvec3 f = glm::dvec3(pair.from) - from_mean, t = glm::dvec3(pair.to) - to_mean;
     s += glm::outerProduct(f, t);  // s[c][r] = f_r t_c
     from_size += glm::dot(f, f);

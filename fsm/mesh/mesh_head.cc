@@ -43,7 +43,7 @@ std::vector<BallLid> LidsOf(const MeshModel& model) {
   for (std::uint32_t i = 0; i < model.position.size(); ++i) {
     if (model.bone[i] != Bone::kSkin) continue;
     for (std::uint8_t side = 0; side < 2; ++side) {
-      const EyePlace& eye = model.eyes[side];
+      const EyeGeometry& eye = model.eyes[side];
       const float far = glm::distance(model.position[i], eye.centre);
       if (far < eye.ball_radius - 0.5F || far > eye.ball_radius + kReach) continue;
       if (model.position[i].z < eye.centre.z) continue;

@@ -65,7 +65,7 @@ void MeshModel::AddBall(std::size_t side) {
   // Rings about the line of sight, one of them the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
   constexpr float kPi = std::numbers::pi_v<float>;
-  const EyePlace& eye = eyes[side];
+  const EyeGeometry& eye = eyes[side];
   const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9F));
   const Bone carrier = side == 0 ? Bone::kEyeRight : Bone::kEyeLeft;
   const auto first = static_cast<std::uint32_t>(position.size());

@@ -18,7 +18,7 @@ namespace fsm {
 
 /// Where the eyes of every head from elsewhere are put: those of the built-in head
 /// (head/tables/eye.txt).
-inline constexpr glm::vec3 kEyePlace{30.5f, 22.3f, 63.6f};
+inline constexpr glm::vec3 kEyeCentre{30.5f, 22.3f, 63.6f};
 
 /// Somebody else's head at rest, in our frame and millimetres: what MakeMeshHead shows.
 struct MeshModel {
@@ -32,7 +32,7 @@ struct MeshModel {
   std::shared_ptr<const Image> photo, normal_map, emissive_map;
   std::vector<PbrMaterial> pbr_materials;
   std::vector<HeadMesh::Batch> batches;
-  std::array<EyePlace, 2> eyes{};  ///< right, left; meaningful where has_eyes
+  std::array<EyeGeometry, 2> eyes{};  ///< right, left; meaningful where has_eyes
   bool has_eyes = false;
   std::optional<std::array<glm::vec3, 2>> eye_pivot;  ///< what they turn about, if not the centres
   std::optional<LookRanges> look;                     ///< else they turn as ours do

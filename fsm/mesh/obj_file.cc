@@ -87,8 +87,8 @@ class ObjReader {
     } else if (key == "vt" || key == "tv") {
       glm::vec2 p;
       if (!Reals(words, 2, &p.x)) return Wrong("vt U V expected");
-      file_.places.push_back(p);
-      if (file_.places.size() > kMaxMeshVertices) return TooMany();
+      file_.texcoords.push_back(p);
+      if (file_.texcoords.size() > kMaxMeshVertices) return TooMany();
     } else if (key == "f") {
       return Face(words);
     } else if (key == "g" || key == "o") {
@@ -120,7 +120,7 @@ class ObjReader {
       }
       if (slash != std::string_view::npos) {
         const std::string_view rest = word.substr(slash + 1);
-        corner.place = Index(rest.substr(0, rest.find('/')), file_.places.size());
+        corner.texcoord = Index(rest.substr(0, rest.find('/')), file_.texcoords.size());
       }
       corners.push_back(corner);
     }

@@ -17,15 +17,15 @@ namespace fsm {
 struct ObjFile {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   struct Corner {
-    std::uint32_t position, place;  ///< place in `places`, or kNone
+    std::uint32_t position, texcoord;  ///< into `positions` and `texcoords`, or kNone
   };
   struct Group {
     std::string name, material;
     std::vector<std::array<Corner, 3>> triangles;
   };
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec2> places;  ///< texture coordinates, v up
-  std::vector<Group> groups;      ///< each name and material once, empty ones left out
+  std::vector<glm::vec2> texcoords;  ///< texture coordinates, v up
+  std::vector<Group> groups;         ///< each name and material once, empty ones left out
   std::vector<std::string> libraries;
 };
 

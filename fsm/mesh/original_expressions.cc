@@ -101,7 +101,7 @@ class Reader {
   vm::Result<void> ReadOne(const char* name, int pattern, const std::string& path) {
     auto text = ReadWhole(path, kMaxFileBytes);
     if (!text) return std::unexpected(text.error());
-    // Those of users are at first copies of the standard ones.
+    // A user's expressions begin as copies of the standard ones.
     auto known = seen_.find(*text);
     if (known == seen_.end()) {
       const auto file = ParsePnt(path, *text);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "fsm/rig/face_state.h"
 #include "fsm/mesh/original_face.h"
+#include "fsm/rig/face_state.h"
 
 namespace fsm {
 

@@ -115,7 +115,7 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) 
                                              " bytes (29 doubles) are expected");
   }
   EyeDef def;
-  // By index among the doubles; an eye has seven of them in either half of the file.
+  // The numbers that are read, by their index; an eye has seven of them in either half of the file.
   std::vector<std::pair<std::size_t, float*>> used{{28, &def.picture_scale}};
   for (std::size_t side = 0; side < 2; ++side) {
     EyeDef::Eye& eye = def.eye[side];

@@ -11,22 +11,11 @@
 #include "fsm/image/image.h"
 #include "fsm/mesh/mesh_model.h"
 #include "fsm/mesh/obj_file.h"
+#include "fsm/mesh/original_files.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/rig/face_state.h"
 
 namespace fsm {
-
-/// The files of one face of the original (MaskFile, MaskEye, MaskTeeth); "" = not named.
-struct OriginalFaceFiles {
-  std::string name, picture, wireframe, eye_picture, eye_def, teeth_def;
-};
-
-/// What all faces of a configuration share.
-struct OriginalSharedFiles {
-  std::string standard, link;  ///< DEF_WFM_PNT, DEF_WFM_LNK
-  std::string upper_teeth, lower_teeth, eye, mouth_picture;
-  std::string offsets;  ///< the folder of _AU_Datas, _MU_Datas and _VM_Datas
-};
 
 /// Where eyeballs sit, a .def_e file: 29 little-endian doubles, for the right and the left eye
 /// place, turn and scale, the same again within the ball, and the scale of the picture on it. The

@@ -23,10 +23,10 @@ class OriginalBuilder {
   explicit OriginalBuilder(const OriginalFace& face) : face_(face), frame_(face.wireframe) {}
 
   MeshModel Build() {
-    const std::size_t picture = sheet_.Add(face_.picture);
+    const std::size_t picture = atlas_.Add(face_.picture);
     std::size_t eye_picture = 0;
-    if (face_.eye_picture) eye_picture = sheet_.Add(*face_.eye_picture);
-    model_.photo = sheet_.Make();
+    if (face_.eye_picture) eye_picture = atlas_.Add(*face_.eye_picture);
+    model_.photo = atlas_.Make();
     AddFace(picture);
     AddMouth();
     AddEyes(eye_picture);
@@ -48,7 +48,7 @@ class OriginalBuilder {
     const float chin = frame_.Place(face_.wireframe, kChin).y;
     for (const glm::vec3& p : face_.wireframe.at) {
       const glm::vec2 place =
-          sheet_.place(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
+          atlas_.rect(picture).At(glm::clamp(glm::vec2(p.x + 1, 1 - p.y) / 2.0F, 0.0F, 1.0F));
       const glm::vec3 at = frame_.ToMm(p);
       model_.Add(at, Bone::kSkin, face_.mouth, place, SmoothStep(chin - 42, chin - 4, at.y));
     }
@@ -87,7 +87,7 @@ class OriginalBuilder {
       std::vector<std::uint32_t> inner;
       for (std::size_t i = 0; i < rim.size(); ++i) {
         const glm::vec3 p = model_.position[rim[i]];
-        // Of the rim's 20 points 0 and 10 are the corners, 1 to 9 the upper lip.
+        // Points 0 and 10 of the rim's 20 are the corners, 1 to 9 the upper lip.
         const float round = std::sin(3.14159265F * static_cast<float>(i % 10) / 10);
         const float up = i < 10 ? round : -round;
         const glm::vec3 at(middle.x + (p.x - middle.x) * ring.wide, p.y + up * ring.high,
@@ -112,7 +112,7 @@ class OriginalBuilder {
   void AddEyes(std::size_t picture) {
     model_.has_eyes = true;
     for (std::size_t side = 0; side < 2; ++side) {
-      EyePlace& eye = model_.eyes[side];
+      EyeGeometry& eye = model_.eyes[side];
       eye.iris_colour = {0.10F, 0.055F, 0.03F};
       if (face_.eye_def && face_.eye) {
         AddOwnEye(side, picture);
@@ -149,7 +149,7 @@ class OriginalBuilder {
     for (const glm::vec3& p : face_.eye->positions) {
       const glm::vec2 flat = 0.5F + def.picture_scale * glm::vec2(p - middle) / glm::vec2(size);
       const glm::vec2 place =
-          sheet_.place(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
+          atlas_.rect(picture).At(glm::clamp(glm::vec2(flat.x, 1 - flat.y), 0.0F, 1.0F));
       const glm::vec3 at = eye.place + eye.scale * glm::vec3(turned * glm::vec4(p, 1));
       model_.Add(frame_.ToMm(at), carrier, glm::vec3(0.5F), place);
     }
@@ -190,7 +190,7 @@ class OriginalBuilder {
       return face_.wireframe.at[face_.wireframe.index.at(name)];
     };
     const bool upper = bone == Bone::kSkull;
-    const TeethPlaces& places = upper ? kUpperTeeth : kLowerTeeth;
+    const TeethPoints& places = upper ? kUpperTeeth : kLowerTeeth;
     glm::vec3 low(1e9F), high(-1e9F);
     for (const glm::vec3& p : teeth.positions) {
       low = glm::min(low, p);
@@ -234,7 +234,7 @@ class OriginalBuilder {
 
   const OriginalFace& face_;
   OriginalFrame frame_;
-  TextureAtlas sheet_;
+  TextureAtlas atlas_;
   MeshModel model_;
 };
 

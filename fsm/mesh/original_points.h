@@ -22,11 +22,11 @@ inline constexpr std::array<PointName, 20> kLipRim{
 /// of each row the top, the bottom and how far forward its front is.
 inline constexpr std::array<PointName, 2> kJawAtTeeth{{{12, 15}, {13, 15}}};
 inline constexpr PointName kUpperLipFront{1, 35};
-struct TeethPlaces {
+struct TeethPoints {
   PointName top, bottom, front;
 };
-inline constexpr TeethPlaces kUpperTeeth{{12, 17}, kLipMiddle, {1, 10}};
-inline constexpr TeethPlaces kLowerTeeth{{1, 37}, {1, 40}, {1, 22}};
+inline constexpr TeethPoints kUpperTeeth{{12, 17}, kLipMiddle, {1, 10}};
+inline constexpr TeethPoints kLowerTeeth{{1, 37}, {1, 40}, {1, 22}};
 
 /// Points of upper and lower lip that meet, from the agent's right corner to the left.
 inline constexpr std::array<std::pair<PointName, PointName>, 11> kLipPairs{{{{1, 33}, {1, 33}},

@@ -17,7 +17,7 @@
 namespace fsm {
 namespace {
 
-/// The place of a triangle nearest to p, as parts of its corners (Ericson, Real-Time Collision
+/// The point of a triangle nearest to p, as parts of its corners (Ericson, Real-Time Collision
 /// Detection, 5.1.5).
 glm::vec3 NearestPart(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
   const glm::vec3 ab = b - a, ac = c - a, ap = p - a;
@@ -47,6 +47,69 @@ glm::vec3 NearestPart(glm::vec3 p, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
   const float sum = std::max(va + vb + vc, 1e-20f);
   return {1 - vb / sum - vc / sum, vb / sum, vc / sum};
 }
+
+/// How far to the front the surface lies at the points of a grid over it.
+class FrontDepth {
+ public:
+  explicit FrontDepth(std::span<const glm::vec3> points) {
+    glm::vec2 high(-1e9f);
+    for (const glm::vec3& p : points) {
+      low_ = glm::min(low_, glm::vec2(p));
+      high = glm::max(high, glm::vec2(p));
+    }
+    size_ = glm::ivec2(glm::clamp((high - low_) / kCell + 2.0f, 2.0f, float{kMost}));
+    front_.assign(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y), -1e9f);
+  }
+
+  void Draw(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (area <= 1e-6f) return;  // turned away
+    const glm::vec2 least = glm::min(glm::vec2(a), glm::min(glm::vec2(b), glm::vec2(c)));
+    const glm::vec2 most = glm::max(glm::vec2(a), glm::max(glm::vec2(b), glm::vec2(c)));
+    const glm::ivec2 from(glm::max((least - low_) / kCell, 0.0f));
+    const glm::ivec2 to = glm::min(glm::ivec2(glm::max(most - low_, 0.0f) / kCell) + 1, size_ - 1);
+    if (from.x > to.x || from.y > to.y) return;
+    const std::int64_t box = std::int64_t{to.x - from.x + 1} * (to.y - from.y + 1);
+    if (box > kMostOfTriangle) return;
+    if (covered_ += box; covered_ > WeldedSurface::kMaxCovered) {
+      throw std::runtime_error(
+          "its triangles lie in too many layers: their boxes cover more than " +
+          std::to_string(WeldedSurface::kMaxCovered / 1'000'000) + " square metres");
+    }
+    for (int y = from.y; y <= to.y; ++y) {
+      for (int x = from.x; x <= to.x; ++x) {
+        const glm::vec2 p = low_ + kCell * glm::vec2(x, y);
+        const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
+        const float v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
+        if (u < 0 || v < 0 || u + v > 1) continue;
+        const float z = a.z * (1 - u - v) + b.z * u + c.z * v;
+        At(x, y) = std::max(At(x, y), z);
+      }
+    }
+  }
+
+  /// The least of the four points around p: at a slope, and at the edge of an opening, p is seen.
+  float LeastAround(glm::vec3 p) {
+    const glm::ivec2 cell = glm::min(glm::ivec2((glm::vec2(p) - low_) / kCell), size_ - 2);
+    return std::min({At(cell.x, cell.y), At(cell.x + 1, cell.y), At(cell.x, cell.y + 1),
+                     At(cell.x + 1, cell.y + 1)});
+  }
+
+ private:
+  static constexpr float kCell = 1;   // millimetres
+  static constexpr int kMost = 2000;  // cells
+  static constexpr std::int64_t kMostOfTriangle = 1'000'000;
+
+  float& At(int x, int y) {
+    return front_[static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +
+                  static_cast<std::size_t>(x)];
+  }
+
+  glm::vec2 low_{1e9f};
+  glm::ivec2 size_;
+  std::vector<float> front_;
+  std::int64_t covered_ = 0;
+};
 
 }  // namespace
 
@@ -109,60 +172,15 @@ void WeldedSurface::FindNormals() {
 
 void WeldedSurface::FindSeen(std::span<const glm::vec3> position,
                              std::span<const std::uint32_t> eyes) {
-  constexpr float kCell = 1, kClear = 0.5f, kBehind = 3;  // millimetres
-  constexpr int kMost = 2000;
-  constexpr std::int64_t kMostOfTriangle = 1'000'000;
-  seen.assign(at.size(), 1);
-  glm::vec2 low(1e9f), high(-1e9f);
-  for (const glm::vec3& p : at) {
-    low = glm::min(low, glm::vec2(p));
-    high = glm::max(high, glm::vec2(p));
-  }
-  const glm::ivec2 size(glm::clamp((high - low) / kCell + 2.0f, 2.0f, float{kMost}));
-  std::vector<float> front(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y),
-                           -1e9f);
-  const auto index = [&size](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(x);
-  };
-  std::int64_t covered = 0;
-  const auto draw = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-    const float area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-    if (area <= 1e-6f) return;  // turned away
-    const glm::vec2 least = glm::min(glm::vec2(a), glm::min(glm::vec2(b), glm::vec2(c)));
-    const glm::vec2 most = glm::max(glm::vec2(a), glm::max(glm::vec2(b), glm::vec2(c)));
-    const glm::ivec2 from(glm::max((least - low) / kCell, 0.0f));
-    const glm::ivec2 to = glm::min(glm::ivec2(glm::max(most - low, 0.0f) / kCell) + 1, size - 1);
-    if (from.x > to.x || from.y > to.y) return;
-    const std::int64_t box = std::int64_t{to.x - from.x + 1} * (to.y - from.y + 1);
-    if (box > kMostOfTriangle) return;
-    if (covered += box; covered > kMaxCovered) {
-      throw std::runtime_error(
-          "its triangles lie in too many layers: their boxes cover more than " +
-          std::to_string(kMaxCovered / 1'000'000) + " square metres");
-    }
-    for (int y = from.y; y <= to.y; ++y) {
-      for (int x = from.x; x <= to.x; ++x) {
-        const glm::vec2 p = low + kCell * glm::vec2(x, y);
-        const float u = ((p.x - a.x) * (c.y - a.y) - (c.x - a.x) * (p.y - a.y)) / area;
-        const float v = ((b.x - a.x) * (p.y - a.y) - (p.x - a.x) * (b.y - a.y)) / area;
-        if (u < 0 || v < 0 || u + v > 1) continue;
-        const float z = a.z * (1 - u - v) + b.z * u + c.z * v;
-        front[index(x, y)] = std::max(front[index(x, y)], z);
-      }
-    }
-  };
-  for (const auto& t : triangles) draw(at[t[0]], at[t[1]], at[t[2]]);
+  constexpr float kClear = 0.5f, kBehind = 3;  // millimetres
+  FrontDepth front(at);
+  for (const auto& t : triangles) front.Draw(at[t[0]], at[t[1]], at[t[2]]);
   for (std::size_t k = 0; k + 2 < eyes.size(); k += 3) {
-    draw(position[eyes[k]], position[eyes[k + 1]], position[eyes[k + 2]]);
+    front.Draw(position[eyes[k]], position[eyes[k + 1]], position[eyes[k + 2]]);
   }
+  seen.resize(at.size());
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const glm::ivec2 cell = glm::min(glm::ivec2((glm::vec2(at[i]) - low) / kCell), size - 2);
-    float least = 1e9f;  // around it: at a slope, and at the edge of an opening, it is seen
-    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
-      least = std::min(least, front[index(cell.x + x, cell.y + y)]);
-    }
-    seen[i] = SmoothStep(kBehind, kClear, least - at[i].z);
+    seen[i] = SmoothStep(kBehind, kClear, front.LeastAround(at[i]) - at[i].z);
   }
 }
 

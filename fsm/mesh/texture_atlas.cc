@@ -27,31 +27,17 @@ Image Halved(const Image& image) {
   return half;
 }
 
-Image Blank(int width, int height, glm::u8vec4 colour) {
-  Image sheet{width, height, {}};
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  sheet.rgba.reserve(4 * pixels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    sheet.rgba.insert(sheet.rgba.end(), {colour.r, colour.g, colour.b, colour.a});
-  }
-  return sheet;
-}
-
-/// Copies a picture to a place of the sheet, in the size given, its edge pixels repeated around it.
-void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, Image& sheet) {
+/// Copies a picture to a place of the atlas, in the size given, its edge pixels repeated around it.
+void Lay(const Image& picture, glm::ivec2 at, glm::ivec2 size, int rim, Image& atlas) {
   for (int y = -rim; y < size.y + rim; ++y) {
     const int to_y = at.y + y;
     const int from_y = std::clamp(y, 0, size.y - 1) * picture.height / size.y;
     for (int x = -rim; x < size.x + rim; ++x) {
       const int to_x = at.x + x;
-      if (to_x < 0 || to_y < 0 || to_x >= sheet.width || to_y >= sheet.height) continue;
+      if (to_x < 0 || to_y < 0 || to_x >= atlas.width || to_y >= atlas.height) continue;
       const int from_x = std::clamp(x, 0, size.x - 1) * picture.width / size.x;
-      const auto index = [](int column, int row, int width) {
-        return 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(column));
-      };
-      std::copy_n(&picture.rgba[index(from_x, from_y, picture.width)], 4,
-                  &sheet.rgba[index(to_x, to_y, sheet.width)]);
+      std::copy_n(&picture.rgba[4 * picture.Index(from_x, from_y)], 4,
+                  &atlas.rgba[4 * atlas.Index(to_x, to_y)]);
     }
   }
 }
@@ -88,37 +74,36 @@ std::shared_ptr<const Image> TextureAtlas::Make() {
       width_ = std::max(width_, x);
     }
     height_ += row;
-    if (height_ <= kMaxSheet) break;
+    if (height_ <= kMaxAtlas) break;
     for (Image& picture : pictures_) picture = Halved(picture);
   }
-  Image sheet = Blank(width_, height_, glm::u8vec4(255));
-  places_.clear();
+  Image atlas = FilledImage(width_, height_);
+  rects_.clear();
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
     const Image& picture = pictures_[i];
-    Lay(picture, {spots_[i].x, spots_[i].y}, {picture.width, picture.height}, kRim, sheet);
+    Lay(picture, {spots_[i].x, spots_[i].y}, {picture.width, picture.height}, kRim, atlas);
     const glm::vec2 size(width_, height_);
-    places_.push_back(
-        {glm::vec2(spots_[i].x, spots_[i].y) / size,
-         glm::vec2(spots_[i].x + picture.width, spots_[i].y + picture.height) / size});
+    rects_.push_back({glm::vec2(spots_[i].x, spots_[i].y) / size,
+                      glm::vec2(spots_[i].x + picture.width, spots_[i].y + picture.height) / size});
   }
-  return std::make_shared<Image>(std::move(sheet));
+  return std::make_shared<Image>(std::move(atlas));
 }
 
 std::shared_ptr<const Image> TextureAtlas::MakeBeside(std::vector<Image> others,
-                                                      glm::u8vec4 neutral) const {
+                                                      std::array<std::uint8_t, 4> neutral) const {
   if (std::ranges::all_of(others, [](const Image& image) { return image.rgba.empty(); })) {
     return nullptr;
   }
-  Image sheet = Blank((width_ + 1) / 2, (height_ + 1) / 2, neutral);
+  Image atlas = FilledImage((width_ + 1) / 2, (height_ + 1) / 2, neutral);
   for (std::size_t i = 0; i < std::min(others.size(), pictures_.size()); ++i) {
     if (others[i].rgba.empty()) continue;
     const glm::ivec2 size = glm::max(glm::ivec2(pictures_[i].width, pictures_[i].height) / 2, 1);
     while (others[i].width >= 2 * size.x && others[i].height >= 2 * size.y) {
       others[i] = Halved(others[i]);
     }
-    Lay(others[i], glm::ivec2(spots_[i].x, spots_[i].y) / 2, size, kRim / 2, sheet);
+    Lay(others[i], glm::ivec2(spots_[i].x, spots_[i].y) / 2, size, kRim / 2, atlas);
   }
-  return std::make_shared<Image>(std::move(sheet));
+  return std::make_shared<Image>(std::move(atlas));
 }
 
 }  // namespace fsm

@@ -17,30 +17,31 @@ void Shrink(Image& picture, int side);
 class TextureAtlas {
  public:
   static constexpr int kMaxSide = 2048;  ///< of one picture
-  /// Where a picture lies on the sheet: its corners, 0..1, v down.
-  struct Place {
+  /// Where a picture lies on the atlas: its corners, 0..1, v down.
+  struct Rect {
     glm::vec2 low{0}, high{1};
     glm::vec2 At(glm::vec2 uv) const { return low + uv * (high - low); }
   };
-  /// The number of the picture, for place(). Pictures beyond kMaxSide are halved until they fit.
+  /// The number of the picture, for rect(). Pictures beyond kMaxSide are halved until they fit.
   std::size_t Add(Image picture);
   /// Lays all out. Nothing if there are none.
   std::shared_ptr<const Image> Make();
   /// Others laid out alike, half as large; `neutral` where one is missing or empty. Nothing if all
   /// are. REQUIRES: Make was called.
-  std::shared_ptr<const Image> MakeBeside(std::vector<Image> others, glm::u8vec4 neutral) const;
+  std::shared_ptr<const Image> MakeBeside(std::vector<Image> others,
+                                          std::array<std::uint8_t, 4> neutral) const;
   /// Valid after Make.
-  const Place& place(std::size_t picture) const { return places_[picture]; }
+  const Rect& rect(std::size_t picture) const { return rects_[picture]; }
 
  private:
-  static constexpr int kMaxSheet = 8192;  ///< of the sheet
+  static constexpr int kMaxAtlas = 8192;  ///< of the atlas
   struct Spot {
     int x, y;
   };
   static constexpr int kRim = 2;
   std::vector<Image> pictures_;
   std::vector<Spot> spots_;
-  std::vector<Place> places_;
+  std::vector<Rect> rects_;
   int width_ = 0, height_ = 0;
 };
 

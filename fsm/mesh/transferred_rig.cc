@@ -214,7 +214,7 @@ std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
 }
 
 DeformationTransfer TransferBetween(const Head& source, const MeshModel& model,
-                                    std::span<const PlacePair> pairs) {
+                                    std::span<const PointPair> pairs) {
   HeadVertices rest;
   source.Evaluate({}, rest);
   try {
@@ -238,7 +238,7 @@ std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology) {
   return TrianglesOf(topology, {Material::kSclera, Material::kIris, Material::kPupil});
 }
 
-RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PlacePair> pairs) {
+RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs) {
   using enum RigStep;
   const RigData& from = source.rig().data();
   const DeformationTransfer transfer = TransferBetween(source, model, pairs);

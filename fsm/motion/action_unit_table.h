@@ -14,7 +14,7 @@ namespace fsm {
 class TableText;
 struct TableLine;
 struct UnitNames;
-/// Of the table the program carries, see unit_names.h.
+/// The names of the table the program carries, see unit_names.h.
 const UnitNames& BuiltInUnitNames();
 
 /// Weights of all action units, left and right, and where the eyes go with them (degrees, x+ =

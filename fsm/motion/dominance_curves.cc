@@ -37,44 +37,44 @@ double DominanceCurves::Contact::At(double position_ms) const {
   return std::min(part(rise, from, position_ms), 1 - part(to, fall, position_ms));
 }
 
-DominanceCurves::DominanceCurves(const VisemeTargets& demands, const Reach& reach) : reach_(reach) {
+DominanceCurves::DominanceCurves(const VisemeTargets& visemes, const Reach& reach) : reach_(reach) {
   VisemeTarget rest;
-  rest.target = demands.rest;
+  rest.target = visemes.rest;
   rest.dominance = {.jaw = 0.8, .lips = 0.8, .round = 0.5, .tongue = 0.5};
   rest.pause = true;
   rest.length_ms = kForever;
   rest.start_ms = -kForever;
   sounds_.push_back({rest, 0, {}});
   longest_reach_ms_ = std::max(reach.before_ms, reach.after_ms);
-  for (const VisemeTarget& demand : demands.demands) {
-    sounds_.push_back({demand, demand.start_ms + demand.length_ms, {}});
-    longest_reach_ms_ = std::max(longest_reach_ms_, demand.dominance.early_ms);
+  for (const VisemeTarget& viseme : visemes.targets) {
+    sounds_.push_back({viseme, viseme.start_ms + viseme.length_ms, {}});
+    longest_reach_ms_ = std::max(longest_reach_ms_, viseme.dominance.early_ms);
   }
-  rest.start_ms = demands.length_ms;
-  sounds_.push_back({rest, demands.length_ms + kForever, {}});
+  rest.start_ms = visemes.length_ms;
+  sounds_.push_back({rest, visemes.length_ms + kForever, {}});
   PlaceContacts();
 }
 
 void DominanceCurves::PlaceContacts() {
   const auto closes = [this](std::size_t i) {
-    const VisemeTarget& demand = sounds_[i].demand;
-    return demand.target.seal > 0 && !(demand.pause && demand.length_ms < kShortestPause);
+    const VisemeTarget& viseme = sounds_[i].viseme;
+    return viseme.target.seal > 0 && !(viseme.pause && viseme.length_ms < kShortestPause);
   };
   for (std::size_t i = 0; i < sounds_.size(); ++i) {
     Sound& sound = sounds_[i];
-    const VisemeTarget& demand = sound.demand;
-    if (demand.target.contact <= 0) continue;
-    if (demand.pause && demand.length_ms < kShortestPause) continue;
+    const VisemeTarget& viseme = sound.viseme;
+    if (viseme.target.contact <= 0) continue;
+    if (viseme.pause && viseme.length_ms < kShortestPause) continue;
     const bool closed_before = i == 0 || (closes(i) && closes(i - 1));
     const bool closed_after = i + 1 == sounds_.size() || (closes(i) && closes(i + 1));
-    const double start = demand.start_ms;
+    const double start = viseme.start_ms;
     Contact contact{};
-    if (demand.pause) {
+    if (viseme.pause) {
       // The lips come together after the sound before has ended, and part in time for the next.
       contact = {start, start + kPauseEase, sound.end_ms - kPauseEase, sound.end_ms};
     } else {
-      const double before = i == 0 ? kRise : sounds_[i - 1].demand.length_ms;
-      const double to = start + std::min(demand.hold_ms, demand.length_ms);
+      const double before = i == 0 ? kRise : sounds_[i - 1].viseme.length_ms;
+      const double to = start + std::min(viseme.hold_ms, viseme.length_ms);
       contact = {start - std::clamp(0.7 * before, 12.0, kRise), start, to,
                  std::max(sound.end_ms, to + 20)};
     }
@@ -98,21 +98,21 @@ MouthPose DominanceCurves::At(double position_ms) const {
   double jaw_gives = 0;
   MouthPose pose;
   for (auto s = first; s != sounds_.end(); ++s) {
-    if (s->demand.start_ms - longest_reach_ms_ * 3 > position_ms) break;
-    const Dominance& d = s->demand.dominance;
-    const bool early = position_ms < s->demand.start_ms;
+    if (s->viseme.start_ms - longest_reach_ms_ * 3 > position_ms) break;
+    const Dominance& d = s->viseme.dominance;
+    const bool early = position_ms < s->viseme.start_ms;
     const double distance =
-        std::max({s->demand.start_ms - position_ms, position_ms - s->end_ms, 0.0});
+        std::max({s->viseme.start_ms - position_ms, position_ms - s->end_ms, 0.0});
     const double near = Bell(distance, early ? reach_.before_ms : reach_.after_ms);
     dominance = {d.jaw * near, d.lips * near,
                  d.round * Bell(distance, early ? d.early_ms : reach_.after_ms), d.tongue * near};
     for (std::size_t g = 0; g < kGroups; ++g) weight[g] += dominance[g];
     for (std::size_t p = 0; p < kMouthParameters; ++p) {
-      mouth[p] += dominance[kGroupOf[p]] * s->demand.target.mouth[p];
+      mouth[p] += dominance[kGroupOf[p]] * s->viseme.target.mouth[p];
     }
-    tongue += dominance[kTongue] * s->demand.target.tongue;
+    tongue += dominance[kTongue] * s->viseme.target.tongue;
     if (!s->contact) continue;
-    const MouthPose& target = s->demand.target;
+    const MouthPose& target = s->viseme.target;
     const double made = s->contact->At(position_ms);
     const double contact = made * target.contact;
     pose.seal = std::max(pose.seal, static_cast<float>(made * target.seal));

@@ -25,7 +25,7 @@ namespace fsm {
 /// the passing of the halfway point at its start. In pauses of 120 ms and more the lips meet.
 class DominanceCurves {
  public:
-  DominanceCurves(const VisemeTargets& demands, const Reach& reach);
+  DominanceCurves(const VisemeTargets& visemes, const Reach& reach);
   MouthPose At(double position_ms) const;
 
  private:
@@ -35,7 +35,7 @@ class DominanceCurves {
     double At(double position_ms) const;
   };
   struct Sound {
-    VisemeTarget demand;
+    VisemeTarget viseme;
     double end_ms;
     std::optional<Contact> contact;
   };

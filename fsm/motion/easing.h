@@ -26,7 +26,7 @@ inline double SmootherStep(double u) {
 }
 
 /// The share of the second key shape in the original's interpolation between key shapes,
-/// M(t) = W (V0 - V1) + (V0 + V1) / 2 with W = cos(pi u) / 2 (DESIGN.md section 7).
+/// M(t) = W (V0 - V1) + (V0 + V1) / 2 with W = cos(pi u) / 2.
 inline double Sinusoid(double u) { return (1 - std::cos(std::numbers::pi * Clamp01(u))) / 2; }
 
 /// Milliseconds of a time, with their fraction.

@@ -23,6 +23,8 @@ struct Emotion {
   Timing elicited;  ///< felt
 };
 using EmotionTable = std::map<std::string, Emotion, std::less<>>;
+/// Looks of whole expressions by FaceExp's name and pattern number.
+using ExpressionLooks = std::map<std::string, std::map<int, ActionUnits>>;
 
 /// Every emotion needs its patterns numbered from 1 without gaps.
 vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,

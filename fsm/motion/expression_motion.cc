@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "fsm/base/random.h"
 #include "fsm/motion/motion_errors.h"
-#include "fsm/motion/random.h"
 
 namespace fsm {
 namespace {

@@ -35,7 +35,7 @@ class ExpressionMotion : public MotionSource {
   vm::Result<void> Define(std::string_view name, int pattern, std::string_view look);
   void Forget(std::string_view name);
   /// Whose face it is: by how much one side of it begins later than the other, always the same: 20
-  /// to 40 ms (research notes on the face, 4.4). How much weaker one side is belongs to the head.
+  /// to 40 ms. How much weaker one side is belongs to the head.
   void SetPerson(std::uint64_t seed);
 
   void Contribute(vm::Time t, MotionFrame& frame) const override;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "fsm/motion/random.h"
+#include "fsm/base/random.h"
 
 namespace fsm {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "fsm/base/random.h"
 #include "fsm/motion/motion_errors.h"
-#include "fsm/motion/random.h"
 
 namespace fsm {
 

@@ -17,8 +17,8 @@
 #include "fsm/motion/motion_tables.h"
 #include "fsm/motion/mouth_motion.h"
 #include "fsm/motion/speech_motion.h"
-#include "fsm/rig/face_state.h"
 #include "fsm/motion/unit_motion.h"
+#include "fsm/rig/face_state.h"
 #include "vm_protocol/core/phonemes.h"
 #include "vm_protocol/core/result.h"
 #include "vm_protocol/core/scheduler.h"
@@ -82,7 +82,6 @@ class FaceMotion {
   void Think(vm::Time now) { eyes_.Think(now); }  ///< looks away, here and there, until the next
   void TurnHead(vm::Time now, const Angles& angles) { head_.TurnTo(now, angles); }
   void TurnHeadBy(vm::Time now, const Angles& angles) { head_.TurnBy(now, angles); }
-  Angles HeadTarget(vm::Time now) const { return head_.TargetAt(now); }
   /// FaceMot: SHAKE is another name for REFUSE, TILT for LISTEN. `count` times (1..20).
   vm::Result<void> Move(vm::Time now, std::string_view kind, int pattern, double strength = 1,
                         int count = 1);
@@ -109,7 +108,7 @@ class FaceMotion {
   const std::string& PhonemeAt(vm::Time t) const { return speech_.PhonemeAt(t); }
   /// Phonemes no table has, once each: the mouth closes on them.
   std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const {
-    return MakeDemands(phonemes, tables_, settings_.lips).unknown;
+    return MakeVisemeTargets(phonemes, tables_, settings_.lips).unknown;
   }
 
   // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.

@@ -19,7 +19,6 @@ class HeadMotion : public MotionSource {
   void TurnTo(vm::Time now, const Angles& angles);
   /// From where the last turn leads; each angle stays within +-90 degrees.
   void TurnBy(vm::Time now, const Angles& angles);
-  Angles TargetAt(vm::Time t) const { return turn_.TargetAt(t); }
   /// A movement `count` times, each time 15 % smaller; `strength` multiplies its angles. It takes
   /// the place of the one in hand, which fades within 80 ms. kBadValue for a pattern there is not.
   vm::Result<void> Play(vm::Time now, std::string_view kind, int pattern, double strength,

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fsm/base/random.h"
 #include "fsm/motion/motion_errors.h"
-#include "fsm/motion/random.h"
 
 namespace fsm {
 namespace {

@@ -21,8 +21,6 @@ double SpeechClock::CorrectionAt(vm::Time t) const {
 
 double SpeechClock::PositionAt(vm::Time t) const { return InMs(t - start_) + CorrectionAt(t); }
 
-double SpeechClock::ErrorAt(vm::Time t) const { return to_ms_ - CorrectionAt(t); }
-
 bool SpeechClock::IsJustLate(double difference_ms) {
   // Two in a row may have come late; a third says that the voice is behind, by the least of them.
   const double behind = to_ms_ - difference_ms;

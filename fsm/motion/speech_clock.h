@@ -19,8 +19,6 @@ class SpeechClock {
   void Correct(vm::Time now, double voice_ms, double max_rate);
   /// When the position is reached, if nothing more is reported.
   vm::Time WhenAt(double position_ms) const;
-  /// What is still to be worked off at `t`, in ms.
-  double ErrorAt(vm::Time t) const;
 
  private:
   double CorrectionAt(vm::Time t) const;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsm/base/random.h"
 #include "fsm/motion/easing.h"
-#include "fsm/motion/random.h"
 
 namespace fsm {
 namespace {
@@ -23,42 +23,42 @@ double Bump(double ms, double peak, double rise, double fall) {
 
 }  // namespace
 
-SpeechGestures::SpeechGestures(const VisemeTargets& demands, std::uint64_t seed)
-    : seed_(seed), length_ms_(demands.length_ms) {
-  FindBeats(demands);
+SpeechGestures::SpeechGestures(const VisemeTargets& visemes, std::uint64_t seed)
+    : seed_(seed), length_ms_(visemes.length_ms) {
+  FindBeats(visemes);
   bool pause = true;
-  for (const VisemeTarget& demand : demands.demands) {
-    if (demand.pause) {
-      pause = pause || demand.length_ms >= kPhrasePauseMs;
+  for (const VisemeTarget& viseme : visemes.targets) {
+    if (viseme.pause) {
+      pause = pause || viseme.length_ms >= kPhrasePauseMs;
       continue;
     }
     if (!pause) continue;
     pause = false;
     const auto index = static_cast<std::int64_t>(phrases_.size());
-    phrases_.push_back({std::max(-kApproachMs, demand.start_ms - 150),
+    phrases_.push_back({std::max(-kApproachMs, viseme.start_ms - 150),
                         {.nod = -0.35 + 0.3 * RandomAt(seed_, kLift, index),
                          .turn = RandomAt(seed_, kTurn, index),
                          .tilt = RandomAt(seed_, kTilt, index)}});
   }
 }
 
-void SpeechGestures::FindBeats(const VisemeTargets& demands) {
+void SpeechGestures::FindBeats(const VisemeTargets& visemes) {
   double sum = 0;
   double count = 0;
-  for (const VisemeTarget& demand : demands.demands) {
-    if (!demand.dominance.vowel) continue;
-    sum += demand.length_ms;
+  for (const VisemeTarget& viseme : visemes.targets) {
+    if (!viseme.dominance.vowel) continue;
+    sum += viseme.length_ms;
     ++count;
   }
   if (count == 0) return;
   const double mean = sum / count;
-  for (const VisemeTarget& demand : demands.demands) {
-    if (!demand.dominance.vowel) continue;
-    const double open = std::clamp(demand.target.mouth[kJawY] / 9.0, 0.0, 1.0);
-    const double stress = std::min(2.2, demand.length_ms / mean) * (0.7 + 0.3 * open);
+  for (const VisemeTarget& viseme : visemes.targets) {
+    if (!viseme.dominance.vowel) continue;
+    const double open = std::clamp(viseme.target.mouth[kJawY] / 9.0, 0.0, 1.0);
+    const double stress = std::min(2.2, viseme.length_ms / mean) * (0.7 + 0.3 * open);
     if (stress < 0.85) continue;
     const double nod = std::clamp(stress - 0.45, 0.3, 1.0);
-    const Beat beat{demand.start_ms + 0.4 * demand.length_ms, nod, 0};
+    const Beat beat{viseme.start_ms + 0.4 * viseme.length_ms, nod, 0};
     if (!beats_.empty() && beat.peak_ms - beats_.back().peak_ms < kApartMs) {
       if (beats_.back().nod < nod) beats_.back() = beat;
     } else {

@@ -19,7 +19,7 @@ namespace fsm {
 class SpeechGestures {
  public:
   SpeechGestures() = default;
-  SpeechGestures(const VisemeTargets& demands, std::uint64_t seed);
+  SpeechGestures(const VisemeTargets& visemes, std::uint64_t seed);
 
   /// In parts of the table's greatest angles, about -1..1.
   struct At {
@@ -47,7 +47,7 @@ class SpeechGestures {
     double start_ms;
     At pose;
   };
-  void FindBeats(const VisemeTargets& demands);
+  void FindBeats(const VisemeTargets& visemes);
 
   std::uint64_t seed_ = 0;
   double length_ms_ = 0;

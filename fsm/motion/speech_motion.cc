@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fsm/motion/random.h"
+#include "fsm/base/random.h"
 
 namespace fsm {
 namespace {
@@ -41,7 +41,7 @@ void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time
   std::erase_if(said_, [&](const Utterance& one) { return GoneAt(one) <= now; });
   auto track = std::make_shared<const VisemeTrack>(phonemes, tables_, settings_.lips);
   const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterances_));
-  SpeechGestures gestures(track->demands(), seed);
+  SpeechGestures gestures(track->visemes(), seed);
   const vm::Time ahead = FromMs(lead_ms_.At(now) + kApproachMs);
   said_.push_back({std::move(track), std::move(gestures), SpeechClock(start),
                    std::max(now, start - ahead), std::nullopt});

@@ -31,7 +31,7 @@ class UnitMotion : public MotionSource {
   void SetOne(vm::Time now, const UnitSetting& unit, vm::Time move);
 
   const UnitNames& names_;
-  // By number, those ever set: the agent's left and right side. Of a code both are the same.
+  // The units ever set, by number: left and right. A code has one strength for both.
   std::map<int, std::array<Track<float>, 2>> units_;
 };
 

@@ -50,7 +50,7 @@ vm::Result<UnitName> ParseUnitName(std::string_view word,
 struct UnitSetting : UnitName {
   double strength = 1;  ///< 0..2
 };
-/// How strong the letters of FACS are: A trace .. E maximum (research notes on the face, 3.1).
+/// How strong the letters of FACS are: A trace .. E maximum (Ekman and Friesen 1978).
 inline constexpr std::array<double, 5> kIntensity = {0.1, 0.3, 0.5, 0.75, 1.0};
 
 struct UnitCommand {

@@ -44,8 +44,8 @@ void ResolveNext(std::vector<Part>& parts, const MouthSet& set) {
 
 }  // namespace
 
-VisemeTargets MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
-                          const LipStyle& style) {
+VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
+                                const LipStyle& style) {
   const MouthSet& set = style.bilingual ? tables.set28 : tables.set14;
   const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
   const PhonemeLook closed{{{static_cast<int>(set.rest), 1}}};
@@ -79,19 +79,19 @@ VisemeTargets MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& t
     const auto index = static_cast<std::size_t>(part.look.shape);
     const Viseme& shape = set.shapes[index];
     const bool pause = index == set.rest;
-    VisemeTarget demand{
+    VisemeTarget viseme{
         part.start_ms, part.length_ms, Scaled(shape, part.look.strength, style), 0, shape.dominance,
         pause,         part.holds};
     if (part.holds) {
-      demand.hold_ms = part.length_ms - kApproachMs;
+      viseme.hold_ms = part.length_ms - kApproachMs;
     } else if (shape.hold > 0) {
-      demand.hold_ms = shape.hold * part.length_ms;
+      viseme.hold_ms = shape.hold * part.length_ms;
       // A contact of the lips must be seen; a pause this short need not be.
       if (!pause) {
-        demand.hold_ms = std::max(demand.hold_ms, std::min(kSeenMs, 0.85 * part.length_ms));
+        viseme.hold_ms = std::max(viseme.hold_ms, std::min(kSeenMs, 0.85 * part.length_ms));
       }
     }
-    out.demands.push_back(demand);
+    out.targets.push_back(viseme);
   }
   return out;
 }

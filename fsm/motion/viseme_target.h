@@ -38,14 +38,14 @@ struct VisemeTarget {
 
 /// What a sentence asks of the mouth.
 struct VisemeTargets {
-  std::vector<VisemeTarget> demands;  ///< in time, without those of no length
+  std::vector<VisemeTarget> targets;  ///< in time, without those of no length
   MouthPose rest;
   double length_ms = 0;
   bool english = false;
   std::vector<std::string> unknown;  ///< phonemes no table has, once each: lips close on them
 };
-VisemeTargets MakeDemands(const vm::PhonemeList& phonemes, const MotionTables& tables,
-                          const LipStyle& style);
+VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
+                                const LipStyle& style);
 
 inline constexpr double kApproachMs = 92;  ///< the original's time of transition
 inline constexpr double kSeenMs = 34;      ///< just over one frame at 30 a second

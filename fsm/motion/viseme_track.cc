@@ -8,26 +8,26 @@ namespace fsm {
 
 VisemeTrack::VisemeTrack(const vm::PhonemeList& phonemes, const MotionTables& tables,
                          const LipStyle& style)
-    : mode_(style.mode), demands_(MakeDemands(phonemes, tables, style)) {
+    : mode_(style.mode), visemes_(MakeVisemeTargets(phonemes, tables, style)) {
   double start = 0;
   for (const vm::Phoneme& phoneme : phonemes) {
     spans_.push_back({start, phoneme.name});
     start += InMs(phoneme.duration);
   }
   if (mode_ == LipMode::kDominance) {
-    curves_.emplace(demands_, tables.reach);
+    curves_.emplace(visemes_, tables.reach);
   } else {
     MakeKeys();
   }
 }
 
 void VisemeTrack::MakeKeys() {
-  keys_.push_back({-kApproachMs, demands_.rest});
-  for (const VisemeTarget& demand : demands_.demands) {
-    keys_.push_back({demand.start_ms, demand.target});
-    if (demand.hold_ms > 0) keys_.push_back({demand.start_ms + demand.hold_ms, demand.target});
+  keys_.push_back({-kApproachMs, visemes_.rest});
+  for (const VisemeTarget& viseme : visemes_.targets) {
+    keys_.push_back({viseme.start_ms, viseme.target});
+    if (viseme.hold_ms > 0) keys_.push_back({viseme.start_ms + viseme.hold_ms, viseme.target});
   }
-  keys_.push_back({demands_.length_ms, demands_.rest});
+  keys_.push_back({visemes_.length_ms, visemes_.rest});
 }
 
 MouthPose VisemeTrack::At(double position_ms) const {

@@ -31,9 +31,9 @@ class VisemeTrack {
   MouthPose At(double position_ms) const;
   /// The phoneme sounding at a position; "" outside the utterance.
   const std::string& PhonemeAt(double position_ms) const;
-  double length_ms() const { return demands_.length_ms; }
-  bool english() const { return demands_.english; }
-  const VisemeTargets& demands() const { return demands_; }
+  double length_ms() const { return visemes_.length_ms; }
+  bool english() const { return visemes_.english; }
+  const VisemeTargets& visemes() const { return visemes_; }
 
  private:
   struct Key {
@@ -47,7 +47,7 @@ class VisemeTrack {
   void MakeKeys();
 
   LipMode mode_;
-  VisemeTargets demands_;
+  VisemeTargets visemes_;
   std::vector<Span> spans_;
   std::vector<Key> keys_;                  // of the modes with key shapes
   std::optional<DominanceCurves> curves_;  // of the other

@@ -59,10 +59,7 @@ const Appearance& Appearance::BuiltIn() {
 
 float Appearance::Number(const std::string& name) const { return numbers_(name); }
 
-glm::vec3 Appearance::Color(const std::string& name) const {
-  const auto& n = numbers_[name];
-  return {n.at(0), n.at(1), n.at(2)};
-}
+glm::vec3 Appearance::Color(const std::string& name) const { return numbers_.Vector(name); }
 
 glm::vec4 Appearance::ColorAndOpacity(const std::string& name) const {
   return {Color(name), numbers_[name].at(3)};

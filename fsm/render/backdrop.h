@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "fsm/render/gl_objects.h"
-#include "fsm/render/renderer.h"
+#include "fsm/render/scene.h"
 
 namespace fsm {
 

@@ -3,7 +3,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-#include "fsm/render/renderer.h"
+#include "fsm/render/scene.h"
 #include "fsm/rig/face_state.h"
 
 namespace fsm {

@@ -28,7 +28,7 @@ class EyeFinder {
   /// `rest` belongs to `topology`. A head without a kSclera part has no eyes.
   EyeFinder(const HeadTopology& topology, const HeadVertices& rest);
   bool found() const { return !white_[0].empty() && !white_[1].empty(); }
-  /// Of the eye at the viewer's left [0] and right [1]. REQUIRES: found().
+  /// The eye at the viewer's left [0] and right [1]. REQUIRES: found().
   std::array<EyeFrame, 2> Measure(const HeadVertices& vertices) const;
   /// The vertices that Measure looks at.
   void AppendVertices(std::vector<std::uint32_t>& out) const;

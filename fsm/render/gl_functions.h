@@ -82,7 +82,7 @@ class RenderContext;
   X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
   X(PFNGLVIEWPORTPROC, Viewport)
 
-/// Of OpenGL 4.3, which not every driver has.
+/// Functions of OpenGL 4.3, which not every driver has.
 #define FSM_GL_COMPUTE_FUNCTIONS(X)              \
   X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)     \
   X(PFNGLDISPATCHCOMPUTEPROC, DispatchCompute)   \

@@ -17,7 +17,7 @@ class GlProgram {
   /// Throws std::runtime_error with the compiler's words if a source is wrong; `name` is for them.
   GlProgram(const GlFunctions& gl, const char* name, std::string_view vertex,
             std::string_view fragment);
-  /// Of a compute shader. REQUIRES: GlFunctions::has_compute.
+  /// Makes a program of a compute shader. REQUIRES: GlFunctions::has_compute.
   GlProgram(const GlFunctions& gl, const char* name, std::string_view compute);
   ~GlProgram() { gl_.DeleteProgram(id_); }
   GlProgram(const GlProgram&) = delete;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "fsm/render/draw_order.h"
 #include "fsm/render/eye_frame.h"
 #include "fsm/render/gl_functions.h"
 #include "fsm/render/mouth_frame.h"
@@ -16,15 +17,6 @@
 #include "fsm/rig/head.h"
 
 namespace fsm {
-
-/// A part as it is drawn.
-struct DrawnPart {
-  HeadTopology::Part part;  ///< indices as uploaded
-  bool soft = false;        ///< mixed with what is behind it
-  /// Of what wears a photo: off, it is the photo and nothing else, without a crease, grain from
-  /// elsewhere or anything that is left out, which costs a fraction of a pixel.
-  bool detailed = true;
-};
 
 /// One head on the GL side: what never changes is uploaded at the beginning, vertices every frame.
 /// Destroy while its context is current.
@@ -51,15 +43,12 @@ class HeadBuffers {
   /// The detail of this head's skin; nothing if it does not say where its features are. Waits until
   /// it is painted.
   const SkinTexture* skin();
-  /// What is the same of both eyes: sizes and colour.
-  const EyePlace& eye_place() const { return eye_place_; }
-  /// What is worn in place of painted skin, if anything.
+  /// Sizes and colours of the eyes, which both share.
+  const EyeGeometry& eye_geometry() const { return eye_geometry_; }
+  /// HeadTopology::photo; null if the skin is painted.
   const Image* photo() const { return photo_.get(); }
-  /// Whether that is laid on in layers from back to front with soft edges.
+  /// DrawOrder::Blends.
   bool blends() const { return blends_; }
-  static bool Blends(const HeadTopology& topology) {
-    return topology.photo && !topology.opacity.empty();
-  }
   /// HeadTopology::normal_map, emissive_map and pbr_materials.
   const Image* normal_map() const { return normal_map_.get(); }
   const Image* emissive_map() const { return emissive_map_.get(); }
@@ -72,17 +61,14 @@ class HeadBuffers {
   float chin_y() const { return chin_y_; }
   /// HeadTopology::photo_light.
   glm::vec4 photo_light() const { return photo_light_; }
-  /// Of what is lit beside a photo, 0..1.
+  /// HeadTopology::saturation.
   float saturation() const { return saturation_; }
 
  private:
   static constexpr float kNoChin = -1e4F;
 
   void UploadTopology(const Head& head);
-  void TakeOver(const HeadTopology& topology);
-  /// `detailed`: of every vertex, what DrawnPart says of parts.
-  void Order(const HeadTopology& topology, const HeadVertices& rest,
-             const std::vector<bool>& detailed);
+  void CopyTopology(const HeadTopology& topology);
 
   const GlFunctions& gl_;
   GLuint array_ = 0;
@@ -98,7 +84,7 @@ class HeadBuffers {
   EyeFinder eyes_;
   ShadowFinder shadows_;
   MouthFinder mouth_;
-  EyePlace eye_place_;
+  EyeGeometry eye_geometry_;
   std::optional<SkinTexture> skin_;
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
   std::shared_ptr<const Image> photo_, normal_map_, emissive_map_;

@@ -11,7 +11,7 @@
 #include "fsm/render/gl_objects.h"
 #include "fsm/render/head_buffers.h"
 #include "fsm/render/head_textures.h"
-#include "fsm/render/renderer.h"
+#include "fsm/render/scene.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -64,12 +64,12 @@ class Materials {
                 const SideDepths& crease_depths, const glm::mat3& rest_to_world, float brightness);
   void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                const glm::mat3& rest_to_world, float brightness);
-  void SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eyes, const EyePlace& place);
+  void SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eyes, const EyeGeometry& place);
   void SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
                       const glm::mat3& rest_to_world);
   void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                 glm::vec3 key_direction);
-  /// Of a photo: its light stands for the lamps as they are by default.
+  /// How much brighter than by default the lamps are: a photo's own light stands for the default.
   float PhotoBrightness(const Lamps& lamps) const;
   void Use(Material material, bool detailed);
   bool WearsPhoto(Material material) const;

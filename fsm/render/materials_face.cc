@@ -77,9 +77,9 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
 void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                         const glm::mat3& rest_to_world, float brightness) {
   const auto eyes = head.eyes().Measure(vertices);
-  SetEyeballs(view, eyes, head.eye_place());
+  SetEyeballs(view, eyes, head.eye_geometry());
   // The white of a grey photo is grey, and so is the flesh beside it.
-  const glm::vec3 white = head.eye_place().white_colour;
+  const glm::vec3 white = head.eye_geometry().white_colour;
   const bool grey = std::abs(white.r - white.g) + std::abs(white.g - white.b) < 0.02F * white.g;
   const bool pictured = head.photo() && head.eye_pictures();
   gl_.Uniform1f(eye_.Uniform("flesh_red"), grey ? 0.0F : 1.0F);
@@ -90,7 +90,7 @@ void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVer
 }
 
 void Materials::SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eyes,
-                            const EyePlace& place) {
+                            const EyeGeometry& place) {
   const glm::mat3 turn(view.figure_to_world);
   const float scale = glm::length(turn[0]);
   glm::vec4 balls[2];

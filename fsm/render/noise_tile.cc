@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fsm/base/random.h"
+
 namespace fsm {
 namespace {
 
@@ -16,7 +18,7 @@ std::size_t Cell(int x, int y) {
 std::vector<std::uint8_t> MakeNoiseTile() {
   const std::size_t count = static_cast<std::size_t>(kNoiseCells) * kNoiseCells;
   std::vector<int> own(count);
-  for (std::size_t i = 0; i < count; ++i) own[i] = static_cast<int>(Mix(i) >> 56);
+  for (std::size_t i = 0; i < count; ++i) own[i] = static_cast<int>(Scramble(i) >> 56);
   std::vector<int> smooth(count);
   for (int y = 0; y < kNoiseCells; ++y) {
     for (int x = 0; x < kNoiseCells; ++x) {

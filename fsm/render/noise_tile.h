@@ -22,17 +22,4 @@ inline constexpr int kStrandsAlong = 256;
 /// red and green are 128. Always the same bytes.
 std::vector<std::uint8_t> MakeStrandTile();
 
-/// A well mixed number for any number (Steele's SplitMix64).
-inline std::uint64_t Mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// The i-th of a fixed series of numbers in 0..1; each `series` is another.
-inline float Chance(std::uint64_t series, std::uint64_t i) {
-  return static_cast<float>(Mix(series << 40 ^ i) >> 40) * 0x1p-24F;
-}
-
 }  // namespace fsm

@@ -92,7 +92,7 @@ class GlRenderer : public Renderer {
           std::string(reinterpret_cast<const char*>(gl_.GetString(GL_VERSION))));
   }
 
-  void Place(const Viewport& pane) override { pane_ = pane; }
+  void SetViewport(const Viewport& viewport) override { viewport_ = viewport; }
 
   void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
             const Scene& scene) override {
@@ -130,12 +130,12 @@ class GlRenderer : public Renderer {
 
   /// `move`: has the buffers use the vertices of the frame, and gives those that are measured.
   void Draw(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
-    const int width = pane_.width > 0 ? pane_.width : context_.width();
-    const int height = pane_.width > 0 ? pane_.height : context_.height();
+    const int width = viewport_.width > 0 ? viewport_.width : context_.width();
+    const int height = viewport_.width > 0 ? viewport_.height : context_.height();
     FindTarget(width, height);
     target_->Bind();
     // Beside a photo's own softness hard edges are seen.
-    soft_ = HeadBuffers::Blends(head.topology());
+    soft_ = DrawOrder::Blends(head.topology());
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
@@ -147,7 +147,8 @@ class GlRenderer : public Renderer {
     }
     if (context_.is_window()) {
       gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-      target_->Show(pane_.x, pane_.width > 0 ? context_.height() - pane_.y - height : 0);
+      target_->Show(viewport_.x,
+                    viewport_.width > 0 ? context_.height() - viewport_.y - height : 0);
     }
   }
 
@@ -273,7 +274,7 @@ class GlRenderer : public Renderer {
 
   RenderContext& context_;
   const std::size_t most_heads_;
-  Viewport pane_;
+  Viewport viewport_;
   GlFunctions gl_;
   const glm::vec4 line_over_texture_;
   Materials materials_;
@@ -285,7 +286,7 @@ class GlRenderer : public Renderer {
   RigPrograms rig_programs_;
   const bool rig_on_card_;
   HeadVertices vertices_;  // where the processor makes them; reused
-  // Of the frame drawn last.
+  // The size of the frame drawn last.
   GlTarget* target_ = nullptr;
   bool soft_ = false;
   bool transparent_ = false;

@@ -3,50 +3,17 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
 #include "fsm/image/image.h"
+#include "fsm/render/scene.h"
 #include "fsm/rig/face_state.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
 
 class Appearance;
-
-enum class ViewMode { kTexture, kTextureWithWireframe, kWireframe };
-
-/// One lamp of the studio, far away. What is not said is as tables/appearance.txt has it.
-struct DirectionalLight {
-  /// Towards the lamp: x to the viewer's right, y up, z to the viewer.
-  std::optional<glm::vec3> direction = {};
-  std::optional<glm::vec3> tint = {};  ///< linear RGB; white is as bright as the studio's lamp
-  float strength = 1;
-};
-
-/// Where the viewer stands.
-struct Camera {
-  float distance = 1;        ///< as part of that from which head and shoulders fill the view
-  float height_mm = 0;       ///< above the middle of the portrait, of viewer and aim
-  float field_degrees = 25;  ///< seen from below to above; the head stays as large
-  float angle_degrees = 0;   ///< round the head, positive = to the viewer's right
-  std::optional<ParallelView> parallel =
-      {};  ///< instead of the portrait; the field means nothing then
-  /// FaceState::agent_translation counts half the longer side of the view, not millimetres.
-  bool moves_by_half_views = false;
-};
-
-struct Scene {
-  glm::vec3 background{0.35f, 0.42f, 0.48f};  ///< sRGB 0..1, when there is no picture
-  const Image* background_image = nullptr;    ///< stretched over the view; borrowed
-  bool show_background = true;                ///< off: transparent black
-  ViewMode view_mode = ViewMode::kTexture;
-  Camera camera;
-  glm::vec3 wire{0.10f, 0.55f, 0.42f};  ///< sRGB, of the lines of ViewMode::kWireframe
-  bool wire_on_black = false;           ///< which have no background then
-  DirectionalLight key, fill, rim;
-};
 
 /// What draws off screen. The order in which ways are tried stands in headless_context.cc.
 enum class OffScreen {
@@ -101,11 +68,11 @@ struct Viewport {
   int width = 0, height = 0;
 };
 
-/// Draws heads, any number of them one after the other, each where Place says: so one window shows
-/// several faces. Programs and targets are shared by all of them; of the heads drawn last it keeps
-/// what never changes. Owns its GL objects; the context outlives it and is current in every call.
-/// 4x antialiased. The same head, state, scene and size give the same picture, whatever was drawn
-/// before.
+/// Draws heads, any number of them one after the other, each where SetViewport says: so one window
+/// shows several faces. Programs and targets are shared by all of them; of the heads drawn last it
+/// keeps what never changes. Owns its GL objects; the context outlives it and is current in every
+/// call. 4x antialiased. The same head, state, scene and size give the same picture, whatever was
+/// drawn before.
 class Renderer {
  public:
   /// `heads`: how many are kept at most, 1 or more, each with some 20 MB of textures; one more
@@ -117,7 +84,7 @@ class Renderer {
                                         const Appearance& appearance, RigOn rig = RigOn::kBest);
   virtual ~Renderer() = default;
   /// Where the next frames go; at first everywhere.
-  virtual void Place(const Viewport& pane) = 0;
+  virtual void SetViewport(const Viewport& viewport) = 0;
   /// `vertices` belong to `head` (Evaluate of `state`).
   virtual void Draw(const Head& head, const HeadVertices& vertices, const FaceState& state,
                     const Scene& scene) = 0;
@@ -125,7 +92,7 @@ class Renderer {
   /// which a card makes itself (GpuRig), and within what GpuRig says they are the same.
   virtual void Draw(const Head& head, const FaceState& state, std::span<const glm::vec3> swings,
                     const Scene& scene) = 0;
-  /// The frame drawn last, of the pane's size.
+  /// The frame drawn last, of the viewport's size.
   virtual void Read(Image& out) = 0;
   /// Begins to bring the frame drawn last to memory while others are drawn, which a graphics card
   /// does by itself; each frame under way holds 16 bytes a pixel there. Two or three keep it busy.

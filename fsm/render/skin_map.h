@@ -16,7 +16,7 @@ struct SkinMap {
 
   SkinMap(const HeadTopology& topology, const HeadVertices& rest);
 
-  /// Of the cell in column x and row y, row 0 at v = 0.
+  /// The index of the cell in column x and row y, row 0 at v = 0.
   static std::size_t Index(int x, int y) {
     return static_cast<std::size_t>(y) * kCells + static_cast<std::size_t>(x);
   }

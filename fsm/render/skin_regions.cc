@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "fsm/base/random.h"
 #include "fsm/render/noise_tile.h"
 #include "fsm/render/skin_parts.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "fsm/base/random.h"
 #include "fsm/render/noise_tile.h"
 #include "fsm/render/skin_map.h"
 #include "fsm/render/skin_parts.h"

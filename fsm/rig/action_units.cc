@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "fsm/base/grain.h"
+#include "fsm/base/random.h"
 #include "fsm/base/spline.h"
 
 namespace fsm {
@@ -140,7 +140,7 @@ void UnitTable::MakeAsymmetric(int seed) {
   constexpr float kPart = 0.035f;
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
     if (unit >= 41 || unit == 26 || unit == 27) continue;
-    const float lean = kPart * Grain(static_cast<int>(unit), 90 + seed);
+    const float lean = kPart * NoiseAt(static_cast<int>(unit), 90 + seed);
     lean_[0][unit] = lean;
     lean_[1][unit] = -lean;
   }
@@ -221,9 +221,9 @@ UnitEffects UnitTable::Effects(const SidedUnits& units) const {
   return sum;
 }
 
-glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& flesh, bool mirror) {
-  const float x = mirror ? -flesh.domain.x : flesh.domain.x;
-  if (std::abs(flesh.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
+glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, bool mirror) {
+  const float x = mirror ? -weights.domain.x : weights.domain.x;
+  if (std::abs(weights.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right together make the whole.
   const float own_side = SmoothStep(-7, 7, x);
   if (own_side <= 0) return glm::vec3(0);
@@ -231,14 +231,14 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& flesh, bool m
   // A field that reaches over the median meets its mirror image there: the stronger counts.
   for (const float side : {1.0f, -1.0f}) {
     const float dx = (x - side * field.at.x) / field.radius.x;
-    const float dy = (flesh.domain.y - field.at.y) / field.radius.y;
+    const float dy = (weights.domain.y - field.at.y) / field.radius.y;
     const float d2 = dx * dx + dy * dy;
     if (d2 < 1) weight = std::max(weight, (1 - d2) * (1 - d2));
   }
   using Part = Field::Part;
-  if (field.part == Part::kAbove) weight *= flesh.above_mouth;
-  if (field.part == Part::kBelow) weight *= 1 - flesh.above_mouth;
-  weight *= own_side * flesh.free;
+  if (field.part == Part::kAbove) weight *= weights.above_mouth;
+  if (field.part == Part::kBelow) weight *= 1 - weights.above_mouth;
+  weight *= own_side * weights.free;
   glm::vec3 by = field.by;
   // The sideways part turns over smoothly at the median instead of tearing it.
   by.x *= std::clamp(x / 4, -1.0f, 1.0f) * (mirror ? -1.0f : 1.0f);

@@ -58,7 +58,7 @@ class UnitTable {
   SidedUnits Combine(const FaceState& state) const;
   UnitEffects Effects(const SidedUnits& units) const;
   /// Motion of one left-side field at a flesh vertex of either half; `mirror` for the right side.
-  static glm::vec3 Motion(const Field& field, const SkinWeights& flesh, bool mirror);
+  static glm::vec3 Motion(const Field& field, const SkinWeights& weights, bool mirror);
 
  private:
   struct Rule {

@@ -18,7 +18,7 @@ struct FaceState {
   UnitValues au_left;
   UnitValues au_right;
 
-  /// Speech, in the 17 mouth parameters of the original editor (DESIGN.md section 7), 1-based
+  /// Speech, in the 17 mouth parameters of the original editor (docs/face.md), 1-based
   /// there, 0-based here; 1 = the parameter's unit displacement (see the mouth shape table), may be
   /// negative. 0-3 upper lip outer Y, outer Z, inner Y, inner Z; 4-7 lower lip inner Y, inner Z,
   /// outer Y, outer Z; 8-10 corner X, Y, Z; 11-12 jaw Y, Z; 13-16 outer and inner adjust of the

@@ -43,7 +43,7 @@ constexpr bool IsHair(Material material) {
 
 /// One eye at rest. The cap of the ball in Material::kIris is the cornea's outer surface, which
 /// bulges; iris and pupil lie behind it and are drawn by parallax.
-struct EyePlace {
+struct EyeGeometry {
   glm::vec3 centre{};  ///< of the ball, millimetres
   float ball_radius = 12;
   float iris_radius = 6;
@@ -67,7 +67,7 @@ struct Strand {
   glm::vec3 along{0, -1, 0};  ///< from root to tip at rest, unit
   float density = 1;          ///< 1 = dense, 0 = none: hairs thin out where a lock ends
   float across = 0;           ///< -1..1 over the width of a lock whose sides fray, 0 elsewhere
-  glm::vec2 place{};  ///< millimetres across and along the hairs: which of them are seen here
+  glm::vec2 tile_mm{};        ///< across and along the hairs: which of them are seen here
 };
 
 /// What a vertex of a lid looks like when the lid is shut, on a head that wears a photo of open
@@ -135,12 +135,12 @@ struct HeadTopology {
   glm::vec4 photo_light{0, 0, 0, 1};
   /// Per vertex: how much that light follows it as it turns with an expression, 0..1. May be empty.
   std::vector<float> relit;
-  /// Of the agent's right and left, if the photo shows them; else they are drawn.
+  /// The agent's right and left eye, if the photo shows them; else eyes are drawn.
   std::optional<std::array<EyePicture, 2>> eye_pictures;
   MouthSlit mouth;
-  /// Of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
+  /// Saturation of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
   float saturation = 1;
-  std::array<EyePlace, 2> eyes;  ///< the agent's right, left
+  std::array<EyeGeometry, 2> eyes;  ///< the agent's right, left
 };
 
 /// Where skin creases with expression; indexes HeadVertices::wrinkles.

@@ -9,7 +9,7 @@
 namespace fsm {
 namespace {
 
-/// By which angle a vertex turns about the axis of the lids.
+/// The angle by which a vertex turns about the axis of the lids.
 float TurnOf(const LidRig::Vertex& lid, const EyeTransform& eye, const UnitEffects::Lids& ask) {
   float upper = lid.upper_angle + lid.opening * (eye.upper_mm + ask.upper_mm) / step::kLidRadius;
   // A lower lid that is raised goes up nearly as far beside the middle, so that it stays a curve.

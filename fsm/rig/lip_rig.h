@@ -21,13 +21,13 @@ struct LipRig {
     std::uint32_t pair;  ///< index into `seam`: the one that moves it
     float part;          ///< -1..1: > 0 of the upper lip, < 0 of the lower
   };
-  /// By how much of its pair's gap a follower goes.
+  /// The part of its pair's gap that a follower moves by.
   static float ShareOf(const Follower& f) {
     constexpr float kUpperShare = 0.4f;  // of the way to each other
     return (f.part > 0 ? kUpperShare : 1 - kUpperShare) * f.part;
   }
   std::vector<Follower> followers;
-  /// By which the mouth is measured: the upper and the lower lip in the middle, the corners at the
+  /// Vertices that measure the mouth: upper and lower lip in the middle, the corners at the
   /// agent's left and right.
   std::optional<std::array<std::uint32_t, 4>> measured;
 };

@@ -25,7 +25,7 @@ inline constexpr glm::vec3 kJawHinge{0, -4, -3};
 /// The point the head turns about, in the upper neck.
 inline constexpr glm::vec3 kNeckPivot{0, -85, -28};
 
-/// By how much something moves a vertex at full strength, millimetres.
+/// How far something moves a vertex at full strength, millimetres.
 struct Displacement {
   std::uint32_t vertex;
   glm::vec3 by;
@@ -126,7 +126,7 @@ struct RigData {
   /// Triangles whose corners take their normals from what they become, three indices each; all
   /// other vertices keep theirs, turned with their bone.
   std::vector<std::uint32_t> soft_triangles;
-  /// Of each vertex the one whose normal it shares, where a texture is sewn together; or none.
+  /// Per vertex the one whose normal it shares, where a texture is sewn together; may be empty.
   std::vector<std::uint32_t> normal_twin;
 
   UnitTable units;            ///< how units combine, and what they do beside displacing skin
@@ -164,7 +164,7 @@ RigData OnlyVertices(const RigData& data, std::span<const std::uint32_t> vertice
 /// Vertices on whose places the steps found those of others: where lips meet, the chin.
 std::vector<std::uint32_t> StepVertices(const RigData& data);
 
-/// Of vertices that stay where they are.
+/// The rig of vertices that stay where they are.
 RigData StillRig(std::vector<glm::vec3> position, std::vector<glm::vec3> normal);
 
 }  // namespace fsm

@@ -20,7 +20,7 @@ std::int64_t StepAt(Simulation::Time t) {
 /// How the head carries things in one state.
 struct Carrier {
   explicit Carrier(const FaceState& state) : turn(HeadTurn(state)), by(HeadForward(state)) {
-    // Of the turn only what is about the vertical.
+    // Only the part of the turn that is about the vertical.
     const glm::vec3 ahead = turn[2];
     const float length = std::hypot(ahead.x, ahead.z);
     const float c = length > 1e-3f ? ahead.z / length : 1,

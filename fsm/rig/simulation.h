@@ -36,7 +36,7 @@ class Simulation {
   /// Takes the steps up to `now`. `state_at` is asked for times from kMemory before `now` on, not
   /// below 0. A `now` before that of the last call begins anew.
   void RunTo(Time now, const StateAt& state_at);
-  /// Of each spring how far it is from where the head carries it, millimetres. None before the
+  /// How far each spring is from where the head carries it, millimetres. None before the
   /// first RunTo.
   std::span<const glm::vec3> offsets() const { return offsets_; }
   /// Nothing swings by more than is seen.

@@ -6,7 +6,7 @@ namespace fsm {
 
 /// Where teeth and tongue lie in a face, from the base head's places: moved, and turned towards a
 /// side so far as its lips are, which for so small an angle is a shear.
-struct TeethPlace {
+struct TeethTransform {
   glm::vec3 shift{0};
   float slope = 0;  ///< forward for each millimetre to the left
   glm::vec3 operator()(glm::vec3 p) const { return p + shift + glm::vec3(0, 0, slope * p.x); }
@@ -19,13 +19,13 @@ struct ToothArch {
   float edge_y;  ///< of the middle incisors
   float root_y;  ///< where the gum ends
   float middle_x = 0;
-  float turn = 0;  ///< as TeethPlace::slope
+  float turn = 0;  ///< as TeethTransform::slope
   float At(float x) const {
     const float off = x - middle_x;
     const float t = (off / half_width) * (off / half_width);
     return front_z + turn * off - depth * t * (0.45f + 0.55f * t);
   }
-  ToothArch Moved(const TeethPlace& to) const {
+  ToothArch Moved(const TeethTransform& to) const {
     ToothArch moved = *this;
     moved.front_z += to.shift.z;
     moved.edge_y += to.shift.y;

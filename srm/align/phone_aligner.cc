@@ -1,11 +1,11 @@
 #include "srm/align/phone_aligner.h"
 
-#include <cctype>
 #include <utility>
 
 #include "srm/align/pause_edges.h"
 #include "srm/engine/pocketsphinx_handle.h"
 #include "srm/engine/pronunciation.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace srm {
 namespace {
@@ -16,14 +16,6 @@ constexpr std::string_view kFirstPhone = "PW_";  // a word's first phoneme
 // Frames are counted from their first sample, but what they hold lies around their middle, half a
 // window (25.6 ms) later; 8 ms leave no bias against flite's own times.
 constexpr Millis kHalfWindow{8};
-
-std::string FliteName(std::string_view phone) {
-  std::string name;
-  for (const char c : phone) {
-    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return name;
-}
 
 bool IsFiller(std::string_view word) {
   return word.empty() || word[0] == '<' || word[0] == '[' || word[0] == '+' || word == "SIL";
@@ -163,7 +155,7 @@ vm::Result<Alignment> PhoneAligner::Align(const std::vector<std::int16_t>& sampl
     const std::string_view word = ps_seg_word(seg);
     const bool filler = IsFiller(word);
     if (word == "(NULL)" || last < first) continue;
-    collector.Add(filler ? "pau" : FliteName(word.substr(3)), first);
+    collector.Add(filler ? "pau" : vm::LowerCase(word.substr(3)), first);
     if (!alignment.words.empty() && alignment.words.back().end.count() == 0 &&
         (filler || word.starts_with(kFirstPhone))) {
       alignment.words.back().end = collector.at();
@@ -199,7 +191,7 @@ vm::Result<Alignment> PhoneAligner::Guess(const std::vector<std::int16_t>& sampl
     int first = 0, last = 0;
     ps_seg_frames(seg, &first, &last);
     const std::string_view word = ps_seg_word(seg);
-    collector.Add(IsFiller(word) ? "pau" : FliteName(word), first);
+    collector.Add(IsFiller(word) ? "pau" : vm::LowerCase(word), first);
   }
   Alignment guess{.phonemes = collector.Finish()};
   PlacePauses(guess, samples);

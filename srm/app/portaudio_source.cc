@@ -4,11 +4,11 @@
 
 #include <array>
 #include <atomic>
-#include <cctype>
 #include <cstdio>
 #include <utility>
 
 #include "srm/app/sources.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace srm {
 namespace {
@@ -17,11 +17,6 @@ constexpr vm::Time kPoll{20'000};
 constexpr std::size_t kRing = std::size_t{1} << 16;  // 4 s
 constexpr double kRateHz = 16000;
 constexpr int kDeadPolls = 150;  // 3 s without sound: the device is gone
-
-std::string LowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
 
 /// PortAudio's back ends write dozens of lines to stderr while they look for devices.
 class QuietStderr {
@@ -65,7 +60,7 @@ class Microphone final : public AudioSource {
     PaDeviceIndex chosen = wanted.empty() ? Pa_GetDefaultInputDevice() : paNoDevice;
     for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount() && chosen == paNoDevice; ++i) {
       const PaDeviceInfo* info = Pa_GetDeviceInfo(i);
-      const bool fits = LowerCase(info->name).find(LowerCase(wanted)) != std::string::npos;
+      const bool fits = vm::LowerCase(info->name).find(vm::LowerCase(wanted)) != std::string::npos;
       if (info->maxInputChannels > 0 && fits) chosen = i;
     }
     if (chosen == paNoDevice) {

@@ -5,10 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <cstdio>
 #include <string_view>
 #include <utility>
+
+#include "vm_protocol/core/lower_case.h"
 
 namespace ssm {
 namespace {
@@ -25,16 +26,10 @@ bool CanInitialize() {
          WEXITSTATUS(status) == 0;
 }
 
-std::string LowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
-
 vm::Error Unavailable(std::string text) { return {vm::Errc::kUnavailable, std::move(text), 0}; }
 
 bool SwallowsSound(std::string_view name) {
-  const std::string lower = LowerCase(name);
+  const std::string lower = vm::LowerCase(name);
   return lower == "null" || lower.find("discard all samples") != std::string::npos;
 }
 
@@ -71,7 +66,7 @@ vm::Result<PaDeviceIndex> ChooseOutputDevice(const std::string& wanted) {
     const PaDeviceInfo* info = Pa_GetDeviceInfo(i);
     if (info->maxOutputChannels < 1) continue;
     names += (names.empty() ? "" : ", ") + std::string(info->name);
-    const bool fits = LowerCase(info->name).find(LowerCase(wanted)) != std::string::npos;
+    const bool fits = vm::LowerCase(info->name).find(vm::LowerCase(wanted)) != std::string::npos;
     if (chosen == paNoDevice && !wanted.empty() && fits) chosen = i;
   }
   if (chosen == paNoDevice) {

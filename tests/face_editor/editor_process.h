@@ -24,13 +24,14 @@ using Millis = support::Millis;
 using Process = support::Process;
 inline constexpr Millis kLong{120000};  // software drawing on a busy machine
 
-/// A screen in memory for the length of a test.
+/// A screen in memory for the length of a test. Without -noreset the server resets itself when its
+/// last client leaves, and a program that connects meanwhile is cut off.
 class Screen {
  public:
   Screen() {
     try {
       server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", "1", "-screen", "0",
-                                               "1280x800x24", "-nolisten", "tcp"});
+                                               "1280x800x24", "-nolisten", "tcp", "-noreset"});
       if (const auto number = server_->ReadLine()) display_ = ":" + *number;
     } catch (const std::exception&) {
     }

@@ -37,6 +37,10 @@ class EditorFilesTest : public FaceEditorTest {
     for (const std::string& line : lines) text += line + "\n";
     return text;
   }
+  static std::string Bytes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
   std::string Shoot(const std::string& name) { return "screenshot " + folder_ + "/" + name; }
 };
 
@@ -64,6 +68,32 @@ TEST_F(EditorFilesTest, AHeadFromElsewhereIsShownAndMovedByUnits) {
   EXPECT_GT(differs(Shot("open.png")), 1500U);
   EXPECT_LT(differs(Shot("little.png")), differs(Shot("open.png")) / 2);
   EXPECT_EQ(differs(Shot("again.png")), 0U);
+}
+
+TEST_F(EditorFilesTest, AHeadMovedByItsOwnShapesFollowsTheUnitsThatAreEdited) {
+  size_ = "960x800";
+  finds_faces_ = false;
+  const std::string head = WriteHead();
+  // Without our extension it is a glTF file whose shapes have ARKit's names.
+  std::string bytes = Bytes(head);
+  for (std::size_t at; (at = bytes.find("GALATEA_head")) != std::string::npos;) bytes[at] = 'X';
+  std::ofstream(head, std::ios::binary) << bytes;
+  ASSERT_EQ(
+      RunScript(Lines({"page units", "wait", Shoot("rest.png"), "set AU 26 100", Shoot("open.png"),
+                       "set row 26 1 degrees 2", "wait", Shoot("little.png"), "quit"}),
+                {"--head", head}),
+      0)
+      << program_->ErrorText();
+  const auto moved = [&](const std::string& name) {
+    const fsm::Image rest = Shot("rest.png"), image = Shot(name);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rest.rgba.size(); ++i) {
+      if (i / 4 % 960 < 480 && std::abs(image.rgba[i] - rest.rgba[i]) > 12) ++count;
+    }
+    return count;
+  };
+  EXPECT_GT(moved("open.png"), 1500U);
+  EXPECT_LT(moved("little.png"), moved("open.png") / 2);
 }
 
 TEST_F(EditorFilesTest, AHeadWithoutPointsSaysWhatItLacks) {

@@ -397,7 +397,7 @@ TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
     const glm::vec2 p = Over(vertex);
     const float out = std::max(-p.x, p.x - kPhoto);
     if (out < 8 || p.y > kPhoto - 4) continue;
-    const glm::vec2 shown = glm::vec2(2 * vertex.place.x - 1, vertex.place.y) * float{kPhoto};
+    const glm::vec2 shown = glm::vec2(2 * vertex.texcoord.x - 1, vertex.texcoord.y) * float{kPhoto};
     const bool cloth = figure_.opacity.Between(shown.x, shown.y) > 0.5F;
     const float outline = Shoulder(kPhoto / 2) + 0.3F * out;
     if (p.y < outline - 2) {
@@ -429,7 +429,7 @@ TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
   // In the photo the whole face is 6 mm higher than at rest.
   for (glm::vec3& p : fit_.posed_vertices) p.y += p.z > 0 ? 6.0F : 0.0F;
   const fsm::PhotoHead moved = Sheet();
-  const glm::vec3 cheek = Galatea().places[234].On(Galatea().rest.position);
+  const glm::vec3 cheek = Galatea().points[234].On(Galatea().rest.position);
   const auto motion = [&](glm::vec2 near) {
     float nearest = 1e9F, by = 0;
     for (const auto& vertex : moved.sheet) {
@@ -437,7 +437,8 @@ TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
       if (far >= nearest) continue;
       nearest = far;
       // Where the photo shows this, against where it is now.
-      const glm::vec2 pixel = glm::vec2(2 * vertex.place.x - 1, vertex.place.y) * float{kPhoto};
+      const glm::vec2 pixel =
+          glm::vec2(2 * vertex.texcoord.x - 1, vertex.texcoord.y) * float{kPhoto};
       const glm::vec3 q = fit_.pose.ToCamera(vertex.position);
       by = vertex.position.y - fit_.pose.FromCamera(fit_.pose.Unproject(pixel, q.z)).y;
     }
@@ -452,7 +453,7 @@ TEST_F(BillboardTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   fit_.pose.turn.y = glm::radians(25.0F);
   const fsm::PhotoHead set = Sheet();
   const auto at = [&](std::size_t point) {
-    return Galatea().places[point].On(Galatea().rest.position);
+    return Galatea().points[point].On(Galatea().rest.position);
   };
   // Within the corners of the mouth, below them, and within the corners of the eyes.
   const glm::vec3 in(5, 0, 0), down(0, 9, 0);
@@ -474,8 +475,8 @@ TEST_F(BillboardTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
   fit_.pose.focal = 250;
   fit_.pose.turn.y = glm::radians(15.0F);
   const fsm::PhotoHead set = Sheet();
-  const glm::vec3 right = Galatea().places[78].On(Galatea().rest.position),
-                  left = Galatea().places[308].On(Galatea().rest.position);
+  const glm::vec3 right = Galatea().points[78].On(Galatea().rest.position),
+                  left = Galatea().points[308].On(Galatea().rest.position);
   for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
     const glm::vec3 p = 0.5F * (set.sheet[set.sheet_triangles[i]].position +
                                 set.sheet[set.sheet_triangles[i + 2]].position);

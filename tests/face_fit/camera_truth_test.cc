@@ -199,9 +199,9 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     const auto& points = truth().points;
     const float eyes = glm::distance(camera.Pixel(points[33]), camera.Pixel(points[263]));
     FitError error;
-    std::vector<fsm::PlacePair> pairs;
+    std::vector<fsm::PointPair> pairs;
     for (const NamedPoint& named : kNamed) {
-      const glm::vec3 fitted = base.places[named.point].On(fit.posed_vertices);
+      const glm::vec3 fitted = base.points[named.point].On(fit.posed_vertices);
       const glm::vec2 shown = fit.pose.Project(fit.pose.ToCamera(fitted));
       error.shown += glm::distance(camera.Pixel(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
@@ -261,7 +261,7 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     }
     const fsm::Warp warp(moves, 0);
     for (glm::vec3& p : made.rest.position) p += warped ? warp.Motion(p) : glm::vec3(0);
-    for (const MeshPlace& place : Galatea().places) {
+    for (const MeshPoint& place : Galatea().points) {
       made.points.push_back(place.On(made.rest.position));
     }
     for (const std::size_t side : {0U, 1U}) {

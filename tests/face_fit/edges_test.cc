@@ -45,7 +45,7 @@ class EdgesTest : public testing::Test {
     head_->Evaluate(state, vertices);
     return vertices;
   }
-  float Fall(const MeshPlace& place, const fsm::HeadVertices& moved) const {
+  float Fall(const MeshPoint& place, const fsm::HeadVertices& moved) const {
     return place.On(rest_.position).y - place.On(moved.position).y;
   }
 

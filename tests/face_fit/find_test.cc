@@ -11,7 +11,6 @@
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/base/table_reader.h"
 #include "fsm/head/make_head.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
@@ -84,10 +83,10 @@ CameraPose SomePose() {
 }
 
 /// What the network saw of a head, as if it were a photo.
-FoundFace SeenOf(const std::vector<MeshPlace>& places, const std::vector<glm::vec3>& vertices) {
+FoundFace SeenOf(const std::vector<MeshPoint>& places, const std::vector<glm::vec3>& vertices) {
   FoundFace face;
   const CameraPose pose = SomePose();
-  for (const MeshPlace& place : places) {
+  for (const MeshPoint& place : places) {
     const glm::vec3 q = pose.ToCamera(place.On(vertices));
     face.points.emplace_back(pose.Project(q), q.z * pose.PixelsPerMm());
   }
@@ -96,14 +95,14 @@ FoundFace SeenOf(const std::vector<MeshPlace>& places, const std::vector<glm::ve
 
 /// The head as a network would see it whose depth is true.
 BaseHead Exact(const BaseHead& base) {
-  BaseHead exact{base.name, fsm::MakeHead("galatea", false), base.rest, base.places, {}};
-  for (const MeshPlace& place : base.places) exact.seen_z.push_back(place.On(base.rest.position).z);
+  BaseHead exact{base.name, fsm::MakeHead("galatea", false), base.rest, base.points, {}};
+  for (const MeshPoint& place : base.points) exact.seen_z.push_back(place.On(base.rest.position).z);
   return exact;
 }
 
 TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
   const BaseHead& base = Galatea();
-  const FoundFace face = SeenOf(base.places, base.rest.position);
+  const FoundFace face = SeenOf(base.points, base.rest.position);
   const Fit fit = FitFace(Exact(base), face);
   EXPECT_LT(glm::distance(fit.pose.turn, SomePose().turn), 0.01F);
   EXPECT_NEAR(fit.pose.focal, SomePose().focal, 10);
@@ -124,7 +123,7 @@ TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   smiling.parted = 0.9F;
   fsm::HeadVertices vertices;
   moved.head->Evaluate(smiling.State(), vertices);
-  const FoundFace face = SeenOf(base.places, vertices.position);
+  const FoundFace face = SeenOf(base.points, vertices.position);
   const auto most = [](const Fit& fit) {
     float far = 0;
     for (const auto& point : fit.points) far = std::max(far, glm::length(point.by));
@@ -136,8 +135,8 @@ TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   EXPECT_GT(most(FitFace(built_in, face)), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
   const std::size_t corner = 291;
-  EXPECT_LT(glm::distance(base.places[corner].On(fit.posed_vertices),
-                          base.places[corner].On(vertices.position)),
+  EXPECT_LT(glm::distance(base.points[corner].On(fit.posed_vertices),
+                          base.points[corner].On(vertices.position)),
             2);
 }
 

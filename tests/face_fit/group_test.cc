@@ -8,7 +8,6 @@
 #include "face_fit/find/face_finder.h"
 #include "face_fit/find/upright.h"
 #include "face_fit/picture/filters.h"
-#include "fsm/rig/head.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/head.h"

@@ -28,7 +28,7 @@ namespace {
 struct Subject {
   fsm::MeshModel model;
   std::vector<std::uint32_t> flesh, eyes;
-  std::vector<fsm::PlacePair> pairs;  // from: galatea
+  std::vector<fsm::PointPair> pairs;  // from: galatea
   std::map<std::string, std::vector<glm::vec3>> shapes;
 };
 
@@ -117,7 +117,7 @@ TEST_F(HeadTest, ShapesOfAnotherMakerComeBackFromOurHeadNearlyAsTheyWent) {
     fsm::HeadVertices rest;
     ours->Evaluate({}, rest);
     const auto flesh = fsm::SkinTriangles(ours->topology());
-    std::vector<fsm::PlacePair> back = subject.pairs;
+    std::vector<fsm::PointPair> back = subject.pairs;
     for (auto& pair : back) std::swap(pair.from, pair.to);
     // As the program does it (fsm/mesh/transferred_rig.cc).
     const auto eyes = fsm::EyeballTriangles(ours->topology());

@@ -62,7 +62,7 @@ TEST(MouthLineTest, FollowsTheDarkLineBesideTheNetworksPoints) {
     return 170 - 120 * std::exp(-std::pow((p.y - height(p.x)) / 1.5F, 2.0F));
   });
   const auto line = FindMouthLine(photo, StraightMouth(), 0, 1);
-  ASSERT_EQ(line.size(), kMouthLinePlaces);
+  ASSERT_EQ(line.size(), kMouthLinePoints);
   EXPECT_NEAR(line.front().x, 50, 1);
   EXPECT_NEAR(line.back().x, 150, 1);
   for (const glm::vec2 p : line) EXPECT_NEAR(p.y, height(p.x), 1.2F) << p.x;
@@ -82,7 +82,7 @@ TEST(MouthLineTest, TeethTellOpenLipsFromClosedOnes) {
 
 TEST(OpeningsTest, TeethBetweenOpenLipsAreNoSkinAndTheLipsBesideThemOnlyInPart) {
   FoundFace face = StraightMouth();
-  for (const int i : LowerInnerLip()) face.points[static_cast<std::size_t>(i)].y += 12;
+  for (const std::size_t i : LowerInnerLip()) face.points[i].y += 12;
   const Openings open(face, 2, true);
   EXPECT_EQ(open.Skin({100, 106}), 0);
   EXPECT_EQ(open.Skin({100, 99}), 0) << "the blurred edge";
@@ -283,7 +283,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   BaseHead base;
   base.head = fsm::MakeHead("galatea");
   base.head->Evaluate({}, base.rest);
-  base.places.resize(kNetworkPoints);
+  base.points.resize(kNetworkPoints);
   FoundFace face;
   face.points.assign(kNetworkPoints, glm::vec3(0));
   Fit fit;
@@ -295,7 +295,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     centres.push_back(centre);
     fit.irises[k] = {.centre = centre, .radius = 24, .contrast = 0.4F};
     for (std::size_t i = 0; i < 16; ++i) {
-      const auto point = static_cast<std::size_t>(EyeOutline(side)[i]);
+      const auto point = EyeOutline(side)[i];
       const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
       const float x = (side == 0 ? 13.0F : -13.0F) * part;
       const float open = i % 8 == 0 ? 0.0F : i < 8 ? 3.0F : -6.0F;
@@ -307,7 +307,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
         const float far = glm::distance(glm::vec2(off), {x, open}) + (off.z < 4 ? 100.0F : 0.0F);
         if (far >= nearest) continue;
         nearest = far;
-        base.places[point].corner = {v, v, v};
+        base.points[point].corner = {v, v, v};
       }
     }
   }

@@ -24,7 +24,7 @@ class SkinRasterizerTest : public testing::Test {
     fit_.pose.focal = 760;
     fit_.pose.centre = {150, 150};
     bottom_ = base_.head->Landmark("gnathion").y - 8;
-    cover_ = RasterizeSkin(base_, fit_, grid_, bottom_, base_.rest.position);
+    cover_ = RasterizeSkin(base_, fit_, fit_.pose, grid_, bottom_, base_.rest.position);
   }
   bool Covered(int x, int y) const {
     return cover_.depth.at[cover_.depth.Index(x, y)] > SkinRaster::kNone;

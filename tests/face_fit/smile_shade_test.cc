@@ -30,7 +30,7 @@ class SmileShadeTest : public NetworkTest {
       fit.pose.focal = 760;
       fit.pose.centre = {kPhoto / 2, kPhoto / 2};
       fit.posed_vertices = Galatea().rest.position;
-      placed_.emplace(PlaceSkin(Galatea(), fit, fit.pose, true));
+      placed_.emplace(ProjectSkin(Galatea(), fit, fit.pose, true));
     }
     map_ = {.width = kMapSide, .height = kMapSide, .rgba = {}};
     for (std::size_t i = 0; i < placed_->up.size(); ++i) {
@@ -42,7 +42,7 @@ class SmileShadeTest : public NetworkTest {
     }
   }
   glm::vec3 Place(std::size_t point) const {
-    return Galatea().places[point].On(Galatea().rest.position);
+    return Galatea().points[point].On(Galatea().rest.position);
   }
   float Height(std::size_t i) const {
     return placed_->up[i] + Galatea().head->Landmark("nasion").y + kBrowsEnd;
@@ -61,10 +61,22 @@ class SmileShadeTest : public NetworkTest {
     return sum / count;
   }
 
-  static inline std::optional<SkinPlaces> placed_;
+  static inline std::optional<SkinTexels> placed_;
   fsm::Image map_;
   FloatImage seen_{kMapSide, kMapSide, 1};
 };
+
+TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
+  Fit fit;
+  fit.pose.focal = 760;
+  fit.pose.centre = {kPhoto / 2, kPhoto / 2};
+  fit.posed_vertices = Galatea().rest.position;
+  CameraPose aside = fit.pose;
+  aside.turn.y = 0.9F;
+  const SkinTexels seen = ProjectSkin(Galatea(), fit, aside, true);
+  fit.pose = aside;
+  EXPECT_EQ(seen.facing, ProjectSkin(Galatea(), fit, aside, true).facing);
+}
 
 TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {
   const fsm::Image before = map_;

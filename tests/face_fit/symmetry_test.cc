@@ -14,7 +14,7 @@ namespace {
 /// A face of 2 x 36 points and a head just like it that stands turned, in decimetres.
 struct Faces {
   glm::mat3 turn = glm::mat3_cast(glm::angleAxis(glm::radians(12.0F), glm::vec3(0, 1, 0)));
-  std::vector<fsm::PlacePair> pairs;
+  std::vector<fsm::PointPair> pairs;
 
   Faces() {
     for (int row = 0; row < 6; ++row) {

@@ -131,8 +131,8 @@ class TruthTest : public NetworkTest, public testing::WithParamInterface<const c
 };
 
 /// Places of both heads, the fitted one brought over the true one.
-std::vector<fsm::PlacePair> Compared(const fsm::Head& truth, const fsm::Head& fitted) {
-  std::vector<fsm::PlacePair> pairs;
+std::vector<fsm::PointPair> Compared(const fsm::Head& truth, const fsm::Head& fitted) {
+  std::vector<fsm::PointPair> pairs;
   for (const char* place : kPlaces) {
     pairs.push_back({truth.Landmark(place), fitted.Landmark(place), fsm::FacePart::kPlain});
   }
@@ -165,8 +165,8 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
 TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
   const BaseHead& base = Galatea();
   const auto corners = [&](const Fit& fit) {
-    return std::pair(base.places[61].On(fit.posed_vertices).y,
-                     base.places[291].On(fit.posed_vertices).y);
+    return std::pair(base.points[61].On(fit.posed_vertices).y,
+                     base.points[291].On(fit.posed_vertices).y);
   };
   const auto said = corners(front().fit);
   FoundFace face = front().face;
@@ -182,7 +182,7 @@ TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkS
 
 /// Root of the mean square of the depths' errors, millimetres.
 float DepthError(const Profile& truth, const Fit& fit) {
-  std::vector<fsm::PlacePair> pairs;
+  std::vector<fsm::PointPair> pairs;
   const auto fitted = HeadOf(fit);
   for (const char* place : kPlaces) {
     pairs.push_back({truth.Landmark(place), fitted->Landmark(place), fsm::FacePart::kPlain});

@@ -75,7 +75,7 @@ TEST(PhotoHeadTest, ComesBackAsItWasWritten) {
   ASSERT_EQ(back.points.size(), set.points.size());
   EXPECT_EQ(back.points[5].by, set.points[5].by);
   EXPECT_EQ(back.smooth, set.smooth);
-  EXPECT_EQ(back.sheet[3].place, set.sheet[3].place);
+  EXPECT_EQ(back.sheet[3].texcoord, set.sheet[3].texcoord);
   EXPECT_EQ(back.sheet_triangles, set.sheet_triangles);
 }
 
@@ -113,7 +113,7 @@ TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
     HeadVertices vertices;
     head.Evaluate({}, vertices);
     float lowest = 1e9F;
-    const EyePlace& eye = head.topology().eyes[side > 0 ? 1 : 0];
+    const EyeGeometry& eye = head.topology().eyes[side > 0 ? 1 : 0];
     for (const auto& part : head.topology().parts) {
       if (part.material != Material::kSkin) continue;
       for (std::uint32_t k = 0; k < part.index_count; ++k) {

@@ -42,16 +42,16 @@ class LateClock final : public vm::Scheduler {
 struct FilmTest : testing::Test {
   FilmTest()
       : film(
-            clock, studio,
+            clock, backend,
             [this](long number, vm::Time at) {
               drawn.emplace_back(number, at);
               clock.now += drawing_takes;
-              return studio.Draw(FaceState{}, Scene{}, nullptr);
+              return backend.Draw(FaceState{}, Scene{}, nullptr);
             },
             [](const vm::Error&) {}) {}
 
   LateClock clock;
-  FakeRenderBackend studio;
+  FakeRenderBackend backend;
   std::vector<std::pair<long, vm::Time>> drawn;
   vm::Time drawing_takes{0};
   Film film;
@@ -73,8 +73,8 @@ TEST_F(FilmTest, SlowDrawingRepeatsFramesSoThatTheFilmKeepsStep) {
   ASSERT_TRUE(report);
   EXPECT_NEAR(static_cast<double>(report->frames), 3.0 * 30, 4);
   EXPECT_GT(report->repeated, 50);
-  EXPECT_EQ(studio.films["a.mp4"].jaws.size(), static_cast<std::size_t>(report->frames));
-  EXPECT_EQ(studio.films["a.mp4"].sound, "voice.wav");
+  EXPECT_EQ(backend.films["a.mp4"].jaws.size(), static_cast<std::size_t>(report->frames));
+  EXPECT_EQ(backend.films["a.mp4"].sound, "voice.wav");
 }
 
 TEST_F(FilmTest, VerySlowDrawingStillShowsSomethingNewAndLetsInputIn) {
@@ -95,13 +95,13 @@ TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
   std::vector<float> expected;
   FaceState state;
   Film moving(
-      clock, studio,
+      clock, backend,
       [&](long number, vm::Time) {
         expected.resize(static_cast<std::size_t>(number), expected.empty() ? 0 : expected.back());
         state.mouth[11] = static_cast<float>(number % 20);
         expected.push_back(state.mouth[11]);
         clock.now += number % 7 == 3 ? 150ms : 10ms;
-        return studio.Draw(state, Scene{}, nullptr);
+        return backend.Draw(state, Scene{}, nullptr);
       },
       [](const vm::Error&) {});
   ASSERT_TRUE(moving.Start("a.mp4", 30));
@@ -109,17 +109,18 @@ TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
   const auto report = moving.Stop("");
   ASSERT_TRUE(report);
   EXPECT_GT(report->repeated, 5);
-  EXPECT_EQ(studio.films["a.mp4"].jaws, expected);
-  EXPECT_TRUE(std::ranges::all_of(studio.readings, [](auto& image) { return image.rgba.empty(); }));
+  EXPECT_EQ(backend.films["a.mp4"].jaws, expected);
+  EXPECT_TRUE(
+      std::ranges::all_of(backend.readings, [](auto& image) { return image.rgba.empty(); }));
 }
 
 TEST_F(FilmTest, AFilmThatFailsLeavesNoFrameBehind) {
   ASSERT_TRUE(film.Start("a.mp4", 30));
   clock.RunNext();
-  studio.no_drawing = "lost";
+  backend.no_drawing = "lost";
   clock.RunNext();
   EXPECT_FALSE(film.recording());
-  EXPECT_TRUE(studio.readings.at(0).rgba.empty());
+  EXPECT_TRUE(backend.readings.at(0).rgba.empty());
 }
 
 /// Writes pictures of 1000 bytes.
@@ -141,11 +142,11 @@ struct CaptureTest : testing::Test {
 
   Capture Make(Capture::Limits limits = {}) {
     return Capture(
-        clock, studio,
+        clock, backend,
         [this](long, vm::Time at) {
           drawn.push_back(at);
           clock.now += drawing_takes;
-          return studio.Draw(FaceState{}, Scene{}, nullptr);
+          return backend.Draw(FaceState{}, Scene{}, nullptr);
         },
         [this](const vm::Result<void>& done) {
           ends.push_back(done ? "" : vm::FormatError(done.error()));
@@ -158,7 +159,7 @@ struct CaptureTest : testing::Test {
   }
 
   LateClock clock;
-  PictureFiles studio;
+  PictureFiles backend;
   std::filesystem::path folder;
   std::vector<vm::Time> drawn;
   std::vector<std::string> ends;

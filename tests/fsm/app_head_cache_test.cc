@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "fsm/app/head_cache.h"
-#include "fsm/app/head_of_file.h"
 #include "fsm/asset/asset_file.h"
+#include "fsm/faces/head_cache.h"
+#include "fsm/faces/head_of_file.h"
 #include "fsm/head/make_head.h"
 #include "tests/fsm/render_support.h"
 

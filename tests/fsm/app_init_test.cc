@@ -180,9 +180,9 @@ TEST(InitTest, EverySlotIsAsInAFreshProgram) {
   used.Say("set Run = INIT");
   fresh.Until(1500);
   EXPECT_EQ(Difference(used, fresh), "");
-  EXPECT_EQ(used.studio.face, fresh.studio.face);
-  EXPECT_EQ(used.studio.width(), fresh.studio.width());
-  EXPECT_EQ(used.studio.height(), fresh.studio.height());
+  EXPECT_EQ(used.backend.face, fresh.backend.face);
+  EXPECT_EQ(used.backend.width(), fresh.backend.width());
+  EXPECT_EQ(used.backend.height(), fresh.backend.height());
   EXPECT_FALSE(used.module.Busy());
   EXPECT_FALSE(used.clock.Next().has_value()) << "something is still to come";
   EXPECT_EQ(Performance(used), Performance(fresh));
@@ -197,7 +197,7 @@ TEST(InitTest, TheNextFilmHasNotTheSoundOfTheOneBefore) {
   fsm.Say("set Record = next.mp4");
   fsm.Until(500);
   fsm.Say("set Record = STOP");
-  EXPECT_EQ(fsm.studio.films["next.mp4"].sound, "");
+  EXPECT_EQ(fsm.backend.films["next.mp4"].sound, "");
 }
 
 TEST(InitTest, AFilmEndsWithWhatWasSaidBefore) {
@@ -208,7 +208,7 @@ TEST(InitTest, AFilmEndsWithWhatWasSaidBefore) {
   fsm.Say("set Speak = NOW");
   fsm.Until(990);
   fsm.Say("set Run = INIT");
-  const auto& film = fsm.studio.films["film.mp4"];
+  const auto& film = fsm.backend.films["film.mp4"];
   EXPECT_TRUE(film.finished);
   EXPECT_EQ(film.sound, "voice.wav");
   ASSERT_EQ(film.jaws.size(), 30U);  // 30 a second, up to now
@@ -221,10 +221,10 @@ TEST(InitTest, AWindowHasItsSizeAgainAndFillsTheScreenNoMore) {
   FsmStage fsm({}, true);
   fsm.Say("set Window = 320 240");
   fsm.Say("set Window = FULLSCREEN");
-  ASSERT_TRUE(fsm.studio.fills_screen);
+  ASSERT_TRUE(fsm.backend.fills_screen);
   fsm.Say("set Run = INIT");
-  EXPECT_FALSE(fsm.studio.fills_screen);
-  EXPECT_EQ(fsm.studio.width(), 640);
+  EXPECT_FALSE(fsm.backend.fills_screen);
+  EXPECT_EQ(fsm.backend.width(), 640);
   EXPECT_EQ(fsm.Say("inq Window"), "rep Window = 640 480");
 }
 
@@ -243,7 +243,7 @@ TEST(InitTest, WhatTheCommandLineAndTheConfigurationSayHoldsAgain) {
   used.Say("set Run = INIT");
   EXPECT_EQ(Difference(used, fresh), "");
   EXPECT_EQ(used.Say("inq Life"), "rep Life = CALM");
-  EXPECT_EQ(used.studio.face, "pygmalion");
+  EXPECT_EQ(used.backend.face, "pygmalion");
   EXPECT_TRUE(used.module.motion().NextActivity(FromMs(5000)).has_value()) << "it lives";
 }
 

@@ -130,9 +130,9 @@ TEST(FsmModuleTest, ASavedImageShowsTheSettledExpressionWhateverComesNext) {
   EXPECT_EQ(fsm.Say("set#5 SaveImage = happy.png"), "rep#5 SaveImage = happy.png");
   fsm.Say("set FaceExp = SAD 1 100 0");
   fsm.Say("set SaveImage = sad.png");
-  EXPECT_FLOAT_EQ(fsm.studio.pictures["happy.png"].au_left[12], 0.8f);
-  EXPECT_FLOAT_EQ(fsm.studio.pictures["sad.png"].au_left[12], 0);
-  EXPECT_FLOAT_EQ(fsm.studio.pictures["sad.png"].au_left[15], 0.7f);
+  EXPECT_FLOAT_EQ(fsm.backend.pictures["happy.png"].au_left[12], 0.8f);
+  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au_left[12], 0);
+  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au_left[15], 0.7f);
 }
 
 TEST(FsmModuleTest, BusyLastsAsLongAsSomethingWithAnEndMoves) {
@@ -151,7 +151,7 @@ TEST(FsmModuleTest, BusyLastsAsLongAsSomethingWithAnEndMoves) {
   EXPECT_FALSE(fsm.module.Busy());
   fsm.Say("set Autonomous = BLINK 1");  // has no end
   EXPECT_FALSE(fsm.module.Busy());
-  EXPECT_EQ(fsm.studio.draws, 0);
+  EXPECT_EQ(fsm.backend.draws, 0);
 }
 
 TEST(FsmModuleTest, AFilmHasAFrameForEveryInstant) {
@@ -166,7 +166,7 @@ TEST(FsmModuleTest, AFilmHasAFrameForEveryInstant) {
   fsm.Say("set Speak = NOW");
   fsm.Until(1017);
   EXPECT_EQ(fsm.Say("set#3 Record = STOP"), "rep#3 Record = STOP");
-  const auto& film = fsm.studio.films["a.mp4"];
+  const auto& film = fsm.backend.films["a.mp4"];
   EXPECT_EQ(film.jaws.size(), 31u);  // both ends
   EXPECT_EQ(film.sound, "voice.wav");
   EXPECT_FLOAT_EQ(film.jaws[0], 0);
@@ -180,8 +180,8 @@ TEST(FsmModuleTest, AnUnfinishedFilmIsFinishedAtTheEnd) {
   fsm.Say("set Record = a.mp4");
   fsm.Until(500);
   fsm.module.Shutdown();
-  EXPECT_TRUE(fsm.studio.films["a.mp4"].finished);
-  EXPECT_EQ(fsm.studio.films["a.mp4"].jaws.size(), 16u);
+  EXPECT_TRUE(fsm.backend.films["a.mp4"].finished);
+  EXPECT_EQ(fsm.backend.films["a.mp4"].jaws.size(), 16u);
 }
 
 TEST(FsmModuleTest, TheSameInputGivesTheSameFrames) {
@@ -206,7 +206,7 @@ TEST(FsmModuleTest, FramesWithoutAFilmAreReportedWhileSomethingMoves) {
   const std::string said = fsm.Until(3000);
   EXPECT_TRUE(said.starts_with("rep Frame = 6 1033.333 - 0.00 0.00 50.00")) << said;
   EXPECT_FALSE(fsm.clock.Next().has_value());
-  EXPECT_EQ(fsm.studio.draws, 0);
+  EXPECT_EQ(fsm.backend.draws, 0);
 }
 
 TEST(FsmModuleTest, CaptureWritesNumberedPicturesOfOneUtterance) {
@@ -218,18 +218,18 @@ TEST(FsmModuleTest, CaptureWritesNumberedPicturesOfOneUtterance) {
   EXPECT_EQ(fsm.Say("set Capture = " + folder + " frame 10"), "rep Capture = ENABLE");
   EXPECT_EQ(fsm.Say("inq Capture"), "rep Capture = ENABLE");
   fsm.Until(100);
-  EXPECT_TRUE(fsm.studio.pictures.empty());
+  EXPECT_TRUE(fsm.backend.pictures.empty());
   fsm.Say("set LipSync.pho = a 300 pau 200");
   fsm.Say("set Speak = NOW");
   EXPECT_EQ(fsm.Until(600), "rep Capture = DISABLE");
-  EXPECT_EQ(fsm.studio.pictures.size(), 6u);  // 0 100 .. 500
-  EXPECT_TRUE(fsm.studio.pictures.contains(folder + "/frame00001.bmp"));
-  EXPECT_TRUE(fsm.studio.pictures.contains(folder + "/frame00006.bmp"));
+  EXPECT_EQ(fsm.backend.pictures.size(), 6u);  // 0 100 .. 500
+  EXPECT_TRUE(fsm.backend.pictures.contains(folder + "/frame00001.bmp"));
+  EXPECT_TRUE(fsm.backend.pictures.contains(folder + "/frame00006.bmp"));
   fsm.Say("set Capture = " + folder + " f 10 PNG");
   fsm.Say("set LipSync.pho = a 50");
   fsm.Say("set Speak = NOW");
   fsm.Until(1000);
-  EXPECT_TRUE(fsm.studio.pictures.contains(folder + "/f00001.png"));
+  EXPECT_TRUE(fsm.backend.pictures.contains(folder + "/f00001.png"));
   std::filesystem::remove_all(name);
 }
 
@@ -239,12 +239,12 @@ TEST(FsmModuleTest, NothingIsCapturedOrDrawnAfterTheEnd) {
   fsm.Say("set LipSync.pho = a 60000");
   fsm.Say("set Speak = NOW");
   fsm.Until(1000);
-  const int drawn = fsm.studio.draws;
+  const int drawn = fsm.backend.draws;
   fsm.module.Shutdown();
-  EXPECT_EQ(fsm.studio.pictures.size(), 11u) << "0 100 .. 1000, those still being read among them";
+  EXPECT_EQ(fsm.backend.pictures.size(), 11u) << "0 100 .. 1000, those still being read among them";
   fsm.Until(2000);
-  EXPECT_EQ(fsm.studio.pictures.size(), 11u);
-  EXPECT_EQ(fsm.studio.draws, drawn);
+  EXPECT_EQ(fsm.backend.pictures.size(), 11u);
+  EXPECT_EQ(fsm.backend.draws, drawn);
   std::filesystem::remove_all(testing::TempDir() + "/end_of_capture");
 }
 
@@ -271,13 +271,13 @@ TEST(FsmModuleTest, InitResetsEverythingWithoutAWord) {
 TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
   FsmStage fsm({}, true);
   fsm.Until(1000);
-  const int still = fsm.studio.shown;
+  const int still = fsm.backend.shown;
   EXPECT_LE(still, 6);
   fsm.Say("set FaceMot = NOD 3");
   fsm.Until(1800);
-  EXPECT_GE(fsm.studio.shown - still, 46);
-  EXPECT_LE(fsm.studio.shown - still, 50);
-  fsm.studio.closed = true;
+  EXPECT_GE(fsm.backend.shown - still, 46);
+  EXPECT_LE(fsm.backend.shown - still, 50);
+  fsm.backend.closed = true;
   fsm.Until(2100);
   EXPECT_TRUE(fsm.module.ExitRequested());
 }
@@ -285,37 +285,37 @@ TEST(FsmModuleTest, AWindowIsDrawnWhileSomethingMovesAndElseNowAndThen) {
 TEST(FsmModuleTest, AWindowIsDrawnUntilNothingSwings) {
   FsmStage fsm({}, true);
   fsm.Until(1000);
-  EXPECT_TRUE(fsm.studio.simulated);
-  fsm.studio.swings = true;
-  const int before = fsm.studio.shown;
+  EXPECT_TRUE(fsm.backend.simulated);
+  fsm.backend.swings = true;
+  const int before = fsm.backend.shown;
   fsm.Until(2000);
-  EXPECT_GE(fsm.studio.shown - before, 45);
-  fsm.studio.swings = false;
+  EXPECT_GE(fsm.backend.shown - before, 45);
+  fsm.backend.swings = false;
   fsm.Until(2100);
-  const int still = fsm.studio.shown;
+  const int still = fsm.backend.shown;
   fsm.Until(3100);
-  EXPECT_LE(fsm.studio.shown - still, 6);
+  EXPECT_LE(fsm.backend.shown - still, 6);
 }
 
 TEST(FsmModuleTest, SimulationCanBeSwitchedOff) {
   FsmStage fsm({}, true);
   fsm.Say("set Simulation = DISABLE");
   fsm.Until(500);
-  EXPECT_FALSE(fsm.studio.simulated);
+  EXPECT_FALSE(fsm.backend.simulated);
   fsm.Say("set Run = INIT");
   fsm.Until(1000);
-  EXPECT_TRUE(fsm.studio.simulated);
+  EXPECT_TRUE(fsm.backend.simulated);
 }
 
 TEST(FsmModuleTest, AWindowThatCannotBeDrawnIsAFailure) {
   FsmStage fsm({}, true);
   fsm.Until(300);
   EXPECT_FALSE(fsm.module.failed());
-  fsm.studio.no_drawing = "cannot draw: face 'man01': there is none";
+  fsm.backend.no_drawing = "cannot draw: face 'man01': there is none";
   fsm.Until(1000);
   EXPECT_TRUE(fsm.module.ExitRequested());
   EXPECT_TRUE(fsm.module.failed());
-  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.studio.no_drawing});
+  EXPECT_EQ(fsm.errors, std::vector<std::string>{"UNAVAILABLE " + fsm.backend.no_drawing});
 }
 
 TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
@@ -397,18 +397,18 @@ TEST(FsmModuleTest, ClientsOfTheOriginalLeanAndMoveByItsMeasures) {
       stage->Say(line);
     }
   }
-  const FaceState there = fsm.studio.last_state, here = ours.studio.last_state;
+  const FaceState there = fsm.backend.last_state, here = ours.backend.last_state;
   EXPECT_EQ(here.head_rotation, (std::array<float, 3>{1, 2, 18}));
   EXPECT_EQ(there.head_rotation, (std::array<float, 3>{1, 2, -18}));
   EXPECT_EQ(here.agent_rotation, (std::array<float, 3>{4, 5, 6}));
   EXPECT_EQ(there.agent_rotation, (std::array<float, 3>{4, 5, -6}));
   EXPECT_EQ(there.agent_translation, here.agent_translation);
-  EXPECT_FALSE(ours.studio.last_scene.camera.moves_by_half_views);
-  EXPECT_TRUE(fsm.studio.last_scene.camera.moves_by_half_views);
-  EXPECT_TRUE(fsm.studio.last_scene.wire_on_black);
+  EXPECT_FALSE(ours.backend.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.backend.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.backend.last_scene.wire_on_black);
   fsm.Say("set Run = INIT");
   fsm.Say("set SaveImage = a.png");
-  EXPECT_TRUE(fsm.studio.last_scene.camera.moves_by_half_views);
+  EXPECT_TRUE(fsm.backend.last_scene.camera.moves_by_half_views);
   EXPECT_EQ(fsm.Say("inq HeadRotAbs.1"), "rep HeadRotAbs.1 = 0 0 0");
 }
 

@@ -12,7 +12,7 @@
 
 namespace fsm {
 
-/// A studio in memory: pictures are one pixel that says how far the jaw is open.
+/// A backend in memory: pictures are one pixel that says how far the jaw is open.
 class FakeRenderBackend : public RenderBackend {
  public:
   struct FakeFilm {
@@ -132,7 +132,7 @@ inline vm::Result<std::unique_ptr<MovieWriter>> FakeRenderBackend::OpenFilm(cons
 /// The module on a virtual clock, and what it said.
 struct FsmStage {
   explicit FsmStage(FsmOptions options = {}, bool window = false)
-      : module((studio.window = window, clock), studio, std::move(options)) {
+      : module((backend.window = window, clock), backend, std::move(options)) {
     module.slots().set_output([this](vm::PeerId, const vm::Message& message) {
       said.push_back(vm::FormatMessage(message));
     });
@@ -161,7 +161,7 @@ struct FsmStage {
   FaceState Now() { return module.motion().StateAt(clock.Now()); }
 
   vm::VirtualScheduler clock;
-  FakeRenderBackend studio;
+  FakeRenderBackend backend;
   FsmModule module;
   std::vector<std::string> said;
   std::vector<std::string> errors;

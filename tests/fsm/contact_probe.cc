@@ -74,7 +74,7 @@ ContactProbe::ContactProbe()
   const std::vector<std::uint32_t> skin = VerticesOf(Material::kSkin);
   const std::vector<std::uint32_t> triangles = TrianglesOf(Material::kSkin);
   for (std::size_t side = 0; side < 2; ++side) {
-    const EyePlace& eye = GenericHead().topology().eyes[side];
+    const EyeGeometry& eye = GenericHead().topology().eyes[side];
     for (const auto i : skin) {
       const glm::vec3 d = rest.position[i] - eye.centre;
       const float distance = glm::length(d);
@@ -175,7 +175,7 @@ Contacts ContactProbe::Measure(const FaceState& state, const HeadVertices& v) co
     for (const auto& [a, b] : rims_[side]) {
       out.lids = std::max(out.lids, v.position[b].y - v.position[a].y);
     }
-    const EyePlace& eye = GenericHead().topology().eyes[side];
+    const EyeGeometry& eye = GenericHead().topology().eyes[side];
     const glm::vec3 cornea = CorneaCentre(state, side);
     for (const auto i : lids_[side]) {
       out.ball_in_lids =
@@ -199,7 +199,7 @@ Contacts ContactProbe::Measure(const FaceState& state, const HeadVertices& v) co
 float ContactProbe::Uncovered(const FaceState& state, const HeadVertices& v) const {
   float worst = 0;
   for (std::size_t side = 0; side < 2; ++side) {
-    const EyePlace& eye = GenericHead().topology().eyes[side];
+    const EyeGeometry& eye = GenericHead().topology().eyes[side];
     const glm::vec3 cornea = CorneaCentre(state, side);
     const auto front_of = [](const glm::vec3& centre, float radius, float x, float y) {
       const float dx = x - centre.x, dy = y - centre.y;

@@ -130,7 +130,7 @@ TEST(HeadContactTest, LidsStayOutsideTheEyeball) {
   // cornea comes more than 0.3 mm through them, wherever the eye looks and however far they close.
   const HeadTopology& topology = GenericHead().topology();
   const HeadVertices rest = Vertices({});
-  const EyePlace eye = topology.eyes[1];
+  const EyeGeometry eye = topology.eyes[1];
   std::vector<std::uint32_t> lids;
   for (const HeadTopology::Part& part : topology.parts) {
     if (part.material != Material::kSkin) continue;

@@ -17,7 +17,7 @@ using testing::GenericHead;
 using testing::Vertices;
 using testing::WithUnit;
 
-/// facts/face.md 4.1, women, millimetres.
+/// Farkas' norms for women, millimetres.
 struct Distance {
   const char* from;
   const char* to;

@@ -53,7 +53,8 @@ struct Eye {
     const SkinPose seen{open, open_normal};
     const std::vector<float> weight(places.size(), 1);
     const PhotoSight sight{photo, places, weight};
-    return PaintLids(sight, skin, seen, {shut, shut_normal}, LightOf(sight, seen), glasses);
+    return PaintLids({sight, skin, seen, {shut, shut_normal}, glasses, Features::BuiltIn()},
+                     LightOf(sight, seen));
   }
 };
 

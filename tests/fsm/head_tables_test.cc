@@ -209,6 +209,8 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
       {"upper_tooth_widths", "upper_tooth_widths 8 7 0 7 7 7", "less than half a millimetre"},
       {"ear_bowl", "ear_bowl 1 2 0 4 5", "'0' found where 0.01 to 100 was expected"},
       {"ear_fork_ridge", "ear_fork_ridge 0 1", "'0' found where 0.01 to 100 was expected"},
+      {"spot cheeks", "spot cheeks 34 -9 0 10 0.2 0", "'0' found where 0.01 to 100 was expected"},
+      {"beard_thin_cheek", "beard_thin_cheek 1 36 -34 9 0", "'0' found where 0.01 to 100"},
       {"long_locks", "long_locks 9 9", "no lock that is not at the edge"},
       {"long_volume", "long_volume 80 0 90", "'0' found where 10 to 1000 was expected"},
       {"crop_crown", "crop_crown 0 0 0", "a crown that is nowhere"},

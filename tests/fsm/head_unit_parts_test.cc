@@ -1,5 +1,5 @@
 // Action units that move lids, jaw, inner lips or tongue, which no point of the skin's front shows:
-// sizes of facts on real faces, within a quarter or a millimetre.
+// sizes measured on a scanned head (ICT-FaceKit), within a quarter or a millimetre.
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@ using testing::WithUnit;
 constexpr float kAny = std::numeric_limits<float>::quiet_NaN();
 
 /// Motion of a point of the resting face, both sides acting at full strength, in millimetres: the
-/// measured sizes of facts/face.md 3.1 where there are any, else its design targets.
+/// sizes measured on a scanned head (ICT-FaceKit) where it has the unit, else our design targets.
 struct Reference {
   int unit;
   const char* point;

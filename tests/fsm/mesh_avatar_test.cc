@@ -153,9 +153,9 @@ TEST(GltfPaintTest, PicturesMayBeMovedScaledAndTurned) {
               R"({"KHR_texture_transform":{"offset":[0.25,0.5],"scale":[0.5,0.25],)"
               R"("rotation":1.5707963}}}}})");
   // (1, 0) is scaled to (0.5, 0), turned to (0, -0.5) and moved.
-  EXPECT_NEAR(file.place.at(1).x, 0.25F, 1e-5F);
-  EXPECT_NEAR(file.place.at(1).y, 0, 1e-5F);
-  EXPECT_NEAR(file.place.at(2).x, 0.5F, 1e-5F);
+  EXPECT_NEAR(file.texcoord.at(1).x, 0.25F, 1e-5F);
+  EXPECT_NEAR(file.texcoord.at(1).y, 0, 1e-5F);
+  EXPECT_NEAR(file.texcoord.at(2).x, 0.5F, 1e-5F);
 }
 
 TEST(GltfPaintTest, PictureOfAnotherKindIsLeftOutWithANotice) {

@@ -137,10 +137,10 @@ TEST(ObjFileTest, PolygonsBecomeTrianglesByGroup) {
   ASSERT_TRUE(file) << file.error().text;
   ASSERT_EQ(file->groups.size(), 2U);
   EXPECT_EQ(file->groups[0].triangles.size(), 2U);
-  EXPECT_EQ(file->groups[0].triangles[1][2].place, 0U);
+  EXPECT_EQ(file->groups[0].triangles[1][2].texcoord, 0U);
   EXPECT_EQ(file->groups[1].material, "blue");
   EXPECT_EQ(file->groups[1].triangles[0][0].position, 3U);
-  EXPECT_EQ(file->groups[1].triangles[0][0].place, ObjFile::kNone);
+  EXPECT_EQ(file->groups[1].triangles[0][0].texcoord, ObjFile::kNone);
   EXPECT_EQ(file->libraries, std::vector<std::string>{"h.mtl"});
 }
 

@@ -106,7 +106,7 @@ TEST(GltfMaterialTest, PicturesOfLightArePutTogetherBesideTheColour) {
   const auto normal_map = sheet.MakeBeside({file.details[0].normal_map}, {128, 128, 255, 255});
   ASSERT_TRUE(normal_map);
   const glm::vec2 at =
-      sheet.place(0).At({0.5F, 0.5F}) * glm::vec2(normal_map->width, normal_map->height);
+      sheet.rect(0).At({0.5F, 0.5F}) * glm::vec2(normal_map->width, normal_map->height);
   const auto texel = static_cast<std::size_t>(
       4 * (static_cast<int>(at.y) * normal_map->width + static_cast<int>(at.x)));
   EXPECT_EQ(normal_map->rgba[texel], 178);

@@ -95,7 +95,7 @@ TEST(MeshReachTest, LandmarksOutOfReachAreRefusedWithTheirLine) {
 struct Box {
   std::vector<glm::vec3> place;
   std::vector<std::uint32_t> triangles;
-  std::vector<PlacePair> pairs;
+  std::vector<PointPair> pairs;
 
   Box() {
     for (int i = 0; i < 8; ++i) {

@@ -86,7 +86,7 @@ class DeformationTransferTest : public testing::Test {
               pairs_, [&](const auto& pair) { return glm::distance(pair.from, p) < apart; })) {
         continue;
       }
-      PlacePair pair{p, to_rest_.position[v], FacePart::kPlain};
+      PointPair pair{p, to_rest_.position[v], FacePart::kPlain};
       if (lip[v] && std::abs(p.y - stomion.y) > 3 && std::abs(p.x) < 16) {
         pair.part = p.y > stomion.y ? FacePart::kUpperLip : FacePart::kLowerLip;
       }
@@ -141,7 +141,7 @@ class DeformationTransferTest : public testing::Test {
   std::unique_ptr<Head> from_, to_;
   HeadVertices from_rest_, to_rest_;
   std::vector<std::uint32_t> flesh_;
-  std::vector<PlacePair> pairs_;
+  std::vector<PointPair> pairs_;
   std::unique_ptr<DeformationTransfer> carry_;
 };
 
@@ -279,7 +279,7 @@ struct FlatLips {
 /// The second has its slit 1.6 mm lower than landmarks say.
 void ExpectEachFollowsItsOwn(FacePart upper_part, FacePart lower_part) {
   const FlatLips from(0), to(-1.6F);
-  std::vector<PlacePair> pairs;
+  std::vector<PointPair> pairs;
   const auto add = [&](float x, float y, FacePart part) {
     pairs.push_back({FlatLips::At(x, y), FlatLips::At(x, y), part});
   };
@@ -332,7 +332,7 @@ TEST(WeldedSurfaceTest, WhatAnEyeballHidesIsNotSeen) {
 TEST(TransferRefusesTest, TooFewPlaces) {
   const std::vector<glm::vec3> place(3, glm::vec3(0));
   const std::vector<std::uint32_t> triangle{0, 1, 2};
-  const std::vector<PlacePair> pairs(7);
+  const std::vector<PointPair> pairs(7);
   EXPECT_THROW(DeformationTransfer({place, triangle}, {place, triangle}, pairs),
                std::runtime_error);
 }
@@ -354,7 +354,7 @@ TEST(HeadPointsTest, DamageIsToldWithItsLine) {
   const auto text = [](const char* bad) { return std::string("face galatea\n") + bad; };
   for (const auto& [bad, words] : {std::pair("point plain 1 2 3 4 5\n", "p:2: face NAME"),
                                    std::pair("point nose 1 2 3 4 5 6\n", "p:2: plain, upper_lip"),
-                                   std::pair("point plain 1 2 3 4 5 nan\n", "p:2: six numbers"),
+                                   std::pair("point plain 1 2 3 4 5 nan\n", "p:2: 'nan' found"),
                                    std::pair("", "at least eight")}) {
     const auto read = ParseHeadPoints("p", text(bad));
     ASSERT_FALSE(read);
@@ -364,7 +364,7 @@ TEST(HeadPointsTest, DamageIsToldWithItsLine) {
 
 TEST(SimilarityTest, TurnSizeAndPlaceAreFound) {
   const glm::mat3 turn = glm::mat3_cast(glm::normalize(glm::quat(0.3F, 0.5F, -0.6F, 0.2F)));
-  std::vector<PlacePair> pairs;
+  std::vector<PointPair> pairs;
   for (const glm::vec3 p : {glm::vec3(1, 2, 3), glm::vec3(-4, 0, 2), glm::vec3(5, -1, 0),
                             glm::vec3(0, 7, -3), glm::vec3(2, 2, 9)}) {
     pairs.push_back({12.5F * (turn * p) + glm::vec3(10, -20, 30), p, FacePart::kPlain});

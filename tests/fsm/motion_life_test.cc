@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "fsm/base/random.h"
 #include "fsm/motion/face_motion.h"
 #include "fsm/motion/idle_behaviour.h"
-#include "fsm/motion/random.h"
 
 namespace fsm {
 namespace {

@@ -150,15 +150,15 @@ TEST(PhonemeNamesTest, EveryEnginesWordsMoveTheMouthAlike) {
        {"SIL 100 HH 60 AH0 80 L 60 OW1 200 SIL 100", "_: 100 h 60 ə 80 l 60 oʊ 200 _: 100",
         "_ 100 h 60 @ 80 l 60 oU 200 _ 100"}) {
     EXPECT_NEAR(Track28(text).At(270).mouth[kJaw], jaw, 0.5) << text;
-    EXPECT_TRUE(Track28(text).demands().unknown.empty()) << text;
+    EXPECT_TRUE(Track28(text).visemes().unknown.empty()) << text;
   }
 }
 
 TEST(PhonemeNamesTest, EndingsAreTakenOffAndUnknownNamesAreListed) {
-  EXPECT_TRUE(Track28("iː 100 ˈ 0 a 100 uːː 100 ə 10 ɹ 10").demands().unknown ==
+  EXPECT_TRUE(Track28("iː 100 ˈ 0 a 100 uːː 100 ə 10 ɹ 10").visemes().unknown ==
               std::vector<std::string>{"ˈ"});
   const VisemeTrack track = Track28("aa 100 xyz 300 b 50 xyz 10 ?! 10");
-  EXPECT_EQ(track.demands().unknown, (std::vector<std::string>{"xyz", "?!"}));
+  EXPECT_EQ(track.visemes().unknown, (std::vector<std::string>{"xyz", "?!"}));
   EXPECT_FLOAT_EQ(track.At(250).seal, 1);  // closed, as the original
 }
 

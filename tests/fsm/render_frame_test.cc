@@ -403,8 +403,8 @@ TEST(ContextTest, SeveralFacesShareAWindow) {
   right_scene.background = {0, 0, 1};
   auto left = Renderer::Make(context);
   auto right = Renderer::Make(context);
-  left->Place({0, 0, 32, 40});
-  right->Place({32, 24, 32, 40});
+  left->SetViewport({0, 0, 32, 40});
+  right->SetViewport({32, 24, 32, 40});
   FaceState turned;
   turned.head_rotation = {0, 30, 0};
   Image shared;

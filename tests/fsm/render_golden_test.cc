@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
-#include "fsm/app/face_of_name.h"
-#include "fsm/app/head_of_file.h"
 #include "fsm/asset/asset_file.h"
+#include "fsm/faces/face_of_name.h"
+#include "fsm/faces/head_of_file.h"
 #include "fsm/head/make_head.h"
 #include "fsm/motion/motion_tables.h"
 #include "tests/fsm/golden_picture.h"

@@ -30,7 +30,7 @@ TEST(ManyHeadsTest, DrawnInTurnsTheyLookAsAlone) {
     state.au_left[12] = state.au_right[26] = 0.8F;
     HeadVertices vertices;
     head.Evaluate(state, vertices);
-    renderer.Place({0, 0, size, size});
+    renderer.SetViewport({0, 0, size, size});
     renderer.Draw(head, vertices, state, {});
     Image image;
     renderer.Read(image);
@@ -64,7 +64,7 @@ void Draw(Renderer& renderer, const Frame& frame) {
   frame.head.Evaluate(state, vertices);
   Scene scene;
   scene.show_background = !frame.transparent;
-  renderer.Place({0, 0, frame.size, frame.size});
+  renderer.SetViewport({0, 0, frame.size, frame.size});
   renderer.Draw(frame.head, vertices, state, scene);
 }
 

@@ -271,7 +271,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   HeadVertices rest, smiling;
   head->Evaluate({}, rest);
   for (std::size_t i = 0; i < topology.relit.size(); ++i) {
-    for (const EyePlace& eye : topology.eyes) {
+    for (const EyeGeometry& eye : topology.eyes) {
       if (glm::distance(glm::vec2(rest.position[i]), glm::vec2(eye.centre)) > 10) continue;
       EXPECT_EQ(topology.relit[i], 0) << "round the eyes it stays";
     }

@@ -4,19 +4,13 @@
 #include <numeric>
 #include <vector>
 
+#include "vm_protocol/core/lower_case.h"
+
 namespace vm {
 namespace {
 
 constexpr std::size_t kMaxChanges = 2;
 constexpr std::size_t kMaxWordBytes = 128;  // longer words are not mistyped names
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  });
-  return lower;
-}
 
 /// Bytes to be changed, put in or left out, or neighbours exchanged (optimal string alignment).
 std::size_t Changes(std::string_view a, std::string_view b) {
@@ -39,11 +33,11 @@ std::size_t Changes(std::string_view a, std::string_view b) {
 
 std::string_view NearestWord(std::string_view word, std::span<const std::string> known) {
   if (word.empty() || word.size() > kMaxWordBytes) return {};
-  const std::string wanted = Lower(word);
+  const std::string wanted = LowerCase(word);
   std::string_view nearest, longer;
   std::size_t least = std::min(kMaxChanges, (word.size() - 1) / 2) + 1;
   for (const std::string& candidate : known) {
-    const std::string lower = Lower(candidate);
+    const std::string lower = LowerCase(candidate);
     if (longer.empty() && lower.size() > wanted.size() && lower.starts_with(wanted))
       longer = candidate;
     const std::size_t apart =

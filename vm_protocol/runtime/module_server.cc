@@ -19,6 +19,7 @@ namespace vm {
 namespace {
 
 constexpr auto kFlushLimit = std::chrono::seconds(3);  // for a reader that does not read at the end
+constexpr auto kCloseLimit = std::chrono::milliseconds(200);
 /// How long a peer whose input has ended is kept for the end of what goes on.
 constexpr auto kHalfClosedLimit = std::chrono::seconds(60);
 /// A module may become idle by the clock alone, without a timer of its own: we have to look.
@@ -288,15 +289,17 @@ int ModuleServer::Run() {
 
 void ModuleServer::Finish() {
   module_.Shutdown();
-  boost::asio::steady_timer limit(io_, kFlushLimit);
-  bool timed_out = false;
-  limit.async_wait([&timed_out](const auto& error) { timed_out = !error; });
-  std::size_t unflushed = peers_.size();
-  for (auto& [id, peer] : peers_) peer.stream->Flush([&unflushed] { --unflushed; });
-  while (unflushed > 0 && !timed_out) io_.run_one();
+  // What is not flushed by then may still be told later: the count outlives this call.
+  const auto unflushed = std::make_shared<std::size_t>(peers_.size());
+  for (auto& [id, peer] : peers_) peer.stream->Flush([unflushed] { --*unflushed; });
+  const auto limit = std::chrono::steady_clock::now() + kFlushLimit;
+  while (*unflushed > 0 && io_.run_one_until(limit) > 0) {
+  }
   for (auto& [id, peer] : peers_) peer.stream->Close();
-  limit.cancel();
-  io_.poll();
+  // What closing cancels lets go of its streams; whatever else runs here may never end.
+  const auto closed = std::chrono::steady_clock::now() + kCloseLimit;
+  while (std::chrono::steady_clock::now() < closed && io_.poll_one() > 0) {
+  }
 }
 
 }  // namespace vm

@@ -1,25 +1,19 @@
 #include "vm_protocol/xml/parser.h"
 
 #include "vm_protocol/core/charset.h"
+#include "vm_protocol/core/lower_case.h"
 
 // Debian builds the library so; the header shows the entity limits only then.
 #define XML_DTD 1
 #include <expat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 namespace vm::xml {
 namespace {
 
 constexpr std::string_view kXmlSpace = "http://www.w3.org/XML/1998/namespace";
-
-std::string Lower(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower;
-}
 
 bool IsExpatCharset(const std::string& charset) {
   static const char* const kOwn[] = {"",         "utf-8",      "utf8",   "utf-16",
@@ -38,7 +32,7 @@ std::string DeclaredCharset(std::string_view bytes) {
   if (open == std::string_view::npos) return "";
   const std::size_t close = head.find(head[open], open + 1);
   if (close == std::string_view::npos) return "";
-  return Lower(head.substr(open + 1, close - open - 1));
+  return LowerCase(head.substr(open + 1, close - open - 1));
 }
 
 class Builder {
@@ -213,7 +207,7 @@ vm::Result<XmlDocument> Parse(std::string_view bytes, const std::string& name,
                                             " bytes, at most " +
                                             std::to_string(limits.document_bytes) + " are read");
   }
-  std::string wanted = Lower(charset);
+  std::string wanted = LowerCase(charset);
   const std::string declared = DeclaredCharset(bytes);
   if (wanted.empty()) wanted = declared;
   std::string converted;

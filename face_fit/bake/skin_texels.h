@@ -14,7 +14,7 @@ inline std::size_t MapIndex(int x, int y) {
 inline constexpr float kBrowsEnd = 27;  ///< millimetres above the nasion
 
 /// For each texel of the skin's map: where it lies in a photo, and how squarely it was seen.
-struct SkinPlaces {
+struct SkinTexels {
   std::vector<glm::vec2> pixel;
   std::vector<float> facing, outward;
   std::vector<float> across;    ///< millimetres to the person's left of the middle
@@ -22,7 +22,7 @@ struct SkinPlaces {
   std::vector<float> off_seam;  ///< millimetres from where the lips meet
   std::vector<float> red;       ///< millimetres within the border of the lips, negative outside
   std::vector<float> aside;     ///< 1 on the sides of the head and below the chin, 0 on the face
-  SkinPlaces()
+  SkinTexels()
       : pixel(static_cast<std::size_t>(kMapSide) * kMapSide),
         facing(pixel.size(), -1),
         outward(pixel.size(), -1e9F),
@@ -34,13 +34,13 @@ struct SkinPlaces {
 };
 
 /// Whether a texel belongs to what is counted as face.
-inline bool OnFront(const SkinPlaces& places, std::size_t i) {
-  return places.outward[i] > 0 && i / kMapSide > kMapSide / 5 && i / kMapSide < kMapSide * 3 / 4;
+inline bool OnFront(const SkinTexels& texels, std::size_t i) {
+  return texels.outward[i] > 0 && i / kMapSide > kMapSide / 5 && i / kMapSide < kMapSide * 3 / 4;
 }
 
 /// For each texel of the skin's map its place in a photo taken with `pose`. `hidden`: skin that the
 /// head itself covers, as the jaw covers the throat, counts as not seen (facing -1). Texels that no
-/// triangle covers keep the values of a new SkinPlaces.
-SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose, bool hidden);
+/// triangle covers keep the values of a new SkinTexels.
+SkinTexels ProjectSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose, bool hidden);
 
 }  // namespace facefit

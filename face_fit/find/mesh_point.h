@@ -8,7 +8,7 @@
 namespace facefit {
 
 /// A place on a mesh: between the corners of a triangle.
-struct MeshPlace {
+struct MeshPoint {
   std::array<std::uint32_t, 3> corner{};
   glm::vec3 part{1, 0, 0};  ///< of each corner, sum 1
   glm::vec3 On(std::span<const glm::vec3> vertices) const {

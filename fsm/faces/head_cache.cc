@@ -1,4 +1,4 @@
-#include "fsm/app/head_cache.h"
+#include "fsm/faces/head_cache.h"
 
 #include <unistd.h>
 
@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/app/head_of_file.h"
 #include "fsm/asset/asset_file.h"
+#include "fsm/faces/head_of_file.h"
 
 namespace fsm {
 namespace {

@@ -1,4 +1,4 @@
-#include "fsm/app/head_of_file.h"
+#include "fsm/faces/head_of_file.h"
 
 #include <chrono>
 #include <filesystem>
@@ -7,23 +7,18 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "fsm/app/face_of_name.h"
+#include "fsm/faces/face_of_name.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/face_motion.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
 
 using namespace std::chrono_literals;
-
-template <typename T>
-T OrThrow(vm::Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().text);
-  return std::move(*result);
-}
 
 /// VRM's expressions, as mouth shapes of the set of 14 and emotions.
 constexpr std::pair<const char*, const char*> kVrmMouths[] = {
@@ -69,7 +64,7 @@ std::unique_ptr<Head> AssetOfFile(const std::string& path) {
   if (!path.ends_with(".glb")) return nullptr;
   const auto bytes = ReadWhole(path, kMaxMeshBytes);
   if (!bytes || !IsAsset(*bytes)) return nullptr;
-  return std::make_unique<Head>(OrThrow(ParseAsset(path, *bytes)));
+  return std::make_unique<Head>(vm::OrThrow(ParseAsset(path, *bytes)));
 }
 
 /// The mouths of both sets at full articulation.
@@ -85,40 +80,47 @@ std::vector<FaceState> VisemeStates(const MotionTables& tables) {
   return states;
 }
 
-struct Placed {
-  Similarity place;
-  float mouth_y = -43;
-  std::vector<PlacePair> pairs;  // in our frame
+/// How a head from elsewhere comes to lie over ours.
+struct Alignment {
+  Similarity to_ours;
+  float mouth_y = kUsualMouthY;
+  std::vector<PointPair> pairs;  // in our frame
   std::string face = "galatea";
 };
 
-Placed PlaceByPoints(const HeadPoints& points) {
-  Placed placed;
-  placed.face = points.face;
-  placed.place = FitSimilarity(points.pairs);
+Alignment AlignByPoints(const HeadPoints& points) {
+  Alignment alignment;
+  alignment.face = points.face;
+  alignment.to_ours = FitSimilarity(points.pairs);
   float sum = 0, count = 0;
-  for (PlacePair pair : points.pairs) {
-    pair.to = placed.place(pair.to);
+  for (PointPair pair : points.pairs) {
+    pair.to = alignment.to_ours(pair.to);
     if (pair.part == FacePart::kUpperLip || pair.part == FacePart::kLowerLip) {
       sum += pair.to.y;
       count += 1;
     }
-    placed.pairs.push_back(pair);
+    alignment.pairs.push_back(pair);
   }
-  if (count > 0) placed.mouth_y = sum / count;
-  return placed;
+  if (count > 0) alignment.mouth_y = sum / count;
+  return alignment;
 }
 
-/// By its eyes, else by its outline: the upper part of what stands much higher than wide.
-Placed PlaceByLook(const HeadFile& file) {
-  Placed placed;
+/// Scales about `from`, which comes to lie at `to`.
+Similarity ScaledAbout(glm::vec3 from, float scale, glm::vec3 to) {
+  return {.scale = scale, .move = to - scale * from};
+}
+
+/// Aligns a head by its eyes, else by its outline; of a file much higher than wide the upper part
+/// is taken for the head.
+Alignment AlignByOutline(const HeadFile& file) {
+  Alignment alignment;
   const MeshModel raw = ModelOf(file, {}, 0);
   if (raw.has_eyes) {
     const glm::vec3 apart = raw.eyes[1].centre - raw.eyes[0].centre;
     const glm::vec3 middle = 0.5f * (raw.eyes[0].centre + raw.eyes[1].centre);
-    placed.place.scale = 2 * kEyePlace.x / std::max(glm::length(apart), 1e-6f);
-    placed.place.move = kEyePlace * glm::vec3(0, 1, 1) - placed.place.scale * middle;
-    return placed;
+    const float scale = 2 * kEyeCentre.x / std::max(glm::length(apart), 1e-6f);
+    alignment.to_ours = ScaledAbout(middle, scale, kEyeCentre * glm::vec3(0, 1, 1));
+    return alignment;
   }
   glm::vec3 low(1e9f), high(-1e9f);
   for (const glm::vec3& p : file.position) {
@@ -128,11 +130,9 @@ Placed PlaceByLook(const HeadFile& file) {
   const glm::vec3 size = high - low;
   const float head = size.y > 2.2f * size.x ? size.y / 7.5f : size.y;
   constexpr float kHeadMm = 250, kTopMm = 130;
-  placed.place.scale = kHeadMm / std::max(head, 1e-6f);
-  placed.place.move =
-      glm::vec3(-placed.place.scale * 0.5f * (low.x + high.x), kTopMm - placed.place.scale * high.y,
-                -placed.place.scale * 0.5f * (low.z + high.z));
-  return placed;
+  alignment.to_ours = ScaledAbout({0.5f * (low.x + high.x), high.y, 0.5f * (low.z + high.z)},
+                                  kHeadMm / std::max(head, 1e-6f), {0, kTopMm, 0});
+  return alignment;
 }
 
 }  // namespace
@@ -152,50 +152,52 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
 }
 
 std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string& tables_folder,
-                                     HeadTelling* telling) {
-  if (auto own = AssetOfFile(path)) return MovedAsIn(tables_folder, std::move(own));
-  const HeadFile file = OrThrow(ReadHeadFile(path));
-  const auto tell = [&](const std::string& what) {
-    const std::string told = "'" + path + "': " + what;
-    if (telling) {
-      telling->notice += (telling->notice.empty() ? "" : "; ") + told;
-    } else {
-      std::cerr << "fsm: notice: " << told << "\n";
-    }
+                                     HeadTelling* telling,
+                                     const std::optional<UnitTable>& given_units) {
+  const std::optional<UnitTable> units = given_units ? given_units : UnitsIn(tables_folder);
+  const auto moved = [&units](std::unique_ptr<Head> head) {
+    return units ? head->WithUnits(*units) : std::move(head);
   };
+  if (auto own = AssetOfFile(path)) return moved(std::move(own));
+  HeadTelling told;
+  const auto tell = [&](const std::string& what) {
+    told.notice += (told.notice.empty() ? "'" : "; '") + path + "': " + what;
+  };
+  const HeadFile file = vm::OrThrow(ReadHeadFile(path));
   for (const std::string& what : file.notices) tell(what);
-  if (telling) telling->beside = file.beside;
-  const MotionTables tables = OrThrow(MotionTables::Load(tables_folder));
+  told.beside = file.beside;
   const std::string beside = path + ".points";
   std::error_code code;
   const bool has_points = std::filesystem::exists(beside, code);
-  Placed placed;
-  if (has_points) {
-    const std::string text = OrThrow(ReadWhole(beside, 1U << 20));
-    placed = PlaceByPoints(OrThrow(ParseHeadPoints(beside, text)));
-  } else {
-    placed = PlaceByLook(file);
-  }
-  MeshModel model = ModelOf(file, placed.place, placed.mouth_y);
+  const Alignment alignment = has_points ? AlignByPoints(vm::OrThrow(ParseHeadPoints(
+                                               beside, vm::OrThrow(ReadWhole(beside, 1U << 20)))))
+                                         : AlignByOutline(file);
+  MeshModel model = ModelOf(file, alignment.to_ours, alignment.mouth_y);
+  std::optional<RigData> skin;
   if (!file.shapes.empty()) {
-    const auto source = MakeHead(placed.face, false);
-    const auto units = UnitsIn(tables_folder);
-    const auto moved = units ? source->WithUnits(*units) : nullptr;
+    const MotionTables tables = vm::OrThrow(MotionTables::Load(tables_folder));
+    const auto source = MakeHead(alignment.face, false);
+    const auto other = units ? source->WithUnits(*units) : nullptr;
     const std::vector<ShapeMeaning> shapes = Meanings(tables);
-    if (auto skin = BlendshapeRig(file, placed.place, model, {*source, shapes},
-                                  moved ? *moved : *source, VisemeStates(tables))) {
-      return MakeMeshHead(std::move(model), std::move(*skin));
-    }
+    skin = BlendshapeRig(file, alignment.to_ours, model, {*source, shapes},
+                         other ? *other : *source, VisemeStates(tables));
+    told.by_shapes = skin.has_value();
   }
-  if (has_points) {
-    RigData skin =
-        TransferredRig(model, *MovedAsIn(tables_folder, MakeHead(placed.face)), placed.pairs);
-    return MakeMeshHead(std::move(model), std::move(skin));
+  if (!skin && has_points) {
+    skin = TransferredRig(model, *moved(MakeHead(alignment.face)), alignment.pairs);
   }
-  tell("has no shapes with names of ARKit or VRM, and no '" + beside +
-       "' says where its eyes and mouth are (face_fit --head finds out): only head, eyes and jaw "
-       "move");
-  return MovedAsIn(tables_folder, MakeMeshHead(std::move(model)));
+  if (!skin) {
+    tell("has no shapes with names of ARKit or VRM, and no '" + beside +
+         "' says where its eyes and mouth are (face_fit --head finds out): only head, eyes and jaw "
+         "move");
+  }
+  if (telling) {
+    *telling = told;
+  } else if (!told.notice.empty()) {
+    std::cerr << "fsm: notice: " << told.notice << "\n";
+  }
+  if (!skin) return moved(MakeMeshHead(std::move(model)));
+  return MakeMeshHead(std::move(model), std::move(*skin));
 }
 
 vm::Result<void> ExportHead(const Head& head, const MotionTables& tables, const std::string& path) {

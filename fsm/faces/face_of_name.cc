@@ -1,4 +1,4 @@
-#include "fsm/app/face_of_name.h"
+#include "fsm/faces/face_of_name.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include "fsm/head/photo_head.h"
 #include "fsm/image/image_file.h"
 #include "fsm/motion/table_text.h"
+#include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -19,9 +20,7 @@ namespace {
 constexpr std::size_t kMaxFileBytes = 16u << 20;  // thirty times a face of a large photo
 
 std::string ReadText(const std::string& path) {
-  auto text = vm::ReadTextFile(path, kMaxFileBytes);
-  if (!text) throw std::runtime_error(text.error().text);
-  return std::move(*text);
+  return vm::OrThrow(vm::ReadTextFile(path, kMaxFileBytes));
 }
 
 /// A table of a folder; nothing if it has none of that name. Throws as UnitsIn.
@@ -29,12 +28,9 @@ std::optional<std::string> TableIn(const std::string& folder, const char* file) 
   const std::string path = folder + "/" + file;
   std::error_code error;
   if (folder.empty() || !std::filesystem::exists(path, error)) return std::nullopt;
-  auto text = ReadTableFile(path);
-  if (!text) throw std::runtime_error(text.error().text);
-  if (auto encoded = CheckTableEncoding(path, *text); !encoded) {
-    throw std::runtime_error(encoded.error().text);
-  }
-  return *std::move(text);
+  std::string text = vm::OrThrow(ReadTableFile(path));
+  vm::OrThrow(CheckTableEncoding(path, text));
+  return text;
 }
 
 }  // namespace
@@ -84,12 +80,10 @@ std::unique_ptr<Head> MakeHeadOfName(const std::string& face, const std::string&
   if (std::filesystem::exists(own, error)) {
     return MovedAsIn(units, make(ReadOwnIdentity(own, ReadText(own))));
   }
-  PhotoHead set = ReadPhotoHead(folder + "/face.txt", ReadText(folder + "/face.txt"));
-  set.features = FeaturesIn(tables);
-  auto image = ReadImage(folder + "/photo.png");
-  if (!image) throw std::runtime_error(image.error().text);
-  set.photo = std::make_shared<Image>(Image{image->width, image->height, std::move(image->rgba)});
-  return MovedAsIn(units, MakeHead(set));
+  PhotoHead head = ReadPhotoHead(folder + "/face.txt", ReadText(folder + "/face.txt"));
+  head.features = FeaturesIn(tables);
+  head.photo = std::make_shared<Image>(vm::OrThrow(ReadImage(folder + "/photo.png")));
+  return MovedAsIn(units, MakeHead(head));
 }
 
 }  // namespace fsm

@@ -1,4 +1,4 @@
-#include "face_fit/bake/skin_places.h"
+#include "face_fit/bake/skin_texels.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "face_fit/bake/appearance.h"
+#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/skin_rasterizer.h"
 #include "face_fit/find/rasterizer.h"
 
@@ -18,15 +18,15 @@ namespace {
 /// Whether the head itself hides a place of its skin from the camera, as the jaw does the throat.
 class Hidden {
  public:
-  Hidden(const BaseHead& base, const Fit& fit) : fit_(fit) {
-    const glm::vec2 middle = fit.pose.Project({0, 0, 0});
-    const float reach = kReach * fit.pose.PixelsPerMm();
+  Hidden(const BaseHead& base, const Fit& fit, const CameraPose& pose) : pose_(pose) {
+    const glm::vec2 middle = pose.Project({0, 0, 0});
+    const float reach = kReach * pose.PixelsPerMm();
     const float cell = 2 * reach / kCells;
     grid_ = {middle - reach, cell, kCells, kCells};
-    nearest_ = RasterizeSkin(base, fit, grid_, -1e9F).depth;
+    nearest_ = RasterizeSkin(base, fit, pose, grid_, -1e9F).depth;
   }
   bool operator()(glm::vec3 camera) const {
-    const glm::vec2 at = (fit_.pose.Project(camera) - grid_.origin) / grid_.cell + 0.5F;
+    const glm::vec2 at = (pose_.Project(camera) - grid_.origin) / grid_.cell + 0.5F;
     const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
     if (x < 1 || y < 1 || x + 1 >= kCells || y + 1 >= kCells) return false;
     constexpr float kBehind = 5;  // millimetres
@@ -40,7 +40,7 @@ class Hidden {
  private:
   static constexpr int kCells = 256;
   static constexpr float kReach = 180;  // millimetres
-  const Fit& fit_;
+  const CameraPose& pose_;
   PhotoGrid grid_{};
   FloatImage nearest_{0, 0};
 };
@@ -73,22 +73,20 @@ class LipLines {
   }
 
  private:
-  static constexpr std::array kCorners = {61, 291};
+  static constexpr std::array kCorners = {point::kMouthRight, point::kMouthLeft};
   static bool Spans(std::span<const glm::vec3> line, glm::vec3 p) {
     constexpr float kFront = 60;  // behind it lies the mouth's inside
     return p.x >= line.front().x && p.x <= line.back().x && p.z >= kFront;
   }
-  static std::vector<glm::vec3> Line(const BaseHead& base, std::span<const int> points,
-                                     std::span<const int> ends) {
-    std::vector<int> all(points.begin(), points.end());
+  static std::vector<glm::vec3> Line(const BaseHead& base, std::span<const PointIndex> points,
+                                     std::span<const PointIndex> ends) {
+    std::vector<PointIndex> all(points.begin(), points.end());
     if (!ends.empty()) {
       all.insert(all.begin(), ends.front());
       all.push_back(ends.back());
     }
     std::vector<glm::vec3> line;
-    for (const int i : all) {
-      line.push_back(base.AtRest(i));
-    }
+    for (const PointIndex i : all) line.push_back(base.AtRest(i));
     return line;
   }
   std::vector<glm::vec3> seam_, upper_, lower_;
@@ -119,20 +117,21 @@ std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const std::uin
 
 }  // namespace
 
-SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose, bool hidden) {
-  const Appearance& look = BuiltInAppearance();
+SkinTexels ProjectSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose, bool hidden) {
+  const glm::vec2 across = PhotoLook().Pair("aside_across");
+  const glm::vec2 above_chin = PhotoLook().Pair("aside_above_chin");
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<Hidden> hides;
-  if (hidden) hides.emplace(base, fit);
+  if (hidden) hides.emplace(base, fit, pose);
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
   for (const glm::vec3& p : fit.posed_vertices) camera.push_back(pose.ToCamera(p));
   const std::vector<glm::vec3> normal = SkinNormals(topology, camera);
   const float brows = base.head->Landmark("nasion").y + kBrowsEnd;
-  const float chin = base.AtRest(152).y;
+  const float chin = base.AtRest(point::kChin).y;
   const LipLines lips(base);
-  SkinPlaces out;
+  SkinTexels out;
   ForSkinTriangles(topology, [&](const std::uint32_t* t) {
     const auto triangle = OnMap(topology, t);
     if (!triangle) return;
@@ -149,8 +148,7 @@ SkinPlaces PlaceSkin(const BaseHead& base, const Fit& fit, const CameraPose& pos
       out.up[i] = rest.y - brows;
       out.off_seam[i] = lips.OffSeam(rest);
       out.red[i] = lips.Within(rest);
-      out.aside[i] = std::max(Ramp(look.aside_across, std::abs(rest.x)),
-                              Ramp(look.aside_above_chin, rest.y - chin));
+      out.aside[i] = std::max(Ramp(across, std::abs(rest.x)), Ramp(above_chin, rest.y - chin));
       out.facing[i] =
           hides && (*hides)(q) ? -1.0F : glm::dot(glm::normalize(n), glm::normalize(kEye - q));
     });

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+namespace fsm {
+
+// Numbers that depend on nothing but their arguments and are the same on every machine: films
+// repeat, and any instant can be asked for in any order. Pure; thread: any.
+
+/// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): every bit of the input matters.
+inline std::uint64_t Scramble(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// In -1..1. `stream` keeps things that vary apart.
+inline double RandomAt(std::uint64_t seed, std::uint64_t stream, std::int64_t index) {
+  const std::uint64_t bits =
+      Scramble(Scramble(seed * 1024 + stream) ^ static_cast<std::uint64_t>(index));
+  return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
+}
+
+/// The i-th of a series, in 0..1.
+inline float Chance(std::uint64_t series, std::uint64_t i) {
+  return static_cast<float>(Scramble(series << 40 ^ i) >> 40) * 0x1p-24F;
+}
+
+/// The noise at a point of a lattice, in -1..1.
+inline float NoiseAt(int i, int j) {
+  std::uint32_t h =
+      static_cast<std::uint32_t>(i) * 0x9E3779B1u ^ static_cast<std::uint32_t>(j) * 0x85EBCA77u;
+  h ^= h >> 15;
+  h *= 0x2C1B3C6Du;
+  h ^= h >> 13;
+  return static_cast<float>(h & 0xFFFFu) / 32767.5f - 1.0f;
+}
+
+}  // namespace fsm

@@ -1,0 +1,108 @@
+#include "fsm/faces/original_faces.h"
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "fsm/faces/face_of_name.h"
+#include "fsm/mesh/original_expressions.h"
+#include "fsm/mesh/original_face.h"
+#include "fsm/motion/face_motion.h"
+#include "fsm/motion/motion_tables.h"
+#include "vm_protocol/core/or_throw.h"
+
+namespace fsm {
+namespace {
+
+void Notice(const std::string& text) { std::cerr << "fsm: notice: " << text << "\n"; }
+
+/// What each Mouth.N asks of its parameter.
+MouthUnitSizes UnitSizes(const MotionTables& tables) {
+  FaceMotion motion(tables, 1);
+  for (int i = 1; i <= static_cast<int>(kMouthParameters); ++i) {
+    if (!motion.SetMouth(vm::Time(0), i, 1)) return {};
+  }
+  return motion.StateAt(std::chrono::seconds(5)).mouth;
+}
+
+std::unique_ptr<Head> MakeOriginal(const OriginalFaceFiles& files,
+                                   const OriginalSharedFiles& shared, const std::string& tables) {
+  const auto face = ReadOriginalFace(files, shared);
+  if (!face) throw std::runtime_error("face '" + files.name + "': " + face.error().text);
+  const MotionTables motion = vm::OrThrow(MotionTables::Load(tables));
+  // Its visemes are numbered as the shapes of the set of 28, but for silence, which is 0 there and
+  // the last here.
+  VisemeMouths mouths;
+  for (std::size_t i = 0; i < kOriginalVisemes && i < motion.set28.shapes.size(); ++i) {
+    mouths.push_back(motion.set28.shapes[i].pose.mouth);
+  }
+  for (const Viseme& viseme : motion.set14.shapes) mouths.push_back(viseme.pose.mouth);
+  MeshModel model = ModelOf(*face);
+  RigData skin = RigOf(*face, model, mouths, UnitSizes(motion));
+  return MovedAsIn(tables, MakeMeshHead(std::move(model), std::move(skin)));
+}
+
+/// The first of the files that is not there; "" if all are.
+std::string Missing(const OriginalFaceFiles& files, const OriginalSharedFiles& shared) {
+  std::error_code code;
+  for (const std::string* file :
+       {&files.picture, &files.wireframe, &shared.standard, &shared.link}) {
+    if (file->empty() || !std::filesystem::exists(*file, code)) {
+      return file->empty() ? "DEF_WFM_PNT or DEF_WFM_LNK" : "'" + *file + "'";
+    }
+  }
+  for (const std::string* file : {&files.eye_picture, &files.eye_def, &files.teeth_def}) {
+    if (!file->empty() && !std::filesystem::exists(*file, code)) return "'" + *file + "'";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<NamedFace> OriginalFaces(std::span<const OriginalFaceFiles> faces,
+                                     const OriginalSharedFiles& shared, const std::string& tables,
+                                     std::vector<std::string>* left_out) {
+  std::vector<NamedFace> found;
+  for (const OriginalFaceFiles& files : faces) {
+    const std::string missing = Missing(files, shared);
+    if (missing.empty()) {
+      found.push_back(
+          {files.name, [files, shared, tables] { return MakeOriginal(files, shared, tables); }});
+      continue;
+    }
+    const std::string told =
+        shared.config + ": face '" + files.name + "' is left out, " + missing + " is missing";
+    left_out ? left_out->push_back(told) : Notice(told);
+  }
+  return found;
+}
+
+ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared) {
+  ExpressionLooks looks;
+  std::error_code none;
+  if (!std::filesystem::exists(shared.standard, none)) return looks;
+  const auto read = ReadOriginalExpressions(shared.offsets, shared.standard);
+  if (!read) {
+    Notice(read.error().text + "; expressions are our own");
+    return looks;
+  }
+  for (const std::string& path : read->without_rest) {
+    Notice(path + ": too many unlike expressions; this one is shown as far as units go");
+  }
+  for (const OriginalExpression& one : read->all) {
+    ActionUnits& look = looks[one.name][one.pattern];
+    for (std::size_t i = 0; i < kOriginalUnits; ++i) {
+      const auto unit = static_cast<std::size_t>(kUnitNumbers[i]);
+      look.right[unit] = one.right[i];
+      look.left[unit] = one.left[i];
+    }
+    if (one.channel != kNoChannel) {
+      const auto [unit, is_left] = kExpressionChannels[one.channel];
+      (is_left ? look.left : look.right)[unit] = 1;
+    }
+  }
+  return looks;
+}
+
+}  // namespace fsm

@@ -1,0 +1,136 @@
+#include "fsm/render/draw_order.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <tuple>
+
+namespace fsm {
+namespace {
+
+/// Whether nothing is seen through a triangle. `cut_out`: it is not there where the photo is not.
+bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> triangle, bool cut_out) {
+  glm::vec2 low(1e9F), high(-1e9F);
+  for (const std::uint32_t v : triangle) {
+    if (topology.opacity[v] < 1) return false;
+    low = glm::min(low, topology.texcoord[v]);
+    high = glm::max(high, topology.texcoord[v]);
+  }
+  if (!cut_out) return true;
+  const Image& photo = *topology.photo;
+  const glm::ivec2 last(photo.width - 1, photo.height - 1);
+  const glm::vec2 size(photo.width, photo.height);
+  const auto from = glm::clamp(glm::ivec2(low * size) - 1, glm::ivec2(0), last);
+  const auto to = glm::clamp(glm::ivec2(high * size) + 1, glm::ivec2(0), last);
+  for (int y = from.y; y <= to.y; ++y) {
+    for (int x = from.x; x <= to.x; ++x) {
+      if (photo.rgba[4 * photo.Index(x, y) + 3] < 250) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+DrawOrder::DrawOrder(const HeadTopology& topology, const HeadVertices& rest,
+                     const std::vector<bool>& detailed)
+    : topology_(topology), detailed_(detailed) {
+  std::size_t before_ears = 0;
+  const std::vector<std::uint32_t> hair = SortedHair(rest, before_ears);
+  const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
+  Add(locks, Corners(hair).first(before_ears));
+  Layer sheet, skin;
+  AddFace(sheet, skin);
+  Add(sheet.part, sheet.corners, true);
+  Add(skin.part, skin.corners, true);
+  for (const auto& part : topology.parts) {
+    if (part.material == Material::kShutLash) Add(part, CornersOf(part), true);
+  }
+  Add(locks, Corners(hair).subspan(before_ears));
+}
+
+DrawOrder::Corners DrawOrder::CornersOf(const HeadTopology::Part& part) const {
+  return Corners(topology_.indices).subspan(part.first_index, part.index_count);
+}
+
+void DrawOrder::Add(HeadTopology::Part part, Corners corners, bool soft, bool is_detailed) {
+  if (corners.empty()) return;
+  part.first_index = static_cast<std::uint32_t>(indices.size());
+  part.index_count = static_cast<std::uint32_t>(corners.size());
+  parts.push_back({part, soft, is_detailed});
+  indices.insert(indices.end(), corners.begin(), corners.end());
+}
+
+void DrawOrder::AddWorn(const HeadTopology::Part& part, Corners corners) {
+  std::array<std::vector<std::uint32_t>, 2> lists;  // plain, detailed
+  for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+    const auto t = corners.subspan(k, 3);
+    auto& list = lists[std::ranges::any_of(t, [&](std::uint32_t i) { return detailed_[i]; })];
+    list.insert(list.end(), t.begin(), t.end());
+  }
+  Add(part, lists[0], false, false);
+  Add(part, lists[1]);
+}
+
+/// Corners of the triangles of hair; `before_ears`: how many of them come first. Locks lie on the
+/// shell of the hair and come before it; of equals those with the lower corners, so that the order
+/// is the same everywhere.
+std::vector<std::uint32_t> DrawOrder::SortedHair(const HeadVertices& rest,
+                                                 std::size_t& before_ears) const {
+  constexpr float kBehind = 0.0F;  // the plane of the ears
+  using Triangle = std::array<std::uint32_t, 3>;
+  std::vector<Triangle> hair;
+  for (const auto& part : topology_.parts) {
+    if (part.material != Material::kHair) continue;
+    const Corners corners = CornersOf(part);
+    for (std::size_t k = 0; k < corners.size(); k += 3) {
+      hair.push_back({corners[k], corners[k + 1], corners[k + 2]});
+    }
+  }
+  const auto depth = [&rest](const Triangle& t) {
+    return rest.position[t[0]].z + rest.position[t[1]].z + rest.position[t[2]].z;
+  };
+  const auto is_shell = [this](const Triangle& t) {
+    return std::ranges::all_of(t, [this](std::uint32_t i) {
+      return i >= topology_.strands.size() || topology_.strands[i].across == 0;
+    });
+  };
+  std::ranges::sort(hair, {}, [&](const Triangle& t) {
+    return std::tuple(depth(t) < kBehind, is_shell(t), -depth(t), t);
+  });
+  std::vector<std::uint32_t> corners;
+  before_ears = 0;
+  for (const Triangle& t : hair) {
+    corners.insert(corners.end(), t.begin(), t.end());
+    if (depth(t) >= kBehind) before_ears = corners.size();
+  }
+  return corners;
+}
+
+/// All parts but hair and lashes, without what is mixed with what lies behind it: those layers.
+void DrawOrder::AddFace(Layer& sheet, Layer& skin) {
+  for (const auto& part : topology_.parts) {
+    if (part.material == Material::kHair || part.material == Material::kShutLash) continue;
+    const Corners corners = CornersOf(part);
+    const bool of_skin = part.material == Material::kSkin;
+    const bool of_sheet = part.material == Material::kPhoto;
+    if (Blends(topology_) && (of_skin || of_sheet)) {
+      Layer& layer = of_sheet ? sheet : skin;
+      layer.part = part;
+      std::vector<std::uint32_t> whole;
+      for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
+        const auto t = corners.subspan(k, 3);
+        auto& list = HidesAll(topology_, t, of_sheet) ? whole : layer.corners;
+        list.insert(list.end(), t.begin(), t.end());
+      }
+      AddWorn(part, whole);
+    } else if (topology_.photo && part.pbr < 0 && (of_skin || part.material == Material::kLip)) {
+      AddWorn(part, corners);
+    } else {
+      Add(part, corners);
+    }
+  }
+}
+
+}  // namespace fsm
