@@ -1,10 +1,9 @@
 #include "task_manager/app/readable.h"
 
-#include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "vm_protocol/core/lower_case.h"
 
 namespace vxml {
 namespace {
@@ -21,8 +20,7 @@ std::string FeelingsOf(const Json& line) {
   for (const auto& feeling : line.value("feelings", Json::array())) {
     text += (text.empty() ? "(" : ", ") + feeling.get<std::string>();
   }
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text.empty() ? "" : text + ")";
+  return text.empty() ? "" : vm::LowerCase(text) + ")";
 }
 
 std::string SaidBy(const Json& line) {

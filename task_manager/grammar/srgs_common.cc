@@ -4,6 +4,7 @@
 #include "task_manager/grammar/compiler.h"
 #include "task_manager/grammar/text.h"
 #include "vm_protocol/core/charset.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/utf8.h"
 #include "vm_protocol/xml/parser.h"
 
@@ -237,7 +238,7 @@ vm::Result<std::unique_ptr<Grammar>> CompileBytes(std::string_view bytes,
     const std::string header = vm::xml::Collapse(start.substr(0, start.find(';')));
     const std::size_t blank = header.find(' ', 6);  // #ABNF 1.0 ISO-8859-1;
     if (blank != std::string::npos) encoding = header.substr(blank + 1);
-    for (char& c : encoding) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+    encoding = vm::LowerCase(encoding);
     if (!utf16 && !encoding.empty() && encoding != "utf-8") {
       auto utf8 = vm::DecodeCharset(start, encoding);
       if (!utf8) return vm::Fail(utf8.error().code, context.uri + ":1:1: " + utf8.error().text);

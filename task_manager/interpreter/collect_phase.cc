@@ -40,12 +40,12 @@ void CollectPhase::VisitInput(FormItem& item) {
   if (active.empty()) {
     rt_.position.ThrowSemantic(*item.node, "input is expected, but no grammar is active");
   }
-  rt_.connection.Require();
+  rt_.connection.RequireOpen();
   const Listen listen = recognition_.MakeListen(item, active);
   recognition_.Forget();
   const Input input = rt_.platform.Collect(queue_.Take(), listen);
   rt_.budget.Renew();
-  process_.Take(recognition_.Interpret(input, active), &item);
+  process_.Process(recognition_.Interpret(input, active), &item);
 }
 
 void CollectPhase::VisitObject(FormItem& item) {
@@ -115,7 +115,7 @@ Value CollectPhase::KeepRecording(const FormItem& item, const RecordResult& resu
 }
 
 void CollectPhase::VisitRecord(FormItem& item) {
-  rt_.connection.Require();
+  rt_.connection.RequireOpen();
   const auto active = GrammarsOf(item, item.node->Get("modal") != "false");
   const RecordRequest request = MakeRecordRequest(item, active);
   recognition_.Forget();
@@ -139,7 +139,7 @@ void CollectPhase::VisitRecord(FormItem& item) {
       break;
   }
   const Match match = recognition_.Interpret(result.input, active);
-  if (match.owner != Match::Owner::kItem) return process_.Take(match, &item);
+  if (match.owner != Match::Owner::kItem) return process_.Process(match, &item);
   const Value recording =
       KeepRecording(item, result, request.type, match.dtmf ? match.utterance : "");
   recognition_.Describe(rt_.scopes.Get(item.name + "$"), match);
@@ -164,7 +164,7 @@ TransferRequest CollectPhase::MakeTransferRequest(const FormItem& item) {
 }
 
 void CollectPhase::VisitTransfer(FormItem& item) {
-  rt_.connection.Require();
+  rt_.connection.RequireOpen();
   TransferRequest request = MakeTransferRequest(item);
   const std::vector<ActiveGrammar> active =
       request.type == "blind" ? std::vector<ActiveGrammar>{} : GrammarsOf(item, true);

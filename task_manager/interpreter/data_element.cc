@@ -41,7 +41,7 @@ nlohmann::json SpecOf(const vm::xml::Node& node) {
 }
 
 /// <?access-control allow="HOST ..."?> (VoiceXML 2.1 section 5, appendix E).
-bool MayRead(const vm::xml::XmlDocument& data, const std::string& host) {
+bool AllowsHost(const vm::xml::XmlDocument& data, const std::string& host) {
   for (const auto& instruction : data.prolog) {
     if (instruction->name != "access-control") continue;
     const std::string& text = instruction->text;
@@ -72,7 +72,7 @@ void ExecutableContent::RunData(const vm::xml::Node& node) {
   auto data = vm::xml::Parse(got.body, got.uri, got.charset);
   if (!data) ThrowEvent("error.badfetch", data.error().text);
   const std::string host = fetch::Host(rt_.position.OriginOf(node).uri);
-  if (!MayRead(*data, host)) {
+  if (!AllowsHost(*data, host)) {
     ThrowEvent("error.noauthorization", got.uri + ": access-control does not allow " + host);
   }
   auto nodes = nlohmann::json::array();

@@ -52,7 +52,7 @@ fetch::Response DocumentSet::Fetch(const vm::xml::Node& node, const fetch::Reque
   std::string audio = node.Get("fetchaudio");
   if (audio.empty()) audio = rt_.properties.Get("fetchaudio", &node);
   const bool plays = !audio.empty() && rt_.connection.is_open();
-  if (plays) prompts_.Flush();  // fetchaudio: what is queued is heard while fetching
+  if (plays) queue_.Flush();  // fetchaudio: what is queued is heard while fetching
   const bool slow =
       request.uri.starts_with("http") && !rt_.properties.Is("attention", "false", &node);
   if (slow || plays) {

@@ -22,8 +22,8 @@ struct Submission {
 /// error.badfetch (with the HTTP status) or error.noauthorization. Thread: the session's.
 class DocumentSet {
  public:
-  DocumentSet(Runtime& runtime, PromptQueue& prompts)
-      : rt_(runtime), prompts_(prompts), fetcher_(runtime.options.fetch) {}
+  DocumentSet(Runtime& runtime, PromptQueue& queue)
+      : rt_(runtime), queue_(queue), fetcher_(runtime.options.fetch) {}
 
   /// True if no document was ever loaded.
   bool empty() const { return parsed_.empty(); }
@@ -58,7 +58,7 @@ class DocumentSet {
                   const std::expected<fetch::Response, fetch::Failure>& got) const;
 
   Runtime& rt_;
-  PromptQueue& prompts_;
+  PromptQueue& queue_;
   fetch::Fetcher fetcher_;
   /// By URI and hash of the bytes; kept, since compiled grammars name their nodes.
   std::vector<std::pair<std::pair<std::string, std::size_t>, std::shared_ptr<VxmlDocument>>>

@@ -6,6 +6,7 @@
 
 #include "task_manager/document/schema.h"
 #include "vm_protocol/core/charset.h"
+#include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/utf8.h"
 
 namespace vxml {
@@ -163,8 +164,8 @@ void ExecutableContent::RunScript(const vm::xml::Node& node) {
   fetch::Request request = documents_.RequestFor(node, "script");
   request.uri = fetch::Resolve(rt_.position.BaseOf(node), source);
   const fetch::Response got = documents_.Fetch(node, request, "script");
-  std::string charset = got.charset.empty() ? node.Get("charset") : got.charset;
-  for (char& c : charset) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  const std::string charset =
+      vm::LowerCase(got.charset.empty() ? node.Get("charset") : got.charset);
   if (charset.empty() || charset == "utf-8") return rt_.scopes.Run(node, got.body);
   auto text = vm::DecodeCharset(got.body, charset);
   if (!text) ThrowEvent("error.badfetch", request.uri + ": " + text.error().text);

@@ -74,7 +74,7 @@ void FormInterpreter::Run(const Transition& to) {
   rt_.scopes.EnterDialog();
   play_prompts_ = true;
   Guarded([&] { InitDialog(to.parameters); });
-  if (to.carried) Guarded([&] { process_.Take(*to.carried, nullptr); });
+  if (to.carried) Guarded([&] { process_.Process(*to.carried, nullptr); });
   while (true) {
     FormItem* item = nullptr;
     rt_.scopes.LeaveBlocks();

@@ -9,8 +9,8 @@
 namespace vxml {
 
 /// Where the interpreter is. A subdialog has a position of its own.
-/// DialogSession sets the documents, FormInterpreter dialog and item, ExecutableContent the
-/// element.
+/// DialogSession sets the documents, FormInterpreter the dialog, it and ProcessPhase (for <filled>)
+/// the item; the element is set by who begins to run content.
 struct Position {
   std::shared_ptr<VxmlDocument> document;
   std::shared_ptr<VxmlDocument> root;  ///< the application root; `document` if that is its own

@@ -9,7 +9,7 @@ namespace vxml {
 
 using script::Value;
 
-void ProcessPhase::Take(const Match& match, FormItem* current) {
+void ProcessPhase::Process(const Match& match, FormItem* current) {
   const vm::xml::Node* dialog = rt_.position.dialog->node;
   switch (match.owner) {
     case Match::Owner::kUniversal:

@@ -18,7 +18,7 @@ class ProcessPhase {
 
   /// Fills variables and runs <filled>, or throws where a link, choice or another dialog's grammar
   /// leads. `current` is the item that waited, null if the match was carried into its dialog.
-  void Take(const Match& match, FormItem* current);
+  void Process(const Match& match, FormItem* current);
   /// The item's variable gets a value that no grammar gave; its <filled> follow.
   void FillPlain(const FormItem& item, const script::Value& value);
 

@@ -46,7 +46,7 @@ Listen Recognition::MakeListen(const FormItem& item, const ActiveList& active) c
   listen.dtmf = modes.find("dtmf") != std::string::npos;
   listen.timeout = properties.Time("timeout", Millis(5000));
   listen.hotword = properties.Is("bargeintype", "hotword");
-  for (const Prompt& prompt : prompts_.prompts()) {  // the last one counts
+  for (const Prompt& prompt : queue_.prompts()) {  // the last one counts
     if (prompt.IsNative()) continue;
     listen.timeout = prompt.timeout.value_or(properties.Time("timeout", Millis(5000)));
     listen.hotword = prompt.hotword;

@@ -13,7 +13,7 @@ namespace vxml {
 /// application.lastresult$. Thread: the session's.
 class Recognition {
  public:
-  Recognition(Runtime& runtime, const PromptQueue& prompts) : rt_(runtime), prompts_(prompts) {}
+  Recognition(Runtime& runtime, const PromptQueue& queue) : rt_(runtime), queue_(queue) {}
 
   /// What the platform has to know while it waits. `active` outlives the result.
   Listen MakeListen(const FormItem& item, const std::vector<ActiveGrammar>& active) const;
@@ -37,7 +37,7 @@ class Recognition {
   void SetLastResult(const std::vector<Match>& matches, const Input& input);
 
   Runtime& rt_;
-  const PromptQueue& prompts_;
+  const PromptQueue& queue_;
 };
 
 }  // namespace vxml

@@ -25,7 +25,7 @@ class Connection {
     ThrowEvent("connection.disconnect.hangup");
   }
   /// Who waits for input on a closed line ends the session.
-  void Require() const {
+  void RequireOpen() const {
     if (!open_) throw ExitSession{"hangup"};
   }
 

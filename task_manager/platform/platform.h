@@ -43,15 +43,6 @@ struct Prompt {
   std::vector<std::string> Feelings() const;
   /// True of a <native> that stands by itself: no prompt of the author's.
   bool IsNative() const;
-  /// True if there is more in it than commands and marks.
-  bool Plays() const {
-    for (const Segment& segment : segments) {
-      if (segment.kind != Segment::Kind::kCommand && segment.kind != Segment::Kind::kMark) {
-        return true;
-      }
-    }
-    return false;
-  }
 };
 
 struct Hypothesis {

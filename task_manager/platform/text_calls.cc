@@ -2,17 +2,15 @@
 #include <algorithm>
 
 #include "task_manager/platform/text_platform.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace vxml {
 namespace {
 
 /// tel:, sip: and sips: URIs (RFC 3966, RFC 3261), and numbers without a scheme.
 bool IsTelephoneUri(const std::string& uri) {
-  std::string scheme = uri.substr(0, uri.find(':'));
-  if (scheme == uri) return true;
-  std::ranges::transform(scheme, scheme.begin(), [](char c) {
-    return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  });
+  const std::string scheme = vm::LowerCase(uri.substr(0, uri.find(':')));
+  if (scheme.size() == uri.size()) return true;
   return scheme == "tel" || scheme == "sip" || scheme == "sips";
 }
 

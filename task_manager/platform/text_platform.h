@@ -33,9 +33,9 @@ class TextPlatform final : public Platform {
   Millis Now() const override { return now_; }
   void Report(std::string_view type, const JsonLine& fields) override;
 
-  /// True once input was wanted and there was none.
   /// Input comes from somebody at a terminal: prompts are shown before it is asked for.
   void SetInteractive() { interactive_ = true; }
+  /// True once input was wanted and there was none.
   bool ran_out() const { return ran_out_; }
 
  private:

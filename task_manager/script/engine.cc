@@ -510,13 +510,6 @@ void Engine::SetReadOnly(const Value& object, const std::string& name, const Val
                                  JSPROP_ENUMERATE | JSPROP_READONLY | JSPROP_PERMANENT);
   });
 }
-void Engine::Remove(const Value& object, const std::string& name) {
-  impl_->WithObject(object, [&](JS::HandleObject inner) {
-    JS::RootedId id(impl_->js);
-    JS::ObjectOpResult removed;
-    return ToId(impl_->js, name, &id) && JS_DeletePropertyById(impl_->js, inner, id, removed);
-  });
-}
 void Engine::Freeze(const Value& object) {
   impl_->WithObject(object,
                     [&](JS::HandleObject inner) { return JS_FreezeObject(impl_->js, inner); });
@@ -570,9 +563,6 @@ bool Engine::IsArray(const Value& value) {
       value, [&](JS::HandleObject inner) { return JS::IsArrayObject(impl_->js, inner, &is); });
   return is;
 }
-bool Engine::IsBoolean(const Value& value) { return impl_->Of(value).isBoolean(); }
-bool Engine::IsNumber(const Value& value) { return impl_->Of(value).isNumber(); }
-bool Engine::IsString(const Value& value) { return impl_->Of(value).isString(); }
 bool Engine::ToBoolean(const Value& value) {
   return JS::ToBoolean(JS::RootedValue(impl_->js, impl_->Of(value)));
 }

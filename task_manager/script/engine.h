@@ -79,7 +79,6 @@ class Engine {
   bool Has(const Value& object, const std::string& name);
   Value Get(const Value& object, const std::string& name);
   void Set(const Value& object, const std::string& name, const Value& value);
-  void Remove(const Value& object, const std::string& name);
   void Freeze(const Value& object);
   std::vector<std::string> Keys(const Value& object);
   std::size_t Length(const Value& array);
@@ -92,9 +91,6 @@ class Engine {
   bool IsUndefined(const Value& value);
   bool IsObject(const Value& value);
   bool IsArray(const Value& value);
-  bool IsBoolean(const Value& value);
-  bool IsNumber(const Value& value);
-  bool IsString(const Value& value);
   bool ToBoolean(const Value& value);
   std::string ToString(const Value& value);
   /// The same, where a toString of the script's own may fail.
