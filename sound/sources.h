@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "srm/core/audio_source.h"
+#include "sound/audio_source.h"
 
-namespace srm {
+namespace sound {
 
 /// A source by its name:
 ///   wav:PATH              a recording; see RecordedSource
@@ -30,4 +30,4 @@ vm::Result<std::unique_ptr<AudioSource>> OpenStream(const std::string& kind,
                                                     const std::string& place, unsigned rate_hz,
                                                     boost::asio::io_context& io);
 
-}  // namespace srm
+}  // namespace sound

@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <utility>
 
-#include "srm/app/sources.h"
+#include "sound/sources.h"
 
-namespace srm {
+namespace sound {
 namespace {
 
 constexpr vm::Time kPoll{20'000};
@@ -144,4 +144,4 @@ vm::Result<std::unique_ptr<AudioSource>> OpenMicrophone(const std::string& devic
   return microphone;
 }
 
-}  // namespace srm
+}  // namespace sound

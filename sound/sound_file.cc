@@ -1,11 +1,11 @@
-#include "srm/engine/sound_file.h"
+#include "sound/sound_file.h"
 
 #include <sndfile.h>
 #include <speex/speex_resampler.h>
 
 #include <memory>
 
-namespace srm {
+namespace sound {
 namespace {
 
 constexpr unsigned kRateHz = 16000;
@@ -95,4 +95,4 @@ vm::Result<std::vector<std::int16_t>> ReadSound(const std::string& path) {
   return Resampled(mono, rate);
 }
 
-}  // namespace srm
+}  // namespace sound

@@ -10,7 +10,7 @@
 #include "vm_protocol/core/result.h"
 #include "vm_protocol/core/scheduler.h"
 
-namespace srm {
+namespace sound {
 
 /// Where sound comes from: 16 kHz, 16 bit, mono, at the pace of time.
 /// Thread: the scheduler's, for calls and for events.
@@ -48,4 +48,4 @@ class RecordedSource final : public AudioSource {
   vm::TimerId timer_ = 0;
 };
 
-}  // namespace srm
+}  // namespace sound

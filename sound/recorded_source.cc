@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "srm/core/audio_source.h"
+#include "sound/audio_source.h"
 
-namespace srm {
+namespace sound {
 namespace {
 constexpr std::size_t kSamplesPerMs = 16;
 }
@@ -41,4 +41,4 @@ void RecordedSource::Step() {
   if (over) ended();
 }
 
-}  // namespace srm
+}  // namespace sound

@@ -7,7 +7,7 @@
 
 #include "vm_protocol/core/result.h"
 
-namespace srm {
+namespace sound {
 
 /// Any sound file libsndfile reads, as 16 kHz mono; a file *.raw is 16 kHz 16 bit little endian. At
 /// most two hours. Errors: kUnavailable (cannot be read), kBadValue (no sound, a rate out of
@@ -28,4 +28,4 @@ class StreamResampler {
   std::unique_ptr<State> state_;  // null at our own rate
 };
 
-}  // namespace srm
+}  // namespace sound

@@ -1,11 +1,11 @@
-#include "srm/app/sources.h"
+#include "sound/sources.h"
 
 #include <charconv>
 
-#include "srm/engine/sound_file.h"
+#include "sound/sound_file.h"
 #include "vm_protocol/core/file_kind.h"
 
-namespace srm {
+namespace sound {
 namespace {
 
 struct SourceName {
@@ -58,4 +58,4 @@ vm::Result<std::unique_ptr<AudioSource>> OpenSource(const std::string& name,
   return OpenStream(source.kind, source.place, source.rate_hz, io);
 }
 
-}  // namespace srm
+}  // namespace sound

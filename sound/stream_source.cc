@@ -13,10 +13,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "srm/app/sources.h"
-#include "srm/engine/sound_file.h"
+#include "sound/sound_file.h"
+#include "sound/sources.h"
 
-namespace srm {
+namespace sound {
 namespace {
 
 namespace asio = boost::asio;
@@ -164,4 +164,4 @@ vm::Result<std::unique_ptr<AudioSource>> OpenStream(const std::string& kind,
   }
 }
 
-}  // namespace srm
+}  // namespace sound
