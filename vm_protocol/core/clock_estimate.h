@@ -4,7 +4,7 @@
 
 #include "vm_protocol/core/scheduler.h"
 
-namespace am {
+namespace vm {
 
 /// Where another process's clock stands, from questions and answers over a link whose delay
 /// changes. An answer was given somewhere between asking and hearing it, so half of that span is
@@ -19,20 +19,20 @@ class ClockEstimate {
   static constexpr double kDrift = 100e-6;
 
   /// It was asked at `asked` and heard at `heard`, both ours, that their clock stands at `theirs`.
-  void Add(vm::Time asked, vm::Time heard, vm::Time theirs);
+  void Add(Time asked, Time heard, Time theirs);
   bool known() const { return !samples_.empty(); }
-  vm::Time offset() const { return best_.offset; }  ///< theirs minus ours
-  vm::Time delay() const { return best_.delay; }    ///< there and back, of the exchange that counts
+  Time offset() const { return best_.offset; }  ///< theirs minus ours
+  Time delay() const { return best_.delay; }    ///< there and back, of the exchange that counts
   /// How far off the offset can be, at the time of the last exchange.
-  vm::Time uncertainty() const;
+  Time uncertainty() const;
 
  private:
   struct Sample {
-    vm::Time heard{0}, offset{0}, delay{0};
+    Time heard{0}, offset{0}, delay{0};
   };
-  vm::Time Uncertainty(const Sample& sample) const;
+  Time Uncertainty(const Sample& sample) const;
   std::deque<Sample> samples_;
   Sample best_;
 };
 
-}  // namespace am
+}  // namespace vm

@@ -1,21 +1,20 @@
-#include "agent_manager/routing/clock_estimate.h"
+#include "vm_protocol/core/clock_estimate.h"
 
-namespace am {
+namespace vm {
 
-vm::Time ClockEstimate::Uncertainty(const Sample& sample) const {
+Time ClockEstimate::Uncertainty(const Sample& sample) const {
   const auto age = static_cast<double>((samples_.back().heard - sample.heard).count());
-  return sample.delay / 2 + vm::Time(static_cast<vm::Time::rep>(age * kDrift));
+  return sample.delay / 2 + Time(static_cast<Time::rep>(age * kDrift));
 }
 
-vm::Time ClockEstimate::uncertainty() const { return known() ? Uncertainty(best_) : vm::Time(0); }
+Time ClockEstimate::uncertainty() const { return known() ? Uncertainty(best_) : Time(0); }
 
-void ClockEstimate::Add(vm::Time asked, vm::Time heard, vm::Time theirs) {
-  const vm::Time delay = heard - asked;
+void ClockEstimate::Add(Time asked, Time heard, Time theirs) {
+  const Time delay = heard - asked;
   const Sample newest{heard, theirs - (asked + delay / 2), delay};
   std::erase_if(samples_, [&](const Sample& old) {
     const auto age = static_cast<double>((heard - old.heard).count());
-    const vm::Time allowed =
-        delay / 2 + old.delay / 2 + vm::Time(2 + static_cast<vm::Time::rep>(age * kDrift));
+    const Time allowed = delay / 2 + old.delay / 2 + Time(2 + static_cast<Time::rep>(age * kDrift));
     return std::chrono::abs(newest.offset - old.offset) > allowed;
   });
   samples_.push_back(newest);
@@ -26,4 +25,4 @@ void ClockEstimate::Add(vm::Time asked, vm::Time heard, vm::Time theirs) {
   }
 }
 
-}  // namespace am
+}  // namespace vm

@@ -1,10 +1,10 @@
-#include "agent_manager/routing/clock_estimate.h"
+#include "vm_protocol/core/clock_estimate.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace am {
+namespace vm {
 namespace {
 
 using std::chrono::microseconds;
@@ -82,4 +82,4 @@ INSTANTIATE_TEST_SUITE_P(Links, ClockEstimateLinkTest,
                                          Link{milliseconds(150), milliseconds(60), -80e-6}));
 
 }  // namespace
-}  // namespace am
+}  // namespace vm
