@@ -16,9 +16,10 @@
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/motion/mouth_motion.h"
+#include "fsm/motion/mouth_stream.h"
 #include "fsm/motion/speech_motion.h"
-#include "fsm/rig/face_state.h"
 #include "fsm/motion/unit_motion.h"
+#include "fsm/rig/face_state.h"
 #include "vm_protocol/core/phonemes.h"
 #include "vm_protocol/core/result.h"
 #include "vm_protocol/core/scheduler.h"
@@ -112,6 +113,12 @@ class FaceMotion {
     return MakeDemands(phonemes, tables_, settings_.lips).unknown;
   }
 
+  // The mouth frame by frame, from another program.
+  vm::Result<void> AddMouthFrame(vm::Time now, vm::Time at, const MouthPose& pose) {
+    return mouth_stream_.Add(now, at, pose);
+  }
+  void StopMouthFrames(vm::Time now) { mouth_stream_.Stop(now); }
+
   // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.
   const Visemes& shapes(bool bilingual) const {
     return bilingual ? tables_.set28.shapes : tables_.set14.shapes;
@@ -160,6 +167,7 @@ class FaceMotion {
   EyeMotion& eyes_ = Make<EyeMotion>(tables_.motions, settings_, idle_, seed_);
   HeadMotion& head_ = Make<HeadMotion>(tables_.motions);
   SpeechMotion& speech_ = Make<SpeechMotion>(tables_, settings_, idle_, seed_);
+  MouthStream& mouth_stream_ = Make<MouthStream>(settings_);
 };
 
 }  // namespace fsm
