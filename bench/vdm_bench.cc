@@ -113,9 +113,10 @@ struct Row {
     return at;
   }
   void Print(const std::string& who, double hop_ms) const {
-    std::cout << fmt::format("| {} | {:.3f} | {:.2f} | {:.0f} % of {} | {:.1f} % | {:+.0f} |\n",
-                             who, score.correlation(), score.rms_mm(), 100 * score.closures_seen(),
-                             score.closures(), 100 * score.shut_by_mistake(), LagMs(hop_ms));
+    std::cout << fmt::format(
+        "| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} % of {} | {:.1f} % | {:+.0f} |\n", who,
+        score.correlation(), score.rms_mm(), score.size(), 100 * score.closures_seen(),
+        score.closures(), 100 * score.shut_by_mistake(), LagMs(hop_ms));
   }
 };
 
@@ -205,8 +206,9 @@ int main(int argc, char** argv) {
     Bench bench{.net = OrThrow(vdm::ParseMouthNet(net, text)),
                 .tables = OrThrow(fsm::MotionTables::Load()),
                 .head = fsm::MakeHead("galatea")};
-    std::cout << "| voice | r of the gap | rms mm | closures seen | shut by mistake | lag ms |\n"
-                 "| --- | --- | --- | --- | --- | --- |\n";
+    std::cout
+        << "| voice | r of the gap | rms mm | size | closures seen | shut by mistake | lag ms |\n"
+           "| --- | --- | --- | --- | --- | --- | --- |\n";
     if (!takes.empty()) TestVoices(bench, takes, voices);
     TestPeople(bench);
     TestNoSpeech(bench);

@@ -19,8 +19,10 @@ TEST(ScoreTest, TheSameMouthIsPerfectAndItsDoubleIsAsLike) {
   same.Add(truth, truth, 10, {});
   EXPECT_NEAR(same.correlation(), 1, 1e-9);
   EXPECT_NEAR(same.rms_mm(), 0, 1e-6);
+  EXPECT_NEAR(same.size(), 1, 1e-9);
   scaled.Add(twice, truth, 10, {});
   EXPECT_NEAR(scaled.correlation(), 1, 1e-9);
+  EXPECT_NEAR(scaled.size(), 2, 1e-9);
   EXPECT_NEAR(scaled.rms_mm(), 5.339, 0.001);  // root of the mean of the squares of 0 .. 9
   for (double& x : twice) x = -x;
   turned.Add(twice, truth, 10, {});

@@ -7,8 +7,12 @@ namespace vdm {
 namespace {
 
 // Where the lips begin to close and where they are sealed, by the likelihood of a closure.
-constexpr float kClosing = 0.4F, kClosed = 0.6F;
+constexpr float kClosing = 0.45F, kClosed = 0.68F;
 constexpr float kMmPerDegree = 1.4F;
+// A network that is not sure says something nearer to the mean, so that all of its movements
+// together come out smaller than true ones. So much larger they have about the right size
+// (bench/vdm_bench.cc, `size`).
+constexpr float kLively = 1.2F;
 
 }  // namespace
 
@@ -32,7 +36,7 @@ MouthFrame FrameOf(const MouthNet& net, const Eigen::Ref<const Eigen::VectorXf>&
   // Behind sealed lips of a pause the mouth goes home; behind those of p, b and m it stays.
   const float sounding = 1 - frame.seal * frame.sounds.front();
   for (std::size_t i = 0; i < kMouthParameters; ++i) {
-    frame.mouth[i] = sounding * (net.means[i] + net.scales[i] * value(i));
+    frame.mouth[i] = sounding * (net.means[i] + kLively * net.scales[i] * value(i));
   }
   frame.mouth[11] = std::max(frame.mouth[11], 0.0F);  // the jaw does not go up beyond its rest
   const float tongue =

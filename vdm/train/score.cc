@@ -63,6 +63,12 @@ double Score::correlation() const {
   return spread > 0 ? (n * xy_ - x_ * y_) / spread : 0;
 }
 
+double Score::size() const {
+  const auto n = static_cast<double>(n_);
+  const double truth = n * yy_ - y_ * y_;
+  return truth > 0 ? std::sqrt(std::max(0.0, n * xx_ - x_ * x_) / truth) : 0;
+}
+
 double Score::rms_mm() const {
   return n_ == 0 ? 0 : std::sqrt(std::max(0.0, xx_ + yy_ - 2 * xy_) / static_cast<double>(n_));
 }

@@ -20,6 +20,7 @@ class Score {
   std::size_t instants() const { return n_; }
   double correlation() const;  ///< of Pearson, over all instants
   double rms_mm() const;
+  double size() const;  ///< how far ours moves beside the truth: the ratio of the deviations
   /// Of the p, b and m in which the true mouth is shut: the share in which ours is too, at some
   /// instant up to 20 ms before or after the sound.
   double closures_seen() const { return Share(seen_, closures_); }
