@@ -1,6 +1,6 @@
 #include "fsm/app/mouth_stream_slots.h"
 
-#include <memory>
+#include <cmath>
 
 #include "vm_protocol/core/start_time.h"
 
@@ -40,7 +40,6 @@ vm::Result<MouthPose> PoseOf(const vm::SetValue& value) {
 }  // namespace
 
 void DeclareMouthStreamSlots(FsmCore& core) {
-  const auto start = std::make_shared<vm::Time>(0);
   core.slots.Declare(
       {.name = "MouthFrame.start",
        .grammar = "NOW | STOP | <time>",
@@ -48,7 +47,7 @@ void DeclareMouthStreamSlots(FsmCore& core) {
        .help =
            "From when on the ms of MouthFrame count: NOW, + ms, @T (ms on the module's clock) or "
            "a wall time. STOP forgets the frames still to come: the mouth closes.",
-       .on_set_later = [&core, start](const vm::SetValue& value, const vm::Reply& reply) {
+       .on_set_later = [&core](const vm::SetValue& value, const vm::Reply& reply) {
          if (value.word(0) == "STOP") {
            core.motion->StopMouthFrames(core.Now());
            core.changed();
@@ -57,7 +56,8 @@ void DeclareMouthStreamSlots(FsmCore& core) {
          const auto time = vm::ParseStartTime(value.text);
          if (!time) return reply.Fail(time.error());
          const bool by_wall = time->kind == vm::StartTime::Kind::kWallClock;
-         *start = vm::Resolve(*time, core.Now(), by_wall ? vm::WallSinceMidnight() : vm::Time(0));
+         core.motion->set_mouth_frames_start(
+             vm::Resolve(*time, core.Now(), by_wall ? vm::WallSinceMidnight() : vm::Time(0)));
          reply.Ok(value.text);
        }});
   core.slots.Declare(
@@ -68,10 +68,10 @@ void DeclareMouthStreamSlots(FsmCore& core) {
            "The mouth at one instant, from outside: MS after MouthFrame.start, then as in "
            "MouthShape 17 mouth parameters (full articulation; MouthScale applies), SEAL, TONGUE. "
            "Between frames up to 200 ms apart the mouth moves; when none come it closes.",
-       .on_set_later = [&core, start](const vm::SetValue& value, const vm::Reply& reply) {
+       .on_set_later = [&core](const vm::SetValue& value, const vm::Reply& reply) {
          const auto pose = PoseOf(value);
          if (!pose) return reply.Fail(pose.error());
-         const vm::Time at = *start + FromMs(value.number(0));
+         const vm::Time at = core.motion->mouth_frames_start() + FromMs(value.number(0));
          if (auto added = core.motion->AddMouthFrame(core.Now(), at, *pose); !added) {
            return reply.Fail(added.error());
          }

@@ -118,6 +118,9 @@ class FaceMotion {
     return mouth_stream_.Add(now, at, pose);
   }
   void StopMouthFrames(vm::Time now) { mouth_stream_.Stop(now); }
+  /// The instant from which those who give frames count their times; 0 at first.
+  vm::Time mouth_frames_start() const { return mouth_frames_start_; }
+  void set_mouth_frames_start(vm::Time start) { mouth_frames_start_ = start; }
 
   // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.
   const Visemes& shapes(bool bilingual) const {
@@ -157,6 +160,7 @@ class FaceMotion {
   MotionSettings settings_;
   FaceState figure_;
   std::uint64_t seed_;
+  vm::Time mouth_frames_start_{0};
   std::vector<std::unique_ptr<MotionSource>> sources_;
   // The sources the face has from the start. They take what they need as references to the above.
   IdleBehaviour& idle_ = Make<IdleBehaviour>(tables_.motions, seed_);
