@@ -12,9 +12,9 @@
 #include <sstream>
 
 #include "bench/speech_material.h"
+#include "sound/sound_file.h"
 #include "srm/core/ear.h"
 #include "srm/engine/decoder.h"
-#include "srm/engine/sound_file.h"
 #include "ssm/engines/espeak_engine.h"
 #include "ssm/engines/open_jtalk_engine.h"
 #include "ssm/flite/flite_engine.h"
@@ -268,7 +268,7 @@ void Recordings(srm::SpeechDecoder& decoder) {
   }
   Totals totals;
   const auto try_one = [&](const std::filesystem::path& file, const std::string& said) {
-    const auto samples = srm::ReadSound(file);
+    const auto samples = sound::ReadSound(file);
     if (!samples) return;
     const auto heard = Hear(decoder, *samples, totals);
     int words = 0;

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "srm/engine/sound_file.h"
+#include "sound/sound_file.h"
 #include "ssm/engines/open_jtalk_program.h"
 #include "ssm/engines/voice_file.h"
 #include "ssm/engines/wav_piece.h"
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int file = memfd_create("fuzz", 0);
   if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) __builtin_trap();
   const std::string path = "/proc/self/fd/" + std::to_string(file);
-  static_cast<void>(srm::ReadSound(path));
+  static_cast<void>(sound::ReadSound(path));
   static_cast<void>(ssm::ReadSoundFile(path));
   static_cast<void>(ssm::ReadVoiceFileHead(path));
   static_cast<void>(ssm::ReadProsody(path));

@@ -12,6 +12,9 @@ usage: scripts/run_agent.sh [options]
   --dialog DOC.vxml  run a VoiceXML dialogue (docs/dialogs.md); what you type is what you say
   --script FILE      with --dialog: take the user's part from FILE instead of the keyboard; by default
                      DOC.txt beside DOC.vxml where a film is made
+  --voice FILE.wav   the face speaks with the voice in FILE, without being told the text (docs/vdm.md):
+                     a film, agent.mp4 without --out
+  --voice mic        it speaks with the microphone, until end of input (^D)
   --out FILE.mp4     make a film with sound instead of opening a window
   --subtitles        with --dialog and --out: show what both say in the film; FILE.srt and FILE.vtt
                      lie beside it in any case
@@ -20,12 +23,12 @@ usage: scripts/run_agent.sh [options]
   --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
   --help             this text
 
-Without --say, --dialog and --out a short dialogue is typed at the terminal.
+Without --say, --dialog, --voice and --out a short dialogue is typed at the terminal.
 TEXT
 }
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles=""
+photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard=""
 fail() {
   echo "run_agent: $1" >&2
   exit 2
@@ -33,7 +36,7 @@ fail() {
 absolute() { case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
 while [ $# -gt 0 ]; do
   case $1 in
-    --photo | --say | --emotion | --out | --config | --dialog | --script)
+    --photo | --say | --emotion | --out | --config | --dialog | --script | --voice)
       [ $# -ge 2 ] || fail "$1 needs a value"
       case $1 in
         --photo) photo=$(absolute "$2") ;;
@@ -43,6 +46,7 @@ while [ $# -gt 0 ]; do
         --config) config=$(absolute "$2") ;;
         --dialog) dialog=$(absolute "$2") ;;
         --script) script=$(absolute "$2") ;;
+        --voice) heard=$2; [ "$2" = mic ] || heard=$(absolute "$2") ;;
       esac
       shift 2
       ;;
@@ -64,6 +68,10 @@ case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in 
 [ -z "$dialog" ] || [ -z "$say" ] || fail "--dialog and --say exclude each other"
 [ -z "$script" ] || [ -n "$dialog" ] || fail "--script needs --dialog"
 if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog and --out"; fi
+[ -z "$heard" ] || [ -z "$say$dialog" ] || fail "--voice excludes --say and --dialog"
+[ -z "$heard" ] || [ "$heard" = mic ] || [ -r "$heard" ] || fail "--voice: cannot read '$heard'"
+[ "$heard" != mic ] || [ -z "$out" ] || fail "--voice mic lives in a window; --out needs --voice FILE.wav"
+if [ -n "$heard" ] && [ "$heard" != mic ] && [ -z "$out" ]; then out=$PWD/agent.mp4; fi
 if [ -n "$dialog" ] && [ -n "$out" ] && [ -z "$script" ]; then
   script=${dialog%.*}.txt
   [ -r "$script" ] || fail "--out with --dialog needs the user's part: --script FILE (there is no '$script')"
@@ -137,6 +145,8 @@ if [ -z "$config" ]; then
   config=$work/agent.json
   source=examples/agents/agent.json
   [ -z "$film" ] || source=examples/agents/film.json
+  [ -z "$heard" ] || source=examples/agents/voice.json
+  [ -z "$heard" ] || [ -z "$film" ] || source=examples/agents/voice_film.json
   sed -e "s#\"../macros/#\"$root/examples/macros/#" "$source" >"$config"
   if [ "$voice" = ssm_stub ]; then
     sed -i -e 's#\["build/bin/ssm"[^]]*\]#["build/bin/ssm_stub"]#' "$config"
@@ -148,6 +158,40 @@ if [ -z "$config" ]; then
 fi
 hub_program=$root/build/bin/agent_manager
 
+if [ "$heard" = mic ]; then
+  # The console stays open, for what is typed and until its end.
+  {
+    for life in "BLINK 1" "MOVE 1"; do echo "to @FSM set Autonomous = $life"; done
+    echo "to @VDM set Input = portaudio"
+    echo "to @VDM set Run = START"
+    cat
+  } | "$hub_program" --config "$config"
+  exit
+fi
+if [ -n "$heard" ]; then
+  # The mouth shows a sound Delay (100 ms) after it was heard, which begins 300 ms into the film; lips that are 40 ms
+  # ahead of the sound look natural, as with a text.
+  ffmpeg -loglevel error -y -i "$heard" -af "adelay=440:all=1" "$work/sound.wav" </dev/null || fail "--voice: '$heard' is no sound ffmpeg reads"
+  {
+    for life in "BLINK 1" "MOVE 1"; do echo "to @FSM set Autonomous = $life"; done
+    echo "to @VDM set#input Input = wav:$heard"
+    [ -z "$emotion" ] || echo "to @FSM set FaceExp = ${emotion%% *} 1 $([[ $emotion == *" "* ]] && echo "${emotion#* }" || echo 100) 0"
+    echo "to @FSM set#film Record = $out"
+    echo "set Wait = 300"
+    echo "to @VDM set#said Run = START"
+    echo "set Wait = IDLE"
+    echo "set Wait = 300"
+    echo "to @FSM set Record.sound = $work/sound.wav"
+    echo "to @FSM set#film Record = STOP"
+    echo "set Wait = IDLE"
+  } >"$work/script"
+  "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+  if error=$(grep -E 'rep#(input|said|film) [A-Za-z.]+\.error' "$work/said"); then
+    fail "${error#*error = }"
+  fi
+  echo "run_agent: wrote $out"
+  exit 0
+fi
 if [ -z "$say$dialog" ] && [ -n "$film" ]; then
   say="Hello, my name is Galatea."
 fi

@@ -10,11 +10,11 @@
 
 #include "agent_manager/access/file_slots.h"
 #include "agent_manager/access/role.h"
-#include "agent_manager/routing/clock_estimate.h"
 #include "agent_manager/routing/dialect.h"
 #include "agent_manager/routing/envelope.h"
 #include "agent_manager/routing/limits.h"
 #include "agent_manager/routing/link.h"
+#include "vm_protocol/core/clock_estimate.h"
 
 namespace am {
 
@@ -89,7 +89,7 @@ struct ProbeState {
   bool measuring = false;    ///< a start time waits for its clock to be known
   bool asked_clock = false;  ///< another hub's clock is measured once a start time needs it
   ClockState clock{};
-  ClockEstimate estimate{};
+  vm::ClockEstimate estimate{};
 };
 
 /// The messages that wait until the peer is no longer being asked. Only Forwarder changes it.

@@ -11,6 +11,7 @@
 #include "fsm/app/face_slots.h"
 #include "fsm/app/idle_slots.h"
 #include "fsm/app/lip_slots.h"
+#include "fsm/app/mouth_stream_slots.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -57,6 +58,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
                                              now, core_.motion->SpeechEnd().value_or(now)));
                                        }});
   DeclareLipSlots(core_);
+  DeclareMouthStreamSlots(core_);
   DeclareFigureSlots(core_);
   mask_ = std::make_unique<MaskSlots>(core_, options_.mask, config.MaskNames());
   scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);

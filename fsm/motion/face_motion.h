@@ -16,6 +16,7 @@
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/motion/mouth_motion.h"
+#include "fsm/motion/mouth_stream.h"
 #include "fsm/motion/speech_motion.h"
 #include "fsm/motion/unit_motion.h"
 #include "fsm/rig/face_state.h"
@@ -111,6 +112,15 @@ class FaceMotion {
     return MakeVisemeTargets(phonemes, tables_, settings_.lips).unknown;
   }
 
+  // The mouth frame by frame, from another program.
+  vm::Result<void> AddMouthFrame(vm::Time now, vm::Time at, const MouthPose& pose) {
+    return mouth_stream_.Add(now, at, pose);
+  }
+  void StopMouthFrames(vm::Time now) { mouth_stream_.Stop(now); }
+  /// The instant from which those who give frames count their times; 0 at first.
+  vm::Time mouth_frames_start() const { return mouth_frames_start_; }
+  void set_mouth_frames_start(vm::Time start) { mouth_frames_start_ = start; }
+
   // Mouth shapes, from the next utterance on. `bilingual`: of the 28, else of the 14.
   const Visemes& shapes(bool bilingual) const {
     return bilingual ? tables_.set28.shapes : tables_.set14.shapes;
@@ -149,6 +159,7 @@ class FaceMotion {
   MotionSettings settings_;
   FaceState figure_;
   std::uint64_t seed_;
+  vm::Time mouth_frames_start_{0};
   std::vector<std::unique_ptr<MotionSource>> sources_;
   // The sources the face has from the start. They take what they need as references to the above.
   IdleBehaviour& idle_ = Make<IdleBehaviour>(tables_.motions, seed_);
@@ -159,6 +170,7 @@ class FaceMotion {
   EyeMotion& eyes_ = Make<EyeMotion>(tables_.motions, settings_, idle_, seed_);
   HeadMotion& head_ = Make<HeadMotion>(tables_.motions);
   SpeechMotion& speech_ = Make<SpeechMotion>(tables_, settings_, idle_, seed_);
+  MouthStream& mouth_stream_ = Make<MouthStream>(settings_);
 };
 
 }  // namespace fsm

@@ -30,7 +30,8 @@ struct MotionLayer {
 
 /// What all sources ask of the face at one instant: layers, and signals by which the mixer weighs
 /// them (see tables/mixing.txt). A layer that the table does not name counts in full; a signal that
-/// nobody gives is 0. Names are string literals or outlive the frame.
+/// nobody gives is 0, of one that several give the greatest counts. Names are string literals or
+/// outlive the frame.
 class MotionFrame {
  public:
   MotionFrame() { layers_.reserve(20); }
@@ -46,10 +47,11 @@ class MotionFrame {
   using NamedLayer = std::pair<std::string_view, MotionLayer>;
   const std::vector<NamedLayer>& layers() const { return layers_; }
   double Signal(std::string_view name) const {
+    double greatest = 0;
     for (const auto& [signal, value01] : signals_) {
-      if (signal == name) return value01;
+      if (signal == name) greatest = std::max(greatest, value01);
     }
-    return 0;
+    return greatest;
   }
 
  private:

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "sound/sound_file.h"
 #include "srm/align/phone_aligner.h"
-#include "srm/engine/sound_file.h"
 
 namespace {
 
@@ -25,7 +25,7 @@ struct Options {
 
 vm::Result<std::string> Run(srm::PhoneAligner& aligner, const Options& options,
                             const std::string& wav, const std::string& text) {
-  auto samples = srm::ReadSound(wav);
+  auto samples = sound::ReadSound(wav);
   if (!samples) return std::unexpected(samples.error());
   if (options.progress) {
     std::cerr << "align: " << wav << ": " << samples->size() / srm::kSampleRateHz << " s"

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "ear/grammar/grammar_limits.h"
-#include "srm/app/sources.h"
+#include "sound/sources.h"
 #include "srm/core/recognizer_module.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/asio_scheduler.h"
@@ -51,13 +51,13 @@ int main(int argc, char** argv) {
                                 .open_decoder = [&engine] { return srm::OpenPocketsphinx(engine); },
                                 .open_spotter = [&engine] { return srm::OpenSpotter(engine); },
                                 .open_source = [&](const std::string& name)
-                                    -> vm::Result<std::unique_ptr<srm::AudioSource>> {
+                                    -> vm::Result<std::unique_ptr<sound::AudioSource>> {
                                   if (name.ends_with(":-") && !stdin_free) {
                                     return vm::Fail(vm::Errc::kUnavailable,
                                                     "standard input brings the commands; "
                                                     "run with --listen or --connect");
                                   }
-                                  return srm::OpenSource(name, clock, io, clock.real());
+                                  return sound::OpenSource(name, clock, io, clock.real());
                                 }});
            }});
 }

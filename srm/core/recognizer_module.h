@@ -10,7 +10,7 @@
 #include "ear/listening.h"
 #include "ear/result_report.h"
 #include "ear/sound_keep.h"
-#include "srm/core/audio_source.h"
+#include "sound/audio_source.h"
 #include "srm/core/ear.h"
 #include "srm/engine/echo_canceller.h"
 #include "vm_protocol/core/module.h"
@@ -32,7 +32,8 @@ class RecognizerModule final : public vm::Module {
     std::function<vm::Result<std::unique_ptr<SpeechDecoder>>()> open_decoder{};
     std::function<vm::Result<std::unique_ptr<KeywordSpotter>>()> open_spotter{};
     /// A source by name: wav:PATH, raw:PATH, portaudio[:DEVICE].
-    std::function<vm::Result<std::unique_ptr<AudioSource>>(const std::string&)> open_source{};
+    std::function<vm::Result<std::unique_ptr<sound::AudioSource>>(const std::string&)>
+        open_source{};
   };
 
   RecognizerModule(vm::Scheduler& scheduler, Options options);
@@ -81,7 +82,7 @@ class RecognizerModule final : public vm::Module {
 
   std::unique_ptr<Ear> ear_;  // null until needed
   bool grammars_used_ = false;
-  std::unique_ptr<AudioSource> source_;
+  std::unique_ptr<sound::AudioSource> source_;
   std::string source_name_ = "NONE";
   vm::Time source_start_{0};
 
@@ -92,8 +93,8 @@ class RecognizerModule final : public vm::Module {
   ear::SoundKeep keep_;
   bool agent_speaking_ = false;
   Echo echo_ = Echo::kHalf;
-  std::unique_ptr<EchoCanceller> canceller_;  // while echo_ is kCancel
-  std::unique_ptr<AudioSource> voice_;        // the agent's own, for it
+  std::unique_ptr<EchoCanceller> canceller_;   // while echo_ is kCancel
+  std::unique_ptr<sound::AudioSource> voice_;  // the agent's own, for it
   std::string voice_name_ = "NONE";
   double threshold_ = 0.5;
   std::size_t most_ = 1;

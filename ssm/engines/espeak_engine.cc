@@ -59,7 +59,7 @@ class EspeakEngine final : public PieceEngine {
       if (!(words >> language >> voice) || language.starts_with('#')) continue;
       voices_.push_back(
           {.name = std::string(kNamePrefix) + language, .language = language, .listed = false});
-      names_.push_back(voice);
+      names_.push_back(options_.variant.empty() ? voice : voice + "+" + options_.variant);
     }
   }
 

@@ -18,6 +18,7 @@ struct EspeakOptions {
   std::string helper{};                   ///< path of ssm_espeak
   std::string dictionary{};               ///< for Japanese; empty = where Debian puts it
   std::chrono::milliseconds limit{5000};  ///< for one sentence
+  std::string variant{};  ///< of all voices, as espeak-ng calls it ("f2"); empty: none
 };
 /// `voices`: names "espeak-LANGUAGE" for each of the table of languages.
 std::unique_ptr<SpeechEngine> MakeEspeakEngine(EspeakOptions options);

@@ -73,6 +73,8 @@ std::string Another(const std::string& slot, const TemporaryFolder& files) {
       {"Gaze", "20 20"},
       {"Gaze.distance", "300"},
       {"LipSync.pho", "a 5000"},
+      {"MouthFrame", "500 0 0 0 0 0 0 0 0 0 0 0 8 0 0 0 0 0 0 1"},
+      {"MouthFrame.start", "@200"},
       {"LipSync", "i 5000"},
       {"Speak", "NOW"},
       {"Speak.sync", "100"},

@@ -103,5 +103,29 @@ TEST(LipSlotsTest, UnknownPhonemesAreSaidOnceAndSpokenWithClosedLips) {
   EXPECT_FLOAT_EQ(fsm.Now().lip_seal, 1);
 }
 
+TEST(MouthFrameTest, FramesMoveTheMouthAtTheirTimeAndBadOnesAreNamed) {
+  FsmStage fsm;
+  const std::string lips = " 0 0 0 0 0 0 0 0 0 0 0 8 0 0 0 0 0 0 0.5";
+  EXPECT_EQ(fsm.Say("set#1 MouthFrame.start = @1000"), "rep#1 MouthFrame.start = @1000");
+  for (const char* ms : {"0", "100", "200"}) fsm.Say("set MouthFrame = " + (ms + lips));
+  EXPECT_TRUE(fsm.module.Busy());
+  fsm.clock.RunUntil(FromMs(1150));
+  EXPECT_NEAR(fsm.Now().mouth[11], 6, 1e-3);  // three quarters: MouthScale 30
+  EXPECT_NEAR(fsm.Now().tongue, 0.5, 1e-3);
+  EXPECT_NE(fsm.Say("set#1 MouthFrame = 10 1 2").find("3 numbers found, 20 expected"),
+            std::string::npos);
+  EXPECT_NE(fsm.Say("set#1 MouthFrame = 10 99 0 0 0 0 0 0 0 0 0 0 8 0 0 0 0 0 0 0.5")
+                .find("mouth parameter 1 is 99, -60 to 60 expected"),
+            std::string::npos);
+  EXPECT_NE(fsm.Say("set#1 MouthFrame = 10 0 0 0 0 0 0 0 0 0 0 0 8 0 0 0 0 0 2 0")
+                .find("seal and tongue are 2 and 0, 0 to 1 expected"),
+            std::string::npos);
+  EXPECT_NE(fsm.Say("set#1 MouthFrame.start = soon").find("error = BAD_VALUE"), std::string::npos);
+  EXPECT_EQ(fsm.Say("set#1 MouthFrame.start = STOP"), "rep#1 MouthFrame.start = STOP");
+  fsm.clock.RunUntil(FromMs(3000));
+  EXPECT_EQ(fsm.Now().mouth[11], 0);
+  EXPECT_FALSE(fsm.module.Busy());
+}
+
 }  // namespace
 }  // namespace fsm

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "sound/sound_file.h"
 #include "srm/core/recognizer_module.h"
-#include "srm/engine/sound_file.h"
 #include "tests/support/process.h"
 #include "vm_protocol/core/scheduler.h"
 
@@ -145,9 +145,9 @@ class RecognizerTest : public testing::Test {
               return vm::Fail(vm::Errc::kUnavailable, "none");
             },
             .open_source =
-                [this](const std::string& name) -> vm::Result<std::unique_ptr<srm::AudioSource>> {
+                [this](const std::string& name) -> vm::Result<std::unique_ptr<sound::AudioSource>> {
               if (name != "wav:a") return vm::Fail(vm::Errc::kBadValue, "no source " + name);
-              return std::make_unique<srm::RecordedSource>(clock_, sound_);
+              return std::make_unique<sound::RecordedSource>(clock_, sound_);
             }});
     module_->slots().set_output([this](vm::PeerId, const vm::Message& message) {
       said_.push_back(vm::FormatMessage(message));
@@ -332,7 +332,7 @@ TEST_F(RecognizerTest, WhatWasSaidIsKeptWithItsLeadAndItsFinalSilence) {
   const auto ms = static_cast<std::size_t>(std::atoi(told.c_str()));
   EXPECT_NEAR(static_cast<double>(ms), 300 + 700 + 500, 25);
   EXPECT_EQ(told, std::to_string(ms) + " " + std::to_string(44 + ms * 32) + " WHOLE " + file);
-  const auto kept = srm::ReadSound(file);
+  const auto kept = sound::ReadSound(file);
   ASSERT_TRUE(kept) << kept.error().text;
   EXPECT_NE(std::search(sound_.begin(), sound_.end(), kept->begin(), kept->begin() + 12'000),
             sound_.end());

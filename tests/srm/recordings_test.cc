@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "srm/engine/sound_file.h"
+#include "sound/sound_file.h"
 #include "tests/srm/speech_world.h"
 
 namespace {
@@ -27,7 +27,7 @@ class RecordingsTest : public RecognitionTest {
     Use(std::string{std::istreambuf_iterator<char>(file), {}});
   }
   srm::Hypothesis HearFile(const std::string& name) {
-    auto samples = srm::ReadSound(kFolder / name);
+    auto samples = sound::ReadSound(kFolder / name);
     EXPECT_TRUE(samples) << (samples ? "" : samples.error().text);
     return samples ? Hear(*samples) : srm::Hypothesis{};
   }

@@ -93,6 +93,7 @@ void SlotMachine::set_output(Output output) { output_ = std::move(output); }
 void SlotMachine::set_read_file(ReadFile read_file) { read_file_ = std::move(read_file); }
 void SlotMachine::set_append_file(AppendFile append_file) { append_file_ = std::move(append_file); }
 void SlotMachine::set_on_error(OnError on_error) { on_error_ = std::move(on_error); }
+void SlotMachine::set_on_heard(OnHeard on_heard) { on_heard_ = std::move(on_heard); }
 void SlotMachine::set_exit_gate(ExitGate exit_gate) { exit_gate_ = std::move(exit_gate); }
 void SlotMachine::set_definition_hook(Hook hook) { definition_hook_ = std::move(hook); }
 void SlotMachine::AddShortcut(std::string line, std::string replacement) {
@@ -158,7 +159,8 @@ void SlotMachine::Handle(const Message& message, PeerId peer) {
       return HandleDo(message, peer);
     case Command::kRep:
     case Command::kTell:
-      return;  // what another module says: not for a plain slot machine
+      if (on_heard_) on_heard_(message);  // else: not for a plain slot machine
+      return;
   }
 }
 
@@ -326,6 +328,8 @@ bool SlotMachine::AutoOutput(std::string_view slot_name) const {
   const Slot* slot = Find(slot_name);
   return slot != nullptr && slot->auto_output;
 }
+
+void SlotMachine::Say(Message message) { Emit(kEveryone, std::move(message)); }
 
 void SlotMachine::TellAll(std::string text) { Emit(kEveryone, Tell(std::move(text))); }
 

@@ -106,6 +106,10 @@ class SlotMachine {
   /// (So a module can define its own kinds of things.)
   using Hook = std::function<bool(const Message& message, PeerId peer, Reply reply)>;
   void set_definition_hook(Hook hook);
+  /// Told of what other modules say to this one: `rep` and `tell`, as answers to what Say asked.
+  /// Without it they are passed over.
+  using OnHeard = std::function<void(const Message& message)>;
+  void set_on_heard(OnHeard on_heard);
   /// Given what `set Run = EXIT` does, to be called at once or when what was said before is done.
   using ExitGate = std::function<void(std::function<void()> exit)>;
   void set_exit_gate(ExitGate exit_gate);
@@ -133,6 +137,8 @@ class SlotMachine {
   bool AutoOutput(std::string_view slot) const;
   /// `tell TEXT` to everyone.
   void TellAll(std::string text);
+  /// A message of this module's own, as to another module by the hub (vm::To). REQUIRES: IsValid.
+  void Say(Message message);
   /// An error not tied to a request in hand: `rep SLOT.error = CODE text` where Error reports are
   /// on, and OnError. `slot` may be empty.
   void ReportError(std::string_view slot, const Error& error);
@@ -178,6 +184,7 @@ class SlotMachine {
   OnError on_error_;
   Hook definition_hook_;
   ExitGate exit_gate_;
+  OnHeard on_heard_;
   std::map<std::string, std::string, std::less<>> shortcuts_;
   std::vector<std::unique_ptr<Slot>> slots_;  // in order of declaration
   std::map<std::string, Slot*, std::less<>> by_name_;

@@ -1,0 +1,220 @@
+// How near the voice-driven mouth comes to the text-driven one, in mm on the built-in head as it
+// speaks (MouthScale 30): for voices of a training (--takes), for the people of Debian's
+// pocketsphinx-testdata (truth by our aligner, with the text), and for what is no speech.
+//   vdm_bench NET --takes FILE --voices rms,british-f3
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "fsm/head/make_head.h"
+#include "sound/sound_file.h"
+#include "srm/align/phone_aligner.h"
+#include "vdm/mouth/mouth_tracker.h"
+#include "vdm/train/corpus.h"
+#include "vdm/train/distortion.h"
+#include "vdm/train/score.h"
+#include "vdm/train/truth.h"
+
+namespace {
+
+constexpr const char* kPeople = "/usr/share/pocketsphinx/test/data/";
+constexpr float kSpoken = 0.75F;  // MouthScale 30 of the 40 of full articulation
+
+template <typename T>
+T OrThrow(vm::Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().text);
+  return std::move(*result);
+}
+
+struct Bench {
+  vdm::MouthNet net;
+  fsm::MotionTables tables;
+  std::unique_ptr<fsm::Head> head;
+  double work_s = 0, sound_s = 0;
+
+  double GapMm(const std::array<float, 17>& mouth, float seal, float tongue) const {
+    fsm::FaceState state;
+    for (std::size_t i = 0; i < mouth.size(); ++i) state.mouth[i] = kSpoken * mouth[i];
+    state.lip_seal = seal;
+    state.tongue = tongue;
+    return static_cast<double>(head->MeasureMouth(state).gap_mm);
+  }
+
+  /// The gap at each hop of a sound, as it comes out of a stream.
+  std::vector<double> Gaps(std::vector<std::int16_t> samples) {
+    const std::clock_t start = std::clock();
+    vdm::MouthTracker tracker(net);
+    samples.resize(samples.size() + tracker.ahead_samples() + tracker.hop_samples());
+    std::vector<vdm::MouthTracker::Moment> moments;
+    for (std::size_t at = 0; at < samples.size(); at += 320) {
+      const std::size_t count = std::min<std::size_t>(320, samples.size() - at);
+      std::ranges::move(tracker.Add(std::span(samples).subspan(at, count)),
+                        std::back_inserter(moments));
+    }
+    work_s += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    sound_s += static_cast<double>(samples.size()) / 16000;
+    std::vector<double> gaps;
+    for (const auto& [sample, frame] : moments)
+      gaps.push_back(GapMm(frame.mouth, frame.seal, frame.tongue));
+    return gaps;
+  }
+  double HopMs() const {
+    return static_cast<double>(vdm::MakeFeatures(net.features)->hop_samples()) / 16;
+  }
+
+  std::vector<double> TrueGaps(const vm::PhonemeList& phonemes, std::size_t count) const {
+    const vdm::TextDrivenMouth mouth(phonemes, tables);
+    std::vector<double> gaps;
+    for (std::size_t k = 0; k < count; ++k) {
+      const fsm::MouthPose pose = mouth.At(static_cast<double>(k) * HopMs());
+      gaps.push_back(GapMm(pose.mouth, pose.seal, pose.tongue));
+    }
+    return gaps;
+  }
+};
+
+struct Row {
+  vdm::Score score;
+  std::vector<std::vector<double>> ours, truth;
+
+  void Add(std::vector<double> gaps, std::vector<double> true_gaps, double hop_ms,
+           const vm::PhonemeList& phonemes) {
+    score.Add(gaps, true_gaps, hop_ms, phonemes);
+    ours.push_back(std::move(gaps));
+    truth.push_back(std::move(true_gaps));
+  }
+  /// By how many ms ours is late where both are most alike, of -100 to 100.
+  double LagMs(double hop_ms) const {
+    const auto reach = static_cast<std::ptrdiff_t>(100 / hop_ms);
+    double best = -1, at = 0;
+    for (std::ptrdiff_t lag = -reach; lag <= reach; ++lag) {
+      vdm::Score shifted;
+      for (std::size_t n = 0; n < ours.size(); ++n) {
+        std::vector<double> a, b;
+        const auto size = static_cast<std::ptrdiff_t>(ours[n].size());
+        for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, -lag); i < std::min(size, size - lag);
+             ++i) {
+          a.push_back(ours[n][static_cast<std::size_t>(i + lag)]);
+          b.push_back(truth[n][static_cast<std::size_t>(i)]);
+        }
+        shifted.Add(a, b, hop_ms, {});
+      }
+      if (shifted.correlation() > best)
+        best = shifted.correlation(), at = static_cast<double>(lag) * hop_ms;
+    }
+    return at;
+  }
+  void Print(const std::string& who, double hop_ms) const {
+    std::cout << fmt::format(
+        "| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} % of {} | {:.1f} % | {:+.0f} |\n", who,
+        score.correlation(), score.rms_mm(), score.size(), 100 * score.closures_seen(),
+        score.closures(), 100 * score.shut_by_mistake(), LagMs(hop_ms));
+  }
+};
+
+void TestVoices(Bench& bench, const std::string& takes, const std::vector<std::string>& voices) {
+  std::map<std::string, Row> rows;
+  for (const vdm::Take& take : OrThrow(vdm::LoadCorpus(takes))) {
+    if (std::ranges::find(voices, take.voice) == voices.end()) continue;
+    auto gaps = bench.Gaps(take.samples);
+    auto truth = bench.TrueGaps(take.phonemes, gaps.size());
+    for (Row* row : {&rows[take.voice], &rows["~ all of these voices"]}) {
+      row->Add(gaps, truth, bench.HopMs(), take.phonemes);
+    }
+  }
+  for (const auto& [voice, row] : rows) row.Print(voice, bench.HopMs());
+}
+
+/// "<s> TEXT </s> (NAME)" of each line.
+std::vector<std::pair<std::string, std::string>> Transcription(const std::string& path) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t begin = line.find("<s>"), end = line.find("</s>"), open = line.find('(');
+    if (open == std::string::npos || begin == std::string::npos || end == std::string::npos)
+      continue;
+    texts.emplace_back(line.substr(open + 1, line.find(')') - open - 1),
+                       line.substr(begin + 3, end - begin - 3));
+  }
+  return texts;
+}
+
+void TestPeople(Bench& bench) {
+  auto aligner = vm::Result<std::unique_ptr<srm::PhoneAligner>>(
+      srm::PhoneAligner::Open(srm::PocketsphinxOptions().model));
+  if (!aligner) {
+    std::cerr << "vdm_bench: no people: " << aligner.error().text << std::endl;
+    return;
+  }
+  Row all;
+  for (const auto& [folder, file] :
+       {std::pair("librivox/", "transcription"), std::pair("cards/", "cards.transcription")}) {
+    Row row;
+    for (const auto& [name, text] : Transcription(std::string(kPeople) + folder + file)) {
+      const auto samples = OrThrow(sound::ReadSound(kPeople + std::string(folder) + name + ".wav"));
+      const auto aligned = (*aligner)->Align(samples, text);
+      if (!aligned) {
+        std::cerr << "vdm_bench: " << name << ": " << aligned.error().text << std::endl;
+        continue;
+      }
+      auto gaps = bench.Gaps(samples);
+      auto truth = bench.TrueGaps(aligned->phonemes, gaps.size());
+      row.Add(gaps, truth, bench.HopMs(), aligned->phonemes);
+      all.Add(std::move(gaps), std::move(truth), bench.HopMs(), aligned->phonemes);
+    }
+    if (row.score.instants() > 0) row.Print(std::string("people, ") + folder, bench.HopMs());
+  }
+  if (all.score.instants() > 0) all.Print("people, all", bench.HopMs());
+}
+
+void TestNoSpeech(Bench& bench) {
+  std::size_t open = 0, all = 0, sounds = 0, moved = 0;
+  for (std::uint64_t n = 0; n < 100; ++n, ++sounds) {
+    const auto gaps = bench.Gaps(vdm::NoSpeech(vdm::Dice(0xBE4C).For(n)));
+    const auto now =
+        static_cast<std::size_t>(std::ranges::count_if(gaps, [](double mm) { return mm >= 1; }));
+    open += now;
+    all += gaps.size();
+    moved += now > 0;
+  }
+  std::cout << fmt::format(
+      "\n{} sounds of noise, music and silence: lips open {:.2f} % of the time, in {} of them\n",
+      sounds, 100.0 * static_cast<double>(open) / static_cast<double>(all), moved);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string net, takes;
+  std::vector<std::string> voices;
+  CLI::App app("How near the voice-driven mouth comes to the text-driven one");
+  app.add_option("net", net, "A network's file")->required();
+  app.add_option("--takes", takes, "Speech of a training (the file takes of vdm_train --work)");
+  app.add_option("--voices", voices, "Which of its voices")->delimiter(',');
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::ifstream file(net);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    Bench bench{.net = OrThrow(vdm::ParseMouthNet(net, text)),
+                .tables = OrThrow(fsm::MotionTables::Load()),
+                .head = fsm::MakeHead("galatea")};
+    std::cout
+        << "| voice | r of the gap | rms mm | size | closures seen | shut by mistake | lag ms |\n"
+           "| --- | --- | --- | --- | --- | --- | --- |\n";
+    if (!takes.empty()) TestVoices(bench, takes, voices);
+    TestPeople(bench);
+    TestNoSpeech(bench);
+    std::cout << fmt::format("real-time factor {:.4f}\n", bench.work_s / bench.sound_s);
+  } catch (const std::exception& error) {
+    std::cerr << "vdm_bench: " << error.what() << std::endl;
+    return 1;
+  }
+}

@@ -1,0 +1,258 @@
+// The module on a virtual clock: sound in, frames out, exact and the same each time.
+
+#include "vdm/core/movement_module.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "vm_protocol/core/start_time.h"
+
+namespace vdm {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A voice of a kind: a buzz of 120 Hz through three formants of "a", 5 times a second; silence
+/// around. What the shipped network makes of it is no matter of these tests but that it opens.
+std::vector<std::int16_t> Voice(std::size_t ms) {
+  std::vector<std::int16_t> sound(16 * ms);
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    const double t = static_cast<double>(i) / 16000;
+    double x = 0;
+    for (int k = 1; k <= 30; ++k) {
+      const double hz = 120 * k;
+      double size = 0;
+      for (const double formant : {700.0, 1200.0, 2600.0})
+        size += 1 / (1 + std::pow((hz - formant) / 90, 2));
+      x += size * std::sin(6.2831853 * hz * t);
+    }
+    const double syllable = std::pow(std::sin(3.14159265 * t * 4), 2);
+    sound[i] = static_cast<std::int16_t>(std::lround(4000 * syllable * x));
+  }
+  return sound;
+}
+
+/// A source that gives what the test gives.
+class HandSource final : public sound::AudioSource {
+ public:
+  explicit HandSource(Events& events) : events_(events) {}
+  vm::Result<void> Start(Events events) override {
+    events_ = std::move(events);
+    return {};
+  }
+  bool Ends() const override { return false; }
+
+ private:
+  Events& events_;
+};
+
+class MovementTest : public testing::Test {
+ protected:
+  MovementTest() { Make(); }
+  void Make() {
+    module_ = std::make_unique<MovementModule>(
+        clock_,
+        MovementModule::Options{
+            .module_version = "test",
+            .open_source =
+                [this](const std::string& name) -> vm::Result<std::unique_ptr<sound::AudioSource>> {
+              if (name == "wav:voice")
+                return std::make_unique<sound::RecordedSource>(clock_, Voice(2000));
+              if (name == "raw:hand") return std::make_unique<HandSource>(live_);
+              return vm::Fail(vm::Errc::kUnavailable, "there is no microphone");
+            },
+            .clock_is_shared = [] { return true; },
+            .mel = &ShippedNet(FeatureKind::kMel),
+            .cepstra = &ShippedNet(FeatureKind::kCepstra)});
+    module_->slots().set_output([this](vm::PeerId, const vm::Message& message) {
+      said_.push_back({clock_.Now(), message});
+    });
+    module_->slots().set_on_error([this](vm::PeerId, const std::string&, const vm::Error& error) {
+      errors_.push_back(vm::FormatError(error));
+    });
+  }
+  void Tell(const std::string& line) { module_->slots().HandleLine(line, 1); }
+  void Run(vm::Time until) { clock_.RunUntil(until); }
+  struct Frame {
+    vm::Time told, at;
+    std::vector<double> numbers;
+  };
+  /// The frames told to the face, with the instants they are for.
+  std::vector<Frame> Frames() const {
+    std::vector<Frame> frames;
+    vm::Time start{0};
+    for (const auto& [told, message] : said_) {
+      if (message.slot == "MouthFrame.start") start = vm::ParseStartTime(message.value)->time;
+      if (message.slot != "MouthFrame") continue;
+      EXPECT_EQ(message.to, std::vector<std::string>{"FSM"});
+      std::istringstream words(message.value);
+      Frame frame{told, vm::Time(0), {}};
+      for (double number = 0; words >> number;) frame.numbers.push_back(number);
+      frame.at = start + vm::Time(static_cast<long>(frame.numbers[0] * 1000));
+      frames.push_back(frame);
+    }
+    return frames;
+  }
+  std::string AllSaid() const {
+    std::string all;
+    for (const auto& [told, message] : said_)
+      all += vm::FormatMs(told) + " " + vm::FormatMessage(message) + "\n";
+    return all;
+  }
+  std::size_t Count(const std::string& line) const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        said_, [&](const auto& one) { return vm::FormatMessage(one.second) == line; }));
+  }
+
+  vm::VirtualScheduler clock_;
+  sound::AudioSource::Events live_;
+  std::vector<std::pair<vm::Time, vm::Message>> said_;
+  std::vector<std::string> errors_;
+  std::unique_ptr<MovementModule> module_;
+};
+
+TEST_F(MovementTest, ARecordingMovesTheFaceAndEndsAtRest) {
+  Tell("set Input = wav:voice");
+  Tell("set Run = START");
+  EXPECT_TRUE(module_->Busy());
+  Run(10s);
+  EXPECT_FALSE(module_->Busy());
+  EXPECT_EQ(clock_.pending(), 0U);
+  const auto frames = Frames();
+  ASSERT_GT(frames.size(), 50U);
+  double widest = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(frames[i].numbers.size(), 20U);
+    EXPECT_LT(frames[i].told, frames[i].at) << "a frame was told after its time";
+    widest = std::max(widest, frames[i].numbers[12]);
+  }
+  EXPECT_GT(widest, 3);                     // degrees of the jaw: an "a"
+  EXPECT_EQ(frames.back().numbers[18], 1);  // sealed
+  EXPECT_GT(frames.front().at, 0ms);
+  EXPECT_LT(frames.back().at, 2s + 100ms + 500ms);
+  EXPECT_EQ(Count("rep Input = NONE"), 1U);
+  EXPECT_GE(Count("rep Mouth.stat = MOVING"), 1U);
+}
+
+TEST_F(MovementTest, TheSameSoundGivesTheSameBytes) {
+  const auto run = [this] {
+    said_.clear();
+    clock_ = {};
+    Make();
+    Tell("set Input = wav:voice");
+    Tell("set Run = START");
+    Run(10s);
+    return AllSaid();
+  };
+  const std::string first = run();
+  EXPECT_GT(first.size(), 1000U);
+  EXPECT_EQ(run(), first);
+}
+
+TEST_F(MovementTest, DelayMovesTheFramesAndTooLittleIsRefused) {
+  const auto first_at = [this](const char* delay) {
+    said_.clear();
+    module_.reset();
+    clock_ = {};
+    Make();
+    Tell(std::string("set Delay = ") + delay);
+    Tell("set Input = wav:voice");
+    Tell("set Run = START");
+    Run(10s);
+    return Frames().front().at;
+  };
+  EXPECT_EQ(first_at("400") - first_at("150"), 250ms);
+  Tell("set Delay = 20");
+  ASSERT_EQ(errors_.size(), 1U);
+  EXPECT_EQ(errors_[0],
+            "BAD_VALUE 20 ms found, at least 100 expected: so much more has to be heard before the "
+            "mouth is known");
+}
+
+TEST_F(MovementTest, AMissingSourceIsOneErrorAndTheNextWorks) {
+  Tell("set Run = START");
+  Tell("set Input = portaudio");
+  EXPECT_EQ(errors_, std::vector<std::string>{"UNAVAILABLE there is no microphone"});
+  EXPECT_EQ(module_->slots().Value("Input"), "NONE");
+  Tell("set Input = wav:voice");
+  Run(10s);
+  EXPECT_GT(Frames().size(), 50U);
+  EXPECT_EQ(errors_.size(), 1U);
+}
+
+TEST_F(MovementTest, AStreamThatStallsRestsWithOneErrorAndGoesOnWhenSoundComes) {
+  Tell("set Input = raw:hand");
+  Tell("set Run = START");
+  const auto voice = Voice(1000);
+  const auto play = [&] {
+    for (std::size_t at = 0; at < voice.size(); at += 320) {
+      Run(clock_.Now() + 20ms);
+      live_.sound(std::span(voice).subspan(at, 320));
+    }
+  };
+  play();
+  EXPECT_EQ(module_->slots().Value("Mouth.stat"), "MOVING");
+  Run(clock_.Now() + 10s);
+  EXPECT_EQ(errors_.size(), 1U);
+  EXPECT_NE(errors_[0].find("no sound has come from 'raw:hand' for 1000 ms"), std::string::npos);
+  EXPECT_EQ(module_->slots().Value("Mouth.stat"), "LISTENING");
+  EXPECT_EQ(Frames().back().numbers[18], 1);
+  const std::size_t before = Frames().size();
+  play();
+  EXPECT_GT(Frames().size(), before + 20);
+  EXPECT_EQ(errors_.size(), 1U);
+  live_.failed({vm::Errc::kUnavailable, "the microphone gives no sound any more", 0});
+  Run(clock_.Now() + 1s);
+  EXPECT_EQ(errors_.size(), 2U);
+  EXPECT_EQ(module_->slots().Value("Input"), "NONE");
+  EXPECT_EQ(clock_.pending(), 0U);
+}
+
+TEST_F(MovementTest, StopInTheMiddleClosesTheMouth) {
+  Tell("set Input = wav:voice");
+  Tell("set Run = START");
+  Run(800ms);
+  ASSERT_EQ(module_->slots().Value("Mouth.stat"), "MOVING");
+  Tell("set Run = STOP");
+  EXPECT_EQ(Count("to @FSM set MouthFrame.start = STOP"), 1U);
+  EXPECT_EQ(module_->slots().Value("Mouth.stat"), "OFF");
+  const std::size_t before = Frames().size();
+  Run(10s);
+  EXPECT_EQ(Frames().size(), before);
+  EXPECT_EQ(clock_.pending(), 0U);
+}
+
+TEST_F(MovementTest, ModesAndReceiversCanBeChosen) {
+  Tell("set Mouth.mode = CEPSTRA");
+  Tell("set Mouth.to = LADY");
+  Tell("prop Mouth = AutoOutput");
+  Tell("prop Mouth.sounds = AutoOutput");
+  Tell("set Input = wav:voice");
+  Tell("set Run = START");
+  Run(10s);
+  std::size_t to_lady = 0, reports = 0, sounds = 0;
+  for (const auto& [told, message] : said_) {
+    to_lady += message.slot == "MouthFrame" && message.to == std::vector<std::string>{"LADY"};
+    reports += message.slot == "Mouth";
+    sounds += message.slot == "Mouth.sounds";
+  }
+  EXPECT_GT(to_lady, 20U);
+  EXPECT_EQ(to_lady, reports);
+  EXPECT_GT(sounds, 20U);
+  Tell("set Mouth.to = no/such name");
+  EXPECT_EQ(errors_.size(), 1U);
+}
+
+TEST_F(MovementTest, SilenceAndOffTellNothing) {
+  Tell("set Input = raw:hand");
+  Tell("set Run = START");
+  const std::vector<std::int16_t> silence(16000);
+  live_.sound(silence);
+  Tell("set Mouth.mode = OFF");
+  live_.sound(Voice(1000));
+  EXPECT_TRUE(Frames().empty());
+}
+
+}  // namespace
+}  // namespace vdm

@@ -1,0 +1,69 @@
+// Networks over streams say what they say over a whole sound.
+
+#include "vdm/net/net_stream.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/vdm/made_net.h"
+#include "vdm/mouth/mouth_tracker.h"
+
+namespace vdm {
+namespace {
+
+TEST(TimeDelayNetTest, ALayerSeesWhatItsOffsetsSayAndZeroOutside) {
+  TimeDelayNet net;
+  net.layers.resize(1);
+  TimeDelayLayer& layer = net.layers[0];
+  layer.inputs = 1;
+  layer.offsets = {-1, 2};
+  layer.weights = Eigen::MatrixXf{{1, 10}};
+  layer.biases = Eigen::VectorXf::Constant(1, 0.5F);
+  const Eigen::MatrixXf out = net.Outputs(Eigen::MatrixXf{{1, 2, 3, 4}});
+  EXPECT_EQ(out, (Eigen::MatrixXf{{30.5F, 41.5F, 2.5F, 3.5F}}));
+}
+
+TEST(TimeDelayNetTest, SoundsShorterThanItsReachAreFine) {
+  const MouthNet net = MadeNet();
+  for (const Eigen::Index columns : {0, 1, 2, 3}) {
+    EXPECT_EQ(net.net.Outputs(Eigen::MatrixXf::Ones(26, columns)).cols(), columns);
+  }
+}
+
+TEST(NetStreamTest, SaysWhatTheNetworkSaysAsSoonAsItCan) {
+  const MouthNet net = MadeNet();
+  const Eigen::MatrixXf input = Eigen::MatrixXf::Random(26, 40);
+  const Eigen::MatrixXf whole = net.net.Outputs(input);
+  NetStream stream(net.net);
+  Eigen::Index said = 0;
+  for (Eigen::Index t = 0; t < input.cols(); ++t) {
+    const Eigen::VectorXf& out = stream.Add(input.col(t));
+    ASSERT_EQ(out.size() == 0, t < 3);
+    if (out.size() == 0) continue;
+    // Towards the end the whole sees zeros where the stream has seen nothing yet.
+    EXPECT_LT((out - whole.col(said++)).cwiseAbs().maxCoeff(), 1e-4F) << t;
+  }
+  EXPECT_EQ(said, 37);
+}
+
+TEST(MouthTrackerTest, MomentsComeInTimeAndDoNotDependOnThePieces) {
+  const MouthNet net = MadeNet();
+  std::vector<std::int16_t> sound(8000);
+  for (std::size_t i = 0; i < sound.size(); ++i)
+    sound[i] = static_cast<std::int16_t>((i * i) % 7001);
+  MouthTracker whole(net), pieces(net);
+  const auto expected = whole.Add(sound);
+  std::size_t next = 0;
+  for (std::size_t at = 0; at < sound.size(); at += 331) {
+    const std::size_t heard = std::min(at + 331, sound.size());
+    for (const auto& moment : pieces.Add(std::span(sound).subspan(at, heard - at))) {
+      ASSERT_EQ(moment.sample, expected[next].sample);
+      EXPECT_EQ(moment.frame.mouth, expected[next++].frame.mouth);
+      EXPECT_LE(moment.sample + whole.ahead_samples(), heard);
+      EXPECT_GT(moment.sample + whole.ahead_samples() + whole.hop_samples() + 331, heard);
+    }
+  }
+  EXPECT_EQ(next, expected.size());
+}
+
+}  // namespace
+}  // namespace vdm

@@ -1,0 +1,118 @@
+// A training on a handful of sounds: it learns, is the same each time, and goes on where it was.
+
+#include "vdm/train/training.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "vdm/train/truth.h"
+
+namespace vdm {
+namespace {
+
+const fsm::MotionTables& Tables() {
+  static const fsm::MotionTables tables = fsm::MotionTables::Load().value();
+  return tables;
+}
+
+/// Buzzes whose spectrum says which of three sounds they are.
+std::vector<Take> Takes() {
+  std::vector<Take> takes;
+  for (int n = 0; n < 6; ++n) {
+    Take take{.voice = "buzz",
+              .samples = {},
+              .phonemes = vm::ParsePhonemes("pau 200 aa 200 m 100 aa 150 pau 200").value()};
+    for (std::size_t i = 0; i < 850 * 16; ++i) {
+      const double ms = static_cast<double>(i) / 16, t = ms / 1000;
+      double x = 0;
+      if (ms > 200 && ms < 650) {
+        const bool closed = ms > 400 && ms < 500;
+        for (int k = 1; k < 20; ++k) {
+          const double hz = (110 + 10 * n) * k, at = closed ? 250 : 800;
+          x += std::sin(6.2831853 * hz * t) / (1 + std::pow((hz - at) / 150, 2));
+        }
+      }
+      take.samples.push_back(static_cast<std::int16_t>(std::lround(5000 * x)));
+    }
+    takes.push_back(std::move(take));
+  }
+  return takes;
+}
+
+TrainingPlan Plan() { return {.width = 12, .epochs = 6}; }
+const auto kQuiet = [](double) {};
+
+TEST(TrainingTest, ItLearns) {
+  const auto takes = Takes();
+  TrainingPlan plan = Plan();
+  plan.epochs = 60;
+  plan.rate = 0.01;
+  Training training(plan, takes, Tables());
+  const double first = training.Epoch(kQuiet).loss.total();
+  double last = first;
+  while (!training.done()) last = training.Epoch(kQuiet).loss.total();
+  EXPECT_LT(last, 0.6 * first);
+  EXPECT_GT(ScoreOf(training.net(), takes, Tables()).correlation(), 0.7);
+}
+
+TEST(TrainingTest, ACourseThatIsKeptAndResumedGivesTheSameNetwork) {
+  const auto takes = Takes();
+  const auto path = (std::filesystem::temp_directory_path() / "vdm_course_test").string();
+  Training straight(Plan(), takes, Tables());
+  while (!straight.done()) straight.Epoch(kQuiet);
+  {
+    Training begun(Plan(), takes, Tables());
+    begun.Epoch(kQuiet);
+    begun.Epoch(kQuiet);
+    ASSERT_TRUE(begun.Save(path));
+  }
+  Training resumed(Plan(), takes, Tables());
+  ASSERT_TRUE(resumed.Load(path));
+  EXPECT_EQ(resumed.epoch(), 2U);
+  while (!resumed.done()) resumed.Epoch(kQuiet);
+  EXPECT_EQ(FormatMouthNet(resumed.net()), FormatMouthNet(straight.net()));
+
+  TrainingPlan other = Plan();
+  other.seed = 2;
+  EXPECT_NE(
+      Training(other, takes, Tables()).Load(path).error().text.find("is no course of this plan"),
+      std::string::npos);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
+  EXPECT_NE(Training(Plan(), takes, Tables()).Load(path).error().text.find("damaged"),
+            std::string::npos);
+  std::filesystem::remove(path);
+}
+
+TEST(CorpusTest, TakesAreKeptWhole) {
+  const auto path = (std::filesystem::temp_directory_path() / "vdm_takes_test").string();
+  const auto takes = Takes();
+  ASSERT_TRUE(SaveCorpus(takes, path));
+  const auto back = LoadCorpus(path);
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->size(), takes.size());
+  EXPECT_EQ(back->back().samples, takes.back().samples);
+  EXPECT_EQ(back->back().phonemes, takes.back().phonemes);
+  EXPECT_EQ(back->back().voice, "buzz");
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
+  EXPECT_EQ(LoadCorpus(path).error().text, path + ": ends within a take");
+  std::ofstream(path) << "something else";
+  EXPECT_EQ(LoadCorpus(path).error().text, path + ": no takes of vdm_train");
+  std::filesystem::remove(path);
+}
+
+TEST(TruthTest, ItIsTheFacesOwnMouth) {
+  const TextDrivenMouth mouth(vm::ParsePhonemes("pau 200 aa 300 m 100 aa 200 pau 200").value(),
+                              Tables());
+  const MouthTruth truth = mouth.Sampled(0, 10, 100);
+  EXPECT_EQ(truth.closed[0], 1);
+  EXPECT_NEAR(truth.shape(11, 35), 9, 0.5);  // the jaw of aa
+  EXPECT_EQ(truth.closed[52], 1);            // in the m
+  EXPECT_LT(truth.closed[35], 0.01);
+  EXPECT_EQ(truth.sound[52], 1U);  // pbm
+}
+
+}  // namespace
+}  // namespace vdm

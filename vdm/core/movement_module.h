@@ -1,0 +1,93 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "sound/audio_source.h"
+#include "vdm/core/mouth_sender.h"
+#include "vdm/core/session_clock.h"
+#include "vdm/mouth/mouth_tracker.h"
+#include "vdm/mouth/sound_clock.h"
+#include "vm_protocol/core/module.h"
+
+namespace vdm {
+
+/// The module of voice-driven movement (VDM): hears a source of sound, and tells a face frame by
+/// frame what the mouth does, Delay after it was heard.
+///
+///   OFF --Run = START--> LISTENING --sound of speech--> MOVING --rest--> LISTENING
+///
+/// To the face: `to @FSM set MouthFrame.start = @T`, then `to @FSM set MouthFrame = MS ...` for
+/// each frame. When the source ends, fails or stalls, the mouth closes. Thread: the scheduler's.
+class MovementModule final : public vm::Module {
+ public:
+  struct Options {
+    std::string module_version{};
+    /// A source by name, as of sound::OpenSource.
+    std::function<vm::Result<std::unique_ptr<sound::AudioSource>>(const std::string&)>
+        open_source{};
+    /// Whether this process's clock is that of the session (a virtual one).
+    std::function<bool()> clock_is_shared{};
+    const MouthNet* mel = nullptr;      ///< for Mouth.mode = MEL; outlives the module
+    const MouthNet* cepstra = nullptr;  ///< for Mouth.mode = CEPSTRA; likewise
+  };
+  /// A live source that gave sound and then none for so long has stalled.
+  static constexpr vm::Time kStalled{1'000'000};
+
+  MovementModule(vm::Scheduler& scheduler, Options options);
+  ~MovementModule() override;
+
+  vm::SlotMachine& slots() override { return slots_; }
+  bool Busy() const override;
+  bool ExitRequested() const override { return exit_requested_; }
+  void Shutdown() override;
+
+ private:
+  enum class Mode { kMel, kCepstra, kOff };
+  // movement_slots.cc
+  void DeclareRun();
+  void DeclareInput();
+  void DeclareMouth();
+
+  vm::Result<std::string> SetInput(const std::string& name);
+  vm::Result<void> StartSource();
+  void Start();
+  void Stop();
+  void Hear(std::span<const std::int16_t> samples);
+  void OnSourceOver();
+  void WatchForStall();
+  void TellFrame(double ms, const MouthFrame& frame);
+  void TellFace(std::string slot, std::string value);
+  /// The shortest Delay with which frames are told before their time.
+  vm::Time ShortestDelay() const;
+  const MouthNet& net() const {
+    return mode_ == Mode::kCepstra ? *options_.cepstra : *options_.mel;
+  }
+  void Renew();
+
+  vm::Scheduler& scheduler_;
+  const Options options_;
+  vm::SlotMachine slots_;
+  SessionClock session_;
+  MouthSender sender_;
+
+  bool on_ = false;
+  bool exit_requested_ = false;
+  Mode mode_ = Mode::kMel;
+  vm::Time delay_{100'000};
+  std::string face_ = "FSM";
+  std::unique_ptr<sound::AudioSource> source_;
+  std::string source_name_ = "NONE";
+
+  std::unique_ptr<MouthTracker> tracker_;  // of the sound since it began anew
+  SoundClock sound_clock_;
+  vm::Time start_{0};  // of the run being told
+  bool stalled_ = false;
+  vm::Time heard_{0};  // when sound came last
+  vm::TimerId stall_timer_ = 0;
+  vm::TimerId over_timer_ = 0;
+  vm::TimerId end_timer_ = 0;  // when the mouth's last frame has passed
+};
+
+}  // namespace vdm

@@ -1,0 +1,123 @@
+// What the module can be told and asked.
+
+#include <fmt/format.h>
+
+#include "vdm/core/movement_module.h"
+
+namespace vdm {
+
+void MovementModule::DeclareRun() {
+  slots_.Declare({.name = "Run",
+                  .grammar = "START | STOP | LIVE | EXIT",
+                  .initial = "LIVE",
+                  .auto_output = true,
+                  .help = "START: sound is heard and moves the face from now on. STOP: no longer. "
+                          "EXIT ends the module.",
+                  .on_set_later =
+                      [this](const vm::SetValue& value, const vm::Reply& reply) {
+                        const std::string& word = value.word(0);
+                        slots_.Report("Run", word);
+                        if (word == "START") Start();
+                        if (word == "STOP") Stop();
+                        reply.Ok(word);
+                        if (word == "EXIT") exit_requested_ = true;
+                      },
+                  .saved = false});
+  const auto version = [this](std::string name, std::string value, std::string help) {
+    slots_.Declare({.name = std::move(name),
+                    .grammar = "<text>",
+                    .access = vm::Access::kReadOnly,
+                    .initial = std::move(value),
+                    .help = std::move(help)});
+  };
+  version("ModuleVersion", options_.module_version, "The version of this program.");
+  version("ProtocolVersion", "Protocol Ver. 1.0", "The version of the protocol it speaks.");
+}
+
+void MovementModule::DeclareInput() {
+  slots_.Declare(
+      {.name = "Input",
+       .grammar = "NONE | <text>",
+       .initial = "NONE",
+       .auto_output = true,
+       .help = "Where sound comes from: NONE, wav:PATH (once, at the pace of the clock), "
+               "raw[@RATE]:PATH (16 bit mono from a pipe, - is standard input; ssm --sink raw:PATH "
+               "gives what the voice says), tcp[@RATE]:PORT or unix[@RATE]:PATH (the same from "
+               "whoever connects), portaudio[:DEVICE]. RATE is in Hz, 16000 without. It is heard "
+               "while Run is START.",
+       .on_set = [this](const vm::SetValue& value) { return SetInput(value.text); },
+       .on_inq = [this] { return source_name_; },
+       .saved = false});
+  slots_.Declare(
+      {.name = "Delay",
+       .grammar = "<number 0..60000>",
+       .initial = "100",
+       .help = "How many ms after a sound was heard the mouth shows it. The network has to hear "
+               "up to 60 ms more first, and sound comes in pieces: less than 100 is refused in "
+               "mode MEL. Whoever plays the sound plays it so much later, and 40 ms more for lips "
+               "that lead a little, as those of a text do.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         const vm::Time wanted(static_cast<vm::Time::rep>(value.number(0) * 1000));
+         if (wanted < ShortestDelay()) {
+           return vm::Fail(vm::Errc::kBadValue,
+                           fmt::format("{} ms found, at least {} expected: so much more has to be "
+                                       "heard before the mouth is known",
+                                       value.word(0), vm::FormatMs(ShortestDelay())));
+         }
+         delay_ = wanted;
+         return vm::FormatMs(delay_);
+       }});
+}
+
+void MovementModule::DeclareMouth() {
+  slots_.Declare(
+      {.name = "Mouth.mode",
+       .grammar = "MEL | CEPSTRA | OFF",
+       .initial = "MEL",
+       .help = "By what the mouth is found: MEL, a network that sees mel bands over time; CEPSTRA, "
+               "the small one of the original's papers, which sees 20 LPC cepstra of one frame "
+               "(Delay at least 56); OFF: the mouth rests.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         mode_ = value.word(0) == "MEL"   ? Mode::kMel
+                 : value.word(0) == "OFF" ? Mode::kOff
+                                          : Mode::kCepstra;
+         Renew();
+         delay_ = std::max(delay_, ShortestDelay());
+         slots_.Store("Delay", vm::FormatMs(delay_));
+         return value.word(0);
+       }});
+  slots_.Declare({.name = "Mouth.to",
+                  .grammar = "NONE | <word>",
+                  .initial = "FSM",
+                  .help = "The module that is told the frames, by its slots MouthFrame.start and "
+                          "MouthFrame.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    if (!vm::IsModuleName(value.word(0))) {
+                      return vm::Fail(vm::Errc::kBadValue,
+                                      "'" + value.word(0) + "' is not a module's name");
+                    }
+                    sender_.Finish();
+                    face_ = value.word(0);
+                    return face_;
+                  }});
+  const auto told = [this](std::string name, std::string initial, std::string help,
+                           bool auto_output) {
+    slots_.Declare({.name = std::move(name),
+                    .grammar = "<text>",
+                    .access = vm::Access::kReadOnly,
+                    .initial = std::move(initial),
+                    .auto_output = auto_output,
+                    .help = std::move(help)});
+  };
+  told("Mouth", "",
+       "Each frame told: MS on this module's clock, 17 mouth parameters, seal, tongue, as in the "
+       "face's MouthFrame.",
+       false);
+  told("Mouth.sounds", "",
+       "Each frame's sounds: MS, then NAME LIKELIHOOD of each class of sounds (vdm/tables/"
+       "sounds.txt) from 0.05 on.",
+       false);
+  told("Mouth.stat", "OFF", "OFF, LISTENING (the mouth rests) or MOVING.", true);
+}
+
+}  // namespace vdm

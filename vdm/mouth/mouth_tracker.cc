@@ -1,0 +1,26 @@
+#include "vdm/mouth/mouth_tracker.h"
+
+namespace vdm {
+
+MouthTracker::MouthTracker(const MouthNet& net)
+    : net_(net), features_(MakeFeatures(net.features)), stream_(net.net) {}
+
+std::size_t MouthTracker::ahead_samples() const {
+  return features_->ahead_samples() + net_.net.ahead() * features_->hop_samples();
+}
+
+std::vector<MouthTracker::Moment> MouthTracker::Add(std::span<const std::int16_t> samples) {
+  vectors_.clear();
+  features_->Add(samples, vectors_);
+  const auto size = static_cast<Eigen::Index>(features_->size());
+  std::vector<Moment> moments;
+  for (std::size_t at = 0; at < vectors_.size(); at += features_->size()) {
+    const Eigen::VectorXf& outputs =
+        stream_.Add(Eigen::Map<const Eigen::VectorXf>(&vectors_[at], size));
+    if (outputs.size() == 0) continue;
+    moments.push_back({moments_++ * features_->hop_samples(), FrameOf(net_, outputs)});
+  }
+  return moments;
+}
+
+}  // namespace vdm

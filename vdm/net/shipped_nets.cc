@@ -1,0 +1,24 @@
+#include <stdexcept>
+
+#include "embedded/cepstra_net.h"
+#include "embedded/mel_net.h"
+#include "vdm/net/mouth_net.h"
+
+namespace vdm {
+namespace {
+
+MouthNet ReadShipped(const std::string& name, std::string_view text) {
+  auto read = ParseMouthNet(name, text);
+  if (!read) throw std::runtime_error(read.error().text);
+  return std::move(*read);
+}
+
+}  // namespace
+
+const MouthNet& ShippedNet(FeatureKind features) {
+  static const MouthNet mel = ReadShipped("mel.net", embedded::mel_net());
+  static const MouthNet cepstra = ReadShipped("cepstra.net", embedded::cepstra_net());
+  return features == FeatureKind::kMel ? mel : cepstra;
+}
+
+}  // namespace vdm

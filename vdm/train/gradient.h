@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vdm/net/time_delay_net.h"
+
+namespace vdm {
+
+/// What changes the loss of a network: for each layer as its weights and biases.
+struct NetGradient {
+  struct Layer {
+    Eigen::MatrixXf weights;
+    Eigen::VectorXf biases;
+  };
+  std::vector<Layer> layers;
+
+  /// Zero, in the shapes of `net`.
+  explicit NetGradient(const TimeDelayNet& net);
+  void SetZero();
+  void Add(const NetGradient& other);
+};
+
+/// Back-propagation through a time-delay network. Keeps what Forward computed until Backward.
+/// Lifetime: the network outlives it. Thread: one; instances of their own may share a network.
+class BackPropagation {
+ public:
+  explicit BackPropagation(const TimeDelayNet& net) : net_(net), steps_(net.layers.size()) {}
+  /// As net.Outputs(input).
+  const Eigen::MatrixXf& Forward(const Eigen::MatrixXf& input);
+  /// `slope`: how the loss changes with each output of the last Forward. Adds to `gradient`.
+  void Backward(const Eigen::MatrixXf& slope, NetGradient& gradient);
+
+ private:
+  struct Step {
+    Eigen::MatrixXf gathered, outputs;
+  };
+  const TimeDelayNet& net_;
+  std::vector<Step> steps_;
+};
+
+}  // namespace vdm

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fsm/motion/motion_tables.h"
+#include "vdm/train/corpus.h"
+#include "vdm/train/dice.h"
+#include "vdm/train/mouth_loss.h"
+
+namespace vdm {
+
+/// What a network is shown at once: the features of a sound and what the mouth does in it.
+struct Lesson {
+  Eigen::MatrixXf features;
+  MouthTruth truth{};
+};
+
+/// The features of a whole sound, columns in time.
+Eigen::MatrixXf FeaturesOf(std::span<const std::int16_t> samples, FeatureKind kind, float warp = 1);
+
+/// A take as it was spoken, and distorted by chance.
+Lesson PlainLesson(const Take& take, FeatureKind kind, const fsm::MotionTables& tables);
+Lesson DistortedLesson(const Take& take, FeatureKind kind, const fsm::MotionTables& tables,
+                       Dice dice);
+/// A sound that is no speech: the mouth stays closed.
+Lesson SilentLesson(FeatureKind kind, Dice dice);
+
+}  // namespace vdm
