@@ -183,7 +183,7 @@ std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans
     std::vector<LanguageRun> pieces = span.language.empty()
                                           ? SplitLanguages(span.text, voices_[base].language)
                                           : SplitAsked(span.text, Primary(span.language));
-    if (span.pause_before.count() > 0) before.clear();
+    if (span.pause_before.count() > 0 || span.begins_sentence) before.clear();
     if (!span.audio.empty() || pieces.empty()) {
       add(span, base, false);
       before.clear();

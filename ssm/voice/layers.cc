@@ -36,7 +36,10 @@ class Group {
   explicit Group(Layers& layers) : layers_(layers) {}
 
   void Add(const SpeechSpan& span) {
-    if (!parts_.empty() && !GoesOn(*parts_.back().span, span)) Flush();
+    const bool goes_on =
+        parts_.empty() || (GoesOn(*parts_.back().span, span) && !span.begins_sentence);
+    if (!goes_on) Flush();
+    begins_sentence_ = begins_sentence_ || span.begins_sentence;
     parts_.push_back({&span, text_.size()});
     text_ += span.text;
   }
@@ -53,6 +56,7 @@ class Group {
     }
     parts_.clear();
     text_.clear();
+    begins_sentence_ = false;
   }
 
  private:
@@ -104,6 +108,7 @@ class Group {
       span.voice = parts_.front().span->voice;
       span.language = parts_.front().span->language;
       span.feeling = parts_.front().span->feeling;
+      span.begins_sentence = begins_sentence_ && spans.size() == first;
       span.stretch = own.stretch;
       span.pitch = own.pitch;
       span.volume = own.volume;
@@ -130,6 +135,7 @@ class Group {
   Layers& layers_;
   std::vector<Part> parts_;
   std::string text_;
+  bool begins_sentence_ = false;
 };
 
 /// The engine's phonemes with what is laid over each of them.

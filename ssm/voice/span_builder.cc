@@ -59,12 +59,18 @@ SpeechSpan SpanBuilder::manner() const {
   manner.mark.clear();
   manner.audio.clear();
   manner.clip = {};
+  manner.begins_sentence = false;
   return manner;
 }
 
 void SpanBuilder::SetManner(SpeechSpan manner) {
   Cut();
   span_ = std::move(manner);
+}
+
+void SpanBuilder::BeginSentence() {
+  Cut();
+  begins_sentence_ = true;
 }
 
 void SpanBuilder::Begin() {
@@ -77,6 +83,7 @@ void SpanBuilder::Cut() {
   if (span_.text.empty()) return;
   const SpeechSpan next = manner();
   Begin();
+  span_.begins_sentence = std::exchange(begins_sentence_, false);
   result_.spans.push_back(std::exchange(span_, next));
 }
 

@@ -37,11 +37,12 @@ struct Intonation {
 struct SpeechSpan {
   std::string text{};
   Millis pause_before{0};
-  std::string mark{};   ///< name of a mark at its beginning (after the pause); empty = none
-  std::string voice{};  ///< one of the engine's own names
-  double stretch = 1;   ///< relative duration: 2 = twice as slow
-  double pitch = 1;     ///< relative pitch
-  double volume = 1;    ///< relative loudness of the samples
+  std::string mark{};  ///< name of a mark at its beginning (after the pause); empty = none
+  bool begins_sentence = false;  ///< the text is not analysed together with what is before it
+  std::string voice{};           ///< one of the engine's own names
+  double stretch = 1;            ///< relative duration: 2 = twice as slow
+  double pitch = 1;              ///< relative pitch
+  double volume = 1;             ///< relative loudness of the samples
   std::string audio{};  ///< a sound file played instead of `text` where an engine can; else empty
   Feeling feeling{};
   /// How the sound file is played.

@@ -13,6 +13,7 @@
 #include "ssm/voice/pronounced_text.h"
 #include "ssm/voice/span_builder.h"
 #include "ssm/voice/spoken_forms.h"
+#include "ssm/voice/text_flow.h"
 #include "vm_protocol/xml/parser.h"
 
 namespace ssm {
@@ -170,38 +171,51 @@ class Reader {
 
   /// Line ends and runs of blanks in a document are one blank.
   void Text(std::string_view text) {
+    constexpr std::string_view kBlanks = " \n\t\r";
     for (std::size_t at = 0; at < text.size();) {
-      const char c = text[at];
-      const bool blank = c == ' ' || c == '\n' || c == '\t' || c == '\r';
-      if (blank) {
-        if (!blank_) builder_.Text(" ");
-        ++at;
-      } else if (const std::size_t taken = Known(text, at); taken > 0) {
-        at += taken;
-      } else {
-        builder_.Text(std::string_view(&c, 1));
-        ++at;
+      if (kBlanks.contains(text[at])) {
+        flow_.Blank();
+        at = std::min(text.find_first_not_of(kBlanks, at), text.size());
+        continue;
       }
-      blank_ = blank;
-    }
-  }
-
-  /// Says a word of a lexicon; how many bytes it has.
-  std::size_t Known(std::string_view text, std::size_t at) {
-    for (auto lexicon = active_.rbegin(); lexicon != active_.rend(); ++lexicon) {
-      const Lexicon::Entry* entry = (*lexicon)->Find(text, at);
+      // A word, or what there is of it before one of a lexicon.
+      std::size_t end = at;
+      const Lexicon::Entry* entry = nullptr;
+      while (end < text.size() && !kBlanks.contains(text[end])) {
+        entry = Known(text, end);
+        if (entry != nullptr) break;
+        ++end;
+      }
+      flow_.Say(text.substr(at, end - at));
+      at = end;
       if (entry == nullptr) continue;
       const std::string& word = entry->grapheme;
-      builder_.Text(word, entry->alias.empty() ? Pronunciation(entry->ipa, word) : entry->alias);
-      return word.size();
+      flow_.Say(word, entry->alias.empty() ? Pronunciation(entry->ipa, word) : entry->alias);
+      at += word.size();
     }
-    return 0;
   }
 
+  /// The word of a lexicon that stands there; null if there is none.
+  const Lexicon::Entry* Known(std::string_view text, std::size_t at) const {
+    for (auto lexicon = active_.rbegin(); lexicon != active_.rend(); ++lexicon) {
+      if (const Lexicon::Entry* entry = (*lexicon)->Find(text, at)) return entry;
+    }
+    return nullptr;
+  }
+
+  /// All elements but marks and pauses of no length end the word before them.
   void Element(const Node& element) {
     const std::string& name = element.name;
-    if (name == "break") return Break(element);
     if (name == "mark") return builder_.Mark(element.Get("name"));
+    if (name == "break") return Break(element);
+    const bool token = name == "token" || name == "w";
+    token ? flow_.OpenToken() : flow_.Edge();
+    Inside(element);
+    token ? flow_.CloseToken() : flow_.Edge();
+  }
+
+  void Inside(const Node& element) {
+    const std::string& name = element.name;
     if (name == "metadata" || name == "meta" || name == "desc") return;
     if (name == "lexicon") return LoadLexicon(element);
     if (name == "audio" && Audio(element)) return;
@@ -241,8 +255,7 @@ class Reader {
     const std::string ph = element.Get("ph"), alphabet = element.Get("alphabet");
     const std::string text = vm::xml::Collapse(element.Text());
     if (IsKanaReading(ph)) {
-      builder_.Text(text.empty() ? ph : text, ph);
-      blank_ = false;
+      flow_.Say(text.empty() ? ph : text, ph);
       return true;
     }
     vm::Result<std::string> ipa = ph;
@@ -253,8 +266,7 @@ class Reader {
       return false;
     }
     const std::string written = text.empty() ? ph : text;
-    builder_.Text(written, Pronounced(*ipa, written));
-    blank_ = false;
+    flow_.Say(written, Pronounced(*ipa, written));
     return true;
   }
 
@@ -264,17 +276,16 @@ class Reader {
     if (element.Has("time") && !time) NoteValue(element, "time");
     const auto named = Lookup(kBreaks, strength);
     if (!named) NoteValue(element, "strength");
-    builder_.Pause(time ? *time : Millis(static_cast<std::int64_t>(named.value_or(300))));
+    const Millis length = time ? *time : Millis(static_cast<std::int64_t>(named.value_or(300)));
+    if (length.count() > 0) flow_.Edge();
+    builder_.Pause(length);
   }
 
   void Paragraph(const Node& element, int pause_ms) {
-    if (builder_.has_text()) {
-      builder_.Pause(Millis(pause_ms));
-      if (!blank_) builder_.Written(" ");
-    }
-    blank_ = true;
+    if (builder_.has_text()) builder_.Pause(Millis(pause_ms));
+    flow_.SentenceEdge();
     Children(element);
-    builder_.SetManner(builder_.manner());  // what follows is another sentence
+    flow_.SentenceEdge();
   }
 
   bool SayAs(const Node& element) {
@@ -284,8 +295,7 @@ class Reader {
       if (!vm::xml::IsBlank(text)) NoteValue(element, "interpret-as");
       return false;
     }
-    builder_.Text(vm::xml::Collapse(text), *spoken);
-    blank_ = false;
+    flow_.Say(vm::xml::Collapse(text), *spoken);
     return true;
   }
 
@@ -411,11 +421,11 @@ class Reader {
 
   const MarkupOptions& options_;
   SpanBuilder builder_;
+  TextFlow flow_{builder_};
   std::string language_;
   std::map<std::string, Lexicon> lexicons_;
   std::vector<const Lexicon*> active_;  ///< the innermost last
   bool everywhere_ = false;
-  bool blank_ = true;
   unsigned elements_ = 0;
 };
 

@@ -39,6 +39,7 @@ struct MarkupOptions {
 ///                where the engine can (flite, espeak-ng; kana: Japanese); what cannot be read is
 ///                spoken as it is written
 ///   lexicon uri, lookup ref   a file of the Pronunciation Lexicon Specification 1.0
+/// Where words and sentences end at elements: text_flow.h.
 /// Unknown elements are left out, what they hold is spoken; metadata is not. Numbers beyond the
 /// ranges of TaggedText are taken to their end. What is understood and cannot be done, and values
 /// that are none, are told in TaggedText::notes.

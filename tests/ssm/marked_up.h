@@ -32,8 +32,9 @@ struct Said {
   std::string sounds{}, words{};
   bool operator==(const Said&) const = default;
 };
-inline Said SaidBy(ssm::SpeechEngine& engine, const std::string& inside, const std::string& voice) {
-  const Spoken spoken = Speak(engine, SpansOf(inside, voice));
+inline Said SaidBy(ssm::SpeechEngine& engine, const std::string& inside, const std::string& voice,
+                   const ssm::MarkupOptions& options = {}) {
+  const Spoken spoken = Speak(engine, SpansOf(inside, voice, options));
   Said said;
   for (const vm::Phoneme& phoneme : spoken.plan.phonemes) {
     if (phoneme.name == "pau" || phoneme.name == "sil") continue;
