@@ -7,6 +7,7 @@
 
 #include "ssm/engines/language_runs.h"
 #include "ssm/engines/wav_piece.h"
+#include "ssm/voice/language_tag.h"
 #include "ssm/voice/resample.h"
 
 namespace ssm {
@@ -36,15 +37,6 @@ bool EndsInSign(std::string_view text) {
     if (text.ends_with(sign)) return true;
   }
   return false;
-}
-
-/// "en-GB" -> "en"
-std::string Primary(std::string_view language) {
-  std::string primary(language.substr(0, language.find_first_of("-_")));
-  std::ranges::transform(primary, primary.begin(), [](char c) {
-    return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  });
-  return primary;
 }
 
 /// The engine's silence at the end, beyond the joint, is left out.
@@ -136,6 +128,10 @@ EngineSet::EngineSet(std::vector<std::unique_ptr<SpeechEngine>> engines)
   }
 }
 
+bool EngineSet::Speaks(const std::string& language) const {
+  return std::ranges::any_of(engines_, [&](const auto& it) { return it->Speaks(language); });
+}
+
 std::size_t EngineSet::IndexOf(std::string_view voice) const {
   for (std::size_t i = 0; i < voices_.size(); ++i) {
     if (voices_[i].name == voice) return i;
@@ -182,7 +178,7 @@ std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans
     const std::size_t base = IndexOf(span.voice);
     std::vector<LanguageRun> pieces = span.language.empty()
                                           ? SplitLanguages(span.text, voices_[base].language)
-                                          : SplitAsked(span.text, Primary(span.language));
+                                          : SplitAsked(span.text, PrimaryLanguage(span.language));
     if (span.pause_before.count() > 0 || span.begins_sentence) before.clear();
     if (!span.audio.empty() || pieces.empty()) {
       add(span, base, false);

@@ -29,6 +29,7 @@ void SpanBuilder::Pause(Millis length) {
     Begin();
     result_.spans.push_back(std::exchange(span_, next));
   }
+  if (pause_ + length > kLongestPause) Note("pauses in a row are cut to 60 s");
   pause_ = std::min(pause_ + length, kLongestPause);
 }
 

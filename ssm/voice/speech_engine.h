@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -107,6 +108,10 @@ class SpeechEngine {
   virtual ~SpeechEngine() = default;
   /// Constant; not empty; the first is the default.
   virtual const std::vector<VoiceInfo>& voices() const = 0;
+  /// Whether text in a language (primary tag, lower case) can be spoken.
+  virtual bool Speaks(const std::string& language) const {
+    return std::ranges::find(voices(), language, &VoiceInfo::language) != voices().end();
+  }
   /// Whole milliseconds; deterministic: the same spans give the same plan.
   virtual vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
                                       const std::atomic<bool>& cancelled) = 0;
