@@ -85,8 +85,8 @@ std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSp
   if (clip.speed != 1 && !once.empty()) {
     once = Resample(once, std::llround(kSampleRateHz * clip.speed), kSampleRateHz);
   }
-  constexpr Millis kMost{600'000};
-  const std::size_t most = ToFrames(clip.most.count() > 0 ? std::min(clip.most, kMost) : kMost);
+  const std::size_t most =
+      ToFrames(clip.most.count() > 0 ? std::min(clip.most, kLongestPlayed) : kLongestPlayed);
   const auto wanted = static_cast<double>(once.size()) * clip.repeats;
   std::vector<std::int16_t> sound;
   const auto length = static_cast<std::size_t>(std::min(
@@ -104,6 +104,11 @@ vm::Result<Part> PlayedFile(const SpeechSpan& span) {
   if (!samples) return std::unexpected(samples.error());
   *samples = Clipped(std::move(*samples), span.clip);
   Part part;
+  const bool full = ToMs(samples->size()) >= kLongestPlayed;
+  if (full && span.clip.repeats != 1 && span.clip.most.count() == 0) {
+    part.plan.unspoken = "'" + span.audio + "' is repeated for " +
+                         std::to_string(kLongestPlayed.count() / 1000) + " s, the limit";
+  }
   ScaleSamples(*samples, span.volume);
   const Millis sound = ToMs(samples->size());
   samples->insert(samples->begin(), ToFrames(span.pause_before), 0);

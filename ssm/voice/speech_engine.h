@@ -84,11 +84,14 @@ struct SpeechPlan {
       phonemes{};  ///< never empty: a text with nothing to say is one pause, kEmptyPause
   std::vector<WordTime> words{};
   std::vector<MarkTime> marks{};
-  std::string unspoken{};  ///< a sentence for people if characters had to be left out; else empty
+  /// A sentence for people if something had to be left out or could not be done; else empty.
+  std::string unspoken{};
   std::shared_ptr<const Detail> detail{};
 };
 
 inline constexpr Millis kEmptyPause{10};
+/// How long a sound file is played at most, with all its repeats.
+inline constexpr Millis kLongestPlayed{600'000};
 
 /// One voice an engine has.
 struct VoiceInfo {

@@ -12,9 +12,8 @@
 
 namespace ssm {
 
-/// The longest pause and <prosody duration>; the longest sound of <audio>.
+/// The longest pause and <prosody duration>.
 inline constexpr Millis kLongestAsked{60'000};
-inline constexpr Millis kLongestPlayed{600'000};
 
 /// A word of the standard and the number this implementation gives it.
 struct NamedValue {
