@@ -192,6 +192,10 @@ class Speller {
 class RuleEngine final : public ssm::SpeechEngine {
  public:
   const std::vector<ssm::VoiceInfo>& voices() const override { return voices_; }
+  /// Any voice reads kana and romaji as well.
+  bool Speaks(const std::string& language) const override {
+    return language == "en" || language == "ja";
+  }
 
   vm::Result<ssm::SpeechPlan> Plan(const std::vector<ssm::SpeechSpan>& spans,
                                    const std::atomic<bool>&) override {

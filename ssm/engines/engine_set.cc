@@ -7,6 +7,7 @@
 
 #include "ssm/engines/language_runs.h"
 #include "ssm/engines/wav_piece.h"
+#include "ssm/voice/language_tag.h"
 #include "ssm/voice/resample.h"
 
 namespace ssm {
@@ -36,15 +37,6 @@ bool EndsInSign(std::string_view text) {
     if (text.ends_with(sign)) return true;
   }
   return false;
-}
-
-/// "en-GB" -> "en"
-std::string Primary(std::string_view language) {
-  std::string primary(language.substr(0, language.find_first_of("-_")));
-  std::ranges::transform(primary, primary.begin(), [](char c) {
-    return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  });
-  return primary;
 }
 
 /// The engine's silence at the end, beyond the joint, is left out.
@@ -93,8 +85,8 @@ std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSp
   if (clip.speed != 1 && !once.empty()) {
     once = Resample(once, std::llround(kSampleRateHz * clip.speed), kSampleRateHz);
   }
-  constexpr Millis kMost{600'000};
-  const std::size_t most = ToFrames(clip.most.count() > 0 ? std::min(clip.most, kMost) : kMost);
+  const std::size_t most =
+      ToFrames(clip.most.count() > 0 ? std::min(clip.most, kLongestPlayed) : kLongestPlayed);
   const auto wanted = static_cast<double>(once.size()) * clip.repeats;
   std::vector<std::int16_t> sound;
   const auto length = static_cast<std::size_t>(std::min(
@@ -112,6 +104,11 @@ vm::Result<Part> PlayedFile(const SpeechSpan& span) {
   if (!samples) return std::unexpected(samples.error());
   *samples = Clipped(std::move(*samples), span.clip);
   Part part;
+  const bool full = ToMs(samples->size()) >= kLongestPlayed;
+  if (full && span.clip.repeats != 1 && span.clip.most.count() == 0) {
+    part.plan.unspoken = "'" + span.audio + "' is repeated for " +
+                         std::to_string(kLongestPlayed.count() / 1000) + " s, the limit";
+  }
   ScaleSamples(*samples, span.volume);
   const Millis sound = ToMs(samples->size());
   samples->insert(samples->begin(), ToFrames(span.pause_before), 0);
@@ -134,6 +131,10 @@ EngineSet::EngineSet(std::vector<std::unique_ptr<SpeechEngine>> engines)
       engine_of_.push_back(i);
     }
   }
+}
+
+bool EngineSet::Speaks(const std::string& language) const {
+  return std::ranges::any_of(engines_, [&](const auto& it) { return it->Speaks(language); });
 }
 
 std::size_t EngineSet::IndexOf(std::string_view voice) const {
@@ -182,8 +183,8 @@ std::vector<EngineSet::Run> EngineSet::Runs(const std::vector<SpeechSpan>& spans
     const std::size_t base = IndexOf(span.voice);
     std::vector<LanguageRun> pieces = span.language.empty()
                                           ? SplitLanguages(span.text, voices_[base].language)
-                                          : SplitAsked(span.text, Primary(span.language));
-    if (span.pause_before.count() > 0) before.clear();
+                                          : SplitAsked(span.text, PrimaryLanguage(span.language));
+    if (span.pause_before.count() > 0 || span.begins_sentence) before.clear();
     if (!span.audio.empty() || pieces.empty()) {
       add(span, base, false);
       before.clear();

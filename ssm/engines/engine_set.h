@@ -24,6 +24,7 @@ class EngineSet final : public SpeechEngine {
   explicit EngineSet(std::vector<std::unique_ptr<SpeechEngine>> engines);
 
   const std::vector<VoiceInfo>& voices() const override { return voices_; }
+  bool Speaks(const std::string& language) const override;
   vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
                               const std::atomic<bool>& cancelled) override;
   vm::Result<void> Render(const SpeechPlan& plan, SampleBuffer& samples) override;

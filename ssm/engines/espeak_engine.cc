@@ -16,6 +16,7 @@
 #include "ssm/voice/phoneme_map.h"
 #include "ssm/voice/pronounced_text.h"
 #include "ssm/voice/resample.h"
+#include "ssm/voice/word_signs.h"
 #include "vm_protocol/core/utf8.h"
 #ifdef SSM_HAS_MECAB
 #include "ssm/japanese/reader.h"
@@ -113,18 +114,21 @@ class EspeakEngine final : public PieceEngine {
 #endif
   }
 
-  /// Pronunciations in brackets, as espeak-ng reads them: [[h@l'oU]]. Brackets of the text's own
-  /// are parted.
+  /// Pronunciations in brackets, as espeak-ng reads them: [[h@l'oU]]. It reads them behind a blank
+  /// only, not behind a quote or a bracket. Brackets of the text's own are parted.
   static vm::Result<Script> WithMnemonics(const std::string& text) {
     Script script;
     for (const TextPiece& piece : CutPronounced(text)) {
       const auto mnemonics = IpaForEspeak(piece.ipa);
       if (!piece.ipa.empty() && mnemonics) {
+        if (!script.text.empty() && script.text.back() != ' ') script.text += ' ';
         const std::size_t begin = vm::SignsOf(script.text).size();
         script.text += "[[" + *mnemonics + "]]";
         script.pronounced.push_back({begin, vm::SignsOf(script.text).size(), piece.text});
         continue;
       }
+      const bool behind_one = script.text.ends_with("]]") && !script.pronounced.empty();
+      if (behind_one && IsWordSign(FirstSign(piece.text))) script.text += ' ';
       for (const char c : piece.text) {
         if (c == '[' && script.text.ends_with('[')) script.text += ' ';
         script.text += c;

@@ -34,8 +34,8 @@ class FliteAssembly {
   void Mark(const std::string& name) {
     if (!name.empty()) plan_.marks.push_back({name, at_});
   }
-  /// `goes_on`: the unit before is of the same span, cut where sentences or commas end; else it may
-  /// have been cut anywhere.
+  /// `goes_on`: the unit before was cut where a sentence or a comma ends; else it may have been cut
+  /// anywhere.
   void Sentence(FliteUnit unit, FliteAnalysis analysis, bool goes_on) {
     auto& phonemes = analysis.phonemes;
     if (spoke_ && !goes_on && !ended_) {

@@ -93,7 +93,7 @@ vm::Result<SpeechPlan> FliteEngine::Plan(const std::vector<SpeechSpan>& spans,
     const EnglishText english = NamePronounced(span.text);
     const AsciiText ascii = ToAscii(english.text);
     if (left_out.empty()) left_out = ascii.left_out;
-    bool goes_on = false;
+    bool goes_on = span.begins_sentence;  // cut where a sentence ends
     for (std::string& sentence : SplitSentences(ascii.text)) {
       if (cancelled) return vm::Fail(vm::Errc::kStopped, "stopped while the text was prepared");
       FliteUnit unit{.sentence = {.text = std::move(sentence),

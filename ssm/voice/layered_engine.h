@@ -26,6 +26,7 @@ class LayeredEngine final : public SpeechEngine {
   explicit LayeredEngine(std::unique_ptr<SpeechEngine> engine) : engine_(std::move(engine)) {}
 
   const std::vector<VoiceInfo>& voices() const override { return engine_->voices(); }
+  bool Speaks(const std::string& language) const override { return engine_->Speaks(language); }
   vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
                               const std::atomic<bool>& cancelled) override;
   vm::Result<void> Render(const SpeechPlan& plan, SampleBuffer& samples) override;

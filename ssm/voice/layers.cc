@@ -15,6 +15,8 @@ namespace ssm {
 namespace {
 
 constexpr std::size_t kFadeFrames = 5 * kFramesPerMs;
+/// How many times as long, or as short, a duration that was asked for makes its words.
+constexpr double kMostStretched = 10;
 
 bool IsPause(const vm::Phoneme& phoneme) { return phoneme.name == "pau" || phoneme.name == "sil"; }
 
@@ -36,7 +38,10 @@ class Group {
   explicit Group(Layers& layers) : layers_(layers) {}
 
   void Add(const SpeechSpan& span) {
-    if (!parts_.empty() && !GoesOn(*parts_.back().span, span)) Flush();
+    const bool goes_on =
+        parts_.empty() || (GoesOn(*parts_.back().span, span) && !span.begins_sentence);
+    if (!goes_on) Flush();
+    begins_sentence_ = begins_sentence_ || span.begins_sentence;
     parts_.push_back({&span, text_.size()});
     text_ += span.text;
   }
@@ -53,6 +58,7 @@ class Group {
     }
     parts_.clear();
     text_.clear();
+    begins_sentence_ = false;
   }
 
  private:
@@ -104,6 +110,7 @@ class Group {
       span.voice = parts_.front().span->voice;
       span.language = parts_.front().span->language;
       span.feeling = parts_.front().span->feeling;
+      span.begins_sentence = begins_sentence_ && spans.size() == first;
       span.stretch = own.stretch;
       span.pitch = own.pitch;
       span.volume = own.volume;
@@ -130,6 +137,7 @@ class Group {
   Layers& layers_;
   std::vector<Part> parts_;
   std::string text_;
+  bool begins_sentence_ = false;
 };
 
 /// The engine's phonemes with what is laid over each of them.
@@ -163,7 +171,7 @@ class Overlay {
 
   SpeechPlan Plan() const {
     SpeechPlan plan;
-    plan.unspoken = plan_.unspoken;
+    plan.unspoken = plan_.unspoken.empty() ? unkept_ : plan_.unspoken;
     plan.detail = plan_.detail;
     for (std::size_t i = 0; i <= lengths_.size(); ++i) {
       AddPause(plan.phonemes, inserted_[i]);
@@ -244,8 +252,13 @@ class Overlay {
     for (std::size_t i = 0; i < lengths_.size(); ++i) {
       if (manner_of_[i] == nullptr || manner_of_[i]->lasts.count() == 0) continue;
       const auto& [own, lasts] = wanted[manner_of_[i]->element];
-      const double factor = std::clamp(
-          static_cast<double>(lasts.count()) / static_cast<double>(own.count()), 0.1, 10.0);
+      const double asked = static_cast<double>(lasts.count()) / static_cast<double>(own.count());
+      const double factor = std::clamp(asked, 1 / kMostStretched, kMostStretched);
+      if (factor != asked && unkept_.empty()) {
+        unkept_ = "a duration of " + std::to_string(lasts.count()) + " ms is asked of " +
+                  std::to_string(own.count()) +
+                  " ms of speech, which is made at most ten times as long or as short";
+      }
       double& carried = rest[manner_of_[i]->element];
       const double exact = static_cast<double>(lengths_[i].count()) * factor + carried;
       lengths_[i] = std::max(Millis{1}, Millis(std::lround(exact)));
@@ -318,6 +331,7 @@ class Overlay {
   std::vector<Millis> edges_;                     ///< of the engine's phonemes
   std::vector<Millis> lengths_;                   ///< the new ones
   std::vector<Millis> starts_;                    ///< of the new ones; the last is the end
+  std::string unkept_;                            ///< of a duration that was not reached
 };
 
 /// What the contour makes of a pitch.

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <utility>
 
 #include "embedded/ipa.h"
 #include "ssm/voice/samples.h"
+#include "ssm/voice/word_signs.h"
 
 namespace ssm {
 namespace {
@@ -196,7 +198,9 @@ EnglishText NamePronounced(std::string_view text) {
   if (!text.contains(kBegin)) return {.text = std::string(text)};
   static constexpr std::string_view kConsonants = "bdfgklmnprstvz";
   EnglishText english;
+  bool named = false;  // a made-up word was the last
   for (const TextPiece& piece : CutPronounced(text)) {
+    if (std::exchange(named, false) && IsWordSign(FirstSign(piece.text))) english.text += ' ';
     const auto phonemes = IpaForFlite(piece.ipa);  // (an error where there is none)
     if (!phonemes) {
       english.text += piece.text;
@@ -208,7 +212,10 @@ EnglishText NamePronounced(std::string_view text) {
     const std::string name = std::string("za") + kConsonants[number % most] + "o" +
                              kConsonants[number / most % most] + "ova";
     english.made.push_back({name, piece.text, *phonemes});
+    // With letters beside it the word would not be found in the lexicon.
+    if (IsWordSign(LastSign(english.text))) english.text += ' ';
     english.text += name;
+    named = true;
   }
   return english;
 }

@@ -42,7 +42,8 @@ struct EnglishText {
   std::string text{};
   std::vector<Made> made{};
 };
-/// A word whose IPA cannot be read stands as it is written.
+/// A word whose IPA cannot be read stands as it is written. Letters and figures directly beside a
+/// pronounced word are parted from it by a blank.
 EnglishText NamePronounced(std::string_view text);
 
 }  // namespace ssm

@@ -29,6 +29,7 @@ void SpanBuilder::Pause(Millis length) {
     Begin();
     result_.spans.push_back(std::exchange(span_, next));
   }
+  if (pause_ + length > kLongestPause) Note("pauses in a row are cut to 60 s");
   pause_ = std::min(pause_ + length, kLongestPause);
 }
 
@@ -59,12 +60,18 @@ SpeechSpan SpanBuilder::manner() const {
   manner.mark.clear();
   manner.audio.clear();
   manner.clip = {};
+  manner.begins_sentence = false;
   return manner;
 }
 
 void SpanBuilder::SetManner(SpeechSpan manner) {
   Cut();
   span_ = std::move(manner);
+}
+
+void SpanBuilder::BeginSentence() {
+  Cut();
+  begins_sentence_ = true;
 }
 
 void SpanBuilder::Begin() {
@@ -77,6 +84,7 @@ void SpanBuilder::Cut() {
   if (span_.text.empty()) return;
   const SpeechSpan next = manner();
   Begin();
+  span_.begins_sentence = std::exchange(begins_sentence_, false);
   result_.spans.push_back(std::exchange(span_, next));
 }
 

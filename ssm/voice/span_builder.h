@@ -28,6 +28,8 @@ class SpanBuilder {
   /// The manner in force, without text. What is changed in it counts for the text that follows.
   SpeechSpan manner() const;
   void SetManner(SpeechSpan manner);
+  /// The text that follows is a sentence of its own, whatever is before it.
+  void BeginSentence();
   bool has_text() const { return has_text_; }
   TaggedText Finish();
 
@@ -40,6 +42,7 @@ class SpanBuilder {
   Millis pause_{0};
   std::string mark_;
   bool has_text_ = false;
+  bool begins_sentence_ = false;
 };
 
 /// Slower, higher and louder by `amount` (1 = plain emphasis, negative = less than usual).

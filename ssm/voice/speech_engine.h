@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -37,11 +38,12 @@ struct Intonation {
 struct SpeechSpan {
   std::string text{};
   Millis pause_before{0};
-  std::string mark{};   ///< name of a mark at its beginning (after the pause); empty = none
-  std::string voice{};  ///< one of the engine's own names
-  double stretch = 1;   ///< relative duration: 2 = twice as slow
-  double pitch = 1;     ///< relative pitch
-  double volume = 1;    ///< relative loudness of the samples
+  std::string mark{};  ///< name of a mark at its beginning (after the pause); empty = none
+  bool begins_sentence = false;  ///< the text is not analysed together with what is before it
+  std::string voice{};           ///< one of the engine's own names
+  double stretch = 1;            ///< relative duration: 2 = twice as slow
+  double pitch = 1;              ///< relative pitch
+  double volume = 1;             ///< relative loudness of the samples
   std::string audio{};  ///< a sound file played instead of `text` where an engine can; else empty
   Feeling feeling{};
   /// How the sound file is played.
@@ -82,11 +84,14 @@ struct SpeechPlan {
       phonemes{};  ///< never empty: a text with nothing to say is one pause, kEmptyPause
   std::vector<WordTime> words{};
   std::vector<MarkTime> marks{};
-  std::string unspoken{};  ///< a sentence for people if characters had to be left out; else empty
+  /// A sentence for people if something had to be left out or could not be done; else empty.
+  std::string unspoken{};
   std::shared_ptr<const Detail> detail{};
 };
 
 inline constexpr Millis kEmptyPause{10};
+/// How long a sound file is played at most, with all its repeats.
+inline constexpr Millis kLongestPlayed{600'000};
 
 /// One voice an engine has.
 struct VoiceInfo {
@@ -106,6 +111,10 @@ class SpeechEngine {
   virtual ~SpeechEngine() = default;
   /// Constant; not empty; the first is the default.
   virtual const std::vector<VoiceInfo>& voices() const = 0;
+  /// Whether text in a language (primary tag, lower case) can be spoken.
+  virtual bool Speaks(const std::string& language) const {
+    return std::ranges::find(voices(), language, &VoiceInfo::language) != voices().end();
+  }
   /// Whole milliseconds; deterministic: the same spans give the same plan.
   virtual vm::Result<SpeechPlan> Plan(const std::vector<SpeechSpan>& spans,
                                       const std::atomic<bool>& cancelled) = 0;

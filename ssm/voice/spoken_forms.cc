@@ -284,4 +284,20 @@ Spoken SpokenForm(std::string_view how, std::string_view format, std::string_vie
   return {};
 }
 
+std::string_view ExpectedOf(std::string_view how) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kExpected = {
+      {{"characters", "letters or figures"},
+       {"spell-out", "letters or figures"},
+       {"digits", "figures"},
+       {"telephone", "figures"},
+       {"cardinal", "a whole number of at most 15 digits"},
+       {"number", "a whole number of at most 15 digits"},
+       {"ordinal", "a whole number of at most 15 digits"},
+       {"date", "the figures its format names, with / - or . between"},
+       {"time", "hours, minutes and seconds as 14:30 or 2:05pm"},
+       {"currency", "an amount with $, €, £, ¥ or the code of one of them"}}};
+  const auto found = std::ranges::find(kExpected, how, [](const auto& it) { return it.first; });
+  return found == kExpected.end() ? std::string_view() : found->second;
+}
+
 }  // namespace ssm

@@ -22,4 +22,8 @@ namespace ssm {
 std::optional<std::string> SpokenForm(std::string_view how, std::string_view format,
                                       std::string_view text, std::string_view language);
 
+/// What a text has to be for that meaning ("a whole number of at most 15 digits"); empty if the
+/// meaning is not known.
+std::string_view ExpectedOf(std::string_view how);
+
 }  // namespace ssm

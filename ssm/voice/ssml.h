@@ -16,6 +16,8 @@ bool IsSsml(std::string_view text);
 /// What a markup's reader may ask of the world.
 struct MarkupOptions {
   std::string language = "en";  ///< of the speaker: how <say-as> is read where nothing else is said
+  /// Whether any voice speaks a language ("en", "ja"). Empty: every language is spoken.
+  std::function<bool(const std::string& language)> speaks{};
   /// Whether a file can be played; else what <audio> holds is spoken. Empty: every file can.
   std::function<bool(const std::string& path)> is_sound{};
   /// The content of a lexicon. Empty: there is none.
@@ -38,12 +40,17 @@ struct MarkupOptions {
 ///   phoneme ph in IPA (alphabet ipa or none), x-sampa, x-arpabet, or kana: that pronunciation
 ///                where the engine can (flite, espeak-ng; kana: Japanese); what cannot be read is
 ///                spoken as it is written
+///   xml:base                   what relative uri and src are resolved against (markup_uri.h)
+///   onlangfailure              of text in a language that no voice speaks (section 3.1.13), which
+///   is
+///                told: ignoretext leaves it out; changevoice, ignorelang and processorchoice read
+///                it as what is around it
 ///   lexicon uri, lookup ref   a file of the Pronunciation Lexicon Specification 1.0
-/// Unknown elements are left out, what they hold is spoken; metadata is not. Numbers beyond the
-/// ranges of TaggedText are taken to their end. What is understood and cannot be done, and values
-/// that are none, are told in TaggedText::notes.
-/// Errors: kSyntax "SSML:LINE:COLUMN: reason" for broken XML, entities that grow beyond measure,
-/// depth over 64.
+/// Where words and sentences end at elements: text_flow.h.
+/// Unknown elements are left out, what they hold is spoken; metadata is not. What is understood and
+/// cannot be done, values that are none, and numbers beyond a limit, which are taken to it, are
+/// told in TaggedText::notes. Errors: kSyntax "SSML:LINE:COLUMN: reason" for broken XML, entities
+/// that grow beyond measure, depth over 64.
 vm::Result<TaggedText> ParseSsml(std::string_view text, const MarkupOptions& options = {});
 
 /// Either of the two markups, told apart by IsSsml.

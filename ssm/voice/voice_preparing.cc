@@ -97,11 +97,12 @@ void VoiceModule::Prepare(const std::string& text, const vm::Reply& reply,
 }
 
 vm::Result<TaggedText> VoiceModule::ReadText(const std::string& text) {
-  auto read = ReadMarkup(text, {.language = voice_.language,
-                                .is_sound = IsSoundFile,
-                                .read_file = [](const std::string& path) {
-                                  return vm::ReadTextFile(path, kMaxLexiconBytes);
-                                }});
+  auto read = ReadMarkup(
+      text, {.language = voice_.language,
+             .speaks = [this](const std::string& language) { return engine_->Speaks(language); },
+             .is_sound = IsSoundFile,
+             .read_file =
+                 [](const std::string& path) { return vm::ReadTextFile(path, kMaxLexiconBytes); }});
   if (!read) return read;
   for (const std::string& note : read->notes) {
     if (noted_.size() < kMostNotes && noted_.insert(note).second) {

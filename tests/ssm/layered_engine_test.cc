@@ -12,9 +12,11 @@
 #include "ssm/engines/espeak_engine.h"
 #include "ssm/engines/hts_engine.h"
 #include "ssm/engines/open_jtalk_engine.h"
+#include "ssm/engines/wav_piece.h"
 #include "ssm/flite/flite_engine.h"
 #include "ssm/voice/pitch_track.h"
 #include "ssm/voice/ssml.h"
+#include "ssm/voice/wav_file.h"
 #include "ssm_stub/rule_engine.h"
 #include "tests/ssm/spoken.h"
 #include "tests/support/test_data.h"
@@ -254,6 +256,26 @@ TEST_F(OverFliteTest, AContourBendsThePitchOverItsElement) {
 TEST_F(OverFliteTest, ADurationIsKept) {
   const auto said = Said("I <prosody duration='2s'>want the red</prosody> one");
   EXPECT_EQ(said.plan.words[3].end - said.plan.words[1].start, Millis(2000));
+}
+
+TEST_F(OverFliteTest, ADurationOutOfReachIsTold) {
+  const auto said = Said("I <prosody duration='50s'>want</prosody> one");
+  EXPECT_TRUE(said.plan.unspoken.starts_with("a duration of 50000 ms is asked of "))
+      << said.plan.unspoken;
+  EXPECT_EQ(Said("I <prosody duration='1s'>want</prosody> one").plan.unspoken, "");
+}
+
+TEST_F(OverFliteTest, ASoundRepeatedBeyondTheLimitIsTold) {
+  const ssm::TemporaryFolder folder;
+  const std::string wav = folder.File("second.wav");
+  ASSERT_TRUE(ssm::WriteWav(wav, std::vector<std::int16_t>(16'000, 100)));
+  const auto planned = [&](const std::string& count) {
+    return Plan(engine_, "<audio src='" + wav + "' repeatCount='" + count + "'/>", "slt");
+  };
+  const SpeechPlan cut = planned("700");
+  EXPECT_EQ(vm::TotalDuration(cut.phonemes), ssm::kLongestPlayed);
+  EXPECT_EQ(cut.unspoken, "'" + wav + "' is repeated for 600 s, the limit");
+  EXPECT_EQ(planned("3").unspoken, "");
 }
 
 TEST_F(OverFliteTest, VolumeIsOnItsScaleAndNeverCut) {

@@ -68,7 +68,7 @@ TEST(SsmlTest, OtherElementsChangeWhatIsSaid) {
             "0 3, 1 2");
   EXPECT_EQ(Read("<speak><phoneme ph='キョ’ー'>今日</phoneme></speak>").spans[0].text, "キョ’ー");
   EXPECT_EQ(Read("<speak><phoneme ph='#!'>x</phoneme></speak>").spans[0].text, "x");
-  EXPECT_EQ(Read("<speak>a<unknown>b</unknown><metadata>c</metadata></speak>").plain, "ab");
+  EXPECT_EQ(Read("<speak>a<unknown>b</unknown><metadata>c</metadata></speak>").plain, "a b");
   EXPECT_EQ(Read("<speak><voice name='rms'>b</voice></speak>").spans[0].voice, "rms");
   EXPECT_GT(Read("<speak><emphasis level='strong'>b</emphasis></speak>").spans[0].volume, 1.3);
   EXPECT_EQ(Read("<speak>a<audio src='x.wav'>no</audio></speak>").spans[1].audio, "x.wav");
