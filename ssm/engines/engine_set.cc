@@ -75,8 +75,9 @@ void Join(SpeechPlan& whole, const Part& part, const SpeechPlan& plan, Millis st
   }
 }
 
-/// The file's sound as the clip wants it.
-std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSpan::Clip& clip) {
+/// The file's sound as the clip wants it. `cut`: its repeats would take longer than they may.
+std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSpan::Clip& clip,
+                                  bool& cut) {
   const std::size_t begin = std::min(ToFrames(clip.begin), file.size());
   const std::size_t end =
       clip.end.count() > 0 ? std::min(ToFrames(clip.end), file.size()) : file.size();
@@ -88,6 +89,7 @@ std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSp
   const std::size_t most =
       ToFrames(clip.most.count() > 0 ? std::min(clip.most, kLongestPlayed) : kLongestPlayed);
   const auto wanted = static_cast<double>(once.size()) * clip.repeats;
+  cut = clip.repeats != 1 && clip.most.count() == 0 && wanted > static_cast<double>(most);
   std::vector<std::int16_t> sound;
   const auto length = static_cast<std::size_t>(std::min(
       wanted,
@@ -102,10 +104,10 @@ std::vector<std::int16_t> Clipped(std::vector<std::int16_t> file, const SpeechSp
 vm::Result<Part> PlayedFile(const SpeechSpan& span) {
   auto samples = ReadSoundFile(span.audio);
   if (!samples) return std::unexpected(samples.error());
-  *samples = Clipped(std::move(*samples), span.clip);
+  bool cut = false;
+  *samples = Clipped(std::move(*samples), span.clip, cut);
   Part part;
-  const bool full = ToMs(samples->size()) >= kLongestPlayed;
-  if (full && span.clip.repeats != 1 && span.clip.most.count() == 0) {
+  if (cut) {
     part.plan.unspoken = "'" + span.audio + "' is repeated for " +
                          std::to_string(kLongestPlayed.count() / 1000) + " s, the limit";
   }

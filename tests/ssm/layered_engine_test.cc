@@ -275,7 +275,7 @@ TEST_F(OverFliteTest, ASoundRepeatedBeyondTheLimitIsTold) {
   const SpeechPlan cut = planned("700");
   EXPECT_EQ(vm::TotalDuration(cut.phonemes), ssm::kLongestPlayed);
   EXPECT_EQ(cut.unspoken, "'" + wav + "' is repeated for 600 s, the limit");
-  EXPECT_EQ(planned("3").unspoken, "");
+  EXPECT_EQ(planned("600").unspoken, "");
 }
 
 TEST_F(OverFliteTest, VolumeIsOnItsScaleAndNeverCut) {
