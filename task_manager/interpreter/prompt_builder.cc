@@ -1,12 +1,15 @@
 #include "task_manager/interpreter/prompt_builder.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "task_manager/document/values.h"
 #include "task_manager/fetch/uri.h"
+#include "task_manager/grammar/text.h"
 #include "task_manager/interpreter/choices.h"
 #include "task_manager/interpreter/prompt_writer.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace vxml {
 
@@ -61,9 +64,23 @@ void PromptBuilder::AddChildren(const vm::xml::Node& node) {
 void PromptBuilder::Words(const std::string& text) {
   if (text.empty()) return;
   rt_.budget.StepForBytes(text.size());
+  if (std::exchange(at_edge_, false)) PartWords(text);
   words_ += text;
   prompt_.text += text;
   ssml_ += vm::xml::Escape(text);
+}
+
+void PromptBuilder::PartWords(const std::string& next) {
+  const auto is_word = [](std::string_view text, std::size_t at) {
+    const char32_t sign = vm::SignAt(text, at).value;
+    return sign < 0x80 ? std::isalnum(static_cast<int>(sign)) != 0 : !srgs::IsUnspaced(sign);
+  };
+  if (prompt_.text.empty() || next.empty()) return;
+  std::size_t last = prompt_.text.size() - 1;
+  while (last > 0 && !vm::BeginsSign(prompt_.text[last])) --last;
+  if (!is_word(prompt_.text, last) || !is_word(next, 0)) return;
+  words_ += ' ';
+  prompt_.text += ' ';
 }
 
 void PromptBuilder::EndWords() {
@@ -93,6 +110,7 @@ void PromptBuilder::Speech(const vm::xml::Node& node) {
     open += " " + attribute.name + "=\"" + vm::xml::Escape(attribute.value) + "\"";
   }
   ssml_ += open + ">";
+  at_edge_ = true;
   const std::string id = node.Get("id");
   if (!id.empty()) Anchor(id + ":start");
   const bool block =
@@ -112,6 +130,7 @@ void PromptBuilder::Speech(const vm::xml::Node& node) {
     prompt_.text += " ";
   }
   ssml_ += "</" + node.name + ">";
+  at_edge_ = true;
   if (!id.empty()) Anchor(id + ":end");
 }
 

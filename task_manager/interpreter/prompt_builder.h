@@ -23,6 +23,9 @@ class PromptBuilder {
  private:
   void AddChildren(const vm::xml::Node& node);
   void Words(const std::string& text);
+  /// A word ends at the edge of an element of SSML (1.1 section 3.1.8.2), but for scripts that are
+  /// written without blanks.
+  void PartWords(const std::string& next);
   void EndWords();
   void Command(const std::string& line, Millis wait, bool parallel);
   void Speech(const vm::xml::Node& node);
@@ -56,7 +59,8 @@ class PromptBuilder {
   Prompt& prompt_;
   std::string words_;
   std::string ssml_;
-  std::string speech_;  ///< id of the element around the words, "" = none
+  bool at_edge_ = false;  ///< of an element, since the last words
+  std::string speech_;    ///< id of the element around the words, "" = none
   std::vector<Feeling> feelings_;
   std::map<std::string, std::size_t> anchors_;  ///< point -> the segment behind it
   std::vector<Deferred> deferred_;
