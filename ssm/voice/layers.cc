@@ -183,7 +183,11 @@ class Overlay {
     }
     for (const MarkTime& mark : plan_.marks) plan.marks.push_back({mark.name, Start(mark.at)});
     AddMarks(plan.marks);
-    std::ranges::stable_sort(plan.marks, {}, &MarkTime::at);
+    // Of those at one instant the order stays; std::stable_sort is deprecated inside for clang.
+    std::multimap<decltype(MarkTime::at), MarkTime> in_order;
+    for (MarkTime& mark : plan.marks) in_order.emplace(mark.at, std::move(mark));
+    plan.marks.clear();
+    for (auto& [at, mark] : in_order) plan.marks.push_back(std::move(mark));
     return plan;
   }
 

@@ -72,15 +72,21 @@ vm::Result<Lexicon> Lexicon::Parse(std::string_view xml, const std::string& name
       if (!child->IsElement("grapheme")) continue;
       entry.grapheme = vm::xml::Collapse(child->Text());
       if (entry.grapheme.empty()) continue;
+      if (entry.grapheme.size() > kMaxGrapheme ||
+          entry.alias.size() + entry.ipa.size() > kMaxSaid) {
+        return vm::Fail(vm::Errc::kLimit, name + ":" + std::to_string(lexeme->line) +
+                                              ": a word over " + std::to_string(kMaxGrapheme) +
+                                              " bytes, or one said in over " +
+                                              std::to_string(kMaxSaid));
+      }
       if (lexicon.entries_.size() >= kMaxEntries) {
         return vm::Fail(vm::Errc::kLimit,
                         name + ": more than " + std::to_string(kMaxEntries) + " words");
       }
       lexicon.longest_ = std::max(lexicon.longest_, entry.grapheme.size());
-      lexicon.entries_.push_back(entry);
+      lexicon.entries_.emplace(entry.grapheme, entry);
     }
   }
-  std::ranges::stable_sort(lexicon.entries_, {}, &Entry::grapheme);
   return lexicon;
 }
 
@@ -91,8 +97,7 @@ const Lexicon::Entry* Lexicon::Find(std::string_view text, std::size_t at) const
     const bool cut = at + size < text.size() && IsSpacedLetter(text, at + size) &&
                      IsSpacedLetter(text, Before(text, at + size));
     if (cut) continue;
-    const auto found = std::ranges::lower_bound(entries_, word, {}, &Entry::grapheme);
-    if (found != entries_.end() && found->grapheme == word) return &*found;
+    if (const auto found = entries_.find(word); found != entries_.end()) return &found->second;
   }
   return nullptr;
 }

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "vm_protocol/core/result.h"
 
@@ -15,6 +15,8 @@ namespace ssm {
 class Lexicon {
  public:
   static constexpr std::size_t kMaxEntries = 20'000;
+  static constexpr std::size_t kMaxGrapheme = 120;  ///< bytes
+  static constexpr std::size_t kMaxSaid = 1000;     ///< bytes of an alias or pronunciation
 
   struct Entry {
     std::string grapheme{};
@@ -29,8 +31,8 @@ class Lexicon {
   const Entry* Find(std::string_view text, std::size_t at) const;
 
  private:
-  std::vector<Entry> entries_;  ///< by grapheme
-  std::size_t longest_ = 0;     ///< bytes of a grapheme
+  std::map<std::string, Entry, std::less<>> entries_;  ///< by grapheme; of several the first
+  std::size_t longest_ = 0;                            ///< bytes of a grapheme
 };
 
 }  // namespace ssm

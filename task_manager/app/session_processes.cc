@@ -24,16 +24,22 @@
 namespace vxml {
 namespace {
 
-/// A session's process. What scripts hold is bounded far below it, what single calls of the library
-/// take on the way is not.
-constexpr rlim_t kMostMemory = rlim_t{768} << 20;
-
 struct Process {
   int session = 0;
   pid_t pid = 0;
   int from = -1;     ///< its transcript
   std::string rest;  ///< of a line that has no end yet
 };
+
+/// What scripts hold is bounded far below this, what single calls of the library take on the way is
+/// not. The sanitizers reserve more than any limit allows.
+void LimitMemory() {
+#ifndef GALATEA_SANITIZED
+  constexpr rlim_t kMost = rlim_t{768} << 20;
+  const rlimit most{kMost, kMost};
+  ::setrlimit(RLIMIT_DATA, &most);
+#endif
+}
 
 void WriteAll(int to, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -45,10 +51,7 @@ void WriteAll(int to, std::string_view bytes) {
 
 [[noreturn]] void RunIn(int to, int session, const SessionProcesses& all) {
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // a session does not outlive who asked for it
-#ifndef GALATEA_SANITIZED
-  const rlimit most{kMostMemory, kMostMemory};
-  ::setrlimit(RLIMIT_DATA, &most);
-#endif
+  LimitMemory();
   int code = kNotStarted;
   try {
     code = all.run(session, [to](const std::string& line) { WriteAll(to, line + "\n"); });

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "ssm/voice/lexicon.h"
 #include "ssm/voice/markup_uri.h"
 #include "ssm/voice/ssml.h"
 #include "ssm_stub/rule_engine.h"
@@ -87,6 +88,25 @@ TEST(LangFailureTest, TheVoiceModuleTellsItOnce) {
   EXPECT_EQ(world.errors[0], "UNAVAILABLE " + kLeftOut);
   world.Tell(text);
   EXPECT_EQ(world.errors.size(), 2u);
+}
+
+TEST(LexiconLimitTest, WordsAndWhatIsSaidForThemHaveALength) {
+  using ssm::Lexicon;
+  const auto parse = [](std::size_t grapheme, std::size_t alias) {
+    return Lexicon::Parse(
+        "<lexicon version='1.0' xmlns='http://www.w3.org/2005/01/pronunciation-lexicon' "
+        "alphabet='ipa' xml:lang='en'><lexeme><grapheme>" +
+            std::string(grapheme, 'a') + "</grapheme><alias>" + std::string(alias, 'b') +
+            "</alias></lexeme></lexicon>",
+        "l.pls");
+  };
+  EXPECT_TRUE(parse(Lexicon::kMaxGrapheme, Lexicon::kMaxSaid));
+  for (const auto& refused :
+       {parse(Lexicon::kMaxGrapheme + 1, 1), parse(1, Lexicon::kMaxSaid + 1)}) {
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, vm::Errc::kLimit);
+    EXPECT_TRUE(refused.error().text.starts_with("l.pls:1: ")) << refused.error().text;
+  }
 }
 
 TEST(MarkupUriTest, ReferencesAreResolvedAgainstTheBase) {
