@@ -36,6 +36,7 @@ Eigen::MatrixXf TimeDelayNet::Outputs(const Eigen::MatrixXf& input) const {
 void Gather(const Eigen::MatrixXf& input, const std::vector<int>& offsets, Eigen::MatrixXf& out) {
   const Eigen::Index rows = input.rows(), columns = input.cols();
   out.resize(rows * static_cast<Eigen::Index>(offsets.size()), columns);
+  if (columns == 0) return;  // nothing is allocated then
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     auto block = out.middleRows(static_cast<Eigen::Index>(i) * rows, rows);
     const Eigen::Index offset = offsets[i];

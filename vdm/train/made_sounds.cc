@@ -88,7 +88,7 @@ std::vector<float> MakeMusic(std::size_t samples, Dice& dice) {
     const auto start = static_cast<std::size_t>(static_cast<double>(bar) * 4 * beat * kRate);
     if (start >= samples) break;
     const std::size_t degree = dice.Below(7);
-    for (const std::size_t third : {0, 2, 4}) {
+    for (const std::size_t third : {0U, 2U, 4U}) {
       AddNote(sound, start, hz(degree + third), 4 * beat, fade / 4, chord_tone, 0.4);
     }
     for (std::size_t note = 0; note < 4; ++note) {

@@ -36,12 +36,11 @@ TimeDelayLayer MakeLayer(std::size_t inputs, std::vector<int> offsets, std::size
 template <typename Matrix>
 void Write(std::ostream& out, const Matrix& matrix) {
   out.write(reinterpret_cast<const char*>(matrix.data()),
-            static_cast<std::streamsize>(matrix.size() * sizeof(float)));
+            matrix.size() * std::streamsize{sizeof(float)});
 }
 template <typename Matrix>
 void Read(std::istream& in, Matrix& matrix) {
-  in.read(reinterpret_cast<char*>(matrix.data()),
-          static_cast<std::streamsize>(matrix.size() * sizeof(float)));
+  in.read(reinterpret_cast<char*>(matrix.data()), matrix.size() * std::streamsize{sizeof(float)});
 }
 
 }  // namespace
