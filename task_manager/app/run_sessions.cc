@@ -114,7 +114,10 @@ int RunSessions(const Options& options) {
       .count = options.sessions,
       .at_once = at_hub ? options.sessions : cores,
       .run =
-          [&](int number, const WriteLine& write) {
+          [&](int number, const WriteLine& to_caller) {
+            // Nobody wants to see a line: none is handed over.
+            const WriteLine write =
+                options.transcript == "none" ? [](const std::string&) {} : to_caller;
             const CommandSource source =
                 sources.empty() ? nullptr : sources[static_cast<std::size_t>(number)];
             return at_hub ? RunAgentSession(options, number, source, write)

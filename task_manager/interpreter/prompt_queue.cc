@@ -4,7 +4,7 @@ namespace vxml {
 
 void PromptQueue::Add(Prompt prompt) {
   if (!rt_.connection.is_open()) return;
-  rt_.budget.StepForBytes(prompt.text.size() + prompt.ssml.size());
+  rt_.budget.StepForBytes(prompt.ssml.size());
   queue_.push_back(std::move(prompt));
 }
 

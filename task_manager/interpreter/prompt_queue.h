@@ -13,7 +13,7 @@ class PromptQueue {
  public:
   explicit PromptQueue(Runtime& runtime) : rt_(runtime) {}
 
-  /// Counts what it says against the budget.
+  /// Counts its markup against the budget; its words were counted as they were written.
   void Add(Prompt prompt);
   /// A <native> by itself: its commands wait for their turn, or are carried out at once if the line
   /// is closed.
