@@ -2,6 +2,9 @@
 // speaks (MouthScale 30): for voices of a training (--takes), for the people of Debian's
 // pocketsphinx-testdata (truth by our aligner, with the text), and for what is no speech.
 //   vdm_bench NET --takes FILE --voices rms,british-f3
+// With --triphones FILE the mouth is that of the triphones in place of NET's; for takes by the
+// times of the engine and, for a voice that NET and the triphones have not learned, by those that
+// the aligner finds with the text.
 
 #include <fmt/format.h>
 
@@ -12,16 +15,20 @@
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <sstream>
 
+#include "bench/speech_material.h"
 #include "fsm/head/make_head.h"
 #include "sound/sound_file.h"
 #include "srm/align/phone_aligner.h"
+#include "ssm/flite/flite_engine.h"
 #include "vdm/mouth/mouth_tracker.h"
 #include "vdm/train/corpus.h"
 #include "vdm/train/distortion.h"
 #include "vdm/train/score.h"
 #include "vdm/train/truth.h"
+#include "vdm/triphone/triphone_model.h"
 
 namespace {
 
@@ -36,6 +43,7 @@ T OrThrow(vm::Result<T> result) {
 
 struct Bench {
   vdm::MouthNet net;
+  std::optional<vdm::TriphoneModel> triphones{};
   fsm::MotionTables tables;
   std::unique_ptr<fsm::Head> head;
   double work_s = 0, sound_s = 0;
@@ -46,6 +54,16 @@ struct Bench {
     state.lip_seal = seal;
     state.tongue = tongue;
     return static_cast<double>(head->MeasureMouth(state).gap_mm);
+  }
+
+  /// The gap at each hop of a sound with these phonemes.
+  std::vector<double> Gaps(const std::vector<std::int16_t>& samples,
+                           const vm::PhonemeList& phonemes) {
+    if (!triphones) return Gaps(samples);
+    std::vector<double> gaps;
+    for (const vdm::MouthFrame& frame : OrThrow(MouthOf(*triphones, phonemes)))
+      gaps.push_back(GapMm(frame.mouth, frame.seal, frame.tongue));
+    return gaps;
   }
 
   /// The gap at each hop of a sound, as it comes out of a stream.
@@ -124,7 +142,7 @@ void TestVoices(Bench& bench, const std::string& takes, const std::vector<std::s
   std::map<std::string, Row> rows;
   for (const vdm::Take& take : OrThrow(vdm::LoadCorpus(takes))) {
     if (std::ranges::find(voices, take.voice) == voices.end()) continue;
-    auto gaps = bench.Gaps(take.samples);
+    auto gaps = bench.Gaps(take.samples, take.phonemes);
     auto truth = bench.TrueGaps(take.phonemes, gaps.size());
     for (Row* row : {&rows[take.voice], &rows["~ all of these voices"]}) {
       row->Add(gaps, truth, bench.HopMs(), take.phonemes);
@@ -147,25 +165,48 @@ std::vector<std::pair<std::string, std::string>> Transcription(const std::string
   return texts;
 }
 
-void TestPeople(Bench& bench) {
-  auto aligner = vm::Result<std::unique_ptr<srm::PhoneAligner>>(
-      srm::PhoneAligner::Open(srm::PocketsphinxOptions().model));
-  if (!aligner) {
-    std::cerr << "vdm_bench: no people: " << aligner.error().text << std::endl;
-    return;
+std::unique_ptr<srm::PhoneAligner> Aligner() {
+  auto aligner = srm::PhoneAligner::Open(srm::PocketsphinxOptions().model);
+  if (aligner) return std::move(*aligner);
+  std::cerr << "vdm_bench: no people and no texts: " << aligner.error().text << std::endl;
+  return nullptr;
+}
+
+/// A voice of flite whose phonemes the aligner finds; the truth has the engine's own times.
+void TestAlignedVoice(Bench& bench, const std::string& voice) {
+  const auto aligner = Aligner();
+  if (!aligner) return;
+  const auto engine = ssm::MakeFliteEngine();
+  Row row;
+  for (const std::string& text : speech_bench::OtherSentences()) {
+    const speech_bench::Speech speech = speech_bench::Say(*engine, text, voice);
+    const auto aligned = aligner->Align(speech.samples, text);
+    if (!aligned) {
+      std::cerr << "vdm_bench: '" << text << "': " << aligned.error().text << std::endl;
+      continue;
+    }
+    auto gaps = bench.Gaps(speech.samples, aligned->phonemes);
+    auto truth = bench.TrueGaps(speech.plan.phonemes, gaps.size());
+    row.Add(std::move(gaps), std::move(truth), bench.HopMs(), speech.plan.phonemes);
   }
+  row.Print(voice + ", everyday sentences", bench.HopMs());
+}
+
+void TestPeople(Bench& bench) {
+  const auto aligner = Aligner();
+  if (!aligner) return;
   Row all;
   for (const auto& [folder, file] :
        {std::pair("librivox/", "transcription"), std::pair("cards/", "cards.transcription")}) {
     Row row;
     for (const auto& [name, text] : Transcription(std::string(kPeople) + folder + file)) {
       const auto samples = OrThrow(sound::ReadSound(kPeople + std::string(folder) + name + ".wav"));
-      const auto aligned = (*aligner)->Align(samples, text);
+      const auto aligned = aligner->Align(samples, text);
       if (!aligned) {
         std::cerr << "vdm_bench: " << name << ": " << aligned.error().text << std::endl;
         continue;
       }
-      auto gaps = bench.Gaps(samples);
+      auto gaps = bench.Gaps(samples, aligned->phonemes);
       auto truth = bench.TrueGaps(aligned->phonemes, gaps.size());
       row.Add(gaps, truth, bench.HopMs(), aligned->phonemes);
       all.Add(std::move(gaps), std::move(truth), bench.HopMs(), aligned->phonemes);
@@ -193,12 +234,14 @@ void TestNoSpeech(Bench& bench) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string net, takes;
+  std::string net, takes, triphones;
   std::vector<std::string> voices;
   CLI::App app("How near the voice-driven mouth comes to the text-driven one");
   app.add_option("net", net, "A network's file")->required();
   app.add_option("--takes", takes, "Speech of a training (the file takes of vdm_train --work)");
   app.add_option("--voices", voices, "Which of its voices")->delimiter(',');
+  app.add_option("--triphones", triphones,
+                 "Triphones of vdm_train --triphones, in place of the net");
   CLI11_PARSE(app, argc, argv);
   try {
     std::ifstream file(net);
@@ -206,11 +249,18 @@ int main(int argc, char** argv) {
     Bench bench{.net = OrThrow(vdm::ParseMouthNet(net, text)),
                 .tables = OrThrow(fsm::MotionTables::Load()),
                 .head = fsm::MakeHead("galatea")};
+    if (!triphones.empty()) {
+      std::ifstream model(triphones);
+      const std::string said(std::istreambuf_iterator<char>(model), {});
+      bench.triphones = OrThrow(vdm::ParseTriphones(triphones, said));
+    }
     std::cout
         << "| voice | r of the gap | rms mm | size | closures seen | shut by mistake | lag ms |\n"
            "| --- | --- | --- | --- | --- | --- | --- |\n";
     if (!takes.empty()) TestVoices(bench, takes, voices);
+    TestAlignedVoice(bench, "rms");
     TestPeople(bench);
+    if (bench.triphones) return 0;
     TestNoSpeech(bench);
     std::cout << fmt::format("real-time factor {:.4f}\n", bench.work_s / bench.sound_s);
   } catch (const std::exception& error) {

@@ -76,6 +76,16 @@ class VdmProgramTest : public testing::Test {
     track.error = program.ErrorText();
     return track;
   }
+  /// A model of one leaf a state: the jaw at 5 degrees, the lips 3 mm apart.
+  static std::string OneLeafTriphones() {
+    std::string leaf = "leaf\nmeans", text = "step 10\n";
+    for (int i = 0; i < 57; ++i) leaf += i == 2 ? " 3" : i == 11 ? " 5" : " 0";
+    leaf += "\nvariances";
+    for (int i = 0; i < 57; ++i) leaf += " 1";
+    for (const char* state : {"beginning", "middle", "end"})
+      text += std::string("state ") + state + "\n" + leaf + "\n";
+    return text;
+  }
   static double Widest(const Track& track) {
     return track.opening.empty() ? -1 : *std::ranges::max_element(track.opening);
   }
@@ -89,6 +99,30 @@ TEST_F(VdmProgramTest, ARecordingsTrackHasALineEach10Ms) {
   EXPECT_EQ(track.code, 0) << track.error;
   EXPECT_EQ(track.opening.size(), 200U);
   EXPECT_GT(Widest(track), 4);
+}
+
+TEST_F(VdmProgramTest, PhonemesWithTimesMoveTheMouthByTriphones) {
+  const std::string triphones = Write("a.tri", OneLeafTriphones());
+  const Track track =
+      TrackOf("--phonemes", {Write("a.pho", "pau[50] aa[100]\nm[50]\n"), "--triphones", triphones});
+  EXPECT_EQ(track.code, 0) << track.error;
+  EXPECT_EQ(track.opening.size(), 20U);
+  EXPECT_NEAR(Widest(track), 10, 0.01);
+}
+
+TEST_F(VdmProgramTest, BadPhonemesAndTriphonesAreOneErrorThatNamesThem) {
+  const std::string triphones = Write("a.tri", OneLeafTriphones());
+  const std::string phonemes = Write("a.pho", "aa[50]");
+  const auto error = [&](const std::string& pho, const std::string& tri) {
+    const Track track = TrackOf("--phonemes", {pho, "--triphones", tri});
+    EXPECT_EQ(track.code, 1);
+    EXPECT_EQ(std::ranges::count(track.error, '\n'), 1) << track.error;
+    return track.error;
+  };
+  EXPECT_NE(error(Write("b.pho", "aa[x]"), triphones).find("b.pho: "), std::string::npos);
+  EXPECT_NE(error(folder_ / "none", triphones).find("none"), std::string::npos);
+  EXPECT_NE(error(phonemes, Write("b.tri", "step 10\nleaf\n")).find("b.tri:2: 'leaf' found"),
+            std::string::npos);
 }
 
 TEST_F(VdmProgramTest, RateChannelsLevelConstantsAndClippingDoNotMatterMuch) {

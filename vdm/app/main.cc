@@ -14,6 +14,7 @@
 #include "sound/sources.h"
 #include "vdm/app/track_print.h"
 #include "vdm/core/movement_module.h"
+#include "vdm/triphone/phoneme_file.h"
 #include "vm_protocol/core/text_file.h"
 #include "vm_protocol/runtime/asio_scheduler.h"
 #include "vm_protocol/runtime/module_main.h"
@@ -21,9 +22,10 @@
 namespace {
 
 constexpr std::size_t kMaxNetBytes = std::size_t{4} << 20;
+constexpr std::size_t kMaxTriphoneBytes = std::size_t{8} << 20;
 
 struct Options {
-  std::string file, print = "csv", net_file;
+  std::string file, print = "csv", net_file, phonemes_file, triphones_file;
   bool live = false, cepstra = false;
   std::optional<vdm::MouthNet> net;
 };
@@ -39,7 +41,20 @@ const vdm::MouthNet& NetOf(const Options& options, vdm::FeatureKind features) {
   return own ? *options.net : vdm::ShippedNet(features);
 }
 
+/// The track of phonemes whose times are known, in place of a sound's.
+std::string TrackOfPhonemes(const Options& options) {
+  const auto model = OrThrow(
+      vdm::ParseTriphones(options.triphones_file,
+                          OrThrow(vm::ReadTextFile(options.triphones_file, kMaxTriphoneBytes))));
+  const auto phonemes = OrThrow(vdm::ReadPhonemeFile(options.phonemes_file));
+  return OrThrow(vdm::PrintTrack(model, phonemes, options.print));
+}
+
 int BeforeStart(Options& options) {
+  if (!options.phonemes_file.empty()) {
+    std::cout << TrackOfPhonemes(options) << std::flush;
+    return std::cout ? 0 : 1;
+  }
   if (!options.net_file.empty()) {
     options.net = OrThrow(vdm::ParseMouthNet(
         options.net_file, OrThrow(vm::ReadTextFile(options.net_file, kMaxNetBytes))));
@@ -77,6 +92,12 @@ int main(int argc, char** argv) {
                           "The track by the small network of the papers");
              app.add_option("--net", options.net_file,
                             "A network made by vdm_train in place of the program's own");
+             auto* phonemes = app.add_option("--phonemes", options.phonemes_file,
+                                             "Spoken phonemes as align prints them: their track "
+                                             "is printed, and that is all");
+             phonemes->needs(app.add_option("--triphones", options.triphones_file,
+                                            "Triphones made by vdm_train, for --phonemes")
+                                 ->needs(phonemes));
              app.add_flag("--live", options.live,
                           "Sound comes from a microphone or pipe: the real clock");
            },

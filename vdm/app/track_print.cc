@@ -7,6 +7,7 @@
 
 #include "vdm/core/mouth_sender.h"
 #include "vdm/mouth/mouth_tracker.h"
+#include "vdm/net/sound_classes.h"
 
 namespace vdm {
 namespace {
@@ -26,26 +27,24 @@ std::vector<MouthTracker::Moment> Moments(const MouthNet& net,
   return moments;
 }
 
-}  // namespace
-
-std::string PrintTrack(const MouthNet& net, std::span<const std::int16_t> samples,
-                       const std::string& format) {
-  const auto moments = Moments(net, samples);
-  std::string text;
-  if (format == "csv") {
-    text = "ms,sound,opening_mm,seal,tongue";
-    for (std::size_t i = 1; i <= kMouthParameters; ++i) text += fmt::format(",m{}", i);
+std::string PrintTable(const std::vector<std::string>& sounds,
+                       const std::vector<MouthTracker::Moment>& moments) {
+  std::string text = "ms,sound,opening_mm,seal,tongue";
+  for (std::size_t i = 1; i <= kMouthParameters; ++i) text += fmt::format(",m{}", i);
+  text += '\n';
+  for (const auto& [sample, frame] : moments) {
+    const auto likeliest = std::ranges::max_element(frame.sounds) - frame.sounds.begin();
+    text += fmt::format("{:g},{},{:.2f},{:.3f},{:.3f}", MsOf(sample),
+                        sounds[static_cast<std::size_t>(likeliest)], frame.Opening(), frame.seal,
+                        frame.tongue);
+    for (const float value : frame.mouth) text += fmt::format(",{:.3f}", value);
     text += '\n';
-    for (const auto& [sample, frame] : moments) {
-      const auto likeliest = std::ranges::max_element(frame.sounds) - frame.sounds.begin();
-      text += fmt::format("{:g},{},{:.2f},{:.3f},{:.3f}", MsOf(sample),
-                          net.sounds[static_cast<std::size_t>(likeliest)], frame.Opening(),
-                          frame.seal, frame.tongue);
-      for (const float value : frame.mouth) text += fmt::format(",{:.3f}", value);
-      text += '\n';
-    }
-    return text;
   }
+  return text;
+}
+
+std::string PrintLines(const std::vector<MouthTracker::Moment>& moments) {
+  std::string text = "set MouthFrame.start = NOW\n";
   vm::Time start{0};
   MouthSender sender({.start = [&](vm::Time at) { start = at; },
                       .frame =
@@ -54,12 +53,32 @@ std::string PrintTrack(const MouthNet& net, std::span<const std::int16_t> sample
                             text += "set MouthFrame = " + FrameText(at, frame) + "\n";
                           },
                       .moving = [](bool) {}});
-  text = "set MouthFrame.start = NOW\n";
   for (const auto& [sample, frame] : moments) {
     sender.Add(vm::Time(static_cast<vm::Time::rep>(MsOf(sample) * 1000)), frame);
   }
   sender.Finish();
   return text;
+}
+
+}  // namespace
+
+std::string PrintTrack(const MouthNet& net, std::span<const std::int16_t> samples,
+                       const std::string& format) {
+  const auto moments = Moments(net, samples);
+  return format == "csv" ? PrintTable(net.sounds, moments) : PrintLines(moments);
+}
+
+vm::Result<std::string> PrintTrack(const TriphoneModel& model, const vm::PhonemeList& phonemes,
+                                   const std::string& format) {
+  auto frames = MouthOf(model, phonemes);
+  if (!frames) return std::unexpected(frames.error());
+  std::vector<MouthTracker::Moment> moments;
+  const double samples = model.step_ms * static_cast<double>(kSampleRateHz) / 1000;
+  for (MouthFrame& frame : *frames) {
+    const double at = samples * static_cast<double>(moments.size());
+    moments.push_back({static_cast<std::uint64_t>(at), std::move(frame)});
+  }
+  return format == "csv" ? PrintTable(SoundClasses::Built().names(), moments) : PrintLines(moments);
 }
 
 }  // namespace vdm

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "vdm/net/mouth_net.h"
+#include "vdm/triphone/triphone_model.h"
 
 namespace vdm {
 
@@ -15,5 +16,8 @@ namespace vdm {
 /// REQUIRES: one of the two.
 std::string PrintTrack(const MouthNet& net, std::span<const std::int16_t> samples,
                        const std::string& format);
+/// The mouth of spoken phonemes, by triphones. Error: kLimit (MouthOf).
+vm::Result<std::string> PrintTrack(const TriphoneModel& model, const vm::PhonemeList& phonemes,
+                                   const std::string& format);
 
 }  // namespace vdm

@@ -9,7 +9,10 @@
 #include <fstream>
 #include <iostream>
 
+#include "vdm/train/recorded_track.h"
 #include "vdm/train/training.h"
+#include "vdm/train/triphone_training.h"
+#include "vdm/train/truth.h"
 
 namespace {
 
@@ -20,6 +23,9 @@ struct Options {
   std::vector<std::string> without;
   vdm::TrainingPlan plan;
   long stop_after = 0;
+  bool triphones = false;
+  std::string recordings;  // with --triphones; empty: the speech made here
+  vdm::TreePlan tree;
 };
 
 template <typename T>
@@ -59,16 +65,59 @@ void ShowScore(const char* who, const vdm::Score& score) {
       100 * score.shut_by_mistake());
 }
 
-int Train(const Options& options) {
+struct Voices {
+  std::vector<vdm::Take> learned, left_out;
+};
+
+Voices VoicesOf(const Options& options) {
   std::filesystem::create_directories(options.work);
-  const fsm::MotionTables tables = OrThrow(fsm::MotionTables::Load());
-  std::vector<vdm::Take> takes, others;
+  Voices voices;
   for (vdm::Take& take : Corpus(options)) {
     const bool left_out = std::ranges::any_of(
         options.without, [&](const std::string& begin) { return take.voice.starts_with(begin); });
-    (left_out ? others : takes).push_back(std::move(take));
+    (left_out ? voices.left_out : voices.learned).push_back(std::move(take));
   }
-  if (takes.empty()) throw std::runtime_error("--without leaves no voice to learn from");
+  if (voices.learned.empty()) throw std::runtime_error("--without leaves no voice to learn from");
+  return voices;
+}
+
+void Write(const Options& options, const char* what, const std::string& text) {
+  std::ofstream file(options.out);
+  file << fmt::format(
+      "# {} of vdm (docs/vdm.md says how it was made). Left out: {}.\n", what,
+      options.without.empty() ? "nobody" : fmt::format("{}", fmt::join(options.without, " ")));
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write '" + options.out + "'");
+  std::cerr << "vdm_train: wrote " << options.out << std::endl;
+}
+
+int TrainTriphones(const Options& options) {
+  constexpr double kStepMs = 10;
+  vdm::TriphoneTraining training(kStepMs);
+  if (options.recordings.empty()) {
+    const fsm::MotionTables tables = OrThrow(fsm::MotionTables::Load());
+    for (const vdm::Take& take : VoicesOf(options).learned) {
+      const vdm::TextDrivenMouth mouth(take.phonemes, tables);
+      training.Add(
+          take.phonemes,
+          mouth.Sampled(0, kStepMs, static_cast<std::size_t>(mouth.length_ms() / kStepMs)));
+    }
+  } else {
+    for (const auto& [phonemes, track] : OrThrow(vdm::ReadRecordings(options.recordings))) {
+      training.Add(phonemes, Resampled(track, kStepMs));
+    }
+  }
+  const auto model = OrThrow(training.Grow(vdm::BuiltPhonemeSets(), options.tree));
+  std::cerr << fmt::format("vdm_train: trees of {}, {} and {} nodes\n", model.trees[0].size(),
+                           model.trees[1].size(), model.trees[2].size());
+  Write(options, "Triphones", FormatTriphones(model));
+  return 0;
+}
+
+int Train(const Options& options) {
+  const fsm::MotionTables tables = OrThrow(fsm::MotionTables::Load());
+  const auto [takes, others] = VoicesOf(options);
   // What is looked at in between: every 20th take, and of those left out every 5th.
   const auto some = [](const std::vector<vdm::Take>& all, std::size_t step) {
     std::vector<vdm::Take> few;
@@ -101,14 +150,7 @@ int Train(const Options& options) {
     if (left > 0 && --left == 0) break;
   }
   if (!training.done()) return 0;
-  std::ofstream file(options.out);
-  file << fmt::format(
-      "# A network of vdm (docs/vdm.md says how it was made). Left out: {}.\n",
-      options.without.empty() ? "nobody" : fmt::format("{}", fmt::join(options.without, " ")));
-  file << FormatMouthNet(training.net());
-  file.close();
-  if (!file) throw std::runtime_error("cannot write '" + options.out + "'");
-  std::cerr << "vdm_train: wrote " << options.out << std::endl;
+  Write(options, "A network", FormatMouthNet(training.net()));
   return 0;
 }
 
@@ -116,9 +158,9 @@ int Train(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Trains a network of vdm on speech made by the voices of the toolkit");
+  CLI::App app("Teaches vdm how mouths move, by speech that the voices of the toolkit say");
   app.set_version_flag("--version", "vdm_train (Galatea) " GALATEA_VERSION);
-  app.add_option("out", options.out, "The network's file")->required();
+  app.add_option("out", options.out, "The file of what is learned")->required();
   app.add_option("--work", options.work,
                  "Folder for the speech and the course of the training, which goes on from there")
       ->capture_default_str();
@@ -139,10 +181,20 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--stop-after", options.stop_after,
                  "Ends after so many epochs; call again to go on");
+  auto* triphones =
+      app.add_flag("--triphones", options.triphones,
+                   "Learn how the mouth moves in phonemes with neighbours, not a network");
+  app.add_option("--recordings", options.recordings,
+                 "A list of recordings to learn triphones from: PHONEMES TRACK in each line")
+      ->needs(triphones);
+  app.add_option("--leaves", options.tree.leaves, "Of the tree of a state, at most")
+      ->needs(triphones)
+      ->check(CLI::Range(1, 2048))
+      ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (options.features == "cepstra") options.plan.features = vdm::FeatureKind::kCepstra;
   try {
-    return Train(options);
+    return options.triphones ? TrainTriphones(options) : Train(options);
   } catch (const std::exception& error) {
     std::cerr << "vdm_train: " << error.what() << std::endl;
     return 1;
