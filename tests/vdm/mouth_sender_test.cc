@@ -62,6 +62,15 @@ TEST_F(MouthSenderTest, ShortClosuresAreWithinARun) {
   EXPECT_EQ(std::ranges::count(told_, 1.0F, &Told::seal), 5);
 }
 
+TEST_F(MouthSenderTest, WhereTimeGoesBackANewStartReplacesWhatWasToCome) {
+  Feed(1s, 2s, true);
+  Feed(1500ms, 2s, true);
+  EXPECT_EQ(starts_, (std::vector{vm::Time(1s), vm::Time(1500ms)}));
+  EXPECT_EQ(moving_, std::vector{true});
+  EXPECT_EQ(told_.back().at, 1980ms);
+  EXPECT_EQ(told_.size(), 75U);
+}
+
 TEST_F(MouthSenderTest, ALongRunIsGivenNewStarts) {
   Feed(0ms, 25s, true);
   EXPECT_EQ(starts_.size(), 3U);

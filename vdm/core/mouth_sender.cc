@@ -37,7 +37,7 @@ void MouthSender::Add(vm::Time at, const MouthFrame& frame) {
     if (before) Send(before->first, before->second);
   }
   if (at - active_ > kRest) return Finish();
-  if (at - *start_ > kLongestRun) Begin(at);
+  if (at - *start_ > kLongestRun || at < last_) Begin(at);
   if (at == *start_ || at - last_ >= kEvery) Send(at, frame);
 }
 

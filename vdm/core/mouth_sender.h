@@ -28,7 +28,8 @@ class MouthSender {
   };
   explicit MouthSender(Events events) : events_(std::move(events)) {}
 
-  /// The mouth at `at`; times rise.
+  /// The mouth at `at`. Times rise; where one does not, what was said of later instants is no
+  /// longer true, and a start says so.
   void Add(vm::Time at, const MouthFrame& frame);
   /// The sound has ended or begins anew: a run that is going on ends with a closed mouth.
   void Finish();

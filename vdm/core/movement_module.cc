@@ -151,13 +151,12 @@ void MovementModule::Hear(std::span<const std::int16_t> samples) {
     stall_timer_ = scheduler_.After(kStalled, [this] { WatchForStall(); });
   }
   if (mode_ == Mode::kOff) return;
-  SoundClock clock = sound_clock_;
-  if (clock.Add(now, samples.size()) && sound_clock_.End()) {  // there was a hole in the sound
+  const bool hole = sound_clock_.End().has_value();
+  if (sound_clock_.Add(now, samples.size()) == SoundClock::Places::kBeginAnew && hole) {
+    const SoundClock clock = sound_clock_;
     Renew();
-    clock = {};
-    clock.Add(now, samples.size());
+    sound_clock_ = clock;
   }
-  sound_clock_ = clock;
   for (const MouthTracker::Moment& moment : tracker_->Add(samples)) {
     sender_.Add(sound_clock_.TimeOf(moment.sample) + delay_, moment.frame);
   }
