@@ -152,7 +152,7 @@ if [ -z "$config" ]; then
     sed -i -e 's#\["build/bin/ssm"[^]]*\]#["build/bin/ssm_stub"]#' "$config"
   fi
   if [ -z "$film" ] && ! has_display; then
-    sed -i -e 's#\["build/bin/fsm"\]#["build/bin/fsm", "--headless"]#' "$config"
+    sed -i -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
   fi
   [ -z "$photo" ] || sed -i -e 's#\["build/bin/fsm"#["build/bin/fsm", "--mask", "photo"#' "$config"
 fi
@@ -161,7 +161,6 @@ hub_program=$root/build/bin/agent_manager
 if [ "$heard" = mic ]; then
   # The console stays open, for what is typed and until its end.
   {
-    for life in "BLINK 1" "MOVE 1"; do echo "to @FSM set Autonomous = $life"; done
     echo "to @VDM set Input = portaudio"
     echo "to @VDM set Run = START"
     cat
@@ -173,7 +172,6 @@ if [ -n "$heard" ]; then
   # ahead of the sound look natural, as with a text.
   ffmpeg -loglevel error -y -i "$heard" -af "adelay=440:all=1" "$work/sound.wav" </dev/null || fail "--voice: '$heard' is no sound ffmpeg reads"
   {
-    for life in "BLINK 1" "MOVE 1"; do echo "to @FSM set Autonomous = $life"; done
     echo "to @VDM set#input Input = wav:$heard"
     [ -z "$emotion" ] || echo "to @FSM set FaceExp = ${emotion%% *} 1 $([[ $emotion == *" "* ]] && echo "${emotion#* }" || echo 100) 0"
     echo "to @FSM set#film Record = $out"
@@ -199,7 +197,6 @@ if [ -n "$say" ]; then
   # One script for both ways: the film is made on the virtual clock, the window lives on the real one.
   {
     [ -z "$film" ] || echo "to @AM-MCL set Record = $out"
-    for life in "BLINK 1" "MOVE 1" "GAZE 1"; do echo "to @FSM set Autonomous = $life"; done
     echo "to @FSM set FaceExp.onset = NATURAL"
     [ -z "$film" ] && echo "set Wait = 600" || echo "set Wait = 300"
     [ -z "$emotion" ] || echo "to @AM-MCL set Emotion = $emotion"

@@ -82,10 +82,11 @@ using Action =
 /// One step of a macro. A step whose conditions do not hold is skipped.
 struct MacroStep {
   Action action;
-  std::string if_present;                  ///< a module that must be present
-  std::string when;                        ///< a variable that must not be empty
-  Variables when_is, unless_is;            ///< variables and their values
-  std::shared_ptr<const Steps> otherwise;  ///< run if the conditions do not hold
+  std::string if_present{};                  ///< a module that must be present
+  std::string if_modern{};                   ///< one that must be there and know tags
+  std::string when{};                        ///< a variable that must not be empty
+  Variables when_is{}, unless_is{};          ///< variables and their values
+  std::shared_ptr<const Steps> otherwise{};  ///< run if the conditions do not hold
 };
 
 /// A macro: the steps that one `set` or `do` starts in several modules. Immutable once defined.

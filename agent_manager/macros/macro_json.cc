@@ -201,6 +201,7 @@ Readers StepReaders(MacroStep& step, int depth, Budget& budget) {
        Of<WaitStep>(step, [](WaitStep& s, const json& v, S k) { s.limit_from = Text(v, k); })},
       {"limit_ms", [&step](const json& v, S k) { SetLimit(step, v, k); }},
       {"if_present", Into(step.if_present)},
+      {"if_modern", Into(step.if_modern)},
       {"when", Into(step.when)},
       {"when_is", [&step](const json& v, S k) { step.when_is = TextsByName(v, k); }},
       {"unless_is", [&step](const json& v, S k) { step.unless_is = TextsByName(v, k); }},
@@ -361,7 +362,7 @@ Result<Macro> WithLine(const Macro* macro, const std::string& name, const std::s
   if (steps->size() >= vm::kMaxMacroLines)
     return Fail(Errc::kLimit, "macro '" + name + "' would have more than " +
                                   std::to_string(vm::kMaxMacroLines) + " steps");
-  steps->push_back({SendStep{std::move(*message)}, {}, {}, {}, {}, nullptr});
+  steps->push_back(MacroStep{.action = SendStep{std::move(*message)}});
   longer.steps = std::move(steps);
   longer.bytes += line.size();
   return longer;

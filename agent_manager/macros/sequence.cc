@@ -113,6 +113,7 @@ bool Sequence::Let(const std::string& name, std::string value) {
 bool Sequence::Holds(const MacroStep& step) const {
   if (!step.if_present.empty() && !services_.hub.directory().IsPresent(step.if_present))
     return false;
+  if (!step.if_modern.empty() && !services_.hub.directory().IsModern(step.if_modern)) return false;
   if (!step.when.empty() && Value(step.when).empty()) return false;
   const auto is = [this](const auto& entry) { return Value(entry.first) == entry.second; };
   return std::ranges::all_of(step.when_is, is) && std::ranges::none_of(step.unless_is, is);

@@ -37,6 +37,11 @@ class Directory {
   bool IsGuest(std::string_view name) const;
   /// True once a module has said what it is (or was declared original) and can be spoken to.
   bool IsReady(std::string_view name) const;
+  /// A peer that is there and knows tags, so that it may be told what the original does not have.
+  bool IsModern(std::string_view name) const {
+    const Peer* peer = Find(name);
+    return peer != nullptr && peer->dialect == Dialect::kModern;
+  }
   std::string NameOf(PeerKey key) const;  ///< empty if it is not there
   /// kHub's is the owner's, that of one who is not there a guest's.
   Role RoleOf(PeerKey key) const;

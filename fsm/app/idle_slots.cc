@@ -58,7 +58,8 @@ void DeclareIdleSlots(FsmCore& core) {
                 "drifts; GAZE, small saccades; BREATH; NODS of a listener; SPEECH, head and brows "
                 "move with the stress; AVERT, the eyes leave the user while beginning to speak; "
                 "FACE, a slight look that stays; GAZEBLINK and ENDBLINK, blinks at shifts of the "
-                "gaze and at the end of speech; ASYMMETRY of expressions; USERDEF, files.",
+                "gaze and at the end of speech; ASYMMETRY of expressions; TEXT, looks of sentences "
+                "by their words; USERDEF, files.",
                 [&core](const vm::SetValue& value) {
                   return core.motion->Autonomous(core.Now(), value.word(0),
                                                  static_cast<int>(value.number(1)));

@@ -39,6 +39,18 @@ void SpeechSlots::DeclareListSlots() {
                        .access = vm::Access::kReadOnly,
                        .initial = "0",
                        .help = "The duration of LipSync.pho in ms."});
+  core_.slots.Declare(
+      {.name = "LipSync.text",
+       .grammar = "<text>",
+       .initial = kNothing,
+       .help = "The words of the next LipSync.pho, given before it: greetings, thanks, questions "
+               "and the like bring slight looks of the face (Autonomous' TEXT). They count for one "
+               "utterance. non: they are not known.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         text_ = value.text == kNothing ? "" : value.text;
+         return value.text;
+       },
+       .saved = false});
   core_.slots.Declare({.name = "LipSync",
                        .grammar = "<text>",
                        .access = vm::Access::kWriteOnly,
@@ -193,7 +205,8 @@ void SpeechSlots::Begin() {
   const vm::Time start = *start_ == vm::Time::max() ? now : *start_;
   start_ = start;
   CancelTimer();
-  core_.motion->Speak(now, list_, start);
+  core_.motion->Speak(now, list_, start, std::exchange(text_, {}));
+  core_.slots.Store("LipSync.text", kNothing);
   if (start > now) {
     timer_ = core_.clock.At(start, [this] {
       timer_ = 0;
@@ -258,7 +271,8 @@ void SpeechSlots::Reset() {
   list_.clear();
   spoken_.clear();
   start_.reset();
-  for (const char* name : {"Speak.text", "Speak.pho", "Speak.utt", "LipSync.pho"}) {
+  text_.clear();
+  for (const char* name : {"Speak.text", "Speak.pho", "Speak.utt", "LipSync.pho", "LipSync.text"}) {
     core_.slots.Store(name, kNothing);
   }
   for (const char* name : {"Speak.dur", "Speak.len", "LipSync.dur"}) core_.slots.Store(name, "0");

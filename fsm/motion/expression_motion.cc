@@ -10,6 +10,7 @@ namespace {
 
 constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // of an expression, natural
 constexpr int kMostPatterns = 20;
+constexpr float kExpressing = 0.3F;  // a unit so strong is an expression
 constexpr std::size_t kMostExpressions = 200;
 enum Stream : std::uint64_t { kLateSide = 200, kLag };
 
@@ -151,6 +152,13 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   };
   collect(out.left, now[0], &ActionUnits::left);
   collect(out.right, now[1], &ActionUnits::right);
+  float greatest = 0;
+  for (const UnitValues* side : {&out.left, &out.right}) {
+    for (std::size_t unit = 0; unit < side->size(); ++unit) {
+      greatest = std::max(greatest, (*side)[unit]);
+    }
+  }
+  frame.Give("expressing", std::min(1.0F, greatest / kExpressing));
   // Eyes move together, whichever side of the face is first.
   const ActionUnits& eyes = now[0][static_cast<std::size_t>(Region::kEye)];
   out.gaze_left = eyes.gaze_left;

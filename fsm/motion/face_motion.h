@@ -98,8 +98,10 @@ class FaceMotion {
   void SetPerson(std::uint64_t person);
 
   // Speech.
-  void Speak(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start) {
-    speech_.Start(now, phonemes, start);
+  /// `text`: what is said, if it is known: it gives sentences slight looks.
+  void Speak(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start,
+             std::string_view text = {}) {
+    speech_.Start(now, phonemes, start, text);
   }
   void StopSpeaking(vm::Time now) { speech_.Stop(now); }
   void Sync(vm::Time now, double voice_ms) { speech_.Sync(now, voice_ms); }

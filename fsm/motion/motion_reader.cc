@@ -223,11 +223,14 @@ vm::Result<void> MotionReader::ReadLine(const TableLine& line) {
     return ReadPattern(line, out_.auto_averts, "AUTOAVERT PATTERN ANGLE SHORTEST", 0,
                        &AutoAvert::angle, &AutoAvert::shortest_ms);
   }
+  if (kind == "AUTOTEXT") {
+    return ReadPattern(line, out_.auto_texts, "AUTOTEXT PATTERN SIZE", 0, &AutoText::size);
+  }
   if (kind == "AUTOFACE") return ReadFace(line);
   if (kind == "LIFE") return ReadProfile(line);
   return table_.Wrong(line.number, "'" + kind +
                                        "' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, LIFE or an "
-                                       "AUTO line (BLINK MOVE GAZE BREATH NODS SPEECH AVERT FACE) "
+                                       "AUTO line (BLINK MOVE GAZE BREATH NODS SPEECH AVERT FACE TEXT) "
                                        "expected");
 }
 

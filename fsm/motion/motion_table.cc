@@ -84,6 +84,8 @@ std::size_t MotionTable::Patterns(IdleKind kind) const {
       return auto_averts.size();
     case IdleKind::kFace:
       return auto_faces.size();
+    case IdleKind::kText:
+      return auto_texts.size();
     case IdleKind::kGazeBlink:
     case IdleKind::kEndBlink:
     case IdleKind::kAsymmetry:

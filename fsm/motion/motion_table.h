@@ -78,6 +78,10 @@ struct AutoAvert {
   double shortest_ms = 1800;  ///< of an utterance in which it happens
 };
 
+struct AutoText {
+  double size = 1;  ///< of the looks of text_cues.txt
+};
+
 /// What the face does by itself; each is switched by name.
 enum class IdleKind : std::size_t {
   kBlink,
@@ -91,11 +95,12 @@ enum class IdleKind : std::size_t {
   kFace,
   kGazeBlink,
   kEndBlink,
-  kAsymmetry
+  kAsymmetry,
+  kText
 };
-inline constexpr std::array<std::string_view, 12> kIdleKindNames = {
-    "BLINK",  "MOVE",  "USERDEF", "GAZE",      "BREATH",   "NODS",
-    "SPEECH", "AVERT", "FACE",    "GAZEBLINK", "ENDBLINK", "ASYMMETRY"};
+inline constexpr std::array<std::string_view, 13> kIdleKindNames = {
+    "BLINK", "MOVE", "USERDEF",   "GAZE",     "BREATH",    "NODS", "SPEECH",
+    "AVERT", "FACE", "GAZEBLINK", "ENDBLINK", "ASYMMETRY", "TEXT"};
 std::optional<IdleKind> IdleKindNamed(std::string_view name);
 /// Patterns by kind.
 using IdleProfile = std::array<std::size_t, kIdleKindNames.size()>;
@@ -112,6 +117,7 @@ struct MotionTable {
   std::vector<AutoSpeech> auto_speeches;
   std::vector<AutoAvert> auto_averts;
   std::vector<ActionUnits> auto_faces;
+  std::vector<AutoText> auto_texts;
   std::map<std::string, IdleProfile, std::less<>> profiles;
   std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
   std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop

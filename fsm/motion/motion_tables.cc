@@ -17,6 +17,7 @@
 #include "embedded/phonemes28_ja.h"
 #include "embedded/phonemes_en.h"
 #include "embedded/phonemes_ja.h"
+#include "embedded/text_cues.h"
 #include "fsm/motion/table_text.h"
 
 namespace fsm {
@@ -118,6 +119,7 @@ vm::Result<MotionTables> MotionTables::Load(const std::string& folder) {
              with_names(ReadUnitList));
   loader.Get(out.blend_shapes, "arkit.txt", embedded::arkit(), with_names(ReadBlendShapes));
   loader.Get(out.mixer, "mixing.txt", embedded::mixing(), Mixer::Read);
+  loader.Get(out.text_cues, "text_cues.txt", embedded::text_cues(), with_names(ReadTextCues));
   if (loader.error()) return std::unexpected(*loader.error());
   return out;
 }

@@ -9,6 +9,7 @@
 #include "fsm/motion/motion_table.h"
 #include "fsm/motion/mouth_tables.h"
 #include "fsm/motion/phoneme_names.h"
+#include "fsm/motion/text_cues.h"
 #include "fsm/motion/unit_names.h"
 
 namespace fsm {
@@ -25,6 +26,7 @@ struct MotionTables {
   UnitNames unit_names;
   BlendShapes blend_shapes;
   Mixer mixer;
+  TextCues text_cues;
 
   /// The tables the program carries; with a `folder`, each file found there replaces its own.
   /// Errors: kBadValue with file and line; kUnavailable if the folder or a file cannot be read.

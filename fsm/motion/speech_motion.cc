@@ -36,14 +36,16 @@ vm::Time SpeechMotion::GoneAt(const Utterance& one) const {
          std::max(kRelease, FromMs(SpeechGestures::kFadeMs));
 }
 
-void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start) {
+void SpeechMotion::Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start,
+                         std::string_view text) {
   Stop(now);
   std::erase_if(said_, [&](const Utterance& one) { return GoneAt(one) <= now; });
   auto track = std::make_shared<const VisemeTrack>(phonemes, tables_, settings_.lips);
   const std::uint64_t seed = Scramble(seed_ + static_cast<std::uint64_t>(++utterances_));
   SpeechGestures gestures(track->visemes(), seed);
+  auto looks = LooksOf(tables_.text_cues, text, track->visemes());
   const vm::Time ahead = FromMs(lead_ms_.At(now) + kApproachMs);
-  said_.push_back({std::move(track), std::move(gestures), SpeechClock(start),
+  said_.push_back({std::move(track), std::move(gestures), std::move(looks), SpeechClock(start),
                    std::max(now, start - ahead), std::nullopt});
 }
 
@@ -125,6 +127,25 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
   }
 }
 
+void SpeechMotion::ShowLooks(vm::Time t, MotionLayer& layer) const {
+  const std::size_t pattern = idle_.Pattern(IdleKind::kText);
+  if (pattern == 0) return;
+  const double size =
+      tables_.motions.auto_texts[pattern - 1].size * idle_.Weight(IdleKind::kText, t);
+  for (const Utterance& one : said_) {
+    const double stays = size * GesturesOf(one, t);
+    if (stays <= 0) continue;
+    for (const TimedLook& timed : one.looks) {
+      const auto weight = static_cast<float>(stays * timed.At(MouthPosition(one, t)));
+      if (weight <= 0) continue;
+      AddTo(layer.units, timed.look->units, weight);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        layer.head[axis] += weight * timed.look->head[axis];
+      }
+    }
+  }
+}
+
 void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
   const AutoAvert* avert = Avert();
   if (avert == nullptr) return;
@@ -182,6 +203,7 @@ void SpeechMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   MotionLayer& gestures = frame.Layer("gestures");
   MoveHeadAndBrows(t, gestures);
   AvertEyes(t, gestures);
+  ShowLooks(t, frame.Layer("text"));
   gestures.lids_shut = static_cast<float>(LidsShutAt(t));
 }
 

@@ -11,15 +11,16 @@
 #include "fsm/motion/motion_source.h"
 #include "fsm/motion/speech_clock.h"
 #include "fsm/motion/speech_gestures.h"
+#include "fsm/motion/text_cues.h"
 #include "fsm/motion/viseme_track.h"
 
 namespace fsm {
 
 /// Utterances: begun, followed, corrected, stopped. The mouth is on the layer `speech`, what head,
-/// brows, eyes and lids do with it on `gestures`. It gives the signals `speaking`, `lips_taken` and
-/// `contact`. An utterance that was stopped fades under the next one.
-/// Lifetime: what it is made with outlives it. Commands come in order of time; queries are for now
-/// or later.
+/// brows, eyes and lids do with it on `gestures`, the looks of its text on `text`. It gives the
+/// signals `speaking`, `lips_taken` and `contact`. An utterance that was stopped fades under the
+/// next one. Lifetime: what it is made with outlives it. Commands come in order of time; queries
+/// are for now or later.
 class SpeechMotion : public MotionSource {
  public:
   SpeechMotion(const MotionTables& tables, const MotionSettings& settings,
@@ -27,8 +28,8 @@ class SpeechMotion : public MotionSource {
       : tables_(tables), settings_(settings), idle_(idle), seed_(seed) {}
 
   /// The voice starts at `start`; the mouth begins up to 92 ms before that, and is ahead by the
-  /// lead.
-  void Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start);
+  /// lead. `text`: what is said, if it is known.
+  void Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start, std::string_view text);
   /// The lips are closed 110 ms later.
   void Stop(vm::Time now);
   /// The voice says it is at `voice_ms` now. Ignored when nothing is spoken.
@@ -49,6 +50,7 @@ class SpeechMotion : public MotionSource {
   struct Utterance {
     std::shared_ptr<const VisemeTrack> track;
     SpeechGestures gestures;
+    std::vector<TimedLook> looks;
     SpeechClock clock;
     vm::Time begin;
     std::optional<vm::Time> stopped;
@@ -61,6 +63,7 @@ class SpeechMotion : public MotionSource {
   };
   Mouth MouthAt(vm::Time t) const;
   void MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const;
+  void ShowLooks(vm::Time t, MotionLayer& layer) const;
   void AvertEyes(vm::Time t, MotionLayer& layer) const;
   double LidsShutAt(vm::Time t) const;
   const AutoAvert* Avert() const;  // nullptr while it is off

@@ -155,6 +155,20 @@ std::optional<Input> AgentPlatform::Taken() {
   return input;
 }
 
+/// The face looks at the user and listens, until the next prompt.
+void AgentPlatform::Attend() {
+  if (!attends_) return;
+  hub_.Send("to @" + options_.face + " set Gaze = 0 0");
+  SetLife("LISTENING");
+}
+
+/// A face of the original has no such slot, and one that is told to be still stays so.
+void AgentPlatform::SetLife(const std::string& life) {
+  if (life_.empty() || life_ == "OFF" || life == life_now_) return;
+  life_now_ = life;
+  hub_.Send("to @" + options_.face + " set Life = " + life);
+}
+
 Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& listen) {
   mark_.clear();
   UseGrammars(listen);
@@ -167,8 +181,8 @@ Input AgentPlatform::Collect(const std::vector<Prompt>& prompts, const Listen& l
   input.kind = Input::Kind::kHangup;
   hub_.LetCutIn(HubLink::CutIn::kNext);
   if (!Speaks(prompts, true)) return input;
-  if (attends_) hub_.Send("to @" + options_.face + " set Gaze = 0 0");  // at the user
-  if (interrupts && !interrupting_ && heard_.empty() && !hearing_) {    // a prompt without bargein
+  Attend();
+  if (interrupts && !interrupting_ && heard_.empty() && !hearing_) {  // a prompt without bargein
     JsonLine line;
     line.Text("input", command->hypotheses.empty() ? "" : command->hypotheses.front().text);
     line.Text("why", "bargein");

@@ -99,6 +99,7 @@ AgentPlatform::AgentPlatform(HubLink& hub, Options options)
   hub_.Send("to @" + options_.voice + " prop Speak.mark = AutoOutput");
   hub_.Send("to @" + ear + " set Grammar = NONE");
   static_cast<void>(hub_.Ask("to @" + ear + " set Run = START", kAnswer));
+  life_ = life_now_ = hub_.Ask("to @" + options_.face + " inq Life", kSoundModule).value_or("");
   has_sound_module_ = hub_.Ask("to @SND inq Slots", kSoundModule).has_value();
   if (options_.script) hub_.WatchTime();
   StartTime();
@@ -306,6 +307,7 @@ void AgentPlatform::Say(const Prompt& prompt, bool may_be_stopped) {
 
 bool AgentPlatform::Speaks(const std::vector<Prompt>& prompts, bool listening) {
   bool silent = false;
+  if (!prompts.empty()) SetLife(life_);
   for (const Prompt& prompt : prompts) {
     if (silent) {
       for (const Segment& segment : prompt.segments) {

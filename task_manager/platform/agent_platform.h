@@ -79,6 +79,8 @@ class AgentPlatform final : public Platform {
   void Hear(Input::Kind kind, std::vector<Hypothesis> hypotheses);
   std::optional<Input> FromScript(const std::optional<Command>& command, const Listen& listen);
   std::optional<Input> Taken();
+  void Attend();
+  void SetLife(const std::string& life);
   bool Speaks(const std::vector<Prompt>& prompts, bool listening);
   // agent_recording.cc
   bool KeepSounds(bool keep);
@@ -125,6 +127,7 @@ class AgentPlatform final : public Platform {
   bool interrupting_ = false;    ///< a scripted interruption is on its way
   std::optional<Command> next_;  ///< of the script, taken but not used
   bool attends_ = true;
+  std::string life_, life_now_;  ///< the face's slot Life: at the start, and now
   nlohmann::json beside_ = nlohmann::json::array();  ///< steps of PAR for the next speech
   std::set<std::string> macros_;                     ///< defined at the hub, removed at the end
   std::deque<Input> heard_;

@@ -106,6 +106,7 @@ std::string Another(const std::string& slot, const TemporaryFolder& files) {
       {"Light.key", "3 90 10 #ff0000"},
       {"Light.fill", "3"},
       {"Light.rim", "0"},
+      {"LipSync.text", "Hello!"},
       {"SaveImage", files / "face.png"},
       {"Record.sound", "voice.wav"},
       {"Record.fps", "10"},
