@@ -164,7 +164,7 @@ void ReadOptions(const FlatTable& options, Step& step) {
     case Op::kStridedSlice:
       step.begin_mask = options.Scalar<std::int32_t>(0, 0);
       step.end_mask = options.Scalar<std::int32_t>(1, 0);
-      for (const std::size_t other : {2, 3, 4}) {
+      for (const std::size_t other : {2U, 3U, 4U}) {
         if (options.Scalar<std::int32_t>(other, 0) != 0)
           throw BadModel("a slice that changes axes");
       }

@@ -64,7 +64,7 @@ TEST_F(FaceWatchTest, ShutEyesAreSeen) {
   fsm::FaceState state;
   state.blink_left = state.blink_right = 1;
   const FaceMeasures shut = See(state);
-  for (const std::size_t side : {0, 1}) {
+  for (const std::size_t side : {0U, 1U}) {
     EXPECT_GT(rest_.eye[side], 8);
     EXPECT_LT(shut.eye[side], 0.4F * rest_.eye[side]);
   }
@@ -90,10 +90,10 @@ TEST_F(FaceWatchTest, TurnsOfTheHeadHaveTheirSignsAndSizes) {
 
 TEST_F(FaceWatchTest, BrowsAndCornersMoveAsUnitsSay) {
   fsm::FaceState brows, smile;
-  for (const int unit : {1, 2}) brows.au_left[unit] = brows.au_right[unit] = 1;
+  for (const std::size_t unit : {1U, 2U}) brows.au_left[unit] = brows.au_right[unit] = 1;
   smile.au_left[12] = 1;
   const FaceMeasures raised = See(brows), smiling = See(smile);
-  for (const std::size_t side : {0, 1}) {
+  for (const std::size_t side : {0U, 1U}) {
     EXPECT_GT(raised.brow_inner[side], rest_.brow_inner[side] + 2) << side;
     EXPECT_GT(raised.brow_outer[side], rest_.brow_outer[side] + 2) << side;
   }
