@@ -3,6 +3,7 @@
 
 usage: scripts/judge_film.py [--head NAME]... [--way WAY]...   the table of films
        scripts/judge_film.py --doses [--head NAME]...          what each unit does at 0.33, 0.67 and 1
+       scripts/judge_film.py --real                            lips and sound on the machine's own clock
        scripts/judge_film.py --self-test [SABOTAGE]...         good films pass, each sabotaged one fails
 
 Needs the networks (scripts/face_networks.sh), ffmpeg and the built programs. Figures are explained in docs/face.md,
@@ -11,11 +12,12 @@ its limit, with 77 where networks are missing.
 """
 import argparse
 import os
+import subprocess
 import sys
 import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from film_judge import doses, films, sabotage, verdict  # noqa: E402
+from film_judge import doses, films, real_clock, sabotage, verdict  # noqa: E402
 from film_judge.heads import HEADS, Missing  # noqa: E402
 from film_judge.programs import Failed  # noqa: E402
 
@@ -93,23 +95,40 @@ def self_test(judge, names):
     return right
 
 
+def real(judge):
+    """Prints how far lips are from the sound where time does not wait for drawing."""
+    folder = os.path.join(judge.folder, "real")
+    os.mkdir(folder)
+    film, errors = real_clock.spoken(folder, *judge.texts[0])
+    for name, error in errors:
+        print(f"  {name:4} {error:+6.1f} ms")
+    print(real_clock.summary(errors))
+    values, _ = judge.judge(film, "galatea", "DOMINANCE")
+    print(f"seen: the mouth is {values['ahead']:+.0f} ms ahead of the sound, r {values['gap_r']:.2f}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--head", action="append", choices=HEADS, metavar="NAME", help=", ".join(HEADS) + "; one of each kind where none is named")
     parser.add_argument("--way", action="append", choices=verdict.WAYS, metavar="WAY", help=", ".join(verdict.WAYS))
     parser.add_argument("--doses", action="store_true")
+    parser.add_argument("--real", action="store_true")
     parser.add_argument("--self-test", nargs="*", choices=sabotage.KINDS, metavar="SABOTAGE",
                         help=", ".join(sabotage.KINDS))
     options = parser.parse_args()
     heads = options.head or KINDS
     try:
+        films.check_eye()
         with tempfile.TemporaryDirectory() as folder:
             if options.doses:
                 return 0 if doses.table(folder, heads) else 1
+            if options.real:
+                real(Judge(folder, TEXTS[:1]))
+                return 0
             if options.self_test is not None:
                 return 0 if self_test(Judge(folder, TEXTS[:1]), options.self_test or sabotage.KINDS) else 1
             return 0 if table(Judge(folder, TEXTS), heads, options.way or verdict.WAYS) else 1
-    except Failed as failed:
+    except (Failed, OSError, subprocess.CalledProcessError) as failed:
         print(f"judge_film: {failed}", file=sys.stderr)
         return 77 if "networks that find faces are not in" in str(failed) else 2
 

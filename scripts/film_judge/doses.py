@@ -16,12 +16,13 @@ DOSES = [
     ("AU 12", "AU = 12 {:g} 60", 1, "corner_up", +1), ("AU 15", "AU = 15 {:g} 60", 1, "corner_up", -1),
     ("AU 18", "AU = 18 {:g} 60", 1, "width", -1), ("AU 20", "AU = 20 {:g} 60", 1, "width", +1),
     ("AU 25", "AU = 25 {:g} 60", 1, "gap", +1), ("AU 26", "AU = 26 {:g} 60", 1, "gap", +1),
-    ("AU 27", "AU = 27 {:g} 60", 1, "jaw", +1),
     ("head down 12", "HeadRotAbs.1 = {:g} 0 0", 12, "turn_down", +1),
     ("head left 12", "HeadRotAbs.1 = 0 {:g} 0", 12, "turn_left", +1),
     ("tilt left 12", "HeadRotAbs.1 = 0 0 {:g}", 12, "tilt_left", +1),
     ("eyes left 20", "EyeRot = 0 {:g} 0", 20, "gaze_across", +1),
 ]
+
+AGAINST = {("original", "tilt left 12")}  # a configuration of the original tilts to the other side (docs/face.md)
 
 
 def frames_of(wear, folder, environment):
@@ -56,10 +57,11 @@ def table(folder, heads):
             print(f"judge_film: {head} is left out: {missing}")
             continue
         columns[head] = []
-        for k, (_, _, _, name, sign) in enumerate(DOSES):
+        for k, (told, _, _, name, sign) in enumerate(DOSES):
+            sign = -sign if (head, told) in AGAINST else sign
             *doses, rest = held[4 * k:4 * k + 4]
             before = values_of(film, name, *rest)
-            columns[head].append([(values_of(film, name, *dose) - before) * (1 if sign > 0 else -1) for dose in doses])
+            columns[head].append([(values_of(film, name, *dose) - before) * sign for dose in doses])
     print("| told | seen in | " + " | ".join(columns) + " |\n| --- | --- |" + " --- |" * len(columns))
     right = True
     for k, (told, _, _, name, sign) in enumerate(DOSES):

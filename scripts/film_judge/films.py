@@ -42,11 +42,11 @@ class Film:
 class Watcher:
     """face_watch at the reading end of a pipe."""
 
-    def __init__(self, pipe):
+    def __init__(self, pipe, rate=RATE):
         os.mkfifo(pipe)
         self.pipe = pipe
         self.keeper = os.open(pipe, os.O_RDWR)  # so that neither end waits for the other
-        self.process = subprocess.Popen([program("face_watch"), "--size", f"{SIZE}x{SIZE}", "--rate", str(RATE)],
+        self.process = subprocess.Popen([program("face_watch"), "--size", f"{SIZE}x{SIZE}", "--rate", str(rate)],
                                         stdin=os.open(pipe, os.O_RDONLY), stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
         self.output = ["", ""]
@@ -72,6 +72,20 @@ class Watcher:
         if self.process.returncode != 0:
             raise Failed("face_watch: " + self.output[1].strip())
         return list(csv.DictReader(io.StringIO(self.output[0])))
+
+
+def rows_of(pixels):
+    """What face_watch says of frames that are all there."""
+    done = subprocess.run([program("face_watch"), "--size", f"{SIZE}x{SIZE}", "--rate", str(RATE)], input=pixels,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if done.returncode != 0:
+        raise Failed("face_watch: " + done.stderr.decode().strip())
+    return list(csv.DictReader(io.StringIO(done.stdout.decode())))
+
+
+def check_eye():
+    """Raises Failed where face_watch cannot look, with its reason."""
+    rows_of(bytes(SIZE * SIZE * 4))
 
 
 def hub(modules, lines, folder, environment):
@@ -219,14 +233,13 @@ def heard(folder, wear, environment, voice, mode="DOMINANCE", life="LIVELY", ext
     return film
 
 
-def posed(folder, wear, environment, lines):
-    """The face alone, doing what `lines` of the hub's console say."""
+def posed(folder, wear, environment, lines, rate=10):
+    """The face alone, doing what `lines` of the hub's console say, at few frames a second."""
     film = Film()
     pipe = os.path.join(folder, "film.rgba")
-    with Watcher(pipe) as watcher:
-        said = hub([face_command(wear)],
-                   [*setting_up("OFF", "DOMINANCE", []), f"to @FSM set Record = {pipe}", *lines,
-                    "to @FSM set#done Record = STOP", "set Wait = IDLE"], folder, environment)
+    with Watcher(pipe, rate) as watcher:
+        hub([face_command(wear)],
+            [*setting_up("OFF", "DOMINANCE", []), f"to @FSM set Record.fps = {rate}", f"to @FSM set Record = {pipe}",
+             *lines, "to @FSM set#done Record = STOP", "set Wait = IDLE"], folder, environment)
         watched(film, watcher.rows())
-    told(film, said)
     return film

@@ -9,7 +9,7 @@ import wave
 
 SCRIPTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts")
 sys.path.insert(0, SCRIPTS)
-from film_judge import films, heads, measures, programs, sabotage, verdict  # noqa: E402
+from film_judge import films, heads, measures, programs, real_clock, sabotage, verdict  # noqa: E402
 
 FRAME_MS = 1000 / 30
 
@@ -183,6 +183,17 @@ class VerdictTest(unittest.TestCase):
                     file.write("# a comment\n" + line + "\n")
                 with self.assertRaisesRegex(programs.Failed, r"limits\.txt:2: expected"):
                     verdict.read_limits(path)
+
+
+class RealClockTest(unittest.TestCase):
+    def test_each_phoneme_is_found_in_the_frames_near_its_place(self):
+        spans = [("pau", 0, 200), ("m", 200, 300), ("aa", 300, 500), ("aa", 500, 600), ("t", 600, 620), ("m", 620, 800)]
+        frames = [(10.0 * k, next(n for n, a, b in spans if a <= 10 * k + 40 - 7 < b)) for k in range(70)]
+        found = real_clock.errors(spans, frames, 40)
+        self.assertEqual([name for name, _ in found], ["pau", "m", "aa", "m"], "the second aa and the t are left out")
+        for _, error in found[1:]:
+            self.assertTrue(7 <= error < 17, error)
+        self.assertIn("4 phonemes", real_clock.summary(found))
 
 
 class SabotageTest(unittest.TestCase):
