@@ -5,7 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
+
+#include "face_fit/find/network_points.h"
 
 namespace facefit {
 namespace {
@@ -44,6 +47,32 @@ Bytes Packed(const std::vector<std::uint8_t>& loader, const std::vector<std::uin
   throw BadModel("the package holds no " + name);
 }
 
+/// The package @mediapipe/face_mesh as it is unpacked.
+struct FaceMeshPackage {
+  std::vector<std::uint8_t> loader, data;
+
+  static std::optional<FaceMeshPackage> Read(const std::string& where) {
+    auto loader = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets_loader.js");
+    auto data = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets.data");
+    if (!loader || !data) return std::nullopt;
+    return FaceMeshPackage{std::move(*loader), std::move(*data)};
+  }
+  /// Throws an exception if it cannot be used.
+  Network Open(const char* name) const { return Network(Model::Read(Packed(loader, data, name))); }
+};
+
+std::unexpected<vm::Error> NotThere(const std::string& where) {
+  return vm::Fail(vm::Errc::kUnavailable,
+                  "the networks that find faces are not in '" + where +
+                      "'; scripts/face_networks.sh puts them there (npm packages "
+                      "@mediapipe/face_mesh and @mediapipe/selfie_segmentation)");
+}
+
+std::unexpected<vm::Error> NotUsable(const std::string& where, const std::exception& error) {
+  return vm::Fail(vm::Errc::kBadValue,
+                  "the networks in '" + where + "' cannot be used: " + error.what());
+}
+
 Network Expect(Network network, std::size_t input, std::initializer_list<std::size_t> outputs) {
   bool fits = network.input_shape().count() == input && network.outputs() == outputs.size();
   std::size_t i = 0;
@@ -68,27 +97,30 @@ std::string NetworksFolder() {
 
 vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
   const std::string where = folder.empty() ? NetworksFolder() : folder;
-  const auto loader = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets_loader.js");
-  const auto data = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets.data");
+  const auto package = FaceMeshPackage::Read(where);
   const auto figure = ReadAll(where + "/selfie_segmentation/selfie_segmentation.tflite");
-  if (!loader || !data || !figure) {
-    return vm::Fail(vm::Errc::kUnavailable,
-                    "the networks that find faces are not in '" + where +
-                        "'; scripts/face_networks.sh puts them there (npm packages "
-                        "@mediapipe/face_mesh and @mediapipe/selfie_segmentation)");
-  }
+  if (!package || !figure) return NotThere(where);
   try {
-    const auto packed = [&](const char* name) {
-      return Network(Model::Read(Packed(*loader, *data, name)));
-    };
     return FaceNetworks{
-        .detector =
-            Expect(packed("face_detection_short_range.tflite"), 128 * 128 * 3, {896 * 16, 896}),
-        .landmarks = Expect(packed("face_landmark.tflite"), 192 * 192 * 3, {1404, 1}),
+        .detector = Expect(package->Open("face_detection_short_range.tflite"), 128 * 128 * 3,
+                           {896 * 16, 896}),
+        .landmarks =
+            Expect(package->Open("face_landmark.tflite"), 192 * 192 * 3, {3 * kNetworkPoints, 1}),
         .figure = Expect(Network(Model::Read(*figure)), 256 * 256 * 3, {256 * 256})};
   } catch (const std::exception& error) {
-    return vm::Fail(vm::Errc::kBadValue,
-                    "the networks in '" + where + "' cannot be used: " + error.what());
+    return NotUsable(where, error);
+  }
+}
+
+vm::Result<Network> LoadAttentionLandmarks(const std::string& folder) {
+  const std::string where = folder.empty() ? NetworksFolder() : folder;
+  const auto package = FaceMeshPackage::Read(where);
+  if (!package) return NotThere(where);
+  try {
+    return Expect(package->Open("face_landmark_with_attention.tflite"), 192 * 192 * 3,
+                  {3 * kNetworkPoints, 2 * 80, 2 * 71, 2 * 71, 2 * 5, 2 * 5, 1});
+  } catch (const std::exception& error) {
+    return NotUsable(where, error);
   }
 }
 

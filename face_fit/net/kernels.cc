@@ -224,6 +224,90 @@ void Pad(const Tensor& in, const std::vector<std::int32_t>& by, Tensor& out) {
   }
 }
 
+void StridedSlice(const Tensor& in, std::span<const std::int32_t> begin,
+                  std::span<const std::int32_t> by, Tensor& out) {
+  std::size_t to = 0;
+  for (int b = 0; b < out.shape.size[0]; ++b) {
+    for (int y = 0; y < out.shape.rows(); ++y) {
+      for (int x = 0; x < out.shape.columns(); ++x) {
+        const std::size_t pixel = static_cast<std::size_t>(begin[0] + b * by[0]) *
+                                      static_cast<std::size_t>(in.shape.rows()) *
+                                      At(in.shape, 1, 0) +
+                                  At(in.shape, begin[1] + y * by[1], begin[2] + x * by[2]);
+        for (int k = 0; k < out.shape.channels(); ++k) {
+          out.values[to++] = in.values[pixel + static_cast<std::size_t>(begin[3] + k * by[3])];
+        }
+      }
+    }
+  }
+}
+
+void LandmarksToMatrix(const CropOptions& crop, const Tensor& points, Tensor& matrix) {
+  const auto x = [&points](std::size_t i) { return points.values[3 * i]; };
+  const auto y = [&points](std::size_t i) { return points.values[3 * i + 1]; };
+  const float angle =
+      std::atan2(y(crop.right) - y(crop.left), x(crop.right) - x(crop.left)) - crop.angle;
+  // The axes of the part as they lie in the whole: right = (c, s), down = (-s, c).
+  const float c = std::cos(angle), s = std::sin(angle);
+  float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
+  for (const std::size_t i : crop.points) {
+    const float along = c * x(i) + s * y(i), down = c * y(i) - s * x(i);
+    left = std::min(left, along);
+    right = std::max(right, along);
+    top = std::min(top, down);
+    bottom = std::max(bottom, down);
+  }
+  const float width = crop.scale_x * (right - left), height = crop.scale_y * (bottom - top);
+  const float corner_along = (left + right - width) / 2, corner_down = (top + bottom - height) / 2;
+  const float along = width / static_cast<float>(crop.columns);
+  const float down = height / static_cast<float>(crop.rows);
+  matrix.values = {c * along, -s * down, 0, c * corner_along - s * corner_down,  //
+                   s * along, c * down,  0, s * corner_along + c * corner_down,  //
+                   0,         0,         1, 0,                                   //
+                   0,         0,         0, 1};
+}
+
+void TransformTensor(const Tensor& in, const Tensor& matrix, Tensor& out) {
+  const auto channels = static_cast<std::size_t>(in.shape.channels());
+  const float* m = matrix.values.data();
+  const auto last_x = static_cast<float>(in.shape.columns() - 1);
+  const auto last_y = static_cast<float>(in.shape.rows() - 1);
+  for (int row = 0; row < out.shape.rows(); ++row) {
+    for (int column = 0; column < out.shape.columns(); ++column) {
+      float* to = &out.values[At(out.shape, row, column)];
+      const float u = static_cast<float>(column) + 0.5F, v = static_cast<float>(row) + 0.5F;
+      const float x = m[0] * u + m[1] * v + m[3] - 0.5F, y = m[4] * u + m[5] * v + m[7] - 0.5F;
+      if (!(x >= 0 && y >= 0 && x <= last_x && y <= last_y)) {
+        std::fill_n(to, channels, 0.0F);
+        continue;
+      }
+      const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+      const int x1 = std::min(x0 + 1, in.shape.columns() - 1);
+      const int y1 = std::min(y0 + 1, in.shape.rows() - 1);
+      const float right = x - static_cast<float>(x0), below = y - static_cast<float>(y0);
+      const float* corner[] = {&in.values[At(in.shape, y0, x0)], &in.values[At(in.shape, y0, x1)],
+                               &in.values[At(in.shape, y1, x0)], &in.values[At(in.shape, y1, x1)]};
+      const float weight[] = {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below,
+                              right * below};
+      for (std::size_t k = 0; k < channels; ++k) {
+        to[k] = weight[0] * corner[0][k] + weight[1] * corner[1][k] + weight[2] * corner[2][k] +
+                weight[3] * corner[3][k];
+      }
+    }
+  }
+}
+
+void TransformLandmarks(const Tensor& in, const Tensor& matrix, Tensor& out) {
+  const auto each = static_cast<std::size_t>(in.shape.channels());
+  const float* m = matrix.values.data();
+  out.values = in.values;
+  for (std::size_t i = 0; i + each <= in.values.size(); i += each) {
+    const float x = in.values[i], y = in.values[i + 1];
+    out.values[i] = m[0] * x + m[1] * y + m[3];
+    out.values[i + 1] = m[4] * x + m[5] * y + m[7];
+  }
+}
+
 void Activate(Activation activation, std::vector<float>& values) {
   if (activation == Activation::kNone) return;
   const float most = activation == Activation::kRelu6 ? 6.0F : INFINITY;

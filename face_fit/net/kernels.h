@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "face_fit/net/model.h"
 
 namespace facefit {
@@ -21,6 +23,21 @@ void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Te
 void Pool(const Step& step, const Tensor& in, Tensor& out);
 void ResizeBilinear(const Step& step, const Tensor& in, Tensor& out);
 void Pad(const Tensor& in, const std::vector<std::int32_t>& by, Tensor& out);
+/// Takes of each axis every `by`-th place from `begin` on. Four numbers each.
+void StridedSlice(const Tensor& in, std::span<const std::int32_t> begin,
+                  std::span<const std::int32_t> by, Tensor& out);
+
+// MediaPipe's operators for looking closer at parts of a face. A matrix is 4 x 4, row by row, of
+// which the first two rows count: they take x, y, 0, 1 of the part to x and y of the whole.
+
+/// The matrix of the crop that CropOptions describes. `points`: x, y, z of each.
+void LandmarksToMatrix(const CropOptions& crop, const Tensor& points, Tensor& matrix);
+/// Cuts a part out, bilinearly. Pixels are squares whose middles lie at halves; what lies beyond
+/// the middles of the outermost ones is 0.
+void TransformTensor(const Tensor& in, const Tensor& matrix, Tensor& out);
+/// Takes points (x, y, or x, y, z with z left as it is) from the part to the whole.
+void TransformLandmarks(const Tensor& in, const Tensor& matrix, Tensor& out);
+
 /// `b` has the shape of `a`, or is one number for each channel, or one.
 template <typename F>
 void Combine(const Tensor& a, const Tensor& b, Tensor& out, F f) {

@@ -5,18 +5,26 @@
 #include <cstring>
 #include <utility>
 
+#include "face_fit/net/flex_buffer.h"
+
 namespace facefit {
 namespace {
 
 // Numbers and places of fields are those of tensorflow/lite/schema/schema.fbs.
 enum : int { kFloat32 = 0, kFloat16 = 1, kInt32 = 2 };
 constexpr int kCustom = 32;
+constexpr std::pair<const char*, Op> kCustomOps[] = {
+    {"Convolution2DTransposeBias", Op::kTransposeConv},
+    {"Landmarks2TransformMatrix", Op::kLandmarksToMatrix},
+    {"TransformLandmarks", Op::kTransformLandmarks},
+    {"TransformTensorBilinear", Op::kTransformTensor}};
 constexpr std::pair<int, Op> kOps[] = {
-    {0, Op::kAdd},       {1, Op::kAveragePool},   {2, Op::kConcatenation},
-    {3, Op::kConv},      {4, Op::kDepthwiseConv}, {6, Op::kDequantize},
-    {14, Op::kLogistic}, {17, Op::kMaxPool},      {18, Op::kMul},
-    {19, Op::kRelu},     {22, Op::kReshape},      {23, Op::kResizeBilinear},
-    {34, Op::kPad},      {54, Op::kPrelu},        {117, Op::kHardSwish}};
+    {0, Op::kAdd},        {1, Op::kAveragePool},   {2, Op::kConcatenation},
+    {3, Op::kConv},       {4, Op::kDepthwiseConv}, {6, Op::kDequantize},
+    {14, Op::kLogistic},  {17, Op::kMaxPool},      {18, Op::kMul},
+    {19, Op::kRelu},      {22, Op::kReshape},      {23, Op::kResizeBilinear},
+    {34, Op::kPad},       {45, Op::kStridedSlice}, {54, Op::kPrelu},
+    {117, Op::kHardSwish}};
 
 std::vector<std::int32_t> Numbers(const FlatTable& table, std::size_t field) {
   std::size_t count = 0;
@@ -94,7 +102,9 @@ Op ReadOp(const FlatTable& code) {
   const int number = std::max<int>(code.Scalar<std::int8_t>(0, 0), code.Scalar<std::int32_t>(3, 0));
   if (number == kCustom) {
     const std::string name = code.Text(1);
-    if (name == "Convolution2DTransposeBias") return Op::kTransposeConv;
+    for (const auto& [known, op] : kCustomOps) {
+      if (name == known) return op;
+    }
     throw BadModel("the operator '" + name + "' is not known here");
   }
   for (const auto& [known, op] : kOps) {
@@ -151,12 +161,46 @@ void ReadOptions(const FlatTable& options, Step& step) {
       step.axis = options.Scalar<std::int32_t>(0, 0);
       act(1);
       break;
+    case Op::kStridedSlice:
+      step.begin_mask = options.Scalar<std::int32_t>(0, 0);
+      step.end_mask = options.Scalar<std::int32_t>(1, 0);
+      for (const std::size_t other : {2U, 3U, 4U}) {
+        if (options.Scalar<std::int32_t>(other, 0) != 0)
+          throw BadModel("a slice that changes axes");
+      }
+      break;
     case Op::kResizeBilinear:
       step.align_corners = options.Scalar<std::uint8_t>(2, 0) != 0;
       step.half_pixel_centres = options.Scalar<std::uint8_t>(3, 0) != 0;
       break;
     default:
       break;
+  }
+}
+
+/// The options of MediaPipe's operators, by the names that its TensorFlow Lite operations read
+/// (mediapipe/util/tflite/operations, version 2 of each).
+void ReadCustomOptions(Bytes bytes, Step& step) {
+  const auto within = [](std::int64_t n, std::int64_t most) {
+    if (n < 0 || n > most) throw BadModel("an operator's option is out of range");
+    return n;
+  };
+  if (step.op != Op::kLandmarksToMatrix) return;
+  const FlexMap map = FlexMap::Root(bytes);
+  const auto most = static_cast<std::int64_t>(Model::kMaxTensor);
+  const auto point = [&](std::int64_t n) { return static_cast<std::size_t>(within(n, most)); };
+  const auto size = [&](const char* key) { return static_cast<int>(within(map.Whole(key), 4096)); };
+  CropOptions& crop = step.crop;
+  for (const std::int64_t n : map.Wholes("subset_idxs")) crop.points.push_back(point(n));
+  crop.left = point(map.Whole("left_rotation_idx"));
+  crop.right = point(map.Whole("right_rotation_idx"));
+  crop.angle = static_cast<float>(map.Number("target_rotation_radians"));
+  crop.scale_x = static_cast<float>(map.Number("scale_x"));
+  crop.scale_y = static_cast<float>(map.Number("scale_y"));
+  crop.rows = size("output_height");
+  crop.columns = size("output_width");
+  if (crop.points.empty() || crop.rows < 1 || crop.columns < 1) {
+    throw BadModel("a crop without points or without size");
   }
 }
 
@@ -206,6 +250,8 @@ Model Model::Read(Bytes file) {
       throw BadModel("an operator names a tensor that is not there");
     }
     if (table.Has(4)) ReadOptions(table.Table(4), step);
+    std::size_t bytes = 0;
+    ReadCustomOptions(table.Vector(5, 1, bytes), step);
     model.steps.push_back(std::move(step));
   }
   return model;

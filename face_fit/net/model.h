@@ -31,6 +31,7 @@ enum class Op {
   kDepthwiseConv,
   kDequantize,
   kHardSwish,
+  kLandmarksToMatrix,
   kLogistic,
   kMaxPool,
   kMul,
@@ -39,10 +40,24 @@ enum class Op {
   kRelu,
   kReshape,
   kResizeBilinear,
+  kStridedSlice,
+  kTransformLandmarks,
+  kTransformTensor,
   kTransposeConv
 };
 
 enum class Activation { kNone, kRelu, kRelu6 };
+
+/// How kLandmarksToMatrix lays a picture of `columns` x `rows` over some points: it is turned until
+/// the line from point `left` to point `right` runs at `angle`, and as large as the box round
+/// `points` times the scales.
+struct CropOptions {
+  std::vector<std::size_t> points;
+  std::size_t left = 0, right = 0;
+  float angle = 0;  ///< radians
+  float scale_x = 1, scale_y = 1;
+  int rows = 1, columns = 1;
+};
 
 struct Step {
   Op op;
@@ -54,6 +69,9 @@ struct Step {
   int axis = 0;
   bool align_corners = false, half_pixel_centres = false;
   Activation activation = Activation::kNone;
+  /// Of kStridedSlice: bits of axes whose begin or end is that of the input.
+  int begin_mask = 0, end_mask = 0;
+  CropOptions crop = {};  ///< of kLandmarksToMatrix
 };
 
 struct Tensor {
@@ -64,7 +82,8 @@ struct Tensor {
 };
 
 /// A network read from a TensorFlow Lite file: of its operators those that the face networks of
-/// MediaPipe and its segmentation of persons use, in floating point with weights of 16 or 32 bits.
+/// MediaPipe (the one with attention too) and its segmentation of persons use, in floating point
+/// with weights of 16 or 32 bits.
 struct Model {
   std::vector<Tensor> tensors;
   std::vector<Step> steps;

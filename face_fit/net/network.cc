@@ -47,6 +47,18 @@ class StepChecker {
         return CheckConcatenation();
       case Op::kPad:
         return CheckPadding();
+      case Op::kStridedSlice:
+        return CheckSlice();
+      case Op::kLandmarksToMatrix:
+        return CheckCrop();
+      case Op::kTransformTensor:
+        CheckMatrix(Numbers(1));
+        return Require(out_.channels() == in_.shape.channels() && out_.size[0] == 1,
+                       "a part of a picture changes the channels");
+      case Op::kTransformLandmarks:
+        CheckMatrix(Numbers(1));
+        return Require(out_ == in_.shape && (out_.channels() == 2 || out_.channels() == 3),
+                       "points that are neither of a plane nor of space");
       case Op::kResizeBilinear:
         return Require(out_.channels() == in_.shape.channels(), "resizing changes the channels");
       case Op::kDequantize:
@@ -124,6 +136,37 @@ class StepChecker {
       Require(before >= 0 && after >= 0 && in_.shape.size[axis] + before + after == out_.size[axis],
               "a padding of another size");
     }
+  }
+
+  void CheckSlice() const {
+    const auto& begin = Argument(1).counts;
+    const auto& end = Argument(2).counts;
+    const auto& by = Argument(3).counts;
+    Require(begin.size() == 4 && end.size() == 4 && by.size() == 4,
+            "a slice of other than four axes");
+    Require(step_.begin_mask == 0, "a slice whose begin is left open");
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      const std::int64_t size = in_.shape.size[axis];
+      const std::int64_t last = (step_.end_mask >> axis & 1) != 0 ? size : end[axis];
+      Require(begin[axis] >= 0 && by[axis] > 0 && begin[axis] < last && last <= size,
+              "a slice beyond its input");
+      Require(out_.size[axis] == (last - begin[axis] + by[axis] - 1) / by[axis],
+              "a slice of another size");
+    }
+  }
+
+  void CheckCrop() const {
+    CheckMatrix(out_);
+    const std::size_t points = in_.shape.count() / 3;
+    Require(in_.shape.channels() == 3 && step_.crop.left < points && step_.crop.right < points &&
+                !step_.crop.points.empty() &&
+                std::ranges::all_of(step_.crop.points, [=](std::size_t i) { return i < points; }),
+            "a crop of points that are not there");
+  }
+
+  static void CheckMatrix(const Shape& shape) {
+    Require(shape.count() == 16 && shape.columns() == 4 && shape.channels() == 4,
+            "a matrix of other than four by four");
   }
 
   const Model& model_;
@@ -222,6 +265,18 @@ void Network::Do(const Step& step) {
     }
     case Op::kPad:
       Pad(in, second().counts, out);
+      break;
+    case Op::kStridedSlice:
+      StridedSlice(in, second().counts, Of(step.inputs[3]).counts, out);
+      break;
+    case Op::kLandmarksToMatrix:
+      LandmarksToMatrix(step.crop, in, out);
+      break;
+    case Op::kTransformTensor:
+      TransformTensor(in, second(), out);
+      break;
+    case Op::kTransformLandmarks:
+      TransformLandmarks(in, second(), out);
       break;
     case Op::kResizeBilinear:
       ResizeBilinear(step, in, out);

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "face_fit/find/attention_points.h"
+
+namespace facefit {
+
+/// What a face in a picture does, in millimetres on a face whose outer corners of the eyes lie 90
+/// mm apart (Farkas 1994: 91.2 and 87.8 for men and women), turned back to how it is held in the
+/// first picture. `right` and `left` are the person's.
+struct FaceMeasures {
+  float certainty = 0;                ///< 0..1 that there is a face
+  float gap = 0;                      ///< between the inner edges of the lips, mean of three places
+  float width = 0;                    ///< from corner to corner of the lips
+  float jaw = 0;                      ///< from below the nose to the chin
+  std::array<float, 2> corner_up{};   ///< corners of the lips above the point below the nose
+  std::array<float, 2> eye{};         ///< between the edges of the lids, mean of three places
+  std::array<float, 2> brow_inner{};  ///< above the line through the corners of both eyes
+  std::array<float, 2> brow_outer{};
+  glm::vec3 turn_deg{0};  ///< since the first picture: down, to its left, towards its left shoulder
+  std::array<float, 2> gaze{};  ///< iris from the middle of the eye, parts of the eye's width:
+                                ///< towards the viewer's right, up; mean of both eyes
+};
+
+/// Measures faces one after the other. Not for several threads.
+class FaceMeasurer {
+ public:
+  /// REQUIRES: all points, the corners of the eyes apart.
+  FaceMeasures Measure(const AttentiveFace& found);
+
+ private:
+  std::vector<glm::vec3> first_;  ///< the points of the first picture, mm, y up
+};
+
+}  // namespace facefit

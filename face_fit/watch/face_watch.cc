@@ -1,0 +1,48 @@
+#include "face_fit/watch/face_watch.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace facefit {
+namespace {
+
+struct EyeLine {
+  glm::vec2 middle;
+  float angle;
+};
+EyeLine EyesOf(const FoundFace& face) {
+  const glm::vec2 right = face.At(point::kEyeOuterRight), left = face.At(point::kEyeOuterLeft);
+  return {0.5F * (right + left), std::atan2(left.y - right.y, left.x - right.x)};
+}
+
+glm::vec2 Turned(glm::vec2 p, float angle) {
+  const float c = std::cos(angle), s = std::sin(angle);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+}  // namespace
+
+bool FaceWatch::Find(const fsm::Image& picture) {
+  const auto boxes = FindFaces(networks_, picture);
+  if (boxes.empty()) return false;
+  const FoundFace face = FindPoints(networks_, picture, boxes.front());
+  if (face.certainty < kCertainFace) return false;
+  const EyeLine eyes = EyesOf(face);
+  eyes_to_middle_ = Turned(face.crop.centre - eyes.middle, -eyes.angle);
+  side_ = face.crop.side;
+  last_ = FindAttentivePoints(attention_, picture, face.crop);
+  return true;
+}
+
+std::optional<FaceMeasures> FaceWatch::Look(const fsm::Image& picture) {
+  if (last_) {
+    const EyeLine eyes = EyesOf(last_->face);
+    const Crop crop{eyes.middle + Turned(eyes_to_middle_, eyes.angle), side_, eyes.angle};
+    last_ = FindAttentivePoints(attention_, picture, crop);
+    if (last_->face.certainty < kCertainFace) last_.reset();
+  }
+  if (!last_ && !Find(picture)) return std::nullopt;
+  return measurer_.Measure(*last_);
+}
+
+}  // namespace facefit

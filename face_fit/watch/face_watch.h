@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "face_fit/find/face_networks.h"
+#include "face_fit/watch/face_measures.h"
+
+namespace facefit {
+
+/// Follows the largest face of a film from picture to picture. Not for several threads.
+class FaceWatch {
+ public:
+  /// Both outlive it.
+  FaceWatch(FaceNetworks& networks, Network& attention)
+      : networks_(networks), attention_(attention) {}
+
+  /// Nothing where no face is seen.
+  std::optional<FaceMeasures> Look(const fsm::Image& picture);
+  /// The points of the last face that was seen.
+  const std::optional<AttentiveFace>& last() const { return last_; }
+
+ private:
+  bool Find(const fsm::Image& picture);
+
+  FaceNetworks& networks_;
+  Network& attention_;
+  FaceMeasurer measurer_;
+  std::optional<AttentiveFace> last_;
+  /// The crop beside the line between the eyes, so that a mouth that opens does not move it.
+  glm::vec2 eyes_to_middle_{0};
+  float side_ = 0;
+};
+
+}  // namespace facefit

@@ -1,0 +1,120 @@
+// Says what a face in a film does, frame by frame, as MediaPipe's networks see it.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "face_fit/watch/face_watch.h"
+#include "vm_protocol/core/or_throw.h"
+
+namespace {
+
+struct Options {
+  std::string size, networks;
+  double rate = 30;
+  bool points = false;
+};
+
+/// "WIDTHxHEIGHT".
+fsm::Image PictureOfSize(const std::string& text) {
+  int width = 0, height = 0, end = 0;
+  const int read = std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &end);
+  if (read != 2 || text[static_cast<std::size_t>(end)] != '\0' || width < 16 || height < 16 ||
+      width > fsm::kMaxImageSide || height > fsm::kMaxImageSide) {
+    throw std::runtime_error("--size '" + text + "': expected WIDTHxHEIGHT, each 16 to " +
+                             std::to_string(fsm::kMaxImageSide));
+  }
+  return fsm::FilledImage(width, height);
+}
+
+void PrintRow(long number, double rate, const std::optional<facefit::FaceMeasures>& seen) {
+  std::cout << fmt::format("{:.1f}", 1000.0 * static_cast<double>(number) / rate);
+  if (!seen) {
+    std::cout << ",0" << std::string(16, ',') << "\n";
+    return;
+  }
+  std::cout << fmt::format(",{:.3f}", seen->certainty);
+  for (const float value :
+       {seen->gap, seen->width, seen->jaw, seen->corner_up[0], seen->corner_up[1], seen->eye[0],
+        seen->eye[1], seen->brow_inner[0], seen->brow_inner[1], seen->brow_outer[0],
+        seen->brow_outer[1], seen->turn_deg.x, seen->turn_deg.y, seen->turn_deg.z, seen->gaze[0],
+        seen->gaze[1]}) {
+    std::cout << fmt::format(",{:.3f}", value);
+  }
+  std::cout << "\n";
+}
+
+/// x and y of the 468 points, then of the right and the left iris, five each.
+void PrintPoints(const std::optional<facefit::AttentiveFace>& face) {
+  std::string row;
+  const auto add = [&row](float x, float y) {
+    row += fmt::format("{}{:.2f},{:.2f}", row.empty() ? "" : ",", x, y);
+  };
+  if (face) {
+    for (const glm::vec3& p : face->face.points) add(p.x, p.y);
+    for (const auto& iris : face->iris) {
+      for (const glm::vec2& p : iris) add(p.x, p.y);
+    }
+  }
+  std::cout << row << "\n";
+}
+
+void Watch(const Options& options) {
+  fsm::Image picture = PictureOfSize(options.size);
+  facefit::FaceNetworks networks = vm::OrThrow(facefit::FaceNetworks::Load(options.networks));
+  facefit::Network attention = vm::OrThrow(facefit::LoadAttentionLandmarks(options.networks));
+  facefit::FaceWatch watch(networks, attention);
+  if (!options.points) {
+    std::cout << "ms,certainty,gap,width,jaw,corner_up_right,corner_up_left,eye_right,eye_left,"
+                 "brow_inner_right,brow_inner_left,brow_outer_right,brow_outer_left,turn_down,"
+                 "turn_left,tilt_left,gaze_across,gaze_up\n";
+  }
+  for (long number = 0;; ++number) {
+    const std::size_t got = std::fread(picture.rgba.data(), 1, picture.rgba.size(), stdin);
+    if (got == 0 && number > 0) return;
+    if (got != picture.rgba.size()) {
+      throw std::runtime_error(
+          fmt::format("standard input ends within frame {}: it has {} of {} bytes ({} RGBA)",
+                      number, got, picture.rgba.size(), options.size));
+    }
+    const auto seen = watch.Look(picture);
+    if (options.points) {
+      PrintPoints(watch.last());
+    } else {
+      PrintRow(number, options.rate, seen);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app(
+      "Reads frames (RGBA, 4 bytes a pixel) from standard input and prints what their face does, "
+      "CSV.\n"
+      "  ffmpeg -v error -i film.mp4 -f rawvideo -pix_fmt rgba - | face_watch --size 480x480\n"
+      "Lengths are mm on a face whose outer corners of the eyes lie 90 mm apart, turned back to "
+      "how\n"
+      "it is held in the first frame. Where no face is seen, certainty is 0 and the rest is "
+      "empty.");
+  app.add_option("--size", options.size, "WIDTHxHEIGHT of a frame")->required();
+  app.add_option("--rate", options.rate, "Frames a second")->check(CLI::Range(1.0, 1000.0));
+  app.add_flag(
+      "--points", options.points,
+      "Print instead where the network's 468 points and 5 of each iris lie: x,y in pixels");
+  app.add_option("--networks", options.networks,
+                 "Where scripts/face_networks.sh put the networks (default: where it does)");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Watch(options);
+  } catch (const std::exception& error) {
+    std::cerr << "face_watch: " << error.what() << std::endl;
+    return 1;
+  }
+}

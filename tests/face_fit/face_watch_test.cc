@@ -1,0 +1,142 @@
+// What FaceWatch says of pictures of the built-in head, beside what the head was told to do.
+
+#include "face_fit/watch/face_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "face_fit/find/portrait_view.h"
+#include "tests/face_fit/network_fixture.h"
+#include "tests/support/process.h"
+
+namespace facefit {
+namespace {
+
+class FaceWatchTest : public NetworkTest {
+ protected:
+  void SetUp() override {
+    NetworkTest::SetUp();
+    if (!networks_) return;
+    auto loaded = LoadAttentionLandmarks("");
+    ASSERT_TRUE(loaded) << loaded.error().text;
+    attention_.emplace(std::move(*loaded));
+    watch_.emplace(*networks_, *attention_);
+    rest_ = See({});
+  }
+  fsm::Image Draw(const fsm::FaceState& state) {
+    fsm::HeadVertices vertices;
+    Galatea().head->Evaluate(state, vertices);
+    return portrait_.Draw(*Galatea().head, vertices, state);
+  }
+  FaceMeasures See(const fsm::FaceState& state) {
+    const auto seen = watch_->Look(Draw(state));
+    EXPECT_TRUE(seen) << "a face is seen";
+    return seen.value_or(FaceMeasures{});
+  }
+
+  const PortraitView portrait_{400};
+  std::optional<Network> attention_;
+  std::optional<FaceWatch> watch_;
+  FaceMeasures rest_;
+};
+
+TEST_F(FaceWatchTest, TheGapOfTheLipsIsSeenToAThird) {
+  EXPECT_LT(rest_.gap, 0.5F) << "closed";
+  for (const float jaw : {3.0F, 6.0F, 10.0F}) {
+    fsm::FaceState state;
+    state.mouth[11] = jaw;
+    const float told = Galatea().head->MeasureMouth(state).gap_mm;
+    EXPECT_NEAR(See(state).gap, told, 0.35F * told) << jaw;
+  }
+}
+
+TEST_F(FaceWatchTest, TheWidthOfTheMouthIsSeen) {
+  fsm::FaceState wide, narrow;
+  wide.mouth[8] = 3.5F;
+  narrow.mouth[8] = -5;
+  const float told =
+      Galatea().head->MeasureMouth(wide).width_mm - Galatea().head->MeasureMouth(narrow).width_mm;
+  EXPECT_NEAR(See(wide).width - See(narrow).width, told, 0.3F * told);
+}
+
+TEST_F(FaceWatchTest, ShutEyesAreSeen) {
+  fsm::FaceState state;
+  state.blink_left = state.blink_right = 1;
+  const FaceMeasures shut = See(state);
+  for (const std::size_t side : {0U, 1U}) {
+    EXPECT_GT(rest_.eye[side], 8);
+    EXPECT_LT(shut.eye[side], 0.4F * rest_.eye[side]);
+  }
+  state.blink_left = 0;  // side 0 is the person's right
+  const FaceMeasures wink = See(state);
+  EXPECT_LT(wink.eye[0], 0.6F * wink.eye[1]);
+}
+
+TEST_F(FaceWatchTest, TurnsOfTheHeadHaveTheirSignsAndSizes) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float by : {-8.0F, 8.0F}) {
+      fsm::FaceState state;
+      state.head_rotation[static_cast<std::size_t>(axis)] = by;
+      const FaceMeasures seen = See(state);
+      for (int other = 0; other < 3; ++other) {
+        EXPECT_NEAR(seen.turn_deg[other], other == axis ? by : 0, 4)
+            << "axis " << axis << ", " << by;
+      }
+      EXPECT_LT(seen.gap, 1) << "lips stay closed while the head turns";
+    }
+  }
+}
+
+TEST_F(FaceWatchTest, BrowsAndCornersMoveAsUnitsSay) {
+  fsm::FaceState brows, smile;
+  for (const std::size_t unit : {1U, 2U}) brows.au_left[unit] = brows.au_right[unit] = 1;
+  smile.au_left[12] = 1;
+  const FaceMeasures raised = See(brows), smiling = See(smile);
+  for (const std::size_t side : {0U, 1U}) {
+    EXPECT_GT(raised.brow_inner[side], rest_.brow_inner[side] + 2) << side;
+    EXPECT_GT(raised.brow_outer[side], rest_.brow_outer[side] + 2) << side;
+  }
+  EXPECT_GT(smiling.corner_up[1], rest_.corner_up[1] + 3);
+  EXPECT_LT(smiling.corner_up[0], rest_.corner_up[0] + 2);
+}
+
+TEST_F(FaceWatchTest, AFaceThatGoesAndComesBackIsFoundAgain) {
+  EXPECT_FALSE(watch_->Look(fsm::FilledImage(400, 400)));
+  EXPECT_FALSE(watch_->last());
+  EXPECT_LT(See({}).gap, 0.5F);
+}
+
+/// The program: frames in, a line each out.
+TEST_F(FaceWatchTest, TheProgramPrintsALineForEachFrame) {
+  const fsm::Image face = Draw({}), none = fsm::FilledImage(400, 400);
+  support::Process program({GALATEA_BIN_DIR "/face_watch", "--size", "400x400", "--rate", "50"});
+  for (const fsm::Image* image : {&face, &none}) {
+    program.Write({reinterpret_cast<const char*>(image->rgba.data()), image->rgba.size()});
+  }
+  program.CloseInput();
+  const auto lines = program.ReadAll();
+  EXPECT_EQ(program.Wait(), 0) << program.ErrorText();
+  ASSERT_EQ(lines.size(), 3U);
+  const auto commas = std::ranges::count(lines[0], ',');
+  EXPECT_TRUE(lines[1].starts_with("0.0,1.000,0.")) << lines[1];
+  EXPECT_TRUE(lines[2].starts_with("20.0,0,,")) << lines[2];
+  for (const auto& line : lines) EXPECT_EQ(std::ranges::count(line, ','), commas) << line;
+}
+
+TEST(FaceWatchProgramTest, WhatIsNoFilmIsOneError) {
+  support::Process cut({GALATEA_BIN_DIR "/face_watch", "--size", "32x16"});
+  cut.Write(std::string(100, 'x'));
+  cut.CloseInput();
+  EXPECT_EQ(cut.Wait(), 1);
+  if (!cut.ExpectError("networks")) {
+    EXPECT_TRUE(cut.ExpectError("standard input ends within frame 0: it has 100 of 2048 bytes"))
+        << cut.ErrorText();
+  }
+  support::Process size({GALATEA_BIN_DIR "/face_watch", "--size", "32by16"});
+  EXPECT_EQ(size.Wait(), 1);
+  EXPECT_TRUE(size.ExpectError("--size '32by16': expected WIDTHxHEIGHT")) << size.ErrorText();
+}
+
+}  // namespace
+}  // namespace facefit
