@@ -30,7 +30,7 @@ void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool fr
                         std::vector<float>& out) {
     const auto above = seeds(upper), below = seeds(lower);
     if (above.empty() || below.empty()) return;
-    const auto up = surface.WayFrom(above, reach), down = surface.WayFrom(below, reach);
+    const auto up = surface.DistancesFrom(above, reach), down = surface.DistancesFrom(below, reach);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const float here = std::clamp((down[i] - up[i]) / clear, -1.0f, 1.0f);
       // Farther away both go over into what is neither.
