@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "fsm/motion/table_text.h"
+#include "fsm/base/table_reader.h"
 #include "vm_protocol/core/file_kind.h"
 
 namespace fsm {
@@ -120,7 +120,7 @@ void DeclareShapes(FsmCore& core, bool bilingual) {
 vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
   const auto text = ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
-  const bool bilingual = TableText(path, *text).lines().size() == kBilingualShapes;
+  const bool bilingual = Table(path, *text).rows().size() == kBilingualShapes;
   auto shapes = ReadVisemes(path, *text, bilingual ? kBilingualShapes : kVisemes);
   if (!shapes) return std::unexpected(shapes.error());
   const Visemes& now = core.motion->shapes(bilingual);
