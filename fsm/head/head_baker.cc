@@ -39,7 +39,8 @@ HeadAsset HeadBaker::Bake() {
   BakeRig(asset.topology, asset.rig);
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
   Complete(asset);
-  asset.landmarks = NameLandmarks(cage_, fine_, asset.rig.rest, eye_, eye_transforms_, identity_.Look());
+  asset.landmarks =
+      NameLandmarks(cage_, fine_, asset.rig.rest, eye_, eye_transforms_, identity_.Look());
   return asset;
 }
 
@@ -93,7 +94,7 @@ void HeadBaker::AddParts() {
   skin_hairs_.insert(skin_hairs_.end(), folds.begin(), folds.end());
   AddLashes();
   soft_count_ = mesh_.position.size();
-  BuildEyes(eye_, palette, mesh_);
+  BuildEyes(eye_, identity_.Look(), palette, mesh_);
   BuildTeeth(mouth_, identity_.Look(), palette, mesh_);
   BuildTongue(mouth_, identity_.Look(), palette, mesh_);
   AddEars();
@@ -136,7 +137,8 @@ void HeadBaker::BakeEyes(HeadTopology& topology) const {
   for (std::size_t side = 0; side < 2; ++side) {
     const float size = eye_transforms_[side].size;
     topology.eyes[side] = {
-        .centre = PlaceInFace(eye_, eye_transforms_, side, eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1)),
+        .centre = PlaceInFace(eye_, eye_transforms_, side,
+                              eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1)),
         .ball_radius = size * eye_.radius(),
         .iris_radius = size * eye_.iris_radius(),
         .pupil_radius = size * eye_.pupil_radius(),
@@ -151,8 +153,9 @@ void HeadBaker::BakeRig(const HeadTopology& topology, RigData& rig) {
                kTongue,   kBones, kNeck, kSprings, kNormals};
   rig.rest = std::move(mesh_.position);
   rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
-  LightAsOne(std::span(rig.rest).subspan(hair_first_),
-             std::span(rig.rest_normal).subspan(hair_first_));
+  HairLook(identity_.Look(), identity_.palette)
+      .LightAsOne(std::span(rig.rest).subspan(hair_first_),
+                  std::span(rig.rest_normal).subspan(hair_first_));
   rig.bone = std::move(mesh_.bone);
   rig.weights = std::move(mesh_.weights);
   for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
