@@ -32,6 +32,7 @@
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/pnt_file.h"
 #include "vm_protocol/core/or_throw.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace {
 
@@ -104,7 +105,7 @@ facefit::FoundFace FindFace(const Options& options, facefit::FaceNetworks& netwo
 }
 
 facefit::FoundFace FaceFromPoints(const Options& options, const facefit::BaseHead& base) {
-  const std::string text = vm::OrThrow(fsm::ReadWhole(options.points, 1U << 20));
+  const std::string text = vm::OrThrow(vm::ReadTextFile(options.points, 1U << 20));
   return facefit::FaceFromHand(base, vm::OrThrow(facefit::ParseHandPoints(options.points, text)));
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "face_editor/app/ui.h"
-#include "fsm/motion/table_text.h"
+#include "fsm/base/parse_number.h"
 #include "fsm/motion/unit_names.h"
 #include "fsm/render/camera.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "fsm/motion/table_text.h"
+#include "fsm/base/parse_number.h"
 
 namespace editor {
 
@@ -14,7 +14,7 @@ vm::Result<std::vector<float>> Numbers(const std::vector<std::string>& words, st
   std::vector<float> numbers;
   for (std::size_t i = first; i < words.size(); ++i) {
     const auto number = fsm::ParseNumber(words[i]);
-    if (!number) return std::unexpected(number.error());
+    if (!number) return Fail(Errc::kBadValue, "'" + words[i] + "' is not a number");
     numbers.push_back(static_cast<float>(*number));
   }
   if (numbers.size() != count) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsm/motion/table_text.h"
+#include "fsm/base/parse_number.h"
 #include "fsm/motion/unit_names.h"
 
 namespace editor::actions {
@@ -53,7 +53,10 @@ Answer Done(vm::Result<void> result) {
   return "";
 }
 
-vm::Result<double> Number(const std::string& word) { return fsm::ParseNumber(word); }
+vm::Result<double> Number(const std::string& word) {
+  if (const auto number = fsm::ParseNumber(word)) return *number;
+  return vm::Fail(Errc::kBadValue, "'" + word + "' is not a number");
+}
 
 vm::Result<int> Whole(const std::string& word) {
   const auto number = fsm::ParseNumber(word);

@@ -7,9 +7,10 @@
 #include "face_editor/core/table_writer.h"
 #include "face_fit/bake/side_view.h"
 #include "face_fit/find/hand_points.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/motion_errors.h"
-#include "fsm/motion/table_text.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace editor {
 
@@ -50,7 +51,7 @@ vm::Result<void> Editor::OpenPhoto(const std::string& path, int face) {
 
 vm::Result<void> Editor::LoadPoints(const std::string& path) {
   if (!work_) return Fail(Errc::kBadValue, "open the photo before its points");
-  auto text = fsm::ReadWhole(path, 1U << 20);
+  auto text = vm::ReadTextFile(path, 1U << 20);
   if (!text) return std::unexpected(text.error());
   auto points = facefit::ParseHandPoints(path, *text);
   if (!points) return std::unexpected(points.error());
@@ -170,11 +171,13 @@ vm::Result<void> Editor::SetTiming(std::string_view name, bool posed,
 
 vm::Result<void> Editor::AddPattern(std::string_view name) {
   const std::string word(name);
-  const fsm::TableText table("an expression", word);
-  if (table.lines().empty() || table.lines().front().words.size() != 1) {
-    return Fail(Errc::kBadValue, "a name expected: a letter, then letters, digits and _");
-  }
-  if (auto named = table.Name(table.lines().front(), 0, "a name"); !named) return named;
+  const auto named = fsm::ReadTable("an expression", word, [](const fsm::Table& table) {
+    if (table.rows().size() != 1 || table.rows().front().size() != 1) {
+      table.Fail("a name expected: a letter, then letters, digits and _");
+    }
+    return table.rows().front().Name(0, "a name");
+  });
+  if (!named) return std::unexpected(named.error());
   if (word == "posed" || word == "elicited") {
     return Fail(Errc::kBadValue, "'" + word + "' is a word of the table, another name expected");
   }
@@ -210,9 +213,9 @@ vm::Result<void> Editor::SetShape(bool bilingual, const fsm::Viseme& shape,
                                              shape.name.substr(0, 40), names));
   }
   // The same bounds as those of the table.
-  const fsm::TableText table("shape", fsm::FormatShapeValues(shape));
+  const fsm::Table table("shape", fsm::FormatShapeValues(shape));
   fsm::Viseme checked = shape;
-  if (auto fits = fsm::ReadShapeValues(table.lines().front().words, 0, checked); !fits) {
+  if (auto fits = fsm::ReadShapeValues(table.rows().front().words(), 0, checked); !fits) {
     return std::unexpected(fits.error());
   }
   history_.Change(Part::kMouth, "mouth shape " + shape.name, merge, [&](State& state) {

@@ -9,9 +9,9 @@
 #include "face_editor/core/editor.h"
 #include "face_editor/core/identity_head.h"
 #include "face_editor/core/table_writer.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
-#include "fsm/motion/table_text.h"
 
 namespace editor {
 

@@ -13,8 +13,8 @@
 #include "face_editor/core/editor.h"
 #include "face_editor/core/identity_head.h"
 #include "face_editor/core/table_writer.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/motion/motion_errors.h"
-#include "fsm/motion/table_text.h"
 
 namespace editor {
 
@@ -29,21 +29,12 @@ constexpr const char* kShapes28File = "mouth_shapes_28.txt";
 constexpr const char* kMotionsFile = "motions.txt";
 constexpr const char* kUnitsFile = "action_units.txt";
 
-vm::Result<std::string> ReadTable(const std::string& path) {
-  auto text = fsm::ReadTableFile(path);
-  if (!text) return text;
-  if (auto encoded = fsm::CheckTableEncoding(path, *text); !encoded) {
-    return std::unexpected(encoded.error());
-  }
-  return text;
-}
-
 /// The text of a table in `folder`, else what the program carries.
 std::string TextIn(const std::string& folder, const char* file, std::string_view built_in) {
   std::error_code code;
   const std::string path = folder + "/" + file;
   if (folder.empty() || !std::filesystem::exists(path, code)) return std::string(built_in);
-  return ReadTable(path).value_or(std::string(built_in));
+  return fsm::ReadTableFile(path).value_or(std::string(built_in));
 }
 
 State First() {
@@ -101,7 +92,7 @@ vm::Result<std::shared_ptr<const Units>> Editor::UnitsIn(const std::string& fold
   std::error_code code;
   const std::string path = folder + "/" + kUnitsFile;
   if (folder.empty() || !std::filesystem::exists(path, code)) return built_in_units_;
-  const auto text = ReadTable(path);
+  const auto text = fsm::ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
   return ReadUnits(path, *text);
 }
@@ -117,7 +108,7 @@ fsm::MotionTables Editor::Tables() const {
 
 vm::Result<void> Editor::Load(Part part, const std::string& path, bool bilingual) {
   if (part == Part::kPoints) return LoadPoints(path);
-  auto text = ReadTable(path);
+  auto text = fsm::ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
   const auto put = [&](const std::string& what, const std::function<void(State&)>& change) {
     history_.Change(part, what, "", change);

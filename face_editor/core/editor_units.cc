@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "face_editor/core/editor.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/motion/motion_errors.h"
-#include "fsm/motion/table_text.h"
 
 namespace editor {
 
@@ -76,9 +76,7 @@ vm::Result<void> Editor::AddRow(int unit, std::string_view word, const std::stri
   const fsm::Table table(
       "", fmt::format("{} {} {}", word, unit, values.empty() ? kind->example : values));
   UnitRow row;
-  for (std::size_t i = 0; i < table.rows()[0].size(); ++i) {
-    row.words.push_back(table.rows()[0].Word(i));
-  }
+  row.words = table.rows()[0].words();
   UnitRows rows = state().units->rows;
   rows.push_back(std::move(row));
   return ChangeRows(std::move(rows), fmt::format("unit {}, another {}", unit, word), "");

@@ -8,13 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/motion/table_text.h"
+#include "fsm/base/parse_number.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/motion/unit_names.h"
 
 namespace editor {
 namespace {
 
-/// A line of a table's file, taken apart the way fsm::TableText does.
+/// A line of a table's file, taken apart the way fsm::Table does.
 struct Line {
   std::string text;
   std::vector<std::string> words;
@@ -27,8 +28,8 @@ std::vector<Line> LinesOf(std::string_view text) {
     const std::size_t newline = text.find('\n');
     Line line{std::string(text.substr(0, newline)), {}, {}};
     text.remove_prefix(newline == std::string_view::npos ? text.size() : newline + 1);
-    const fsm::TableText table("", line.text);
-    if (!table.lines().empty()) line.words = table.lines().front().words;
+    const fsm::Table table("", line.text);
+    if (!table.rows().empty()) line.words = table.rows().front().words();
     for (std::size_t i = 0; i < line.text.size(); ++i) {
       const bool starts = i == 0 || line.text[i - 1] == ' ' || line.text[i - 1] == '\t';
       if (line.text[i] != '#' || !starts) continue;
@@ -147,16 +148,16 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
       const bool posed = line.words[0] == "posed";
       const std::string row = TimingRow(posed ? "posed" : "elicited", name,
                                         posed ? emotion->second.posed : emotion->second.elicited);
-      const fsm::TableText now("", row);
-      const bool same = now.lines().front().words == line.words;
+      const bool same = fsm::Table("", row).rows().front().words() == line.words;
       rows.emplace_back(same ? line.text : row + line.comment, "");
       timed.emplace_back(line.words[0], name);
     } else {
       const std::size_t pattern = PatternOf(line);
       if (pattern == 0 || pattern > emotion->second.patterns.size()) continue;
       const fsm::ActionUnits& look = emotion->second.patterns[pattern - 1];
-      const fsm::TableText table("", line.text);
-      const auto old = fsm::ReadUnits(table, table.lines().front(), 2);
+      const auto old = fsm::ReadTable("", line.text, [](const fsm::Table& table) {
+        return fsm::ReadUnits(table.rows().front(), 2);
+      });
       const bool same = old && fsm::FormatLook(*old) == fsm::FormatLook(look);
       rows.emplace_back(same ? line.text : PatternRow(name, pattern, look) + line.comment, name);
       written[name] = pattern;

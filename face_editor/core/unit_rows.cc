@@ -12,16 +12,17 @@ namespace {
 constexpr std::string_view kBlank = " \t\r";
 
 /// What of a line is no comment, as fsm::Table takes it.
-std::string_view Said(std::string_view line) { return line.substr(0, line.find('#')); }
+std::string_view Said(std::string_view line) {
+  std::size_t at = line.find('#');
+  while (at != 0 && at != std::string_view::npos && !kBlank.contains(line[at - 1])) {
+    at = line.find('#', at + 1);
+  }
+  return line.substr(0, at);
+}
 
 std::vector<std::string> WordsOf(std::string_view line) {
   const fsm::Table table("", line);
-  std::vector<std::string> words;
-  if (table.rows().empty()) return words;
-  for (std::size_t i = 0; i < table.rows()[0].size(); ++i) {
-    words.push_back(table.rows()[0].Word(i));
-  }
-  return words;
+  return table.rows().empty() ? std::vector<std::string>() : table.rows()[0].words();
 }
 
 std::vector<std::string_view> LinesOf(std::string_view text) {

@@ -215,7 +215,7 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
   for (const std::size_t k : {0U, 1U}) {
     if ((*shown)[k] != k) continue;
     const fsm::EyeGeometry& ball = base.head->topology().eyes[k];
-    const fsm::EyeTransform seat = head.eyes ? (*head.eyes)[k] : fsm::EyeTransform();
+    const fsm::EyeTransform transform = head.eyes ? (*head.eyes)[k] : fsm::EyeTransform();
     EyePoints seen, rest;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const PointIndex point = EyeOutline(k)[i];
@@ -227,13 +227,13 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
       const float along = 2 * (rest[i].x - inner) / (outer - inner) - 1;
       const float open = std::max(1 - along * along, 0.0F);
       const float raised = i % kInnerCorner == 0 ? 0
-                           : i < kInnerCorner    ? seat.upper_mm
-                                                 : seat.lower_mm;
-      rest[i] = glm::vec2(seat.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
+                           : i < kInnerCorner    ? transform.upper_mm
+                                                 : transform.lower_mm;
+      rest[i] = glm::vec2(transform.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
     }
     const SeenEye eye{fit.irises[k], LidLines(seen), right, {right.y, -right.x}};
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
-                  BallPicture(eye, LidLines(rest), seat.size * ball.ball_radius, photo)};
+                  BallPicture(eye, LidLines(rest), transform.size * ball.ball_radius, photo)};
   }
   int left = kMargin;
   head.eye_pictures.emplace();

@@ -36,16 +36,16 @@ std::array<fsm::EyeTransform, 2> EyesAtRest(const BaseHead& base, const Fit& fit
   const float kept = PhotoLook()("squint_kept");
   fsm::HeadVertices posed;
   base.head->Evaluate(fit.expression.State(), posed);
-  std::array<fsm::EyeTransform, 2> seats = fit.eyes;
+  std::array<fsm::EyeTransform, 2> transforms = fit.eyes;
   for (std::size_t side = 0; side < 2; ++side) {
     const auto raised = [&](std::size_t k) {
       const MeshPoint& lid = base.points[EyeOutline(side)[k]];
       return lid.On(posed.position).y - lid.On(base.rest.position).y;
     };
-    seats[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
-    seats[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);
+    transforms[side].upper_mm += kept * std::min(raised(kUpperMiddle), 0.0F);
+    transforms[side].lower_mm += kept * std::max(raised(kLowerMiddle), 0.0F);
   }
-  return seats;
+  return transforms;
 }
 
 void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,

@@ -157,15 +157,19 @@ FloatImage Solve(const fsm::Image& image, const FloatImage& person) {
   return out;
 }
 
-/// The small picture's opacity as a linear function of its colours, applied to the large one's.
-FloatImage Enlarged(const fsm::Image& small, const FloatImage& opacity, const fsm::Image& large) {
+/// Opacity as a linear function of the colours around a pixel: dot(slope, colour) + base.
+struct OpacityOfColour {
+  std::array<FloatImage, 3> slope;
+  FloatImage base;
+};
+
+OpacityOfColour FitColours(const fsm::Image& image, const FloatImage& opacity) {
   constexpr int kReach = 1;
-  std::array<FloatImage, 3> mean{opacity, opacity, opacity}, with = mean, slope = mean;
-  const FloatImage mean_opacity = Blurred(opacity, kReach);
+  std::array<FloatImage, 3> mean{opacity, opacity, opacity}, with = mean;
   std::array<std::array<FloatImage, 3>, 3> spread{mean, mean, mean};
   for (std::size_t a = 0; a < 3; ++a) {
     for (std::size_t i = 0; i < opacity.at.size(); ++i) {
-      const glm::vec3 c = Colour(small, i);
+      const glm::vec3 c = Colour(image, i);
       const auto k = static_cast<int>(a);
       mean[a].at[i] = c[k];
       with[a].at[i] = c[k] * opacity.at[i];
@@ -175,7 +179,8 @@ FloatImage Enlarged(const fsm::Image& small, const FloatImage& opacity, const fs
     with[a] = Blurred(with[a], kReach);
     for (FloatImage& field : spread[a]) field = Blurred(field, kReach);
   }
-  FloatImage base = mean_opacity;
+  const FloatImage mean_opacity = Blurred(opacity, kReach);
+  OpacityOfColour fit{mean, mean_opacity};
   for (std::size_t i = 0; i < opacity.at.size(); ++i) {
     const glm::vec3 m(mean[0].at[i], mean[1].at[i], mean[2].at[i]);
     const glm::vec3 w(with[0].at[i], with[1].at[i], with[2].at[i]);
@@ -187,11 +192,17 @@ FloatImage Enlarged(const fsm::Image& small, const FloatImage& opacity, const fs
       }
     }
     const glm::vec3 by = Inverse(s, 2e-4F) * (w - m * mean_opacity.at[i]);
-    for (int a = 0; a < 3; ++a) slope[static_cast<std::size_t>(a)].at[i] = by[a];
-    base.at[i] -= glm::dot(by, m);
+    for (int a = 0; a < 3; ++a) fit.slope[static_cast<std::size_t>(a)].at[i] = by[a];
+    fit.base.at[i] -= glm::dot(by, m);
   }
-  for (FloatImage& field : slope) field = Blurred(field, kReach);
-  base = Blurred(base, kReach);
+  for (FloatImage& field : fit.slope) field = Blurred(field, kReach);
+  fit.base = Blurred(fit.base, kReach);
+  return fit;
+}
+
+/// The small picture's opacity, brought to the large one by its colours.
+FloatImage Enlarged(const fsm::Image& small, const FloatImage& opacity, const fsm::Image& large) {
+  const auto [slope, base] = FitColours(small, opacity);
   FloatImage out(large.width, large.height);
   const float across = static_cast<float>(small.width) / static_cast<float>(large.width);
   const float down = static_cast<float>(small.height) / static_cast<float>(large.height);

@@ -16,7 +16,8 @@ inline constexpr float kBrowsEnd = 27;  ///< millimetres above the nasion
 /// For each texel of the skin's map: where it lies in a photo, and how squarely it was seen.
 struct SkinTexels {
   std::vector<glm::vec2> pixel;
-  std::vector<float> facing, outward;
+  std::vector<float> facing;    ///< cosine of its normal to the way to the camera; -1 = not seen
+  std::vector<float> outward;   ///< square of its distance from the head's upright axis, at rest
   std::vector<float> across;    ///< millimetres to the person's left of the middle
   std::vector<float> up;        ///< millimetres above the brows
   std::vector<float> off_seam;  ///< millimetres from where the lips meet

@@ -31,55 +31,65 @@ float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
   return nearest;
 }
 
+/// How folds are filled.
+struct Filling {
+  float smile;  // 0..1
+  float pixels_per_mm;
+  float reach;  // millimetres beside the fold
+  int valley;   // half its width, pixels
+};
+
+/// `smooth` becomes how much of each pixel was filled, 0..1.
+void FillFold(std::span<const glm::vec2> line, const Filling& filling, fsm::Image& photo,
+              FloatImage& smooth) {
+  const auto& [smile, pixels_per_mm, reach, valley] = filling;
+  Box2 box;
+  for (const glm::vec2 at : line) box.Add(at);
+  const float margin = reach * pixels_per_mm + 2 * static_cast<float>(valley);
+  const glm::ivec2 first = glm::max(glm::ivec2(box.low - margin), 0);
+  const glm::ivec2 last = glm::min(glm::ivec2(box.high + margin) + 1, {photo.width, photo.height});
+  if (last.x <= first.x || last.y <= first.y) return;
+  const glm::ivec2 size = last - first;
+  const auto value = [&](int x, int y, std::size_t channel) -> std::uint8_t& {
+    return photo.rgba[4 * photo.Index(first.x + x, first.y + y) + channel];
+  };
+  FloatImage part(size.x, size.y);
+  for (int y = 0; y < size.y; ++y) {
+    for (int x = 0; x < size.x; ++x) {
+      const float off = ToLine(line, glm::vec2(first + glm::ivec2(x, y)) + 0.5F) / pixels_per_mm;
+      part.at[part.Index(x, y)] = smile * glm::smoothstep(reach, 0.5F * reach, off);
+    }
+  }
+  // Each colour for itself: folds are redder than the skin beside them.
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    FloatImage light(size.x, size.y);
+    for (int y = 0; y < size.y; ++y) {
+      for (int x = 0; x < size.x; ++x) light.at[light.Index(x, y)] = value(x, y, channel);
+    }
+    const FloatImage filled = Blurred(Closed(light, valley), std::max(valley / 2, 1));
+    for (int y = 0; y < size.y; ++y) {
+      for (int x = 0; x < size.x; ++x) {
+        const std::size_t i = light.Index(x, y);
+        const float lit = std::max(filled.at[i], light.at[i]);
+        float& lost = smooth.at[smooth.Index(first.x + x, first.y + y)];
+        if (lit > light.at[i]) lost = std::max(lost, part.at[i]);
+        value(x, y, channel) = Byte(glm::mix(light.at[i], lit, part.at[i]));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_mm,
                           fsm::Image& photo) {
-  const float reach = PhotoLook()("fold_reach");
   FloatImage smooth(photo.width, photo.height);
-  if (smile <= 0) return smooth;
   const int valley = static_cast<int>(std::lround(PhotoLook()("fold_half_width") * pixels_per_mm));
-  if (valley < 1) return smooth;
+  if (smile <= 0 || valley < 1) return smooth;
   for (const auto& fold : kFolds) {
     std::array<glm::vec2, 5> line;
-    Box2 box;
-    for (std::size_t k = 0; k < fold.size(); ++k) {
-      line[k] = face.At(fold[k]);
-      box.Add(line[k]);
-    }
-    const float margin = reach * pixels_per_mm + 2 * static_cast<float>(valley);
-    const glm::ivec2 first = glm::max(glm::ivec2(box.low - margin), 0);
-    const glm::ivec2 last =
-        glm::min(glm::ivec2(box.high + margin) + 1, {photo.width, photo.height});
-    if (last.x <= first.x || last.y <= first.y) continue;
-    const glm::ivec2 size = last - first;
-    const auto value = [&](int x, int y, std::size_t channel) -> std::uint8_t& {
-      return photo.rgba[4 * photo.Index(first.x + x, first.y + y) + channel];
-    };
-    FloatImage part(size.x, size.y);
-    for (int y = 0; y < size.y; ++y) {
-      for (int x = 0; x < size.x; ++x) {
-        const float off = ToLine(line, glm::vec2(first + glm::ivec2(x, y)) + 0.5F) / pixels_per_mm;
-        part.at[part.Index(x, y)] = smile * glm::smoothstep(reach, 0.5F * reach, off);
-      }
-    }
-    // Each colour for itself: folds are redder than the skin beside them.
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      FloatImage light(size.x, size.y);
-      for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < size.x; ++x) light.at[light.Index(x, y)] = value(x, y, channel);
-      }
-      const FloatImage filled = Blurred(Closed(light, valley), std::max(valley / 2, 1));
-      for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < size.x; ++x) {
-          const std::size_t i = light.Index(x, y);
-          const float lit = std::max(filled.at[i], light.at[i]);
-          float& lost = smooth.at[smooth.Index(first.x + x, first.y + y)];
-          if (lit > light.at[i]) lost = std::max(lost, part.at[i]);
-          value(x, y, channel) = Byte(glm::mix(light.at[i], lit, part.at[i]));
-        }
-      }
-    }
+    std::ranges::transform(fold, line.begin(), [&](PointIndex point) { return face.At(point); });
+    FillFold(line, {smile, pixels_per_mm, PhotoLook()("fold_reach"), valley}, photo, smooth);
   }
   return smooth;
 }

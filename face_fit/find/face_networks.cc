@@ -1,36 +1,21 @@
 #include "face_fit/find/face_networks.h"
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "face_fit/find/network_points.h"
+#include "fsm/image/byte_order.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace facefit {
 namespace {
 
-constexpr std::uintmax_t kMostBytes = 64U << 20;
-
-std::optional<std::vector<std::uint8_t>> ReadAll(const std::string& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error || size > kMostBytes) return std::nullopt;
-  std::vector<std::uint8_t> bytes(size);
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
-    return std::nullopt;
-  }
-  return bytes;
-}
+constexpr std::size_t kMostBytes = 64U << 20;
 
 /// The package keeps its files one after the other in one; its loader lists where each begins.
-Bytes Packed(const std::vector<std::uint8_t>& loader, const std::vector<std::uint8_t>& data,
-             const std::string& name) {
-  const std::string script(loader.begin(), loader.end());
+Bytes Packed(const std::string& script, const std::string& data, const std::string& name) {
   const std::string key = "\"files\": [";
   const auto begin = script.find(key);
   const auto end = begin == std::string::npos ? begin : script.find(']', begin);
@@ -42,18 +27,19 @@ Bytes Packed(const std::vector<std::uint8_t>& loader, const std::vector<std::uin
     if (!file.ends_with("/" + name)) continue;
     const std::size_t first = entry.at("start"), last = entry.at("end");
     if (first > last || last > data.size()) break;
-    return Bytes(data).subspan(first, last - first);
+    return fsm::BytesOf(data).subspan(first, last - first);
   }
   throw BadModel("the package holds no " + name);
 }
 
 /// The package @mediapipe/face_mesh as it is unpacked.
 struct FaceMeshPackage {
-  std::vector<std::uint8_t> loader, data;
+  std::string loader, data;
 
   static std::optional<FaceMeshPackage> Read(const std::string& where) {
-    auto loader = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets_loader.js");
-    auto data = ReadAll(where + "/face_mesh/face_mesh_solution_packed_assets.data");
+    const std::string package = where + "/face_mesh/face_mesh_solution_packed_assets";
+    auto loader = vm::ReadTextFile(package + "_loader.js", kMostBytes);
+    auto data = vm::ReadTextFile(package + ".data", kMostBytes);
     if (!loader || !data) return std::nullopt;
     return FaceMeshPackage{std::move(*loader), std::move(*data)};
   }
@@ -98,7 +84,8 @@ std::string NetworksFolder() {
 vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
   const std::string where = folder.empty() ? NetworksFolder() : folder;
   const auto package = FaceMeshPackage::Read(where);
-  const auto figure = ReadAll(where + "/selfie_segmentation/selfie_segmentation.tflite");
+  const auto figure =
+      vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMostBytes);
   if (!package || !figure) return NotThere(where);
   try {
     return FaceNetworks{
@@ -106,7 +93,7 @@ vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
                            {896 * 16, 896}),
         .landmarks =
             Expect(package->Open("face_landmark.tflite"), 192 * 192 * 3, {3 * kNetworkPoints, 1}),
-        .figure = Expect(Network(Model::Read(*figure)), 256 * 256 * 3, {256 * 256})};
+        .figure = Expect(Network(Model::Read(fsm::BytesOf(*figure))), 256 * 256 * 3, {256 * 256})};
   } catch (const std::exception& error) {
     return NotUsable(where, error);
   }

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <sstream>
 
 #include "face_fit/picture/pixels.h"
+#include "fsm/base/parse_number.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/head/warp.h"
 #include "fsm/mesh/original_points.h"
 
@@ -79,43 +80,38 @@ std::string HandPointNames() {
   return names;
 }
 
+namespace {
+
+PointIndex PointAt(const fsm::TableRow& row) {
+  const std::string& key = row.key();
+  const auto named = std::ranges::find(kNames, key, &HandPointName::name);
+  if (named != std::end(kNames)) return named->point;
+  const auto number = fsm::ParseNumber<unsigned>(key);
+  if (!number || *number >= kNetworkPoints) {
+    row.Fail("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " + HandPointNames() +
+             " expected");
+  }
+  return *number;
+}
+
+}  // namespace
+
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text) {
-  HandPoints points;
-  std::istringstream lines{std::string(text)};
-  int number = 0;
-  const auto wrong = [&](const std::string& what) {
-    return vm::Fail(vm::Errc::kBadValue, name + ":" + std::to_string(number) + ": " + what);
-  };
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::string key, more;
-    if (!(words >> key)) continue;
-    glm::vec2 at;
-    if (!(words >> at.x >> at.y) || words >> more || !std::isfinite(at.x) || !std::isfinite(at.y) ||
-        std::abs(at.x) > 1e5F || std::abs(at.y) > 1e5F) {
-      return wrong("NAME X Y expected, as: chin 320 455");
+  return fsm::ReadTable(name, text, [](const fsm::Table& table) {
+    constexpr float kFarthest = 1e5F;
+    HandPoints points;
+    for (const fsm::TableRow& row : table.rows()) {
+      if (row.size() != 3) row.Fail("NAME X Y expected, as: chin 320 455");
+      points[PointAt(row)] = {row.Within(1, -kFarthest, kFarthest),
+                              row.Within(2, -kFarthest, kFarthest)};
     }
-    const auto found = std::ranges::find(kNames, key, &HandPointName::name);
-    PointIndex point = kNoPoint;
-    if (found != std::end(kNames)) {
-      point = found->point;
-    } else if (key.size() <= 3 &&
-               std::ranges::all_of(key, [](char c) { return c >= '0' && c <= '9'; })) {
-      point = std::stoul(key);
+    for (const HandPointName& named : kNames) {
+      if (named.needed && !points.contains(named.point)) {
+        table.Fail(std::string(named.name) + " is missing");
+      }
     }
-    if (point >= kNetworkPoints) {
-      return wrong("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " +
-                   HandPointNames() + " expected");
-    }
-    points[point] = at;
-  }
-  for (const HandPointName& named : kNames) {
-    if (named.needed && !points.contains(named.point)) {
-      return wrong(std::string(named.name) + " is missing");
-    }
-  }
-  return points;
+    return points;
+  });
 }
 
 vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,

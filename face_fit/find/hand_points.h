@@ -17,7 +17,7 @@ using HandPoints = std::map<PointIndex, glm::vec2>;
 
 /// A table of lines `NAME X Y`, NAME one of HandPointNames() or a number of MediaPipe's face mesh;
 /// `#` begins a comment. Needed are both outer eye corners, nose_tip, both mouth corners and chin.
-/// Errors: kBadValue "NAME:LINE: what was expected".
+/// Errors: kBadValue "NAME:LINE: what was expected", without the line for a point that is missing.
 vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text);
 /// A point people can name; `needed`: a file of points must have it.
 struct HandPointName {

@@ -42,9 +42,10 @@ std::vector<bool> Opening(const FrontView& view, const std::vector<bool>& is_eye
   return open;
 }
 
-/// The rows of each column in which an opening lies; low > high where it has none.
+/// The rows of a column in which an opening lies.
 struct RowSpan {
   int low, high;
+  bool IsEmpty() const { return high < low; }
 };
 std::vector<RowSpan> RowsOf(const FrontView& view, const std::vector<bool>& open) {
   std::vector<RowSpan> rows(static_cast<std::size_t>(view.columns()), {view.rows(), -1});
@@ -57,6 +58,20 @@ std::vector<RowSpan> RowsOf(const FrontView& view, const std::vector<bool>& open
     }
   }
   return rows;
+}
+
+/// The first and the last column of an opening; nothing if that is not as wide as eyes are.
+struct Columns {
+  int first, last;
+};
+std::optional<Columns> EndsOf(const std::vector<RowSpan>& rows) {
+  constexpr float kNarrowest = 10, kWidest = 60;  // millimetres
+  const auto first = std::ranges::find_if_not(rows, &RowSpan::IsEmpty);
+  auto end = rows.end();
+  while (end != first && (end - 1)->IsEmpty()) --end;
+  const float width = FrontView::kCell * static_cast<float>(end - first);
+  if (width < kNarrowest || width > kWidest) return std::nullopt;
+  return Columns{static_cast<int>(first - rows.begin()), static_cast<int>(end - rows.begin()) - 1};
 }
 
 }  // namespace
@@ -75,12 +90,8 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
     for (int column = 0; column < view.columns(); ++column) eyes.push_back(is_eye(column, row));
   }
   const std::vector<RowSpan> rows = RowsOf(view, Opening(view, eyes, centre));
-  const auto has_rows = [](const RowSpan& span) { return span.high >= 0; };
-  const auto first = static_cast<int>(std::ranges::find_if(rows, has_rows) - rows.begin());
-  int last = view.columns() - 1;
-  while (last >= 0 && !has_rows(rows[static_cast<std::size_t>(last)])) --last;
-  const float width = FrontView::kCell * static_cast<float>(last - first + 1);
-  if (last < 0 || width < 10 || width > 60) return std::nullopt;
+  const auto ends = EndsOf(rows);
+  if (!ends) return std::nullopt;
   // A cell or two of gap between eyeball and lid may show what lies behind.
   constexpr int kGap = 8;
   const auto beyond = [&](int column, int row, int right, int up) -> std::optional<MeshPoint> {
@@ -95,7 +106,8 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
     return beyond(column, (span.low + span.high) / 2, right, 0);
   };
   LidEdges edges;
-  const int out = outward > 0 ? last : first, in = outward > 0 ? first : last;
+  const int out = outward > 0 ? ends->last : ends->first;
+  const int in = outward > 0 ? ends->first : ends->last;
   const auto outer = corner(out, outward > 0 ? 1 : -1), inner = corner(in, outward > 0 ? -1 : 1);
   if (!outer || !inner) return std::nullopt;
   edges.outer = *outer;
@@ -106,7 +118,7 @@ std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
         std::lround(static_cast<float>(out) + part * static_cast<float>(in - out)));
     const RowSpan& span = rows[static_cast<std::size_t>(column)];
     const auto upper = beyond(column, span.high, 0, 1), lower = beyond(column, span.low, 0, -1);
-    if (!has_rows(span) || !upper || !lower) return std::nullopt;
+    if (span.IsEmpty() || !upper || !lower) return std::nullopt;
     edges.upper[k] = *upper;
     edges.lower[k] = *lower;
   }

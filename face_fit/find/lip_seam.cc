@@ -101,8 +101,9 @@ std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
   }
   const glm::vec2 margin(15, 3);  // millimetres
   const FrontView view(topology, position, lips.low - margin, lips.high + margin);
-  const auto crossings = FindCrossings(topology, view, surface, surface.WayFrom(upper, kReach),
-                                       surface.WayFrom(lower, kReach));
+  const auto crossings =
+      FindCrossings(topology, view, surface, surface.DistancesFrom(upper, kReach),
+                    surface.DistancesFrom(lower, kReach));
   const std::pair<int, int> columns = MouthColumns(crossings);
   const int first = columns.first, last = columns.second;
   const float width = FrontView::kCell * static_cast<float>(last - first);

@@ -34,14 +34,14 @@ fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::v
   }
   const auto solved = sum.Solve(1e-6);
   const auto part = [&solved](std::size_t i) { return static_cast<float>(solved[i]); };
-  fsm::EyeTransform seat;
+  fsm::EyeTransform transform;
   // What people's eyes do; beyond it a point was misjudged.
-  seat.size = std::clamp(std::hypot(part(2), part(3)), 0.82F, 1.2F);
-  seat.turn = std::clamp(std::atan2(part(3), part(2)), -0.25F, 0.25F);
-  seat.shift = {part(0), part(1), forward};
-  seat.upper_mm = std::clamp(part(4) / seat.size, -6.0F, 0.7F);
-  seat.lower_mm = std::clamp(part(5) / seat.size, -2.5F, 3.5F);
-  return seat;
+  transform.size = std::clamp(std::hypot(part(2), part(3)), 0.82F, 1.2F);
+  transform.turn = std::clamp(std::atan2(part(3), part(2)), -0.25F, 0.25F);
+  transform.shift = {part(0), part(1), forward};
+  transform.upper_mm = std::clamp(part(4) / transform.size, -6.0F, 0.7F);
+  transform.lower_mm = std::clamp(part(5) / transform.size, -2.5F, 3.5F);
+  return transform;
 }
 
 }  // namespace

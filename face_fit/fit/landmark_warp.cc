@@ -108,28 +108,25 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
   }
 }
 
-void WarpToLandmarks(const BaseHead& base, Fit& fit) {
-  const std::vector<LandmarkConstraint>& constraints = fit.constraints;
-  fsm::HeadVertices posed;
-  base.head->Evaluate(fit.expression.State(), posed);
-  const std::vector<glm::vec3>& now = posed.position;
-  const auto lies = [&](const LandmarkConstraint& constraint) {
-    return fit.pose.FromCamera(fit.pose.Unproject(constraint.pixel, constraint.z));
-  };
-  std::map<PointIndex, glm::vec3> eyes;
-  for (const LandmarkConstraint& constraint : constraints) {
-    if (!EyeOf(constraint)) continue;
-    eyes[constraint.point] =
-        lies(constraint) - (constraint.on_head.On(now) - constraint.on_head.On(base.rest.position));
-  }
-  fit.eyes = FitEyes(base, eyes);
-  fit.points.clear();
-  struct Correctable {
-    std::size_t warp_point, constraint;
-  };
+namespace {
+
+/// Where the photo shows the point of a constraint.
+glm::vec3 Seen(const CameraPose& pose, const LandmarkConstraint& constraint) {
+  return pose.FromCamera(pose.Unproject(constraint.pixel, constraint.z));
+}
+
+/// A point of the warp that goes where its constraint says, by their indices.
+struct Correctable {
+  std::size_t warp_point, constraint;
+};
+
+/// Sets the points of the warp by the constraints; `now`: the vertices with the expression.
+std::vector<Correctable> PlaceWarpPoints(const BaseHead& base, const std::vector<glm::vec3>& now,
+                                         Fit& fit) {
   std::vector<Correctable> correctable;
-  for (std::size_t i = 0; i < constraints.size(); ++i) {
-    const LandmarkConstraint& constraint = constraints[i];
+  fit.points.clear();
+  for (std::size_t i = 0; i < fit.constraints.size(); ++i) {
+    const LandmarkConstraint& constraint = fit.constraints[i];
     // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
     if (fit.lips_apart && OfInnerLips(constraint)) continue;
     const glm::vec3 rest = constraint.on_head.On(base.rest.position);
@@ -139,9 +136,28 @@ void WarpToLandmarks(const BaseHead& base, Fit& fit) {
       fit.points.push_back({rest, fit.eyes[*side].Placed(centre, rest) - rest});
     } else {
       correctable.push_back({fit.points.size(), i});
-      fit.points.push_back({rest, lies(constraint) - constraint.on_head.On(now)});
+      fit.points.push_back({rest, Seen(fit.pose, constraint) - constraint.on_head.On(now)});
     }
   }
+  return correctable;
+}
+
+}  // namespace
+
+void WarpToLandmarks(const BaseHead& base, Fit& fit) {
+  const std::vector<LandmarkConstraint>& constraints = fit.constraints;
+  fsm::HeadVertices posed;
+  base.head->Evaluate(fit.expression.State(), posed);
+  const std::vector<glm::vec3>& now = posed.position;
+  std::map<PointIndex, glm::vec3> eyes;
+  for (const LandmarkConstraint& constraint : constraints) {
+    if (!EyeOf(constraint)) continue;
+    eyes[constraint.point] =
+        Seen(fit.pose, constraint) -
+        (constraint.on_head.On(now) - constraint.on_head.On(base.rest.position));
+  }
+  fit.eyes = FitEyes(base, eyes);
+  const std::vector<Correctable> correctable = PlaceWarpPoints(base, now, fit);
   const fsm::Warp warp(fit.points, fit.smooth);
   fit.posed_vertices.clear();
   for (std::size_t i = 0; i < now.size(); ++i) {

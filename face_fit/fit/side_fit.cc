@@ -73,6 +73,31 @@ bool NoteBias(FaceNetworks& networks, const BaseHead& base, const Fit& fit, cons
   return true;
 }
 
+/// Refined from several turns; the best.
+CameraPose FindPose(const BaseHead& base, const Fit& fit, const FoundFace& face,
+                    const std::vector<Mark>& marks) {
+  const glm::vec2 top = face.At(point::kNasion), chin = face.At(point::kChin);
+  const auto posed = [&](PointIndex point) { return base.points[point].On(fit.posed_vertices); };
+  const float tall = glm::distance(posed(point::kNasion), posed(point::kChin));
+  CameraPose start = fit.pose;
+  start.focal = fit.pose.focal / fit.pose.PixelsPerMm() * glm::distance(top, chin) / tall;
+  const glm::vec2 down = chin - top;
+  start.turn.z = std::atan2(-down.x, -down.y) + (down.y > 0 ? glm::radians(180.0F) : 0);
+  if (start.turn.z > glm::radians(180.0F)) start.turn.z -= glm::radians(360.0F);
+  std::optional<CameraPose> best;
+  for (const float turn : {-60.0F, -30.0F, 0.0F, 30.0F, 60.0F}) {
+    CameraPose from = start;
+    from.turn = {0, glm::radians(turn), start.turn.z};
+    from.centre = {0, 0};
+    from.centre =
+        face.At(point::kNoseBridge) - from.Project(from.ToCamera(posed(point::kNoseBridge)));
+    const auto shown = Shown(marks, face, from);
+    const CameraPose pose = RefinePose(shown, from);
+    if (!best || MeanDistance(pose, shown) < MeanDistance(*best, shown)) best = pose;
+  }
+  return *best;
+}
+
 }  // namespace
 
 vm::Result<SideFit> FitSideView(FaceNetworks& networks, const BaseHead& base, const Fit& fit,
@@ -87,27 +112,7 @@ vm::Result<SideFit> FitSideView(FaceNetworks& networks, const BaseHead& base, co
                     "they can");
   }
   std::vector<Mark> marks = MarksOf(base, fit);
-  const glm::vec2 top = view.face.At(point::kNasion), chin = view.face.At(point::kChin);
-  const float tall = glm::distance(base.points[point::kNasion].On(fit.posed_vertices),
-                                   base.points[point::kChin].On(fit.posed_vertices));
-  CameraPose start = fit.pose;
-  start.focal = fit.pose.focal / fit.pose.PixelsPerMm() * glm::distance(top, chin) / tall;
-  const glm::vec2 down = chin - top;
-  start.turn.z = std::atan2(-down.x, -down.y) + (down.y > 0 ? glm::radians(180.0F) : 0);
-  if (start.turn.z > glm::radians(180.0F)) start.turn.z -= glm::radians(360.0F);
-  std::optional<CameraPose> best;
-  for (const float turn : {-60.0F, -30.0F, 0.0F, 30.0F, 60.0F}) {
-    CameraPose from = start;
-    from.turn = {0, glm::radians(turn), start.turn.z};
-    from.centre = {0, 0};
-    from.centre =
-        view.face.At(point::kNoseBridge) -
-        from.Project(from.ToCamera(base.points[point::kNoseBridge].On(fit.posed_vertices)));
-    const auto shown = Shown(marks, view.face, from);
-    const CameraPose pose = RefinePose(shown, from);
-    if (!best || MeanDistance(pose, shown) < MeanDistance(*best, shown)) best = pose;
-  }
-  view.pose = *best;
+  view.pose = FindPose(base, fit, view.face, marks);
   const float turn = std::abs(glm::degrees(view.pose.turn.y - fit.pose.turn.y));
   if (turn < kLeastTurn) {
     return vm::Fail(vm::Errc::kBadValue,

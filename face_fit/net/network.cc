@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include "face_fit/net/kernels.h"
 
@@ -225,10 +226,14 @@ void Network::Run(std::span<const float> input) {
   Tensor& first = Of(model_.inputs[0]);
   assert(input.size() == first.values.size());
   std::ranges::copy(input, first.values.begin());
-  for (const Step& step : model_.steps) Do(step);
+  for (const Step& step : model_.steps) {
+    if (step.op == Op::kDequantize && Of(step.inputs[0]).constant) continue;
+    Compute(step);
+    Activate(step.activation, Of(step.output).values);
+  }
 }
 
-void Network::Do(const Step& step) {
+void Network::Compute(const Step& step) {
   const Tensor& in = Of(step.inputs[0]);
   Tensor& out = Of(step.output);
   const auto second = [&]() -> const Tensor& { return Of(step.inputs[1]); };
@@ -237,67 +242,49 @@ void Network::Do(const Step& step) {
   const auto each = [&](auto f) { std::ranges::transform(in.values, out.values.begin(), f); };
   switch (step.op) {
     case Op::kConv:
-      Convolve(step, in, second(), bias, out);
-      break;
+      return Convolve(step, in, second(), bias, out);
     case Op::kDepthwiseConv:
-      DepthwiseConv(step, in, second(), bias, out);
-      break;
+      return DepthwiseConv(step, in, second(), bias, out);
     case Op::kTransposeConv:
-      TransposeConv(in, second(), bias, out);
-      break;
+      return TransposeConv(in, second(), bias, out);
     case Op::kMaxPool:
     case Op::kAveragePool:
-      Pool(step, in, out);
-      break;
+      return Pool(step, in, out);
     case Op::kAdd:
-      Combine(in, second(), out, [](float a, float b) { return a + b; });
-      break;
+      return Combine(in, second(), out, [](float a, float b) { return a + b; });
     case Op::kMul:
-      Combine(in, second(), out, [](float a, float b) { return a * b; });
-      break;
+      return Combine(in, second(), out, [](float a, float b) { return a * b; });
     case Op::kPrelu:
-      Combine(in, second(), out, [](float a, float b) { return a >= 0 ? a : a * b; });
-      break;
-    case Op::kConcatenation: {
-      auto to = out.values.begin();
-      for (const int i : step.inputs) to = std::ranges::copy(Of(i).values, to).out;
-      break;
-    }
+      return Combine(in, second(), out, [](float a, float b) { return a >= 0 ? a : a * b; });
+    case Op::kConcatenation:
+      return Concatenate(step, out);
     case Op::kPad:
-      Pad(in, second().counts, out);
-      break;
+      return Pad(in, second().counts, out);
     case Op::kStridedSlice:
-      StridedSlice(in, second().counts, Of(step.inputs[3]).counts, out);
-      break;
+      return StridedSlice(in, second().counts, Of(step.inputs[3]).counts, out);
     case Op::kLandmarksToMatrix:
-      LandmarksToMatrix(step.crop, in, out);
-      break;
+      return LandmarksToMatrix(step.crop, in, out);
     case Op::kTransformTensor:
-      TransformTensor(in, second(), out);
-      break;
+      return TransformTensor(in, second(), out);
     case Op::kTransformLandmarks:
-      TransformLandmarks(in, second(), out);
-      break;
+      return TransformLandmarks(in, second(), out);
     case Op::kResizeBilinear:
-      ResizeBilinear(step, in, out);
-      break;
+      return ResizeBilinear(step, in, out);
     case Op::kDequantize:
-      if (in.constant) return;
-      [[fallthrough]];
     case Op::kReshape:
-      std::ranges::copy(in.values, out.values.begin());
-      break;
+      return each(std::identity());
     case Op::kHardSwish:
-      each([](float x) { return x * std::clamp(x + 3, 0.0F, 6.0F) / 6; });
-      break;
+      return each([](float x) { return x * std::clamp(x + 3, 0.0F, 6.0F) / 6; });
     case Op::kLogistic:
-      each([](float x) { return 1 / (1 + std::exp(-x)); });
-      break;
+      return each([](float x) { return 1 / (1 + std::exp(-x)); });
     case Op::kRelu:
-      each([](float x) { return std::max(x, 0.0F); });
-      break;
+      return each([](float x) { return std::max(x, 0.0F); });
   }
-  Activate(step.activation, out.values);
+}
+
+void Network::Concatenate(const Step& step, Tensor& out) {
+  auto to = out.values.begin();
+  for (const int i : step.inputs) to = std::ranges::copy(Of(i).values, to).out;
 }
 
 }  // namespace facefit

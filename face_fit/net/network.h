@@ -25,7 +25,8 @@ class Network {
  private:
   const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
   Tensor& Of(int i) { return model_.tensors[static_cast<std::size_t>(i)]; }
-  void Do(const Step& step);
+  void Compute(const Step& step);
+  void Concatenate(const Step& step, Tensor& out);
 
   Model model_;
 };

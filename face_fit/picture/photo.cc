@@ -1,16 +1,14 @@
 #include "face_fit/picture/photo.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "face_fit/picture/filters.h"
+#include "fsm/image/byte_order.h"
 #include "fsm/image/image_codec.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace facefit {
 namespace {
@@ -39,12 +37,7 @@ vm::Result<fsm::Image> DecodeJpegPhoto(std::span<const std::uint8_t> bytes, int 
 vm::Result<fsm::Image> DecodePngPhoto(std::span<const std::uint8_t> bytes) {
   // Width and height stand in the first chunk; they are looked at before anything is decoded.
   if (bytes.size() < 24) return vm::Fail(vm::Errc::kBadValue, "the PNG file ends too early");
-  const auto number = [&bytes](std::size_t at) {
-    std::int64_t n = 0;
-    for (std::size_t i = 0; i < 4; ++i) n = n << 8 | bytes[at + i];
-    return n;
-  };
-  const std::int64_t width = number(16), height = number(20);
+  const std::int64_t width = fsm::BigEndian(bytes, 16, 4), height = fsm::BigEndian(bytes, 20, 4);
   if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
     return vm::Fail(vm::Errc::kBadValue, "the photo has " + std::to_string(width) + " x " +
                                              std::to_string(height) + " pixels; at most " +
@@ -106,20 +99,10 @@ vm::Result<fsm::Image> DecodePhoto(std::span<const std::uint8_t> bytes, int most
 }
 
 vm::Result<fsm::Image> ReadPhoto(const std::string& path, int most_side) {
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(path, error);
-  if (error) {
-    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': " + error.message());
-  }
-  if (bytes > 200'000'000) {
-    return vm::Fail(vm::Errc::kBadValue, "'" + path + "' is larger than 200 MB, no photo is");
-  }
-  std::vector<std::uint8_t> data(bytes);
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(data.data()), static_cast<std::streamsize>(bytes))) {
-    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "'");
-  }
-  auto image = DecodePhoto(data, most_side);
+  constexpr std::size_t kMostBytes = 200'000'000;
+  const auto bytes = vm::ReadTextFile(path, kMostBytes);
+  if (!bytes) return std::unexpected(bytes.error());
+  auto image = DecodePhoto(fsm::BytesOf(*bytes), most_side);
   if (!image) return vm::Fail(image.error().code, "'" + path + "': " + image.error().text);
   return image;
 }
@@ -132,11 +115,7 @@ int ExifOrientation(std::span<const std::uint8_t> block) {
   const bool little = tiff[0] == 'I';
   const auto number = [&](std::size_t at, std::size_t bytes) -> std::uint32_t {
     if (at > tiff.size() || tiff.size() - at < bytes) return 0;
-    std::uint32_t n = 0;
-    for (std::size_t i = 0; i < bytes; ++i) {
-      n |= static_cast<std::uint32_t>(tiff[at + i]) << 8 * (little ? i : bytes - 1 - i);
-    }
-    return n;
+    return little ? fsm::LittleEndian(tiff, at, bytes) : fsm::BigEndian(tiff, at, bytes);
   };
   const std::size_t list = number(4, 4);
   const std::uint32_t entries = number(list, 2);

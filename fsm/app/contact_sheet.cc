@@ -5,6 +5,7 @@
 
 #include "fsm/app/contact_sheet_font.h"
 #include "fsm/motion/face_motion.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
@@ -48,9 +49,8 @@ Sheet Units(const MotionTables& tables, const std::string& face) {
   sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
   for (const auto& [number, name] : tables.unit_names.names) {
     const std::string text = std::to_string(number) + " 1" + Companions(number);
-    const FaceState state = After(tables, [&](FaceMotion& motion) {
-      if (auto set = motion.SetUnits(0ms, text); !set) return;
-    });
+    const FaceState state =
+        After(tables, [&](FaceMotion& motion) { vm::OrThrow(motion.SetUnits(0ms, text)); });
     sheet.cells.push_back({std::to_string(number) + " " + name, Framed(state, kWholeFace), face});
   }
   return sheet;
@@ -61,9 +61,8 @@ Sheet Emotions(const MotionTables& tables, const std::string& face) {
   sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
   for (const char* name : {"HAPPY", "SAD", "SURPRISED", "FEARED", "ANGRY", "DISGUSTED"}) {
     if (!tables.emotions.contains(name)) continue;
-    const FaceState state = After(tables, [&](FaceMotion& motion) {
-      if (auto set = motion.Express(0ms, name, 1, 1, 0ms); !set) return;
-    });
+    const FaceState state = After(
+        tables, [&](FaceMotion& motion) { vm::OrThrow(motion.Express(0ms, name, 1, 1, 0ms)); });
     sheet.cells.push_back({name, Framed(state, kWholeFace), face});
   }
   return sheet;
@@ -87,7 +86,7 @@ Sheet VisemeSheet(const MotionTables& tables, const std::string& face) {
 Sheet Identities(const MotionTables& tables, const std::vector<std::string>& faces) {
   Sheet sheet{{}, 4};
   const FaceState smile = After(tables, [](FaceMotion& motion) {
-    if (auto set = motion.Express(0ms, "HAPPY", 1, 1, 0ms); !set) return;
+    static_cast<void>(motion.Express(0ms, "HAPPY", 1, 1, 0ms));  // without it: at rest
   });
   for (const std::string& face : faces) {
     for (const float turn : {0.0f, 35.0f, 85.0f}) {
@@ -128,14 +127,8 @@ vm::Result<Image> DrawSheet(RenderBackend& backend, const Sheet& sheet, bool lab
   const int count = static_cast<int>(sheet.cells.size());
   const int rows = (count + sheet.columns - 1) / sheet.columns;
   const int cell_height = kCellHeight + kGap + (labels ? kLabelHeight : 0);
-  Image picture;
-  picture.width = sheet.columns * (kCellWidth + kGap) + kGap;
-  picture.height = rows * cell_height + kGap;
-  picture.rgba.assign(
-      4 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height),
-      kPaper);
-  for (std::size_t at = 3; at < picture.rgba.size(); at += 4) picture.rgba[at] = 255;
-
+  Image picture = FilledImage(sheet.columns * (kCellWidth + kGap) + kGap, rows * cell_height + kGap,
+                              {kPaper, kPaper, kPaper, 255});
   for (int i = 0; i < count; ++i) {
     const SheetCell& cell = sheet.cells[static_cast<std::size_t>(i)];
     if (!cell.face.empty()) {

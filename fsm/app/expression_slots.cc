@@ -1,7 +1,7 @@
-#include "fsm/app/expression_slots.h"
-
 #include <charconv>
 #include <optional>
+
+#include "fsm/app/slot_groups.h"
 
 namespace fsm {
 namespace {

@@ -1,11 +1,9 @@
-#include "fsm/app/face_slots.h"
-
 #include <chrono>
+
+#include "fsm/app/slot_groups.h"
 
 namespace fsm {
 namespace {
-
-vm::Time Ms(double ms) { return FromMs(ms); }
 
 /// Ours lean to the viewer's right with z+, those of the original to his left.
 Angles AnglesOf(const FsmCore& core, const vm::SetValue& value) {
@@ -20,7 +18,7 @@ int NumberOf(const std::string& slot) { return std::stoi(slot.substr(slot.find('
 vm::Result<void> SetBlendShapes(FsmCore& core, const vm::SetValue& value) {
   const vm::Time now = core.Now();
   const bool timed = value.size() % 2 == 1;
-  const vm::Time move = Ms(timed ? value.number(value.size() - 1) : 60);
+  const vm::Time move = FromMs(timed ? value.number(value.size() - 1) : 60);
   // All names are looked at before anything moves.
   for (std::size_t i = 0; i + 1 < value.size(); i += 2) {
     if (auto known = core.motion->CheckBlendShape(value.word(i)); !known) return known;
@@ -90,23 +88,20 @@ void DeclareExpressions(FsmCore& core) {
            return {};
          }
          return core.motion->Express(core.Now(), value.word(0), static_cast<int>(value.number(1)),
-                                     value.number(2) / 100, Ms(value.number(3)));
+                                     value.number(2) / 100, FromMs(value.number(3)));
        },
        "NEUTRAL"});
   const MotionSettings& settings = core.motion->settings();
   core.Declare({"FaceExp.onset", "POSED | ELICITED | NATURAL | <ms>",
                 "How long an expression takes to come: as measured on people who show (POSED, or "
                 "NATURAL) or feel (ELICITED) it, each emotion by itself; or so many ms.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  MotionSettings changed = core.motion->settings();
+                core.Setting([](MotionSettings& changed, const vm::SetValue& value) {
                   changed.onset = value.word(0) == "POSED" || value.word(0) == "NATURAL"
                                       ? Onset::kPosed
                                   : value.word(0) == "ELICITED" ? Onset::kElicited
                                                                 : Onset::kFixed;
-                  if (changed.onset == Onset::kFixed) changed.expression = Ms(value.number(0));
-                  core.motion->Apply(core.Now(), changed);
-                  return {};
-                },
+                  if (changed.onset == Onset::kFixed) changed.expression = FromMs(value.number(0));
+                }),
                 settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression) : "POSED"});
 }
 
@@ -160,7 +155,7 @@ void DeclareEyes(FsmCore& core) {
                       "0 = until the next.",
                   [&core, left, right](const vm::SetValue& value) -> vm::Result<void> {
                     core.motion->TurnEyes(core.Now(), left, right, value.number(0), value.number(1),
-                                          Ms(value.number(2)));
+                                          FromMs(value.number(2)));
                     return {};
                   },
                   "", false});
@@ -180,50 +175,50 @@ void DeclareFaceSlots(FsmCore& core) {
 }
 
 void DeclareFigureSlots(FsmCore& core) {
+  const auto setting = [&core](auto change) {
+    return [&core, change](const vm::SetValue& value) -> vm::Result<void> {
+      change(core.motion->figure(), value);
+      return {};
+    };
+  };
   core.Declare({"AgentEnable", "ENABLE | DISABLE", "Whether the agent is drawn.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->figure().agent_enabled = value.word(0) == "ENABLE";
-                  return {};
-                },
+                setting([](FaceState& figure, const vm::SetValue& value) {
+                  figure.agent_enabled = value.word(0) == "ENABLE";
+                }),
                 "ENABLE"});
   core.Declare({"Asymmetry", "<number 0..300>",
                 "How unlike the two sides of the face move, in per cent of what this face has by "
                 "itself (a few per cent of each unit); 0 = both alike. Which side is first in time "
                 "is Autonomous' ASYMMETRY.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->figure().asymmetry = static_cast<float>(value.number(0) / 100);
-                  return {};
-                },
+                setting([](FaceState& figure, const vm::SetValue& value) {
+                  figure.asymmetry = static_cast<float>(value.number(0) / 100);
+                }),
                 "100"});
   core.Declare({"AgentAlpha", "<number 0..1>", "Opacity of the agent, 0 = not to be seen.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->figure().agent_alpha = static_cast<float>(value.number(0));
-                  return {};
-                },
+                setting([](FaceState& figure, const vm::SetValue& value) {
+                  figure.agent_alpha = static_cast<float>(value.number(0));
+                }),
                 "1.0"});
   core.Declare({"AgentRot", "<number -360..360> <number -360..360> <number -360..360>",
                 "Turns the whole figure: x y z in degrees, x+ = down, y+ = right, z+ = tilt to the "
                 "viewer's right (with -C to his left, as in the original).",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->figure().agent_rotation = AnglesOf(core, value);
-                  return {};
-                },
+                setting([&core](FaceState& figure, const vm::SetValue& value) {
+                  figure.agent_rotation = AnglesOf(core, value);
+                }),
                 "0 0 0"});
   core.Declare(
       {"AgentTrans", "<number -10000..10000> <number -10000..10000>",
        "Moves the whole figure: x to the right and y up, in mm at the face; with -C in halves of "
        "the view's longer side, as in the original.",
-       [&core](const vm::SetValue& value) -> vm::Result<void> {
-         core.motion->figure().agent_translation = {static_cast<float>(value.number(0)),
-                                                    static_cast<float>(value.number(1))};
-         return {};
-       },
+       setting([](FaceState& figure, const vm::SetValue& value) {
+         figure.agent_translation = {static_cast<float>(value.number(0)),
+                                     static_cast<float>(value.number(1))};
+       }),
        "0 0"});
   core.Declare({"AgentScale", "<number 0.01..100>", "Size of the whole figure, 1.0 = normal.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->figure().agent_scale = static_cast<float>(value.number(0));
-                  return {};
-                },
+                setting([](FaceState& figure, const vm::SetValue& value) {
+                  figure.agent_scale = static_cast<float>(value.number(0));
+                }),
                 "1.0"});
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/scheduler.h"
 #include "vm_protocol/core/slot_machine.h"
+#include "vm_protocol/core/start_time.h"
 
 namespace fsm {
 
@@ -69,6 +71,26 @@ struct FsmCore {
            return told != nullptr ? told(value) : value.text;
          },
          .quoted = slot.quoted});
+  }
+
+  /// The action of a slot that is a setting: `change(settings, value)` changes it or returns why
+  /// not.
+  template <typename Change>
+  Action Setting(Change change) {
+    return [this, change](const vm::SetValue& value) -> vm::Result<void> {
+      MotionSettings settings = motion->settings();
+      if constexpr (std::is_void_v<decltype(change(settings, value))>) {
+        change(settings, value);
+      } else if (auto done = change(settings, value); !done) {
+        return done;
+      }
+      motion->Apply(Now(), settings);
+      return {};
+    };
+  }
+
+  vm::Time InstantOf(const vm::StartTime& start) const {
+    return vm::Resolve(start, Now(), vm::WallSinceMidnight());
   }
 
   /// A slot that tells what the module knows, with SlotMachine::Report or Store.

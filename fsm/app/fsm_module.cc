@@ -7,11 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "fsm/app/expression_slots.h"
-#include "fsm/app/face_slots.h"
-#include "fsm/app/idle_slots.h"
-#include "fsm/app/lip_slots.h"
-#include "fsm/app/mouth_stream_slots.h"
+#include "fsm/app/slot_groups.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -27,19 +23,10 @@ constexpr const char* kProtocolVersion =
 FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions options)
     : options_(std::move(options)),
       core_{.clock = clock, .backend = backend, .original = !options_.config.path.empty()} {
-  const OriginalConfig& config = options_.config;
   tables_ = vm::OrThrow(MotionTables::Load(options_.tables));
-  vm::OrThrow(config.ApplyTo(tables_));
-  if (config.expression_ms) {
-    start_settings_.onset = Onset::kFixed;
-    start_settings_.expression = FromMs(*config.expression_ms);
-  }
-  if (config.eye_move_ms) start_settings_.eye_move = FromMs(*config.eye_move_ms);
-  if (config.language) start_settings_.lips.language = *config.language;
-  if (config.max_frame_rate) frame_rate_ = *config.max_frame_rate;
+  ApplyConfig(options_.config);
   core_.changed = [this] { Changed(); };
   MakeMotion();
-
   vm::DeclareCommonSlots(core_.slots, {.module_version = kModuleVersion,
                                        .protocol_version = kProtocolVersion,
                                        .report_exit = false,
@@ -60,21 +47,10 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
   DeclareLipSlots(core_);
   DeclareMouthStreamSlots(core_);
   DeclareFigureSlots(core_);
-  mask_ = std::make_unique<MaskSlots>(core_, options_.mask, config.MaskNames());
-  scene_ = std::make_unique<SceneSlots>(core_, config.backgrounds);
-  film_ = std::make_unique<Film>(
-      clock, backend, [this](long number, vm::Time at) { return DrawFrame(number, at); },
-      [this](const vm::Error& error) {
-        core_.slots.Report("Record", "STOP");
-        core_.slots.ReportError("Record", error);
-      });
+  mask_ = std::make_unique<MaskSlots>(core_, options_.mask, options_.config.MaskNames());
+  scene_ = std::make_unique<SceneSlots>(core_, options_.config.backgrounds);
   scene_->set_size_locked([this] { return film_->recording(); });
-  capture_ = std::make_unique<Capture>(
-      clock, backend, [this](long number, vm::Time at) { return DrawFrame(number, at); },
-      [this](const vm::Result<void>& done) {
-        core_.slots.Report("Capture", "DISABLE");
-        if (!done) core_.slots.ReportError("Capture", done.error());
-      });
+  MakeFilms();
   DeclareRecording();
   DeclareCapture();
   DeclareFrame();
@@ -86,6 +62,32 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
 FsmModule::~FsmModule() {
   if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
   if (end_timer_ != 0) core_.clock.Cancel(end_timer_);
+}
+
+void FsmModule::ApplyConfig(const OriginalConfig& config) {
+  vm::OrThrow(config.ApplyTo(tables_));
+  if (config.expression_ms) {
+    start_settings_.onset = Onset::kFixed;
+    start_settings_.expression = FromMs(*config.expression_ms);
+  }
+  if (config.eye_move_ms) start_settings_.eye_move = FromMs(*config.eye_move_ms);
+  if (config.language) start_settings_.lips.language = *config.language;
+  if (config.max_frame_rate) frame_rate_ = *config.max_frame_rate;
+}
+
+void FsmModule::MakeFilms() {
+  const auto draw = [this](long number, vm::Time at) { return DrawFrame(number, at); };
+  film_ = std::make_unique<Film>(core_.clock, core_.backend, draw, [this](const vm::Error& error) {
+    core_.slots.Report("Record", "STOP");
+    core_.slots.ReportError("Record", error);
+  });
+  capture_ = std::make_unique<Capture>(core_.clock, core_.backend, draw,
+                                       [this](const vm::Result<void>& done) {
+                                         core_.slots.Report("Capture", "DISABLE");
+                                         if (!done) {
+                                           core_.slots.ReportError("Capture", done.error());
+                                         }
+                                       });
 }
 
 void FsmModule::MakeMotion() {

@@ -47,6 +47,8 @@ class FsmModule final : public vm::Module {
   const FaceMotion& motion() const { return *core_.motion; }
 
  private:
+  void ApplyConfig(const OriginalConfig& config);
+  void MakeFilms();  // and captures
   void MakeMotion();
   vm::Result<void> BeginLife();  // as FsmOptions::life says
   void Initialise();             // Run = INIT

@@ -1,4 +1,4 @@
-#include "fsm/app/idle_slots.h"
+#include "fsm/app/slot_groups.h"
 
 namespace fsm {
 namespace {
@@ -41,12 +41,9 @@ void DeclareGaze(FsmCore& core) {
       {"Gaze.distance", "FAR | <number 100..10000>",
        "How far away what Gaze looks at is, in mm: the eyes converge on it. FAR = they are "
        "parallel. For the next Gaze.",
-       [&core](const vm::SetValue& value) -> vm::Result<void> {
-         MotionSettings settings = core.motion->settings();
+       core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
          settings.gaze_distance_mm = value.word(0) == "FAR" ? 0 : value.number(0);
-         core.motion->Apply(core.Now(), settings);
-         return {};
-       },
+       }),
        "700"});
 }
 

@@ -1,10 +1,10 @@
-#include "fsm/app/lip_slots.h"
-
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string_view>
 
-#include "fsm/motion/table_text.h"
+#include "fsm/app/slot_groups.h"
+#include "fsm/base/table_reader.h"
 #include "vm_protocol/core/file_kind.h"
 
 namespace fsm {
@@ -26,73 +26,65 @@ std::string SlotOf(bool bilingual, const std::string& shape) {
   return (bilingual ? "MouthShape28." : "MouthShape.") + shape;
 }
 
-template <typename Change>
-FsmCore::Action Setting(FsmCore& core, Change change) {
-  return [&core, change](const vm::SetValue& value) -> vm::Result<void> {
-    MotionSettings settings = core.motion->settings();
-    change(settings.lips, value);
-    core.motion->Apply(core.Now(), settings);
-    return {};
-  };
+LipMode ModeOf(const std::string& word) {
+  return word == "SINUSOID" ? LipMode::kSinusoid
+         : word == "LINEAR" ? LipMode::kLinear
+                            : LipMode::kDominance;
+}
+
+vm::Result<void> SetShapes(MotionSettings& settings, const vm::SetValue& value) {
+  if (value.number(0) != 14 && value.number(0) != 28) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
+  }
+  settings.lips.bilingual = value.number(0) == 28;
+  return {};
+}
+
+/// `names`: of all lists, with blanks between them.
+vm::Result<void> SetNames(const std::string& names, MotionSettings& settings,
+                          const std::string& word) {
+  if ((" " + names + " ").find(" " + word + " ") == std::string::npos) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "'" + word + "' is no list of phoneme names; " + names + " expected");
+  }
+  settings.lips.engine = word;
+  return {};
+}
+
+void SetScale(MotionSettings& settings, const vm::SetValue& value) {
+  const auto style = std::ranges::find(kStyles, value.word(0), &SpeakingStyle::name);
+  const bool named = style != kStyles.end();
+  settings.lips.jaw = (named ? style->jaw : value.number(0)) / 100;
+  settings.lips.lips = (named ? style->lips : value.number(value.size() > 1 ? 1 : 0)) / 100;
 }
 
 void DeclareStyle(FsmCore& core) {
+  const std::string engines = EngineList(core.motion->tables().engines);
   core.Declare({"LipSync.mode", "DOMINANCE | SINUSOID | LINEAR",
                 "How lips go from sound to sound: by overlapping dominance curves with "
                 "anticipation, by the original's sinusoids, or by straight lines.",
-                Setting(core,
-                        [](LipStyle& lips, const vm::SetValue& value) {
-                          lips.mode = value.word(0) == "SINUSOID" ? LipMode::kSinusoid
-                                      : value.word(0) == "LINEAR" ? LipMode::kLinear
-                                                                  : LipMode::kDominance;
-                        }),
+                core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
+                  settings.lips.mode = ModeOf(value.word(0));
+                }),
                 "DOMINANCE"});
   core.Declare({"LipSync.shapes", "<int 14..28>",
                 "Which mouth shapes: 28 of English and Japanese, or the original's 14.",
-                [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  if (value.number(0) != 14 && value.number(0) != 28) {
-                    return vm::Fail(
-                        vm::Errc::kBadValue,
-                        "there are sets of 14 and of 28 mouth shapes; 14 or 28 expected");
-                  }
-                  MotionSettings settings = core.motion->settings();
-                  settings.lips.bilingual = value.number(0) == 28;
-                  core.motion->Apply(core.Now(), settings);
-                  return {};
-                },
-                "28"});
-  core.Declare(
-      {"LipSync.names", "<word>",
-       "Whose names the phonemes have: AUTO (whichever knows most of the list) or one of " +
-           EngineList(core.motion->tables().engines) + ".",
-       [&core](const vm::SetValue& value) -> vm::Result<void> {
-         const std::string known = "AUTO " + EngineList(core.motion->tables().engines);
-         if ((" " + known + " ").find(" " + value.word(0) + " ") == std::string::npos) {
-           return vm::Fail(
-               vm::Errc::kBadValue,
-               "'" + value.word(0) + "' is no list of phoneme names; " + known + " expected");
-         }
-         MotionSettings settings = core.motion->settings();
-         settings.lips.engine = value.word(0);
-         core.motion->Apply(core.Now(), settings);
-         return {};
-       },
-       "AUTO"});
+                core.Setting(SetShapes), "28"});
+  core.Declare({"LipSync.names", "<word>",
+                "Whose names the phonemes have: AUTO (whichever knows most of the list) or one "
+                "of " +
+                    engines + ".",
+                core.Setting([names = "AUTO " + engines](MotionSettings& settings,
+                                                         const vm::SetValue& value) {
+                  return SetNames(names, settings, value.word(0));
+                }),
+                "AUTO"});
   core.Declare({"LipSync.scale",
                 "MUMBLED | SOFT | NORMAL | CLEAR | SHOUTED | <number 0..300> [ <number 0..300> ]",
                 "How large the next utterances are articulated: a way of speaking, or per cent for "
                 "the jaw and for the lips. Closures stay closed.",
-                Setting(core,
-                        [](LipStyle& lips, const vm::SetValue& value) {
-                          lips.jaw = value.number(0) / 100;
-                          lips.lips = value.number(value.size() > 1 ? 1 : 0) / 100;
-                          for (const SpeakingStyle& style : kStyles) {
-                            if (value.word(0) != style.name) continue;
-                            lips.jaw = style.jaw / 100;
-                            lips.lips = style.lips / 100;
-                          }
-                        }),
-                "NORMAL"});
+                core.Setting(SetScale), "NORMAL"});
 }
 
 void DeclareShapes(FsmCore& core, bool bilingual) {
@@ -120,7 +112,7 @@ void DeclareShapes(FsmCore& core, bool bilingual) {
 vm::Result<void> LoadShapes(FsmCore& core, const std::string& path) {
   const auto text = ReadTableFile(path);
   if (!text) return std::unexpected(text.error());
-  const bool bilingual = TableText(path, *text).lines().size() == kBilingualShapes;
+  const bool bilingual = Table(path, *text).rows().size() == kBilingualShapes;
   auto shapes = ReadVisemes(path, *text, bilingual ? kBilingualShapes : kVisemes);
   if (!shapes) return std::unexpected(shapes.error());
   const Visemes& now = core.motion->shapes(bilingual);

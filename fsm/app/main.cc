@@ -193,26 +193,14 @@ std::unique_ptr<fsm::Head> HeadAsked(const Options& options) {
   return fsm::MakeHeadOfName(name.empty() ? std::string(fsm::Identities()[0].name) : name, tables);
 }
 
-/// Exit code of a run that only writes or describes a head; -1 if neither is asked for.
-int ExportIfAsked(const Options& options) {
-  if (options.export_file.empty() && !options.describe) return -1;
-  const auto fail = [](const std::string& text) {
-    std::cerr << "fsm: " << text << "\n";
-    return 1;
-  };
-  const auto tables = fsm::MotionTables::Load(options.module.tables);
-  if (!tables) return fail(tables.error().text);
-  try {
-    const auto head = HeadAsked(options);
-    if (options.describe) std::cout << fsm::Describe(*head) << std::flush;
-    if (options.export_file.empty()) return 0;
-    if (auto done = fsm::ExportHead(*head, *tables, options.export_file); !done) {
-      return fail(done.error().text);
-    }
-  } catch (const std::exception& error) {
-    return fail(error.what());
+/// For a run that only writes or describes a head.
+void ExportOrDescribe(const Options& options) {
+  const auto tables = vm::OrThrow(fsm::MotionTables::Load(options.module.tables));
+  const auto head = HeadAsked(options);
+  if (options.describe) std::cout << fsm::Describe(*head) << std::flush;
+  if (!options.export_file.empty()) {
+    vm::OrThrow(fsm::ExportHead(*head, tables, options.export_file));
   }
-  return 0;
 }
 
 fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
@@ -252,35 +240,37 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
   return backend;
 }
 
-/// Exit code of a run that only draws a sheet; -1 if none is asked for.
-int DrawSheetIfAsked(const Options& options) {
-  if (options.sheet.empty()) return -1;
-  const auto fail = [](const std::string& text) {
-    std::cerr << "fsm: " << text << "\n";
-    return 1;
-  };
-  if (options.out.empty()) return fail("--sheet needs --out FILE.png");
-  const auto tables = fsm::MotionTables::Load(options.module.tables);
-  if (!tables) return fail(tables.error().text);
+/// For a run that only draws a sheet.
+void DrawSheet(const Options& options) {
+  if (options.out.empty()) throw std::runtime_error("--sheet needs --out FILE.png");
+  const auto tables = vm::OrThrow(fsm::MotionTables::Load(options.module.tables));
   fsm::OriginalConfig config;
-  if (!options.config.empty()) {
-    auto read = fsm::OriginalConfig::Read(options.config);
-    if (!read) return fail(read.error().text);
-    config = std::move(*read);
-  }
+  if (!options.config.empty()) config = vm::OrThrow(fsm::OriginalConfig::Read(options.config));
   fsm::GlRenderBackend backend({.width = fsm::kCellWidth,
                                 .height = fsm::kCellHeight,
                                 .more_faces = MoreFaces(options, config),
                                 .tables = options.module.tables});
-  if (!options.module.mask.empty()) {
-    if (auto worn = backend.Wear(options.module.mask); !worn) return fail(worn.error().text);
+  const std::string& face = options.module.mask;
+  if (!face.empty()) vm::OrThrow(backend.Wear(face));
+  const auto sheet = vm::OrThrow(fsm::MakeSheet(options.sheet, tables, backend.Faces(), face));
+  const auto picture = vm::OrThrow(fsm::DrawSheet(backend, sheet, !options.no_labels));
+  vm::OrThrow(backend.WritePicture(picture, options.out));
+}
+
+/// Exit code of a run without lines; -1 if none is asked for.
+int RunOnce(const Options& options) {
+  try {
+    if (!options.export_file.empty() || options.describe) {
+      ExportOrDescribe(options);
+    } else if (!options.sheet.empty()) {
+      DrawSheet(options);
+    } else {
+      return -1;
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "fsm: " << error.what() << "\n";
+    return 1;
   }
-  const auto sheet = fsm::MakeSheet(options.sheet, *tables, backend.Faces(), options.module.mask);
-  if (!sheet) return fail(sheet.error().text);
-  const auto picture = fsm::DrawSheet(backend, *sheet, !options.no_labels);
-  if (!picture) return fail(picture.error().text);
-  if (auto done = backend.WritePicture(*picture, options.out); !done)
-    return fail(done.error().text);
   return 0;
 }
 
@@ -298,11 +288,7 @@ int main(int argc, char** argv) {
        .original_port = 10700,
        .virtual_by_default = true,
        .add_options = [&options](CLI::App& app) { AddOptions(app, options); },
-       .before_start =
-           [&options] {
-             const int exported = ExportIfAsked(options);
-             return exported >= 0 ? exported : DrawSheetIfAsked(options);
-           },
+       .before_start = [&options] { return RunOnce(options); },
        .needs_real_clock = [&options] { return WindowWanted(options); },
        .make = [&options](vm::Scheduler& clock,
                           boost::asio::io_context&) -> std::unique_ptr<vm::Module> {

@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "fsm/base/random.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
 namespace {
-
-// FNV-1a: the same for the same name everywhere, which std::hash does not promise.
-std::uint64_t PersonOf(const std::string& name) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
 
 /// The names that are among `known`, with commas between them.
 std::string Joined(const std::vector<std::string>& names, const std::vector<std::string>& known) {
@@ -49,7 +43,7 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
 
 vm::Result<void> MaskSlots::Wear(const std::string& face) {
   if (auto worn = core_.backend.Wear(face); !worn) return worn;
-  core_.motion->SetPerson(PersonOf(face));
+  core_.motion->SetPerson(HashOf(face));
   return {};
 }
 

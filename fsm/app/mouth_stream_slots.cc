@@ -1,7 +1,6 @@
-#include "fsm/app/mouth_stream_slots.h"
-
 #include <cmath>
 
+#include "fsm/app/slot_groups.h"
 #include "vm_protocol/core/start_time.h"
 
 namespace fsm {
@@ -55,9 +54,7 @@ void DeclareMouthStreamSlots(FsmCore& core) {
          }
          const auto time = vm::ParseStartTime(value.text);
          if (!time) return reply.Fail(time.error());
-         const bool by_wall = time->kind == vm::StartTime::Kind::kWallClock;
-         core.motion->set_mouth_frames_start(
-             vm::Resolve(*time, core.Now(), by_wall ? vm::WallSinceMidnight() : vm::Time(0)));
+         core.motion->set_mouth_frames_start(core.InstantOf(*time));
          reply.Ok(value.text);
        }});
   core.slots.Declare(

@@ -2,21 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
-#include "fsm/motion/table_text.h"
-#include "vm_protocol/core/file_kind.h"
+#include "fsm/base/table_reader.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
-
-vm::Result<std::string> ReadAll(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (!in || !(bytes << in.rdbuf())) return vm::Fail(vm::Errc::kUnavailable, "cannot read " + path);
-  return bytes.str();
-}
 
 /// Files of all faces, by their key.
 const std::map<std::string, std::string OriginalSharedFiles::*, std::less<>> kSharedFiles = {
@@ -52,113 +43,97 @@ const std::map<std::string, std::string, std::less<>> kMotions = {{"FaceMotNod",
                                                                   {"FaceMotListen", "LISTEN"},
                                                                   {"FaceMotUserDef", "USERDEF"}};
 
-/// Takes the lines of a configuration one by one.
+/// Takes the rows of a configuration one by one.
 class ConfigReader {
  public:
-  ConfigReader(const std::string& path, const std::string& text)
-      : table_(path, text), folder_(std::filesystem::path(path).parent_path()) {
+  explicit ConfigReader(const std::string& path)
+      : folder_(std::filesystem::path(path).parent_path()) {
     config_.path = config_.shared.config = path;
   }
 
-  vm::Result<OriginalConfig> Read() {
-    for (const TableLine& line : table_.lines()) {
-      if (auto taken = Take(line); !taken) return std::unexpected(taken.error());
-    }
+  OriginalConfig Read(const Table& table) {
+    for (const TableRow& row : table.rows()) Take(row);
     std::erase_if(config_.masks, [](const auto& mask) { return mask.wireframe.empty(); });
     config_.shared.offsets = std::filesystem::path(config_.shared.standard).parent_path().string();
     return std::move(config_);
   }
 
  private:
-  vm::Result<void> Take(const TableLine& line) {
-    const std::string& key = line.words[0];
+  void Take(const TableRow& row) {
+    const std::string& key = row.key();
     if (const auto known = kNumbers.find(key); known != kNumbers.end()) {
-      const auto value = Number(line, 1, known->second.lowest, known->second.highest);
-      if (!value) return std::unexpected(value.error());
-      known->second.take(config_, *value);
+      known->second.take(config_, Number(row, 1, known->second.lowest, known->second.highest));
     } else if (key == "SetViseme") {
-      const std::string word = Word(line, 1);
-      if (word != "JP" && word != "EN") return table_.Wrong(line.number, "JP or EN expected");
+      const std::string word = Word(row, 1);
+      if (word != "JP" && word != "EN") row.Fail("JP or EN expected");
       config_.language = word == "JP" ? Language::kJapanese : Language::kEnglish;
     } else if (key == "BackgroundFile") {
-      if (line.words.size() < 3) return table_.Wrong(line.number, "a name and a file expected");
-      config_.backgrounds.emplace_back(Word(line, 1), File(line, 2));
+      if (row.size() < 3) row.Fail("a name and a file expected");
+      config_.backgrounds.emplace_back(Word(row, 1), File(row, 2));
     } else if (key == "MaskFile" || key == "MaskEye" || key == "MaskTeeth") {
-      return TakeMask(line);
+      TakeMask(row);
     } else if (const auto shared = kSharedFiles.find(key); shared != kSharedFiles.end()) {
-      if (line.words.size() < 2) return table_.Wrong(line.number, "a file expected");
-      config_.shared.*shared->second = File(line, 1);
+      if (row.size() < 2) row.Fail("a file expected");
+      config_.shared.*shared->second = File(row, 1);
     } else if (const auto motion = kMotions.find(key); motion != kMotions.end()) {
-      config_.motions[motion->second].push_back(File(line, 1));
+      config_.motions[motion->second].push_back(File(row, 1));
     } else if (key == "AutonomousBlink") {
-      const auto per_cent = Number(line, 1, 0.01, 100);
-      const auto pattern = Number(line, 2, 1, 1000);
-      for (const auto& value : {per_cent, pattern}) {
-        if (!value) return std::unexpected(value.error());
-      }
-      config_.auto_blinks.emplace_back(*per_cent, static_cast<int>(*pattern));
+      const double per_cent = Number(row, 1, 0.01, 100);
+      config_.auto_blinks.emplace_back(per_cent, static_cast<int>(Number(row, 2, 1, 1000)));
     } else if (key == "AutonomousMove") {
-      config_.auto_moves.push_back(File(line, 1));
+      config_.auto_moves.push_back(File(row, 1));
     } else if (key == "AutonomousUserdef") {
-      config_.auto_userdefs.push_back(File(line, 1));
+      config_.auto_userdefs.push_back(File(row, 1));
     }
-    return {};
   }
 
-  vm::Result<void> TakeMask(const TableLine& line) {
-    const std::string& key = line.words[0];
+  void TakeMask(const TableRow& row) {
+    const std::string& key = row.key();
     const std::size_t files = key == "MaskTeeth" ? 1 : 2;
-    if (line.words.size() < files + 2) {
-      return table_.Wrong(
-          line.number, files == 1 ? "a name and a file expected" : "a name and two files expected");
+    if (row.size() < files + 2) {
+      row.Fail(files == 1 ? "a name and a file expected" : "a name and two files expected");
     }
-    OriginalFaceFiles* mask = MaskOf(Word(line, 1));
-    if (mask == nullptr) {
-      return table_.Wrong(
-          line.number, "at most " + std::to_string(OriginalConfig::kMaxMasks) + " faces are read");
-    }
+    OriginalFaceFiles* mask = &MaskOf(row);
     if (key == "MaskFile") {
       if (mask->wireframe.empty()) {  // other lines may name it before its own does
         std::rotate(mask, mask + 1, config_.masks.data() + config_.masks.size());
         mask = &config_.masks.back();
       }
-      mask->picture = File(line, 2);
-      mask->wireframe = File(line, 3);
+      mask->picture = File(row, 2);
+      mask->wireframe = File(row, 3);
     } else if (key == "MaskEye") {
-      mask->eye_picture = File(line, 2);
-      mask->eye_def = File(line, 3);
+      mask->eye_picture = File(row, 2);
+      mask->eye_def = File(row, 3);
     } else {
-      mask->teeth_def = File(line, 2);
+      mask->teeth_def = File(row, 2);
     }
-    return {};
   }
 
-  /// The mask of that name, made if need be; nullptr if there are too many. Valid until the next
-  /// call.
-  OriginalFaceFiles* MaskOf(const std::string& name) {
+  /// The mask that the row names, made if need be. Valid until the next call.
+  OriginalFaceFiles& MaskOf(const TableRow& row) {
+    const std::string& name = row.Word(1);
     const auto found = std::ranges::find(config_.masks, name, &OriginalFaceFiles::name);
-    if (found != config_.masks.end()) return &*found;
-    if (config_.masks.size() >= OriginalConfig::kMaxMasks) return nullptr;
-    config_.masks.push_back({name, "", "", "", "", ""});
-    return &config_.masks.back();
+    if (found != config_.masks.end()) return *found;
+    if (config_.masks.size() >= OriginalConfig::kMaxMasks) {
+      row.Fail("at most " + std::to_string(OriginalConfig::kMaxMasks) + " faces are read");
+    }
+    return config_.masks.emplace_back(name);
   }
 
-  static std::string Word(const TableLine& line, std::size_t i) {
-    return i < line.words.size() ? line.words[i] : std::string();
+  static std::string Word(const TableRow& row, std::size_t i) {
+    return i < row.size() ? row.Word(i) : std::string();
   }
-  vm::Result<double> Number(const TableLine& line, std::size_t i, double lowest,
-                            double highest) const {
-    return table_.Number(line, i, "a value of " + line.words[0], lowest, highest);
+  static double Number(const TableRow& row, std::size_t i, double lowest, double highest) {
+    return row.Number(i, "a value of " + row.key(), lowest, highest);
   }
   /// A file as named, if it is there, else from the folder of the configuration.
-  std::string File(const TableLine& line, std::size_t i) const {
-    const std::string name = Word(line, i);
+  std::string File(const TableRow& row, std::size_t i) const {
+    const std::string name = Word(row, i);
     std::error_code code;
     if (std::filesystem::exists(name, code)) return name;
     return (folder_ / name).string();
   }
 
-  TableText table_;
   std::filesystem::path folder_;
   OriginalConfig config_;
 };
@@ -166,9 +141,10 @@ class ConfigReader {
 }  // namespace
 
 vm::Result<OriginalConfig> OriginalConfig::Read(const std::string& path) {
-  const auto text = ReadAll(path);
+  const auto text = vm::ReadTextFile(path, kMaxTableBytes);
   if (!text) return std::unexpected(text.error());
-  return ConfigReader(path, *text).Read();
+  return ReadTable(path, *text,
+                   [&path](const Table& table) { return ConfigReader(path).Read(table); });
 }
 
 std::vector<std::string> OriginalConfig::MaskNames() const {
@@ -188,8 +164,7 @@ HeadCurve LeaningAsOurs(const HeadCurve& curve) {
 vm::Result<std::vector<HeadCurve>> ReadCurves(const std::vector<std::string>& files) {
   std::vector<HeadCurve> curves;
   for (const std::string& file : files) {
-    if (auto fit = vm::CheckReadable(file); !fit) return std::unexpected(fit.error());
-    const auto text = ReadAll(file);
+    const auto text = vm::ReadTextFile(file, kMaxTableBytes);
     if (!text) return std::unexpected(text.error());
     auto curve = ReadMotionFile(file, *text);
     if (!curve) return std::unexpected(curve.error());

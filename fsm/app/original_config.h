@@ -22,8 +22,8 @@ struct OriginalConfig {
   std::vector<std::pair<double, int>> auto_blinks;  ///< per cent a frame, blink pattern
   std::vector<std::string> auto_moves, auto_userdefs;
 
-  std::vector<OriginalFaceFiles>
-      masks;  ///< in the order of their MaskFile lines, at most kMaxMasks
+  /// In the order of their MaskFile lines, at most kMaxMasks.
+  std::vector<OriginalFaceFiles> masks;
   std::vector<std::string> MaskNames() const;
   static constexpr std::size_t kMaxMasks = 100;
   OriginalSharedFiles shared;
@@ -33,8 +33,7 @@ struct OriginalConfig {
 
   /// Reads the file: `KEY args`, `#` comments; keys it does not know mean nothing, as in the
   /// original. File names are looked for from the working directory, then from the file's own
-  /// folder. Errors: kUnavailable if it cannot be read; kBadValue with file and line for a damaged
-  /// one.
+  /// folder. Errors: those of vm::ReadTextFile; kBadValue with file and line for a damaged one.
   static vm::Result<OriginalConfig> Read(const std::string& path);
 
   /// Replaces the patterns the file names, and the looks above. In its movements z+ leans to the

@@ -108,13 +108,12 @@ void SpeechSlots::DeclareSettings() {
     core_.Declare({.name = name,
                    .grammar = grammar,
                    .help = help,
-                   .action = [this, apply](const vm::SetValue& value) -> vm::Result<void> {
-                     MotionSettings settings = core_.motion->settings();
-                     apply(settings, value);
-                     core_.motion->Apply(core_.Now(), settings);
-                     if (stat_ == Stat::kSpeaking) WaitForEnd();
-                     return {};
-                   },
+                   .action =
+                       [this, set = core_.Setting(apply)](const vm::SetValue& value) {
+                         auto done = set(value);
+                         if (stat_ == Stat::kSpeaking) WaitForEnd();
+                         return done;
+                       },
                    .initial = initial,
                    .told = told});
   };
@@ -191,8 +190,7 @@ vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
   }
   const auto start = vm::ParseStartTime(value.text);
   if (!start) return std::unexpected(start.error());
-  const bool by_wall = start->kind == vm::StartTime::Kind::kWallClock;
-  start_ = vm::Resolve(*start, core_.Now(), by_wall ? vm::WallSinceMidnight() : vm::Time(0));
+  start_ = core_.InstantOf(*start);
   // NOW means as soon as the list is there, however late that is.
   if (start->kind == vm::StartTime::Kind::kNow && stat_ != Stat::kReady) start_ = vm::Time::max();
   if (stat_ == Stat::kReady) Begin();

@@ -28,8 +28,8 @@ void Members(V& v, Like<ShutLid> auto& lid) {
   v("vertex", lid.vertex);
   v("colour", lid.colour);
   v("weight", lid.weight);
-  v("lender", lid.lender);
-  v("lender_light", lid.lender_light);
+  v("lender", lid.grain_at);
+  v("lender_light", lid.grain_light);
   v("slide", lid.slide);
 }
 

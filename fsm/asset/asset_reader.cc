@@ -7,6 +7,7 @@
 #include "fsm/asset/asset_file.h"
 #include "fsm/asset/asset_members.h"
 #include "fsm/asset/check_asset.h"
+#include "fsm/image/byte_order.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/gltf_document.h"
 
@@ -93,8 +94,7 @@ class Reader {
     const auto bytes =
         OrFault(place, gltf_.ImageBytes(Whole(place, from, 0, std::numeric_limits<int>::max())));
     std::string why;
-    auto decoded =
-        DecodePng({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, why);
+    auto decoded = DecodePng(BytesOf(bytes), why);
     if (!decoded) throw Fault(place + ": " + why);
     image = std::make_shared<const Image>(std::move(*decoded));
   }

@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cmath>
-#include <stdexcept>
 
 namespace fsm {
 namespace {
@@ -48,7 +47,7 @@ NumberTable::NumberTable(const std::string& file, std::string_view text,
   }
   if (built_in == nullptr) return;
   for (const auto& [name, unused] : built_in->numbers_) {
-    if (!numbers_.contains(name)) throw std::runtime_error(file + ": '" + name + "' is missing");
+    if (!numbers_.contains(name)) table_.Fail("'" + name + "' is missing");
   }
 }
 

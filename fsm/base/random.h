@@ -1,11 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace fsm {
 
 // Numbers that depend on nothing but their arguments and are the same on every machine: films
 // repeat, and any instant can be asked for in any order. Pure; thread: any.
+
+/// FNV-1a of a text (Fowler, Noll and Vo): the same everywhere, which std::hash does not promise.
+constexpr std::uint64_t HashOf(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
 
 /// The finalizer of SplitMix64 (Steele, Lea and Flood 2014): every bit of the input matters.
 inline std::uint64_t Scramble(std::uint64_t x) {

@@ -1,56 +1,89 @@
 #include "fsm/base/table_reader.h"
 
-#include <array>
-#include <charconv>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <stdexcept>
+#include <iterator>
+
+#include "fsm/base/parse_number.h"
+#include "vm_protocol/core/text_file.h"
+#include "vm_protocol/core/utf8.h"
 
 namespace fsm {
+namespace {
 
-void TableRow::Fail(const std::string& what) const {
-  throw std::runtime_error(table_ + ":" + std::to_string(line_) + ": " + what);
+constexpr std::string_view kBlank = " \t\r";
+
+std::vector<std::string> WordsOf(std::string_view line) {
+  std::vector<std::string> words;
+  std::size_t at = line.find_first_not_of(kBlank);
+  while (at != std::string_view::npos && line[at] != '#') {
+    const std::size_t stop = line.find_first_of(kBlank, at);
+    words.emplace_back(line.substr(at, stop - at));
+    at = line.find_first_not_of(kBlank, stop);
+  }
+  return words;
 }
+
+std::string Shown(const std::string& text) {
+  constexpr std::size_t kShown = 400;
+  std::string shown = text.size() <= kShown ? text
+                                            : text.substr(0, kShown / 2) + "..." +
+                                                  text.substr(text.size() - kShown / 2);
+  for (char& c : shown) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  // Shortening may cut a character of several bytes.
+  while (const auto bad = vm::FirstBadUtf8(shown)) shown[*bad] = '?';
+  return shown;
+}
+
+}  // namespace
+
+TableError::TableError(const std::string& place, const std::string& text)
+    : std::runtime_error(place + ": " + Shown(text)) {}
+
+void TableRow::Fail(const std::string& what) const { throw TableError(place_, what); }
 
 const std::string& TableRow::Word(std::size_t index) const {
   if (index >= words_.size()) {
-    Fail("'" + key() + "' needs at least " + std::to_string(index) + " values after it, found " +
-         std::to_string(words_.size() - 1));
+    Fail(fmt::format("'{}' needs at least {} values after it, found {}", key(), index,
+                     words_.size() - 1));
   }
   return words_[index];
 }
 
 float TableRow::Number(std::size_t index) const {
   const std::string& word = Word(index);
-  float value = 0;
-  const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
-  const char* end = word.data() + word.size();
-  const auto [rest, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) {
-    Fail("'" + word + "' found where a number was expected");
+  const auto value = ParseNumber<float>(word);
+  if (!value) Fail("'" + word + "' found where a number was expected");
+  return *value;
+}
+
+double TableRow::Number(std::size_t index, std::string_view what, double low, double high) const {
+  if (index >= words_.size()) Fail(fmt::format("the line ends where {} is expected", what));
+  const auto number = ParseNumber(words_[index]);
+  if (!number || *number < low || *number > high) {
+    Fail(fmt::format("'{}' found, {} expected, a number from {:g} to {:g}", words_[index], what,
+                     low, high));
   }
-  return value;
+  return *number;
 }
 
 float TableRow::Within(std::size_t index, float low, float high) const {
   const float value = Number(index);
   if (!(value >= low && value <= high)) {
-    std::array<char, 48> bounds;
-    std::snprintf(bounds.data(), bounds.size(), "%g to %g", static_cast<double>(low),
-                  static_cast<double>(high));
-    Fail("'" + Word(index) + "' found where " + bounds.data() + " was expected");
+    Fail(fmt::format("'{}' found where {:g} to {:g} was expected", Word(index), low, high));
   }
   return value;
 }
 
-void TableRow::EndsAt(std::size_t count) const {
-  if (size() > count) Fail("'" + Word(count) + "' is one word too many");
-}
-
 int TableRow::Integer(std::size_t index) const {
   const float value = Number(index);
-  if (value != std::floor(value))
+  if (value != std::floor(value)) {
     Fail("'" + Word(index) + "' found where a whole number was expected");
+  }
   return static_cast<int>(value);
 }
 
@@ -64,30 +97,35 @@ std::vector<float> TableRow::Numbers(std::size_t index) const {
   return values;
 }
 
-Table::Table(std::string table, std::string_view text) : table_(std::move(table)) {
-  int line_number = 0;
-  while (!text.empty()) {
+const std::string& TableRow::Name(std::size_t index, std::string_view what) const {
+  constexpr std::size_t kLongest = 40;
+  const std::string& name = words_[index];
+  const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; };
+  if (name.size() > kLongest || !letter(name[0]) || !std::ranges::all_of(name, inner)) {
+    Fail(fmt::format("'{}' found, {} expected: a letter, then letters, digits and _, at most {}",
+                     name.substr(0, kLongest), what, kLongest));
+  }
+  return name;
+}
+
+void TableRow::EndsAt(std::size_t count) const {
+  if (size() > count) Fail("'" + Word(count) + "' is one word too many");
+}
+
+Table::Table(std::string name, std::string_view text) : name_(std::move(name)) {
+  for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
+    auto words = WordsOf(text.substr(0, end));
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    ++line_number;
-    line = line.substr(0, line.find('#'));
-    std::vector<std::string> words;
-    constexpr std::string_view kBlank = " \t\r";
-    for (std::size_t at = line.find_first_not_of(kBlank); at != std::string_view::npos;) {
-      const std::size_t stop = line.find_first_of(kBlank, at);
-      words.emplace_back(line.substr(at, stop - at));
-      at = line.find_first_not_of(kBlank, stop);
-    }
-    if (!words.empty()) rows_.emplace_back(table_, line_number, std::move(words));
+    if (!words.empty()) rows_.emplace_back(name_, line, std::move(words));
   }
 }
 
 std::vector<TableRow> Table::RowsOf(std::string_view key) const {
   std::vector<TableRow> found;
-  for (const TableRow& row : rows_) {
-    if (row.key() == key) found.push_back(row);
-  }
+  std::ranges::copy_if(rows_, std::back_inserter(found),
+                       [&](const TableRow& row) { return row.key() == key; });
   return found;
 }
 
@@ -98,8 +136,23 @@ const TableRow& Table::Only(std::string_view key) const {
     if (found) row.Fail("'" + std::string(key) + "' given a second time");
     found = &row;
   }
-  if (!found) throw std::runtime_error(table_ + ": no line '" + std::string(key) + "'");
+  if (!found) Fail("no line '" + std::string(key) + "'");
   return *found;
+}
+
+void Table::Fail(const std::string& what) const { throw TableError(name_, what); }
+
+vm::Result<std::string> ReadTableFile(const std::string& path) {
+  auto text = vm::ReadTextFile(path, kMaxTableBytes);
+  if (!text) return text;
+  if (const auto bad = vm::FirstBadUtf8(*text)) {
+    const auto line =
+        1 + std::count(text->begin(), text->begin() + static_cast<std::ptrdiff_t>(*bad), '\n');
+    return vm::Fail(
+        vm::Errc::kBadUtf8,
+        fmt::format("{}:{}: a byte that is not UTF-8 found, text expected", path, line));
+  }
+  return text;
 }
 
 }  // namespace fsm

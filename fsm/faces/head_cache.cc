@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "fsm/asset/asset_file.h"
+#include "fsm/base/random.h"
 #include "fsm/faces/head_of_file.h"
 
 namespace fsm {
@@ -67,10 +67,8 @@ bool Stand(std::string_view lines) {
 }
 
 std::string NameOf(const std::string& sources) {
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
-  for (const char c : sources) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
   char name[17];
-  std::snprintf(name, sizeof name, "%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(name, sizeof name, "%016llx", static_cast<unsigned long long>(HashOf(sources)));
   return name;
 }
 

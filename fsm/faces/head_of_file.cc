@@ -14,6 +14,7 @@
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/or_throw.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -62,7 +63,7 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
 /// The head of a file that ExportHead has written; null if it is of another kind.
 std::unique_ptr<Head> AssetOfFile(const std::string& path) {
   if (!path.ends_with(".glb")) return nullptr;
-  const auto bytes = ReadWhole(path, kMaxMeshBytes);
+  const auto bytes = vm::ReadTextFile(path, kMaxMeshBytes);
   if (!bytes || !IsAsset(*bytes)) return nullptr;
   return std::make_unique<Head>(vm::OrThrow(ParseAsset(path, *bytes)));
 }
@@ -169,9 +170,10 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
   const std::string beside = path + ".points";
   std::error_code code;
   const bool has_points = std::filesystem::exists(beside, code);
-  const Alignment alignment = has_points ? AlignByPoints(vm::OrThrow(ParseHeadPoints(
-                                               beside, vm::OrThrow(ReadWhole(beside, 1U << 20)))))
-                                         : AlignByOutline(file);
+  const Alignment alignment = has_points
+                                  ? AlignByPoints(vm::OrThrow(ParseHeadPoints(
+                                        beside, vm::OrThrow(vm::ReadTextFile(beside, 1U << 20)))))
+                                  : AlignByOutline(file);
   MeshModel model = ModelOf(file, alignment.to_ours, alignment.mouth_y);
   std::optional<RigData> skin;
   if (!file.shapes.empty()) {

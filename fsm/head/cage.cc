@@ -1,12 +1,11 @@
 #include "fsm/head/cage.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <stdexcept>
 
+#include "fsm/base/parse_number.h"
 #include "fsm/base/spline.h"
 
 namespace fsm {
@@ -25,13 +24,10 @@ std::uint32_t AddPoint(Cage& cage, glm::vec3 p, const CageTag& tag = {}) {
   return static_cast<std::uint32_t>(cage.position.size() - 1);
 }
 
-float ParseNumber(const TableRow& row, std::string_view word) {
-  float value = 0;
-  const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || rest != word.data() + word.size() || !std::isfinite(value)) {
-    row.Fail(Quoted(word) + " found where a number was expected");
-  }
-  return value;
+float NumberIn(const TableRow& row, std::string_view word) {
+  const auto number = ParseNumber<float>(word);
+  if (!number) row.Fail(Quoted(word) + " found where a number was expected");
+  return *number;
 }
 
 const std::vector<std::uint32_t>& FindCurve(const Cage& cage, const TableRow& row,
@@ -46,7 +42,7 @@ glm::vec3 ParsePlace(const TableRow& row, std::string_view word) {
   for (int k = 0; k < 3; ++k) {
     const std::size_t comma = word.find(',');
     if ((comma == std::string_view::npos) != (k == 2)) row.Fail("a place is x,y,z");
-    p[k] = ParseNumber(row, word.substr(0, comma));
+    p[k] = NumberIn(row, word.substr(0, comma));
     word.remove_prefix(comma == std::string_view::npos ? word.size() : comma + 1);
   }
   return p;
@@ -203,8 +199,7 @@ void Orient(Cage& cage, const Table& patches) {
   }
   for (const auto& [edge, faces] : by_edge) {
     if (faces.size() > 2) {
-      throw std::runtime_error(patches.name() + ": three patches share an edge at point " +
-                               std::to_string(edge.first));
+      patches.Fail("three patches share an edge at point " + std::to_string(edge.first));
     }
   }
   std::vector<bool> seen(cage.faces.size());
@@ -225,7 +220,7 @@ void Orient(Cage& cage, const Table& patches) {
     });
   }
   if (std::ranges::find(seen, false) != seen.end()) {
-    throw std::runtime_error(patches.name() + ": the skin is not in one piece");
+    patches.Fail("the skin is not in one piece");
   }
   float outward = 0;
   for (const Cage::Face& face : cage.faces) {
@@ -244,7 +239,7 @@ void TieSkinToLips(Cage& cage, const Table& table) {
   for (const auto& [name, hold] : {std::pair{"lip_a", 0.8f}, {"lip_b", 0.45f}, {"lip_c", 0.12f}}) {
     const auto found = cage.curves.find(name);
     if (found == cage.curves.end() || found->second.size() != 2 * kLipColumns + 1) {
-      throw std::runtime_error(table.name() + ": curve '" + name + "' must have 13 points");
+      table.Fail(std::string("curve '") + name + "' must have 13 points");
     }
     for (int k = 0; k <= 2 * kLipColumns; ++k) {
       CageTag& tag = cage.tag[found->second[static_cast<std::size_t>(k)]];
@@ -263,7 +258,7 @@ std::uint32_t CagePoint(const Cage& cage, const TableRow& row, std::string_view 
     row.Fail(Quoted(word) + " found where x,y,z, CURVE.i or ~ was expected");
   }
   const auto& curve = FindCurve(cage, row, word.substr(0, dot));
-  const float index = ParseNumber(row, word.substr(dot + 1));
+  const float index = NumberIn(row, word.substr(dot + 1));
   if (index < 0 || index >= static_cast<float>(curve.size()) || index != std::floor(index)) {
     row.Fail("there is no point " + Quoted(word));
   }

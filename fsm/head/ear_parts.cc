@@ -118,54 +118,88 @@ std::array<std::pair<const char*, glm::vec3>, 4> EarLandmarks(const Features& fe
            {"postaurale", at(std::ranges::max(ear.corners(), {}, by_depth))}}};
 }
 
-void BuildEars(const Features& features, const Palette& palette, HeadMesh& mesh) {
-  constexpr int kAround = 24;
-  constexpr std::array kRings = {0.16f, 0.34f, 0.50f, 0.64f, 0.76f, 0.86f, 0.94f, 1.0f};
-  const Ear ear(features);
-  const glm::vec2 centre = ear.middle();
-  const auto outline = [&ear](int k) { return ear.Outline(static_cast<float>(k) / kAround); };
-  const glm::vec3 colour = glm::mix(palette.skin, palette.blush, features("ear_blush"));
-  for (const int side : {-1, 1}) {
-    const auto add = [&](glm::vec3 p, float open) {
-      p.x *= static_cast<float>(side);
-      return mesh.Add(p, glm::mix(palette.blush * 0.8f, colour, open), 0.15f + 0.85f * open,
-                      Bone::kSkull);
-    };
-    const auto fan = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, bool flip) {
-      flip ? mesh.Triangle(Material::kSkin, a, b, c) : mesh.Triangle(Material::kSkin, a, c, b);
-    };
-    const Ear::Relief deep = ear.ReliefAt(centre);
-    const std::uint32_t middle = add(ear.Place(centre, deep.height), deep.open);
-    std::vector<std::vector<std::uint32_t>> rings;
-    for (const float part : kRings) {
-      auto& ring = rings.emplace_back();
-      for (int k = 0; k < kAround; ++k) {
-        const glm::vec2 p = glm::mix(centre, outline(k), part);
-        const Ear::Relief r = ear.ReliefAt(p);
-        ring.push_back(add(ear.Place(p, r.height - (part == 1.0f ? 1.3f : 0)), r.open));
+namespace {
+
+/// One ear as rings of vertices from its middle to the rim and round its back into the head.
+class EarBuilder {
+ public:
+  EarBuilder(const Features& features, const Palette& palette, int side, HeadMesh& mesh)
+      : features_(features),
+        blush_(palette.blush * features["ear_blush"][1]),
+        colour_(glm::mix(palette.skin, palette.blush, features["ear_blush"][0])),
+        ear_(features),
+        side_(side),
+        mesh_(mesh) {}
+
+  void Build() {
+    const glm::vec2 centre = ear_.middle();
+    const Ear::Relief deep = ear_.ReliefAt(centre);
+    const std::uint32_t middle = Add(ear_.Place(centre, deep.height), deep.open);
+    AddFront();
+    AddBack();
+    const auto& inside_at = features_["ear_inside"];
+    const std::uint32_t inside = Add(ear_.Place(centre, inside_at[0]), inside_at[1]);
+    for (std::size_t a = 0; a < kAround; ++a) {
+      const std::size_t b = (a + 1) % kAround;
+      Face(middle, rings_.front()[b], rings_.front()[a]);
+      for (std::size_t r = 0; r + 1 < rings_.size(); ++r) {
+        Face(rings_[r][a], rings_[r][b], rings_[r + 1][b]);
+        Face(rings_[r][a], rings_[r + 1][b], rings_[r + 1][a]);
       }
-    }
-    // Round the rim and down its back into the head.
-    for (const auto& [part, drop, open] :
-         {std::array{0.97f, 3.4f, 0.8f}, {0.80f, 5.2f, 0.55f}, {0.55f, 30, 0.2f}}) {
-      auto& ring = rings.emplace_back();
-      for (int k = 0; k < kAround; ++k) {
-        const glm::vec2 p = glm::mix(centre, outline(k), part);
-        ring.push_back(add(ear.Place(p, ear.BackAt(p) - drop), open));
-      }
-    }
-    const std::uint32_t inside = add(ear.Place(centre, -26), 0.2f);
-    for (int k = 0; k < kAround; ++k) {
-      const auto a = static_cast<std::size_t>(k);
-      const auto b = static_cast<std::size_t>((k + 1) % kAround);
-      fan(middle, rings.front()[b], rings.front()[a], side > 0);
-      for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
-        fan(rings[r][a], rings[r][b], rings[r + 1][b], side > 0);
-        fan(rings[r][a], rings[r + 1][b], rings[r + 1][a], side > 0);
-      }
-      fan(inside, rings.back()[a], rings.back()[b], side > 0);
+      Face(inside, rings_.back()[a], rings_.back()[b]);
     }
   }
+
+ private:
+  static constexpr std::size_t kAround = 24;
+  using Ring = std::array<std::uint32_t, kAround>;
+
+  /// `part` of the way from the middle to the outline.
+  glm::vec2 On(std::size_t k, float part) const {
+    return glm::mix(ear_.middle(), ear_.Outline(static_cast<float>(k) / kAround), part);
+  }
+  void AddFront() {
+    for (const float part : {0.16f, 0.34f, 0.50f, 0.64f, 0.76f, 0.86f, 0.94f, 1.0f}) {
+      Ring& ring = rings_.emplace_back();
+      for (std::size_t k = 0; k < kAround; ++k) {
+        const glm::vec2 p = On(k, part);
+        const Ear::Relief relief = ear_.ReliefAt(p);
+        const float in = part == 1.0f ? features_("ear_edge") : 0;
+        ring[k] = Add(ear_.Place(p, relief.height - in), relief.open);
+      }
+    }
+  }
+  void AddBack() {
+    const auto& rim = features_["ear_rim"];
+    for (std::size_t i = 0; i + 2 < rim.size(); i += 3) {
+      Ring& ring = rings_.emplace_back();
+      for (std::size_t k = 0; k < kAround; ++k) {
+        const glm::vec2 p = On(k, rim[i]);
+        ring[k] = Add(ear_.Place(p, ear_.BackAt(p) - rim[i + 1]), rim[i + 2]);
+      }
+    }
+  }
+  std::uint32_t Add(glm::vec3 p, float open) {
+    p.x *= static_cast<float>(side_);
+    const auto& light = features_["ear_light"];
+    return mesh_.Add(p, glm::mix(blush_, colour_, open), light[0] + light[1] * open, Bone::kSkull);
+  }
+  void Face(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    side_ > 0 ? mesh_.Triangle(Material::kSkin, a, b, c) : mesh_.Triangle(Material::kSkin, a, c, b);
+  }
+
+  const Features& features_;
+  glm::vec3 blush_, colour_;
+  Ear ear_;
+  int side_;
+  HeadMesh& mesh_;
+  std::vector<Ring> rings_;
+};
+
+}  // namespace
+
+void BuildEars(const Features& features, const Palette& palette, HeadMesh& mesh) {
+  for (const int side : {-1, 1}) EarBuilder(features, palette, side, mesh).Build();
 }
 
 }  // namespace fsm

@@ -74,6 +74,7 @@ class LashBuilder {
     constexpr int kSteps = 14;
     const auto& ends_at = features_["lash_line"];
     const auto& thickness = features_["lash_line_thickness"];
+    const auto& dark = features_["lash_line_dark"];
     std::array<std::uint32_t, 2> before{};
     for (int i = 0; i <= kSteps; ++i) {
       const float part = static_cast<float>(i) / kSteps;
@@ -83,11 +84,11 @@ class LashBuilder {
           (thickness[0] + thickness[1] * std::sin(kPi * std::min(1.0f, 0.1f + 0.68f * part)));
       const float radius = eye_.LidRadius(x);
       const float ends = SmoothStep(0, 0.2f, part);
-      const float soft = of_photo_ ? 0.65f * SmoothStep(0, 0.5f, part) : 1.0f;
+      const float soft = of_photo_ ? dark[4] * SmoothStep(0, 0.5f, part) : 1.0f;
       const std::uint32_t low = Add(eye_.OnLid(x, Angle(x) - 0.10f / radius, radius - 0.1f), x,
-                                    soft * (0.6f + 0.4f * ends));
+                                    soft * (dark[0] + dark[1] * ends));
       const std::uint32_t high = Add(eye_.OnLid(x, Angle(x) + thick / radius, radius + 0.45f), x,
-                                     of_photo_ ? 0 : 0.2f + 0.65f * ends);
+                                     of_photo_ ? 0 : dark[2] + dark[3] * ends);
       if (i > 0) {
         Face(before[0], low, high);
         Face(before[0], high, before[1]);
@@ -102,20 +103,23 @@ class LashBuilder {
     const float up = upper_ ? 1.0f : -1.0f;
     const float radius = eye_.LidRadius(x) + 0.05f;
     // Neighbours lean together in threes.
-    const float clump = 0.16f * (static_cast<float>(1 - i % 3)) + 0.10f * NoiseAt(i, 5) +
-                        (of_photo_ ? 0.35f * NoiseAt(i, 6) : 0.0f);
+    const auto& clumps = features_["lash_clump"];
+    const float clump = clumps[0] * (static_cast<float>(1 - i % 3)) + clumps[1] * NoiseAt(i, 5) +
+                        (of_photo_ ? clumps[2] * NoiseAt(i, 6) : 0.0f);
+    const auto& differ = features_["lash_lengths"];
     const auto& fans = features_["lash_fan"];
     const auto& long_by = features_["upper_lash_length"];
     const float fan = fans[1] * (along - fans[0]) + clump;
     const float length =
         size_ * (upper_ ? (long_by[0] +
                            long_by[1] * std::sin(kPi * std::min(1.0f, 0.18f + 0.62f * along))) *
-                              (0.94f + (of_photo_ ? 0.6f : 0.34f) * NoiseAt(i, 9))
-                        : features_("lower_lash_length") * (1 + 0.2f * NoiseAt(i, 9)));
+                              (0.94f + (of_photo_ ? differ[1] : differ[0]) * NoiseAt(i, 9))
+                        : features_("lower_lash_length") * (1 + differ[2] * NoiseAt(i, 9)));
     const glm::vec3 out = glm::normalize(glm::vec3(fan, std::sin(angle), std::cos(angle) * 1.25f));
     const float width = ByLid("lash_width");
     // Lower hairs are thin: much of the skin shows between them.
-    const float dark = ByLid("lash_darkness") + (of_photo_ ? 0.2f * NoiseAt(i, 4) : 0.0f);
+    const float dark =
+        ByLid("lash_darkness") + (of_photo_ ? features_("lash_photo_dark") * NoiseAt(i, 4) : 0.0f);
     const float rise = ByLid("lash_rise");
     const glm::vec3 root = eye_.OnLid(x, angle + 0.02f * up, radius);
     // Out and then up (the lower ones down): a curved card of two segments.
@@ -217,59 +221,84 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
   return folds;
 }
 
+namespace {
+
+/// The hairs of both brows.
+class BrowBuilder {
+ public:
+  BrowBuilder(const SkinFront& front, const Identity& identity, const BrowPlace& place)
+      : front_(front), palette_(identity.palette), features_(identity.Look()), place_(place) {}
+
+  std::vector<SkinHair> Build() {
+    const auto& count = features_["brow_hairs"];
+    const int columns = static_cast<int>(count[0]), rows = static_cast<int>(count[1]);
+    for (const int side : {-1, 1}) {
+      for (int i = 0; i < columns * rows; ++i) {
+        const int seed = 2 * i + (side > 0 ? 1 : 0);
+        const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * NoiseAt(seed, 21);
+        const auto& across = features_["brow_width"];
+        const float x = across[0] + across[1] * column / static_cast<float>(columns);
+        const float row = static_cast<float>(i % rows) + 0.5f + 0.7f * NoiseAt(seed, 22);
+        AddHair(side, x, -1 + 2 * row / static_cast<float>(rows), seed);
+      }
+    }
+    return std::move(hairs_);
+  }
+
+ private:
+  /// `level` as BrowPlace::Y.
+  void AddHair(int side, float x, float level, int seed) {
+    const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
+    // Sparse where it begins.
+    if (0.5f + 0.5f * NoiseAt(seed, 26) > 0.35f + 0.65f * ends) return;
+    const glm::vec2 root(x, place_.Y(x, 0.9f * level - 0.1f));
+    // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
+    const auto& lean = features_["brow_lean"];
+    const auto& bends = features_["brow_bend"];
+    const float angle = (grow_(x) - lean[0] * level + lean[1] * NoiseAt(seed, 23)) * kPi / 180;
+    const float bend = (bends[0] + bends[1] * level) * kPi / 180;
+    const auto& long_by = features_["brow_hair_length"];
+    const float length = (long_by[0] + long_by[1] * NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
+    const auto step = [&](float a) { return 0.5f * length * glm::vec2(std::cos(a), std::sin(a)); };
+    const glm::vec2 middle = root + step(angle);
+    const auto& wide_by = features_["brow_hair_width"];
+    const auto& tint = features_["brow_tint"];
+    hairs_.push_back(
+        {.root = OnSkin(root, side),
+         .middle = OnSkin(middle, side),
+         .tip = OnSkin(middle + step(angle + bend), side),
+         .width_mm = (wide_by[0] + wide_by[1] * NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
+         .tint = tint[0] * palette_.brow / palette_.skin * (1 + tint[1] * NoiseAt(seed, 25))});
+  }
+
+  glm::vec2 OnSkin(glm::vec2 at, int side) const {
+    glm::vec3 normal;
+    glm::vec3 p = front_.PointAt(at, normal);
+    p.x *= static_cast<float>(side);
+    return Unroll(p);
+  }
+
+  const SkinFront& front_;
+  const Palette& palette_;
+  const Features& features_;
+  const BrowPlace& place_;
+  const Curve grow_ = features_.CurveOf("brow_growth");
+  std::vector<SkinHair> hairs_;
+};
+
+}  // namespace
+
 std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh) {
-  const Palette& palette = identity.palette;
-  const Features& features = identity.Look();
   const BrowPlace place(identity);
   // The soft tone between the hairs.
+  const float tone = identity.Look()("brow_tone");
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (p.z < 30 || std::abs(p.y - 42) > 16) continue;
     mesh.albedo[i] =
-        glm::mix(mesh.albedo[i], palette.brow, features("brow_tone") * place.Cover({p.x, p.y}));
+        glm::mix(mesh.albedo[i], identity.palette.brow, tone * place.Cover({p.x, p.y}));
   }
-  const Curve grow = features.CurveOf("brow_growth");
-  const int columns = static_cast<int>(features["brow_hairs"][0]);
-  const int rows = static_cast<int>(features["brow_hairs"][1]);
-  const auto& across = features["brow_width"];
-  const auto& long_by = features["brow_hair_length"];
-  const auto& wide_by = features["brow_hair_width"];
-  std::vector<SkinHair> hairs;
-  for (const int side : {-1, 1}) {
-    for (int i = 0; i < columns * rows; ++i) {
-      const int row = i % rows;
-      const int seed = 2 * i + (side > 0 ? 1 : 0);
-      const float column = static_cast<float>(i / rows) + 0.5f + 0.9f * NoiseAt(seed, 21);
-      const float x = across[0] + across[1] * column / static_cast<float>(columns);
-      const float level = -1 + 2 * (static_cast<float>(row) + 0.5f + 0.7f * NoiseAt(seed, 22)) /
-                                   static_cast<float>(rows);
-      const float ends = SmoothStep(7, 20, x) * SmoothStep(59, 47, x);
-      // Sparse where it begins.
-      if (0.5f + 0.5f * NoiseAt(seed, 26) > 0.35f + 0.65f * ends) continue;
-      const glm::vec2 root(x, place.Y(x, 0.9f * level - 0.1f));
-      // Upper hairs lean down, lower ones up: they meet in the middle of the brow.
-      const float angle = (grow(x) - 20 * level + 9 * NoiseAt(seed, 23)) * kPi / 180;
-      const float bend = (-14 - 8 * level) * kPi / 180;
-      const float length = (long_by[0] + long_by[1] * NoiseAt(seed, 24)) * (0.6f + 0.4f * ends);
-      const auto on_skin = [&](glm::vec2 at) {
-        glm::vec3 normal;
-        glm::vec3 p = front.PointAt(at, normal);
-        p.x *= static_cast<float>(side);
-        return Unroll(p);
-      };
-      const auto step = [&](float a) {
-        return 0.5f * length * glm::vec2(std::cos(a), std::sin(a));
-      };
-      const glm::vec2 middle = root + step(angle);
-      hairs.push_back(
-          {.root = on_skin(root),
-           .middle = on_skin(middle),
-           .tip = on_skin(middle + step(angle + bend)),
-           .width_mm = (wide_by[0] + wide_by[1] * NoiseAt(seed, 27)) * (0.7f + 0.3f * ends),
-           .tint = 1.5f * palette.brow / palette.skin * (1 + 0.35f * NoiseAt(seed, 25))});
-    }
-  }
-  return hairs;
+  return BrowBuilder(front, identity, place).Build();
 }
 
 }  // namespace fsm

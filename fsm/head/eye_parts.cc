@@ -21,18 +21,22 @@ struct Ring {
   Material band;
 };
 
-std::array<Ring, 11> Rings(const EyeAnatomy& eye, const Palette& palette) {
+std::array<Ring, 11> Rings(const EyeAnatomy& eye, const Features& features,
+                           const Palette& palette) {
   const float iris = std::asin(eye.iris_radius() / eye.radius());
   const float pupil = std::asin(eye.pupil_radius() / eye.radius());
-  const glm::vec3 black(0.006f, 0.005f, 0.005f);
-  const glm::vec3 limbus = 0.15f * palette.iris;
-  const glm::vec3 edge = glm::mix(limbus, palette.sclera, 0.45f);
-  const glm::vec3 pink = palette.sclera * glm::vec3(0.96f, 0.80f, 0.76f);
+  const glm::vec3 black = features.Vector("pupil_colour");
+  const glm::vec3 limbus = features["limbus"][0] * palette.iris;
+  const glm::vec3 edge = glm::mix(limbus, palette.sclera, features["limbus"][1]);
+  const glm::vec3 pink = palette.sclera * features.Vector("white_behind");
+  const auto of_iris = [&, rings = features.Points("iris_rings")](std::size_t k) {
+    return Ring{glm::mix(pupil, iris, rings[k].x), palette.iris * rings[k].y, Material::kIris};
+  };
   return {Ring{pupil * 0.6f, black, Material::kPupil},
           Ring{pupil, black, Material::kPupil},
-          Ring{glm::mix(pupil, iris, 0.3f), palette.iris, Material::kIris},
-          Ring{glm::mix(pupil, iris, 0.6f), palette.iris * 0.85f, Material::kIris},
-          Ring{glm::mix(pupil, iris, 0.85f), palette.iris * 0.5f, Material::kIris},
+          of_iris(0),
+          of_iris(1),
+          of_iris(2),
           Ring{iris * 0.97f, limbus, Material::kIris},
           Ring{iris * 1.04f, edge, Material::kSclera},
           Ring{iris * 1.2f, palette.sclera, Material::kSclera},
@@ -43,9 +47,11 @@ std::array<Ring, 11> Rings(const EyeAnatomy& eye, const Palette& palette) {
 
 }  // namespace
 
-void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh) {
+void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& palette,
+               HeadMesh& mesh) {
   constexpr int kSegments = 22;
-  const auto rings = Rings(eye, palette);
+  const auto rings = Rings(eye, features, palette);
+  const float fibres = features("iris_fibres");
   for (const int side : {-1, 1}) {
     const Bone bone = side < 0 ? Bone::kEyeRight : Bone::kEyeLeft;
     glm::vec3 centre = eye.centre();
@@ -70,7 +76,7 @@ void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh) {
         const float around = 2 * kPi * static_cast<float>(s) / kSegments;
         glm::vec3 colour = rings[k].colour;
         // Fibres of the iris: light and dark rays.
-        if (k >= 2 && k <= 4) colour *= 1 + 0.28f * NoiseAt(s * side, static_cast<int>(k / 2));
+        if (k >= 2 && k <= 4) colour *= 1 + fibres * NoiseAt(s * side, static_cast<int>(k / 2));
         now[static_cast<std::size_t>(s)] =
             mesh.Add(point(rings[k].angle, around), colour, 0.95f, bone);
       }

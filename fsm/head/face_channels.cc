@@ -73,20 +73,21 @@ LidRig BakeLids(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eyes,
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
     const std::size_t side = f.eye > 0 ? 1 : 0;
-    const EyeTransform& seat = eyes[side];
-    const EyeTransform back{.turn = -seat.turn, .size = 1 / seat.size};
+    const EyeTransform& transform = eyes[side];
+    const EyeTransform back{.turn = -transform.turn, .size = 1 / transform.size};
     const glm::vec3 from_ball = back.Turned(rest[i] - rig.ball[side]);
-    rig.vertices.push_back({.vertex = static_cast<std::uint32_t>(i),
-                            .side = static_cast<int>(side),
-                            .upper = f.lid_upper,
-                            .lower = f.lid_lower,
-                            .upper_angle = upper,
-                            .lower_angle = lower,
-                            .meet_angle = eye.MeetAngle(x),
-                            .opening = (eye.UpperY(x) - eye.LowerY(x)) / widest,
-                            .y = from_ball.y,
-                            .z = from_ball.z + eye.centre().z - eye.LidAxisZ(x),
-                            .proper = glm::length(rest[i] - rig.ball[side]) > seat.size * kOnBall});
+    rig.vertices.push_back(
+        {.vertex = static_cast<std::uint32_t>(i),
+         .side = static_cast<int>(side),
+         .upper = f.lid_upper,
+         .lower = f.lid_lower,
+         .upper_angle = upper,
+         .lower_angle = lower,
+         .meet_angle = eye.MeetAngle(x),
+         .opening = (eye.UpperY(x) - eye.LowerY(x)) / widest,
+         .y = from_ball.y,
+         .z = from_ball.z + eye.centre().z - eye.LidAxisZ(x),
+         .proper = glm::length(rest[i] - rig.ball[side]) > transform.size * kOnBall});
   }
   return rig;
 }

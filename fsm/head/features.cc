@@ -9,7 +9,7 @@ namespace fsm {
 namespace {
 
 constexpr std::string_view kCurves[] = {"brow_middle", "brow_half_height", "brow_growth",
-                                        "lid_fold_height"};
+                                        "lid_fold_height", "hairline"};
 // How many things are made.
 constexpr std::string_view kCounts[] = {"upper_lashes", "lower_lashes", "brow_hairs",
                                         "long_locks",   "long_wisps",   "long_fringe_locks"};

@@ -11,8 +11,8 @@
 
 namespace fsm {
 
-/// What teeth, tongue, ears, lashes, brows, hair and shirt are like: tables/features.txt, where
-/// each number is explained. Constant after construction; thread: any.
+/// What eyeballs, teeth, tongue, ears, lashes, brows, hair, shirt and skin are like:
+/// tables/features.txt, where each number is explained. Constant after construction; thread: any.
 class Features : public NumberTable {
  public:
   /// In place of the built-in table. Throws as NumberTable.

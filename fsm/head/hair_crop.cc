@@ -26,7 +26,7 @@ class CroppedHair {
     for (int k = -22; k <= 22; ++k) {
       edge.push_back(scalp_.Over(Direction(3 * static_cast<float>(k), 0.03f), 0));
     }
-    ShadeByHair(edge, 6.5f, palette_, mesh_);
+    look_.ShadeSkin(edge, features_("crop_shade"), mesh_);
     Shell();
     for (int k = 0; k < style_.locks; ++k) Lock(k);
   }
@@ -40,7 +40,7 @@ class CroppedHair {
     const auto& waves = features_["crop_wander"];
     const float wander =
         waves[0] * std::sin(0.23f * azimuth + 1) + waves[1] * std::sin(0.61f * azimuth);
-    const float line = HairlineElevation(azimuth) + recede + wander;
+    const float line = look_.HairlineElevation(azimuth) + recede + wander;
     const glm::vec3 low = HairDirection(azimuth, line);
     // Along the great circle from the hairline to the crown.
     const float angle = std::acos(std::clamp(glm::dot(low, crown_), -1.0f, 1.0f));
@@ -57,8 +57,10 @@ class CroppedHair {
     return std::clamp(1 - angle(d) / std::max(angle(low), 1e-3f), 0.0f, 1.0f);
   }
 
-  static float Forehead(float azimuth, float up) {
-    return SmoothStep(70, 30, std::abs(azimuth)) * SmoothStep(0.8f, 0.1f, up);
+  /// How much hair there lies over the forehead, 0..1.
+  float Forehead(float azimuth, float up) const {
+    const auto& n = features_["crop_forehead"];
+    return SmoothStep(n[0], n[1], std::abs(azimuth)) * SmoothStep(n[2], n[3], up);
   }
 
   /// Which way hair lies: away from the crown, forward on top, down at the sides and behind; over
@@ -83,24 +85,27 @@ class CroppedHair {
     constexpr int kAround = 56;
     constexpr std::array kUp = {0.0f,  0.022f, 0.06f, 0.12f, 0.20f, 0.29f,
                                 0.39f, 0.50f,  0.62f, 0.75f, 0.88f, 1.0f};
+    const float ragged_by = features_("crop_ragged");
+    const auto& edge_hair = features_["crop_edge_hair"];
+    const auto& edge_density = features_["crop_edge_density"];
+    const auto& below = features_["crop_below"];
+    const auto& light = features_["crop_light"];
     const auto first = static_cast<std::uint32_t>(mesh_.position.size());
     for (std::size_t r = 0; r < kUp.size(); ++r) {
       for (int k = 0; k <= kAround; ++k) {
         const float azimuth = -180 + 360 * static_cast<float>(k) / kAround;
         // An uneven edge: hair does not end on a drawn line.
-        const float ragged = r == 0 ? 0.05f * NoiseAt(k % kAround, 61) : 0.0f;
+        const float ragged = r == 0 ? ragged_by * NoiseAt(k % kAround, 61) : 0.0f;
         const glm::vec3 d = Direction(azimuth, kUp[r] + ragged);
-        const float uneven = 1 + 0.05f * NoiseAt(k % kAround, static_cast<int>(r) + 62);
+        const float uneven = 1 + below[0] * NoiseAt(k % kAround, static_cast<int>(r) + 62);
         const glm::vec3 p = scalp_.Over(d, Depth(d, kUp[r]) * (r == 0 ? 1.0f : uneven));
         const glm::vec3 colour = glm::mix(
-            palette_.hair, StrandColour(palette_, 3 * (k % kAround), static_cast<int>(r)), 0.4f);
-        const float thin = r == 0 ? 0.8f : 1.0f;
-        mesh_.Add(p, glm::mix(palette_.skin * 0.85f, colour, thin), r < 3 ? 0.8f : 0.92f,
-                  Bone::kSkull);
+            palette_.hair, look_.StrandColour(3 * (k % kAround), static_cast<int>(r)), below[1]);
+        const float thin = r == 0 ? edge_hair[0] : 1.0f;
+        mesh_.Add(p, glm::mix(palette_.skin * edge_hair[1], colour, thin),
+                  r < 3 ? light[0] : light[1], Bone::kSkull);
         mesh_.strands.back() = {.along = Flow(d, Forehead(azimuth, kUp[r])),
-                                .density = r == 0   ? 0.1f
-                                           : r == 1 ? 0.75f
-                                                    : 1.0f,
+                                .density = r < 2 ? edge_density[r] : 1.0f,
                                 .tile_mm = {1.49f * azimuth, -140 * kUp[r]}};
       }
     }
@@ -113,7 +118,8 @@ class CroppedHair {
         360 * (0.618034f * static_cast<float>(k) - std::floor(0.618034f * static_cast<float>(k)));
     const float azimuth = turn - 180;
     const float share = (static_cast<float>(k) + 0.5f) / static_cast<float>(style_.locks);
-    const float up = 0.015f + 0.85f * share * share;
+    const auto& from = features_["crop_lock_from"];
+    const float up = from[0] + from[1] * share * share;
     const auto& ear = features_["crop_ear"];
     const bool by_ear = std::abs(azimuth) > ear[0] && std::abs(azimuth) < ear[1];
     if (by_ear && up < ear[2]) return;
@@ -123,17 +129,19 @@ class CroppedHair {
     glm::vec3 along =
         Flow(root, forehead) + glm::vec3(uneven[0] * NoiseAt(k, 31), 0, uneven[0] * NoiseAt(k, 32));
     along = glm::normalize(along - root * glm::dot(along, root));
+    const auto& lengths = features_["crop_lock_length"];
     const float length = style_.lock_mm * (1 + uneven[1] * NoiseAt(k, 33)) *
-                         (0.5f + 0.5f * SmoothStep(-0.3f, 0.5f, root.y)) *
-                         (0.55f + 0.45f * SmoothStep(0, 0.2f, up));
+                         (lengths[0] + lengths[1] * SmoothStep(-0.3f, 0.5f, root.y)) *
+                         (lengths[2] + lengths[3] * SmoothStep(0, 0.2f, up));
     const float lift = style_.lift_mm * (1 + uneven[2] * NoiseAt(k, 34)) +
                        forehead * style_.front_up * features_("crop_front_lift");
     std::vector<glm::vec3> path;
     constexpr int kSteps = 4;
     const glm::vec3 side = glm::cross(root, along);
+    const float waves = features_("crop_lock_waves");
     for (int s = 0; s <= kSteps; ++s) {
       const float v = static_cast<float>(s) / kSteps;
-      const float swing = style_.wave_mm * std::sin(2.2f * kPi * v + static_cast<float>(k));
+      const float swing = style_.wave_mm * std::sin(waves * kPi * v + static_cast<float>(k));
       const glm::vec3 d = glm::normalize(root + (along * (length * v) + side * swing * v) / 100.0f);
       const float over = Depth(d, Up(d));  // along the shell
       path.push_back(scalp_.Over(d, 1.02f * over + lift * v * (1 - 0.75f * v) + 0.3f));
@@ -141,17 +149,19 @@ class CroppedHair {
     const auto& wide = features_["crop_lock_width"];
     const float width =
         glm::mix(wide[0], wide[1] + wide[2] * style_.lock_mm, SmoothStep(0, 0.28f, up));
-    AddLock(path,
-            {.width_mm = wide[3] * width * (1 + uneven[3] * NoiseAt(k, 35)),
-             .root_part = 0.6f,
-             .fray_from = 0.45f,
-             .open = 0.95f},
-            palette_, k, mesh_);
+    const auto& taper = features_["crop_lock_taper"];
+    look_.AddLock(path,
+                  {.width_mm = wide[3] * width * (1 + uneven[3] * NoiseAt(k, 35)),
+                   .root_part = taper[0],
+                   .fray_from = taper[1],
+                   .open = taper[2]},
+                  k, mesh_);
   }
 
   const CropStyle& style_;
   const Features& features_;
   const Palette& palette_;
+  const HairLook look_{features_, palette_};
   const glm::vec3 crown_ = glm::normalize(features_.Vector("crop_crown"));
   Scalp scalp_;
   HeadMesh& mesh_;

@@ -129,7 +129,7 @@ class LongHair {
       for (int k = 0; k <= 32; ++k)
         edge.push_back(Point(0, side, 0.02f * static_cast<float>(k), 0));
     }
-    ShadeByHair(edge, features_("long_shade"), palette_, mesh_);
+    look_.ShadeSkin(edge, features_("long_shade"), mesh_);
   }
 
   void Shell(float side) {
@@ -151,7 +151,7 @@ class LongHair {
         const glm::vec3 p = Point(i, side, t, Ridge(i, t));
         const float open = glm::mix(light[0], 1.0f, SmoothStep(0, 0.12f, t)) *
                            glm::mix(light[1], 1.0f, SmoothStep(0, 0.1f, i));
-        mesh_.Add(p, StrandColour(palette_, k * 3, row) * Mix("long_fade", t), open, Bone::kSkull);
+        mesh_.Add(p, look_.StrandColour(k * 3, row) * Mix("long_fade", t), open, Bone::kSkull);
         const float edge = k == 0 ? 0.1f : k == 1 ? 0.8f : 1.0f;
         mesh_.strands.back() = {.along = Along(i, side, t),
                                 .density = edge * SmoothStep(1.04f, 0.86f, t),
@@ -216,12 +216,12 @@ class LongHair {
         path.push_back(Point(std::clamp(i + drift, 0.0f, 1.0f), side, t,
                              lift * std::sin(kPi * (0.12f + 0.8f * v))));
       }
-      AddLock(path,
-              {.width_mm = edge ? wide[0] : wide[1] + wide[2] * NoiseAt(seed, 6),
-               .root_part = edge ? taper[0] : taper[1],
-               .tip_part = taper[2],
-               .fray_from = taper[3]},
-              palette_, seed, mesh_);
+      look_.AddLock(path,
+                    {.width_mm = edge ? wide[0] : wide[1] + wide[2] * NoiseAt(seed, 6),
+                     .root_part = edge ? taper[0] : taper[1],
+                     .tip_part = taper[2],
+                     .fray_from = taper[3]},
+                    seed, mesh_);
     }
   }
 
@@ -253,12 +253,12 @@ class LongHair {
         const glm::vec3 face = glm::cross(down, outward) * side;  // away from the hair
         path.push_back(p + face * (reach * v * v) - outward * (1.0f * v * v));
       }
-      AddLock(path,
-              {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 4),
-               .root_part = taper[0],
-               .fray_from = taper[1],
-               .open = taper[2]},
-              palette_, seed, mesh_);
+      look_.AddLock(path,
+                    {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 4),
+                     .root_part = taper[0],
+                     .fray_from = taper[1],
+                     .open = taper[2]},
+                    seed, mesh_);
     }
   }
 
@@ -299,12 +299,12 @@ class LongHair {
             glm::mix(full + lifts[0], lifts[1] + NoiseAt(seed, 5), SmoothStep(0, 0.55f, v));
         path.push_back(kHairCentre + d * (skin + lift - lifts[2] * v * v));
       }
-      AddLock(path,
-              {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 6) - thin[2] * strand,
-               .root_part = taper[0],
-               .fray_from = taper[1],
-               .root_density = taper[2]},
-              palette_, seed, mesh_);
+      look_.AddLock(path,
+                    {.width_mm = wide[0] + wide[1] * NoiseAt(seed, 6) - thin[2] * strand,
+                     .root_part = taper[0],
+                     .fray_from = taper[1],
+                     .root_density = taper[2]},
+                    seed, mesh_);
     }
   }
 
@@ -312,6 +312,7 @@ class LongHair {
   const Features& features_;
   const glm::vec3 volume_;
   const Palette& palette_;
+  const HairLook look_{features_, palette_};
   Scalp scalp_;
   HeadMesh& mesh_;
 };

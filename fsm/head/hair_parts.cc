@@ -51,40 +51,35 @@ glm::vec3 HairDirection(float azimuth, float elevation) {
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 
-float HairlineElevation(float azimuth) {
-  // Over the forehead, round the temple, the whisker before the ear, over and behind the ear, nape.
-  static const Curve kLine(
-      {0, 14, 27, 38, 47, 56, 64, 71, 77, 84, 95, 108, 120, 135, 155, 180},
-      {26.4f, 28.0f, 26.6f, 22.2f, 16.5f, 8, -2, -14, -27, -22, -13, -24, -42, -52, -57, -58});
-  return kLine(std::abs(azimuth));
-}
-
-glm::vec3 StrandColour(const Palette& palette, int strand, int row) {
+glm::vec3 HairLook::StrandColour(int strand, int row) const {
+  const auto& streaks = features_["hair_streaks"];
+  const auto& even = features_["hair_even"];
   const float fine = NoiseAt(strand * 7, 3);
   const float broad = NoiseAt(strand / 4, 11);
-  const float along = 0.05f * NoiseAt(strand, row + 40);
+  const float along = streaks[2] * NoiseAt(strand, row + 40);
   // Dark hair shows its streaks, light hair is more even.
-  const float strength = 1 - 0.6f * SmoothStep(0.1f, 0.3f, palette.hair.g);
-  const float light = 1 + strength * (0.28f * fine + 0.16f * broad + along);
-  return palette.hair * light *
-         glm::mix(glm::vec3(1), glm::vec3(1.12f, 1.0f, 0.86f), 0.5f + 0.5f * fine);
+  const float strength = 1 - even[0] * SmoothStep(even[1], even[2], palette_.hair.g);
+  const float light = 1 + strength * (streaks[0] * fine + streaks[1] * broad + along);
+  return palette_.hair * light *
+         glm::mix(glm::vec3(1), features_.Vector("hair_lightest"), 0.5f + 0.5f * fine);
 }
 
-void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette& palette,
-                 HeadMesh& mesh) {
+void HairLook::ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const {
+  const auto& on_skin = features_["hair_on_skin"];
   for (std::size_t i = 0; i < mesh.position.size(); ++i) {
     const glm::vec3 p = mesh.position[i];
     if (mesh.bone[i] != Bone::kSkin || p.y < 10) continue;
     float nearest = 1e9f;
     for (const glm::vec3 q : edge) nearest = std::min(nearest, glm::dot(p - q, p - q));
     const float near = std::exp(-nearest / (reach_mm * reach_mm)) * SmoothStep(10, 40, p.y);
-    mesh.occlusion[i] *= 1 - 0.42f * near;
-    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette.hair, 0.20f * near);
+    mesh.occlusion[i] *= 1 - on_skin[0] * near;
+    mesh.albedo[i] = glm::mix(mesh.albedo[i], palette_.hair, on_skin[1] * near);
   }
 }
 
-void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Palette& palette,
-             int seed, HeadMesh& mesh) {
+void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, int seed,
+                       HeadMesh& mesh) const {
+  const float streaks = features_("lock_streaks"), root_light = features_("lock_root_light");
   std::array<std::uint32_t, 2> before{};
   const int last = static_cast<int>(path.size()) - 1;
   float along_mm = 90 * (1 + NoiseAt(seed, 71));
@@ -100,10 +95,9 @@ void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Pale
     if (k > 0) along_mm += glm::length(path[i] - path[i - 1]);
     const float taper = glm::mix(style.root_part, 1.0f, SmoothStep(0, 0.3f, t)) *
                         glm::mix(1.0f, style.tip_part, SmoothStep(0.5f, 1, t));
-    // Less streaked than the hair below, or locks would look like leaves lying on it.
-    const glm::vec3 colour = glm::mix(palette.hair, StrandColour(palette, seed, k), 0.5f) *
+    const glm::vec3 colour = glm::mix(palette_.hair, StrandColour(seed, k), streaks) *
                              glm::mix(1.0f, style.tip_light, t);
-    const float shade = style.open * glm::mix(0.85f, 1.0f, SmoothStep(0, 0.25f, t));
+    const float shade = style.open * glm::mix(root_light, 1.0f, SmoothStep(0, 0.25f, t));
     const float density = glm::mix(style.root_density, 1.0f, SmoothStep(0, 0.16f, t)) *
                           SmoothStep(1.0f, style.fray_from, t);
     std::array<std::uint32_t, 2> now{};
@@ -121,12 +115,13 @@ void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Pale
   }
 }
 
-void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) {
+void HairLook::LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const {
+  const auto& as_one = features_["hair_as_one"];
   for (std::size_t i = 0; i < place.size(); ++i) {
     const glm::vec3 from = place[i] - kHairCentre;
-    const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : 0.25f, 1));
+    const glm::vec3 outward = glm::normalize(from * glm::vec3(1, from.y > 0 ? 1.0f : as_one[1], 1));
     if (glm::dot(normal[i], outward) < 0) continue;  // the lining
-    normal[i] = glm::normalize(glm::mix(normal[i], outward, 0.7f));
+    normal[i] = glm::normalize(glm::mix(normal[i], outward, as_one[0]));
   }
 }
 

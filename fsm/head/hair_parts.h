@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <glm/vec3.hpp>
 #include <span>
 #include <utility>
@@ -28,12 +29,6 @@ class Scalp {
 
 /// Angles about the hair's centre in degrees: azimuth from straight ahead towards +x.
 glm::vec3 HairDirection(float azimuth, float elevation);
-/// Where the hair begins on the skin: elevation by azimuth 0..180.
-float HairlineElevation(float azimuth);
-
-/// The colour of one strand: lighter and darker streaks.
-glm::vec3 StrandColour(const Palette& palette, int strand, int row);
-
 struct LockStyle {
   float width_mm;
   float root_part = 1;     ///< width at the root, as part of the whole
@@ -43,17 +38,30 @@ struct LockStyle {
   float open = 1;          ///< to the light, 0..1
   float tip_light = 1.1f;  ///< colour at the tip over that at the root
 };
-/// A lock as a card along `path` that frays at its sides and towards its tip.
-void AddLock(std::span<const glm::vec3> path, const LockStyle& style, const Palette& palette,
-             int seed, HeadMesh& mesh);
+/// What all heads of hair have in common. Lifetime: features and palette outlive it.
+class HairLook {
+ public:
+  HairLook(const Features& features, const Palette& palette)
+      : features_(features), palette_(palette), hairline_(features.CurveOf("hairline")) {}
 
-/// Darkens the skin under and beside the hair's edge, which runs through `edge`.
-void ShadeByHair(std::span<const glm::vec3> edge, float reach_mm, const Palette& palette,
-                 HeadMesh& mesh);
+  /// Where the hair begins on the skin: elevation by azimuth, degrees.
+  float HairlineElevation(float azimuth) const { return hairline_(std::abs(azimuth)); }
+  /// The colour of one strand: lighter and darker streaks.
+  glm::vec3 StrandColour(int strand, int row) const;
+  /// A lock as a card along `path` that frays at its sides and towards its tip.
+  void AddLock(std::span<const glm::vec3> path, const LockStyle& style, int seed,
+               HeadMesh& mesh) const;
+  /// Darkens the skin under and beside the hair's edge, which runs through `edge`.
+  void ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const;
+  /// Locks are flat cards, but take light as the head of hair they lie on: their own normals only
+  /// ruffle its. `place` and `normal` of one length.
+  void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const;
 
-/// Locks are flat cards, but take light as the head of hair they lie on: their own normals only
-/// ruffle its. `place` and `normal` of one length.
-void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal);
+ private:
+  const Features& features_;
+  const Palette& palette_;
+  Curve hairline_;
+};
 
 struct CropStyle {
   float side_mm, top_mm;  ///< of the shell over the skin

@@ -39,7 +39,8 @@ HeadAsset HeadBaker::Bake() {
   BakeRig(asset.topology, asset.rig);
   FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
   Complete(asset);
-  asset.landmarks = NameLandmarks(cage_, fine_, asset.rig.rest, eye_, seats_, identity_.Look());
+  asset.landmarks =
+      NameLandmarks(cage_, fine_, asset.rig.rest, eye_, eye_transforms_, identity_.Look());
   return asset;
 }
 
@@ -93,7 +94,7 @@ void HeadBaker::AddParts() {
   skin_hairs_.insert(skin_hairs_.end(), folds.begin(), folds.end());
   AddLashes();
   soft_count_ = mesh_.position.size();
-  BuildEyes(eye_, palette, mesh_);
+  BuildEyes(eye_, identity_.Look(), palette, mesh_);
   BuildTeeth(mouth_, identity_.Look(), palette, mesh_);
   BuildTongue(mouth_, identity_.Look(), palette, mesh_);
   AddEars();
@@ -103,7 +104,7 @@ void HeadBaker::TakeForm() {
   base_ = mesh_.position;
   const HeadForm form = Form();
   form.Shape(skin_count_, FixedEnd(), mesh_);
-  seats_ = form.seats();
+  eye_transforms_ = form.eye_transforms();
   teeth_ = form.teeth();
   hair_first_ = mesh_.position.size();
   AddHair();
@@ -134,9 +135,10 @@ void HeadBaker::BakeTopology(HeadTopology& topology) {
 
 void HeadBaker::BakeEyes(HeadTopology& topology) const {
   for (std::size_t side = 0; side < 2; ++side) {
-    const float size = seats_[side].size;
+    const float size = eye_transforms_[side].size;
     topology.eyes[side] = {
-        .centre = Seated(eye_, seats_, side, eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1)),
+        .centre = PlaceInFace(eye_, eye_transforms_, side,
+                              eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1)),
         .ball_radius = size * eye_.radius(),
         .iris_radius = size * eye_.iris_radius(),
         .pupil_radius = size * eye_.pupil_radius(),
@@ -151,8 +153,9 @@ void HeadBaker::BakeRig(const HeadTopology& topology, RigData& rig) {
                kTongue,   kBones, kNeck, kSprings, kNormals};
   rig.rest = std::move(mesh_.position);
   rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
-  LightAsOne(std::span(rig.rest).subspan(hair_first_),
-             std::span(rig.rest_normal).subspan(hair_first_));
+  HairLook(identity_.Look(), identity_.palette)
+      .LightAsOne(std::span(rig.rest).subspan(hair_first_),
+                  std::span(rig.rest_normal).subspan(hair_first_));
   rig.bone = std::move(mesh_.bone);
   rig.weights = std::move(mesh_.weights);
   for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
@@ -169,7 +172,7 @@ void HeadBaker::BakeRig(const HeadTopology& topology, RigData& rig) {
   const auto soft = std::span<const SkinWeights>(rig.weights).first(soft_count_);
   rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);
   std::ranges::move(MouthChannels(mouth_, soft), std::back_inserter(rig.channels));
-  rig.lids = BakeLids(eye_, seats_, rig.rest, soft);
+  rig.lids = BakeLids(eye_, eye_transforms_, rig.rest, soft);
   rig.lips = BakeLips(skin_, soft);
   rig.upper_teeth = mouth_.UpperTeeth().Moved(teeth_);
   rig.lower_teeth = mouth_.LowerTeeth().Moved(teeth_);

@@ -17,15 +17,15 @@ namespace fsm {
 /// them, and teeth with tongue, move as wholes. Keeps references to what it is made of.
 class HeadForm {
  public:
-  /// `warp`: of a face from a photo, or null. `seats`: of its right and left eye if they are known;
-  /// otherwise eyes go where the skin goes. `base`: the head before it takes this form.
+  /// `warp`: of a face from a photo, or null. `eye_transforms`: of its right and left eye if they
+  /// are known; otherwise eyes go where the skin goes. `base`: the head before it takes this form.
   HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper, const Warp* warp,
-           const std::optional<std::array<EyeTransform, 2>>& seats, const HeadMesh& base);
+           const std::optional<std::array<EyeTransform, 2>>& eye_transforms, const HeadMesh& base);
 
   /// Moves all vertices but those from `fixed_first` to before `fixed_end`.
   void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;
 
-  const std::array<EyeTransform, 2>& seats() const { return seats_; }
+  const std::array<EyeTransform, 2>& eye_transforms() const { return eye_transforms_; }
   const TeethTransform& teeth() const { return teeth_; }
 
  private:
@@ -38,12 +38,12 @@ class HeadForm {
   const MouthAnatomy& mouth_;
   const Shaper& shaper_;
   const Warp* warp_;
-  std::array<EyeTransform, 2> seats_;
+  std::array<EyeTransform, 2> eye_transforms_;
   TeethTransform teeth_;
 };
 
-/// Where a place of the table's eye lies in a face with these seats. `side`: 0 right, 1 left.
-glm::vec3 Seated(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats, std::size_t side,
-                 glm::vec3 p);
+/// Where a place of the table's eye lies in a face whose eyes lie so. `side`: 0 right, 1 left.
+glm::vec3 PlaceInFace(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eye_transforms,
+                      std::size_t side, glm::vec3 p);
 
 }  // namespace fsm

@@ -95,7 +95,7 @@ Identity ReadIdentity(const Table& table, std::string_view name) {
       ReadIdentityRow(row, identity);
     }
   }
-  if (!found) throw std::runtime_error(table.name() + ": no face '" + std::string(name) + "'");
+  if (!found) table.Fail("no face '" + std::string(name) + "'");
   return identity;
 }
 
@@ -113,7 +113,7 @@ Shaper::Shaper(const Table& table, const std::vector<std::pair<std::string, floa
   for (const auto& [name, value] : values) {
     const bool known =
         std::ranges::any_of(table.rows(), [&](const TableRow& row) { return row.Word(1) == name; });
-    if (!known) throw std::runtime_error(table.name() + ": no slider '" + name + "'");
+    if (!known) table.Fail("no slider '" + name + "'");
   }
 }
 

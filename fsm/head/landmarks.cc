@@ -10,7 +10,7 @@
 namespace fsm {
 
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& seats,
+                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eye_transforms,
                         const Features& features) {
   Landmarks landmarks;
   const auto pair = [&](const std::string& name, glm::vec3 p) {
@@ -33,15 +33,15 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
     const glm::vec3 mirror(side == 0 ? -1 : 1, 1, 1);
     const auto put = [&](const char* name, glm::vec3 p) {
       landmarks[name + std::string(side == 0 ? "_right" : "_left")] =
-          seats[side].Placed(mirror * eye.centre(), mirror * p);
+          eye_transforms[side].Placed(mirror * eye.centre(), mirror * p);
     };
     const auto on_lid = [&](float x, float y) {
       return glm::vec3(x, y, eye.LidAxisZ(x) + eye.LidRadius(x));
     };
     put("endocanthion", on_lid(eye.inner_x(), eye.UpperY(eye.inner_x())));
     put("exocanthion", on_lid(eye.outer_x(), eye.UpperY(eye.outer_x())));
-    put("palpebrale_superius", on_lid(middle, eye.UpperY(middle) + seats[side].upper_mm));
-    put("palpebrale_inferius", on_lid(middle, eye.LowerY(middle) + seats[side].lower_mm));
+    put("palpebrale_superius", on_lid(middle, eye.UpperY(middle) + eye_transforms[side].upper_mm));
+    put("palpebrale_inferius", on_lid(middle, eye.LowerY(middle) + eye_transforms[side].lower_mm));
     put("pupil", eye.centre() + glm::vec3(0, 0, eye.radius()));
   }
   pair("tragion", {65.7f, 0, 0});

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
-#include <stdexcept>
 
 #include "embedded/identities.h"
 #include "embedded/sliders.h"
@@ -47,7 +46,7 @@ Identity ReadOwnIdentity(const std::string& name, std::string_view text) {
     }
     ReadIdentityRow(row, *identity);
   }
-  if (!identity) throw std::runtime_error(name + ": no line 'base FACE'");
+  if (!identity) table.Fail("no line 'base FACE'");
   return *identity;
 }
 

@@ -26,7 +26,8 @@ std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& ey
 /// `of_photo`: those of the upper lids alone, with how dark they are in HeadMesh::opacity.
 void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh);
 
-void BuildEyes(const EyeAnatomy& eye, const Palette& palette, HeadMesh& mesh);
+void BuildEyes(const EyeAnatomy& eye, const Features& features, const Palette& palette,
+               HeadMesh& mesh);
 void BuildTeeth(const MouthAnatomy& mouth, const Features& features, const Palette& palette,
                 HeadMesh& mesh);
 void BuildTongue(const MouthAnatomy& mouth, const Features& features, const Palette& palette,

@@ -1,9 +1,11 @@
 #include "fsm/head/photo_head.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -148,61 +150,66 @@ PhotoHead ReadPhotoHead(const std::string& name, std::string_view text) {
   return head;
 }
 
+namespace {
+
+/// The numbers of a vector, with blanks between them.
+template <typename Vector>
+auto Words(const Vector& v) {
+  return fmt::join(&v[0], &v[0] + Vector::length(), " ");
+}
+
+constexpr std::array kSides = {"right", "left"};
+
+std::string WriteEyes(const PhotoHead& head) {
+  std::string out;
+  for (std::size_t i = 0; head.eyes && i < 2; ++i) {
+    const EyeTransform& eye = (*head.eyes)[i];
+    out += fmt::format("eye {} {:.3f}  {:.2f} {:.4f}  {:.3f} {:.3f}\n", kSides[i], Words(eye.shift),
+                       eye.turn / kRadians, eye.size, eye.upper_mm, eye.lower_mm);
+  }
+  for (std::size_t i = 0; head.eye_pictures && i < 2; ++i) {
+    const EyePicture& picture = (*head.eye_pictures)[i];
+    out += fmt::format("eye_picture {}  {:.6f}  {:.6f}\n", kSides[i], Words(picture.iris),
+                       Words(picture.ball));
+  }
+  return out;
+}
+
+std::string WriteSheet(const PhotoHead& head) {
+  std::string out =
+      "# the sheet of hair, neck and clothes: place in millimetres, place in photo.png\n";
+  for (const auto& v : head.sheet) {
+    out += fmt::format("vertex {:.2f}  {:.5f}\n", Words(v.position), Words(v.texcoord));
+  }
+  const auto& corners = head.sheet_triangles;
+  for (std::size_t i = 0; i + 5 < corners.size(); i += 6) {
+    out += fmt::format("quad {} {} {} {}\n", corners[i], corners[i + 1], corners[i + 2],
+                       corners[i + 5]);
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string WritePhotoHead(const PhotoHead& head) {
   std::string out =
       "# A face from a photo; docs/photo.md says what each line means.\nbase " + head.base + "\n";
-  std::array<char, 256> line;
-  const auto put = [&](const char* format, auto... values) {
-    std::snprintf(line.data(), line.size(), format, values...);
-    out += line.data();
-  };
-  const auto d = [](float v) { return static_cast<double>(v); };
-  put("smooth %.3f\n", d(head.smooth));
-  put("saturation %.2f\n", d(head.saturation));
-  put("lined %.2f\n", d(head.lined));
-  put("iris %.4f %.4f %.4f %.3f\n", d(head.iris_colour.x), d(head.iris_colour.y),
-      d(head.iris_colour.z), d(head.iris_size));
-  if (head.glasses) put("glasses %d\n", 1);
-  put("teeth %.2f\n", d(head.teeth));
-  put("white %.4f %.4f %.4f\n", d(head.white_colour.x), d(head.white_colour.y),
-      d(head.white_colour.z));
-  if (head.lip_colour) {
-    const glm::vec3 c = *head.lip_colour;
-    put("lip %.4f %.4f %.4f\n", d(c.x), d(c.y), d(c.z));
-  }
-  for (std::size_t i = 0; head.eyes && i < 2; ++i) {
-    const EyeTransform& eye = (*head.eyes)[i];
-    put("eye %s %.3f %.3f %.3f  %.2f %.4f  %.3f %.3f\n", i == 0 ? "right" : "left", d(eye.shift.x),
-        d(eye.shift.y), d(eye.shift.z), d(eye.turn / kRadians), d(eye.size), d(eye.upper_mm),
-        d(eye.lower_mm));
-  }
-  for (std::size_t i = 0; head.eye_pictures && i < 2; ++i) {
-    put("eye_picture %s", i == 0 ? "right" : "left");
-    for (const glm::vec4& p : {(*head.eye_pictures)[i].iris, (*head.eye_pictures)[i].ball}) {
-      put("  %.6f %.6f %.6f %.6f", d(p.x), d(p.y), d(p.z), d(p.w));
-    }
-    out += '\n';
-  }
-  put("skin %.5f %.5f %.5f %.5f %.2f\n", d(head.skin_low.x), d(head.skin_low.y),
-      d(head.skin_high.x), d(head.skin_high.y), d(head.skin_bottom_y));
-  put("seen_from %.4f %.4f %.4f\n", d(head.seen_from.x), d(head.seen_from.y), d(head.seen_from.z));
-  for (const glm::vec3& v : head.also_seen)
-    put("also_seen %.4f %.4f %.4f\n", d(v.x), d(v.y), d(v.z));
+  out += fmt::format("smooth {:.3f}\nsaturation {:.2f}\nlined {:.2f}\n", head.smooth,
+                     head.saturation, head.lined);
+  out += fmt::format("iris {:.4f} {:.3f}\n", Words(head.iris_colour), head.iris_size);
+  if (head.glasses) out += "glasses 1\n";
+  out += fmt::format("teeth {:.2f}\nwhite {:.4f}\n", head.teeth, Words(head.white_colour));
+  if (head.lip_colour) out += fmt::format("lip {:.4f}\n", Words(*head.lip_colour));
+  out += WriteEyes(head);
+  out += fmt::format("skin {:.5f} {:.5f} {:.2f}\n", Words(head.skin_low), Words(head.skin_high),
+                     head.skin_bottom_y);
+  out += fmt::format("seen_from {:.4f}\n", Words(head.seen_from));
+  for (const glm::vec3& v : head.also_seen) out += fmt::format("also_seen {:.4f}\n", Words(v));
   out += "# point: of the base face at rest, and how it moves, millimetres\n";
   for (const WarpPoint& p : head.points) {
-    put("point %.3f %.3f %.3f  %.3f %.3f %.3f\n", d(p.at.x), d(p.at.y), d(p.at.z), d(p.by.x),
-        d(p.by.y), d(p.by.z));
+    out += fmt::format("point {:.3f}  {:.3f}\n", Words(p.at), Words(p.by));
   }
-  out += "# the sheet of hair, neck and clothes: place in millimetres, place in photo.png\n";
-  for (const auto& v : head.sheet) {
-    put("vertex %.2f %.2f %.2f  %.5f %.5f\n", d(v.position.x), d(v.position.y), d(v.position.z),
-        d(v.texcoord.x), d(v.texcoord.y));
-  }
-  for (std::size_t i = 0; i + 5 < head.sheet_triangles.size(); i += 6) {
-    put("quad %u %u %u %u\n", head.sheet_triangles[i], head.sheet_triangles[i + 1],
-        head.sheet_triangles[i + 2], head.sheet_triangles[i + 5]);
-  }
-  return out;
+  return out + WriteSheet(head);
 }
 
 }  // namespace fsm

@@ -16,7 +16,7 @@ namespace fsm {
 namespace {
 
 /// Skin near an eye: what the photo shows of it.
-struct Lender {
+struct PhotoSkin {
   glm::vec2 at;        ///< on the face, millimetres
   glm::vec2 texcoord;  ///< in the photo
   glm::vec3 screen;
@@ -24,10 +24,10 @@ struct Lender {
 };
 
 /// Means with weights that fall off with the distance from `at`, millimetres.
-Lender Around(std::span<const Lender> lenders, glm::vec2 at, float reach) {
-  Lender mean{at, glm::vec2(0), glm::vec3(0), 0};
+PhotoSkin Around(std::span<const PhotoSkin> places, glm::vec2 at, float reach) {
+  PhotoSkin mean{at, glm::vec2(0), glm::vec3(0), 0};
   float weight = 1e-9f;
-  for (const Lender& l : lenders) {
+  for (const PhotoSkin& l : places) {
     const glm::vec2 off = (l.at - at) / reach;
     const float w = std::exp(-glm::dot(off, off)) + 1e-8f;
     mean.texcoord += w * l.texcoord;
@@ -69,14 +69,14 @@ struct PhotoPlane {
   glm::vec2 operator()(glm::vec2 p) const { return texcoord + slope * (p - at); }
 };
 
-PhotoPlane PhotoByFace(std::span<const Lender> all) {
-  Lender mean{glm::vec2(0), glm::vec2(0), glm::vec3(0), 0};
-  for (const Lender& l : all) {
+PhotoPlane PhotoByFace(std::span<const PhotoSkin> all) {
+  PhotoSkin mean{glm::vec2(0), glm::vec2(0), glm::vec3(0), 0};
+  for (const PhotoSkin& l : all) {
     mean.at += l.at / static_cast<float>(all.size());
     mean.texcoord += l.texcoord / static_cast<float>(all.size());
   }
   glm::mat2 spread(1e-6f), both(0);
-  for (const Lender& l : all) {
+  for (const PhotoSkin& l : all) {
     spread += glm::outerProduct(l.at - mean.at, l.at - mean.at);
     both += glm::outerProduct(l.texcoord - mean.texcoord, l.at - mean.at);
   }
@@ -111,7 +111,7 @@ class LidPainter {
     photo_by_face_ = PhotoByFace(around_);
     below_ = around_;
     std::erase_if(below_,
-                  [&](const Lender& l) { return l.at.y > HeightAt(lower_rim_, l.at.x) - 0.5f; });
+                  [&](const PhotoSkin& l) { return l.at.y > HeightAt(lower_rim_, l.at.x) - 0.5f; });
     if (!below_.empty()) grain_by_face_ = PhotoByFace(below_);
     for (SkinSample& s : samples) {
       // Along the rims the photo shows lashes.
@@ -196,8 +196,8 @@ class LidPainter {
   }
 
   static glm::vec3 Linear(glm::vec3 screen) { return screen * screen; }
-  static float LightOfLender(const Lender& lender) {
-    return std::max(ScreenBrightness(lender.screen), 0.02f);
+  static float LightOf(const PhotoSkin& skin) {
+    return std::max(ScreenBrightness(skin.screen), 0.02f);
   }
 
   ShutLid Lower(std::uint32_t i) const {
@@ -212,8 +212,8 @@ class LidPainter {
     return {.vertex = i,
             .colour = Linear(Lashed(Skin(i, at), dark[0] * lashes)),
             .weight = std::max(dark[1] * rim, (dark[2] + dark[3] * outward) * lashes),
-            .lender = face_.sight.texcoord[i],
-            .lender_light = LightOfLender(Around(around_, at, 2)),
+            .grain_at = face_.sight.texcoord[i],
+            .grain_light = LightOf(Around(around_, at, 2)),
             .slide = glm::vec2(0)};
   }
 
@@ -234,14 +234,14 @@ class LidPainter {
     const float lashes = (dark[0] + dark[1] * Outward(at)) * SmoothStep(0.96f, 1.0f, held);
     const float height = std::max(at.y - lowest_, 0.0f);
     const float down = face_.glasses ? Folded(height) : std::abs(kHighest - height);
-    const glm::vec2 lender(at.x, lowest_ - 1.5f - down);
+    const glm::vec2 source(at.x, lowest_ - 1.5f - down);
     // Near a rim of glasses skin darkens within millimetres: that is no grain.
-    const Lender wide = Around(below_, lender, face_.glasses ? 1.2f : 4.0f);
+    const PhotoSkin wide = Around(below_, source, face_.glasses ? 1.2f : 4.0f);
     return {.vertex = i,
             .colour = Linear(glm::clamp(Lashed(skin, lashes), 0.0f, 1.0f)),
             .weight = Part(at, rim, skin) * SmoothStep(0.02f, 0.2f, held),
-            .lender = grain_by_face_(lender),
-            .lender_light = LightOfLender(wide),
+            .grain_at = grain_by_face_(source),
+            .grain_light = LightOf(wide),
             .slide = photo_by_face_.slope * (at - glm::vec2(face_.open.position[i]))};
   }
 
@@ -262,7 +262,7 @@ class LidPainter {
   const Features& features_;
   const FaceLight& light_;
   int side_;
-  std::vector<Lender> around_, below_;
+  std::vector<PhotoSkin> around_, below_;
   std::vector<glm::vec2> upper_rim_, lower_rim_;
   float rim_from_ = 0, rim_to_ = 0, lowest_ = 0;
   PhotoPlane photo_by_face_, grain_by_face_;

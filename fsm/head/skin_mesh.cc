@@ -86,11 +86,11 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainte
 }
 
 /// Scalp that no head of hair lets be seen.
-bool HairCovers(glm::vec3 p) {
+bool HairCovers(const HairLook& hair, glm::vec3 p) {
   const glm::vec3 d = p - kHairCentre;
   const float azimuth = std::atan2(std::abs(d.x), d.z) * 57.29578f;
   const float elevation = std::asin(d.y / glm::length(d)) * 57.29578f;
-  return elevation > HairlineElevation(azimuth) + 16;
+  return elevation > hair.HairlineElevation(azimuth) + 16;
 }
 
 }  // namespace
@@ -98,6 +98,7 @@ bool HairCovers(glm::vec3 p) {
 MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnatomy& mouth,
                     const Identity& identity, HeadMesh& mesh) {
   const SkinPainter painter(identity.Look(), eye, identity.palette);
+  const HairLook hair(identity.Look(), identity.palette);
   std::vector<SkinKind> kind(skin.position.size(), SkinKind::kSkin);
   for (const FineSkin::Triangle& t : skin.triangles) {
     for (const std::uint32_t v : t.corner) kind[v] = std::max(kind[v], t.kind);
@@ -120,10 +121,8 @@ MouthSeam BuildSkin(const FineSkin& skin, const EyeAnatomy& eye, const MouthAnat
     }
   }
   for (const FineSkin::Triangle& t : skin.triangles) {
-    if (std::ranges::all_of(t.corner,
-                            [&](std::uint32_t v) { return HairCovers(skin.position[v]); })) {
-      continue;
-    }
+    const auto covered = [&](std::uint32_t v) { return HairCovers(hair, skin.position[v]); };
+    if (std::ranges::all_of(t.corner, covered)) continue;
     const Material material = t.kind == SkinKind::kLip      ? Material::kLip
                               : t.kind == SkinKind::kInside ? Material::kMouthInside
                                                             : Material::kSkin;

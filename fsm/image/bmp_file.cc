@@ -88,7 +88,7 @@ std::optional<Image> DecodeBmp(std::span<const std::uint8_t> bytes, std::string&
     why = "it ends too early";
     return std::nullopt;
   }
-  Image image = MakeBlack(width, static_cast<int>(height));
+  Image image = FilledImage(width, static_cast<int>(height), kBlack);
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
     const std::size_t row = downwards ? y : static_cast<std::size_t>(height) - 1 - y;
     const auto line = bytes.subspan(start + row * stride, stride);

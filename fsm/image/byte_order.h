@@ -3,9 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace fsm {
+
+/// The bytes of a text; valid as long as it is.
+inline std::span<const std::uint8_t> BytesOf(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
 
 /// Unsigned numbers of `count` bytes at `offset`. REQUIRES: offset + count <= bytes.size().
 inline std::uint32_t LittleEndian(std::span<const std::uint8_t> bytes, std::size_t offset,

@@ -20,6 +20,7 @@ struct Image {
   }
 };
 
+inline constexpr std::array<std::uint8_t, 4> kBlack = {0, 0, 0, 255};
 /// A picture of one colour, by default opaque white.
 inline Image FilledImage(int width, int height,
                          std::array<std::uint8_t, 4> colour = {255, 255, 255, 255}) {

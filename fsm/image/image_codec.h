@@ -38,7 +38,5 @@ std::optional<Image> DecodePicture(std::span<const std::uint8_t> bytes, std::str
 
 /// Whether a decoder may go on: 1..kMaxImageSide on each side.
 bool SizeAllowed(std::int64_t width, std::int64_t height, std::string& why);
-/// An image of that size, opaque black.
-Image MakeBlack(int width, int height);
 
 }  // namespace fsm

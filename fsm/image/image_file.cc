@@ -1,7 +1,6 @@
 #include "fsm/image/image_file.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,9 +10,11 @@
 #include <system_error>
 #include <utility>
 
+#include "fsm/image/byte_order.h"
 #include "fsm/image/image_codec.h"
 #include "vm_protocol/core/file_kind.h"
 #include "vm_protocol/core/lower_case.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -45,9 +46,9 @@ std::unexpected<vm::Error> BadEnding(const std::string& path, const char* more =
                   "'" + path + "' is no picture's name: it must end in .png, .bmp or .rgb" + more);
 }
 
-std::unexpected<vm::Error> Refused(const char* verb, const std::string& path) {
-  return vm::Fail(vm::Errc::kUnavailable, std::string("cannot ") + verb + " '" + path +
-                                              "': " + std::generic_category().message(errno));
+std::unexpected<vm::Error> NotWritten(const std::string& path) {
+  return vm::Fail(vm::Errc::kUnavailable,
+                  "cannot write '" + path + "': " + std::generic_category().message(errno));
 }
 
 class File {
@@ -77,21 +78,6 @@ bool WriteAll(int fd, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-bool ReadAll(int fd, std::vector<std::uint8_t>& bytes) {
-  std::size_t used = 0;
-  for (;;) {
-    bytes.resize(used + (1U << 16));
-    const auto got = read(fd, bytes.data() + used, bytes.size() - used);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return false;
-    used += static_cast<std::size_t>(got);
-    if (got == 0 || used > kMaxFileBytes) {
-      bytes.resize(used);
-      return true;
-    }
-  }
-}
-
 }  // namespace
 
 bool SizeAllowed(std::int64_t width, std::int64_t height, std::string& why) {
@@ -99,13 +85,6 @@ bool SizeAllowed(std::int64_t width, std::int64_t height, std::string& why) {
   why = "its size " + std::to_string(width) + " x " + std::to_string(height) +
         " is not within 1 to " + std::to_string(kMaxImageSide);
   return false;
-}
-
-Image MakeBlack(int width, int height) {
-  Image image{width, height, {}};
-  image.rgba.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4, 0);
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
-  return image;
 }
 
 std::optional<Image> DecodePicture(std::span<const std::uint8_t> bytes, std::string& why) {
@@ -124,9 +103,9 @@ vm::Result<void> WriteImage(const Image& image, const std::string& path) {
   const std::string beside = path + ".part" + std::to_string(getpid());
   if (auto fit = vm::CheckWritable(beside); !fit) return fit;
   File file(open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (!file.open()) return Refused("write", path);
+  if (!file.open()) return NotWritten(path);
   if (!WriteAll(file.get(), bytes) || !file.Close() || rename(beside.c_str(), path.c_str()) != 0) {
-    const auto refused = Refused("write", path);
+    const auto refused = NotWritten(path);
     unlink(beside.c_str());
     return refused;
   }
@@ -136,21 +115,10 @@ vm::Result<void> WriteImage(const Image& image, const std::string& path) {
 vm::Result<Image> ReadImage(const std::string& path) {
   const Format* format = FormatOf(path);
   if (!format) return BadEnding(path, " (or .jpg, to be read)");
-  // Without waiting: a named pipe in the place of a picture must not stop the program.
-  File file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat status {};
-  if (!file.open() || fstat(file.get(), &status) != 0) return Refused("read", path);
-  if (!S_ISREG(status.st_mode)) {
-    return vm::Fail(vm::Errc::kUnavailable, "cannot read '" + path + "': not a plain file");
-  }
-  std::vector<std::uint8_t> bytes;
-  if (!ReadAll(file.get(), bytes)) return Refused("read", path);
+  const auto bytes = vm::ReadTextFile(path, kMaxFileBytes);
+  if (!bytes) return std::unexpected(bytes.error());
   std::string why;
-  if (bytes.size() > kMaxFileBytes) {
-    why = "the file is too large";
-  } else if (auto image = format->decode(bytes, why)) {
-    return *std::move(image);
-  }
+  if (auto image = format->decode(BytesOf(*bytes), why)) return *std::move(image);
   return vm::Fail(vm::Errc::kBadValue, "cannot use the picture '" + path + "': " + why);
 }
 

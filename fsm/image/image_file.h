@@ -10,8 +10,8 @@ namespace fsm {
 /// Writes by the name's ending: .png, .bmp (24 bit), .rgb (SGI, uncompressed RGB).
 /// Errors: kBadValue for another ending, kUnavailable if the file cannot be written.
 vm::Result<void> WriteImage(const Image& image, const std::string& path);
-/// Reads .png, .bmp (24/32 bit uncompressed) and .rgb (SGI). Errors: kUnavailable, kBadValue. At
-/// most kMaxImageSide on each side.
+/// Reads .png, .bmp (24/32 bit uncompressed), .rgb (SGI) and .jpg. Errors: those of
+/// vm::ReadTextFile, kBadValue. At most kMaxImageSide on each side.
 vm::Result<Image> ReadImage(const std::string& path);
 
 }  // namespace fsm

@@ -54,7 +54,8 @@ std::optional<Image> DecodePng(std::span<const std::uint8_t> bytes, std::string&
     return std::nullopt;
   }
   header.format = PNG_FORMAT_RGBA;
-  Image image = MakeBlack(static_cast<int>(header.width), static_cast<int>(header.height));
+  Image image =
+      FilledImage(static_cast<int>(header.width), static_cast<int>(header.height), kBlack);
   if (!png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr)) {
     why = header.message;
     png_image_free(&header);

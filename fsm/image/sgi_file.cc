@@ -100,7 +100,8 @@ std::vector<std::uint8_t> EncodeSgi(const Image& image) {
 std::optional<Image> DecodeSgi(std::span<const std::uint8_t> bytes, std::string& why) {
   const auto header = ReadHeader(bytes, why);
   if (!header) return std::nullopt;
-  Image image = MakeBlack(static_cast<int>(header->width), static_cast<int>(header->height));
+  Image image =
+      FilledImage(static_cast<int>(header->width), static_cast<int>(header->height), kBlack);
   std::vector<std::uint8_t> row(header->width);
   for (std::size_t channel = 0; channel < header->channels; ++channel) {
     for (std::size_t y = 0; y < header->height; ++y) {

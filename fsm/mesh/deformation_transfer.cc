@@ -30,7 +30,7 @@ void MarkParts(WeldedSurface& surface, std::span<const PointPair> pairs, bool fr
                         std::vector<float>& out) {
     const auto above = seeds(upper), below = seeds(lower);
     if (above.empty() || below.empty()) return;
-    const auto up = surface.WayFrom(above, reach), down = surface.WayFrom(below, reach);
+    const auto up = surface.DistancesFrom(above, reach), down = surface.DistancesFrom(below, reach);
     for (std::size_t i = 0; i < out.size(); ++i) {
       const float here = std::clamp((down[i] - up[i]) / clear, -1.0f, 1.0f);
       // Farther away both go over into what is neither.
@@ -106,6 +106,46 @@ class EdgePull {
   std::vector<WarpPoint> left_;
 };
 
+/// The surface where the places that both faces have take it.
+WeldedSurface Carried(const WeldedSurface& rest, std::span<const PointPair> pairs) {
+  std::vector<WarpPoint> points;
+  for (const PointPair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
+  // Landmarks lie a millimetre or two off; a warp that goes through each of them tears lids and
+  // lips. What it leaves undone drawing does.
+  constexpr float kSmooth = 80;
+  const Warp warp(points, kSmooth);
+  const EdgePull edges(pairs, warp);
+  WeldedSurface carried = rest;
+  for (glm::vec3& p : carried.at) p = edges.Pulled(p + warp.Motion(p));
+  // Places that lie nearly in a plane say next to nothing about what lies beside it.
+  CheckVertices(carried.at, "the face, where the places that both faces have take it,");
+  carried.FindNormals();
+  return carried;
+}
+
+/// Draws a surface towards those places of `target` that are within `reach` millimetres, in pieces
+/// of about `rounds` triangles across. Returns how far they were on average.
+float Draw(WeldedSurface& drawn, const WeldedSurface& target, float reach, int rounds) {
+  const SurfaceIndex there(target, reach);
+  std::vector<glm::vec3> by(drawn.at.size(), glm::vec3(0));
+  std::vector<float> weight(drawn.at.size(), 0);
+  float sum = 0, count = 0;
+  for (std::size_t i = 0; i < drawn.at.size(); ++i) {
+    const auto hit = there.Find(drawn, i);
+    if (!hit) continue;
+    // Along its own normal: where to, sideways, is what the landmarks said; the nearest place, as
+    // it falls on other triangles from round to round, would drift.
+    by[i] = glm::dot(hit->at - drawn.at[i], drawn.normal[i]) * drawn.normal[i];
+    weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
+    sum += weight[i] * hit->far;
+    count += weight[i];
+  }
+  Spread(drawn, by, weight, rounds);
+  for (std::size_t i = 0; i < drawn.at.size(); ++i) drawn.at[i] += 0.8f * by[i];
+  drawn.FindNormals();
+  return sum / std::max(count, 1e-6f);
+}
+
 }  // namespace
 
 DeformationTransfer::DeformationTransfer(const TransferSurface& from, const TransferSurface& to,
@@ -125,44 +165,12 @@ DeformationTransfer::DeformationTransfer(const TransferSurface& from, const Tran
   const WeldedSurface rest = prepared(from, true);
   WeldedSurface target = prepared(to, false);
 
-  std::vector<WarpPoint> points;
-  for (const PointPair& pair : pairs) points.push_back({pair.from, pair.to - pair.from});
-  // Landmarks lie a millimetre or two off; a warp that goes through each of them tears lids and
-  // lips. What it leaves undone the drawing below does.
-  constexpr float kSmooth = 80;
-  const Warp warp(points, kSmooth);
-  const EdgePull edges(pairs, warp);
-  WeldedSurface drawn = rest;
-  for (glm::vec3& p : drawn.at) p = edges.Pulled(p + warp.Motion(p));
-  // Places that lie nearly in a plane say next to nothing about what lies beside it.
-  CheckVertices(drawn.at, "the face, where the places that both faces have take it,");
-  drawn.FindNormals();
-
+  WeldedSurface drawn = Carried(rest, pairs);
   // Drawn onto the other surface in rounds, at first as a whole, in the end in detail. Necks and
   // backs of heads, where no landmarks are, lie far apart at first.
   constexpr std::pair<float, int> kRounds[] = {{30, 40}, {26, 24}, {22, 14},
                                                {18, 8},  {14, 5},  {14, 3}};
-  for (const auto& [reach, rounds] : kRounds) {
-    const SurfaceIndex there(target, reach);
-    std::vector<glm::vec3> by(drawn.at.size(), glm::vec3(0));
-    std::vector<float> weight(drawn.at.size(), 0);
-    float sum = 0, count = 0;
-    for (std::size_t i = 0; i < drawn.at.size(); ++i) {
-      const auto hit = there.Find(drawn, i);
-      if (!hit) continue;
-      // Along its own normal: where to, sideways, is what the landmarks said; the nearest place, as
-      // it falls on other triangles from round to round, would drift.
-      by[i] = glm::dot(hit->at - drawn.at[i], drawn.normal[i]) * drawn.normal[i];
-      weight[i] = SmoothStep(reach, 0.4f * reach, hit->far);
-      sum += weight[i] * hit->far;
-      count += weight[i];
-    }
-    residual_ = sum / std::max(count, 1e-6f);
-    Spread(drawn, by, weight, rounds);
-    for (std::size_t i = 0; i < drawn.at.size(); ++i) drawn.at[i] += 0.8f * by[i];
-    drawn.FindNormals();
-  }
-
+  for (const auto& [reach, rounds] : kRounds) residual_ = Draw(drawn, target, reach, rounds);
   MakeRows(Bind(rest, drawn, target), target);
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "fsm/image/byte_order.h"
 #include "fsm/mesh/obj_file.h"
 #include "vm_protocol/runtime/base64.h"
 
@@ -19,9 +20,7 @@ constexpr std::size_t kMaxDepth = 64;          ///< of the JSON
 const json kNothing = json::object();
 
 std::uint32_t Word(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t k = 4; k-- > 0;) value = value << 8 | static_cast<std::uint8_t>(bytes[at + k]);
-  return value;
+  return LittleEndian(BytesOf(bytes), at, 4);
 }
 
 struct Kind {
@@ -50,8 +49,7 @@ std::optional<Kind> KindOf(std::int64_t component) {
 }
 
 double Value(const std::uint8_t* at, std::int64_t component, const Kind& kind, bool normalised) {
-  std::uint32_t bits = 0;
-  for (std::size_t k = kind.bytes; k-- > 0;) bits = bits << 8 | at[k];
+  const std::uint32_t bits = LittleEndian(std::span(at, kind.bytes), 0, kind.bytes);
   if (component == 5126) {
     float value = 0;
     std::memcpy(&value, &bits, sizeof(value));
@@ -91,6 +89,20 @@ std::string TextOf(const json& object, const char* key) {
 const json& PartOf(const json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return found != object.end() && found->is_structured() ? *found : kNothing;
+}
+
+std::vector<std::int64_t> WholesOf(const json& object, const char* key) {
+  std::vector<std::int64_t> wholes;
+  for (const json& element : PartOf(object, key)) {
+    if (element.is_number_integer()) wholes.push_back(element.get<std::int64_t>());
+  }
+  return wholes;
+}
+void RealsOf(const json& object, const char* key, std::span<float> out) {
+  const json& list = PartOf(object, key);
+  for (std::size_t i = 0; list.is_array() && i < std::min(list.size(), out.size()); ++i) {
+    if (list[i].is_number()) out[i] = list[i].get<float>();
+  }
 }
 
 GltfDocument::GltfDocument() = default;

@@ -93,5 +93,9 @@ double RealOf(const nlohmann::json& object, const char* key, double otherwise);
 std::string TextOf(const nlohmann::json& object, const char* key);
 /// A member that is an array or object, else an empty one.
 const nlohmann::json& PartOf(const nlohmann::json& object, const char* key);
+/// The integers of a list.
+std::vector<std::int64_t> WholesOf(const nlohmann::json& object, const char* key);
+/// Puts a list's numbers into `out`, place by place; what is no number leaves its place as it was.
+void RealsOf(const nlohmann::json& object, const char* key, std::span<float> out);
 
 }  // namespace fsm

@@ -3,6 +3,7 @@
 #include <glm/matrix.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "fsm/mesh/gltf_document.h"
 #include "fsm/mesh/gltf_nodes.h"
@@ -10,10 +11,10 @@
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/obj_file.h"
-#include "fsm/mesh/pnt_file.h"
 #include "fsm/mesh/vrm_avatar.h"
 #include "fsm/mesh/vrm_springs.h"
 #include "vm_protocol/core/lower_case.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -23,32 +24,39 @@ using nlohmann::json;
 constexpr std::size_t kMaxShapes = 400;
 constexpr std::size_t kMaxDeltas = 20'000'000;
 
+/// Ends the reading of a file; does not leave this one.
+struct Refusal {
+  vm::Error error;
+};
+template <typename T>
+T OrRefuse(vm::Result<T> result) {
+  if (!result) throw Refusal{std::move(result.error())};
+  return std::move(*result);
+}
+
+/// Reads one document; what is wrong with it is thrown as a Refusal.
 class GltfReader {
  public:
   explicit GltfReader(GltfDocument document)
       : document_(std::move(document)), avatar_(ReadVrm(document_)), paint_(document_, head_) {}
 
-  vm::Result<HeadFile> Read() {
+  HeadFile Read() {
     head_.name = document_.name();
     head_.metres = true;
-    auto nodes = GltfNodes::Read(document_);
-    if (!nodes) return std::unexpected(nodes.error());
-    nodes_ = std::move(*nodes);
+    nodes_ = OrRefuse(GltfNodes::Read(document_));
     const VrmSprings springs(document_, nodes_);
     springs_ = &springs;
     head_.springs = springs.springs();
-    for (const std::int64_t node : nodes_.shown()) {
-      if (auto read = Mesh(node); !read) return std::unexpected(read.error());
-    }
-    if (head_.parts.empty()) return document_.Wrong("no mesh of triangles is in it");
+    for (const std::int64_t node : nodes_.shown()) Mesh(node);
+    if (head_.parts.empty()) Refuse("no mesh of triangles is in it");
     for (const auto& expression : avatar_.expressions) Express(expression);
     if (avatar_.eye_bone[0] >= 0 && avatar_.eye_bone[1] >= 0) {
       head_.eye_pivot = {glm::vec3(nodes_.World(avatar_.eye_bone[0])[3]),
                          glm::vec3(nodes_.World(avatar_.eye_bone[1])[3])};
       for (std::size_t side = 0; side < 2; ++side) {
         if (WithinReach((*head_.eye_pivot)[side])) continue;
-        return document_.Wrong("nodes[" + std::to_string(avatar_.eye_bone[side]) +
-                               "]: the eye lies farther than 10000000 metres from the origin");
+        Refuse("nodes[" + std::to_string(avatar_.eye_bone[side]) +
+               "]: the eye lies farther than 10000000 metres from the origin");
       }
     }
     if (avatar_.says_look) head_.look = avatar_.look;
@@ -62,14 +70,12 @@ class GltfReader {
   }
 
  private:
-  vm::Result<void> Mesh(std::int64_t node) {
+  void Mesh(std::int64_t node) {
     const json& of = document_.At("nodes", node);
     const std::int64_t index = WholeOf(of, "mesh"), skin = WholeOf(of, "skin");
-    if (index < 0) return {};
+    if (index < 0) return;
     if (skin >= 0 && !skins_.contains(skin)) {
-      auto read = GltfSkin::Read(document_, nodes_, skin);
-      if (!read) return std::unexpected(read.error());
-      skins_.emplace(skin, std::move(*read));
+      skins_.emplace(skin, OrRefuse(GltfSkin::Read(document_, nodes_, skin)));
     }
     const json& mesh = document_.At("meshes", index);
     std::vector<std::string> names;
@@ -79,150 +85,138 @@ class GltfReader {
     for (const json& primitive : PartOf(mesh, "primitives")) {
       if (WholeOf(primitive, "mode", 4) != 4) continue;
       const Place place{.mesh = index, .node = node, .skin = skin};
-      auto read = Primitive(primitive, place,
-                            vm::LowerCase(TextOf(of, "name") + " " + TextOf(mesh, "name")), names);
-      if (!read) return read;
+      Primitive(primitive, place, vm::LowerCase(TextOf(of, "name") + " " + TextOf(mesh, "name")),
+                names);
     }
-    return {};
   }
 
   struct Place {
     std::int64_t mesh, node, skin;
   };
 
-  vm::Result<void> Primitive(const json& primitive, const Place& place, const std::string& name,
-                             const std::vector<std::string>& names) {
+  void Primitive(const json& primitive, const Place& place, const std::string& name,
+                 const std::vector<std::string>& names) {
     const json& attributes = PartOf(primitive, "attributes");
     const std::int64_t position = WholeOf(attributes, "POSITION");
     // Without a fallback the accessors of packed geometry are there, but point to nothing.
     if (PartOf(primitive, "extensions").contains("KHR_draco_mesh_compression") &&
         !document_.At("accessors", position).contains("bufferView")) {
-      return document_.Wrong("meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
+      Refuse("meshes[" + std::to_string(place.mesh) + "]: " + kPackedMesh);
     }
     // Primitives of a mesh often share their vertices.
     const auto [known, fresh] =
         first_of_.try_emplace({place.node, position}, head_.position.size());
     const std::size_t first = known->second;
-    if (fresh) {
-      if (auto read = Vertices(primitive, place, names); !read) return read;
-    }
+    if (fresh) Vertices(primitive, place, names);
     const std::size_t count = count_of_[{place.node, position}];
     HeadFile::Part part;
     part.name = name;
-    if (primitive.contains("indices")) {
-      const auto indices = document_.Indices(WholeOf(primitive, "indices"));
-      if (!indices) return std::unexpected(indices.error());
-      for (const std::uint32_t i : *indices) {
-        if (i >= count) {
-          return document_.Wrong("meshes[" + std::to_string(place.mesh) +
-                                 "]: an index beyond its " + std::to_string(count) + " vertices");
-        }
-        part.indices.push_back(static_cast<std::uint32_t>(first) + i);
-      }
-    } else {
-      for (std::size_t i = 0; i < count; ++i)
-        part.indices.push_back(static_cast<std::uint32_t>(first + i));
-    }
-    part.indices.resize(part.indices.size() / 3 * 3);
-    if (mirrored_[first]) {
-      for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3)
-        std::swap(part.indices[i + 1], part.indices[i + 2]);
-    }
-    if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles) return TooMany();
+    part.indices = TrianglesOf(primitive, place, first, count);
+    if (triangles_ += part.indices.size() / 3; triangles_ > kMaxMeshTriangles) RefuseSize();
     paint_.ApplyMaterial(WholeOf(primitive, "material"), part);
     if (!part.indices.empty()) head_.parts.push_back(std::move(part));
-    return {};
   }
 
-  vm::Result<void> Vertices(const json& primitive, const Place& place,
-                            const std::vector<std::string>& names) {
+  /// Of the `count` vertices from `first` on, seen from outside.
+  std::vector<std::uint32_t> TrianglesOf(const json& primitive, const Place& place,
+                                         std::size_t first, std::size_t count) {
+    std::vector<std::uint32_t> indices(count);
+    std::iota(indices.begin(), indices.end(), 0u);
+    if (primitive.contains("indices")) {
+      indices = OrRefuse(document_.Indices(WholeOf(primitive, "indices")));
+    }
+    for (std::uint32_t& i : indices) {
+      if (i >= count) {
+        Refuse("meshes[" + std::to_string(place.mesh) + "]: an index beyond its " +
+               std::to_string(count) + " vertices");
+      }
+      i += static_cast<std::uint32_t>(first);
+    }
+    indices.resize(indices.size() / 3 * 3);
+    if (mirrored_[first]) {
+      for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
+    }
+    return indices;
+  }
+
+  void Vertices(const json& primitive, const Place& place, const std::vector<std::string>& names) {
     const json& attributes = PartOf(primitive, "attributes");
     const std::int64_t position = WholeOf(attributes, "POSITION");
     const std::size_t first = head_.position.size();
-    const auto numbers = document_.Numbers(position, 3);
-    if (!numbers) return std::unexpected(numbers.error());
-    const std::size_t count = numbers->size() / 3;
-    if (first + count > kMaxMeshVertices) return TooMany();
+    const auto numbers = OrRefuse(document_.Numbers(position, 3));
+    const std::size_t count = numbers.size() / 3;
+    if (first + count > kMaxMeshVertices) RefuseSize();
     count_of_[{place.node, position}] = count;
     std::vector<glm::mat4> stands(count, nodes_.World(place.node));
     std::vector<GltfSkin::Held::Hold> watched;
     head_.eye.resize(first, 0);
     if (place.skin >= 0) {
-      auto held = skins_.at(place.skin)
-                      .Hold(document_, attributes, count, nodes_.World(place.node),
-                            [this](std::int64_t bone) { return springs_->Has(bone); });
-      if (!held) return std::unexpected(held.error());
-      stands = std::move(held->transform);
-      watched = std::move(held->watched);
-      for (const std::int64_t bone : held->main) {
-        head_.eye.push_back(bone < 0                      ? 0
-                            : bone == avatar_.eye_bone[0] ? 1
-                            : bone == avatar_.eye_bone[1] ? 2
-                                                          : 0);
-      }
+      GltfSkin::Held held =
+          OrRefuse(skins_.at(place.skin)
+                       .Hold(document_, attributes, count, nodes_.World(place.node),
+                             [this](std::int64_t bone) { return springs_->Has(bone); }));
+      stands = std::move(held.transform);
+      watched = std::move(held.watched);
+      std::ranges::transform(held.main, std::back_inserter(head_.eye),
+                             [this](std::int64_t bone) { return EyeOf(bone); });
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const glm::vec4 p((*numbers)[3 * i], (*numbers)[3 * i + 1], (*numbers)[3 * i + 2], 1);
+      const glm::vec4 p(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2], 1);
       head_.position.push_back(glm::vec3(stands[i] * p));
-      if (!WithinReach(head_.position.back())) return OutOfReach(place, i, "");
+      if (!WithinReach(head_.position.back())) RefuseReach(place, i, "");
     }
     for (const auto& [vertex, node, weight] : watched) {
       springs_->Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
                      node, weight, head_.spring_weights);
     }
     mirrored_[first] = count > 0 && glm::determinant(glm::mat3(stands[0])) < 0;
-    if (auto read =
-            ReadTexcoords(attributes, paint_.UvOfMaterial(WholeOf(primitive, "material")), first);
-        !read)
-      return read;
-    if (attributes.contains("COLOR_0")) {
-      if (auto read = Tints(WholeOf(attributes, "COLOR_0"), first, count); !read) return read;
-    }
-    return Targets(primitive, place, stands, first, names);
+    const GltfUv uv = paint_.UvOfMaterial(WholeOf(primitive, "material"));
+    ReadTexcoords(attributes, uv, first);
+    if (attributes.contains("COLOR_0")) Tints(WholeOf(attributes, "COLOR_0"), first, count);
+    Targets(primitive, place, stands, first, names);
   }
 
-  vm::Result<void> ReadTexcoords(const json& attributes, const GltfUv& to, std::size_t first) {
+  /// As HeadFile::eye.
+  std::int8_t EyeOf(std::int64_t bone) const {
+    if (bone < 0) return 0;
+    return bone == avatar_.eye_bone[0] ? 1 : bone == avatar_.eye_bone[1] ? 2 : 0;
+  }
+
+  void ReadTexcoords(const json& attributes, const GltfUv& to, std::size_t first) {
     const std::string set = "TEXCOORD_" + std::to_string(to.set);
-    if (!attributes.contains(set)) return {};
-    const auto uv = document_.Numbers(WholeOf(attributes, set.c_str()), 2);
-    if (!uv) return std::unexpected(uv.error());
+    if (!attributes.contains(set)) return;
+    const auto uv = OrRefuse(document_.Numbers(WholeOf(attributes, set.c_str()), 2));
     head_.texcoord.resize(head_.position.size(), glm::vec2(0));
-    for (std::size_t i = 0; i < std::min(head_.position.size() - first, uv->size() / 2); ++i) {
-      head_.texcoord[first + i] = to({(*uv)[2 * i], (*uv)[2 * i + 1]});
+    for (std::size_t i = 0; i < std::min(head_.position.size() - first, uv.size() / 2); ++i) {
+      head_.texcoord[first + i] = to({uv[2 * i], uv[2 * i + 1]});
     }
-    return {};
   }
 
-  vm::Result<void> Tints(std::int64_t accessor, std::size_t begin, std::size_t count) {
+  void Tints(std::int64_t accessor, std::size_t begin, std::size_t count) {
     const std::size_t width = TextOf(document_.At("accessors", accessor), "type") == "VEC4" ? 4 : 3;
-    const auto colours = document_.Numbers(accessor, static_cast<int>(width));
-    if (!colours) return std::unexpected(colours.error());
+    const auto colours = OrRefuse(document_.Numbers(accessor, static_cast<int>(width)));
     head_.tint.resize(head_.position.size(), glm::vec3(1));
-    for (std::size_t i = 0; i < std::min(count, colours->size() / width); ++i) {
+    for (std::size_t i = 0; i < std::min(count, colours.size() / width); ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
-        head_.tint[begin + i][static_cast<int>(c)] =
-            std::clamp((*colours)[width * i + c], 0.0f, 1.0f);
+        head_.tint[begin + i][static_cast<int>(c)] = std::clamp(colours[width * i + c], 0.0f, 1.0f);
       }
     }
-    return {};
   }
 
-  vm::Result<void> Targets(const json& primitive, const Place& place,
-                           const std::vector<glm::mat4>& stands, std::size_t first,
-                           const std::vector<std::string>& names) {
+  void Targets(const json& primitive, const Place& place, const std::vector<glm::mat4>& stands,
+               std::size_t first, const std::vector<std::string>& names) {
     const json& targets = PartOf(primitive, "targets");
     for (std::size_t t = 0; t < targets.size(); ++t) {
       if (!targets.is_array() || !targets[t].contains("POSITION")) continue;
-      const auto by = document_.Numbers(WholeOf(targets[t], "POSITION"), 3);
-      if (!by) return std::unexpected(by.error());
-      if (by->size() < 3 * stands.size()) {
-        return document_.Wrong("meshes[" + std::to_string(place.mesh) + "]: target " +
-                               std::to_string(t) + " has fewer vertices than the mesh");
+      const auto by = OrRefuse(document_.Numbers(WholeOf(targets[t], "POSITION"), 3));
+      if (by.size() < 3 * stands.size()) {
+        Refuse("meshes[" + std::to_string(place.mesh) + "]: target " + std::to_string(t) +
+               " has fewer vertices than the mesh");
       }
       const std::string name = t < names.size() ? names[t] : "target" + std::to_string(t);
       const auto [known, fresh] = shape_of_.try_emplace(name, head_.shapes.size());
       if (fresh) {
-        if (head_.shapes.size() >= kMaxShapes) return TooMany();
+        if (head_.shapes.size() >= kMaxShapes) RefuseSize();
         head_.shapes.push_back({name, {}});
       }
       targets_[{place.mesh, t}].push_back({.shape = known->second,
@@ -231,17 +225,16 @@ class GltfReader {
                                            .end = first + stands.size()});
       auto& deltas = head_.shapes[known->second].deltas;
       for (std::size_t i = 0; i < stands.size(); ++i) {
-        const glm::vec3 d((*by)[3 * i], (*by)[3 * i + 1], (*by)[3 * i + 2]);
+        const glm::vec3 d(by[3 * i], by[3 * i + 1], by[3 * i + 2]);
         if (d == glm::vec3(0)) continue;
         const glm::vec3 moved(stands[i] * glm::vec4(d, 0));
         if (!WithinReach(moved)) {
-          return OutOfReach(place, i, " is moved by target " + std::to_string(t) + " and");
+          RefuseReach(place, i, " is moved by target " + std::to_string(t) + " and");
         }
         deltas.push_back({static_cast<std::uint32_t>(first + i), moved});
-        if (++deltas_ > kMaxDeltas) return TooMany();
+        if (++deltas_ > kMaxDeltas) RefuseSize();
       }
     }
-    return {};
   }
 
   /// VRM's expressions become shapes of their own, called vrmNAME.
@@ -284,18 +277,20 @@ class GltfReader {
     }
   }
 
-  std::unexpected<vm::Error> OutOfReach(const Place& place, std::size_t vertex,
-                                        const std::string& how) const {
-    return document_.Wrong("meshes[" + std::to_string(place.mesh) + "] of nodes[" +
-                           std::to_string(place.node) + "]: vertex " + std::to_string(vertex) +
-                           how + " comes to lie farther than 10000000 metres from the origin");
+  [[noreturn]] void Refuse(const std::string& what) const {
+    throw Refusal{document_.Wrong(what).error()};
   }
-
-  std::unexpected<vm::Error> TooMany() const {
-    return vm::Fail(vm::Errc::kLimit, document_.Wrong("").error().text + "at most " +
-                                          std::to_string(kMaxMeshVertices) + " vertices, " +
-                                          std::to_string(kMaxMeshTriangles) + " triangles and " +
-                                          std::to_string(kMaxShapes) + " shapes are read");
+  [[noreturn]] void RefuseReach(const Place& place, std::size_t vertex,
+                                const std::string& how) const {
+    Refuse("meshes[" + std::to_string(place.mesh) + "] of nodes[" + std::to_string(place.node) +
+           "]: vertex " + std::to_string(vertex) + how +
+           " comes to lie farther than 10000000 metres from the origin");
+  }
+  [[noreturn]] void RefuseSize() const {
+    throw Refusal{{vm::Errc::kLimit, document_.name() + ": at most " +
+                                         std::to_string(kMaxMeshVertices) + " vertices, " +
+                                         std::to_string(kMaxMeshTriangles) + " triangles and " +
+                                         std::to_string(kMaxShapes) + " shapes are read"}};
   }
 
   /// What a morph target moves: vertices of a shape's.
@@ -318,9 +313,10 @@ class GltfReader {
   std::size_t triangles_ = 0, deltas_ = 0;
 };
 
-vm::Result<HeadFile> ReadDocument(vm::Result<GltfDocument> document) {
-  if (!document) return std::unexpected(document.error());
-  return GltfReader(std::move(*document)).Read();
+vm::Result<HeadFile> ReadDocument(vm::Result<GltfDocument> document) try {
+  return GltfReader(OrRefuse(std::move(document))).Read();
+} catch (const Refusal& refusal) {
+  return std::unexpected(refusal.error);
 }
 
 }  // namespace
@@ -330,17 +326,14 @@ vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view byt
 }
 
 vm::Result<HeadFile> ReadGltfHead(const std::string& path) {
-  const auto bytes = ReadWhole(path, kMaxMeshBytes);
+  const auto bytes = vm::ReadTextFile(path, kMaxMeshBytes);
   if (!bytes) return std::unexpected(bytes.error());
   std::vector<std::string> asked;
   const auto beside = [&](const std::string& uri) -> std::optional<std::string> {
-    const std::filesystem::path given(uri);
-    if (given.is_absolute() || uri.find(':') != std::string::npos) return std::nullopt;
-    for (const auto& step : given) {
-      if (step == "..") return std::nullopt;
-    }
-    asked.push_back((std::filesystem::path(path).parent_path() / given).string());
-    auto read = ReadWhole(asked.back(), kMaxMeshBytes);
+    const auto file = FileBeside(path, uri);
+    if (!file || uri.find(':') != std::string::npos) return std::nullopt;
+    asked.push_back(*file);
+    auto read = vm::ReadTextFile(*file, kMaxMeshBytes);
     if (!read) return std::nullopt;
     return std::move(*read);
   };

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
 
 namespace fsm {
 namespace {
@@ -13,13 +15,9 @@ float Share(const json& of, const char* key, double otherwise) {
   return static_cast<float>(std::clamp(RealOf(of, key, otherwise), 0.0, 1.0));
 }
 
-glm::vec3 ColourOf(const json& given, glm::vec3 otherwise) {
-  for (std::size_t k = 0; k < 3 && given.is_array() && k < given.size(); ++k) {
-    if (given[k].is_number()) {
-      otherwise[static_cast<int>(k)] = std::clamp(given[k].get<float>(), 0.0F, 16.0F);
-    }
-  }
-  return otherwise;
+glm::vec3 ColourOf(const json& of, const char* key, glm::vec3 colour) {
+  RealsOf(of, key, std::span(&colour.x, 3));
+  return glm::clamp(colour, 0.0F, 16.0F);
 }
 
 GltfMaterial::Texture TextureOf(const json& of, const char* key, const char* strength = "") {
@@ -38,7 +36,7 @@ void SetEdges(double toony, double shift, PbrMaterial& pbr) {
 void ReadToon(const json& toon, GltfMaterial& out) {
   PbrMaterial& pbr = out.pbr.emplace();
   pbr.kind = PbrMaterial::Kind::kToon;
-  pbr.shade = ColourOf(PartOf(toon, "shadeColorFactor"), glm::vec3(1));
+  pbr.shade = ColourOf(toon, "shadeColorFactor", glm::vec3(1));
   SetEdges(std::clamp(RealOf(toon, "shadingToonyFactor", 0.9), 0.0, 1.0),
            std::clamp(RealOf(toon, "shadingShiftFactor", 0), -1.0, 1.0), pbr);
   out.glow = TextureOf(toon, "shadeMultiplyTexture");
@@ -54,7 +52,7 @@ void ReadOldToon(const json& properties, GltfMaterial& out) {
   pbr.shade_to = shift;
   pbr.light_from = shift + (1 - shift) * (1 - Share(numbers, "_ShadeToony", 0.9));
   const glm::vec3 shown =
-      ColourOf(PartOf(PartOf(properties, "vectorProperties"), "_ShadeColor"), glm::vec3(1));
+      ColourOf(PartOf(properties, "vectorProperties"), "_ShadeColor", glm::vec3(1));
   for (int k = 0; k < 3; ++k) pbr.shade[k] = std::pow(shown[k], 2.2F);
   out.glow.index = WholeOf(PartOf(properties, "textureProperties"), "_ShadeTexture");
 }
@@ -93,7 +91,7 @@ GltfMaterial ReadMaterial(const GltfDocument& document, std::int64_t material) {
     out.glow = TextureOf(given, "emissiveTexture");
   }
   out.normal = TextureOf(given, "normalTexture", "scale");
-  out.pbr->glow = ColourOf(PartOf(given, "emissiveFactor"), glm::vec3(0));
+  out.pbr->glow = ColourOf(given, "emissiveFactor", glm::vec3(0));
   const double strength =
       RealOf(PartOf(extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
   out.pbr->glow *= static_cast<float>(std::clamp(strength, 0.0, 16.0));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 namespace fsm {
@@ -15,29 +16,22 @@ constexpr int kMaxDepth = 200;
 const glm::mat4 kIdentity(1.0f);
 
 glm::mat4 MatrixOf(const json& node) {
-  const json& given = PartOf(node, "matrix");
   glm::mat4 m(1.0f);
-  if (given.is_array() && given.size() == 16) {
-    for (std::size_t i = 0; i < 16; ++i) {
-      if (given[i].is_number())
-        m[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = given[i].get<float>();
-    }
+  const auto read = [&node](const char* key, float* first, std::size_t count) {
+    if (PartOf(node, key).size() == count) RealsOf(node, key, std::span(first, count));
+  };
+  if (PartOf(node, "matrix").size() == 16) {
+    read("matrix", &m[0][0], 16);
     return m;
   }
-  const auto numbers = [&node](const char* key, glm::vec4 otherwise, std::size_t count) {
-    const json& list = PartOf(node, key);
-    if (!list.is_array() || list.size() != count) return otherwise;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (list[i].is_number()) otherwise[static_cast<int>(i)] = list[i].get<float>();
-    }
-    return otherwise;
-  };
-  const glm::vec4 move = numbers("translation", glm::vec4(0), 3),
-                  size = numbers("scale", glm::vec4(1), 3),
-                  q = numbers("rotation", {0, 0, 0, 1}, 4);
+  glm::vec3 move(0), size(1);
+  glm::vec4 q(0, 0, 0, 1);
+  read("translation", &move.x, 3);
+  read("scale", &size.x, 3);
+  read("rotation", &q.x, 4);
   m = glm::mat4_cast(glm::quat(q.w, q.x, q.y, q.z));
   for (int c = 0; c < 3; ++c) m[c] *= size[c];
-  m[3] = glm::vec4(glm::vec3(move), 1);
+  m[3] = glm::vec4(move, 1);
   return m;
 }
 
@@ -60,11 +54,11 @@ vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
   nodes.stands_.assign(count, false);
   std::vector<bool> child(count, false);
   for (std::size_t i = 0; i < count; ++i) {
-    for (const json& of : PartOf(document.At("nodes", static_cast<std::int64_t>(i)), "children")) {
-      if (!of.is_number_integer()) continue;
-      const auto index = of.get<std::int64_t>();
-      if (index >= 0 && static_cast<std::size_t>(index) < count)
+    const json& node = document.At("nodes", static_cast<std::int64_t>(i));
+    for (const std::int64_t index : WholesOf(node, "children")) {
+      if (index >= 0 && static_cast<std::size_t>(index) < count) {
         child[static_cast<std::size_t>(index)] = true;
+      }
     }
   }
   std::vector<std::int64_t> roots;
@@ -77,9 +71,7 @@ vm::Result<GltfNodes> GltfNodes::Read(const GltfDocument& document) {
   }
   const json& scene = document.At("scenes", WholeOf(document.root(), "scene", 0));
   std::vector<bool> seen(count, false);
-  for (const json& of : PartOf(scene, "nodes")) {
-    if (of.is_number_integer()) nodes.Show(document, of.get<std::int64_t>(), seen);
-  }
+  for (const std::int64_t node : WholesOf(scene, "nodes")) nodes.Show(document, node, seen);
   if (nodes.shown_.empty()) {
     for (const std::int64_t root : roots) nodes.Show(document, root, seen);
   }
@@ -98,11 +90,8 @@ vm::Result<void> GltfNodes::Stand(const GltfDocument& document, std::int64_t nod
   if (!Usable(world_[at])) {
     return document.Wrong("nodes[" + std::to_string(node) + "]: its place is no finite number");
   }
-  for (const json& child : PartOf(document.At("nodes", node), "children")) {
-    if (!child.is_number_integer()) continue;
-    if (auto done = Stand(document, child.get<std::int64_t>(), world_[at], depth + 1); !done) {
-      return done;
-    }
+  for (const std::int64_t child : WholesOf(document.At("nodes", node), "children")) {
+    if (auto done = Stand(document, child, world_[at], depth + 1); !done) return done;
   }
   return {};
 }
@@ -114,8 +103,8 @@ void GltfNodes::Show(const GltfDocument& document, std::int64_t node, std::vecto
   if (seen[at] || !stands_[at]) return;
   seen[at] = true;
   shown_.push_back(node);
-  for (const json& child : PartOf(document.At("nodes", node), "children")) {
-    if (child.is_number_integer()) Show(document, child.get<std::int64_t>(), seen);
+  for (const std::int64_t child : WholesOf(document.At("nodes", node), "children")) {
+    Show(document, child, seen);
   }
 }
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "fsm/image/byte_order.h"
 #include "fsm/image/color_space.h"
 #include "fsm/image/image_codec.h"
 #include "fsm/mesh/texture_atlas.h"
@@ -21,12 +24,8 @@ constexpr int kOpaque = -1, kSmooth = 256;
 
 glm::vec4 FactorOf(const json& material) {
   glm::vec4 factor(1);
-  const json& given = PartOf(PartOf(material, "pbrMetallicRoughness"), "baseColorFactor");
-  for (std::size_t k = 0; k < 4 && given.is_array() && k < given.size(); ++k) {
-    if (given[k].is_number())
-      factor[static_cast<int>(k)] = std::clamp(given[k].get<float>(), 0.0f, 1.0f);
-  }
-  return factor;
+  RealsOf(PartOf(material, "pbrMetallicRoughness"), "baseColorFactor", std::span(&factor.x, 4));
+  return glm::clamp(factor, 0.0f, 1.0f);
 }
 
 const json& TextureOf(const json& material) {
@@ -62,15 +61,8 @@ GltfUv UvOf(const json& texture) {
   uv.set = WholeOf(texture, "texCoord", 0);
   const json& by = PartOf(PartOf(texture, "extensions"), "KHR_texture_transform");
   uv.set = WholeOf(by, "texCoord", uv.set);
-  const auto pair = [&by](const char* key, glm::vec2 otherwise) {
-    const json& list = PartOf(by, key);
-    for (std::size_t k = 0; k < 2 && list.is_array() && k < list.size(); ++k) {
-      if (list[k].is_number()) otherwise[static_cast<int>(k)] = list[k].get<float>();
-    }
-    return otherwise;
-  };
-  uv.move = pair("offset", uv.move);
-  uv.size = pair("scale", uv.size);
+  RealsOf(by, "offset", std::span(&uv.move.x, 2));
+  RealsOf(by, "scale", std::span(&uv.size.x, 2));
   uv.turn_rad = static_cast<float>(RealOf(by, "rotation", 0));
   return uv;
 }
@@ -169,10 +161,7 @@ std::optional<Image> GltfPaint::Decode(std::int64_t image) {
   const auto bytes = document_.ImageBytes(image);
   std::string why = bytes ? "" : bytes.error().text;
   std::optional<Image> picture;
-  if (bytes) {
-    picture =
-        DecodePicture({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()}, why);
-  }
+  if (bytes) picture = DecodePicture(BytesOf(*bytes), why);
   if (!picture) {
     head_.notices.push_back("images[" + std::to_string(image) + "] is left out: " + why);
     return std::nullopt;

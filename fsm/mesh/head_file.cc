@@ -7,27 +7,25 @@
 
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/obj_file.h"
-#include "fsm/mesh/pnt_file.h"
 #include "vm_protocol/core/lower_case.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
-
-/// A file beside `path`; nothing if the name leads out of its folder.
-std::optional<std::string> Beside(const std::string& path, const std::string& name) {
-  const std::filesystem::path given(name);
-  if (name.empty() || given.is_absolute()) return std::nullopt;
-  for (const auto& step : given) {
-    if (step == "..") return std::nullopt;
-  }
-  return (std::filesystem::path(path).parent_path() / given).string();
-}
 
 glm::vec3 Linear(glm::vec3 screen) {
   return screen * (screen * (screen * 0.305306f + 0.682171f) + 0.012523f);
 }
 
 }  // namespace
+
+std::optional<std::string> FileBeside(const std::string& path, const std::string& name) {
+  const std::filesystem::path given(name);
+  if (name.empty() || given.is_absolute() || std::ranges::find(given, "..") != given.end()) {
+    return std::nullopt;
+  }
+  return (std::filesystem::path(path).parent_path() / given).string();
+}
 
 std::string PlainShapeName(std::string_view name) {
   std::string out = vm::LowerCase(name);
@@ -49,60 +47,91 @@ vm::Result<HeadFile> ReadHeadFile(const std::string& path) {
                   "'" + path + "' is no head's name: it must end in .obj, .glb, .gltf or .vrm");
 }
 
+namespace {
+
+/// Makes a head of an .obj file and what lies beside it.
+class ObjHead {
+ public:
+  ObjHead(const std::string& path, const ObjFile& obj) : path_(path), obj_(obj) {
+    head_.name = path;
+  }
+
+  HeadFile Make() {
+    ReadMaterials();
+    for (const auto& group : obj_.groups) AddPart(group);
+    return std::move(head_);
+  }
+
+ private:
+  void ReadMaterials() {
+    for (const std::string& library : obj_.libraries) {
+      const auto beside = FileBeside(path_, library);
+      if (!beside) continue;
+      head_.beside.push_back(*beside);
+      // A head without its library still has its form.
+      if (const auto text = vm::ReadTextFile(*beside, 1U << 22)) materials_.merge(ParseMtl(*text));
+    }
+  }
+
+  void AddPart(const ObjFile::Group& group) {
+    HeadFile::Part part;
+    part.name = vm::LowerCase(group.name + " " + group.material);
+    if (const auto found = materials_.find(group.material); found != materials_.end()) {
+      part.colour = Linear(found->second.colour);
+      const auto file = FileBeside(path_, found->second.picture);
+      if (file && HasTexcoords()) part.picture = PictureOf(*file);
+    }
+    for (const auto& triangle : group.triangles) {
+      for (const auto& corner : triangle) part.indices.push_back(VertexOf(corner));
+    }
+    head_.parts.push_back(std::move(part));
+  }
+
+  bool HasTexcoords() const { return !obj_.texcoords.empty(); }
+
+  /// The picture's index; -1 if it cannot be read or is one too many.
+  int PictureOf(const std::string& file) {
+    constexpr std::size_t kMostPictures = 64;
+    const auto [known, fresh] = pictures_.try_emplace(file, -1);
+    if (fresh && pictures_.size() <= kMostPictures) {
+      head_.beside.push_back(file);
+      if (auto picture = ReadImage(file)) {
+        known->second = static_cast<int>(head_.pictures.size());
+        head_.pictures.push_back(std::move(*picture));
+      }
+    }
+    return known->second;
+  }
+
+  std::uint32_t VertexOf(const ObjFile::Corner& corner) {
+    const bool textured = HasTexcoords() && corner.texcoord != ObjFile::kNone;
+    const auto [found, fresh] =
+        vertices_.try_emplace({corner.position, textured ? corner.texcoord : ObjFile::kNone},
+                              static_cast<std::uint32_t>(head_.position.size()));
+    if (fresh) {
+      head_.position.push_back(obj_.positions[corner.position]);
+      if (HasTexcoords()) {
+        const glm::vec2 at = textured ? obj_.texcoords[corner.texcoord] : glm::vec2(0);
+        head_.texcoord.emplace_back(at.x, 1 - at.y);
+      }
+    }
+    return found->second;
+  }
+
+  const std::string& path_;
+  const ObjFile& obj_;
+  HeadFile head_;
+  std::map<std::string, ObjMaterial> materials_;
+  std::map<std::string, int> pictures_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> vertices_;  // by corner
+};
+
+}  // namespace
+
 vm::Result<HeadFile> ReadObjHead(const std::string& path) {
   const auto obj = ReadObj(path);
   if (!obj) return std::unexpected(obj.error());
-  HeadFile head;
-  head.name = path;
-  std::map<std::string, ObjMaterial> materials;
-  for (const std::string& library : obj->libraries) {
-    const auto beside = Beside(path, library);
-    if (beside) head.beside.push_back(*beside);
-    const auto text = beside ? ReadWhole(*beside, 1U << 22)
-                             : vm::Result<std::string>(vm::Fail(vm::Errc::kBadValue, ""));
-    // A head without its library still has its form.
-    if (text) materials.merge(ParseMtl(*text));
-  }
-  std::map<std::string, int> pictures;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> made;
-  const bool placed = !obj->texcoords.empty();
-  for (const auto& group : obj->groups) {
-    HeadFile::Part part;
-    part.name = vm::LowerCase(group.name + " " + group.material);
-    if (const auto found = materials.find(group.material); found != materials.end()) {
-      part.colour = Linear(found->second.colour);
-      const auto file = Beside(path, found->second.picture);
-      if (file && placed) {
-        const auto [known, fresh] = pictures.try_emplace(*file, -1);
-        if (fresh && pictures.size() <= 64) {
-          head.beside.push_back(*file);
-          if (auto picture = ReadImage(*file)) {
-            known->second = static_cast<int>(head.pictures.size());
-            head.pictures.push_back(std::move(*picture));
-          }
-        }
-        part.picture = known->second;
-      }
-    }
-    for (const auto& t : group.triangles) {
-      for (const auto& corner : t) {
-        const auto [found, fresh] =
-            made.try_emplace({corner.position, placed ? corner.texcoord : ObjFile::kNone},
-                             static_cast<std::uint32_t>(head.position.size()));
-        if (fresh) {
-          head.position.push_back(obj->positions[corner.position]);
-          if (placed) {
-            const glm::vec2 at =
-                corner.texcoord == ObjFile::kNone ? glm::vec2(0) : obj->texcoords[corner.texcoord];
-            head.texcoord.emplace_back(at.x, 1 - at.y);
-          }
-        }
-        part.indices.push_back(found->second);
-      }
-    }
-    head.parts.push_back(std::move(part));
-  }
-  return head;
+  return ObjHead(path, *obj).Make();
 }
 
 }  // namespace fsm

@@ -69,6 +69,8 @@ struct HeadFile {
 vm::Result<HeadFile> ReadHeadFile(const std::string& path);
 vm::Result<HeadFile> ReadObjHead(const std::string& path);
 vm::Result<HeadFile> ReadGltfHead(const std::string& path);
+/// A file that `path` names by `name`; nothing if that leads out of its folder.
+std::optional<std::string> FileBeside(const std::string& path, const std::string& name);
 /// From memory; nothing outside it is read. `name` is for messages.
 vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view bytes);
 

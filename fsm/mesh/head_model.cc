@@ -184,7 +184,7 @@ class HeadBuilder {
     const Kind kind = KindOf(part.name);
     const bool pictured = part.picture >= 0 && !file_.texcoord.empty();
     if (kind == Kind::kEye && !pictured && model_.has_eyes) {
-      AddBalls(part);
+      AddBalls();
       return;
     }
     const auto pieces = kind == Kind::kTeeth || kind == Kind::kGum
@@ -286,7 +286,7 @@ class HeadBuilder {
   }
 
   /// Balls of our own, because helper spheres have no iris; once for both sides.
-  void AddBalls(const HeadFile::Part&) {
+  void AddBalls() {
     if (balls_) return;
     balls_ = true;
     for (std::size_t side = 0; side < 2; ++side) {

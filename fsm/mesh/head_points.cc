@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
-#include <stdexcept>
 
 #include "fsm/base/table_reader.h"
 #include "fsm/mesh/mesh_reach.h"
@@ -19,39 +18,41 @@ constexpr std::array<const char*, 5> kParts{"plain", "upper_lip", "lower_lip", "
                                             "lower_lid"};
 constexpr std::size_t kMaxPairs = 2000;
 
+PointPair ReadPair(const TableRow& row) {
+  if (row.key() != "point" || row.size() != 8) {
+    row.Fail("face NAME or point PART X Y Z X Y Z expected");
+  }
+  const auto part = std::ranges::find(kParts, row.Word(1));
+  if (part == kParts.end())
+    row.Fail("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
+  const glm::vec3 from = row.Vector(2), to = row.Vector(5);
+  if (!WithinReach(from) || !WithinReach(to)) {
+    row.Fail("six numbers of at most 10000000 expected after the part");
+  }
+  return {from, to, static_cast<FacePart>(part - kParts.begin())};
+}
+
 }  // namespace
 
-vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view text) try {
-  HeadPoints points;
-  const Table table(name, text);
-  for (const TableRow& row : table.rows()) {
-    if (row.key() == "face" && row.size() == 2) {
-      points.face = row.Word(1);
-      continue;
+vm::Result<HeadPoints> ParseHeadPoints(const std::string& name, std::string_view text) {
+  return ReadTable(name, text, [](const Table& table) {
+    HeadPoints points;
+    for (const TableRow& row : table.rows()) {
+      if (row.key() == "face" && row.size() == 2) {
+        points.face = row.Word(1);
+      } else {
+        points.pairs.push_back(ReadPair(row));
+      }
+      if (points.pairs.size() > kMaxPairs) {
+        row.Fail("at most " + std::to_string(kMaxPairs) + " points are read");
+      }
     }
-    if (row.key() != "point" || row.size() != 8) {
-      row.Fail("face NAME or point PART X Y Z X Y Z expected");
+    if (points.pairs.size() < 8) {
+      table.Fail("at least eight points expected, " + std::to_string(points.pairs.size()) +
+                 " are there");
     }
-    const auto part = std::ranges::find(kParts, row.Word(1));
-    if (part == kParts.end()) {
-      row.Fail("plain, upper_lip, lower_lip, upper_lid or lower_lid expected");
-    }
-    const glm::vec3 from = row.Vector(2), to = row.Vector(5);
-    if (!WithinReach(from) || !WithinReach(to)) {
-      row.Fail("six numbers of at most 10000000 expected after the part");
-    }
-    if (points.pairs.size() >= kMaxPairs) {
-      row.Fail("at most " + std::to_string(kMaxPairs) + " points are read");
-    }
-    points.pairs.push_back({from, to, static_cast<FacePart>(part - kParts.begin())});
-  }
-  if (points.pairs.size() < 8) {
-    throw std::runtime_error(name + ": at least eight points expected, " +
-                             std::to_string(points.pairs.size()) + " are there");
-  }
-  return points;
-} catch (const std::runtime_error& error) {
-  return vm::Fail(vm::Errc::kBadValue, error.what());
+    return points;
+  });
 }
 
 std::string FormatHeadPoints(const HeadPoints& points) {
@@ -67,9 +68,37 @@ std::string FormatHeadPoints(const HeadPoints& points) {
   return out;
 }
 
+namespace {
+
+/// Of a symmetric matrix, by squaring it: what is larger grows faster. Of unit length.
+glm::dvec4 LargestEigenvector(const glm::dmat4& n) {
+  double bound = 0;
+  for (int c = 0; c < 4; ++c) {
+    double sum = 0;
+    for (int r = 0; r < 4; ++r) sum += std::abs(n[c][r]);
+    bound = std::max(bound, sum);
+  }
+  glm::dmat4 power = n + glm::dmat4(bound);  // no eigenvalue below zero
+  for (int k = 0; k < 24; ++k) {
+    double most = 1e-300;
+    for (int c = 0; c < 4; ++c) {
+      for (int r = 0; r < 4; ++r) most = std::max(most, std::abs(power[c][r]));
+    }
+    power = (1 / most) * power;
+    power = power * power;
+  }
+  glm::dvec4 axis = power[0];
+  for (int c = 1; c < 4; ++c) {
+    if (glm::length(power[c]) > glm::length(axis)) axis = power[c];
+  }
+  return glm::normalize(axis);
+}
+
+}  // namespace
+
 Similarity FitSimilarity(std::span<const PointPair> pairs) {
   // Horn, "Closed-form solution of absolute orientation using unit quaternions", 1987: the turn is
-  // the eigenvector of the largest eigenvalue of a 4 x 4 matrix, here found by squaring it.
+  // the eigenvector of the largest eigenvalue of a 4 x 4 matrix.
   glm::dvec3 from_mean(0), to_mean(0);
   for (const PointPair& pair : pairs) {
     from_mean += glm::dvec3(pair.from);
@@ -91,26 +120,7 @@ Similarity FitSimilarity(std::span<const PointPair> pairs) {
                      m(0, 1) + m(1, 0), m(2, 0) + m(0, 2), m(2, 0) - m(0, 2), m(0, 1) + m(1, 0),
                      -m(0, 0) + m(1, 1) - m(2, 2), m(1, 2) + m(2, 1), m(0, 1) - m(1, 0),
                      m(2, 0) + m(0, 2), m(1, 2) + m(2, 1), -m(0, 0) - m(1, 1) + m(2, 2));
-  double bound = 0;
-  for (int c = 0; c < 4; ++c) {
-    double sum = 0;
-    for (int r = 0; r < 4; ++r) sum += std::abs(n[c][r]);
-    bound = std::max(bound, sum);
-  }
-  glm::dmat4 power = n + glm::dmat4(bound);  // no eigenvalue below zero
-  for (int k = 0; k < 24; ++k) {
-    double most = 1e-300;
-    for (int c = 0; c < 4; ++c) {
-      for (int r = 0; r < 4; ++r) most = std::max(most, std::abs(power[c][r]));
-    }
-    power = (1 / most) * power;
-    power = power * power;
-  }
-  glm::dvec4 axis = power[0];
-  for (int c = 1; c < 4; ++c) {
-    if (glm::length(power[c]) > glm::length(axis)) axis = power[c];
-  }
-  axis = glm::normalize(axis);
+  const glm::dvec4 axis = LargestEigenvector(n);
   Similarity fit;
   fit.turn = glm::mat3(glm::mat3_cast(glm::dquat(axis[0], axis[1], axis[2], axis[3])));
   fit.scale = static_cast<float>(std::sqrt(from_size / std::max(to_size, 1e-12)));

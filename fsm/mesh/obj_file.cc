@@ -1,10 +1,10 @@
 #include "fsm/mesh/obj_file.h"
 
-#include <charconv>
 #include <cmath>
 
+#include "fsm/base/parse_number.h"
 #include "fsm/mesh/mesh_reach.h"
-#include "fsm/mesh/pnt_file.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -31,9 +31,9 @@ bool NextLine(std::string_view text, std::size_t& at, std::vector<std::string_vi
 }
 
 bool Real(std::string_view word, float& out) {
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), out);
-  return code == std::errc() && end == word.data() + word.size() && std::isfinite(out) &&
-         std::abs(out) <= kMaxMeshReach;
+  const auto number = ParseNumber<float>(word);
+  out = number.value_or(0);
+  return number && std::abs(out) <= kMaxMeshReach;
 }
 
 bool Reals(const std::vector<std::string_view>& words, int count, float* out) {
@@ -46,10 +46,9 @@ bool Reals(const std::vector<std::string_view>& words, int count, float* out) {
 
 /// An index counted from 1, or from -1 backwards; kNone if it points nowhere.
 std::uint32_t Index(std::string_view word, std::size_t count) {
-  long value = 0;
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (code != std::errc() || end != word.data() + word.size()) return ObjFile::kNone;
-  const long at = value < 0 ? static_cast<long>(count) + value : value - 1;
+  const auto value = ParseNumber<long>(word);
+  if (!value) return ObjFile::kNone;
+  const long at = *value < 0 ? static_cast<long>(count) + *value : *value - 1;
   return at >= 0 && static_cast<std::size_t>(at) < count ? static_cast<std::uint32_t>(at)
                                                          : ObjFile::kNone;
 }
@@ -162,7 +161,7 @@ vm::Result<ObjFile> ParseObj(const std::string& name, std::string_view text) {
 }
 
 vm::Result<ObjFile> ReadObj(const std::string& path) {
-  const auto text = ReadWhole(path, kMaxMeshBytes);
+  const auto text = vm::ReadTextFile(path, kMaxMeshBytes);
   if (!text) return std::unexpected(text.error());
   return ParseObj(path, *text);
 }

@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include "fsm/base/spline.h"
 #include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_points.h"
+#include "vm_protocol/core/or_throw.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -42,16 +45,17 @@ class Reader {
   Reader(const std::string& folder, const std::string& path, PntFile standard)
       : folder_(folder), path_(path), standard_(std::move(standard)), frame_(standard_) {}
 
-  vm::Result<OriginalExpressions> Read() {
-    if (auto read = ReadUnits(); !read) return std::unexpected(read.error());
+  /// Throws std::runtime_error with the text of what it cannot read.
+  OriginalExpressions Read() {
+    ReadUnits();
     for (const Files& files : kFiles) {
       for (int i = 0; i < files.count; ++i) {
         const std::string path = PathOf(folder_, files.stem, files.first_number + i);
         std::error_code none;
         if (!std::filesystem::exists(path, none)) continue;
-        if (auto read = ReadOne(files.name, files.first_pattern + i, path); !read) {
-          return std::unexpected(read.error());
-        }
+        OriginalExpression& made = out_.all.emplace_back(ReadOne(path));
+        made.name = files.name;
+        made.pattern = files.first_pattern + i;
       }
     }
     return std::move(out_);
@@ -59,15 +63,13 @@ class Reader {
 
  private:
   /// Offsets by the standard wireframe's points, three millimetres each.
-  vm::Result<NnlsSolver::Row> Offsets(const std::string& path, const PntFile& file) const {
+  NnlsSolver::Row Offsets(const std::string& path, const PntFile& file) const {
     NnlsSolver::Row row;
     row.reserve(3 * standard_.names.size());
     for (const PointName& name : standard_.names) {
       const auto found = file.index.find(name);
       if (found == file.index.end()) {
-        return vm::Fail(vm::Errc::kBadValue, path + ": point " + std::to_string(name.second) +
-                                                 " of group " + std::to_string(name.first) +
-                                                 " of '" + path_ + "' is missing");
+        throw std::runtime_error(path + ": " + InWords(name) + " of '" + path_ + "' is missing");
       }
       const glm::vec3 by = frame_.mm() * file.at[found->second];
       row.insert(row.end(), {by.x, by.y, by.z});
@@ -75,7 +77,7 @@ class Reader {
     return row;
   }
 
-  vm::Result<void> ReadUnits() {
+  void ReadUnits() {
     const float middle = 0.5F * (frame_.Place(standard_, kLipCorners[0]).x +
                                  frame_.Place(standard_, kLipCorners[1]).x);
     std::vector<float> left;
@@ -83,37 +85,24 @@ class Reader {
     std::vector<NnlsSolver::Row> halves;
     for (int unit = 1; unit <= static_cast<int>(kOriginalUnits); ++unit) {
       const std::string path = PathOf(folder_, "AU", unit);
-      const auto file = ReadPnt(path);
-      if (!file) return std::unexpected(file.error());
-      const auto whole = Offsets(path, *file);
-      if (!whole) return std::unexpected(whole.error());
+      const NnlsSolver::Row whole = Offsets(path, vm::OrThrow(ReadPnt(path)));
       for (const bool is_left : {false, true}) {
-        halves.push_back(*whole);
+        halves.push_back(whole);
         for (std::size_t i = 0; i < halves.back().size(); ++i) {
           halves.back()[i] *= is_left ? left[i / 3] : 1 - left[i / 3];
         }
       }
     }
     units_ = NnlsSolver(std::move(halves));
-    return {};
   }
 
-  vm::Result<void> ReadOne(const char* name, int pattern, const std::string& path) {
-    auto text = ReadWhole(path, kMaxFileBytes);
-    if (!text) return std::unexpected(text.error());
+  /// Without its name.
+  const OriginalExpression& ReadOne(const std::string& path) {
+    std::string text = vm::OrThrow(vm::ReadTextFile(path, kMaxFileBytes));
     // A user's expressions begin as copies of the standard ones.
-    auto known = seen_.find(*text);
-    if (known == seen_.end()) {
-      const auto file = ParsePnt(path, *text);
-      if (!file) return std::unexpected(file.error());
-      const auto offsets = Offsets(path, *file);
-      if (!offsets) return std::unexpected(offsets.error());
-      known = seen_.emplace(std::move(*text), TakeApart(*offsets, path)).first;
-    }
-    OriginalExpression& made = out_.all.emplace_back(known->second);
-    made.name = name;
-    made.pattern = pattern;
-    return {};
+    if (const auto known = seen_.find(text); known != seen_.end()) return known->second;
+    const PntFile file = vm::OrThrow(ParsePnt(path, text));
+    return seen_.emplace(std::move(text), TakeApart(Offsets(path, file), path)).first->second;
   }
 
   OriginalExpression TakeApart(const NnlsSolver::Row& offsets, const std::string& path) {
@@ -156,13 +145,12 @@ class Reader {
 float LeftPartAt(float x_mm) { return SmoothStep(-7, 7, x_mm); }
 
 vm::Result<OriginalExpressions> ReadOriginalExpressions(const std::string& folder,
-                                                        const std::string& standard) {
-  auto wireframe = ReadPnt(standard);
-  if (!wireframe) return std::unexpected(wireframe.error());
-  if (auto there = CheckPoints(standard, *wireframe); !there) {
-    return std::unexpected(there.error());
-  }
-  return Reader(folder, standard, std::move(*wireframe)).Read();
+                                                        const std::string& standard) try {
+  PntFile wireframe = vm::OrThrow(ReadPnt(standard));
+  vm::OrThrow(CheckPoints(standard, wireframe));
+  return Reader(folder, standard, std::move(wireframe)).Read();
+} catch (const std::runtime_error& error) {
+  return vm::Fail(vm::Errc::kBadValue, error.what());
 }
 
 }  // namespace fsm

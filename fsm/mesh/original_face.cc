@@ -5,10 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_points.h"
+#include "vm_protocol/core/or_throw.h"
+#include "vm_protocol/core/text_file.h"
 
 namespace fsm {
 namespace {
@@ -17,12 +20,13 @@ constexpr std::size_t kEyeDefBytes = 29 * sizeof(double);
 
 using Offsets = std::vector<std::vector<glm::vec3>>;
 
+// The readers below throw std::runtime_error with the text of what they cannot read.
+
 /// What the units leave of the expressions, brought to the face's vertices.
-vm::Result<Offsets> ReadRests(const PntFile& wireframe, const OriginalSharedFiles& shared) {
-  const auto expressions = ReadOriginalExpressions(shared.offsets, shared.standard);
-  if (!expressions) return std::unexpected(expressions.error());
+Offsets ReadRests(const PntFile& wireframe, const OriginalSharedFiles& shared) {
   Offsets all;
-  for (const PntFile& rest : expressions->rests) {
+  const auto read = vm::OrThrow(ReadOriginalExpressions(shared.offsets, shared.standard));
+  for (const PntFile& rest : read.rests) {
     std::vector<glm::vec3>& offsets = all.emplace_back();
     for (const PointName& name : wireframe.names) {
       const auto found = rest.index.find(name);
@@ -33,68 +37,63 @@ vm::Result<Offsets> ReadRests(const PntFile& wireframe, const OriginalSharedFile
 }
 
 /// The offset files of one folder, over the standard wireframe, brought to the face's vertices.
-vm::Result<Offsets> ReadOffsets(const PntFile& wireframe, const std::string& stem,
-                                std::size_t count) {
+Offsets ReadOffsets(const PntFile& wireframe, const std::string& stem, std::size_t count) {
   Offsets all;
   for (std::size_t i = 1; i <= count; ++i) {
     const std::string path = stem + (i < 10 ? "0" : "") + std::to_string(i) + ".pnt";
-    const auto file = ReadPnt(path);
-    if (!file) return std::unexpected(file.error());
-    std::vector<glm::vec3> offsets;
+    const PntFile file = vm::OrThrow(ReadPnt(path));
+    std::vector<glm::vec3>& offsets = all.emplace_back();
     for (const PointName& name : wireframe.names) {
-      const auto found = file->index.find(name);
-      if (found == file->index.end()) {
-        return vm::Fail(vm::Errc::kBadValue, path + ": point " + std::to_string(name.second) +
-                                                 " of group " + std::to_string(name.first) +
-                                                 " of the face's wireframe is missing");
+      const auto found = file.index.find(name);
+      if (found == file.index.end()) {
+        throw std::runtime_error(path + ": " + InWords(name) +
+                                 " of the face's wireframe is missing");
       }
-      offsets.push_back(file->at[found->second]);
+      offsets.push_back(file.at[found->second]);
     }
-    all.push_back(std::move(offsets));
   }
   return all;
 }
 
-template <typename T>
-vm::Result<void> Into(vm::Result<T> from, auto& to) {
-  if (!from) return std::unexpected(from.error());
-  to = std::move(*from);
-  return {};
+std::string ReadSmall(const std::string& path) {
+  return vm::OrThrow(vm::ReadTextFile(path, 1U << 16));
 }
 
-vm::Result<void> ReadEyes(const OriginalFaceFiles& files, const OriginalSharedFiles& shared,
-                          OriginalFace& face) {
-  if (files.eye_picture.empty() || files.eye_def.empty() || shared.eye.empty()) return {};
-  if (auto read = Into(ReadImage(files.eye_picture), face.eye_picture); !read) return read;
-  const auto bytes = ReadWhole(files.eye_def, 1U << 16);
-  if (!bytes) return std::unexpected(bytes.error());
-  if (auto read = Into(ParseEyeDef(files.eye_def, *bytes), face.eye_def); !read) return read;
-  return Into(ReadObj(shared.eye), face.eye);
+void ReadEyes(const OriginalFaceFiles& files, const OriginalSharedFiles& shared,
+              OriginalFace& face) {
+  if (files.eye_picture.empty() || files.eye_def.empty() || shared.eye.empty()) return;
+  face.eye_picture = vm::OrThrow(ReadImage(files.eye_picture));
+  face.eye_def = vm::OrThrow(ParseEyeDef(files.eye_def, ReadSmall(files.eye_def)));
+  face.eye = vm::OrThrow(ReadObj(shared.eye));
 }
 
-vm::Result<void> ReadMouth(const OriginalFaceFiles& files, const OriginalSharedFiles& shared,
-                           OriginalFace& face) {
+void ReadMouth(const OriginalFaceFiles& files, const OriginalSharedFiles& shared,
+               OriginalFace& face) {
   if (!files.teeth_def.empty()) {
-    const auto text = ReadWhole(files.teeth_def, 1U << 16);
-    if (!text) return std::unexpected(text.error());
-    if (auto read = Into(ParseTeethDef(files.teeth_def, *text), face.teeth); !read) return read;
+    face.teeth = vm::OrThrow(ParseTeethDef(files.teeth_def, ReadSmall(files.teeth_def)));
   }
-  if (!shared.upper_teeth.empty()) {
-    if (auto read = Into(ReadObj(shared.upper_teeth), face.upper_teeth); !read) return read;
-  }
-  if (!shared.lower_teeth.empty()) {
-    if (auto read = Into(ReadObj(shared.lower_teeth), face.lower_teeth); !read) return read;
-  }
-  if (shared.mouth_picture.empty()) return {};
-  const auto wall = ReadImage(shared.mouth_picture);
-  if (!wall) return std::unexpected(wall.error());
+  if (!shared.upper_teeth.empty()) face.upper_teeth = vm::OrThrow(ReadObj(shared.upper_teeth));
+  if (!shared.lower_teeth.empty()) face.lower_teeth = vm::OrThrow(ReadObj(shared.lower_teeth));
+  if (shared.mouth_picture.empty()) return;
+  const Image wall = vm::OrThrow(ReadImage(shared.mouth_picture));
   glm::dvec3 sum(0);
-  for (std::size_t i = 0; i + 3 < wall->rgba.size(); i += 4) {
-    sum += glm::dvec3(wall->rgba[i], wall->rgba[i + 1], wall->rgba[i + 2]);
+  for (std::size_t i = 0; i + 3 < wall.rgba.size(); i += 4) {
+    sum += glm::dvec3(wall.rgba[i], wall.rgba[i + 1], wall.rgba[i + 2]);
   }
-  const glm::vec3 mean(sum / (255.0 * static_cast<double>(wall->rgba.size() / 4)));
+  const glm::vec3 mean(sum / (255.0 * static_cast<double>(wall.rgba.size() / 4)));
   face.mouth = mean * mean;  // near enough to linear light
-  return {};
+}
+
+/// Every corner of the triangles must be a point of the wireframe.
+void CheckCorners(const std::string& name, const PntFile& wireframe, const LnkFile& link,
+                  const std::string& link_name) {
+  for (const auto& triangle : link.triangles) {
+    for (const PointName& corner : triangle.corner) {
+      if (wireframe.index.contains(corner)) continue;
+      throw std::runtime_error(name + ": " + InWords(corner) + " is missing, which " + link_name +
+                               " joins to triangles");
+    }
+  }
 }
 
 /// Little-endian. REQUIRES: eight bytes from `at` on.
@@ -154,39 +153,30 @@ vm::Result<glm::vec3> ParseTeethDef(const std::string& name, std::string_view te
 }
 
 vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
-                                          const OriginalSharedFiles& shared) {
+                                          const OriginalSharedFiles& shared) try {
   OriginalFace face;
   face.name = files.name;
-  for (const auto& read :
-       {Into(ReadPnt(files.wireframe), face.wireframe),
-        Into(ReadPnt(shared.standard), face.standard), Into(ReadLnk(shared.link), face.link),
-        Into(ReadImage(files.picture), face.picture)}) {
-    if (!read) return std::unexpected(read.error());
-  }
+  face.wireframe = vm::OrThrow(ReadPnt(files.wireframe));
+  face.standard = vm::OrThrow(ReadPnt(shared.standard));
+  face.link = vm::OrThrow(ReadLnk(shared.link));
+  face.picture = vm::OrThrow(ReadImage(files.picture));
   for (const auto& [file, name] : {std::pair{&face.wireframe, &files.wireframe},
                                    std::pair{&face.standard, &shared.standard}}) {
-    if (auto there = CheckPoints(*name, *file); !there) return std::unexpected(there.error());
-    for (const auto& triangle : face.link.triangles) {
-      for (const PointName& corner : triangle.corner) {
-        if (file->index.contains(corner)) continue;
-        return vm::Fail(vm::Errc::kBadValue, *name + ": point " + std::to_string(corner.second) +
-                                                 " of group " + std::to_string(corner.first) +
-                                                 " is missing, which " + shared.link +
-                                                 " joins to triangles");
-      }
-    }
+    vm::OrThrow(CheckPoints(*name, *file));
+    CheckCorners(*name, *file, face.link, shared.link);
   }
   const auto offsets = [&](const char* stem, std::size_t count) {
     return ReadOffsets(face.wireframe, shared.offsets + "/" + stem, count);
   };
-  for (const auto& read : {Into(offsets("_AU_Datas/AU", kOriginalUnits), face.units),
-                           Into(offsets("_MU_Datas/MU", kMouthParameters), face.mouth_units),
-                           Into(offsets("_VM_Datas/VISEME", kOriginalVisemes), face.visemes),
-                           Into(ReadRests(face.wireframe, shared), face.expression_rests),
-                           ReadEyes(files, shared, face), ReadMouth(files, shared, face)}) {
-    if (!read) return std::unexpected(read.error());
-  }
+  face.units = offsets("_AU_Datas/AU", kOriginalUnits);
+  face.mouth_units = offsets("_MU_Datas/MU", kMouthParameters);
+  face.visemes = offsets("_VM_Datas/VISEME", kOriginalVisemes);
+  face.expression_rests = ReadRests(face.wireframe, shared);
+  ReadEyes(files, shared, face);
+  ReadMouth(files, shared, face);
   return face;
+} catch (const std::runtime_error& error) {
+  return vm::Fail(vm::Errc::kBadValue, error.what());
 }
 
 }  // namespace fsm

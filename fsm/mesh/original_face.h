@@ -55,8 +55,8 @@ struct OriginalFace {
   std::vector<std::vector<glm::vec3>> units, mouth_units, visemes;
   std::vector<std::vector<glm::vec3>> expression_rests;  ///< by channel, see OriginalExpressions
 };
-/// Errors: kUnavailable, kBadValue and kLimit naming the file, and the line or byte where there is
-/// one. A file "" is left out; wireframe, picture, standard, link and offsets must be there.
+/// Error: kBadValue naming the file, and the line or byte where there is one. A file "" is left
+/// out; wireframe, picture, standard, link and offsets must be there.
 vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
                                           const OriginalSharedFiles& shared);
 

@@ -54,10 +54,9 @@ glm::vec3 OriginalFrame::EyeOpening(const PntFile& file, std::size_t side) const
 vm::Result<void> CheckPoints(const std::string& name, const PntFile& file) {
   const auto check = [&](const PointName& point) -> vm::Result<void> {
     if (file.index.contains(point)) return {};
-    return vm::Fail(vm::Errc::kBadValue, name + ": point " + std::to_string(point.second) +
-                                             " of group " + std::to_string(point.first) +
-                                             " is missing: a wireframe of the original's " +
-                                             "standard head is expected");
+    return vm::Fail(vm::Errc::kBadValue,
+                    name + ": " + InWords(point) +
+                        " is missing: a wireframe of the original's standard head is expected");
   };
   for (const auto& point : kLipRim) {
     if (auto there = check(point); !there) return there;

@@ -1,9 +1,9 @@
 #include "fsm/mesh/pnt_file.h"
 
-#include <charconv>
 #include <cmath>
 #include <span>
 
+#include "fsm/base/parse_number.h"
 #include "vm_protocol/core/text_file.h"
 
 namespace fsm {
@@ -56,13 +56,14 @@ class NumberLines {
   }
 
   static bool Whole(std::string_view word, int& out) {
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), out);
-    return code == std::errc() && end == word.data() + word.size();
+    const auto number = ParseNumber<int>(word);
+    out = number.value_or(0);
+    return number.has_value();
   }
   static bool Real(std::string_view word, float& out) {
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), out);
-    return code == std::errc() && end == word.data() + word.size() && std::isfinite(out) &&
-           std::abs(out) < 1e6F;
+    const auto number = ParseNumber<float>(word);
+    out = number.value_or(0);
+    return number && std::abs(out) < 1e6F;
   }
   static bool Name(std::string_view group, std::string_view number, PointName& out) {
     return Whole(group, out.first) && Whole(number, out.second) && out.first > 0 &&
@@ -91,6 +92,10 @@ std::string Shown(std::span<const std::string_view> words) {
 
 }  // namespace
 
+std::string InWords(const PointName& point) {
+  return "point " + std::to_string(point.second) + " of group " + std::to_string(point.first);
+}
+
 vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text) {
   NumberLines lines(name, text);
   const auto count = lines.Header("points");
@@ -111,8 +116,7 @@ vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text) {
       return lines.Wrong("INDEX GROUP NUMBER X Y Z expected, not " + Shown(words));
     }
     if (!file.index.emplace(point, file.at.size()).second) {
-      return lines.Wrong("point " + std::to_string(point.second) + " of group " +
-                         std::to_string(point.first) + " is there twice");
+      return lines.Wrong(InWords(point) + " is there twice");
     }
     file.names.push_back(point);
     file.at.push_back(at);
@@ -157,18 +161,14 @@ vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text) {
   return file;
 }
 
-vm::Result<std::string> ReadWhole(const std::string& path, std::size_t limit) {
-  return vm::ReadTextFile(path, limit);
-}
-
 vm::Result<PntFile> ReadPnt(const std::string& path) {
-  const auto text = ReadWhole(path, kMaxFileBytes);
+  const auto text = vm::ReadTextFile(path, kMaxFileBytes);
   if (!text) return std::unexpected(text.error());
   return ParsePnt(path, *text);
 }
 
 vm::Result<LnkFile> ReadLnk(const std::string& path) {
-  const auto text = ReadWhole(path, kMaxFileBytes);
+  const auto text = vm::ReadTextFile(path, kMaxFileBytes);
   if (!text) return std::unexpected(text.error());
   return ParseLnk(path, *text);
 }

@@ -16,6 +16,8 @@ namespace fsm {
 /// A vertex of the original's wireframe is named by its group (a part of the face) and its number
 /// in the group.
 using PointName = std::pair<int, int>;
+/// "point 12 of group 4", for messages.
+std::string InWords(const PointName& point);
 
 /// The original's wireframe, or offsets over one: places by name, in the order of the file.
 struct PntFile {
@@ -41,11 +43,8 @@ vm::Result<PntFile> ParsePnt(const std::string& name, std::string_view text);
 /// A .lnk file: `#N`, then N - 1 lines `INDEX GROUP NUMBER` and three times `GROUP NUMBER`.
 vm::Result<LnkFile> ParseLnk(const std::string& name, std::string_view text);
 
-/// Both from a file. Errors: also kUnavailable.
+/// Both from a file. Errors: also those of vm::ReadTextFile.
 vm::Result<PntFile> ReadPnt(const std::string& path);
 vm::Result<LnkFile> ReadLnk(const std::string& path);
-
-/// All bytes of a regular file of at most `limit`. Errors: those of vm::ReadTextFile.
-vm::Result<std::string> ReadWhole(const std::string& path, std::size_t limit);
 
 }  // namespace fsm

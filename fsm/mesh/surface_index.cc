@@ -198,7 +198,8 @@ std::uint32_t WeldedSurface::Nearest(glm::vec3 p) const {
   return best;
 }
 
-std::vector<float> WeldedSurface::WayFrom(std::span<const glm::vec3> seeds, float reach) const {
+std::vector<float> WeldedSurface::DistancesFrom(std::span<const glm::vec3> seeds,
+                                                float reach) const {
   std::vector<float> far(at.size(), reach);
   using Way = std::pair<float, std::uint32_t>;
   std::priority_queue<Way, std::vector<Way>, std::greater<>> open;

@@ -14,7 +14,7 @@ namespace fsm {
 /// belong to one sheet (a seam of the texture) are one here.
 class WeldedSurface {
  public:
-  /// `weld`: at all.
+  /// `weld`: whether vertices at one place are made one; else only triangles are taken over.
   WeldedSurface(std::span<const glm::vec3> position, std::span<const std::uint32_t> triangles,
                 bool weld);
 
@@ -40,7 +40,7 @@ class WeldedSurface {
   std::uint32_t Nearest(glm::vec3 p) const;
   /// Distances along edges from the vertices nearest to the seeds, up to `reach`; beyond it
   /// `reach`.
-  std::vector<float> WayFrom(std::span<const glm::vec3> seeds, float reach) const;
+  std::vector<float> DistancesFrom(std::span<const glm::vec3> seeds, float reach) const;
 };
 
 /// Finds the nearest place of a surface that faces the same way, belongs to the same lip or lid and

@@ -79,9 +79,7 @@ void ReadNew(const GltfDocument& document, const json& vrm, VrmAvatar& avatar) {
 void FindByName(const GltfDocument& document, VrmAvatar& avatar) {
   for (std::size_t s = 0; s < document.Count("skins"); ++s) {
     const json& skin = document.At("skins", static_cast<std::int64_t>(s));
-    for (const json& joint : PartOf(skin, "joints")) {
-      if (!joint.is_number_integer()) continue;
-      const auto node = joint.get<std::int64_t>();
+    for (const std::int64_t node : WholesOf(skin, "joints")) {
       const std::string name = PlainShapeName(TextOf(document.At("nodes", node), "name"));
       if (name.ends_with("righteye") || name.ends_with("eyeright")) avatar.eye_bone[0] = node;
       if (name.ends_with("lefteye") || name.ends_with("eyeleft")) avatar.eye_bone[1] = node;

@@ -93,31 +93,25 @@ void VrmSprings::ReadOld(const json& animation) {
                         .gravity = RealOf(group, "gravityPower", 0),
                         .drag = RealOf(group, "dragForce", 0.4),
                         .collides = !PartOf(group, "colliderGroups").empty()};
-    for (const json& bone : PartOf(group, "bones")) {
-      if (bone.is_number_integer()) AddBranch(bone.get<std::int64_t>(), nullptr, manner, 0);
-    }
+    for (const std::int64_t bone : WholesOf(group, "bones")) AddBranch(bone, nullptr, manner, 0);
   }
 }
 
 void VrmSprings::AddBranch(std::int64_t node, const Joint* above, const Manner& manner, int depth) {
   if (!nodes_->Has(node) || joints_.contains(node)) return;
   if (depth > kMostJoints || springs_.size() >= kMostSprings) return;
-  const json& children = PartOf(document_->At("nodes", node), "children");
+  const auto children = WholesOf(document_->At("nodes", node), "children");
   const glm::vec3 from = PlaceOf(node);
   glm::vec3 tail = from;
-  if (children.is_array() && !children.empty() && children[0].is_number_integer()) {
-    tail = PlaceOf(children[0].get<std::int64_t>());
+  if (!children.empty()) {
+    tail = PlaceOf(children.front());
   } else if (above != nullptr && glm::distance(from, above->from) > 1e-6f) {
     tail += kEndLength * glm::normalize(from - above->from);
   } else {
     tail.y -= kEndLength;
   }
   const Joint joint = AddJoint(node, above, tail, manner);
-  for (const json& child : children) {
-    if (child.is_number_integer()) {
-      AddBranch(child.get<std::int64_t>(), &joint, manner, depth + 1);
-    }
-  }
+  for (const std::int64_t child : children) AddBranch(child, &joint, manner, depth + 1);
 }
 
 void VrmSprings::Bind(std::uint32_t vertex, glm::vec3 p, std::int64_t node, float weight,

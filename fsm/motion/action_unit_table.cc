@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "fsm/motion/table_text.h"
+#include <algorithm>
+#include <optional>
+
+#include "fsm/base/parse_number.h"
+#include "fsm/base/table_reader.h"
 #include "fsm/motion/track.h"
 #include "fsm/motion/unit_names.h"
 
@@ -31,105 +35,60 @@ void AddTo(ActionUnits& a, const ActionUnits& b, double weight) {
 
 namespace {
 
-// "DOWN,RIGHT" in degrees.
-vm::Result<std::array<float, 2>> ReadAngles(std::string_view word) {
+/// "DOWN,RIGHT" in degrees.
+std::optional<std::array<float, 2>> ReadAngles(std::string_view word) {
   const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
   const auto down = ParseNumber(word.substr(0, comma));
-  const auto right =
-      comma == std::string_view::npos ? vm::Result<double>(0) : ParseNumber(word.substr(comma + 1));
-  if (!down || !right || comma == std::string_view::npos) {
-    return vm::Fail(vm::Errc::kBadValue, "DOWN,RIGHT in degrees expected");
-  }
-  return std::array<float, 2>{static_cast<float>(*down), static_cast<float>(*right)};
+  const auto right = ParseNumber(word.substr(comma + 1));
+  if (!down || !right) return std::nullopt;
+  return std::array{static_cast<float>(*down), static_cast<float>(*right)};
 }
 
-}  // namespace
-
-vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line, std::size_t first,
-                                  const UnitNames& names) {
-  ActionUnits units;
-  for (std::size_t i = first; i < line.words.size(); ++i) {
-    const std::string_view word = line.words[i];
-    const std::size_t colon = word.find(':');
-    if (colon == std::string_view::npos) {
-      return table.Wrong(line.number, fmt::format("'{}' found, AU:WEIGHT expected", word));
-    }
-    const std::string_view key = word.substr(0, colon);
-    if (key.starts_with("gaze")) {
-      const auto angles = ReadAngles(word.substr(colon + 1));
-      if (!angles || (key != "gaze" && key != "gazeL" && key != "gazeR")) {
-        return table.Wrong(
-            line.number, fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
-      }
-      if (key != "gazeR") units.gaze_left = *angles;
-      if (key != "gazeL") units.gaze_right = *angles;
-      continue;
-    }
-    const auto unit = ParseUnitName(key, names);
-    if (!unit) return table.Wrong(line.number, unit.error().text);
-    const auto weight = ParseNumber(word.substr(colon + 1));
-    if (!weight || *weight < 0 || *weight > 2) {
-      return table.Wrong(line.number, fmt::format("'{}' found, a weight from 0 to 2 expected",
-                                                  word.substr(colon + 1)));
-    }
-    const auto index = static_cast<std::size_t>(unit->number);
-    if (unit->left) units.left[index] = static_cast<float>(*weight);
-    const bool only_left = unit->left && names.IsOneSided(unit->number);
-    if (unit->right && !only_left) units.right[index] = static_cast<float>(*weight);
-  }
-  return units;
+UnitName UnitOf(const TableRow& row, std::string_view word, const UnitNames& names) {
+  const auto unit = ParseUnitName(word, names);
+  if (!unit) row.Fail(unit.error().text);
+  return *unit;
 }
 
-namespace {
-
-/// Reads the numbers of units from `first` on, and calls `take(number)` with each.
+/// Calls `take(number)` for each unit that the row names from word `first` on.
 template <typename Take>
-vm::Result<void> ReadNumbers(const TableText& table, const TableLine& line, std::size_t first,
-                             const UnitNames& names, const Take& take) {
-  for (std::size_t i = first; i < line.words.size(); ++i) {
-    const auto unit = ParseUnitName(line.words[i], names);
-    if (!unit) return table.Wrong(line.number, unit.error().text);
-    take(static_cast<std::size_t>(unit->number));
+void ReadNumbers(const TableRow& row, std::size_t first, const UnitNames& names, const Take& take) {
+  for (std::size_t i = first; i < row.size(); ++i) {
+    take(static_cast<std::size_t>(UnitOf(row, row.Word(i), names).number));
   }
-  return {};
 }
 
-vm::Result<void> ReadPosition(const TableText& table, const TableLine& line, const UnitNames& names,
-                              UnitList& list) {
-  const auto position = table.Number(line, 1, "a position", 1, 200);
-  if (!position) return std::unexpected(position.error());
-  if (line.words.size() != 3) return table.Wrong(line.number, "three words expected");
-  const auto place = static_cast<std::size_t>(*position);
-  list.units.resize(std::max(list.units.size(), place));
+void ReadPosition(const TableRow& row, const UnitNames& names, UnitList& list) {
+  const auto position = static_cast<std::size_t>(row.Number(1, "a position", 1, 200));
+  if (row.size() != 3) row.Fail("three words expected");
+  list.units.resize(std::max(list.units.size(), position));
   list.emotions.resize(list.units.size());
-  if (line.words[0] == "emotion") {
-    list.emotions[place - 1] = line.words[2];
-    return {};
+  if (row.key() == "emotion") {
+    list.emotions[position - 1] = row.Word(2);
+  } else {
+    list.units[position - 1] = UnitOf(row, row.Word(2), names).number;
   }
-  return ReadNumbers(table, line, 2, names,
-                     [&](std::size_t unit) { list.units[place - 1] = static_cast<int>(unit); });
 }
 
-vm::Result<void> ReadListLine(const TableText& table, const TableLine& line, const UnitNames& names,
-                              UnitList& list) {
+void ReadListRow(const TableRow& row, const UnitNames& names, UnitList& list) {
   constexpr std::array<std::string_view, kRegions> kRegionNames = {"eye", "brow", "mouth"};
-  const std::string& kind = line.words[0];
-  if (kind == "face" || kind == "emotion") return ReadPosition(table, line, names, list);
+  const std::string& kind = row.key();
+  if (kind == "face" || kind == "emotion") return ReadPosition(row, names, list);
   if (kind == "opens") {
-    return ReadNumbers(table, line, 1, names, [&](std::size_t unit) {
+    return ReadNumbers(row, 1, names, [&](std::size_t unit) {
       if (unit >= list.opening.size()) list.opening.resize(unit + 1);
       list.opening[unit] = true;
     });
   }
-  if (kind != "region" || line.words.size() < 3) {
-    return table.Wrong(line.number,
-                       "'" + kind + "' found; face, emotion, region or opens expected");
+  if (kind != "region" || row.size() < 3) {
+    row.Fail("'" + kind + "' found; face, emotion, region or opens expected");
   }
-  const auto region = std::ranges::find(kRegionNames, line.words[1]);
+  const auto region = std::ranges::find(kRegionNames, row.Word(1));
   if (region == kRegionNames.end()) {
-    return table.Wrong(line.number, "'" + line.words[1] + "' found, eye, brow or mouth expected");
+    row.Fail("'" + row.Word(1) + "' found, eye, brow or mouth expected");
   }
-  return ReadNumbers(table, line, 2, names, [&](std::size_t unit) {
+  ReadNumbers(row, 2, names, [&](std::size_t unit) {
     if (unit >= list.regions.size()) list.regions.resize(unit + 1, Region::kMouth);
     list.regions[unit] = static_cast<Region>(region - kRegionNames.begin());
   });
@@ -137,33 +96,59 @@ vm::Result<void> ReadListLine(const TableText& table, const TableLine& line, con
 
 }  // namespace
 
+ActionUnits ReadUnits(const TableRow& row, std::size_t first, const UnitNames& names) {
+  ActionUnits units;
+  for (std::size_t i = first; i < row.size(); ++i) {
+    const std::string_view word = row.Word(i);
+    const std::size_t colon = word.find(':');
+    if (colon == std::string_view::npos) {
+      row.Fail(fmt::format("'{}' found, AU:WEIGHT expected", word));
+    }
+    const std::string_view key = word.substr(0, colon);
+    const std::string_view value = word.substr(colon + 1);
+    if (key.starts_with("gaze")) {
+      const auto angles = ReadAngles(value);
+      if (!angles || (key != "gaze" && key != "gazeL" && key != "gazeR")) {
+        row.Fail(fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
+      }
+      if (key != "gazeR") units.gaze_left = *angles;
+      if (key != "gazeL") units.gaze_right = *angles;
+      continue;
+    }
+    const UnitName unit = UnitOf(row, key, names);
+    const auto weight = ParseNumber(value);
+    if (!weight || *weight < 0 || *weight > 2) {
+      row.Fail(fmt::format("'{}' found, a weight from 0 to 2 expected", value));
+    }
+    const auto index = static_cast<std::size_t>(unit.number);
+    if (unit.left) units.left[index] = static_cast<float>(*weight);
+    const bool only_left = unit.left && names.IsOneSided(unit.number);
+    if (unit.right && !only_left) units.right[index] = static_cast<float>(*weight);
+  }
+  return units;
+}
+
 vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text,
                                   const UnitNames& names) {
-  const TableText table(name, text);
-  UnitList list;
-  for (const TableLine& line : table.lines()) {
-    if (auto read = ReadListLine(table, line, names, list); !read) {
-      return std::unexpected(read.error());
-    }
-  }
-  return list;
+  return ReadTable(name, text, [&](const Table& table) {
+    UnitList list;
+    for (const TableRow& row : table.rows()) ReadListRow(row, names, list);
+    return list;
+  });
 }
 
 vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_view text,
                                         const UnitNames& names) {
-  const TableText table(name, text);
-  BlendShapes shapes;
-  for (const TableLine& line : table.lines()) {
-    if (auto named = table.Name(line, 0, "a shape's name"); !named) {
-      return std::unexpected(named.error());
+  return ReadTable(name, text, [&](const Table& table) {
+    BlendShapes shapes;
+    for (const TableRow& row : table.rows()) {
+      const std::string& shape = row.Name(0, "a shape's name");
+      if (!shapes.emplace(shape, ReadUnits(row, 1, names)).second) {
+        row.Fail("'" + shape + "' is here twice");
+      }
     }
-    auto units = ReadUnits(table, line, 1, names);
-    if (!units) return std::unexpected(units.error());
-    if (!shapes.emplace(line.words[0], *units).second) {
-      return table.Wrong(line.number, "'" + line.words[0] + "' is here twice");
-    }
-  }
-  return shapes;
+    return shapes;
+  });
 }
 
 }  // namespace fsm

@@ -11,8 +11,7 @@
 
 namespace fsm {
 
-class TableText;
-struct TableLine;
+class TableRow;
 struct UnitNames;
 /// The names of the table the program carries, see unit_names.h.
 const UnitNames& BuiltInUnitNames();
@@ -40,9 +39,9 @@ void Combine(UnitValues& to, const UnitValues& other, const Change& change) {
 /// a + weight * b.
 void AddTo(ActionUnits& a, const ActionUnits& b, double weight);
 
-/// Reads words from `first` on: AU[L|R]:WEIGHT, gaze[L|R]:DOWN,RIGHT.
-vm::Result<ActionUnits> ReadUnits(const TableText& table, const TableLine& line, std::size_t first,
-                                  const UnitNames& names = BuiltInUnitNames());
+/// Reads words from `first` on: AU[L|R]:WEIGHT, gaze[L|R]:DOWN,RIGHT. Throws TableError.
+ActionUnits ReadUnits(const TableRow& row, std::size_t first,
+                      const UnitNames& names = BuiltInUnitNames());
 
 enum class Region { kEye, kBrow, kMouth };
 inline constexpr std::size_t kRegions = 3;
@@ -61,6 +60,8 @@ struct UnitList {
   /// Parts the lips: gives way to contacts of speech.
   bool Opens(std::size_t unit) const { return unit < opening.size() && opening[unit]; }
 };
+/// tables/action_unit_list.txt and tables/arkit.txt; `name` is for messages.
+/// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text,
                                   const UnitNames& names = BuiltInUnitNames());
 

@@ -85,56 +85,72 @@ void DominanceCurves::PlaceContacts() {
   }
 }
 
-MouthPose DominanceCurves::At(double position_ms) const {
-  std::array<double, kGroups> weight{};
-  std::array<double, kMouthParameters> mouth{};
-  double tongue = 0;
-  // The first sound that can still be felt.
-  const auto first = std::ranges::partition_point(
-      sounds_, [&](const Sound& s) { return s.end_ms + longest_reach_ms_ * 3 < position_ms; });
-  std::array<double, kGroups> dominance{};
-  MouthPose held;  // the targets of contacts, summed by how far each is made
-  double contacts = 0;
-  double jaw_gives = 0;
-  MouthPose pose;
-  for (auto s = first; s != sounds_.end(); ++s) {
-    if (s->viseme.start_ms - longest_reach_ms_ * 3 > position_ms) break;
-    const Dominance& d = s->viseme.dominance;
-    const bool early = position_ms < s->viseme.start_ms;
-    const double distance =
-        std::max({s->viseme.start_ms - position_ms, position_ms - s->end_ms, 0.0});
-    const double near = Bell(distance, early ? reach_.before_ms : reach_.after_ms);
-    dominance = {d.jaw * near, d.lips * near,
-                 d.round * Bell(distance, early ? d.early_ms : reach_.after_ms), d.tongue * near};
-    for (std::size_t g = 0; g < kGroups; ++g) weight[g] += dominance[g];
+/// The sounds that can be felt at one instant, and the contacts that are made then.
+class DominanceCurves::Blend {
+ public:
+  using Weights = std::array<double, kGroups>;
+
+  void Add(const MouthPose& target, const Weights& dominance) {
+    for (std::size_t g = 0; g < kGroups; ++g) weight_[g] += dominance[g];
     for (std::size_t p = 0; p < kMouthParameters; ++p) {
-      mouth[p] += dominance[kGroupOf[p]] * s->viseme.target.mouth[p];
+      mouth_[p] += dominance[kGroupOf[p]] * target.mouth[p];
     }
-    tongue += dominance[kTongue] * s->viseme.target.tongue;
-    if (!s->contact) continue;
-    const MouthPose& target = s->viseme.target;
-    const double made = s->contact->At(position_ms);
-    const double contact = made * target.contact;
-    pose.seal = std::max(pose.seal, static_cast<float>(made * target.seal));
-    pose.contact = std::max(pose.contact, static_cast<float>(contact));
-    contacts += contact;
-    jaw_gives += contact * (target.seal > 0 ? kJawGives : 1);
+    tongue_ += dominance[kTongue] * target.tongue;
+  }
+
+  void AddContact(const MouthPose& target, double made01) {
+    const double contact = made01 * target.contact;
+    pose_.seal = std::max(pose_.seal, static_cast<float>(made01 * target.seal));
+    pose_.contact = std::max(pose_.contact, static_cast<float>(contact));
+    contacts_ += contact;
+    jaw_gives_ += contact * (target.seal > 0 ? kJawGives : 1);
     for (std::size_t p = 0; p < kMouthParameters; ++p) {
-      held.mouth[p] += static_cast<float>(contact * target.mouth[p]);
+      held_.mouth[p] += static_cast<float>(contact * target.mouth[p]);
     }
   }
 
-  constexpr double kLeast = 1e-6;  // where nobody cares the mouth is at rest
-  for (std::size_t p = 0; p < kMouthParameters; ++p) {
-    double value = mouth[p] / (weight[kGroupOf[p]] + kLeast);
-    if (contacts > 0) {
-      const double share = pose.contact * (kGroupOf[p] == kJaw ? jaw_gives / contacts : 1);
-      value += share * (held.mouth[p] / contacts - value);
+  MouthPose Pose() const {
+    constexpr double kLeast = 1e-6;  // where nobody cares the mouth is at rest
+    MouthPose pose = pose_;
+    for (std::size_t p = 0; p < kMouthParameters; ++p) {
+      double value = mouth_[p] / (weight_[kGroupOf[p]] + kLeast);
+      if (contacts_ > 0) {
+        const double share = pose.contact * (kGroupOf[p] == kJaw ? jaw_gives_ / contacts_ : 1);
+        value += share * (held_.mouth[p] / contacts_ - value);
+      }
+      pose.mouth[p] = static_cast<float>(value);
     }
-    pose.mouth[p] = static_cast<float>(value);
+    pose.tongue = static_cast<float>(tongue_ / (weight_[kTongue] + kLeast));
+    return pose;
   }
-  pose.tongue = static_cast<float>(tongue / (weight[kTongue] + kLeast));
-  return pose;
+
+ private:
+  Weights weight_{};
+  std::array<double, kMouthParameters> mouth_{};
+  double tongue_ = 0;
+  MouthPose held_;  // the targets of contacts, summed by how far each is made
+  double contacts_ = 0;
+  double jaw_gives_ = 0;
+  MouthPose pose_;  // seal and contact
+};
+
+MouthPose DominanceCurves::At(double position_ms) const {
+  Blend blend;
+  // The first sound that can still be felt.
+  const auto first = std::ranges::partition_point(
+      sounds_, [&](const Sound& s) { return s.end_ms + longest_reach_ms_ * 3 < position_ms; });
+  for (auto s = first; s != sounds_.end(); ++s) {
+    const VisemeTarget& viseme = s->viseme;
+    if (viseme.start_ms - longest_reach_ms_ * 3 > position_ms) break;
+    const Dominance& d = viseme.dominance;
+    const bool early = position_ms < viseme.start_ms;
+    const double distance = std::max({viseme.start_ms - position_ms, position_ms - s->end_ms, 0.0});
+    const double near = Bell(distance, early ? reach_.before_ms : reach_.after_ms);
+    const double round = Bell(distance, early ? d.early_ms : reach_.after_ms);
+    blend.Add(viseme.target, {d.jaw * near, d.lips * near, d.round * round, d.tongue * near});
+    if (s->contact) blend.AddContact(viseme.target, s->contact->At(position_ms));
+  }
+  return blend.Pose();
 }
 
 }  // namespace fsm

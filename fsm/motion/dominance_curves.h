@@ -39,6 +39,7 @@ class DominanceCurves {
     double end_ms;
     std::optional<Contact> contact;
   };
+  class Blend;
   void PlaceContacts();
 
   std::vector<Sound> sounds_;  // in time; the first and the last are rest without end

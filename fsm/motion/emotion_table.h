@@ -26,7 +26,8 @@ using EmotionTable = std::map<std::string, Emotion, std::less<>>;
 /// Looks of whole expressions by FaceExp's name and pattern number.
 using ExpressionLooks = std::map<std::string, std::map<int, ActionUnits>>;
 
-/// Every emotion needs its patterns numbered from 1 without gaps.
+/// Reads tables/emotions.txt: every emotion needs its patterns numbered from 1 without gaps.
+/// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
                                       const UnitNames& names = BuiltInUnitNames());
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <span>
 
-#include "fsm/motion/table_text.h"
+#include "fsm/base/table_reader.h"
 
 namespace fsm {
 
@@ -16,117 +16,100 @@ namespace fsm {
 
 class Mixer::Reader {
  public:
-  Reader(const std::string& name, std::string_view text) : table_(name, text) {}
-
-  vm::Result<Mixer> Read() {
-    for (const TableLine& line : table_.lines()) {
-      if (auto read = ReadLine(line); !read) return std::unexpected(read.error());
-    }
+  Mixer Read(const Table& table) {
+    for (const TableRow& row : table.rows()) ReadRow(row);
     for (std::size_t i = 0; i < kChannels; ++i) {
       if (seen_[i]) continue;
-      return table_.Wrong(0, fmt::format("no row says how channel '{}' is mixed", kPartNames[i]));
+      table.Fail(fmt::format("no row says how channel '{}' is mixed", kPartNames[i]));
     }
     return std::move(out_);
   }
 
  private:
-  vm::Result<void> ReadLine(const TableLine& line) {
-    const std::string& kind = line.words[0];
-    const std::size_t count = line.words.size();
-    if (kind == "channel" && (count == 3 || count == 5)) return ReadChannel(line);
-    if (kind == "weight" && count == 5) return ReadWeight(line);
-    if (kind == "steady" && (count == 3 || count == 4)) return ReadSteady(line);
-    if ((kind == "layer" || kind == "signal") && count == 2) {
-      if (auto named = table_.Name(line, 1, "a name"); !named) return named;
-      if (kind == "signal") {
-        signals_.insert(line.words[1]);
-        return {};
-      }
-      if (LayerAt(line) || line.words[1] == "result") {
-        return table_.Wrong(line.number, "the layer '" + line.words[1] + "' is here twice");
-      }
-      out_.layers_.emplace_back(line.words[1], Rules{});
-      return {};
+  void ReadRow(const TableRow& row) {
+    const std::string& kind = row.key();
+    const std::size_t count = row.size();
+    if (kind == "channel" && (count == 3 || count == 5)) return ReadChannel(row);
+    if (kind == "weight" && count == 5) return ReadWeight(row);
+    if (kind == "steady" && (count == 3 || count == 4)) return ReadSteady(row);
+    if (kind == "layer" && count == 2) return ReadLayer(row);
+    if (kind == "signal" && count == 2) {
+      signals_.insert(row.Name(1, "a name"));
+      return;
     }
-    return table_.Wrong(line.number,
-                        fmt::format("'{}' found; channel NAME sum|greatest [LOWEST HIGHEST], layer "
-                                    "NAME, signal NAME, weight LAYER CHANNEL SIGNAL FACTOR or "
-                                    "steady LAYER LIMIT [SIGNAL] expected",
-                                    fmt::join(line.words, " ")));
+    row.Fail(
+        fmt::format("'{}' found; channel NAME sum|greatest [LOWEST HIGHEST], layer NAME, "
+                    "signal NAME, weight LAYER CHANNEL SIGNAL FACTOR or steady LAYER LIMIT "
+                    "[SIGNAL] expected",
+                    fmt::join(row.words(), " ")));
   }
 
-  vm::Result<void> ReadChannel(const TableLine& line) {
-    const auto found = std::ranges::find(kPartNames, line.words[1]);
+  void ReadChannel(const TableRow& row) {
+    const auto found = std::ranges::find(kPartNames, row.Word(1));
     const auto index = static_cast<std::size_t>(found - kPartNames.begin());
-    const std::string& how = line.words[2];
+    const std::string& how = row.Word(2);
     if (index >= kChannels || (how != "sum" && how != "greatest")) {
-      return table_.Wrong(
-          line.number,
-          fmt::format("'{} {}' found; {} with sum or greatest expected", line.words[1], how,
-                      fmt::join(kPartNames.begin(), kPartNames.begin() + kChannels, ", ")));
+      row.Fail(fmt::format("'{} {}' found; {} with sum or greatest expected", row.Word(1), how,
+                           fmt::join(kPartNames.begin(), kPartNames.begin() + kChannels, ", ")));
     }
     Channel& channel = out_.channels_[index];
     channel = {.greatest = how == "greatest"};
     seen_[index] = true;
-    if (line.words.size() == 3) return {};
-    const auto lowest = table_.Number(line, 3, "the lowest value", -1000, 1000);
-    if (!lowest) return std::unexpected(lowest.error());
-    const auto highest = table_.Number(line, 4, "the highest value", *lowest, 1000);
-    if (!highest) return std::unexpected(highest.error());
-    channel.lowest = static_cast<float>(*lowest);
-    channel.highest = static_cast<float>(*highest);
-    return {};
+    if (row.size() == 3) return;
+    const double lowest = row.Number(3, "the lowest value", -1000, 1000);
+    channel.lowest = static_cast<float>(lowest);
+    channel.highest = static_cast<float>(row.Number(4, "the highest value", lowest, 1000));
   }
 
-  vm::Result<Rules*> LayerAt(const TableLine& line) {
-    const auto found =
-        std::ranges::find(out_.layers_, line.words[1], &std::pair<std::string, Rules>::first);
-    if (found != out_.layers_.end()) return &found->second;
-    return table_.Wrong(line.number, fmt::format("'{}' is no layer of a row above", line.words[1]));
+  Rules* FindLayer(std::string_view name) {
+    const auto found = std::ranges::find(out_.layers_, name, &std::pair<std::string, Rules>::first);
+    return found == out_.layers_.end() ? nullptr : &found->second;
   }
 
-  vm::Result<std::string> SignalAt(const TableLine& line, std::size_t word) {
-    if (signals_.contains(line.words[word])) return line.words[word];
-    return table_.Wrong(line.number,
-                        fmt::format("'{}' is no signal of a row above", line.words[word]));
+  Rules& LayerAt(const TableRow& row) {
+    Rules* const layer = FindLayer(row.Word(1));
+    if (layer == nullptr) row.Fail(fmt::format("'{}' is no layer of a row above", row.Word(1)));
+    return *layer;
   }
 
-  vm::Result<void> ReadWeight(const TableLine& line) {
-    const auto layer =
-        line.words[1] == "result" ? vm::Result<Rules*>(&out_.result_) : LayerAt(line);
-    if (!layer) return std::unexpected(layer.error());
-    const auto part = std::ranges::find(kPartNames, line.words[2]);
-    if (part == kPartNames.end()) {
-      return table_.Wrong(line.number, fmt::format("'{}' found; {} expected", line.words[2],
-                                                   fmt::join(kPartNames, ", ")));
+  const std::string& SignalAt(const TableRow& row, std::size_t word) {
+    if (!signals_.contains(row.Word(word))) {
+      row.Fail(fmt::format("'{}' is no signal of a row above", row.Word(word)));
     }
-    const auto signal = SignalAt(line, 3);
-    if (!signal) return std::unexpected(signal.error());
-    const auto factor = table_.Number(line, 4, "a factor", 0, 10);
-    if (!factor) return std::unexpected(factor.error());
-    (*layer)->weights.push_back({static_cast<Part>(part - kPartNames.begin()), *signal, *factor});
-    return {};
+    return row.Word(word);
   }
 
-  vm::Result<void> ReadSteady(const TableLine& line) {
-    const auto layer = LayerAt(line);
-    if (!layer) return std::unexpected(layer.error());
-    const auto limit = table_.Number(line, 2, "a limit in degrees", 0, 180);
-    if (!limit) return std::unexpected(limit.error());
-    const auto signal = line.words.size() == 4 ? SignalAt(line, 3) : vm::Result<std::string>("");
-    if (!signal) return std::unexpected(signal.error());
-    (*layer)->steady = Steady{static_cast<float>(*limit), *signal};
-    return {};
+  void ReadLayer(const TableRow& row) {
+    const std::string& name = row.Name(1, "a name");
+    if (FindLayer(name) != nullptr || name == "result") {
+      row.Fail("the layer '" + name + "' is here twice");
+    }
+    out_.layers_.emplace_back(name, Rules{});
   }
 
-  TableText table_;
+  void ReadWeight(const TableRow& row) {
+    Rules& layer = row.Word(1) == "result" ? out_.result_ : LayerAt(row);
+    const auto part = std::ranges::find(kPartNames, row.Word(2));
+    if (part == kPartNames.end()) {
+      row.Fail(fmt::format("'{}' found; {} expected", row.Word(2), fmt::join(kPartNames, ", ")));
+    }
+    layer.weights.push_back({static_cast<Part>(part - kPartNames.begin()), SignalAt(row, 3),
+                             row.Number(4, "a factor", 0, 10)});
+  }
+
+  void ReadSteady(const TableRow& row) {
+    Rules& layer = LayerAt(row);
+    const auto limit = static_cast<float>(row.Number(2, "a limit in degrees", 0, 180));
+    layer.steady = Steady{limit, row.size() == 4 ? SignalAt(row, 3) : ""};
+  }
+
   Mixer out_;
   std::array<bool, kChannels> seen_{};
   std::set<std::string> signals_;
 };
 
 vm::Result<Mixer> Mixer::Read(const std::string& name, std::string_view text) {
-  return Reader(name, text).Read();
+  return ReadTable(name, text, [](const Table& table) { return Reader().Read(table); });
 }
 
 // ---- mixing

@@ -36,6 +36,7 @@ class HeadCurve {
 };
 
 /// Reads the original's motion file: `//` comments, the number of keys, then `ms x y z` a line.
+/// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<HeadCurve> ReadMotionFile(const std::string& name, std::string_view text);
 
 struct BlinkPattern {
@@ -124,6 +125,7 @@ struct MotionTable {
 
   std::size_t Patterns(IdleKind kind) const;  ///< how many there are
 };
+/// Reads tables/motions.txt. Errors as above.
 vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text,
                                     const UnitNames& units = BuiltInUnitNames());
 

@@ -9,13 +9,6 @@ namespace {
 
 constexpr vm::Time kRelease{300'000};  // as the speech of a text lets go
 
-MouthPose Closed() {
-  MouthPose pose;
-  pose.seal = 1;
-  pose.contact = 1;
-  return pose;
-}
-
 }  // namespace
 
 vm::Time MouthStream::GoneAt(const Frame& last) { return last.at + kHold + kClose + kRelease; }
@@ -33,7 +26,7 @@ vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& po
 }
 
 void MouthStream::Stop(vm::Time now) {
-  const Mouth mouth = MouthAt(now);
+  const SpokenMouth mouth = MouthAt(now);
   while (!frames_.empty() && frames_.back().at > now) frames_.pop_back();
   // Without this frame it would go back to the last one before holding there.
   if (!frames_.empty() && mouth.share == 1 && frames_.back().at < now) {
@@ -41,8 +34,8 @@ void MouthStream::Stop(vm::Time now) {
   }
 }
 
-MouthStream::Mouth MouthStream::MouthAt(vm::Time t) const {
-  Mouth mouth;
+SpokenMouth MouthStream::MouthAt(vm::Time t) const {
+  SpokenMouth mouth;
   const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
   if (next != frames_.begin()) {
     const Frame& last = *(next - 1);
@@ -51,33 +44,21 @@ MouthStream::Mouth MouthStream::MouthAt(vm::Time t) const {
       return {1, Mix(last.pose, next->pose, Progress(t, last.at, next->at - last.at))};
     }
     mouth.share = 1 - SmoothStep(Progress(t, last.at + kHold + kClose, kRelease));
-    mouth.pose = Mix(last.pose, Closed(), SmoothStep(Progress(t, last.at + kHold, kClose)));
+    mouth.pose = Mix(last.pose, ClosedMouth(), SmoothStep(Progress(t, last.at + kHold, kClose)));
   }
   if (next != frames_.end()) {  // the first frame of a run is near
-    const double share = SmoothStep(Progress(t, next->at - kTakeOver, kTakeOver));
-    mouth.pose = Mix(mouth.pose, next->pose, share);
-    mouth.share = 1 - (1 - mouth.share) * (1 - share);
+    mouth.Cover(next->pose, SmoothStep(Progress(t, next->at - kTakeOver, kTakeOver)));
   }
   return mouth;
 }
 
 void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
   if (frames_.empty()) return;
-  const Mouth mouth = MouthAt(t);
+  const SpokenMouth mouth = MouthAt(t);
   if (mouth.share <= 0) return;
-  const double contact = mouth.share * mouth.pose.contact;
   frame.Give("speaking", mouth.share);
-  frame.Give("lips_taken", mouth.share);
   frame.Give("stream_taken", mouth.share);
-  frame.Give("contact", contact);
-  MotionLayer& layer = frame.Layer("mouth_stream");
-  double scale = settings_.mouth_scale / kFullMouthScale;
-  if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is no larger than it is
-  for (std::size_t i = 0; i < kMouthParameters; ++i) {
-    layer.mouth[i] = static_cast<float>(mouth.share * scale * mouth.pose.mouth[i]);
-  }
-  layer.seal = static_cast<float>(mouth.share * mouth.pose.seal);
-  layer.tongue = static_cast<float>(mouth.share * mouth.pose.tongue);
+  mouth.Contribute(settings_.mouth_scale, "mouth_stream", frame);
 }
 
 std::optional<vm::Time> MouthStream::NextActivity(vm::Time t) const {

@@ -5,7 +5,7 @@
 
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_source.h"
-#include "fsm/motion/mouth_tables.h"
+#include "fsm/motion/spoken_mouth.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {
@@ -47,11 +47,7 @@ class MouthStream : public MotionSource {
     vm::Time run_start;
     MouthPose pose;
   };
-  struct Mouth {
-    double share = 0;  // of the mouth, 0..1
-    MouthPose pose;
-  };
-  Mouth MouthAt(vm::Time t) const;
+  SpokenMouth MouthAt(vm::Time t) const;
   static vm::Time GoneAt(const Frame& last);
 
   const MotionSettings& settings_;

@@ -46,10 +46,13 @@ inline constexpr std::size_t kVisemes = 14;
 inline constexpr std::size_t kBilingualShapes = 28;
 /// The 17 parameters, then seal, tongue and hold, which may be left out at the end (they then stay
 /// as `shape` has them). Values: finite; parameters within +-60, seal and tongue 0..1, hold 0..0.9.
+/// Error: kBadValue, and `shape` stays as it was.
 vm::Result<void> ReadShapeValues(const std::vector<std::string>& words, std::size_t first,
                                  Viseme& shape);
 /// As a row of the table has them, 20 numbers.
 std::string FormatShapeValues(const Viseme& shape);
+/// Reads a table of exactly `count` shapes, one of them `rest`. This and the readers below:
+/// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<Visemes> ReadVisemes(const std::string& name, std::string_view text,
                                 std::size_t count = kVisemes);
 /// nullptr if there is none of that name.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fsm/motion/table_text.h"
+#include "fsm/base/table_reader.h"
 
 namespace fsm {
 
@@ -20,38 +20,48 @@ std::string_view EngineNames::Ours(std::string_view name) const {
   return {};
 }
 
-vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
-                                                      std::string_view text, const MouthSet& set) {
-  const TableText table(name, text);
-  std::vector<EngineNames> engines;
-  for (const TableLine& line : table.lines()) {
-    if (line.words[0] == "engine") {
-      if (line.words.size() != 3 || (line.words[2] != "EN" && line.words[2] != "JP")) {
-        return table.Wrong(line.number, "engine NAME EN|JP expected");
-      }
-      engines.push_back({line.words[1], line.words[2] == "EN", {}, {}});
-      continue;
-    }
-    if (engines.empty()) return table.Wrong(line.number, "engine NAME EN|JP expected first");
-    EngineNames& names = engines.back();
-    if (line.words[0] == "strip") {
-      names.endings.assign(line.words.begin() + 1, line.words.end());
-      continue;
-    }
-    if (line.words.size() % 2 != 0) {
-      return table.Wrong(line.number, "pairs of an engine's name and ours expected");
-    }
-    for (std::size_t i = 0; i < line.words.size(); i += 2) {
-      const std::string& ours = line.words[i + 1];
-      if (!(names.english ? set.english : set.japanese).contains(ours)) {
-        return table.Wrong(line.number, "'" + ours + "' is no phoneme of ours");
-      }
-      if (!names.ours.emplace(line.words[i], ours).second) {
-        return table.Wrong(line.number, "the name '" + line.words[i] + "' is here twice");
-      }
+namespace {
+
+EngineNames ReadEngine(const TableRow& row) {
+  if (row.size() != 3 || (row.Word(2) != "EN" && row.Word(2) != "JP")) {
+    row.Fail("engine NAME EN|JP expected");
+  }
+  return {row.Word(1), row.Word(2) == "EN", {}, {}};
+}
+
+/// Pairs of the engine's name and ours, which `known` has.
+void ReadPairs(const TableRow& row, const PhonemeTable& known, EngineNames& names) {
+  if (row.size() % 2 != 0) row.Fail("pairs of an engine's name and ours expected");
+  for (std::size_t i = 0; i < row.size(); i += 2) {
+    const std::string& ours = row.Word(i + 1);
+    if (!known.contains(ours)) row.Fail("'" + ours + "' is no phoneme of ours");
+    if (!names.ours.emplace(row.Word(i), ours).second) {
+      row.Fail("the name '" + row.Word(i) + "' is here twice");
     }
   }
-  return engines;
+}
+
+}  // namespace
+
+vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
+                                                      std::string_view text, const MouthSet& set) {
+  return ReadTable(name, text, [&set](const Table& table) {
+    std::vector<EngineNames> engines;
+    for (const TableRow& row : table.rows()) {
+      if (row.key() == "engine") {
+        engines.push_back(ReadEngine(row));
+        continue;
+      }
+      if (engines.empty()) row.Fail("engine NAME EN|JP expected first");
+      EngineNames& names = engines.back();
+      if (row.key() == "strip") {
+        names.endings.assign(row.words().begin() + 1, row.words().end());
+      } else {
+        ReadPairs(row, names.english ? set.english : set.japanese, names);
+      }
+    }
+    return engines;
+  });
 }
 
 std::string EngineList(const std::vector<EngineNames>& engines) {

@@ -26,7 +26,8 @@ struct EngineNames {
   /// Our name for the engine's, endings taken off if need be; "" if it has none.
   std::string_view Ours(std::string_view name) const;
 };
-/// Every name must lead to a phoneme of `set`.
+/// Reads tables/phoneme_names.txt: every name must lead to a phoneme of `set`.
+/// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<std::vector<EngineNames>> ReadPhonemeNames(const std::string& name,
                                                       std::string_view text, const MouthSet& set);
 

@@ -81,13 +81,9 @@ SpeechMotion::Mouth SpeechMotion::MouthAt(vm::Time t) const {
     if (share <= 0) continue;
     MouthPose pose = one.track->At(MouthPosition(one, t));
     if (one.stopped) {
-      MouthPose closed;
-      closed.seal = 1;
-      closed.contact = 1;
-      pose = Mix(pose, closed, SmoothStep(Progress(t, *one.stopped, kClose)));
+      pose = Mix(pose, ClosedMouth(), SmoothStep(Progress(t, *one.stopped, kClose)));
     }
-    mouth.pose = Mix(mouth.pose, pose, share);
-    mouth.share = 1 - (1 - mouth.share) * (1 - share);
+    mouth.Cover(pose, share);
     const double yields = SmoothStep(Progress(t, one.begin, kEmotionYields)) * stays;
     mouth.over_emotion = 1 - (1 - mouth.over_emotion) * (1 - yields);
   }
@@ -188,18 +184,8 @@ double SpeechMotion::LidsShutAt(vm::Time t) const {
 
 void SpeechMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   const Mouth mouth = MouthAt(t);
-  const double contact = mouth.share * mouth.pose.contact;
   frame.Give("speaking", mouth.over_emotion);
-  frame.Give("lips_taken", mouth.share);
-  frame.Give("contact", contact);
-  MotionLayer& speech = frame.Layer("speech");
-  double scale = mouth_scale_.At(t) / kFullMouthScale;
-  if (scale > 1) scale = 1 + (scale - 1) * (1 - contact);  // a contact is no larger than it is
-  for (std::size_t i = 0; i < kMouthParameters; ++i) {
-    speech.mouth[i] = static_cast<float>(mouth.share * scale * mouth.pose.mouth[i]);
-  }
-  speech.seal = static_cast<float>(mouth.share * mouth.pose.seal);
-  speech.tongue = static_cast<float>(mouth.share * mouth.pose.tongue);
+  mouth.Contribute(mouth_scale_.At(t), "speech", frame);
   MotionLayer& gestures = frame.Layer("gestures");
   MoveHeadAndBrows(t, gestures);
   AvertEyes(t, gestures);

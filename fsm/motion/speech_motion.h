@@ -11,6 +11,7 @@
 #include "fsm/motion/motion_source.h"
 #include "fsm/motion/speech_clock.h"
 #include "fsm/motion/speech_gestures.h"
+#include "fsm/motion/spoken_mouth.h"
 #include "fsm/motion/text_cues.h"
 #include "fsm/motion/viseme_track.h"
 
@@ -55,11 +56,8 @@ class SpeechMotion : public MotionSource {
     vm::Time begin;
     std::optional<vm::Time> stopped;
   };
-  /// How much of the mouth speech owns, 0..1, and what it asks (full articulation).
-  struct Mouth {
-    double share = 0;         // of the mouth parameters
+  struct Mouth : SpokenMouth {
     double over_emotion = 0;  // how far emotion gives way; slower than `share` to be soft
-    MouthPose pose;
   };
   Mouth MouthAt(vm::Time t) const;
   void MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const;

@@ -1,20 +1,18 @@
 #include "fsm/motion/text_cues.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "fsm/base/table_reader.h"
 #include "fsm/motion/easing.h"
-#include "fsm/motion/table_text.h"
 #include "fsm/motion/viseme_target.h"
 
 namespace fsm {
 namespace {
 
 constexpr std::size_t kMostLooks = 100, kMostCues = 1000;
-constexpr double kMostDegrees = 30;
+constexpr float kMostDegrees = 30;
 constexpr double kPauseMs = 110;
 constexpr double kNearPauseMs = 600;  // a sentence ends at a pause that is no further away
 constexpr double kRiseMs = 350, kFallMs = 500, kAheadMs = 150;
@@ -31,74 +29,41 @@ std::string Lowered(std::string_view text) {
 
 // ---- the table
 
-class CueReader {
- public:
-  CueReader(const std::string& name, std::string_view text, const UnitNames& names)
-      : table_(name, text), names_(names) {}
-
-  vm::Result<TextCues> Read() {
-    for (const TableLine& line : table_.lines()) {
-      const auto read =
-          line.words[0] == "look" ? ReadLook(line)
-          : line.words[0] == "cue"
-              ? ReadCue(line)
-              : table_.Wrong(line.number, "'" + line.words[0] + "' found, look or cue expected");
-      if (!read) return std::unexpected(read.error());
-    }
-    return std::move(out_);
+TextLook ReadLook(const TableRow& row, const TextCues& cues, const UnitNames& names) {
+  if (row.size() < 6 || (row.Word(2) != "ALL" && row.Word(2) != "END")) {
+    row.Fail("look NAME ALL|END DOWN TURN TILT AU:WEIGHT ... expected");
   }
-
- private:
-  vm::Result<void> ReadLook(const TableLine& line) {
-    if (line.words.size() < 6 || (line.words[2] != "ALL" && line.words[2] != "END")) {
-      return table_.Wrong(line.number, "look NAME ALL|END DOWN TURN TILT AU:WEIGHT ... expected");
-    }
-    if (auto named = table_.Name(line, 1, "a look"); !named) return named;
-    if (std::ranges::find(out_.looks, line.words[1], &TextLook::name) != out_.looks.end()) {
-      return table_.Wrong(line.number, "the look '" + line.words[1] + "' is here twice");
-    }
-    if (out_.looks.size() == kMostLooks) return table_.Wrong(line.number, "more than 100 looks");
-    TextLook look{.name = line.words[1], .at_end = line.words[2] == "END", .head = {}, .units = {}};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto angle = table_.Number(line, 3 + axis, "degrees", -kMostDegrees, kMostDegrees);
-      if (!angle) return std::unexpected(angle.error());
-      look.head[axis] = static_cast<float>(*angle);
-    }
-    auto units = ReadUnits(table_, line, 6, names_);
-    if (!units) return std::unexpected(units.error());
-    look.units = std::move(*units);
-    out_.looks.push_back(std::move(look));
-    return {};
+  TextLook look{
+      .name = row.Name(1, "a look"), .at_end = row.Word(2) == "END", .head = {}, .units = {}};
+  if (std::ranges::find(cues.looks, look.name, &TextLook::name) != cues.looks.end()) {
+    row.Fail("the look '" + look.name + "' is here twice");
   }
-
-  vm::Result<void> ReadCue(const TableLine& line) {
-    if (line.words.size() < 3) {
-      return table_.Wrong(line.number, "cue LOOK PHRASE | PHRASE ... expected");
-    }
-    const auto look = std::ranges::find(out_.looks, line.words[1], &TextLook::name);
-    if (look == out_.looks.end()) {
-      return table_.Wrong(line.number, "no look '" + line.words[1] + "' found above");
-    }
-    if (out_.cues.size() == kMostCues) return table_.Wrong(line.number, "more than 1000 cues");
-    TextCues::Cue cue{static_cast<std::size_t>(look - out_.looks.begin()), {""}};
-    for (std::size_t i = 2; i < line.words.size(); ++i) {
-      if (line.words[i] == "|") {
-        cue.phrases.emplace_back();
-      } else {
-        cue.phrases.back() += (cue.phrases.back().empty() ? "" : " ") + Lowered(line.words[i]);
-      }
-    }
-    if (std::ranges::find(cue.phrases, "") != cue.phrases.end()) {
-      return table_.Wrong(line.number, "nothing found beside a '|', a phrase expected");
-    }
-    out_.cues.push_back(std::move(cue));
-    return {};
+  if (cues.looks.size() == kMostLooks) row.Fail("more than 100 looks");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    look.head[axis] = row.Within(3 + axis, -kMostDegrees, kMostDegrees);
   }
+  look.units = ReadUnits(row, 6, names);
+  return look;
+}
 
-  TableText table_;
-  const UnitNames& names_;
-  TextCues out_;
-};
+TextCues::Cue ReadCue(const TableRow& row, const TextCues& cues) {
+  if (row.size() < 3) row.Fail("cue LOOK PHRASE | PHRASE ... expected");
+  const auto look = std::ranges::find(cues.looks, row.Word(1), &TextLook::name);
+  if (look == cues.looks.end()) row.Fail("no look '" + row.Word(1) + "' found above");
+  if (cues.cues.size() == kMostCues) row.Fail("more than 1000 cues");
+  TextCues::Cue cue{static_cast<std::size_t>(look - cues.looks.begin()), {""}};
+  for (std::size_t i = 2; i < row.size(); ++i) {
+    if (row.Word(i) == "|") {
+      cue.phrases.emplace_back();
+    } else {
+      cue.phrases.back() += (cue.phrases.back().empty() ? "" : " ") + Lowered(row.Word(i));
+    }
+  }
+  if (std::ranges::find(cue.phrases, "") != cue.phrases.end()) {
+    row.Fail("nothing found beside a '|', a phrase expected");
+  }
+  return cue;
+}
 
 // ---- sentences
 
@@ -184,7 +149,19 @@ double TimeOfShare(double share, const VisemeTargets& visemes) {
 
 vm::Result<TextCues> ReadTextCues(const std::string& name, std::string_view text,
                                   const UnitNames& names) {
-  return CueReader(name, text, names).Read();
+  return ReadTable(name, text, [&](const Table& table) {
+    TextCues cues;
+    for (const TableRow& row : table.rows()) {
+      if (row.key() == "look") {
+        cues.looks.push_back(ReadLook(row, cues, names));
+      } else if (row.key() == "cue") {
+        cues.cues.push_back(ReadCue(row, cues));
+      } else {
+        row.Fail("'" + row.key() + "' found, look or cue expected");
+      }
+    }
+    return cues;
+  });
 }
 
 double TimedLook::At(double position_ms) const {

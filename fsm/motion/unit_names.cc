@@ -5,7 +5,8 @@
 #include <charconv>
 
 #include "embedded/action_unit_names.h"
-#include "fsm/motion/table_text.h"
+#include "fsm/base/parse_number.h"
+#include "fsm/base/table_reader.h"
 
 namespace fsm {
 
@@ -36,10 +37,8 @@ std::vector<Word> WordsOf(std::string_view text) {
 }
 
 std::unexpected<vm::Error> Wrong(const Word& word, std::string_view what) {
-  auto failure =
-      vm::Fail(vm::Errc::kBadValue,
-               fmt::format("'{}' at column {} is {}", word.text.substr(0, 60), word.column, what));
-  return failure;
+  return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' at column {} is {}",
+                                                   word.text.substr(0, 60), word.column, what));
 }
 
 std::optional<double> LetterOf(std::string_view word) {
@@ -129,43 +128,40 @@ vm::Result<double> ParseStrength(const Word& word) {
   return *number;
 }
 
+UnitCode ReadCode(const TableRow& row) {
+  std::array<float, 8> v{};
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    v[i] = static_cast<float>(row.Number(3 + i, "an angle or a part", -60, 60));
+  }
+  return {{v[0], v[1], v[2]}, {v[3], v[4]}, {v[5], v[6]}, v[7]};
+}
+
+void ReadNameRow(const TableRow& row, UnitNames& out) {
+  const bool code = row.key() == "code";
+  const bool one_sided = !code && row.words().back() == "one-sided";
+  const std::size_t count = row.size() - (one_sided ? 1 : 0);
+  if ((!code && row.key() != "unit") || count != (code ? 11u : 3u)) {
+    row.Fail("unit NUMBER NAME [one-sided], or code NUMBER NAME and 8 numbers expected");
+  }
+  const int unit = static_cast<int>(row.Number(1, "a number of a unit", 1, UnitValues::kMost));
+  const std::string& name = row.Word(2);
+  if (ByNumber(name)) row.Fail("'" + name + "' reads as a number, not as a name");
+  if (!out.by_name.emplace(name, unit).second || out.names.contains(unit)) {
+    row.Fail("'" + name + "' or its number is here twice");
+  }
+  out.names[unit] = name;
+  if (one_sided) out.one_sided.insert(unit);
+  if (code) out.codes[unit] = ReadCode(row);
+}
+
 }  // namespace
 
 vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text) {
-  const TableText table(name, text);
-  UnitNames out;
-  for (const TableLine& line : table.lines()) {
-    const bool code = line.words[0] == "code";
-    const bool one_sided = !code && line.words.back() == "one-sided";
-    const std::size_t count = line.words.size() - (one_sided ? 1 : 0);
-    if ((!code && line.words[0] != "unit") || count != (code ? 11u : 3u)) {
-      return table.Wrong(
-          line.number, "unit NUMBER NAME [one-sided], or code NUMBER NAME and 8 numbers expected");
-    }
-    const auto number = table.Number(line, 1, "a number of a unit", 1, UnitValues::kMost);
-    if (!number) return std::unexpected(number.error());
-    const int unit = static_cast<int>(*number);
-    if (ByNumber(line.words[2])) {
-      return table.Wrong(line.number, "'" + line.words[2] + "' reads as a number, not as a name");
-    }
-    if (!out.by_name.emplace(line.words[2], unit).second || out.names.contains(unit)) {
-      return table.Wrong(line.number, "'" + line.words[2] + "' or its number is here twice");
-    }
-    out.names[unit] = line.words[2];
-    if (one_sided) out.one_sided.insert(unit);
-    if (!code) continue;
-    std::array<float, 8> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto value = table.Number(line, 3 + i, "an angle or a part", -60, 60);
-      if (!value) return std::unexpected(value.error());
-      values[i] = static_cast<float>(*value);
-    }
-    out.codes[unit] = {{values[0], values[1], values[2]},
-                       {values[3], values[4]},
-                       {values[5], values[6]},
-                       values[7]};
-  }
-  return out;
+  return ReadTable(name, text, [](const Table& table) {
+    UnitNames out;
+    for (const TableRow& row : table.rows()) ReadNameRow(row, out);
+    return out;
+  });
 }
 
 const UnitNames& BuiltInUnitNames() {
@@ -245,8 +241,9 @@ vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names)
   std::string units;
   for (const Word& word : WordsOf(text)) {
     if (word.text.starts_with("gaze")) {
-      const TableText line("gaze", word.text);
-      const auto gaze = ReadUnits(line, line.lines().front(), 0, names);
+      const auto gaze = ReadTable("gaze", word.text, [&names](const Table& table) {
+        return ReadUnits(table.rows().front(), 0, names);
+      });
       if (!gaze) return Wrong(word, "no direction; gaze:DOWN,RIGHT in degrees expected");
       AddTo(look, *gaze, 1);
       continue;

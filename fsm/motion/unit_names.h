@@ -32,6 +32,7 @@ struct UnitNames {
   /// without a side they are of the agent's left; taken back without one they go on both.
   bool IsOneSided(int number) const { return one_sided.contains(number); }
 };
+/// Reads tables/action_unit_names.txt. Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text);
 inline bool IsActionUnit(int number) { return BuiltInUnitNames().IsUnit(number); }
 inline bool IsOneSided(int number) { return BuiltInUnitNames().IsOneSided(number); }

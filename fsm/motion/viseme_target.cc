@@ -42,17 +42,11 @@ void ResolveNext(std::vector<Part>& parts, const MouthSet& set) {
   }
 }
 
-}  // namespace
-
-VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
-                                const LipStyle& style) {
-  const MouthSet& set = style.bilingual ? tables.set28 : tables.set14;
-  const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
+/// The parts of all phonemes, a diphthong's two; also says how long they are together, and which
+/// phonemes are unknown.
+std::vector<Part> PartsOf(const vm::PhonemeList& phonemes, const PhonemeReader& reader,
+                          const MouthSet& set, VisemeTargets& out) {
   const PhonemeLook closed{{{static_cast<int>(set.rest), 1}}};
-  VisemeTargets out;
-  out.english = reader.english();
-  out.rest = set.shapes[set.rest].pose;
-
   std::vector<Part> parts;
   for (const vm::Phoneme& phoneme : phonemes) {
     const double length = InMs(phoneme.duration);
@@ -73,25 +67,34 @@ VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTab
     out.length_ms += length;
   }
   ResolveNext(parts, set);
+  return parts;
+}
 
-  for (const Part& part : parts) {
+/// For how many ms the shape stands before it moves on.
+double HoldOf(const Part& part, double share, bool pause) {
+  if (part.holds) return part.length_ms - kApproachMs;
+  const double hold_ms = share * part.length_ms;
+  // A contact of the lips must be seen; a pause this short need not be.
+  if (share <= 0 || pause) return hold_ms;
+  return std::max(hold_ms, std::min(kSeenMs, 0.85 * part.length_ms));
+}
+
+}  // namespace
+
+VisemeTargets MakeVisemeTargets(const vm::PhonemeList& phonemes, const MotionTables& tables,
+                                const LipStyle& style) {
+  const MouthSet& set = style.bilingual ? tables.set28 : tables.set14;
+  const PhonemeReader reader(phonemes, set, tables.engines, style.language, style.engine);
+  VisemeTargets out;
+  out.english = reader.english();
+  out.rest = set.shapes[set.rest].pose;
+  for (const Part& part : PartsOf(phonemes, reader, set, out)) {
     if (part.length_ms <= 0) continue;
     const auto index = static_cast<std::size_t>(part.look.shape);
     const Viseme& shape = set.shapes[index];
     const bool pause = index == set.rest;
-    VisemeTarget viseme{
-        part.start_ms, part.length_ms, Scaled(shape, part.look.strength, style), 0, shape.dominance,
-        pause,         part.holds};
-    if (part.holds) {
-      viseme.hold_ms = part.length_ms - kApproachMs;
-    } else if (shape.hold > 0) {
-      viseme.hold_ms = shape.hold * part.length_ms;
-      // A contact of the lips must be seen; a pause this short need not be.
-      if (!pause) {
-        viseme.hold_ms = std::max(viseme.hold_ms, std::min(kSeenMs, 0.85 * part.length_ms));
-      }
-    }
-    out.targets.push_back(viseme);
+    out.targets.push_back({part.start_ms, part.length_ms, Scaled(shape, part.look.strength, style),
+                           HoldOf(part, shape.hold, pause), shape.dominance, pause, part.holds});
   }
   return out;
 }

@@ -37,9 +37,9 @@ Detail DetailOf(const HeadTopology& topology, CreaseWeights creases, std::size_t
 }
 
 /// Per vertex: colour and openness to light; where in the photo it is, the photo's part in the
-/// colour and how much is lid; of lids what ShutLid says of the lender and its way; opacity.
+/// colour and how much is lid; of lids what ShutLid says of grain and slide; opacity.
 struct Paint {
-  std::vector<glm::vec4> colour, worn, lender;
+  std::vector<glm::vec4> colour, worn, grain;
   std::vector<float> opacity;
 };
 
@@ -55,9 +55,9 @@ Paint PaintOf(const HeadTopology& topology) {
     paint.worn[i] = glm::vec4(topology.texcoord[i], topology.texture_weight[i], 0);
   }
   for (const ShutLid& lid : topology.shut_lids) {
-    paint.colour[lid.vertex] = glm::vec4(lid.colour, lid.lender_light);
+    paint.colour[lid.vertex] = glm::vec4(lid.colour, lid.grain_light);
     paint.worn[lid.vertex].w = lid.weight;
-    paint.lender[lid.vertex] = glm::vec4(lid.lender, lid.slide);
+    paint.grain[lid.vertex] = glm::vec4(lid.grain_at, lid.slide);
   }
   return paint;
 }
@@ -148,12 +148,12 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(5, detail.right);
   upload(6, detail.left);
   upload(7, paint.worn);
-  upload(8, paint.lender);
+  upload(8, paint.grain);
   upload(9, paint.opacity);
   upload(10, rest_normal);
   std::vector<bool> detailed(vertex_count_);
   for (std::size_t i = 0; i < detailed.size(); ++i) {
-    detailed[i] = paint.opacity[i] < 1 || paint.lender[i].x > 0 || detail.right[i] != kNone ||
+    detailed[i] = paint.opacity[i] < 1 || paint.grain[i].x > 0 || detail.right[i] != kNone ||
                   detail.left[i] != kNone;
   }
   const DrawOrder order(topology, rest, detailed);

@@ -75,7 +75,7 @@ class HeadBuffers {
   // Position, normal, rest position, colour and occlusion; of skin its unrolled place, creases of
   // the right and of the left side; of hair its place among hairs, direction and density,
   // place across its lock; place in the photo with the photo's part in the colour and how much is
-  // lid, the lid's ShutLid::lender and slide, opacity, rest normal; indices.
+  // lid, the lid's ShutLid::grain_at and slide, opacity, rest normal; indices.
   static constexpr GLuint kAttributes = 11;
   GLuint buffers_[kAttributes + 1] = {};
   std::array<GLuint, 2> used_{};  // for the first two of them

@@ -1,8 +1,11 @@
+#include "embedded/skin_regions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "fsm/base/number_table.h"
 #include "fsm/base/random.h"
 #include "fsm/render/noise_tile.h"
 #include "fsm/render/skin_parts.h"
@@ -56,62 +59,102 @@ class NoiseRow {
   std::vector<float> out_ = std::vector<float>(kCells);
 };
 
+/// The regions of one head's face, by its landmarks.
+class RegionPainter {
+ public:
+  explicit RegionPainter(const FaceMarks& marks) : m_(marks) {}
+
+  /// `broad`, `fine`: of the patches there, about 0.
+  SkinRegion At(SkinMap::Kind kind, const glm::vec3& p, float broad, float fine) const {
+    SkinRegion out;
+    const float patch = patches_[0] * broad + patches_[1] * fine;
+    out.tint *= 1.0F + patch * Tint(patches_, 2);
+    if (kind == SkinMap::kLip) {
+      out.cracks = 1;
+      out.tint.a *= p.y < m_.stomion.y ? lip_[0] : lip_[1];
+      return out;
+    }
+    const float from_nose = glm::length(glm::vec2(p.x * 0.7F, p.y - m_.pronasale.y));
+    out.pores = pores_[0] + pores_[1] * Bell(from_nose, pores_[2]);
+    if (p.z > 0) PaintFront(p, fine, out.tint);
+    return out;
+  }
+
+ private:
+  using Numbers = std::vector<float>;
+  static glm::vec4 Tint(const Numbers& n, std::size_t first) {
+    return {n[first], n[first + 1], n[first + 2], n[first + 3]};
+  }
+
+  void PaintFront(const glm::vec3& p, float fine, glm::vec4& tint) const {
+    const float side = std::abs(p.x);
+    const float cheek_x = cheek_[0] * m_.zygion[1].x;
+    const float cheek_y = cheek_[1] * m_.nasion.y + cheek_[2] * m_.subnasale.y;
+    const float cheek = Bell(side - cheek_x, cheek_[3]) * Bell(p.y - cheek_y, cheek_[3]);
+    const float tip = Bell(side, nose_tip_[0]) * Bell(p.y - m_.pronasale.y, nose_tip_[1]) *
+                      Smooth(m_.subnasale.z, m_.pronasale.z, p.z);
+    const float chin = Bell(side, chin_[0]) *
+                       Bell(p.y - chin_[2] * m_.gnathion.y - chin_[3] * m_.stomion.y, chin_[1]);
+    const float flush = blood_[0] * cheek + blood_[1] * tip + blood_[2] * chin;
+    tint *= 1.0F - flush * (blood_[3] + blood_[4] * fine) * Tint(blood_, 5);
+    tint *= AroundEye(side, p.y);
+    tint.a *= Oil(p, tip, chin);
+  }
+
+  /// Thin skin below the eyes is bluish and darker; the lids are warmer.
+  glm::vec4 AroundEye(float side, float y) const {
+    const glm::vec3 pupil = m_.pupil[1];
+    const float from_pupil = (side - pupil.x) / eye_width_[0];
+    const float below = Bell(y - (pupil.y + below_eye_[0]), below_eye_[1]) * Bell(from_pupil, 1);
+    const float lid = Bell(y - (pupil.y + lid_[0]), lid_[1]) * Bell(from_pupil, eye_width_[1]);
+    const float corner = Bell(side - m_.endocanthion[1].x - eye_corner_[0], eye_corner_[1]) *
+                         Bell(y - pupil.y - eye_corner_[0], eye_corner_[2]);
+    return 1.0F - below * Tint(below_eye_, 2) - lid * Tint(lid_, 2) - corner * Tint(eye_corner_, 3);
+  }
+
+  float Oil(const glm::vec3& p, float tip, float chin) const {
+    const float side = std::abs(p.x);
+    const float forehead = Bell(side, 34) * Smooth(m_.nasion.y + 8, m_.nasion.y + 22, p.y);
+    const float bridge = Bell(side, 7) * Smooth(m_.subnasale.y, m_.nasion.y, p.y) *
+                         Smooth(m_.nasion.y + 6, m_.nasion.y - 4, p.y);
+    const float bow = Bell(side, 7) * Bell(p.y - 0.5F * (m_.subnasale.y + m_.stomion.y), 5);
+    const float cheek_bone =
+        Bell(side - 0.6F * m_.zygion[1].x, 12) * Bell(p.y - m_.pronasale.y - 14, 9);
+    const float jaw = Smooth(m_.pronasale.y, m_.stomion.y, p.y) * Smooth(20, 45, side);
+    return oil_[0] + oil_[1] * forehead + oil_[2] * bridge + oil_[3] * tip + oil_[4] * bow +
+           oil_[5] * cheek_bone + oil_[6] * chin - oil_[7] * jaw;
+  }
+
+  static const Numbers& Look(const char* name) {
+    static const NumberTable look("tables/skin_regions.txt", embedded::skin_regions());
+    return look[name];
+  }
+
+  const FaceMarks& m_;
+  const Numbers &patches_ = Look("patches"), &lip_ = Look("lip_highlights"),
+                &pores_ = Look("pores");
+  const Numbers &cheek_ = Look("cheek"), &nose_tip_ = Look("nose_tip"), &chin_ = Look("chin");
+  const Numbers &blood_ = Look("blood"), &eye_width_ = Look("eye_width"),
+                &below_eye_ = Look("below_eye");
+  const Numbers &lid_ = Look("lid"), &eye_corner_ = Look("eye_corner"), &oil_ = Look("oil");
+};
+
 }  // namespace
 
-// Redder and paler places, shadow of the lids, where skin is oily.
-std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceMarks& m) {
+std::vector<SkinRegion> PaintRegions(const SkinMap& map, const FaceMarks& marks) {
+  const RegionPainter painter(marks);
   std::vector<SkinRegion> out(map.kind.size());
-  NoiseRow broad(16, 1);
-  NoiseRow middle(4, 2);
-  const float eye_y = m.pupil[1].y;
-  const float cheek_x = 0.72F * m.zygion[1].x;
-  const float cheek_y = 0.45F * m.nasion.y + 0.55F * m.subnasale.y;
+  NoiseRow broad(16, 1);  // patches of 20 and of 5 millimetres
+  NoiseRow fine(4, 2);
   for (int y = 0; y < kCells; ++y) {
     const auto& b = broad.At(y);
-    const auto& d = middle.At(y);
+    const auto& f = fine.At(y);
     for (int x = 0; x < kCells; ++x) {
       const auto i = SkinMap::Index(x, y);
-      if (map.kind[i] == SkinMap::kNone) continue;
       const auto c = static_cast<std::size_t>(x);
-      const glm::vec3 p = map.place[i];
-      const float side = std::abs(p.x);
-      const bool front = p.z > 0;
-      glm::vec4& t = out[i].tint;
-      // Skin is never of one colour: patches of 20 and 5 millimetres.
-      const float patch = 0.5F * b[c] + 0.6F * d[c];
-      t *= 1.0F + patch * glm::vec4(0.030F, 0.062F, 0.062F, 0.10F);
-      if (map.kind[i] == SkinMap::kLip) {
-        // The lower lip is wetter.
-        out[i].cracks = 1;
-        t.a *= p.y < m.stomion.y ? 1.25F : 0.85F;
-        continue;
+      if (map.kind[i] != SkinMap::kNone) {
+        out[i] = painter.At(map.kind[i], map.place[i], b[c], f[c]);
       }
-      const float from_nose = glm::length(glm::vec2(p.x * 0.7F, p.y - m.pronasale.y));
-      out[i].pores = 0.35F + 0.65F * Bell(from_nose, 40);
-      if (!front) continue;
-      const float cheek = Bell(side - cheek_x, 17) * Bell(p.y - cheek_y, 17);
-      const float tip = Bell(side, 11) * Bell(p.y - m.pronasale.y, 10) *
-                        Smooth(m.subnasale.z, m.pronasale.z, p.z);
-      const float chin = Bell(side, 15) * Bell(p.y - 0.8F * m.gnathion.y - 0.2F * m.stomion.y, 11);
-      const float flush = 0.55F * cheek + 0.6F * tip + 0.3F * chin;
-      t *= 1.0F - flush * (0.75F + 0.5F * d[c]) * glm::vec4(0.02F, 0.15F, 0.15F, 0);
-      // Thin skin below the eyes is bluish and darker; the lids are warmer.
-      const float from_pupil = (side - m.pupil[1].x) / 17;
-      const float below = Bell(p.y - (eye_y - 10), 5.5F) * Bell(from_pupil, 1);
-      const float lid = Bell(p.y - (eye_y + 6.5F), 5) * Bell(from_pupil, 1.1F);
-      const float corner = Bell(side - m.endocanthion[1].x + 1, 5) * Bell(p.y - eye_y + 1, 7);
-      t *= 1.0F - below * glm::vec4(0.05F, 0.06F, 0.05F, 0.3F) -
-           lid * glm::vec4(0.05F, 0.11F, 0.13F, -0.2F) -
-           corner * glm::vec4(0.04F, 0.06F, 0.08F, 0.2F);
-      const float forehead = Bell(side, 34) * Smooth(m.nasion.y + 8, m.nasion.y + 22, p.y);
-      const float bridge = Bell(side, 7) * Smooth(m.subnasale.y, m.nasion.y, p.y) *
-                           Smooth(m.nasion.y + 6, m.nasion.y - 4, p.y);
-      const float bow = Bell(side, 7) * Bell(p.y - 0.5F * (m.subnasale.y + m.stomion.y), 5);
-      const float cheek_bone =
-          Bell(side - 0.6F * m.zygion[1].x, 12) * Bell(p.y - m.pronasale.y - 14, 9);
-      const float jaw = Smooth(m.pronasale.y, m.stomion.y, p.y) * Smooth(20, 45, side);
-      t.a *= 0.78F + 0.35F * forehead + 0.5F * bridge + 0.75F * tip + 0.3F * bow +
-             0.35F * cheek_bone + 0.3F * chin - 0.25F * jaw;
     }
   }
   return out;

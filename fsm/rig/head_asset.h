@@ -76,10 +76,10 @@ struct ShutLid {
   std::uint32_t vertex;
   glm::vec3 colour;  ///< linear RGB
   float weight;      ///< how much of it is lid, 0..1: it goes over into the skin round it
-  /// Skin that lends its grain, a lid's height below or nearer behind glasses: its texcoord, and
-  /// the mean brightness round it on the screen, 0..1.
-  glm::vec2 lender;
-  float lender_light;
+  /// The skin whose grain it takes, a lid's height below or nearer behind glasses: its texcoord,
+  /// and the mean brightness round it on the screen, 0..1.
+  glm::vec2 grain_at;
+  float grain_light;
   glm::vec2 slide;  ///< from the vertex's texcoord to where in the photo it comes to lie
 };
 

@@ -112,7 +112,7 @@ TEST_F(FsmProcessTest, BadOptionsAndTablesEndInOneSentence) {
   EXPECT_EQ(Run("--headless --tables .", ""), 1);
   EXPECT_TRUE(err.starts_with("fsm: ./emotions.txt:1: '99' is not an action unit")) << err;
   EXPECT_EQ(Run("--headless -C nowhere.txt", ""), 1);
-  EXPECT_EQ(err, "fsm: cannot read nowhere.txt\n");
+  EXPECT_EQ(err, "fsm: cannot read 'nowhere.txt': No such file or directory\n");
 }
 
 /// Opens the mouth by unit 26 and films it; frames are reported with the jaw's angle.
@@ -215,8 +215,8 @@ TEST_F(NamedPipeTest, ThoseNamedInLinesAreRefusedAndItGoesOn) {
   Refused(*face, "do#1 pipe", irregular);
   Refused(*face, "set#1 LipSync.pho < pipe", irregular);
   Refused(*face, "set#1 SaveImage = pipe.png", irregular);
-  Refused(*face, "set#1 Background = pipe.png", "not a plain file");
-  Refused(*face, "set#1 MouthShapes = pipe", "cannot read pipe");
+  Refused(*face, "set#1 Background = pipe.png", irregular);
+  Refused(*face, "set#1 MouthShapes = pipe", irregular);
   Refused(*face, "set#1 SaveMouthShapes = 14 pipe", irregular);
   Refused(*face, "set#1 Capture = pipe a 10", "'pipe' is not a folder");
   Refused(*face, "set#1 Record = pipe.mp4", irregular);

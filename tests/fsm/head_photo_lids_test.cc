@@ -231,7 +231,7 @@ TEST(PhotoLidsTest, TheGrainComesFromBelowTheEye) {
   const Eye eye;
   for (const ShutLid& lid : eye.Lids()) {
     if (lid.weight > 0.5f) {
-      EXPECT_GT(lid.lender.y, 0.5f);
+      EXPECT_GT(lid.grain_at.y, 0.5f);
     }
   }
 }
@@ -242,7 +242,7 @@ TEST(PhotoLidsTest, TheGrainComesFromASkinThatIsNearTheEye) {
   for (const ShutLid& lid : eye.Lids()) {
     if (lid.weight < 0.5f || eye.skin[lid.vertex].lid_upper == 0) continue;
     // The lower rim is at half the picture's height, 15 millimetres below it is the end.
-    EXPECT_LT(lid.lender.y, 0.5f + 0.5f * 15.6f / 15) << eye.skin[lid.vertex].lid_upper;
+    EXPECT_LT(lid.grain_at.y, 0.5f + 0.5f * 15.6f / 15) << eye.skin[lid.vertex].lid_upper;
     ++checked;
   }
   EXPECT_GT(checked, 100);

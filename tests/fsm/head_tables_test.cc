@@ -29,10 +29,11 @@ std::string Complaint(F&& action) {
 }
 
 TEST(HeadTablesTest, CommentsAndBlankLinesAreSkipped) {
-  const Table table("t.txt", "# all comment\n\n  key 1 +2.5 -3 # rest\r\nkey\n");
-  ASSERT_EQ(table.rows().size(), 2u);
+  const Table table("t.txt", "# all comment\n\n  key 1 +2.5 -3 # rest\r\nkey\nh# #1\n");
+  ASSERT_EQ(table.rows().size(), 3u);
   EXPECT_EQ(table.rows()[0].Vector(1), glm::vec3(1, 2.5f, -3));
   EXPECT_EQ(table.rows()[1].size(), 1u);
+  EXPECT_EQ(table.rows()[2].words(), std::vector<std::string>{"h#"}) << "the name of a phoneme";
 }
 
 TEST(HeadTablesTest, ErrorsNameFileAndLine) {
@@ -203,6 +204,8 @@ TEST(HeadTablesTest, FeaturesAreChecked) {
       {"gum_light", "gum_lights 0.6 0.2", "'gum_lights' is not known"},
       {"gum_light", "gum_scallop 1", "'gum_scallop' is there twice"},
       {"brow_growth", "brow_growth 9 86 9 62 22 36 36 16 48 -12 56 -32", "do not ascend"},
+      {"lid_fold_height", "lid_fold_height 0 2 0.5 4 0.5 6 0.8 6 1 4", "do not ascend"},
+      {"iris_rings", "iris_rings 0.3 1 0.6 0.85", "'iris_rings' needs 6 numbers after it, found 4"},
       {"upper_lashes", "upper_lashes 0 0.1 0.9", "'0' found where 1 to 200 was expected"},
       {"brow_hairs", "brow_hairs 9 1e2 7", "'brow_hairs' needs 2 numbers"},
       {"brow_hairs", "brow_hairs 9 999", "'999' found where 1 to 200 was expected"},
@@ -241,6 +244,8 @@ TEST(HeadTablesTest, FeaturesOfOnesOwnChangeTheHeads) {
                                   {"tongue_length", "tongue_length 40"},
                                   {"ear_place", "ear_place 66.2 1.05 0.05 2 0.16"},
                                   {"upper_lash_length", "upper_lash_length 2 3"},
+                                  {"ear_edge", "ear_edge 2"},
+                                  {"crop_lock_waves", "crop_lock_waves 1"},
                                   {"crop_crown", "crop_crown 0 1 0"}}) {
     EXPECT_NE(places("pygmalion", with(name, row)), as_ever) << row;
   }

@@ -6,8 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fsm/motion/table_text.h"
-
 namespace fsm {
 namespace {
 

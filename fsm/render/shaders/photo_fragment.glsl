@@ -3,7 +3,7 @@
 in vec2 place;
 in vec3 texcoord;
 in vec3 paint;
-in vec4 lender;
+in vec4 grain_from;
 in float crease;
 in float shadow;
 in float covering;
@@ -34,9 +34,9 @@ void main() {
     shade = clamp(shade > 1.0 ? 1.0 + 0.35 * (shade - 1.0) : shade, photo_crease_range.x, photo_crease_range.y);
   }
   vec3 painted = paint;
-  if (kDetailed && lender.z > 0.0) {
-    float grain = dot(texture(photo, lender.xy).rgb, vec3(0.3, 0.6, 0.1));
-    painted *= mix(1.0, clamp(grain / lender.w, 0.5, 1.6), photo_grain * lender.z);
+  if (kDetailed && grain_from.z > 0.0) {
+    float grain = dot(texture(photo, grain_from.xy).rgb, vec3(0.3, 0.6, 0.1));
+    painted *= mix(1.0, clamp(grain / grain_from.w, 0.5, 1.6), photo_grain * grain_from.z);
   }
   vec3 seen = mix(painted, p.rgb, texcoord.z);
   // Light that reaches skin in the shade has gone through skin.

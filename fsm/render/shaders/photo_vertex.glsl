@@ -3,7 +3,7 @@ layout(location = 4) in vec2 unrolled;
 layout(location = 5) in vec4 creases_right;
 layout(location = 6) in vec4 creases_left;
 layout(location = 7) in vec4 photo_texcoord;  // u, v down; the photo's part in the colour; how much is lid
-layout(location = 8) in vec4 lid_lender;   // of a lid: the place whose grain it takes; its way
+layout(location = 8) in vec4 lid_grain;   // of a lid: the place whose grain it takes; its way
 layout(location = 9) in float opacity;     // 1: hides what is behind, 0: is not there
 layout(location = 10) in vec3 rest_normal;  // as long as the light on it follows it, 0..1
 
@@ -21,7 +21,7 @@ uniform float yields;        // millimetres by which it lies behind what is as n
 out vec2 place;
 out vec3 texcoord;
 out vec3 paint;
-out vec4 lender;  // place, whether there is one, how bright it is round it
+out vec4 grain_from;  // place, whether there is one, how bright it is round it
 out float crease;
 out float shadow;
 out float covering;
@@ -36,10 +36,10 @@ void main() {
   float lid = photo_texcoord.w;
   float closed = rest_position.x < 0.0 ? lids_shut[0] : lids_shut[1];
   // The rim of the lower lid, which has no way to go, is reached last.
-  float shut = lid_lender.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
-  texcoord = vec3(photo_texcoord.xy + closed * lid_lender.zw, photo_texcoord.z * (1.0 - lid * shut));
-  bool lent = lid_lender.x > 0.0;
-  lender = lent ? vec4(lid_lender.xy, 1.0, albedo_occlusion.a) : vec4(photo_texcoord.xy, 0.0, 1.0);
+  float shut = lid_grain.zw == vec2(0.0) ? smoothstep(0.8, 1.0, closed) : smoothstep(0.1, 0.4, closed);
+  texcoord = vec3(photo_texcoord.xy + closed * lid_grain.zw, photo_texcoord.z * (1.0 - lid * shut));
+  bool grained = lid_grain.x > 0.0;
+  grain_from = grained ? vec4(lid_grain.xy, 1.0, albedo_occlusion.a) : vec4(photo_texcoord.xy, 0.0, 1.0);
   // A lip that rolls inward is paint in part, and the more so as it turns away.
   float roll = smoothstep(0.0, 0.3, 1.0 - photo_texcoord.z);
   float facing = smoothstep(-0.05, 0.6, dot(WorldNormal(), normalize(eye - world)));
@@ -63,5 +63,5 @@ void main() {
   // The sheet shows what is beside the face.
   crease = (1.0 - ragged) *
            (dot(creases_right, crease_depths[0]) + dot(creases_left, crease_depths[1]));
-  paint = sqrt(max(albedo_occlusion.rgb * (lent ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
+  paint = sqrt(max(albedo_occlusion.rgb * (grained ? 1.0 : albedo_occlusion.a), 0.0)) * mix(1.0, 0.45 + 0.55 * facing, roll);
 }
