@@ -76,6 +76,8 @@ void ExpressionMotion::Plan(vm::Time now, const ActionUnits& look, const Emotion
       if (timed) track.Plan(now, ActionUnits{}, now + duration - onset, onset);
     }
   }
+  shown_.Plan(now, 1.0F, now, onset);
+  if (timed) shown_.Plan(now, 0.0F, now + duration - onset, onset);
   onset_end_ = now + onset;
   end_ = timed ? std::optional(now + duration) : std::nullopt;
 }
@@ -85,6 +87,7 @@ void ExpressionMotion::Neutral(vm::Time now) {
   for (auto& side : parts_) {
     for (auto& part : side) part.Plan(now, ActionUnits{}, now, offset);
   }
+  shown_.MoveTo(now, 0.0F, offset);
   onset_end_ = now + offset;
   end_.reset();
 }
@@ -140,6 +143,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t part = 0; part < kRegions; ++part) now[side][part] = parts_[side][part].At(t);
   }
+  frame.Give("expression", shown_.At(t));
   ActionUnits& out = frame.Layer("expression").units;
   const auto collect = [&](UnitValues& to, const auto& parts, UnitValues ActionUnits::*side) {
     std::size_t size = 0;
@@ -158,6 +162,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
+    frame.Give("expression", std::min(1.0F, weight));
     const auto found = tables_.emotions.find(tables_.units.emotions[i]);
     if (found == tables_.emotions.end()) continue;
     AddTo(frame.Layer("emotions").units, found->second.patterns[0], weight);
@@ -168,6 +173,7 @@ void ExpressionMotion::ForEachTrack(const TrackVisitor& visit) const {
   for (const auto& side : parts_) {
     for (const auto& part : side) visit(part);
   }
+  visit(shown_);
   for (const auto& emotion : emotions_) visit(emotion);
 }
 

@@ -64,6 +64,7 @@ class MotionReader {
   vm::Result<void> ReadCurve(const TableLine& line);
   vm::Result<void> ReadProfile(const TableLine& line);
   vm::Result<void> ReadFace(const TableLine& line);
+  vm::Result<void> ReadMood(const TableLine& line);
   /// The numbers after the pattern's, which must be the next; from 0 on, the last at least `least`.
   vm::Result<Numbers> ReadNumbers(const TableLine& line, std::size_t have, std::size_t count,
                                   const std::string& expected, double least = 0);
@@ -134,6 +135,16 @@ vm::Result<void> MotionReader::ReadFace(const TableLine& line) {
   auto units = ReadUnits(table_, line, 2, units_);
   if (!units) return std::unexpected(units.error());
   out_.auto_faces.push_back(*units);
+  return {};
+}
+
+vm::Result<void> MotionReader::ReadMood(const TableLine& line) {
+  if (line.words.size() < 3 || line.words[1] == "NEUTRAL") {
+    return table_.Wrong(line.number, "MOOD NAME AU:WEIGHT ... expected, the name not NEUTRAL");
+  }
+  auto units = ReadUnits(table_, line, 2, units_);
+  if (!units) return std::unexpected(units.error());
+  out_.moods[line.words[1]] = *units;
   return {};
 }
 
@@ -224,11 +235,13 @@ vm::Result<void> MotionReader::ReadLine(const TableLine& line) {
                        &AutoAvert::angle, &AutoAvert::shortest_ms);
   }
   if (kind == "AUTOFACE") return ReadFace(line);
+  if (kind == "MOOD") return ReadMood(line);
   if (kind == "LIFE") return ReadProfile(line);
-  return table_.Wrong(line.number, "'" + kind +
-                                       "' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, LIFE or an "
-                                       "AUTO line (BLINK MOVE GAZE BREATH NODS SPEECH AVERT FACE) "
-                                       "expected");
+  return table_.Wrong(line.number,
+                      "'" + kind +
+                          "' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, MOOD, LIFE or an "
+                          "AUTO line (BLINK MOVE GAZE BREATH NODS SPEECH AVERT FACE) "
+                          "expected");
 }
 
 }  // namespace

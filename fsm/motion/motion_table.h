@@ -112,6 +112,7 @@ struct MotionTable {
   std::vector<AutoSpeech> auto_speeches;
   std::vector<AutoAvert> auto_averts;
   std::vector<ActionUnits> auto_faces;
+  std::map<std::string, ActionUnits, std::less<>> moods;  ///< by name; see MoodMotion
   std::map<std::string, IdleProfile, std::less<>> profiles;
   std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
   std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop
