@@ -12,7 +12,8 @@ usage: scripts/run_agent.sh [options]
   --dialog DOC.vxml  run a VoiceXML dialogue (docs/dialogs.md); what you type is what you say
   --script FILE      with --dialog: take the user's part from FILE instead of the keyboard; by default
                      DOC.txt beside DOC.vxml where a film is made
-  --voice FILE.wav   the face speaks with the voice in FILE, without being told the text (docs/vdm.md):
+  --voice FILE.wav   the face speaks with the voice in FILE, without being told the text, and its head
+                     moves with it (docs/vdm.md):
                      a film, agent.mp4 without --out
   --voice mic        it speaks with the microphone, until end of input (^D)
   --out FILE.mp4     make a film with sound instead of opening a window
@@ -161,6 +162,7 @@ hub_program=$root/build/bin/agent_manager
 if [ "$heard" = mic ]; then
   # The console stays open, for what is typed and until its end.
   {
+    echo "to @VDM set Head.auto = ON"
     echo "to @VDM set Input = portaudio"
     echo "to @VDM set Run = START"
     cat
@@ -168,10 +170,12 @@ if [ "$heard" = mic ]; then
   exit
 fi
 if [ -n "$heard" ]; then
-  # The mouth shows a sound Delay (100 ms) after it was heard, which begins 300 ms into the film; lips that are 40 ms
-  # ahead of the sound look natural, as with a text.
-  ffmpeg -loglevel error -y -i "$heard" -af "adelay=440:all=1" "$work/sound.wav" </dev/null || fail "--voice: '$heard' is no sound ffmpeg reads"
+  # The face shows a sound Delay after it was heard, which begins 300 ms into the film: 160 ms, with which the head is in
+  # time with the mouth. Lips that are 40 ms ahead of the sound look natural, as with a text.
+  ffmpeg -loglevel error -y -i "$heard" -af "adelay=500:all=1" "$work/sound.wav" </dev/null || fail "--voice: '$heard' is no sound ffmpeg reads"
   {
+    echo "to @VDM set Head.auto = ON"
+    echo "to @VDM set Delay = 160"
     echo "to @VDM set#input Input = wav:$heard"
     [ -z "$emotion" ] || echo "to @FSM set FaceExp = ${emotion%% *} 1 $([[ $emotion == *" "* ]] && echo "${emotion#* }" || echo 100) 0"
     echo "to @FSM set#film Record = $out"

@@ -91,6 +91,15 @@ void DeclareExpressions(FsmCore& core) {
                                      value.number(2) / 100, FromMs(value.number(3)));
        },
        "NEUTRAL"});
+  core.Declare({"Mood", "NEUTRAL | <word> <number 0..100>",
+                "A slight look that stays until the next, and its strength in per cent: AROUSED or "
+                "LOW (MOOD lines of motions.txt), as vdm tells it of a voice; or NEUTRAL. "
+                "Expressions cover it.",
+                [&core](const vm::SetValue& value) {
+                  return core.motion->SetMood(core.Now(), value.word(0),
+                                              value.size() > 1 ? value.number(1) / 100 : 0);
+                },
+                "NEUTRAL"});
   const MotionSettings& settings = core.motion->settings();
   core.Declare({"FaceExp.onset", "POSED | ELICITED | NATURAL | <ms>",
                 "How long an expression takes to come: as measured on people who show (POSED, or "

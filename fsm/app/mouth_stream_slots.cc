@@ -8,12 +8,16 @@ namespace {
 
 constexpr double kMostMm = 60;  // as in the tables of mouth shapes
 constexpr std::size_t kValues = 1 + kMouthParameters + 2;
+constexpr std::size_t kHeadValues = 4;
+constexpr double kMostDegrees = 90;
 
 vm::Result<MouthPose> PoseOf(const vm::SetValue& value) {
-  if (value.size() != kValues) {
-    return vm::Fail(vm::Errc::kBadValue, std::to_string(value.size()) + " numbers found, " +
-                                             std::to_string(kValues) +
-                                             " expected: ms, 17 mouth parameters, seal, tongue");
+  if (value.size() != kValues && value.size() != kValues + kHeadValues) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    std::to_string(value.size()) + " numbers found, " + std::to_string(kValues) +
+                        " expected: ms, 17 mouth parameters, seal, tongue; or " +
+                        std::to_string(kValues + kHeadValues) +
+                        ": then the head's angles down, right, tilt, and the brows");
   }
   MouthPose pose;
   for (std::size_t i = 0; i < kMouthParameters; ++i) {
@@ -34,6 +38,27 @@ vm::Result<MouthPose> PoseOf(const vm::SetValue& value) {
   pose.tongue = static_cast<float>(tongue);
   pose.contact = pose.seal;
   return pose;
+}
+
+/// Of a value that PoseOf takes; none where it does not say them.
+vm::Result<std::optional<StreamHead>> HeadOf(const vm::SetValue& value) {
+  if (value.size() == kValues) return std::nullopt;
+  StreamHead head;
+  for (std::size_t i = 0; i < head.angles.size(); ++i) {
+    const double angle = value.number(kValues + i);
+    if (!(std::abs(angle) <= kMostDegrees)) {
+      return vm::Fail(vm::Errc::kBadValue, "an angle of the head is " + value.word(kValues + i) +
+                                               ", -90 to 90 degrees expected");
+    }
+    head.angles[i] = static_cast<float>(angle);
+  }
+  const double brow = value.number(kValues + 3);
+  if (!(brow >= 0 && brow <= 1)) {
+    return vm::Fail(vm::Errc::kBadValue,
+                    "the brows are " + value.word(kValues + 3) + ", 0 to 1 expected");
+  }
+  head.brow = static_cast<float>(brow);
+  return head;
 }
 
 }  // namespace
@@ -63,13 +88,17 @@ void DeclareMouthStreamSlots(FsmCore& core) {
        .access = vm::Access::kWriteOnly,
        .help =
            "The mouth at one instant, from outside: MS after MouthFrame.start, then as in "
-           "MouthShape 17 mouth parameters (full articulation; MouthScale applies), SEAL, TONGUE. "
-           "Between frames up to 200 ms apart the mouth moves; when none come it closes.",
+           "MouthShape 17 mouth parameters (full articulation; MouthScale applies), SEAL, TONGUE; "
+           "and if wanted what head and brows do with it: DOWN RIGHT TILT in degrees, BROW 0 to 1. "
+           "Between frames up to 200 ms apart the face moves; when none come the mouth closes and "
+           "the head goes home.",
        .on_set_later = [&core](const vm::SetValue& value, const vm::Reply& reply) {
          const auto pose = PoseOf(value);
          if (!pose) return reply.Fail(pose.error());
+         const auto head = HeadOf(value);
+         if (!head) return reply.Fail(head.error());
          const vm::Time at = core.motion->mouth_frames_start() + FromMs(value.number(0));
-         if (auto added = core.motion->AddMouthFrame(core.Now(), at, *pose); !added) {
+         if (auto added = core.motion->AddMouthFrame(core.Now(), at, *pose, *head); !added) {
            return reply.Fail(added.error());
          }
          core.changed();

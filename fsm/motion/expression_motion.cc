@@ -10,7 +10,6 @@ namespace {
 
 constexpr vm::Time kOffset = std::chrono::milliseconds(500);  // of an expression, natural
 constexpr int kMostPatterns = 20;
-constexpr float kExpressing = 0.3F;  // a unit so strong is an expression
 constexpr std::size_t kMostExpressions = 200;
 enum Stream : std::uint64_t { kLateSide = 200, kLag };
 
@@ -77,6 +76,8 @@ void ExpressionMotion::Plan(vm::Time now, const ActionUnits& look, const Emotion
       if (timed) track.Plan(now, ActionUnits{}, now + duration - onset, onset);
     }
   }
+  shown_.Plan(now, 1.0F, now, onset);
+  if (timed) shown_.Plan(now, 0.0F, now + duration - onset, onset);
   onset_end_ = now + onset;
   end_ = timed ? std::optional(now + duration) : std::nullopt;
 }
@@ -86,6 +87,7 @@ void ExpressionMotion::Neutral(vm::Time now) {
   for (auto& side : parts_) {
     for (auto& part : side) part.Plan(now, ActionUnits{}, now, offset);
   }
+  shown_.MoveTo(now, 0.0F, offset);
   onset_end_ = now + offset;
   end_.reset();
 }
@@ -141,6 +143,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t part = 0; part < kRegions; ++part) now[side][part] = parts_[side][part].At(t);
   }
+  frame.Give("expression", shown_.At(t));
   ActionUnits& out = frame.Layer("expression").units;
   const auto collect = [&](UnitValues& to, const auto& parts, UnitValues ActionUnits::*side) {
     std::size_t size = 0;
@@ -152,13 +155,6 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   };
   collect(out.left, now[0], &ActionUnits::left);
   collect(out.right, now[1], &ActionUnits::right);
-  float greatest = 0;
-  for (const UnitValues* side : {&out.left, &out.right}) {
-    for (std::size_t unit = 0; unit < side->size(); ++unit) {
-      greatest = std::max(greatest, (*side)[unit]);
-    }
-  }
-  frame.Give("expressing", std::min(1.0F, greatest / kExpressing));
   // Eyes move together, whichever side of the face is first.
   const ActionUnits& eyes = now[0][static_cast<std::size_t>(Region::kEye)];
   out.gaze_left = eyes.gaze_left;
@@ -166,6 +162,7 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
+    frame.Give("expression", std::min(1.0F, weight));
     const auto found = tables_.emotions.find(tables_.units.emotions[i]);
     if (found == tables_.emotions.end()) continue;
     AddTo(frame.Layer("emotions").units, found->second.patterns[0], weight);
@@ -176,6 +173,7 @@ void ExpressionMotion::ForEachTrack(const TrackVisitor& visit) const {
   for (const auto& side : parts_) {
     for (const auto& part : side) visit(part);
   }
+  visit(shown_);
   for (const auto& emotion : emotions_) visit(emotion);
 }
 

@@ -16,6 +16,7 @@ namespace fsm {
 /// Expressions, on the layer `expression`: one at a time, crossfaded into the next; each part of
 /// the face begins by its own lag, and one side of it may begin later than the other. And the
 /// emotions of the list of units (Face.31 and on), on the layer `emotions`: each by itself.
+/// It gives the signal `expression`: how much of either is shown.
 /// It also keeps the expressions that are defined while running, in the tables.
 /// Lifetime: what it is made with outlives it. Commands come in order of time.
 /// Errors: kBadValue with what there is; kLimit for too many expressions.
@@ -57,6 +58,7 @@ class ExpressionMotion : public MotionSource {
   std::array<double, 2> side_lags_ms_{};  // the agent's left, right
   // By side, then by part; of each only its side's units are used.
   std::array<std::array<Track<ActionUnits>, kRegions>, 2> parts_;
+  Track<float> shown_;                  // how much an expression is shown, 0..1
   std::vector<Track<float>> emotions_;  // by position in the list of units
   vm::Time onset_end_{0};
   std::optional<vm::Time> end_;  // of a timed expression

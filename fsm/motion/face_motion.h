@@ -13,6 +13,7 @@
 #include "fsm/motion/eye_motion.h"
 #include "fsm/motion/head_motion.h"
 #include "fsm/motion/idle_behaviour.h"
+#include "fsm/motion/mood_motion.h"
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/motion/mouth_motion.h"
@@ -47,6 +48,10 @@ class FaceMotion {
     return expression_.Show(now, name, pattern, strength, duration);
   }
   void Neutral(vm::Time now) { expression_.Neutral(now); }
+  /// A slight look beneath expressions: one of the table's, or NEUTRAL.
+  vm::Result<void> SetMood(vm::Time now, std::string_view name, double strength) {
+    return mood_.Set(now, name, strength);
+  }
   /// Makes or changes one pattern of an expression; a new expression begins with pattern 1, a new
   /// pattern is the next. The name: letters, digits and _.
   vm::Result<void> DefineExpression(std::string_view name, int pattern, std::string_view look) {
@@ -114,9 +119,10 @@ class FaceMotion {
     return MakeVisemeTargets(phonemes, tables_, settings_.lips).unknown;
   }
 
-  // The mouth frame by frame, from another program.
-  vm::Result<void> AddMouthFrame(vm::Time now, vm::Time at, const MouthPose& pose) {
-    return mouth_stream_.Add(now, at, pose);
+  // The mouth frame by frame, from another program, with head and brows if it says them.
+  vm::Result<void> AddMouthFrame(vm::Time now, vm::Time at, const MouthPose& pose,
+                                 const std::optional<StreamHead>& head = std::nullopt) {
+    return mouth_stream_.Add(now, at, pose, head);
   }
   void StopMouthFrames(vm::Time now) { mouth_stream_.Stop(now); }
   /// The instant from which those who give frames count their times; 0 at first.
@@ -172,6 +178,7 @@ class FaceMotion {
   EyeMotion& eyes_ = Make<EyeMotion>(tables_.motions, settings_, idle_, seed_);
   HeadMotion& head_ = Make<HeadMotion>(tables_.motions);
   SpeechMotion& speech_ = Make<SpeechMotion>(tables_, settings_, idle_, seed_);
+  MoodMotion& mood_ = Make<MoodMotion>(tables_.motions);
   MouthStream& mouth_stream_ = Make<MouthStream>(settings_);
 };
 

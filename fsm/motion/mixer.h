@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/rig/face_state.h"
 #include "fsm/motion/motion_source.h"
+#include "fsm/rig/face_state.h"
 #include "vm_protocol/core/result.h"
 
 namespace fsm {

@@ -58,6 +58,7 @@ class MotionReader {
   void ReadRow(const TableRow& row);
   /// The key frames in the rows below this one, which are read with it.
   void ReadCurve(const TableRow& row);
+  void ReadMood(const TableRow& row);
   void ReadProfile(const TableRow& row);
   /// The `count` numbers after the pattern's, which must be the next; from 0 on, the last at least
   /// `least`.
@@ -117,6 +118,13 @@ void MotionReader::ReadCurve(const TableRow& row) {
   while (next_ < rows_.size() && StartsWithNumber(rows_[next_])) AddKey(rows_[next_++], keys);
   if (keys.empty()) row.Fail("key frames 'ms x y z' expected below");
   curves.emplace_back(std::move(keys));
+}
+
+void MotionReader::ReadMood(const TableRow& row) {
+  if (row.size() < 3 || row.Word(1) == "NEUTRAL") {
+    row.Fail("MOOD NAME AU:WEIGHT ... expected, the name not NEUTRAL");
+  }
+  out_.moods[row.Word(1)] = ReadUnits(row, 2, units_);
 }
 
 void MotionReader::ReadProfile(const TableRow& row) {
@@ -189,10 +197,11 @@ void MotionReader::ReadRow(const TableRow& row) {
     out_.auto_faces.push_back(ReadUnits(row, 2, units_));
     return;
   }
+  if (kind == "MOOD") return ReadMood(row);
   if (kind == "LIFE") return ReadProfile(row);
   row.Fail("'" + kind +
-           "' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, LIFE or an AUTO line (BLINK MOVE GAZE "
-           "BREATH NODS SPEECH AVERT FACE TEXT) expected");
+           "' found; NOD, REFUSE, LISTEN, USERDEF, BLINK, MOOD, LIFE or an AUTO line (BLINK MOVE "
+           "GAZE BREATH NODS SPEECH AVERT FACE TEXT) expected");
 }
 
 }  // namespace

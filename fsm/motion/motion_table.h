@@ -119,6 +119,7 @@ struct MotionTable {
   std::vector<AutoAvert> auto_averts;
   std::vector<ActionUnits> auto_faces;
   std::vector<AutoText> auto_texts;
+  std::map<std::string, ActionUnits, std::less<>> moods;  ///< by name; see MoodMotion
   std::map<std::string, IdleProfile, std::less<>> profiles;
   std::vector<HeadCurve> auto_move_files;  ///< if not empty, these are Autonomous MOVE n, in a loop
   std::vector<HeadCurve> auto_userdef;     ///< Autonomous USERDEF n, in a loop

@@ -7,13 +7,18 @@
 namespace fsm {
 namespace {
 
-constexpr vm::Time kRelease{300'000};  // as the speech of a text lets go
+constexpr vm::Time kRelease{300'000};               // as the speech of a text lets go
+constexpr double kInnerBrow = 1, kOuterBrow = 0.8;  // of units 1 and 2, as with a text's stress
 
 }  // namespace
 
-vm::Time MouthStream::GoneAt(const Frame& last) { return last.at + kHold + kClose + kRelease; }
+vm::Time MouthStream::GoneAt(const Frame& last) {
+  const vm::Time mouth = kHold + kClose + kRelease;
+  return last.at + (last.head ? std::max(mouth, kHeadHome) : mouth);
+}
 
-vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& pose) {
+vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& pose,
+                                  const std::optional<StreamHead>& head) {
   while (frames_.size() > 1 && GoneAt(frames_[1]) < now) frames_.pop_front();
   while (!frames_.empty() && frames_.back().at >= at) frames_.pop_back();
   if (frames_.size() >= kMostFrames) {
@@ -21,16 +26,18 @@ vm::Result<void> MouthStream::Add(vm::Time now, vm::Time at, const MouthPose& po
                                           " frames of the mouth wait for their time");
   }
   const bool follows = !frames_.empty() && at - frames_.back().at <= kLongestGap;
-  frames_.push_back({at, follows ? frames_.back().run_start : at, pose});
+  frames_.push_back({at, follows ? frames_.back().run_start : at, pose, head});
   return {};
 }
 
 void MouthStream::Stop(vm::Time now) {
   const SpokenMouth mouth = MouthAt(now);
+  const Head head = HeadAt(now);
   while (!frames_.empty() && frames_.back().at > now) frames_.pop_back();
   // Without this frame it would go back to the last one before holding there.
   if (!frames_.empty() && mouth.share == 1 && frames_.back().at < now) {
-    frames_.push_back({now, frames_.back().run_start, mouth.pose});
+    frames_.push_back({now, frames_.back().run_start, mouth.pose,
+                       head.share > 0 ? std::optional(head.pose) : std::nullopt});
   }
 }
 
@@ -52,8 +59,33 @@ SpokenMouth MouthStream::MouthAt(vm::Time t) const {
   return mouth;
 }
 
+MouthStream::Head MouthStream::HeadAt(vm::Time t) const {
+  Head head;
+  const auto next = std::ranges::upper_bound(frames_, t, {}, &Frame::at);
+  if (next != frames_.begin()) {
+    const Frame& last = *(next - 1);
+    if (next != frames_.end() && next->run_start != next->at) {
+      return Between(HeadOf(last), HeadOf(*next), Progress(t, last.at, next->at - last.at));
+    }
+    head = Between(HeadOf(last), Head{}, SmoothStep(Progress(t, last.at, kHeadHome)));
+  }
+  if (next != frames_.end()) {
+    head = Between(head, HeadOf(*next), SmoothStep(Progress(t, next->at - kTakeOver, kTakeOver)));
+  }
+  return head;
+}
+
 void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
   if (frames_.empty()) return;
+  if (const Head head = HeadAt(t); head.share > 0) {
+    frame.Give("head_taken", head.share);
+    MotionLayer& gestures = frame.Layer("stream_gestures");
+    gestures.head = head.pose.angles;
+    for (UnitValues* side : {&gestures.units.left, &gestures.units.right}) {
+      (*side)[1] = static_cast<float>(kInnerBrow) * head.pose.brow;
+      (*side)[2] = static_cast<float>(kOuterBrow) * head.pose.brow;
+    }
+  }
   const SpokenMouth mouth = MouthAt(t);
   if (mouth.share <= 0) return;
   frame.Give("speaking", mouth.share);

@@ -84,5 +84,64 @@ TEST_F(MouthStreamTest, ASealClosesWhateverElseOpens) {
   EXPECT_LT(motion_.StateAt(1500ms).au_left[26], 0.01F);
 }
 
+TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
+  for (int i = 0; i <= 50; ++i) {
+    const StreamHead head{{static_cast<float>(i) * 0.1F, -2, 1}, 0.5F};
+    ASSERT_TRUE(motion_.AddMouthFrame(0ms, 1000ms + i * 20ms, MouthPose{}, head));
+  }
+  const auto at = [this](vm::Time t) { return motion_.StateAt(t); };
+  EXPECT_NEAR(at(1510ms).head_rotation[0], 2.55, 0.01);
+  EXPECT_NEAR(at(1510ms).head_rotation[1], -2, 0.01);
+  EXPECT_NEAR(at(1510ms).head_rotation[2], 1, 0.01);
+  EXPECT_NEAR(at(1510ms).au_left[1], 0.5, 0.01);
+  EXPECT_NEAR(at(1510ms).au_right[2], 0.4, 0.01);
+  // Home within 700 ms, softly.
+  for (vm::Time t = 2000ms; t < 2800ms; t += 20ms) {
+    EXPECT_LT(std::abs(at(t + 20ms).head_rotation[0] - at(t).head_rotation[0]), 0.25F) << t.count();
+  }
+  EXPECT_GT(at(2200ms).head_rotation[0], 3);
+  EXPECT_EQ(at(2700ms).head_rotation[0], 0);
+  EXPECT_EQ(motion_.NextActivity(2690ms), vm::Time(2690ms));
+  EXPECT_EQ(motion_.FiniteEnd(0ms), vm::Time(2700ms));
+}
+
+TEST_F(MouthStreamTest, TheHeadOfATextGivesWayToOneThatIsHeard) {
+  ASSERT_TRUE(motion_.Autonomous(0ms, "SPEECH", 2));
+  motion_.Speak(0ms, vm::ParsePhonemes("aa 300 m 100 aa 200 m 100 aa 400 m 100 aa 2000").value(),
+                0ms);
+  bool moved = false;
+  for (vm::Time t = 100ms; t < 1000ms; t += 50ms)
+    moved |= std::abs(motion_.StateAt(t).head_rotation[0]) > 0.5F;
+  EXPECT_TRUE(moved);
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(
+        motion_.AddMouthFrame(1000ms, 1500ms + i * 20ms, MouthPose{}, StreamHead{{3, 0, 0}, 0}));
+  }
+  for (vm::Time t = 1500ms; t < 2400ms; t += 50ms) {
+    EXPECT_NEAR(motion_.StateAt(t).head_rotation[0], 3, 0.01) << t.count();
+  }
+  // Frames without a head leave that of the text alone.
+  motion_.StopMouthFrames(1500ms);
+  Add(4000ms, 2);
+  Add(4020ms, 2);
+  EXPECT_EQ(motion_.StateAt(4010ms).mouth[kJaw], 2 * kSpoken);
+}
+
+TEST_F(MouthStreamTest, AMoodIsCoveredByAnExpressionAndComesBack) {
+  ASSERT_TRUE(motion_.SetMood(0ms, "AROUSED", 1));
+  const auto brow = [this](vm::Time t) { return motion_.StateAt(t).au_left[5]; };
+  EXPECT_EQ(brow(0ms), 0);
+  const float mood = brow(1200ms);
+  EXPECT_GT(mood, 0.1);
+  ASSERT_TRUE(motion_.Express(1200ms, "HAPPY", 2, 1, 0ms));
+  EXPECT_NEAR(brow(4000ms), 0, 1e-4);  // HAPPY 2 has no unit 5
+  motion_.Neutral(4000ms);
+  EXPECT_NEAR(brow(7000ms), mood, 1e-4);
+  ASSERT_TRUE(motion_.SetMood(7000ms, "NEUTRAL", 0));
+  EXPECT_NEAR(brow(9000ms), 0, 1e-4);
+  EXPECT_EQ(motion_.SetMood(9000ms, "ODD", 1).error().text,
+            "'ODD' is no mood; AROUSED LOW or NEUTRAL expected");
+}
+
 }  // namespace
 }  // namespace fsm

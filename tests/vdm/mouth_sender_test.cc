@@ -27,7 +27,7 @@ class MouthSenderTest : public testing::Test {
   MouthSender sender_{
       {.start = [this](vm::Time at) { starts_.push_back(at); },
        .frame =
-           [this](double ms, const MouthFrame& frame) {
+           [this](double ms, const MouthFrame& frame, const std::optional<HeadPose>&) {
              told_.push_back({starts_.back() + vm::Time(static_cast<long>(ms * 1000)), frame.seal});
            },
        .moving = [this](bool moving) { moving_.push_back(moving); }}};
@@ -93,6 +93,8 @@ TEST(FrameTextTest, NumbersAreShort) {
   frame.mouth[16] = -3;
   frame.seal = 0.5F;
   EXPECT_EQ(FrameText(12340, frame), "12340 0 1.25 0 0 0 0 0 0 0 0 0 0 0 0 0 0 -3 0.5 0");
+  EXPECT_EQ(FrameText(12340, frame, HeadPose{{1.5F, -0.001F, 2}, 0.25F}),
+            "12340 0 1.25 0 0 0 0 0 0 0 0 0 0 0 0 0 0 -3 0.5 0 1.5 0 2 0.25");
 }
 
 }  // namespace

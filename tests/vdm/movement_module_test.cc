@@ -64,7 +64,10 @@ class MovementTest : public testing::Test {
             },
             .clock_is_shared = [] { return true; },
             .mel = &ShippedNet(FeatureKind::kMel),
-            .cepstra = &ShippedNet(FeatureKind::kCepstra)});
+            .cepstra = &ShippedNet(FeatureKind::kCepstra),
+            .head = &ShippedHeadNet(false),
+            .head_by_prosody = &ShippedHeadNet(true),
+            .emotions = &ShippedEmotions()});
     module_->slots().set_output([this](vm::PeerId, const vm::Message& message) {
       said_.push_back({clock_.Now(), message});
     });
@@ -242,6 +245,112 @@ TEST_F(MovementTest, ModesAndReceiversCanBeChosen) {
   EXPECT_GT(sounds, 20U);
   Tell("set Mouth.to = no/such name");
   EXPECT_EQ(errors_.size(), 1U);
+}
+
+TEST_F(MovementTest, TheHeadMovesWithTheVoiceWhereItIsWanted) {
+  const auto run = [this](const std::string& head) {
+    said_.clear();
+    module_.reset();
+    clock_ = {};
+    Make();
+    Tell("set Head.auto = " + head);
+    Tell("set Input = wav:voice");
+    Tell("set Run = START");
+    Run(10s);
+    return Frames();
+  };
+  const auto without = run("OFF");
+  for (const std::string mode : {"ON", "PROSODY"}) {
+    const auto frames = run(mode);
+    ASSERT_EQ(frames.size(), without.size()) << mode;
+    double widest = 0, fastest = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      ASSERT_EQ(frames[i].numbers.size(), 24U);
+      EXPECT_TRUE(std::ranges::equal(without[i].numbers, std::span(frames[i].numbers).first(20)))
+          << "the mouth is another with a head, at " << frames[i].at.count();
+      for (std::size_t k = 20; k < 23; ++k) {
+        widest = std::max(widest, std::abs(frames[i].numbers[k]));
+        if (i > 0) {
+          fastest =
+              std::max(fastest, std::abs(frames[i].numbers[k] - frames[i - 1].numbers[k]) / 0.02);
+        }
+      }
+    }
+    EXPECT_GT(widest, 0.5) << mode;
+    EXPECT_LT(widest, 15) << mode;
+    EXPECT_LT(fastest, 80) << mode << ": degrees a second";
+  }
+}
+
+TEST_F(MovementTest, HeadAndEmotionAreTheSameEachTime) {
+  const auto run = [this] {
+    said_.clear();
+    module_.reset();
+    clock_ = {};
+    Make();
+    for (const char* line :
+         {"set Head.auto = ON", "set Emotion.auto = ON", "set Delay = 160",
+          "prop Prosody = AutoOutput", "set Input = wav:voice", "set Run = START"}) {
+      Tell(line);
+    }
+    Run(10s);
+    return AllSaid();
+  };
+  const std::string first = run();
+  EXPECT_GT(first.size(), 3000U);
+  EXPECT_NE(first.find("rep Prosody = "), std::string::npos);
+  EXPECT_EQ(run(), first);
+}
+
+TEST_F(MovementTest, ALongerDelayMakesUpForALateHead) {
+  const auto run = [this](const std::string& delay) {
+    said_.clear();
+    module_.reset();
+    clock_ = {};
+    Make();
+    Tell("set Head.auto = ON");
+    Tell("set Delay = " + delay);
+    Tell("set Input = wav:voice");
+    Tell("set Run = START");
+    Run(10s);
+    return Frames();
+  };
+  // From the mouth's frames on the head is by three of 20 ms nearer to them; both runs are counted
+  // from their first frames.
+  const auto late = run("100"), in_time = run("160"), more = run("300");
+  ASSERT_GT(late.size(), 60U);
+  for (std::size_t i = 10; i < 50; ++i) {
+    EXPECT_EQ(in_time[i].numbers[12], late[i].numbers[12]);
+    EXPECT_NEAR(in_time[i].numbers[20], late[i + 3].numbers[20], 0.011) << i;
+    EXPECT_EQ(more[i].numbers[20], in_time[i].numbers[20]);
+  }
+  for (const auto& frame : in_time) EXPECT_LT(frame.told, frame.at);
+}
+
+TEST_F(MovementTest, InNoiseAndSilenceTheHeadRestsAndNoEmotionIsClaimed) {
+  for (const char* line :
+       {"set Head.auto = ON", "set Emotion.auto = ON", "set Input = raw:hand", "set Run = START"}) {
+    Tell(line);
+  }
+  std::uint32_t random = 1;
+  std::vector<std::int16_t> piece(320);
+  for (int n = 0; n < 500; ++n) {
+    const int size = n < 250 ? 0 : 3000;
+    for (auto& sample : piece) {
+      random = random * 1664525 + 1013904223;
+      sample =
+          static_cast<std::int16_t>(size * (static_cast<int>(random >> 16 & 1023) - 512) / 512);
+    }
+    Run(clock_.Now() + 20ms);
+    live_.sound(piece);
+  }
+  for (const Frame& frame : Frames()) {
+    for (std::size_t k = 20; k < 24; ++k) EXPECT_EQ(frame.numbers[k], 0);
+  }
+  for (const auto& [told, message] : said_) {
+    EXPECT_NE(message.slot, "Mood");
+    EXPECT_TRUE(message.slot != "Emotion" || message.value == "NONE") << message.value;
+  }
 }
 
 TEST_F(MovementTest, SilenceAndOffTellNothing) {

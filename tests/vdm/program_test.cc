@@ -125,6 +125,32 @@ TEST_F(VdmProgramTest, BadPhonemesAndTriphonesAreOneErrorThatNamesThem) {
             std::string::npos);
 }
 
+TEST_F(VdmProgramTest, HeadAndProsodyArePrintedWhereTheyAreAskedFor) {
+  const std::string sound = Syllables(2, 16000, 1, 1);
+  const auto file = Write("a.wav", Wav(16000, 1, static_cast<std::uint32_t>(sound.size()), sound));
+  const auto lines = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> argv = {GALATEA_BIN_DIR "/vdm", file};
+    argv.insert(argv.end(), more.begin(), more.end());
+    support::Process program(argv);
+    return program.ReadAll();
+  };
+  const auto head = lines({"--head"});
+  ASSERT_EQ(head.size(), 201U);
+  EXPECT_TRUE(head[0].ends_with(",m17,down,right,tilt,brow")) << head[0];
+  EXPECT_EQ(std::ranges::count(head[100], ','), std::ranges::count(head[0], ','));
+  const auto prosody = lines({"--print", "prosody"});
+  ASSERT_GT(prosody.size(), 190U);
+  EXPECT_TRUE(prosody[0].starts_with("ms,hz,voicing,")) << prosody[0];
+  EXPECT_EQ(std::ranges::count(prosody[100], ','), std::ranges::count(prosody[0], ','));
+}
+
+TEST_F(VdmProgramTest, ADamagedNetworkOfHeadsIsNamedWithItsLine) {
+  const std::string net = Write("bad.net", "# mine\nsounds x\n");
+  const Track track = TrackOf("none.wav", {"--head-net", net});
+  EXPECT_NE(track.code, 0);
+  EXPECT_NE(track.error.find("bad.net:2: 'x' found"), std::string::npos) << track.error;
+}
+
 TEST_F(VdmProgramTest, RateChannelsLevelConstantsAndClippingDoNotMatterMuch) {
   struct Case {
     std::uint32_t rate, channels;

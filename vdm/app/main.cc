@@ -25,9 +25,12 @@ constexpr std::size_t kMaxNetBytes = std::size_t{4} << 20;
 constexpr std::size_t kMaxTriphoneBytes = std::size_t{8} << 20;
 
 struct Options {
-  std::string file, print = "csv", net_file, phonemes_file, triphones_file;
-  bool live = false, cepstra = false;
+  std::string file, print = "csv", net_file, head_file, emotions_file;
+  std::string phonemes_file, triphones_file;  // for the track of phonemes
+  bool live = false, cepstra = false, head = false;
   std::optional<vdm::MouthNet> net;
+  std::optional<vdm::HeadNet> head_net;
+  std::optional<vdm::Discriminant> emotions;
 };
 
 template <typename T>
@@ -39,6 +42,16 @@ T OrThrow(vm::Result<T> result) {
 const vdm::MouthNet& NetOf(const Options& options, vdm::FeatureKind features) {
   const bool own = options.net && options.net->features == features;
   return own ? *options.net : vdm::ShippedNet(features);
+}
+
+/// A file given is taken for Head.auto = ON.
+const vdm::HeadNet& HeadOf(const Options& options) {
+  return options.head_net ? *options.head_net : vdm::ShippedHeadNet(false);
+}
+
+template <typename Parse>
+auto ReadTable(const std::string& path, Parse parse) {
+  return OrThrow(parse(path, OrThrow(vm::ReadTextFile(path, kMaxNetBytes))));
 }
 
 /// The track of phonemes whose times are known, in place of a sound's.
@@ -55,6 +68,16 @@ int BeforeStart(Options& options) {
     std::cout << TrackOfPhonemes(options) << std::flush;
     return std::cout ? 0 : 1;
   }
+  if (!options.head_file.empty()) {
+    options.head_net = ReadTable(options.head_file, vdm::ParseHeadNet);
+  }
+  if (!options.emotions_file.empty()) {
+    options.emotions = ReadTable(options.emotions_file, vdm::ParseDiscriminant);
+    if (options.emotions->features != vdm::PhraseMeter::FeatureNames()) {
+      throw std::runtime_error(options.emotions_file +
+                               ": has other features than phrases are measured by");
+    }
+  }
   if (!options.net_file.empty()) {
     options.net = OrThrow(vdm::ParseMouthNet(
         options.net_file, OrThrow(vm::ReadTextFile(options.net_file, kMaxNetBytes))));
@@ -65,7 +88,12 @@ int BeforeStart(Options& options) {
           ? vdm::FeatureKind::kCepstra
           : vdm::FeatureKind::kMel;
   const auto samples = OrThrow(sound::ReadSound(options.file));
-  std::cout << vdm::PrintTrack(NetOf(options, kind), samples, options.print) << std::flush;
+  const vdm::MouthNet& mouth = NetOf(options, kind);
+  const vdm::HeadNet* head = options.head ? &HeadOf(options) : nullptr;
+  if (head && head->sounds != 0 && head->sounds != mouth.sounds.size()) {
+    throw std::runtime_error("the head's network knows other sounds than the mouth's");
+  }
+  std::cout << vdm::PrintTrack(mouth, head, samples, options.print) << std::flush;
   return std::cout ? 0 : 1;
 }
 
@@ -86,8 +114,10 @@ int main(int argc, char** argv) {
            [&](CLI::App& app) {
              app.add_option("file", options.file,
                             "A recording: its track is printed, and that is all");
-             app.add_option("--print", options.print, "How: csv, or lines for fsm (docs/vdm.md)")
-                 ->check(CLI::IsMember({"csv", "lines"}));
+             app.add_option("--print", options.print,
+                            "How: csv, lines for fsm, or prosody (docs/vdm.md)")
+                 ->check(CLI::IsMember({"csv", "lines", "prosody"}));
+             app.add_flag("--head", options.head, "The track of head and brows too");
              app.add_flag("--cepstra", options.cepstra,
                           "The track by the small network of the papers");
              app.add_option("--net", options.net_file,
@@ -98,6 +128,10 @@ int main(int argc, char** argv) {
              phonemes->needs(app.add_option("--triphones", options.triphones_file,
                                             "Triphones made by vdm_train, for --phonemes")
                                  ->needs(phonemes));
+             app.add_option("--head-net", options.head_file,
+                            "What moves the head, made by vdm_train --head");
+             app.add_option("--emotions", options.emotions_file,
+                            "What tells emotions apart, made by vdm_train --emotion");
              app.add_flag("--live", options.live,
                           "Sound comes from a microphone or pipe: the real clock");
            },
@@ -107,20 +141,23 @@ int main(int argc, char** argv) {
            [&](vm::Scheduler& scheduler, boost::asio::io_context& io) {
              auto& clock = dynamic_cast<vm::ClockScheduler&>(scheduler);
              return std::make_unique<vdm::MovementModule>(
-                 scheduler, vdm::MovementModule::Options{
-                                .module_version = "Galatea VDM " GALATEA_VERSION,
-                                .open_source = [&](const std::string& name)
-                                    -> vm::Result<std::unique_ptr<sound::AudioSource>> {
-                                  if (name.ends_with(":-") && !stdin_free) {
-                                    return vm::Fail(
-                                        vm::Errc::kUnavailable,
-                                        "standard input brings the commands; run with --listen "
-                                        "or --connect");
-                                  }
-                                  return sound::OpenSource(name, clock, io, clock.real());
-                                },
-                                .clock_is_shared = [&clock] { return !clock.real(); },
-                                .mel = &NetOf(options, vdm::FeatureKind::kMel),
-                                .cepstra = &NetOf(options, vdm::FeatureKind::kCepstra)});
+                 scheduler,
+                 vdm::MovementModule::Options{
+                     .module_version = "Galatea VDM " GALATEA_VERSION,
+                     .open_source = [&](const std::string& name)
+                         -> vm::Result<std::unique_ptr<sound::AudioSource>> {
+                       if (name.ends_with(":-") && !stdin_free) {
+                         return vm::Fail(vm::Errc::kUnavailable,
+                                         "standard input brings the commands; run with --listen "
+                                         "or --connect");
+                       }
+                       return sound::OpenSource(name, clock, io, clock.real());
+                     },
+                     .clock_is_shared = [&clock] { return !clock.real(); },
+                     .mel = &NetOf(options, vdm::FeatureKind::kMel),
+                     .cepstra = &NetOf(options, vdm::FeatureKind::kCepstra),
+                     .head = &HeadOf(options),
+                     .head_by_prosody = &vdm::ShippedHeadNet(true),
+                     .emotions = options.emotions ? &*options.emotions : &vdm::ShippedEmotions()});
            }});
 }

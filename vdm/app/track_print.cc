@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "vdm/core/mouth_sender.h"
+#include "vdm/core/voice_manner.h"
 #include "vdm/mouth/mouth_tracker.h"
 #include "vdm/net/sound_classes.h"
 
@@ -16,45 +20,86 @@ double MsOf(std::uint64_t sample) {
   return static_cast<double>(sample) * 1000 / static_cast<double>(kSampleRateHz);
 }
 
-/// All moments up to the sound's end; behind it silence is heard as long as the network needs.
-std::vector<MouthTracker::Moment> Moments(const MouthNet& net,
-                                          std::span<const std::int16_t> samples) {
+struct Shown {
+  MouthTracker::Moment mouth;
+  std::optional<HeadPose> head;
+};
+
+/// All moments up to the sound's end; behind it silence is heard as long as the networks need.
+/// `heard` is called after each moment that was heard.
+std::vector<Shown> Moments(
+    const MouthNet& net, const HeadNet* head, std::span<const std::int16_t> samples,
+    const std::function<void(const MouthTracker::Moment&, const VoiceManner&)>& heard) {
   MouthTracker tracker(net);
-  std::vector<MouthTracker::Moment> moments = tracker.Add(samples);
-  const std::vector<std::int16_t> silence(tracker.ahead_samples() + tracker.hop_samples());
-  for (MouthTracker::Moment& moment : tracker.Add(silence)) moments.push_back(std::move(moment));
-  std::erase_if(moments, [&](const auto& moment) { return moment.sample >= samples.size(); });
-  return moments;
+  VoiceManner manner({.head = head}, tracker.ahead_samples(), tracker.hop_samples());
+  std::vector<std::int16_t> sound(samples.begin(), samples.end());
+  sound.resize(sound.size() + tracker.ahead_samples() + tracker.hop_samples() +
+               VoiceManner::kHeadLate);
+  manner.Add(sound);
+  std::vector<Shown> shown;
+  for (const MouthTracker::Moment& moment : tracker.Add(sound)) {
+    manner.Take(moment, {.wait = VoiceManner::kHeadLate},
+                [&](const MouthTracker::Moment& due, const auto& pose) {
+                  if (due.sample < samples.size()) shown.push_back({due, pose});
+                });
+    if (moment.sample < samples.size()) heard(moment, manner);
+  }
+  return shown;
 }
 
-std::string PrintTable(const std::vector<std::string>& sounds,
-                       const std::vector<MouthTracker::Moment>& moments) {
+std::string HeadCells(const HeadPose& head) {
+  return fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f}", head.angles[0], head.angles[1], head.angles[2],
+                     head.brow);
+}
+
+std::string PrintProsody(const MouthNet& net, std::span<const std::int16_t> samples) {
+  std::string text =
+      "ms,hz,voicing,power_db,tilt_db,speech,syllable,pitch_above,power_above,position\n";
+  Moments(net, nullptr, samples, [&](const auto& moment, const VoiceManner& manner) {
+    const ProsodyFrame& now = manner.prosody();
+    const SpeakerUsual& usual = manner.stream().usual();
+    const double pitch = now.hz > 0 ? usual.log_hz.Above(std::log(static_cast<double>(now.hz))) : 0;
+    text += fmt::format("{:g},{:.2f},{:.3f},{:.2f},{:.2f},{:.3f},{},{:.3f},{:.3f},{:.3f}\n",
+                        MsOf(manner.stream().at()), now.hz, now.voicing, now.power_db, now.tilt_db,
+                        1 - moment.frame.sounds.front(), manner.stream().syllable_ended() ? 1 : 0,
+                        pitch, usual.power_db.Above(static_cast<double>(now.power_db)),
+                        manner.stream().phrases().position01());
+  });
+  return text;
+}
+
+std::string PrintTable(const std::vector<std::string>& sounds, const std::vector<Shown>& moments,
+                       bool with_head) {
   std::string text = "ms,sound,opening_mm,seal,tongue";
   for (std::size_t i = 1; i <= kMouthParameters; ++i) text += fmt::format(",m{}", i);
+  if (with_head) text += ",down,right,tilt,brow";
   text += '\n';
-  for (const auto& [sample, frame] : moments) {
+  for (const auto& [mouth, pose] : moments) {
+    const auto& [sample, frame] = mouth;
     const auto likeliest = std::ranges::max_element(frame.sounds) - frame.sounds.begin();
     text += fmt::format("{:g},{},{:.2f},{:.3f},{:.3f}", MsOf(sample),
                         sounds[static_cast<std::size_t>(likeliest)], frame.Opening(), frame.seal,
                         frame.tongue);
     for (const float value : frame.mouth) text += fmt::format(",{:.3f}", value);
+    if (pose) text += HeadCells(*pose);
     text += '\n';
   }
   return text;
 }
 
-std::string PrintLines(const std::vector<MouthTracker::Moment>& moments) {
+std::string PrintLines(const std::vector<Shown>& moments) {
   std::string text = "set MouthFrame.start = NOW\n";
   vm::Time start{0};
   MouthSender sender({.start = [&](vm::Time at) { start = at; },
                       .frame =
-                          [&](double ms, const MouthFrame& frame) {
+                          [&](double ms, const MouthFrame& frame, const auto& pose) {
                             const double at = static_cast<double>(start.count()) / 1000 + ms;
-                            text += "set MouthFrame = " + FrameText(at, frame) + "\n";
+                            text += "set MouthFrame = " + FrameText(at, frame, pose) + "\n";
                           },
                       .moving = [](bool) {}});
-  for (const auto& [sample, frame] : moments) {
-    sender.Add(vm::Time(static_cast<vm::Time::rep>(MsOf(sample) * 1000)), frame);
+  for (const auto& [mouth, pose] : moments) {
+    const auto at = static_cast<vm::Time::rep>(MsOf(mouth.sample) * 1000);
+    sender.Add(vm::Time(at), mouth.frame, pose);
   }
   sender.Finish();
   return text;
@@ -62,23 +107,25 @@ std::string PrintLines(const std::vector<MouthTracker::Moment>& moments) {
 
 }  // namespace
 
-std::string PrintTrack(const MouthNet& net, std::span<const std::int16_t> samples,
-                       const std::string& format) {
-  const auto moments = Moments(net, samples);
-  return format == "csv" ? PrintTable(net.sounds, moments) : PrintLines(moments);
+std::string PrintTrack(const MouthNet& net, const HeadNet* head,
+                       std::span<const std::int16_t> samples, const std::string& format) {
+  if (format == "prosody") return PrintProsody(net, samples);
+  const auto moments = Moments(net, head, samples, [](const auto&, const auto&) {});
+  return format == "csv" ? PrintTable(net.sounds, moments, head != nullptr) : PrintLines(moments);
 }
 
 vm::Result<std::string> PrintTrack(const TriphoneModel& model, const vm::PhonemeList& phonemes,
                                    const std::string& format) {
   auto frames = MouthOf(model, phonemes);
   if (!frames) return std::unexpected(frames.error());
-  std::vector<MouthTracker::Moment> moments;
+  std::vector<Shown> moments;
   const double samples = model.step_ms * static_cast<double>(kSampleRateHz) / 1000;
   for (MouthFrame& frame : *frames) {
     const double at = samples * static_cast<double>(moments.size());
-    moments.push_back({static_cast<std::uint64_t>(at), std::move(frame)});
+    moments.push_back({{static_cast<std::uint64_t>(at), std::move(frame)}, std::nullopt});
   }
-  return format == "csv" ? PrintTable(SoundClasses::Built().names(), moments) : PrintLines(moments);
+  return format == "csv" ? PrintTable(SoundClasses::Built().names(), moments, false)
+                         : PrintLines(moments);
 }
 
 }  // namespace vdm

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "vdm/net/mouth_net.h"
+#include "vdm/prosody/head_net.h"
 #include "vdm/triphone/triphone_model.h"
 
 namespace vdm {
@@ -13,9 +14,14 @@ namespace vdm {
 ///   csv    a line of names, then a line each hop: ms, sound, opening_mm, seal, tongue, m1 .. m17
 ///          (mouth parameters at full articulation)
 ///   lines  what a face is told, to be piped into fsm; its time 0 is when the first line is read
-/// REQUIRES: one of the two.
-std::string PrintTrack(const MouthNet& net, std::span<const std::int16_t> samples,
-                       const std::string& format);
+/// With a `head` there are also down, right and tilt in degrees, and the brow, 0 to 1.
+///   prosody  a line each 10 ms: ms, hz (0: no voice), voicing, power_db, tilt_db, speech (how
+///   likely),
+///          syllable (1 where a nucleus has ended), pitch and power in deviations above the
+///          speaker's usual, position in the phrase
+/// REQUIRES: one of the three; a head that knows as many sounds as the mouth, or none.
+std::string PrintTrack(const MouthNet& net, const HeadNet* head,
+                       std::span<const std::int16_t> samples, const std::string& format);
 /// The mouth of spoken phonemes, by triphones. Error: kLimit (MouthOf).
 vm::Result<std::string> PrintTrack(const TriphoneModel& model, const vm::PhonemeList& phonemes,
                                    const std::string& format);

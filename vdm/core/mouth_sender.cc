@@ -19,37 +19,38 @@ void MouthSender::Begin(vm::Time at) {
   if (was_still) events_.moving(true);
 }
 
-void MouthSender::Send(vm::Time at, const MouthFrame& frame) {
-  events_.frame(static_cast<double>((at - *start_).count()) / 1000, frame);
+void MouthSender::Send(vm::Time at, const MouthFrame& frame, const std::optional<HeadPose>& head) {
+  events_.frame(static_cast<double>((at - *start_).count()) / 1000, frame, head);
   last_ = at;
+  head_ = head;
 }
 
-void MouthSender::Add(vm::Time at, const MouthFrame& frame) {
+void MouthSender::Add(vm::Time at, const MouthFrame& frame, const std::optional<HeadPose>& head) {
   const bool moves = Moves(frame);
   if (moves) active_ = at;
   if (!start_ && !moves) {
-    before_.emplace(at, frame);
+    before_.emplace(at, frame, head);
     return;
   }
   if (!start_) {
     const auto before = std::exchange(before_, std::nullopt);
-    Begin(before ? before->first : at);
-    if (before) Send(before->first, before->second);
+    Begin(before ? before->at : at);
+    if (before) Send(before->at, before->frame, before->head);
   }
   if (at - active_ > kRest) return Finish();
   if (at - *start_ > kLongestRun || at < last_) Begin(at);
-  if (at == *start_ || at - last_ >= kEvery) Send(at, frame);
+  if (at == *start_ || at - last_ >= kEvery) Send(at, frame, head);
 }
 
 void MouthSender::Finish() {
   before_.reset();
   if (!start_) return;
-  Send(last_ + kEvery, MouthFrame{});
+  Send(last_ + kEvery, MouthFrame{}, head_);
   start_.reset();
   events_.moving(false);
 }
 
-std::string FrameText(double ms, const MouthFrame& frame) {
+std::string FrameText(double ms, const MouthFrame& frame, const std::optional<HeadPose>& head) {
   // Hundredths of a millimetre are enough; without "-0".
   const auto number = [](float value) {
     std::string text = fmt::format("{:.2f}", value);
@@ -59,7 +60,10 @@ std::string FrameText(double ms, const MouthFrame& frame) {
   };
   std::string text = fmt::format("{:g}", ms);
   for (const float value : frame.mouth) text += " " + number(value);
-  return text + " " + number(frame.seal) + " " + number(frame.tongue);
+  text += " " + number(frame.seal) + " " + number(frame.tongue);
+  if (!head) return text;
+  for (const float angle : head->angles) text += " " + number(angle);
+  return text + " " + number(head->brow);
 }
 
 }  // namespace vdm

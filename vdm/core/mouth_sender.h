@@ -5,6 +5,7 @@
 #include <string>
 
 #include "vdm/net/mouth_frame.h"
+#include "vdm/prosody/head_net.h"
 #include "vm_protocol/core/scheduler.h"
 
 namespace vdm {
@@ -22,16 +23,18 @@ class MouthSender {
   struct Events {
     /// Frames are counted in ms from `at` on.
     std::function<void(vm::Time at)> start;
-    std::function<void(double ms, const MouthFrame& frame)> frame;
+    std::function<void(double ms, const MouthFrame& frame, const std::optional<HeadPose>& head)>
+        frame;
     /// The mouth begins to move, or rests.
     std::function<void(bool moving)> moving;
   };
   explicit MouthSender(Events events) : events_(std::move(events)) {}
 
-  /// The mouth at `at`. Times rise; where one does not, what was said of later instants is no
-  /// longer true, and a start says so.
-  void Add(vm::Time at, const MouthFrame& frame);
-  /// The sound has ended or begins anew: a run that is going on ends with a closed mouth.
+  /// The mouth at `at`, and the head if it moves with it. Times rise; where one does not, what was
+  /// said of later instants is no longer true, and a start says so.
+  void Add(vm::Time at, const MouthFrame& frame, const std::optional<HeadPose>& head = {});
+  /// The sound has ended or begins anew: a run that is going on ends with a closed mouth. The head
+  /// is left where it is: the face takes it home.
   void Finish();
   bool moving() const { return start_.has_value(); }
   /// The time of the last frame; 0 before the first.
@@ -39,16 +42,24 @@ class MouthSender {
 
  private:
   void Begin(vm::Time at);
-  void Send(vm::Time at, const MouthFrame& frame);
+  void Send(vm::Time at, const MouthFrame& frame, const std::optional<HeadPose>& head);
 
   const Events events_;
   std::optional<vm::Time> start_;
-  vm::Time last_{0};                                       // said last
-  vm::Time active_{0};                                     // when the mouth moved last
-  std::optional<std::pair<vm::Time, MouthFrame>> before_;  // the last frame that was not said
+  vm::Time last_{0};    // said last
+  vm::Time active_{0};  // when the mouth moved last
+  struct Still {
+    vm::Time at;
+    MouthFrame frame;
+    std::optional<HeadPose> head;
+  };
+  std::optional<Still> before_;   // the last frame that was not said
+  std::optional<HeadPose> head_;  // said last
 };
 
-/// The 19 numbers of a frame as the face's slot MouthFrame takes them, behind `ms`.
-std::string FrameText(double ms, const MouthFrame& frame);
+/// The 19 numbers of a frame as the face's slot MouthFrame takes them, behind `ms`; with a head 4
+/// more.
+std::string FrameText(double ms, const MouthFrame& frame,
+                      const std::optional<HeadPose>& head = std::nullopt);
 
 }  // namespace vdm

@@ -16,7 +16,8 @@ MovementModule::MovementModule(vm::Scheduler& scheduler, Options options)
                      start_ = at;
                      TellFace("MouthFrame.start", session_.StartText(at));
                    },
-               .frame = [this](double ms, const MouthFrame& frame) { TellFrame(ms, frame); },
+               .frame = [this](double ms, const MouthFrame& frame,
+                               const std::optional<HeadPose>& head) { TellFrame(ms, frame, head); },
                .moving =
                    [this](bool moving) {
                      slots_.Report("Mouth.stat", moving ? "MOVING" : on_ ? "LISTENING" : "OFF");
@@ -25,6 +26,8 @@ MovementModule::MovementModule(vm::Scheduler& scheduler, Options options)
   DeclareRun();
   DeclareInput();
   DeclareMouth();
+  DeclareHead();
+  DeclareEmotion();
   Renew();
 }
 
@@ -49,10 +52,22 @@ vm::Time MovementModule::ShortestDelay() const {
   return vm::Time(samples * 1000 / 16) + sound::RecordedSource::kStep + MouthSender::kEvery;
 }
 
-/// The sound that comes is another one: nothing of what came before counts.
-void MovementModule::Renew() {
+void MovementModule::Renew(bool same_speaker) {
+  VoiceManner::Parts parts{.head = head_net_,
+                           .emotions = emotion_on_ ? options_.emotions : nullptr};
+  if (manner_) {
+    FinishWaiting();
+    if (same_speaker) parts.usual = manner_->stream().usual();
+    if (!manner_->emotions().empty()) slots_.Report("Emotion", "NONE");
+    TellMood("NEUTRAL", 0);
+  }
   sender_.Finish();
   tracker_ = std::make_unique<MouthTracker>(net());
+  manner_.reset();
+  if (parts.head || parts.emotions) {
+    manner_ =
+        std::make_unique<VoiceManner>(parts, tracker_->ahead_samples(), tracker_->hop_samples());
+  }
   sound_clock_ = {};
 }
 
@@ -133,6 +148,7 @@ void MovementModule::WatchForStall() {
     return;
   }
   stalled_ = true;
+  FinishWaiting();
   sender_.Finish();
   slots_.ReportError("Input", {vm::Errc::kTimeout,
                                fmt::format("no sound has come from '{}' for {} ms; the mouth rests "
@@ -154,12 +170,29 @@ void MovementModule::Hear(std::span<const std::int16_t> samples) {
   const bool hole = sound_clock_.End().has_value();
   if (sound_clock_.Add(now, samples.size()) == SoundClock::Places::kBeginAnew && hole) {
     const SoundClock clock = sound_clock_;
-    Renew();
+    Renew(true);
     sound_clock_ = clock;
   }
-  for (const MouthTracker::Moment& moment : tracker_->Add(samples)) {
-    sender_.Add(sound_clock_.TimeOf(moment.sample) + delay_, moment.frame);
+  if (manner_) manner_->Add(samples);
+  manner_settings_.wait = static_cast<std::size_t>((delay_ - ShortestDelay()).count()) * 16 / 1000;
+  for (MouthTracker::Moment& moment : tracker_->Add(samples)) {
+    if (!manner_) {
+      Show(moment, std::nullopt);
+      continue;
+    }
+    manner_->Take(std::move(moment), manner_settings_,
+                  [this](const auto& due, const auto& head) { Show(due, head); });
+    TellEmotion();
   }
+}
+
+void MovementModule::FinishWaiting() {
+  if (!manner_) return;
+  manner_->Finish([this](const auto& moment, const auto& head) { Show(moment, head); });
+}
+
+void MovementModule::Show(const MouthTracker::Moment& moment, const std::optional<HeadPose>& head) {
+  sender_.Add(sound_clock_.TimeOf(moment.sample) + delay_, moment.frame, head);
 }
 
 void MovementModule::TellFace(std::string slot, std::string value) {
@@ -167,12 +200,14 @@ void MovementModule::TellFace(std::string slot, std::string value) {
   slots_.Say(vm::To(face_, vm::Set(std::move(slot), std::move(value))));
 }
 
-void MovementModule::TellFrame(double ms, const MouthFrame& frame) {
-  TellFace("MouthFrame", FrameText(ms, frame));
+void MovementModule::TellFrame(double ms, const MouthFrame& frame,
+                               const std::optional<HeadPose>& head) {
+  TellFace("MouthFrame", FrameText(ms, frame, head));
   const vm::Time at = start_ + vm::Time(static_cast<vm::Time::rep>(ms * 1000));
   if (slots_.AutoOutput("Mouth")) {
     slots_.Report("Mouth", FrameText(static_cast<double>(at.count()) / 1000, frame));
   }
+  TellProsody(at);
   if (slots_.AutoOutput("Mouth.sounds") && !frame.sounds.empty()) {
     std::string text = vm::FormatMs(at);
     for (std::size_t i = 0; i < frame.sounds.size(); ++i) {

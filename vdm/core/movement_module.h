@@ -7,6 +7,7 @@
 #include "sound/audio_source.h"
 #include "vdm/core/mouth_sender.h"
 #include "vdm/core/session_clock.h"
+#include "vdm/core/voice_manner.h"
 #include "vdm/mouth/mouth_tracker.h"
 #include "vdm/mouth/sound_clock.h"
 #include "vm_protocol/core/module.h"
@@ -29,8 +30,11 @@ class MovementModule final : public vm::Module {
         open_source{};
     /// Whether this process's clock is that of the session (a virtual one).
     std::function<bool()> clock_is_shared{};
-    const MouthNet* mel = nullptr;      ///< for Mouth.mode = MEL; outlives the module
-    const MouthNet* cepstra = nullptr;  ///< for Mouth.mode = CEPSTRA; likewise
+    const MouthNet* mel = nullptr;             ///< for Mouth.mode = MEL; outlives the module
+    const MouthNet* cepstra = nullptr;         ///< for Mouth.mode = CEPSTRA; likewise
+    const HeadNet* head = nullptr;             ///< for Head.auto = ON; likewise, as those below
+    const HeadNet* head_by_prosody = nullptr;  ///< for Head.auto = PROSODY
+    const Discriminant* emotions = nullptr;    ///< for Emotion.auto = ON
   };
   /// A live source that gave sound and then none for so long has stalled.
   static constexpr vm::Time kStalled{1'000'000};
@@ -49,6 +53,13 @@ class MovementModule final : public vm::Module {
   void DeclareRun();
   void DeclareInput();
   void DeclareMouth();
+  // manner_slots.cc
+  void DeclareHead();
+  void DeclareEmotion();
+  vm::Result<std::string> SetHead(const std::string& word);
+  void TellEmotion();
+  void TellMood(const std::string& mood, double strength01);
+  void TellProsody(vm::Time at);
 
   vm::Result<std::string> SetInput(const std::string& name);
   vm::Result<void> StartSource();
@@ -57,14 +68,21 @@ class MovementModule final : public vm::Module {
   void Hear(std::span<const std::int16_t> samples);
   void OnSourceOver();
   void WatchForStall();
-  void TellFrame(double ms, const MouthFrame& frame);
+  void FinishWaiting();
+  void Show(const MouthTracker::Moment& moment, const std::optional<HeadPose>& head);
+  void TellFrame(double ms, const MouthFrame& frame, const std::optional<HeadPose>& head);
   void TellFace(std::string slot, std::string value);
   /// The shortest Delay with which frames are told before their time.
   vm::Time ShortestDelay() const;
   const MouthNet& net() const {
     return mode_ == Mode::kCepstra ? *options_.cepstra : *options_.mel;
   }
-  void Renew();
+  /// The sound that comes is another one: nothing of what came before counts; or, of the
+  /// `same_speaker`, all but how the speaker usually speaks.
+  void Renew(bool same_speaker = false);
+
+  static constexpr double kMoodFrom = 0.6;  // likelihood from which on the face shows it
+  static constexpr double kMoodStep = 0.2;  // changes below are not told
 
   vm::Scheduler& scheduler_;
   const Options options_;
@@ -82,6 +100,12 @@ class MovementModule final : public vm::Module {
 
   std::unique_ptr<MouthTracker> tracker_;  // of the sound since it began anew
   SoundClock sound_clock_;
+  std::unique_ptr<VoiceManner> manner_;  // none while neither head nor emotion is wanted
+  const HeadNet* head_net_ = nullptr;
+  bool emotion_on_ = false;
+  VoiceManner::Settings manner_settings_;
+  std::string mood_ = "NEUTRAL";
+  double mood_strength_ = 0;
   vm::Time start_{0};  // of the run being told
   bool stalled_ = false;
   vm::Time heard_{0};  // when sound came last

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iostream>
 
+#include "vdm/train/emotion_training.h"
+#include "vdm/train/prosody_lessons.h"
 #include "vdm/train/recorded_track.h"
 #include "vdm/train/training.h"
 #include "vdm/train/triphone_training.h"
@@ -17,11 +19,15 @@
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr const char* kSynthetic = "SYNTHETIC";
 
 struct Options {
   std::string out, work = "vdm_training", features = "mel";
   std::vector<std::string> without;
   vdm::TrainingPlan plan;
+  std::string head, emotion;  // a list of recordings, or kSynthetic; empty: not asked for
+  vdm::HeadPlan head_plan;
+  bool head_by_prosody = false;
   long stop_after = 0;
   bool triphones = false;
   std::string recordings;  // with --triphones; empty: the speech made here
@@ -34,13 +40,16 @@ T OrThrow(vm::Result<T> result) {
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
+void Tell(const std::string& text) { std::cerr << "vdm_train: " << text << std::endl; }
+
+std::string EspeakHelper() {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "ssm_espeak").string();
+}
+
 std::vector<vdm::Take> Corpus(const Options& options) {
   const std::string path = options.work + "/takes";
   if (!std::filesystem::exists(path)) {
-    const auto self = std::filesystem::read_symlink("/proc/self/exe");
-    const auto takes = OrThrow(vdm::MakeCorpus(
-        (self.parent_path() / "ssm_espeak").string(),
-        [](const std::string& text) { std::cerr << "vdm_train: " << text << std::endl; }));
+    const auto takes = OrThrow(vdm::MakeCorpus(EspeakHelper(), Tell));
     OrThrow(vdm::SaveCorpus(takes, path));
   }
   return OrThrow(vdm::LoadCorpus(path));
@@ -65,6 +74,42 @@ void ShowScore(const char* who, const vdm::Score& score) {
       100 * score.shut_by_mistake());
 }
 
+void Write(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error("cannot write '" + path + "'");
+  std::cerr << "vdm_train: wrote " << path << std::endl;
+}
+
+bool LeftOut(const Options& options, const vdm::Take& take) {
+  return std::ranges::any_of(
+      options.without, [&](const std::string& begin) { return take.voice.starts_with(begin); });
+}
+
+int TrainHead(const Options& options) {
+  if (options.head != kSynthetic) {
+    Write(options.out, OrThrow(vdm::TeachHead(options.head_plan, options.head, Tell)));
+    return 0;
+  }
+  std::filesystem::create_directories(options.work);
+  std::vector<vdm::Take> takes = Corpus(options);
+  std::erase_if(takes, [&](const vdm::Take& take) { return LeftOut(options, take); });
+  const fsm::MotionTables tables = OrThrow(fsm::MotionTables::Load());
+  Write(options.out, OrThrow(vdm::TeachHead(options.head_plan, takes, tables, Tell)));
+  return 0;
+}
+
+int TrainEmotion(const Options& options) {
+  const bool made = options.emotion == kSynthetic;
+  const auto takes = OrThrow(made ? vdm::MakeEmotionTakes(EspeakHelper(), options.without,
+                                                          vdm::Dice(options.plan.seed), Tell)
+                                  : vdm::ReadEmotionTakes(options.emotion));
+  const std::string from = made ? "synthetic voices in manners of ssm" : "recordings";
+  Write(options.out, OrThrow(vdm::TeachEmotion(takes, from, Tell)));
+  return 0;
+}
+
 struct Voices {
   std::vector<vdm::Take> learned, left_out;
 };
@@ -73,23 +118,18 @@ Voices VoicesOf(const Options& options) {
   std::filesystem::create_directories(options.work);
   Voices voices;
   for (vdm::Take& take : Corpus(options)) {
-    const bool left_out = std::ranges::any_of(
-        options.without, [&](const std::string& begin) { return take.voice.starts_with(begin); });
-    (left_out ? voices.left_out : voices.learned).push_back(std::move(take));
+    (LeftOut(options, take) ? voices.left_out : voices.learned).push_back(std::move(take));
   }
   if (voices.learned.empty()) throw std::runtime_error("--without leaves no voice to learn from");
   return voices;
 }
 
 void Write(const Options& options, const char* what, const std::string& text) {
-  std::ofstream file(options.out);
-  file << fmt::format(
-      "# {} of vdm (docs/vdm.md says how it was made). Left out: {}.\n", what,
-      options.without.empty() ? "nobody" : fmt::format("{}", fmt::join(options.without, " ")));
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write '" + options.out + "'");
-  std::cerr << "vdm_train: wrote " << options.out << std::endl;
+  const std::string without =
+      options.without.empty() ? "nobody" : fmt::format("{}", fmt::join(options.without, " "));
+  Write(options.out, fmt::format("# {} of vdm (docs/vdm.md says how it was made). Left out: {}.\n",
+                                 what, without) +
+                         text);
 }
 
 int TrainTriphones(const Options& options) {
@@ -179,6 +219,18 @@ int main(int argc, char** argv) {
   app.add_option("--rate", options.plan.rate, "The highest step")->capture_default_str();
   app.add_option("--seed", options.plan.seed, "Of all that happens by chance")
       ->capture_default_str();
+  app.add_option("--head", options.head,
+                 "Learns a network of heads instead: a list of recordings, a line each: WAV CSV "
+                 "[EMOTION]; or SYNTHETIC (docs/vdm.md)");
+  app.add_flag("--head-prosody", options.head_by_prosody,
+               "The papers' network, which hears of pitch, power and position alone");
+  app.add_option("--head-late", options.head_plan.late_ms, "ms by which the head is late")
+      ->check(CLI::Range(0, 500))
+      ->capture_default_str();
+  app.add_option(
+      "--emotion", options.emotion,
+      "Learns how to tell emotions apart instead: a list of recordings, a line each: WAV "
+      "LABEL [SPEAKER], one label being neutral; or SYNTHETIC (docs/vdm.md)");
   app.add_option("--stop-after", options.stop_after,
                  "Ends after so many epochs; call again to go on");
   auto* triphones =
@@ -193,7 +245,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (options.features == "cepstra") options.plan.features = vdm::FeatureKind::kCepstra;
+  options.head_plan.seed = options.plan.seed;
+  if (!options.head_by_prosody) {
+    options.head_plan.sounds = vdm::ShippedNet(vdm::FeatureKind::kMel).sounds.size();
+  }
   try {
+    if (!options.emotion.empty()) return TrainEmotion(options);
+    if (!options.head.empty()) return TrainHead(options);
     return options.triphones ? TrainTriphones(options) : Train(options);
   } catch (const std::exception& error) {
     std::cerr << "vdm_train: " << error.what() << std::endl;
