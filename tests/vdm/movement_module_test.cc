@@ -327,6 +327,28 @@ TEST_F(MovementTest, ALongerDelayMakesUpForALateHead) {
   for (const auto& frame : in_time) EXPECT_LT(frame.told, frame.at);
 }
 
+TEST_F(MovementTest, AfterAHoleInTheSoundTheHeadTakesOtherPoses) {
+  Tell("set Head.auto = ON");
+  Tell("set Input = raw:hand");
+  Tell("set Run = START");
+  const auto voice = Voice(2000);
+  const auto turns = [&] {
+    const std::size_t before = Frames().size();
+    for (std::size_t at = 0; at < voice.size(); at += 320) {
+      Run(clock_.Now() + 20ms);
+      live_.sound(std::span(voice).subspan(at, 320));
+    }
+    std::vector<double> right;
+    for (const Frame& frame : Frames()) right.push_back(frame.numbers[21]);
+    right.erase(right.begin(), right.begin() + static_cast<std::ptrdiff_t>(before));
+    Run(clock_.Now() + 900ms);
+    return right;
+  };
+  const auto first = turns(), second = turns();
+  ASSERT_GT(std::min(first.size(), second.size()), 60U);
+  EXPECT_GT(std::abs(first[60] - second[60]), 0.1);
+}
+
 TEST_F(MovementTest, InNoiseAndSilenceTheHeadRestsAndNoEmotionIsClaimed) {
   for (const char* line :
        {"set Head.auto = ON", "set Emotion.auto = ON", "set Input = raw:hand", "set Run = START"}) {

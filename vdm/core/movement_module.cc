@@ -54,7 +54,8 @@ vm::Time MovementModule::ShortestDelay() const {
 
 void MovementModule::Renew(bool same_speaker) {
   VoiceManner::Parts parts{.head = head_net_,
-                           .emotions = emotion_on_ ? options_.emotions : nullptr};
+                           .emotions = emotion_on_ ? options_.emotions : nullptr,
+                           .seed = ++renewals_};
   if (manner_) {
     FinishWaiting();
     if (same_speaker) parts.usual = manner_->stream().usual();

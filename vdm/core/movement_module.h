@@ -103,6 +103,7 @@ class MovementModule final : public vm::Module {
   std::unique_ptr<VoiceManner> manner_;  // none while neither head nor emotion is wanted
   const HeadNet* head_net_ = nullptr;
   bool emotion_on_ = false;
+  std::uint64_t renewals_ = 0;  // so that poses by chance are others each time
   VoiceManner::Settings manner_settings_;
   std::string mood_ = "NEUTRAL";
   double mood_strength_ = 0;

@@ -8,7 +8,7 @@ VoiceManner::VoiceManner(const Parts& parts, std::size_t mouth_ahead, std::size_
     : parts_(parts), mouth_hop_(mouth_hop), stream_(mouth_ahead) {
   stream_.set_usual(parts.usual);
   if (parts.head) {
-    mover_ = std::make_unique<HeadMover>(*parts.head);
+    mover_ = std::make_unique<HeadMover>(*parts.head, parts.seed);
     head_.emplace();
   }
   if (parts.emotions) reader_ = std::make_unique<EmotionReader>(*parts.emotions);

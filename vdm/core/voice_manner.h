@@ -24,6 +24,7 @@ class VoiceManner {
     const HeadNet* head = nullptr;           ///< nullptr: no head
     const Discriminant* emotions = nullptr;  ///< nullptr: no emotion
     SpeakerUsual usual{};                    ///< to begin with
+    std::uint64_t seed = 1;                  ///< of the poses that phrases have by chance
   };
   /// `mouth_ahead`, `mouth_hop`: of the mouth's tracker, in samples.
   VoiceManner(const Parts& parts, std::size_t mouth_ahead, std::size_t mouth_hop);
