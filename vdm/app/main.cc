@@ -23,15 +23,15 @@ namespace {
 constexpr std::size_t kMaxNetBytes = std::size_t{4} << 20;
 
 struct Options {
-  std::string file, print = "csv", net_file;
-  bool live = false, cepstra = false;
+  std::string file, print = "csv", net_file, speakers_folder;
+  bool live = false, cepstra = false, mel = false;
   std::optional<vdm::MouthNet> net;
 };
 
 template <typename T>
 T OrThrow(vm::Result<T> result) {
   if (!result) throw std::runtime_error(result.error().text);
-  return std::move(*result);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
 const vdm::MouthNet& NetOf(const Options& options, vdm::FeatureKind features) {
@@ -45,10 +45,12 @@ int BeforeStart(Options& options) {
         options.net_file, OrThrow(vm::ReadTextFile(options.net_file, kMaxNetBytes))));
   }
   if (options.file.empty()) return -1;
-  const auto kind =
-      options.cepstra || (options.net && options.net->features == vdm::FeatureKind::kCepstra)
-          ? vdm::FeatureKind::kCepstra
-          : vdm::FeatureKind::kMel;
+  const auto kind = options.net       ? options.net->features
+                    : options.cepstra ? vdm::FeatureKind::kCepstra
+                    : options.mel || !vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
+                        ? vdm::FeatureKind::kMel
+                        : vdm::FeatureKind::kPhones;
+  OrThrow(vdm::CanMakeFeatures(kind));
   const auto samples = OrThrow(sound::ReadSound(options.file));
   std::cout << vdm::PrintTrack(NetOf(options, kind), samples, options.print) << std::flush;
   return std::cout ? 0 : 1;
@@ -75,8 +77,13 @@ int main(int argc, char** argv) {
                  ->check(CLI::IsMember({"csv", "lines"}));
              app.add_flag("--cepstra", options.cepstra,
                           "The track by the small network of the papers");
+             app.add_flag("--mel", options.mel,
+                          "The track by mel bands alone, as where pocketsphinx-en-us is missing");
              app.add_option("--net", options.net_file,
                             "A network made by vdm_train in place of the program's own");
+             app.add_option("--speakers", options.speakers_folder,
+                            "A folder in which learned speakers are kept (slot Speaker)")
+                 ->check(CLI::ExistingDirectory);
              app.add_flag("--live", options.live,
                           "Sound comes from a microphone or pipe: the real clock");
            },
@@ -99,7 +106,11 @@ int main(int argc, char** argv) {
                                   return sound::OpenSource(name, clock, io, clock.real());
                                 },
                                 .clock_is_shared = [&clock] { return !clock.real(); },
+                                .phones = vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
+                                              ? &NetOf(options, vdm::FeatureKind::kPhones)
+                                              : nullptr,
                                 .mel = &NetOf(options, vdm::FeatureKind::kMel),
-                                .cepstra = &NetOf(options, vdm::FeatureKind::kCepstra)});
+                                .cepstra = &NetOf(options, vdm::FeatureKind::kCepstra),
+                                .speakers_folder = options.speakers_folder});
            }});
 }

@@ -20,11 +20,14 @@ MovementModule::MovementModule(vm::Scheduler& scheduler, Options options)
                .moving =
                    [this](bool moving) {
                      slots_.Report("Mouth.stat", moving ? "MOVING" : on_ ? "LISTENING" : "OFF");
-                   }}) {
+                   }}),
+      mode_(BestMode()),
+      speakers_(options_.speakers_folder) {
   slots_.set_on_heard([this](const vm::Message& message) { session_.Hear(message); });
   DeclareRun();
   DeclareInput();
   DeclareMouth();
+  DeclareSpeaker();
   Renew();
 }
 
@@ -52,7 +55,7 @@ vm::Time MovementModule::ShortestDelay() const {
 /// The sound that comes is another one: nothing of what came before counts.
 void MovementModule::Renew() {
   sender_.Finish();
-  tracker_ = std::make_unique<MouthTracker>(net());
+  tracker_ = std::make_unique<MouthTracker>(net(), speaker_.warp);
   sound_clock_ = {};
 }
 
@@ -121,6 +124,7 @@ void MovementModule::OnSourceOver() {
     source_.reset();
     source_name_ = "NONE";
     Renew();
+    if (learner_) Learned(learner_->Finish());
     slots_.Report("Input", "NONE");
   });
 }
@@ -161,6 +165,8 @@ void MovementModule::Hear(std::span<const std::int16_t> samples) {
   for (const MouthTracker::Moment& moment : tracker_->Add(samples)) {
     sender_.Add(sound_clock_.TimeOf(moment.sample) + delay_, moment.frame);
   }
+  if (!learner_) return;
+  if (const auto met = learner_->Add(samples)) Learned(*met);
 }
 
 void MovementModule::TellFace(std::string slot, std::string value) {

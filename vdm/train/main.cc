@@ -33,7 +33,7 @@ std::vector<vdm::Take> Corpus(const Options& options) {
   if (!std::filesystem::exists(path)) {
     const auto self = std::filesystem::read_symlink("/proc/self/exe");
     const auto takes = OrThrow(vdm::MakeCorpus(
-        (self.parent_path() / "ssm_espeak").string(),
+        (self.parent_path() / "ssm_espeak").string(), options.work + "/festival",
         [](const std::string& text) { std::cerr << "vdm_train: " << text << std::endl; }));
     OrThrow(vdm::SaveCorpus(takes, path));
   }
@@ -122,8 +122,9 @@ int main(int argc, char** argv) {
   app.add_option("--work", options.work,
                  "Folder for the speech and the course of the training, which goes on from there")
       ->capture_default_str();
-  app.add_option("--features", options.features, "mel, or cepstra as in the papers")
-      ->check(CLI::IsMember({"mel", "cepstra"}))
+  app.add_option("--features", options.features,
+                 "mel; phones, which needs pocketsphinx-en-us; or cepstra as in the papers")
+      ->check(CLI::IsMember({"mel", "phones", "cepstra"}))
       ->capture_default_str();
   app.add_option("--without", options.without,
                  "Voices to leave out, by what their names begin with (vdm/tables/voices.txt)")
@@ -141,7 +142,9 @@ int main(int argc, char** argv) {
                  "Ends after so many epochs; call again to go on");
   CLI11_PARSE(app, argc, argv);
   if (options.features == "cepstra") options.plan.features = vdm::FeatureKind::kCepstra;
+  if (options.features == "phones") options.plan.features = vdm::FeatureKind::kPhones;
   try {
+    OrThrow(vdm::CanMakeFeatures(options.plan.features));
     return Train(options);
   } catch (const std::exception& error) {
     std::cerr << "vdm_train: " << error.what() << std::endl;
