@@ -24,6 +24,8 @@
 #include "srm/align/phone_aligner.h"
 #include "ssm/flite/flite_engine.h"
 #include "vdm/mouth/mouth_tracker.h"
+#include "vdm/mouth/speaker_learner.h"
+#include "vdm/net/sound_classes.h"
 #include "vdm/train/corpus.h"
 #include "vdm/train/distortion.h"
 #include "vdm/train/score.h"
@@ -47,6 +49,7 @@ struct Bench {
   fsm::MotionTables tables;
   std::unique_ptr<fsm::Head> head;
   double work_s = 0, sound_s = 0;
+  float warp = 1;  // of the speaker
 
   double GapMm(const std::array<float, 17>& mouth, float seal, float tongue) const {
     fsm::FaceState state;
@@ -69,7 +72,7 @@ struct Bench {
   /// The gap at each hop of a sound, as it comes out of a stream.
   std::vector<double> Gaps(std::vector<std::int16_t> samples) {
     const std::clock_t start = std::clock();
-    vdm::MouthTracker tracker(net);
+    vdm::MouthTracker tracker(net, warp);
     samples.resize(samples.size() + tracker.ahead_samples() + tracker.hop_samples());
     std::vector<vdm::MouthTracker::Moment> moments;
     for (std::size_t at = 0; at < samples.size(); at += 320) {
@@ -149,6 +152,64 @@ void TestVoices(Bench& bench, const std::string& takes, const std::vector<std::s
     }
   }
   for (const auto& [voice, row] : rows) row.Print(voice, bench.HopMs());
+}
+
+/// A voice says the vowels of the table: cut from what it said in `takes`, so much of each as to
+/// make about 300 ms. Empty if it did not say all of them at length.
+std::vector<std::int16_t> VowelsOf(const std::vector<vdm::Take>& takes) {
+  std::vector<std::int16_t> sound(8000);
+  for (const std::string& vowel : vdm::BuiltVowels().vowels) {
+    std::size_t length = 0;
+    for (const vdm::Take& take : takes) {
+      std::size_t at = 0;
+      for (const vm::Phoneme& phoneme : take.phonemes) {
+        const auto samples = static_cast<std::size_t>(16 * phoneme.duration.count());
+        const auto& sounds = vdm::SoundClasses::Built();
+        if (sounds.names()[sounds.Of(phoneme.name)] == vowel && samples >= 16 * 90 &&
+            length < 4800 && at + samples <= take.samples.size()) {
+          const auto begin = take.samples.begin() + static_cast<std::ptrdiff_t>(at + samples / 8);
+          sound.insert(sound.end(), begin, begin + static_cast<std::ptrdiff_t>(samples * 3 / 4));
+          length += samples * 3 / 4;
+        }
+        at += samples;
+      }
+    }
+    if (length < 3200) return {};
+    sound.resize(sound.size() + 6400);
+  }
+  return sound;
+}
+
+/// What meeting a speaker by five vowels brings: vowels from the first half of what each voice
+/// said, the second half by the vocal tract that was chosen and without.
+void TestSpeakers(Bench& bench, const std::string& takes, const std::vector<std::string>& voices) {
+  for (const std::string& voice : voices) {
+    std::vector<vdm::Take> first, second;
+    for (vdm::Take& take : OrThrow(vdm::LoadCorpus(takes))) {
+      if (take.voice == voice) second.push_back(std::move(take));
+    }
+    const auto half = second.begin() + static_cast<std::ptrdiff_t>(second.size() / 2);
+    first.assign(second.begin(), half);
+    second.erase(second.begin(), half);
+    vdm::SpeakerLearner learner(bench.net, vdm::BuiltVowels());
+    auto met = learner.Add(VowelsOf(first));
+    const auto speaker = met ? *met : learner.Finish();
+    std::cout << fmt::format(
+        "{}: {}\n", voice,
+        speaker ? fmt::format("warp {:.2f}", speaker->warp) : speaker.error().text);
+    if (!speaker) continue;
+    for (const float warp : {1.0F, speaker->warp}) {
+      Row row;
+      bench.warp = warp;
+      for (const vdm::Take& take : second) {
+        auto gaps = bench.Gaps(take.samples);
+        auto truth = bench.TrueGaps(take.phonemes, gaps.size());
+        row.Add(std::move(gaps), std::move(truth), bench.HopMs(), take.phonemes);
+      }
+      bench.warp = 1;
+      row.Print(fmt::format("{}, warp {:.2f}", voice, warp), bench.HopMs());
+    }
+  }
 }
 
 /// "<s> TEXT </s> (NAME)" of each line.
@@ -236,12 +297,14 @@ void TestNoSpeech(Bench& bench) {
 int main(int argc, char** argv) {
   std::string net, takes, triphones;
   std::vector<std::string> voices;
+  bool speakers = false;
   CLI::App app("How near the voice-driven mouth comes to the text-driven one");
   app.add_option("net", net, "A network's file")->required();
   app.add_option("--takes", takes, "Speech of a training (the file takes of vdm_train --work)");
   app.add_option("--voices", voices, "Which of its voices")->delimiter(',');
   app.add_option("--triphones", triphones,
                  "Triphones of vdm_train --triphones, in place of the net");
+  app.add_flag("--speakers", speakers, "Only what meeting each of these voices first brings");
   CLI11_PARSE(app, argc, argv);
   try {
     std::ifstream file(net);
@@ -257,6 +320,10 @@ int main(int argc, char** argv) {
     std::cout
         << "| voice | r of the gap | rms mm | size | closures seen | shut by mistake | lag ms |\n"
            "| --- | --- | --- | --- | --- | --- | --- |\n";
+    if (speakers) {
+      TestSpeakers(bench, takes, voices);
+      return 0;
+    }
     if (!takes.empty()) TestVoices(bench, takes, voices);
     TestAlignedVoice(bench, "rms");
     TestPeople(bench);

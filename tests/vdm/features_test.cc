@@ -65,7 +65,12 @@ TEST(FourierTest, TheEnergyIsThatOfTheSamples) {  // Parseval
   EXPECT_NEAR(sum / 512, energy, energy * 1e-5);
 }
 
-class FeatureTest : public testing::TestWithParam<FeatureKind> {};
+class FeatureTest : public testing::TestWithParam<FeatureKind> {
+ protected:
+  void SetUp() override {
+    if (auto can = CanMakeFeatures(GetParam()); !can) GTEST_SKIP() << can.error().text;
+  }
+};
 
 TEST_P(FeatureTest, PiecesOfAnySizeGiveTheSameVectors) {
   const Sound sound = Noise(2000, 16000);
@@ -81,6 +86,9 @@ TEST_P(FeatureTest, PiecesOfAnySizeGiveTheSameVectors) {
 }
 
 TEST_P(FeatureTest, AConstantInTheSoundChangesNothing) {
+  // Likelihoods of a tone hang on the click too much; tests/vdm/phone_features_test.cc looks at
+  // cepstra.
+  if (GetParam() == FeatureKind::kPhones) GTEST_SKIP() << "looked at elsewhere";
   const Sound plain = Tone(440, 5000, 8000), shifted = Tone(440, 5000, 8000, 6000);
   const auto a = Vectors(GetParam(), plain), b = Vectors(GetParam(), shifted);
   const std::size_t size = MakeFeatures(GetParam())->size();
@@ -100,7 +108,8 @@ TEST_P(FeatureTest, AnySoundGivesFiniteNumbers) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, FeatureTest,
-                         testing::Values(FeatureKind::kMel, FeatureKind::kCepstra));
+                         testing::Values(FeatureKind::kMel, FeatureKind::kPhones,
+                                         FeatureKind::kCepstra));
 
 TEST(MelFeaturesTest, ATonesBandIsWhereItsFrequencyIs) {
   // Bands are equally wide in mel from 80 to 7200 Hz; 1000 Hz is 1000 mel, so it is band

@@ -35,7 +35,7 @@ TEST(MouthNetTest, WhatIsWrittenIsReadAndWrittenTheSame) {
 
 TEST(MouthNetTest, DamageIsToldWithItsLine) {
   EXPECT_EQ(ErrorOf(""), "x.net:0: the end found, 'features' expected");
-  EXPECT_EQ(ErrorOf("features smell\n"), "x.net:1: 'smell' found, mel or cepstra expected");
+  EXPECT_EQ(ErrorOf("features smell\n"), "x.net:1: 'smell' found, mel, phones or cepstra expected");
   EXPECT_NE(ErrorOf("# a comment\nwrong mel\n").find("x.net:2: 'wrong' found, 'features' expected"),
             std::string::npos);
   EXPECT_NE(ErrorOf(Changed("relu", "tanh")).find("x.net:5: 'tanh' found, relu or linear"),
@@ -70,6 +70,11 @@ TEST(MouthNetTest, TheShippedNetworksAreSmallAndSeeAtMost60MsAhead) {
   EXPECT_LT(mel.net.parameters(), 250'000U);
   const auto features = MakeFeatures(FeatureKind::kMel);
   EXPECT_LE(features->ahead_samples() + mel.net.ahead() * features->hop_samples(), 16U * 60);
+  const MouthNet& phones = ShippedNet(FeatureKind::kPhones);
+  EXPECT_LT(phones.net.parameters(), 250'000U);
+  EXPECT_EQ(phones.net.inputs(), FeatureSize(FeatureKind::kPhones));
+  // Its features look as far ahead as those of mel (tests/vdm/phone_features_test.cc).
+  EXPECT_LE(phones.net.ahead(), mel.net.ahead());
   const MouthNet& cepstra = ShippedNet(FeatureKind::kCepstra);
   EXPECT_EQ(cepstra.net.layers.size(), 2U);  // the papers': 20 in, 20 hidden, out
   EXPECT_EQ(cepstra.net.layers[0].outputs(), 20U);

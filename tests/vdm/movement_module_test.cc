@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "vm_protocol/core/start_time.h"
 
@@ -67,7 +69,8 @@ class MovementTest : public testing::Test {
             .cepstra = &ShippedNet(FeatureKind::kCepstra),
             .head = &ShippedHeadNet(false),
             .head_by_prosody = &ShippedHeadNet(true),
-            .emotions = &ShippedEmotions()});
+            .emotions = &ShippedEmotions(),
+            .speakers_folder = speakers_folder_});
     module_->slots().set_output([this](vm::PeerId, const vm::Message& message) {
       said_.push_back({clock_.Now(), message});
     });
@@ -109,6 +112,7 @@ class MovementTest : public testing::Test {
   }
 
   vm::VirtualScheduler clock_;
+  std::string speakers_folder_;
   sound::AudioSource::Events live_;
   std::vector<std::pair<vm::Time, vm::Message>> said_;
   std::vector<std::string> errors_;
@@ -383,6 +387,62 @@ TEST_F(MovementTest, SilenceAndOffTellNothing) {
   Tell("set Mouth.mode = OFF");
   live_.sound(Voice(1000));
   EXPECT_TRUE(Frames().empty());
+}
+
+TEST_F(MovementTest, WithoutThePhoneModelTheMelNetworkWorksAndPhonesAreRefused) {
+  Tell("inq Mouth.net");
+  EXPECT_EQ(Count("rep Mouth.net = MEL"), 1U);
+  Tell("set Mouth.mode = PHONES");
+  ASSERT_EQ(errors_.size(), 1U);
+  Tell("set Mouth.mode = CEPSTRA");
+  Tell("inq Mouth.net");
+  EXPECT_EQ(Count("rep Mouth.net = CEPSTRA"), 1U);
+  Tell("set Mouth.mode = BEST");
+  Tell("inq Mouth.net");
+  EXPECT_EQ(Count("rep Mouth.net = MEL"), 2U);
+}
+
+TEST_F(MovementTest, SpeakersAreKeptByNameInTheFolderGivenAndNowhereElse) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "vdm_speakers";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "anna.speaker") << "warp 1.10\n";
+  std::ofstream(folder / "bad.speaker") << "warp 9\n";
+  speakers_folder_ = folder;
+  Make();
+  Tell("set Input = wav:voice");
+  Tell("set Run = START");
+  Run(10s);
+  const auto widest = [this] {
+    double most = 0;
+    for (const Frame& frame : Frames()) most = std::max(most, frame.numbers[12]);
+    return most;
+  };
+  const double before = widest();
+  said_.clear();
+  Tell("set Speaker = anna");
+  Tell("set Input = wav:voice");
+  Run(20s);
+  EXPECT_NE(widest(), before) << "the vocal tract changed nothing";
+  EXPECT_TRUE(errors_.empty());
+  for (const char* name : {"nobody", "../vdm_speakers/anna", "bad"}) {
+    Tell(std::string("set Speaker = ") + name);
+  }
+  Tell("set Speaker.learn = ../evil");
+  EXPECT_EQ(errors_.size(), 4U);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(MovementTest, WhoSaysNoVowelsIsNotMet) {
+  Tell("set Speaker.learn = anna");
+  Tell("set Input = wav:voice");  // a stretch for each syllable, more than five
+  Tell("set Run = START");
+  Run(10s);
+  EXPECT_EQ(Count("rep Speaker.learn = NONE"), 1U);
+  ASSERT_EQ(errors_.size(), 1U);
+  EXPECT_NE(errors_[0].find("stretches of"), std::string::npos) << errors_[0];
+  Tell("set Speaker = anna");
+  EXPECT_EQ(errors_.size(), 2U);
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ constexpr std::size_t kMaxNetBytes = std::size_t{4} << 20;
 constexpr std::size_t kMaxTriphoneBytes = std::size_t{8} << 20;
 
 struct Options {
-  std::string file, print = "csv", net_file, head_file, emotions_file;
+  std::string file, print = "csv", net_file, head_file, emotions_file, speakers_folder;
   std::string phonemes_file, triphones_file;  // for the track of phonemes
-  bool live = false, cepstra = false, head = false;
+  bool live = false, cepstra = false, mel = false, head = false;
   std::optional<vdm::MouthNet> net;
   std::optional<vdm::HeadNet> head_net;
   std::optional<vdm::Discriminant> emotions;
@@ -36,7 +36,7 @@ struct Options {
 template <typename T>
 T OrThrow(vm::Result<T> result) {
   if (!result) throw std::runtime_error(result.error().text);
-  return std::move(*result);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
 const vdm::MouthNet& NetOf(const Options& options, vdm::FeatureKind features) {
@@ -83,10 +83,12 @@ int BeforeStart(Options& options) {
         options.net_file, OrThrow(vm::ReadTextFile(options.net_file, kMaxNetBytes))));
   }
   if (options.file.empty()) return -1;
-  const auto kind =
-      options.cepstra || (options.net && options.net->features == vdm::FeatureKind::kCepstra)
-          ? vdm::FeatureKind::kCepstra
-          : vdm::FeatureKind::kMel;
+  const auto kind = options.net       ? options.net->features
+                    : options.cepstra ? vdm::FeatureKind::kCepstra
+                    : options.mel || !vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
+                        ? vdm::FeatureKind::kMel
+                        : vdm::FeatureKind::kPhones;
+  OrThrow(vdm::CanMakeFeatures(kind));
   const auto samples = OrThrow(sound::ReadSound(options.file));
   const vdm::MouthNet& mouth = NetOf(options, kind);
   const vdm::HeadNet* head = options.head ? &HeadOf(options) : nullptr;
@@ -120,6 +122,8 @@ int main(int argc, char** argv) {
              app.add_flag("--head", options.head, "The track of head and brows too");
              app.add_flag("--cepstra", options.cepstra,
                           "The track by the small network of the papers");
+             app.add_flag("--mel", options.mel,
+                          "The track by mel bands alone, as where pocketsphinx-en-us is missing");
              app.add_option("--net", options.net_file,
                             "A network made by vdm_train in place of the program's own");
              auto* phonemes = app.add_option("--phonemes", options.phonemes_file,
@@ -132,6 +136,9 @@ int main(int argc, char** argv) {
                             "What moves the head, made by vdm_train --head");
              app.add_option("--emotions", options.emotions_file,
                             "What tells emotions apart, made by vdm_train --emotion");
+             app.add_option("--speakers", options.speakers_folder,
+                            "A folder in which learned speakers are kept (slot Speaker)")
+                 ->check(CLI::ExistingDirectory);
              app.add_flag("--live", options.live,
                           "Sound comes from a microphone or pipe: the real clock");
            },
@@ -154,10 +161,14 @@ int main(int argc, char** argv) {
                        return sound::OpenSource(name, clock, io, clock.real());
                      },
                      .clock_is_shared = [&clock] { return !clock.real(); },
+                     .phones = vdm::CanMakeFeatures(vdm::FeatureKind::kPhones)
+                                   ? &NetOf(options, vdm::FeatureKind::kPhones)
+                                   : nullptr,
                      .mel = &NetOf(options, vdm::FeatureKind::kMel),
                      .cepstra = &NetOf(options, vdm::FeatureKind::kCepstra),
                      .head = &HeadOf(options),
                      .head_by_prosody = &vdm::ShippedHeadNet(true),
-                     .emotions = options.emotions ? &*options.emotions : &vdm::ShippedEmotions()});
+                     .emotions = options.emotions ? &*options.emotions : &vdm::ShippedEmotions(),
+                     .speakers_folder = options.speakers_folder});
            }});
 }

@@ -21,13 +21,16 @@ MovementModule::MovementModule(vm::Scheduler& scheduler, Options options)
                .moving =
                    [this](bool moving) {
                      slots_.Report("Mouth.stat", moving ? "MOVING" : on_ ? "LISTENING" : "OFF");
-                   }}) {
+                   }}),
+      mode_(BestMode()),
+      speakers_(options_.speakers_folder) {
   slots_.set_on_heard([this](const vm::Message& message) { session_.Hear(message); });
   DeclareRun();
   DeclareInput();
   DeclareMouth();
   DeclareHead();
   DeclareEmotion();
+  DeclareSpeaker();
   Renew();
 }
 
@@ -63,7 +66,7 @@ void MovementModule::Renew(bool same_speaker) {
     TellMood("NEUTRAL", 0);
   }
   sender_.Finish();
-  tracker_ = std::make_unique<MouthTracker>(net());
+  tracker_ = std::make_unique<MouthTracker>(net(), speaker_.warp);
   manner_.reset();
   if (parts.head || parts.emotions) {
     manner_ =
@@ -137,6 +140,7 @@ void MovementModule::OnSourceOver() {
     source_.reset();
     source_name_ = "NONE";
     Renew();
+    if (learner_) Learned(learner_->Finish());
     slots_.Report("Input", "NONE");
   });
 }
@@ -185,6 +189,8 @@ void MovementModule::Hear(std::span<const std::int16_t> samples) {
                   [this](const auto& due, const auto& head) { Show(due, head); });
     TellEmotion();
   }
+  if (!learner_) return;
+  if (const auto met = learner_->Add(samples)) Learned(*met);
 }
 
 void MovementModule::FinishWaiting() {

@@ -10,6 +10,8 @@
 #include "vdm/core/voice_manner.h"
 #include "vdm/mouth/mouth_tracker.h"
 #include "vdm/mouth/sound_clock.h"
+#include "vdm/mouth/speaker.h"
+#include "vdm/mouth/speaker_learner.h"
 #include "vm_protocol/core/module.h"
 
 namespace vdm {
@@ -30,11 +32,13 @@ class MovementModule final : public vm::Module {
         open_source{};
     /// Whether this process's clock is that of the session (a virtual one).
     std::function<bool()> clock_is_shared{};
-    const MouthNet* mel = nullptr;             ///< for Mouth.mode = MEL; outlives the module
-    const MouthNet* cepstra = nullptr;         ///< for Mouth.mode = CEPSTRA; likewise
-    const HeadNet* head = nullptr;             ///< for Head.auto = ON; likewise, as those below
+    const MouthNet* phones = nullptr;   ///< for PHONES; null where its features cannot be made
+    const MouthNet* mel = nullptr;      ///< for Mouth.mode = MEL; outlives the module
+    const MouthNet* cepstra = nullptr;  ///< for Mouth.mode = CEPSTRA; likewise
+    const HeadNet* head = nullptr;      ///< for Head.auto = ON; likewise, as those below
     const HeadNet* head_by_prosody = nullptr;  ///< for Head.auto = PROSODY
     const Discriminant* emotions = nullptr;    ///< for Emotion.auto = ON
+    std::string speakers_folder{};             ///< where learned speakers are kept; empty: nowhere
   };
   /// A live source that gave sound and then none for so long has stalled.
   static constexpr vm::Time kStalled{1'000'000};
@@ -48,7 +52,7 @@ class MovementModule final : public vm::Module {
   void Shutdown() override;
 
  private:
-  enum class Mode { kMel, kCepstra, kOff };
+  enum class Mode { kPhones, kMel, kCepstra, kOff };
   // movement_slots.cc
   void DeclareRun();
   void DeclareInput();
@@ -60,6 +64,7 @@ class MovementModule final : public vm::Module {
   void TellEmotion();
   void TellMood(const std::string& mood, double strength01);
   void TellProsody(vm::Time at);
+  void DeclareSpeaker();  // speaker_slots.cc
 
   vm::Result<std::string> SetInput(const std::string& name);
   vm::Result<void> StartSource();
@@ -75,8 +80,13 @@ class MovementModule final : public vm::Module {
   /// The shortest Delay with which frames are told before their time.
   vm::Time ShortestDelay() const;
   const MouthNet& net() const {
-    return mode_ == Mode::kCepstra ? *options_.cepstra : *options_.mel;
+    return mode_ == Mode::kCepstra  ? *options_.cepstra
+           : mode_ == Mode::kPhones ? *options_.phones
+                                    : *options_.mel;
   }
+  Mode BestMode() const { return options_.phones != nullptr ? Mode::kPhones : Mode::kMel; }
+  void Learned(const vm::Result<Speaker>& met);
+  vm::Result<void> SetMode(const std::string& word);
   /// The sound that comes is another one: nothing of what came before counts; or, of the
   /// `same_speaker`, all but how the speaker usually speaks.
   void Renew(bool same_speaker = false);
@@ -92,11 +102,16 @@ class MovementModule final : public vm::Module {
 
   bool on_ = false;
   bool exit_requested_ = false;
-  Mode mode_ = Mode::kMel;
+  Mode mode_;
   vm::Time delay_{100'000};
   std::string face_ = "FSM";
   std::unique_ptr<sound::AudioSource> source_;
   std::string source_name_ = "NONE";
+
+  SpeakerStore speakers_;
+  Speaker speaker_;
+  std::unique_ptr<SpeakerLearner> learner_;  // while somebody is met
+  std::string learned_name_;
 
   std::unique_ptr<MouthTracker> tracker_;  // of the sound since it began anew
   SoundClock sound_clock_;

@@ -54,7 +54,8 @@ void MovementModule::DeclareInput() {
        .initial = "100",
        .help = "How many ms after a sound was heard the mouth shows it. The network has to hear "
                "up to 60 ms more first, and sound comes in pieces: less than 100 is refused in "
-               "mode MEL. Whoever plays the sound plays it so much later, and 40 ms more for lips "
+               "modes PHONES and MEL. Whoever plays the sound plays it so much later, and 40 ms "
+               "more for lips "
                "that lead a little, as those of a text do.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
          const vm::Time wanted(static_cast<vm::Time::rep>(value.number(0) * 1000));
@@ -69,23 +70,52 @@ void MovementModule::DeclareInput() {
        }});
 }
 
+vm::Result<void> MovementModule::SetMode(const std::string& word) {
+  if (word == "PHONES" && options_.phones == nullptr) {
+    const auto can = CanMakeFeatures(FeatureKind::kPhones);
+    return vm::Fail(vm::Errc::kUnavailable,
+                    can ? "this program has no network for PHONES" : can.error().text);
+  }
+  mode_ = word == "BEST"     ? BestMode()
+          : word == "PHONES" ? Mode::kPhones
+          : word == "MEL"    ? Mode::kMel
+          : word == "OFF"    ? Mode::kOff
+                             : Mode::kCepstra;
+  if (learner_) {
+    Learned(
+        vm::Fail(vm::Errc::kUnavailable, "another mode was chosen before the vowels were said"));
+  }
+  Renew();
+  delay_ = std::max(delay_, ShortestDelay());
+  slots_.Store("Delay", vm::FormatMs(delay_));
+  return {};
+}
+
 void MovementModule::DeclareMouth() {
   slots_.Declare(
       {.name = "Mouth.mode",
-       .grammar = "MEL | CEPSTRA | OFF",
-       .initial = "MEL",
-       .help = "By what the mouth is found: MEL, a network that sees mel bands over time; CEPSTRA, "
-               "the small one of the original's papers, which sees 20 LPC cepstra of one frame "
-               "(Delay at least 56); OFF: the mouth rests.",
+       .grammar = "BEST | PHONES | MEL | CEPSTRA | OFF",
+       .initial = "BEST",
+       .help =
+           "By what the mouth is found: PHONES, a network that sees mel bands over time and how "
+           "likely the phones of English are by Debian's pocketsphinx-en-us; MEL, one that sees "
+           "mel bands alone; BEST, PHONES where that model is installed and MEL else; CEPSTRA, "
+           "the small one of the original's papers, which sees 20 LPC cepstra of one frame "
+           "(Delay at least 56); OFF: the mouth rests.",
        .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
-         mode_ = value.word(0) == "MEL"   ? Mode::kMel
-                 : value.word(0) == "OFF" ? Mode::kOff
-                                          : Mode::kCepstra;
-         Renew();
-         delay_ = std::max(delay_, ShortestDelay());
-         slots_.Store("Delay", vm::FormatMs(delay_));
+         if (auto set = SetMode(value.word(0)); !set) return std::unexpected(set.error());
          return value.word(0);
        }});
+  slots_.Declare({.name = "Mouth.net",
+                  .grammar = "PHONES | MEL | CEPSTRA | OFF",
+                  .access = vm::Access::kReadOnly,
+                  .help = "What Mouth.mode comes to here.",
+                  .on_inq = [this]() -> std::string {
+                    return mode_ == Mode::kPhones ? "PHONES"
+                           : mode_ == Mode::kMel  ? "MEL"
+                           : mode_ == Mode::kOff  ? "OFF"
+                                                  : "CEPSTRA";
+                  }});
   slots_.Declare({.name = "Mouth.to",
                   .grammar = "NONE | <word>",
                   .initial = "FSM",

@@ -14,6 +14,7 @@ namespace vdm {
 /// units of about its deviation; the first number is the level instead of c_0.
 class CepstraFeatures final : public SoundFeatures {
  public:
+  static constexpr std::size_t kOrder = 20;
   CepstraFeatures();
   std::size_t size() const override { return kOrder; }
   std::size_t hop_samples() const override { return kWindow; }
@@ -21,7 +22,7 @@ class CepstraFeatures final : public SoundFeatures {
   void Add(std::span<const std::int16_t> samples, std::vector<float>& vectors) override;
 
  private:
-  static constexpr std::size_t kWindow = 512, kOrder = 20;
+  static constexpr std::size_t kWindow = 512;
   std::array<double, kWindow> window_;
   Framer framer_{kWindow, kWindow};
 };

@@ -1,5 +1,6 @@
 #include "vdm/features/fourier.h"
 
+#include <Eigen/Core>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -7,38 +8,70 @@
 namespace vdm {
 
 Fourier512::Fourier512() {
-  for (std::size_t i = 0; i < turns_.size(); ++i) {
-    const double angle = -2 * std::numbers::pi * static_cast<double>(i) / kSize;
-    turns_[i] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+  const auto turn = [](Numbers& table, std::size_t at, double angle) {
+    table.re[at] = static_cast<float>(std::cos(angle));
+    table.im[at] = static_cast<float>(std::sin(angle));
+  };
+  constexpr double kTurn = -2 * std::numbers::pi;
+  turn(turns_, 0, 0);
+  for (std::size_t half = 1; half < kHalf; half *= 2) {
+    for (std::size_t k = 0; k < half; ++k) {
+      turn(turns_, half + k, kTurn * static_cast<double>(k) / static_cast<double>(2 * half));
+    }
   }
-  for (std::size_t i = 0; i < kSize; ++i) {
+  for (std::size_t i = 0; i < kHalf; ++i) {
+    turn(split_, i, kTurn * static_cast<double>(i) / kSize);
     std::size_t reversed = 0;
-    for (std::size_t bit = 1, mirror = kSize / 2; bit < kSize; bit <<= 1, mirror >>= 1) {
+    for (std::size_t bit = 1, mirror = kHalf / 2; bit < kHalf; bit <<= 1, mirror >>= 1) {
       if (i & bit) reversed |= mirror;
     }
     reversed_[i] = reversed;
   }
 }
 
+/// Joins transforms of `half` numbers into those of twice as many, several at once.
+template <int half>
+void Fourier512::Stage(Numbers& x) const {
+  using Part = Eigen::Array<float, half, 1>;
+  const Eigen::Map<const Part> turn_re(&turns_.re[half]), turn_im(&turns_.im[half]);
+  for (std::size_t start = 0; start < kHalf; start += 2 * half) {
+    Eigen::Map<Part> low_re(&x.re[start]), low_im(&x.im[start]);
+    Eigen::Map<Part> high_re(&x.re[start + half]), high_im(&x.im[start + half]);
+    const Part re = high_re * turn_re - high_im * turn_im;
+    const Part im = high_re * turn_im + high_im * turn_re;
+    high_re = low_re - re;
+    high_im = low_im - im;
+    low_re += re;
+    low_im += im;
+  }
+}
+
 std::array<float, Fourier512::kBins> Fourier512::Power(std::span<const float> samples) const {
   assert(samples.size() <= kSize);
-  std::array<std::complex<float>, kSize> x{};
-  for (std::size_t i = 0; i < samples.size(); ++i) x[reversed_[i]] = samples[i];
-  for (std::size_t half = 1; half < kSize; half <<= 1) {
-    const std::size_t step = kSize / 2 / half;
-    for (std::size_t start = 0; start < kSize; start += 2 * half) {
-      for (std::size_t k = 0; k < half; ++k) {
-        // Written out: the operator of std::complex looks for infinities.
-        const std::complex<float> turn = turns_[k * step], low = x[start + k + half];
-        const std::complex<float> turned(low.real() * turn.real() - low.imag() * turn.imag(),
-                                         low.real() * turn.imag() + low.imag() * turn.real());
-        x[start + k + half] = x[start + k] - turned;
-        x[start + k] += turned;
-      }
-    }
+  Numbers x{};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    (i % 2 == 0 ? x.re : x.im)[reversed_[i / 2]] = samples[i];
   }
+  Stage<1>(x);
+  Stage<2>(x);
+  Stage<4>(x);
+  Stage<8>(x);
+  Stage<16>(x);
+  Stage<32>(x);
+  Stage<64>(x);
+  Stage<128>(x);
   std::array<float, kBins> power;
-  for (std::size_t k = 0; k < kBins; ++k) power[k] = std::norm(x[k]);
+  for (std::size_t k = 0; k < kHalf; ++k) {
+    // The transforms of the even samples (a) and of the odd ones (b), then a + turn b.
+    const std::size_t mirror = (kHalf - k) % kHalf;
+    const float a_re = 0.5F * (x.re[k] + x.re[mirror]), a_im = 0.5F * (x.im[k] - x.im[mirror]);
+    const float b_re = 0.5F * (x.im[k] + x.im[mirror]), b_im = 0.5F * (x.re[mirror] - x.re[k]);
+    const float re = a_re + split_.re[k] * b_re - split_.im[k] * b_im;
+    const float im = a_im + split_.re[k] * b_im + split_.im[k] * b_re;
+    power[k] = re * re + im * im;
+  }
+  const float last = x.re[0] - x.im[0];
+  power[kHalf] = last * last;
   return power;
 }
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vm_protocol/core/result.h"
+
 namespace vdm {
 
 inline constexpr std::size_t kSampleRateHz = 16000;
@@ -13,9 +15,11 @@ inline constexpr std::size_t kSampleRateHz = 16000;
 /// What of the sound a network looks at.
 enum class FeatureKind {
   kMel,      ///< 24 mel bands and two levels, each 10 ms; see MelFeatures
+  kPhones,   ///< kMel and how likely the phones of English are; see PhoneFeatures
   kCepstra,  ///< 20 LPC cepstra, each 32 ms, as in the papers; see CepstraFeatures
 };
-std::string_view FeatureName(FeatureKind kind);  ///< "mel", "cepstra"
+std::string_view FeatureName(FeatureKind kind);  ///< "mel", "phones", "cepstra"
+std::size_t FeatureSize(FeatureKind kind);       ///< numbers in a vector
 
 /// One vector of numbers for each hop of sound, 16 kHz mono. Sound may come in pieces of any size;
 /// the vectors are the same. Thread: none of its own; one instance, one thread.
@@ -30,8 +34,10 @@ class SoundFeatures {
   virtual void Add(std::span<const std::int16_t> samples, std::vector<float>& vectors) = 0;
 };
 
-/// `warp`, of kMel only: above 1 the spectrum is read at higher frequencies, as if the vocal tract
-/// were longer than it is; 1 for sound as it is, 0.5 .. 1.5.
+/// `warp`, not of kCepstra: above 1 the spectrum is read at higher frequencies, as if the vocal
+/// tract were longer than it is; 1 for sound as it is, 0.5 .. 1.5. Throws std::runtime_error for
+/// kPhones if CanMakeFeatures says what is missing.
+vm::Result<void> CanMakeFeatures(FeatureKind kind);
 std::unique_ptr<SoundFeatures> MakeFeatures(FeatureKind kind, float warp = 1);
 
 }  // namespace vdm

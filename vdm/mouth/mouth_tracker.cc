@@ -2,8 +2,8 @@
 
 namespace vdm {
 
-MouthTracker::MouthTracker(const MouthNet& net)
-    : net_(net), features_(MakeFeatures(net.features)), stream_(net.net) {}
+MouthTracker::MouthTracker(const MouthNet& net, float warp)
+    : net_(net), features_(MakeFeatures(net.features, warp)), stream_(net.net) {}
 
 std::size_t MouthTracker::ahead_samples() const {
   return features_->ahead_samples() + net_.net.ahead() * features_->hop_samples();

@@ -15,7 +15,8 @@ namespace vdm {
 /// Lifetime: the network outlives it. Thread: none of its own; one instance, one thread.
 class MouthTracker {
  public:
-  explicit MouthTracker(const MouthNet& net);
+  /// `warp`: see MakeFeatures.
+  explicit MouthTracker(const MouthNet& net, float warp = 1);
 
   struct Moment {
     std::uint64_t sample = 0;  ///< counted from the first one added

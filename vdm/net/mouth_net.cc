@@ -20,6 +20,15 @@ float WithoutDust(float value) { return std::abs(value) < 1e-30F ? 0 : value; }
 
 using Words = std::vector<std::string_view>;
 
+bool FeaturesNamed(std::string_view name, FeatureKind& out) {
+  for (const FeatureKind kind : {FeatureKind::kMel, FeatureKind::kPhones, FeatureKind::kCepstra}) {
+    if (name != FeatureName(kind)) continue;
+    out = kind;
+    return true;
+  }
+  return false;
+}
+
 class Reader {
  public:
   Reader(const std::string& name, std::string_view text) : name_(name), text_(text) {}
@@ -29,10 +38,8 @@ class Reader {
     MouthNet out;
     if (auto words = Line("features", 2); !words) {
       return std::unexpected(words.error());
-    } else if ((*words)[1] == "mel" || (*words)[1] == "cepstra") {
-      out.features = (*words)[1] == "mel" ? FeatureKind::kMel : FeatureKind::kCepstra;
-    } else {
-      return Wrong("'" + std::string((*words)[1]) + "' found, mel or cepstra expected");
+    } else if (!FeaturesNamed((*words)[1], out.features)) {
+      return Wrong("'" + std::string((*words)[1]) + "' found, mel, phones or cepstra expected");
     }
     if (auto words = Line("sounds", 0); !words) {
       return std::unexpected(words.error());
@@ -55,7 +62,7 @@ class Reader {
  private:
   vm::Result<MouthNet> Checked(MouthNet out) {
     if (out.net.layers.empty()) return Wrong("no layer found, at least one expected");
-    const std::size_t inputs = MakeFeatures(out.features)->size();
+    const std::size_t inputs = FeatureSize(out.features);
     if (out.net.inputs() != inputs) {
       return Wrong(fmt::format("the first layer has {} inputs, {} features give {}",
                                out.net.inputs(), FeatureName(out.features), inputs));

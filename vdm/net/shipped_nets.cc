@@ -2,6 +2,7 @@
 
 #include "embedded/cepstra_net.h"
 #include "embedded/mel_net.h"
+#include "embedded/phones_net.h"
 #include "vdm/net/mouth_net.h"
 
 namespace vdm {
@@ -16,9 +17,20 @@ MouthNet ReadShipped(const std::string& name, std::string_view text) {
 }  // namespace
 
 const MouthNet& ShippedNet(FeatureKind features) {
-  static const MouthNet mel = ReadShipped("mel.net", embedded::mel_net());
+  switch (features) {
+    case FeatureKind::kMel: {
+      static const MouthNet mel = ReadShipped("mel.net", embedded::mel_net());
+      return mel;
+    }
+    case FeatureKind::kPhones: {
+      static const MouthNet phones = ReadShipped("phones.net", embedded::phones_net());
+      return phones;
+    }
+    case FeatureKind::kCepstra:
+      break;
+  }
   static const MouthNet cepstra = ReadShipped("cepstra.net", embedded::cepstra_net());
-  return features == FeatureKind::kMel ? mel : cepstra;
+  return cepstra;
 }
 
 }  // namespace vdm

@@ -1,13 +1,16 @@
 #include "vdm/train/corpus.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "ssm/engines/espeak_engine.h"
 #include "ssm/flite/flite_engine.h"
+#include "vdm/train/festival.h"
 #include "vdm/train/reading.h"
 
 namespace vdm {
@@ -29,27 +32,39 @@ vm::Result<Take> Say(ssm::SpeechEngine& engine, const std::string& voice, const 
               .phonemes = std::move(plan->phonemes)};
 }
 
+/// By the toolkit's own engines.
+vm::Result<std::vector<Take>> ReadHere(const TrainingVoice& voice,
+                                       const std::vector<std::string>& texts,
+                                       const std::string& espeak_helper) {
+  const bool by_flite = voice.engine == "flite";
+  const auto engine =
+      by_flite ? ssm::MakeFliteEngine()
+               : ssm::MakeEspeakEngine({.helper = espeak_helper, .variant = voice.variant});
+  std::vector<Take> takes;
+  for (const std::string& text : texts) {
+    auto take = Say(*engine, by_flite ? voice.name : "espeak-" + voice.language, voice.name, text);
+    if (!take) return std::unexpected(take.error());
+    takes.push_back(std::move(*take));
+  }
+  return takes;
+}
+
 }  // namespace
 
 vm::Result<std::vector<Take>> MakeCorpus(const std::string& espeak_helper,
+                                         const std::string& folder,
                                          const std::function<void(const std::string&)>& progress) {
   std::vector<Take> takes;
-  const auto flite = ssm::MakeFliteEngine();
   std::uint64_t index = 0;
   for (const TrainingVoice& voice : BuiltVoices()) {
-    const bool by_flite = voice.engine == "flite";
-    const auto espeak =
-        by_flite ? nullptr
-                 : ssm::MakeEspeakEngine({.helper = espeak_helper, .variant = voice.variant});
-    ssm::SpeechEngine& engine = by_flite ? *flite : *espeak;
     const Reading& reading = BuiltReading(voice.language);
     const Dice dice = Dice(kReadingSeed).For(index++);
-    for (std::size_t n = 0; n < voice.sentences; ++n) {
-      auto take = Say(engine, by_flite ? voice.name : "espeak-" + voice.language, voice.name,
-                      reading.Text(n, dice));
-      if (!take) return std::unexpected(take.error());
-      takes.push_back(std::move(*take));
-    }
+    std::vector<std::string> texts;
+    for (std::size_t n = 0; n < voice.sentences; ++n) texts.push_back(reading.Text(n, dice));
+    auto said = voice.engine == "festival" ? ReadByFestival(voice, texts, folder)
+                                           : ReadHere(voice, texts, espeak_helper);
+    if (!said) return std::unexpected(said.error());
+    std::ranges::move(*said, std::back_inserter(takes));
     progress(voice.name + " has read " + std::to_string(voice.sentences) + " sentences");
   }
   return takes;

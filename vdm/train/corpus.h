@@ -18,9 +18,10 @@ struct Take {
 };
 
 /// Has every voice of the table (tables/voices.txt) read its sentences. The same programs say the
-/// same in the same order. `espeak_helper`: the path of ssm_espeak. `progress` is told what is
-/// done. Error: that of the engine that fails.
+/// same in the same order. `espeak_helper`: the path of ssm_espeak; `folder`: for files meanwhile.
+/// `progress` is told what is done. Error: that of the engine that fails.
 vm::Result<std::vector<Take>> MakeCorpus(const std::string& espeak_helper,
+                                         const std::string& folder,
                                          const std::function<void(const std::string&)>& progress);
 
 /// Keeps takes in a file of our own, and brings them back. Errors: kUnavailable, kBadValue with the

@@ -26,12 +26,17 @@ void AddNote(std::vector<float>& sound, std::size_t first, double hz, double sec
   for (std::size_t harmonic = 0; harmonic < overtones.size(); ++harmonic) {
     const double step = kTurn * hz * static_cast<double>(harmonic + 1) / kRate;
     if (step > 3) break;
+    // The sine turns on by one step a sample; so does its fading.
+    const double turn_re = std::cos(step), turn_im = std::sin(step);
+    const double fades = std::exp(-fade / kRate);
+    double re = size * overtones[harmonic], im = 0;
     for (std::size_t i = first; i < last; ++i) {
       const double t = static_cast<double>(i - first) / kRate;
       const double left = static_cast<double>(last - i) / kRate;
-      const double shape = std::min({t / 0.01, left / 0.03, 1.0}) * std::exp(-t * fade);
-      sound[i] += static_cast<float>(size * overtones[harmonic] * shape *
-                                     std::sin(step * static_cast<double>(i - first)));
+      sound[i] += static_cast<float>(std::min({t / 0.01, left / 0.03, 1.0}) * im);
+      const double next = fades * (re * turn_re - im * turn_im);
+      im = fades * (re * turn_im + im * turn_re);
+      re = next;
     }
   }
 }

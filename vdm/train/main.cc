@@ -49,7 +49,7 @@ std::string EspeakHelper() {
 std::vector<vdm::Take> Corpus(const Options& options) {
   const std::string path = options.work + "/takes";
   if (!std::filesystem::exists(path)) {
-    const auto takes = OrThrow(vdm::MakeCorpus(EspeakHelper(), Tell));
+    const auto takes = OrThrow(vdm::MakeCorpus(EspeakHelper(), options.work + "/festival", Tell));
     OrThrow(vdm::SaveCorpus(takes, path));
   }
   return OrThrow(vdm::LoadCorpus(path));
@@ -204,8 +204,9 @@ int main(int argc, char** argv) {
   app.add_option("--work", options.work,
                  "Folder for the speech and the course of the training, which goes on from there")
       ->capture_default_str();
-  app.add_option("--features", options.features, "mel, or cepstra as in the papers")
-      ->check(CLI::IsMember({"mel", "cepstra"}))
+  app.add_option("--features", options.features,
+                 "mel; phones, which needs pocketsphinx-en-us; or cepstra as in the papers")
+      ->check(CLI::IsMember({"mel", "phones", "cepstra"}))
       ->capture_default_str();
   app.add_option("--without", options.without,
                  "Voices to leave out, by what their names begin with (vdm/tables/voices.txt)")
@@ -245,11 +246,13 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (options.features == "cepstra") options.plan.features = vdm::FeatureKind::kCepstra;
+  if (options.features == "phones") options.plan.features = vdm::FeatureKind::kPhones;
   options.head_plan.seed = options.plan.seed;
   if (!options.head_by_prosody) {
     options.head_plan.sounds = vdm::ShippedNet(vdm::FeatureKind::kMel).sounds.size();
   }
   try {
+    OrThrow(vdm::CanMakeFeatures(options.plan.features));
     if (!options.emotion.empty()) return TrainEmotion(options);
     if (!options.head.empty()) return TrainHead(options);
     return options.triphones ? TrainTriphones(options) : Train(options);

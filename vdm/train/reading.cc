@@ -1,15 +1,25 @@
 #include "vdm/train/reading.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
+#include "embedded/reading_cs.h"
 #include "embedded/reading_en.h"
+#include "embedded/reading_fi.h"
+#include "embedded/reading_it.h"
 #include "embedded/reading_ja.h"
+#include "embedded/reading_ru.h"
 #include "embedded/voices.h"
 
 namespace vdm {
 namespace {
+
+constexpr std::array<std::string_view, 7> kLanguages = {"en", "en-gb", "ja", "it",
+                                                        "fi", "cs",    "ru"};
 
 std::unexpected<vm::Error> Wrong(const std::string& name, int line, const std::string& what) {
   return vm::Fail(vm::Errc::kBadValue, name + ":" + std::to_string(line) + ": " + what);
@@ -41,11 +51,13 @@ vm::Result<std::vector<TrainingVoice>> ReadVoices(const std::string& name, std::
     if (error != std::errc() || end != count.data() + count.size() || voice.sentences > 10'000) {
       return Wrong(name, number, "'" + count + "' found, 0 to 10000 sentences expected");
     }
-    if (voice.engine != "flite" && voice.engine != "espeak") {
-      return Wrong(name, number, "'" + voice.engine + "' found, flite or espeak expected");
+    if (voice.engine != "flite" && voice.engine != "espeak" && voice.engine != "festival") {
+      return Wrong(name, number,
+                   "'" + voice.engine + "' found, flite, espeak or festival expected");
     }
-    if (voice.language != "en" && voice.language != "en-gb" && voice.language != "ja") {
-      return Wrong(name, number, "'" + voice.language + "' found, en, en-gb or ja expected");
+    if (std::ranges::find(kLanguages, voice.language) == kLanguages.end()) {
+      return Wrong(name, number,
+                   "'" + voice.language + "' found, one of en, en-gb, ja, it, fi, cs, ru expected");
     }
     if (voice.variant == "-") voice.variant.clear();
     voices.push_back(std::move(voice));
@@ -96,19 +108,24 @@ vm::Result<Reading> ReadReading(const std::string& name, std::string_view text) 
 }
 
 const Reading& BuiltReading(const std::string& language) {
-  static const Reading english = [] {
-    Reading read = OrThrow(ReadReading("reading_en.txt", embedded::reading_en()));
-    read.between = " ";
-    read.stop = ".";
-    return read;
+  static const auto built = [] {
+    std::map<std::string, Reading> readings;
+    const auto add = [&](const std::string& name, std::string_view text, const char* between,
+                         const char* stop) {
+      Reading read = OrThrow(ReadReading("reading_" + name + ".txt", text));
+      read.between = between;
+      read.stop = stop;
+      readings.emplace(name, std::move(read));
+    };
+    add("en", embedded::reading_en(), " ", ".");
+    add("ja", embedded::reading_ja(), "、", "。");
+    add("it", embedded::reading_it(), " ", ".");
+    add("fi", embedded::reading_fi(), " ", ".");
+    add("cs", embedded::reading_cs(), " ", ".");
+    add("ru", embedded::reading_ru(), " ", ".");
+    return readings;
   }();
-  static const Reading japanese = [] {
-    Reading read = OrThrow(ReadReading("reading_ja.txt", embedded::reading_ja()));
-    read.between = "、";
-    read.stop = "。";
-    return read;
-  }();
-  return language == "ja" ? japanese : english;
+  return built.at(language == "en-gb" ? "en" : language);
 }
 
 }  // namespace vdm

@@ -12,10 +12,10 @@ namespace vdm {
 /// One voice of the training; tables/voices.txt.
 struct TrainingVoice {
   std::string name;
-  std::string engine;    ///< flite or espeak
-  std::string language;  ///< en, en-gb, ja
+  std::string engine;    ///< flite, espeak or festival
+  std::string language;  ///< en, en-gb, ja, it, fi, cs, ru
   std::size_t sentences = 0;
-  std::string variant;  ///< of espeak-ng; empty: none
+  std::string variant;  ///< of espeak-ng, empty: none; festival's name of the voice
 };
 /// kBadValue "NAME:LINE: ...".
 vm::Result<std::vector<TrainingVoice>> ReadVoices(const std::string& name, std::string_view text);

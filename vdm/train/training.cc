@@ -67,7 +67,7 @@ MouthNet StartingNet(const TrainingPlan& plan, const std::vector<Take>& takes,
         static_cast<float>(std::sqrt(std::max(squares[row] / count - mean * mean, 1e-4)));
   }
   Dice dice = Dice(plan.seed).For(0);
-  const std::size_t inputs = MakeFeatures(plan.features)->size(), w = plan.width;
+  const std::size_t inputs = FeatureSize(plan.features), w = plan.width;
   const std::size_t outputs = net.first_sound_row() + net.sounds.size();
   auto& layers = net.net.layers;
   if (plan.features == FeatureKind::kCepstra) {

@@ -16,7 +16,7 @@ namespace vdm {
 struct TrainingPlan {
   FeatureKind features = FeatureKind::kMel;
   std::size_t width = 96;  ///< of the hidden layers (kMel)
-  std::size_t epochs = 20;
+  std::size_t epochs = 12;
   std::uint64_t seed = 1;
   double rate = 2e-3;  ///< the highest step; it rises at the start and falls to almost nothing
 };
