@@ -64,6 +64,18 @@ Paint PaintOf(const HeadTopology& topology) {
   return paint;
 }
 
+/// Of every vertex, how much is more than the photo.
+std::vector<Worn> WornBy(const Paint& paint, const Detail& detail) {
+  std::vector<Worn> worn(paint.opacity.size());
+  for (std::size_t i = 0; i < worn.size(); ++i) {
+    const bool creases = detail.right[i] != kNone || detail.left[i] != kNone;
+    worn[i] = paint.opacity[i] < 1 || paint.lender[i].x > 0 ? Worn::kDetailed
+              : creases                                     ? Worn::kCreased
+                                                            : Worn::kPlain;
+  }
+  return worn;
+}
+
 /// How fine the photo lies on what wears it and faces the viewer, as he sees it: the root of texels
 /// to square millimetres.
 float TexelsPerMm(const HeadTopology& topology, const HeadVertices& rest) {
@@ -178,12 +190,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(8, paint.lender);
   upload(9, paint.opacity);
   upload(10, rest_normal);
-  std::vector<bool> detailed(vertex_count_);
-  for (std::size_t i = 0; i < detailed.size(); ++i) {
-    detailed[i] = paint.opacity[i] < 1 || paint.lender[i].x > 0 || detail.right[i] != kNone ||
-                  detail.left[i] != kNone;
-  }
-  const DrawOrder order(topology, rest, detailed);
+  const DrawOrder order(topology, rest, WornBy(paint, detail));
   parts_ = order.parts;
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(order.indices.size() * sizeof(std::uint32_t)),

@@ -71,9 +71,9 @@ class Materials {
                 glm::vec3 key_direction);
   /// How much brighter than by default the lamps are: a photo's own light stands for the default.
   float PhotoBrightness(const Lamps& lamps) const;
-  void Use(Material material, bool detailed);
+  void Use(Material material, Worn worn);
   bool WearsPhoto(Material material) const;
-  void UsePhoto(Material material, bool detailed);
+  void UsePhoto(Material material, Worn worn);
   void UsePbr(const PbrMaterial& pbr);
   void UseHair(float streaks, float shine);
 
@@ -84,12 +84,13 @@ class Materials {
   GlProgram eye_;
   GlProgram hair_;
   GlProgram line_;
-  // Made for the first head that has any. Of those for photos, the second draws what is detailed.
-  std::array<std::unique_ptr<GlProgram>, 2> photo_;
+  // Made for the first head that has any.
+  std::array<std::unique_ptr<GlProgram>, 3> photo_;  // by Worn
   std::unique_ptr<GlProgram> pbr_;
   GLuint shared_textures_[kTextures] = {};
   const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
   const HeadTextures* head_textures_ = nullptr;
+  bool creases_ = false;    // any skin, in the last BeginFrame
   bool has_mouth_ = false;  // of which is known how light comes in
 };
 
