@@ -268,6 +268,12 @@ void Materials::Use(Material material, Worn worn) {
   BindOrPlain(planar ? shared_textures_[kWeave] : head_textures_->skin_relief(), GL_TEXTURE2);
 }
 
+bool Materials::IsHidden(const DrawnPart& part) const {
+  // What lines the mouth lines nostrils, too.
+  return lips_shut_ && IsOfMouth(part.part.material) &&
+         part.part.material != Material::kMouthInside;
+}
+
 void Materials::Use(const DrawnPart& drawn) {
   const auto& part = drawn.part;
   if (part.pbr < 0) return Use(part.material, drawn.worn);

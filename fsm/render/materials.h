@@ -39,6 +39,9 @@ class Materials {
   /// `head` and `textures` are that head's, until the next call.
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
                   const HeadVertices& vertices, const Scene& scene);
+  /// Whether nothing of a part is seen in this frame: teeth, gums and tongue behind lips that are
+  /// shut.
+  bool IsHidden(const DrawnPart& part) const;
   void Use(const DrawnPart& part);
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
@@ -91,6 +94,7 @@ class Materials {
   const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
   const HeadTextures* head_textures_ = nullptr;
   bool creases_ = false;    // any skin, in the last BeginFrame
+  bool lips_shut_ = false;  // all along
   bool has_mouth_ = false;  // of which is known how light comes in
 };
 

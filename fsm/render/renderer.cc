@@ -221,6 +221,7 @@ class GlRenderer : public Renderer {
       }
       gl_.CullFace(GL_BACK);
       for (const DrawnPart& part : parts) {
+        if (materials_.IsHidden(part)) continue;
         // Lashes have two sides; everything else is the skin of something closed, or of hair, which
         // has an inside of its own where it hangs.
         (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);
