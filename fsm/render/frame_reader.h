@@ -32,8 +32,9 @@ class FrameReader {
   /// `small`: it may be kept until others are drawn.
   std::uint64_t Begin(const std::shared_ptr<GlTarget>& target, bool soft, bool transparent,
                       bool small);
-  /// Waits for the frame and for nothing drawn after it. The same bytes as GlTarget::Read. Frames
-  /// may end in any order. Throws std::runtime_error if the driver does not hand it out.
+  /// Waits for the frame, and on a graphics card for nothing drawn after it. The same bytes as
+  /// GlTarget::Read. Frames may end in any order. Throws std::runtime_error if the driver does not
+  /// hand it out.
   void End(std::uint64_t frame, Image& out);
   void Drop(std::uint64_t frame);
 

@@ -79,7 +79,7 @@ std::vector<Worn> WornBy(const Paint& paint, const Detail& detail) {
 /// How fine the photo lies on what wears it and faces the viewer, as he sees it: the root of texels
 /// to square millimetres.
 float TexelsPerMm(const HeadTopology& topology, const HeadVertices& rest) {
-  if (!topology.photo) return 0;
+  if (!topology.photo || topology.texcoord.empty()) return 0;
   const glm::vec2 size(topology.photo->width, topology.photo->height);
   double texels = 0, area = 0;
   for (std::size_t k = 0; k + 2 < topology.indices.size(); k += 3) {
