@@ -1,8 +1,6 @@
 #include "fsm/render/frame_reader.h"
 
-#include <algorithm>
 #include <cassert>
-#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -15,41 +13,25 @@ FrameReader::~FrameReader() {
   for (const GLuint buffer : spare_buffers_) gl_.DeleteBuffers(1, &buffer);
 }
 
-std::uint64_t FrameReader::Begin(const std::shared_ptr<GlTarget>& target, bool soft,
-                                 bool transparent, bool small) {
-  const auto waiting = std::ranges::count_if(
-      frames_, [](const auto& entry) { return entry.second.target != nullptr; });
-  if (waiting >= static_cast<std::ptrdiff_t>(kMostWaiting)) ReadWaiting();
+std::uint64_t FrameReader::Begin(GlTarget& target, bool soft, bool transparent) {
   Frame& frame = frames_[++last_];
   frame.soft = soft;
   frame.transparent = transparent;
   if (by_buffers_) {
-    BeginCopy(*target, frame);
-  } else if (small) {
-    frame.target = target;
-    gl_.Flush();  // the driver begins to draw it
+    BeginCopy(target, frame);
   } else {
-    target->Read(frame.image, soft);
+    target.Read(frame.image, soft);
   }
   return last_;
 }
 
 void FrameReader::End(std::uint64_t number, Image& out) {
-  assert(frames_.contains(number));
-  if (frames_[number].target) ReadWaiting();
   auto found = frames_.extract(number);
+  assert(!found.empty());
   Frame& frame = found.mapped();
   if (frame.buffer != 0) EndCopy(frame);
   if (frame.transparent) Unmultiply(frame.image);
   out = std::move(frame.image);
-}
-
-void FrameReader::ReadWaiting() {
-  for (auto& [number, frame] : frames_) {
-    if (const auto target = std::exchange(frame.target, nullptr)) {
-      target->Read(frame.image, frame.soft);
-    }
-  }
 }
 
 void FrameReader::Drop(std::uint64_t number) {

@@ -160,10 +160,7 @@ class GlRenderer : public Renderer {
 
   std::uint64_t BeginRead() override {
     assert(target_ && "BeginRead before the first Draw");
-    // Four that together are no larger than the whole may wait.
-    const bool small =
-        4 * target_->width() * target_->height() <= context_.width() * context_.height();
-    return reader_.Begin(target_, soft_, transparent_, small);
+    return reader_.Begin(*target_, soft_, transparent_);
   }
   void EndRead(std::uint64_t frame, Image& out) override { reader_.End(frame, out); }
   void DropRead(std::uint64_t frame) override { reader_.Drop(frame); }
@@ -181,26 +178,20 @@ class GlRenderer : public Renderer {
     return *found->second;
   }
 
-  /// Panes of several sizes take turns, so the targets of the last few sizes are kept; those where
-  /// frames wait to be read do not count.
+  /// Panes of several sizes take turns, so the targets of the last few sizes are kept.
   void FindTarget(int width, int height) {
-    constexpr std::ptrdiff_t kMost = 4;
-    target_.reset();
-    const auto is_free = [](const auto& target) { return target.use_count() == 1; };
+    constexpr std::size_t kMost = 4;
     const auto fits = [&](const auto& target) {
-      return is_free(target) && target->width() == width && target->height() == height;
+      return target->width() == width && target->height() == height;
     };
     auto found = std::ranges::find_if(targets_, fits);
     if (found == targets_.end()) {
-      if (std::ranges::count_if(targets_, is_free) >= kMost) {
-        const auto last = std::find_if(targets_.rbegin(), targets_.rend(), is_free);
-        targets_.erase(std::next(last).base());
-      }
-      targets_.push_back(std::make_shared<GlTarget>(gl_, width, height));
+      if (targets_.size() >= kMost) targets_.pop_back();
+      targets_.push_back(std::make_unique<GlTarget>(gl_, width, height));
       found = std::prev(targets_.end());
     }
     std::rotate(targets_.begin(), found, std::next(found));
-    target_ = targets_.front();
+    target_ = targets_.front().get();
   }
 
   void DrawFigure(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
@@ -291,13 +282,13 @@ class GlRenderer : public Renderer {
   Backdrop backdrop_;
   std::map<std::uint64_t, std::unique_ptr<HeadOnCard>> heads_;  // by Head::serial
   std::uint64_t frames_ = 0;
-  std::vector<std::shared_ptr<GlTarget>> targets_;  // the one used last first
+  std::vector<std::unique_ptr<GlTarget>> targets_;  // the one used last first
   FrameReader reader_;
   RigPrograms rig_programs_;
   const bool rig_on_card_;
   HeadVertices vertices_;  // where the processor makes them; reused
   // The size of the frame drawn last.
-  std::shared_ptr<GlTarget> target_;
+  GlTarget* target_ = nullptr;
   bool soft_ = false;
   bool transparent_ = false;
 };

@@ -96,8 +96,6 @@ class Renderer {
   virtual void Read(Image& out) = 0;
   /// Begins to bring the frame drawn last to memory while others are drawn, which a graphics card
   /// does by itself; each frame under way holds 16 bytes a pixel there. Two or three keep it busy.
-  /// In software frames of a quarter of the context or less wait to be read where they were drawn,
-  /// up to four, with 32 bytes a pixel each, so that the next is prepared meanwhile.
   /// Returns what EndRead and DropRead know the frame by.
   virtual std::uint64_t BeginRead() = 0;
   /// The same bytes as Read; waits until they are there. Frames may end in any order.
