@@ -1,12 +1,12 @@
 // What a frame of the face costs, with software OpenGL off screen. Prints one line for each figure:
 //
 //   draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]
-//              [--context osmesa|egl] [--rig best|processor|card] [--faces N]
+//              [--context osmesa|egl] [--rig best|processor|card] [--faces N] [--only WORDS]
 //
 // --face: another head, one made from a photo for example, measured beside the built-in one;
 // --config: a configuration of the original (config.txt), whose first face is measured, too;
 // --context and --rig: as of fsm; --faces: how many are drawn in one picture at 256 x 256 each,
-// default 16.
+// default 16; --only: just the figures whose names contain WORDS.
 //
 // Every figure is the best of R runs (default 5) of N frames (default 120), because other work on
 // the machine only ever adds to it. "moving" frames change expression, mouth, lids, gaze and head
@@ -57,7 +57,7 @@ struct Options {
   int faces = 16;
   fsm::OffScreen context = fsm::OffScreen::kOsMesa;
   fsm::RigOn rig = fsm::RigOn::kBest;
-  std::string face, config;
+  std::string face, config, only;
 };
 
 struct Cost {
@@ -109,9 +109,12 @@ fsm::FaceState Moving(int frame) {
   return state;
 }
 
-void Print(const char* name, const Cost& cost) {
-  std::printf("%-34s %8.2f ms wall %8.2f ms CPU %8.1f a second\n", name, cost.wall_ms, cost.cpu_ms,
-              1e3 / cost.wall_ms);
+/// Measures and prints one figure, if it is asked for.
+void Print(const Options& options, std::string_view name, const std::function<void(int)>& frame) {
+  if (name.find(options.only) == name.npos) return;
+  const Cost cost = Measure(options, frame);
+  std::printf("%-34s %8.2f ms wall %8.2f ms CPU %8.1f a second\n", std::string(name).c_str(),
+              cost.wall_ms, cost.cpu_ms, 1e3 / cost.wall_ms);
   std::fflush(stdout);
 }
 
@@ -161,6 +164,8 @@ bool ReadOptions(int argc, char** argv, Options& options, bool& first_frame) {
       options.face = value;
     } else if (word == "--config") {
       options.config = value;
+    } else if (word == "--only") {
+      options.only = value;
     } else if (word == "--faces") {
       options.faces = std::atoi(value);
     } else if (word == "--context") {
@@ -186,13 +191,13 @@ void PrintFilm(const char* name, const Options& options, int width, int height,
   scene.camera.parallel = head.view();
   std::deque<std::uint64_t> begun;
   renderer.SetViewport({0, 0, width, height});
-  Print(name, Measure(options, [&](int i) {
-          renderer.Draw(head, Moving(i), {}, scene);
-          begun.push_back(renderer.BeginRead());
-          if (begun.size() <= 2) return;
-          renderer.EndRead(begun.front(), image);
-          begun.pop_front();
-        }));
+  Print(options, name, [&](int i) {
+    renderer.Draw(head, Moving(i), {}, scene);
+    begun.push_back(renderer.BeginRead());
+    if (begun.size() <= 2) return;
+    renderer.EndRead(begun.front(), image);
+    begun.pop_front();
+  });
   for (const std::uint64_t frame : begun) renderer.DropRead(frame);
   renderer.SetViewport({});
 }
@@ -209,15 +214,15 @@ void PrintMany(const char* name, const Options& options, int count, int across, 
     renderer.EndRead(begun.front(), image);
     begun.pop_front();
   };
-  Print(name, Measure(options, [&](int i) {
-          for (int k = 0; k < count; ++k) {
-            renderer.SetViewport({k % across * width, k / across * height, width, height});
-            renderer.Draw(head, Moving(i + 31 * k), {}, scene);
-            begun.push_back(renderer.BeginRead());
-            if (begun.size() > kUnderWay) end_oldest();
-          }
-          while (!begun.empty()) end_oldest();
-        }));
+  Print(options, name, [&](int i) {
+    for (int k = 0; k < count; ++k) {
+      renderer.SetViewport({k % across * width, k / across * height, width, height});
+      renderer.Draw(head, Moving(i + 31 * k), {}, scene);
+      begun.push_back(renderer.BeginRead());
+      if (begun.size() > kUnderWay) end_oldest();
+    }
+    while (!begun.empty()) end_oldest();
+  });
   renderer.SetViewport({});
   PrintMemory();
 }
@@ -246,23 +251,23 @@ void MeasureAll(char** argv, const Options& options) {
   std::printf("%d x %d, 4 samples; head: %zu triangles, %zu vertices\n", options.width,
               options.height, head->topology().indices.size() / 3, head->topology().albedo.size());
 
-  Print("moving face, state to pixels", Measure(options, [&](int i) {
-          renderer->Draw(*head, Moving(i), {}, scene);
-          renderer->Read(image);
-        }));
+  Print(options, "moving face, state to pixels", [&](int i) {
+    renderer->Draw(*head, Moving(i), {}, scene);
+    renderer->Read(image);
+  });
   const fsm::FaceState rest;
   head->Evaluate(rest, vertices);
-  Print("still face, vertices to pixels", Measure(options, [&](int) {
-          renderer->Draw(*head, vertices, rest, scene);
-          renderer->Read(image);
-        }));
+  Print(options, "still face, vertices to pixels", [&](int) {
+    renderer->Draw(*head, vertices, rest, scene);
+    renderer->Read(image);
+  });
   fsm::FaceState absent;
   absent.agent_enabled = false;
-  Print("empty picture", Measure(options, [&](int) {
-          renderer->Draw(*head, vertices, absent, scene);
-          renderer->Read(image);
-        }));
-  Print("state to vertices", Measure(options, [&](int i) { head->Evaluate(Moving(i), vertices); }));
+  Print(options, "empty picture", [&](int) {
+    renderer->Draw(*head, vertices, absent, scene);
+    renderer->Read(image);
+  });
+  Print(options, "state to vertices", [&](int i) { head->Evaluate(Moving(i), vertices); });
   PrintMemory();
   PrintFilm("moving face in a film", options, 0, 0, *renderer, *head);
   PrintFilm("256 x 256 in a film", options, 256, 256, *renderer, *head);
@@ -271,8 +276,9 @@ void MeasureAll(char** argv, const Options& options) {
   PrintMany((std::to_string(options.faces) + " faces at 256 x 256").c_str(), options, options.faces,
             16, 256, 256, *renderer, *head);
   PrintOthers(options, *renderer);
-  std::printf("%-34s %8.0f ms wall\n", "process start to first pixels",
-              FirstFrameMs(argv, options));
+  constexpr std::string_view kStart = "process start to first pixels";
+  if (kStart.find(options.only) != kStart.npos)
+    std::printf("%-34s %8.0f ms wall\n", kStart.data(), FirstFrameMs(argv, options));
 }
 
 void DrawFirstFrame(const Options& options) {
@@ -297,7 +303,8 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "usage: draw_bench [--frames N] [--runs R] [--size WxH] [--face NAME] [--config FILE]\n"
-        "                  [--context osmesa|egl] [--rig best|processor|card] [--faces N]\n");
+        "                  [--context osmesa|egl] [--rig best|processor|card] [--faces N]\n"
+        "                  [--only WORDS]\n");
     return 2;
   }
   try {

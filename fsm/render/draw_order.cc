@@ -34,8 +34,8 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
 }  // namespace
 
 DrawOrder::DrawOrder(const HeadTopology& topology, const HeadVertices& rest,
-                     const std::vector<bool>& detailed)
-    : topology_(topology), detailed_(detailed) {
+                     const std::vector<Worn>& worn)
+    : topology_(topology), worn_(worn) {
   std::size_t before_ears = 0;
   const std::vector<std::uint32_t> hair = SortedHair(rest, before_ears);
   const HeadTopology::Part locks{.material = Material::kHair, .first_index = 0, .index_count = 0};
@@ -54,23 +54,27 @@ DrawOrder::Corners DrawOrder::CornersOf(const HeadTopology::Part& part) const {
   return Corners(topology_.indices).subspan(part.first_index, part.index_count);
 }
 
-void DrawOrder::Add(HeadTopology::Part part, Corners corners, bool soft, bool is_detailed) {
+void DrawOrder::Add(HeadTopology::Part part, Corners corners, bool soft, Worn worn) {
   if (corners.empty()) return;
   part.first_index = static_cast<std::uint32_t>(indices.size());
   part.index_count = static_cast<std::uint32_t>(corners.size());
-  parts.push_back({part, soft, is_detailed});
+  parts.push_back({part, soft, worn});
   indices.insert(indices.end(), corners.begin(), corners.end());
 }
 
 void DrawOrder::AddWorn(const HeadTopology::Part& part, Corners corners) {
-  std::array<std::vector<std::uint32_t>, 2> lists;  // plain, detailed
+  std::array<std::vector<std::uint32_t>, 3> lists;  // by Worn
   for (std::size_t k = 0; k + 2 < corners.size(); k += 3) {
     const auto t = corners.subspan(k, 3);
-    auto& list = lists[std::ranges::any_of(t, [&](std::uint32_t i) { return detailed_[i]; })];
+    Worn worn = std::max({worn_[t[0]], worn_[t[1]], worn_[t[2]]});
+    // The sheet shows what is beside the face, and that does not crease.
+    if (worn == Worn::kCreased && part.material == Material::kPhoto) worn = Worn::kPlain;
+    auto& list = lists[static_cast<std::size_t>(worn)];
     list.insert(list.end(), t.begin(), t.end());
   }
-  Add(part, lists[0], false, false);
-  Add(part, lists[1]);
+  for (const Worn worn : {Worn::kPlain, Worn::kCreased, Worn::kDetailed}) {
+    Add(part, lists[static_cast<std::size_t>(worn)], false, worn);
+  }
 }
 
 /// Corners of the triangles of hair; `before_ears`: how many of them come first. Locks lie on the

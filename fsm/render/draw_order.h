@@ -8,13 +8,18 @@
 
 namespace fsm {
 
+/// How much of what wears a photo is more than the photo: each costs a good part of a pixel.
+enum class Worn : std::uint8_t {
+  kPlain,    ///< nothing
+  kCreased,  ///< skin that creases with an expression
+  kDetailed  ///< that, or grain from elsewhere, or it is left out or mixed with what is behind it
+};
+
 /// A part as it is drawn.
 struct DrawnPart {
   HeadTopology::Part part;  ///< indices as uploaded
   bool soft = false;        ///< mixed with what is behind it
-  /// Of what wears a photo: off, it is the photo and nothing else, without a crease, grain from
-  /// elsewhere or anything that is left out, which costs a fraction of a pixel.
-  bool detailed = true;
+  Worn worn = Worn::kDetailed;
 };
 
 /// The triangles of a head in the order to draw them. Pixels found to be hidden cost nearly
@@ -24,9 +29,8 @@ struct DrawnPart {
 /// that.
 class DrawOrder {
  public:
-  /// `detailed`: of every vertex, what DrawnPart says of parts.
-  DrawOrder(const HeadTopology& topology, const HeadVertices& rest,
-            const std::vector<bool>& detailed);
+  /// `worn`: of every vertex, what DrawnPart says of parts.
+  DrawOrder(const HeadTopology& topology, const HeadVertices& rest, const std::vector<Worn>& worn);
 
   std::vector<DrawnPart> parts;
   std::vector<std::uint32_t> indices;
@@ -39,7 +43,8 @@ class DrawOrder {
  private:
   using Corners = std::span<const std::uint32_t>;
   Corners CornersOf(const HeadTopology::Part& part) const;
-  void Add(HeadTopology::Part part, Corners corners, bool soft = false, bool is_detailed = true);
+  void Add(HeadTopology::Part part, Corners corners, bool soft = false,
+           Worn worn = Worn::kDetailed);
   void AddWorn(const HeadTopology::Part& part, Corners corners);
   struct Layer {
     HeadTopology::Part part{};
@@ -49,7 +54,7 @@ class DrawOrder {
   std::vector<std::uint32_t> SortedHair(const HeadVertices& rest, std::size_t& before_ears) const;
 
   const HeadTopology& topology_;
-  const std::vector<bool>& detailed_;
+  const std::vector<Worn>& worn_;
 };
 
 }  // namespace fsm

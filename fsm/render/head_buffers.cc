@@ -1,7 +1,9 @@
 #include "fsm/render/head_buffers.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 #include <utility>
@@ -60,6 +62,42 @@ Paint PaintOf(const HeadTopology& topology) {
     paint.grain[lid.vertex] = glm::vec4(lid.grain_at, lid.slide);
   }
   return paint;
+}
+
+/// Of every vertex, how much is more than the photo.
+std::vector<Worn> WornBy(const Paint& paint, const Detail& detail) {
+  std::vector<Worn> worn(paint.opacity.size());
+  for (std::size_t i = 0; i < worn.size(); ++i) {
+    const bool creases = detail.right[i] != kNone || detail.left[i] != kNone;
+    worn[i] = paint.opacity[i] < 1 || paint.grain[i].x > 0 ? Worn::kDetailed
+              : creases                                     ? Worn::kCreased
+                                                            : Worn::kPlain;
+  }
+  return worn;
+}
+
+/// How fine the photo lies on what wears it and faces the viewer, as he sees it: the root of texels
+/// to square millimetres.
+float TexelsPerMm(const HeadTopology& topology, const HeadVertices& rest) {
+  if (!topology.photo || topology.texcoord.empty()) return 0;
+  const glm::vec2 size(topology.photo->width, topology.photo->height);
+  double texels = 0, area = 0;
+  for (std::size_t k = 0; k + 2 < topology.indices.size(); k += 3) {
+    const auto* t = &topology.indices[k];
+    if (std::min({topology.texture_weight[t[0]], topology.texture_weight[t[1]],
+                  topology.texture_weight[t[2]]}) <= 0) {
+      continue;
+    }
+    const glm::vec2 a = size * (topology.texcoord[t[1]] - topology.texcoord[t[0]]);
+    const glm::vec2 b = size * (topology.texcoord[t[2]] - topology.texcoord[t[0]]);
+    const glm::vec2 c(rest.position[t[1]] - rest.position[t[0]]);
+    const glm::vec2 d(rest.position[t[2]] - rest.position[t[0]]);
+    const float seen = c.x * d.y - c.y * d.x;
+    if (seen <= 0) continue;
+    texels += std::abs(a.x * b.y - a.y * b.x);
+    area += seen;
+  }
+  return area > 0 ? static_cast<float>(std::sqrt(texels / area)) : 0.0F;
 }
 
 }  // namespace
@@ -121,6 +159,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   assert(rest.position.size() == topology.albedo.size());
   vertex_count_ = rest.position.size();
   CopyTopology(topology);
+  photo_texels_per_mm_ = TexelsPerMm(topology, rest);
   const auto marks = FaceMarks::Of(head);
   CreaseWeights creases;
   chin_y_ = marks ? marks->gnathion.y : kNoChin;
@@ -151,12 +190,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   upload(8, paint.grain);
   upload(9, paint.opacity);
   upload(10, rest_normal);
-  std::vector<bool> detailed(vertex_count_);
-  for (std::size_t i = 0; i < detailed.size(); ++i) {
-    detailed[i] = paint.opacity[i] < 1 || paint.grain[i].x > 0 || detail.right[i] != kNone ||
-                  detail.left[i] != kNone;
-  }
-  const DrawOrder order(topology, rest, detailed);
+  const DrawOrder order(topology, rest, WornBy(paint, detail));
   parts_ = order.parts;
   gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
                  static_cast<GLsizeiptr>(order.indices.size() * sizeof(std::uint32_t)),

@@ -47,6 +47,8 @@ class HeadBuffers {
   const EyeGeometry& eye_geometry() const { return eye_geometry_; }
   /// HeadTopology::photo; null if the skin is painted.
   const Image* photo() const { return photo_.get(); }
+  /// How fine the photo lies on the head at rest, as seen from the front; 0 without one.
+  float photo_texels_per_mm() const { return photo_texels_per_mm_; }
   /// DrawOrder::Blends.
   bool blends() const { return blends_; }
   /// HeadTopology::normal_map, emissive_map and pbr_materials.
@@ -91,6 +93,7 @@ class HeadBuffers {
   std::vector<PbrMaterial> pbr_materials_;
   std::optional<std::array<EyePicture, 2>> eye_pictures_;
   std::array<EyeFrame, 2> resting_eyes_;
+  float photo_texels_per_mm_ = 0;
   float saturation_ = 1;
   glm::vec4 photo_light_{0, 0, 0, 1};
   float chin_y_ = kNoChin;

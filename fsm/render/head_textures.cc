@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "fsm/image/shrink.h"
+
 namespace fsm {
 namespace {
 
@@ -40,45 +42,63 @@ void FillTexture(const GlFunctions& gl, GLuint texture, int width, int height,
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
 }
 
-HeadTextures::HeadTextures(const GlFunctions& gl, const HeadBuffers& head)
-    : gl_(gl), has_photo_(head.photo() != nullptr) {
+HeadTextures::HeadTextures(const GlFunctions& gl, const HeadBuffers& head) : gl_(gl) {
   gl_.GenTextures(kTextures, textures_);
+  if (head.pbr_materials().empty()) return;
   const auto wear = [this](Texture texture, const Image& picture) {
     FillTexture(gl_, textures_[texture], picture.width, picture.height, picture.rgba.data(),
                 GL_LINEAR);
   };
-  if (has_photo_) wear(kPhoto, *head.photo());
-  if (head.pbr_materials().empty()) return;
   wear(kNormal, head.normal_map() ? *head.normal_map() : Image{1, 1, {128, 128, 255, 255}});
   wear(kEmissive, head.emissive_map() ? *head.emissive_map() : Image{1, 1, {255, 255, 255, 255}});
 }
 
 HeadTextures::~HeadTextures() { gl_.DeleteTextures(kTextures, textures_); }
 
+// Pictures are worn with a texel about as large as a sample, of which the nearest is taken: with
+// four samples to a pixel that is smooth, and in software a filtered fetch costs as much as
+// everything else of a pixel. Of a face so near that texels show they are filtered.
+void HeadTextures::Wear(HeadBuffers& head, float samples_per_mm) {
+  WearSkin(head, std::max(samples_per_mm, 1e-3F));
+  if (head.photo()) WearPhoto(head, std::max(samples_per_mm, 1e-3F));
+}
+
 void HeadTextures::WearSkin(HeadBuffers& head, float samples_per_mm) {
   const SkinTexture* skin = head.skin();
   if (!skin) return;
-  // Halved until a texel is about a sample; a face so near that texels show is filtered. Else the
-  // nearest texel is taken: with four samples to a pixel that is smooth, and in software a filtered
-  // fetch costs as much as everything else of a pixel.
-  const float texels_per_sample = SkinTexture::kTexelsPerMm / std::max(samples_per_mm, 1e-3F);
-  const int level = std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5);
-  const GLint filter = texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST;
-  if (std::exchange(has_skin_, true) && level == skin_level_ && filter == skin_filter_) return;
-  skin_level_ = level;
-  skin_filter_ = filter;
+  const float texels_per_sample = SkinTexture::kTexelsPerMm / samples_per_mm;
+  const Fit fit{std::clamp(static_cast<int>(std::lround(std::log2(texels_per_sample))), 0, 5),
+                texels_per_sample < 0.5F ? GL_LINEAR : GL_NEAREST};
+  if (skin_ == fit) return;
+  skin_ = fit;
   for (const auto& [texture, picture] :
        {std::pair(kTint, &skin->tint), std::pair(kSkinRelief, &skin->relief)}) {
     int side = SkinTexture::kSide;
     std::vector<std::uint8_t> halved;
     const std::uint8_t* rgba = picture->data();
-    for (int k = 0; k < level; ++k) {
+    for (int k = 0; k < fit.level; ++k) {
       halved = Halve(rgba, side);
       side /= 2;
       rgba = halved.data();
     }
-    FillTexture(gl_, textures_[texture], side, side, rgba, filter);
+    FillTexture(gl_, textures_[texture], side, side, rgba, fit.filter);
   }
+}
+
+void HeadTextures::WearPhoto(const HeadBuffers& head, float samples_per_mm) {
+  const Image& photo = *head.photo();
+  // A photo has edges: with less than a texel to a sample those are seen to be cut out.
+  const float texels_per_sample = head.photo_texels_per_mm() / samples_per_mm;
+  const Fit fit = texels_per_sample < 1
+                      ? Fit{0, GL_LINEAR}
+                      : Fit{static_cast<int>(std::log2(texels_per_sample)), GL_NEAREST};
+  if (photo_ == fit) return;
+  photo_ = fit;
+  const auto halved = [&fit](int side) { return std::max(side >> fit.level, 1); };
+  const Image scaled =
+      fit.level == 0 ? Image{} : Shrunk(photo, halved(photo.width), halved(photo.height));
+  const Image& worn = fit.level == 0 ? photo : scaled;
+  FillTexture(gl_, textures_[kPhoto], worn.width, worn.height, worn.rgba.data(), fit.filter);
 }
 
 }  // namespace fsm

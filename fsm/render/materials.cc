@@ -130,6 +130,7 @@ void Materials::BeginFrame(const View& view, const HeadBuffers& head, const Head
     SetLight(*program, lamps, shadows, glm::inverse(view.figure_to_world));
   }
   const SideDepths depths = DepthsOf(vertices);
+  creases_ = depths != SideDepths{};
   const float brightness = PhotoBrightness(lamps);
   SetSurface(glm::normalize(rest_to_world[1]), depths);
   SetPbr(brightness);
@@ -189,17 +190,19 @@ float Materials::PhotoBrightness(const Lamps& lamps) const {
 std::vector<const GlProgram*> Materials::ProgramsOf(const HeadBuffers& head) {
   std::vector<const GlProgram*> programs{&surface_, &mouth_, &eye_, &hair_, &line_};
   for (const DrawnPart& part : head.parts()) {
-    auto& photo = photo_[part.detailed];
+    auto& photo = photo_[static_cast<std::size_t>(part.worn)];
     if (photo || !WearsPhoto(part.part.material)) continue;
-    const char* detailed =
-        part.detailed ? "const bool kDetailed = true;\n" : "const bool kDetailed = false;\n";
-    photo.reset(new GlProgram(
-        Compile("photo", embedded::photo_vertex(), embedded::photo_fragment(), detailed)));
+    const auto constant = [](const char* name, bool value) {
+      return std::string("const bool ") + name + (value ? " = true;\n" : " = false;\n");
+    };
+    photo.reset(new GlProgram(Compile("photo", embedded::photo_vertex(), embedded::photo_fragment(),
+                                      constant("kCreased", part.worn != Worn::kPlain) +
+                                          constant("kDetailed", part.worn == Worn::kDetailed))));
   }
   if (!head.pbr_materials().empty() && !pbr_) {
     pbr_.reset(new GlProgram(Compile("pbr", embedded::pbr_vertex(), embedded::pbr_fragment())));
   }
-  for (const auto* program : {&photo_[0], &photo_[1], &pbr_}) {
+  for (const auto* program : {&photo_[0], &photo_[1], &photo_[2], &pbr_}) {
     if (*program) programs.push_back(program->get());
   }
   return programs;
@@ -228,8 +231,8 @@ bool Materials::WearsPhoto(Material material) const {
          (head_->photo() && (material == Material::kSkin || material == Material::kLip));
 }
 
-void Materials::Use(Material material, bool detailed) {
-  if (WearsPhoto(material)) return UsePhoto(material, detailed);
+void Materials::Use(Material material, Worn worn) {
+  if (WearsPhoto(material)) return UsePhoto(material, worn);
   switch (material) {
     case Material::kSclera:
     case Material::kIris:
@@ -265,9 +268,15 @@ void Materials::Use(Material material, bool detailed) {
   BindOrPlain(planar ? shared_textures_[kWeave] : head_textures_->skin_relief(), GL_TEXTURE2);
 }
 
+bool Materials::IsHidden(const DrawnPart& part) const {
+  // What lines the mouth lines nostrils, too.
+  return lips_shut_ && IsOfMouth(part.part.material) &&
+         part.part.material != Material::kMouthInside;
+}
+
 void Materials::Use(const DrawnPart& drawn) {
   const auto& part = drawn.part;
-  if (part.pbr < 0) return Use(part.material, drawn.detailed);
+  if (part.pbr < 0) return Use(part.material, drawn.worn);
   UsePbr(head_->pbr_materials()[static_cast<std::size_t>(part.pbr)]);
 }
 
@@ -286,8 +295,10 @@ void Materials::UsePbr(const PbrMaterial& pbr) {
   Bind(head_textures_->emissive_map(), GL_TEXTURE5);
 }
 
-void Materials::UsePhoto(Material material, bool detailed) {
-  const GlProgram& photo = *photo_[detailed];
+void Materials::UsePhoto(Material material, Worn worn) {
+  // Where nothing creases now, skin is the photo and nothing else, too.
+  const bool smooth = worn == Worn::kCreased && !creases_ && photo_[0];
+  const GlProgram& photo = *photo_[smooth ? 0 : static_cast<std::size_t>(worn)];
   const bool ragged = material == Material::kPhoto;
   gl_.UseProgram(photo.id());
   gl_.Uniform1f(photo.Uniform("lashes"), material == Material::kShutLash ? 1.0F : 0.0F);

@@ -39,6 +39,9 @@ class Materials {
   /// `head` and `textures` are that head's, until the next call.
   void BeginFrame(const View& view, const HeadBuffers& head, const HeadTextures& textures,
                   const HeadVertices& vertices, const Scene& scene);
+  /// Whether nothing of a part is seen in this frame: teeth, gums and tongue behind lips that are
+  /// shut.
+  bool IsHidden(const DrawnPart& part) const;
   void Use(const DrawnPart& part);
   /// A plain colour, for lines and for passes whose colour is not kept.
   void UseLine(const glm::vec4& color);
@@ -71,9 +74,9 @@ class Materials {
                 glm::vec3 key_direction);
   /// How much brighter than by default the lamps are: a photo's own light stands for the default.
   float PhotoBrightness(const Lamps& lamps) const;
-  void Use(Material material, bool detailed);
+  void Use(Material material, Worn worn);
   bool WearsPhoto(Material material) const;
-  void UsePhoto(Material material, bool detailed);
+  void UsePhoto(Material material, Worn worn);
   void UsePbr(const PbrMaterial& pbr);
   void UseHair(float streaks, float shine);
 
@@ -84,12 +87,14 @@ class Materials {
   GlProgram eye_;
   GlProgram hair_;
   GlProgram line_;
-  // Made for the first head that has any. Of those for photos, the second draws what is detailed.
-  std::array<std::unique_ptr<GlProgram>, 2> photo_;
+  // Made for the first head that has any.
+  std::array<std::unique_ptr<GlProgram>, 3> photo_;  // by Worn
   std::unique_ptr<GlProgram> pbr_;
   GLuint shared_textures_[kTextures] = {};
   const HeadBuffers* head_ = nullptr;  // of the last BeginFrame
   const HeadTextures* head_textures_ = nullptr;
+  bool creases_ = false;    // any skin, in the last BeginFrame
+  bool lips_shut_ = false;  // all along
   bool has_mouth_ = false;  // of which is known how light comes in
 };
 

@@ -33,6 +33,7 @@ void Materials::SetMouth(const View& view, const HeadBuffers& head, const HeadVe
                          glm::vec3 key_direction) {
   const auto opening = head.mouth().Measure(vertices);
   has_mouth_ = opening.has_value();
+  lips_shut_ = opening && opening->IsShut();
   float gap = 0, dropped = 0;
   if (opening) {
     constexpr std::size_t kMiddle = MouthFinder::kColumns / 2;

@@ -1,5 +1,6 @@
 #include "fsm/render/mouth_frame.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -44,6 +45,16 @@ std::optional<MouthFinder::Opening> MouthFinder::Measure(const HeadVertices& ver
   opening.corners = {place(slit_->corner_right).x, place(slit_->corner_left).x};
   opening.teeth = {place(slit_->upper_incisor).y, place(slit_->lower_incisor).y};
   return opening;
+}
+
+bool MouthFinder::Opening::IsShut() const {
+  constexpr float kShut = 0.02F;  // millimetres: less than a sample of any picture
+  for (std::size_t k = 0; k < kColumns; ++k) {
+    // Of lips that meet, neither stands before the other.
+    const glm::vec3 apart = lips[k] - lips[k + kColumns];
+    if (apart.y > kShut || std::abs(apart.z) > kShut) return false;
+  }
+  return true;
 }
 
 }  // namespace fsm

@@ -29,6 +29,8 @@ class MouthFinder {
     std::array<glm::vec3, std::size_t{2} * kColumns> lips;
     glm::vec2 corners;  ///< x of the right and the left one; both lie at y = z = 0
     glm::vec2 teeth;    ///< heights of the upper and the lower incisors' edges
+    /// Whether the lips meet in every column.
+    bool IsShut() const;
   };
   /// Nothing where the head does not say where its lips part.
   std::optional<Opening> Measure(const HeadVertices& vertices) const;

@@ -203,7 +203,7 @@ class GlRenderer : public Renderer {
     gl_.Clear(GL_DEPTH_BUFFER_BIT);
     materials_.BeginFrame(view, buffers, on_card.textures, vertices, scene);
     if (buffers.painting()) WarmUp(buffers.parts());
-    on_card.textures.WearSkin(buffers, view.samples_per_mm);
+    on_card.textures.Wear(buffers, view.samples_per_mm);
     const auto& parts = buffers.parts();
     if (scene.view_mode != ViewMode::kWireframe) {
       if (scene.view_mode == ViewMode::kTextureWithWireframe) {
@@ -212,6 +212,7 @@ class GlRenderer : public Renderer {
       }
       gl_.CullFace(GL_BACK);
       for (const DrawnPart& part : parts) {
+        if (materials_.IsHidden(part)) continue;
         // Lashes have two sides; everything else is the skin of something closed, or of hair, which
         // has an inside of its own where it hangs.
         (IsSheet(part.part) ? gl_.Disable : gl_.Enable)(GL_CULL_FACE);

@@ -28,28 +28,25 @@ void AverageRow(const std::uint32_t* samples, std::size_t row, std::uint8_t* rgb
 }
 
 /// Likewise of every 4 x 4 of four rows, the inner samples three times as heavy as the outer ones
-/// in either direction: pixels share what lies between them. `sums`: room for 2 * row words.
-void SoftRow(const std::array<const std::uint32_t*, 4>& rows, std::size_t row, std::uint32_t* sums,
+/// in either direction: pixels share what lies between them. `sums`: room for 4 * (row + 2)
+/// numbers.
+void SoftRow(const std::array<const std::uint32_t*, 4>& rows, std::size_t row, std::uint16_t* sums,
              std::uint8_t* rgba) {
-  constexpr std::uint32_t kEven = 0x00ff00ff;
-  constexpr std::uint32_t kHalf = 0x00200020;
-  std::uint32_t* even = sums;
-  std::uint32_t* odd = sums + row;
-  const auto weigh = [](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    return a + d + 3 * (b + c);  // up to 8 times a byte, then 64 times: 16 bits hold it
+  const auto bytes = [&rows](std::size_t k) {
+    return reinterpret_cast<const std::uint8_t*>(rows[k]);
   };
-  for (std::size_t x = 0; x < row; ++x) {
-    const std::uint32_t s[] = {rows[0][x], rows[1][x], rows[2][x], rows[3][x]};
-    even[x] = weigh(s[0] & kEven, s[1] & kEven, s[2] & kEven, s[3] & kEven);
-    odd[x] =
-        weigh((s[0] >> 8) & kEven, (s[1] >> 8) & kEven, (s[2] >> 8) & kEven, (s[3] >> 8) & kEven);
+  const std::uint8_t *below = bytes(0), *low = bytes(1), *high = bytes(2), *above = bytes(3);
+  std::uint16_t* inside = sums + 4;  // one sample more at either end
+  for (std::size_t i = 0; i < 4 * row; ++i) {
+    inside[i] = static_cast<std::uint16_t>(below[i] + above[i] + 3 * (low[i] + high[i]));
   }
-  for (std::size_t x = 0; x < row; x += 2) {
-    const std::size_t before = x > 0 ? x - 1 : x, after = std::min(x + 2, row - 1);
-    const std::uint32_t e = weigh(even[before], even[x], even[x + 1], even[after]) + kHalf;
-    const std::uint32_t o = weigh(odd[before], odd[x], odd[x + 1], odd[after]) + kHalf;
-    const std::uint32_t average = ((e >> 6) & kEven) | (((o >> 6) & kEven) << 8);
-    std::memcpy(rgba + 2 * x, &average, sizeof(average));
+  std::copy_n(inside, 4, sums);
+  std::copy_n(inside + 4 * row - 4, 4, inside + 4 * row);
+  for (std::size_t i = 0; i < 2 * row; i += 4) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::uint16_t* at = sums + 2 * i + c;
+      rgba[i + c] = static_cast<std::uint8_t>((at[0] + at[12] + 3 * (at[4] + at[8]) + 32) >> 6);
+    }
   }
 }
 
@@ -57,7 +54,7 @@ void SoftRow(const std::array<const std::uint32_t*, 4>& rows, std::size_t row, s
 
 void AverageSamples(const SampleRows& samples, int first, int rows, bool soft, std::uint8_t* rgba) {
   const std::size_t row = samples.row;
-  std::vector<std::uint32_t> sums(soft ? 2 * row : 0);
+  std::vector<std::uint16_t> sums(soft ? 4 * (row + 2) : 0);
   const auto at = [&](int k) {
     const int inside = std::clamp(k, samples.from, samples.to) - samples.from;
     return samples.first + row * static_cast<std::size_t>(inside);

@@ -2,6 +2,7 @@
 
 #include "fsm/image/image_codec.h"
 #include "fsm/image/image_file.h"
+#include "fsm/image/shrink.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {
@@ -150,6 +151,17 @@ TEST(ImageFileTest, HugeSizesAreRefusedBeforeTheyAreBelieved) {
     huge[i + 3] = 0x80;
     EXPECT_FALSE(DecodeBmp(huge, why));
   }
+}
+
+TEST(ShrunkTest, EveryPixelIsTheMeanOfWhatItCovers) {
+  Image row{3, 1, {}};
+  for (const int grey : {30, 60, 120})
+    row.rgba.insert(row.rgba.end(), 4, static_cast<std::uint8_t>(grey));
+  const Image two = Shrunk(row, 2, 1);  // a pixel and a half each
+  EXPECT_EQ(two.rgba, (std::vector<std::uint8_t>{40, 40, 40, 40, 100, 100, 100, 100}));
+  const Image plain = FilledImage(7, 5, {10, 20, 30, 255});
+  EXPECT_EQ(Shrunk(plain, 3, 2).rgba, FilledImage(3, 2, {10, 20, 30, 255}).rgba);
+  EXPECT_EQ(Shrunk(row, 3, 1).rgba, row.rgba);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/render/camera.h"
+#include "fsm/render/mouth_frame.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {
@@ -267,6 +268,24 @@ TEST(MouthPictureTest, AHeadThatSaysNothingOfItsLipsTakesNothingFromTheOneDrawnB
   int other = 0;
   for (std::size_t i = 0; i < alone.size(); ++i) other += alone[i] != after[i] ? 1 : 0;
   EXPECT_EQ(other, 0) << "bytes of the picture";
+}
+
+TEST(MouthFinderTest, LipsAreShutWhereNothingIsSeenBetweenThem) {
+  const auto head = MakeHead("galatea");
+  const MouthFinder finder(head->topology());
+  HeadVertices vertices;
+  head->Evaluate({}, vertices);
+  EXPECT_TRUE(finder.Measure(vertices)->IsShut());
+  for (const glm::vec3 apart :
+       {glm::vec3(0, 0.5F, 0), glm::vec3(0, 0, 0.5F), glm::vec3(0, 0, -0.5F)}) {
+    HeadVertices open = vertices;
+    for (const auto& pair : head->topology().mouth.lips) open.position[pair.first] += apart;
+    EXPECT_FALSE(finder.Measure(open)->IsShut()) << apart.y << " " << apart.z;
+  }
+  FaceState state;
+  state.au_left[25] = state.au_right[25] = 0.2F;
+  head->Evaluate(state, vertices);
+  EXPECT_FALSE(finder.Measure(vertices)->IsShut());
 }
 
 }  // namespace

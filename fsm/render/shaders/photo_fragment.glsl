@@ -1,5 +1,5 @@
 // The photo brought its own light: it is shown as it is, but for creases that the face makes now.
-// kDetailed, which stands before this text: as DrawnPart::detailed.
+// kCreased and kDetailed, which stand before this text: as Worn says; what is detailed is creased, too.
 in vec2 place;
 in vec3 texcoord;
 in vec3 paint;
@@ -26,7 +26,7 @@ void main() {
     if (1.0 - opacity > mix(step, 0.99, blends)) discard;
   }
   float shade = 1.0;
-  if (kDetailed) {
+  if (kCreased) {
     vec2 slope = texture(relief, place).zw - 0.5;
     // Of the skin's map opacity says how much of it is skin: hair over it does not crease.
     shade = 1.0 - p.a * clamp(crease, 0.0, 1.0) * (photo_crease.x + photo_crease.y * dot(slope, vec2(-0.5, 0.85)));

@@ -1,0 +1,63 @@
+#include "fsm/image/shrink.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace fsm {
+namespace {
+
+/// Old pixels along a side, `count` of them from `first` on, and how much each gives to a new one.
+struct Taps {
+  int first;
+  std::vector<float> weights;
+};
+
+std::vector<Taps> TapsOf(int old_size, int new_size) {
+  const float ratio = static_cast<float>(old_size) / static_cast<float>(new_size);
+  std::vector<Taps> all;
+  for (int i = 0; i < new_size; ++i) {
+    const float from = static_cast<float>(i) * ratio, to = from + ratio;
+    Taps taps{static_cast<int>(from), {}};
+    const int last = std::min(static_cast<int>(std::ceil(to)), old_size);
+    for (int k = taps.first; k < last; ++k) {
+      const float begin = static_cast<float>(k);
+      taps.weights.push_back((std::min(to, begin + 1) - std::max(from, begin)) / ratio);
+    }
+    all.push_back(std::move(taps));
+  }
+  return all;
+}
+
+}  // namespace
+
+Image Shrunk(const Image& image, int width, int height) {
+  assert(width > 0 && width <= image.width && height > 0 && height <= image.height);
+  const std::vector<Taps> across = TapsOf(image.width, width), down = TapsOf(image.height, height);
+  const auto row = static_cast<std::size_t>(image.width) * 4;
+  std::vector<float> sums(row);
+  Image out{width, height, {}};
+  out.rgba.reserve(4 * out.Index(0, height));
+  for (const Taps& rows : down) {
+    std::ranges::fill(sums, 0.0F);
+    const std::uint8_t* from = image.rgba.data() + static_cast<std::size_t>(rows.first) * row;
+    for (const float weight : rows.weights) {
+      for (std::size_t i = 0; i < row; ++i) sums[i] += weight * static_cast<float>(from[i]);
+      from += row;
+    }
+    for (const Taps& columns : across) {
+      const float* at = sums.data() + static_cast<std::size_t>(columns.first) * 4;
+      float mean[4] = {0.5F, 0.5F, 0.5F, 0.5F};
+      for (const float weight : columns.weights) {
+        for (float& channel : mean) channel += weight * *at++;
+      }
+      for (const float channel : mean) {
+        out.rgba.push_back(static_cast<std::uint8_t>(std::min(channel, 255.0F)));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace fsm

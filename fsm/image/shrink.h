@@ -1,0 +1,11 @@
+#pragma once
+
+#include "fsm/image/image.h"
+
+namespace fsm {
+
+/// The same picture at a size that is no larger, 1 x 1 or more: every pixel is the mean of what it
+/// covers. Colours are taken as they are, whatever their opacity.
+Image Shrunk(const Image& image, int width, int height);
+
+}  // namespace fsm
