@@ -20,6 +20,7 @@
 #include "fsm/faces/head_cache.h"
 #include "fsm/faces/head_of_file.h"
 #include "fsm/faces/original_faces.h"
+#include "fsm/faces/table_folder.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "vm_protocol/core/or_throw.h"
@@ -252,6 +253,17 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
   return backend;
 }
 
+/// Tells what is odd about the folder of --tables. Exit code of a run that ends there; -1 if none.
+int CheckTablesGiven(const Options& options) {
+  const auto notices = fsm::CheckTables(options.module.tables);
+  if (!notices) {
+    std::cerr << "fsm: " << notices.error().text << "\n";
+    return 1;
+  }
+  for (const std::string& notice : *notices) std::cerr << "fsm: notice: " << notice << "\n";
+  return -1;
+}
+
 /// Exit code of a run that only draws a sheet; -1 if none is asked for.
 int DrawSheetIfAsked(const Options& options) {
   if (options.sheet.empty()) return -1;
@@ -300,6 +312,7 @@ int main(int argc, char** argv) {
        .add_options = [&options](CLI::App& app) { AddOptions(app, options); },
        .before_start =
            [&options] {
+             if (const int code = CheckTablesGiven(options); code >= 0) return code;
              const int exported = ExportIfAsked(options);
              return exported >= 0 ? exported : DrawSheetIfAsked(options);
            },

@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fsm/faces/table_folder.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/image/image_file.h"
-#include "fsm/motion/table_text.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -21,16 +21,6 @@ constexpr std::size_t kMaxFileBytes = 16u << 20;  // thirty times a face of a la
 
 std::string ReadText(const std::string& path) {
   return vm::OrThrow(vm::ReadTextFile(path, kMaxFileBytes));
-}
-
-/// A table of a folder; nothing if it has none of that name. Throws as UnitsIn.
-std::optional<std::string> TableIn(const std::string& folder, const char* file) {
-  const std::string path = folder + "/" + file;
-  std::error_code error;
-  if (folder.empty() || !std::filesystem::exists(path, error)) return std::nullopt;
-  std::string text = vm::OrThrow(ReadTableFile(path));
-  vm::OrThrow(CheckTableEncoding(path, text));
-  return text;
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <optional>
+
 #include "fsm/motion/table_text.h"
 #include "fsm/motion/track.h"
 #include "fsm/motion/unit_names.h"
@@ -110,8 +113,25 @@ vm::Result<void> ReadPosition(const TableText& table, const TableLine& line, con
                      [&](std::size_t unit) { list.units[place - 1] = static_cast<int>(unit); });
 }
 
+/// In which line of the table a unit got its region.
+using RegionLines = std::map<std::size_t, int>;
+
+vm::Result<void> ReadRegion(const TableText& table, const TableLine& line, Region region,
+                            const UnitNames& names, UnitList& list, RegionLines& given) {
+  std::optional<std::size_t> twice;
+  auto read = ReadNumbers(table, line, 2, names, [&](std::size_t unit) {
+    const bool fresh = given.try_emplace(unit, line.number).second;
+    if (!fresh && list.RegionOf(unit) != region && !twice) twice = unit;
+    if (unit >= list.regions.size()) list.regions.resize(unit + 1, Region::kMouth);
+    list.regions[unit] = region;
+  });
+  if (!read || !twice) return read;
+  return table.Wrong(line.number, fmt::format("unit {} has another region in line {}; one expected",
+                                              *twice, given[*twice]));
+}
+
 vm::Result<void> ReadListLine(const TableText& table, const TableLine& line, const UnitNames& names,
-                              UnitList& list) {
+                              UnitList& list, RegionLines& given) {
   constexpr std::array<std::string_view, kRegions> kRegionNames = {"eye", "brow", "mouth"};
   const std::string& kind = line.words[0];
   if (kind == "face" || kind == "emotion") return ReadPosition(table, line, names, list);
@@ -129,10 +149,8 @@ vm::Result<void> ReadListLine(const TableText& table, const TableLine& line, con
   if (region == kRegionNames.end()) {
     return table.Wrong(line.number, "'" + line.words[1] + "' found, eye, brow or mouth expected");
   }
-  return ReadNumbers(table, line, 2, names, [&](std::size_t unit) {
-    if (unit >= list.regions.size()) list.regions.resize(unit + 1, Region::kMouth);
-    list.regions[unit] = static_cast<Region>(region - kRegionNames.begin());
-  });
+  return ReadRegion(table, line, static_cast<Region>(region - kRegionNames.begin()), names, list,
+                    given);
 }
 
 }  // namespace
@@ -141,8 +159,9 @@ vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text
                                   const UnitNames& names) {
   const TableText table(name, text);
   UnitList list;
+  RegionLines given;
   for (const TableLine& line : table.lines()) {
-    if (auto read = ReadListLine(table, line, names, list); !read) {
+    if (auto read = ReadListLine(table, line, names, list, given); !read) {
       return std::unexpected(read.error());
     }
   }
