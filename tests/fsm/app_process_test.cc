@@ -183,6 +183,27 @@ TEST_F(FsmProcessTest, AnExportedFaceIsDescribedAndDrawnAsItWas) {
   EXPECT_EQ(ReadAll(folder / "face1.png"), ReadAll(folder / "face2.png"));
 }
 
+// A triangle, and a morph target that moves its second corner.
+constexpr const char* kSmirkingTriangle =
+    R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"extras":{"targetNames":["Smirk"]},)"
+    R"("primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1}]}]}],"accessors":[)"
+    R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+    R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[)"
+    R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":36}],"buffers":[)"
+    R"({"byteLength":72,"uri":"data:application/octet-stream;base64,)"
+    "AAAAAAAAAAAAAAAAzczMPQAAAAAAAAAAAAAAAM3MzD0AAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAArXIzwAAAAAAAAAAAAAAAAAAAAA"
+    R"("}]})";
+
+TEST_F(FsmProcessTest, ShapesOfAHeadThatAreNotUsedAreNamed) {
+  std::ofstream(folder / "head.gltf") << kSmirkingTriangle;
+  EXPECT_EQ(Run("--head head.gltf --describe", ""), 0) << err;
+  EXPECT_NE(err.find("fsm: notice: 'head.gltf': shapes are not used, for neither ARKit nor VRM has "
+                     "their names: Smirk;"),
+            std::string::npos)
+      << err;
+}
+
 TEST_F(FsmProcessTest, AFacesOwnUnitsGoBeforeThoseOfTheTables) {
   std::filesystem::create_directories(folder / "faces/berta");
   std::ofstream(folder / "faces/berta/identity.txt") << "base galatea\n";
