@@ -20,6 +20,7 @@
 #include "fsm/faces/head_cache.h"
 #include "fsm/faces/head_of_file.h"
 #include "fsm/faces/original_faces.h"
+#include "fsm/faces/table_folder.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "vm_protocol/core/or_throw.h"
@@ -240,6 +241,13 @@ fsm::GlRenderBackend::Options RenderBackendOptions(const Options& options) {
   return backend;
 }
 
+/// Tells what is odd about the folder of --tables.
+void CheckTablesGiven(const Options& options) {
+  for (const std::string& notice : vm::OrThrow(fsm::CheckTables(options.module.tables))) {
+    std::cerr << "fsm: notice: " << notice << "\n";
+  }
+}
+
 /// For a run that only draws a sheet.
 void DrawSheet(const Options& options) {
   if (options.out.empty()) throw std::runtime_error("--sheet needs --out FILE.png");
@@ -260,6 +268,7 @@ void DrawSheet(const Options& options) {
 /// Exit code of a run without lines; -1 if none is asked for.
 int RunOnce(const Options& options) {
   try {
+    CheckTablesGiven(options);
     if (!options.export_file.empty() || options.describe) {
       ExportOrDescribe(options);
     } else if (!options.sheet.empty()) {

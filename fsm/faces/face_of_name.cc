@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fsm/base/table_reader.h"
+#include "fsm/faces/table_folder.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/own_identity.h"
@@ -21,14 +21,6 @@ constexpr std::size_t kMaxFileBytes = 16u << 20;  // thirty times a face of a la
 
 std::string ReadText(const std::string& path) {
   return vm::OrThrow(vm::ReadTextFile(path, kMaxFileBytes));
-}
-
-/// A table of a folder; nothing if it has none of that name. Throws as UnitsIn.
-std::optional<std::string> TableIn(const std::string& folder, const char* file) {
-  const std::string path = folder + "/" + file;
-  std::error_code error;
-  if (folder.empty() || !std::filesystem::exists(path, error)) return std::nullopt;
-  return vm::OrThrow(ReadTableFile(path));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fsm/faces/face_of_name.h"
+#include "fsm/faces/table_folder.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/obj_file.h"
@@ -181,9 +182,12 @@ std::unique_ptr<Head> MakeHeadOfFile(const std::string& path, const std::string&
     const auto source = MakeHead(alignment.face, false);
     const auto other = units ? source->WithUnits(*units) : nullptr;
     const std::vector<ShapeMeaning> shapes = Meanings(tables);
+    std::vector<std::string> unused;
     skin = BlendshapeRig(file, alignment.to_ours, model, {*source, shapes},
-                         other ? *other : *source, VisemeStates(tables));
+                         other ? *other : *source, VisemeStates(tables), &unused);
     told.by_shapes = skin.has_value();
+    if (!unused.empty())
+      tell("shapes are not used, for neither ARKit nor VRM has their names: " + Listed(unused));
   }
   if (!skin && has_points) {
     skin = TransferredRig(model, *moved(MakeHead(alignment.face)), alignment.pairs);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -58,6 +59,15 @@ class ShapeSolver {
     std::vector<float> weights = mix_->TakeApart(look.moves).weights;
     HoldShut(look.gap_mm, weights);
     return weights;
+  }
+  /// Which part of a state's movement the shapes can show together, 0..1 of its squares.
+  float PartShown(const FaceState& state) {
+    if (!mix_) mix_.emplace(keys_);
+    const NnlsSolver::Row moves = LookOf(moved_, state).moves;
+    const NnlsSolver::Row rest = mix_->TakeApart(moves).rest;
+    const float all = std::inner_product(moves.begin(), moves.end(), moves.begin(), 0.0f);
+    const float left = std::inner_product(rest.begin(), rest.end(), rest.begin(), 0.0f);
+    return all > 0 ? 1 - left / all : 0;
   }
 
  private:
@@ -129,16 +139,53 @@ struct KnownShapes {
   std::vector<std::string> names;
   std::vector<Moves> moves;
   std::map<std::string, Moves, std::less<>> looks;  ///< those by which eyes are turned
+  std::vector<std::string> unused;                  ///< names, as the file has them, of all others
 };
 
 constexpr const char* kLooks[] = {"vrmlookleft", "vrmlookright", "vrmlookup", "vrmlookdown"};
 
+/// What one side of a face does in a state.
+FaceState SideOf(FaceState state, bool left) {
+  (left ? state.au_right : state.au_left) = {};
+  (left ? state.eye_right : state.eye_left) = {};
+  (left ? state.blink_right : state.blink_left) = 0;
+  return state;
+}
+
+/// Finds what the shapes of a file stand for, by their plain names.
+class MeaningFinder {
+ public:
+  MeaningFinder(const HeadFile& file, std::span<const ShapeMeaning> meanings) {
+    for (const ShapeMeaning& meaning : meanings) states_.emplace(meaning.name, &meaning.state);
+    for (const auto& shape : file.shapes) given_.insert(PlainShapeName(shape.name));
+  }
+  bool Given(const std::string& name) const { return given_.contains(name); }
+
+  std::optional<FaceState> Of(const std::string& name) const {
+    if (const auto found = states_.find(name); found != states_.end()) return *found->second;
+    // Avatars made for face tracking have expressions called as ARKit's shapes.
+    if (name.starts_with("vrm")) {
+      const std::string own = name.substr(3);
+      return Given(own) ? std::nullopt : Of(own);
+    }
+    // Halves of what has one name for both sides, unless the whole is there as well.
+    for (const auto& [end, left] : {std::pair("left", true), std::pair("right", false)}) {
+      if (!name.ends_with(end)) continue;
+      const std::string whole = name.substr(0, name.size() - std::string_view(end).size());
+      const auto found = states_.find(whole);
+      if (found != states_.end() && !Given(whole)) return SideOf(*found->second, left);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::map<std::string, const FaceState*> states_;
+  std::set<std::string> given_;
+};
+
 KnownShapes Recognise(const HeadFile& file, const Similarity& to_ours, const MeshModel& model,
                       std::span<const ShapeMeaning> meanings, ShapeSolver& solver) {
-  std::map<std::string, const FaceState*> states;
-  for (const ShapeMeaning& meaning : meanings) states.emplace(meaning.name, &meaning.state);
-  std::set<std::string> given;
-  for (const auto& shape : file.shapes) given.insert(PlainShapeName(shape.name));
+  const MeaningFinder finder(file, meanings);
   KnownShapes known;
   for (const auto& shape : file.shapes) {
     std::string name = PlainShapeName(shape.name);
@@ -153,13 +200,17 @@ KnownShapes Recognise(const HeadFile& file, const Similarity& to_ours, const Mes
       known.looks[name] = std::move(moves);
       continue;
     }
-    auto found = states.find(name);
-    // Avatars made for face tracking have expressions called as ARKit's shapes.
-    if (found == states.end() && name.starts_with("vrm") && !given.contains(name.substr(3))) {
-      found = states.find(name.substr(3));
+    const auto meaning = finder.Of(name);
+    if (!meaning) {
+      // An expression of VRM that only repeats a shape, or moves nothing, is not missed.
+      const bool repeats = name.starts_with("vrm") && finder.Given(name.substr(3));
+      const bool look = std::ranges::find(kLooks, name) != std::end(kLooks);
+      if (!repeats && !look && !moves.empty()) {
+        known.unused.push_back(shape.name.starts_with("vrm") ? shape.name.substr(3) : shape.name);
+      }
+      continue;
     }
-    if (found == states.end()) continue;
-    solver.Add(*found->second);
+    solver.Add(*meaning);
     known.names.push_back(std::move(name));
     known.moves.push_back(std::move(moves));
   }
@@ -183,16 +234,25 @@ void FreeWhatMoves(const HeadFile& file, const KnownShapes& known, MeshModel& mo
 /// The drivers of every shape, by the states in which one number alone is not 0, and by visemes.
 std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const UnitTable& units,
                                                      std::span<const FaceState> visemes) {
+  // Shapes that show less of a unit than this only happen to move the same places.
+  constexpr float kLeastShown = 0.2f;
   const auto solve = [&solver](const FaceState& state) { return solver.Solve(state); };
   DriveFit fit(solver.count());
   for (const int unit : units.Numbers()) {
     const auto number = static_cast<std::uint16_t>(unit);
-    fit.AddSided({.kind = Drive::Kind::kUnit, .number = number}, 1, [&](bool right, bool left) {
+    const auto state_of = [number](bool right, bool left) {
       FaceState state;
       state.au_right[number] = right ? 1 : 0;
       state.au_left[number] = left ? 1 : 0;
-      return solve(state);
-    });
+      return state;
+    };
+    // Both sides of the jaw's sway cancel, so each side is asked as well.
+    const float shown =
+        std::max({solver.PartShown(state_of(true, true)), solver.PartShown(state_of(true, false)),
+                  solver.PartShown(state_of(false, true))});
+    if (shown < kLeastShown) continue;
+    fit.AddSided({.kind = Drive::Kind::kUnit, .number = number}, 1,
+                 [&](bool right, bool left) { return solve(state_of(right, left)); });
   }
   fit.AddSided({.kind = Drive::Kind::kBlink}, 1, [&](bool right, bool left) {
     FaceState state;
@@ -257,11 +317,12 @@ void AddLooks(const KnownShapes& known, const LookRanges& ranges, std::vector<Ch
 
 std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_ours,
                                      MeshModel& model, const ShapeMeanings& meanings,
-                                     const Head& moved, std::span<const FaceState> visemes) {
+                                     const Head& moved, std::span<const FaceState> visemes,
+                                     std::vector<std::string>* unused) {
   constexpr std::size_t kFewest = 4;
-  if (file.shapes.size() < kFewest) return std::nullopt;
   ShapeSolver solver(meanings.source, moved);
   KnownShapes known = Recognise(file, to_ours, model, meanings.shapes, solver);
+  if (unused) *unused = known.unused;
   if (known.names.size() < kFewest) return std::nullopt;
   FreeWhatMoves(file, known, model);
   RigData rig = StillSkin();

@@ -104,11 +104,15 @@ struct ShapeMeanings {
 };
 /// The rig of skin that is moved by the file's own shapes, those whose names have a meaning: units,
 /// the mouth's parameters and the rest drive them as is needed to look like `moved` where they act
-/// alone, and in `visemes`. `moved` is the source of the meanings, with other units perhaps. What
-/// the shapes move in `model` is flesh then, teeth too. Nothing if there are fewer than four.
+/// alone, and in `visemes`. A name of both sides (browInnerUp) may come as two halves with Left and
+/// Right behind it; each then stands for its side. A unit of whose movement the shapes can show
+/// hardly anything drives none of them. `moved` is the source of the meanings, with other units
+/// perhaps. What the shapes move in `model` is flesh then, teeth too. Nothing if there are fewer
+/// than four. `unused` gets the names of shapes that move something but have no meaning.
 std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_ours,
                                      MeshModel& model, const ShapeMeanings& meanings,
-                                     const Head& moved, std::span<const FaceState> visemes = {});
+                                     const Head& moved, std::span<const FaceState> visemes = {},
+                                     std::vector<std::string>* unused = nullptr);
 
 /// A name in small letters without anything but letters and digits; _L and _R at its end become
 /// left and right, so that names of different makers are the same.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
@@ -71,7 +72,21 @@ void ReadPosition(const TableRow& row, const UnitNames& names, UnitList& list) {
   }
 }
 
-void ReadListRow(const TableRow& row, const UnitNames& names, UnitList& list) {
+/// The units that a row has given a region.
+using RegionsGiven = std::set<std::size_t>;
+
+void ReadRegion(const TableRow& row, Region region, const UnitNames& names, UnitList& list,
+                RegionsGiven& given) {
+  ReadNumbers(row, 2, names, [&](std::size_t unit) {
+    if (!given.insert(unit).second && list.RegionOf(unit) != region) {
+      row.Fail(fmt::format("unit {} has another region above; one expected", unit));
+    }
+    if (unit >= list.regions.size()) list.regions.resize(unit + 1, Region::kMouth);
+    list.regions[unit] = region;
+  });
+}
+
+void ReadListRow(const TableRow& row, const UnitNames& names, UnitList& list, RegionsGiven& given) {
   constexpr std::array<std::string_view, kRegions> kRegionNames = {"eye", "brow", "mouth"};
   const std::string& kind = row.key();
   if (kind == "face" || kind == "emotion") return ReadPosition(row, names, list);
@@ -88,10 +103,7 @@ void ReadListRow(const TableRow& row, const UnitNames& names, UnitList& list) {
   if (region == kRegionNames.end()) {
     row.Fail("'" + row.Word(1) + "' found, eye, brow or mouth expected");
   }
-  ReadNumbers(row, 2, names, [&](std::size_t unit) {
-    if (unit >= list.regions.size()) list.regions.resize(unit + 1, Region::kMouth);
-    list.regions[unit] = static_cast<Region>(region - kRegionNames.begin());
-  });
+  ReadRegion(row, static_cast<Region>(region - kRegionNames.begin()), names, list, given);
 }
 
 }  // namespace
@@ -132,7 +144,8 @@ vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text
                                   const UnitNames& names) {
   return ReadTable(name, text, [&](const Table& table) {
     UnitList list;
-    for (const TableRow& row : table.rows()) ReadListRow(row, names, list);
+    RegionsGiven given;
+    for (const TableRow& row : table.rows()) ReadListRow(row, names, list, given);
     return list;
   });
 }

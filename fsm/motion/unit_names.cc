@@ -2,15 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <functional>
+#include <utility>
 
 #include "embedded/action_unit_names.h"
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
+#include "vm_protocol/core/lower_case.h"
 
 namespace fsm {
 
 namespace {
+
+constexpr double kMostStrength = 2;
 
 struct Word {
   std::string_view text;
@@ -54,10 +60,11 @@ struct Named {
 
 std::optional<Named> ByName(std::string_view word, const UnitNames& names) {
   Named out;
-  std::string_view name = word;
+  const std::string lower = vm::LowerCase(word);
+  std::string_view name = lower;
   auto found = names.by_name.find(name);
-  if (found == names.by_name.end() && (name.ends_with('L') || name.ends_with('R'))) {
-    out.unit.left = name.ends_with('L');
+  if (found == names.by_name.end() && (name.ends_with('l') || name.ends_with('r'))) {
+    out.unit.left = name.ends_with('l');
     out.unit.right = !out.unit.left;
     name.remove_suffix(1);
     const bool numbered = !name.empty() && name.front() >= '0' && name.front() <= '9';
@@ -105,14 +112,48 @@ std::optional<Named> FindUnit(std::string_view word, const UnitNames& names) {
   return unit;
 }
 
+/// The numbers in use, "1-2, 4-39, 158".
+std::string NumbersInUse(const UnitNames& names) {
+  std::string text;
+  for (auto at = names.names.begin(); at != names.names.end();) {
+    const int first = at->first;
+    int last = first;
+    while (++at != names.names.end() && at->first == last + 1) ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", first);
+    if (last > first) text += fmt::format("-{}", last);
+  }
+  return text;
+}
+
+/// Some names in use: those that begin most like the word, and among equals the last numbers, for
+/// units of one's own come last.
+std::string NamesLike(std::string_view word, const UnitNames& names) {
+  constexpr std::size_t kMost = 5;
+  const std::string wanted = vm::LowerCase(word);
+  std::vector<std::pair<std::ptrdiff_t, int>> ranked;  // letters in common, number
+  for (const auto& [number, name] : names.names) {
+    const std::string lower = vm::LowerCase(name);
+    ranked.emplace_back(std::ranges::mismatch(wanted, lower).in1 - wanted.begin(), number);
+  }
+  std::ranges::sort(ranked, std::greater<>());
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, ranked.size()); ++i) {
+    text += (i > 0 ? ", " : "") + names.names.at(ranked[i].second).substr(0, 40);
+  }
+  return text;
+}
+
+/// What is expected where a unit stands.
+std::string UnitsExpected(std::string_view word, const UnitNames& names) {
+  return fmt::format(
+      "a number ({}) or name of action_unit_names.txt (such as {}) expected, with L or R for one "
+      "side",
+      NumbersInUse(names), NamesLike(word, names));
+}
+
 vm::Result<Named> ParseUnit(const Word& word, const UnitNames& names) {
   const auto unit = FindUnit(word.text, names);
-  if (!unit) {
-    return Wrong(word,
-                 "not an action unit; a number (1 to 46 without 3 and 40; 51-58 head, 61-66 eyes; "
-                 "others of action_unit_names.txt) with L or R for one side, or a name such as "
-                 "LipCornerPuller, expected");
-  }
+  if (!unit) return Wrong(word, "not an action unit; " + UnitsExpected(word.text, names));
   if (names.codes.contains(unit->unit.number) && !(unit->unit.left && unit->unit.right)) {
     return Wrong(word, "a code of head or eyes, which has no sides");
   }
@@ -122,7 +163,7 @@ vm::Result<Named> ParseUnit(const Word& word, const UnitNames& names) {
 vm::Result<double> ParseStrength(const Word& word) {
   if (const auto letter = LetterOf(word.text)) return *letter;
   const auto number = ParseNumber(word.text);
-  if (!number || *number < 0 || *number > 2) {
+  if (!number || *number < 0 || *number > kMostStrength) {
     return Wrong(word, "no strength; a number from 0 to 2 (1 = full) or a letter A to E expected");
   }
   return *number;
@@ -146,8 +187,16 @@ void ReadNameRow(const TableRow& row, UnitNames& out) {
   const int unit = static_cast<int>(row.Number(1, "a number of a unit", 1, UnitValues::kMost));
   const std::string& name = row.Word(2);
   if (ByNumber(name)) row.Fail("'" + name + "' reads as a number, not as a name");
-  if (!out.by_name.emplace(name, unit).second || out.names.contains(unit)) {
-    row.Fail("'" + name + "' or its number is here twice");
+  if (out.names.contains(unit)) {
+    row.Fail(
+        fmt::format("the number {} is here twice, for '{}' and '{}'", unit, out.names[unit], name));
+  }
+  const auto [named, fresh] = out.by_name.emplace(vm::LowerCase(name), unit);
+  if (!fresh) {
+    row.Fail(
+        fmt::format("the name '{}' is here twice, for {} and {} (capitals and small letters "
+                    "are the same)",
+                    name, named->second, unit));
   }
   out.names[unit] = name;
   if (one_sided) out.one_sided.insert(unit);
@@ -173,20 +222,24 @@ const UnitNames& BuiltInUnitNames() {
 vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names) {
   const auto unit = FindUnit(word, names);
   if (unit && !unit->strength_given && names.IsUnit(unit->unit.number)) return unit->unit;
-  return vm::Fail(vm::Errc::kBadValue,
-                  fmt::format("'{}' is not an action unit; a number or name of "
-                              "action_unit_names.txt expected, with L or R for one side",
-                              word));
+  return vm::Fail(vm::Errc::kBadValue, fmt::format("'{}' is not an action unit; {}",
+                                                   word.substr(0, 60), UnitsExpected(word, names)));
 }
 
 vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
                                          bool with_ms) {
   const std::vector<Word> words = WordsOf(text);
   UnitCommand out;
+  bool lettered = false;  // the unit before the word has its strength written on it
   for (std::size_t i = 0; i < words.size(); ++i) {
     // A number that stands alone at the end, after at least one unit, is a time.
     if (with_ms && i > 0 && i + 1 == words.size()) {
       if (const auto ms = ParseNumber(words[i].text)) {
+        if (lettered && *ms > 0 && *ms <= kMostStrength) {
+          return Wrong(words[i], fmt::format("a second strength: '{}' says its own by a letter; a "
+                                             "time of more than {:g} ms expected, or none",
+                                             words[i - 1].text.substr(0, 60), kMostStrength));
+        }
         if (*ms < 0 || *ms > 86400000) {
           return Wrong(words[i], "no time; 0 to 86400000 ms expected");
         }
@@ -202,6 +255,7 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
       if (!strength) return std::unexpected(strength.error());
       unit->unit.strength = *strength;
     }
+    lettered = unit->strength_given;
     UnitSetting& set = unit->unit;
     if (set.left && names.IsOneSided(set.number) && set.strength > 0) set.right = false;
     out.units.push_back(unit->unit);

@@ -22,7 +22,7 @@ struct UnitCode {
 
 /// The action units and codes there are, as people name them.
 struct UnitNames {
-  std::map<std::string, int, std::less<>> by_name;
+  std::map<std::string, int, std::less<>> by_name;  ///< in small letters
   std::map<int, std::string> names;
   std::map<int, UnitCode> codes;
   std::set<int> one_sided;
@@ -59,7 +59,8 @@ struct UnitCommand {
   std::optional<double> ms;  ///< a number that stands alone at the end
 };
 /// Reads `12L 0.7`, `12L C`, `12C`, `R12C`, `LipCornerPuller 0.7`, `LipCornerPuller.L 0.7`,
-/// `12L:0.7`, any number of them, and if `with_ms` a number of ms at the end.
+/// `12L:0.7`, any number of them, and if `with_ms` a number of ms at the end. Names are found
+/// whatever their case, before numbers with a letter: where a unit is called 58b, 58B is that unit.
 /// Error: kBadValue with the word at fault, its place and what was expected.
 vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames& names,
                                          bool with_ms);

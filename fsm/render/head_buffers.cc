@@ -70,8 +70,8 @@ std::vector<Worn> WornBy(const Paint& paint, const Detail& detail) {
   for (std::size_t i = 0; i < worn.size(); ++i) {
     const bool creases = detail.right[i] != kNone || detail.left[i] != kNone;
     worn[i] = paint.opacity[i] < 1 || paint.grain[i].x > 0 ? Worn::kDetailed
-              : creases                                     ? Worn::kCreased
-                                                            : Worn::kPlain;
+              : creases                                    ? Worn::kCreased
+                                                           : Worn::kPlain;
   }
   return worn;
 }

@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 
@@ -183,6 +184,48 @@ TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
     head->Evaluate(state, moved);
     EXPECT_LT(mean(moved.position, fsm::FacePart::kUpperLid), -2.5F) << name;
     EXPECT_GT(mean(moved.position, fsm::FacePart::kLowerLid), -2) << name;
+  }
+}
+
+TEST_F(HeadTest, PointsAreTheSameWhicheverWayAHeadFaces) {
+  // The file's x, y and z axes, as they lie where the head faces x, -x, or -y with z up.
+  const glm::mat3 turns[] = {{0, 0, -1, 0, 1, 0, 1, 0, 0},
+                             {0, 0, 1, 0, 1, 0, -1, 0, 0},
+                             {1, 0, 0, 0, 0, 1, 0, -1, 0}};
+  const auto straight = fsm::ReadHeadFile(support::Heads() / "ict" + "/neutral.obj");
+  ASSERT_TRUE(straight) << straight.error().text;
+  const auto expected = FindHeadPoints(*networks_, *straight, "ict", "galatea").pairs;
+  const float scale = fsm::FitSimilarity(expected).scale;
+  for (const glm::mat3& turn : turns) {
+    fsm::HeadFile file = *straight;
+    for (glm::vec3& p : file.position) p = turn * p;
+    const auto found = FindHeadPoints(*networks_, file, "ict", "galatea").pairs;
+    EXPECT_GT(found.size(), expected.size() / 2);
+    float sum = 0, count = 0;
+    for (const auto& pair : found) {
+      const auto same = std::ranges::min_element(
+          expected, {},
+          [&pair](const fsm::PointPair& other) { return glm::distance(other.from, pair.from); });
+      if (glm::distance(same->from, pair.from) > 0.1F) continue;
+      sum += scale * glm::distance(turn * same->to, pair.to);
+      count += 1;
+    }
+    EXPECT_GT(count, 0.8F * static_cast<float>(expected.size())) << turn[2].x << " " << turn[2].z;
+    EXPECT_LT(sum / count, 0.5F) << "mm; faces " << turn[2].x << " " << turn[2].y;
+  }
+}
+
+TEST_F(HeadTest, AHeadThatIsNeverSeenFromTheFrontIsRefused) {
+  auto file = fsm::ReadHeadFile(support::Heads() / "ict" + "/neutral.obj");
+  ASSERT_TRUE(file) << file.error().text;
+  for (glm::vec3& p : file->position) p = {p.x, p.z, -p.y};  // it faces y
+  try {
+    FindHeadPoints(*networks_, *file, "lying.obj", "galatea");
+    FAIL() << "points were made up";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("'lying.obj' is not seen from the front"),
+              std::string::npos)
+        << error.what();
   }
 }
 

@@ -108,9 +108,10 @@ TEST_F(FsmProcessTest, AFilmThatWasNotStoppedIsFinishedAtTheEndOfInput) {
 TEST_F(FsmProcessTest, BadOptionsAndTablesEndInOneSentence) {
   EXPECT_EQ(Run("--headless --size big", ""), 1);
   EXPECT_EQ(err, "fsm: --size big is not WIDTHxHEIGHT, as 640x480\n");
-  std::ofstream(folder / "emotions.txt") << "HAPPY 1 99:1\n";
-  EXPECT_EQ(Run("--headless --tables .", ""), 1);
-  EXPECT_TRUE(err.starts_with("fsm: ./emotions.txt:1: '99' is not an action unit")) << err;
+  std::filesystem::create_directory(folder / "tables");
+  std::ofstream(folder / "tables/emotions.txt") << "HAPPY 1 99:1\n";
+  EXPECT_EQ(Run("--headless --tables tables", ""), 1);
+  EXPECT_TRUE(err.starts_with("fsm: tables/emotions.txt:1: '99' is not an action unit")) << err;
   EXPECT_EQ(Run("--headless -C nowhere.txt", ""), 1);
   EXPECT_EQ(err, "fsm: cannot read 'nowhere.txt': No such file or directory\n");
 }
@@ -132,6 +133,42 @@ TEST_F(FsmProcessTest, UnitsOfOnesOwnMoveTheFace) {
   EXPECT_EQ(err, "fsm: tables/action_units.txt:2: 'far' found where a number was expected\n");
 }
 
+TEST_F(FsmProcessTest, WhatIsOddAboutAFolderOfTablesIsTold) {
+  std::filesystem::create_directory(folder / "tables");
+  std::filesystem::copy(GALATEA_SOURCE_DIR "/fsm/motion/tables/action_unit_names.txt",
+                        folder / "tables");
+  const auto add = [&](const char* table, const char* row) {
+    std::ofstream(folder / "tables" / table, std::ios::app) << row << "\n";
+  };
+  const auto run = [&] { return Run("--headless --size 64x64 --tables tables", ""); };
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(err, "") << "a copy of a table is nothing odd";
+  add("emotion.txt", "HAPPY 1 12:1");
+  EXPECT_EQ(run(), 0);
+  EXPECT_NE(err.find("no table has their name: emotion.txt; there are action_unit_list.txt, "),
+            std::string::npos)
+      << err;
+  std::filesystem::remove(folder / "tables/emotion.txt");
+  add("action_unit_names.txt", "unit 151 CheekTwitch\ncode 158 58b 9 0 0 -9 0 -9 0 -8");
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(err,
+            "fsm: notice: units without rows in the built-in action_units.txt move nothing: 151 "
+            "CheekTwitch\n");
+  std::filesystem::copy(GALATEA_SOURCE_DIR "/fsm/head/tables/action_units.txt", folder / "tables");
+  add("action_units.txt", "field 151 43 5  20 20  both  0 3 0");
+  EXPECT_EQ(run(), 0);
+  EXPECT_EQ(err, "");
+  std::ofstream(folder / "tables/action_units.txt") << "jaw 26 20 0\ndamp 26 152 0.5\n";
+  EXPECT_EQ(run(), 1);
+  EXPECT_EQ(err,
+            "fsm: tables/action_units.txt:2: no unit has the number 152; one of "
+            "action_unit_names.txt expected\n");
+  std::ofstream(folder / "tables/action_units.txt") << "# codes\njaw 158 20 0\n";
+  EXPECT_EQ(run(), 1);
+  EXPECT_TRUE(err.starts_with("fsm: tables/action_units.txt:2: 158 is a code of head or eyes"))
+      << err;
+}
+
 TEST_F(FsmProcessTest, AnExportedFaceIsDescribedAndDrawnAsItWas) {
   ASSERT_EQ(Run("--mask galatea --export face.glb", ""), 0) << err;
   ASSERT_EQ(Run("--mask galatea --describe", ""), 0) << err;
@@ -144,6 +181,27 @@ TEST_F(FsmProcessTest, AnExportedFaceIsDescribedAndDrawnAsItWas) {
   ASSERT_EQ(Run("--headless --size 160x160 --head face.glb", batch + "2.png\n"), 0) << err;
   EXPECT_FALSE(ReadAll(folder / "face1.png").empty());
   EXPECT_EQ(ReadAll(folder / "face1.png"), ReadAll(folder / "face2.png"));
+}
+
+// A triangle, and a morph target that moves its second corner.
+constexpr const char* kSmirkingTriangle =
+    R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"extras":{"targetNames":["Smirk"]},)"
+    R"("primitives":[{"attributes":{"POSITION":0},"targets":[{"POSITION":1}]}]}],"accessors":[)"
+    R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+    R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[)"
+    R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":36}],"buffers":[)"
+    R"({"byteLength":72,"uri":"data:application/octet-stream;base64,)"
+    "AAAAAAAAAAAAAAAAzczMPQAAAAAAAAAAAAAAAM3MzD0AAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAArXIzwAAAAAAAAAAAAAAAAAAAAA"
+    R"("}]})";
+
+TEST_F(FsmProcessTest, ShapesOfAHeadThatAreNotUsedAreNamed) {
+  std::ofstream(folder / "head.gltf") << kSmirkingTriangle;
+  EXPECT_EQ(Run("--head head.gltf --describe", ""), 0) << err;
+  EXPECT_NE(err.find("fsm: notice: 'head.gltf': shapes are not used, for neither ARKit nor VRM has "
+                     "their names: Smirk;"),
+            std::string::npos)
+      << err;
 }
 
 TEST_F(FsmProcessTest, AFacesOwnUnitsGoBeforeThoseOfTheTables) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -372,6 +374,91 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   HeadVertices moved;
   head->Evaluate(meanings[0].state, moved);
   EXPECT_NEAR(moved.position[0].y, -50, 0.5F);
+}
+
+/// A file of shapes that each move a vertex of their own by a millimetre.
+HeadFile OfShapes(std::initializer_list<const char*> names) {
+  HeadFile file;
+  for (const char* name : names) {
+    const auto vertex = static_cast<std::uint32_t>(file.position.size());
+    file.position.emplace_back(5 * static_cast<float>(vertex), 40, 70);
+    file.shapes.push_back({name, {{vertex, {0, 1, 0}}}});
+  }
+  file.parts.push_back({.name = "face", .indices = {0, 1, 2}});
+  return file;
+}
+
+/// The rig of a file by some of ARKit's shapes, and which shapes it leaves out.
+struct OwnShapes {
+  explicit OwnShapes(const HeadFile& file) : model(ModelOf(file, {}, -43)) {
+    const auto source = MakeHead("galatea", false);
+    const auto add = [&](const char* name, std::size_t unit, bool right, bool left) {
+      FaceState state;
+      state.asymmetry = 0;
+      state.au_right[unit] = right ? 1 : 0;
+      state.au_left[unit] = left ? 1 : 0;
+      meanings.push_back({name, state});
+    };
+    add("browinnerup", 1, true, true);
+    add("cheekpuff", 34, true, true);
+    add("jawopen", 27, true, true);
+    add("jawleft", 30, false, true);
+    add("browdownleft", 4, false, true);
+    add("browdownright", 4, true, false);
+    skin = BlendshapeRig(file, {}, model, {*source, meanings}, *source, {}, &unused);
+  }
+  std::vector<ShapeMeaning> meanings;
+  MeshModel model;
+  std::vector<std::string> unused;
+  std::optional<RigData> skin;
+};
+
+TEST(OwnShapesTest, HalvesOfAShapeOfBothSidesAreDrivenByTheirSide) {
+  const HeadFile file = OfShapes({"browInnerUp_L", "browInnerUp_R", "browDown_L", "browDown_R",
+                                  "jawOpen", "Head.CheekPuffLeft", "Smirk"});
+  OwnShapes shapes(file);
+  EXPECT_EQ(shapes.unused, (std::vector<std::string>{"Smirk"}));
+  ASSERT_TRUE(shapes.skin);
+  const auto head = MakeMeshHead(std::move(shapes.model), std::move(*shapes.skin));
+  const auto rises = [&](std::size_t unit, bool right, bool left) {
+    FaceState state;
+    state.au_right[unit] = right ? 1 : 0;
+    state.au_left[unit] = left ? 1 : 0;
+    HeadVertices moved;
+    head->Evaluate(state, moved);
+    std::vector<int> tenths;
+    for (std::size_t i : {0U, 1U, 5U}) {
+      tenths.push_back(static_cast<int>(std::lround(10 * (moved.position[i].y - 40))));
+    }
+    return tenths;
+  };
+  EXPECT_EQ(rises(1, true, true), (std::vector<int>{10, 10, 0}));
+  EXPECT_EQ(rises(1, false, true), (std::vector<int>{10, 0, 0}));
+  EXPECT_EQ(rises(1, true, false), (std::vector<int>{0, 10, 0}));
+  EXPECT_EQ(rises(34, false, true), (std::vector<int>{0, 0, 10}));
+}
+
+TEST(OwnShapesTest, HalvesBesideTheWholeAreNotUsedAndTooFewShapesNeither) {
+  OwnShapes whole(OfShapes({"browInnerUp", "browInnerUp_L", "browInnerUp_R", "browDown_L",
+                            "browDown_R", "jawOpen", "vrmBrowInnerUp"}));
+  EXPECT_TRUE(whole.skin);
+  EXPECT_EQ(whole.unused, (std::vector<std::string>{"browInnerUp_L", "browInnerUp_R"}));
+  OwnShapes few(OfShapes({"browDown_L", "browDown_R", "jawOpen", "Smirk"}));
+  EXPECT_FALSE(few.skin);
+  EXPECT_EQ(few.unused, (std::vector<std::string>{"Smirk"}));
+}
+
+TEST(OwnShapesTest, WhatNoShapeCanShowDrivesNone) {
+  OwnShapes shapes(OfShapes({"browInnerUp", "browDown_L", "browDown_R", "jawOpen", "jawLeft"}));
+  ASSERT_TRUE(shapes.skin);
+  std::set<int> units;
+  for (const Channel& channel : shapes.skin->channels) {
+    for (const Channel::Driver& driver : channel.drivers) {
+      if (driver.drive.kind == Drive::Kind::kUnit) units.insert(driver.drive.number);
+    }
+  }
+  for (const int unit : {1, 4, 26, 27, 30}) EXPECT_TRUE(units.contains(unit)) << unit;
+  for (const int unit : {6, 9, 12, 15, 16, 34}) EXPECT_FALSE(units.contains(unit)) << unit;
 }
 
 /// A face whose lower half falls with unit 27.

@@ -100,6 +100,9 @@ TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
   expect(ReadMotions("m.txt", "NOD 1\nNOD 2\n"), "m.txt:1: key frames");
   expect(ReadMotions("m.txt", "NOD 1\n 100 1 2 3\n 100 0 0 0\n"), "m.txt:3: 100 ms is not after");
   expect(ReadMotions("m.txt", "JUMP 1\n"), "m.txt:1: 'JUMP' found");
+  expect(ReadUnitList("a.txt", "region brow 1 2\nregion mouth 12 2\n"),
+         "a.txt:2: unit 2 has another region above; one expected");
+  EXPECT_TRUE(ReadUnitList("a.txt", "region brow 1 2\nregion brow 2\n"));
   expect(ReadUnitList("a.txt", "face 0 1\n"), "a.txt:1: '0' found, a position expected");
 }
 

@@ -99,6 +99,54 @@ TEST_F(UnitsTest, RefusalsNameTheWordItsPlaceAndWhatWasExpected) {
   for (const float v : state.au_left) EXPECT_EQ(v, 0) << "a refused line moves nothing";
 }
 
+TEST_F(UnitsTest, AnUnknownUnitIsRefusedWithThoseThereAre) {
+  EXPECT_EQ(
+      Refusal("lidtense 1"),
+      "'lidtense' at column 1 is not an action unit; a number (1-2, 4-39, 41-46, 51-58, "
+      "61-66) or name of action_unit_names.txt (such as LidTightener, LidDroop, LipWipe, LipBite, "
+      "LipSuck) expected, with L or R for one side");
+}
+
+TEST_F(UnitsTest, ATimeThatLooksLikeASecondStrengthIsRefused) {
+  EXPECT_TRUE(Refusal("58B 0.5").starts_with("'0.5' at column 5 is a second strength: '58B' says"))
+      << Refusal("58B 0.5");
+  EXPECT_EQ(Refusal("58B 300"), "taken");
+  EXPECT_EQ(Refusal("58B 0"), "taken");
+  EXPECT_EQ(Refusal("58 B 0.5"), "taken");
+}
+
+TEST(OwnUnitNamesTest, AreFoundWhateverTheirCaseBeforeNumbersWithALetter) {
+  const auto names = ReadUnitNames("n.txt",
+                                   "unit 12 LipCornerPuller\ncode 58 HeadBack -2 0 0 0 0 0 0 -22\n"
+                                   "code 158 58b 9 0 0 -9 0 -9 0 -8\n");
+  ASSERT_TRUE(names) << names.error().text;
+  for (const char* text : {"58b 0.7", "58B 0.7"}) {
+    const auto command = ParseUnitCommand(text, *names, true);
+    ASSERT_TRUE(command) << command.error().text;
+    EXPECT_EQ(command->units.at(0).number, 158) << text;
+    EXPECT_EQ(command->units.at(0).strength, 0.7) << text;
+    EXPECT_FALSE(command->ms) << text;
+  }
+  EXPECT_EQ(ParseUnitCommand("58C", *names, true)->units.at(0).number, 58);
+  const auto one_side = ParseUnitName("lipCORNERpuller.l", *names);
+  ASSERT_TRUE(one_side) << one_side.error().text;
+  EXPECT_EQ(one_side->number, 12);
+  EXPECT_TRUE(one_side->left && !one_side->right);
+}
+
+TEST(OwnUnitNamesTest, SayWhetherNameOrNumberIsThereTwice) {
+  const auto error = [](const char* text) {
+    const auto names = ReadUnitNames("n.txt", text);
+    return names ? "taken" : names.error().text;
+  };
+  EXPECT_EQ(error("unit 151 Ear\nunit 151 Chin\n"),
+            "n.txt:2: the number 151 is here twice, for 'Ear' and 'Chin'");
+  EXPECT_EQ(
+      error("unit 151 Ear\n\nunit 152 EAR\n"),
+      "n.txt:3: the name 'EAR' is here twice, for 151 and 152 (capitals and small letters are "
+      "the same)");
+}
+
 TEST_F(UnitsTest, StrengthsThatAreNoneAreRefusedEverywhere) {
   for (const double bad : {std::nan(""), 1e9, -0.1, std::numeric_limits<double>::infinity()}) {
     EXPECT_FALSE(motion.Express(0ms, "HAPPY", 1, bad, 0ms)) << bad;
