@@ -107,6 +107,7 @@ std::string Another(const std::string& slot, const TemporaryFolder& files) {
       {"Light.fill", "3"},
       {"Light.rim", "0"},
       {"LipSync.text", "Hello!"},
+      {"Mood", "LOW 0.5"},
       {"SaveImage", files / "face.png"},
       {"Record.sound", "voice.wav"},
       {"Record.fps", "10"},

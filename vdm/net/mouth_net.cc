@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "vdm/net/word_lines.h"
+
 namespace vdm {
 namespace {
 
@@ -17,8 +19,6 @@ constexpr float kLeastScale = 1e-6F;
 
 /// What is nothing beside the rest, and in the end no number that can be read again.
 float WithoutDust(float value) { return std::abs(value) < 1e-30F ? 0 : value; }
-
-using Words = std::vector<std::string_view>;
 
 bool FeaturesNamed(std::string_view name, FeatureKind& out) {
   for (const FeatureKind kind : {FeatureKind::kMel, FeatureKind::kPhones, FeatureKind::kCepstra}) {
@@ -31,17 +31,18 @@ bool FeaturesNamed(std::string_view name, FeatureKind& out) {
 
 class Reader {
  public:
-  Reader(const std::string& name, std::string_view text) : name_(name), text_(text) {}
+  Reader(const std::string& name, std::string_view text)
+      : lines_(name, text), bytes_(text.size()) {}
 
   vm::Result<MouthNet> Read() {
-    if (text_.size() > kMaxBytes) return Wrong("longer than 4 MiB");
+    if (bytes_ > kMaxBytes) return Wrong("longer than 4 MiB");
     MouthNet out;
-    if (auto words = Line("features", 2); !words) {
+    if (auto words = lines_.Line("features", 1); !words) {
       return std::unexpected(words.error());
     } else if (!FeaturesNamed((*words)[1], out.features)) {
       return Wrong("'" + std::string((*words)[1]) + "' found, mel, phones or cepstra expected");
     }
-    if (auto words = Line("sounds", 0); !words) {
+    if (auto words = lines_.Line("sounds"); !words) {
       return std::unexpected(words.error());
     } else if (words->size() < 2 || words->size() > kMaxSounds + 1) {
       return Wrong(fmt::format("{} sounds found, 1 to {} expected", words->size() - 1, kMaxSounds));
@@ -53,7 +54,7 @@ class Reader {
     if (std::ranges::any_of(out.scales, [](float s) { return s < kLeastScale; })) {
       return Wrong("a scale below 0.000001 found");
     }
-    while (SkipToLine()) {
+    while (lines_.More()) {
       if (auto read = Layer(out.net); !read) return std::unexpected(read.error());
     }
     return Checked(std::move(out));
@@ -77,59 +78,13 @@ class Reader {
     return out;
   }
 
-  std::unexpected<vm::Error> Wrong(const std::string& what) const {
-    return vm::Fail(vm::Errc::kBadValue, fmt::format("{}:{}: {}", name_, line_, what));
-  }
-
-  /// Moves to the next line with words in it; false at the end.
-  bool SkipToLine() {
-    while (words_.empty() && at_ < text_.size()) {
-      const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-      std::string_view line = text_.substr(at_, end - at_);
-      at_ = end + 1;
-      ++line_;
-      line = line.substr(0, line.find('#'));
-      for (std::size_t i = 0; i < line.size();) {
-        const std::size_t first = line.find_first_not_of(" \t\r", i);
-        if (first == std::string_view::npos) break;
-        i = std::min(line.find_first_of(" \t\r", first), line.size());
-        words_.push_back(line.substr(first, i - first));
-      }
-    }
-    return !words_.empty();
-  }
-
-  /// The next line, which must begin with `key` and have so many words; 0: any number.
-  vm::Result<Words> Line(std::string_view key, std::size_t count) {
-    if (!SkipToLine()) return Wrong(fmt::format("the end found, '{}' expected", key));
-    Words words = std::exchange(words_, {});
-    if (words[0] != key) {
-      return Wrong(fmt::format("'{}' found, '{}' expected", words[0].substr(0, 40), key));
-    }
-    if (count != 0 && words.size() != count) {
-      return Wrong(
-          fmt::format("{} values after '{}' found, {} expected", words.size() - 1, key, count - 1));
-    }
-    return words;
-  }
-
-  template <typename T>
-  vm::Result<T> Value(std::string_view word, T lowest, T highest) const {
-    T value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !(value >= lowest) ||
-        !(value <= highest)) {
-      return Wrong(fmt::format("'{}' found, a number from {} to {} expected", word.substr(0, 40),
-                               lowest, highest));
-    }
-    return value;
-  }
+  std::unexpected<vm::Error> Wrong(const std::string& what) const { return lines_.Wrong(what); }
 
   vm::Result<void> Numbers(std::string_view key, std::array<float, kShapeNumbers>& out) {
-    auto words = Line(key, kShapeNumbers + 1);
+    auto words = lines_.Line(key, kShapeNumbers);
     if (!words) return std::unexpected(words.error());
     for (std::size_t i = 0; i < out.size(); ++i) {
-      auto value = Value((*words)[i + 1], -1000.0F, 1000.0F);
+      auto value = lines_.Value((*words)[i + 1], -1000.0F, 1000.0F);
       if (!value) return std::unexpected(value.error());
       out[i] = *value;
     }
@@ -137,15 +92,15 @@ class Reader {
   }
 
   vm::Result<void> Layer(TimeDelayNet& net) {
-    auto words = Line("layer", 0);
+    auto words = lines_.Line("layer");
     if (!words) return std::unexpected(words.error());
     if (net.layers.size() == kMaxLayers) return Wrong("more than 8 layers found");
     if (words->size() < 5 || words->size() > 4 + kMaxOffsets) {
       return Wrong("layer INPUTS OUTPUTS relu|linear OFFSET... with 1 to 16 offsets expected");
     }
-    const auto inputs = Value<std::size_t>((*words)[1], 1, kMaxVector);
+    const auto inputs = lines_.Value<std::size_t>((*words)[1], 1, kMaxVector);
     if (!inputs) return std::unexpected(inputs.error());
-    const auto outputs = Value<std::size_t>((*words)[2], 1, kMaxVector);
+    const auto outputs = lines_.Value<std::size_t>((*words)[2], 1, kMaxVector);
     if (!outputs) return std::unexpected(outputs.error());
     if (!net.layers.empty() && net.outputs() != *inputs) {
       return Wrong(
@@ -159,7 +114,7 @@ class Reader {
     }
     layer.rectified = (*words)[3] == "relu";
     for (std::size_t i = 4; i < words->size(); ++i) {
-      const auto offset = Value<int>((*words)[i], -kMaxOffset, kMaxOffset);
+      const auto offset = lines_.Value<int>((*words)[i], -kMaxOffset, kMaxOffset);
       if (!offset) return std::unexpected(offset.error());
       if (!layer.offsets.empty() && *offset <= layer.offsets.back()) {
         return Wrong("offsets that do not rise found");
@@ -177,26 +132,23 @@ class Reader {
   }
 
   vm::Result<void> Row(TimeDelayLayer& layer, Eigen::Index row, std::size_t columns) {
-    const auto words = Line("row", columns + 3);
+    const auto words = lines_.Line("row", columns + 2);
     if (!words) return std::unexpected(words.error());
-    const auto bias = Value((*words)[1], -1000.0F, 1000.0F);
+    const auto bias = lines_.Value((*words)[1], -1000.0F, 1000.0F);
     if (!bias) return std::unexpected(bias.error());
-    const auto scale = Value((*words)[2], 0.0F, 1000.0F);
+    const auto scale = lines_.Value((*words)[2], 0.0F, 1000.0F);
     if (!scale) return std::unexpected(scale.error());
     layer.biases[row] = *bias;
     for (std::size_t i = 0; i < columns; ++i) {
-      const auto weight = Value<int>((*words)[i + 3], -kMaxInteger, kMaxInteger);
+      const auto weight = lines_.Value<int>((*words)[i + 3], -kMaxInteger, kMaxInteger);
       if (!weight) return std::unexpected(weight.error());
       layer.weights(row, static_cast<Eigen::Index>(i)) = *scale * static_cast<float>(*weight);
     }
     return {};
   }
 
-  const std::string name_;
-  const std::string_view text_;
-  std::size_t at_ = 0;
-  int line_ = 0;
-  Words words_;  // of the line in hand that nobody has taken yet
+  WordLines lines_;
+  const std::size_t bytes_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "vdm/net/word_lines.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace vdm {
@@ -21,17 +22,39 @@ bool WordLines::More() {
   return !words_.empty();
 }
 
-vm::Result<WordLines::Words> WordLines::Line(std::string_view key, std::size_t count) {
-  if (!More()) return Wrong(fmt::format("the end found, '{}' expected", key));
-  Words words = std::exchange(words_, {});
+WordLines::Words WordLines::Next() {
+  More();
+  return std::exchange(words_, {});
+}
+
+vm::Result<WordLines::Words> WordLines::Line(std::string_view key,
+                                             std::optional<std::size_t> values) {
+  Words words = Next();
+  if (words.empty()) return Wrong(fmt::format("the end found, '{}' expected", key));
   if (words[0] != key) {
     return Wrong(fmt::format("'{}' found, '{}' expected", words[0].substr(0, 40), key));
   }
-  if (count != 0 && words.size() != count) {
+  if (values && words.size() != *values + 1) {
     return Wrong(
-        fmt::format("{} values after '{}' found, {} expected", words.size() - 1, key, count - 1));
+        fmt::format("{} values after '{}' found, {} expected", words.size() - 1, key, *values));
   }
   return words;
+}
+
+vm::Result<std::vector<float>> WordLines::Numbers(std::string_view key, std::size_t values) {
+  const auto words = Line(key, values);
+  if (!words) return std::unexpected(words.error());
+  std::vector<float> numbers;
+  for (std::size_t i = 1; i < words->size(); ++i) {
+    const auto number = Number((*words)[i]);
+    if (!number) return std::unexpected(number.error());
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+std::string NumberText(float value) {
+  return fmt::format("{:.6g}", std::abs(value) < 1e-6F ? 0 : value);
 }
 
 }  // namespace vdm

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +25,14 @@ class WordLines {
   bool More();
   /// The key of that line; empty at the end.
   std::string_view Key() { return More() ? words_[0] : std::string_view{}; }
-  /// The words of the next line, which must begin with `key` and have so many words; 0: any number.
-  vm::Result<Words> Line(std::string_view key, std::size_t count);
+  /// The words of the next line; none at the end.
+  Words Next();
+  /// The words of the next line, which must begin with `key` and have so many behind it, if it is
+  /// said how many.
+  vm::Result<Words> Line(std::string_view key, std::optional<std::size_t> values = {});
+  /// The numbers of such a line, within +-kMost.
+  vm::Result<std::vector<float>> Numbers(std::string_view key, std::size_t values);
+  vm::Result<float> Number(std::string_view word) const { return Value(word, -kMost, kMost); }
   std::unexpected<vm::Error> Wrong(const std::string& what) const {
     return vm::Fail(vm::Errc::kBadValue, fmt::format("{}:{}: {}", name_, line_, what));
   }
@@ -42,11 +49,16 @@ class WordLines {
   }
 
  private:
+  static constexpr float kMost = 10'000;
+
   const std::string name_;
   const std::string_view text_;
   std::size_t at_ = 0;
   int line_ = 0;
   Words words_;  // of the line in hand that nobody has taken yet
 };
+
+/// A number with six digits; what is nothing beside the rest is 0.
+std::string NumberText(float value);
 
 }  // namespace vdm

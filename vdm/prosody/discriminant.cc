@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vdm/prosody/table_lines.h"
+#include "vdm/net/word_lines.h"
 
 namespace vdm {
 namespace {
@@ -81,7 +81,7 @@ vm::Result<Discriminant> LearnDiscriminant(const std::vector<std::string>& featu
 }
 
 vm::Result<Discriminant> ParseDiscriminant(const std::string& name, std::string_view text) {
-  TableLines lines(name, text);
+  WordLines lines(name, text);
   if (text.size() > kMaxBytes) return lines.Wrong("longer than 64 KiB");
   Discriminant out;
   const auto names = lines.Next();

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ranges>
 
-#include "vdm/prosody/table_lines.h"
+#include "vdm/net/word_lines.h"
 
 namespace vdm {
 namespace {
@@ -14,14 +14,14 @@ constexpr std::size_t kMaxBytes = std::size_t{1} << 20, kMaxLayers = 4;
 constexpr float kMaxUnits = 1024, kLeastScale = 1e-4F;
 
 template <std::size_t N>
-vm::Result<void> ReadNumbers(TableLines& lines, std::string_view key, std::array<float, N>& out) {
+vm::Result<void> ReadNumbers(WordLines& lines, std::string_view key, std::array<float, N>& out) {
   const auto numbers = lines.Numbers(key, N);
   if (!numbers) return std::unexpected(numbers.error());
   std::ranges::copy(*numbers, out.begin());
   return {};
 }
 
-vm::Result<std::size_t> Count(const TableLines& lines, std::string_view word) {
+vm::Result<std::size_t> Count(const WordLines& lines, std::string_view word) {
   const auto number = lines.Number(word);
   if (!number) return std::unexpected(number.error());
   if (*number < 1 || *number > kMaxUnits ||
@@ -31,7 +31,7 @@ vm::Result<std::size_t> Count(const TableLines& lines, std::string_view word) {
   return static_cast<std::size_t>(*number);
 }
 
-vm::Result<TimeDelayLayer> ReadLayer(TableLines& lines, const std::vector<std::string_view>& head) {
+vm::Result<TimeDelayLayer> ReadLayer(WordLines& lines, const std::vector<std::string_view>& head) {
   if (head.size() != 4 || head[0] != "layer" || (head[3] != "relu" && head[3] != "linear")) {
     return lines.Wrong("layer INPUTS OUTPUTS relu|linear expected");
   }
@@ -56,7 +56,7 @@ vm::Result<TimeDelayLayer> ReadLayer(TableLines& lines, const std::vector<std::s
 }  // namespace
 
 vm::Result<HeadNet> ParseHeadNet(const std::string& name, std::string_view text) {
-  TableLines lines(name, text);
+  WordLines lines(name, text);
   if (text.size() > kMaxBytes) return lines.Wrong("longer than 1 MiB");
   HeadNet out;
   const auto sounds = lines.Numbers("sounds", 1);

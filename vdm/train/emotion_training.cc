@@ -15,8 +15,8 @@
 #include "ssm/engines/espeak_engine.h"
 #include "ssm/flite/flite_engine.h"
 #include "vdm/mouth/mouth_tracker.h"
+#include "vdm/net/word_lines.h"
 #include "vdm/prosody/emotion_reader.h"
-#include "vdm/prosody/table_lines.h"
 #include "vdm/train/reading.h"
 #include "vm_protocol/core/text_file.h"
 
@@ -36,7 +36,7 @@ struct FeelingRow {
 };
 
 vm::Result<std::vector<FeelingRow>> ReadFeelings() {
-  TableLines lines("feelings.txt", embedded::feelings());
+  WordLines lines("feelings.txt", embedded::feelings());
   std::vector<FeelingRow> rows;
   for (auto words = lines.Next(); !words.empty(); words = lines.Next()) {
     if (words.size() != 5) return lines.Wrong("NAME LEAST GREATEST TIMES CLASS expected");
@@ -214,7 +214,7 @@ vm::Result<std::vector<EmotionTake>> ReadEmotionTakes(const std::string& list) {
   const auto text = vm::ReadTextFile(list, kMaxListBytes);
   if (!text) return std::unexpected(text.error());
   const std::filesystem::path folder = std::filesystem::path(list).parent_path();
-  TableLines lines(list, *text);
+  WordLines lines(list, *text);
   std::vector<EmotionTake> takes;
   for (auto words = lines.Next(); !words.empty(); words = lines.Next()) {
     if (words.size() != 2 && words.size() != 3) return lines.Wrong("WAV LABEL [SPEAKER] expected");

@@ -29,7 +29,7 @@ class ModelReader {
   ModelReader(const std::string& name, std::string_view text) : lines_(name, text) {}
 
   vm::Result<TriphoneModel> Read() {
-    const auto step = lines_.Line("step", 2);
+    const auto step = lines_.Line("step", 1);
     if (!step) return std::unexpected(step.error());
     const auto ms = lines_.Value((*step)[1], kShortestStepMs, kLongestStepMs);
     if (!ms) return std::unexpected(ms.error());
@@ -38,7 +38,7 @@ class ModelReader {
       if (auto read = Set(); !read) return std::unexpected(read.error());
     }
     for (std::size_t state = 0; state < kStates; ++state) {
-      const auto words = lines_.Line("state", 2);
+      const auto words = lines_.Line("state", 1);
       if (!words) return std::unexpected(words.error());
       if ((*words)[1] != kStateNames[state]) {
         return lines_.Wrong(fmt::format("state '{}' found, '{}' expected",
@@ -52,7 +52,7 @@ class ModelReader {
 
  private:
   vm::Result<void> Set() {
-    const auto words = lines_.Line("set", 0);
+    const auto words = lines_.Line("set");
     if (!words) return std::unexpected(words.error());
     if (words->size() < 3) return lines_.Wrong("set NAME PHONEME... expected");
     const std::string name((*words)[1]);
@@ -87,7 +87,7 @@ class ModelReader {
   }
 
   vm::Result<TreeNode> Question() {
-    const auto words = lines_.Line("ask", 3);
+    const auto words = lines_.Line("ask", 2);
     if (!words) return std::unexpected(words.error());
     const int side = IndexIn(kSideNames, (*words)[1]);
     if (side < 0) {
@@ -102,7 +102,7 @@ class ModelReader {
   }
 
   vm::Result<TreeNode> Leaf() {
-    if (auto words = lines_.Line("leaf", 1); !words) return std::unexpected(words.error());
+    if (auto words = lines_.Line("leaf", 0); !words) return std::unexpected(words.error());
     TreeNode leaf;
     auto means = Numbers("means", -kMost);
     if (!means) return std::unexpected(means.error());
@@ -113,7 +113,7 @@ class ModelReader {
   }
 
   vm::Result<Eigen::VectorXd> Numbers(std::string_view key, double lowest) {
-    const auto words = lines_.Line(key, kNumbers + 1);
+    const auto words = lines_.Line(key, kNumbers);
     if (!words) return std::unexpected(words.error());
     Eigen::VectorXd numbers(static_cast<Eigen::Index>(kNumbers));
     for (std::size_t i = 0; i < kNumbers; ++i) {
