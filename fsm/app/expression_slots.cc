@@ -54,7 +54,7 @@ std::string LookOf(const FsmCore& core, const Name& name) {
 vm::Result<std::string> Define(FsmCore& core, const Name& name, const std::string& look) {
   const std::string slot = SlotOf(name.expression, name.pattern);
   const bool known = core.slots.Has(slot);
-  if (!known && core.initial_values.size() > core.declared_at_start + kMostOwnSlots) {
+  if (!known && core.initial_values.size() >= core.declared_at_start + kMostOwnSlots) {
     return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMostOwnSlots) +
                                           " patterns of expressions were defined");
   }

@@ -37,7 +37,9 @@ void EyeMotion::Turn(vm::Time now, bool left, bool right, const EyeAngles& angle
                      vm::Time duration) {
   if (left) ThereAndBack(left_, now, angles, settings_.eye_move, duration);
   if (right) ThereAndBack(right_, now, angles, settings_.eye_move, duration);
-  end_ = duration > vm::Time(0) ? std::optional(now + duration) : std::nullopt;
+  const vm::Time end = duration > vm::Time(0) ? now + duration : now;
+  if (left) ends_.left = end;
+  if (right) ends_.right = end;
 }
 
 void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration) {
@@ -51,7 +53,7 @@ void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time 
   vergence_deg_.MoveTo(now, static_cast<float>(angle), 2 * settings_.eye_move);
   ThereAndBack(gaze_, now, angles, settings_.eye_move, duration);
   ThereAndBack(head_share_, now, {Beyond(angles[0]), Beyond(angles[1])}, kHeadFollows, duration);
-  end_ = duration > vm::Time(0) ? std::optional(now + duration) : std::nullopt;
+  ends_.gaze = duration > vm::Time(0) ? now + duration : now;
 }
 
 void EyeMotion::BlinkAtShift(vm::Time now, const EyeAngles& from, const EyeAngles& to) {
@@ -144,7 +146,9 @@ vm::Time EyeMotion::BlinksEnd(vm::Time t) const {
   return end;
 }
 
-vm::Time EyeMotion::FiniteEnd(vm::Time t) const { return std::max(BlinksEnd(t), end_.value_or(t)); }
+vm::Time EyeMotion::FiniteEnd(vm::Time t) const {
+  return std::max({t, BlinksEnd(t), ends_.left, ends_.right, ends_.gaze});
+}
 
 std::optional<vm::Time> EyeMotion::NextActivity(vm::Time t) const {
   if (BlinksEnd(t) > t || thinking_.At(t) > 0) return t;

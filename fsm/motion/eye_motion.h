@@ -61,7 +61,10 @@ class EyeMotion : public MotionSource {
   vm::Time thinking_since_{0};
   std::int64_t shifts_ = 0;  // of the gaze
   std::vector<Blinking> blinks_;
-  std::optional<vm::Time> end_;  // of a timed turn
+  struct Ends {  // when what is turned will be home; past where it is not timed
+    vm::Time left{0}, right{0}, gaze{0};
+  };
+  Ends ends_;
 };
 
 }  // namespace fsm

@@ -67,6 +67,9 @@ void FaceMotion::SetShapes(bool bilingual, Visemes shapes) {
 
 void FaceMotion::Apply(vm::Time now, const MotionSettings& settings) {
   speech_.Adjust(now, settings);
+  if (settings.mouth_scale != settings_.mouth_scale) {
+    mouth_stream_.SetMouthScale(now, settings.mouth_scale);
+  }
   settings_ = settings;
 }
 

@@ -179,7 +179,7 @@ class FaceMotion {
   HeadMotion& head_ = Make<HeadMotion>(tables_.motions);
   SpeechMotion& speech_ = Make<SpeechMotion>(tables_, settings_, idle_, seed_);
   MoodMotion& mood_ = Make<MoodMotion>(tables_.motions);
-  MouthStream& mouth_stream_ = Make<MouthStream>(settings_);
+  MouthStream& mouth_stream_ = Make<MouthStream>();
 };
 
 }  // namespace fsm

@@ -90,7 +90,7 @@ void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
   if (mouth.share <= 0) return;
   frame.Give("speaking", mouth.share);
   frame.Give("stream_taken", mouth.share);
-  mouth.Contribute(settings_.mouth_scale, "mouth_stream", frame);
+  mouth.Contribute(mouth_scale_.At(t), "mouth_stream", frame);
 }
 
 std::optional<vm::Time> MouthStream::NextActivity(vm::Time t) const {

@@ -29,7 +29,7 @@ inline StreamHead Mix(const StreamHead& a, const StreamHead& b, double share_of_
 /// are a run. A run takes the mouth over within kTakeOver before its first frame. After its last
 /// frame the mouth holds for kHold, closes within kClose and is let go: so it rests when no frames
 /// come any more, for whatever reason. Head and brows go home within kHeadHome.
-/// Lifetime: `settings` outlives it. Commands come in order of time; queries are for now or later.
+/// Commands come in order of time; queries are for now or later.
 /// Limits: kMostFrames that are still to come.
 class MouthStream : public MotionSource {
  public:
@@ -40,12 +40,14 @@ class MouthStream : public MotionSource {
   static constexpr vm::Time kHeadHome{700'000};        ///< as after the speech of a text
   static constexpr std::size_t kMostFrames = 180'000;  ///< an hour at 50 a second
 
-  explicit MouthStream(const MotionSettings& settings) : settings_(settings) {}
-
   /// A frame for the instant `at`, at full articulation; frames for that instant and later that
   /// came before are forgotten. Error: kLimit.
   vm::Result<void> Add(vm::Time now, vm::Time at, const MouthPose& pose,
                        const std::optional<StreamHead>& head = std::nullopt);
+  /// Another MouthScale comes about without a jump.
+  void SetMouthScale(vm::Time now, double mouth_scale) {
+    mouth_scale_.MoveTo(now, static_cast<float>(mouth_scale), kMouthScaleMove);
+  }
   /// Forgets the frames after `now`; the mouth holds, closes and is let go from there.
   void Stop(vm::Time now);
 
@@ -74,7 +76,7 @@ class MouthStream : public MotionSource {
   }
   static vm::Time GoneAt(const Frame& last);
 
-  const MotionSettings& settings_;
+  Track<float> mouth_scale_{static_cast<float>(MotionSettings{}.mouth_scale)};
   std::deque<Frame> frames_;  // by `at`
 };
 

@@ -14,8 +14,7 @@ constexpr vm::Time kEmotionYields = 150ms;
 constexpr vm::Time kClose = 110ms;      // after STOP; the promise is 120
 constexpr vm::Time kClosedFor = 120ms;  // before emotion may part the lips again
 constexpr vm::Time kRelease = 300ms;
-constexpr vm::Time kHeadStops = 400ms;  // movement with the speech, after STOP
-constexpr vm::Time kScaleMove = 100ms;
+constexpr vm::Time kHeadStops = 400ms;              // movement with the speech, after STOP
 constexpr double kInnerBrow = 1, kOuterBrow = 0.8;  // of units 1 and 2, with the stress
 enum Stream : std::uint64_t { kEndBlink = 310, kEndBlinkTime, kAvertBlink };
 
@@ -68,7 +67,7 @@ void SpeechMotion::Adjust(vm::Time now, const MotionSettings& next) {
     lead_ms_.MoveTo(now, static_cast<float>(lead_ms), active() ? FromMs(way * 10) : vm::Time(0));
   }
   if (next.mouth_scale != settings_.mouth_scale) {
-    mouth_scale_.MoveTo(now, static_cast<float>(next.mouth_scale), kScaleMove);
+    mouth_scale_.MoveTo(now, static_cast<float>(next.mouth_scale), kMouthScaleMove);
   }
 }
 

@@ -8,6 +8,9 @@ namespace fsm {
 /// Lips that rest on each other.
 MouthPose ClosedMouth();
 
+/// How long another MouthScale takes to come about.
+inline constexpr vm::Time kMouthScaleMove{100'000};
+
 /// The mouth that speech asks for at one instant.
 struct SpokenMouth {
   double share = 0;  ///< of the mouth, 0..1; the rest is left to other movements

@@ -139,6 +139,14 @@ TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
   EXPECT_FLOAT_EQ(motion.StateAt(9s).eye_right.y, 0);
 }
 
+TEST_F(FaceMotionTest, ATimedTurnOfOneEyeEndsWhateverTheOtherDoes) {
+  motion.TurnEyes(0ms, true, false, 10, 20, 1000ms);
+  motion.TurnEyes(100ms, false, true, 5, 5, 0ms);
+  EXPECT_EQ(motion.FiniteEnd(200ms), vm::Time(1000ms));
+  motion.TurnEyes(300ms, true, false, 5, 5, 0ms);
+  EXPECT_EQ(motion.FiniteEnd(300ms), vm::Time(300ms));
+}
+
 TEST_F(FaceMotionTest, ALargeGazeIsSharedByTheHead) {
   motion.Gaze(0ms, 0, 30, 0ms);
   const FaceState early = motion.StateAt(70ms);

@@ -35,6 +35,16 @@ TEST_F(MouthStreamTest, BetweenFramesItGoesStraightAndByMouthScale) {
   EXPECT_NEAR(Jaw(1060ms), 3, 1e-4);
 }
 
+TEST_F(MouthStreamTest, AnotherMouthScaleComesAboutWithoutAJump) {
+  for (int i = 0; i < 50; ++i) Add(1000ms + i * 20ms, 8);
+  MotionSettings small = motion_.settings();
+  small.mouth_scale = 0;
+  motion_.Apply(1200ms, small);
+  EXPECT_NEAR(Jaw(1200ms), 8 * kSpoken, 1e-4);
+  EXPECT_NEAR(Jaw(1250ms), 4 * kSpoken, 0.1);
+  EXPECT_EQ(Jaw(1300ms), 0);
+}
+
 TEST_F(MouthStreamTest, ItBeginsSoftlyAndClosesWhenNoFramesCome) {
   Add(1000ms, 8);
   Add(1020ms, 8);
