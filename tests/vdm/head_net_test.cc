@@ -32,7 +32,7 @@ HeadNet MadeNet(std::size_t sounds) {
 TEST(HeadNetTest, ThePapersNetworkHas34Inputs) { EXPECT_EQ(HeadNet::Inputs(0), 34U); }
 
 TEST(HeadNetTest, WhatIsWrittenIsReadAgain) {
-  for (const std::size_t sounds : {0, 3}) {
+  for (const std::size_t sounds : {std::size_t{0}, std::size_t{3}}) {
     const std::string text = FormatHeadNet(MadeNet(sounds));
     const auto read = ParseHeadNet("h", text);
     ASSERT_TRUE(read) << read.error().text;
