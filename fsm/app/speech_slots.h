@@ -50,7 +50,7 @@ class SpeechSlots {
   Listener listener_;
   Stat stat_ = Stat::kIdle;
   vm::PhonemeList list_;
-  std::string text_;  // of the list that comes, or has come and does not sound yet
+  std::string text_;               // of the list that comes, or has come and does not sound yet
   std::optional<vm::Time> start_;  // the start asked for
   vm::PhonemeList spoken_;         // of the utterance before
   vm::TimerId timer_ = 0;          // the start or the end

@@ -189,9 +189,8 @@ TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
 
 TEST_F(HeadTest, PointsAreTheSameWhicheverWayAHeadFaces) {
   // The file's x, y and z axes, as they lie where the head faces x, -x, or -y with z up.
-  const glm::mat3 turns[] = {{0, 0, -1, 0, 1, 0, 1, 0, 0},
-                             {0, 0, 1, 0, 1, 0, -1, 0, 0},
-                             {1, 0, 0, 0, 0, 1, 0, -1, 0}};
+  const glm::mat3 turns[] = {
+      {0, 0, -1, 0, 1, 0, 1, 0, 0}, {0, 0, 1, 0, 1, 0, -1, 0, 0}, {1, 0, 0, 0, 0, 1, 0, -1, 0}};
   const auto straight = fsm::ReadHeadFile(support::Heads() / "ict" + "/neutral.obj");
   ASSERT_TRUE(straight) << straight.error().text;
   const auto expected = FindHeadPoints(*networks_, *straight, "ict", "galatea").pairs;

@@ -50,8 +50,8 @@ TEST(DiscriminantTest, LikelihoodsAreThoseOfTheNormalDistribution) {
   std::normal_distribution<double> normal;
   std::vector<Example> examples;
   for (int n = 0; n < 20000; ++n) {
-    examples.push_back({n % 2 ? "up" : "down",
-                        Eigen::VectorXd::Constant(1, (n % 2 ? 1 : -1) + normal(random))});
+    examples.push_back(
+        {n % 2 ? "up" : "down", Eigen::VectorXd::Constant(1, (n % 2 ? 1 : -1) + normal(random))});
   }
   const auto functions = LearnDiscriminant({"x"}, {"down", "up"}, examples).value();
   for (const double x : {-0.5, 0.0, 0.8}) {
@@ -77,7 +77,8 @@ TEST(DiscriminantTest, BadTablesAreRefusedWithTheirLine) {
   };
   EXPECT_EQ(error(""), "t:0: features NAME... with 1 to 16 names expected");
   EXPECT_EQ(error("features a\n"), "t:1: the end found, 'most' expected");
-  EXPECT_EQ(error("features a\nmost x\n"), "t:2: 'x' found, a number from -10000 to 10000 expected");
+  EXPECT_EQ(error("features a\nmost x\n"),
+            "t:2: 'x' found, a number from -10000 to 10000 expected");
   EXPECT_EQ(error("features a\nmost -1\n"), "t:2: a number below 0 found after 'most'");
   EXPECT_EQ(error("features a\nmost 1\nclass n 0 1 2\n"),
             "t:3: class NAME CONSTANT and 1 weights expected");

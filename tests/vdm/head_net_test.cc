@@ -42,7 +42,8 @@ TEST(HeadNetTest, WhatIsWrittenIsReadAgain) {
 }
 
 TEST(HeadNetTest, BadTextsAreRefusedWithTheirLine) {
-  const auto error = [](std::string text, const std::string& from = "", const std::string& to = "") {
+  const auto error = [](std::string text, const std::string& from = "",
+                        const std::string& to = "") {
     if (!from.empty()) text.replace(text.find(from), from.size(), to);
     const auto read = ParseHeadNet("h", text);
     return read ? std::string("none") : read.error().text;
@@ -98,7 +99,8 @@ TEST_F(HeadMoverTest, WithSpeechItMovesSoftlyAndGoesHomeAfterwards) {
   float widest = 0;
   for (int k = 0; k < 600; ++k) {
     const bool speech = k > 50 && k < 300;
-    const HeadPose now = Add(speech ? 0.9F : 0, speech ? 120 + 30 * std::sin(0.2F * static_cast<float>(k)) : 0);
+    const HeadPose now =
+        Add(speech ? 0.9F : 0, speech ? 120 + 30 * std::sin(0.2F * static_cast<float>(k)) : 0);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_LT(std::abs(now.angles[i] - before.angles[i]), 0.6F) << k;
       widest = std::max(widest, std::abs(now.angles[i]));

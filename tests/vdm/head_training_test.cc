@@ -1,4 +1,5 @@
-// Learning heads: what a network can know it learns, lists of recordings, and how heads are compared.
+// Learning heads: what a network can know it learns, lists of recordings, and how heads are
+// compared.
 
 #include "vdm/train/head_training.h"
 
@@ -16,25 +17,25 @@
 namespace vdm {
 namespace {
 
-/// The head is down with the pitch of now and to the right with the power of 100 ms ago; the tilt is
-/// by chance in each phrase.
+/// The head is down with the pitch of now and to the right with the power of 100 ms ago; the tilt
+/// is by chance in each phrase.
 std::vector<HeadLesson> Lessons(std::size_t sounds) {
   std::vector<HeadLesson> lessons;
   Dice dice(4);
   for (int n = 0; n < 8; ++n) {
-    HeadLesson lesson{.who = "made",
-                      .inputs = Eigen::MatrixXf::Zero(
-                          static_cast<Eigen::Index>(HeadNet::Inputs(sounds)), 400),
-                      .truth = Eigen::MatrixXf::Zero(4, 400),
-                      .phrase = std::vector<std::uint64_t>(400)};
+    HeadLesson lesson{
+        .who = "made",
+        .inputs = Eigen::MatrixXf::Zero(static_cast<Eigen::Index>(HeadNet::Inputs(sounds)), 400),
+        .truth = Eigen::MatrixXf::Zero(4, 400),
+        .phrase = std::vector<std::uint64_t>(400)};
     double tilt = 0;
     for (Eigen::Index k = 0; k < 400; ++k) {
       const std::uint64_t phrase = 1 + static_cast<std::uint64_t>(k) / 100;
       if (k % 100 == 0) tilt = dice.Normal();
       lesson.phrase[static_cast<std::size_t>(k)] = k % 100 < 90 ? phrase : 0;
       for (Eigen::Index i = 0; i < lesson.inputs.rows(); ++i) {
-        lesson.inputs(i, k) =
-            std::sin(0.05F * static_cast<float>(k + 17 * i + 90 * n) * (1 + 0.1F * static_cast<float>(i)));
+        lesson.inputs(i, k) = std::sin(0.05F * static_cast<float>(k + 17 * i + 90 * n) *
+                                       (1 + 0.1F * static_cast<float>(i)));
       }
       const auto instant = static_cast<Eigen::Index>(HeadNet::InstantSize(sounds));
       lesson.truth(0, k) = 2 * lesson.inputs(0, k);
@@ -50,8 +51,7 @@ std::vector<HeadLesson> Lessons(std::size_t sounds) {
 TEST(HeadTrainingTest, WhatPitchAndPowerSayIsLearnedTheRestIsAPose) {
   const auto lessons = Lessons(0);
   double last = 1;
-  const HeadNet net =
-      LearnHead({}, lessons, [&](std::size_t, double error) { last = error; });
+  const HeadNet net = LearnHead({}, lessons, [&](std::size_t, double error) { last = error; });
   EXPECT_LT(last, 0.4);
   double off = 0, all = 0;
   for (const HeadLesson& lesson : lessons) {
@@ -92,10 +92,12 @@ TEST(HeadTrainingTest, TalksAreOfOneVoiceWithPauses) {
 
 TEST(HeadTrainingTest, TheTextDrivenHeadIsTheFacesOwnAndGrowsWithTheEmotion) {
   const fsm::MotionTables tables = fsm::MotionTables::Load().value();
-  const Talk talk{.voice = "a",
-                  .samples = {},
-                  .phonemes = vm::ParsePhonemes("pau 300 m 80 aa 250 m 80 ih 60 m 80 aa 220").value()};
-  const HeadTruth calm = TextDrivenHead(talk, 0, tables, 5), lively = TextDrivenHead(talk, 1, tables, 5);
+  const Talk talk{
+      .voice = "a",
+      .samples = {},
+      .phonemes = vm::ParsePhonemes("pau 300 m 80 aa 250 m 80 ih 60 m 80 aa 220").value()};
+  const HeadTruth calm = TextDrivenHead(talk, 0, tables, 5),
+                  lively = TextDrivenHead(talk, 1, tables, 5);
   const auto& sizes = tables.motions.auto_speeches;
   for (double ms = 0; ms < 1200; ms += 50) {
     EXPECT_NEAR(lively(ms).angles[0], calm(ms).angles[0] * sizes[1].nod / sizes[0].nod, 1e-4) << ms;
@@ -120,7 +122,8 @@ class HeadListTest : public testing::Test {
     std::string sound;
     for (std::size_t i = 0; i < samples; ++i) {
       sound += bytes(static_cast<std::uint32_t>(
-                         static_cast<std::int32_t>(3000 * std::sin(0.05 * static_cast<double>(i)))), 2);
+                         static_cast<std::int32_t>(3000 * std::sin(0.05 * static_cast<double>(i)))),
+                     2);
     }
     const auto size = static_cast<std::uint32_t>(sound.size());
     Write(name, "RIFF" + bytes(36 + size, 4) + "WAVEfmt " + bytes(16, 4) + bytes(1, 2) +
@@ -137,13 +140,13 @@ class HeadListTest : public testing::Test {
     return text;
   }
   const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("head_list_test_" + std::to_string(::getpid()));
+      std::filesystem::temp_directory_path() / ("head_list_test_" + std::to_string(::getpid()));
 };
 
 TEST_F(HeadListTest, ARecordingsAnglesAreSampledWithItsSound) {
   WriteWav("a.wav", 16000);
-  Write("a.csv", "ms,roll,pitch,yaw,brow,more\n0,1,0,-5,0.5,x\n100,1,10,-5,0.5,x\n500,1,10,-5,0.5,x\n");
+  Write("a.csv",
+        "ms,roll,pitch,yaw,brow,more\n0,1,0,-5,0.5,x\n100,1,10,-5,0.5,x\n500,1,10,-5,0.5,x\n");
   const auto lessons = ReadHeadLessons(Write("list", "# mine\na.wav a.csv 0.5\n"), 0, 0);
   ASSERT_TRUE(lessons) << lessons.error().text;
   ASSERT_EQ(lessons->size(), 1U);
@@ -169,7 +172,8 @@ TEST_F(HeadListTest, BadListsAndTablesAreRefusedWithFileAndLine) {
   EXPECT_EQ(ErrorOf(""), "list:1: no recording found, WAV CSV [EMOTION] expected");
   EXPECT_EQ(ErrorOf("\na.wav\n"), "list:2: WAV CSV [EMOTION, 0 to 1] expected");
   EXPECT_EQ(ErrorOf("a.wav a.csv 2\n"), "list:1: WAV CSV [EMOTION, 0 to 1] expected");
-  EXPECT_EQ(ErrorOf("a.wav b.csv\n"), "b.csv:1: no column 'brow' found, ms pitch yaw roll brow expected");
+  EXPECT_EQ(ErrorOf("a.wav b.csv\n"),
+            "b.csv:1: no column 'brow' found, ms pitch yaw roll brow expected");
   EXPECT_EQ(ErrorOf("a.wav c.csv\n"), "c.csv:3: 0 ms found after 0 ms");
   EXPECT_EQ(ErrorOf("a.wav d.csv\n"), "d.csv:2: '95' found for yaw, a number within +-90 expected");
   EXPECT_EQ(ErrorOf("a.wav e.csv\n"), "e.csv:2: '' found for yaw, a number within +-90 expected");
@@ -181,7 +185,8 @@ TEST(HeadOfTest, InNoiseMusicAndSilenceTheHeadRests) {
   for (std::uint64_t n = 0; n < 30; ++n) {
     for (const HeadPose& pose : HeadOf(ShippedHeadNet(false), NoSpeech(Dice(31).For(n)), 0)) {
       ++all;
-      moved += std::abs(pose.angles[0]) + std::abs(pose.angles[1]) + std::abs(pose.angles[2]) > 0.1F;
+      moved +=
+          std::abs(pose.angles[0]) + std::abs(pose.angles[1]) + std::abs(pose.angles[2]) > 0.1F;
     }
   }
   EXPECT_LT(moved, all / 100) << "of " << all;

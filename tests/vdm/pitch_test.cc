@@ -1,12 +1,12 @@
 // The fundamental frequency of made voices, whose truth is known.
 
-#include "vdm/prosody/pitch_tracker.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <random>
+
+#include "vdm/prosody/pitch_tracker.h"
 
 namespace vdm {
 namespace {
@@ -112,7 +112,8 @@ TEST(PitchTest, NoiseAndSilenceHaveNoVoice) {
 }
 
 TEST(PitchTest, PiecesOfAnySizeGiveTheSameFrames) {
-  const Sound sound = Buzz(1, [](double s) { return 140 + 40 * s; }, 20);
+  const Sound sound = Buzz(
+      1, [](double s) { return 140 + 40 * s; }, 20);
   const Frames whole = Track(sound);
   Frames pieces;
   PitchTracker tracker;

@@ -119,7 +119,8 @@ TEST(ProsodyTest, AStreamTakesWhatIsKnownWithTheMouthWhateverThePieces) {
         stream.Add(std::span(sound).subspan(given, size));
         given += size;
       }
-      stream.Advance(sample, 1, [&](const ProsodyFrame& frame) { powers.push_back(frame.power_db); });
+      stream.Advance(sample, 1,
+                     [&](const ProsodyFrame& frame) { powers.push_back(frame.power_db); });
       at.push_back(stream.at());
     }
     return std::pair(powers, at);

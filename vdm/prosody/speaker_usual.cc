@@ -19,9 +19,9 @@ void RunningMean::Add(double value) {
   deviation_ = std::clamp(std::sqrt(square), 0.3 * prior_.deviation, 3 * prior_.deviation);
 }
 
-// Instants are 10 ms apart: a memory of 6000 is a minute of voice. The prior of the pitch is between
-// what is usual of men and of women, about 120 and 210 Hz, with a deviation of three semitones within
-// a speaker; that of the rate is what SyllableCounter finds in read English.
+// Instants are 10 ms apart: a memory of 6000 is a minute of voice. The prior of the pitch is
+// between what is usual of men and of women, about 120 and 210 Hz, with a deviation of three
+// semitones within a speaker; that of the rate is what SyllableCounter finds in read English.
 SpeakerUsual::SpeakerUsual()
     : log_hz({.mean = std::log(160.0),
               .deviation = 0.17,
