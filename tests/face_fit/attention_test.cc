@@ -185,22 +185,14 @@ TEST(FlexMapTest, DamagedBytesAreRefusedOrReadAsSomethingElse) {
   EXPECT_THROW(FlexMap::Root({}), BadModel);
 }
 
-class AttentionTest : public NetworkTest {
+class AttentionTest : public AttentionNetworkTest {
  protected:
-  void SetUp() override {
-    NetworkTest::SetUp();
-    if (!networks_) return;
-    auto loaded = LoadAttentionLandmarks("");
-    ASSERT_TRUE(loaded) << loaded.error().text;
-    attention_.emplace(std::move(*loaded));
-  }
   AttentiveFace See(const fsm::Image& picture) {
     const auto faces = FindFaces(*networks_, picture);
     if (faces.empty()) throw std::runtime_error("no face is seen");
     return FindAttentivePoints(*attention_, picture,
                                FindPoints(*networks_, picture, faces.front()).crop);
   }
-  std::optional<Network> attention_;
 };
 
 TEST_F(AttentionTest, IrisesOfPhotosLieOnTheIrises) {

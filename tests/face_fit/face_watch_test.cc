@@ -13,14 +13,11 @@
 namespace facefit {
 namespace {
 
-class FaceWatchTest : public NetworkTest {
+class FaceWatchTest : public AttentionNetworkTest {
  protected:
   void SetUp() override {
-    NetworkTest::SetUp();
-    if (!networks_) return;
-    auto loaded = LoadAttentionLandmarks("");
-    ASSERT_TRUE(loaded) << loaded.error().text;
-    attention_.emplace(std::move(*loaded));
+    AttentionNetworkTest::SetUp();
+    if (!attention_) return;
     watch_.emplace(*networks_, *attention_);
     rest_ = See({});
   }
@@ -36,7 +33,6 @@ class FaceWatchTest : public NetworkTest {
   }
 
   const PortraitView portrait_{400};
-  std::optional<Network> attention_;
   std::optional<FaceWatch> watch_;
   FaceMeasures rest_;
 };

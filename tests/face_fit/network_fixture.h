@@ -40,4 +40,17 @@ class NetworkTest : public testing::Test {
   static inline std::optional<BaseHead> base_;
 };
 
+/// A test that needs the finer network of landmarks, too.
+class AttentionNetworkTest : public NetworkTest {
+ protected:
+  void SetUp() override {
+    NetworkTest::SetUp();
+    if (!networks_) return;
+    auto loaded = LoadAttentionLandmarks("");
+    ASSERT_TRUE(loaded) << loaded.error().text;
+    attention_.emplace(std::move(*loaded));
+  }
+  std::optional<Network> attention_;
+};
+
 }  // namespace facefit

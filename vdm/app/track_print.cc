@@ -26,23 +26,28 @@ struct Shown {
 };
 
 /// All moments up to the sound's end; behind it silence is heard as long as the networks need.
-/// `heard` is called after each moment that was heard.
+/// `heard`, if it is given, is called after each moment that was heard.
 std::vector<Shown> Moments(
     const MouthNet& net, const HeadNet* head, std::span<const std::int16_t> samples,
-    const std::function<void(const MouthTracker::Moment&, const VoiceManner&)>& heard) {
+    const std::function<void(const MouthTracker::Moment&, const VoiceManner&)>& heard = {}) {
   MouthTracker tracker(net);
+  std::vector<Shown> shown;
+  const auto show = [&](const MouthTracker::Moment& moment, const std::optional<HeadPose>& pose) {
+    if (moment.sample < samples.size()) shown.push_back({moment, pose});
+  };
   VoiceManner manner({.head = head}, tracker.ahead_samples(), tracker.hop_samples());
   std::vector<std::int16_t> sound(samples.begin(), samples.end());
   sound.resize(sound.size() + tracker.ahead_samples() + tracker.hop_samples() +
                VoiceManner::kHeadLate);
-  manner.Add(sound);
-  std::vector<Shown> shown;
+  const bool mouth_alone = head == nullptr && !heard;
+  if (!mouth_alone) manner.Add(sound);
   for (const MouthTracker::Moment& moment : tracker.Add(sound)) {
-    manner.Take(moment, {.wait = VoiceManner::kHeadLate},
-                [&](const MouthTracker::Moment& due, const auto& pose) {
-                  if (due.sample < samples.size()) shown.push_back({due, pose});
-                });
-    if (moment.sample < samples.size()) heard(moment, manner);
+    if (mouth_alone) {
+      show(moment, std::nullopt);
+      continue;
+    }
+    manner.Take(moment, {.wait = VoiceManner::kHeadLate}, show);
+    if (heard && moment.sample < samples.size()) heard(moment, manner);
   }
   return shown;
 }
@@ -110,7 +115,7 @@ std::string PrintLines(const std::vector<Shown>& moments) {
 std::string PrintTrack(const MouthNet& net, const HeadNet* head,
                        std::span<const std::int16_t> samples, const std::string& format) {
   if (format == "prosody") return PrintProsody(net, samples);
-  const auto moments = Moments(net, head, samples, [](const auto&, const auto&) {});
+  const auto moments = Moments(net, head, samples);
   return format == "csv" ? PrintTable(net.sounds, moments, head != nullptr) : PrintLines(moments);
 }
 

@@ -63,24 +63,17 @@ void MovementModule::DeclareEmotion() {
                     Renew(true);
                     return value.word(0);
                   }});
-  const auto told = [this](std::string name, std::string initial, std::string help,
-                           bool auto_output) {
-    slots_.Declare({.name = std::move(name),
-                    .grammar = "<text>",
-                    .access = vm::Access::kReadOnly,
-                    .initial = std::move(initial),
-                    .auto_output = auto_output,
-                    .help = std::move(help)});
-  };
-  told("Emotion", "NONE",
-       "After each phrase, while Emotion.auto is ON: MS on this module's clock, then CLASS "
-       "LIKELIHOOD of neutral, aroused and low. NONE: nothing is claimed, as in silence, noise and "
-       "music, and before some seconds of a voice were heard.",
-       true);
-  told("Prosody", "",
-       "Each frame told, while Head.auto or Emotion.auto is on: MS, HZ (0: no voice), dB, then "
-       "semitones and dB above the speaker's usual, and the position in the phrase, 0 to 1.",
-       false);
+  DeclareTold(
+      "Emotion", "NONE",
+      "After each phrase, while Emotion.auto is ON: MS on this module's clock, then CLASS "
+      "LIKELIHOOD of neutral, aroused and low. NONE: nothing is claimed, as in silence, noise and "
+      "music, and before some seconds of a voice were heard.",
+      true);
+  DeclareTold(
+      "Prosody", "",
+      "Each frame told, while Head.auto or Emotion.auto is on: MS, HZ (0: no voice), dB, then "
+      "semitones and dB above the speaker's usual, and the position in the phrase, 0 to 1.",
+      false);
 }
 
 vm::Result<std::string> MovementModule::SetHead(const std::string& word) {

@@ -57,6 +57,8 @@ class MovementModule final : public vm::Module {
   void DeclareRun();
   void DeclareInput();
   void DeclareMouth();
+  /// A slot in which the module tells something.
+  void DeclareTold(std::string name, std::string initial, std::string help, bool auto_output);
   // manner_slots.cc
   void DeclareHead();
   void DeclareEmotion();

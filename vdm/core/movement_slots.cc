@@ -23,15 +23,9 @@ void MovementModule::DeclareRun() {
                         if (word == "EXIT") exit_requested_ = true;
                       },
                   .saved = false});
-  const auto version = [this](std::string name, std::string value, std::string help) {
-    slots_.Declare({.name = std::move(name),
-                    .grammar = "<text>",
-                    .access = vm::Access::kReadOnly,
-                    .initial = std::move(value),
-                    .help = std::move(help)});
-  };
-  version("ModuleVersion", options_.module_version, "The version of this program.");
-  version("ProtocolVersion", "Protocol Ver. 1.0", "The version of the protocol it speaks.");
+  DeclareTold("ModuleVersion", options_.module_version, "The version of this program.", false);
+  DeclareTold("ProtocolVersion", "Protocol Ver. 1.0", "The version of the protocol it speaks.",
+              false);
 }
 
 void MovementModule::DeclareInput() {
@@ -91,6 +85,16 @@ vm::Result<void> MovementModule::SetMode(const std::string& word) {
   return {};
 }
 
+void MovementModule::DeclareTold(std::string name, std::string initial, std::string help,
+                                 bool auto_output) {
+  slots_.Declare({.name = std::move(name),
+                  .grammar = "<text>",
+                  .access = vm::Access::kReadOnly,
+                  .initial = std::move(initial),
+                  .auto_output = auto_output,
+                  .help = std::move(help)});
+}
+
 void MovementModule::DeclareMouth() {
   slots_.Declare(
       {.name = "Mouth.mode",
@@ -130,24 +134,16 @@ void MovementModule::DeclareMouth() {
                     face_ = value.word(0);
                     return face_;
                   }});
-  const auto told = [this](std::string name, std::string initial, std::string help,
-                           bool auto_output) {
-    slots_.Declare({.name = std::move(name),
-                    .grammar = "<text>",
-                    .access = vm::Access::kReadOnly,
-                    .initial = std::move(initial),
-                    .auto_output = auto_output,
-                    .help = std::move(help)});
-  };
-  told("Mouth", "",
-       "Each frame told: MS on this module's clock, 17 mouth parameters, seal, tongue, as in the "
-       "face's MouthFrame.",
-       false);
-  told("Mouth.sounds", "",
-       "Each frame's sounds: MS, then NAME LIKELIHOOD of each class of sounds (vdm/tables/"
-       "sounds.txt) from 0.05 on.",
-       false);
-  told("Mouth.stat", "OFF", "OFF, LISTENING (the mouth rests) or MOVING.", true);
+  DeclareTold(
+      "Mouth", "",
+      "Each frame told: MS on this module's clock, 17 mouth parameters, seal, tongue, as in the "
+      "face's MouthFrame.",
+      false);
+  DeclareTold("Mouth.sounds", "",
+              "Each frame's sounds: MS, then NAME LIKELIHOOD of each class of sounds (vdm/tables/"
+              "sounds.txt) from 0.05 on.",
+              false);
+  DeclareTold("Mouth.stat", "OFF", "OFF, LISTENING (the mouth rests) or MOVING.", true);
 }
 
 }  // namespace vdm
