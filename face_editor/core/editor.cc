@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "face_editor/core/table_writer.h"
-#include "face_fit/bake/side_view.h"
-#include "face_fit/find/hand_points.h"
+#include "face_fit/find/face/hand_points.h"
+#include "face_fit/fit/side_view.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/motion_errors.h"

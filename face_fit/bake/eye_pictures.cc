@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "face_fit/bake/eyes.h"
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/picture/float_image.h"
 #include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/bake/openings.h"
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 #include "fsm/image/color_space.h"
 
 namespace facefit {

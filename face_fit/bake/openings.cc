@@ -4,9 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/bake/photo_look.h"
-#include "face_fit/find/network_points.h"
+#include "face_fit/find/network/network_points.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 

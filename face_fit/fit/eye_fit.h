@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 
-#include "face_fit/find/base_head.h"
+#include "face_fit/find/head/base_head.h"
 #include "fsm/rig/eye_transform.h"
 
 namespace facefit {

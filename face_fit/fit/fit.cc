@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "face_fit/find/mouth_line.h"
+#include "face_fit/find/face/mouth_line.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
 #include "face_fit/fit/pose_fit.h"

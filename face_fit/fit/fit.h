@@ -6,9 +6,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_fit/find/base_head.h"
-#include "face_fit/find/face_finder.h"
-#include "face_fit/find/iris.h"
+#include "face_fit/find/face/iris.h"
+#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/network/face_finder.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "face_fit/find/mouth_line.h"
-#include "face_fit/find/rasterizer.h"
+#include "face_fit/find/face/mouth_line.h"
+#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/eye_fit.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/make_head.h"

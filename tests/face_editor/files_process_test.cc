@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "face_fit/find/face_networks.h"
+#include "face_fit/find/network/face_networks.h"
 #include "fsm/asset/asset_file.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"

@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/attention_points.h"
-#include "face_fit/find/portrait_view.h"
+#include "face_fit/find/head/portrait_view.h"
+#include "face_fit/find/network/attention_points.h"
 #include "face_fit/net/flex_buffer.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/picture/pixels.h"

@@ -16,8 +16,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "face_fit/find/head_finder.h"
-#include "face_fit/find/rasterizer.h"
+#include "face_fit/find/head/head_finder.h"
+#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/fit.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "face_fit/find/lid_edges.h"
-#include "face_fit/find/lip_seam.h"
+#include "face_fit/find/head/lid_edges.h"
+#include "face_fit/find/head/lip_seam.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 

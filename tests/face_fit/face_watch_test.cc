@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "face_fit/find/portrait_view.h"
+#include "face_fit/find/head/portrait_view.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/process.h"
 

@@ -16,7 +16,7 @@
 #include <string>
 #include <tuple>
 
-#include "face_fit/find/head_finder.h"
+#include "face_fit/find/head/head_finder.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/obj_file.h"
 #include "tests/face_fit/network_fixture.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "face_fit/bake/texture_bake.h"
-#include "face_fit/find/around_face.h"
-#include "face_fit/find/figure_finder.h"
+#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/head/make_head.h"

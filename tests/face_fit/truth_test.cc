@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/find/hand_points.h"
+#include "face_fit/find/face/hand_points.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/fit/profile_fit.h"
 #include "face_fit/fit/side_fit.h"
