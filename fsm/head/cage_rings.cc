@@ -99,8 +99,8 @@ struct BagRing {
 };
 constexpr std::array<BagRing, kSeamRing> kBagRings = {
     BagRing{0, 62, 0.5f, 0, 0},         BagRing{12, 48, 1.08f, 0, 0},
-    BagRing{15, 26, 1.2f, 0, 0},        BagRing{11.5f, 11, 1.1f, 0.12f, 0.6f},
-    BagRing{4.6f, 5.2f, 1.0f, 0.2f, 1}, BagRing{1.2f, 2.4f, 1.0f, 0.13f, 1}};
+    BagRing{15, 26, 1.2f, 0, 0},        BagRing{11.5f, 11, 1.1f, 0.04f, 0.6f},
+    BagRing{4.6f, 5.2f, 1.0f, 0.1f, 1}, BagRing{1.2f, 2.4f, 1.0f, 0.07f, 1}};
 
 glm::vec3 PointOfBag(const MouthAnatomy& mouth, const LipPoint& at, const BagRing& bag) {
   const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (25.0f * 25.0f)));
