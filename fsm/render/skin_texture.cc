@@ -82,7 +82,7 @@ std::vector<Fine> MakeFineTile() {
       const Fine& a = tile[InTile(x, y + 1)];
       Fine& f = tile[InTile(x, y)];
       f.pore_slope = glm::vec2(r.pore - l.pore, a.pore - b.pore) * (-0.085F / between);
-      f.crack_slope = glm::vec2(r.crack - l.crack, a.crack - b.crack) * (0.07F / between);
+      f.crack_slope = glm::vec2(r.crack - l.crack, a.crack - b.crack) * (0.03F / between);
     }
   }
   return tile;
@@ -121,7 +121,7 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
       const float crack = r.cracks * f.crack;
       const glm::vec4 c = 128.0F * r.tint *
                           (1.0F - pore * glm::vec4(0.07F, 0.10F, 0.10F, 0.45F) +
-                           crack * glm::vec4(0.045F, 0.07F, 0.07F, 0.5F) +
+                           crack * glm::vec4(0.02F, 0.032F, 0.032F, 0.3F) +
                            f.grain * glm::vec4(0.008F, 0.018F, 0.018F, 0.03F));
       for (int k = 0; k < 4; ++k) tint[k] = Byte(c[k]);
       const glm::vec2 slope = 128.0F + 254.0F * (r.pores * f.pore_slope + r.cracks * f.crack_slope);

@@ -269,7 +269,8 @@ void Rig::MoveTongue(Frame& frame) const {
     glm::vec3 p = rest;
     p.z += path.Part() * pose.tongue_out_mm * tip;
     p.y += pose.tongue_raise * step::kTongueRaise * tip * tip;
-    frame.position[i] = path.Fit(TurnJaw(p, pose, 1 - 0.25f * pose.tongue_raise * tip));
+    frame.position[i] =
+        path.Fit(TurnJaw(p, pose, 1 - step::kTongueOffJaw * pose.tongue_raise * tip));
     frame.normal[i] = glm::normalize(TurnJaw(rest + rest_normal, pose, 1) - TurnJaw(rest, pose, 1));
   }
 }

@@ -246,6 +246,40 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
   expect_carried("sealed", state);
 }
 
+TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPart) {
+  MeshModel model;
+  for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(0.5F));
+  model.BatchOf(Material::kSkin, -1, false).indices = SkinTriangles(to_->topology());
+  const HeadTopology& known = to_->topology();
+  for (const HeadTopology::Part& part : known.parts) {
+    if (part.material != Material::kTeeth) continue;
+    for (std::uint32_t k = 0; k < part.index_count; k += 3) {
+      const std::uint32_t* t = &known.indices[part.first_index + k];
+      model.Triangle(Material::kTeeth, t[0], t[1], t[2]);
+      for (int c = 0; c < 3; ++c) model.bone[t[c]] = to_->rig().data().bone[t[c]];
+    }
+  }
+  RigData skin = TransferredRig(model, *from_, pairs_);
+  const auto head = MakeMeshHead(std::move(model), std::move(skin));
+  const HeadTopology& topology = head->topology();
+  EXPECT_EQ(topology.mouth.upper_incisor, known.mouth.upper_incisor);
+  EXPECT_EQ(topology.mouth.lower_incisor, known.mouth.lower_incisor);
+  ASSERT_EQ(topology.mouth.lips.size(), known.mouth.lips.size());
+  HeadVertices rest;
+  head->Evaluate({}, rest);
+  float off = 0;
+  for (std::size_t k = 0; k < known.mouth.lips.size(); ++k) {
+    off += glm::distance(rest.position[topology.mouth.lips[k].first],
+                         to_rest_.position[known.mouth.lips[k].first]);
+  }
+  EXPECT_LT(off / static_cast<float>(known.mouth.lips.size()), 0.9F) << "on the head's own lips";
+  const auto greenness = [&](std::uint32_t v) {
+    return topology.albedo[v].g / topology.albedo[v].r;
+  };
+  EXPECT_LT(greenness(known.mouth.lips[known.mouth.lips.size() / 2].first), 0.7F) << "the lip";
+  EXPECT_NEAR(greenness(to_->rig().data().soft_triangles.front()), 1, 0.3F) << "elsewhere";
+}
+
 /// Two lips of flat skin that meet at a height, as a coarse head has them: nothing but the slit
 /// tells them apart.
 struct FlatLips {

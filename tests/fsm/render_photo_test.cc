@@ -133,7 +133,7 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
   std::vector<glm::vec3> places;
   for (int i = 0; i < kRows * kRows; ++i) {
     const glm::vec3 p = corner + glm::vec3(-4 + 3 * static_cast<float>(i % kRows),
-                                           12 - 3 * static_cast<float>(i / kRows), 15);
+                                           12 - 3 * static_cast<float>(i / kRows), 19);
     set.sheet.push_back({p, {0.75F, 0.5F}});
     if (i % kRows == 0 || i < kRows) continue;
     places.push_back(p + glm::vec3(-1.5F, 1.5F, 0));
