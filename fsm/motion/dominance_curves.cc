@@ -16,7 +16,7 @@ constexpr double kPauseEase = 60;       // lips meet in a pause, and part before
 constexpr double kShortestPause = 120;  // in which they do
 constexpr double kJawGives = 0.75;      // of the jaw's way, where the lips close over it
 
-// Which dominance rules each of the 17 parameters (face_state.h): the jaw, the lips' opening, or
+// Which dominance rules each MouthParameter: the jaw, the lips' opening, or
 // their rounding.
 enum Group : std::size_t { kJaw, kLips, kRound, kTongue, kGroups };
 constexpr std::array<Group, kMouthParameters> kGroupOf = {
