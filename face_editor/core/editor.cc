@@ -122,8 +122,8 @@ vm::Result<void> Editor::SetUnit(int unit, bool left, bool right, float strength
   if (auto fits = fsm::CheckStrength(static_cast<double>(strength)); !fits) return fits;
   history_.Change(Part::kLook, fmt::format("unit {}", unit), merge, [&](State& state) {
     const auto i = static_cast<std::size_t>(unit);
-    if (left) state.look.left[i] = strength;
-    if (right) state.look.right[i] = strength;
+    if (left) state.look.au.left[i] = strength;
+    if (right) state.look.au.right[i] = strength;
   });
   return {};
 }

@@ -106,7 +106,7 @@ fsm::FaceState Expression::State() const {
   fsm::FaceState state;
   state.asymmetry = 0;
   const auto both = [&state](std::size_t unit, float v) {
-    state.au_left[unit] = state.au_right[unit] = v;
+    state.au.left[unit] = state.au.right[unit] = v;
   };
   both(12, smile);
   both(6, 0.5F * smile);

@@ -57,9 +57,9 @@ struct Fit {
   std::vector<LandmarkConstraint> constraints;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
   float smooth = 1;
-  std::array<fsm::EyeTransform, 2> eyes;  ///< right, left
-  std::array<IrisRing, 2> irises;         ///< likewise, in the photo
-  float iris_size = 1;                    ///< of that of the built-in head, by the size of the eye
+  fsm::Sided<fsm::EyeTransform> eyes;
+  fsm::Sided<IrisRing> irises;  ///< in the photo
+  float iris_size = 1;          ///< of that of the built-in head, by the size of the eye
   std::vector<glm::vec3>
       posed_vertices;     ///< every vertex of the base as it lies in the photo, head's frame
   float residual_mm = 0;  ///< mean distance of the network's points from those of the fit

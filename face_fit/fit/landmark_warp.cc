@@ -26,8 +26,8 @@ bool OfOuterLips(const LandmarkConstraint& c) {
   return Among(UpperOuterLip(), c.point) || Among(LowerOuterLip(), c.point);
 }
 /// Whose outline has the point; none if it is no eye's.
-std::optional<std::size_t> EyeOf(const LandmarkConstraint& c) {
-  for (const std::size_t side : {0U, 1U}) {
+std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
+  for (const fsm::Side side : fsm::kSides) {
     if (Among(EyeOutline(side), c.point)) return side;
   }
   return std::nullopt;

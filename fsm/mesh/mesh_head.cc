@@ -45,7 +45,7 @@ std::vector<BallLid> LidsOf(const MeshModel& model) {
   std::vector<BallLid> lids;
   for (std::uint32_t i = 0; i < model.position.size(); ++i) {
     if (model.bone[i] != Bone::kSkin) continue;
-    for (std::uint8_t side = 0; side < 2; ++side) {
+    for (const Side side : kSides) {
       const EyeGeometry& eye = model.eyes[side];
       const float far = glm::distance(model.position[i], eye.centre);
       if (far < eye.ball_radius - 0.5F || far > eye.ball_radius + kReach) continue;
@@ -96,7 +96,7 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
   rig.soft_triangles = topology.indices;
   if (!topology.pbr_materials.empty()) rig.normal_twin = NormalTwins(rig.rest, rig.rest_normal);
   rig.jaw_hinge = model.hinge;
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     rig.ball_centre[side] = model.eyes[side].centre;
     rig.eye_pivot[side] = model.eye_pivot ? (*model.eye_pivot)[side] : rig.ball_centre[side];
   }

@@ -103,7 +103,7 @@ class RigResampler {
     const auto lids = ByVertex(source_.lids.vertices);
     for (std::uint32_t v = 0; v < rows_.size(); ++v) {
       LidRig::Vertex mean{.vertex = v,
-                          .side = 0,
+                          .side = Side::kRight,
                           .upper = 0,
                           .lower = 0,
                           .upper_angle = 0,
@@ -128,10 +128,10 @@ class RigResampler {
         mean.opening += share * one->opening;
         mean.y += share * one->y;
         mean.z += share * one->z;
-        left += one->side == 1 ? share : 0;
+        left += one->side == Side::kLeft ? share : 0;
         proper += one->proper ? part : 0;
       }
-      mean.side = left > 0.5f ? 1 : 0;
+      mean.side = left > 0.5f ? Side::kLeft : Side::kRight;
       mean.proper = proper > 0.5f;
       rig_.lids.vertices.push_back(mean);
     }

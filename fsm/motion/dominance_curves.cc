@@ -17,7 +17,7 @@ constexpr double kShortestPause = 120;  // in which they do
 constexpr double kOver = 24;            // from one closure to the next
 constexpr double kJawGives = 0.75;      // of the jaw's way, where the lips close over it
 
-// Which dominance rules each of the 17 parameters (face_state.h): the jaw, the lips' opening, or
+// Which dominance rules each MouthParameter: the jaw, the lips' opening, or
 // their rounding.
 enum Group : std::size_t { kJaw, kLips, kRound, kTongue, kGroups };
 constexpr std::array<Group, kMouthParameters> kGroupOf = {

@@ -217,7 +217,7 @@ void PaintVessels(const SkinMap& map, const FaceMarks& m, SkinTexture& out) {
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
       const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
       const float ala =
-          Bell(glm::length(glm::vec2(std::abs(p.x) - m.alare[1].x, p.y - m.alare[1].y)), 9);
+          Bell(glm::length(glm::vec2(std::abs(p.x) - m.alare.left.x, p.y - m.alare.left.y)), 9);
       const float cheek = Bell(std::abs(p.x) - 40, 14) * Bell(p.y - m.pronasale.y, 14);
       const float strength = 0.055F * (ala + 0.6F * cheek);
       if (strength < 0.01F) continue;
@@ -233,7 +233,7 @@ void PaintVessels(const SkinMap& map, const FaceMarks& m, SkinTexture& out) {
 std::optional<FaceMarks> FaceMarks::Of(const Head& head) {
   try {
     const auto both = [&head](const std::string& name) {
-      return std::array{head.Landmark(name + "_right"), head.Landmark(name + "_left")};
+      return Sided<glm::vec3>{head.Landmark(name + "_right"), head.Landmark(name + "_left")};
     };
     return FaceMarks{.nasion = head.Landmark("nasion"),
                      .pronasale = head.Landmark("pronasale"),

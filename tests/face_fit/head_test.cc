@@ -175,12 +175,12 @@ TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
     const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::HeadVertices moved;
     fsm::FaceState state;
-    state.au_left[27] = state.au_right[27] = 1;
+    state.au.left[27] = state.au.right[27] = 1;
     head->Evaluate(state, moved);
     EXPECT_LT(mean(moved.position, fsm::FacePart::kLowerLip), -15) << name;
     EXPECT_GT(mean(moved.position, fsm::FacePart::kUpperLip), -8) << name;
     state = {};
-    state.blink_left = state.blink_right = 1;
+    state.blink.left = state.blink.right = 1;
     head->Evaluate(state, moved);
     EXPECT_LT(mean(moved.position, fsm::FacePart::kUpperLid), -2.5F) << name;
     EXPECT_GT(mean(moved.position, fsm::FacePart::kLowerLid), -2) << name;

@@ -15,7 +15,7 @@ struct Occlusion {
 /// Looks for something before a face. The landmark network says how sure it is that it sees a face.
 /// Each part of the face in turn is replaced by the same part of the built-in head, in the photo's
 /// skin colour; if the network is much surer then, the photo shows something else there. Beards,
-/// wrinkles, glasses, hair on the forehead and shade hardly change how sure it is.
+/// creases, glasses, hair on the forehead and shade hardly change how sure it is.
 Occlusion DetectOcclusion(FaceNetworks& networks, const BaseHead& base, const FoundFace& face,
                           const fsm::Image& photo);
 

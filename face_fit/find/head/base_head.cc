@@ -20,7 +20,7 @@ constexpr int kSide = 720;
 void OntoSeam(const BaseHead& base, std::vector<MeshPoint>& points) {
   fsm::FaceState open;
   open.asymmetry = 0;
-  open.au_left[27] = open.au_right[27] = 1;
+  open.au.left[27] = open.au.right[27] = 1;
   fsm::HeadVertices moved;
   base.head->Evaluate(open, moved);
   std::vector<std::uint32_t> lips;

@@ -49,7 +49,7 @@ fsm::FacePart PartOf(PointIndex i) {
   // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
   if (among(UpperOuterLip())) return fsm::FacePart::kUpperLip;
   if (among(LowerOuterLip())) return fsm::FacePart::kLowerLip;
-  for (const std::size_t side : {0U, 1U}) {
+  for (const fsm::Side side : fsm::kSides) {
     const auto outline = EyeOutline(side);
     if (among(outline.subspan(1, kInnerCorner - 1))) return fsm::FacePart::kUpperLid;
     if (among(outline.subspan(kInnerCorner + 1))) return fsm::FacePart::kLowerLid;

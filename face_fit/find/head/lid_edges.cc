@@ -141,11 +141,11 @@ std::vector<bool> EyeVertices(const fsm::HeadTopology& topology, std::size_t cou
 
 void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPoint>& our_places,
                   const EyeSurface& theirs, std::vector<MeshPoint>& their_places) {
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const fsm::Side side : fsm::kSides) {
     const auto find = [side](const EyeSurface& surface) {
       const auto& topology = surface.head.head->topology();
       return FindLidEdges(topology, surface.head.rest.position, surface.eye,
-                          topology.eyes[side].centre, side == 0 ? -1.0F : 1.0F);
+                          topology.eyes[side].centre, fsm::SignOf(side));
     };
     const auto a = find(ours), b = find(theirs);
     if (!a || !b) continue;

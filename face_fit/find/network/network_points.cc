@@ -36,8 +36,8 @@ std::span<const PointIndex> UpperOuterLip() { return kUpperOuter; }
 std::span<const PointIndex> LowerOuterLip() { return kLowerOuter; }
 std::span<const PointIndex> UpperInnerLip() { return kUpperInner; }
 std::span<const PointIndex> LowerInnerLip() { return kLowerInner; }
-std::span<const PointIndex> EyeOutline(std::size_t side) {
-  return side == 0 ? kRightEye : kLeftEye;
+std::span<const PointIndex> EyeOutline(fsm::Side side) {
+  return side == fsm::Side::kRight ? kRightEye : kLeftEye;
 }
 
 }  // namespace facefit

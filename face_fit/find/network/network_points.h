@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <span>
 
+#include "fsm/base/side.h"
+
 namespace facefit {
 
 /// A point of the landmark network, by its number in MediaPipe's face mesh.
@@ -32,8 +34,8 @@ std::span<const PointIndex> UpperInnerLip();  ///< likewise, corners included
 std::span<const PointIndex> LowerInnerLip();  ///< likewise, without corners
 
 /// An eye's outline, closed: the outer corner, seven points of the upper lid, the inner corner, and
-/// seven points of the lower lid on the way back. `side`: 0 = the person's right.
-std::span<const PointIndex> EyeOutline(std::size_t side);
+/// seven points of the lower lid on the way back.
+std::span<const PointIndex> EyeOutline(fsm::Side side);
 /// Places in that list: corners and the middles of the lids.
 inline constexpr std::size_t kOuterCorner = 0, kUpperMiddle = 4, kInnerCorner = 8,
                              kLowerMiddle = 12;
