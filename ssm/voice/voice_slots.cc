@@ -1,5 +1,5 @@
 // What the voice module can be told and asked: every slot of the original, then ours. The order of
-// declaration is the order of `inq Slots` and of the table in docs/slots.md.
+// declaration is the order of `inq Slots` and of the table in docs/reference/slots.md.
 
 #include "ssm/voice/voice_module.h"
 
