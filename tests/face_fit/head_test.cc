@@ -222,9 +222,11 @@ TEST_F(HeadTest, AHeadThatIsNeverSeenFromTheFrontIsRefused) {
     FindHeadPoints(*networks_, *file, "lying.obj", "galatea");
     FAIL() << "points were made up";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("'lying.obj' is not seen from the front"),
-              std::string::npos)
-        << error.what();
+    // Whether the network takes the crown of a head for a face decides which of the two is said.
+    const std::string said = error.what();
+    EXPECT_TRUE(said.starts_with("'lying.obj' is not seen from the front") ||
+                said.starts_with("no face is seen on 'lying.obj'"))
+        << said;
   }
 }
 
