@@ -57,6 +57,9 @@ class VoiceModule final : public vm::Module {
     std::function<vm::Time()> wall_clock = vm::WallSinceMidnight;
     /// Sends error texts to a file, or back to the console for "CONSOLE". Empty = not possible.
     std::function<vm::Result<void>(const std::string&)> redirect_errors{};
+    /// Sends a copy of what is heard to "unix:PATH", or no longer for "NONE". Empty = not possible.
+    std::function<vm::Result<void>(const std::string&)> send_sound{};
+    std::function<std::string()> sound_goes_to{};  ///< REQUIRES: not empty where send_sound is not
   };
 
   /// The scheduler outlives the module.

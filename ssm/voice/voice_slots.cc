@@ -213,6 +213,27 @@ void VoiceModule::DeclareFileSlots() {
                   .access = vm::Access::kReadOnly,
                   .initial = sink_->name(),
                   .help = "Where the sound goes: null, portaudio:DEVICE or file:PATH (--sink)."});
+  slots_.Declare({.name = "Sound.to",
+                  .grammar = "NONE | <file>",
+                  .initial = "NONE",
+                  .help =
+                      "unix:PATH of a socket that somebody listens at: gets a copy of what is "
+                      "heard, with its times, up to 400 ms before it is (docs/speech.md). NONE: "
+                      "no longer.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    if (!options_.send_sound) {
+                      if (value.word(0) == "NONE") return "NONE";
+                      return vm::Fail(vm::Errc::kUnavailable, "this voice has no sound to send");
+                    }
+                    if (auto sent = options_.send_sound(value.word(0)); !sent) {
+                      return std::unexpected(sent.error());
+                    }
+                    return value.word(0);
+                  },
+                  .on_inq = [this]() -> std::string {
+                    return options_.sound_goes_to ? options_.sound_goes_to() : "NONE";
+                  },
+                  .saved = false});
 }
 
 void VoiceModule::DeclareLogSlots() {

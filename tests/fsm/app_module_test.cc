@@ -160,12 +160,14 @@ TEST(FsmModuleTest, AFilmHasAFrameForEveryInstant) {
   fsm.Say("set Record.sound = voice.wav");
   EXPECT_EQ(fsm.Say("set#1 Record = a.mp4"), "rep#1 Record = a.mp4");
   EXPECT_EQ(fsm.Say("inq Record"), "rep Record = a.mp4");
+  EXPECT_EQ(fsm.Say("inq Record.start"), "rep Record.start = 17");
   EXPECT_TRUE(fsm.Say("set#2 Record = b.mp4").starts_with("rep#2 Record.error = BUSY"));
   EXPECT_TRUE(fsm.Say("set#2 Window = 100 100").starts_with("rep#2 Window.error = BUSY"));
   fsm.Say("set LipSync.pho = pau 100 a 200 pau 200");
   fsm.Say("set Speak = NOW");
   fsm.Until(1017);
   EXPECT_EQ(fsm.Say("set#3 Record = STOP"), "rep#3 Record = STOP");
+  EXPECT_EQ(fsm.Say("inq Record.start"), "rep Record.start = ");
   const auto& film = fsm.backend.films["a.mp4"];
   EXPECT_EQ(film.jaws.size(), 31u);  // both ends
   EXPECT_EQ(film.sound, "voice.wav");
