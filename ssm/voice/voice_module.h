@@ -89,6 +89,7 @@ class VoiceModule final : public vm::Module {
     bool spoken = false;          ///< Speak is among it
     std::shared_ptr<const Prosody> prosody{};  ///< from a file; null = the engine's own
     SpeechPlan engine_plan{};                  ///< before the prosody changed it
+    std::string wanted{};                      ///< of a next text: what was asked for (WantedNow)
   };
 
   // voice_manner_slots.cc
@@ -149,6 +150,9 @@ class VoiceModule final : public vm::Module {
   void SetNext(const std::string& text, const vm::Reply& reply);
   void TakeNext();
   void DropNext(const char* why);
+  /// A text with the manner it would be spoken in now.
+  std::string WantedNow(const std::string& text) const;
+  bool TakesNext(const std::string& text, const vm::Reply& reply);
 
   vm::Scheduler& scheduler_;
   const Options options_;
@@ -179,6 +183,9 @@ class VoiceModule final : public vm::Module {
   std::shared_ptr<const Utterance> spoken_;      // the one they belong to
   std::unique_ptr<Tape> tape_;
   std::shared_ptr<Preparation> next_;  // made while another is spoken; its samples begun
+  /// What the last next text was asked for as, and what came of it.
+  std::string next_wanted_;
+  std::shared_ptr<const Utterance> next_made_;
   bool exit_requested_ = false;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };

@@ -28,7 +28,8 @@ void VoiceModule::DeclareTextSlots() {
                   .help =
                       "A Text made ready while another is spoken; it becomes the present one, "
                       "with the usual reports, right after IDLE; `Speak = NOW` meanwhile speaks "
-                      "it then. Without speech it is Text.",
+                      "it then, and a Text that is the same costs nothing more. Without speech it "
+                      "is Text.",
                   .on_set_later = [this](const vm::SetValue& value,
                                          vm::Reply reply) { SetNext(value.text, reply); },
                   .saved = false});
