@@ -19,7 +19,7 @@ foreach(page IN LISTS pages)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section} COMPONENT programs)
 endforeach()
 # The examples start programs of the build; installed ones are found by their names.
-foreach(agent agent film voice voice_film)
+foreach(agent agent chat film voice voice_film)
   file(READ ${CMAKE_SOURCE_DIR}/examples/agents/${agent}.json text)
   string(REPLACE "build/bin/" "" text "${text}")
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/installed/agents/${agent}.json CONTENT "${text}")

@@ -9,8 +9,13 @@ usage: scripts/run_agent.sh [options]
   --say TEXT         speak TEXT and end: in a window where there is a display, else into agent.mp4
   --emotion TYPE     look HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL while speaking;
                      a strength in % may follow: --emotion "HAPPY 60"
+  --chat             talk with the agent, typed at the terminal: it answers by rules, offline (docs/chat.md).
+                     With --out a film is made of it, with the user's part from --script FILE, a line a turn
+  --model-url URL    with --chat: a language model answers, asked at URL (any OpenAI-compatible endpoint)
+  --model NAME       its name there
+  --key-file FILE    its key: the first line of a file only you can read
   --dialog DOC.vxml  run a VoiceXML dialogue (docs/dialogs.md); what you type is what you say
-  --script FILE      with --dialog: take the user's part from FILE instead of the keyboard; by default
+  --script FILE      with --dialog or --chat: take the user's part from FILE instead of the keyboard; by default
                      DOC.txt beside DOC.vxml where a film is made
   --voice FILE.wav   the face speaks with the voice in FILE, without being told the text, and its head
                      moves with it (docs/vdm.md):
@@ -24,12 +29,12 @@ usage: scripts/run_agent.sh [options]
   --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
   --help             this text
 
-Without --say, --dialog, --voice and --out a short dialogue is typed at the terminal.
+Without --say, --dialog, --voice and --out it is --chat.
 TEXT
 }
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard=""
+photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" model_url="" model="" key_file=""
 fail() {
   echo "run_agent: $1" >&2
   exit 2
@@ -37,7 +42,7 @@ fail() {
 absolute() { case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
 while [ $# -gt 0 ]; do
   case $1 in
-    --photo | --say | --emotion | --out | --config | --dialog | --script | --voice)
+    --photo | --say | --emotion | --out | --config | --dialog | --script | --voice | --model-url | --model | --key-file)
       [ $# -ge 2 ] || fail "$1 needs a value"
       case $1 in
         --photo) photo=$(absolute "$2") ;;
@@ -47,10 +52,14 @@ while [ $# -gt 0 ]; do
         --config) config=$(absolute "$2") ;;
         --dialog) dialog=$(absolute "$2") ;;
         --script) script=$(absolute "$2") ;;
+        --model-url) model_url=$2 ;;
+        --model) model=$2 ;;
+        --key-file) key_file=$(absolute "$2") ;;
         --voice) heard=$2; [ "$2" = mic ] || heard=$(absolute "$2") ;;
       esac
       shift 2
       ;;
+    --chat) chat=1; shift ;;
     --stub) voice=ssm_stub; shift ;;
     --subtitles) subtitles=1; shift ;;
     --help | -h) usage; exit 0 ;;
@@ -67,7 +76,14 @@ case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in 
 [ -z "$dialog" ] || [ -r "$dialog" ] || fail "--dialog: cannot read '$dialog'"
 [ -z "$script" ] || [ -r "$script" ] || fail "--script: cannot read '$script'"
 [ -z "$dialog" ] || [ -z "$say" ] || fail "--dialog and --say exclude each other"
-[ -z "$script" ] || [ -n "$dialog" ] || fail "--script needs --dialog"
+[ -n "$say$dialog$heard$out" ] || chat=1
+[ -z "$chat" ] || [ -z "$say$dialog$heard" ] || fail "--chat excludes --say, --dialog and --voice"
+[ -z "$model_url" ] || [ -n "$chat" ] || fail "--model-url needs --chat"
+[ -z "$model_url" ] || [ -z "$config" ] || fail "--model-url and --config exclude each other: put it into the configuration"
+[ -z "$model$key_file" ] || [ -n "$model_url" ] || fail "--model and --key-file need --model-url"
+[ -z "$model_url" ] || [ -n "$model" ] || fail "--model-url needs --model"
+[ -z "$script" ] || [ -n "$dialog$chat" ] || fail "--script needs --dialog or --chat"
+[ -z "$chat" ] || [ -n "$script" ] || [ -z "$out" ] || fail "--out with --chat needs the user's part: --script FILE"
 if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog and --out"; fi
 [ -z "$heard" ] || [ -z "$say$dialog" ] || fail "--voice excludes --say and --dialog"
 [ -z "$heard" ] || [ "$heard" = mic ] || [ -r "$heard" ] || fail "--voice: cannot read '$heard'"
@@ -146,9 +162,18 @@ if [ -z "$config" ]; then
   config=$work/agent.json
   source=examples/agents/agent.json
   [ -z "$film" ] || source=examples/agents/film.json
+  [ -z "$chat" ] || source=examples/agents/chat.json
   [ -z "$heard" ] || source=examples/agents/voice.json
   [ -z "$heard" ] || [ -z "$film" ] || source=examples/agents/voice_film.json
   sed -e "s#\"../macros/#\"$root/examples/macros/#" "$source" >"$config"
+  if [ -n "$chat" ] && [ -n "$film" ]; then
+    sed -i -e '0,/{/s#{#{"clock": "virtual",#' -e 's#"--sink", "auto"#"--sink", "null"#' -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
+  fi
+  if [ -n "$model_url" ]; then
+    python3 -c 'import json, sys; json.dump(dict(zip(sys.argv[1::2], sys.argv[2::2])), sys.stdout)' \
+      url "$model_url" model "$model" ${key_file:+key_file "$key_file"} >"$work/chat.json"
+    sed -i -e "s#\[\"build/bin/chat\"#&, \"--config\", \"$work/chat.json\"#" "$config"
+  fi
   if [ "$voice" = ssm_stub ]; then
     sed -i -e 's#\["build/bin/ssm"[^]]*\]#["build/bin/ssm_stub"]#' "$config"
   fi
@@ -194,7 +219,7 @@ if [ -n "$heard" ]; then
   echo "run_agent: wrote $out"
   exit 0
 fi
-if [ -z "$say$dialog" ] && [ -n "$film" ]; then
+if [ -z "$say$dialog$chat" ] && [ -n "$film" ]; then
   say="Hello, my name is Galatea."
 fi
 if [ -n "$say" ]; then
@@ -219,7 +244,32 @@ if [ -n "$say" ]; then
   exit 0
 fi
 
-# A dialogue: the hub in the background, the dialogue as one of its clients.
+if [ -n "$chat" ] && [ -n "$film" ]; then
+  # A film of a conversation: on the virtual clock, each line of the user's when the one before has been answered.
+  {
+    echo "to @AM-MCL set Record = $out"
+    echo "to @FSM set FaceExp.onset = NATURAL"
+    echo "to @SRM set Input.wordtime = 250"
+    echo "set Wait = 500"
+    while IFS= read -r line || [ -n "$line" ]; do
+      case $line in "" | "#"*) continue ;; esac
+      echo "to @SRM set#heard Input.text = $line"
+      echo "set Wait = IDLE"
+      echo "set Wait = 500"
+    done <"$script"
+    echo "to @AM-MCL set#film Record = STOP"
+    echo "set Wait = IDLE"
+  } >"$work/script"
+  "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+  if error=$(grep -E 'rep#(heard|film) [A-Za-z.]+\.error' "$work/said"); then
+    fail "${error#*error = }"
+  fi
+  sed -n -e 's/^From @CHAT rep Heard = /You: /p' -e 's/^From @CHAT rep Reply.sentence = /Galatea: /p' "$work/said"
+  echo "run_agent: wrote $out"
+  exit 0
+fi
+
+# A conversation or a dialogue: the hub in the background, what the user types at as one of its clients.
 printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"role\": \"owner\"}],#" "$config")" >"$work/dialogue.json"
 "$hub_program" --config "$work/dialogue.json" --no-console 2>"$work/hub.log" &
 hub=$!
@@ -240,4 +290,4 @@ if [ -n "$dialog" ]; then
   [ -z "$out" ] || echo "run_agent: wrote $out"
   exit 0
 fi
-python3 examples/demo_dialogue.py "$work/hub" || { cat "$work/hub.log" >&2; exit 1; }
+python3 examples/typed_chat.py "$work/hub" || { cat "$work/hub.log" >&2; exit 1; }

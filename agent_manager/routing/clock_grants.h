@@ -20,7 +20,7 @@ class ClockGrants {
   void Begin(Peer& module) { module.granted = clock_.Now(); }
   /// Says `set Clock = UNTIL`; the answer tells the module's next event.
   void Grant(Peer& module, vm::Time until, OnAnswer done);
-  /// To be called before a message is sent to a module.
+  /// To be called before anything is sent to a module: a command, an answer, or a report it hears.
   void BeforeSending(Peer& module);
   /// True if a module was sent something after its last grant, so that its next event is not known.
   bool AnyOutdated() const { return !outdated_.empty(); }

@@ -35,7 +35,7 @@ Forwarder::Forwarder(vm::Scheduler& clock, Directory& directory, Outbox& outbox,
       limits_(limits),
       files_(clock, directory, access),
       starts_(clock, directory, limits,
-              [this](Peer& module, const Message& start) { Send(module, start, kHub); }) {}
+              [this](Peer& module, const Message& start) { outbox_.Write(module, start, kHub); }) {}
 
 bool Forwarder::MustWait(Peer& peer, const Message& message, const Origin& origin) {
   if (peer.probe.probing) return true;
@@ -76,7 +76,7 @@ void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAns
     return ForwardOriginal(peer, std::move(message), origin, done);
   const bool modern = peer.dialect == Dialect::kModern;
   if (!modern && message.tag.empty() && !done && message.command != Command::kInq)
-    return Send(peer, message, origin.peer);
+    return outbox_.Write(peer, message, origin.peer);
   if (modern && !peer.probe.clock.known && starts_.Hold(peer, message))
     return outbox_.Answer(origin.peer, peer.name, message, message.value, done);
   Request request{origin.peer, WithoutValue(message), std::move(done), vm::Time(0)};
@@ -84,7 +84,7 @@ void Forwarder::Forward(Peer& peer, Message message, const Origin& origin, OnAns
     message.value =
         "@" + vm::FormatMs(*start + (grants_.lockstep() ? vm::Time(0) : peer.probe.clock.offset));
   message.tag = requests_.Add(peer, std::move(request));
-  Send(peer, message, origin.peer);
+  outbox_.Write(peer, message, origin.peer);
 }
 
 void Forwarder::FlushWaiting(Peer& peer) {
@@ -95,11 +95,6 @@ void Forwarder::FlushWaiting(Peer& peer) {
   }
 }
 
-void Forwarder::Send(Peer& module, const Message& message, PeerKey commander) {
-  grants_.BeforeSending(module);
-  outbox_.Write(module, message, commander);
-}
-
 void Forwarder::ForwardOriginal(Peer& module, Message message, const Origin& origin,
                                 const OnAnswer& done) {
   // It knows neither tags nor errors: a question is paired with the next report of that slot,
@@ -108,9 +103,9 @@ void Forwarder::ForwardOriginal(Peer& module, Message message, const Origin& ori
   bare.tag.clear();
   if (message.command == Command::kInq) {
     requests_.AddBySlot(module, {origin.peer, WithoutValue(message), done, vm::Time(0)});
-    return Send(module, bare, origin.peer);
+    return outbox_.Write(module, bare, origin.peer);
   }
-  if (!starts_.Hold(module, message)) Send(module, bare, origin.peer);
+  if (!starts_.Hold(module, message)) outbox_.Write(module, bare, origin.peer);
   outbox_.Answer(origin.peer, module.name, message, message.value, done);
 }
 

@@ -37,7 +37,6 @@ class Forwarder {
   void KeepWaiting(Peer& peer, vm::Message message, const Origin& origin, OnAnswer done);
   void ForwardOriginal(Peer& module, vm::Message message, const Origin& origin,
                        const OnAnswer& done);
-  void Send(Peer& module, const vm::Message& message, PeerKey commander);
 
   Outbox& outbox_;
   Requests& requests_;

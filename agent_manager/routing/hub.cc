@@ -39,6 +39,7 @@ Hub::Hub(vm::Scheduler& clock, SessionLog& log)
                 if (on_presence_) on_presence_(module.name, true, "");
               }),
       router_(clock, log, directory_, outbox_, requests_, forwarder_, queue_, access_, limits_) {
+  outbox_.set_before_sending([this](Peer& receiver) { grants_.BeforeSending(receiver); });
   router_.set_on_module([this](Peer& peer) { clocks_.Probe(peer); });
 }
 

@@ -33,6 +33,7 @@ void Outbox::Notice(const std::string& text, PeerKey about) const {
 
 void Outbox::Deliver(Peer& receiver, const Outgoing& outgoing, PeerKey commander) {
   if (receiver.flow.cut_off) return;
+  if (before_sending_) before_sending_(receiver);
   ++receiver.traffic.messages_out;
   receiver.link->Send(outgoing);
   receiver.traffic.bytes_out += outgoing.line().size() + 1;

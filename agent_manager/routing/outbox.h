@@ -38,6 +38,10 @@ class Outbox {
   /// As Complain, to people only. True if it is one of a flood.
   bool CountComplaint(Peer& sender, const vm::Error& error);
 
+  /// Told of everything that goes to a peer, before it goes.
+  void set_before_sending(std::function<void(Peer& receiver)> before_sending) {
+    before_sending_ = std::move(before_sending);
+  }
   void set_on_notice(OnNotice on_notice) { on_notice_ = std::move(on_notice); }
   void Notice(const std::string& text, PeerKey about = kHub) const;
 
@@ -49,6 +53,7 @@ class Outbox {
   Directory& directory_;
   BackPressure& back_pressure_;
   WorkQueue& queue_;
+  std::function<void(Peer& receiver)> before_sending_;
   OnNotice on_notice_;
 };
 

@@ -84,7 +84,8 @@ chat::ChatModule::Options OptionsOf(const chat::Settings& settings) {
 class Program final : public vm::Module {
  public:
   Program(vm::ClockScheduler& clock, boost::asio::io_context& io, const chat::Settings& settings)
-      : transport_(io, clock, [&clock] { return clock.real(); }),
+      : transport_(
+            io, clock, [&clock] { return clock.real(); }, settings.ca_file),
         module_(clock, transport_, OptionsOf(settings)) {
     for (const auto& [slot, value] : settings.limits)
       module_.slots().Handle(vm::Set(slot, std::to_string(value)));
@@ -107,6 +108,8 @@ void AddOptions(CLI::App& app, chat::Settings& settings, std::string& config_fil
   app.add_option("--model", settings.model, "The model's name");
   app.add_option("--key-file", settings.key_file,
                  "A file only you can read, whose first line is the key");
+  app.add_option("--ca-file", settings.ca_file,
+                 "PEM: who signs the endpoint's certificate, in place of the system's");
   app.add_option("--prompt", settings.prompt_file, "The system prompt, in place of our own");
   app.add_option("--persona", settings.persona, "Who the agent is; told after the prompt");
   app.add_option("--agent", settings.agent, "The agent's name (default Galatea)");

@@ -75,6 +75,7 @@ vm::Result<void> ReadSettings(const std::string& file, std::string_view text,
       {"url", Text(settings.url)},
       {"model", Text(settings.model)},
       {"key_file", File(settings.key_file, folder)},
+      {"ca_file", File(settings.ca_file, folder)},
       {"prompt_file", File(settings.prompt_file, folder)},
       {"persona", Text(settings.persona)},
       {"agent", Text(settings.agent)},
@@ -107,8 +108,9 @@ vm::Result<void> ReadSettings(const std::string& file, std::string_view text,
 
 Settings Over(Settings base, const Settings& given) {
   for (std::string Settings::*const text :
-       {&Settings::url, &Settings::model, &Settings::key_file, &Settings::prompt_file,
-        &Settings::persona, &Settings::agent, &Settings::tags_file, &Settings::apologies_file}) {
+       {&Settings::url, &Settings::model, &Settings::key_file, &Settings::ca_file,
+        &Settings::prompt_file, &Settings::persona, &Settings::agent, &Settings::tags_file,
+        &Settings::apologies_file}) {
     if (!(given.*text).empty()) base.*text = given.*text;
   }
   for (std::vector<std::string> Settings::*const list :

@@ -12,7 +12,7 @@ namespace chat {
 /// What the command line and the configuration say. Names of files are as given; those in a
 /// configuration are relative to it.
 struct Settings {
-  std::string url, model, key_file;
+  std::string url, model, key_file, ca_file;
   std::string prompt_file, persona, agent;
   std::string tags_file, apologies_file;
   std::vector<std::string> rules_files;

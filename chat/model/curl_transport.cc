@@ -54,7 +54,7 @@ struct CurlTransport::Transfer {
   std::size_t bytes = 0;
   bool too_long = false;
 
-  void SetUp();
+  void SetUp(const std::string& ca_file);
   void TellHead();
   vm::Result<void> EndOf(CURLcode code) const;
   static std::size_t OnHeader(char* data, std::size_t size, std::size_t count, void* self);
@@ -95,7 +95,7 @@ std::size_t CurlTransport::Transfer::OnBody(char* data, std::size_t size, std::s
   return size * count;
 }
 
-void CurlTransport::Transfer::SetUp() {
+void CurlTransport::Transfer::SetUp(const std::string& ca_file) {
   CURL* const handle = easy.get();
   if (handle == nullptr) throw std::runtime_error("libcurl gives no handle");
   curl_easy_setopt(handle, CURLOPT_URL, request.url.c_str());
@@ -105,6 +105,7 @@ void CurlTransport::Transfer::SetUp() {
   curl_easy_setopt(handle, CURLOPT_TIMEOUT_MS, static_cast<long>(request.limit.count()));
   curl_easy_setopt(handle, CURLOPT_USERAGENT, "Galatea/" GALATEA_VERSION);
   curl_easy_setopt(handle, CURLOPT_TCP_NODELAY, 1L);
+  if (!ca_file.empty()) curl_easy_setopt(handle, CURLOPT_CAINFO, ca_file.c_str());
   if (IsHere(request.url)) curl_easy_setopt(handle, CURLOPT_PROXY, "");
   for (const std::string& line : request.headers)
     headers.reset(curl_slist_append(headers.release(), line.c_str()));
@@ -225,8 +226,8 @@ class CurlExchange final : public HttpExchange {
 }  // namespace
 
 CurlTransport::CurlTransport(boost::asio::io_context& io, vm::Scheduler& clock,
-                             std::function<bool()> real)
-    : io_(io), clock_(clock), real_(std::move(real)) {
+                             std::function<bool()> real, std::string ca_file)
+    : io_(io), clock_(clock), real_(std::move(real)), ca_file_(std::move(ca_file)) {
   curl_global_init(CURL_GLOBAL_DEFAULT);
 }
 
@@ -239,7 +240,7 @@ std::unique_ptr<HttpExchange> CurlTransport::Post(HttpRequest request, HttpEvent
   const auto transfer = std::make_shared<Transfer>();
   transfer->request = std::move(request);
   transfer->events = std::move(events);
-  transfer->SetUp();
+  transfer->SetUp(ca_file_);
   const auto give = [](const std::shared_ptr<Transfer>& to, const auto& event) {
     if (!to->given_up) event(to->events);
   };

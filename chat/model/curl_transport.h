@@ -16,8 +16,10 @@ namespace chat {
 /// Lifetime: clock and context outlive it; it outlives its exchanges. Thread: the context's.
 class CurlTransport final : public HttpTransport {
  public:
-  /// `real` says whether time passes by itself just now.
-  CurlTransport(boost::asio::io_context& io, vm::Scheduler& clock, std::function<bool()> real);
+  /// `real` says whether time passes by itself just now. `ca_file` (PEM): whose signatures count;
+  /// empty: those the system trusts.
+  CurlTransport(boost::asio::io_context& io, vm::Scheduler& clock, std::function<bool()> real,
+                std::string ca_file);
   ~CurlTransport() override;
   std::unique_ptr<HttpExchange> Post(HttpRequest request, HttpEvents events) override;
 
@@ -28,6 +30,7 @@ class CurlTransport final : public HttpTransport {
   boost::asio::io_context& io_;
   vm::Scheduler& clock_;
   const std::function<bool()> real_;
+  const std::string ca_file_;
   std::unique_ptr<Loop> loop_;  // begun with the first exchange
 };
 

@@ -96,6 +96,7 @@ vm::Result<void> TagTable::AddRow(std::string_view head, std::string_view comman
   }
   auto commands = ParseCommands(commands_text);
   if (!commands) return std::unexpected(commands.error());
+  if (commands->empty()) return Fail(Errc::kSyntax, "expected | COMMAND behind the tag");
   if (words[0] == "at") {
     if (words.size() != 2 || std::ranges::find(kStates, words[1]) == kStates.end()) {
       return Fail(Errc::kSyntax, "expected at WAITS, HEARS, THINKS or SPEAKS");

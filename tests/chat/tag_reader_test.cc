@@ -82,7 +82,7 @@ TEST(TagReaderTest, ThoughtsAreNotForTheListener) {
 
 TEST(TagTableTest, FaultsNameFileAndLine) {
   for (const char* const wrong :
-       {"x | set Y = 1", "x | nonsense", "x y | to @A set B = 1", "x y: | to @A set B = 1",
+       {"x", "x | set Y = 1", "x | nonsense", "x y | to @A set B = 1", "x y: | to @A set B = 1",
         "x y:2..1 | to @A set B = 1", "x y:A,B=C | to @A set B = 1", "at NIGHT | to @A set B = 1",
         "a | to @A set B = 1\na | to @A set B = 1"}) {
     const auto table = TagTable::Parse("my.txt", std::string("# head\n") + wrong);
