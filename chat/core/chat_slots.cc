@@ -1,4 +1,4 @@
-// What the module can be told and asked. The order of declaration is that of docs/slots.md.
+// What the module can be told and asked. The order of declaration is that of docs/reference/slots.md.
 
 #include "chat/core/chat_module.h"
 
