@@ -87,8 +87,11 @@ class Program final : public vm::Module {
       : transport_(
             io, clock, [&clock] { return clock.real(); }, settings.ca_file),
         module_(clock, transport_, OptionsOf(settings)) {
-    for (const auto& [slot, value] : settings.limits)
+    for (const auto& [slot, value] : settings.limits) {
       module_.slots().Handle(vm::Set(slot, std::to_string(value)));
+      if (module_.slots().Value(slot) != std::to_string(value))
+        throw std::runtime_error("limits: " + slot + " cannot be " + std::to_string(value));
+    }
   }
   vm::SlotMachine& slots() override { return module_.slots(); }
   bool Busy() const override { return module_.Busy(); }

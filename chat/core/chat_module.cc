@@ -247,9 +247,10 @@ void ChatModule::Think() {
   }
   const std::string language = LanguageOf(turn_->input.text);
   std::string answer;
-  for (Rules& rules : options_.rules) {
-    if (rules.language() == language)
-      answer = rules.Answer(turn_->input.text, options_.agent, options_.wall_clock());
+  const auto spoken = std::ranges::find(options_.rules, language, &Rules::language);
+  if (!options_.rules.empty()) {
+    Rules& rules = spoken == options_.rules.end() ? options_.rules.front() : *spoken;
+    answer = rules.Answer(turn_->input.text, options_.agent, options_.wall_clock());
   }
   turn_->words = clock_.Now();
   OnWords(answer);

@@ -231,10 +231,7 @@ CurlTransport::CurlTransport(boost::asio::io_context& io, vm::Scheduler& clock,
   curl_global_init(CURL_GLOBAL_DEFAULT);
 }
 
-CurlTransport::~CurlTransport() {
-  loop_.reset();
-  curl_global_cleanup();
-}
+CurlTransport::~CurlTransport() = default;
 
 std::unique_ptr<HttpExchange> CurlTransport::Post(HttpRequest request, HttpEvents events) {
   const auto transfer = std::make_shared<Transfer>();

@@ -113,7 +113,9 @@ void SentenceCutter::Feed(std::string_view text) {
   }
 }
 
-void SentenceCutter::Mark(Cue cue) { marks_.push_back({text_.size(), std::move(cue)}); }
+void SentenceCutter::Mark(Cue cue) {
+  if (marks_.size() < kMaxMarks) marks_.push_back({text_.size(), std::move(cue)});
+}
 
 /// The word before the full stop is one that is written with it, an initial, or the number of a
 /// list.

@@ -38,6 +38,7 @@ Abbreviations ParseAbbreviations(std::string_view table);
 class SentenceCutter {
  public:
   static constexpr std::size_t kMaxSentenceBytes = 400;
+  static constexpr std::size_t kMaxMarks = 8;
   explicit SentenceCutter(const Abbreviations& abbreviations) : abbreviations_(abbreviations) {}
 
   void Feed(std::string_view text);

@@ -127,6 +127,12 @@ TEST(SentenceCutterTest, MarksStandWhereTheyWereGiven) {
   EXPECT_EQ(sentences[2].before, std::vector<Cue>{cue("last")});
 }
 
+TEST(SentenceCutterTest, AFloodOfMarksIsCut) {
+  SentenceCutter cutter(Shipped());
+  for (int i = 0; i < 10'000; ++i) cutter.Mark(Cue{vm::To("FSM", vm::Set("X", "1"))});
+  EXPECT_EQ(cutter.Flush().at(0).before.size(), SentenceCutter::kMaxMarks);
+}
+
 TEST(SentenceCutterTest, OnlyWordsCanBeSpoken) {
   EXPECT_TRUE((Sentence{"a.", {}, {}}).HasWords());
   EXPECT_TRUE((Sentence{"。３", {}, {}}).HasWords());
