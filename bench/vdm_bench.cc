@@ -4,7 +4,8 @@
 //   vdm_bench NET --takes FILE --voices rms,british-f3
 // With --triphones FILE the mouth is that of the triphones in place of NET's; for takes by the
 // times of the engine and, for a voice that NET and the triphones have not learned, by those that
-// the aligner finds with the text.
+// the aligner finds with the text. With --guess the mouth is the text-driven one of the phonemes
+// that the aligner guesses without the text, for people and the everyday sentences alone.
 
 #include <fmt/format.h>
 
@@ -46,6 +47,7 @@ T OrThrow(vm::Result<T> result) {
 struct Bench {
   vdm::MouthNet net;
   std::optional<vdm::TriphoneModel> triphones{};
+  bool guess = false;
   fsm::MotionTables tables;
   std::unique_ptr<fsm::Head> head;
   double work_s = 0, sound_s = 0;
@@ -67,6 +69,14 @@ struct Bench {
     for (const vdm::MouthFrame& frame : OrThrow(MouthOf(*triphones, phonemes)))
       gaps.push_back(GapMm(frame.mouth, frame.seal, frame.tongue));
     return gaps;
+  }
+
+  /// The gap at each hop of a recording: of the mouth that is measured.
+  std::vector<double> Gaps(srm::PhoneAligner& aligner, const std::vector<std::int16_t>& samples,
+                           const vm::PhonemeList& phonemes) {
+    if (!guess) return Gaps(samples, phonemes);
+    const auto count = static_cast<std::size_t>(static_cast<double>(samples.size()) / 16 / HopMs());
+    return TrueGaps(OrThrow(aligner.Guess(samples)).phonemes, count);
   }
 
   /// The gap at each hop of a sound, as it comes out of a stream.
@@ -246,7 +256,7 @@ void TestAlignedVoice(Bench& bench, const std::string& voice) {
       std::cerr << "vdm_bench: '" << text << "': " << aligned.error().text << std::endl;
       continue;
     }
-    auto gaps = bench.Gaps(speech.samples, aligned->phonemes);
+    auto gaps = bench.Gaps(*aligner, speech.samples, aligned->phonemes);
     auto truth = bench.TrueGaps(speech.plan.phonemes, gaps.size());
     row.Add(std::move(gaps), std::move(truth), bench.HopMs(), speech.plan.phonemes);
   }
@@ -267,7 +277,7 @@ void TestPeople(Bench& bench) {
         std::cerr << "vdm_bench: " << name << ": " << aligned.error().text << std::endl;
         continue;
       }
-      auto gaps = bench.Gaps(samples, aligned->phonemes);
+      auto gaps = bench.Gaps(*aligner, samples, aligned->phonemes);
       auto truth = bench.TrueGaps(aligned->phonemes, gaps.size());
       row.Add(gaps, truth, bench.HopMs(), aligned->phonemes);
       all.Add(std::move(gaps), std::move(truth), bench.HopMs(), aligned->phonemes);
@@ -304,12 +314,15 @@ int main(int argc, char** argv) {
   app.add_option("--voices", voices, "Which of its voices")->delimiter(',');
   app.add_option("--triphones", triphones,
                  "Triphones of vdm_train --triphones, in place of the net");
+  bool guess = false;
+  app.add_flag("--guess", guess, "The mouth of phonemes guessed without the text");
   app.add_flag("--speakers", speakers, "Only what meeting each of these voices first brings");
   CLI11_PARSE(app, argc, argv);
   try {
     std::ifstream file(net);
     const std::string text(std::istreambuf_iterator<char>(file), {});
     Bench bench{.net = OrThrow(vdm::ParseMouthNet(net, text)),
+                .guess = guess,
                 .tables = OrThrow(fsm::MotionTables::Load()),
                 .head = fsm::MakeHead("galatea")};
     if (!triphones.empty()) {
@@ -327,7 +340,7 @@ int main(int argc, char** argv) {
     if (!takes.empty()) TestVoices(bench, takes, voices);
     TestAlignedVoice(bench, "rms");
     TestPeople(bench);
-    if (bench.triphones) return 0;
+    if (bench.triphones || guess) return 0;
     TestNoSpeech(bench);
     std::cout << fmt::format("real-time factor {:.4f}\n", bench.work_s / bench.sound_s);
   } catch (const std::exception& error) {
