@@ -38,6 +38,27 @@ Lesson DistortedLesson(const Take& take, FeatureKind kind, const fsm::MotionTabl
   return lesson;
 }
 
+void Mask(Eigen::MatrixXf& features, FeatureKind kind, Dice& dice) {
+  constexpr std::size_t kBands = 24, kWidest = 6, kLongest = 7;
+  for (int ranges = 0; ranges < 2; ++ranges) {
+    const std::size_t width = dice.Below(kWidest + 1), first = dice.Below(kBands - width + 1);
+    features.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(width))
+        .setZero();
+  }
+  const Eigen::Index moments = features.cols() / 100;
+  for (Eigen::Index k = 0; k < moments; ++k) {
+    const auto width = static_cast<Eigen::Index>(dice.Below(kLongest + 1));
+    const auto first = static_cast<Eigen::Index>(
+        dice.Below(static_cast<std::size_t>(features.cols() - width + 1)));
+    features.middleCols(first, width).topRows(kBands).setZero();
+  }
+  if (kind != FeatureKind::kPhones) return;
+  const auto first_phone = static_cast<Eigen::Index>(FeatureSize(FeatureKind::kMel));
+  for (Eigen::Index row = first_phone; row < features.rows(); ++row) {
+    if (dice.Chance(0.1)) features.row(row).setZero();
+  }
+}
+
 Lesson SilentLesson(FeatureKind kind, Dice dice) {
   Lesson lesson{.features = FeaturesOf(NoSpeech(dice), kind)};
   lesson.truth = ClosedMouth(static_cast<std::size_t>(lesson.features.cols()));

@@ -217,6 +217,8 @@ int main(int argc, char** argv) {
   app.add_option("--width", options.plan.width, "Units of each hidden layer (mel)")
       ->check(CLI::Range(4, 512))
       ->capture_default_str();
+  app.add_option("--disturbance", options.plan.disturbance, "")->capture_default_str();
+  app.add_option("--masking", options.plan.masking, "")->capture_default_str();
   app.add_option("--rate", options.plan.rate, "The highest step")->capture_default_str();
   app.add_option("--seed", options.plan.seed, "Of all that happens by chance")
       ->capture_default_str();

@@ -115,9 +115,12 @@ void Training::Learn(const std::vector<std::size_t>& items, Dice dice, Lane& lan
   Eigen::MatrixXf slope;
   for (const std::size_t item : items) {
     const Dice own = dice.For(item);
-    const Lesson lesson = item < takes_.size()
-                              ? DistortedLesson(takes_[item], plan_.features, tables_, own)
-                              : SilentLesson(plan_.features, own);
+    Lesson lesson = item < takes_.size()
+                        ? DistortedLesson(takes_[item], plan_.features, tables_, own)
+                        : SilentLesson(plan_.features, own);
+    Dice disturber = own.For(7);
+    if (disturber.Chance(plan_.masking)) Mask(lesson.features, plan_.features, disturber);
+    if (plan_.disturbance > 0) lane.propagation.Disturb(plan_.disturbance, disturber);
     const MouthLoss loss =
         LossOf(net_, lane.propagation.Forward(lesson.features), lesson.truth, slope);
     lane.propagation.Backward(slope, lane.gradient);

@@ -18,7 +18,9 @@ struct TrainingPlan {
   std::size_t width = 96;  ///< of the hidden layers (kMel)
   std::size_t epochs = 12;
   std::uint64_t seed = 1;
-  double rate = 2e-3;  ///< the highest step; it rises at the start and falls to almost nothing
+  double disturbance = 0;  ///< of the hidden units, see BackPropagation::Disturb (not kCepstra)
+  double masking = 0;      ///< share of lessons with bands, phones and moments hidden
+  double rate = 2e-3;      ///< the highest step; it rises at the start and falls to almost nothing
 };
 
 /// The layers for a kind of features: for kMel five layers that see 180 ms and more back and 50 ms
