@@ -55,7 +55,7 @@ class AgentManager {
   AgentManager(const AgentManager&) = delete;
   /// Returns the exit code.
   int Run();
-  /// The slots of the hub's own machines for docs/slots.md.
+  /// The slots of the hub's own machines for docs/reference/slots.md.
   std::string SlotsMarkdown();
 
  private:

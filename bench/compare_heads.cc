@@ -60,7 +60,7 @@ std::vector<Row> Rows(const std::filesystem::path& folder, const std::string& fa
   std::vector<Row> rows;
   rows.push_back({"OURS", face.empty() ? fsm::MakeGenericHead() : fsm::MakeHead(face)});
   const auto& eyes = rows.front().head->topology().eyes;
-  const glm::vec3 middle = (eyes[0].centre + eyes[1].centre) / 2.0F;
+  const glm::vec3 middle = (eyes.right.centre + eyes.left.centre) / 2.0F;
   for (const auto& source : Sources(folder)) {
     if (!std::filesystem::exists(source.folder)) {
       std::fprintf(stderr, "compare_heads: notice: no %s, left out\n", source.folder.c_str());

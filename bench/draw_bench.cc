@@ -94,7 +94,7 @@ fsm::FaceState Moving(int frame) {
   const auto wave = [frame](float period, float phase) {
     return 0.5F + 0.5F * std::sin(static_cast<float>(frame) * 6.2832F / period + phase);
   };
-  for (auto* side : {&state.au_left, &state.au_right}) {
+  for (auto* side : {&state.au.left, &state.au.right}) {
     for (const std::size_t unit : {1U, 2U, 4U, 6U, 9U, 12U, 15U, 26U}) {
       (*side)[unit] = 0.5F * wave(60, static_cast<float>(unit));
     }
@@ -102,9 +102,9 @@ fsm::FaceState Moving(int frame) {
   for (std::size_t i = 0; i < fsm::kMouthParameters; ++i) {
     state.mouth[i] = wave(17, static_cast<float>(i)) - 0.3F;
   }
-  state.mouth[11] = 7 * wave(11, 0);
-  state.blink_left = state.blink_right = wave(90, 0) > 0.95F ? 1.0F : 0.0F;
-  state.eye_left = state.eye_right = {5 * wave(45, 1), 16 * wave(70, 2) - 8};
+  state.mouth[kJawY] = 7 * wave(11, 0);
+  state.blink.left = state.blink.right = wave(90, 0) > 0.95F ? 1.0F : 0.0F;
+  state.gaze.left = state.gaze.right = {-5 * wave(45, 1), 16 * wave(70, 2) - 8};
   state.head_rotation = {6 * wave(50, 0) - 3, 16 * wave(80, 1) - 8, 4 * wave(66, 2) - 2};
   return state;
 }

@@ -63,14 +63,14 @@ class ObjHeadMaker {
  public:
   ObjHeadMaker(const ObjSource& source, const glm::vec3& eyes) {
     Read(source);
-    if (balls_[0].empty() || balls_[1].empty()) {
+    if (balls_.right.empty() || balls_.left.empty()) {
       throw std::runtime_error(source.folder.string() + " has no two eyes");
     }
-    const glm::vec3 move = eyes - (balls_[0].centre() + balls_[1].centre()) / 2.0F;
+    const glm::vec3 move = eyes - (balls_.right.centre() + balls_.left.centre()) / 2.0F;
     for (glm::vec3& p : rest_.position) p += move;
-    for (Box& ball : balls_) {
-      ball.low += move;
-      ball.high += move;
+    for (Box* const ball : {&balls_.right, &balls_.left}) {
+      ball->low += move;
+      ball->high += move;
     }
     topology_.albedo.assign(rest_.position.size(), Palette().skin);
     ReadLandmarks(source.folder / "landmarks68.txt");
@@ -123,7 +123,7 @@ class ObjHeadMaker {
     if (material == Material::kSclera) {
       for (const auto i : corners) {
         const glm::vec3& p = rest_.position[i];
-        balls_[p.x < 0 ? 0 : 1].Add(p);
+        balls_[p.x < 0 ? Side::kRight : Side::kLeft].Add(p);
       }
       return;
     }
@@ -160,8 +160,8 @@ class ObjHeadMaker {
     pair("exocanthion", at[36], at[45]);
     pair("alare", at[31], at[35]);
     pair("zygion", at[1], at[15]);
-    for (std::size_t side = 0; side < 2; ++side) {
-      landmarks_[side == 0 ? "pupil_right" : "pupil_left"] =
+    for (const Side side : kSides) {
+      landmarks_[side == Side::kRight ? "pupil_right" : "pupil_left"] =
           balls_[side].centre() + glm::vec3(0, 0, balls_[side].radii().z);
     }
     Colour(at);
@@ -197,7 +197,7 @@ class ObjHeadMaker {
       if (colour == colours.end()) continue;
       for (const auto i : indices) topology_.albedo[i] = colour->second;
     }
-    for (std::size_t side = 0; side < 2; ++side) AddBall(side);
+    for (const Side side : kSides) AddBall(side);
     for (const auto& [material, indices] : batches_) {
       topology_.parts.push_back({material, static_cast<std::uint32_t>(topology_.indices.size()),
                                  static_cast<std::uint32_t>(indices.size())});
@@ -218,7 +218,7 @@ class ObjHeadMaker {
   }
 
   /// Rings about the line of sight, one of them the edge of the iris.
-  void AddBall(std::size_t side) {
+  void AddBall(Side side) {
     constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
     constexpr float kIrisMm = 5.9F;
     constexpr float kPi = std::numbers::pi_v<float>;
@@ -258,7 +258,7 @@ class ObjHeadMaker {
   HeadTopology topology_;
   HeadVertices rest_;
   std::map<Material, std::vector<std::uint32_t>> batches_;
-  std::array<Box, 2> balls_;  // right, left
+  Sided<Box> balls_;
   Landmarks landmarks_;
 };
 

@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(programs "")
-foreach(program agent_manager galatea-log fsm face_fit face_editor ssm ssm_stub srm srm_stub vdm task_manager)
+foreach(program agent_manager galatea-log fsm face_fit face_editor ssm ssm_stub srm srm_stub vdm chat task_manager)
   if(TARGET ${program})
     list(APPEND programs ${program})
   endif()
@@ -28,6 +28,9 @@ install(DIRECTORY ${CMAKE_BINARY_DIR}/installed/agents examples/dialogs examples
   DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples COMPONENT programs)
 install(FILES examples/lamp_module.py DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples
   COMPONENT programs)
+# The example finds the package beside its folder; pip installs it from there for everything else.
+install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea COMPONENT programs
+  PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 
 if(TARGET vm_protocol)

@@ -1,26 +1,33 @@
 #!/usr/bin/env python3
-"""A whole module in Python: a lamp with one slot, over stdin and stdout."""
+"""A whole module in Python: a lamp that can be switched and fades out by itself, as lamp_module.cc is in C++.
+
+Try it:  printf 'set Lamp = ON 2000\nset Wait = IDLE\ninq Lamp\n' | python3 examples/lamp_module.py
+"""
+import pathlib
 import sys
 
-lamp = "OFF"
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "python"))  # needless after: pip install ./python
+from galatea import Module, Slot
 
 
-def say(line):
-    print(line, flush=True)
+class Lamp(Module):
+    """A lamp with a slot."""
+
+    name = "LAMP"
+    light = Slot(str, "ON [ <ms> ] | OFF", name="Lamp", initial="OFF", auto_output=True,
+                 help="The light: ON, for so many ms or until OFF.")
+    fading = None
+
+    @light.on_set
+    def switch(self, state: str, ms: float | None = None) -> str:
+        if self.fading:
+            self.fading.cancel()
+        self.fading = self.after(ms, self.fade) if ms is not None else None
+        return state
+
+    def fade(self) -> None:
+        self.light = "OFF"
 
 
-say("rep Run = LIVE")
-for line in sys.stdin:
-    command, _, value = line.strip().partition(" = ")
-    word, _, slot = command.partition(" ")
-    word, _, tag = word.partition("#")
-    tag = "#" + tag if tag else ""
-    if word == "set" and slot == "Lamp" and value in ("ON", "OFF"):
-        lamp = value
-        say(f"rep{tag} Lamp = {lamp}")
-    elif word == "inq" and slot == "Lamp":
-        say(f"rep{tag} Lamp = {lamp}")
-    elif (word, slot, value) == ("set", "Run", "EXIT"):
-        break
-    elif tag:
-        say(f"rep{tag} {slot}.error = BAD_VALUE expected set Lamp = ON or OFF, or inq Lamp")
+if __name__ == "__main__":
+    Lamp.main()

@@ -15,14 +15,14 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/side_view.h"
 #include "face_fit/bake/texture_bake.h"
-#include "face_fit/find/around_face.h"
-#include "face_fit/find/figure_finder.h"
-#include "face_fit/find/hand_points.h"
-#include "face_fit/find/head_finder.h"
-#include "face_fit/find/occlusion_detector.h"
-#include "face_fit/find/upright.h"
+#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/face/hand_points.h"
+#include "face_fit/find/face/occlusion_detector.h"
+#include "face_fit/find/face/upright.h"
+#include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/find/head/head_finder.h"
+#include "face_fit/fit/side_view.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/report.h"

@@ -58,7 +58,7 @@ std::string WarnOfTurn(glm::vec3 turn) {
 
 std::string WarnOfEyes(const Fit& fit) {
   const auto hidden = std::ranges::count_if(
-      fit.irises, [](const IrisRing& ring) { return ring.contrast < kClearRing; });
+      fit.irises.InOrder(), [](const IrisRing& ring) { return ring.contrast < kClearRing; });
   if (hidden == 2) {
     return "warning: no iris is seen: the eyes are shut, look down or lie in the shade; they are "
            "drawn, and their lids keep what the photo shows on them\n";
@@ -102,8 +102,8 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("pose        nod %.1f, turn %.1f, tilt %.1f degrees\n", d(turn.x), d(turn.y), d(turn.z));
   put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(fit.expression.smile),
       d(fit.expression.jaw), d(fit.expression.parted));
-  put("irises      %.2f and %.2f clear (below %.2f not seen)\n", d(fit.irises[0].contrast),
-      d(fit.irises[1].contrast), d(kClearRing));
+  put("irises      %.2f and %.2f clear (below %.2f not seen)\n", d(fit.irises.right.contrast),
+      d(fit.irises.left.contrast), d(kClearRing));
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
   put("glasses     %s\n", glasses ? "yes" : "no");

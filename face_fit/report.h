@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "face_fit/find/face_finder.h"
-#include "face_fit/find/occlusion_detector.h"
+#include "face_fit/find/face/occlusion_detector.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fit.h"
 
 namespace facefit {

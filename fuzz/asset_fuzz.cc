@@ -37,7 +37,7 @@ fsm::Head SmallHead() {
   using Kind = fsm::Drive::Kind;
   for (int kind = 0; kind <= static_cast<int>(Kind::kGazeRight); ++kind) {
     fsm::Channel& channel = rig.channels.emplace_back();
-    channel.drivers = {{{static_cast<Kind>(kind), 0, fsm::Drive::Side::kStronger}, 0.5F}};
+    channel.drivers = {{{static_cast<Kind>(kind), 0, fsm::Drive::WhichSide::kStronger}, 0.5F}};
     channel.most = 2;
     channel.moves = {{2, {1, 2, 3}}};
   }
@@ -89,7 +89,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fsm::HeadVertices vertices;
   fsm::FaceState state;
   head.Evaluate(state, vertices);
-  state.au_left[4] = state.au_right[43] = state.blink_left = 1;
+  state.au.left[4] = state.au.right[43] = state.blink.left = 1;
   state.mouth.fill(0.5F);
   state.head_rotation = {10, 20, 30};
   fsm::Simulation simulation(head.rig().data().springs);

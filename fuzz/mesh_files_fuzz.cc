@@ -87,8 +87,8 @@ void CarryOnto(const fsm::HeadFile& file, const fsm::Similarity& place,
     fsm::RigData skin = fsm::TransferredRig(model, *source, pairs);
     const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::FaceState state;
-    state.mouth[4] = 3;
-    state.au_left[27] = state.au_right[12] = state.lip_seal = state.blink_left = 1;
+    state.mouth[fsm::kLowerInnerY] = 3;
+    state.au.left[27] = state.au.right[12] = state.lip_seal = state.blink.left = 1;
     fsm::HeadVertices moved;
     head->Evaluate(state, moved);
     for (const glm::vec3& p : moved.position) {

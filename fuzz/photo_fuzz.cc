@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "face_fit/find/hand_points.h"
+#include "face_fit/find/face/hand_points.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/head/photo_head.h"
 

@@ -13,6 +13,8 @@
 #include <array>
 #include <boost/asio/post.hpp>
 #include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <csetjmp>
 #include <cstdint>
 #include <cstdlib>
@@ -78,21 +80,21 @@ std::string Compress(const std::vector<unsigned char>& rgba, int width, int heig
 
 }  // namespace
 
-FaceVideo::FaceVideo(boost::asio::io_context& io, Hub& hub) : io_(io), hub_(hub) {}
+FaceVideo::FaceVideo(const vm::Scheduler& clock, boost::asio::io_context& io, Hub& hub)
+    : clock_(clock), io_(io), hub_(hub) {}
 FaceVideo::~FaceVideo() {
   *alive_ = false;
-  viewers_.clear();
   End();
 }
 
-unsigned FaceVideo::Watch(OnPicture on_picture) {
-  viewers_[++last_viewer_] = std::move(on_picture);
+unsigned FaceVideo::Watch(Audience::Member viewer) {
+  const unsigned number = viewers_.Join(std::move(viewer));
   if (!beginning_ && !thread_.joinable()) Begin();
-  return last_viewer_;
+  return number;
 }
 
 void FaceVideo::Leave(unsigned viewer) {
-  viewers_.erase(viewer);
+  viewers_.Leave(viewer);
   if (viewers_.empty() && !beginning_) Stop();
 }
 
@@ -126,91 +128,107 @@ void FaceVideo::Ask(const std::string& slot, const std::string& value,
 void FaceVideo::Begin() {
   beginning_ = true;
   Ask("Window", "", [this](const vm::Result<std::string>& size) {
+    if (!size) return GiveUp(size.error().text);
     int width = 0, height = 0;
-    if (size) std::istringstream(*size) >> width >> height;
+    std::istringstream(*size) >> width >> height;
     const bool fits = width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide &&
                       std::int64_t{width} * height <= kMaxPixels;
-    if (!fits || viewers_.empty()) {
-      beginning_ = false;
-      return Deliver(std::make_shared<std::string>());
-    }
+    if (!fits) return GiveUp("no picture can be of the face's size, " + *size);
+    if (viewers_.empty()) return GiveUp("");
     Ask("Record.fps", "", [this, width, height](const vm::Result<std::string>& fps) {
       old_fps_ = fps.value_or("");
       Ask("Record", "", [this, width, height](const vm::Result<std::string>& record) {
+        if (!record) return GiveUp(record.error().text);
         // Setting Record would end a film that the face is recording for somebody else.
-        if (record && *record == "STOP") return Open(width, height);
-        beginning_ = false;
-        Deliver(std::make_shared<std::string>());
+        if (*record != "STOP") return GiveUp("the face records the film " + *record);
+        Open(width, height);
       });
     });
   });
 }
 
+void FaceVideo::GiveUp(const std::string& why) {
+  beginning_ = false;
+  End();
+  viewers_.End(why);
+}
+
 void FaceVideo::Open(int width, int height) {
-  const auto give_up = [this] {
-    beginning_ = false;
-    End();
-    Deliver(std::make_shared<std::string>());
-  };
-  if (!folder_.Make("face", "face.rgba")) return give_up();
+  if (!folder_.Make("face", "face.rgba")) return GiveUp("no folder for the pictures");
   const char* const pipe = folder_.file().c_str();
-  if (mkfifo(pipe, 0600) != 0) return give_up();
+  if (mkfifo(pipe, 0600) != 0) return GiveUp("no pipe for the pictures");
   frames_fd_ = open(pipe, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   stop_fd_ = eventfd(0, EFD_CLOEXEC);
-  if (frames_fd_ < 0 || stop_fd_ < 0) return give_up();
+  if (frames_fd_ < 0 || stop_fd_ < 0) return GiveUp("no pipe for the pictures");
   Ask("Record.fps", std::to_string(kFramesPerSecond),
-      [this, width, height, give_up](const vm::Result<std::string>&) {
-        Ask("Record", folder_.file(),
-            [this, width, height, give_up](const vm::Result<std::string>& begun) {
-              if (!begun) return give_up();
-              recording_ = true;
-              beginning_ = false;
-              thread_ = std::thread([this, width, height] {
-                // A thread's errors end the film, as a face that writes no more does.
-                if (!vm::Guarded([&] { ReadFrames(width, height); }))
-                  static_cast<void>(vm::Guarded([this] { Post(""); }));
-              });
-              if (viewers_.empty()) Stop();
-            });
+      [this, width, height](const vm::Result<std::string>&) {
+        Ask("Record", folder_.file(), [this, width, height](const vm::Result<std::string>& begun) {
+          if (!begun) return GiveUp(begun.error().text);
+          recording_ = true;
+          beginning_ = false;
+          // Before anything is asked: the face answers nothing while its pipe is full.
+          thread_ = std::thread([this, width, height] {
+            // A thread's errors end the film, as a face that writes no more does.
+            if (!vm::Guarded([&] { ReadFrames(width, height); }))
+              static_cast<void>(vm::Guarded([this] { Post(0, ""); }));
+          });
+          AskStart();
+          if (viewers_.empty()) Stop();
+        });
       });
 }
 
-void FaceVideo::Post(std::string picture) {
-  boost::asio::post(
-      io_, [this, alive = alive_, done = std::make_shared<const std::string>(std::move(picture))] {
-        if (*alive) Deliver(done);
-      });
+void FaceVideo::AskStart() {
+  started_.reset();
+  Ask("Record.start", "", [this](const vm::Result<std::string>& ms) {
+    double start = 0;
+    if (ms && recording_ && std::istringstream(*ms) >> start)
+      started_ = vm::Time(std::llround(start * 1000));
+  });
+}
+
+void FaceVideo::Post(long number, std::string picture) {
+  boost::asio::post(io_, [this, alive = alive_, number, picture = std::move(picture)]() mutable {
+    if (!*alive) return;
+    if (picture.empty()) return EndFrames();
+    Deliver(number, std::move(picture));
+  });
 }
 
 void FaceVideo::ReadFrames(int width, int height) {
   std::vector<unsigned char> frame(static_cast<std::size_t>(width) *
                                    static_cast<std::size_t>(height) * 4);
   std::size_t filled = 0;
-  while (true) {
+  for (long number = 0;;) {
     std::array<pollfd, 2> waits{{{frames_fd_, POLLIN, 0}, {stop_fd_, POLLIN, 0}}};
     poll(waits.data(), waits.size(), -1);
     if (waits[1].revents != 0) return;
     const ssize_t n = read(frames_fd_, frame.data() + filled, frame.size() - filled);
-    if (n < 0 && errno != EAGAIN && errno != EINTR) return Post("");
-    if (n < 0) continue;          // spurious wake-up
-    if (n == 0) return Post("");  // the face has stopped writing, or has gone
+    if (n < 0 && errno != EAGAIN && errno != EINTR) return Post(0, "");
+    if (n < 0) continue;             // spurious wake-up
+    if (n == 0) return Post(0, "");  // the face has stopped writing, or has gone
     filled += static_cast<std::size_t>(n);
     if (filled < frame.size()) continue;
     filled = 0;
     std::string picture = Compress(frame, width, height);
-    if (picture.empty()) return Post("");
-    Post(std::move(picture));
+    if (picture.empty()) return Post(0, "");
+    Post(number++, std::move(picture));
   }
 }
 
-void FaceVideo::Deliver(const Picture& picture) {
-  if (picture->empty()) {
-    if (stopping_) return;  // the end that Stop has asked for
-    recording_ = false;
-    if (!beginning_) End();
-  }
-  const auto viewers = viewers_;  // a viewer may leave during its call
-  for (const auto& [number, on_picture] : viewers) on_picture(picture);
+void FaceVideo::Deliver(long number, std::string picture) {
+  const vm::Time at = started_ ? *started_ - hub_.clocks().ClockOf(kFace).offset +
+                                     vm::Time(std::chrono::seconds(number)) / kFramesPerSecond
+                               : clock_.Now();
+  viewers_.Tell(std::make_shared<const LivePiece>(
+      LivePiece{.kind = LivePiece::Kind::kPicture, .at = at, .bytes = std::move(picture)}));
+}
+
+void FaceVideo::EndFrames() {
+  if (stopping_) return;  // the end that Stop has asked for
+  recording_ = false;
+  if (!beginning_) End();
+  viewers_.End("the face draws no more");
 }
 
 void FaceVideo::End() {

@@ -9,6 +9,7 @@
 #include <list>
 
 #include "agent_manager/web/face_video.h"
+#include "agent_manager/web/voice_sound.h"
 #include "agent_manager/web/web_server.h"
 
 /// What the files of the web server share; not for other folders.
@@ -28,6 +29,7 @@ struct WebServer::Impl {
   std::function<std::string()> metrics;
   OnRefusal on_refusal;
   std::unique_ptr<FaceVideo> video;
+  std::unique_ptr<VoiceSound> voice;
   std::size_t connections = 0;
   /// One function for each connection that has not shown the token yet, the oldest first; it drops
   /// that connection.
@@ -50,6 +52,11 @@ void ServeSocket(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stre
 /// Passes the sound of a browser's microphone to the ear until either side ends.
 void ServeMicrophone(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
                      const Request& request);
+/// Sends what is seen of the face or heard of the voice, with its times, over a WebSocket until
+/// either side ends.
+enum class Live { kFace, kVoice };
+void ServeLive(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream,
+               const Request& request, Live live);
 /// Sends pictures of the face until either side ends.
 void ServeVideo(std::shared_ptr<WebServer::Impl> server, boost::beast::tcp_stream stream);
 

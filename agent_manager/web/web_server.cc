@@ -137,12 +137,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
         !HasToken(View(request_[http::field::authorization]), ';', "Bearer "))
       return Refuse(http::status::unauthorized, "a request without the token");
     Known();
-    for (const auto& [of, module] : {std::pair("/microphone", "SRM"), {"/face.mjpg", "FSM"}}) {
+    for (const auto& [of, module] : {std::pair("/microphone", "SRM"),
+                                     {"/face.mjpg", "FSM"},
+                                     {"/face", "FSM"},
+                                     {"/voice", "SSM"}}) {
       const auto allowed = server_->hub.access().CheckReceiver(server_->role, module);
       if (path == of && !allowed)
         return Refuse(http::status::forbidden, path + ": " + allowed.error().text);
     }
-    if (path == "/ws" || path == "/microphone") return Upgrade(path);
+    if (path == "/ws" || path == "/microphone" || path == "/face" || path == "/voice")
+      return Upgrade(path);
     if (path == "/face.mjpg") return web::ServeVideo(server_, std::move(stream_));
     if (path == "/metrics")
       return Reply(http::status::ok, "text/plain; version=0.0.4", server_->metrics());
@@ -171,6 +175,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
       return Refuse(http::status::conflict, "a second microphone");
     stream_.expires_never();
     if (path == "/microphone") return web::ServeMicrophone(server_, std::move(stream_), request_);
+    if (path == "/face")
+      return web::ServeLive(server_, std::move(stream_), request_, web::Live::kFace);
+    if (path == "/voice")
+      return web::ServeLive(server_, std::move(stream_), request_, web::Live::kVoice);
     web::ServeSocket(server_, std::move(stream_), request_);
   }
 
@@ -286,8 +294,8 @@ void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
 
 }  // namespace
 
-WebServer::WebServer(asio::io_context& io, const WebConfig& config, Hub& hub,
-                     std::function<std::string()> metrics, OnRefusal on_refusal)
+WebServer::WebServer(const vm::Scheduler& clock, asio::io_context& io, const WebConfig& config,
+                     Hub& hub, std::function<std::string()> metrics, OnRefusal on_refusal)
     : impl_(std::make_shared<Impl>(io, hub)) {
   vm::Credentials credentials;
   credentials.token_file = config.token_file;
@@ -297,7 +305,8 @@ WebServer::WebServer(asio::io_context& io, const WebConfig& config, Hub& hub,
   impl_->token = token->empty() ? vm::MakeNonce() : *token;
   impl_->metrics = std::move(metrics);
   impl_->on_refusal = std::move(on_refusal);
-  impl_->video = std::make_unique<FaceVideo>(io, hub);
+  impl_->video = std::make_unique<FaceVideo>(clock, io, hub);
+  impl_->voice = std::make_unique<VoiceSound>(io, hub);
   const auto endpoint = vm::ParseEndpoint(config.at);
   if (!endpoint) throw std::runtime_error(endpoint.error().text);
   try {
@@ -326,6 +335,7 @@ WebServer::~WebServer() {
   impl_->acceptor.close(ignored);
   impl_->retry.cancel();
   impl_->video.reset();
+  impl_->voice.reset();
 }
 
 std::string WebServer::Address() const {

@@ -26,24 +26,23 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   ~VideoSession() { --server_->connections; }
 
   void Start() {
-    viewer_ = server_->video->Watch([self = shared_from_this()](const FaceVideo::Picture& picture) {
-      self->OnPicture(picture);
-    });
+    const unsigned viewer = server_->video->Watch(
+        {[self = shared_from_this()](const Audience::Piece& piece) { self->OnPicture(*piece); },
+         [self = shared_from_this()](const std::string&) { self->OnEnd(); }});
+    if (!ended_) viewer_ = viewer;
     WaitForClose();
   }
 
  private:
-  void OnPicture(const FaceVideo::Picture& picture) {
-    if (picture->empty()) {
-      // Before the first picture, the request has not been answered.
-      if (!began_) {
-        text_ =
-            "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
-        ended_ = true;
-        return Write();
-      }
-      return Leave();
-    }
+  void OnEnd() {
+    viewer_ = 0;
+    // Before the first picture, the request has not been answered.
+    if (std::exchange(ended_, true) || began_) return Leave();
+    text_ = "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+    Write();
+  }
+
+  void OnPicture(const LivePiece& picture) {
     if (writing_) return;  // a slow browser gets fewer pictures, not older ones
     text_.clear();
     if (!std::exchange(began_, true))
@@ -51,7 +50,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
           "HTTP/1.1 200 OK\r\nContent-Type: multipart/x-mixed-replace; boundary=picture\r\n"
           "Cache-Control: no-store\r\nConnection: close\r\n\r\n";
     text_ += "--picture\r\nContent-Type: image/jpeg\r\nContent-Length: " +
-             std::to_string(picture->size()) + "\r\n\r\n" + *picture + "\r\n";
+             std::to_string(picture.bytes.size()) + "\r\n\r\n" + picture.bytes + "\r\n";
     Write();
   }
 

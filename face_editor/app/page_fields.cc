@@ -141,8 +141,8 @@ void NewRow(Ui& ui) {
 fsm::FaceState Shown(const Ui& ui, float strength) {
   fsm::FaceState state;
   const auto unit = static_cast<std::size_t>(ui.field_unit);
-  if (ui.field_sides[0]) state.au_right[unit] = strength;
-  if (ui.field_sides[1]) state.au_left[unit] = strength;
+  if (ui.field_sides[0]) state.au.right[unit] = strength;
+  if (ui.field_sides[1]) state.au.left[unit] = strength;
   return state;
 }
 

@@ -24,17 +24,17 @@ bool SliderRow(Ui& ui, int unit, fsm::ActionUnits& look, std::string* merge) {
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(title.c_str());
-  for (const bool left : {false, true}) {
+  for (const fsm::Side side : fsm::kSides) {
     ImGui::TableNextColumn();
     ImGui::SetNextItemWidth(-1);
-    float percent = 100 * (left ? look.left : look.right)[i];
-    const std::string id = fmt::format("##AU {}{}", unit, left ? 'L' : 'R');
+    float percent = 100 * look.au[side][i];
+    const std::string id = fmt::format("##AU {}{}", unit, side == fsm::Side::kLeft ? 'L' : 'R');
     const bool one = Slider(ui, id.c_str(), &percent, 0, percent > 100 ? 200 : 100, "%.0f");
     if (!one) continue;
     const float value = std::round(percent) / 100;
-    (left ? look.left : look.right)[i] = value;
+    look.au[side][i] = value;
     const bool both = ui.linked && !ui.editor.unit_names().IsOneSided(unit);
-    if (both) look.left[i] = look.right[i] = value;
+    if (both) look.au.left[i] = look.au.right[i] = value;
     if (merge) *merge = id;
     changed = true;
   }
@@ -47,7 +47,7 @@ std::vector<int> UnitOrder(const fsm::UnitNames& names, const fsm::ActionUnits& 
   for (const bool used : {true, false}) {
     for (const auto& [unit, name] : names.names) {
       const auto i = static_cast<std::size_t>(unit);
-      const bool acts = look.left[i] != 0 || look.right[i] != 0;
+      const bool acts = look.au.left[i] != 0 || look.au.right[i] != 0;
       if (names.IsUnit(unit) && (used_first ? acts == used : used)) order.push_back(unit);
     }
   }
@@ -59,10 +59,10 @@ bool GazeRow(Ui& ui, fsm::ActionUnits& look, std::string* merge) {
   bool changed = false;
   for (const std::size_t axis : {0U, 1U}) {
     const char* label = axis == 0 ? "down" : "to the viewer's right";
-    float angle = look.gaze_left[axis];
+    float angle = look.gaze.left[axis];
     ImGui::SetNextItemWidth(170);
     if (!Slider(ui, label, &angle, -30, 30, "%.0f")) continue;
-    look.gaze_left[axis] = look.gaze_right[axis] = std::round(angle);
+    look.gaze.left[axis] = look.gaze.right[axis] = std::round(angle);
     if (merge) *merge = label;
     changed = true;
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "face_editor/core/table_writer.h"
-#include "face_fit/bake/side_view.h"
-#include "face_fit/find/hand_points.h"
+#include "face_fit/find/face/hand_points.h"
+#include "face_fit/fit/side_view.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/mesh/pnt_file.h"
 #include "fsm/motion/motion_errors.h"
@@ -122,8 +122,8 @@ vm::Result<void> Editor::SetUnit(int unit, bool left, bool right, float strength
   if (auto fits = fsm::CheckStrength(static_cast<double>(strength)); !fits) return fits;
   history_.Change(Part::kLook, fmt::format("unit {}", unit), merge, [&](State& state) {
     const auto i = static_cast<std::size_t>(unit);
-    if (left) state.look.left[i] = strength;
-    if (right) state.look.right[i] = strength;
+    if (left) state.look.au.left[i] = strength;
+    if (right) state.look.au.right[i] = strength;
   });
   return {};
 }

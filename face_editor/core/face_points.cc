@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/base_head.h"
-#include "face_fit/find/hand_points.h"
+#include "face_fit/find/face/hand_points.h"
+#include "face_fit/find/head/base_head.h"
 
 namespace editor {
 namespace {
@@ -41,8 +41,8 @@ std::vector<PointGroup> MakeGroups() {
   constexpr PointIndex kCorners[] = {point::kMouthRight, point::kMouthLeft};
   std::vector<int> all(static_cast<std::size_t>(kPoints));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  return {{"right_eye", "Right eye", Joined({EyeOutline(0)})},
-          {"left_eye", "Left eye", Joined({EyeOutline(1)})},
+  return {{"right_eye", "Right eye", Joined({EyeOutline(fsm::Side::kRight)})},
+          {"left_eye", "Left eye", Joined({EyeOutline(fsm::Side::kLeft)})},
           {"right_brow_line", "Right brow", Joined({kRightBrow})},
           {"left_brow_line", "Left brow", Joined({kLeftBrow})},
           {"nose", "Nose", Joined({kNose})},

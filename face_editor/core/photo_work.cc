@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "face_editor/core/table_writer.h"
-#include "face_fit/bake/side_view.h"
-#include "face_fit/find/figure_finder.h"
-#include "face_fit/find/hand_points.h"
-#include "face_fit/find/upright.h"
+#include "face_fit/find/face/hand_points.h"
+#include "face_fit/find/face/upright.h"
+#include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/fit/side_view.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/report.h"

@@ -7,8 +7,8 @@
 
 #include "face_editor/core/face_points.h"
 #include "face_fit/bake/texture_bake.h"
-#include "face_fit/find/face_networks.h"
-#include "face_fit/find/occlusion_detector.h"
+#include "face_fit/find/face/occlusion_detector.h"
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/fit/fit.h"
 #include "fsm/head/photo_head.h"
 

@@ -125,11 +125,8 @@ std::string Player::PhonemeAt(vm::Time now) {
 
 fsm::FaceState StateOf(const fsm::ActionUnits& look) {
   fsm::FaceState state;
-  state.au_left = look.left;
-  state.au_right = look.right;
-  // In looks x counts down, in states up.
-  state.eye_left = {-look.gaze_left[0], look.gaze_left[1]};
-  state.eye_right = {-look.gaze_right[0], look.gaze_right[1]};
+  state.au = look.au;
+  state.gaze = look.gaze;
   return state;
 }
 

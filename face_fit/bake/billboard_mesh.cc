@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "face_fit/bake/grain.h"
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/skin_rasterizer.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "face_fit/bake/eyes.h"
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/picture/float_image.h"
 #include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {
@@ -168,23 +168,24 @@ struct EyeSquares {
 
 /// Whose picture each eye shows: its own, or that of the other where it is not seen. None where
 /// neither is seen well enough.
-std::optional<std::array<std::size_t, 2>> ShownEyes(const Fit& fit) {
+std::optional<fsm::Sided<fsm::Side>> ShownEyes(const Fit& fit) {
   // What stands for both is no half shut eye.
   constexpr float kForBoth = 0.1F;
-  const auto seen = [&fit](std::size_t k, float contrast) {
+  const auto seen = [&fit](fsm::Side k, float contrast) {
     return fit.irises[k].contrast >= contrast && fit.irises[k].radius >= kLeastIris;
   };
-  if (seen(0, kClearRing) && seen(1, kClearRing)) return {{0, 1}};
-  for (const std::size_t k : {0U, 1U}) {
+  if (seen(fsm::Side::kRight, kClearRing) && seen(fsm::Side::kLeft, kClearRing)) {
+    return {{fsm::Side::kRight, fsm::Side::kLeft}};
+  }
+  for (const fsm::Side k : fsm::kSides) {
     if (seen(k, kForBoth)) return {{k, k}};
   }
   return std::nullopt;
 }
 
 /// The skin below an eye and beside it.
-glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, std::size_t side) {
-  constexpr std::array<std::array<PointIndex, 4>, 2> kSkin = {
-      {{119, 118, 117, 101}, {348, 347, 346, 330}}};
+glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side side) {
+  constexpr fsm::Sided<std::array<PointIndex, 4>> kSkin{{119, 118, 117, 101}, {348, 347, 346, 330}};
   glm::vec3 light(1);
   for (const PointIndex i : kSkin[side]) light += ColourAt(photo, face.At(i)) / 4.0F;
   return light;
@@ -211,8 +212,8 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
   if (!shown) return;
   const glm::mat3 turned = fit.pose.Rotation();
   const glm::vec2 right = glm::normalize(glm::vec2(turned[0].x, -turned[0].y));
-  std::array<EyeSquares, 2> squares;
-  for (const std::size_t k : {0U, 1U}) {
+  fsm::Sided<EyeSquares> squares;
+  for (const fsm::Side k : fsm::kSides) {
     if ((*shown)[k] != k) continue;
     const fsm::EyeGeometry& ball = base.head->topology().eyes[k];
     const fsm::EyeTransform transform = head.eyes ? (*head.eyes)[k] : fsm::EyeTransform();
@@ -237,10 +238,10 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
   }
   int left = kMargin;
   head.eye_pictures.emplace();
-  for (std::size_t k = 0; k < 2; ++k) {
-    if ((*shown)[k] != k) {
-      const glm::vec3 gain = LightBeside(face, photo, k) / LightBeside(face, photo, 1 - k);
-      squares[k] = {Mirrored(squares[1 - k].iris, gain), Mirrored(squares[1 - k].ball, gain)};
+  for (const fsm::Side k : fsm::kSides) {
+    if (const fsm::Side other = (*shown)[k]; other != k) {
+      const glm::vec3 gain = LightBeside(face, photo, k) / LightBeside(face, photo, other);
+      squares[k] = {Mirrored(squares[other].iris, gain), Mirrored(squares[other].ball, gain)};
     }
     fsm::EyePicture& places = (*head.eye_pictures)[k];
     places.iris = Insert(squares[k].iris, left, picture);

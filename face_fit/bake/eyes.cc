@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "face_fit/bake/openings.h"
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 #include "fsm/image/color_space.h"
 
 namespace facefit {
@@ -32,12 +32,12 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 
 }  // namespace
 
-std::array<fsm::EyeTransform, 2> EyesAtRest(const BaseHead& base, const Fit& fit) {
+fsm::Sided<fsm::EyeTransform> EyesAtRest(const BaseHead& base, const Fit& fit) {
   const float kept = PhotoLook()("squint_kept");
   fsm::HeadVertices posed;
   base.head->Evaluate(fit.expression.State(), posed);
-  std::array<fsm::EyeTransform, 2> transforms = fit.eyes;
-  for (std::size_t side = 0; side < 2; ++side) {
+  fsm::Sided<fsm::EyeTransform> transforms = fit.eyes;
+  for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
       const MeshPoint& lid = base.points[EyeOutline(side)[k]];
       return lid.On(posed.position).y - lid.On(base.rest.position).y;
@@ -52,7 +52,7 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                 fsm::PhotoHead& head) {
   const fsm::NumberTable& look = PhotoLook();
   std::vector<glm::vec3> iris, white;
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const fsm::Side side : fsm::kSides) {
     const auto outline = EyeOutline(side);
     const glm::vec2 a = face.At(outline[kOuterCorner]), b = face.At(outline[kInnerCorner]);
     const float wide = glm::distance(a, b);

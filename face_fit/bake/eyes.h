@@ -9,7 +9,7 @@ namespace facefit {
 
 /// The eyes at rest. Half of a smile's squint is kept: the photo does not show how wide the eyes
 /// would be without it, and eyes that are too wide stare.
-std::array<fsm::EyeTransform, 2> EyesAtRest(const BaseHead& base, const Fit& fit);
+fsm::Sided<fsm::EyeTransform> EyesAtRest(const BaseHead& base, const Fit& fit);
 /// Fills head.iris_colour, head.white_colour and head.iris_size from the photo.
 void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
                 fsm::PhotoHead& head);

@@ -4,9 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "face_fit/bake/photo_look.h"
-#include "face_fit/find/network_points.h"
+#include "face_fit/find/network/network_points.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 
@@ -14,7 +14,7 @@ Openings::Openings(const FoundFace& face, float pixels_per_mm, bool lips_apart) 
   const fsm::NumberTable& look = PhotoLook();
   // The dark line of the lashes stays on the rims of the lids.
   const float lash = look("lash_rim") * pixels_per_mm;
-  for (const std::size_t side : {0U, 1U}) {
+  for (const fsm::Side side : fsm::kSides) {
     const auto outline = EyeOutline(side);
     openings_.push_back({{outline.begin(), outline.end()}, -lash, -lash});
   }

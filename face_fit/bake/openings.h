@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/face_finder.h"
+#include "face_fit/find/network/face_finder.h"
 
 namespace facefit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
-#include "face_fit/bake/photo_look.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 

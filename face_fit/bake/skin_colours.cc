@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "face_fit/find/rasterizer.h"
+#include "face_fit/find/head/rasterizer.h"
 #include "fsm/head/photo_wear.h"
 
 namespace facefit {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <span>
 
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/skin_rasterizer.h"
-#include "face_fit/find/rasterizer.h"
+#include "face_fit/find/head/rasterizer.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/float_image.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {

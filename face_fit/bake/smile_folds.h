@@ -1,6 +1,6 @@
 #pragma once
 
-#include "face_fit/find/face_finder.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/picture/float_image.h"
 
 namespace facefit {

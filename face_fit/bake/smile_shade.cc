@@ -4,9 +4,9 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "face_fit/bake/skin_texels.h"
-#include "face_fit/find/base_head.h"
+#include "face_fit/find/head/base_head.h"
 #include "face_fit/picture/float_image.h"
 
 namespace facefit {

@@ -10,18 +10,18 @@
 #include "face_fit/bake/eyes.h"
 #include "face_fit/bake/grain.h"
 #include "face_fit/bake/lips.h"
-#include "face_fit/bake/matte.h"
 #include "face_fit/bake/openings.h"
 #include "face_fit/bake/other_side.h"
-#include "face_fit/bake/photo_look.h"
 #include "face_fit/bake/skin_colours.h"
 #include "face_fit/bake/skin_texels.h"
 #include "face_fit/bake/smile_folds.h"
 #include "face_fit/bake/smile_shade.h"
-#include "face_fit/find/glasses.h"
+#include "face_fit/find/face/glasses.h"
+#include "face_fit/find/figure/matte.h"
 #include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
+#include "face_fit/tables/photo_look.h"
 
 namespace facefit {
 namespace {

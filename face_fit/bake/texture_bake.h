@@ -1,9 +1,6 @@
 #pragma once
 
-#include "face_fit/bake/matte.h"
-#include "face_fit/find/face_finder.h"
-#include "face_fit/fit/fit.h"
-#include "face_fit/fit/side_fit.h"
+#include "face_fit/fit/side_view.h"
 #include "fsm/head/photo_head.h"
 
 namespace facefit {
@@ -17,15 +14,6 @@ struct TextureBake {
 };
 
 inline constexpr int kMapSide = 1024;  ///< of each half
-
-/// A photo of the person from the side.
-struct SideView {
-  SideFit fit;
-  Figure figure;
-  /// A full profile: only its outline is used. Front and profile show too little of the same skin
-  /// to bring both photos into one light.
-  bool outline_only = false;
-};
 
 /// Paints both halves and fills in the rest of `head`, all but `head.photo`. `figure`: of `photo`;
 /// `sides`: photos of the same person from the side, may be empty. Pure; thread: any.

@@ -13,7 +13,7 @@ namespace facefit {
 namespace {
 
 fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::vec3>& to,
-                         std::size_t side) {
+                         fsm::Side side) {
   const auto outline = EyeOutline(side);
   const glm::vec3 centre = base.head->topology().eyes[side].centre;
   const auto place = [&](std::size_t k) { return base.AtRest(outline[k]); };
@@ -46,9 +46,9 @@ fsm::EyeTransform FitEye(const BaseHead& base, const std::map<PointIndex, glm::v
 
 }  // namespace
 
-std::array<fsm::EyeTransform, 2> FitEyes(const BaseHead& base,
-                                         const std::map<PointIndex, glm::vec3>& to) {
-  return {FitEye(base, to, 0), FitEye(base, to, 1)};
+fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
+                                      const std::map<PointIndex, glm::vec3>& to) {
+  return {FitEye(base, to, fsm::Side::kRight), FitEye(base, to, fsm::Side::kLeft)};
 }
 
 namespace {
@@ -58,13 +58,13 @@ struct Slit {
   glm::vec2 outer, inner, middle;
 };
 template <typename Place>
-Slit SlitOf(std::size_t side, Place place) {
+Slit SlitOf(fsm::Side side, Place place) {
   const auto outline = EyeOutline(side);
   // The lids' middles lie as far from the corner on either side.
   return {place(outline[kOuterCorner]), place(outline[kInnerCorner]),
           0.5F * (place(outline[kUpperMiddle]) + place(outline[kLowerMiddle]))};
 }
-Slit SlitOfBase(const BaseHead& base, std::size_t side) {
+Slit SlitOfBase(const BaseHead& base, fsm::Side side) {
   return SlitOf(side, [&base](PointIndex i) {
     const glm::vec3 p = base.AtRest(i);
     return glm::vec2(p.x, -p.y);
@@ -75,7 +75,7 @@ struct Expected {
   glm::vec2 centre;
   float scale;
 };
-Expected ExpectedIris(const BaseHead& base, const Slit& seen, std::size_t side) {
+Expected ExpectedIris(const BaseHead& base, const Slit& seen, fsm::Side side) {
   const Slit own = SlitOfBase(base, side);
   const glm::vec3 ball = base.head->topology().eyes[side].centre;
   const glm::vec2 from = own.inner - own.outer, to = seen.inner - seen.outer;
@@ -89,8 +89,8 @@ Expected ExpectedIris(const BaseHead& base, const Slit& seen, std::size_t side) 
 }  // namespace
 
 void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
-  std::array<OpenEye, 2> eyes;
-  for (const std::size_t side : {0U, 1U}) {
+  fsm::Sided<OpenEye> eyes;
+  for (const fsm::Side side : fsm::kSides) {
     const auto place = [&face](PointIndex i) { return face.At(i); };
     const Expected iris = ExpectedIris(base, SlitOf(side, place), side);
     std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), place);
@@ -99,12 +99,13 @@ void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* p
     fit.irises[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
   }
   if (!photo) return;
-  const auto rings = FindIrises(*photo, eyes);
+  const auto rings = FindIrises(*photo, std::array{eyes.right, eyes.left});
   float size = 0, count = 0;
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (rings[k].contrast < kClearRing) continue;
-    fit.irises[k] = rings[k];
-    size += rings[k].radius / eyes[k].expected;
+  for (const fsm::Side side : fsm::kSides) {
+    const IrisRing& ring = rings[static_cast<std::size_t>(side)];
+    if (ring.contrast < kClearRing) continue;
+    fit.irises[side] = ring;
+    size += ring.radius / eyes[side].expected;
     count += 1;
   }
   fit.iris_size = count > 0 ? std::clamp(size / count, 0.8F, 1.12F) : 1.0F;
@@ -112,7 +113,7 @@ void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* p
 
 void CentreEyes(const BaseHead& base, const Fit& fit,
                 std::vector<LandmarkConstraint>& constraints) {
-  for (const std::size_t side : {0U, 1U}) {
+  for (const fsm::Side side : fsm::kSides) {
     const IrisRing& ring = fit.irises[side];
     if (ring.contrast <= 0) continue;
     const auto outline = EyeOutline(side);

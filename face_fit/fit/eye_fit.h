@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 
-#include "face_fit/find/base_head.h"
+#include "face_fit/find/head/base_head.h"
 #include "fsm/rig/eye_transform.h"
 
 namespace facefit {
@@ -12,7 +12,7 @@ namespace facefit {
 /// How both eyes must be moved, turned and sized, and their lids raised, so that the outlines of
 /// the open eyes lie as in the photo. `to`: by point of the network, millimetres in the head's
 /// frame. REQUIRES: it has the points of both EyeOutlines.
-std::array<fsm::EyeTransform, 2> FitEyes(const BaseHead& base,
-                                         const std::map<PointIndex, glm::vec3>& to);
+fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
+                                      const std::map<PointIndex, glm::vec3>& to);
 
 }  // namespace facefit

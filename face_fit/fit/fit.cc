@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "face_fit/find/mouth_line.h"
+#include "face_fit/find/face/mouth_line.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
 #include "face_fit/fit/pose_fit.h"
@@ -106,7 +106,7 @@ fsm::FaceState Expression::State() const {
   fsm::FaceState state;
   state.asymmetry = 0;
   const auto both = [&state](std::size_t unit, float v) {
-    state.au_left[unit] = state.au_right[unit] = v;
+    state.au.left[unit] = state.au.right[unit] = v;
   };
   both(12, smile);
   both(6, 0.5F * smile);

@@ -6,9 +6,9 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "face_fit/find/base_head.h"
-#include "face_fit/find/face_finder.h"
-#include "face_fit/find/iris.h"
+#include "face_fit/find/face/iris.h"
+#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/network/face_finder.h"
 #include "fsm/head/warp.h"
 #include "fsm/rig/eye_transform.h"
 
@@ -57,9 +57,9 @@ struct Fit {
   std::vector<LandmarkConstraint> constraints;
   std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
   float smooth = 1;
-  std::array<fsm::EyeTransform, 2> eyes;  ///< right, left
-  std::array<IrisRing, 2> irises;         ///< likewise, in the photo
-  float iris_size = 1;                    ///< of that of the built-in head, by the size of the eye
+  fsm::Sided<fsm::EyeTransform> eyes;
+  fsm::Sided<IrisRing> irises;  ///< in the photo
+  float iris_size = 1;          ///< of that of the built-in head, by the size of the eye
   std::vector<glm::vec3>
       posed_vertices;     ///< every vertex of the base as it lies in the photo, head's frame
   float residual_mm = 0;  ///< mean distance of the network's points from those of the fit

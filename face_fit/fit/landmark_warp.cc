@@ -6,8 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "face_fit/find/mouth_line.h"
-#include "face_fit/find/rasterizer.h"
+#include "face_fit/find/face/mouth_line.h"
+#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/eye_fit.h"
 #include "fsm/base/spline.h"
 #include "fsm/head/make_head.h"
@@ -26,8 +26,8 @@ bool OfOuterLips(const LandmarkConstraint& c) {
   return Among(UpperOuterLip(), c.point) || Among(LowerOuterLip(), c.point);
 }
 /// Whose outline has the point; none if it is no eye's.
-std::optional<std::size_t> EyeOf(const LandmarkConstraint& c) {
-  for (const std::size_t side : {0U, 1U}) {
+std::optional<fsm::Side> EyeOf(const LandmarkConstraint& c) {
+  for (const fsm::Side side : fsm::kSides) {
     if (Among(EyeOutline(side), c.point)) return side;
   }
   return std::nullopt;

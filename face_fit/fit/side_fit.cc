@@ -6,7 +6,7 @@
 #include <glm/trigonometric.hpp>
 #include <optional>
 
-#include "face_fit/find/portrait_view.h"
+#include "face_fit/find/head/portrait_view.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/pose_fit.h"
 #include "face_fit/fit/stereo.h"

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "face_fit/find/rasterizer.h"
+#include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/pose_fit.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"

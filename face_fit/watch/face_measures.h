@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "face_fit/find/attention_points.h"
+#include "face_fit/find/network/attention_points.h"
 
 namespace facefit {
 

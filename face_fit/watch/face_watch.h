@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "face_fit/find/face_networks.h"
+#include "face_fit/find/network/face_networks.h"
 #include "face_fit/watch/face_measures.h"
 
 namespace facefit {

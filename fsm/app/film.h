@@ -37,6 +37,8 @@ class Film {
 
   bool recording() const { return writer_ != nullptr; }
   const std::string& path() const { return path_; }
+  /// The instant of frame 0. REQUIRES: recording.
+  vm::Time start() const { return series_.start; }
 
  private:
   void Arm();

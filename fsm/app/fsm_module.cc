@@ -138,6 +138,15 @@ void FsmModule::DeclareRecording() {
                  [](const vm::SetValue&) -> vm::Result<void> { return {}; }});
   core_.Declare({"Record.fps", "<int 1..120>", "Frames a second of films and of Frame reports.",
                  [](const vm::SetValue&) -> vm::Result<void> { return {}; }, "30"});
+  core_.slots.Declare({.name = "Record.start",
+                       .grammar = "<text>",
+                       .access = vm::Access::kReadOnly,
+                       .help = "The instant of the film's first frame, in ms on this process's "
+                               "clock; frame k shows the face k / Record.fps seconds later. Empty "
+                               "while there is no film.",
+                       .on_inq = [this]() -> std::string {
+                         return film_->recording() ? vm::FormatMs(film_->start()) : "";
+                       }});
   core_.slots.Declare(
       {.name = "Record",
        .grammar = "STOP | <file>",

@@ -319,7 +319,10 @@ inline constexpr int kValuesOf<RigStep> = static_cast<int>(RigStep::kNormals) + 
 template <>
 inline constexpr int kValuesOf<Drive::Kind> = static_cast<int>(Drive::Kind::kGazeRight) + 1;
 template <>
-inline constexpr int kValuesOf<Drive::Side> = static_cast<int>(Drive::Side::kStronger) + 1;
+inline constexpr int kValuesOf<Drive::WhichSide> = static_cast<int>(Drive::WhichSide::kStronger) +
+                                                   1;
+template <>
+inline constexpr int kValuesOf<Side> = static_cast<int>(kSides.size());
 template <>
 inline constexpr int kValuesOf<Drive::Half> = static_cast<int>(Drive::Half::kNegative) + 1;
 template <>

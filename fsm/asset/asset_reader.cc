@@ -82,6 +82,11 @@ class Reader {
     for (std::size_t i = 0; i < N; ++i) Read(place, from[i], items[i]);
   }
   template <typename T>
+  void ReadObject(const std::string& place, const json& from, Sided<T>& items) {
+    NeedList(place, from, kSides.size());
+    for (const Side side : kSides) Read(place, from[static_cast<std::size_t>(side)], items[side]);
+  }
+  template <typename T>
   void ReadObject(const std::string& place, const json& from, std::optional<T>& value) {
     if (!from.is_null()) Read(place, from, value.emplace());
   }

@@ -74,6 +74,10 @@ class Writer {
     return list;
   }
   template <typename T>
+  json WriteObject(const Sided<T>& items) {
+    return json::array({Write(items.right), Write(items.left)});
+  }
+  template <typename T>
   json WriteObject(const std::optional<T>& value) {
     return value ? Write(*value) : json();
   }

@@ -49,14 +49,6 @@ class Checker {
     for (std::size_t i = 0; i < list.size(); ++i) Vertex(list[i].vertex, Place(member, i));
   }
   template <typename List>
-  void Sides(const List& list, const char* member) const {
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (list[i].side != 0 && list[i].side != 1) {
-        throw Fault(Place(member, i) + ": side " + std::to_string(list[i].side) + " of 0 and 1");
-      }
-    }
-  }
-  template <typename List>
   void Triangles(const List& list, const char* member) const {
     if (list.size() % 3 != 0) throw Fault(std::string(member) + ": not three for each triangle");
     Vertices(list, member);
@@ -113,9 +105,7 @@ class Checker {
     Triangles(rig.soft_triangles, "rig.soft_triangles");
     for (std::size_t i = 0; i < rig.channels.size(); ++i) CheckChannel(rig.channels[i], i);
     VerticesOf(rig.lids.vertices, "rig.lids.vertices");
-    Sides(rig.lids.vertices, "rig.lids.vertices");
     VerticesOf(rig.ball_lids, "rig.ball_lids");
-    Sides(rig.ball_lids, "rig.ball_lids");
     VerticesOf(rig.teeth_contacts, "rig.teeth_contacts");
     CheckSprings(rig);
   }

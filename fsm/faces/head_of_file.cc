@@ -54,8 +54,8 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
   }
   for (const auto& [name, right, left] : kVrmBlinks) {
     FaceState state;
-    state.blink_right = right ? 1 : 0;
-    state.blink_left = left ? 1 : 0;
+    state.blink.right = right ? 1 : 0;
+    state.blink.left = left ? 1 : 0;
     meanings.push_back({name, state});
   }
   return meanings;
@@ -118,8 +118,8 @@ Alignment AlignByOutline(const HeadFile& file) {
   Alignment alignment;
   const MeshModel raw = ModelOf(file, {}, 0);
   if (raw.has_eyes) {
-    const glm::vec3 apart = raw.eyes[1].centre - raw.eyes[0].centre;
-    const glm::vec3 middle = 0.5f * (raw.eyes[0].centre + raw.eyes[1].centre);
+    const glm::vec3 apart = raw.eyes.left.centre - raw.eyes.right.centre;
+    const glm::vec3 middle = 0.5f * (raw.eyes.right.centre + raw.eyes.left.centre);
     const float scale = 2 * kEyeCentre.x / std::max(glm::length(apart), 1e-6f);
     alignment.to_ours = ScaledAbout(middle, scale, kEyeCentre * glm::vec3(0, 1, 1));
     return alignment;

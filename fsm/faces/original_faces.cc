@@ -94,12 +94,11 @@ ExpressionLooks LooksOfExpressions(const OriginalSharedFiles& shared) {
     ActionUnits& look = looks[one.name][one.pattern];
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {
       const auto unit = static_cast<std::size_t>(kUnitNumbers[i]);
-      look.right[unit] = one.right[i];
-      look.left[unit] = one.left[i];
+      for (const Side side : kSides) look.au[side][unit] = one.strengths[side][i];
     }
     if (one.channel != kNoChannel) {
-      const auto [unit, is_left] = kExpressionChannels[one.channel];
-      (is_left ? look.left : look.right)[unit] = 1;
+      const auto [unit, side] = kExpressionChannels[one.channel];
+      look.au[side][unit] = 1;
     }
   }
   return looks;

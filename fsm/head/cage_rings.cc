@@ -43,7 +43,7 @@ struct LidRing {
 };
 constexpr std::array kLidRings = {
     LidRing{0.1f, 0.1f, 1, 1, 0, 0}, LidRing{3.4f, 3.2f, 0.94f, 0.85f, 0, 0},
-    LidRing{6.3f, 6.6f, 0.6f, 0.5f, 0.04f, -0.5f}, LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 0.9f}};
+    LidRing{6.1f, 6.6f, 0.6f, 0.5f, 0.04f, -0.3f}, LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 1.0f}};
 
 /// `edge`: the point of the socket's edge there.
 glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& ring,
@@ -99,8 +99,8 @@ struct BagRing {
 };
 constexpr std::array<BagRing, kSeamRing> kBagRings = {
     BagRing{0, 62, 0.5f, 0, 0},         BagRing{12, 48, 1.08f, 0, 0},
-    BagRing{15, 26, 1.2f, 0, 0},        BagRing{11.5f, 11, 1.1f, 0.12f, 0.6f},
-    BagRing{4.6f, 5.2f, 1.0f, 0.2f, 1}, BagRing{1.2f, 2.4f, 1.0f, 0.13f, 1}};
+    BagRing{15, 26, 1.2f, 0, 0},        BagRing{11.5f, 11, 1.1f, 0.04f, 0.6f},
+    BagRing{4.6f, 5.2f, 1.0f, 0.1f, 1}, BagRing{1.2f, 2.4f, 1.0f, 0.07f, 1}};
 
 glm::vec3 PointOfBag(const MouthAnatomy& mouth, const LipPoint& at, const BagRing& bag) {
   const float open = std::sqrt(std::max(0.0f, 1 - at.x * at.x / (25.0f * 25.0f)));

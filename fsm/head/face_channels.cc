@@ -30,9 +30,9 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
     const float corner =
         (a < corner_x ? std::pow(a / corner_x, 1.3f) : SmoothStep(56, corner_x, a)) *
         SmoothStep(24, 0, height) * f.free;
-    add(8, i, {side_x * corner, 0, 0});
-    add(9, i, {0, corner, 0});
-    add(10, i, {0, 0, corner});
+    add(kCornerX, i, {side_x * corner, 0, 0});
+    add(kCornerY, i, {0, corner, 0});
+    add(kCornerZ, i, {0, 0, corner});
 
     // The lips' four rings: full in the middle, nothing at the corner.
     if (a >= corner_x || f.lip_weight == 0) continue;
@@ -44,24 +44,25 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth,
     const float hold = std::abs(f.lip_weight);
     const float outer = part * hold;
     const float inner = (1 - part) * hold;
-    const std::size_t outer_y = upper ? 0 : 6;
-    const std::size_t inner_y = upper ? 2 : 4;
-    add(outer_y, i, {0, outer * along, 0});
-    add(outer_y + 1, i, {0, 0, outer * along});
-    add(inner_y, i, {0, inner * along, 0});
-    add(inner_y + 1, i, {0, 0, inner * along});
-    add(upper ? 13 : 15, i, {0, outer * quarter, 0});
-    add(upper ? 14 : 16, i, {0, inner * quarter, 0});
+    add(upper ? kUpperOuterY : kLowerOuterY, i, {0, outer * along, 0});
+    add(upper ? kUpperOuterZ : kLowerOuterZ, i, {0, 0, outer * along});
+    add(upper ? kUpperInnerY : kLowerInnerY, i, {0, inner * along, 0});
+    add(upper ? kUpperInnerZ : kLowerInnerZ, i, {0, 0, inner * along});
+    add(upper ? kUpperOuterFullness : kLowerOuterFullness, i, {0, outer * quarter, 0});
+    add(upper ? kUpperInnerFullness : kLowerInnerFullness, i, {0, inner * quarter, 0});
   }
   return channels;
 }
 
-LidRig BakeLids(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eyes,
+LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
                 std::span<const glm::vec3> rest, std::span<const SkinWeights> weights) {
   constexpr float kOnBall = 12.05f;  // nearer than that lies the fold behind the lids
-  LidRig rig{.vertices = {}, .eyes = eyes, .cornea_centre = eye.CorneaCentre()};
-  const std::array<glm::vec3, 2> table = {eye.centre() * glm::vec3(-1, 1, 1), eye.centre()};
-  for (std::size_t side = 0; side < 2; ++side) rig.ball[side] = table[side] + eyes[side].shift;
+  LidRig rig;
+  rig.eyes = eyes;
+  rig.cornea_centre = eye.CorneaCentre();
+  for (const Side side : kSides) {
+    rig.ball[side] = eye.centre() * glm::vec3(SignOf(side), 1, 1) + eyes[side].shift;
+  }
   float widest = 0;
   for (float x = eye.inner_x(); x < eye.outer_x(); x += 1) {
     widest = std::max(widest, eye.UpperY(x) - eye.LowerY(x));
@@ -72,13 +73,13 @@ LidRig BakeLids(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eyes,
     const float x = std::clamp(std::abs(f.domain.x), eye.inner_x(), eye.outer_x());
     const float upper = eye.UpperAngle(x);
     const float lower = eye.LowerAngle(x);
-    const std::size_t side = f.eye > 0 ? 1 : 0;
+    const Side side = f.eye > 0 ? Side::kLeft : Side::kRight;
     const EyeTransform& transform = eyes[side];
     const EyeTransform back{.turn = -transform.turn, .size = 1 / transform.size};
     const glm::vec3 from_ball = back.Turned(rest[i] - rig.ball[side]);
     rig.vertices.push_back(
         {.vertex = static_cast<std::uint32_t>(i),
-         .side = static_cast<int>(side),
+         .side = side,
          .upper = f.lid_upper,
          .lower = f.lid_lower,
          .upper_angle = upper,

@@ -17,7 +17,7 @@ namespace fsm {
 /// What each of the 17 mouth parameters displaces.
 std::vector<Channel> MouthChannels(const MouthAnatomy& mouth, std::span<const SkinWeights> weights);
 /// `eyes`: where the right and the left eye sit.
-LidRig BakeLids(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eyes,
+LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
                 std::span<const glm::vec3> rest, std::span<const SkinWeights> weights);
 /// Arches where the head has them.
 std::vector<TeethContact> BakeTeethContacts(const ToothArch& upper, const ToothArch& lower,

@@ -134,16 +134,15 @@ void HeadBaker::BakeTopology(HeadTopology& topology) {
 }
 
 void HeadBaker::BakeEyes(HeadTopology& topology) const {
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     const float size = eye_transforms_[side].size;
-    topology.eyes[side] = {
-        .centre = PlaceInFace(eye_, eye_transforms_, side,
-                              eye_.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1)),
-        .ball_radius = size * eye_.radius(),
-        .iris_radius = size * eye_.iris_radius(),
-        .pupil_radius = size * eye_.pupil_radius(),
-        .iris_colour = identity_.palette.iris,
-        .white_colour = identity_.palette.sclera};
+    topology.eyes[side] = {.centre = PlaceInFace(eye_, eye_transforms_, side,
+                                                 eye_.centre() * glm::vec3(SignOf(side), 1, 1)),
+                           .ball_radius = size * eye_.radius(),
+                           .iris_radius = size * eye_.iris_radius(),
+                           .pupil_radius = size * eye_.pupil_radius(),
+                           .iris_colour = identity_.palette.iris,
+                           .white_colour = identity_.palette.sclera};
   }
 }
 
@@ -177,7 +176,7 @@ void HeadBaker::BakeRig(const HeadTopology& topology, RigData& rig) {
   rig.upper_teeth = mouth_.UpperTeeth().Moved(teeth_);
   rig.lower_teeth = mouth_.LowerTeeth().Moved(teeth_);
   rig.teeth_contacts = BakeTeethContacts(rig.upper_teeth, rig.lower_teeth, rig.rest, soft);
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     rig.eye_pivot[side] = rig.ball_centre[side] = topology.eyes[side].centre;
   }
   rig.creases = identity_.creases;

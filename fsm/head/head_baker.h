@@ -67,8 +67,8 @@ class HeadBaker {
   std::vector<SkinHair> skin_hairs_;
   std::size_t soft_count_ = 0;  // vertices that move as skin, which come first
   std::size_t hair_first_ = 0;
-  std::array<EyeTransform, 2> eye_transforms_;  // of the right and the left eye
-  TeethTransform teeth_;                        // from the base head's
+  Sided<EyeTransform> eye_transforms_;
+  TeethTransform teeth_;  // from the base head's
 };
 
 }  // namespace fsm

@@ -9,8 +9,7 @@
 namespace fsm {
 
 HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper,
-                   const Warp* warp,
-                   const std::optional<std::array<EyeTransform, 2>>& eye_transforms,
+                   const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
                    const HeadMesh& base)
     : eye_(eye), mouth_(mouth), shaper_(shaper), warp_(warp) {
   if (eye_transforms) {
@@ -18,8 +17,8 @@ HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shape
   } else {
     constexpr glm::vec3 kMirror(-1, 1, 1);
     const glm::vec3 by = 0.5f * (Motion(eye_.centre()) + kMirror * Motion(eye_.centre() * kMirror));
-    eye_transforms_[1].shift = by;
-    eye_transforms_[0].shift = by * kMirror;
+    eye_transforms_.left.shift = by;
+    eye_transforms_.right.shift = by * kMirror;
   }
   const auto lips = [&](float x) {
     return Motion({x, mouth_.LineY(std::abs(x)), mouth_.LineZ(std::abs(x))});
@@ -63,7 +62,7 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
     switch (mesh.bone[i]) {
       case Bone::kEyeLeft:
       case Bone::kEyeRight:
-        p = PlaceInFace(eye_, eye_transforms_, mesh.bone[i] == Bone::kEyeLeft ? 1 : 0, p);
+        p = PlaceInFace(eye_, eye_transforms_, *EyeOf(mesh.bone[i]), p);
         break;
       case Bone::kJaw:
       case Bone::kTongue:
@@ -79,8 +78,8 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
         glm::vec3 by = Motion(p);
         if (weights.eye != 0) {
           const float hold = SmoothStep(0, 0.8f, weights.lid_upper + weights.lid_lower);
-          by = glm::mix(by, PlaceInFace(eye_, eye_transforms_, weights.eye > 0 ? 1 : 0, p) - p,
-                        hold);
+          const Side side = weights.eye > 0 ? Side::kLeft : Side::kRight;
+          by = glm::mix(by, PlaceInFace(eye_, eye_transforms_, side, p) - p, hold);
         }
         p += by;
         break;
@@ -89,9 +88,9 @@ void HeadForm::Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& m
   }
 }
 
-glm::vec3 PlaceInFace(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eye_transforms,
-                      std::size_t side, glm::vec3 p) {
-  return eye_transforms[side].Placed(eye.centre() * glm::vec3(side == 0 ? -1 : 1, 1, 1), p);
+glm::vec3 PlaceInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms, Side side,
+                      glm::vec3 p) {
+  return eye_transforms[side].Placed(eye.centre() * glm::vec3(SignOf(side), 1, 1), p);
 }
 
 }  // namespace fsm

@@ -20,12 +20,12 @@ class HeadForm {
   /// `warp`: of a face from a photo, or null. `eye_transforms`: of its right and left eye if they
   /// are known; otherwise eyes go where the skin goes. `base`: the head before it takes this form.
   HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper, const Warp* warp,
-           const std::optional<std::array<EyeTransform, 2>>& eye_transforms, const HeadMesh& base);
+           const std::optional<Sided<EyeTransform>>& eye_transforms, const HeadMesh& base);
 
   /// Moves all vertices but those from `fixed_first` to before `fixed_end`.
   void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;
 
-  const std::array<EyeTransform, 2>& eye_transforms() const { return eye_transforms_; }
+  const Sided<EyeTransform>& eye_transforms() const { return eye_transforms_; }
   const TeethTransform& teeth() const { return teeth_; }
 
  private:
@@ -38,12 +38,12 @@ class HeadForm {
   const MouthAnatomy& mouth_;
   const Shaper& shaper_;
   const Warp* warp_;
-  std::array<EyeTransform, 2> eye_transforms_;
+  Sided<EyeTransform> eye_transforms_;
   TeethTransform teeth_;
 };
 
-/// Where a place of the table's eye lies in a face whose eyes lie so. `side`: 0 right, 1 left.
-glm::vec3 PlaceInFace(const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eye_transforms,
-                      std::size_t side, glm::vec3 p);
+/// Where a place of the table's eye lies in a face whose eyes lie so.
+glm::vec3 PlaceInFace(const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms, Side side,
+                      glm::vec3 p);
 
 }  // namespace fsm

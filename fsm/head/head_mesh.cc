@@ -57,14 +57,13 @@ SkinWeights SkinWeightsAt(glm::vec2 domain, int side, float mouth_line_y) {
   const float beyond = std::max(0.0f, a - 25.0f);
 
   // Along the slit the lower lip is all jaw in the middle, the upper hardly any, and the corner
-  // takes almost half; both go to the corner late and steeply, so an open mouth is round at its
-  // ends. After ICT-FaceKit's jawOpen: the upper lip 7 % of the lower in the middle, 10 % at
+  // takes almost half; both go there along a quarter of an ellipse, so an open mouth is an oval.
+  // After ICT-FaceKit's jawOpen: the upper lip 7 % of the lower in the middle, 10 % at
   // 10 mm, the corner 43 %; the lower lip 88 % at 10 mm, 75 % at 18.
-  constexpr float kCorner = 22.5f, kApart = 21.5f;  // millimetres from the middle
-  const float out = std::min(1.0f, a / kCorner);
-  const float upper_seam = 0.06f + 0.40f * out * out * out;
-  const float apart = std::max(0.0f, 1 - a * a / (kApart * kApart));
-  const float lower_seam = upper_seam + (1 - upper_seam) * std::pow(apart, 0.4f);
+  constexpr float kApart = 24.4f;  // millimetres from the middle; beyond they stay together
+  const float apart = std::sqrt(std::max(0.0f, 1 - a * a / (kApart * kApart)));
+  const float upper_seam = 0.06f + 0.40f * (1 - apart * apart);
+  const float lower_seam = upper_seam + (1 - upper_seam) * apart;
   const float reach_down = 16 + 0.5f * beyond;
   const float reach_up = 18 + 0.5f * beyond;
   const bool lower = side < 0 || (side == 0 && below > 0);

@@ -24,7 +24,7 @@ struct Identity {
   LongStyle long_hair;
   float lashes = 1;
   float brow_thickness = 1, brow_height = 0;
-  std::array<float, 4> creases{};              ///< by Wrinkle
+  std::array<float, 4> creases{};              ///< by Crease
   std::shared_ptr<const Features> features{};  ///< in place of the built-in ones
 
   const Features& Look() const { return features ? *features : Features::BuiltIn(); }

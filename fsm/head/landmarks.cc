@@ -10,7 +10,7 @@
 namespace fsm {
 
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eye_transforms,
+                        const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms,
                         const Features& features) {
   Landmarks landmarks;
   const auto pair = [&](const std::string& name, glm::vec3 p) {
@@ -29,10 +29,10 @@ Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const 
     }
   }
   const float middle = eye.centre().x;
-  for (const std::size_t side : {0U, 1U}) {
-    const glm::vec3 mirror(side == 0 ? -1 : 1, 1, 1);
+  for (const Side side : kSides) {
+    const glm::vec3 mirror(SignOf(side), 1, 1);
     const auto put = [&](const char* name, glm::vec3 p) {
-      landmarks[name + std::string(side == 0 ? "_right" : "_left")] =
+      landmarks[name + std::string(side == Side::kRight ? "_right" : "_left")] =
           eye_transforms[side].Placed(mirror * eye.centre(), mirror * p);
     };
     const auto on_lid = [&](float x, float y) {

@@ -20,7 +20,7 @@ namespace fsm {
 /// The points of tables/landmarks.txt and those of eyes and ears at rest; `rest` begins with the
 /// vertices of `fine`. Throws std::runtime_error naming file and line if the table is damaged.
 Landmarks NameLandmarks(const Cage& cage, const FineSkin& fine, std::span<const glm::vec3> rest,
-                        const EyeAnatomy& eye, const std::array<EyeTransform, 2>& eye_transforms,
+                        const EyeAnatomy& eye, const Sided<EyeTransform>& eye_transforms,
                         const Features& features);
 
 /// Texture coordinates of a place of the base head, see HeadTopology::uv.

@@ -30,11 +30,10 @@ void Finite(const TableRow& row, std::size_t first) {
 
 constexpr float kRadians = std::numbers::pi_v<float> / 180;
 
-/// 0 = right, 1 = left.
-std::size_t SideOf(const TableRow& row) {
+Side SideOf(const TableRow& row) {
   const std::string& side = row.Word(1);
   if (side != "right" && side != "left") row.Fail("'right' or 'left' expected");
-  return side == "left" ? 1 : 0;
+  return side == "left" ? Side::kLeft : Side::kRight;
 }
 
 /// eye SIDE DX DY DZ TURN SIZE UPPER LOWER
@@ -130,7 +129,7 @@ const std::map<std::string_view, void (*)(const TableRow&, PhotoHead&)> kRows = 
 PhotoHead ReadPhotoHead(const std::string& name, std::string_view text) {
   PhotoHead head;
   const Table table(name, text);
-  std::array<std::optional<EyePicture>, 2> pictures;
+  Sided<std::optional<EyePicture>> pictures;
   for (const TableRow& row : table.rows()) {
     const std::string& key = row.key();
     if (key == "base") {
@@ -146,7 +145,7 @@ PhotoHead ReadPhotoHead(const std::string& name, std::string_view text) {
       row.Fail("unknown word '" + key + "'");
     }
   }
-  if (pictures[0] && pictures[1]) head.eye_pictures = {*pictures[0], *pictures[1]};
+  if (pictures.right && pictures.left) head.eye_pictures = {*pictures.right, *pictures.left};
   return head;
 }
 
@@ -158,18 +157,19 @@ auto Words(const Vector& v) {
   return fmt::join(&v[0], &v[0] + Vector::length(), " ");
 }
 
-constexpr std::array kSides = {"right", "left"};
-
 std::string WriteEyes(const PhotoHead& head) {
+  constexpr Sided<const char*> kNames{"right", "left"};
   std::string out;
-  for (std::size_t i = 0; head.eyes && i < 2; ++i) {
-    const EyeTransform& eye = (*head.eyes)[i];
-    out += fmt::format("eye {} {:.3f}  {:.2f} {:.4f}  {:.3f} {:.3f}\n", kSides[i], Words(eye.shift),
-                       eye.turn / kRadians, eye.size, eye.upper_mm, eye.lower_mm);
+  for (const Side side : kSides) {
+    if (!head.eyes) continue;
+    const EyeTransform& eye = (*head.eyes)[side];
+    out += fmt::format("eye {} {:.3f}  {:.2f} {:.4f}  {:.3f} {:.3f}\n", kNames[side],
+                       Words(eye.shift), eye.turn / kRadians, eye.size, eye.upper_mm, eye.lower_mm);
   }
-  for (std::size_t i = 0; head.eye_pictures && i < 2; ++i) {
-    const EyePicture& picture = (*head.eye_pictures)[i];
-    out += fmt::format("eye_picture {}  {:.6f}  {:.6f}\n", kSides[i], Words(picture.iris),
+  for (const Side side : kSides) {
+    if (!head.eye_pictures) continue;
+    const EyePicture& picture = (*head.eye_pictures)[side];
+    out += fmt::format("eye_picture {}  {:.6f}  {:.6f}\n", kNames[side], Words(picture.iris),
                        Words(picture.ball));
   }
   return out;

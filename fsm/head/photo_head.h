@@ -20,16 +20,15 @@ namespace fsm {
 
 /// The face of a person from a photo: what a folder made by face_fit holds (docs/photo.md).
 struct PhotoHead {
-  std::string base = "galatea";   ///< the built-in face that is warped
-  std::vector<WarpPoint> points;  ///< of the base face at rest, millimetres
-  float smooth = 0;               ///< see Warp
-  std::optional<std::array<EyeTransform, 2>>
-      eyes;  ///< right, left; else both go with the warp alike
+  std::string base = "galatea";             ///< the built-in face that is warped
+  std::vector<WarpPoint> points;            ///< of the base face at rest, millimetres
+  float smooth = 0;                         ///< see Warp
+  std::optional<Sided<EyeTransform>> eyes;  ///< right, left; else both go with the warp alike
   glm::vec3 iris_colour{0.1f}, white_colour{0.6f};  ///< linear RGB
   float iris_size = 1, teeth = 1;       ///< of the table's iris; brightness of the teeth
   bool glasses = false;                 ///< the photo shows some: the skin behind them stays
   std::optional<glm::vec3> lip_colour;  ///< linear RGB, where the lips turn inward
-  std::optional<std::array<EyePicture, 2>> eye_pictures;  ///< right, left: in the photo
+  std::optional<Sided<EyePicture>> eye_pictures;  ///< in the photo
   float saturation = 1;  ///< of what is painted beside the photo: 0 for a grey one
   float lined = 1;  ///< how deep the skin creases with expression, 0..1: less where it is smooth
   /// The skin's map in the photo: HeadTopology::uv (0, 0) and (1, 1), as u right, v down in 0..1.

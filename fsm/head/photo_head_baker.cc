@@ -76,7 +76,7 @@ class PhotoHeadBaker : public HeadBaker {
     HeadVertices open, shut;
     rig.Evaluate({}, open);
     FaceState asleep;
-    asleep.blink_left = asleep.blink_right = 1;
+    asleep.blink.left = asleep.blink.right = 1;
     rig.Evaluate(asleep, shut);
     const auto pose = [this](const HeadVertices& v) {
       return SkinPose{std::span(v.position).first(skin_count_),

@@ -65,16 +65,16 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
 /// light tells, and nothing beside the skin.
 std::vector<float> RelitParts(const PhotoSkin& skin) {
   constexpr float kNone = 14, kAll = 26;  // millimetres from the middle of an eye
-  std::array<glm::vec3, 2> eye{};         // sums and number: right, left
+  Sided<glm::vec3> eye;                   // sums and number
   for (std::size_t i = 0; i < skin.weights.size(); ++i) {
     const SkinWeights& f = skin.weights[i];
     if (f.eye == 0 || f.lid_upper + f.lid_lower < 0.95f) continue;
-    eye[f.eye > 0 ? 1 : 0] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
+    eye[f.eye > 0 ? Side::kLeft : Side::kRight] += glm::vec3(glm::vec2(skin.open.position[i]), 1);
   }
   std::vector<float> parts(skin.weights.size());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     float nearest = 1e9f;
-    for (const glm::vec3 e : eye) {
+    for (const glm::vec3 e : {eye.right, eye.left}) {
       const glm::vec2 middle = glm::vec2(e) / std::max(e.z, 1.0f);
       nearest = std::min(nearest, glm::distance(glm::vec2(skin.open.position[i]), middle));
     }

@@ -18,8 +18,6 @@ using Moves = std::vector<Displacement>;
 
 constexpr float kMostOfShape = 1.5f;
 
-bool IsEye(Bone bone) { return bone == Bone::kEyeRight || bone == Bone::kEyeLeft; }
-
 /// What moves the face's skin.
 Rig FaceOnly(const Head& head) {
   using enum RigStep;
@@ -145,10 +143,11 @@ struct KnownShapes {
 constexpr const char* kLooks[] = {"vrmlookleft", "vrmlookright", "vrmlookup", "vrmlookdown"};
 
 /// What one side of a face does in a state.
-FaceState SideOf(FaceState state, bool left) {
-  (left ? state.au_right : state.au_left) = {};
-  (left ? state.eye_right : state.eye_left) = {};
-  (left ? state.blink_right : state.blink_left) = 0;
+FaceState OnlyOn(Side side, FaceState state) {
+  const Side other = side == Side::kLeft ? Side::kRight : Side::kLeft;
+  state.au[other] = {};
+  state.gaze[other] = {};
+  state.blink[other] = 0;
   return state;
 }
 
@@ -169,11 +168,11 @@ class MeaningFinder {
       return Given(own) ? std::nullopt : Of(own);
     }
     // Halves of what has one name for both sides, unless the whole is there as well.
-    for (const auto& [end, left] : {std::pair("left", true), std::pair("right", false)}) {
+    for (const auto& [end, side] : {std::pair("left", Side::kLeft), {"right", Side::kRight}}) {
       if (!name.ends_with(end)) continue;
       const std::string whole = name.substr(0, name.size() - std::string_view(end).size());
       const auto found = states_.find(whole);
-      if (found != states_.end() && !Given(whole)) return SideOf(*found->second, left);
+      if (found != states_.end() && !Given(whole)) return OnlyOn(side, *found->second);
     }
     return std::nullopt;
   }
@@ -193,7 +192,7 @@ KnownShapes Recognise(const HeadFile& file, const Similarity& to_ours, const Mes
     const bool but_eyes = name.find("eyelook") != std::string::npos && model.has_eyes;
     Moves moves;
     for (const auto& [vertex, by] : shape.deltas) {
-      if (but_eyes && IsEye(model.bone[vertex])) continue;
+      if (but_eyes && EyeOf(model.bone[vertex])) continue;
       moves.push_back({vertex, to_ours.scale * (to_ours.turn * by)});
     }
     if (file.look_by_shape && std::ranges::find(kLooks, name) != std::end(kLooks)) {
@@ -226,7 +225,7 @@ void FreeWhatMoves(const HeadFile& file, const KnownShapes& known, MeshModel& mo
   for (const auto& part : file.parts) {
     if (std::ranges::none_of(part.indices, [&](std::uint32_t v) { return moves[v]; })) continue;
     for (const std::uint32_t v : part.indices) {
-      if (!IsEye(model.bone[v])) model.bone[v] = Bone::kSkin;
+      if (!EyeOf(model.bone[v])) model.bone[v] = Bone::kSkin;
     }
   }
 }
@@ -242,8 +241,8 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
     const auto number = static_cast<std::uint16_t>(unit);
     const auto state_of = [number](bool right, bool left) {
       FaceState state;
-      state.au_right[number] = right ? 1 : 0;
-      state.au_left[number] = left ? 1 : 0;
+      state.au.right[number] = right ? 1 : 0;
+      state.au.left[number] = left ? 1 : 0;
       return state;
     };
     // Both sides of the jaw's sway cancel, so each side is asked as well.
@@ -256,8 +255,8 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
   }
   fit.AddSided({.kind = Drive::Kind::kBlink}, 1, [&](bool right, bool left) {
     FaceState state;
-    state.blink_right = right ? 1 : 0;
-    state.blink_left = left ? 1 : 0;
+    state.blink.right = right ? 1 : 0;
+    state.blink.left = left ? 1 : 0;
     return solve(state);
   });
   constexpr float kGaze = 25;  // degrees
@@ -266,10 +265,10 @@ std::vector<std::vector<Channel::Driver>> FitDrivers(ShapeSolver& solver, const 
       const float angle = half == Drive::Half::kPositive ? kGaze : -kGaze;
       fit.AddSided({.kind = kind, .half = half}, kGaze, [&](bool right, bool left) {
         FaceState state;
-        float FaceState::Eye::*const axis =
-            kind == Drive::Kind::kGazeUp ? &FaceState::Eye::x : &FaceState::Eye::y;
-        state.eye_right.*axis = right ? angle : 0;
-        state.eye_left.*axis = left ? angle : 0;
+        const EyeAngles gaze =
+            kind == Drive::Kind::kGazeUp ? EyeAngles{-angle, 0} : EyeAngles{0, angle};
+        if (right) state.gaze.right = gaze;
+        if (left) state.gaze.left = gaze;
         return solve(state);
       });
     }
@@ -302,9 +301,10 @@ void AddLooks(const KnownShapes& known, const LookRanges& ranges, std::vector<Ch
     const auto found = known.looks.find(look.name);
     if (found == known.looks.end()) continue;
     Channel& channel = channels.emplace_back();
-    for (const Drive::Side side : {Drive::Side::kRight, Drive::Side::kLeft}) {
-      channel.drivers.push_back({{.kind = look.kind, .side = side, .half = look.half},
-                                 0.5f / std::max(look.range.gaze_deg, 1e-3f)});
+    for (const Side side : kSides) {
+      channel.drivers.push_back(
+          {{.kind = look.kind, .side = Drive::OnlyOf(side), .half = look.half},
+           0.5f / std::max(look.range.gaze_deg, 1e-3f)});
     }
     channel.least = 0;
     channel.most = 1;

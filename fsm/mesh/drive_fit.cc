@@ -10,7 +10,7 @@ namespace {
 constexpr float kLeastGain = 5e-3f;  // of a target at full strength
 
 /// How far a parameter goes in speech: millimetres, of the jaw's opening degrees.
-constexpr float FullOf(std::size_t parameter) { return parameter == 11 ? 10.0f : 4.0f; }
+constexpr float FullOf(std::size_t parameter) { return parameter == kJawY ? 10.0f : 4.0f; }
 
 /// Solves a x = b for a symmetric positive definite `a` by Cholesky's decomposition; `b` becomes x.
 void SolvePositive(std::vector<std::vector<double>>& a, std::vector<std::vector<double>>& b) {
@@ -47,10 +47,10 @@ void DriveFit::AddSided(const Drive& drive, float full,
                 both = weights(true, true);
   for (std::size_t k = 0; k < drivers_.size(); ++k) {
     // w = a max(r, l) + b r + c l goes through all three.
-    const std::array<std::pair<Drive::Side, float>, 3> parts{
-        {{Drive::Side::kStronger, right[k] + left[k] - both[k]},
-         {Drive::Side::kRight, both[k] - left[k]},
-         {Drive::Side::kLeft, both[k] - right[k]}}};
+    const std::array<std::pair<Drive::WhichSide, float>, 3> parts{
+        {{Drive::WhichSide::kStronger, right[k] + left[k] - both[k]},
+         {Drive::WhichSide::kRight, both[k] - left[k]},
+         {Drive::WhichSide::kLeft, both[k] - right[k]}}};
     for (const auto& [side, gain] : parts) {
       Drive sided = drive;
       sided.side = side;

@@ -50,10 +50,10 @@ class GltfReader {
     for (const std::int64_t node : nodes_.shown()) Mesh(node);
     if (head_.parts.empty()) Refuse("no mesh of triangles is in it");
     for (const auto& expression : avatar_.expressions) Express(expression);
-    if (avatar_.eye_bone[0] >= 0 && avatar_.eye_bone[1] >= 0) {
-      head_.eye_pivot = {glm::vec3(nodes_.World(avatar_.eye_bone[0])[3]),
-                         glm::vec3(nodes_.World(avatar_.eye_bone[1])[3])};
-      for (std::size_t side = 0; side < 2; ++side) {
+    if (avatar_.eye_bone.right >= 0 && avatar_.eye_bone.left >= 0) {
+      head_.eye_pivot.emplace();
+      for (const Side side : kSides) {
+        (*head_.eye_pivot)[side] = glm::vec3(nodes_.World(avatar_.eye_bone[side])[3]);
         if (WithinReach((*head_.eye_pivot)[side])) continue;
         Refuse("nodes[" + std::to_string(avatar_.eye_bone[side]) +
                "]: the eye lies farther than 10000000 metres from the origin");
@@ -64,8 +64,10 @@ class GltfReader {
     if (avatar_.looks_back) TurnRound();
     if (!head_.texcoord.empty()) head_.texcoord.resize(head_.position.size(), glm::vec2(0));
     if (!head_.tint.empty()) head_.tint.resize(head_.position.size(), glm::vec3(1));
-    head_.eye.resize(head_.position.size(), 0);
-    if (std::ranges::all_of(head_.eye, [](std::int8_t e) { return e == 0; })) head_.eye.clear();
+    head_.eye.resize(head_.position.size());
+    if (std::ranges::none_of(head_.eye, [](const auto& e) { return e.has_value(); })) {
+      head_.eye.clear();
+    }
     return std::move(head_);
   }
 
@@ -149,7 +151,7 @@ class GltfReader {
     count_of_[{place.node, position}] = count;
     std::vector<glm::mat4> stands(count, nodes_.World(place.node));
     std::vector<GltfSkin::Held::Hold> watched;
-    head_.eye.resize(first, 0);
+    head_.eye.resize(first);
     if (place.skin >= 0) {
       GltfSkin::Held held =
           OrRefuse(skins_.at(place.skin)
@@ -177,9 +179,11 @@ class GltfReader {
   }
 
   /// As HeadFile::eye.
-  std::int8_t EyeOf(std::int64_t bone) const {
-    if (bone < 0) return 0;
-    return bone == avatar_.eye_bone[0] ? 1 : bone == avatar_.eye_bone[1] ? 2 : 0;
+  std::optional<Side> EyeOf(std::int64_t bone) const {
+    if (bone < 0) return std::nullopt;
+    const auto is = [this, bone](Side side) { return bone == avatar_.eye_bone[side]; };
+    const auto found = std::ranges::find_if(kSides, is);
+    return found == kSides.end() ? std::nullopt : std::optional(*found);
   }
 
   void ReadTexcoords(const json& attributes, const GltfUv& to, std::size_t first) {
@@ -266,7 +270,7 @@ class GltfReader {
     const glm::vec3 round(-1, 1, -1);
     for (glm::vec3& p : head_.position) p *= round;
     if (head_.eye_pivot) {
-      for (glm::vec3& p : *head_.eye_pivot) p *= round;
+      for (const Side side : kSides) (*head_.eye_pivot)[side] *= round;
     }
     for (Spring& spring : head_.springs) {
       spring.rest *= round;

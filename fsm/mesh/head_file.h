@@ -52,9 +52,9 @@ struct HeadFile {
   std::vector<Detail> details;  ///< of the first pictures
   std::vector<PbrMaterial> pbr_materials;
   std::vector<Shape> shapes;
-  std::vector<std::int8_t> eye;  ///< 0 none, 1 the agent's right, 2 the left; or none at all
+  std::vector<std::optional<Side>> eye;  ///< the one that a vertex is of; or none at all
   /// What those turn about, right and left, where the file says it.
-  std::optional<std::array<glm::vec3, 2>> eye_pivot;
+  std::optional<Sided<glm::vec3>> eye_pivot;
   std::optional<LookRanges> look;  ///< how the eyes follow a gaze, where the file says it
   std::vector<Spring> springs;     ///< what swings: see VrmSprings
   std::vector<SpringWeight> spring_weights;

@@ -145,17 +145,18 @@ class HeadBuilder {
 
   /// Eyes are parts called so, or vertices the file's skeleton gives to eyes.
   void FindEyes() {
-    std::array<Box, 2> box;
-    eye_.assign(at_.size(), 0);
+    Sided<Box> box;
+    eye_.assign(at_.size(), std::nullopt);
     for (const auto& part : file_.parts) {
       for (const std::uint32_t v : part.indices) {
-        if (!file_.eye.empty() ? file_.eye[v] == 0 : !IsEye(part)) continue;
-        eye_[v] = at_[v].x < 0 ? 1 : 2;
-        box[at_[v].x < 0 ? 0 : 1].Add(at_[v]);
+        if (!file_.eye.empty() ? !file_.eye[v] : !IsEye(part)) continue;
+        const Side side = at_[v].x < 0 ? Side::kRight : Side::kLeft;
+        eye_[v] = side;
+        box[side].Add(at_[v]);
       }
     }
-    if (box[0].count == 0 || box[1].count == 0) return;
-    for (std::size_t side = 0; side < 2; ++side) {
+    if (box.right.count == 0 || box.left.count == 0) return;
+    for (const Side side : kSides) {
       const glm::vec3 radii = box[side].radii();
       EyeGeometry& eye = model_.eyes[side];
       eye.ball_radius = std::max(0.5f * (radii.x + radii.y), 1e-6f);
@@ -166,15 +167,17 @@ class HeadBuilder {
       eye.iris_colour = Palette().iris;
     }
     model_.has_eyes = std::ranges::all_of(
-        model_.eyes, [](const EyeGeometry& eye) { return eye.ball_radius < 40; });
+        kSides, [this](Side side) { return model_.eyes[side].ball_radius < 40; });
     model_.look = file_.look;
     if (file_.eye_pivot) {
-      model_.eye_pivot = {to_ours_((*file_.eye_pivot)[0]), to_ours_((*file_.eye_pivot)[1])};
-      for (const glm::vec3& pivot : *model_.eye_pivot) {
+      model_.eye_pivot.emplace();
+      for (const Side side : kSides) {
+        glm::vec3& pivot = (*model_.eye_pivot)[side];
+        pivot = to_ours_((*file_.eye_pivot)[side]);
         if (!WithinReach(pivot)) Refuse("what an eye turns about");
       }
     }
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (const Side side : kSides) {
       // A drawn eye is a disc that turns about a place deep in the head.
       if (box[side].radii().z < 0.4f * model_.eyes[side].ball_radius) model_.round_eyes = false;
     }
@@ -233,7 +236,7 @@ class HeadBuilder {
   static float Wrapped(float x) { return x >= 0 && x <= 1 ? x : x - std::floor(x); }
 
   Bone BoneOf(Kind kind, std::uint32_t v, const Box* piece) const {
-    if (eye_[v] != 0 && model_.has_eyes) return eye_[v] == 1 ? Bone::kEyeRight : Bone::kEyeLeft;
+    if (eye_[v] && model_.has_eyes) return fsm::BoneOf(*eye_[v]);
     switch (kind) {
       case Kind::kTeeth:
       case Kind::kGum:
@@ -289,7 +292,7 @@ class HeadBuilder {
   void AddBalls() {
     if (balls_) return;
     balls_ = true;
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (const Side side : kSides) {
       model_.eyes[side].iris_radius = 5.9f;
       model_.AddBall(side);
     }
@@ -299,7 +302,7 @@ class HeadBuilder {
   const Similarity& to_ours_;
   float mouth_y_;
   std::vector<glm::vec3> at_;
-  std::vector<std::uint8_t> eye_;  // 1 the agent's right, 2 the left
+  std::vector<std::optional<Side>> eye_;  // by vertex
   TextureAtlas atlas_;
   std::map<int, int> pbr_index_;  // of the file's the model's
   MeshModel model_;

@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
 
+#include "fsm/base/spline.h"
 #include "fsm/head/built_in_units.h"
 #include "fsm/head/landmarks.h"
+#include "fsm/head/parts.h"
 #include "fsm/mesh/mesh_model.h"
 #include "fsm/rig/normals.h"
 
@@ -42,7 +45,7 @@ std::vector<BallLid> LidsOf(const MeshModel& model) {
   std::vector<BallLid> lids;
   for (std::uint32_t i = 0; i < model.position.size(); ++i) {
     if (model.bone[i] != Bone::kSkin) continue;
-    for (std::uint8_t side = 0; side < 2; ++side) {
+    for (const Side side : kSides) {
       const EyeGeometry& eye = model.eyes[side];
       const float far = glm::distance(model.position[i], eye.centre);
       if (far < eye.ball_radius - 0.5F || far > eye.ball_radius + kReach) continue;
@@ -93,7 +96,7 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
   rig.soft_triangles = topology.indices;
   if (!topology.pbr_materials.empty()) rig.normal_twin = NormalTwins(rig.rest, rig.rest_normal);
   rig.jaw_hinge = model.hinge;
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     rig.ball_centre[side] = model.eyes[side].centre;
     rig.eye_pivot[side] = model.eye_pivot ? (*model.eye_pivot)[side] : rig.ball_centre[side];
   }
@@ -108,6 +111,38 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
   return rig;
 }
 
+/// Light comes into the mouth between the lips: where they part, and the teeth behind them. Less of
+/// it reaches what stands at the sides, and the lower teeth.
+void FindMouth(const RigData& rig, HeadTopology& topology) {
+  if (!rig.lips.measured || rig.lips.seam.empty()) return;
+  FindIncisors(rig.rest, rig.bone, topology);
+  MouthSlit& mouth = topology.mouth;
+  if (mouth.upper_incisor == mouth.lower_incisor) {  // there are no teeth
+    mouth = {};
+    return;
+  }
+  mouth.lips = rig.lips.seam;
+  mouth.corner_left = (*rig.lips.measured)[2];
+  mouth.corner_right = (*rig.lips.measured)[3];
+  const auto& light = Features::BuiltIn()["teeth_light"];
+  const glm::vec3 shade = Features::BuiltIn().Vector("lower_teeth_colour");
+  const float middle = rig.rest[mouth.upper_incisor].x;
+  std::vector<bool> taken(rig.rest.size(), false);
+  for (const HeadTopology::Part& part : topology.parts) {
+    const bool teeth = part.material == Material::kTeeth;
+    if (!teeth && part.material != Material::kGum && part.material != Material::kTongue) continue;
+    for (std::uint32_t k = part.first_index; k < part.first_index + part.index_count; ++k) {
+      const std::uint32_t i = topology.indices[k];
+      if (taken[i]) continue;
+      taken[i] = true;
+      const bool lower = rig.bone[i] == Bone::kJaw;
+      if (teeth && lower) topology.albedo[i] *= shade;
+      topology.occlusion[i] = glm::mix(light[teeth && lower ? 1 : 0], light[2],
+                                       SmoothStep(6, 32, std::abs(rig.rest[i].x - middle)));
+    }
+  }
+}
+
 }  // namespace
 
 RigData StillSkin() {
@@ -119,6 +154,7 @@ RigData StillSkin() {
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin) {
   HeadAsset asset{.topology = TopologyOf(model), .rig = {}, .landmarks = {}, .view = model.view};
   asset.rig = RigOf(model, asset.topology, std::move(skin));
+  if (model.seam.empty() && !model.photo) FindMouth(asset.rig, asset.topology);
   asset.landmarks = std::move(model.landmarks);
   return std::make_unique<Head>(std::move(asset));
 }

@@ -58,16 +58,16 @@ std::vector<std::uint32_t> MeshModel::SkinTriangles() const {
 }
 
 std::vector<std::uint32_t> MeshModel::EyeTriangles() const {
-  return TrianglesOf(*this, [](Bone b) { return b == Bone::kEyeRight || b == Bone::kEyeLeft; });
+  return TrianglesOf(*this, [](Bone b) { return EyeOf(b).has_value(); });
 }
 
-void MeshModel::AddBall(std::size_t side) {
+void MeshModel::AddBall(Side side) {
   // Rings about the line of sight, one of them the edge of the iris.
   constexpr int kSegments = 32, kIrisRings = 4, kRings = 14;
   constexpr float kPi = std::numbers::pi_v<float>;
   const EyeGeometry& eye = eyes[side];
   const float edge = std::asin(std::min(eye.iris_radius / eye.ball_radius, 0.9F));
-  const Bone carrier = side == 0 ? Bone::kEyeRight : Bone::kEyeLeft;
+  const Bone carrier = BoneOf(side);
   const auto first = static_cast<std::uint32_t>(position.size());
   for (int ring = 0; ring <= kRings; ++ring) {
     const float angle = ring <= kIrisRings

@@ -32,11 +32,11 @@ struct MeshModel {
   std::shared_ptr<const Image> photo, normal_map, emissive_map;
   std::vector<PbrMaterial> pbr_materials;
   std::vector<HeadMesh::Batch> batches;
-  std::array<EyeGeometry, 2> eyes{};  ///< right, left; meaningful where has_eyes
+  Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes
   bool has_eyes = false;
-  std::optional<std::array<glm::vec3, 2>> eye_pivot;  ///< what they turn about, if not the centres
-  std::optional<LookRanges> look;                     ///< else they turn as ours do
-  bool round_eyes = true;                             ///< balls that lids must stay outside of
+  std::optional<Sided<glm::vec3>> eye_pivot;  ///< what they turn about, if not the centres
+  std::optional<LookRanges> look;             ///< else they turn as ours do
+  bool round_eyes = true;                     ///< balls that lids must stay outside of
   bool has_uv_seams = false;    ///< vertices are doubled where the texture is sewn together
   glm::vec3 hinge{0, -4, -3};   ///< the jaw's axis goes through it, as ours does
   std::vector<Spring> springs;  ///< see RigData
@@ -57,7 +57,7 @@ struct MeshModel {
   std::vector<std::uint32_t> SkinTriangles() const;
   std::vector<std::uint32_t> EyeTriangles() const;  ///< those of the eyeballs
   /// An eyeball with an iris about eyes[side], in our own colours.
-  void AddBall(std::size_t side);
+  void AddBall(Side side);
 };
 
 /// Skin that nothing but the head's turn moves; with the units of built-in heads.

@@ -78,18 +78,18 @@ class Reader {
   }
 
   void ReadUnits() {
-    const float middle = 0.5F * (frame_.Place(standard_, kLipCorners[0]).x +
-                                 frame_.Place(standard_, kLipCorners[1]).x);
+    const float middle = 0.5F * (frame_.Place(standard_, kLipCorners.right).x +
+                                 frame_.Place(standard_, kLipCorners.left).x);
     std::vector<float> left;
     for (const glm::vec3& p : standard_.at) left.push_back(LeftPartAt(frame_.ToMm(p).x - middle));
     std::vector<NnlsSolver::Row> halves;
     for (int unit = 1; unit <= static_cast<int>(kOriginalUnits); ++unit) {
       const std::string path = PathOf(folder_, "AU", unit);
       const NnlsSolver::Row whole = Offsets(path, vm::OrThrow(ReadPnt(path)));
-      for (const bool is_left : {false, true}) {
+      for (const Side side : kSides) {
         halves.push_back(whole);
         for (std::size_t i = 0; i < halves.back().size(); ++i) {
-          halves.back()[i] *= is_left ? left[i / 3] : 1 - left[i / 3];
+          halves.back()[i] *= side == Side::kLeft ? left[i / 3] : 1 - left[i / 3];
         }
       }
     }
@@ -109,8 +109,8 @@ class Reader {
     const NnlsSolver::Parts parts = units_.TakeApart(offsets);
     OriginalExpression made;
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {
-      made.right[i] = parts.weights[2 * i];
-      made.left[i] = parts.weights[2 * i + 1];
+      made.strengths.right[i] = parts.weights[2 * i];
+      made.strengths.left[i] = parts.weights[2 * i + 1];
     }
     PntFile rest;
     float most = 0;

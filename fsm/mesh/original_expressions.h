@@ -16,21 +16,25 @@ namespace fsm {
 /// but action units here. Each file is taken apart into units of the agent's right and left side;
 /// what they leave is kept, as "rest", and shown with it.
 ///
-/// An expression comes to the face as a look of FaceState::au_left and au_right alone, so a rest
+/// An expression comes to the face as a look of FaceState::au alone, so a rest
 /// has a number there that FACS does not use, on one side, and so does nothing to other heads.
 struct ExpressionChannel {
   std::size_t unit;
-  bool left;
+  Side side;
 };
-inline constexpr std::array<ExpressionChannel, 6> kExpressionChannels{
-    {{3, false}, {3, true}, {40, false}, {40, true}, {0, false}, {0, true}}};
+inline constexpr std::array<ExpressionChannel, 6> kExpressionChannels{{{3, Side::kRight},
+                                                                       {3, Side::kLeft},
+                                                                       {40, Side::kRight},
+                                                                       {40, Side::kLeft},
+                                                                       {0, Side::kRight},
+                                                                       {0, Side::kLeft}}};
 inline constexpr std::size_t kNoChannel = kExpressionChannels.size();
 
 struct OriginalExpression {
-  std::string name;                                   ///< of FaceExp
-  int pattern = 1;                                    ///< from 1
-  std::array<float, kOriginalUnits> right{}, left{};  ///< by the original's list of units
-  std::size_t channel = kNoChannel;                   ///< of its rest
+  std::string name;                                    ///< of FaceExp
+  int pattern = 1;                                     ///< from 1
+  Sided<std::array<float, kOriginalUnits>> strengths;  ///< by the original's list of units
+  std::size_t channel = kNoChannel;                    ///< of its rest
 };
 
 struct OriginalExpressions {

@@ -116,14 +116,15 @@ vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes) 
   EyeDef def;
   // The numbers that are read, by their index; an eye has seven of them in either half of the file.
   std::vector<std::pair<std::size_t, float*>> used{{28, &def.picture_scale}};
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     EyeDef::Eye& eye = def.eye[side];
+    const std::size_t first = side == Side::kRight ? 0 : 7;
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<std::size_t>(i);
-      used.emplace_back(7 * side + axis, &eye.place[i]);
-      used.emplace_back(14 + 7 * side + 3 + axis, &eye.turn_degrees[i]);
+      used.emplace_back(first + axis, &eye.place[i]);
+      used.emplace_back(14 + first + 3 + axis, &eye.turn_degrees[i]);
     }
-    used.emplace_back(7 * side + 6, &eye.scale);
+    used.emplace_back(first + 6, &eye.scale);
   }
   for (const auto& [index, to] : used) {
     const double number = DoubleAt(bytes, 8 * index);

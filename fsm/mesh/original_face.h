@@ -26,7 +26,7 @@ struct EyeDef {
     glm::vec3 place{0}, turn_degrees{0};
     float scale = 1;
   };
-  std::array<Eye, 2> eye;
+  Sided<Eye> eye;
   float picture_scale = 1;
 };
 vm::Result<EyeDef> ParseEyeDef(const std::string& name, std::string_view bytes);

@@ -77,7 +77,7 @@ class OriginalBuilder {
   void AddMouth() {
     std::vector<std::uint32_t> rim;
     for (const PointName& name : kLipRim) rim.push_back(Vertex(name));
-    const glm::vec3 middle = 0.5F * (Place(kLipCorners[0]) + Place(kLipCorners[1]));
+    const glm::vec3 middle = 0.5F * (Place(kLipCorners.right) + Place(kLipCorners.left));
     struct Ring {
       float back, high, wide;
     };
@@ -111,7 +111,7 @@ class OriginalBuilder {
 
   void AddEyes(std::size_t picture) {
     model_.has_eyes = true;
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (const Side side : kSides) {
       EyeGeometry& eye = model_.eyes[side];
       eye.iris_colour = {0.10F, 0.055F, 0.03F};
       if (face_.eye_def && face_.eye) {
@@ -125,11 +125,11 @@ class OriginalBuilder {
   }
 
   /// The eyeball of the configuration. Its picture is laid on it from the front.
-  void AddOwnEye(std::size_t side, std::size_t picture) {
+  void AddOwnEye(Side side, std::size_t picture) {
     const EyeDef& def = *face_.eye_def;
     // Right and left are told apart by where they lie, not by what the file calls them.
-    const std::size_t of = (def.eye[0].place.x < def.eye[1].place.x) == (side == 0) ? 0 : 1;
-    const EyeDef::Eye& eye = def.eye[of];
+    const bool right = (def.eye.right.place.x < def.eye.left.place.x) == (side == Side::kRight);
+    const EyeDef::Eye& eye = right ? def.eye.right : def.eye.left;
     const glm::vec3 turn = glm::radians(eye.turn_degrees);
     glm::mat4 turned(1.0F);
     turned = glm::rotate(turned, turn.x, {1, 0, 0});
@@ -144,7 +144,7 @@ class OriginalBuilder {
     model_.eyes[side].centre = frame_.ToMm(eye.place);
     model_.eyes[side].ball_radius = 0.5F * size.x * eye.scale * frame_.mm();
     model_.eyes[side].iris_radius = 0.48F * model_.eyes[side].ball_radius;
-    const Bone carrier = side == 0 ? Bone::kEyeRight : Bone::kEyeLeft;
+    const Bone carrier = BoneOf(side);
     const auto first = static_cast<std::uint32_t>(model_.position.size());
     for (const glm::vec3& p : face_.eye->positions) {
       const glm::vec2 flat = 0.5F + def.picture_scale * glm::vec2(p - middle) / glm::vec2(size);
@@ -163,7 +163,7 @@ class OriginalBuilder {
 
   /// Behind each rim of lids, so that nothing is seen past the ball.
   void AddSockets() {
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (const Side side : kSides) {
       const glm::vec3 centre = model_.eyes[side].centre;
       std::vector<std::uint32_t> rim, back;
       for (const PointName& name : LidRim(side)) {
@@ -197,7 +197,7 @@ class OriginalBuilder {
       high = glm::max(high, p);
     }
     const glm::vec3 size = glm::max(high - low, 1e-6F);
-    const float wide = std::abs(at(kJawAtTeeth[1]).x - at(kJawAtTeeth[0]).x) / size.x;
+    const float wide = std::abs(at(kJawAtTeeth.left).x - at(kJawAtTeeth.right).x) / size.x;
     const float tall = std::abs(at(places.top).y - at(places.bottom).y) / size.y;
     const float edge = 0.5F * (at(kUpperLipFront).y + at(kLipMiddle).y);
     const glm::vec3 from(0.5F * (low.x + high.x), upper ? low.y : high.y, high.z);

@@ -14,8 +14,6 @@
 namespace fsm {
 namespace {
 
-constexpr std::size_t kEyesClosed = 43;
-
 /// Of a viseme's offsets that the original shows for a full articulation: its MouthScale is 30 by
 /// default, which stands for three quarters here. All of them are shown at 100.
 constexpr float kVisemePart = 0.4f;
@@ -29,7 +27,7 @@ class OriginalRigBaker {
     // added as they are, as in the original: those of small faces move more.
     const OriginalFrame standard(face.standard);
     const auto height = [](const OriginalFrame& frame, const PntFile& file) {
-      return frame.EyeOpening(file, 0).y - frame.Place(file, kLipMiddle).y;
+      return frame.EyeOpening(file, Side::kRight).y - frame.Place(file, kLipMiddle).y;
     };
     const float tall = height(own_, face.wireframe) / height(standard, face.standard);
     unit_scale_ = standard.mm() * glm::vec3(1, std::clamp(tall, 0.5f, 2.0f), 1);
@@ -42,8 +40,8 @@ class OriginalRigBaker {
     rig_.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
     AddUnits();
     for (std::size_t k = 0; k < face_.expression_rests.size(); ++k) {
-      const auto [unit, is_left] = kExpressionChannels[k];
-      Add(Moves(face_.expression_rests[k], unit_scale_), {{Asked(unit, is_left)}});
+      const auto [unit, side] = kExpressionChannels[k];
+      Add(Moves(face_.expression_rests[k], unit_scale_), {{Asked(unit, side)}});
     }
     AddVisemes(mouths);
     for (std::size_t k = 0; k < face_.mouth_units.size(); ++k) {
@@ -59,10 +57,10 @@ class OriginalRigBaker {
   }
 
  private:
-  static Drive Asked(std::size_t unit, bool left) {
+  static Drive Asked(std::size_t unit, Side side) {
     return {.kind = Drive::Kind::kAskedUnit,
             .number = static_cast<std::uint16_t>(unit),
-            .side = left ? Drive::Side::kLeft : Drive::Side::kRight};
+            .side = Drive::OnlyOf(side)};
   }
 
   static std::vector<Displacement> Moves(const std::vector<glm::vec3>& offsets,
@@ -85,21 +83,20 @@ class OriginalRigBaker {
 
   /// Units as they are asked for: the original's add up, ours damp and oppose each other.
   void AddUnits() {
-    const float middle = 0.5f * (own_.Place(face_.wireframe, kLipCorners[0]).x +
-                                 own_.Place(face_.wireframe, kLipCorners[1]).x);
+    const float middle = 0.5f * (own_.Place(face_.wireframe, kLipCorners.right).x +
+                                 own_.Place(face_.wireframe, kLipCorners.left).x);
     for (std::size_t k = 0; k < face_.units.size(); ++k) {
       const std::vector<Displacement> both = Moves(face_.units[k], unit_scale_);
-      for (const bool left : {false, true}) {
+      for (const Side side : kSides) {
         std::vector<Displacement> moves = both;
         for (Displacement& d : moves) {
           const float part = LeftPartAt(model_.position[d.vertex].x - middle);
-          d.by *= left ? part : 1 - part;
+          d.by *= side == Side::kLeft ? part : 1 - part;
         }
         const auto number = static_cast<std::size_t>(kUnitNumbers[k]);
-        Channel& channel = Add(std::move(moves), {{Asked(number, left)}});
+        Channel& channel = Add(std::move(moves), {{Asked(number, side)}});
         if (number != kEyesClosed) continue;
-        channel.drivers.push_back({{.kind = Drive::Kind::kBlink,
-                                    .side = left ? Drive::Side::kLeft : Drive::Side::kRight}});
+        channel.drivers.push_back({{.kind = Drive::Kind::kBlink, .side = Drive::OnlyOf(side)}});
       }
     }
   }

@@ -6,32 +6,23 @@
 namespace fsm {
 namespace {
 
-constexpr std::array<PointName, 12> kLids[2] = {{{{4, 17},
-                                                  {4, 18},
-                                                  {4, 19},
-                                                  {4, 20},
-                                                  {4, 21},
-                                                  {4, 22},
-                                                  {4, 23},
-                                                  {4, 28},
-                                                  {4, 27},
-                                                  {4, 26},
-                                                  {4, 25},
-                                                  {4, 24}}},
-                                                {{{5, 17},
-                                                  {5, 18},
-                                                  {5, 19},
-                                                  {5, 20},
-                                                  {5, 21},
-                                                  {5, 22},
-                                                  {5, 23},
-                                                  {5, 28},
-                                                  {5, 27},
-                                                  {5, 26},
-                                                  {5, 25},
-                                                  {5, 24}}}};
+constexpr std::array<PointName, 12> LidsOf(int group) {
+  return {{{group, 17},
+           {group, 18},
+           {group, 19},
+           {group, 20},
+           {group, 21},
+           {group, 22},
+           {group, 23},
+           {group, 28},
+           {group, 27},
+           {group, 26},
+           {group, 25},
+           {group, 24}}};
+}
+constexpr Sided<std::array<PointName, 12>> kLids{LidsOf(4), LidsOf(5)};
 
-glm::vec3 MeanOfRim(const PntFile& file, std::size_t side) {
+glm::vec3 MeanOfRim(const PntFile& file, Side side) {
   glm::vec3 sum(0);
   for (const PointName& name : kLids[side]) sum += file.at[file.index.at(name)];
   return sum / static_cast<float>(kLids[side].size());
@@ -39,15 +30,16 @@ glm::vec3 MeanOfRim(const PntFile& file, std::size_t side) {
 
 }  // namespace
 
-std::span<const PointName> LidRim(std::size_t side) { return kLids[side]; }
+std::span<const PointName> LidRim(Side side) { return kLids[side]; }
 
 OriginalFrame::OriginalFrame(const PntFile& wireframe) {
-  const glm::vec3 right = MeanOfRim(wireframe, 0), left = MeanOfRim(wireframe, 1);
+  const glm::vec3 right = MeanOfRim(wireframe, Side::kRight),
+                  left = MeanOfRim(wireframe, Side::kLeft);
   middle_ = 0.5f * (right + left);
   mm_ = kOpeningsApart / std::max(glm::distance(right, left), 1e-4f);
 }
 
-glm::vec3 OriginalFrame::EyeOpening(const PntFile& file, std::size_t side) const {
+glm::vec3 OriginalFrame::EyeOpening(const PntFile& file, Side side) const {
   return ToMm(MeanOfRim(file, side));
 }
 
@@ -61,15 +53,15 @@ vm::Result<void> CheckPoints(const std::string& name, const PntFile& file) {
   for (const auto& point : kLipRim) {
     if (auto there = check(point); !there) return there;
   }
-  for (const auto& rim : kLids) {
-    for (const auto& point : rim) {
+  for (const Side side : kSides) {
+    for (const auto& point : kLids[side]) {
       if (auto there = check(point); !there) return there;
     }
   }
   for (const auto& named : kNamedPoints) {
     if (auto there = check(named.second); !there) return there;
   }
-  for (const auto& point : {kJawAtTeeth[0], kJawAtTeeth[1], kUpperLipFront, kUpperTeeth.top,
+  for (const auto& point : {kJawAtTeeth.right, kJawAtTeeth.left, kUpperLipFront, kUpperTeeth.top,
                             kUpperTeeth.front, kLowerTeeth.bottom, kLowerTeeth.front}) {
     if (auto there = check(point); !there) return there;
   }

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "fsm/base/side.h"
 #include "fsm/mesh/pnt_file.h"
 
 namespace fsm {
@@ -12,7 +13,7 @@ namespace fsm {
 /// Points of the original's wireframe by what they lie on, found by looking at fheadv2.pnt and
 /// .lnk: the mouth's rim is the open edge of groups 1 and 2, the lids' rims are those of 4 and 5.
 inline constexpr PointName kChin{18, 20}, kLipMiddle{1, 36};
-inline constexpr std::array<PointName, 2> kLipCorners{{{1, 33}, {2, 33}}};  ///< agent's right, left
+inline constexpr Sided<PointName> kLipCorners{{1, 33}, {2, 33}};
 
 /// The rim of the mouth from the agent's right corner over the upper lip and back over the lower.
 inline constexpr std::array<PointName, 20> kLipRim{
@@ -20,7 +21,7 @@ inline constexpr std::array<PointName, 20> kLipRim{
      {2, 33}, {2, 18}, {2, 17}, {2, 16}, {2, 15}, {1, 37}, {1, 15}, {1, 16}, {1, 17}, {1, 18}}};
 /// What bounds the teeth: the jaw right and left of them, the upper lip's front above its edge, and
 /// of each row the top, the bottom and how far forward its front is.
-inline constexpr std::array<PointName, 2> kJawAtTeeth{{{12, 15}, {13, 15}}};
+inline constexpr Sided<PointName> kJawAtTeeth{{12, 15}, {13, 15}};
 inline constexpr PointName kUpperLipFront{1, 35};
 struct TeethPoints {
   PointName top, bottom, front;
@@ -40,8 +41,8 @@ inline constexpr std::array<std::pair<PointName, PointName>, 11> kLipPairs{{{{1,
                                                                             {{2, 13}, {2, 17}},
                                                                             {{2, 14}, {2, 18}},
                                                                             {{2, 33}, {2, 33}}}};
-/// The rim of the lids, side 0 = the agent's right; inner corner first.
-std::span<const PointName> LidRim(std::size_t side);
+/// The rim of the lids, inner corner first.
+std::span<const PointName> LidRim(Side side);
 
 /// Places with the names of Head::Landmark.
 inline constexpr std::pair<const char*, PointName> kNamedPoints[] = {
@@ -73,7 +74,7 @@ class OriginalFrame {
   glm::vec3 Place(const PntFile& file, PointName name) const {
     return ToMm(file.at[file.index.at(name)]);
   }
-  glm::vec3 EyeOpening(const PntFile& file, std::size_t side) const;
+  glm::vec3 EyeOpening(const PntFile& file, Side side) const;
   float mm() const { return mm_; }
 
  private:

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fsm/head/paint.h"
 #include "fsm/mesh/head_file.h"
 
 namespace fsm {
@@ -102,7 +103,7 @@ class RigResampler {
     const auto lids = ByVertex(source_.lids.vertices);
     for (std::uint32_t v = 0; v < rows_.size(); ++v) {
       LidRig::Vertex mean{.vertex = v,
-                          .side = 0,
+                          .side = Side::kRight,
                           .upper = 0,
                           .lower = 0,
                           .upper_angle = 0,
@@ -127,10 +128,10 @@ class RigResampler {
         mean.opening += share * one->opening;
         mean.y += share * one->y;
         mean.z += share * one->z;
-        left += one->side == 1 ? share : 0;
+        left += one->side == Side::kLeft ? share : 0;
         proper += one->proper ? part : 0;
       }
-      mean.side = left > 0.5f ? 1 : 0;
+      mean.side = left > 0.5f ? Side::kLeft : Side::kRight;
       mean.proper = proper > 0.5f;
       rig_.lids.vertices.push_back(mean);
     }
@@ -196,6 +197,27 @@ std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshM
   return all;
 }
 
+/// A head without pictures has lips, and their inside, as red beside its skin as the source has.
+void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
+  if (model.photo) return;
+  const HeadTopology& topology = source.topology();
+  std::vector<bool> lip(topology.albedo.size(), false);
+  for (const std::uint32_t v : TrianglesOf(topology, {Material::kLip, Material::kMouthInside})) {
+    lip[v] = true;
+  }
+  const glm::vec3 skin = Palette().skin;
+  for (std::size_t v = 0; v < rows.size(); ++v) {
+    glm::vec3 red(0);
+    float part = 0;
+    for (const auto& [from, share] : rows[v]) {
+      if (!lip[from]) continue;
+      red += share * topology.albedo[from] / skin;
+      part += share;
+    }
+    if (part > 0) model.albedo[v] *= red + glm::vec3(1 - std::min(part, 1.0f));
+  }
+}
+
 /// From where the rig leaves the vertices while nothing is asked to where they are.
 std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
                                std::span<const Row> rows) {
@@ -211,6 +233,31 @@ std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
     if (!rows[v].empty()) form[v] = model.position[v] - still.position[v];
   }
   return form;
+}
+
+/// The unseen lips come to lie where the head has its own; pairs stay together.
+void MoveLips(const LipRig& lips, const MeshModel& model, std::span<const PointPair> pairs,
+              std::vector<glm::vec3>& form) {
+  const auto off = [&](glm::vec3 at) {
+    constexpr float kNear = 3;  // millimetres
+    glm::vec3 sum(0);
+    float weight = 1e-9f;
+    for (const PointPair& pair : pairs) {
+      if (pair.part != FacePart::kUpperLip && pair.part != FacePart::kLowerLip) continue;
+      const float far = glm::distance(pair.from, at) / kNear;
+      const float one = std::exp(-far * far);
+      sum += one * (pair.to - pair.from);
+      weight += one;
+    }
+    return sum / weight;
+  };
+  for (const auto& [upper, lower] : lips.seam) {
+    form[upper] = form[lower] = off(0.5f * (model.position[upper] + model.position[lower]));
+  }
+  if (!lips.measured) return;
+  for (const std::uint32_t corner : {(*lips.measured)[2], (*lips.measured)[3]}) {
+    form[corner] = off(model.position[corner]);
+  }
 }
 
 DeformationTransfer TransferBetween(const Head& source, const MeshModel& model,
@@ -252,6 +299,8 @@ RigData TransferredRig(MeshModel& model, const Head& source, std::span<const Poi
                     std::back_inserter(rig.channels));
   rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};
   rig.own_form = OwnForm(rig, model, rows);
+  MoveLips(rig.lips, model, pairs, rig.own_form);
+  RedLips(source, rows, model);
   rig.steps.push_back(kOwnForm);
   return rig;
 }

@@ -22,8 +22,8 @@ void ReadOld(const json& vrm, VrmAvatar& avatar) {
   avatar.looks_back = true;
   for (const json& bone : PartOf(PartOf(vrm, "humanoid"), "humanBones")) {
     const std::string name = TextOf(bone, "bone");
-    if (name == "rightEye") avatar.eye_bone[0] = WholeOf(bone, "node");
-    if (name == "leftEye") avatar.eye_bone[1] = WholeOf(bone, "node");
+    if (name == "rightEye") avatar.eye_bone.right = WholeOf(bone, "node");
+    if (name == "leftEye") avatar.eye_bone.left = WholeOf(bone, "node");
   }
   const json& person = PartOf(vrm, "firstPerson");
   avatar.says_look = person.contains("lookAtTypeName");
@@ -81,8 +81,8 @@ void FindByName(const GltfDocument& document, VrmAvatar& avatar) {
     const json& skin = document.At("skins", static_cast<std::int64_t>(s));
     for (const std::int64_t node : WholesOf(skin, "joints")) {
       const std::string name = PlainShapeName(TextOf(document.At("nodes", node), "name"));
-      if (name.ends_with("righteye") || name.ends_with("eyeright")) avatar.eye_bone[0] = node;
-      if (name.ends_with("lefteye") || name.ends_with("eyeleft")) avatar.eye_bone[1] = node;
+      if (name.ends_with("righteye") || name.ends_with("eyeright")) avatar.eye_bone.right = node;
+      if (name.ends_with("lefteye") || name.ends_with("eyeleft")) avatar.eye_bone.left = node;
     }
   }
 }

@@ -24,7 +24,7 @@ struct VrmAvatar {
     std::string name;
     std::vector<Bind> binds;
   };
-  std::array<std::int64_t, 2> eye_bone{-1, -1};  ///< nodes, the agent's right and left; -1: none
+  Sided<std::int64_t> eye_bone{-1, -1};  ///< nodes; -1: none
   /// Avatars of VRM 0.x look to -z, those of 1.0 and other glTF to +z.
   bool looks_back = false;
   bool says_look = false;      ///< `look` is the file's

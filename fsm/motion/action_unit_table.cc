@@ -16,34 +16,32 @@ namespace fsm {
 ActionUnits Mix(const ActionUnits& a, const ActionUnits& b, double share_of_b) {
   ActionUnits out = a;
   const auto mix = [share_of_b](float& to, float from) { to = Mix(to, from, share_of_b); };
-  Combine(out.left, b.left, mix);
-  Combine(out.right, b.right, mix);
-  out.gaze_left = Mix(a.gaze_left, b.gaze_left, share_of_b);
-  out.gaze_right = Mix(a.gaze_right, b.gaze_right, share_of_b);
+  for (const Side side : kSides) {
+    Combine(out.au[side], b.au[side], mix);
+    out.gaze[side] = Mix(a.gaze[side], b.gaze[side], share_of_b);
+  }
   return out;
 }
 
 void AddTo(ActionUnits& a, const ActionUnits& b, double weight) {
   if (weight == 0) return;
   const auto add = [weight](float& to, float from) { to += static_cast<float>(weight * from); };
-  Combine(a.left, b.left, add);
-  Combine(a.right, b.right, add);
-  for (std::size_t i = 0; i < 2; ++i) {
-    add(a.gaze_left[i], b.gaze_left[i]);
-    add(a.gaze_right[i], b.gaze_right[i]);
+  for (const Side side : kSides) {
+    Combine(a.au[side], b.au[side], add);
+    for (std::size_t i = 0; i < a.gaze[side].size(); ++i) add(a.gaze[side][i], b.gaze[side][i]);
   }
 }
 
 namespace {
 
 /// "DOWN,RIGHT" in degrees.
-std::optional<std::array<float, 2>> ReadAngles(std::string_view word) {
+std::optional<EyeAngles> ReadAngles(std::string_view word) {
   const std::size_t comma = word.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
   const auto down = ParseNumber(word.substr(0, comma));
   const auto right = ParseNumber(word.substr(comma + 1));
   if (!down || !right) return std::nullopt;
-  return std::array{static_cast<float>(*down), static_cast<float>(*right)};
+  return EyeAngles{static_cast<float>(*down), static_cast<float>(*right)};
 }
 
 UnitName UnitOf(const TableRow& row, std::string_view word, const UnitNames& names) {
@@ -123,8 +121,8 @@ ActionUnits ReadUnits(const TableRow& row, std::size_t first, const UnitNames& n
       if (!angles || (key != "gaze" && key != "gazeL" && key != "gazeR")) {
         row.Fail(fmt::format("'{}' found, gaze[L|R]:DOWN,RIGHT in degrees expected", word));
       }
-      if (key != "gazeR") units.gaze_left = *angles;
-      if (key != "gazeL") units.gaze_right = *angles;
+      if (key != "gazeR") units.gaze.left = *angles;
+      if (key != "gazeL") units.gaze.right = *angles;
       continue;
     }
     const UnitName unit = UnitOf(row, key, names);
@@ -133,9 +131,9 @@ ActionUnits ReadUnits(const TableRow& row, std::size_t first, const UnitNames& n
       row.Fail(fmt::format("'{}' found, a weight from 0 to 2 expected", value));
     }
     const auto index = static_cast<std::size_t>(unit.number);
-    if (unit.left) units.left[index] = static_cast<float>(*weight);
+    if (unit.left) units.au.left[index] = static_cast<float>(*weight);
     const bool only_left = unit.left && names.IsOneSided(unit.number);
-    if (unit.right && !only_left) units.right[index] = static_cast<float>(*weight);
+    if (unit.right && !only_left) units.au.right[index] = static_cast<float>(*weight);
   }
   return units;
 }

@@ -16,13 +16,10 @@ struct UnitNames;
 /// The names of the table the program carries, see unit_names.h.
 const UnitNames& BuiltInUnitNames();
 
-/// Weights of all action units, left and right, and where the eyes go with them (degrees, x+ =
-/// down, y+ = to the viewer's right, each eye).
+/// Weights of all action units, and where the eyes go with them.
 struct ActionUnits {
-  UnitValues left;
-  UnitValues right;
-  std::array<float, 2> gaze_left{};
-  std::array<float, 2> gaze_right{};
+  Sided<UnitValues> au;
+  Sided<EyeAngles> gaze;
 };
 ActionUnits Mix(const ActionUnits& a, const ActionUnits& b, double share_of_b);
 /// Calls `change(strength in to, strength in other)` for every number that either of them has.

@@ -14,9 +14,10 @@ constexpr double kForever = 1e9;
 constexpr double kRise = 55;            // of a contact
 constexpr double kPauseEase = 60;       // lips meet in a pause, and part before its end
 constexpr double kShortestPause = 120;  // in which they do
+constexpr double kOver = 24;            // from one closure to the next
 constexpr double kJawGives = 0.75;      // of the jaw's way, where the lips close over it
 
-// Which dominance rules each of the 17 parameters (face_state.h): the jaw, the lips' opening, or
+// Which dominance rules each MouthParameter: the jaw, the lips' opening, or
 // their rounding.
 enum Group : std::size_t { kJaw, kLips, kRound, kTongue, kGroups };
 constexpr std::array<Group, kMouthParameters> kGroupOf = {
@@ -78,9 +79,16 @@ void DominanceCurves::PlaceContacts() {
       contact = {start - std::clamp(0.7 * before, 12.0, kRise), start, to,
                  std::max(sound.end_ms, to + 20)};
     }
-    // From closure to closure the lips stay together.
-    if (closed_before) contact.rise = contact.from = start;
-    if (closed_after) contact.to = contact.fall = sound.end_ms;
+    // From closure to closure the lips stay together; how they are pressed goes over from one to
+    // the other.
+    if (closed_before) {
+      contact.rise = start - kOver;
+      contact.from = start;
+    }
+    if (closed_after) {
+      contact.to = sound.end_ms;
+      contact.fall = sound.end_ms + kOver;
+    }
     sound.contact = contact;
   }
 }

@@ -1,6 +1,7 @@
 #include "fsm/motion/expression_motion.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "fsm/base/random.h"
 #include "fsm/motion/motion_errors.h"
@@ -27,7 +28,8 @@ ExpressionMotion::ExpressionMotion(MotionTables& tables, const MotionSettings& s
 
 void ExpressionMotion::SetPerson(std::uint64_t seed) {
   side_lags_ms_ = {};
-  side_lags_ms_[RandomAt(seed, kLateSide, 0) < 0 ? 0 : 1] = 30 + 10 * RandomAt(seed, kLag, 0);
+  const Side late = RandomAt(seed, kLateSide, 0) < 0 ? Side::kLeft : Side::kRight;
+  side_lags_ms_[late] = 30 + 10 * RandomAt(seed, kLag, 0);
 }
 
 // ---- commands
@@ -66,7 +68,7 @@ void ExpressionMotion::Plan(vm::Time now, const ActionUnits& look, const Emotion
                             vm::Time onset, vm::Time duration) {
   const bool timed = duration > vm::Time(0);
   if (timed) onset = std::min(onset, duration / 2);
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     const double side_lag_ms = idle_.On(IdleKind::kAsymmetry) ? side_lags_ms_[side] : 0;
     for (std::size_t part = 0; part < kRegions; ++part) {
       auto& track = parts_[side][part];
@@ -84,8 +86,8 @@ void ExpressionMotion::Plan(vm::Time now, const ActionUnits& look, const Emotion
 
 void ExpressionMotion::Neutral(vm::Time now) {
   const vm::Time offset = settings_.onset == Onset::kFixed ? settings_.expression : kOffset;
-  for (auto& side : parts_) {
-    for (auto& part : side) part.Plan(now, ActionUnits{}, now, offset);
+  for (const Side side : kSides) {
+    for (auto& part : parts_[side]) part.Plan(now, ActionUnits{}, now, offset);
   }
   shown_.MoveTo(now, 0.0F, offset);
   onset_end_ = now + offset;
@@ -139,26 +141,22 @@ void ExpressionMotion::Forget(std::string_view name) {
 // ---- as a source
 
 void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
-  std::array<std::array<ActionUnits, kRegions>, 2> now;
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t part = 0; part < kRegions; ++part) now[side][part] = parts_[side][part].At(t);
-  }
+  Sided<std::array<ActionUnits, kRegions>> now;
   frame.Give("expression", shown_.At(t));
   ActionUnits& out = frame.Layer("expression").units;
-  const auto collect = [&](UnitValues& to, const auto& parts, UnitValues ActionUnits::*side) {
+  for (const Side side : kSides) {
     std::size_t size = 0;
-    for (const ActionUnits& part : parts) size = std::max(size, (part.*side).size());
-    for (std::size_t unit = size; unit-- > 0;) {
-      const UnitValues& part = parts[static_cast<std::size_t>(tables_.units.RegionOf(unit))].*side;
-      to[unit] = part[unit];
+    for (std::size_t part = 0; part < kRegions; ++part) {
+      now[side][part] = parts_[side][part].At(t);
+      size = std::max(size, now[side][part].au[side].size());
     }
-  };
-  collect(out.left, now[0], &ActionUnits::left);
-  collect(out.right, now[1], &ActionUnits::right);
+    for (std::size_t unit = size; unit-- > 0;) {
+      const auto region = static_cast<std::size_t>(tables_.units.RegionOf(unit));
+      out.au[side][unit] = std::as_const(now[side][region].au)[side][unit];
+    }
+  }
   // Eyes move together, whichever side of the face is first.
-  const ActionUnits& eyes = now[0][static_cast<std::size_t>(Region::kEye)];
-  out.gaze_left = eyes.gaze_left;
-  out.gaze_right = eyes.gaze_right;
+  out.gaze = now.left[static_cast<std::size_t>(Region::kEye)].gaze;
   for (std::size_t i = 0; i < emotions_.size(); ++i) {
     const float weight = emotions_[i].At(t);
     if (weight == 0) continue;
@@ -170,8 +168,8 @@ void ExpressionMotion::Contribute(vm::Time t, MotionFrame& frame) const {
 }
 
 void ExpressionMotion::ForEachTrack(const TrackVisitor& visit) const {
-  for (const auto& side : parts_) {
-    for (const auto& part : side) visit(part);
+  for (const Side side : kSides) {
+    for (const auto& part : parts_[side]) visit(part);
   }
   visit(shown_);
   for (const auto& emotion : emotions_) visit(emotion);

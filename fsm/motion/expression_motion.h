@@ -55,9 +55,9 @@ class ExpressionMotion : public MotionSource {
   const EmotionTable table_emotions_;  // as they were at the start
   const MotionSettings& settings_;
   const IdleBehaviour& idle_;
-  std::array<double, 2> side_lags_ms_{};  // the agent's left, right
-  // By side, then by part; of each only its side's units are used.
-  std::array<std::array<Track<ActionUnits>, kRegions>, 2> parts_;
+  Sided<double> side_lags_ms_;
+  // By part; of each only its side's units are used.
+  Sided<std::array<Track<ActionUnits>, kRegions>> parts_;
   Track<float> shown_;                  // how much an expression is shown, 0..1
   std::vector<Track<float>> emotions_;  // by position in the list of units
   vm::Time onset_end_{0};

@@ -35,11 +35,11 @@ float Beyond(float angle) {
 
 void EyeMotion::Turn(vm::Time now, bool left, bool right, const EyeAngles& angles,
                      vm::Time duration) {
-  if (left) ThereAndBack(left_, now, angles, settings_.eye_move, duration);
-  if (right) ThereAndBack(right_, now, angles, settings_.eye_move, duration);
-  const vm::Time end = duration > vm::Time(0) ? now + duration : now;
-  if (left) ends_.left = end;
-  if (right) ends_.right = end;
+  for (const Side side : kSides) {
+    if (!(side == Side::kLeft ? left : right)) continue;
+    ThereAndBack(turned_[side], now, angles, settings_.eye_move, duration);
+    ends_.turned[side] = duration > vm::Time(0) ? now + duration : now;
+  }
 }
 
 void EyeMotion::LookAt(vm::Time now, Aim aim, const EyeAngles& angles, vm::Time duration) {
@@ -127,13 +127,13 @@ void EyeMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   MotionLayer& layer = frame.Layer("eyes");
   const float thinking = thinking_.At(t), vergence = vergence_deg_.At(t);
   const EyeAngles thought = thinking > 0 ? ThinkingAt(t) : EyeAngles{};
-  const EyeAngles left = left_.At(t), right = right_.At(t);
+  const EyeAngles left = turned_.left.At(t), right = turned_.right.At(t);
   const EyeAngles gaze = gaze_.At(t), head = head_share_.At(t);
   for (std::size_t i = 0; i < 2; ++i) {
     const float both = gaze[i] - head[i] + thinking * thought[i];
     const float inwards = i == 1 ? vergence : 0;
-    layer.units.gaze_left[i] = left[i] + both - inwards;
-    layer.units.gaze_right[i] = right[i] + both + inwards;
+    layer.units.gaze.left[i] = left[i] + both - inwards;
+    layer.units.gaze.right[i] = right[i] + both + inwards;
     layer.head[i] = head[i];
   }
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
@@ -147,7 +147,7 @@ vm::Time EyeMotion::BlinksEnd(vm::Time t) const {
 }
 
 vm::Time EyeMotion::FiniteEnd(vm::Time t) const {
-  return std::max({t, BlinksEnd(t), ends_.left, ends_.right, ends_.gaze});
+  return std::max({t, BlinksEnd(t), ends_.turned.left, ends_.turned.right, ends_.gaze});
 }
 
 std::optional<vm::Time> EyeMotion::NextActivity(vm::Time t) const {
@@ -156,7 +156,7 @@ std::optional<vm::Time> EyeMotion::NextActivity(vm::Time t) const {
 }
 
 void EyeMotion::ForEachTrack(const TrackVisitor& visit) const {
-  for (const auto* track : {&left_, &right_, &gaze_, &head_share_}) visit(*track);
+  for (const auto* track : {&turned_.left, &turned_.right, &gaze_, &head_share_}) visit(*track);
   for (const auto* track : {&on_user_, &thinking_, &vergence_deg_}) visit(*track);
 }
 

@@ -53,8 +53,7 @@ class EyeMotion : public MotionSource {
   const MotionSettings& settings_;
   const IdleBehaviour& idle_;
   std::uint64_t seed_;
-  Track<EyeAngles> left_;
-  Track<EyeAngles> right_;
+  Sided<Track<EyeAngles>> turned_;
   Track<EyeAngles> gaze_;        // both eyes, in space
   Track<EyeAngles> head_share_;  // of the gaze
   Track<float> on_user_, thinking_, vergence_deg_;
@@ -62,7 +61,8 @@ class EyeMotion : public MotionSource {
   std::int64_t shifts_ = 0;  // of the gaze
   std::vector<Blinking> blinks_;
   struct Ends {  // when what is turned will be home; past where it is not timed
-    vm::Time left{0}, right{0}, gaze{0};
+    Sided<vm::Time> turned;
+    vm::Time gaze{0};
   };
   Ends ends_;
 };

@@ -13,7 +13,6 @@ namespace {
 using namespace std::chrono_literals;
 constexpr vm::Time kFade = 400ms;
 constexpr vm::Time kQuickFade = 60ms;
-constexpr std::size_t kNostrils = 38;     // the unit that opens them
 constexpr double kNostrilsAtFull = 0.15;  // with the lungs full
 
 // Streams of random numbers, one for each thing that varies.
@@ -157,9 +156,9 @@ void IdleBehaviour::Contribute(vm::Time t, MotionFrame& frame) const {
     const double breath = BreathAt(t);
     layer.head[0] -= static_cast<float>(table_.auto_breaths[own.pattern - 1].pitch * breath);
     const auto nostrils = static_cast<float>(kNostrilsAtFull * breath);
-    layer.units.left[kNostrils] = layer.units.right[kNostrils] = nostrils;
+    layer.units.au.left[kNostrilDilator] = layer.units.au.right[kNostrilDilator] = nostrils;
   }
-  layer.units.gaze_left = layer.units.gaze_right = EyesAt(t);
+  layer.units.gaze.left = layer.units.gaze.right = EyesAt(t);
   layer.lids_shut = static_cast<float>(LidsShutAt(t));
   AddNods(t, frame.Layer("nods").head);
   if (const Switch& own = Of(IdleKind::kFace); own.pattern > 0) {

@@ -159,10 +159,10 @@ void Mixer::Add(const MotionLayer& layer, const Rules& rules, const Weights& wei
       channels_[kUnits].Join(sum[unit], weight * strengths[unit]);
     }
   };
-  join_units(total.units.left, layer.units.left);
-  join_units(total.units.right, layer.units.right);
-  join(kGaze, total.units.gaze_left, layer.units.gaze_left);
-  join(kGaze, total.units.gaze_right, layer.units.gaze_right);
+  for (const Side side : kSides) {
+    join_units(total.units.au[side], layer.units.au[side]);
+    join(kGaze, total.units.gaze[side], layer.units.gaze[side]);
+  }
   join(kMouth, total.mouth, layer.mouth);
   join(kMouth, total.mouth_by_hand, layer.mouth_by_hand);
   channels_[kMouth].Join(total.seal, weights[kMouth] * layer.seal);
@@ -185,8 +185,7 @@ void Mixer::Mix(const MotionFrame& frame, const UnitList& units, FaceState& stat
       const auto turn = static_cast<float>(weights[kHead] * layer.head[axis]);
       const auto back =
           static_cast<float>(share * std::clamp(turn, -steady.limit_deg, steady.limit_deg));
-      total.units.gaze_left[axis] -= back;
-      total.units.gaze_right[axis] -= back;
+      for (const Side side : kSides) total.units.gaze[side][axis] -= back;
     }
   }
   Place(total, WeightsOf(result_, frame), units, state);
@@ -209,21 +208,15 @@ void Mixer::Place(const MotionLayer& total, const Weights& weights, const UnitLi
       ++unit;
     });
   };
-  place_units(state.au_left, total.units.left);
-  place_units(state.au_right, total.units.right);
+  for (const Side side : kSides) place_units(state.au[side], total.units.au[side]);
   place(kMouth, state.mouth, total.mouth);
   place(kMouth, state.mouth_by_hand, total.mouth_by_hand);
   state.lip_seal = result(kMouth, total.seal);
   state.tongue = result(kMouth, total.tongue);
   place(kHead, state.head_rotation, total.head);
   state.head_forward = result(kHead, total.head_forward_mm);
-  // Layers count down as positive, the state's eyes up.
-  const auto eye = [&](const EyeAngles& angles) {
-    return FaceState::Eye{-result(kGaze, angles[0]), result(kGaze, angles[1])};
-  };
-  state.eye_left = eye(total.units.gaze_left);
-  state.eye_right = eye(total.units.gaze_right);
-  state.blink_left = state.blink_right = result(kLids, total.lids_shut);
+  for (const Side side : kSides) place(kGaze, state.gaze[side], total.units.gaze[side]);
+  state.blink.left = state.blink.right = result(kLids, total.lids_shut);
 }
 
 }  // namespace fsm

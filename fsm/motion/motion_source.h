@@ -13,9 +13,6 @@
 
 namespace fsm {
 
-using Angles = std::array<float, 3>;     ///< degrees: down, to the viewer's right, tilt to it
-using EyeAngles = std::array<float, 2>;  ///< degrees: down, to the viewer's right
-
 /// What one layer of movement asks of the face at one instant; at rest when it is made.
 struct MotionLayer {
   ActionUnits units;                            ///< 1 = full strength, and where the eyes go

@@ -81,9 +81,9 @@ void MouthStream::Contribute(vm::Time t, MotionFrame& frame) const {
     frame.Give("head_taken", head.share);
     MotionLayer& gestures = frame.Layer("stream_gestures");
     gestures.head = head.pose.angles;
-    for (UnitValues* side : {&gestures.units.left, &gestures.units.right}) {
-      (*side)[1] = static_cast<float>(kInnerBrow) * head.pose.brow;
-      (*side)[2] = static_cast<float>(kOuterBrow) * head.pose.brow;
+    for (const Side side : kSides) {
+      gestures.units.au[side][kInnerBrowRaiser] = static_cast<float>(kInnerBrow) * head.pose.brow;
+      gestures.units.au[side][kOuterBrowRaiser] = static_cast<float>(kOuterBrow) * head.pose.brow;
     }
   }
   const SpokenMouth mouth = MouthAt(t);

@@ -116,9 +116,9 @@ void SpeechMotion::MoveHeadAndBrows(vm::Time t, MotionLayer& layer) const {
     layer.head[2] += static_cast<float>(stays * size.tilt * head.tilt);
     brow = std::max(brow, stays * size.brow * head.brow);
   }
-  for (UnitValues* side : {&layer.units.left, &layer.units.right}) {
-    (*side)[1] = static_cast<float>(kInnerBrow * brow);
-    (*side)[2] = static_cast<float>(kOuterBrow * brow);
+  for (const Side side : kSides) {
+    layer.units.au[side][kInnerBrowRaiser] = static_cast<float>(kInnerBrow * brow);
+    layer.units.au[side][kOuterBrowRaiser] = static_cast<float>(kOuterBrow * brow);
   }
 }
 
@@ -150,10 +150,10 @@ void SpeechMotion::AvertEyes(vm::Time t, MotionLayer& layer) const {
     if (stays == 0) continue;
     const auto away = one.gestures.AvertAt(MouthPosition(one, t), avert->shortest_ms);
     for (std::size_t i = 0; i < 2; ++i) {
-      layer.units.gaze_left[i] += static_cast<float>(stays * away[i]);
+      layer.units.gaze.left[i] += static_cast<float>(stays * away[i]);
     }
   }
-  layer.units.gaze_right = layer.units.gaze_left;
+  layer.units.gaze.right = layer.units.gaze.left;
 }
 
 double SpeechMotion::LidsShutAt(vm::Time t) const {

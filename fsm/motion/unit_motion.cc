@@ -13,9 +13,9 @@ constexpr vm::Time kCodeMove = 120ms;  // heads and eyes take longer than skin
 }  // namespace
 
 void UnitMotion::SetOne(vm::Time now, const UnitSetting& unit, vm::Time move) {
-  auto& [left, right] = units_[unit.number];
-  if (unit.left) left.MoveTo(now, static_cast<float>(unit.strength), move);
-  if (unit.right) right.MoveTo(now, static_cast<float>(unit.strength), move);
+  auto& track = units_[unit.number];
+  if (unit.left) track.left.MoveTo(now, static_cast<float>(unit.strength), move);
+  if (unit.right) track.right.MoveTo(now, static_cast<float>(unit.strength), move);
 }
 
 vm::Result<void> UnitMotion::Set(vm::Time now, std::string_view unit, double strength,
@@ -47,27 +47,29 @@ void UnitMotion::Set(vm::Time now, int unit, double strength) {
 
 void UnitMotion::Contribute(vm::Time t, MotionFrame& frame) const {
   MotionLayer& layer = frame.Layer("units");
-  for (const auto& [number, sides] : units_) {
-    const float left = sides[0].At(t);
+  for (const auto& [number, track] : units_) {
     const auto found = names_.codes.find(number);
     if (found == names_.codes.end()) {
-      layer.units.left[static_cast<std::size_t>(number)] = left;
-      layer.units.right[static_cast<std::size_t>(number)] = sides[1].At(t);
+      for (const Side side : kSides) {
+        layer.units.au[side][static_cast<std::size_t>(number)] = track[side].At(t);
+      }
       continue;
     }
+    const float strength = track.left.At(t);
     const UnitCode& code = found->second;
-    for (std::size_t i = 0; i < 3; ++i) layer.head[i] += left * code.head[i];
-    for (std::size_t i = 0; i < 2; ++i) {
-      layer.units.gaze_left[i] += left * code.left_eye[i];
-      layer.units.gaze_right[i] += left * code.right_eye[i];
+    for (std::size_t i = 0; i < 3; ++i) layer.head[i] += strength * code.head[i];
+    for (const Side side : kSides) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        layer.units.gaze[side][i] += strength * code.gaze[side][i];
+      }
     }
-    layer.head_forward_mm += left * code.forward_mm;
+    layer.head_forward_mm += strength * code.forward_mm;
   }
 }
 
 void UnitMotion::ForEachTrack(const TrackVisitor& visit) const {
-  for (const auto& [number, sides] : units_) {
-    for (const auto& track : sides) visit(track);
+  for (const auto& [number, track] : units_) {
+    for (const Side side : kSides) visit(track[side]);
   }
 }
 

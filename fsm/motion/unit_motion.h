@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <string_view>
 
@@ -31,8 +30,8 @@ class UnitMotion : public MotionSource {
   void SetOne(vm::Time now, const UnitSetting& unit, vm::Time move);
 
   const UnitNames& names_;
-  // The units ever set, by number: left and right. A code has one strength for both.
-  std::map<int, std::array<Track<float>, 2>> units_;
+  // The units ever set, by number. A code has one strength for both sides.
+  std::map<int, Sided<Track<float>>> units_;
 };
 
 }  // namespace fsm

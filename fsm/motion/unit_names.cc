@@ -174,7 +174,9 @@ UnitCode ReadCode(const TableRow& row) {
   for (std::size_t i = 0; i < v.size(); ++i) {
     v[i] = static_cast<float>(row.Number(3 + i, "an angle or a part", -60, 60));
   }
-  return {{v[0], v[1], v[2]}, {v[3], v[4]}, {v[5], v[6]}, v[7]};
+  return {.head = {v[0], v[1], v[2]},
+          .gaze = {.right = {v[5], v[6]}, .left = {v[3], v[4]}},
+          .forward_mm = v[7]};
 }
 
 void ReadNameRow(const TableRow& row, UnitNames& out) {
@@ -270,8 +272,8 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
 std::string FormatLook(const ActionUnits& look, const UnitNames& names) {
   std::string text;
   const auto add = [&text](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
-  for (std::size_t unit = 0; unit < std::max(look.left.size(), look.right.size()); ++unit) {
-    const float left = look.left[unit], right = look.right[unit];
+  for (std::size_t unit = 0; unit < std::max(look.au.left.size(), look.au.right.size()); ++unit) {
+    const float left = look.au.left[unit], right = look.au.right[unit];
     if (left == right && left != 0 && !names.IsOneSided(static_cast<int>(unit))) {
       add(fmt::format("{}:{:g}", unit, left));
       continue;
@@ -279,14 +281,14 @@ std::string FormatLook(const ActionUnits& look, const UnitNames& names) {
     if (left != 0) add(fmt::format("{}L:{:g}", unit, left));
     if (right != 0) add(fmt::format("{}R:{:g}", unit, right));
   }
-  const auto gaze = [&](const char* side, const std::array<float, 2>& angles) {
-    if (angles != std::array<float, 2>{}) {
+  const auto gaze = [&](const char* side, const EyeAngles& angles) {
+    if (angles != EyeAngles{}) {
       add(fmt::format("gaze{}:{:g},{:g}", side, angles[0], angles[1]));
     }
   };
-  const bool both = look.gaze_left == look.gaze_right;
-  gaze(both ? "" : "L", look.gaze_left);
-  if (!both) gaze("R", look.gaze_right);
+  const bool both = look.gaze.left == look.gaze.right;
+  gaze(both ? "" : "L", look.gaze.left);
+  if (!both) gaze("R", look.gaze.right);
   return text;
 }
 
@@ -317,8 +319,8 @@ vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names)
                                   unit.number));
     }
     const auto index = static_cast<std::size_t>(unit.number);
-    if (unit.left) look.left[index] = static_cast<float>(unit.strength);
-    if (unit.right) look.right[index] = static_cast<float>(unit.strength);
+    if (unit.left) look.au.left[index] = static_cast<float>(unit.strength);
+    if (unit.right) look.au.right[index] = static_cast<float>(unit.strength);
   }
   return look;
 }

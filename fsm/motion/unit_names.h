@@ -13,10 +13,10 @@
 namespace fsm {
 
 /// What one code of head or eyes (51-58, 61-66) does at full strength; see
-/// tables/action_unit_names.txt. Degrees, x+ = down, y+ and z+ = to the viewer's right.
+/// tables/action_unit_names.txt.
 struct UnitCode {
-  std::array<float, 3> head{};
-  std::array<float, 2> left_eye{}, right_eye{};
+  Angles head{};
+  Sided<EyeAngles> gaze;
   float forward_mm = 0;  ///< of the head on the neck
 };
 

@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kLongMs = 200;          // from here on a phoneme holds and then moves
 constexpr double kFirstPartShare = 0.3;  // of a diphthong
-constexpr std::size_t kJawY = 11, kJawZ = 12;
 
 MouthPose Scaled(const Viseme& shape, double strength, const LipStyle& style) {
   MouthPose pose = shape.pose;

@@ -70,13 +70,15 @@ float Extreme(std::span<const std::uint32_t> points, const HeadVertices& vertice
 }  // namespace
 
 EyeFinder::EyeFinder(const HeadTopology& topology, const HeadVertices& rest) {
-  const auto side_of = [&rest](std::uint32_t i) { return rest.position[i].x < 0 ? 0U : 1U; };
+  const auto side_of = [&rest](std::uint32_t i) {
+    return rest.position[i].x < 0 ? Side::kRight : Side::kLeft;
+  };
   for (const auto i : VerticesOf(topology, Material::kSclera)) white_[side_of(i)].push_back(i);
   for (const auto i : VerticesOf(topology, Material::kIris)) iris_[side_of(i)].push_back(i);
   if (!found()) return;
   const auto eyes = Measure(rest);
   for (const auto i : VerticesOf(topology, Material::kSkin)) {
-    const auto side = side_of(i);
+    const Side side = side_of(i);
     const auto& eye = eyes[side];
     const glm::vec3 p = rest.position[i] - eye.centre;
     if (p.z <= 0 || std::abs(p.x) > kRimHalfWidth) continue;
@@ -87,13 +89,15 @@ EyeFinder::EyeFinder(const HeadTopology& topology, const HeadVertices& rest) {
 
 void EyeFinder::AppendVertices(std::vector<std::uint32_t>& out) const {
   for (const auto* sides : {&white_, &iris_, &upper_rim_, &lower_rim_}) {
-    for (const auto& side : *sides) out.insert(out.end(), side.begin(), side.end());
+    for (const Side side : kSides) {
+      out.insert(out.end(), (*sides)[side].begin(), (*sides)[side].end());
+    }
   }
 }
 
-std::array<EyeFrame, 2> EyeFinder::Measure(const HeadVertices& vertices) const {
-  std::array<EyeFrame, 2> eyes;
-  for (std::size_t side = 0; side < 2; ++side) {
+Sided<EyeFrame> EyeFinder::Measure(const HeadVertices& vertices) const {
+  Sided<EyeFrame> eyes;
+  for (const Side side : kSides) {
     auto& eye = eyes[side];
     FitSphere(white_[side], vertices, eye);
     if (!iris_[side].empty()) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -27,17 +26,14 @@ class EyeFinder {
   EyeFinder() = default;
   /// `rest` belongs to `topology`. A head without a kSclera part has no eyes.
   EyeFinder(const HeadTopology& topology, const HeadVertices& rest);
-  bool found() const { return !white_[0].empty() && !white_[1].empty(); }
-  /// The eye at the viewer's left [0] and right [1]. REQUIRES: found().
-  std::array<EyeFrame, 2> Measure(const HeadVertices& vertices) const;
+  bool found() const { return !white_.right.empty() && !white_.left.empty(); }
+  /// REQUIRES: found().
+  Sided<EyeFrame> Measure(const HeadVertices& vertices) const;
   /// The vertices that Measure looks at.
   void AppendVertices(std::vector<std::uint32_t>& out) const;
 
  private:
-  std::array<std::vector<std::uint32_t>, 2> white_;
-  std::array<std::vector<std::uint32_t>, 2> iris_;
-  std::array<std::vector<std::uint32_t>, 2> upper_rim_;
-  std::array<std::vector<std::uint32_t>, 2> lower_rim_;
+  Sided<std::vector<std::uint32_t>> white_, iris_, upper_rim_, lower_rim_;
 };
 
 }  // namespace fsm

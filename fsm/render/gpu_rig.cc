@@ -67,13 +67,13 @@ class PoseBlock {
     Add(pose.head);
     Add({pose.head_forward_mm});
     Mark("EYE_TURN");
-    for (const glm::mat3& turn : inputs.eye_turn) Add(turn);
+    for (const Side side : kSides) Add(inputs.eye_turn[side]);
     Mark("EYE_PIVOT");
-    for (const glm::vec3 pivot : rig.eye_pivot) Add(pivot);
+    for (const Side side : kSides) Add(rig.eye_pivot[side]);
     Mark("BALL_CENTRE");
-    for (const glm::vec3 centre : rig.ball_centre) Add(centre);
+    for (const Side side : kSides) Add(rig.ball_centre[side]);
     Mark("LIDS");
-    for (std::size_t side = 0; side < 2; ++side) {
+    for (const Side side : kSides) {
       const EyeTransform& eye = rig.lids.eyes[side];
       const UnitEffects::Lids& ask = pose.lids[side];
       const glm::vec3 across = eye.Turned({0, 1, 0});  // -sin, cos
@@ -257,7 +257,9 @@ void GpuRig::AddStep(RigStep step, const RigData& data) {
     case RigStep::kLids:
       return Add("lids", LidItems(data.lids), data.lids.vertices.size());
     case RigStep::kLidsOnBalls:
-      for (const BallLid& lid : data.ball_lids) Put(items, {lid.vertex, lid.side, Word(lid.least)});
+      for (const BallLid& lid : data.ball_lids) {
+        Put(items, {lid.vertex, static_cast<std::uint32_t>(lid.side), Word(lid.least)});
+      }
       return Add("lids_on_balls", items, data.ball_lids.size());
     case RigStep::kJaw:
       for (std::uint32_t i = 0; i < data.rest.size(); ++i) {

@@ -209,7 +209,7 @@ void HeadBuffers::CopyTopology(const HeadTopology& topology) {
   saturation_ = topology.saturation;
   photo_light_ = topology.photo_light;
   eye_pictures_ = topology.eye_pictures;
-  eye_geometry_ = topology.eyes[0];
+  eye_geometry_ = topology.eyes.right;
   blends_ = DrawOrder::Blends(topology);
 }
 

@@ -56,9 +56,9 @@ class HeadBuffers {
   const Image* emissive_map() const { return emissive_map_.get(); }
   const std::vector<PbrMaterial>& pbr_materials() const { return pbr_materials_; }
   /// Where the photo shows eyes: HeadTopology::eye_pictures.
-  const std::optional<std::array<EyePicture, 2>>& eye_pictures() const { return eye_pictures_; }
+  const std::optional<Sided<EyePicture>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
-  const std::array<EyeFrame, 2>& resting_eyes() const { return resting_eyes_; }
+  const Sided<EyeFrame>& resting_eyes() const { return resting_eyes_; }
   /// Height of the chin's lowest point at rest, millimetres; of a head without landmarks far below.
   float chin_y() const { return chin_y_; }
   /// HeadTopology::photo_light.
@@ -91,8 +91,8 @@ class HeadBuffers {
   std::future<SkinTexture> painting_;  // on a thread of its own, which the future joins
   std::shared_ptr<const Image> photo_, normal_map_, emissive_map_;
   std::vector<PbrMaterial> pbr_materials_;
-  std::optional<std::array<EyePicture, 2>> eye_pictures_;
-  std::array<EyeFrame, 2> resting_eyes_;
+  std::optional<Sided<EyePicture>> eye_pictures_;
+  Sided<EyeFrame> resting_eyes_;
   float photo_texels_per_mm_ = 0;
   float saturation_ = 1;
   glm::vec4 photo_light_{0, 0, 0, 1};

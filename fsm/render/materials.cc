@@ -57,9 +57,9 @@ Lamps LampsOf(const Appearance& appearance, const Scene& scene) {
 
 SideDepths DepthsOf(const HeadVertices& vertices) {
   SideDepths depths;
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     for (int k = 0; k < 4; ++k) {
-      depths[side][k] = vertices.wrinkles[static_cast<std::size_t>(k)][side];
+      depths[side][k] = vertices.creases[static_cast<std::size_t>(k)][side];
     }
   }
   return depths;
@@ -169,7 +169,7 @@ void Materials::SetSurface(glm::vec3 head_up, const SideDepths& depths) {
     gl_.Uniform1i(program->Uniform("relief"), 2);
     gl_.Uniform3fv(program->Uniform("head_up"), 1, glm::value_ptr(head_up));
   }
-  gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths[0]));
+  gl_.Uniform4fv(surface_.Uniform("crease_depths"), 2, glm::value_ptr(depths.InOrder()[0]));
 }
 
 void Materials::SetPbr(float brightness) {
@@ -214,8 +214,8 @@ void Materials::SetPhoto(const HeadBuffers& head, const HeadVertices& vertices,
   for (const auto& photo : photo_) {
     if (!photo) continue;
     gl_.UseProgram(photo->id());
-    gl_.Uniform4fv(photo->Uniform("crease_depths"), 2, glm::value_ptr(crease_depths[0]));
-    gl_.Uniform1fv(photo->Uniform("lids_shut"), 2, vertices.lids_shut.data());
+    gl_.Uniform4fv(photo->Uniform("crease_depths"), 2, glm::value_ptr(crease_depths.InOrder()[0]));
+    gl_.Uniform1fv(photo->Uniform("lids_shut"), 2, vertices.lids_shut.InOrder().data());
     gl_.Uniform1i(photo->Uniform("photo"), 1);
     gl_.Uniform1f(photo->Uniform("blends"), head.blends() ? 1.0F : 0.0F);
     gl_.Uniform1i(photo->Uniform("relief"), 2);

@@ -21,8 +21,8 @@ struct Lamps {
   std::array<glm::vec3, 3> directions, colors;
 };
 
-/// How deep creases are, 0..1: right and left, each of forehead, glabella, crow's feet, nasolabial.
-using SideDepths = std::array<glm::vec4, 2>;
+/// How deep creases are, 0..1: of forehead, glabella, crow's feet, nasolabial.
+using SideDepths = Sided<glm::vec4>;
 
 /// The shader programs and which of them, with which numbers, draws which material; the same for
 /// all heads that are drawn in a context.
@@ -67,8 +67,8 @@ class Materials {
                 const SideDepths& crease_depths, const glm::mat3& rest_to_world, float brightness);
   void SetEyes(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                const glm::mat3& rest_to_world, float brightness);
-  void SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eyes, const EyeGeometry& place);
-  void SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
+  void SetEyeballs(const View& view, const Sided<EyeFrame>& eyes, const EyeGeometry& place);
+  void SetEyePictures(const HeadBuffers& head, const Sided<EyeFrame>& eyes,
                       const glm::mat3& rest_to_world);
   void SetMouth(const View& view, const HeadBuffers& head, const HeadVertices& vertices,
                 glm::vec3 key_direction);

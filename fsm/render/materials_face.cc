@@ -10,19 +10,21 @@
 
 namespace fsm {
 
-void Materials::SetEyePictures(const HeadBuffers& head, const std::array<EyeFrame, 2>& eyes,
+void Materials::SetEyePictures(const HeadBuffers& head, const Sided<EyeFrame>& eyes,
                                const glm::mat3& rest_to_world) {
   for (const auto& [name, place] :
        {std::pair("irises", &EyePicture::iris), std::pair("balls", &EyePicture::ball)}) {
-    const glm::vec4 squares[] = {(*head.eye_pictures())[0].*place,
-                                 (*head.eye_pictures())[1].*place};
+    const glm::vec4 squares[] = {head.eye_pictures()->right.*place,
+                                 head.eye_pictures()->left.*place};
     gl_.Uniform4fv(eye_.Uniform(name), 2, glm::value_ptr(squares[0]));
   }
   glm::vec4 open[2];
-  for (std::size_t i = 0; i < 2; ++i) {
-    const EyeFrame& rest = head.resting_eyes()[i];
-    open[i] = {rest.upper_lid_y - rest.centre.y, rest.lower_lid_y - rest.centre.y,
-               eyes[i].upper_lid_y - eyes[i].centre.y, kBallSpan * eyes[i].radius};
+  for (const Side side : kSides) {
+    const EyeFrame& rest = head.resting_eyes()[side];
+    const EyeFrame& eye = eyes[side];
+    open[static_cast<std::size_t>(side)] = {rest.upper_lid_y - rest.centre.y,
+                                            rest.lower_lid_y - rest.centre.y,
+                                            eye.upper_lid_y - eye.centre.y, kBallSpan * eye.radius};
   }
   gl_.Uniform4fv(eye_.Uniform("open"), 2, glm::value_ptr(open[0]));
   const glm::mat3 world_to_head = glm::inverse(rest_to_world);
@@ -90,15 +92,16 @@ void Materials::SetEyes(const View& view, const HeadBuffers& head, const HeadVer
   if (pictured) SetEyePictures(head, eyes, rest_to_world);
 }
 
-void Materials::SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eyes,
+void Materials::SetEyeballs(const View& view, const Sided<EyeFrame>& eyes,
                             const EyeGeometry& place) {
   const glm::mat3 turn(view.figure_to_world);
   const float scale = glm::length(turn[0]);
   glm::vec4 balls[2];
   glm::vec3 gazes[2];
   glm::vec4 lids[2];
-  for (int i = 0; i < 2; ++i) {
-    const auto& eye = eyes[static_cast<std::size_t>(i)];
+  for (const Side side : kSides) {
+    const EyeFrame& eye = eyes[side];
+    const auto i = static_cast<std::size_t>(side);
     const auto to_world = [&view](const glm::vec3& p) {
       return glm::vec3(view.figure_to_world * glm::vec4(p, 1.0F));
     };
@@ -112,9 +115,10 @@ void Materials::SetEyeballs(const View& view, const std::array<EyeFrame, 2>& eye
   gl_.Uniform4fv(eye_.Uniform("ball"), 2, glm::value_ptr(balls[0]));
   gl_.Uniform3fv(eye_.Uniform("gaze"), 2, glm::value_ptr(gazes[0]));
   gl_.Uniform4fv(eye_.Uniform("lids"), 2, glm::value_ptr(lids[0]));
+  const EyeFrame& first = eyes.right;  // both are as large
   const float plane = std::sqrt(
-      std::max(eyes[0].radius * eyes[0].radius - eyes[0].iris_radius * eyes[0].iris_radius, 1.0F));
-  const glm::vec4 iris(eyes[0].iris_radius * scale, place.pupil_radius / place.iris_radius,
+      std::max(first.radius * first.radius - first.iris_radius * first.iris_radius, 1.0F));
+  const glm::vec4 iris(first.iris_radius * scale, place.pupil_radius / place.iris_radius,
                        plane * scale, 0.0F);
   gl_.Uniform4fv(eye_.Uniform("iris"), 1, glm::value_ptr(iris));
   gl_.Uniform3fv(eye_.Uniform("iris_color"), 1, glm::value_ptr(place.iris_colour));

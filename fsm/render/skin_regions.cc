@@ -88,7 +88,7 @@ class RegionPainter {
 
   void PaintFront(const glm::vec3& p, float fine, glm::vec4& tint) const {
     const float side = std::abs(p.x);
-    const float cheek_x = cheek_[0] * m_.zygion[1].x;
+    const float cheek_x = cheek_[0] * m_.zygion.left.x;
     const float cheek_y = cheek_[1] * m_.nasion.y + cheek_[2] * m_.subnasale.y;
     const float cheek = Bell(side - cheek_x, cheek_[3]) * Bell(p.y - cheek_y, cheek_[3]);
     const float tip = Bell(side, nose_tip_[0]) * Bell(p.y - m_.pronasale.y, nose_tip_[1]) *
@@ -103,11 +103,11 @@ class RegionPainter {
 
   /// Thin skin below the eyes is bluish and darker; the lids are warmer.
   glm::vec4 AroundEye(float side, float y) const {
-    const glm::vec3 pupil = m_.pupil[1];
+    const glm::vec3 pupil = m_.pupil.left;
     const float from_pupil = (side - pupil.x) / eye_width_[0];
     const float below = Bell(y - (pupil.y + below_eye_[0]), below_eye_[1]) * Bell(from_pupil, 1);
     const float lid = Bell(y - (pupil.y + lid_[0]), lid_[1]) * Bell(from_pupil, eye_width_[1]);
-    const float corner = Bell(side - m_.endocanthion[1].x - eye_corner_[0], eye_corner_[1]) *
+    const float corner = Bell(side - m_.endocanthion.left.x - eye_corner_[0], eye_corner_[1]) *
                          Bell(y - pupil.y - eye_corner_[0], eye_corner_[2]);
     return 1.0F - below * Tint(below_eye_, 2) - lid * Tint(lid_, 2) - corner * Tint(eye_corner_, 3);
   }
@@ -119,7 +119,7 @@ class RegionPainter {
                          Smooth(m_.nasion.y + 6, m_.nasion.y - 4, p.y);
     const float bow = Bell(side, 7) * Bell(p.y - 0.5F * (m_.subnasale.y + m_.stomion.y), 5);
     const float cheek_bone =
-        Bell(side - 0.6F * m_.zygion[1].x, 12) * Bell(p.y - m_.pronasale.y - 14, 9);
+        Bell(side - 0.6F * m_.zygion.left.x, 12) * Bell(p.y - m_.pronasale.y - 14, 9);
     const float jaw = Smooth(m_.pronasale.y, m_.stomion.y, p.y) * Smooth(20, 45, side);
     return oil_[0] + oil_[1] * forehead + oil_[2] * bridge + oil_[3] * tip + oil_[4] * bow +
            oil_[5] * cheek_bone + oil_[6] * chin - oil_[7] * jaw;

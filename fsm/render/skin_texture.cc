@@ -82,7 +82,7 @@ std::vector<Fine> MakeFineTile() {
       const Fine& a = tile[InTile(x, y + 1)];
       Fine& f = tile[InTile(x, y)];
       f.pore_slope = glm::vec2(r.pore - l.pore, a.pore - b.pore) * (-0.085F / between);
-      f.crack_slope = glm::vec2(r.crack - l.crack, a.crack - b.crack) * (0.07F / between);
+      f.crack_slope = glm::vec2(r.crack - l.crack, a.crack - b.crack) * (0.03F / between);
     }
   }
   return tile;
@@ -121,7 +121,7 @@ void PaintRows(const std::vector<SkinRegion>& regions, const std::vector<Fine>& 
       const float crack = r.cracks * f.crack;
       const glm::vec4 c = 128.0F * r.tint *
                           (1.0F - pore * glm::vec4(0.07F, 0.10F, 0.10F, 0.45F) +
-                           crack * glm::vec4(0.045F, 0.07F, 0.07F, 0.5F) +
+                           crack * glm::vec4(0.02F, 0.032F, 0.032F, 0.3F) +
                            f.grain * glm::vec4(0.008F, 0.018F, 0.018F, 0.03F));
       for (int k = 0; k < 4; ++k) tint[k] = Byte(c[k]);
       const glm::vec2 slope = 128.0F + 254.0F * (r.pores * f.pore_slope + r.cracks * f.crack_slope);
@@ -217,7 +217,7 @@ void PaintVessels(const SkinMap& map, const FaceMarks& m, SkinTexture& out) {
       if (map.KindAt(x / kSide, y / kSide) != SkinMap::kSkin) break;
       const glm::vec3 p = map.PlaceAt(x / kSide, y / kSide);
       const float ala =
-          Bell(glm::length(glm::vec2(std::abs(p.x) - m.alare[1].x, p.y - m.alare[1].y)), 9);
+          Bell(glm::length(glm::vec2(std::abs(p.x) - m.alare.left.x, p.y - m.alare.left.y)), 9);
       const float cheek = Bell(std::abs(p.x) - 40, 14) * Bell(p.y - m.pronasale.y, 14);
       const float strength = 0.055F * (ala + 0.6F * cheek);
       if (strength < 0.01F) continue;
@@ -233,7 +233,7 @@ void PaintVessels(const SkinMap& map, const FaceMarks& m, SkinTexture& out) {
 std::optional<FaceMarks> FaceMarks::Of(const Head& head) {
   try {
     const auto both = [&head](const std::string& name) {
-      return std::array{head.Landmark(name + "_right"), head.Landmark(name + "_left")};
+      return Sided<glm::vec3>{head.Landmark(name + "_right"), head.Landmark(name + "_left")};
     };
     return FaceMarks{.nasion = head.Landmark("nasion"),
                      .pronasale = head.Landmark("pronasale"),

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -11,11 +10,10 @@
 
 namespace fsm {
 
-/// Where things are on a face, from the head's landmarks; millimetres at rest. `right` and `left`
-/// are the agent's; arrays are {right, left}.
+/// Where things are on a face, from the head's landmarks; millimetres at rest.
 struct FaceMarks {
   glm::vec3 nasion, pronasale, subnasale, stomion, gnathion, trichion;
-  std::array<glm::vec3, 2> cheilion, endocanthion, exocanthion, pupil, alare, zygion;
+  Sided<glm::vec3> cheilion, endocanthion, exocanthion, pupil, alare, zygion;
 
   /// Nothing for a head that does not name all of them.
   static std::optional<FaceMarks> Of(const Head& head);
@@ -40,11 +38,8 @@ struct SkinTexture {
 SkinTexture PaintSkin(const HeadTopology& topology, const HeadVertices& rest,
                       const FaceMarks& marks);
 
-/// How much each crease shows at a vertex: forehead, glabella, crow's feet, nasolabial of the
-/// agent's right and left side.
-struct CreaseWeights {
-  std::vector<glm::vec4> right, left;
-};
+/// How much each crease shows at a vertex: forehead, glabella, crow's feet, nasolabial.
+using CreaseWeights = Sided<std::vector<glm::vec4>>;
 CreaseWeights WeighCreases(const HeadVertices& rest, const FaceMarks& marks);
 
 }  // namespace fsm

@@ -139,10 +139,10 @@ std::string UnitTable::Text() const {
 void UnitTable::MakeAsymmetric(int seed) {
   constexpr float kPart = 0.035f;
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
-    if (unit >= 41 || unit == 26 || unit == 27) continue;
+    if (unit >= kLidDroop || unit == kJawDrop || unit == kMouthStretch) continue;
     const float lean = kPart * NoiseAt(static_cast<int>(unit), 90 + seed);
-    lean_[0][unit] = lean;
-    lean_[1][unit] = -lean;
+    lean_.right[unit] = lean;
+    lean_.left[unit] = -lean;
   }
 }
 
@@ -153,52 +153,52 @@ std::vector<int> UnitTable::Numbers() const {
   return {numbers.begin(), numbers.end()};
 }
 
-SidedUnits UnitTable::Combine(const FaceState& state) const {
-  SidedUnits units{};
+Sided<UnitValues> UnitTable::Combine(const FaceState& state) const {
+  Sided<UnitValues> units;
   const float shown = std::isfinite(state.asymmetry) ? std::clamp(state.asymmetry, 0.0f, 5.0f) : 0;
-  const std::array<const UnitValues*, 2> asked{&state.au_right, &state.au_left};
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t i = 1; i < asked[side]->size(); ++i) {
-      const float acting = Acting((*asked[side])[i]);
+  for (const Side side : kSides) {
+    for (std::size_t i = 1; i < state.au[side].size(); ++i) {
+      const float acting = Acting(state.au[side][i]);
       const float lean = std::as_const(lean_[side])[i];
       if (acting > 0) units[side][i] = (1 + shown * lean) * acting;
     }
   }
-  for (auto& side : units) {
-    const auto before = side;  // rules look at what was asked, so their order does not matter
+  for (UnitValues* const side : {&units.right, &units.left}) {
+    UnitValues& acting = *side;
+    const auto before = acting;  // rules look at what was asked, so their order does not matter
     for (const Rule& rule : rules_) {
       const float a = before[At(rule.a)];
       const float b = before[At(rule.b)];
       if (rule.kind == Rule::Kind::kDamp) {
-        side[At(rule.a)] *= 1 - rule.part * std::min(b, 1.0f);
+        acting[At(rule.a)] *= 1 - rule.part * std::min(b, 1.0f);
       } else if (rule.kind == Rule::Kind::kOppose) {
         if (a > 0 && b > 0 && a + b > 1) {
-          side[At(rule.a)] /= a + b;
-          side[At(rule.b)] /= a + b;
+          acting[At(rule.a)] /= a + b;
+          acting[At(rule.b)] /= a + b;
         }
       } else {
-        side[At(a < b ? rule.a : rule.b)] = 0;
+        acting[At(a < b ? rule.a : rule.b)] = 0;
       }
     }
   }
   return units;
 }
 
-UnitEffects UnitTable::Effects(const SidedUnits& units) const {
+UnitEffects UnitTable::Effects(const Sided<UnitValues>& units) const {
   UnitEffects sum;
   for (const Effect& effect : effects_) {
-    const float right = units[0][At(effect.unit)];
-    const float left = units[1][At(effect.unit)];
+    const float right = units.right[At(effect.unit)];
+    const float left = units.left[At(effect.unit)];
     const float either = std::max(left, right);
     switch (effect.kind) {
       case Effect::Kind::kLid:
-        for (std::size_t s = 0; s < 2; ++s) {
+        for (const Side s : kSides) {
           sum.lids[s].upper_mm += effect.first * units[s][At(effect.unit)];
           sum.lids[s].lower_mm += effect.second * units[s][At(effect.unit)];
         }
         break;
       case Effect::Kind::kClose:
-        for (std::size_t s = 0; s < 2; ++s) {
+        for (const Side s : kSides) {
           sum.lids[s].close = std::max(sum.lids[s].close, effect.first * units[s][At(effect.unit)]);
         }
         break;
@@ -221,16 +221,16 @@ UnitEffects UnitTable::Effects(const SidedUnits& units) const {
   return sum;
 }
 
-glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, bool mirror) {
-  const float x = mirror ? -weights.domain.x : weights.domain.x;
+glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side side) {
+  const float x = SignOf(side) * weights.domain.x;
   if (std::abs(weights.domain.y - field.at.y) >= field.radius.y) return glm::vec3(0);
   // Both sides act at the median, half each, so that left and right together make the whole.
   const float own_side = SmoothStep(-7, 7, x);
   if (own_side <= 0) return glm::vec3(0);
   float weight = 0;
   // A field that reaches over the median meets its mirror image there: the stronger counts.
-  for (const float side : {1.0f, -1.0f}) {
-    const float dx = (x - side * field.at.x) / field.radius.x;
+  for (const float image : {1.0f, -1.0f}) {
+    const float dx = (x - image * field.at.x) / field.radius.x;
     const float dy = (weights.domain.y - field.at.y) / field.radius.y;
     const float d2 = dx * dx + dy * dy;
     if (d2 < 1) weight = std::max(weight, (1 - d2) * (1 - d2));
@@ -241,18 +241,19 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, bool
   weight *= own_side * weights.free;
   glm::vec3 by = field.by;
   // The sideways part turns over smoothly at the median instead of tearing it.
-  by.x *= std::clamp(x / 4, -1.0f, 1.0f) * (mirror ? -1.0f : 1.0f);
+  by.x *= std::clamp(x / 4, -1.0f, 1.0f) * SignOf(side);
   return weight * by;
 }
 
-std::array<std::array<float, 2>, 4> CreaseDepths(const SidedUnits& units,
-                                                 const std::array<float, 4>& at_rest) {
-  std::array<std::array<float, 2>, 4> creases{};
-  for (std::size_t side = 0; side < 2; ++side) {
+Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCreases>& at_rest) {
+  Creases creases{};
+  for (const Side side : kSides) {
     const auto& u = units[side];
-    const std::array<float, 4> depth = {0.6f * (u[1] + u[2]), 0.7f * (u[4] + u[9]),
-                                        0.6f * (u[6] + 0.7f * u[12]),
-                                        0.4f * (u[10] + u[11]) + 0.75f * u[12]};
+    const std::array<float, kCreases> depth = {
+        0.6f * (u[kInnerBrowRaiser] + u[kOuterBrowRaiser]),
+        0.7f * (u[kBrowLowerer] + u[kNoseWrinkler]),
+        0.6f * (u[kCheekRaiser] + 0.7f * u[kLipCornerPuller]),
+        0.4f * (u[kUpperLipRaiser] + u[kNasolabialDeepener]) + 0.75f * u[kLipCornerPuller]};
     for (std::size_t k = 0; k < depth.size(); ++k) {
       creases[k][side] = std::clamp(at_rest[k] + depth[k], 0.0f, 1.0f);
     }

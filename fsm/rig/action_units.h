@@ -12,15 +12,12 @@
 
 namespace fsm {
 
-/// Action units by side: [0] the agent's right, [1] its left; FACS number as index.
-using SidedUnits = std::array<UnitValues, 2>;
-
 /// What units do beside moving skin, summed over all that act.
 struct UnitEffects {
   struct Lids {
     float upper_mm = 0, lower_mm = 0, close = 0;
   };
-  std::array<Lids, 2> lids;  ///< right, left
+  Sided<Lids> lids;
   float jaw_degrees = 0, jaw_slide_mm = 0, jaw_sway_mm = 0;
   float seal = 0;
   float tongue_raise = 0, tongue_out_mm = 0;
@@ -55,10 +52,10 @@ class UnitTable {
   std::vector<int> Numbers() const;
   /// The strengths that really act: clamped to 0..2, above 1 at half rate (tissue stops
   /// stretching), and corrected for units that act together. Not-a-number counts as 0.
-  SidedUnits Combine(const FaceState& state) const;
-  UnitEffects Effects(const SidedUnits& units) const;
-  /// Motion of one left-side field at a flesh vertex of either half; `mirror` for the right side.
-  static glm::vec3 Motion(const Field& field, const SkinWeights& weights, bool mirror);
+  Sided<UnitValues> Combine(const FaceState& state) const;
+  UnitEffects Effects(const Sided<UnitValues>& units) const;
+  /// Motion of a field, which the table has for the left, at a flesh vertex of either half.
+  static glm::vec3 Motion(const Field& field, const SkinWeights& weights, Side side);
 
  private:
   struct Rule {
@@ -71,15 +68,19 @@ class UnitTable {
     int unit;
     float first, second;
   };
-  SidedUnits lean_;  // by how much a unit is stronger on that side than the table says, as a part
+  Sided<UnitValues>
+      lean_;  // by how much a unit is stronger on that side than the table says, as a part
   std::vector<Field> fields_;
   std::vector<Rule> rules_;
   std::vector<Effect> effects_;
 };
 
-/// How deep forehead, glabella, crow's feet and nasolabial fold crease, right and left, 0..1: by
-/// what the units bunch up there, beyond `at_rest`.
-std::array<std::array<float, 2>, 4> CreaseDepths(const SidedUnits& units,
-                                                 const std::array<float, 4>& at_rest);
+/// Where skin creases with expression.
+enum class Crease { kForehead, kGlabella, kCrowsFeet, kNasolabial };
+inline constexpr std::size_t kCreases = 4;
+/// How deep each of them is, 0..1.
+using Creases = std::array<Sided<float>, kCreases>;
+/// By what the units bunch up there, beyond `at_rest`.
+Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCreases>& at_rest);
 
 }  // namespace fsm

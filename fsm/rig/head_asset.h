@@ -135,16 +135,12 @@ struct HeadTopology {
   glm::vec4 photo_light{0, 0, 0, 1};
   /// Per vertex: how much that light follows it as it turns with an expression, 0..1. May be empty.
   std::vector<float> relit;
-  /// The agent's right and left eye, if the photo shows them; else eyes are drawn.
-  std::optional<std::array<EyePicture, 2>> eye_pictures;
+  std::optional<Sided<EyePicture>> eye_pictures;  ///< if the photo shows eyes; else they are drawn
   MouthSlit mouth;
   /// Saturation of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
   float saturation = 1;
-  std::array<EyeGeometry, 2> eyes;  ///< the agent's right, left
+  Sided<EyeGeometry> eyes;
 };
-
-/// Where skin creases with expression; indexes HeadVertices::wrinkles.
-enum class Wrinkle { kForehead, kGlabella, kCrowsFeet, kNasolabial };
 
 /// A window onto a face that is meant to be seen without perspective, as those of the original:
 /// what its middle shows, and how far it is from there to the edges of its longer side.

@@ -25,17 +25,17 @@ float TurnOf(const LidRig::Vertex& lid, const EyeTransform& eye, const UnitEffec
 
 void MoveLids(const LidRig& rig, const Pose& pose, std::span<glm::vec3> position) {
   for (const LidRig::Vertex& lid : rig.vertices) {
-    const auto side = static_cast<std::size_t>(lid.side);
-    const EyeTransform& eye = rig.eyes[side];
+    const EyeTransform& eye = rig.eyes[lid.side];
     glm::vec3& p = position[lid.vertex];
-    if (const float turn = TurnOf(lid, eye, pose.lids[side]); turn != 0) {
+    if (const float turn = TurnOf(lid, eye, pose.lids[lid.side]); turn != 0) {
       const float c = std::cos(turn);
       const float s = std::sin(turn);
       p += eye.Turned({0, lid.y * c + lid.z * s - lid.y, lid.z * c - lid.y * s - lid.z});
     }
     if (!lid.proper) continue;
     // The cornea bulges the lid it rolls under.
-    const glm::vec3 middle = rig.ball[side] + eye.size * rig.cornea_centre * pose.eye[side][2];
+    const glm::vec3 middle =
+        rig.ball[lid.side] + eye.size * rig.cornea_centre * pose.eye[lid.side][2];
     const glm::vec3 off = p - middle;
     const float distance = glm::length(off);
     const float least = eye.size * (kCorneaRadius + step::kLidThickness);

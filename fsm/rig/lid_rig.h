@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
+#include "fsm/base/side.h"
 #include "fsm/rig/eye_transform.h"
 
 namespace fsm {
@@ -20,7 +20,7 @@ inline constexpr float kCorneaRadius = 8.0f;
 struct LidRig {
   struct Vertex {
     std::uint32_t vertex;
-    int side;                        ///< 0 the agent's right, 1 the left
+    Side side;
     float upper, lower;              ///< part in each lid's turn, 0..1
     float upper_angle, lower_angle;  ///< of the rims at rest
     float meet_angle;                ///< where the closed lids meet
@@ -29,9 +29,9 @@ struct LidRig {
     bool proper;                     ///< of the lid itself, not of the fold behind it
   };
   std::vector<Vertex> vertices;
-  std::array<EyeTransform, 2> eyes;  ///< right, left
-  std::array<glm::vec3, 2> ball{};   ///< their centres
-  float cornea_centre = 0;           ///< how far it lies before the ball's, millimetres
+  Sided<EyeTransform> eyes;
+  Sided<glm::vec3> ball;    ///< their centres
+  float cornea_centre = 0;  ///< how far it lies before the ball's, millimetres
 };
 
 /// Opens, closes and bulges the lids as the pose says.

@@ -29,7 +29,7 @@ void PartialRig::Evaluate(const FaceState& state, HeadVertices& out,
   rig_.Evaluate(state, some, swings);
   out.position.resize(whole_size_);
   for (std::size_t i = 0; i < vertices_.size(); ++i) out.position[vertices_[i]] = some.position[i];
-  out.wrinkles = some.wrinkles;
+  out.creases = some.creases;
   out.lids_shut = some.lids_shut;
 }
 

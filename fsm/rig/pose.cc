@@ -10,10 +10,6 @@ namespace {
 
 constexpr float kRadians = std::numbers::pi_v<float> / 180;
 
-float Bound(float value, float low, float high) {
-  return std::isfinite(value) ? std::clamp(value, low, high) : 0.0f;
-}
-
 glm::mat3 TurnX(float angle) {
   const float c = std::cos(angle);
   const float s = std::sin(angle);
@@ -32,18 +28,22 @@ glm::mat3 TurnZ(float angle) {
 
 // Lids follow the gaze: looking 25 degrees down lowers the upper lid 6.3 mm and the lower 1.7,
 // looking up raises them 3.3 and 1.3.
-void FollowGaze(float up_degrees, UnitEffects::Lids& lids) {
-  const float part = up_degrees / 25;
+void FollowGaze(float down_degrees, UnitEffects::Lids& lids) {
+  const float part = -down_degrees / 25;
   lids.upper_mm += part * (part < 0 ? 6.3f : 3.3f);
   lids.lower_mm += part * (part < 0 ? 1.7f : 1.3f);
 }
 
 }  // namespace
 
+float Bound(float value, float least, float most) {
+  return std::isfinite(value) ? std::clamp(value, least, most) : 0.0f;
+}
+
 glm::mat3 HeadTurn(const FaceState& state) {
-  return TurnY(Bound(state.head_rotation[1], -80, 80) * kRadians) *
-         TurnX(Bound(state.head_rotation[0], -60, 60) * kRadians) *
-         TurnZ(-Bound(state.head_rotation[2], -50, 50) * kRadians);
+  return TurnY(Bound(state.head_rotation[kToRight], -80, 80) * kRadians) *
+         TurnX(Bound(state.head_rotation[kDown], -60, 60) * kRadians) *
+         TurnZ(-Bound(state.head_rotation[kTilted], -50, 50) * kRadians);
 }
 
 float HeadForward(const FaceState& state) { return Bound(state.head_forward, -30, 45); }
@@ -55,10 +55,10 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   // Limits of the 17 mouth parameters: what lips can do, in millimetres; jaw apart.
   for (std::size_t p = 0; p < kMouthParameters; ++p) pose.mouth[p] = Bound(state.mouth[p], -14, 14);
   // A mandible opens 25-30 degrees and slides about a millimetre forward for every three of them.
-  const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[11], -30, 30), 0, 28);
-  const float slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[12], -6, 10), -4, 12);
-  pose.mouth[11] = degrees - Bound(effects.jaw_degrees, 0, 28);
-  pose.mouth[12] = slide_mm - Bound(effects.jaw_slide_mm, -4, 12);
+  const float degrees = Bound(effects.jaw_degrees + Bound(state.mouth[kJawY], -30, 30), 0, 28);
+  const float slide_mm = Bound(effects.jaw_slide_mm + Bound(state.mouth[kJawZ], -6, 10), -4, 12);
+  pose.mouth[kJawY] = degrees - Bound(effects.jaw_degrees, 0, 28);
+  pose.mouth[kJawZ] = slide_mm - Bound(effects.jaw_slide_mm, -4, 12);
   pose.SetJaw({.open_rad = degrees * kRadians,
                .slide_mm = slide_mm,
                .sway_mm = Bound(effects.jaw_sway_mm, -10, 10)});
@@ -66,18 +66,16 @@ Pose MakePose(const FaceState& state, const UnitTable& table) {
   pose.tongue_raise = Bound(effects.tongue_raise + Bound(state.tongue, 0, 1), 0, 1);
   pose.tongue_out_mm = Bound(effects.tongue_out_mm, 0, 30);
 
-  const std::array<FaceState::Eye, 2> gaze = {state.eye_right, state.eye_left};
-  const std::array<float, 2> blink = {state.blink_right, state.blink_left};
-  for (std::size_t s = 0; s < 2; ++s) {
-    const float up = Bound(gaze[s].x, -35, 35);
-    const float right = Bound(gaze[s].y, -45, 45);
-    pose.eye[s] = TurnY(right * kRadians) * TurnX(-up * kRadians);
+  for (const Side s : kSides) {
+    const float down = Bound(state.gaze[s][kDown], -35, 35);
+    const float right = Bound(state.gaze[s][kToRight], -45, 45);
+    pose.eye[s] = TurnY(right * kRadians) * TurnX(down * kRadians);
     pose.lids[s] = effects.lids[s];
-    FollowGaze(up, pose.lids[s]);
+    FollowGaze(down, pose.lids[s]);
     pose.lids[s].upper_mm = std::clamp(pose.lids[s].upper_mm, -11.0f, 4.0f);
     pose.lids[s].lower_mm = std::clamp(pose.lids[s].lower_mm, -3.0f, 4.0f);
     const float open = 1 - std::min(1.0f, effects.lids[s].close);
-    pose.blink[s] = open * Bound(blink[s], 0, 1);
+    pose.blink[s] = open * Bound(state.blink[s], 0, 1);
     pose.lids[s].close = 1 - open + pose.blink[s];
   }
   pose.head = HeadTurn(state);
@@ -117,14 +115,14 @@ glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight) {
   return p + weight * (turned - p);
 }
 
-Gaze GazeOf(const glm::mat3& eye) {
+EyeAngles GazeOf(const glm::mat3& eye) {
   const glm::vec3 ahead = eye[2];
-  return {.right_deg = glm::degrees(std::atan2(ahead.x, ahead.z)),
-          .up_deg = glm::degrees(std::asin(std::clamp(ahead.y, -1.0F, 1.0F)))};
+  return {-glm::degrees(std::asin(std::clamp(ahead.y, -1.0F, 1.0F))),
+          glm::degrees(std::atan2(ahead.x, ahead.z))};
 }
 
-glm::mat3 EyeTo(const Gaze& gaze) {
-  const float right = glm::radians(gaze.right_deg), up = glm::radians(gaze.up_deg);
+glm::mat3 EyeTo(const EyeAngles& gaze) {
+  const float right = glm::radians(gaze[kToRight]), up = glm::radians(-gaze[kDown]);
   const float cr = std::cos(right), sr = std::sin(right), cu = std::cos(up), su = std::sin(up);
   // Up first, then to the side: the third column is where the eye looks.
   return {{cr, 0, -sr}, {-sr * su, cu, -cr * su}, {sr * cu, su, cr * cu}};

@@ -16,21 +16,23 @@ struct JawMove {
 
 /// The numbers of one state from which every vertex follows.
 struct Pose {
-  SidedUnits units;
+  Sided<UnitValues> units;
   std::array<float, kMouthParameters> mouth;  ///< of the jaw what units leave to it
-  std::array<float, 2> blink;                 ///< right, left: lids close by it beyond the units
-  std::array<UnitEffects::Lids, 2> lids;      ///< right, left; gaze and blink included
+  Sided<float> blink;                         ///< lids close by it beyond the units
+  Sided<UnitEffects::Lids> lids;              ///< gaze and blink included
   JawMove jaw;
   float jaw_cos = 1, jaw_sin = 0;  ///< of jaw.open_rad
   glm::vec3 hinge = kJawHinge;
   float seal = 0;
   float tongue_raise = 0, tongue_out_mm = 0;
-  std::array<glm::mat3, 2> eye;  ///< right, left
+  Sided<glm::mat3> eye;
   glm::mat3 head;
   float head_forward_mm = 0;
 
   void SetJaw(const JawMove& move);
 };
+/// `value` within limits; what is no number counts as 0.
+float Bound(float value, float least, float most);
 /// How the head turns about kNeckPivot, and how far the neck carries it forward, millimetres.
 glm::mat3 HeadTurn(const FaceState& state);
 float HeadForward(const FaceState& state);
@@ -42,11 +44,8 @@ glm::vec3 TurnJaw(glm::vec3 p, const Pose& pose, float weight);
 glm::vec3 IntoJaw(glm::vec3 p, const Pose& pose);
 glm::vec3 TurnHead(glm::vec3 p, const Pose& pose, float weight);
 
-/// Where an eye looks: to the viewer's right, and up.
-struct Gaze {
-  float right_deg = 0, up_deg = 0;
-};
-Gaze GazeOf(const glm::mat3& eye);
-glm::mat3 EyeTo(const Gaze& gaze);
+/// Where an eye that is turned so looks, and the turn by which it looks there.
+EyeAngles GazeOf(const glm::mat3& eye);
+glm::mat3 EyeTo(const EyeAngles& gaze);
 
 }  // namespace fsm

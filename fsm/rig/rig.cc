@@ -97,20 +97,20 @@ void Rig::Evaluate(const FaceState& state, HeadVertices& out,
 }
 
 void Rig::FindMarks(const Pose& pose, HeadVertices& out) const {
-  out.wrinkles = {};
+  out.creases = {};
   if (data_.creases) {
-    out.wrinkles = CreaseDepths(pose.units, *data_.creases);
-    for (auto& sides : out.wrinkles) {
-      for (float& depth : sides) depth *= data_.crease_depth;
+    out.creases = CreaseDepths(pose.units, *data_.creases);
+    for (Sided<float>& depth : out.creases) {
+      for (const Side side : kSides) depth[side] *= data_.crease_depth;
     }
   }
-  for (std::size_t side = 0; side < 2; ++side) out.lids_shut[side] = pose.lids[side].close;
+  for (const Side side : kSides) out.lids_shut[side] = pose.lids[side].close;
 }
 
 RigInputs Rig::InputsOf(const FaceState& state) const {
   RigInputs inputs{.pose = PoseOf(state), .strengths = {}, .eye_turn = {}};
   FindStrengths(state, inputs.pose, inputs.strengths);
-  for (std::size_t side = 0; side < 2; ++side) inputs.eye_turn[side] = EyeTurn(inputs.pose, side);
+  for (const Side side : kSides) inputs.eye_turn[side] = EyeTurn(inputs.pose, side);
   return inputs;
 }
 
@@ -145,37 +145,36 @@ Rig Rig::WithUnits(const UnitTable& units) const {
 float Rig::ValueOf(const Drive& drive, const FaceState& state, const Pose& pose) {
   using enum Drive::Kind;
   const std::size_t number = drive.number;
-  const auto bound = [](float value, float low, float high) {
-    return std::isfinite(value) ? std::clamp(value, low, high) : 0.0f;
-  };
   constexpr float kMostMouth = 30;  // millimetres, of the jaw degrees
-  const auto whole = [&](std::size_t side) {
+  const auto whole = [&](Side side) {
     switch (drive.kind) {
       case kUnit:
         return pose.units[side][number];
       case kAskedUnit:
-        return bound(side == 0 ? state.au_right[number] : state.au_left[number], 0, 2);
+        return Bound(state.au[side][number], 0, 2);
       case kMouth:
         return pose.mouth[number];
       case kSpokenMouth:
-        return bound(state.mouth[number] - state.mouth_by_hand[number], -kMostMouth, kMostMouth);
+        return Bound(state.mouth[number] - state.mouth_by_hand[number], -kMostMouth, kMostMouth);
       case kHandMouth:
-        return bound(state.mouth_by_hand[number], -kMostMouth, kMostMouth);
+        return Bound(state.mouth_by_hand[number], -kMostMouth, kMostMouth);
       case kBlink:
         return pose.blink[side];
       case kGazeUp:
-        return GazeOf(pose.eye[side]).up_deg;
+        return -GazeOf(pose.eye[side])[kDown];
       case kGazeRight:
-        return GazeOf(pose.eye[side]).right_deg;
+        return GazeOf(pose.eye[side])[kToRight];
     }
     return 0.0f;
   };
-  const auto value = [&](std::size_t side) {
+  const auto value = [&](Side side) {
     if (drive.half == Drive::Half::kWhole) return whole(side);
     return std::max(drive.half == Drive::Half::kPositive ? whole(side) : -whole(side), 0.0f);
   };
-  if (drive.side == Drive::Side::kStronger) return std::max(value(0), value(1));
-  return value(static_cast<std::size_t>(drive.side));
+  if (drive.side == Drive::WhichSide::kStronger) {
+    return std::max(value(Side::kRight), value(Side::kLeft));
+  }
+  return value(drive.side == Drive::WhichSide::kRight ? Side::kRight : Side::kLeft);
 }
 
 void Rig::FindStrengths(const FaceState& state, const Pose& pose, std::vector<float>& out) const {
@@ -269,26 +268,26 @@ void Rig::MoveTongue(Frame& frame) const {
     glm::vec3 p = rest;
     p.z += path.Part() * pose.tongue_out_mm * tip;
     p.y += pose.tongue_raise * step::kTongueRaise * tip * tip;
-    frame.position[i] = path.Fit(TurnJaw(p, pose, 1 - 0.25f * pose.tongue_raise * tip));
+    frame.position[i] =
+        path.Fit(TurnJaw(p, pose, 1 - step::kTongueOffJaw * pose.tongue_raise * tip));
     frame.normal[i] = glm::normalize(TurnJaw(rest + rest_normal, pose, 1) - TurnJaw(rest, pose, 1));
   }
 }
 
-glm::mat3 Rig::EyeTurn(const Pose& pose, std::size_t side) const {
+glm::mat3 Rig::EyeTurn(const Pose& pose, Side side) const {
   if (!data_.look) return pose.eye[side];
-  const Gaze gaze = GazeOf(pose.eye[side]);
+  const EyeAngles gaze = GazeOf(pose.eye[side]);
   // To the viewer's right is outward of the agent's left eye.
-  const bool outward = (gaze.right_deg > 0) == (side == 1);
+  const bool outward = (gaze[kToRight] > 0) == (side == Side::kLeft);
   const auto turned = [](float angle, const LookRange& range) {
     return std::copysign(std::min(std::abs(angle) / range.gaze_deg, 1.0f) * range.turn, angle);
   };
-  return EyeTo(
-      {.right_deg = turned(gaze.right_deg, outward ? data_.look->outer : data_.look->inner),
-       .up_deg = turned(gaze.up_deg, gaze.up_deg > 0 ? data_.look->up : data_.look->down)});
+  return EyeTo({turned(gaze[kDown], gaze[kDown] < 0 ? data_.look->up : data_.look->down),
+                turned(gaze[kToRight], outward ? data_.look->outer : data_.look->inner)});
 }
 
 void Rig::MoveBones(Frame& frame) const {
-  const std::array<glm::mat3, 2> eye{EyeTurn(frame.pose, 0), EyeTurn(frame.pose, 1)};
+  const Sided<glm::mat3> turn{EyeTurn(frame.pose, Side::kRight), EyeTurn(frame.pose, Side::kLeft)};
   for (const std::uint32_t i : rigid_) {
     glm::vec3& p = frame.position[i];
     glm::vec3& n = frame.normal[i];
@@ -297,11 +296,10 @@ void Rig::MoveBones(Frame& frame) const {
       const glm::vec3 tip = TurnJaw(p + n, frame.pose, 1);
       p = TurnJaw(p, frame.pose, 1);
       n = glm::normalize(tip - p);
-    } else if (bone == Bone::kEyeLeft || bone == Bone::kEyeRight) {
-      const std::size_t side = bone == Bone::kEyeLeft ? 1 : 0;
-      const glm::vec3 pivot = data_.eye_pivot[side];
-      p = pivot + eye[side] * (p - pivot);
-      n = eye[side] * n;
+    } else if (const auto eye = EyeOf(bone)) {
+      const glm::vec3 pivot = data_.eye_pivot[*eye];
+      p = pivot + turn[*eye] * (p - pivot);
+      n = turn[*eye] * n;
     }
   }
 }

@@ -20,16 +20,15 @@ struct HeadVertices {
       position;  ///< N x 3 float, millimetres; x to the viewer's right, y up, z to the
                  ///< viewer; origin midway between the two ear canals (tragi)
   std::vector<glm::vec3> normal;  ///< N x 3 float, unit length
-  /// Depth of the creases, 0..1: [Wrinkle][0 = the agent's right (-x), 1 = left].
-  std::array<std::array<float, 2>, 4> wrinkles{};
-  std::array<float, 2> lids_shut{};  ///< right, left: 0 = as at rest, 1 = wholly
+  Creases creases{};
+  Sided<float> lids_shut;  ///< 0 = as at rest, 1 = wholly
 };
 
 /// The numbers of one state by which the steps move vertices, the same for all of them.
 struct RigInputs {
   Pose pose;
-  std::vector<float> strengths;       ///< of each channel
-  std::array<glm::mat3, 2> eye_turn;  ///< right, left: of what eyes carry, about RigData::eye_pivot
+  std::vector<float> strengths;  ///< of each channel
+  Sided<glm::mat3> eye_turn;     ///< of what eyes carry, about RigData::eye_pivot
 };
 
 /// The name of a step, as `fsm --describe` shows it.
@@ -68,7 +67,7 @@ class Rig {
   static float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose);
   void FindStrengths(const FaceState& state, const Pose& pose, std::vector<float>& out) const;
   /// How far an eye turns, which of heads from elsewhere is another angle than that of the gaze.
-  glm::mat3 EyeTurn(const Pose& pose, std::size_t side) const;
+  glm::mat3 EyeTurn(const Pose& pose, Side side) const;
   void FindDrives();
   void TakeStep(RigStep step, Frame& frame) const;
 

@@ -11,20 +11,20 @@ std::vector<Channel> UnitChannels(const UnitTable& units, std::span<const Bone> 
                                   std::span<const SkinWeights> weights) {
   constexpr float kLeast = 1e-3f;  // millimetres
   std::vector<Channel> channels;
-  for (std::uint8_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     std::map<int, std::vector<glm::vec3>> sums;  // of each unit, by vertex
     for (const UnitTable::Field& field : units.fields()) {
       auto& sum = sums[field.unit];
       sum.resize(weights.size(), glm::vec3(0));
       for (std::size_t i = 0; i < weights.size(); ++i) {
-        if (bones[i] == Bone::kSkin) sum[i] += UnitTable::Motion(field, weights[i], side == 0);
+        if (bones[i] == Bone::kSkin) sum[i] += UnitTable::Motion(field, weights[i], side);
       }
     }
     for (const auto& [unit, sum] : sums) {
       Channel channel;
       channel.drivers.push_back({{.kind = Drive::Kind::kUnit,
                                   .number = static_cast<std::uint16_t>(unit),
-                                  .side = static_cast<Drive::Side>(side)}});
+                                  .side = Drive::OnlyOf(side)}});
       for (std::uint32_t i = 0; i < sum.size(); ++i) {
         if (glm::length(sum[i]) > kLeast) channel.moves.push_back({i, sum[i]});
       }

@@ -43,19 +43,23 @@ struct Drive {
     kGazeUp,       ///< of an eye, degrees
     kGazeRight     ///< of an eye, to the viewer's right, degrees
   };
-  enum class Side : std::uint8_t {
+  enum class WhichSide : std::uint8_t {
     kRight,
     kLeft,
-    kStronger
-  };  ///< the agent's; the greater of both
+    kStronger  ///< the greater of both
+  };
   enum class Half : std::uint8_t {
     kWhole,
     kPositive,  ///< the value where it is above 0, else 0
     kNegative   ///< what it is below 0, as a positive number, else 0
   };
+  static WhichSide OnlyOf(Side one) {
+    return one == Side::kRight ? WhichSide::kRight : WhichSide::kLeft;
+  }
+
   Kind kind;
   std::uint16_t number = 0;
-  Side side = Side::kRight;  ///< of units, blinks and gazes
+  WhichSide side = WhichSide::kRight;  ///< of units, blinks and gazes
   Half half = Half::kWhole;
 };
 
@@ -85,8 +89,8 @@ struct LookRanges {
 /// A vertex of skin that stays outside an eyeball, whatever moves it.
 struct BallLid {
   std::uint32_t vertex;
-  std::uint8_t side;  ///< 0 the agent's right, 1 the left
-  float least;        ///< distance from the ball's centre, millimetres
+  Side side;
+  float least;  ///< distance from the ball's centre, millimetres
 };
 
 /// A vertex that lies on the teeth and is held off them.
@@ -141,14 +145,14 @@ struct RigData {
   LipRig lips;
   ToothArch upper_teeth{}, lower_teeth{};
   std::vector<TeethContact> teeth_contacts;
-  glm::vec3 jaw_hinge = kJawHinge;         ///< the jaw's axis goes through it along x
-  std::uint32_t chin = 0;                  ///< the vertex that kJawByChin looks at
-  std::array<glm::vec3, 2> eye_pivot{};    ///< what the eyes turn about: right, left
-  std::array<glm::vec3, 2> ball_centre{};  ///< of what `ball_lids` stay outside of
-  std::optional<LookRanges> look;          ///< else eyes turn as far as the gaze does
-  /// How deep forehead, glabella, crow's feet and nasolabial fold crease at rest, and a factor on
-  /// all creases; nothing where the head shows none.
-  std::optional<std::array<float, 4>> creases;
+  glm::vec3 jaw_hinge = kJawHinge;  ///< the jaw's axis goes through it along x
+  std::uint32_t chin = 0;           ///< the vertex that kJawByChin looks at
+  Sided<glm::vec3> eye_pivot;       ///< what the eyes turn about
+  Sided<glm::vec3> ball_centre;     ///< of what `ball_lids` stay outside of
+  std::optional<LookRanges> look;   ///< else eyes turn as far as the gaze does
+  /// How deep each Crease is at rest, and a factor on all of them; nothing where the head shows
+  /// none.
+  std::optional<std::array<float, kCreases>> creases;
   float crease_depth = 1;
   std::vector<Spring> springs;
   std::vector<SpringWeight> spring_weights;  ///< of vertices of Bone::kSkull or kSkin

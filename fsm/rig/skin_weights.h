@@ -2,12 +2,23 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
+
+#include "fsm/base/side.h"
 
 namespace fsm {
 
 /// What carries a vertex. Flesh follows the action units, the mouth, the lids and the jaw; the
 /// others move as rigid bodies (the tongue bends a little).
 enum class Bone : std::uint8_t { kSkin, kSkull, kJaw, kTongue, kEyeLeft, kEyeRight };
+
+/// The eye that a bone is, if it is one, and the bone of an eye.
+constexpr std::optional<Side> EyeOf(Bone bone) {
+  if (bone == Bone::kEyeRight) return Side::kRight;
+  if (bone == Bone::kEyeLeft) return Side::kLeft;
+  return std::nullopt;
+}
+constexpr Bone BoneOf(Side eye) { return eye == Side::kRight ? Bone::kEyeRight : Bone::kEyeLeft; }
 
 /// How a flesh vertex takes part in the motions; all weights 0..1.
 struct SkinWeights {
@@ -16,7 +27,7 @@ struct SkinWeights {
   float jaw = 0;
   float neck = 1;       ///< part of the head's turn it makes
   float free = 1;       ///< part of the action units' motion it takes (lid rims take none)
-  std::int8_t eye = 0;  ///< -1 right, +1 left, 0 none
+  std::int8_t eye = 0;  ///< whose lids are near: SignOf its side; 0 none
   float lid_upper = 0;
   float lid_lower = 0;
   std::int16_t lip_column = -1;  ///< index of the pair of seam vertices that corrects it

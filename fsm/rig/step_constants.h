@@ -13,7 +13,8 @@ inline constexpr float kMostOpen = 0.5f;       // of a jaw that follows the chin
 /// How much of a push by the teeth counts, by the height over their edge: none, all.
 inline constexpr float kPastTeeth = -2.2f, kBesideTeeth = 0.2f;
 
-inline constexpr float kTongueRaise = 11;                         // of the tip
+inline constexpr float kTongueRaise = 13;     // of the tip
+inline constexpr float kTongueOffJaw = 0.8f;  // a raised tip stays when the jaw drops
 inline constexpr float kTongueNoRoom = 2.5f, kTongueRoom = 5.5f;  // between teeth and lips
 inline constexpr float kTongueSkin = 0.6f;   // kept between the tongue and what it touches
 inline constexpr float kTongueEdges = 0.9f;  // teeth are not all of one height
@@ -26,13 +27,13 @@ struct Named {
   std::string_view name;
   float value;
 };
-inline constexpr Named kAll[] = {
-    {"kLidRadius", kLidRadius},       {"kLidThickness", kLidThickness},
-    {"kMostOpen", kMostOpen},         {"kPastTeeth", kPastTeeth},
-    {"kBesideTeeth", kBesideTeeth},   {"kTongueRaise", kTongueRaise},
-    {"kTongueNoRoom", kTongueNoRoom}, {"kTongueRoom", kTongueRoom},
-    {"kTongueSkin", kTongueSkin},     {"kTongueEdges", kTongueEdges},
-    {"kBehindTeeth", kBehindTeeth},   {"kTongueOut", kTongueOut},
-    {"kTongueWidest", kTongueWidest}, {"kTongueInArch", kTongueInArch}};
+inline constexpr Named kAll[] = {{"kLidRadius", kLidRadius},       {"kLidThickness", kLidThickness},
+                                 {"kMostOpen", kMostOpen},         {"kPastTeeth", kPastTeeth},
+                                 {"kBesideTeeth", kBesideTeeth},   {"kTongueRaise", kTongueRaise},
+                                 {"kTongueOffJaw", kTongueOffJaw}, {"kTongueNoRoom", kTongueNoRoom},
+                                 {"kTongueRoom", kTongueRoom},     {"kTongueSkin", kTongueSkin},
+                                 {"kTongueEdges", kTongueEdges},   {"kBehindTeeth", kBehindTeeth},
+                                 {"kTongueOut", kTongueOut},       {"kTongueWidest", kTongueWidest},
+                                 {"kTongueInArch", kTongueInArch}};
 
 }  // namespace fsm::step

@@ -11,6 +11,23 @@ namespace fsm {
 /// FACS of 1978 numbers its action units 1..46 (3 and 40 unused); a table of this size has room
 /// for all of them by number.
 inline constexpr std::size_t kActionUnits = 47;
+/// The units that code looks at by itself, by their names in FACS.
+enum ActionUnit : std::size_t {
+  kInnerBrowRaiser = 1,
+  kOuterBrowRaiser = 2,
+  kBrowLowerer = 4,
+  kCheekRaiser = 6,
+  kNoseWrinkler = 9,
+  kUpperLipRaiser = 10,
+  kNasolabialDeepener = 11,
+  kLipCornerPuller = 12,
+  kLipsPart = 25,
+  kJawDrop = 26,
+  kMouthStretch = 27,
+  kNostrilDilator = 38,
+  kLidDroop = 41,
+  kEyesClosed = 43
+};
 
 /// Strengths of the action units of one side by number: 0 = rest, 1 = full. The units of FACS are
 /// always there; a unit with a higher number exists from when it is first written on, and reads 0

@@ -19,6 +19,7 @@
 #include "ssm/engines/engine_set.h"
 #include "ssm/engines/espeak_engine.h"
 #include "ssm/flite/flite_engine.h"
+#include "ssm/sinks/copying_sink.h"
 #include "ssm/sinks/portaudio_sink.h"
 #include "ssm/sinks/sink_choice.h"
 #include "ssm/voice/voice_module.h"
@@ -140,18 +141,23 @@ std::unique_ptr<vm::Module> MakeModule(const Options& options, vm::Scheduler& sc
   if (opened.sink->name().starts_with("portaudio:")) {
     opened.sink = std::make_unique<ssm::RealTimeSink>(clock, std::move(opened.sink));
   }
-  ssm::VoiceModule::Options voice{.module_version = kModuleVersion,
-                                  .speaker = options.speaker,
-                                  .auto_play = options.config.auto_play,
-                                  .auto_play_delay = options.config.auto_play_delay,
-                                  .redirect_errors = RedirectErrors};
+  auto sink = std::make_unique<ssm::CopyingSink>(scheduler, std::move(opened.sink));
+  ssm::CopyingSink& copying = *sink;  // lives as long as the module
+  ssm::VoiceModule::Options voice{
+      .module_version = kModuleVersion,
+      .speaker = options.speaker,
+      .auto_play = options.config.auto_play,
+      .auto_play_delay = options.config.auto_play_delay,
+      .redirect_errors = RedirectErrors,
+      .send_sound = [&copying](const std::string& to) { return copying.SendTo(to); },
+      .sound_goes_to = [&copying] { return copying.to(); }};
   if (!options.config.speakers.empty()) {
     voice.aliases = options.config.speakers;
     if (voice.speaker.empty()) voice.speaker = voice.aliases.front().name;
   }
   return std::make_unique<ssm::VoiceModule>(
       scheduler,
-      ssm::VoiceModule::Parts{MakeEngines(options), std::move(opened.sink),
+      ssm::VoiceModule::Parts{MakeEngines(options), std::move(sink),
                               std::make_unique<ssm::ThreadWorker>(io, clock)},
       std::move(voice));
 }

@@ -112,7 +112,8 @@ void VoiceModule::SetNext(const std::string& text, const vm::Reply& reply) {
                       Utterance{.text = text, .spoken_text = std::move(read->plain)}),
                   .spans = Manners(std::move(read->spans)),
                   .cancelled = std::make_shared<std::atomic<bool>>(false),
-                  .reply = reply});
+                  .reply = reply,
+                  .wanted = WantedNow(text)});
   next_ = next;
   worker_->Run([this, next] { next->plan = engine_->Plan(next->spans, *next->cancelled); },
                [this, next, alive = std::weak_ptr<bool>(alive_)] {
@@ -148,9 +149,36 @@ void VoiceModule::TakeNext() {
   preparation_ = next;
   OnPlanned(next);
   if (!utterance_) return Abandon(next->after, "its text cannot be spoken");
+  next_wanted_ = next->wanted;
+  next_made_ = utterance_;
   for (auto queue = std::exchange(next->after, {}); !queue.empty(); queue.pop_front()) {
     queue.front().action();
   }
+}
+
+std::string VoiceModule::WantedNow(const std::string& text) const {
+  return voice_.name + " " + std::to_string(rate_) + " " + std::to_string(pitch_) + " " +
+         std::to_string(volume_) + " " + feeling_.name + " " + std::to_string(feeling_.strength01) +
+         " " + text;
+}
+
+/// A Text that is the next text, and that has been planned or is being planned already, costs no
+/// further planning. So whoever only knows Text can have it prepared by Text.next.
+bool VoiceModule::TakesNext(const std::string& text, const vm::Reply& reply) {
+  const std::string wanted = WantedNow(text);
+  if (next_ && next_->wanted == wanted && next_->after.empty()) {
+    next_->after.push_back({[this, text, reply] { SetText(text, reply); }, reply});
+    return true;
+  }
+  if (next_ || state_ != State::kReady || !utterance_ || utterance_ != next_made_ ||
+      next_wanted_ != wanted || !waiting_.empty() || !waiting_for_sound_.empty())
+    return false;
+  SetState(State::kProcessing);
+  slots_.Report("Text.text", text);
+  slots_.Report("Speak.text", utterance_->spoken_text);
+  ReportPhonemes();
+  MakeReady(reply, text);
+  return true;
 }
 
 vm::Result<std::string> VoiceModule::SetRecord(const std::string& path) {

@@ -55,6 +55,7 @@ void VoiceModule::DeclareManner() {
                     if (auto chosen = engine_->ChooseVoice(value.word(0), name); !chosen) {
                       return std::unexpected(chosen.error());
                     }
+                    next_made_.reset();  // planned with the voice before
                     return value.text;
                   },
                   .saved = false});

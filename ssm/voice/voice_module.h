@@ -57,6 +57,9 @@ class VoiceModule final : public vm::Module {
     std::function<vm::Time()> wall_clock = vm::WallSinceMidnight;
     /// Sends error texts to a file, or back to the console for "CONSOLE". Empty = not possible.
     std::function<vm::Result<void>(const std::string&)> redirect_errors{};
+    /// Sends a copy of what is heard to "unix:PATH", or no longer for "NONE". Empty = not possible.
+    std::function<vm::Result<void>(const std::string&)> send_sound{};
+    std::function<std::string()> sound_goes_to{};  ///< REQUIRES: not empty where send_sound is not
   };
 
   /// The scheduler outlives the module.
@@ -86,6 +89,7 @@ class VoiceModule final : public vm::Module {
     bool spoken = false;          ///< Speak is among it
     std::shared_ptr<const Prosody> prosody{};  ///< from a file; null = the engine's own
     SpeechPlan engine_plan{};                  ///< before the prosody changed it
+    std::string wanted{};                      ///< of a next text: what was asked for (WantedNow)
   };
 
   // voice_manner_slots.cc
@@ -146,6 +150,9 @@ class VoiceModule final : public vm::Module {
   void SetNext(const std::string& text, const vm::Reply& reply);
   void TakeNext();
   void DropNext(const char* why);
+  /// A text with the manner it would be spoken in now.
+  std::string WantedNow(const std::string& text) const;
+  bool TakesNext(const std::string& text, const vm::Reply& reply);
 
   vm::Scheduler& scheduler_;
   const Options options_;
@@ -176,6 +183,9 @@ class VoiceModule final : public vm::Module {
   std::shared_ptr<const Utterance> spoken_;      // the one they belong to
   std::unique_ptr<Tape> tape_;
   std::shared_ptr<Preparation> next_;  // made while another is spoken; its samples begun
+  /// What the last next text was asked for as, and what came of it.
+  std::string next_wanted_;
+  std::shared_ptr<const Utterance> next_made_;
   bool exit_requested_ = false;
   std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
 };

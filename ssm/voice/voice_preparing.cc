@@ -47,6 +47,7 @@ vm::Error VoiceModule::TooLong(const std::string& text) {
 void VoiceModule::SetText(const std::string& text, const vm::Reply& reply) {
   if (text.size() > kMaxTextBytes) return reply.Fail(TooLong(text));
   if (state_ == State::kPaused || player_.active()) return SetNext(text, reply);
+  if (TakesNext(text, reply)) return;
   // A sound still wanted by a SaveWAV is made to the end first.
   if (MustWait() || !waiting_for_sound_.empty()) {
     return WaitTurn([this, text, reply] { SetText(text, reply); }, reply);

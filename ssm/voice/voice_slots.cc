@@ -1,5 +1,5 @@
 // What the voice module can be told and asked: every slot of the original, then ours. The order of
-// declaration is the order of `inq Slots` and of the table in docs/slots.md.
+// declaration is the order of `inq Slots` and of the table in docs/reference/slots.md.
 
 #include "ssm/voice/voice_module.h"
 
@@ -28,7 +28,8 @@ void VoiceModule::DeclareTextSlots() {
                   .help =
                       "A Text made ready while another is spoken; it becomes the present one, "
                       "with the usual reports, right after IDLE; `Speak = NOW` meanwhile speaks "
-                      "it then. Without speech it is Text.",
+                      "it then, and a Text that is the same costs nothing more. Without speech it "
+                      "is Text.",
                   .on_set_later = [this](const vm::SetValue& value,
                                          vm::Reply reply) { SetNext(value.text, reply); },
                   .saved = false});
@@ -213,6 +214,27 @@ void VoiceModule::DeclareFileSlots() {
                   .access = vm::Access::kReadOnly,
                   .initial = sink_->name(),
                   .help = "Where the sound goes: null, portaudio:DEVICE or file:PATH (--sink)."});
+  slots_.Declare({.name = "Sound.to",
+                  .grammar = "NONE | <file>",
+                  .initial = "NONE",
+                  .help =
+                      "unix:PATH of a socket that somebody listens at: gets a copy of what is "
+                      "heard, with its times, up to 400 ms before it is (docs/speech.md). NONE: "
+                      "no longer.",
+                  .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+                    if (!options_.send_sound) {
+                      if (value.word(0) == "NONE") return "NONE";
+                      return vm::Fail(vm::Errc::kUnavailable, "this voice has no sound to send");
+                    }
+                    if (auto sent = options_.send_sound(value.word(0)); !sent) {
+                      return std::unexpected(sent.error());
+                    }
+                    return value.word(0);
+                  },
+                  .on_inq = [this]() -> std::string {
+                    return options_.sound_goes_to ? options_.sound_goes_to() : "NONE";
+                  },
+                  .saved = false});
 }
 
 void VoiceModule::DeclareLogSlots() {

@@ -27,7 +27,9 @@ class WebTest : public testing::Test {
         << token << "\"}, \"modules\": [{\"name\": \"FSM\", \"command\": [\"python3\", \""
         << GALATEA_SOURCE_DIR
         "/tests/agent_manager/fake_face.py\"]}, {\"name\": \"SRM\", \"command\": [\"python3\", \""
-        << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_ear.py\"]}]}";
+        << GALATEA_SOURCE_DIR
+        "/tests/agent_manager/fake_ear.py\"]}, {\"name\": \"SSM\", \"command\": [\"python3\", \""
+        << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_voice.py\"]}]}";
     hub_ = std::make_unique<Process>(std::vector<std::string>{kHub, "--config", config});
     EXPECT_TRUE(hub_->ExpectError("/?token=")) << hub_->ErrorText();
     const std::string text = hub_->ErrorText();
@@ -184,6 +186,44 @@ TEST_F(WebTest, AFilmSomebodyMakesIsNotDisturbed) {
   EXPECT_EQ(StatusOf("/face.mjpg", Host() + Cookie()), "503");
   hub_->WriteLine("to @FSM inq#2 Record");
   EXPECT_TRUE(hub_->Expect("rep#2 Record = /dev/null"));
+}
+
+TEST_F(WebTest, TheVoicesSoundComesWithItsTimeWhileSomebodyListens) {
+  const std::string headers = Host() + Cookie() + Socket("http://" + host_);
+  {
+    const auto voice = Open("/voice", headers);
+    ASSERT_TRUE(voice->Expect("101 Switching")) << hub_->ErrorText();
+    ASSERT_TRUE(hub_->Expect("From @SSM tell sound to unix:")) << hub_->Seen();
+    // In two pieces, the second of which begins within the samples.
+    hub_->WriteLine(R"(to @SSM set#1 Say = sound 12.5 16000 4\nA)");
+    hub_->WriteLine(R"(to @SSM set#2 Say = B\nCend 20\nsound 1 2 3\n)");
+    // A line feed stands among the samples, as one may.
+    EXPECT_TRUE(voice->Expect("AB")) << hub_->ErrorText();
+    ASSERT_TRUE(hub_->Expect("From @SSM tell sound to NONE")) << hub_->Seen();
+    voice->CloseInput();
+    voice->ReadAll();
+    EXPECT_NE(voice->Seen().find("the voice sent 'sound 1 2 3'"), std::string::npos)
+        << "what is no record ends the sound and says so";
+  }
+  {
+    const auto voice = Open("/voice", headers);
+    ASSERT_TRUE(hub_->Expect("From @SSM tell sound to unix:")) << "as often as somebody comes";
+  }
+  EXPECT_TRUE(hub_->Expect("From @SSM tell sound to NONE")) << "nobody listens any more";
+  EXPECT_EQ(StatusOf("/voice", Host() + Socket("")), "401");
+  EXPECT_EQ(StatusOf("/voice", Host() + Cookie() + Socket("http://evil.example")), "403");
+}
+
+TEST_F(WebTest, TheFaceComesAsPicturesWithTimes) {
+  const std::string headers = Host() + Cookie() + Socket("http://" + host_);
+  {
+    const auto face = Open("/face", headers);
+    ASSERT_TRUE(face->Expect("101 Switching")) << hub_->ErrorText();
+    EXPECT_TRUE(face->Expect("JFIF")) << hub_->ErrorText();
+  }
+  EXPECT_TRUE(hub_->Expect("From @FSM tell recording stopped")) << "nobody looks any more";
+  EXPECT_EQ(StatusOf("/face", Host() + Socket("")), "401");
+  EXPECT_EQ(StatusOf("/face", Host() + Cookie() + Socket("http://evil.example")), "403");
 }
 
 TEST_F(WebTest, MetricsAreInTheFormOfPrometheus) {

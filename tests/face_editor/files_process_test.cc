@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "face_fit/find/face_networks.h"
+#include "face_fit/find/network/face_networks.h"
 #include "fsm/asset/asset_file.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
@@ -26,8 +26,8 @@ class EditorFilesTest : public FaceEditorTest {
                                      {"eyeBlinkLeft", 45U}}) {
       shapes.push_back({name, {}});
       shapes.back().state.asymmetry = 0;
-      shapes.back().state.au_left[unit] = 1;
-      if (unit == 26) shapes.back().state.au_right[unit] = 1;
+      shapes.back().state.au.left[unit] = 1;
+      if (unit == 26) shapes.back().state.au.right[unit] = 1;
     }
     std::ofstream(folder_ + "/head.glb", std::ios::binary) << fsm::WriteAsset(*head, shapes);
     return folder_ + "/head.glb";

@@ -20,8 +20,8 @@ TEST_F(PlayerTest, AnExpressionComesStandsAndGoes) {
   Show show;
   show.expression = "HAPPY";
   ASSERT_TRUE(player_.Start(show, false, 10s));
-  EXPECT_EQ(player_.At(10s)->au_left[12], 0);
-  EXPECT_FLOAT_EQ(player_.At(11s)->au_left[12], 0.8F);
+  EXPECT_EQ(player_.At(10s)->au.left[12], 0);
+  EXPECT_FLOAT_EQ(player_.At(11s)->au.left[12], 0.8F);
   EXPECT_FALSE(player_.At(20s)) << "it is over";
 }
 
@@ -29,8 +29,8 @@ TEST_F(PlayerTest, ALoopBeginsAgainAndCanBeAskedBackwards) {
   Show show;
   show.expression = "HAPPY";
   ASSERT_TRUE(player_.Start(show, true, 0s));
-  EXPECT_FLOAT_EQ(player_.At(1s)->au_left[12], 0.8F);
-  EXPECT_EQ(player_.At(10ms)->au_left[12], 0);
+  EXPECT_FLOAT_EQ(player_.At(1s)->au.left[12], 0.8F);
+  EXPECT_EQ(player_.At(10ms)->au.left[12], 0);
   EXPECT_TRUE(player_.playing(100s));
   EXPECT_TRUE(player_.At(100s));
 }
@@ -41,9 +41,9 @@ TEST_F(PlayerTest, WhatIsEditedWhileItPlaysIsSeenAtOnce) {
   ASSERT_TRUE(player_.Start(show, false, 0s));
   static_cast<void>(player_.At(900ms));
   fsm::ActionUnits look;
-  look.left[12] = 0.25F;
+  look.au.left[12] = 0.25F;
   ASSERT_TRUE(editor_->SetExpression("HAPPY", 1, look));
-  EXPECT_FLOAT_EQ(player_.At(1s)->au_left[12], 0.25F);
+  EXPECT_FLOAT_EQ(player_.At(1s)->au.left[12], 0.25F);
 }
 
 TEST_F(PlayerTest, WhatIsPlayedMayGoAway) {
@@ -62,7 +62,7 @@ TEST_F(PlayerTest, SpeechOpensTheMouthAndNamesItsSounds) {
   ASSERT_TRUE(player_.Start(show, false, 0s));
   // 150 ms of rest, and 150 more before the voice.
   EXPECT_EQ(player_.PhonemeAt(600ms), "aa");
-  EXPECT_GT(player_.At(550ms)->mouth[11], 4) << "degrees of the jaw";
+  EXPECT_GT(player_.At(550ms)->mouth[fsm::kJawY], 4) << "degrees of the jaw";
   EXPECT_GT(player_.At(780ms)->lip_seal, 0.9F);
 }
 
@@ -78,12 +78,11 @@ TEST_F(PlayerTest, WhatTheTablesDoNotHaveIsRefusedAndTheOldPlaysOn) {
 
 TEST(StateOfTest, LooksCountTheEyesDownAndStatesUp) {
   fsm::ActionUnits look;
-  look.right[4] = 0.5F;
-  look.gaze_left = {6, -2};
+  look.au.right[4] = 0.5F;
+  look.gaze.left = {6, -2};
   const auto state = StateOf(look);
-  EXPECT_EQ(state.au_right[4], 0.5F);
-  EXPECT_EQ(state.eye_left.x, -6);
-  EXPECT_EQ(state.eye_left.y, -2);
+  EXPECT_EQ(state.au.right[4], 0.5F);
+  EXPECT_EQ(state.gaze, look.gaze);
 }
 
 }  // namespace

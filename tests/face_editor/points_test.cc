@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "face_editor/core/face_points.h"
-#include "face_fit/find/hand_points.h"
+#include "face_fit/find/face/hand_points.h"
 
 namespace editor {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "face_fit/find/face_networks.h"
-#include "face_fit/find/hand_points.h"
+#include "face_fit/find/face/hand_points.h"
+#include "face_fit/find/network/face_networks.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/image/image_file.h"
 #include "tests/face_editor/editor_process.h"

@@ -53,15 +53,15 @@ TEST(TableWriterTest, ChangedExpressionsAreReadAgainAndTheRestStays) {
   auto tables = fsm::MotionTables::Load();
   auto& emotions = tables->emotions;
   auto& happy = emotions.at("HAPPY");
-  happy.patterns[1].left[12] = 0.25F;
-  happy.patterns[1].gaze_left = happy.patterns[1].gaze_right = {-3, 4};
+  happy.patterns[1].au.left[12] = 0.25F;
+  happy.patterns[1].gaze.left = happy.patterns[1].gaze.right = {-3, 4};
   happy.patterns.push_back({});
-  happy.patterns.back().left[46] = happy.patterns.back().right[46] = 1;  // both sides of one
+  happy.patterns.back().au.left[46] = happy.patterns.back().au.right[46] = 1;  // both sides of one
   happy.posed.onset_ms = 333;
   emotions.at("SAD").patterns.pop_back();
   emotions.erase("USERDEF");
   emotions["SMIRK"].patterns.resize(1);
-  emotions["SMIRK"].patterns[0].right[14] = 0.5F;
+  emotions["SMIRK"].patterns[0].au.right[14] = 0.5F;
   const std::string text = WriteEmotions(Carried("emotions.txt"), emotions);
   const auto read = fsm::ReadEmotions("emotions.txt", text);
   ASSERT_TRUE(read) << read.error().text;
@@ -70,9 +70,8 @@ TEST(TableWriterTest, ChangedExpressionsAreReadAgainAndTheRestStays) {
     const auto& again = read->at(name);
     ASSERT_EQ(again.patterns.size(), emotion.patterns.size()) << name;
     for (std::size_t p = 0; p < emotion.patterns.size(); ++p) {
-      EXPECT_EQ(again.patterns[p].left, emotion.patterns[p].left) << name << p;
-      EXPECT_EQ(again.patterns[p].right, emotion.patterns[p].right) << name << p;
-      EXPECT_EQ(again.patterns[p].gaze_right, emotion.patterns[p].gaze_right) << name << p;
+      EXPECT_EQ(again.patterns[p].au, emotion.patterns[p].au) << name << p;
+      EXPECT_EQ(again.patterns[p].gaze.right, emotion.patterns[p].gaze.right) << name << p;
     }
     EXPECT_EQ(again.posed.onset_ms, emotion.posed.onset_ms) << name;
     EXPECT_EQ(again.elicited.lag_ms, emotion.elicited.lag_ms) << name;
@@ -85,7 +84,7 @@ TEST(TableWriterTest, ChangedExpressionsAreReadAgainAndTheRestStays) {
 TEST(TableWriterTest, AChangedMouthShapeIsOneLine) {
   auto tables = fsm::MotionTables::Load();
   auto& shapes = tables->set14.shapes;
-  shapes[9].pose.mouth[11] = 12.5F;
+  shapes[9].pose.mouth[fsm::kJawY] = 12.5F;
   shapes[9].hold = 0.2;
   const std::string before = Carried("mouth_shapes.txt");
   const std::string text = WriteVisemes(before, shapes);
@@ -130,7 +129,7 @@ TEST(EditorTablesTest, AFolderOfTablesIsWrittenAndReadByTheFace) {
   auto editor = Editor::Make("");
   ASSERT_TRUE(editor);
   fsm::ActionUnits look;
-  look.left[12] = 0.75F;
+  look.au.left[12] = 0.75F;
   ASSERT_TRUE((*editor)->SetExpression("HAPPY", 1, look));
   EXPECT_TRUE((*editor)->Unsaved(Part::kEmotions));
   const auto written = (*editor)->SaveTables(folder);

@@ -12,8 +12,8 @@
 
 #include "face_fit/bake/billboard_mesh.h"
 #include "face_fit/bake/grain.h"
-#include "face_fit/bake/matte.h"
-#include "face_fit/find/figure_finder.h"
+#include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/find/figure/matte.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/inpaint.h"
 #include "face_fit/picture/resample.h"

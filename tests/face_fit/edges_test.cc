@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "face_fit/find/lid_edges.h"
-#include "face_fit/find/lip_seam.h"
+#include "face_fit/find/head/lid_edges.h"
+#include "face_fit/find/head/lip_seam.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
 
@@ -18,10 +18,10 @@ class EdgesTest : public testing::Test {
  protected:
   EdgesTest() : head_(fsm::MakeHead("galatea", false)) { head_->Evaluate({}, rest_); }
 
-  std::optional<LidEdges> Lids(const fsm::HeadVertices& at, std::size_t side) const {
+  std::optional<LidEdges> Lids(const fsm::HeadVertices& at, fsm::Side side) const {
     const auto& topology = head_->topology();
     return FindLidEdges(topology, at.position, EyeVertices(topology, at.position.size()),
-                        topology.eyes[side].centre, side == 0 ? -1.0F : 1.0F);
+                        topology.eyes[side].centre, fsm::SignOf(side));
   }
   std::optional<LipSeam> Seam(const fsm::HeadVertices& at) const {
     // Skin above and below the lips, wherever it is now.
@@ -54,9 +54,9 @@ class EdgesTest : public testing::Test {
 };
 
 TEST_F(EdgesTest, LidEdgesLieBesideTheEyeballInOrder) {
-  for (const std::size_t side : {0U, 1U}) {
+  for (const fsm::Side side : fsm::kSides) {
     const auto edges = Lids(rest_, side);
-    ASSERT_TRUE(edges) << side;
+    ASSERT_TRUE(edges) << fsm::SignOf(side);
     const auto& eye = head_->topology().eyes[side];
     const glm::vec3 outer = edges->outer.On(rest_.position),
                     inner = edges->inner.On(rest_.position);
@@ -76,10 +76,10 @@ TEST_F(EdgesTest, LidEdgesLieBesideTheEyeballInOrder) {
 }
 
 TEST_F(EdgesTest, UpperEdgeFallsWhenTheEyeCloses) {
-  const auto edges = Lids(rest_, 0);
+  const auto edges = Lids(rest_, fsm::Side::kRight);
   ASSERT_TRUE(edges);
   fsm::FaceState shut;
-  shut.blink_right = 1;
+  shut.blink.right = 1;
   const auto moved = Shown(shut);
   const std::size_t middle = LidEdges::kBetween / 2;
   const float opening =
@@ -90,8 +90,8 @@ TEST_F(EdgesTest, UpperEdgeFallsWhenTheEyeCloses) {
 
 TEST_F(EdgesTest, ShutEyesHaveNoEdges) {
   fsm::FaceState shut;
-  shut.blink_right = shut.blink_left = 1;
-  EXPECT_FALSE(Lids(Shown(shut), 0));
+  shut.blink.right = shut.blink.left = 1;
+  EXPECT_FALSE(Lids(Shown(shut), fsm::Side::kRight));
 }
 
 TEST_F(EdgesTest, SeamTellsTheLipsApart) {
@@ -99,7 +99,7 @@ TEST_F(EdgesTest, SeamTellsTheLipsApart) {
   ASSERT_TRUE(seam);
   fsm::FaceState open;
   open.asymmetry = 0;
-  open.au_left[27] = open.au_right[27] = 1;
+  open.au.left[27] = open.au.right[27] = 1;
   const auto moved = Shown(open);
   for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
     const glm::vec3 up = seam->upper[k].On(rest_.position), low = seam->lower[k].On(rest_.position);
@@ -116,7 +116,7 @@ TEST_F(EdgesTest, SeamTellsTheLipsApart) {
 TEST_F(EdgesTest, PartedLipsHaveTwoEdges) {
   fsm::FaceState open;
   open.asymmetry = 0;
-  open.au_left[26] = open.au_right[26] = 1;
+  open.au.left[26] = open.au.right[26] = 1;
   const auto moved = Shown(open);
   const auto seam = Seam(moved);
   ASSERT_TRUE(seam);

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "face_fit/find/portrait_view.h"
+#include "face_fit/find/head/portrait_view.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/process.h"
 
@@ -41,7 +41,7 @@ TEST_F(FaceWatchTest, TheGapOfTheLipsIsSeenToAThird) {
   EXPECT_LT(rest_.gap, 0.5F) << "closed";
   for (const float jaw : {3.0F, 6.0F, 10.0F}) {
     fsm::FaceState state;
-    state.mouth[11] = jaw;
+    state.mouth[fsm::kJawY] = jaw;
     const float told = Galatea().head->MeasureMouth(state).gap_mm;
     EXPECT_NEAR(See(state).gap, told, 0.35F * told) << jaw;
   }
@@ -49,8 +49,8 @@ TEST_F(FaceWatchTest, TheGapOfTheLipsIsSeenToAThird) {
 
 TEST_F(FaceWatchTest, TheWidthOfTheMouthIsSeen) {
   fsm::FaceState wide, narrow;
-  wide.mouth[8] = 3.5F;
-  narrow.mouth[8] = -5;
+  wide.mouth[fsm::kCornerX] = 3.5F;
+  narrow.mouth[fsm::kCornerX] = -5;
   const float told =
       Galatea().head->MeasureMouth(wide).width_mm - Galatea().head->MeasureMouth(narrow).width_mm;
   EXPECT_NEAR(See(wide).width - See(narrow).width, told, 0.3F * told);
@@ -58,13 +58,13 @@ TEST_F(FaceWatchTest, TheWidthOfTheMouthIsSeen) {
 
 TEST_F(FaceWatchTest, ShutEyesAreSeen) {
   fsm::FaceState state;
-  state.blink_left = state.blink_right = 1;
+  state.blink.left = state.blink.right = 1;
   const FaceMeasures shut = See(state);
   for (const std::size_t side : {0U, 1U}) {
     EXPECT_GT(rest_.eye[side], 8);
     EXPECT_LT(shut.eye[side], 0.4F * rest_.eye[side]);
   }
-  state.blink_left = 0;  // side 0 is the person's right
+  state.blink.left = 0;  // side 0 is the person's right
   const FaceMeasures wink = See(state);
   EXPECT_LT(wink.eye[0], 0.6F * wink.eye[1]);
 }
@@ -86,8 +86,8 @@ TEST_F(FaceWatchTest, TurnsOfTheHeadHaveTheirSignsAndSizes) {
 
 TEST_F(FaceWatchTest, BrowsAndCornersMoveAsUnitsSay) {
   fsm::FaceState brows, smile;
-  for (const std::size_t unit : {1U, 2U}) brows.au_left[unit] = brows.au_right[unit] = 1;
-  smile.au_left[12] = 1;
+  for (const std::size_t unit : {1U, 2U}) brows.au.left[unit] = brows.au.right[unit] = 1;
+  smile.au.left[12] = 1;
   const FaceMeasures raised = See(brows), smiling = See(smile);
   for (const std::size_t side : {0U, 1U}) {
     EXPECT_GT(raised.brow_inner[side], rest_.brow_inner[side] + 2) << side;

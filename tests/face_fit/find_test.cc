@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "face_fit/find/face_finder.h"
-#include "face_fit/find/upright.h"
+#include "face_fit/find/face/upright.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"

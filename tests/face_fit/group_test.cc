@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "face_fit/find/face_finder.h"
-#include "face_fit/find/upright.h"
+#include "face_fit/find/face/upright.h"
+#include "face_fit/find/network/face_finder.h"
 #include "face_fit/picture/filters.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/renderer.h"

@@ -16,7 +16,7 @@
 #include <string>
 #include <tuple>
 
-#include "face_fit/find/head_finder.h"
+#include "face_fit/find/head/head_finder.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/obj_file.h"
 #include "tests/face_fit/network_fixture.h"
@@ -175,12 +175,12 @@ TEST_F(HeadTest, OurJawOpensTheirsAndOurLidsShutTheirs) {
     const auto head = fsm::MakeMeshHead(std::move(model), std::move(skin));
     fsm::HeadVertices moved;
     fsm::FaceState state;
-    state.au_left[27] = state.au_right[27] = 1;
+    state.au.left[27] = state.au.right[27] = 1;
     head->Evaluate(state, moved);
     EXPECT_LT(mean(moved.position, fsm::FacePart::kLowerLip), -15) << name;
     EXPECT_GT(mean(moved.position, fsm::FacePart::kUpperLip), -8) << name;
     state = {};
-    state.blink_left = state.blink_right = 1;
+    state.blink.left = state.blink.right = 1;
     head->Evaluate(state, moved);
     EXPECT_LT(mean(moved.position, fsm::FacePart::kUpperLid), -2.5F) << name;
     EXPECT_GT(mean(moved.position, fsm::FacePart::kLowerLid), -2) << name;
@@ -222,9 +222,11 @@ TEST_F(HeadTest, AHeadThatIsNeverSeenFromTheFrontIsRefused) {
     FindHeadPoints(*networks_, *file, "lying.obj", "galatea");
     FAIL() << "points were made up";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("'lying.obj' is not seen from the front"),
-              std::string::npos)
-        << error.what();
+    // Whether the network takes the crown of a head for a face decides which of the two is said.
+    const std::string said = error.what();
+    EXPECT_TRUE(said.starts_with("'lying.obj' is not seen from the front") ||
+                said.starts_with("no face is seen on 'lying.obj'"))
+        << said;
   }
 }
 

@@ -13,10 +13,10 @@
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/bake/skin_colours.h"
 #include "face_fit/bake/smile_folds.h"
-#include "face_fit/find/base_head.h"
-#include "face_fit/find/glasses.h"
-#include "face_fit/find/iris.h"
-#include "face_fit/find/mouth_line.h"
+#include "face_fit/find/face/glasses.h"
+#include "face_fit/find/face/iris.h"
+#include "face_fit/find/face/mouth_line.h"
+#include "face_fit/find/head/base_head.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/picture/resample.h"
 #include "fsm/head/make_head.h"
@@ -288,16 +288,15 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   face.points.assign(kNetworkPoints, glm::vec3(0));
   Fit fit;
   std::vector<glm::vec2> centres;
-  for (const int side : {0, 1}) {
-    const auto k = static_cast<std::size_t>(side);
-    const glm::vec3 ball = base.head->topology().eyes[k].centre;
+  for (const fsm::Side side : fsm::kSides) {
+    const glm::vec3 ball = base.head->topology().eyes[side].centre;
     const glm::vec2 centre(500 + 4 * ball.x, 300 - 4 * ball.y);
     centres.push_back(centre);
-    fit.irises[k] = {.centre = centre, .radius = 24, .contrast = 0.4F};
+    fit.irises[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
     for (std::size_t i = 0; i < 16; ++i) {
       const auto point = EyeOutline(side)[i];
       const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
-      const float x = (side == 0 ? 13.0F : -13.0F) * part;
+      const float x = (-13.0F * fsm::SignOf(side)) * part;
       const float open = i % 8 == 0 ? 0.0F : i < 8 ? 3.0F : -6.0F;
       face.points[point] = glm::vec3(centre + 4.0F * glm::vec2(x, -open), 0);
       // The nearest vertex of the skin stands for the place on the mesh.
@@ -324,7 +323,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   fsm::PhotoHead set;
   PaintEyes(base, face, fit, photo, picture, set);
   ASSERT_TRUE(set.eye_pictures);
-  for (const fsm::EyePicture& eye : *set.eye_pictures) {
+  for (const fsm::EyePicture& eye : set.eye_pictures->InOrder()) {
     const auto shown = [&](const glm::vec4& square, glm::vec2 part) {
       const glm::vec2 at = glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, part);
       return ColourAt(picture, at * glm::vec2(1024, 512)).g;
@@ -347,7 +346,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     const auto row = hidden.rgba.begin() + 4 * (y * 1000 + 500);
     std::fill(row, row + 4 * 500, std::uint8_t{130});
   }
-  fit.irises[1].contrast = 0.01F;
+  fit.irises.left.contrast = 0.01F;
   fsm::PhotoHead one_hidden, half_shut;
   PaintEyes(base, face, fit, hidden, picture, one_hidden);
   ASSERT_TRUE(one_hidden.eye_pictures);
@@ -361,7 +360,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(at(left.iris, part), at(right.iris, {1 - part.x, part.y}), 2) << part.x;
     EXPECT_NEAR(at(left.ball, part), at(right.ball, {1 - part.x, part.y}), 2) << part.x;
   }
-  fit.irises[0].contrast = 0.08F;
+  fit.irises.right.contrast = 0.08F;
   PaintEyes(base, face, fit, hidden, picture, half_shut);
   EXPECT_FALSE(half_shut.eye_pictures) << "eyes that are not seen clearly are drawn";
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "face_fit/find/base_head.h"
-#include "face_fit/find/face_networks.h"
+#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/network/face_networks.h"
 
 namespace facefit {
 

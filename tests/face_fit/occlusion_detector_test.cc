@@ -1,7 +1,7 @@
 // Photos with something drawn before the face. The photos are not part of the repository
 // (tests/README.md); without them or the networks the tests are skipped.
 
-#include "face_fit/find/occlusion_detector.h"
+#include "face_fit/find/face/occlusion_detector.h"
 
 #include <gtest/gtest.h>
 

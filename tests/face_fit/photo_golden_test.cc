@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "face_fit/bake/texture_bake.h"
-#include "face_fit/find/around_face.h"
-#include "face_fit/find/figure_finder.h"
+#include "face_fit/find/face/around_face.h"
+#include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/fit/fit.h"
 #include "face_fit/picture/photo.h"
 #include "fsm/head/make_head.h"
@@ -54,9 +54,9 @@ using PhotoGoldenTest = NetworkTest;
 TEST_F(PhotoGoldenTest, APhotoIsFittedAndWornAsKept) {
   const auto head = WornBy(*networks_, Galatea(), PhotoOf("baucis"));
   fsm::FaceState state;
-  state.au_left[26] = state.au_right[26] = 0.6F;
-  state.au_left[1] = state.au_right[1] = 0.6F;
-  state.blink_left = 0.5F;
+  state.au.left[26] = state.au.right[26] = 0.6F;
+  state.au.left[1] = state.au.right[1] = 0.6F;
+  state.blink.left = 0.5F;
   state.head_rotation[1] = -10;
   fsm::Scene scene;
   scene.camera.distance = 0.65F;

@@ -1,4 +1,4 @@
-#include "face_fit/bake/photo_look.h"
+#include "face_fit/tables/photo_look.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "face_fit/find/symmetry.h"
+#include "face_fit/find/head/symmetry.h"
 
 #include <gtest/gtest.h>
 

@@ -52,26 +52,26 @@ TEST(PhotoHeadTest, ComesBackAsItWasWritten) {
         {glm::vec3(static_cast<float>(i)), glm::vec2(0.25F * static_cast<float>(i))});
   set.sheet_triangles = {0, 1, 2, 0, 2, 3};
   set.eyes.emplace();
-  (*set.eyes)[1] = {.shift = {1, 2, -3}, .turn = 0.1F, .size = 1.1F, .upper_mm = -2, .lower_mm = 1};
+  set.eyes->left = {.shift = {1, 2, -3}, .turn = 0.1F, .size = 1.1F, .upper_mm = -2, .lower_mm = 1};
   set.lip_colour = glm::vec3(0.2F, 0.1F, 0.05F);
   set.iris_size = 0.9F;
   set.glasses = true;
   set.lined = 0.4F;
-  set.eye_pictures.emplace();
-  for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.2F, 0.3F, 0.4F}, {0.5F, 0.25F, 1, 0.75F}};
+  const EyePicture eye{{0.1F, 0.2F, 0.3F, 0.4F}, {0.5F, 0.25F, 1, 0.75F}};
+  set.eye_pictures = {eye, eye};
   const PhotoHead back = ReadPhotoHead("face.txt", WritePhotoHead(set));
   ASSERT_TRUE(back.eyes && back.lip_colour);
-  EXPECT_EQ((*back.eyes)[1].shift, (*set.eyes)[1].shift);
-  EXPECT_NEAR((*back.eyes)[1].turn, 0.1F, 1e-3F);
-  EXPECT_EQ((*back.eyes)[1].upper_mm, -2);
-  EXPECT_EQ((*back.eyes)[0].size, 1);
+  EXPECT_EQ(back.eyes->left.shift, set.eyes->left.shift);
+  EXPECT_NEAR(back.eyes->left.turn, 0.1F, 1e-3F);
+  EXPECT_EQ(back.eyes->left.upper_mm, -2);
+  EXPECT_EQ(back.eyes->right.size, 1);
   EXPECT_EQ(*back.lip_colour, *set.lip_colour);
   EXPECT_NEAR(back.iris_size, 0.9F, 1e-3F);
   EXPECT_TRUE(back.glasses);
   EXPECT_NEAR(back.lined, 0.4F, 1e-3F);
   ASSERT_TRUE(back.eye_pictures);
-  EXPECT_EQ((*back.eye_pictures)[1].iris, (*set.eye_pictures)[1].iris);
-  EXPECT_EQ((*back.eye_pictures)[0].ball, (*set.eye_pictures)[0].ball);
+  EXPECT_EQ(back.eye_pictures->left.iris, set.eye_pictures->left.iris);
+  EXPECT_EQ(back.eye_pictures->right.ball, set.eye_pictures->right.ball);
   ASSERT_EQ(back.points.size(), set.points.size());
   EXPECT_EQ(back.points[5].by, set.points[5].by);
   EXPECT_EQ(back.smooth, set.smooth);
@@ -101,8 +101,8 @@ TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
   set.photo = std::make_shared<Image>(Image{1, 1, {0, 0, 0, 255}});
   set.eyes.emplace();
   const auto plain = MakeHead(set);
-  (*set.eyes)[0].shift = {-2, 1, 0};
-  (*set.eyes)[1].upper_mm = -4;
+  set.eyes->right.shift = {-2, 1, 0};
+  set.eyes->left.upper_mm = -4;
   const auto own = MakeHead(set);
   EXPECT_LT(glm::distance(own->Landmark("pupil_right"),
                           plain->Landmark("pupil_right") + glm::vec3(-2, 1, 0)),
@@ -113,7 +113,7 @@ TEST(PhotoHeadTest, EachEyeSitsAndOpensAsTheFaceSays) {
     HeadVertices vertices;
     head.Evaluate({}, vertices);
     float lowest = 1e9F;
-    const EyeGeometry& eye = head.topology().eyes[side > 0 ? 1 : 0];
+    const EyeGeometry& eye = head.topology().eyes[side > 0 ? Side::kLeft : Side::kRight];
     for (const auto& part : head.topology().parts) {
       if (part.material != Material::kSkin) continue;
       for (std::uint32_t k = 0; k < part.index_count; ++k) {
@@ -138,11 +138,11 @@ TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
   EXPECT_GT(std::ranges::count_if(lids, [](const ShutLid& lid) { return lid.weight > 0.7F; }), 40);
   EXPECT_EQ(std::ranges::count_if(lids, [](const ShutLid& lid) { return lid.weight > 1; }), 0);
   FaceState state;
-  state.au_left[45] = 1;
+  state.au.left[45] = 1;
   HeadVertices vertices;
   head->Evaluate(state, vertices);
-  EXPECT_EQ(vertices.lids_shut[0], 0);
-  EXPECT_EQ(vertices.lids_shut[1], 1);
+  EXPECT_EQ(vertices.lids_shut.right, 0);
+  EXPECT_EQ(vertices.lids_shut.left, 1);
 }
 
 /// The most any pixel of the open mouth differs from grey, of 255.
@@ -154,8 +154,8 @@ int ColourOfTheMouth(float saturation) {
   set.saturation = saturation;
   const auto head = MakeHead(set);
   FaceState state;
-  state.au_right[26] = state.au_left[26] = 0.8F;
-  state.au_right[25] = state.au_left[25] = 0.6F;
+  state.au.right[26] = state.au.left[26] = 0.8F;
+  state.au.right[25] = state.au.left[25] = 0.6F;
   HeadVertices vertices;
   head->Evaluate(state, vertices);
   const auto context = RenderContext::MakeHeadless(240, 240);
@@ -221,10 +221,10 @@ TEST(PhotoHeadTest, ASmoothSkinCreasesLess) {
     set.lined = lined;
     set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 130, 255}});
     FaceState surprise;
-    for (const std::size_t unit : {1U, 2U}) surprise.au_left[unit] = surprise.au_right[unit] = 1;
+    for (const std::size_t unit : {1U, 2U}) surprise.au.left[unit] = surprise.au.right[unit] = 1;
     HeadVertices v;
     MakeHead(set)->Evaluate(surprise, v);
-    return v.wrinkles[0][0];
+    return v.creases[0].right;
   };
   EXPECT_GT(depth(1), 0.5F);
   EXPECT_NEAR(depth(0.3F), 0.3F * depth(1), 1e-3F);
@@ -246,10 +246,10 @@ TEST(PhotoHeadTest, TheSkinBehindGlassesStaysWhenBrowsAndCheeksMove) {
     head->Evaluate({}, rest);
     FaceState state;
     for (const std::size_t unit : {std::size_t{4}, std::size_t{6}}) {
-      state.au_left[unit] = state.au_right[unit] = 1;
+      state.au.left[unit] = state.au.right[unit] = 1;
     }
     head->Evaluate(state, frown);
-    const glm::vec3 eye = head->topology().eyes[1].centre;
+    const glm::vec3 eye = head->topology().eyes.left.centre;
     float nearest = 1e9F, way = 0;
     for (std::size_t i = 0; i < rest.position.size(); ++i) {
       const glm::vec3 off = rest.position[i] - eye;
@@ -286,8 +286,8 @@ TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
   set.photo = std::make_shared<Image>(photo);
   set.skin_low = {0.1F, 0.9F};
   set.skin_high = {0.9F, 0.6F};
-  set.eye_pictures.emplace();
-  for (auto& eye : *set.eye_pictures) eye = {{0.1F, 0.05F, 0.9F, 0.2F}, {0.1F, 0.3F, 0.9F, 0.45F}};
+  const EyePicture eye{{0.1F, 0.05F, 0.9F, 0.2F}, {0.1F, 0.3F, 0.9F, 0.45F}};
+  set.eye_pictures = {eye, eye};
   const auto head = MakeHead(set);
   const auto context = RenderContext::MakeHeadless(400, 400);
   const auto renderer = Renderer::Make(*context);
@@ -297,7 +297,7 @@ TEST(PhotoHeadTest, AnEyeOfThePhotoIsSeenAndItsIrisGoesWithTheGaze) {
   };
   const auto look = [&](float turn) {
     FaceState state;
-    state.eye_left.y = state.eye_right.y = turn;
+    state.gaze.left[kToRight] = state.gaze.right[kToRight] = turn;
     HeadVertices vertices;
     head->Evaluate(state, vertices);
     Image image;

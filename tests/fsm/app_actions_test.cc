@@ -24,13 +24,13 @@ TEST_F(ActionsTest, UnitsAndBlendShapesComeInLists) {
   EXPECT_EQ(fsm.Say("set#1 ARKit = jawOpen 0.3 mouthSmileLeft 0.6 300"),
             "rep#1 ARKit = jawOpen 0.3 mouthSmileLeft 0.6 300");
   fsm.Until(1000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[6], 0.5f);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[1], 0.3f);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[27], 0.3f);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 1.3f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[6], 0.5f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[1], 0.3f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[27], 0.3f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 1.3f);
   Refusal("set#1 ARKit = jawOpen 0.9 mouthGrin 0.6");
   fsm.Until(2000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[27], 0.3f) << "a refused line moves nothing";
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[27], 0.3f) << "a refused line moves nothing";
   for (const auto& [name, units] : fsm.module.motion().tables().blend_shapes) {
     EXPECT_TRUE(fsm.Say("set#2 ARKit = " + name + " 0.1").starts_with("rep#2 ARKit = ")) << name;
   }
@@ -43,7 +43,7 @@ TEST_F(ActionsTest, ExpressionsAreDefinedShownAskedAndDeleted) {
   EXPECT_EQ(fsm.Say("inq FaceExp.SMIRK.1"), "rep FaceExp.SMIRK.1 = 12L:0.7 14R:0.2");
   EXPECT_EQ(fsm.Say("set#1 FaceExp = SMIRK 1 100 0"), "rep#1 FaceExp = SMIRK 1 100 0");
   fsm.Until(1000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 0.7f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 0.7f);
   EXPECT_EQ(fsm.Say("del#1 FaceExp.SMIRK"), "rep#1 FaceExp.SMIRK = deleted");
   EXPECT_NE(Refusal("set#1 FaceExp = SMIRK 1 100 0").find("'SMIRK' is no expression"),
             std::string::npos);
@@ -58,11 +58,11 @@ TEST_F(ActionsTest, PrototypesAreSlotsWhichCanBeEditedSavedAndBroughtBack) {
   EXPECT_EQ(fsm.Say("set#1 FaceExp.HAPPY.1 = 12 1 6 D"), "rep#1 FaceExp.HAPPY.1 = 12 1 6 D");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
   fsm.Until(1000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[6], 0.75f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[6], 0.75f);
   fsm.Say("rest mine");
   fsm.Say("set FaceExp = HAPPY 1 200 0");
   fsm.Until(2000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 1.6f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 1.6f);
   fsm.Say("set FaceExp.HAPPY.1 = 12 0.1");
   fsm.Say("set Run = INIT");
   EXPECT_EQ(fsm.Say("inq FaceExp.HAPPY.1"), "rep FaceExp.HAPPY.1 = 6:0.9 12:0.8 25:0.7 26:0.1");
@@ -88,7 +88,7 @@ TEST_F(ActionsTest, BadInputIsRefusedWithOneClearErrorAndTheFaceGoesOn) {
   refused("def#1 FaceExp.S = 12 1 x", "'x' at column 6");
   fsm.Say("set FaceExp = SAD 1 100 0");
   fsm.Until(2000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[15], 0.7f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[15], 0.7f);
 }
 
 TEST_F(ActionsTest, LifeAndGazeAreSetByName) {

@@ -98,8 +98,8 @@ TEST_F(FilmTest, FramesArriveInOrderAndRepeatedOnesAfterThatWhichTheyRepeat) {
       clock, backend,
       [&](long number, vm::Time) {
         expected.resize(static_cast<std::size_t>(number), expected.empty() ? 0 : expected.back());
-        state.mouth[11] = static_cast<float>(number % 20);
-        expected.push_back(state.mouth[11]);
+        state.mouth[kJawY] = static_cast<float>(number % 20);
+        expected.push_back(state.mouth[kJawY]);
         clock.now += number % 7 == 3 ? 150ms : 10ms;
         return backend.Draw(state, Scene{}, nullptr);
       },

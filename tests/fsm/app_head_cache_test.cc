@@ -73,7 +73,7 @@ TEST_F(HeadCacheTest, AKeptHeadIsTheBakedOne) {
   const auto baked = MakeHeadOfFile(folder_ / "heads/a.obj", "");
   const auto kept = HeadCache(cache_).HeadOfFile(folder_ / "heads/a.obj", "");
   FaceState state;
-  state.au_left[26] = state.au_right[26] = 1;
+  state.au.left[26] = state.au.right[26] = 1;
   state.head_rotation = {5, 10, 0};
   HeadVertices a, b;
   baked->Evaluate(state, a);

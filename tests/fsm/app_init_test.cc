@@ -124,7 +124,7 @@ std::string Another(const std::string& slot, const TemporaryFolder& files) {
 /// Numbers of what is drawn.
 std::vector<float> Numbers(const FaceState& state) {
   std::vector<float> all;
-  for (const auto& units : {state.au_left, state.au_right}) {
+  for (const auto& units : {state.au.left, state.au.right}) {
     all.insert(all.end(), units.begin(), units.end());
   }
   all.insert(all.end(), state.mouth.begin(), state.mouth.end());
@@ -132,10 +132,10 @@ std::vector<float> Numbers(const FaceState& state) {
     all.insert(all.end(), turn.begin(), turn.end());
   }
   for (const float number :
-       {state.lip_seal, state.tongue, state.eye_left.x, state.eye_left.y, state.eye_right.x,
-        state.eye_right.y, state.blink_left, state.blink_right, state.head_forward, state.asymmetry,
-        state.agent_translation[0], state.agent_translation[1], state.agent_scale,
-        state.agent_alpha, state.agent_enabled ? 1.0F : 0.0F}) {
+       {state.lip_seal, state.tongue, state.gaze.left[kDown], state.gaze.left[kToRight],
+        state.gaze.right[kDown], state.gaze.right[kToRight], state.blink.left, state.blink.right,
+        state.head_forward, state.asymmetry, state.agent_translation[0], state.agent_translation[1],
+        state.agent_scale, state.agent_alpha, state.agent_enabled ? 1.0F : 0.0F}) {
     all.push_back(number);
   }
   return all;

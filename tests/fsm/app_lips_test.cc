@@ -16,7 +16,7 @@ float JawOfLongA(FsmStage& fsm) {
   fsm.Say("set LipSync.pho = a 600");
   fsm.Say("set Speak = NOW");
   fsm.clock.RunUntil(fsm.clock.Now() + FromMs(300));
-  const float jaw = fsm.Now().mouth[11];
+  const float jaw = fsm.Now().mouth[kJawY];
   fsm.clock.RunUntil(fsm.clock.Now() + FromMs(1000));
   return jaw;
 }
@@ -110,7 +110,7 @@ TEST(MouthFrameTest, FramesMoveTheMouthAtTheirTimeAndBadOnesAreNamed) {
   for (const char* ms : {"0", "100", "200"}) fsm.Say("set MouthFrame = " + (ms + lips));
   EXPECT_TRUE(fsm.module.Busy());
   fsm.clock.RunUntil(FromMs(1150));
-  EXPECT_NEAR(fsm.Now().mouth[11], 6, 1e-3);  // three quarters: MouthScale 30
+  EXPECT_NEAR(fsm.Now().mouth[kJawY], 6, 1e-3);  // three quarters: MouthScale 30
   EXPECT_NEAR(fsm.Now().tongue, 0.5, 1e-3);
   EXPECT_NE(fsm.Say("set#1 MouthFrame = 10 1 2").find("3 numbers found, 20 expected"),
             std::string::npos);
@@ -123,7 +123,7 @@ TEST(MouthFrameTest, FramesMoveTheMouthAtTheirTimeAndBadOnesAreNamed) {
   EXPECT_NE(fsm.Say("set#1 MouthFrame.start = soon").find("error = BAD_VALUE"), std::string::npos);
   EXPECT_EQ(fsm.Say("set#1 MouthFrame.start = STOP"), "rep#1 MouthFrame.start = STOP");
   fsm.clock.RunUntil(FromMs(3000));
-  EXPECT_EQ(fsm.Now().mouth[11], 0);
+  EXPECT_EQ(fsm.Now().mouth[kJawY], 0);
   EXPECT_FALSE(fsm.module.Busy());
 }
 

@@ -130,9 +130,9 @@ TEST(FsmModuleTest, ASavedImageShowsTheSettledExpressionWhateverComesNext) {
   EXPECT_EQ(fsm.Say("set#5 SaveImage = happy.png"), "rep#5 SaveImage = happy.png");
   fsm.Say("set FaceExp = SAD 1 100 0");
   fsm.Say("set SaveImage = sad.png");
-  EXPECT_FLOAT_EQ(fsm.backend.pictures["happy.png"].au_left[12], 0.8f);
-  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au_left[12], 0);
-  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au_left[15], 0.7f);
+  EXPECT_FLOAT_EQ(fsm.backend.pictures["happy.png"].au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au.left[12], 0);
+  EXPECT_FLOAT_EQ(fsm.backend.pictures["sad.png"].au.left[15], 0.7f);
 }
 
 TEST(FsmModuleTest, BusyLastsAsLongAsSomethingWithAnEndMoves) {
@@ -160,12 +160,14 @@ TEST(FsmModuleTest, AFilmHasAFrameForEveryInstant) {
   fsm.Say("set Record.sound = voice.wav");
   EXPECT_EQ(fsm.Say("set#1 Record = a.mp4"), "rep#1 Record = a.mp4");
   EXPECT_EQ(fsm.Say("inq Record"), "rep Record = a.mp4");
+  EXPECT_EQ(fsm.Say("inq Record.start"), "rep Record.start = 17");
   EXPECT_TRUE(fsm.Say("set#2 Record = b.mp4").starts_with("rep#2 Record.error = BUSY"));
   EXPECT_TRUE(fsm.Say("set#2 Window = 100 100").starts_with("rep#2 Window.error = BUSY"));
   fsm.Say("set LipSync.pho = pau 100 a 200 pau 200");
   fsm.Say("set Speak = NOW");
   fsm.Until(1017);
   EXPECT_EQ(fsm.Say("set#3 Record = STOP"), "rep#3 Record = STOP");
+  EXPECT_EQ(fsm.Say("inq Record.start"), "rep Record.start = ");
   const auto& film = fsm.backend.films["a.mp4"];
   EXPECT_EQ(film.jaws.size(), 31u);  // both ends
   EXPECT_EQ(film.sound, "voice.wav");
@@ -261,7 +263,7 @@ TEST(FsmModuleTest, InitResetsEverythingWithoutAWord) {
   EXPECT_EQ(fsm.Say("inq Speak.stat"), "rep Speak.stat = IDLE");
   EXPECT_EQ(fsm.Say("inq MouthScale"), "rep MouthScale = 30");
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 0);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 0);
   EXPECT_FLOAT_EQ(fsm.Now().agent_alpha, 1);
   EXPECT_FALSE(fsm.module.Busy());
   EXPECT_EQ(fsm.Say("set Run = EXIT"), "");
@@ -348,9 +350,9 @@ TEST(FsmModuleTest, TheOriginalsConfigurationIsTaken) {
   fsm.Say("set Autonomous = ASYMMETRY 0");
   fsm.Say("set FaceExp = HAPPY 1 100 0");
   fsm.Until(498);
-  EXPECT_LT(fsm.Now().au_left[12], 0.8f);
+  EXPECT_LT(fsm.Now().au.left[12], 0.8f);
   fsm.Until(499);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 0.8f);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 0.8f);
 
   std::ofstream(folder / "bad.txt") << "EXPRESSION_DURATION soon\n";
   const auto bad = OriginalConfig::Read((folder / "bad.txt").string());
@@ -415,20 +417,20 @@ TEST(FsmModuleTest, ClientsOfTheOriginalLeanAndMoveByItsMeasures) {
 TEST(FsmModuleTest, AConfigurationsExpressionsAreShown) {
   FsmOptions options = WithOriginalFaces({});
   options.config.expression_ms = 100;
-  options.config.expressions["HAPPY"][1].left[14] = 0.5F;
-  options.config.expressions["USERDEF"][7].right[3] = 1;
+  options.config.expressions["HAPPY"][1].au.left[14] = 0.5F;
+  options.config.expressions["USERDEF"][7].au.right[3] = 1;
   FsmStage fsm(options);
   fsm.Say("set Autonomous = ASYMMETRY 0");
   fsm.Say("set FaceExp = HAPPY 1 200 0");
   fsm.Until(1000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[14], 1);
-  EXPECT_FLOAT_EQ(fsm.Now().au_left[12], 0) << "and not ours";
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[14], 1);
+  EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 0) << "and not ours";
   fsm.Say("set FaceExp = HAPPY 2 100 0");
   fsm.Until(2000);
-  EXPECT_GT(fsm.Now().au_left[12], 0.4F) << "ours, where it has none";
+  EXPECT_GT(fsm.Now().au.left[12], 0.4F) << "ours, where it has none";
   fsm.Say("set FaceExp = USERDEF 7 100 0");
   fsm.Until(3000);
-  EXPECT_FLOAT_EQ(fsm.Now().au_right[3], 1);
+  EXPECT_FLOAT_EQ(fsm.Now().au.right[3], 1);
 }
 
 TEST(FsmModuleTest, AConfiguredBackgroundThatIsGoneLeavesThePlainOne) {

@@ -28,7 +28,7 @@ class FakeRenderBackend : public RenderBackend {
     last_scene = scene;
     simulated = course != nullptr;
     image_.width = image_.height = 1;
-    image_.rgba = {static_cast<std::uint8_t>(std::lround(state.mouth[11] * 10)), 0, 0, 255};
+    image_.rgba = {static_cast<std::uint8_t>(std::lround(state.mouth[kJawY] * 10)), 0, 0, 255};
     return {};
   }
   const Image& Read() override { return image_; }
@@ -42,7 +42,8 @@ class FakeRenderBackend : public RenderBackend {
   }
   void DropRead(std::uint64_t frame) override { readings.at(frame) = {}; }
   MouthMeasure Measure(const FaceState& state) override {
-    return {state.mouth[2] - state.mouth[4], 50 + 2 * state.mouth[8], state.mouth[11]};
+    return {state.mouth[kUpperInnerY] - state.mouth[kLowerInnerY], 50 + 2 * state.mouth[kCornerX],
+            state.mouth[kJawY]};
   }
   std::vector<std::string> Faces() const override { return {"galatea", "pygmalion"}; }
   vm::Result<void> Wear(const std::string& name) override {

@@ -23,15 +23,15 @@ namespace {
 std::vector<FaceState> States() {
   std::vector<FaceState> states(5);
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
-    states[1].au_left[unit] = unit % 3 == 0 ? 0.7F : 0;
-    states[1].au_right[unit] = unit % 4 == 0 ? 0.9F : 0;
+    states[1].au.left[unit] = unit % 3 == 0 ? 0.7F : 0;
+    states[1].au.right[unit] = unit % 4 == 0 ? 0.9F : 0;
   }
   for (std::size_t k = 0; k < states[2].mouth.size(); ++k)
     states[2].mouth[k] = 0.4F * std::sin(static_cast<float>(k));
-  states[3].blink_left = 1;
+  states[3].blink.left = 1;
   states[3].head_rotation = {10, 20, 5};
-  states[4].au_left[12] = states[4].au_right[26] = 1;
-  states[4].mouth[0] = 1;
+  states[4].au.left[12] = states[4].au.right[26] = 1;
+  states[4].mouth[kUpperOuterY] = 1;
   return states;
 }
 
@@ -42,7 +42,7 @@ void ExpectSameHead(const Head& read, const Head& written) {
     read.Evaluate(state, b);
     ASSERT_EQ(a.position, b.position);
     ASSERT_EQ(a.normal, b.normal);
-    EXPECT_EQ(a.wrinkles, b.wrinkles);
+    EXPECT_EQ(a.creases, b.creases);
     EXPECT_EQ(a.lids_shut, b.lids_shut);
     EXPECT_EQ(written.MeasureMouth(state).gap_mm, read.MeasureMouth(state).gap_mm);
   }
@@ -178,7 +178,7 @@ TEST(AssetFileTest, ADamagedFileIsRefusedByFileAndMember) {
 TEST(AssetFileTest, OtherProgramsSeeAMeshWithShapes) {
   const auto head = MakeHead("galatea", false);
   ExportedShape smile{"mouthSmileLeft", {}};
-  smile.state.au_left[12] = 1;
+  smile.state.au.left[12] = 1;
   const auto gltf = GltfDocument::Parse("head.glb", WriteAsset(*head, std::vector{smile}), nullptr);
   ASSERT_TRUE(gltf) << gltf.error().text;
   const auto& mesh = gltf->At("meshes", 0);

@@ -30,10 +30,9 @@ std::vector<std::uint32_t> VerticesOf(Material material) {
   return found;
 }
 
-glm::vec3 CorneaCentre(const FaceState& state, std::size_t side) {
-  const FaceState::Eye& eye = side == 1 ? state.eye_left : state.eye_right;
-  const float up = eye.x * kRadians;
-  const float right = eye.y * kRadians;
+glm::vec3 CorneaCentre(const FaceState& state, Side side) {
+  const float up = -state.gaze[side][kDown] * kRadians;
+  const float right = state.gaze[side][kToRight] * kRadians;
   const glm::vec3 gaze(std::cos(up) * std::sin(right), std::sin(up),
                        std::cos(up) * std::cos(right));
   return GenericHead().topology().eyes[side].centre + kCorneaForward * gaze;
@@ -64,16 +63,16 @@ ContactProbe::ContactProbe()
       tongue_(TrianglesOf(Material::kTongue)) {
   const HeadVertices rest = Vertices({});
   FaceState open;
-  open.mouth[11] = 12;
+  open.mouth[kJawY] = 12;
   const HeadVertices opened = Vertices(open);
   seam_ = Meeting(lips_, rest, opened, 1e-3F, 0.3F);
 
   FaceState blink;
-  blink.blink_left = blink.blink_right = 1;
+  blink.blink.left = blink.blink.right = 1;
   const HeadVertices shut = Vertices(blink);
   const std::vector<std::uint32_t> skin = VerticesOf(Material::kSkin);
   const std::vector<std::uint32_t> triangles = TrianglesOf(Material::kSkin);
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     const EyeGeometry& eye = GenericHead().topology().eyes[side];
     for (const auto i : skin) {
       const glm::vec3 d = rest.position[i] - eye.centre;
@@ -171,7 +170,7 @@ Contacts ContactProbe::Measure(const FaceState& state, const HeadVertices& v) co
   for (const auto& [a, b] : seam_) {
     out.lips = std::max(out.lips, v.position[b].y - v.position[a].y);
   }
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     for (const auto& [a, b] : rims_[side]) {
       out.lids = std::max(out.lids, v.position[b].y - v.position[a].y);
     }
@@ -198,7 +197,7 @@ Contacts ContactProbe::Measure(const FaceState& state, const HeadVertices& v) co
 
 float ContactProbe::Uncovered(const FaceState& state, const HeadVertices& v) const {
   float worst = 0;
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     const EyeGeometry& eye = GenericHead().topology().eyes[side];
     const glm::vec3 cornea = CorneaCentre(state, side);
     const auto front_of = [](const glm::vec3& centre, float radius, float x, float y) {

@@ -30,23 +30,22 @@ class ContactProbe {
   /// Upper and lower vertices that meet, ordered by x.
   using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
   const Pairs& seam() const { return seam_; }
-  const Pairs& rims(std::size_t side) const { return rims_[side]; }  ///< 0 = the agent's right
+  const Pairs& rims(Side side) const { return rims_[side]; }
   /// Edges of the incisors, from -x to +x.
   const std::vector<std::uint32_t>& upper_edge() const { return upper_edge_; }
   const std::vector<std::uint32_t>& lower_edge() const { return lower_edge_; }
 
   std::size_t seam_pairs() const { return seam_.size(); }
-  std::size_t rim_pairs() const { return rims_[0].size() + rims_[1].size(); }
+  std::size_t rim_pairs() const { return rims_.right.size() + rims_.left.size(); }
 
  private:
   float TeethInLips(const HeadVertices& v) const;
   /// How far the tongue comes beyond a line, by x, upwards (up 1) or downwards (up -1).
   float TongueAcross(const std::vector<glm::vec3>& line, float up, const HeadVertices& v) const;
 
-  Pairs seam_;                 // by x
-  std::array<Pairs, 2> rims_;  // right, left
-  std::array<std::vector<std::uint32_t>, 2> lids_;
-  std::array<std::vector<std::uint32_t>, 2> lid_triangles_;
+  Pairs seam_;  // by x
+  Sided<Pairs> rims_;
+  Sided<std::vector<std::uint32_t>> lids_, lid_triangles_;
   std::vector<std::uint32_t> lips_, teeth_, tongue_;
   std::vector<std::uint32_t> upper_edge_, lower_edge_;  // of the incisors, by x
 };

@@ -63,7 +63,7 @@ TEST(HeadContactTest, LipsDoNotCrossInAnySingleUnitOrPair) {
   for (std::size_t a = 1; a < kActionUnits; ++a) {
     for (std::size_t b = a; b < kActionUnits; ++b) {
       FaceState state = WithUnit(a, 1);
-      state.au_left[b] = state.au_right[b] = 1;
+      state.au.left[b] = state.au.right[b] = 1;
       ASSERT_LE(LipCrossing(Vertices(state), pairs), 0.3f) << "AU " << a << " and " << b;
     }
   }
@@ -81,11 +81,11 @@ TEST(HeadContactTest, EveryIdentityClosesItsEyes) {
   for (const IdentityInfo& identity : Identities()) {
     const auto head = MakeHead(identity.name);
     FaceState blink;
-    blink.blink_left = blink.blink_right = 1;
+    blink.blink.left = blink.blink.right = 1;
     HeadVertices v;
     head->Evaluate(blink, v);
     const HeadTopology& topology = head->topology();
-    const glm::vec3 pupil = topology.eyes[1].centre + glm::vec3(0, 0, 13.2f);
+    const glm::vec3 pupil = topology.eyes.left.centre + glm::vec3(0, 0, 13.2f);
     for (const glm::vec2 off : {glm::vec2(0, 0), {6, 0}, {-6, 1}, {0, 4}, {0, -4}, {3, 3}}) {
       const glm::vec2 p(pupil.x + off.x, pupil.y + off.y);
       bool covered = false;
@@ -113,7 +113,7 @@ TEST(HeadContactTest, TeethStayBehindTheLips) {
   for (std::size_t a = 1; a < kActionUnits; ++a) {
     for (const std::size_t b : {a, std::size_t{12}, std::size_t{26}, std::size_t{25}}) {
       FaceState state = WithUnit(a, 1);
-      state.au_left[b] = state.au_right[b] = 1;
+      state.au.left[b] = state.au.right[b] = 1;
       EXPECT_LE(TeethThroughLips(Vertices(state)), 0.3f) << "AU " << a << " and " << b;
     }
   }
@@ -130,7 +130,7 @@ TEST(HeadContactTest, LidsStayOutsideTheEyeball) {
   // cornea comes more than 0.3 mm through them, wherever the eye looks and however far they close.
   const HeadTopology& topology = GenericHead().topology();
   const HeadVertices rest = Vertices({});
-  const EyeGeometry eye = topology.eyes[1];
+  const EyeGeometry eye = topology.eyes.left;
   std::vector<std::uint32_t> lids;
   for (const HeadTopology::Part& part : topology.parts) {
     if (part.material != Material::kSkin) continue;
@@ -149,11 +149,11 @@ TEST(HeadContactTest, LidsStayOutsideTheEyeball) {
   std::uniform_real_distribution<float> part(0, 1);
   for (int n = 0; n < 1000; ++n) {
     FaceState state = RandomState(random, 1);
-    state.eye_left = {turn(random), turn(random)};
-    state.blink_left = part(random);
+    state.gaze.left = {-turn(random), turn(random)};
+    state.blink.left = part(random);
     const HeadVertices v = Vertices(state);
-    const float up = state.eye_left.x * 0.0174533f;
-    const float right = state.eye_left.y * 0.0174533f;
+    const float up = -state.gaze.left[kDown] * 0.0174533f;
+    const float right = state.gaze.left[kToRight] * 0.0174533f;
     const glm::vec3 gaze(std::cos(up) * std::sin(right), std::sin(up),
                          std::cos(up) * std::cos(right));
     const glm::vec3 cornea = eye.centre + 4.99f * gaze;

@@ -26,7 +26,7 @@ inline HeadVertices Vertices(const FaceState& state) {
 
 inline FaceState WithUnit(std::size_t unit, float strength) {
   FaceState state;
-  state.au_left[unit] = state.au_right[unit] = strength;
+  state.au.left[unit] = state.au.right[unit] = strength;
   return state;
 }
 
@@ -64,7 +64,7 @@ inline std::vector<std::pair<std::size_t, std::size_t>> SeamPairs() {
   const HeadTopology& topology = GenericHead().topology();
   const HeadVertices rest = Vertices({});
   FaceState open;
-  open.mouth[11] = 12;
+  open.mouth[kJawY] = 12;
   const HeadVertices opened = Vertices(open);
   std::vector<std::size_t> lips;
   for (const HeadTopology::Part& part : topology.parts) {
@@ -92,8 +92,8 @@ inline FaceState RandomState(std::mt19937& random, float strength) {
   std::uniform_int_distribution<int> chance(0, 5);
   FaceState state;
   for (std::size_t i = 1; i < kActionUnits; ++i) {
-    if (chance(random) == 0) state.au_left[i] = unit(random);
-    if (chance(random) == 0) state.au_right[i] = unit(random);
+    if (chance(random) == 0) state.au.left[i] = unit(random);
+    if (chance(random) == 0) state.au.right[i] = unit(random);
   }
   for (float& m : state.mouth) m = chance(random) < 3 ? offset(random) : 0;
   return state;

@@ -175,21 +175,21 @@ TEST(HeadFormTest, IdentitiesDiffer) {
         most = std::max(most, glm::length(one->Landmark(name) - two->Landmark(name)));
       }
       EXPECT_GT(most, 1.5f) << names[a].name << " " << names[b].name;
-      EXPECT_NE(one->topology().eyes[0].iris_colour, two->topology().eyes[0].iris_colour);
+      EXPECT_NE(one->topology().eyes.right.iris_colour, two->topology().eyes.right.iris_colour);
     }
   }
 }
 
-TEST(HeadFormTest, WrinklesFollowTheirUnitsAndSides) {
+TEST(HeadFormTest, CreasesFollowTheirUnitsAndSides) {
   FaceState state;
-  state.au_left[1] = state.au_left[2] = 1;
+  state.au.left[1] = state.au.left[2] = 1;
   const HeadVertices v = Vertices(state);
-  const auto forehead = v.wrinkles[static_cast<std::size_t>(Wrinkle::kForehead)];
-  EXPECT_GT(forehead[1], 0.8f);
-  EXPECT_EQ(forehead[0], 0);
-  EXPECT_GT(Vertices(WithUnit(4, 1)).wrinkles[1][0], 0.5f);
-  EXPECT_GT(Vertices(WithUnit(6, 1)).wrinkles[2][0], 0.5f);
-  EXPECT_GT(Vertices(WithUnit(12, 1)).wrinkles[3][1], 0.5f);
+  const auto forehead = v.creases[static_cast<std::size_t>(Crease::kForehead)];
+  EXPECT_GT(forehead.left, 0.8f);
+  EXPECT_EQ(forehead.right, 0);
+  EXPECT_GT(Vertices(WithUnit(4, 1)).creases[1].right, 0.5f);
+  EXPECT_GT(Vertices(WithUnit(6, 1)).creases[2].right, 0.5f);
+  EXPECT_GT(Vertices(WithUnit(12, 1)).creases[3].left, 0.5f);
 }
 
 }  // namespace

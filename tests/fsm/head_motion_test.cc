@@ -31,8 +31,8 @@ TEST(HeadMotionTest, EveryUnitAtDoubleStrengthStaysFiniteAndNear) {
   for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
     if (unit == 3 || unit == 40) continue;
     FaceState state = WithUnit(unit, 2);
-    if (unit == 30) state.au_right[unit] = 0;  // both sides of the sideways jaw cancel out
-    if (unit == 8) state.mouth[11] = 5;        // lips can only meet when they are apart
+    if (unit == 30) state.au.right[unit] = 0;  // both sides of the sideways jaw cancel out
+    if (unit == 8) state.mouth[kJawY] = 5;     // lips can only meet when they are apart
     const HeadVertices moved = Vertices(state);
     ASSERT_TRUE(AllFinite(moved)) << "AU " << unit;
     float most = 0;
@@ -48,19 +48,19 @@ TEST(HeadMotionTest, WildAndBrokenStatesGiveFiniteVertices) {
   std::mt19937 random(7);
   for (int i = 0; i < 40; ++i) ASSERT_TRUE(AllFinite(Vertices(RandomState(random, 2))));
   FaceState broken;
-  broken.au_left.fill(std::nanf(""));
-  broken.au_right.fill(-3);
+  broken.au.left.fill(std::nanf(""));
+  broken.au.right.fill(-3);
   broken.mouth.fill(std::numeric_limits<float>::infinity());
-  broken.eye_left.x = 1e30f;
+  broken.gaze.left[kDown] = 1e30f;
   broken.head_rotation = {std::nanf(""), 1e9f, -1e9f};
-  broken.blink_left = std::nanf("");
+  broken.blink.left = std::nanf("");
   EXPECT_TRUE(AllFinite(Vertices(broken)));
 }
 
 TEST(HeadMotionTest, LeftAndRightUnitsAreMirrorImages) {
   for (const std::size_t unit : {1u, 2u, 4u, 6u, 9u, 10u, 12u, 15u, 20u, 43u}) {
     FaceState left, right;
-    left.au_left[unit] = right.au_right[unit] = 1;
+    left.au.left[unit] = right.au.right[unit] = 1;
     for (const auto& [x, y] :
          {std::pair{25.0f, -43.0f}, {34.0f, 46.0f}, {31.0f, 28.0f}, {12.0f, -35.0f}}) {
       const glm::vec3 l = MotionAt(x, y, left);
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(HeadMotionTest, JawTurnsAboutItsHinge) {
   // The chin makes the same angle about the hinge (y -4, z -3) as asked for.
   FaceState state;
-  state.mouth[11] = 15;
+  state.mouth[kJawY] = 15;
   const std::size_t chin = testing::SkinAt(0, -73);
   const glm::vec3 a = Vertices({}).position[chin];
   const glm::vec3 b = Vertices(state).position[chin];
@@ -145,9 +145,9 @@ TEST(HeadMotionTest, ClosedLidsCoverTheEye) {
   for (const auto& [gaze_up, gaze_right] :
        {std::pair{0.0f, 0.0f}, {20.0f, 0.0f}, {-20.0f, 20.0f}}) {
     FaceState blink;
-    blink.blink_left = blink.blink_right = 1;
-    blink.eye_left = blink.eye_right = {gaze_up, gaze_right};
-    blink.au_left[5] = blink.au_right[5] = 1;
+    blink.blink.left = blink.blink.right = 1;
+    blink.gaze.left = blink.gaze.right = {-gaze_up, gaze_right};
+    blink.au.left[5] = blink.au.right[5] = 1;
     const HeadVertices v = Vertices(blink);
     const HeadTopology& topology = GenericHead().topology();
     // Rays towards the viewer from points of the iris and the front of the white must hit skin.
@@ -179,15 +179,15 @@ TEST(HeadMotionTest, ClosedLidsCoverTheEye) {
 
 TEST(HeadMotionTest, UnitsCloseTheLidsAsABlinkDoes) {
   FaceState blink;
-  blink.blink_left = blink.blink_right = 1;
+  blink.blink.left = blink.blink.right = 1;
   EXPECT_EQ(Vertices(blink).position, Vertices(WithUnit(43, 1)).position);
   EXPECT_EQ(Vertices(blink).position, Vertices(WithUnit(45, 1)).position);
 }
 
 TEST(HeadMotionTest, LidsFollowTheGaze) {
   FaceState down, up;
-  down.eye_left.x = down.eye_right.x = -20;
-  up.eye_left.x = up.eye_right.x = 20;
+  down.gaze.left[kDown] = down.gaze.right[kDown] = 20;
+  up.gaze.left[kDown] = up.gaze.right[kDown] = -20;
   EXPECT_LT(MotionAt(31, 28.6f, down).y, -3);
   EXPECT_GT(MotionAt(31, 28.6f, up).y, 1);
   EXPECT_GT(MotionAt(31, 28.6f, WithUnit(5, 1)).y, 1.5);
@@ -195,7 +195,7 @@ TEST(HeadMotionTest, LidsFollowTheGaze) {
 
 TEST(HeadMotionTest, EyesLookWhereTheyAreTold) {
   FaceState state;
-  state.eye_left = state.eye_right = {10, 20};
+  state.gaze.left = state.gaze.right = {-10, 20};
   const auto mean = [](const std::vector<glm::vec3>& points) {
     glm::vec3 sum(0);
     for (const glm::vec3 p : points) sum += p;
@@ -245,7 +245,7 @@ TEST(HeadMotionTest, AsymmetryIsShownAsMuchAsTheStateAsks) {
     FaceState smile = WithUnit(12, 1);
     smile.asymmetry = asymmetry;
     return std::abs(head->MeasureMouth(smile).width_mm - head->MeasureMouth({}).width_mm) +
-           (head->Evaluate(smile, v), v.wrinkles[3][0] - v.wrinkles[3][1]);
+           (head->Evaluate(smile, v), v.creases[3].right - v.creases[3].left);
   };
   const float none = unlike(0);
   EXPECT_NE(unlike(1), none);
@@ -253,7 +253,7 @@ TEST(HeadMotionTest, AsymmetryIsShownAsMuchAsTheStateAsks) {
   FaceState alike = WithUnit(12, 0.8F);
   alike.asymmetry = 0;
   head->Evaluate(alike, v);
-  EXPECT_FLOAT_EQ(v.wrinkles[3][0], v.wrinkles[3][1]);
+  EXPECT_FLOAT_EQ(v.creases[3].right, v.creases[3].left);
 }
 
 }  // namespace

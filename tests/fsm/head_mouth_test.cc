@@ -21,7 +21,7 @@ std::pair<std::size_t, std::size_t> MiddleSeam() {
   const HeadTopology& topology = GenericHead().topology();
   const HeadVertices rest = Vertices({});
   FaceState open;
-  open.mouth[11] = 10;
+  open.mouth[kJawY] = 10;
   const HeadVertices opened = Vertices(open);
   std::vector<std::size_t> lips;
   for (const HeadTopology::Part& part : topology.parts) {
@@ -47,10 +47,10 @@ std::pair<std::size_t, std::size_t> MiddleSeam() {
 // with the lips' own part of the gap added to what the jaw gives.
 FaceState Vowel(float jaw, float lips, float corner, float forward) {
   FaceState state;
-  state.mouth[11] = jaw;
-  state.mouth[2] = lips / 2;
-  state.mouth[4] = -lips / 2;
-  state.mouth[8] = corner;
+  state.mouth[kJawY] = jaw;
+  state.mouth[kUpperInnerY] = lips / 2;
+  state.mouth[kLowerInnerY] = -lips / 2;
+  state.mouth[kCornerX] = corner;
   for (const std::size_t z : {1u, 3u, 5u, 7u}) state.mouth[z] = forward;
   return state;
 }
@@ -87,7 +87,7 @@ TEST(HeadMouthTest, SealedLipsTouchWhateverElseActs) {
   EXPECT_LE(GenericHead()
                 .MeasureMouth([] {
                   FaceState state = WithUnit(8, 1);
-                  state.mouth[11] = 8;
+                  state.mouth[kJawY] = 8;
                   return state;
                 }())
                 .gap_mm,
@@ -126,15 +126,15 @@ TEST(HeadMouthTest, VowelsOpenInTheOrderOfJapanese) {
 
 TEST(HeadMouthTest, CornersMoveAsAsked) {
   FaceState state;
-  state.mouth[8] = 3;
+  state.mouth[kCornerX] = 3;
   EXPECT_NEAR(GenericHead().MeasureMouth(state).width_mm, 56, 0.6);
-  state.mouth[8] = -5;
+  state.mouth[kCornerX] = -5;
   EXPECT_NEAR(GenericHead().MeasureMouth(state).width_mm, 40, 0.6);
 }
 
 TEST(HeadMouthTest, OneDegreeOfJawOpensAboutOneAndAHalfMillimetres) {
   FaceState state;
-  state.mouth[11] = 4;
+  state.mouth[kJawY] = 4;
   EXPECT_NEAR(GenericHead().MeasureMouth(state).gap_mm / 4, 1.4, 0.15);
 }
 

@@ -37,12 +37,12 @@ TEST(OwnUnitsTest, AUnitBeyondFacsMovesTheSkinToo) {
   HeadVertices rest, moved;
   own->Evaluate({}, rest);
   FaceState twitch;
-  twitch.au_left[151] = 1;
+  twitch.au.left[151] = 1;
   own->Evaluate(twitch, moved);
   const std::size_t left = SkinAt(43, 47), right = SkinAt(-43, 47);
   EXPECT_NEAR(moved.position[left].y - rest.position[left].y, 3, 0.4F);
   EXPECT_EQ(moved.position[right], rest.position[right]);
-  twitch.au_left[2] = 1;
+  twitch.au.left[2] = 1;
   own->Evaluate(twitch, moved);
   EXPECT_NEAR(moved.position[left].y - rest.position[left].y, 4.5F, 0.6F) << "rules know it";
 }

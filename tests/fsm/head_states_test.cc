@@ -49,12 +49,12 @@ TEST_P(Pairs, NothingGoesThroughAnythingWithAnyOtherUnit) {
   for (std::size_t b = a; b < kActionUnits; ++b) {
     if (!IsUnit(b)) continue;
     FaceState state = WithUnit(a, 1);
-    state.au_left[b] = state.au_right[b] = 1;
+    state.au.left[b] = state.au.right[b] = 1;
     const std::string both = "AU " + std::to_string(a) + " and " + std::to_string(b);
     EXPECT_TRUE(ExpectApart(state, both)) << both;
     // One of them on one side only.
-    state.au_right[b] = a == b ? 0.0F : state.au_right[b];
-    if (a != b) state.au_right[a] = 0;
+    state.au.right[b] = a == b ? 0.0F : state.au.right[b];
+    if (a != b) state.au.right[a] = 0;
     EXPECT_TRUE(ExpectApart(state, both + ", one of them left")) << both;
   }
 }
@@ -69,10 +69,10 @@ TEST_P(RandomStates, NothingGoesThroughAnythingInATenthOfTenThousand) {
   int touched = 0;
   for (int i = 0; i < 1000; ++i) {
     FaceState state = RandomState(random, 1);
-    state.eye_left = {turn(random), turn(random)};
-    state.eye_right = {turn(random), turn(random)};
-    state.blink_left = part(random);
-    state.blink_right = part(random);
+    state.gaze.left = {-turn(random), turn(random)};
+    state.gaze.right = {-turn(random), turn(random)};
+    state.blink.left = part(random);
+    state.blink.right = part(random);
     state.tongue = part(random);
     state.lip_seal = part(random) < 0.3F ? part(random) : 0.0F;
     const std::string what =
@@ -94,9 +94,9 @@ TEST_P(ClosedEyes, AreCoveredWhereverTheyLookAndWhateverElseActs) {
     for (const float up : {-30.0F, -15.0F, 0.0F, 15.0F, 30.0F}) {
       for (const float right : {-40.0F, -20.0F, 0.0F, 20.0F, 40.0F}) {
         FaceState state = WithUnit(other, 1);
-        if (closing == 0) state.blink_left = state.blink_right = 1;
-        if (closing != 0) state.au_left[closing] = state.au_right[closing] = 1;
-        state.eye_left = state.eye_right = {up, right};
+        if (closing == 0) state.blink.left = state.blink.right = 1;
+        if (closing != 0) state.au.left[closing] = state.au.right[closing] = 1;
+        state.gaze.left = state.gaze.right = {-up, right};
         ASSERT_LE(Probe().Uncovered(state, Vertices(state)), 0.05F)
             << "AU " << other << " closed by " << closing << " looking up " << up << " right "
             << right;

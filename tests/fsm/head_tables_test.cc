@@ -72,16 +72,16 @@ TEST(HeadTablesTest, ActionUnitTableRefusesNonsense) {
 TEST(HeadTablesTest, UnitsThatActTogetherAreCorrected) {
   const UnitTable units(Table("au.txt", "damp 4 1 0.5\noppose 12 18\nstrongest 43 45\n"));
   FaceState state;
-  state.au_left[1] = state.au_left[4] = state.au_left[12] = state.au_left[18] = 1;
-  state.au_left[43] = 0.4f;
-  state.au_left[45] = 0.6f;
-  state.au_right[4] = 2;
-  const SidedUnits acting = units.Combine(state);
-  EXPECT_FLOAT_EQ(acting[1][4], 0.5f);
-  EXPECT_FLOAT_EQ(acting[1][12] + acting[1][18], 1);
-  EXPECT_FLOAT_EQ(acting[1][43], 0);
-  EXPECT_FLOAT_EQ(acting[1][45], 0.6f);
-  EXPECT_FLOAT_EQ(acting[0][4], 1.5f) << "above 1 at half rate";
+  state.au.left[1] = state.au.left[4] = state.au.left[12] = state.au.left[18] = 1;
+  state.au.left[43] = 0.4f;
+  state.au.left[45] = 0.6f;
+  state.au.right[4] = 2;
+  const Sided<UnitValues> acting = units.Combine(state);
+  EXPECT_FLOAT_EQ(acting.left[4], 0.5f);
+  EXPECT_FLOAT_EQ(acting.left[12] + acting.left[18], 1);
+  EXPECT_FLOAT_EQ(acting.left[43], 0);
+  EXPECT_FLOAT_EQ(acting.left[45], 0.6f);
+  EXPECT_FLOAT_EQ(acting.right[4], 1.5f) << "above 1 at half rate";
 }
 
 TEST(HeadTablesTest, CageAndCurvesAreChecked) {

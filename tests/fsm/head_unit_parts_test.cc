@@ -33,7 +33,7 @@ struct LidMotion {
 };
 
 /// How the middle of the rims moves from rest; x outward.
-LidMotion MidLids(const FaceState& state, std::size_t side = 1) {
+LidMotion MidLids(const FaceState& state, Side side = Side::kLeft) {
   const HeadVertices rest = Vertices({});
   const float middle = GenericHead().topology().eyes[side].centre.x;
   const auto& rims = Probe().rims(side);
@@ -41,7 +41,7 @@ LidMotion MidLids(const FaceState& state, std::size_t side = 1) {
       rims, {}, [&](const auto& pair) { return std::abs(rest.position[pair.first].x - middle); });
   EXPECT_NE(nearest, rims.end());
   const HeadVertices moved = Vertices(state);
-  const glm::vec3 mirror(side == 1 ? 1 : -1, 1, 1);
+  const glm::vec3 mirror(SignOf(side), 1, 1);
   return {mirror * (moved.position[nearest->first] - rest.position[nearest->first]),
           mirror * (moved.position[nearest->second] - rest.position[nearest->second])};
 }
@@ -95,9 +95,9 @@ TEST(HeadUnitPartsTest, ADroopAndASlitAreThatPartOfClosing) {
 
 TEST(HeadUnitPartsTest, AWinkIsOfOneEye) {
   FaceState wink;
-  wink.au_left[46] = 1;
-  EXPECT_LT(MidLids(wink, 1).upper.y, -5);
-  EXPECT_EQ(MidLids(wink, 0).upper, glm::vec3(0));
+  wink.au.left[46] = 1;
+  EXPECT_LT(MidLids(wink, Side::kLeft).upper.y, -5);
+  EXPECT_EQ(MidLids(wink, Side::kRight).upper, glm::vec3(0));
 }
 
 TEST(HeadUnitPartsTest, ARaisedLowerLidGoesUpBesideTheMiddleToo) {
@@ -150,7 +150,7 @@ TEST(HeadUnitPartsTest, ADroppedJawArchesTheUpperLipRoundToTheCorners) {
 
 TEST(HeadUnitPartsTest, TheJawMovesSidewaysAndTakesTheLipsAlong) {
   FaceState state;
-  state.au_left[30] = 1;
+  state.au.left[30] = 1;
   ExpectMeasured(MotionAt(0, -76, state).x, 8.6F, "chin");
   ExpectMeasured(MotionAt(25, -41.7F, state).x, 5, "left corner");
   ExpectMeasured(MotionAt(-25, -41.7F, state).x, 5, "right corner");
@@ -181,7 +181,7 @@ TEST(HeadUnitPartsTest, BlownCheeksBulgeAndLetTheAirOut) {
 
 TEST(HeadUnitPartsTest, TheTongueBulgesOneCheekLocally) {
   FaceState state;
-  state.au_left[36] = 1;
+  state.au.left[36] = 1;
   ExpectMeasured(glm::length(MotionAt(34, -45, state)), 5, "bump");
   EXPECT_GT(MotionAt(34, -45, state).x, 2);
   EXPECT_LT(glm::length(MotionAt(-34, -45, state)), 0.05F);

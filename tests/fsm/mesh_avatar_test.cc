@@ -208,8 +208,8 @@ TEST(VrmTest, OldAvatarsAreTurnedToTheViewerWithBonesGazeAndExpressions) {
   ExpectPlace(file.position[1], {-0.1F, 0, 0});
   ExpectPlace(file.position[3], {-0.03F, 0, -0.1F});
   ASSERT_EQ(file.eye.size(), 6U);
-  EXPECT_EQ(file.eye[2], 0);
-  EXPECT_EQ(file.eye[4], 2);
+  EXPECT_EQ(file.eye[2], std::nullopt);
+  EXPECT_EQ(file.eye[4], Side::kLeft);
   ASSERT_TRUE(file.eye_pivot);
   ASSERT_TRUE(file.look);
   EXPECT_EQ(file.look->outer.gaze_deg, 60);
@@ -334,8 +334,8 @@ TEST(VrmTest, SpringsOfTheBodyAreLeftOut) {
 TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
   MeshModel model;
   model.has_eyes = true;
-  model.eyes[0].centre = {-30, 0, 60};
-  model.eyes[1].centre = {30, 0, 60};
+  model.eyes.right.centre = {-30, 0, 60};
+  model.eyes.left.centre = {30, 0, 60};
   model.eye_pivot = {glm::vec3(-30, 0, 40), glm::vec3(30, 0, 40)};
   model.look.emplace().outer = {.gaze_deg = 40, .turn = 8};
   for (const glm::vec3 p : {glm::vec3(30, 0, 70), glm::vec3(31, 0, 70), glm::vec3(30, 1, 70)}) {
@@ -344,7 +344,7 @@ TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {
   model.Triangle(Material::kSkin, 0, 1, 2);
   const auto head = MakeMeshHead(std::move(model));
   FaceState state;
-  state.eye_left.y = 20;  // to the viewer's right, outward for the agent's left eye
+  state.gaze.left[kToRight] = 20;  // to the viewer's right, outward for the agent's left eye
   HeadVertices moved;
   head->Evaluate(state, moved);
   EXPECT_NEAR(moved.position[0].x, 30 + 30 * std::sin(4.0F / 57.29578F), 0.01F);
@@ -358,8 +358,8 @@ TEST(OwnShapesTest, WhatShapesMoveIsNotMovedByTheJawAgainAndCustomOnesAreKnown) 
   for (const char* name : {"jawopen", "browdownleft", "browdownright", "mouthpucker"}) {
     FaceState state;
     const std::size_t unit = name[0] == 'j' ? 27 : name[0] == 'm' ? 18 : 4;
-    if (name != std::string("browdownleft")) state.au_right[unit] = 1;
-    if (name != std::string("browdownright")) state.au_left[unit] = 1;
+    if (name != std::string("browdownleft")) state.au.right[unit] = 1;
+    if (name != std::string("browdownright")) state.au.left[unit] = 1;
     meanings.push_back({name, state});
     file.shapes.push_back({"vrm" + std::string(name), {}});
   }
@@ -395,8 +395,8 @@ struct OwnShapes {
     const auto add = [&](const char* name, std::size_t unit, bool right, bool left) {
       FaceState state;
       state.asymmetry = 0;
-      state.au_right[unit] = right ? 1 : 0;
-      state.au_left[unit] = left ? 1 : 0;
+      state.au.right[unit] = right ? 1 : 0;
+      state.au.left[unit] = left ? 1 : 0;
       meanings.push_back({name, state});
     };
     add("browinnerup", 1, true, true);
@@ -422,8 +422,8 @@ TEST(OwnShapesTest, HalvesOfAShapeOfBothSidesAreDrivenByTheirSide) {
   const auto head = MakeMeshHead(std::move(shapes.model), std::move(*shapes.skin));
   const auto rises = [&](std::size_t unit, bool right, bool left) {
     FaceState state;
-    state.au_right[unit] = right ? 1 : 0;
-    state.au_left[unit] = left ? 1 : 0;
+    state.au.right[unit] = right ? 1 : 0;
+    state.au.left[unit] = left ? 1 : 0;
     HeadVertices moved;
     head->Evaluate(state, moved);
     std::vector<int> tenths;
@@ -467,7 +467,8 @@ std::shared_ptr<const Head> FallingBall() {
     RigData& rig = asset.rig;
     const auto channel = [](std::uint16_t unit) {
       Channel made;
-      made.drivers = {{{.kind = Drive::Kind::kUnit, .number = unit, .side = Drive::Side::kLeft}}};
+      made.drivers = {
+          {{.kind = Drive::Kind::kUnit, .number = unit, .side = Drive::WhichSide::kLeft}}};
       return made;
     };
     Channel fall = channel(27);
@@ -507,7 +508,7 @@ TEST(OwnShapesTest, LipsThatAreShutWithUsAreNotOpenedByTheirShapes) {
   for (const auto& [name, unit] :
        {std::pair("jawopen", 27U), {"browinnerup", 1U}, {"browouterup", 2U}, {"browdown", 4U}}) {
     FaceState state;
-    state.au_left[unit] = 1;
+    state.au.left[unit] = 1;
     meanings.push_back({name, state});
     file.shapes.push_back({name, {{unit == 27 ? 0U : 3U, {0, unit == 27 ? -10 : 10, 0}}}});
   }

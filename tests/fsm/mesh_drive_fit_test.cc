@@ -40,8 +40,8 @@ TEST(DriveFitTest, ASidedNumberIsMetOnEitherSideAndOnBoth) {
   for (const float right : {0.0F, 0.4F, 1.0F}) {
     for (const float left : {0.0F, 0.7F, 1.0F}) {
       FaceState state;
-      state.au_right[30] = right;
-      state.au_left[30] = left;
+      state.au.right[30] = right;
+      state.au.left[30] = left;
       EXPECT_NEAR(WeightOf(*head, 0, state), right, 1e-5F);
       EXPECT_NEAR(WeightOf(*head, 1, state), 0.5F * (right + left), 1e-5F);
       EXPECT_NEAR(WeightOf(*head, 2, state), std::max(right, left), 1e-5F);

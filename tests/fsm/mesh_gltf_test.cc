@@ -18,8 +18,8 @@ namespace {
 ExportedShape Shape(const char* name, std::size_t unit, bool left, bool right) {
   ExportedShape shape{name, {}};
   shape.state.asymmetry = 0;
-  shape.state.au_left[unit] = left ? 1 : 0;
-  shape.state.au_right[unit] = right ? 1 : 0;
+  shape.state.au.left[unit] = left ? 1 : 0;
+  shape.state.au.right[unit] = right ? 1 : 0;
   return shape;
 }
 

@@ -39,12 +39,12 @@ OriginalFace SmallFace() {
     const float x = 0.02F * (i <= 10 ? static_cast<float>(i) - 5 : 15 - static_cast<float>(i));
     add(kLipRim[i], {x, i % 10 == 0 ? -0.2F : (i < 10 ? -0.199F : -0.201F), 0.8F});
   }
-  for (std::size_t side = 0; side < 2; ++side) {
+  for (const Side side : kSides) {
     const auto rim = LidRim(side);
     for (std::size_t i = 0; i < rim.size(); ++i) {
       const float along = static_cast<float>(i <= 6 ? i : 12 - i) / 6;
       const float high = i > 0 && i < 6 ? 0.05F : (i > 6 ? -0.05F : 0);
-      add(rim[i], {(side == 0 ? -1.0F : 1.0F) * (0.15F + 0.2F * along), 0.35F + high, 0.65F});
+      add(rim[i], {SignOf(side) * (0.15F + 0.2F * along), 0.35F + high, 0.65F});
     }
   }
   for (const auto& [name, point] : kNamedPoints) add(point, {0, 0, 0.9F});
@@ -69,7 +69,7 @@ std::unique_ptr<Head> HeadOf(const OriginalFace& face, const VisemeMouths& mouth
 TEST(SmallOriginalFaceTest, EyesComeToWhereOursAre) {
   const OriginalFace face = SmallFace();
   const OriginalFrame frame(face.wireframe);
-  EXPECT_LT(glm::distance(frame.EyeOpening(face.wireframe, 1), {29.9F, 21.5F, 74}), 0.1F);
+  EXPECT_LT(glm::distance(frame.EyeOpening(face.wireframe, Side::kLeft), {29.9F, 21.5F, 74}), 0.1F);
 }
 
 TEST(SmallOriginalFaceTest, TheWindowShowsOneUnitOfTheWireframeToEitherSide) {
@@ -94,14 +94,14 @@ TEST(SmallOriginalFaceTest, OnlyTheGroupsTheOriginalDrawsAreShown) {
 TEST(SmallOriginalFaceTest, AUnitOfOneSideMovesThatSide) {
   OriginalFace face = SmallFace();
   constexpr std::size_t kCornerPuller = 9;  // AU 12 is the tenth of the list
-  const auto right = face.wireframe.index.at(kLipCorners[0]);
-  const auto left = face.wireframe.index.at(kLipCorners[1]);
+  const auto right = face.wireframe.index.at(kLipCorners.right);
+  const auto left = face.wireframe.index.at(kLipCorners.left);
   face.units[kCornerPuller][right] = face.units[kCornerPuller][left] = {0, 0.05F, 0};
   const auto head = HeadOf(face);
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
   FaceState state;
-  state.au_left[12] = 1;
+  state.au.left[12] = 1;
   head->Evaluate(state, moved);
   EXPECT_NEAR(moved.position[left].y - rest.position[left].y,
               0.05F * OriginalFrame(face.wireframe).mm(), 0.05F);
@@ -156,7 +156,7 @@ TEST(SmallOriginalFaceTest, AMouthSetByHandShowsTheMouthUnitOfThatNumber) {
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
   FaceState state;
-  state.mouth[11] = state.mouth_by_hand[11] = 15;  // Mouth.12 = 100
+  state.mouth[kJawY] = state.mouth_by_hand[kJawY] = 15;  // Mouth.12 = 100
   head->Evaluate(state, moved);
   EXPECT_NEAR(rest.position[lower].y - moved.position[lower].y,
               0.06F * OriginalFrame(face.wireframe).mm(), 0.05F);
@@ -171,7 +171,7 @@ TEST(SmallOriginalFaceTest, WhatUnitsLeaveOfAnExpressionComesByItsChannel) {
   HeadVertices rest, moved;
   head->Evaluate({}, rest);
   FaceState state;
-  state.au_left[kExpressionChannels[3].unit] = 2;
+  state.au.left[kExpressionChannels[3].unit] = 2;
   head->Evaluate(state, moved);
   EXPECT_NEAR(moved.position[nose].y - rest.position[nose].y,
               0.04F * OriginalFrame(face.wireframe).mm(), 0.05F);
@@ -195,7 +195,7 @@ TEST(NnlsSolverTest, WhatNoKeyExplainsIsGivenBack) {
   std::vector<NnlsSolver::Row> keys(1, NnlsSolver::Row(12));
   keys[0][11] = 9;
   NnlsSolver::Row mouth(12);
-  mouth[9] = 2;
+  mouth[kCornerY] = 2;
   const auto parts = NnlsSolver(keys).TakeApart(mouth);
   EXPECT_EQ(parts.weights[0], 0);
   EXPECT_EQ(parts.rest[9], 2);
@@ -229,14 +229,14 @@ class StandardFaceTest : public testing::Test {
 
 TEST_F(StandardFaceTest, ItsOwnUnitsMoveWhatTheyShould) {
   FaceState state;
-  state.au_left[12] = state.au_right[12] = 1;
-  EXPECT_GT(By(state, kLipCorners[1]).y, 2);
+  state.au.left[12] = state.au.right[12] = 1;
+  EXPECT_GT(By(state, kLipCorners.left).y, 2);
   EXPECT_NEAR(By(state, {6, 22}).y, 0, 0.5F);
   state = {};
-  state.au_left[1] = state.au_right[1] = 1;
+  state.au.left[1] = state.au.right[1] = 1;
   EXPECT_GT(By(state, {6, 1}).y, 1.5F);
   state = {};
-  state.au_left[27] = state.au_right[27] = 1;
+  state.au.left[27] = state.au.right[27] = 1;
   EXPECT_LT(By(state, kChin).y, -4);
   EXPECT_GT(head_->MeasureMouth(state).gap_mm, 8);
   EXPECT_GT(head_->MeasureMouth(state).jaw_degrees, 1.5F);
@@ -244,14 +244,14 @@ TEST_F(StandardFaceTest, ItsOwnUnitsMoveWhatTheyShould) {
 
 TEST_F(StandardFaceTest, ABlinkBringsTheUpperLidToTheLower) {
   FaceState state;
-  state.blink_left = 1;
+  state.blink.left = 1;
   EXPECT_LT(By(state, {5, 20}).y, -4);
   EXPECT_NEAR(By(state, {4, 20}).y, 0, 0.2F);
 }
 
 TEST_F(StandardFaceTest, ASealClosesAnOpenMouth) {
   FaceState state;
-  state.au_left[26] = state.au_right[26] = 1;
+  state.au.left[26] = state.au.right[26] = 1;
   ASSERT_GT(head_->MeasureMouth(state).gap_mm, 4);
   state.lip_seal = 1;
   EXPECT_LT(head_->MeasureMouth(state).gap_mm, 1.2F);
@@ -330,12 +330,12 @@ TEST_F(StandardFaceTest, ExpressionsAreThoseOfTheFiles) {
     const OriginalExpression& one = read->all[k];
     FaceState state;
     for (std::size_t i = 0; i < kOriginalUnits; ++i) {
-      state.au_right[static_cast<std::size_t>(kUnitNumbers[i])] = one.right[i];
-      state.au_left[static_cast<std::size_t>(kUnitNumbers[i])] = one.left[i];
+      state.au.right[static_cast<std::size_t>(kUnitNumbers[i])] = one.strengths.right[i];
+      state.au.left[static_cast<std::size_t>(kUnitNumbers[i])] = one.strengths.left[i];
     }
     if (one.channel != kNoChannel) {
-      const auto [unit, left] = kExpressionChannels[one.channel];
-      (left ? state.au_left : state.au_right)[unit] = 1;
+      const auto [unit, side] = kExpressionChannels[one.channel];
+      state.au[side][unit] = 1;
     }
     const auto file = ReadPnt(Data() + "/_AU_Datas/AU" + std::to_string(31 + k) + ".pnt");
     ASSERT_TRUE(file);

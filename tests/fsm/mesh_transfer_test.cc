@@ -49,7 +49,7 @@ class DeformationTransferTest : public testing::Test {
   /// same way one is left, lips and lids apart. Those keep what is true of them.
   std::vector<std::uint32_t> Coarse(float cube_mm) const {
     std::map<std::tuple<int, int, int, int>, std::uint32_t> left;
-    const float mouth = to_->Landmark("stomion").y, eyes = to_->topology().eyes[0].centre.y;
+    const float mouth = to_->Landmark("stomion").y, eyes = to_->topology().eyes.right.centre.y;
     const auto one_of = [&](std::uint32_t v) {
       const glm::ivec3 cube(glm::floor(to_rest_.position[v] / cube_mm));
       const glm::vec3 n = to_rest_.normal[v];
@@ -90,8 +90,8 @@ class DeformationTransferTest : public testing::Test {
       if (lip[v] && std::abs(p.y - stomion.y) > 3 && std::abs(p.x) < 16) {
         pair.part = p.y > stomion.y ? FacePart::kUpperLip : FacePart::kLowerLip;
       }
-      for (const auto& eye : from_->topology().eyes) {
-        const glm::vec3 d = p - eye.centre;
+      for (const Side side : kSides) {
+        const glm::vec3 d = p - from_->topology().eyes[side].centre;
         if (glm::length(d) < 15 && std::abs(d.y) > 4) {
           pair.part = d.y > 0 ? FacePart::kUpperLid : FacePart::kLowerLid;
         }
@@ -129,7 +129,7 @@ class DeformationTransferTest : public testing::Test {
     for (const int unit : units) {
       FaceState state;
       const auto k = static_cast<std::size_t>(unit);
-      state.au_left[k] = state.au_right[k] = 1;
+      state.au.left[k] = state.au.right[k] = 1;
       const float error = ErrorOf(state, over);
       std::printf("AU %2d  error %.1f %%\n", unit, static_cast<double>(100 * error));
       EXPECT_LT(error, each) << unit;
@@ -163,7 +163,7 @@ TEST_F(DeformationTransferTest, ACoarseMeshWhoseLandmarksAreMillimetresOffMovesN
   MakeTransfer(onto);
   EXPECT_LT(MeanError(kUnits, 0.12F, onto), 0.07F);
   FaceState shut;
-  shut.blink_left = shut.blink_right = 1;
+  shut.blink.left = shut.blink.right = 1;
   EXPECT_LT(ErrorOf(shut, onto), 0.2F);
 }
 
@@ -185,7 +185,7 @@ TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
     return worst;
   };
   FaceState jaw;
-  jaw.au_left[27] = jaw.au_right[27] = 1;
+  jaw.au.left[27] = jaw.au.right[27] = 1;
   HeadVertices open;
   to_->Evaluate(jaw, open);
   const glm::vec3 stomion = to_->Landmark("stomion");
@@ -196,8 +196,8 @@ TEST_F(DeformationTransferTest, LipsAndLidsAreNeverTakenForEachOther) {
   // The lips part by some 30 mm: a vertex of the wrong lip would be wrong by most of that.
   EXPECT_LT(worst, 9);
   FaceState shut;
-  shut.blink_left = 1;
-  const glm::vec3 eye = to_->topology().eyes[1].centre;
+  shut.blink.left = 1;
+  const glm::vec3 eye = to_->topology().eyes.left.centre;
   const float lid = upper_error(shut, [&](std::uint32_t v) {
     const glm::vec3 d = to_rest_.position[v] - eye;
     return std::abs(d.x) < 8 && std::abs(d.y) < 9 && d.z > 8;
@@ -234,16 +234,50 @@ TEST_F(DeformationTransferTest, TheRigLaidOnAnotherFaceMovesItAsCarryingEverySta
   expect_carried("rest", {});
   for (const std::size_t unit : {1U, 4U, 9U, 12U, 18U, 27U, 28U, 43U}) {
     FaceState state;
-    state.au_left[unit] = state.au_right[unit] = 1;
+    state.au.left[unit] = state.au.right[unit] = 1;
     expect_carried(("unit " + std::to_string(unit)).c_str(), state);
   }
   FaceState state;
-  state.blink_left = 0.5F;
-  state.eye_left.x = state.eye_right.x = -15;
+  state.blink.left = 0.5F;
+  state.gaze.left[kDown] = state.gaze.right[kDown] = 15;
   state.mouth = {0.32F, 5, 0.4F, 4.5F, -0.6F, 4.5F, -0.48F, 5, -5, 0, 2.25F, 5};
   expect_carried("a half blink, eyes down and an o", state);
   state.lip_seal = 1;
   expect_carried("sealed", state);
+}
+
+TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPart) {
+  MeshModel model;
+  for (const glm::vec3& p : to_rest_.position) model.Add(p, Bone::kSkin, glm::vec3(0.5F));
+  model.BatchOf(Material::kSkin, -1, false).indices = SkinTriangles(to_->topology());
+  const HeadTopology& known = to_->topology();
+  for (const HeadTopology::Part& part : known.parts) {
+    if (part.material != Material::kTeeth) continue;
+    for (std::uint32_t k = 0; k < part.index_count; k += 3) {
+      const std::uint32_t* t = &known.indices[part.first_index + k];
+      model.Triangle(Material::kTeeth, t[0], t[1], t[2]);
+      for (int c = 0; c < 3; ++c) model.bone[t[c]] = to_->rig().data().bone[t[c]];
+    }
+  }
+  RigData skin = TransferredRig(model, *from_, pairs_);
+  const auto head = MakeMeshHead(std::move(model), std::move(skin));
+  const HeadTopology& topology = head->topology();
+  EXPECT_EQ(topology.mouth.upper_incisor, known.mouth.upper_incisor);
+  EXPECT_EQ(topology.mouth.lower_incisor, known.mouth.lower_incisor);
+  ASSERT_EQ(topology.mouth.lips.size(), known.mouth.lips.size());
+  HeadVertices rest;
+  head->Evaluate({}, rest);
+  float off = 0;
+  for (std::size_t k = 0; k < known.mouth.lips.size(); ++k) {
+    off += glm::distance(rest.position[topology.mouth.lips[k].first],
+                         to_rest_.position[known.mouth.lips[k].first]);
+  }
+  EXPECT_LT(off / static_cast<float>(known.mouth.lips.size()), 0.9F) << "on the head's own lips";
+  const auto greenness = [&](std::uint32_t v) {
+    return topology.albedo[v].g / topology.albedo[v].r;
+  };
+  EXPECT_LT(greenness(known.mouth.lips[known.mouth.lips.size() / 2].first), 0.7F) << "the lip";
+  EXPECT_NEAR(greenness(to_->rig().data().soft_triangles.front()), 1, 0.3F) << "elsewhere";
 }
 
 /// Two lips of flat skin that meet at a height, as a coarse head has them: nothing but the slit

@@ -22,26 +22,26 @@ struct FaceMotionTest : testing::Test {
 
 TEST_F(FaceMotionTest, AnExpressionIsWholeAfterItsOnsetAndHolds) {
   ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(0ms).au_left[12], 0);
-  EXPECT_FLOAT_EQ(motion.StateAt(100ms).au_left[12], 0.8f);
-  EXPECT_FLOAT_EQ(motion.StateAt(1h).au_right[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(0ms).au.left[12], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(100ms).au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1h).au.right[12], 0.8f);
   EXPECT_EQ(motion.OnsetsSettled(0ms), vm::Time(100ms));
   EXPECT_FALSE(motion.NextActivity(100ms).has_value());
 }
 
 TEST_F(FaceMotionTest, ATimedExpressionGoesAwayByItself) {
   ASSERT_TRUE(motion.Express(0ms, "ANGRY", 1, 2, 1000ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(500ms).au_left[4], 2);
-  EXPECT_FLOAT_EQ(motion.StateAt(900ms).au_left[4], 2);
-  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).au_left[4], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(500ms).au.left[4], 2);
+  EXPECT_FLOAT_EQ(motion.StateAt(900ms).au.left[4], 2);
+  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).au.left[4], 0);
   EXPECT_EQ(motion.FiniteEnd(10ms), vm::Time(1000ms));
   EXPECT_EQ(motion.NextActivity(500ms), vm::Time(900ms));
 }
 
 TEST_F(FaceMotionTest, AShortExpressionTakesHalfItsTimeForEachFade) {
   ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 120ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(60ms).au_left[12], 0.8f);
-  EXPECT_FLOAT_EQ(motion.StateAt(120ms).au_left[12], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(60ms).au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(120ms).au.left[12], 0);
 }
 
 TEST_F(FaceMotionTest, ExpressionsCrossfadeWithoutJumps) {
@@ -59,11 +59,11 @@ TEST_F(FaceMotionTest, ExpressionsCrossfadeWithoutJumps) {
     if (t == 220ms) motion.Neutral(t);
     const FaceState now = motion.StateAt(t);
     for (std::size_t i = 0; i < kActionUnits; ++i) {
-      ASSERT_LT(std::abs(now.au_left[i] - before.au_left[i]), 0.25f) << i << " at " << t.count();
+      ASSERT_LT(std::abs(now.au.left[i] - before.au.left[i]), 0.25f) << i << " at " << t.count();
     }
     before = now;
   }
-  for (const float unit : before.au_left) EXPECT_FLOAT_EQ(unit, 0);
+  for (const float unit : before.au.left) EXPECT_FLOAT_EQ(unit, 0);
 }
 
 TEST_F(FaceMotionTest, NaturalExpressionsTakeTheMeasuredTimesAndLags) {
@@ -71,13 +71,13 @@ TEST_F(FaceMotionTest, NaturalExpressionsTakeTheMeasuredTimesAndLags) {
   settings.onset = Onset::kPosed;
   motion.Apply(0ms, settings);
   ASSERT_TRUE(motion.Express(0ms, "HAPPY", 5, 1, 0ms));
-  EXPECT_LT(motion.StateAt(555ms).au_left[12], 0.8f);
-  EXPECT_FLOAT_EQ(motion.StateAt(556ms).au_left[12], 0.8f);
+  EXPECT_LT(motion.StateAt(555ms).au.left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(556ms).au.left[12], 0.8f);
   // Eyes first, then the brow, then the mouth.
-  EXPECT_GT(motion.StateAt(8ms).au_left[6], 0);
-  EXPECT_FLOAT_EQ(motion.StateAt(8ms).au_left[1], 0);
-  EXPECT_GT(motion.StateAt(18ms).au_left[1], 0);
-  EXPECT_FLOAT_EQ(motion.StateAt(18ms).au_left[12], 0);
+  EXPECT_GT(motion.StateAt(8ms).au.left[6], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(8ms).au.left[1], 0);
+  EXPECT_GT(motion.StateAt(18ms).au.left[1], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(18ms).au.left[12], 0);
 }
 
 TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
@@ -100,43 +100,43 @@ TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
 TEST_F(FaceMotionTest, WhatMouthNAsksIsKnownFromWhatSpeechAsks) {
   ASSERT_TRUE(motion.SetMouth(0ms, 12, 0.5));
   const FaceState state = motion.StateAt(1s);
-  EXPECT_FLOAT_EQ(state.mouth[11], 7.5F);
+  EXPECT_FLOAT_EQ(state.mouth[kJawY], 7.5F);
   EXPECT_EQ(state.mouth_by_hand, state.mouth);
 }
 
 TEST_F(FaceMotionTest, UnitsCanBeMovedOnOneSide) {
   ASSERT_TRUE(motion.SetUnit(0ms, "12L", 0.7, 200ms));
-  EXPECT_NEAR(motion.StateAt(100ms).au_left[12], 0.35f, 1e-5);
-  EXPECT_FLOAT_EQ(motion.StateAt(200ms).au_left[12], 0.7f);
-  EXPECT_FLOAT_EQ(motion.StateAt(200ms).au_right[12], 0);
+  EXPECT_NEAR(motion.StateAt(100ms).au.left[12], 0.35f, 1e-5);
+  EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.left[12], 0.7f);
+  EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.right[12], 0);
 }
 
 TEST_F(FaceMotionTest, FacePositionsAreUnitsAndEmotions) {
   ASSERT_TRUE(motion.SetFace(0ms, 30, 1));
   ASSERT_TRUE(motion.SetFace(0ms, 31, 0.5));
   const FaceState state = motion.StateAt(1s);
-  EXPECT_FLOAT_EQ(state.au_left[43], 1);
-  EXPECT_FLOAT_EQ(state.au_left[12], 0.4f);
+  EXPECT_FLOAT_EQ(state.au.left[43], 1);
+  EXPECT_FLOAT_EQ(state.au.left[12], 0.4f);
 }
 
 TEST_F(FaceMotionTest, BlendShapesBecomeUnitsAndGaze) {
   ASSERT_TRUE(motion.SetBlendShape(0ms, "mouthSmileLeft", 0.5, 0ms));
   ASSERT_TRUE(motion.SetBlendShape(0ms, "eyeLookUpLeft", 1, 0ms));
   const FaceState state = motion.StateAt(1ms);
-  EXPECT_FLOAT_EQ(state.au_left[12], 0.5f);
-  EXPECT_FLOAT_EQ(state.au_right[12], 0);
-  EXPECT_FLOAT_EQ(state.eye_left.x, 25);
-  EXPECT_FLOAT_EQ(state.eye_right.x, 0);
+  EXPECT_FLOAT_EQ(state.au.left[12], 0.5f);
+  EXPECT_FLOAT_EQ(state.au.right[12], 0);
+  EXPECT_FLOAT_EQ(state.gaze.left[kDown], -25);
+  EXPECT_FLOAT_EQ(state.gaze.right[kDown], 0);
 }
 
 TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
   motion.TurnEyes(0ms, true, true, 10, 20, 1000ms);
-  EXPECT_FLOAT_EQ(motion.StateAt(70ms).eye_left.x, -10);  // x+ on the wire is down
-  EXPECT_FLOAT_EQ(motion.StateAt(70ms).eye_right.y, 20);
-  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).eye_right.y, 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.left[kDown], 10);
+  EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.right[kToRight], 20);
+  EXPECT_FLOAT_EQ(motion.StateAt(1000ms).gaze.right[kToRight], 0);
   motion.TurnEyes(2000ms, true, false, 0, 15, 0ms);
-  EXPECT_FLOAT_EQ(motion.StateAt(9s).eye_left.y, 15);
-  EXPECT_FLOAT_EQ(motion.StateAt(9s).eye_right.y, 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.left[kToRight], 15);
+  EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.right[kToRight], 0);
 }
 
 TEST_F(FaceMotionTest, ATimedTurnOfOneEyeEndsWhateverTheOtherDoes) {
@@ -150,10 +150,12 @@ TEST_F(FaceMotionTest, ATimedTurnOfOneEyeEndsWhateverTheOtherDoes) {
 TEST_F(FaceMotionTest, ALargeGazeIsSharedByTheHead) {
   motion.Gaze(0ms, 0, 30, 0ms);
   const FaceState early = motion.StateAt(70ms);
-  EXPECT_NEAR((early.eye_left.y + early.eye_right.y) / 2 + early.head_rotation[1], 30, 1e-3);
+  EXPECT_NEAR((early.gaze.left[kToRight] + early.gaze.right[kToRight]) / 2 + early.head_rotation[1],
+              30, 1e-3);
   const FaceState late = motion.StateAt(1s);
   EXPECT_NEAR(late.head_rotation[1], (30 - 12) * 0.6, 1e-3);
-  EXPECT_NEAR((late.eye_left.y + late.eye_right.y) / 2 + late.head_rotation[1], 30, 1e-3);
+  EXPECT_NEAR((late.gaze.left[kToRight] + late.gaze.right[kToRight]) / 2 + late.head_rotation[1],
+              30, 1e-3);
 }
 
 TEST_F(FaceMotionTest, NodOneGoesTenDegreesDownAndBackIn200Ms) {
@@ -176,8 +178,8 @@ TEST_F(FaceMotionTest, DirectionsAndMovementsAddUp) {
 
 TEST_F(FaceMotionTest, ABlinkShutsTheLidsAndOpensThem) {
   ASSERT_TRUE(motion.Move(0ms, "BLINK", 1));
-  EXPECT_FLOAT_EQ(motion.StateAt(90ms).blink_left, 1);
-  EXPECT_FLOAT_EQ(motion.StateAt(220ms).blink_left, 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(90ms).blink.left, 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(220ms).blink.left, 0);
   EXPECT_FALSE(motion.NextActivity(220ms).has_value());
 }
 
@@ -187,7 +189,7 @@ TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
   int blinks = 0;
   bool shut = false;
   for (vm::Time t = 0ms; t < 300s; t += 10ms) {
-    const bool now = motion.StateAt(t).blink_left > 0.3f;
+    const bool now = motion.StateAt(t).blink.left > 0.3f;
     if (now && !shut) {
       if (last) {
         EXPECT_GE(t - *last, 1950ms);
@@ -218,7 +220,7 @@ TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {
     most = std::max(most, std::abs(state.head_rotation[1]));
     EXPECT_LT(std::abs(state.head_rotation[1] - before), 0.08f);
     // The eyes make small jumps and else keep to their place while the head drifts.
-    EXPECT_LE(std::abs(state.eye_left.y + state.head_rotation[1]), 1.41f);
+    EXPECT_LE(std::abs(state.gaze.left[kToRight] + state.head_rotation[1]), 1.41f);
     before = state.head_rotation[1];
   }
   EXPECT_GT(most, 0.5f);
@@ -274,7 +276,7 @@ TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
         break;
     }
     const FaceState state = motion.StateAt(t + std::chrono::milliseconds(random(100)));
-    for (const float v : state.au_left) ASSERT_TRUE(v >= 0 && v <= 2);
+    for (const float v : state.au.left) ASSERT_TRUE(v >= 0 && v <= 2);
     for (const float v : state.mouth) ASSERT_LT(std::abs(v), 30);
     for (const float v : state.head_rotation) ASSERT_LT(std::abs(v), 150);
     ASSERT_TRUE(state.lip_seal >= 0 && state.lip_seal <= 1.0001f);

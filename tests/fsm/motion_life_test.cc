@@ -36,16 +36,16 @@ TEST_F(IdleBehaviourTest, NothingMovesUntilItIsSwitchedOn) {
   for (vm::Time t = 0ms; t < 6s; t += 40ms) {
     const FaceState state = motion.StateAt(t);
     ASSERT_EQ(state.head_rotation, (std::array<float, 3>{}));
-    ASSERT_EQ(state.blink_left, 0);
-    ASSERT_EQ(state.au_left[1], 0);
-    ASSERT_EQ(state.eye_left.x, 0);
+    ASSERT_EQ(state.blink.left, 0);
+    ASSERT_EQ(state.au.left[1], 0);
+    ASSERT_EQ(state.gaze.left[kDown], 0);
   }
 }
 
 TEST_F(IdleBehaviourTest, OnsetsAreSlowFastSlow) {
   ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
   const auto smile = [&](double part) {
-    return motion.StateAt(FromMs(556 * part)).au_right[12] / motion.StateAt(2s).au_right[12];
+    return motion.StateAt(FromMs(556 * part)).au.right[12] / motion.StateAt(2s).au.right[12];
   };
   EXPECT_LT(smile(0.2), 0.1);
   EXPECT_NEAR(smile(0.53), 0.5, 0.12);
@@ -66,8 +66,8 @@ TEST_F(IdleBehaviourTest, OneSideBeginsALittleLaterAlwaysTheSame) {
   const auto ahead = [](FaceMotion& face) {
     EXPECT_TRUE(face.Express(0ms, "HAPPY", 1, 1, 0ms));
     const FaceState early = face.StateAt(200ms);
-    EXPECT_EQ(face.StateAt(2s).au_left[12], face.StateAt(2s).au_right[12]);
-    return early.au_left[12] - early.au_right[12];
+    EXPECT_EQ(face.StateAt(2s).au.left[12], face.StateAt(2s).au.right[12]);
+    return early.au.left[12] - early.au.right[12];
   };
   const float first = ahead(motion);
   EXPECT_NE(first, 0);
@@ -84,7 +84,7 @@ TEST_F(IdleBehaviourTest, OneSideBeginsALittleLaterAlwaysTheSame) {
   ASSERT_TRUE(same.Autonomous(3s, "ASYMMETRY", 0));
   same.Neutral(3s);
   ASSERT_TRUE(same.Express(5s, "HAPPY", 1, 1, 0ms));
-  EXPECT_EQ(same.StateAt(5200ms).au_left[12], same.StateAt(5200ms).au_right[12]);
+  EXPECT_EQ(same.StateAt(5200ms).au.left[12], same.StateAt(5200ms).au.right[12]);
 }
 
 TEST_F(IdleBehaviourTest, LidsCloseFasterThanTheyOpen) {
@@ -99,7 +99,7 @@ TEST_F(IdleBehaviourTest, BlinkIntervalsAreSkewedAndSeeded) {
   double last = -1;
   bool shut = false;
   for (vm::Time t = 0ms; t < 600s; t += 20ms) {
-    const bool now = motion.StateAt(t).blink_left > 0.3f;
+    const bool now = motion.StateAt(t).blink.left > 0.3f;
     if (now && !shut && last >= 0) intervals.push_back(InMs(t) - last);
     if (now && !shut) last = InMs(t);
     shut = now;
@@ -116,13 +116,13 @@ TEST_F(IdleBehaviourTest, BlinkIntervalsAreSkewedAndSeeded) {
 
 TEST_F(IdleBehaviourTest, LargeShiftsOfTheGazeComeWithABlinkWhichCanBeSwitchedOff) {
   motion.Gaze(0ms, 0, 30, 0ms);
-  EXPECT_EQ(motion.StateAt(90ms).blink_left, 0);
+  EXPECT_EQ(motion.StateAt(90ms).blink.left, 0);
   On("GAZEBLINK");
   int blinks = 0;
   for (int i = 1; i <= 20; ++i) {
     const vm::Time at = i * 2s;
     motion.Gaze(at, 0, i % 2 == 0 ? 20 : -20, 0ms);
-    if (motion.StateAt(at + 90ms).blink_left > 0.5f) ++blinks;
+    if (motion.StateAt(at + 90ms).blink.left > 0.5f) ++blinks;
   }
   EXPECT_GE(blinks, 16);
 }
@@ -133,10 +133,10 @@ TEST_F(IdleBehaviourTest, MostUtterancesEndWithABlink) {
   for (int i = 0; i < 20; ++i) {
     const vm::Time at = i * 10s;
     motion.Speak(at, List("pau 100 aa 300 pau 100"), at);
-    EXPECT_EQ(motion.StateAt(at + 250ms).blink_left, 0);
+    EXPECT_EQ(motion.StateAt(at + 250ms).blink.left, 0);
     float shut = 0;
     for (vm::Time t = at + 400ms; t < at + 900ms; t += 10ms) {
-      shut = std::max(shut, motion.StateAt(t).blink_left);
+      shut = std::max(shut, motion.StateAt(t).blink.left);
     }
     if (shut > 0.9f) ++blinks;
   }
@@ -149,21 +149,21 @@ TEST_F(IdleBehaviourTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
   motion.TurnHead(100ms, {5, 20, 0});
   const FaceState state = motion.StateAt(2s);
   EXPECT_FLOAT_EQ(state.head_rotation[1], 20);
-  EXPECT_NEAR((state.eye_left.y + state.eye_right.y) / 2, -20, 1e-3);
-  EXPECT_NEAR(state.eye_left.x, 5, 1e-3);  // up, as the head went down
+  EXPECT_NEAR((state.gaze.left[kToRight] + state.gaze.right[kToRight]) / 2, -20, 1e-3);
+  EXPECT_NEAR(state.gaze.left[kDown], -5, 1e-3);  // up, as the head went down
 }
 
 TEST_F(IdleBehaviourTest, TheEyesConvergeOnWhatIsNear) {
   motion.LookAtUser(0ms);
   const FaceState state = motion.StateAt(1s);
   // The agent's left eye is on the viewer's right: converging, it turns to the viewer's left.
-  EXPECT_NEAR(state.eye_left.y, -2.54, 0.02);
-  EXPECT_NEAR(state.eye_right.y, 2.54, 0.02);
+  EXPECT_NEAR(state.gaze.left[kToRight], -2.54, 0.02);
+  EXPECT_NEAR(state.gaze.right[kToRight], 2.54, 0.02);
   auto settings = motion.settings();
   settings.gaze_distance_mm = 0;
   motion.Apply(1s, settings);
   motion.LookAtUser(1s);
-  EXPECT_NEAR(motion.StateAt(2s).eye_left.y, 0, 1e-3);
+  EXPECT_NEAR(motion.StateAt(2s).gaze.left[kToRight], 0, 1e-3);
 }
 
 TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
@@ -173,15 +173,15 @@ TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
   std::vector<float> seen;
   for (vm::Time t = 1200ms; t < 12s; t += 100ms) {
     const FaceState state = motion.StateAt(t);
-    least = std::min(least, std::hypot(state.eye_left.x, state.eye_left.y));
-    if (seen.empty() || std::abs(seen.back() - state.eye_left.x) > 0.5f) {
-      seen.push_back(state.eye_left.x);
+    least = std::min(least, std::hypot(state.gaze.left[kDown], state.gaze.left[kToRight]));
+    if (seen.empty() || std::abs(seen.back() - state.gaze.left[kDown]) > 0.5f) {
+      seen.push_back(state.gaze.left[kDown]);
     }
   }
   EXPECT_GT(least, 5);
   EXPECT_GE(seen.size(), 4u);
   motion.LookAtUser(12s);
-  EXPECT_NEAR(motion.StateAt(13s).eye_left.x, 0, 0.01);
+  EXPECT_NEAR(motion.StateAt(13s).gaze.left[kDown], 0, 0.01);
   EXPECT_FALSE(motion.NextActivity(13s).has_value());
 }
 
@@ -198,7 +198,7 @@ TEST_F(IdleBehaviourTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
     before = nod;
     most = std::max(most, nod);
     least = std::min(least, nod);
-    brow = std::max(brow, state.au_left[1]);
+    brow = std::max(brow, state.au.left[1]);
     if (nod > 0.6f && !down) ++nods;
     down = nod > (down ? -0.1f : 0.6f);
   }
@@ -229,12 +229,14 @@ TEST_F(IdleBehaviourTest, SpeakersLookAwayAtTheBeginningAndBackBeforeTheEnd) {
   motion.Speak(0ms, List(kSentence), 1s);
   float away = 0;
   for (vm::Time t = 1s; t < 2s; t += 20ms) {
-    away = std::max(away, std::abs(motion.StateAt(t).eye_left.y));
+    away = std::max(away, std::abs(motion.StateAt(t).gaze.left[kToRight]));
   }
   EXPECT_GT(away, 5);
-  for (vm::Time t = 3s; t < 5s; t += 20ms) EXPECT_NEAR(motion.StateAt(t).eye_left.y, 0, 0.01);
+  for (vm::Time t = 3s; t < 5s; t += 20ms)
+    EXPECT_NEAR(motion.StateAt(t).gaze.left[kToRight], 0, 0.01);
   motion.Speak(10s, List("pau 100 y 60 eh 120 s 150"), 10s);  // too short for that
-  for (vm::Time t = 10s; t < 11s; t += 20ms) EXPECT_NEAR(motion.StateAt(t).eye_left.y, 0, 0.01);
+  for (vm::Time t = 10s; t < 11s; t += 20ms)
+    EXPECT_NEAR(motion.StateAt(t).gaze.left[kToRight], 0, 0.01);
 }
 
 TEST_F(IdleBehaviourTest, BreathMovesTheHeadALittleAboutFifteenTimesAMinute) {
@@ -280,14 +282,14 @@ TEST_F(IdleBehaviourTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable
     EXPECT_TRUE(motion.NextActivity(10s).has_value());
   }
   ASSERT_TRUE(motion.SetIdle(0ms, "LISTENING"));
-  EXPECT_GT(motion.StateAt(2s).au_left[12], 0.05f) << "friendly";
+  EXPECT_GT(motion.StateAt(2s).au.left[12], 0.05f) << "friendly";
   for (const std::string_view kind : kIdleKindNames) {
     ASSERT_TRUE(motion.Autonomous(3s, kind, 0)) << kind;
   }
   EXPECT_FALSE(motion.NextActivity(10s).has_value());
   const FaceState state = motion.StateAt(10s);
   EXPECT_EQ(state.head_rotation, (std::array<float, 3>{}));
-  EXPECT_EQ(state.au_left[12], 0);
+  EXPECT_EQ(state.au.left[12], 0);
   EXPECT_FALSE(motion.SetIdle(10s, "PARTY"));
 }
 
@@ -303,8 +305,8 @@ TEST_F(IdleBehaviourTest, TheSameSeedLivesTheSameLife) {
   for (vm::Time t = 0ms; t < 20s; t += 100ms) {
     const FaceState a = motion.StateAt(t), b = same.StateAt(t), c = other.StateAt(t);
     ASSERT_EQ(a.head_rotation, b.head_rotation);
-    ASSERT_EQ(a.blink_left, b.blink_left);
-    ASSERT_EQ(a.eye_left.y, b.eye_left.y);
+    ASSERT_EQ(a.blink.left, b.blink.left);
+    ASSERT_EQ(a.gaze.left[kToRight], b.gaze.left[kToRight]);
     differs = differs || a.head_rotation != c.head_rotation;
   }
   EXPECT_TRUE(differs);

@@ -16,10 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kJaw = 11;
-constexpr std::size_t kCornerX = 8;
-constexpr std::size_t kLowerOuterZ = 7;
-
 const MotionTables& Tables() {
   static const MotionTables tables = MotionTables::Load().value();
   return tables;
@@ -31,23 +27,23 @@ const MouthPose& Shape(const char* name) { return FindShape(Tables().set28.shape
 TEST(DominanceTest, ALongVowelReachesAndHoldsItsShape) {
   const VisemeTrack track = Track28("pau 200 aa 300 pau 200");
   for (const double ms : {300.0, 350.0, 400.0}) {
-    EXPECT_NEAR(track.At(ms).mouth[kJaw], Shape("aa").mouth[kJaw], 0.05) << ms;
+    EXPECT_NEAR(track.At(ms).mouth[kJawY], Shape("aa").mouth[kJawY], 0.05) << ms;
   }
-  EXPECT_NEAR(track.At(50).mouth[kJaw], 0, 0.05);
+  EXPECT_NEAR(track.At(50).mouth[kJawY], 0, 0.05);
 }
 
 TEST(DominanceTest, EqualNeighboursHaveEqualSayWhereTheyMeet) {
   const VisemeTrack track = Track28("aa 200 eh 200");
-  const double half = (Shape("aa").mouth[kJaw] + Shape("eh").mouth[kJaw]) / 2;
-  EXPECT_NEAR(track.At(200).mouth[kJaw], half, 0.05);
+  const double half = (Shape("aa").mouth[kJawY] + Shape("eh").mouth[kJawY]) / 2;
+  EXPECT_NEAR(track.At(200).mouth[kJawY], half, 0.05);
 }
 
 TEST(DominanceTest, ShortSoundsAreUndershot) {
   const VisemeTrack slow = Track28("iy 150 aa 150 iy 150");
   const VisemeTrack quick = Track28("iy 30 aa 30 iy 30");
-  EXPECT_NEAR(slow.At(225).mouth[kJaw], Shape("aa").mouth[kJaw], 0.3);
-  EXPECT_LT(quick.At(45).mouth[kJaw], 0.8 * Shape("aa").mouth[kJaw]);
-  EXPECT_GT(quick.At(45).mouth[kJaw], 1.3 * Shape("iy").mouth[kJaw]);
+  EXPECT_NEAR(slow.At(225).mouth[kJawY], Shape("aa").mouth[kJawY], 0.3);
+  EXPECT_LT(quick.At(45).mouth[kJawY], 0.8 * Shape("aa").mouth[kJawY]);
+  EXPECT_GT(quick.At(45).mouth[kJawY], 1.3 * Shape("iy").mouth[kJawY]);
 }
 
 TEST(DominanceTest, RoundingIsAnticipatedFurtherThanOpening) {
@@ -56,9 +52,9 @@ TEST(DominanceTest, RoundingIsAnticipatedFurtherThanOpening) {
   const VisemeTrack round = Track28("iy 150 t 100 uw 150");
   EXPECT_GT(round.At(250 - 70).mouth[kLowerOuterZ], 0.15 * way_uw);
   const VisemeTrack open = Track28("iy 150 k 100 aa 150");
-  const double from = open.At(250 - 70).mouth[kJaw];
-  EXPECT_LT(from - Shape("k").mouth[kJaw], 0.1 * Shape("aa").mouth[kJaw]);
-  EXPECT_GT(open.At(250 - 15).mouth[kJaw], from + 1);  // but it begins before its time
+  const double from = open.At(250 - 70).mouth[kJawY];
+  EXPECT_LT(from - Shape("k").mouth[kJawY], 0.1 * Shape("aa").mouth[kJawY]);
+  EXPECT_GT(open.At(250 - 15).mouth[kJawY], from + 1);  // but it begins before its time
 }
 
 TEST(DominanceTest, TongueConsonantsTakeTheLipsOfTheirNeighbours) {
@@ -102,7 +98,7 @@ TEST(DominanceTest, NothingJumps) {
       before = now;
     }
     EXPECT_FLOAT_EQ(before.seal, 1);
-    EXPECT_NEAR(before.mouth[kJaw], 0, 1e-3);
+    EXPECT_NEAR(before.mouth[kJawY], 0, 1e-3);
   }
 }
 
@@ -119,7 +115,7 @@ TEST(LipStyleTest, ScalesAreOfJawAndLipsAndLeaveClosuresClosed) {
   shout.lips = 0.5;
   const VisemeTrack plain = Track28("uw 300 m 100 aa 300");
   const VisemeTrack loud(List("uw 300 m 100 aa 300"), Tables(), shout);
-  EXPECT_NEAR(loud.At(550).mouth[kJaw], 2 * plain.At(550).mouth[kJaw], 0.1);
+  EXPECT_NEAR(loud.At(550).mouth[kJawY], 2 * plain.At(550).mouth[kJawY], 0.1);
   EXPECT_NEAR(loud.At(150).mouth[kCornerX], 0.5 * plain.At(150).mouth[kCornerX], 0.1);
   EXPECT_FLOAT_EQ(loud.At(320).seal, 1);
 }
@@ -128,8 +124,8 @@ TEST(LipStyleTest, LinearModeGoesStraight) {
   LipStyle style;
   style.mode = LipMode::kLinear;
   const VisemeTrack track(List("aa 100 eh 100"), Tables(), style);
-  EXPECT_NEAR(track.At(25).mouth[kJaw],
-              0.75 * Shape("aa").mouth[kJaw] + 0.25 * Shape("eh").mouth[kJaw], 1e-4);
+  EXPECT_NEAR(track.At(25).mouth[kJawY],
+              0.75 * Shape("aa").mouth[kJawY] + 0.25 * Shape("eh").mouth[kJawY], 1e-4);
 }
 
 TEST(PhonemeNamesTest, TheListThatKnowsMostNamesTheLanguage) {
@@ -145,11 +141,11 @@ TEST(PhonemeNamesTest, TheListThatKnowsMostNamesTheLanguage) {
 
 TEST(PhonemeNamesTest, EveryEnginesWordsMoveTheMouthAlike) {
   // "hello", by four engines.
-  const double jaw = Track28("pau 100 hh 60 ax 80 l 60 ow 200 pau 100").At(270).mouth[kJaw];
+  const double jaw = Track28("pau 100 hh 60 ax 80 l 60 ow 200 pau 100").At(270).mouth[kJawY];
   for (const char* text :
        {"SIL 100 HH 60 AH0 80 L 60 OW1 200 SIL 100", "_: 100 h 60 ə 80 l 60 oʊ 200 _: 100",
         "_ 100 h 60 @ 80 l 60 oU 200 _ 100"}) {
-    EXPECT_NEAR(Track28(text).At(270).mouth[kJaw], jaw, 0.5) << text;
+    EXPECT_NEAR(Track28(text).At(270).mouth[kJawY], jaw, 0.5) << text;
     EXPECT_TRUE(Track28(text).visemes().unknown.empty()) << text;
   }
 }

@@ -52,7 +52,7 @@ TEST(MotionSourceTest, ASourceFromOutsideIsMixedWithTheOthersWithoutARowOfItsOwn
   motion.TurnHead(0s, {0, 5, 0});
   EXPECT_FLOAT_EQ(motion.StateAt(900ms).head_rotation[1], 5);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[1], 15);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).eye_left.y, 0) << "nothing keeps the eyes";
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kToRight], 0) << "nothing keeps the eyes";
   EXPECT_FLOAT_EQ(motion.StateAt(2s).head_rotation[1], 5);
   EXPECT_EQ(motion.NextActivity(2s), std::nullopt);
 }
@@ -61,7 +61,7 @@ TEST(MotionSourceTest, ARowOfTheTableKeepsTheEyesOnTheirTarget) {
   FaceMotion motion(With("mixing.txt", "layer turning\nsteady turning 8\n"), 1);
   motion.Add(std::make_unique<Turning>());
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[1], 10);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).eye_left.y, -8) << "no further than its limit";
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kToRight], -8) << "no further than its limit";
 }
 
 TEST(MixerTest, ALayerIsWeighedBySignalsAndLimitedByItsChannel) {
@@ -77,23 +77,23 @@ TEST(MixerTest, ALayerIsWeighedBySignalsAndLimitedByItsChannel) {
   MotionLayer& a = frame.Layer("a");
   a.head[0] = 8;
   a.lids_shut = 0.4f;
-  a.units.left[1] = a.units.left[25] = 1;
-  a.units.left[12] = 1.5f;
+  a.units.au.left[1] = a.units.au.left[25] = 1;
+  a.units.au.left[12] = 1.5f;
   MotionLayer& b = frame.Layer("b");
   b.lids_shut = 0.7f;
-  b.units.left[12] = 1.5f;
+  b.units.au.left[12] = 1.5f;
   b.head[0] = 1;
   FaceState quiet, loud;
   mixer->Mix(frame, units, quiet);
   EXPECT_FLOAT_EQ(quiet.head_rotation[0], 9);
-  EXPECT_FLOAT_EQ(quiet.blink_left, 0.7f) << "the greatest";
-  EXPECT_FLOAT_EQ(quiet.au_left[12], 2) << "the limit";
-  EXPECT_FLOAT_EQ(quiet.au_left[1], 1);
+  EXPECT_FLOAT_EQ(quiet.blink.left, 0.7f) << "the greatest";
+  EXPECT_FLOAT_EQ(quiet.au.left[12], 2) << "the limit";
+  EXPECT_FLOAT_EQ(quiet.au.left[1], 1);
   frame.Give("loud", 1);
   mixer->Mix(frame, units, loud);
   EXPECT_FLOAT_EQ(loud.head_rotation[0], 3);
-  EXPECT_FLOAT_EQ(loud.au_left[1], 0);
-  EXPECT_FLOAT_EQ(loud.au_left[25], 0);
+  EXPECT_FLOAT_EQ(loud.au.left[1], 0);
+  EXPECT_FLOAT_EQ(loud.au.left[25], 0);
 }
 
 TEST(MixerTest, WrongRowsAreNamedByFileAndLine) {
@@ -138,22 +138,22 @@ TEST(NewUnitTest, OneRowMakesACodeOfTheHead) {
   ASSERT_TRUE(motion.SetUnits(0s, "58b 0.5"));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[0], 4.5f);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_forward, -4);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).eye_left.x, 4.5f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kDown], -4.5f);
 }
 
 TEST(NewUnitTest, OneRowMakesAUnitThatExpressionsAndCommandsKnow) {
   FaceMotion motion(With("action_unit_names.txt", "unit 151 12b\nunit 152 Ear one-sided\n"), 1);
   ASSERT_TRUE(motion.SetUnits(0s, "12bL 0.5 Ear 1"));
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[151], 0.5f);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_right[151], 0);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[152], 1);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_right[152], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[151], 0.5f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[151], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[152], 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[152], 0);
   ASSERT_TRUE(motion.DefineExpression("ODD", 1, "12b 0.4 152R:0.2"));
   ASSERT_TRUE(motion.Express(1s, "ODD", 1, 1, 0ms));
   const FaceState state = motion.StateAt(3s);
-  EXPECT_FLOAT_EQ(state.au_right[151], 0.4f);
-  EXPECT_FLOAT_EQ(state.au_left[151], 0.9f);
-  EXPECT_FLOAT_EQ(state.au_right[152], 0.2f);
+  EXPECT_FLOAT_EQ(state.au.right[151], 0.4f);
+  EXPECT_FLOAT_EQ(state.au.left[151], 0.9f);
+  EXPECT_FLOAT_EQ(state.au.right[152], 0.2f);
   const UnitNames& names = motion.tables().unit_names;
   const ActionUnits& look = motion.tables().emotions.at("ODD").patterns[0];
   EXPECT_EQ(FormatLook(look, names), "151:0.4 152R:0.2");

@@ -14,8 +14,6 @@ MotionTables BuiltIn() { return MotionTables::Load().value(); }
 
 vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value(); }
 
-constexpr std::size_t kJaw = 11;
-
 /// The original's way: 14 shapes joined by sinusoids.
 LipStyle Original(Language language) {
   return {.mode = LipMode::kSinusoid, .bilingual = false, .language = language};
@@ -25,30 +23,30 @@ TEST(VisemeTrackTest, TheKeyShapeStandsAtThePhonemesStart) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("pau 100 a 100 i 100 pau 100"), tables,
                           Original(Language::kJapanese));
-  EXPECT_NEAR(track.At(100).mouth[kJaw], tables.set14.shapes[9].pose.mouth[kJaw], 1e-5);
-  EXPECT_NEAR(track.At(200).mouth[kJaw], tables.set14.shapes[10].pose.mouth[kJaw], 1e-5);
-  EXPECT_NEAR(track.At(300).mouth[kJaw], 0, 1e-5);
+  EXPECT_NEAR(track.At(100).mouth[kJawY], tables.set14.shapes[9].pose.mouth[kJawY], 1e-5);
+  EXPECT_NEAR(track.At(200).mouth[kJawY], tables.set14.shapes[10].pose.mouth[kJawY], 1e-5);
+  EXPECT_NEAR(track.At(300).mouth[kJawY], 0, 1e-5);
 }
 
 TEST(VisemeTrackTest, BetweenKeysItIsTheOriginalsSinusoid) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("a 100 i 100"), tables, Original(Language::kJapanese));
-  const double v0 = tables.set14.shapes[9].pose.mouth[kJaw];
-  const double v1 = tables.set14.shapes[10].pose.mouth[kJaw];
+  const double v0 = tables.set14.shapes[9].pose.mouth[kJawY];
+  const double v1 = tables.set14.shapes[10].pose.mouth[kJawY];
   for (double u : {0.1, 0.25, 0.5, 0.8}) {
     const double w = std::cos(std::numbers::pi * u) / 2;
-    EXPECT_NEAR(track.At(100 * u).mouth[kJaw], w * (v0 - v1) + (v0 + v1) / 2, 1e-4);
+    EXPECT_NEAR(track.At(100 * u).mouth[kJawY], w * (v0 - v1) + (v0 + v1) / 2, 1e-4);
   }
 }
 
 TEST(VisemeTrackTest, ALongPhonemeHoldsAndThenMovesFor92Ms) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("a 200 i 100"), tables, Original(Language::kJapanese));
-  const float full = tables.set14.shapes[9].pose.mouth[kJaw];
-  EXPECT_FLOAT_EQ(track.At(107).mouth[kJaw], full);
-  EXPECT_LT(track.At(120).mouth[kJaw], full);
+  const float full = tables.set14.shapes[9].pose.mouth[kJawY];
+  EXPECT_FLOAT_EQ(track.At(107).mouth[kJawY], full);
+  EXPECT_LT(track.At(120).mouth[kJawY], full);
   const VisemeTrack shorter(List("a 199 i 100"), tables, Original(Language::kJapanese));
-  EXPECT_LT(shorter.At(60).mouth[kJaw], full);
+  EXPECT_LT(shorter.At(60).mouth[kJawY], full);
 }
 
 TEST(VisemeTrackTest, LipClosuresSealForAFrameEvenInFastSpeech) {
@@ -71,7 +69,7 @@ TEST(VisemeTrackTest, PausesAndUnknownPhonemesClose) {
   const VisemeTrack track(List("a 100 pau 300 a 100 xyz 300 a 100"), tables,
                           Original(Language::kAuto));
   EXPECT_FLOAT_EQ(track.At(150).seal, 1);
-  EXPECT_FLOAT_EQ(track.At(250).mouth[kJaw], 0);
+  EXPECT_FLOAT_EQ(track.At(250).mouth[kJawY], 0);
   EXPECT_FLOAT_EQ(track.At(600).seal, 1);
 }
 
@@ -79,23 +77,23 @@ TEST(VisemeTrackTest, DiphthongsGoToTheirSecondShapeAfterThirtyPerCent) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("pau 100 ay 150 pau 100"), tables, Original(Language::kAuto));
   EXPECT_TRUE(track.english());
-  EXPECT_NEAR(track.At(100).mouth[kJaw], tables.set14.shapes[9].pose.mouth[kJaw], 1e-5);
-  EXPECT_NEAR(track.At(145).mouth[kJaw], 0.8 * tables.set14.shapes[10].pose.mouth[kJaw], 1e-5);
+  EXPECT_NEAR(track.At(100).mouth[kJawY], tables.set14.shapes[9].pose.mouth[kJawY], 1e-5);
+  EXPECT_NEAR(track.At(145).mouth[kJawY], 0.8 * tables.set14.shapes[10].pose.mouth[kJawY], 1e-5);
 }
 
 TEST(VisemeTrackTest, HTakesTheNextVowel) {
   const auto tables = BuiltIn();
   const VisemeTrack track(List("h 80 a 100"), tables, Original(Language::kJapanese));
-  EXPECT_NEAR(track.At(0).mouth[kJaw], 0.7 * tables.set14.shapes[9].pose.mouth[kJaw], 1e-5);
+  EXPECT_NEAR(track.At(0).mouth[kJawY], 0.7 * tables.set14.shapes[9].pose.mouth[kJawY], 1e-5);
   EXPECT_FLOAT_EQ(track.At(0).seal, 0);
 }
 
 TEST(VisemeTrackTest, EmptyListsAndZeroDurationsAreHarmless) {
   const auto tables = BuiltIn();
   const VisemeTrack nothing({}, tables, Original(Language::kAuto));
-  EXPECT_FLOAT_EQ(nothing.At(0).mouth[kJaw], 0);
+  EXPECT_FLOAT_EQ(nothing.At(0).mouth[kJawY], 0);
   const VisemeTrack zero({{"a", 0ms}, {"h", 0ms}}, tables, Original(Language::kAuto));
-  for (double t = -100; t < 10; t += 1) EXPECT_TRUE(std::isfinite(zero.At(t).mouth[kJaw]));
+  for (double t = -100; t < 10; t += 1) EXPECT_TRUE(std::isfinite(zero.At(t).mouth[kJawY]));
 }
 
 TEST(SpeechClockTest, FollowsTimeExactlyWhenTheVoiceAgrees) {
@@ -150,9 +148,9 @@ TEST(SpeechTest, TheMouthLeadsTheVoiceByExactlyTheLead) {
   const auto settings = motion.settings();
   EXPECT_DOUBLE_EQ(settings.lead_ms, 40);
   // There the vowel and the rest before it have their say by their dominance of the jaw, 1 : 0.8.
-  const double full = FindShape(BuiltIn().set28.shapes, "ja_a")->pose.mouth[kJaw] *
+  const double full = FindShape(BuiltIn().set28.shapes, "ja_a")->pose.mouth[kJawY] *
                       settings.mouth_scale / kFullMouthScale;
-  EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJaw], full / 1.8, 1e-3);
+  EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJawY], full / 1.8, 1e-3);
   EXPECT_EQ(motion.SpeechEnd(), vm::Time(1550ms));
 }
 
@@ -162,8 +160,8 @@ TEST(SpeechTest, InTheOriginalsModeTheKeyShapeStandsTheLeadBeforeTheSound) {
   settings.lips = Original(Language::kAuto);
   motion.Apply(0ms, settings);
   motion.Speak(0ms, List("pau 200 a 150 pau 200"), 1000ms);
-  EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJaw],
-              BuiltIn().set14.shapes[9].pose.mouth[kJaw] * settings.mouth_scale / kFullMouthScale,
+  EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJawY],
+              BuiltIn().set14.shapes[9].pose.mouth[kJawY] * settings.mouth_scale / kFullMouthScale,
               1e-4);
 }
 
@@ -190,10 +188,10 @@ TEST(SpeechTest, StopClosesTheLipsWithin120MsAndSmoothly) {
     if (at > 60) {
       EXPECT_GT(state.lip_seal, 0.999) << at;
     }
-    EXPECT_NEAR(state.mouth[kJaw], 0, 1e-3);
-    float before = motion.StateAt(stop).mouth[kJaw];
+    EXPECT_NEAR(state.mouth[kJawY], 0, 1e-3);
+    float before = motion.StateAt(stop).mouth[kJawY];
     for (vm::Time t = stop; t < stop + 600ms; t += 5ms) {
-      const float now = motion.StateAt(t).mouth[kJaw];
+      const float now = motion.StateAt(t).mouth[kJawY];
       EXPECT_LT(std::abs(now - before), 1.6f);
       before = now;
     }
@@ -213,7 +211,7 @@ TEST(SpeechTest, NothingJumpsFromUtteranceToUtterance) {
     for (std::size_t i = 0; i < kMouthParameters; ++i) {
       ASSERT_LT(std::abs(now.mouth[i] - before.mouth[i]), 1.2f) << i << " at " << t.count();
     }
-    ASSERT_LT(std::abs(now.au_left[12] - before.au_left[12]), 0.12f) << t.count();
+    ASSERT_LT(std::abs(now.au.left[12] - before.au.left[12]), 0.12f) << t.count();
     before = now;
   }
 }
@@ -224,10 +222,10 @@ TEST(SpeechTest, EmotionTintsTheMouthAndKeepsTheBrows) {
   ASSERT_TRUE(motion.Express(0ms, "SURPRISED", 1, 1, 0ms));
   motion.Speak(500ms, List("aa 1000"), 500ms);
   const FaceState state = motion.StateAt(1000ms);
-  EXPECT_FLOAT_EQ(state.au_left[1], 1);
-  EXPECT_FLOAT_EQ(state.au_left[5], 0.5f);
-  EXPECT_NEAR(state.au_left[26], 0.85 * 0.4, 1e-5);
-  EXPECT_FLOAT_EQ(motion.StateAt(2500ms).au_left[26], 0.85f);
+  EXPECT_FLOAT_EQ(state.au.left[1], 1);
+  EXPECT_FLOAT_EQ(state.au.left[5], 0.5f);
+  EXPECT_NEAR(state.au.left[26], 0.85 * 0.4, 1e-5);
+  EXPECT_FLOAT_EQ(motion.StateAt(2500ms).au.left[26], 0.85f);
 }
 
 TEST(SpeechTest, MouthScaleMultipliesButClosuresStay) {
@@ -236,7 +234,7 @@ TEST(SpeechTest, MouthScaleMultipliesButClosuresStay) {
   settings.mouth_scale = 15;
   motion.Apply(0ms, settings);
   motion.Speak(0ms, List("pau 200 a 150 m 100 a 150"), 1000ms);
-  EXPECT_NEAR(motion.StateAt(1235ms).mouth[kJaw], 9 * 15.0 / 40, 0.05);
+  EXPECT_NEAR(motion.StateAt(1235ms).mouth[kJawY], 9 * 15.0 / 40, 0.05);
   EXPECT_FLOAT_EQ(motion.StateAt(1310ms).lip_seal, 1);
 }
 

@@ -10,18 +10,17 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kJaw = 11;
 constexpr float kSpoken = 0.75F;  // MouthScale 30
 
 class MouthStreamTest : public testing::Test {
  protected:
   void Add(vm::Time at, float jaw, float seal = 0) {
     MouthPose pose;
-    pose.mouth[kJaw] = jaw;
+    pose.mouth[kJawY] = jaw;
     pose.seal = pose.contact = seal;
     ASSERT_TRUE(motion_.AddMouthFrame(0ms, at, pose));
   }
-  float Jaw(vm::Time t) const { return motion_.StateAt(t).mouth[kJaw]; }
+  float Jaw(vm::Time t) const { return motion_.StateAt(t).mouth[kJawY]; }
   FaceMotion motion_{MotionTables::Load().value(), 1};
 };
 
@@ -91,7 +90,7 @@ TEST_F(MouthStreamTest, ASealClosesWhateverElseOpens) {
   ASSERT_TRUE(motion_.SetUnit(0ms, "26", 1, 0ms));  // jaw drop
   for (int i = 0; i < 50; ++i) Add(1000ms + i * 20ms, 1, 1);
   EXPECT_EQ(motion_.StateAt(1500ms).lip_seal, 1);
-  EXPECT_LT(motion_.StateAt(1500ms).au_left[26], 0.01F);
+  EXPECT_LT(motion_.StateAt(1500ms).au.left[26], 0.01F);
 }
 
 TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
@@ -103,8 +102,8 @@ TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
   EXPECT_NEAR(at(1510ms).head_rotation[0], 2.55, 0.01);
   EXPECT_NEAR(at(1510ms).head_rotation[1], -2, 0.01);
   EXPECT_NEAR(at(1510ms).head_rotation[2], 1, 0.01);
-  EXPECT_NEAR(at(1510ms).au_left[1], 0.5, 0.01);
-  EXPECT_NEAR(at(1510ms).au_right[2], 0.4, 0.01);
+  EXPECT_NEAR(at(1510ms).au.left[1], 0.5, 0.01);
+  EXPECT_NEAR(at(1510ms).au.right[2], 0.4, 0.01);
   // Home within 700 ms, softly.
   for (vm::Time t = 2000ms; t < 2800ms; t += 20ms) {
     EXPECT_LT(std::abs(at(t + 20ms).head_rotation[0] - at(t).head_rotation[0]), 0.25F) << t.count();
@@ -134,12 +133,12 @@ TEST_F(MouthStreamTest, TheHeadOfATextGivesWayToOneThatIsHeard) {
   motion_.StopMouthFrames(1500ms);
   Add(4000ms, 2);
   Add(4020ms, 2);
-  EXPECT_EQ(motion_.StateAt(4010ms).mouth[kJaw], 2 * kSpoken);
+  EXPECT_EQ(motion_.StateAt(4010ms).mouth[kJawY], 2 * kSpoken);
 }
 
 TEST_F(MouthStreamTest, AMoodIsCoveredByAnExpressionAndComesBack) {
   ASSERT_TRUE(motion_.SetMood(0ms, "AROUSED", 1));
-  const auto brow = [this](vm::Time t) { return motion_.StateAt(t).au_left[5]; };
+  const auto brow = [this](vm::Time t) { return motion_.StateAt(t).au.left[5]; };
   EXPECT_EQ(brow(0ms), 0);
   const float mood = brow(1200ms);
   EXPECT_GT(mood, 0.1);

@@ -24,7 +24,7 @@ TEST(MotionTablesTest, TheFourteenShapesStandInTheirOrder) {
 
 TEST(MotionTablesTest, VowelJawsAreOrderedAsMeasuredInSpeech) {
   const auto shapes = BuiltIn().set14.shapes;
-  const auto jaw = [&](std::size_t i) { return shapes[i].pose.mouth[11]; };
+  const auto jaw = [&](std::size_t i) { return shapes[i].pose.mouth[kJawY]; };
   EXPECT_GT(jaw(9), jaw(12));   // a > e
   EXPECT_GT(jaw(12), jaw(13));  // e > o
   EXPECT_GT(jaw(13), jaw(10));  // o > i
@@ -64,7 +64,7 @@ TEST(MotionTablesTest, ThereAreSixEmotionsAndUserdefWithFivePatterns) {
     ASSERT_TRUE(tables.emotions.contains(name)) << name;
     EXPECT_EQ(tables.emotions.at(name).patterns.size(), 5u) << name;
   }
-  EXPECT_FLOAT_EQ(tables.emotions.at("HAPPY").patterns[0].left[12], 0.8f);
+  EXPECT_FLOAT_EQ(tables.emotions.at("HAPPY").patterns[0].au.left[12], 0.8f);
   EXPECT_DOUBLE_EQ(tables.emotions.at("HAPPY").posed.onset_ms, 556);
 }
 

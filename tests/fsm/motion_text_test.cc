@@ -105,7 +105,7 @@ TEST(TextCuesTest, ADamagedTableIsRefusedWithItsLine) {
 struct TextMotionTest : testing::Test {
   FaceMotion motion{MotionTables::Load().value(), 7};
   const vm::PhonemeList phonemes = vm::ParsePhonemes("hh 100 ax 200 l 100 ow 600").value();
-  float SmileAt(vm::Time t) const { return motion.StateAt(t).au_right[12]; }
+  float SmileAt(vm::Time t) const { return motion.StateAt(t).au.right[12]; }
 };
 
 TEST_F(TextMotionTest, AGreetingIsFriendlyWhileItIsSaidAndNotAfterwards) {

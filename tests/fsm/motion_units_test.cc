@@ -38,24 +38,24 @@ TEST_F(UnitsTest, All44UnitsGoByNumberAndByName) {
     ++units;
     ASSERT_TRUE(names.names.contains(number)) << number;
     const auto index = static_cast<std::size_t>(number);
-    EXPECT_FLOAT_EQ(After((std::to_string(number) + "R 0.25").c_str()).au_right[index], 0.25f);
-    EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[index], 0);
+    EXPECT_FLOAT_EQ(After((std::to_string(number) + "R 0.25").c_str()).au.right[index], 0.25f);
+    EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[index], 0);
     const FaceState state = After((names.names.at(number) + " 0.75").c_str());
-    EXPECT_FLOAT_EQ(state.au_left[index], 0.75f);
-    EXPECT_FLOAT_EQ(state.au_right[index], IsOneSided(number) ? 0.25f : 0.75f);
+    EXPECT_FLOAT_EQ(state.au.left[index], 0.75f);
+    EXPECT_FLOAT_EQ(state.au.right[index], IsOneSided(number) ? 0.25f : 0.75f);
   }
   EXPECT_EQ(units, 44);
 }
 
 TEST_F(UnitsTest, SidesLettersAndSeveralAtOnce) {
   const FaceState state = After("12L 0.7 R6C 1 E LipPucker.L:0.3 25A 300");
-  EXPECT_FLOAT_EQ(state.au_left[12], 0.7f);
-  EXPECT_FLOAT_EQ(state.au_right[12], 0);
-  EXPECT_FLOAT_EQ(state.au_right[6], 0.5f);
-  EXPECT_FLOAT_EQ(state.au_left[1], 1);
-  EXPECT_FLOAT_EQ(state.au_left[18], 0.3f);
-  EXPECT_FLOAT_EQ(state.au_left[25], 0.1f);
-  EXPECT_LT(motion.StateAt(150ms).au_left[1], 0.6f) << "300 ms were asked for";
+  EXPECT_FLOAT_EQ(state.au.left[12], 0.7f);
+  EXPECT_FLOAT_EQ(state.au.right[12], 0);
+  EXPECT_FLOAT_EQ(state.au.right[6], 0.5f);
+  EXPECT_FLOAT_EQ(state.au.left[1], 1);
+  EXPECT_FLOAT_EQ(state.au.left[18], 0.3f);
+  EXPECT_FLOAT_EQ(state.au.left[25], 0.1f);
+  EXPECT_LT(motion.StateAt(150ms).au.left[1], 0.6f) << "300 ms were asked for";
 }
 
 TEST_F(UnitsTest, CodesTurnHeadAndEyes) {
@@ -63,25 +63,25 @@ TEST_F(UnitsTest, CodesTurnHeadAndEyes) {
   EXPECT_FLOAT_EQ(After("51 0 52 1").head_rotation[1], -30);
   EXPECT_FLOAT_EQ(After("52 0 53 1").head_rotation[0], -20);
   EXPECT_FLOAT_EQ(After("53 0 55 1").head_rotation[2], 15);
-  EXPECT_FLOAT_EQ(After("55 0 EyesUp 1").eye_left.x, 25);
-  EXPECT_FLOAT_EQ(After("63 0 CrossEye 1").eye_left.y, -12);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).eye_right.y, 12);
+  EXPECT_FLOAT_EQ(After("55 0 EyesUp 1").gaze.left[kDown], -25);
+  EXPECT_FLOAT_EQ(After("63 0 CrossEye 1").gaze.left[kToRight], -12);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.right[kToRight], 12);
   EXPECT_FLOAT_EQ(After("57 1").head_forward, 35);
   EXPECT_FLOAT_EQ(After("57 0 58 0.5").head_forward, -11);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).agent_scale, 1);
 }
 
 TEST_F(UnitsTest, AWinkWithoutASideIsOfTheAgentsLeftAndIsTakenBackOnBoth) {
-  EXPECT_FLOAT_EQ(After("46 1").au_left[46], 1);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_right[46], 0);
-  EXPECT_FLOAT_EQ(After("46R 1").au_right[46], 1);
-  EXPECT_FLOAT_EQ(After("46 0").au_right[46], 0);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[46], 0);
-  EXPECT_FLOAT_EQ(After("Wink D").au_left[46], 0.75f);
+  EXPECT_FLOAT_EQ(After("46 1").au.left[46], 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[46], 0);
+  EXPECT_FLOAT_EQ(After("46R 1").au.right[46], 1);
+  EXPECT_FLOAT_EQ(After("46 0").au.right[46], 0);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[46], 0);
+  EXPECT_FLOAT_EQ(After("Wink D").au.left[46], 0.75f);
   const auto look = ParseLook("46:1 45:1", motion.tables().unit_names);
   ASSERT_TRUE(look);
-  EXPECT_FLOAT_EQ(look->right[46], 0);
-  EXPECT_FLOAT_EQ(look->right[45], 1);
+  EXPECT_FLOAT_EQ(look->au.right[46], 0);
+  EXPECT_FLOAT_EQ(look->au.right[45], 1);
 }
 
 TEST_F(UnitsTest, RefusalsNameTheWordItsPlaceAndWhatWasExpected) {
@@ -96,7 +96,7 @@ TEST_F(UnitsTest, RefusalsNameTheWordItsPlaceAndWhatWasExpected) {
   EXPECT_TRUE(Refusal("").starts_with("nothing found"));
   EXPECT_TRUE(Refusal("12F 1").starts_with("'12F' at column 1 is not"));
   const FaceState state = motion.StateAt(1s);
-  for (const float v : state.au_left) EXPECT_EQ(v, 0) << "a refused line moves nothing";
+  for (const float v : state.au.left) EXPECT_EQ(v, 0) << "a refused line moves nothing";
 }
 
 TEST_F(UnitsTest, AnUnknownUnitIsRefusedWithThoseThereAre) {
@@ -163,17 +163,17 @@ TEST_F(UnitsTest, ExpressionsAreDefinedChangedAndForgotten) {
   ASSERT_TRUE(motion.DefineExpression("SMIRK", 1, "12L 0.7 14R 0.2"));
   ASSERT_TRUE(motion.DefineExpression("SMIRK", 2, "12L:1 gaze:0,10"));
   ASSERT_TRUE(motion.Express(0ms, "SMIRK", 1, 2, 0ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_left[12], 1.4f);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).au_right[14], 0.4f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[12], 1.4f);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[14], 0.4f);
   ASSERT_TRUE(motion.Express(1s, "SMIRK", 2, 1, 0ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(2s).eye_left.y, 10);
+  EXPECT_FLOAT_EQ(motion.StateAt(2s).gaze.left[kToRight], 10);
   ASSERT_TRUE(motion.DefineExpression("HAPPY", 1, "12 1"));
   ASSERT_TRUE(motion.Express(2s, "HAPPY", 1, 1, 0ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(3s).au_left[12], 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(3s).au.left[12], 1);
   motion.ForgetExpression("HAPPY");
   motion.ForgetExpression("SMIRK");
   ASSERT_TRUE(motion.Express(3s, "HAPPY", 1, 1, 0ms));
-  EXPECT_FLOAT_EQ(motion.StateAt(4s).au_left[12], 0.8f);
+  EXPECT_FLOAT_EQ(motion.StateAt(4s).au.left[12], 0.8f);
   EXPECT_FALSE(motion.Express(4s, "SMIRK", 1, 1, 0ms));
 }
 
@@ -204,9 +204,9 @@ TEST_F(UnitsTest, LooksAreWrittenAsTheyAreRead) {
     for (const ActionUnits& look : emotion.patterns) {
       const auto again = ParseLook(FormatLook(look), motion.tables().unit_names);
       ASSERT_TRUE(again) << FormatLook(look);
-      EXPECT_EQ(again->left, look.left);
-      EXPECT_EQ(again->right, look.right);
-      EXPECT_EQ(again->gaze_left, look.gaze_left);
+      EXPECT_EQ(again->au.left, look.au.left);
+      EXPECT_EQ(again->au.right, look.au.right);
+      EXPECT_EQ(again->gaze.left, look.gaze.left);
     }
   }
 }

@@ -57,7 +57,7 @@ TEST(AppearanceTest, BadRowsAreRefusedWithFileAndLine) {
       {"\nexposure            0.44", "\nsky_color 1 1 1", "'sky_color' is there twice"},
       {"\n" + skin, "\nsurface wood 1 2 3", "'surface wood' is not known"},
       {"\n" + skin, "\n" + skin.substr(0, 30), "'surface skin' needs 11 numbers"},
-      {"\nlamp key   -1.0  0.88  0.95 ", "\nlamp key 0 0 0 ", "a lamp that stands nowhere"},
+      {"\nlamp key   -0.75 0.80  1.10 ", "\nlamp key 0 0 0 ", "a lamp that stands nowhere"},
   };
   for (const Case& one : cases) {
     const std::string refused = Refusal(Changed(one.row, one.instead));
@@ -97,7 +97,7 @@ TEST(AppearanceTest, ATableOfOnesOwnChangesThePicture) {
   EXPECT_EQ(brightness(Appearance("same", BuiltInText())), usual);
   const Appearance dark("dark", Changed("\nexposure            0.44", "\nexposure 0.2"));
   EXPECT_LT(brightness(dark), usual);
-  const Appearance unlit("unlit", Changed("2.90 2.64 2.46", "0 0 0"));
+  const Appearance unlit("unlit", Changed("2.72 2.50 2.36", "0 0 0"));
   EXPECT_LT(brightness(unlit), usual);
 }
 

@@ -16,7 +16,7 @@ struct FadeTest : ::testing::Test {
   Image Draw(const Head& head, float alpha) {
     FaceState state;
     state.agent_alpha = alpha;
-    state.au_left[26] = state.au_right[26] = 0.5F;  // the mouth is open: there is an inside
+    state.au.left[26] = state.au.right[26] = 0.5F;  // the mouth is open: there is an inside
     head.Evaluate(state, vertices_);
     renderer_->Draw(head, vertices_, state, scene_);
     Image image;

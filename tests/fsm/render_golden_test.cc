@@ -77,7 +77,7 @@ const Golden kGoldens[] = {
 FaceState StateOf(const Golden& golden) {
   FaceState state;
   for (const auto& [unit, strength] : golden.units) {
-    state.au_left[unit] = state.au_right[unit] = strength;
+    state.au.left[unit] = state.au.right[unit] = strength;
   }
   state.head_rotation[1] = golden.turn_degrees;
   if (golden.viseme == nullptr) return state;

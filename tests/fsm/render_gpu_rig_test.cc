@@ -28,18 +28,18 @@ FaceState Wild(unsigned seed) {
     return std::uniform_real_distribution<float>(low, high)(random);
   };
   FaceState state;
-  for (auto* side : {&state.au_left, &state.au_right}) {
+  for (auto* side : {&state.au.left, &state.au.right}) {
     for (std::size_t unit = 1; unit < 47; ++unit) {
       if (between(0, 1) < 0.3F) (*side)[unit] = between(0, 1.2F);
     }
   }
   for (float& mouth : state.mouth) mouth = between(-4, 4);
-  state.mouth[11] = between(0, 25);
+  state.mouth[kJawY] = between(0, 25);
   state.lip_seal = between(-1, 1.5F);
   state.tongue = between(-0.5F, 1);
-  state.blink_left = between(-1, 1.2F);
-  state.blink_right = between(-1, 1.2F);
-  state.eye_left = state.eye_right = {between(-30, 30), between(-40, 40)};
+  state.blink.left = between(-1, 1.2F);
+  state.blink.right = between(-1, 1.2F);
+  state.gaze.left = state.gaze.right = {-between(-30, 30), between(-40, 40)};
   state.head_rotation = {between(-40, 40), between(-60, 60), between(-30, 30)};
   state.head_forward = between(-20, 30);
   return state;
@@ -130,7 +130,7 @@ RigData WithAllSteps() {
   data.normal_twin[soft[0]] = soft[0];
   data.ball_centre = data.lids.ball;
   for (const LidRig::Vertex& lid : data.lids.vertices)
-    data.ball_lids.push_back({lid.vertex, static_cast<std::uint8_t>(lid.side), 14.0F});
+    data.ball_lids.push_back({lid.vertex, lid.side, 14.0F});
   return data;
 }
 
@@ -213,7 +213,7 @@ TEST(PartialRigTest, SomeVerticesMoveAsWithAllOthers) {
     partial.Evaluate(state, part);
     ASSERT_EQ(part.position.size(), whole.position.size());
     for (const std::uint32_t i : some) EXPECT_EQ(part.position[i], whole.position[i]) << i;
-    EXPECT_EQ(part.wrinkles, whole.wrinkles);
+    EXPECT_EQ(part.creases, whole.creases);
     EXPECT_EQ(part.lids_shut, whole.lids_shut);
   }
 }

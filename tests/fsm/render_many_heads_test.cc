@@ -27,7 +27,7 @@ TEST(ManyHeadsTest, DrawnInTurnsTheyLookAsAlone) {
   heads.push_back(MakeHead(Identities().back().name));
   const auto picture = [](Renderer& renderer, const Head& head, int size) {
     FaceState state;
-    state.au_left[12] = state.au_right[26] = 0.8F;
+    state.au.left[12] = state.au.right[26] = 0.8F;
     HeadVertices vertices;
     head.Evaluate(state, vertices);
     renderer.SetViewport({0, 0, size, size});
@@ -59,7 +59,7 @@ struct Frame {
 
 void Draw(Renderer& renderer, const Frame& frame) {
   FaceState state;
-  state.au_left[12] = state.au_right[12] = frame.smile;
+  state.au.left[12] = state.au.right[12] = frame.smile;
   HeadVertices vertices;
   frame.head.Evaluate(state, vertices);
   Scene scene;

@@ -24,7 +24,7 @@ class MouthPicture {
       : head_(std::move(head)) {
     FaceState state;
     for (const auto& [unit, strength] : units) {
-      state.au_left[unit] = state.au_right[unit] = strength;
+      state.au.left[unit] = state.au.right[unit] = strength;
     }
     Scene scene;
     scene.camera = {.distance = 0.4F, .height_mm = -40};
@@ -254,7 +254,7 @@ TEST(MouthPictureTest, AHeadThatSaysNothingOfItsLipsTakesNothingFromTheOneDrawnB
     HeadVertices vertices;
     if (before) {
       FaceState open;
-      open.au_left[26] = open.au_right[26] = 1;
+      open.au.left[26] = open.au.right[26] = 1;
       before->Evaluate(open, vertices);
       renderer->Draw(*before, vertices, open, scene);
     }
@@ -283,7 +283,7 @@ TEST(MouthFinderTest, LipsAreShutWhereNothingIsSeenBetweenThem) {
     EXPECT_FALSE(finder.Measure(open)->IsShut()) << apart.y << " " << apart.z;
   }
   FaceState state;
-  state.au_left[25] = state.au_right[25] = 0.2F;
+  state.au.left[25] = state.au.right[25] = 0.2F;
   head->Evaluate(state, vertices);
   EXPECT_FALSE(finder.Measure(vertices)->IsShut());
 }

@@ -133,7 +133,7 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
   std::vector<glm::vec3> places;
   for (int i = 0; i < kRows * kRows; ++i) {
     const glm::vec3 p = corner + glm::vec3(-4 + 3 * static_cast<float>(i % kRows),
-                                           12 - 3 * static_cast<float>(i / kRows), 15);
+                                           12 - 3 * static_cast<float>(i / kRows), 19);
     set.sheet.push_back({p, {0.75F, 0.5F}});
     if (i % kRows == 0 || i < kRows) continue;
     places.push_back(p + glm::vec3(-1.5F, 1.5F, 0));
@@ -143,7 +143,7 @@ TEST(PhotoTest, HairBesideAnEyeDoesNotCreaseAndSkinDoes) {
     }
   }
   FaceState smile;
-  for (const std::size_t unit : {6U, 12U}) smile.au_left[unit] = smile.au_right[unit] = 1;
+  for (const std::size_t unit : {6U, 12U}) smile.au.left[unit] = smile.au.right[unit] = 1;
   const auto darkest = [&](const PhotoHead& s, float glm::vec3::*channel) {
     float least = 255;
     for (const glm::vec3 c : Drawn(s, places, smile)) least = std::min(least, c.*channel);
@@ -176,7 +176,7 @@ TEST(PhotoTest, LashesHangFromLidsThatShutAndOpenOnesHaveThePhotosOwn) {
   // How dark it is in the middle of hairs of either eye.
   const auto dark = [&](float blink, float side) {
     FaceState state;
-    state.blink_left = state.blink_right = blink;
+    state.blink.left = state.blink.right = blink;
     HeadVertices vertices;
     head->Evaluate(state, vertices);
     std::vector<glm::vec3> places;
@@ -220,7 +220,7 @@ TEST(PhotoTest, TheNeckGoesWithTheJawAndClothesAndHairStay) {
   }
   const auto head = MakeHead(set);
   FaceState open;
-  open.au_left[26] = open.au_right[26] = 1;
+  open.au.left[26] = open.au.right[26] = 1;
   HeadVertices rest, opened;
   head->Evaluate({}, rest);
   head->Evaluate(open, opened);
@@ -267,12 +267,13 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   const auto& topology = head->topology();
   EXPECT_GT(topology.photo_light.y, 0.2F);
   FaceState smile;
-  for (const std::size_t unit : {6U, 12U}) smile.au_left[unit] = smile.au_right[unit] = 1;
+  for (const std::size_t unit : {6U, 12U}) smile.au.left[unit] = smile.au.right[unit] = 1;
   HeadVertices rest, smiling;
   head->Evaluate({}, rest);
   for (std::size_t i = 0; i < topology.relit.size(); ++i) {
-    for (const EyeGeometry& eye : topology.eyes) {
-      if (glm::distance(glm::vec2(rest.position[i]), glm::vec2(eye.centre)) > 10) continue;
+    for (const Side side : kSides) {
+      const glm::vec2 eye(topology.eyes[side].centre);
+      if (glm::distance(glm::vec2(rest.position[i]), eye) > 10) continue;
       EXPECT_EQ(topology.relit[i], 0) << "round the eyes it stays";
     }
   }

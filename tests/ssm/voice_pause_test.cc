@@ -96,6 +96,45 @@ TEST_P(VoicePauseTest, TheNextTextIsReadyRightAfterTheEndOfThePresentOne) {
   EXPECT_EQ(world_.Ask("Speak.stat"), "SPEAKING");
 }
 
+/// Counts what it is given to do.
+class CountingWorker final : public ssm::Worker {
+ public:
+  explicit CountingWorker(int& jobs) : jobs_(jobs) {}
+  void Run(std::function<void()> job, std::function<void()> done) override {
+    ++jobs_;
+    job();
+    done();
+  }
+  bool immediate() const override { return true; }
+
+ private:
+  int& jobs_;
+};
+
+TEST(VoiceNextTest, ATextThatIsTheNextTextIsNotMadeAgain) {
+  int jobs = 0;
+  VoiceWorld world(ssm_stub::MakeRuleEngine(), std::make_unique<CountingWorker>(jobs));
+  world.Tell("set Text = One text.");
+  world.Tell("set Speak = NOW");
+  world.Pass(500);
+  world.Tell("set#1 Text.next = Another text.");
+  world.UntilIdle();
+  world.Lines();
+  const int made = jobs;
+  world.Tell("set#2 Text = Another text.");
+  const Lines said = world.Lines();
+  ASSERT_EQ(said.size(), 9u) << testing::PrintToString(said);
+  EXPECT_EQ(said.front(), "rep Speak.stat = PROCESSING");
+  EXPECT_EQ(said[1], "rep Text.text = Another text.");
+  EXPECT_TRUE(said[3].starts_with("rep Text.pho = ")) << said[3];
+  EXPECT_EQ(said[7], "rep Speak.stat = READY");
+  EXPECT_EQ(said[8], "rep#2 Text = Another text.");
+  EXPECT_EQ(jobs, made) << "what Text.next has made is taken";
+  world.Tell("set Rate = 2");
+  world.Tell("set Text = Another text.");
+  EXPECT_GT(jobs, made) << "another manner needs another plan";
+}
+
 TEST_P(VoicePauseTest, ATextThatComesWhileAnotherIsSpokenIsSpokenAfterIt) {
   Prepare();
   world_.Tell("set Speak = NOW");

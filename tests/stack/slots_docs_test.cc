@@ -20,7 +20,7 @@ TEST(SlotsDocsTest, TheDocumentedSlotsAreThoseOfThePrograms) {
       {GALATEA_SOURCE_DIR "/scripts/slots_docs.sh", GALATEA_BIN_DIR, folder / "slots.md"});
   script.CloseInput();
   ASSERT_EQ(script.Wait(), 0) << script.ErrorText();
-  EXPECT_EQ(Text(folder / "slots.md"), Text(GALATEA_SOURCE_DIR "/docs/slots.md"))
+  EXPECT_EQ(Text(folder / "slots.md"), Text(GALATEA_SOURCE_DIR "/docs/reference/slots.md"))
       << "run: cmake --build build --target slots_docs";
 }
 

@@ -43,7 +43,7 @@ class TableWriter : public ::testing::Environment {
       text += std::string("- ") + kind + ": " + std::to_string(totals[kind]) + "\n";
     }
     text += "\n| section | document | assertion | result |\n| --- | --- | --- | --- |\n" + table;
-    const char* path = GALATEA_SOURCE_DIR "/docs/conformance.md";
+    const char* path = GALATEA_SOURCE_DIR "/docs/reference/conformance.md";
     std::ifstream in(path);
     const std::string old{std::istreambuf_iterator<char>(in), {}};
     if (old != text) std::ofstream(path) << text;

@@ -146,7 +146,7 @@ class SlotMachine {
   void PeerGone(PeerId peer);
 
   const std::string& module_name() const { return module_name_; }
-  /// The table of slots in Markdown, for docs/slots.md.
+  /// The table of slots in Markdown, for docs/reference/slots.md.
   std::string DocsMarkdown() const;
 
  private:

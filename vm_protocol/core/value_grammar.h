@@ -10,7 +10,7 @@
 namespace vm {
 
 // clang-format off
-/// What a slot accepts, written beside the slot and shown by `inq Slot.help` and docs/slots.md:
+/// What a slot accepts, written beside the slot and shown by `inq Slot.help` and docs/reference/slots.md:
 ///
 ///     NOW | STOP               words, matched without regard to case
 ///     <number> <number 0..200> decimal number, optionally bounded (either end may be left out)

@@ -14,7 +14,10 @@ void main() {
   vec4 fine = texture(strands, streak_place) - 0.5;
   // Where hair thins out some hairs are gone and some are left.
   float density = fray.x * min(2.2 - 2.2 * abs(fray.y), 1.0);
-  if (density < 0.5 - fine.a) discard;
+  // Ends and edges thin out softly: each of the samples of a pixel asks for another density.
+  vec2 odd = mod(floor(gl_FragCoord.xy), 2.0);
+  float asks = 0.35 * (0.5 * odd.x + 0.25 * odd.y - odd.x * odd.y);
+  if (density < 0.5 - fine.a + asks) discard;
   float streak = (hair_differs * fine.a + lock_differs * fine.b) * streaks;
   // Highlights lie across the strands. Two of them, shifted along the strand: light mirrored by the
   // surface towards the root, light that went through and took its colour towards the tip.

@@ -248,7 +248,7 @@ void Take(uint item) {
   }
   float part = SmoothStep(kTongueNoRoom, kTongueRoom, min(room, teeth_high - teeth_low));
   vec3 turned = rest + vec3(0.0, raise * kTongueRaise * tip * tip, part * Pose(TONGUE + 1u) * tip);
-  vec3 p = TurnJaw(turned, 1.0 - 0.25 * raise * tip);
+  vec3 p = TurnJaw(turned, 1.0 - kTongueOffJaw * raise * tip);
   SetNormal(items[r], normalize(TurnJaw(rest + Place(r + 4u), 1.0) - TurnJaw(rest, 1.0)));
   if (count > 0u) {
     float jaw_x = p.x - Pose(JAW + 2u);

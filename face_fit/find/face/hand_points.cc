@@ -1,0 +1,160 @@
+#include "face_fit/find/face/hand_points.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/picture/pixels.h"
+#include "fsm/base/parse_number.h"
+#include "fsm/base/table_reader.h"
+#include "fsm/head/warp.h"
+#include "fsm/mesh/original_points.h"
+
+namespace facefit {
+namespace {
+
+constexpr HandPointName kNames[] = {{"right_eye_outer", point::kEyeOuterRight, true},
+                                    {"left_eye_outer", point::kEyeOuterLeft, true},
+                                    {"nose_tip", point::kNoseTip, true},
+                                    {"mouth_right", point::kMouthRight, true},
+                                    {"mouth_left", point::kMouthLeft, true},
+                                    {"chin", point::kChin, true},
+                                    {"right_eye_inner", point::kEyeInnerRight, false},
+                                    {"left_eye_inner", point::kEyeInnerLeft, false},
+                                    {"right_eye_top", point::kEyeTopRight, false},
+                                    {"left_eye_top", point::kEyeTopLeft, false},
+                                    {"right_eye_bottom", point::kEyeBottomRight, false},
+                                    {"left_eye_bottom", point::kEyeBottomLeft, false},
+                                    {"right_brow", point::kBrowRight, false},
+                                    {"left_brow", point::kBrowLeft, false},
+                                    {"nose_bottom", point::kNoseBottom, false},
+                                    {"nose_right", point::kNoseRight, false},
+                                    {"nose_left", point::kNoseLeft, false},
+                                    {"lip_top", point::kLipTop, false},
+                                    {"lip_bottom", point::kLipBottom, false},
+                                    {"jaw_right", point::kJawRight, false},
+                                    {"jaw_left", point::kJawLeft, false},
+                                    {"cheek_right", point::kCheekRight, false},
+                                    {"cheek_left", point::kCheekLeft, false},
+                                    {"forehead", point::kForehead, false}};
+
+/// From the front of the base head, millimetres with y up, to pixels: size, tilt and place by least
+/// squares (Umeyama 1991).
+class ToPhoto {
+ public:
+  ToPhoto(const BaseHead& base, const HandPoints& points) {
+    const auto count = static_cast<Eigen::Index>(points.size());
+    Eigen::MatrixXd from(2, count), to(2, count);
+    Eigen::Index column = 0;
+    for (const auto& [i, at] : points) {
+      const glm::vec3 p = base.AtRest(i);
+      from.col(column) << p.x, -p.y;
+      to.col(column++) << at.x, at.y;
+    }
+    map_ = Eigen::umeyama(from, to);
+  }
+  glm::vec2 operator()(glm::vec2 mm) const {
+    const Eigen::Vector3d p = map_ * Eigen::Vector3d(mm.x, -mm.y, 1);
+    return {static_cast<float>(p.x()), static_cast<float>(p.y())};
+  }
+  float scale() const { return std::max(std::hypot(cosine(), sine()), 1e-6F); }
+  float angle_rad() const { return std::atan2(sine(), cosine()); }
+
+ private:
+  float cosine() const { return static_cast<float>(map_(0, 0)); }  // times the scale
+  float sine() const { return static_cast<float>(map_(1, 0)); }
+  Eigen::Matrix3d map_;
+};
+
+}  // namespace
+
+std::span<const HandPointName> HandPointList() { return kNames; }
+
+std::string HandPointNames() {
+  std::string names;
+  for (const HandPointName& named : kNames)
+    names += (names.empty() ? "" : " ") + std::string(named.name);
+  return names;
+}
+
+namespace {
+
+PointIndex PointAt(const fsm::TableRow& row) {
+  const std::string& key = row.key();
+  const auto named = std::ranges::find(kNames, key, &HandPointName::name);
+  if (named != std::end(kNames)) return named->point;
+  const auto number = fsm::ParseNumber<unsigned>(key);
+  if (!number || *number >= kNetworkPoints) {
+    row.Fail("'" + key.substr(0, 30) + "' is no point; 0 to 467 or one of " + HandPointNames() +
+             " expected");
+  }
+  return *number;
+}
+
+}  // namespace
+
+vm::Result<HandPoints> ParseHandPoints(const std::string& name, std::string_view text) {
+  return fsm::ReadTable(name, text, [](const fsm::Table& table) {
+    constexpr float kFarthest = 1e5F;
+    HandPoints points;
+    for (const fsm::TableRow& row : table.rows()) {
+      if (row.size() != 3) row.Fail("NAME X Y expected, as: chin 320 455");
+      points[PointAt(row)] = {row.Within(1, -kFarthest, kFarthest),
+                              row.Within(2, -kFarthest, kFarthest)};
+    }
+    for (const HandPointName& named : kNames) {
+      if (named.needed && !points.contains(named.point)) {
+        table.Fail(std::string(named.name) + " is missing");
+      }
+    }
+    return points;
+  });
+}
+
+vm::Result<HandPoints> PointsOfWireframe(const std::string& name, const fsm::PntFile& wireframe,
+                                         int width, int height) {
+  // What lies where on the original's standard head: see fsm/mesh/original_points.h.
+  constexpr std::pair<PointIndex, fsm::PointName> kSame[] = {
+      {point::kEyeOuterRight, {4, 23}}, {point::kEyeInnerRight, {4, 17}},
+      {point::kEyeTopRight, {4, 20}},   {point::kEyeBottomRight, {4, 26}},
+      {point::kEyeOuterLeft, {5, 23}},  {point::kEyeInnerLeft, {5, 17}},
+      {point::kEyeTopLeft, {5, 20}},    {point::kEyeBottomLeft, {5, 26}},
+      {point::kNoseTip, {3, 15}},       {point::kNoseBottom, {3, 25}},
+      {point::kNoseRight, {3, 18}},     {point::kNoseLeft, {3, 22}},
+      {point::kMouthRight, {1, 33}},    {point::kMouthLeft, {2, 33}},
+      {point::kChin, fsm::kChin}};
+  if (auto there = fsm::CheckPoints(name, wireframe); !there) return std::unexpected(there.error());
+  HandPoints points;
+  for (const auto& [point, of] : kSame) {
+    const glm::vec3 p = wireframe.at[wireframe.index.at(of)];
+    points[point] = {0.5F * (p.x + 1) * static_cast<float>(width),
+                     0.5F * (1 - p.y) * static_cast<float>(height)};
+  }
+  return points;
+}
+
+FoundFace FaceFromHand(const BaseHead& base, const HandPoints& points) {
+  const ToPhoto to_photo(base, points);
+  std::vector<fsm::WarpPoint> bends;
+  for (const auto& [i, at] : points) {
+    bends.push_back({base.AtRest(i),
+                     glm::vec3((at - to_photo(glm::vec2(base.AtRest(i)))) / to_photo.scale(), 0)});
+  }
+  const fsm::Warp warp(bends, 0.5F);
+  FoundFace face;
+  face.certainty = 1;
+  Box2 box;
+  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
+    const glm::vec3 p = base.AtRest(i);
+    const glm::vec2 at = to_photo(glm::vec2(p)) + to_photo.scale() * glm::vec2(warp.Motion(p));
+    face.points.emplace_back(at, to_photo.scale() * base.seen_z[i]);
+    box.Add(at);
+  }
+  face.crop = {box.Middle(), 1.5F * std::max(box.Size().x, box.Size().y), to_photo.angle_rad()};
+  return face;
+}
+
+}  // namespace facefit

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <utility>
+
+#include "face_fit/find/network/network_points.h"
+
+namespace facefit {
+
+/// The points of EyeOutline: from the outer corner along the upper lid to the inner one, and back
+/// along the lower lid; those of the lids lie over each other.
+using EyePoints = std::array<glm::vec2, 16>;
+
+/// The lines of the lids between the corners of an eye, whichever way its axes point. Ways: `part`
+/// of the way from the outer corner to the inner one; `down` from that line towards the lower lid.
+class LidLines {
+ public:
+  explicit LidLines(const EyePoints& points) : points_(points) {
+    const glm::vec2 axis = points[kInnerCorner] - points[0];
+    wide_ = std::max(glm::length(axis), 1e-3F);
+    along_ = axis / wide_;
+    down_ = {-along_.y, along_.x};
+    if (glm::dot(points[kLowerMiddle] - points[kUpperMiddle], down_) < 0) down_ = -down_;
+  }
+  float wide() const { return wide_; }
+  glm::vec2 along() const { return along_; }  ///< unit
+  glm::vec2 down() const { return down_; }    ///< unit
+
+  float Part(glm::vec2 p) const { return glm::dot(p - points_[0], along_) / wide_; }
+  float Down(glm::vec2 p) const { return glm::dot(p - points_[0], down_); }
+  glm::vec2 PointAt(float part, float down) const {
+    return points_[0] + part * wide_ * along_ + down * down_;
+  }
+  /// How far down upper and lower lid lie.
+  std::pair<float, float> At(float part) const {
+    const auto between = [this, part](std::size_t a, std::size_t b) {
+      const float from = Part(points_[a]), to = Part(points_[b % points_.size()]);
+      const float way = glm::clamp((part - from) / std::max(to - from, 1e-4F), 0.0F, 1.0F);
+      return glm::mix(Down(points_[a]), Down(points_[b % points_.size()]), way);
+    };
+    std::size_t upper = 1, lower = points_.size() - 1;
+    while (upper < kInnerCorner && Part(points_[upper]) < part) ++upper;
+    while (lower > kInnerCorner && Part(points_[lower]) < part) --lower;
+    return {between(upper - 1, upper),
+            lower + 1 == points_.size() ? between(0, lower) : between(lower + 1, lower)};
+  }
+
+ private:
+  EyePoints points_;
+  float wide_ = 1;
+  glm::vec2 along_, down_;
+};
+
+}  // namespace facefit

@@ -1,0 +1,137 @@
+#include "face_fit/find/face/mouth_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "face_fit/picture/resample.h"
+
+namespace facefit {
+namespace {
+
+constexpr std::size_t kInnerPoints = 9;  // of either inner lip, without corners
+constexpr int kOffsets = 25;  // looked at on the line across each place, half of them to each side
+/// How far to each side the line is looked for, as part of the mouth's width.
+constexpr float kReach = 0.08F;
+
+/// A value for each place along the mouth and each offset across it.
+template <typename T>
+using Strip = std::array<std::array<T, kOffsets>, kMouthLinePoints>;
+
+/// How far below the straight line between the corners the network sees the lips meet, pixels.
+class ExpectedLine {
+ public:
+  /// `begin`: the right corner; `along`, `down`: unit; `width`: of the mouth, pixels.
+  ExpectedLine(const FoundFace& face, glm::vec2 begin, glm::vec2 along, glm::vec2 down,
+               float width) {
+    knots_.front() = {0, 0};
+    knots_.back() = {1, 0};
+    for (std::size_t k = 0; k < kInnerPoints; ++k) {
+      const glm::vec2 upper = face.At(UpperInnerLip()[k + 1]), lower = face.At(LowerInnerLip()[k]);
+      const glm::vec2 middle = 0.5F * (upper + lower) - begin;
+      knots_[k + 1] = {glm::dot(middle, along) / width, glm::dot(middle, down)};
+    }
+  }
+  /// `t`: of the way from the right to the left corner.
+  float At(float t) const {
+    std::size_t k = 1;
+    while (k + 1 < knots_.size() && knots_[k].first < t) ++k;
+    const float span = std::max(knots_[k].first - knots_[k - 1].first, 1e-3F);
+    const float part = glm::clamp((t - knots_[k - 1].first) / span, 0.0F, 1.0F);
+    return glm::mix(knots_[k - 1].second, knots_[k].second, part);
+  }
+
+ private:
+  std::array<std::pair<float, float>, kInnerPoints + 2> knots_;
+};
+
+/// Among all paths along a strip the one with the least sum, in which each step across costs by its
+/// square (dynamic programming): an offset for each place. `cost` is used up.
+std::array<int, kMouthLinePoints> CheapestWay(Strip<float>& cost) {
+  constexpr int kMostStep = 3;
+  constexpr float kBend = 0.03F;
+  Strip<int> from{};
+  for (std::size_t i = 1; i < kMouthLinePoints; ++i) {
+    for (int o = 0; o < kOffsets; ++o) {
+      const auto k = static_cast<std::size_t>(o);
+      float best = std::numeric_limits<float>::max();
+      for (int b = std::max(o - kMostStep, 0); b <= std::min(o + kMostStep, kOffsets - 1); ++b) {
+        const float bend = static_cast<float>(o - b);
+        const float sum = cost[i - 1][static_cast<std::size_t>(b)] + kBend * bend * bend;
+        if (sum >= best) continue;
+        best = sum;
+        from[i][k] = b;
+      }
+      cost[i][k] += best;
+    }
+  }
+  std::array<int, kMouthLinePoints> way{};
+  auto at = static_cast<int>(std::ranges::min_element(cost.back()) - cost.back().begin());
+  for (std::size_t i = kMouthLinePoints; i-- > 0;) {
+    way[i] = at;
+    at = from[i][static_cast<std::size_t>(at)];
+  }
+  return way;
+}
+
+}  // namespace
+
+bool LipsApart(const FoundFace& face) {
+  const auto apart = [&face](PointIndex a, PointIndex b) {
+    return glm::distance(face.At(a), face.At(b));
+  };
+  // Between the middles of the inner lips, by the width of the mouth.
+  constexpr float kLeastGap = 0.06F;
+  return apart(point::kInnerLipTop, point::kInnerLipBottom) >
+         kLeastGap * apart(point::kMouthRight, point::kMouthLeft);
+}
+
+std::vector<glm::vec2> FindMouthLine(const fsm::Image& photo, const FoundFace& face, float first,
+                                     float last) {
+  const glm::vec2 right = face.At(point::kMouthRight), left = face.At(point::kMouthLeft);
+  const glm::vec2 axis = (left - right) / (last - first);
+  const glm::vec2 begin = right - first * axis;
+  const float width = glm::length(axis);
+  const glm::vec2 along = axis / width;
+  const glm::vec2 down(-along.y, along.x);
+  const ExpectedLine expected(face, begin, along, down, width);
+  const float step = 2 * kReach * width / (kOffsets - 1);
+  const auto place = [&](std::size_t i, int offset) {
+    const float t = static_cast<float>(i) / (kMouthLinePoints - 1);
+    const float below = expected.At(t) + step * static_cast<float>(offset - kOffsets / 2);
+    return begin + t * axis + below * down;
+  };
+  // The path from corner to corner that is dark, smooth and near to what was expected.
+  Strip<float> cost{};
+  float least = 1e9F, most = 0;
+  const glm::vec2 beside = along * (0.012F * width);
+  for (std::size_t i = 0; i < kMouthLinePoints; ++i) {
+    for (int o = 0; o < kOffsets; ++o) {
+      const glm::vec2 at = place(i, o);
+      float& dark = cost[i][static_cast<std::size_t>(o)];
+      for (const glm::vec2 p : {at, at - beside, at + beside}) {
+        dark += Brightness(ColourAt(photo, p)) / 3;
+      }
+      least = std::min(least, dark);
+      most = std::max(most, dark);
+    }
+  }
+  constexpr float kLeastRange = 8, kStray = 0.25F;  // of 255; what the farthest offset costs
+  const float range = std::max(most - least, kLeastRange);
+  for (auto& column : cost) {
+    for (int o = 0; o < kOffsets; ++o) {
+      float& value = column[static_cast<std::size_t>(o)];
+      const float off = static_cast<float>(o - kOffsets / 2) / (kOffsets / 2);
+      value = (value - least) / range + kStray * off * off;
+    }
+  }
+  const auto way = CheapestWay(cost);
+  std::vector<glm::vec2> line;
+  for (std::size_t i = 0; i < kMouthLinePoints; ++i) line.push_back(place(i, way[i]));
+  return line;
+}
+
+}  // namespace facefit

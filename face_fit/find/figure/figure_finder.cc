@@ -1,0 +1,101 @@
+#include "face_fit/find/figure/figure_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/picture/pixels.h"
+#include "face_fit/picture/resample.h"
+
+namespace facefit {
+namespace {
+
+constexpr int kFigureSide = 256;
+
+/// What the network says of the picture it was given.
+FloatImage RunFigure(FaceNetworks& networks, const std::vector<float>& input) {
+  networks.figure.Run(input);
+  FloatImage out(kFigureSide, kFigureSide);
+  std::ranges::copy(networks.figure.output(0), out.at.begin());
+  return out;
+}
+/// The same at a place of its square, 0..1 on both axes.
+float PersonAt(const FloatImage& figure, glm::vec2 place) {
+  return figure.Between(place.x * kFigureSide, place.y * kFigureSide);
+}
+
+}  // namespace
+
+void DoubtOneSided(const FoundFace& face, const fsm::Image& image, std::vector<float>& person) {
+  const int width = image.width, height = image.height;
+  const glm::vec2 top = face.At(point::kForehead), chin = face.At(point::kChin);
+  if (glm::distance(top, chin) < 1) return;
+  const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
+  const float near = 0.03F * glm::distance(top, chin);
+  const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
+    float least = 1;
+    for (int k = 0; k < 9; ++k) {
+      const glm::vec2 beside = q + near * (glm::vec2(k % 3, k / 3) - 1.0F);
+      least = std::min(least, glm::distance(ColourAt(image, p), ColourAt(image, beside)) / 255);
+    }
+    return least;
+  };
+  const std::vector<float> seen = person;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::vec2 p = glm::vec2(x, y) + 0.5F;
+      if (glm::dot(p - chin, down) > 0) continue;
+      const glm::vec2 q = p - 2 * glm::dot(p - chin, across) * across;
+      if (q.x < 0 || q.y < 0 || q.x >= static_cast<float>(width) ||
+          q.y >= static_cast<float>(height)) {
+        continue;
+      }
+      const auto at = [&image](glm::vec2 v) {
+        return image.Index(static_cast<int>(v.x), static_cast<int>(v.y));
+      };
+      if (seen[at(p)] > 0.8F * seen[at(q)]) continue;
+      const float alike = glm::smoothstep(0.3F, 0.05F, unlike(p, q));
+      person[at(p)] = std::max(seen[at(p)], glm::mix(0.5F, 0.85F, alike) * seen[at(q)]);
+    }
+  }
+}
+
+std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image,
+                              const FoundFace* face) {
+  const glm::vec2 size(image.width, image.height);
+  // The network takes the whole picture, stretched to a square.
+  const FloatImage whole = RunFigure(
+      networks, Resampled(image, {0, 0}, glm::mat2(size.x, 0, 0, size.y), kFigureSide, 0, 1));
+  FloatImage near(0, 0);
+  Crop head;
+  if (face) {
+    Box2 box;
+    for (const glm::vec3& p : face->points) box.Add(p);
+    const float face_side = std::max(box.Size().x, box.Size().y);
+    head.side = std::min({2.3F * face_side, size.x, size.y});
+    head.centre = glm::clamp(box.Middle() - glm::vec2(0, 0.1F * face_side),
+                             glm::vec2(head.side / 2), size - head.side / 2);
+    near = RunFigure(networks, head.Sample(image, kFigureSide, 0, 1));
+  }
+  std::vector<float> out;
+  out.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const glm::vec2 p = glm::vec2(x, y) + 0.5F;
+      float person = PersonAt(whole, p / size);
+      if (face) {
+        // The mean where both see well: what one of them doubts is looked at by its colours.
+        const glm::vec2 at = head.FromPicture(p);
+        const glm::vec2 off = glm::abs(at - 0.5F);
+        const float part = 0.5F * glm::smoothstep(0.48F, 0.38F, std::max(off.x, off.y));
+        if (part > 0) person = glm::mix(person, PersonAt(near, at), part);
+      }
+      out.push_back(person);
+    }
+  }
+  if (face) DoubtOneSided(*face, image, out);
+  return out;
+}
+
+}  // namespace facefit

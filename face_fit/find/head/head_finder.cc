@@ -1,0 +1,225 @@
+#include "face_fit/find/head/head_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "face_fit/find/head/base_head.h"
+#include "face_fit/find/head/lid_edges.h"
+#include "face_fit/find/head/lip_seam.h"
+#include "face_fit/find/head/symmetry.h"
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+/// Ways a file may have its head stand, each as the turn that sets it upright to the viewer.
+constexpr glm::mat3 kTurns[] = {{1, 0, 0, 0, 1, 0, 0, 0, 1},    // y up, towards z
+                                {-1, 0, 0, 0, 1, 0, 0, 0, -1},  // towards -z
+                                {1, 0, 0, 0, 0, -1, 0, 1, 0},   // z up, towards -y
+                                {0, 0, 1, 0, 1, 0, -1, 0, 0},   // towards x
+                                {0, 0, -1, 0, 1, 0, 1, 0, 0}};  // towards -x
+
+/// The head as large as ours and in the middle of the picture, the upper part of a whole figure.
+fsm::Similarity Guess(const fsm::HeadFile& file, const glm::mat3& turn, float part) {
+  glm::vec3 low(1e9F), high(-1e9F);
+  for (const glm::vec3& p : file.position) {
+    low = glm::min(low, turn * p);
+    high = glm::max(high, turn * p);
+  }
+  constexpr float kHeight = 290, kTop = 140;
+  fsm::Similarity guess;
+  guess.turn = turn;
+  guess.scale = kHeight / std::max((high.y - low.y) * part, 1e-6F);
+  guess.move = {-0.5F * guess.scale * (low.x + high.x), kTop - guess.scale * high.y,
+                -0.5F * guess.scale * (low.z + high.z)};
+  return guess;
+}
+
+fsm::FacePart PartOf(PointIndex i) {
+  const auto among = [i](std::span<const PointIndex> list) {
+    return std::ranges::find(list, i) != list.end();
+  };
+  // Not those of the inner lips: where both meet, the nearest vertex may be the other's.
+  if (among(UpperOuterLip())) return fsm::FacePart::kUpperLip;
+  if (among(LowerOuterLip())) return fsm::FacePart::kLowerLip;
+  for (const fsm::Side side : fsm::kSides) {
+    const auto outline = EyeOutline(side);
+    if (among(outline.subspan(1, kInnerCorner - 1))) return fsm::FacePart::kUpperLid;
+    if (among(outline.subspan(kInnerCorner + 1))) return fsm::FacePart::kLowerLid;
+  }
+  return fsm::FacePart::kPlain;
+}
+
+/// A head with what its surface is made of.
+struct Surface {
+  const BaseHead& head;
+  std::vector<std::uint32_t> skin_triangles;
+  bool has_uv_seams;
+
+  std::optional<LipSeam> Seam() const {
+    const auto places = [this](std::span<const PointIndex> points) {
+      std::vector<glm::vec3> at;
+      for (const PointIndex i : points) at.push_back(head.AtRest(i));
+      return at;
+    };
+    return FindLipSeam(head.head->topology(), head.rest.position, skin_triangles, has_uv_seams,
+                       places(UpperOuterLip()), places(LowerOuterLip()));
+  }
+};
+
+/// Moves the points of the inner lips onto a seam.
+void OntoSeam(const LipSeam& seam, std::vector<MeshPoint>& points) {
+  points[point::kInnerMouthRight] = seam.right;
+  points[point::kInnerMouthLeft] = seam.left;
+  for (std::size_t k = 0; k < LipSeam::kBetween; ++k) {
+    points[UpperInnerLip()[k + 1]] = seam.upper[k];
+    points[LowerInnerLip()[k]] = seam.lower[k];
+  }
+}
+
+/// Somebody else's head, standing somehow, as the network sees it.
+struct SeenHead {
+  BaseHead head;
+  std::vector<bool> eye;
+  std::vector<std::uint32_t> skin_triangles;
+  bool has_uv_seams;
+};
+
+/// Looks at a head and pairs its places with those of the built-in one.
+class HeadPairer {
+ public:
+  HeadPairer(FaceNetworks& networks, const fsm::HeadFile& file, std::string name,
+             const std::string& face)
+      : networks_(networks),
+        file_(file),
+        name_(std::move(name)),
+        base_(BaseHead::See(networks, face)),
+        own_seam_(Surface{base_, fsm::SkinTriangles(base_.head->topology()), false}.Seam()),
+        own_eyes_(EyeVertices(base_.head->topology(), base_.rest.position.size())),
+        inner_lips_(UpperInnerLip().begin(), UpperInnerLip().end()) {
+    inner_lips_.insert(LowerInnerLip().begin(), LowerInnerLip().end());
+  }
+  /// Throws std::runtime_error if no face is seen on the head as `to_ours` has it stand.
+  std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
+    const SeenHead seen = See(to_ours);
+    std::vector<MeshPoint> ours = base_.points, theirs = seen.head.points;
+    OntoLidEdges({base_, own_eyes_}, ours, {seen.head, seen.eye}, theirs);
+    const auto seam = Surface{seen.head, seen.skin_triangles, seen.has_uv_seams}.Seam();
+    const bool both = own_seam_ && seam;
+    if (both) {
+      OntoSeam(*own_seam_, ours);
+      OntoSeam(*seam, theirs);
+    }
+    std::vector<fsm::PointPair> found;
+    for (const PointIndex i : FitPoints()) {
+      // Where both lips meet a point of the network may come to lie on either.
+      const bool corner = i == point::kMouthRight || i == point::kMouthLeft;
+      if (inner_lips_.contains(i) ? !both : both && corner) continue;
+      const glm::vec3 at = theirs[i].On(seen.head.rest.position);
+      const glm::vec3 raw = to_ours.Inverse(at);
+      found.push_back({ours[i].On(base_.rest.position), raw, PartOf(i)});
+    }
+    return found;
+  }
+
+ private:
+  SeenHead See(const fsm::Similarity& to_ours) {
+    fsm::MeshModel model = fsm::ModelOf(file_, to_ours, fsm::kUsualMouthY);
+    std::vector<std::uint32_t> skin_triangles = model.SkinTriangles();
+    const bool has_uv_seams = model.has_uv_seams;
+    std::vector<bool> eye;
+    for (const fsm::Bone bone : model.bone) {
+      eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
+    }
+    auto head = fsm::MakeMeshHead(std::move(model));
+    return {BaseHead::See(networks_, std::move(head), name_, false), std::move(eye),
+            std::move(skin_triangles), has_uv_seams};
+  }
+
+  FaceNetworks& networks_;
+  const fsm::HeadFile& file_;
+  std::string name_;
+  BaseHead base_;
+  std::optional<LipSeam> own_seam_;
+  std::vector<bool> own_eyes_;
+  std::set<PointIndex> inner_lips_;
+};
+
+/// What was found on a head that stood one way.
+struct Look {
+  std::vector<fsm::PointPair> pairs;
+  float off_mm;  ///< median distance of the pairs, once the head is laid over ours
+};
+
+/// The median distance of the pairs' places once `to_ours` has brought them together, millimetres.
+float MedianOff(const fsm::Similarity& to_ours, std::span<const fsm::PointPair> pairs) {
+  std::vector<float> off;
+  for (const auto& pair : pairs) off.push_back(glm::distance(to_ours(pair.to), pair.from));
+  return Median(off);
+}
+
+float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
+  const glm::mat3 turn = a * glm::transpose(b);
+  const float cosine = 0.5F * (turn[0][0] + turn[1][1] + turn[2][2] - 1);
+  return glm::degrees(std::acos(std::clamp(cosine, -1.0F, 1.0F)));
+}
+
+/// Looks once as guessed, and once more, as large and straight as our own head was looked at.
+/// Nothing if no face is seen, or one that was not looked at from the front: the networks take a
+/// profile for a face, too, but place its points so badly that the second look has the head stand
+/// another way again. Measured on two heads, and on one of them made wider, taller, deeper and
+/// flatter: from the front the second look turns the head by at most 1 degree and leaves 3.7 to
+/// 7.4 mm, from elsewhere by 8 degrees or more, with 7.3 to 40 mm.
+std::optional<Look> LookFrom(HeadPairer& pairer, const fsm::Similarity& guess, bool& face_seen) {
+  constexpr float kStraight = 5;  // degrees
+  constexpr float kMostOff = 12;  // millimetres
+  try {
+    auto first = pairer.PairsAt(guess);
+    face_seen = true;
+    LeaveOutStrays(first);
+    const fsm::Similarity stood = fsm::FitSimilarity(first);
+    Look look{pairer.PairsAt(stood), 0};
+    std::vector<fsm::PointPair> kept = look.pairs;
+    LeaveOutStrays(kept);
+    const fsm::Similarity fit = fsm::FitSimilarity(kept);
+    look.off_mm = MedianOff(fit, look.pairs);
+    look.pairs = std::move(kept);
+    if (DegreesBetween(fit.turn, stood.turn) > kStraight || look.off_mm > kMostOff) return {};
+    return look;
+  } catch (const std::runtime_error&) {
+    return {};  // nothing is seen from there
+  }
+}
+
+}  // namespace
+
+fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
+                               const std::string& name, const std::string& face) {
+  HeadPairer pairer(networks, file, name, face);
+  bool face_seen = false;
+  for (const float part : {1.0F, 0.8F, 0.28F, 0.15F}) {
+    std::optional<Look> best;
+    for (const glm::mat3& turn : kTurns) {
+      auto look = LookFrom(pairer, Guess(file, turn, part), face_seen);
+      if (look && (!best || look->off_mm < best->off_mm)) best = std::move(look);
+    }
+    if (!best) continue;
+    Balance(fsm::FitSimilarity(best->pairs), best->pairs);
+    return {face, std::move(best->pairs)};
+  }
+  throw std::runtime_error(
+      (face_seen ? "the face of '" + name +
+                       "' is not seen from the front however it is turned: it should face z with y "
+                       "up; points"
+                 : "no face is seen on '" + name + "' from any side; points") +
+      " can also be written by hand (docs/heads.md)");
+}
+
+}  // namespace facefit

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "face_fit/find/head/base_head.h"
+#include "fsm/rig/head.h"
+
+namespace facefit {
+
+/// The opening of an eye as it is seen from the front: where flesh ends and the eyeball begins. On
+/// a head of triangles that is known exactly, whereas the landmark network guesses it from a
+/// picture and is off by a good part of a lid.
+struct LidEdges {
+  static constexpr std::size_t kBetween = 7;
+  MeshPoint outer, inner;  ///< corners
+  /// At equal parts of the way from the outer to the inner corner.
+  std::array<MeshPoint, kBetween> upper, lower;
+};
+
+/// `eye`: of each vertex, whether it is an eyeball's; `centre`: of that eye, `outward`: -1 for the
+/// agent's right, 1 for the left. The head looks to +z, millimetres. Nothing if no opening of
+/// 10 to 60 mm is there.
+std::optional<LidEdges> FindLidEdges(const fsm::HeadTopology& topology,
+                                     std::span<const glm::vec3> position,
+                                     const std::vector<bool>& eye, glm::vec3 centre, float outward);
+
+/// The vertices of a head's eyeballs by their material.
+std::vector<bool> EyeVertices(const fsm::HeadTopology& topology, std::size_t count);
+
+/// Moves the points of the eyes' outlines in both lists onto the edges, where both heads show them.
+struct EyeSurface {
+  const BaseHead& head;
+  std::vector<bool> eye;
+};
+void OntoLidEdges(const EyeSurface& ours, std::vector<MeshPoint>& our_places,
+                  const EyeSurface& theirs, std::vector<MeshPoint>& their_places);
+
+}  // namespace facefit

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "face_fit/find/head/mesh_point.h"
+#include "fsm/rig/head.h"
+
+namespace facefit {
+
+/// The line where closed lips meet, as it is seen from the front: two places side by side in the
+/// view that lie far apart along the surface. Parted lips have an upper and a lower edge.
+struct LipSeam {
+  static constexpr std::size_t kBetween = 9;
+  MeshPoint right, left;  ///< corners, the agent's
+  /// At equal parts of the way from the right to the left corner.
+  std::array<MeshPoint, kBetween> upper, lower;
+};
+
+/// `skin_triangles`: those of skin, lips and mouth; `has_uv_seams` as for fsm::TransferSurface;
+/// `upper`, `lower`: some places on the outer edges of both lips. The head looks to +z,
+/// millimetres. Nothing if no seam of 20 to 90 mm is there.
+std::optional<LipSeam> FindLipSeam(const fsm::HeadTopology& topology,
+                                   std::span<const glm::vec3> position,
+                                   const std::vector<std::uint32_t>& skin_triangles,
+                                   bool has_uv_seams, std::span<const glm::vec3> upper,
+                                   std::span<const glm::vec3> lower);
+
+}  // namespace facefit

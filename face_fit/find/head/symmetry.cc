@@ -1,0 +1,92 @@
+#include "face_fit/find/head/symmetry.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <iterator>
+#include <span>
+
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+constexpr glm::vec3 kMirror(-1, 1, 1);
+
+/// The pair on the other side of our face, or none.
+const fsm::PointPair* Opposite(const fsm::PointPair& pair, std::span<const fsm::PointPair> pairs) {
+  constexpr float kSame = 5;  // millimetres
+  const auto nearest = std::ranges::min_element(pairs, {}, [&](const fsm::PointPair& other) {
+    return other.part == pair.part ? glm::distance(kMirror * other.from, pair.from) : 1e9F;
+  });
+  return glm::distance(kMirror * nearest->from, pair.from) > kSame ? nullptr : &*nearest;
+}
+
+/// What a head is symmetric about.
+struct MirrorPlane {
+  glm::vec3 at, normal;
+  glm::vec3 Mirrored(glm::vec3 p) const { return p - 2 * glm::dot(p - at, normal) * normal; }
+};
+
+/// Found from the medians of the directions from one side to the other and of their middles: a few
+/// points that are off do not change those.
+MirrorPlane FindMirror(std::span<const fsm::PointPair> pairs) {
+  constexpr float kApart = 20;  // millimetres
+  std::vector<float> up, ahead, middles;
+  for (const auto& pair : pairs) {
+    const auto* other = Opposite(pair, pairs);
+    if (!other || pair.to.x - other->to.x < kApart) continue;
+    const glm::vec3 across = pair.to - other->to;
+    up.push_back(across.y / across.x);
+    ahead.push_back(across.z / across.x);
+  }
+  if (up.empty()) return {glm::vec3(0), {1, 0, 0}};
+  const glm::vec3 normal = glm::normalize(glm::vec3(1, Median(up), Median(ahead)));
+  for (const auto& pair : pairs) {
+    const auto* other = Opposite(pair, pairs);
+    if (other) middles.push_back(0.5F * glm::dot(pair.to + other->to, normal));
+  }
+  return {Median(middles) * normal, normal};
+}
+
+}  // namespace
+
+void LeaveOutStrays(std::vector<fsm::PointPair>& pairs) {
+  constexpr float kLeast = 8, kTimes = 3;  // millimetres; of the middle of all distances
+  constexpr int kRounds = 6;
+  std::vector<fsm::PointPair> kept = pairs;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto to_ours = fsm::FitSimilarity(kept);
+    const auto off = [&to_ours](const fsm::PointPair& pair) {
+      return glm::distance(to_ours(pair.to), pair.from);
+    };
+    std::vector<float> sorted;
+    for (const auto& pair : pairs) sorted.push_back(off(pair));
+    std::ranges::sort(sorted);
+    const float limit = std::max(kLeast, kTimes * sorted[sorted.size() / 2]);
+    kept.clear();
+    std::ranges::copy_if(pairs, std::back_inserter(kept),
+                         [&](const auto& pair) { return off(pair) <= limit; });
+  }
+  pairs = std::move(kept);
+}
+
+void Balance(const fsm::Similarity& to_ours, std::vector<fsm::PointPair>& pairs) {
+  constexpr float kNear = 7;  // millimetres
+  std::vector<fsm::PointPair> seen = pairs;
+  for (auto& pair : seen) pair.to = to_ours(pair.to);
+  const MirrorPlane mirror = FindMirror(seen);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto* opposite = Opposite(seen[i], seen);
+    if (!opposite) continue;
+    const glm::vec3 there = mirror.Mirrored(opposite->to);
+    if (glm::distance(there, seen[i].to) > kNear) continue;
+    pairs[i].from = 0.5F * (seen[i].from + kMirror * opposite->from);
+    const glm::vec3 to = 0.5F * (seen[i].to + there);
+    pairs[i].to = to_ours.Inverse(to);
+  }
+}
+
+}  // namespace facefit

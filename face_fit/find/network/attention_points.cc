@@ -1,0 +1,70 @@
+#include "face_fit/find/network/attention_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace facefit {
+namespace {
+
+constexpr PointIndex kLips[] = {
+    // outer border: the lower lip with both corners, the upper without
+    61, 146, 91, 181, 84, 17, 314, 405, 321, 375, 291, 185, 40, 39, 37, 0, 267, 269, 270, 409,
+    // inner border
+    78, 95, 88, 178, 87, 14, 317, 402, 318, 324, 308, 191, 80, 81, 82, 13, 312, 311, 310, 415,
+    // a row inside the outer border
+    76, 77, 90, 180, 85, 16, 315, 404, 320, 307, 306, 184, 74, 73, 72, 11, 302, 303, 304, 408,
+    // a row outside the inner border
+    62, 96, 89, 179, 86, 15, 316, 403, 319, 325, 292, 183, 42, 41, 38, 12, 268, 271, 272, 407};
+constexpr PointIndex kRightEye[] = {33,  7,   163, 144, 145, 153, 154, 155, 133,
+                                    246, 161, 160, 159, 158, 157, 173,  // the lids' edge
+                                    130, 25,  110, 24,  23,  22,  26,  112, 243,
+                                    247, 30,  29,  27,  28,  56,  190,  // around it
+                                    226, 31,  228, 229, 230, 231, 232, 233, 244,
+                                    113, 225, 224, 223, 222, 221, 189,            // and again
+                                    35,  124, 46,  53,  52,  65,                  // under the brow
+                                    143, 111, 117, 118, 119, 120, 121, 128, 245,  // under the eye
+                                    156, 70,  63,  105, 66,  107, 55,  193};      // the brow
+constexpr PointIndex kLeftEye[] = {
+    263, 249, 390, 373, 374, 380, 381, 382, 362, 466, 388, 387, 386, 385, 384, 398, 359, 255,
+    339, 254, 253, 252, 256, 341, 463, 467, 260, 259, 257, 258, 286, 414, 446, 261, 448, 449,
+    450, 451, 452, 453, 464, 342, 445, 444, 443, 442, 441, 413, 265, 353, 276, 283, 282, 295,
+    372, 340, 346, 347, 348, 349, 350, 357, 465, 383, 300, 293, 334, 296, 336, 285, 417};
+
+}  // namespace
+
+AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, const Crop& crop) {
+  attention.Run(crop.Sample(image, kPointsPixels, 0, 1));
+  const auto place = [&crop](std::span<const float> xy, std::size_t i, std::size_t each) {
+    return crop.ToPicture(glm::vec2(xy[each * i], xy[each * i + 1]) / float{kPointsPixels});
+  };
+  AttentiveFace found;
+  found.face.crop = crop;
+  found.face.certainty = 1 / (1 + std::exp(-attention.output(kAttentionFlag)[0]));
+  const auto mesh = attention.output(kAttentionMesh);
+  for (std::size_t i = 0; i < kNetworkPoints; ++i) {
+    found.face.points.emplace_back(place(mesh, i, 3),
+                                   -mesh[3 * i + 2] / float{kPointsPixels} * crop.side);
+  }
+  const auto refine = [&](std::size_t output, std::span<const PointIndex> points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const glm::vec2 at = place(attention.output(output), i, 2);
+      found.face.points[points[i]].x = at.x;
+      found.face.points[points[i]].y = at.y;
+    }
+  };
+  refine(kAttentionLips, kLips);
+  refine(kAttentionRightEye, kRightEye);
+  refine(kAttentionLeftEye, kLeftEye);
+  for (std::size_t i = 0; i < 5; ++i) {
+    found.iris[0][i] = place(attention.output(kAttentionRightIris), i, 2);
+    found.iris[1][i] = place(attention.output(kAttentionLeftIris), i, 2);
+  }
+  return found;
+}
+
+std::span<const PointIndex> AttentiveLips() { return kLips; }
+std::span<const PointIndex> AttentiveEye(std::size_t side) {
+  return side == 0 ? std::span<const PointIndex>(kRightEye) : kLeftEye;
+}
+
+}  // namespace facefit

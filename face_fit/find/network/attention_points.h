@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <span>
+
+#include "face_fit/find/network/face_finder.h"
+
+namespace facefit {
+
+/// A face as MediaPipe's landmark network with attention sees it: it looks a second time, closer,
+/// at lips and eyes, whose points x and y are finer than those of the plain network; z is that of
+/// its first look.
+struct AttentiveFace {
+  FoundFace face;
+  /// Of the person's right and left eye: the iris' middle, then four places on its edge, a quarter
+  /// of a turn apart. Pixels of the picture.
+  std::array<std::array<glm::vec2, 5>, 2> iris;
+};
+
+/// `attention`: what LoadAttentionLandmarks gave. Looks once, at `crop`.
+AttentiveFace FindAttentivePoints(Network& attention, const fsm::Image& image, const Crop& crop);
+
+/// Which points of the face the network sees again: 80 of the lips, 71 of each eye. In the order of
+/// its outputs (mediapipe/modules/face_landmark/tensors_to_face_landmarks_with_attention.pbtxt).
+std::span<const PointIndex> AttentiveLips();
+std::span<const PointIndex> AttentiveEye(std::size_t side);  ///< 0 = the person's right
+
+}  // namespace facefit

@@ -1,0 +1,203 @@
+#include "face_fit/find/network/face_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "face_fit/picture/filters.h"
+#include "face_fit/picture/pixels.h"
+
+namespace facefit {
+namespace {
+
+constexpr int kDetectorSide = 128;
+constexpr float kLeastScore = 0.5F;
+/// How much larger than a face's box the picture is which the landmark network was trained on.
+constexpr float kRoom = 1.5F;
+
+/// Middles of the detector's cells: 16 x 16 with two boxes each, then 8 x 8 with six.
+std::vector<glm::vec2> Anchors() {
+  std::vector<glm::vec2> anchors;
+  for (const auto& [cells, boxes] : {std::pair(16, 2), std::pair(8, 6)}) {
+    for (int i = 0; i < cells * cells * boxes; ++i) {
+      const int cell = i / boxes;
+      anchors.push_back((glm::vec2(cell % cells, cell / cells) + 0.5F) / static_cast<float>(cells));
+    }
+  }
+  return anchors;
+}
+
+/// The area of both boxes.
+float Common(const FaceBox& a, const FaceBox& b) {
+  const glm::vec2 low = glm::max(a.centre - a.size * 0.5F, b.centre - b.size * 0.5F);
+  const glm::vec2 high = glm::min(a.centre + a.size * 0.5F, b.centre + b.size * 0.5F);
+  const glm::vec2 common = glm::max(high - low, 0.0F);
+  return common.x * common.y;
+}
+
+float Overlap(const FaceBox& a, const FaceBox& b) {
+  const float both = Common(a, b);
+  return both / (a.size.x * a.size.y + b.size.x * b.size.y - both);
+}
+
+void Detect(FaceNetworks& networks, const fsm::Image& image, const Crop& crop,
+            std::vector<FaceBox>& found) {
+  static const std::vector<glm::vec2> anchors = Anchors();
+  networks.detector.Run(crop.Sample(image, kDetectorSide, -1, 1));
+  const auto boxes = networks.detector.output(0);
+  const auto scores = networks.detector.output(1);
+  for (std::size_t i = 0; i < anchors.size(); ++i) {
+    const float score = 1 / (1 + std::exp(-std::clamp(scores[i], -100.0F, 100.0F)));
+    if (!(score >= kLeastScore)) continue;
+    const float* box = &boxes[16 * i];
+    const auto place = [&](int k) {
+      return crop.ToPicture(anchors[i] + glm::vec2(box[k], box[k + 1]) / 128.0F);
+    };
+    FaceBox face{.centre = place(0),
+                 .size = glm::abs(glm::vec2(box[2], box[3])) / 128.0F * crop.side,
+                 .score = score,
+                 .eyes = {place(4), place(6)}};
+    if (face.size.x >= 8 && face.size.y >= 8) found.push_back(face);
+  }
+}
+
+/// How much of the smaller of two boxes lies within the other.
+float Within(const FaceBox& a, const FaceBox& b) {
+  const float both = Common(a, b);
+  return both / std::max(std::min(a.size.x * a.size.y, b.size.x * b.size.y), 1e-6F);
+}
+
+/// Each pixel the mean of four; an odd last row or column is left out.
+fsm::Image Halved(const fsm::Image& image) {
+  const int width = image.width / 2, height = image.height / 2;
+  return ScaledDown(Cropped(image, 0, 0, 2 * width, 2 * height), width, height);
+}
+
+/// What was taken for a face, and how much rather it is believed than another of the same face.
+struct Sighting {
+  FaceBox face;
+  float rank;
+};
+
+/// A picture that is looked at in squares of many sizes: each is cut from a copy that is hardly
+/// finer than the detector sees it, which takes a tenth of the time.
+class Scan {
+ public:
+  Scan(FaceNetworks& networks, const fsm::Image& image) : networks_(networks) {
+    copies_.push_back(image);
+    while (std::max(copies_.back().width, copies_.back().height) > 2 * kDetectorSide) {
+      copies_.push_back(Halved(copies_.back()));
+    }
+  }
+
+  /// `whole`: from the picture itself, as exactly as it can be seen.
+  void Look(glm::vec2 centre, float side, bool whole = false) {
+    float scale = 1;
+    std::size_t copy = 0;
+    while (!whole && copy + 1 < copies_.size() && side * scale > 2 * kDetectorSide) {
+      scale *= 0.5F;
+      ++copy;
+    }
+    std::vector<FaceBox> seen;
+    Detect(networks_, copies_[copy], {centre * scale, side * scale, 0}, seen);
+    for (FaceBox face : seen) {
+      face.centre /= scale;
+      face.size /= scale;
+      for (glm::vec2& eye : face.eyes) eye /= scale;
+      if (std::min(face.size.x, face.size.y) >= 8) found.push_back({face, face.score});
+    }
+  }
+
+  std::vector<Sighting> found;
+
+ private:
+  FaceNetworks& networks_;
+  std::vector<fsm::Image> copies_;
+};
+
+/// Keeps one box of each face, that of the highest rank; where there are several faces, only those
+/// with eyes, nose and mouth.
+std::vector<FaceBox> Apart(FaceNetworks& networks, const fsm::Image& image,
+                           std::vector<Sighting> found) {
+  std::ranges::sort(found, std::greater<>(), &Sighting::rank);
+  std::vector<FaceBox> apart;
+  for (const auto& [face, rank] : found) {
+    if (std::ranges::none_of(apart, [&](const FaceBox& other) {
+          return Overlap(other, face) > 0.3F || Within(other, face) > 0.6F;
+        })) {
+      apart.push_back(face);
+    }
+  }
+  if (apart.size() > 1) {
+    std::vector<FaceBox> faces;
+    for (const FaceBox& face : apart) {
+      if (FindPoints(networks, image, face).certainty >= kCertainFace) faces.push_back(face);
+    }
+    if (!faces.empty()) apart = std::move(faces);
+  }
+  std::ranges::sort(apart, [](const FaceBox& a, const FaceBox& b) {
+    return a.size.x * a.size.y > b.size.x * b.size.y;
+  });
+  return apart;
+}
+
+}  // namespace
+
+std::vector<FaceBox> FindFaces(FaceNetworks& networks, const fsm::Image& image) {
+  const glm::vec2 size(image.width, image.height);
+  const float longer = std::max(size.x, size.y);
+  Scan scan(networks, image);
+  scan.Look(size * 0.5F, longer, true);
+  // A face is best seen with all that is around it; one that fills a fifth of the picture, for
+  // which the detector was made, could not be seen better.
+  for (Sighting& seen : scan.found) seen.rank += seen.face.size.x > 0.2F * longer ? 1.0F : 0.15F;
+  // A face that fills the picture is too large for the network, one in a crowd too small.
+  if (scan.found.empty()) scan.Look(size * 0.5F, longer * 1.6F, true);
+  float largest = 0;
+  for (const Sighting& seen : scan.found) largest = std::max(largest, seen.face.size.x);
+  for (const int parts : {2, 4}) {
+    // The detector sees faces well that fill a fifth of what it is shown. Those of people who
+    // stand beside the largest, further back or turned, are up to three times smaller.
+    if (largest > 0.85F * longer / static_cast<float>(parts)) break;
+    const float side = longer / static_cast<float>(parts) * 1.4F;
+    for (int y = 0; y < 2 * parts; ++y) {
+      for (int x = 0; x < 2 * parts; ++x) {
+        const glm::vec2 centre = (glm::vec2(x, y) + 0.5F) * longer / static_cast<float>(2 * parts);
+        if (centre.x <= size.x && centre.y <= size.y) scan.Look(centre, side);
+      }
+    }
+  }
+  return Apart(networks, image, std::move(scan.found));
+}
+
+FoundFace FindPoints(FaceNetworks& networks, const fsm::Image& image, const FaceBox& box) {
+  FoundFace face;
+  const glm::vec2 line = box.eyes[1] - box.eyes[0];
+  face.crop = {box.centre, kRoom * std::max(box.size.x, box.size.y), std::atan2(line.y, line.x)};
+  // The first look says where the face is, the second sees it upright and as large as in training.
+  for (int look = 0; look < 3; ++look) {
+    networks.landmarks.Run(face.crop.Sample(image, kPointsPixels, 0, 1));
+    const auto raw = networks.landmarks.output(0);
+    const float logit = networks.landmarks.output(1)[0];
+    face.certainty = 1 / (1 + std::exp(-logit));
+    face.points.clear();
+    Box2 seen;
+    for (std::size_t i = 0; i < kNetworkPoints; ++i) {
+      const glm::vec2 at =
+          glm::vec2(raw[3 * i], raw[3 * i + 1]) / static_cast<float>(kPointsPixels);
+      const glm::vec2 p = face.crop.ToPicture(at);
+      seen.Add(at);
+      face.points.emplace_back(p, -raw[3 * i + 2] / kPointsPixels * face.crop.side);
+    }
+    if (look == 2) break;
+    const glm::vec2 eyes = face.At(point::kEyeOuterLeft) - face.At(point::kEyeOuterRight);
+    const glm::vec2 extent = seen.Size() * face.crop.side;
+    face.crop = {face.crop.ToPicture(seen.Middle()), kRoom * std::max(extent.x, extent.y),
+                 std::atan2(eyes.y, eyes.x)};
+  }
+  return face;
+}
+
+}  // namespace facefit

@@ -1,0 +1,114 @@
+#include "face_fit/find/network/face_networks.h"
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "face_fit/find/network/network_points.h"
+#include "fsm/image/byte_order.h"
+#include "vm_protocol/core/text_file.h"
+
+namespace facefit {
+namespace {
+
+constexpr std::size_t kMostBytes = 64U << 20;
+
+/// The package keeps its files one after the other in one; its loader lists where each begins.
+Bytes Packed(const std::string& script, const std::string& data, const std::string& name) {
+  const std::string key = "\"files\": [";
+  const auto begin = script.find(key);
+  const auto end = begin == std::string::npos ? begin : script.find(']', begin);
+  if (end == std::string::npos) throw BadModel("the package's loader lists no files");
+  const auto list =
+      nlohmann::json::parse(script.substr(begin + key.size() - 1, end - begin - key.size() + 2));
+  for (const auto& entry : list) {
+    const std::string file = entry.at("filename");
+    if (!file.ends_with("/" + name)) continue;
+    const std::size_t first = entry.at("start"), last = entry.at("end");
+    if (first > last || last > data.size()) break;
+    return fsm::BytesOf(data).subspan(first, last - first);
+  }
+  throw BadModel("the package holds no " + name);
+}
+
+/// The package @mediapipe/face_mesh as it is unpacked.
+struct FaceMeshPackage {
+  std::string loader, data;
+
+  static std::optional<FaceMeshPackage> Read(const std::string& where) {
+    const std::string package = where + "/face_mesh/face_mesh_solution_packed_assets";
+    auto loader = vm::ReadTextFile(package + "_loader.js", kMostBytes);
+    auto data = vm::ReadTextFile(package + ".data", kMostBytes);
+    if (!loader || !data) return std::nullopt;
+    return FaceMeshPackage{std::move(*loader), std::move(*data)};
+  }
+  /// Throws an exception if it cannot be used.
+  Network Open(const char* name) const { return Network(Model::Read(Packed(loader, data, name))); }
+};
+
+std::unexpected<vm::Error> NotThere(const std::string& where) {
+  return vm::Fail(vm::Errc::kUnavailable,
+                  "the networks that find faces are not in '" + where +
+                      "'; scripts/face_networks.sh puts them there (npm packages "
+                      "@mediapipe/face_mesh and @mediapipe/selfie_segmentation)");
+}
+
+std::unexpected<vm::Error> NotUsable(const std::string& where, const std::exception& error) {
+  return vm::Fail(vm::Errc::kBadValue,
+                  "the networks in '" + where + "' cannot be used: " + error.what());
+}
+
+Network Expect(Network network, std::size_t input, std::initializer_list<std::size_t> outputs) {
+  bool fits = network.input_shape().count() == input && network.outputs() == outputs.size();
+  std::size_t i = 0;
+  for (const std::size_t n : outputs) fits = fits && network.output(i++).size() == n;
+  if (!fits) throw BadModel("a network of another kind");
+  return network;
+}
+
+}  // namespace
+
+std::string NetworksFolder() {
+  const auto named = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value ? value : "");
+  };
+  if (const auto own = named("GALATEA_NETWORKS"); !own.empty()) return own;
+  if (const auto cache = named("XDG_CACHE_HOME"); !cache.empty()) {
+    return cache + "/galatea/networks";
+  }
+  return named("HOME") + "/.cache/galatea/networks";
+}
+
+vm::Result<FaceNetworks> FaceNetworks::Load(const std::string& folder) {
+  const std::string where = folder.empty() ? NetworksFolder() : folder;
+  const auto package = FaceMeshPackage::Read(where);
+  const auto figure =
+      vm::ReadTextFile(where + "/selfie_segmentation/selfie_segmentation.tflite", kMostBytes);
+  if (!package || !figure) return NotThere(where);
+  try {
+    return FaceNetworks{
+        .detector = Expect(package->Open("face_detection_short_range.tflite"), 128 * 128 * 3,
+                           {896 * 16, 896}),
+        .landmarks =
+            Expect(package->Open("face_landmark.tflite"), 192 * 192 * 3, {3 * kNetworkPoints, 1}),
+        .figure = Expect(Network(Model::Read(fsm::BytesOf(*figure))), 256 * 256 * 3, {256 * 256})};
+  } catch (const std::exception& error) {
+    return NotUsable(where, error);
+  }
+}
+
+vm::Result<Network> LoadAttentionLandmarks(const std::string& folder) {
+  const std::string where = folder.empty() ? NetworksFolder() : folder;
+  const auto package = FaceMeshPackage::Read(where);
+  if (!package) return NotThere(where);
+  try {
+    return Expect(package->Open("face_landmark_with_attention.tflite"), 192 * 192 * 3,
+                  {3 * kNetworkPoints, 2 * 80, 2 * 71, 2 * 71, 2 * 5, 2 * 5, 1});
+  } catch (const std::exception& error) {
+    return NotUsable(where, error);
+  }
+}
+
+}  // namespace facefit

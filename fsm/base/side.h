@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace fsm {
+
+/// The agent's own sides, in this order wherever one of two is counted. Its right is to the
+/// viewer's left, where x is negative.
+enum class Side : std::uint8_t { kRight, kLeft };
+
+inline constexpr std::array kSides{Side::kRight, Side::kLeft};
+
+/// The sign of x on that side.
+constexpr float SignOf(Side side) { return side == Side::kRight ? -1.0f : 1.0f; }
+
+/// One of something for each side.
+template <typename T>
+struct Sided {
+  T right{}, left{};
+
+  constexpr T& operator[](Side side) { return side == Side::kRight ? right : left; }
+  constexpr const T& operator[](Side side) const { return side == Side::kRight ? right : left; }
+  /// As kSides has them.
+  constexpr std::array<T, 2> InOrder() const { return {right, left}; }
+  friend bool operator==(const Sided&, const Sided&) = default;
+};
+
+}  // namespace fsm
