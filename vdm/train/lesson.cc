@@ -1,5 +1,6 @@
 #include "vdm/train/lesson.h"
 
+#include "vdm/features/level_normaliser.h"
 #include "vdm/train/distortion.h"
 #include "vdm/train/truth.h"
 
@@ -39,23 +40,22 @@ Lesson DistortedLesson(const Take& take, FeatureKind kind, const fsm::MotionTabl
 }
 
 void Mask(Eigen::MatrixXf& features, FeatureKind kind, Dice& dice) {
-  constexpr std::size_t kBands = 24, kWidest = 6, kLongest = 7;
-  for (int ranges = 0; ranges < 2; ++ranges) {
+  constexpr std::size_t kBands = LevelNormaliser::kBands, kWidest = 6, kLongest = 7;
+  constexpr int kRanges = 2, kFramesPerMoment = 100;
+  constexpr double kPhoneHidden = 0.1;
+  const auto index = [](std::size_t n) { return static_cast<Eigen::Index>(n); };
+  for (int range = 0; range < kRanges; ++range) {
     const std::size_t width = dice.Below(kWidest + 1), first = dice.Below(kBands - width + 1);
-    features.middleRows(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(width))
-        .setZero();
+    features.middleRows(index(first), index(width)).setZero();
   }
-  const Eigen::Index moments = features.cols() / 100;
-  for (Eigen::Index k = 0; k < moments; ++k) {
-    const auto width = static_cast<Eigen::Index>(dice.Below(kLongest + 1));
-    const auto first = static_cast<Eigen::Index>(
-        dice.Below(static_cast<std::size_t>(features.cols() - width + 1)));
-    features.middleCols(first, width).topRows(kBands).setZero();
+  const auto frames = static_cast<std::size_t>(features.cols());
+  for (std::size_t moment = 0; moment < frames / kFramesPerMoment; ++moment) {
+    const std::size_t width = dice.Below(kLongest + 1), first = dice.Below(frames - width + 1);
+    features.block(0, index(first), index(kBands), index(width)).setZero();
   }
   if (kind != FeatureKind::kPhones) return;
-  const auto first_phone = static_cast<Eigen::Index>(FeatureSize(FeatureKind::kMel));
-  for (Eigen::Index row = first_phone; row < features.rows(); ++row) {
-    if (dice.Chance(0.1)) features.row(row).setZero();
+  for (std::size_t row = FeatureSize(FeatureKind::kMel); row < FeatureSize(kind); ++row) {
+    if (dice.Chance(kPhoneHidden)) features.row(index(row)).setZero();
   }
 }
 

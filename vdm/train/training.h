@@ -15,12 +15,12 @@ namespace vdm {
 
 struct TrainingPlan {
   FeatureKind features = FeatureKind::kMel;
-  std::size_t width = 96;  ///< of the hidden layers (kMel)
-  std::size_t epochs = 12;
+  std::size_t width = 128;  ///< of the hidden layers (not kCepstra)
+  std::size_t epochs = 24;
   std::uint64_t seed = 1;
-  double disturbance = 0;  ///< of the hidden units, see BackPropagation::Disturb (not kCepstra)
-  double masking = 0;      ///< share of lessons with bands, phones and moments hidden
-  double rate = 2e-3;      ///< the highest step; it rises at the start and falls to almost nothing
+  double disturbance = 0.15;  ///< of hidden units, see BackPropagation::Disturb (not kCepstra)
+  double masking = 0.4;       ///< share of the lessons that are masked, see Mask (not kCepstra)
+  double rate = 2e-3;  ///< the highest step; it rises at the start and falls to almost nothing
 };
 
 /// The layers for a kind of features: for kMel five layers that see 180 ms and more back and 50 ms
