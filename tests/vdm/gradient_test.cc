@@ -8,6 +8,7 @@
 
 #include "tests/vdm/made_net.h"
 #include "vdm/train/adam.h"
+#include "vdm/train/dice.h"
 #include "vdm/train/mouth_loss.h"
 
 namespace vdm {
@@ -34,17 +35,17 @@ Eigen::MatrixXf SomeInput(Eigen::Index count) {
   return input;
 }
 
-double Loss(const MouthNet& net, const Eigen::MatrixXf& input, const MouthTruth& truth) {
+double Loss(const MouthNet& net, BackPropagation& propagation, const Eigen::MatrixXf& input,
+            const MouthTruth& truth) {
   Eigen::MatrixXf slope;
-  return LossOf(net, net.net.Outputs(input), truth, slope).total();
+  return LossOf(net, propagation.Forward(input), truth, slope).total();
 }
 
-TEST(GradientTest, EveryWeightsSlopeIsThatOfTheLoss) {
-  MouthNet net = MadeNet();
+/// Compares each slope that `propagation` tells with the difference that a small step makes.
+void ExpectSlopesOfTheLoss(MouthNet& net, BackPropagation& propagation) {
   const Eigen::MatrixXf input = SomeInput(9);
   const MouthTruth truth = SomeTruth(9);
   NetGradient gradient(net.net);
-  BackPropagation propagation(net.net);
   Eigen::MatrixXf slope;
   LossOf(net, propagation.Forward(input), truth, slope);
   propagation.Backward(slope, gradient);
@@ -54,9 +55,9 @@ TEST(GradientTest, EveryWeightsSlopeIsThatOfTheLoss) {
     const auto check = [&](float& value, float told) {
       const float kept = value;
       value = kept + kStep;
-      const double above = Loss(net, input, truth);
+      const double above = Loss(net, propagation, input, truth);
       value = kept - kStep;
-      const double below = Loss(net, input, truth);
+      const double below = Loss(net, propagation, input, truth);
       value = kept;
       const double measured = (above - below) / (2 * static_cast<double>(kStep));
       // A step across the corner of a rectifier measures something between both sides' slopes.
@@ -75,6 +76,30 @@ TEST(GradientTest, EveryWeightsSlopeIsThatOfTheLoss) {
   EXPECT_GE(near, checked * 98 / 100);
 }
 
+TEST(GradientTest, EveryWeightsSlopeIsThatOfTheLoss) {
+  MouthNet net = MadeNet();
+  BackPropagation propagation(net.net);
+  ExpectSlopesOfTheLoss(net, propagation);
+}
+
+TEST(GradientTest, SlopesAreRightWithDisturbedUnits) {
+  MouthNet net = MadeNet();
+  BackPropagation propagation(net.net);
+  Dice dice(5);
+  propagation.Disturb(0.4, dice);
+  const Eigen::MatrixXf input = SomeInput(9);
+  EXPECT_GT((propagation.Forward(input) - net.net.Outputs(input)).cwiseAbs().maxCoeff(), 0.01F);
+  ExpectSlopesOfTheLoss(net, propagation);
+}
+
+TEST(GradientTest, ADisturbanceOfNothingChangesNothing) {
+  const MouthNet net = MadeNet();
+  BackPropagation propagation(net.net);
+  Dice dice(5);
+  propagation.Disturb(0, dice);
+  EXPECT_EQ(propagation.Forward(SomeInput(9)), net.net.Outputs(SomeInput(9)));
+}
+
 TEST(GradientTest, ForwardIsWhatTheNetworkSays) {
   const MouthNet net = MadeNet();
   BackPropagation propagation(net.net);
@@ -87,7 +112,8 @@ TEST(AdamTest, StepsGoDownTheLoss) {
   const Eigen::MatrixXf input = SomeInput(30);
   const MouthTruth truth = SomeTruth(30);
   Adam adam(net.net);
-  const double before = Loss(net, input, truth);
+  BackPropagation plain(net.net);
+  const double before = Loss(net, plain, input, truth);
   Eigen::MatrixXf slope;
   for (int i = 0; i < 200; ++i) {
     NetGradient gradient(net.net);
@@ -96,7 +122,7 @@ TEST(AdamTest, StepsGoDownTheLoss) {
     propagation.Backward(slope, gradient);
     adam.Step(net.net, gradient, 0.01);
   }
-  EXPECT_LT(Loss(net, input, truth), 0.3 * before);
+  EXPECT_LT(Loss(net, plain, input, truth), 0.3 * before);
 }
 
 }  // namespace

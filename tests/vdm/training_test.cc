@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "vdm/train/lesson.h"
 #include "vdm/train/truth.h"
 
 namespace vdm {
@@ -75,15 +76,35 @@ TEST(TrainingTest, ACourseThatIsKeptAndResumedGivesTheSameNetwork) {
   while (!resumed.done()) resumed.Epoch(kQuiet);
   EXPECT_EQ(FormatMouthNet(resumed.net()), FormatMouthNet(straight.net()));
 
-  TrainingPlan other = Plan();
-  other.seed = 2;
-  EXPECT_NE(
-      Training(other, takes, Tables()).Load(path).error().text.find("is no course of this plan"),
-      std::string::npos);
+  for (TrainingPlan other : {TrainingPlan{.width = 12, .epochs = 6, .seed = 2},
+                             TrainingPlan{.width = 12, .epochs = 6, .masking = 0.5}}) {
+    EXPECT_NE(
+        Training(other, takes, Tables()).Load(path).error().text.find("is no course of this plan"),
+        std::string::npos);
+  }
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 3);
   EXPECT_NE(Training(Plan(), takes, Tables()).Load(path).error().text.find("damaged"),
             std::string::npos);
   std::filesystem::remove(path);
+}
+
+TEST(LessonTest, MaskingHidesBandsMomentsAndPhonesButNoLevels) {
+  constexpr Eigen::Index kBands = 24, kFrames = 400;
+  const auto size = static_cast<Eigen::Index>(FeatureSize(FeatureKind::kPhones));
+  const auto mel = static_cast<Eigen::Index>(FeatureSize(FeatureKind::kMel));
+  Eigen::ArrayXf hidden = Eigen::ArrayXf::Zero(size);
+  Dice dice(3);
+  for (int n = 0; n < 200; ++n) {
+    Eigen::MatrixXf features = Eigen::MatrixXf::Ones(size, kFrames);
+    Mask(features, FeatureKind::kPhones, dice);
+    hidden += 1 - features.array().rowwise().mean();
+  }
+  hidden /= 200;
+  EXPECT_EQ(hidden.segment(kBands, mel - kBands).maxCoeff(), 0);
+  // Two ranges of 3 of 24 bands on average, and four moments of 35 of 4000 ms.
+  EXPECT_NEAR(hidden.head(kBands).mean(), 0.25F, 0.06F);
+  EXPECT_GT(hidden.head(kBands).minCoeff(), 0.04F);
+  EXPECT_NEAR(hidden.tail(size - mel).mean(), 0.1F, 0.02F);
 }
 
 TEST(CorpusTest, TakesAreKeptWhole) {

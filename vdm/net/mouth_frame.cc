@@ -7,7 +7,7 @@ namespace vdm {
 namespace {
 
 // Where the lips begin to close and where they are sealed, by the likelihood of a closure.
-constexpr float kClosing = 0.45F, kClosed = 0.68F;
+constexpr float kClosing = 0.38F, kClosed = 0.61F;
 constexpr float kMmPerDegree = 1.4F;
 // A network that is not sure says something nearer to the mean, so that all of its movements
 // together come out smaller than true ones. So much larger they have about the right size

@@ -25,6 +25,16 @@ void NetGradient::Add(const NetGradient& other) {
   }
 }
 
+void BackPropagation::Disturb(double strength, Dice& dice) {
+  for (std::size_t i = 0; i + 1 < steps_.size(); ++i) {
+    Eigen::VectorXf& factors = steps_[i].factors;
+    factors.resize(net_.layers[i].weights.rows());
+    for (float& factor : factors) {
+      factor = static_cast<float>(dice.Between(1 - 2 * strength, 1 + 2 * strength));
+    }
+  }
+}
+
 const Eigen::MatrixXf& BackPropagation::Forward(const Eigen::MatrixXf& input) {
   const Eigen::MatrixXf* below = &input;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -34,6 +44,7 @@ const Eigen::MatrixXf& BackPropagation::Forward(const Eigen::MatrixXf& input) {
     step.outputs.noalias() = layer.weights * step.gathered;
     step.outputs.colwise() += layer.biases;
     if (layer.rectified) step.outputs = step.outputs.cwiseMax(0.0F);
+    if (step.factors.size() > 0) step.outputs.array().colwise() *= step.factors.array();
     below = &step.outputs;
   }
   return *below;
@@ -45,6 +56,7 @@ void BackPropagation::Backward(const Eigen::MatrixXf& slope, NetGradient& gradie
     const TimeDelayLayer& layer = net_.layers[i];
     const Step& step = steps_[i];
     if (layer.rectified) now = (step.outputs.array() > 0).select(now, 0.0F);
+    if (step.factors.size() > 0) now.array().colwise() *= step.factors.array();
     gradient.layers[i].weights.noalias() += now * step.gathered.transpose();
     gradient.layers[i].biases += now.rowwise().sum();
     if (i == 0) return;

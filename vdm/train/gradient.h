@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "vdm/net/time_delay_net.h"
+#include "vdm/train/dice.h"
 
 namespace vdm {
 
@@ -26,6 +27,11 @@ struct NetGradient {
 class BackPropagation {
  public:
   explicit BackPropagation(const TimeDelayNet& net) : net_(net), steps_(net.layers.size()) {}
+  /// From now on each hidden unit is as much larger or smaller as the dice say: a factor between
+  /// 1 - 2 strength and 1 + 2 strength, the same throughout a sound (the continuous dropout of
+  /// Kaldi's networks: Povey and others, Semi-orthogonal low-rank matrix factorization for deep
+  /// neural networks, 2018). So a network cannot rely on single units. `strength`: 0 .. 0.5.
+  void Disturb(double strength, Dice& dice);
   /// As net.Outputs(input).
   const Eigen::MatrixXf& Forward(const Eigen::MatrixXf& input);
   /// `slope`: how the loss changes with each output of the last Forward. Adds to `gradient`.
@@ -34,6 +40,7 @@ class BackPropagation {
  private:
   struct Step {
     Eigen::MatrixXf gathered, outputs;
+    Eigen::VectorXf factors{};  ///< of Disturb, a number for each unit; none: undisturbed
   };
   const TimeDelayNet& net_;
   std::vector<Step> steps_;

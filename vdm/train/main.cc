@@ -214,8 +214,16 @@ int main(int argc, char** argv) {
   app.add_option("--epochs", options.plan.epochs, "How often all is gone through")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--width", options.plan.width, "Units of each hidden layer (mel)")
+  app.add_option("--width", options.plan.width, "Units of each hidden layer (not cepstra)")
       ->check(CLI::Range(4, 512))
+      ->capture_default_str();
+  app.add_option("--disturbance", options.plan.disturbance,
+                 "By how much, twice, hidden units are larger or smaller by chance (not cepstra)")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  app.add_option("--masking", options.plan.masking,
+                 "Share of the lessons in which bands, moments and phones are hidden (not cepstra)")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   app.add_option("--rate", options.plan.rate, "The highest step")->capture_default_str();
   app.add_option("--seed", options.plan.seed, "Of all that happens by chance")

@@ -115,9 +115,14 @@ void Training::Learn(const std::vector<std::size_t>& items, Dice dice, Lane& lan
   Eigen::MatrixXf slope;
   for (const std::size_t item : items) {
     const Dice own = dice.For(item);
-    const Lesson lesson = item < takes_.size()
-                              ? DistortedLesson(takes_[item], plan_.features, tables_, own)
-                              : SilentLesson(plan_.features, own);
+    Lesson lesson = item < takes_.size()
+                        ? DistortedLesson(takes_[item], plan_.features, tables_, own)
+                        : SilentLesson(plan_.features, own);
+    if (plan_.features != FeatureKind::kCepstra) {
+      Dice chance = own.For(7);
+      if (chance.Chance(plan_.masking)) Mask(lesson.features, plan_.features, chance);
+      lane.propagation.Disturb(plan_.disturbance, chance);
+    }
     const MouthLoss loss =
         LossOf(net_, lane.propagation.Forward(lesson.features), lesson.truth, slope);
     lane.propagation.Backward(slope, lane.gradient);
@@ -182,7 +187,8 @@ vm::Result<void> Training::Save(const std::string& path) const {
   const std::string partial = path + ".part";
   std::ofstream file(partial, std::ios::binary);
   file << kHead << FeatureName(plan_.features) << ' ' << plan_.width << ' ' << plan_.epochs << ' '
-       << plan_.seed << ' ' << takes_.size() << ' ' << epoch_ << ' ' << adam_.steps << '\n';
+       << plan_.seed << ' ' << plan_.disturbance << ' ' << plan_.masking << ' ' << takes_.size()
+       << ' ' << epoch_ << ' ' << adam_.steps << '\n';
   for (std::size_t i = 0; i < net_.net.layers.size(); ++i) {
     Write(file, net_.net.layers[i].weights);
     Write(file, net_.net.layers[i].biases);
@@ -204,12 +210,13 @@ vm::Result<void> Training::Load(const std::string& path) {
   std::string head(kHead.size(), ' '), features;
   std::size_t width = 0, epochs = 0, takes = 0, epoch = 0;
   std::uint64_t seed = 0;
+  double disturbance = 0, masking = 0;
   long steps = 0;
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  file >> features >> width >> epochs >> seed >> takes >> epoch >> steps;
+  file >> features >> width >> epochs >> seed >> disturbance >> masking >> takes >> epoch >> steps;
   if (!file || head != kHead || features != FeatureName(plan_.features) || width != plan_.width ||
-      epochs != plan_.epochs || seed != plan_.seed || takes != takes_.size() ||
-      file.get() != '\n') {
+      epochs != plan_.epochs || seed != plan_.seed || disturbance != plan_.disturbance ||
+      masking != plan_.masking || takes != takes_.size() || file.get() != '\n') {
     return vm::Fail(vm::Errc::kBadValue,
                     path + ": is no course of this plan; remove it to start anew");
   }

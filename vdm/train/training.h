@@ -15,9 +15,11 @@ namespace vdm {
 
 struct TrainingPlan {
   FeatureKind features = FeatureKind::kMel;
-  std::size_t width = 96;  ///< of the hidden layers (kMel)
-  std::size_t epochs = 12;
+  std::size_t width = 128;  ///< of the hidden layers (not kCepstra)
+  std::size_t epochs = 24;
   std::uint64_t seed = 1;
+  double disturbance = 0.15;  ///< of hidden units, see BackPropagation::Disturb (not kCepstra)
+  double masking = 0.4;       ///< share of the lessons that are masked, see Mask (not kCepstra)
   double rate = 2e-3;  ///< the highest step; it rises at the start and falls to almost nothing
 };
 
