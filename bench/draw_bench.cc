@@ -102,7 +102,7 @@ fsm::FaceState Moving(int frame) {
   for (std::size_t i = 0; i < fsm::kMouthParameters; ++i) {
     state.mouth[i] = wave(17, static_cast<float>(i)) - 0.3F;
   }
-  state.mouth[kJawY] = 7 * wave(11, 0);
+  state.mouth[fsm::kJawY] = 7 * wave(11, 0);
   state.blink.left = state.blink.right = wave(90, 0) > 0.95F ? 1.0F : 0.0F;
   state.gaze.left = state.gaze.right = {-5 * wave(45, 1), 16 * wave(70, 2) - 8};
   state.head_rotation = {6 * wave(50, 0) - 3, 16 * wave(80, 1) - 8, 4 * wave(66, 2) - 2};
