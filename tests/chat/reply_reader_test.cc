@@ -58,7 +58,7 @@ TEST(ReplyReaderTest, WordsOfAStreamAreJoined) {
   const std::string stream =
       "data: {\"choices\":[{\"delta\":{\"role\":\"assistant\",\"content\":null}}]}\n\n" +
       Chunk("Hel") + Chunk("lo.") + "data: {\"choices\":[]}\n\ndata: [DONE]\n\n";
-  for (const std::size_t piece : {1, 10, 1000}) EXPECT_EQ(Read(stream, piece), "Hello.");
+  for (const std::size_t piece : {1U, 10U, 1000U}) EXPECT_EQ(Read(stream, piece), "Hello.");
   EXPECT_EQ(
       Read(Chunk("Hi.") + "data: {\"choices\":[{\"delta\":{},\"finish_reason\":\"stop\"}]}\n\n", 9),
       "Hi.");
