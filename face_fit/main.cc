@@ -209,7 +209,7 @@ void Run(const Options& options) {
     std::cerr << "face_fit: notice: the photo lies on its side or head, whatever its file says; it "
                  "was set upright\n";
   }
-  BaseHead base = BaseHead::See(networks, options.base);
+  BaseHead base = vm::OrThrow(BaseHead::See(networks, options.base));
   if (units) base.MoveBy(*units);
   progress.Say("head looked at");
   int faces = 1;

@@ -29,13 +29,13 @@ float Sharpness(const FoundFace& face, const fsm::Image& photo) {
 
 /// Brightness of the person's left cheek as part of the right one's.
 float SideLight(const FoundFace& face, const fsm::Image& photo) {
-  constexpr std::array kCheeks = {std::pair(50, 280), std::pair(205, 425), std::pair(187, 411)};
-  float right = 1, left = 1;
-  for (const auto& [r, l] : kCheeks) {
-    right += Brightness(ColourAt(photo, face.points[static_cast<std::size_t>(r)]));
-    left += Brightness(ColourAt(photo, face.points[static_cast<std::size_t>(l)]));
+  fsm::Sided<float> light{1, 1};
+  for (const fsm::Side side : fsm::kSides) {
+    for (const PointIndex i : point::kCheeks[side]) {
+      light[side] += Brightness(ColourAt(photo, face.At(i)));
+    }
   }
-  return left / right;
+  return light.left / light.right;
 }
 
 /// From that turn on more than 15 degrees of one side are not seen at all.

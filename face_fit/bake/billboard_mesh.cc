@@ -39,7 +39,7 @@ class Chin {
 
 /// Fills what is not fixed with the solution of Poisson's equation for an even, slight curvature:
 /// as a skin of soap would span it, but a little rounder. By Gauss and Seidel, not to the end.
-void SolveLaplace(const FloatImage& fixed, FloatImage& depth) {
+void SolvePoisson(const FloatImage& fixed, FloatImage& depth) {
   const float round = PhotoLook()("sheet_round");
   for (int step = 0; step < 400; ++step) {
     for (int y = 0; y < depth.height; ++y) {
@@ -122,19 +122,20 @@ class OpeningsOfHead {
 /// and pulled down as the shoulders fall. Hair that the photo cuts off ends softly.
 class ExtendedFigure {
  public:
-  /// `chin`: its pixel; `mm`: pixels to a millimetre.
-  ExtendedFigure(const Figure& figure, glm::vec2 chin, float mm)
+  /// `chin`: its pixel.
+  ExtendedFigure(const Figure& figure, glm::vec2 chin, float pixels_per_mm)
       : opacity_(figure.opacity),
         width_(static_cast<float>(opacity_.width)),
         height_(static_cast<float>(opacity_.height)),
         chin_(chin),
-        mm_(mm) {
+        pixels_per_mm_(pixels_per_mm) {
     const float half_head = PhotoLook()("half_head");
     const glm::vec3 mirrored = PhotoLook().Vector("mirrored_strip");
     for (const int side : {0, 1}) {
       fall_[side] = Fall(side);
       const float aside = side == 0 ? chin.x : width_ - chin.x;
-      strip_[side] = std::max(mirrored.x * (aside - half_head * mm), mirrored.z * width_);
+      strip_[side] =
+          std::max(mirrored.x * (aside - half_head * pixels_per_mm), mirrored.z * width_);
     }
     lower_ = std::max(mirrored.y * (height_ - chin.y), mirrored.z * height_);
   }
@@ -145,7 +146,7 @@ class ExtendedFigure {
       const float in = ToAndFro(out, strip_[side]);
       // A shoulder bends down into the arm.
       const float round_mm = PhotoLook()("shoulder_round");
-      p.y -= fall_[side] * (out + in) + out * out / (2 * round_mm * mm_);
+      p.y -= fall_[side] * (out + in) + out * out / (2 * round_mm * pixels_per_mm_);
       p.x = side == 0 ? in : width_ - in;
     }
     if (p.y > height_) p.y = height_ - ToAndFro(p.y - height_, lower_);
@@ -154,7 +155,7 @@ class ExtendedFigure {
   float Opacity(glm::vec2 p) const {
     const glm::vec2 at = Pixel(p);
     const float shown = opacity_.Between(at.x, at.y);
-    return p.y < chin_.y && Out(p) > 4 * mm_ ? 0 : shown;
+    return p.y < chin_.y && Out(p) > 4 * pixels_per_mm_ ? 0 : shown;
   }
 
  private:
@@ -181,18 +182,19 @@ class ExtendedFigure {
   const FloatImage& opacity_;
   float width_, height_;
   glm::vec2 chin_;
-  float mm_;
+  float pixels_per_mm_;
   float fall_[2] = {}, strip_[2] = {}, lower_ = 1;
 };
 
 /// The grid of the sheet: the photo with what goes on beside and below it.
-PhotoGrid GridOver(const Figure& figure, float mm) {
+PhotoGrid GridOver(const Figure& figure, float pixels_per_mm) {
   const float beyond = PhotoLook()("beyond_photo");
   constexpr float kLeastCell = 4.5F, kMostPoints = 14000;  // millimetres; count
   const glm::vec2 size(figure.colours.width, figure.colours.height);
-  const glm::vec2 extent = size + glm::vec2(2 * beyond, beyond) * mm;
-  const float cell = std::max(kLeastCell * mm, std::sqrt(extent.x * extent.y / kMostPoints));
-  return {{-beyond * mm, 0},
+  const glm::vec2 extent = size + glm::vec2(2 * beyond, beyond) * pixels_per_mm;
+  const float cell =
+      std::max(kLeastCell * pixels_per_mm, std::sqrt(extent.x * extent.y / kMostPoints));
+  return {{-beyond * pixels_per_mm, 0},
           cell,
           static_cast<int>(extent.x / cell) + 2,
           static_cast<int>(extent.y / cell) + 2};
@@ -260,7 +262,7 @@ FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, const Chin& chin, c
       }
     }
   }
-  SolveLaplace(fixed, depth);
+  SolvePoisson(fixed, depth);
   // A steep fall, as from the jaw to the neck, would fold when the head turns.
   const FloatImage spanned = depth;
   depth = Blurred(Blurred(depth, 1), 1);
@@ -325,10 +327,10 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
   // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
   // large as the skin, or the chin would be seen a second time.
-  const float mm = fit.pose.PixelsPerMm();
+  const float pixels_per_mm = fit.pose.PixelsPerMm();
   const float face_hole = PhotoLook()("hole_face"), neck_hole = PhotoLook()("hole_neck");
   const FloatImage soft =
-      Blurred(face, std::max(static_cast<int>(PhotoLook()("hole_soft") * mm), 1));
+      Blurred(face, std::max(static_cast<int>(PhotoLook()("hole_soft") * pixels_per_mm), 1));
   FloatImage keep(width, height, 1), beside(width, height, 1), below(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -343,9 +345,9 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   }
   fsm::Image out = figure.colours;
   PushPullInpaint(out, keep);
-  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * mm), 2);
+  const int grain = std::max(static_cast<int>(PhotoLook()("hole_grain") * pixels_per_mm), 2);
   // In a small photo a pixel is as coarse as grain: none is added.
-  const FloatImage all(width, height, glm::smoothstep(0.6F, 1.6F, mm));
+  const FloatImage all(width, height, glm::smoothstep(0.6F, 1.6F, pixels_per_mm));
   AddGrain(keep, all, grain, out);
   // Behind the jaw lies what is below it, not what is on it.
   fsm::Image neck = figure.colours;
@@ -360,15 +362,17 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
 
 void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
                    fsm::PhotoHead& head) {
-  const float mm = fit.pose.PixelsPerMm();
+  const float pixels_per_mm = fit.pose.PixelsPerMm();
   const Chin chin(base, fit);
-  const PhotoGrid grid = GridOver(figure, mm);
-  const ExtendedFigure extended(figure, fit.pose.Project(fit.pose.ToCamera(chin.at())), mm);
+  const PhotoGrid grid = GridOver(figure, pixels_per_mm);
+  const ExtendedFigure extended(figure, fit.pose.Project(fit.pose.ToCamera(chin.at())),
+                                pixels_per_mm);
   SkinRaster raster =
       RasterizeSkin(base, fit, fit.pose, grid, chin.SkinBottom(), MotionToRest(base, fit));
   const GridSkin skin(
       raster.depth,
-      std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * mm / grid.cell)), 1));
+      std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * pixels_per_mm / grid.cell)),
+               1));
   // Hair and neck beside the skin go with it.
   for (FloatImage& axis : raster.motion) Spread(skin.covered, skin.rim, axis);
   FloatImage shown(grid.columns, grid.rows);
@@ -401,7 +405,7 @@ void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
   for (const auto& quad : quads) {
     for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) head.sheet_triangles.push_back(quad[k]);
   }
-  head.seen_from = glm::transpose(fit.pose.Rotation()) * glm::vec3(0, 0, 1);
+  head.seen_from = fit.pose.TowardsCamera();
   head.skin_bottom_y = chin.SkinBottom();
 }
 

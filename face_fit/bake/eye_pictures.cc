@@ -185,9 +185,10 @@ std::optional<fsm::Sided<fsm::Side>> ShownEyes(const Fit& fit) {
 
 /// The skin below an eye and beside it.
 glm::vec3 LightBeside(const FoundFace& face, const fsm::Image& photo, fsm::Side side) {
-  constexpr fsm::Sided<std::array<PointIndex, 4>> kSkin{{119, 118, 117, 101}, {348, 347, 346, 330}};
   glm::vec3 light(1);
-  for (const PointIndex i : kSkin[side]) light += ColourAt(photo, face.At(i)) / 4.0F;
+  const auto& below = point::kBelowEye[side];
+  for (const PointIndex i : below)
+    light += ColourAt(photo, face.At(i)) / static_cast<float>(below.size());
   return light;
 }
 

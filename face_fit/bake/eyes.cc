@@ -20,12 +20,11 @@ glm::vec3 Linear(glm::vec3 encoded) {
   return {linear(encoded.r), linear(encoded.g), linear(encoded.b)};
 }
 
-/// Mean brightness of cheeks, upper lip, forehead and chin, linear.
+/// Mean brightness of the skin, linear.
 float SkinLight(const FoundFace& face, const fsm::Image& photo) {
-  constexpr PointIndex kSkin[] = {50, 280, 205, 425, 151, 9, 199};
   float light = 0;
-  for (const PointIndex i : kSkin) {
-    light += Brightness(Linear(ColourAt(photo, face.At(i)))) / std::size(kSkin);
+  for (const PointIndex i : point::kBareSkin) {
+    light += Brightness(Linear(ColourAt(photo, face.At(i)))) / point::kBareSkin.size();
   }
   return light;
 }
@@ -98,12 +97,11 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
 void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead& head) {
   const fsm::NumberTable& look = PhotoLook();
   // Along the middle of the lower lip, where it is widest.
-  constexpr std::pair<PointIndex, PointIndex> kLower[] = {
-      {84, 87}, {17, 14}, {314, 317}, {181, 178}, {405, 402}};
+  constexpr std::size_t kFirst = 2, kLast = 6;
   glm::vec3 lip(0);
-  for (const auto& [below, above] : kLower) {
-    const glm::vec2 at = 0.5F * (face.At(below) + face.At(above));
-    lip += Linear(ColourAt(photo, at)) / static_cast<float>(std::size(kLower));
+  for (std::size_t k = kFirst; k <= kLast; ++k) {
+    const glm::vec2 at = 0.5F * (face.At(LowerOuterLip()[k]) + face.At(LowerInnerLip()[k]));
+    lip += Linear(ColourAt(photo, at)) / float{kLast - kFirst + 1};
   }
   // Screen colours are squares of it there; the inner rim lies in shade.
   const glm::vec2 inner = look.Pair("lip_inner");

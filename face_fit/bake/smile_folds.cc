@@ -1,7 +1,6 @@
 #include "face_fit/bake/smile_folds.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,10 +15,6 @@
 
 namespace facefit {
 namespace {
-
-// Along the fold, from the wing of the nose to beside the chin; points of the network.
-constexpr std::array<std::array<PointIndex, 5>, 2> kFolds = {
-    {{129, 203, 206, 216, 212}, {358, 423, 426, 436, 432}}};
 
 float ToLine(std::span<const glm::vec2> line, glm::vec2 p) {
   float nearest = 1e9F;
@@ -86,9 +81,9 @@ FloatImage FillSmileFolds(const FoundFace& face, float smile, float pixels_per_m
   FloatImage smooth(photo.width, photo.height);
   const int valley = static_cast<int>(std::lround(PhotoLook()("fold_half_width") * pixels_per_mm));
   if (smile <= 0 || valley < 1) return smooth;
-  for (const auto& fold : kFolds) {
-    std::array<glm::vec2, 5> line;
-    std::ranges::transform(fold, line.begin(), [&](PointIndex point) { return face.At(point); });
+  for (const fsm::Side side : fsm::kSides) {
+    std::vector<glm::vec2> line;
+    for (const PointIndex i : point::kSmileFold[side]) line.push_back(face.At(i));
     FillFold(line, {smile, pixels_per_mm, PhotoLook()("fold_reach"), valley}, photo, smooth);
   }
   return smooth;

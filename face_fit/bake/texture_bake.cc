@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "face_fit/bake/billboard_mesh.h"
 #include "face_fit/bake/eyes.h"
@@ -39,7 +38,7 @@ void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const S
   const CameraPose& pose = side.fit.pose;
   const SkinTexels texels = ProjectSkin(base, fit, pose, false);
   // What it shows is of the side towards it: the other cheek lies behind the nose.
-  const float towards = (glm::transpose(pose.Rotation()) * glm::vec3(0, 0, 1)).x > 0 ? 1.0F : -1.0F;
+  const float towards = pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = side.figure.colours;
   // The same skin in another light: a gain for each channel makes it match.
   glm::vec3 here(1), there(1);
@@ -81,10 +80,10 @@ SkinMap PaintPhoto(const FoundFace& face, const Fit& fit, const SkinTexels& texe
   const fsm::NumberTable& look = PhotoLook();
   const float least_on_face = look("facing_least"), least_aside = look("facing_least_aside");
   const float soft = look("facing_soft");
-  const float mm = fit.pose.PixelsPerMm();
+  const float pixels_per_mm = fit.pose.PixelsPerMm();
   const FloatImage filled =
-      FillSmileFolds(face, look("smile_folds_filled") * Smile(fit), mm, colours);
-  const Openings openings(face, mm, open);
+      FillSmileFolds(face, look("smile_folds_filled") * Smile(fit), pixels_per_mm, colours);
+  const Openings openings(face, pixels_per_mm, open);
   SkinMap map;
   for (std::size_t i = 0; i < texels.facing.size(); ++i) {
     const glm::vec2 p = texels.pixel[i];
@@ -194,7 +193,7 @@ TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& 
   for (const SideView& side : sides) {
     if (side.outline_only) continue;
     LayOver(base, fit, side, texels, map.image, map.seen);
-    head.also_seen.push_back(glm::transpose(side.fit.pose.Rotation()) * glm::vec3(0, 0, 1));
+    head.also_seen.push_back(side.fit.pose.TowardsCamera());
   }
   TextureBake bake;
   bake.coverage = Coverage(texels, map.seen);

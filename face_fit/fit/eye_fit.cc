@@ -1,12 +1,12 @@
 #include "face_fit/fit/eye_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
 
 namespace facefit {
@@ -88,7 +88,7 @@ Expected ExpectedIris(const BaseHead& base, const Slit& seen, fsm::Side side) {
 
 }  // namespace
 
-void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
+void SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
   fsm::Sided<OpenEye> eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto place = [&face](PointIndex i) { return face.At(i); };

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 #include <map>
 
-#include "face_fit/find/head/base_head.h"
-#include "fsm/rig/eye_transform.h"
+#include "face_fit/fit/fit.h"
 
 namespace facefit {
 
@@ -14,5 +12,11 @@ namespace facefit {
 /// frame. REQUIRES: it has the points of both EyeOutlines.
 fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
                                       const std::map<PointIndex, glm::vec3>& to);
+
+/// Fills irises and iris_size of a fit; without a photo irises lie where the eyes' outlines say,
+/// with a contrast of 0.
+void SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit);
+/// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
+void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<LandmarkConstraint>& constraints);
 
 }  // namespace facefit

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "face_fit/find/face/mouth_line.h"
+#include "face_fit/fit/eye_fit.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/fit/least_squares.h"
 #include "face_fit/fit/pose_fit.h"
@@ -40,16 +41,16 @@ std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters
   const CameraPose pose = PoseOf(parameters);
   fsm::HeadVertices vertices;
   sight.base.head->Evaluate(ExpressionOf(parameters).State(), vertices);
-  const float mm = 1 / pose.PixelsPerMm();
+  const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<double> out;
   std::vector<float> depth;
   float mean = 0;
   for (const PointIndex k : FitPoints()) {
     const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(vertices.position));
-    const glm::vec2 miss = (pose.Project(q) - sight.face.At(k)) * mm;
+    const glm::vec2 miss = (pose.Project(q) - sight.face.At(k)) * mm_per_pixel;
     out.push_back(static_cast<double>(miss.x));
     out.push_back(static_cast<double>(miss.y));
-    depth.push_back(q.z - sight.face.points[k].z * mm - sight.depth_bias[k]);
+    depth.push_back(q.z - sight.face.points[k].z * mm_per_pixel - sight.depth_bias[k]);
     mean += depth.back();
   }
   mean /= static_cast<float>(depth.size());
@@ -92,6 +93,9 @@ glm::mat3 CameraPose::Rotation() const {
 glm::vec3 CameraPose::ToCamera(glm::vec3 p) const { return Rotation() * (p - kMiddle) + kMiddle; }
 glm::vec3 CameraPose::FromCamera(glm::vec3 q) const {
   return glm::transpose(Rotation()) * (q - kMiddle) + kMiddle;
+}
+glm::vec3 CameraPose::TowardsCamera() const {
+  return glm::transpose(Rotation()) * glm::vec3(0, 0, 1);
 }
 glm::vec2 CameraPose::Project(glm::vec3 q) const {
   return centre + focal / (kCameraZ - q.z) * glm::vec2(q.x, -q.y);
@@ -157,13 +161,13 @@ float SmileBeyondUsual(float smile, bool lips_apart) {
 std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPose& pose,
                                               const std::vector<glm::vec3>& now) {
   constexpr float kTrustDepth = 0.3F, kMostDepth = 15;  // millimetres
-  const float mm = 1 / pose.PixelsPerMm();
+  const float mm_per_pixel = 1 / pose.PixelsPerMm();
   std::vector<LandmarkConstraint> constraints;
   std::vector<float> lacks;
   float mean = 0;
   for (const PointIndex k : FitPoints()) {
     const glm::vec3 q = pose.ToCamera(sight.base.points[k].On(now));
-    lacks.push_back(sight.face.points[k].z * mm + sight.depth_bias[k] - q.z);
+    lacks.push_back(sight.face.points[k].z * mm_per_pixel + sight.depth_bias[k] - q.z);
     mean += lacks.back() / static_cast<float>(FitPoints().size());
     constraints.push_back({k, sight.base.points[k], sight.face.At(k), q.z});
   }
@@ -196,7 +200,7 @@ Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo
   fsm::HeadVertices now;
   base.head->Evaluate(fit.expression.State(), now);
   fit.constraints = ConstraintsOf(sight, fit.pose, now.position);
-  FindIrises(base, face, photo, fit);
+  SeeIrises(base, face, photo, fit);
   CentreEyes(base, fit, fit.constraints);
   if (photo && !sight.lips_apart) {
     ConstrainToMouthLine(base, face, fit.pose, now.position, *photo, fit.constraints);

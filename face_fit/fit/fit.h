@@ -29,6 +29,8 @@ struct CameraPose {
   /// From the head's frame to the camera's, and back: millimetres, same axes when turn is 0.
   glm::vec3 ToCamera(glm::vec3 p) const;
   glm::vec3 FromCamera(glm::vec3 q) const;
+  /// The direction from which the photo was taken, in the head's frame, unit.
+  glm::vec3 TowardsCamera() const;
   glm::vec2 Project(glm::vec3 q) const;                 ///< from the camera's frame to pixels
   glm::vec3 Unproject(glm::vec2 pixel, float z) const;  ///< to the place at that depth
   float PixelsPerMm() const;                            ///< at the depth of the face

@@ -14,12 +14,6 @@ void ConstrainToMouthLine(const BaseHead& base, const FoundFace& face, const Cam
                           std::span<const glm::vec3> now, const fsm::Image& photo,
                           std::vector<LandmarkConstraint>& constraints);
 
-/// Fills irises and iris_size of a fit; without a photo irises lie where the eyes' outlines say,
-/// with a contrast of 0.
-void FindIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit);
-/// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
-void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<LandmarkConstraint>& constraints);
-
 /// Positions of the vertices of the fitted head's skin as fsm will show it in a state, millimetres.
 /// They are the first vertices of that head and have the numbers of those of the base head.
 std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm::FaceState& state);

@@ -141,7 +141,7 @@ void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm:
     if (said.empty()) return;
     // What the far cheek hides is taken to be as the near one.
     std::vector<fsm::WarpPoint> both = said;
-    const glm::vec3 towards = glm::transpose(view.pose.Rotation()) * glm::vec3(0, 0, 1);
+    const glm::vec3 towards = view.pose.TowardsCamera();
     for (const fsm::WarpPoint& point : said) {
       if (point.at.x * towards.x > 0 && std::abs(point.at.x) > 12) {
         both.push_back({point.at * glm::vec3(-1, 1, 1), point.by});

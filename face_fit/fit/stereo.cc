@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "face_fit/find/head/rasterizer.h"
 #include "face_fit/fit/pose_fit.h"
@@ -50,7 +49,7 @@ Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const
   seen.light.assign(count, 0);
   seen.facing.assign(count, -1);
   seen.side.assign(count, -1);
-  const glm::vec3 to_side = glm::transpose(side.Rotation()) * glm::vec3(0, 0, 1);
+  const glm::vec3 to_side = side.TowardsCamera();
   const glm::mat3 rotation = fit.pose.Rotation();
   const auto& posed = fit.posed_vertices;
   std::vector<glm::vec3> camera;
@@ -190,7 +189,7 @@ std::vector<PoseMark> FindPatches(const Seen& seen, const CameraPose& front, con
                                   SideMatcher& matcher) {
   std::vector<PoseMark> marks;
   std::vector<glm::vec2> pixels;
-  const float mm = side.PixelsPerMm();
+  const float pixels_per_mm = side.PixelsPerMm();
   const auto shown = [&](const glm::vec3& q) {
     return side.Project(side.ToCamera(front.FromCamera(q)));
   };
@@ -202,7 +201,7 @@ std::vector<PoseMark> FindPatches(const Seen& seen, const CameraPose& front, con
     glm::vec2 by(0);
     for (int y = -4; y <= 4; ++y) {
       for (int x = -6; x <= 6; ++x) {
-        const glm::vec2 off = glm::vec2(x, y) * mm;
+        const glm::vec2 off = glm::vec2(x, y) * pixels_per_mm;
         const float alike = matcher.Match(patch, [&](std::size_t i) { return pixels[i] + off; });
         if (alike <= best) continue;
         best = alike;

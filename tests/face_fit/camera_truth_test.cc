@@ -275,8 +275,8 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     if (!file) throw std::runtime_error(file.error().text);
     const auto found = FindHeadPoints(*networks_, *file, name, "galatea");
     const fsm::Similarity place = fsm::FitSimilarity(found.pairs);
-    BaseHead seen =
-        BaseHead::See(*networks_, fsm::MakeMeshHead(fsm::ModelOf(*file, place, -43)), name, false);
+    BaseHead seen = vm::OrThrow(
+        BaseHead::See(*networks_, fsm::MakeMeshHead(fsm::ModelOf(*file, place, -43)), name, false));
     TrueHead made;
     for (std::size_t i = 0; i < kNetworkPoints; ++i) {
       // At the outline the network may miss the cheek and see an ear or the neck, centimetres

@@ -214,6 +214,18 @@ TEST_F(HeadTest, PointsAreTheSameWhicheverWayAHeadFaces) {
   }
 }
 
+TEST_F(HeadTest, AFileThatIsNoHeadIsNotTakenForAHeadWithoutAFace) {
+  fsm::HeadFile file;
+  file.name = "empty.obj";
+  file.position = {{0, 0, 0}, {0, 1, 0}};
+  try {
+    FindHeadPoints(*networks_, file, "empty.obj", "galatea");
+    FAIL() << "points were made up";
+  } catch (const std::runtime_error& error) {
+    EXPECT_FALSE(std::string_view(error.what()).contains("no face is seen")) << error.what();
+  }
+}
+
 TEST_F(HeadTest, AHeadThatIsNeverSeenFromTheFrontIsRefused) {
   auto file = fsm::ReadHeadFile(support::Heads() / "ict" + "/neutral.obj");
   ASSERT_TRUE(file) << file.error().text;

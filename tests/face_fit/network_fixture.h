@@ -8,6 +8,7 @@
 
 #include "face_fit/find/head/base_head.h"
 #include "face_fit/find/network/face_networks.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace facefit {
 
@@ -29,7 +30,7 @@ class NetworkTest : public testing::Test {
     if (!networks_) GTEST_SKIP() << missing_;
   }
   static const BaseHead& Galatea() {
-    if (!base_) base_.emplace(BaseHead::See(*networks_, "galatea"));
+    if (!base_) base_.emplace(vm::OrThrow(BaseHead::See(*networks_, "galatea")));
     return *base_;
   }
 

@@ -171,9 +171,9 @@ TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkS
   const auto said = corners(front().fit);
   FoundFace face = front().face;
   constexpr float kHigher = 2.5F;  // millimetres
-  const float mm = glm::distance(face.points[33], face.points[263]) / 90;
+  const float pixels_per_mm = glm::distance(face.points[33], face.points[263]) / 90;
   for (const std::size_t i : {61U, 291U, 185U, 409U, 146U, 375U, 78U, 308U}) {
-    face.points[i].y -= kHigher * mm;
+    face.points[i].y -= kHigher * pixels_per_mm;
   }
   const auto moved = corners(FitFace(base, face, &front().photo));
   EXPECT_NEAR(moved.first, said.first, 0.15F * kHigher);
@@ -311,7 +311,7 @@ TEST(HandPointsTest, SixPlacesPutTheFaceWhereTheyAre) {
                                       "nose_tip 262 365\nmouth_right 225 410\nmouth_left 295 410\n"
                                       "chin 260 480\n");
   ASSERT_TRUE(points) << points.error().text;
-  const BaseHead base = BaseHead::See(*networks, "galatea");
+  const BaseHead base = vm::OrThrow(BaseHead::See(*networks, "galatea"));
   const FoundFace face = FaceFromHand(base, *points);
   for (const auto& [i, at] : *points) {
     EXPECT_LT(glm::distance(glm::vec2(face.points[i]), at), 4) << i;

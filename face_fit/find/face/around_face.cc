@@ -27,10 +27,12 @@ float PixelsPerMm(const FoundFace& face) {
 AroundFace CutToFace(const fsm::Image& photo, const fsm::Image& finest, const FoundFace& face) {
   const glm::vec2 size(photo.width, photo.height), all(finest.width, finest.height);
   const glm::vec2 finer = all / size;
-  const float mm = PixelsPerMm(face);
+  const float pixels_per_mm = PixelsPerMm(face);
   const glm::vec2 nose = face.At(point::kNoseTip);
-  const glm::vec2 low = glm::clamp(nose - mm * glm::vec2(kAside, kAbove), glm::vec2(0), size);
-  const glm::vec2 high = glm::clamp(nose + mm * glm::vec2(kAside, kBelow), glm::vec2(0), size);
+  const glm::vec2 low =
+      glm::clamp(nose - pixels_per_mm * glm::vec2(kAside, kAbove), glm::vec2(0), size);
+  const glm::vec2 high =
+      glm::clamp(nose + pixels_per_mm * glm::vec2(kAside, kBelow), glm::vec2(0), size);
   const glm::ivec2 from = glm::floor(low * finer), to = glm::ceil(high * finer);
   const glm::ivec2 part = to - from;
   const glm::vec2 share = glm::vec2(part) / all;

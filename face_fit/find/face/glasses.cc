@@ -19,8 +19,8 @@ float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, flo
   // Between the inner corners of the eyes, which lie some 32 mm apart.
   const glm::vec2 right = face.At(point::kEyeInnerRight), left = face.At(point::kEyeInnerLeft),
                   middle = 0.5F * (right + left);
-  const float mm = std::max(glm::distance(right, left) / 32, 1e-3F);
-  const glm::vec2 level = (left - right) / (32 * mm);
+  const float pixels_per_mm = std::max(glm::distance(right, left) / 32, 1e-3F);
+  const glm::vec2 level = (left - right) / (32 * pixels_per_mm);
   const glm::vec2 across = std::cos(turn) * level + std::sin(turn) * glm::vec2(-level.y, level.x);
   const glm::vec2 down(-across.y, across.x);
   constexpr int kColumns = 9, kRows = 60;  // 1.25 mm apart; half millimetres from above the brows
@@ -30,7 +30,7 @@ float BarAcross(const FoundFace& face, const fsm::Image& photo, float aside, flo
     for (std::size_t r = 0; r < kRows; ++r) {
       const float x = aside + 1.25F * (static_cast<float>(c) - 4),
                   y = kTop + 0.5F * static_cast<float>(r);
-      colour[c][r] = ColourAt(photo, middle + mm * (x * across + y * down));
+      colour[c][r] = ColourAt(photo, middle + pixels_per_mm * (x * across + y * down));
     }
   }
   const auto mean = [&colour](std::size_t c, std::size_t from, std::size_t to) {

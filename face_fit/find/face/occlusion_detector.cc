@@ -110,8 +110,9 @@ Stand StandIn(const BaseHead& base, const FoundFace& face) {
   }
   // From pixels of the head's picture to millimetres, about the root of the nose.
   const auto on_face = [&](PointIndex i) { return glm::vec2(base.AtRest(i)); };
-  const float mm = glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
-                   glm::distance(base.seen[point::kEyeOuterRight], base.seen[point::kEyeOuterLeft]);
+  const float mm_per_pixel =
+      glm::distance(on_face(point::kEyeOuterRight), on_face(point::kEyeOuterLeft)) /
+      glm::distance(base.seen[point::kEyeOuterRight], base.seen[point::kEyeOuterLeft]);
   Stand stand;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
@@ -121,7 +122,7 @@ Stand StandIn(const BaseHead& base, const FoundFace& face) {
       const glm::vec2 there =
           glm::mix(glm::mix(coarse[k], coarse[k + 1], t.x),
                    glm::mix(coarse[k + kCells], coarse[k + kCells + 1], t.x), t.y);
-      const glm::vec2 off = mm * (there - base.seen[point::kNasion]);
+      const glm::vec2 off = mm_per_pixel * (there - base.seen[point::kNasion]);
       stand.place.push_back(on_face(point::kNasion) + glm::vec2(off.x, -off.y));
       stand.colour.push_back(ColourAt(base.picture, there) / 255.0F);
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <stdexcept>
 #include <utility>
 
 #include "face_fit/find/head/portrait_view.h"
@@ -98,12 +97,12 @@ void BaseHead::MoveBy(const fsm::UnitTable& own) {
   head = head->WithUnits(own);
 }
 
-BaseHead BaseHead::See(FaceNetworks& networks, const std::string& name) {
+vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, const std::string& name) {
   return See(networks, fsm::MakeHead(name), name, true);
 }
 
-BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                       const std::string& name, bool own_seam) {
+vm::Result<BaseHead> BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                   const std::string& name, bool own_seam) {
   BaseHead base;
   base.name = name;
   base.head = std::move(head);
@@ -112,7 +111,9 @@ BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
   const PortraitView portrait(kSide);
   fsm::Image picture = portrait.Draw(*base.head, base.rest, state);
   const auto boxes = FindFaces(networks, picture);
-  if (boxes.empty()) throw std::runtime_error("no face is seen on the head '" + name + "'");
+  if (boxes.empty()) {
+    return vm::Fail(vm::Errc::kBadValue, "no face is seen on the head '" + name + "'");
+  }
   const FoundFace face = FindPoints(networks, picture, boxes.front());
 
   std::vector<glm::vec3> screen;
@@ -120,9 +121,8 @@ BaseHead BaseHead::See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
   for (const glm::vec3& p : face.points) {
     base.points.push_back(PlaceUnder(base.head->topology(), screen, glm::vec2(p)));
   }
-  const float mm = portrait.mm_per_pixel();
   for (const glm::vec3& p : face.points) {
-    base.seen_z.push_back(p.z * mm);
+    base.seen_z.push_back(p.z * portrait.mm_per_pixel());
     base.seen.emplace_back(p);
   }
   base.picture = std::move(picture);

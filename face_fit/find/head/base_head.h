@@ -13,6 +13,7 @@
 #include "face_fit/find/network/network_points.h"
 #include "fsm/rig/action_units.h"
 #include "fsm/rig/head.h"
+#include "vm_protocol/core/result.h"
 
 namespace facefit {
 
@@ -34,12 +35,12 @@ struct BaseHead {
   /// From now on moved by these units. Its points stay: they were seen at rest.
   void MoveBy(const fsm::UnitTable& own);
 
-  /// Throws std::runtime_error if it cannot be drawn or no face is seen.
-  static BaseHead See(FaceNetworks& networks, const std::string& name);
+  /// Error: kBadValue, no face is seen on it. Throws std::runtime_error if it cannot be drawn.
+  static vm::Result<BaseHead> See(FaceNetworks& networks, const std::string& name);
   /// Likewise of any head. `own_seam`: its lips meet in a seam that its own units open, onto which
   /// the points of the inner lips are moved.
-  static BaseHead See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
-                      const std::string& name, bool own_seam);
+  static vm::Result<BaseHead> See(FaceNetworks& networks, std::unique_ptr<fsm::Head> head,
+                                  const std::string& name, bool own_seam);
 };
 
 }  // namespace facefit

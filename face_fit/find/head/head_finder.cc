@@ -15,6 +15,7 @@
 #include "face_fit/find/head/lip_seam.h"
 #include "face_fit/find/head/symmetry.h"
 #include "face_fit/picture/pixels.h"
+#include "vm_protocol/core/or_throw.h"
 
 namespace facefit {
 namespace {
@@ -100,15 +101,17 @@ class HeadPairer {
       : networks_(networks),
         file_(file),
         name_(std::move(name)),
-        base_(BaseHead::See(networks, face)),
+        base_(vm::OrThrow(BaseHead::See(networks, face))),
         own_seam_(Surface{base_, fsm::SkinTriangles(base_.head->topology()), false}.Seam()),
         own_eyes_(EyeVertices(base_.head->topology(), base_.rest.position.size())),
         inner_lips_(UpperInnerLip().begin(), UpperInnerLip().end()) {
     inner_lips_.insert(LowerInnerLip().begin(), LowerInnerLip().end());
   }
-  /// Throws std::runtime_error if no face is seen on the head as `to_ours` has it stand.
+  /// None if no face is seen on the head as `to_ours` has it stand.
   std::vector<fsm::PointPair> PairsAt(const fsm::Similarity& to_ours) {
-    const SeenHead seen = See(to_ours);
+    const auto looked = See(to_ours);
+    if (!looked) return {};
+    const SeenHead& seen = *looked;
     std::vector<MeshPoint> ours = base_.points, theirs = seen.head.points;
     OntoLidEdges({base_, own_eyes_}, ours, {seen.head, seen.eye}, theirs);
     const auto seam = Surface{seen.head, seen.skin_triangles, seen.has_uv_seams}.Seam();
@@ -130,7 +133,7 @@ class HeadPairer {
   }
 
  private:
-  SeenHead See(const fsm::Similarity& to_ours) {
+  std::optional<SeenHead> See(const fsm::Similarity& to_ours) {
     fsm::MeshModel model = fsm::ModelOf(file_, to_ours, fsm::kUsualMouthY);
     std::vector<std::uint32_t> skin_triangles = model.SkinTriangles();
     const bool has_uv_seams = model.has_uv_seams;
@@ -138,9 +141,9 @@ class HeadPairer {
     for (const fsm::Bone bone : model.bone) {
       eye.push_back(bone == fsm::Bone::kEyeRight || bone == fsm::Bone::kEyeLeft);
     }
-    auto head = fsm::MakeMeshHead(std::move(model));
-    return {BaseHead::See(networks_, std::move(head), name_, false), std::move(eye),
-            std::move(skin_triangles), has_uv_seams};
+    auto head = BaseHead::See(networks_, fsm::MakeMeshHead(std::move(model)), name_, false);
+    if (!head) return std::nullopt;
+    return SeenHead{std::move(*head), std::move(eye), std::move(skin_triangles), has_uv_seams};
   }
 
   FaceNetworks& networks_;
@@ -180,22 +183,19 @@ float DegreesBetween(const glm::mat3& a, const glm::mat3& b) {
 std::optional<Look> LookFrom(HeadPairer& pairer, const fsm::Similarity& guess, bool& face_seen) {
   constexpr float kStraight = 5;  // degrees
   constexpr float kMostOff = 12;  // millimetres
-  try {
-    auto first = pairer.PairsAt(guess);
-    face_seen = true;
-    LeaveOutStrays(first);
-    const fsm::Similarity stood = fsm::FitSimilarity(first);
-    Look look{pairer.PairsAt(stood), 0};
-    std::vector<fsm::PointPair> kept = look.pairs;
-    LeaveOutStrays(kept);
-    const fsm::Similarity fit = fsm::FitSimilarity(kept);
-    look.off_mm = MedianOff(fit, look.pairs);
-    look.pairs = std::move(kept);
-    if (DegreesBetween(fit.turn, stood.turn) > kStraight || look.off_mm > kMostOff) return {};
-    return look;
-  } catch (const std::runtime_error&) {
-    return {};  // nothing is seen from there
-  }
+  auto first = pairer.PairsAt(guess);
+  if (first.empty()) return std::nullopt;
+  face_seen = true;
+  LeaveOutStrays(first);
+  const fsm::Similarity stood = fsm::FitSimilarity(first);
+  const std::vector<fsm::PointPair> pairs = pairer.PairsAt(stood);
+  if (pairs.empty()) return std::nullopt;
+  std::vector<fsm::PointPair> kept = pairs;
+  LeaveOutStrays(kept);
+  const fsm::Similarity fit = fsm::FitSimilarity(kept);
+  const float off_mm = MedianOff(fit, pairs);
+  if (DegreesBetween(fit.turn, stood.turn) > kStraight || off_mm > kMostOff) return std::nullopt;
+  return Look{std::move(kept), off_mm};
 }
 
 }  // namespace

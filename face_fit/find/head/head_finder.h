@@ -9,7 +9,7 @@ namespace facefit {
 /// landmark network looks at both, and its points are followed back onto the meshes. The head may
 /// face z, -z, x or -x with y up, or -y with z up: all are tried, and the one is taken from which
 /// it looks most like ours. `face`: the built-in head of the pairs. Throws std::runtime_error if no
-/// face is seen from any side, or none from the front.
+/// face is seen from any side, or none from the front, or if the file is none of a head.
 fsm::HeadPoints FindHeadPoints(FaceNetworks& networks, const fsm::HeadFile& file,
                                const std::string& name, const std::string& face);
 

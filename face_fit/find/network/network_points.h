@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -7,7 +8,8 @@
 
 namespace facefit {
 
-/// A point of the landmark network, by its number in MediaPipe's face mesh.
+/// A point of the landmark network, by its number in MediaPipe's face mesh
+/// (mediapipe/modules/face_geometry/data/canonical_face_model_uv_visualization.png).
 using PointIndex = std::size_t;
 inline constexpr PointIndex kNetworkPoints = 468;
 inline constexpr PointIndex kNoPoint = kNetworkPoints;
@@ -25,6 +27,22 @@ inline constexpr PointIndex kEyeOuterRight = 33, kEyeOuterLeft = 263, kEyeInnerR
 inline constexpr PointIndex kMouthRight = 61, kMouthLeft = 291, kLipTop = 0, kLipBottom = 17,
                             kInnerMouthRight = 78, kInnerMouthLeft = 308, kInnerLipTop = 13,
                             kInnerLipBottom = 14;
+
+template <std::size_t n>
+using Group = std::array<PointIndex, n>;
+inline constexpr fsm::Sided<Group<3>> kCheeks{{50, 205, 187}, {280, 425, 411}},
+    kBrowInner{{107, 66, 55}, {336, 296, 285}}, kBrowOuter{{70, 63, 46}, {300, 293, 276}};
+/// Skin below an eye and beside it.
+inline constexpr fsm::Sided<Group<4>> kBelowEye{{119, 118, 117, 101}, {348, 347, 346, 330}};
+/// Along the fold of a smile, from the wing of the nose to beside the chin.
+inline constexpr fsm::Sided<Group<5>> kSmileFold{{129, 203, 206, 216, 212},
+                                                 {358, 423, 426, 436, 432}};
+/// Skin without hair on most faces: cheeks, forehead and chin.
+inline constexpr Group<7> kBareSkin{50, 280, 205, 425, 151, 9, 199};
+/// Points that neither speech nor brows nor lids move much: the nose's bridge, both corners of both
+/// eyes, temples, the sides of the face above the jaw.
+inline constexpr Group<20> kStill{168, 6,   197, 195, 33,  133, 362, 263, 127, 356,
+                                  234, 454, 162, 389, 139, 368, 34,  264, 143, 372};
 }  // namespace point
 
 std::span<const PointIndex> FitPoints();      ///< those the fit uses
