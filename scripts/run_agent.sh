@@ -11,6 +11,8 @@ usage: scripts/run_agent.sh [options]
                      a strength in % may follow: --emotion "HAPPY 60"
   --chat             talk with the agent, typed at the terminal: it answers by rules, offline (docs/chat.md).
                      With --out a film is made of it, with the user's part from --script FILE, a line a turn
+  --web [PORT]       talk with the agent in a browser, with its voice there: opens the page, and prints its address
+                     (docs/configuration.md, The page). With --dialog the dialogue is held there. Port 8080 without one
   --model-url URL    with --chat: a language model answers, asked at URL (any OpenAI-compatible endpoint)
   --model NAME       its name there
   --key-file FILE    its key: the first line of a file only you can read
@@ -34,7 +36,7 @@ TEXT
 }
 
 root=$(cd "$(dirname "$0")/.." && pwd)
-photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" model_url="" model="" key_file=""
+photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" web="" model_url="" model="" key_file=""
 fail() {
   echo "run_agent: $1" >&2
   exit 2
@@ -60,6 +62,11 @@ while [ $# -gt 0 ]; do
       shift 2
       ;;
     --chat) chat=1; shift ;;
+    --web)
+      web=8080
+      if [[ ${2:-} =~ ^[0-9]+$ ]]; then web=$2; shift; fi
+      shift
+      ;;
     --stub) voice=ssm_stub; shift ;;
     --subtitles) subtitles=1; shift ;;
     --help | -h) usage; exit 0 ;;
@@ -84,6 +91,8 @@ case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in 
 [ -z "$model_url" ] || [ -n "$model" ] || fail "--model-url needs --model"
 [ -z "$script" ] || [ -n "$dialog$chat" ] || fail "--script needs --dialog or --chat"
 [ -z "$chat" ] || [ -n "$script" ] || [ -z "$out" ] || fail "--out with --chat needs the user's part: --script FILE"
+[ -z "$web" ] || [ -z "$say$heard$out$script" ] || fail "--web excludes --say, --voice, --out and --script"
+[ -z "$web" ] || [ "$web" -le 65535 ] || fail "--web '$web': expected a port, up to 65535"
 if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--subtitles needs --dialog and --out"; fi
 [ -z "$heard" ] || [ -z "$say$dialog" ] || fail "--voice excludes --say and --dialog"
 [ -z "$heard" ] || [ "$heard" = mic ] || [ -r "$heard" ] || fail "--voice: cannot read '$heard'"
@@ -169,6 +178,14 @@ if [ -z "$config" ]; then
   if [ -n "$chat" ] && [ -n "$film" ]; then
     sed -i -e '0,/{/s#{#{"clock": "virtual",#' -e 's#"--sink", "auto"#"--sink", "null"#' -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
   fi
+  # In a browser the face needs no window, and the voice would sound twice.
+  if [ -n "$web" ]; then
+    sed -i -e 's#"--sink", "auto"#"--sink", "null"#' -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
+    # The ear that takes sound, where it has a model.
+    if echo "set Listen = START" | timeout 30 "$root/build/bin/srm" --strict >/dev/null 2>&1; then
+      sed -i -e 's#\["build/bin/srm_stub"#["build/bin/srm", "--live"#' "$config"
+    fi
+  fi
   if [ -n "$model_url" ]; then
     python3 -c 'import json, sys; json.dump(dict(zip(sys.argv[1::2], sys.argv[2::2])), sys.stdout)' \
       url "$model_url" model "$model" ${key_file:+key_file "$key_file"} >"$work/chat.json"
@@ -177,7 +194,7 @@ if [ -z "$config" ]; then
   if [ "$voice" = ssm_stub ]; then
     sed -i -e 's#\["build/bin/ssm"[^]]*\]#["build/bin/ssm_stub"]#' "$config"
   fi
-  if [ -z "$film" ] && ! has_display; then
+  if [ -z "$film$web" ] && ! has_display; then
     sed -i -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
   fi
   [ -z "$photo" ] || sed -i -e 's#\["build/bin/fsm"#["build/bin/fsm", "--mask", "photo"#' "$config"
@@ -271,11 +288,24 @@ fi
 
 # A conversation or a dialogue: the hub in the background, what the user types at as one of its clients.
 printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"role\": \"owner\"}],#" "$config")" >"$work/dialogue.json"
-"$hub_program" --config "$work/dialogue.json" --no-console 2>"$work/hub.log" &
+echo "to @FSM set FaceExp.onset = NATURAL" >"$work/first"
+"$hub_program" --config "$work/dialogue.json" --no-console --do "$work/first" ${web:+--web "$web" --web-role owner} 2>"$work/hub.log" &
 hub=$!
 for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
 [ -S "$work/hub" ] || { cat "$work/hub.log" >&2; fail "the hub did not start"; }
-[ -n "$out" ] || has_display || echo "run_agent: no display, so no window; --out FILE.mp4 makes films" >&2
+if [ -n "$web" ]; then
+  address=$(grep -o 'http://[^ ]*' "$work/hub.log" | head -n 1)
+  echo "run_agent: talk with it at $address"
+  [ -n "$dialog" ] || echo "run_agent: ^C ends it"
+  if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && command -v xdg-open >/dev/null; then
+    xdg-open "$address" >/dev/null 2>&1 </dev/null || true
+  fi
+  if [ -z "$dialog" ]; then
+    wait "$hub" || { cat "$work/hub.log" >&2; exit 1; }
+    exit 0
+  fi
+fi
+[ -n "$out$web" ] || has_display || echo "run_agent: no display, so no window; --out FILE.mp4 makes films" >&2
 if [ -n "$dialog" ]; then
   options=()
   [ -z "$script" ] || options+=(--script "$script" --transcript text)

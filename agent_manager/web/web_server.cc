@@ -11,15 +11,26 @@
 #include <stdexcept>
 #include <utility>
 
+#include "agent_manager/web/page_token.h"
 #include "agent_manager/web/web_impl.h"
 #include "embedded/page_app_js.h"
+#include "embedded/page_conversation_js.h"
+#include "embedded/page_engineer_js.h"
+#include "embedded/page_favicon_svg.h"
 #include "embedded/page_galatea_js.h"
 #include "embedded/page_index_html.h"
+#include "embedded/page_listening_js.h"
 #include "embedded/page_microphone_js.h"
 #include "embedded/page_microphone_worklet_js.h"
 #include "embedded/page_module_html.h"
 #include "embedded/page_module_js.h"
+#include "embedded/page_pickers_js.h"
+#include "embedded/page_playback_js.h"
+#include "embedded/page_presence_js.h"
+#include "embedded/page_slot_groups_js.h"
 #include "embedded/page_style_css.h"
+#include "embedded/page_texts_js.h"
+#include "embedded/page_timing_js.h"
 #include "vm_protocol/runtime/credentials.h"
 #include "vm_protocol/runtime/endpoint.h"
 
@@ -48,19 +59,30 @@ struct File {
   string_view path, type;
   string_view (*content)();
 };
+constexpr string_view kHtml = "text/html; charset=utf-8",
+                      kScript = "text/javascript; charset=utf-8";
 /// Every file of the page. Nothing is read from the disk, so no path can leave this table.
-const std::array<File, 9>& Files() {
-  static const std::array<File, 9> files{{
-      {"/", "text/html; charset=utf-8", embedded::page_index_html},
-      {"/index.html", "text/html; charset=utf-8", embedded::page_index_html},
-      {"/module.html", "text/html; charset=utf-8", embedded::page_module_html},
-      {"/module.js", "text/javascript; charset=utf-8", embedded::page_module_js},
-      {"/galatea.js", "text/javascript; charset=utf-8", embedded::page_galatea_js},
-      {"/microphone.js", "text/javascript; charset=utf-8", embedded::page_microphone_js},
-      {"/microphone_worklet.js", "text/javascript; charset=utf-8",
-       embedded::page_microphone_worklet_js},
-      {"/app.js", "text/javascript; charset=utf-8", embedded::page_app_js},
+const std::array<File, 19>& Files() {
+  static const std::array<File, 19> files{{
+      {"/", kHtml, embedded::page_index_html},
+      {"/app.js", kScript, embedded::page_app_js},
+      {"/conversation.js", kScript, embedded::page_conversation_js},
+      {"/engineer.js", kScript, embedded::page_engineer_js},
+      {"/favicon.svg", "image/svg+xml", embedded::page_favicon_svg},
+      {"/galatea.js", kScript, embedded::page_galatea_js},
+      {"/index.html", kHtml, embedded::page_index_html},
+      {"/listening.js", kScript, embedded::page_listening_js},
+      {"/microphone.js", kScript, embedded::page_microphone_js},
+      {"/microphone_worklet.js", kScript, embedded::page_microphone_worklet_js},
+      {"/module.html", kHtml, embedded::page_module_html},
+      {"/module.js", kScript, embedded::page_module_js},
+      {"/pickers.js", kScript, embedded::page_pickers_js},
+      {"/playback.js", kScript, embedded::page_playback_js},
+      {"/presence.js", kScript, embedded::page_presence_js},
+      {"/slot_groups.js", kScript, embedded::page_slot_groups_js},
       {"/style.css", "text/css; charset=utf-8", embedded::page_style_css},
+      {"/texts.js", kScript, embedded::page_texts_js},
+      {"/timing.js", kScript, embedded::page_timing_js},
   }};
   return files;
 }
@@ -302,13 +324,16 @@ WebServer::WebServer(const vm::Scheduler& clock, asio::io_context& io, const Web
   const auto token = vm::ReadToken(credentials);
   if (!token) throw std::runtime_error(token.error().text);
   impl_->role = config.role;
-  impl_->token = token->empty() ? vm::MakeNonce() : *token;
   impl_->metrics = std::move(metrics);
   impl_->on_refusal = std::move(on_refusal);
   impl_->video = std::make_unique<FaceVideo>(clock, io, hub);
   impl_->voice = std::make_unique<VoiceSound>(io, hub);
   const auto endpoint = vm::ParseEndpoint(config.at);
   if (!endpoint) throw std::runtime_error(endpoint.error().text);
+  // A port that the system chooses is another one next time.
+  impl_->token = !token->empty()       ? *token
+                 : endpoint->port == 0 ? vm::MakeNonce()
+                                       : KeptToken(endpoint->port);
   try {
     const asio::ip::tcp::endpoint at(
         asio::ip::make_address(endpoint->host == "localhost" ? "127.0.0.1" : endpoint->host),

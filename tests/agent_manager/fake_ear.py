@@ -11,7 +11,7 @@ import select
 import socket
 import sys
 
-slots = {"Run": "LIVE", "Input": "NONE", "Listen": "STOP", "Clock.busy": "IDLE"}
+slots = {"Run": "LIVE", "Input": "NONE", "Listen": "STOP", "Listen.stat": "OFF", "Slots": "Input Listen", "Clock.busy": "IDLE"}
 listener, talkers, sound, rate = None, [], array.array("h"), 16000
 
 

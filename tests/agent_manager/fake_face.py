@@ -20,7 +20,8 @@ def write_frames(path):
 
 
 recording_changed = threading.Event()
-values = {"Window": f"{WIDTH} {HEIGHT}", "Record": "STOP", "Record.fps": "30", "Run": "LIVE", "Frames": "ON"}
+values = {"Window": f"{WIDTH} {HEIGHT}", "Record": "STOP", "Record.fps": "30", "Run": "LIVE", "Frames": "ON",
+          "MaskSet": "galatea,pygmalion", "NowMask": "galatea"}
 for line in sys.stdin:
     words = line.rstrip("\n").split(" ", 3)
     command, _, tag = words[0].partition("#")
@@ -32,6 +33,9 @@ for line in sys.stdin:
         break
     if command == "set":
         values[slot] = value
+        if slot == "Mask":
+            values["NowMask"] = value
+            print("tell wears " + value, flush=True)
         if slot == "Record" and value != "STOP":
             recording.set()
             threading.Thread(target=write_frames, args=(value,), daemon=True).start()

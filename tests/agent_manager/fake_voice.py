@@ -1,6 +1,7 @@
 """A voice with no words: connects to where Sound.to says and sends there what `Say` says, byte for byte.
 
-Sound.to (unix:PATH or NONE), Say (text with the escapes of Python), Clock.
+Sound.to (unix:PATH or NONE), Say (text with the escapes of Python), Tell (a line it says to the hub), Clock, Sink,
+Speaker and Speaker.all.
 """
 import codecs
 import re
@@ -8,6 +9,7 @@ import socket
 import sys
 
 to, connection = "NONE", None
+values = {"Clock": "0", "Sink": "null", "Speaker": "anna", "Speaker.all": "anna ben"}
 for line in sys.stdin:
     found = re.match(r"(set|inq|prop)(#\S+)? (\S+)(?: = (.*))?$", line.rstrip("\n"))
     if not found:
@@ -15,8 +17,13 @@ for line in sys.stdin:
     command, tag, slot, value = found[1], found[2] or "", found[3], found[4] or ""
     if slot == "Run" and value == "EXIT":
         break
-    if slot == "Clock":
-        value = "0"
+    if slot == "Speaker" and command == "set":
+        values[slot] = value
+        print("tell speaks as " + value, flush=True)
+    if slot in values:
+        value = values[slot]
+    elif slot == "Tell":
+        print(value, flush=True)
     elif slot == "Sound.to" and command == "set":
         if connection:
             connection.close()

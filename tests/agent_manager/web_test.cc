@@ -1,7 +1,11 @@
 // The hub's page: what it shows to those who may see it, and what others get.
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -22,14 +26,16 @@ class WebTest : public testing::Test {
     const std::string token = folder_ / "token", config = folder_ / "config.json";
     std::ofstream(token) << kToken << "\n";
     chmod(token.c_str(), 0600);
-    std::ofstream(config)
-        << "{\"web\": {\"at\": \"tcp:127.0.0.1:0\", \"role\": \"owner\", \"token_file\": \""
-        << token << "\"}, \"modules\": [{\"name\": \"FSM\", \"command\": [\"python3\", \""
-        << GALATEA_SOURCE_DIR
+    std::ofstream(config) << "{\"listen\": [{\"at\": \"unix:" << folder_ / "hub"
+                          << "\", \"role\": \"owner\"}], \"web\": {\"at\": \"tcp:127.0.0.1:0\", "
+                             "\"role\": \"owner\", \"token_file\": \""
+                          << token
+                          << "\"}, \"modules\": [{\"name\": \"FSM\", \"command\": [\"python3\", \""
+                          << GALATEA_SOURCE_DIR
         "/tests/agent_manager/fake_face.py\"]}, {\"name\": \"SRM\", \"command\": [\"python3\", \""
-        << GALATEA_SOURCE_DIR
+                          << GALATEA_SOURCE_DIR
         "/tests/agent_manager/fake_ear.py\"]}, {\"name\": \"SSM\", \"command\": [\"python3\", \""
-        << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_voice.py\"]}]}";
+                          << GALATEA_SOURCE_DIR "/tests/agent_manager/fake_voice.py\"]}]}";
     hub_ = std::make_unique<Process>(std::vector<std::string>{kHub, "--config", config});
     EXPECT_TRUE(hub_->ExpectError("/?token=")) << hub_->ErrorText();
     const std::string text = hub_->ErrorText();
@@ -310,33 +316,192 @@ TEST_F(WebTest, WhatABrowsersMicrophoneHearsTheEarUnderstands) {
   EXPECT_TRUE(hub_->Expect("From @PAGE rep Result = ")) << "what it hears is its Result";
 }
 
-/// A whole browser, where there is one, does what a new user would.
-TEST_F(WebTest, ABrowserShowsThePageAndWorksIt) {
-  const char* const browser = Chromium();
-  if (browser == nullptr)
-    GTEST_SKIP() << "no chromium here (Debian package chromium-headless-shell or chromium)";
-  const std::string address = "http://" + host_ + "/";
-  Process page({"python3", GALATEA_SOURCE_DIR "/tests/support/browse.py", browser,
-                folder_ / "profile", address + "?token=" + kToken,
-                "wait:document.querySelector('#link.on')",
-                "wait:document.querySelector('#modules td.READY')",
-                "wait:document.querySelector('#face').naturalWidth === 16",
-                "wait:[...document.querySelectorAll('#whose option')].some(o => o.value == 'FSM')",
-                "do:document.querySelector('#text').value = 'to @CONSOLE set Seen = 5'; "
-                "document.querySelector('#speak button').click()",
-                "wait:document.querySelector('#flow').textContent.includes('set#u')",
-                "do:[...document.querySelectorAll('#modules button')][2].click()",
-                "wait:document.querySelector('#answer').textContent == 'READY'",
-                "wait:document.querySelector('#modules .why').textContent.includes('ended with')",
-                "print:location.href", "picture:" + (folder_ / "page.png"),
-                "do:location.href = 'module.html'",
-                "wait:document.querySelector('#flow').textContent.includes('inq Clock')",
-                "print:document.title"});
-  EXPECT_EQ(page.Wait(support::Millis(120000)), 0) << page.ErrorText() << hub_->ErrorText();
-  EXPECT_EQ(page.ReadLine(), address) << "the token has left the address";
-  EXPECT_EQ(page.ReadLine(), "A page as a module of Galatea");
+/// A port nobody listens at now.
+unsigned short FreePort() {
+  const int probe = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  ::bind(probe, reinterpret_cast<const sockaddr*>(&address), size);
+  ::getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size);
+  ::close(probe);
+  return ntohs(address.sin_port);
+}
+
+/// A hub whose page has no token of the configuration's.
+struct PlainHub {
+  PlainHub(const std::string& state, unsigned short port)
+      : hub({kHub, "--web", std::to_string(port)},
+            {.cwd = "", .env = {"XDG_STATE_HOME=" + state}}) {
+    EXPECT_TRUE(hub.ExpectError("/?token=")) << hub.ErrorText();
+    const std::string text = hub.ErrorText();
+    address = text.substr(text.find("http://"));
+    address = address.substr(0, address.find_first_of("\n "));
+  }
+  Process hub;
+  std::string address;
+};
+
+TEST(WebTokenTest, OneThatNobodyHasSetStaysTheSameForAPortAndIsReadableByTheUserAlone) {
+  const support::TempDir state;
+  const unsigned short port = FreePort();
+  const auto address = [&](const std::string& at) { return PlainHub(at, port).address; };
+  const std::string file = state / ("galatea/page_token_" + std::to_string(port));
+  const auto first = address(state / "");
+  EXPECT_EQ(address(state / ""), first);
+  struct stat info {};
+  ASSERT_EQ(stat(file.c_str(), &info), 0) << file;
+  EXPECT_EQ(info.st_mode & 0777, 0600U);
+  chmod(file.c_str(), 0644);
+  const auto second = address(state / "");
+  EXPECT_NE(second, first) << "others may have read it";
+  ASSERT_EQ(stat(file.c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0600U);
+  std::ofstream(file) << "short\n";
+  EXPECT_EQ(address(state / "").size(), first.size());
+  EXPECT_NE(address("/dev/null"), address("/dev/null"))
+      << "where none can be kept there is one all the same";
+}
+
+class WebPageTest : public WebTest {
+ protected:
+  void SetUp() override {
+    if (Chromium() == nullptr)
+      GTEST_SKIP() << "no chromium here (Debian package chromium-headless-shell or chromium)";
+  }
+  /// A browser that shows the page and takes these steps (tests/support/browse.py).
+  std::unique_ptr<Process> Browse(std::vector<std::string> steps) {
+    std::vector<std::string> command{"python3",
+                                     GALATEA_SOURCE_DIR "/tests/support/browse.py",
+                                     Chromium(),
+                                     folder_ / "profile",
+                                     Address() + "?token=" + kToken,
+                                     "--autoplay-policy=no-user-gesture-required",
+                                     "--lang=en",
+                                     "wait:document.querySelector('#link.on')"};
+    command.insert(command.end(), steps.begin(), steps.end());
+    return std::make_unique<Process>(command);
+  }
+  std::string Address() const { return "http://" + host_ + "/"; }
+  static std::string Type(const std::string& words) {
+    return "do:document.querySelector('#text').value = '" + words +
+           "'; document.querySelector('#speak button').click()";
+  }
+  static std::string Choose(const std::string& picker, const std::string& value) {
+    return "do:document.querySelector('#pick-" + picker + "').value = '" + value +
+           "'; document.querySelector('#pick-" + picker + "').onchange()";
+  }
+  static std::string Tell(const std::string& text) {
+    return "do:galatea.hub.send('to @CONSOLE tell " + text + "')";
+  }
+};
+
+/// The engineer's view.
+TEST_F(WebPageTest, AnEngineerSeesModulesSlotsAndMessages) {
+  const auto page = Browse(
+      {"do:document.querySelector('#engineer-tab').click()",
+       "wait:document.querySelector('#modules td.READY')",
+       "wait:[...document.querySelectorAll('#whose option')].some(o => o.value == 'FSM')",
+       "do:document.querySelector('#line').value = 'to @CONSOLE set Seen = 5'; "
+       "document.querySelector('#line-form button').click()",
+       "wait:document.querySelector('#flow').textContent.includes('set#u')",
+       "do:document.querySelector('[aria-label=\"Restart FSM\"]').click()",
+       "wait:document.querySelector('#answer').textContent == 'READY'",
+       "wait:document.querySelector('#modules .why').textContent.includes('ended with')",
+       "do:document.querySelector('#whose').value = 'AM'; "
+       "document.querySelector('#whose').onchange()",
+       "wait:[...document.querySelectorAll('#slots summary')].some(s => "
+       "s.textContent.startsWith('the hub'))",
+       "do:document.querySelector('#slot-filter').value = 'protocolv'; "
+       "document.querySelector('#slot-filter').oninput()",
+       "wait:document.querySelector('#slots details[open] [aria-label=ProtocolVersion]')"
+       ".value.includes('1.0')",
+       "print:[...document.querySelectorAll('#slots tr')].filter(r => r.checkVisibility()).length",
+       "print:location.href", "picture:" + (folder_ / "page.png"),
+       "do:location.href = 'module.html'",
+       "wait:document.querySelector('#flow').textContent.includes('inq Clock')",
+       "print:document.title"});
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "1") << "of all slots the filter shows one";
+  EXPECT_EQ(page->ReadLine(), Address()) << "the token has left the address";
+  EXPECT_EQ(page->ReadLine(), "A page as a module of Galatea");
   EXPECT_TRUE(hub_->Expect("Seen = 5")) << "what was typed arrived";
   EXPECT_TRUE(hub_->Expect("From @PAGE rep Run = LIVE")) << "the other page is a module";
+}
+
+TEST_F(WebPageTest, ATypedLineGoesToWhoAnswersAndTheLogHasWhatBothSay) {
+  const auto page =
+      Browse({"wait:document.querySelector('#way').dataset.text == 'way_voice'", Tell("alone"),
+              "wait:document.querySelector('#way').dataset.text == 'way_chat'", Type("Hello there"),
+              "wait:document.querySelector('#status').textContent == 'thinking …'",
+              "wait:document.querySelector('#subtitle').textContent == 'Good day.'",
+              "print:document.querySelector('#log').innerText.replace(/\\s+/g, ' ')",
+              "do:document.querySelector('#hush').click()",
+              "wait:document.querySelector('#log').innerText.includes('interrupted')",
+              "wait:document.querySelector('#subtitle').textContent == ''"});
+  ASSERT_TRUE(hub_->Expect("tell alone")) << page->ErrorText();
+  const auto chat = SocketClient::Unix(folder_ / "hub");
+  chat->WriteLine("to @AM set Name = CHAT");
+  chat->WriteLine("rep Run = LIVE");
+  ASSERT_TRUE(chat->Expect("inq Listen")) << page->ErrorText();
+  chat->WriteLine("rep Listen = ON");
+  EXPECT_TRUE(chat->Expect("Input.text = Hello there")) << page->ErrorText() << chat->Seen();
+  chat->WriteLine("rep Heard = Hello there");
+  chat->WriteLine("rep Busy = THINKING");
+  for (const char* line :
+       {"rep Speak.text = Good day.", "rep Speak.dur = 900", "rep Speak.stat = SPEAKING"})
+    chat->WriteLine("to @SSM set Tell = " + std::string(line));
+  ASSERT_TRUE(chat->Expect("Say = STOP")) << page->ErrorText();
+  for (const char* line : {"rep Speak.len = 400", "rep Speak.stat = IDLE"})
+    chat->WriteLine("to @SSM set Tell = " + std::string(line));
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "You Hello there Galatea Good day.");
+}
+
+TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
+  const auto page = Browse(
+      {"wait:document.querySelector('#face').width === 16 && "
+       "!document.querySelector('#stage.off')",
+       "wait:document.querySelector('#pick-face').value == 'galatea'",
+       "wait:document.querySelector('#pick-voice').value == 'anna'", Choose("face", "pygmalion"),
+       Choose("voice", "ben"), Tell("chosen"), "wait:document.querySelector('#stage.off')",
+       "wait:document.querySelector('#face-off').textContent.startsWith('No face: ')",
+       Tell("seen to go"), "wait:!document.querySelector('#stage.off')",
+       "wait:!document.querySelector('#pick-face').disabled",
+       "wait:document.querySelector('#pick-voice').disabled",
+       "wait:!document.querySelector('#pick-voice').disabled",
+       "print:document.querySelector('#pick-face').value"});
+  ASSERT_TRUE(hub_->Expect("tell wears pygmalion")) << page->ErrorText();
+  ASSERT_TRUE(hub_->Expect("tell speaks as ben"));
+  ASSERT_TRUE(hub_->Expect("tell chosen"));
+  hub_->WriteLine("set Stop = FSM");
+  ASSERT_TRUE(hub_->Expect("tell seen to go")) << page->ErrorText();
+  hub_->WriteLine("set Start = FSM");
+  EXPECT_TRUE(hub_->Expect("tell wears pygmalion")) << "again";
+  hub_->WriteLine("set Restart = SSM");
+  EXPECT_TRUE(hub_->Expect("tell speaks as ben")) << "again";
+  EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
+  EXPECT_EQ(page->ReadLine(), "pygmalion");
+}
+
+TEST_F(WebPageTest, AnOpenPageGoesOnWhenTheHubHasBeenStartedAnew) {
+  const support::TempDir state;
+  const unsigned short port = FreePort();
+  auto first = std::make_unique<PlainHub>(state / "", port);
+  Process page(
+      {"python3", GALATEA_SOURCE_DIR "/tests/support/browse.py", Chromium(), folder_ / "profile",
+       first->address, "--lang=en", "wait:document.querySelector('#link.on')",
+       "do:galatea.hub.send('to @CONSOLE tell there')", "wait:document.querySelector('#link.off')",
+       "wait:document.querySelector('#link.on')", "wait:galatea.clock.known",
+       "do:galatea.hub.send('to @CONSOLE tell there again')",
+       "print:document.querySelector('#link').textContent"});
+  ASSERT_TRUE(first->hub.Expect("tell there")) << page.ErrorText();
+  first.reset();
+  PlainHub second(state / "", port);
+  EXPECT_TRUE(second.hub.Expect("tell there again")) << page.ErrorText();
+  EXPECT_EQ(page.Wait(support::Millis(60000)), 0) << page.ErrorText();
+  EXPECT_EQ(page.ReadLine(), "connected");
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 """Drives a headless Chromium: browse.py BROWSER PROFILE URL STEP...
 
 A step is  wait:EXPRESSION  (until it is true in the page, at most 30 s),  do:EXPRESSION,
-print:EXPRESSION,  picture:FILE.png,  or  --FLAG  for the browser.  Ends with 1 and a sentence if a wait runs out.
+print:EXPRESSION,  picture:FILE.png,  size:WIDTHxHEIGHT,  scheme:light or dark,  script:FILE.js,  press:KEY  or
+--FLAG  for the browser.  Ends with 1 and a sentence if a wait runs out.
 Speaks the DevTools protocol over the browser's pipe: JSON texts ended by a zero byte.
 """
 import base64
@@ -87,6 +88,18 @@ def main():
                 browser.evaluate(text)
             elif kind == "print":
                 print(browser.evaluate(text))
+            elif kind == "size":
+                width, height = map(int, text.split("x"))
+                browser.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
+                             mobile=width < 600)
+            elif kind == "scheme":
+                browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": text}])
+            elif kind == "script":
+                with open(text, encoding="utf-8") as file:
+                    browser.evaluate(file.read())
+            elif kind == "press":
+                for type in ("keyDown", "keyUp"):
+                    browser.call("Input.dispatchKeyEvent", type=type, key=text, code=text)
             elif kind == "picture":
                 shot = browser.call("Page.captureScreenshot", format="png")
                 with open(text, "wb") as file:

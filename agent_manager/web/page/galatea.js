@@ -1,8 +1,6 @@
 // The protocol in a page: one WebSocket, one line a message. A page is a client like any other, or,
 // with a name and slots of its own, a module.
-'use strict';
-
-class Galatea {
+export class Galatea {
   constructor() {
     this.pending = new Map();
     this.last = 0;
@@ -10,6 +8,7 @@ class Galatea {
     this.onFlow = () => {};
     this.onState = () => {};
     this.onCommand = () => {};
+    this.onRefused = () => {};
     this.connect();
   }
 
@@ -22,12 +21,21 @@ class Galatea {
       for (const {reject} of this.pending.values()) reject(new Error('the hub has gone'));
       this.pending.clear();
       this.onState(false);
+      this.lookWhy();
       setTimeout(() => this.connect(), 1000);
     };
   }
 
+  get on() { return this.socket.readyState === WebSocket.OPEN; }
+
+  // A browser does not tell a page why its WebSocket was refused; a request for a small file of the page does.
+  lookWhy() {
+    fetch('favicon.svg', {cache: 'no-store'}).then(
+        answer => { if (!answer.ok) this.onRefused(answer.status); }, () => {});
+  }
+
   send(line) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(line);
+    if (this.on) this.socket.send(line);
   }
 
   // A line without a tag: "to @SSM inq Speaker". Resolves to the value, rejects with the refusal.
@@ -36,6 +44,7 @@ class Galatea {
     const tag = `${who}${++this.last}`;
     const words = line.trim().match(/^((?:to\s+\S+\s+)?)([a-z]+)(\s.*)?$/i);
     if (!words) return Promise.reject(new Error('that is no line of the protocol'));
+    if (!this.on) return Promise.reject(new Error('the hub is away'));
     return new Promise((resolve, reject) => {
       this.pending.set(tag, {resolve, reject});
       this.send(`${words[1]}${words[2]}#${tag}${words[3] || ''}`);

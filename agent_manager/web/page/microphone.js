@@ -1,11 +1,11 @@
 // The browser's microphone as the input of the ear, @SRM. Nothing is recognised elsewhere: the
 // samples go to the hub, and what was said comes back as the ear's Result.
-'use strict';
-
-class Microphone {
-  // onEnd is told why it has ended; '' when it was asked to.
-  constructor(onEnd = () => {}) {
+export class Microphone {
+  // onEnd is told why it has ended; '' when it was asked to. onLevel is told the loudest sample, 0 to 32767, of each
+  // tenth of a second.
+  constructor(onEnd = () => {}, onLevel = () => {}) {
     this.onEnd = onEnd;
+    this.onLevel = onLevel;
   }
   get on() { return Boolean(this.stream); }
 
@@ -26,6 +26,7 @@ class Microphone {
       this.socket.onclose = event => this.end(event.reason || 'the hub has gone');
       const worklet = new AudioWorkletNode(this.context, 'samples', {numberOfOutputs: 0});
       worklet.port.onmessage = event => {
+        this.onLevel(new Int16Array(event.data).reduce((most, sample) => Math.max(most, Math.abs(sample)), 0));
         if (this.socket && this.socket.bufferedAmount < 64000) this.socket.send(event.data);
       };
       this.context.createMediaStreamSource(this.stream).connect(worklet);

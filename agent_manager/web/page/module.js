@@ -1,6 +1,8 @@
-'use strict';
 // A module is whoever says `rep Run = LIVE` under a name and answers to its slots: Listen hands the
 // browser's microphone to the ear, Result reports what the ear has understood.
+import {Galatea} from './galatea.js';
+import {Microphone} from './microphone.js';
+
 const hub = new Galatea();
 const $ = id => document.getElementById(id);
 const slots = {Run: 'LIVE', Listen: 'OFF', Result: ''};

@@ -1,0 +1,137 @@
+// What both say: the log, the subtitles, the line to type in, the button that stops the agent.
+import {element, put, text} from './texts.js';
+
+const kMostLines = 300;
+const kSameMs = 20000;  // within which what was typed is heard
+
+export class Conversation {
+  // `nodes`: log, subtitle, status, form, input, stop, way.
+  constructor(hub, presence, nodes, {voice, delay}) {
+    Object.assign(this, {hub, presence, nodes, voice, delay});
+    this.sentence = '';     // what the voice has prepared
+    this.speaking = null;   // its line in the log
+    this.listening = false; // the ear
+    this.chat_listens = true;
+    this.typed = [];        // [when, text] of what is in the log already
+    nodes.form.onsubmit = event => {
+      event.preventDefault();
+      this.send();
+    };
+    nodes.stop.onclick = () => this.stop();
+    document.addEventListener('keydown', event => {
+      if (event.key === 'Escape' && !document.fullscreenElement && !nodes.form.closest('[hidden]')) this.stop();
+    });
+    this.showWay();
+  }
+
+  add(who, words) {
+    const at_end = who === 'you' || this.nodes.log.scrollHeight - this.nodes.log.scrollTop - this.nodes.log.clientHeight < 60;
+    const line = element('p', {className: who});
+    if (who !== 'note') {
+      const name = element('b');
+      put(name, who);
+      line.append(name, ' ');
+    }
+    line.append(element('span', {textContent: words}));
+    this.nodes.log.append(line);
+    while (this.nodes.log.childElementCount > kMostLines) this.nodes.log.firstChild.remove();
+    if (at_end) this.nodes.log.scrollTop = this.nodes.log.scrollHeight;
+    return line;
+  }
+
+  // ---- what is said to the agent
+  get way() {
+    if (this.presence.has('CHAT') && this.chat_listens) return 'chat';
+    if (this.presence.has('SRM') && this.listening) return 'ear';
+    if (this.presence.has('CHAT')) return 'chat';
+    return this.presence.has('SSM') ? 'voice' : 'none';
+  }
+  showWay() {
+    const {input, way} = this.nodes;
+    input.dataset.hint = `hint_${this.way}`;
+    input.placeholder = text(input.dataset.hint);
+    put(way, `way_${this.way}`);
+  }
+  send() {
+    const words = this.nodes.input.value.trim();
+    if (!words) return;
+    this.voice.allow();
+    const line = {chat: 'to @CHAT set Input.text', ear: 'to @SRM set Input.text', voice: 'to @AM-MCL set Speak'}[this.way];
+    if (!line || !this.hub.on) return this.fail(text(this.hub.on ? 'way_none' : 'away'));
+    if (this.way !== 'voice') this.hearUser(words);
+    this.nodes.input.value = '';
+    // Chat answers when the reply is over; that it was stopped is no failure.
+    this.hub.ask(`${line} = ${words}`, 'u').catch(error => {
+      if (!error.message.startsWith('STOPPED')) this.fail(error.message);
+    });
+  }
+  stop() {
+    this.voice.stop();
+    if (this.presence.has('CHAT')) this.hub.ask('to @CHAT set Say = STOP', 'u').catch(() => {});
+    this.hub.ask('to @AM-MCL set Speak = STOP', 'u').catch(() => {});
+  }
+  hearUser(words) {
+    const now = performance.now();
+    this.typed = this.typed.filter(([when]) => now - when < kSameMs);
+    this.typed.push([now, words]);
+    this.add('you', words);
+  }
+  fail(why) { this.add('note', why); }
+
+  // ---- what the modules report
+  hear({from, slot, value}) {
+    if (from === 'SSM') this.hearVoice(slot, value);
+    if (from === 'SRM' && slot === 'Listen.stat') {
+      this.listening = value !== 'OFF';
+      this.showWay();
+    }
+    if ((from === 'SRM' && slot === 'Result') || (from === 'CHAT' && slot === 'Heard')) this.hearOnce(value);
+    if (from !== 'CHAT') return;
+    if (slot === 'Busy') value === 'THINKING' ? put(this.nodes.status, 'thinking') : this.nodes.status.replaceChildren();
+    if (slot === 'Model.error') this.fail(text('model_error', {why: value}));
+    if (slot === 'Listen') {
+      this.chat_listens = value === 'ON';
+      this.showWay();
+    }
+  }
+  // What was typed here comes back as heard, from the ear and from the module that answers.
+  hearOnce(words) {
+    const now = performance.now();
+    if (this.typed.some(([when, same]) => same === words && now - when < kSameMs)) return;
+    this.hearUser(words);
+  }
+  hearVoice(slot, value) {
+    if (slot === 'Speak.text') this.sentence = value;
+    if (slot === 'Speak.dur') this.length_ms = Number(value);
+    if (slot === 'Speak.len' && this.speaking && Number(value) < this.length_ms - 1) {
+      const mark = element('i');
+      put(mark, 'interrupted');
+      this.speaking.append(' ', mark);
+    }
+    if (slot !== 'Speak.stat') return;
+    const sentence = value === 'SPEAKING' ? this.sentence : '';
+    if (sentence && !this.speaking) this.speaking = this.add('agent', sentence);
+    if (value === 'IDLE') this.speaking = null;
+    // As late as the voice is heard.
+    if (value === 'SPEAKING' || value === 'IDLE')
+      setTimeout(() => { this.nodes.subtitle.textContent = sentence; }, this.delay.ms);
+  }
+
+  async come(name) {
+    if (name === 'SRM') {
+      const stat = await this.hub.ask('to @SRM inq Listen.stat').catch(() => 'OFF');
+      this.listening = stat !== 'OFF';
+    }
+    if (name === 'CHAT') this.chat_listens = (await this.hub.ask('to @CHAT inq Listen').catch(() => 'ON')) === 'ON';
+    this.showWay();
+  }
+  go(name) {
+    if (name === 'SSM') {
+      this.speaking = null;
+      this.nodes.subtitle.textContent = '';
+    }
+    if (name === 'SRM') this.listening = false;
+    if (name === 'CHAT') this.nodes.status.replaceChildren();
+    this.showWay();
+  }
+}

@@ -1,0 +1,95 @@
+// Which face and voice, which language, which emotion and how strong. What was chosen here is chosen again when the
+// module comes back.
+import {element, put, text, useLanguage} from './texts.js';
+
+const kEmotions = ['NEUTRAL', 'HAPPY', 'SAD', 'ANGRY', 'SURPRISED', 'DISGUSTED', 'FEARED'];
+const kLanguages = [['AUTO', 'automatic'], ['en', 'English'], ['ja', '日本語']];
+const kFullStrength = 100;
+
+function fill(select, values, now) {
+  select.replaceChildren(...values.map(value => element('option', {value, textContent: value})));
+  if (now && !values.includes(now)) select.append(element('option', {value: now, textContent: now}));
+  select.value = now;
+  select.disabled = values.length === 0;
+}
+
+export class Pickers {
+  // `nodes`: face, voice, language, emotion (select), strength (range), strength_value, and canvas, which is named after them.
+  constructor(hub, presence, nodes, onError) {
+    Object.assign(this, {hub, presence, nodes, onError});
+    this.chosen = JSON.parse(sessionStorage.getItem('chosen') || '{}');
+    const emotions = kEmotions.map(value => {
+      const option = element('option', {value});
+      put(option, value);
+      return option;
+    });
+    nodes.emotion.replaceChildren(...emotions);
+    nodes.language.replaceChildren(...kLanguages.map(([value, name]) => {
+      const option = element('option', {value, textContent: name});
+      if (value === 'AUTO') put(option, name);
+      return option;
+    }));
+    nodes.emotion.value = this.chosen.emotion || 'NEUTRAL';
+    nodes.strength.value = this.chosen.strength ?? kFullStrength;
+    nodes.language.value = this.chosen.language || 'AUTO';
+    useLanguage(nodes.language.value);
+    for (const [what, node] of [['face', nodes.face], ['voice', nodes.voice], ['language', nodes.language],
+                                ['emotion', nodes.emotion], ['strength', nodes.strength]]) {
+      node.onchange = () => this.choose(what, node.value);
+    }
+    nodes.strength.oninput = () => this.show();
+    for (const node of [nodes.face, nodes.voice]) fill(node, [], '');
+    this.show();
+  }
+
+  choose(what, value) {
+    this.chosen[what] = value;
+    sessionStorage.setItem('chosen', JSON.stringify(this.chosen));
+    if (what === 'language') useLanguage(value);
+    this.show();
+    this.set(what === 'strength' ? 'emotion' : what);
+  }
+  show() {
+    const {strength, strength_value, emotion, canvas, face} = this.nodes;
+    strength_value.textContent = `${strength.value} %`;
+    strength.disabled = emotion.value === 'NEUTRAL';
+    canvas.setAttribute('aria-label', [text('face'), face.value, text(emotion.value)].filter(Boolean).join(', '));
+  }
+  set(what) {
+    const {chosen, nodes} = this;
+    const emotion = nodes.emotion.value === 'NEUTRAL' ? 'NEUTRAL' : `${nodes.emotion.value} ${nodes.strength.value}`;
+    const [module, line] = {
+      face: ['FSM', `set Mask = ${chosen.face}`],
+      voice: ['SSM', `set Speaker = ${chosen.voice}`],
+      language: ['CHAT', `set Language = ${chosen.language}`],
+      emotion: ['AM-MCL', `set Emotion = ${emotion}`],
+    }[what];
+    if (module !== 'AM-MCL' && !this.presence.has(module)) return Promise.resolve();
+    return this.hub.ask(`to @${module} ${line}`, 'u').catch(error => this.onError(error.message));
+  }
+
+  async come(name) {
+    const list = async line => (await this.hub.ask(line).catch(() => '')).replace(/"/g, '');
+    if (name === 'FSM') {
+      const faces = (await list('to @FSM inq MaskSet')).split(',').map(face => face.trim()).filter(Boolean);
+      if (this.chosen.face && faces.includes(this.chosen.face)) await this.set('face');
+      if (this.chosen.emotion) await this.set('emotion');
+      fill(this.nodes.face, faces, await list('to @FSM inq NowMask'));
+    }
+    if (name === 'SSM') {
+      const voices = (await list('to @SSM inq Speaker.all')).split(/\s+/).filter(Boolean);
+      if (this.chosen.voice && voices.includes(this.chosen.voice)) await this.set('voice');
+      fill(this.nodes.voice, voices, await list('to @SSM inq Speaker'));
+    }
+    if (name === 'CHAT' && this.chosen.language) await this.set('language');
+    this.show();
+  }
+  go(name) {
+    if (name === 'FSM') this.nodes.face.disabled = true;
+    if (name === 'SSM') this.nodes.voice.disabled = true;
+  }
+  // Somebody else has chosen.
+  hear({from, slot, value}) {
+    if (from === 'SSM' && slot === 'Speaker' && !this.nodes.voice.disabled) this.nodes.voice.value = value;
+  }
+}
