@@ -59,15 +59,16 @@ void FillWithBias(const float* bias, Tensor& out) {
 /// Calls f(to, from, row, column) for every pixel of the output and every tap (row and column) of
 /// the filter that lies within the input: where the channels of both pixels begin.
 template <typename F>
-void ForEachTap(const Step& step, const Shape& in, const Shape& out, const Shape& filter, F f) {
-  const Padding pad = PaddingOf(step, in, out, filter.rows(), filter.columns());
+void ForEachTap(const op::Window& window, const Shape& in, const Shape& out, const Shape& filter,
+                F f) {
+  const Padding pad = PaddingOf(window, in, out, filter.rows(), filter.columns());
   for (int y = 0; y < out.rows(); ++y) {
     for (int x = 0; x < out.columns(); ++x) {
       for (int r = 0; r < filter.rows(); ++r) {
-        const int in_y = y * step.stride_rows + r - pad.rows;
+        const int in_y = y * window.stride_rows + r - pad.rows;
         if (in_y < 0 || in_y >= in.rows()) continue;
         for (int c = 0; c < filter.columns(); ++c) {
-          const int in_x = x * step.stride_columns + c - pad.columns;
+          const int in_x = x * window.stride_columns + c - pad.columns;
           if (in_x < 0 || in_x >= in.columns()) continue;
           f(At(out, y, x), At(in, in_y, in_x), r, c);
         }
@@ -78,17 +79,17 @@ void ForEachTap(const Step& step, const Shape& in, const Shape& out, const Shape
 
 }  // namespace
 
-Padding PaddingOf(const Step& step, const Shape& in, const Shape& out, int filter_rows,
+Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, int filter_rows,
                   int filter_columns) {
-  if (!step.same_padding) return {};
+  if (!window.same_padding) return {};
   const auto before = [](int size_in, int size_out, int stride, int filter) {
     return std::max((size_out - 1) * stride + filter - size_in, 0) / 2;
   };
-  return {before(in.rows(), out.rows(), step.stride_rows, filter_rows),
-          before(in.columns(), out.columns(), step.stride_columns, filter_columns)};
+  return {before(in.rows(), out.rows(), window.stride_rows, filter_rows),
+          before(in.columns(), out.columns(), window.stride_columns, filter_columns)};
 }
 
-void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
+void Convolve(const op::Window& window, const Tensor& in, const Tensor& filter, const float* bias,
               Tensor& out) {
   const auto outs = static_cast<std::size_t>(out.shape.channels());
   const auto channels = static_cast<std::size_t>(in.shape.channels());
@@ -99,12 +100,12 @@ void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const fl
     for (std::size_t k = 0; k < weights; ++k) turned[k * outs + o] = filter.values[o * weights + k];
   }
   FillWithBias(bias, out);
-  if (weights == channels && step.stride_rows == 1 && step.stride_columns == 1) {
+  if (weights == channels && window.stride_rows == 1 && window.stride_columns == 1) {
     Multiply(in.values.data(), in.values.size() / channels, channels, turned.data(), outs,
              out.values.data());
     return;
   }
-  ForEachTap(step, in.shape, out.shape, filter.shape,
+  ForEachTap(window, in.shape, out.shape, filter.shape,
              [&](std::size_t to, std::size_t from, int row, int column) {
                const auto tap = static_cast<std::size_t>(row * filter.shape.columns() + column);
                Multiply(&in.values[from], 1, channels, &turned[tap * channels * outs], outs,
@@ -112,11 +113,11 @@ void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const fl
              });
 }
 
-void DepthwiseConv(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
-                   Tensor& out) {
+void DepthwiseConv(const op::Window& window, const Tensor& in, const Tensor& filter,
+                   const float* bias, Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   FillWithBias(bias, out);
-  ForEachTap(step, in.shape, out.shape, filter.shape,
+  ForEachTap(window, in.shape, out.shape, filter.shape,
              [&](std::size_t to, std::size_t from, int row, int column) {
                float* sum = &out.values[to];
                const float* pixel = &in.values[from];
@@ -147,20 +148,20 @@ void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Te
   }
 }
 
-void Pool(const Step& step, const Tensor& in, Tensor& out) {
+void Pool(const op::Pooling& pooling, const Tensor& in, Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
-  const bool greatest = step.op == Op::kMaxPool;
-  const Padding pad = PaddingOf(step, in.shape, out.shape, step.filter_rows, step.filter_columns);
+  const bool greatest = pooling.greatest;
+  const Padding pad = PaddingOf(pooling.window, in.shape, out.shape, pooling.rows, pooling.columns);
   for (int y = 0; y < out.shape.rows(); ++y) {
     for (int x = 0; x < out.shape.columns(); ++x) {
       float* to = &out.values[At(out.shape, y, x)];
       std::fill_n(to, channels, greatest ? -INFINITY : 0.0F);
       int seen = 0;
-      const int top = y * step.stride_rows - pad.rows;
-      const int left = x * step.stride_columns - pad.columns;
-      for (int r = std::max(top, 0); r < std::min(top + step.filter_rows, in.shape.rows()); ++r) {
-        for (int c = std::max(left, 0);
-             c < std::min(left + step.filter_columns, in.shape.columns()); ++c) {
+      const int top = y * pooling.window.stride_rows - pad.rows;
+      const int left = x * pooling.window.stride_columns - pad.columns;
+      for (int r = std::max(top, 0); r < std::min(top + pooling.rows, in.shape.rows()); ++r) {
+        for (int c = std::max(left, 0); c < std::min(left + pooling.columns, in.shape.columns());
+             ++c) {
           const float* from = &in.values[At(in.shape, r, c)];
           ++seen;
           for (std::size_t k = 0; k < channels; ++k) {
@@ -174,21 +175,21 @@ void Pool(const Step& step, const Tensor& in, Tensor& out) {
   }
 }
 
-void ResizeBilinear(const Step& step, const Tensor& in, Tensor& out) {
+void ResizeBilinear(const op::ResizeBilinear& resize, const Tensor& in, Tensor& out) {
   const auto channels = static_cast<std::size_t>(in.shape.channels());
   struct Between {
     int first, second;
     float part;
   };
-  const auto place = [&step](int i, int size_in, int size_out) {
+  const auto place = [&resize](int i, int size_in, int size_out) {
     float at = 0;
-    if (step.align_corners && size_out > 1) {
+    if (resize.align_corners && size_out > 1) {
       at = static_cast<float>(i) * static_cast<float>(size_in - 1) /
            static_cast<float>(size_out - 1);
     } else {
       const float scale = static_cast<float>(size_in) / static_cast<float>(size_out);
-      at = step.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
-                                   : static_cast<float>(i) * scale;
+      at = resize.half_pixel_centres ? (static_cast<float>(i) + 0.5F) * scale - 0.5F
+                                     : static_cast<float>(i) * scale;
     }
     at = std::clamp(at, 0.0F, static_cast<float>(size_in - 1));
     const int first = static_cast<int>(at);
@@ -242,7 +243,7 @@ void StridedSlice(const Tensor& in, std::span<const std::int32_t> begin,
   }
 }
 
-void LandmarksToMatrix(const CropOptions& crop, const Tensor& points, Tensor& matrix) {
+void LandmarksToMatrix(const op::LandmarksToMatrix& crop, const Tensor& points, Tensor& matrix) {
   const auto x = [&points](std::size_t i) { return points.values[3 * i]; };
   const auto y = [&points](std::size_t i) { return points.values[3 * i + 1]; };
   const float angle =

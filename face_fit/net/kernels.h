@@ -10,18 +10,18 @@ namespace facefit {
 struct Padding {
   int rows = 0, columns = 0;
 };
-Padding PaddingOf(const Step& step, const Shape& in, const Shape& out, int filter_rows,
+Padding PaddingOf(const op::Window& window, const Shape& in, const Shape& out, int filter_rows,
                   int filter_columns);
 
 // The operators' arithmetic. Sizes have been checked; `out` has its shape and its room.
-void Convolve(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
+void Convolve(const op::Window& window, const Tensor& in, const Tensor& filter, const float* bias,
               Tensor& out);
-void DepthwiseConv(const Step& step, const Tensor& in, const Tensor& filter, const float* bias,
-                   Tensor& out);
+void DepthwiseConv(const op::Window& window, const Tensor& in, const Tensor& filter,
+                   const float* bias, Tensor& out);
 /// Each input pixel paints a block of `filter` size, side by side.
 void TransposeConv(const Tensor& in, const Tensor& filter, const float* bias, Tensor& out);
-void Pool(const Step& step, const Tensor& in, Tensor& out);
-void ResizeBilinear(const Step& step, const Tensor& in, Tensor& out);
+void Pool(const op::Pooling& pooling, const Tensor& in, Tensor& out);
+void ResizeBilinear(const op::ResizeBilinear& resize, const Tensor& in, Tensor& out);
 void Pad(const Tensor& in, const std::vector<std::int32_t>& by, Tensor& out);
 /// Takes of each axis every `by`-th place from `begin` on. Four numbers each.
 void StridedSlice(const Tensor& in, std::span<const std::int32_t> begin,
@@ -30,8 +30,8 @@ void StridedSlice(const Tensor& in, std::span<const std::int32_t> begin,
 // MediaPipe's operators for looking closer at parts of a face. A matrix is 4 x 4, row by row, of
 // which the first two rows count: they take x, y, 0, 1 of the part to x and y of the whole.
 
-/// The matrix of the crop that CropOptions describes. `points`: x, y, z of each.
-void LandmarksToMatrix(const CropOptions& crop, const Tensor& points, Tensor& matrix);
+/// `points`: x, y, z of each.
+void LandmarksToMatrix(const op::LandmarksToMatrix& crop, const Tensor& points, Tensor& matrix);
 /// Cuts a part out, bilinearly. Pixels are squares whose middles lie at halves; what lies beyond
 /// the middles of the outermost ones is 0.
 void TransformTensor(const Tensor& in, const Tensor& matrix, Tensor& out);

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
-#include <utility>
+#include <iterator>
+#include <optional>
 
 #include "face_fit/net/flex_buffer.h"
 
@@ -12,20 +13,6 @@ namespace {
 
 // Numbers and places of fields are those of tensorflow/lite/schema/schema.fbs.
 enum : int { kFloat32 = 0, kFloat16 = 1, kInt32 = 2 };
-constexpr int kCustom = 32;
-constexpr std::pair<const char*, Op> kCustomOps[] = {
-    {"Convolution2DTransposeBias", Op::kTransposeConv},
-    {"Landmarks2TransformMatrix", Op::kLandmarksToMatrix},
-    {"TransformLandmarks", Op::kTransformLandmarks},
-    {"TransformTensorBilinear", Op::kTransformTensor}};
-constexpr std::pair<int, Op> kOps[] = {
-    {0, Op::kAdd},        {1, Op::kAveragePool},   {2, Op::kConcatenation},
-    {3, Op::kConv},       {4, Op::kDepthwiseConv}, {6, Op::kDequantize},
-    {14, Op::kLogistic},  {17, Op::kMaxPool},      {18, Op::kMul},
-    {19, Op::kRelu},      {22, Op::kReshape},      {23, Op::kResizeBilinear},
-    {34, Op::kPad},       {45, Op::kStridedSlice}, {54, Op::kPrelu},
-    {117, Op::kHardSwish}};
-
 std::vector<std::int32_t> Numbers(const FlatTable& table, std::size_t field) {
   std::size_t count = 0;
   const Bytes bytes = table.Vector(field, 4, count);
@@ -98,99 +85,96 @@ Tensor ReadTensor(const FlatTable& model, const FlatTable& table) {
   return tensor;
 }
 
-Op ReadOp(const FlatTable& code) {
-  const int number = std::max<int>(code.Scalar<std::int8_t>(0, 0), code.Scalar<std::int32_t>(3, 0));
-  if (number == kCustom) {
-    const std::string name = code.Text(1);
-    for (const auto& [known, op] : kCustomOps) {
-      if (name == known) return op;
-    }
-    throw BadModel("the operator '" + name + "' is not known here");
-  }
-  for (const auto& [known, op] : kOps) {
-    if (known == number) return op;
-  }
-  throw BadModel("the operator " + std::to_string(number) + " is not known here");
-}
-
-Activation ReadActivation(int number) {
-  if (number == 0) return Activation::kNone;
-  if (number == 1) return Activation::kRelu;
-  if (number == 3) return Activation::kRelu6;
-  throw BadModel("the activation " + std::to_string(number) + " is not known here");
-}
-
-void ReadOptions(const FlatTable& options, Step& step) {
-  const auto number = [&](std::size_t field) {
-    const int n = options.Scalar<std::int32_t>(field, 1);
+/// The options of a step; what a file leaves out has its default.
+class Options {
+ public:
+  Options(std::optional<FlatTable> table, Bytes custom) : table_(table), custom_(custom) {}
+  std::int32_t Number(std::size_t field) const { return Scalar<std::int32_t>(field, 0); }
+  std::int8_t Small(std::size_t field) const { return Scalar<std::int8_t>(field, 0); }
+  bool Flag(std::size_t field) const { return Small(field) != 0; }
+  /// A stride or size of a filter.
+  int Size(std::size_t field) const {
+    const int n = Scalar<std::int32_t>(field, 1);
     if (n < 1 || n > 4096) throw BadModel("a stride or filter of impossible size");
     return n;
-  };
-  const auto act = [&](std::size_t field) {
-    step.activation = ReadActivation(options.Scalar<std::int8_t>(field, 0));
-  };
-  switch (step.op) {
-    case Op::kConv:
-    case Op::kDepthwiseConv:
-    case Op::kMaxPool:
-    case Op::kAveragePool: {
-      step.same_padding = options.Scalar<std::int8_t>(0, 0) == 0;
-      step.stride_columns = number(1);
-      step.stride_rows = number(2);
-      if (step.op == Op::kConv) {
-        act(3);
-        if (number(4) != 1 || number(5) != 1) throw BadModel("a dilated convolution");
-      } else if (step.op == Op::kDepthwiseConv) {
-        // 0 stands for "as the shapes say", which are compared later.
-        if (options.Scalar<std::int32_t>(3, 0) > 1)
-          throw BadModel("a depthwise convolution of several filters");
-        act(4);
-        if (number(5) != 1 || number(6) != 1) throw BadModel("a dilated convolution");
-      } else {
-        step.filter_columns = number(3);
-        step.filter_rows = number(4);
-        act(5);
-      }
-      break;
-    }
-    case Op::kAdd:
-    case Op::kMul:
-      act(0);
-      break;
-    case Op::kConcatenation:
-      step.axis = options.Scalar<std::int32_t>(0, 0);
-      act(1);
-      break;
-    case Op::kStridedSlice:
-      step.begin_mask = options.Scalar<std::int32_t>(0, 0);
-      step.end_mask = options.Scalar<std::int32_t>(1, 0);
-      for (const std::size_t other : {2U, 3U, 4U}) {
-        if (options.Scalar<std::int32_t>(other, 0) != 0)
-          throw BadModel("a slice that changes axes");
-      }
-      break;
-    case Op::kResizeBilinear:
-      step.align_corners = options.Scalar<std::uint8_t>(2, 0) != 0;
-      step.half_pixel_centres = options.Scalar<std::uint8_t>(3, 0) != 0;
-      break;
-    default:
-      break;
+  }
+  Bytes custom() const { return custom_; }
+
+ private:
+  template <typename T>
+  T Scalar(std::size_t field, T otherwise) const {
+    return table_ ? table_->Scalar<T>(field, otherwise) : otherwise;
+  }
+  std::optional<FlatTable> table_;
+  Bytes custom_;
+};
+
+op::Window ReadWindow(const Options& options) {
+  return {.same_padding = options.Small(0) == 0,
+          .stride_rows = options.Size(2),
+          .stride_columns = options.Size(1)};
+}
+
+/// `field`: of the first of two dilations.
+void RefuseDilation(const Options& options, std::size_t field) {
+  if (options.Size(field) != 1 || options.Size(field + 1) != 1) {
+    throw BadModel("a dilated convolution");
   }
 }
 
-/// The options of MediaPipe's operators, by the names that its TensorFlow Lite operations read
-/// (mediapipe/util/tflite/operations, version 2 of each).
-void ReadCustomOptions(Bytes bytes, Step& step) {
+template <typename Without>
+Operator ReadPlain(const Options&) {
+  return Without{};
+}
+
+Operator ReadConvolution(const Options& options) {
+  RefuseDilation(options, 4);
+  return op::Convolution{ReadWindow(options)};
+}
+
+Operator ReadDepthwiseConvolution(const Options& options) {
+  // 0 stands for "as the shapes say", which are compared later.
+  if (options.Number(3) > 1) throw BadModel("a depthwise convolution of several filters");
+  RefuseDilation(options, 5);
+  return op::DepthwiseConvolution{ReadWindow(options)};
+}
+
+template <bool greatest>
+Operator ReadPooling(const Options& options) {
+  return op::Pooling{.greatest = greatest,
+                     .window = ReadWindow(options),
+                     .rows = options.Size(4),
+                     .columns = options.Size(3)};
+}
+
+Operator ReadConcatenation(const Options& options) {
+  return op::Concatenation{.axis = options.Number(0)};
+}
+
+Operator ReadStridedSlice(const Options& options) {
+  for (const std::size_t other : {2U, 3U, 4U}) {
+    if (options.Number(other) != 0) throw BadModel("a slice that changes axes");
+  }
+  return op::StridedSlice{.begin_mask = options.Number(0), .end_mask = options.Number(1)};
+}
+
+Operator ReadResizeBilinear(const Options& options) {
+  return op::ResizeBilinear{.align_corners = options.Flag(2),
+                            .half_pixel_centres = options.Flag(3)};
+}
+
+/// By the names that MediaPipe's TensorFlow Lite operation reads
+/// (mediapipe/util/tflite/operations, version 2).
+Operator ReadLandmarksToMatrix(const Options& options) {
   const auto within = [](std::int64_t n, std::int64_t most) {
     if (n < 0 || n > most) throw BadModel("an operator's option is out of range");
     return n;
   };
-  if (step.op != Op::kLandmarksToMatrix) return;
-  const FlexMap map = FlexMap::Root(bytes);
+  const FlexMap map = FlexMap::Root(options.custom());
   const auto most = static_cast<std::int64_t>(Model::kMaxTensor);
   const auto point = [&](std::int64_t n) { return static_cast<std::size_t>(within(n, most)); };
   const auto size = [&](const char* key) { return static_cast<int>(within(map.Whole(key), 4096)); };
-  CropOptions& crop = step.crop;
+  op::LandmarksToMatrix crop;
   for (const std::int64_t n : map.Wholes("subset_idxs")) crop.points.push_back(point(n));
   crop.left = point(map.Whole("left_rotation_idx"));
   crop.right = point(map.Whole("right_rotation_idx"));
@@ -202,6 +186,84 @@ void ReadCustomOptions(Bytes bytes, Step& step) {
   if (crop.points.empty() || crop.rows < 1 || crop.columns < 1) {
     throw BadModel("a crop without points or without size");
   }
+  return crop;
+}
+
+/// How an operator is called in a file, and how its options are read.
+struct Reader {
+  int number;          ///< of a built-in operator, or kCustom
+  const char* custom;  ///< the name of one that is not
+  int activation;      ///< which field of the options names it; -1: there is none
+  Operator (*read)(const Options&);
+};
+constexpr int kCustom = 32;
+constexpr Reader kReaders[] = {
+    {0, "", 0, ReadPlain<op::Add>},
+    {1, "", 5, ReadPooling<false>},
+    {2, "", 1, ReadConcatenation},
+    {3, "", 3, ReadConvolution},
+    {4, "", 4, ReadDepthwiseConvolution},
+    {6, "", -1, ReadPlain<op::Dequantize>},
+    {14, "", -1, ReadPlain<op::Logistic>},
+    {17, "", 5, ReadPooling<true>},
+    {18, "", 0, ReadPlain<op::Multiply>},
+    {19, "", -1, ReadPlain<op::Relu>},
+    {22, "", -1, ReadPlain<op::Reshape>},
+    {23, "", -1, ReadResizeBilinear},
+    {34, "", -1, ReadPlain<op::Pad>},
+    {45, "", -1, ReadStridedSlice},
+    {54, "", -1, ReadPlain<op::Prelu>},
+    {117, "", -1, ReadPlain<op::HardSwish>},
+    {kCustom, "Convolution2DTransposeBias", -1, ReadPlain<op::TransposeConvolution>},
+    {kCustom, "Landmarks2TransformMatrix", -1, ReadLandmarksToMatrix},
+    {kCustom, "TransformLandmarks", -1, ReadPlain<op::TransformLandmarks>},
+    {kCustom, "TransformTensorBilinear", -1, ReadPlain<op::TransformTensor>},
+};
+
+const Reader& ReaderOf(const FlatTable& code) {
+  const int number = std::max<int>(code.Scalar<std::int8_t>(0, 0), code.Scalar<std::int32_t>(3, 0));
+  const std::string name = number == kCustom ? code.Text(1) : "";
+  const auto* found = std::ranges::find_if(kReaders, [&](const Reader& reader) {
+    return reader.number == number && reader.custom == name;
+  });
+  if (found != std::end(kReaders)) return *found;
+  throw BadModel("the operator " + (number == kCustom ? "'" + name + "'" : std::to_string(number)) +
+                 " is not known here");
+}
+
+Activation ReadActivation(int number) {
+  if (number == 0) return Activation::kNone;
+  if (number == 1) return Activation::kRelu;
+  if (number == 3) return Activation::kRelu6;
+  throw BadModel("the activation " + std::to_string(number) + " is not known here");
+}
+
+std::vector<Tensor> ReadTensors(const FlatTable& root, const FlatTable& graph) {
+  std::vector<Tensor> tensors;
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < graph.TableCount(0); ++i) {
+    tensors.push_back(ReadTensor(root, graph.TableAt(0, i)));
+    // Tensors may share a buffer, so their number alone does not bound what is copied.
+    total += tensors.back().values.size() + tensors.back().counts.size();
+    if (total > 4 * Model::kMaxTensor) throw BadModel("the weights are too large");
+  }
+  return tensors;
+}
+
+Step ReadStep(const FlatTable& table, const Reader& reader) {
+  std::size_t bytes = 0;
+  const Options options(table.Has(4) ? std::optional(table.Table(4)) : std::nullopt,
+                        table.Vector(5, 1, bytes));
+  Step step{.op = reader.read(options), .inputs = Numbers(table, 1), .output = -1};
+  if (reader.activation >= 0) {
+    step.activation = ReadActivation(options.Small(static_cast<std::size_t>(reader.activation)));
+  }
+  const auto outputs = Numbers(table, 2);
+  if (outputs.size() != 1 || step.inputs.empty()) {
+    throw BadModel("an operator without input, or with other than one output");
+  }
+  step.output = outputs[0];
+  return step;
 }
 
 }  // namespace
@@ -213,46 +275,33 @@ Model Model::Read(Bytes file) {
   const FlatTable root = FlatTable::Root(file);
   if (root.TableCount(2) != 1) throw BadModel("one graph expected");
   const FlatTable graph = root.TableAt(2, 0);
-
-  Model model;
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < graph.TableCount(0); ++i) {
-    model.tensors.push_back(ReadTensor(root, graph.TableAt(0, i)));
-    // Tensors may share a buffer, so their number alone does not bound what is copied.
-    total += model.tensors.back().values.size() + model.tensors.back().counts.size();
-    if (total > 4 * kMaxTensor) throw BadModel("the weights are too large");
-  }
+  Model model{.tensors = ReadTensors(root, graph),
+              .steps = {},
+              .inputs = Numbers(graph, 1),
+              .outputs = Numbers(graph, 2)};
   const auto known = [&model](const std::vector<int>& list) {
-    return std::ranges::all_of(
-        list, [&](int i) { return i >= 0 && static_cast<std::size_t>(i) < model.tensors.size(); });
+    return !list.empty() && std::ranges::all_of(list, [&](int i) {
+      return i >= 0 && static_cast<std::size_t>(i) < model.tensors.size();
+    });
   };
-  model.inputs = Numbers(graph, 1);
-  model.outputs = Numbers(graph, 2);
-  if (model.inputs.empty() || model.outputs.empty() || !known(model.inputs) ||
-      !known(model.outputs)) {
+  if (!known(model.inputs) || !known(model.outputs)) {
     throw BadModel("the graph names a tensor that is not there");
   }
-  std::vector<Op> ops;
-  for (std::size_t i = 0; i < root.TableCount(1); ++i) ops.push_back(ReadOp(root.TableAt(1, i)));
+  std::vector<Reader> readers;
+  for (std::size_t i = 0; i < root.TableCount(1); ++i) {
+    readers.push_back(ReaderOf(root.TableAt(1, i)));
+  }
   for (std::size_t i = 0; i < graph.TableCount(3); ++i) {
     const FlatTable table = graph.TableAt(3, i);
     const auto code = table.Scalar<std::uint32_t>(0, 0);
-    if (code >= ops.size()) throw BadModel("an operator that is not listed");
-    Step step{.op = ops[code], .inputs = Numbers(table, 1), .output = -1};
-    const auto outputs = Numbers(table, 2);
-    if (outputs.size() != 1 || step.inputs.empty() || !known(outputs)) {
-      throw BadModel("an operator without input, or with other than one output");
-    }
-    step.output = outputs[0];
-    auto given = step.inputs;
-    std::erase(given, -1);
-    if (given.empty() || step.inputs[0] < 0 || !known(given)) {
+    if (code >= readers.size()) throw BadModel("an operator that is not listed");
+    const Step& step = model.steps.emplace_back(ReadStep(table, readers[code]));
+    auto used = step.inputs;
+    std::erase(used, -1);
+    used.push_back(step.output);
+    if (step.inputs[0] < 0 || !known(used)) {
       throw BadModel("an operator names a tensor that is not there");
     }
-    if (table.Has(4)) ReadOptions(table.Table(4), step);
-    std::size_t bytes = 0;
-    ReadCustomOptions(table.Vector(5, 1, bytes), step);
-    model.steps.push_back(std::move(step));
   }
   return model;
 }

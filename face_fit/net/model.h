@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "face_fit/net/flat_buffer.h"
+#include "face_fit/net/operators.h"
 
 namespace facefit {
 
@@ -23,55 +24,13 @@ struct Shape {
   bool operator==(const Shape&) const = default;
 };
 
-enum class Op {
-  kAdd,
-  kAveragePool,
-  kConcatenation,
-  kConv,
-  kDepthwiseConv,
-  kDequantize,
-  kHardSwish,
-  kLandmarksToMatrix,
-  kLogistic,
-  kMaxPool,
-  kMul,
-  kPad,
-  kPrelu,
-  kRelu,
-  kReshape,
-  kResizeBilinear,
-  kStridedSlice,
-  kTransformLandmarks,
-  kTransformTensor,
-  kTransposeConv
-};
-
 enum class Activation { kNone, kRelu, kRelu6 };
 
-/// How kLandmarksToMatrix lays a picture of `columns` x `rows` over some points: it is turned until
-/// the line from point `left` to point `right` runs at `angle`, and as large as the box round
-/// `points` times the scales.
-struct CropOptions {
-  std::vector<std::size_t> points;
-  std::size_t left = 0, right = 0;
-  float angle = 0;  ///< radians
-  float scale_x = 1, scale_y = 1;
-  int rows = 1, columns = 1;
-};
-
 struct Step {
-  Op op;
+  Operator op;
   std::vector<int> inputs;  ///< tensors; -1 = left out
   int output;
-  bool same_padding = false;
-  int stride_rows = 1, stride_columns = 1;
-  int filter_rows = 1, filter_columns = 1;
-  int axis = 0;
-  bool align_corners = false, half_pixel_centres = false;
   Activation activation = Activation::kNone;
-  /// Of kStridedSlice: bits of axes whose begin or end is that of the input.
-  int begin_mask = 0, end_mask = 0;
-  CropOptions crop = {};  ///< of kLandmarksToMatrix
 };
 
 struct Tensor {
@@ -82,8 +41,8 @@ struct Tensor {
 };
 
 /// A network read from a TensorFlow Lite file: of its operators those that the face networks of
-/// MediaPipe (the one with attention too) and its segmentation of persons use, in floating point
-/// with weights of 16 or 32 bits.
+/// MediaPipe (the one with attention too) and its segmentation of persons use (Operator), in
+/// floating point with weights of 16 or 32 bits.
 struct Model {
   std::vector<Tensor> tensors;
   std::vector<Step> steps;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "face_fit/net/model.h"
@@ -25,8 +26,11 @@ class Network {
  private:
   const Tensor& Of(int i) const { return model_.tensors[static_cast<std::size_t>(i)]; }
   Tensor& Of(int i) { return model_.tensors[static_cast<std::size_t>(i)]; }
+  /// Weights of half precision have become floats when they were read: nothing is left to do.
+  bool IsRead(const Step& step) const {
+    return std::holds_alternative<op::Dequantize>(step.op) && Of(step.inputs[0]).constant;
+  }
   void Compute(const Step& step);
-  void Concatenate(const Step& step, Tensor& out);
 
   Model model_;
 };

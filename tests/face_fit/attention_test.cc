@@ -51,7 +51,7 @@ std::vector<float> OutputOf(Model model, const std::vector<float>& input) {
 Model Slice(Shape in, std::vector<std::int32_t> begin, std::vector<std::int32_t> end,
             std::vector<std::int32_t> by, Shape out, int end_mask = 0) {
   return OneStep(
-      {.op = Op::kStridedSlice, .inputs = {0, 1, 2, 3}, .output = 0, .end_mask = end_mask},
+      {.op = op::StridedSlice{.end_mask = end_mask}, .inputs = {0, 1, 2, 3}, .output = 0},
       {Variable(in), Counts(std::move(begin)), Counts(std::move(end)), Counts(std::move(by)),
        Variable(out)});
 }
@@ -80,18 +80,17 @@ constexpr Shape kMatrix{{1, 1, 4, 4}};
 
 TEST(LandmarksToMatrixTest, LaysAPictureOverThePointsAlongTheLineOfTwo) {
   // Points of a box 8 wide and 4 high about (20, 10), turned by 90 degrees: its x axis runs down.
-  CropOptions crop{.points = {0, 1, 2, 3},
-                   .left = 0,
-                   .right = 1,
-                   .scale_x = 1.5F,
-                   .scale_y = 1.5F,
-                   .rows = 16,
-                   .columns = 16};
+  op::LandmarksToMatrix crop{.points = {0, 1, 2, 3},
+                             .left = 0,
+                             .right = 1,
+                             .scale_x = 1.5F,
+                             .scale_y = 1.5F,
+                             .rows = 16,
+                             .columns = 16};
   const std::vector<float> points = {22, 6, 0, 22, 14, 0, 18, 6, 0, 18, 14, 0};
-  const auto m =
-      OutputOf(OneStep({.op = Op::kLandmarksToMatrix, .inputs = {0}, .output = 0, .crop = crop},
-                       {Variable({{1, 1, 4, 3}}), Variable(kMatrix)}),
-               points);
+  const auto m = OutputOf(OneStep({.op = crop, .inputs = {0}, .output = 0},
+                                  {Variable({{1, 1, 4, 3}}), Variable(kMatrix)}),
+                          points);
   const auto at = [&m](float x, float y) {
     return glm::vec2(m[0] * x + m[1] * y + m[3], m[4] * x + m[5] * y + m[7]);
   };
@@ -102,11 +101,11 @@ TEST(LandmarksToMatrixTest, LaysAPictureOverThePointsAlongTheLineOfTwo) {
 }
 
 TEST(LandmarksToMatrixTest, PointsThatAreNotThereAreRefused) {
-  const CropOptions crop{.points = {0, 4}, .left = 0, .right = 1, .rows = 16, .columns = 16};
-  EXPECT_THROW(
-      Network(OneStep({.op = Op::kLandmarksToMatrix, .inputs = {0}, .output = 0, .crop = crop},
-                      {Variable({{1, 1, 4, 3}}), Variable(kMatrix)})),
-      BadModel);
+  const op::LandmarksToMatrix crop{
+      .points = {0, 4}, .left = 0, .right = 1, .rows = 16, .columns = 16};
+  EXPECT_THROW(Network(OneStep({.op = crop, .inputs = {0}, .output = 0},
+                               {Variable({{1, 1, 4, 3}}), Variable(kMatrix)})),
+               BadModel);
 }
 
 TEST(TransformTensorTest, SamplesBetweenTheMiddlesOfPixels) {
@@ -114,7 +113,7 @@ TEST(TransformTensorTest, SamplesBetweenTheMiddlesOfPixels) {
   // 0.75, 1.25, 1.75.
   const std::vector<float> matrix = {0.5F, 0, 0, 0.5F, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   const auto model = [&](Shape out) {
-    return OneStep({.op = Op::kTransformTensor, .inputs = {0, 1}, .output = 0},
+    return OneStep({.op = op::TransformTensor{}, .inputs = {0, 1}, .output = 0},
                    {Variable({{1, 1, 3, 1}}), Numbers(matrix, kMatrix), Variable(out)});
   };
   const std::vector<float> expected = {2.5F, 7.5F, 12.5F, 17.5F, 0};
@@ -126,7 +125,7 @@ TEST(TransformTensorTest, SamplesBetweenTheMiddlesOfPixels) {
 TEST(TransformLandmarksTest, MovesXAndYAndLeavesZ) {
   const std::vector<float> matrix = {0, -2, 9, 5, 2, 0, 9, 7, 0, 0, 1, 0, 0, 0, 0, 1};
   const auto model = [&](int each, Shape of) {
-    return OneStep({.op = Op::kTransformLandmarks, .inputs = {0, 1}, .output = 0},
+    return OneStep({.op = op::TransformLandmarks{}, .inputs = {0, 1}, .output = 0},
                    {Variable({{1, 1, 2, each}}), Numbers(matrix, of), Variable({{1, 1, 2, each}})});
   };
   EXPECT_EQ(OutputOf(model(2, kMatrix), {1, 2, 3, 4}), (std::vector<float>{1, 9, -3, 13}));

@@ -13,13 +13,15 @@ Tensor Constant(Shape shape, std::vector<float> values) {
   return {.shape = shape, .constant = true, .values = std::move(values), .counts = {}};
 }
 
+const op::Convolution kSameConvolution{{.same_padding = true}};
+
 /// One step over two tensors, the second a constant.
-Model OneStep(Op op, Shape in, Tensor argument, Shape out) {
+Model OneStep(Operator op, Shape in, Tensor argument, Shape out) {
   Model model;
   model.tensors = {Tensor{.shape = in, .constant = false, .values = {}, .counts = {}},
                    std::move(argument),
                    Tensor{.shape = out, .constant = false, .values = {}, .counts = {}}};
-  model.steps = {Step{.op = op, .inputs = {0, 1}, .output = 2, .same_padding = true}};
+  model.steps = {Step{.op = std::move(op), .inputs = {0, 1}, .output = 2}};
   model.inputs = {0};
   model.outputs = {2};
   return model;
@@ -27,15 +29,15 @@ Model OneStep(Op op, Shape in, Tensor argument, Shape out) {
 
 TEST(NetworkTest, ConvolutionPadsWithZerosAndSumsItsTaps) {
   // A 3 x 3 filter of ones over a 2 x 2 picture of ones sees all four pixels everywhere.
-  Network network(OneStep(Op::kConv, {{1, 2, 2, 1}},
+  Network network(OneStep(kSameConvolution, {{1, 2, 2, 1}},
                           Constant({{1, 3, 3, 1}}, std::vector<float>(9, 1)), {{1, 2, 2, 1}}));
   network.Run(std::vector<float>{1, 2, 3, 4});
   for (const float v : network.output(0)) EXPECT_EQ(v, 10);
 }
 
 TEST(NetworkTest, PreluScalesNegativesByChannel) {
-  Network network(
-      OneStep(Op::kPrelu, {{1, 1, 2, 2}}, Constant({{1, 1, 1, 2}}, {0.5F, 0.25F}), {{1, 1, 2, 2}}));
+  Network network(OneStep(op::Prelu{}, {{1, 1, 2, 2}}, Constant({{1, 1, 1, 2}}, {0.5F, 0.25F}),
+                          {{1, 1, 2, 2}}));
   network.Run(std::vector<float>{-4, -4, 3, 2});
   const std::vector<float> expected = {-2, -1, 3, 2};
   EXPECT_TRUE(std::ranges::equal(network.output(0), expected));
@@ -43,10 +45,10 @@ TEST(NetworkTest, PreluScalesNegativesByChannel) {
 
 TEST(NetworkTest, SizesThatDoNotMatchAreRefused) {
   const Tensor ones = Constant({{1, 3, 3, 1}}, std::vector<float>(9, 1));
-  EXPECT_THROW(Network(OneStep(Op::kConv, {{1, 2, 2, 1}}, ones, {{1, 5, 2, 1}})), BadModel);
-  EXPECT_THROW(Network(OneStep(Op::kConv, {{1, 2, 2, 2}}, ones, {{1, 2, 2, 1}})), BadModel);
-  EXPECT_THROW(Network(OneStep(Op::kAdd, {{1, 2, 2, 1}}, ones, {{1, 2, 2, 1}})), BadModel);
-  Model unwritten = OneStep(Op::kConv, {{1, 2, 2, 1}}, ones, {{1, 2, 2, 1}});
+  EXPECT_THROW(Network(OneStep(kSameConvolution, {{1, 2, 2, 1}}, ones, {{1, 5, 2, 1}})), BadModel);
+  EXPECT_THROW(Network(OneStep(kSameConvolution, {{1, 2, 2, 2}}, ones, {{1, 2, 2, 1}})), BadModel);
+  EXPECT_THROW(Network(OneStep(op::Add{}, {{1, 2, 2, 1}}, ones, {{1, 2, 2, 1}})), BadModel);
+  Model unwritten = OneStep(kSameConvolution, {{1, 2, 2, 1}}, ones, {{1, 2, 2, 1}});
   unwritten.steps.clear();
   EXPECT_THROW(Network(std::move(unwritten)), BadModel);
 }
