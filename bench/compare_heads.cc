@@ -95,7 +95,7 @@ fsm::Image DrawRows(const std::vector<Row>& rows) {
     int x = 0;
     for (const float turn : kTurns) {
       fsm::FaceState state;
-      state.agent_rotation = {0, turn, 0};
+      state.figure.rotation = {0, turn, 0};
       renderer->Draw(*row.head, vertices, state, {});
       fsm::Image image;
       renderer->Read(image);

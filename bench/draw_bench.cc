@@ -34,8 +34,8 @@
 #include <string_view>
 #include <vector>
 
-#include "fsm/app/original_config.h"
 #include "fsm/faces/face_of_name.h"
+#include "fsm/faces/original_config.h"
 #include "fsm/faces/original_faces.h"
 #include "fsm/head/make_head.h"
 #include "fsm/render/appearance.h"
@@ -262,7 +262,7 @@ void MeasureAll(char** argv, const Options& options) {
     renderer->Read(image);
   });
   fsm::FaceState absent;
-  absent.agent_enabled = false;
+  absent.figure.enabled = false;
   Print(options, "empty picture", [&](int) {
     renderer->Draw(*head, vertices, absent, scene);
     renderer->Read(image);

@@ -26,8 +26,8 @@
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 #include "face_fit/report.h"
-#include "fsm/app/original_config.h"
 #include "fsm/faces/face_of_name.h"
+#include "fsm/faces/original_config.h"
 #include "fsm/head/face_folder.h"
 #include "fsm/image/image_file.h"
 #include "fsm/mesh/pnt_file.h"
@@ -224,8 +224,8 @@ void Run(const Options& options) {
   if (!sides.empty()) progress.Say("seen from the side, too");
   const Figure figure = CutOut(near, FindFigure(networks, near, &face));
   progress.Say("figure cut out");
-  fsm::PhotoHead head;
-  const TextureBake bake = BakeTexture(base, face, fit, near, figure, sides, head);
+  TextureBake bake = BakeTexture(base, face, fit, near, figure, sides);
+  fsm::PhotoHead& head = bake.head;
   if (!options.glasses.empty()) head.glasses = options.glasses == "yes";
   progress.Say("photo put on");
   const std::string report =

@@ -38,8 +38,13 @@ float SideLight(const FoundFace& face, const fsm::Image& photo) {
   return light.left / light.right;
 }
 
-/// From that turn on more than 15 degrees of one side are not seen at all.
-constexpr float kTurned = 15, kTurnedFar = 20;
+// From where on a report warns; by eye, on the faces the program was made with.
+constexpr float kTurned = 15, kTurnedFar = 20;  // degrees: then so many of one side are not seen
+constexpr float kSmallEyes = 80;    // pixels between their outer corners: the map is finer
+constexpr float kBlurred = 0.012F;  // sharpness
+constexpr float kLitAside = 1.45F,
+                kShadedAside = 0.69F;  // brightness of the left cheek by the right
+constexpr float kPosing = 0.4F;        // strength of a unit: its folds are not taken away wholly
 
 std::string WarnOfTurn(glm::vec3 turn) {
   std::string out;
@@ -56,9 +61,9 @@ std::string WarnOfTurn(glm::vec3 turn) {
   return out;
 }
 
-std::string WarnOfEyes(const Fit& fit) {
+std::string WarnOfEyes(const SeenIrises& irises) {
   const auto hidden = std::ranges::count_if(
-      fit.irises.InOrder(), [](const IrisRing& ring) { return ring.contrast < kClearRing; });
+      irises.rings.InOrder(), [](const IrisRing& ring) { return ring.contrast < kClearRing; });
   if (hidden == 2) {
     return "warning: no iris is seen: the eyes are shut, look down or lie in the shade; they are "
            "drawn, and their lids keep what the photo shows on them\n";
@@ -90,8 +95,9 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
     std::snprintf(line.data(), line.size(), format, values...);
     out += line.data();
   };
-  const glm::vec3 turn = glm::degrees(fit.pose.turn);
+  const glm::vec3 turn = glm::degrees(fit.head.pose.turn);
   const float eyes = glm::distance(face.At(point::kEyeOuterRight), face.At(point::kEyeOuterLeft));
+  const Expression& shown = fit.head.expression;
   const float side = SideLight(face, photo);
   const float sharp = Sharpness(face, photo);
   const auto d = [](float v) { return static_cast<double>(v); };
@@ -100,10 +106,10 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
   put("faces       %d\n", faces);
   put("certainty   %.3f\n", d(face.certainty));
   put("pose        nod %.1f, turn %.1f, tilt %.1f degrees\n", d(turn.x), d(turn.y), d(turn.z));
-  put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(fit.expression.smile),
-      d(fit.expression.jaw), d(fit.expression.parted));
-  put("irises      %.2f and %.2f clear (below %.2f not seen)\n", d(fit.irises.right.contrast),
-      d(fit.irises.left.contrast), d(kClearRing));
+  put("expression  smile %.2f, jaw %.2f, lips parted %.2f\n", d(shown.smile), d(shown.jaw),
+      d(shown.parted));
+  put("irises      %.2f and %.2f clear (below %.2f not seen)\n", d(fit.irises.rings.right.contrast),
+      d(fit.irises.rings.left.contrast), d(kClearRing));
   put("residual    %.2f mm\n", d(fit.residual_mm));
   put("coverage    %.0f %% of the face's map\n", d(100 * coverage));
   put("glasses     %s\n", glasses ? "yes" : "no");
@@ -111,12 +117,12 @@ std::string Report(const FoundFace& face, const Fit& fit, const fsm::Image& phot
     put("covered     %.2f (from 1 on something is before the face), most at %s\n",
         d(occlusion.measure), occlusion.where.c_str());
   }
-  if (eyes < 80) out += "warning: the face is small; details will be soft\n";
-  out += WarnOfTurn(turn) + WarnOfEyes(fit);
-  if (sharp < 0.012F) out += "warning: the photo is blurred\n";
-  if (side > 1.45F || side < 0.69F)
+  if (eyes < kSmallEyes) out += "warning: the face is small; details will be soft\n";
+  out += WarnOfTurn(turn) + WarnOfEyes(fit.irises);
+  if (sharp < kBlurred) out += "warning: the photo is blurred\n";
+  if (side > kLitAside || side < kShadedAside)
     out += "warning: strong light from one side stays in the skin\n";
-  if (fit.expression.smile > 0.4F || fit.expression.jaw + fit.expression.parted > 0.4F) {
+  if (shown.smile > kPosing || shown.jaw + shown.parted > kPosing) {
     out += "warning: not a neutral face; some folds of the expression stay in the skin\n";
   }
   if (glasses) {

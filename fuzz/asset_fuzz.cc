@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_reader.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/asset/describe.h"
 #include "fsm/rig/simulation.h"
 
@@ -31,7 +32,7 @@ fsm::Head SmallHead() {
     rig.bone[i] = static_cast<fsm::Bone>(i % 6);
     rig.weights[i].jaw = 0.1F * static_cast<float>(i);
   }
-  rig.soft_triangles = {0, 1, 2, 3, 4, 5};
+  rig.normals.soft_triangles = {0, 1, 2, 3, 4, 5};
   rig.units = fsm::UnitTable(fsm::Table("units", "field 4 10 20 15 15 both 1 2 3\nclose 43 1"));
   rig.units_by_place = true;
   using Kind = fsm::Drive::Kind;
@@ -41,33 +42,33 @@ fsm::Head SmallHead() {
     channel.most = 2;
     channel.moves = {{2, {1, 2, 3}}};
   }
-  rig.proxy_rest.resize(kVertices);
-  rig.own_form.resize(kVertices);
-  rig.lids.vertices = {{1, 0, 1, 0, 0.2F, -0.2F, -0.1F, 1, 12, 2, true}};
-  rig.ball_lids = {{1, 1, 12}};
+  rig.proxy.rest.resize(kVertices);
+  rig.proxy.to_own.resize(kVertices);
+  rig.lids.vertices = {{1, fsm::Side::kRight, 1, 0, 0.2F, -0.2F, -0.1F, 1, 12, 2, true}};
+  rig.ball_lids.vertices = {{1, fsm::Side::kLeft, 12}};
   rig.lips.seam = {{2, 3}};
   rig.lips.apart_at_rest = {{0, 0.1F, 0}};
   rig.lips.followers = {{4, 0, 0.5F}};
   rig.lips.measured = {{2, 3, 1, 4}};
-  rig.upper_teeth = rig.lower_teeth = {70, 20, 25, -40, -30};
-  rig.teeth_contacts = {{4, 1, 1}};
-  rig.look.emplace();
-  rig.springs.resize(1);
-  rig.spring_weights = {{8, 0, 0.5F}};
-  rig.creases = {{0, 0.1F, 0, 0}};
+  rig.teeth.upper = rig.teeth.lower = {70, 20, 25, -40, -30};
+  rig.teeth.contacts = {{4, 1, 1}};
+  rig.eyes.look.emplace();
+  rig.swing.springs.resize(1);
+  rig.swing.weights = {{8, 0, 0.5F}};
+  rig.creases.at_rest = {{0, 0.1F, 0, 0}};
   asset.topology.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   asset.topology.parts = {{fsm::Material::kSkin, 0, 6}, {fsm::Material::kHair, 6, 3, 0, true}};
   asset.topology.albedo.resize(kVertices);
   asset.topology.occlusion.resize(kVertices);
   asset.topology.strands.resize(kVertices);
   asset.topology.opacity.assign(kVertices, 0.5F);
-  asset.topology.shut_lids.resize(1);
+  asset.topology.portrait.shut_lids.resize(1);
   asset.topology.skin_hairs.resize(2);
   asset.topology.pbr_materials.resize(1);
-  asset.topology.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
-  asset.topology.texcoord.resize(kVertices);
-  asset.topology.texture_weight.resize(kVertices);
-  asset.topology.eye_pictures.emplace();
+  asset.topology.worn.image = std::make_shared<fsm::Image>(fsm::Image{1, 1, {1, 2, 3, 4}});
+  asset.topology.worn.texcoord.resize(kVertices);
+  asset.topology.worn.weight.resize(kVertices);
+  asset.topology.portrait.eyes.emplace();
   asset.topology.mouth.lips = {{2, 3}};
   asset.landmarks["nasion"] = {0, 20, 90};
   asset.view.emplace();
@@ -92,7 +93,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   state.au.left[4] = state.au.right[43] = state.blink.left = 1;
   state.mouth.fill(0.5F);
   state.head_rotation = {10, 20, 30};
-  fsm::Simulation simulation(head.rig().data().springs);
+  fsm::Simulation simulation(head.rig().data().swing.springs);
   for (const int ms : {0, 500, 530}) {
     simulation.RunTo(std::chrono::milliseconds(ms), [&state](auto) { return state; });
   }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "fsm/app/original_config.h"
 #include "fsm/faces/head_of_file.h"
+#include "fsm/faces/original_config.h"
 #include "fsm/faces/original_faces.h"
 
 namespace editor {

@@ -114,7 +114,7 @@ void ChooseUnit(Ui& ui) {
   };
   std::vector<std::string> titles;
   for (int unit = 1; unit < static_cast<int>(fsm::kActionUnits); ++unit) {
-    if (fsm::IsActionUnit(unit)) titles.push_back(title(unit));
+    if (fsm::UnitNames::BuiltIn().IsUnit(unit)) titles.push_back(title(unit));
   }
   std::string chosen = title(ui.field_unit);
   ImGui::SetNextItemWidth(230);
@@ -155,8 +155,8 @@ void DrawTouched(Ui& ui, ImVec2 low, ImVec2 size) {
   if (row < 1 || row > rows.size()) return;
   const auto alone = WithRows(units, {units.rows[rows[row - 1]]});
   if (!alone) return;
-  fsm::FaceState turned;
-  turned.agent_rotation = {ui.stage.turn[0], ui.stage.turn[1], 0};
+  fsm::Figure turned;
+  turned.rotation = {ui.stage.turn[0], ui.stage.turn[1], 0};
   const fsm::View view =
       fsm::FramePortrait(turned, ui.stage.scene.camera, ui.preview.width, ui.preview.height);
   const auto touched =

@@ -53,7 +53,8 @@ void FitView(Ui& ui) {
 void DrawMesh(Ui& ui, ImDrawList& list) {
   const auto& built = ui.stage.built();
   if (!built || !ui.view.mesh) return;
-  if (ui.view.lines_of != built) ui.view.lines = MeshLines(*ui.editor.work()->base, built->fit);
+  if (ui.view.lines_of != built)
+    ui.view.lines = MeshLines(*ui.editor.work()->base, built->fit.head);
   ui.view.lines_of = built;
   const ImDrawListFlags flags = list.Flags;
   list.Flags &= ~ImDrawListFlags_AntiAliasedLines;

@@ -104,7 +104,8 @@ Answer Choose(Program& program, const Words& words) {
     ui.motion = words[2];
     ui.motion_pattern = PatternIn(words, 3);
     if (words.size() > 4) ui.scrub_ms = static_cast<float>(PatternIn(words, 4));
-  } else if (const auto unit = fsm::ParseUnitName(words.size() > 2 ? words[2] : "");
+  } else if (const auto unit =
+                 fsm::ParseUnitName(words.size() > 2 ? words[2] : "", ui.editor.unit_names());
              kind == "unit" && unit) {
     ui.field_unit = unit->number;
     ui.field_sides = {unit->right, unit->left};

@@ -118,17 +118,17 @@ std::vector<Stage::Touched> Stage::TouchedBy(const fsm::UnitTable& units,
 void Stage::Draw(const fsm::Viewport& pane, const fsm::FaceState& state) {
   if (!head_ || pane.width < 8 || pane.height < 8) return;
   fsm::FaceState turned = state;
-  turned.agent_rotation = {turn[0], turn[1], 0};
+  turned.figure.rotation = {turn[0], turn[1], 0};
   head()->Evaluate(turned, vertices_);
   renderer_->SetViewport(pane);
   renderer_->Draw(*head_, vertices_, turned, scene);
 }
 
 std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& base,
-                                                       const facefit::Fit& fit) {
+                                                       const facefit::FittedHead& fitted) {
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fit.posed_vertices) camera.push_back(fit.pose.ToCamera(p));
+  for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(fitted.pose.ToCamera(p));
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
   for (const auto& part : topology.parts) {
     if (part.material != fsm::Material::kSkin && part.material != fsm::Material::kLip) continue;
@@ -137,7 +137,7 @@ std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& 
       const glm::vec3 n = glm::cross(camera[t[1]] - camera[t[0]], camera[t[2]] - camera[t[0]]);
       // The neck is not fitted, what lies behind is not seen.
       const bool face = std::all_of(t, t + 3, [&](std::uint32_t v) {
-        return fit.posed_vertices[v].z > 10 && base.rest.position[v].y > -95;
+        return fitted.posed_vertices[v].z > 10 && base.rest.position[v].y > -95;
       });
       if (!face || n.z <= 0.1F * glm::length(n)) continue;
       for (int c = 0; c < 3; ++c) {
@@ -151,7 +151,7 @@ std::vector<std::pair<glm::vec2, glm::vec2>> MeshLines(const facefit::BaseHead& 
   std::vector<std::pair<glm::vec2, glm::vec2>> lines;
   lines.reserve(edges.size());
   for (const auto& [a, b] : edges) {
-    lines.emplace_back(fit.pose.Project(camera[a]), fit.pose.Project(camera[b]));
+    lines.emplace_back(fitted.pose.Project(camera[a]), fitted.pose.Project(camera[b]));
   }
   return lines;
 }

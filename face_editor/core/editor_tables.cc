@@ -15,6 +15,7 @@
 #include "face_editor/core/table_writer.h"
 #include "fsm/base/table_reader.h"
 #include "fsm/motion/motion_errors.h"
+#include "fsm/motion/motion_reader.h"
 
 namespace editor {
 
@@ -157,7 +158,7 @@ vm::Result<void> Editor::Save(Part part, const std::string& path, bool bilingual
   if (part == Part::kPoints) return SavePoints(path);
   std::string text;
   if (part == Part::kEmotions) {
-    text = WriteEmotions(emotions_text_, state().emotions);
+    text = WriteEmotions(emotions_text_, state().emotions, unit_names());
   } else if (part == Part::kMouth) {
     text = WriteVisemes(bilingual ? shapes28_text_ : shapes14_text_, shapes(bilingual));
   } else if (part == Part::kMotions) {
@@ -186,8 +187,8 @@ vm::Result<int> Editor::SaveTables(const std::string& folder) {
     std::string_view built_in;
   };
   const File files[] = {
-      {kEmotionsFile, Part::kEmotions, false, WriteEmotions(emotions_text_, state().emotions),
-       embedded::editor_emotions()},
+      {kEmotionsFile, Part::kEmotions, false,
+       WriteEmotions(emotions_text_, state().emotions, unit_names()), embedded::editor_emotions()},
       {kShapes14File, Part::kMouth, false, WriteVisemes(shapes14_text_, state().shapes14),
        embedded::editor_mouth_shapes()},
       {kShapes28File, Part::kMouth, true, WriteVisemes(shapes28_text_, state().shapes28),

@@ -14,7 +14,7 @@ using vm::Errc;
 using vm::Fail;
 
 vm::Result<void> CheckUnit(int unit) {
-  if (fsm::IsActionUnit(unit)) return {};
+  if (fsm::UnitNames::BuiltIn().IsUnit(unit)) return {};
   return Fail(Errc::kBadValue,
               fmt::format("{} is no action unit; 1 to 46 without 3 and 40 expected", unit));
 }

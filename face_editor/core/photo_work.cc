@@ -8,6 +8,7 @@
 #include "face_fit/find/face/hand_points.h"
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
+#include "face_fit/fit/side_fit.h"
 #include "face_fit/fit/side_view.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
@@ -122,7 +123,7 @@ vm::Result<std::shared_ptr<const SidePhoto>> OpenSidePhoto(FaceSight& sight, con
     auto photo = facefit::ReadUpright(sight.networks, path);
     if (!photo) return std::unexpected(photo.error());
     const auto fit = facefit::FitFace(*work.base, FoundFrom(points), &work.photo);
-    if (auto placed = facefit::FitSideView(sight.networks, *work.base, fit, *photo); !placed) {
+    if (auto placed = facefit::FitSideView(sight.networks, *work.base, fit.head, *photo); !placed) {
       return vm::Fail(placed.error().code, path + ": " + placed.error().text);
     }
     return std::make_shared<const SidePhoto>(SidePhoto{path, std::move(*photo)});
@@ -149,8 +150,9 @@ vm::Result<std::shared_ptr<const BuiltFace>> BuildFace(const PhotoWork& work,
             (built->left_out.empty() ? "" : "; ") + side->path + ": " + view.error().text;
       }
     }
-    facefit::TextureBake bake = facefit::BakeTexture(*work.base, face, built->fit, work.photo,
-                                                     *work.figure, seen, built->photo_head);
+    facefit::TextureBake bake =
+        facefit::BakeTexture(*work.base, face, built->fit, work.photo, *work.figure, seen);
+    built->photo_head = std::move(bake.head);
     built->report = facefit::Report(face, built->fit, work.photo, bake.coverage, work.faces,
                                     built->photo_head.glasses, work.cover);
     built->picture = std::move(bake.picture);

@@ -50,7 +50,7 @@ vm::Result<void> Player::Plan() {
   vm::Time settled = kLead;
   if (!show_.expression.empty()) {
     auto done = cue(kLead, [show = show_](fsm::FaceMotion& motion) {
-      return motion.Express(kLead, show.expression, show.pattern, 1, 0ms);
+      return motion.expression.Show(kLead, show.expression, show.pattern, 1, 0ms);
     });
     if (!done) return done;
     settled = trial->OnsetsSettled(kLead);
@@ -65,16 +65,16 @@ vm::Result<void> Player::Plan() {
   }
   if (!show_.speech.empty()) {
     auto done = cue(kLead, [show = show_, at = settled + 150ms](fsm::FaceMotion& motion) {
-      motion.Speak(kLead, show.speech, at);
+      motion.speech.Start(kLead, show.speech, at);
       return vm::Result<void>();
     });
     if (!done) return done;
-    end = std::max(end, trial->SpeechEnd().value_or(end));
+    end = std::max(end, trial->speech.End().value_or(end));
   }
   if (!show_.expression.empty()) {
     if (show_.speech.empty()) end = std::max(end, settled + kHold);
     auto done = cue(end, [end](fsm::FaceMotion& motion) {
-      motion.Neutral(end);
+      motion.expression.Neutral(end);
       return vm::Result<void>();
     });
     if (!done) return done;
@@ -120,7 +120,7 @@ std::optional<fsm::FaceState> Player::At(vm::Time now) {
 
 std::string Player::PhonemeAt(vm::Time now) {
   if (!At(now)) return "";
-  return motion_->PhonemeAt(Local(now));
+  return motion_->speech.PhonemeAt(Local(now));
 }
 
 fsm::FaceState StateOf(const fsm::ActionUnits& look) {

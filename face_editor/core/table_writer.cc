@@ -64,10 +64,11 @@ std::string TimingRow(const char* kind, const std::string& name,
                      timing.lag_ms[0], timing.lag_ms[1], timing.lag_ms[2]);
 }
 
-std::string PatternRow(const std::string& name, std::size_t pattern, const fsm::ActionUnits& look) {
+std::string PatternRow(const std::string& name, std::size_t pattern, const fsm::ActionUnits& look,
+                       const fsm::UnitNames& names) {
   return fmt::format("{} {:<3}{}", name, pattern,
                      std::string(std::max<std::size_t>(10, name.size()) - name.size(), ' ')) +
-         fsm::FormatLook(look);
+         fsm::FormatLook(look, names);
 }
 
 /// The last place a row of `name` stands at, one past it; the end if there is none.
@@ -131,7 +132,8 @@ std::string WriteVisemes(std::string_view text, const fsm::Visemes& shapes) {
   return Joined(out);
 }
 
-std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotions) {
+std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotions,
+                          const fsm::UnitNames& names) {
   Rows rows;
   std::map<std::string, std::size_t, std::less<>> written;
   std::vector<std::pair<std::string, std::string>> timed;  // kind, name
@@ -155,11 +157,12 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
       const std::size_t pattern = PatternOf(line);
       if (pattern == 0 || pattern > emotion->second.patterns.size()) continue;
       const fsm::ActionUnits& look = emotion->second.patterns[pattern - 1];
-      const auto old = fsm::ReadTable("", line.text, [](const fsm::Table& table) {
-        return fsm::ReadUnits(table.rows().front(), 2);
+      const auto old = fsm::ReadTable("", line.text, [&names](const fsm::Table& table) {
+        return fsm::ReadUnits(table.rows().front(), 2, names);
       });
-      const bool same = old && fsm::FormatLook(*old) == fsm::FormatLook(look);
-      rows.emplace_back(same ? line.text : PatternRow(name, pattern, look) + line.comment, name);
+      const bool same = old && fsm::FormatLook(*old, names) == fsm::FormatLook(look, names);
+      rows.emplace_back(same ? line.text : PatternRow(name, pattern, look, names) + line.comment,
+                        name);
       written[name] = pattern;
     }
   }
@@ -175,7 +178,7 @@ std::string WriteEmotions(std::string_view text, const fsm::EmotionTable& emotio
     if (is_new) rows.emplace_back("", "");
     for (std::size_t p = written[name]; p < emotion.patterns.size(); ++p) {
       const auto end = static_cast<std::ptrdiff_t>(EndOf(rows, name));
-      rows.insert(rows.begin() + end, {PatternRow(name, p + 1, emotion.patterns[p]), name});
+      rows.insert(rows.begin() + end, {PatternRow(name, p + 1, emotion.patterns[p], names), name});
     }
   }
   return Joined(rows);

@@ -6,10 +6,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
-#include <vector>
 
 #include "face_fit/bake/grain.h"
 #include "face_fit/bake/skin_rasterizer.h"
+#include "face_fit/bake/texture_bake.h"
 #include "face_fit/fit/landmark_warp.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/inpaint.h"
@@ -22,8 +22,8 @@ namespace {
 /// The chin of the fitted head, and what lies about it, in the head's frame.
 class Chin {
  public:
-  Chin(const BaseHead& base, const Fit& fit)
-      : at_(base.points[point::kChin].On(fit.posed_vertices)) {}
+  Chin(const BaseHead& base, const FittedHead& fitted)
+      : at_(base.points[point::kChin].On(fitted.posed_vertices)) {}
   glm::vec3 at() const { return at_; }
   /// Below it the neck of the photo takes over from the skin.
   float SkinBottom() const { return at_.y - PhotoLook()("skin_below_chin"); }
@@ -66,11 +66,11 @@ void Spread(const FloatImage& covered, int reach, FloatImage& field) {
 }
 
 /// How the skin moves from the photo's expression to rest, at each vertex of the base head.
-std::vector<glm::vec3> MotionToRest(const BaseHead& base, const Fit& fit) {
-  const std::vector<glm::vec3> rest = SkinWith(base, fit, {});
-  std::vector<glm::vec3> motion(fit.posed_vertices.size(), glm::vec3(0));
+std::vector<glm::vec3> MotionToRest(const BaseHead& base, const FittedHead& fitted) {
+  const std::vector<glm::vec3> rest = SkinWith(base, fitted, {});
+  std::vector<glm::vec3> motion(fitted.posed_vertices.size(), glm::vec3(0));
   for (std::size_t i = 0; i < std::min(rest.size(), motion.size()); ++i) {
-    motion[i] = rest[i] - fit.posed_vertices[i];
+    motion[i] = rest[i] - fitted.posed_vertices[i];
   }
   return motion;
 }
@@ -80,8 +80,8 @@ std::vector<glm::vec3> MotionToRest(const BaseHead& base, const Fit& fit) {
 /// goes on from just under the skin.
 class OpeningsOfHead {
  public:
-  OpeningsOfHead(const BaseHead& base, const Fit& fit) {
-    const auto at = [&](PointIndex i) { return base.points[i].On(fit.posed_vertices); };
+  OpeningsOfHead(const BaseHead& base, const FittedHead& fitted) {
+    const auto at = [&](PointIndex i) { return base.points[i].On(fitted.posed_vertices); };
     using namespace point;
     constexpr std::array<std::pair<PointIndex, PointIndex>, 2> kEyes = {
         std::pair(kEyeOuterRight, kEyeInnerRight), std::pair(kEyeInnerLeft, kEyeOuterLeft)};
@@ -228,8 +228,8 @@ struct GridSkin {
 
 /// Depth of the sheet, millimetres towards the camera: just under the skin, from there gently back
 /// to the outline. `shown`: the figure's opacity, 0..1.
-FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, const Chin& chin, const GridSkin& skin,
-                      const FloatImage& shown) {
+FloatImage SheetDepth(const FittedHead& fitted, const PhotoGrid& grid, const Chin& chin,
+                      const GridSkin& skin, const FloatImage& shown) {
   const fsm::NumberTable& look = PhotoLook();
   const glm::vec2 under_skin = look.Pair("sheet_under_skin");
   const glm::vec2 before_neck = look.Pair("sheet_at_neck");
@@ -241,7 +241,7 @@ FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, const Chin& chin, c
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
       const std::size_t i = depth.Index(x, y);
-      const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(grid.Pixel(x, y), 20));
+      const glm::vec3 about = fitted.pose.FromCamera(fitted.pose.Unproject(grid.Pixel(x, y), 20));
       if (skin.inner.at[i] > 0) {
         fixed.at[i] = 1;
         // At the skin's edge the sheet goes on from it, further in it keeps out of its way.
@@ -274,15 +274,16 @@ FloatImage SheetDepth(const Fit& fit, const PhotoGrid& grid, const Chin& chin, c
 
 /// Corners of the cells of the sheet that are drawn, counter-clockwise.
 using Quads = std::vector<std::array<std::uint32_t, 4>>;
-Quads DrawnCells(const BaseHead& base, const Fit& fit, const PhotoGrid& grid,
+Quads DrawnCells(const BaseHead& base, const FittedHead& fitted, const PhotoGrid& grid,
                  const ExtendedFigure& figure, FloatImage covered, int rim,
                  const FloatImage& depth) {
   FillHoles(covered);
   // Nothing behind the middle of the face: there are the mouth and the eyes.
   const FloatImage within = Blurred(covered, rim);
-  const OpeningsOfHead openings(base, fit);
+  const OpeningsOfHead openings(base, fitted);
   const auto about = [&](int x, int y) {
-    return fit.pose.FromCamera(fit.pose.Unproject(grid.Pixel(x, y), depth.at[depth.Index(x, y)]));
+    return fitted.pose.FromCamera(
+        fitted.pose.Unproject(grid.Pixel(x, y), depth.at[depth.Index(x, y)]));
   };
   const auto hidden = [&](int x, int y) {
     return within.at[depth.Index(x, y)] > 0.999F || openings.Behind(about(x, y));
@@ -316,18 +317,18 @@ Quads DrawnCells(const BaseHead& base, const Fit& fit, const PhotoGrid& grid,
 
 }  // namespace
 
-fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure) {
+fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
   const int width = figure.colours.width, height = figure.colours.height;
-  const Chin chin(base, fit);
-  FloatImage face =
-      RasterizeSkin(base, fit, fit.pose, {glm::vec2(0.5F), 1, width, height}, chin.SkinBottom())
-          .depth;
+  const Chin chin(base, fitted);
+  FloatImage face = RasterizeSkin(base, fitted, fitted.pose, {glm::vec2(0.5F), 1, width, height},
+                                  chin.SkinBottom())
+                        .depth;
   for (float& v : face.at) v = v > SkinRaster::kNone ? 1.0F : 0.0F;
   FillHoles(face);
   // Somewhat smaller than the skin, whose edge shows the same as the sheet's there. Forehead and
   // temples are mostly hair already, so the hole begins at the brows. Before the neck it is as
   // large as the skin, or the chin would be seen a second time.
-  const float pixels_per_mm = fit.pose.PixelsPerMm();
+  const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const float face_hole = PhotoLook()("hole_face"), neck_hole = PhotoLook()("hole_neck");
   const FloatImage soft =
       Blurred(face, std::max(static_cast<int>(PhotoLook()("hole_soft") * pixels_per_mm), 1));
@@ -335,7 +336,7 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 pixel = glm::vec2(x, y) + 0.5F;
-      const glm::vec3 about = fit.pose.FromCamera(fit.pose.Unproject(pixel, 20));
+      const glm::vec3 about = fitted.pose.FromCamera(fitted.pose.Unproject(pixel, 20));
       const std::size_t i = keep.Index(x, y);
       const float most = glm::mix(face_hole, neck_hole, chin.BeforeNeck(about));
       keep.at[i] = glm::smoothstep(most + 0.08F, most - 0.12F, soft.at[i]);
@@ -360,15 +361,14 @@ fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure
   return out;
 }
 
-void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
-                   fsm::PhotoHead& head) {
-  const float pixels_per_mm = fit.pose.PixelsPerMm();
-  const Chin chin(base, fit);
+Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Figure& figure) {
+  const float pixels_per_mm = fitted.pose.PixelsPerMm();
+  const Chin chin(base, fitted);
   const PhotoGrid grid = GridOver(figure, pixels_per_mm);
-  const ExtendedFigure extended(figure, fit.pose.Project(fit.pose.ToCamera(chin.at())),
+  const ExtendedFigure extended(figure, fitted.pose.Project(fitted.pose.ToCamera(chin.at())),
                                 pixels_per_mm);
   SkinRaster raster =
-      RasterizeSkin(base, fit, fit.pose, grid, chin.SkinBottom(), MotionToRest(base, fit));
+      RasterizeSkin(base, fitted, fitted.pose, grid, chin.SkinBottom(), MotionToRest(base, fitted));
   const GridSkin skin(
       raster.depth,
       std::max(static_cast<int>(std::lround(PhotoLook()("sheet_rim") * pixels_per_mm / grid.cell)),
@@ -381,10 +381,9 @@ void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
       shown.at[shown.Index(x, y)] = extended.Opacity(grid.Pixel(x, y));
     }
   }
-  const FloatImage depth = SheetDepth(fit, grid, chin, skin, Blurred(shown, 2));
+  const FloatImage depth = SheetDepth(fitted, grid, chin, skin, Blurred(shown, 2));
   const glm::vec2 size(figure.colours.width, figure.colours.height);
-  head.sheet.clear();
-  head.sheet_triangles.clear();
+  Billboard out{.sheet = {}, .triangles = {}, .skin_bottom_y = chin.SkinBottom()};
   for (int y = 0; y < grid.rows; ++y) {
     for (int x = 0; x < grid.columns; ++x) {
       const glm::vec2 pixel = grid.Pixel(x, y);
@@ -393,20 +392,19 @@ void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
           glm::clamp(extended.Pixel(pixel) / size, 0.5F / kMapSide, 1 - 0.5F / kMapSide);
       const glm::vec3 by(raster.motion[0].at[i], raster.motion[1].at[i], raster.motion[2].at[i]);
       const glm::vec3 place =
-          fit.pose.FromCamera(fit.pose.Unproject(pixel, std::min(depth.at[i], 60.0F)));
-      head.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
+          fitted.pose.FromCamera(fitted.pose.Unproject(pixel, std::min(depth.at[i], 60.0F)));
+      out.sheet.push_back({place + by, {0.5F + 0.5F * at.x, at.y}});
     }
   }
-  Quads quads = DrawnCells(base, fit, grid, extended, skin.covered, skin.rim, depth);
+  Quads quads = DrawnCells(base, fitted, grid, extended, skin.covered, skin.rim, depth);
   // From back to front: soft edges show what lies behind them.
   std::ranges::sort(quads, {}, [&](const auto& quad) {
-    return std::pair(head.sheet[quad[0]].position.z + head.sheet[quad[2]].position.z, quad);
+    return std::pair(out.sheet[quad[0]].position.z + out.sheet[quad[2]].position.z, quad);
   });
   for (const auto& quad : quads) {
-    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) head.sheet_triangles.push_back(quad[k]);
+    for (const std::size_t k : {0U, 1U, 2U, 0U, 2U, 3U}) out.triangles.push_back(quad[k]);
   }
-  head.seen_from = fit.pose.TowardsCamera();
-  head.skin_bottom_y = chin.SkinBottom();
+  return out;
 }
 
 }  // namespace facefit

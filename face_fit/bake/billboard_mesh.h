@@ -1,17 +1,26 @@
 #pragma once
 
-#include "face_fit/bake/texture_bake.h"
+#include <cstdint>
+#include <vector>
+
+#include "face_fit/find/figure/matte.h"
+#include "face_fit/find/head/base_head.h"
+#include "face_fit/fit/fitted_head.h"
+#include "fsm/head/photo_head.h"
 
 namespace facefit {
 
 /// The figure's colours with the face taken out and the gap filled from around it: this shows
 /// beside the face when the head turns.
-fsm::Image BehindFace(const BaseHead& base, const Fit& fit, const Figure& figure);
+fsm::Image BehindFace(const BaseHead& base, const FittedHead& fitted, const Figure& figure);
 
-/// Makes the mesh that carries hair, neck and clothes: a sheet just behind the face, from there
-/// gently back to the outline, its triangles sorted from back to front. Fills head.sheet,
-/// head.sheet_triangles, head.seen_from and head.skin_bottom_y.
-void MakeBillboard(const BaseHead& base, const Fit& fit, const Figure& figure,
-                   fsm::PhotoHead& head);
+/// The mesh that carries hair, neck and clothes.
+struct Billboard {
+  std::vector<fsm::PhotoHead::SheetVertex> sheet;
+  std::vector<std::uint32_t> triangles;  ///< of the sheet, from back to front
+  float skin_bottom_y;                   ///< PhotoHead::skin_bottom_y
+};
+/// A sheet just behind the face, from there gently back to the outline.
+Billboard MakeBillboard(const BaseHead& base, const FittedHead& fitted, const Figure& figure);
 
 }  // namespace facefit

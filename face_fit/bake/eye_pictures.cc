@@ -1,14 +1,13 @@
+#include "face_fit/bake/eye_pictures.h"
+
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "face_fit/bake/eyes.h"
 #include "face_fit/bake/red_eye.h"
 #include "face_fit/picture/float_image.h"
 #include "face_fit/picture/inpaint.h"
@@ -18,6 +17,8 @@
 
 namespace facefit {
 namespace {
+
+constexpr float kLeastIris = 3;  // radius in pixels of what is worth showing
 
 // Squares side by side in the lower left corner of the picture: below the neck the skin's map is
 // not looked at. Texels between them, so that they do not run into each other.
@@ -168,11 +169,11 @@ struct EyeSquares {
 
 /// Whose picture each eye shows: its own, or that of the other where it is not seen. None where
 /// neither is seen well enough.
-std::optional<fsm::Sided<fsm::Side>> ShownEyes(const Fit& fit) {
+std::optional<fsm::Sided<fsm::Side>> ShownEyes(const SeenIrises& irises) {
   // What stands for both is no half shut eye.
   constexpr float kForBoth = 0.1F;
-  const auto seen = [&fit](fsm::Side k, float contrast) {
-    return fit.irises[k].contrast >= contrast && fit.irises[k].radius >= kLeastIris;
+  const auto seen = [&irises](fsm::Side k, float contrast) {
+    return irises.rings[k].contrast >= contrast && irises.rings[k].radius >= kLeastIris;
   };
   if (seen(fsm::Side::kRight, kClearRing) && seen(fsm::Side::kLeft, kClearRing)) {
     return {{fsm::Side::kRight, fsm::Side::kLeft}};
@@ -207,17 +208,19 @@ fsm::Image Mirrored(const fsm::Image& square, glm::vec3 gain) {
 
 }  // namespace
 
-void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-               fsm::Image& picture, fsm::PhotoHead& head) {
-  const auto shown = ShownEyes(fit);
-  if (!shown) return;
-  const glm::mat3 turned = fit.pose.Rotation();
+std::optional<fsm::Sided<fsm::EyePicture>> PaintEyes(const BaseHead& base, const FoundFace& face,
+                                                     const Fit& fit,
+                                                     const fsm::Sided<fsm::EyeTransform>& at_rest,
+                                                     const fsm::Image& photo, fsm::Image& picture) {
+  const auto shown = ShownEyes(fit.irises);
+  if (!shown) return std::nullopt;
+  const glm::mat3 turned = fit.head.pose.Rotation();
   const glm::vec2 right = glm::normalize(glm::vec2(turned[0].x, -turned[0].y));
   fsm::Sided<EyeSquares> squares;
   for (const fsm::Side k : fsm::kSides) {
     if ((*shown)[k] != k) continue;
     const fsm::EyeGeometry& ball = base.head->topology().eyes[k];
-    const fsm::EyeTransform transform = head.eyes ? (*head.eyes)[k] : fsm::EyeTransform();
+    const fsm::EyeTransform& transform = at_rest[k];
     EyePoints seen, rest;
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const PointIndex point = EyeOutline(k)[i];
@@ -233,23 +236,23 @@ void PaintEyes(const BaseHead& base, const FoundFace& face, const Fit& fit, cons
                                                  : transform.lower_mm;
       rest[i] = glm::vec2(transform.Turned(glm::vec3(rest[i].x, rest[i].y + open * raised, 0)));
     }
-    const SeenEye eye{fit.irises[k], LidLines(seen), right, {right.y, -right.x}};
+    const SeenEye eye{fit.irises.rings[k], LidLines(seen), right, {right.y, -right.x}};
     squares[k] = {IrisPicture(eye, LightBeside(face, photo, k), photo),
                   BallPicture(eye, LidLines(rest), transform.size * ball.ball_radius, photo)};
   }
   int left = kMargin;
-  head.eye_pictures.emplace();
+  fsm::Sided<fsm::EyePicture> pictures;
   for (const fsm::Side k : fsm::kSides) {
     if (const fsm::Side other = (*shown)[k]; other != k) {
       const glm::vec3 gain = LightBeside(face, photo, k) / LightBeside(face, photo, other);
       squares[k] = {Mirrored(squares[other].iris, gain), Mirrored(squares[other].ball, gain)};
     }
-    fsm::EyePicture& places = (*head.eye_pictures)[k];
-    places.iris = Insert(squares[k].iris, left, picture);
+    pictures[k].iris = Insert(squares[k].iris, left, picture);
     left += kIrisSide + kMargin;
-    places.ball = Insert(squares[k].ball, left, picture);
+    pictures[k].ball = Insert(squares[k].ball, left, picture);
     left += kEyeSide + kMargin;
   }
+  return pictures;
 }
 
 }  // namespace facefit

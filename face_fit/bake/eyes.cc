@@ -1,7 +1,6 @@
 #include "face_fit/bake/eyes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
@@ -31,11 +30,11 @@ float SkinLight(const FoundFace& face, const fsm::Image& photo) {
 
 }  // namespace
 
-fsm::Sided<fsm::EyeTransform> EyesAtRest(const BaseHead& base, const Fit& fit) {
+fsm::Sided<fsm::EyeTransform> EyesAtRest(const BaseHead& base, const FittedHead& fitted) {
   const float kept = PhotoLook()("squint_kept");
   fsm::HeadVertices posed;
-  base.head->Evaluate(fit.expression.State(), posed);
-  fsm::Sided<fsm::EyeTransform> transforms = fit.eyes;
+  base.head->Evaluate(fitted.expression.State(), posed);
+  fsm::Sided<fsm::EyeTransform> transforms = fitted.eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto raised = [&](std::size_t k) {
       const MeshPoint& lid = base.points[EyeOutline(side)[k]];
@@ -47,15 +46,14 @@ fsm::Sided<fsm::EyeTransform> EyesAtRest(const BaseHead& base, const Fit& fit) {
   return transforms;
 }
 
-void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
-                fsm::PhotoHead& head) {
+EyeColours SampleEyes(const FoundFace& face, const SeenIrises& irises, const fsm::Image& photo) {
   const fsm::NumberTable& look = PhotoLook();
   std::vector<glm::vec3> iris, white;
   for (const fsm::Side side : fsm::kSides) {
     const auto outline = EyeOutline(side);
     const glm::vec2 a = face.At(outline[kOuterCorner]), b = face.At(outline[kInnerCorner]);
     const float wide = glm::distance(a, b);
-    const IrisRing& ring = fit.irises[side];
+    const IrisRing& ring = irises.rings[side];
     const float radius = ring.radius;
     const glm::vec2 centre = ring.centre;
     for (float y = -0.25F; y <= 0.25F; y += 0.02F) {
@@ -81,7 +79,7 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
   // Drawn, an iris is darker than its base colour on the mean, where it meets pupil and rim.
   // In weak light it keeps its hue: brightened channel by channel a brown one would turn grey.
   const glm::vec3 tint = Linear(pick(iris, 0.5F, look.Vector("iris_unseen"))) * look("iris_gain");
-  head.iris_colour =
+  const glm::vec3 shown =
       glm::clamp(tint * std::max(1.0F, look("iris_darkest") / std::max(Brightness(tint), 1e-4F)),
                  0.0005F, 0.6F);
   // Whites are paler than what is seen of them, but have the hue of the light; and in whatever
@@ -90,11 +88,10 @@ void SampleEyes(const FoundFace& face, const Fit& fit, const fsm::Image& photo,
   const float least = look("white_least") * SkinLight(face, photo);
   ball = glm::mix(ball, glm::vec3(Brightness(ball)), look("white_greyed"));
   ball *= std::max(1.0F, least / std::max(Brightness(ball), 1e-3F));
-  head.white_colour = glm::clamp(ball, 0.04F, 0.8F);
-  head.iris_size = fit.iris_size;
+  return {.iris = shown, .white = glm::clamp(ball, 0.04F, 0.8F)};
 }
 
-void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead& head) {
+MouthColours SampleMouth(const FoundFace& face, const fsm::Image& photo) {
   const fsm::NumberTable& look = PhotoLook();
   // Along the middle of the lower lip, where it is widest.
   constexpr std::size_t kFirst = 2, kLast = 6;
@@ -105,9 +102,9 @@ void SampleMouth(const FoundFace& face, const fsm::Image& photo, fsm::PhotoHead&
   }
   // Screen colours are squares of it there; the inner rim lies in shade.
   const glm::vec2 inner = look.Pair("lip_inner");
-  head.lip_colour = inner.x * glm::pow(lip, glm::vec3(inner.y));
   const glm::vec3 teeth = look.Vector("teeth_light");
-  head.teeth = std::min(teeth.x + teeth.y * SkinLight(face, photo), teeth.z);
+  return {.lip = inner.x * glm::pow(lip, glm::vec3(inner.y)),
+          .teeth = std::min(teeth.x + teeth.y * SkinLight(face, photo), teeth.z)};
 }
 
 }  // namespace facefit

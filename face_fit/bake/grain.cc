@@ -1,8 +1,6 @@
 #include "face_fit/bake/grain.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

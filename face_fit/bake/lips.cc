@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/vec3.hpp>
 
-#include "face_fit/picture/photo.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/picture/resample.h"
 #include "face_fit/tables/photo_look.h"

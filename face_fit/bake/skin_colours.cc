@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
-#include <vector>
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"

@@ -7,7 +7,7 @@
 
 namespace facefit {
 
-SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose,
+SkinRaster RasterizeSkin(const BaseHead& base, const FittedHead& fitted, const CameraPose& pose,
                          const PhotoGrid& grid, float bottom, std::span<const glm::vec3> motion) {
   const FloatImage none(grid.columns, grid.rows);
   SkinRaster out{FloatImage(grid.columns, grid.rows, SkinRaster::kNone), {none, none, none}};
@@ -15,7 +15,7 @@ SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const CameraPose&
     glm::vec3 q[3];
     glm::vec2 p[3];
     for (int c = 0; c < 3; ++c) {
-      const glm::vec3 v = fit.posed_vertices[t[c]];
+      const glm::vec3 v = fitted.posed_vertices[t[c]];
       if (v.y < bottom || v.z < fsm::JawLine(v.y - bottom)) return;
       q[c] = pose.ToCamera(v);
       p[c] = (pose.Project(q[c]) - grid.origin) / grid.cell;

@@ -2,7 +2,8 @@
 
 #include <array>
 
-#include "face_fit/fit/fit.h"
+#include "face_fit/find/head/base_head.h"
+#include "face_fit/fit/fitted_head.h"
 #include "face_fit/picture/float_image.h"
 
 namespace facefit {
@@ -25,7 +26,7 @@ struct SkinRaster {
 /// Rasterises the skin of the fitted head, as a camera in `pose` sees it, above `bottom` (height in
 /// the head's frame, millimetres) and in front of ears and neck. `motion`: of each vertex of the
 /// base head, millimetres, or empty.
-SkinRaster RasterizeSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose,
+SkinRaster RasterizeSkin(const BaseHead& base, const FittedHead& fitted, const CameraPose& pose,
                          const PhotoGrid& grid, float bottom,
                          std::span<const glm::vec3> motion = {});
 

@@ -18,12 +18,12 @@ namespace {
 /// Whether the head itself hides a place of its skin from the camera, as the jaw does the throat.
 class Hidden {
  public:
-  Hidden(const BaseHead& base, const Fit& fit, const CameraPose& pose) : pose_(pose) {
+  Hidden(const BaseHead& base, const FittedHead& fitted, const CameraPose& pose) : pose_(pose) {
     const glm::vec2 middle = pose.Project({0, 0, 0});
     const float reach = kReach * pose.PixelsPerMm();
     const float cell = 2 * reach / kCells;
     grid_ = {middle - reach, cell, kCells, kCells};
-    nearest_ = RasterizeSkin(base, fit, pose, grid_, -1e9F).depth;
+    nearest_ = RasterizeSkin(base, fitted, pose, grid_, -1e9F).depth;
   }
   bool operator()(glm::vec3 camera) const {
     const glm::vec2 at = (pose_.Project(camera) - grid_.origin) / grid_.cell + 0.5F;
@@ -117,16 +117,17 @@ std::optional<Triangle2> OnMap(const fsm::HeadTopology& topology, const std::uin
 
 }  // namespace
 
-SkinTexels ProjectSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose, bool hidden) {
+SkinTexels ProjectSkin(const BaseHead& base, const FittedHead& fitted, const CameraPose& pose,
+                       bool hidden) {
   const glm::vec2 across = PhotoLook().Pair("aside_across");
   const glm::vec2 above_chin = PhotoLook().Pair("aside_above_chin");
   constexpr float kSlack = 0.02F;
   constexpr glm::vec3 kEye(0, 0, kCameraZ);
   std::optional<Hidden> hides;
-  if (hidden) hides.emplace(base, fit, pose);
+  if (hidden) hides.emplace(base, fitted, pose);
   const auto& topology = base.head->topology();
   std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : fit.posed_vertices) camera.push_back(pose.ToCamera(p));
+  for (const glm::vec3& p : fitted.posed_vertices) camera.push_back(pose.ToCamera(p));
   const std::vector<glm::vec3> normal = SkinNormals(topology, camera);
   const float brows = base.head->Landmark("nasion").y + kBrowsEnd;
   const float chin = base.AtRest(point::kChin).y;

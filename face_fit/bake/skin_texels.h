@@ -42,6 +42,7 @@ inline bool OnFront(const SkinTexels& texels, std::size_t i) {
 /// For each texel of the skin's map its place in a photo taken with `pose`. `hidden`: skin that the
 /// head itself covers, as the jaw covers the throat, counts as not seen (facing -1). Texels that no
 /// triangle covers keep the values of a new SkinTexels.
-SkinTexels ProjectSkin(const BaseHead& base, const Fit& fit, const CameraPose& pose, bool hidden);
+SkinTexels ProjectSkin(const BaseHead& base, const FittedHead& fitted, const CameraPose& pose,
+                       bool hidden);
 
 }  // namespace facefit

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "face_fit/picture/filters.h"
-#include "face_fit/picture/float_image.h"
 #include "face_fit/picture/pixels.h"
 #include "face_fit/tables/photo_look.h"
 

@@ -1,11 +1,10 @@
 #include "face_fit/bake/texture_bake.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "face_fit/bake/billboard_mesh.h"
+#include "face_fit/bake/eye_pictures.h"
 #include "face_fit/bake/eyes.h"
 #include "face_fit/bake/grain.h"
 #include "face_fit/bake/lips.h"
@@ -25,7 +24,10 @@
 namespace facefit {
 namespace {
 
-float Smile(const Fit& fit) { return glm::clamp(fit.expression.smile, 0.0F, 1.0F); }
+/// Strength of jaw and parting lips from which the photo shows an open mouth.
+constexpr float kMouthOpen = 0.1F;
+
+float Smile(const FittedHead& fitted) { return glm::clamp(fitted.expression.smile, 0.0F, 1.0F); }
 
 bool InPhoto(const fsm::Image& photo, glm::vec2 p) {
   return p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(photo.width) &&
@@ -33,18 +35,20 @@ bool InPhoto(const fsm::Image& photo, glm::vec2 p) {
 }
 
 /// Lays a view from the side over what the first photo saw at a slant or not at all.
-void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const SkinTexels& front,
-             fsm::Image& map, FloatImage& seen) {
+void LayOver(const BaseHead& base, const FittedHead& fitted, const SideView& side,
+             const SkinTexels& front, fsm::Image& map, FloatImage& seen) {
   const CameraPose& pose = side.fit.pose;
-  const SkinTexels texels = ProjectSkin(base, fit, pose, false);
+  const SkinTexels texels = ProjectSkin(base, fitted, pose, false);
   // What it shows is of the side towards it: the other cheek lies behind the nose.
   const float towards = pose.TowardsCamera().x > 0 ? 1.0F : -1.0F;
   const fsm::Image& colours = side.figure.colours;
-  // The same skin in another light: a gain for each channel makes it match.
+  // The same skin in another light: a gain for each channel makes it match. It is taken from what
+  // both show well: cosines of the slant, millimetres from the middle.
+  constexpr float kWellSeen = 0.9F, kFront = 0.4F, kAside = 0.5F, kFromMiddle = 5;
   glm::vec3 here(1), there(1);
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (seen.at[i] < 0.9F || front.facing[i] < 0.4F || texels.facing[i] < 0.5F ||
-        towards * front.across[i] < 5 || !InPhoto(colours, texels.pixel[i])) {
+    if (seen.at[i] < kWellSeen || front.facing[i] < kFront || texels.facing[i] < kAside ||
+        towards * front.across[i] < kFromMiddle || !InPhoto(colours, texels.pixel[i])) {
       continue;
     }
     here += Rgb(map, i);
@@ -53,8 +57,10 @@ void LayOver(const BaseHead& base, const Fit& fit, const SideView& side, const S
   const glm::vec2 limit = PhotoLook().Pair("light_gain");
   const glm::vec3 gain = glm::clamp(here / there, limit.x, limit.y);
   for (std::size_t i = 0; i < seen.at.size(); ++i) {
-    if (texels.facing[i] < 0.15F || !InPhoto(colours, texels.pixel[i])) continue;
-    const float can = glm::smoothstep(0.15F, 0.45F, texels.facing[i]) *
+    // Too slanted a texel is drawn from a line of pixels.
+    constexpr float kSlanted = 0.15F, kStraight = 0.45F;  // cosines
+    if (texels.facing[i] < kSlanted || !InPhoto(colours, texels.pixel[i])) continue;
+    const float can = glm::smoothstep(kSlanted, kStraight, texels.facing[i]) *
                       glm::smoothstep(-4.0F, 12.0F, towards * front.across[i]);
     const float known = seen.at[i] * glm::smoothstep(0.2F, 0.5F, front.facing[i]);
     const float sum = known + (1 - known) * can;
@@ -75,14 +81,14 @@ struct SkinMap {
 };
 
 /// What the photo shows, but not what is between lids and lips.
-SkinMap PaintPhoto(const FoundFace& face, const Fit& fit, const SkinTexels& texels, bool open,
-                   fsm::Image colours) {
+SkinMap PaintPhoto(const FoundFace& face, const FittedHead& fitted, const SkinTexels& texels,
+                   bool open, fsm::Image colours) {
   const fsm::NumberTable& look = PhotoLook();
   const float least_on_face = look("facing_least"), least_aside = look("facing_least_aside");
   const float soft = look("facing_soft");
-  const float pixels_per_mm = fit.pose.PixelsPerMm();
+  const float pixels_per_mm = fitted.pose.PixelsPerMm();
   const FloatImage filled =
-      FillSmileFolds(face, look("smile_folds_filled") * Smile(fit), pixels_per_mm, colours);
+      FillSmileFolds(face, look("smile_folds_filled") * Smile(fitted), pixels_per_mm, colours);
   const Openings openings(face, pixels_per_mm, open);
   SkinMap map;
   for (std::size_t i = 0; i < texels.facing.size(); ++i) {
@@ -129,31 +135,37 @@ float Coverage(const SkinTexels& texels, const FloatImage& seen) {
   return sum / std::max(count, 1.0F);
 }
 
+/// PhotoHead::saturation and PhotoHead::lined.
+struct SkinLook {
+  float saturation, lined;
+};
+
 /// Completes the map where the photo does not show it, and says in its alpha what is skin.
-void FinishMap(const BaseHead& base, const Fit& fit, const SkinTexels& texels, bool open,
-               SkinMap& map, fsm::PhotoHead& head) {
+SkinLook FinishMap(const BaseHead& base, const FittedHead& fitted, const SkinTexels& texels,
+                   bool open, SkinMap& map) {
   const fsm::NumberTable& look = PhotoLook();
-  head.saturation = Saturation(map.image, map.seen);
+  const float saturation = Saturation(map.image, map.seen);
   TakeFromOtherSide(map.skin, map.image, map.seen);
   PushPullInpaint(map.image, map.seen);
-  EvenSmileShade(base, texels, map.seen, look("smile_shade_evened") * Smile(fit), map.image);
+  EvenSmileShade(base, texels, map.seen, look("smile_shade_evened") * Smile(fitted), map.image);
   GrainFromCheeks(map.smooth, map.image);
   FloatImage aside(kMapSide, kMapSide);
   aside.at = texels.aside;
   AddGrain(map.seen, aside, kMapSide / 170, map.image);
   if (open) {
     RedLips(texels.red, map.image);
-    DrawMouthLine(texels, head.saturation, map.image);
+    DrawMouthLine(texels, saturation, map.image);
   }
   const FloatImage face_seen = OnFace(texels, map.seen);
   const glm::vec2 range = look.Pair("roughness");
   const float rough = (Roughness(map.image, face_seen) - range.x) / (range.y - range.x);
-  head.lined = glm::mix(look("crease_smooth"), 1.0F, glm::clamp(rough, 0.0F, 1.0F));
   FloatImage likeness = SkinLikeness(map.image, face_seen);
   EndAtHair(texels.up, likeness);
   for (std::size_t i = 0; i < likeness.at.size(); ++i) {
     map.image.rgba[4 * i + 3] = Byte(255 * likeness.at[i]);
   }
+  return {.saturation = saturation,
+          .lined = glm::mix(look("crease_smooth"), 1.0F, glm::clamp(rough, 0.0F, 1.0F))};
 }
 
 /// The map on the left, the figure on the right.
@@ -182,33 +194,49 @@ fsm::Image SideBySide(const fsm::Image& map, const fsm::Image& back, const Float
 
 TextureBake BakeTexture(const BaseHead& base, const FoundFace& face, const Fit& fit,
                         const fsm::Image& photo, const Figure& figure,
-                        std::span<const SideView> sides, fsm::PhotoHead& head) {
-  head.base = base.name;
-  head.points = fit.points;
-  head.smooth = fit.smooth;
-  head.eyes = EyesAtRest(base, fit);
-  const SkinTexels texels = ProjectSkin(base, fit, fit.pose, true);
-  const bool open = fit.expression.jaw + fit.expression.parted > 0.1F;
-  SkinMap map = PaintPhoto(face, fit, texels, open, figure.colours);
+                        std::span<const SideView> sides) {
+  const FittedHead& fitted = fit.head;
+  TextureBake bake;
+  const SkinTexels texels = ProjectSkin(base, fitted, fitted.pose, true);
+  const bool open = fitted.expression.jaw + fitted.expression.parted > kMouthOpen;
+  SkinMap map = PaintPhoto(face, fitted, texels, open, figure.colours);
+  std::vector<glm::vec3> also_seen;
   for (const SideView& side : sides) {
     if (side.outline_only) continue;
-    LayOver(base, fit, side, texels, map.image, map.seen);
-    head.also_seen.push_back(side.fit.pose.TowardsCamera());
+    LayOver(base, fitted, side, texels, map.image, map.seen);
+    also_seen.push_back(side.fit.pose.TowardsCamera());
   }
-  TextureBake bake;
   bake.coverage = Coverage(texels, map.seen);
-  FinishMap(base, fit, texels, open, map, head);
-  bake.picture =
-      SideBySide(map.image, BehindFace(base, fit, figure), figure.opacity, fit.pose.PixelsPerMm());
+  const SkinLook skin = FinishMap(base, fitted, texels, open, map);
+  bake.picture = SideBySide(map.image, BehindFace(base, fitted, figure), figure.opacity,
+                            fitted.pose.PixelsPerMm());
+  const auto eyes = EyesAtRest(base, fitted);
+  const EyeColours eye_colours = SampleEyes(face, fit.irises, photo);
+  const MouthColours mouth = SampleMouth(face, photo);
+  Billboard billboard = MakeBillboard(base, fitted, figure);
   // Half a texel within, so that the halves do not run into each other.
   constexpr float kHalf = 0.25F / kMapSide;
-  head.skin_low = {kHalf, 1};
-  head.skin_high = {0.5F - kHalf, 0};
-  MakeBillboard(base, fit, figure, head);
-  SampleEyes(face, fit, photo, head);
-  PaintEyes(base, face, fit, photo, bake.picture, head);
-  SampleMouth(face, photo, head);
-  head.glasses = BarOnNose(face, photo) > kGlasses;
+  bake.head = {.base = base.name,
+               .points = fitted.points,
+               .smooth = fitted.smooth,
+               .eyes = eyes,
+               .iris_colour = eye_colours.iris,
+               .white_colour = eye_colours.white,
+               .iris_size = fit.irises.size,
+               .teeth = mouth.teeth,
+               .glasses = BarOnNose(face, photo) > kGlasses,
+               .lip_colour = mouth.lip,
+               .eye_pictures = PaintEyes(base, face, fit, eyes, photo, bake.picture),
+               .saturation = skin.saturation,
+               .lined = skin.lined,
+               .skin_low = {kHalf, 1},
+               .skin_high = {0.5F - kHalf, 0},
+               .seen_from = fitted.pose.TowardsCamera(),
+               .also_seen = std::move(also_seen),
+               .skin_bottom_y = billboard.skin_bottom_y,
+               .sheet = std::move(billboard.sheet),
+               .sheet_triangles = std::move(billboard.triangles),
+               .photo = nullptr};
   return bake;
 }
 

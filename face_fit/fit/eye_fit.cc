@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -88,7 +87,8 @@ Expected ExpectedIris(const BaseHead& base, const Slit& seen, fsm::Side side) {
 
 }  // namespace
 
-void SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit) {
+SeenIrises SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo) {
+  SeenIrises irises;
   fsm::Sided<OpenEye> eyes;
   for (const fsm::Side side : fsm::kSides) {
     const auto place = [&face](PointIndex i) { return face.At(i); };
@@ -96,25 +96,26 @@ void SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* ph
     std::ranges::transform(EyeOutline(side), eyes[side].lids.begin(), place);
     eyes[side].middle = iris.centre;
     eyes[side].expected = iris.scale * base.head->topology().eyes[side].iris_radius;
-    fit.irises[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
+    irises.rings[side] = {.centre = iris.centre, .radius = eyes[side].expected, .contrast = 0};
   }
-  if (!photo) return;
+  if (!photo) return irises;
   const auto rings = FindIrises(*photo, std::array{eyes.right, eyes.left});
   float size = 0, count = 0;
   for (const fsm::Side side : fsm::kSides) {
     const IrisRing& ring = rings[static_cast<std::size_t>(side)];
     if (ring.contrast < kClearRing) continue;
-    fit.irises[side] = ring;
+    irises.rings[side] = ring;
     size += ring.radius / eyes[side].expected;
     count += 1;
   }
-  fit.iris_size = count > 0 ? std::clamp(size / count, 0.8F, 1.12F) : 1.0F;
+  if (count > 0) irises.size = std::clamp(size / count, 0.8F, 1.12F);
+  return irises;
 }
 
-void CentreEyes(const BaseHead& base, const Fit& fit,
+void CentreEyes(const BaseHead& base, const SeenIrises& irises,
                 std::vector<LandmarkConstraint>& constraints) {
   for (const fsm::Side side : fsm::kSides) {
-    const IrisRing& ring = fit.irises[side];
+    const IrisRing& ring = irises.rings[side];
     if (ring.contrast <= 0) continue;
     const auto outline = EyeOutline(side);
     const Slit slit = SlitOf(side, [&constraints](PointIndex i) {

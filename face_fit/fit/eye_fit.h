@@ -3,7 +3,8 @@
 #include <glm/vec3.hpp>
 #include <map>
 
-#include "face_fit/fit/fit.h"
+#include "face_fit/find/head/base_head.h"
+#include "face_fit/fit/fitted_head.h"
 
 namespace facefit {
 
@@ -13,10 +14,10 @@ namespace facefit {
 fsm::Sided<fsm::EyeTransform> FitEyes(const BaseHead& base,
                                       const std::map<PointIndex, glm::vec3>& to);
 
-/// Fills irises and iris_size of a fit; without a photo irises lie where the eyes' outlines say,
-/// with a contrast of 0.
-void SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo, Fit& fit);
+/// Without a photo irises lie where the eyes' outlines say, with a contrast of 0.
+SeenIrises SeeIrises(const BaseHead& base, const FoundFace& face, const fsm::Image* photo);
 /// Moves the outlines of eyes up or down where the irises show that the network misplaced them.
-void CentreEyes(const BaseHead& base, const Fit& fit, std::vector<LandmarkConstraint>& constraints);
+void CentreEyes(const BaseHead& base, const SeenIrises& irises,
+                std::vector<LandmarkConstraint>& constraints);
 
 }  // namespace facefit

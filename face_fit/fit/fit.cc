@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "face_fit/find/face/mouth_line.h"
 #include "face_fit/fit/eye_fit.h"
@@ -13,9 +12,6 @@
 
 namespace facefit {
 namespace {
-
-constexpr float kFaceZ = 50;
-constexpr glm::vec3 kMiddle{0, -10, 20};  ///< the head is turned about it
 
 /// Unknowns of the fit: those of the pose, and the strengths of Expression.
 enum FitParameter : std::size_t { kSmile = kPoseParameters, kJaw, kParted, kFitParameters };
@@ -54,12 +50,16 @@ std::vector<double> ResidualsOf(const Sight& sight, const Parameters& parameters
     mean += depth.back();
   }
   mean /= static_cast<float>(depth.size());
-  for (const float d : depth) out.push_back(0.4 * static_cast<double>(d - mean));
+  // The network is less sure of depth than of place.
+  constexpr double kDepthWeight = 0.4;
+  for (const float d : depth) out.push_back(kDepthWeight * static_cast<double>(d - mean));
   // People mostly hold still for a photo: what is not clearly seen is not assumed. Without teeth to
-  // see a mouth's form is taken for the person's own rather than for a smile.
-  out.push_back((sight.lips_apart ? 6 : 40) * parameters[kSmile]);
+  // see a mouth's form is taken for the person's own rather than for a smile. Millimetres that a
+  // unit at full strength counts as.
+  constexpr double kApartMm = 6, kClosedSmileMm = 40, kClosedJawMm = 1e4;
+  out.push_back((sight.lips_apart ? kApartMm : kClosedSmileMm) * parameters[kSmile]);
   for (const FitParameter i : {kJaw, kParted}) {
-    out.push_back((sight.lips_apart ? 6 : 1e4) * parameters[i]);
+    out.push_back((sight.lips_apart ? kApartMm : kClosedJawMm) * parameters[i]);
   }
   return out;
 }
@@ -78,48 +78,6 @@ Parameters Refine(const Sight& sight, const Parameters& start) {
   return LevenbergMarquardt([&sight](const Parameters& p) { return ResidualsOf(sight, p); },
                             unknowns, kRounds);
 }
-
-}  // namespace
-
-glm::mat3 CameraPose::Rotation() const {
-  const float cx = std::cos(turn.x), sx = std::sin(turn.x);
-  const float cy = std::cos(turn.y), sy = std::sin(turn.y);
-  const float cz = std::cos(turn.z), sz = std::sin(turn.z);
-  const glm::mat3 x(1, 0, 0, 0, cx, sx, 0, -sx, cx);
-  const glm::mat3 y(cy, 0, -sy, 0, 1, 0, sy, 0, cy);
-  const glm::mat3 z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);
-  return z * x * y;
-}
-glm::vec3 CameraPose::ToCamera(glm::vec3 p) const { return Rotation() * (p - kMiddle) + kMiddle; }
-glm::vec3 CameraPose::FromCamera(glm::vec3 q) const {
-  return glm::transpose(Rotation()) * (q - kMiddle) + kMiddle;
-}
-glm::vec3 CameraPose::TowardsCamera() const {
-  return glm::transpose(Rotation()) * glm::vec3(0, 0, 1);
-}
-glm::vec2 CameraPose::Project(glm::vec3 q) const {
-  return centre + focal / (kCameraZ - q.z) * glm::vec2(q.x, -q.y);
-}
-glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
-  const glm::vec2 d = (pixel - centre) * ((kCameraZ - z) / focal);
-  return {d.x, -d.y, z};
-}
-float CameraPose::PixelsPerMm() const { return focal / (kCameraZ - kFaceZ); }
-
-fsm::FaceState Expression::State() const {
-  fsm::FaceState state;
-  state.asymmetry = 0;
-  const auto both = [&state](std::size_t unit, float v) {
-    state.au.left[unit] = state.au.right[unit] = v;
-  };
-  both(12, smile);
-  both(6, 0.5F * smile);
-  both(26, jaw);
-  both(25, parted);
-  return state;
-}
-
-namespace {
 
 /// What the network sees of depth too much or too little on the base head; mean 0, millimetres.
 std::vector<float> DepthBias(const BaseHead& base) {
@@ -178,13 +136,13 @@ std::vector<LandmarkConstraint> ConstraintsOf(const Sight& sight, const CameraPo
 }
 
 /// Mean distance of the network's points from those of the fitted head, millimetres.
-float ResidualMm(const BaseHead& base, const FoundFace& face, const Fit& fit) {
+float ResidualMm(const BaseHead& base, const FoundFace& face, const FittedHead& fitted) {
   float sum = 0;
   for (const PointIndex k : FitPoints()) {
-    const glm::vec3 q = fit.pose.ToCamera(base.points[k].On(fit.posed_vertices));
-    sum += glm::distance(fit.pose.Project(q), face.At(k));
+    const glm::vec3 q = fitted.pose.ToCamera(base.points[k].On(fitted.posed_vertices));
+    sum += glm::distance(fitted.pose.Project(q), face.At(k));
   }
-  return sum / fit.pose.PixelsPerMm() / static_cast<float>(FitPoints().size());
+  return sum / fitted.pose.PixelsPerMm() / static_cast<float>(FitPoints().size());
 }
 
 }  // namespace
@@ -193,20 +151,20 @@ Fit FitFace(const BaseHead& base, const FoundFace& face, const fsm::Image* photo
   const Sight sight{base, face, DepthBias(base), LipsApart(face)};
   const Parameters settled = Refine(sight, FirstGuess(base, face));
   Fit fit;
-  fit.lips_apart = sight.lips_apart;
-  fit.pose = PoseOf(settled);
-  fit.expression = ExpressionOf(settled);
-  fit.expression.smile = SmileBeyondUsual(fit.expression.smile, sight.lips_apart);
+  FittedHead& fitted = fit.head;
+  fitted.pose = PoseOf(settled);
+  fitted.expression = ExpressionOf(settled);
+  fitted.expression.smile = SmileBeyondUsual(fitted.expression.smile, sight.lips_apart);
   fsm::HeadVertices now;
-  base.head->Evaluate(fit.expression.State(), now);
-  fit.constraints = ConstraintsOf(sight, fit.pose, now.position);
-  SeeIrises(base, face, photo, fit);
-  CentreEyes(base, fit, fit.constraints);
+  base.head->Evaluate(fitted.expression.State(), now);
+  fit.targets = {ConstraintsOf(sight, fitted.pose, now.position), sight.lips_apart};
+  fit.irises = SeeIrises(base, face, photo);
+  CentreEyes(base, fit.irises, fit.targets.constraints);
   if (photo && !sight.lips_apart) {
-    ConstrainToMouthLine(base, face, fit.pose, now.position, *photo, fit.constraints);
+    ConstrainToMouthLine(base, face, fitted.pose, now.position, *photo, fit.targets.constraints);
   }
-  WarpToLandmarks(base, fit);
-  fit.residual_mm = ResidualMm(base, face, fit);
+  WarpToLandmarks(base, fit.targets, fitted);
+  fit.residual_mm = ResidualMm(base, face, fitted);
   return fit;
 }
 

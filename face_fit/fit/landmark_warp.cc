@@ -51,20 +51,21 @@ std::uint32_t NearestLip(const BaseHead& base, glm::vec3 p) {
 
 /// Replaces the base head's skin in `posed_vertices` by the fitted head's in the photo's
 /// expression.
-void PoseSkin(const BaseHead& base, Fit& fit) {
-  const auto skin = SkinWith(base, fit, fit.expression.State());
-  std::ranges::copy(std::span(skin).first(std::min(skin.size(), fit.posed_vertices.size())),
-                    fit.posed_vertices.begin());
+void PoseSkin(const BaseHead& base, FittedHead& fitted) {
+  const auto skin = SkinWith(base, fitted, fitted.expression.State());
+  std::ranges::copy(std::span(skin).first(std::min(skin.size(), fitted.posed_vertices.size())),
+                    fitted.posed_vertices.begin());
 }
 
 }  // namespace
 
-std::vector<glm::vec3> SkinWith(const BaseHead& base, const Fit& fit, const fsm::FaceState& state) {
+std::vector<glm::vec3> SkinWith(const BaseHead& base, const FittedHead& fitted,
+                                const fsm::FaceState& state) {
   fsm::PhotoHead head;
   head.base = base.name;
-  head.points = fit.points;
-  head.smooth = fit.smooth;
-  head.eyes = fit.eyes;
+  head.points = fitted.points;
+  head.smooth = fitted.smooth;
+  head.eyes = fitted.eyes;
   const fsm::Rig skin = fsm::MakeSkinRig(head);
   fsm::HeadVertices vertices;
   (base.units ? skin.WithUnits(*base.units) : skin).Evaluate(state, vertices);
@@ -121,22 +122,22 @@ struct Correctable {
 };
 
 /// Sets the points of the warp by the constraints; `now`: the vertices with the expression.
-std::vector<Correctable> PlaceWarpPoints(const BaseHead& base, const std::vector<glm::vec3>& now,
-                                         Fit& fit) {
+std::vector<Correctable> PlaceWarpPoints(const BaseHead& base, const PhotoTargets& targets,
+                                         const std::vector<glm::vec3>& now, FittedHead& fitted) {
   std::vector<Correctable> correctable;
-  fit.points.clear();
-  for (std::size_t i = 0; i < fit.constraints.size(); ++i) {
-    const LandmarkConstraint& constraint = fit.constraints[i];
+  fitted.points.clear();
+  for (std::size_t i = 0; i < targets.constraints.size(); ++i) {
+    const LandmarkConstraint& constraint = targets.constraints[i];
     // At rest both inner lips are one line, which cannot follow two that are apart in the photo.
-    if (fit.lips_apart && OfInnerLips(constraint)) continue;
+    if (targets.lips_apart && OfInnerLips(constraint)) continue;
     const glm::vec3 rest = constraint.on_head.On(base.rest.position);
     if (const auto side = EyeOf(constraint)) {
       // Lids go with the eye: the skin around them must, too.
       const glm::vec3 centre = base.head->topology().eyes[*side].centre;
-      fit.points.push_back({rest, fit.eyes[*side].Placed(centre, rest) - rest});
+      fitted.points.push_back({rest, fitted.eyes[*side].Placed(centre, rest) - rest});
     } else {
-      correctable.push_back({fit.points.size(), i});
-      fit.points.push_back({rest, Seen(fit.pose, constraint) - constraint.on_head.On(now)});
+      correctable.push_back({fitted.points.size(), i});
+      fitted.points.push_back({rest, Seen(fitted.pose, constraint) - constraint.on_head.On(now)});
     }
   }
   return correctable;
@@ -144,36 +145,36 @@ std::vector<Correctable> PlaceWarpPoints(const BaseHead& base, const std::vector
 
 }  // namespace
 
-void WarpToLandmarks(const BaseHead& base, Fit& fit) {
-  const std::vector<LandmarkConstraint>& constraints = fit.constraints;
+void WarpToLandmarks(const BaseHead& base, const PhotoTargets& targets, FittedHead& fitted) {
+  const std::vector<LandmarkConstraint>& constraints = targets.constraints;
   fsm::HeadVertices posed;
-  base.head->Evaluate(fit.expression.State(), posed);
+  base.head->Evaluate(fitted.expression.State(), posed);
   const std::vector<glm::vec3>& now = posed.position;
   std::map<PointIndex, glm::vec3> eyes;
   for (const LandmarkConstraint& constraint : constraints) {
     if (!EyeOf(constraint)) continue;
     eyes[constraint.point] =
-        Seen(fit.pose, constraint) -
+        Seen(fitted.pose, constraint) -
         (constraint.on_head.On(now) - constraint.on_head.On(base.rest.position));
   }
-  fit.eyes = FitEyes(base, eyes);
-  const std::vector<Correctable> correctable = PlaceWarpPoints(base, now, fit);
-  const fsm::Warp warp(fit.points, fit.smooth);
-  fit.posed_vertices.clear();
+  fitted.eyes = FitEyes(base, eyes);
+  const std::vector<Correctable> correctable = PlaceWarpPoints(base, targets, now, fitted);
+  const fsm::Warp warp(fitted.points, fitted.smooth);
+  fitted.posed_vertices.clear();
   for (std::size_t i = 0; i < now.size(); ++i) {
-    fit.posed_vertices.push_back(now[i] + warp.Motion(base.rest.position[i]));
+    fitted.posed_vertices.push_back(now[i] + warp.Motion(base.rest.position[i]));
   }
   // What the head then makes of its units, lids and lips moves points a little off; once more with
   // that taken into account.
-  PoseSkin(base, fit);
+  PoseSkin(base, fitted);
   constexpr float kGain = 0.8F;
   for (const auto& [warp_point, of] : correctable) {
     const LandmarkConstraint& constraint = constraints[of];
-    const glm::vec3 q = fit.pose.ToCamera(constraint.on_head.On(fit.posed_vertices));
-    const glm::vec3 should = fit.pose.FromCamera(fit.pose.Unproject(constraint.pixel, q.z));
-    fit.points[warp_point].by += kGain * (should - fit.pose.FromCamera(q));
+    const glm::vec3 q = fitted.pose.ToCamera(constraint.on_head.On(fitted.posed_vertices));
+    const glm::vec3 should = fitted.pose.FromCamera(fitted.pose.Unproject(constraint.pixel, q.z));
+    fitted.points[warp_point].by += kGain * (should - fitted.pose.FromCamera(q));
   }
-  PoseSkin(base, fit);
+  PoseSkin(base, fitted);
 }
 
 }  // namespace facefit

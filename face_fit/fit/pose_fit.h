@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "face_fit/fit/fit.h"
+#include "face_fit/fit/camera_pose.h"
 
 namespace facefit {
 
@@ -30,6 +30,11 @@ CameraPose PoseOf(std::span<const double> parameters);
 /// The pose that shows the marks nearest to where the photo shows them, starting from `start`.
 /// Marks more than 3 mm off count by their distance, not by its square.
 CameraPose RefinePose(std::span<const PoseMark> marks, const CameraPose& start);
+/// A pose, and the mean distance of what it was found by from what it shows of the head.
+struct PoseFit {
+  CameraPose pose;
+  float residual_mm = 0;
+};
 /// Mean distance of marks from where they are shown, millimetres.
 float MeanDistance(const CameraPose& pose, std::span<const PoseMark> marks);
 

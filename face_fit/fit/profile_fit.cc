@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
 #include <utility>
@@ -26,14 +25,14 @@ constexpr float kLeastAlike = 0.92F;  // of lines without their slopes
 constexpr float kMostOff = 4;  // a mean beyond it is no face's, or another one's, millimetres
 
 /// The profile of the fitted head from the chin up: heights in even steps, and how far forward.
-std::vector<glm::vec3> ProfileOf(const BaseHead& base, const Fit& fit, float below_chin) {
-  const float low = base.points[point::kChin].On(fit.posed_vertices).y - below_chin;
-  const float high = base.points[point::kNasion].On(fit.posed_vertices).y + kAboveNasion;
+std::vector<glm::vec3> ProfileOf(const BaseHead& base, const FittedHead& fitted, float below_chin) {
+  const float low = base.points[point::kChin].On(fitted.posed_vertices).y - below_chin;
+  const float high = base.points[point::kNasion].On(fitted.posed_vertices).y + kAboveNasion;
   const auto count = static_cast<std::size_t>(std::max(high - low, kBin) / kBin) + 1;
   std::vector<float> z(count, -1e9F);
   ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const glm::vec3 a = fit.posed_vertices[t[c]], b = fit.posed_vertices[t[(c + 1) % 3]];
+      const glm::vec3 a = fitted.posed_vertices[t[c]], b = fitted.posed_vertices[t[(c + 1) % 3]];
       for (const float along : {0.0F, 0.25F, 0.5F, 0.75F}) {
         const glm::vec3 p = glm::mix(a, b, along);
         const float bin = (p.y - low) / kBin;
@@ -278,10 +277,10 @@ struct DepthGaps {
 
 }  // namespace
 
-vm::Result<ProfileFit> RefineDepthByProfile(const BaseHead& base, const FloatImage& opacity,
-                                            Fit& fit) {
-  const auto guess = Search(ProfileOf(base, fit, kThroat), opacity);
-  const auto line = ProfileOf(base, fit, 1);
+vm::Result<PoseFit> RefineDepthByProfile(const BaseHead& base, const FloatImage& opacity,
+                                         Fit& fit) {
+  const auto guess = Search(ProfileOf(base, fit.head, kThroat), opacity);
+  const auto line = ProfileOf(base, fit.head, 1);
   const auto refused = [] {
     return vm::Fail(vm::Errc::kBadValue,
                     "no face is found in it, and no outline that could be the profile of the first "
@@ -290,14 +289,14 @@ vm::Result<ProfileFit> RefineDepthByProfile(const BaseHead& base, const FloatIma
   if (!guess || guess->off > kMostOff || guess->alike < kLeastAlike) return refused();
   std::vector<glm::vec2> pixels;
   for (const glm::vec3& p : line) pixels.push_back(guess->At(p));
-  ProfileFit view;
+  PoseFit view;
   view.pose = PoseWithTurn(
       line, pixels, {0, glm::radians(90.0F) * static_cast<float>(guess->direction), -guess->tilt});
   view.pose = Refine(opacity, view.pose, line);
   view.residual_mm = MeanForward(opacity, view.pose, line);
   if (view.residual_mm > kMostOff) return refused();
   for (int round = 0; round < 3; ++round) {
-    const auto now = ProfileOf(base, fit, 1);
+    const auto now = ProfileOf(base, fit.head, 1);
     if (round > 0) view.pose = Refine(opacity, view.pose, now);
     DepthGaps gaps;
     for (const glm::vec3& p : now) {
@@ -308,12 +307,12 @@ vm::Result<ProfileFit> RefineDepthByProfile(const BaseHead& base, const FloatIma
     }
     // Beside the middle the outline says less and less.
     constexpr float kWide = 24, kMost = 6;
-    for (LandmarkConstraint& constraint : fit.constraints) {
-      const glm::vec3 p = constraint.on_head.On(fit.posed_vertices);
+    for (LandmarkConstraint& constraint : fit.targets.constraints) {
+      const glm::vec3 p = constraint.on_head.On(fit.head.posed_vertices);
       const float part = std::exp(-p.x * p.x / (kWide * kWide));
       constraint.z += part * std::clamp(gaps.At(p.y), -kMost, kMost);
     }
-    WarpToLandmarks(base, fit);
+    WarpToLandmarks(base, fit.targets, fit.head);
   }
   return view;
 }

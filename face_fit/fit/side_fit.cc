@@ -8,7 +8,6 @@
 
 #include "face_fit/find/head/portrait_view.h"
 #include "face_fit/fit/landmark_warp.h"
-#include "face_fit/fit/pose_fit.h"
 #include "face_fit/fit/stereo.h"
 #include "fsm/rig/normals.h"
 
@@ -18,6 +17,8 @@ namespace {
 constexpr int kSide = 640;
 /// Below it a photo tells no more of depth than the first one did; beyond it the network guesses.
 constexpr float kLeastTurn = 12, kMostTurn = 80;  // degrees
+/// Of a turned face the network is less sure than of one from the front (kCertainFace).
+constexpr float kLeastCertainty = 0.5F;
 /// Points of the same face drawn and seen lie nearer than that, those of another mostly do not.
 constexpr float kMostResidual = 2.6F;  // millimetres
 
@@ -30,10 +31,10 @@ struct Mark {
   float weight = 1;
 };
 
-std::vector<Mark> MarksOf(const BaseHead& base, const Fit& fit) {
+std::vector<Mark> MarksOf(const BaseHead& base, const FittedHead& fitted) {
   std::vector<Mark> marks;
   for (const PointIndex i : FitPoints()) {
-    marks.push_back({i, base.points[i].On(fit.posed_vertices)});
+    marks.push_back({i, base.points[i].On(fitted.posed_vertices)});
   }
   return marks;
 }
@@ -52,10 +53,10 @@ std::vector<PoseMark> Shown(const std::vector<Mark>& marks, const FoundFace& fac
 /// Draws the posed head turned as in the pose, lets the network look at it, and notes in the marks
 /// how far beside their places it sees them, and which of them are turned away. False if it sees no
 /// face.
-bool NoteBias(FaceNetworks& networks, const BaseHead& base, const Fit& fit, const CameraPose& pose,
-              std::vector<Mark>& marks) {
+bool NoteBias(FaceNetworks& networks, const BaseHead& base, const FittedHead& fitted,
+              const CameraPose& pose, std::vector<Mark>& marks) {
   fsm::HeadVertices turned;
-  for (const glm::vec3& p : fit.posed_vertices) turned.position.push_back(pose.ToCamera(p));
+  for (const glm::vec3& p : fitted.posed_vertices) turned.position.push_back(pose.ToCamera(p));
   turned.normal =
       fsm::Normals(base.head->topology().indices, turned.position, turned.position.size());
   const PortraitView portrait(kSide);
@@ -74,13 +75,13 @@ bool NoteBias(FaceNetworks& networks, const BaseHead& base, const Fit& fit, cons
 }
 
 /// Refined from several turns; the best.
-CameraPose FindPose(const BaseHead& base, const Fit& fit, const FoundFace& face,
+CameraPose FindPose(const BaseHead& base, const FittedHead& fitted, const FoundFace& face,
                     const std::vector<Mark>& marks) {
   const glm::vec2 top = face.At(point::kNasion), chin = face.At(point::kChin);
-  const auto posed = [&](PointIndex point) { return base.points[point].On(fit.posed_vertices); };
+  const auto posed = [&](PointIndex point) { return base.points[point].On(fitted.posed_vertices); };
   const float tall = glm::distance(posed(point::kNasion), posed(point::kChin));
-  CameraPose start = fit.pose;
-  start.focal = fit.pose.focal / fit.pose.PixelsPerMm() * glm::distance(top, chin) / tall;
+  CameraPose start = fitted.pose;
+  start.focal = fitted.pose.focal / fitted.pose.PixelsPerMm() * glm::distance(top, chin) / tall;
   const glm::vec2 down = chin - top;
   start.turn.z = std::atan2(-down.x, -down.y) + (down.y > 0 ? glm::radians(180.0F) : 0);
   if (start.turn.z > glm::radians(180.0F)) start.turn.z -= glm::radians(360.0F);
@@ -100,29 +101,28 @@ CameraPose FindPose(const BaseHead& base, const Fit& fit, const FoundFace& face,
 
 }  // namespace
 
-vm::Result<SideFit> FitSideView(FaceNetworks& networks, const BaseHead& base, const Fit& fit,
-                                const fsm::Image& photo) {
+vm::Result<PoseFit> FitSideView(FaceNetworks& networks, const BaseHead& base,
+                                const FittedHead& fitted, const fsm::Image& photo) {
   const auto boxes = FindFaces(networks, photo);
   if (boxes.empty()) return vm::Fail(vm::Errc::kBadValue, "no face is found in it");
-  SideFit view;
-  view.face = FindPoints(networks, photo, boxes.front());
-  if (view.face.certainty < 0.5F) {
+  const FoundFace face = FindPoints(networks, photo, boxes.front());
+  if (face.certainty < kLeastCertainty) {
     return vm::Fail(vm::Errc::kBadValue,
                     "no eyes, nose and mouth can be told apart in it; turned by 20 to 60 degrees "
                     "they can");
   }
-  std::vector<Mark> marks = MarksOf(base, fit);
-  view.pose = FindPose(base, fit, view.face, marks);
-  const float turn = std::abs(glm::degrees(view.pose.turn.y - fit.pose.turn.y));
+  std::vector<Mark> marks = MarksOf(base, fitted);
+  PoseFit view{FindPose(base, fitted, face, marks)};
+  const float turn = std::abs(glm::degrees(view.pose.turn.y - fitted.pose.turn.y));
   if (turn < kLeastTurn) {
     return vm::Fail(vm::Errc::kBadValue,
                     "it shows the face from the front like the first; 20 to 60 degrees help");
   }
-  if (turn > kMostTurn || !NoteBias(networks, base, fit, view.pose, marks)) {
+  if (turn > kMostTurn || !NoteBias(networks, base, fitted, view.pose, marks)) {
     return vm::Fail(vm::Errc::kBadValue,
                     "the face is turned too far to be compared; 20 to 60 degrees can be");
   }
-  const auto shown = Shown(marks, view.face, view.pose);
+  const auto shown = Shown(marks, face, view.pose);
   view.pose = RefinePose(shown, view.pose);
   view.residual_mm = MeanDistance(view.pose, shown);
   if (view.residual_mm > kMostResidual) {
@@ -135,13 +135,13 @@ vm::Result<SideFit> FitSideView(FaceNetworks& networks, const BaseHead& base, co
 }
 
 void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm::Image& side,
-                       SideFit& view, Fit& fit) {
+                       CameraPose& pose, Fit& fit) {
   for (int round = 0; round < 2; ++round) {
-    const auto said = CompareDepth(base, fit, front, side, view);
+    const auto said = CompareDepth(base, fit.head, front, side, pose);
     if (said.empty()) return;
     // What the far cheek hides is taken to be as the near one.
     std::vector<fsm::WarpPoint> both = said;
-    const glm::vec3 towards = view.pose.TowardsCamera();
+    const glm::vec3 towards = pose.TowardsCamera();
     for (const fsm::WarpPoint& point : said) {
       if (point.at.x * towards.x > 0 && std::abs(point.at.x) > 12) {
         both.push_back({point.at * glm::vec3(-1, 1, 1), point.by});
@@ -155,11 +155,11 @@ void RefineDepthBySide(const BaseHead& base, const fsm::Image& front, const fsm:
     });
     if (both.size() < 20) return;
     const fsm::Warp depth(both, kEven);
-    for (LandmarkConstraint& constraint : fit.constraints) {
+    for (LandmarkConstraint& constraint : fit.targets.constraints) {
       constraint.z +=
           std::clamp(depth.Motion(constraint.on_head.On(base.rest.position)).z, -kMost, kMost);
     }
-    WarpToLandmarks(base, fit);
+    WarpToLandmarks(base, fit.targets, fit.head);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "face_fit/find/face/upright.h"
 #include "face_fit/find/figure/figure_finder.h"
 #include "face_fit/fit/profile_fit.h"
+#include "face_fit/fit/side_fit.h"
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/photo.h"
 
@@ -18,16 +19,16 @@ vm::Result<fsm::Image> ReadUpright(FaceNetworks& networks, const std::string& pa
 
 vm::Result<SideView> LookFromSide(FaceNetworks& networks, const BaseHead& base,
                                   const fsm::Image& front, const fsm::Image& side, Fit& fit) {
-  auto view = FitSideView(networks, base, fit, side);
+  auto view = FitSideView(networks, base, fit.head, side);
   if (!view) {
     // In full profile the network finds no face, or places its points at will.
     Figure figure = CutOut(side, FindFigure(networks, side));
     auto profile = RefineDepthByProfile(base, figure.opacity, fit);
     if (!profile) return std::unexpected(view.error());
-    return SideView{{{}, profile->pose, profile->residual_mm}, std::move(figure), true};
+    return SideView{*profile, std::move(figure), true};
   }
-  RefineDepthBySide(base, front, side, *view, fit);
-  return SideView{std::move(*view), CutOut(side, FindFigure(networks, side))};
+  RefineDepthBySide(base, front, side, view->pose, fit);
+  return SideView{*view, CutOut(side, FindFigure(networks, side))};
 }
 
 }  // namespace facefit

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "face_fit/find/head/rasterizer.h"
@@ -33,12 +32,13 @@ struct Seen {
   }
 };
 
-Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const CameraPose& side) {
+Seen LookAt(const BaseHead& base, const FittedHead& fitted, const fsm::Image& front,
+            const CameraPose& side) {
   Seen seen;
-  seen.step = kCell * fit.pose.PixelsPerMm();
+  seen.step = kCell * fitted.pose.PixelsPerMm();
   Box2 box;
   for (const PointIndex i : FitPoints()) {
-    box.Add(fit.pose.Project(fit.pose.ToCamera(base.points[i].On(fit.posed_vertices))));
+    box.Add(fitted.pose.Project(fitted.pose.ToCamera(base.points[i].On(fitted.posed_vertices))));
   }
   seen.origin = box.low;
   seen.columns = std::clamp(static_cast<int>(box.Size().x / seen.step), 1, 400);
@@ -50,13 +50,13 @@ Seen LookAt(const BaseHead& base, const Fit& fit, const fsm::Image& front, const
   seen.facing.assign(count, -1);
   seen.side.assign(count, -1);
   const glm::vec3 to_side = side.TowardsCamera();
-  const glm::mat3 rotation = fit.pose.Rotation();
-  const auto& posed = fit.posed_vertices;
+  const glm::mat3 rotation = fitted.pose.Rotation();
+  const auto& posed = fitted.posed_vertices;
   std::vector<glm::vec3> camera;
-  for (const glm::vec3& p : posed) camera.push_back(fit.pose.ToCamera(p));
+  for (const glm::vec3& p : posed) camera.push_back(fitted.pose.ToCamera(p));
   ForSkinTriangles(base.head->topology(), [&](const std::uint32_t* t) {
     const auto grid = [&](std::uint32_t v) {
-      return (fit.pose.Project(camera[v]) - seen.origin) / seen.step;
+      return (fitted.pose.Project(camera[v]) - seen.origin) / seen.step;
     };
     const Triangle2 triangle{grid(t[0]), grid(t[1]), grid(t[2])};
     if (triangle.SignedArea() > 0) return;  // seen from behind: y runs down
@@ -217,28 +217,27 @@ std::vector<PoseMark> FindPatches(const Seen& seen, const CameraPose& front, con
 
 }  // namespace
 
-std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const Fit& fit,
+std::vector<fsm::WarpPoint> CompareDepth(const BaseHead& base, const FittedHead& fitted,
                                          const fsm::Image& front, const fsm::Image& side,
-                                         SideFit& view) {
+                                         CameraPose& pose) {
   SideMatcher matcher(side);
   for (int round = 0; round < 2; ++round) {
-    const auto marks =
-        FindPatches(LookAt(base, fit, front, view.pose), fit.pose, view.pose, matcher);
+    const auto marks = FindPatches(LookAt(base, fitted, front, pose), fitted.pose, pose, matcher);
     if (marks.size() < kFewest) return {};
-    view.pose = RefinePose(marks, view.pose);
+    pose = RefinePose(marks, pose);
   }
   // Then along the line of sight of the first photo.
   constexpr float kStep = 0.75F;  // millimetres
   constexpr int kReach = 14;
-  const Seen seen = LookAt(base, fit, front, view.pose);
+  const Seen seen = LookAt(base, fitted, front, pose);
   std::vector<fsm::WarpPoint> said;
   for (const Patch& patch : PatchesOf(seen)) {
     const Peak peak = FindPeak(kReach, [&](int k) {
       const float by = kStep * static_cast<float>(k);
       const float alike = matcher.Match(patch, [&](std::size_t i) {
         const glm::vec3& q = patch.camera[i];
-        const glm::vec3 moved = fit.pose.Unproject(fit.pose.Project(q), q.z + by);
-        return view.pose.Project(view.pose.ToCamera(fit.pose.FromCamera(moved)));
+        const glm::vec3 moved = fitted.pose.Unproject(fitted.pose.Project(q), q.z + by);
+        return pose.Project(pose.ToCamera(fitted.pose.FromCamera(moved)));
       });
       return alike - 0.0012F * by * by;  // of places as alike the nearest
     });

@@ -1,7 +1,6 @@
 #include "face_fit/picture/inpaint.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <glm/vec4.hpp>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "face_fit/watch/face_watch.h"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 
 namespace facefit {
 namespace {

@@ -23,8 +23,8 @@ struct Framing {
 constexpr Framing kWholeFace{1.18f, -8}, kMouth{2.9f, 50}, kBust{1, 0};
 
 FaceState Framed(FaceState state, const Framing& framing) {
-  state.agent_scale *= framing.scale;
-  state.agent_translation = {0, framing.up};
+  state.figure.scale *= framing.scale;
+  state.figure.translation = {0, framing.up};
   return state;
 }
 
@@ -50,7 +50,7 @@ Sheet Units(const MotionTables& tables, const std::string& face) {
   for (const auto& [number, name] : tables.unit_names.names) {
     const std::string text = std::to_string(number) + " 1" + Companions(number);
     const FaceState state =
-        After(tables, [&](FaceMotion& motion) { vm::OrThrow(motion.SetUnits(0ms, text)); });
+        After(tables, [&](FaceMotion& motion) { vm::OrThrow(motion.units.Set(0ms, text)); });
     sheet.cells.push_back({std::to_string(number) + " " + name, Framed(state, kWholeFace), face});
   }
   return sheet;
@@ -61,8 +61,9 @@ Sheet Emotions(const MotionTables& tables, const std::string& face) {
   sheet.cells.push_back({"NEUTRAL", Framed({}, kWholeFace), face});
   for (const char* name : {"HAPPY", "SAD", "SURPRISED", "FEARED", "ANGRY", "DISGUSTED"}) {
     if (!tables.emotions.contains(name)) continue;
-    const FaceState state = After(
-        tables, [&](FaceMotion& motion) { vm::OrThrow(motion.Express(0ms, name, 1, 1, 0ms)); });
+    const FaceState state = After(tables, [&](FaceMotion& motion) {
+      vm::OrThrow(motion.expression.Show(0ms, name, 1, 1, 0ms));
+    });
     sheet.cells.push_back({name, Framed(state, kWholeFace), face});
   }
   return sheet;
@@ -86,12 +87,12 @@ Sheet VisemeSheet(const MotionTables& tables, const std::string& face) {
 Sheet Identities(const MotionTables& tables, const std::vector<std::string>& faces) {
   Sheet sheet{{}, 4};
   const FaceState smile = After(tables, [](FaceMotion& motion) {
-    static_cast<void>(motion.Express(0ms, "HAPPY", 1, 1, 0ms));  // without it: at rest
+    static_cast<void>(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));  // without it: at rest
   });
   for (const std::string& face : faces) {
     for (const float turn : {0.0f, 35.0f, 85.0f}) {
       FaceState state;
-      state.agent_rotation = {0, turn, 0};
+      state.figure.rotation = {0, turn, 0};
       sheet.cells.push_back(
           {face + " " + std::to_string(static_cast<int>(turn)), Framed(state, kBust), face});
     }

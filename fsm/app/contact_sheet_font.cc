@@ -1,7 +1,6 @@
 #include "fsm/app/contact_sheet_font.h"
 
 #include <array>
-#include <cstdint>
 
 namespace fsm {
 namespace {

@@ -1,7 +1,7 @@
+#include "fsm/app/expression_slots.h"
+
 #include <charconv>
 #include <optional>
-
-#include "fsm/app/slot_groups.h"
 
 namespace fsm {
 namespace {
@@ -34,13 +34,16 @@ std::string SlotOf(const std::string& expression, int pattern) {
 }
 
 void DeclareOne(FsmCore& core, const Name& name, const std::string& initial) {
-  core.Declare({SlotOf(name.expression, name.pattern), "<text>",
-                "What pattern " + std::to_string(name.pattern) + " of " + name.expression +
-                    " looks like: units and strengths, gaze:DOWN,RIGHT.",
-                [&core, name](const vm::SetValue& value) {
-                  return core.motion->DefineExpression(name.expression, name.pattern, value.text);
-                },
-                initial});
+  core.Declare({.name = SlotOf(name.expression, name.pattern),
+                .grammar = "<text>",
+                .help = "What pattern " + std::to_string(name.pattern) + " of " + name.expression +
+                        " looks like: units and strengths, gaze:DOWN,RIGHT.",
+                .action =
+                    [&core, name](const vm::SetValue& value) {
+                      return core.motion->expression.Define(name.expression, name.pattern,
+                                                            value.text);
+                    },
+                .initial = initial});
 }
 
 std::string LookOf(const FsmCore& core, const Name& name) {
@@ -58,7 +61,7 @@ vm::Result<std::string> Define(FsmCore& core, const Name& name, const std::strin
     return vm::Fail(vm::Errc::kLimit, "more than " + std::to_string(kMostOwnSlots) +
                                           " patterns of expressions were defined");
   }
-  auto done = core.motion->DefineExpression(name.expression, name.pattern, look);
+  auto done = core.motion->expression.Define(name.expression, name.pattern, look);
   if (!done) return std::unexpected(done.error());
   if (!known) DeclareOne(core, name, "");
   const std::string written = LookOf(core, name);
@@ -68,7 +71,7 @@ vm::Result<std::string> Define(FsmCore& core, const Name& name, const std::strin
 }
 
 void Forget(FsmCore& core, const std::string& expression) {
-  core.motion->ForgetExpression(expression);
+  core.motion->expression.Forget(expression);
   for (int pattern = 1; core.slots.Has(SlotOf(expression, pattern)); ++pattern) {
     core.slots.Store(SlotOf(expression, pattern), LookOf(core, {expression, pattern}));
   }

@@ -1,6 +1,4 @@
-#include <chrono>
-
-#include "fsm/app/slot_groups.h"
+#include "fsm/app/face_slots.h"
 
 namespace fsm {
 namespace {
@@ -21,10 +19,10 @@ vm::Result<void> SetBlendShapes(FsmCore& core, const vm::SetValue& value) {
   const vm::Time move = FromMs(timed ? value.number(value.size() - 1) : 60);
   // All names are looked at before anything moves.
   for (std::size_t i = 0; i + 1 < value.size(); i += 2) {
-    if (auto known = core.motion->CheckBlendShape(value.word(i)); !known) return known;
+    if (auto known = core.motion->blend_shapes.Check(value.word(i)); !known) return known;
   }
   for (std::size_t i = 0; i + 1 < value.size(); i += 2) {
-    auto set = core.motion->SetBlendShape(now, value.word(i), value.number(i + 1), move);
+    auto set = core.motion->blend_shapes.Set(now, value.word(i), value.number(i + 1), move);
     if (!set) return set;
   }
   return {};
@@ -54,64 +52,77 @@ void DeclareUnits(FsmCore& core) {
          .help = "Strength of mouth parameter " + std::to_string(i) + " in per cent, 0 to 200.",
          .action =
              [&core](const vm::SetValue& value) {
-               return core.motion->SetMouth(core.Now(), NumberOf(value.slot),
-                                            value.number(0) / 100);
+               return core.motion->mouth.Set(core.Now(), NumberOf(value.slot),
+                                             value.number(0) / 100);
              },
          .initial = "0",
          .least = 0,
          .most = 200});
   }
   core.Declare(
-      {"AU", "<text>",
-       "Moves action units: number (or name) with L or R for one side, then the strength "
-       "(0 to 2, 1 = full, or a letter A to E), as many as wanted; at the end the ms it "
-       "takes (60). 30 and 46 (a wink) are of one side, the agent's left if none is named. 51-58 "
-       "move the head, 61-66 the eyes. `12L 0.7 6 C 200`",
-       [&core](const vm::SetValue& value) { return core.motion->SetUnits(core.Now(), value.text); },
-       "", false});
-  core.Declare({"ARKit", "( <word> <number 0..1> )... [ <ms> ]",
-                "Moves blend shapes of ARKit's names: name and weight, as many as wanted, and the "
-                "ms it takes (60).",
-                [&core](const vm::SetValue& value) { return SetBlendShapes(core, value); }, "",
-                false});
+      {.name = "AU",
+       .grammar = "<text>",
+       .help = "Moves action units: number (or name) with L or R for one side, then the strength "
+               "(0 to 2, 1 = full, or a letter A to E), as many as wanted; at the end the ms it "
+               "takes (60). 30 and 46 (a wink) are of one side, the agent's left if none is named. "
+               "51-58 "
+               "move the head, 61-66 the eyes. `12L 0.7 6 C 200`",
+       .action =
+           [&core](const vm::SetValue& value) {
+             return core.motion->units.Set(core.Now(), value.text);
+           },
+       .readable = false});
+  core.Declare(
+      {.name = "ARKit",
+       .grammar = "( <word> <number 0..1> )... [ <ms> ]",
+       .help = "Moves blend shapes of ARKit's names: name and weight, as many as wanted, and the "
+               "ms it takes (60).",
+       .action = [&core](const vm::SetValue& value) { return SetBlendShapes(core, value); },
+       .readable = false});
 }
 
 void DeclareExpressions(FsmCore& core) {
   core.Declare(
-      {"FaceExp", "NEUTRAL [ <int> <number> <ms> ] | <word> <int 1..> <number 0..200> <ms>",
-       "An expression: HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED or USERDEF, its pattern "
-       "(1 to 5), its strength in per cent and its duration in ms (0 = until the next); "
-       "or NEUTRAL.",
-       [&core](const vm::SetValue& value) -> vm::Result<void> {
+      {.name = "FaceExp",
+       .grammar = "NEUTRAL [ <int> <number> <ms> ] | <word> <int 1..> <number 0..200> <ms>",
+       .help = "An expression: HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED or USERDEF, its pattern "
+               "(1 to 5), its strength in per cent and its duration in ms (0 = until the next); "
+               "or NEUTRAL.",
+       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
          if (value.word(0) == "NEUTRAL") {
-           core.motion->Neutral(core.Now());
+           core.motion->expression.Neutral(core.Now());
            return {};
          }
-         return core.motion->Express(core.Now(), value.word(0), static_cast<int>(value.number(1)),
-                                     value.number(2) / 100, FromMs(value.number(3)));
+         return core.motion->expression.Show(core.Now(), value.word(0),
+                                             static_cast<int>(value.number(1)),
+                                             value.number(2) / 100, FromMs(value.number(3)));
        },
-       "NEUTRAL"});
-  core.Declare({"Mood", "NEUTRAL | <word> <number 0..100>",
-                "A slight look that stays until the next, and its strength in per cent: AROUSED or "
-                "LOW (MOOD lines of motions.txt), as vdm tells it of a voice; or NEUTRAL. "
-                "Expressions cover it.",
-                [&core](const vm::SetValue& value) {
-                  return core.motion->SetMood(core.Now(), value.word(0),
-                                              value.size() > 1 ? value.number(1) / 100 : 0);
-                },
-                "NEUTRAL"});
+       .initial = "NEUTRAL"});
+  core.Declare(
+      {.name = "Mood",
+       .grammar = "NEUTRAL | <word> <number 0..100>",
+       .help = "A slight look that stays until the next, and its strength in per cent: AROUSED or "
+               "LOW (MOOD lines of motions.txt), as vdm tells it of a voice; or NEUTRAL. "
+               "Expressions cover it.",
+       .action =
+           [&core](const vm::SetValue& value) {
+             return core.motion->mood.Set(core.Now(), value.word(0),
+                                          value.size() > 1 ? value.number(1) / 100 : 0);
+           },
+       .initial = "NEUTRAL"});
   const MotionSettings& settings = core.motion->settings();
-  core.Declare({"FaceExp.onset", "POSED | ELICITED | NATURAL | <ms>",
-                "How long an expression takes to come: as measured on people who show (POSED, or "
-                "NATURAL) or feel (ELICITED) it, each emotion by itself; or so many ms.",
-                core.Setting([](MotionSettings& changed, const vm::SetValue& value) {
-                  changed.onset = value.word(0) == "POSED" || value.word(0) == "NATURAL"
-                                      ? Onset::kPosed
-                                  : value.word(0) == "ELICITED" ? Onset::kElicited
-                                                                : Onset::kFixed;
-                  if (changed.onset == Onset::kFixed) changed.expression = FromMs(value.number(0));
-                }),
-                settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression) : "POSED"});
+  core.Declare(
+      {.name = "FaceExp.onset",
+       .grammar = "POSED | ELICITED | NATURAL | <ms>",
+       .help = "How long an expression takes to come: as measured on people who show (POSED, or "
+               "NATURAL) or feel (ELICITED) it, each emotion by itself; or so many ms.",
+       .action = core.Setting([](MotionSettings& changed, const vm::SetValue& value) {
+         changed.onset = value.word(0) == "POSED" || value.word(0) == "NATURAL" ? Onset::kPosed
+                         : value.word(0) == "ELICITED"                          ? Onset::kElicited
+                                                                                : Onset::kFixed;
+         if (changed.onset == Onset::kFixed) changed.expression = FromMs(value.number(0));
+       }),
+       .initial = settings.onset == Onset::kFixed ? vm::FormatMs(settings.expression) : "POSED"});
 }
 
 void DeclareHead(FsmCore& core) {
@@ -122,7 +133,7 @@ void DeclareHead(FsmCore& core) {
                 .grammar = "<number> <number> <number>",
                 .help = "Turns the head to " + axes,
                 .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->TurnHead(core.Now(), AnglesOf(core, value));
+                  core.motion->head.TurnTo(core.Now(), AnglesOf(core, value));
                   return {};
                 },
                 .initial = "0 0 0",
@@ -132,19 +143,20 @@ void DeclareHead(FsmCore& core) {
                 .grammar = "<number> <number> <number>",
                 .help = "Turns the head further by " + axes,
                 .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
-                  core.motion->TurnHeadBy(core.Now(), AnglesOf(core, value));
+                  core.motion->head.TurnBy(core.Now(), AnglesOf(core, value));
                   return {};
                 },
                 .readable = false,
                 .least = -90,
                 .most = 90});
   core.Declare(
-      {"FaceMot",
-       "NOMOVE [ <int> ] | ( NOD | REFUSE | SHAKE | LISTEN | TILT | BLINK | USERDEF ) <int 1..> "
-       "[ <number 0..300> [ <int 1..20> ] ]",
-       "One movement and its pattern, its strength in per cent (100) and how many times "
-       "(1), or NOMOVE to end what is moving. SHAKE is REFUSE, TILT is LISTEN.",
-       [&core](const vm::SetValue& value) -> vm::Result<void> {
+      {.name = "FaceMot",
+       .grammar = "NOMOVE [ <int> ] | ( NOD | REFUSE | SHAKE | LISTEN | TILT | BLINK | USERDEF ) "
+                  "<int 1..> "
+                  "[ <number 0..300> [ <int 1..20> ] ]",
+       .help = "One movement and its pattern, its strength in per cent (100) and how many times "
+               "(1), or NOMOVE to end what is moving. SHAKE is REFUSE, TILT is LISTEN.",
+       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
          if (value.word(0) == "NOMOVE") {
            core.motion->StopMoves(core.Now());
            return {};
@@ -153,21 +165,24 @@ void DeclareHead(FsmCore& core) {
                                   value.size() > 2 ? value.number(2) / 100 : 1,
                                   value.size() > 3 ? static_cast<int>(value.number(3)) : 1);
        },
-       "", false});
+       .readable = false});
 }
 
 void DeclareEyes(FsmCore& core) {
   const auto eyes = [&core](const std::string& name, bool left, bool right, const char* which) {
-    core.Declare({name, "<number -90..90> <number -90..90> <ms>",
-                  std::string("Turns ") + which +
-                      " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
-                      "0 = until the next.",
-                  [&core, left, right](const vm::SetValue& value) -> vm::Result<void> {
-                    core.motion->TurnEyes(core.Now(), left, right, value.number(0), value.number(1),
-                                          FromMs(value.number(2)));
+    core.Declare({.name = name,
+                  .grammar = "<number -90..90> <number -90..90> <ms>",
+                  .help = std::string("Turns ") + which +
+                          " by x y degrees (x+ = down, y+ = to the viewer's right) for so many ms; "
+                          "0 = until the next.",
+                  .action = [&core, left, right](const vm::SetValue& value) -> vm::Result<void> {
+                    core.motion->eyes.Turn(
+                        core.Now(), left, right,
+                        {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
+                        FromMs(value.number(2)));
                     return {};
                   },
-                  "", false});
+                  .readable = false});
   };
   eyes("EyeRot", true, true, "both eyes");
   eyes("EyeRotRight", false, true, "the agent's right eye");
@@ -184,51 +199,49 @@ void DeclareFaceSlots(FsmCore& core) {
 }
 
 void DeclareFigureSlots(FsmCore& core) {
-  const auto setting = [&core](auto change) {
-    return [&core, change](const vm::SetValue& value) -> vm::Result<void> {
-      change(core.motion->figure(), value);
-      return {};
-    };
+  const auto declare = [&core](const char* name, const char* grammar, const char* help,
+                               const char* initial, auto change) {
+    core.Declare({.name = name,
+                  .grammar = grammar,
+                  .help = help,
+                  .action = [&core, change](const vm::SetValue& value) -> vm::Result<void> {
+                    change(core.motion->figure, value);
+                    return {};
+                  },
+                  .initial = initial});
   };
-  core.Declare({"AgentEnable", "ENABLE | DISABLE", "Whether the agent is drawn.",
-                setting([](FaceState& figure, const vm::SetValue& value) {
-                  figure.agent_enabled = value.word(0) == "ENABLE";
-                }),
-                "ENABLE"});
-  core.Declare({"Asymmetry", "<number 0..300>",
-                "How unlike the two sides of the face move, in per cent of what this face has by "
-                "itself (a few per cent of each unit); 0 = both alike. Which side is first in time "
-                "is Autonomous' ASYMMETRY.",
-                setting([](FaceState& figure, const vm::SetValue& value) {
-                  figure.asymmetry = static_cast<float>(value.number(0) / 100);
-                }),
-                "100"});
-  core.Declare({"AgentAlpha", "<number 0..1>", "Opacity of the agent, 0 = not to be seen.",
-                setting([](FaceState& figure, const vm::SetValue& value) {
-                  figure.agent_alpha = static_cast<float>(value.number(0));
-                }),
-                "1.0"});
-  core.Declare({"AgentRot", "<number -360..360> <number -360..360> <number -360..360>",
-                "Turns the whole figure: x y z in degrees, x+ = down, y+ = right, z+ = tilt to the "
-                "viewer's right (with -C to his left, as in the original).",
-                setting([&core](FaceState& figure, const vm::SetValue& value) {
-                  figure.agent_rotation = AnglesOf(core, value);
-                }),
-                "0 0 0"});
-  core.Declare(
-      {"AgentTrans", "<number -10000..10000> <number -10000..10000>",
-       "Moves the whole figure: x to the right and y up, in mm at the face; with -C in halves of "
-       "the view's longer side, as in the original.",
-       setting([](FaceState& figure, const vm::SetValue& value) {
-         figure.agent_translation = {static_cast<float>(value.number(0)),
-                                     static_cast<float>(value.number(1))};
-       }),
-       "0 0"});
-  core.Declare({"AgentScale", "<number 0.01..100>", "Size of the whole figure, 1.0 = normal.",
-                setting([](FaceState& figure, const vm::SetValue& value) {
-                  figure.agent_scale = static_cast<float>(value.number(0));
-                }),
-                "1.0"});
+  declare("AgentEnable", "ENABLE | DISABLE", "Whether the agent is drawn.", "ENABLE",
+          [](Figure& figure, const vm::SetValue& value) {
+            figure.enabled = value.word(0) == "ENABLE";
+          });
+  declare("Asymmetry", "<number 0..300>",
+          "How unlike the two sides of the face move, in per cent of what this face has by "
+          "itself (a few per cent of each unit); 0 = both alike. Which side is first in time "
+          "is Autonomous' ASYMMETRY.",
+          "100", [&core](Figure&, const vm::SetValue& value) {
+            core.motion->asymmetry = static_cast<float>(value.number(0) / 100);
+          });
+  declare("AgentAlpha", "<number 0..1>", "Opacity of the agent, 0 = not to be seen.", "1.0",
+          [](Figure& figure, const vm::SetValue& value) {
+            figure.alpha = static_cast<float>(value.number(0));
+          });
+  declare("AgentRot", "<number -360..360> <number -360..360> <number -360..360>",
+          "Turns the whole figure: x y z in degrees, x+ = down, y+ = right, z+ = tilt to the "
+          "viewer's right (with -C to his left, as in the original).",
+          "0 0 0", [&core](Figure& figure, const vm::SetValue& value) {
+            figure.rotation = AnglesOf(core, value);
+          });
+  declare("AgentTrans", "<number -10000..10000> <number -10000..10000>",
+          "Moves the whole figure: x to the right and y up, in mm at the face; with -C in halves "
+          "of the view's longer side, as in the original.",
+          "0 0", [](Figure& figure, const vm::SetValue& value) {
+            figure.translation = {static_cast<float>(value.number(0)),
+                                  static_cast<float>(value.number(1))};
+          });
+  declare("AgentScale", "<number 0.01..100>", "Size of the whole figure, 1.0 = normal.", "1.0",
+          [](Figure& figure, const vm::SetValue& value) {
+            figure.scale = static_cast<float>(value.number(0));
+          });
 }
 
 }  // namespace fsm

@@ -35,10 +35,7 @@ struct FsmCore {
   vm::Time Now() const { return clock.Now(); }
 
   /// Draws the face as it is at `t`.
-  vm::Result<void> DrawAt(vm::Time t) {
-    const RenderBackend::Course course{t, [this](vm::Time at) { return motion->StateAt(at); }};
-    return backend.Draw(motion->StateAt(t), scene, simulates ? &course : nullptr);
-  }
+  vm::Result<void> DrawAt(vm::Time t);
 
   using Action = std::function<vm::Result<void>(const vm::SetValue&)>;
   struct Declaration {
@@ -55,23 +52,7 @@ struct FsmCore {
     std::string (*told)(const vm::SetValue&) = nullptr;
   };
   /// A slot whose value is stored as it came if the action accepts it.
-  void Declare(Declaration slot) {
-    if (slot.readable) initial_values.emplace_back(slot.name, slot.initial);
-    slots.Declare(
-        {.name = slot.name,
-         .grammar = slot.grammar,
-         .access = slot.readable ? vm::Access::kReadWrite : vm::Access::kWriteOnly,
-         .initial = slot.initial,
-         .help = slot.help,
-         .on_set = [this, action = std::move(slot.action), least = slot.least, most = slot.most,
-                    told = slot.told](vm::SetValue value) -> vm::Result<std::string> {
-           if (least < most) Clamp(value, least, most);
-           if (auto done = action(value); !done) return std::unexpected(done.error());
-           changed();
-           return told != nullptr ? told(value) : value.text;
-         },
-         .quoted = slot.quoted});
-  }
+  void Declare(Declaration slot);
 
   /// The action of a slot that is a setting: `change(settings, value)` changes it or returns why
   /// not.
@@ -95,36 +76,11 @@ struct FsmCore {
 
   /// A slot that tells what the module knows, with SlotMachine::Report or Store.
   void DeclareReadOnly(std::string name, std::string initial, std::string help,
-                       bool quoted = false) {
-    slots.Declare({.name = std::move(name),
-                   .grammar = "<text>",
-                   .access = vm::Access::kReadOnly,
-                   .initial = std::move(initial),
-                   .help = std::move(help),
-                   .quoted = quoted});
-  }
+                       bool quoted = false);
 
   /// Takes back the slots declared after the module's own, for `Run = INIT`. Not from within one of
   /// their callbacks.
-  void ForgetSlotsSinceStart() {
-    for (std::size_t i = declared_at_start; i < initial_values.size(); ++i) {
-      slots.Remove(initial_values[i].first);
-    }
-    initial_values.resize(declared_at_start);
-  }
-
- private:
-  static void Clamp(vm::SetValue& value, int least, int most) {
-    value.text.clear();
-    for (auto& item : value.items) {
-      if (item.number < least || item.number > most) {
-        const int nearest = item.number < least ? least : most;
-        item.number = nearest;
-        item.text = std::to_string(nearest);
-      }
-      value.text += (value.text.empty() ? "" : " ") + item.text;
-    }
-  }
+  void ForgetSlotsSinceStart();
 };
 
 }  // namespace fsm

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <stdexcept>
 
-#include "fsm/app/slot_groups.h"
+#include "fsm/app/expression_slots.h"
+#include "fsm/app/face_slots.h"
+#include "fsm/app/idle_slots.h"
+#include "fsm/app/lip_slots.h"
+#include "fsm/app/mouth_stream_slots.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -42,7 +45,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
                                          // A busy machine hears of the end late.
                                          const vm::Time now = core_.Now();
                                          capture_->End(std::min(
-                                             now, core_.motion->SpeechEnd().value_or(now)));
+                                             now, core_.motion->speech.End().value_or(now)));
                                        }});
   DeclareLipSlots(core_);
   DeclareMouthStreamSlots(core_);
@@ -97,7 +100,7 @@ void FsmModule::MakeMotion() {
 
 vm::Result<void> FsmModule::BeginLife() {
   if (options_.life.empty()) return {};
-  if (auto set = core_.motion->SetIdle(core_.Now(), options_.life); !set) return set;
+  if (auto set = core_.motion->idle.SetProfile(core_.Now(), options_.life); !set) return set;
   core_.slots.Store("Life", options_.life);
   return {};
 }
@@ -133,11 +136,16 @@ std::vector<vm::Message> FsmModule::Greeting() {
 // ---- films, captures, frames
 
 void FsmModule::DeclareRecording() {
-  core_.Declare({"Record.sound", "<text>",
-                 "A WAV file that becomes the film's sound when it is stopped; empty = silent.",
-                 [](const vm::SetValue&) -> vm::Result<void> { return {}; }});
-  core_.Declare({"Record.fps", "<int 1..120>", "Frames a second of films and of Frame reports.",
-                 [](const vm::SetValue&) -> vm::Result<void> { return {}; }, "30"});
+  core_.Declare(
+      {.name = "Record.sound",
+       .grammar = "<text>",
+       .help = "A WAV file that becomes the film's sound when it is stopped; empty = silent.",
+       .action = [](const vm::SetValue&) -> vm::Result<void> { return {}; }});
+  core_.Declare({.name = "Record.fps",
+                 .grammar = "<int 1..120>",
+                 .help = "Frames a second of films and of Frame reports.",
+                 .action = [](const vm::SetValue&) -> vm::Result<void> { return {}; },
+                 .initial = "30"});
   core_.slots.Declare({.name = "Record.start",
                        .grammar = "<text>",
                        .access = vm::Access::kReadOnly,
@@ -220,7 +228,7 @@ void FsmModule::ReportFrame(long number, vm::Time at) {
   if (!core_.slots.AutoOutput("Frame")) return;
   const FaceState state = core_.motion->StateAt(at);
   const MouthMeasure mouth = core_.backend.Measure(state);
-  const std::string& phoneme = core_.motion->PhonemeAt(at);
+  const std::string& phoneme = core_.motion->speech.PhonemeAt(at);
   core_.slots.Report("Frame", fmt::format("{} {} {} {:.2f} {:.2f} {:.2f}", number, vm::FormatMs(at),
                                           phoneme.empty() ? "-" : phoneme, mouth.jaw_degrees,
                                           mouth.gap_mm, mouth.width_mm));

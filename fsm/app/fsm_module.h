@@ -10,9 +10,9 @@
 #include "fsm/app/film.h"
 #include "fsm/app/fsm_core.h"
 #include "fsm/app/mask_slots.h"
-#include "fsm/app/original_config.h"
 #include "fsm/app/scene_slots.h"
 #include "fsm/app/speech_slots.h"
+#include "fsm/faces/original_config.h"
 #include "vm_protocol/core/module.h"
 
 namespace fsm {

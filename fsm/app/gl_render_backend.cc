@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <future>
 #include <iostream>
-#include <stdexcept>
 
 #include "fsm/faces/face_of_name.h"
-#include "fsm/film/movie_writer.h"
 #include "fsm/head/face_folder.h"
-#include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
 
 namespace fsm {
@@ -58,12 +55,12 @@ void GlRenderBackend::MakeRenderer() {
 
 /// How far springs are from where the head carries them.
 std::span<const glm::vec3> GlRenderBackend::Swing(const Course* course) {
-  if (course == nullptr || head().rig().data().springs.empty()) {
+  if (course == nullptr || head().rig().data().swing.springs.empty()) {
     simulation_.reset();
     return {};
   }
   if (!simulation_ || simulated_ != head().serial()) {
-    simulation_.emplace(head().rig().data().springs);
+    simulation_.emplace(head().rig().data().swing.springs);
     simulated_ = head().serial();
   }
   simulation_->RunTo(course->now, course->state_at);

@@ -1,4 +1,4 @@
-#include "fsm/app/slot_groups.h"
+#include "fsm/app/idle_slots.h"
 
 namespace fsm {
 namespace {
@@ -19,57 +19,65 @@ std::string Kinds() {
 
 void DeclareGaze(FsmCore& core) {
   core.Declare(
-      {"Gaze", "USER | THINK | <number -60..60> <number -60..60> [ <ms> ]",
-       "Looks at the user and stays there while the head turns; looks away here and there "
-       "as one who thinks; or looks x y degrees away (x+ = down, y+ = to the viewer's "
-       "right) with the eyes, and with the head where that is far, for so many ms; without "
-       "them until the next.",
-       [&core](const vm::SetValue& value) -> vm::Result<void> {
+      {.name = "Gaze",
+       .grammar = "USER | THINK | <number -60..60> <number -60..60> [ <ms> ]",
+       .help = "Looks at the user and stays there while the head turns; looks away here and there "
+               "as one who thinks; or looks x y degrees away (x+ = down, y+ = to the viewer's "
+               "right) with the eyes, and with the head where that is far, for so many ms; without "
+               "them until the next.",
+       .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
          const vm::Time now = core.Now();
          if (value.word(0) == "USER") {
-           core.motion->LookAtUser(now);
+           core.motion->eyes.LookAtUser(now);
          } else if (value.word(0) == "THINK") {
-           core.motion->Think(now);
+           core.motion->eyes.Think(now);
          } else {
-           core.motion->Gaze(now, value.number(0), value.number(1),
-                             FromMs(value.size() > 2 ? value.number(2) : 0));
+           core.motion->eyes.Gaze(
+               now, {static_cast<float>(value.number(0)), static_cast<float>(value.number(1))},
+               FromMs(value.size() > 2 ? value.number(2) : 0));
          }
          return {};
        },
-       "0 0"});
+       .initial = "0 0"});
   core.Declare(
-      {"Gaze.distance", "FAR | <number 100..10000>",
-       "How far away what Gaze looks at is, in mm: the eyes converge on it. FAR = they are "
-       "parallel. For the next Gaze.",
-       core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
+      {.name = "Gaze.distance",
+       .grammar = "FAR | <number 100..10000>",
+       .help = "How far away what Gaze looks at is, in mm: the eyes converge on it. FAR = they are "
+               "parallel. For the next Gaze.",
+       .action = core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
          settings.gaze_distance_mm = value.word(0) == "FAR" ? 0 : value.number(0);
        }),
-       "700"});
+       .initial = "700"});
 }
 
 }  // namespace
 
 void DeclareIdleSlots(FsmCore& core) {
-  core.Declare({"Autonomous", "( " + Kinds() + " ) <int 0..>",
-                "What the face does by itself, and its pattern; 0 stops it. BLINK; MOVE, the head "
-                "drifts; GAZE, small saccades; BREATH; NODS of a listener; SPEECH, head and brows "
-                "move with the stress; AVERT, the eyes leave the user while beginning to speak; "
-                "FACE, a slight look that stays; GAZEBLINK and ENDBLINK, blinks at shifts of the "
-                "gaze and at the end of speech; ASYMMETRY of expressions; TEXT, looks of sentences "
-                "by their words; USERDEF, files.",
-                [&core](const vm::SetValue& value) {
-                  return core.motion->Autonomous(core.Now(), value.word(0),
-                                                 static_cast<int>(value.number(1)));
-                },
-                "", false});
-  core.Declare({"Life", "<word>",
-                "All of Autonomous at once: " + Profiles(core) +
-                    ". What a profile does not name is "
-                    "switched off; single parts can be switched afterwards.",
-                [&core](const vm::SetValue& value) {
-                  return core.motion->SetIdle(core.Now(), value.word(0));
-                },
-                "OFF"});
+  core.Declare(
+      {.name = "Autonomous",
+       .grammar = "( " + Kinds() + " ) <int 0..>",
+       .help = "What the face does by itself, and its pattern; 0 stops it. BLINK; MOVE, the head "
+               "drifts; GAZE, small saccades; BREATH; NODS of a listener; SPEECH, head and brows "
+               "move with the stress; AVERT, the eyes leave the user while beginning to speak; "
+               "FACE, a slight look that stays; GAZEBLINK and ENDBLINK, blinks at shifts of the "
+               "gaze and at the end of speech; ASYMMETRY of expressions; TEXT, looks of sentences "
+               "by their words; USERDEF, files.",
+       .action =
+           [&core](const vm::SetValue& value) {
+             return core.motion->idle.Set(core.Now(), value.word(0),
+                                          static_cast<int>(value.number(1)));
+           },
+       .readable = false});
+  core.Declare({.name = "Life",
+                .grammar = "<word>",
+                .help = "All of Autonomous at once: " + Profiles(core) +
+                        ". What a profile does not name is "
+                        "switched off; single parts can be switched afterwards.",
+                .action =
+                    [&core](const vm::SetValue& value) {
+                      return core.motion->idle.SetProfile(core.Now(), value.word(0));
+                    },
+                .initial = "OFF"});
   DeclareGaze(core);
 }
 

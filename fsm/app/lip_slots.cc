@@ -1,9 +1,10 @@
+#include "fsm/app/lip_slots.h"
+
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <string_view>
 
-#include "fsm/app/slot_groups.h"
 #include "fsm/base/table_reader.h"
 #include "vm_protocol/core/file_kind.h"
 
@@ -61,50 +62,58 @@ void SetScale(MotionSettings& settings, const vm::SetValue& value) {
 
 void DeclareStyle(FsmCore& core) {
   const std::string engines = EngineList(core.motion->tables().engines);
-  core.Declare({"LipSync.mode", "DOMINANCE | SINUSOID | LINEAR",
-                "How lips go from sound to sound: by overlapping dominance curves with "
-                "anticipation, by the original's sinusoids, or by straight lines.",
-                core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
+  core.Declare({.name = "LipSync.mode",
+                .grammar = "DOMINANCE | SINUSOID | LINEAR",
+                .help = "How lips go from sound to sound: by overlapping dominance curves with "
+                        "anticipation, by the original's sinusoids, or by straight lines.",
+                .action = core.Setting([](MotionSettings& settings, const vm::SetValue& value) {
                   settings.lips.mode = ModeOf(value.word(0));
                 }),
-                "DOMINANCE"});
-  core.Declare({"LipSync.shapes", "<int 14..28>",
-                "Which mouth shapes: 28 of English and Japanese, or the original's 14.",
-                core.Setting(SetShapes), "28"});
-  core.Declare({"LipSync.names", "<word>",
-                "Whose names the phonemes have: AUTO (whichever knows most of the list) or one "
-                "of " +
-                    engines + ".",
-                core.Setting([names = "AUTO " + engines](MotionSettings& settings,
-                                                         const vm::SetValue& value) {
-                  return SetNames(names, settings, value.word(0));
-                }),
-                "AUTO"});
-  core.Declare({"LipSync.scale",
-                "MUMBLED | SOFT | NORMAL | CLEAR | SHOUTED | <number 0..300> [ <number 0..300> ]",
-                "How large the next utterances are articulated: a way of speaking, or per cent for "
-                "the jaw and for the lips. Closures stay closed.",
-                core.Setting(SetScale), "NORMAL"});
+                .initial = "DOMINANCE"});
+  core.Declare({.name = "LipSync.shapes",
+                .grammar = "<int 14..28>",
+                .help = "Which mouth shapes: 28 of English and Japanese, or the original's 14.",
+                .action = core.Setting(SetShapes),
+                .initial = "28"});
+  core.Declare(
+      {.name = "LipSync.names",
+       .grammar = "<word>",
+       .help = "Whose names the phonemes have: AUTO (whichever knows most of the list) or one "
+               "of " +
+               engines + ".",
+       .action = core.Setting(
+           [names = "AUTO " + engines](MotionSettings& settings, const vm::SetValue& value) {
+             return SetNames(names, settings, value.word(0));
+           }),
+       .initial = "AUTO"});
+  core.Declare(
+      {.name = "LipSync.scale",
+       .grammar = "MUMBLED | SOFT | NORMAL | CLEAR | SHOUTED | <number 0..300> [ <number 0..300> ]",
+       .help = "How large the next utterances are articulated: a way of speaking, or per cent for "
+               "the jaw and for the lips. Closures stay closed.",
+       .action = core.Setting(SetScale),
+       .initial = "NORMAL"});
 }
 
 void DeclareShapes(FsmCore& core, bool bilingual) {
   for (const Viseme& shape : core.motion->shapes(bilingual)) {
-    core.Declare(
-        {SlotOf(bilingual, shape.name), "<number>...",
-         "Mouth shape '" + shape.name + "' of the " + (bilingual ? "28" : "14") +
-             ": 17 mouth parameters [seal [tongue [hold]]], see face.md.",
-         [&core, bilingual, name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
-           std::vector<std::string> words;
-           for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
-           Visemes shapes = core.motion->shapes(bilingual);
-           for (Viseme& edited : shapes) {
-             if (edited.name != name) continue;
-             if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
-           }
-           core.motion->SetShapes(bilingual, std::move(shapes));
-           return {};
-         },
-         FormatShapeValues(shape)});
+    core.Declare({.name = SlotOf(bilingual, shape.name),
+                  .grammar = "<number>...",
+                  .help = "Mouth shape '" + shape.name + "' of the " + (bilingual ? "28" : "14") +
+                          ": 17 mouth parameters [seal [tongue [hold]]], see face.md.",
+                  .action = [&core, bilingual,
+                             name = shape.name](const vm::SetValue& value) -> vm::Result<void> {
+                    std::vector<std::string> words;
+                    for (std::size_t i = 0; i < value.size(); ++i) words.push_back(value.word(i));
+                    Visemes shapes = core.motion->shapes(bilingual);
+                    for (Viseme& edited : shapes) {
+                      if (edited.name != name) continue;
+                      if (auto read = ReadShapeValues(words, 0, edited); !read) return read;
+                    }
+                    core.motion->SetShapes(bilingual, std::move(shapes));
+                    return {};
+                  },
+                  .initial = FormatShapeValues(shape)});
   }
 }
 
@@ -143,16 +152,21 @@ vm::Result<void> SaveShapes(FsmCore& core, bool bilingual, const std::string& pa
 }
 
 void DeclareShapeFiles(FsmCore& core) {
-  core.Declare({"MouthShapes", "<file>",
-                "Loads a table of mouth shapes, all 14 or all 28; rows as in mouth_shapes.txt.",
-                [&core](const vm::SetValue& value) { return LoadShapes(core, value.word(0)); }, "",
-                false});
-  core.Declare({"SaveMouthShapes", "<int 14..28> <word>",
-                "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
-                [&core](const vm::SetValue& value) {
-                  return SaveShapes(core, value.number(0) == 28, value.word(1));
-                },
-                "", false});
+  core.Declare(
+      {.name = "MouthShapes",
+       .grammar = "<file>",
+       .help = "Loads a table of mouth shapes, all 14 or all 28; rows as in mouth_shapes.txt.",
+       .action = [&core](const vm::SetValue& value) { return LoadShapes(core, value.word(0)); },
+       .readable = false});
+  core.Declare(
+      {.name = "SaveMouthShapes",
+       .grammar = "<int 14..28> <word>",
+       .help = "Writes the 14 or the 28 mouth shapes to a file, as MouthShapes loads them.",
+       .action =
+           [&core](const vm::SetValue& value) {
+             return SaveShapes(core, value.number(0) == 28, value.word(1));
+           },
+       .readable = false});
 }
 
 }  // namespace

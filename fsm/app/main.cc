@@ -22,7 +22,6 @@
 #include "fsm/faces/original_faces.h"
 #include "fsm/faces/table_folder.h"
 #include "fsm/head/face_folder.h"
-#include "fsm/head/make_head.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/runtime/module_main.h"
 

@@ -1,7 +1,6 @@
 #include "fsm/app/mask_slots.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "fsm/base/random.h"
 #include "vm_protocol/core/or_throw.h"
@@ -28,8 +27,10 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
   if (names.empty()) names = Joined(all, all);
   core_.DeclareReadOnly("MaskSet", names, "The faces there are, with commas between them.", true);
   core_.DeclareReadOnly("NowMask", first_, "The face worn now.", true);
-  core_.Declare({"Mask", "<text>", "Wears one of the faces of MaskSet.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
+  core_.Declare({.name = "Mask",
+                 .grammar = "<text>",
+                 .help = "Wears one of the faces of MaskSet.",
+                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
                    // Names may hold blanks; at the end, as the original's clients send them, not.
                    const std::string name =
                        value.text.substr(0, value.text.find_last_not_of(' ') + 1);
@@ -37,13 +38,13 @@ MaskSlots::MaskSlots(FsmCore& core, std::string first, const std::vector<std::st
                    core_.slots.Report("NowMask", name);
                    return {};
                  },
-                 first_});
+                 .initial = first_});
   vm::OrThrow(Wear(first_));
 }
 
 vm::Result<void> MaskSlots::Wear(const std::string& face) {
   if (auto worn = core_.backend.Wear(face); !worn) return worn;
-  core_.motion->SetPerson(HashOf(face));
+  core_.motion->expression.SetPerson(HashOf(face));
   return {};
 }
 

@@ -1,6 +1,7 @@
+#include "fsm/app/mouth_stream_slots.h"
+
 #include <cmath>
 
-#include "fsm/app/slot_groups.h"
 #include "vm_protocol/core/start_time.h"
 
 namespace fsm {
@@ -73,13 +74,13 @@ void DeclareMouthStreamSlots(FsmCore& core) {
            "a wall time. STOP forgets the frames still to come: the mouth closes.",
        .on_set_later = [&core](const vm::SetValue& value, const vm::Reply& reply) {
          if (value.word(0) == "STOP") {
-           core.motion->StopMouthFrames(core.Now());
+           core.motion->mouth_stream.Stop(core.Now());
            core.changed();
            return reply.Ok(value.text);
          }
          const auto time = vm::ParseStartTime(value.text);
          if (!time) return reply.Fail(time.error());
-         core.motion->set_mouth_frames_start(core.InstantOf(*time));
+         core.motion->mouth_stream.set_start(core.InstantOf(*time));
          reply.Ok(value.text);
        }});
   core.slots.Declare(
@@ -97,8 +98,8 @@ void DeclareMouthStreamSlots(FsmCore& core) {
          if (!pose) return reply.Fail(pose.error());
          const auto head = HeadOf(value);
          if (!head) return reply.Fail(head.error());
-         const vm::Time at = core.motion->mouth_frames_start() + FromMs(value.number(0));
-         if (auto added = core.motion->AddMouthFrame(core.Now(), at, *pose, *head); !added) {
+         const vm::Time at = core.motion->mouth_stream.start() + FromMs(value.number(0));
+         if (auto added = core.motion->mouth_stream.Add(core.Now(), at, *pose, *head); !added) {
            return reply.Fail(added.error());
          }
          core.changed();

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iostream>
 #include <optional>
-#include <utility>
 
 #include "fsm/image/color_space.h"
 
@@ -80,15 +79,17 @@ void SceneSlots::DeclareBackgrounds() {
   core_.DeclareReadOnly("BackgroundSet", names,
                         "The backgrounds that have names, with commas between them.", true);
   core_.DeclareReadOnly("NowBackground", kPlain, "The background shown now.", true);
-  core_.Declare({"Background", "<file>",
-                 "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb), a "
-                 "colour, #rrggbb, or transparent: pictures then have an alpha channel, 0 there.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
-                   if (auto set = SetBackground(value.word(0)); !set) return set;
-                   core_.slots.Report("NowBackground", value.word(0));
-                   return {};
-                 },
-                 backgrounds_.empty() ? kPlain : backgrounds_.front().first});
+  core_.Declare(
+      {.name = "Background",
+       .grammar = "<file>",
+       .help = "What is behind the agent: a name of BackgroundSet, a picture (.png .bmp .rgb), a "
+               "colour, #rrggbb, or transparent: pictures then have an alpha channel, 0 there.",
+       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+         if (auto set = SetBackground(value.word(0)); !set) return set;
+         core_.slots.Report("NowBackground", value.word(0));
+         return {};
+       },
+       .initial = backgrounds_.empty() ? kPlain : backgrounds_.front().first});
 }
 
 vm::Result<void> SceneSlots::SetBackground(const std::string& name) {
@@ -125,34 +126,41 @@ void SceneSlots::ShowBackground(bool transparent) {
 }
 
 void SceneSlots::DeclareView() {
-  core_.Declare(
-      {"ViewMode", "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME", "How the face is drawn.",
-       [this](const vm::SetValue& value) -> vm::Result<void> {
-         core_.scene.view_mode = value.word(0) == "TEXTURE"     ? ViewMode::kTexture
-                                 : value.word(0) == "WIREFRAME" ? ViewMode::kWireframe
-                                                                : ViewMode::kTextureWithWireframe;
-         return {};
-       },
-       "TEXTURE"});
-  core_.Declare({"ViewBackground", "ENABLE | DISABLE",
-                 "Whether the background is drawn; without it pictures are transparent there.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
-                   background_enabled_ = value.word(0) == "ENABLE";
-                   ShowBackground(transparent_);
+  core_.Declare({.name = "ViewMode",
+                 .grammar = "TEXTURE | TEXTURE_WITH_WIREFRAME | WIREFRAME",
+                 .help = "How the face is drawn.",
+                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+                   core_.scene.view_mode = value.word(0) == "TEXTURE" ? ViewMode::kTexture
+                                           : value.word(0) == "WIREFRAME"
+                                               ? ViewMode::kWireframe
+                                               : ViewMode::kTextureWithWireframe;
                    return {};
                  },
-                 "ENABLE"});
-  core_.Declare({"Simulation", "ENABLE | DISABLE",
-                 "Whether what is soft swings as the head moves, as long hair does.",
-                 [this](const vm::SetValue& value) -> vm::Result<void> {
+                 .initial = "TEXTURE"});
+  core_.Declare(
+      {.name = "ViewBackground",
+       .grammar = "ENABLE | DISABLE",
+       .help = "Whether the background is drawn; without it pictures are transparent there.",
+       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+         background_enabled_ = value.word(0) == "ENABLE";
+         ShowBackground(transparent_);
+         return {};
+       },
+       .initial = "ENABLE"});
+  core_.Declare({.name = "Simulation",
+                 .grammar = "ENABLE | DISABLE",
+                 .help = "Whether what is soft swings as the head moves, as long hair does.",
+                 .action = [this](const vm::SetValue& value) -> vm::Result<void> {
                    core_.simulates = value.word(0) == "ENABLE";
                    return {};
                  },
-                 "ENABLE"});
+                 .initial = "ENABLE"});
   core_.Declare(
-      {"Window", "FULLSCREEN | WINDOWED | <int 16..8192> <int 16..8192>",
-       "Width and height of the view in pixels; or the window fills the screen, or no more.",
-       [this](const vm::SetValue& value) -> vm::Result<void> {
+      {.name = "Window",
+       .grammar = "FULLSCREEN | WINDOWED | <int 16..8192> <int 16..8192>",
+       .help =
+           "Width and height of the view in pixels; or the window fills the screen, or no more.",
+       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
          if (size_locked_ && size_locked_()) {
            return vm::Fail(vm::Errc::kBusy,
                            "a film of this size is recorded; set Record = STOP first");
@@ -161,18 +169,20 @@ void SceneSlots::DeclareView() {
          return core_.backend.Resize(static_cast<int>(value.number(0)),
                                      static_cast<int>(value.number(1)));
        },
-       std::to_string(start_width_) + " " + std::to_string(start_height_)});
+       .initial = std::to_string(start_width_) + " " + std::to_string(start_height_)});
 }
 
 void SceneSlots::DeclareCamera() {
   core_.Declare(
-      {"Camera",
-       "<number 0.2..10> [ <number -500..500> ] [ <number 5..90> ] [ <number -180..180> ]",
-       "Where the viewer stands: distance (1 = head and shoulders fill the view), mm above the "
-       "middle of the portrait (0), field of view in degrees (25; the head stays as large), "
-       "degrees "
-       "round the head to the viewer's right (0).",
-       [this](const vm::SetValue& value) -> vm::Result<void> {
+      {.name = "Camera",
+       .grammar =
+           "<number 0.2..10> [ <number -500..500> ] [ <number 5..90> ] [ <number -180..180> ]",
+       .help =
+           "Where the viewer stands: distance (1 = head and shoulders fill the view), mm above the "
+           "middle of the portrait (0), field of view in degrees (25; the head stays as large), "
+           "degrees "
+           "round the head to the viewer's right (0).",
+       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
          Camera camera = FirstScene().camera;
          float* const fields[] = {&camera.distance, &camera.height_mm, &camera.field_degrees,
                                   &camera.angle_degrees};
@@ -182,16 +192,18 @@ void SceneSlots::DeclareCamera() {
          core_.scene.camera = camera;
          return {};
        },
-       "1 0 25 0"});
+       .initial = "1 0 25 0"});
 }
 
 void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
                               DirectionalLight Scene::*lamp) {
   core_.Declare(
-      {name, "<number 0..10> [ <number -180..180> <number -90..90> ] [ <word> ]",
-       what + ": its strength (1 = as usual), where it stands (degrees to the viewer's right, "
-              "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
-       [this, lamp](const vm::SetValue& value) -> vm::Result<void> {
+      {.name = name,
+       .grammar = "<number 0..10> [ <number -180..180> <number -90..90> ] [ <word> ]",
+       .help = what +
+               ": its strength (1 = as usual), where it stands (degrees to the viewer's right, "
+               "degrees up; left out = as usual), and its colour, #rrggbb (left out = as usual).",
+       .action = [this, lamp](const vm::SetValue& value) -> vm::Result<void> {
          constexpr float kRadians = 3.14159265f / 180;
          DirectionalLight set;
          set.strength = static_cast<float>(value.number(0));
@@ -212,7 +224,7 @@ void SceneSlots::DeclareLight(const std::string& name, const std::string& what,
          core_.scene.*lamp = set;
          return {};
        },
-       "1"});
+       .initial = "1"});
 }
 
 void SceneSlots::DeclareSaveImage() {

@@ -93,7 +93,7 @@ void SpeechSlots::DeclareSpeakSlots() {
                                "0 is ignored.",
                        .on_set_later = [this](const vm::SetValue& value, const vm::Reply& reply) {
                          if (value.number(0) > 0) {
-                           core_.motion->Sync(core_.Now(), value.number(0));
+                           core_.motion->speech.Sync(core_.Now(), value.number(0));
                            if (stat_ == Stat::kSpeaking) WaitForEnd();
                            core_.changed();
                          }
@@ -155,7 +155,8 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   auto list = vm::ParsePhonemes(text);
   if (!list) return std::unexpected(list.error());
   CancelTimer();
-  if (core_.motion->speaking()) core_.motion->StopSpeaking(core_.Now());  // its start was to come
+  if (core_.motion->speech.active())
+    core_.motion->speech.Stop(core_.Now());  // its start was to come
   list_ = std::move(*list);
   const std::string written = vm::FormatPhonemesFace(list_);
   core_.slots.Store("LipSync.dur", LengthOf(list_));
@@ -167,14 +168,14 @@ vm::Result<std::string> SpeechSlots::Prepare(const std::string& text) {
   SetStat(Stat::kProcessing);
   SetStat(Stat::kReady);
   // As the original, a list with unknown phonemes is spoken all the same; but it is said.
-  for (const std::string& name : core_.motion->UnknownPhonemes(list_)) {
+  for (const std::string& name : core_.motion->speech.UnknownPhonemes(list_)) {
     core_.slots.ReportError("LipSync.pho", {vm::Errc::kBadValue,
                                             "the phoneme '" + name +
                                                 "' is in no table (LipSync.names); the mouth "
                                                 "closes on it",
                                             0});
   }
-  if (start_) Begin();
+  if (start_asked_) Begin();
   core_.changed();
   return written;
 }
@@ -190,9 +191,10 @@ vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
   }
   const auto start = vm::ParseStartTime(value.text);
   if (!start) return std::unexpected(start.error());
-  start_ = core_.InstantOf(*start);
+  start_asked_ = true;
   // NOW means as soon as the list is there, however late that is.
-  if (start->kind == vm::StartTime::Kind::kNow && stat_ != Stat::kReady) start_ = vm::Time::max();
+  start_.reset();
+  if (start->kind != vm::StartTime::Kind::kNow) start_ = core_.InstantOf(*start);
   if (stat_ == Stat::kReady) Begin();
   core_.changed();
   return {};
@@ -200,10 +202,10 @@ vm::Result<void> SpeechSlots::Speak(const vm::SetValue& value) {
 
 void SpeechSlots::Begin() {
   const vm::Time now = core_.Now();
-  const vm::Time start = *start_ == vm::Time::max() ? now : *start_;
+  const vm::Time start = start_.value_or(now);
   start_ = start;
   CancelTimer();
-  core_.motion->Speak(now, list_, start, std::exchange(text_, {}));
+  core_.motion->speech.Start(now, list_, start, std::exchange(text_, {}));
   core_.slots.Store("LipSync.text", kNothing);
   if (start > now) {
     timer_ = core_.clock.At(start, [this] {
@@ -224,11 +226,11 @@ void SpeechSlots::Speaking() {
 
 void SpeechSlots::WaitForEnd() {
   CancelTimer();
-  const vm::Time end = core_.motion->SpeechEnd().value_or(core_.Now());
+  const vm::Time end = core_.motion->speech.End().value_or(core_.Now());
   timer_ = core_.clock.At(end, [this] {
     timer_ = 0;
     // Settings may have moved the end meanwhile.
-    if (core_.motion->SpeechEnd().value_or(vm::Time(0)) > core_.Now()) return WaitForEnd();
+    if (core_.motion->speech.End().value_or(vm::Time(0)) > core_.Now()) return WaitForEnd();
     End(list_);
     core_.changed();
   });
@@ -239,12 +241,12 @@ void SpeechSlots::Stop() {
   const vm::Time now = core_.Now();
   vm::PhonemeList spoken;
   if (stat_ == Stat::kSpeaking) {
-    const auto heard = static_cast<std::int64_t>(core_.motion->VoicePosition(now));
+    const auto heard = static_cast<std::int64_t>(core_.motion->speech.VoicePositionAt(now));
     spoken = vm::SpokenPart(list_, std::chrono::milliseconds(heard));
   }
-  core_.motion->StopSpeaking(now);
+  core_.motion->speech.Stop(now);
   if (stat_ == Stat::kIdle) {
-    start_.reset();
+    start_asked_ = false;
     SetStat(Stat::kIdle);
     return;
   }
@@ -254,7 +256,7 @@ void SpeechSlots::Stop() {
 void SpeechSlots::End(vm::PhonemeList spoken) {
   spoken_ = std::move(spoken);
   list_.clear();
-  start_.reset();
+  start_asked_ = false;
   // As in the original they are reported with the next list; the end is told by IDLE alone.
   core_.slots.Store("Speak.len", LengthOf(spoken_));
   core_.slots.Store("Speak.utt", spoken_.empty() ? kNothing : vm::FormatPhonemesFace(spoken_));
@@ -268,7 +270,7 @@ void SpeechSlots::Reset() {
   stat_ = Stat::kIdle;
   list_.clear();
   spoken_.clear();
-  start_.reset();
+  start_asked_ = false;
   text_.clear();
   for (const char* name : {"Speak.text", "Speak.pho", "Speak.utt", "LipSync.pho", "LipSync.text"}) {
     core_.slots.Store(name, kNothing);

@@ -26,7 +26,7 @@ class SpeechSlots {
   SpeechSlots(FsmCore& core, Listener listener);
 
   /// Speaking, or about to at a time that is known.
-  bool Busy() const { return stat_ == Stat::kSpeaking || (stat_ == Stat::kReady && start_); }
+  bool Busy() const { return stat_ == Stat::kSpeaking || (stat_ == Stat::kReady && start_asked_); }
   /// Back to IDLE without a word, for `Run = INIT`; the motion is new.
   void Reset();
 
@@ -51,7 +51,8 @@ class SpeechSlots {
   Stat stat_ = Stat::kIdle;
   vm::PhonemeList list_;
   std::string text_;               // of the list that comes, or has come and does not sound yet
-  std::optional<vm::Time> start_;  // the start asked for
+  bool start_asked_ = false;       // by Speak, and not over
+  std::optional<vm::Time> start_;  // asked for; none: as soon as the list is there
   vm::PhonemeList spoken_;         // of the utterance before
   vm::TimerId timer_ = 0;          // the start or the end
 };

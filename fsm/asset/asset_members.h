@@ -7,6 +7,9 @@
 
 namespace fsm {
 
+/// The extension of glTF that holds what only we need of a head.
+inline constexpr const char* kAssetExtension = "GALATEA_head";
+
 /// Names every member of a head's description once; what writes, reads and checks an asset file
 /// walks these lists, so that a new member is one line here. `v` is called as
 /// `v("name", object.member)`, in the order of the lists, for a const object or one to be filled.
@@ -98,18 +101,18 @@ void Members(V& v, Like<HeadTopology> auto& topology) {
   v("uv", topology.uv);
   v("skin_hairs", topology.skin_hairs);
   v("strands", topology.strands);
-  v("photo", topology.photo);
+  v("photo", topology.worn.image);
   v("pbr_materials", topology.pbr_materials);
-  v("normal_map", topology.normal_map);
-  v("emissive_map", topology.emissive_map);
-  v("texcoord", topology.texcoord);
-  v("texture_weight", topology.texture_weight);
-  v("shut_lids", topology.shut_lids);
-  v("photo_light", topology.photo_light);
-  v("relit", topology.relit);
-  v("eye_pictures", topology.eye_pictures);
+  v("normal_map", topology.worn.normal_map);
+  v("emissive_map", topology.worn.emissive_map);
+  v("texcoord", topology.worn.texcoord);
+  v("texture_weight", topology.worn.weight);
+  v("shut_lids", topology.portrait.shut_lids);
+  v("photo_light", topology.portrait.light);
+  v("relit", topology.portrait.relit);
+  v("eye_pictures", topology.portrait.eyes);
   v("mouth", topology.mouth);
-  v("saturation", topology.saturation);
+  v("saturation", topology.portrait.saturation);
   v("eyes", topology.eyes);
 }
 
@@ -220,7 +223,7 @@ void Members(V& v, Like<LipRig> auto& lips) {
 }
 
 template <typename V>
-void Members(V& v, Like<BallLid> auto& lid) {
+void Members(V& v, Like<BallLids::Vertex> auto& lid) {
   v("vertex", lid.vertex);
   v("side", lid.side);
   v("least", lid.least);
@@ -238,7 +241,7 @@ void Members(V& v, Like<ToothArch> auto& arch) {
 }
 
 template <typename V>
-void Members(V& v, Like<TeethContact> auto& contact) {
+void Members(V& v, Like<TeethRig::Contact> auto& contact) {
   v("vertex", contact.vertex);
   v("upper_gap", contact.upper_gap);
   v("lower_gap", contact.lower_gap);
@@ -268,30 +271,30 @@ void Members(V& v, Like<RigData> auto& rig) {
   v("steps", rig.steps);
   v("rest", rig.rest);
   v("rest_normal", rig.rest_normal);
-  v("proxy_rest", rig.proxy_rest);
-  v("own_form", rig.own_form);
+  v("proxy_rest", rig.proxy.rest);
+  v("own_form", rig.proxy.to_own);
   v("bone", rig.bone);
   v("weights", rig.weights);
-  v("soft_triangles", rig.soft_triangles);
-  v("normal_twin", rig.normal_twin);
+  v("soft_triangles", rig.normals.soft_triangles);
+  v("normal_twin", rig.normals.twin);
   v("person", rig.person);
   v("units_by_place", rig.units_by_place);
   v("channels", rig.channels);
   v("lids", rig.lids);
-  v("ball_lids", rig.ball_lids);
+  v("ball_lids", rig.ball_lids.vertices);
   v("lips", rig.lips);
-  v("upper_teeth", rig.upper_teeth);
-  v("lower_teeth", rig.lower_teeth);
-  v("teeth_contacts", rig.teeth_contacts);
-  v("jaw_hinge", rig.jaw_hinge);
-  v("chin", rig.chin);
-  v("eye_pivot", rig.eye_pivot);
-  v("ball_centre", rig.ball_centre);
-  v("look", rig.look);
-  v("creases", rig.creases);
-  v("crease_depth", rig.crease_depth);
-  v("springs", rig.springs);
-  v("spring_weights", rig.spring_weights);
+  v("upper_teeth", rig.teeth.upper);
+  v("lower_teeth", rig.teeth.lower);
+  v("teeth_contacts", rig.teeth.contacts);
+  v("jaw_hinge", rig.jaw.hinge);
+  v("chin", rig.jaw.chin);
+  v("eye_pivot", rig.eyes.pivot);
+  v("ball_centre", rig.ball_lids.centre);
+  v("look", rig.eyes.look);
+  v("creases", rig.creases.at_rest);
+  v("crease_depth", rig.creases.depth);
+  v("springs", rig.swing.springs);
+  v("spring_weights", rig.swing.weights);
 }
 
 template <typename V>
@@ -302,10 +305,10 @@ void Members(V& v, Like<ParallelView> auto& view) {
 
 /// What stands in a file as one column for each member rather than as one object for each element.
 template <typename T>
-concept Tabular =
-    Like<T, SkinHair> || Like<T, ShutLid> || Like<T, Strand> || Like<T, SkinWeights> ||
-    Like<T, Displacement> || Like<T, LidRig::Vertex> || Like<T, LipRig::Follower> ||
-    Like<T, BallLid> || Like<T, TeethContact> || Like<T, Spring> || Like<T, SpringWeight>;
+concept Tabular = Like<T, SkinHair> || Like<T, ShutLid> || Like<T, Strand> ||
+    Like<T, SkinWeights> || Like<T, Displacement> || Like<T, LidRig::Vertex> ||
+    Like<T, LipRig::Follower> || Like<T, BallLids::Vertex> || Like<T, TeethRig::Contact> ||
+    Like<T, Spring> || Like<T, SpringWeight>;
 
 /// The number of an enumeration's values, which go from 0 on.
 template <typename E>

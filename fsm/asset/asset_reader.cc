@@ -1,10 +1,11 @@
+#include "fsm/asset/asset_reader.h"
+
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "fsm/asset/asset_file.h"
 #include "fsm/asset/asset_members.h"
 #include "fsm/asset/check_asset.h"
 #include "fsm/image/byte_order.h"

@@ -1,4 +1,5 @@
-#include <algorithm>
+#include "fsm/asset/asset_writer.h"
+
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -6,7 +7,6 @@
 #include <limits>
 #include <map>
 
-#include "fsm/asset/asset_file.h"
 #include "fsm/asset/asset_members.h"
 #include "fsm/asset/gltf_builder.h"
 #include "fsm/asset/material_name.h"
@@ -187,7 +187,7 @@ class ForeignView {
     MarkBounds(head_.rig().data().rest, gltf_.document["accessors"][position_]);
     normal_ = rig["rest_normal"];
     colour_ = topology["albedo"];
-    if (topology_.photo) WriteTexture(topology["photo"]);
+    if (topology_.worn.image) WriteTexture(topology["photo"]);
     json names = json::array(), targets = json::array();
     HeadVertices rest, moved;
     head_.Evaluate({}, rest);
@@ -229,18 +229,18 @@ class ForeignView {
   }
 
   void WriteTexture(const json& image) {
-    const std::span<const glm::vec2> places(topology_.texcoord);
+    const std::span<const glm::vec2> places(topology_.worn.texcoord);
     texcoord_ = gltf_.AddAccessor(gltf_.AddView(places), places.size(), 2, GltfType::kFloat);
     gltf_.document["textures"] = json::array({{{"source", image}}});
   }
 
   /// Whether a part shows the photo, in most of its vertices.
   bool ShowsPhoto(const HeadTopology::Part& part) const {
-    if (!topology_.photo) return false;
+    if (!topology_.worn.image) return false;
     std::uint32_t shown = 0;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
       const std::uint32_t vertex = topology_.indices[part.first_index + k];
-      if (topology_.texture_weight[vertex] > 0.5F) ++shown;
+      if (topology_.worn.weight[vertex] > 0.5F) ++shown;
     }
     return 2 * shown > part.index_count;
   }

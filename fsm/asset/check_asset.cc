@@ -73,10 +73,10 @@ class Checker {
     PerVertex(topology.opacity, "topology.opacity", true);
     PerVertex(topology.uv, "topology.uv", true);
     PerVertex(topology.strands, "topology.strands", true);
-    PerVertex(topology.texcoord, "topology.texcoord", !topology.photo);
-    PerVertex(topology.texture_weight, "topology.texture_weight", !topology.photo);
-    VerticesOf(topology.shut_lids, "topology.shut_lids");
-    PerVertex(topology.relit, "topology.relit", true);
+    PerVertex(topology.worn.texcoord, "topology.texcoord", !topology.worn.image);
+    PerVertex(topology.worn.weight, "topology.texture_weight", !topology.worn.image);
+    VerticesOf(topology.portrait.shut_lids, "topology.shut_lids");
+    PerVertex(topology.portrait.relit, "topology.relit", true);
     const MouthSlit& mouth = topology.mouth;
     for (std::size_t i = 0; i < mouth.lips.size(); ++i) {
       Vertex(mouth.lips[i].first, Place("topology.mouth.lips", i));
@@ -93,20 +93,20 @@ class Checker {
       if (!WithinReach(rig.rest[i])) throw Fault(Place("rig.rest", i) + ": too far away");
     }
     PerVertex(rig.rest_normal, "rig.rest_normal", false);
-    PerVertex(rig.proxy_rest, "rig.proxy_rest", true);
-    if (rig.own_form.size() != rig.proxy_rest.size()) {
+    PerVertex(rig.proxy.rest, "rig.proxy_rest", true);
+    if (rig.proxy.to_own.size() != rig.proxy.rest.size()) {
       throw Fault("rig.own_form: not one for each of rig.proxy_rest");
     }
-    Vertex(rig.chin, "rig.chin");
+    Vertex(rig.jaw.chin, "rig.chin");
     PerVertex(rig.bone, "rig.bone", false);
     PerVertex(rig.weights, "rig.weights", false);
-    PerVertex(rig.normal_twin, "rig.normal_twin", true);
-    Vertices(rig.normal_twin, "rig.normal_twin");
-    Triangles(rig.soft_triangles, "rig.soft_triangles");
+    PerVertex(rig.normals.twin, "rig.normal_twin", true);
+    Vertices(rig.normals.twin, "rig.normal_twin");
+    Triangles(rig.normals.soft_triangles, "rig.soft_triangles");
     for (std::size_t i = 0; i < rig.channels.size(); ++i) CheckChannel(rig.channels[i], i);
     VerticesOf(rig.lids.vertices, "rig.lids.vertices");
-    VerticesOf(rig.ball_lids, "rig.ball_lids");
-    VerticesOf(rig.teeth_contacts, "rig.teeth_contacts");
+    VerticesOf(rig.ball_lids.vertices, "rig.ball_lids");
+    VerticesOf(rig.teeth.contacts, "rig.teeth_contacts");
     CheckSprings(rig);
   }
 
@@ -114,8 +114,8 @@ class Checker {
     const auto within = [](float value, float least, float most) {
       return value >= least && value <= most;  // false of what is not a number
     };
-    for (std::size_t i = 0; i < rig.springs.size(); ++i) {
-      const Spring& spring = rig.springs[i];
+    for (std::size_t i = 0; i < rig.swing.springs.size(); ++i) {
+      const Spring& spring = rig.swing.springs[i];
       const std::string place = Place("rig.springs", i);
       if (!WithinReach(spring.rest) || !WithinReach(spring.root))
         throw Fault(place + ": too far away");
@@ -129,12 +129,12 @@ class Checker {
       if (!within(glm::dot(spring.outward, spring.outward), 0, 1.01f))
         throw Fault(place + ": outward is longer than 1");
     }
-    VerticesOf(rig.spring_weights, "rig.spring_weights");
-    for (std::size_t i = 0; i < rig.spring_weights.size(); ++i) {
-      const std::uint32_t spring = rig.spring_weights[i].spring;
-      if (spring >= rig.springs.size()) {
+    VerticesOf(rig.swing.weights, "rig.spring_weights");
+    for (std::size_t i = 0; i < rig.swing.weights.size(); ++i) {
+      const std::uint32_t spring = rig.swing.weights[i].spring;
+      if (spring >= rig.swing.springs.size()) {
         throw Fault(Place("rig.spring_weights", i) + ": spring " + std::to_string(spring) + " of " +
-                    std::to_string(rig.springs.size()));
+                    std::to_string(rig.swing.springs.size()));
       }
     }
   }

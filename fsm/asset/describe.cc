@@ -1,6 +1,5 @@
 #include "fsm/asset/describe.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <map>
@@ -79,9 +78,9 @@ class Description {
 
   void Pictures() {
     const std::pair<const char*, const std::shared_ptr<const Image>&> pictures[] = {
-        {"photo, sRGB", topology_.photo},
-        {"normal_map, linear", topology_.normal_map},
-        {"emissive_map, sRGB", topology_.emissive_map}};
+        {"photo, sRGB", topology_.worn.image},
+        {"normal_map, linear", topology_.worn.normal_map},
+        {"emissive_map, sRGB", topology_.worn.emissive_map}};
     for (const auto& [name, image] : pictures) {
       if (!image) continue;
       Line("texture", std::string(name) + ", " + std::to_string(image->width) + " x " +
@@ -132,9 +131,9 @@ class Description {
   }
 
   void Springs() {
-    if (rig_.springs.empty()) return;
-    Line("springs", std::to_string(rig_.springs.size()) + ", moving vertices by " +
-                        std::to_string(rig_.spring_weights.size()) + " weights");
+    if (rig_.swing.springs.empty()) return;
+    Line("springs", std::to_string(rig_.swing.springs.size()) + ", moving vertices by " +
+                        std::to_string(rig_.swing.weights.size()) + " weights");
   }
 
   void Steps() {

@@ -10,10 +10,10 @@
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_reader.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/base/random.h"
 #include "fsm/faces/head_of_file.h"
 

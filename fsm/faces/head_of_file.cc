@@ -5,14 +5,18 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iostream>
-#include <stdexcept>
 
+#include "fsm/asset/asset_reader.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/table_folder.h"
+#include "fsm/head/anatomy.h"
 #include "fsm/head/make_head.h"
+#include "fsm/mesh/blendshape_rig.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/obj_file.h"
-#include "fsm/mesh/pnt_file.h"
+#include "fsm/mesh/transferred_rig.h"
 #include "fsm/motion/face_motion.h"
 #include "vm_protocol/core/or_throw.h"
 #include "vm_protocol/core/text_file.h"
@@ -49,7 +53,7 @@ std::vector<ShapeMeaning> Meanings(const MotionTables& tables) {
   }
   for (const auto& [name, emotion] : kVrmEmotions) {
     FaceMotion motion(tables, 1);
-    if (!motion.Express(0ms, emotion, 1, 1, 0ms)) continue;
+    if (!motion.expression.Show(0ms, emotion, 1, 1, 0ms)) continue;
     meanings.push_back({name, motion.StateAt(5s)});
   }
   for (const auto& [name, right, left] : kVrmBlinks) {
@@ -112,16 +116,17 @@ Similarity ScaledAbout(glm::vec3 from, float scale, glm::vec3 to) {
   return {.scale = scale, .move = to - scale * from};
 }
 
-/// Aligns a head by its eyes, else by its outline; of a file much higher than wide the upper part
-/// is taken for the head.
+/// Aligns a head by its eyes, which come to lie where ours do, else by its outline; of a file much
+/// higher than wide the upper part is taken for the head.
 Alignment AlignByOutline(const HeadFile& file) {
   Alignment alignment;
   const MeshModel raw = ModelOf(file, {}, 0);
   if (raw.has_eyes) {
     const glm::vec3 apart = raw.eyes.left.centre - raw.eyes.right.centre;
     const glm::vec3 middle = 0.5f * (raw.eyes.right.centre + raw.eyes.left.centre);
-    const float scale = 2 * kEyeCentre.x / std::max(glm::length(apart), 1e-6f);
-    alignment.to_ours = ScaledAbout(middle, scale, kEyeCentre * glm::vec3(0, 1, 1));
+    const glm::vec3 ours = EyeAnatomy::BuiltIn().centre();
+    const float scale = 2 * ours.x / std::max(glm::length(apart), 1e-6f);
+    alignment.to_ours = ScaledAbout(middle, scale, ours * glm::vec3(0, 1, 1));
     return alignment;
   }
   glm::vec3 low(1e9f), high(-1e9f);
@@ -146,7 +151,7 @@ std::vector<ExportedShape> ArkitShapes(const MotionTables& tables) {
     MotionSettings settings;
     settings.gaze_distance_mm = 0;
     motion.Apply(0ms, settings);
-    if (!motion.SetBlendShape(0ms, name, 1, 0ms)) continue;
+    if (!motion.blend_shapes.Set(0ms, name, 1, 0ms)) continue;
     shapes.push_back({name, motion.StateAt(5s)});
     shapes.back().state.asymmetry = 0;  // left and right shapes are each other's image
   }

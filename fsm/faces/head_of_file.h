@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/motion/motion_tables.h"
 #include "fsm/rig/head.h"
 

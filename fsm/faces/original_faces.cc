@@ -6,10 +6,12 @@
 #include <stdexcept>
 
 #include "fsm/faces/face_of_name.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_face.h"
+#include "fsm/mesh/original_model.h"
+#include "fsm/mesh/original_motion.h"
 #include "fsm/motion/face_motion.h"
-#include "fsm/motion/motion_tables.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace fsm {
@@ -21,7 +23,7 @@ void Notice(const std::string& text) { std::cerr << "fsm: notice: " << text << "
 MouthUnitSizes UnitSizes(const MotionTables& tables) {
   FaceMotion motion(tables, 1);
   for (int i = 1; i <= static_cast<int>(kMouthParameters); ++i) {
-    if (!motion.SetMouth(vm::Time(0), i, 1)) return {};
+    if (!motion.mouth.Set(vm::Time(0), i, 1)) return {};
   }
   return motion.StateAt(std::chrono::seconds(5)).mouth;
 }

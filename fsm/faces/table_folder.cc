@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -110,7 +108,7 @@ vm::Result<std::vector<std::string>> CheckTables(const std::string& folder) try 
   const auto own_names = TableIn(folder, kNamesFile);
   const UnitNames names = own_names
                               ? vm::OrThrow(ReadUnitNames(folder + "/" + kNamesFile, *own_names))
-                              : BuiltInUnitNames();
+                              : UnitNames::BuiltIn();
   std::vector<int> moving = BuiltInUnits().Numbers();
   const auto own_units = TableIn(folder, kUnitsFile);
   if (own_units) {

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "embedded/eye.h"
+#include "embedded/mouth.h"
+
 namespace fsm {
 
 Curve ReadCurve(const Table& table, std::string_view x_key, std::string_view y_key) {
@@ -20,6 +23,11 @@ Curve ReadCurve(const Table& table, std::string_view x_key, std::string_view y_k
     x.Fail("must ascend");
   }
   return {std::move(xs), std::move(ys)};
+}
+
+const EyeAnatomy& EyeAnatomy::BuiltIn() {
+  static const EyeAnatomy eye(Table("tables/eye.txt", embedded::eye()));
+  return eye;
 }
 
 EyeAnatomy::EyeAnatomy(const Table& table)
@@ -59,6 +67,11 @@ float EyeAnatomy::MeetAngle(float x) const {
 
 glm::vec3 EyeAnatomy::OnLid(float x, float angle, float radius) const {
   return {x, centre_.y + radius * std::sin(angle), LidAxisZ(x) + radius * std::cos(angle)};
+}
+
+const MouthAnatomy& MouthAnatomy::BuiltIn() {
+  static const MouthAnatomy mouth(Table("tables/mouth.txt", embedded::mouth()));
+  return mouth;
 }
 
 MouthAnatomy::MouthAnatomy(const Table& table)

@@ -15,6 +15,7 @@ namespace fsm {
 class EyeAnatomy {
  public:
   explicit EyeAnatomy(const Table& table);
+  static const EyeAnatomy& BuiltIn();
 
   glm::vec3 centre() const { return centre_; }
   float radius() const { return radius_; }
@@ -54,6 +55,7 @@ class EyeAnatomy {
 class MouthAnatomy {
  public:
   explicit MouthAnatomy(const Table& table);
+  static const MouthAnatomy& BuiltIn();
 
   glm::vec3 corner() const { return corner_; }
   float LineY(float x) const { return line_y_(x); }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <optional>
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/spline.h"
+#include "fsm/head/cage_rings.h"
 
 namespace fsm {
 namespace {

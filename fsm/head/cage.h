@@ -54,10 +54,6 @@ Cage ReadCage(const Table& curves, const Table& patches, const EyeAnatomy& eye,
 /// The point a table means by "CURVE.i"; throws naming the line of `row` if there is none.
 std::uint32_t CagePoint(const Cage& cage, const TableRow& row, std::string_view word);
 
-/// Adds the curves eye0..eye5 and mouth0..mouth9.
-void AddLidCurves(const EyeAnatomy& eye, Cage& cage);
-void AddMouthCurves(const MouthAnatomy& mouth, Cage& cage);
-
 /// The number of rings of mouth curves, and which of them is the seam.
 inline constexpr int kMouthRings = 10;
 inline constexpr int kSeamRing = 6;

@@ -1,3 +1,5 @@
+#include "fsm/head/cage_rings.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <stdexcept>
 
 #include "fsm/base/spline.h"
-#include "fsm/head/cage.h"
 
 namespace fsm {
 namespace {

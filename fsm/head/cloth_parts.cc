@@ -1,10 +1,10 @@
+#include "fsm/head/cloth_parts.h"
+
 #include <array>
 #include <glm/common.hpp>
 #include <vector>
 
 #include "fsm/base/random.h"
-#include "fsm/head/paint.h"
-#include "fsm/head/parts.h"
 
 namespace fsm {
 namespace {

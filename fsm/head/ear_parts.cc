@@ -1,14 +1,11 @@
+#include "fsm/head/ear_parts.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <string>
 #include <vector>
-
-#include "fsm/head/paint.h"
-#include "fsm/head/parts.h"
 
 namespace fsm {
 namespace {

@@ -1,3 +1,5 @@
+#include "fsm/head/eye_hair_parts.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "fsm/base/random.h"
 #include "fsm/head/landmarks.h"
 #include "fsm/head/paint.h"
-#include "fsm/head/parts.h"
 
 namespace fsm {
 namespace {

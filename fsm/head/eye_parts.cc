@@ -1,3 +1,5 @@
+#include "fsm/head/eye_parts.h"
+
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -6,7 +8,6 @@
 
 #include "fsm/base/random.h"
 #include "fsm/head/paint.h"
-#include "fsm/head/parts.h"
 
 namespace fsm {
 namespace {

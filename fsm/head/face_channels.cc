@@ -93,18 +93,17 @@ LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
   return rig;
 }
 
-std::vector<TeethContact> BakeTeethContacts(const ToothArch& upper, const ToothArch& lower,
-                                            std::span<const glm::vec3> rest,
-                                            std::span<const SkinWeights> weights) {
+TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
+                   std::span<const SkinWeights> weights) {
   constexpr float kLeast = 1.3f;  // the crowns bulge out of the parabola by about 0.9
-  std::vector<TeethContact> contacts;
+  TeethRig rig{.upper = upper, .lower = lower, .contacts = {}};
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!weights[i].by_teeth) continue;
     const glm::vec3 p = rest[i];
-    contacts.push_back({static_cast<std::uint32_t>(i), std::min(kLeast, p.z - upper.At(p.x)),
-                        std::min(kLeast, p.z - lower.At(p.x))});
+    rig.contacts.push_back({static_cast<std::uint32_t>(i), std::min(kLeast, p.z - upper.At(p.x)),
+                            std::min(kLeast, p.z - lower.At(p.x))});
   }
-  return contacts;
+  return rig;
 }
 
 LipRig BakeLips(const MouthSeam& skin, std::span<const SkinWeights> weights) {

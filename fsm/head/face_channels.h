@@ -20,9 +20,8 @@ std::vector<Channel> MouthChannels(const MouthAnatomy& mouth, std::span<const Sk
 LidRig BakeLids(const EyeAnatomy& eye, const Sided<EyeTransform>& eyes,
                 std::span<const glm::vec3> rest, std::span<const SkinWeights> weights);
 /// Arches where the head has them.
-std::vector<TeethContact> BakeTeethContacts(const ToothArch& upper, const ToothArch& lower,
-                                            std::span<const glm::vec3> rest,
-                                            std::span<const SkinWeights> weights);
+TeethRig BakeTeeth(const ToothArch& upper, const ToothArch& lower, std::span<const glm::vec3> rest,
+                   std::span<const SkinWeights> weights);
 LipRig BakeLips(const MouthSeam& skin, std::span<const SkinWeights> weights);
 
 }  // namespace fsm

@@ -1,3 +1,5 @@
+#include "fsm/head/hair_crop.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,5 @@
+#include "fsm/head/hair_long.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

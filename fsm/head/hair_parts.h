@@ -63,27 +63,4 @@ class HairLook {
   Curve hairline_;
 };
 
-struct CropStyle {
-  float side_mm, top_mm;  ///< of the shell over the skin
-  int locks;
-  float lock_mm;   ///< length of a lock
-  float lift_mm;   ///< of its tip over the shell
-  float wave_mm;   ///< sideways swing of a lock
-  float front_up;  ///< how far locks over the forehead stand up, 0..1
-  float recede;    ///< degrees the hairline is drawn back at the temples
-};
-struct LongStyle {
-  float parting = 0.17f;  ///< to the agent's left, as part of the hair's half width
-  float full_mm = 0;      ///< more volume over the skull than usual
-  float front_y = -84;    ///< height of the ends beside the face, millimetres
-  float back_y = -112;    ///< of those behind
-  float wave_mm = 2.2f;   ///< sideways swing of what hangs
-};
-/// Parted and hanging.
-void BuildLongHair(const LongStyle& style, const Features& features, const Palette& palette,
-                   HeadMesh& mesh);
-/// Short hair all round.
-void BuildCroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
-                      HeadMesh& mesh);
-
 }  // namespace fsm

@@ -5,9 +5,6 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
-#include "fsm/head/make_head.h"
-#include "fsm/rig/head.h"
-
 namespace fsm {
 namespace {
 

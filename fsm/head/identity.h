@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,10 +11,19 @@
 
 #include "fsm/base/table_reader.h"
 #include "fsm/head/features.h"
-#include "fsm/head/hair_parts.h"
+#include "fsm/head/hair_crop.h"
+#include "fsm/head/hair_long.h"
 #include "fsm/head/paint.h"
 
 namespace fsm {
+
+/// A face to choose: a block of tables/identities.txt.
+struct IdentityInfo {
+  std::string_view name;
+  std::string_view description;  ///< one line
+};
+/// All built-in heads, the default one first. Valid as long as the program runs.
+std::span<const IdentityInfo> Identities();
 
 /// What makes one face differ from the base head; a block of tables/identities.txt.
 struct Identity {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "embedded/landmarks.h"
-#include "fsm/head/parts.h"
+#include "fsm/head/ear_parts.h"
 
 namespace fsm {
 

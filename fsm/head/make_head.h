@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <string_view>
 
 #include "fsm/head/identity.h"
@@ -10,14 +9,6 @@
 namespace fsm {
 
 struct PhotoHead;
-
-/// A face to choose: a block of tables/identities.txt.
-struct IdentityInfo {
-  std::string_view name;
-  std::string_view description;  ///< one line
-};
-/// All built-in heads, the default one first. Valid as long as the program runs.
-std::span<const IdentityInfo> Identities();
 
 /// The built-in head called `identity`. Nobody's two sides move quite alike: a few percent, fixed
 /// for each identity, unless `asymmetric` is false. Deterministic. Throws std::invalid_argument

@@ -1,16 +1,15 @@
+#include "fsm/head/mouth_parts.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fsm/base/random.h"
-#include "fsm/head/paint.h"
-#include "fsm/head/parts.h"
 
 namespace fsm {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "embedded/identities.h"
 #include "embedded/sliders.h"
-#include "fsm/head/make_head.h"
 
 namespace fsm {
 

@@ -18,7 +18,7 @@ struct SkinPose {
   std::span<const glm::vec3> normal;    ///< unit
 };
 
-/// A photo, and where it shows the skin: HeadTopology::texcoord and texture_weight.
+/// A photo, and where it shows the skin: WornPicture::texcoord and weight.
 struct PhotoSight {
   const Image& photo;
   std::span<const glm::vec2> texcoord;

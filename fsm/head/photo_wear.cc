@@ -1,7 +1,6 @@
 #include "fsm/head/photo_wear.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,10 +9,18 @@
 #include <vector>
 
 #include "fsm/base/spline.h"
-#include "fsm/head/skin_mesh.h"
 
 namespace fsm {
 namespace {
+
+/// What a grey photo does not show must be grey too.
+void Desaturate(Palette& palette, float saturation) {
+  for (glm::vec3* colour : {&palette.tooth, &palette.lip_inside, &palette.rim, &palette.mouth,
+                            &palette.tongue, &palette.gum}) {
+    *colour =
+        glm::mix(glm::vec3(glm::dot(*colour, glm::vec3(0.3f, 0.6f, 0.1f))), *colour, saturation);
+  }
+}
 
 void DarkenNostrils(std::span<const CageTag> tags, HeadMesh& mesh) {
   std::vector<std::uint32_t> nostrils;
@@ -57,7 +64,7 @@ void RollLips(const PhotoHead& head, std::span<const CageTag> tags, glm::vec3 li
     const float inside = SmoothStep(0.5f, -4.0f, outward);
     topology.albedo[i] = Wetter(Wetter(dry, head.saturation), inside * head.saturation);
     topology.occlusion[i] = glm::mix(1.0f, 0.4f, inside);
-    topology.texture_weight[i] = 1 - wet;
+    topology.worn.weight[i] = 1 - wet;
   }
 }
 
@@ -126,6 +133,25 @@ float SeenSkin(const PhotoHead& head, glm::vec3 p, glm::vec3 normal) {
 
 }  // namespace
 
+void TakeColours(const PhotoHead& head, Palette& palette) {
+  palette.iris = head.iris_colour;
+  palette.sclera = head.white_colour;
+  Desaturate(palette, head.saturation);
+  if (head.lip_colour) {
+    // Where the lips turn inward the mouth is painted: it begins in their colour.
+    constexpr float kOpen = 0.85f;
+    palette.lip_inside = *head.lip_colour / kOpen;
+    palette.mouth = 0.9f * Wetter(palette.lip_inside, 0.5f * head.saturation);
+  }
+  // A photographer's light comes from the front and reaches into the mouth.
+  // Teeth stand in the light whose hue the whites of the eyes show.
+  const glm::vec3 white = head.white_colour;
+  palette.tooth *=
+      0.67f * head.teeth *
+      glm::mix(glm::vec3(1), white / std::max({white.r, white.g, white.b, 1e-3f}), 0.5f);
+  palette.tongue *= 0.85f * head.teeth;
+}
+
 float JawLine(float above_bottom) { return 30 * SmoothStep(48, 36, above_bottom); }
 
 glm::vec3 Wetter(glm::vec3 lip, float saturation) {
@@ -181,43 +207,43 @@ void LeaveOutUnseen(const PhotoHead& head, std::span<const CageTag> tags, HeadMe
 void WearPhoto(const PhotoHead& head, const PhotoSkin& skin, glm::vec3 lip_inside,
                HeadTopology& topology) {
   const std::size_t skin_count = skin.weights.size();
-  topology.photo = head.photo;
-  topology.saturation = head.saturation;
-  topology.eye_pictures = head.eye_pictures;
-  topology.texcoord.resize(topology.uv.size());
-  topology.texture_weight.resize(topology.uv.size());
+  topology.worn.image = head.photo;
+  topology.portrait.saturation = head.saturation;
+  topology.portrait.eyes = head.eye_pictures;
+  topology.worn.texcoord.resize(topology.uv.size());
+  topology.worn.weight.resize(topology.uv.size());
   for (std::size_t i = 0; i < skin_count; ++i) {
-    topology.texcoord[i] = glm::mix(head.skin_low, head.skin_high, topology.uv[i]);
+    topology.worn.texcoord[i] = glm::mix(head.skin_low, head.skin_high, topology.uv[i]);
   }
   for (std::size_t i = 0; i < head.sheet.size(); ++i) {
-    topology.texcoord[skin_count + i] = head.sheet[i].texcoord;
+    topology.worn.texcoord[skin_count + i] = head.sheet[i].texcoord;
   }
-  std::fill_n(topology.texture_weight.begin(), skin_count + head.sheet.size(), 1.0f);
+  std::fill_n(topology.worn.weight.begin(), skin_count + head.sheet.size(), 1.0f);
   // The photo ends at the lips: what lies within the mouth is painted.
   for (const auto& part : topology.parts) {
     if (part.material != Material::kMouthInside) continue;
     for (std::uint32_t k = 0; k < part.index_count; ++k) {
-      topology.texture_weight[topology.indices[part.first_index + k]] = 0;
+      topology.worn.weight[topology.indices[part.first_index + k]] = 0;
     }
   }
   // Where paint begins it goes over from the photo's colour.
   for (std::size_t i = 0; i < skin_count; ++i) {
-    if (topology.texture_weight[i] <= 0) continue;
-    const glm::vec3 seen = PhotoColour(*head.photo, topology.texcoord[i]);
+    if (topology.worn.weight[i] <= 0) continue;
+    const glm::vec3 seen = PhotoColour(*head.photo, topology.worn.texcoord[i]);
     topology.albedo[i] = seen * seen;
     topology.occlusion[i] = 1;
   }
   ThinLashes(head, topology);
   RollLips(head, skin.tags, lip_inside, topology);
-  const PhotoSight sight{*head.photo, topology.texcoord, topology.texture_weight};
+  const PhotoSight sight{*head.photo, topology.worn.texcoord, topology.worn.weight};
   const FaceLight light = LightOf(sight, skin.open);
-  topology.photo_light = light.coefficients();
-  topology.relit = RelitParts(skin);
-  topology.relit.resize(topology.uv.size());
-  topology.shut_lids = PaintLids({sight, skin.weights, skin.open, skin.shut, head.glasses,
-                                  head.features ? *head.features : Features::BuiltIn()},
-                                 light);
-  for (const ShutLid& lid : topology.shut_lids) topology.texture_weight[lid.vertex] = 1;
+  topology.portrait.light = light.coefficients();
+  topology.portrait.relit = RelitParts(skin);
+  topology.portrait.relit.resize(topology.uv.size());
+  topology.portrait.shut_lids = PaintLids({sight, skin.weights, skin.open, skin.shut, head.glasses,
+                                           head.features ? *head.features : Features::BuiltIn()},
+                                          light);
+  for (const ShutLid& lid : topology.portrait.shut_lids) topology.worn.weight[lid.vertex] = 1;
 }
 
 }  // namespace fsm

@@ -7,11 +7,15 @@
 
 #include "fsm/head/cage.h"
 #include "fsm/head/head_mesh.h"
+#include "fsm/head/paint.h"
 #include "fsm/head/photo_head.h"
 #include "fsm/head/photo_lids.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
+
+/// Sets the colours of what the photo does not show.
+void TakeColours(const PhotoHead& head, Palette& palette);
 
 /// The sheet that carries hair, neck and clothes of a photo. It turns with the head as skin does.
 void AddSheet(const PhotoHead& head, HeadMesh& mesh);

@@ -1,8 +1,6 @@
 #include "fsm/head/subdivide.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/common.hpp>
 #include <map>
 
 namespace fsm {

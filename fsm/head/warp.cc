@@ -1,6 +1,5 @@
 #include "fsm/head/warp.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <stdexcept>

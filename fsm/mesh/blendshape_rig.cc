@@ -1,15 +1,15 @@
+#include "fsm/mesh/blendshape_rig.h"
+
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include "fsm/mesh/drive_fit.h"
-#include "fsm/mesh/head_file.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/nnls_solver.h"
+#include "fsm/mesh/transferred_rig.h"
 
 namespace fsm {
 namespace {

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "fsm/base/spline.h"
 #include "fsm/head/warp.h"

@@ -1,5 +1,6 @@
+#include "fsm/mesh/gltf_head.h"
+
 #include <algorithm>
-#include <filesystem>
 #include <glm/matrix.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -8,7 +9,6 @@
 #include "fsm/mesh/gltf_document.h"
 #include "fsm/mesh/gltf_nodes.h"
 #include "fsm/mesh/gltf_paint.h"
-#include "fsm/mesh/head_file.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/obj_file.h"
 #include "fsm/mesh/vrm_avatar.h"
@@ -46,7 +46,7 @@ class GltfReader {
     nodes_ = OrRefuse(GltfNodes::Read(document_));
     const VrmSprings springs(document_, nodes_);
     springs_ = &springs;
-    head_.springs = springs.springs();
+    head_.swing.springs = springs.springs();
     for (const std::int64_t node : nodes_.shown()) Mesh(node);
     if (head_.parts.empty()) Refuse("no mesh of triangles is in it");
     for (const auto& expression : avatar_.expressions) Express(expression);
@@ -169,7 +169,7 @@ class GltfReader {
     }
     for (const auto& [vertex, node, weight] : watched) {
       springs_->Bind(static_cast<std::uint32_t>(first + vertex), head_.position[first + vertex],
-                     node, weight, head_.spring_weights);
+                     node, weight, head_.swing.weights);
     }
     mirrored_[first] = count > 0 && glm::determinant(glm::mat3(stands[0])) < 0;
     const GltfUv uv = paint_.UvOfMaterial(WholeOf(primitive, "material"));
@@ -272,7 +272,7 @@ class GltfReader {
     if (head_.eye_pivot) {
       for (const Side side : kSides) (*head_.eye_pivot)[side] *= round;
     }
-    for (Spring& spring : head_.springs) {
+    for (Spring& spring : head_.swing.springs) {
       spring.rest *= round;
       spring.root *= round;
     }

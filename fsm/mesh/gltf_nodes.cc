@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 
 namespace fsm {

@@ -1,11 +1,11 @@
 #include "fsm/mesh/head_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "fsm/image/image_file.h"
+#include "fsm/mesh/gltf_head.h"
 #include "fsm/mesh/obj_file.h"
 #include "vm_protocol/core/lower_case.h"
 #include "vm_protocol/core/text_file.h"
@@ -37,14 +37,6 @@ std::string PlainShapeName(std::string_view name) {
   }
   std::erase_if(out, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
   return out;
-}
-
-vm::Result<HeadFile> ReadHeadFile(const std::string& path) {
-  const std::string ending = vm::LowerCase(std::filesystem::path(path).extension().string());
-  if (ending == ".obj") return ReadObjHead(path);
-  if (ending == ".glb" || ending == ".gltf" || ending == ".vrm") return ReadGltfHead(path);
-  return vm::Fail(vm::Errc::kBadValue,
-                  "'" + path + "' is no head's name: it must end in .obj, .glb, .gltf or .vrm");
 }
 
 namespace {
@@ -128,10 +120,16 @@ class ObjHead {
 
 }  // namespace
 
-vm::Result<HeadFile> ReadObjHead(const std::string& path) {
-  const auto obj = ReadObj(path);
-  if (!obj) return std::unexpected(obj.error());
-  return ObjHead(path, *obj).Make();
+vm::Result<HeadFile> ReadHeadFile(const std::string& path) {
+  const std::string ending = vm::LowerCase(std::filesystem::path(path).extension().string());
+  if (ending == ".obj") {
+    const auto obj = ReadObj(path);
+    if (!obj) return std::unexpected(obj.error());
+    return ObjHead(path, *obj).Make();
+  }
+  if (ending == ".glb" || ending == ".gltf" || ending == ".vrm") return ReadGltfHead(path);
+  return vm::Fail(vm::Errc::kBadValue,
+                  "'" + path + "' is no head's name: it must end in .obj, .glb, .gltf or .vrm");
 }
 
 }  // namespace fsm

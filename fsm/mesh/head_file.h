@@ -29,7 +29,7 @@ struct HeadFile {
     bool two_sided = false;
     int pbr = -1;  ///< index into pbr_materials; -1: shown as it is
   };
-  /// How the light on a picture differs from place to place: see HeadTopology::normal_map.
+  /// How the light on a picture differs from place to place: see WornPicture::normal_map.
   struct Detail {
     Image normal_map, emissive_map;  ///< either may be empty
   };
@@ -55,9 +55,8 @@ struct HeadFile {
   std::vector<std::optional<Side>> eye;  ///< the one that a vertex is of; or none at all
   /// What those turn about, right and left, where the file says it.
   std::optional<Sided<glm::vec3>> eye_pivot;
-  std::optional<LookRanges> look;  ///< how the eyes follow a gaze, where the file says it
-  std::vector<Spring> springs;     ///< what swings: see VrmSprings
-  std::vector<SpringWeight> spring_weights;
+  std::optional<LookRanges> look;    ///< how the eyes follow a gaze, where the file says it
+  SpringRig swing;                   ///< see VrmSprings
   bool look_by_shape = false;        ///< not by turning, but by shapes vrmlookleft and so on
   std::vector<std::string> notices;  ///< what was left out
   std::vector<std::string> beside;   ///< paths of other files it names, there or not
@@ -67,52 +66,8 @@ struct HeadFile {
 /// Reads .obj, .gltf, .glb or .vrm. Pictures and buffers beside the file are read from its folder
 /// only. Errors: kUnavailable, kLimit, kBadValue naming file and place.
 vm::Result<HeadFile> ReadHeadFile(const std::string& path);
-vm::Result<HeadFile> ReadObjHead(const std::string& path);
-vm::Result<HeadFile> ReadGltfHead(const std::string& path);
 /// A file that `path` names by `name`; nothing if that leads out of its folder.
 std::optional<std::string> FileBeside(const std::string& path, const std::string& name);
-/// From memory; nothing outside it is read. `name` is for messages.
-vm::Result<HeadFile> ParseGltfHead(const std::string& name, std::string_view bytes);
-
-/// The height of the mouth of built-in heads, millimetres.
-inline constexpr float kUsualMouthY = -43;
-/// The head in our frame: `to_ours` takes it there. Parts are told by their names, and rigid ones
-/// by where they lie to the mouth, which is at `mouth_y`. Throws std::runtime_error naming file and
-/// vertex if `to_ours` takes one out of kMaxMeshReach, as where landmarks do not belong to the
-/// head.
-MeshModel ModelOf(const HeadFile& file, const Similarity& to_ours, float mouth_y);
-
-/// The triangles of a built-in head's skin, lips and mouth.
-std::vector<std::uint32_t> SkinTriangles(const HeadTopology& topology);
-/// The triangles of its eyeballs.
-std::vector<std::uint32_t> EyeballTriangles(const HeadTopology& topology);
-
-/// The rig of skin that moves as `source`, a built-in head, would; `pairs` in our frame. Adds
-/// unseen vertices to `model`, the source's lips. Throws as DeformationTransfer, with the model's
-/// name before the sentence.
-RigData TransferredRig(MeshModel& model, const Head& source, std::span<const PointPair> pairs);
-
-/// What a shape of that name stands for, "mouthsmileleft" in small letters.
-struct ShapeMeaning {
-  std::string name;
-  FaceState state;
-};
-/// Shapes look as `source` does in their states.
-struct ShapeMeanings {
-  const Head& source;
-  std::span<const ShapeMeaning> shapes;
-};
-/// The rig of skin that is moved by the file's own shapes, those whose names have a meaning: units,
-/// the mouth's parameters and the rest drive them as is needed to look like `moved` where they act
-/// alone, and in `visemes`. A name of both sides (browInnerUp) may come as two halves with Left and
-/// Right behind it; each then stands for its side. A unit of whose movement the shapes can show
-/// hardly anything drives none of them. `moved` is the source of the meanings, with other units
-/// perhaps. What the shapes move in `model` is flesh then, teeth too. Nothing if there are fewer
-/// than four. `unused` gets the names of shapes that move something but have no meaning.
-std::optional<RigData> BlendshapeRig(const HeadFile& file, const Similarity& to_ours,
-                                     MeshModel& model, const ShapeMeanings& meanings,
-                                     const Head& moved, std::span<const FaceState> visemes = {},
-                                     std::vector<std::string>* unused = nullptr);
 
 /// A name in small letters without anything but letters and digits; _L and _R at its end become
 /// left and right, so that names of different makers are the same.

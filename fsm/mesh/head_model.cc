@@ -1,5 +1,6 @@
+#include "fsm/mesh/head_model.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,7 +11,6 @@
 
 #include "fsm/base/spline.h"
 #include "fsm/head/paint.h"
-#include "fsm/mesh/head_file.h"
 #include "fsm/mesh/mesh_reach.h"
 #include "fsm/mesh/texture_atlas.h"
 
@@ -71,8 +71,8 @@ class HeadBuilder {
 
   MeshModel Build() {
     for (const Image& picture : file_.pictures) atlas_.Add(picture);
-    model_.photo = atlas_.Make();
-    if (model_.photo) LayDetails();
+    model_.worn.image = atlas_.Make();
+    if (model_.worn.image) LayDetails();
     model_.has_uv_seams = !file_.texcoord.empty();
     for (const glm::vec3& p : at_) {
       // The neck gives way below the chin, as ours does.
@@ -103,8 +103,8 @@ class HeadBuilder {
       normal_maps.push_back(detail.normal_map);
       emissive_map.push_back(detail.emissive_map);
     }
-    model_.normal_map = atlas_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
-    model_.emissive_map = atlas_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
+    model_.worn.normal_map = atlas_.MakeBeside(std::move(normal_maps), {128, 128, 255, 255});
+    model_.worn.emissive_map = atlas_.MakeBeside(std::move(emissive_map), {255, 255, 255, 255});
   }
 
   static float NeckWeight(glm::vec3 p) { return SmoothStep(-168, -96, p.y); }
@@ -113,7 +113,7 @@ class HeadBuilder {
   void HangSprings() {
     constexpr glm::vec3 kAxis{0, 0, -14};  // of head and neck
     std::vector<std::int64_t> number;
-    for (Spring spring : file_.springs) {
+    for (Spring spring : file_.swing.springs) {
       spring.rest = to_ours_(spring.rest);
       spring.root = to_ours_(spring.root);
       spring.most_mm *= to_ours_.scale;
@@ -124,14 +124,14 @@ class HeadBuilder {
       const bool of_head = WithinReach(spring.rest) && WithinReach(spring.root) &&
                            NeckWeight(spring.root) > 0.5f && spring.most_mm >= Spring::kLeastMost &&
                            spring.most_mm <= Spring::kMostMost;
-      number.push_back(of_head ? static_cast<std::int64_t>(model_.springs.size()) : -1);
-      if (of_head) model_.springs.push_back(spring);
+      number.push_back(of_head ? static_cast<std::int64_t>(model_.swing.springs.size()) : -1);
+      if (of_head) model_.swing.springs.push_back(spring);
     }
-    for (SpringWeight weight : file_.spring_weights) {
+    for (SpringWeight weight : file_.swing.weights) {
       const std::int64_t spring = number[weight.spring];
       if (spring < 0) continue;
       weight.spring = static_cast<std::uint32_t>(spring);
-      model_.spring_weights.push_back(weight);
+      model_.swing.weights.push_back(weight);
     }
   }
 
@@ -203,8 +203,8 @@ class HeadBuilder {
       if (!pictured) continue;
       const glm::vec2 uv = file_.texcoord[v];
       const glm::vec2 within(Wrapped(uv.x), Wrapped(uv.y));
-      model_.texcoord[v] = atlas_.rect(static_cast<std::size_t>(part.picture)).At(within);
-      model_.texture_weight[v] = 1;
+      model_.worn.texcoord[v] = atlas_.rect(static_cast<std::size_t>(part.picture)).At(within);
+      model_.worn.weight[v] = 1;
     }
     const int pbr = MaterialOf(kind, part, pictured);
     if (pbr >= 0) {
@@ -225,7 +225,7 @@ class HeadBuilder {
   int MaterialOf(Kind kind, const HeadFile::Part& part, bool pictured) {
     if (part.pbr < 0) return -1;
     const PbrMaterial& pbr = file_.pbr_materials[static_cast<std::size_t>(part.pbr)];
-    const bool own = kind == Kind::kHair || kind == Kind::kOther || model_.photo != nullptr;
+    const bool own = kind == Kind::kHair || kind == Kind::kOther || model_.worn.image != nullptr;
     if (!pictured && !own && pbr.kind == PbrMaterial::Kind::kLit) return -1;
     const auto [known, fresh] =
         pbr_index_.try_emplace(part.pbr, static_cast<int>(model_.pbr_materials.size()));
@@ -284,7 +284,7 @@ class HeadBuilder {
         return Material::kMouthInside;
       default:
         // Beside pictures skin would be drawn by them.
-        return model_.photo ? Material::kMouthInside : Material::kSkin;
+        return model_.worn.image ? Material::kMouthInside : Material::kSkin;
     }
   }
 

@@ -1,7 +1,5 @@
 #include "fsm/mesh/lip_seal.h"
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <queue>
 

@@ -1,3 +1,5 @@
+#include "fsm/mesh/mesh_head.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -10,8 +12,7 @@
 #include "fsm/base/spline.h"
 #include "fsm/head/built_in_units.h"
 #include "fsm/head/landmarks.h"
-#include "fsm/head/parts.h"
-#include "fsm/mesh/mesh_model.h"
+#include "fsm/head/mouth_parts.h"
 #include "fsm/rig/normals.h"
 
 namespace fsm {
@@ -29,20 +30,16 @@ HeadTopology TopologyOf(const MeshModel& model) {
   topology.albedo = model.albedo;
   topology.occlusion.assign(model.position.size(), 1);
   for (const glm::vec3& p : model.position) topology.uv.push_back(Unroll(p));
-  topology.photo = model.photo;
-  topology.texcoord = model.texcoord;
-  topology.texture_weight = model.texture_weight;
+  topology.worn = model.worn;
   topology.pbr_materials = model.pbr_materials;
-  topology.normal_map = model.normal_map;
-  topology.emissive_map = model.emissive_map;
   topology.eyes = model.eyes;
   return topology;
 }
 
 /// Skin outside a ball at rest stays outside, whatever moves it.
-std::vector<BallLid> LidsOf(const MeshModel& model) {
+std::vector<BallLids::Vertex> LidsOf(const MeshModel& model) {
   constexpr float kReach = 8, kThickness = 0.6F;
-  std::vector<BallLid> lids;
+  std::vector<BallLids::Vertex> lids;
   for (std::uint32_t i = 0; i < model.position.size(); ++i) {
     if (model.bone[i] != Bone::kSkin) continue;
     for (const Side side : kSides) {
@@ -93,17 +90,16 @@ RigData RigOf(const MeshModel& model, const HeadTopology& topology, RigData rig)
     rig.weights[i].neck = model.neck[i];
     if (rig.bone[i] == Bone::kTongue) rig.bone[i] = Bone::kJaw;
   }
-  rig.soft_triangles = topology.indices;
-  if (!topology.pbr_materials.empty()) rig.normal_twin = NormalTwins(rig.rest, rig.rest_normal);
-  rig.jaw_hinge = model.hinge;
+  rig.normals.soft_triangles = topology.indices;
+  if (!topology.pbr_materials.empty()) rig.normals.twin = NormalTwins(rig.rest, rig.rest_normal);
+  rig.jaw.hinge = model.hinge;
   for (const Side side : kSides) {
-    rig.ball_centre[side] = model.eyes[side].centre;
-    rig.eye_pivot[side] = model.eye_pivot ? (*model.eye_pivot)[side] : rig.ball_centre[side];
+    rig.ball_lids.centre[side] = model.eyes[side].centre;
+    rig.eyes.pivot[side] = model.eye_pivot ? (*model.eye_pivot)[side] : rig.ball_lids.centre[side];
   }
-  rig.look = model.look;
-  rig.springs = model.springs;
-  rig.spring_weights = model.spring_weights;
-  if (model.has_eyes && model.round_eyes) rig.ball_lids = LidsOf(model);
+  rig.eyes.look = model.look;
+  rig.swing = model.swing;
+  if (model.has_eyes && model.round_eyes) rig.ball_lids.vertices = LidsOf(model);
   if (!rig.lips.measured && !model.seam.empty()) {
     const auto [upper, lower] = model.seam[model.seam.size() / 2];
     rig.lips.measured = {upper, lower, model.seam.back().first, model.seam.front().first};
@@ -154,7 +150,7 @@ RigData StillSkin() {
 std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin) {
   HeadAsset asset{.topology = TopologyOf(model), .rig = {}, .landmarks = {}, .view = model.view};
   asset.rig = RigOf(model, asset.topology, std::move(skin));
-  if (model.seam.empty() && !model.photo) FindMouth(asset.rig, asset.topology);
+  if (model.seam.empty() && !model.worn.image) FindMouth(asset.rig, asset.topology);
   asset.landmarks = std::move(model.landmarks);
   return std::make_unique<Head>(std::move(asset));
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/trigonometric.hpp>
 #include <numbers>
 
 #include "fsm/head/paint.h"
@@ -14,8 +13,8 @@ std::uint32_t MeshModel::Add(glm::vec3 p, Bone b, glm::vec3 colour, std::optiona
   position.push_back(p);
   bone.push_back(b);
   albedo.push_back(colour);
-  texcoord.push_back(at.value_or(glm::vec2(0)));
-  texture_weight.push_back(at ? 1.0f : 0.0f);
+  worn.texcoord.push_back(at.value_or(glm::vec2(0)));
+  worn.weight.push_back(at ? 1.0f : 0.0f);
   neck.push_back(turn);
   return static_cast<std::uint32_t>(position.size() - 1);
 }

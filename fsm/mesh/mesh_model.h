@@ -16,20 +16,14 @@
 
 namespace fsm {
 
-/// Where the eyes of every head from elsewhere are put: those of the built-in head
-/// (head/tables/eye.txt).
-inline constexpr glm::vec3 kEyeCentre{30.5f, 22.3f, 63.6f};
-
 /// Somebody else's head at rest, in our frame and millimetres: what MakeMeshHead shows.
 struct MeshModel {
   std::string name;  ///< of its file, for messages; may be empty
   std::vector<glm::vec3> position;
-  std::vector<Bone> bone;           ///< kSkin moves as MakeMeshHead is told
-  std::vector<float> neck;          ///< part of the head's turn each vertex makes
-  std::vector<glm::vec3> albedo;    ///< linear RGB
-  std::vector<glm::vec2> texcoord;  ///< see HeadTopology, texture_weight too
-  std::vector<float> texture_weight;
-  std::shared_ptr<const Image> photo, normal_map, emissive_map;
+  std::vector<Bone> bone;         ///< kSkin moves as MakeMeshHead is told
+  std::vector<float> neck;        ///< part of the head's turn each vertex makes
+  std::vector<glm::vec3> albedo;  ///< linear RGB
+  WornPicture worn;
   std::vector<PbrMaterial> pbr_materials;
   std::vector<HeadMesh::Batch> batches;
   Sided<EyeGeometry> eyes;  ///< meaningful where has_eyes
@@ -38,9 +32,8 @@ struct MeshModel {
   std::optional<LookRanges> look;             ///< else they turn as ours do
   bool round_eyes = true;                     ///< balls that lids must stay outside of
   bool has_uv_seams = false;    ///< vertices are doubled where the texture is sewn together
-  glm::vec3 hinge{0, -4, -3};   ///< the jaw's axis goes through it, as ours does
-  std::vector<Spring> springs;  ///< see RigData
-  std::vector<SpringWeight> spring_weights;
+  glm::vec3 hinge = kJawHinge;  ///< the jaw's axis goes through it along x
+  SpringRig swing;
   Landmarks landmarks;
   std::optional<ParallelView> view;  ///< how it is meant to be seen
   /// Vertices of the upper and the lower lip that meet when the mouth is closed, from the agent's
@@ -59,12 +52,5 @@ struct MeshModel {
   /// An eyeball with an iris about eyes[side], in our own colours.
   void AddBall(Side side);
 };
-
-/// Skin that nothing but the head's turn moves; with the units of built-in heads.
-RigData StillSkin();
-/// A head that shows `model`, whose skin moves as `skin` says: steps and what they need, by the
-/// model's vertices. Eyes, jaw, neck and light are added. Throws std::runtime_error if the model
-/// has no triangles.
-std::unique_ptr<Head> MakeMeshHead(MeshModel model, RigData skin = StillSkin());
 
 }  // namespace fsm

@@ -60,21 +60,4 @@ struct OriginalFace {
 vm::Result<OriginalFace> ReadOriginalFace(const OriginalFaceFiles& files,
                                           const OriginalSharedFiles& shared);
 
-/// The mouth of each viseme 1..27 at full articulation, in FaceState's parameters, and then those
-/// that speech shows by other sets of visemes: mixed of these.
-using VisemeMouths = std::vector<std::array<float, kMouthParameters>>;
-/// What Mouth.N asks of its parameter at 100 per cent; 0 = that it moves nothing.
-using MouthUnitSizes = std::array<float, kMouthParameters>;
-
-/// The face as a mesh of our frame; vertex i of the wireframe is vertex i of the model. Its
-/// view is the window the original shows a face through, without
-/// perspective: its middle is the origin of the wireframe, and half its longer side is one of the
-/// wireframe's units.
-MeshModel ModelOf(const OriginalFace& face);
-/// Its rig of its own shapes: action units by their FACS number, visemes by what speech asks of the
-/// mouth, and mouth units by what is asked by hand (Mouth.N): each shows the one of its number,
-/// whatever that is (in the data of the original, mostly vowels).
-RigData RigOf(const OriginalFace& face, const MeshModel& model, const VisemeMouths& mouths,
-              const MouthUnitSizes& unit_sizes = {});
-
 }  // namespace fsm

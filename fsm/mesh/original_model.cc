@@ -1,16 +1,14 @@
+#include "fsm/mesh/original_model.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
-#include <stdexcept>
 
 #include "fsm/base/spline.h"
 #include "fsm/image/color_space.h"
-#include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 #include "fsm/mesh/texture_atlas.h"
 
@@ -26,7 +24,7 @@ class OriginalBuilder {
     const std::size_t picture = atlas_.Add(face_.picture);
     std::size_t eye_picture = 0;
     if (face_.eye_picture) eye_picture = atlas_.Add(*face_.eye_picture);
-    model_.photo = atlas_.Make();
+    model_.worn.image = atlas_.Make();
     AddFace(picture);
     AddMouth();
     AddEyes(eye_picture);

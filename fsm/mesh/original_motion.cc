@@ -1,14 +1,14 @@
+#include "fsm/mesh/original_motion.h"
+
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "fsm/mesh/drive_fit.h"
 #include "fsm/mesh/lip_seal.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_expressions.h"
-#include "fsm/mesh/original_face.h"
 #include "fsm/mesh/original_points.h"
 
 namespace fsm {
@@ -37,7 +37,7 @@ class OriginalRigBaker {
     rig_ = StillSkin();
     rig_.steps = {RigStep::kChannels, RigStep::kLips, RigStep::kJawByChin};
     rig_.lips = LipsOf(model_, face_.wireframe.at.size());
-    rig_.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
+    rig_.jaw.chin = static_cast<std::uint32_t>(face_.wireframe.index.at(kChin));
     AddUnits();
     for (std::size_t k = 0; k < face_.expression_rests.size(); ++k) {
       const auto [unit, side] = kExpressionChannels[k];

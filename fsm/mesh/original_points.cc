@@ -1,6 +1,5 @@
 #include "fsm/mesh/original_points.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fsm {

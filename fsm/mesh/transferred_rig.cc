@@ -1,6 +1,7 @@
+#include "fsm/mesh/transferred_rig.h"
+
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <initializer_list>
 #include <map>
@@ -8,7 +9,6 @@
 #include <utility>
 
 #include "fsm/head/paint.h"
-#include "fsm/mesh/head_file.h"
 
 namespace fsm {
 namespace {
@@ -37,7 +37,7 @@ class RigResampler {
   /// The steps' data but for the seam of the lips, whose vertices are others.
   void Resample(std::span<const glm::vec3> rest) {
     rig_.weights.resize(rows_.size(), Still());
-    rig_.proxy_rest.assign(rest.begin(), rest.end());
+    rig_.proxy.rest.assign(rest.begin(), rest.end());
     for (std::size_t v = 0; v < rows_.size(); ++v) ResampleVertex(v);
     ResampleMouthChannels();
     ResampleLids();
@@ -75,7 +75,7 @@ class RigResampler {
       mean.jaw += part * one.jaw;
       mean.free += part * one.free;
     }
-    rig_.proxy_rest[v] = place;
+    rig_.proxy.rest[v] = place;
   }
 
   void ResampleMouthChannels() {
@@ -152,9 +152,9 @@ class RigResampler {
   }
 
   void ResampleContacts() {
-    rig_.upper_teeth = source_.upper_teeth;
-    rig_.lower_teeth = source_.lower_teeth;
-    const auto contacts = ByVertex(source_.teeth_contacts);
+    rig_.teeth.upper = source_.teeth.upper;
+    rig_.teeth.lower = source_.teeth.lower;
+    const auto contacts = ByVertex(source_.teeth.contacts);
     for (std::uint32_t v = 0; v < rows_.size(); ++v) {
       float sum = 0, upper = 0, lower = 0;
       for (const auto& [from, part] : rows_[v]) {
@@ -163,7 +163,7 @@ class RigResampler {
         upper += part * contacts[from]->upper_gap;
         lower += part * contacts[from]->lower_gap;
       }
-      if (sum > 0.5f) rig_.teeth_contacts.push_back({v, upper / sum, lower / sum});
+      if (sum > 0.5f) rig_.teeth.contacts.push_back({v, upper / sum, lower / sum});
     }
   }
 
@@ -199,7 +199,7 @@ std::vector<Row> AddLips(const RigData& source, std::span<const Row> rows, MeshM
 
 /// A head without pictures has lips, and their inside, as red beside its skin as the source has.
 void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
-  if (model.photo) return;
+  if (model.worn.image) return;
   const HeadTopology& topology = source.topology();
   std::vector<bool> lip(topology.albedo.size(), false);
   for (const std::uint32_t v : TrianglesOf(topology, {Material::kLip, Material::kMouthInside})) {
@@ -222,8 +222,8 @@ void RedLips(const Head& source, std::span<const Row> rows, MeshModel& model) {
 std::vector<glm::vec3> OwnForm(const RigData& rig, const MeshModel& model,
                                std::span<const Row> rows) {
   RigData proxy = rig;
-  proxy.rest = rig.proxy_rest;
-  proxy.proxy_rest.clear();
+  proxy.rest = rig.proxy.rest;
+  proxy.proxy.rest.clear();
   proxy.rest_normal.assign(proxy.rest.size(), glm::vec3(0, 0, 1));
   proxy.bone = model.bone;
   HeadVertices still;
@@ -298,8 +298,8 @@ RigData TransferredRig(MeshModel& model, const Head& source, std::span<const Poi
   std::ranges::move(UnitChannels(rig.units, model.bone, rig.weights),
                     std::back_inserter(rig.channels));
   rig.steps = {kChannels, kLids, kJaw, kTeeth, kLips, kTeeth};
-  rig.own_form = OwnForm(rig, model, rows);
-  MoveLips(rig.lips, model, pairs, rig.own_form);
+  rig.proxy.to_own = OwnForm(rig, model, rows);
+  MoveLips(rig.lips, model, pairs, rig.proxy.to_own);
   RedLips(source, rows, model);
   rig.steps.push_back(kOwnForm);
   return rig;

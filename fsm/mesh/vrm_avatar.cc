@@ -1,7 +1,5 @@
 #include "fsm/mesh/vrm_avatar.h"
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fsm/mesh/head_file.h"

@@ -13,8 +13,6 @@ namespace fsm {
 
 class TableRow;
 struct UnitNames;
-/// The names of the table the program carries, see unit_names.h.
-const UnitNames& BuiltInUnitNames();
 
 /// Weights of all action units, and where the eyes go with them.
 struct ActionUnits {
@@ -37,8 +35,7 @@ void Combine(UnitValues& to, const UnitValues& other, const Change& change) {
 void AddTo(ActionUnits& a, const ActionUnits& b, double weight);
 
 /// Reads words from `first` on: AU[L|R]:WEIGHT, gaze[L|R]:DOWN,RIGHT. Throws TableError.
-ActionUnits ReadUnits(const TableRow& row, std::size_t first,
-                      const UnitNames& names = BuiltInUnitNames());
+ActionUnits ReadUnits(const TableRow& row, std::size_t first, const UnitNames& names);
 
 enum class Region { kEye, kBrow, kMouth };
 inline constexpr std::size_t kRegions = 3;
@@ -60,11 +57,11 @@ struct UnitList {
 /// tables/action_unit_list.txt and tables/arkit.txt; `name` is for messages.
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<UnitList> ReadUnitList(const std::string& name, std::string_view text,
-                                  const UnitNames& names = BuiltInUnitNames());
+                                  const UnitNames& names);
 
 /// Blend shapes by name.
 using BlendShapes = std::map<std::string, ActionUnits, std::less<>>;
 vm::Result<BlendShapes> ReadBlendShapes(const std::string& name, std::string_view text,
-                                        const UnitNames& names = BuiltInUnitNames());
+                                        const UnitNames& names);
 
 }  // namespace fsm

@@ -29,6 +29,6 @@ using ExpressionLooks = std::map<std::string, std::map<int, ActionUnits>>;
 /// Reads tables/emotions.txt: every emotion needs its patterns numbered from 1 without gaps.
 /// Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<EmotionTable> ReadEmotions(const std::string& name, std::string_view text,
-                                      const UnitNames& names = BuiltInUnitNames());
+                                      const UnitNames& names);
 
 }  // namespace fsm

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "fsm/base/random.h"
 #include "fsm/motion/motion_errors.h"
 
 namespace fsm {
@@ -22,11 +21,12 @@ ExpressionMotion::ExpressionMotion(MotionTables& tables, const MotionSettings& s
       table_emotions_(tables.emotions),
       settings_(settings),
       idle_(idle),
+      seed_(seed),
       emotions_(tables.units.emotions.size()) {
-  SetPerson(seed);
+  DrawLags(seed);
 }
 
-void ExpressionMotion::SetPerson(std::uint64_t seed) {
+void ExpressionMotion::DrawLags(std::uint64_t seed) {
   side_lags_ms_ = {};
   const Side late = RandomAt(seed, kLateSide, 0) < 0 ? Side::kLeft : Side::kRight;
   side_lags_ms_[late] = 30 + 10 * RandomAt(seed, kLag, 0);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fsm/base/random.h"
 #include "fsm/motion/idle_behaviour.h"
 #include "fsm/motion/motion_settings.h"
 #include "fsm/motion/motion_source.h"
@@ -32,12 +33,14 @@ class ExpressionMotion : public MotionSource {
   void Neutral(vm::Time now);
   /// REQUIRES: the list of units has an emotion there, from 0.
   void SetEmotion(vm::Time now, std::size_t index, double strength);
-  /// See FaceMotion.
+  /// Makes or changes one pattern of an expression; a new expression begins with pattern 1, a new
+  /// pattern is the next. The name: letters, digits and _.
   vm::Result<void> Define(std::string_view name, int pattern, std::string_view look);
+  /// Back to what the tables say: a changed expression is what it was, an own one is gone.
   void Forget(std::string_view name);
   /// Whose face it is: by how much one side of it begins later than the other, always the same: 20
   /// to 40 ms. How much weaker one side is belongs to the head.
-  void SetPerson(std::uint64_t seed);
+  void SetPerson(std::uint64_t person) { DrawLags(Scramble(seed_ ^ person)); }
 
   void Contribute(vm::Time t, MotionFrame& frame) const override;
   vm::Time SettledAt(vm::Time t) const override;
@@ -47,6 +50,7 @@ class ExpressionMotion : public MotionSource {
   void ForEachTrack(const TrackVisitor& visit) const override;
 
  private:
+  void DrawLags(std::uint64_t seed);
   vm::Time OnsetOf(const Emotion& emotion) const;
   void Plan(vm::Time now, const ActionUnits& look, const Emotion::Timing& timing, vm::Time onset,
             vm::Time duration);
@@ -55,6 +59,7 @@ class ExpressionMotion : public MotionSource {
   const EmotionTable table_emotions_;  // as they were at the start
   const MotionSettings& settings_;
   const IdleBehaviour& idle_;
+  std::uint64_t seed_;
   Sided<double> side_lags_ms_;
   // By part; of each only its side's units are used.
   Sided<std::array<Track<ActionUnits>, kRegions>> parts_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "fsm/base/random.h"
 #include "fsm/motion/motion_errors.h"
 
 namespace fsm {
@@ -16,11 +15,11 @@ vm::Result<void> FaceMotion::SetFace(vm::Time now, int position, double strength
   const auto index = static_cast<std::size_t>(position - 1);
   if (position >= 1 && index < list.units.size()) {
     if (list.units[index] > 0) {
-      units_.Set(now, list.units[index], strength);
+      units.Set(now, list.units[index], strength);
       return {};
     }
     if (tables_.emotions.contains(list.emotions[index])) {
-      expression_.SetEmotion(now, index, strength);
+      expression.SetEmotion(now, index, strength);
       return {};
     }
   }
@@ -38,20 +37,16 @@ vm::Result<void> FaceMotion::Move(vm::Time now, std::string_view kind, int patte
         fmt::format("{:g} times the size and {} times found; 0 to 3 and 1 to 20 expected", strength,
                     count));
   }
-  if (kind != "BLINK") return head_.Play(now, kind, pattern, strength, count);
+  if (kind != "BLINK") return head.Play(now, kind, pattern, strength, count);
   const std::size_t patterns = tables_.motions.blinks.size();
   if (auto fits = CheckPattern(kind, pattern, 1, patterns); !fits) return fits;
-  eyes_.Blink(now, static_cast<std::size_t>(pattern), count);
+  eyes.Blink(now, static_cast<std::size_t>(pattern), count);
   return {};
 }
 
 void FaceMotion::StopMoves(vm::Time now) {
-  head_.StopMoves(now);
-  eyes_.StopBlinks();
-}
-
-void FaceMotion::SetPerson(std::uint64_t person) {
-  expression_.SetPerson(Scramble(seed_ ^ person));
+  head.StopMoves(now);
+  eyes.StopBlinks();
 }
 
 void FaceMotion::SetShapes(bool bilingual, Visemes shapes) {
@@ -66,9 +61,9 @@ void FaceMotion::SetShapes(bool bilingual, Visemes shapes) {
 }
 
 void FaceMotion::Apply(vm::Time now, const MotionSettings& settings) {
-  speech_.Adjust(now, settings);
+  speech.Adjust(now, settings);
   if (settings.mouth_scale != settings_.mouth_scale) {
-    mouth_stream_.SetMouthScale(now, settings.mouth_scale);
+    mouth_stream.SetMouthScale(now, settings.mouth_scale);
   }
   settings_ = settings;
 }
@@ -78,7 +73,9 @@ void FaceMotion::Apply(vm::Time now, const MotionSettings& settings) {
 FaceState FaceMotion::StateAt(vm::Time t) const {
   MotionFrame frame;
   for (const auto& source : sources_) source->Contribute(t, frame);
-  FaceState state = figure_;
+  FaceState state;
+  state.asymmetry = asymmetry;
+  state.figure = figure;
   tables_.mixer.Mix(frame, tables_.units, state);
   return state;
 }

@@ -1,8 +1,9 @@
+#include "fsm/motion/motion_reader.h"
+
 #include <fmt/format.h>
 
 #include "fsm/base/parse_number.h"
 #include "fsm/base/table_reader.h"
-#include "fsm/motion/motion_table.h"
 
 namespace fsm {
 namespace {

@@ -126,8 +126,5 @@ struct MotionTable {
 
   std::size_t Patterns(IdleKind kind) const;  ///< how many there are
 };
-/// Reads tables/motions.txt. Errors as above.
-vm::Result<MotionTable> ReadMotions(const std::string& name, std::string_view text,
-                                    const UnitNames& units = BuiltInUnitNames());
 
 }  // namespace fsm

@@ -19,6 +19,7 @@
 #include "embedded/phonemes_ja.h"
 #include "embedded/text_cues.h"
 #include "fsm/base/table_reader.h"
+#include "fsm/motion/motion_reader.h"
 
 namespace fsm {
 namespace {

@@ -44,6 +44,9 @@ class MouthStream : public MotionSource {
   /// came before are forgotten. Error: kLimit.
   vm::Result<void> Add(vm::Time now, vm::Time at, const MouthPose& pose,
                        const std::optional<StreamHead>& head = std::nullopt);
+  /// The instant from which those who give frames count their times.
+  vm::Time start() const { return start_; }
+  void set_start(vm::Time start) { start_ = start; }
   /// Another MouthScale comes about without a jump.
   void SetMouthScale(vm::Time now, double mouth_scale) {
     mouth_scale_.MoveTo(now, static_cast<float>(mouth_scale), kMouthScaleMove);
@@ -76,6 +79,7 @@ class MouthStream : public MotionSource {
   }
   static vm::Time GoneAt(const Frame& last);
 
+  vm::Time start_{0};
   Track<float> mouth_scale_{static_cast<float>(MotionSettings{}.mouth_scale)};
   std::deque<Frame> frames_;  // by `at`
 };

@@ -29,14 +29,20 @@ class SpeechMotion : public MotionSource {
       : tables_(tables), settings_(settings), idle_(idle), seed_(seed) {}
 
   /// The voice starts at `start`; the mouth begins up to 92 ms before that, and is ahead by the
-  /// lead. `text`: what is said, if it is known.
-  void Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start, std::string_view text);
+  /// lead. `text`: what is said, if it is known: it gives sentences slight looks.
+  void Start(vm::Time now, const vm::PhonemeList& phonemes, vm::Time start,
+             std::string_view text = {});
   /// The lips are closed 110 ms later.
   void Stop(vm::Time now);
   /// The voice says it is at `voice_ms` now. Ignored when nothing is spoken.
   void Sync(vm::Time now, double voice_ms);
   /// The settings are about to become `next`: lead and size go there without a jump.
   void Adjust(vm::Time now, const MotionSettings& next);
+
+  /// Phonemes no table has, once each: the mouth closes on them.
+  std::vector<std::string> UnknownPhonemes(const vm::PhonemeList& phonemes) const {
+    return MakeVisemeTargets(phonemes, tables_, settings_.lips).unknown;
+  }
 
   bool active() const { return !said_.empty() && !said_.back().stopped; }
   /// When the utterance in hand will be over, for voice and mouth; none if there is none.

@@ -31,7 +31,7 @@ struct TextCues {
 
 /// At most 100 looks and 1000 cues. kBadValue "NAME:LINE: ...".
 vm::Result<TextCues> ReadTextCues(const std::string& name, std::string_view text,
-                                  const UnitNames& names = BuiltInUnitNames());
+                                  const UnitNames& names);
 
 /// A look of one sentence of an utterance, by its times in the utterance.
 struct TimedLook {

@@ -215,7 +215,7 @@ vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view te
   });
 }
 
-const UnitNames& BuiltInUnitNames() {
+const UnitNames& UnitNames::BuiltIn() {
   static const UnitNames names =
       ReadUnitNames("action_unit_names.txt", embedded::action_unit_names()).value();
   return names;

@@ -27,6 +27,8 @@ struct UnitNames {
   std::map<int, UnitCode> codes;
   std::set<int> one_sided;
 
+  /// Those of the table the program carries.
+  static const UnitNames& BuiltIn();
   bool IsUnit(int number) const { return names.contains(number) && !codes.contains(number); }
   /// Units that are of one side by what they are: the jaw sideways (30), a wink (46). Asked for
   /// without a side they are of the agent's left; taken back without one they go on both.
@@ -34,8 +36,6 @@ struct UnitNames {
 };
 /// Reads tables/action_unit_names.txt. Errors: kBadValue "NAME:LINE: what was expected".
 vm::Result<UnitNames> ReadUnitNames(const std::string& name, std::string_view text);
-inline bool IsActionUnit(int number) { return BuiltInUnitNames().IsUnit(number); }
-inline bool IsOneSided(int number) { return BuiltInUnitNames().IsOneSided(number); }
 
 /// A unit by number or by name, "12", "12L", "R12", "LipCornerPuller.R".
 struct UnitName {
@@ -44,8 +44,7 @@ struct UnitName {
   bool right = true;
 };
 /// kBadValue for what is no unit; codes are none.
-vm::Result<UnitName> ParseUnitName(std::string_view word,
-                                   const UnitNames& names = BuiltInUnitNames());
+vm::Result<UnitName> ParseUnitName(std::string_view word, const UnitNames& names);
 
 /// One unit or code to be set. Codes have no sides.
 struct UnitSetting : UnitName {
@@ -67,6 +66,6 @@ vm::Result<UnitCommand> ParseUnitCommand(std::string_view text, const UnitNames&
 /// The same as one look (an expression): action units only, and `gaze:DOWN,RIGHT` in degrees.
 vm::Result<ActionUnits> ParseLook(std::string_view text, const UnitNames& names);
 /// As ParseLook reads it: `6:0.7 12L:0.8 gaze:6,0`.
-std::string FormatLook(const ActionUnits& look, const UnitNames& names = BuiltInUnitNames());
+std::string FormatLook(const ActionUnits& look, const UnitNames& names);
 
 }  // namespace fsm

@@ -21,22 +21,22 @@ constexpr glm::vec3 kPivot{0.0F, -60.0F, 0.0F};
 constexpr glm::vec3 kXAxis{1, 0, 0}, kYAxis{0, 1, 0}, kZAxis{0, 0, 1};
 
 /// Turns of the figure about an axis; z+ leans to the viewer's right.
-glm::mat4 Turned(const glm::mat4& from, const FaceState& state, int axis) {
+glm::mat4 Turned(const glm::mat4& from, const Figure& placed, int axis) {
   const glm::vec3 axes[] = {kXAxis, kYAxis, -kZAxis};
   const auto i = static_cast<std::size_t>(axis);
-  return glm::rotate(from, glm::radians(state.agent_rotation[i]), axes[i]);
+  return glm::rotate(from, glm::radians(placed.rotation[i]), axes[i]);
 }
 
-float ScaleOf(const FaceState& state) { return std::clamp(state.agent_scale, 0.01F, 100.0F); }
+float ScaleOf(const Figure& placed) { return std::clamp(placed.scale, 0.01F, 100.0F); }
 float DistanceOf(const Camera& camera) { return std::clamp(camera.distance, 0.2F, 10.0F); }
 
 /// Where the figure is moved. `half_view`: millimetres from the view's middle to its farther edges.
-glm::vec3 MovedBy(const FaceState& state, const Camera& camera, float half_view) {
+glm::vec3 MovedBy(const Figure& placed, const Camera& camera, float half_view) {
   const float unit = camera.moves_by_half_views ? half_view : 1.0F;
-  return {unit * state.agent_translation[0], unit * state.agent_translation[1], 0.0F};
+  return {unit * placed.translation[0], unit * placed.translation[1], 0.0F};
 }
 
-View FrameParallel(const FaceState& state, const Camera& camera, float aspect, int height) {
+View FrameParallel(const Figure& placed, const Camera& camera, float aspect, int height) {
   constexpr float kFar = 20000.0F;  // whence light falls and gleams as from a viewer far away
   const glm::vec3 centre = camera.parallel->centre;
   const float half = camera.parallel->half_mm * DistanceOf(camera);
@@ -49,19 +49,19 @@ View FrameParallel(const FaceState& state, const Camera& camera, float aspect, i
   view.world_to_clip =
       glm::ortho(-half_width, half_width, -half_height, half_height, 0.0F, 2 * kFar) *
       glm::lookAt(view.eye, aim, kYAxis);
-  glm::mat4 figure = glm::translate(glm::mat4(1.0F), centre + MovedBy(state, camera, half));
-  figure = glm::scale(figure, glm::vec3(ScaleOf(state)));
-  for (const int axis : {0, 1, 2}) figure = Turned(figure, state, axis);
+  glm::mat4 figure = glm::translate(glm::mat4(1.0F), centre + MovedBy(placed, camera, half));
+  figure = glm::scale(figure, glm::vec3(ScaleOf(placed)));
+  for (const int axis : {0, 1, 2}) figure = Turned(figure, placed, axis);
   view.figure_to_world = glm::translate(figure, -centre);
-  view.samples_per_mm = static_cast<float>(height) / half_height * ScaleOf(state);
+  view.samples_per_mm = static_cast<float>(height) / half_height * ScaleOf(placed);
   return view;
 }
 
 }  // namespace
 
-View FramePortrait(const FaceState& state, const Camera& camera, int width, int height) {
+View FramePortrait(const Figure& placed, const Camera& camera, int width, int height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
-  if (camera.parallel) return FrameParallel(state, camera, aspect, height);
+  if (camera.parallel) return FrameParallel(placed, camera, aspect, height);
   const float framed_height = std::max(kFramedTop - kFramedBottom, kFramedWidth / aspect);
   const float half_angle = glm::radians(std::clamp(camera.field_degrees, 5.0F, 90.0F) / 2);
   const float portrait = framed_height / 2 / std::tan(half_angle);
@@ -78,11 +78,11 @@ View FramePortrait(const FaceState& state, const Camera& camera, int width, int 
       glm::lookAt(view.eye, {0.0F, middle, 0.0F}, {0.0F, 1.0F, 0.0F});
 
   const float half_view = DistanceOf(camera) * framed_height / 2 * std::max(aspect, 1.0F);
-  glm::mat4 figure = glm::translate(glm::mat4(1.0F), kPivot + MovedBy(state, camera, half_view));
-  for (const int axis : {2, 1, 0}) figure = Turned(figure, state, axis);
-  figure = glm::scale(figure, glm::vec3(ScaleOf(state)));
+  glm::mat4 figure = glm::translate(glm::mat4(1.0F), kPivot + MovedBy(placed, camera, half_view));
+  for (const int axis : {2, 1, 0}) figure = Turned(figure, placed, axis);
+  figure = glm::scale(figure, glm::vec3(ScaleOf(placed)));
   view.figure_to_world = glm::translate(figure, -kPivot);
-  view.samples_per_mm = 2 * static_cast<float>(height) / framed_height * ScaleOf(state);
+  view.samples_per_mm = 2 * static_cast<float>(height) / framed_height * ScaleOf(placed);
   return view;
 }
 

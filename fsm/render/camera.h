@@ -18,12 +18,11 @@ struct View {
 
 /// Frames head and shoulders as a portrait would: by default a 25 degree lens at the height of the
 /// mouth, the whole width of the shoulders' inner half kept in view in narrow pictures. Of
-/// `camera`, distance counts from 0.2 to 10 and the field from 5 to 90 degrees. `state` gives
-/// agent_rotation (x, then y, then z about the neck's root), agent_translation (millimetres right
-/// and up, or half views) and agent_scale (clamped to 0.01..100).
+/// `camera`, distance counts from 0.2 to 10 and the field from 5 to 90 degrees. `placed` turns
+/// by x, then y, then z about the neck's root; its scale is clamped to 0.01..100.
 /// Where the camera has a ParallelView, its longer side fills that of the picture, and the figure
 /// turns and grows about its centre, by z, then y, then x: both as in the original. The camera's
 /// distance, height and angle act upon it as upon a portrait.
-View FramePortrait(const FaceState& state, const Camera& camera, int width, int height);
+View FramePortrait(const Figure& placed, const Camera& camera, int width, int height);
 
 }  // namespace fsm

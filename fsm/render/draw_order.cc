@@ -14,11 +14,11 @@ bool HidesAll(const HeadTopology& topology, std::span<const std::uint32_t> trian
   glm::vec2 low(1e9F), high(-1e9F);
   for (const std::uint32_t v : triangle) {
     if (topology.opacity[v] < 1) return false;
-    low = glm::min(low, topology.texcoord[v]);
-    high = glm::max(high, topology.texcoord[v]);
+    low = glm::min(low, topology.worn.texcoord[v]);
+    high = glm::max(high, topology.worn.texcoord[v]);
   }
   if (!cut_out) return true;
-  const Image& photo = *topology.photo;
+  const Image& photo = *topology.worn.image;
   const glm::ivec2 last(photo.width - 1, photo.height - 1);
   const glm::vec2 size(photo.width, photo.height);
   const auto from = glm::clamp(glm::ivec2(low * size) - 1, glm::ivec2(0), last);
@@ -129,7 +129,8 @@ void DrawOrder::AddFace(Layer& sheet, Layer& skin) {
         list.insert(list.end(), t.begin(), t.end());
       }
       AddWorn(part, whole);
-    } else if (topology_.photo && part.pbr < 0 && (of_skin || part.material == Material::kLip)) {
+    } else if (topology_.worn.image && part.pbr < 0 &&
+               (of_skin || part.material == Material::kLip)) {
       AddWorn(part, corners);
     } else {
       Add(part, corners);

@@ -37,7 +37,7 @@ class DrawOrder {
 
   /// Whether a head wears a photo in layers, from back to front with soft edges.
   static bool Blends(const HeadTopology& topology) {
-    return topology.photo && !topology.opacity.empty();
+    return topology.worn.image && !topology.opacity.empty();
   }
 
  private:

@@ -69,9 +69,9 @@ class PoseBlock {
     Mark("EYE_TURN");
     for (const Side side : kSides) Add(inputs.eye_turn[side]);
     Mark("EYE_PIVOT");
-    for (const Side side : kSides) Add(rig.eye_pivot[side]);
+    for (const Side side : kSides) Add(rig.eyes.pivot[side]);
     Mark("BALL_CENTRE");
-    for (const Side side : kSides) Add(rig.ball_centre[side]);
+    for (const Side side : kSides) Add(rig.ball_lids.centre[side]);
     Mark("LIDS");
     for (const Side side : kSides) {
       const EyeTransform& eye = rig.lids.eyes[side];
@@ -82,9 +82,9 @@ class PoseBlock {
       Add(rig.lids.ball[side] + eye.size * rig.lids.cornea_centre * pose.eye[side][2]);
     }
     Mark("UPPER_ARCH");
-    Add(rig.upper_teeth);
+    Add(rig.teeth.upper);
     Mark("LOWER_ARCH");
-    Add(rig.lower_teeth);
+    Add(rig.teeth.lower);
     Mark("STRENGTHS");
     Add(inputs.strengths);
   }
@@ -131,7 +131,7 @@ std::string StepConstants() {
 }
 
 Words BeginItems(const RigData& data) {
-  const auto& place = data.proxy_rest.empty() ? data.rest : data.proxy_rest;
+  const auto& place = data.Start();
   Words items;
   for (std::size_t i = 0; i < place.size(); ++i) {
     Put(items, place[i]);
@@ -185,16 +185,15 @@ Words BoneItems(const RigData& data) {
 
 /// A vertex gathers from all triangles about it, and about those it shares its normal with.
 Lists NormalLists(const RigData& data) {
-  const auto owner = [&data](std::uint32_t i) {
-    return data.normal_twin.empty() ? i : data.normal_twin[i];
-  };
-  const Words& t = data.soft_triangles;
+  const NormalRig& normals = data.normals;
+  const Words& t = normals.soft_triangles;
   Lists lists(data.rest.size());
   for (std::size_t k = 0; k + 2 < t.size(); k += 3) {
-    for (std::size_t c = 0; c < 3; ++c) Put(lists[owner(t[k + c])], {t[k], t[k + 1], t[k + 2]});
+    for (std::size_t c = 0; c < 3; ++c)
+      Put(lists[normals.Owner(t[k + c])], {t[k], t[k + 1], t[k + 2]});
   }
   for (const std::uint32_t i : t) {
-    if (owner(i) != i) lists[i] = lists[owner(i)];
+    if (normals.Owner(i) != i) lists[i] = lists[normals.Owner(i)];
   }
   return lists;
 }
@@ -217,7 +216,7 @@ GpuRig::GpuRig(const GlFunctions& gl, RigPrograms& programs, const Rig& rig)
     : gl_(gl),
       programs_(programs),
       vertex_count_(rig.data().rest.size()),
-      spring_count_(rig.data().springs.size()),
+      spring_count_(rig.data().swing.springs.size()),
       seam_count_(rig.data().lips.seam.size()) {
   gl_.GenBuffers(kBuffers, buffers_.data());
   Add("begin", BeginItems(rig.data()), vertex_count_);
@@ -257,31 +256,31 @@ void GpuRig::AddStep(RigStep step, const RigData& data) {
     case RigStep::kLids:
       return Add("lids", LidItems(data.lids), data.lids.vertices.size());
     case RigStep::kLidsOnBalls:
-      for (const BallLid& lid : data.ball_lids) {
+      for (const BallLids::Vertex& lid : data.ball_lids.vertices) {
         Put(items, {lid.vertex, static_cast<std::uint32_t>(lid.side), Word(lid.least)});
       }
-      return Add("lids_on_balls", items, data.ball_lids.size());
+      return Add("lids_on_balls", items, data.ball_lids.vertices.size());
     case RigStep::kJaw:
       for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
         if (Rig::MovesWithJaw(data, i)) Put(items, {i, Word(data.weights[i].jaw)});
       }
       return Add("jaw", items, items.size() / 2);
     case RigStep::kJawByChin:
-      Put(items, {data.chin});
-      Put(items, data.rest[data.chin] - data.jaw_hinge);
+      Put(items, {data.jaw.chin});
+      Put(items, data.rest[data.jaw.chin] - data.jaw.hinge);
       return Add("jaw_by_chin", items, 1);
     case RigStep::kTeeth:
-      for (const TeethContact& contact : data.teeth_contacts)
+      for (const TeethRig::Contact& contact : data.teeth.contacts)
         Put(items, {contact.vertex, Word(contact.upper_gap), Word(contact.lower_gap)});
-      return Add("teeth", items, data.teeth_contacts.size());
+      return Add("teeth", items, data.teeth.contacts.size());
     case RigStep::kLips:
       for (const LipRig::Follower& f : data.lips.followers)
         Put(lists[f.vertex], {f.pair, Word(LipRig::ShareOf(f))});
       Add("lip_gaps", GapItems(data.lips), data.lips.seam.size());
       return add_lists("lips", std::move(lists));
     case RigStep::kOwnForm:
-      for (const glm::vec3 by : data.own_form) Put(items, by);
-      return Add("own_form", items, data.own_form.size());
+      for (const glm::vec3 by : data.proxy.to_own) Put(items, by);
+      return Add("own_form", items, data.proxy.to_own.size());
     case RigStep::kTongue:
       items = TongueItems(data);
       return Add("tongue", items, (items.size() - 1 - 2 * data.lips.seam.size()) / 8);
@@ -293,7 +292,7 @@ void GpuRig::AddStep(RigStep step, const RigData& data) {
         Put(items, {Word(data.weights[i].neck), data.bone[i] != Bone::kSkin ? 1u : 0u});
       return Add("neck", items, data.rest.size());
     case RigStep::kSprings:
-      for (const auto& [vertex, spring, weight] : data.spring_weights)
+      for (const auto& [vertex, spring, weight] : data.swing.weights)
         Put(lists[vertex], {spring, Word(weight)});
       return add_lists("springs", std::move(lists));
     case RigStep::kNormals:

@@ -53,10 +53,10 @@ Paint PaintOf(const HeadTopology& topology) {
   for (std::size_t i = 0; i < count; ++i) {
     paint.colour[i] = glm::vec4(topology.albedo[i], topology.occlusion[i]);
   }
-  for (std::size_t i = 0; i < topology.texcoord.size(); ++i) {
-    paint.worn[i] = glm::vec4(topology.texcoord[i], topology.texture_weight[i], 0);
+  for (std::size_t i = 0; i < topology.worn.texcoord.size(); ++i) {
+    paint.worn[i] = glm::vec4(topology.worn.texcoord[i], topology.worn.weight[i], 0);
   }
-  for (const ShutLid& lid : topology.shut_lids) {
+  for (const ShutLid& lid : topology.portrait.shut_lids) {
     paint.colour[lid.vertex] = glm::vec4(lid.colour, lid.grain_light);
     paint.worn[lid.vertex].w = lid.weight;
     paint.grain[lid.vertex] = glm::vec4(lid.grain_at, lid.slide);
@@ -79,17 +79,17 @@ std::vector<Worn> WornBy(const Paint& paint, const Detail& detail) {
 /// How fine the photo lies on what wears it and faces the viewer, as he sees it: the root of texels
 /// to square millimetres.
 float TexelsPerMm(const HeadTopology& topology, const HeadVertices& rest) {
-  if (!topology.photo || topology.texcoord.empty()) return 0;
-  const glm::vec2 size(topology.photo->width, topology.photo->height);
+  if (!topology.worn.image || topology.worn.texcoord.empty()) return 0;
+  const glm::vec2 size(topology.worn.image->width, topology.worn.image->height);
   double texels = 0, area = 0;
   for (std::size_t k = 0; k + 2 < topology.indices.size(); k += 3) {
     const auto* t = &topology.indices[k];
-    if (std::min({topology.texture_weight[t[0]], topology.texture_weight[t[1]],
-                  topology.texture_weight[t[2]]}) <= 0) {
+    if (std::min({topology.worn.weight[t[0]], topology.worn.weight[t[1]],
+                  topology.worn.weight[t[2]]}) <= 0) {
       continue;
     }
-    const glm::vec2 a = size * (topology.texcoord[t[1]] - topology.texcoord[t[0]]);
-    const glm::vec2 b = size * (topology.texcoord[t[2]] - topology.texcoord[t[0]]);
+    const glm::vec2 a = size * (topology.worn.texcoord[t[1]] - topology.worn.texcoord[t[0]]);
+    const glm::vec2 b = size * (topology.worn.texcoord[t[2]] - topology.worn.texcoord[t[0]]);
     const glm::vec2 c(rest.position[t[1]] - rest.position[t[0]]);
     const glm::vec2 d(rest.position[t[2]] - rest.position[t[0]]);
     const float seen = c.x * d.y - c.y * d.x;
@@ -174,7 +174,7 @@ void HeadBuffers::UploadTopology(const Head& head) {
   // As long as the light on it changes.
   std::vector<glm::vec3> rest_normal = rest.normal;
   for (std::size_t i = 0; i < rest_normal.size(); ++i) {
-    rest_normal[i] *= i < topology.relit.size() ? topology.relit[i] : 0.0F;
+    rest_normal[i] *= i < topology.portrait.relit.size() ? topology.portrait.relit[i] : 0.0F;
   }
   const auto upload = [this](GLuint attribute, const auto& items) {
     gl_.BindBuffer(GL_ARRAY_BUFFER, buffers_[attribute]);
@@ -202,13 +202,13 @@ void HeadBuffers::UploadTopology(const Head& head) {
 }
 
 void HeadBuffers::CopyTopology(const HeadTopology& topology) {
-  photo_ = topology.photo;
-  normal_map_ = topology.normal_map;
-  emissive_map_ = topology.emissive_map;
+  photo_ = topology.worn.image;
+  normal_map_ = topology.worn.normal_map;
+  emissive_map_ = topology.worn.emissive_map;
   pbr_materials_ = topology.pbr_materials;
-  saturation_ = topology.saturation;
-  photo_light_ = topology.photo_light;
-  eye_pictures_ = topology.eye_pictures;
+  saturation_ = topology.portrait.saturation;
+  photo_light_ = topology.portrait.light;
+  eye_pictures_ = topology.portrait.eyes;
   eye_geometry_ = topology.eyes.right;
   blends_ = DrawOrder::Blends(topology);
 }

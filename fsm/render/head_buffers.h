@@ -45,25 +45,25 @@ class HeadBuffers {
   const SkinTexture* skin();
   /// Sizes and colours of the eyes, which both share.
   const EyeGeometry& eye_geometry() const { return eye_geometry_; }
-  /// HeadTopology::photo; null if the skin is painted.
+  /// WornPicture::image; null if the skin is painted.
   const Image* photo() const { return photo_.get(); }
   /// How fine the photo lies on the head at rest, as seen from the front; 0 without one.
   float photo_texels_per_mm() const { return photo_texels_per_mm_; }
   /// DrawOrder::Blends.
   bool blends() const { return blends_; }
-  /// HeadTopology::normal_map, emissive_map and pbr_materials.
+  /// WornPicture::normal_map, emissive_map and HeadTopology::pbr_materials.
   const Image* normal_map() const { return normal_map_.get(); }
   const Image* emissive_map() const { return emissive_map_.get(); }
   const std::vector<PbrMaterial>& pbr_materials() const { return pbr_materials_; }
-  /// Where the photo shows eyes: HeadTopology::eye_pictures.
+  /// Where the photo shows eyes: Portrait::eyes.
   const std::optional<Sided<EyePicture>>& eye_pictures() const { return eye_pictures_; }
   /// The eyes as they are at rest. REQUIRES: eyes().found().
   const Sided<EyeFrame>& resting_eyes() const { return resting_eyes_; }
   /// Height of the chin's lowest point at rest, millimetres; of a head without landmarks far below.
   float chin_y() const { return chin_y_; }
-  /// HeadTopology::photo_light.
+  /// Portrait::light.
   glm::vec4 photo_light() const { return photo_light_; }
-  /// HeadTopology::saturation.
+  /// Portrait::saturation.
   float saturation() const { return saturation_; }
 
  private:

@@ -139,8 +139,8 @@ class GlRenderer : public Renderer {
     transparent_ = !scene.show_background;
     const Scene behind = Behind(scene);
     backdrop_.Draw(behind, width, height);
-    const float alpha = std::clamp(state.agent_alpha, 0.0F, 1.0F);
-    if (state.agent_enabled && alpha > 0) {
+    const float alpha = std::clamp(state.figure.alpha, 0.0F, 1.0F);
+    if (state.figure.enabled && alpha > 0) {
       DrawFigure(head, state, scene, move);
       // It fades as one picture. Each of its layers drawn in part would show what is behind them.
       if (alpha < 1) backdrop_.Veil(behind, 1 - alpha);
@@ -195,7 +195,8 @@ class GlRenderer : public Renderer {
   }
 
   void DrawFigure(const Head& head, const FaceState& state, const Scene& scene, const auto& move) {
-    const View view = FramePortrait(state, scene.camera, target_->width(), target_->height());
+    const View view =
+        FramePortrait(state.figure, scene.camera, target_->width(), target_->height());
     HeadOnCard& on_card = Find(head);
     HeadBuffers& buffers = on_card.buffers;
     const HeadVertices& vertices = move(on_card);

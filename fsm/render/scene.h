@@ -26,7 +26,7 @@ struct Camera {
   float angle_degrees = 0;   ///< round the head, positive = to the viewer's right
   std::optional<ParallelView> parallel =
       {};  ///< instead of the portrait; the field means nothing then
-  /// FaceState::agent_translation counts half the longer side of the view, not millimetres.
+  /// Figure::translation counts half the longer side of the view, not millimetres.
   bool moves_by_half_views = false;
 };
 

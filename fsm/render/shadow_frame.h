@@ -10,8 +10,8 @@
 
 namespace fsm {
 
-/// The ellipsoids that throw the face's shadows (see face_common.glsl), found in a head's mesh and
-/// carried along with its movement. Made once per head, used every frame.
+/// The ellipsoids that throw the face's shadows (see shaders/lighting.glsl), found in a head's mesh
+/// and carried along with its movement. Made once per head, used every frame.
 class ShadowFinder {
  public:
   ShadowFinder() = default;

@@ -1,12 +1,10 @@
 #include "fsm/rig/action_units.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "fsm/base/random.h"
@@ -246,17 +244,28 @@ glm::vec3 UnitTable::Motion(const Field& field, const SkinWeights& weights, Side
 }
 
 Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCreases>& at_rest) {
+  /// How deep a unit at full strength makes a crease. Ours, by eye.
+  struct Share {
+    Crease crease;
+    ActionUnit unit;
+    float depth;
+  };
+  static constexpr Share kShares[] = {{Crease::kForehead, kInnerBrowRaiser, 0.6f},
+                                      {Crease::kForehead, kOuterBrowRaiser, 0.6f},
+                                      {Crease::kGlabella, kBrowLowerer, 0.7f},
+                                      {Crease::kGlabella, kNoseWrinkler, 0.7f},
+                                      {Crease::kCrowsFeet, kCheekRaiser, 0.6f},
+                                      {Crease::kCrowsFeet, kLipCornerPuller, 0.42f},
+                                      {Crease::kNasolabial, kUpperLipRaiser, 0.4f},
+                                      {Crease::kNasolabial, kNasolabialDeepener, 0.4f},
+                                      {Crease::kNasolabial, kLipCornerPuller, 0.75f}};
   Creases creases{};
   for (const Side side : kSides) {
-    const auto& u = units[side];
-    const std::array<float, kCreases> depth = {
-        0.6f * (u[kInnerBrowRaiser] + u[kOuterBrowRaiser]),
-        0.7f * (u[kBrowLowerer] + u[kNoseWrinkler]),
-        0.6f * (u[kCheekRaiser] + 0.7f * u[kLipCornerPuller]),
-        0.4f * (u[kUpperLipRaiser] + u[kNasolabialDeepener]) + 0.75f * u[kLipCornerPuller]};
-    for (std::size_t k = 0; k < depth.size(); ++k) {
-      creases[k][side] = std::clamp(at_rest[k] + depth[k], 0.0f, 1.0f);
+    for (std::size_t k = 0; k < kCreases; ++k) creases[k][side] = at_rest[k];
+    for (const auto& [crease, unit, depth] : kShares) {
+      creases[static_cast<std::size_t>(crease)][side] += depth * units[side][unit];
     }
+    for (Sided<float>& depth : creases) depth[side] = std::clamp(depth[side], 0.0f, 1.0f);
   }
   return creases;
 }

@@ -33,6 +33,15 @@ enum MouthParameter : std::size_t {
 };
 inline constexpr std::size_t kMouthParameters = kLowerInnerFullness + 1;
 
+/// How the whole figure is placed before the camera and shown; no head's vertices follow from it.
+struct Figure {
+  Angles rotation{};
+  std::array<float, 2> translation{};  ///< right and up: millimetres, or half views (Camera)
+  float scale = 1;
+  float alpha = 1;  ///< opacity
+  bool enabled = true;
+};
+
 /// Everything that decides how the face looks, at one instant. A plain value: motion makes it,
 /// the head turns it into vertices, the renderer draws them. Frame: x to the viewer's right (so the
 /// agent's LEFT side is at +x), y up, z to the viewer; millimetres.
@@ -62,12 +71,7 @@ struct FaceState {
   /// How much of what makes the two sides of this head unlike is shown: 0 = both move alike, 1 = as
   /// the head is (MakeHead).
   float asymmetry = 1;
-  /// The whole figure.
-  Angles agent_rotation{};
-  std::array<float, 2> agent_translation{};
-  float agent_scale = 1;
-  float agent_alpha = 1;
-  bool agent_enabled = true;
+  Figure figure;
 };
 
 /// What can be measured of the mouth in a state: for tests, reports and lip-sync checks.

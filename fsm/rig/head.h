@@ -16,7 +16,7 @@
 namespace fsm {
 
 /// A head: what it looks like and how it moves. A pure function from FaceState to vertices, head
-/// rotation included, figure placement (agent_*) and camera not. Immutable after construction; safe
+/// rotation included, Figure and camera not. Immutable after construction; safe
 /// to share.
 class Head {
  public:

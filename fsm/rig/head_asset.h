@@ -71,7 +71,7 @@ struct Strand {
 };
 
 /// What a vertex of a lid looks like when the lid is shut, on a head that wears a photo of open
-/// eyes: what the photo shows at HeadTopology::texcoord gives way to it as the lid shuts.
+/// eyes: what the photo shows at WornPicture::texcoord gives way to it as the lid shuts.
 struct ShutLid {
   std::uint32_t vertex;
   glm::vec3 colour;  ///< linear RGB
@@ -100,6 +100,31 @@ struct MouthSlit {
   std::uint32_t upper_root = 0;                        ///< right above upper_incisor
 };
 
+/// The picture on a head: the photo of a person, or what a file has.
+struct WornPicture {
+  std::shared_ptr<const Image> image;  ///< nothing: skin is painted and lit
+  /// Laid out as the image; nothing where no material needs it. Of `normal_map` red and green are
+  /// the normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of
+  /// `emissive_map` the colour is that of what glows (toon: of the shade), alpha how open to light.
+  std::shared_ptr<const Image> normal_map, emissive_map;
+  /// Per vertex where there is an image: its place there, 0..1, v down, and the image's part in the
+  /// colour, 0..1.
+  std::vector<glm::vec2> texcoord;
+  std::vector<float> weight;
+};
+
+/// What the photo of a person brings beside the picture.
+struct Portrait {
+  std::vector<ShutLid> shut_lids;
+  /// The light in the photo, as FaceLight::coefficients().
+  glm::vec4 light{0, 0, 0, 1};
+  /// Per vertex: how much that light follows it as it turns with an expression, 0..1. May be empty.
+  std::vector<float> relit;
+  std::optional<Sided<EyePicture>> eyes;  ///< if the photo shows them; else they are drawn
+  /// Saturation of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
+  float saturation = 1;
+};
+
 /// The part of a head that never changes while it moves.
 struct HeadTopology {
   struct Part {
@@ -119,26 +144,11 @@ struct HeadTopology {
   /// be empty.
   std::vector<glm::vec2> uv;
   std::vector<SkinHair> skin_hairs;
-  std::vector<Strand> strands;         ///< per vertex, meaningful where there is hair; may be empty
-  std::shared_ptr<const Image> photo;  ///< nothing: skin is painted and lit
+  std::vector<Strand> strands;  ///< per vertex, meaningful where there is hair; may be empty
   std::vector<PbrMaterial> pbr_materials;
-  /// Laid out as the photo; nothing where no material needs it. Of `normal_map` red and green are
-  /// the normal's x and y (v up) about 128, blue and alpha factors of roughness and metal; of
-  /// `emissive_map` the colour is that of what glows (toon: of the shade), alpha how open to light.
-  std::shared_ptr<const Image> normal_map, emissive_map;
-  /// Per vertex where there is a photo: its place there, 0..1, v down, and the photo's part in the
-  /// colour, 0..1.
-  std::vector<glm::vec2> texcoord;
-  std::vector<float> texture_weight;
-  std::vector<ShutLid> shut_lids;
-  /// The light in the photo, as FaceLight::coefficients().
-  glm::vec4 photo_light{0, 0, 0, 1};
-  /// Per vertex: how much that light follows it as it turns with an expression, 0..1. May be empty.
-  std::vector<float> relit;
-  std::optional<Sided<EyePicture>> eye_pictures;  ///< if the photo shows eyes; else they are drawn
+  WornPicture worn;
+  Portrait portrait;
   MouthSlit mouth;
-  /// Saturation of what is lit beside a photo, 0..1: our lamps are coloured, a grey photo is not.
-  float saturation = 1;
   Sided<EyeGeometry> eyes;
 };
 

@@ -43,4 +43,13 @@ void MoveLids(const LidRig& rig, const Pose& pose, std::span<glm::vec3> position
   }
 }
 
+void KeepOutside(const BallLids& lids, std::span<glm::vec3> position) {
+  for (const auto& [vertex, side, least] : lids.vertices) {
+    glm::vec3& p = position[vertex];
+    const glm::vec3 off = p - lids.centre[side];
+    const float far = glm::length(off);
+    if (far < least && far > 1) p += off * (least / far - 1);
+  }
+}
+
 }  // namespace fsm

@@ -34,7 +34,20 @@ struct LidRig {
   float cornea_centre = 0;  ///< how far it lies before the ball's, millimetres
 };
 
+/// Lids that stay outside the eyeballs, whatever moves them.
+struct BallLids {
+  struct Vertex {
+    std::uint32_t vertex;
+    Side side;
+    float least;  ///< distance from the ball's centre, millimetres
+  };
+  std::vector<Vertex> vertices;
+  Sided<glm::vec3> centre;  ///< of the balls
+};
+
 /// Opens, closes and bulges the lids as the pose says.
 void MoveLids(const LidRig& rig, const Pose& pose, std::span<glm::vec3> position);
+/// Pushes what has come into an eyeball out again.
+void KeepOutside(const BallLids& lids, std::span<glm::vec3> position);
 
 }  // namespace fsm

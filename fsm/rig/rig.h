@@ -28,7 +28,7 @@ struct HeadVertices {
 struct RigInputs {
   Pose pose;
   std::vector<float> strengths;  ///< of each channel
-  Sided<glm::mat3> eye_turn;     ///< of what eyes carry, about RigData::eye_pivot
+  Sided<glm::mat3> eye_turn;     ///< of what eyes carry, about EyeRig::pivot
 };
 
 /// The name of a step, as `fsm --describe` shows it.
@@ -47,7 +47,7 @@ class Rig {
     return data.bone[vertex] == Bone::kSkin && data.weights[vertex].jaw > 0.001f;
   }
   /// Fills `out` (resized as needed). Values out of range are clamped to what anatomy allows.
-  /// `swings`: Simulation::offsets() of RigData::springs, or none where nothing swings.
+  /// `swings`: Simulation::offsets() of SpringRig::springs, or none where nothing swings.
   void Evaluate(const FaceState& state, HeadVertices& out,
                 std::span<const glm::vec3> swings = {}) const;
   RigInputs InputsOf(const FaceState& state) const;
@@ -59,37 +59,24 @@ class Rig {
   Rig WithUnits(const UnitTable& units) const;
 
  private:
+  friend std::string_view NameOf(RigStep step);
   struct Frame;
   struct StepEntry;
   static const StepEntry kSteps[];
+  static const StepEntry& EntryOf(RigStep step);
 
   Pose PoseOf(const FaceState& state) const;
-  static float ValueOf(const Drive& drive, const FaceState& state, const Pose& pose);
-  void FindStrengths(const FaceState& state, const Pose& pose, std::vector<float>& out) const;
   /// How far an eye turns, which of heads from elsewhere is another angle than that of the gaze.
   glm::mat3 EyeTurn(const Pose& pose, Side side) const;
-  void FindDrives();
-  void TakeStep(RigStep step, Frame& frame) const;
-
   void AddChannels(Frame& frame) const;
-  void TurnLids(Frame& frame) const;
-  void KeepLidsOnBalls(Frame& frame) const;
-  void MoveWithJaw(Frame& frame) const;
-  void FollowChin(Frame& frame) const;
-  void KeepOffTeeth(Frame& frame) const;
-  void SealLips(Frame& frame) const;
-  void TakeOwnForm(Frame& frame) const;
   void MoveTongue(Frame& frame) const;
   void MoveBones(Frame& frame) const;
   void TurnNeck(Frame& frame) const;
-  void Swing(Frame& frame) const;
-  void FindNormals(Frame& frame) const;
 
   RigData data_;
   // What follows from the data: vertices by what moves them.
   std::vector<std::uint32_t> jawed_, rigid_, soft_;
-  std::vector<Drive> drives_;               // of all channels, each once
-  std::vector<std::uint32_t> driver_from_;  // of each driver of each channel the index of its drive
+  ChannelDrives drives_;
 };
 
 }  // namespace fsm

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <vector>
 
 namespace fsm {
 
@@ -26,6 +27,12 @@ struct SpringWeight {
   std::uint32_t vertex;
   std::uint32_t spring;
   float weight;
+};
+
+/// What is soft, and what hangs on it: vertices of Bone::kSkull or kSkin.
+struct SpringRig {
+  std::vector<Spring> springs;
+  std::vector<SpringWeight> weights;
 };
 
 }  // namespace fsm

@@ -1,7 +1,6 @@
 #include "fsm/rig/tongue_path.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 
 #include "fsm/base/spline.h"

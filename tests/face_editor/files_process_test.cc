@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "face_fit/find/network/face_networks.h"
-#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/head/make_head.h"
 #include "fsm/head/photo_head.h"
 #include "tests/face_editor/editor_process.h"

@@ -10,6 +10,7 @@
 
 #include "face_editor/core/editor.h"
 #include "face_editor/core/table_writer.h"
+#include "fsm/motion/motion_reader.h"
 #include "fsm/motion/unit_names.h"
 
 namespace editor {
@@ -39,7 +40,8 @@ std::size_t LinesChanged(const std::string& a, const std::string& b) {
 TEST(TableWriterTest, UnchangedTablesAreWrittenByteForByte) {
   const auto tables = fsm::MotionTables::Load();
   ASSERT_TRUE(tables);
-  EXPECT_EQ(WriteEmotions(Carried("emotions.txt"), tables->emotions), Carried("emotions.txt"));
+  EXPECT_EQ(WriteEmotions(Carried("emotions.txt"), tables->emotions, tables->unit_names),
+            Carried("emotions.txt"));
   EXPECT_EQ(WriteVisemes(Carried("mouth_shapes.txt"), tables->set14.shapes),
             Carried("mouth_shapes.txt"));
   EXPECT_EQ(WriteVisemes(Carried("mouth_shapes_28.txt"), tables->set28.shapes),
@@ -62,8 +64,9 @@ TEST(TableWriterTest, ChangedExpressionsAreReadAgainAndTheRestStays) {
   emotions.erase("USERDEF");
   emotions["SMIRK"].patterns.resize(1);
   emotions["SMIRK"].patterns[0].au.right[14] = 0.5F;
-  const std::string text = WriteEmotions(Carried("emotions.txt"), emotions);
-  const auto read = fsm::ReadEmotions("emotions.txt", text);
+  const std::string text =
+      WriteEmotions(Carried("emotions.txt"), emotions, fsm::UnitNames::BuiltIn());
+  const auto read = fsm::ReadEmotions("emotions.txt", text, fsm::UnitNames::BuiltIn());
   ASSERT_TRUE(read) << read.error().text;
   ASSERT_EQ(read->size(), emotions.size());
   for (const auto& [name, emotion] : emotions) {
@@ -105,7 +108,7 @@ TEST(TableWriterTest, ChangedMovementsAreReadAgainAndTheRestStays) {
   curves["LISTEN"].push_back(fsm::HeadCurve(std::vector<fsm::HeadCurve::Key>{{333, {1, 2, 3}}}));
   curves["REFUSE"].erase(curves["REFUSE"].begin() + 1);
   const std::string text = WriteCurves(Carried("motions.txt"), curves);
-  const auto read = fsm::ReadMotions("motions.txt", text);
+  const auto read = fsm::ReadMotions("motions.txt", text, fsm::UnitNames::BuiltIn());
   ASSERT_TRUE(read) << read.error().text;
   for (const auto& [kind, patterns] : curves) {
     ASSERT_EQ(read->head.at(kind).size(), patterns.size()) << kind;
@@ -138,7 +141,8 @@ TEST(EditorTablesTest, AFolderOfTablesIsWrittenAndReadByTheFace) {
   EXPECT_FALSE((*editor)->Unsaved(Part::kEmotions));
   const auto again = fsm::MotionTables::Load(folder);
   ASSERT_TRUE(again) << again.error().text;
-  EXPECT_EQ(fsm::FormatLook(again->emotions.at("HAPPY").patterns[0]), "12L:0.75");
+  EXPECT_EQ(fsm::FormatLook(again->emotions.at("HAPPY").patterns[0], fsm::UnitNames::BuiltIn()),
+            "12L:0.75");
   std::filesystem::remove_all(folder);
 }
 

@@ -183,14 +183,12 @@ TEST(FigureTest, WhatOnlyOneSideOfAHeadShowsIsDoubtedAndRatherThereIfItLooksAlik
     if (off > 50) return kSky;
     return ear(p) || off < 30 ? glm::vec3(220, 170, 140) : p.x < kSide / 2 ? kSky : kHair;
   });
-  std::vector<float> person(static_cast<std::size_t>(kSide * kSide), 0);
-  const auto at = [&person](int x, int y) -> float& {
-    return person[static_cast<std::size_t>(y * kSide + x)];
-  };
+  FloatImage person(kSide, kSide);
+  const auto at = [&person](int x, int y) -> float& { return person.at[person.Index(x, y)]; };
   for (int y = 0; y < kSide; ++y) {
     for (int x = kSide / 2 - 30; x < kSide / 2 + 50; ++x) at(x, y) = 1;
   }
-  DoubtOneSided(face, photo, person);
+  person = DoubtOneSided(face, photo, person);
   EXPECT_GT(at(kSide / 2 - 40, 90), 0.75F) << "the ear";
   EXPECT_NEAR(at(kSide / 2 - 40, 60), 0.5F, 0.1F) << "no hair";
   EXPECT_EQ(at(kSide / 2 - 60, 90), 0) << "neither side";
@@ -359,11 +357,11 @@ class BillboardTest : public NetworkTest {
   void SetUp() override {
     NetworkTest::SetUp();
     if (IsSkipped()) return;
-    fit_.pose.focal = 760;
-    fit_.pose.centre = {kPhoto / 2, kPhoto / 2};
-    fit_.posed_vertices = Galatea().rest.position;
+    fitted_.pose.focal = 760;
+    fitted_.pose.centre = {kPhoto / 2, kPhoto / 2};
+    fitted_.posed_vertices = Galatea().rest.position;
     for (const glm::vec3 at : {glm::vec3(0), {50, 0, 0}, {0, 50, 0}, {0, 0, 50}, {50, 50, 20}}) {
-      fit_.points.push_back({at, glm::vec3(0)});
+      fitted_.points.push_back({at, glm::vec3(0)});
     }
     for (int y = 0; y < kPhoto; ++y) {
       for (int x = 0; x < kPhoto; ++x) {
@@ -376,22 +374,18 @@ class BillboardTest : public NetworkTest {
     figure_.colours.rgba.assign(static_cast<std::size_t>(4 * kPhoto * kPhoto), 200);
   }
   static float Shoulder(float off) { return 240 + 0.3F * std::max(off - 40, 0.0F); }
-  fsm::PhotoHead Sheet() {
-    fsm::PhotoHead set;
-    MakeBillboard(Galatea(), fit_, figure_, set);
-    return set;
-  }
+  Billboard Sheet() { return MakeBillboard(Galatea(), fitted_, figure_); }
   /// The pixel over which a vertex lies.
   glm::vec2 Over(const fsm::PhotoHead::SheetVertex& vertex) const {
-    return fit_.pose.Project(fit_.pose.ToCamera(vertex.position));
+    return fitted_.pose.Project(fitted_.pose.ToCamera(vertex.position));
   }
 
-  Fit fit_;
+  FittedHead fitted_;
   Figure figure_{{.width = kPhoto, .height = kPhoto, .rgba = {}}, FloatImage(kPhoto, kPhoto)};
 };
 
 TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
-  const fsm::PhotoHead set = Sheet();
+  const Billboard set = Sheet();
   int above = 0, below = 0;
   for (const auto& vertex : set.sheet) {
     const glm::vec2 p = Over(vertex);
@@ -413,22 +407,22 @@ TEST_F(BillboardTest, ShouldersFallBeyondThePhotosSides) {
 }
 
 TEST_F(BillboardTest, IsWrittenFromBackToFront) {
-  const fsm::PhotoHead set = Sheet();
-  ASSERT_GT(set.sheet_triangles.size(), 600U);
+  const Billboard set = Sheet();
+  ASSERT_GT(set.triangles.size(), 600U);
   float last = -1e9F;
-  for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
-    const float z = set.sheet[set.sheet_triangles[i]].position.z +
-                    set.sheet[set.sheet_triangles[i + 2]].position.z;
+  for (std::size_t i = 0; i + 5 < set.triangles.size(); i += 6) {
+    const float z =
+        set.sheet[set.triangles[i]].position.z + set.sheet[set.triangles[i + 2]].position.z;
     EXPECT_GE(z, last - 1e-3F);
     last = z;
   }
 }
 
 TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
-  const fsm::PhotoHead still = Sheet();
+  const Billboard still = Sheet();
   // In the photo the whole face is 6 mm higher than at rest.
-  for (glm::vec3& p : fit_.posed_vertices) p.y += p.z > 0 ? 6.0F : 0.0F;
-  const fsm::PhotoHead moved = Sheet();
+  for (glm::vec3& p : fitted_.posed_vertices) p.y += p.z > 0 ? 6.0F : 0.0F;
+  const Billboard moved = Sheet();
   const glm::vec3 cheek = Galatea().points[234].On(Galatea().rest.position);
   const auto motion = [&](glm::vec2 near) {
     float nearest = 1e9F, by = 0;
@@ -439,8 +433,8 @@ TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
       // Where the photo shows this, against where it is now.
       const glm::vec2 pixel =
           glm::vec2(2 * vertex.texcoord.x - 1, vertex.texcoord.y) * float{kPhoto};
-      const glm::vec3 q = fit_.pose.ToCamera(vertex.position);
-      by = vertex.position.y - fit_.pose.FromCamera(fit_.pose.Unproject(pixel, q.z)).y;
+      const glm::vec3 q = fitted_.pose.ToCamera(vertex.position);
+      by = vertex.position.y - fitted_.pose.FromCamera(fitted_.pose.Unproject(pixel, q.z)).y;
     }
     return by;
   };
@@ -450,8 +444,8 @@ TEST_F(BillboardTest, GoesWithTheFaceFromItsExpressionToRest) {
 }
 
 TEST_F(BillboardTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
-  fit_.pose.turn.y = glm::radians(25.0F);
-  const fsm::PhotoHead set = Sheet();
+  fitted_.pose.turn.y = glm::radians(25.0F);
+  const Billboard set = Sheet();
   const auto at = [&](std::size_t point) {
     return Galatea().points[point].On(Galatea().rest.position);
   };
@@ -459,27 +453,27 @@ TEST_F(BillboardTest, NothingOfItLiesBehindEyesAndMouthOfATurnedHead) {
   const glm::vec3 in(5, 0, 0), down(0, 9, 0);
   for (const glm::vec3 opening : {at(78) + in, at(308) - in, at(78) + in - down,
                                   at(308) - in - down, at(33) + in, at(263) - in}) {
-    for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
-      const glm::vec3 p = 0.5F * (set.sheet[set.sheet_triangles[i]].position +
-                                  set.sheet[set.sheet_triangles[i + 2]].position);
+    for (std::size_t i = 0; i + 5 < set.triangles.size(); i += 6) {
+      const glm::vec3 p =
+          0.5F * (set.sheet[set.triangles[i]].position + set.sheet[set.triangles[i + 2]].position);
       // What lies far behind is the hair at the nape.
       if (p.z < opening.z - 80) continue;
       EXPECT_GT(glm::distance(glm::vec2(p), glm::vec2(opening)), 3) << p.x << " " << p.y;
     }
   }
-  EXPECT_GT(set.sheet_triangles.size(), 600U);
+  EXPECT_GT(set.triangles.size(), 600U);
 }
 
 TEST_F(BillboardTest, NothingOfItLiesBehindTheMouthWhereItsCellsAreWide) {
   // A head that is small in its photo: a cell is 9 mm wide.
-  fit_.pose.focal = 250;
-  fit_.pose.turn.y = glm::radians(15.0F);
-  const fsm::PhotoHead set = Sheet();
+  fitted_.pose.focal = 250;
+  fitted_.pose.turn.y = glm::radians(15.0F);
+  const Billboard set = Sheet();
   const glm::vec3 right = Galatea().points[78].On(Galatea().rest.position),
                   left = Galatea().points[308].On(Galatea().rest.position);
-  for (std::size_t i = 0; i + 5 < set.sheet_triangles.size(); i += 6) {
-    const glm::vec3 p = 0.5F * (set.sheet[set.sheet_triangles[i]].position +
-                                set.sheet[set.sheet_triangles[i + 2]].position);
+  for (std::size_t i = 0; i + 5 < set.triangles.size(); i += 6) {
+    const glm::vec3 p =
+        0.5F * (set.sheet[set.triangles[i]].position + set.sheet[set.triangles[i + 2]].position);
     if (p.z < right.z - 80) continue;
     const bool behind = p.x > right.x && p.x < left.x && p.y < right.y && p.y > right.y - 20;
     EXPECT_FALSE(behind) << p.x << " " << p.y;

@@ -21,7 +21,10 @@
 #include "face_fit/fit/fit.h"
 #include "fsm/head/make_head.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/head_model.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/transferred_rig.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -201,8 +204,8 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     FitError error;
     std::vector<fsm::PointPair> pairs;
     for (const NamedPoint& named : kNamed) {
-      const glm::vec3 fitted = base.points[named.point].On(fit.posed_vertices);
-      const glm::vec2 shown = fit.pose.Project(fit.pose.ToCamera(fitted));
+      const glm::vec3 fitted = base.points[named.point].On(fit.head.posed_vertices);
+      const glm::vec2 shown = fit.head.pose.Project(fit.head.pose.ToCamera(fitted));
       error.shown += glm::distance(camera.Pixel(points[named.point]), shown) / eyes /
                      static_cast<float>(std::size(kNamed));
       pairs.push_back({points[named.point], fitted, fsm::FacePart::kPlain});
@@ -210,11 +213,11 @@ class CameraTruthTest : public NetworkTest, public testing::WithParamInterface<c
     const fsm::Similarity over = fsm::FitSimilarity(pairs);
     for (std::size_t i = 0; i < pairs.size(); ++i) error.off[i] = over(pairs[i].to) - pairs[i].from;
     for (const std::size_t side : {0U, 1U}) {
-      error.ears_z[side] = over(fit.posed_vertices[BaseEars()[side]]).z - truth().ears[side].z;
+      error.ears_z[side] = over(fit.head.posed_vertices[BaseEars()[side]]).z - truth().ears[side].z;
     }
     // Frames of heads are nobody's truth: what counts is how the fitted face lies over the true
     // one.
-    const glm::mat3 turned = camera.Turn() * over.turn * glm::transpose(fit.pose.Rotation());
+    const glm::mat3 turned = camera.Turn() * over.turn * glm::transpose(fit.head.pose.Rotation());
     const float cosine = (turned[0][0] + turned[1][1] + turned[2][2] - 1) / 2;
     error.turn_degrees = glm::degrees(std::acos(glm::clamp(cosine, -1.0F, 1.0F)));
     return error;

@@ -104,9 +104,9 @@ TEST_F(FindTest, TheBuiltInHeadFittedToItselfHardlyMoves) {
   const BaseHead& base = Galatea();
   const FoundFace face = SeenOf(base.points, base.rest.position);
   const Fit fit = FitFace(Exact(base), face);
-  EXPECT_LT(glm::distance(fit.pose.turn, SomePose().turn), 0.01F);
-  EXPECT_NEAR(fit.pose.focal, SomePose().focal, 10);
-  for (const auto& point : fit.points) EXPECT_LT(glm::length(point.by), 1.0F);
+  EXPECT_LT(glm::distance(fit.head.pose.turn, SomePose().turn), 0.01F);
+  EXPECT_NEAR(fit.head.pose.focal, SomePose().focal, 10);
+  for (const auto& point : fit.head.points) EXPECT_LT(glm::length(point.by), 1.0F);
 }
 
 TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
@@ -126,16 +126,16 @@ TEST_F(FindTest, ASmileIsTakenBackByTheUnitsOfOnesOwnTable) {
   const FoundFace face = SeenOf(base.points, vertices.position);
   const auto most = [](const Fit& fit) {
     float far = 0;
-    for (const auto& point : fit.points) far = std::max(far, glm::length(point.by));
+    for (const auto& point : fit.head.points) far = std::max(far, glm::length(point.by));
     return far;
   };
   const Fit fit = FitFace(moved, face);
-  EXPECT_NEAR(fit.expression.smile, smiling.smile, 0.1F);
+  EXPECT_NEAR(fit.head.expression.smile, smiling.smile, 0.1F);
   EXPECT_LT(most(fit), 2);
   EXPECT_GT(most(FitFace(built_in, face)), 4) << "else this would say nothing";
   // The head as worn in the photo smiles by the same table.
   const std::size_t corner = 291;
-  EXPECT_LT(glm::distance(base.points[corner].On(fit.posed_vertices),
+  EXPECT_LT(glm::distance(base.points[corner].On(fit.head.posed_vertices),
                           base.points[corner].On(vertices.position)),
             2);
 }

@@ -27,7 +27,7 @@ struct Person {
 fsm::Image Drawn(const Person& person) {
   const auto head = fsm::MakeHead(person.face, false);
   fsm::FaceState state;
-  state.agent_rotation = {0, person.turn, person.tilt};
+  state.figure.rotation = {0, person.turn, person.tilt};
   fsm::HeadVertices vertices;
   head->Evaluate(state, vertices);
   const auto context = fsm::RenderContext::MakeHeadless(person.side, person.side);

@@ -18,7 +18,10 @@
 
 #include "face_fit/find/head/head_finder.h"
 #include "fsm/head/make_head.h"
+#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/obj_file.h"
+#include "fsm/mesh/transferred_rig.h"
 #include "tests/face_fit/network_fixture.h"
 #include "tests/support/test_data.h"
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "face_fit/bake/eye_pictures.h"
 #include "face_fit/bake/eyes.h"
 #include "face_fit/bake/openings.h"
 #include "face_fit/bake/red_eye.h"
@@ -292,7 +293,7 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     const glm::vec3 ball = base.head->topology().eyes[side].centre;
     const glm::vec2 centre(500 + 4 * ball.x, 300 - 4 * ball.y);
     centres.push_back(centre);
-    fit.irises[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
+    fit.irises.rings[side] = {.centre = centre, .radius = 24, .contrast = 0.4F};
     for (std::size_t i = 0; i < 16; ++i) {
       const auto point = EyeOutline(side)[i];
       const float part = static_cast<float>(i <= 8 ? i : 16 - i) / 4 - 1;  // outer -1, inner 1
@@ -320,10 +321,9 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
   });
   fsm::Image picture{.width = 1024, .height = 512, .rgba = {}};
   picture.rgba.assign(std::size_t{4} * 1024 * 512, 255);
-  fsm::PhotoHead set;
-  PaintEyes(base, face, fit, photo, picture, set);
-  ASSERT_TRUE(set.eye_pictures);
-  for (const fsm::EyePicture& eye : set.eye_pictures->InOrder()) {
+  const auto both = PaintEyes(base, face, fit, {}, photo, picture);
+  ASSERT_TRUE(both);
+  for (const fsm::EyePicture& eye : both->InOrder()) {
     const auto shown = [&](const glm::vec4& square, glm::vec2 part) {
       const glm::vec2 at = glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, part);
       return ColourAt(picture, at * glm::vec2(1024, 512)).g;
@@ -346,11 +346,10 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     const auto row = hidden.rgba.begin() + 4 * (y * 1000 + 500);
     std::fill(row, row + 4 * 500, std::uint8_t{130});
   }
-  fit.irises.left.contrast = 0.01F;
-  fsm::PhotoHead one_hidden, half_shut;
-  PaintEyes(base, face, fit, hidden, picture, one_hidden);
-  ASSERT_TRUE(one_hidden.eye_pictures);
-  const auto& [right, left] = *one_hidden.eye_pictures;
+  fit.irises.rings.left.contrast = 0.01F;
+  const auto one_hidden = PaintEyes(base, face, fit, {}, hidden, picture);
+  ASSERT_TRUE(one_hidden);
+  const auto& [right, left] = *one_hidden;
   for (const glm::vec2 part : {glm::vec2(0.5F, 0.5F), {0.02F, 0.6F}, {0.2F, 0.8F}}) {
     const auto at = [&](const glm::vec4& square, glm::vec2 p) {
       return ColourAt(picture, glm::mix(glm::vec2(square.x, square.y), {square.z, square.w}, p) *
@@ -360,9 +359,9 @@ TEST(EyePicturesTest, ShowTheWholeIrisAndTheWhiteWithoutIt) {
     EXPECT_NEAR(at(left.iris, part), at(right.iris, {1 - part.x, part.y}), 2) << part.x;
     EXPECT_NEAR(at(left.ball, part), at(right.ball, {1 - part.x, part.y}), 2) << part.x;
   }
-  fit.irises.right.contrast = 0.08F;
-  PaintEyes(base, face, fit, hidden, picture, half_shut);
-  EXPECT_FALSE(half_shut.eye_pictures) << "eyes that are not seen clearly are drawn";
+  fit.irises.rings.right.contrast = 0.08F;
+  EXPECT_FALSE(PaintEyes(base, face, fit, {}, hidden, picture))
+      << "eyes that are not seen clearly are drawn";
 }
 
 }  // namespace

@@ -22,11 +22,10 @@ std::unique_ptr<fsm::Head> WornBy(FaceNetworks& networks, const BaseHead& base,
   const auto boxes = FindFaces(networks, photo);
   const auto [near, face] = CutToFace(photo, photo, FindPoints(networks, photo, boxes.at(0)));
   const Fit fit = FitFace(base, face, &near);
-  fsm::PhotoHead set;
   TextureBake bake =
-      BakeTexture(base, face, fit, near, CutOut(near, FindFigure(networks, near, &face)), {}, set);
-  set.photo = std::make_shared<fsm::Image>(std::move(bake.picture));
-  return fsm::MakeHead(set);
+      BakeTexture(base, face, fit, near, CutOut(near, FindFigure(networks, near, &face)), {});
+  bake.head.photo = std::make_shared<fsm::Image>(std::move(bake.picture));
+  return fsm::MakeHead(bake.head);
 }
 
 fsm::Image Drawn(const fsm::Head& head, const fsm::FaceState& state, const fsm::Scene& scene,

@@ -15,7 +15,7 @@ struct ReportTest : testing::Test {
     face.points[33].x = 50;
     face.points[263].x = 150;
     face.crop = {glm::vec2(100), 150, 0};
-    fit.irises = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
+    fit.irises.rings = {{{80, 100}, 6, 0.3F}, {{120, 100}, 6, 0.3F}};
     photo.rgba.assign(200 * 200 * 4, 128);
   }
   bool Says(const std::string& what) const {
@@ -30,18 +30,18 @@ struct ReportTest : testing::Test {
 
 TEST_F(ReportTest, AHeadTurnedFarIsToldApartFromOneTurnedALittle) {
   EXPECT_FALSE(Says("turned"));
-  fit.pose.turn.y = glm::radians(-17.0F);
+  fit.head.pose.turn.y = glm::radians(-17.0F);
   EXPECT_TRUE(Says("the head is turned; one side"));
-  fit.pose.turn.y = glm::radians(27.0F);
+  fit.head.pose.turn.y = glm::radians(27.0F);
   EXPECT_TRUE(Says("the head is turned far"));
   EXPECT_FALSE(Says("bent"));
 }
 
 TEST_F(ReportTest, EyesThatAreShutOrInTheShadeAreSpokenOf) {
   EXPECT_FALSE(Says("iris is"));
-  fit.irises.left.contrast = 0;
+  fit.irises.rings.left.contrast = 0;
   EXPECT_TRUE(Says("one iris is not seen clearly"));
-  fit.irises.right.contrast = 0.01F;
+  fit.irises.rings.right.contrast = 0.01F;
   EXPECT_TRUE(Says("no iris is seen"));
 }
 

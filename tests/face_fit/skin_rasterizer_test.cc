@@ -20,11 +20,11 @@ class SkinRasterizerTest : public testing::Test {
   void SetUp() override {
     base_.head = fsm::MakeHead("galatea");
     base_.head->Evaluate({}, base_.rest);
-    fit_.posed_vertices = base_.rest.position;
-    fit_.pose.focal = 760;
-    fit_.pose.centre = {150, 150};
+    fitted_.posed_vertices = base_.rest.position;
+    fitted_.pose.focal = 760;
+    fitted_.pose.centre = {150, 150};
     bottom_ = base_.head->Landmark("gnathion").y - 8;
-    cover_ = RasterizeSkin(base_, fit_, fit_.pose, grid_, bottom_, base_.rest.position);
+    cover_ = RasterizeSkin(base_, fitted_, fitted_.pose, grid_, bottom_, base_.rest.position);
   }
   bool Covered(int x, int y) const {
     return cover_.depth.at[cover_.depth.Index(x, y)] > SkinRaster::kNone;
@@ -32,7 +32,7 @@ class SkinRasterizerTest : public testing::Test {
   glm::vec2 Pixel(int x, int y) const { return grid_.origin + grid_.cell * glm::vec2(x, y); }
   glm::vec3 Place(int x, int y) const {
     const float depth = cover_.depth.at[cover_.depth.Index(x, y)];
-    return fit_.pose.FromCamera(fit_.pose.Unproject(Pixel(x, y), depth));
+    return fitted_.pose.FromCamera(fitted_.pose.Unproject(Pixel(x, y), depth));
   }
   template <typename F>
   void ForCovered(F f) const {
@@ -44,7 +44,7 @@ class SkinRasterizerTest : public testing::Test {
   }
 
   BaseHead base_;
-  Fit fit_;
+  FittedHead fitted_;
   float bottom_ = 0;
   PhotoGrid grid_{.origin = {10, 10}, .cell = 2, .columns = 140, .rows = 140};
   SkinRaster cover_{FloatImage(0, 0), {FloatImage(0, 0), FloatImage(0, 0), FloatImage(0, 0)}};

@@ -26,11 +26,11 @@ class SmileShadeTest : public NetworkTest {
     NetworkTest::SetUp();
     if (IsSkipped()) return;
     if (!placed_) {
-      Fit fit;
-      fit.pose.focal = 760;
-      fit.pose.centre = {kPhoto / 2, kPhoto / 2};
-      fit.posed_vertices = Galatea().rest.position;
-      placed_.emplace(ProjectSkin(Galatea(), fit, fit.pose, true));
+      FittedHead fitted;
+      fitted.pose.focal = 760;
+      fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
+      fitted.posed_vertices = Galatea().rest.position;
+      placed_.emplace(ProjectSkin(Galatea(), fitted, fitted.pose, true));
     }
     map_ = {.width = kMapSide, .height = kMapSide, .rgba = {}};
     for (std::size_t i = 0; i < placed_->up.size(); ++i) {
@@ -67,15 +67,15 @@ class SmileShadeTest : public NetworkTest {
 };
 
 TEST_F(SmileShadeTest, SkinIsHiddenAsThePoseGivenSeesItNotAsThatOfTheFit) {
-  Fit fit;
-  fit.pose.focal = 760;
-  fit.pose.centre = {kPhoto / 2, kPhoto / 2};
-  fit.posed_vertices = Galatea().rest.position;
-  CameraPose aside = fit.pose;
+  FittedHead fitted;
+  fitted.pose.focal = 760;
+  fitted.pose.centre = {kPhoto / 2, kPhoto / 2};
+  fitted.posed_vertices = Galatea().rest.position;
+  CameraPose aside = fitted.pose;
   aside.turn.y = 0.9F;
-  const SkinTexels seen = ProjectSkin(Galatea(), fit, aside, true);
-  fit.pose = aside;
-  EXPECT_EQ(seen.facing, ProjectSkin(Galatea(), fit, aside, true).facing);
+  const SkinTexels seen = ProjectSkin(Galatea(), fitted, aside, true);
+  fitted.pose = aside;
+  EXPECT_EQ(seen.facing, ProjectSkin(Galatea(), fitted, aside, true).facing);
 }
 
 TEST_F(SmileShadeTest, ABandOfShineIsEvenedOutAndGrainStays) {

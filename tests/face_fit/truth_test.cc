@@ -33,7 +33,7 @@ constexpr const char* kPlaces[] = {"exocanthion_right", "exocanthion_left", "end
 /// The head drawn, turned by so many degrees; `warp`: into another form.
 fsm::Image PhotoOf(const fsm::Head& head, float turn, const fsm::Warp* warp = nullptr) {
   fsm::FaceState state;
-  state.agent_rotation = {0, turn, 0};
+  state.figure.rotation = {0, turn, 0};
   fsm::HeadVertices vertices;
   head.Evaluate(state, vertices);
   for (glm::vec3& p : vertices.position) {
@@ -49,9 +49,9 @@ fsm::Image PhotoOf(const fsm::Head& head, float turn, const fsm::Warp* warp = nu
 
 std::unique_ptr<fsm::Head> HeadOf(const Fit& fit) {
   fsm::PhotoHead set;
-  set.points = fit.points;
-  set.smooth = fit.smooth;
-  set.eyes = fit.eyes;
+  set.points = fit.head.points;
+  set.smooth = fit.head.smooth;
+  set.eyes = fit.head.eyes;
   set.photo = std::make_shared<fsm::Image>(fsm::Image{1, 1, {0, 0, 0, 255}});
   return fsm::MakeHead(set);
 }
@@ -165,8 +165,8 @@ TEST_P(TruthTest, LandmarksAndDepthComeNearTheHeadThatWasDrawn) {
 TEST_P(TruthTest, LipsBesideTheCornersLieWhereThePhotoShowsThemThoughTheNetworkSaysHigher) {
   const BaseHead& base = Galatea();
   const auto corners = [&](const Fit& fit) {
-    return std::pair(base.points[61].On(fit.posed_vertices).y,
-                     base.points[291].On(fit.posed_vertices).y);
+    return std::pair(base.points[61].On(fit.head.posed_vertices).y,
+                     base.points[291].On(fit.head.posed_vertices).y);
   };
   const auto said = corners(front().fit);
   FoundFace face = front().face;
@@ -206,9 +206,9 @@ TEST_P(TruthTest, ASecondPhotoFromTheSideBringsDepthNearer) {
     for (const float turn : {-40.0F, 25.0F, 40.0F, 55.0F}) {
       Fit fit = front;
       const fsm::Image side = truth.Photo(turn);
-      auto view = FitSideView(*networks_, base, fit, side);
+      auto view = FitSideView(*networks_, base, fit.head, side);
       ASSERT_TRUE(view) << turn << ": " << view.error().text;
-      RefineDepthBySide(base, photo, side, *view, fit);
+      RefineDepthBySide(base, photo, side, view->pose, fit);
       const float with = DepthError(truth, fit);
       std::printf("%-9s %+.0f turned %+.0f (found %+.0f): depth %.2f mm off, front alone %.2f\n",
                   GetParam(), static_cast<double>(strength), static_cast<double>(turn),
@@ -274,14 +274,14 @@ TEST_P(TruthTest, AnOutlineThatIsNoProfileChangesNothing) {
     Fit fit = before;
     const auto view = RefineDepthByProfile(base, figure, fit);
     EXPECT_FALSE(view) << view->residual_mm;
-    EXPECT_EQ(fit.posed_vertices, before.posed_vertices);
+    EXPECT_EQ(fit.head.posed_vertices, before.head.posed_vertices);
   }
 }
 
 TEST_P(TruthTest, APhotoThatDoesNotHelpIsRefusedInWords) {
   const BaseHead& base = Galatea();
   const auto refusal = [&](const fsm::Image& photo) {
-    const auto view = FitSideView(*networks_, base, front().fit, photo);
+    const auto view = FitSideView(*networks_, base, front().fit.head, photo);
     return view ? "points " + std::to_string(view->residual_mm) : view.error().text;
   };
   const fsm::Image grey{
@@ -319,7 +319,7 @@ TEST(HandPointsTest, SixPlacesPutTheFaceWhereTheyAre) {
   // What was not said lies between: the forehead above the eyes, the lips between the corners.
   EXPECT_LT(face.points[10].y, 250);
   EXPECT_NEAR(face.points[13].x, 260, 8);
-  EXPECT_NEAR(FitFace(base, face).pose.turn.y, 0, 0.2F);
+  EXPECT_NEAR(FitFace(base, face).head.pose.turn.y, 0, 0.2F);
 }
 
 TEST(HandPointsTest, AWireframeOfAnotherHeadIsRefused) {

@@ -134,7 +134,7 @@ TEST(PhotoHeadTest, LidsGiveUpThePhotoAsTheyShut) {
   for (auto& point : set.points) point.by = glm::vec3(0);
   set.photo = std::make_shared<Image>(Image{1, 1, {200, 150, 100, 255}});
   const auto head = MakeHead(set);
-  const auto& lids = head->topology().shut_lids;
+  const auto& lids = head->topology().portrait.shut_lids;
   EXPECT_GT(std::ranges::count_if(lids, [](const ShutLid& lid) { return lid.weight > 0.7F; }), 40);
   EXPECT_EQ(std::ranges::count_if(lids, [](const ShutLid& lid) { return lid.weight > 1; }), 0);
   FaceState state;

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/faces/head_cache.h"
 #include "fsm/faces/head_of_file.h"
 #include "fsm/head/make_head.h"

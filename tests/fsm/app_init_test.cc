@@ -128,14 +128,15 @@ std::vector<float> Numbers(const FaceState& state) {
     all.insert(all.end(), units.begin(), units.end());
   }
   all.insert(all.end(), state.mouth.begin(), state.mouth.end());
-  for (const auto& turn : {state.head_rotation, state.agent_rotation}) {
+  for (const auto& turn : {state.head_rotation, state.figure.rotation}) {
     all.insert(all.end(), turn.begin(), turn.end());
   }
   for (const float number :
        {state.lip_seal, state.tongue, state.gaze.left[kDown], state.gaze.left[kToRight],
         state.gaze.right[kDown], state.gaze.right[kToRight], state.blink.left, state.blink.right,
-        state.head_forward, state.asymmetry, state.agent_translation[0], state.agent_translation[1],
-        state.agent_scale, state.agent_alpha, state.agent_enabled ? 1.0F : 0.0F}) {
+        state.head_forward, state.asymmetry, state.figure.translation[0],
+        state.figure.translation[1], state.figure.scale, state.figure.alpha,
+        state.figure.enabled ? 1.0F : 0.0F}) {
     all.push_back(number);
   }
   return all;

@@ -264,7 +264,7 @@ TEST(FsmModuleTest, InitResetsEverythingWithoutAWord) {
   EXPECT_EQ(fsm.Say("inq MouthScale"), "rep MouthScale = 30");
   EXPECT_EQ(fsm.Say("inq NowBackground"), "rep NowBackground = \"plain\"");
   EXPECT_FLOAT_EQ(fsm.Now().au.left[12], 0);
-  EXPECT_FLOAT_EQ(fsm.Now().agent_alpha, 1);
+  EXPECT_FLOAT_EQ(fsm.Now().figure.alpha, 1);
   EXPECT_FALSE(fsm.module.Busy());
   EXPECT_EQ(fsm.Say("set Run = EXIT"), "");
   EXPECT_TRUE(fsm.module.ExitRequested());
@@ -402,9 +402,9 @@ TEST(FsmModuleTest, ClientsOfTheOriginalLeanAndMoveByItsMeasures) {
   const FaceState there = fsm.backend.last_state, here = ours.backend.last_state;
   EXPECT_EQ(here.head_rotation, (std::array<float, 3>{1, 2, 18}));
   EXPECT_EQ(there.head_rotation, (std::array<float, 3>{1, 2, -18}));
-  EXPECT_EQ(here.agent_rotation, (std::array<float, 3>{4, 5, 6}));
-  EXPECT_EQ(there.agent_rotation, (std::array<float, 3>{4, 5, -6}));
-  EXPECT_EQ(there.agent_translation, here.agent_translation);
+  EXPECT_EQ(here.figure.rotation, (std::array<float, 3>{4, 5, 6}));
+  EXPECT_EQ(there.figure.rotation, (std::array<float, 3>{4, 5, -6}));
+  EXPECT_EQ(there.figure.translation, here.figure.translation);
   EXPECT_FALSE(ours.backend.last_scene.camera.moves_by_half_views);
   EXPECT_TRUE(fsm.backend.last_scene.camera.moves_by_half_views);
   EXPECT_TRUE(fsm.backend.last_scene.wire_on_black);

@@ -1,7 +1,5 @@
 // A head written as one file and read again.
 
-#include "fsm/asset/asset_file.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "fsm/asset/asset_members.h"
+#include "fsm/asset/asset_reader.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/asset/check_asset.h"
 #include "fsm/asset/describe.h"
 #include "fsm/head/make_head.h"
@@ -81,8 +82,8 @@ TEST(AssetFileTest, AHeadThatWearsAPhotoComesBackAsItWas) {
   const auto head = MakeHead(OneColour());
   const Head read = ReadAgain(*head);
   ExpectSameHead(read, *head);
-  ASSERT_TRUE(read.topology().photo);
-  EXPECT_EQ(read.topology().photo->rgba, head->topology().photo->rgba);
+  ASSERT_TRUE(read.topology().worn.image);
+  EXPECT_EQ(read.topology().worn.image->rgba, head->topology().worn.image->rgba);
 }
 
 TEST(AssetFileTest, AParallelViewAndAMaterialComeBack) {

@@ -14,7 +14,11 @@
 #include "fsm/head/built_in_units.h"
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_codec.h"
+#include "fsm/mesh/blendshape_rig.h"
+#include "fsm/mesh/gltf_head.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/render/renderer.h"
 #include "fsm/rig/pose.h"
 #include "fsm/rig/simulation.h"
@@ -261,7 +265,7 @@ std::string HairAvatar(const std::string& extensions) {
 /// By how much the springs of a file carry each of its vertices, in sum: 0, 1 and 2.
 std::vector<std::array<float, 3>> Hung(const HeadFile& file) {
   std::vector<std::array<float, 3>> hung(file.position.size());
-  for (const auto& [vertex, spring, weight] : file.spring_weights)
+  for (const auto& [vertex, spring, weight] : file.swing.weights)
     hung.at(vertex).at(spring) += weight;
   return hung;
 }
@@ -270,15 +274,15 @@ TEST(VrmTest, HairOfOldAvatarsSwingsByItsSecondaryAnimation) {
   const HeadFile file = Read(
       HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"gravityPower":0,)"
                  R"("dragForce":0.4,"bones":[1],"colliderGroups":[0]}]}})"));
-  ASSERT_EQ(file.springs.size(), 3U);
-  ExpectPlace(file.springs[0].rest, {-0.1F, 1.5F, 0});
-  ExpectPlace(file.springs[1].rest, {-0.1F, 1.4F, 0});
-  ExpectPlace(file.springs[2].rest, {-0.1F, 1.33F, 0});
-  ExpectPlace(file.springs[2].root, {-0.1F, 1.6F, 0});
-  EXPECT_NEAR(file.springs[0].frequency_hz, 3.90F, 0.01F);  // sqrt(60 / 0.1) / 2 pi
-  EXPECT_NEAR(file.springs[0].damping, 0.626F, 0.001F);     // 30 ln(1 / 0.6) / sqrt(60 / 0.1)
-  EXPECT_NEAR(file.springs[1].frequency_hz, 3.90F / std::sqrt(2.0F), 0.01F);
-  EXPECT_EQ(file.springs[0].hang, 0);
+  ASSERT_EQ(file.swing.springs.size(), 3U);
+  ExpectPlace(file.swing.springs[0].rest, {-0.1F, 1.5F, 0});
+  ExpectPlace(file.swing.springs[1].rest, {-0.1F, 1.4F, 0});
+  ExpectPlace(file.swing.springs[2].rest, {-0.1F, 1.33F, 0});
+  ExpectPlace(file.swing.springs[2].root, {-0.1F, 1.6F, 0});
+  EXPECT_NEAR(file.swing.springs[0].frequency_hz, 3.90F, 0.01F);  // sqrt(60 / 0.1) / 2 pi
+  EXPECT_NEAR(file.swing.springs[0].damping, 0.626F, 0.001F);     // 30 ln(1 / 0.6) / sqrt(60 / 0.1)
+  EXPECT_NEAR(file.swing.springs[1].frequency_hz, 3.90F / std::sqrt(2.0F), 0.01F);
+  EXPECT_EQ(file.swing.springs[0].hang, 0);
   const auto hung = Hung(file);
   EXPECT_EQ(hung[0], (std::array<float, 3>{0, 0, 0})) << "where the chain begins";
   EXPECT_NEAR(hung[2][0], 0.5F, 1e-3F) << "between";
@@ -292,11 +296,11 @@ TEST(VrmTest, HairOfNewAvatarsSwingsByItsSpringBones) {
       R"({"joints":[{"node":1,"stiffness":0.5,"gravityPower":0.5,"dragForce":0.3},)"
       R"({"node":2,"stiffness":0.5,"dragForce":0.3},{"node":3}]},)"
       R"({"joints":[{"node":99},{"node":-5}]},{"joints":"none"}]})"));
-  ASSERT_EQ(file.springs.size(), 2U) << "the last joint only says where the one before ends";
-  ExpectPlace(file.springs[1].rest, {0.1F, 1.4F, 0});
-  EXPECT_EQ(file.springs[0].hang, 0.5F);
-  EXPECT_EQ(file.springs[1].hang, 0);
-  EXPECT_EQ(file.springs[0].outward, glm::vec3(0)) << "nothing is in its way";
+  ASSERT_EQ(file.swing.springs.size(), 2U) << "the last joint only says where the one before ends";
+  ExpectPlace(file.swing.springs[1].rest, {0.1F, 1.4F, 0});
+  EXPECT_EQ(file.swing.springs[0].hang, 0.5F);
+  EXPECT_EQ(file.swing.springs[1].hang, 0);
+  EXPECT_EQ(file.swing.springs[0].outward, glm::vec3(0)) << "nothing is in its way";
   EXPECT_NEAR(Hung(file)[6][1], 1, 1e-3F) << "the end of the chain";
 }
 
@@ -308,8 +312,8 @@ TEST(VrmTest, HairOfAnAvatarSwingsAsItsHeadTurns) {
   const Similarity place{.scale = kMillimetres, .move = {0, -1500, 0}};
   const auto head = MakeMeshHead(ModelOf(file, place, -43));
   const RigData& rig = head->rig().data();
-  ASSERT_EQ(rig.springs.size(), 4U);
-  Simulation simulation(rig.springs);
+  ASSERT_EQ(rig.swing.springs.size(), 4U);
+  Simulation simulation(rig.swing.springs);
   const auto turning = [](Simulation::Time t) {
     FaceState state;
     state.head_rotation[1] = 30 * std::clamp(static_cast<float>(t.count()) / 2e5F, 0.0F, 1.0F);
@@ -328,7 +332,7 @@ TEST(VrmTest, SpringsOfTheBodyAreLeftOut) {
   const HeadFile file = Read(
       HairAvatar(R"("VRM":{"secondaryAnimation":{"boneGroups":[{"stiffiness":1,"bones":[1]}]}})"));
   const Similarity place{.scale = 1000, .move = {0, -2500, 0}};
-  EXPECT_TRUE(MakeMeshHead(ModelOf(file, place, -43))->rig().data().springs.empty());
+  EXPECT_TRUE(MakeMeshHead(ModelOf(file, place, -43))->rig().data().swing.springs.empty());
 }
 
 TEST(VrmTest, EyesTurnAsFarAsTheAvatarSays) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fsm/mesh/drive_fit.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/mesh_model.h"
 
 namespace fsm {

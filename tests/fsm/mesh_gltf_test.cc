@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/head/make_head.h"
+#include "fsm/mesh/blendshape_rig.h"
 #include "fsm/mesh/gltf_document.h"
+#include "fsm/mesh/gltf_head.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/rig/action_units.h"
 #include "tests/fsm/ball_head.h"
 

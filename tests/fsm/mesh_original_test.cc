@@ -11,9 +11,12 @@
 
 #include "fsm/head/make_head.h"
 #include "fsm/image/image_file.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/nnls_solver.h"
 #include "fsm/mesh/original_expressions.h"
 #include "fsm/mesh/original_face.h"
+#include "fsm/mesh/original_model.h"
+#include "fsm/mesh/original_motion.h"
 #include "fsm/mesh/original_points.h"
 #include "tests/support/test_data.h"
 

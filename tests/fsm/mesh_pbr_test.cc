@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "fsm/image/image_codec.h"
+#include "fsm/mesh/gltf_head.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/texture_atlas.h"
 #include "fsm/render/renderer.h"
 #include "tests/fsm/gltf_maker.h"
@@ -139,12 +141,12 @@ glm::vec3 Seen(const Plate& plate, float key_strength = 1, glm::vec3 key = {0, 0
     model.Add({50 * x, 50 * y, 80}, Bone::kSkull, glm::vec3(1),
               glm::vec2(0.5F + 0.5F * x, 0.5F - 0.5F * y));
   }
-  model.photo = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
+  model.worn.image = std::make_shared<Image>(Image{1, 1, {188, 188, 188, 255}});
   if (!plate.normal_map.empty()) {
-    model.normal_map = std::make_shared<Image>(Image{1, 1, plate.normal_map});
+    model.worn.normal_map = std::make_shared<Image>(Image{1, 1, plate.normal_map});
   }
   if (!plate.emissive_map.empty()) {
-    model.emissive_map = std::make_shared<Image>(Image{1, 1, plate.emissive_map});
+    model.worn.emissive_map = std::make_shared<Image>(Image{1, 1, plate.emissive_map});
   }
   model.pbr_materials = {plate.pbr};
   auto& indices = model.BatchOf(Material::kSkin, 0, plate.two_sided).indices;

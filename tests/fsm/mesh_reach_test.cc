@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "fsm/mesh/deformation_transfer.h"
+#include "fsm/mesh/gltf_head.h"
 #include "fsm/mesh/head_file.h"
+#include "fsm/mesh/head_model.h"
 #include "fsm/mesh/head_points.h"
 #include "fsm/mesh/surface_index.h"
 #include "tests/fsm/gltf_maker.h"

@@ -19,7 +19,9 @@
 #include "fsm/mesh/deformation_transfer.h"
 #include "fsm/mesh/head_file.h"
 #include "fsm/mesh/head_points.h"
+#include "fsm/mesh/mesh_head.h"
 #include "fsm/mesh/surface_index.h"
+#include "fsm/mesh/transferred_rig.h"
 #include "fsm/rig/head.h"
 
 namespace fsm {
@@ -277,7 +279,7 @@ TEST_F(DeformationTransferTest, AHeadWithoutPicturesHasRedLipsAndSaysWhereTheyPa
     return topology.albedo[v].g / topology.albedo[v].r;
   };
   EXPECT_LT(greenness(known.mouth.lips[known.mouth.lips.size() / 2].first), 0.7F) << "the lip";
-  EXPECT_NEAR(greenness(to_->rig().data().soft_triangles.front()), 1, 0.3F) << "elsewhere";
+  EXPECT_NEAR(greenness(to_->rig().data().normals.soft_triangles.front()), 1, 0.3F) << "elsewhere";
 }
 
 /// Two lips of flat skin that meet at a height, as a coarse head has them: nothing but the slit

@@ -15,13 +15,13 @@ struct FaceMotionTest : testing::Test {
     auto settings = motion.settings();
     settings.onset = Onset::kFixed;
     motion.Apply(0ms, settings);
-    EXPECT_TRUE(motion.Autonomous(0ms, "ASYMMETRY", 0));
+    EXPECT_TRUE(motion.idle.Set(0ms, "ASYMMETRY", 0));
   }
   FaceMotion motion{MotionTables::Load().value(), 7};
 };
 
 TEST_F(FaceMotionTest, AnExpressionIsWholeAfterItsOnsetAndHolds) {
-  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(0ms).au.left[12], 0);
   EXPECT_FLOAT_EQ(motion.StateAt(100ms).au.left[12], 0.8f);
   EXPECT_FLOAT_EQ(motion.StateAt(1h).au.right[12], 0.8f);
@@ -30,7 +30,7 @@ TEST_F(FaceMotionTest, AnExpressionIsWholeAfterItsOnsetAndHolds) {
 }
 
 TEST_F(FaceMotionTest, ATimedExpressionGoesAwayByItself) {
-  ASSERT_TRUE(motion.Express(0ms, "ANGRY", 1, 2, 1000ms));
+  ASSERT_TRUE(motion.expression.Show(0ms, "ANGRY", 1, 2, 1000ms));
   EXPECT_FLOAT_EQ(motion.StateAt(500ms).au.left[4], 2);
   EXPECT_FLOAT_EQ(motion.StateAt(900ms).au.left[4], 2);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).au.left[4], 0);
@@ -39,7 +39,7 @@ TEST_F(FaceMotionTest, ATimedExpressionGoesAwayByItself) {
 }
 
 TEST_F(FaceMotionTest, AShortExpressionTakesHalfItsTimeForEachFade) {
-  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 120ms));
+  ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 120ms));
   EXPECT_FLOAT_EQ(motion.StateAt(60ms).au.left[12], 0.8f);
   EXPECT_FLOAT_EQ(motion.StateAt(120ms).au.left[12], 0);
 }
@@ -48,15 +48,15 @@ TEST_F(FaceMotionTest, ExpressionsCrossfadeWithoutJumps) {
   FaceState before = motion.StateAt(0ms);
   for (vm::Time t = 0ms; t < 1500ms; t += 5ms) {
     if (t == 100ms) {
-      ASSERT_TRUE(motion.Express(t, "HAPPY", 1, 1, 0ms));
+      ASSERT_TRUE(motion.expression.Show(t, "HAPPY", 1, 1, 0ms));
     }
     if (t == 150ms) {
-      ASSERT_TRUE(motion.Express(t, "SURPRISED", 1, 2, 300ms));
+      ASSERT_TRUE(motion.expression.Show(t, "SURPRISED", 1, 2, 300ms));
     }
     if (t == 200ms) {
-      ASSERT_TRUE(motion.Express(t, "SAD", 1, 1, 0ms));
+      ASSERT_TRUE(motion.expression.Show(t, "SAD", 1, 1, 0ms));
     }
-    if (t == 220ms) motion.Neutral(t);
+    if (t == 220ms) motion.expression.Neutral(t);
     const FaceState now = motion.StateAt(t);
     for (std::size_t i = 0; i < kActionUnits; ++i) {
       ASSERT_LT(std::abs(now.au.left[i] - before.au.left[i]), 0.25f) << i << " at " << t.count();
@@ -70,7 +70,7 @@ TEST_F(FaceMotionTest, NaturalExpressionsTakeTheMeasuredTimesAndLags) {
   auto settings = motion.settings();
   settings.onset = Onset::kPosed;
   motion.Apply(0ms, settings);
-  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 5, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 5, 1, 0ms));
   EXPECT_LT(motion.StateAt(555ms).au.left[12], 0.8f);
   EXPECT_FLOAT_EQ(motion.StateAt(556ms).au.left[12], 0.8f);
   // Eyes first, then the brow, then the mouth.
@@ -81,31 +81,31 @@ TEST_F(FaceMotionTest, NaturalExpressionsTakeTheMeasuredTimesAndLags) {
 }
 
 TEST_F(FaceMotionTest, UnknownNamesAreRefusedWithWhatThereIs) {
-  const auto unknown = motion.Express(0ms, "BORED", 1, 1, 0ms);
+  const auto unknown = motion.expression.Show(0ms, "BORED", 1, 1, 0ms);
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().text,
             "'BORED' is no expression; ANGRY DISGUSTED FEARED HAPPY SAD SURPRISED USERDEF or "
             "NEUTRAL expected");
-  EXPECT_EQ(motion.Express(0ms, "HAPPY", 9, 1, 0ms).error().text,
+  EXPECT_EQ(motion.expression.Show(0ms, "HAPPY", 9, 1, 0ms).error().text,
             "HAPPY has no pattern 9; 1 to 5 expected");
   EXPECT_EQ(motion.Move(0ms, "NOD", 6).error().text, "NOD has no pattern 6; 1 to 5 expected");
-  EXPECT_FALSE(motion.Autonomous(0ms, "USERDEF", 1));
-  EXPECT_TRUE(motion.Autonomous(0ms, "USERDEF", 0));
+  EXPECT_FALSE(motion.idle.Set(0ms, "USERDEF", 1));
+  EXPECT_TRUE(motion.idle.Set(0ms, "USERDEF", 0));
   EXPECT_FALSE(motion.SetFace(0ms, 37, 1));
-  EXPECT_FALSE(motion.SetMouth(0ms, 18, 1));
-  EXPECT_FALSE(motion.SetUnit(0ms, "3", 1, 0ms));
-  EXPECT_FALSE(motion.SetBlendShape(0ms, "jawSideways", 1, 0ms));
+  EXPECT_FALSE(motion.mouth.Set(0ms, 18, 1));
+  EXPECT_FALSE(motion.units.Set(0ms, "3", 1, 0ms));
+  EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawSideways", 1, 0ms));
 }
 
 TEST_F(FaceMotionTest, WhatMouthNAsksIsKnownFromWhatSpeechAsks) {
-  ASSERT_TRUE(motion.SetMouth(0ms, 12, 0.5));
+  ASSERT_TRUE(motion.mouth.Set(0ms, 12, 0.5));
   const FaceState state = motion.StateAt(1s);
   EXPECT_FLOAT_EQ(state.mouth[kJawY], 7.5F);
   EXPECT_EQ(state.mouth_by_hand, state.mouth);
 }
 
 TEST_F(FaceMotionTest, UnitsCanBeMovedOnOneSide) {
-  ASSERT_TRUE(motion.SetUnit(0ms, "12L", 0.7, 200ms));
+  ASSERT_TRUE(motion.units.Set(0ms, "12L", 0.7, 200ms));
   EXPECT_NEAR(motion.StateAt(100ms).au.left[12], 0.35f, 1e-5);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.left[12], 0.7f);
   EXPECT_FLOAT_EQ(motion.StateAt(200ms).au.right[12], 0);
@@ -120,8 +120,8 @@ TEST_F(FaceMotionTest, FacePositionsAreUnitsAndEmotions) {
 }
 
 TEST_F(FaceMotionTest, BlendShapesBecomeUnitsAndGaze) {
-  ASSERT_TRUE(motion.SetBlendShape(0ms, "mouthSmileLeft", 0.5, 0ms));
-  ASSERT_TRUE(motion.SetBlendShape(0ms, "eyeLookUpLeft", 1, 0ms));
+  ASSERT_TRUE(motion.blend_shapes.Set(0ms, "mouthSmileLeft", 0.5, 0ms));
+  ASSERT_TRUE(motion.blend_shapes.Set(0ms, "eyeLookUpLeft", 1, 0ms));
   const FaceState state = motion.StateAt(1ms);
   EXPECT_FLOAT_EQ(state.au.left[12], 0.5f);
   EXPECT_FLOAT_EQ(state.au.right[12], 0);
@@ -130,25 +130,25 @@ TEST_F(FaceMotionTest, BlendShapesBecomeUnitsAndGaze) {
 }
 
 TEST_F(FaceMotionTest, EyesTurnAndComeBack) {
-  motion.TurnEyes(0ms, true, true, 10, 20, 1000ms);
+  motion.eyes.Turn(0ms, true, true, {10, 20}, 1000ms);
   EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.left[kDown], 10);
   EXPECT_FLOAT_EQ(motion.StateAt(70ms).gaze.right[kToRight], 20);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).gaze.right[kToRight], 0);
-  motion.TurnEyes(2000ms, true, false, 0, 15, 0ms);
+  motion.eyes.Turn(2000ms, true, false, {0, 15}, 0ms);
   EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.left[kToRight], 15);
   EXPECT_FLOAT_EQ(motion.StateAt(9s).gaze.right[kToRight], 0);
 }
 
 TEST_F(FaceMotionTest, ATimedTurnOfOneEyeEndsWhateverTheOtherDoes) {
-  motion.TurnEyes(0ms, true, false, 10, 20, 1000ms);
-  motion.TurnEyes(100ms, false, true, 5, 5, 0ms);
+  motion.eyes.Turn(0ms, true, false, {10, 20}, 1000ms);
+  motion.eyes.Turn(100ms, false, true, {5, 5}, 0ms);
   EXPECT_EQ(motion.FiniteEnd(200ms), vm::Time(1000ms));
-  motion.TurnEyes(300ms, true, false, 5, 5, 0ms);
+  motion.eyes.Turn(300ms, true, false, {5, 5}, 0ms);
   EXPECT_EQ(motion.FiniteEnd(300ms), vm::Time(300ms));
 }
 
 TEST_F(FaceMotionTest, ALargeGazeIsSharedByTheHead) {
-  motion.Gaze(0ms, 0, 30, 0ms);
+  motion.eyes.Gaze(0ms, {0, 30}, 0ms);
   const FaceState early = motion.StateAt(70ms);
   EXPECT_NEAR((early.gaze.left[kToRight] + early.gaze.right[kToRight]) / 2 + early.head_rotation[1],
               30, 1e-3);
@@ -166,8 +166,8 @@ TEST_F(FaceMotionTest, NodOneGoesTenDegreesDownAndBackIn200Ms) {
 }
 
 TEST_F(FaceMotionTest, DirectionsAndMovementsAddUp) {
-  motion.TurnHead(0ms, {5, 6, 7});
-  motion.TurnHeadBy(0ms, {1, 1, 1});
+  motion.head.TurnTo(0ms, {5, 6, 7});
+  motion.head.TurnBy(0ms, {1, 1, 1});
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[0], 6);
   ASSERT_TRUE(motion.Move(1s, "NOD", 1));
   EXPECT_FLOAT_EQ(motion.StateAt(1100ms).head_rotation[0], 16);
@@ -184,7 +184,7 @@ TEST_F(FaceMotionTest, ABlinkShutsTheLidsAndOpensThem) {
 }
 
 TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
-  ASSERT_TRUE(motion.Autonomous(0ms, "BLINK", 1));
+  ASSERT_TRUE(motion.idle.Set(0ms, "BLINK", 1));
   std::optional<vm::Time> last;
   int blinks = 0;
   bool shut = false;
@@ -205,14 +205,14 @@ TEST_F(FaceMotionTest, AutonomousBlinksAreTwoToSixSecondsApart) {
   // Between blinks nothing moves, and the next one is announced.
   const auto next = motion.NextActivity(300s);
   ASSERT_TRUE(next);
-  ASSERT_TRUE(motion.Autonomous(300s, "BLINK", 0));
+  ASSERT_TRUE(motion.idle.Set(300s, "BLINK", 0));
   EXPECT_FALSE(motion.NextActivity(301s).has_value());
 }
 
 TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {
   EXPECT_FLOAT_EQ(motion.StateAt(5s).head_rotation[1], 0);
-  ASSERT_TRUE(motion.Autonomous(0ms, "MOVE", 1));
-  ASSERT_TRUE(motion.Autonomous(0ms, "GAZE", 1));
+  ASSERT_TRUE(motion.idle.Set(0ms, "MOVE", 1));
+  ASSERT_TRUE(motion.idle.Set(0ms, "GAZE", 1));
   float most = 0;
   float before = 0;
   for (vm::Time t = 0ms; t < 60s; t += 20ms) {
@@ -225,14 +225,14 @@ TEST_F(FaceMotionTest, AutonomousMovementIsSmallSmoothAndSwitchable) {
   }
   EXPECT_GT(most, 0.5f);
   EXPECT_LE(most, 1.6f);
-  ASSERT_TRUE(motion.Autonomous(60s, "MOVE", 0));
+  ASSERT_TRUE(motion.idle.Set(60s, "MOVE", 0));
   EXPECT_FLOAT_EQ(motion.StateAt(61s).head_rotation[1], 0);
 }
 
 TEST_F(FaceMotionTest, TheSameSeedGivesTheSameLife) {
   FaceMotion same(MotionTables::Load().value(), 7);
   FaceMotion other(MotionTables::Load().value(), 8);
-  for (FaceMotion* face : {&motion, &same, &other}) ASSERT_TRUE(face->Autonomous(0ms, "MOVE", 1));
+  for (FaceMotion* face : {&motion, &same, &other}) ASSERT_TRUE(face->idle.Set(0ms, "MOVE", 1));
   EXPECT_EQ(motion.StateAt(7s).head_rotation, same.StateAt(7s).head_rotation);
   EXPECT_NE(motion.StateAt(7s).head_rotation, other.StateAt(7s).head_rotation);
 }
@@ -249,30 +249,31 @@ TEST_F(FaceMotionTest, StatesStayFiniteUnderManyCommands) {
     t += std::chrono::milliseconds(random(50));
     switch (random(8)) {
       case 0:
-        (void)motion.Express(t, names[random(4)], 1 + random(5), random(200) / 100.0,
-                             std::chrono::milliseconds(random(300)));
+        (void)motion.expression.Show(t, names[random(4)], 1 + random(5), random(200) / 100.0,
+                                     std::chrono::milliseconds(random(300)));
         break;
       case 1:
         (void)motion.SetFace(t, 1 + random(36), random(200) / 100.0);
         break;
       case 2:
-        motion.TurnEyes(t, true, random(2) == 0, random(30), random(30),
-                        std::chrono::milliseconds(random(200)));
+        motion.eyes.Turn(t, true, random(2) == 0,
+                         {static_cast<float>(random(30)), static_cast<float>(random(30))},
+                         std::chrono::milliseconds(random(200)));
         break;
       case 3:
-        motion.TurnHeadBy(t, {1, -2, 3});
+        motion.head.TurnBy(t, {1, -2, 3});
         break;
       case 4:
         (void)motion.Move(t, "REFUSE", 1 + random(3));
         break;
       case 5:
-        motion.Speak(t, vm::ParsePhonemes("a 80 m 60 i 300").value(), t + 20ms);
+        motion.speech.Start(t, vm::ParsePhonemes("a 80 m 60 i 300").value(), t + 20ms);
         break;
       case 6:
-        motion.Sync(t, random(500));
+        motion.speech.Sync(t, random(500));
         break;
       default:
-        motion.StopSpeaking(t);
+        motion.speech.Stop(t);
         break;
     }
     const FaceState state = motion.StateAt(t + std::chrono::milliseconds(random(100)));

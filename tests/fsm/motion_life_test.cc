@@ -25,14 +25,14 @@ vm::PhonemeList List(const char* text) { return vm::ParsePhonemes(text).value();
 struct IdleBehaviourTest : testing::Test {
   FaceMotion motion{MotionTables::Load().value(), 7};
   void On(const char* kind, int pattern = 1) {
-    ASSERT_TRUE(motion.Autonomous(0ms, kind, pattern)) << kind;
+    ASSERT_TRUE(motion.idle.Set(0ms, kind, pattern)) << kind;
   }
   float Nod(vm::Time t) { return motion.StateAt(t).head_rotation[0]; }
 };
 
 TEST_F(IdleBehaviourTest, NothingMovesUntilItIsSwitchedOn) {
   EXPECT_FALSE(motion.NextActivity(0ms).has_value());
-  motion.Speak(0ms, List(kSentence), 1s);
+  motion.speech.Start(0ms, List(kSentence), 1s);
   for (vm::Time t = 0ms; t < 6s; t += 40ms) {
     const FaceState state = motion.StateAt(t);
     ASSERT_EQ(state.head_rotation, (std::array<float, 3>{}));
@@ -43,7 +43,7 @@ TEST_F(IdleBehaviourTest, NothingMovesUntilItIsSwitchedOn) {
 }
 
 TEST_F(IdleBehaviourTest, OnsetsAreSlowFastSlow) {
-  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));
   const auto smile = [&](double part) {
     return motion.StateAt(FromMs(556 * part)).au.right[12] / motion.StateAt(2s).au.right[12];
   };
@@ -56,15 +56,15 @@ TEST_F(IdleBehaviourTest, FeltExpressionsTakeTheElicitedTimes) {
   auto settings = motion.settings();
   settings.onset = Onset::kElicited;
   motion.Apply(0ms, settings);
-  ASSERT_TRUE(motion.Express(0ms, "SURPRISED", 1, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Show(0ms, "SURPRISED", 1, 1, 0ms));
   EXPECT_EQ(motion.OnsetsSettled(0ms), vm::Time(228ms));
-  ASSERT_TRUE(motion.Express(1s, "HAPPY", 1, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Show(1s, "HAPPY", 1, 1, 0ms));
   EXPECT_EQ(motion.OnsetsSettled(1s), vm::Time(1724ms));
 }
 
 TEST_F(IdleBehaviourTest, OneSideBeginsALittleLaterAlwaysTheSame) {
   const auto ahead = [](FaceMotion& face) {
-    EXPECT_TRUE(face.Express(0ms, "HAPPY", 1, 1, 0ms));
+    EXPECT_TRUE(face.expression.Show(0ms, "HAPPY", 1, 1, 0ms));
     const FaceState early = face.StateAt(200ms);
     EXPECT_EQ(face.StateAt(2s).au.left[12], face.StateAt(2s).au.right[12]);
     return early.au.left[12] - early.au.right[12];
@@ -77,13 +77,13 @@ TEST_F(IdleBehaviourTest, OneSideBeginsALittleLaterAlwaysTheSame) {
   bool other_side = false;
   for (std::uint64_t person = 1; person < 9; ++person) {
     FaceMotion other(MotionTables::Load().value(), 7);
-    other.SetPerson(person);
+    other.expression.SetPerson(person);
     other_side = other_side || ahead(other) * first < 0;
   }
   EXPECT_TRUE(other_side);
-  ASSERT_TRUE(same.Autonomous(3s, "ASYMMETRY", 0));
-  same.Neutral(3s);
-  ASSERT_TRUE(same.Express(5s, "HAPPY", 1, 1, 0ms));
+  ASSERT_TRUE(same.idle.Set(3s, "ASYMMETRY", 0));
+  same.expression.Neutral(3s);
+  ASSERT_TRUE(same.expression.Show(5s, "HAPPY", 1, 1, 0ms));
   EXPECT_EQ(same.StateAt(5200ms).au.left[12], same.StateAt(5200ms).au.right[12]);
 }
 
@@ -115,13 +115,13 @@ TEST_F(IdleBehaviourTest, BlinkIntervalsAreSkewedAndSeeded) {
 }
 
 TEST_F(IdleBehaviourTest, LargeShiftsOfTheGazeComeWithABlinkWhichCanBeSwitchedOff) {
-  motion.Gaze(0ms, 0, 30, 0ms);
+  motion.eyes.Gaze(0ms, {0, 30}, 0ms);
   EXPECT_EQ(motion.StateAt(90ms).blink.left, 0);
   On("GAZEBLINK");
   int blinks = 0;
   for (int i = 1; i <= 20; ++i) {
     const vm::Time at = i * 2s;
-    motion.Gaze(at, 0, i % 2 == 0 ? 20 : -20, 0ms);
+    motion.eyes.Gaze(at, {0, i % 2 == 0 ? 20.0f : -20.0f}, 0ms);
     if (motion.StateAt(at + 90ms).blink.left > 0.5f) ++blinks;
   }
   EXPECT_GE(blinks, 16);
@@ -132,7 +132,7 @@ TEST_F(IdleBehaviourTest, MostUtterancesEndWithABlink) {
   int blinks = 0;
   for (int i = 0; i < 20; ++i) {
     const vm::Time at = i * 10s;
-    motion.Speak(at, List("pau 100 aa 300 pau 100"), at);
+    motion.speech.Start(at, List("pau 100 aa 300 pau 100"), at);
     EXPECT_EQ(motion.StateAt(at + 250ms).blink.left, 0);
     float shut = 0;
     for (vm::Time t = at + 400ms; t < at + 900ms; t += 10ms) {
@@ -145,8 +145,8 @@ TEST_F(IdleBehaviourTest, MostUtterancesEndWithABlink) {
 }
 
 TEST_F(IdleBehaviourTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
-  motion.LookAtUser(0ms);
-  motion.TurnHead(100ms, {5, 20, 0});
+  motion.eyes.LookAtUser(0ms);
+  motion.head.TurnTo(100ms, {5, 20, 0});
   const FaceState state = motion.StateAt(2s);
   EXPECT_FLOAT_EQ(state.head_rotation[1], 20);
   EXPECT_NEAR((state.gaze.left[kToRight] + state.gaze.right[kToRight]) / 2, -20, 1e-3);
@@ -154,7 +154,7 @@ TEST_F(IdleBehaviourTest, TheEyesStayOnTheUserWhileTheHeadMoves) {
 }
 
 TEST_F(IdleBehaviourTest, TheEyesConvergeOnWhatIsNear) {
-  motion.LookAtUser(0ms);
+  motion.eyes.LookAtUser(0ms);
   const FaceState state = motion.StateAt(1s);
   // The agent's left eye is on the viewer's right: converging, it turns to the viewer's left.
   EXPECT_NEAR(state.gaze.left[kToRight], -2.54, 0.02);
@@ -162,13 +162,13 @@ TEST_F(IdleBehaviourTest, TheEyesConvergeOnWhatIsNear) {
   auto settings = motion.settings();
   settings.gaze_distance_mm = 0;
   motion.Apply(1s, settings);
-  motion.LookAtUser(1s);
+  motion.eyes.LookAtUser(1s);
   EXPECT_NEAR(motion.StateAt(2s).gaze.left[kToRight], 0, 1e-3);
 }
 
 TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
-  motion.LookAtUser(0ms);
-  motion.Think(1s);
+  motion.eyes.LookAtUser(0ms);
+  motion.eyes.Think(1s);
   float least = 90;
   std::vector<float> seen;
   for (vm::Time t = 1200ms; t < 12s; t += 100ms) {
@@ -180,14 +180,14 @@ TEST_F(IdleBehaviourTest, AThinkerLooksAwayHereAndThereUntilTheNextGaze) {
   }
   EXPECT_GT(least, 5);
   EXPECT_GE(seen.size(), 4u);
-  motion.LookAtUser(12s);
+  motion.eyes.LookAtUser(12s);
   EXPECT_NEAR(motion.StateAt(13s).gaze.left[kDown], 0, 0.01);
   EXPECT_FALSE(motion.NextActivity(13s).has_value());
 }
 
 TEST_F(IdleBehaviourTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
   On("SPEECH");
-  motion.Speak(0ms, List(kSentence), 1s);
+  motion.speech.Start(0ms, List(kSentence), 1s);
   float most = 0, least = 0, brow = 0, before = 0;
   int nods = 0;
   bool down = false;
@@ -214,8 +214,8 @@ TEST_F(IdleBehaviourTest, HeadAndBrowsMoveWithTheStressAndComeToRest) {
 
 TEST_F(IdleBehaviourTest, NodsFallOnStressedVowels) {
   On("SPEECH");
-  motion.Speak(0ms, List("pau 200 t 60 ax 40 t 60 ax 40 t 60 aa 220 t 60 ax 40 t 60 ax 40 pau 200"),
-               1s);
+  motion.speech.Start(
+      0ms, List("pau 200 t 60 ax 40 t 60 ax 40 t 60 aa 220 t 60 ax 40 t 60 ax 40 pau 200"), 1s);
   vm::Time peak{0};
   for (vm::Time t = 1s; t < 2s; t += 5ms) {
     if (Nod(t) > Nod(peak)) peak = t;
@@ -226,7 +226,7 @@ TEST_F(IdleBehaviourTest, NodsFallOnStressedVowels) {
 
 TEST_F(IdleBehaviourTest, SpeakersLookAwayAtTheBeginningAndBackBeforeTheEnd) {
   On("AVERT");
-  motion.Speak(0ms, List(kSentence), 1s);
+  motion.speech.Start(0ms, List(kSentence), 1s);
   float away = 0;
   for (vm::Time t = 1s; t < 2s; t += 20ms) {
     away = std::max(away, std::abs(motion.StateAt(t).gaze.left[kToRight]));
@@ -234,7 +234,7 @@ TEST_F(IdleBehaviourTest, SpeakersLookAwayAtTheBeginningAndBackBeforeTheEnd) {
   EXPECT_GT(away, 5);
   for (vm::Time t = 3s; t < 5s; t += 20ms)
     EXPECT_NEAR(motion.StateAt(t).gaze.left[kToRight], 0, 0.01);
-  motion.Speak(10s, List("pau 100 y 60 eh 120 s 150"), 10s);  // too short for that
+  motion.speech.Start(10s, List("pau 100 y 60 eh 120 s 150"), 10s);  // too short for that
   for (vm::Time t = 10s; t < 11s; t += 20ms)
     EXPECT_NEAR(motion.StateAt(t).gaze.left[kToRight], 0, 0.01);
 }
@@ -257,7 +257,7 @@ TEST_F(IdleBehaviourTest, AListenerNodsButNotWhileSpeaking) {
   float most = 0;
   for (vm::Time t = 0ms; t < 30s; t += 20ms) most = std::max(most, Nod(t));
   EXPECT_GT(most, 2);
-  motion.Speak(30s, List("pau 20000"), 30s);
+  motion.speech.Start(30s, List("pau 20000"), 30s);
   for (vm::Time t = 31s; t < 49s; t += 20ms) EXPECT_LT(Nod(t), 0.01f);
 }
 
@@ -278,28 +278,28 @@ TEST_F(IdleBehaviourTest, GesturesHaveStrengthAndCount) {
 
 TEST_F(IdleBehaviourTest, ProfilesSwitchEverythingAtOnceAndPartsRemainSwitchable) {
   for (const char* profile : {"CALM", "LIVELY", "LISTENING", "STILL"}) {
-    ASSERT_TRUE(motion.SetIdle(0ms, profile)) << profile;
+    ASSERT_TRUE(motion.idle.SetProfile(0ms, profile)) << profile;
     EXPECT_TRUE(motion.NextActivity(10s).has_value());
   }
-  ASSERT_TRUE(motion.SetIdle(0ms, "LISTENING"));
+  ASSERT_TRUE(motion.idle.SetProfile(0ms, "LISTENING"));
   EXPECT_GT(motion.StateAt(2s).au.left[12], 0.05f) << "friendly";
   for (const std::string_view kind : kIdleKindNames) {
-    ASSERT_TRUE(motion.Autonomous(3s, kind, 0)) << kind;
+    ASSERT_TRUE(motion.idle.Set(3s, kind, 0)) << kind;
   }
   EXPECT_FALSE(motion.NextActivity(10s).has_value());
   const FaceState state = motion.StateAt(10s);
   EXPECT_EQ(state.head_rotation, (std::array<float, 3>{}));
   EXPECT_EQ(state.au.left[12], 0);
-  EXPECT_FALSE(motion.SetIdle(10s, "PARTY"));
+  EXPECT_FALSE(motion.idle.SetProfile(10s, "PARTY"));
 }
 
 TEST_F(IdleBehaviourTest, TheSameSeedLivesTheSameLife) {
   FaceMotion same(MotionTables::Load().value(), 7);
   FaceMotion other(MotionTables::Load().value(), 8);
   for (FaceMotion* face : {&motion, &same, &other}) {
-    ASSERT_TRUE(face->SetIdle(0ms, "LIVELY"));
-    face->LookAtUser(0ms);
-    face->Speak(1s, List(kSentence), 2s);
+    ASSERT_TRUE(face->idle.SetProfile(0ms, "LIVELY"));
+    face->eyes.LookAtUser(0ms);
+    face->speech.Start(1s, List(kSentence), 2s);
   }
   bool differs = false;
   for (vm::Time t = 0ms; t < 20s; t += 100ms) {

@@ -216,7 +216,7 @@ Utterance RandomUtterance(std::mt19937& random, double speed) {
 }
 
 void ExpectContacts(FaceMotion& motion, const Utterance& said, const std::string& how) {
-  motion.Speak(5s, said.list, 6s);
+  motion.speech.Start(5s, said.list, 6s);
   vm::Time at = 6s - 40ms;  // the lead
   for (const vm::Phoneme& phoneme : said.list) {
     const bool closes = phoneme.name == "p" || phoneme.name == "b" || phoneme.name == "m";
@@ -232,7 +232,7 @@ void ExpectContacts(FaceMotion& motion, const Utterance& said, const std::string
     }
     at += phoneme.duration;
   }
-  motion.StopSpeaking(at + 1s);
+  motion.speech.Stop(at + 1s);
 }
 
 TEST(LipsOnTheHeadTest, ClosuresCloseAndLipsReachTheTeethInAnyEmotionAtAnySpeed) {
@@ -249,7 +249,7 @@ TEST(LipsOnTheHeadTest, ClosuresCloseAndLipsReachTheTeethInAnyEmotionAtAnySpeed)
         settings.lips.lips = settings.lips.jaw;
         settings.mouth_scale = 30 + 10 * static_cast<double>(random() % 5);
         motion.Apply(0ms, settings);
-        ASSERT_TRUE(motion.Express(0ms, name, pattern, strength, 0ms));
+        ASSERT_TRUE(motion.expression.Show(0ms, name, pattern, strength, 0ms));
         ExpectContacts(motion, RandomUtterance(random, speed),
                        name + " " + std::to_string(pattern) + " x" + std::to_string(strength) +
                            ", speed " + std::to_string(speed));
@@ -263,7 +263,7 @@ TEST(LipsOnTheHeadTest, EveryContactIsMadeAtDoubleSpeedInEachEmotionAtFullStreng
   for (const char* emotion : {"HAPPY", "ANGRY", "DISGUSTED", "SAD", "SURPRISED", "FEARED"}) {
     for (const char* vowel : {"aa", "ae", "iy", "uw", "ow"}) {
       FaceMotion motion(Tables(), 1);
-      ASSERT_TRUE(motion.Express(0ms, emotion, 1, 1.0, 0ms));
+      ASSERT_TRUE(motion.expression.Show(0ms, emotion, 1, 1.0, 0ms));
       // Half of 120 ms for a vowel and of 70 for a consonant.
       Utterance said;
       for (const char* contact : {"p", "f", "b", "v", "m"}) {
@@ -280,7 +280,7 @@ TEST(LipsOnTheHeadTest, EveryContactIsMadeAtDoubleSpeedInEachEmotionAtFullStreng
 
 TEST(LipsOnTheHeadTest, OpenVowelsAreOpenAndRoundOnesNarrow) {
   FaceMotion motion(Tables(), 1);
-  motion.Speak(0ms, List("pau 200 aa 200 b 100 uw 200 b 100 iy 200 pau 200"), 1s);
+  motion.speech.Start(0ms, List("pau 200 aa 200 b 100 uw 200 b 100 iy 200 pau 200"), 1s);
   const auto at = [&](int ms) {
     return TheHead().MeasureMouth(motion.StateAt(1s - 40ms + std::chrono::milliseconds(ms)));
   };

@@ -49,7 +49,7 @@ TEST(MotionSourceTest, ASourceFromOutsideIsMixedWithTheOthersWithoutARowOfItsOwn
   motion.Add(std::make_unique<Turning>());
   EXPECT_EQ(motion.NextActivity(0s), vm::Time(1s));
   EXPECT_EQ(motion.FiniteEnd(0s), vm::Time(2s));
-  motion.TurnHead(0s, {0, 5, 0});
+  motion.head.TurnTo(0s, {0, 5, 0});
   EXPECT_FLOAT_EQ(motion.StateAt(900ms).head_rotation[1], 5);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[1], 15);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kToRight], 0) << "nothing keeps the eyes";
@@ -72,7 +72,8 @@ TEST(MixerTest, ALayerIsWeighedBySignalsAndLimitedByItsChannel) {
                   "layer a\nsignal loud\nweight a head loud 0.25\n"
                   "weight a brow_units loud 0\nweight result opening_units loud 0\n");
   ASSERT_TRUE(mixer) << mixer.error().text;
-  const UnitList units = ReadUnitList("l.txt", "region brow 1\nopens 25\n").value();
+  const UnitList units =
+      ReadUnitList("l.txt", "region brow 1\nopens 25\n", UnitNames::BuiltIn()).value();
   MotionFrame frame;
   MotionLayer& a = frame.Layer("a");
   a.head[0] = 8;
@@ -135,7 +136,7 @@ TEST(UnitValuesTest, GrowsWhenAHighNumberIsWrittenAndReadsZeroBeyondItsSize) {
 
 TEST(NewUnitTest, OneRowMakesACodeOfTheHead) {
   FaceMotion motion(With("action_unit_names.txt", "code 158 58b 9 0 0 -9 0 -9 0 -8\n"), 1);
-  ASSERT_TRUE(motion.SetUnits(0s, "58b 0.5"));
+  ASSERT_TRUE(motion.units.Set(0s, "58b 0.5"));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_rotation[0], 4.5f);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).head_forward, -4);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.left[kDown], -4.5f);
@@ -143,13 +144,13 @@ TEST(NewUnitTest, OneRowMakesACodeOfTheHead) {
 
 TEST(NewUnitTest, OneRowMakesAUnitThatExpressionsAndCommandsKnow) {
   FaceMotion motion(With("action_unit_names.txt", "unit 151 12b\nunit 152 Ear one-sided\n"), 1);
-  ASSERT_TRUE(motion.SetUnits(0s, "12bL 0.5 Ear 1"));
+  ASSERT_TRUE(motion.units.Set(0s, "12bL 0.5 Ear 1"));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[151], 0.5f);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[151], 0);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[152], 1);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[152], 0);
-  ASSERT_TRUE(motion.DefineExpression("ODD", 1, "12b 0.4 152R:0.2"));
-  ASSERT_TRUE(motion.Express(1s, "ODD", 1, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Define("ODD", 1, "12b 0.4 152R:0.2"));
+  ASSERT_TRUE(motion.expression.Show(1s, "ODD", 1, 1, 0ms));
   const FaceState state = motion.StateAt(3s);
   EXPECT_FLOAT_EQ(state.au.right[151], 0.4f);
   EXPECT_FLOAT_EQ(state.au.left[151], 0.9f);
@@ -158,7 +159,7 @@ TEST(NewUnitTest, OneRowMakesAUnitThatExpressionsAndCommandsKnow) {
   const ActionUnits& look = motion.tables().emotions.at("ODD").patterns[0];
   EXPECT_EQ(FormatLook(look, names), "151:0.4 152R:0.2");
   EXPECT_TRUE(ReadEmotions("e.txt", "ODD 1 151:1 12b:0.5\n", names));
-  EXPECT_FALSE(ReadEmotions("e.txt", "ODD 1 151:1\n"));
+  EXPECT_FALSE(ReadEmotions("e.txt", "ODD 1 151:1\n", UnitNames::BuiltIn()));
 }
 
 TEST(NewUnitTest, ANameThatReadsAsANumberIsRefused) {

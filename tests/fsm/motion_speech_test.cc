@@ -142,16 +142,16 @@ TEST(SpeechClockTest, WorksADifferenceOffWithoutJumpOrGoingBack) {
 
 TEST(SpeechTest, TheMouthLeadsTheVoiceByExactlyTheLead) {
   FaceMotion motion(BuiltIn(), 1);
-  motion.Speak(0ms, List("pau 200 a 150 pau 200"), 1000ms);
-  EXPECT_EQ(motion.PhonemeAt(1000ms + 159ms), "pau");
-  EXPECT_EQ(motion.PhonemeAt(1000ms + 160ms), "a");
+  motion.speech.Start(0ms, List("pau 200 a 150 pau 200"), 1000ms);
+  EXPECT_EQ(motion.speech.PhonemeAt(1000ms + 159ms), "pau");
+  EXPECT_EQ(motion.speech.PhonemeAt(1000ms + 160ms), "a");
   const auto settings = motion.settings();
   EXPECT_DOUBLE_EQ(settings.lead_ms, 40);
   // There the vowel and the rest before it have their say by their dominance of the jaw, 1 : 0.8.
   const double full = FindShape(BuiltIn().set28.shapes, "ja_a")->pose.mouth[kJawY] *
                       settings.mouth_scale / kFullMouthScale;
   EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJawY], full / 1.8, 1e-3);
-  EXPECT_EQ(motion.SpeechEnd(), vm::Time(1550ms));
+  EXPECT_EQ(motion.speech.End(), vm::Time(1550ms));
 }
 
 TEST(SpeechTest, InTheOriginalsModeTheKeyShapeStandsTheLeadBeforeTheSound) {
@@ -159,7 +159,7 @@ TEST(SpeechTest, InTheOriginalsModeTheKeyShapeStandsTheLeadBeforeTheSound) {
   auto settings = motion.settings();
   settings.lips = Original(Language::kAuto);
   motion.Apply(0ms, settings);
-  motion.Speak(0ms, List("pau 200 a 150 pau 200"), 1000ms);
+  motion.speech.Start(0ms, List("pau 200 a 150 pau 200"), 1000ms);
   EXPECT_NEAR(motion.StateAt(1160ms).mouth[kJawY],
               BuiltIn().set14.shapes[9].pose.mouth[kJawY] * settings.mouth_scale / kFullMouthScale,
               1e-4);
@@ -170,20 +170,20 @@ TEST(SpeechTest, OffsetDelaysTheMouth) {
   auto settings = motion.settings();
   settings.offset_ms = 100;
   motion.Apply(0ms, settings);
-  motion.Speak(0ms, List("pau 200 a 150 pau 200"), 1000ms);
-  EXPECT_EQ(motion.PhonemeAt(1259ms), "pau");
-  EXPECT_EQ(motion.PhonemeAt(1260ms), "a");
-  EXPECT_EQ(motion.SpeechEnd(), vm::Time(1610ms));  // the mouth ends 60 ms after the voice
+  motion.speech.Start(0ms, List("pau 200 a 150 pau 200"), 1000ms);
+  EXPECT_EQ(motion.speech.PhonemeAt(1259ms), "pau");
+  EXPECT_EQ(motion.speech.PhonemeAt(1260ms), "a");
+  EXPECT_EQ(motion.speech.End(), vm::Time(1610ms));  // the mouth ends 60 ms after the voice
 }
 
 TEST(SpeechTest, StopClosesTheLipsWithin120MsAndSmoothly) {
   for (int at = 0; at < 900; at += 37) {
     FaceMotion motion(BuiltIn(), 1);
-    ASSERT_TRUE(motion.Express(0ms, "HAPPY", 1, 1, 0ms));
-    motion.Speak(0ms, List("pau 100 a 300 o 250 a 400 pau 100"), 0ms);
+    ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 1, 1, 0ms));
+    motion.speech.Start(0ms, List("pau 100 a 300 o 250 a 400 pau 100"), 0ms);
     const vm::Time stop = std::chrono::milliseconds(at);
-    motion.StopSpeaking(stop);
-    EXPECT_FALSE(motion.speaking());
+    motion.speech.Stop(stop);
+    EXPECT_FALSE(motion.speech.active());
     const FaceState state = motion.StateAt(stop + 120ms);
     if (at > 60) {
       EXPECT_GT(state.lip_seal, 0.999) << at;
@@ -200,13 +200,13 @@ TEST(SpeechTest, StopClosesTheLipsWithin120MsAndSmoothly) {
 
 TEST(SpeechTest, NothingJumpsFromUtteranceToUtterance) {
   FaceMotion motion(BuiltIn(), 1);
-  ASSERT_TRUE(motion.Express(0ms, "HAPPY", 3, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Show(0ms, "HAPPY", 3, 1, 0ms));
   FaceState before = motion.StateAt(0ms);
   for (vm::Time t = 0ms; t < 3000ms; t += 5ms) {
-    if (t == 100ms) motion.Speak(t, List("a 300 o 250 a 400"), t);
-    if (t == 500ms) motion.Speak(t, List("o 300 a 250"), t);  // interrupts
-    if (t == 700ms) motion.Sync(t, 320);
-    if (t == 900ms) motion.StopSpeaking(t);
+    if (t == 100ms) motion.speech.Start(t, List("a 300 o 250 a 400"), t);
+    if (t == 500ms) motion.speech.Start(t, List("o 300 a 250"), t);  // interrupts
+    if (t == 700ms) motion.speech.Sync(t, 320);
+    if (t == 900ms) motion.speech.Stop(t);
     const FaceState now = motion.StateAt(t);
     for (std::size_t i = 0; i < kMouthParameters; ++i) {
       ASSERT_LT(std::abs(now.mouth[i] - before.mouth[i]), 1.2f) << i << " at " << t.count();
@@ -218,9 +218,9 @@ TEST(SpeechTest, NothingJumpsFromUtteranceToUtterance) {
 
 TEST(SpeechTest, EmotionTintsTheMouthAndKeepsTheBrows) {
   FaceMotion motion(BuiltIn(), 1);
-  ASSERT_TRUE(motion.Autonomous(0ms, "ASYMMETRY", 0));
-  ASSERT_TRUE(motion.Express(0ms, "SURPRISED", 1, 1, 0ms));
-  motion.Speak(500ms, List("aa 1000"), 500ms);
+  ASSERT_TRUE(motion.idle.Set(0ms, "ASYMMETRY", 0));
+  ASSERT_TRUE(motion.expression.Show(0ms, "SURPRISED", 1, 1, 0ms));
+  motion.speech.Start(500ms, List("aa 1000"), 500ms);
   const FaceState state = motion.StateAt(1000ms);
   EXPECT_FLOAT_EQ(state.au.left[1], 1);
   EXPECT_FLOAT_EQ(state.au.left[5], 0.5f);
@@ -233,7 +233,7 @@ TEST(SpeechTest, MouthScaleMultipliesButClosuresStay) {
   auto settings = motion.settings();
   settings.mouth_scale = 15;
   motion.Apply(0ms, settings);
-  motion.Speak(0ms, List("pau 200 a 150 m 100 a 150"), 1000ms);
+  motion.speech.Start(0ms, List("pau 200 a 150 m 100 a 150"), 1000ms);
   EXPECT_NEAR(motion.StateAt(1235ms).mouth[kJawY], 9 * 15.0 / 40, 0.05);
   EXPECT_FLOAT_EQ(motion.StateAt(1310ms).lip_seal, 1);
 }
@@ -241,7 +241,7 @@ TEST(SpeechTest, MouthScaleMultipliesButClosuresStay) {
 TEST(SpeechTest, AtRestTheLipsAreFree) {
   FaceMotion motion(BuiltIn(), 1);
   EXPECT_FLOAT_EQ(motion.StateAt(0ms).lip_seal, 0);
-  motion.Speak(0ms, List("a 100"), 0ms);
+  motion.speech.Start(0ms, List("a 100"), 0ms);
   EXPECT_FLOAT_EQ(motion.StateAt(1000ms).lip_seal, 0);
   EXPECT_FALSE(motion.NextActivity(1000ms).has_value());
 }

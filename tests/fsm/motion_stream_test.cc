@@ -18,7 +18,7 @@ class MouthStreamTest : public testing::Test {
     MouthPose pose;
     pose.mouth[kJawY] = jaw;
     pose.seal = pose.contact = seal;
-    ASSERT_TRUE(motion_.AddMouthFrame(0ms, at, pose));
+    ASSERT_TRUE(motion_.mouth_stream.Add(0ms, at, pose));
   }
   float Jaw(vm::Time t) const { return motion_.StateAt(t).mouth[kJawY]; }
   FaceMotion motion_{MotionTables::Load().value(), 1};
@@ -71,14 +71,14 @@ TEST_F(MouthStreamTest, LaterFramesTakeThePlaceOfThoseForTheSameTimes) {
 TEST_F(MouthStreamTest, StopClosesFromWhereItIs) {
   for (int i = 0; i < 100; ++i) Add(1000ms + i * 20ms, static_cast<float>(i % 10));
   const float before = Jaw(1490ms);
-  motion_.StopMouthFrames(1490ms);
+  motion_.mouth_stream.Stop(1490ms);
   EXPECT_NEAR(Jaw(1490ms), before, 1e-4);
   EXPECT_NEAR(Jaw(1490ms + MouthStream::kHold + MouthStream::kClose), 0, 1e-3);
   EXPECT_LT(motion_.FiniteEnd(1490ms), vm::Time(2100ms));
 }
 
 TEST_F(MouthStreamTest, TheMouthOfATextGivesWay) {
-  motion_.Speak(0ms, vm::ParsePhonemes("aa 3000").value(), 0ms);
+  motion_.speech.Start(0ms, vm::ParsePhonemes("aa 3000").value(), 0ms);
   const float text = Jaw(1000ms);
   EXPECT_GT(text, 5);
   for (int i = 0; i < 50; ++i) Add(1500ms + i * 20ms, 2);
@@ -87,7 +87,7 @@ TEST_F(MouthStreamTest, TheMouthOfATextGivesWay) {
 }
 
 TEST_F(MouthStreamTest, ASealClosesWhateverElseOpens) {
-  ASSERT_TRUE(motion_.SetUnit(0ms, "26", 1, 0ms));  // jaw drop
+  ASSERT_TRUE(motion_.units.Set(0ms, "26", 1, 0ms));  // jaw drop
   for (int i = 0; i < 50; ++i) Add(1000ms + i * 20ms, 1, 1);
   EXPECT_EQ(motion_.StateAt(1500ms).lip_seal, 1);
   EXPECT_LT(motion_.StateAt(1500ms).au.left[26], 0.01F);
@@ -96,7 +96,7 @@ TEST_F(MouthStreamTest, ASealClosesWhateverElseOpens) {
 TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
   for (int i = 0; i <= 50; ++i) {
     const StreamHead head{{static_cast<float>(i) * 0.1F, -2, 1}, 0.5F};
-    ASSERT_TRUE(motion_.AddMouthFrame(0ms, 1000ms + i * 20ms, MouthPose{}, head));
+    ASSERT_TRUE(motion_.mouth_stream.Add(0ms, 1000ms + i * 20ms, MouthPose{}, head));
   }
   const auto at = [this](vm::Time t) { return motion_.StateAt(t); };
   EXPECT_NEAR(at(1510ms).head_rotation[0], 2.55, 0.01);
@@ -115,40 +115,40 @@ TEST_F(MouthStreamTest, TheHeadGoesWithTheFramesAndHomeAfterThem) {
 }
 
 TEST_F(MouthStreamTest, TheHeadOfATextGivesWayToOneThatIsHeard) {
-  ASSERT_TRUE(motion_.Autonomous(0ms, "SPEECH", 2));
-  motion_.Speak(0ms, vm::ParsePhonemes("aa 300 m 100 aa 200 m 100 aa 400 m 100 aa 2000").value(),
-                0ms);
+  ASSERT_TRUE(motion_.idle.Set(0ms, "SPEECH", 2));
+  motion_.speech.Start(
+      0ms, vm::ParsePhonemes("aa 300 m 100 aa 200 m 100 aa 400 m 100 aa 2000").value(), 0ms);
   bool moved = false;
   for (vm::Time t = 100ms; t < 1000ms; t += 50ms)
     moved |= std::abs(motion_.StateAt(t).head_rotation[0]) > 0.5F;
   EXPECT_TRUE(moved);
   for (int i = 0; i < 50; ++i) {
     ASSERT_TRUE(
-        motion_.AddMouthFrame(1000ms, 1500ms + i * 20ms, MouthPose{}, StreamHead{{3, 0, 0}, 0}));
+        motion_.mouth_stream.Add(1000ms, 1500ms + i * 20ms, MouthPose{}, StreamHead{{3, 0, 0}, 0}));
   }
   for (vm::Time t = 1500ms; t < 2400ms; t += 50ms) {
     EXPECT_NEAR(motion_.StateAt(t).head_rotation[0], 3, 0.01) << t.count();
   }
   // Frames without a head leave that of the text alone.
-  motion_.StopMouthFrames(1500ms);
+  motion_.mouth_stream.Stop(1500ms);
   Add(4000ms, 2);
   Add(4020ms, 2);
   EXPECT_EQ(motion_.StateAt(4010ms).mouth[kJawY], 2 * kSpoken);
 }
 
 TEST_F(MouthStreamTest, AMoodIsCoveredByAnExpressionAndComesBack) {
-  ASSERT_TRUE(motion_.SetMood(0ms, "AROUSED", 1));
+  ASSERT_TRUE(motion_.mood.Set(0ms, "AROUSED", 1));
   const auto brow = [this](vm::Time t) { return motion_.StateAt(t).au.left[5]; };
   EXPECT_EQ(brow(0ms), 0);
   const float mood = brow(1200ms);
   EXPECT_GT(mood, 0.1);
-  ASSERT_TRUE(motion_.Express(1200ms, "HAPPY", 2, 1, 0ms));
+  ASSERT_TRUE(motion_.expression.Show(1200ms, "HAPPY", 2, 1, 0ms));
   EXPECT_NEAR(brow(4000ms), 0, 1e-4);  // HAPPY 2 has no unit 5
-  motion_.Neutral(4000ms);
+  motion_.expression.Neutral(4000ms);
   EXPECT_NEAR(brow(7000ms), mood, 1e-4);
-  ASSERT_TRUE(motion_.SetMood(7000ms, "NEUTRAL", 0));
+  ASSERT_TRUE(motion_.mood.Set(7000ms, "NEUTRAL", 0));
   EXPECT_NEAR(brow(9000ms), 0, 1e-4);
-  EXPECT_EQ(motion_.SetMood(9000ms, "ODD", 1).error().text,
+  EXPECT_EQ(motion_.mood.Set(9000ms, "ODD", 1).error().text,
             "'ODD' is no mood; AROUSED LOW or NEUTRAL expected");
 }
 

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fsm/motion/motion_reader.h"
+
 namespace fsm {
 namespace {
 
@@ -83,6 +85,7 @@ TEST(MotionTablesTest, AWrongShapeIsReportedWithFileAndLine) {
 
 TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
   const auto shapes = BuiltIn().set14.shapes;
+  const UnitNames& names = UnitNames::BuiltIn();
   const auto expect = [](const auto& result, const std::string& text) {
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().text.find(text), std::string::npos) << result.error().text;
@@ -94,16 +97,18 @@ TEST(MotionTablesTest, WrongWordsNameWhatWasExpected) {
   expect(ReadPhonemeTable("p.txt", "", shapes), "no phoneme found");
   expect(ReadPhonemeTable("p.txt", "a a nan\n", shapes),
          "p.txt:1: 'nan' found, a strength expected");
-  expect(ReadEmotions("e.txt", "HAPPY 1 12:0.5 99:1\n"), "e.txt:1: '99' is not an action unit");
-  expect(ReadEmotions("e.txt", "HAPPY 2 12:0.5\n"), "e.txt:1: pattern 2 found, 1 expected");
-  expect(ReadEmotions("e.txt", "posed HAPPY 1 2 3 4\n"), "'HAPPY' has no pattern 1");
-  expect(ReadMotions("m.txt", "NOD 1\nNOD 2\n"), "m.txt:1: key frames");
-  expect(ReadMotions("m.txt", "NOD 1\n 100 1 2 3\n 100 0 0 0\n"), "m.txt:3: 100 ms is not after");
-  expect(ReadMotions("m.txt", "JUMP 1\n"), "m.txt:1: 'JUMP' found");
-  expect(ReadUnitList("a.txt", "region brow 1 2\nregion mouth 12 2\n"),
+  expect(ReadEmotions("e.txt", "HAPPY 1 12:0.5 99:1\n", names),
+         "e.txt:1: '99' is not an action unit");
+  expect(ReadEmotions("e.txt", "HAPPY 2 12:0.5\n", names), "e.txt:1: pattern 2 found, 1 expected");
+  expect(ReadEmotions("e.txt", "posed HAPPY 1 2 3 4\n", names), "'HAPPY' has no pattern 1");
+  expect(ReadMotions("m.txt", "NOD 1\nNOD 2\n", names), "m.txt:1: key frames");
+  expect(ReadMotions("m.txt", "NOD 1\n 100 1 2 3\n 100 0 0 0\n", names),
+         "m.txt:3: 100 ms is not after");
+  expect(ReadMotions("m.txt", "JUMP 1\n", names), "m.txt:1: 'JUMP' found");
+  expect(ReadUnitList("a.txt", "region brow 1 2\nregion mouth 12 2\n", names),
          "a.txt:2: unit 2 has another region above; one expected");
-  EXPECT_TRUE(ReadUnitList("a.txt", "region brow 1 2\nregion brow 2\n"));
-  expect(ReadUnitList("a.txt", "face 0 1\n"), "a.txt:1: '0' found, a position expected");
+  EXPECT_TRUE(ReadUnitList("a.txt", "region brow 1 2\nregion brow 2\n", names));
+  expect(ReadUnitList("a.txt", "face 0 1\n", names), "a.txt:1: '0' found, a position expected");
 }
 
 TEST(MotionTablesTest, AFolderReplacesOnlyTheTablesItHas) {

@@ -39,7 +39,7 @@ struct Seen {
   double start_ms, end_ms;
 };
 std::vector<Seen> Looks(const std::string& text) {
-  static const TextCues cues = ReadTextCues("t", kTable).value();
+  static const TextCues cues = ReadTextCues("t", kTable, UnitNames::BuiltIn()).value();
   std::vector<Seen> seen;
   for (const TimedLook& timed : LooksOf(cues, text, TwoSentences())) {
     seen.push_back({timed.look->name, timed.start_ms, timed.end_ms});
@@ -90,7 +90,9 @@ TEST(TextCuesTest, NumbersAndNoTextAreNoSentences) {
 }
 
 TEST(TextCuesTest, ADamagedTableIsRefusedWithItsLine) {
-  const auto error = [](const std::string& text) { return ReadTextCues("t", text).error().text; };
+  const auto error = [](const std::string& text) {
+    return ReadTextCues("t", text, UnitNames::BuiltIn()).error().text;
+  };
   EXPECT_EQ(error("laugh x"), "t:1: 'laugh' found, look or cue expected");
   EXPECT_EQ(error("look a SOON 0 0 0"),
             "t:1: look NAME ALL|END DOWN TURN TILT AU:WEIGHT ... expected");
@@ -109,8 +111,8 @@ struct TextMotionTest : testing::Test {
 };
 
 TEST_F(TextMotionTest, AGreetingIsFriendlyWhileItIsSaidAndNotAfterwards) {
-  ASSERT_TRUE(motion.Autonomous(0ms, "TEXT", 1));
-  motion.Speak(0ms, phonemes, 1s, "Hello!");
+  ASSERT_TRUE(motion.idle.Set(0ms, "TEXT", 1));
+  motion.speech.Start(0ms, phonemes, 1s, "Hello!");
   EXPECT_EQ(SmileAt(500ms), 0);
   EXPECT_GT(SmileAt(1600ms), 0.1F);
   EXPECT_EQ(SmileAt(3s), 0);
@@ -118,25 +120,25 @@ TEST_F(TextMotionTest, AGreetingIsFriendlyWhileItIsSaidAndNotAfterwards) {
 }
 
 TEST_F(TextMotionTest, WithoutTheWordsOrSwitchedOffNothingIsSeen) {
-  motion.Speak(0ms, phonemes, 1s, "Hello!");
+  motion.speech.Start(0ms, phonemes, 1s, "Hello!");
   EXPECT_EQ(SmileAt(1600ms), 0) << "TEXT is off at the start";
-  motion.StopSpeaking(2s);
-  ASSERT_TRUE(motion.Autonomous(3s, "TEXT", 1));
-  motion.Speak(3s, phonemes, 4s);
+  motion.speech.Stop(2s);
+  ASSERT_TRUE(motion.idle.Set(3s, "TEXT", 1));
+  motion.speech.Start(3s, phonemes, 4s);
   EXPECT_EQ(SmileAt(4600ms), 0);
 }
 
 TEST_F(TextMotionTest, ATagSaysMoreThanWords) {
-  ASSERT_TRUE(motion.Autonomous(0ms, "TEXT", 1));
-  ASSERT_TRUE(motion.Express(0ms, "SAD", 1, 1, 0ms));
-  motion.Speak(0ms, phonemes, 1s, "Hello!");
+  ASSERT_TRUE(motion.idle.Set(0ms, "TEXT", 1));
+  ASSERT_TRUE(motion.expression.Show(0ms, "SAD", 1, 1, 0ms));
+  motion.speech.Start(0ms, phonemes, 1s, "Hello!");
   EXPECT_EQ(SmileAt(1600ms), 0);
 }
 
 TEST_F(TextMotionTest, ASpeechThatIsStoppedTakesItsLooksAway) {
-  ASSERT_TRUE(motion.Autonomous(0ms, "TEXT", 1));
-  motion.Speak(0ms, phonemes, 1s, "Hello!");
-  motion.StopSpeaking(1500ms);
+  ASSERT_TRUE(motion.idle.Set(0ms, "TEXT", 1));
+  motion.speech.Start(0ms, phonemes, 1s, "Hello!");
+  motion.speech.Stop(1500ms);
   EXPECT_GT(SmileAt(1500ms), 0.05F);
   EXPECT_EQ(SmileAt(2s), 0);
 }

@@ -17,15 +17,15 @@ namespace {
 using namespace std::chrono_literals;
 
 struct UnitsTest : testing::Test {
-  UnitsTest() { EXPECT_TRUE(motion.Autonomous(0ms, "ASYMMETRY", 0)); }
+  UnitsTest() { EXPECT_TRUE(motion.idle.Set(0ms, "ASYMMETRY", 0)); }
   FaceMotion motion{MotionTables::Load().value(), 1};
   FaceState After(const char* text) {
-    const auto set = motion.SetUnits(0ms, text);
+    const auto set = motion.units.Set(0ms, text);
     EXPECT_TRUE(set) << text << ": " << (set ? "" : set.error().text);
     return motion.StateAt(1s);
   }
   std::string Refusal(const char* text) {
-    const auto set = motion.SetUnits(0ms, text);
+    const auto set = motion.units.Set(0ms, text);
     return set ? "taken" : set.error().text;
   }
 };
@@ -34,7 +34,7 @@ TEST_F(UnitsTest, All44UnitsGoByNumberAndByName) {
   const UnitNames& names = motion.tables().unit_names;
   int units = 0;
   for (int number = 1; number <= 46; ++number) {
-    if (!IsActionUnit(number)) continue;
+    if (!names.IsUnit(number)) continue;
     ++units;
     ASSERT_TRUE(names.names.contains(number)) << number;
     const auto index = static_cast<std::size_t>(number);
@@ -42,7 +42,7 @@ TEST_F(UnitsTest, All44UnitsGoByNumberAndByName) {
     EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[index], 0);
     const FaceState state = After((names.names.at(number) + " 0.75").c_str());
     EXPECT_FLOAT_EQ(state.au.left[index], 0.75f);
-    EXPECT_FLOAT_EQ(state.au.right[index], IsOneSided(number) ? 0.25f : 0.75f);
+    EXPECT_FLOAT_EQ(state.au.right[index], names.IsOneSided(number) ? 0.25f : 0.75f);
   }
   EXPECT_EQ(units, 44);
 }
@@ -68,7 +68,7 @@ TEST_F(UnitsTest, CodesTurnHeadAndEyes) {
   EXPECT_FLOAT_EQ(motion.StateAt(1s).gaze.right[kToRight], 12);
   EXPECT_FLOAT_EQ(After("57 1").head_forward, 35);
   EXPECT_FLOAT_EQ(After("57 0 58 0.5").head_forward, -11);
-  EXPECT_FLOAT_EQ(motion.StateAt(1s).agent_scale, 1);
+  EXPECT_FLOAT_EQ(motion.StateAt(1s).figure.scale, 1);
 }
 
 TEST_F(UnitsTest, AWinkWithoutASideIsOfTheAgentsLeftAndIsTakenBackOnBoth) {
@@ -149,37 +149,37 @@ TEST(OwnUnitNamesTest, SayWhetherNameOrNumberIsThereTwice) {
 
 TEST_F(UnitsTest, StrengthsThatAreNoneAreRefusedEverywhere) {
   for (const double bad : {std::nan(""), 1e9, -0.1, std::numeric_limits<double>::infinity()}) {
-    EXPECT_FALSE(motion.Express(0ms, "HAPPY", 1, bad, 0ms)) << bad;
+    EXPECT_FALSE(motion.expression.Show(0ms, "HAPPY", 1, bad, 0ms)) << bad;
     EXPECT_FALSE(motion.SetFace(0ms, 1, bad)) << bad;
-    EXPECT_FALSE(motion.SetMouth(0ms, 1, bad)) << bad;
-    EXPECT_FALSE(motion.SetUnit(0ms, "12", bad, 0ms)) << bad;
-    EXPECT_FALSE(motion.SetBlendShape(0ms, "jawOpen", bad, 0ms)) << bad;
+    EXPECT_FALSE(motion.mouth.Set(0ms, 1, bad)) << bad;
+    EXPECT_FALSE(motion.units.Set(0ms, "12", bad, 0ms)) << bad;
+    EXPECT_FALSE(motion.blend_shapes.Set(0ms, "jawOpen", bad, 0ms)) << bad;
   }
 }
 
 TEST_F(UnitsTest, All52BlendShapesAreThere) { EXPECT_EQ(motion.tables().blend_shapes.size(), 52u); }
 
 TEST_F(UnitsTest, ExpressionsAreDefinedChangedAndForgotten) {
-  ASSERT_TRUE(motion.DefineExpression("SMIRK", 1, "12L 0.7 14R 0.2"));
-  ASSERT_TRUE(motion.DefineExpression("SMIRK", 2, "12L:1 gaze:0,10"));
-  ASSERT_TRUE(motion.Express(0ms, "SMIRK", 1, 2, 0ms));
+  ASSERT_TRUE(motion.expression.Define("SMIRK", 1, "12L 0.7 14R 0.2"));
+  ASSERT_TRUE(motion.expression.Define("SMIRK", 2, "12L:1 gaze:0,10"));
+  ASSERT_TRUE(motion.expression.Show(0ms, "SMIRK", 1, 2, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.left[12], 1.4f);
   EXPECT_FLOAT_EQ(motion.StateAt(1s).au.right[14], 0.4f);
-  ASSERT_TRUE(motion.Express(1s, "SMIRK", 2, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Show(1s, "SMIRK", 2, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(2s).gaze.left[kToRight], 10);
-  ASSERT_TRUE(motion.DefineExpression("HAPPY", 1, "12 1"));
-  ASSERT_TRUE(motion.Express(2s, "HAPPY", 1, 1, 0ms));
+  ASSERT_TRUE(motion.expression.Define("HAPPY", 1, "12 1"));
+  ASSERT_TRUE(motion.expression.Show(2s, "HAPPY", 1, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(3s).au.left[12], 1);
-  motion.ForgetExpression("HAPPY");
-  motion.ForgetExpression("SMIRK");
-  ASSERT_TRUE(motion.Express(3s, "HAPPY", 1, 1, 0ms));
+  motion.expression.Forget("HAPPY");
+  motion.expression.Forget("SMIRK");
+  ASSERT_TRUE(motion.expression.Show(3s, "HAPPY", 1, 1, 0ms));
   EXPECT_FLOAT_EQ(motion.StateAt(4s).au.left[12], 0.8f);
-  EXPECT_FALSE(motion.Express(4s, "SMIRK", 1, 1, 0ms));
+  EXPECT_FALSE(motion.expression.Show(4s, "SMIRK", 1, 1, 0ms));
 }
 
 TEST_F(UnitsTest, BadDefinitionsAreRefused) {
   const auto refusal = [&](const char* name, int pattern, const char* look) {
-    const auto made = motion.DefineExpression(name, pattern, look);
+    const auto made = motion.expression.Define(name, pattern, look);
     return made ? "taken" : made.error().text;
   };
   EXPECT_TRUE(refusal("SMIRK", 1, "12L 0.7 140 0.2").starts_with("'140' at column 9"));
@@ -193,17 +193,18 @@ TEST_F(UnitsTest, BadDefinitionsAreRefused) {
 
 TEST_F(UnitsTest, ThereIsAnEndToExpressions) {
   int made = 0;
-  while (motion.DefineExpression("E" + std::to_string(made), 1, "12 1")) {
+  while (motion.expression.Define("E" + std::to_string(made), 1, "12 1")) {
     ASSERT_LT(++made, 1000);
   }
-  EXPECT_TRUE(motion.DefineExpression("E0", 2, "12 0.5"));
+  EXPECT_TRUE(motion.expression.Define("E0", 2, "12 0.5"));
 }
 
 TEST_F(UnitsTest, LooksAreWrittenAsTheyAreRead) {
   for (const auto& [name, emotion] : motion.tables().emotions) {
     for (const ActionUnits& look : emotion.patterns) {
-      const auto again = ParseLook(FormatLook(look), motion.tables().unit_names);
-      ASSERT_TRUE(again) << FormatLook(look);
+      const auto again =
+          ParseLook(FormatLook(look, motion.tables().unit_names), motion.tables().unit_names);
+      ASSERT_TRUE(again) << FormatLook(look, motion.tables().unit_names);
       EXPECT_EQ(again->au.left, look.au.left);
       EXPECT_EQ(again->au.right, look.au.right);
       EXPECT_EQ(again->gaze.left, look.gaze.left);

@@ -1,4 +1,4 @@
-// A figure that fades (FaceState::agent_alpha) is one picture over what is behind it.
+// A figure that fades (Figure::alpha) is one picture over what is behind it.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr int kWidth = 200, kHeight = 240;
 struct FadeTest : ::testing::Test {
   Image Draw(const Head& head, float alpha) {
     FaceState state;
-    state.agent_alpha = alpha;
+    state.figure.alpha = alpha;
     state.au.left[26] = state.au.right[26] = 0.5F;  // the mouth is open: there is an inside
     head.Evaluate(state, vertices_);
     renderer_->Draw(head, vertices_, state, scene_);

@@ -84,9 +84,9 @@ TEST_F(FrameTest, HeadStandsInTheMiddleOfTheExactBackground) {
 
 TEST_F(FrameTest, SameInputGivesTheSameBytes) {
   const Image first = Draw();
-  state_.agent_rotation[1] = 20;
+  state_.figure.rotation[1] = 20;
   EXPECT_GT(Differing(first, Draw()), 100);
-  state_.agent_rotation[1] = 0;
+  state_.figure.rotation[1] = 0;
   EXPECT_EQ(Draw().rgba, first.rgba);
   renderer_.reset();
   context_ = RenderContext::MakeHeadless(kWidth, kHeight);
@@ -95,19 +95,19 @@ TEST_F(FrameTest, SameInputGivesTheSameBytes) {
 }
 
 TEST_F(FrameTest, DisabledFigureLeavesTheBackground) {
-  state_.agent_enabled = false;
+  state_.figure.enabled = false;
   const Image image = Draw();
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) ASSERT_EQ(At(image, x, y), kBackground);
   }
-  state_.agent_enabled = true;
-  state_.agent_alpha = 0;
+  state_.figure.enabled = true;
+  state_.figure.alpha = 0;
   EXPECT_EQ(Draw().rgba, image.rgba);
 }
 
 TEST_F(FrameTest, AlphaLiesBetweenFigureAndBackground) {
   const Image whole = Draw();
-  state_.agent_alpha = 0.5F;
+  state_.figure.alpha = 0.5F;
   const Image half = Draw();
   for (const int y : {40, 60, 110}) {
     const Pixel a = At(whole, kWidth / 2, y);
@@ -130,7 +130,7 @@ TEST_F(FrameTest, WithoutBackgroundTheFigureAloneIsOpaque) {
 TEST_F(FrameTest, FadedFigureWithoutBackgroundKeepsItsColours) {
   scene_.show_background = false;
   const Image whole = Draw();
-  state_.agent_alpha = 0.25F;
+  state_.figure.alpha = 0.25F;
   const Pixel faded = At(Draw(), kWidth / 2, kHeight / 2);
   const Pixel solid = At(whole, kWidth / 2, kHeight / 2);
   EXPECT_NEAR(faded[3], 64, 1);
@@ -140,14 +140,14 @@ TEST_F(FrameTest, FadedFigureWithoutBackgroundKeepsItsColours) {
 TEST_F(FrameTest, PictureOfTheSameSizeIsShownPixelByPixel) {
   const Image picture = Pattern(kWidth, kHeight);
   scene_.background_image = &picture;
-  state_.agent_enabled = false;
+  state_.figure.enabled = false;
   EXPECT_EQ(Draw().rgba, picture.rgba);
 }
 
 TEST_F(FrameTest, PictureIsStretchedAndUpright) {
   Image picture = MakePicture({255, 0, 0}, {0, 0, 255});
   scene_.background_image = &picture;
-  state_.agent_enabled = false;
+  state_.figure.enabled = false;
   const Image image = Draw();
   EXPECT_EQ(At(image, kWidth / 2, 5), (Pixel{255, 0, 0, 255}));
   EXPECT_EQ(At(image, kWidth / 2, kHeight - 5), (Pixel{0, 0, 255, 255}));
@@ -186,15 +186,15 @@ TEST_F(FrameTest, FigureIsPlacedAsAsked) {
     }
     return std::array<double, 3>{x_sum / count, y_sum / count, count};
   };
-  state_.agent_scale = 0.4F;
+  state_.figure.scale = 0.4F;
   const auto before = middle();
-  state_.agent_translation = {60, 40};
+  state_.figure.translation = {60, 40};
   const auto moved = middle();
   EXPECT_GT(moved[0], before[0] + 10);
   EXPECT_LT(moved[1], before[1] - 7);
   EXPECT_NEAR(moved[2], before[2], before[2] * 0.05);
-  state_.agent_translation = {};
-  state_.agent_scale = 0.8F;
+  state_.figure.translation = {};
+  state_.figure.scale = 0.8F;
   EXPECT_GT(middle()[2], before[2] * 2.5);
 }
 
@@ -221,9 +221,9 @@ struct HeadChange {
 void PrintTo(const HeadChange& change, std::ostream* out) { *out << change.name; }
 
 void Wear(HeadTopology& topology, std::uint8_t red, std::uint8_t blue) {
-  topology.photo = std::make_shared<Image>(Image{1, 1, {red, 80, blue, 255}});
-  topology.texcoord.assign(topology.albedo.size(), glm::vec2(0.5F));
-  topology.texture_weight.assign(topology.albedo.size(), 1);
+  topology.worn.image = std::make_shared<Image>(Image{1, 1, {red, 80, blue, 255}});
+  topology.worn.texcoord.assign(topology.albedo.size(), glm::vec2(0.5F));
+  topology.worn.weight.assign(topology.albedo.size(), 1);
 }
 
 void Comb(HeadTopology& topology, float density) {
@@ -251,11 +251,11 @@ const HeadChange kHeadChanges[] = {
     {"saturation",
      [](HeadTopology& t) {
        Wear(t, 120, 120);
-       t.saturation = 1;
+       t.portrait.saturation = 1;
      },
      [](HeadTopology& t) {
        Wear(t, 120, 120);
-       t.saturation = 0;
+       t.portrait.saturation = 0;
      }},
 };
 
@@ -312,7 +312,7 @@ TEST_F(FrameTest, HeadWithoutEyesOrPartsIsDrawn) {
 TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
   for (const auto& [width, height] :
        {std::pair{640, 480}, {480, 640}, {1920, 1080}, {256, 256}, {200, 600}}) {
-    const View view = FramePortrait(FaceState{}, Camera{}, width, height);
+    const View view = FramePortrait({}, Camera{}, width, height);
     for (const glm::vec3 point : {glm::vec3(0, 145, 0), {0, -160, 30}, {-95, 20, 0}, {95, 20, 0}}) {
       const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(point, 1.0F);
       EXPECT_LT(std::abs(clip.x), clip.w) << width << " x " << height;
@@ -323,7 +323,7 @@ TEST(PortraitTest, HeadAndShouldersStayInViewInEveryShape) {
 
 TEST(PortraitTest, CameraMovesAsAsked) {
   const auto seen = [](const Camera& camera, const glm::vec3& point) {
-    const View view = FramePortrait(FaceState{}, camera, 640, 480);
+    const View view = FramePortrait({}, camera, 640, 480);
     const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(point, 1.0F);
     return glm::vec3(clip) / clip.w;
   };
@@ -336,12 +336,12 @@ TEST(PortraitTest, CameraMovesAsAsked) {
 }
 
 TEST(PortraitTest, RotationHasTheOriginalsSigns) {
-  FaceState state;
+  Figure figure;
   const glm::vec4 nose(0, 0, 120, 1);
   const auto moved = [&](std::size_t axis, const glm::vec4& point) {
-    state.agent_rotation = {};
-    state.agent_rotation[axis] = 20;
-    return FramePortrait(state, Camera{}, 640, 480).figure_to_world * point - point;
+    figure.rotation = {};
+    figure.rotation[axis] = 20;
+    return FramePortrait(figure, Camera{}, 640, 480).figure_to_world * point - point;
   };
   EXPECT_LT(moved(0, nose).y, -10) << "x+ looks down";
   EXPECT_GT(moved(1, nose).x, 10) << "y+ looks to the viewer's right";
@@ -561,24 +561,24 @@ TEST(ParallelViewTest, ItsLongerSideFillsThePictureAtAnyDepth) {
 }
 
 TEST(ParallelViewTest, ATranslationOfOneIsHalfTheLongerSide) {
-  FaceState state;
-  state.agent_translation = {1.0F, 0.2F};
-  ExpectSeen(FramePortrait(state, Parallel(), 200, 200), {10, -20, 30}, {1, 0.2F});
-  ExpectSeen(FramePortrait(state, Parallel(), 200, 100), {10, -20, 30}, {1, 0.4F});
+  Figure figure;
+  figure.translation = {1.0F, 0.2F};
+  ExpectSeen(FramePortrait(figure, Parallel(), 200, 200), {10, -20, 30}, {1, 0.2F});
+  ExpectSeen(FramePortrait(figure, Parallel(), 200, 100), {10, -20, 30}, {1, 0.4F});
   Camera portrait;
   portrait.moves_by_half_views = true;
-  const glm::vec2 moved = Seen(FramePortrait(state, portrait, 300, 200), {0, -7, 50});
+  const glm::vec2 moved = Seen(FramePortrait(figure, portrait, 300, 200), {0, -7, 50});
   EXPECT_NEAR(moved.x, 1, 1e-4F);
   EXPECT_NEAR(moved.y, 0.3F, 1e-4F);
 }
 
 TEST(ParallelViewTest, TheFigureTurnsByZThenYThenXAndGrowsAboutTheMiddle) {
-  FaceState state;
-  state.agent_scale = 0.5F;
-  state.agent_rotation = {90, 0, 90};
+  Figure figure;
+  figure.scale = 0.5F;
+  figure.rotation = {90, 0, 90};
   // z+ brings up to the viewer's right; then x+ would bring up to the viewer, which right is not.
-  ExpectSeen(FramePortrait(state, Parallel(), 200, 200), {10, 80, 30}, {0.5F, 0});
-  ExpectSeen(FramePortrait(state, Parallel(), 200, 200), {10, -20, 80}, {0, -0.25F});
+  ExpectSeen(FramePortrait(figure, Parallel(), 200, 200), {10, 80, 30}, {0.5F, 0});
+  ExpectSeen(FramePortrait(figure, Parallel(), 200, 200), {10, -20, 80}, {0, -0.25F});
 }
 
 }  // namespace

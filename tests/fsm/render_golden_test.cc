@@ -3,7 +3,8 @@
 
 #include <cstdlib>
 
-#include "fsm/asset/asset_file.h"
+#include "fsm/asset/asset_members.h"
+#include "fsm/asset/asset_writer.h"
 #include "fsm/faces/face_of_name.h"
 #include "fsm/faces/head_of_file.h"
 #include "fsm/head/make_head.h"

@@ -60,7 +60,7 @@ class GpuRigTest : public testing::Test {
   /// How far faces of these states, moved in one call, lie from those of the processor.
   void ExpectEqual(const Rig& rig, const std::vector<FaceState>& states) {
     GpuRig on_card(gl_, programs_, rig);
-    const std::vector<glm::vec3> swings(rig.data().springs.size(), glm::vec3(1, -2, 3));
+    const std::vector<glm::vec3> swings(rig.data().swing.springs.size(), glm::vec3(1, -2, 3));
     std::vector<GpuRig::Face> faces;
     for (const FaceState& state : states) faces.push_back({&state, swings});
     on_card.Evaluate(rig, faces);
@@ -110,27 +110,28 @@ RigData WithAllSteps() {
   data.steps.clear();
   for (int step = 0; step <= static_cast<int>(RigStep::kNormals); ++step)
     data.steps.push_back(static_cast<RigStep>(step));
-  data.proxy_rest = data.rest;
-  data.springs.resize(3);
-  data.spring_weights.clear();
-  data.normal_twin.resize(data.rest.size());
+  data.proxy.rest = data.rest;
+  data.swing.springs.resize(3);
+  data.swing.weights.clear();
+  data.normals.twin.resize(data.rest.size());
   for (std::uint32_t i = 0; i < data.rest.size(); ++i) {
     const auto wave = 0.3F * std::sin(static_cast<float>(i));
-    data.own_form.emplace_back(wave, -wave, 0.5F);
-    data.normal_twin[i] = i;
+    data.proxy.to_own.emplace_back(wave, -wave, 0.5F);
+    data.normals.twin[i] = i;
     if (data.rest[i].y > 60) {
-      data.spring_weights.push_back({i, i % 3, 0.5F});
-      data.spring_weights.push_back({i, (i + 1) % 3, 0.25F});
+      data.swing.weights.push_back({i, i % 3, 0.5F});
+      data.swing.weights.push_back({i, (i + 1) % 3, 0.25F});
     }
     // The vertex furthest down that the jaw wholly carries.
-    if (data.weights[i].jaw > 0.99F && data.rest[i].y < data.rest[data.chin].y) data.chin = i;
+    if (data.weights[i].jaw > 0.99F && data.rest[i].y < data.rest[data.jaw.chin].y)
+      data.jaw.chin = i;
   }
-  const std::vector<std::uint32_t>& soft = data.soft_triangles;
-  for (std::size_t k = 0; k < soft.size(); k += 60) data.normal_twin[soft[k]] = soft[0];
-  data.normal_twin[soft[0]] = soft[0];
-  data.ball_centre = data.lids.ball;
+  const std::vector<std::uint32_t>& soft = data.normals.soft_triangles;
+  for (std::size_t k = 0; k < soft.size(); k += 60) data.normals.twin[soft[k]] = soft[0];
+  data.normals.twin[soft[0]] = soft[0];
+  data.ball_lids.centre = data.lids.ball;
   for (const LidRig::Vertex& lid : data.lids.vertices)
-    data.ball_lids.push_back({lid.vertex, lid.side, 14.0F});
+    data.ball_lids.vertices.push_back({lid.vertex, lid.side, 14.0F});
   return data;
 }
 

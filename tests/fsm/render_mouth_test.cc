@@ -33,7 +33,7 @@ class MouthPicture {
     head_->Evaluate(state, vertices_);
     renderer->Draw(*head_, vertices_, state, scene);
     renderer->Read(image_);
-    const View view = FramePortrait(state, scene.camera, kSide, kSide);
+    const View view = FramePortrait(state.figure, scene.camera, kSide, kSide);
     to_clip_ = view.world_to_clip * view.figure_to_world;
   }
 

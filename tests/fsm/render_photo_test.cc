@@ -54,7 +54,7 @@ std::vector<glm::vec3> Drawn(const PhotoHead& set, const std::vector<glm::vec3>&
   renderer->Draw(*head, vertices, state, scene);
   Image image;
   renderer->Read(image);
-  const View view = FramePortrait(state, scene.camera, kSide, kSide);
+  const View view = FramePortrait(state.figure, scene.camera, kSide, kSide);
   std::vector<glm::vec3> seen;
   for (const glm::vec3 place : places) {
     const glm::vec4 clip = view.world_to_clip * view.figure_to_world * glm::vec4(place, 1);
@@ -252,7 +252,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   HeadVertices bare;
   plain->Evaluate({}, bare);
   for (std::size_t i = 0; i < bare.position.size(); ++i) {
-    const glm::vec2 place = plain->topology().texcoord[i];
+    const glm::vec2 place = plain->topology().worn.texcoord[i];
     const float light = std::max(0.4F + 0.5F * bare.normal[i].y, 0.05F);
     for (int k = 0; k < (2 * kRound + 1) * (2 * kRound + 1); ++k) {
       const int x = static_cast<int>(place.x * kMap) + k % (2 * kRound + 1) - kRound;
@@ -265,16 +265,16 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   set.photo = std::make_shared<Image>(lit);
   const auto head = MakeHead(set);
   const auto& topology = head->topology();
-  EXPECT_GT(topology.photo_light.y, 0.2F);
+  EXPECT_GT(topology.portrait.light.y, 0.2F);
   FaceState smile;
   for (const std::size_t unit : {6U, 12U}) smile.au.left[unit] = smile.au.right[unit] = 1;
   HeadVertices rest, smiling;
   head->Evaluate({}, rest);
-  for (std::size_t i = 0; i < topology.relit.size(); ++i) {
+  for (std::size_t i = 0; i < topology.portrait.relit.size(); ++i) {
     for (const Side side : kSides) {
       const glm::vec2 eye(topology.eyes[side].centre);
       if (glm::distance(glm::vec2(rest.position[i]), eye) > 10) continue;
-      EXPECT_EQ(topology.relit[i], 0) << "round the eyes it stays";
+      EXPECT_EQ(topology.portrait.relit[i], 0) << "round the eyes it stays";
     }
   }
   head->Evaluate(smile, smiling);
@@ -286,7 +286,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   std::vector<std::size_t> turned;
   for (std::size_t i = 0; i < rest.position.size(); ++i) {
     const glm::vec3 p = rest.position[i];
-    if (topology.texture_weight[i] != 1 || topology.relit[i] < 1) continue;
+    if (topology.worn.weight[i] != 1 || topology.portrait.relit[i] < 1) continue;
     const bool cheek = p.z > 50 && std::abs(p.x) > 18 && std::abs(p.x) < 45 && p.y < nasion - 25 &&
                        p.y > chin + 30;
     const float up = smiling.normal[i].y - rest.normal[i].y;

@@ -1,7 +1,6 @@
 #include "face_fit/find/face/around_face.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 

@@ -2,10 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "face_fit/picture/pixels.h"
 #include "fsm/base/parse_number.h"

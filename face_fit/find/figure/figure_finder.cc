@@ -1,7 +1,6 @@
 #include "face_fit/find/figure/figure_finder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -27,10 +26,10 @@ float PersonAt(const FloatImage& figure, glm::vec2 place) {
 
 }  // namespace
 
-void DoubtOneSided(const FoundFace& face, const fsm::Image& image, std::vector<float>& person) {
+FloatImage DoubtOneSided(const FoundFace& face, const fsm::Image& image, const FloatImage& seen) {
   const int width = image.width, height = image.height;
   const glm::vec2 top = face.At(point::kForehead), chin = face.At(point::kChin);
-  if (glm::distance(top, chin) < 1) return;
+  if (glm::distance(top, chin) < 1) return seen;
   const glm::vec2 down = glm::normalize(chin - top), across(-down.y, down.x);
   const float near = 0.03F * glm::distance(top, chin);
   const auto unlike = [&](glm::vec2 p, glm::vec2 q) {
@@ -41,7 +40,7 @@ void DoubtOneSided(const FoundFace& face, const fsm::Image& image, std::vector<f
     }
     return least;
   };
-  const std::vector<float> seen = person;
+  FloatImage person = seen;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
@@ -54,15 +53,16 @@ void DoubtOneSided(const FoundFace& face, const fsm::Image& image, std::vector<f
       const auto at = [&image](glm::vec2 v) {
         return image.Index(static_cast<int>(v.x), static_cast<int>(v.y));
       };
-      if (seen[at(p)] > 0.8F * seen[at(q)]) continue;
+      const float here = seen.at[at(p)], there = seen.at[at(q)];
+      if (here > 0.8F * there) continue;
       const float alike = glm::smoothstep(0.3F, 0.05F, unlike(p, q));
-      person[at(p)] = std::max(seen[at(p)], glm::mix(0.5F, 0.85F, alike) * seen[at(q)]);
+      person.at[at(p)] = std::max(here, glm::mix(0.5F, 0.85F, alike) * there);
     }
   }
+  return person;
 }
 
-std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image,
-                              const FoundFace* face) {
+FloatImage FindFigure(FaceNetworks& networks, const fsm::Image& image, const FoundFace* face) {
   const glm::vec2 size(image.width, image.height);
   // The network takes the whole picture, stretched to a square.
   const FloatImage whole = RunFigure(
@@ -78,8 +78,7 @@ std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image,
                              glm::vec2(head.side / 2), size - head.side / 2);
     near = RunFigure(networks, head.Sample(image, kFigureSide, 0, 1));
   }
-  std::vector<float> out;
-  out.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  FloatImage out(image.width, image.height);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const glm::vec2 p = glm::vec2(x, y) + 0.5F;
@@ -91,11 +90,10 @@ std::vector<float> FindFigure(FaceNetworks& networks, const fsm::Image& image,
         const float part = 0.5F * glm::smoothstep(0.48F, 0.38F, std::max(off.x, off.y));
         if (part > 0) person = glm::mix(person, PersonAt(near, at), part);
       }
-      out.push_back(person);
+      out.at[out.Index(x, y)] = person;
     }
   }
-  if (face) DoubtOneSided(*face, image, out);
-  return out;
+  return face ? DoubtOneSided(*face, image, out) : out;
 }
 
 }  // namespace facefit

@@ -281,12 +281,10 @@ fsm::Image WithoutBackground(const fsm::Image& photo, const FloatImage& opacity)
   return out;
 }
 
-Figure CutOut(const fsm::Image& photo, const std::vector<float>& person) {
-  FloatImage mask(photo.width, photo.height);
-  mask.at = person;
-  const FloatImage opacity = Matte(photo, mask);
-  Figure figure{WithoutBackground(photo, opacity), opacity};
-  return figure;
+Figure CutOut(const fsm::Image& photo, const FloatImage& person) {
+  FloatImage opacity = Matte(photo, person);
+  fsm::Image colours = WithoutBackground(photo, opacity);
+  return {std::move(colours), std::move(opacity)};
 }
 
 }  // namespace facefit

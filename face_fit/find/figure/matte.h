@@ -18,6 +18,7 @@ struct Figure {
   fsm::Image colours;
   FloatImage opacity;
 };
-Figure CutOut(const fsm::Image& photo, const std::vector<float>& person);
+/// `person`: as of Matte.
+Figure CutOut(const fsm::Image& photo, const FloatImage& person);
 
 }  // namespace facefit

@@ -15,6 +15,9 @@
 #include "face_fit/find/head/lip_seam.h"
 #include "face_fit/find/head/symmetry.h"
 #include "face_fit/picture/pixels.h"
+#include "fsm/mesh/head_model.h"
+#include "fsm/mesh/mesh_head.h"
+#include "fsm/mesh/transferred_rig.h"
 #include "vm_protocol/core/or_throw.h"
 
 namespace facefit {

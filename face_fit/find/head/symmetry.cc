@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <iterator>
 #include <span>
 

@@ -1,6 +1,5 @@
 #include "face_fit/find/network/attention_points.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace facefit {

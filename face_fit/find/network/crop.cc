@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "face_fit/picture/resample.h"
-
 namespace facefit {
 
 glm::vec2 Crop::ToPicture(glm::vec2 p) const {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "face_fit/picture/filters.h"
 #include "face_fit/picture/pixels.h"

@@ -1,4 +1,4 @@
-#include "fsm/app/original_config.h"
+#include "fsm/faces/original_config.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,0 +1,38 @@
+#include "face_fit/fit/camera_pose.h"
+
+#include <cmath>
+#include <glm/matrix.hpp>
+
+namespace facefit {
+namespace {
+
+constexpr glm::vec3 kMiddle{0, -10, 20};  ///< the head is turned about it
+
+}  // namespace
+
+glm::mat3 CameraPose::Rotation() const {
+  const float cx = std::cos(turn.x), sx = std::sin(turn.x);
+  const float cy = std::cos(turn.y), sy = std::sin(turn.y);
+  const float cz = std::cos(turn.z), sz = std::sin(turn.z);
+  const glm::mat3 x(1, 0, 0, 0, cx, sx, 0, -sx, cx);
+  const glm::mat3 y(cy, 0, -sy, 0, 1, 0, sy, 0, cy);
+  const glm::mat3 z(cz, sz, 0, -sz, cz, 0, 0, 0, 1);
+  return z * x * y;
+}
+glm::vec3 CameraPose::ToCamera(glm::vec3 p) const { return Rotation() * (p - kMiddle) + kMiddle; }
+glm::vec3 CameraPose::FromCamera(glm::vec3 q) const {
+  return glm::transpose(Rotation()) * (q - kMiddle) + kMiddle;
+}
+glm::vec3 CameraPose::TowardsCamera() const {
+  return glm::transpose(Rotation()) * glm::vec3(0, 0, 1);
+}
+glm::vec2 CameraPose::Project(glm::vec3 q) const {
+  return centre + focal / (kCameraZ - q.z) * glm::vec2(q.x, -q.y);
+}
+glm::vec3 CameraPose::Unproject(glm::vec2 pixel, float z) const {
+  const glm::vec2 d = (pixel - centre) * ((kCameraZ - z) / focal);
+  return {d.x, -d.y, z};
+}
+float CameraPose::PixelsPerMm() const { return focal / (kCameraZ - kFaceZ); }
+
+}  // namespace facefit

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "face_fit/find/face/iris.h"
+#include "face_fit/find/head/mesh_point.h"
+#include "face_fit/find/network/network_points.h"
+#include "face_fit/fit/camera_pose.h"
+#include "fsm/head/warp.h"
+#include "fsm/rig/eye_transform.h"
+#include "fsm/rig/face_state.h"
+
+namespace facefit {
+
+/// What the face in the photo does: strengths of action units, 0 to 1.5.
+struct Expression {
+  float smile = 0;   ///< AU 12 with 6
+  float jaw = 0;     ///< AU 26
+  float parted = 0;  ///< AU 25
+  fsm::FaceState State() const {
+    fsm::FaceState state;
+    state.asymmetry = 0;
+    for (const auto& [unit, strength] : {std::pair(fsm::kLipCornerPuller, smile),
+                                         {fsm::kCheekRaiser, 0.5F * smile},
+                                         {fsm::kJawDrop, jaw},
+                                         {fsm::kLipsPart, parted}}) {
+      for (const fsm::Side side : fsm::kSides) state.au[side][unit] = strength;
+    }
+    return state;
+  }
+};
+
+/// A point of the head, where the photo shows it, and its depth.
+struct LandmarkConstraint {
+  PointIndex point;  ///< of the network, or kNoPoint
+  MeshPoint on_head;
+  glm::vec2 pixel;
+  float z;  ///< in the camera's frame, millimetres towards it
+};
+
+/// What the photo says of the form of the head.
+struct PhotoTargets {
+  std::vector<LandmarkConstraint> constraints;
+  bool lips_apart = false;
+};
+
+/// The irises in the photo.
+struct SeenIrises {
+  fsm::Sided<IrisRing> rings;
+  float size = 1;  ///< of that of the built-in head, by the size of the eye
+};
+
+/// The base head brought into the form, pose and expression of the photo.
+struct FittedHead {
+  CameraPose pose;
+  Expression expression;
+  std::vector<fsm::WarpPoint> points;  ///< base face at rest -> person at rest
+  float smooth = 1;                    ///< of the warp by them, see fsm::Warp
+  fsm::Sided<fsm::EyeTransform> eyes;
+  /// Every vertex of the base as it lies in the photo, head's frame.
+  std::vector<glm::vec3> posed_vertices;
+};
+
+}  // namespace facefit

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "fsm/head/anatomy.h"
+#include "fsm/head/features.h"
+#include "fsm/head/head_mesh.h"
+#include "fsm/head/identity.h"
+#include "fsm/head/skin_mesh.h"
+
+namespace fsm {
+
+/// Tones the skin under the brows and returns their hairs, which are painted on it.
+std::vector<SkinHair> BuildBrows(const SkinFront& front, const Identity& identity, HeadMesh& mesh);
+/// The furrow over each upper lid, as strokes painted on the skin.
+std::vector<SkinHair> BuildLidFolds(const SkinFront& front, const EyeAnatomy& eye,
+                                    const Features& features);
+/// Lashes of both sides. They move as skin and must be added before the rigid parts, so that such
+/// vertices stay one run. `of_photo`: those of the upper lids alone, with how dark they are in
+/// HeadMesh::opacity.
+void BuildLashes(const EyeAnatomy& eye, const Identity& identity, bool of_photo, HeadMesh& mesh);
+
+}  // namespace fsm

@@ -1,0 +1,292 @@
+#include "fsm/head/make_head.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "embedded/curves.h"
+#include "embedded/hair_springs.h"
+#include "embedded/patches.h"
+#include "embedded/sliders.h"
+#include "fsm/head/anatomy.h"
+#include "fsm/head/built_in_units.h"
+#include "fsm/head/cage.h"
+#include "fsm/head/cloth_parts.h"
+#include "fsm/head/ear_parts.h"
+#include "fsm/head/eye_hair_parts.h"
+#include "fsm/head/eye_parts.h"
+#include "fsm/head/face_channels.h"
+#include "fsm/head/hair_crop.h"
+#include "fsm/head/hair_long.h"
+#include "fsm/head/hair_parts.h"
+#include "fsm/head/hair_springs.h"
+#include "fsm/head/head_form.h"
+#include "fsm/head/head_mesh.h"
+#include "fsm/head/landmarks.h"
+#include "fsm/head/mouth_parts.h"
+#include "fsm/head/own_identity.h"
+#include "fsm/head/photo_head.h"
+#include "fsm/head/photo_wear.h"
+#include "fsm/head/skin_mesh.h"
+#include "fsm/head/subdivide.h"
+#include "fsm/head/warp.h"
+
+// A head is made in stages, each of which gives a value to the next: its ingredients; the skin from
+// its cage; the parts laid on it; all brought into the head's form; what it looks like; the rig.
+
+namespace fsm {
+namespace {
+
+/// What a head is made of: an identity, or the built-in face that a person's photo is warped from.
+struct Ingredients {
+  Ingredients(Identity of, bool both_alike)
+      : identity(std::move(of)),
+        shaper(Table("tables/sliders.txt", embedded::sliders()), identity.sliders),
+        alike(both_alike) {}
+  explicit Ingredients(const PhotoHead& head) : Ingredients(BuiltInIdentity(head.base), false) {
+    identity.features = head.features;
+    TakeColours(head, identity.palette);
+    eye.ScaleIris(head.iris_size);
+    photo = &head;
+    warp.emplace(head.points, head.smooth);
+  }
+
+  Identity identity;
+  EyeAnatomy eye = EyeAnatomy::BuiltIn();
+  const MouthAnatomy& mouth = MouthAnatomy::BuiltIn();
+  Shaper shaper;
+  bool alike;                        ///< both sides move so
+  const PhotoHead* photo = nullptr;  ///< worn, if there is one
+  std::optional<Warp> warp;          ///< to the person in it
+};
+
+/// The skin of the base head.
+struct BaseSkin {
+  Cage cage;
+  FineSkin fine;
+  MouthSeam seam;
+  HeadMesh mesh;
+};
+
+BaseSkin MakeSkin(const Ingredients& of) {
+  BaseSkin skin;
+  skin.cage = ReadCage(Table("tables/curves.txt", embedded::curves()),
+                       Table("tables/patches.txt", embedded::patches()), of.eye, of.mouth);
+  skin.fine = Subdivide(skin.cage);
+  skin.seam = BuildSkin(skin.fine, of.eye, of.mouth, of.identity, skin.mesh);
+  return skin;
+}
+
+/// The base head without what lies on its skull: vertices of skin, then those of the figure, which
+/// move as skin does, as do all before `soft_end`.
+struct BaseParts {
+  HeadMesh mesh;
+  std::size_t skin_end, figure_end, soft_end;
+  std::vector<SkinHair> skin_hairs;
+};
+
+BaseParts OnlySkin(const BaseSkin& skin) {
+  const std::size_t end = skin.mesh.position.size();
+  return {skin.mesh, end, end, end, {}};
+}
+
+BaseParts LayParts(const Ingredients& of, const BaseSkin& skin) {
+  const Features& look = of.identity.Look();
+  const Palette& palette = of.identity.palette;
+  BaseParts parts = OnlySkin(skin);
+  HeadMesh& mesh = parts.mesh;
+  if (of.photo) {
+    AddSheet(*of.photo, mesh);
+  } else {
+    BuildCloth(look, palette, mesh);
+  }
+  parts.figure_end = mesh.position.size();
+  const SkinFront front(skin.fine);
+  parts.skin_hairs = BuildBrows(front, of.identity, mesh);
+  std::ranges::move(BuildLidFolds(front, of.eye, look), std::back_inserter(parts.skin_hairs));
+  // A photo shows the lashes of open eyes: only those of shut lids are added.
+  BuildLashes(of.eye, of.identity, of.photo != nullptr, mesh);
+  parts.soft_end = mesh.position.size();
+  BuildEyes(of.eye, look, palette, mesh);
+  BuildTeeth(of.mouth, look, palette, mesh);
+  BuildTongue(of.mouth, look, palette, mesh);
+  // Long hair covers ears; a photo shows them.
+  if (of.identity.crop && !of.photo) BuildEars(look, palette, mesh);
+  return parts;
+}
+
+/// The head in its own form, with hair.
+struct FormedHead {
+  HeadMesh mesh;
+  std::vector<glm::vec3> base;  ///< the base head's rest form, for texture coordinates
+  std::size_t hair_first;
+  Sided<EyeTransform> eyes;
+  TeethTransform teeth;  ///< from the base head's
+};
+
+void AddHair(const Ingredients& of, const BaseSkin& skin, HeadMesh& mesh) {
+  const Identity& identity = of.identity;
+  if (of.photo) {
+    LeaveOutUnseen(*of.photo, skin.fine.tag, mesh);
+    if (!of.photo->glasses) return;
+    HoldBehindGlasses(glm::vec2(of.eye.centre()), skin.mesh.position.size(), mesh);
+  } else if (identity.crop) {
+    BuildCroppedHair(*identity.crop, identity.Look(), identity.palette, mesh);
+  } else {
+    BuildLongHair(identity.long_hair, identity.Look(), identity.palette, mesh);
+  }
+}
+
+FormedHead TakeForm(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts) {
+  const HeadForm form(of.eye, of.mouth, of.shaper, of.warp ? &*of.warp : nullptr,
+                      of.photo ? of.photo->eyes : std::nullopt, parts.mesh);
+  FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),
+                  form.eye_transforms(), form.teeth()};
+  // The sheet of a photo is where it belongs already.
+  form.Shape(parts.skin_end, of.photo ? parts.figure_end : parts.skin_end, head.mesh);
+  AddHair(of, skin, head.mesh);
+  head.base.insert(head.base.end(),
+                   head.mesh.position.begin() + static_cast<std::ptrdiff_t>(head.hair_first),
+                   head.mesh.position.end());
+  return head;
+}
+
+HeadTopology TopologyOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts,
+                        const FormedHead& head) {
+  HeadTopology topology;
+  for (const HeadMesh::Batch& batch : head.mesh.batches) {
+    topology.parts.push_back({batch.material, static_cast<std::uint32_t>(topology.indices.size()),
+                              static_cast<std::uint32_t>(batch.indices.size())});
+    topology.indices.insert(topology.indices.end(), batch.indices.begin(), batch.indices.end());
+  }
+  topology.skin_hairs = parts.skin_hairs;
+  topology.mouth.lips = skin.seam.seam;
+  topology.mouth.corner_right = skin.seam.corner_right;
+  topology.mouth.corner_left = skin.seam.corner_left;
+  topology.albedo = head.mesh.albedo;
+  for (glm::vec3& colour : topology.albedo) colour = glm::clamp(colour, 0.0f, 1.0f);
+  topology.occlusion = head.mesh.occlusion;
+  if (std::ranges::any_of(head.mesh.opacity, [](float opacity) { return opacity < 1; })) {
+    topology.opacity = head.mesh.opacity;
+  }
+  topology.strands = head.mesh.strands;
+  for (const glm::vec3 p : head.base) topology.uv.push_back(Unroll(p));
+  for (const Side side : kSides) {
+    const float size = head.eyes[side].size;
+    topology.eyes[side] = {.centre = PlaceInFace(of.eye, head.eyes, side,
+                                                 of.eye.centre() * glm::vec3(SignOf(side), 1, 1)),
+                           .ball_radius = size * of.eye.radius(),
+                           .iris_radius = size * of.eye.iris_radius(),
+                           .pupil_radius = size * of.eye.pupil_radius(),
+                           .iris_colour = of.identity.palette.iris,
+                           .white_colour = of.identity.palette.sclera};
+  }
+  return topology;
+}
+
+RigData RigOf(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts,
+              const FormedHead& head, const HeadTopology& topology) {
+  using enum RigStep;
+  const Identity& identity = of.identity;
+  RigData rig;
+  rig.steps = {kChannels, kLids,  kJaw,  kTeeth,   kLips,   kTeeth,
+               kTongue,   kBones, kNeck, kSprings, kNormals};
+  rig.rest = head.mesh.position;
+  rig.rest_normal = Normals(topology.indices, rig.rest, rig.rest.size());
+  HairLook(identity.Look(), identity.palette)
+      .LightAsOne(std::span(rig.rest).subspan(head.hair_first),
+                  std::span(rig.rest_normal).subspan(head.hair_first));
+  rig.bone = head.mesh.bone;
+  rig.weights = head.mesh.weights;
+  rig.units = BuiltInUnits();
+  if (!of.alike) {
+    rig.person = static_cast<int>(identity.index);
+    rig.units.MakeAsymmetric(*rig.person);
+  }
+  rig.units_by_place = true;
+  rig.creases = {.at_rest = identity.creases, .depth = of.photo ? of.photo->lined : 1};
+  const auto soft = std::span<const SkinWeights>(rig.weights).first(parts.soft_end);
+  rig.channels = UnitChannels(rig.units, rig.bone, rig.weights);
+  std::ranges::move(MouthChannels(of.mouth, soft), std::back_inserter(rig.channels));
+  rig.lids = BakeLids(of.eye, head.eyes, rig.rest, soft);
+  rig.lips = BakeLips(skin.seam, soft);
+  rig.teeth = BakeTeeth(of.mouth.UpperTeeth().Moved(head.teeth),
+                        of.mouth.LowerTeeth().Moved(head.teeth), rig.rest, soft);
+  for (const Side side : kSides) {
+    rig.eyes.pivot[side] = rig.ball_lids.centre[side] = topology.eyes[side].centre;
+  }
+  for (std::size_t i = 0; i < topology.indices.size(); i += 3) {
+    const std::uint32_t* const corner = &topology.indices[i];
+    if (*corner >= parts.soft_end) continue;
+    rig.normals.soft_triangles.insert(rig.normals.soft_triangles.end(), corner, corner + 3);
+  }
+  if (!identity.crop) {
+    AddHairSprings(Table("tables/hair_springs.txt", embedded::hair_springs()), head.hair_first,
+                   rig);
+  }
+  return rig;
+}
+
+/// What is seen of the photo where, with lids at rest and shut.
+void Wear(const Ingredients& of, const BaseSkin& skin, HeadAsset& asset) {
+  const std::size_t count = skin.mesh.position.size();
+  const Rig rig(asset.rig);
+  HeadVertices open, shut;
+  rig.Evaluate({}, open);
+  FaceState asleep;
+  asleep.blink.left = asleep.blink.right = 1;
+  rig.Evaluate(asleep, shut);
+  const auto pose = [count](const HeadVertices& v) {
+    return SkinPose{std::span(v.position).first(count), std::span(v.normal).first(count)};
+  };
+  const PhotoSkin worn{std::span(asset.rig.weights).first(count), skin.fine.tag, pose(open),
+                       pose(shut)};
+  WearPhoto(*of.photo, worn, of.identity.palette.lip_inside, asset.topology);
+}
+
+std::unique_ptr<Head> Bake(const Ingredients& of) {
+  const BaseSkin skin = MakeSkin(of);
+  const BaseParts parts = LayParts(of, skin);
+  const FormedHead formed = TakeForm(of, skin, parts);
+  HeadAsset asset;
+  asset.topology = TopologyOf(of, skin, parts, formed);
+  asset.rig = RigOf(of, skin, parts, formed, asset.topology);
+  FindIncisors(asset.rig.rest, asset.rig.bone, asset.topology);
+  if (of.photo) Wear(of, skin, asset);
+  asset.landmarks =
+      NameLandmarks(skin.cage, skin.fine, asset.rig.rest, of.eye, formed.eyes, of.identity.Look());
+  return std::make_unique<Head>(std::move(asset));
+}
+
+}  // namespace
+
+std::unique_ptr<Head> MakeHead(std::string_view identity, bool asymmetric) {
+  return MakeHead(BuiltInIdentity(identity), asymmetric);
+}
+
+std::unique_ptr<Head> MakeHead(Identity identity, bool asymmetric) {
+  return Bake(Ingredients(std::move(identity), !asymmetric));
+}
+
+std::unique_ptr<Head> MakeGenericHead() { return MakeHead(Identities().front().name); }
+
+std::unique_ptr<Head> MakeHead(const PhotoHead& head) {
+  if (!head.photo) throw std::runtime_error("a head of a photo without its photo");
+  return Bake(Ingredients(head));
+}
+
+Rig MakeSkinRig(const PhotoHead& head) {
+  const Ingredients of(head);
+  const BaseSkin skin = MakeSkin(of);
+  const BaseParts alone = OnlySkin(skin);
+  const FormedHead formed = TakeForm(of, skin, alone);
+  return Rig(RigOf(of, skin, alone, formed, TopologyOf(of, skin, alone, formed)));
+}
+
+}  // namespace fsm
