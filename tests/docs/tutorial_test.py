@@ -11,11 +11,13 @@ The page's blocks are taken in order, in a folder that looks like the root of th
     ```console runs         the command goes on in a terminal of its own, until the page ends; its first lines are shown
     ```console untested     is not run
     ```sh tested            each line is a command, which has to end with status 0; what it prints is not shown
+    <!-- test               the same, up to a line "-->"; readers do not see it
     <!-- varies: REGEX -->  in the line before a block: what matches differs from run to run
+    <!-- any order -->      likewise: the lines shown may come in any order, and others between them
     <!-- needs: WORD... --> what is below needs these programs, or the data `networks`, `photos`; without them the test is
                             skipped here, by status 77
 
-The folder is /home/me/galatea in what is shown. There a line "..." stands for any lines and "..." within a line for anything on it. The ports 8000, 8080 and 8081 are replaced
+The folder is /home/me/galatea in what is shown. There a line "..." stands for any lines and "..." within a line for anything on it. The ports 8080 to 8082 are replaced
 by free ones. run_agent.sh neither sets up nor builds.
 """
 from __future__ import annotations
@@ -64,12 +66,14 @@ class Block:
     text: list[str]
     varies: list[str]
     needs: list[str]
+    any_order: bool = False
 
 
 def blocks(page: str) -> Iterator[Block]:
     lines = page.splitlines()
     varies: list[str] = []
     needs: list[str] = []
+    any_order = False
     at = 0
     while at < len(lines):
         if found := re.fullmatch(r"<!-- (varies|needs): (.*) -->", lines[at]):
@@ -77,12 +81,15 @@ def blocks(page: str) -> Iterator[Block]:
                 varies.append(found[2])
             else:
                 needs += found[2].split()
-        elif lines[at].startswith("```"):
-            end = next((n for n in range(at + 1, len(lines)) if lines[n] == "```"), None)
+        elif lines[at] == "<!-- any order -->":
+            any_order = True
+        elif lines[at].startswith("```") or lines[at] == "<!-- test":
+            hidden = lines[at] == "<!-- test"
+            end = next((n for n in range(at + 1, len(lines)) if lines[n] == ("-->" if hidden else "```")), None)
             if end is None:
                 raise Wrong(f"line {at + 1}: the block does not end")
-            yield Block(at + 1, lines[at][3:].split(), lines[at + 1:end], varies, needs)
-            at, varies, needs = end, [], []
+            yield Block(at + 1, ["sh", "tested"] if hidden else lines[at][3:].split(), lines[at + 1:end], varies, needs, any_order)
+            at, varies, needs, any_order = end, [], [], False
         at += 1
 
 
@@ -114,11 +121,23 @@ def pattern(shown: list[str], varies: list[str]) -> re.Pattern[str]:
     return re.compile(whole)
 
 
-def compare(line: int, command: str, shown: list[str], said: str, varies: list[str]) -> None:
-    masked = said
-    for vary in varies:
-        masked = re.sub(vary, "\0", masked, flags=re.MULTILINE)
-    if not pattern(shown, varies).fullmatch(masked):
+def arrives(shown: list[str], said: str, block: Block) -> bool:
+    for vary in block.varies:
+        said = re.sub(vary, "\0", said, flags=re.MULTILINE)
+    if not block.any_order:
+        return bool(pattern(shown, block.varies).fullmatch(said))
+    lines = said.splitlines()
+    for one in shown:
+        found = next((line for line in lines if pattern([one], block.varies).fullmatch(line + "\n")), None)
+        if found is None and one != "...":
+            return False
+        if one != "...":
+            lines.remove(found)
+    return True
+
+
+def compare(line: int, command: str, shown: list[str], said: str, block: Block) -> None:
+    if not arrives(shown, said, block):
         differences = "\n".join(difflib.unified_diff(shown, said.splitlines(), "the page", "what arrives", lineterm="", n=9))
         raise Wrong(f"line {line}: {command}\n{differences}")
 
@@ -148,7 +167,7 @@ def free_ports(text: str) -> dict[str, str]:
     """A free port for each of those a page names."""
     ports = {}
     with contextlib.ExitStack() as held:
-        for port in sorted(set(re.findall(r"\b80(?:00|80|81)\b", text))):
+        for port in sorted(set(re.findall(r"\b808[0-2]\b", text))):
             place = held.enter_context(socket.socket())
             place.bind(("127.0.0.1", 0))
             ports[port] = str(place.getsockname()[1])
@@ -199,7 +218,7 @@ class Reader:
             raise Wrong(f"line {line}: {command}\ndid not end within {LIMIT_S} s; it said\n{said}")
         return status, said
 
-    def begin(self, line: int, command: str, shown: list[str], varies: list[str]) -> None:
+    def begin(self, line: int, command: str, shown: list[str], block: Block) -> None:
         """Starts what goes on, and reads until it has said what is shown."""
         process = self.start(command, subprocess.PIPE)
         self.running.append(process)
@@ -208,7 +227,7 @@ class Reader:
         heard, until = "", time.monotonic() + LIMIT_S
         while True:
             try:
-                return compare(line, command, [*shown, "..."], heard, varies)
+                return compare(line, command, [*shown, "..."], heard, block)
             except Wrong:
                 try:
                     more = self.named(said.get(timeout=max(until - time.monotonic(), 0)))
@@ -241,10 +260,10 @@ class Reader:
         for line, command, shown in steps(block):
             done += 1
             if words == ["runs"]:
-                self.begin(line, command, shown, block.varies)
+                self.begin(line, command, shown, block)
                 continue
             status, said = self.run(line, command)
-            compare(line, command, shown, said, block.varies)
+            compare(line, command, shown, said, block)
             if (status != 0) != (words == ["fails"]):
                 raise Wrong(f"line {line}: {command}\nended with {status}")
         return done
