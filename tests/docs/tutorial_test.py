@@ -122,6 +122,8 @@ def pattern(shown: list[str], varies: list[str]) -> re.Pattern[str]:
 
 
 def arrives(shown: list[str], said: str, block: Block) -> bool:
+    """Blanks at the end of a line, which nobody sees, do not count."""
+    shown, said = [line.rstrip() for line in shown], re.sub(r"[ \t]+$", "", said, flags=re.MULTILINE)
     for vary in block.varies:
         said = re.sub(vary, "\0", said, flags=re.MULTILINE)
     if not block.any_order:
