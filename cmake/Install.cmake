@@ -25,7 +25,7 @@ foreach(agent agent chat film voice voice_film)
   string(REPLACE "build/bin/" "" text "${text}")
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/installed/agents/${agent}.json CONTENT "${text}")
 endforeach()
-install(DIRECTORY ${CMAKE_BINARY_DIR}/installed/agents examples/dialogs examples/macros examples/systemd
+install(DIRECTORY ${CMAKE_BINARY_DIR}/installed/agents examples/dialogs examples/macros examples/systemd examples/web_site
   DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples COMPONENT programs)
 install(FILES examples/lamp_module.py DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples
   COMPONENT programs)

@@ -10,7 +10,8 @@ The page's blocks are taken in order, in a folder that looks like the root of th
     ```console fails        the same, but the commands have to end with another status
     ```console runs         the command goes on in a terminal of its own, until the page ends; its first lines are shown
     ```console untested     is not run
-    ```sh tested            each line is a command, which has to end with status 0; what it prints is not shown
+    ```sh tested            each line is a command, which has to end with status 0 and without an error; what it
+                            prints is not shown
     <!-- test               the same, up to a line "-->"; readers do not see it
     <!-- varies: REGEX -->  in the line before a block: what matches differs from run to run
     <!-- any order -->      likewise: the lines shown may come in any order, and others between them
@@ -246,7 +247,7 @@ class Reader:
         if language == "sh" and words == ["tested"]:
             for number, command in enumerate(block.text, block.line + 1):
                 status, said = self.run(number, command)
-                if status:
+                if status or re.search(r"\berror: |\.error = ", said):
                     raise Wrong(f"line {number}: {command}\nended with {status}: {said}")
             return len(block.text)
         if language != "console":
