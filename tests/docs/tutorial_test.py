@@ -9,17 +9,16 @@ The page's blocks are taken in order, in a folder that looks like the root of th
                             behind it are all that it prints, on stdout and stderr. It has to end with status 0
     ```console fails        the same, but the commands have to end with another status
     ```console runs         the command goes on in a terminal of its own, until the page ends; its first lines are shown
-    ```console untested     is not run
     ```sh tested            each line is a command, which has to end with status 0 and without an error; what it
                             prints is not shown
-    <!-- test               the same, up to a line "-->"; readers do not see it
     <!-- varies: REGEX -->  in the line before a block: what matches differs from run to run
     <!-- any order -->      likewise: the lines shown may come in any order, and others between them
     <!-- needs: WORD... --> what is below needs these programs, or the data `networks`, `photos`; without them the test is
                             skipped here, by status 77
 
-The folder is /home/me/galatea in what is shown. There a line "..." stands for any lines and "..." within a line for anything on it. The ports 8080 to 8082 are replaced
-by free ones. run_agent.sh neither sets up nor builds.
+In what is shown the folder is /home/me/galatea, a line "..." stands for any lines, and "..." within a line for anything on it.
+Blanks at the end of a line, which nobody sees, do not count. The ports 8080 to 8082 are replaced by free ones, and run_agent.sh
+neither sets up nor builds.
 """
 from __future__ import annotations
 
@@ -44,7 +43,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = pathlib.Path(os.environ.get("GALATEA_BIN", ROOT / "build" / "bin")).parent
 PHOTOS = pathlib.Path(os.environ.get("GALATEA_PHOTOS", ROOT.parent / "shared" / "data" / "photos"))
 NETWORKS = pathlib.Path(os.environ.get("GALATEA_NETWORKS", "/nowhere"))
-LIMIT_S = 240
+LIMIT_S = 600
 # What a command exports, and the folder it leaves to, hold for the next one.
 BEFORE = 'set -o pipefail; [ ! -f ~/exported ] || { . ~/exported; cd "$PWD"; }'
 BEHIND = "status=$?; export -p >~/exported; exit $status"
@@ -84,12 +83,11 @@ def blocks(page: str) -> Iterator[Block]:
                 needs += found[2].split()
         elif lines[at] == "<!-- any order -->":
             any_order = True
-        elif lines[at].startswith("```") or lines[at] == "<!-- test":
-            hidden = lines[at] == "<!-- test"
-            end = next((n for n in range(at + 1, len(lines)) if lines[n] == ("-->" if hidden else "```")), None)
+        elif lines[at].startswith("```"):
+            end = next((n for n in range(at + 1, len(lines)) if lines[n] == "```"), None)
             if end is None:
                 raise Wrong(f"line {at + 1}: the block does not end")
-            yield Block(at + 1, ["sh", "tested"] if hidden else lines[at][3:].split(), lines[at + 1:end], varies, needs, any_order)
+            yield Block(at + 1, lines[at][3:].split(), lines[at + 1:end], varies, needs, any_order)
             at, varies, needs, any_order = end, [], [], False
         at += 1
 
@@ -123,7 +121,6 @@ def pattern(shown: list[str], varies: list[str]) -> re.Pattern[str]:
 
 
 def arrives(shown: list[str], said: str, block: Block) -> bool:
-    """Blanks at the end of a line, which nobody sees, do not count."""
     shown, said = [line.rstrip() for line in shown], re.sub(r"[ \t]+$", "", said, flags=re.MULTILINE)
     for vary in block.varies:
         said = re.sub(vary, "\0", said, flags=re.MULTILINE)
@@ -131,11 +128,11 @@ def arrives(shown: list[str], said: str, block: Block) -> bool:
         return bool(pattern(shown, block.varies).fullmatch(said))
     lines = said.splitlines()
     for one in shown:
-        found = next((line for line in lines if pattern([one], block.varies).fullmatch(line + "\n")), None)
-        if found is None and one != "...":
+        found = [line for line in lines if pattern([one], block.varies).fullmatch(line + "\n")]
+        if one != "..." and not found:
             return False
         if one != "...":
-            lines.remove(found)
+            lines.remove(found[0])
     return True
 
 
@@ -160,9 +157,8 @@ def workspace() -> Iterator[pathlib.Path]:
             else:
                 (root / "scripts" / script.name).symlink_to(script)
         (root / "build").symlink_to(BUILD)
-        for source, name in (("hopper_usnavy.jpg", "me.jpg"),):
-            if (PHOTOS / source).exists():
-                shutil.copy(PHOTOS / source, root / name)
+        if (PHOTOS / "hopper_usnavy.jpg").exists():
+            shutil.copy(PHOTOS / "hopper_usnavy.jpg", root / "me.jpg")
         yield root
 
 
@@ -255,10 +251,8 @@ class Reader:
                 (self.root / words[0]).parent.mkdir(parents=True, exist_ok=True)
                 (self.root / words[0]).write_text("\n".join(block.text) + "\n")
             return 0
-        if words == ["untested"]:
-            return 0
         if words not in ([], ["fails"], ["runs"]):
-            raise Wrong(f"line {block.line}: expected untested, fails or runs, found '{' '.join(words)}'")
+            raise Wrong(f"line {block.line}: expected fails or runs, found '{' '.join(words)}'")
         done = 0
         for line, command, shown in steps(block):
             done += 1
@@ -283,7 +277,7 @@ def main() -> int:
             for block in blocks(page):
                 done += reader.follow(block)
         except Missing as missing:
-            print(f"{done} commands run; the page needs {missing}")
+            print(f"needs {missing} for what is left of its page")
             return 77
         except Wrong as wrong:
             print(f"{sys.argv[1]}: {wrong}")
