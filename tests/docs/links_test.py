@@ -48,7 +48,9 @@ def prose_with_code(page: pathlib.Path) -> list[tuple[int, str]]:
 
 
 def links(page: pathlib.Path) -> list[tuple[int, str]]:
-    return [(number, next(filter(None, found.groups()))) for number, line in prose(page) for found in LINK.finditer(line)]
+    lines = dict(prose(page))
+    text = "\n".join(lines.get(number, "") for number in range(1, max(lines, default=0) + 1))
+    return [(text.count("\n", 0, found.start()) + 1, next(filter(None, found.groups()))) for found in LINK.finditer(text)]
 
 
 class LinksTest(unittest.TestCase):
