@@ -52,6 +52,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
   scene_->set_size_locked([this] { return film_->recording(); });
   MakeFilms();
   DeclareRecording();
+  DeclarePictures();
   DeclareCapture();
   DeclareFrame();
   vm::OrThrow(BeginLife());
@@ -88,6 +89,13 @@ void FsmModule::MakeFilms() {
                                            core_.slots.ReportError("Capture", done.error());
                                          }
                                        });
+  pictures_ = std::make_unique<PictureStream>(
+      core_.clock, core_.backend, [this](vm::Time at) { return core_.DrawAt(at); },
+      [this](vm::Time from, vm::Time to) {
+        return core_.backend.Swings() ||
+               core_.motion->NextActivity(from).value_or(to + vm::Time(1)) <= to;
+      },
+      [this](const vm::Error& error) { core_.slots.ReportError("Picture.to", error); });
 }
 
 void FsmModule::MakeMotion() {
@@ -110,6 +118,8 @@ void FsmModule::Initialise() {
   }
   capture_->Cancel();
   core_.slots.Store("Capture", "DISABLE");
+  static_cast<void>(pictures_->SendTo("NONE", 1));
+  core_.slots.Store("Picture.to", "NONE");
   MakeMotion();
   speech_->Reset();
   core_.ForgetSlotsSinceStart();
@@ -163,6 +173,27 @@ void FsmModule::DeclareRecording() {
          Changed();
          return value.word(0);
        },
+       .saved = false});
+}
+
+void FsmModule::DeclarePictures() {
+  core_.Declare({"Picture.fps", "<int 1..60>",
+                 "Pictures a second of what Picture.to asks for, from its next setting on.",
+                 [](const vm::SetValue&) -> vm::Result<void> { return {}; }, "25"});
+  core_.slots.Declare(
+      {.name = "Picture.to",
+       .grammar = "NONE | <file>",
+       .initial = "NONE",
+       .help = "unix:PATH of a socket that somebody listens at: gets pictures of the face with "
+               "their times, beside any film (docs/face.md). NONE: no longer.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         const int rate = std::stoi(core_.slots.Value("Picture.fps"));
+         if (auto sent = pictures_->SendTo(value.word(0), rate); !sent) {
+           return std::unexpected(sent.error());
+         }
+         return value.word(0);
+       },
+       .on_inq = [this] { return pictures_->to(); },
        .saved = false});
 }
 
@@ -235,6 +266,7 @@ vm::Result<void> FsmModule::DrawFrame(long number, vm::Time at) {
 // ---- time
 
 void FsmModule::Changed() {
+  if (pictures_) pictures_->Touch();
   ArmFrames();
   ArmEnd();
 }
@@ -313,6 +345,7 @@ void FsmModule::Shutdown() {
   // Whoever runs us lets go of what is still due. Where drawing takes longer than the time between
   // two pictures that would be one after another, without end.
   capture_->Cancel();
+  static_cast<void>(pictures_->SendTo("NONE", 1));
   if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
   frame_timer_ = 0;
   if (!film_->recording()) return;

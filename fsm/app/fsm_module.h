@@ -11,6 +11,7 @@
 #include "fsm/app/fsm_core.h"
 #include "fsm/app/mask_slots.h"
 #include "fsm/app/original_config.h"
+#include "fsm/app/picture_stream.h"
 #include "fsm/app/scene_slots.h"
 #include "fsm/app/speech_slots.h"
 #include "vm_protocol/core/module.h"
@@ -29,7 +30,7 @@ struct FsmOptions {
 /// The face synthesis module: all its slots over FaceMotion and a Backend.
 /// Drawing: with a window, whenever something moves (at most at the frame rate) and a few times a
 /// second otherwise; without one, only for pictures, films and Frame reports. No timer is pending
-/// while nothing moves and nothing is recorded (but for the window's events).
+/// while nothing moves and nothing is recorded or sent (but for the window's events).
 /// Lifetime: scheduler and backend outlive it. Thread: the scheduler's.
 class FsmModule final : public vm::Module {
  public:
@@ -53,6 +54,7 @@ class FsmModule final : public vm::Module {
   vm::Result<void> BeginLife();  // as FsmOptions::life says
   void Initialise();             // Run = INIT
   void DeclareRecording();
+  void DeclarePictures();
   void DeclareCapture();
   void DeclareFrame();
   void Changed();
@@ -74,6 +76,7 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<SpeechSlots> speech_;
   std::unique_ptr<Film> film_;
   std::unique_ptr<Capture> capture_;
+  std::unique_ptr<PictureStream> pictures_;
   double frame_rate_ = 60;
   long frames_shown_ = 0;
   vm::TimerId frame_timer_ = 0;
