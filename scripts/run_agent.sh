@@ -195,14 +195,13 @@ cleanup() {
 }
 trap cleanup EXIT
 
-# Runs the hub on a script until the film is there, and tells meanwhile how long it has taken.
+# Runs the hub on a script until the film is there, and tells a terminal meanwhile how long it has taken.
 draw() {
   local began=$SECONDS
-  echo "run_agent: drawing the film; a second of it takes about a second" >&2
   "$hub_program" --config "$config" <"$work/script" >"$work/said" &
   hub=$!
   while kill -0 "$hub" 2>/dev/null; do
-    [ ! -t 2 ] || printf '\r\033[Krun_agent: drawing, %d s' $((SECONDS - began)) >&2
+    [ ! -t 2 ] || printf '\r\033[Krun_agent: drawing, %d s (a second of the film takes about one)' $((SECONDS - began)) >&2
     sleep 0.2
   done
   [ ! -t 2 ] || printf '\r\033[K' >&2
