@@ -42,7 +42,7 @@ Without --say, --dialog, --voice and --out it is --chat.
 TEXT
 }
 
-root=$(cd "$(dirname "$(readlink -f "$0")")/.." && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
 if [ -d "$root/share/galatea/examples" ]; then
   installed=1 bin=$root/bin data=$root/share/galatea
 else
@@ -272,7 +272,7 @@ if [ -z "$config" ]; then
   if [ -n "$model_url" ]; then
     python3 -c 'import json, sys; json.dump(dict(zip(sys.argv[1::2], sys.argv[2::2])), sys.stdout)' \
       url "$model_url" model "$model" ${key_file:+key_file "$key_file"} >"$work/chat.json"
-    sed -i -e "s#\[\"build/bin/chat\"#&, \"--config\", \"$work/chat.json\"#" "$config"
+    sed -i -e "s#\[\"chat\"#&, \"--config\", \"$work/chat.json\"#" "$config"
   fi
   if [ "$voice" = ssm_stub ]; then
     sed -i -e 's#\["ssm"[^]]*\]#["ssm_stub"]#' "$config"
