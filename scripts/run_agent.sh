@@ -42,7 +42,7 @@ Without --say, --dialog, --voice and --out it is --chat.
 TEXT
 }
 
-root=$(cd "$(dirname "$(readlink -f "$0")")/.." && pwd)
+root=$(cd "$(dirname "$0")/.." && pwd)
 if [ -d "$root/share/galatea/examples" ]; then
   installed=1 bin=$root/bin data=$root/share/galatea
 else
@@ -195,14 +195,13 @@ cleanup() {
 }
 trap cleanup EXIT
 
-# Runs the hub on a script until the film is there, and tells meanwhile how long it has taken.
+# Runs the hub on a script until the film is there, and tells a terminal meanwhile how long it has taken.
 draw() {
   local began=$SECONDS
-  echo "run_agent: drawing the film; a second of it takes about a second" >&2
   "$hub_program" --config "$config" <"$work/script" >"$work/said" &
   hub=$!
   while kill -0 "$hub" 2>/dev/null; do
-    [ ! -t 2 ] || printf '\r\033[Krun_agent: drawing, %d s' $((SECONDS - began)) >&2
+    [ ! -t 2 ] || printf '\r\033[Krun_agent: drawing, %d s (a second of the film takes about one)' $((SECONDS - began)) >&2
     sleep 0.2
   done
   [ ! -t 2 ] || printf '\r\033[K' >&2
@@ -273,7 +272,7 @@ if [ -z "$config" ]; then
   if [ -n "$model_url" ]; then
     python3 -c 'import json, sys; json.dump(dict(zip(sys.argv[1::2], sys.argv[2::2])), sys.stdout)' \
       url "$model_url" model "$model" ${key_file:+key_file "$key_file"} >"$work/chat.json"
-    sed -i -e "s#\[\"build/bin/chat\"#&, \"--config\", \"$work/chat.json\"#" "$config"
+    sed -i -e "s#\[\"chat\"#&, \"--config\", \"$work/chat.json\"#" "$config"
   fi
   if [ "$voice" = ssm_stub ]; then
     sed -i -e 's#\["ssm"[^]]*\]#["ssm_stub"]#' "$config"

@@ -89,6 +89,7 @@ TEST(FsmModuleTest, WhatIsBeyondIsTakenForTheNearestAsInTheOriginal) {
   EXPECT_EQ(fsm.Say("set#1 HeadRotAbs.1 = 12.5 -120 91"), "rep#1 HeadRotAbs.1 = 12.5 -90 90");
   EXPECT_EQ(fsm.Say("inq HeadRotAbs.1"), "rep HeadRotAbs.1 = 12.5 -90 90");
   EXPECT_EQ(fsm.Say("set#1 FaceExp = NEUTRAL 1 100 0"), "rep#1 FaceExp = NEUTRAL 1 100 0");
+  EXPECT_EQ(fsm.Say("set#1 FaceExp = HAPPY"), "rep#1 FaceExp = HAPPY");
   EXPECT_EQ(fsm.Say("set#1 FaceMot = NOMOVE 0"), "rep#1 FaceMot = NOMOVE 0");
   EXPECT_EQ(fsm.Say("set#1 Mask = galatea "), "rep#1 Mask = galatea ");
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
@@ -105,7 +106,8 @@ TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
   refused("Face.37 = 1", "UNKNOWN_SLOT");
   refused("HeadRotAbs.2 = 1 2 3", "UNKNOWN_SLOT");
   refused("HeadRotAbs.1 = 1 2", "BAD_VALUE");
-  refused("FaceExp = HAPPY 1 100", "BAD_VALUE");
+  refused("FaceExp = HAPPY 1 300 0", "BAD_VALUE");
+  refused("FaceExp = MERRY", "'MERRY' is no expression; ANGRY DISGUSTED FEARED HAPPY");
   refused("FaceExp = BORED 1 100 0", "'BORED' is no expression");
   refused("FaceExp = HAPPY 6 100 0", "HAPPY has no pattern 6; 1 to 5 expected");
   refused("FaceMot = NOD 9", "NOD has no pattern 9; 1 to 5 expected");
