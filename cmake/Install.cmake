@@ -1,6 +1,7 @@
 # What `cmake --install` puts where, and the Debian packages of CPack. Components:
 #   programs   the programs, their manual pages, examples and units
-#   dev        the client library: headers, archive, CMake package Galatea (target Galatea::client)
+#   dev        libraries for clients and modules: headers, archives, CMake package Galatea (targets
+#              Galatea::client and Galatea::module)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -24,7 +25,7 @@ foreach(agent agent chat film voice voice_film)
   string(REPLACE "build/bin/" "" text "${text}")
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/installed/agents/${agent}.json CONTENT "${text}")
 endforeach()
-install(DIRECTORY ${CMAKE_BINARY_DIR}/installed/agents examples/dialogs examples/macros examples/systemd
+install(DIRECTORY ${CMAKE_BINARY_DIR}/installed/agents examples/dialogs examples/macros examples/systemd examples/web_site
   DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples COMPONENT programs)
 install(FILES examples/lamp_module.py DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples
   COMPONENT programs)
@@ -35,22 +36,30 @@ install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT pr
 
 if(TARGET vm_protocol)
   # The same objects as ours, without the warnings and paths we build with.
-  add_library(galatea_client STATIC $<TARGET_OBJECTS:vm_protocol>)
-  set_target_properties(galatea_client PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME client)
+  function(galatea_install_library target objects name)
+    add_library(${target} STATIC $<TARGET_OBJECTS:${objects}>)
+    set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX EXPORT_NAME ${name})
+    add_dependencies(programs ${target})
+    install(TARGETS ${target} EXPORT Galatea ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  endfunction()
+  galatea_install_library(galatea_client vm_protocol client)
   target_compile_features(galatea_client INTERFACE cxx_std_23)
   target_include_directories(galatea_client INTERFACE
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/galatea>)
-  install(TARGETS galatea_client EXPORT Galatea
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+  find_package(OpenSSL REQUIRED)
+  galatea_install_library(galatea_module vm_runtime module)
+  target_link_libraries(galatea_module PUBLIC galatea_client PRIVATE OpenSSL::SSL Threads::Threads)
   install(DIRECTORY vm_protocol/core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/galatea/vm_protocol
     COMPONENT dev FILES_MATCHING PATTERN "*.h")
+  install(FILES vm_protocol/runtime/module_main.h
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/galatea/vm_protocol/runtime COMPONENT dev)
   set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Galatea)
-  install(EXPORT Galatea NAMESPACE Galatea:: DESTINATION ${package_folder} FILE GalateaConfig.cmake
+  install(EXPORT Galatea NAMESPACE Galatea:: DESTINATION ${package_folder} FILE GalateaTargets.cmake
     COMPONENT dev)
   write_basic_package_version_file(${CMAKE_BINARY_DIR}/GalateaConfigVersion.cmake
     COMPATIBILITY SameMinorVersion)
-  install(FILES ${CMAKE_BINARY_DIR}/GalateaConfigVersion.cmake DESTINATION ${package_folder}
-    COMPONENT dev)
+  install(FILES cmake/GalateaConfig.cmake ${CMAKE_BINARY_DIR}/GalateaConfigVersion.cmake
+    DESTINATION ${package_folder} COMPONENT dev)
 endif()
 
 set(CPACK_GENERATOR DEB)
@@ -70,4 +79,5 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "ffmpeg, open-jtalk, open-jtalk-mecab-naist-jdic, espeak-ng")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libgalatea-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libboost1.81-dev, libssl-dev")
 include(CPack)

@@ -469,7 +469,7 @@ TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
        "wait:document.querySelector('#face-off').textContent.startsWith('No face: ')",
        Tell("seen to go"), "wait:!document.querySelector('#stage.off')",
        "wait:!document.querySelector('#pick-face').disabled",
-       "wait:document.querySelector('#pick-voice').disabled",
+       "wait:document.querySelector('#pick-voice').disabled", Tell("seen the voice go"),
        "wait:!document.querySelector('#pick-voice').disabled",
        "print:document.querySelector('#pick-face').value"});
   ASSERT_TRUE(hub_->Expect("tell wears pygmalion")) << page->ErrorText();
@@ -479,7 +479,9 @@ TEST_F(WebPageTest, WhatHasGoneSaysSoAndWhatComesBackIsAsItWasChosen) {
   ASSERT_TRUE(hub_->Expect("tell seen to go")) << page->ErrorText();
   hub_->WriteLine("set Start = FSM");
   EXPECT_TRUE(hub_->Expect("tell wears pygmalion")) << "again";
-  hub_->WriteLine("set Restart = SSM");
+  hub_->WriteLine("set Stop = SSM");
+  ASSERT_TRUE(hub_->Expect("tell seen the voice go")) << page->ErrorText();
+  hub_->WriteLine("set Start = SSM");
   EXPECT_TRUE(hub_->Expect("tell speaks as ben")) << "again";
   EXPECT_EQ(page->Wait(support::Millis(120000)), 0) << page->ErrorText() << hub_->ErrorText();
   EXPECT_EQ(page->ReadLine(), "pygmalion");

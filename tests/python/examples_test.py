@@ -21,7 +21,7 @@ def run(*command: str) -> tuple[list[str], list[str]]:
 
 class ExamplesTest(unittest.TestCase):
     def setUp(self) -> None:
-        for name in ("agent_manager", "ssm", "fsm", "srm_stub"):
+        for name in ("agent_manager", "ssm", "ssm_stub", "fsm", "srm_stub"):
             support.program(name)
 
     def test_an_agent_says_something_into_a_film(self) -> None:
@@ -42,6 +42,15 @@ class ExamplesTest(unittest.TestCase):
             self.skipTest("ffmpeg is not installed")
         said, films = run("examples/python/film.py", "film.mp4")
         self.assertEqual((said, films), (["film: STOP"], ["film.mp4"]))
+
+    def test_the_tutorial_prints_what_it_shows(self) -> None:
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is not installed")
+        said, films = run("examples/python/tutorial.py")
+        shown = [line.removeprefix("#> ") for line in (support.ROOT / "examples/python/tutorial.py").read_text().splitlines()
+                 if line.startswith("#> ")]
+        self.assertGreater(len(shown), 20)
+        self.assertEqual((said, films), (shown, ["tutorial.mp4"]))
 
     def test_the_ear_is_heard(self) -> None:
         said, _ = run("examples/python/listen.py", "good morning", "what is that")
