@@ -65,6 +65,14 @@ void HeadBaker::AddHair() {
   }
 }
 
+void HeadBaker::AddHairline() {
+  const auto hairs =
+      identity_.crop
+          ? CroppedHairline(*identity_.crop, identity_.Look(), identity_.palette, mesh_)
+          : LongHairline(identity_.long_hair, identity_.Look(), identity_.palette, mesh_);
+  skin_hairs_.insert(skin_hairs_.end(), hairs.begin(), hairs.end());
+}
+
 void HeadBaker::AddEars() {
   if (identity_.crop)
     BuildEars(identity_.Look(), identity_.palette, mesh_);  // long hair covers them
@@ -73,7 +81,7 @@ void HeadBaker::AddEars() {
 void HeadBaker::AddLashes() { BuildLashes(eye_, identity_, false, mesh_); }
 
 HeadForm HeadBaker::Form() const {
-  return HeadForm(eye_, mouth_, shaper_, nullptr, std::nullopt, mesh_);
+  return HeadForm(eye_, mouth_, shaper_, nullptr, std::nullopt, mesh_, identity_.eyes);
 }
 
 void HeadBaker::AddSkin() {
@@ -92,6 +100,7 @@ void HeadBaker::AddParts() {
   skin_hairs_ = BuildBrows(front, identity_, mesh_);
   const auto folds = BuildLidFolds(front, eye_, identity_.Look());
   skin_hairs_.insert(skin_hairs_.end(), folds.begin(), folds.end());
+  AddHairline();
   AddLashes();
   soft_count_ = mesh_.position.size();
   BuildEyes(eye_, identity_.Look(), palette, mesh_);

@@ -35,6 +35,8 @@ class HeadBaker {
   virtual void AddFigure();
   /// Adds hair and what is fixed to the skull, where the head already has its form.
   virtual void AddHair();
+  /// Paints the first hairs on the skin, which has not taken its form yet.
+  virtual void AddHairline();
   virtual void AddEars();
   virtual void AddLashes();
   virtual HeadForm Form() const;

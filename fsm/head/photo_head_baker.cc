@@ -58,6 +58,7 @@ class PhotoHeadBaker : public HeadBaker {
 
  protected:
   void AddFigure() override { AddSheet(head_, mesh_); }
+  void AddHairline() override {}
   void AddEars() override {}
   // A photo shows the lashes of open eyes: only those of shut lids are added.
   void AddLashes() override { BuildLashes(eye_, identity_, true, mesh_); }

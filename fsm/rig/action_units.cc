@@ -253,7 +253,8 @@ Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCr
         0.6f * (u[kInnerBrowRaiser] + u[kOuterBrowRaiser]),
         0.7f * (u[kBrowLowerer] + u[kNoseWrinkler]),
         0.6f * (u[kCheekRaiser] + 0.7f * u[kLipCornerPuller]),
-        0.4f * (u[kUpperLipRaiser] + u[kNasolabialDeepener]) + 0.75f * u[kLipCornerPuller]};
+        0.4f * (u[kUpperLipRaiser] + u[kNasolabialDeepener] + u[kNoseWrinkler]) +
+            0.75f * u[kLipCornerPuller]};
     for (std::size_t k = 0; k < depth.size(); ++k) {
       creases[k][side] = std::clamp(at_rest[k] + depth[k], 0.0f, 1.0f);
     }
