@@ -214,6 +214,9 @@ TEST_F(WebTest, TheVoicesSoundComesWithItsTimeWhileSomebodyListens) {
     // A line feed stands among the samples, as one may.
     EXPECT_TRUE(voice->Expect("AB")) << hub_->ErrorText();
     ASSERT_TRUE(hub_->Expect("From @SSM tell sound to NONE")) << hub_->Seen();
+    // By the next answer the hub has written why, and the end of input cannot come before it.
+    hub_->WriteLine("inq#3 Refused");
+    ASSERT_TRUE(hub_->Expect("rep#3 Refused")) << hub_->Seen();
     voice->CloseInput();
     voice->ReadAll();
     EXPECT_NE(voice->Seen().find("the voice sent 'sound 1 2 3'"), std::string::npos)
