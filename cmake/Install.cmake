@@ -5,7 +5,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(programs "")
-foreach(program agent_manager galatea-log fsm face_fit face_editor ssm ssm_stub srm srm_stub vdm chat gateway mcp task_manager)
+foreach(program agent_manager galatea-log fsm face_fit face_editor ssm ssm_stub srm srm_stub vdm chat gateway vmc mcp task_manager)
   if(TARGET ${program})
     list(APPEND programs ${program})
   endif()
