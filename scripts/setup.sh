@@ -13,10 +13,11 @@ packages=(
   flite1-dev portaudio19-dev libsndfile1-dev
   libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic libhtsengine-dev
   libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev
+  liboscpack-dev
 )
 # The framework, servers, screens, a browser and recordings for the tests.
 [ "${1:-}" != --tests ] || packages+=(
-  libgtest-dev openssl mosquitto mosquitto-clients iproute2 xvfb xdotool chromium-headless-shell pocketsphinx-testdata
+  libgtest-dev openssl mosquitto mosquitto-clients iproute2 xvfb xdotool chromium-headless-shell pocketsphinx-testdata liblo-tools
 )
 
 missing=()

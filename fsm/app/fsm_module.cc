@@ -129,6 +129,7 @@ void FsmModule::Initialise() {
   if (auto set = BeginLife(); !set) core_.slots.ReportError("Life", set.error());
   frames_shown_ = 0;
   core_.slots.Store("Frame", "");
+  frame_to_.clear();
   Changed();
 }
 
@@ -245,6 +246,47 @@ void FsmModule::DeclareFrame() {
                            "The frame drawn last: NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM. "
                            "With AutoOutput every frame is reported; the number counts from 0 in "
                            "a film."});
+  core_.Declare(
+      {.name = "Frame.to",
+       .grammar = "NONE | <word>",
+       .help =
+           "The module that is told each frame, by its slot FaceFrame, while something moves: "
+           "TIME_MS on this module's clock, 17 mouth parameters, SEAL, TONGUE, the head's DOWN "
+           "RIGHT TILT, DOWN RIGHT of the left and of the right eye in degrees, how far the left "
+           "and the right lids are closed, then UNIT:STRENGTH of every action unit that is not at "
+           "rest (12L:0.7).",
+       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+         const std::string name = value.word(0);
+         if (name != "NONE" && !vm::IsModuleName(name)) {
+           return vm::Fail(vm::Errc::kBadValue, "'" + name + "' is no name of a module");
+         }
+         frame_to_ = name == "NONE" ? "" : name;
+         TellFrame(core_.Now());
+         return {};
+       },
+       .initial = "NONE"});
+}
+
+void FsmModule::TellFrame(vm::Time at) {
+  if (frame_to_.empty()) return;
+  const FaceState state = core_.motion->StateAt(at);
+  std::string text = vm::FormatMs(at);
+  const auto add = [&text](float value) { text += fmt::format(" {:.4g}", value); };
+  for (const float value : state.mouth) add(value);
+  add(state.lip_seal);
+  add(state.tongue);
+  for (const float angle : state.head_rotation) add(angle);
+  for (const float angle : state.gaze.left) add(angle);
+  for (const float angle : state.gaze.right) add(angle);
+  add(state.blink.left);
+  add(state.blink.right);
+  for (const auto& [units, side] : {std::pair(&state.au.left, 'L'), {&state.au.right, 'R'}}) {
+    for (std::size_t unit = 0; unit < units->size(); ++unit) {
+      if (std::abs((*units)[unit]) < 0.002F) continue;
+      text += fmt::format(" {}{}:{:.3g}", unit, side, (*units)[unit]);
+    }
+  }
+  core_.slots.Say(vm::To(frame_to_, vm::Set("FaceFrame", text)));
 }
 
 void FsmModule::ReportFrame(long number, vm::Time at) {
@@ -283,8 +325,9 @@ vm::Time FsmModule::FrameAfter(vm::Time t) const {
 
 void FsmModule::ArmFrames() {
   const bool window = core_.backend.has_window();
-  const bool wanted = window || (core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") &&
-                                 !film_->recording());
+  const bool reported =
+      core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") && !film_->recording();
+  const bool wanted = window || reported || !frame_to_.empty();
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {
@@ -314,6 +357,7 @@ void FsmModule::OnFrame() {
     if (core_.backend.close_requested()) exit_requested_ = true;
   }
   if (!film_->recording()) ReportFrame(frames_shown_++, now);
+  TellFrame(now);
   ArmFrames();
 }
 

@@ -64,6 +64,7 @@ class FsmModule final : public vm::Module {
   vm::Time FrameAfter(vm::Time t) const;
   vm::Time BusyUntil() const;
   void ReportFrame(long number, vm::Time at);
+  void TellFrame(vm::Time at);  // Frame.to
   vm::Result<void> DrawFrame(long number, vm::Time at);
   vm::Result<std::string> StopFilm();
 
@@ -79,6 +80,7 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<PictureStream> pictures_;
   double frame_rate_ = 60;
   long frames_shown_ = 0;
+  std::string frame_to_;  // the module that is told each frame; empty: none
   vm::TimerId frame_timer_ = 0;
   vm::Time frame_due_{0};
   vm::TimerId end_timer_ = 0;

@@ -116,6 +116,7 @@ std::string Another(const std::string& slot, const TemporaryFolder& files,
       {"Record.sound", "voice.wav"},
       {"Record.fps", "10"},
       {"Record", "before.mp4"},
+      {"Frame.to", "VMC"},
       {"Capture", (files / "shots") + " a 10"},
   };
   if (const auto found = values.find(slot); found != values.end()) return found->second;

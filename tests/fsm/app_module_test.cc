@@ -213,6 +213,24 @@ TEST(FsmModuleTest, FramesWithoutAFilmAreReportedWhileSomethingMoves) {
   EXPECT_EQ(fsm.backend.draws, 0);
 }
 
+TEST(FsmModuleTest, AModuleIsToldEachFrameWithoutDrawing) {
+  FsmStage fsm;
+  fsm.Say("set AU = 12L 0.7 0");
+  const std::string first = fsm.Say("set Frame.to = VMC");
+  EXPECT_EQ(first,
+            "to @VMC set FaceFrame = 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
+            "12L:0.7");
+  fsm.Say("set FaceMot = NOD 1");
+  const std::string said = fsm.Until(3000);
+  EXPECT_TRUE(said.starts_with("to @VMC set FaceFrame = 33.333 0 0 ")) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '@'), 6) << "a nod of 0.2 s";
+  EXPECT_FALSE(fsm.clock.Next().has_value()) << "nothing is told while nothing moves";
+  EXPECT_EQ(fsm.backend.draws, 0);
+  fsm.Say("set Frame.to = NONE");
+  fsm.Say("set FaceMot = NOD 1");
+  EXPECT_EQ(fsm.Until(6000), "");
+}
+
 TEST(FsmModuleTest, CaptureWritesNumberedPicturesOfOneUtterance) {
   char name[] = "/tmp/galatea_capture_XXXXXX";
   ASSERT_NE(mkdtemp(name), nullptr);
