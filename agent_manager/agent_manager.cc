@@ -262,7 +262,7 @@ void AgentManager::ReloadOnSignal() {
 void AgentManager::OpenPage() {
   if (config_.config().web.at.empty()) return;
   web_ = std::make_unique<WebServer>(
-      clock_, io_, config_.config().web, hub_, [this] { return Metrics(); },
+      io_, config_.config().web, hub_, [this] { return Metrics(); },
       [this](const std::string& text) { Refused(text); });
   Say("the page is at " + web_->Address());
 }

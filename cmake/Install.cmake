@@ -1,12 +1,14 @@
 # What `cmake --install` puts where, and the Debian packages of CPack. Components:
-#   programs   the programs, their manual pages, examples and units
+#   programs   the programs and their helpers, manual pages, documents, examples, units, galatea-agent (run_agent.sh)
 #   dev        libraries for clients and modules: headers, archives, CMake package Galatea (targets
 #              Galatea::client and Galatea::module)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(programs "")
-foreach(program agent_manager galatea-log fsm face_fit face_editor ssm ssm_stub srm srm_stub vdm chat task_manager)
+# ssm finds ssm_espeak, and with --voices align, beside itself.
+foreach(program agent_manager galatea-log fsm face_fit face_editor face_watch ssm ssm_espeak ssm_stub srm srm_stub align
+                vdm chat gateway mcp vmc task_manager srgs_match)
   if(TARGET ${program})
     list(APPEND programs ${program})
   endif()
@@ -27,12 +29,16 @@ foreach(agent agent chat film voice voice_film)
 endforeach()
 install(DIRECTORY ${CMAKE_BINARY_DIR}/installed/agents examples/dialogs examples/macros examples/systemd examples/web_site
   DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples COMPONENT programs)
-install(FILES examples/lamp_module.py DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples
+install(FILES examples/lamp_module.py examples/typed_chat.py DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/examples
   COMPONENT programs)
+install(PROGRAMS scripts/run_agent.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME galatea-agent COMPONENT programs)
+install(PROGRAMS scripts/face_networks.sh DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/scripts COMPONENT programs)
+install(FILES scripts/text_languages.txt DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea/scripts COMPONENT programs)
 # The example finds the package beside its folder; pip installs it from there for everything else.
 install(DIRECTORY python DESTINATION ${CMAKE_INSTALL_DATADIR}/galatea COMPONENT programs
   PATTERN __pycache__ EXCLUDE)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+install(FILES LICENSE README.md CONTRIBUTING.md CHANGELOG.md SECURITY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs PATTERN man EXCLUDE)
 
 if(TARGET vm_protocol)
   # The same objects as ours, without the warnings and paths we build with.
@@ -63,12 +69,15 @@ if(TARGET vm_protocol)
 endif()
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGE_NAME galatea)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "Galatea maintainers <galatea@localhost>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Toolkit of talking agents with a face")
 set(CPACK_PACKAGE_DESCRIPTION "Independent programs that together listen, think, speak and look at you,
-joined by one small text protocol: a hub, a voice, an ear, a face and a VoiceXML interpreter.")
+joined by one small text protocol: a hub, a voice, an ear, a face, a module that answers and a VoiceXML interpreter.
+`galatea-agent --web` talks with you in a browser.")
+set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL programs dev)
@@ -76,7 +85,9 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME galatea)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION sound)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "ffmpeg, open-jtalk, open-jtalk-mecab-naist-jdic, espeak-ng")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
+  "ffmpeg, python3, pocketsphinx-en-us, mecab-naist-jdic, open-jtalk, open-jtalk-mecab-naist-jdic, fonts-dejavu-core, fonts-vlgothic")
+set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SUGGESTS "npm")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libgalatea-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "libboost1.81-dev, libssl-dev")

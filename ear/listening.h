@@ -40,12 +40,13 @@ class Listening {
   void Hear();
   /// Nobody speaks any more; `more` follows at once, so no patience is needed.
   void Wait(bool more = false);
+  /// NoInput will come after Listen.timeout from now on.
+  void Arm();
   void Disarm();
   /// An utterance is ended after that.
   Millis longest() const { return longest_; }
 
  private:
-  void Arm();
   vm::Scheduler& scheduler_;
   vm::SlotMachine& slots_;
   const Hooks hooks_;

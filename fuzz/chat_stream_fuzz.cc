@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "chat/model/reply_reader.h"
+#include "vm_protocol/http/answer.h"
 
 namespace {
 
@@ -36,6 +37,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   if (Read(bytes, size + 1, true) != Read(bytes, 3, true)) std::abort();
   if (Read(bytes, size + 1, false) != Read(bytes, 7, false)) std::abort();
-  chat::ErrorTextOf(bytes);
+  vm::ErrorTextOf(bytes);
   return 0;
 }

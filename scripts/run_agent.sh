@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# Sets up and builds if needed, and runs an agent with voice and face.
+# Sets up and builds if needed, and runs an agent with voice and face. Installed as galatea-agent it runs the programs
+# beside it.
 set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/run_agent.sh [options]
+usage: scripts/run_agent.sh [options]     (installed: galatea-agent [options])
 
   --say TEXT         speak TEXT and end: in a window where there is a display, else into agent.mp4
   --emotion TYPE     look HAPPY, ANGRY, DISGUSTED, SAD, SURPRISED, FEARED or NEUTRAL while speaking;
@@ -27,6 +28,12 @@ usage: scripts/run_agent.sh [options]
   --subtitles        with --dialog and --out: show what both say in the film; FILE.srt and FILE.vtt
                      lie beside it in any case
   --photo PHOTO      wear the face of the person in PHOTO (docs/photo.md)
+  --keep-face NAME   with --photo: keep that face as NAME, for --mask NAME later
+  --mask NAME        wear the face NAME: a built-in one, or one that was kept
+  --size WxH         size of the window, the film or the picture in the browser (640x480)
+  --speaker NAME     the voice that speaks (docs/speech.md; a wrong name lists them)
+  --language CODE    the language of what is said: en, ja, de, fr, ... By default that of the text of --say as its words
+                     tell it (scripts/text_languages.txt), and Japanese wherever the text is
   --stub             use the voice without sound and engine (ssm_stub)
   --config FILE      a configuration of the hub (docs/configuration.md) instead of examples/agents/
   --help             this text
@@ -36,7 +43,14 @@ TEXT
 }
 
 root=$(cd "$(dirname "$0")/.." && pwd)
+if [ -d "$root/share/galatea/examples" ]; then
+  installed=1 bin=$root/bin data=$root/share/galatea
+else
+  installed="" bin=$root/build/bin data=$root
+fi
 photo="" say="" emotion="" out="" config="" voice=ssm dialog="" script="" subtitles="" heard="" chat="" web="" model_url="" model="" key_file=""
+mask="" keep_face="" size="" speaker="" language=""
+started_in=$PWD
 fail() {
   echo "run_agent: $1" >&2
   exit 2
@@ -44,7 +58,8 @@ fail() {
 absolute() { case $1 in /*) echo "$1" ;; *) echo "$PWD/$1" ;; esac; }
 while [ $# -gt 0 ]; do
   case $1 in
-    --photo | --say | --emotion | --out | --config | --dialog | --script | --voice | --model-url | --model | --key-file)
+    --photo | --say | --emotion | --out | --config | --dialog | --script | --voice | --model-url | --model | --key-file | \
+      --mask | --keep-face | --size | --speaker | --language)
       [ $# -ge 2 ] || fail "$1 needs a value"
       case $1 in
         --photo) photo=$(absolute "$2") ;;
@@ -56,6 +71,11 @@ while [ $# -gt 0 ]; do
         --script) script=$(absolute "$2") ;;
         --model-url) model_url=$2 ;;
         --model) model=$2 ;;
+        --mask) mask=$2 ;;
+        --keep-face) keep_face=$2 ;;
+        --size) size=$2 ;;
+        --speaker) speaker=$2 ;;
+        --language) language=$2 ;;
         --key-file) key_file=$(absolute "$2") ;;
         --voice) heard=$2; [ "$2" = mic ] || heard=$(absolute "$2") ;;
       esac
@@ -78,7 +98,16 @@ case $out in "" | *.mp4) ;; *) fail "--out '$out': expected a name that ends in 
 [ -z "$out" ] || [ -d "$(dirname "$out")" ] || fail "--out: there is no folder '$(dirname "$out")'"
 [ -z "$out" ] || [ -w "$(dirname "$out")" ] || fail "--out: the folder '$(dirname "$out")' cannot be written to"
 [ -z "$photo" ] || [ -r "$photo" ] || fail "--photo: cannot read '$photo'"
-[ -z "$photo" ] || [ -z "$config" ] || fail "--photo and --config exclude each other: put --mask into the configuration"
+[ -z "$config" ] || [ -z "$photo$mask$size$speaker$language" ] ||
+  fail "--config excludes --photo, --mask, --size, --speaker and --language: put them into the configuration"
+[ -z "$photo" ] || [ -z "$mask" ] || fail "--photo and --mask exclude each other"
+[ -z "$keep_face" ] || [ -n "$photo" ] || fail "--keep-face needs --photo"
+for name in "$mask" "$keep_face" "$speaker"; do
+  [[ $name =~ ^[A-Za-z0-9_.-]*$ ]] || fail "'$name': expected a name of letters, digits, - and _"
+done
+[[ -z $size || $size =~ ^[1-9][0-9]{1,3}x[1-9][0-9]{1,3}$ ]] || fail "--size '$size': expected WIDTHxHEIGHT, such as 640x480"
+[[ $language =~ ^[a-z]*(-[a-z]+)?$ ]] || fail "--language '$language': expected a code, such as en, ja or de"
+[ -z "$speaker$language" ] || [ -z "$heard" ] || fail "--speaker and --language are not for --voice, which has its own"
 [ -z "$config" ] || [ -r "$config" ] || fail "--config: cannot read '$config'"
 [ -z "$dialog" ] || [ -r "$dialog" ] || fail "--dialog: cannot read '$dialog'"
 [ -z "$script" ] || [ -r "$script" ] || fail "--script: cannot read '$script'"
@@ -97,7 +126,7 @@ if [ -n "$subtitles" ] && { [ -z "$dialog" ] || [ -z "$out" ]; }; then fail "--s
 [ -z "$heard" ] || [ -z "$say$dialog" ] || fail "--voice excludes --say and --dialog"
 [ -z "$heard" ] || [ "$heard" = mic ] || [ -r "$heard" ] || fail "--voice: cannot read '$heard'"
 [ "$heard" != mic ] || [ -z "$out" ] || fail "--voice mic lives in a window; --out needs --voice FILE.wav"
-if [ -n "$heard" ] && [ "$heard" != mic ] && [ -z "$out" ]; then out=$PWD/agent.mp4; fi
+if [ -n "$heard" ] && [ "$heard" != mic ] && [ -z "$out" ]; then out=$started_in/agent.mp4; fi
 if [ -n "$dialog" ] && [ -n "$out" ] && [ -z "$script" ]; then
   script=${dialog%.*}.txt
   [ -r "$script" ] || fail "--out with --dialog needs the user's part: --script FILE (there is no '$script')"
@@ -136,20 +165,24 @@ build() {
   rm -f "$log"
 }
 
-cd "$root"
 # What is typed meanwhile is for the agent: nothing before it reads it.
-"$root/scripts/setup.sh" </dev/null
-build
+if [ -z "$installed" ]; then
+  cd "$root"
+  [ -x "$bin/agent_manager" ] ||
+    echo "run_agent: the first start installs what is missing and compiles the programs: about 10 minutes on two cores, once" >&2
+  "$root/scripts/setup.sh" </dev/null
+  build
+fi
 
 # A display counts only if a window can really be opened on it.
-has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$root/build/bin/fsm" --window --slots-markdown </dev/null >/dev/null 2>&1; }
+has_display() { [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && "$bin/fsm" --window --slots-markdown </dev/null >/dev/null 2>&1; }
 if [ -n "$out" ]; then
   film=1
 elif has_display; then
   film=""
 elif [ -n "$say" ]; then
   film=1
-  out="$root/agent.mp4"
+  out="$started_in/agent.mp4"
 else
   film=""
 fi
@@ -162,44 +195,100 @@ cleanup() {
 }
 trap cleanup EXIT
 
+# Runs the hub on a script until the film is there, and tells a terminal meanwhile how long it has taken.
+draw() {
+  local began=$SECONDS
+  "$hub_program" --config "$config" <"$work/script" >"$work/said" &
+  hub=$!
+  while kill -0 "$hub" 2>/dev/null; do
+    [ ! -t 2 ] || printf '\r\033[Krun_agent: drawing, %d s (a second of the film takes about one)' $((SECONDS - began)) >&2
+    sleep 0.2
+  done
+  [ ! -t 2 ] || printf '\r\033[K' >&2
+  local failed=0
+  wait "$hub" || failed=1
+  hub=""
+  [ "$failed" = 0 ] || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+}
+
+# What a module says to a question, without its quotes.
+asks() { # QUESTION PROGRAM...
+  echo "inq $1" | "${@:2}" 2>/dev/null | sed -n "s/^rep $1 = //p" | tr -d '"' | tail -n 1
+}
+
 if [ -n "$photo" ]; then
-  "$root/scripts/face_networks.sh" </dev/null
-  export GALATEA_FACES=$work/faces
-  "$root/build/bin/face_fit" "$photo" --name photo </dev/null | sed '/^face_fit: wrote /d' >&2 || fail "no face could be made from the photo"
+  "$data/scripts/face_networks.sh" </dev/null
+  [ -n "$keep_face" ] || export GALATEA_FACES=$work/faces
+  mask=${keep_face:-photo}
+  "$bin/face_fit" "$photo" --name "$mask" </dev/null | sed '/^face_fit: wrote /d' >&2 || fail "no face could be made from the photo"
+  [ -z "$keep_face" ] || echo "run_agent: kept as --mask $keep_face" >&2
+elif [ -n "$mask" ]; then
+  masks=$(asks MaskSet "$bin/fsm" --headless)
+  [[ ,$masks, == *,"$mask",* ]] || fail "--mask '$mask': there is no such face; there are ${masks//,/ }"
+fi
+if [ -n "$say" ] && [ -z "$language$speaker" ]; then
+  language=$(python3 - "$data/scripts/text_languages.txt" "$say" <<'PYTHON'
+import re, sys
+words = re.findall(r"[^\W\d_]+", sys.argv[2].lower())
+hits = {}
+for code, *known in (line.split() for line in open(sys.argv[1], encoding="utf-8") if not line.startswith("#")):
+    hits[code] = [word for word in words if word in known]
+best = max(hits, key=lambda code: len(hits[code]))  # the first of equals
+count = len(hits[best])
+# English unless another language has more of the words, some share of them, and more than one short word.
+if count > len(hits["en"]) and count * 4 >= len(words) and (count > 1 or len(hits[best][0]) > 3):
+    print(best)
+PYTHON
+  )
+  [ -z "$language" ] || echo "run_agent: the text looks like '$language'; --language en reads it as English" >&2
+fi
+if [ -n "$language$speaker" ] && [ "$voice" = ssm ] && [ -z "$config" ]; then
+  speakers=$(asks Speaker.all "$bin/ssm" --sink null)
+  # English and Japanese texts find their voices themselves.
+  case $language in "" | en | ja) ;; *) speaker=${speaker:-espeak-$language} ;; esac
+  if [ -n "$speaker" ] && [[ " $speakers " != *" $speaker "* ]]; then
+    fail "there is no voice '$speaker'; there are $speakers"
+  fi
 fi
 if [ -z "$config" ]; then
   config=$work/agent.json
-  source=examples/agents/agent.json
-  [ -z "$film" ] || source=examples/agents/film.json
-  [ -z "$chat" ] || source=examples/agents/chat.json
-  [ -z "$heard" ] || source=examples/agents/voice.json
-  [ -z "$heard" ] || [ -z "$film" ] || source=examples/agents/voice_film.json
-  sed -e "s#\"../macros/#\"$root/examples/macros/#" "$source" >"$config"
+  source=$data/examples/agents/agent.json
+  [ -z "$film" ] || source=$data/examples/agents/film.json
+  [ -z "$chat" ] || source=$data/examples/agents/chat.json
+  [ -z "$heard" ] || source=$data/examples/agents/voice.json
+  [ -z "$heard" ] || [ -z "$film" ] || source=$data/examples/agents/voice_film.json
+  sed -e "s#\"../macros/#\"$data/examples/macros/#" -e 's#\["build/bin/#["#' "$source" >"$config"
   if [ -n "$chat" ] && [ -n "$film" ]; then
-    sed -i -e '0,/{/s#{#{"clock": "virtual",#' -e 's#"--sink", "auto"#"--sink", "null"#' -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
+    sed -i -e '0,/{/s#{#{"clock": "virtual",#' -e 's#"--sink", "auto"#"--sink", "null"#' -e 's#\["fsm"#["fsm", "--headless"#' "$config"
   fi
   # In a browser the face needs no window, and the voice would sound twice.
   if [ -n "$web" ]; then
-    sed -i -e 's#"--sink", "auto"#"--sink", "null"#' -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
+    sed -i -e 's#"--sink", "auto"#"--sink", "null"#' -e 's#\["fsm"#["fsm", "--headless"#' "$config"
     # The ear that takes sound, where it has a model.
-    if echo "set Listen = START" | timeout 30 "$root/build/bin/srm" --strict >/dev/null 2>&1; then
-      sed -i -e 's#\["build/bin/srm_stub"#["build/bin/srm", "--live"#' "$config"
+    if echo "set Listen = START" | timeout 30 "$bin/srm" --strict >/dev/null 2>&1; then
+      sed -i -e 's#\["srm_stub"#["srm", "--live"#' "$config"
     fi
   fi
   if [ -n "$model_url" ]; then
     python3 -c 'import json, sys; json.dump(dict(zip(sys.argv[1::2], sys.argv[2::2])), sys.stdout)' \
       url "$model_url" model "$model" ${key_file:+key_file "$key_file"} >"$work/chat.json"
-    sed -i -e "s#\[\"build/bin/chat\"#&, \"--config\", \"$work/chat.json\"#" "$config"
+    sed -i -e "s#\[\"chat\"#&, \"--config\", \"$work/chat.json\"#" "$config"
   fi
   if [ "$voice" = ssm_stub ]; then
-    sed -i -e 's#\["build/bin/ssm"[^]]*\]#["build/bin/ssm_stub"]#' "$config"
+    sed -i -e 's#\["ssm"[^]]*\]#["ssm_stub"]#' "$config"
   fi
   if [ -z "$film$web" ] && ! has_display; then
-    sed -i -e 's#\["build/bin/fsm"#["build/bin/fsm", "--headless"#' "$config"
+    sed -i -e 's#\["fsm"#["fsm", "--headless"#' "$config"
   fi
-  [ -z "$photo" ] || sed -i -e 's#\["build/bin/fsm"#["build/bin/fsm", "--mask", "photo"#' "$config"
+  add() { # PROGRAM OPTION VALUE, unless VALUE is empty
+    [ -z "$3" ] || sed -i -e "s#\[\"$1\"#&, \"$2\", \"$3\"#" "$config"
+  }
+  add fsm --mask "$mask"
+  add fsm --size "$size"
+  add ssm --speaker "$speaker"
+  sed -i -e "s#\(\"command\": \[\"\)#\1$bin/#" "$config"
 fi
-hub_program=$root/build/bin/agent_manager
+hub_program=$bin/agent_manager
 
 if [ "$heard" = mic ]; then
   # The console stays open, for what is typed and until its end.
@@ -229,7 +318,7 @@ if [ -n "$heard" ]; then
     echo "to @FSM set#film Record = STOP"
     echo "set Wait = IDLE"
   } >"$work/script"
-  "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+  draw
   if error=$(grep -E 'rep#(input|said|film) [A-Za-z.]+\.error' "$work/said"); then
     fail "${error#*error = }"
   fi
@@ -253,7 +342,11 @@ if [ -n "$say" ]; then
     [ -z "$film" ] || echo "to @AM-MCL set#film Record = STOP"
     echo "set Wait = IDLE"
   } >"$work/script"
-  "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+  if [ -n "$film" ]; then
+    draw
+  else
+    "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+  fi
   if error=$(grep -E 'rep#(said|film) [A-Za-z.]+\.error' "$work/said"); then
     fail "${error#*error = }"
   fi
@@ -277,7 +370,7 @@ if [ -n "$chat" ] && [ -n "$film" ]; then
     echo "to @AM-MCL set#film Record = STOP"
     echo "set Wait = IDLE"
   } >"$work/script"
-  "$hub_program" --config "$config" <"$work/script" >"$work/said" || { cat "$work/said" >&2; fail "the hub ended with an error"; }
+  draw
   if error=$(grep -E 'rep#(heard|film) [A-Za-z.]+\.error' "$work/said"); then
     fail "${error#*error = }"
   fi
@@ -288,7 +381,10 @@ fi
 
 # A conversation or a dialogue: the hub in the background, what the user types at as one of its clients.
 printf '%s' "$(sed -e "0,/{/s#{#{\"listen\": [{\"at\": \"unix:$work/hub\", \"role\": \"owner\"}],#" "$config")" >"$work/dialogue.json"
-echo "to @FSM set FaceExp.onset = NATURAL" >"$work/first"
+{
+  echo "to @FSM set FaceExp.onset = NATURAL"
+  [ -z "$chat" ] || [ -z "$language" ] || echo "to @CHAT set Language = $language"
+} >"$work/first"
 "$hub_program" --config "$work/dialogue.json" --no-console --do "$work/first" ${web:+--web "$web" --web-role owner} 2>"$work/hub.log" &
 hub=$!
 for _ in $(seq 100); do [ -S "$work/hub" ] && break; sleep 0.05; done
@@ -310,7 +406,7 @@ if [ -n "$dialog" ]; then
   options=()
   [ -z "$script" ] || options+=(--script "$script" --transcript text)
   [ -z "$out" ] || options+=(--out "$out")
-  "$root/build/bin/task_manager" "$dialog" --connect "unix:$work/hub" "${options[@]}" || { cat "$work/hub.log" >&2; exit 1; }
+  "$bin/task_manager" "$dialog" --connect "unix:$work/hub" "${options[@]}" || { cat "$work/hub.log" >&2; exit 1; }
   if [ -n "$subtitles" ]; then
     mv "$out" "$work/film.mp4"
     cp "${out%.mp4}.srt" "$work/film.srt"
@@ -320,4 +416,4 @@ if [ -n "$dialog" ]; then
   [ -z "$out" ] || echo "run_agent: wrote $out"
   exit 0
 fi
-python3 examples/typed_chat.py "$work/hub" || { cat "$work/hub.log" >&2; exit 1; }
+python3 "$data/examples/typed_chat.py" "$work/hub" || { cat "$work/hub.log" >&2; exit 1; }

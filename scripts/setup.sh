@@ -13,10 +13,11 @@ packages=(
   flite1-dev portaudio19-dev libsndfile1-dev
   libespeak-ng-dev espeak-ng-data open-jtalk open-jtalk-mecab-naist-jdic libmecab-dev mecab-naist-jdic libhtsengine-dev
   libpocketsphinx-dev pocketsphinx-en-us libspeexdsp-dev
+  liboscpack-dev
 )
 # The framework, servers, screens, a browser and recordings for the tests.
 [ "${1:-}" != --tests ] || packages+=(
-  libgtest-dev openssl mosquitto mosquitto-clients iproute2 xvfb xdotool chromium-headless-shell pocketsphinx-testdata
+  libgtest-dev openssl mosquitto mosquitto-clients iproute2 xvfb xdotool chromium-headless-shell pocketsphinx-testdata liblo-tools
 )
 
 missing=()
@@ -27,11 +28,31 @@ done
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 echo "setup: installing ${missing[*]}" >&2
+echo "setup: with what they need; on a bare machine that is some minutes" >&2
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null || { echo "setup: run as root once, or install sudo" >&2; exit 1; }
   as_root=(sudo)
 fi
 "${as_root[@]}" apt-get update -qq >&2
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
-  "${missing[@]}" >&2
+# How far it is: at a terminal in one line that changes, else every 50 packages. What apt-get says is shown if it fails.
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get install -y -q --no-install-recommends "${missing[@]}" 2>&1 |
+  tee "$log" | {
+    total=0 fetched=0 ready=0
+    while IFS= read -r line; do
+      case $line in
+        *" newly installed, "*) total=${line%% newly installed*} total=${total##* } ;;
+        Get:*) fetched=$((fetched + 1)) ;;
+        "Setting up "*) ready=$((ready + 1)) ;;
+        *) continue ;;
+      esac
+      if [ -t 2 ]; then
+        printf '\r\033[Ksetup: %d of %d packages fetched, %d set up' "$fetched" "$total" "$ready" >&2
+      elif [ $(((fetched + ready) % 50)) -eq 0 ]; then
+        echo "setup: $fetched of $total packages fetched, $ready set up" >&2
+      fi
+    done
+    [ ! -t 2 ] || printf '\r\033[K' >&2
+  } || { cat "$log" >&2; exit 1; }

@@ -72,7 +72,9 @@ void Supervisor::StartWhatCan() {
                             [this](const std::string& name) { return IsReady(name); });
     if (!may_start) continue;
     const auto started = module->Start(watch_health_);
-    if (!started && first_apply_) throw std::runtime_error(started.error().text);
+    // The module has told why.
+    if (!started && first_apply_)
+      throw std::runtime_error("the modules of the configuration could not all be started");
   }
 }
 

@@ -8,8 +8,7 @@
 #include <functional>
 #include <list>
 
-#include "agent_manager/web/face_video.h"
-#include "agent_manager/web/voice_sound.h"
+#include "agent_manager/web/live_source.h"
 #include "agent_manager/web/web_server.h"
 
 /// What the files of the web server share; not for other folders.
@@ -28,8 +27,8 @@ struct WebServer::Impl {
   std::string host;  ///< "127.0.0.1:8080"
   std::function<std::string()> metrics;
   OnRefusal on_refusal;
-  std::unique_ptr<FaceVideo> video;
-  std::unique_ptr<VoiceSound> voice;
+  std::unique_ptr<LiveSource> face;
+  std::unique_ptr<LiveSource> voice;
   std::size_t connections = 0;
   /// One function for each connection that has not shown the token yet, the oldest first; it drops
   /// that connection.

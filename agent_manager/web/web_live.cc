@@ -65,12 +65,13 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   }
 
  private:
+  LiveSource& Source() { return *(live_ == Live::kFace ? server_->face : server_->voice); }
+
   void Join() {
     Audience::Member member{
         [self = shared_from_this()](const Audience::Piece& piece) { self->OnPiece(piece); },
         [self = shared_from_this()](const std::string& why) { self->OnEnd(why); }};
-    const unsigned number = live_ == Live::kFace ? server_->video->Watch(std::move(member))
-                                                 : server_->voice->Listen(std::move(member));
+    const unsigned number = Source().Join(std::move(member));
     if (!over_) number_ = number;  // else it has ended already
   }
 
@@ -135,8 +136,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     beast::get_lowest_layer(socket_).socket().close(ignored);
     const unsigned number = std::exchange(number_, 0);
     if (number == 0 || server_->closed) return;
-    if (live_ == Live::kFace) server_->video->Leave(number);
-    if (live_ == Live::kVoice) server_->voice->Leave(number);
+    Source().Leave(number);
   }
 
   std::shared_ptr<WebServer::Impl> server_;

@@ -316,8 +316,8 @@ void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
 
 }  // namespace
 
-WebServer::WebServer(const vm::Scheduler& clock, asio::io_context& io, const WebConfig& config,
-                     Hub& hub, std::function<std::string()> metrics, OnRefusal on_refusal)
+WebServer::WebServer(asio::io_context& io, const WebConfig& config, Hub& hub,
+                     std::function<std::string()> metrics, OnRefusal on_refusal)
     : impl_(std::make_shared<Impl>(io, hub)) {
   vm::Credentials credentials;
   credentials.token_file = config.token_file;
@@ -326,8 +326,8 @@ WebServer::WebServer(const vm::Scheduler& clock, asio::io_context& io, const Web
   impl_->role = config.role;
   impl_->metrics = std::move(metrics);
   impl_->on_refusal = std::move(on_refusal);
-  impl_->video = std::make_unique<FaceVideo>(clock, io, hub);
-  impl_->voice = std::make_unique<VoiceSound>(io, hub);
+  impl_->face = std::make_unique<LiveSource>(io, hub, LiveSource::kFace);
+  impl_->voice = std::make_unique<LiveSource>(io, hub, LiveSource::kVoice);
   const auto endpoint = vm::ParseEndpoint(config.at);
   if (!endpoint) throw std::runtime_error(endpoint.error().text);
   // A port that the system chooses is another one next time.
@@ -359,7 +359,7 @@ WebServer::~WebServer() {
   error_code ignored;
   impl_->acceptor.close(ignored);
   impl_->retry.cancel();
-  impl_->video.reset();
+  impl_->face.reset();
   impl_->voice.reset();
 }
 

@@ -14,7 +14,7 @@ namespace am {
 /// program, the live face (/face, with times; /face.mjpg), the voice's sound (/voice), metrics
 /// (/metrics), a WebSocket (/ws) that speaks the protocol with one line a message and is a peer
 /// like any other, and one for the sound of a microphone (/microphone).
-/// Lifetime: the clock, the context, the hub and what the callbacks use outlive it. Thread: the
+/// Lifetime: the context, the hub and what the callbacks use outlive it. Thread: the
 /// context's. Limits: kMaxConnections; when there are more, the oldest without the token is
 /// dropped. Errors: refused and passed to OnRefusal are requests without the token, from a page of
 /// another site (Host, Origin), for an unknown path or over kMaxHeaderBytes, and WebSocket messages
@@ -23,8 +23,8 @@ class WebServer {
  public:
   using OnRefusal = std::function<void(const std::string& text)>;
   /// Throws std::runtime_error with a sentence if the token cannot be read or the address is taken.
-  WebServer(const vm::Scheduler& clock, boost::asio::io_context& io, const WebConfig& config,
-            Hub& hub, std::function<std::string()> metrics, OnRefusal on_refusal);
+  WebServer(boost::asio::io_context& io, const WebConfig& config, Hub& hub,
+            std::function<std::string()> metrics, OnRefusal on_refusal);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   /// The URL to open in a browser; it contains the token.

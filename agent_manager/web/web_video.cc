@@ -15,8 +15,8 @@ using boost::system::error_code;
 
 constexpr auto kPictureLimit = std::chrono::seconds(10);  // for a browser to receive one picture
 
-/// One browser that watches the face; a viewer of FaceVideo until either side ends.
-/// Lifetime: kept alive by FaceVideo and its pending operations. Thread: the context's.
+/// One browser that watches the face; who follows LiveSource until either side ends.
+/// Lifetime: kept alive by LiveSource and its pending operations. Thread: the context's.
 class VideoSession : public std::enable_shared_from_this<VideoSession> {
  public:
   VideoSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
@@ -26,7 +26,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   ~VideoSession() { --server_->connections; }
 
   void Start() {
-    const unsigned viewer = server_->video->Watch(
+    const unsigned viewer = server_->face->Join(
         {[self = shared_from_this()](const Audience::Piece& piece) { self->OnPicture(*piece); },
          [self = shared_from_this()](const std::string&) { self->OnEnd(); }});
     if (!ended_) viewer_ = viewer;
@@ -77,8 +77,8 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
     error_code ignored;
     stream_.socket().close(ignored);
     if (const unsigned viewer = std::exchange(viewer_, 0);
-        viewer != 0 && !server_->closed && server_->video)
-      server_->video->Leave(viewer);
+        viewer != 0 && !server_->closed && server_->face)
+      server_->face->Leave(viewer);
   }
 
   std::shared_ptr<WebServer::Impl> server_;

@@ -9,9 +9,9 @@
 
 #include "chat/app/settings.h"
 #include "chat/core/chat_module.h"
-#include "chat/model/curl_transport.h"
 #include "chat/tables/tables.h"
 #include "vm_protocol/core/text_file.h"
+#include "vm_protocol/http/curl_transport.h"
 #include "vm_protocol/runtime/asio_scheduler.h"
 #include "vm_protocol/runtime/credentials.h"
 #include "vm_protocol/runtime/module_main.h"
@@ -99,7 +99,7 @@ class Program final : public vm::Module {
   void Shutdown() override { module_.Shutdown(); }
 
  private:
-  chat::CurlTransport transport_;
+  vm::CurlTransport transport_;
   chat::ChatModule module_;
 };
 

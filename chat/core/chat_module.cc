@@ -43,7 +43,7 @@ std::string Ms(vm::Time time) {
 
 }  // namespace
 
-ChatModule::ChatModule(vm::Scheduler& clock, HttpTransport& transport, Options options)
+ChatModule::ChatModule(vm::Scheduler& clock, vm::HttpTransport& transport, Options options)
     : clock_(clock),
       options_(std::move(options)),
       slots_("CHAT"),

@@ -45,7 +45,7 @@ class ChatModule final : public vm::Module {
   };
 
   /// Clock and transport outlive it.
-  ChatModule(vm::Scheduler& clock, HttpTransport& transport, Options options);
+  ChatModule(vm::Scheduler& clock, vm::HttpTransport& transport, Options options);
   ~ChatModule() override;
 
   vm::SlotMachine& slots() override { return slots_; }

@@ -49,7 +49,7 @@ std::string RequestBody(const std::string& more, const std::string& model, int t
   return Dumped(body);
 }
 
-Thinker::Thinker(vm::Scheduler& clock, HttpTransport& transport, HubLine& hub,
+Thinker::Thinker(vm::Scheduler& clock, vm::HttpTransport& transport, HubLine& hub,
                  const Endpoint& endpoint)
     : clock_(clock), transport_(transport), hub_(hub), endpoint_(endpoint) {}
 
@@ -114,7 +114,7 @@ void Thinker::Ask() {
   Round& round = *round_;
   round.words.clear();
   const bool tools = !endpoint_.allow_set.empty() && round.number < settings_.rounds;
-  HttpRequest request{
+  vm::HttpRequest request{
       .url = endpoint_.url,
       .headers = {"Content-Type: application/json", "Accept: text/event-stream, application/json"},
       .body = RequestBody(endpoint_.more, settings_.model, settings_.tokens, round.messages,

@@ -33,7 +33,8 @@ class Thinker {
     /// The last. Nothing: the answer is complete.
     std::function<void(const std::optional<ModelFailure>& failure)> end;
   };
-  Thinker(vm::Scheduler& clock, HttpTransport& transport, HubLine& hub, const Endpoint& endpoint);
+  Thinker(vm::Scheduler& clock, vm::HttpTransport& transport, HubLine& hub,
+          const Endpoint& endpoint);
   ~Thinker();
   Thinker(const Thinker&) = delete;
 
@@ -57,7 +58,7 @@ class Thinker {
   void LetGo();
 
   vm::Scheduler& clock_;
-  HttpTransport& transport_;
+  vm::HttpTransport& transport_;
   HubLine& hub_;
   const Endpoint& endpoint_;
   std::map<std::string, std::string> help_;  // of slots, by "@MODULE SLOT"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "vm_protocol/core/message.h"
-#include "vm_protocol/core/utf8.h"
+#include "vm_protocol/http/endpoint.h"
 
 namespace chat {
 
@@ -11,29 +11,7 @@ using vm::Errc;
 using vm::Fail;
 
 vm::Result<std::string> ChatUrl(std::string_view base) {
-  const std::size_t scheme = base.find("://");
-  const bool known = base.starts_with("http://") || base.starts_with("https://");
-  const std::size_t host = known ? scheme + 3 : 0;
-  const std::size_t end = std::min(base.find_first_of("/?#", host), base.size());
-  if (!known || end == host) {
-    return Fail(Errc::kBadValue,
-                "'" + vm::ShownUtf8(vm::CutUtf8(base, 200)) +
-                    "' is no address of a model, expected http://HOST:PORT or https://HOST");
-  }
-  if (base.substr(host, end - host).contains('@')) {
-    return Fail(Errc::kBadValue,
-                "a user and a password do not belong into the address of a model; "
-                "put the key into a file");
-  }
-  const bool plain = std::ranges::all_of(base, [](char c) { return c > ' ' && c < 0x7F; });
-  if (!plain || base.contains('?') || base.contains('#')) {
-    return Fail(Errc::kBadValue,
-                "the address of a model has blanks, '?', '#' or signs beyond ASCII");
-  }
-  std::string url(base);
-  while (url.ends_with('/')) url.pop_back();
-  if (url.ends_with("/chat/completions")) return url;
-  return url + (url.ends_with("/v1") ? "/chat/completions" : "/v1/chat/completions");
+  return vm::EndpointUrl(base, "/chat/completions", "a model");
 }
 
 vm::Result<AllowedSlot> ParseAllowed(std::string_view text) {

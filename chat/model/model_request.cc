@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "vm_protocol/core/utf8.h"
+#include "vm_protocol/http/answer.h"
 
 namespace chat {
 namespace {
@@ -22,7 +23,7 @@ std::string Seconds(milliseconds time) {
   return (tenths % 10 == 0 ? whole : whole + "." + std::to_string(tenths % 10)) + " s";
 }
 
-milliseconds RetryAfter(const HttpHead& head) {
+milliseconds RetryAfter(const vm::HttpHead& head) {
   const auto found = head.headers.find("retry-after");
   if (found == head.headers.end()) return kUsualWait;
   const std::string& text = found->second;
@@ -36,8 +37,9 @@ milliseconds RetryAfter(const HttpHead& head) {
 
 }  // namespace
 
-ModelRequest::ModelRequest(vm::Scheduler& clock, HttpTransport& transport, HttpRequest request,
-                           const std::string& key, ModelLimits limits, Events events)
+ModelRequest::ModelRequest(vm::Scheduler& clock, vm::HttpTransport& transport,
+                           vm::HttpRequest request, const std::string& key, ModelLimits limits,
+                           Events events)
     : clock_(clock), url_(request.url), key_(key), limits_(limits), events_(std::move(events)) {
   whole_timer_ = clock_.After(limits_.whole, [this] {
     whole_timer_ = 0;
@@ -46,7 +48,7 @@ ModelRequest::ModelRequest(vm::Scheduler& clock, HttpTransport& transport, HttpR
   });
   WaitForMore();
   exchange_ = transport.Post(std::move(request),
-                             {.on_head = [this](const HttpHead& head) { OnHead(head); },
+                             {.on_head = [this](const vm::HttpHead& head) { OnHead(head); },
                               .on_data = [this](std::string_view bytes) { OnData(bytes); },
                               .on_end = [this](const vm::Result<void>& end) { OnEnd(end); }});
 }
@@ -66,19 +68,11 @@ void ModelRequest::WaitForMore() {
   });
 }
 
-/// The endpoint may show our key in what it says of an error.
-std::string ModelRequest::WithoutKey(std::string text) const {
-  if (key_.empty()) return text;
-  for (std::size_t at = text.find(key_); at != std::string::npos; at = text.find(key_, at + 3)) {
-    text.replace(at, key_.size(), "***");
-  }
-  return text;
-}
-
 void ModelRequest::Fail(Trouble trouble, Errc code, std::string text, milliseconds wait) {
-  Finish(std::unexpected(ModelFailure{.trouble = trouble,
-                                      .error = {code, url_ + ": " + WithoutKey(std::move(text)), 0},
-                                      .wait = wait}));
+  Finish(std::unexpected(
+      ModelFailure{.trouble = trouble,
+                   .error = {code, url_ + ": " + vm::WithoutSecret(std::move(text), key_), 0},
+                   .wait = wait}));
 }
 
 void ModelRequest::Finish(std::expected<std::vector<ToolCall>, ModelFailure> end) {
@@ -88,7 +82,7 @@ void ModelRequest::Finish(std::expected<std::vector<ToolCall>, ModelFailure> end
   events_.end(std::move(end));
 }
 
-void ModelRequest::OnHead(const HttpHead& head) {
+void ModelRequest::OnHead(const vm::HttpHead& head) {
   if (ended_) return;
   head_ = head;
   WaitForMore();
@@ -131,26 +125,14 @@ void ModelRequest::Give(const std::string& words) {
 }
 
 void ModelRequest::FailByStatus() {
-  const int status = head_->status;
-  const std::string said = std::to_string(status) + ": " + ErrorTextOf(error_body_);
-  if (status >= 300 && status < 400) {
-    const auto place = head_->headers.find("location");
-    const std::string where =
-        place == head_->headers.end() ? "" : vm::ShownUtf8(vm::CutUtf8(place->second, 200));
-    return Fail(Trouble::kAway, Errc::kUnavailable,
-                std::to_string(status) + ": it has moved to '" + where +
-                    "'; redirections are not followed, so that the key goes nowhere else");
-  }
-  if (status == 401 || status == 403) {
-    return Fail(Trouble::kRefused, Errc::kAccess, "the key is refused, " + said);
-  }
-  if (status == 429) {
+  const vm::Error error = vm::StatusError(*head_, error_body_);
+  if (error.code == Errc::kBusy) {
     const milliseconds wait = RetryAfter(*head_);
-    return Fail(Trouble::kBusy, Errc::kBusy,
-                "too many requests, nothing is sent for " + Seconds(wait) + ", " + said, wait);
+    return Fail(Trouble::kBusy, error.code, error.text + "; nothing is sent for " + Seconds(wait),
+                wait);
   }
-  const bool own_fault = status >= 400 && status < 500;
-  Fail(own_fault ? Trouble::kRefused : Trouble::kAway, Errc::kUnavailable, said);
+  const bool refused = head_->status >= 400 && head_->status < 500;
+  Fail(refused ? Trouble::kRefused : Trouble::kAway, error.code, error.text);
 }
 
 void ModelRequest::OnEnd(const vm::Result<void>& end) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "chat/model/http.h"
 #include "chat/model/reply_reader.h"
 #include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/http/http.h"
 
 namespace chat {
 
@@ -38,13 +38,13 @@ class ModelRequest {
     /// Once, the last: what the model asks to have done (often nothing), or what went wrong.
     std::function<void(std::expected<std::vector<ToolCall>, ModelFailure> end)> end;
   };
-  ModelRequest(vm::Scheduler& clock, HttpTransport& transport, HttpRequest request,
+  ModelRequest(vm::Scheduler& clock, vm::HttpTransport& transport, vm::HttpRequest request,
                const std::string& key, ModelLimits limits, Events events);
   ~ModelRequest();
   ModelRequest(const ModelRequest&) = delete;
 
  private:
-  void OnHead(const HttpHead& head);
+  void OnHead(const vm::HttpHead& head);
   void OnData(std::string_view bytes);
   void OnEnd(const vm::Result<void>& end);
   void Give(const std::string& words);
@@ -52,21 +52,20 @@ class ModelRequest {
   void Fail(Trouble trouble, vm::Errc code, std::string text, std::chrono::milliseconds wait = {});
   void Finish(std::expected<std::vector<ToolCall>, ModelFailure> end);
   void FailByStatus();
-  std::string WithoutKey(std::string text) const;
 
   vm::Scheduler& clock_;
   const std::string url_;
   const std::string key_;
   const ModelLimits limits_;
   const Events events_;
-  std::optional<HttpHead> head_;
+  std::optional<vm::HttpHead> head_;
   std::optional<ReplyReader> reader_;  // of an answer that is none of an error
   std::string error_body_;
   std::size_t given_ = 0;
   bool began_ = false;
   bool ended_ = false;
   vm::TimerId stall_timer_ = 0, whole_timer_ = 0;
-  std::unique_ptr<HttpExchange> exchange_;
+  std::unique_ptr<vm::HttpExchange> exchange_;
 };
 
 }  // namespace chat

@@ -1,9 +1,8 @@
 #include "chat/model/reply_reader.h"
 
 #include <nlohmann/json.hpp>
-#include <optional>
 
-#include "vm_protocol/core/utf8.h"
+#include "vm_protocol/http/answer.h"
 
 namespace chat {
 namespace {
@@ -12,29 +11,8 @@ using nlohmann::json;
 using vm::Errc;
 using vm::Fail;
 
-constexpr std::size_t kMostShown = 200;
-constexpr int kDeepest = 32;
-
-std::string Shown(std::string_view text) { return vm::ShownUtf8(vm::CutUtf8(text, kMostShown)); }
-
-/// None for what is no JSON, or nests too deep.
-std::optional<json> Parsed(std::string_view text) {
-  bool too_deep = false;
-  json value = json::parse(
-      text,
-      [&too_deep](int depth, json::parse_event_t, json&) {
-        too_deep = too_deep || depth > kDeepest;
-        return !too_deep;
-      },
-      false);
-  if (too_deep || value.is_discarded()) return {};
-  return value;
-}
-
-std::string TextAt(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
+using vm::ErrorIn;
+using vm::TextAt;
 
 /// The words of `content`: a string, or a list of parts with text.
 std::string ContentOf(const json& message) {
@@ -80,43 +58,25 @@ vm::Result<void> AddToolCalls(const json& message, std::vector<ToolCall>& calls)
   return {};
 }
 
-std::optional<std::string> ErrorIn(const json& value) {
-  const auto error = value.find("error");
-  if (error == value.end() || error->is_null()) return {};
-  if (error->is_string()) return error->get<std::string>();
-  if (!error->is_object()) return "unknown error";
-  const std::string message = TextAt(*error, "message");
-  return message.empty() ? "unknown error" : message;
-}
-
 }  // namespace
-
-std::string ErrorTextOf(std::string_view body) {
-  const auto value = Parsed(body);
-  if (value && value->is_object()) {
-    if (const auto error = ErrorIn(*value)) return Shown(*error);
-    for (const char* key : {"message", "detail"}) {
-      if (const std::string text = TextAt(*value, key); !text.empty()) return Shown(text);
-    }
-  }
-  return Shown(body);
-}
 
 vm::Result<std::string> ReplyReader::ReadEvent(const std::string& event) {
   if (event == "[DONE]") {
     complete_ = true;
     return "";
   }
-  const auto chunk = Parsed(event);
+  const auto chunk = vm::ParseAnswer(event);
   if (!chunk || !chunk->is_object()) {
-    return Fail(Errc::kSyntax, "found '" + Shown(event) + "' in the answer, expected JSON");
+    return Fail(Errc::kSyntax,
+                "found '" + vm::ShownAnswer(event) + "' in the answer, expected JSON");
   }
   if (const auto error = ErrorIn(*chunk)) {
-    return Fail(Errc::kUnavailable, "the endpoint reports: " + Shown(*error));
+    return Fail(Errc::kUnavailable, "the endpoint reports: " + vm::ShownAnswer(*error));
   }
   const auto choices = chunk->find("choices");
   if (choices == chunk->end() || !choices->is_array()) {
-    return Fail(Errc::kSyntax, "found '" + Shown(event) + "' in the answer, expected 'choices'");
+    return Fail(Errc::kSyntax,
+                "found '" + vm::ShownAnswer(event) + "' in the answer, expected 'choices'");
   }
   if (choices->empty() || !(*choices)[0].is_object()) return "";  // of usage alone
   const json& choice = (*choices)[0];

@@ -50,7 +50,4 @@ class ReplyReader {
   std::vector<ToolCall> tool_calls_;
 };
 
-/// What an endpoint says of an error in its body, for people: at most 200 bytes on one line.
-std::string ErrorTextOf(std::string_view body);
-
 }  // namespace chat

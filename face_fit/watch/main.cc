@@ -103,6 +103,7 @@ int main(int argc, char** argv) {
       "how\n"
       "it is held in the first frame. Where no face is seen, certainty is 0 and the rest is "
       "empty.");
+  app.set_version_flag("--version", "face_watch (Galatea) " GALATEA_VERSION);
   app.add_option("--size", options.size, "WIDTHxHEIGHT of a frame")->required();
   app.add_option("--rate", options.rate, "Frames a second")->check(CLI::Range(1.0, 1000.0));
   app.add_flag(

@@ -84,18 +84,22 @@ void DeclareUnits(FsmCore& core) {
 void DeclareExpressions(FsmCore& core) {
   core.Declare(
       {.name = "FaceExp",
-       .grammar = "NEUTRAL [ <int> <number> <ms> ] | <word> <int 1..> <number 0..200> <ms>",
+       .grammar =
+           "NEUTRAL [ <int> <number> <ms> ] | <word> [ <int 1..> [ <number 0..200> [ <ms> ] ] ]",
        .help = "An expression: HAPPY ANGRY DISGUSTED SAD SURPRISED FEARED or USERDEF, its pattern "
-               "(1 to 5), its strength in per cent and its duration in ms (0 = until the next); "
-               "or NEUTRAL.",
+               "(1 to 5), its strength in per cent and its duration in ms (0 = until the next), "
+               "left out 1 100 0; or NEUTRAL.",
        .action = [&core](const vm::SetValue& value) -> vm::Result<void> {
          if (value.word(0) == "NEUTRAL") {
            core.motion->expression.Neutral(core.Now());
            return {};
          }
+         const auto number = [&value](std::size_t place, double left_out) {
+           return value.size() > place ? value.number(place) : left_out;
+         };
          return core.motion->expression.Show(core.Now(), value.word(0),
-                                             static_cast<int>(value.number(1)),
-                                             value.number(2) / 100, FromMs(value.number(3)));
+                                             static_cast<int>(number(1, 1)), number(2, 100) / 100,
+                                             FromMs(number(3, 0)));
        },
        .initial = "NEUTRAL"});
   core.Declare(

@@ -55,6 +55,7 @@ FsmModule::FsmModule(vm::Scheduler& clock, RenderBackend& backend, FsmOptions op
   scene_->set_size_locked([this] { return film_->recording(); });
   MakeFilms();
   DeclareRecording();
+  DeclarePictures();
   DeclareCapture();
   DeclareFrame();
   vm::OrThrow(BeginLife());
@@ -91,6 +92,13 @@ void FsmModule::MakeFilms() {
                                            core_.slots.ReportError("Capture", done.error());
                                          }
                                        });
+  pictures_ = std::make_unique<PictureStream>(
+      core_.clock, core_.backend, [this](vm::Time at) { return core_.DrawAt(at); },
+      [this](vm::Time from, vm::Time to) {
+        return core_.backend.Swings() ||
+               core_.motion->NextActivity(from).value_or(to + vm::Time(1)) <= to;
+      },
+      [this](const vm::Error& error) { core_.slots.ReportError("Picture.to", error); });
 }
 
 void FsmModule::MakeMotion() {
@@ -113,6 +121,8 @@ void FsmModule::Initialise() {
   }
   capture_->Cancel();
   core_.slots.Store("Capture", "DISABLE");
+  static_cast<void>(pictures_->SendTo("NONE", 1));
+  core_.slots.Store("Picture.to", "NONE");
   MakeMotion();
   speech_->Reset();
   core_.ForgetSlotsSinceStart();
@@ -122,6 +132,7 @@ void FsmModule::Initialise() {
   if (auto set = BeginLife(); !set) core_.slots.ReportError("Life", set.error());
   frames_shown_ = 0;
   core_.slots.Store("Frame", "");
+  frame_to_.clear();
   Changed();
 }
 
@@ -174,6 +185,29 @@ void FsmModule::DeclareRecording() {
        .saved = false});
 }
 
+void FsmModule::DeclarePictures() {
+  core_.Declare({.name = "Picture.fps",
+                 .grammar = "<int 1..60>",
+                 .help = "Pictures a second of what Picture.to asks for, from its next setting on.",
+                 .action = [](const vm::SetValue&) -> vm::Result<void> { return {}; },
+                 .initial = "25"});
+  core_.slots.Declare(
+      {.name = "Picture.to",
+       .grammar = "NONE | <file>",
+       .initial = "NONE",
+       .help = "unix:PATH of a socket that somebody listens at: gets pictures of the face with "
+               "their times, beside any film (docs/face.md). NONE: no longer.",
+       .on_set = [this](const vm::SetValue& value) -> vm::Result<std::string> {
+         const int rate = std::stoi(core_.slots.Value("Picture.fps"));
+         if (auto sent = pictures_->SendTo(value.word(0), rate); !sent) {
+           return std::unexpected(sent.error());
+         }
+         return value.word(0);
+       },
+       .on_inq = [this] { return pictures_->to(); },
+       .saved = false});
+}
+
 vm::Result<std::string> FsmModule::StopFilm() {
   const auto report = film_->Stop(core_.slots.Value("Record.sound"));
   core_.slots.Store("Record", "STOP");
@@ -222,6 +256,47 @@ void FsmModule::DeclareFrame() {
                            "The frame drawn last: NUMBER TIME_MS PHONEME JAW_DEG GAP_MM WIDTH_MM. "
                            "With AutoOutput every frame is reported; the number counts from 0 in "
                            "a film."});
+  core_.Declare(
+      {.name = "Frame.to",
+       .grammar = "NONE | <word>",
+       .help =
+           "The module that is told each frame, by its slot FaceFrame, while something moves: "
+           "TIME_MS on this module's clock, 17 mouth parameters, SEAL, TONGUE, the head's DOWN "
+           "RIGHT TILT, DOWN RIGHT of the left and of the right eye in degrees, how far the left "
+           "and the right lids are closed, then UNIT:STRENGTH of every action unit that is not at "
+           "rest (12L:0.7).",
+       .action = [this](const vm::SetValue& value) -> vm::Result<void> {
+         const std::string name = value.word(0);
+         if (name != "NONE" && !vm::IsModuleName(name)) {
+           return vm::Fail(vm::Errc::kBadValue, "'" + name + "' is no name of a module");
+         }
+         frame_to_ = name == "NONE" ? "" : name;
+         TellFrame(core_.Now());
+         return {};
+       },
+       .initial = "NONE"});
+}
+
+void FsmModule::TellFrame(vm::Time at) {
+  if (frame_to_.empty()) return;
+  const FaceState state = core_.motion->StateAt(at);
+  std::string text = vm::FormatMs(at);
+  const auto add = [&text](float value) { text += fmt::format(" {:.4g}", value); };
+  for (const float value : state.mouth) add(value);
+  add(state.lip_seal);
+  add(state.tongue);
+  for (const float angle : state.head_rotation) add(angle);
+  for (const float angle : state.gaze.left) add(angle);
+  for (const float angle : state.gaze.right) add(angle);
+  add(state.blink.left);
+  add(state.blink.right);
+  for (const auto& [units, side] : {std::pair(&state.au.left, 'L'), {&state.au.right, 'R'}}) {
+    for (std::size_t unit = 0; unit < units->size(); ++unit) {
+      if (std::abs((*units)[unit]) < 0.002F) continue;
+      text += fmt::format(" {}{}:{:.3g}", unit, side, (*units)[unit]);
+    }
+  }
+  core_.slots.Say(vm::To(frame_to_, vm::Set("FaceFrame", text)));
 }
 
 void FsmModule::ReportFrame(long number, vm::Time at) {
@@ -243,6 +318,7 @@ vm::Result<void> FsmModule::DrawFrame(long number, vm::Time at) {
 // ---- time
 
 void FsmModule::Changed() {
+  if (pictures_) pictures_->Touch();
   ArmFrames();
   ArmEnd();
 }
@@ -259,8 +335,9 @@ vm::Time FsmModule::FrameAfter(vm::Time t) const {
 
 void FsmModule::ArmFrames() {
   const bool window = core_.backend.has_window();
-  const bool wanted = window || (core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") &&
-                                 !film_->recording());
+  const bool reported =
+      core_.slots.Has("Frame") && core_.slots.AutoOutput("Frame") && !film_->recording();
+  const bool wanted = window || reported || !frame_to_.empty();
   const vm::Time now = core_.Now();
   std::optional<vm::Time> due;
   if (wanted) {
@@ -290,6 +367,7 @@ void FsmModule::OnFrame() {
     if (core_.backend.close_requested()) exit_requested_ = true;
   }
   if (!film_->recording()) ReportFrame(frames_shown_++, now);
+  TellFrame(now);
   ArmFrames();
 }
 
@@ -321,6 +399,7 @@ void FsmModule::Shutdown() {
   // Whoever runs us lets go of what is still due. Where drawing takes longer than the time between
   // two pictures that would be one after another, without end.
   capture_->Cancel();
+  static_cast<void>(pictures_->SendTo("NONE", 1));
   if (frame_timer_ != 0) core_.clock.Cancel(frame_timer_);
   frame_timer_ = 0;
   if (!film_->recording()) return;

@@ -10,6 +10,7 @@
 #include "fsm/app/film.h"
 #include "fsm/app/fsm_core.h"
 #include "fsm/app/mask_slots.h"
+#include "fsm/app/picture_stream.h"
 #include "fsm/app/scene_slots.h"
 #include "fsm/app/speech_slots.h"
 #include "fsm/faces/original_config.h"
@@ -29,7 +30,7 @@ struct FsmOptions {
 /// The face synthesis module: all its slots over FaceMotion and a Backend.
 /// Drawing: with a window, whenever something moves (at most at the frame rate) and a few times a
 /// second otherwise; without one, only for pictures, films and Frame reports. No timer is pending
-/// while nothing moves and nothing is recorded (but for the window's events).
+/// while nothing moves and nothing is recorded or sent (but for the window's events).
 /// Lifetime: scheduler and backend outlive it. Thread: the scheduler's.
 class FsmModule final : public vm::Module {
  public:
@@ -53,6 +54,7 @@ class FsmModule final : public vm::Module {
   vm::Result<void> BeginLife();  // as FsmOptions::life says
   void Initialise();             // Run = INIT
   void DeclareRecording();
+  void DeclarePictures();
   void DeclareCapture();
   void DeclareFrame();
   void Changed();
@@ -62,6 +64,7 @@ class FsmModule final : public vm::Module {
   vm::Time FrameAfter(vm::Time t) const;
   vm::Time BusyUntil() const;
   void ReportFrame(long number, vm::Time at);
+  void TellFrame(vm::Time at);  // Frame.to
   vm::Result<void> DrawFrame(long number, vm::Time at);
   vm::Result<std::string> StopFilm();
 
@@ -74,8 +77,10 @@ class FsmModule final : public vm::Module {
   std::unique_ptr<SpeechSlots> speech_;
   std::unique_ptr<Film> film_;
   std::unique_ptr<Capture> capture_;
+  std::unique_ptr<PictureStream> pictures_;
   double frame_rate_ = 60;
   long frames_shown_ = 0;
+  std::string frame_to_;  // the module that is told each frame; empty: none
   vm::TimerId frame_timer_ = 0;
   vm::Time frame_due_{0};
   vm::TimerId end_timer_ = 0;

@@ -38,13 +38,15 @@ LidPoint PointOnLid(const EyeAnatomy& eye, int i) {
 }
 
 /// A curve around the eye: millimetres from the margin on each lid, part of the lid's turn that it
-/// shares, part of the way to the socket's edge, and millimetres that it is lifted.
+/// shares, part of the way to the socket's edge, and millimetres that it is lifted, above and
+/// below: the socket of a young face is nearly filled.
 struct LidRing {
-  float upper_mm, lower_mm, upper_hold, lower_hold, to_orbit, lift;
+  float upper_mm, lower_mm, upper_hold, lower_hold, to_orbit, upper_lift, lower_lift;
 };
-constexpr std::array kLidRings = {
-    LidRing{0.1f, 0.1f, 1, 1, 0, 0}, LidRing{3.4f, 3.2f, 0.94f, 0.85f, 0, 0},
-    LidRing{6.1f, 6.6f, 0.6f, 0.5f, 0.04f, -0.3f}, LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 1.0f}};
+constexpr std::array kLidRings = {LidRing{0.1f, 0.1f, 1, 1, 0, 0, 0},
+                                  LidRing{3.4f, 3.2f, 0.94f, 0.85f, 0, 0.1f, 0.1f},
+                                  LidRing{6.1f, 6.6f, 0.6f, 0.5f, 0.04f, 1.7f, 0.5f},
+                                  LidRing{8.2f, 10.0f, 0.28f, 0.22f, 0.50f, 2.6f, 1.0f}};
 
 /// `edge`: the point of the socket's edge there.
 glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& ring,
@@ -61,8 +63,8 @@ glm::vec3 PointOfRing(const EyeAnatomy& eye, const LidPoint& at, const LidRing& 
   }
   p = glm::mix(p, edge, ring.to_orbit);
   const float along = (at.x - eye.inner_x()) / (eye.outer_x() - eye.inner_x());
-  p.z += ring.lift * SmoothStep(0.02f, 0.4f, along) * SmoothStep(1.0f, 0.8f, along) *
-         (at.upper ? 1.0f : 0.45f);
+  p.z += (at.upper ? ring.upper_lift : ring.lower_lift) * SmoothStep(0.02f, 0.4f, along) *
+         SmoothStep(1.0f, at.upper ? 0.8f : 0.6f, along);
   return p;
 }
 

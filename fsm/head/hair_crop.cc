@@ -33,6 +33,21 @@ class CroppedHair {
     for (int k = 0; k < style_.locks; ++k) Lock(k);
   }
 
+  std::vector<SkinHair> Hairline() {
+    const auto& n = features_["crop_hairline"];
+    std::vector<SkinHair> hairs;
+    for (int k = 0; k < static_cast<int>(n[0]); ++k) {
+      const float azimuth = n[1] * NoiseAt(k, 91);
+      // Most grow near the line, few before it.
+      const float off = NoiseAt(k, 92);
+      const glm::vec3 root = Direction(azimuth, n[2] + n[3] * off * std::abs(off));
+      if (scalp_.Over(root, 0).y < n[4]) continue;
+      hairs.push_back(look_.OnSkin(scalp_, root, Flow(root, Forehead(azimuth, 0.1f)),
+                                   std::min(1.0f, 1 + off), k));
+    }
+    return hairs;
+  }
+
  private:
   // Azimuth -180..180; `up` 0 at the hairline .. 1 at the crown, which lies behind the top.
   glm::vec3 Direction(float azimuth, float up) const {
@@ -174,6 +189,11 @@ class CroppedHair {
 void BuildCroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
                       HeadMesh& mesh) {
   CroppedHair(style, features, palette, mesh).Build();
+}
+
+std::vector<SkinHair> CroppedHairline(const CropStyle& style, const Features& features,
+                                      const Palette& palette, HeadMesh& mesh) {
+  return CroppedHair(style, features, palette, mesh).Hairline();
 }
 
 }  // namespace fsm

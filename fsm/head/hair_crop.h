@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
 #include "fsm/head/paint.h"
@@ -15,6 +17,9 @@ struct CropStyle {
   float front_up;  ///< how far locks over the forehead stand up, 0..1
   float recede;    ///< degrees the hairline is drawn back at the temples
 };
+/// As LongHairline.
+std::vector<SkinHair> CroppedHairline(const CropStyle& style, const Features& features,
+                                      const Palette& palette, HeadMesh& mesh);
 /// Short hair all round.
 void BuildCroppedHair(const CropStyle& style, const Features& features, const Palette& palette,
                       HeadMesh& mesh);

@@ -41,6 +41,24 @@ class LongHair {
     }
   }
 
+  std::vector<SkinHair> Hairline() {
+    const auto& n = features_["long_hairline"];
+    std::vector<SkinHair> hairs;
+    for (int k = 0; k < static_cast<int>(n[0]); ++k) {
+      const float side = k % 2 == 0 ? -1.0f : 1.0f;
+      const float t = n[1] * (0.5f + 0.5f * NoiseAt(k, 91));
+      const glm::vec3 edge = Direction(0, side, t);
+      const glm::vec3 along = glm::normalize(Direction(0, side, t + 0.02f) - edge);
+      const float off = NoiseAt(k, 92);
+      const glm::vec3 before = glm::cross(along, edge) * side;  // away from the hair
+      const glm::vec3 root = glm::normalize(edge + before * (n[2] + n[3] * off * std::abs(off)));
+      if (scalp_.Over(root, 0).y < n[4]) continue;
+      hairs.push_back(
+          look_.OnSkin(scalp_, root, along + n[5] * before, std::min(1.0f, 1 - off), k));
+    }
+    return hairs;
+  }
+
  private:
   // `i` runs from the face's edge (0) to the middle of the back (1), `t` from the parting (0) over
   // the end of the skull (kCap) to the ends (1).
@@ -324,6 +342,11 @@ class LongHair {
 void BuildLongHair(const LongStyle& style, const Features& features, const Palette& palette,
                    HeadMesh& mesh) {
   LongHair(style, features, palette, mesh).Build();
+}
+
+std::vector<SkinHair> LongHairline(const LongStyle& style, const Features& features,
+                                   const Palette& palette, HeadMesh& mesh) {
+  return LongHair(style, features, palette, mesh).Hairline();
 }
 
 }  // namespace fsm

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
 #include "fsm/head/paint.h"
@@ -13,6 +15,10 @@ struct LongStyle {
   float back_y = -112;    ///< of those behind
   float wave_mm = 2.2f;   ///< sideways swing of what hangs
 };
+/// Single hairs on the skin beside the edge of the hair, so that it does not begin on a line.
+/// `mesh`: the skin before it takes the identity's form.
+std::vector<SkinHair> LongHairline(const LongStyle& style, const Features& features,
+                                   const Palette& palette, HeadMesh& mesh);
 /// Parted and hanging.
 void BuildLongHair(const LongStyle& style, const Features& features, const Palette& palette,
                    HeadMesh& mesh);

@@ -9,6 +9,7 @@
 
 #include "fsm/base/random.h"
 #include "fsm/base/spline.h"
+#include "fsm/head/landmarks.h"
 
 namespace fsm {
 namespace {
@@ -113,6 +114,27 @@ void HairLook::AddLock(std::span<const glm::vec3> path, const LockStyle& style, 
     if (k > 0) mesh.Quad(Material::kHair, before[0], before[1], now[1], now[0]);
     before = now;
   }
+}
+
+SkinHair HairLook::OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
+                          int seed) const {
+  const auto& long_by = features_["hairline_length"];
+  const auto& wide_by = features_["hairline_width"];
+  const auto& dark = features_["hairline_cover"];
+  const float length = (long_by[0] + long_by[1] * NoiseAt(seed, 81)) * (0.4f + 0.6f * strength);
+  const glm::vec3 aside = glm::cross(root, along);
+  const glm::vec3 way =
+      glm::normalize(along + features_("hairline_uneven") * NoiseAt(seed, 82) * aside);
+  const glm::vec3 bent =
+      glm::normalize(along + features_("hairline_uneven") * NoiseAt(seed, 83) * aside);
+  const auto at = [&](glm::vec3 d) { return Unroll(scalp.Over(glm::normalize(d), 0)); };
+  const glm::vec3 middle = root + way * (0.5f * length / 100);
+  const float cover = (dark[0] + dark[1] * NoiseAt(seed, 84)) * (0.3f + 0.7f * strength);
+  return {.root = at(root),
+          .middle = at(middle),
+          .tip = at(middle + bent * (0.5f * length / 100)),
+          .width_mm = wide_by[0] + wide_by[1] * NoiseAt(seed, 85),
+          .tint = glm::mix(glm::vec3(1), palette_.hair / palette_.skin, cover)};
 }
 
 void HairLook::LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const {

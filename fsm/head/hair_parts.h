@@ -9,6 +9,7 @@
 #include "fsm/head/features.h"
 #include "fsm/head/head_mesh.h"
 #include "fsm/head/paint.h"
+#include "fsm/rig/head.h"
 
 namespace fsm {
 
@@ -53,6 +54,10 @@ class HairLook {
                HeadMesh& mesh) const;
   /// Darkens the skin under and beside the hair's edge, which runs through `edge`.
   void ShadeSkin(std::span<const glm::vec3> edge, float reach_mm, HeadMesh& mesh) const;
+  /// A hair painted on the skin, from `root` on (unit, from kHairCentre) in the direction `along`;
+  /// `strength`: 1 = as the others, less is shorter and paler.
+  SkinHair OnSkin(const Scalp& scalp, glm::vec3 root, glm::vec3 along, float strength,
+                  int seed) const;
   /// Locks are flat cards, but take light as the head of hair they lie on: their own normals only
   /// ruffle its. `place` and `normal` of one length.
   void LightAsOne(std::span<const glm::vec3> place, std::span<glm::vec3> normal) const;

@@ -10,15 +10,19 @@ namespace fsm {
 
 HeadForm::HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper,
                    const Warp* warp, const std::optional<Sided<EyeTransform>>& eye_transforms,
-                   const HeadMesh& base)
+                   const HeadMesh& base, const EyeTransform& left_eye)
     : eye_(eye), mouth_(mouth), shaper_(shaper), warp_(warp) {
   if (eye_transforms) {
     eye_transforms_ = *eye_transforms;
   } else {
     constexpr glm::vec3 kMirror(-1, 1, 1);
     const glm::vec3 by = 0.5f * (Motion(eye_.centre()) + kMirror * Motion(eye_.centre() * kMirror));
-    eye_transforms_.left.shift = by;
-    eye_transforms_.right.shift = by * kMirror;
+    // A larger ball lies deeper: its front stays where it was.
+    const glm::vec3 deeper(0, 0, (1 - left_eye.size) * eye_.radius());
+    eye_transforms_ = {left_eye, left_eye};
+    eye_transforms_.left.shift = by + deeper;
+    eye_transforms_.right.shift = by * kMirror + deeper;
+    eye_transforms_.right.turn = -left_eye.turn;
   }
   const auto lips = [&](float x) {
     return Motion({x, mouth_.LineY(std::abs(x)), mouth_.LineZ(std::abs(x))});

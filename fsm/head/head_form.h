@@ -18,9 +18,11 @@ namespace fsm {
 class HeadForm {
  public:
   /// `warp`: of a face from a photo, or null. `eye_transforms`: of its right and left eye if they
-  /// are known; otherwise eyes go where the skin goes. `base`: the head before it takes this form.
+  /// are known; otherwise eyes are like `left_eye` and go where the skin goes. `base`: the head
+  /// before it takes this form.
   HeadForm(const EyeAnatomy& eye, const MouthAnatomy& mouth, const Shaper& shaper, const Warp* warp,
-           const std::optional<Sided<EyeTransform>>& eye_transforms, const HeadMesh& base);
+           const std::optional<Sided<EyeTransform>>& eye_transforms, const HeadMesh& base,
+           const EyeTransform& left_eye = {});
 
   /// Moves all vertices but those from `fixed_first` to before `fixed_end`.
   void Shape(std::size_t fixed_first, std::size_t fixed_end, HeadMesh& mesh) const;

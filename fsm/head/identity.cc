@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <stdexcept>
 
 namespace fsm {
@@ -53,6 +54,11 @@ void ReadIdentityRow(const TableRow& row, Identity& identity) {
     } else {
       row.Fail("long or crop expected");
     }
+  } else if (key == "eyes") {
+    identity.eyes.size = row.Within(1, 0.7f, 1.4f);
+    identity.eyes.turn = glm::radians(row.Within(2, -20, 20));
+    identity.eyes.upper_mm = row.Within(3, -4, 3);
+    identity.eyes.lower_mm = row.Within(4, -2, 4);
   } else if (key == "beard") {
     identity.palette.beard = row.Number(1);
   } else if (key == "lashes") {

@@ -14,6 +14,7 @@
 #include "fsm/head/hair_crop.h"
 #include "fsm/head/hair_long.h"
 #include "fsm/head/paint.h"
+#include "fsm/rig/eye_transform.h"
 
 namespace fsm {
 
@@ -32,6 +33,7 @@ struct Identity {
   std::vector<std::pair<std::string, float>> sliders;
   std::optional<CropStyle> crop;  ///< long hair if empty
   LongStyle long_hair;
+  EyeTransform eyes;  ///< the left one; `shift` is what the sliders make it
   float lashes = 1;
   float brow_thickness = 1, brow_height = 0;
   std::array<float, 4> creases{};              ///< by Crease

@@ -96,6 +96,12 @@ BaseParts OnlySkin(const BaseSkin& skin) {
   return {skin.mesh, end, end, end, {}};
 }
 
+std::vector<SkinHair> HairlineOf(const Identity& identity, HeadMesh& mesh) {
+  const Features& look = identity.Look();
+  return identity.crop ? CroppedHairline(*identity.crop, look, identity.palette, mesh)
+                       : LongHairline(identity.long_hair, look, identity.palette, mesh);
+}
+
 BaseParts LayParts(const Ingredients& of, const BaseSkin& skin) {
   const Features& look = of.identity.Look();
   const Palette& palette = of.identity.palette;
@@ -110,6 +116,9 @@ BaseParts LayParts(const Ingredients& of, const BaseSkin& skin) {
   const SkinFront front(skin.fine);
   parts.skin_hairs = BuildBrows(front, of.identity, mesh);
   std::ranges::move(BuildLidFolds(front, of.eye, look), std::back_inserter(parts.skin_hairs));
+  if (!of.photo) {
+    std::ranges::move(HairlineOf(of.identity, mesh), std::back_inserter(parts.skin_hairs));
+  }
   // A photo shows the lashes of open eyes: only those of shut lids are added.
   BuildLashes(of.eye, of.identity, of.photo != nullptr, mesh);
   parts.soft_end = mesh.position.size();
@@ -145,7 +154,8 @@ void AddHair(const Ingredients& of, const BaseSkin& skin, HeadMesh& mesh) {
 
 FormedHead TakeForm(const Ingredients& of, const BaseSkin& skin, const BaseParts& parts) {
   const HeadForm form(of.eye, of.mouth, of.shaper, of.warp ? &*of.warp : nullptr,
-                      of.photo ? of.photo->eyes : std::nullopt, parts.mesh);
+                      of.photo ? of.photo->eyes : std::nullopt, parts.mesh,
+                      of.photo ? EyeTransform{} : of.identity.eyes);
   FormedHead head{parts.mesh, parts.mesh.position, parts.mesh.position.size(),
                   form.eye_transforms(), form.teeth()};
   // The sheet of a photo is where it belongs already.

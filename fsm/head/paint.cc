@@ -45,7 +45,7 @@ void SkinPainter::AddLid(glm::vec2 at, Paint& paint) const {
   const float above = at.y - eye_.UpperY(at.x);
   const float ends = SmoothStep(eye_.inner_x() - 4, eye_.inner_x() + 3, at.x) *
                      SmoothStep(eye_.outer_x() + 5, eye_.outer_x() - 3, at.x);
-  const float fold = std::exp(-0.5f * (above - 5.0f) * (above - 5.0f) / 1.2f) * ends;
+  const float fold = std::exp(-0.5f * (above - 4.2f) * (above - 4.2f) / 1.2f) * ends;
   const float lid = ends * SmoothStep(10, 2, above) * SmoothStep(-1, 0, above);
   paint.albedo = glm::mix(paint.albedo, palette_.skin * features_.Vector("lid_colour"),
                           features_("lid_tint") * lid);

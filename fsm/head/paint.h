@@ -20,7 +20,7 @@ struct Palette {
   glm::vec3 iris{0.20f, 0.105f, 0.045f};
   glm::vec3 cloth{0.075f, 0.13f, 0.21f};
   glm::vec3 tooth{0.76f, 0.735f, 0.66f};
-  glm::vec3 lip_inside{0.36f, 0.11f, 0.10f};
+  glm::vec3 lip_inside{0.40f, 0.14f, 0.125f};
   glm::vec3 rim{0.58f, 0.30f, 0.25f};
   glm::vec3 mouth{0.36f, 0.105f, 0.09f};
   glm::vec3 tongue{0.56f, 0.25f, 0.23f};

@@ -70,9 +70,10 @@ Paint MakePaint(const CageTag& tag, glm::vec3 p, SkinKind kind, const SkinPainte
         0.88f * SmoothStep(1.1f, 0.6f, tag.red) * (1 - 0.6f * SmoothStep(16, 26, std::abs(p.x)));
     paint.albedo = glm::mix(paint.albedo, palette.lip, strength);
     // The edge of the red is soft, the middle of the lips wet.
-    const float wet = SmoothStep(0.35f, 0, tag.red);
+    const float wet =
+        SmoothStep(0.35f, 0, tag.red) * (1 - 0.7f * SmoothStep(12, 25, std::abs(p.x)));
     paint.albedo = glm::mix(paint.albedo, palette.lip_inside, 0.8f * wet);
-    paint.open *= 1 - 0.35f * wet;
+    paint.open *= 1 - 0.25f * wet;
   }
   if (tag.hole > 0) {
     paint.albedo = glm::mix(paint.albedo, glm::vec3(0.06f, 0.015f, 0.012f), 0.95f * tag.hole);

@@ -17,6 +17,8 @@ namespace fsm {
 std::vector<std::uint8_t> EncodePng(const Image& image);
 std::vector<std::uint8_t> EncodeBmp(const Image& image);  ///< 24 bit, opacity dropped
 std::vector<std::uint8_t> EncodeSgi(const Image& image);  ///< uncompressed RGB, opacity dropped
+/// Opacity dropped; `quality` 1 to 100 as libjpeg counts. Empty if there is no memory for it.
+std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality);
 
 std::optional<Image> DecodePng(std::span<const std::uint8_t> bytes, std::string& why);
 std::optional<Image> DecodeBmp(std::span<const std::uint8_t> bytes, std::string& why);

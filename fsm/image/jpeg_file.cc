@@ -1,6 +1,7 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 
 // Only after the standard's headers, whose names they use.
 #include <jerror.h>
@@ -108,7 +109,43 @@ Outcome Decode(jpeg_decompress_struct& info, Failure& failure, std::span<const s
   return Outcome::kDone;
 }
 
+/// Only plain data lives here, as in Decode. `bytes`: libjpeg's, to be freed.
+bool Encode(jpeg_compress_struct& info, Failure& failure, const Image& image, int quality,
+            unsigned char*& bytes, unsigned long& size) {
+  if (setjmp(failure.back)) return false;
+  jpeg_mem_dest(&info, &bytes, &size);
+  info.image_width = static_cast<JDIMENSION>(image.width);
+  info.image_height = static_cast<JDIMENSION>(image.height);
+  info.input_components = 4;
+  info.in_color_space = JCS_EXT_RGBX;
+  jpeg_set_defaults(&info);
+  jpeg_set_quality(&info, quality, TRUE);
+  jpeg_start_compress(&info, TRUE);
+  while (info.next_scanline < info.image_height) {
+    const auto y = static_cast<int>(info.next_scanline);
+    JSAMPROW row = const_cast<JSAMPROW>(&image.rgba[4 * image.Index(0, y)]);
+    jpeg_write_scanlines(&info, &row, 1);
+  }
+  jpeg_finish_compress(&info);
+  return true;
+}
+
 }  // namespace
+
+std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality) {
+  jpeg_compress_struct info{};
+  Failure failure{};
+  unsigned char* bytes = nullptr;
+  unsigned long size = 0;
+  info.err = jpeg_std_error(&failure.manager);
+  failure.manager.error_exit = Fail;
+  jpeg_create_compress(&info);
+  std::vector<std::uint8_t> out;
+  if (Encode(info, failure, image, quality, bytes, size)) out.assign(bytes, bytes + size);
+  jpeg_destroy_compress(&info);
+  std::free(bytes);
+  return out;
+}
 
 std::optional<Image> DecodeJpeg(std::span<const std::uint8_t> bytes, JpegWish& wish,
                                 std::string& why) {

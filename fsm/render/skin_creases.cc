@@ -42,6 +42,13 @@ float CreaseHeight(const glm::vec3& p, const FaceMarks& m) {
   const float between = Bell(p.y - (m.nasion.y + 10), 9);
   height += 0.9F * Furrow(side - 6.5F - 0.10F * (p.y - m.nasion.y), 1.1F) * between;
   height += 0.3F * Furrow(p.y - m.nasion.y + 1.5F - 0.035F * side * side, 1.7F) * Bell(side, 5);
+  // Beside the bridge of the nose: three short lines that slant down and outward.
+  if (side < 16 && p.y < m.nasion.y - 2) {
+    for (const float below : {7.0F, 11.5F, 16.0F}) {
+      const float off = p.y - (m.nasion.y - below) + 0.45F * (side - 6) - 0.02F * side * side;
+      height += 0.4F * Furrow(off, 1.0F) * Smooth(1.5F, 5, side) * Smooth(14, 9, side);
+    }
+  }
   // Crow's feet: three lines fanning out from the outer corner of the eye.
   const glm::vec2 out(side - m.exocanthion.left.x - 2, p.y - m.exocanthion.left.y + 0.5F);
   if (out.x > -2) {
@@ -69,7 +76,7 @@ bool MayCrease(const glm::vec3& p, const FaceMarks& m) {
   const bool fold = p.y < m.alare.left.y + 12 && p.y > m.gnathion.y && side > m.alare.left.x - 6 &&
                     side < m.cheilion.left.x + 22;
   const bool feet = side > m.exocanthion.left.x - 4 && std::abs(p.y - m.exocanthion.left.y) < 16;
-  const bool glabella = side < 18 && p.y > m.nasion.y - 10 && p.y < m.nasion.y + 32;
+  const bool glabella = side < 18 && p.y > m.nasion.y - 24 && p.y < m.nasion.y + 32;
   const bool forehead = p.y > m.nasion.y + 14 && p.y < m.trichion.y + 2 && side < 58;
   return p.z > 0 && (fold || feet || glabella || forehead);
 }
@@ -86,7 +93,7 @@ CreaseWeights WeighCreases(const HeadVertices& rest, const FaceMarks& m) {
         front *
         glm::vec4(Smooth(brow_y, brow_y + 8, p.y) * Smooth(60, 48, side) *
                       (1 - between * Smooth(m.nasion.y + 24, m.nasion.y + 16, p.y)),
-                  between * Smooth(m.nasion.y - 12, m.nasion.y - 5, p.y) *
+                  between * Smooth(m.nasion.y - 26, m.nasion.y - 18, p.y) *
                       Smooth(m.nasion.y + 24, m.nasion.y + 16, p.y),
                   Smooth(m.exocanthion.left.x - 2, m.exocanthion.left.x + 2, side) *
                       Bell(p.y - m.exocanthion.left.y, 14),

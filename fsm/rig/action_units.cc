@@ -258,6 +258,7 @@ Creases CreaseDepths(const Sided<UnitValues>& units, const std::array<float, kCr
                                       {Crease::kCrowsFeet, kLipCornerPuller, 0.42f},
                                       {Crease::kNasolabial, kUpperLipRaiser, 0.4f},
                                       {Crease::kNasolabial, kNasolabialDeepener, 0.4f},
+                                      {Crease::kNasolabial, kNoseWrinkler, 0.4f},
                                       {Crease::kNasolabial, kLipCornerPuller, 0.75f}};
   Creases creases{};
   for (const Side side : kSides) {

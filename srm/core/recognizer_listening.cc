@@ -184,6 +184,7 @@ void RecognizerModule::StopListening() {
   }
   if (!source_) source_name_ = "NONE";
   if (ear_) ear_->Reset();
+  if (options_.transcriber) options_.transcriber->Abandon();
 }
 
 void RecognizerModule::SetAgentSpeaking(bool speaking) {
@@ -200,15 +201,27 @@ void RecognizerModule::OnBegan() {
 
 void RecognizerModule::OnEnded(const Ear::Heard& heard) {
   keep_.Keep(heard.sound, heard.longest);
-  Recognize(heard.hypothesis.text, &heard);
-  listening_.Wait();
+  const vm::Time now = scheduler_.Now();
+  if (!options_.transcriber) {
+    Recognize(heard.hypothesis.text, &heard, now);
+    return listening_.Wait();
+  }
+  listening_.Wait(true);  // patience begins with the answer
+  const auto told = [this, now, start = heard.start](const vm::Result<Hypothesis>& hypothesis) {
+    if (!hypothesis) slots_.ReportError("Result", hypothesis.error());
+    const Ear::Heard words{.hypothesis = hypothesis.value_or(Hypothesis{}), .start = start};
+    Recognize(words.hypothesis.text, &words, now);
+    if (!ear_->in_speech() && !options_.transcriber->Busy()) listening_.Arm();
+  };
+  if (auto sent = options_.transcriber->Transcribe(heard.sound, told); !sent) {
+    told(std::unexpected(sent.error()));
+  }
 }
 
-void RecognizerModule::Recognize(const std::string& text, const Ear::Heard* heard) {
-  const vm::Time now = scheduler_.Now();
+void RecognizerModule::Recognize(const std::string& text, const Ear::Heard* heard, vm::Time end) {
   const double confidence = heard == nullptr ? 1 : heard->hypothesis.confidence;
-  ear::ResultReport report{.start = heard == nullptr ? now : source_start_ + heard->start,
-                           .end = now};
+  ear::ResultReport report{.start = heard == nullptr ? end : source_start_ + heard->start,
+                           .end = end};
   if (auto best = Understand(text, confidence)) {
     report.candidates.push_back(std::move(*best));
     // Another hypothesis counts where it fits, whatever its confidence.

@@ -34,7 +34,7 @@ RecognizerModule::~RecognizerModule() { Shutdown(); }
 
 bool RecognizerModule::Busy() const {
   return (listening_.on() && source_ && source_->Ends()) || (ear_ && ear_->in_speech()) ||
-         listening_.armed();
+         listening_.armed() || (options_.transcriber && options_.transcriber->Busy());
 }
 
 void RecognizerModule::Shutdown() {
@@ -42,6 +42,7 @@ void RecognizerModule::Shutdown() {
   if (over_timer_ != 0) scheduler_.Cancel(std::exchange(over_timer_, 0));
   source_.reset();
   voice_.reset();
+  if (options_.transcriber) options_.transcriber->Abandon();
 }
 
 // --- engines

@@ -13,6 +13,7 @@
 #include "sound/audio_source.h"
 #include "srm/core/ear.h"
 #include "srm/engine/echo_canceller.h"
+#include "srm/engine/transcriber.h"
 #include "vm_protocol/core/module.h"
 
 namespace srm {
@@ -31,6 +32,8 @@ class RecognizerModule final : public vm::Module {
     /// The engines, made when first needed.
     std::function<vm::Result<std::unique_ptr<SpeechDecoder>>()> open_decoder{};
     std::function<vm::Result<std::unique_ptr<KeywordSpotter>>()> open_spotter{};
+    /// Who has the words of an utterance in place of the decoder; empty: the decoder has them.
+    std::unique_ptr<Transcriber> transcriber{};
     /// A source by name: wav:PATH, raw:PATH, portaudio[:DEVICE].
     std::function<vm::Result<std::unique_ptr<sound::AudioSource>>(const std::string&)>
         open_source{};
@@ -71,8 +74,8 @@ class RecognizerModule final : public vm::Module {
   void OnBegan();
   void OnEnded(const Ear::Heard& heard);
   void OnSourceOver();
-  /// What was said, as text; `heard` is null for typed text.
-  void Recognize(const std::string& text, const Ear::Heard* heard);
+  /// What was said, as text, until `end`; `heard` is null for typed text.
+  void Recognize(const std::string& text, const Ear::Heard* heard, vm::Time end);
   std::optional<ear::Candidate> Understand(const std::string& text, double confidence) const;
   void SetAgentSpeaking(bool speaking);
 

@@ -147,7 +147,7 @@ void RecognizerModule::DeclareInput() {
                return reply.Fail({vm::Errc::kBusy, "not listening; set Run = START first", 0});
              }
              listening_.Hear();
-             Recognize(value.text, nullptr);
+             Recognize(value.text, nullptr, scheduler_.Now());
              reply.Ok(value.text);
              listening_.Wait();
            },

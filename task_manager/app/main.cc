@@ -42,7 +42,7 @@ int CodeOf(const SessionResult& result, bool started, bool ran_out) {
 int main(int argc, char** argv) {
   vxml::Options options;
   CLI::App app{"task_manager: runs dialogues written in VoiceXML 2.0 and 2.1."};
-  app.set_version_flag("--version", GALATEA_VERSION);
+  app.set_version_flag("--version", "task_manager (Galatea) " GALATEA_VERSION);
   app.add_option("document", options.document, "file or URI of the first document")->required();
   app.add_option("--platform", options.platform,
                  "text (prompts and input in text) or agent (a hub)")

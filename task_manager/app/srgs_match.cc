@@ -100,7 +100,7 @@ int Run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app{"Matches words against an SRGS 1.0 grammar (XML or ABNF) and prints the parse."};
-  app.set_version_flag("--version", GALATEA_VERSION);
+  app.set_version_flag("--version", "srgs_match (Galatea) " GALATEA_VERSION);
   app.add_option("grammar", options.grammar, "file, URI, or builtin:grammar/TYPE")->required();
   app.add_option("--input", options.inputs, "the words; may be given several times");
   app.add_flag("--stdin", options.from_stdin, "one input per line from standard input");

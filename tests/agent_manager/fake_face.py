@@ -1,47 +1,59 @@
-# A face of 16 x 16 pixels, all red: answers what the page's video asks, and writes raw frames; after
-# `set Frames = OFF` it only says so.
+"""A face of 16 x 16 pixels, all red: sends one picture after another to where Picture.to says; after `set Frames = OFF`
+none, and what `Say` says (text with the escapes of Python) byte for byte.
+"""
+import base64
+import codecs
+import socket
 import sys
 import threading
 
-WIDTH, HEIGHT = 16, 16
-FRAME = bytes([255, 0, 0, 255]) * (WIDTH * HEIGHT)
-recording = threading.Event()
+# ffmpeg -f lavfi -i color=red:s=16x16 -frames:v 1 -q:v 5 -f mjpeg
+PICTURE = base64.b64decode(
+    "/9j/4AAQSkZJRgABAgAAAQABAAD//gAQTGF2YzU5LjM3LjEwMAD/2wBDAAgKCgsKCw0NDQ0NDRAPEBAQEBAQEBAQEBASEhIVFRUSEhIQEBISFBQVFRcX"
+    "FxUVFRUXFxkZGR4eHBwjIyQrKzP/xABMAAEBAAAAAAAAAAAAAAAAAAAABgEBAQAAAAAAAAAAAAAAAAAABgcQAQAAAAAAAAAAAAAAAAAAAAARAQAAAAAA"
+    "AAAAAAAAAAAAAAD/wAARCAAQABADASIAAhEAAxEA/9oADAMBAAIRAxEA/wCLAFF/f//Z")
+connection, stop = None, threading.Event()
+values = {"Clock": "0", "Picture.to": "NONE", "Record": "STOP", "Run": "LIVE", "Frames": "ON",
+          "MaskSet": "galatea,pygmalion", "NowMask": "galatea"}
 
 
-def write_frames(path):
+def send_pictures(to):
+    at = 0
     try:
-        with open(path, "wb", buffering=0) as pipe:
-            while recording.is_set():
-                if values["Frames"] == "ON":
-                    pipe.write(FRAME)
-                recording_changed.wait(0.02)
-    except BrokenPipeError:
+        while connection is to:
+            if values["Frames"] == "ON":
+                to.sendall(b"picture %d %d\n" % (at, len(PICTURE)) + PICTURE)
+                at += 20
+            stop.wait(0.02)
+    except OSError:
         pass
 
 
-recording_changed = threading.Event()
-values = {"Window": f"{WIDTH} {HEIGHT}", "Record": "STOP", "Record.fps": "30", "Run": "LIVE", "Frames": "ON",
-          "MaskSet": "galatea,pygmalion", "NowMask": "galatea"}
 for line in sys.stdin:
     words = line.rstrip("\n").split(" ", 3)
     command, _, tag = words[0].partition("#")
     slot = words[1] if len(words) > 1 else ""
     value = words[3] if len(words) > 3 else ""
     if command == "set" and slot == "Run":
-        recording.clear()
-        recording_changed.set()
+        connection = None
+        stop.set()
         break
-    if command == "set":
+    if command == "set" and slot == "Say" and connection:
+        connection.sendall(codecs.escape_decode(value.encode())[0])
+    elif command == "set":
         values[slot] = value
         if slot == "Mask":
             values["NowMask"] = value
             print("tell wears " + value, flush=True)
-        if slot == "Record" and value != "STOP":
-            recording.set()
-            threading.Thread(target=write_frames, args=(value,), daemon=True).start()
-        elif slot == "Record":
-            recording.clear()
-            print("tell recording stopped", flush=True)
+        if slot == "Picture.to":
+            before, connection = connection, None
+            if before:
+                before.close()
+            if value.startswith("unix:"):
+                connection = socket.socket(socket.AF_UNIX)
+                connection.connect(value[5:])
+                threading.Thread(target=send_pictures, args=(connection,), daemon=True).start()
+            print("tell pictures to " + value.split("/")[0], flush=True)
     if tag and slot in values:
         print(f"rep#{tag} {slot} = {values[slot]}", flush=True)
     elif tag:

@@ -235,10 +235,10 @@ TEST(HubProcessTest, AWorldThatRefusesIsOneSentence) {
        WriteConfig(folder,
                    "{\"modules\": [{\"name\": \"X\", \"command\": [\"/nonexistent/program\"]}]}")});
   EXPECT_EQ(missing.Wait(), 1);
-  EXPECT_NE(missing.ErrorText().find(
-                "agent_manager: @X: cannot start '/nonexistent/program': No such file"),
-            std::string::npos)
-      << missing.ErrorText();
+  const std::string text = missing.ErrorText();
+  const std::string why = "agent_manager: @X: cannot start '/nonexistent/program': No such file";
+  EXPECT_NE(text.find(why), std::string::npos) << text;
+  EXPECT_EQ(text.find(why), text.rfind(why)) << "said once: " << text;
   Process bad({kHub, "--config", WriteConfig(folder, "{\n \"modules\": 5}")});
   EXPECT_EQ(bad.Wait(), 1);
   EXPECT_NE(bad.ErrorText().find("line 2: modules: found 5, expected a list of modules"),

@@ -4,21 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "chat/model/http.h"
+#include "vm_protocol/http/http.h"
 
 namespace chat_test {
 
 /// The network, played by a test: what is asked is kept, and the test answers when it likes.
-class FakeTransport final : public chat::HttpTransport {
+class FakeTransport final : public vm::HttpTransport {
  public:
   struct Call {
-    chat::HttpRequest request;
-    chat::HttpEvents events;
+    vm::HttpRequest request;
+    vm::HttpEvents events;
     bool open = true;
   };
 
-  std::unique_ptr<chat::HttpExchange> Post(chat::HttpRequest request,
-                                           chat::HttpEvents events) override {
+  std::unique_ptr<vm::HttpExchange> Post(vm::HttpRequest request, vm::HttpEvents events) override {
     calls.push_back(std::make_shared<Call>(Call{std::move(request), std::move(events)}));
     return std::make_unique<Exchange>(calls.back());
   }
@@ -42,7 +41,7 @@ class FakeTransport final : public chat::HttpTransport {
   std::vector<std::shared_ptr<Call>> calls;
 
  private:
-  struct Exchange final : chat::HttpExchange {
+  struct Exchange final : vm::HttpExchange {
     explicit Exchange(std::shared_ptr<Call> of) : call(std::move(of)) {}
     ~Exchange() override { call->open = false; }
     std::shared_ptr<Call> call;

@@ -16,12 +16,12 @@ using std::chrono::seconds;
 class ModelRequestTest : public testing::Test {
  protected:
   ModelRequestTest() {
-    request_.emplace(clock_, net_, HttpRequest{.url = "http://x/v1", .headers = {}, .body = "{}"},
-                     "sk-secret",
-                     ModelLimits{.whole = seconds(60), .stall = seconds(15), .reply_bytes = 20},
-                     ModelRequest::Events{.began = [this] { ++began_; },
-                                          .words = [this](const std::string& w) { words_ += w; },
-                                          .end = [this](auto end) { ends_.push_back(end); }});
+    request_.emplace(
+        clock_, net_, vm::HttpRequest{.url = "http://x/v1", .headers = {}, .body = "{}"},
+        "sk-secret", ModelLimits{.whole = seconds(60), .stall = seconds(15), .reply_bytes = 20},
+        ModelRequest::Events{.began = [this] { ++began_; },
+                             .words = [this](const std::string& w) { words_ += w; },
+                             .end = [this](auto end) { ends_.push_back(end); }});
   }
   const ModelFailure& Failure() {
     EXPECT_EQ(ends_.size(), 1u);

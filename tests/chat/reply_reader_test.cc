@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "chat/model/endpoint.h"
+#include "vm_protocol/http/answer.h"
 
 namespace chat {
 namespace {
@@ -103,10 +104,10 @@ TEST(ReplyReaderTest, ToolCallsAreJoined) {
 }
 
 TEST(ErrorTextTest, WhatTheEndpointSaysIsShownOnOneLine) {
-  EXPECT_EQ(ErrorTextOf("{\"error\":{\"message\":\"bad\\nkey\"}}"), "bad key");
-  EXPECT_EQ(ErrorTextOf("{\"detail\":\"no\"}"), "no");
-  EXPECT_EQ(ErrorTextOf("<html>\x1b[31m"), "<html> [31m");
-  EXPECT_LE(ErrorTextOf(std::string(5000, 'x')).size(), 200u);
+  EXPECT_EQ(vm::ErrorTextOf("{\"error\":{\"message\":\"bad\\nkey\"}}"), "bad key");
+  EXPECT_EQ(vm::ErrorTextOf("{\"detail\":\"no\"}"), "no");
+  EXPECT_EQ(vm::ErrorTextOf("<html>\x1b[31m"), "<html> [31m");
+  EXPECT_LE(vm::ErrorTextOf(std::string(5000, 'x')).size(), 200u);
 }
 
 TEST(EndpointTest, TheAddressOfChatCompletionsIsMade) {

@@ -336,9 +336,9 @@ TEST_P(CameraTruthTest, WhatTheNetworkFindsIsFollowedWhateverTheCamera) {
     const FitError error = ErrorOf(camera, FitFace(Galatea(), face, &photo));
     Tell(camera, "network", error);
     // Missed: the fit follows the network's points, which are up to 2 % off on a face from the
-    // front and up to 3 % on a turned one.
+    // front and up to 4 % on a turned one.
     const bool turned = camera.turn_degrees > 0;
-    ExpectWithin(error, GetParam(), turned ? 0.033F : 0.023F, turned ? 6.5F : 5);
+    ExpectWithin(error, GetParam(), turned ? 0.039F : 0.023F, turned ? 6.5F : 5);
   }
 }
 

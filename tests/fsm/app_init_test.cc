@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/fsm/app_support.h"
+#include "tests/fsm/onlooker.h"
 #include "tests/fsm/render_support.h"
 
 namespace fsm {
@@ -56,7 +57,8 @@ std::string Difference(FsmStage& a, FsmStage& b) {
 }
 
 /// A value that each slot does not have at the start. `files`: where there are or will be some.
-std::string Another(const std::string& slot, const TemporaryFolder& files) {
+std::string Another(const std::string& slot, const TemporaryFolder& files,
+                    const Onlooker& onlooker) {
   const std::map<std::string, std::string> values = {
       {"AU", "12 1 0"},
       {"ARKit", "jawOpen 1 0"},
@@ -102,6 +104,8 @@ std::string Another(const std::string& slot, const TemporaryFolder& files) {
       {"ViewBackground", "DISABLE"},
       {"Simulation", "DISABLE"},
       {"Window", "320 240"},
+      {"Picture.fps", "10"},
+      {"Picture.to", "unix:" + onlooker.path()},
       {"Camera", "0.5 10 40 20"},
       {"Light.key", "3 90 10 #ff0000"},
       {"Light.fill", "3"},
@@ -112,6 +116,7 @@ std::string Another(const std::string& slot, const TemporaryFolder& files) {
       {"Record.sound", "voice.wav"},
       {"Record.fps", "10"},
       {"Record", "before.mp4"},
+      {"Frame.to", "VMC"},
       {"Capture", (files / "shots") + " a 10"},
   };
   if (const auto found = values.find(slot); found != values.end()) return found->second;
@@ -159,13 +164,14 @@ std::vector<std::vector<float>> Performance(FsmStage& fsm) {
 
 TEST(InitTest, EverySlotIsAsInAFreshProgram) {
   const TemporaryFolder files;
+  const Onlooker onlooker;
   FsmStage used, fresh;
   used.Say("set SaveMouthShapes = 28 " + (files / "shapes.txt"));
   const auto at_start = Answers(used);
   EXPECT_EQ(Difference(used, fresh), "");
   for (const std::string& slot : SlotsOf(used)) {
     if (slot == "Run" || Is(used, slot, "ReadOnly")) continue;
-    const std::string value = Another(slot, files);
+    const std::string value = Another(slot, files, onlooker);
     ASSERT_NE(value, "") << "this test has no value for " << slot;
     const std::string said = used.Say("set#1 " + slot + " = " + value);
     EXPECT_EQ(said.find(".error"), std::string::npos) << said;

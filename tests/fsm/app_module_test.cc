@@ -89,6 +89,7 @@ TEST(FsmModuleTest, WhatIsBeyondIsTakenForTheNearestAsInTheOriginal) {
   EXPECT_EQ(fsm.Say("set#1 HeadRotAbs.1 = 12.5 -120 91"), "rep#1 HeadRotAbs.1 = 12.5 -90 90");
   EXPECT_EQ(fsm.Say("inq HeadRotAbs.1"), "rep HeadRotAbs.1 = 12.5 -90 90");
   EXPECT_EQ(fsm.Say("set#1 FaceExp = NEUTRAL 1 100 0"), "rep#1 FaceExp = NEUTRAL 1 100 0");
+  EXPECT_EQ(fsm.Say("set#1 FaceExp = HAPPY"), "rep#1 FaceExp = HAPPY");
   EXPECT_EQ(fsm.Say("set#1 FaceMot = NOMOVE 0"), "rep#1 FaceMot = NOMOVE 0");
   EXPECT_EQ(fsm.Say("set#1 Mask = galatea "), "rep#1 Mask = galatea ");
   EXPECT_EQ(fsm.Say("inq NowMask"), "rep NowMask = \"galatea\"");
@@ -105,7 +106,8 @@ TEST(FsmModuleTest, RefusalsSayWhatIsExpected) {
   refused("Face.37 = 1", "UNKNOWN_SLOT");
   refused("HeadRotAbs.2 = 1 2 3", "UNKNOWN_SLOT");
   refused("HeadRotAbs.1 = 1 2", "BAD_VALUE");
-  refused("FaceExp = HAPPY 1 100", "BAD_VALUE");
+  refused("FaceExp = HAPPY 1 300 0", "BAD_VALUE");
+  refused("FaceExp = MERRY", "'MERRY' is no expression; ANGRY DISGUSTED FEARED HAPPY");
   refused("FaceExp = BORED 1 100 0", "'BORED' is no expression");
   refused("FaceExp = HAPPY 6 100 0", "HAPPY has no pattern 6; 1 to 5 expected");
   refused("FaceMot = NOD 9", "NOD has no pattern 9; 1 to 5 expected");
@@ -209,6 +211,24 @@ TEST(FsmModuleTest, FramesWithoutAFilmAreReportedWhileSomethingMoves) {
   EXPECT_TRUE(said.starts_with("rep Frame = 6 1033.333 - 0.00 0.00 50.00")) << said;
   EXPECT_FALSE(fsm.clock.Next().has_value());
   EXPECT_EQ(fsm.backend.draws, 0);
+}
+
+TEST(FsmModuleTest, AModuleIsToldEachFrameWithoutDrawing) {
+  FsmStage fsm;
+  fsm.Say("set AU = 12L 0.7 0");
+  const std::string first = fsm.Say("set Frame.to = VMC");
+  EXPECT_EQ(first,
+            "to @VMC set FaceFrame = 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
+            "12L:0.7");
+  fsm.Say("set FaceMot = NOD 1");
+  const std::string said = fsm.Until(3000);
+  EXPECT_TRUE(said.starts_with("to @VMC set FaceFrame = 33.333 0 0 ")) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '@'), 6) << "a nod of 0.2 s";
+  EXPECT_FALSE(fsm.clock.Next().has_value()) << "nothing is told while nothing moves";
+  EXPECT_EQ(fsm.backend.draws, 0);
+  fsm.Say("set Frame.to = NONE");
+  fsm.Say("set FaceMot = NOD 1");
+  EXPECT_EQ(fsm.Until(6000), "");
 }
 
 TEST(FsmModuleTest, CaptureWritesNumberedPicturesOfOneUtterance) {

@@ -175,6 +175,7 @@ TEST(HeadContactTest, NoTriangleOfTheFaceTurnsOver) {
     for (std::size_t unit = 1; unit < kActionUnits; ++unit) {
       head->Evaluate(WithUnit(unit, 1), v);
       int turned = 0;
+      glm::vec3 at(0);
       for (const HeadTopology::Part& part : topology.parts) {
         if (part.material != Material::kSkin) continue;
         for (std::uint32_t k = 0; k < part.index_count; k += 3) {
@@ -187,10 +188,13 @@ TEST(HeadContactTest, NoTriangleOfTheFaceTurnsOver) {
           const glm::vec3 b = normal(v);
           if (glm::length(a) < 0.05f || glm::length(b) < 0.05f) continue;
           // Near the eyes lids turn with the ball, by up to a right angle.
-          if (glm::dot(glm::normalize(a), glm::normalize(b)) < -0.35f) ++turned;
+          if (glm::dot(glm::normalize(a), glm::normalize(b)) >= -0.35f) continue;
+          ++turned;
+          at = rest.position[i[0]];
         }
       }
-      EXPECT_EQ(turned, 0) << name << ", AU " << unit;
+      EXPECT_EQ(turned, 0) << name << ", AU " << unit << ", at " << at.x << ' ' << at.y << ' '
+                           << at.z;
     }
   }
 }

@@ -154,6 +154,58 @@ TEST(HeadTablesTest, IdentitiesAndSlidersAreChecked) {
             "s.txt: no slider 'b'");
 }
 
+std::string FeaturesText() {
+  std::ifstream file(GALATEA_SOURCE_DIR "/fsm/head/tables/features.txt");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The built-in features with one row replaced.
+std::string WithRow(const std::string& name, const std::string& row) {
+  std::string text = FeaturesText();
+  const std::size_t at = text.find("\n" + name + " ") + 1;
+  EXPECT_NE(at, 0u) << name;
+  return text.replace(at, text.find('\n', at) - at, row);
+}
+
+TEST(HeadTablesTest, EyesAreAsLargeAndTiltedAsTheirRowSays) {
+  const auto with = [](const char* row) {
+    Identity identity = BuiltInIdentity("galatea");
+    ReadIdentityRow(Table("i.txt", row).rows()[0], identity);
+    return MakeHead(identity, false);
+  };
+  const auto slit = [](const Head& head) {
+    return head.Landmark("exocanthion_left") - head.Landmark("endocanthion_left");
+  };
+  const auto usual = with("eyes 1 0 0 0"), other = with("eyes 1.1 5 1 -1");
+  EXPECT_NEAR(glm::length(slit(*other)) / glm::length(slit(*usual)), 1.1, 1e-3);
+  EXPECT_GT(slit(*other).y - slit(*usual).y, 2);
+  const auto height = [](const Head& head) {
+    return glm::length(head.Landmark("palpebrale_superius_right") -
+                       head.Landmark("palpebrale_inferius_right"));
+  };
+  EXPECT_NEAR(height(*other), 1.1f * (height(*usual) + 2), 0.2);
+  EXPECT_NEAR(other->Landmark("pupil_left").z, usual->Landmark("pupil_left").z, 0.01)
+      << "a larger ball lies deeper";
+  EXPECT_EQ(Complaint([&] { with("eyes 2 0 0 0"); }),
+            "i.txt:1: '2' found where 0.7 to 1.4 was expected");
+}
+
+TEST(HeadTablesTest, HairBeginsWithSingleHairsOnTheSkin) {
+  for (const char* face : {"galatea", "pygmalion"}) {
+    const auto strokes = [face](const char* name, const char* row) {
+      Identity identity = BuiltInIdentity(face);
+      identity.features = std::make_shared<const Features>("mine.txt", WithRow(name, row));
+      return MakeHead(std::move(identity))->topology().skin_hairs.size();
+    };
+    const bool crop = std::string_view(face) == "pygmalion";
+    const auto few = crop ? strokes("crop_hairline", "crop_hairline 10 105 0.01 0.06 28")
+                          : strokes("long_hairline", "long_hairline 10 0.56 0 0.06 28 0.2");
+    const auto many = crop ? strokes("crop_hairline", "crop_hairline 800 105 0.01 0.06 28")
+                           : strokes("long_hairline", "long_hairline 800 0.56 0 0.06 28 0.2");
+    EXPECT_GT(many, few + 400) << face;
+  }
+}
+
 TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
   const auto lowest = [](const char* row) {
     Identity identity = BuiltInIdentity("galatea");
@@ -179,19 +231,6 @@ TEST(HeadTablesTest, LongHairIsAsLongAsItsRowSays) {
               ReadIdentityRow(Table("i.txt", "hair long 0.7 0 -84 -112 0").rows()[0], cropped);
             }),
             "i.txt:1: '0.7' found where -0.6 to 0.6 was expected");
-}
-
-std::string FeaturesText() {
-  std::ifstream file(GALATEA_SOURCE_DIR "/fsm/head/tables/features.txt");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// The built-in features with one row replaced.
-std::string WithRow(const std::string& name, const std::string& row) {
-  std::string text = FeaturesText();
-  const std::size_t at = text.find("\n" + name + " ") + 1;
-  EXPECT_NE(at, 0u) << name;
-  return text.replace(at, text.find('\n', at) - at, row);
 }
 
 TEST(HeadTablesTest, FeaturesAreChecked) {

@@ -265,7 +265,7 @@ TEST(PhotoTest, WhatASmileTurnsIsLitAsItFacesThen) {
   set.photo = std::make_shared<Image>(lit);
   const auto head = MakeHead(set);
   const auto& topology = head->topology();
-  EXPECT_GT(topology.portrait.light.y, 0.2F);
+  EXPECT_GT(topology.portrait.light.y, 0.18F);
   FaceState smile;
   for (const std::size_t unit : {6U, 12U}) smile.au.left[unit] = smile.au.right[unit] = 1;
   HeadVertices rest, smiling;

@@ -38,8 +38,9 @@ TEST(VoicesConfigTest, MistakesNameTheVoiceAndTheKey) {
   EXPECT_EQ(ErrorOf(R"({"voice": []})"),
             "found \"voice\", expected \"voices\": [...] or \"languages\": {...}");
   EXPECT_EQ(ErrorOf(R"({"voices": [3]})"), "voice 1: expected an object");
-  EXPECT_EQ(ErrorOf(R"({"voices": [{"name": "x", "engine": "magic"}]})"),
-            "voice 1 'x': \"engine\" is 'magic', expected open_jtalk, hts, command or recorded");
+  EXPECT_EQ(
+      ErrorOf(R"({"voices": [{"name": "x", "engine": "magic"}]})"),
+      "voice 1 'x': \"engine\" is 'magic', expected open_jtalk, hts, http, command or recorded");
   EXPECT_EQ(ErrorOf(R"({"voices": [{"name": "x", "engine": "command"}]})"),
             "voice 1 'x': \"argv\" must be a list");
   EXPECT_EQ(
@@ -57,6 +58,20 @@ TEST(VoicesConfigTest, MistakesNameTheVoiceAndTheKey) {
                                     "emotions": {"BORED": "b"}}]})"),
             "voice 1 'x': \"emotions\" must be {EMOTION: FILE, ...} with HAPPY, ANGRY, DISGUSTED, "
             "SAD, SURPRISED or FEARED; found \"BORED\"");
+  const auto http = [](const std::string& more) {
+    return ErrorOf(R"({"voices": [{"name": "x", "engine": "http", "model": "m", "voice": "v")" +
+                   more + "}]}");
+  };
+  EXPECT_EQ(http(""), "voice 1 'x': \"url\" must be a text");
+  EXPECT_EQ(
+      http(R"(, "url": "ftp://a")"),
+      "voice 1 'x': 'ftp://a' is no address of a voice, expected http://HOST:PORT or https://HOST");
+  EXPECT_EQ(http(R"(, "url": "http://a", "format": "opus")"),
+            "voice 1 'x': \"format\" must be wav, pcm or mp3");
+  EXPECT_EQ(http(R"(, "url": "http://a", "rate_hz": 10)"),
+            "voice 1 'x': \"rate_hz\" must be a whole number from 8000 to 192000");
+  EXPECT_TRUE(http(R"(, "url": "http://a", "key_file": "none")").contains("/dir/none"));
+  EXPECT_EQ(http(R"(, "url": "http://a:1/v1/")"), "");
   EXPECT_TRUE(ErrorOf(R"({"voices": [{"name": "x", "engine": "hts", "voice": "v",
                                       "emotions": ["SAD"]}]})")
                   .starts_with("voice 1 'x': \"emotions\" must be {EMOTION: FILE"));

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Drives a headless Chromium: browse.py BROWSER PROFILE URL STEP...
 
-A step is  wait:EXPRESSION  (until it is true in the page, at most 30 s),  do:EXPRESSION,
+A step is  wait:EXPRESSION  (until it is true in the page, at most 30 s, or what  limit:SECONDS  said before),  do:EXPRESSION,
 print:EXPRESSION,  picture:FILE.png,  size:WIDTHxHEIGHT,  scheme:light or dark,  script:FILE.js,  press:KEY  or
 --FLAG  for the browser.  Ends with 1 and a sentence if a wait runs out.
 Speaks the DevTools protocol over the browser's pipe: JSON texts ended by a zero byte.
@@ -69,6 +69,7 @@ class Browser:
 
 def main():
     program, profile, url, *steps = sys.argv[1:]
+    limit_s = LIMIT_S
     browser = Browser(program, profile, [step for step in steps if step.startswith("--")])
     try:
         target = browser.call("Target.createTarget", url="about:blank")["targetId"]
@@ -78,12 +79,14 @@ def main():
         for step in steps:
             kind, _, text = step.partition(":")
             if kind == "wait":
-                limit = time.monotonic() + LIMIT_S
+                limit = time.monotonic() + limit_s
                 while not browser.is_true(text):
                     if time.monotonic() > limit:
                         sys.exit(f"browse: never true: {text}\n" +
                                  str(browser.evaluate("document.body && document.body.innerText"))[:3000])
                     time.sleep(0.05)
+            elif kind == "limit":
+                limit_s = float(text)
             elif kind == "do":
                 browser.evaluate(text)
             elif kind == "print":

@@ -21,11 +21,16 @@ export class Conversation {
     document.addEventListener('keydown', event => {
       if (event.key === 'Escape' && !document.fullscreenElement && !nodes.form.closest('[hidden]')) this.stop();
     });
+    // The log shows its end, also after it has become smaller, unless somebody has scrolled up.
+    const {log} = nodes;
+    this.at_end = true;
+    log.onscroll = () => { this.at_end = log.scrollHeight - log.scrollTop - log.clientHeight < 60; };
+    new ResizeObserver(() => { if (this.at_end) log.scrollTop = log.scrollHeight; }).observe(log);
     this.showWay();
   }
 
   add(who, words) {
-    const at_end = who === 'you' || this.nodes.log.scrollHeight - this.nodes.log.scrollTop - this.nodes.log.clientHeight < 60;
+    const at_end = who === 'you' || this.at_end;
     const line = element('p', {className: who});
     if (who !== 'note') {
       const name = element('b');

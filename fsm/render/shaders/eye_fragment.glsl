@@ -99,11 +99,13 @@ void main() {
     base = mix(base, inner, edge);
   }
 
-  // The upper lid and its lashes shade the ball below them.
+  // The upper lid and its lashes shade the ball below them. Its rim falls and the lower one rises to the corners.
   float below_lid = (lids[side].x - world_position.y) / figure_scale;
   float above_lower = (world_position.y - lids[side].y) / figure_scale;
-  float shade = mix(upper_lid_shade, 1.0, smoothstep(-0.5, 3.2, below_lid)) *
-                mix(lower_lid_shade, 1.0, smoothstep(-0.5, 1.2, above_lower));
+  float beside = dot(from_centre, across_right) / (radius * kCorner);
+  float narrower = beside * beside * (lids[side].x - lids[side].y) / figure_scale;
+  float shade = mix(upper_lid_shade, 1.0, smoothstep(-0.5, lid_shade_reach, below_lid - 0.55 * narrower)) *
+                mix(lower_lid_shade, 1.0, smoothstep(-0.5, 1.2, above_lower - 0.3 * narrower));
 
   shade = photo_brightness > 0.0 ? 0.1 + 0.9 * shade : shade;
   if (shown) {
@@ -137,7 +139,7 @@ void main() {
   const vec3 kWindow = vec3(-0.4212, 0.5215, 0.7421);
   const vec3 kAcross = vec3(0.8697, 0.0, 0.4936);
   vec2 pane = vec2(dot(mirrored, kAcross), dot(mirrored, cross(kWindow, kAcross)));
-  vec2 inside = smoothstep(vec2(0.235, 0.275), vec2(0.165, 0.205), abs(pane));
+  vec2 inside = smoothstep(vec2(0.31, 0.35), vec2(0.24, 0.28), abs(pane));
   float window = inside.x * inside.y * step(0.0, dot(mirrored, kWindow)) *
                  mix(mirrored_bar, 1.0, smoothstep(0.01, 0.04, abs(pane.x + 0.02)));
   // A photographer's lamp is smaller and round.
@@ -145,6 +147,9 @@ void main() {
   float soft_box = pow(max(dot(mirrored, lamp_directions[1]), 0.0), 24.0);
   result += gloss * mirrored_window * lamp_colors[0] * window * mix(1.0, 0.35, smoothstep(1.0, 1.3, r_surface)) * sqrt(shade);
   result += gloss * lamp_colors[1] * mirrored_box * soft_box * shade;
+  // Tears stand along the lower lid and catch the light from above.
+  float tears = smoothstep(0.9, 0.35, above_lower - 0.3 * narrower) * smoothstep(0.9, 0.3, abs(beside));
+  result += gloss * mirrored_tears * tears * light;
   result += gloss * Ambient(mirrored) * Fresnel(dot(wet, v)) * shade * mirrored_room;
   result = max(result, 0.0);
   color = vec4(photo_brightness > 0.0 ? photo_brightness * pow(result, vec3(0.4545)) : ToScreen(result), 1.0);

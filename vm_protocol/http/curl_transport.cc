@@ -1,4 +1,4 @@
-#include "chat/model/curl_transport.h"
+#include "vm_protocol/http/curl_transport.h"
 
 #include <curl/curl.h>
 
@@ -7,34 +7,15 @@
 #include <boost/asio/post.hpp>
 #include <deque>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 #include <utility>
 
-#include "vm_protocol/core/lower_case.h"
+#include "vm_protocol/http/curl_handle.h"
 
-namespace chat {
+namespace vm {
 namespace {
 
 constexpr int kLongestSleepMs = 1000;
-constexpr std::size_t kMaxHeaders = 100;
-
-struct CurlFree {
-  void operator()(CURL* handle) const { curl_easy_cleanup(handle); }
-  void operator()(curl_slist* list) const { curl_slist_free_all(list); }
-};
-
-struct MultiFree {
-  void operator()(CURLM* handle) const { curl_multi_cleanup(handle); }
-};
-
-/// Names of this machine: they are reached directly, whatever proxy the environment names.
-bool IsHere(const std::string& url) {
-  for (const char* place : {"://127.", "://localhost", "://[::1]"}) {
-    if (url.find(place) < 8) return true;
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -47,8 +28,8 @@ struct CurlTransport::Transfer {
   Deliver deliver;
   std::atomic<bool> given_up = false;
 
-  std::unique_ptr<CURL, CurlFree> easy{curl_easy_init()};
-  std::unique_ptr<curl_slist, CurlFree> headers;
+  CurlHandle easy{curl_easy_init()};
+  CurlHeaders headers;
   HttpHead head;
   bool head_told = false;
   std::size_t bytes = 0;
@@ -63,15 +44,7 @@ struct CurlTransport::Transfer {
 
 std::size_t CurlTransport::Transfer::OnHeader(char* data, std::size_t size, std::size_t count,
                                               void* self) {
-  HttpHead& head = static_cast<Transfer*>(self)->head;
-  const std::string_view line(data, size * count);
-  if (line.starts_with("HTTP/")) head.headers.clear();
-  const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos || head.headers.size() >= kMaxHeaders) return size * count;
-  std::string_view value = line.substr(colon + 1);
-  value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
-  value = value.substr(0, value.find_last_not_of(" \t\r\n") + 1);
-  head.headers[vm::LowerCase(line.substr(0, colon))] = value;
+  AddHeaderLine({data, size * count}, static_cast<Transfer*>(self)->head);
   return size * count;
 }
 
@@ -97,24 +70,7 @@ std::size_t CurlTransport::Transfer::OnBody(char* data, std::size_t size, std::s
 
 void CurlTransport::Transfer::SetUp(const std::string& ca_file) {
   CURL* const handle = easy.get();
-  if (handle == nullptr) throw std::runtime_error("libcurl gives no handle");
-  curl_easy_setopt(handle, CURLOPT_URL, request.url.c_str());
-  curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");
-  curl_easy_setopt(handle, CURLOPT_FOLLOWLOCATION, 0L);
-  curl_easy_setopt(handle, CURLOPT_NOSIGNAL, 1L);
-  curl_easy_setopt(handle, CURLOPT_TIMEOUT_MS, static_cast<long>(request.limit.count()));
-  curl_easy_setopt(handle, CURLOPT_USERAGENT, "Galatea/" GALATEA_VERSION);
-  curl_easy_setopt(handle, CURLOPT_TCP_NODELAY, 1L);
-  if (!ca_file.empty()) curl_easy_setopt(handle, CURLOPT_CAINFO, ca_file.c_str());
-  if (IsHere(request.url)) curl_easy_setopt(handle, CURLOPT_PROXY, "");
-  for (const std::string& line : request.headers)
-    headers.reset(curl_slist_append(headers.release(), line.c_str()));
-  // Without this a body of more than 1 KiB waits for "100 Continue".
-  headers.reset(curl_slist_append(headers.release(), "Expect:"));
-  curl_easy_setopt(handle, CURLOPT_HTTPHEADER, headers.get());
-  curl_easy_setopt(handle, CURLOPT_POSTFIELDSIZE_LARGE,
-                   static_cast<curl_off_t>(request.body.size()));
-  curl_easy_setopt(handle, CURLOPT_POSTFIELDS, request.body.c_str());
+  headers = SetUpRequest(handle, request, ca_file);
   curl_easy_setopt(handle, CURLOPT_HEADERFUNCTION, &OnHeader);
   curl_easy_setopt(handle, CURLOPT_HEADERDATA, this);
   curl_easy_setopt(handle, CURLOPT_WRITEFUNCTION, &OnBody);
@@ -123,13 +79,8 @@ void CurlTransport::Transfer::SetUp(const std::string& ca_file) {
 }
 
 vm::Result<void> CurlTransport::Transfer::EndOf(CURLcode code) const {
-  if (too_long) {
-    return vm::Fail(vm::Errc::kTooLong,
-                    "the answer has more than " + std::to_string(request.max_bytes) + " bytes");
-  }
-  if (code == CURLE_OK) return {};
-  return vm::Fail(code == CURLE_OPERATION_TIMEDOUT ? vm::Errc::kTimeout : vm::Errc::kUnavailable,
-                  curl_easy_strerror(code));
+  if (too_long) return std::unexpected(TooLongAnswer(request));
+  return CurlOutcome(code);
 }
 
 /// The thread that carries exchanges.
@@ -198,7 +149,7 @@ class CurlTransport::Loop {
     }
   }
 
-  const std::unique_ptr<CURLM, MultiFree> multi_{curl_multi_init()};
+  const CurlMulti multi_{curl_multi_init()};
   std::deque<std::shared_ptr<Transfer>> active_;  // the thread's own
   std::mutex mutex_;
   std::deque<std::shared_ptr<Transfer>> added_;  // guarded by the mutex
@@ -228,7 +179,7 @@ class CurlExchange final : public HttpExchange {
 CurlTransport::CurlTransport(boost::asio::io_context& io, vm::Scheduler& clock,
                              std::function<bool()> real, std::string ca_file)
     : io_(io), clock_(clock), real_(std::move(real)), ca_file_(std::move(ca_file)) {
-  curl_global_init(CURL_GLOBAL_DEFAULT);
+  StartCurl();
 }
 
 CurlTransport::~CurlTransport() = default;
@@ -265,4 +216,4 @@ std::unique_ptr<HttpExchange> CurlTransport::Post(HttpRequest request, HttpEvent
   return std::make_unique<CurlExchange>(transfer, [this] { loop_->Wake(); });
 }
 
-}  // namespace chat
+}  // namespace vm

@@ -10,12 +10,12 @@
 
 #include "vm_protocol/core/result.h"
 
-namespace chat {
+namespace vm {
 
 struct HttpRequest {
-  std::string url;
-  std::vector<std::string> headers;  ///< "Name: value"
-  std::string body;
+  std::string url{};
+  std::vector<std::string> headers{};  ///< "Name: value"
+  std::string body{};
   std::chrono::milliseconds limit{60'000};  ///< for the whole exchange
   std::size_t max_bytes = std::size_t{16} << 20;
 };
@@ -47,4 +47,4 @@ class HttpTransport {
   virtual std::unique_ptr<HttpExchange> Post(HttpRequest request, HttpEvents events) = 0;
 };
 
-}  // namespace chat
+}  // namespace vm

@@ -4,10 +4,10 @@
 #include <functional>
 #include <memory>
 
-#include "chat/model/http.h"
 #include "vm_protocol/core/scheduler.h"
+#include "vm_protocol/http/http.h"
 
-namespace chat {
+namespace vm {
 
 /// HTTP by libcurl, over http and https, with certificates checked; redirections are not followed.
 /// On the real clock one thread of its own carries all exchanges, and what comes is handed to the
@@ -34,4 +34,4 @@ class CurlTransport final : public HttpTransport {
   std::unique_ptr<Loop> loop_;  // begun with the first exchange
 };
 
-}  // namespace chat
+}  // namespace vm

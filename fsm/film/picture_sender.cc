@@ -1,0 +1,135 @@
+#include "fsm/film/picture_sender.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <system_error>
+
+#include "fsm/image/image_codec.h"
+
+namespace fsm {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{
+    50};  // how often a thread that waits for the receiver looks whether to end
+
+/// A socket connected to `path`, or -1 and errno.
+int Open(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.empty() || path.size() >= sizeof address.sun_path) {
+    errno = ENAMETOOLONG;
+    return -1;
+  }
+  path.copy(address.sun_path, path.size());
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (fd < 0 || connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+    return fd;
+  const int why = errno;
+  close(fd);
+  errno = why;
+  return -1;
+}
+
+/// Head and picture; empty if it cannot be compressed.
+std::vector<std::uint8_t> Record(vm::Time at, const Image& picture) {
+  const auto jpeg = EncodeJpeg(picture, PictureSender::kQuality);
+  if (jpeg.empty()) return {};
+  const std::string head = "picture " + vm::FormatMs(at) + " " + std::to_string(jpeg.size()) + "\n";
+  std::vector<std::uint8_t> record(head.begin(), head.end());
+  record.insert(record.end(), jpeg.begin(), jpeg.end());
+  return record;
+}
+
+}  // namespace
+
+vm::Result<std::unique_ptr<PictureSender>> PictureSender::Connect(const std::string& path,
+                                                                  std::chrono::milliseconds stall) {
+  const int fd = Open(path);
+  if (fd < 0) {
+    return vm::Fail(vm::Errc::kUnavailable, "nobody takes pictures at '" + path +
+                                                "': " + std::generic_category().message(errno));
+  }
+  return std::unique_ptr<PictureSender>(new PictureSender(fd, stall));
+}
+
+PictureSender::~PictureSender() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  close(fd_);
+}
+
+bool PictureSender::full() {
+  const std::lock_guard lock(mutex_);
+  return waiting_.has_value();
+}
+
+bool PictureSender::closing() {
+  const std::lock_guard lock(mutex_);
+  return closing_;
+}
+
+bool PictureSender::gone() {
+  // A receiver says nothing: whatever there is to read is its end.
+  char byte;
+  if (recv(fd_, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0) return true;
+  const std::lock_guard lock(mutex_);
+  return gone_;
+}
+
+void PictureSender::Send(const Image& picture, vm::Time at) {
+  {
+    const std::lock_guard lock(mutex_);
+    assert(!waiting_);
+    Image copy = std::move(spare_);
+    copy.width = picture.width;
+    copy.height = picture.height;
+    copy.rgba.assign(picture.rgba.begin(), picture.rgba.end());
+    waiting_.emplace(at, std::move(copy));
+  }
+  changed_.notify_all();
+}
+
+void PictureSender::Run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return waiting_ || closing_; });
+    if (closing_) return;
+    auto [at, picture] = *std::exchange(waiting_, std::nullopt);
+    lock.unlock();
+    const bool sent = SendAll(Record(at, picture));
+    lock.lock();
+    spare_ = std::move(picture);
+    if (sent) continue;
+    gone_ = true;
+    return;
+  }
+}
+
+bool PictureSender::SendAll(const std::vector<std::uint8_t>& bytes) {
+  std::chrono::milliseconds waited{0};
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n =
+        send(fd_, bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n > 0) {
+      done += static_cast<std::size_t>(n);
+      waited = waited.zero();
+      continue;
+    }
+    if (errno == EINTR) continue;
+    if (errno != EAGAIN || closing() || waited >= stall_) return false;
+    pollfd room{fd_, POLLOUT, 0};
+    if (poll(&room, 1, static_cast<int>(kLook.count())) == 0) waited += kLook;
+  }
+  return true;
+}
+
+}  // namespace fsm

@@ -1,0 +1,108 @@
+// The gateway: options, the network, a voice of its own, and the server over them.
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "agent_manager/web/page_token.h"
+#include "gateway/web/gateway_server.h"
+#include "vm_protocol/runtime/credentials.h"
+#include "vm_protocol/runtime/endpoint.h"
+
+namespace {
+
+struct Options {
+  gateway::GatewayOptions server;
+  std::string token_file;
+  std::string voices;
+  std::vector<std::string> voice;
+  bool no_voice = false;
+  int limit_s = 60;
+};
+
+/// A program that is built beside this one.
+std::string Neighbour(const char* name) {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::string(name) : (self.parent_path() / name).string();
+}
+
+std::string TokenOf(const Options& options) {
+  vm::Credentials credentials;
+  credentials.token_file = options.token_file;
+  const auto token = vm::ReadToken(credentials);
+  if (!token) throw std::runtime_error(token.error().text);
+  const auto endpoint = vm::ParseEndpoint(options.server.at);
+  if (!endpoint) throw std::runtime_error("--at: " + endpoint.error().text);
+  if (auto fit = vm::CheckListening(*endpoint, credentials); !fit) {
+    throw std::runtime_error("--at: " + fit.error().text);
+  }
+  if (!token->empty()) return *token;
+  // A port that the system chooses is another one next time.
+  return endpoint->port == 0 ? vm::MakeNonce() : am::KeptToken(endpoint->port);
+}
+
+const vdm::MouthNet& BestNet() {
+  return vdm::ShippedNet(vdm::CanMakeFeatures(vdm::FeatureKind::kPhones) ? vdm::FeatureKind::kPhones
+                                                                         : vdm::FeatureKind::kMel);
+}
+
+void Serve(Options& options) {
+  std::signal(SIGPIPE, SIG_IGN);
+  boost::asio::io_context io;
+  options.server.token = TokenOf(options);
+  options.server.on_refusal = [](const std::string& text) {
+    std::cerr << "gateway: " << text << std::endl;
+  };
+  std::vector<std::string> command = options.voice;
+  if (command.empty()) {
+    command = {Neighbour("ssm"), "--sink", "null", "--clock", "virtual"};
+    if (!options.voices.empty()) command.insert(command.end(), {"--voices", options.voices});
+  }
+  std::unique_ptr<gateway::VoiceWorker> voice;
+  if (!options.no_voice) {
+    voice = std::make_unique<gateway::VoiceWorker>(
+        io, command, std::chrono::seconds(options.limit_s), BestNet());
+  }
+  const gateway::GatewayServer server(io, options.server, BestNet(), voice.get());
+  std::cout << "ws://" << server.host() << "/v1/mouth?token=" << options.server.token << std::endl;
+  boost::asio::signal_set signals(io, SIGINT, SIGTERM);
+  signals.async_wait([&io](const boost::system::error_code&, int) { io.stop(); });
+  io.run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("The toolkit's mouth and voice for other programs, over WebSocket and HTTP");
+  app.set_version_flag("--version", "gateway (Galatea) " GALATEA_VERSION);
+  app.add_option("--at", options.server.at, "Where it serves, tcp:HOST:PORT (tcp:127.0.0.1:8090)");
+  app.add_option("--token-file", options.token_file,
+                 "A file only you can read, whose first line whoever comes must show; without it "
+                 "one is made and kept");
+  app.add_option("--origin", options.server.origins,
+                 "A site whose pages may come, https://example.org (may be repeated)");
+  app.add_option("--clients", options.server.clients, "WebSockets at a time (16)")
+      ->check(CLI::Range(1, 60));
+  app.add_option("--voices", options.voices,
+                 "Voices beside flite's, for the voice (docs/speech.md)")
+      ->check(CLI::ExistingFile);
+  app.add_option("--voice", options.voice,
+                 "The command of a voice module in place of ssm; the last option")
+      ->expected(1, 64);
+  app.add_flag("--no-voice", options.no_voice, "Without /v1/audio/speech");
+  app.add_option("--speech-seconds", options.limit_s, "How long a text may take (60)")
+      ->check(CLI::Range(1, 600));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    Serve(options);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "gateway: " << error.what() << std::endl;
+    return 1;
+  }
+}

@@ -1,0 +1,143 @@
+// Slots as tools over MCP: standard input and output to the client, a connection to the hub.
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <iostream>
+#include <list>
+#include <memory>
+#include <stdexcept>
+
+#include "gateway/mcp/mcp_server.h"
+#include "vm_protocol/core/client.h"
+#include "vm_protocol/runtime/acceptor.h"
+
+namespace {
+
+namespace asio = boost::asio;
+
+/// The program: two streams and the server between them. Thread: the context's.
+class Bridge {
+ public:
+  Bridge(std::vector<gateway::McpServer::Allowed> allowed, std::chrono::seconds limit)
+      : limit_(limit),
+        client_([this](std::string_view line) { hub_->Send(line); }),
+        server_(std::move(allowed),
+                {.ask = [this](vm::Message message,
+                               auto on_answer) { Ask(std::move(message), std::move(on_answer)); },
+                 .say = [this](const std::string& message) { model_->Send(message); }}) {}
+
+  /// Returns when the client says no more and everything is answered. Throws where the hub cannot
+  /// be had or has gone.
+  void Run(const vm::Endpoint& hub, const vm::Credentials& credentials) {
+    vm::Connect(io_, hub, credentials, vm::Framing::kLf, vm::Encoding::kUtf8,
+                [this](vm::Result<std::shared_ptr<vm::StreamPeer>> stream) {
+                  if (!stream) return Fail(stream.error().text);
+                  Begin(std::move(*stream));
+                });
+    io_.run();
+    if (!failure_.empty()) throw std::runtime_error(failure_);
+  }
+
+ private:
+  void Begin(std::shared_ptr<vm::StreamPeer> hub) {
+    hub_ = std::move(hub);
+    hub_->Start(
+        [this](vm::Result<std::string_view> line) {
+          if (line) client_.HandleLine(*line);
+          EndIfDone();
+        },
+        [this](const vm::StreamEnd& end) { Fail("the hub has gone: " + end.reason); });
+    hub_->ResumeReading();
+    model_ = vm::StreamPeer::Make(io_, STDIN_FILENO, STDOUT_FILENO, vm::Framing::kLf);
+    model_->HoldInputWhileBehind();
+    model_->Start(
+        [this](vm::Result<std::string_view> line) {
+          // A line that is too long is no message: it is answered as such.
+          server_.Handle(line ? *line : std::string_view());
+        },
+        [this](const vm::StreamEnd&) {
+          ended_ = true;
+          EndIfDone();
+        });
+  }
+
+  void Ask(vm::Message message, gateway::McpServer::OnAnswer on_answer) {
+    const auto timer = timers_.emplace(timers_.end(), io_);
+    const std::string tag = client_.Request(
+        std::move(message),
+        [this, timer, on_answer = std::move(on_answer)](vm::Result<std::string> answer) {
+          timers_.erase(timer);
+          on_answer(std::move(answer));
+        });
+    timer->expires_after(limit_);
+    timer->async_wait([this, tag](const boost::system::error_code& stopped) {
+      if (stopped) return;
+      client_.Abandon(tag, {vm::Errc::kTimeout,
+                            "no answer within " + std::to_string(limit_.count()) + " s", 0});
+      EndIfDone();
+    });
+  }
+
+  void EndIfDone() {
+    if (!ended_ || server_.running() > 0) return;
+    model_->Flush([this] { io_.stop(); });
+  }
+  void Fail(const std::string& why) {
+    failure_ = why;
+    io_.stop();
+  }
+
+  asio::io_context io_;
+  const std::chrono::seconds limit_;
+  std::list<asio::steady_timer> timers_;
+  std::shared_ptr<vm::StreamPeer> hub_, model_;
+  vm::Client client_;
+  gateway::McpServer server_;
+  std::string failure_;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string hub;
+  std::vector<std::string> allow;
+  vm::Credentials credentials;
+  int limit_s = 60;
+  CLI::App app(
+      "An agent's slots as tools for language models, by the Model Context Protocol over "
+      "standard input and output");
+  app.set_version_flag("--version", "mcp (Galatea) " GALATEA_VERSION);
+  app.add_option("--connect", hub, "The hub: unix:PATH, tcp:HOST:PORT or tls:HOST:PORT")
+      ->required();
+  app.add_option(
+         "--allow", allow,
+         "\"@MODULE SLOT\" that becomes a tool; * stands for any letters of the slot (may be "
+         "repeated)")
+      ->required();
+  app.add_option("--token-file", credentials.token_file, "The hub's token");
+  app.add_option("--certificate", credentials.certificate, "PEM: what is shown over TLS");
+  app.add_option("--key", credentials.key, "PEM: its key");
+  app.add_option("--authority", credentials.authority, "PEM: who signs the hub's certificate");
+  app.add_option("--seconds", limit_s, "How long a module may take to answer (60)")
+      ->check(CLI::Range(1, 3600));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    std::vector<gateway::McpServer::Allowed> allowed;
+    for (const std::string& text : allow) {
+      auto one = gateway::ParseAllowed(text);
+      if (!one) throw std::runtime_error("--allow: " + one.error().text);
+      allowed.push_back(std::move(*one));
+    }
+    const auto endpoint = vm::ParseEndpoint(hub);
+    if (!endpoint) throw std::runtime_error("--connect: " + endpoint.error().text);
+    Bridge(std::move(allowed), std::chrono::seconds(limit_s)).Run(*endpoint, credentials);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "mcp: " << error.what() << std::endl;
+    return 1;
+  }
+}

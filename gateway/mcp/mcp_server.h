@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gateway/mcp/slot_tool.h"
+#include "vm_protocol/core/message.h"
+
+namespace gateway {
+
+/// Slots as tools for language models: the Model Context Protocol, revisions 2025-11-25 and
+/// 2025-06-18, as messages of JSON-RPC 2.0. What carries them, and what reaches the modules, is
+/// the caller's.
+/// Only slots that `allowed` names are tools: "@MODULE SLOT", in which * stands for any letters.
+/// The modules are asked what these are when tools are first wanted, and again where one did not
+/// answer. Lifetime: hooks outlive it; answers that come later are passed over. Thread: none of its
+/// own. Limits: kMaxTools, kMaxRunning calls at a time.
+class McpServer {
+ public:
+  static constexpr std::size_t kMaxTools = 256;
+  static constexpr std::size_t kMaxRunning = 32;
+  using OnAnswer = std::function<void(vm::Result<std::string> value)>;
+  struct Hooks {
+    /// Asks a module; answered once, later, within a time limit of the caller's.
+    std::function<void(vm::Message message, OnAnswer on_answer)> ask;
+    /// Says one message to the client.
+    std::function<void(const std::string& message)> say;
+  };
+  struct Allowed {
+    std::string module, slot;  ///< the module's name is no pattern
+  };
+  McpServer(std::vector<Allowed> allowed, Hooks hooks);
+  ~McpServer() { *alive_ = false; }
+  McpServer(const McpServer&) = delete;
+
+  /// One message of the client's. Whatever it is, it is answered, if it asks for an answer.
+  void Handle(std::string_view message);
+  /// Calls and questions that are not answered yet.
+  std::size_t running() const { return running_; }
+
+ private:
+  struct Discovery;
+  void Request(const nlohmann::json& id, const std::string& method, const nlohmann::json& params);
+  void Initialize(const nlohmann::json& id, const nlohmann::json& params);
+  void List(const nlohmann::json& id);
+  void Call(const nlohmann::json& id, const nlohmann::json& params);
+  void CallTool(const nlohmann::json& id, const SlotTool& tool, const nlohmann::json& params);
+  void Result(const nlohmann::json& id, nlohmann::json result);
+  void Error(const nlohmann::json& id, int code, const std::string& text);
+  /// Calls `next` once all modules have told of their slots, or have not.
+  void Discover(std::function<void()> next);
+  void AskModule(const std::shared_ptr<Discovery>& discovery, const std::string& module);
+  void AskSlot(const std::shared_ptr<Discovery>& discovery, const std::string& module,
+               const std::string& slot);
+  void Answered(const std::shared_ptr<Discovery>& discovery);
+  void Ask(vm::Message message, OnAnswer on_answer);
+
+  const std::vector<Allowed> allowed_;
+  const Hooks hooks_;
+  std::map<std::string, SlotTool> tools_;  // by name
+  bool complete_ = false;                  // every module has answered
+  std::shared_ptr<Discovery> discovery_;   // while it goes on
+  std::size_t running_ = 0, calls_ = 0;
+  const std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
+};
+
+/// "@FSM FaceExp" taken apart. kBadValue for anything else.
+vm::Result<McpServer::Allowed> ParseAllowed(std::string_view text);
+
+}  // namespace gateway

@@ -1,0 +1,244 @@
+// The gateway as its clients see it: a client of its own kind in Python (client.py) beside it.
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.h"
+
+namespace {
+
+using nlohmann::json;
+using support::Process;
+using support::SocketClient;
+using Lines = std::vector<std::string>;
+
+const std::string kToken = "sixteen-bytes-or-more";
+
+class GatewayTest : public testing::Test {
+ protected:
+  void Start(Lines more = {}) {
+    std::ofstream(folder_ / "token") << kToken << "\n";
+    ::chmod((folder_ / "token").c_str(), 0600);
+    Lines command{GALATEA_BIN_DIR "/gateway", "--at", "tcp:127.0.0.1:0", "--token-file",
+                  folder_ / "token"};
+    command.insert(command.end(), more.begin(), more.end());
+    gateway_ = std::make_unique<Process>(command);
+    const std::string url = gateway_->ReadLine().value_or("");
+    ASSERT_TRUE(url.ends_with("/v1/mouth?token=" + kToken)) << url << gateway_->ErrorText();
+    host_ = url.substr(5, url.find('/', 5) - 5);
+    port_ = static_cast<unsigned short>(std::atoi(host_.substr(host_.find(':') + 1).c_str()));
+  }
+  Lines Client(Lines steps, const std::string& query = "&set=oculus15") {
+    Lines command{"python3", GALATEA_SOURCE_DIR "/tests/gateway/client.py",
+                  "ws://" + host_ + "/v1/mouth?token=" + kToken + query};
+    command.insert(command.end(), steps.begin(), steps.end());
+    Process client(command);
+    client.CloseInput();
+    auto lines = client.ReadAll(std::chrono::seconds(60));
+    EXPECT_EQ(client.Wait(), 0) << client.ErrorText();
+    return lines;
+  }
+  /// Posts to /v1/audio/speech; the status line and the answer.
+  std::pair<std::string, std::string> Post(const std::string& body,
+                                           Lines headers = {"Authorization: Bearer " + kToken}) {
+    Lines command{"python3", GALATEA_SOURCE_DIR "/tests/gateway/client.py",
+                  "http://" + host_ + "/v1/audio/speech", body};
+    command.insert(command.end(), headers.begin(), headers.end());
+    Process client(command);
+    client.CloseInput();
+    const auto lines = client.ReadAll(std::chrono::seconds(60));
+    EXPECT_EQ(client.Wait(), 0) << client.ErrorText();
+    return lines.size() < 2 ? std::pair<std::string, std::string>() : std::pair(lines[0], lines[1]);
+  }
+  std::string StatusOf(const std::string& target, const std::string& headers) {
+    auto client = SocketClient::Tcp(port_);
+    client->Write("GET " + target + " HTTP/1.1\r\n" + headers + "\r\n");
+    const auto line = client->ReadLine();
+    return line && line->size() > 12 ? line->substr(9, 3) : "nothing";
+  }
+  /// Speech of flite at 16 kHz, without a header.
+  std::string Speech() {
+    Process voice({GALATEA_BIN_DIR "/ssm", "--sink", "null", "--clock", "virtual"});
+    voice.WriteLine("set Text = Mama bought a piano.");
+    voice.WriteLine("set#1 SaveWAV = " + (folder_ / "said.wav"));
+    EXPECT_TRUE(voice.Expect("rep#1 "));
+    std::ifstream wav(folder_ / "said.wav", std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(wav), {});
+    const std::string raw = folder_ / "said.raw";
+    std::ofstream(raw, std::ios::binary) << bytes.substr(44);
+    seconds_ = static_cast<double>(bytes.size() - 44) / 32000;
+    return raw;
+  }
+
+  support::TempDir folder_;
+  std::unique_ptr<Process> gateway_;
+  std::string host_;
+  unsigned short port_ = 0;
+  double seconds_ = 0;
+};
+
+TEST_F(GatewayTest, SoundGoesInAndFramesComeOut) {
+  Start({"--no-voice"});
+  const auto lines =
+      Client({"until:ready", "sound:" + Speech(), "text:{\"type\": \"end\"}", "until:end"});
+  ASSERT_GT(lines.size(), 10u);
+  const json ready = json::parse(lines.front()), end = json::parse(lines.back());
+  EXPECT_EQ(ready["names"].size(), 15u);
+  EXPECT_EQ(ready["ahead"], 0.06);
+  EXPECT_NEAR(end["t"].get<double>(), seconds_, 0.001);
+  EXPECT_NEAR(static_cast<double>(lines.size() - 2), seconds_ * 50, 2);
+  int closed = 0;
+  for (std::size_t i = 1; i + 1 < lines.size(); ++i) {
+    const json frame = json::parse(lines[i]);
+    ASSERT_EQ(frame["type"], "frame");
+    ASSERT_NEAR(frame["t"].get<double>(), 0.02 * static_cast<double>(i - 1), 1e-6);
+    closed += frame["viseme"] == "PP" ? 1 : 0;
+  }
+  EXPECT_GT(closed, 5) << "m, m, b and p";
+}
+
+TEST_F(GatewayTest, FramesComeWhileTheSoundStillDoes) {
+  Start({"--no-voice"});
+  const auto lines = Client({"until:ready", "sound:" + Speech(), "until:frame"}, "&set=arkit52");
+  EXPECT_EQ(json::parse(lines.back())["weights"].size(), 52u);
+}
+
+TEST_F(GatewayTest, ClearBeginsAnewAndWhatIsNoMessageIsAnswered) {
+  Start({"--no-voice"});
+  const std::string speech = Speech();
+  const auto lines = Client({"until:ready", "sound:" + speech, "text:{\"type\":\"clear\"}",
+                             "until:cleared", "text:nonsense", "until:error", "sound:" + speech,
+                             "text:{\"type\": \"end\"}", "until:end"});
+  const auto cleared = std::ranges::find(lines, R"({"type":"cleared"})");
+  ASSERT_NE(cleared, lines.end());
+  EXPECT_TRUE((cleared + 1)->contains("found 'nonsense'")) << *(cleared + 1);
+  EXPECT_EQ(json::parse(*(cleared + 2))["t"], 0) << "time counts from the new sound";
+  EXPECT_NEAR(static_cast<double>(lines.end() - cleared - 3), seconds_ * 50, 2);
+}
+
+TEST_F(GatewayTest, OnlyWhoeverShowsTheTokenMayCome) {
+  Start();
+  const std::string host = "Host: " + host_ + "\r\n";
+  const std::string bearer = "Authorization: Bearer " + kToken + "\r\n";
+  const std::string socket =
+      "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n";
+  EXPECT_EQ(StatusOf("/v1/mouth", host + socket), "401");
+  EXPECT_EQ(StatusOf("/v1/mouth?token=wrong", host + socket), "401");
+  EXPECT_EQ(StatusOf("/v1/mouth", host + bearer + socket), "101");
+  EXPECT_EQ(StatusOf("/v1/mouth", host + bearer), "426");
+  EXPECT_EQ(StatusOf("/v1/mouth?set=x", host + bearer + socket), "400");
+  EXPECT_EQ(StatusOf("/v1/mouth?rate=1e9", host + bearer + socket), "400");
+  EXPECT_EQ(StatusOf("/etc/passwd", host + bearer), "404");
+  EXPECT_EQ(StatusOf("/v1/audio/speech", host + bearer), "405");
+  EXPECT_EQ(StatusOf("/v1/mouth", "Host: evil.example\r\n" + bearer + socket), "421");
+  EXPECT_EQ(StatusOf("/v1/mouth", host + "Origin: http://evil.example\r\n" + bearer + socket),
+            "403");
+  EXPECT_EQ(StatusOf("/v1/mouth", host + "X: " + std::string(20'000, 'x') + "\r\n"), "413");
+  EXPECT_TRUE(Post("{}", {}).first.starts_with("status 401 ")) << "the voice is no one's either";
+}
+
+TEST_F(GatewayTest, PagesOfNamedSitesMayCome) {
+  Start({"--no-voice", "--origin", "https://bot.example"});
+  auto client = SocketClient::Tcp(port_);
+  client->Write("OPTIONS /v1/audio/speech HTTP/1.1\r\nHost: " + host_ +
+                "\r\nOrigin: https://bot.example\r\n\r\n");
+  EXPECT_TRUE(client->Expect("Access-Control-Allow-Origin: https://bot.example"));
+}
+
+TEST_F(GatewayTest, MoreClientsThanAllowedAreTurnedAway) {
+  Start({"--no-voice", "--clients", "1"});
+  Process first({"python3", GALATEA_SOURCE_DIR "/tests/gateway/client.py",
+                 "ws://" + host_ + "/v1/mouth?token=" + kToken, "until:ready", "end"});
+  ASSERT_TRUE(first.Expect("ready"));
+  EXPECT_EQ(Client({"until:ready"}), (Lines{"status 503"}));
+  first.Kill();
+  first.Wait();
+}
+
+TEST_F(GatewayTest, TooLongAMessageEndsTheConnectionAndNoOthers) {
+  Start({"--no-voice"});
+  const std::string big = folder_ / "big.raw";
+  std::ofstream(big) << std::string(2'000'000, '\0');
+  const auto lines = Client({"until:ready", "sound:" + big + ":2000000", "end"});
+  EXPECT_EQ(lines.back(), "closed");
+  EXPECT_EQ(Client({"until:ready"}).size(), 1u);
+}
+
+TEST_F(GatewayTest, ATextIsSpokenInTheFormatAskedFor) {
+  Start();
+  const auto wav = Post(R"({"model": "any", "input": "Good morning.", "response_format": "wav"})");
+  EXPECT_EQ(wav.first, "status 200 audio/wav");
+  EXPECT_TRUE(wav.second.ends_with(" b'RIFF'")) << wav.second;
+  const long wav_bytes = std::atol(wav.second.c_str());
+  const auto pcm = Post(R"({"input": "Good morning.", "response_format": "pcm"})");
+  EXPECT_EQ(pcm.first, "status 200 audio/pcm");
+  EXPECT_NEAR(static_cast<double>(std::atol(pcm.second.c_str())),
+              1.5 * static_cast<double>(wav_bytes - 44), 4)
+      << "24 kHz, as clients of this API take it";
+  const auto mp3 = Post(R"({"input": "Good morning."})");
+  EXPECT_EQ(mp3.first, "status 200 audio/mpeg");
+  const auto slow =
+      Post(R"({"input": "Good morning.", "response_format": "wav", "speed": 0.5, "voice": "awb"})");
+  EXPECT_GT(std::atol(slow.second.c_str()), 1.5 * static_cast<double>(wav_bytes));
+}
+
+TEST_F(GatewayTest, VisemesComeBesideTheSound) {
+  Start();
+  const auto [status, body] =
+      Post(R"({"input": "Mama.", "response_format": "wav", "visemes": "visemes22", "fps": 25})");
+  EXPECT_EQ(status, "status 200 application/json");
+  const json answer = json::parse(body, nullptr, false);
+  ASSERT_TRUE(answer.is_object()) << body.substr(0, 200);
+  EXPECT_EQ(answer["media_type"], "audio/wav");
+  EXPECT_TRUE(answer["audio"].get<std::string>().starts_with("UklGR")) << "RIFF in base64";
+  const double duration = answer["duration"].get<double>();
+  EXPECT_NEAR(static_cast<double>(answer["frames"].size()), duration * 25, 2);
+  std::string phonemes;
+  for (const json& phoneme : answer["phonemes"]) {
+    phonemes += phoneme["name"].get<std::string>() + " ";
+  }
+  EXPECT_EQ(phonemes, "pau m aa m ax pau ");
+  EXPECT_EQ(answer["visemes"][0],
+            (json{{"viseme", "0"}, {"start", 0.0}, {"end", answer["phonemes"][0]["end"]}}));
+  EXPECT_EQ(answer["visemes"][1]["viseme"], "21");
+  EXPECT_NEAR(answer["visemes"].back()["end"].get<double>(), duration, 0.002);
+}
+
+TEST_F(GatewayTest, MistakesAreToldAsOpenAIsApiTellsThem) {
+  Start();
+  const auto wrong = Post(R"({"input": ""})");
+  EXPECT_EQ(wrong.first, "status 400 application/json");
+  EXPECT_EQ(
+      wrong.second,
+      R"({"error":{"message":"input: expected the text to be spoken","type":"invalid_request_error"}})");
+  const auto voice = Post(R"({"input": "Hello.", "voice": "alloy"})");
+  EXPECT_EQ(voice.first, "status 400 application/json");
+  EXPECT_TRUE(voice.second.contains("alloy")) << voice.second;
+  EXPECT_EQ(Post(R"({"input": "Hello.", "response_format": "wav"})").first, "status 200 audio/wav");
+}
+
+TEST_F(GatewayTest, AVoiceThatCannotBeHadIsOneErrorEachTime) {
+  Start({"--voice", "/nowhere/ssm"});
+  for (int i = 0; i < 2; ++i) {
+    const auto answer = Post(R"({"input": "Hello."})");
+    EXPECT_EQ(answer.first, "status 503 application/json");
+    EXPECT_TRUE(answer.second.contains("/nowhere/ssm")) << answer.second;
+  }
+}
+
+TEST_F(GatewayTest, AVoiceThatHangsIsEndedAtItsLimit) {
+  Start({"--speech-seconds", "1", "--voice", "sleep", "1000"});
+  EXPECT_EQ(Post(R"({"input": "Hello."})").first, "status 504 application/json");
+}
+
+TEST_F(GatewayTest, APlaceOtherMachinesReachNeedsATokenOfOnesOwn) {
+  Process gateway({GALATEA_BIN_DIR "/gateway", "--at", "tcp:0.0.0.0:0"});
+  EXPECT_EQ(gateway.Wait(), 1);
+  EXPECT_TRUE(gateway.ErrorText().contains("--at: ")) << gateway.ErrorText();
+}
+
+}  // namespace

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vm_protocol/http/http.h"
+
+namespace vm {
+
+/// A part of a form (RFC 7578). Names and file names are ours: no quotes, no line ends.
+struct FormPart {
+  std::string name{};
+  std::string content{};
+  std::string file_name{};     ///< empty: a plain value
+  std::string content_type{};  ///< of a file
+};
+/// Makes the parts the request's body, as multipart/form-data, and says so in its headers.
+void SetForm(const std::vector<FormPart>& parts, HttpRequest& request);
+
+}  // namespace vm
