@@ -1,40 +1,30 @@
 #pragma once
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <functional>
-#include <list>
+#include <optional>
 
 #include "agent_manager/web/live_source.h"
 #include "agent_manager/web/web_server.h"
+#include "vm_protocol/runtime/web_door.h"
 
 /// What the files of the web server share; not for other folders.
 namespace am {
 
 /// The state of the web server. Each connection shares it and stops when `closed` is set.
 struct WebServer::Impl {
-  Impl(boost::asio::io_context& context, Hub& the_hub)
-      : io(context), acceptor(context), retry(context), hub(the_hub) {}
+  Impl(boost::asio::io_context& context, Hub& the_hub) : io(context), hub(the_hub) {}
   boost::asio::io_context& io;
-  boost::asio::ip::tcp::acceptor acceptor;
-  boost::asio::steady_timer retry;  ///< delays the next accept after one that failed
   Hub& hub;
+  std::optional<vm::WebDoor> door;
   Role role = Role::kGuest;  ///< of every peer that connects through the page
   std::string token;
-  std::string host;  ///< "127.0.0.1:8080"
   std::function<std::string()> metrics;
   OnRefusal on_refusal;
   std::unique_ptr<LiveSource> face;
   std::unique_ptr<LiveSource> voice;
-  std::size_t connections = 0;
-  /// One function for each connection that has not shown the token yet, the oldest first; it drops
-  /// that connection.
-  std::list<std::function<void()>> strangers;
-  bool starved = false;  ///< the last accept failed
-  bool full = false;     ///< the last connection was turned away
   bool closed = false;
   bool microphone = false;  ///< a browser streams its microphone
 };

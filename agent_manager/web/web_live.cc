@@ -46,12 +46,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
  public:
   LiveSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream, Live live)
       : server_(std::move(server)),
+        place_(*server_->door),
         socket_(std::move(stream)),
         write_limit_(server_->io),
-        live_(live) {
-    ++server_->connections;
-  }
-  ~LiveSession() { --server_->connections; }
+        live_(live) {}
 
   void Start(const Request& request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
@@ -140,6 +138,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   }
 
   std::shared_ptr<WebServer::Impl> server_;
+  const vm::WebDoor::Place place_;
   websocket::stream<beast::tcp_stream> socket_;
   asio::steady_timer write_limit_;
   beast::flat_buffer buffer_;

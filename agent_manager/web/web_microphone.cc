@@ -32,11 +32,12 @@ constexpr const char* kEar = "SRM";
 class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession> {
  public:
   MicrophoneSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
-      : server_(std::move(server)), socket_(std::move(stream)), ear_(server_->io) {
-    ++server_->connections;
+      : server_(std::move(server)),
+        place_(*server_->door),
+        socket_(std::move(stream)),
+        ear_(server_->io) {
     server_->microphone = true;
   }
-  ~MicrophoneSession() { --server_->connections; }
 
   void Start(const Request& request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
@@ -122,6 +123,7 @@ class MicrophoneSession : public std::enable_shared_from_this<MicrophoneSession>
   }
 
   std::shared_ptr<WebServer::Impl> server_;
+  const vm::WebDoor::Place place_;
   websocket::stream<beast::tcp_stream> socket_;
   asio::local::stream_protocol::socket ear_;
   beast::flat_buffer buffer_;

@@ -1,12 +1,9 @@
 #include "agent_manager/web/web_server.h"
 
-#include <fcntl.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <functional>
-#include <list>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -45,9 +42,6 @@ using std::string_view;
 
 constexpr auto kRequestLimit = std::chrono::seconds(10);
 constexpr std::size_t kMaxHeaderBytes = 8192;
-constexpr std::size_t kMaxConnections = 64;
-constexpr std::size_t kBeingDropped = 8;  // dropped connections whose last operation is pending
-constexpr auto kAcceptAgain = std::chrono::milliseconds(200);
 
 /// A browser sends a cookie to every port of a host, so the pages of two hubs need two names.
 std::string CookieOf(std::string_view host) {
@@ -95,18 +89,12 @@ string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(std::shared_ptr<WebServer::Impl> server, asio::ip::tcp::socket socket)
-      : server_(std::move(server)), stream_(std::move(socket)), at_(server_->strangers.end()) {
-    ++server_->connections;
-  }
-  ~HttpSession() {
-    --server_->connections;
-    Known();
-  }
+      : server_(std::move(server)), place_(*server_->door), stream_(std::move(socket)) {}
   HttpSession(const HttpSession&) = delete;
 
   /// Enters the list of connections without the token, and reads the first request.
   void Begin() {
-    at_ = server_->strangers.insert(server_->strangers.end(), [weak = weak_from_this()] {
+    stranger_.emplace(*server_->door, [weak = weak_from_this()] {
       if (const auto self = weak.lock()) self->Drop();
     });
     Read();
@@ -123,12 +111,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
  private:
-  void Known() {
-    if (at_ != server_->strangers.end()) server_->strangers.erase(at_);
-    at_ = server_->strangers.end();
-  }
   void Drop() {
-    Known();
+    stranger_.reset();
     error_code ignored;
     stream_.socket().close(ignored);
   }
@@ -147,7 +131,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     const std::size_t mark = target.find('?');
     const std::string path(target.substr(0, mark));
     // DNS rebinding: a site whose name resolves to our address sends its own name as the host.
-    if (View(request_[http::field::host]) != server_->host &&
+    if (View(request_[http::field::host]) != server_->door->host() &&
         View(request_[http::field::host]) != LocalName())
       return Refuse(http::status::misdirected_request, "a request for another host");
     if (request_.method() != http::verb::get)
@@ -155,10 +139,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     const bool by_address =
         HasToken(mark == string_view::npos ? "" : target.substr(mark + 1), '&', "token=");
     if (!by_address &&
-        !HasToken(View(request_[http::field::cookie]), ';', CookieOf(server_->host)) &&
+        !HasToken(View(request_[http::field::cookie]), ';', CookieOf(server_->door->host())) &&
         !HasToken(View(request_[http::field::authorization]), ';', "Bearer "))
       return Refuse(http::status::unauthorized, "a request without the token");
-    Known();
+    stranger_.reset();
     for (const auto& [of, module] : {std::pair("/microphone", "SRM"),
                                      {"/face.mjpg", "FSM"},
                                      {"/face", "FSM"},
@@ -184,14 +168,15 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void ToWithoutToken(const std::string& path) {
     auto response = Make(http::status::see_other, "text/plain", "");
     response.set(http::field::location, path);
-    response.set(http::field::set_cookie,
-                 CookieOf(server_->host) + server_->token + "; Path=/; HttpOnly; SameSite=Strict");
+    response.set(http::field::set_cookie, CookieOf(server_->door->host()) + server_->token +
+                                              "; Path=/; HttpOnly; SameSite=Strict");
     Write(std::move(response));
   }
 
   void Upgrade(const std::string& path) {
     const std::string origin(View(request_[http::field::origin]));
-    if (!origin.empty() && origin != "http://" + server_->host && origin != "http://" + LocalName())
+    if (!origin.empty() && origin != "http://" + server_->door->host() &&
+        origin != "http://" + LocalName())
       return Refuse(http::status::forbidden, "a WebSocket from the site " + origin.substr(0, 100));
     if (path == "/microphone" && server_->microphone)
       return Refuse(http::status::conflict, "a second microphone");
@@ -205,7 +190,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   std::string LocalName() const {
-    return "localhost" + server_->host.substr(server_->host.rfind(':'));
+    return "localhost" + server_->door->host().substr(server_->door->host().rfind(':'));
   }
 
   /// Returns true if one of the parts of `text`, separated by `between`, is `name` and the token.
@@ -264,55 +249,15 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
                       });
   }
 
-  std::shared_ptr<WebServer::Impl> server_;
+  const std::shared_ptr<WebServer::Impl> server_;
+  const vm::WebDoor::Place place_;
+  std::optional<vm::WebDoor::Stranger> stranger_;  // until it has shown the token
   beast::tcp_stream stream_;
-  std::list<std::function<void()>>::iterator at_;  // in strangers; its end once the token was shown
   beast::flat_buffer buffer_{kMaxHeaderBytes * 2};
   std::optional<http::request_parser<http::empty_body>> parser_;
   web::Request request_;
   http::response<http::string_body> response_;
 };
-
-/// All places are taken by connections that have shown the token.
-void TurnAway(WebServer::Impl& server, asio::ip::tcp::socket& socket) {
-  constexpr string_view kAnswer =
-      "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
-  error_code ignored;
-  socket.non_blocking(true, ignored);
-  socket.write_some(asio::buffer(kAnswer), ignored);
-  socket.shutdown(asio::socket_base::shutdown_send, ignored);
-  if (!std::exchange(server.full, true))
-    server.on_refusal("web page: more than " + std::to_string(kMaxConnections) + " connections");
-}
-
-void AcceptNext(const std::shared_ptr<WebServer::Impl>& server) {
-  server->acceptor.async_accept([server](const error_code& error, asio::ip::tcp::socket socket) {
-    if (server->closed || error == asio::error::operation_aborted) return;
-    if (error) {  // for example no descriptor left: tried again, when some may be free
-      if (!std::exchange(server->starved, true))
-        server->on_refusal("web page: cannot accept: " + error.message());
-      server->retry.expires_after(kAcceptAgain);
-      server->retry.async_wait([server](const error_code& stopped) {
-        if (!stopped) AcceptNext(server);
-      });
-      return;
-    }
-    server->starved = false;
-    // A connection that has not shown the token gives way to a new one.
-    if (server->connections >= kMaxConnections && !server->strangers.empty()) {
-      const auto drop = server->strangers.front();
-      drop();
-    }
-    fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
-    if (server->connections < kMaxConnections + kBeingDropped) {
-      server->full = false;
-      std::make_shared<HttpSession>(server, std::move(socket))->Begin();
-    } else {
-      TurnAway(*server, socket);
-    }
-    AcceptNext(server);
-  });
-}
 
 }  // namespace
 
@@ -334,37 +279,24 @@ WebServer::WebServer(asio::io_context& io, const WebConfig& config, Hub& hub,
   impl_->token = !token->empty()       ? *token
                  : endpoint->port == 0 ? vm::MakeNonce()
                                        : KeptToken(endpoint->port);
-  try {
-    const asio::ip::tcp::endpoint at(
-        asio::ip::make_address(endpoint->host == "localhost" ? "127.0.0.1" : endpoint->host),
-        endpoint->port);
-    impl_->acceptor.open(at.protocol());
-    impl_->acceptor.set_option(asio::ip::tcp::acceptor::reuse_address(true));
-    impl_->acceptor.bind(at);
-    impl_->acceptor.listen();
-    fcntl(impl_->acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
-  } catch (const boost::system::system_error& error) {
-    throw std::runtime_error("cannot serve the page at " + config.at + ": " +
-                             error.code().message());
-  }
-  const auto local = impl_->acceptor.local_endpoint();
-  impl_->host = (local.address().is_v6() ? "[" + local.address().to_string() + "]"
-                                         : local.address().to_string()) +
-                ":" + std::to_string(local.port());
-  AcceptNext(impl_);
+  impl_->door.emplace(
+      io, config.at,
+      [server = std::weak_ptr(impl_)](asio::ip::tcp::socket socket) {
+        if (const auto impl = server.lock())
+          std::make_shared<HttpSession>(impl, std::move(socket))->Begin();
+      },
+      [server = impl_.get()](const std::string& text) { server->on_refusal("web page: " + text); });
 }
 
 WebServer::~WebServer() {
   impl_->closed = true;
-  error_code ignored;
-  impl_->acceptor.close(ignored);
-  impl_->retry.cancel();
+  impl_->door->Close();
   impl_->face.reset();
   impl_->voice.reset();
 }
 
 std::string WebServer::Address() const {
-  return "http://" + impl_->host + "/?token=" + impl_->token;
+  return "http://" + impl_->door->host() + "/?token=" + impl_->token;
 }
 
 }  // namespace am

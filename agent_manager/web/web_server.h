@@ -15,10 +15,9 @@ namespace am {
 /// (/metrics), a WebSocket (/ws) that speaks the protocol with one line a message and is a peer
 /// like any other, and one for the sound of a microphone (/microphone).
 /// Lifetime: the context, the hub and what the callbacks use outlive it. Thread: the
-/// context's. Limits: kMaxConnections; when there are more, the oldest without the token is
-/// dropped. Errors: refused and passed to OnRefusal are requests without the token, from a page of
-/// another site (Host, Origin), for an unknown path or over kMaxHeaderBytes, and WebSocket messages
-/// longer than a line.
+/// context's. Limits: those of vm::WebDoor. Errors: refused and passed to OnRefusal are requests
+/// without the token, from a page of another site (Host, Origin), for an unknown path or over
+/// kMaxHeaderBytes, and WebSocket messages longer than a line.
 class WebServer {
  public:
   using OnRefusal = std::function<void(const std::string& text)>;

@@ -24,10 +24,7 @@ using boost::system::error_code;
 class SocketSession : public std::enable_shared_from_this<SocketSession> {
  public:
   SocketSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
-      : server_(std::move(server)), socket_(std::move(stream)) {
-    ++server_->connections;
-  }
-  ~SocketSession() { --server_->connections; }
+      : server_(std::move(server)), place_(*server_->door), socket_(std::move(stream)) {}
 
   void Start(const Request& request) {
     socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
@@ -130,6 +127,7 @@ class SocketSession : public std::enable_shared_from_this<SocketSession> {
   }
 
   std::shared_ptr<WebServer::Impl> server_;
+  const vm::WebDoor::Place place_;
   websocket::stream<beast::tcp_stream> socket_;
   beast::flat_buffer buffer_;
   std::deque<std::string> outgoing_;

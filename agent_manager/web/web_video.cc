@@ -20,10 +20,7 @@ constexpr auto kPictureLimit = std::chrono::seconds(10);  // for a browser to re
 class VideoSession : public std::enable_shared_from_this<VideoSession> {
  public:
   VideoSession(std::shared_ptr<WebServer::Impl> server, beast::tcp_stream stream)
-      : server_(std::move(server)), stream_(std::move(stream)) {
-    ++server_->connections;
-  }
-  ~VideoSession() { --server_->connections; }
+      : server_(std::move(server)), place_(*server_->door), stream_(std::move(stream)) {}
 
   void Start() {
     const unsigned viewer = server_->face->Join(
@@ -82,6 +79,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   }
 
   std::shared_ptr<WebServer::Impl> server_;
+  const vm::WebDoor::Place place_;
   beast::tcp_stream stream_;
   std::string text_;
   unsigned viewer_ = 0;

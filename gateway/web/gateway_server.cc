@@ -1,20 +1,16 @@
 #include "gateway/web/gateway_server.h"
 
-#include <fcntl.h>
-
 #include <algorithm>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "gateway/speech/speech_request.h"
 #include "gateway/web/gateway_impl.h"
 #include "vm_protocol/runtime/credentials.h"
-#include "vm_protocol/runtime/endpoint.h"
 
 namespace gateway {
 namespace {
@@ -28,8 +24,6 @@ using std::string_view;
 constexpr auto kRequestLimit = std::chrono::seconds(10);
 constexpr std::size_t kMaxHeaderBytes = 8192;
 constexpr std::size_t kMaxBodyBytes = 64u << 10;
-constexpr std::size_t kMaxConnections = 64;
-constexpr auto kAcceptAgain = std::chrono::milliseconds(200);
 
 string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -86,11 +80,16 @@ http::status StatusOf(vm::Errc code) {
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   HttpSession(std::shared_ptr<GatewayServer::Impl> server, asio::ip::tcp::socket socket)
-      : server_(std::move(server)), stream_(std::move(socket)) {
-    ++server_->connections;
-  }
-  ~HttpSession() { --server_->connections; }
+      : server_(std::move(server)), place_(*server_->door), stream_(std::move(socket)) {}
   HttpSession(const HttpSession&) = delete;
+
+  /// Enters the list of connections without the token, and reads the first request.
+  void Begin() {
+    stranger_.emplace(*server_->door, [weak = weak_from_this()] {
+      if (const auto self = weak.lock()) self->Drop();
+    });
+    Read();
+  }
 
   void Read() {
     parser_.emplace();
@@ -103,8 +102,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
  private:
+  void Drop() {
+    stranger_.reset();
+    error_code ignored;
+    stream_.socket().close(ignored);
+  }
   void OnRead(const error_code& error) {
-    if (server_->closed) return;
+    if (server_->closed || !stream_.socket().is_open()) return;
     if (error == http::error::header_limit || error == http::error::body_limit)
       return Refuse(http::status::payload_too_large, "a request that is too large");
     if (error == http::error::end_of_stream || error == beast::error::timeout) return;
@@ -127,6 +131,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     if (request_.method() == http::verb::options && !origin.empty())
       return Reply(http::status::ok, "text/plain", "");
     if (!HasToken(target)) return Refuse(http::status::unauthorized, "a request without the token");
+    stranger_.reset();
     if (path == "/v1/mouth") return ToMouth(target);
     if (path == "/v1/audio/speech") return Speak();
     Refuse(http::status::not_found,
@@ -165,8 +170,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   bool IsOwn(string_view site) const {
-    return site == "http://" + server_->host ||
-           site == "http://localhost" + server_->host.substr(server_->host.rfind(':'));
+    return site == "http://" + server_->door->host() ||
+           site ==
+               "http://localhost" + server_->door->host().substr(server_->door->host().rfind(':'));
   }
   bool IsNamed(const std::string& site) const {
     return std::ranges::find(server_->options.origins, site) != server_->options.origins.end();
@@ -232,6 +238,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   }
 
   const std::shared_ptr<GatewayServer::Impl> server_;
+  const vm::WebDoor::Place place_;
+  std::optional<vm::WebDoor::Stranger> stranger_;  // until it has shown the token
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_{kMaxHeaderBytes + kMaxBodyBytes};
   std::optional<http::request_parser<http::string_body>> parser_;
@@ -239,62 +247,25 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   http::response<http::string_body> response_;
 };
 
-void AcceptNext(const std::shared_ptr<GatewayServer::Impl>& server) {
-  server->acceptor.async_accept([server](const error_code& error, asio::ip::tcp::socket socket) {
-    if (server->closed || error == asio::error::operation_aborted) return;
-    if (error) {  // for example no descriptor left: tried again, when some may be free
-      server->retry.expires_after(kAcceptAgain);
-      server->retry.async_wait([server](const error_code& stopped) {
-        if (!stopped) AcceptNext(server);
-      });
-      return;
-    }
-    fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
-    if (server->connections < kMaxConnections) {
-      std::make_shared<HttpSession>(server, std::move(socket))->Read();
-    } else {
-      server->options.on_refusal("more than " + std::to_string(kMaxConnections) + " connections");
-    }
-    AcceptNext(server);
-  });
-}
-
 }  // namespace
 
 GatewayServer::GatewayServer(asio::io_context& io, GatewayOptions options, const vdm::MouthNet& net,
                              VoiceWorker* voice)
     : impl_(std::make_shared<Impl>(io, std::move(options), net, voice)) {
-  const std::string& place = impl_->options.at;
-  const auto endpoint = vm::ParseEndpoint(place);
-  if (!endpoint) throw std::runtime_error(endpoint.error().text);
-  if (endpoint->kind != vm::Endpoint::Kind::kTcp)
-    throw std::runtime_error("'" + place + "' found, tcp:HOST:PORT expected");
-  try {
-    const asio::ip::tcp::endpoint at(
-        asio::ip::make_address(endpoint->host == "localhost" ? "127.0.0.1" : endpoint->host),
-        endpoint->port);
-    impl_->acceptor.open(at.protocol());
-    impl_->acceptor.set_option(asio::ip::tcp::acceptor::reuse_address(true));
-    impl_->acceptor.bind(at);
-    impl_->acceptor.listen();
-    fcntl(impl_->acceptor.native_handle(), F_SETFD, FD_CLOEXEC);
-  } catch (const boost::system::system_error& error) {
-    throw std::runtime_error("cannot serve at " + place + ": " + error.code().message());
-  }
-  const auto local = impl_->acceptor.local_endpoint();
-  impl_->host = (local.address().is_v6() ? "[" + local.address().to_string() + "]"
-                                         : local.address().to_string()) +
-                ":" + std::to_string(local.port());
-  AcceptNext(impl_);
+  impl_->door.emplace(
+      io, impl_->options.at,
+      [server = std::weak_ptr(impl_)](asio::ip::tcp::socket socket) {
+        if (const auto impl = server.lock())
+          std::make_shared<HttpSession>(impl, std::move(socket))->Begin();
+      },
+      impl_->options.on_refusal);
 }
 
 GatewayServer::~GatewayServer() {
   impl_->closed = true;
-  error_code ignored;
-  impl_->acceptor.close(ignored);
-  impl_->retry.cancel();
+  impl_->door->Close();
 }
 
-std::string GatewayServer::host() const { return impl_->host; }
+std::string GatewayServer::host() const { return impl_->door->host(); }
 
 }  // namespace gateway

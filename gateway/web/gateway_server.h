@@ -20,7 +20,7 @@ struct GatewayOptions {
 
 /// Serves programs that show the token: a mouth for their sound over a WebSocket (/v1/mouth), and
 /// POST /v1/audio/speech (docs/gateway.md). Lifetime: context, network and voice outlive it.
-/// Thread: the context's. Limits: kMaxConnections, options.clients, kMaxHeaderBytes,
+/// Thread: the context's. Limits: those of vm::WebDoor, options.clients, kMaxHeaderBytes,
 /// kMaxBodyBytes, 10 s for a request. Errors: refused with a status and told on_refusal.
 class GatewayServer {
  public:

@@ -149,6 +149,15 @@ TEST_F(GatewayTest, PagesOfNamedSitesMayCome) {
   EXPECT_TRUE(client->Expect("Access-Control-Allow-Origin: https://bot.example"));
 }
 
+TEST_F(GatewayTest, SilentConnectionsTakeNobodysPlace) {
+  Start({"--no-voice"});
+  std::vector<std::unique_ptr<SocketClient>> silent;
+  for (int i = 0; i < 70; ++i) silent.push_back(SocketClient::Tcp(port_));
+  EXPECT_EQ(
+      StatusOf("/v1/mouth", "Host: " + host_ + "\r\nAuthorization: Bearer " + kToken + "\r\n"),
+      "426");
+}
+
 TEST_F(GatewayTest, MoreClientsThanAllowedAreTurnedAway) {
   Start({"--no-voice", "--clients", "1"});
   Process first({"python3", GALATEA_SOURCE_DIR "/tests/gateway/client.py",
